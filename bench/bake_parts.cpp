@@ -1,5 +1,5 @@
-// bake_parts LOW HIGH SIZE [THREADS] [PICTURE]: what each part of a bake takes, wall clock and processor seconds, and
-// the peak memory. HIGH may be grid:N for a wavy sphere of 2 N N triangles around the origin, radius 1.
+// bake_parts LOW HIGH SIZE [THREADS] [IMAGE]: prints wall-clock and processor seconds of each part of a bake, and the
+// peak memory. HIGH may be grid:N for a wavy sphere of 2 N N triangles around the origin, radius 1.
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -37,7 +37,7 @@ void part(const char* name, const std::function<std::string()>& work)
     fmt::print("{:8} {:.3f} {:.3f} {} (peak so far {} MiB)\n", name, wall, processor, more, u.ru_maxrss / 1024);
 }
 
-// A sphere with waves of a fiftieth of its radius, n quads each way.
+// A sphere of n x n quads with waves of a fiftieth of its radius.
 Scene wavySphere(std::uint32_t n)
 {
     Scene scene;
@@ -65,7 +65,7 @@ Scene wavySphere(std::uint32_t n)
 int main(int argc, char** argv)
 {
     if (argc < 4) {
-        fmt::print(stderr, "usage: bake_parts LOW HIGH SIZE [THREADS] [PICTURE]\n");
+        fmt::print(stderr, "usage: bake_parts LOW HIGH SIZE [THREADS] [IMAGE]\n");
         return 1;
     }
     BakeOptions options;

@@ -1,5 +1,5 @@
-// bake_time HIGH LOW [SIZE] [RUNS]: the baker against a bare Embree loop over the very same rays, one thread each,
-// in turns. Prints medians of processor time.
+// bake_time HIGH LOW [SIZE] [RUNS]: compares the baker with a bare Embree loop over exactly the same rays, on one
+// thread each, in alternation. Prints medians of processor time.
 #include <algorithm>
 #include <cstdlib>
 #include <ctime>
@@ -40,7 +40,7 @@ double median(std::vector<double> v)
     return v[v.size() / 2];
 }
 
-struct Bare { // an Embree scene with nothing else around it
+struct Bare { // an Embree scene without anything around it
     RTCDevice device = rtcNewDevice("threads=1");
     RTCScene scene = rtcNewScene(device);
 
@@ -69,19 +69,19 @@ struct Bare { // an Embree scene with nothing else around it
 
 struct Texel {
     glm::ivec2 at;
-    UvSample place;
+    UvSample sample;
 };
 
-// All texels with a place, row by row, or in squares of four by four, row by row of these: then sixteen rays in a row
-// run closest together, which was the fastest order of several tried.
+// All texels with their surface samples, row by row (`square` 1) or in squares of 4 x 4 (`square` 4), where sixteen
+// consecutive rays are closest together; that was the fastest of the orders tried.
 std::vector<Texel> texelsOf(const UvRaster& raster, int square)
 {
     std::vector<Texel> texels;
     UvFirsts firsts;
     for (int block = 0; block < raster.blocks(); ++block) {
         raster.firsts(block, firsts);
-        for (std::size_t i = 0; i < firsts.places.size(); ++i)
-            texels.push_back({firsts.texels[i], firsts.places[i]});
+        for (std::size_t i = 0; i < firsts.samples.size(); ++i)
+            texels.push_back({firsts.texels[i], firsts.samples[i]});
     }
     std::stable_sort(texels.begin(), texels.end(), [square](const Texel& a, const Texel& b) {
         return std::pair(a.at.y / square, a.at.x / square) < std::pair(b.at.y / square, b.at.x / square);
@@ -89,20 +89,20 @@ std::vector<Texel> texelsOf(const UvRaster& raster, int square)
     return texels;
 }
 
-// The rays that bake() traces: from where they start in front of the low surface inwards. Those that only count where
-// the older rule differs are left out.
+// The rays that bake() traces, starting in front of the low surface and going inwards, without those that only count
+// texels where the older rule differs.
 std::vector<RTCRayHit> raysOf(const LowSurface& low, const RayStarts& starts, int size, int square)
 {
     std::vector<RTCRayHit> rays;
-    for (const auto& [at, place] : texelsOf(UvRaster({low.texcoords, low.indices}, size, size), square)) {
-        const std::uint32_t* v = &low.indices[3 * std::size_t(place.triangle)];
-        const float b0 = 1 - place.b1 - place.b2;
+    for (const auto& [at, sample] : texelsOf(UvRaster({low.texcoords, low.indices}, size, size), square)) {
+        const std::uint32_t* v = &low.indices[3 * std::size_t(sample.triangle)];
+        const float b0 = 1 - sample.b1 - sample.b2;
         const glm::vec3 sum =
-            starts.directions[v[0]] * b0 + starts.directions[v[1]] * place.b1 + starts.directions[v[2]] * place.b2;
+            starts.directions[v[0]] * b0 + starts.directions[v[1]] * sample.b1 + starts.directions[v[2]] * sample.b2;
         const float before =
-            starts.distances[v[0]] * b0 + starts.distances[v[1]] * place.b1 + starts.distances[v[2]] * place.b2;
+            starts.distances[v[0]] * b0 + starts.distances[v[1]] * sample.b1 + starts.distances[v[2]] * sample.b2;
         const glm::vec3 d = -glm::normalize(sum),
-                        o = glm::vec3(pointOf(low, place.triangle, place.b1, place.b2).position) - d * before;
+                        o = glm::vec3(pointOf(low, sample.triangle, sample.b1, sample.b2).position) - d * before;
         RTCRayHit r{};
         r.ray = {o.x, o.y, o.z, 0, d.x, d.y, d.z, 0, before + starts.limit, ~0u, 0, 0};
         r.hit.geomID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -190,7 +190,7 @@ int main(int argc, char** argv)
                baker);
     const auto print = [&](const char* name, const std::vector<double>& times) {
         const double rate = double(inRows.size()) / median(times) / 1e6;
-        fmt::print("bare Embree, {:30} {:6.2f} M rays/s; the baker {:.2f} of it\n", name, rate, baker / rate);
+        fmt::print("bare Embree, {:30} {:6.2f} M rays/s; the baker has {:.2f} of it\n", name, rate, baker / rate);
     };
     print("single rays", ones);
     print("packets of 16 along rows", rows);

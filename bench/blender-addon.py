@@ -1,7 +1,7 @@
-# The add-on's bake beside Cycles' at one sample, both from the press of the button in Blender to the pixels of an
-# image in Blender, the same meshes, in turn:
+# Compares the add-on's bake with that of Cycles at one sample, both from pressing the button in Blender to the pixels
+# of an image in Blender, with the same meshes, in alternation:
 # blender -b --factory-startup -P bench/blender-addon.py -- LOW.obj HIGH.obj [SIZE] [RUNS]
-# Prints the best wall-clock and processor seconds of each, their ratios, and how far the add-on's map is from
+# Prints the best wall-clock and processor seconds of each, their ratios, and the difference of the add-on's map from
 # `cotan bake` of the same meshes as glTF. Needs libcotan and cotan: COTAN_LIBRARY and COTAN, else those of
 # build/release.
 import os
@@ -28,7 +28,7 @@ cotan_blender.register()
 low, high, image = blender_bake.prepare(low_file, high_file, size, 0)
 settings = bpy.context.scene.cotan
 settings.width = settings.height = size
-settings.padding = -1  # Cycles' margin is 0, too
+settings.padding = -1  # Cycles' margin is 0 too
 settings.distance = blender_bake.reach_of(high)
 
 
@@ -37,7 +37,7 @@ def bake_with_cotan():
     bpy.data.images[f"{low.name}_normal"].pixels[0]  # decoded, as Cycles leaves it
 
 
-# Cycles writes into the image of the active node: the add-on's node has to go first.
+# Cycles writes into the image of the active node, so the add-on's node must not stay active.
 def bake_with_cycles():
     nodes = low.data.materials[0].node_tree.nodes
     nodes.active = next(n for n in nodes if n.type == "TEX_IMAGE" and n.image == image)
@@ -59,16 +59,16 @@ with tempfile.TemporaryDirectory() as folder:
         files[name] = os.path.join(folder, f"{name}.glb")
         with open(files[name], "wb") as file:
             file.write(cotan_blender.gltf.exported(bpy.context, [thing]))
-    picture = os.path.join(folder, "map.png")
+    map_file = os.path.join(folder, "map.png")
     tool = os.environ.get("COTAN", str(root / "build/release/bin/cotan"))
     subprocess.run([tool, "bake", "--low", files["low"], "--high", files["high"], "--frame", settings.frame,
                     "--size", f"{size}x{size}", "--padding", "-1", "--max-distance", str(settings.distance), "--quiet",
-                    "-o", picture], check=True)
-    wanted = cotan.read_picture(picture)
+                    "-o", map_file], check=True)
+    wanted = cotan.read_picture(map_file)
 inside = ((found != (128, 128, 255, 255)) | (wanted != (128, 128, 255, 255))).any(axis=2)
 a, b = ((p[inside][:, :3].astype(np.float32) - 128) / 127 for p in (found, wanted))
 cosine = (a * b).sum(axis=1) / np.sqrt((a * a).sum(axis=1) * (b * b).sum(axis=1))
-off = np.degrees(np.arccos(np.clip(cosine.astype(np.float64), -1, 1)))
-off[(a == b).all(axis=1)] = 0
-print(f"blender-addon: mean {off.mean():.4f} degrees from the command line's map over {len(off)} texels; "
-      f"{100 * (off > 0).mean():.2f} % of them differ at all")
+errors = np.degrees(np.arccos(np.clip(cosine.astype(np.float64), -1, 1)))
+errors[(a == b).all(axis=1)] = 0
+print(f"blender-addon: mean {errors.mean():.4f} degrees from the command line's map over {len(errors)} texels; "
+      f"{100 * (errors > 0).mean():.2f} % of them differ at all")

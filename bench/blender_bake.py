@@ -1,7 +1,7 @@
-# Inside Blender: loads LOW and HIGH (OBJ files) for a bake and bakes the normals with Cycles. Run by bench/against-blender
-# it prints the seconds of wall clock and of processor of the bake alone:
+# Runs inside Blender: loads LOW and HIGH (OBJ files) and bakes the normals with Cycles. Run by bench/against-blender,
+# it prints the wall-clock and processor seconds of the bake alone:
 # blender -b --factory-startup -P blender_bake.py -- LOW HIGH SIZE THREADS [FOLDER]
-# FOLDER gets the picture, blender.png, and the meshes as Blender had them, low.obj and high.obj.
+# FOLDER receives the image, blender.png, and the meshes as Blender had them, low.obj and high.obj.
 import os
 import resource
 import sys
@@ -19,8 +19,8 @@ def load(file):
     made = [o for o in bpy.data.objects if o not in before and o.type == "MESH"]
     if len(made) != 1:
         sys.exit(f"{file}: expected one mesh, found {len(made)}")
-    # Vertices that the file splits at seams are one again, and normals Blender's own: it bakes those of the file only
-    # where faces are marked smooth, which spoils them.
+    # Merges vertices that the file splits at seams and uses Blender's own normals: Blender bakes the file's normals
+    # only if faces are marked smooth, which changes them.
     bpy.context.view_layer.objects.active = made[0]
     if made[0].data.has_custom_normals:
         bpy.ops.mesh.customdata_custom_splitnormals_clear()
@@ -41,7 +41,7 @@ def keep(thing, file):
                           export_materials=False)
 
 
-# An empty scene with both meshes, selected for a bake, and an image for Cycles. Gives low, high and the image.
+# Creates a scene with both meshes, selected for a bake, and an image for Cycles. Returns low, high and the image.
 def prepare(low_file, high_file, size, threads):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
@@ -69,7 +69,7 @@ def prepare(low_file, high_file, size, threads):
     return low, high, image
 
 
-# A twentieth of the high mesh's box either way, as `cotan bake` has it.
+# A twentieth of the diagonal of the high mesh's box, the default distance of `cotan bake`.
 def reach_of(high):
     return 0.05 * sum(d * d for d in high.dimensions) ** 0.5
 
@@ -80,7 +80,7 @@ def bake_with_cycles(high):
                         margin=0, use_clear=True)
 
 
-# Seconds of wall clock and of processor that a call takes.
+# Returns the wall-clock and processor seconds of a call.
 def timed(call):
     start, before = time.perf_counter(), resource.getrusage(resource.RUSAGE_SELF)
     call()

@@ -1,4 +1,4 @@
-// BC5 of normal maps beside libnvtt and libsquish, then BC7 beside libsquish's BC1 and BC3: the mean and the largest
+// Compares BC5 of normal maps with libnvtt and libsquish, then BC7 with libsquish's BC1 and BC3: the mean and maximum
 // error in degrees, and the time on one core.
 //   block_time FILE...
 #include <algorithm>
@@ -27,7 +27,7 @@ namespace {
 using cotan::Image;
 using Bytes = std::vector<std::byte>;
 
-// The eight values of half a BC5 block, of 0 to 255, as graphics processors make them: not rounded.
+// Decodes half a BC5 block to values of 0 to 255, unrounded, as GPUs do.
 void decodeHalf(const std::byte* block, double* to)
 {
     const double a = double(std::to_integer<int>(block[0])), b = double(std::to_integer<int>(block[1]));
@@ -42,7 +42,7 @@ void decodeHalf(const std::byte* block, double* to)
 }
 
 struct Figures {
-    double mean = 0, most = 0;
+    double mean = 0, maximum = 0;
 };
 
 Figures errorOf(const std::vector<glm::dvec3>& normals, int width, int height, const Bytes& blocks)
@@ -65,14 +65,14 @@ Figures errorOf(const std::vector<glm::dvec3>& normals, int width, int height, c
                 const glm::dvec3& to = normals[std::size_t(py) * std::size_t(width) + std::size_t(px)];
                 const double degrees = glm::degrees(std::atan2(glm::length(glm::cross(n, to)), glm::dot(n, to)));
                 f.mean += degrees;
-                f.most = std::max(f.most, degrees);
+                f.maximum = std::max(f.maximum, degrees);
             }
         }
     f.mean /= double(width) * double(height);
     return f;
 }
 
-struct Taker : nvtt::OutputHandler {
+struct ByteCollector : nvtt::OutputHandler {
     Bytes bytes;
     void beginImage(int, int, int, int, int, int) override {}
     bool writeData(const void* data, int size) override
@@ -97,14 +97,14 @@ Bytes byNvtt(const std::vector<std::uint8_t>& rgba, int width, int height, nvtt:
     nvtt::CompressionOptions how;
     how.setFormat(nvtt::Format_BC5);
     how.setQuality(quality);
-    Taker taker;
+    ByteCollector collector;
     nvtt::OutputOptions out;
     out.setOutputHeader(false);
-    out.setOutputHandler(&taker);
+    out.setOutputHandler(&collector);
     nvtt::Compressor compressor;
     compressor.enableCudaAcceleration(false);
     compressor.process(in, how, out);
-    return taker.bytes;
+    return collector.bytes;
 }
 
 Bytes bySquish(const std::vector<std::uint8_t>& rgba, int width, int height)
@@ -114,7 +114,7 @@ Bytes bySquish(const std::vector<std::uint8_t>& rgba, int width, int height)
     return bytes;
 }
 
-// Blocks of three channels, decoded by OpenImageIO.
+// Error of blocks with three channels, decoded by OpenImageIO.
 Figures errorOfThree(const std::vector<glm::dvec3>& normals, int width, int height, const cotan::DdsCode& code,
                      const Bytes& blocks)
 {
@@ -128,7 +128,7 @@ Figures errorOfThree(const std::vector<glm::dvec3>& normals, int width, int heig
         const double degrees =
             glm::degrees(std::atan2(glm::length(glm::cross(n, normals[i])), glm::dot(n, normals[i])));
         f.mean += degrees / double(normals.size());
-        f.most = std::max(f.most, degrees);
+        f.maximum = std::max(f.maximum, degrees);
     }
     return f;
 }
@@ -155,7 +155,7 @@ int main(int count, char** files)
         std::vector<glm::dvec3> normals;
         std::vector<std::uint8_t> rgba;
         Image target = cotan::makeImage(width, height, cotan::PixelType::float32, "target"),
-              codes = target; // as others get it
+              codes = target; // the 8-bit input of the other encoders
         for (std::size_t i = 0; i < map->pixelCount(); ++i) {
             glm::dvec3 n;
             for (int c = 0; c < 3; ++c)
@@ -180,8 +180,8 @@ int main(int count, char** files)
             [&] { return bySquish(rgba, width, height); },
         };
         const auto print = [&](const char* by, const Figures& error, double seconds) {
-            fmt::print("{}\t{} x {}\t{}\t{:.4f}\t{:.2f}\t{:.3f}\n", files[f], width, height, by, error.mean, error.most,
-                       seconds);
+            fmt::print("{}\t{} x {}\t{}\t{:.4f}\t{:.2f}\t{:.3f}\n", files[f], width, height, by, error.mean,
+                       error.maximum, seconds);
         };
         for (int e = 0; e < 6; ++e) {
             const std::clock_t start = std::clock(); // of all threads

@@ -1,5 +1,5 @@
-// What bench/cards runs where the whole tool is not at hand: the machine code of every stage by the one driver that it
-// is started with, in the lines that `cotan cost --cards` reads. Usage: card_cost NAME
+// A small replacement for the tool in bench/cards: prints the machine code statistics of every stage, compiled by the
+// only driver it finds, in the format that `cotan cost --cards` reads. Usage: card_cost NAME
 #include <cstdio>
 
 #include "cost/cards.hpp"
@@ -21,7 +21,7 @@ int main(int count, char** words)
     }
     cards->resize(1);
     cards->front().family = words[1];
-    std::fputs(cardsToCsv(*cards).c_str(), stdout);
+    std::fputs(gpusToCsv(*cards).c_str(), stdout);
     if (!cards->front().silence.empty())
         std::fprintf(stderr, "card_cost: %s\n", cards->front().silence.c_str());
     return cards->front().silence.empty() ? 0 : 3;

@@ -1,5 +1,5 @@
-// Nanoseconds per frame on the CPU, each frame with its application to a texel. The last row is the
-// work of a stored MikkTSpace tangent: quote the others as a ratio to it.
+// Nanoseconds per frame on the CPU, each frame applied to a texel. The last row is the cost of a stored MikkTSpace
+// tangent; quote the others as ratios to it.
 #include <vector>
 
 #include <benchmark/benchmark.h>

@@ -1,4 +1,4 @@
-// The mesh that tangent generators are timed on.
+// The mesh for timing tangent generators.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ struct Grid {
     MeshView view() const { return {positions, normals, texcoords, indices}; }
 };
 
-// Waves along u over a square of side * side quads.
+// A square of side * side quads with waves along u.
 inline Grid makeGrid(int side)
 {
     Grid g;
@@ -39,7 +39,7 @@ inline Grid makeGrid(int side)
     return g;
 }
 
-// The same with a vertex of its own for every corner.
+// Returns the same grid with separate vertices for every corner.
 inline Grid unindexed(const Grid& grid)
 {
     Grid g;

@@ -1,5 +1,5 @@
-// What reading in a child process costs: load_time FILE... prints the best of nine loads in this process and in a
-// child, by the clock, and in processor time of both processes together.
+// load_time FILE...: compares reading models in this process and in a child process. Prints the best of nine loads
+// each, in wall-clock time and in processor time of both processes together.
 #include <algorithm>
 #include <chrono>
 
@@ -28,7 +28,7 @@ double processorSeconds()
     return sum;
 }
 
-// One load in a process that has loaded nothing before, as the tool does.
+// Loads once in a process that has loaded nothing before, like the tool does.
 Cost once(const char* file, const cotan::LoadLimits& limits)
 {
     Cost cost;
@@ -72,9 +72,9 @@ int main(int argc, char** argv)
     cotan::LoadLimits child;
     child.sandbox.program = "/proc/self/exe";
     for (int i = 1; i < argc; ++i) {
-        const Cost here = best(argv[i], {}), there = best(argv[i], child);
-        fmt::print("{}: {:.0f} ms, in a child {:.0f} ms, {:.2f} times; processor {:.0f} ms, {:.0f} ms, {:.2f} times\n",
-                   argv[i], 1e3 * here.wall, 1e3 * there.wall, there.wall / here.wall, 1e3 * here.processor,
-                   1e3 * there.processor, there.processor / here.processor);
+        const Cost inProcess = best(argv[i], {}), inChild = best(argv[i], child);
+        fmt::print("{}: {:.0f} ms, in a child {:.0f} ms, {:.2f} times; CPU {:.0f} ms, {:.0f} ms, {:.2f} times\n",
+                   argv[i], 1e3 * inProcess.wall, 1e3 * inChild.wall, inChild.wall / inProcess.wall,
+                   1e3 * inProcess.processor, 1e3 * inChild.processor, inChild.processor / inProcess.processor);
     }
 }

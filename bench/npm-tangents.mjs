@@ -45,4 +45,4 @@ function time(name, generate) {
 const generate = (flags) => MeshoptTangents.generateTangents(indices, positions, 3, normals, 3, uvs, 2, flags);
 time('npm meshoptimizer, indexed', () => generate([]));
 time('npm meshoptimizer Compatible, indexed', () => generate(['Compatible']));
-time('npm mikktspace, a vertex a corner', () => mikktspace.generateTangents(...loose));
+time('npm mikktspace, a vertex per corner', () => mikktspace.generateTangents(...loose));

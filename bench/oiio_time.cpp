@@ -1,7 +1,7 @@
-// What reading and writing pictures takes with OpenImageIO and nothing else, and the pictures for it.
+// Times reading and writing images with plain OpenImageIO, and makes the images for that.
 //   oiio_time make height|normal SIDE BITS FILE   a seamless relief with detail at every scale, or its normals
 //   oiio_time copy IN LIKE OUT                    reads IN, writes the pixels of LIKE (read before) to OUT; prints
-//                                                 seconds by the clock and of the processors
+//                                                 wall-clock and processor seconds
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -22,7 +22,7 @@ using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-struct Picture {
+struct PixelData {
     ImageSpec spec;
     std::vector<std::byte> data;
 };
@@ -33,27 +33,27 @@ struct Picture {
     std::exit(3);
 }
 
-Picture read(const std::string& file)
+PixelData read(const std::string& file)
 {
     auto in = ImageInput::open(file);
     if (!in)
         fail(OIIO::geterror());
-    Picture p{in->spec(), {}};
+    PixelData p{in->spec(), {}};
     p.data.resize(p.spec.image_bytes(true));
     if (!in->read_image(0, 0, 0, p.spec.nchannels, p.spec.format, p.data.data()))
         fail(in->geterror());
     return p;
 }
 
-void write(const std::string& file, const Picture& p)
+void write(const std::string& file, const PixelData& p)
 {
     auto out = ImageOutput::create(file);
-    ImageSpec spec(p.spec.width, p.spec.height, p.spec.nchannels, p.spec.format); // with this library's defaults
+    ImageSpec spec(p.spec.width, p.spec.height, p.spec.nchannels, p.spec.format); // with OpenImageIO's defaults
     if (!out || !out->open(file, spec) || !out->write_image(p.spec.format, p.data.data()) || !out->close())
         fail(out ? out->geterror() : OIIO::geterror());
 }
 
-// Noise on a grid of period `cells`, smooth between; in [0,1].
+// Smoothly interpolated noise on a grid of period `cells`, in [0,1].
 double noise(double x, double y, int cells, std::uint32_t seed)
 {
     const auto value = [&](int i, int j) {
@@ -79,12 +79,12 @@ void make(const std::string& kind, int side, int bits, const std::string& file)
                 height[std::size_t(y) * std::size_t(side) + std::size_t(x)] +=
                     float(0.5 * std::pow(0.5, octave)
                           * noise((x + 0.5) / side, (y + 0.5) / side, cells, std::uint32_t(octave)));
-    Picture p{ImageSpec(side, side, kind == "normal" ? 3 : 1, bits == 8 ? TypeDesc::UINT8 : TypeDesc::UINT16), {}};
+    PixelData p{ImageSpec(side, side, kind == "normal" ? 3 : 1, bits == 8 ? TypeDesc::UINT8 : TypeDesc::UINT16), {}};
     p.data.resize(p.spec.image_bytes(true));
-    const double most = bits == 8 ? 255 : 65535;
+    const double maximum = bits == 8 ? 255 : 65535;
     std::size_t at = 0;
     const auto put = [&](double value) {
-        const auto code = std::uint16_t(value * most + 0.5);
+        const auto code = std::uint16_t(value * maximum + 0.5);
         std::memcpy(p.data.data() + at, &code, std::size_t(bits / 8)); // little-endian
         at += std::size_t(bits / 8);
     };
@@ -114,7 +114,7 @@ double processorSeconds()
 
 void copy(const std::string& in, const std::string& like, const std::string& out)
 {
-    const Picture content = read(like);
+    const PixelData content = read(like);
     const auto start = std::chrono::steady_clock::now();
     const double before = processorSeconds();
     read(in);

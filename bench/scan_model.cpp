@@ -1,4 +1,4 @@
-// Writes a bumpy sphere as a .glb: scan_model MILLION_TRIANGLES MAP_SIDE FILE.glb [tangents]. For bench/scans.
+// Writes a bumpy sphere as .glb for bench/scans: scan_model MILLION_TRIANGLES MAP_SIDE FILE.glb [tangents].
 #include <cmath>
 #include <cstdlib>
 #include <string>

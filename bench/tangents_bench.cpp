@@ -1,4 +1,4 @@
-// Triangles per second of the three generators on a wavy grid; linear if the rate does not fall.
+// Triangles per second of the three generators on a wavy grid. A constant rate means linear time.
 #include <benchmark/benchmark.h>
 
 #include "cotan/tangents.hpp"

@@ -1,7 +1,7 @@
 // Times MikkTSpace on a wavy grid for bench/against-npm: tangents_time SIDE RUNS MESH_FILE
-// Writes the mesh (vertex count, index count as uint32; positions, normals, uv as float32, indices
-// as uint32), then prints the median and best time of each generator, the least processor time of the
-// calling thread and of all threads, and the memory that mikktspaceTangents took at most besides the result.
+// Writes the mesh (vertex count, index count as uint32; positions, normals, uv as float32, indices as uint32). Then
+// prints the median and best time of each generator, the minimum processor time of the calling thread and of all
+// threads, and the peak memory of mikktspaceTangents besides its result.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -34,7 +34,7 @@ double processorMilliseconds(clockid_t clock)
     return double(t.tv_sec) * 1e3 + double(t.tv_nsec) * 1e-6;
 }
 
-// What one generator has taken so far, in milliseconds.
+// Times of one generator in milliseconds.
 struct Times {
     std::vector<double> wall, thread, process;
 
@@ -55,8 +55,8 @@ struct Times {
     void print(const char* name, std::size_t triangles) const
     {
         std::printf(
-            "%-56s %8.1f ms median, %8.1f ms best, processor %8.1f ms here, %8.1f ms in all, %6.2f M triangles/s\n",
-            name, median(wall), best(wall), best(thread), best(process), double(triangles) / median(wall) * 1e-3);
+            "%-56s %8.1f ms median, %8.1f ms best, CPU %8.1f ms this thread, %8.1f ms all, %6.2f M triangles/s\n", name,
+            median(wall), best(wall), best(thread), best(process), double(triangles) / median(wall) * 1e-3);
     }
 };
 
@@ -68,7 +68,7 @@ template<class Generate> void time(const char* name, int runs, std::size_t trian
     times.print(name, triangles);
 }
 
-// One thread and two in turn, so that what else runs on the machine meets both alike.
+// Alternates between one thread and two, so that other load on the machine affects both equally.
 template<class Generate>
 void inTurn(const char* nameOne, const char* nameTwo, int runs, std::size_t triangles, Generate generate)
 {
@@ -79,11 +79,11 @@ void inTurn(const char* nameOne, const char* nameTwo, int runs, std::size_t tria
     }
     one.print(nameOne, triangles);
     two.print(nameTwo, triangles);
-    std::printf("two threads are %.2f times as fast as one, by the best of each\n",
+    std::printf("two threads are %.2f times as fast as one, by the best times\n",
                 Times::best(one.wall) / Times::best(two.wall));
 }
 
-// smoothCotangents and mikktspaceTangents in turn.
+// Alternates between smoothCotangents and mikktspaceTangents.
 void smoothInTurn(const std::string& name, int runs, const cotan::MeshView& mesh, int threads)
 {
     Times smooth, mikktspace;
@@ -92,7 +92,7 @@ void smoothInTurn(const std::string& name, int runs, const cotan::MeshView& mesh
         mikktspace.add([&] { return cotan::mikktspaceTangents(mesh, threads); });
     }
     smooth.print(name.c_str(), mesh.indices.size() / 3);
-    std::printf("that is %.2f times mikktspaceTangents in the same runs, by the least processor time of all threads\n",
+    std::printf("%.2f times the CPU time of mikktspaceTangents in the same runs, by the minima over all threads\n",
                 Times::best(smooth.process) / Times::best(mikktspace.process));
 }
 
@@ -108,7 +108,7 @@ double peakBytes()
     return double(usage.ru_maxrss) * 1024;
 }
 
-// In a process of its own, as the system only tells the most that there ever was.
+// Runs in a child process, because the system reports only the peak of a process.
 void memory(const char* name, const cotan::MeshView& mesh)
 {
     std::fflush(stdout);
@@ -116,7 +116,7 @@ void memory(const char* name, const cotan::MeshView& mesh)
     if (child == 0) {
         const double before = peakBytes(), triangles = double(mesh.indices.size() / 3);
         cotan::mikktspaceTangents(mesh);
-        std::printf("cotan's memory, %-28s %3.0f bytes a triangle besides 48 for the result\n", name,
+        std::printf("cotan's memory, %-28s %3.0f bytes per triangle besides 48 for the result\n", name,
                     (peakBytes() - before) / triangles - 48);
         std::fflush(stdout);
         ::_exit(0);
@@ -150,21 +150,21 @@ int main(int argc, char** argv)
     const std::size_t triangles = grid.indices.size() / 3;
     std::printf("%zu triangles\n", triangles);
     const cotan::bench::Grid loose = cotan::bench::unindexed(grid);
-    cotan::bench::Grid joining = loose; // the first triangle has no area in uv
+    cotan::bench::Grid joining = loose; // the first triangle has no uv area
     joining.texcoords[1] = joining.texcoords[0];
     memory("indexed", grid.view());
-    memory("a vertex a corner", loose.view());
-    memory("that, and one without direction", joining.view());
+    memory("a vertex per corner", loose.view());
+    memory("the same, one without direction", joining.view());
     time("cotan mikktspaceTangents, all threads", runs, triangles,
          [&] { return cotan::mikktspaceTangents(grid.view()); });
     inTurn("cotan mikktspaceTangents, one thread", "cotan mikktspaceTangents, two threads", runs, triangles,
            [&](int threads) { return cotan::mikktspaceTangents(grid.view(), threads); });
-    time("cotan mikktspaceTangents, a vertex a corner", runs, triangles,
+    time("cotan mikktspaceTangents, a vertex per corner", runs, triangles,
          [&] { return cotan::mikktspaceTangents(loose.view()); });
     for (const int threads : {1, 2}) {
         const std::string with = threads == 1 ? ", one thread" : ", two threads";
         smoothInTurn("cotan smoothCotangents" + with, runs, grid.view(), threads);
-        smoothInTurn("cotan smoothCotangents, a vertex a corner" + with, runs, loose.view(), threads);
+        smoothInTurn("cotan smoothCotangents, a vertex per corner" + with, runs, loose.view(), threads);
     }
     return 0;
 }

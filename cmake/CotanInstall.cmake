@@ -1,12 +1,12 @@
-# cmake --install: every part as a component with its public headers, the portable text, the tool.
+# Rules for cmake --install: every part as a component with its public headers, the portable text, and the tool.
 #   find_package(cotan COMPONENTS maps bake)    gives cotan::maps and cotan::bake
-# and finds what they need and nothing else. Without COMPONENTS: core.
+# and finds their dependencies and nothing else. Without COMPONENTS: core.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# cotan-PART.pc say the same to pkg-config.
+# cotan-PART.pc files contain the same information for pkg-config.
 
-# The package, for find_dependency, that a linked target is from; and its name for pkg-config, or its flag.
+# For each linked target: its package, for find_dependency, and its name for pkg-config or its linker flag.
 set(COTAN_PACKAGE_glm::glm "glm")
 set(COTAN_PACKAGE_Threads::Threads "Threads")
 set(COTAN_PACKAGE_TBB::tbb "TBB")
@@ -56,7 +56,7 @@ foreach(name ${components})
       endif()
       string(APPEND flags " ${COTAN_FLAG_${link}}")
     elseif(NOT link STREQUAL "${CMAKE_DL_LIBS}")
-      message(FATAL_ERROR "cotan_${name} links ${link}: say in cmake/CotanInstall.cmake which package it is from")
+      message(FATAL_ERROR "cotan_${name} links ${link}: add its package to cmake/CotanInstall.cmake")
     endif()
   endforeach()
   list(REMOVE_ITEM pc_requires cotan-portable)
@@ -101,7 +101,7 @@ Cflags: -I\${prefix}/@CMAKE_INSTALL_INCLUDEDIR@@definitions@
   endif()
 endforeach()
 
-# What find_package says of parts that are left out, and of those that lack something.
+# What find_package reports as missing in parts that are left out or incomplete.
 get_property(left_out GLOBAL PROPERTY COTAN_LEFT_OUT)
 foreach(name ${components} ${left_out})
   get_property(misses GLOBAL PROPERTY COTAN_MISSES_${name})

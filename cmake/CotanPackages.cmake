@@ -1,6 +1,6 @@
-# Debian packages, by CPack: scripts/deb-packages makes them in a release build.
-# docs/project/packages.md says what is in which.
-# Every install() belongs to the package that its COMPONENT names; libcotan-dev where it names none (CMakeLists.txt).
+# Debian packages by CPack: scripts/deb-packages makes them in a release build. docs/project/packages.md lists their
+# contents. Every install() belongs to the package that its COMPONENT names, or to libcotan-dev if it names none
+# (CMakeLists.txt).
 find_program(COTAN_DPKG_SHLIBDEPS dpkg-shlibdeps)
 if(NOT COTAN_DPKG_SHLIBDEPS OR CMAKE_CROSSCOMPILING OR BUILD_SHARED_LIBS OR NOT TARGET cotan)
   return()
@@ -11,7 +11,7 @@ set(made ${PROJECT_BINARY_DIR}/packaging)
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME cotan)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
-set(CPACK_PACKAGE_CONTACT "The Cotan authors <maintainers@cotan.invalid>") # nobody reads mail: see SECURITY.md
+set(CPACK_PACKAGE_CONTACT "The Cotan authors <maintainers@cotan.invalid>") # not read: see SECURITY.md
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
@@ -24,7 +24,7 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(version "${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}")
 set(CPACK_PRE_BUILD_SCRIPTS ${packaging}/finish.cmake)
 
-# cotan_package(NAME SECTION SUMMARY DESCRIPTION): a component as a package of that name, with its copyright and changelog.
+# cotan_package(NAME SECTION SUMMARY DESCRIPTION): packs a component as a package with its copyright and changelog.
 function(cotan_package name section summary description)
   string(TOUPPER ${name} upper)
   list(APPEND CPACK_COMPONENTS_ALL ${name})
@@ -71,12 +71,12 @@ set(CPACK_DEBIAN_PYTHON3-COTAN_PACKAGE_CONTROL_EXTRA "${packaging}/python/postin
 install(FILES CHANGELOG.md DESTINATION share/doc/cotan RENAME changelog COMPONENT cotan EXCLUDE_FROM_ALL)
 install(DIRECTORY bindings/python/cotan DESTINATION lib/python3/dist-packages COMPONENT python3-cotan EXCLUDE_FROM_ALL
   FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
-# pip, and importlib.metadata, see what is installed.
+# Metadata by which pip and importlib.metadata find the package.
 file(CONFIGURE OUTPUT ${made}/METADATA CONTENT "Metadata-Version: 2.1\nName: cotan\nVersion: @PROJECT_VERSION@\n" @ONLY)
 install(FILES ${made}/METADATA DESTINATION lib/python3/dist-packages/cotan-${PROJECT_VERSION}.dist-info
   COMPONENT python3-cotan EXCLUDE_FROM_ALL)
 
-# What other packages are told of libcotan0. Its symbols are those of the version script; since when each block is there.
+# Dependencies on libcotan0 for other packages: its symbols, and the version that added each block of them.
 set(COTAN_1_since 0.2.0)
 set(COTAN_2_since 0.2.0)
 set(COTAN_3_since 0.2.0)
@@ -92,7 +92,8 @@ foreach(name ${names})
     set(block ${CMAKE_MATCH_1})
     set(name ${block})
     if(NOT DEFINED ${block}_since)
-      message(FATAL_ERROR "src/c/cotan.map has ${block}: say in cmake/CotanPackages.cmake since which version it is there")
+      message(FATAL_ERROR "src/c/cotan.map has ${block}: "
+        "add the version that introduced it to cmake/CotanPackages.cmake")
     endif()
   endif()
   string(APPEND symbols " ${name}@${block} ${${block}_since}\n")

@@ -1,32 +1,32 @@
 # cotan_part(NAME [SOURCES ...] [PUBLIC ...] [PRIVATE ...] [INSIDE ...])
-# One part: a library, and its public headers in src/NAME/include/cotan, which are what is installed. Everything else of
-# src/NAME is internal: our own code includes it by its path in src, "scene/geometry.hpp"; ArchitectureTest
-# (tests/architecture_test.py) holds that a part includes only those that it links. Without SOURCES it is header-only.
-# INSIDE: headers that only its own sources read, so that who links it once installed need not have them. A part that
-# links something which is not there is left out: there is no target cotan_NAME then, and find_package(cotan) can say why.
+# One part: a library with installed public headers in src/NAME/include/cotan. The rest of src/NAME is internal: code
+# here includes it by its path in src, "scene/geometry.hpp". ArchitectureTest (tests/architecture_test.py) checks that a
+# part includes only parts that it links. Without SOURCES it is header-only. INSIDE: header libraries that only its own
+# sources include; users of the installed part do not need them. A part that links a missing library is left out,
+# without a target cotan_NAME, and find_package(cotan) can give the reason.
 add_library(cotan_warnings INTERFACE)
 target_compile_options(cotan_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off
-  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict> # of std::string, GCC bug 105651
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict> # false positive, GCC bug 105651
   $<$<BOOL:${COTAN_WARNINGS_AS_ERRORS}>:-Werror>)
-# GLM's vectors without unions (x, y, z only): compilers keep those in registers and take several at a time in loops. For
-# what is built here and nobody else: layouts are the same, but a program may want .rgb of its own vectors.
+# GLM's vectors without unions (x, y, z only): compilers keep them in registers and vectorise loops over them. Only for
+# code built here: the layout is the same, but users may want .rgb of their own vectors.
 target_compile_definitions(cotan_warnings INTERFACE GLM_FORCE_XYZW_ONLY)
-# Internal headers, by their paths in src: for what is built here and nobody else, too.
+# Internal headers, by their paths in src; also only for code built here.
 target_include_directories(cotan_warnings INTERFACE ${PROJECT_SOURCE_DIR}/src)
 
-# Something that is not there, why, and what that costs, each without a semicolon: the end of the configuration says so, and
-# with COTAN_REQUIRE_ALL it fails.
+# Records something missing, the reason, and the cost, each without a semicolon. The configuration ends with a list of
+# them, and fails with COTAN_REQUIRE_ALL.
 function(cotan_without what reason cost)
   set_property(GLOBAL APPEND PROPERTY COTAN_WITHOUT "${what} (${reason}): ${cost}")
 endfunction()
 
-# With COTAN_UNITY, up to `batch` files of a target are compiled as one: what they include is read, and what they
-# instantiate is made, once.
+# With COTAN_UNITY, compiles up to `batch` files of a target as one, so that common headers are read and common
+# templates instantiated once.
 function(cotan_unity target batch)
   if(COTAN_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-    # Files of one folder only: names that are local to a file may occur again in another folder.
+    # Only files of one folder: file-local names may occur again in another folder.
     get_target_property(sources ${target} SOURCES)
     foreach(source ${sources})
       get_filename_component(folder ${source} DIRECTORY)
@@ -41,12 +41,13 @@ function(cotan_unity target batch)
       math(EXPR count_${group} "${count_${group}} + 1")
       set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${group}_${part})
     endforeach()
-    # Files that are included look like headers, whose types must not hold types of one file.
+    # GCC takes included files for headers, whose types must not have members of file-local types.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
 endfunction()
 
-# What static and shared libraries of parts have in common. Objects are the same for both: no definition says which.
+# Properties of the parts' static and shared libraries. The objects of both are the same: no definition distinguishes
+# them.
 function(cotan_library target)
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON DEFINE_SYMBOL ""
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} INSTALL_RPATH "$ORIGIN")
@@ -55,8 +56,8 @@ function(cotan_library target)
   endif()
 endfunction()
 
-# WebAssembly is compiled for size, but for the sources given, where time is spent. By source: the compiler's driver takes
-# one such option only.
+# WebAssembly is compiled for size, except the given sources, which are time-critical. Set per source, because the
+# compiler's driver accepts only one such option.
 function(cotan_fast_sources target)
   if(EMSCRIPTEN)
     get_target_property(sources ${target} SOURCES)
@@ -70,8 +71,8 @@ function(cotan_fast_sources target)
   endif()
 endfunction()
 
-# A part as cotan::name, here and once installed, and what find_package(cotan COMPONENTS name) needs for it:
-# the parts and packages that it links, privately or not, since static libraries need them and shared ones may.
+# Makes a target available as cotan::name, here and once installed. ARGN: what find_package(cotan COMPONENTS name)
+# needs, the parts and packages that it links, even privately: static libraries need them, and shared ones may.
 function(cotan_component target name)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   add_library(cotan::${name} ALIAS ${target})
@@ -79,7 +80,7 @@ function(cotan_component target name)
   set_property(GLOBAL PROPERTY COTAN_LINKS_${name} ${ARGN})
 endfunction()
 
-# Leaves a target out, and remembers which of the targets that it needs are missing.
+# Leaves a target out and records which of the targets that it needs are missing.
 function(cotan_leave_out name missing)
   set(libraries "")
   foreach(target ${missing})
@@ -94,7 +95,7 @@ function(cotan_leave_out name missing)
   set_property(GLOBAL PROPERTY COTAN_MISSES_${name} ${libraries})
 endfunction()
 
-# Whether a target is there to be used: one that was left alone on purpose may be there all the same, brought by another.
+# Whether a target exists and is wanted: one that is switched off may exist because another package defines it.
 function(cotan_has result target)
   get_property(reason GLOBAL PROPERTY COTAN_REASON_${target})
   set(${result} FALSE PARENT_SCOPE)
@@ -103,7 +104,7 @@ function(cotan_has result target)
   endif()
 endfunction()
 
-# A part that is there, but lacks what a library would give it.
+# Records that an existing part lacks the features of a library.
 function(cotan_lacks name target)
   cotan_has(there ${target})
   if(TARGET cotan_${name} AND NOT there)
@@ -112,7 +113,7 @@ function(cotan_lacks name target)
   endif()
 endfunction()
 
-# Those of some targets that are not there.
+# Returns the targets of a list that are missing.
 function(cotan_missing result)
   set(missing "")
   foreach(target ${ARGN})
@@ -156,8 +157,8 @@ function(cotan_part name)
   endif()
 endfunction()
 
-# cotan_app_library(NAME FOLDER [SOURCES ...] [PUBLIC ...] [PRIVATE ...]): what only programs link. Not installed. Left out
-# as a part is. FOLDER: where its includes begin.
+# cotan_app_library(NAME FOLDER [SOURCES ...] [PUBLIC ...] [PRIVATE ...]): a library that only programs link. Not
+# installed. Left out like a part. FOLDER: its include folder.
 function(cotan_app_library name folder)
   cmake_parse_arguments(PART "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   cotan_missing(missing ${PART_PUBLIC} ${PART_PRIVATE})

@@ -1,8 +1,8 @@
-# cotan_shader(TARGET SOURCE SYMBOL [DEFINES...]): compiles shaders/SOURCE, or any file by its whole path, to SPIR-V at
-# build time and makes it SYMBOL.h, an array of words named SYMBOL, for the sources of TARGET. The property COTAN_SHADERS
-# of the target lists these headers.
-# spirv-opt -O makes most of it half as long where that is installed: a driver then takes an eighth of the time for it.
-# Every shader depends on all included text; there is little of it, and lists go stale.
+# cotan_shader(TARGET SOURCE SYMBOL [DEFINES...]): compiles shaders/SOURCE, or any file given by its absolute path, to
+# SPIR-V at build time, and writes SYMBOL.h with an array of words named SYMBOL, for the sources of TARGET. The property
+# COTAN_SHADERS of the target lists these headers.
+# spirv-opt -O, if installed, makes most shaders half as long; a driver then takes an eighth of the time for them. Every
+# shader depends on all included text: there is little of it, and exact lists become outdated.
 find_program(COTAN_SPIRV_OPT spirv-opt)
 if(COTAN_GLSLANG AND NOT COTAN_SPIRV_OPT)
   cotan_without(spirv-opt "not found: install spirv-tools" "drivers take longer for shaders")

@@ -1,4 +1,4 @@
-# What was found, what is left out, and what that costs.
+# Lists the libraries that were found, the features that are left out, and what that costs.
 get_property(without GLOBAL PROPERTY COTAN_WITHOUT)
 foreach(line ${without})
   message(STATUS "cotan: without ${line}")

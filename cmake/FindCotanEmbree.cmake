@@ -1,5 +1,5 @@
-# Embree 4 or 3, the newer where both are there: the target embree, and the global property COTAN_EMBREE_MAJOR. Its own
-# package takes requests for one major version only.
+# Finds Embree 4 or 3, the newer if both are installed: the target embree, and the global property COTAN_EMBREE_MAJOR.
+# Embree's own package accepts requests for one major version only.
 foreach(major 4 3)
   find_package(embree ${major} CONFIG QUIET)
   if(embree_FOUND)

@@ -1,5 +1,5 @@
-# What the window needs: GLFW, Dear ImGui with its backends as Debian builds it (a static library), the Vulkan loader.
-# All three as one target, Cotan::Window.
+# Finds what the window needs as one target, Cotan::Window: GLFW, Dear ImGui with its backends as Debian builds it (a
+# static library), and the Vulkan loader.
 find_package(glfw3 QUIET)
 find_package(Vulkan QUIET)
 find_path(COTAN_IMGUI_INCLUDE_DIR backends/imgui_impl_vulkan.h PATH_SUFFIXES imgui)
@@ -13,7 +13,7 @@ endif()
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(CotanWindow
   REQUIRED_VARS COTAN_IMGUI_LIBRARY COTAN_IMGUI_INCLUDE_DIR COTAN_STB_LIBRARY CotanWindow_PARTS)
-# The desktop's dialog for files, where there is libsystemd.
+# For the desktop's file dialog, if libsystemd is available.
 find_path(COTAN_BUS_INCLUDE_DIR systemd/sd-bus.h)
 find_library(COTAN_BUS_LIBRARY systemd)
 mark_as_advanced(COTAN_BUS_INCLUDE_DIR COTAN_BUS_LIBRARY)

@@ -1,4 +1,4 @@
-# libwebp and, for animations, libwebpmux, which Debian ships without a package file for CMake: WebP::webp.
+# Finds libwebp and, for animations, libwebpmux as WebP::webp. Debian ships them without a package file for CMake.
 find_path(COTAN_WEBP_INCLUDE_DIR webp/mux.h)
 find_library(COTAN_WEBP_LIBRARY webp)
 find_library(COTAN_WEBP_MUX_LIBRARY webpmux)

@@ -1,4 +1,4 @@
-# xxHash, which Debian ships without a package file for CMake: XxHash::xxhash.
+# Finds xxHash as XxHash::xxhash. Debian ships it without a package file for CMake.
 find_path(COTAN_XXHASH_INCLUDE_DIR xxhash.h)
 find_library(COTAN_XXHASH_LIBRARY xxhash)
 mark_as_advanced(COTAN_XXHASH_INCLUDE_DIR COTAN_XXHASH_LIBRARY)

@@ -1,4 +1,4 @@
-# Turns a SPIR-V file into a header: SPIRV (in), HEADER (out), SYMBOL.
+# Converts a SPIR-V file to a header. SPIRV: input file. HEADER: output file. SYMBOL: name of the array.
 file(READ ${SPIRV} bytes HEX)
 string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1u," words "${bytes}")
 string(REGEX REPLACE "((0x........u,)(0x........u,)(0x........u,)(0x........u,)(0x........u,)(0x........u,))"

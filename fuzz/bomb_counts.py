@@ -1,9 +1,9 @@
-"""glTF models of very many things, for fuzz/bombs.py."""
+"""glTF models with huge numbers of elements, for fuzz/bombs.py."""
 from bomb_gltf import Gltf, flat_map
 
 
 def stretched_nodes(r, folder):
-    """Nodes that each stretch a mesh of many primitives another way."""
+    """Nodes that each scale a mesh of many primitives differently."""
     g = Gltf()
     material = g.map(flat_map(64))
     attributes = g.triangle()
@@ -15,7 +15,7 @@ def stretched_nodes(r, folder):
 
 
 def many_materials(r, folder):
-    """Primitives with a material each."""
+    """Many primitives, each with its own material."""
     g = Gltf()
     attributes = g.triangle()
     primitives = []
@@ -28,7 +28,7 @@ def many_materials(r, folder):
 
 
 def many_primitives(r, folder):
-    """Primitives of one triangle, of one material, in one place or spread, opaque or not."""
+    """Many primitives of one triangle and one material, with one or several instances, opaque or not."""
     g = Gltf()
     alpha = r.choice(["OPAQUE", "MASK", "BLEND"])
     g.add("materials", {"alphaMode": alpha, "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.5 + r.random() / 2]}})
@@ -40,7 +40,7 @@ def many_primitives(r, folder):
 
 
 def many_members(r, folder):
-    """An object of very many members, beside much that is looked up in it; and as many as objects may have."""
+    """An object with very many members, up to the limit, with many lookups in it."""
     g = Gltf()
     material = g.map(flat_map(4))
     attributes = g.triangle()
@@ -54,14 +54,14 @@ def many_members(r, folder):
     if r.random() < 0.5:
         for primitive in g.root["meshes"][0]["primitives"]:
             primitive["material"] = 0
-    first = {f"m{k}": 0 for k in range(r.choice([4000, 40_000]))} | owner  # readers look from the first on
+    first = {f"m{k}": 0 for k in range(r.choice([4000, 40_000]))} | owner  # readers search from the first member on
     owner.clear()
     owner.update(first)
     return g.write(folder)
 
 
 def many_nodes(r, folder):
-    """Nodes beside or inside one another, over one mesh."""
+    """Many nodes of one mesh, as siblings or nested."""
     g = Gltf()
     mesh = g.add("meshes", {"primitives": [{"attributes": g.triangle()}]})
     deep = r.random() < 0.5
@@ -76,19 +76,19 @@ def many_nodes(r, folder):
 
 
 def gpu_instances(r, folder):
-    """EXT_mesh_gpu_instancing: each place of a long list shows each primitive, of which each may be another one."""
+    """EXT_mesh_gpu_instancing: each instance of a long list draws each of the equal or different primitives."""
     g = Gltf()
-    count, others = r.choice([1, 10, 60]), r.random() < 0.5
-    shown = [g.triangle(points=[r.random() for _ in range(9)]) for _ in range(count if others else 1)]
-    mesh = g.add("meshes", {"primitives": [{"attributes": shown[k % len(shown)]} for k in range(count)]})
-    places = g.floats([r.random() * r.choice([0, 100]) for _ in range(3 * r.randint(5000, 15_000))], 3)
-    g.add("nodes", {"mesh": mesh, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": places}}}})
+    count, different = r.choice([1, 10, 60]), r.random() < 0.5
+    shapes = [g.triangle(points=[r.random() for _ in range(9)]) for _ in range(count if different else 1)]
+    mesh = g.add("meshes", {"primitives": [{"attributes": shapes[k % len(shapes)]} for k in range(count)]})
+    translations = g.floats([r.random() * r.choice([0, 100]) for _ in range(3 * r.randint(5000, 15_000))], 3)
+    g.add("nodes", {"mesh": mesh, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": translations}}}})
     g.root["scenes"][0]["nodes"], g.root["extensionsUsed"] = [0], ["EXT_mesh_gpu_instancing"]
     return g.write(folder)
 
 
 def shared_data(r, folder):
-    """Primitives that share large arrays."""
+    """Many primitives that share large arrays."""
     g = Gltf()
     count = r.randint(5000, 20_000)
     attributes = g.triangle([r.random() for _ in range(2 * count)], [r.random() for _ in range(3 * count)])
@@ -106,7 +106,7 @@ def no_data(r, folder):
 
 
 def animated(r, folder):
-    """Channels, keys and targets by the thousand."""
+    """Thousands of channels, keys and morph targets."""
     g = Gltf()
     attributes = g.triangle()
     targets = [{"POSITION": attributes["POSITION"]}] * r.randint(1, 5000)
@@ -122,7 +122,7 @@ def animated(r, folder):
 
 
 def parts_in_place(r, folder):
-    """Meshes of a node each, all in one place, with few materials."""
+    """Many meshes with a node each, all at the same position, with few materials."""
     g = Gltf()
     attributes = g.triangle()
     materials = [g.add("materials", {"name": f"m{k}"}) for k in range(r.choice([1, 10]))]
@@ -132,7 +132,7 @@ def parts_in_place(r, folder):
 
 
 def skinned(r, folder):
-    """Skins of many joints over many primitives."""
+    """Skins with many joints and many primitives."""
     g = Gltf()
     count, joints = r.randint(100, 4000), r.randint(10, 5000)
     attributes = g.triangle()
@@ -149,7 +149,7 @@ def skinned(r, folder):
 
 
 def variants(r, folder):
-    """KHR_materials_variants: each primitive says a material for each variant."""
+    """KHR_materials_variants: each primitive has a material for each variant."""
     g = Gltf()
     count, primitives = r.randint(10, 300), r.randint(50, 300)
     g.root["extensions"] = {"KHR_materials_variants": {"variants": [{"name": f"v{k}"} for k in range(count)]}}
@@ -162,7 +162,7 @@ def variants(r, folder):
 
 
 def sparse(r, folder):
-    """Sparse accessors without data beneath them, many over one list."""
+    """Many sparse accessors without base data that share one list."""
     g = Gltf()
     count, few = r.choice([30_000, 1_000_000, 20_000_000]), r.randint(1000, 20_000)
     step = count // few
@@ -176,7 +176,7 @@ def sparse(r, folder):
 
 
 def strips(r, folder):
-    """Strips and fans of byte indices: a triangle for each byte."""
+    """Strips and fans with byte indices: one triangle per byte."""
     g = Gltf()
     count = r.randint(300_000, 900_000)
     attributes = g.triangle([r.random() for _ in range(2 * 200)], [r.random() for _ in range(3 * 200)])
@@ -188,7 +188,7 @@ def strips(r, folder):
 
 
 def far_apart(r, folder):
-    """Nodes scaled and moved as far as floats go."""
+    """Nodes scaled and translated up to the limits of floats."""
     g = Gltf()
     mesh = g.add("meshes", {"primitives": [{"attributes": g.triangle(), "material": g.map(flat_map(16))}]})
     for _ in range(r.randint(10, 5000)):

@@ -1,14 +1,14 @@
-"""OBJ, PLY, STL and COLLADA that ask for much, for fuzz/bombs.py."""
+"""OBJ, PLY, STL and COLLADA files that take much time or memory, for fuzz/bombs.py."""
 import struct
 
-import bomb_pictures as pictures
+import bomb_images as pictures
 from bomb_gltf import LIMIT, written
 
 OBJ_TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
 
 
 def obj_usemtl(r, folder):
-    """A group or a material for each face, in one place or spread."""
+    """A group or a material for each face, with the same or different positions."""
     count, spread, materials = r.randint(15_000, 38_000), r.random() < 0.5, r.choice([1, 2, 3000])
     (folder / "m.mtl").write_text("".join(f"newmtl m{k}\nKd {k / 4000} 1 1\n" for k in range(materials)))
     lines = ["mtllib m.mtl\n", OBJ_TRIANGLE]
@@ -22,12 +22,12 @@ def obj_usemtl(r, folder):
 
 
 def obj_equal(r, folder):
-    """One triangle again and again."""
+    """One triangle repeated many times."""
     return written(folder, "bomb.obj", OBJ_TRIANGLE + r.choice(["f 1 2 3\n", "f 1/1 2/2 3/3\n"]) * r.randint(40_000, 60_000))
 
 
 def obj_polygon(r, folder):
-    """A polygon of very many corners: a comb, a spiral, a star or noise."""
+    """A polygon with very many corners: a comb, a spiral, a star or noise."""
     from math import cos, sin
     count = r.randint(20_000, 60_000)
     if r.random() < 0.3:  # few vertices, many corners
@@ -56,13 +56,13 @@ def obj_maps(r, folder):
 
 
 def obj_words(r, folder):
-    """Long lines, many names, many corners that are no faces."""
+    """Long lines, many names, many vertices without faces."""
     return written(folder, "bomb.obj", r.choice(["v " + "0" * 900_000, "g " + "a " * 450_000, "\n" * 900_000, "l " + "1 " * 400_000,
                                                   OBJ_TRIANGLE + "f 1 2 3 \\\n" * 100_000, "mtllib a.mtl\n" * 70_000]))
 
 
 def ply_equal(r, folder):
-    """One triangle again and again, or a polygon of many corners, as bytes."""
+    """One triangle repeated many times, or a polygon with many corners, in binary."""
     polygon = r.random() < 0.4
     count = r.randint(100_000, 240_000)
     corners = struct.pack(f"<I{count}i", count, *(k % 3 if r.random() < 0.5 else k % 1000 for k in range(count)))
@@ -74,7 +74,7 @@ def ply_equal(r, folder):
 
 
 def ply_grid(r, folder):
-    """Points and faces in columns of other widths, or counts that are not there."""
+    """Vertex and face counts that the data does not match."""
     count = r.choice([70_000, 10_000_000])
     head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {count}\nproperty float x\nproperty float y\nproperty float z\n"
             f"element face {count}\nproperty list uchar int vertex_indices\nend_header\n")
@@ -82,7 +82,7 @@ def ply_grid(r, folder):
 
 
 def stl_equal(r, folder):
-    """One triangle again and again, or triangles without area."""
+    """One triangle repeated many times, or triangles without area."""
     same = r.random() < 0.6
     count = r.randint(10_000, 19_000)
     faces = [struct.pack("<12fH", 0, 0, 1, *((0, 0, 0, 1, 0, 0, 0, 1, 0) if same else [r.random()] * 9), 0) for _ in range(count)]
@@ -90,7 +90,7 @@ def stl_equal(r, folder):
 
 
 def stl_solids(r, folder):
-    """Text of many solids."""
+    """Text with many solids."""
     solid = ("solid a{k}\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 {k}\nvertex 0 1 0\nendloop\nendfacet\n"
              "endsolid a{k}\n")
     same = r.random() < 0.5
@@ -98,7 +98,7 @@ def stl_solids(r, folder):
 
 
 def collada(r, folder):
-    """Instances of one geometry, or many geometries."""
+    """Many instances of one geometry, or many geometries."""
     head = ('<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset/>'
             '<library_geometries>')
     geometry = ('<geometry id="g{k}"><mesh><source id="p{k}"><float_array id="a{k}" count="9">0 0 0 1 0 0 0 1 0</float_array>'
@@ -116,7 +116,7 @@ def collada(r, folder):
 
 
 def collada_doubling(r, folder):
-    """Entities, or nodes of a library that show each other twice."""
+    """Nested entities, or library nodes that each instantiate the next one twice."""
     if r.random() < 0.5:
         entities = "".join(f'<!ENTITY e{k} "{f"&e{k - 1};" * 10}">' for k in range(1, 12))
         return written(folder, "bomb.dae", f'<?xml version="1.0"?><!DOCTYPE a [<!ENTITY e0 "aaaa">{entities}]><COLLADA version="1.4.1">&e11;</COLLADA>')
@@ -129,7 +129,7 @@ def collada_doubling(r, folder):
 
 
 def ply_polygon(r, folder):
-    """One polygon of up to 200,000 corners: a comb, a spiral, a star or noise."""
+    """One polygon with up to 200,000 corners: a comb, a spiral, a star or noise."""
     from math import cos, sin
     corners, vertices = r.randint(100_000, 200_000), r.choice([500, 20_000, 60_000])
     make = r.choice([lambda k: (32_000 * k / vertices, 30_000 * (k % 2)),
@@ -145,7 +145,7 @@ def ply_polygon(r, folder):
 
 
 def ply_web(r, folder):
-    """Triangles between few vertices, as bytes or as text."""
+    """Many triangles between few vertices, in binary or text."""
     vertices, count = r.randint(50, 250), r.randint(100_000, 230_000)
     text = r.random() < 0.3
     head = (f"ply\nformat {'ascii' if text else 'binary_little_endian'} 1.0\nelement vertex {vertices}\nproperty float x\n"
@@ -161,7 +161,7 @@ def ply_web(r, folder):
 
 
 def obj_groups(r, folder):
-    """25,000 groups of one triangle each, all in one place."""
+    """25,000 groups of one triangle each, all at the same position."""
     count = 25_000
     lines = ["mtllib m.mtl\n", OBJ_TRIANGLE, "vn 0 0 1\n"]
     (folder / "m.mtl").write_text("".join(f"newmtl m{k}\nKd 1 {k / 20} 1\n" for k in range(20)))
@@ -172,13 +172,13 @@ def obj_groups(r, folder):
 
 
 def obj_numbers(r, folder):
-    """Vertices that nothing uses, and numbers that are slow to read."""
+    """Unused vertices, and numbers that are slow to parse."""
     word = r.choice(["v 1e-300 1e-300 1e300\n", "v 0." + "1" * 300 + " 1 1\n", "vn 0 0 1\n", "vt 0 0\n", "p 1\n", "v 1 1 1\n"])
     return written(folder, "bomb.obj", OBJ_TRIANGLE + "f 1 2 3\n" + word * (900_000 // len(word)))
 
 
 def collada_polygon(r, folder):
-    """A polygon of very many corners, or very many that are equal."""
+    """A polygon with very many corners, or very many equal triangles."""
     corners = r.randint(50_000, 150_000)
     equal = r.random() < 0.5
     counts = " ".join(["3"] * (corners // 3)) if equal else str(corners)

@@ -1,8 +1,8 @@
-"""A glTF model in the making, for the makers of fuzz/bombs.py."""
+"""A builder of glTF models, for the makers of fuzz/bombs.py."""
 import json
 import struct
 
-import bomb_pictures as pictures
+import bomb_images as pictures
 
 LIMIT = 1_000_000  # bytes of a bomb, all its files together
 
@@ -14,7 +14,7 @@ def written(folder, name, data):
 
 
 class Gltf:
-    """A model in the making: the JSON and one buffer."""
+    """Builds a model: the JSON and one buffer."""
 
     def __init__(self):
         self.root = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [], "meshes": [],
@@ -48,7 +48,7 @@ class Gltf:
         return len(self.root[key]) - 1
 
     def map(self, png):
-        """A material with this normal map; its number."""
+        """Adds a material with this normal map and returns its index."""
         image = self.add("images", {"mimeType": "image/png", "bufferView": self.view(png)})
         return self.add("materials", {"normalTexture": {"index": self.add("textures", {"source": image})}})
 

@@ -1,13 +1,13 @@
-"""glTF models that unpack to more than they are, for fuzz/bombs.py."""
+"""glTF models that decompress to much more than their size, for fuzz/bombs.py."""
 import struct
 
-import bomb_packed_pictures as packed_pictures
-import bomb_pictures as pictures
+import bomb_packed_images as packed_pictures
+import bomb_images as pictures
 from bomb_gltf import LIMIT, Gltf
 
 
 def meshopt(r, folder):
-    """EXT_meshopt_compression: zeros, a bit for sixteen bytes."""
+    """EXT_meshopt_compression: zeros, one bit per sixteen bytes."""
     g = Gltf()
     count, stride = r.randint(1_000_000, 4_000_000), 12
     blocks = -(-count // min(256, 8192 // stride // 16 * 16))
@@ -25,7 +25,7 @@ def meshopt(r, folder):
 
 
 def draco(r, folder):
-    """KHR_draco_mesh_compression: a head that promises much, and noise or zeros behind it."""
+    """KHR_draco_mesh_compression: a header with large counts, followed by noise or zeros."""
     g = Gltf()
     faces, points = r.randint(1000, 30_000_000), r.randint(1000, 30_000_000)
 
@@ -44,7 +44,7 @@ def draco(r, folder):
 
 
 def draco_faces(r, folder):
-    """Draco as it is written: faces whose indices take no bits, or a byte each."""
+    """Valid Draco data: faces whose indices take no bits, or one byte each."""
     g = Gltf()
     packed = r.random() < 0.5
     faces, points = r.choice([300_000, 2_000_000, 30_000_000]) if packed else r.randint(100_000, 290_000), 200
@@ -52,7 +52,7 @@ def draco_faces(r, folder):
     def varint(n):
         return bytes([n]) if n < 128 else bytes([n % 128 + 128]) + varint(n // 128)
     head = b"DRACO\x02\x02\x01\0\0\0" + varint(faces) + varint(points)
-    if packed:  # one symbol with all probability, so that decoding it reads nothing
+    if packed:  # a single symbol of probability 1, so that decoding reads no bits
         connections = b"\0" + b"\1\1" + b"\1" + b"\x01\x40" + b"\1\0"
     else:
         connections = b"\1" + bytes(r.randrange(points) for _ in range(3 * faces))
@@ -67,7 +67,7 @@ def draco_faces(r, folder):
 
 
 def meshopt_triangles(r, folder):
-    """EXT_meshopt_compression: a byte for a triangle, new vertices or the last sixteen again."""
+    """EXT_meshopt_compression: one byte per triangle, with new vertices or reusing the last sixteen."""
     g = Gltf()
     count, few = r.randint(300_000, 900_000), r.random() < 0.5
     codes = (b"\0" * 20 + bytes([r.randrange(1, 12)]) * (count - 20)) if few else b"\0" * count
@@ -91,7 +91,7 @@ def meshopt_triangles(r, folder):
 
 
 def nested_json(r, folder):
-    """JSON of many brackets, keys or numbers."""
+    """JSON with many brackets, keys or numbers."""
     file = folder / "bomb.gltf"
     inner = r.choice(['[' * 400_000 + ']' * 400_000, '{"a":' * 150_000 + "1" + "}" * 150_000, "[" + "1," * 400_000 + "1]",
                       "{" + ",".join(f'"k{k}":0' for k in range(70_000)) + "}"])
@@ -100,7 +100,7 @@ def nested_json(r, folder):
 
 
 def picture_in_model(r, folder):
-    """A picture bomb as a model's normal map."""
+    """A model whose normal map is an image bomb."""
     data, mime = r.choice([(pictures.progressive_jpeg(r), "jpeg"), (packed_pictures.webp_lossless(r), "webp"), (packed_pictures.ktx2(r), "ktx2"),
                            (pictures.flat_jpeg(r), "jpeg")])
     g = Gltf()

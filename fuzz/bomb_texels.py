@@ -1,10 +1,10 @@
-"""glTF models whose triangles lie on many texels or pixels, for fuzz/bombs.py."""
-import bomb_pictures as pictures
+"""glTF models whose triangles cover many texels or pixels, for fuzz/bombs.py."""
+import bomb_images as pictures
 from bomb_gltf import LIMIT, Gltf, flat_map
 
 
 def skewed_uv(r, folder):
-    """One triangle whose uv repeat a map skewed."""
+    """One triangle whose uv repeat a map many times, skewed."""
     g = Gltf()
     n = r.choice([3, 10, 40, 300, 3000])
     material = g.map(flat_map(r.choice([512, 1024, 2048, 4096])))
@@ -13,7 +13,7 @@ def skewed_uv(r, folder):
 
 
 def equal_triangles(r, folder):
-    """One triangle of a map again and again."""
+    """One triangle with a map, repeated many times."""
     g = Gltf()
     count = r.randint(100_000, 150_000)
     material = g.map(flat_map(r.choice([64, 512, 2048])))
@@ -22,7 +22,7 @@ def equal_triangles(r, folder):
 
 
 def sliver_uv(r, folder):
-    """Triangles that cross the whole map as lines."""
+    """Thin triangles that cross the whole map."""
     g = Gltf()
     count = r.randint(5_000, 10_000)
     points, uv = [], []
@@ -35,7 +35,7 @@ def sliver_uv(r, folder):
 
 
 def large_maps(r, folder):
-    """Materials with large flat maps, the same bytes or others."""
+    """Materials with large flat maps, with equal or different bytes."""
     g = Gltf()
     side, count, same = r.choice([4096, 8192, 10_000, 12_000]), r.randint(8, 24), r.random() < 0.5
     attributes = g.triangle()
@@ -67,7 +67,7 @@ def small_maps(r, folder):
 
 
 def soup(r, folder):
-    """Triangles over the whole picture, one behind the other, translucent or not."""
+    """Triangles that cover the image, one behind the other, translucent or not."""
     g = Gltf()
     count = r.randint(3000, 9000)
     points = [c for k in range(count) for c in (0, 0, k * 1e-4, 1, 0, k * 1e-4, 0, 1, k * 1e-4)]
@@ -78,7 +78,7 @@ def soup(r, folder):
 
 
 def fan(r, folder):
-    """Triangles around one vertex, or one edge."""
+    """Many triangles around one vertex or one edge."""
     g = Gltf()
     count = r.randint(20_000, 60_000)
     points = [r.random() for _ in range(3 * (count + 2))]
@@ -93,7 +93,7 @@ def fan(r, folder):
 
 
 def one_place(r, folder):
-    """Triangles of vertices that all have one position, or one uv, or few."""
+    """Triangles whose vertices all have the same position, the same uv, or both."""
     g = Gltf()
     count = r.randint(5000, 8000)
     same = r.choice(["position", "uv", "both"])
@@ -104,14 +104,14 @@ def one_place(r, folder):
 
 
 def random_triangles(g, r, count, corners=255):
-    """Indices of triangles between few vertices, a byte each."""
+    """Adds indices of random triangles between few vertices, one byte each."""
     data = bytes(r.randrange(corners) for _ in range(3 * count))
     g.root["accessors"].append({"bufferView": g.view(data), "componentType": 5121, "count": 3 * count, "type": "SCALAR"})
     return len(g.root["accessors"]) - 1
 
 
 def web(r, folder):
-    """Triangles between few vertices, each large, all over one another, with or without a map."""
+    """Large overlapping triangles between few vertices, with a map."""
     g = Gltf()
     points = [r.random() * (1 if k % 3 < 2 else r.choice([0, 1])) for k in range(3 * 255)]
     attributes = {"POSITION": g.floats(points, 3), "TEXCOORD_0": g.floats([r.random() for _ in range(2 * 255)], 2)}
@@ -121,7 +121,7 @@ def web(r, folder):
 
 
 def overlapping_uv(r, folder):
-    """Triangles that each cover much of the map, no two alike, on a curved surface."""
+    """Different triangles on a curved surface that each cover much of the map."""
     g = Gltf()
     count = r.randint(2000, 8000)
     points, uv = [], []
@@ -134,14 +134,14 @@ def overlapping_uv(r, folder):
     return g.write(folder)
 
 
-def grid(g, r, side, tiles, bump, shown=1.0):
-    """A floor of side x side squares on which the map is repeated; its numbers and its normals."""
+def grid(g, r, side, tiles, bump, fraction=1.0):
+    """Returns the attributes and indices of a floor of side x side squares, on which the map is repeated."""
     points, normals, uv = [], [], []
     for y in range(side + 1):
         for x in range(side + 1):
             points += [x, bump * r.random(), y]
             normals += [0.0, 1.0, 0.0]
-            uv += [tiles * x / side * shown, tiles * y / side]
+            uv += [tiles * x / side * fraction, tiles * y / side]
     indices = []
     for y in range(side):
         for x in range(side):
@@ -152,7 +152,7 @@ def grid(g, r, side, tiles, bump, shown=1.0):
 
 
 def tiled_floor(r, folder):
-    """A floor of many triangles on which a map is repeated, as games have it."""
+    """A floor of many triangles with a repeated map, as in games."""
     g = Gltf()
     attributes, indices = grid(g, r, r.randint(20, 100), r.choice([4, 10, 30]), r.choice([0.1, 1]))
     g.place([{"attributes": attributes, "indices": indices, "material": g.map(flat_map(r.choice([1024, 2048, 4096])))}])
@@ -160,15 +160,15 @@ def tiled_floor(r, folder):
 
 
 def half_map(r, folder):
-    """A surface that covers a part of a large map."""
+    """A surface that uses a part of a large map."""
     g = Gltf()
-    attributes, indices = grid(g, r, r.randint(10, 100), 1, 0.5, shown=r.choice([0.05, 0.5, 0.9]))
+    attributes, indices = grid(g, r, r.randint(10, 100), 1, 0.5, fraction=r.choice([0.05, 0.5, 0.9]))
     g.place([{"attributes": attributes, "indices": indices, "material": g.map(flat_map(r.choice([2048, 4096, 8192])))}])
     return g.write(folder)
 
 
 def far_uv(r, folder):
-    """Triangles with uv far from the map, each over thousands of its copies as a line."""
+    """Thin triangles in uv, each crossing thousands of copies of the map."""
     g = Gltf()
     count, far = r.randint(1000, 8000), r.choice([100, 10_000, 1e6])
     points, uv = [], []
@@ -182,7 +182,7 @@ def far_uv(r, folder):
 
 
 def many_lights(r, folder):
-    """Thousands of lights on a surface that fills the picture."""
+    """Thousands of lights on a surface that fills the image."""
     g = Gltf()
     attributes, indices = grid(g, r, 10, 1, 0.1)
     g.place([{"attributes": attributes, "indices": indices, "material": g.map(flat_map(64))}])
@@ -197,7 +197,7 @@ def many_lights(r, folder):
 
 
 def many_layers(r, folder):
-    """Materials of all that extensions add, translucent, over one another."""
+    """Overlapping layers, translucent or not, whose material uses many extensions."""
     g = Gltf()
     material = g.map(flat_map(64))
     g.root["materials"][material] |= {

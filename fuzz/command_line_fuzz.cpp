@@ -1,5 +1,5 @@
-// Command lines, one word a line, in a folder with a small model and a small map. All are parsed; those of commands
-// that take milliseconds are run. A name never leads out of the folder.
+// Command lines, one argument per line, in a folder with a small model and a small map. All are parsed; commands that
+// take milliseconds are run. File names cannot lead out of the folder.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMaxWords = 24;
 
-// Words up to the first NUL; slashes become underscores.
+// Splits at line breaks up to the first NUL, and replaces slashes by underscores.
 std::vector<std::string> wordsOf(std::span<const std::uint8_t> bytes)
 {
     std::vector<std::string> words(1);
@@ -36,7 +36,7 @@ std::vector<std::string> wordsOf(std::span<const std::uint8_t> bytes)
     return words;
 }
 
-// The others draw, bake or measure for seconds: their words are parsed with a wrong one behind.
+// Other commands draw, bake or measure for seconds: their arguments are only parsed, with an invalid one appended.
 constexpr std::array<std::string_view, 5> kQuick = {"shader", "map", "lint", "tangents", "convert"};
 
 const char kTriangle[] = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
@@ -52,7 +52,7 @@ const char kTriangle[] = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nod
 
 void makeFolder(const Scratch& scratch)
 {
-    guardInputs(/*overwrite*/ true); // what the last run read and wrote counts no more
+    guardInputs(/*overwrite*/ true); // forgets the files of the previous run
     COTAN_HOLDS(bool(writeImage(scratch / "map.png", makeReliefMap(Relief::domes, 8))));
     scratch.write("model.gltf", {reinterpret_cast<const std::uint8_t*>(kTriangle), sizeof kTriangle - 1});
 }
@@ -74,13 +74,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const Scratch scratch;
     static const bool ready = [] {
         std::filesystem::current_path(scratch.path());
-        return ::dup2(::open("/dev/null", O_WRONLY), 1) == 1; // what the commands print
+        return ::dup2(::open("/dev/null", O_WRONLY), 1) == 1; // discards the commands' output
     }();
     COTAN_HOLDS(ready);
     std::vector<std::string> words = wordsOf({data, size});
     if (std::ranges::find(kQuick, words.front()) == kQuick.end())
         words.push_back("--no-such-option");
-    // Outputs of earlier inputs must not decide what this one meets.
+    // Outputs of earlier inputs must not affect this one.
     std::filesystem::remove_all(scratch.path());
     std::filesystem::create_directories(scratch.path());
     std::filesystem::current_path(scratch.path());

@@ -1,5 +1,5 @@
-// A glTF file opened, changed as `tangents` and `convert` change it, written and read again: what was not changed is
-// equal, what was set comes back.
+// Opens a glTF file, changes it like `tangents` and `convert`, writes it and reads it again: unchanged data must be
+// equal, and changed data must be as set.
 #include <bit>
 #include <vector>
 
@@ -18,7 +18,7 @@ struct Primitive {
     GltfGeometry geometry;
 };
 
-// All primitives that can be read.
+// Returns all readable primitives.
 std::vector<Primitive> primitivesOf(const GltfDocument& document)
 {
     std::vector<Primitive> all;
@@ -36,7 +36,7 @@ std::vector<Primitive> primitivesOf(const GltfDocument& document)
     return all;
 }
 
-// Equal to the bit; so NaN equals NaN.
+// Compares bits, so that NaN equals NaN.
 template<class Vector>
 bool sameCorners(const std::vector<Vector>& a, const GltfGeometry& ga, const std::vector<Vector>& b,
                  const GltfGeometry& gb)
@@ -60,9 +60,9 @@ void checkEqual(const std::vector<Primitive>& before, const std::vector<Primitiv
     }
 }
 
-// Writes, reads and compares; the primitives that were read again. Nothing where it cannot be written.
-std::vector<Primitive> through(const GltfDocument& document, const std::filesystem::path& file,
-                               const std::vector<Primitive>& before)
+// Writes the document, reads it again and compares. Returns the primitives read, or nothing if it cannot be written.
+std::vector<Primitive> roundTrip(const GltfDocument& document, const std::filesystem::path& file,
+                                 const std::vector<Primitive>& before)
 {
     const auto written = writeGltf(document, file, smallLimits());
     if (!written) {
@@ -102,7 +102,7 @@ void checkTangentsRead(const std::vector<GltfCornerTangents>& set, const std::ve
         }
 }
 
-// The same attributes to the bit at corner i of one and corner k of the other.
+// Whether corner i of `a` and corner k of `b` have bitwise equal attributes.
 bool sameCorner(const GltfGeometry& a, std::size_t i, const GltfGeometry& b, std::size_t k)
 {
     const auto same = [&](const auto& x, const auto& y) {
@@ -113,7 +113,7 @@ bool sameCorner(const GltfGeometry& a, std::size_t i, const GltfGeometry& b, std
         && same(a.texcoords, b.texcoords);
 }
 
-// A vertex for every triangle, as `convert --provoking` makes them: each triangle is there as it was, turned at most.
+// Makes a vertex per triangle, like `convert --provoking`: triangles must be equal up to a rotation of their corners.
 void checkProvoking(GltfDocument document, const std::filesystem::path& file, ProvokingVertex provoking)
 {
     const std::vector<Primitive> before = primitivesOf(document);
@@ -122,7 +122,7 @@ void checkProvoking(GltfDocument document, const std::filesystem::path& file, Pr
     const auto written = writeGltf(document, file, smallLimits());
     if (!written)
         return checkError(written.error());
-    // Copies of vertices may go over the limits.
+    // Vertex copies may exceed the limits.
     const auto again = openGltfDocument(file, smallLimits());
     if (!again)
         return checkError(again.error());
@@ -133,17 +133,17 @@ void checkProvoking(GltfDocument document, const std::filesystem::path& file, Pr
         COTAN_HOLDS(a.indices.size() == b.indices.size(), "primitive {}", p);
         for (std::size_t f = 0; f < a.indices.size(); f += 3) {
             bool same = false;
-            for (std::size_t turn = 0; turn < 3; ++turn)
+            for (std::size_t rotation = 0; rotation < 3; ++rotation)
                 same = same
-                    || (sameCorner(a, f, b, f + turn) && sameCorner(a, f + 1, b, f + (turn + 1) % 3)
-                        && sameCorner(a, f + 2, b, f + (turn + 2) % 3));
+                    || (sameCorner(a, f, b, f + rotation) && sameCorner(a, f + 1, b, f + (rotation + 1) % 3)
+                        && sameCorner(a, f + 2, b, f + (rotation + 2) % 3));
             COTAN_HOLDS(same, "primitive {}, corner {}", p, f);
             COTAN_HOLDS(b.indices[f + (provoking == ProvokingVertex::last ? 2 : 0)] == f / 3, "corner {}", f);
         }
     }
 }
 
-// A new picture for every image and a copy of every material, as `convert` makes them.
+// Replaces every image and copies the last texture and material, like `convert`.
 void changeImages(GltfDocument& document)
 {
     Image flat = makeImage(2, 2, PixelType::unorm8, "flat");
@@ -183,20 +183,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     const std::vector<Primitive> before = primitivesOf(*document);
-    through(*document, scratch / "repacked.glb", before);
-    through(*document, scratch / "repacked.gltf", before);
+    roundTrip(*document, scratch / "repacked.glb", before);
+    roundTrip(*document, scratch / "repacked.gltf", before);
     for (const auto provoking : {ProvokingVertex::first, ProvokingVertex::last})
         checkProvoking(*document, scratch / "provoking.glb", provoking);
 
     const std::vector<GltfCornerTangents> tangents = tangentsOf(before);
     if (const auto set = setGltfTangents(*document, tangents))
-        checkTangentsRead(tangents, through(*document, scratch / "tangents.glb", before));
+        checkTangentsRead(tangents, roundTrip(*document, scratch / "tangents.glb", before));
     else
         checkError(set.error());
     for (const Primitive& p : before)
         if (dropGltfTangents(*document, p.mesh, p.index))
             COTAN_HOLDS(gltfGeometry(*document, p.mesh, p.index)->tangents.empty());
     changeImages(*document);
-    through(*document, scratch / "converted.glb", before);
+    roundTrip(*document, scratch / "converted.glb", before);
     return 0;
 }

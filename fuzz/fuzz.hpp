@@ -1,5 +1,5 @@
-// What the harnesses share. Each harness is one file NAME_fuzz.cpp that defines LLVMFuzzerTestOneInput: with libFuzzer
-// it is called with changed inputs, with replay.cpp with those of corpus/NAME.
+// Shared by the harnesses. Each harness is a file NAME_fuzz.cpp that defines LLVMFuzzerTestOneInput. libFuzzer calls it
+// with mutated inputs, replay.cpp with those of corpus/NAME.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
-// Ends the program with one line where a property does not hold; libFuzzer keeps the input.
+// Aborts with a one-line message if a property does not hold; libFuzzer saves the input.
 #define COTAN_HOLDS(condition, ...)                                                                                    \
     do {                                                                                                               \
         if (!(condition))                                                                                              \
@@ -31,18 +31,18 @@ namespace cotan::fuzz {
 
 [[noreturn]] inline void fail(const char* file, int line, const char* condition, const std::string& detail)
 {
-    fmt::print(stderr, "{}:{}: does not hold: {}; {}\n", file, line, condition, detail);
+    fmt::print(stderr, "{}:{}: check failed: {}; {}\n", file, line, condition, detail);
     std::abort();
 }
 
-// An error is one line of a known kind.
+// Checks that an error is one line of a known kind.
 inline void checkError(const Error& error)
 {
     COTAN_HOLDS(!error.message.empty() && error.message.find('\n') == std::string::npos, "{}", error.message);
     COTAN_HOLDS(int(error.kind) >= 1 && int(error.kind) <= 5, "{}", int(error.kind));
 }
 
-// A folder of this process, removed when it ends in peace.
+// A folder for this process, which is removed when the process ends normally.
 class Scratch {
 public:
     Scratch() : path_(std::filesystem::temp_directory_path() / fmt::format("cotan-fuzz-{}", ::getpid()))
@@ -60,7 +60,7 @@ public:
     const std::filesystem::path& path() const { return path_; }
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
-    // A file with these bytes; what had the name before is gone.
+    // Writes a file with these bytes, replacing an earlier one of the same name.
     std::filesystem::path write(const std::string& name, std::span<const std::uint8_t> bytes) const
     {
         const std::filesystem::path file = path_ / name;
@@ -76,7 +76,7 @@ private:
     std::filesystem::path path_;
 };
 
-// Values from the front of an input; zeros when it has ended.
+// Takes values from the start of an input; zeros after its end.
 class Values {
 public:
     explicit Values(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -89,10 +89,10 @@ public:
         bytes_ = bytes_.subspan(n);
         return value;
     }
-    // One of 0..count-1.
+    // Returns one of 0..count-1.
     int choose(int count) { return next<std::uint8_t>() % count; }
     bool flip() { return (next<std::uint8_t>() & 1) != 0; }
-    // From low to high, in 65536 steps.
+    // Returns a value from low to high, in 65536 steps.
     double between(double low, double high) { return low + (high - low) * next<std::uint16_t>() / 65535; }
 
 private:

@@ -1,4 +1,4 @@
-// Whole .gltf and .glb files to a scene, and the tangents of its meshes; in the pose of the first animation, too.
+// Loads whole .gltf and .glb files and generates tangents for their meshes; also loads a pose of the first animation.
 #include "scene_checks.hpp"
 
 using namespace cotan;

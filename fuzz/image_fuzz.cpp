@@ -1,5 +1,5 @@
-// Pictures in memory: each format by its first bytes, anything else as TGA. What was read is written as PNG and read
-// again.
+// Decodes images in memory: the first bytes determine the format, anything else is taken for TGA. The result is encoded
+// as PNG and decoded again.
 #include <algorithm>
 
 #include "cotan/image.hpp"

@@ -1,4 +1,4 @@
-// How much of a file the harnesses of readers take.
+// Limits for the harnesses of readers.
 #pragma once
 
 #include "cotan/model.hpp"

@@ -1,7 +1,7 @@
-// Models other than glTF: OBJ with its MTL, PLY, COLLADA, STL and 3DS, all in this process. Which format it is, is told
-// from the first bytes; of an OBJ, what follows the line "#mtl" is the library m.mtl beside it. FBX is left out:
-// nothing is checked in front of Assimp's reader, which can overflow the stack; the tool reads it in a process of its
-// own.
+// Models in formats other than glTF: OBJ with its MTL, PLY, COLLADA, STL and 3DS, all in this process. The first bytes
+// determine the format; in an OBJ file, what follows the line "#mtl" becomes the library m.mtl beside it. FBX is left
+// out: nothing checks the file before Assimp's reader, which can overflow the stack; the tool reads FBX in a child
+// process.
 #include <algorithm>
 #include <string_view>
 
@@ -25,7 +25,7 @@ const char* nameOf(std::span<const std::uint8_t> bytes)
     return "model.obj";
 }
 
-// The model's part of the bytes; the rest becomes m.mtl, which is there, empty or not, in any case.
+// Writes the part after the separator to m.mtl, which always exists, and returns the part before it.
 std::span<const std::uint8_t> writeLibrary(const Scratch& scratch, std::span<const std::uint8_t> bytes)
 {
     constexpr std::string_view kSeparator = "\n#mtl\n";

@@ -1,5 +1,5 @@
-// The portable text over random bits: the total functions give finite frames and unit normals for any input, in float
-// and in double; the fused forms give what the frames give, within the range that fused.h states.
+// Runs the portable text on random bits: the total functions must return finite frames and unit normals for any input,
+// in float and double; the fused forms must match the frames within the range stated in fused.h.
 #include <algorithm>
 #include <array>
 #include <numbers>
@@ -17,7 +17,7 @@ template<class V> bool isUnit(const V& v, double tolerance = 1e-5)
     return std::abs(double(glm::length(v)) - 1) < tolerance;
 }
 
-// Whether a value may stand in a promise that asks for finite input of an ordinary size.
+// Whether a value meets the requirement of finite input of ordinary size.
 template<class V> bool ordinary(const V& v) { return glm::length(v) > 1e-18f && glm::length(v) < 1e18f; }
 
 glm::vec3 anyVector(Values& values) { return {values.next<float>(), values.next<float>(), values.next<float>()}; }
@@ -53,7 +53,7 @@ void checkTotalFrames(Values values)
          {f32::cotan_frame_smooth(n, dpdx, dpdy), f32::cotan_frame_vertex(n, dpdx, duvdx.x < 0 ? -1.0f : 1.0f)}) {
         checkFrame(f, "from vertices", false);
         COTAN_HOLDS(isUnit(f32::cotan_apply(f, m)), "{} {} {}", m.x, m.y, m.z);
-        // What is left of a vector almost along n is rounding, and points anywhere.
+        // If a vector is nearly along n, its remaining part is rounding noise and has any direction.
         const auto along = [&](const glm::vec3& v) {
             const glm::vec3 unit = f32::cotan_normalize_or(v, f.n);
             return glm::length(glm::cross(unit, f.n)) < 1e-3f;
@@ -104,25 +104,25 @@ struct Input {
     glm::vec2 duvdx, duvdy;
 };
 
-glm::dvec2 turned(double radians, double length) { return glm::dvec2(std::cos(radians), std::sin(radians)) * length; }
+glm::dvec2 polar(double radians, double length) { return glm::dvec2(std::cos(radians), std::sin(radians)) * length; }
 
 glm::dvec3 direction(Values& values)
 {
     const double z = values.between(-1, 1), around = values.between(0, 2 * std::numbers::pi);
-    return glm::dvec3(turned(around, std::sqrt(1 - z * z)), z);
+    return glm::dvec3(polar(around, std::sqrt(1 - z * z)), z);
 }
 
-// Two differences of lengths 0.3 to 1 (the longer: 1), 20 to 160 degrees apart on the side asked for.
+// Two differences with lengths of 1 and 0.3 to 1, 20 to 160 degrees apart; `side` is the sign of the angle.
 std::array<glm::dvec2, 2> twoDifferences(Values& values, double side)
 {
     constexpr double kDegree = std::numbers::pi / 180;
     const double start = values.between(0, 360), apart = values.between(20, 160) * side;
     const double shorter = values.between(0.3, 1);
     const bool first = values.flip();
-    return {turned(start * kDegree, first ? 1 : shorter), turned((start + apart) * kDegree, first ? shorter : 1)};
+    return {polar(start * kDegree, first ? 1 : shorter), polar((start + apart) * kDegree, first ? shorter : 1)};
 }
 
-Input soundInput(Values& values, double pScale, double uvScale, double nLength)
+Input wellConditionedInput(Values& values, double pScale, double uvScale, double nLength)
 {
     const glm::dvec3 face = direction(values), other = direction(values);
     const glm::dvec3 crossed = glm::cross(face, other);
@@ -131,8 +131,8 @@ Input soundInput(Values& values, double pScale, double uvScale, double nLength)
         : glm::normalize(glm::cross(face, glm::dvec3(face.y, face.z, -face.x) + 0.1));
     const glm::dvec3 y = glm::cross(face, x);
     const auto p = twoDifferences(values, values.flip() ? 1 : -1), uv = twoDifferences(values, values.flip() ? 1 : -1);
-    const glm::dvec2 lean = turned(values.between(0, 2 * std::numbers::pi), std::sin(values.between(0, 1)));
-    const glm::dvec2 tilt = turned(values.between(0, 2 * std::numbers::pi), std::sin(values.between(0, 1)));
+    const glm::dvec2 lean = polar(values.between(0, 2 * std::numbers::pi), std::sin(values.between(0, 1)));
+    const glm::dvec2 tilt = polar(values.between(0, 2 * std::numbers::pi), std::sin(values.between(0, 1)));
     Input i;
     i.n = glm::vec3(glm::normalize(face * std::sqrt(1 - glm::dot(lean, lean)) + x * lean.x + y * lean.y) * nLength
                     * (values.flip() ? 1.0 : -1.0));
@@ -151,12 +151,12 @@ double degreesBetween(glm::dvec3 a, glm::dvec3 b)
 
 void checkFused(Values values)
 {
-    // fused.h's range: each scale from 1e-9 to 1e6, their product from 1e-12 to 1e5, |n| from 0.01 to 100.
+    // The range of fused.h: each scale from 1e-9 to 1e6, their product from 1e-12 to 1e5, |n| from 0.01 to 100.
     const double pScale = std::pow(10, values.between(-9, 6)), uvScale = std::pow(10, values.between(-9, 6));
     const double nLength = std::pow(10, values.between(-1.99, 1.99));
     if (pScale * uvScale < 1.1e-12 || pScale * uvScale > 0.9e5)
         return;
-    const Input i = soundInput(values, pScale, uvScale, nLength);
+    const Input i = wellConditionedInput(values, pScale, uvScale, nLength);
     using Fused = glm::vec3 (*)(glm::vec3, glm::vec3, glm::vec3, glm::vec2, glm::vec2, glm::vec3);
     const bool largeArea = glm::length(glm::cross(glm::dvec3(i.dpdx), glm::dvec3(i.dpdy))) * nLength * i.m.z >= 1e-10;
     for (const auto& [frame, fused] : {std::pair<Frame, Fused>(Frame::cotangent, f32::cotan_perturb_cotangent),

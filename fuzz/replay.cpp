@@ -1,6 +1,6 @@
-// Runs a harness over files, and over all files of folders, without libFuzzer: NAME_replay PATH...
-// A path that does not exist is said and left out. Exit code 1 where a file took over kLimitSeconds of processor time;
-// a property that does not hold ends the program at that file.
+// NAME_replay PATH...: runs a harness over files, and over all files of folders, without libFuzzer. Reports and skips
+// paths that do not exist. The exit code is 1 if a file takes more than kLimitSeconds of processor time; a property
+// that does not hold aborts the program at that file.
 #include <algorithm>
 #include <ctime>
 #include <fstream>
@@ -15,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As libFuzzer's limits in scripts/fuzz; builds with sanitizers need several times as much of both.
+// The limits of libFuzzer in scripts/fuzz; builds with sanitizers need several times as much of both.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr double kLimitSeconds = 30;
-constexpr bool kLimitMemory = false; // they reserve terabytes of addresses
+constexpr bool kLimitMemory = false; // sanitizers reserve terabytes of address space
 #else
 constexpr double kLimitSeconds = 5;
 constexpr bool kLimitMemory = true;
@@ -42,7 +42,7 @@ bool replay(const fs::path& file)
 {
     std::ifstream stream(file, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    const std::vector<std::uint8_t> bytes(text.begin(), text.end()); // exactly as long as the input
+    const std::vector<std::uint8_t> bytes(text.begin(), text.end()); // exact size, so that sanitizers see overreads
     fmt::print(stderr, "{}\n", file.string());
     const std::clock_t start = std::clock();
     LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
@@ -63,7 +63,7 @@ int main(int argc, char** argv)
     bool quick = true;
     for (int i = 1; i < argc; ++i) {
         if (!fs::exists(argv[i]))
-            fmt::print(stderr, "{}: not here, left out\n", argv[i]);
+            fmt::print(stderr, "{}: does not exist, skipped\n", argv[i]);
         for (const fs::path& file : filesOf(argv[i])) {
             quick = replay(file) && quick;
             ++count;

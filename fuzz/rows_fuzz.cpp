@@ -1,5 +1,5 @@
-// Pictures by rows: strips of any height give the same pixels as the whole picture; what only one of the two ways
-// accepts is refused by the other for a stated limit.
+// Reads images by rows: strips of any height must give the same pixels as the whole image, and an image whose rows can
+// be opened must be accepted by both methods or refused by both.
 #include <algorithm>
 
 #include "cotan/image.hpp"
@@ -11,7 +11,7 @@ using namespace cotan::fuzz;
 
 namespace {
 
-// All rows, in strips of `rows`; nothing where an error came.
+// Reads all rows in strips of `rows`. Returns the first error, if any.
 Result<Image> readByRows(RowReader& reader, int rows)
 {
     Image whole = makeImage(reader.width, reader.height, reader.type);
@@ -27,7 +27,7 @@ Result<Image> readByRows(RowReader& reader, int rows)
 
 } // namespace
 
-// The first byte is the height of the strips.
+// The first byte determines the height of the strips.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     static const Scratch scratch;

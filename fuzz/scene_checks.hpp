@@ -1,4 +1,4 @@
-// What holds for every scene that a reader returns.
+// Checks of what must hold for every scene that a reader returns.
 #pragma once
 
 #include <algorithm>
@@ -60,7 +60,7 @@ inline void checkScene(const Scene& scene)
 
 inline MeshView viewOf(const Mesh& mesh) { return {mesh.positions, mesh.normals, mesh.texcoords[0], mesh.indices}; }
 
-// Tangents of meshes whose coordinates floats can square and multiply: finite, one a corner.
+// Checks that there is one tangent per corner, and that all are finite if no square of a coordinate overflows.
 inline void checkTangents(const MeshView& mesh)
 {
     const bool complete =

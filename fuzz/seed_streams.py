@@ -1,5 +1,5 @@
-"""Streams that the encoders of their own libraries made, once, for fuzz/make-seeds: the square of class Gltf by Draco
-1.5.5 and meshoptimizer 0.18, small pictures by libwebp 1.2.4. Base64."""
+"""Streams for fuzz/make-seeds in base64, made once with the encoders of the libraries: the square of class Gltf with
+Draco 1.5.5 and meshoptimizer 0.18, small images with libwebp 1.2.4."""
 import base64
 
 _TEXT = {

@@ -1,4 +1,4 @@
-// Every choice of `cotan shader`: the same text twice, with its entry in it and its brackets closed.
+// Every choice of `cotan shader`: makes the same text twice, with its entry point and balanced brackets.
 #include <algorithm>
 
 #include "cotan/shader_text.hpp"
@@ -68,11 +68,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     COTAN_HOLDS(choice.uvSets >= 1 && choice.uvSets <= 4, "{}", choice.uvSets);
     COTAN_HOLDS(text->text.find(text->entry + "(") != std::string::npos, "{}", text->entry);
     COTAN_HOLDS(std::ranges::find(text->functions, text->entry) != text->functions.end(), "{}", text->entry);
-    // Words of the portable text; C++ keeps the names of the types.
-    for (const char* const left : {"COTAN_", "cotan_normal_format", "cotan_real", "cotan_vec3"})
-        COTAN_HOLDS((choice.language == shader_text::Language::cpp && left[0] == 'c')
-                        || text->text.find(left) == std::string::npos,
-                    "{}", left);
+    // Names of the portable text must not remain, except that C++ keeps its type names.
+    for (const char* const leftover : {"COTAN_", "cotan_normal_format", "cotan_real", "cotan_vec3"})
+        COTAN_HOLDS((choice.language == shader_text::Language::cpp && leftover[0] == 'c')
+                        || text->text.find(leftover) == std::string::npos,
+                    "{}", leftover);
     checkBrackets(text->text);
     COTAN_HOLDS(makeShaderText(choice)->text == text->text, "the second text differs");
     return 0;

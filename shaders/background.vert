@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One triangle over the whole picture, at the far end of the (reversed) depth range.
+// One triangle that covers the image, at the far end of the reversed depth range.
 #define COTAN_LANG_GLSL
 #include "cotan/lang.h"
 #include "bindings.glsl"
@@ -15,7 +15,7 @@ void main()
     vec2 corner = vec2(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0);
 #ifndef COTAN_NO_RAY
     outRay = view.forward.xyz + view.right.xyz * corner.x + view.up.xyz * corner.y;
-    // All rays start at the eye, or side by side.
+    // Perspective rays start at the eye, orthographic rays side by side.
     vec2 across = corner - vec2(view.clipX.w, view.clipY.w);
     outOrigin = view.forward.w > 0.5 ? vec3(0.0)
                                      : view.clipX.xyz * (across.x / dot(view.clipX.xyz, view.clipX.xyz))

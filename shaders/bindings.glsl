@@ -1,12 +1,12 @@
-// Where the shaders find what gpu_structs.glsl describes.
+// Bindings of the structs in gpu_structs.glsl, and of textures.
 #include "gpu_structs.glsl"
 
 layout(set = 0, binding = 0, std140) uniform ViewBlock { CotanView view; };
 layout(set = 0, binding = 1, std430) readonly buffer LightBlock { CotanLight lights[]; };
 layout(set = 0, binding = 2) uniform sampler2DShadow shadowMap;
-layout(set = 0, binding = 5) uniform sampler2D environmentMap; // where ENVIRONMENT_MAP
-layout(set = 0, binding = 6) uniform sampler2D shadowDepth; // shadowMap, read without comparing
-layout(set = 0, binding = 7) uniform sampler2D groundMap; // where GROUND
+layout(set = 0, binding = 5) uniform sampler2D environmentMap; // if ENVIRONMENT_MAP
+layout(set = 0, binding = 6) uniform sampler2D shadowDepth; // shadowMap without depth comparison
+layout(set = 0, binding = 7) uniform sampler2D groundMap; // if GROUND
 
 layout(set = 1, binding = 0, std140) uniform MaterialBlock { CotanMaterial material; };
 layout(set = 1, binding = 1) uniform sampler2D baseColorMap;
@@ -34,13 +34,13 @@ vec3 cameraRelative(vec3 p)
     return vec3(dot(draw.rowX, q), dot(draw.rowY, q), dot(draw.rowZ, q));
 }
 
-// A difference of positions, or a tangent.
+// For differences of positions and for tangents.
 vec3 directionToWorld(vec3 d)
 {
     return vec3(dot(draw.rowX.xyz, d), dot(draw.rowY.xyz, d), dot(draw.rowZ.xyz, d));
 }
 
-// A normal or another covector, up to a positive factor.
+// For normals and other covectors; the result is scaled by a positive factor.
 vec3 covectorToWorld(vec3 c)
 {
     return vec3(dot(draw.normalX.xyz, c), dot(draw.normalY.xyz, c), dot(draw.normalZ.xyz, c));
@@ -52,7 +52,7 @@ vec3 toShadowMap(vec3 p)
     return vec3(dot(view.shadowX, q), dot(view.shadowY, q), dot(view.shadowZ, q));
 }
 
-// The part of a use that moves differences of texture coordinates.
+// Transforms differences of texture coordinates: the linear part of a use.
 vec2 transformedDifference(CotanTextureUse use, vec4 texcoords)
 {
     vec2 uv = use.uRow.w > 0.5 ? texcoords.zw : texcoords.xy;
@@ -71,5 +71,5 @@ vec2 transformed(CotanTextureUse use, vec4 texcoords)
     return transformedDifference(use, texcoords) + vec2(use.uRow.z, use.vRow.z);
 }
 
-// Texture coordinates that a sampler may see: the file's may be NaN or infinite.
+// Replaces texture coordinates that a sampler must not see: those of a file may be NaN or infinite.
 vec2 finiteUv(vec2 uv) { return abs(uv.x) + abs(uv.y) <= 1e30 ? uv : vec2(0.0); }

@@ -1,5 +1,5 @@
-// Specialisation constants. COTAN_FRAME holds the numbers of the table src/core/include/cotan/frames.inc,
-// OUTPUT and SHADING those of the enums in cotan/view.hpp.
+// Specialisation constants. COTAN_FRAME is a number of the table src/core/include/cotan/frames.inc, OUTPUT and SHADING
+// are values of the enums in cotan/view.hpp.
 layout(constant_id = 0) const int COTAN_FRAME = 0;
 layout(constant_id = 1) const int OUTPUT = 0;
 layout(constant_id = 2) const int SHADING = 0;
@@ -9,18 +9,18 @@ layout(constant_id = 5) const bool NORMAL_MAPS = true;
 layout(constant_id = 6) const bool ENVIRONMENT = true;
 layout(constant_id = 7) const bool SHADOWS = true;
 layout(constant_id = 8) const bool TONE_MAP = true;
-// Which maps and layers the material may have, COTAN_MAP_... and COTAN_LAYER_... of gpu_structs.glsl. Drivers for the
-// CPU execute both sides of a branch, so a map that is left out here is what saves its reads.
+// The maps and layers that the material may have: COTAN_MAP_... and COTAN_LAYER_... of gpu_structs.glsl. CPU drivers
+// execute both sides of a branch, so only a map whose bit is cleared here costs no reads.
 layout(constant_id = 9) const uint MAPS = 0xffffffffu;
-layout(constant_id = 10) const int TONE = COTAN_TONE_ACES; // where TONE_MAP
-layout(constant_id = 11) const bool ENVIRONMENT_MAP = false; // where ENVIRONMENT: the picture, not the formula
-layout(constant_id = 12) const bool SOFT_SHADOWS = false; // where SHADOWS
+layout(constant_id = 10) const int TONE = COTAN_TONE_ACES; // if TONE_MAP
+layout(constant_id = 11) const bool ENVIRONMENT_MAP = false; // if ENVIRONMENT: map instead of formula
+layout(constant_id = 12) const bool SOFT_SHADOWS = false; // if SHADOWS
 layout(constant_id = 13) const int BACKDROP = 0;
 layout(constant_id = 14) const bool GROUND = false;
-layout(constant_id = 15) const bool FOUR_SAMPLES = false; // a pixel
+layout(constant_id = 15) const bool FOUR_SAMPLES = false; // per pixel
 layout(constant_id = 16) const bool SPECULAR_ANTIALIASING = false;
-layout(constant_id = 17) const bool LEVELS = false; // levels.glsl
-// Pixels from one sample to the next: as large is what of a texture is read for one.
+layout(constant_id = 17) const bool LEVELS = false; // see levels.glsl
+// Distance between adjacent samples in pixels. Texture footprints are scaled by it.
 layout(constant_id = 18) const float APART = 1.0;
 
 #define OUTPUT_SHADED 0
@@ -35,8 +35,8 @@ layout(constant_id = 18) const float APART = 1.0;
 #define ALPHA_MASK 1
 #define ALPHA_BLEND 2
 
-// What is written for a linear colour: tone mapped, or as it is but finite.
-vec3 finished(vec3 linear)
+// The colour to write for linear radiance: exposed, and tone mapped if TONE_MAP; black if it is not finite.
+vec3 outputColor(vec3 linear)
 {
     vec3 exposed = linear * view.tone.x;
     bool finite = abs(exposed.x) + abs(exposed.y) + abs(exposed.z) <= COTAN_HUGE;

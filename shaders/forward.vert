@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Vertices of the scene: everything the fragment stage needs, in camera-relative world space.
+// Scene vertices: transforms all inputs of the fragment stage to camera-relative world space.
 #define COTAN_LANG_GLSL
 #include "cotan/lang.h"
 #include "cotan/frame.h"
@@ -41,7 +41,7 @@ void main()
     vec4 q = vec4(p, 1.0);
     vec4 clip =
         vec4(dot(view.clipX, q), dot(view.clipY, q), dot(view.clipZ, q), dot(view.clipW, q));
-    // A position beyond the range of float goes where it is clipped away.
+    // Positions beyond the range of float are moved to where they are clipped.
     bool usable = abs(clip.x) + abs(clip.y) + abs(clip.w) <= COTAN_HUGE;
     gl_Position = usable ? clip : vec4(0.0, 0.0, 2.0, 1.0);
 }

@@ -1,6 +1,6 @@
-// The frame of a fragment: a thin adapter between interpolated attributes and cotan/frame.h.
+// The frame of a fragment: an adapter between interpolated attributes and cotan/frame.h.
 
-// The four differences that a frame is made from, and the normal.
+// Screen-space differences of position and texture coordinates to the next pixel in x and in y.
 struct Differences {
     vec3 dpdx;
     vec3 dpdy;
@@ -32,7 +32,7 @@ vec2 texcoordOf(uint first, uint vertex)
     return vec2(f.at[first + 2u * vertex], f.at[first + 2u * vertex + 1u]);
 }
 
-// The edges of the fragment's triangle, in place of screen derivatives.
+// Edges of the fragment's triangle, used instead of screen-space differences.
 Differences triangleEdges(CotanTextureUse use)
 {
     Words words = Words(draw.indices);
@@ -60,9 +60,10 @@ Differences triangleEdges(CotanTextureUse use)
 
 cotan_frame noFrame(vec3 n) { return cotan_frame(vec3(0.0), vec3(0.0), n); }
 
-// The frame COTAN_FRAME: one case for each row of the table of frames, by what the row is made from.
-// n: safe, unit. inNormal and the other attributes: as interpolated; a mesh without uv has none.
-// use: the map that d belongs to. base: its uv are those of the normal map, to which what the vertices hold belongs.
+// The frame COTAN_FRAME. The switch has a case for each row of the table of frames, chosen by the row's source.
+// n: safe unit normal. inNormal and the other attributes are as interpolated; a mesh without uv has none. use: the map
+// that d belongs to. base: whether `use` has the uv of the normal map, for which vertex tangents and cotangents are
+// made.
 cotan_frame frameOf(vec3 n, Differences d, CotanTextureUse use, bool base)
 {
 #ifdef COTAN_EXACT
@@ -76,8 +77,8 @@ cotan_frame frameOf(vec3 n, Differences d, CotanTextureUse use, bool base)
 #endif
     bool hasTangents = (draw.flags & COTAN_DRAW_HAS_TANGENTS) != 0u;
     bool hasCotangents = (draw.flags & COTAN_DRAW_HAS_COTANGENTS) != 0u;
-    // A glTF tangent's w makes cross(n, t) * w point along the green of a map, which is against
-    // increasing v, as v runs down the image. Our b points along increasing v: hence -w.
+    // A glTF tangent's w makes cross(n, t) * w point along a map's green, against increasing v, which runs down the
+    // image. Our b points along increasing v: hence -w.
     float alongV = -inTangent.w;
 #define COTAN_FROM_differences(word) return cotan_frame_##word(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
 #define COTAN_FROM_cotangents(word) \

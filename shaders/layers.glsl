@@ -1,13 +1,12 @@
-// Translucent fragments of a band of the picture's rows: a list for each pixel, in the order of arrival.
-// Layers are named by their index plus 1, so that 0 ends a list: Mesa's CPU driver (22.3) runs loops for
-// pixels beside the picture too, and what these read is 0.
+// Translucent fragments of a band of image rows: a linked list for each pixel, newest first. A layer's name is its
+// index plus 1, and 0 ends a list: Mesa's CPU driver (22.3) also runs loops for pixels outside the image, which read 0.
 layout(set = 0, binding = 3, std430) buffer ListBlock {
     CotanLayerLists lists;
-    uint newest[]; // of each pixel of the band, rows first: the name of a layer, or 0
+    uint newest[]; // for each pixel of the band, in row order: the name of its newest layer, or 0
 };
 layout(set = 0, binding = 4, std430) buffer LayerBlock { CotanLayer layers[]; };
 
-// Mesa's CPU driver (22.3) draws samples half a pixel beside the scissor's rectangle: pixels without a list.
+// Whether the pixel has no list: Mesa's CPU driver (22.3) draws samples half a pixel outside the scissor rectangle.
 bool outsideBand()
 {
     uvec2 p = uvec2(gl_FragCoord.xy);

@@ -1,10 +1,10 @@
 // Light on a surface: an adapter between the scene's lights and cotan/light.h.
 
-// The share of the shadow light that reaches p: 3x3 comparisons, weighted so that the result is
-// continuous (sixteen texels, read as four gathers). n: unit, geometric, on the lit side.
+// The fraction of the shadow light that reaches p: 3x3 comparisons, weighted so that the result is continuous (sixteen
+// texels, in four gathers). n: unit geometric normal on the lit side.
 float shadowAt(vec3 p, vec3 n, float nl)
 {
-    // Along the normal, most where the light grazes: a texel of the map covers a slope there.
+    // Offsets p along the normal, most at grazing light, where a shadow map texel covers a range of depths.
     vec3 offset = n * (view.shadow.x * (0.5 + 2.0 * sqrt(max(1.0 - nl * nl, 0.0))));
     vec3 s = toShadowMap(p + offset);
     bool inside = s.x > 0.0 && s.x < 1.0 && s.y > 0.0 && s.y < 1.0 && s.z > 0.0 && s.z < 1.0;
@@ -16,7 +16,7 @@ float shadowAt(vec3 p, vec3 n, float nl)
     vec2 f = texel - base;
     vec2 near = base / view.shadow.y;
     vec2 far = (base + 2.0) / view.shadow.y;
-    // A gather returns, in order, the texels at (0,1) (1,1) (1,0) (0,0).
+    // A gather returns the texels at (0,1) (1,1) (1,0) (0,0), in this order.
     vec4 a = textureGather(shadowMap, near, depth);
     vec4 b = textureGather(shadowMap, vec2(far.x, near.y), depth);
     vec4 c = textureGather(shadowMap, vec2(near.x, far.y), depth);
@@ -27,43 +27,43 @@ float shadowAt(vec3 p, vec3 n, float nl)
     return sum / 9.0;
 }
 
-// The same of a light that covers a disc: cotan/shadow.h. lit: whether what arrives matters.
+// The same fraction for a light that covers a disc, as in cotan/shadow.h. lit: false skips all reads.
 float softShadowAt(vec3 p, vec3 n, float nl, bool lit)
 {
     vec3 s = toShadowMap(p + n * (view.shadow.x * (0.5 + 1.5 * sqrt(max(1.0 - nl * nl, 0.0)))));
     bool inside = s.x > 0.0 && s.x < 1.0 && s.y > 0.0 && s.y < 1.0 && s.z > 0.0 && s.z < 1.0;
-    // How the depth of the plane through the point changes with the place in the map.
+    // Change of depth in the plane through p, per unit of map u and v.
     float size = view.shadow.x * view.shadow.y;
     vec2 slope = vec2(dot(n, view.shadowX.xyz), dot(n, view.shadowY.xyz)) * (size * view.soft.z / max(nl, 0.2));
     float texel = 1.0 / view.shadow.y;
     float depth = s.z - view.shadow.z * (1.0 + min(length(slope) / view.soft.z, 4.0));
-    float reach = cotan_penumbra(s.z, view.soft.x, 2.0 * texel, view.soft.y);
+    float searchRadius = cotan_penumbra(s.z, view.soft.x, 2.0 * texel, view.soft.y);
 
-    // Loops of no rounds cost nothing where a branch would not be left out: see MAPS.
-    int rounds = inside && lit ? COTAN_SHADOW_SEARCH : 0;
+    // Loops with zero iterations cost nothing, even on drivers that execute both sides of a branch (see MAPS).
+    int iterations = inside && lit ? COTAN_SHADOW_SEARCH : 0;
     vec2 sum = vec2(0.0);
     vec2 direction = vec2(1.0, 0.0);
-    for (int i = 0; i < rounds; ++i) {
-        vec2 offset = direction * (reach * cotan_tap_radius(i, COTAN_SHADOW_SEARCH));
+    for (int i = 0; i < iterations; ++i) {
+        vec2 offset = direction * (searchRadius * cotan_tap_radius(i, COTAN_SHADOW_SEARCH));
         vec4 found = textureGather(shadowDepth, s.xy + offset);
-        vec4 before = vec4(lessThan(found, vec4(depth + dot(slope, offset))));
-        sum += vec2(dot(found, before), dot(before, vec4(1.0)));
+        vec4 blockers = vec4(lessThan(found, vec4(depth + dot(slope, offset))));
+        sum += vec2(dot(found, blockers), dot(blockers, vec4(1.0)));
         direction = cotan_next_tap(direction);
     }
     if (sum.y == 0.0)
-        rounds = 0;
+        iterations = 0;
     float radius = cotan_penumbra(s.z - sum.x / max(sum.y, 1.0), view.soft.x, 1.5 * texel, view.soft.y);
-    float arriving = 0.0;
-    rounds = rounds == 0 ? 0 : COTAN_SHADOW_TAPS;
-    for (int i = 0; i < rounds; ++i) {
+    float visible = 0.0;
+    iterations = iterations == 0 ? 0 : COTAN_SHADOW_TAPS;
+    for (int i = 0; i < iterations; ++i) {
         vec2 offset = direction * (radius * cotan_tap_radius(i, COTAN_SHADOW_TAPS));
-        arriving += textureLod(shadowMap, vec3(s.xy + offset, depth + dot(slope, offset)), 0.0);
+        visible += textureLod(shadowMap, vec3(s.xy + offset, depth + dot(slope, offset)), 0.0);
         direction = cotan_next_tap(direction);
     }
-    return rounds == 0 ? 1.0 : arriving / float(COTAN_SHADOW_TAPS);
+    return iterations == 0 ? 1.0 : visible / float(COTAN_SHADOW_TAPS);
 }
 
-// What extensions add to a surface; which of it is there is known when the shader is compiled.
+// What material extensions add to a surface. The flags are compile-time constants.
 struct Layers {
     bool glossy;
     bool sheened;
@@ -73,17 +73,17 @@ struct Layers {
     cotan_coat coat;
 };
 
-// All that leaves the surface, by whether it comes through the coat.
+// Light that leaves the surface. The coat attenuates `base`, but not `coat`.
 struct Reflected {
     vec3 base;
     vec3 coat;
 };
 
-// Even places in the pixel whose normals are lit one by one where highlights are antialiased: how many, one without a
-// normal map. For main to set.
+// Number of evenly spaced points in the pixel whose normals are lit individually for specular antialiasing; 1 without a
+// normal map. Set by main.
 int tapCount = 1;
-// The surface there. Read for each light again: 256 normals are too many to keep.
-cotan_surface atTap(cotan_surface s, int tap);
+// The surface at one of these points. Recomputed for each light, because 256 normals are too many to store.
+cotan_surface tapSurface(cotan_surface s, int tap);
 
 vec3 reflectedOf(cotan_surface s, Layers over, vec3 l)
 {
@@ -99,27 +99,27 @@ vec3 reflected(cotan_surface s, Layers over, vec3 l)
         return reflectedOf(s, over, l);
     vec3 sum = vec3(0.0);
     for (int i = 0; i < tapCount; ++i)
-        sum += reflectedOf(atTap(s, i), over, l);
+        sum += reflectedOf(tapSurface(s, i), over, l);
     return sum / float(tapCount);
 }
 
-// What one light adds. p: camera-relative; n: unit geometric normal on the seen side.
+// Adds the contribution of one light. p: camera-relative; n: unit geometric normal on the visible side.
 void addLight(inout Reflected sum, CotanLight light, cotan_surface s, Layers over, vec3 p, vec3 n)
 {
     vec3 l = -light.direction.xyz;
-    float reach = 1.0;
+    float attenuation = 1.0;
     if (light.position.w > 0.5) {
-        vec3 way = light.position.xyz - p;
-        l = cotan_normalize_or(way, vec3(0.0, 1.0, 0.0));
-        reach = cotan_light_falloff(length(way), light.direction.w);
+        vec3 toLight = light.position.xyz - p;
+        l = cotan_normalize_or(toLight, vec3(0.0, 1.0, 0.0));
+        attenuation = cotan_light_falloff(length(toLight), light.direction.w);
         if (light.position.w > 1.5)
-            reach *= cotan_smooth(light.cone.x, light.cone.y, -dot(l, light.direction.xyz));
+            attenuation *= cotan_smooth(light.cone.x, light.cone.y, -dot(l, light.direction.xyz));
     }
     if (SHADOWS && light.color.w > 0.5)
-        reach *= SOFT_SHADOWS ? softShadowAt(p, n, dot(n, l), dot(s.n, l) > 0.0) : shadowAt(p, n, dot(n, l));
-    sum.base += light.color.rgb * (reach * reflected(s, over, l));
+        attenuation *= SOFT_SHADOWS ? softShadowAt(p, n, dot(n, l), dot(s.n, l) > 0.0) : shadowAt(p, n, dot(n, l));
+    sum.base += light.color.rgb * (attenuation * reflected(s, over, l));
     if (over.coated)
-        sum.coat += light.color.rgb * (reach * cotan_reflect_coat(over.coat, s.v, l));
+        sum.coat += light.color.rgb * (attenuation * cotan_reflect_coat(over.coat, s.v, l));
 }
 
 vec3 environmentLightOf(cotan_surface s, Layers over)
@@ -142,7 +142,7 @@ vec3 environmentLight(cotan_surface s, Layers over)
         return environmentLightOf(s, over);
     vec3 sum = vec3(0.0);
     for (int i = 0; i < tapCount; ++i)
-        sum += environmentLightOf(atTap(s, i), over);
+        sum += environmentLightOf(tapSurface(s, i), over);
     return sum / float(tapCount);
 }
 
@@ -159,16 +159,16 @@ vec3 lit(cotan_surface s, Layers over, vec3 p, vec3 n)
     }
     if (!over.coated)
         return sum.base;
-    return sum.base * (1.0 - cotan_coat_share(over.coat, s.v)) + sum.coat;
+    return sum.base * (1.0 - cotan_coat_fraction(over.coat, s.v)) + sum.coat;
 }
 
-// The factors, by colour, of what is behind a surface that transmits.
+// Transmittance for the colours behind the surface.
 vec3 transmittance(cotan_surface s, Layers over)
 {
-    vec3 through = cotan_transmittance(s, over.gloss);
+    vec3 factor = cotan_transmittance(s, over.gloss);
     if (over.sheened)
-        through *= 1.0 - cotan_sheen_share(over.sheen, abs(dot(s.n, s.v)));
+        factor *= 1.0 - cotan_sheen_fraction(over.sheen, abs(dot(s.n, s.v)));
     if (over.coated)
-        through *= 1.0 - cotan_coat_share(over.coat, s.v);
-    return through;
+        factor *= 1.0 - cotan_coat_fraction(over.coat, s.v);
+    return factor;
 }

@@ -1,7 +1,7 @@
-// What extensions of glTF add to a material: its maps as layers of cotan/light.h and cotan/sheen.h.
+// glTF material extensions: reads their maps into the layers of cotan/light.h and cotan/sheen.h.
 
-// The coat's normal, outwards on the front side. frame: of the surface beneath. spread: as in perturbed.
-vec3 coatNormal(cotan_frame frame, vec3 n, inout float spread)
+// The coat's normal, outwards on the front side. frame: of the base surface. variance: as for perturbed.
+vec3 coatNormal(cotan_frame frame, vec3 n, inout float variance)
 {
     CotanTextureUse use = material.coatNormalMapUse;
     if (!NORMAL_MAPS || !present(COTAN_MAP_COAT_NORMAL, use) || !hasTexcoords(use))
@@ -12,12 +12,12 @@ vec3 coatNormal(cotan_frame frame, vec3 n, inout float spread)
         material.coatNormalMap.y, float(material.coatNormalMap.z), material.coat.z);
     vec4 texel = sampled(coatNormalMap, use);
     if (SPECULAR_ANTIALIASING)
-        spread += cotan_spread_of_length(texel.w);
+        variance += cotan_variance_of_length(texel.w);
     return cotan_normalize_or(cotan_apply(frame, cotan_decode(texel.xyz, format)), n);
 }
 
-// turn: the spread of the surface's normals without a map.
-cotan_coat coatOf(cotan_frame frame, vec3 n, float side, float turn)
+// smoothVariance: of the interpolated normals.
+cotan_coat coatOf(cotan_frame frame, vec3 n, float side, float smoothVariance)
 {
     cotan_coat c;
     c.strength = material.coat.x;
@@ -26,23 +26,23 @@ cotan_coat coatOf(cotan_frame frame, vec3 n, float side, float turn)
     c.roughness = material.coat.y;
     if (present(COTAN_MAP_COAT_ROUGHNESS, material.coatRoughnessMap))
         c.roughness *= sampled(coatRoughnessMap, material.coatRoughnessMap).g;
-    float spread = turn;
-    c.n = coatNormal(frame, n, spread) * side;
+    float variance = smoothVariance;
+    c.n = coatNormal(frame, n, variance) * side;
     if (SPECULAR_ANTIALIASING)
-        c.roughness = cotan_roughness_of_spread(c.roughness, spread);
+        c.roughness = cotan_roughness_of_variance(c.roughness, variance);
     return c;
 }
 
-// frame, smoothNormal: outwards on the front side. n: perturbed.
-void stretch(inout cotan_gloss g, cotan_frame frame, vec3 smoothNormal, vec3 n)
+// Sets the anisotropy. frame, smoothNormal: outwards on the front side. n: perturbed.
+void setAnisotropy(inout cotan_gloss g, cotan_frame frame, vec3 smoothNormal, vec3 n)
 {
     float strength = material.anisotropy.x;
     vec2 direction = material.anisotropy.yz;
     if (present(COTAN_MAP_ANISOTROPY, material.anisotropyMap)) {
         vec3 texel = sampled(anisotropyMap, material.anisotropyMap).rgb;
-        vec2 turned = vec2(texel.r, -texel.g) * 2.0 + vec2(-1.0, 1.0);
-        direction = vec2(turned.x * direction.x - turned.y * direction.y,
-            turned.x * direction.y + turned.y * direction.x);
+        vec2 rotation = vec2(texel.r, -texel.g) * 2.0 + vec2(-1.0, 1.0);
+        direction = vec2(rotation.x * direction.x - rotation.y * direction.y,
+            rotation.x * direction.y + rotation.y * direction.x);
         strength *= texel.b;
     }
     g.t = cotan_direction_on_surface(smoothNormal, frame.t, frame.b, direction, n);
@@ -79,7 +79,7 @@ cotan_sheen sheenOf()
 }
 
 // frame, smoothNormal: outwards on the front side. n: perturbed. side: -1 on the back.
-void addLayers(inout Layers over, cotan_frame frame, vec3 smoothNormal, vec3 n, float side, float turn)
+void addLayers(inout Layers over, cotan_frame frame, vec3 smoothNormal, vec3 n, float side, float smoothVariance)
 {
     over.glossy = SHADING == SHADING_PBR && (MAPS & COTAN_LAYER_GLOSS) != 0u;
     over.sheened = SHADING == SHADING_PBR && (MAPS & COTAN_LAYER_SHEEN) != 0u;
@@ -87,9 +87,9 @@ void addLayers(inout Layers over, cotan_frame frame, vec3 smoothNormal, vec3 n, 
     if (over.glossy)
         over.gloss = glossOf();
     if (over.glossy && (MAPS & COTAN_LAYER_ANISOTROPY) != 0u)
-        stretch(over.gloss, frame, smoothNormal, n);
+        setAnisotropy(over.gloss, frame, smoothNormal, n);
     if (over.sheened)
         over.sheen = sheenOf();
     if (over.coated)
-        over.coat = coatOf(frame, smoothNormal, side, turn);
+        over.coat = coatOf(frame, smoothNormal, side, smoothVariance);
 }

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The mean of the samples of a pixel, which are linear, and in pictures with 8 bits the levels that it becomes.
-// Compiled a second time with COTAN_MULTISAMPLED. What a device does itself at the end of a pass is the same mean;
-// Mesa's CPU driver compiles 40 ms for it in every process.
+// Averages the samples of a pixel in linear light and, for 8-bit images, quantises the mean. Compiled a second time
+// with COTAN_MULTISAMPLED. A built-in resolve at the end of a pass gives the same mean, but Mesa's CPU driver compiles
+// it anew in every process, which takes 40 ms.
 #define COTAN_LANG_GLSL
 #include "cotan/lang.h"
 #include "cotan/frame.h"
@@ -11,7 +11,7 @@
 #include "gpu_structs.glsl"
 
 layout(set = 0, binding = 0, std140) uniform ViewBlock { CotanView view; };
-layout(constant_id = 17) const bool LEVELS = false; // of constants.glsl
+layout(constant_id = 17) const bool LEVELS = false; // as in constants.glsl
 #include "levels.glsl"
 
 #ifdef COTAN_MULTISAMPLED
@@ -28,8 +28,8 @@ void main()
     vec4 sum = texelFetch(samples, at, 0) + texelFetch(samples, at, 1);
     sum += texelFetch(samples, at, 2);
     sum += texelFetch(samples, at, 3);
-    outColor = written(sum * 0.25);
+    outColor = quantised(sum * 0.25);
 #else
-    outColor = written(texelFetch(samples, at, 0));
+    outColor = quantised(texelFetch(samples, at, 0));
 #endif
 }

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Holes of masked materials in the shadow map, and the texels that translucent ones cover. Opaque ones need no fragment
-// stage.
+// Cuts the holes of masked materials into the shadow map, and thins out translucent ones. Opaque materials need no
+// fragment stage.
 #define COTAN_LANG_GLSL
 #include "cotan/lang.h"
 #include "cotan/frame.h"
@@ -10,7 +10,7 @@
 #include "cotan/shadow.h"
 #include "bindings.glsl"
 
-layout(constant_id = 3) const int ALPHA_MODE = 0; // of constants.glsl
+layout(constant_id = 3) const int ALPHA_MODE = 0; // as in constants.glsl
 
 layout(location = 0) in vec4 inTexcoords;
 layout(location = 1) in float inAlpha;

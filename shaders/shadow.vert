@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Vertices as the shadow light sees them.
+// Transforms vertices into the shadow map.
 #define COTAN_LANG_GLSL
 #include "cotan/lang.h"
 #include "bindings.glsl"

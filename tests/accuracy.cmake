@@ -1,6 +1,6 @@
 # The tables of `cotan accuracy`, their files, and the committed figures.
 cotan_test(accuracy_test
-  SOURCES accuracy_bars_test.cpp accuracy_figures_test.cpp accuracy_same_test.cpp accuracy_command_test.cpp theory_test.cpp
+  SOURCES accuracy_bars_test.cpp accuracy_figures_test.cpp accuracy_committed_test.cpp accuracy_command_test.cpp theory_test.cpp
     truth_surface_test.cpp
   LIBRARIES cotan_lab_report cotan_truth cotan_core fmt::fmt)
 target_compile_definitions(accuracy_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
@@ -11,6 +11,6 @@ if(TARGET cotan_cost)
   set(costs cotan_cost)
 endif()
 cotan_test(lab_test SOURCES lab_test.cpp LIBRARIES cotan_app cotan_figures cotan_truth ${costs})
-foreach(fact saysTheSame isMissed endsBySignals)
+foreach(fact printsTheSame missingProgramIsReported endsOnSignals)
   add_test(NAME Lab.${fact} COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/lab_test.sh $<TARGET_FILE:cotan> ${PROJECT_BINARY_DIR}/lab ${fact})
 endforeach()

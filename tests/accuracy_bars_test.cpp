@@ -1,5 +1,5 @@
-// Bars and controls that the tables of `cotan accuracy` must keep: A2, A4, B1 to B4, D1 to D4 of
-// docs/project/testing.md. (A1, A3 and the details of D3 have tests of their own beside the frames.)
+// Error bars and controls that the tables of `cotan accuracy` must satisfy: A2, A4, B1 to B4 and D1 to D4 of
+// docs/project/testing.md. A1, A3 and the details of D3 have their own tests beside those of the frames.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ std::vector<Measurement> measure(const char* table, AccuracySelection selection 
     return {};
 }
 
-// The one row with these names; a failure and zeros if there is not exactly one.
+// Returns the only row with these names. Unless exactly one row matches, fails the test and returns zeros.
 Measurement only(const std::vector<Measurement>& rows, const char* setting, const char* frame,
                  const char* arithmetic = "double", const char* truth = "S")
 {
@@ -36,10 +36,10 @@ Measurement only(const std::vector<Measurement>& rows, const char* setting, cons
 
 AccuracySelection scene(const char* name) { return {{}, name}; }
 
-TEST(AccuracyBarA2, squarePatchFramesMissStretchedAndShearedUvByTheirKnownAmounts)
+TEST(AccuracyBarA2, squarePatchFramesAreWrongOnStretchedAndShearedUv)
 {
     const char* domes = "domes, frontal";
-    // Independent figures of the same domes; tolerance: another sampling of them.
+    // Figures of an independent program for the same domes; the tolerance allows for its different samples.
     const auto stretched = measure("flat", scene("stretch 2:1"));
     for (const char* frame : {"paper-transpose", "unit", "orthonormal", "vertex", "mikktspace"})
         for (const char* arithmetic : {"double", "float"})
@@ -51,14 +51,14 @@ TEST(AccuracyBarA2, squarePatchFramesMissStretchedAndShearedUvByTheirKnownAmount
     for (const char* frame : {"orthonormal", "vertex", "mikktspace"})
         EXPECT_NEAR(only(sheared, domes, frame).mean, 16.3, 0.2) << frame;
     EXPECT_NEAR(only(sheared, domes, "paper-transpose").mean, 5.32, 0.1);
-    // Frames that keep lengths and skew are right on all of them, in truth S.
+    // Frames that preserve lengths and skew are exact on all of these scenes under truth S.
     for (const auto* rows : {&stretched, &stretched4, &sheared})
         for (const char* frame : {"cotangent", "exact", "smooth", "paper-full"})
             EXPECT_LT(only(*rows, domes, frame).maximum, frame == std::string("smooth") ? 1e-5 : 1e-9)
-                << frame; // smooth: attributes of float
+                << frame; // "smooth" has float attributes
 }
 
-TEST(AccuracyBarA2, oneCommonFactorCostsMetricTruthAndTheGradientFrameDoesNot)
+TEST(AccuracyBarA2, onlyTheGradientFrameIsExactUnderShearAndScale)
 {
     const char* domes = "domes, frontal";
     const auto sheared = measure("flat", scene("shear 45")), larger = measure("flat", scene("scale 3"));
@@ -84,7 +84,7 @@ TEST(AccuracyBarA2, shortcutsFailOnForeshorteningWithoutPerspective)
         }
 }
 
-TEST(AccuracyBarA4, everySignCombinationIsExactButForTheFrameKeptAsPrinted)
+TEST(AccuracyBarA4, everySignCombinationIsExactExceptForCotangent2013)
 {
     int reversed = 0, rows = 0;
     for (const Measurement& m : measure("signs")) {
@@ -92,7 +92,7 @@ TEST(AccuracyBarA4, everySignCombinationIsExactButForTheFrameKeptAsPrinted)
             continue;
         ++rows;
         if (m.frame == "cotangent-2013") {
-            // The tilt of 35 degrees points the other way: 70 degrees off.
+            // The tilt of 35 degrees points the opposite way: an error of 70 degrees.
             EXPECT_TRUE(m.maximum < 1e-4 || std::abs(m.mean - 70) < 1e-4) << m.scene;
             reversed += m.maximum > 1;
         } else {
@@ -103,7 +103,7 @@ TEST(AccuracyBarA4, everySignCombinationIsExactButForTheFrameKeptAsPrinted)
     EXPECT_EQ(reversed, 12 * 2);
 }
 
-TEST(AccuracyBarA4, greenIsRightInAllFourCombinationsWithTheFlagSetRightAndOnlyThen)
+TEST(AccuracyBarA4, greenIsRightOnlyWithTheRightFlag)
 {
     int right = 0, wrong = 0;
     for (const Measurement& m : measure("signs")) {
@@ -113,18 +113,18 @@ TEST(AccuracyBarA4, greenIsRightInAllFourCombinationsWithTheFlagSetRightAndOnlyT
         }
         if (m.setting == "flag wrong") {
             ++wrong;
-            EXPECT_GT(m.mean, 10) << m.scene; // slopes to 0.4: about 22 degrees mean
+            EXPECT_GT(m.mean, 10) << m.scene; // slopes up to 0.4: a mean of about 22 degrees
         }
     }
     EXPECT_EQ(right, 8);
     EXPECT_EQ(wrong, 8);
 }
 
-// ---- B: curved surfaces. Bars hold in double and in float. ------------------------------------
+// ---- B: curved surfaces. The bars hold in double and in float. --------------------------------
 
 constexpr const char* kBoth[] = {"double", "float"};
 
-TEST(AccuracyBarB1, cotangentErrorIsFirstOrderInTheSegmentsAndSmall)
+TEST(AccuracyBarB1, cotangentErrorIsFirstOrderAndSmall)
 {
     const auto sphere = measure("curved", {{Frame::cotangent, Frame::exact}, "sphere"});
     for (const char* arithmetic : kBoth)
@@ -172,7 +172,7 @@ TEST(AccuracyBarB2, smoothFusedIsSecondOrderAndWithin40PercentOfItsTotalForm)
     }
 }
 
-TEST(AccuracyBarB2, smoothErrorIsSecondOrderAndItHasNoFacets)
+TEST(AccuracyBarB2, smoothErrorIsSecondOrderWithoutFacets)
 {
     const auto rows = measure("curved", {{Frame::smooth}, "sphere"});
     for (const char* arithmetic : kBoth) {
@@ -189,7 +189,7 @@ TEST(AccuracyBarB2, smoothErrorIsSecondOrderAndItHasNoFacets)
         }
 }
 
-TEST(AccuracyBarB3, mikktspaceIsSecondOrderOnConformalUvAndDoesNotConvergeElsewhere)
+TEST(AccuracyBarB3, mikktspaceConvergesOnlyOnConformalUv)
 {
     const auto mercator = measure("curved", {{Frame::mikktspace}, "mercator"});
     EXPECT_LT(only(mercator, "32", "mikktspace").mean, 0.21);
@@ -199,7 +199,7 @@ TEST(AccuracyBarB3, mikktspaceIsSecondOrderOnConformalUvAndDoesNotConvergeElsewh
     EXPECT_NEAR(only(sphere, "256", "mikktspace").mean, 3.8, 0.2);
 }
 
-TEST(AccuracyBarB4, gradientHoldsMetricTruth)
+TEST(AccuracyBarB4, gradientErrorAgainstTheMetricNormalIsSmall)
 {
     for (auto [surface, bar] : {std::pair("spout", 0.23), std::pair("sphere", 0.90)}) {
         const auto rows = measure("curved", {{Frame::gradient}, surface});
@@ -210,7 +210,7 @@ TEST(AccuracyBarB4, gradientHoldsMetricTruth)
 
 TEST(AccuracyControls, wrongFramesOnASphereAreWrongByTheirKnownAmounts)
 {
-    // Figures of an independent program over other random samples: 3 % between them.
+    // Figures of an independent program with other random samples; the two differ by up to 3 %.
     const auto rows = measure("curved", scene("sphere"));
     EXPECT_NEAR(only(rows, "32", "(no map)").mean, 21.8, 0.7);
     EXPECT_NEAR(only(rows, "32", "nonperspective").mean, 8.83, 0.27);
@@ -220,11 +220,11 @@ TEST(AccuracyControls, wrongFramesOnASphereAreWrongByTheirKnownAmounts)
     EXPECT_NEAR(only(rows, "32", "(Blinn, analytic)", "double", "E").mean, 0.18, 0.01);
 }
 
-TEST(AccuracyBarD1, largeUvCostAboutADegreeTimesTheirRoundingOverTheFootprint)
+TEST(AccuracyBarD1, errorOfLargeUvIsTheirRoundingOverTheFootprint)
 {
     const auto rows = measure("precision", {{Frame::cotangent}, "large uv"});
     auto mean = [&](const char* setting) { return only(rows, setting, "cotangent", "float", "exact arithmetic").mean; };
-    // One degree times uv x 1e-6 / footprint, to a factor of two: rounding of a float.
+    // One degree times uv x 1e-6 / footprint, within a factor of two: the rounding of a float.
     EXPECT_NEAR(mean("uv up to 16, footprint 0.0001"), 0.123, 0.06);
     EXPECT_NEAR(mean("uv up to 256, footprint 0.001"), 0.196, 0.1);
     EXPECT_NEAR(mean("uv up to 4096, footprint 0.01"), 0.311, 0.15);
@@ -232,7 +232,7 @@ TEST(AccuracyBarD1, largeUvCostAboutADegreeTimesTheirRoundingOverTheFootprint)
         EXPECT_EQ(m.invalid, 0) << m.setting;
 }
 
-TEST(AccuracyBarD2, halfArithmeticHoldsAfterScalingInFloatAndFailsWithoutIt)
+TEST(AccuracyBarD2, halfPrecisionIsAccurateOnlyAfterScalingInFloat)
 {
     const auto scaled = measure("half", scene("scaled in float, frame in half"));
     for (const char* frame : {"cotangent", "orthonormal"})
@@ -245,7 +245,7 @@ TEST(AccuracyBarD2, halfArithmeticHoldsAfterScalingInFloatAndFailsWithoutIt)
     EXPECT_NEAR(only(plain, "footprint 0.01", "cotangent-2013", "half", "exact arithmetic").invalid, 0.79, 0.03);
 }
 
-TEST(AccuracyBarD3, totalFramesAreFiniteInAll19CasesAndTheOthersAreNot)
+TEST(AccuracyBarD3, onlyTotalFramesAreFiniteInAll19Cases)
 {
     std::size_t total = 0;
     bool othersFail = false;
@@ -262,11 +262,11 @@ TEST(AccuracyBarD3, totalFramesAreFiniteInAll19CasesAndTheOthersAreNot)
     EXPECT_TRUE(othersFail);
 }
 
-TEST(AccuracyBarD4, proceduralUvCostUnderADegreeWhereAWarpSpans64Pixels)
+TEST(AccuracyBarD4, proceduralUvErrorIsBelowOneDegreeAt64PixelsPerWave)
 {
     const auto fine = measure("procedural", scene("fine derivatives"));
     EXPECT_LT(only(fine, "64 pixels a wave", "cotangent").mean, 0.9);
-    // First order in the footprint: a quarter of the pixels, four times the error.
+    // First order in the footprint: a wave over a quarter of the pixels has four times the error.
     EXPECT_NEAR(only(fine, "64 pixels a wave", "cotangent").mean / only(fine, "256 pixels a wave", "cotangent").mean, 4,
                 0.2);
     const auto analytic = measure("procedural", scene("analytic Jacobian"));
@@ -289,7 +289,7 @@ TEST(Accuracy, rowsDoNotDependOnTheSelection)
     }
 }
 
-TEST(Accuracy, collectorCountsWhatIsNotFiniteApart)
+TEST(Accuracy, collectorCountsNonFiniteValuesSeparately)
 {
     AngleCollector angles;
     for (double d : {3.0, 1.0, 2.0, double(NAN), double(INFINITY)})
@@ -298,7 +298,7 @@ TEST(Accuracy, collectorCountsWhatIsNotFiniteApart)
     EXPECT_EQ(m.samples, 5u);
     EXPECT_DOUBLE_EQ(m.mean, 2);
     EXPECT_DOUBLE_EQ(m.maximum, 3);
-    EXPECT_DOUBLE_EQ(m.percentile95, 3); // 95 % of three are more than two
+    EXPECT_DOUBLE_EQ(m.percentile95, 3); // two samples of three are less than 95 %
     EXPECT_DOUBLE_EQ(m.invalid, 0.4);
 }
 

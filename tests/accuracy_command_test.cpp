@@ -10,7 +10,7 @@
 namespace cotan::test {
 namespace {
 
-TEST(AccuracyCommand, printsTheTablesAskedFor)
+TEST(AccuracyCommand, printsTheRequestedTables)
 {
     TemporaryFolder folder;
     const ToolRun r =
@@ -22,7 +22,7 @@ TEST(AccuracyCommand, printsTheTablesAskedFor)
     EXPECT_EQ(r.err, "");
 }
 
-TEST(AccuracyCommand, sameFiguresForAnyNumberOfThreads)
+TEST(AccuracyCommand, figuresDoNotDependOnThreads)
 {
     TemporaryFolder folder;
     for (const char* threads : {"1", "3"}) {
@@ -35,7 +35,7 @@ TEST(AccuracyCommand, sameFiguresForAnyNumberOfThreads)
     EXPECT_EQ(readWhole(folder / "1.csv"), readWhole(folder / "3.csv"));
 }
 
-TEST(AccuracyCommand, aFigureThatBecameWorseIsExitCode5)
+TEST(AccuracyCommand, aWorseFigureExitsFive)
 {
     TemporaryFolder folder;
     const std::vector<std::string> words{"accuracy", "--tables", "procedural", "--frames", "gradient"};
@@ -47,7 +47,7 @@ TEST(AccuracyCommand, aFigureThatBecameWorseIsExitCode5)
     const ToolRun same = with({"--against", "figures.csv"});
     EXPECT_EQ(same.code, 0) << same.err;
     EXPECT_NE(same.out.find("none is worse"), std::string::npos);
-    // Pretend that the past was better: one row of degrees becomes 0.01.
+    // Lower one recorded error to 0.01 degrees, so that the present result counts as worse.
     std::string text = readWhole(folder / "figures.csv");
     const std::size_t row = text.find("fine derivatives,4 pixels a wave,gradient,E,double,6000,");
     ASSERT_NE(row, std::string::npos);
@@ -60,7 +60,7 @@ TEST(AccuracyCommand, aFigureThatBecameWorseIsExitCode5)
         << worse.err;
 }
 
-TEST(AccuracyCommand, wrongWordsGetOneLineAndTheirExitCode)
+TEST(AccuracyCommand, wrongArgumentsGetOneLineAndTheirExitCode)
 {
     TemporaryFolder folder;
     std::ofstream(folder / "not.csv") << "hello\n";
@@ -80,8 +80,8 @@ TEST(AccuracyCommand, wrongWordsGetOneLineAndTheirExitCode)
     }
 }
 
-// The bars B1 to B4 for pictures: the device draws, normals are read back. On a machine without a
-// Vulkan device the reference renderer draws, and must hold them too.
+// Bars B1 to B4 for rendered images: the GPU draws and the normals are read back. Without a Vulkan device the reference
+// renderer draws and must satisfy the same bars.
 TEST(AccuracyCommand, barsOfCurvedSurfacesHoldOnTheDevice)
 {
     TemporaryFolder folder;
@@ -110,11 +110,11 @@ TEST(AccuracyCommand, barsOfCurvedSurfacesHoldOnTheDevice)
     EXPECT_GT(mean("64", "mikktspace"), 2); // the control; pixels weigh the poles less than area does
     for (const Measurement& m : *rows) {
         EXPECT_EQ(m.invalid, 0) << m.frame;
-        EXPECT_GT(m.samples, 50000u); // three pictures of 384 x 384
+        EXPECT_GT(m.samples, 50000u); // three images of 384 x 384
     }
 }
 
-TEST(AccuracyCommand, flatPatchesOnTheDeviceAreExactToTheMapsFiltering)
+TEST(AccuracyCommand, flatPatchesOnTheDeviceAreExactUpToMapFiltering)
 {
     TemporaryFolder folder;
     for (const char* layout : {"stretch 2:1", "shear 45", "mirrored"}) {

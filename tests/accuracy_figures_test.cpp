@@ -1,4 +1,4 @@
-// The committed figures of docs/accuracy.csv may only improve.
+// The committed errors in docs/accuracy.csv may only decrease.
 #include <gtest/gtest.h>
 
 #include "report/measurements.hpp"
@@ -27,7 +27,7 @@ TEST(AccuracyFigures, noCommittedFigureHasBecomeWorse)
     for (const AccuracyTable& table : accuracyTables()) {
         AccuracySelection selection;
         if (table.name == "curved" || table.name == "facets")
-            selection.scene = "spout"; // all surfaces take minutes without optimisation
+            selection.scene = "spout"; // all surfaces take minutes in unoptimised builds
         for (Measurement& m : table.measure(selection))
             now.push_back(std::move(m));
     }
@@ -38,7 +38,7 @@ TEST(AccuracyFigures, noCommittedFigureHasBecomeWorse)
     EXPECT_EQ(compared, now.size()); // every figure is in the file
 }
 
-TEST(AccuracyFigures, csvComesBackAsItWas)
+TEST(AccuracyFigures, csvRoundTrips)
 {
     const std::vector<Measurement> rows = {row(0.4719), row(1.25e-11, 0.5, "float")};
     const auto back = measurementsFromCsv(toCsv(rows), "memory");
@@ -52,7 +52,7 @@ TEST(AccuracyFigures, csvComesBackAsItWas)
     EXPECT_DOUBLE_EQ((*back)[1].invalid, 0.5);
 }
 
-TEST(AccuracyFigures, brokenCsvIsNamedWithItsLine)
+TEST(AccuracyFigures, brokenCsvIsReportedWithItsLine)
 {
     EXPECT_FALSE(measurementsFromCsv("", "x"));
     EXPECT_FALSE(measurementsFromCsv("table,mean\n", "x"));
@@ -65,17 +65,17 @@ TEST(AccuracyFigures, brokenCsvIsNamedWithItsLine)
     EXPECT_EQ(word.error().message, "x: line 3: expected numbers in columns 7 to 11");
 }
 
-TEST(AccuracyFigures, worseMeansMoreThanSamplingAndRoundingExplain)
+TEST(AccuracyFigures, worseMeansBeyondSamplingAndRoundingErrors)
 {
     std::size_t compared = 0;
     EXPECT_TRUE(worsenings({row(1)}, {row(1.019)}, compared).empty());
     EXPECT_EQ(compared, 1u);
     EXPECT_EQ(worsenings({row(1)}, {row(1.03)}, compared).size(), 1u);
     EXPECT_TRUE(worsenings({row(1)}, {row(0.5)}, compared).empty());
-    EXPECT_TRUE(worsenings({row(1e-12)}, {row(5e-10)}, compared).empty()); // rounding of double
+    EXPECT_TRUE(worsenings({row(1e-12)}, {row(5e-10)}, compared).empty()); // below the rounding of double
     EXPECT_EQ(worsenings({row(1e-12)}, {row(5e-9)}, compared).size(), 1u);
-    EXPECT_EQ(worsenings({row(1)}, {row(1, 0.01)}, compared).size(), 1u);      // results that are not finite
-    EXPECT_TRUE(worsenings({row(1)}, {row(9, 0, "float")}, compared).empty()); // not the same figure
+    EXPECT_EQ(worsenings({row(1)}, {row(1, 0.01)}, compared).size(), 1u);      // a fraction of results is not finite
+    EXPECT_TRUE(worsenings({row(1)}, {row(9, 0, "float")}, compared).empty()); // another figure: a different arithmetic
     EXPECT_EQ(compared, 0u);
 }
 

@@ -1,4 +1,4 @@
-// Adjacency made at load, for frames that are gathered.
+// Adjacency built at load time, for frames that gather from neighbouring triangles.
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -16,7 +16,7 @@ using cotan::Adjacency;
 using cotan::makeAdjacency;
 using cotan::makeNormalAdjacency;
 
-// Gathered in double, with the angle as the library's arc cosine gives it.
+// Smooth cotangents gathered over the adjacency in double, weighted with the angle from std::acos.
 cotan::Cotangents gathered(const Arrays& a, const Adjacency& adjacency)
 {
     cotan::Cotangents out{std::vector<glm::vec3>(a.positions.size()), std::vector<glm::vec3>(a.positions.size())};
@@ -46,18 +46,18 @@ cotan::Cotangents gathered(const Arrays& a, const Adjacency& adjacency)
     return out;
 }
 
-// The largest difference, relative to the longer gradient.
-double mostOff(const cotan::Cotangents& a, const cotan::Cotangents& b)
+// Returns the largest difference of a gradient, relative to the longer gradient of its vertex.
+double maxRelativeError(const cotan::Cotangents& a, const cotan::Cotangents& b)
 {
-    double most = a.u.size() == b.u.size() ? 0 : 1e9;
+    double maximum = a.u.size() == b.u.size() ? 0 : 1e9;
     for (std::size_t i = 0; i < a.u.size() && i < b.u.size(); ++i) {
         const double length = std::max({glm::length(b.u[i]), glm::length(b.v[i]), 1e-9f});
-        most = std::max(most, std::max(glm::length(a.u[i] - b.u[i]), glm::length(a.v[i] - b.v[i])) / length);
+        maximum = std::max(maximum, std::max(glm::length(a.u[i] - b.u[i]), glm::length(a.v[i] - b.v[i])) / length);
     }
-    return most;
+    return maximum;
 }
 
-// Ordinary and mirrored halves that meet on a line, split there.
+// A sheet of an ordinary and a mirrored half; vertices on the line between them are split.
 Arrays mirroredSeam(std::uint32_t n)
 {
     Arrays a = gridOf(n, [](float x, float y) {
@@ -71,7 +71,7 @@ Arrays mirroredSeam(std::uint32_t n)
     return out;
 }
 
-// Every vertex in one group; every corner that has a side in one.
+// Every vertex is in exactly one group, and every corner with an orientation is in exactly one.
 void expectSound(const Arrays& a, const Adjacency& adjacency)
 {
     ASSERT_EQ(adjacency.cornerBegin.size(), adjacency.vertexBegin.size());
@@ -89,18 +89,18 @@ void expectSound(const Arrays& a, const Adjacency& adjacency)
     ASSERT_LE(adjacency.firstMirrored, adjacency.groups());
 }
 
-// A few roundings of float at edges of 1/24 between coordinates of 1, and the float arc cosine.
+// A few float roundings of coordinates near 1 over edges of 1/24, plus the error of the float arc cosine.
 constexpr double kRounding = 2e-5;
 
-TEST(Adjacency, gathersWhatSmoothCotangentsAverageOnASphereIndexedOrNot)
+TEST(Adjacency, gathersTheCornersThatSmoothCotangentsAverage)
 {
     for (const Arrays& a : {sphereGrid(24), unindexed(sphereGrid(24))}) {
         const Adjacency adjacency = makeAdjacency(a.view());
         expectSound(a, adjacency);
-        EXPECT_EQ(adjacency.groups(), 25u * 25u); // equal vertices are one, so that no corner is read for each copy
+        EXPECT_EQ(adjacency.groups(), 25u * 25u); // equal vertices share a group: no corner is read once per copy
         EXPECT_EQ(adjacency.corners.size(), a.indices.size());
         EXPECT_EQ(adjacency.firstMirrored, adjacency.groups());
-        EXPECT_LT(mostOff(gathered(a, adjacency), smoothCotangents(a.view())), kRounding);
+        EXPECT_LT(maxRelativeError(gathered(a, adjacency), smoothCotangents(a.view())), kRounding);
     }
 }
 
@@ -109,12 +109,12 @@ TEST(Adjacency, keepsMirroredTrianglesApartWhereTheyMeet)
     const Arrays a = mirroredSeam(8);
     const Adjacency adjacency = makeAdjacency(a.view());
     expectSound(a, adjacency);
-    EXPECT_EQ(adjacency.groups(), 81u + 9u); // the line is there twice
+    EXPECT_EQ(adjacency.groups(), 81u + 9u); // the line is there twice: once per side
     EXPECT_EQ(adjacency.firstMirrored, 45u);
     EXPECT_EQ(adjacency.corners.size(), a.indices.size());
-    EXPECT_LT(mostOff(gathered(a, adjacency), smoothCotangents(a.view())), kRounding);
-    // On the sheet u runs to the right in one half and to the left in the other; unmirrored is where u
-    // runs right, seen from outside with v down.
+    EXPECT_LT(maxRelativeError(gathered(a, adjacency), smoothCotangents(a.view())), kRounding);
+    // On the sheet, u runs to the right in one half and to the left in the other. Seen from outside with v down,
+    // triangles are unmirrored where u runs to the right.
     for (std::uint32_t g = 0; g < adjacency.groups(); ++g)
         for (std::uint32_t i = adjacency.cornerBegin[g]; i < adjacency.cornerBegin[g + 1]; ++i) {
             const std::uint32_t f = adjacency.corners[i] / 3;
@@ -134,17 +134,17 @@ TEST(Adjacency, givesTheLargerAngleToAVertexThatBothSidesIndex)
     a.indices = {v, r, up, v, up, left}; // 84 degrees unmirrored, 22 mirrored
     const Adjacency adjacency = makeAdjacency(a.view());
     expectSound(a, adjacency);
-    EXPECT_LT(mostOff(gathered(a, adjacency), smoothCotangents(a.view())), kRounding);
-    EXPECT_EQ(adjacency.corners.size(), 3u + 1u); // `v` and `up` leave their mirrored corners out
+    EXPECT_LT(maxRelativeError(gathered(a, adjacency), smoothCotangents(a.view())), kRounding);
+    EXPECT_EQ(adjacency.corners.size(), 3u + 1u); // the mirrored corners of `v` and `up` are left out
 }
 
-TEST(Adjacency, leavesTrianglesWithoutAreaOutAndKeepsTheirVertices)
+TEST(Adjacency, omitsTrianglesWithoutAreaButKeepsTheirVertices)
 {
     Arrays a = sphereGrid(4);
     const std::size_t sound = a.indices.size();
     const std::uint32_t lone = a.add({5, 5, 5}, {0, 0, 1}, {0, 0});
-    const std::uint32_t p = a.add({6, 5, 5}, {0, 0, 1}, {1, 0}), q = a.add({7, 5, 5}, {0, 0, 1}, {0, 1}); // on a line
-    const std::uint32_t s = a.add({6, 6, 5}, {0, 0, 1}, {1, 0});                                          // no uv
+    const std::uint32_t p = a.add({6, 5, 5}, {0, 0, 1}, {1, 0}), q = a.add({7, 5, 5}, {0, 0, 1}, {0, 1}); // collinear
+    const std::uint32_t s = a.add({6, 6, 5}, {0, 0, 1}, {1, 0});                                          // no uv area
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const std::uint32_t none = a.add({nan, 6, 5}, {0, 0, 1}, {0, 1}), unused = a.add({9, 9, 9}, {0, 0, 0}, {0, 0});
     for (const std::uint32_t i : {lone, p, q, lone, p, s, lone, lone, p, lone, s, none, 0u, 0u, 1u})
@@ -154,10 +154,10 @@ TEST(Adjacency, leavesTrianglesWithoutAreaOutAndKeepsTheirVertices)
     EXPECT_EQ(adjacency.groups(), a.positions.size());
     EXPECT_EQ(adjacency.corners.size(), sound);
     EXPECT_EQ(adjacency.vertices.back(), unused);
-    EXPECT_LT(mostOff(gathered(a, adjacency), smoothCotangents(a.view())), kRounding);
+    EXPECT_LT(maxRelativeError(gathered(a, adjacency), smoothCotangents(a.view())), kRounding);
 }
 
-TEST(Adjacency, isEmptyForArraysThatDoNotFit)
+TEST(Adjacency, isEmptyForInconsistentArrays)
 {
     Arrays a = sphereGrid(2);
     a.indices[3] = 9;
@@ -169,9 +169,9 @@ TEST(Adjacency, isEmptyForArraysThatDoNotFit)
     EXPECT_EQ(makeAdjacency(Arrays().view()).groups(), 0u);
 }
 
-TEST(NormalAdjacency, goesAcrossSeamsOfTexcoordsAndStopsAtEdgesOfNormals)
+TEST(NormalAdjacency, crossesUvSeamsAndStopsAtNormalSeams)
 {
-    // The line of the seam is there twice for its mirrored texcoords and once for its normals.
+    // The vertices of the seam are there twice because texcoords are mirrored, but their normals form one group.
     const Arrays a = mirroredSeam(8);
     const Adjacency adjacency = makeNormalAdjacency(a.view());
     expectSound(a, adjacency);
@@ -198,10 +198,10 @@ TEST(NormalAdjacency, putsTrianglesWoundAgainstTheirNormalsLast)
     EXPECT_EQ(makeNormalAdjacency(a.view()).groups(), 0u);
 }
 
-TEST(Adjacency, isLinearInASoupAndAtAPole)
+TEST(Adjacency, takesLinearTimeForUnsharedVerticesAndAtAPole)
 {
-    // All of 200,000 corners at one point of equal attributes: one group, each corner in it once. Time that
-    // grew with the square would be minutes.
+    // All 200,000 corners at one point with equal attributes: one group that contains each corner once. Quadratic time
+    // would be minutes.
     Arrays a;
     const std::uint32_t n = 200000;
     for (std::uint32_t i = 0; i < n; ++i) {

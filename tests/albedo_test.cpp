@@ -1,4 +1,4 @@
-// What GGX reflects of white light, against the sum over all directions of light.
+// GGX reflectance of uniform white light, compared with a sum over all light directions.
 #include <cmath>
 #include <numbers>
 
@@ -11,8 +11,8 @@
 namespace cotan {
 namespace {
 
-// GGX with Smith's correlated term and Schlick's Fresnel of f0 = 0 (y) and what more f0 = 1 adds (x), by the textbook:
-// the integral of D G F / (4 nv) over the hemisphere of lights, by midpoints.
+// Directional albedo of GGX with the height-correlated Smith term and Schlick's Fresnel: y for f0 = 0, x what f0 = 1
+// adds. Textbook integral of D G F / (4 nv) over the hemisphere of light directions, by the midpoint rule.
 glm::dvec2 summed(double nv, double roughness)
 {
     const double alpha2 = std::pow(roughness, 4);
@@ -22,7 +22,7 @@ glm::dvec2 summed(double nv, double roughness)
     constexpr int kUp = 600, kAround = 1200;
     for (int i = 0; i < kUp; ++i)
         for (int k = 0; k < kAround; ++k) {
-            const double nl = (i + 0.5) / kUp, phi = 2 * std::numbers::pi * (k + 0.5) / kAround; // of one solid angle
+            const double nl = (i + 0.5) / kUp, phi = 2 * std::numbers::pi * (k + 0.5) / kAround; // equal solid angles
             const double sine = std::sqrt(1 - nl * nl);
             const glm::dvec3 h = glm::normalize(v + glm::dvec3(sine * std::cos(phi), sine * std::sin(phi), nl));
             const double below = h.z * h.z * (alpha2 - 1) + 1;
@@ -36,7 +36,7 @@ glm::dvec2 summed(double nv, double roughness)
 
 TEST(Albedo, isTheSumOverAllLights)
 {
-    // 64 samples of a low-discrepancy set are off by about 1 in 64 at most.
+    // 64 samples of a low-discrepancy set have an error of about 1/64 at most.
     for (const double roughness : {0.5, 0.7, 1.0})
         for (const double nv : {0.15, 0.3, 0.6, 0.95}) {
             const glm::dvec2 found = environment::albedoFactors(nv, roughness), right = summed(nv, roughness);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""architecture_test.py SOURCES FACT: whether a fact of docs/project/architecture.md holds of the tree. Says what does not."""
+"""architecture_test.py SOURCES FACT: checks a fact of docs/project/architecture.md, prints violations."""
 import collections
 import pathlib
 import re
@@ -8,7 +8,7 @@ import sys
 ROOT = pathlib.Path(sys.argv[1])
 SRC = ROOT / "src"
 MOST_FOLDERS, MOST_ARROWS, MOST_HEADERS, MOST_LINES = 13, 80, 30, 50_000
-WITHOUT_HEADER = {"c"}  # it has cotan.h
+WITHOUT_HEADER = {"c"}  # its header is cotan.h
 INCLUDE = re.compile(r'^\s*#\s*include\s+[<"]([^">]+)[">]', re.M)
 
 parts = sorted(p.name for p in SRC.iterdir() if p.is_dir())
@@ -19,7 +19,7 @@ wrong = []
 
 
 def part_of(include, file):
-    """The part whose header it is; none of a system's, of the portable text, and of a file beside."""
+    """The part that owns the header; None for system headers, the portable text, and files in the same folder."""
     if include in owner:
         return owner[include]
     if (file.parent / include).is_file():
@@ -29,7 +29,7 @@ def part_of(include, file):
 
 
 def arrows():
-    """Part -> part that it includes -> a place where it does."""
+    """Part -> included part -> an example of a file that includes it."""
     found = collections.defaultdict(dict)
     for file in files:
         own = file.relative_to(SRC).parts[0]
@@ -63,7 +63,7 @@ def everySourceIsBuilt():
         wrong.append(f"{count} sources: this test no longer finds them")
 
 
-def hasFewArrows():
+def hasFewDependencies():
     count = sum(len(others) for others in arrows().values())
     if count > MOST_ARROWS:
         wrong.append(f"{count} arrows between parts: expected at most {MOST_ARROWS}")
@@ -71,7 +71,7 @@ def hasFewArrows():
         wrong.append(f"{count} arrows between parts: this test no longer finds them")
 
 
-def hasNoCircle():
+def hasNoDependencyCycle():
     found, done = arrows(), []
 
     def visit(part, way):
@@ -109,7 +109,7 @@ def eachPartHasOnePublicHeader():
                 wrong.append(f"{header.relative_to(ROOT)} is public and includes {include}, which is not")
 
 
-def noTwoFilesHaveOneName():
+def fileNamesAreUnique():
     names = collections.defaultdict(list)
     for file in SRC.rglob("*"):
         if file.is_file() and file.name != "CMakeLists.txt":
@@ -128,8 +128,8 @@ def judgesAreIndependent():
                     wrong.append(f"{file.relative_to(ROOT)} includes {include}")
 
 
-FACTS = (hasFewFolders, hasFewLines, everySourceIsBuilt, hasFewArrows, hasNoCircle, partsIncludeWhatTheyLink, eachPartHasOnePublicHeader,
-         noTwoFilesHaveOneName, judgesAreIndependent)
+FACTS = (hasFewFolders, hasFewLines, everySourceIsBuilt, hasFewDependencies, hasNoDependencyCycle,
+         partsIncludeWhatTheyLink, eachPartHasOnePublicHeader, fileNamesAreUnique, judgesAreIndependent)
 if __name__ == "__main__":
     chosen = [f for f in FACTS if f.__name__ == sys.argv[2]] if len(sys.argv) > 2 else FACTS
     if not chosen:

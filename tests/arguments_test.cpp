@@ -1,5 +1,5 @@
-// A command of every kind of option: what each takes on both sides of its bounds, what is said of it, and what the help
-// has of it as values.
+// A command with every kind of option: the values that each accepts at its bounds, the error beyond them, and the
+// values that the help lists.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -49,8 +49,8 @@ struct Everything {
     }
 };
 
-// The command takes the words, or says in one line what it expected.
-void expectTaken(const std::string& option, const std::string& value, const std::string& unless = "")
+// Expects that the command accepts the value or, if `unless` is not empty, that it fails with this one line.
+void expectAccepted(const std::string& option, const std::string& value, const std::string& unless = "")
 {
     Everything e;
     const Status done = e.run({option, value});
@@ -63,41 +63,41 @@ void expectTaken(const std::string& option, const std::string& value, const std:
     }
 }
 
-TEST(Arguments, numbersAreTakenUpToTheirBoundsAndNotBeyond)
+TEST(Arguments, numbersAreAcceptedUpToTheirBounds)
 {
     for (const char* good : {"2", "3", "5"})
-        expectTaken("--whole", good);
+        expectAccepted("--whole", good);
     for (const char* bad : {"1", "6", "-3", "2.5", "x", "4x", "nan"})
-        expectTaken("--whole", bad, "expected a whole number from 2 to 5; found '" + std::string(bad) + "'");
+        expectAccepted("--whole", bad, "expected a whole number from 2 to 5; found '" + std::string(bad) + "'");
     for (const char* good : {"-1.5", "0", "2.25", "1e-3"})
-        expectTaken("--real", good);
+        expectAccepted("--real", good);
     for (const char* bad : {"-1.51", "2.26", "nan", "inf", "x", "1x"})
-        expectTaken("--real", bad, "expected a number from -1.5 to 2.25; found '" + std::string(bad) + "'");
+        expectAccepted("--real", bad, "expected a number from -1.5 to 2.25; found '" + std::string(bad) + "'");
     for (const char* good : {"1e-6", "1", "1e6"})
-        expectTaken("--above", good);
+        expectAccepted("--above", good);
     for (const char* bad : {"0", "-1", "1.1e6", "nan", "inf", "x", "1x"})
-        expectTaken("--above", bad, "expected a number above 0 and at most 1e6; found '" + std::string(bad) + "'");
+        expectAccepted("--above", bad, "expected a number above 0 and at most 1e6; found '" + std::string(bad) + "'");
     for (const char* good : {"auto", "0.5", "1e6"})
-        expectTaken("--auto", good);
+        expectAccepted("--auto", good);
     for (const char* bad : {"0", "automatic", "1.1e6", "nan"})
-        expectTaken("--auto", bad,
+        expectAccepted("--auto", bad,
                     "expected auto or a number above 0 and at most 1e6; found '" + std::string(bad) + "'");
 }
 
-TEST(Arguments, choicesAreTakenAndNothingElse)
+TEST(Arguments, onlyListedChoicesAreAccepted)
 {
     for (const char* good : {"1", "4", "16"})
-        expectTaken("--chosen", good);
+        expectAccepted("--chosen", good);
     for (const char* bad : {"0", "2", "15", "x"})
-        expectTaken("--chosen", bad, "expected 1, 4 or 16; found '" + std::string(bad) + "'");
+        expectAccepted("--chosen", bad, "expected 1, 4 or 16; found '" + std::string(bad) + "'");
     for (const char* good : {"a", "b", "c"})
-        expectTaken("--word", good);
+        expectAccepted("--word", good);
     for (const char* bad : {"d", "A", "ab"})
-        expectTaken("--word", bad, "expected a, b or c; found '" + std::string(bad) + "'");
+        expectAccepted("--word", bad, "expected a, b or c; found '" + std::string(bad) + "'");
 }
 
-// What an option's own reading refuses is an error of the work: help and plans of jobs come before it.
-TEST(Arguments, aTextThatIsNoValueEndsTheCommandInPlaceOfItsWork)
+// A value that an option's own parser refuses ends the command in place of its work; help and job plans come first.
+TEST(Arguments, anInvalidValueEndsTheCommandBeforeItRuns)
 {
     Arguments tool("tool", "what it is", "1.2.3");
     Arguments command = tool.command("do", "what it does");
@@ -131,7 +131,7 @@ TEST(Arguments, aTextThatIsNoValueEndsTheCommandInPlaceOfItsWork)
     EXPECT_EQ(runs, 1);
 }
 
-TEST(Arguments, whatIsWrongComesFirstAndThenWithWhat)
+TEST(Arguments, errorsNameTheProblemAndThenTheHelp)
 {
     const std::pair<std::vector<std::string>, std::string> cases[] = {
         {{"do", "m", "--wole", "3"}, "unknown option --wole; did you mean --whole? (see tool do --help)"},
@@ -155,7 +155,7 @@ TEST(Arguments, whatIsWrongComesFirstAndThenWithWhat)
     }
 }
 
-TEST(Arguments, anUnlistedOptionIsNotWhatWasMeant)
+TEST(Arguments, unlistedOptionsAreNotSuggested)
 {
     Everything e;
     const Status done = e.run({"--hiden", "x"});
@@ -163,7 +163,7 @@ TEST(Arguments, anUnlistedOptionIsNotWhatWasMeant)
     EXPECT_EQ(done.error().message, "unknown option --hiden (see tool do --help)");
 }
 
-TEST(Arguments, anAnswerIsPrintedInPlaceOfTheWork)
+TEST(Arguments, anAnswerIsPrintedInsteadOfRunningTheCommand)
 {
     Everything e;
     e.command.answers("--names", "prints names", [] { return std::string("a\nb"); });
@@ -173,7 +173,7 @@ TEST(Arguments, anAnswerIsPrintedInPlaceOfTheWork)
     EXPECT_EQ(e.runs, 0);
 }
 
-TEST(Arguments, optionsStandInTheOrderOfTheirGroupsAndTheMainOnesFirst)
+TEST(Arguments, optionsAreSortedByGroupWithTheMainOnesFirst)
 {
     Arguments tool("tool", "It works.", "1");
     Arguments command = tool.command("do", "Does it.");
@@ -214,7 +214,7 @@ TEST(Arguments, valuesArriveInTheirVariables)
     EXPECT_FALSE(none.flag);
 }
 
-TEST(Arguments, parsingRunsNothingAndTellsWhatWasGivenForWhat)
+TEST(Arguments, parsingRunsNothingAndReturnsTheGivenOptions)
 {
     const Everything e;
     const auto given = e.tool.parse({"do", "m.glb", "-o", "a.png", "--flag"});
@@ -250,7 +250,7 @@ TEST(Arguments, helpAndVersionArePrintedAndRunNothing)
     EXPECT_EQ(e.runs, 0);
 }
 
-TEST(Arguments, descriptionsHaveAllThatTheHelpSays)
+TEST(Arguments, descriptionsHoldEverythingInTheHelp)
 {
     const CommandHelp help = Everything().tool.describe();
     EXPECT_EQ(help.name, "tool");
@@ -277,13 +277,13 @@ TEST(Arguments, descriptionsHaveAllThatTheHelpSays)
     EXPECT_EQ(output.value, "FILE");
     EXPECT_TRUE(output.kind == ValueKind::file);
     EXPECT_EQ(output.usual, "");
-    EXPECT_EQ(whole.least, "2");
-    EXPECT_EQ(whole.most, "5");
+    EXPECT_EQ(whole.minimum, "2");
+    EXPECT_EQ(whole.maximum, "5");
     EXPECT_EQ(whole.usual, "3");
     EXPECT_EQ(whole.value, "N");
     EXPECT_EQ(whole.help, "a whole number");
-    EXPECT_EQ(real.least, "-1.5");
-    EXPECT_EQ(real.most, "2.25");
+    EXPECT_EQ(real.minimum, "-1.5");
+    EXPECT_EQ(real.maximum, "2.25");
     EXPECT_EQ(of("--chosen").words, (std::vector<std::string>{"1", "4", "16"}));
     EXPECT_EQ(of("--word").words, (std::vector<std::string>{"a", "b", "c"}));
     EXPECT_EQ(of("--plain").words, (std::vector<std::string>{"p", "q"}));
@@ -296,25 +296,25 @@ TEST(Arguments, descriptionsHaveAllThatTheHelpSays)
         EXPECT_NE(o.names.back(), "--hidden");
 }
 
-TEST(CommandWords, theNearestCommandIsMeantWhereOneIsNear)
+TEST(CommandWords, theNearestCommandIsSuggested)
 {
     const CommandNames tool{"tool", {{"render", {}}, {"map", {{"convert", {}}, {"mips", {}}}}}};
-    const auto said = [&](const std::vector<std::string>& words) {
+    const auto errorOf = [&](const std::vector<std::string>& words) {
         const Status known = checkCommandWords(tool, words);
         return known ? std::string() : known.error().message;
     };
-    EXPECT_EQ(said({"render", "x"}), "");
-    EXPECT_EQ(said({"map", "mips"}), "");
-    EXPECT_EQ(said({"--help", "x"}), "");
-    EXPECT_EQ(said({"redner"}), "unknown command 'redner'; did you mean render?");
-    EXPECT_EQ(said({"re"}), "unknown command 're'; did you mean render?");
-    EXPECT_EQ(said({"map", "mip"}), "unknown map command 'mip'; did you mean mips?");
-    EXPECT_EQ(said({"nothing"}), "unknown command 'nothing'; expected one of render, map");
-    EXPECT_NE(said({std::string(100, 'x')}).find("expected one of"), std::string::npos);
-    EXPECT_EQ(said({std::string(101, 'x')}), "unknown command of 101 letters");
+    EXPECT_EQ(errorOf({"render", "x"}), "");
+    EXPECT_EQ(errorOf({"map", "mips"}), "");
+    EXPECT_EQ(errorOf({"--help", "x"}), "");
+    EXPECT_EQ(errorOf({"redner"}), "unknown command 'redner'; did you mean render?");
+    EXPECT_EQ(errorOf({"re"}), "unknown command 're'; did you mean render?");
+    EXPECT_EQ(errorOf({"map", "mip"}), "unknown map command 'mip'; did you mean mips?");
+    EXPECT_EQ(errorOf({"nothing"}), "unknown command 'nothing'; expected one of render, map");
+    EXPECT_NE(errorOf({std::string(100, 'x')}).find("expected one of"), std::string::npos);
+    EXPECT_EQ(errorOf({std::string(101, 'x')}), "unknown command of 101 letters");
     EXPECT_EQ(editDistance("", "abc"), 3u);
     EXPECT_EQ(editDistance("abc", ""), 3u);
-    EXPECT_EQ(editDistance("abcd", "acbd"), 1u); // neighbours exchanged
+    EXPECT_EQ(editDistance("abcd", "acbd"), 1u); // adjacent letters exchanged
     EXPECT_EQ(editDistance("kitten", "sitting"), 3u);
     EXPECT_EQ(quoted("a-b_c/d.E9"), "a-b_c/d.E9");
     EXPECT_EQ(quoted(""), "''");

@@ -1,4 +1,4 @@
-// What becomes of Assimp's structures, by hand: formats hold few of them, and no file of a test all.
+// Conversion of Assimp structures made by hand: each file format holds few of them, and no test file holds all.
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -41,8 +41,8 @@ protected:
     }
 };
 
-// Each of ours is read from its own types, the first of them that is there.
-TEST_F(AssimpStructures, texturesAreThoseOfTheirTypesInOrder)
+// Each texture of Material is read from its list of Assimp texture types; the first type present wins.
+TEST_F(AssimpStructures, theFirstTextureTypePresentWins)
 {
     for (const char* const name : {"a.png", "b.png", "c.png"})
         paint(name, {10, 20, 200});
@@ -80,7 +80,7 @@ TEST_F(AssimpStructures, texturesAreThoseOfTheirTypesInOrder)
             EXPECT_EQ(m.emissive, glm::vec3(row.texture == &Material::emissiveMap ? 1.0f : 0.0f));
             EXPECT_TRUE(scene.warnings.empty());
         }
-    // A path that is empty counts as none; of other sets than the second the first is taken.
+    // An empty path counts as no texture. A uv set beyond the second is replaced by the first.
     aiMaterial source;
     lay(source, aiTextureType_BASE_COLOR, "");
     lay(source, aiTextureType_DIFFUSE, "b.png", 2, aiTextureMapMode_Decal, aiTextureMapMode_Wrap);
@@ -95,7 +95,7 @@ TEST_F(AssimpStructures, texturesAreThoseOfTheirTypesInOrder)
     EXPECT_EQ(materialOf(pierced).alphaMode, AlphaMode::mask);
 }
 
-TEST_F(AssimpStructures, numbersOfAMaterialAreReadAndOthersThanNumbersLeft)
+TEST_F(AssimpStructures, onlyNumericMaterialPropertiesAreRead)
 {
     aiMaterial source;
     const aiString name("paint");
@@ -114,7 +114,7 @@ TEST_F(AssimpStructures, numbersOfAMaterialAreReadAndOthersThanNumbersLeft)
     source.AddProperty(&exponent, 1, AI_MATKEY_SHININESS);
     source.AddProperty(&light, 1, AI_MATKEY_COLOR_EMISSIVE);
     Material m = materialOf(source);
-    EXPECT_EQ(m.baseColor, glm::vec4(0.4f, 0, 2, 0.5f)); // none is below zero
+    EXPECT_EQ(m.baseColor, glm::vec4(0.4f, 0, 2, 0.5f)); // negative values become 0
     EXPECT_EQ(m.emissive, glm::vec3(0.25f, 3, 0));
     EXPECT_EQ(m.alphaMode, AlphaMode::blend);
     EXPECT_NEAR(m.roughness, std::pow(2.0 / 32, 0.25), 1e-6);
@@ -135,7 +135,7 @@ TEST_F(AssimpStructures, numbersOfAMaterialAreReadAndOthersThanNumbersLeft)
     EXPECT_EQ(m.roughness, 0.7f);
 }
 
-// Two triangles over four corners, and a line and a point between them.
+// Two triangles over four corners, with a line and a point between them.
 std::unique_ptr<aiMesh> twoTriangles()
 {
     auto mesh = std::make_unique<aiMesh>();
@@ -164,7 +164,7 @@ std::string faultOf(const aiMesh& mesh)
     return "";
 }
 
-TEST_F(AssimpStructures, meshesKeepTheirTrianglesAndSayWhatIsNotFinite)
+TEST_F(AssimpStructures, meshesKeepTheirTrianglesAndWarnAboutNonFiniteValues)
 {
     const auto mesh = twoTriangles();
     const auto corner = [&](const std::vector<glm::vec2>& uv) {
@@ -185,7 +185,7 @@ TEST_F(AssimpStructures, meshesKeepTheirTrianglesAndSayWhatIsNotFinite)
         corners.push_back(found.positions[i]);
     EXPECT_EQ(corners, (std::vector<glm::vec3>{{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 0, 0}, {2, 3, 0}, {0, 3, 1}}));
     const auto first = found.indices[0], second = found.indices[1], third = found.indices[2], last = found.indices[5];
-    EXPECT_EQ(found.texcoords[0][first], glm::vec2(0, 0.75f)); // v runs down
+    EXPECT_EQ(found.texcoords[0][first], glm::vec2(0, 0.75f)); // v points down
     EXPECT_EQ(found.texcoords[0][second], glm::vec2(0));
     EXPECT_EQ(found.texcoords[0][third], glm::vec2(0));
     EXPECT_EQ(found.texcoords[0][last], glm::vec2(0.5f, 0));
@@ -198,12 +198,12 @@ TEST_F(AssimpStructures, meshesKeepTheirTrianglesAndSayWhatIsNotFinite)
     EXPECT_EQ(found.colors[last], glm::vec4(0, 1, 0, 0));
     EXPECT_EQ(found.normals[second], glm::vec3(0, 0, 1));
     EXPECT_NEAR(found.normals[last].y, 0.6, 1e-6);
-    const Mesh flat = convertMesh(*mesh, true, scene); // of the triangles, less than 60 degrees apart
+    const Mesh flat = convertMesh(*mesh, true, scene); // normals of triangles; they are less than 60 degrees apart
     EXPECT_NE(flat.normals[flat.indices[5]].y, found.normals[last].y);
     mesh->mNormals[2] = {0, 0, 0};
     scene.warnings.clear();
     convertMesh(*mesh, false, scene);
-    EXPECT_EQ(scene.warnings.back(), "mesh two: some normals are zero or not finite; all are made anew");
+    EXPECT_EQ(scene.warnings.back(), "mesh two: some normals are zero or not finite; all are regenerated");
     EXPECT_EQ(scene.warnings.size(), 2u);
 
     mesh->mName = "";
@@ -218,9 +218,9 @@ TEST_F(AssimpStructures, meshesKeepTheirTrianglesAndSayWhatIsNotFinite)
     EXPECT_TRUE(convertMesh(*mesh, false, scene).positions.empty());
 }
 
-TEST_F(AssimpStructures, nodesPlaceMeshesAndCamerasUpToTheirLimit)
+TEST_F(AssimpStructures, nodesPlaceMeshesAndCamerasUpToALimit)
 {
-    aiScene source; // which owns what it points to
+    aiScene source; // owns what it points to
     auto* root = source.mRootNode = new aiNode("root");
     auto* left = new aiNode("left");
     auto* right = new aiNode("right");
@@ -229,7 +229,7 @@ TEST_F(AssimpStructures, nodesPlaceMeshesAndCamerasUpToTheirLimit)
     aiNode* children[] = {left, right};
     root->addChildren(2, children);
     right->mNumMeshes = 4;
-    right->mMeshes = new unsigned[4]{1, 0, 7, 2}; // 0 became none, 7 is none
+    right->mMeshes = new unsigned[4]{1, 0, 7, 2}; // mesh 0 was dropped, mesh 7 does not exist
     left->mNumMeshes = 1;
     left->mMeshes = new unsigned[1]{2};
     source.mNumCameras = 2;
@@ -270,18 +270,18 @@ TEST_F(AssimpStructures, nodesPlaceMeshesAndCamerasUpToTheirLimit)
         }
         return "";
     };
-    camera.mOrthographicWidth = 6; // half of it, as Assimp has it
-    camera.mAspect = 0;            // not said: four to three
+    camera.mOrthographicWidth = 6; // Assimp stores half the width
+    camera.mAspect = 0;            // unknown: 4:3 is assumed
     EXPECT_EQ(again(), "");
     EXPECT_TRUE(scene.cameras[0].orthographic);
     EXPECT_NEAR(scene.cameras[0].verticalExtent, 2 * 6 / (4.0 / 3), 1e-5);
     EXPECT_NEAR(scene.cameras[0].verticalFieldOfView, 2 * std::atan(std::tan(0.5) / (4.0 / 3)), 1e-6);
     EXPECT_EQ(again(3), "");
     EXPECT_EQ(again(2), "over the limit of 2 nodes");
-    camera.mUp = {0, 0, 1}; // along the view
+    camera.mUp = {0, 0, 1}; // parallel to the view direction
     EXPECT_EQ(again(), "");
     EXPECT_TRUE(scene.cameras.empty());
-    EXPECT_EQ(scene.warnings, std::vector<std::string>{"camera right: is degenerate; left out"});
+    EXPECT_EQ(scene.warnings, std::vector<std::string>{"camera right: degenerate; left out"});
     right->mTransformation.b4 = kNan;
     EXPECT_EQ(again(), "node right: expected a finite transform");
 }

@@ -1,4 +1,4 @@
-// Models through Assimp. Expected values come from the text of the models, not from the reader.
+// Models read through Assimp. Expected values come from the text of the models, not from the reader.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -28,7 +28,7 @@ const std::string kQuad = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
                           "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n";
 const std::string kQuadFace = "f 1/1/1 2/2/1 3/3/1 4/4/1\n";
 
-// What must hold for every scene that comes out of a reader.
+// Checks the invariants of every scene that a reader returns.
 void expectSound(const Scene& scene)
 {
     for (const Mesh& mesh : scene.meshes) {
@@ -55,7 +55,7 @@ bool mentions(const std::vector<std::string>& lines, const std::string& text)
     return std::ranges::any_of(lines, [&](const std::string& s) { return s.find(text) != std::string::npos; });
 }
 
-// A folder "outer" with the folder "model" in it, for one test.
+// A folder "outer" that contains a folder "model", for one test.
 class AssimpFile : public testing::Test {
 protected:
     fs::path outer = fs::temp_directory_path()
@@ -71,7 +71,7 @@ protected:
         return folder / name;
     }
 
-    // Loads text as a model; the test fails where that fails.
+    // Loads `text` as a model; fails the test if loading fails.
     Scene load(const std::string& name, const std::string& text) const
     {
         auto scene = loadScene(write(name, text));
@@ -89,7 +89,7 @@ protected:
         return scene ? "" : scene.error().message;
     }
 
-    // A quad with one material of these lines.
+    // Loads a quad with one material made of these lines.
     Scene loadMaterial(const std::string& lines) const
     {
         write("m.mtl", "newmtl m\n" + lines);
@@ -119,14 +119,14 @@ TEST_F(AssimpFile, quadBecomesTwoTrianglesWithVRunningDown)
     EXPECT_EQ(mesh.triangleCount(), 2u);
     EXPECT_EQ(mesh.vertexCount(), 4u);
     for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
-        // In the file v is the height y; here it counts from the top.
+        // In the file, v is the height y; in a scene v counts from the top.
         EXPECT_EQ(mesh.texcoords[0][i], glm::vec2(mesh.positions[i].x, 1 - mesh.positions[i].y));
         EXPECT_EQ(mesh.normals[i], glm::vec3(0, 0, 1));
     }
     EXPECT_TRUE(materialOf(scene).doubleSided);
 }
 
-TEST_F(AssimpFile, objIndicesThatCountBackwardsMeanTheSame)
+TEST_F(AssimpFile, negativeObjIndicesMeanTheSame)
 {
     const Scene forwards = load("a.obj", kQuad + kQuadFace);
     const Scene backwards = load("b.obj", kQuad + "f -4/-4/-1 -3/-3/-1 -2/-2/-1 -1/-1/-1\n");
@@ -152,7 +152,7 @@ TEST_F(AssimpFile, objLineEndsTabsContinuationsAndCommentsChangeNothing)
     }
 }
 
-TEST_F(AssimpFile, objByteOrderMarkIsNoPartOfTheFirstLine)
+TEST_F(AssimpFile, objByteOrderMarkIsSkipped)
 {
     EXPECT_EQ(load("a.obj", "\xef\xbb\xbf" + kQuad + kQuadFace).meshes.at(0).vertexCount(), 4u);
 }
@@ -167,7 +167,7 @@ TEST_F(AssimpFile, brokenObjIsRefusedWithItsLine)
         {kQuad + "f 1 2 5\n", "line 10: expected a position index up to 4, found 5"},
         {kQuad + "f 1/1 2/2 3/9\n", "texture coordinate index up to 4, found 9"},
         {kQuad + "f 1//1 2//1 3//2\n", "normal index up to 1, found 2"},
-        {kQuad + "f 1 2 -5\n", "expected a position index down to -4, found -5"},
+        {kQuad + "f 1 2 -5\n", "expected a position index of at least -4, found -5"},
         {kQuad + "f 1 2 0\n", "found 0"},
         {kQuad + "f 1 2 99999999999999999999\n", "expected a corner v/vt/vn"},
         {kQuad + "f 1 2 3/1/1/1\n", "expected a corner v/vt/vn"},
@@ -184,7 +184,7 @@ TEST_F(AssimpFile, brokenObjIsRefusedWithItsLine)
     }
 }
 
-TEST_F(AssimpFile, limitsAreHeld)
+TEST_F(AssimpFile, limitsAreEnforced)
 {
     LoadLimits limits;
     limits.triangles = 1;
@@ -201,7 +201,7 @@ TEST_F(AssimpFile, limitsAreHeld)
               std::string::npos);
 }
 
-// Assimp takes the square of a polygon's corners: 150,000 of them, which cross one another, took 4 s in each command.
+// Assimp's time is quadratic in a polygon's corners: 150,000 self-intersecting ones took 4 s in each command.
 TEST_F(AssimpFile, polygonsMayHave70000CornersTogether)
 {
     const auto withPolygons = [](const std::vector<int>& corners) {
@@ -235,13 +235,13 @@ TEST_F(AssimpFile, concavePolygonKeepsItsArea)
         area += glm::length(glm::cross(b - a, c - a)) / 2;
         doubled += glm::cross(b - a, c - a).z;
     }
-    EXPECT_NEAR(area, 2, 1e-6);                  // 8 of the whole less 6 of the notch
-    EXPECT_NEAR(std::abs(doubled) / 2, 2, 1e-6); // and all of one orientation
+    EXPECT_NEAR(area, 2, 1e-6);                  // 8 of the triangle less 6 of the notch
+    EXPECT_NEAR(std::abs(doubled) / 2, 2, 1e-6); // all have the same orientation
 }
 
 TEST_F(AssimpFile, missingNormalsAreSmoothUpToSixtyDegrees)
 {
-    // A ridge of two quads: smooth at 40 degrees between their normals, sharp at 80.
+    // A ridge between two quads: smooth if their normals are 40 degrees apart, sharp at 80.
     for (const double degrees : {40.0, 80.0}) {
         const double slope = std::tan(degrees / 2 * 3.14159265 / 180);
         std::ostringstream text;
@@ -277,8 +277,8 @@ TEST_F(AssimpFile, mtlRoughnessAndMetalnessWithTheirMaps)
     EXPECT_EQ(image.bytes8()[2], 200);
 }
 
-// Roughness goes to green and metalness to blue, each from the nearest texel of its own picture.
-TEST_F(AssimpFile, mtlRoughnessAndMetalnessOfDifferentSizesAreLaidOverEachOther)
+// Roughness goes to green and metalness to blue, each from the nearest texel of its own image.
+TEST_F(AssimpFile, mtlRoughnessAndMetalnessOfDifferentSizesAreMerged)
 {
     Image rough = makeImage(4, 2, PixelType::unorm8), metal = makeImage(2, 6, PixelType::unorm8);
     for (Image* image : {&rough, &metal})
@@ -301,13 +301,13 @@ TEST_F(AssimpFile, mtlRoughnessAndMetalnessOfDifferentSizesAreLaidOverEachOther)
         }
 }
 
-TEST_F(AssimpFile, picturesBeyondTheLimitOfAllAreLeftOutAndSaid)
+TEST_F(AssimpFile, imagesBeyondTheTotalLimitAreOmittedWithAWarning)
 {
     writeColour(folder / "a.png", 1, 2, 3);
     writeColour(folder / "b.png", 4, 5, 6);
     write("m.mtl", "newmtl m\nmap_Kd a.png\nmap_Ke b.png\n");
     LoadLimits limits;
-    limits.allImageBytes = 64; // one picture of 4 x 4
+    limits.allImageBytes = 64; // one image of 4 x 4
     const auto scene = loadScene(write("m.obj", "mtllib m.mtl\n" + kQuad + "usemtl m\n" + kQuadFace), limits);
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->images.size(), 1u);
@@ -342,8 +342,7 @@ TEST_F(AssimpFile, normalMapNamedDirectXHasGreenAlongV)
 
 TEST_F(AssimpFile, greyBumpMapBecomesTheNormalMapOfItsSlopes)
 {
-    // Height sin(2 pi x / 64) along u and 0.5 sin along v: slopes known, and the same at the
-    // border.
+    // Height sin(2 pi x / 64) along u and half of that along v: the slopes are known and continue across the border.
     const int side = 64;
     Image heights = makeImage(side, side, PixelType::unorm16);
     const double step = 2 * 3.14159265358979 / side;
@@ -375,13 +374,13 @@ TEST_F(AssimpFile, greyBumpMapBecomesTheNormalMapOfItsSlopes)
                 worst = std::max(worst, glm::length(expected - found));
             }
         }
-        // Central differences are short by step^2/6 = 0.16 % of slopes up to 0.05; 16 bits and the
-        // heights' rounding (2 x 8e-6 x depth) add 5e-5.
+        // Central differences underestimate slopes up to 0.05 by step^2/6 = 0.16 %; 16-bit output and the rounding of
+        // heights (2 x 8e-6 x depth) add 5e-5.
         EXPECT_LT(worst, 2e-4);
     }
 }
 
-TEST_F(AssimpFile, texturesThatAreMissingOrBrokenAreSaidAndLeftOut)
+TEST_F(AssimpFile, missingOrBrokenTexturesAreOmittedWithAWarning)
 {
     write("broken.png", "not a picture");
     for (const std::string name : {"missing.png", "broken.png"}) {
@@ -411,7 +410,7 @@ TEST_F(AssimpFile, nothingOutsideTheFolderIsOpened)
     EXPECT_TRUE(mentions(scene.warnings, "../secret.mtl is outside the model's folder"));
 }
 
-TEST_F(AssimpFile, filesInSubfoldersAndPathsOfOtherMachinesAreFound)
+TEST_F(AssimpFile, filesInSubfoldersAndWithPathsOfOtherMachinesAreFound)
 {
     fs::create_directory(folder / "maps");
     writeColour(folder / "maps" / "c.png", 9, 9, 9);
@@ -429,7 +428,7 @@ TEST_F(AssimpFile, oneImageUsedTwiceIsReadOnce)
     EXPECT_EQ(loadMaterial("map_Kd c.png\nnorm ./c.png\n").images.size(), 1u);
 }
 
-TEST_F(AssimpFile, whatIsMissingIsSaid)
+TEST_F(AssimpFile, missingUvAndLibrariesAreWarnedOf)
 {
     writeColour(folder / "c.png", 1, 2, 3);
     write("m.mtl", "newmtl m\nmap_Kd c.png\n");
@@ -462,7 +461,7 @@ TEST_F(AssimpFile, plyKeepsColoursAsLinearLight)
     EXPECT_NEAR(glm::length(scene.meshes[0].colors[0] - glm::vec4(1, 0, 0.5029f, 1)), 0, 1e-4);
 }
 
-TEST_F(AssimpFile, positionsThatAreNotFiniteAreRefusedOnEachAxis)
+TEST_F(AssimpFile, nonFinitePositionsAreRefusedOnEachAxis)
 {
     for (const std::string wrong : {"nan", "inf", "-inf"})
         for (int axis = 0; axis < 3; ++axis) {
@@ -479,7 +478,7 @@ TEST_F(AssimpFile, positionsThatAreNotFiniteAreRefusedOnEachAxis)
         }
 }
 
-TEST_F(AssimpFile, plyThatCountsMoreThanItHoldsIsRefusedAtOnce)
+TEST_F(AssimpFile, plyWithTooLargeACountIsRefusedAtOnce)
 {
     for (const std::string count : {"4294967295", "100000000000", "-1", "x"}) {
         const std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex " + count
@@ -497,7 +496,7 @@ std::string plyHeader(const std::string& format, const std::string& rest)
         + rest + "end_header\n";
 }
 
-// `bytes` of a number, the lowest first or last.
+// The number in `bytes` bytes, least significant byte first or last.
 std::string plyNumber(std::uint64_t value, int bytes, bool bigEndian)
 {
     std::string text;
@@ -506,7 +505,7 @@ std::string plyNumber(std::uint64_t value, int bytes, bool bigEndian)
     return text;
 }
 
-TEST_F(AssimpFile, plyElementsOfOtherNamesAreReadBehindTheGeometryAndRefusedBeforeIt)
+TEST_F(AssimpFile, unknownPlyElementsAreAllowedOnlyAfterTheGeometry)
 {
     const std::string geometry =
         "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
@@ -518,14 +517,14 @@ TEST_F(AssimpFile, plyElementsOfOtherNamesAreReadBehindTheGeometryAndRefusedBefo
                   .find("\"vertex\" before the element \"camera\""),
               std::string::npos);
     EXPECT_EQ(problem("c.ply", start + "element camera 0\nproperty float a\n" + geometry + end + rows), ""); // no rows
-    // Assimp takes the name for the count: once 103 GB.
+    // Assimp took the name for the count and allocated 103 GB.
     EXPECT_NE(problem("d.ply", start + geometry + "element 9999999999face 1\nproperty float a\n" + end + rows + "9\n")
                   .find("starts with a letter"),
               std::string::npos);
 }
 
-// Each name has its size in the file: a byte less than that is too little.
-TEST_F(AssimpFile, plyNumbersOfEveryTypeTakeTheirBytes)
+// Each type name has its size in the file; one byte less is too little.
+TEST_F(AssimpFile, plyNumbersOfEveryTypeHaveTheirSize)
 {
     const std::vector<std::pair<std::string, std::size_t>> types = {
         {"char", 1},  {"uchar", 1},   {"int8", 1},   {"uint8", 1},  {"short", 2}, {"ushort", 2},
@@ -552,7 +551,7 @@ TEST_F(AssimpFile, plyNumbersOfEveryTypeTakeTheirBytes)
     }
 }
 
-TEST_F(AssimpFile, plyListsAreWalkedBeforeMemoryIsTakenForThem)
+TEST_F(AssimpFile, plyListsAreCheckedBeforeMemoryIsAllocated)
 {
     const std::string faces = "element face 2\nproperty uchar flags\nproperty list uint int vertex_indices\n";
     for (const bool big : {false, true}) {
@@ -568,35 +567,35 @@ TEST_F(AssimpFile, plyListsAreWalkedBeforeMemoryIsTakenForThem)
         };
         const std::string head = plyHeader(format, faces) + vertices;
         EXPECT_EQ(problem("a.ply", head + face(3) + face(3)), "") << format;
-        EXPECT_NE(problem("b.ply", head + face(3) + face(1'500'000'000)).find("1500000000 values are promised"),
+        EXPECT_NE(problem("b.ply", head + face(3) + face(1'500'000'000)).find("expected 1500000000 values, but"),
                   std::string::npos);
-        EXPECT_NE(problem("c.ply", head + face(3) + face(4)).find("values are promised"), std::string::npos);
-        EXPECT_NE(problem("d.ply", head + face(3) + face(3).substr(0, 16)).find("values are promised"),
+        EXPECT_NE(problem("c.ply", head + face(3) + face(4)).find("values, but the file has only"), std::string::npos);
+        EXPECT_NE(problem("d.ply", head + face(3) + face(3).substr(0, 16)).find("values, but the file has only"),
                   std::string::npos);
         EXPECT_NE(problem("e.ply", head + face(3) + "x").find("the file ends"), std::string::npos);
         const std::string small =
             plyHeader(format, "element face 1\nproperty list char int vertex_indices\n") + vertices;
-        // -1, also where 255 values are there.
-        EXPECT_NE(problem("f.ply", small + "\xff" + std::string(1020, '\0')).find("values are promised"),
+        // A count of -1 is refused even if the file has 255 values.
+        EXPECT_NE(problem("f.ply", small + "\xff" + std::string(1020, '\0')).find("values, but the file has only"),
                   std::string::npos);
     }
     const std::string text = plyHeader("ascii", faces) + "0 0 0\n1 0 0\r\n\n0 1 0\n";
     EXPECT_EQ(problem("g.ply", text + "7 3 0 1 2\n7 3 2 1 0"), "");
-    EXPECT_NE(problem("h.ply", text + "7 3 0 1 2\n7 1500000000 0 1 2\n").find("their line has 3"), std::string::npos);
-    EXPECT_NE(problem("i.ply", text + "7 3 0 1\n2 7 3 2 1 0\n").find("3 values are promised, their line has 2"),
+    EXPECT_NE(problem("h.ply", text + "7 3 0 1 2\n7 1500000000 0 1 2\n").find("found 3 on their"), std::string::npos);
+    EXPECT_NE(problem("i.ply", text + "7 3 0 1\n2 7 3 2 1 0\n").find("expected 3 values, found 2 on their line"),
               std::string::npos);
     EXPECT_NE(problem("j.ply", text + "7 -3 0 1 2\n7 3 0 1 2\n").find("expected the count of a list"),
               std::string::npos);
     EXPECT_NE(problem("k.ply", text + "7 3 0 1 2\n").find("the file ends"), std::string::npos);
     EXPECT_NE(problem("m.ply", text + "7 3" + std::string(8, '\0') + " 0 1 2\n7 3 2 1 0\n")
-                  .find("found a byte of value 0 at"),
+                  .find("found a zero byte at"),
               std::string::npos);
     const std::string floats = plyHeader("ascii", "element face 1\nproperty list float int vertex_indices\n");
-    EXPECT_NE(problem("l.ply", floats + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").find("expected a whole number as the count"),
+    EXPECT_NE(problem("l.ply", floats + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").find("an integer type for the count"),
               std::string::npos);
     LoadLimits limits;
     limits.vertices = 2;
-    EXPECT_NE(problem("n.ply", text + "7 3 0 1 2\n7 3 2 1 0", limits).find("it counts 3 elements"), std::string::npos);
+    EXPECT_NE(problem("n.ply", text + "7 3 0 1 2\n7 3 2 1 0", limits).find("3 elements exceed"), std::string::npos);
 }
 
 std::string stlTriangles(std::uint32_t claimed, const std::vector<float>& numbers)
@@ -604,7 +603,7 @@ std::string stlTriangles(std::uint32_t claimed, const std::vector<float>& number
     std::string text(80, ' ');
     text.append(reinterpret_cast<const char*>(&claimed), 4);
     for (std::size_t i = 0; i < numbers.size(); i += 9) {
-        text.append(12, '\0'); // the facet's normal, here unknown
+        text.append(12, '\0'); // the facet's normal: zero, unknown
         text.append(reinterpret_cast<const char*>(&numbers[i]), 36);
         text.append(2, '\0');
     }
@@ -653,8 +652,8 @@ TEST_F(AssimpFile, colladaNodesBecomeInstancesOfOneMesh)
     EXPECT_EQ(box.high, glm::vec3(12, 1, 0));
 }
 
-// 60 degrees from left to right of a picture twice as wide as high.
-TEST_F(AssimpFile, colladaCamerasStandWhereTheirNodesDoWithTheLensOfTheirWidth)
+// 60 degrees horizontally in an image twice as wide as high.
+TEST_F(AssimpFile, colladaCamerasTakeTheirNodesTransformAndHorizontalAngle)
 {
     const Scene scene = load(
         "a.dae",
@@ -687,7 +686,7 @@ TEST_F(AssimpFile, faceIndicesAndCountsOfOtherFormatsAreCheckedBeforeUse)
                              "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
     EXPECT_EQ(problem("a.ply", head + "3 0 1 2\n"), "");
     EXPECT_NE(problem("b.ply", head + "3 0 1 3\n").find("expected an index below 3, found 3"), std::string::npos);
-    // Two lines that once kept the parser busy for ever.
+    // These two lines made the parser loop forever.
     EXPECT_NE(problem("c.ply",
                       "ply\nformat ascii 1.0\nelement vertex 8\nformat perty float32 x\n"
                       "end_header*0 0 0\n0 0 1\n"),
@@ -695,12 +694,12 @@ TEST_F(AssimpFile, faceIndicesAndCountsOfOtherFormatsAreCheckedBeforeUse)
     EXPECT_NE(problem("d.dae", "<COLLADA><float_array count=\"8589934592\">1</float_array></COLLADA>")
                   .find("found 8589934592"),
               std::string::npos);
-    // A stray character in a list of indices once filled the memory.
-    EXPECT_NE(problem("e.dae", "<COLLADA><p>0 1 2; 3</p></COLLADA>").find("whole numbers in <p>"), std::string::npos);
+    // A stray character in a list of indices filled the memory.
+    EXPECT_NE(problem("e.dae", "<COLLADA><p>0 1 2; 3</p></COLLADA>").find("only integers in <p>"), std::string::npos);
 }
 
-// Beside points and polygons Assimp wrote in front of its table; beside triangles alone it lost these.
-TEST_F(AssimpFile, facesWithoutCornersAreLeftOutAndTheOthersKept)
+// Next to points and polygons, Assimp wrote before the start of its table; next to triangles only, it lost these faces.
+TEST_F(AssimpFile, onlyFacesWithoutCornersAreOmitted)
 {
     const auto ply = [](const std::vector<std::string>& faces) {
         std::string text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
@@ -740,7 +739,7 @@ TEST_F(AssimpFile, garbageUnderEveryExtensionIsRefused)
     }
 }
 
-TEST_F(AssimpFile, loadSceneSaysInOneLineWhatIsWrongWithTheFile)
+TEST_F(AssimpFile, loadSceneReportsABrokenFileInOneLine)
 {
     fs::create_directory(folder / "d.obj");
     const std::pair<fs::path, std::string> cases[] = {{folder / "none.obj", "no such file"},
@@ -758,7 +757,7 @@ TEST_F(AssimpFile, loadSceneSaysInOneLineWhatIsWrongWithTheFile)
     EXPECT_EQ(load("Upper.OBJ", kQuad + kQuadFace).meshes.size(), 1u);
 }
 
-// Counts of an OBJ by reading its text word by word, the slow and obvious way.
+// Counts of an OBJ file from reading its text word by word, the slow and obvious way.
 struct Counted {
     std::size_t triangles = 0;
     Bounds box; // of positions that faces use
@@ -793,7 +792,7 @@ Counted countText(const fs::path& file)
     return counted;
 }
 
-TEST(SharedObj, everyModelHasTheTrianglesAndTheBoxOfItsText)
+TEST(SharedObj, everyModelHasTheTrianglesAndBoundsOfItsText)
 {
     const fs::path data = COTAN_SHARED_DATA;
     if (!fs::exists(data / "classic"))
@@ -815,7 +814,7 @@ TEST(SharedObj, everyModelHasTheTrianglesAndTheBoxOfItsText)
                 triangles += scene->meshes[std::size_t(instance.mesh)].triangleCount();
             EXPECT_EQ(triangles, counted.triangles) << entry.path();
             const Bounds box = bounds(*scene);
-            // Two ways to read a decimal number differ in the last bit of a float.
+            // Two decimal parsers may differ in the last bit of a float.
             const float slack = 2e-7f * glm::length(counted.box.high - counted.box.low);
             EXPECT_LT(glm::length(box.low - counted.box.low), slack) << entry.path();
             EXPECT_LT(glm::length(box.high - counted.box.high), slack) << entry.path();
@@ -825,7 +824,7 @@ TEST(SharedObj, everyModelHasTheTrianglesAndTheBoxOfItsText)
     EXPECT_GE(models, 11u);
 }
 
-TEST(BadData, everyObjGetsItsVerdictInTimeAndMemory)
+TEST(BadData, everyObjIsAcceptedOrRefusedWithinTimeAndMemory)
 {
     const auto rows = test::expectedFor(".obj");
     if (rows.empty())

@@ -1,4 +1,4 @@
-// What the commands do where nobody names a frame, and what files say of theirs.
+// What the commands do if no frame is given, and how files name the frame of their maps.
 #include <iterator>
 #include <sstream>
 
@@ -35,10 +35,10 @@ protected:
     TemporaryFolder folder;
 };
 
-// Their stored tangents say that green is the other way than declared: drawn without tangents they show what their
-// tangents mean. The means are of normals in degrees; one degree is what MikkTSpace and `orthonormal` differ by on
-// coarse models, reversed green was 9.8 on the cat.
-TEST_F(AutoFrame, modelsWhoseTangentsReverseGreenAreDrawnAsTheirTangentsMean)
+// The stored tangents of these models contradict the declared green convention. Drawn with frames that need no
+// tangents, they must look as their tangents intend. Figures are mean angles between normals in degrees: MikkTSpace and
+// `orthonormal` differ by about one degree on coarse models; reversed green gave 9.8 on the cat.
+TEST_F(AutoFrame, tangentsThatReverseGreenAreFollowed)
 {
     const fs::path data = COTAN_SHARED_DATA;
     bool any = false;
@@ -59,31 +59,31 @@ TEST_F(AutoFrame, modelsWhoseTangentsReverseGreenAreDrawnAsTheirTangentsMean)
         GTEST_SKIP() << data << " has no models";
 }
 
-TEST_F(AutoFrame, greenThatIsReadTheOtherWayIsSaidOnceAndTheConventionOverridesIt)
+TEST_F(AutoFrame, flippedGreenIsWarnedOfOnceAndTheConventionOverridesIt)
 {
-    Made turned = quad(2);
-    const std::size_t accessor = turned.root["meshes"][0]["primitives"][0]["attributes"]["TANGENT"];
-    const std::size_t view = turned.root["accessors"][accessor]["bufferView"];
+    Made reversed = quad(2);
+    const std::size_t accessor = reversed.root["meshes"][0]["primitives"][0]["attributes"]["TANGENT"];
+    const std::size_t view = reversed.root["accessors"][accessor]["bufferView"];
     const float minus = -1;
     for (std::size_t v = 0; v < 6; ++v)
-        std::memcpy(turned.bytes.data() + std::size_t(turned.root["bufferViews"][view]["byteOffset"]) + 16 * v + 12,
+        std::memcpy(reversed.bytes.data() + std::size_t(reversed.root["bufferViews"][view]["byteOffset"]) + 16 * v + 12,
                     &minus, sizeof minus);
-    write(turned, folder.path());
+    write(reversed, folder.path());
     const auto mean = [&](const std::string& more) {
         const ToolRun r = run("compare quad.gltf -o out --overwrite --size 160x120 --json out.json" + more);
         EXPECT_EQ(r.code, 0) << r.err;
-        EXPECT_EQ(countOf(r.err, "green is read the other way"), 1u) << r.err;
+        EXPECT_EQ(countOf(r.err, "green is flipped"), 1u) << r.err;
         return reportOf(folder / "out.json").at("normals").at("mean_degrees").get<double>();
     };
-    EXPECT_LT(mean(""), 0.01); // a flat quad with square uv: the two frames are one
+    EXPECT_LT(mean(""), 0.01); // a flat quad with square uv: both frames are equal
     EXPECT_LT(mean(" --convention gltf --frames orthonormal,cotangent"), 12);
     EXPECT_LT(mean(" --frames smooth,mikktspace"), 12);
-    EXPECT_GT(mean(" --convention gltf"), 10); // as declared, against tangents as stored: reversed
-    // The tangents of the file are generated anew: their w is that of the uv, and green goes with it.
+    EXPECT_GT(mean(" --convention gltf"), 10); // as declared, against the stored tangents: reversed
+    // Generated tangents replace those of the file: their w, and with it the direction of green, follows the uv.
     EXPECT_LT(mean(" --frames orthonormal,mikktspace --tangents generated"), 0.01);
 }
 
-TEST_F(AutoFrame, convertedModelsSayTheirFrameAndAreDrawnWithIt)
+TEST_F(AutoFrame, convertedModelsNameTheirFrameAndAreDrawnWithIt)
 {
     ASSERT_EQ(run("convert quad.gltf --to-frame cotangent --bits 8 -o out.gltf").code, 0);
     const json material = reportOf(folder / "out.gltf").at("materials").at(0);
@@ -101,7 +101,7 @@ TEST_F(AutoFrame, convertedModelsSayTheirFrameAndAreDrawnWithIt)
               1u)
         << r.err;
 
-    // Again: from what the file says, not from MikkTSpace.
+    // The second conversion starts from the frame that the file names, not from MikkTSpace.
     r = run("convert out.gltf --from-frame mikktspace --to-frame smooth -o again.gltf");
     EXPECT_EQ(r.code, 2);
     EXPECT_NE(r.err.find("are for the frame cotangent"), std::string::npos) << r.err;
@@ -110,10 +110,10 @@ TEST_F(AutoFrame, convertedModelsSayTheirFrameAndAreDrawnWithIt)
     ASSERT_EQ(r.code, 0) << r.err;
     EXPECT_EQ(reportOf(folder / "back.json").at("from"), "cotangent");
     EXPECT_EQ(reportOf(folder / "back.gltf").at("materials").at(0).at("extras"),
-              json({{"mine", 7}, {"cotanUnsigned", "biased"}})); // glTF means MikkTSpace
+              json({{"mine", 7}, {"cotanUnsigned", "biased"}})); // MikkTSpace is glTF's default and is not named
 }
 
-TEST_F(AutoFrame, materialsThatNameDifferentFramesAreNotConvertedAsOne)
+TEST_F(AutoFrame, materialsWithDifferentFramesAreNotConverted)
 {
     Made two = quad(2);
     json second = two.root["materials"][0];
@@ -126,7 +126,7 @@ TEST_F(AutoFrame, materialsThatNameDifferentFramesAreNotConvertedAsOne)
     EXPECT_NE(r.err.find("materials[1].extras.cotanFrame: expected smooth"), std::string::npos) << r.err;
 }
 
-TEST_F(AutoFrame, defaultsAreWhatTheMapsMean)
+TEST_F(AutoFrame, theDefaultFrameIsThatOfTheMaps)
 {
     const auto frameOf = [&](const std::string& words) {
         const ToolRun r = run("render " + words + " -o p.png --overwrite --size 64x48 --json p.json");

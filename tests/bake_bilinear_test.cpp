@@ -1,5 +1,5 @@
-// Bar C3: what bilinear filtering does to a map near the edges of triangles; and that the frames in float, with
-// which maps are baked, are those in double, which define them.
+// Bar C3: the error of bilinear filtering near triangle edges. Also checks that the float frames that maps are baked
+// with agree with the double frames that define them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,9 +14,9 @@
 namespace cotan {
 namespace {
 
-constexpr int kTexels = 1024; // a uv unit
+constexpr int kTexels = 1024; // per unit of uv
 
-// A map of the sphere of 12 segments in one frame, made texel by texel where it is asked.
+// A map of the 12-segment sphere in one frame; its rows of texels are computed on first use.
 class BakedRelief {
 public:
     BakedRelief(Frame frame)
@@ -33,7 +33,7 @@ public:
         return truthS(surface_.at(x.parameters), texelOf(Waves{1.2, 12}.at(x.uv.x, x.uv.y)));
     }
 
-    // The texel, at 16 bits, and the target's normal there. False where no triangle is.
+    // Gets the texel, quantised to 16 bits, and the target normal there. Returns false outside all triangles.
     bool texel(int x, int y, glm::dvec3& m, glm::dvec3& normal)
     {
         if (x < 0 || y < 0 || x >= kTexels || y >= kTexels)
@@ -41,13 +41,13 @@ public:
         auto [row, isNew] = rows_.try_emplace(y);
         if (isNew)
             raster_.row(y, row->second);
-        const auto places = row->second.of(std::size_t(x));
-        const auto place = std::ranges::find_if(places, &UvSample::covers);
-        if (place == places.end())
+        const auto samples = row->second.of(std::size_t(x));
+        const auto sample = std::ranges::find_if(samples, &UvSample::covers);
+        if (sample == samples.end())
             return false;
-        const double b1 = place->b1, b2 = place->b2;
-        normal = target(interpolate(mesh_, {place->triangle, {1 - b1 - b2, b1, b2}}));
-        m = encode(pointOf(low_, place->triangle, b1, b2).frame, Covector3d(normal));
+        const double b1 = sample->b1, b2 = sample->b2;
+        normal = target(interpolate(mesh_, {sample->triangle, {1 - b1 - b2, b1, b2}}));
+        m = encode(pointOf(low_, sample->triangle, b1, b2).frame, Covector3d(normal));
         for (int k = 0; k < 3; ++k)
             m[k] = std::round((m[k] + 1) * 32767.5) / 32767.5 - 1;
         return true;
@@ -73,7 +73,7 @@ struct NearEdges {
     }
 };
 
-// Texels within one of a triangle's edge.
+// Whether the point is within one texel of an edge of its triangle.
 bool nearEdge(const Tessellation& mesh, const TrianglePoint& at)
 {
     const std::uint32_t* v = &mesh.indices[3 * at.triangle];
@@ -118,21 +118,21 @@ NearEdges filtered(Frame frame)
     return result;
 }
 
-TEST(BakeBarC3, bilinearFilteringCostsSmoothFramesNoMoreThanAnyMap)
+TEST(BakeBarC3, smoothFramesFilterAlmostAsWellAsObjectSpace)
 {
     const NearEdges smooth = filtered(Frame::smooth);
-    EXPECT_LT(smooth.mean(smooth.shaded), 1.2 * smooth.mean(smooth.objectSpace)); // what no frame can avoid
+    EXPECT_LT(smooth.mean(smooth.shaded), 1.2 * smooth.mean(smooth.objectSpace)); // no frame can avoid that error
     EXPECT_LT(smooth.shaded[smooth.shaded.size() * 95 / 100], 0.10);
 }
 
 TEST(BakeBarC3, aFramePerTriangleCreasesAtEdges)
 {
-    // The baseline that bar C3 names: 0.14 to 1.5 degrees.
+    // The range that bar C3 names for frames per triangle: 0.14 to 1.5 degrees.
     const NearEdges perTriangle = filtered(Frame::cotangent);
     EXPECT_GT(perTriangle.mean(perTriangle.shaded), 0.14);
 }
 
-TEST(BakeFrames, inFloatAreThoseInDouble)
+TEST(BakeFrames, agreeInFloatAndDouble)
 {
     for (const Surface& surface : surfaces())
         for (Frame frame : {Frame::cotangent, Frame::unit, Frame::orthonormal, Frame::gradient, Frame::exact,
@@ -143,29 +143,29 @@ TEST(BakeFrames, inFloatAreThoseInDouble)
             Random random(20);
             LowPoints points;
             for (int i = 0; i < 200; ++i) {
-                std::vector<UvSample> places; // up to a packet's, now and then several on one triangle
-                while (places.size() < std::size_t(1 + i % 16)) {
+                std::vector<UvSample> samples; // up to a packet; sometimes several on one triangle
+                while (samples.size() < std::size_t(1 + i % 16)) {
                     const TrianglePoint at = randomPoint(random, mesh);
-                    places.push_back({std::uint32_t(at.triangle), float(at.weights[1]), float(at.weights[2]), true});
-                    if (places.size() % 3 == 2)
-                        places.push_back({std::uint32_t(at.triangle), 0.25f, 0.5f, true});
+                    samples.push_back({std::uint32_t(at.triangle), float(at.weights[1]), float(at.weights[2]), true});
+                    if (samples.size() % 3 == 2)
+                        samples.push_back({std::uint32_t(at.triangle), 0.25f, 0.5f, true});
                 }
-                places.resize(std::min(places.size(), kLanes));
-                pointsOf(*low, places, points);
+                samples.resize(std::min(samples.size(), kLanes));
+                pointsOf(*low, samples, points);
                 std::vector<glm::dvec3> expected;
                 Lanes3 targets, texels;
-                for (std::size_t k = 0; k < places.size(); ++k) {
-                    const LowPoint exact = pointOf(*low, places[k].triangle, places[k].b1, places[k].b2);
-                    EXPECT_LT(glm::length(glm::dvec3(points.position.at(k)) - exact.position), 1e-5); // float near 1
+                for (std::size_t k = 0; k < samples.size(); ++k) {
+                    const LowPoint exact = pointOf(*low, samples[k].triangle, samples[k].b1, samples[k].b2);
+                    EXPECT_LT(glm::length(glm::dvec3(points.position.at(k)) - exact.position), 1e-5); // rounding near 1
                     EXPECT_LT(glm::length(glm::dvec3(points.normal.at(k)) - exact.normal), 1e-6);
                     const glm::dvec3 target = glm::normalize(exact.normal + 0.6 * random.direction());
                     targets.set(k, glm::vec3(target));
                     expected.push_back(encode(exact.frame, Covector3d(target)));
                 }
                 encode(points, targets, texels);
-                // A frame as skewed as a sphere's at its poles loses two digits of float's seven; an 8-bit texel
-                // is 0.4 degrees wide, a 16-bit one 0.002.
-                for (std::size_t k = 0; k < places.size(); ++k)
+                // A frame as skewed as a sphere's at its poles loses two of float's seven digits. For comparison, one
+                // step of an 8-bit texel is 0.4 degrees, of a 16-bit one 0.002.
+                for (std::size_t k = 0; k < samples.size(); ++k)
                     EXPECT_LT(degreesBetween(glm::dvec3(texels.at(k)), expected[k]), 1e-3) << name(frame);
             }
         }

@@ -1,4 +1,4 @@
-// Both sides of each bound of a bake's options and inputs, texts with their numbers, names that match, and tiles.
+// Both sides of each bound of a bake's options and inputs, messages with their numbers, names that match, and tiles.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -42,13 +42,13 @@ BakeModelOptions fewTexels(BakeKind kind = BakeKind::normal)
 
 std::string messageOf(const Result<BakeSetup>& setup) { return setup ? "" : setup.error().message; }
 
-TEST(BakeBounds, optionsAreTakenUpToTheirLimitsAndRefusedBeyond)
+TEST(BakeBounds, optionsAreAcceptedUpToTheirLimits)
 {
     using O = BakeModelOptions;
     const float most = 1e17f, more = 1.01e17f;
     const struct {
         std::function<void(O&)> change;
-        const char* message; // empty: taken
+        const char* message; // empty: accepted
     } cases[] = {
         {[](O& o) { o.bake.width = o.bake.height = 65535; }, ""},
         {[](O& o) { o.bake.width = o.bake.height = 1; }, ""},
@@ -61,9 +61,9 @@ TEST(BakeBounds, optionsAreTakenUpToTheirLimitsAndRefusedBeyond)
         {[](O& o) { o.bake.samples = 2; }, ""},
         {[](O& o) { o.bake.samples = 4; }, ""},
         {[](O& o) { o.bake.samples = 0; },
-         "options.bake.samples: expected 1, 2 or 4 samples a texel and axis; found 0"},
+         "options.bake.samples: expected 1, 2 or 4 samples per texel and axis; found 0"},
         {[](O& o) { o.bake.samples = 5; },
-         "options.bake.samples: expected 1, 2 or 4 samples a texel and axis; found 5"},
+         "options.bake.samples: expected 1, 2 or 4 samples per texel and axis; found 5"},
         {[](O& o) { o.bake.occlusionRays = 1; }, ""},
         {[](O& o) { o.bake.occlusionRays = 65536; }, ""},
         {[](O& o) { o.bake.occlusionRays = 65537; },
@@ -96,45 +96,46 @@ TEST(BakeBounds, optionsAreTakenUpToTheirLimitsAndRefusedBeyond)
             EXPECT_EQ(setup.error().kind, ErrorKind::usage) << i;
         }
     }
-    for (const auto& [scenes, maps, taken] :
+    for (const auto& [scenes, maps, accepted] :
          {std::tuple(2, 0, true), {2, 1, true}, {2, 2, true}, {2, 3, false}, {3, 2, false}}) {
         HighModel high;
         high.scenes.assign(std::size_t(scenes), sceneOfMeshes({flatSquare(0)}));
         high.maps.resize(std::size_t(maps));
         EXPECT_EQ(messageOf(prepareBake(low, std::move(high), fewTexels())),
-                  taken ? ""
+                  accepted ? ""
                         : fmt::format("high.maps: expected none, one, or one for each of the {} scenes; found {}",
                                       scenes, maps));
     }
 }
 
-TEST(BakeBounds, placesAreTakenUpToTheirLimitOnEachAxisAndSide)
+TEST(BakeBounds, positionsAreAcceptedUpToTheirLimitOnEachAxis)
 {
     const Scene flat = sceneOfMeshes({flatSquare(0)});
     for (int axis = 0; axis < 3; ++axis)
-        for (const auto& [far, taken] :
+        for (const auto& [far, accepted] :
              {std::pair(0.9e17f, true), {1.1e17f, false}, {-0.9e17f, true}, {-1.1e17f, false}}) {
             glm::vec3 corner(0);
             corner[axis] = far;
-            Scene placed = sceneOfMeshes({rectangle(corner, {1e16f, 0, 0}, {0, 1e16f, 0})});
-            if (far < 0) // all but the first corner lie elsewhere
-                placed = sceneOfMeshes({rectangle(corner, {1e16f, 0, 1e15f}, {0, 1e16f, 1e15f})});
+            Scene offsetScene = sceneOfMeshes({rectangle(corner, {1e16f, 0, 0}, {0, 1e16f, 0})});
+            if (far < 0) // all but the first corner are elsewhere
+                offsetScene = sceneOfMeshes({rectangle(corner, {1e16f, 0, 1e15f}, {0, 1e16f, 1e15f})});
             const std::string found =
-                taken ? "" : fmt::format("expected positions up to 1e+17 from the origin; found {:g}", far);
-            const auto said = [&](const char* what) {
-                return taken ? std::string() : std::string(what) + ": " + found;
+                accepted ? "" : fmt::format("expected positions up to 1e+17 from the origin; found {:g}", far);
+            const auto errorOf = [&](const char* what) {
+                return accepted ? std::string() : std::string(what) + ": " + found;
             };
             HighModel high;
-            high.scenes = {placed};
+            high.scenes = {offsetScene};
             BakeModelOptions options = fewTexels();
-            EXPECT_EQ(messageOf(prepareBake(placed, highModel({flatSquare(0)}), options)), said("low")) << axis;
-            EXPECT_EQ(messageOf(prepareBake(flat, std::move(high), options)), said("high")) << axis;
-            options.cage = &placed;
-            EXPECT_EQ(messageOf(prepareBake(flat, highModel({flatSquare(0)}), options)), said("options.cage")) << axis;
+            EXPECT_EQ(messageOf(prepareBake(offsetScene, highModel({flatSquare(0)}), options)), errorOf("low")) << axis;
+            EXPECT_EQ(messageOf(prepareBake(flat, std::move(high), options)), errorOf("high")) << axis;
+            options.cage = &offsetScene;
+            EXPECT_EQ(messageOf(prepareBake(flat, highModel({flatSquare(0)}), options)), errorOf("options.cage"))
+                << axis;
         }
 }
 
-TEST(BakeBounds, namesMatchUpToTheLastLowOrHighInThem)
+TEST(BakeBounds, namesMatchUpToTheLastLowOrHigh)
 {
     // The first high mesh is never the right one.
     const auto matchOf = [](const char* low, const char* high) {
@@ -153,7 +154,7 @@ TEST(BakeBounds, namesMatchUpToTheLastLowOrHighInThem)
     EXPECT_EQ(matchOf("Door_LOW", "dOOR_High"), second);
     EXPECT_EQ(matchOf("door_low.001", "door_high"), second);
     EXPECT_EQ(matchOf("door", "door"), second);
-    EXPECT_EQ(matchOf("pillow_low", "pillow_high"), second); // "low" in the name itself
+    EXPECT_EQ(matchOf("pillow_low", "pillow_high"), second); // "low" is part of the name itself
     EXPECT_EQ(matchOf("yellow_flower_low", "yellow_flower_high"), second);
     EXPECT_EQ(matchOf("highway_low", "highway_high"), second);
     EXPECT_EQ(matchOf("door_low", "doors_high"), none);
@@ -162,7 +163,7 @@ TEST(BakeBounds, namesMatchUpToTheLastLowOrHighInThem)
 
 TEST(BakeBounds, eachTileIsItsSquareOfUv)
 {
-    // 1001 + u + 10 v, v upwards: ours runs down. A height for each.
+    // UDIM 1001 + u + 10 v with v upwards; texcoords here have v down. Each tile gets its own height.
     const std::pair<int, glm::vec2> tiles[] = {{1001, {0, 0}},  {1002, {1, 0}},  {1010, {9, 0}},
                                                {1011, {0, -1}}, {1023, {2, -2}}, {1100, {9, -9}}};
     std::vector<Mesh> low, high;
@@ -185,7 +186,7 @@ TEST(BakeBounds, eachTileIsItsSquareOfUv)
         EXPECT_EQ(map->tile, tiles[i].first);
         EXPECT_EQ(map->statistics.covered, 12u);
         EXPECT_NEAR(map->image.floats()[0], 0.01f * float(i + 1), 1e-5f) << tiles[i].first;
-        EXPECT_EQ(map->image.frame, ""); // of heights
+        EXPECT_EQ(map->image.frame, ""); // heights have no frame
     }
     for (const int tile : {1005, 1031, 1098}) {
         const auto none = bakeTile(*setup, tile);
@@ -195,14 +196,14 @@ TEST(BakeBounds, eachTileIsItsSquareOfUv)
     }
     const auto before = bakeTile(*setup, 1000);
     ASSERT_FALSE(before);
-    EXPECT_EQ(before.error().message, "options.tiles: expected numbers from 1001 on; found 1000");
+    EXPECT_EQ(before.error().message, "options.tiles: expected numbers of at least 1001; found 1000");
 }
 
-TEST(BakeBounds, aMapForAFrameSaysSoAndPaddingFillsAsFarAsItIsTold)
+TEST(BakeBounds, mapsNameTheirFrameAndPaddingFillsTheGivenRadius)
 {
     Mesh low = flatSquare(0);
     for (glm::vec2& uv : low.texcoords[0])
-        uv.x /= 6; // the first of six columns; the second is touched from its edge
+        uv.x /= 6; // the first of six columns; the edge touches the second
     const Mesh high = rectangle({0, 0, 0}, {1, 0, 0.3f}, {0, 1, 0});
     for (const auto& [padding, columns] : {std::pair(-1, 2), {1, 3}, {2, 4}, {0, 6}}) {
         BakeModelOptions options = fewTexels();
@@ -215,40 +216,38 @@ TEST(BakeBounds, aMapForAFrameSaysSoAndPaddingFillsAsFarAsItIsTold)
         const Image& image = model->maps[0].image;
         EXPECT_EQ(image.frame, "smooth");
         for (int i = 0; i < 18; ++i)
-            EXPECT_EQ(image.bytes8()[4 * i] < 128, i % 6 < columns) << padding; // leans against u, or is flat
+            EXPECT_EQ(image.bytes8()[4 * i] < 128, i % 6 < columns) << padding; // tilted against u, or flat
     }
 }
 
 // ---- crowds ---------------------------------------------------------------------------------
 
-TEST(BakeBounds, raysMayMeetTwoThousandTrianglesOneBehindTheOther)
+TEST(BakeBounds, aRayMayCross2000Triangles)
 {
     for (const auto& [count, message] :
          {std::pair(2000, ""),
           {2001,
-           "high: rays meet about 2001 of its triangles one behind the other, expected at most 2000: leave out "
-           "those that nobody sees"}}) {
+           "high: a ray crosses about 2001 of its triangles; expected at most 2000: remove hidden triangles"}}) {
         Mesh low = rectangle({0.1f, 0.1f, 0}, {0.1f, 0, 0}, {0, 0.1f, 0});
         EXPECT_EQ(messageOf(prepareBake(sceneOfMeshes({low}), highModel({crowd(count)}), fewTexels())), message);
     }
 }
 
-TEST(BakeBounds, pointsMayLookAtTwoThousandTriangles)
+TEST(BakeBounds, upTo2000LowTrianglesMayOverlapAtAPoint)
 {
     for (const auto& [count, message] :
          {std::pair(2000, ""),
           {2001,
-           "low: about 2001 of its triangles lie over one another at each place, expected at most 2000: leave out "
-           "those that nobody sees"}}) {
+           "low: about 2001 of its triangles overlap at each point; expected at most 2000: remove hidden triangles"}}) {
         const Mesh high = rectangle({0.1f, 0.1f, 0}, {0.1f, 0, 0}, {0, 0.1f, 0});
         EXPECT_EQ(messageOf(prepareBake(sceneOfMeshes({crowd(count)}), highModel({high}), fewTexels())), message);
     }
 }
 
-TEST(BakeBounds, rowsUnderAllTrianglesAreLimitedWithTheTexels)
+TEST(BakeBounds, rowsUnderAllTrianglesAreLimited)
 {
-    // A map of 1 x 65535 may have 4e7 + 2 * 65535 rows under its triangles: 612.4 times its height. Each triangle has
-    // that many at most, however far it goes; one without height or numbers has none.
+    // A map of 1 x 65535 may have 4e7 + 2 * 65535 rows under its triangles: 612.4 times its height. Each triangle
+    // counts at most all rows, however far it extends; one without height or with NaN counts none.
     const auto bakeOf = [](int full) {
         LowSurface low;
         const auto add = [&](glm::vec2 a, glm::vec2 b, glm::vec2 c) {
@@ -281,15 +280,15 @@ TEST(BakeBounds, rowsUnderAllTrianglesAreLimitedWithTheTexels)
     EXPECT_EQ(most.error().kind, ErrorKind::stopped) << most.error().message;
     EXPECT_EQ(more.error().kind, ErrorKind::input);
     EXPECT_EQ(more.error().message,
-              "low: its triangles lie over one another in 4.02e+07 rows of texels; expected at most "
-              "4.01e+07: fewer, or a smaller map");
+              "low: its triangles overlap in 4.02e+07 rows of texels; expected at most "
+              "4.01e+07: use fewer triangles or a smaller map");
 }
 
 // ---- stored ---------------------------------------------------------------------------------
 
 TEST(BakeBounds, ditherFollowsAnOrderedPatternOfEightByEight)
 {
-    // B. Bayer's: of a pattern B of side n the next has 4 B + {0, 2; 3, 1} in its quarters.
+    // Bayer's ordered dither: the pattern after B (side n) has 4 B + {0, 2; 3, 1} in its quarters.
     std::vector<std::vector<int>> pattern{{0}};
     while (pattern.size() < 8) {
         const std::size_t n = pattern.size();
@@ -300,13 +299,13 @@ TEST(BakeBounds, ditherFollowsAnOrderedPatternOfEightByEight)
         pattern = next;
     }
     Baked baked;
-    baked.width = 17; // no multiple of eight
+    baked.width = 17; // not a multiple of eight
     baked.height = 10;
     baked.states.assign(170, texelCovered);
     StoredAs as;
     as.dither = true;
     for (const int of64 : {0, 1, 7, 16, 31, 48, 63}) {
-        // Of a level and so many 64ths: rounded up where the pattern's number is at least 64 less that.
+        // A value `of64` 64ths above a level is rounded up where the pattern's number is at least 64 - of64.
         baked.values.assign(170, glm::vec3((100 + float(of64) / 64) / 255, 0, 1));
         const Image image = storeBaked(baked, BakeKind::occlusion, as);
         for (int y = 0; y < 10; ++y)
@@ -320,16 +319,16 @@ TEST(BakeBounds, ditherFollowsAnOrderedPatternOfEightByEight)
     }
 }
 
-TEST(BakeBounds, theMaskTellsStatesApartTheGravestFirst)
+TEST(BakeBounds, theMaskShowsTheMostSevereState)
 {
     const int states[] = {0,
                           texelTouched,
                           texelCovered,
-                          texelCovered | texelTwice,
+                          texelCovered | texelOverlapped,
                           texelCovered | texelNegative,
                           texelCovered | texelMissed,
                           texelCovered | texelTouched,
-                          texelCovered | texelTwice | texelNegative,
+                          texelCovered | texelOverlapped | texelNegative,
                           texelCovered | texelNegative | texelMissed,
                           texelPadded};
     Baked baked;

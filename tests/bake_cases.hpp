@@ -1,4 +1,4 @@
-// Pairs of meshes that tell bakers apart: parts that stand off, thin things, things in front of one another.
+// Pairs of low and high meshes that distinguish bakers: parts that stand off, thin parts, parts in front of others.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace cotan {
 
-struct Axes { // a plane's normal and two directions along it, right-handed
+struct Axes { // a plane's normal and two directions in it, right-handed
     glm::vec3 n, u, v;
 };
 
@@ -32,7 +32,7 @@ inline const std::array<Axes, 6>& sides()
     return all;
 }
 
-// A convex polygon with its normals; uv: of its corners, or none.
+// Adds a convex polygon with its normals and, if given, the uv of its corners.
 inline void addPolygon(Mesh& mesh, const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& normals,
                        const std::vector<glm::vec2>& uv = {})
 {
@@ -46,7 +46,7 @@ inline void addPolygon(Mesh& mesh, const std::vector<glm::vec3>& points, const s
         mesh.indices.insert(mesh.indices.end(), {base, base + i, base + i + 1});
 }
 
-// Cells of an atlas, n by n, each with a margin.
+// An n by n grid of cells in uv, each with a margin.
 struct Atlas {
     int n = 1, next = 0;
 
@@ -67,7 +67,7 @@ inline void addSquare(Mesh& mesh, const Axes& side, glm::vec3 centre, glm::vec2 
     addPolygon(mesh, points, {side.n}, uv);
 }
 
-// A box with flat sides that face outwards, or inwards; `open`: number of a side that is left out.
+// Adds a box with flat sides that face outwards or inwards; `open` is the index of a side that is left out.
 inline void addBox(Mesh& mesh, glm::vec3 from, glm::vec3 to, bool inwards, Atlas* atlas, int open = -1)
 {
     const glm::vec3 centre = (from + to) * 0.5f, half = (to - from) * 0.5f;
@@ -86,7 +86,7 @@ inline void addBox(Mesh& mesh, glm::vec3 from, glm::vec3 to, bool inwards, Atlas
     }
 }
 
-// Half a ball on a plane, or the same as a bowl in it.
+// Adds half a ball on a plane, or the same as a bowl in the plane.
 inline void addDome(Mesh& mesh, const Axes& side, glm::vec3 centre, float radius, bool bowl = false)
 {
     constexpr int kColumns = 24, kRows = 12;
@@ -109,7 +109,7 @@ inline void addDome(Mesh& mesh, const Axes& side, glm::vec3 centre, float radius
         }
 }
 
-// A closed cylinder that stands from `bottom` to `top` above `centre`.
+// Adds a closed cylinder from `bottom` to `top` above `centre`.
 inline void addCylinder(Mesh& mesh, const Axes& side, glm::vec3 centre, float radius, float bottom, float top)
 {
     constexpr int kColumns = 48;
@@ -124,12 +124,12 @@ inline void addCylinder(Mesh& mesh, const Axes& side, glm::vec3 centre, float ra
     }
 }
 
-// A cube of half the side `half` with round edges and corners: the points at `bevel` from a smaller cube.
+// Adds a cube of side 2 `half` with rounded edges and corners: all points at distance `bevel` from a smaller cube.
 inline void addBevelledCube(Mesh& mesh, float half, float bevel)
 {
     constexpr int kCells = 24;
     const float inner = half - bevel;
-    // Of a grid on each side: the inner square once, then the rounded rim in eighths of a right angle.
+    // Grid coordinates on each side: the flat inner square, then the rounded rim in steps of an eighth of 45 degrees.
     std::vector<double> steps;
     for (int i = 0; i <= kCells; ++i) {
         const int k = kCells / 3;
@@ -163,21 +163,21 @@ struct BakeCase {
 
 inline const Axes kUpwards = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
 
-// A cube of one metre; on its side +x stand four cylinders, from 3 to 7 cm off.
-inline constexpr float kBolt = 0.06f, kBoltPlace = 0.25f, kBoltTop = 0.07f;
+// A cube of one metre; four cylinders stand in front of its side +x, from 3 to 7 cm away.
+inline constexpr float kBolt = 0.06f, kBoltOffset = 0.25f, kBoltTop = 0.07f;
 inline BakeCase bolts()
 {
     BakeCase pair;
     Atlas atlas{3};
     addBox(pair.low, glm::vec3(-0.5f), glm::vec3(0.5f), false, &atlas);
     addBevelledCube(pair.high, 0.5f, 0.03f);
-    for (const float y : {-kBoltPlace, kBoltPlace})
-        for (const float z : {-kBoltPlace, kBoltPlace})
+    for (const float y : {-kBoltOffset, kBoltOffset})
+        for (const float z : {-kBoltOffset, kBoltOffset})
             addCylinder(pair.high, sides()[0], {0.5f, y, z}, kBolt, 0.03f, kBoltTop);
     return pair;
 }
 
-// A plate 0.02 thick, the low plane a little under its middle.
+// A plate 0.02 thick; the low plane is slightly below its middle.
 inline BakeCase plate()
 {
     BakeCase pair;

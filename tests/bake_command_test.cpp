@@ -26,8 +26,8 @@ glm::dvec3 decoded(const Image& image, std::size_t i, bool green)
     return {component(0), component(1) * (green ? 1 : -1), component(2)};
 }
 
-// The high mesh is a grid of 128 cells with the analytic normals at its vertices. Centres of texels of a
-// 64 x 64 map lie on vertices, so that the answer is exact there.
+// The high mesh is a grid of 128 cells with analytic normals at its vertices. Texel centres of a 64 x 64 map coincide
+// with vertices, so the answer is exact there.
 TEST(BakeCommand, syntheticWavesComeOutExactInBothGreenConventions)
 {
     if (!std::filesystem::exists(kWaves / "high.obj"))
@@ -58,7 +58,7 @@ TEST(BakeCommand, syntheticWavesComeOutExactInBothGreenConventions)
         }
 }
 
-// Mean angle to the exact answer of a map as large as that, 256 x 256: each cell of the high mesh has four texels.
+// Mean angle to the exact map of the same size, 256 x 256: each cell of the high mesh has four texels.
 double degreesFromWaves(const char* normals, const char* convention, const char* bits)
 {
     const auto truth = readImage(kWaves / "normal_gl16.png");
@@ -88,7 +88,7 @@ TEST(BakeCommand, syntheticWavesComeOutExactBetweenTheVerticesOfACurvedSurface)
         EXPECT_LT(degreesFromWaves("curved", convention, "8"), 0.2) << convention;
         EXPECT_LT(degreesFromWaves("curved", convention, "16"), 0.01) << convention;
     }
-    // What interpolation leaves: an eighth of the squared cell times the normal's second derivative.
+    // The error of linear interpolation: an eighth of the squared cell size times the normal's second derivative.
     EXPECT_GT(degreesFromWaves("smooth", "opengl", "16"), 0.1);
 }
 
@@ -104,7 +104,7 @@ TEST(BakeCommand, bunnyIsDrawnLikeItsHighMesh)
                               folder.path(), 240);
     ASSERT_EQ(r.code, 0) << r.err;
     const auto report = nlohmann::json::parse(readWhole(folder / "r.json"));
-    // Measured 0.6 mean at this size: the map's filtering; where rays of neighbours diverge, more.
+    // The mean measured at this size is 0.6: filtering of the map, and more where rays of neighbouring texels diverge.
     EXPECT_LT(report["verify"]["all"]["mean_degrees"].get<double>(), 1.0);
     EXPECT_LT(report["verify"]["all"]["median_degrees"].get<double>(), 0.6);
     EXPECT_LT(report["bake"]["missed"].get<double>(), 0.01 * report["bake"]["covered"].get<double>());
@@ -112,7 +112,7 @@ TEST(BakeCommand, bunnyIsDrawnLikeItsHighMesh)
         EXPECT_TRUE(std::filesystem::exists(folder / "views" / file)) << file;
 }
 
-TEST(BakeCommand, warnsOfATexelBelowTheHorizonAndOfNoneAbove)
+TEST(BakeCommand, warnsOnlyOfTexelsBelowTheHorizon)
 {
     TemporaryFolder folder;
     const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
@@ -124,12 +124,12 @@ TEST(BakeCommand, warnsOfATexelBelowTheHorizonAndOfNoneAbove)
             runTool({"bake", "--high", "high.obj", "--low", "low.obj", "--size", "1", "-o", "m.png", "--overwrite"},
                     folder.path());
         EXPECT_EQ(r.code, 0) << r.err;
-        EXPECT_EQ(r.err.find("1 of 1 covered texels look below the frame's horizon") != std::string::npos, below)
+        EXPECT_EQ(r.err.find("1 of 1 covered texels point below the frame's horizon") != std::string::npos, below)
             << r.err;
     }
 }
 
-// A plane at z = 0 under a plane at z = 0, with a slab that floats over its middle and leans: it is what is seen.
+// Low and high planes in z = 0, with a tilted slab over the middle of the high one: from outside the slab is seen.
 void writeSlab(const std::filesystem::path& folder)
 {
     std::ofstream(folder / "low.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
@@ -138,7 +138,7 @@ void writeSlab(const std::filesystem::path& folder)
                                           "v 0.3 0.3 0.03\nv 0.7 0.3 0.09\nv 0.7 0.7 0.09\nv 0.3 0.7 0.03\nf 5 6 7 8\n";
 }
 
-TEST(BakeCommand, verifyFailsWhereWhatIsInFrontIsNotInTheMap)
+TEST(BakeCommand, verifyFailsIfTheFrontSurfaceIsNotInTheMap)
 {
     TemporaryFolder folder;
     writeSlab(folder.path());
@@ -153,17 +153,17 @@ TEST(BakeCommand, verifyFailsWhereWhatIsInFrontIsNotInTheMap)
     };
     ToolRun run;
     const auto right = verified({}, run);
-    EXPECT_EQ(run.err.find("another surface"), std::string::npos) << run.err;
+    EXPECT_EQ(run.err.find("do not show"), std::string::npos) << run.err;
     EXPECT_TRUE(right["shows_the_high_surface"]);
     EXPECT_LT(right["all"]["median_degrees"].get<double>(), 0.3); // 8 bits
-    // The older rule takes the plane below: a sixth of the square, 8.5 degrees off.
+    // The older rule takes the plane below: a sixth of the square, an error of 8.5 degrees.
     const auto wrong = verified({"--search", "nearest"}, run);
-    EXPECT_NE(run.err.find("show another surface than the high mesh does there"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("do not show the surface that the high mesh shows"), std::string::npos) << run.err;
     EXPECT_FALSE(wrong["shows_the_high_surface"]);
-    const double share = wrong["all"]["another_surface"].get<double>() / wrong["all"]["surface_known"].get<double>();
-    EXPECT_NEAR(share, 0.16, 0.02);
-    EXPECT_NEAR(wrong["all"]["mean_degrees"].get<double>(), share * 8.53, 0.2);
-    // The picture of the high mesh is one of the high mesh: its slab leans, whatever the map shows.
+    const double fraction = wrong["all"]["another_surface"].get<double>() / wrong["all"]["surface_known"].get<double>();
+    EXPECT_NEAR(fraction, 0.16, 0.02);
+    EXPECT_NEAR(wrong["all"]["mean_degrees"].get<double>(), fraction * 8.53, 0.2);
+    // The image of the high mesh shows its tilted slab, whatever the map contains.
     const auto high = readImage(folder / "views" / "high-0.png"), error = readImage(folder / "views" / "error-0.png");
     ASSERT_TRUE(high && error);
     const std::size_t middle =
@@ -174,7 +174,7 @@ TEST(BakeCommand, verifyFailsWhereWhatIsInFrontIsNotInTheMap)
     EXPECT_EQ(int(error->bytes8()[middle + 2]), 255);
 }
 
-TEST(BakeCommand, warningsCountTexelsAndBlameTheDistanceOnlyWhereItIsTheDistance)
+TEST(BakeCommand, warningsBlameTheDistanceOnlyIfItIsTheCause)
 {
     TemporaryFolder folder;
     writeSlab(folder.path());
@@ -186,21 +186,21 @@ TEST(BakeCommand, warningsCountTexelsAndBlameTheDistanceOnlyWhereItIsTheDistance
         EXPECT_EQ(r.code, 0) << r.err;
         return r.err;
     };
-    // What floats: about a sixth of 4096 texels, which the older rule sees otherwise.
+    // The floating slab: the older rule sees another surface at about a sixth of the 4096 texels.
     const std::string floats = bake("high.obj", {});
     EXPECT_NE(floats.find(" of 4096 covered texels show the first surface from outside, not the nearest one"),
               std::string::npos)
         << floats;
-    // A hole at one texel: neither distance nor percent.
+    // A gap under one column of texels: the warning must blame no distance and give no percentage.
     std::ofstream(folder / "hole.obj") << "v 0 0 0\nv 0.49 0 0\nv 0.49 1 0\nv 0 1 0\nv 0.501 0 0\nv 1 0 0\nv 1 1 0\n"
                                           "v 0.501 1 0\nf 1 2 3 4\nf 5 6 7 8\n";
     const std::string hole = bake("hole.obj", {});
-    EXPECT_NE(hole.find("64 of 4096 covered texels have no high surface before or behind them at any distance"),
+    EXPECT_NE(hole.find("64 of 4096 covered texels have no high surface in front or behind at any distance"),
               std::string::npos)
         << hole;
     EXPECT_EQ(hole.find("further away"), std::string::npos) << hole;
     EXPECT_EQ(hole.find('%'), std::string::npos) << hole;
-    // Too far away, by a rule that says how far it looks.
+    // Too far away under a rule that names its search distance.
     std::ofstream(folder / "far.obj") << "v 0 0 0.5\nv 1 0 0.5\nv 1 1 0.5\nv 0 1 0.5\nf 1 2 3 4\n";
     const std::string far = bake("far.obj", {"--max-distance", "0.2"});
     EXPECT_NE(far.find("4096 of 4096 covered texels found no high surface within 0.2 units; there is one further away"),
@@ -251,7 +251,7 @@ TEST(BakeCommand, badInputGetsOneLineAndItsExitCode)
     }
 }
 
-TEST(BakeCommand, flatOnFlatIsFlatAndACreaseIsWarnedOf)
+TEST(BakeCommand, aFlatBakeIsFlatAndCreasesAreWarnedOf)
 {
     Files files;
     const ToolRun r = runTool({"bake", "--high", "bare.obj", "--low", "low.obj", "-o", "m.png", "--size", "5x3",

@@ -1,4 +1,4 @@
-// Surfaces that lie on one another by the thousand: what a bake finds of them, and that it looks at few.
+// Thousands of coincident surfaces: what a bake finds among them, and that it tests only few.
 #include <gtest/gtest.h>
 
 #include "bake/low_tree.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kCopies = 5000;
 
-// A square in the plane z = height, uv over all of the map.
+// A square in the plane z = height whose uv cover the map.
 Mesh square(float height)
 {
     Mesh mesh;
@@ -39,7 +39,7 @@ Result<BakedModel> bakeOf(const Mesh& low, const Mesh& high)
     return bakeModel(sceneOfMeshes({low}), std::move(model), options);
 }
 
-TEST(BakeCrowded, aPointLooksAtFewOfManyEqualTriangles)
+TEST(BakeCrowded, aPointQueryVisitsFewOfManyEqualTriangles)
 {
     const Mesh mesh = repeated(square(0));
     const auto tree = LowTree::make(mesh.positions, mesh.indices, {}, 1);
@@ -48,21 +48,21 @@ TEST(BakeCrowded, aPointLooksAtFewOfManyEqualTriangles)
     EXPECT_TRUE(nearest.found);
     EXPECT_EQ(nearest.triangle, 0u);
     EXPECT_NEAR(nearest.distance, 0.1f, 1e-6f);
-    EXPECT_LT(nearest.asked, 10u);
+    EXPECT_LT(nearest.visited, 10u);
 }
 
-TEST(BakeCrowded, aRayMeetsOneOfManyEqualTrianglesUnlessInstancesAreTold)
+TEST(BakeCrowded, equalTrianglesAreMergedUnlessKeptByInstance)
 {
     const Scene scene = sceneOfMeshes({repeated(square(0))});
-    const auto surface = HighSurface::make({scene}, 1), told = HighSurface::make({scene}, 1, /*byInstance*/ true);
-    ASSERT_TRUE(surface && told);
+    const auto surface = HighSurface::make({scene}, 1), byInstance = HighSurface::make({scene}, 1, /*byInstance*/ true);
+    ASSERT_TRUE(surface && byInstance);
     const Ray ray{{0.6f, 0.3f, 1}, {0, 0, -1}, 0, 2};
-    EXPECT_EQ(surface->met(ray), 1u);
-    EXPECT_EQ(told->met(ray), std::size_t(kCopies));
+    EXPECT_EQ(surface->countHits(ray), 1u);
+    EXPECT_EQ(byInstance->countHits(ray), std::size_t(kCopies));
     EXPECT_EQ(surface->trace(ray).triangle, 0u);
 }
 
-TEST(BakeCrowded, ofEqualTrianglesTheMapIsThatOfOne)
+TEST(BakeCrowded, equalTrianglesBakeLikeOne)
 {
     const auto one = bakeOf(square(0), square(0.05f)), many = bakeOf(repeated(square(0)), repeated(square(0.05f)));
     ASSERT_TRUE(one && many);
@@ -71,12 +71,12 @@ TEST(BakeCrowded, ofEqualTrianglesTheMapIsThatOfOne)
     EXPECT_EQ(many->maps[0].statistics.twice, many->maps[0].statistics.covered);
 }
 
-TEST(BakeCrowded, thousandsThatAreNotEqualAreRefused)
+TEST(BakeCrowded, thousandsOfDifferentTrianglesOnARayAreRefused)
 {
     const Mesh mesh = crowd(kCopies);
     const auto high = bakeOf(square(0), mesh);
     ASSERT_FALSE(high);
-    EXPECT_NE(high.error().message.find("high: rays meet about"), std::string::npos) << high.error().message;
+    EXPECT_NE(high.error().message.find("high: a ray crosses about"), std::string::npos) << high.error().message;
     const auto low = bakeOf(mesh, square(0));
     ASSERT_FALSE(low);
     EXPECT_NE(low.error().message.find("low: "), std::string::npos) << low.error().message;

@@ -1,4 +1,4 @@
-// The curved surface through a mesh's vertices and normals, against the surface that the mesh was made of.
+// The curved surface through a mesh's vertices and normals, compared with the surface that was tessellated.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -13,7 +13,7 @@
 namespace cotan {
 namespace {
 
-// A relief of a few waves with slopes up to 0.7, and its normal.
+// Height of a relief of a few waves with slopes up to 0.7. normalAt gives its normal.
 double height(double x, double y)
 {
     return 0.1 * std::sin(5 * x + 1) * std::cos(4 * y) + 0.05 * std::sin(3 * x - 2 * y);
@@ -27,8 +27,8 @@ glm::dvec3 normalAt(double x, double y)
 
 enum class Winding { outwards, inwards };
 
-// cells x cells quads over the unit square, each of two triangles; vertices in the middle of the square are moved to
-// make the mesh irregular, as real ones are.
+// A grid of cells x cells quads over the unit square, each of two triangles. Inner vertices are moved to make the mesh
+// irregular, like real ones.
 Scene relief(int cells, Winding winding = Winding::outwards)
 {
     Scene scene;
@@ -57,7 +57,7 @@ Scene relief(int cells, Winding winding = Winding::outwards)
     return scene;
 }
 
-// Where a ray from above meets the relief itself: Newton's method.
+// Intersection of a ray from above with the relief itself, by Newton's method.
 glm::dvec3 truthAlong(glm::dvec3 origin, glm::dvec3 direction)
 {
     double t = -origin.z / direction.z;
@@ -103,10 +103,10 @@ Errors errorsOf(const Scene& scene)
     return errors;
 }
 
-TEST(Curved, errorsFallByTheThirdPowerOfTheEdgeWhereInterpolationsFallByTheSecond)
+TEST(Curved, curvedErrorsAreThirdOrderAndInterpolatedOnesSecond)
 {
     const Errors coarse = errorsOf(relief(12)), fine = errorsOf(relief(24));
-    // Halving the edges: 4 for the second power, 8 for the third. Irregular neighbours vary, hence the margins.
+    // Halving the edges divides second-order errors by 4, third-order ones by 8. Irregular neighbours need margins.
     EXPECT_GT(coarse.interpolated / fine.interpolated, 3.2);
     EXPECT_LT(coarse.interpolated / fine.interpolated, 4.8);
     EXPECT_GT(coarse.curved / fine.curved, 7);
@@ -114,13 +114,13 @@ TEST(Curved, errorsFallByTheThirdPowerOfTheEdgeWhereInterpolationsFallByTheSecon
     EXPECT_LT(fine.curved, fine.interpolated / 10);
 }
 
-TEST(Curved, theSideOnWhichTrianglesRunDoesNotMatter)
+TEST(Curved, windingDoesNotMatter)
 {
-    // The same triangles the other way round: only rounding differs, 1e-7 on steps of a tenth.
+    // The same triangles with the opposite winding: only rounding differs, 1e-7 on steps of a tenth.
     EXPECT_NEAR(errorsOf(relief(12)).curved, errorsOf(relief(12, Winding::inwards)).curved, 1e-4);
 }
 
-TEST(Curved, aMeshWithoutSharedVerticesIsNoWorseThanInterpolated)
+TEST(Curved, unsharedVerticesAreNoWorseThanInterpolation)
 {
     Scene scene = relief(12);
     Mesh apart;
@@ -157,16 +157,16 @@ TEST(Curved, flatFacesStayFlat)
         const Hit hit =
             surface->trace({{float(random.range(0.1, 0.9)), float(random.range(0.1, 0.9)), 1}, {0, 0, -1}, 0, 10});
         ASSERT_TRUE(hit.found);
-        // Positions of a face lie in its plane but for their rounding, 6e-8, over edges of a sixth: 2e-5 degrees.
+        // Positions of a face lie in its plane except for rounding, 6e-8, over edges of 1/6: 2e-5 degrees.
         EXPECT_LT(
             degrees(glm::dvec3(surface->normalOf(hit, HighNormals::curved, {0, 0, -1})), glm::dvec3(hit.faceNormal)),
             1e-3);
     }
 }
 
-TEST(Curved, shapeOperatorsAreTheSecondDerivativesOfAQuadricWhateverDoesNotCountLiesBeside)
+TEST(Curved, shapeOperatorsAreTheSecondDerivativesOfAQuadric)
 {
-    // z = a x^2 / 2 + b x y + c y^2 / 2 around the first vertex, seven neighbours in an uneven ring.
+    // z = a x^2 / 2 + b x y + c y^2 / 2 around the first vertex, with seven neighbours in an uneven ring.
     const double a = 0.7, b = -0.3, c = 0.2;
     std::vector<glm::vec3> positions, normals;
     const auto add = [&](double x, double y) {
@@ -176,8 +176,8 @@ TEST(Curved, shapeOperatorsAreTheSecondDerivativesOfAQuadricWhateverDoesNotCount
     add(0, 0);
     std::vector<std::uint32_t> indices;
     for (std::uint32_t i = 0; i < 7; ++i) {
-        const double turn = 0.9 * i, radius = 0.1 + 0.02 * (i % 3);
-        add(radius * std::cos(turn), radius * std::sin(turn));
+        const double angle = 0.9 * i, radius = 0.1 + 0.02 * (i % 3);
+        add(radius * std::cos(angle), radius * std::sin(angle));
         indices.insert(indices.end(), {0, i + 1, (i + 1) % 7 + 1});
     }
     const std::array<double, 6> expected{-a, -b, 0, -c, 0, 0}; // dn = -H dp
@@ -185,14 +185,14 @@ TEST(Curved, shapeOperatorsAreTheSecondDerivativesOfAQuadricWhateverDoesNotCount
         const auto shapes = shapeOperators(positions, normals, indices, 1);
         ASSERT_EQ(shapes.size(), positions.size());
         for (std::size_t k = 0; k < 6; ++k)
-            EXPECT_NEAR(shapes[0][k], expected[k], 2e-4) << what << " " << k; // positions in float, over 0.1
+            EXPECT_NEAR(shapes[0][k], expected[k], 2e-4) << what << " " << k; // float positions over 0.1
     };
     expectFirst("quadric");
-    positions.emplace_back(0.05f, 0.05f, 0.08f); // looks away: its normal leans by 85 degrees
+    positions.emplace_back(0.05f, 0.05f, 0.08f); // ignored: its normal is tilted by 85 degrees
     normals.push_back(glm::normalize(glm::vec3(1, 0, 0.08f)));
     positions.push_back(positions[0]); // at the vertex itself
     normals.push_back(glm::normalize(glm::vec3(1, 1, 1)));
-    positions.emplace_back(5, 5, 5); // of no triangle
+    positions.emplace_back(5, 5, 5); // in no triangle
     normals.emplace_back(0, 0, 1);
     indices.insert(indices.end(), {0, 8, 9});
     expectFirst("and two that do not count");
@@ -201,12 +201,12 @@ TEST(Curved, shapeOperatorsAreTheSecondDerivativesOfAQuadricWhateverDoesNotCount
     EXPECT_EQ(shapeOperators(positions, normals, indices, 1)[0], ShapeOperator{});
 }
 
-TEST(Curved, aTriangleThatIsNotNearlyFlatOrSeenFromTheSideHasNoCurvedNormal)
+TEST(Curved, onlyNearlyFlatTrianglesNotSeenEdgeOnHaveCurvedNormals)
 {
     const auto leaning = [](float cosine) { return glm::vec3(std::sqrt(1 - cosine * cosine), 0, cosine); };
     const glm::vec3 up(0, 0, 1);
     const CurvedTriangle flat{{glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)}, {up, up, up}, {}};
-    for (const float side : {1.0f, -1.0f}) { // either way along the ray, of any length
+    for (const float side : {1.0f, -1.0f}) { // along or against the ray, of any length
         EXPECT_EQ(curvedNormal(flat, 0.2f, 0.3f, side * leaning(0.052f)), up);
         EXPECT_EQ(curvedNormal(flat, 0.2f, 0.3f, side * leaning(0.048f)), glm::vec3(0));
         EXPECT_EQ(curvedNormal(flat, 0.2f, 0.3f, side * 7 * leaning(0.052f)), up);
@@ -221,13 +221,13 @@ TEST(Curved, aTriangleThatIsNotNearlyFlatOrSeenFromTheSideHasNoCurvedNormal)
     CurvedTriangle line = flat;
     line.positions[2] = {2, 0, 0};
     EXPECT_EQ(curvedNormal(line, 0.2f, 0.3f, -up), glm::vec3(0));
-    CurvedTriangle steep = flat; // far above its plane: a ray that leans meets it beyond the triangle
+    CurvedTriangle steep = flat; // far above its plane: an oblique ray meets it beyond the triangle
     for (ShapeOperator& w : steep.shapes)
         w = {-100, 0, 0, -100, 0, 0};
     EXPECT_EQ(curvedNormal(steep, 0.3f, 0.3f, leaning(0.7f)), glm::vec3(0));
 }
 
-TEST(Curved, rayAlongTheTriangleAndUnpreparedSurfaceGiveTheInterpolatedNormal)
+TEST(Curved, grazingRaysAndUnpreparedSurfacesGiveInterpolatedNormals)
 {
     auto surface = HighSurface::make({relief(8)}, 1);
     ASSERT_TRUE(surface);

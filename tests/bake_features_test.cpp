@@ -1,4 +1,4 @@
-// What `cotan bake` promises beyond a plain normal map, each on meshes whose answer geometry gives.
+// Features of `cotan bake` beyond a plain normal map, each on meshes whose answer follows from geometry.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,8 +19,8 @@ namespace {
 
 constexpr const char* kFaces = "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
 
-// A square of the side `side` with its lower left corner at (x, y), tilted by `slope` along x, with uv
-// shifted by (u, v). OBJ's v runs upwards.
+// A square with side `side` and its lower left corner at (x, y), tilted by `slope` along x, with uv shifted by (u, v).
+// v points up, as in OBJ.
 std::string square(double x, double y, double z, double side, double slope = 0, double u = 0, double v = 0)
 {
     std::string text;
@@ -47,7 +47,7 @@ protected:
         return runTool(words, folder.path());
     }
     nlohmann::json statistics() { return nlohmann::json::parse(readWhole(folder / "r.json"))["bake"]; }
-    Image picture(const std::string& file)
+    Image loadImage(const std::string& file)
     {
         auto image = readImage(folder / file);
         EXPECT_TRUE(image) << file;
@@ -63,18 +63,18 @@ TEST_F(BakeFeatures, heightIsTheDisplacementInModelUnits)
         const ToolRun r = bake({"--high", "high.obj", "--low", "low.obj", "--kind", "height", "--max-distance", "1",
                                 "--bits", "32", "--size", "8x8", "-o", "h.exr"});
         ASSERT_EQ(r.code, 0) << r.err;
-        const Image image = picture("h.exr");
+        const Image image = loadImage("h.exr");
         ASSERT_EQ(image.type, PixelType::float32);
-        for (std::size_t i = 0; i < 64; ++i) // rays start 1e-5 of the diagonal of 4.2 off: rounding of that
+        for (std::size_t i = 0; i < 64; ++i) // rounding of ray starts, which are 1e-5 of the diagonal of 4.2 away
             EXPECT_NEAR(double(image.floats()[4 * i]), height, 1e-5);
     }
 }
 
-// Places on the rims of charts lie on edges that two faces of the high mesh share; each has to see its own.
-TEST_F(BakeFeatures, aBlockBakedOntoItselfIsFlatUpToTheRimsOfItsCharts)
+// Texels on the rims of charts lie on edges that two faces of the high mesh share; each must see its own face.
+TEST_F(BakeFeatures, aBlockBakedOntoItselfIsFlatUpToItsChartBorders)
 {
     std::string text;
-    // Narrower above: rays along a side's normal are not parallel to its neighbours.
+    // Narrower at the top: rays along a side's normal are not parallel to the neighbouring sides.
     const glm::vec3 corners[8] = {{0, 0, 0},          {1, 0, 0},          {1, 1, 0},          {0, 1, 0},
                                   {0.3f, 0.3f, 0.3f}, {0.7f, 0.3f, 0.3f}, {0.7f, 0.7f, 0.3f}, {0.3f, 0.7f, 0.3f}};
     for (const glm::vec3& c : corners)
@@ -82,7 +82,7 @@ TEST_F(BakeFeatures, aBlockBakedOntoItselfIsFlatUpToTheRimsOfItsCharts)
     const int sides[6][4] = {{4, 5, 6, 7}, {1, 0, 3, 2}, {5, 1, 2, 6}, {0, 4, 7, 3}, {7, 6, 2, 3}, {0, 1, 5, 4}};
     const char* const normals[6] = {"0 0 1", "0 0 -1", "1 0 1", "-1 0 1", "0 1 1", "0 -1 1"};
     for (int k = 0; k < 6; ++k) {
-        const double u = 0.02 + 0.33 * (k % 3), v = 0.03 + 0.5 * (k / 3.0 >= 1); // six charts apart from one another
+        const double u = 0.02 + 0.33 * (k % 3), v = 0.03 + 0.5 * (k / 3.0 >= 1); // six separate charts
         for (const auto& [i, j] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
             text += fmt::format("vt {} {}\n", u + 0.27 * i, v + 0.41 * j);
         text += fmt::format("vn {}\n", normals[k]);
@@ -97,8 +97,8 @@ TEST_F(BakeFeatures, aBlockBakedOntoItselfIsFlatUpToTheRimsOfItsCharts)
         bake({"--high", "block.obj", "--low", "block.obj", "--size", "61x47", "--max-distance", "0.1", "-o", "n.png"});
     ASSERT_EQ(r.code, 0) << r.err;
     EXPECT_EQ(statistics()["missed"], 0);
-    EXPECT_GT(statistics()["touched"], 100); // the rims: six charts of some 16 x 19 texels
-    const Image image = picture("n.png");
+    EXPECT_GT(statistics()["touched"], 100); // the rims: six charts of about 16 x 19 texels
+    const Image image = loadImage("n.png");
     for (std::size_t i = 0; i < image.pixelCount(); ++i) {
         EXPECT_EQ(image.bytes8()[4 * i], 128) << "texel " << i;
         EXPECT_EQ(image.bytes8()[4 * i + 1], 128) << "texel " << i;
@@ -112,7 +112,7 @@ TEST_F(BakeFeatures, objectNormalsAreThoseOfTheHighMeshInWorldAxes)
     const ToolRun r = bake({"--high", "high.obj", "--low", "low.obj", "--kind", "object-normal", "--max-distance", "2",
                             "--bits", "16", "--size", "4x4", "-o", "n.png"});
     ASSERT_EQ(r.code, 0) << r.err;
-    const Image image = picture("n.png");
+    const Image image = loadImage("n.png");
     const double expected[3] = {-0.6, 0, 0.8};
     for (std::size_t i = 0; i < 16; ++i)
         for (std::size_t k = 0; k < 3; ++k) // half a step of 16 bits is 1.5e-5 of [-1,1]
@@ -121,7 +121,7 @@ TEST_F(BakeFeatures, objectNormalsAreThoseOfTheHighMeshInWorldAxes)
 
 TEST_F(BakeFeatures, occlusionIsOneInTheOpenAndHalfAtTheFootOfAWall)
 {
-    // A wall along y that is endless for the eye hides exactly half of the cosine-weighted hemisphere at its foot.
+    // A wall along y, practically infinite, hides exactly half of the cosine-weighted hemisphere at its foot.
     write("low.obj", square(0, 0, 0, 0.001) + kFaces);
     const std::string ground = square(-1, -1, 0, 3) + kFaces;
     write("open.obj", ground);
@@ -133,16 +133,16 @@ TEST_F(BakeFeatures, occlusionIsOneInTheOpenAndHalfAtTheFootOfAWall)
         const ToolRun r = bake({"--high", file, "--low", "low.obj", "--kind", "ao", "--ao-rays", "1024",
                                 "--max-distance", "0.1", "--bits", "32", "--size", "2x2", "-o", "ao.exr"});
         ASSERT_EQ(r.code, 0) << r.err;
-        const Image image = picture("ao.exr");
-        for (std::size_t i = 0; i < 4; ++i) // 1024 directions: 1 / sqrt(4 * 1024) = 0.016 if they were random
+        const Image image = loadImage("ao.exr");
+        for (std::size_t i = 0; i < 4; ++i) // 1024 random directions would have 1 / sqrt(4 * 1024) = 0.016
             EXPECT_NEAR(double(image.floats()[4 * i]), expected, tolerance) << file;
     }
 }
 
 TEST_F(BakeFeatures, raysFromACageTakeTheOutermostSurface)
 {
-    // Two sheets: a hidden one at 0.1, the outer one at 0.3. The nearest to the low mesh is the hidden one; from a cage
-    // at 0.5 the outer one comes first, and so it does from where the high mesh is measured to end.
+    // Two sheets: a hidden one at 0.1 and an outer one at 0.3. The nearest to the low mesh is the hidden one. Rays meet
+    // the outer one first, from a cage at 0.5 as from the measured extent of the high mesh.
     write("low.obj", square(0, 0, 0, 1) + kFaces);
     write("cage.obj", square(0, 0, 0.5, 1) + kFaces);
     write("high.obj", square(-1, -1, 0.1, 3) + square(-1, -1, 0.3, 3) + faces(1) + faces(5));
@@ -154,13 +154,13 @@ TEST_F(BakeFeatures, raysFromACageTakeTheOutermostSurface)
             words.insert(words.end(), {word, word == "--cage" ? "cage.obj" : word == "--search" ? "nearest" : "0.5"});
         const ToolRun r = bake(words);
         ASSERT_EQ(r.code, 0) << r.err;
-        const Image image = picture("h.exr");
+        const Image image = loadImage("h.exr");
         for (std::size_t i = 0; i < 16; ++i)
-            EXPECT_NEAR(double(image.floats()[4 * i]), height, 2e-5); // lift of 1e-5 of the diagonal
+            EXPECT_NEAR(double(image.floats()[4 * i]), height, 2e-5); // rays start 1e-5 of the diagonal away
     }
 }
 
-TEST_F(BakeFeatures, aUdimTileGetsWhatLiesInIt)
+TEST_F(BakeFeatures, aUdimTileShowsTheTrianglesInIt)
 {
     // Two squares in tiles 1001 and 1011 (one up); above the second the high mesh is higher.
     write("low.obj", square(0, 0, 0, 1) + square(5, 0, 0, 1, 0, 0, 1) + faces(1) + faces(5));
@@ -170,12 +170,12 @@ TEST_F(BakeFeatures, aUdimTileGetsWhatLiesInIt)
                                 "4x4", "--max-distance", "1", "--udim", tile, "-o", "h.exr"});
         ASSERT_EQ(r.code, 0) << tile << r.err;
         EXPECT_EQ(statistics()["covered"], covered) << tile;
-        const Image image = picture("h.exr");
+        const Image image = loadImage("h.exr");
         for (std::size_t i = 0; i < 16; ++i)
-            EXPECT_NEAR(double(image.floats()[4 * i]), height, 1e-4) << tile; // lift of 1e-5 of the diagonal
+            EXPECT_NEAR(double(image.floats()[4 * i]), height, 1e-4) << tile; // rays start 1e-5 of the diagonal away
     }
     const ToolRun empty = bake({"--high", "high.obj", "--low", "low.obj", "--udim", "1003", "-o", "empty.png"});
-    EXPECT_EQ(empty.code, 2); // nothing lies there
+    EXPECT_EQ(empty.code, 2); // no triangle is in that tile
     EXPECT_NE(empty.err.find("1003"), std::string::npos) << empty.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "empty.png"));
     for (const char* tile : {"1000", "2000", "0", "-1", "first"}) {
@@ -185,7 +185,7 @@ TEST_F(BakeFeatures, aUdimTileGetsWhatLiesInIt)
     }
 }
 
-TEST_F(BakeFeatures, whatCannotBeWrittenIsRefusedBeforeTheBake)
+TEST_F(BakeFeatures, outputsThatCannotBeWrittenAreRefusedBeforeTheBake)
 {
     write("low.obj", square(0, 0, 0, 1) + kFaces);
     write("high.obj", square(-1, -1, 0.1, 3) + kFaces);
@@ -214,14 +214,14 @@ TEST_F(BakeFeatures, severalHighMeshesAreOneSurface)
     const ToolRun r = bake({"--high", "left.obj", "--high", "right.obj", "--low", "low.obj", "--kind", "height",
                             "--bits", "32", "--size", "4x1", "--max-distance", "1", "-o", "h.exr"});
     ASSERT_EQ(r.code, 0) << r.err;
-    const Image image = picture("h.exr");
+    const Image image = loadImage("h.exr");
     for (std::size_t i = 0; i < 4; ++i)
         EXPECT_NEAR(double(image.floats()[4 * i]), i < 2 ? 0.1 : 0.2, 1e-4);
 }
 
 TEST_F(BakeFeatures, matchingByNameKeepsRaysOnTheirOwnPartner)
 {
-    // The partner of the low mesh is at 0.1; a stranger at 0.3 lies in front of it.
+    // The partner of the low mesh is at 0.1; an unrelated mesh at 0.3 is in front of it.
     write("low.obj", "o door_low\n" + square(0, 0, 0, 1) + kFaces);
     write("high.obj",
           "o wall_high\n" + square(-1, -1, 0.3, 3) + faces(1) + "o door_high\n" + square(-1, -1, 0.1, 3) + faces(5));
@@ -232,7 +232,7 @@ TEST_F(BakeFeatures, matchingByNameKeepsRaysOnTheirOwnPartner)
             words.push_back("--match-by-name");
         const ToolRun r = bake(words);
         ASSERT_EQ(r.code, 0) << r.err;
-        EXPECT_NEAR(double(picture("h.exr").floats()[0]), height, 1e-4);
+        EXPECT_NEAR(double(loadImage("h.exr").floats()[0]), height, 1e-4);
     }
     write("low.obj", "o roof_low\n" + square(0, 0, 0, 1) + kFaces);
     const ToolRun alone = bake({"--high", "high.obj", "--low", "low.obj", "--match-by-name", "-o", "none.png"});
@@ -241,7 +241,7 @@ TEST_F(BakeFeatures, matchingByNameKeepsRaysOnTheirOwnPartner)
     EXPECT_NE(alone.err.find("roof_low"), std::string::npos) << alone.err;
 }
 
-TEST_F(BakeFeatures, theMaskShowsMissedAndTwiceClaimedTexels)
+TEST_F(BakeFeatures, theMaskShowsMissedAndOverlappedTexels)
 {
     write("low.obj", square(0, 0, 0, 1) + kFaces);
     write("half.obj", square(-1.5, -1, 0.1, 2) + kFaces); // only over x < 0.5
@@ -250,19 +250,19 @@ TEST_F(BakeFeatures, theMaskShowsMissedAndTwiceClaimedTexels)
                   .code,
               0);
     EXPECT_EQ(statistics()["missed"], 32);
-    const Image mask = picture("mask.png");
+    const Image mask = loadImage("mask.png");
     for (std::size_t i = 0; i < 64; ++i) {
         EXPECT_EQ(int(mask.bytes8()[4 * i]), i % 8 < 4 ? 0 : 255);     // red where missed
         EXPECT_EQ(int(mask.bytes8()[4 * i + 1]), i % 8 < 4 ? 179 : 0); // green 0.7 where found
     }
-    write("twice.obj", square(0, 0, 0, 1) + square(5, 0, 0, 1) + faces(1) + faces(5)); // one layout for both
+    write("twice.obj", square(0, 0, 0, 1) + square(5, 0, 0, 1) + faces(1) + faces(5)); // both have the same uv
     write("wide.obj", square(-1, -1, 0.1, 9) + kFaces);
     ASSERT_EQ(bake({"--high", "wide.obj", "--low", "twice.obj", "--size", "8x8", "--max-distance", "1", "--mask",
                     "mask.png", "-o", "m.png"})
                   .code,
               0);
     EXPECT_EQ(statistics()["claimed_twice"], 64);
-    const Image yellow = picture("mask.png");
+    const Image yellow = loadImage("mask.png");
     for (std::size_t i = 0; i < 64; ++i) {
         EXPECT_EQ(int(yellow.bytes8()[4 * i]), 255);
         EXPECT_EQ(int(yellow.bytes8()[4 * i + 1]), 255);
@@ -272,8 +272,8 @@ TEST_F(BakeFeatures, theMaskShowsMissedAndTwiceClaimedTexels)
 
 TEST_F(BakeFeatures, theMaskShowsTexelsBelowTheHorizonAndTouchedOnes)
 {
-    // A low square that leans by 45 degrees (its slope of 1 along x), under a wall that leans the other way by more:
-    // normals (-1, 0, 1) and (4, 0, -1), more than 90 degrees apart.
+    // A low square tilted by 45 degrees (slope 1 along x), under a wall tilted further the other way: normals (-1, 0,
+    // 1) and (4, 0, -1), more than 90 degrees apart.
     write("low.obj", square(0, 0, 0, 1, 1) + kFaces);
     write("wall.obj", "v 0.4 -9 -1.6\nv 1.4 -9 2.4\nv 1.4 9 2.4\nv 0.4 9 -1.6\nvt 0 0\nf 1/1 4/1 3/1\nf 1/1 3/1 2/1\n");
     ASSERT_EQ(bake({"--high", "wall.obj", "--low", "low.obj", "--size", "4x4", "--max-distance", "9", "--mask",
@@ -281,13 +281,13 @@ TEST_F(BakeFeatures, theMaskShowsTexelsBelowTheHorizonAndTouchedOnes)
                   .code,
               0);
     EXPECT_EQ(statistics()["negative_z"], 16);
-    const Image blue = picture("mask.png");
+    const Image blue = loadImage("mask.png");
     for (std::size_t i = 0; i < 16; ++i) {
         EXPECT_EQ(int(blue.bytes8()[4 * i]), 0);
         EXPECT_EQ(int(blue.bytes8()[4 * i + 2]), 255);
     }
-    // uv from 0 to 0.3: of the image's four texels a side the first has its centre (1/8) covered, the second (3/8) has
-    // it 0.3 texels off an edge, within half a diagonal; the others are further away.
+    // uv from 0 to 0.3, four texels a side. The first texel has its centre (1/8) covered; the second's (3/8) is 0.3
+    // texels from an edge, within half a diagonal; the others are further away.
     write("part.obj",
           "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 0.3 0\nvt 0.3 0.3\nvt 0 0.3\n" + std::string(kFaces));
     ASSERT_EQ(bake({"--high", "part.obj", "--low", "part.obj", "--size", "4x4", "--max-distance", "1", "--mask",
@@ -296,7 +296,7 @@ TEST_F(BakeFeatures, theMaskShowsTexelsBelowTheHorizonAndTouchedOnes)
               0);
     EXPECT_EQ(statistics()["covered"], 1);
     EXPECT_EQ(statistics()["touched"], 3);
-    const Image green = picture("mask.png");
+    const Image green = loadImage("mask.png");
     for (std::size_t y = 0; y < 4; ++y)
         for (std::size_t x = 0; x < 4; ++x) {
             const bool near = x < 2 && y > 1, covered = x == 0 && y == 3;
@@ -322,12 +322,12 @@ TEST_F(BakeFeatures, aCageFindsWhatTheDefaultDistanceMisses)
     ASSERT_EQ(bake(words).code, 0);
     EXPECT_EQ(statistics()["missed"], 0);
     for (std::size_t i = 0; i < 16; ++i)
-        EXPECT_NEAR(double(picture("h.exr").floats()[4 * i]), 0.4, 1e-5); // floats
+        EXPECT_NEAR(double(loadImage("h.exr").floats()[4 * i]), 0.4, 1e-5); // float rounding
 }
 
 TEST_F(BakeFeatures, supersamplesAverageWhatOneSampleMisses)
 {
-    // The step at x = 0.5 runs through the middle of the only texel: four samples see both sides alike.
+    // The step at x = 0.5 runs through the middle of the only texel: half of the samples see each side.
     write("low.obj", square(0, 0, 0, 1) + kFaces);
     write("left.obj", square(-1.5, -1, 0.1, 2) + kFaces);
     write("right.obj", square(0.5, -1, 0.3, 2) + kFaces);
@@ -336,7 +336,7 @@ TEST_F(BakeFeatures, supersamplesAverageWhatOneSampleMisses)
                         "32", "--size", "1x1", "--samples", samples, "--max-distance", "1", "-o", "h.exr"})
                       .code,
                   0);
-        EXPECT_NEAR(double(picture("h.exr").floats()[0]), 0.2, 1e-4) << samples;
+        EXPECT_NEAR(double(loadImage("h.exr").floats()[0]), 0.2, 1e-4) << samples;
     }
 }
 
@@ -348,11 +348,11 @@ TEST_F(BakeFeatures, hugeSizesAreRefusedWithoutMemory)
             bake({"--high", "low.obj", "--low", "low.obj", fmt::format("--size={}", size), "-o", "m.png"});
         EXPECT_EQ(r.code, 1) << size;
         EXPECT_EQ(lines(r.err), 1) << size << r.err;
-        EXPECT_LT(r.megabytes, 300) << size; // the program and its libraries; a map of that size has terabytes
+        EXPECT_LT(r.megabytes, 300) << size; // the program and its libraries; a map of that size would take terabytes
     }
 }
 
-TEST_F(BakeFeatures, oneTriangleIsEnoughAndPositionsThatAreNotNumbersAreRefused)
+TEST_F(BakeFeatures, oneTriangleIsEnoughAndNonFinitePositionsAreRefused)
 {
     write("low.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
     const ToolRun one = bake({"--high", "low.obj", "--low", "low.obj", "--size", "8x8", "-o", "m.png"});
@@ -371,7 +371,7 @@ TEST_F(BakeFeatures, interruptedBakesLeaveNoFile)
     write("low.obj", square(0, 0, 0, 1) + kFaces);
     const pid_t child = ::fork();
     if (child == 0) {
-        // Some 2 million texels of 65536 rays: hours, so the signal always comes in the middle.
+        // About 2 million texels of 65536 rays take hours, so the signal always arrives during the bake.
         if (::chdir(folder.path().c_str()) == 0)
             ::execl(COTAN_TOOL, COTAN_TOOL, "bake", "--quiet", "--high", "low.obj", "--low", "low.obj", "--kind", "ao",
                     "--ao-rays", "65536", "--size", "2048x1024", "-o", "m.png", static_cast<char*>(nullptr));
@@ -387,7 +387,7 @@ TEST_F(BakeFeatures, interruptedBakesLeaveNoFile)
     std::vector<std::string> left;
     for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
         left.push_back(entry.path().filename().string());
-    EXPECT_EQ(left, std::vector<std::string>{"low.obj"}); // not even a half one under another name
+    EXPECT_EQ(left, std::vector<std::string>{"low.obj"}); // and no partial file under another name
 }
 
 } // namespace

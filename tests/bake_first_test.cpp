@@ -1,5 +1,5 @@
-// One ray from outside inwards, from a measured distance: what stands off is in the map, what lies behind something is
-// not.
+// One ray per texel, from outside inwards, that starts at a measured distance: the map shows what stands off the low
+// mesh and not what is hidden behind something else.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ Baked bakeOf(const Pair& setup)
     return *baked;
 }
 
-// Of the covered texels.
+// Values of the covered texels.
 std::vector<glm::vec3> valuesOf(const Baked& baked)
 {
     std::vector<glm::vec3> values;
@@ -56,17 +56,17 @@ void forTexels(const Pair& setup, const Baked& baked, const std::function<void(g
     for (int y = 0; y < baked.height; ++y) {
         raster.row(y, row);
         for (int x = 0; x < baked.width; ++x)
-            for (const UvSample& place : row.of(std::size_t(x))) {
-                if (!place.covers)
+            for (const UvSample& sample : row.of(std::size_t(x))) {
+                if (!sample.covers)
                     continue;
-                const LowPoint p = pointOf(setup.low, place.triangle, double(place.b1), double(place.b2));
+                const LowPoint p = pointOf(setup.low, sample.triangle, double(sample.b1), double(sample.b2));
                 check(glm::vec3(p.position), glm::vec3(p.normal),
                       baked.values[std::size_t(y) * std::size_t(baked.width) + std::size_t(x)]);
             }
     }
 }
 
-// The low mesh's vertices moved out from the origin, or along what `move` says.
+// The vertices of the low mesh, each moved by `move`(position, normal).
 std::vector<glm::vec3> cageOf(const LowSurface& low, const std::function<glm::vec3(glm::vec3, glm::vec3)>& move)
 {
     std::vector<glm::vec3> cage;
@@ -75,7 +75,7 @@ std::vector<glm::vec3> cageOf(const LowSurface& low, const std::function<glm::ve
     return cage;
 }
 
-TEST(BakeFirst, boltsThatStandOffAreInTheMapWhereGeometryHasThem)
+TEST(BakeFirst, detachedBoltsAreInTheMapWhereTheGeometryHasThem)
 {
     const Pair setup = setupOf(bolts(), BakeKind::height);
     const Baked baked = bakeOf(setup);
@@ -86,11 +86,11 @@ TEST(BakeFirst, boltsThatStandOffAreInTheMapWhereGeometryHasThem)
             EXPECT_LE(value.x, 1e-5f);
             return;
         }
-        // Corners of a cube lean by one in each axis: rays run to its middle, and meet the plane of the tops 1.14 times
-        // as far out.
-        const auto apart = [&](float off) {
-            const glm::vec3 q = p * ((0.5f + off) / 0.5f);
-            return glm::length(glm::vec2(std::abs(q.y) - kBoltPlace, std::abs(q.z) - kBoltPlace));
+        // Normals at the corners of a cube are diagonal: rays converge on its centre and meet the plane of the tops
+        // 1.14 times as far out.
+        const auto apart = [&](float standoff) {
+            const glm::vec3 q = p * ((0.5f + standoff) / 0.5f);
+            return glm::length(glm::vec2(std::abs(q.y) - kBoltOffset, std::abs(q.z) - kBoltOffset));
         };
         if (apart(kBoltTop) < kBolt * 0.99f) {
             EXPECT_NEAR(value.x, kBoltTop, 1e-5) << p.y << " " << p.z;
@@ -103,7 +103,7 @@ TEST(BakeFirst, boltsThatStandOffAreInTheMapWhereGeometryHasThem)
     });
     EXPECT_GT(tops, 40);
     EXPECT_GT(faces, 1000);
-    // What a cage by hand finds: the cube, 1.4 times as large.
+    // The same as with a cage made by hand: the cube, scaled by 1.4.
     Pair caged = setupOf(bolts(), BakeKind::objectNormal), free = setupOf(bolts(), BakeKind::objectNormal);
     caged.options.cage = cageOf(caged.low, [](glm::vec3 p, glm::vec3) { return p * 1.4f; });
     const Baked a = bakeOf(caged), b = bakeOf(free);
@@ -111,7 +111,7 @@ TEST(BakeFirst, boltsThatStandOffAreInTheMapWhereGeometryHasThem)
     for (std::size_t i = 0; i < a.values.size(); ++i)
         apart += glm::length(a.values[i] - b.values[i]) > 1e-3f;
     EXPECT_LE(apart, a.statistics.covered / 500); // rays along edges
-    // The tops and the shafts below them are not the nearest surface; the older rule has none of them.
+    // The tops and the shafts below them are not the nearest surface, so the older rule finds none of them.
     Pair older = setupOf(bolts(), BakeKind::height);
     older.options.search = BakeSearch::nearest;
     for (const glm::vec3& v : valuesOf(bakeOf(older)))
@@ -119,7 +119,7 @@ TEST(BakeFirst, boltsThatStandOffAreInTheMapWhereGeometryHasThem)
     EXPECT_GE(baked.statistics.nearer, std::size_t(tops));
 }
 
-TEST(BakeFirst, aPlateIsSeenFromAboveUnderItsOwnMiddle)
+TEST(BakeFirst, aPlateShowsItsUpperSideEvenToRaysFromInside)
 {
     Pair setup = setupOf(plate(), BakeKind::objectNormal, 32);
     const Baked baked = bakeOf(setup);
@@ -129,7 +129,7 @@ TEST(BakeFirst, aPlateIsSeenFromAboveUnderItsOwnMiddle)
     setup.options.search = BakeSearch::nearest;
     for (const glm::vec3& v : valuesOf(bakeOf(setup)))
         EXPECT_LT(v.z, -0.999f);
-    // Even where rays start between the two sides: what faces away counts only where there is nothing else.
+    // The same if rays start between the two sides: back faces count only where there is no front face.
     setup.options.search = BakeSearch::first;
     setup.options.extrusion = 0.005f;
     for (const glm::vec3& v : valuesOf(bakeOf(setup)))
@@ -142,7 +142,7 @@ TEST(BakeFirst, aPlateIsSeenFromAboveUnderItsOwnMiddle)
         EXPECT_LT(v.z, -0.999f);
 }
 
-TEST(BakeFirst, bothSidesOfThinWallsShowTheirOwnDomes)
+TEST(BakeFirst, eachSideOfAThinWallShowsItsOwnDomes)
 {
     const Pair setup = setupOf(thinWalls(), BakeKind::height);
     const Baked baked = bakeOf(setup);
@@ -174,7 +174,7 @@ TEST(BakeFirst, fingersThatNearlyTouchDoNotShowEachOther)
     EXPECT_GT(domes, 30);
 }
 
-TEST(BakeFirst, aPocketShowsWhatIsInItAndNotWhatIsBehindItsWalls)
+TEST(BakeFirst, aPocketShowsItsInsideAndNothingBehindItsWalls)
 {
     const Pair setup = setupOf(pocket(), BakeKind::height, 256);
     const Baked baked = bakeOf(setup);
@@ -194,7 +194,7 @@ TEST(BakeFirst, aPocketShowsWhatIsInItAndNotWhatIsBehindItsWalls)
     EXPECT_GT(rim, 20);
 }
 
-TEST(BakeFirst, theOuterOfTwoShellsCounts)
+TEST(BakeFirst, theOuterOfTwoShellsIsBaked)
 {
     const Pair setup = setupOf(shells(), BakeKind::height);
     const Baked baked = bakeOf(setup);
@@ -211,7 +211,7 @@ TEST(BakeFirst, theOuterOfTwoShellsCounts)
     EXPECT_GT(dome, 5);
 }
 
-TEST(BakeFirst, whatFloatsInFrontOfAHollowCountsAndTheHollowBesideIt)
+TEST(BakeFirst, detailFloatingOverAHollowAndTheHollowBesideItAreBaked)
 {
     const Pair setup = setupOf(hollow(), BakeKind::height);
     const Baked baked = bakeOf(setup);
@@ -219,23 +219,23 @@ TEST(BakeFirst, whatFloatsInFrontOfAHollowCountsAndTheHollowBesideIt)
         const float r = glm::length(glm::vec2(p));
         if (r < 0.079f) {
             EXPECT_NEAR(value.x, 0.06, 1e-5) << r;
-        } else if (r > 0.081f && r < 0.14f) { // facets of 15 degrees lie 0.15 (1 - cos 7.5) inside the ball at most,
-            EXPECT_NEAR(value.x, -std::sqrt(0.0225f - r * r), 0.004) << r; // times the slope there, 2.6
+        } else if (r > 0.081f && r < 0.14f) { // facets of 15 degrees lie up to 0.15 (1 - cos 7.5) inside the ball,
+            EXPECT_NEAR(value.x, -std::sqrt(0.0225f - r * r), 0.004) << r; // times 2.6, the slope there
         } else if (r > 0.151f) {
             EXPECT_NEAR(value.x, 0, 1e-5) << r;
         }
     });
 }
 
-TEST(BakeFirst, whereRaysStartCanBeToldAndLimited)
+TEST(BakeFirst, rayStartsCanBeQueriedAndLimited)
 {
     const Pair measured = setupOf(bolts(), BakeKind::height);
     const auto starts = makeRayStarts(measured.low, measured.high, {});
     ASSERT_TRUE(starts);
-    // The tops' plane from a corner along the diagonal, and 5 % and 0.002 of the diagonal more.
+    // Distance along the diagonal from a corner to the plane of the tops, plus 5 % and 0.002 of the diagonal.
     const double needed = double(kBoltTop) * std::sqrt(3.0);
     EXPECT_NEAR(starts->farthest, needed * 1.05 + 0.002 * std::sqrt(3.0), 1e-4);
-    EXPECT_TRUE(starts->bent);
+    EXPECT_TRUE(starts->directionsDiffer);
     EXPECT_NEAR(starts->limit, 0.1 * std::sqrt(3.0), 1e-5);
     for (std::size_t v = 0; v < measured.low.positions.size(); ++v) {
         EXPECT_NEAR(glm::dot(starts->directions[v], glm::normalize(measured.low.positions[v])), 1, 1e-6);
@@ -243,7 +243,7 @@ TEST(BakeFirst, whereRaysStartCanBeToldAndLimited)
             EXPECT_NEAR(starts->distances[v], 0.002 * std::sqrt(3.0), 1e-3);
         }
     }
-    // 5 cm is less than the bolts need, and what is further off than a limit of 4 cm does not count.
+    // 5 cm is less than the bolts need; surfaces beyond a limit of 4 cm do not count.
     for (const auto& [extrusion, limit] : {std::pair(0.05f, 0.0f), {0.0f, 0.04f}}) {
         Pair setup = setupOf(bolts(), BakeKind::height);
         setup.options.extrusion = extrusion;
@@ -253,7 +253,7 @@ TEST(BakeFirst, whereRaysStartCanBeToldAndLimited)
     }
 }
 
-// The unit square of so many cells a side, facing upwards.
+// The unit square with `cells` cells a side, facing upwards.
 Mesh cellsOf(std::uint32_t cells)
 {
     Mesh mesh;
@@ -272,9 +272,8 @@ Mesh cellsOf(std::uint32_t cells)
     return mesh;
 }
 
-// Two triangles that stand 0.05 off over many: most of the low ones are far from the plate's corners, and where they
-// are finer than the points that are asked of the plate, far from every point of it. What lies under the plate belongs
-// to all.
+// A plate of two triangles, 0.05 above many. Most of the low triangles are far from the plate's corners; if they are
+// finer than the points sampled on the plate, they are far from every sample. The plate counts over all of them.
 TEST(BakeFirst, aPlateOverAFineLowMeshIsInAllOfIt)
 {
     for (const auto& [cells, under] : {std::pair(32u, 1u), {220u, 1u}, {220u, 300u}, {330u, 37u}}) {
@@ -285,9 +284,9 @@ TEST(BakeFirst, aPlateOverAFineLowMeshIsInAllOfIt)
     }
 }
 
-TEST(BakeFirst, missesSayWhetherSomethingIsFurtherAway)
+TEST(BakeFirst, missesAreCountedWithThoseThatHitFurtherAway)
 {
-    // Over the left half the high surface is 0.3 off, over the right there is none.
+    // Over the left half the high surface is 0.3 away; over the right half there is none.
     Mesh high;
     addSquare(high, kUpwards, {-0.5f, 0, 0.3f}, {0.5f, 1});
     Pair setup = setupOf({plate().low, high}, BakeKind::normal, 32);
@@ -302,7 +301,7 @@ TEST(BakeFirst, missesSayWhetherSomethingIsFurtherAway)
 
 TEST(BakeFirst, occlusionHasNoBlackBlots)
 {
-    // Openness of flat places in the open is one; what stands off the plate darkens it at its foot only.
+    // Openness of flat points in the open is one; what stands off the plate darkens it only at its foot.
     for (const BakeCase& pair : {plate(), bolts(), shells()}) {
         Pair setup = setupOf(pair, BakeKind::occlusion, 48);
         const Baked baked = bakeOf(setup);
@@ -314,14 +313,15 @@ TEST(BakeFirst, occlusionHasNoBlackBlots)
     }
 }
 
-TEST(BakeFirst, windingAgainstTheNormalsIsTheFront)
+TEST(BakeFirst, normalsNotWindingDefineTheFront)
 {
     BakeCase pair = bolts();
     for (std::size_t i = 0; i < pair.high.indices.size(); i += 3)
         std::swap(pair.high.indices[i + 1], pair.high.indices[i + 2]);
-    const Baked turned = bakeOf(setupOf(pair, BakeKind::height)), straight = bakeOf(setupOf(bolts(), BakeKind::height));
-    for (std::size_t i = 0; i < turned.values.size(); ++i)
-        EXPECT_NEAR(turned.values[i].x, straight.values[i].x, 1e-5);
+    const Baked flipped = bakeOf(setupOf(pair, BakeKind::height)),
+                straight = bakeOf(setupOf(bolts(), BakeKind::height));
+    for (std::size_t i = 0; i < flipped.values.size(); ++i)
+        EXPECT_NEAR(flipped.values[i].x, straight.values[i].x, 1e-5);
 }
 
 TEST(BakeFirst, bytesDoNotDependOnThreads)
@@ -337,7 +337,7 @@ TEST(BakeFirst, bytesDoNotDependOnThreads)
     }
 }
 
-TEST(BakeFirst, whatIsMadeForAnotherLowSurfaceIsRefused)
+TEST(BakeFirst, optionsMadeForAnotherLowSurfaceAreRefused)
 {
     const Pair setup = setupOf(plate(), BakeKind::normal, 16);
     const auto refused = [&](const BakeOptions& options, const std::string& text) {

@@ -33,22 +33,22 @@ protected:
         words.insert(words.end(), {"-o", "m.png"});
         return runTool(words, folder.path());
     }
-    Image picture(const std::string& file)
+    Image loadImage(const std::string& file)
     {
         auto image = readImage(folder / file);
         EXPECT_TRUE(image) << file;
         return image ? std::move(*image) : makeImage(1, 1, PixelType::unorm8);
     }
-    // Bytes of two pictures of one size differ by at most one step.
+    // Expects that the bytes of two images of one size differ by at most one step.
     void expectSame(const Image& a, const Image& b, const std::string& what)
     {
         ASSERT_EQ(a.pixelCount(), b.pixelCount());
-        int most = 0;
+        int largest = 0;
         for (std::size_t i = 0; i < a.pixelCount() * 4; ++i)
-            most = std::max(most, std::abs(int(a.bytes8()[i]) - int(b.bytes8()[i])));
-        EXPECT_LE(most, 1) << what;
+            largest = std::max(largest, std::abs(int(a.bytes8()[i]) - int(b.bytes8()[i])));
+        EXPECT_LE(largest, 1) << what;
     }
-    // A square with uv and one without, as OBJ.
+    // Writes an OBJ square with uv and one without.
     void writeSquares()
     {
         const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
@@ -58,18 +58,18 @@ protected:
     }
 };
 
-// Bytes of 8-bit texels that are made unit move by up to sqrt(3)/2 steps: by one when stored again.
+// Normalising 8-bit texels moves them by up to sqrt(3)/2 steps: by one step when stored again.
 TEST_F(BakeHighMapCommand, aGltfModelBakedOntoItselfGivesItsMapBack)
 {
     write(quad(1), folder.path());
     const ToolRun r = bake({"--high", "quad.gltf", "--low", "quad.gltf", "--high-normals", "map", "--frame",
                             "mikktspace", "--size", "128x128", "--quiet", "--json", "r.json"});
     ASSERT_EQ(r.code, 0) << r.err;
-    expectSame(picture("m.png"), picture("waves.png"), "glTF");
+    expectSame(loadImage("m.png"), loadImage("waves.png"), "glTF");
     EXPECT_EQ(json::parse(readWhole(folder / "r.json"))["high_normals"], "map");
 }
 
-TEST_F(BakeHighMapCommand, anImageForAMeshWithoutMaterialIsReadByItsConvention)
+TEST_F(BakeHighMapCommand, theConventionAppliesToAMapForAMeshWithoutMaterial)
 {
     writeSquares();
     const Image map = makeReliefMap(Relief::waves, 64);
@@ -78,17 +78,17 @@ TEST_F(BakeHighMapCommand, anImageForAMeshWithoutMaterialIsReadByItsConvention)
                                          "map",     "--high-map",  "map.png", "--size",     "64x64",
                                          "--frame", "orthonormal", "--quiet"};
     ASSERT_EQ(bake(words).code, 0);
-    expectSame(picture("m.png"), map, "opengl");
-    Image flipped = map; // read as DirectX and stored as OpenGL, green turns over about 128
+    expectSame(loadImage("m.png"), map, "opengl");
+    Image flipped = map; // Reading as DirectX and storing as OpenGL mirrors green about 128.
     for (std::size_t i = 0; i < flipped.pixelCount(); ++i)
         flipped.bytes8()[4 * i + 1] = std::uint8_t(std::min(255, 256 - int(flipped.bytes8()[4 * i + 1])));
     auto directx = words;
     directx.insert(directx.end(), {"--high-convention", "directx"});
     ASSERT_EQ(bake(directx).code, 0);
-    expectSame(picture("m.png"), flipped, "directx");
+    expectSame(loadImage("m.png"), flipped, "directx");
 }
 
-TEST_F(BakeHighMapCommand, oneMapIsThatOfEachHighFile)
+TEST_F(BakeHighMapCommand, oneMapAppliesToEveryHighFile)
 {
     write(quad(1), folder.path());
     writeSquares();
@@ -100,19 +100,19 @@ TEST_F(BakeHighMapCommand, oneMapIsThatOfEachHighFile)
     ASSERT_EQ(r.code, 0) << r.err;
     EXPECT_EQ(r.err.find("high meshes"), std::string::npos) << "each has a map: " << r.err;
     EXPECT_NE(r.err.find("material library none.mtl was not found"), std::string::npos) << r.err;
-    expectSame(picture("m.png"), picture("waves.png"), "of the first");
+    expectSame(loadImage("m.png"), loadImage("waves.png"), "of the first");
 }
 
 TEST_F(BakeHighMapCommand, theFrameOfTheMapIsTheOneNamed)
 {
     // Twice as wide as high under one square of uv: `cotangent` halves the slopes along u, `mikktspace` does not.
     write(quad(2), folder.path());
-    const Image map = picture("waves.png");
+    const Image map = loadImage("waves.png");
     for (const char* frame : {"cotangent", "mikktspace"}) {
         const ToolRun r = bake({"--high", "quad.gltf", "--low", "quad.gltf", "--high-normals", "map", "--high-frame",
                                 frame, "--kind", "object-normal", "--size", "128x128", "--quiet"});
         ASSERT_EQ(r.code, 0) << r.err;
-        const Image baked = picture("m.png");
+        const Image baked = loadImage("m.png");
         const double u = frame == std::string("cotangent") ? 0.5 : 1;
         for (std::size_t i = 0; i < map.pixelCount(); ++i) {
             const glm::dvec3 m = decodedAt(map, i);                                            // green up is +y here
@@ -133,7 +133,7 @@ TEST_F(BakeHighMapCommand, flatNormalsAreThoseOfTheTriangles)
                         "--size", "8x8", "--quiet", "--max-distance", "1"})
                       .code,
                   0);
-        const Image baked = picture("m.png");
+        const Image baked = loadImage("m.png");
         for (std::size_t i = 0; i < 64; ++i) {
             const double slope = kind == std::string("smooth") ? 0 : i % 8 < 4 ? -0.1 : 0.1;      // 0.05 over 0.5
             EXPECT_LT(degreesBetween(decodedAt(baked, i), glm::dvec3(slope, 0, 1)), 0.4) << kind; // as above
@@ -141,7 +141,7 @@ TEST_F(BakeHighMapCommand, flatNormalsAreThoseOfTheTriangles)
     }
 }
 
-TEST_F(BakeHighMapCommand, meshesWithoutMapAreCountedAndSmooth)
+TEST_F(BakeHighMapCommand, meshesWithoutMapAreSmoothAndCounted)
 {
     write(quad(1), folder.path());
     writeSquares();
@@ -152,11 +152,11 @@ TEST_F(BakeHighMapCommand, meshesWithoutMapAreCountedAndSmooth)
     const ToolRun ao =
         bake({"--high", "quad.gltf", "--low", "square.obj", "--high-normals", "map", "--kind", "ao", "--size", "2x2"});
     ASSERT_EQ(ao.code, 0) << ao.err;
-    EXPECT_NE(ao.err.find("changes nothing"), std::string::npos) << ao.err;
+    EXPECT_NE(ao.err.find("has no effect"), std::string::npos) << ao.err;
 }
 
-// Facets that nobody has modelled would be baked in silence.
-TEST_F(BakeHighMapCommand, whatIsOddAboutAHighModelIsSaidWhetherItsMapCountsOrNot)
+// Otherwise a bake would silently contain facets that were not modelled.
+TEST_F(BakeHighMapCommand, highModelsAreWarnedOfWhetherTheirMapIsUsedOrNot)
 {
     Made high = quad(1);
     high.root["meshes"][0]["primitives"][0]["attributes"].erase("NORMAL");
@@ -166,7 +166,8 @@ TEST_F(BakeHighMapCommand, whatIsOddAboutAHighModelIsSaidWhetherItsMapCountsOrNo
         const ToolRun r =
             bake({"--high", "quad.gltf", "--low", "square.obj", "--high-normals", normals, "--size", "8x8"});
         ASSERT_EQ(r.code, 0) << r.err;
-        EXPECT_NE(r.err.find("meshes[0].primitives[0]: no NORMAL, flat normals are made"), std::string::npos) << r.err;
+        EXPECT_NE(r.err.find("meshes[0].primitives[0]: no NORMAL; flat normals are generated"), std::string::npos)
+            << r.err;
     }
 }
 
@@ -181,9 +182,9 @@ TEST_F(BakeHighMapCommand, badInputGetsOneLineAndItsExitCode)
         {{"--high", "square.obj", "--high-normals", "map", "--high-map", "text.png"}, 2},
         {{"--high", "square.obj", "--high-normals", "map", "--high-map", "missing.png"}, 2},
         {{"--high", "square.obj", "--high-normals", "map", "--high-map", "waves.png", "--high-map", "waves.png"},
-         1}, // for one
+         1}, // two maps for one mesh
         {{"--high", "quad.gltf", "--high-normals", "bumps"}, 1},
-        {{"--high", "quad.gltf", "--high-map", "waves.png"}, 1}, // without map
+        {{"--high", "quad.gltf", "--high-map", "waves.png"}, 1}, // without --high-normals map
         {{"--high", "quad.gltf", "--high-normals", "face", "--high-frame", "cotangent"}, 1},
         {{"--high", "quad.gltf", "--high-normals", "map", "--high-frame", "nonsense"}, 1},
         {{"--high", "quad.gltf", "--high-normals", "map", "--high-frame", "nonperspective"}, 1},
@@ -210,26 +211,26 @@ TEST_F(BakeHighMapCommand, boomBoxBakedOntoItselfGivesItsMapBack)
     ASSERT_TRUE(map);
     ASSERT_EQ(map->width % 1024, 0); // centres of the baked texels are corners of four of the map's
     const std::size_t step = std::size_t(map->width) / 512, width = std::size_t(map->width);
-    const Image baked = picture("m.png"), mask = picture("mask.png");
-    std::size_t compared = 0, off = 0;
+    const Image baked = loadImage("m.png"), mask = loadImage("mask.png");
+    std::size_t compared = 0, differing = 0;
     double mean = 0;
     for (std::size_t y = 0; y < 512; ++y)
         for (std::size_t x = 0; x < 512; ++x) {
             const std::uint8_t* state = mask.bytes8() + 4 * (512 * y + x);
             if (state[0] != 0 || state[1] != 179
-                || state[2] != 0) // plain green: one triangle, found, above the horizon
+                || state[2] != 0) // only green: one triangle, hit, above the horizon
                 continue;
             glm::dvec3 m(0);
             for (std::size_t k = 0; k < 4; ++k)
                 m += decodedAt(*map, (y * step + step / 2 - 1 + k / 2) * width + x * step + step / 2 - 1 + k % 2);
             const double degrees = degreesBetween(decodedAt(baked, 512 * y + x), m);
             mean += degrees;
-            off += degrees > 1;
+            differing += degrees > 1;
             ++compared;
         }
     ASSERT_GT(compared, 100000u);
     EXPECT_LT(mean / double(compared), 0.25);         // 8 bits: see docs/explanation/baking.md, below 0.20
-    EXPECT_LT(double(off), 0.002 * double(compared)); // where two parts of the model lie within 1e-5 of one another
+    EXPECT_LT(double(differing), 0.002 * double(compared)); // where two parts are within 1e-5 of each other
 }
 
 } // namespace

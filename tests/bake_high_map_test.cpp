@@ -1,4 +1,4 @@
-// The high mesh's own normal map as the source of detail: what it says in its own frame is what the low mesh gets.
+// The high mesh's own normal map as the source of detail: the low map gets the normals that it means.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,22 +10,22 @@
 #include <glm/mat3x3.hpp>
 
 #include "bake/bake_surfaces.hpp"
-#include "seen_high.hpp"
+#include "high_view.hpp"
 #include "truth/quad.hpp"
 
 namespace cotan {
 namespace {
 
-constexpr int kSide = 32; // texels of most maps
+constexpr int kSide = 32; // texels a side of most maps
 
-// A unit texel along (+u, +v, outwards), repeating with uv.
+// A unit-length texel (along u, along v, outwards) that repeats with uv.
 glm::dvec3 relief(double u, double v)
 {
-    const double turn = 2 * std::numbers::pi;
-    return glm::normalize(glm::dvec3(0.6 * std::cos(turn * u), 0.4 * std::sin(turn * (u + 2 * v)), 1));
+    const double fullTurn = 2 * std::numbers::pi;
+    return glm::normalize(glm::dvec3(0.6 * std::cos(fullTurn * u), 0.4 * std::sin(fullTurn * (u + 2 * v)), 1));
 }
 
-// Stored green up (against +v), as 127 x + 128; floats as (x + 1) / 2.
+// Stores green up (against +v): integers as 127 x + 128, floats as (x + 1) / 2.
 Image storedMap(int width, int height, PixelType type, const std::function<glm::dvec3(double, double)>& texel)
 {
     Image image = makeImage(width, height, type, "map");
@@ -44,14 +44,14 @@ Image storedMap(int width, int height, PixelType type, const std::function<glm::
     return image;
 }
 
-// Affine texture coordinates of the unit square: uv = at + x * x + y * y.
+// An affine texture layout of the unit square: uv = at + x * px + y * py.
 struct Layout2 {
     glm::dvec2 at, x, y;
     glm::dvec2 operator()(double px, double py) const { return at + x * px + y * py; }
 };
 constexpr Layout2 kPlain{{0, 1}, {1, 0}, {0, -1}}; // v down
 
-// A height field over the unit square, `cells` wide, with a normal map if it has pixels.
+// A height field over the unit square, `cells` wide, with a normal map if `map` has pixels.
 Scene sheet(const Layout2& uv, Image map, int cells = 1,
             const std::function<glm::dvec3(double, double)>& heightAndSlopes = {})
 {
@@ -113,34 +113,34 @@ TEST(BakeHighMap, onTheSameFlatQuadTheMapComesBack)
         const Baked baked = bakeWithMap(sheet(kPlain, {}), sheet(kPlain, map), square(BakeKind::normal, frame), frame);
         const Image stored = storeBaked(baked, BakeKind::normal, {});
         for (std::size_t i = 0; i < map.pixelCount(); ++i)
-            for (std::size_t k = 0; k < 3; ++k) // texels of 8 bits are not quite unit: made unit, each moves by up to
-                                                // sqrt(3)/2 steps, so by one step when it is stored again
+            for (std::size_t k = 0; k < 3; ++k) // 8-bit texels are not quite unit length. Normalising moves each by up
+                                                // to sqrt(3)/2 steps, so by one step when stored again.
                 EXPECT_NEAR(int(stored.bytes8()[4 * i + k]), int(map.bytes8()[4 * i + k]), 1) << name(frame);
     }
 }
 
-// What a map on a flat quad says, from the directions of its uv in space.
+// A texture layout of a flat quad; the normals that its map means follow from the directions of u and v in space.
 struct Case {
     const char* name;
     Layout2 uv;
-    int width = kSide, height = kSide; // such that centres of the baked texels are centres of the map's
-    double alongU = 1, alongV = 1;     // factors on the slopes that the frame gives
+    int width = kSide, height = kSide; // chosen so that baked texel centres are map texel centres
+    double alongU = 1, alongV = 1;     // the frame's factors on the slopes
     std::vector<Frame> frames = {Frame::cotangent, Frame::orthonormal, Frame::smooth, Frame::mikktspace, Frame::vertex};
-    std::function<void(Scene&)> change = {}; // of the high scene
+    std::function<void(Scene&)> change = {}; // to the high scene
     double scale = 1;
 };
 
-TEST(BakeHighMap, turnedMirroredStretchedAndShiftedUvGiveTheSameNormalsInSpace)
+TEST(BakeHighMap, rotatedMirroredScaledAndShiftedUvGiveTheSameNormals)
 {
-    const glm::mat4 turned = glm::rotate(glm::mat4(1), 1.1f, glm::normalize(glm::vec3(1, 2, -1)));
-    const glm::mat4 mirrored = glm::scale(turned, glm::vec3(-1, 1, 1));
+    const glm::mat4 rotated = glm::rotate(glm::mat4(1), 1.1f, glm::normalize(glm::vec3(1, 2, -1)));
+    const glm::mat4 mirrored = glm::scale(rotated, glm::vec3(-1, 1, 1));
     const Case cases[] = {
         {"plain", kPlain},
         {"a quarter turn", {{0, 0}, {0, 1}, {1, 0}}},
         {"half a turn", {{1, 0}, {-1, 0}, {0, 1}}},
         {"mirrored", {{1, 1}, {-1, 0}, {0, -1}}},
         {"beyond the unit square", {{-3.5, 7.5}, {1, 0}, {0, -1}}},
-        // gradU = 1/2, gradV = 1: the longer has length one.
+        // gradU = 1/2, gradV = 1: the longer gradient gets length one.
         {"stretched", {{0, 1}, {0.5, 0}, {0, -1}}, 2 * kSide, kSide, 0.5, 1, {Frame::cotangent, Frame::smooth}},
         {"stretched, orthonormal",
          {{0, 1}, {0.5, 0}, {0, -1}},
@@ -183,7 +183,7 @@ TEST(BakeHighMap, turnedMirroredStretchedAndShiftedUvGiveTheSameNormalsInSpace)
              s.materials[0].normalMap.uRow = {0, -1, 1};
              s.materials[0].normalMap.vRow = {1, 0, 0};
          }},
-        // TANGENT counts, not uv: along y here, though u runs along x.
+        // TANGENT takes precedence over uv: it is along y although u runs along x.
         {"stored tangents",
          kPlain,
          kSide,
@@ -195,21 +195,21 @@ TEST(BakeHighMap, turnedMirroredStretchedAndShiftedUvGiveTheSameNormalsInSpace)
     };
     for (const Case& c : cases)
         for (Frame frame : c.frames)
-            for (const glm::mat4& place : {glm::mat4(1), turned, mirrored}) {
+            for (const glm::mat4& transform : {glm::mat4(1), rotated, mirrored}) {
                 Scene high = sheet(c.uv, storedMap(c.width, c.height, PixelType::float32, relief)),
                       low = sheet(kPlain, {});
                 if (c.change)
                     c.change(high);
-                high.instances[0].toWorld = low.instances[0].toWorld = place;
+                high.instances[0].toWorld = low.instances[0].toWorld = transform;
                 const Baked baked = bakeWithMap(low, high, square(BakeKind::objectNormal), frame);
                 const bool stored = !high.meshes[0].tangents.empty();
                 const double length =
-                    1 / std::max(glm::length(c.uv.x), glm::length(c.uv.y)); // of the axes of uv, to unit
+                    1 / std::max(glm::length(c.uv.x), glm::length(c.uv.y)); // normalises the axes of uv
                 const glm::dvec3 u =
                     stored ? glm::dvec3(0, 1, 0) : glm::normalize(glm::dvec3(c.uv.x.x, c.uv.y.x, 0) * length);
-                const glm::dvec3 v = stored ? glm::dvec3(1, 0, 0) // against glTF's bitangent n x t = -x
+                const glm::dvec3 v = stored ? glm::dvec3(1, 0, 0) // glTF's bitangent n x t is -x; +v is opposite
                                             : glm::normalize(glm::dvec3(c.uv.x.y, c.uv.y.y, 0) * length);
-                const glm::dmat3 world{glm::mat3(place)};
+                const glm::dmat3 world{glm::mat3(transform)};
                 double worst = 0;
                 for (int j = 0; j < kSide; ++j)
                     for (int i = 0; i < kSide; ++i) {
@@ -221,7 +221,7 @@ TEST(BakeHighMap, turnedMirroredStretchedAndShiftedUvGiveTheSameNormalsInSpace)
                             std::max(worst, degreesBetween(glm::dvec3(baked.values[std::size_t(j * kSide + i)]), n));
                     }
                 EXPECT_LT(worst, 0.002) << c.name << ", "
-                                        << name(frame); // floats: uv known to some 1e-6, a slope of 4 a uv
+                                        << name(frame); // float uv: 1e-6, times a slope of 4 per uv
             }
 }
 
@@ -231,10 +231,10 @@ TEST(BakeHighMap, onAWavySheetTheNormalIsThatOfTheMapOnTheWaves)
         return glm::dvec3(0.02 * std::sin(9 * x + 1) * std::cos(7 * y), 0.18 * std::cos(9 * x + 1) * std::cos(7 * y),
                           -0.14 * std::sin(9 * x + 1) * std::sin(7 * y));
     };
-    // Interpolated normals of 200 cells are off by (9 / 200)^2 / 8 of the slope, below 0.01 degrees. A frame made per
-    // triangle has its gradients from a place up to a cell away: 9 / 200 of a slope of 0.18 turns them by 0.46
-    // degrees at most, and 0.7 of the texel lies along them; `smooth` interpolates, second order again.
-    for (const auto& [frame, most] : {std::pair(Frame::smooth, 0.02), {Frame::cotangent, 0.33}}) {
+    // Interpolated normals of 200 cells have an error of (9 / 200)^2 / 8 of the slope, below 0.01 degrees. A frame per
+    // triangle takes gradients at up to a cell's distance: 9 / 200 of a slope of 0.18 rotates them by at most 0.46
+    // degrees, and 0.7 of the texel lies along them. `smooth` interpolates: second order again.
+    for (const auto& [frame, limit] : {std::pair(Frame::smooth, 0.02), {Frame::cotangent, 0.33}}) {
         const Baked baked = bakeWithMap(sheet(kPlain, {}),
                                         sheet(kPlain, storedMap(kSide, kSide, PixelType::float32, relief), 200, waves),
                                         square(BakeKind::objectNormal), frame);
@@ -244,18 +244,18 @@ TEST(BakeHighMap, onAWavySheetTheNormalIsThatOfTheMapOnTheWaves)
                 const double x = (i + 0.5) / kSide, y = 1 - (j + 0.5) / kSide;
                 const glm::dvec3 h = waves(x, y), m = relief(x, 1 - y);
                 const glm::dvec3 px(1, 0, h.y), py(0, 1, h.z), n = glm::normalize(glm::cross(px, py));
-                // The gradients of u = x and v = 1 - y on the surface.
+                // Surface gradients of u = x and v = 1 - y.
                 const glm::dvec3 gradU = glm::cross(py, n) / glm::dot(px, glm::cross(py, n));
                 const glm::dvec3 gradV = -glm::cross(n, px) / glm::dot(py, glm::cross(n, px));
                 const double s = commonScale(gradU, gradV);
                 const glm::dvec3 truth = gradU * (s * m.x) + gradV * (s * m.y) + n * m.z;
                 worst = std::max(worst, degreesBetween(glm::dvec3(baked.values[std::size_t(j * kSide + i)]), truth));
             }
-        EXPECT_LT(worst, most) << name(frame);
+        EXPECT_LT(worst, limit) << name(frame);
     }
 }
 
-TEST(BakeHighMap, whatTheMapCannotSayIsTheSmoothNormal)
+TEST(BakeHighMap, unusableTexelsOrUvGiveTheSmoothNormal)
 {
     auto slope = [](double x, double) { return glm::dvec3(0.05 * x, 0.05, 0); };
     const glm::dvec3 smooth(-0.05, 0, 1);
@@ -266,7 +266,7 @@ TEST(BakeHighMap, whatTheMapCannotSayIsTheSmoothNormal)
     Scene noArea = sheet({{0, 0}, {1, 0}, {1, 0}}, storedMap(4, 4, PixelType::float32, relief), 1, slope);
     Scene notFinite = sheet({{0, 0}, {INFINITY, 0}, {0, 1}}, storedMap(4, 4, PixelType::float32, relief), 1, slope);
     Scene partly = sheet(kPlain, storedMap(4, 4, PixelType::float32, relief), 1, slope);
-    partly.meshes.push_back(partly.meshes[0]); // the instance that is seen has another material
+    partly.meshes.push_back(partly.meshes[0]); // the instance in view has another material
     partly.meshes[0].material = 1;
     partly.materials.emplace_back();
     partly.instances.push_back({"far", 1, glm::translate(glm::mat4(1), glm::vec3(5, 0, 0))});
@@ -274,10 +274,10 @@ TEST(BakeHighMap, whatTheMapCannotSayIsTheSmoothNormal)
         for (Frame frame : {Frame::cotangent, Frame::mikktspace, Frame::smooth})
             for (const glm::vec3& n :
                  bakeWithMap(sheet(kPlain, {}), *high, square(BakeKind::objectNormal), frame).values)
-                ASSERT_LT(degreesBetween(glm::dvec3(n), smooth), 1e-4) << name(frame); // float
+                ASSERT_LT(degreesBetween(glm::dvec3(n), smooth), 1e-4) << name(frame); // float rounding
 }
 
-TEST(BakeHighMap, heightsAndOcclusionTakeNoNotice)
+TEST(BakeHighMap, heightsAndOcclusionIgnoreTheMap)
 {
     for (BakeKind kind : {BakeKind::height, BakeKind::occlusion}) {
         const Scene low = sheet(kPlain, {}), high = sheet(kPlain, storedMap(kSide, kSide, PixelType::float32, relief));
@@ -292,7 +292,7 @@ TEST(BakeHighMap, heightsAndOcclusionTakeNoNotice)
     }
 }
 
-TEST(BakeHighMap, raysFromTheEyeFindTheMapToo)
+TEST(BakeHighMap, viewRaysReadTheMapToo)
 {
     const glm::dvec3 m = glm::normalize(glm::dvec3(0.3, -0.2, 1));
     std::vector<Scene> high;
@@ -307,21 +307,21 @@ TEST(BakeHighMap, raysFromTheEyeFindTheMapToo)
     view.width = view.height = 16;
     view.camera.eye = {0.5f, 0.5f, 3};
     view.camera.target = {0.5f, 0.5f, 0};
-    const auto both = app::seeHigh(*low, *surface, options, view);
+    const auto both = app::renderHighView(*low, *surface, options, view);
     ASSERT_TRUE(both);
-    const Image& seen = both->expected;
+    const Image& rendered = both->expected;
     EXPECT_EQ(both->others, 0u);
     int found = 0;
-    for (std::size_t i = 0; i < seen.pixelCount(); ++i)
-        if (const float* p = seen.floats() + 4 * i; p[3] > 0) {
+    for (std::size_t i = 0; i < rendered.pixelCount(); ++i)
+        if (const float* p = rendered.floats() + 4 * i; p[3] > 0) {
             ++found;
             EXPECT_LT(degreesBetween(glm::dvec3(p[0], p[1], p[2]), glm::dvec3(m.x, -m.y, m.z)),
-                      1e-3); // v runs down; float
+                      1e-3); // v points down; float rounding
         }
-    EXPECT_GT(found, 16); // the square fills 0.4 of the picture's height
+    EXPECT_GT(found, 16); // the square fills 0.4 of the image's height
 }
 
-TEST(BakeHighMap, withoutMapOrUvThereIsNothingToBake)
+TEST(BakeHighMap, missingMapsOrUvAreRefused)
 {
     Scene bare = sheet(kPlain, {}), noUv = sheet(kPlain, storedMap(4, 4, PixelType::unorm8, relief));
     noUv.meshes[0].texcoords[0].clear();

@@ -1,4 +1,4 @@
-// The one call that bakes a model, as a program uses it.
+// bakeModel, the one call that bakes a model, as a program uses it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,8 +16,7 @@
 namespace cotan {
 namespace {
 
-// A square that runs along `along` from `corner` and along +y; its uv fill the unit square of uv whose corner is
-// `tile`.
+// A square spanned by `along` and +y from `corner`; its uv fill the unit square of uv with its corner at `tile`.
 Mesh square(glm::vec3 corner, glm::vec3 along, glm::vec2 tile = {0, 0})
 {
     Mesh mesh = rectangle(corner, along, {0, 1, 0});
@@ -44,14 +43,14 @@ BakeModelOptions smallOptions(Frame frame = Frame::cotangent)
     return options;
 }
 
-// Red, green and blue of a texel of 8 bits.
+// Red, green and blue of an 8-bit texel.
 glm::ivec3 codes(const Image& image, int x, int y)
 {
     const std::uint8_t* p = image.bytes8() + 4 * (y * image.width + x);
     return {p[0], p[1], p[2]};
 }
 
-// What 8 bits hold of a component, 128 for zero.
+// The 8-bit code of a component; 128 is zero.
 int code(double component) { return int(std::lround(128 + 127 * component)); }
 
 std::string errorOf(const Result<BakedModel>& baked) { return baked ? "no error" : baked.error().message; }
@@ -80,9 +79,9 @@ TEST(BakeModel, aFlatSquareOnItselfIsFlatForEveryFrameThatDoesNotDependOnTheView
     EXPECT_EQ(baked, std::ranges::count_if(frames(), [](const FrameInfo& f) { return !f.dependsOnView; }));
 }
 
-TEST(BakeModel, aTiltedSquareGivesItsNormalAndTheFormatSaysHow)
+TEST(BakeModel, aTiltedSquareGivesItsNormalInTheStatedFormat)
 {
-    // z grows by 0.3 along x: the normal is (-0.3, 0, 1), and u runs along x.
+    // z grows by 0.3 along x and u runs along x: the normal is (-0.3, 0, 1), normalised.
     const glm::dvec3 n = glm::normalize(glm::dvec3(-0.3, 0, 1));
     const Scene low = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})});
     const Scene high = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0.3f})});
@@ -94,7 +93,7 @@ TEST(BakeModel, aTiltedSquareGivesItsNormalAndTheFormatSaysHow)
 
     BakeModelOptions object = smallOptions();
     object.bake.kind = BakeKind::objectNormal;
-    object.stored.format.channels = Channels::orthographic; // world axes need all three
+    object.stored.format.channels = Channels::orthographic; // world axes need all three channels
     const auto world = bakeModel(low, highOf(high), object);
     ASSERT_TRUE(world);
     EXPECT_EQ(world->maps[0].format.channels, Channels::xyz);
@@ -112,17 +111,17 @@ TEST(BakeModel, aMeshWithoutUvIsRefusedWithOneLine)
     EXPECT_EQ(model.error().message, "scene: mesh 'lid' has no texture coordinates (uv set 0)");
 }
 
-TEST(BakeModel, everyTileIsAMapAndTheShareThatIsDoneRunsToOne)
+TEST(BakeModel, everyTileIsAMapAndProgressRunsToOne)
 {
-    // Tile 1002 lies to the right, tile 1011 above: there v is below zero, since ours runs down.
+    // Tile 1002 is to the right. Tile 1011 is above; v is negative there because v points down here.
     const Scene low = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0}, {1, 0}), square({0, 2, 0}, {1, 0, 0}, {0, -1})});
     const Scene high = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0.3f}), square({0, 2, 0}, {1, 0, -0.3f})});
     BakeModelOptions options = smallOptions();
     options.tiles = {1002, 1011};
     options.mask = true;
-    std::vector<double> shares;
-    const auto model = bakeModel(low, highOf(high), options, [&](double share) {
-        shares.push_back(share);
+    std::vector<double> fractions;
+    const auto model = bakeModel(low, highOf(high), options, [&](double fraction) {
+        fractions.push_back(fraction);
         return true;
     });
     ASSERT_TRUE(model) << model.error().message;
@@ -132,10 +131,10 @@ TEST(BakeModel, everyTileIsAMapAndTheShareThatIsDoneRunsToOne)
     EXPECT_LT(codes(model->maps[0].image, 5, 3).x, 100);
     EXPECT_GT(codes(model->maps[1].image, 5, 3).x, 150);
     EXPECT_EQ(model->maps[0].mask.width, 12);
-    EXPECT_EQ(shares.size(), 2u * 8u); // rows
-    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
-    EXPECT_GT(shares.front(), 0);
-    EXPECT_EQ(shares.back(), 1);
+    EXPECT_EQ(fractions.size(), 2u * 8u); // rows
+    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+    EXPECT_GT(fractions.front(), 0);
+    EXPECT_EQ(fractions.back(), 1);
 
     options.tiles = {1005};
     const auto empty = bakeModel(low, highOf(high), options);
@@ -144,16 +143,16 @@ TEST(BakeModel, everyTileIsAMapAndTheShareThatIsDoneRunsToOne)
     EXPECT_EQ(errorOf(empty), "options.tiles: no triangle lies on tile 1005 of the texture coordinates");
 }
 
-TEST(BakeModel, endsWithAnErrorThatSaysSoWhereItsProgressStopsIt)
+TEST(BakeModel, endsWithAnErrorIfItsProgressCallbackStopsIt)
 {
     const Scene low = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0}), square({2, 0, 0}, {1, 0, 0}, {1, 0})});
     BakeModelOptions options = smallOptions();
     options.tiles = {1001, 1002};
-    for (const double limit : {0.0, 0.3, 0.6, 0.99}) { // in the first tile, in the second, at the last row
+    for (const double limit : {0.0, 0.3, 0.6, 0.99}) { // stops in the first tile, in the second, at the last row
         std::atomic<int> after = 0;
-        const auto baked = bakeModel(low, highOf(low), options, [&](double share) {
-            after += share > limit;
-            return share <= limit;
+        const auto baked = bakeModel(low, highOf(low), options, [&](double fraction) {
+            after += fraction > limit;
+            return fraction <= limit;
         });
         ASSERT_FALSE(baked) << limit;
         EXPECT_EQ(baked.error().kind, ErrorKind::stopped) << baked.error().message;
@@ -178,7 +177,7 @@ TEST(BakeModel, aCageReachesWhatTheDistanceDoesNot)
 
 TEST(BakeModel, meshesAreMatchedByName)
 {
-    // Both detailed squares lie before the simple one; the outer is not its own.
+    // Both high squares are in front of the low one; the outer is not its partner.
     Scene low = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})});
     Scene high = sceneOfMeshes({square({0, 0, 0.1f}, {1, 0, 0.3f}), square({0, 0, 0.06f}, {1, 0, -0.05f})});
     low.meshes[0].name = "Door_LOW";
@@ -193,12 +192,12 @@ TEST(BakeModel, meshesAreMatchedByName)
     EXPECT_GT(codes(matched->maps[0].image, 0, 3).x, 128);
     high.meshes[1].name = "gate_high";
     EXPECT_EQ(errorOf(bakeModel(low, highOf(high), options)),
-              "options.matchByName: no high mesh is named like the low mesh 'Door_LOW'");
+              "options.matchByName: no high mesh matches the name of the low mesh 'Door_LOW'");
 }
 
-TEST(BakeModel, aMapGivenForTheDetailedSceneCounts)
+TEST(BakeModel, aMapForTheHighSceneIsApplied)
 {
-    // One direction everywhere, with green as DirectX has it: down the picture.
+    // The same direction everywhere, with green as in DirectX: down the image.
     const glm::dvec3 m = glm::normalize(glm::dvec3(0.2, 0.4, 1));
     HighModel high = highOf(sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})}));
     high.maps.push_back(makeImage(1, 1, PixelType::unorm8));
@@ -233,7 +232,7 @@ TEST(BakeModel, errorsOfOptionsBeginWithTheirNames)
     EXPECT_EQ(errorWith([](O& o, H&) { o.bake.height = 0; }),
               "options.bake.width: expected a width and a height from 1 to 65535; found 12x0");
     EXPECT_EQ(errorWith([](O& o, H&) { o.bake.samples = 3; }),
-              "options.bake.samples: expected 1, 2 or 4 samples a texel and axis; found 3");
+              "options.bake.samples: expected 1, 2 or 4 samples per texel and axis; found 3");
     EXPECT_EQ(errorWith([](O& o, H&) { o.bake.frame = Frame(99); }),
               fmt::format("options.bake.frame: expected 0 to {}; found 99", kFrameCount - 1));
     EXPECT_EQ(errorWith([](O& o, H&) { o.highFrame = Frame(-1); }),
@@ -243,23 +242,23 @@ TEST(BakeModel, errorsOfOptionsBeginWithTheirNames)
     EXPECT_EQ(errorWith([](O& o, H&) { o.bake.cageReach = NAN; }), "options.cageReach: expected 0 to 1e+17; found nan");
     EXPECT_EQ(errorWith([](O& o, H&) { o.tiles = {}; }), "options.tiles: expected one tile or more; found none");
     EXPECT_EQ(errorWith([](O& o, H&) { o.tiles = {1000}; }),
-              "options.tiles: expected numbers from 1001 on; found 1000");
+              "options.tiles: expected numbers of at least 1001; found 1000");
     EXPECT_EQ(errorWith([](O&, H& h) { h.maps.resize(2); }),
               "high.maps: expected none, one, or one for each of the 1 scenes; found 2");
     EXPECT_EQ(errorWith([](O& o, H&) { o.bake.extrusion = -1; }), "options.extrusion: expected 0 to 1e+17; found -1");
     EXPECT_EQ(errorWith([](O& o, H&) { o.bake.extrusion = 1, o.bake.search = BakeSearch::nearest; }),
-              "options.extrusion: the search nearest looks both ways from the low surface");
+              "options.extrusion: the search nearest already looks to both sides of the low surface");
     EXPECT_EQ(errorWith([&](O& o, H&) { o.cage = &flat, o.bake.search = BakeSearch::nearest; }),
-              "options.search: a cage says already where rays start, and the first surface counts");
+              "options.search: a cage already defines where rays start, and the first surface that they hit counts");
     EXPECT_EQ(errorWith([&](O& o, H&) { o.cage = &flat, o.bake.extrusion = 1; }),
-              "options.extrusion: a cage says already where rays start, and the first surface counts");
+              "options.extrusion: a cage already defines where rays start, and the first surface that they hit counts");
     EXPECT_EQ(errorWith([&](O& o, H&) { o.cage = &two; }),
               "options.cage: expected a cage of 2 triangles, as the low mesh has; found 4");
 }
 
 TEST(BakeModel, positionsFromWhichNoRayCanStartAreRefused)
 {
-    // Finite all of them; Embree would end the program.
+    // The positions are finite, but Embree would end the program.
     const Scene flat = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})}),
                 far = sceneOfMeshes({square({0, 0, 1e20f}, {1, 0, 0})});
     EXPECT_EQ(errorOf(bakeModel(far, highOf(flat), smallOptions())),
@@ -286,7 +285,7 @@ TEST(BakeModel, aTransformThatLeavesNoAreaIsRefused)
     Scene low = high;
     low.instances[0].toWorld = glm::mat4(0);
     EXPECT_EQ(errorOf(bakeModel(low, highOf(high), smallOptions())),
-              "low: expected a triangle with an area; all 2 have none as they are placed");
+              "low: expected a triangle with an area; all 2 have none in world space");
 }
 
 } // namespace

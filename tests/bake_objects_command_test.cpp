@@ -1,4 +1,4 @@
-// `cotan bake` of several objects, and of files with another axis up, as a user runs it.
+// `cotan bake` of several objects, and of files with another up axis, as a user runs it.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -14,7 +14,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-// A square of side 1 with its corner at x, leaning by `slope` along x where it is a high mesh; uv fill the unit square.
+// A square of side 1 with its corner at x; `slope` tilts high meshes along x. Its uv fill the unit square.
 std::string square(const std::string& name, double x, double slope, int first)
 {
     std::string text = "o " + name + "\n";
@@ -23,7 +23,7 @@ std::string square(const std::string& name, double x, double slope, int first)
     return text + fmt::format("f {0}/{0} {1}/{1} {2}/{2} {3}/{3}\n", first, first + 1, first + 2, first + 3);
 }
 
-// Two objects whose uv overlap, with detail that leans to either side.
+// Writes two objects with overlapping uv whose detail is tilted in opposite directions.
 void writeTwo(const TemporaryFolder& folder)
 {
     std::ofstream(folder / "low.obj") << square("left lid", 0, 0, 1) << square("right/lid", 3, 0, 5);
@@ -37,7 +37,7 @@ ToolRun bake(const TemporaryFolder& folder, const Words& more)
     return runTool(words, folder.path());
 }
 
-// Red of a texel in the middle: over 128 where the map leans to +x.
+// Red of a texel in the middle: above 128 if the normal is tilted to +x.
 int middleRed(const TemporaryFolder& folder, const std::string& file)
 {
     const auto map = readImage(folder / file);
@@ -46,7 +46,7 @@ int middleRed(const TemporaryFolder& folder, const std::string& file)
     return map->bytes8()[4 * (8 * 16 + 8)];
 }
 
-TEST(BakeObjects, aMapForEachObjectIsThatOfTheObjectByItself)
+TEST(BakeObjects, anObjectsMapIsThatOfTheObjectAlone)
 {
     TemporaryFolder folder;
     writeTwo(folder);
@@ -63,7 +63,7 @@ TEST(BakeObjects, aMapForEachObjectIsThatOfTheObjectByItself)
     EXPECT_FALSE(std::filesystem::exists(folder / "each.png"));
     EXPECT_TRUE(std::filesystem::exists(folder / "mask-left_lid.png"));
     const int left = middleRed(folder, "each-left_lid.png"), right = middleRed(folder, "each-right_lid.png");
-    EXPECT_NEAR(left, 128 - 127 * 0.196, 2); // the normal of a slope of 0.2
+    EXPECT_NEAR(left, 128 - 127 * 0.196, 2); // the component of a normal with slope 0.2
     EXPECT_NEAR(right, 128 + 127 * 0.196, 2);
     const auto report = nlohmann::json::parse(readWhole(folder / "r.json"));
     ASSERT_EQ(report["objects"].size(), 2u);
@@ -73,18 +73,18 @@ TEST(BakeObjects, aMapForEachObjectIsThatOfTheObjectByItself)
     EXPECT_EQ(readWhole(folder / "one.png"), readWhole(folder / "each-right_lid.png"));
 }
 
-TEST(BakeObjects, wrongNamesAndOptionsThatContradictGetOneLine)
+TEST(BakeObjects, wrongNamesAndContradictoryOptionsGetOneLine)
 {
     TemporaryFolder folder;
     writeTwo(folder);
     std::ofstream(folder / "same.obj") << square("a b", 0, 0, 1) << square("a_b", 3, 0, 5);
     const std::tuple<Words, int, std::string> cases[] = {
         {{"-o", "m.png", "--object", "lid"}, 2, "low.obj has no object 'lid'; expected one of 'left lid', 'right/lid'"},
-        {{"-o", "m.glb", "--object", "left lid"}, 1, "expected a picture with --object"},
-        {{"-o", "m.glb", "--per-object"}, 1, "expected a picture with --per-object"},
-        {{"-o", "m.png", "--per-object", "--object", "left lid"}, 1, "without --object"},
+        {{"-o", "m.glb", "--object", "left lid"}, 1, "expected an image with --object"},
+        {{"-o", "m.glb", "--per-object"}, 1, "expected an image with --per-object"},
+        {{"-o", "m.png", "--per-object", "--object", "left lid"}, 1, "expected no --object"},
         {{"-o", "m.png", "--per-object", "--cage", "low.obj"}, 1, "no --cage"},
-        {{"-o", "m.png", "--per-object", "--low", "same.obj"}, 1, "are one file"},
+        {{"-o", "m.png", "--per-object", "--low", "same.obj"}, 1, "are the same file"},
         {{"-o", "m.png", "--size", "16x"}, 1, "--size: expected WxH, or one number for both"},
         {{"-o", "m.png", "--up", "x"}, 1, "--up"},
     };
@@ -100,7 +100,7 @@ TEST(BakeObjects, wrongNamesAndOptionsThatContradictGetOneLine)
     }
 }
 
-// A slanted strip 1 wide, 3 high and 0.4 deep, which no turn leaves as it is. zUp: as a program with z up writes it.
+// Writes a slanted strip 1 wide, 3 high and 0.4 deep, which no rotation maps to itself; zUp: with z up.
 void writeStrip(const std::filesystem::path& file, bool zUp)
 {
     std::string text;
@@ -112,7 +112,7 @@ void writeStrip(const std::filesystem::path& file, bool zUp)
     std::ofstream(file) << text << "f 1/1 2/2 3/3 4/4\n";
 }
 
-TEST(BakeUp, filesWithZUpGiveTheSameMapAndAMixtureIsToldWithItsOptions)
+TEST(BakeUp, zUpFilesGiveTheSameMapAndMixedOnesAWarning)
 {
     TemporaryFolder folder;
     writeStrip(folder / "low.obj", false);
@@ -135,17 +135,17 @@ TEST(BakeUp, filesWithZUpGiveTheSameMapAndAMixtureIsToldWithItsOptions)
         {"high.obj", "low.obj", {"--high-up", "z"}, "try --up y"},
     };
     for (const auto& [high, low, given, advice] : wrong) {
-        const std::string said = baked(high, low, given).second;
-        const std::size_t at = said.find("would if one were turned by 90 degrees: it probably has z up; ");
-        ASSERT_NE(at, std::string::npos) << high << " " << low << said;
-        EXPECT_NE(said.find(advice + "\n"), std::string::npos) << said;
+        const std::string warning = baked(high, low, given).second;
+        const std::size_t at = warning.find("would if one were rotated by 90 degrees: it probably has z up; ");
+        ASSERT_NE(at, std::string::npos) << high << " " << low << warning;
+        EXPECT_NE(warning.find(advice + "\n"), std::string::npos) << warning;
     }
     EXPECT_EQ(baked("high_z.obj", "low_z.obj", {"--up", "z"}).first, right);
     EXPECT_EQ(baked("high_z.obj", "low.obj", {"--high-up", "z"}).first, right);
     EXPECT_EQ(baked("high.obj", "low_z.obj", {"--up", "z", "--high-up", "y"}), std::pair(right, std::string()));
 }
 
-TEST(BakeUp, everyCommandThatReadsAnyModelTurnsIt)
+TEST(BakeUp, upAppliesInEveryCommandThatReadsModels)
 {
     TemporaryFolder folder;
     writeStrip(folder / "y.obj", false);

@@ -1,4 +1,4 @@
-// The raster in uv: which triangles a texel shows.
+// Rasterisation in uv: which triangles cover or touch a texel.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,13 +21,13 @@ struct Layout {
     UvTriangles view() const { return {texcoords, indices}; }
 };
 
-// The unit square as a fan around a point inside: every texel is covered once.
+// The unit square as a fan around an inner point: every texel is covered once.
 Layout fan(glm::vec2 centre)
 {
     return {{{0, 0}, {1, 0}, {1, 1}, {0, 1}, centre}, {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4}};
 }
 
-// Triangles of both windings that cover the square, through random points of a grid.
+// Triangles of both windings that cover the unit square; inner grid points are random.
 Layout jitteredGrid(int n)
 {
     Layout l;
@@ -49,22 +49,22 @@ Layout jitteredGrid(int n)
 
 // Counts over a whole layout.
 struct Coverage {
-    std::size_t covered = 0;     // texels whose centre some triangle covers
-    std::size_t overlapping = 0; // ... more than one
+    std::size_t covered = 0;     // texels whose centre is in at least one triangle
+    std::size_t overlapping = 0; // texels whose centre is in several
 };
 
 Coverage coverageOf(const UvTriangles& triangles, int side, glm::ivec2 tile = {0, 0}, bool wrap = false)
 {
     Coverage c;
     const std::size_t width = std::size_t(side) + 1;
-    // How many more triangles cover a texel than the one before it.
+    // Difference between the number of triangles over a texel and over the one before it.
     std::vector<int> begins(width * std::size_t(side));
     UvRaster(triangles, side, side, tile, wrap).eachSpan([&](const UvSpan& span) {
         int* const row = &begins[std::size_t(span.y) * width];
         ++row[span.first];
         --row[span.last + 1];
     });
-    int n = 0; // back at 0 behind each row
+    int n = 0; // returns to 0 after each row
     for (const int begin : begins) {
         n += begin;
         c.covered += n > 0;
@@ -84,7 +84,7 @@ TEST(UvRaster, texelsOnSharedEdgesBelongToExactlyOneTriangle)
         }
 }
 
-TEST(UvRaster, barycentricsLeadBackToTheTexelsCentre)
+TEST(UvRaster, barycentricsReproduceTheTexelCentre)
 {
     const Layout l = jitteredGrid(4);
     const UvRaster raster(l.view(), 37, 23);
@@ -105,7 +105,7 @@ TEST(UvRaster, barycentricsLeadBackToTheTexelsCentre)
 
 TEST(UvRaster, trianglesThatOnlyTouchATexelGiveTheirNearestPoint)
 {
-    // A sliver that covers no centre of a 4 x 4 image.
+    // A sliver that contains no texel centre of a 4 x 4 image.
     const Layout l{{{0.26f, 0.26f}, {0.34f, 0.26f}, {0.3f, 0.3f}}, {0, 1, 2}};
     const UvRaster raster(l.view(), 4, 4);
     UvRow row;
@@ -116,7 +116,7 @@ TEST(UvRaster, trianglesThatOnlyTouchATexelGiveTheirNearestPoint)
     EXPECT_NEAR(p.b1 * 0.08f + p.b2 * 0.04f + 0.26f, 0.32f, 0.021f); // on the edge from (0.34, 0.26) to (0.3, 0.3)
 }
 
-TEST(UvRaster, placesThatOnlyTouchCountWhereNoCentreIsCovered)
+TEST(UvRaster, touchingSamplesCountOnlyWithoutCoveringOnes)
 {
     Layout l = jitteredGrid(6);
     l.indices.erase(l.indices.begin() + 3 * 20, l.indices.begin() + 3 * 29); // a hole in the middle
@@ -153,26 +153,26 @@ TEST(UvRaster, placesThatOnlyTouchCountWhereNoCentreIsCovered)
     EXPECT_GT(touched, 0u);
 }
 
-TEST(UvRaster, firstsAreTheFirstOfEachTexel)
+TEST(UvRaster, firstsAreTheFirstSamplesOfEachTexel)
 {
     const Layout l = jitteredGrid(6);
-    Layout twice = l; // and all of it twice more
+    Layout twice = l; // three copies of all triangles
     for (int i = 0; i < 2; ++i)
         twice.indices.insert(twice.indices.end(), l.indices.begin(), l.indices.end());
-    const UvRaster raster(twice.view(), 61, 43); // neither a multiple of a square nor of a block
+    const UvRaster raster(twice.view(), 61, 43); // not a multiple of a square or block
     std::map<std::pair<int, int>, UvSample> firsts;
     std::set<std::pair<int, int>> again;
     for (int block = 0; block < raster.blocks(); ++block) {
         UvFirsts found;
         raster.firsts(block, found);
-        ASSERT_EQ(found.texels.size(), found.places.size());
+        ASSERT_EQ(found.texels.size(), found.samples.size());
         for (std::size_t i = 0; i < found.texels.size(); ++i) {
             const glm::ivec2 t = found.texels[i];
             EXPECT_EQ(t.y / UvRaster::kBlockRows, block);
-            EXPECT_TRUE(firsts.emplace(std::pair(t.x, t.y), found.places[i]).second);
+            EXPECT_TRUE(firsts.emplace(std::pair(t.x, t.y), found.samples[i]).second);
         }
-        for (glm::ivec2 t : found.again)
-            EXPECT_TRUE(again.emplace(t.x, t.y).second); // once, however many cover it
+        for (glm::ivec2 t : found.coveredTwice)
+            EXPECT_TRUE(again.emplace(t.x, t.y).second); // once, however many triangles cover it
     }
     UvRow row;
     for (int y = 0; y < 43; ++y) {
@@ -183,27 +183,27 @@ TEST(UvRaster, firstsAreTheFirstOfEachTexel)
             ASSERT_EQ(found != firsts.end(), i < end);
             if (i == end)
                 continue;
-            EXPECT_EQ(found->second.triangle, row.places[i].triangle);
-            EXPECT_EQ(found->second.b1, row.places[i].b1);
-            EXPECT_EQ(found->second.b2, row.places[i].b2);
-            EXPECT_EQ(found->second.covers, row.places[i].covers);
-            EXPECT_EQ(again.count({x, y}) > 0, row.places[i].covers);
+            EXPECT_EQ(found->second.triangle, row.samples[i].triangle);
+            EXPECT_EQ(found->second.b1, row.samples[i].b1);
+            EXPECT_EQ(found->second.b2, row.samples[i].b2);
+            EXPECT_EQ(found->second.covers, row.samples[i].covers);
+            EXPECT_EQ(again.count({x, y}) > 0, row.samples[i].covers);
         }
     }
 }
 
-// Of a row: each texel's places.
-using PlacesOfTexels = std::vector<std::vector<UvSample>>;
+// For each texel of a row: its samples.
+using SamplesOfTexels = std::vector<std::vector<UvSample>>;
 
-PlacesOfTexels placesOf(const UvRow& row)
+SamplesOfTexels samplesByTexel(const UvRow& row)
 {
-    PlacesOfTexels places;
+    SamplesOfTexels places;
     for (std::size_t x = 0; x + 1 < row.first.size(); ++x)
         places.emplace_back(row.of(x).begin(), row.of(x).end());
     return places;
 }
 
-void expectEqual(const PlacesOfTexels& a, const PlacesOfTexels& b)
+void expectEqual(const SamplesOfTexels& a, const SamplesOfTexels& b)
 {
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t x = 0; x < a.size(); ++x) {
@@ -217,46 +217,46 @@ void expectEqual(const PlacesOfTexels& a, const PlacesOfTexels& b)
     }
 }
 
-TEST(UvRaster, rowsThatCrossBlocksAreThoseOfOneRowAtATime)
+TEST(UvRaster, severalRowsAtOnceEqualSingleRows)
 {
     Layout l = jitteredGrid(7);
     for (int layer = 0; layer < 3; ++layer) // 4 layers of all triangles
         l.indices.insert(l.indices.end(), l.indices.begin(), l.indices.begin() + 7 * 7 * 6);
     for (std::size_t i = 0; i < l.texcoords.size();
-         ++i) // not all of the image: some texels are touched, some are empty
+         ++i) // covers only a part of the image: some texels are touched, some empty
         l.texcoords[i] = glm::vec2(0.1f, 0.2f) + l.texcoords[i] * glm::vec2(0.6f, 0.5f);
     const int width = 29, height = 43;
     const auto odd = [](const UvSample& p) { return p.triangle % 2 == 1; };
-    for (const UvFew& few :
-         {UvFew{}, UvFew{.most = 1}, UvFew{.most = 3}, UvFew{.counts = odd}, UvFew{.most = 2, .counts = odd}})
+    for (const UvLimits& few : {UvLimits{}, UvLimits{.maxPerTexel = 1}, UvLimits{.maxPerTexel = 3},
+                                UvLimits{.accepts = odd}, UvLimits{.maxPerTexel = 2, .accepts = odd}})
         for (const bool wrap : {false, true}) {
             const UvRaster raster(l.view(), width, height, {0, 0}, wrap);
-            std::vector<PlacesOfTexels> single;
+            std::vector<SamplesOfTexels> single;
             UvRow row;
             std::size_t most = 0, touched = 0;
             for (int y = 0; y < height; ++y) {
                 raster.row(y, row, few);
-                single.push_back(placesOf(row));
+                single.push_back(samplesByTexel(row));
                 for (const std::vector<UvSample>& places : single.back()) {
-                    ASSERT_LE(places.size(), few.most);
+                    ASSERT_LE(places.size(), few.maxPerTexel);
                     if (!places.empty() && places[0].covers)
                         most = std::max(most, places.size());
                     touched += !places.empty() && !places[0].covers;
                     for (const UvSample& p : places) {
-                        EXPECT_TRUE(!few.counts || odd(p));
+                        EXPECT_TRUE(!few.accepts || odd(p));
                         EXPECT_EQ(p.covers, places[0].covers);
                     }
                 }
             }
-            EXPECT_EQ(most, std::min<std::size_t>(few.most, 4));
+            EXPECT_EQ(most, std::min<std::size_t>(few.maxPerTexel, 4));
             EXPECT_GT(touched, 0u);
-            std::vector<UvRow> rows; // used again and again, of other rows
+            std::vector<UvRow> rows; // reused for other rows
             for (const auto& [first, count] :
                  {std::pair(0, height), {5, 20}, {7, 2}, {8, 8}, {15, 10}, {40, 3}, {42, 1}}) {
                 rows.resize(std::size_t(count));
                 raster.rows(first, rows, few);
                 for (int k = 0; k < count; ++k)
-                    expectEqual(placesOf(rows[std::size_t(k)]), single[std::size_t(first + k)]);
+                    expectEqual(samplesByTexel(rows[std::size_t(k)]), single[std::size_t(first + k)]);
             }
         }
 }
@@ -281,17 +281,17 @@ TEST(UvRaster, spansAreTheTexelsWhoseCentresAreCovered)
     EXPECT_EQ(spanned, covered);
 }
 
-// Of a point to a segment.
+// Distance of a point to a segment.
 double distanceTo(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b)
 {
     const double along = std::clamp(glm::dot(p - a, b - a) / glm::dot(b - a, b - a), 0.0, 1.0);
     return glm::length(p - glm::mix(a, b, along));
 }
 
-TEST(UvRaster, touchedAreTheTexelsWhoseCentreIsWithinHalfADiagonalOfTheTriangle)
+TEST(UvRaster, texelsWithinHalfADiagonalOfTheTriangleAreTouched)
 {
     constexpr int kWidth = 37, kHeight = 23;
-    constexpr double kUnsure = 1e-4; // texels of 1 / 37, in float
+    constexpr double kUnsure = 1e-4; // in texels of 1 / 37, for float rounding
     Random random(11);
     std::size_t touched = 0, covered = 0;
     for (int t = 0; t < 300; ++t) {
@@ -324,9 +324,9 @@ TEST(UvRaster, touchedAreTheTexelsWhoseCentreIsWithinHalfADiagonalOfTheTriangle)
                     continue;
                 const UvSample& p = row.of(std::size_t(x)).front();
                 EXPECT_EQ(p.covers, inside);
-                const glm::dvec2 place =
+                const glm::dvec2 point =
                     corner[0] * (1 - double(p.b1) - double(p.b2)) + corner[1] * double(p.b1) + corner[2] * double(p.b2);
-                EXPECT_NEAR(glm::length(place - centre), inside ? 0 : away, 2e-3); // a ten-thousandth inwards
+                EXPECT_NEAR(glm::length(point - centre), inside ? 0 : away, 2e-3); // samples are moved inwards by 1e-4
                 ++(inside ? covered : touched);
             }
         }
@@ -335,7 +335,7 @@ TEST(UvRaster, touchedAreTheTexelsWhoseCentreIsWithinHalfADiagonalOfTheTriangle)
     EXPECT_GT(touched, 500u);
 }
 
-TEST(UvRaster, aFewPlacesAreSomeOfAllAndOneIsTheFirst)
+TEST(UvRaster, limitedSamplesAreASubsetAndASingleOneIsTheFirst)
 {
     Layout l = jitteredGrid(9);
     for (int layer = 0; layer < 5; ++layer) // 6 layers of all triangles
@@ -344,9 +344,9 @@ TEST(UvRaster, aFewPlacesAreSomeOfAllAndOneIsTheFirst)
     UvRow all, one, few, many;
     for (int y = 0; y < 43; ++y) {
         raster.row(y, all);
-        raster.row(y, one, {.most = 1});
-        raster.row(y, few, {.most = 4});
-        raster.row(y, many, {.most = 20});
+        raster.row(y, one, {.maxPerTexel = 1});
+        raster.row(y, few, {.maxPerTexel = 4});
+        raster.row(y, many, {.maxPerTexel = 20});
         for (std::size_t x = 0; x < 61; ++x) {
             const auto of = [&](const UvRow& row) {
                 std::vector<std::uint32_t> triangles;
@@ -363,7 +363,7 @@ TEST(UvRaster, aFewPlacesAreSomeOfAllAndOneIsTheFirst)
     }
 }
 
-TEST(UvRaster, aTriangleOfThousandsOfCopiesIsDrawnInSixteenThatAreInsideIt)
+TEST(UvRaster, ofThousandsOfRepetitionsSixteenAreRasterised)
 {
     const Layout l{{{0.3f, 0.1f}, {3000, 700}, {900, 2500}}, {0, 1, 2}};
     const Coverage c = coverageOf(l.view(), 16, {0, 0}, /*wrap*/ true);
@@ -371,7 +371,7 @@ TEST(UvRaster, aTriangleOfThousandsOfCopiesIsDrawnInSixteenThatAreInsideIt)
     UvRow row;
     const UvRaster raster(l.view(), 16, 16, {0, 0}, /*wrap*/ true);
     raster.row(5, row);
-    EXPECT_EQ(row.places.size(), 16u * 16u);
+    EXPECT_EQ(row.samples.size(), 16u * 16u);
 }
 
 TEST(UvRaster, overlapsAreCounted)
@@ -384,7 +384,7 @@ TEST(UvRaster, overlapsAreCounted)
     EXPECT_EQ(c.overlapping, coverageOf({l.texcoords, std::span(l.indices).first(3)}, 64).covered);
 }
 
-TEST(UvRaster, tilesShowTheirUnitSquareAndWrappingShowsAll)
+TEST(UvRaster, tilesCoverTheirUnitSquareAndWrappingCoversAll)
 {
     Layout l = fan({0.5f, 0.5f});
     for (glm::vec2& uv : l.texcoords)
@@ -394,7 +394,7 @@ TEST(UvRaster, tilesShowTheirUnitSquareAndWrappingShowsAll)
     EXPECT_EQ(coverageOf(l.view(), 8, {0, 0}, true).covered, 64u);
 }
 
-TEST(UvRaster, uvThatAreNotFiniteOrHaveNoAreaShowNothing)
+TEST(UvRaster, nonFiniteOrDegenerateUvCoverNothing)
 {
     const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
     for (glm::vec2 bad : {glm::vec2(nan, 0), {inf, 0}, {1e30f, 0}, {0, 0}, {-3e38f, 3e38f}}) {

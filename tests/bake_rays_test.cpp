@@ -1,4 +1,4 @@
-// Rays that hit are never lost, whatever their directions and their neighbours in a packet.
+// Rays that should hit are never lost, whatever their directions and their neighbours in a packet.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,8 +15,8 @@
 namespace cotan {
 namespace {
 
-// A closed surface around the origin: rings from pole to pole, computed in double as any modeller does, so that what
-// should be zero is 6e-17. `radius` gives the distance of a vertex.
+// A closed surface around the origin: rings from pole to pole, computed in double as modellers do, so that components
+// that should be zero are 6e-17. `radius` returns the distance of a vertex.
 template<class Radius> Mesh around(int columns, int rows, const Radius& radius)
 {
     Mesh mesh;
@@ -55,9 +55,9 @@ Baked bakeOnto(const Mesh& low, const Mesh& high, BakeSearch search)
     return *baked;
 }
 
-TEST(BakeRays, aNeighbourWithATinyComponentOfTheOtherSignLosesNoTexel)
+TEST(BakeRays, tinyNormalComponentsOfEitherSignLoseNoTexel)
 {
-    // One triangle under a grid. Two of its normals lean by -1e-18, the third by -0.2; 0 and -1e-16 never lost any.
+    // One triangle under a grid; two of its normals are tilted by `lean`. -1e-18 lost texels; 0 and -1e-16 never did.
     for (const float lean : {-1e-18f, 1e-18f, -1e-19f, -1e-30f, -1e-42f, -0.0f, -1e-16f}) {
         Mesh low, high;
         low.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -83,7 +83,7 @@ TEST(BakeRays, aNeighbourWithATinyComponentOfTheOtherSignLosesNoTexel)
     }
 }
 
-TEST(BakeRays, aSphereUnderOneAFiftiethLargerHasNoHoles)
+TEST(BakeRays, aSphereUnderOneTwoPercentLargerHasNoHoles)
 {
     const Mesh low = around(32, 16, [](int, int) { return 1.0; }), high = around(32, 16, [](int, int) { return 1.02; });
     for (const BakeSearch search : {BakeSearch::first, BakeSearch::nearest})
@@ -97,7 +97,7 @@ Scene placed(const Mesh& mesh, const glm::mat4& toWorld)
     return scene;
 }
 
-// The same with the transform in the vertices: normals go by the inverse transpose, mirrored triangles turn.
+// Moves the vertices instead of the instance: normals take the inverse transpose, and mirroring reverses the winding.
 Scene moved(Mesh mesh, const glm::mat4& toWorld)
 {
     const glm::mat3 linear(toWorld);
@@ -111,7 +111,7 @@ Scene moved(Mesh mesh, const glm::mat4& toWorld)
     return sceneOfMeshes({mesh});
 }
 
-TEST(BakeRays, aTransformedInstanceBakesAsItsVerticesMoved)
+TEST(BakeRays, aTransformedInstanceBakesLikeTransformedVertices)
 {
     const Mesh low = around(12, 8, [](int, int) { return 1.0; }),
                high = around(40, 24, [](int i, int j) { return 1.02 + 0.01 * std::sin(i * 0.9) * std::sin(j * 1.3); });
@@ -136,12 +136,12 @@ TEST(BakeRays, aTransformedInstanceBakesAsItsVerticesMoved)
         EXPECT_EQ(a.statistics.missed, b.statistics.missed);
         std::size_t apart = 0;
         for (std::size_t i = 0; i < a.values.size(); ++i)
-            apart += glm::length(a.values[i] - b.values[i]) > 1e-3f; // floats at 60 from the origin: 4e-6 of a texel's
+            apart += glm::length(a.values[i] - b.values[i]) > 1e-3f; // floats at 60 from the origin: 4e-6 of a texel
         EXPECT_LE(apart, a.values.size() / 500);                     // rays that graze an edge may meet either side
     }
 }
 
-// A component as files and sums of rounded numbers have it.
+// A component of a kind found in files and in sums of rounded numbers.
 float oddComponent(Random& random)
 {
     const float sign = random.unit() < 0.5 ? -1.0f : 1.0f;
@@ -154,10 +154,10 @@ float oddComponent(Random& random)
     }
 }
 
-TEST(BakeRays, everyRayThroughTheMiddleOfARandomClosedSurfaceMeetsIt)
+TEST(BakeRays, everyRayThroughTheMiddleOfARandomClosedSurfaceHitsIt)
 {
     Random random(71);
-    std::size_t missed = 0, asked = 0;
+    std::size_t missed = 0, probed = 0;
     for (int surface = 0; surface < 24; ++surface) {
         const int columns = 3 + int(random.unit() * 40), rows = 3 + int(random.unit() * 30);
         std::vector<double> radii(std::size_t((columns + 1) * (rows + 1)));
@@ -172,7 +172,7 @@ TEST(BakeRays, everyRayThroughTheMiddleOfARandomClosedSurfaceMeetsIt)
             Probes probes;
             probes.count = 1 + std::size_t(random.unit() * 15.999);
             probes.only.fill(Probes::kAny);
-            const bool alike = packet % 2 == 0; // one direction but for what is tiny
+            const bool alike = packet % 2 == 0; // equal directions, except for tiny components
             const glm::vec3 common(oddComponent(random), oddComponent(random), 1);
             for (std::size_t i = 0; i < probes.count; ++i) {
                 glm::vec3 d =
@@ -181,7 +181,7 @@ TEST(BakeRays, everyRayThroughTheMiddleOfARandomClosedSurfaceMeetsIt)
                     d.x = oddComponent(random) * 1e-18f;
                 if (!(glm::dot(d, d) > 1e-6f))
                     d.z = packet % 3 == 0 ? -1.0f : 1.0f;
-                // Three points of the surface of three columns and rows are 0.17 from the origin at least.
+                // Any three points of a surface of three columns and rows are at least 0.17 from the origin.
                 probes.direction.set(i, d / std::sqrt(glm::dot(d, d)));
                 probes.point.set(i, glm::vec3(random.direction() * (0.05 * random.unit())));
                 if (packet % 5 == 0)
@@ -196,11 +196,11 @@ TEST(BakeRays, everyRayThroughTheMiddleOfARandomClosedSurfaceMeetsIt)
             for (std::size_t i = 0; i < probes.count; ++i) {
                 missed += !outermost.found(i) + !nearest.found(i) + !any[i];
                 missed += !high->trace({probes.point.at(i), probes.direction.at(i), 0, 3}).found;
-                asked += 4;
+                probed += 4;
             }
         }
     }
-    EXPECT_EQ(missed, 0u) << "of " << asked;
+    EXPECT_EQ(missed, 0u) << "of " << probed;
 }
 
 } // namespace

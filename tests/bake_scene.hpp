@@ -12,7 +12,7 @@
 
 namespace cotan {
 
-// From `corner` along two edges; uv fill the unit square, v down.
+// A parallelogram from `corner` along two edges; uv fill the unit square.
 inline Mesh rectangle(glm::vec3 corner, glm::vec3 along, glm::vec3 across)
 {
     Mesh mesh;
@@ -26,7 +26,7 @@ inline Mesh rectangle(glm::vec3 corner, glm::vec3 along, glm::vec3 across)
     return mesh;
 }
 
-// So many triangles in one plane, each a little other, all over (0.2, 0.2).
+// `count` slightly different triangles in one plane, all of which contain (0.2, 0.2).
 inline Mesh crowd(int count)
 {
     Mesh mesh;
@@ -43,7 +43,7 @@ inline Mesh crowd(int count)
     return mesh;
 }
 
-// One material, one instance of each mesh.
+// A scene with one material and one instance of each mesh.
 inline Scene sceneOfMeshes(std::vector<Mesh> meshes)
 {
     Scene scene;

@@ -1,4 +1,4 @@
-// Scenes before they are baked: whether one has to be turned, and one taken apart.
+// Scenes before they are baked: whether one has to be rotated, and splitting one into objects.
 #include <string>
 
 #include <gtest/gtest.h>
@@ -9,50 +9,50 @@
 namespace cotan::app {
 namespace {
 
-TEST(SceneUp, aTurnIsLikelyWhereBoxesLieApartAndWouldNot)
+TEST(SceneUp, suggestsRotationIfOnlyRotatedBoxesOverlap)
 {
-    const Bounds high{{0, 1, 0}, {1, 3, 0.5f}}; // stands
-    EXPECT_EQ(likelyTurn(high, high), LikelyTurn::none);
-    const Bounds lying{{0, -0.5f, 1}, {1, 0, 3}}; // that with z up
-    EXPECT_EQ(turnedZUp(lying).low, high.low);
-    EXPECT_EQ(likelyTurn(lying, high), LikelyTurn::first);
-    EXPECT_EQ(likelyTurn(high, lying), LikelyTurn::second);
+    const Bounds high{{0, 1, 0}, {1, 3, 0.5f}}; // upright
+    EXPECT_EQ(findUpMismatch(high, high), UpMismatch::none);
+    const Bounds lying{{0, -0.5f, 1}, {1, 0, 3}}; // the same box with z up
+    EXPECT_EQ(rotatedZUp(lying).low, high.low);
+    EXPECT_EQ(findUpMismatch(lying, high), UpMismatch::first);
+    EXPECT_EQ(findUpMismatch(high, lying), UpMismatch::second);
     const Bounds cube{{-1, -1, -1}, {1, 1, 1}}, far{{5, 5, 5}, {6, 6, 6}};
-    EXPECT_EQ(likelyTurn(cube, cube), LikelyTurn::none);
-    EXPECT_EQ(likelyTurn(cube, far), LikelyTurn::none); // no turn helps
+    EXPECT_EQ(findUpMismatch(cube, cube), UpMismatch::none);
+    EXPECT_EQ(findUpMismatch(cube, far), UpMismatch::none); // no rotation helps
     const Bounds flat{{-1, 0, -1}, {1, 0, 1}}, wall{{-1, -1, 0}, {1, 1, 0}};
-    EXPECT_EQ(likelyTurn(flat, wall), LikelyTurn::either);
-    EXPECT_EQ(likelyTurn(Bounds{}, cube), LikelyTurn::none);
+    EXPECT_EQ(findUpMismatch(flat, wall), UpMismatch::either);
+    EXPECT_EQ(findUpMismatch(Bounds{}, cube), UpMismatch::none);
 }
 
-// Both sides of each limit: less than a half now, three tenths more turned, and one side a tenth better than the other.
-TEST(SceneUp, aTurnIsLikelyFromThreeTenthsMoreOfTheVolumeOn)
+// Both sides of each limit: less than half shared now, three tenths more if rotated, one side a tenth better.
+TEST(SceneUp, suggestsRotationIfItAddsThreeTenthsOfOverlap)
 {
-    // Posts of a square foot: `high` stands, the other lies, moved up the first by what they are to share when turned.
+    // Posts with a footprint of 1 x 1: `standing` is upright; `lying` needs the rotation to overlap it.
     const auto standing = [](float from, float to) { return Bounds{{0, from, 0}, {1, to, 1}}; };
     const auto lying = [](float from, float to) { return Bounds{{0, -1, from}, {1, 0, to}}; };
-    // Turned the first is from `from` to 10 on the second, of which nothing is shared now.
+    // The rotated first box reaches from `from` to 10 on the second; now they share nothing.
     for (const auto& [length, likely] : {std::pair(2.9f, false), {3.1f, true}, {10.0f, true}})
-        EXPECT_EQ(likelyTurn(lying(10 - length, 10), standing(0, 10)) == LikelyTurn::first, likely) << length;
-    // A board of thickness 2r that lies on the axis that it turns about: it shares r of 2 - r with the turned one.
+        EXPECT_EQ(findUpMismatch(lying(10 - length, 10), standing(0, 10)) == UpMismatch::first, likely) << length;
+    // A board of thickness 2r that lies on the axis of rotation: it shares r of 2 - r with the rotated board.
     const auto board = [](float r, float moved) { return Bounds{{0, -1, moved - r}, {1, 1, moved + r}}; };
-    for (const auto& [r, turn] : {std::pair(0.6f, LikelyTurn::either),
-                                  {0.65f, LikelyTurn::either},
-                                  {0.68f, LikelyTurn::none}}) // over two thirds it is half
-        EXPECT_EQ(likelyTurn(board(r, 0), turnedZUp(board(r, 0))), turn) << r;
-    // Moved by a little, the first fits better than the second, which comes out on the other side.
-    for (const auto& [moved, turn] : {std::pair(0.008f, LikelyTurn::either), {0.013f, LikelyTurn::first}}) {
-        EXPECT_EQ(likelyTurn(board(0.2f, moved), turnedZUp(board(0.2f, moved))), turn) << moved;
+    for (const auto& [r, turn] : {std::pair(0.6f, UpMismatch::either),
+                                  {0.65f, UpMismatch::either},
+                                  {0.68f, UpMismatch::none}}) // above two thirds, half is shared
+        EXPECT_EQ(findUpMismatch(board(r, 0), rotatedZUp(board(r, 0))), turn) << r;
+    // If moved slightly, the first fits better than the second, which ends up on the other side.
+    for (const auto& [moved, turn] : {std::pair(0.008f, UpMismatch::either), {0.013f, UpMismatch::first}}) {
+        EXPECT_EQ(findUpMismatch(board(0.2f, moved), rotatedZUp(board(0.2f, moved))), turn) << moved;
     }
-    // A thin box counts as a hundredth of its longest side thick: without that no two walls would share anything.
+    // A flat box counts as a hundredth of its longest side thick; otherwise two walls would never overlap.
     const Bounds wall{{0, 0, 0}, {1, 2, 0}}, floor{{0, 0, 0}, {1, 0, 2}};
-    EXPECT_EQ(likelyTurn(Bounds{{0, 0, 0}, {1, 0, 2}}, wall), LikelyTurn::first);
-    EXPECT_EQ(likelyTurn(wall, floor), LikelyTurn::second);
-    const Bounds apart{{0, 0, 0.019f}, {1, 2, 0.019f}}; // walls of 0.02 share a twentieth
-    EXPECT_EQ(likelyTurn(wall, apart), LikelyTurn::none);
+    EXPECT_EQ(findUpMismatch(Bounds{{0, 0, 0}, {1, 0, 2}}, wall), UpMismatch::first);
+    EXPECT_EQ(findUpMismatch(wall, floor), UpMismatch::second);
+    const Bounds apart{{0, 0, 0.019f}, {1, 2, 0.019f}}; // walls of thickness 0.02 share a twentieth
+    EXPECT_EQ(findUpMismatch(wall, apart), UpMismatch::none);
 }
 
-TEST(SceneObjects, haveTheNamesOfInstancesElseOfMeshesAndComeApart)
+TEST(SceneObjects, areNamedByInstanceElseMeshAndCanBeSplitOff)
 {
     Scene scene;
     scene.materials.resize(3);
@@ -64,11 +64,11 @@ TEST(SceneObjects, haveTheNamesOfInstancesElseOfMeshesAndComeApart)
     EXPECT_EQ(objectNames(scene), (std::vector<std::string>{"door", "lid"}));
     const SplitScene split = splitObject(scene, "door");
     ASSERT_EQ(split.object.instances.size(), 2u);
-    EXPECT_EQ(split.object.meshes.size(), 2u); // the third is nowhere
+    EXPECT_EQ(split.object.meshes.size(), 2u); // the third has no instance
     EXPECT_EQ(split.object.meshes[std::size_t(split.object.instances[1].mesh)].name, "handle");
     EXPECT_EQ(split.object.meshes[1].material, 2);
     ASSERT_EQ(split.others.instances.size(), 1u);
-    EXPECT_EQ(split.others.meshes[0].name, "handle"); // both have it
+    EXPECT_EQ(split.others.meshes[0].name, "handle"); // both objects use it
     EXPECT_EQ(split.others.meshes[0].material, 0);
     EXPECT_TRUE(splitObject(scene, "window").object.instances.empty());
 }

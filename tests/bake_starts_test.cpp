@@ -1,4 +1,4 @@
-// Where rays start, on a square and a few points over it that are worked out by hand: both sides of each bound.
+// Distances at which rays start, on a square with a few points above, worked out by hand: both sides of each bound.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace cotan {
 namespace {
 
-// Triangles that share vertices, all of one instance; normals of any length.
+// Triangles that share vertices, all of one instance. `normals` may have any length.
 LowSurface lowOf(std::vector<glm::vec3> positions, std::vector<glm::vec3> normals, std::vector<std::uint32_t> indices)
 {
     LowSurface low;
@@ -26,20 +26,20 @@ LowSurface lowOf(std::vector<glm::vec3> positions, std::vector<glm::vec3> normal
     return low;
 }
 
-// (0, 0) to (side, side) in z = 0, facing up; corners (0, 0), (side, 0), (side, side), (0, side).
+// The square from (0, 0) to (side, side) in z = 0, facing up; corners (0, 0), (side, 0), (side, side), (0, side).
 LowSurface squareOf(float side)
 {
     return lowOf({{0, 0, 0}, {side, 0, 0}, {side, side, 0}, {0, side, 0}}, std::vector(4, glm::vec3(0, 0, 1)),
                  {0, 1, 2, 0, 2, 3});
 }
 
-// The vertices start at margin: 0.002 of the diagonal.
+// The margin by which all vertices start outside: 0.002 of the diagonal.
 float marginOf(float diagonal) { return 0.002f * diagonal; }
 float startOf(float distance, float diagonal) { return 1.05f * distance + marginOf(diagonal); }
 
 const float kRoot2 = std::sqrt(2.0f);
 
-// A triangle too small to be cut, in the plane through `at` across `face`; its corners have the normal `normal`.
+// A triangle too small to be subdivided, at `at`, perpendicular to `face`; its corners have the normal `normal`.
 Mesh speck(glm::vec3 at, glm::vec3 normal = {0, 0, 1}, glm::vec3 face = {0, 0, 1})
 {
     const glm::vec3 n = glm::normalize(face);
@@ -64,7 +64,7 @@ RayStarts startsOf(const LowSurface& low, const std::vector<Mesh>& high, const B
     return starts ? *starts : RayStarts{};
 }
 
-// Specks of 1e-4 are as far off as their middle but for their own size.
+// A speck of size 1e-4 is as far away as its centre, up to its own size.
 void expectDistances(const RayStarts& starts, const std::vector<float>& expected, const char* what)
 {
     ASSERT_GE(starts.distances.size(), expected.size()) << what;
@@ -75,80 +75,80 @@ void expectDistances(const RayStarts& starts, const std::vector<float>& expected
 TEST(RayStarts, aPointRaisesTheCornersOfItsTriangleUpToTheLimit)
 {
     const float none = marginOf(kRoot2);
-    BakeOptions told;
-    told.maxDistance = 0.05f;
+    BakeOptions limited;
+    limited.maxDistance = 0.05f;
     const struct {
         float height;
         BakeOptions options;
         float expected;
     } cases[] = {
-        {0.14f, {}, startOf(0.14f, kRoot2)}, // the limit: 0.1 * sqrt(2) = 0.1414
+        {0.14f, {}, startOf(0.14f, kRoot2)}, // below the default limit: 0.1 * sqrt(2) = 0.1414
         {0.143f, {}, none},
-        {0.04f, told, startOf(0.04f, kRoot2)},
-        {0.049f, told, 0.05f}, // no further than the limit, whatever is added
-        {0.051f, told, none},
-        {-0.04f, {}, none}, // behind: reached, from no distance
+        {0.04f, limited, startOf(0.04f, kRoot2)},
+        {0.049f, limited, 0.05f}, // never beyond the limit, whatever is added
+        {0.051f, limited, none},
+        {-0.04f, {}, none}, // behind the surface: rays reach it from the margin
         {0, {}, none},
     };
     for (const auto& c : cases) {
-        // Over the triangle of the first three corners alone.
+        // Above the triangle of the first three corners only.
         const RayStarts starts = startsOf(squareOf(1), {speck({0.6f, 0.3f, c.height})}, c.options);
         expectDistances(starts, {c.expected, c.expected, c.expected, none}, "height");
         EXPECT_EQ(starts.farthest, *std::max_element(starts.distances.begin(), starts.distances.end()));
         EXPECT_NEAR(starts.limit, c.options.maxDistance > 0 ? 0.05f : 0.1f * kRoot2, 1e-6f);
         EXPECT_NEAR(starts.skip, 1e-4f * kRoot2, 1e-8f);
-        EXPECT_FALSE(starts.bent);
+        EXPECT_FALSE(starts.directionsDiffer);
         EXPECT_TRUE(starts.tree.has_value());
     }
     BakeOptions extruded;
     extruded.extrusion = 0.3f;
     const RayStarts starts = startsOf(squareOf(1), {speck({0.6f, 0.3f, 0.04f})}, extruded);
     EXPECT_EQ(starts.distances, std::vector<float>(4, 0.3f));
-    EXPECT_EQ(starts.crossed, std::vector<std::uint8_t>(2, 0));
+    EXPECT_EQ(starts.obstructed, std::vector<std::uint8_t>(2, 0));
     EXPECT_EQ(starts.farthest, 0.3f);
     EXPECT_FALSE(starts.tree.has_value());
 }
 
-// A unit vector at this cosine from z, along x.
+// A unit vector in the xz plane whose cosine with z is `cosine`.
 glm::vec3 leaning(float cosine) { return {std::sqrt(1 - cosine * cosine), 0, cosine}; }
 
-TEST(RayStarts, onlyPointsThatFaceAsTheTriangleDoesCount)
+TEST(RayStarts, onlyPointsThatFaceLikeTheTriangleCount)
 {
     const float none = marginOf(kRoot2), found = startOf(0.1f, kRoot2);
-    LowSurface wound = squareOf(1); // the normals say where the outside is
+    LowSurface wound = squareOf(1); // normals, not winding, define the outside
     for (std::size_t i = 0; i < 6; i += 3)
         std::swap(wound.indices[i + 1], wound.indices[i + 2]);
     for (const LowSurface& low : {squareOf(1), wound})
         for (const auto& [normal, expected] : {std::pair(leaning(0.11f), found),
                                                {leaning(0.09f), none},
                                                {{0, 0, -1}, none},
-                                               {{0, 0, 0}, none}}) // unknown: faces nothing
+                                               {{0, 0, 0}, none}}) // an unknown normal faces nothing
             expectDistances(startsOf(low, {speck({0.6f, 0.3f, 0.1f}, normal)}), {expected, expected, expected, none},
                             "facing");
 }
 
-TEST(RayStarts, aPointBesideTheSurfaceCountsUnlessItLiesTooFarAside)
+TEST(RayStarts, aPointBesideTheSurfaceCountsUpToALimitingAngle)
 {
-    // Beyond the edge x = 1: the nearest point lies on it. The way to it has a cosine of 0.35 with the normal at least.
+    // Beyond the edge x = 1, the nearest point is on it. The direction needs a cosine of at least 0.35 with the normal.
     const float none = marginOf(kRoot2);
     for (const auto& [cosine, counts] : {std::pair(0.36f, true), {0.34f, false}}) {
-        const float off = 0.1f;
-        const glm::vec3 at = glm::vec3(1, 0.5f, 0) + off * leaning(cosine);
-        // Corners have to be moved until their own plane, across the normal, lies as far off: divided by the cosine.
-        const float expected = counts ? startOf(off / cosine, kRoot2) : none;
+        const float gap = 0.1f;
+        const glm::vec3 at = glm::vec3(1, 0.5f, 0) + gap * leaning(cosine);
+        // Corners move until their own plane is at the speck's distance: division by the cosine.
+        const float expected = counts ? startOf(gap / cosine, kRoot2) : none;
         const RayStarts starts = startsOf(squareOf(1), {speck(at)});
         ASSERT_EQ(starts.distances.size(), 4u);
         for (const std::size_t v : {1u, 2u})
-            EXPECT_NEAR(starts.distances[v], expected, 0.01f * expected) << cosine; // specks are 0.1 % of the way
+            EXPECT_NEAR(starts.distances[v], expected, 0.01f * expected) << cosine; // specks have 0.1 % of the distance
         EXPECT_NEAR(starts.distances[0], none, 1e-5f);                              // not on that edge
         EXPECT_NEAR(starts.distances[3], none, 1e-5f);
     }
 }
 
-TEST(RayStarts, cornersThatLeanMoveFurtherButNoMoreThanTheyMay)
+TEST(RayStarts, leaningCornersMoveFurtherUpToALimit)
 {
-    // Normals with cosines 0.2, 0.5 and 1 to the way to a point over the middle; none are divided by less than 0.3.
-    const glm::vec3 back(-leaning(0.2f).x, 0, 0.2f); // so that the mean does not lean much
+    // Normals at cosines 0.2, 0.5 and 1 to the direction of a point above the middle; the divisor is at least 0.3.
+    const glm::vec3 back(-leaning(0.2f).x, 0, 0.2f); // keeps the mean nearly upright
     const LowSurface low = lowOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {back, leaning(0.5f), {0, 0, 1}}, {0, 1, 2});
     const float height = 0.04f;
     expectDistances(startsOf(low, {speck({0.33f, 0.33f, height})}),
@@ -156,15 +156,15 @@ TEST(RayStarts, cornersThatLeanMoveFurtherButNoMoreThanTheyMay)
                     "leaning");
 }
 
-// A square of side 1 beside which many tiny triangles lie: the edges of the square are long against the others.
+// A square of side 1 beside many tiny triangles: its edges are long in comparison.
 LowSurface squareBesideSmallTriangles()
 {
     LowSurface low = squareOf(1);
     for (int i = 0; i < 98; ++i) {
         const auto base = std::uint32_t(low.positions.size());
         const glm::vec3 at(float(i) / 98, 1.001f, 0);
-        for (const glm::vec3 off : {glm::vec3(0), {1e-3f, 0, 0}, {0, 1e-3f, 0}}) {
-            low.positions.push_back(at + off);
+        for (const glm::vec3 gap : {glm::vec3(0), {1e-3f, 0, 0}, {0, 1e-3f, 0}}) {
+            low.positions.push_back(at + gap);
             low.normals.push_back({0, 0, 1});
             low.texcoords.push_back({});
         }
@@ -174,10 +174,10 @@ LowSurface squareBesideSmallTriangles()
     return low;
 }
 
-TEST(RayStarts, aVertexAsksItsOwnRayWhereNothingBelongsToItOrItsEdgesAreShort)
+TEST(RayStarts, isolatedVerticesAndThoseWithShortEdgesTraceTheirOwnRay)
 {
-    // Over the first corner something that only its ray finds: normals that look aside belong to nothing. Elsewhere
-    // over its triangle a point.
+    // `onRay` above the first corner is found only by that vertex's ray, because its normals face sideways and match no
+    // triangle. `point` is elsewhere above the same triangle.
     const Mesh onRay = speck({0, 0, 0.08f}, leaning(0.05f)), point = speck({0.6f, 0.3f, 0.01f});
     const LowSurface alone = squareOf(1), beside = squareBesideSmallTriangles();
     const float none = marginOf(kRoot2), ray = startOf(0.08f, kRoot2), low = startOf(0.01f, kRoot2);
@@ -185,7 +185,7 @@ TEST(RayStarts, aVertexAsksItsOwnRayWhereNothingBelongsToItOrItsEdgesAreShort)
     expectDistances(startsOf(alone, {onRay, point}), {ray, low, low, none}, "all edges are short");
     expectDistances(startsOf(beside, {onRay}), {ray, none, none, none}, "long edges, nothing belongs");
     expectDistances(startsOf(beside, {onRay, point}), {low, low, low, none}, "long edges, something belongs");
-    // The outermost front within the limit.
+    // The outermost front face within the limit counts.
     const Mesh beyond = speck({0, 0, 0.15f}, leaning(0.05f)), lower = speck({0, 0, 0.03f}, leaning(0.05f));
     expectDistances(startsOf(alone, {beyond}), {none, none, none, none}, "further than the limit");
     expectDistances(startsOf(alone, {beyond, onRay, lower}), {ray, none, none, none}, "the outermost");
@@ -194,7 +194,7 @@ TEST(RayStarts, aVertexAsksItsOwnRayWhereNothingBelongsToItOrItsEdgesAreShort)
                         {expected, none, none, none}, "facing aside");
 }
 
-TEST(RayStarts, aRayPassesFifteenLayersThatFaceAway)
+TEST(RayStarts, aRayPassesFifteenBackfacingLayers)
 {
     const float none = marginOf(kRoot2), found = startOf(0.03f, kRoot2);
     for (const auto& [layers, expected] : {std::pair(1, found), {15, found}, {16, none}}) {
@@ -202,16 +202,16 @@ TEST(RayStarts, aRayPassesFifteenLayersThatFaceAway)
         for (int i = 0; i < layers; ++i)
             high.push_back(speck({0, 0, 0.05f + 0.004f * float(i)}, {0, 0, -1}, {0, 0, -1}));
         const RayStarts starts = startsOf(squareOf(1), high);
-        EXPECT_NEAR(starts.distances.at(0), expected, 5e-4f) << layers; // 1e-5 of the diagonal are lost in each
+        EXPECT_NEAR(starts.distances.at(0), expected, 5e-4f) << layers; // each layer costs 1e-5 of the diagonal
     }
 }
 
-// Above the plane z = 0, between z = 0 and the limit, the highest of the points between the corners of a large
-// triangle that lie at i and j parts of its edges.
-TEST(RayStarts, largeTrianglesAreCutIntoPartsOfTheLowOnesSize)
+// A large triangle is sampled at the points i, j of a regular subdivision of its edges; the highest sample between z =
+// 0 and the limit counts.
+TEST(RayStarts, largeTrianglesAreSubdividedToTheSizeOfLowOnes)
 {
-    // A square of 10: its triangles count as 1.5 sqrt(50) = 10.6 wide, the limit is 1.414. Edges of the large triangle
-    // are 50.6 long at most, which makes 5 parts; z = -20 + 10 i + 5.6 j. Of 1280.0: 64 parts and no more.
+    // A square of 10: triangles count as 1.5 sqrt(50) = 10.6 wide, the limit is 1.414. Edges of the large triangle are
+    // up to 50.6 long, so 5 parts: z = -20 + 10 i + 5.6 j. Edges up to 1280.0 give the maximum, 64 parts.
     for (const auto& [cuts, bottom, first, second] :
          {std::array{5.0f, -20.0f, 10.0f, 5.6f}, {64.0f, -408.8f, 20.0f, 9.0f}}) {
         const glm::vec3 corner(1, 1, bottom);
@@ -227,9 +227,9 @@ TEST(RayStarts, largeTrianglesAreCutIntoPartsOfTheLowOnesSize)
         ASSERT_NEAR(highest, 1.2f, 1e-4f);
         const RayStarts starts = startsOf(squareOf(10), {large});
         const float found = startOf(highest, 10 * kRoot2), none = marginOf(10 * kRoot2);
-        expectDistances(starts, {found, found, found, none}, "cuts"); // x > y: over the first triangle
+        expectDistances(starts, {found, found, found, none}, "cuts"); // x > y: above the first triangle
     }
-    Mesh unknown; // normals that cancel out belong to nothing
+    Mesh unknown; // normals that cancel out match no triangle
     unknown.positions = {{1, 1, -20}, {9, 1, 30}, {9, 9, 8}};
     unknown.normals.assign(3, {0, 0, 0});
     unknown.indices = {0, 1, 2};
@@ -238,8 +238,8 @@ TEST(RayStarts, largeTrianglesAreCutIntoPartsOfTheLowOnesSize)
 
 // ---- directions -----------------------------------------------------------------------------
 
-// Two triangles along an edge of y from 0 to 1, each with its own vertices there; their normals lean by `half` degrees
-// to either side of z. Their angles at the origin are 60 and 30 degrees.
+// Two triangles along an edge from y = 0 to 1, each with its own vertices there. Their normals are tilted by `half`
+// degrees to opposite sides of z; their angles at the origin are 60 and 30 degrees.
 LowSurface ridge(float half)
 {
     const float a = glm::radians(half), third = glm::radians(60.0f), sixth = glm::radians(30.0f);
@@ -254,7 +254,7 @@ LowSurface ridge(float half)
                  {n1, n1, n1, n2, n2, n2}, {0, 1, 2, 3, 4, 5});
 }
 
-TEST(RayStarts, directionsAreTheMeanByAnglesUnlessItLeansTooFar)
+TEST(RayStarts, directionsAreAngleWeightedMeansUnlessTheseLeanTooFar)
 {
     const std::vector<Mesh> away{speck({0, 0, 50})};
     const LowSurface low = ridge(40);
@@ -262,11 +262,11 @@ TEST(RayStarts, directionsAreTheMeanByAnglesUnlessItLeansTooFar)
     const glm::vec3 mean = glm::normalize(low.normals[0] * 60.0f + low.normals[3] * 30.0f);
     for (const std::size_t v : {0u, 3u})
         EXPECT_LT(glm::length(starts.directions.at(v) - mean), 1e-6f);
-    for (const std::size_t v : {1u, 5u}) // nobody else's
+    for (const std::size_t v : {1u, 5u}) // not shared
         EXPECT_EQ(starts.directions.at(v), low.normals[v]);
-    EXPECT_TRUE(starts.bent);
-    // Weights 2 and 1: the mean leans from the second normal with cosine (2 c + 1) / sqrt(5 + 4 c), c that between the
-    // normals: 0.2 at c = -0.306, 107.8 degrees.
+    EXPECT_TRUE(starts.directionsDiffer);
+    // With weights 2 and 1 the cosine between the mean and the second normal is (2 c + 1) / sqrt(5 + 4 c), where c is
+    // the cosine between the normals. It is 0.2 at c = -0.306, 107.8 degrees.
     const auto cosineFor = [](double half) {
         const double c = std::cos(glm::radians(2 * half));
         return (2 * c + 1) / std::sqrt(5 + 4 * c);
@@ -277,18 +277,18 @@ TEST(RayStarts, directionsAreTheMeanByAnglesUnlessItLeansTooFar)
         const LowSurface steep = ridge(half);
         const RayStarts found = startsOf(steep, away);
         EXPECT_EQ(found.directions.at(3) == steep.normals[3], leans) << half;
-        EXPECT_NE(found.directions.at(0), steep.normals[0]) << half; // that of the larger angle leans less
+        EXPECT_NE(found.directions.at(0), steep.normals[0]) << half; // the mean is closer to the larger weight
     }
-    LowSurface apart = ridge(40); // of two instances: nothing to share
+    LowSurface apart = ridge(40); // two instances share nothing
     apart.triangleInstance = {0, 1};
     const RayStarts own = startsOf(apart, away);
     EXPECT_EQ(own.directions, apart.normals);
-    EXPECT_FALSE(own.bent);
+    EXPECT_FALSE(own.directionsDiffer);
 }
 
-TEST(RayStarts, verticesAtOnePositionOfOneInstanceHaveOneDistance)
+TEST(RayStarts, verticesAtOnePositionShareADistanceWithinAnInstance)
 {
-    LowSurface low = squareOf(1); // each triangle with its own vertices
+    LowSurface low = squareOf(1); // each triangle has its own vertices
     low = lowOf(
         {low.positions[0], low.positions[1], low.positions[2], low.positions[0], low.positions[2], low.positions[3]},
         std::vector(6, glm::vec3(0, 0, 1)), {0, 1, 2, 3, 4, 5});
@@ -299,7 +299,7 @@ TEST(RayStarts, verticesAtOnePositionOfOneInstanceHaveOneDistance)
     expectDistances(startsOf(low, high), {found, found, found, none, none, none}, "two instances");
 }
 
-// ---- what stands in front -------------------------------------------------------------------
+// ---- occluders ------------------------------------------------------------------------------
 
 LowRest restOf(const LowSurface& surface, glm::vec3 move, std::uint32_t instance)
 {
@@ -312,7 +312,7 @@ LowRest restOf(const LowSurface& surface, glm::vec3 move, std::uint32_t instance
     return rest;
 }
 
-TEST(RayStarts, whatIsNearerToTheRestOfTheModelBelongsThereUnlessItShowsOtherDetail)
+TEST(RayStarts, detailNearerToTheRestBelongsToItUnlessMatchedElsewhere)
 {
     const glm::vec3 up(0, 0, 0.05f);
     const LowRest rest = restOf(squareOf(1), up, 1);
@@ -323,7 +323,7 @@ TEST(RayStarts, whatIsNearerToTheRestOfTheModelBelongsThereUnlessItShowsOtherDet
     const float near = startOf(0.02f, diagonal);
     expectDistances(startsOf(squareOf(1), lower, {}, rest), {near, near, near, none}, "nearer to the surface");
     BakeOptions options;
-    options.matched = {0, 1}; // the square shows the first, the rest the second
+    options.matched = {0, 1}; // the square shows the first mesh, the rest the second
     const float first = startOf(0.06f, diagonal), second = startOf(0.09f, diagonal);
     expectDistances(startsOf(squareOf(1), high, options, rest), {first, first, first, none}, "matched");
     options.matched = {1, 0};
@@ -334,9 +334,9 @@ TEST(RayStarts, whatIsNearerToTheRestOfTheModelBelongsThereUnlessItShowsOtherDet
     EXPECT_NEAR(limit, 0.1f * glm::length(glm::vec3(1, 1, 3)), 1e-5f); // of the box around both
 }
 
-TEST(RayStarts, raysStartBeforeWhatStandsInFront)
+TEST(RayStarts, raysStartInFrontOfObstacles)
 {
-    // Over a triangle in z = 0 one in z = 1 that faces up: seen from behind. Over that one in z = 2 that faces down.
+    // Above a triangle in z = 0 is one in z = 1 facing up (its back is seen), and then one in z = 2 facing down.
     const std::vector<glm::vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     std::vector<glm::vec3> positions;
     for (const float z : {0.0f, 1.0f, 2.0f})
@@ -344,51 +344,51 @@ TEST(RayStarts, raysStartBeforeWhatStandsInFront)
             positions.push_back(p + glm::vec3(0, 0, z));
     const std::vector<std::uint32_t> indices{0, 1, 2, 3, 4, 5, 6, 8, 7};
     const auto tree = LowTree::make(positions, indices, {}, 1);
-    const auto shown = LowTree::make(positions, indices, {0, 1, 0}, 1),
+    const auto otherDetail = LowTree::make(positions, indices, {0, 1, 0}, 1),
                all = LowTree::make(positions, indices, {0, -1, 0}, 1);
-    ASSERT_TRUE(tree && shown && all);
+    ASSERT_TRUE(tree && otherDetail && all);
     const glm::vec3 up(0, 0, 1), at(0.25f, 0.25f, 0);
-    const auto open = [&](const LowTree& t, glm::vec3 from, float skip, float wanted) {
-        return openDistance(t, 0, from, up, skip, wanted);
+    const auto open = [&](const LowTree& t, glm::vec3 from, float skip, float maximum) {
+        return openDistance(t, 0, from, up, skip, maximum);
     };
-    EXPECT_EQ(open(*tree, at, 0.01f, 0.9f), 0.9f);       // nothing as near
-    EXPECT_NEAR(open(*tree, at, 0.01f, 5), 0.5f, 1e-6f); // half way to what is seen from behind
-    EXPECT_NEAR(open(*tree, at, 1.5f, 5), 2, 1e-6f);     // nearer than what is skipped: the next, which faces the point
-    EXPECT_EQ(open(*tree, at, 0.01f, 0.01f), 0.01f);     // not wanted further than what is skipped
+    EXPECT_EQ(open(*tree, at, 0.01f, 0.9f), 0.9f);       // nothing within that distance
+    EXPECT_NEAR(open(*tree, at, 0.01f, 5), 0.5f, 1e-6f); // halfway to a back face
+    EXPECT_NEAR(open(*tree, at, 1.5f, 5), 2, 1e-6f);     // the nearer one is skipped; the next faces the point
+    EXPECT_EQ(open(*tree, at, 0.01f, 0.01f), 0.01f);     // the maximum is not beyond the skipped one
     EXPECT_EQ(open(*tree, at, 2.5f, 2.25f), 2.25f);
-    EXPECT_NEAR(open(*shown, at, 0.01f, 5), 2, 1e-6f);            // what shows other detail does not stand in front
-    EXPECT_NEAR(open(*all, at, 0.01f, 5), 0.5f, 1e-6f);           // what shows all does
-    EXPECT_EQ(open(*tree, at + glm::vec3(2, 0, 0), 0.01f, 5), 5); // beside all
+    EXPECT_NEAR(open(*otherDetail, at, 0.01f, 5), 2, 1e-6f);      // those that show other detail do not occlude
+    EXPECT_NEAR(open(*all, at, 0.01f, 5), 0.5f, 1e-6f);           // those that show all detail do
+    EXPECT_EQ(open(*tree, at + glm::vec3(2, 0, 0), 0.01f, 5), 5); // beside all triangles
     const std::vector<std::uint32_t> instances{2, 0, 1};
     const std::vector<std::int64_t> matched{5, -1, 7};
-    EXPECT_EQ(shownBy(instances, matched), (std::vector<std::int64_t>{7, 5, -1}));
-    EXPECT_TRUE(shownBy(instances, {}).empty());
+    EXPECT_EQ(highInstances(instances, matched), (std::vector<std::int64_t>{7, 5, -1}));
+    EXPECT_TRUE(highInstances(instances, {}).empty());
 }
 
-TEST(RayStarts, aTriangleIsCrossedWhereOneOfItsRaysStartsBehindAnother)
+TEST(RayStarts, aTriangleIsObstructedIfOneOfItsRaysStartsBehindAnother)
 {
-    // Rays of both triangles start 0.1 off. A small triangle at 0.03 over each corner of the first, over its middle,
-    // and over neither.
+    // Rays of both triangles start 0.1 away. Small triangles at 0.03: above each corner of the first, above its middle,
+    // and above neither.
     const std::vector<Mesh> high{speck({0.6f, 0.3f, 0.1f}), speck({0.3f, 0.6f, 0.1f})};
     const struct {
         glm::vec2 at;
-        std::array<int, 2> crossed;
+        std::array<int, 2> obstructed;
     } cases[] = {{{0.995f, 0.004f}, {1, 0}}, {{0.66f, 0.33f}, {1, 0}},   {{0.33f, 0.66f}, {0, 1}},
                  {{1.5f, 0.5f}, {0, 0}},     {{0.004f, 0.995f}, {0, 1}}, {{0.005f, 0.005f}, {1, 1}},
                  {{0.995f, 0.995f}, {1, 1}}};
     for (const auto& c : cases) {
         LowSurface low = squareOf(1);
         const float half = 0.03f;
-        for (const glm::vec2 off : {glm::vec2(-half, -half), {half, -half}, {half, half}, {-half, half}}) {
-            low.positions.emplace_back(c.at + off, 0.03f);
+        for (const glm::vec2 gap : {glm::vec2(-half, -half), {half, -half}, {half, half}, {-half, half}}) {
+            low.positions.emplace_back(c.at + gap, 0.03f);
             low.normals.push_back({0, 0, 1});
             low.texcoords.push_back({});
         }
         low.indices.insert(low.indices.end(), {4, 5, 6, 4, 6, 7});
         low.triangleInstance.insert(low.triangleInstance.end(), 2, 0);
         const RayStarts starts = startsOf(low, high);
-        EXPECT_EQ(starts.crossed,
-                  (std::vector<std::uint8_t>{std::uint8_t(c.crossed[0]), std::uint8_t(c.crossed[1]), 0, 0}))
+        EXPECT_EQ(starts.obstructed,
+                  (std::vector<std::uint8_t>{std::uint8_t(c.obstructed[0]), std::uint8_t(c.obstructed[1]), 0, 0}))
             << c.at.x << " " << c.at.y;
     }
 }

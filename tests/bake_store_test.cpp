@@ -1,5 +1,5 @@
-// The baker on cases small enough to work out by hand: what is different along x and y, on the two sides of a limit, in
-// mirrored instances.
+// The baker on cases small enough to work out by hand: differences between x and y, both sides of limits, mirrored
+// instances.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,12 +9,12 @@
 
 #include "bake/bake_surfaces.hpp"
 #include "bake_scene.hpp"
-#include "seen_high.hpp"
+#include "high_view.hpp"
 
 namespace cotan {
 namespace {
 
-constexpr float kRounding = 1e-6f; // of a few operations on numbers around one
+constexpr float kRounding = 1e-6f; // of a few operations on numbers near one
 
 Mesh unitSquare(float z) { return rectangle({0, 0, z}, {1, 0, 0}, {0, 1, 0}); }
 
@@ -39,7 +39,7 @@ BakeOptions small(int width, int height)
 
 // ---- padding --------------------------------------------------------------------------------
 
-TEST(PaddingByHand, theRadiusIsALengthInTexels)
+TEST(PaddingByHand, theRadiusIsInTexels)
 {
     Baked baked;
     baked.width = 13;
@@ -60,7 +60,7 @@ TEST(PaddingByHand, theRadiusIsALengthInTexels)
         }
 }
 
-TEST(PaddingByHand, eachTexelTakesTheNearerOfTwoPlaces)
+TEST(PaddingByHand, eachTexelTakesTheNearerOfTwoTexels)
 {
     Baked baked;
     baked.width = 8;
@@ -107,7 +107,7 @@ TEST(StoreByHand, heightsFillTheRangeAndEmptyTexelsDoNotCount)
     Baked baked;
     baked.width = 2;
     baked.height = 2;
-    baked.values = {{2, 0, 1}, {6, 0, 1}, {0, 0, 0}, {3, 0, 1}}; // z: whether there is a value
+    baked.values = {{2, 0, 1}, {6, 0, 1}, {0, 0, 0}, {3, 0, 1}}; // z: whether the texel has a value
     baked.states = {texelCovered, texelCovered, 0, texelCovered};
     StoredAs as;
     const Image image = storeBaked(baked, BakeKind::height, as);
@@ -117,10 +117,10 @@ TEST(StoreByHand, heightsFillTheRangeAndEmptyTexelsDoNotCount)
     EXPECT_EQ(image.bytes8()[12], 64); // 255 / 4 = 63.75
     as.type = PixelType::float32;
     const Image floats = storeBaked(baked, BakeKind::height, as);
-    EXPECT_EQ(floats.floats()[4], 6); // as they are
+    EXPECT_EQ(floats.floats()[4], 6); // unscaled
 }
 
-TEST(StoreByHand, objectNormalsKeepTheirAxesWhateverTheFormatOfTangentMapsIs)
+TEST(StoreByHand, objectNormalsIgnoreTheTangentMapFormat)
 {
     StoredAs as;
     as.type = PixelType::float32;
@@ -133,15 +133,15 @@ TEST(StoreByHand, objectNormalsKeepTheirAxesWhateverTheFormatOfTangentMapsIs)
         EXPECT_NEAR(image.floats()[k], v[k], kRounding);
 }
 
-// ---- placing --------------------------------------------------------------------------------
+// ---- instance transforms --------------------------------------------------------------------
 
-// x mirrored, y and z stretched: normals go by the inverse transpose, diag(-1, 1/2, 1/3).
+// Mirrors x and stretches y and z. Normals take the inverse transpose, diag(-1, 1/2, 1/3).
 const glm::mat4 kMirrored(glm::vec4(-1, 0, 0, 0), glm::vec4(0, 2, 0, 0), glm::vec4(0, 0, 3, 0), glm::vec4(0, 0, 0, 1));
 
 Mesh slanted()
 {
     Mesh mesh;
-    mesh.positions = {{3, 0, 0}, {0, 1.5f, 0}, {0, 0, 1}}; // in the plane of x + 2y + 3z = 3
+    mesh.positions = {{3, 0, 0}, {0, 1.5f, 0}, {0, 0, 1}}; // in the plane x + 2y + 3z = 3
     mesh.normals.assign(3, glm::normalize(glm::vec3(1, 2, 3)));
     mesh.texcoords[0] = {{0.1f, 0.2f}, {0.6f, 0.3f}, {0.2f, 0.9f}};
     mesh.tangents.assign(3, glm::vec4(glm::normalize(glm::vec3(3, 0, -1)), 1));
@@ -149,7 +149,7 @@ Mesh slanted()
     return mesh;
 }
 
-TEST(PlacedByHand, aMirroredLowMeshKeepsItsSidesAndTurnsItsHandedness)
+TEST(TransformsByHand, aMirroredLowMeshKeepsItsSidesAndFlipsItsHandedness)
 {
     Scene scene = sceneOfMeshes({slanted()});
     scene.instances[0].toWorld = kMirrored;
@@ -160,17 +160,17 @@ TEST(PlacedByHand, aMirroredLowMeshKeepsItsSidesAndTurnsItsHandedness)
     const glm::vec3 a = low->positions[low->indices[0]], b = low->positions[low->indices[1]],
                     c = low->positions[low->indices[2]];
     EXPECT_GT(glm::dot(glm::cross(b - a, c - a), n), 0) << "the triangle runs the other way";
-    EXPECT_EQ(low->tangents[0].w, 1); // glTF's 1 is -1 along v, and the mirror turns it
+    EXPECT_EQ(low->tangents[0].w, 1); // glTF's 1 is -1 along v; the mirroring flips it again
     EXPECT_LT(glm::length(glm::vec3(low->tangents[0]) - glm::normalize(glm::vec3(-3, 0, -3))), kRounding);
 }
 
-TEST(PlacedByHand, aMirroredHighMeshKeepsItsSides)
+TEST(TransformsByHand, aMirroredHighMeshKeepsItsSides)
 {
     Scene scene = sceneOfMeshes({slanted()});
     scene.instances[0].toWorld = kMirrored;
     const auto high = HighSurface::make({scene}, 1);
     ASSERT_TRUE(high);
-    const glm::vec3 outside = glm::normalize(glm::vec3(-1, 1, 1)), middle(-1, 1, 1); // of the corners as placed
+    const glm::vec3 outside = glm::normalize(glm::vec3(-1, 1, 1)), middle(-1, 1, 1); // of the transformed corners
     const Hit hit = high->trace({middle + outside, -outside, 0, 10});
     ASSERT_TRUE(hit.found);
     EXPECT_NEAR(hit.distance, 1, kRounding);
@@ -178,7 +178,7 @@ TEST(PlacedByHand, aMirroredHighMeshKeepsItsSides)
     EXPECT_LT(glm::length(hit.faceNormal - outside), kRounding);
 }
 
-TEST(PlacedByHand, uvGoThroughTheTexturesTransform)
+TEST(TransformsByHand, uvGetTheTextureTransform)
 {
     Scene scene = sceneOfMeshes({slanted()});
     Texture& map = scene.materials[0].normalMap;
@@ -187,12 +187,12 @@ TEST(PlacedByHand, uvGoThroughTheTexturesTransform)
     map.vRow = {0.25f, 3, 0.5f};
     const auto low = makeLowSurface(scene, -1, Frame::cotangent, TangentOrigin::generated);
     ASSERT_TRUE(low);
-    // (0.1, 0.2): 0.2 + 0.1 + 0.25 and 0.025 + 0.6 + 0.5.
+    // 0.2 + 0.1 + 0.25 and 0.025 + 0.6 + 0.5 for uv (0.1, 0.2).
     EXPECT_NEAR(low->texcoords[0].x, 0.55f, kRounding);
     EXPECT_NEAR(low->texcoords[0].y, 1.125f, kRounding);
 }
 
-TEST(PlacedByHand, differencesAreThoseAlongUAndAlongV)
+TEST(TransformsByHand, differencesAreThoseAlongUAndAlongV)
 {
     // p(u, v) = u (2, 1, 0) + v (0, 1, 3): corners at uv (0,0), (0.5, 0.25), (0.25, 1).
     const auto p = [](float u, float v) { return u * glm::vec3(2, 1, 0) + v * glm::vec3(0, 1, 3); };
@@ -208,7 +208,7 @@ TEST(PlacedByHand, differencesAreThoseAlongUAndAlongV)
 
 // ---- rays -----------------------------------------------------------------------------------
 
-TEST(RaysByHand, theNearerOfTheSurfacesInFrontAndBehindCountsWhereThatIsAskedFor)
+TEST(RaysByHand, nearestSearchTakesTheNearerOfFrontAndBack)
 {
     BakeOptions options = small(4, 4);
     options.kind = BakeKind::height;
@@ -238,7 +238,7 @@ TEST(RaysByHand, aCageReachesAsFarBehindTheLowSurfaceAsInFront)
     }
 }
 
-TEST(RaysByHand, aCagesRaysRunAsFarAsTheyAreTold)
+TEST(RaysByHand, cageRaysReachTheGivenMultiple)
 {
     BakeOptions options = small(4, 4);
     options.kind = BakeKind::height;
@@ -251,7 +251,7 @@ TEST(RaysByHand, aCagesRaysRunAsFarAsTheyAreTold)
             << height;
 }
 
-TEST(RaysByHand, theDistanceIsTenPercentOfTheLowSurfacesBoxOrForTheNearestFiveOfTheHighOnes)
+TEST(RaysByHand, theDefaultDistanceIsAFractionOfTheBounds)
 {
     BakeOptions options = small(4, 4);
     options.maxDistance = 0;
@@ -267,7 +267,7 @@ TEST(RaysByHand, theDistanceIsTenPercentOfTheLowSurfacesBoxOrForTheNearestFiveOf
 
 TEST(RaysByHand, aDiscOverheadHidesTheSquareOfTheSineOfItsAngle)
 {
-    // Cosine-weighted, a disc of radius r at height h above the middle hides r^2 / (r^2 + h^2).
+    // With cosine weights, a disc of radius r at height h above the middle hides r^2 / (r^2 + h^2).
     const float radius = 2, height = 1.5f;
     Mesh disc;
     constexpr int kSides = 256;
@@ -287,9 +287,9 @@ TEST(RaysByHand, aDiscOverheadHidesTheSquareOfTheSineOfItsAngle)
     EXPECT_NEAR(baked.values[0].x, 1 - hidden, 0.01); // 4000 rays in a spiral: a ring of them holds 40
 }
 
-// ---- what is counted ------------------------------------------------------------------------
+// ---- statistics -----------------------------------------------------------------------------
 
-TEST(CountedByHand, normalsThatLookAwayAreBelowTheHorizon)
+TEST(CountedByHand, backfacingNormalsAreBelowTheHorizon)
 {
     Mesh away = unitSquare(0.1f);
     for (glm::vec3& n : away.normals)
@@ -302,9 +302,9 @@ TEST(CountedByHand, normalsThatLookAwayAreBelowTheHorizon)
     EXPECT_EQ(upright.statistics.negative, 0u);
 }
 
-TEST(CountedByHand, touchedTexelsAreThoseThatAreNotCovered)
+TEST(CountedByHand, coveredTexelsAreNotCountedAsTouched)
 {
-    // A triangle whose edges run through texels at all angles.
+    // A triangle whose edges cross texels at various angles.
     Mesh triangle = unitSquare(0);
     triangle.indices = {0, 1, 2};
     triangle.texcoords[0] = {{0.05f, 0.93f}, {0.91f, 0.84f}, {0.78f, 0.11f}, {0, 0}};
@@ -321,7 +321,7 @@ TEST(CountedByHand, touchedTexelsAreThoseThatAreNotCovered)
     EXPECT_GT(onlyTouched, 0u);
 }
 
-TEST(CountedByHand, mirroredTrianglesAreThoseWhoseUvRunTheOtherWay)
+TEST(CountedByHand, mirroredTrianglesHaveReversedUv)
 {
     Mesh plain = unitSquare(0), mirrored = unitSquare(0);
     for (glm::vec2& uv : mirrored.texcoords[0])
@@ -333,20 +333,20 @@ TEST(CountedByHand, mirroredTrianglesAreThoseWhoseUvRunTheOtherWay)
 
 TEST(CountedByHand, theMeanOfSeveralSamplesIsUnit)
 {
-    Mesh bent = unitSquare(0.1f); // normals 100 degrees apart from side to side
+    Mesh tilted = unitSquare(0.1f); // normals on opposite sides are 100 degrees apart
     for (std::size_t i = 0; i < 4; ++i)
-        bent.normals[i] = glm::normalize(glm::vec3(bent.positions[i].x < 0.5f ? -1.2f : 1.2f, 0.1f, 1));
+        tilted.normals[i] = glm::normalize(glm::vec3(tilted.positions[i].x < 0.5f ? -1.2f : 1.2f, 0.1f, 1));
     BakeOptions options = small(3, 3);
     options.samples = 4;
-    for (const glm::vec3& v : bakeScenes(sceneOfMeshes({unitSquare(0)}), sceneOfMeshes({bent}), options).values)
+    for (const glm::vec3& v : bakeScenes(sceneOfMeshes({unitSquare(0)}), sceneOfMeshes({tilted}), options).values)
         EXPECT_NEAR(glm::length(v), 1, kRounding);
 }
 
-// ---- the view through the eye ---------------------------------------------------------------
+// ---- views of the baked mesh ----------------------------------------------------------------
 
-TEST(SeenByHand, everyPixelShowsTheNormalOfThePlaceBehindIt)
+TEST(HighViewByHand, everyPixelShowsTheNormalOfItsSurfacePoint)
 {
-    // Normals that say where they are: n along (x, 2y, 1).
+    // Normals that encode their position: n along (x, 2y, 1).
     Mesh high = unitSquare(0);
     high.positions.clear();
     high.normals.clear();
@@ -373,21 +373,21 @@ TEST(SeenByHand, everyPixelShowsTheNormalOfThePlaceBehindIt)
     const auto low = makeLowSurface(sceneOfMeshes({unitSquare(0)}), -1, options.frame, TangentOrigin::generated);
     const auto surface = HighSurface::make({sceneOfMeshes({high})}, 1);
     ASSERT_TRUE(low && surface);
-    const auto seen = app::seeHigh(*low, *surface, options, view);
-    ASSERT_TRUE(seen);
-    const Image& image = seen->expected;
+    const auto rendered = app::renderHighView(*low, *surface, options, view);
+    ASSERT_TRUE(rendered);
+    const Image& image = rendered->expected;
     ASSERT_EQ(image.data.size(), image.pixelCount() * image.bytesPerPixel());
-    for (std::size_t i = 0; i < 4 * image.pixelCount(); ++i) // the high surface is the low one
-        EXPECT_NEAR(seen->normals.floats()[i], image.floats()[i], 1e-5f);
-    EXPECT_EQ(seen->others, 0u);
-    const double halfHeight = std::tan(0.25); // of the picture in the plane, one unit away
+    for (std::size_t i = 0; i < 4 * image.pixelCount(); ++i) // the high surface equals the low one
+        EXPECT_NEAR(rendered->normals.floats()[i], image.floats()[i], 1e-5f);
+    EXPECT_EQ(rendered->others, 0u);
+    const double halfHeight = std::tan(0.25); // of the image, in the plane one unit away
     for (int y = 0; y < 20; ++y)
         for (int x = 0; x < 40; ++x) {
             const double px = 0.5 + ((x + 0.5) / 20 - 1) * 2 * halfHeight, py = 0.5 + (1 - (y + 0.5) / 10) * halfHeight;
             const float* pixel = image.floats() + 4 * std::size_t(y * 40 + x);
             const bool inside = px > 0 && px < 1;
             ASSERT_EQ(pixel[3], inside ? 1 : 0) << x << " " << y;
-            if (inside) { // chords of 64 cells: (2/64)^2 / 8
+            if (inside) { // chord error of 64 cells: (2/64)^2 / 8
                 EXPECT_NEAR(pixel[0] / pixel[2], px, 2e-4) << x << " " << y;
                 EXPECT_NEAR(pixel[1] / pixel[2], 2 * py, 2e-4) << x << " " << y;
             }

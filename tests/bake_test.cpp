@@ -1,4 +1,4 @@
-// Bars C1, C2 and C4 on the baker that ships, and what it does with missed rays, charts and threads.
+// Error bars C1, C2 and C4 for the shipped baker, and its treatment of missed rays, charts and threads.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,8 +22,8 @@ struct RoundTrip {
     bool negative = false, unit = true;
 };
 
-// Encodes the analytic normal of a relief in the baker's frame at random points, quantises it, and
-// shades it with the frame that a screen's differences give at the same point.
+// Encodes the analytic normal of a relief in the baker's frame at random points, quantises it, and shades it with the
+// frame from screen-space differences at the same point.
 RoundTrip roundTrip(Frame frame, int levels)
 {
     RoundTrip result;
@@ -57,7 +57,7 @@ RoundTrip roundTrip(Frame frame, int levels)
     return result;
 }
 
-TEST(BakeBarC1, whatIsBakedIsShadedBackUpToQuantisation)
+TEST(BakeBarC1, shadingReproducesTheBakedNormalsUpToQuantisation)
 {
     for (Frame frame : {Frame::cotangent, Frame::orthonormal, Frame::exact, Frame::smooth, Frame::mikktspace}) {
         EXPECT_LT(roundTrip(frame, 0).worst, 1e-8) << name(frame); // raster in uv against screen
@@ -69,7 +69,7 @@ TEST(BakeBarC1, whatIsBakedIsShadedBackUpToQuantisation)
     }
 }
 
-TEST(BakeBarC4, encodedTexelsAreUnitAndAboveTheHorizonWhereTheTargetIs)
+TEST(BakeBarC4, encodedTexelsAreUnitAndAboveTheHorizon)
 {
     for (Frame frame : {Frame::cotangent, Frame::orthonormal, Frame::exact, Frame::smooth, Frame::mikktspace}) {
         const RoundTrip r = roundTrip(frame, 0);
@@ -78,11 +78,11 @@ TEST(BakeBarC4, encodedTexelsAreUnitAndAboveTheHorizonWhereTheTargetIs)
     }
 }
 
-TEST(BakeBarC2, aMapForAnotherFrameIsOffByDegrees)
+TEST(BakeBarC2, aMapForAnotherFrameIsWrongByDegrees)
 {
-    // Made for MikkTSpace, drawn with cotangent: over 3 degrees mean; with orthonormal little more than faceting. 32
-    // segments.
-    for (const auto& [which, most] : {std::pair("sphere", 1.1), {"spout", 0.35}}) {
+    // Made for MikkTSpace: drawn with cotangent the mean error is over 3 degrees, with orthonormal little more than
+    // that of faceting. 32 segments.
+    for (const auto& [which, limit] : {std::pair("sphere", 1.1), {"spout", 0.35}}) {
         const auto all = surfaces();
         const Surface& surface =
             *std::find_if(all.begin(), all.end(), [&](const Surface& s) { return s.name == which; });
@@ -101,11 +101,11 @@ TEST(BakeBarC2, aMapForAnotherFrameIsOffByDegrees)
             toOrthonormal += degreesBetween(shade(Frame::orthonormal, false, x, x.edges, m), target) / kSamples;
         }
         EXPECT_GT(toCotangent, 3) << which;
-        EXPECT_LT(toOrthonormal, most) << which;
+        EXPECT_LT(toOrthonormal, limit) << which;
     }
 }
 
-// A square low mesh at z = 0 and a wavy grid around it.
+// A square low mesh at z = 0 and a wavy grid that extends beyond it.
 struct Waves2 {
     Scene low, high;
 };
@@ -169,12 +169,12 @@ TEST(Bake, aWavySheetGivesTheSlopesOfItsWaves)
         for (int j = 0; j < 64; ++j)
             for (int i = 0; i < 64; ++i) {
                 const double x = (i + 0.5) / 64, y = 1 - (j + 0.5) / 64;
-                // Along +u is +x, along +v (down) is -y.
+                // +u is +x, and +v (down) is -y.
                 const glm::dvec3 truth(-0.18 * std::cos(9 * x + 1) * std::cos(7 * y),
                                        -0.14 * std::sin(9 * x + 1) * std::sin(7 * y), 1);
                 mean += degreesBetween(glm::dvec3(baked.values[std::size_t(j * 64 + i)]), truth) / 4096;
             }
-        // Interpolated normals of 200 cells: (9 / 200)^2 / 8 of the slope, below 0.01 degrees.
+        // Error of interpolated normals of 200 cells: (9 / 200)^2 / 8 of the slope, below 0.01 degrees.
         EXPECT_LT(mean, 0.01) << name(frame);
     }
 }
@@ -189,7 +189,7 @@ TEST(Bake, heightIsTheDistanceAlongTheLowNormal)
     for (int j = 0; j < 32; ++j)
         for (int i = 0; i < 32; ++i)
             EXPECT_NEAR(double(baked.values[std::size_t(j * 32 + i)].x), waveHeight((i + 0.5) / 32, 1 - (j + 0.5) / 32),
-                        2e-5); // chords of 200 cells
+                        2e-5); // chord error of 200 cells
 }
 
 TEST(Bake, anOpenSheetIsAlmostUnoccluded)
@@ -204,11 +204,11 @@ TEST(Bake, anOpenSheetIsAlmostUnoccluded)
     }
 }
 
-TEST(Bake, raysThatFindNothingAreCountedAndLeftEmpty)
+TEST(Bake, missedTexelsAreCounted)
 {
     BakeOptions options;
     options.width = options.height = 32;
-    options.maxDistance = 0.005f; // the waves are 0.02 high
+    options.maxDistance = 0.005f; // less than the waves' height of 0.02
     const Baked baked = bakeWaves(options);
     EXPECT_GT(baked.statistics.missed, 300u);
     EXPECT_LT(baked.statistics.missed, 1024u);
@@ -247,7 +247,7 @@ TEST(Padding, everyTexelTakesTheValueOfItsNearestChart)
     baked.values.assign(45, glm::vec3(0));
     baked.states.assign(45, 0);
     auto at = [](int x, int y) { return std::size_t(y * 9 + x); };
-    for (int y = 1; y < 4; ++y) { // two charts, one texel wide
+    for (int y = 1; y < 4; ++y) { // two charts, each one texel wide
         baked.values[at(1, y)] = {1, 0, 0};
         baked.values[at(7, y)] = {0, 1, 0};
         baked.states[at(1, y)] = baked.states[at(7, y)] = texelCovered;
@@ -257,14 +257,14 @@ TEST(Padding, everyTexelTakesTheValueOfItsNearestChart)
         EXPECT_EQ(baked.values[at(0, y)], glm::vec3(1, 0, 0));
         EXPECT_EQ(baked.values[at(2, y)], glm::vec3(1, 0, 0));
         EXPECT_EQ(baked.values[at(8, y)], glm::vec3(0, 1, 0));
-        EXPECT_EQ(baked.values[at(4, y)], glm::vec3(0)); // three away from both
+        EXPECT_EQ(baked.values[at(4, y)], glm::vec3(0)); // three texels from both charts
     }
     padCharts(baked, 0);
     for (const glm::vec3& v : baked.values)
         EXPECT_TRUE(v == glm::vec3(1, 0, 0) || v == glm::vec3(0, 1, 0));
 }
 
-TEST(Store, greenGoesWhereTheFormatSays)
+TEST(Store, greenFollowsTheFormat)
 {
     Baked baked;
     baked.width = baked.height = 1;
@@ -277,7 +277,7 @@ TEST(Store, greenGoesWhereTheFormatSays)
     EXPECT_EQ(int(storeBaked(baked, BakeKind::normal, as).bytes8()[1]), 128 - 76);
 }
 
-TEST(Store, ditherKeepsTheMeanAndNeverMovesByMoreThanOneLevel)
+TEST(Store, ditherKeepsTheMeanWithinOneLevel)
 {
     Baked baked;
     baked.width = baked.height = 64;

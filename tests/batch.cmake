@@ -1,4 +1,4 @@
-# Many command lines as one work. batch_child plays jobs that misbehave.
+# Batches of command lines. batch_child is a job that misbehaves.
 add_executable(batch_child batch_child.cpp)
 target_link_libraries(batch_child PRIVATE cotan_batch cotan_files cotan_warnings)
 cotan_test(batch_test SOURCES batch_jobs_test.cpp batch_options_test.cpp batch_run_test.cpp batch_page_test.cpp
@@ -10,6 +10,6 @@ cotan_test(batch_command_test SOURCES batch_command_test.cpp
   LIBRARIES cotan_model cotan_scene cotan_files nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(batch_command_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(batch_command_test cotan)
-# A cluster of each kind, started for the test.
+# Farms of each kind, which the tests start.
 cotan_door(Farm.slurm COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/batch_slurm $<TARGET_FILE:cotan>)
 cotan_door(Farm.dask COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/batch_dask.py $<TARGET_FILE:cotan>)

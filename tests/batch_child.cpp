@@ -1,4 +1,4 @@
-// A job's process that does what its first word says: how tests see jobs crash, hang and eat memory.
+// A job process whose first word chooses what it does: tests use it for jobs that crash, hang and exhaust memory.
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -28,7 +28,7 @@ int perform(const std::vector<std::string>& words)
 {
     const std::string& what = words.at(0);
     if (what == "crash") {
-        std::signal(SIGSEGV, SIG_DFL); // the address sanitizer's would make an exit of it
+        std::signal(SIGSEGV, SIG_DFL); // the address sanitizer's handler would exit normally
         std::raise(SIGSEGV);
     }
     if (what == "abort")
@@ -37,11 +37,11 @@ int perform(const std::vector<std::string>& words)
         std::raise(SIGKILL);
     if (what == "hang")
         sleepForever();
-    if (what == "stubborn") { // does not end when it is asked to
+    if (what == "stubborn") { // ignores the request to terminate
         std::signal(SIGTERM, SIG_IGN);
         sleepForever();
     }
-    if (what == "wait") // wait SECONDS, without work
+    if (what == "wait") // wait SECONDS, without using the processor
         std::this_thread::sleep_for(std::chrono::duration<double>(std::atof(words.at(1).c_str())));
     if (what == "spin") { // spin SECONDS of processor time
         const double enough = std::atof(words.at(1).c_str());
@@ -55,9 +55,9 @@ int perform(const std::vector<std::string>& words)
         if (times < std::atoi(words.at(2).c_str()))
             std::raise(SIGKILL);
     }
-    if (what == "variables") { // variables TO NAME...: their values
+    if (what == "variables") { // variables TO NAME...: writes their values
         std::string text;
-        for (std::size_t i = 2; i < words.size() && !words[i].starts_with("--"); ++i) { // up to the batch's own
+        for (std::size_t i = 2; i < words.size() && !words[i].starts_with("--"); ++i) { // until the batch's options
             const char* const value = std::getenv(words.at(i).c_str());
             text += std::string(value ? value : "none") + "\n";
         }
@@ -74,18 +74,18 @@ int perform(const std::vector<std::string>& words)
             std::puts("and so on, and so on");
         std::puts("the end");
     }
-    if (what == "leave" && ::fork() == 0) // what it started goes on, with its standard output
+    if (what == "leave" && ::fork() == 0) // its child keeps running and holds standard output open
         sleepForever();
     if (what == "fail") {
         std::fputs(("cotan: error: " + words.at(2) + "\n").c_str(), stderr);
         return std::atoi(words.at(1).c_str());
     }
-    if (what == "half") { // dies while it writes
+    if (what == "half") { // dies while writing
         const auto part = cotan::OutputFile::begin(words.at(1));
         if (part && cotan::writeBytes(part->path(), {}))
             std::raise(SIGKILL);
     }
-    if (what == "copy") { // copy FROM TO [LOG]: with a line in LOG for each time that it runs
+    if (what == "copy") { // copy FROM TO [LOG]: appends a line to LOG on every run
         if (words.size() > 3)
             std::ofstream(words.at(3), std::ios::app) << words.at(2) + "\n";
         (void)cotan::noteInput(words.at(1));

@@ -46,7 +46,7 @@ protected:
 
     json read(const std::string& file) { return json::parse(readWhole(folder / file)); }
 
-    // By name: "done", "failed", with "kept" where it is.
+    // State of each job by name: "done", "failed", ...; " kept" is appended for results from the store.
     std::map<std::string, std::string> states(const std::string& file = "r.json")
     {
         std::map<std::string, std::string> all;
@@ -69,7 +69,7 @@ json flip(const std::string& from, const std::string& to)
 
 using States = std::map<std::string, std::string>;
 
-TEST_F(BatchCommand, runsInTheOrderOfFilesKeepsResultsAndDoesOnlyWhatChanged)
+TEST_F(BatchCommand, runsInFileOrderAndRepeatsOnlyWhatChanged)
 {
     jobs({flip("out/ü <i>'\"&.png", "twice.png"),
           flip("a.png", "out/ü <i>'\"&.png"),
@@ -109,7 +109,7 @@ TEST_F(BatchCommand, runsInTheOrderOfFilesKeepsResultsAndDoesOnlyWhatChanged)
     EXPECT_EQ(states().size(), 4u);
 }
 
-TEST_F(BatchCommand, filesThatOnlyTheModelNamesCountAsInputs)
+TEST_F(BatchCommand, filesReferencedByTheModelCountAsInputs)
 {
     write(quad(2), folder.path());
     jobs({{{"name", "lint"}, {"command", {"lint", "quad.gltf"}}}});
@@ -128,7 +128,7 @@ TEST_F(BatchCommand, filesThatOnlyTheModelNamesCountAsInputs)
     EXPECT_EQ(states()["lint"].find("kept"), std::string::npos) << other;
 }
 
-TEST_F(BatchCommand, shardsTogetherAreTheWholeAndAMergeHasEveryJobOnce)
+TEST_F(BatchCommand, shardsCoverEveryJobAndAMergeHasEachOnce)
 {
     std::vector<json> all;
     for (int i = 0; i < 7; ++i)
@@ -136,7 +136,7 @@ TEST_F(BatchCommand, shardsTogetherAreTheWholeAndAMergeHasEveryJobOnce)
     all.push_back(flip("3.png", "three again.png"));
     all.push_back({{"name", "gone"}, {"command", {"map", "info", "gone.png"}}});
     jobs(all);
-    // Two with a store that they share, one with its own.
+    // Two shards with a common store, one with its own.
     EXPECT_EQ(batch({"jobs.jsonl", "--shard", "1/3", "--store", "s"}).code, 0);
     batch({"jobs.jsonl", "--merge", "--store", "s", "-o", "m.html", "--json", "r.json"});
     const auto first = states();
@@ -157,7 +157,7 @@ TEST_F(BatchCommand, shardsTogetherAreTheWholeAndAMergeHasEveryJobOnce)
         EXPECT_EQ(state, name == "gone" ? "failed" : "done") << name;
 }
 
-TEST_F(BatchCommand, wrongWordsAreOneLineBeforeAnythingRuns)
+TEST_F(BatchCommand, wrongArgumentsGetOneLineBeforeAnythingRuns)
 {
     jobs({flip("a.png", "x.png")});
     jobs({flip("a.png", "x.png"), {{"command", {"map", "convert", "a.png"}}}}, "words.jsonl");
@@ -170,7 +170,7 @@ TEST_F(BatchCommand, wrongWordsAreOneLineBeforeAnythingRuns)
     const std::tuple<std::vector<std::string>, int, std::string> cases[] = {
         {{"jobs.jsonl"}, 1, "expected -o REPORT.html, or --store FOLDER"},
         {{"nothere.jsonl", "-o", "r.html"}, 2, "no such file"},
-        {{"jobs.jsonl", "-o", "jobs.jsonl"}, 1, "would replace"},
+        {{"jobs.jsonl", "-o", "jobs.jsonl"}, 1, "would overwrite"},
         {{"jobs.jsonl", "-o", "no/such/r.html"}, 4, "does not exist"},
         {{"jobs.jsonl", "-o", "r.html", "--shard", "3/2"}, 1, "--shard: expected K/N"},
         {{"jobs.jsonl", "-o", "r.html", "--merge", "--again"}, 1, "--merge runs nothing"},
@@ -179,13 +179,13 @@ TEST_F(BatchCommand, wrongWordsAreOneLineBeforeAnythingRuns)
         {{"jobs.jsonl", "-o", "r.html", "--limit-seconds", "0"}, 1, "--limit-time"},
         {{"jobs.jsonl", "-o", "r.html", "--limit-processor-time", "-1"}, 1, "--limit-processor-time"},
         {{"jobs.jsonl", "-o", "r.html", "--retries", "many"}, 1, "--retries"},
-        {{"jobs.jsonl", "-o", "r.html", "--store", "a.png"}, 4, "cannot make this folder"},
+        {{"jobs.jsonl", "-o", "r.html", "--store", "a.png"}, 4, "cannot create this folder"},
         {{"words.jsonl", "-o", "r.html"}, 2, "words.jsonl:2: map convert needs --from WORDS"},
-        {{"batch.jsonl", "-o", "r.html"}, 2, "batch.jsonl:1: batch is no work for a batch"},
-        {{"view.jsonl", "-o", "r.html"}, 2, "view is no work for a batch"},
+        {{"batch.jsonl", "-o", "r.html"}, 2, "batch.jsonl:1: batch cannot run in a batch"},
+        {{"view.jsonl", "-o", "r.html"}, 2, "view cannot run in a batch"},
         {{"stdout.jsonl", "-o", "r.html"}, 2, "--json -: expected a file"},
         {{"help.jsonl", "-o", "r.html"}, 2, "found --help"},
-        {{"one.jsonl", "-o", "r.html"}, 2, "line 2: writes ./x.png, which line 1 writes"},
+        {{"one.jsonl", "-o", "r.html"}, 2, "line 2: writes ./x.png, which line 1 also writes"},
         {{"circle.jsonl", "-o", "r.html"}, 2, "waits for"},
     };
     for (const auto& [words, code, message] : cases) {
@@ -198,11 +198,11 @@ TEST_F(BatchCommand, wrongWordsAreOneLineBeforeAnythingRuns)
     }
 }
 
-TEST_F(BatchCommand, aStoreThatTakesNothingIsOneLineAndCode4)
+TEST_F(BatchCommand, anUnwritableStoreGetsOneLineAndExitCodeFour)
 {
     jobs({flip("a.png", "x.png")});
     fs::create_directory(folder / "s");
-    if (::geteuid() == 0) { // root writes anywhere but into a file
+    if (::geteuid() == 0) { // root may write anywhere, but a file cannot be a folder
         std::ofstream(folder / "s/results") << "in the way";
     } else {
         ::chmod((folder / "s").c_str(), 0500);
@@ -213,11 +213,11 @@ TEST_F(BatchCommand, aStoreThatTakesNothingIsOneLineAndCode4)
     EXPECT_FALSE(fs::exists(folder / "r.html"));
 }
 
-TEST_F(BatchCommand, limitsEndAJobAndTheOthersGoOn)
+TEST_F(BatchCommand, limitsEndAJobAndTheOthersContinue)
 {
     jobs({{{"name", "slow"}, {"command", {"accuracy", "--tables", "curved", "--device", "reference"}}},
           {{"name", "large"},
-           {"limit-time", 60}, // a busy machine takes seconds until memory is asked for
+           {"limit-time", 60}, // a busy machine takes seconds to reach the allocation
            {"command", {"render", "--device", "reference", "--size", "8000x8000", "-o", "l.png"}}},
           flip("a.png", "fine.png")});
     const ToolRun run = batch({"jobs.jsonl", "-o", "r.html", "--json", "r.json", "--jobs", "3", "--limit-seconds", "2",
@@ -233,7 +233,7 @@ TEST_F(BatchCommand, limitsEndAJobAndTheOthersGoOn)
         EXPECT_EQ(entry.path().filename().string().find(".part"), std::string::npos) << entry.path();
 }
 
-TEST_F(BatchCommand, interruptedItEndsItsJobsAndTheNextRunGoesOn)
+TEST_F(BatchCommand, anInterruptEndsTheJobsAndTheNextRunContinues)
 {
     std::vector<json> all;
     for (int i = 0; i < 6; ++i)
@@ -249,12 +249,12 @@ TEST_F(BatchCommand, interruptedItEndsItsJobsAndTheNextRunGoesOn)
             ::execl(COTAN_TOOL, COTAN_TOOL, "batch", "jobs.jsonl", "-o", "r.html", "--quiet", nullptr);
             ::_exit(there ? 127 : 126);
         }
-        // In the middle: after the first picture, and then after the first of those that are left.
+        // Interrupt after the first image, then after the next one.
         const auto images = [&] {
             return std::ranges::count_if(fs::directory_iterator(folder.path()),
                                          [](const auto& entry) { return entry.path().extension() == ".png"; });
         };
-        const auto ended = [child] { // and still there to be waited for
+        const auto ended = [child] { // ended but not yet reaped
             siginfo_t which{};
             return ::waitid(P_PID, id_t(child), &which, WEXITED | WNOHANG | WNOWAIT) != 0 || which.si_pid != 0;
         };
@@ -272,8 +272,8 @@ TEST_F(BatchCommand, interruptedItEndsItsJobsAndTheNextRunGoesOn)
         EXPECT_EQ(entry.path().filename().string().find(".part"), std::string::npos) << entry.path();
 }
 
-// What a job says of its threads and its report is left as it is.
-TEST_F(BatchCommand, whatAJobSaysOfThreadsAndItsReportCounts)
+// A job's own options for threads and report take precedence.
+TEST_F(BatchCommand, aJobsOwnThreadAndReportOptionsTakePrecedence)
 {
     jobs({{{"name", "threads"}, {"command", {"map", "info", "a.png", "--threads", "2"}}},
           {{"name", "report"}, {"command", {"map", "diff", "a.png", "a.png", "--json", "own.json"}}},
@@ -299,14 +299,14 @@ TEST_F(BatchCommand, whatAJobSaysOfThreadsAndItsReportCounts)
     EXPECT_EQ(json::parse(merged.out)["jobs"].size(), 3u);
 }
 
-TEST_F(BatchCommand, endsWithTheWorstThatWasFoundAndDrawsModelsWhereAsked)
+TEST_F(BatchCommand, exitCodeIsTheWorstAndThumbnailsOfModelsAreOptional)
 {
     write(quad(2), folder.path());
     jobs({{{"name", "lint"}, {"command", {"lint", "quad.gltf", "--limit", "0"}}}, flip("a.png", "x.png")});
     const ToolRun limit = batch({"jobs.jsonl", "-o", "r.html", "--thumbnails", "models"});
     EXPECT_EQ(limit.code, 5);
     EXPECT_NE(limit.err.find("1 of 2 jobs are over a limit; the worst is 'lint': "), std::string::npos) << limit.err;
-    const auto pictures = [&] {
+    const auto thumbnails = [&] {
         const std::string page = readWhole(folder / "r.html");
         const std::string begin = "id=\"data\">";
         const std::size_t at = page.find(begin) + begin.size();
@@ -316,23 +316,23 @@ TEST_F(BatchCommand, endsWithTheWorstThatWasFoundAndDrawsModelsWhereAsked)
             all[row[0]] = row[11].is_null() ? "none" : "one";
         return all;
     };
-    EXPECT_EQ(pictures(), (States{{"lint", "one"}, {"x.png", "one"}}));
-    jobs({{{"name", "lint"}, {"command", {"lint", "quad.gltf", "--limit", "0"}}}, // kept
+    EXPECT_EQ(thumbnails(), (States{{"lint", "one"}, {"x.png", "one"}}));
+    jobs({{{"name", "lint"}, {"command", {"lint", "quad.gltf", "--limit", "0"}}}, // from the store
           {{"name", "tangents"}, {"command", {"tangents", "quad.gltf"}}},
           {{"name", "gone"}, {"command", {"map", "info", "gone.png"}}},
           flip("b.png", "y.png")});
     const ToolRun bad = batch({"jobs.jsonl", "-o", "r.html"});
-    EXPECT_EQ(pictures(), (States{{"lint", "one"}, {"tangents", "none"}, {"y.png", "one"}, {"gone", "none"}}));
-    EXPECT_EQ(bad.code, 2); // what is over its limit is done
+    EXPECT_EQ(thumbnails(), (States{{"lint", "one"}, {"tangents", "none"}, {"y.png", "one"}, {"gone", "none"}}));
+    EXPECT_EQ(bad.code, 2); // a job over its limit counts as done
     EXPECT_NE(bad.err.find("1 of 4 jobs are not done; the worst is 'gone': gone.png: no such file"), std::string::npos)
         << bad.err;
     jobs({flip("a.png", "z.png")});
     batch({"jobs.jsonl", "-o", "r.html", "--thumbnails", "none"});
-    EXPECT_EQ(pictures(), (States{{"z.png", "none"}}));
+    EXPECT_EQ(thumbnails(), (States{{"z.png", "none"}}));
 }
 
-// A job's words name its files: every option that takes a file, by its help, says whether it is read or written.
-TEST(BatchWords, everyOptionThatNamesAFileSaysWhatIsDoneWithIt)
+// For every option that takes a file, by its help, the table of options must say whether it is read or written.
+TEST(BatchArguments, everyFileOptionSaysWhetherItReadsOrWrites)
 {
     TemporaryFolder folder;
     const std::regex option(R"((?:^|\n)  (?:-o, )?(--[a-z-]+) (?:FILE|PATH|DIR|FOLDER)\b)");
@@ -346,7 +346,7 @@ TEST(BatchWords, everyOptionThatNamesAFileSaysWhatIsDoneWithIt)
         help.push_back("--help");
         const std::string text = runTool(help, folder.path()).out;
         for (auto it = std::sregex_iterator(text.begin(), text.end(), option); it != std::sregex_iterator(); ++it) {
-            // Another job writes the file, and waits for this one: refused, if the file is known to be either.
+            // Another job writes the file and waits for this one: a cycle, if the file is known as input or output.
             std::vector<std::string> job = command;
             job.insert(job.end(), {(*it)[1], "NAMED"});
             const std::map<std::string, std::vector<std::string>> needed = {
@@ -373,7 +373,7 @@ TEST(BatchWords, everyOptionThatNamesAFileSaysWhatIsDoneWithIt)
                 << "\n";
             const ToolRun run = runTool({"batch", "jobs.jsonl", "-o", "r.html"}, folder.path());
             const bool found = run.err.find("waits for") != std::string::npos
-                || run.err.find("writes NAMED, which line 1 writes") != std::string::npos;
+                || run.err.find("writes NAMED, which line 1 also writes") != std::string::npos;
             EXPECT_TRUE(found) << name << " " << (*it)[1] << ": " << run.err;
             ++checked;
         }

@@ -1,7 +1,6 @@
-"""Jobs on a Dask cluster: a scheduler and four workers, each a process, of which one is killed in the middle.
+"""Runs jobs on a Dask cluster: a scheduler and four worker processes, one of which is killed during the run.
 
-tests/batch_dask.py COTAN. Exit code 77: Dask is not here.
-"""
+tests/batch_dask.py COTAN. Exit code 77: Dask is not installed."""
 
 import collections
 import json
@@ -88,12 +87,12 @@ def main(folder):
             assert all((folder / "out" / f"{i}.png").exists() for i in range(PICTURES))
             assert not list(folder.glob("out/.cotan-*")), "unfinished files"
 
-            # Again: all is kept, whoever asks.
+            # A second run keeps all results.
             before = time.monotonic()
             again = cotan.dask.run(folder / "jobs.jsonl", store=folder / "r.store", client=client, tool=TOOL)
             assert again["counts"] == report["counts"] and time.monotonic() - before < 30
 
-            # What is wrong has the words of the command line.
+            # Errors have the text of the command line.
             (folder / "bad.jsonl").write_text("{}\n")
             for words, error in (
                 ({"jobs": folder / "bad.jsonl"}, cotan.InputError),

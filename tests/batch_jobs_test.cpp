@@ -1,4 +1,4 @@
-// Files of jobs, and which job waits for which.
+// Job files, and the dependencies between jobs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 using namespace test;
 
-// Words "IN... > OUT...", as a command's table would tell.
+// Splits words "IN... > OUT..." into inputs and outputs, like the table of a command.
 Status splitWords(Job& job)
 {
     bool out = false;
@@ -50,7 +50,7 @@ JobList listOf(const std::vector<std::vector<std::string>>& jobs)
     return list;
 }
 
-TEST(BatchJobs, aLineIsAJobWithItsFilesAndANameOfItsOwnOrItsCommandLine)
+TEST(BatchJobs, eachLineIsAJobNamedByItselfOrItsCommandLine)
 {
     const auto list =
         read("\xef\xbb\xbf{\"command\": [\"copy\", \"a b\", \">\", \"c\"]}\r\n\n  \n"
@@ -66,7 +66,7 @@ TEST(BatchJobs, aLineIsAJobWithItsFilesAndANameOfItsOwnOrItsCommandLine)
     EXPECT_EQ(list->jobs[1].outputs, std::vector<std::string>{"y"});
 }
 
-// Lists in lists, or objects in objects, far deeper than a stack.
+// Lists in lists, or objects in objects, nested far deeper than a stack allows.
 std::string deep(char open, char close)
 {
     std::string text;
@@ -75,28 +75,28 @@ std::string deep(char open, char close)
     return text + "1" + std::string(200000, close);
 }
 
-TEST(BatchJobs, aLineThatIsNoJobIsNamedWithWhatIsExpectedAndFound)
+TEST(BatchJobs, invalidLinesAreReportedWithWhatIsExpectedAndFound)
 {
     const std::pair<std::string, std::string> cases[] = {
-        {"{\"command\": [\"copy\"]", "no JSON"},
+        {"{\"command\": [\"copy\"]", "text that is not JSON"},
         {"[\"copy\"]", "expected a JSON object"},
-        {"{}", "\"command\": expected a list of words"},
+        {"{}", "\"command\": expected a list of strings"},
         {"{\"command\": []}", "found none"},
         {"{\"command\": \"lint a.glb\"}", "found \"lint a.glb\""},
-        {"{\"command\": [\"copy\", 4]}", "numbers in quotes, too); found 4"},
+        {"{\"command\": [\"copy\", 4]}", "quote numbers, too); found 4"},
         {"{\"command\": [\"a\\u0000b\"]}", "without the character 0"},
         {"{\"command\": [\"copy\"], \"input\": [\"a\"]}", "found \"input\""},
         {"{\"command\": [\"copy\"], \"inputs\": \"a\"}", "\"inputs\": expected a list"},
-        {"{\"command\": [\"copy\"], \"name\": 3}", "\"name\": expected a text"},
-        {"{\"command\": [\"copy\"], \"name\": \"\"}", "\"name\": expected a text"},
-        {"{\"command\": [\"copy\"], \"name\": \"" + std::string(1001, 'n') + "\"}", "a text of 1 to 1000 bytes"},
+        {"{\"command\": [\"copy\"], \"name\": 3}", "\"name\": expected a string"},
+        {"{\"command\": [\"copy\"], \"name\": \"\"}", "\"name\": expected a string"},
+        {"{\"command\": [\"copy\"], \"name\": \"" + std::string(1001, 'n') + "\"}", "a string of 1 to 1000 bytes"},
         {"{\"command\": [\"bad\"]}", "there is no command 'bad'"},
-        {std::string(100000, '['), "no JSON"},
-        {"{\"command\": [" + deep('[', ']') + "]}", "\"command\": expected texts only"}, // once no stack was left
+        {std::string(100000, '['), "text that is not JSON"},
+        {"{\"command\": [" + deep('[', ']') + "]}", "\"command\": expected strings only"}, // once overflowed the stack
         {"{\"command\": " + deep('{', '}') + "}", "found an object"},
-        {"{\"name\": " + deep('[', ']') + ", \"command\": [\"copy\"]}", "\"name\": expected a text"},
-        {std::string("\0\0\0", 3), "no JSON"},
-        {"{\"name\": \"ok\", \"command\": [\"copy\", \"other\"]}", "is the name of line 1, too"},
+        {"{\"name\": " + deep('[', ']') + ", \"command\": [\"copy\"]}", "\"name\": expected a string"},
+        {std::string("\0\0\0", 3), "text that is not JSON"},
+        {"{\"name\": \"ok\", \"command\": [\"copy\", \"other\"]}", "is also the name of line 1"},
     };
     for (const auto& [line, message] : cases) {
         const auto list = read("{\"name\": \"ok\", \"command\": [\"copy\"]}\n" + line + "\n");
@@ -115,7 +115,7 @@ TEST(BatchJobs, aLineThatIsNoJobIsNamedWithWhatIsExpectedAndFound)
     EXPECT_TRUE(read("\xef\xbb\xbf\n{\"command\": [\"copy\"], \"name\": \"" + std::string(1000, 'n') + "\"}\n"));
 }
 
-TEST(BatchJobs, noDamageToAFileOfJobsEndsTheProgram)
+TEST(BatchJobs, damagedJobFilesDoNotCrash)
 {
     const std::string good = "{\"name\": \"a\", \"command\": [\"copy\", \"a\", \">\", \"b\"], \"inputs\": [\"x\"]}\n"
                              "{\"command\": [\"copy\", \"\\u00fc\", \">\", \"c\"]}\n";
@@ -139,7 +139,7 @@ TEST(BatchJobs, noDamageToAFileOfJobsEndsTheProgram)
     EXPECT_GT(refused, 250);
 }
 
-TEST(BatchPlan, aJobComesAfterThoseWhoseFilesItReads)
+TEST(BatchPlan, aJobRunsAfterThoseWhoseFilesItReads)
 {
     const auto plan = planJobs(listOf({{"c", "./maps/../maps/a.png", ">", "b.png"},
                                        {"c", "raw", ">", "maps/a.png"},
@@ -156,11 +156,11 @@ TEST(BatchPlan, aJobComesAfterThoseWhoseFilesItReads)
     EXPECT_EQ(plan->group, (Jobs{0, 0, 1, 1, 0, 2}));
 }
 
-TEST(BatchPlan, circlesAndFilesThatTwoJobsWriteAreRefusedWithTheirLines)
+TEST(BatchPlan, cyclesAndDuplicateOutputsAreRefusedWithTheirLines)
 {
     const std::pair<std::vector<std::vector<std::string>>, std::string> cases[] = {
-        {{{"c", "z", ">", "a"}, {"c", "z", ">", "./a"}}, "line 2: writes ./a, which line 1 writes, too"},
-        {{{"c", "a", ">", "a"}}, "line 1: writes a, which it reads"},
+        {{{"c", "z", ">", "a"}, {"c", "z", ">", "./a"}}, "line 2: writes ./a, which line 1 also writes"},
+        {{{"c", "a", ">", "a"}}, "line 1: writes a, which it also reads"},
         {{{"c", "a", ">", "b"}, {"c", "b", ">", "a"}}, "line 1 waits for line 2 waits for line 1"},
         {{{"c", ">", "x"}, {"c", "x", "d", ">", "b"}, {"c", "b", ">", "c"}, {"c", "c", ">", "d"}},
          "line 2 waits for line 4 waits for line 3 waits for line 2"},
@@ -172,7 +172,7 @@ TEST(BatchPlan, circlesAndFilesThatTwoJobsWriteAreRefusedWithTheirLines)
     }
 }
 
-TEST(BatchPlan, aLineOfAHundredThousandJobsIsPlannedWithoutRecursion)
+TEST(BatchPlan, aChainOf100000JobsIsPlannedWithoutRecursion)
 {
     JobList list{"/jobs", {}};
     for (int i = 0; i < 100000; ++i) {
@@ -188,7 +188,7 @@ TEST(BatchPlan, aLineOfAHundredThousandJobsIsPlannedWithoutRecursion)
     EXPECT_EQ(plan->group.front(), plan->group.back());
 }
 
-TEST(BatchPlan, everyJobIsInOneShardAndWhatHangsTogetherIsInTheSame)
+TEST(BatchPlan, everyJobIsInOneShardTogetherWithDependentJobs)
 {
     std::mt19937 random(3);
     std::vector<std::vector<std::string>> jobs;
@@ -214,7 +214,7 @@ TEST(BatchPlan, everyJobIsInOneShardAndWhatHangsTogetherIsInTheSame)
     }
 }
 
-TEST(BatchPlan, aShardIsANumberOfSoMany)
+TEST(BatchPlan, aShardIsANumberAndACount)
 {
     const auto shard = parseShard("3/8");
     ASSERT_TRUE(shard);

@@ -1,4 +1,4 @@
-// What one job asks for: limits, retries, its place in the line, variables.
+// Options of one job: limits, retries, priority, environment variables.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -22,7 +22,7 @@ Result<JobList> listIn(const std::string& text)
     return readJobs(folder / "jobs.jsonl", [](Job&) { return Status(Done{}); });
 }
 
-TEST(BatchJobOptions, areReadFromTheLineAndNothingIsTheDefault)
+TEST(BatchJobOptions, areReadFromTheLineElseAreTheDefaults)
 {
     const auto list =
         listIn("{\"command\": [\"lint\"], \"limit-memory\": 2000, \"limit-time\": 1.5, "
@@ -41,20 +41,20 @@ TEST(BatchJobOptions, areReadFromTheLineAndNothingIsTheDefault)
     EXPECT_EQ(list->jobs[1].key(), std::vector<std::string>{"lint"});
 }
 
-TEST(BatchJobOptions, wrongOnesAreNamedWithWhatIsExpectedAndFound)
+TEST(BatchJobOptions, wrongOnesAreReportedWithWhatIsExpectedAndFound)
 {
     const std::pair<std::string, std::string> cases[] = {
         {"\"limit-memory\": -1", "\"limit-memory\": expected a whole number from 0 to 16777216; found -1"},
         {"\"limit-memory\": 1.5", "found 1.5"},
         {"\"limit-memory\": \"2 GB\"", "found \"2 GB\""},
         {"\"limit-time\": 0", "\"limit-time\": expected a number from 0.001 to 1000000; found 0"},
-        {"\"limit-time\": 1e999", "no JSON"},
+        {"\"limit-time\": 1e999", "text that is not JSON"},
         {"\"limit-processor-time\": null", "found null"},
         {"\"retries\": 101", "from 0 to 100; found 101"},
         {"\"priority\": true", "\"priority\": expected a whole number"},
         {"\"priority\": 99999999999999999999", "\"priority\": expected a whole number"},
-        {"\"env\": [\"A=b\"]", "\"env\": expected an object of texts such as"},
-        {"\"env\": {\"A\": 1}", "numbers in quotes, too); found 1"},
+        {"\"env\": [\"A=b\"]", "\"env\": expected an object of strings such as"},
+        {"\"env\": {\"A\": 1}", "quote numbers, too); found 1"},
         {"\"env\": {\"A=B\": \"1\"}", "expected names of variables; found \"A=B\""},
         {"\"env\": {\"\": \"1\"}", "expected names of variables"},
         {"\"memory\": 1",
@@ -104,28 +104,28 @@ protected:
     RunOptions options{.processes = 2, .seconds = 30, .megabytes = 0, .program = BATCH_CHILD};
 };
 
-TEST_F(BatchJobOptionsRun, processorTimeEndsWhatWorksAndNotWhatWaits)
+TEST_F(BatchJobOptionsRun, processorTimeEndsBusyJobsButNotWaitingOnes)
 {
     options.processorSeconds = 0.5; // rounded up to 1
     add({"spin", "100"});
-    add({"wait", "2"}); // longer on the clock than any limit here, as on a machine that is busy
+    add({"wait", "2"}); // longer than any limit here by the clock, as on a busy machine
     add({"spin", "101"}).options.seconds = 0.2;
     const auto results = run();
     EXPECT_EQ(results[0].record.state, JobState::late);
     EXPECT_EQ(results[0].record.signal, SIGXCPU);
-    EXPECT_EQ(results[0].record.reason, "took more than 1 s of processor time and was ended");
+    EXPECT_EQ(results[0].record.reason, "took more than 1 s of processor time and was terminated");
     EXPECT_EQ(results[1].record.state, JobState::done) << results[1].record.reason;
     EXPECT_GT(results[1].record.seconds, 1.9);
-    EXPECT_EQ(results[2].record.reason, "took longer than 0.2 s and was ended");
+    EXPECT_EQ(results[2].record.reason, "took longer than 0.2 s and was terminated");
 }
 
-TEST_F(BatchJobOptionsRun, aJobsOwnLimitsComeBeforeThoseOfAll)
+TEST_F(BatchJobOptionsRun, aJobsOwnLimitsTakePrecedence)
 {
     options.seconds = 0.3;
     options.processorSeconds = 1;
     add({"wait", "1"}).options.seconds = 20;
-    add({"wait", "1.1"});             // other words: jobs of the same words have one result
-    Job& free = add({"spin", "1.5"}); // of its processor's time
+    add({"wait", "1.1"});             // different words, because equal words share a result
+    Job& free = add({"spin", "1.5"}); // seconds of processor time
     free.options.processorSeconds = 0;
     free.options.seconds = 25;
     const auto results = run();
@@ -134,7 +134,7 @@ TEST_F(BatchJobOptionsRun, aJobsOwnLimitsComeBeforeThoseOfAll)
     EXPECT_EQ(results[2].record.state, JobState::done) << results[2].record.reason;
 }
 
-TEST_F(BatchJobOptionsRun, whatMayHelpIsRunAgainAndWrongInputIsNot)
+TEST_F(BatchJobOptionsRun, transientFailuresAreRetriedAndWrongInputIsNot)
 {
     options.retries = 1;
     add({"flaky", "once", "1"});
@@ -154,7 +154,7 @@ TEST_F(BatchJobOptionsRun, whatMayHelpIsRunAgainAndWrongInputIsNot)
     }
 }
 
-TEST_F(BatchJobOptionsRun, theLargestPriorityBeginsFirstAndLendsItToWhatItWaitsFor)
+TEST_F(BatchJobOptionsRun, priorityOrdersJobsAndIsPassedToTheJobsTheyNeed)
 {
     options.processes = 1;
     std::ofstream(folder / "a") << "a";
@@ -167,7 +167,7 @@ TEST_F(BatchJobOptionsRun, theLargestPriorityBeginsFirstAndLendsItToWhatItWaitsF
     EXPECT_EQ(readWhole(folder / "log"), "needed\nfirst\nsoon\nplain\nlast\n");
 }
 
-TEST_F(BatchJobOptionsRun, variablesReachTheJobAndAnotherValueIsAnotherResult)
+TEST_F(BatchJobOptionsRun, variablesReachTheJobAndChangeItsResultKey)
 {
     ::setenv("COTAN_TEST_OURS", "ours", 1);
     add({"variables", "out", "COTAN_TEST_OURS", "COTAN_TEST_OWN"}).options.environment = {{"COTAN_TEST_OWN", "1"}};
@@ -181,7 +181,7 @@ TEST_F(BatchJobOptionsRun, variablesReachTheJobAndAnotherValueIsAnotherResult)
     EXPECT_EQ(ran(), "theirs\n2\nran");
 }
 
-TEST(BatchReportOrder, whatIsOverItsLimitComesBeforeWhatWasRefused)
+TEST(BatchReportOrder, jobsOverTheirLimitComeBeforeFailedOnes)
 {
     std::vector<JobResult> results;
     for (const JobState state : {JobState::done, JobState::failed, JobState::limit, JobState::skipped, JobState::notRun,

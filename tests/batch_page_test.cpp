@@ -16,7 +16,7 @@ namespace {
 using namespace test;
 using nlohmann::json;
 
-struct Shown {
+struct PageInput {
     JobList list{"/jobs", {}};
     std::vector<JobResult> results;
 
@@ -35,11 +35,11 @@ struct Shown {
     }
 };
 
-// What a script at the end of the page leaves in its title.
-json titleAfter(const Shown& shown, const std::string& script)
+// The JSON that `script`, run at the end of the page, puts into the page's title.
+json titleAfter(const PageInput& input, const std::string& script)
 {
     TemporaryFolder folder;
-    std::string page = batchPage(shown.list, shown.results, "jobs", "footer", "/report", 100000);
+    std::string page = batchPage(input.list, input.results, "jobs", "footer", "/report", 100000);
     page.insert(page.find("</body>"),
                 "<script>document.title = 'RESULT' + JSON.stringify((() => {" + script + "})());</script>");
     std::ofstream(folder / "page.html") << page;
@@ -62,15 +62,15 @@ json titleAfter(const Shown& shown, const std::string& script)
 
 bool noBrowser() { return std::system("command -v chromium > /dev/null 2>&1") != 0; }
 
-TEST(BatchPage, ofTenThousandRowsOnlyThoseInViewAreThereAndTheyFilterAndSort)
+TEST(BatchPage, onlyVisibleRowsExistAndTheyFilterAndSort)
 {
     if (noBrowser())
         GTEST_SKIP() << "no chromium";
-    Shown shown;
+    PageInput input;
     for (int i = 0; i < 10000; ++i)
-        shown.add(fmt::format("rock {}", i), i % 100 == 7 ? JobState::crashed : JobState::done,
+        input.add(fmt::format("rock {}", i), i % 100 == 7 ? JobState::crashed : JobState::done,
                   i % 2 ? std::optional<Degrees>(Degrees{i / 100.0, "of"}) : std::nullopt);
-    json got = titleAfter(shown, R"(
+    json got = titleAfter(input, R"(
         const names = () => [...document.querySelectorAll('#space .name')].map(e => e.textContent);
         const result = { rows: names().length, first: names()[0], height: space.offsetHeight };
         find.value = 'ROCK 99'; find.dispatchEvent(new Event('input'));
@@ -97,17 +97,17 @@ TEST(BatchPage, ofTenThousandRowsOnlyThoseInViewAreThereAndTheyFilterAndSort)
     EXPECT_EQ(got["scrolled"], true);
 }
 
-TEST(BatchPage, whatJobsAreCalledIsShownAsTextAndRunsNowhere)
+TEST(BatchPage, jobNamesAreShownAsTextAndNeverExecuted)
 {
     if (noBrowser())
         GTEST_SKIP() << "no chromium";
     const std::string evil =
         "</script><script>window.ran = 1</script><img src=x onerror='window.ran = 2'><!-- <script> ü\"&";
-    Shown shown;
-    shown.add(evil, JobState::failed, Degrees{1, evil});
-    shown.results[0].record.said = evil;
-    shown.results[0].record.thumbnail = {1, 1, "\" onerror=\"window.ran = 3"};
-    json got = titleAfter(shown, R"(
+    PageInput input;
+    input.add(evil, JobState::failed, Degrees{1, evil});
+    input.results[0].record.output = evil;
+    input.results[0].record.thumbnail = {1, 1, "\" onerror=\"window.ran = 3"};
+    json got = titleAfter(input, R"(
         document.querySelector('#space .row').click();
         return { name: document.querySelector('#space .name').textContent, ran: window.ran || 0,
                  heading: document.querySelector('dialog h2').textContent, open: document.querySelector('dialog').open,

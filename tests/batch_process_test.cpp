@@ -1,5 +1,5 @@
-// The process of a job from both sides: what it is told and answers, and what is made of how it ends. Shell scripts
-// stand for the tool.
+// The process of a job from both sides: what it is passed and answers, and how its end is classified. Shell scripts
+// stand in for the tool.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -32,7 +32,7 @@ std::vector<const char*> pointersOf(const Words& words)
     return pointers;
 }
 
-TEST(BatchChild, isToldInWordsOfWhichTheFirstSaysThatItIsOne)
+TEST(BatchChild, argumentsStartWithTheChildMarker)
 {
     ChildRequest request;
     request.work = "/w x";
@@ -56,7 +56,7 @@ class BatchAnswer : public ::testing::Test {
 protected:
     using Command = std::function<int(const Words&)>;
 
-    // The exit code of a job's process that runs this in the folder.
+    // The exit code of a job process that runs `command` in the folder.
     int run(const Command& command)
     {
         request.work = folder / "work";
@@ -81,7 +81,7 @@ protected:
     ChildRequest request;
 };
 
-TEST_F(BatchAnswer, hasEachFileOnceInItsOrderAndTheLimitsAreSet)
+TEST_F(BatchAnswer, hasEachFileOnceInOrderAndLimitsAreSet)
 {
     request.words = {"do", "it"};
     request.megabytes = 1000;
@@ -107,18 +107,18 @@ TEST_F(BatchAnswer, hasEachFileOnceInItsOrderAndTheLimitsAreSet)
     EXPECT_EQ(answer.inputs, (Words{"b", "a", "c"}));
     EXPECT_EQ(answer.outputs, (Words{"z", "y"}));
     EXPECT_EQ(answer.thumbnail.jpeg, "");
-    fs::remove_all(folder / "work"); // there is no place for an answer
+    fs::remove_all(folder / "work"); // the answer cannot be written
     EXPECT_EQ(run([](const Words&) { return 0; }), int(ErrorKind::output));
     EXPECT_EQ(run([](const Words&) { return 2; }), 2);
     EXPECT_TRUE(readAnswer(folder / "work").inputs.empty());
 }
 
-TEST_F(BatchAnswer, hasAPictureOfTheFirstImageThatAGoodJobWrites)
+TEST_F(BatchAnswer, hasAThumbnailOfTheFirstImageThatASuccessfulJobWrites)
 {
     const auto width = [&](int code, Thumbnails thumbnails, int failing = 0) {
         request.thumbnails = thumbnails;
         const Command command = [=, this](const Words& words) {
-            if (!words.empty() && words[0] == "render") { // for the picture of a model
+            if (!words.empty() && words[0] == "render") { // renders the thumbnail of a model
                 const bool right = words.size() == 9 && words[1] == "b.GLB" && words[2] == "-o"
                     && words[3] == (folder / "work/thumbnail.png").string() && words[4] == "--size"
                     && words[5] == "128x128" && words[6] == "--samples" && words[7] == "1" && words[8] == "--quiet";
@@ -151,23 +151,23 @@ TEST_F(BatchAnswer, hasAPictureOfTheFirstImageThatAGoodJobWrites)
     EXPECT_EQ(width(0, Thumbnails::models, 4), 0) << "which cannot be drawn";
 }
 
-TEST_F(BatchAnswer, thatIsNotWholeIsNone)
+TEST_F(BatchAnswer, incompleteAnswersAreIgnored)
 {
-    const auto told = [&](const std::string& text) {
+    const auto reply = [&](const std::string& text) {
         std::ofstream(folder / "work/answer.json") << text;
         const ChildAnswer a = readAnswer(folder / "work");
         return fmt::format("{} {} {}x{} {}", a.inputs.size(), a.outputs.size(), a.thumbnail.width, a.thumbnail.height,
                            a.thumbnail.jpeg);
     };
     const std::string files = R"({"inputs": ["a", "b"], "outputs": ["c"])", none = "0 0 0x0 ";
-    EXPECT_EQ(told(files + "}"), "2 1 0x0 ");
-    EXPECT_EQ(told(files + R"(, "thumbnail": {"width": 3, "height": 4, "jpeg": "AA"}})"), "2 1 3x4 AA");
+    EXPECT_EQ(reply(files + "}"), "2 1 0x0 ");
+    EXPECT_EQ(reply(files + R"(, "thumbnail": {"width": 3, "height": 4, "jpeg": "AA"}})"), "2 1 3x4 AA");
     for (const std::string& part : {std::string(R"({"inputs": ["a"]})"), files, files + R"(, "thumbnail": {}})",
                                     std::string("{}"), std::string()})
-        EXPECT_EQ(told(part), none) << part;
+        EXPECT_EQ(reply(part), none) << part;
 }
 
-// A job whose process is a script: $2 is its work folder, its words begin with $7.
+// A job whose process is a script: $2 is its work folder, and its words start at $7.
 class BatchScript : public ::testing::Test {
 protected:
     Job& add(const Words& words)
@@ -205,7 +205,7 @@ protected:
     Progress progress;
 };
 
-TEST_F(BatchScript, getsTheLimitsTheThreadsAndAPlaceForItsReport)
+TEST_F(BatchScript, getsTheLimitsTheThreadsAndAReportPath)
 {
     options.megabytes = 900;
     options.processorSeconds = 4.2; // rounded up
@@ -240,7 +240,7 @@ TEST_F(BatchScript, getsTheLimitsTheThreadsAndAPlaceForItsReport)
     }
 }
 
-TEST_F(BatchScript, saysWhyItFailedInItsLastWords)
+TEST_F(BatchScript, failureReasonIsItsLastOutput)
 {
     struct Row {
         const char* script;
@@ -257,8 +257,8 @@ TEST_F(BatchScript, saysWhyItFailedInItsLastWords)
         {"printf ' \\n\\t'; exit 1", JobState::failed, "it printed nothing"},
         {"exit 3", JobState::failed, "it printed nothing"},
         {"echo no reason; exit 0", JobState::done, ""},
-        {"exit 71", JobState::memory, "wanted more memory than there is"},
-        {"echo 'what():  std::bad_alloc'; kill -ABRT $$", JobState::memory, "wanted more memory than there is"},
+        {"exit 71", JobState::memory, "needed more memory than is available"},
+        {"echo 'what():  std::bad_alloc'; kill -ABRT $$", JobState::memory, "needed more memory than is available"},
         {"echo 'what():  std::bad_alloc'; exit 1", JobState::failed, "what():  std::bad_alloc"},
         {"echo words; kill -TERM $$", JobState::crashed, "crashed (signal 15, Terminated) with"},
     };
@@ -281,10 +281,10 @@ TEST_F(BatchScript, saysWhyItFailedInItsLastWords)
         }
         EXPECT_EQ(r.runs, 1);
     }
-    EXPECT_EQ(results.back().record.reason, "wanted more memory than 345 MiB");
+    EXPECT_EQ(results.back().record.reason, "needed more memory than 345 MiB");
 }
 
-// The first 4096 bytes, and of the rest the last 8192 at least, 16384 at most.
+// The first 4096 bytes, and of the rest the last 8192 to 16384.
 TEST_F(BatchScript, keepsTheBeginningAndTheEndOfWhatItPrints)
 {
     std::string numbers;
@@ -295,17 +295,17 @@ TEST_F(BatchScript, keepsTheBeginningAndTheEndOfWhatItPrints)
     add({"all"});
     add({"most"});
     const auto results = run("cat $7\n");
-    const std::string& said = results[0].record.said;
-    EXPECT_EQ(said.substr(0, 4096), numbers.substr(0, 4096));
-    EXPECT_EQ(said.substr(4096, 5), "\n...\n");
-    const std::string end = said.substr(4101);
+    const std::string& output = results[0].record.output;
+    EXPECT_EQ(output.substr(0, 4096), numbers.substr(0, 4096));
+    EXPECT_EQ(output.substr(4096, 5), "\n...\n");
+    const std::string end = output.substr(4101);
     EXPECT_GE(end.size(), 8192u);
     EXPECT_LE(end.size(), 16384u);
     EXPECT_TRUE(numbers.ends_with(end));
-    EXPECT_EQ(results[1].record.said, numbers.substr(0, 4096 + 16384));
+    EXPECT_EQ(results[1].record.output, numbers.substr(0, 4096 + 16384));
 }
 
-TEST_F(BatchScript, hasItsFilesByTheirNamesInTheFolderAndNoneOfItsOwnWork)
+TEST_F(BatchScript, filesAreNamedRelativeToTheFolderWithoutWorkFiles)
 {
     for (const char* file : {"a", "b", "..c", "made"})
         std::ofstream(folder / file) << file;
@@ -323,13 +323,13 @@ TEST_F(BatchScript, hasItsFilesByTheirNamesInTheFolderAndNoneOfItsOwnWork)
         return all;
     };
     EXPECT_EQ(names(results[0].record.inputs), (Words{"..c", outside.string(), "a", "b", "stated"}));
-    EXPECT_EQ(names(results[0].record.outputs), Words{"made"}); // which is no input any more
+    EXPECT_EQ(names(results[0].record.outputs), Words{"made"}); // "made" is an output and no longer an input
     EXPECT_EQ(results[0].record.inputs[2].digest, digestOf("a"));
     EXPECT_EQ(results[0].record.inputs[4].digest, "missing");
     fs::remove(outside);
 }
 
-TEST_F(BatchScript, thatCannotBeStartedIsAResultAndTellsTheProgress)
+TEST_F(BatchScript, aFailedStartIsAResultAndReportsProgress)
 {
     options.program = (folder / "gone").string();
     options.retries = 0;
@@ -338,8 +338,8 @@ TEST_F(BatchScript, thatCannotBeStartedIsAResultAndTellsTheProgress)
     add({"two"}).inputs = {"x"};
     double last = 0;
     int calls = 0;
-    progress = [&](double share) {
-        last = share;
+    progress = [&](double fraction) {
+        last = fraction;
         return ++calls > 0;
     };
     const auto results = runAll();
@@ -349,7 +349,7 @@ TEST_F(BatchScript, thatCannotBeStartedIsAResultAndTellsTheProgress)
     EXPECT_EQ(results[1].record.reason, "waits for 'job 0', which is not done");
     EXPECT_EQ(results[1].record.state, JobState::skipped);
     EXPECT_EQ(last, 1);
-    // Stopped in between: no results, and that is said.
+    // Stopped in between: there are no results, and the error says so.
     list.jobs.clear();
     add({"three"});
     add({"four"});

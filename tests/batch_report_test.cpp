@@ -1,4 +1,4 @@
-// What a page and a report have of a job: every field, with another value in each; and small pictures of large ones.
+// The page and the report of a batch: every field of a job, with distinct values. Thumbnails of large images.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 using namespace test;
 using nlohmann::json;
 
-// One job of each state, in the order of their names, the first without anything but that.
+// One job of each state, in the order of their names; the first has no other fields.
 struct Results {
     JobList list{"/jobs", {}};
     std::vector<JobResult> all;
@@ -40,7 +40,7 @@ struct Results {
         r.signal = 15;
         r.runs = 3;
         r.reason = "over 2 degrees";
-        r.said = std::string(1500, 'x');
+        r.output = std::string(1500, 'x');
         r.seconds = 1.23456;
         r.processorSeconds = 2.5;
         r.megabytes = 20.75;
@@ -99,9 +99,9 @@ TEST(BatchReport, aRowOfThePageHasEveryFieldOfItsJob)
     EXPECT_NE(page.find("<title>a &amp; b</title>"), std::string::npos);
     EXPECT_NE(page.find("<h1>a &amp; b</h1>"), std::string::npos);
     EXPECT_NE(page.find("<footer>the end</footer>"), std::string::npos) << "all are shown";
-    // A button for each state that there is, the worst first, with its number and how many there are.
+    // One button for each state present, worst first, with its number and count.
     results.all.push_back(results.all[4]);
-    results.all.erase(results.all.begin() + 6); // none is out of memory
+    results.all.erase(results.all.begin() + 6); // no job is out of memory
     const std::string other = batchPage(results.list, results.all, "t", "f", "/report", 8);
     std::size_t at = 0;
     for (const char* button : {"\"7\">1 crashed<", "\"5\">1 too slow<", "\"4\">2 failed<", "\"3\">1 skipped<",
@@ -110,8 +110,8 @@ TEST(BatchReport, aRowOfThePageHasEveryFieldOfItsJob)
     EXPECT_EQ(other.find("out of memory<"), std::string::npos);
 }
 
-// Of a job that is done the first 1500 bytes, of others all that is kept.
-TEST(BatchReport, whatAJobPrintedThatIsDoneIsCutOnThePage)
+// Shows the first 1500 bytes of jobs that are done, and all kept output of others.
+TEST(BatchReport, outputOfFinishedJobsIsTruncatedOnThePage)
 {
     for (const JobState state :
          {JobState::done, JobState::limit, JobState::skipped, JobState::failed, JobState::crashed})
@@ -119,12 +119,12 @@ TEST(BatchReport, whatAJobPrintedThatIsDoneIsCutOnThePage)
             Results results;
             results.all.resize(1);
             results.all[0].record.state = state;
-            results.all[0].record.said = std::string(size, 'y') + "z";
-            results.all[0].record.said.erase(0, 1);
-            const std::string said = results.all[0].record.said;
-            const std::string shown = dataOf(batchPage(results.list, results.all, "", "", "/", 1))["rows"][0][8];
+            results.all[0].record.output = std::string(size, 'y') + "z";
+            results.all[0].record.output.erase(0, 1);
+            const std::string output = results.all[0].record.output;
+            const std::string printed = dataOf(batchPage(results.list, results.all, "", "", "/", 1))["rows"][0][8];
             const bool cut = size > 1500 && (state == JobState::done || state == JobState::limit);
-            EXPECT_EQ(shown, cut ? std::string(1500, 'y') + "..." : said) << size << int(state);
+            EXPECT_EQ(printed, cut ? std::string(1500, 'y') + "..." : output) << size << int(state);
         }
 }
 
@@ -160,19 +160,19 @@ TEST(BatchReport, asJsonHasTheCountOfEachStateAndEveryFieldOfEachJob)
     EXPECT_EQ(report["jobs"][7]["kept"], false);
 }
 
-TEST(BatchReport, theSummaryHasStatesInTheirOrderAndHowManyWereKept)
+TEST(BatchReport, theSummaryCountsStatesInOrderAndReusedResults)
 {
     Results results;
     EXPECT_EQ(summaryOf(results.all),
               "8 jobs: 1 done, 1 over limit, 1 not run, 1 skipped, 1 failed, 1 too slow, 1 out of memory, 1 crashed; "
-              "1 kept from before");
+              "1 from an earlier run");
     results.all.resize(1);
     EXPECT_EQ(summaryOf(results.all), "1 job: 1 done");
     results.all.clear();
     EXPECT_EQ(summaryOf(results.all), "0 jobs");
 }
 
-TEST(BatchDegrees, areReadFromThePlaceOfEachCommand)
+TEST(BatchDegrees, areReadFromTheFieldOfEachCommand)
 {
     struct Row {
         const char *report, *of;
@@ -197,7 +197,7 @@ TEST(BatchDegrees, areReadFromThePlaceOfEachCommand)
     }
 }
 
-TEST(BatchJobOptions, areTakenUpToTheirBoundsAndNotBeyond)
+TEST(BatchJobOptions, areAcceptedUpToTheirBounds)
 {
     const TemporaryFolder folder;
     const auto takes = [&](const std::string& member) {
@@ -239,7 +239,7 @@ std::string decoded(const std::string& base64)
 
 class BatchThumbnail : public ::testing::Test {
 protected:
-    // What is read back of the thumbnail of a file; no pixels where there is none.
+    // Decodes the thumbnail of a file; returns an empty image if there is no thumbnail.
     Image of(const std::string& file)
     {
         const auto thumbnail = thumbnailOf(folder / file);
@@ -255,7 +255,7 @@ protected:
         return std::move(*image);
     }
 
-    // Of an even picture of this type, red, green, blue and alpha.
+    // The thumbnail's colour for a uniform image of this type; `color` is red, green, blue and alpha.
     glm::ivec3 colorOf(const std::string& file, PixelType type, std::array<float, 4> color)
     {
         Image image = makeImage(16, 16, type);
@@ -283,14 +283,14 @@ protected:
     static void expectNear(glm::ivec3 found, glm::ivec3 expected)
     {
         for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(found[c], expected[c], 3) << c; // what a JPEG loses
+            EXPECT_NEAR(found[c], expected[c], 3) << c; // error of JPEG compression
     }
 
     TemporaryFolder folder;
     std::size_t bytes = 0;
 };
 
-TEST_F(BatchThumbnail, hasAtMost64PixelsOnEachSideInTheShapeOfItsPicture)
+TEST_F(BatchThumbnail, fitsInto64PixelsAndKeepsTheAspectRatio)
 {
     for (const auto& [from, to] : {std::pair(glm::ivec2(64, 64), glm::ivec2(64, 64)),
                                    {{65, 13}, {64, 13}},
@@ -308,9 +308,9 @@ TEST_F(BatchThumbnail, hasAtMost64PixelsOnEachSideInTheShapeOfItsPicture)
     EXPECT_FALSE(hasPixels(of("missing.png")));
 }
 
-TEST_F(BatchThumbnail, hasTheMeanColourOfWhatFallsOnEachPixel)
+TEST_F(BatchThumbnail, averagesThePixelsThatFallOnEachPixel)
 {
-    // Four quarters, the last one of stripes that are mixed.
+    // Four quarters; the last one has stripes that are averaged.
     Image image = makeImage(256, 128, PixelType::unorm8);
     for (int y = 0; y < 128; ++y)
         for (int x = 0; x < 256; ++x) {
@@ -332,12 +332,12 @@ TEST_F(BatchThumbnail, hasTheMeanColourOfWhatFallsOnEachPixel)
     expectNear(colorAt(small, 56, 4), {200, 180, 160});
     expectNear(colorAt(small, 8, 28), {60, 80, 100});
     expectNear(colorAt(small, 56, 28), glm::ivec3(140));
-    // A JPEG of one colour takes 623 bytes with the tables of its standard, and less with tables of its own.
+    // A JPEG of one colour takes 623 bytes with the standard's tables, and less with optimised ones.
     expectNear(colorOf("even.png", PixelType::unorm8, {0.4f, 0.4f, 0.4f, 1}), glm::ivec3(102));
     EXPECT_LT(bytes, 400u);
 }
 
-TEST_F(BatchThumbnail, showsGreyBehindWhatIsTransparentAndWhatIsNoColourAsBlack)
+TEST_F(BatchThumbnail, showsTransparencyOverGreyAndNonColoursAsBlack)
 {
     expectNear(colorOf("a.png", PixelType::unorm8, {1, 1, 1, 0.25f}), glm::ivec3(159)); // 0.25 + 0.75 / 2
     expectNear(colorOf("b.png", PixelType::unorm16, {0, 0, 0, 0.5f}), glm::ivec3(64));

@@ -1,4 +1,4 @@
-// Stores, and runs of jobs that do what jobs should not.
+// Stores, and runs of jobs that misbehave.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ Store openStore(const fs::path& folder, const std::string& version = "1")
 
 class BatchRun : public ::testing::Test {
 protected:
-    // A job of batch_child. The files of "copy" are those that it names.
+    // Adds a job of batch_child. The files of a "copy" job are the ones it names.
     void add(const std::vector<std::string>& words)
     {
         Job job;
@@ -71,7 +71,7 @@ protected:
 
 TEST(BatchDigest, isThePublishedXxh3Of128Bits)
 {
-    // From xxHash's own table of sanity checks, for no input and seed 0.
+    // From xxHash's table of sanity checks: no input, seed 0.
     EXPECT_EQ(digestOf(""), "99aa06d3014798d86001c324468d497f");
     TemporaryFolder folder;
     std::ofstream(folder / "empty");
@@ -85,7 +85,7 @@ TEST(BatchDigest, isThePublishedXxh3Of128Bits)
     EXPECT_EQ(states.of("pipe").digest, "special");
 }
 
-TEST(BatchDigest, aChangeIsNoticedWhereSizeAndTimeStayTheSame)
+TEST(BatchDigest, aChangeIsNoticedEvenWithEqualSizeAndTime)
 {
     TemporaryFolder folder;
     std::ofstream(folder / "a") << "first";
@@ -109,7 +109,7 @@ JobRecord fullRecord()
     r.code = 5;
     r.signal = 15;
     r.reason = "over <the> limit";
-    r.said = "line\nline \xff\n";
+    r.output = "line\nline \xff\n";
     r.seconds = 1.5;
     r.megabytes = 20;
     r.degrees = Degrees{0.25, "read without tangents"};
@@ -120,7 +120,7 @@ JobRecord fullRecord()
     return r;
 }
 
-TEST(BatchStore, aRecordComesBackAsItWasAndHalfOfOneIsNone)
+TEST(BatchStore, recordsRoundTripAndTruncatedOnesAreRefused)
 {
     const std::string text = toText(fullRecord(), {"lint", "a.glb"}, "1");
     const auto back = parseRecord(text);
@@ -138,7 +138,7 @@ TEST(BatchStore, aRecordComesBackAsItWasAndHalfOfOneIsNone)
         EXPECT_FALSE(parseRecord(other)) << other;
 }
 
-TEST(BatchStore, whatEndedByItsInputsEndsSoAgainAndOtherThingsNeedNot)
+TEST(BatchStore, onlyResultsDeterminedByTheInputsAreRepeatable)
 {
     const auto again = [](JobState state, int code) {
         JobRecord record;
@@ -148,16 +148,16 @@ TEST(BatchStore, whatEndedByItsInputsEndsSoAgainAndOtherThingsNeedNot)
     };
     EXPECT_TRUE(again(JobState::done, 0));
     EXPECT_TRUE(again(JobState::limit, 5));
-    EXPECT_TRUE(again(JobState::failed, 1)); // wrong words
+    EXPECT_TRUE(again(JobState::failed, 1)); // wrong options
     EXPECT_TRUE(again(JobState::failed, 2)); // wrong input
-    for (const int code : {3, 4, 70})        // what is missing here, a full disk
+    for (const int code : {3, 4, 70})        // missing device or library, full disk, crash
         EXPECT_FALSE(again(JobState::failed, code)) << code;
     for (const JobState state :
          {JobState::notRun, JobState::skipped, JobState::late, JobState::memory, JobState::crashed})
         EXPECT_FALSE(again(state, 2)) << name(state);
 }
 
-TEST(BatchStore, findsByWordsAndVersionAndTakesADamagedRecordForNone)
+TEST(BatchStore, findsByArgumentsAndVersionAndIgnoresDamagedRecords)
 {
     TemporaryFolder folder;
     const Store one = openStore(folder / "s", "1"), two = openStore(folder / "s", "2");
@@ -173,7 +173,7 @@ TEST(BatchStore, findsByWordsAndVersionAndTakesADamagedRecordForNone)
     EXPECT_FALSE(Store::openToRead(folder / "nothere", "1"));
 }
 
-TEST(BatchStore, aJobIsClaimedByOneAtATime)
+TEST(BatchStore, aJobIsClaimedByOneProcessAtATime)
 {
     TemporaryFolder folder;
     const Store one = openStore(folder / "s"), two = openStore(folder / "s");
@@ -185,7 +185,7 @@ TEST(BatchStore, aJobIsClaimedByOneAtATime)
     EXPECT_TRUE(two.claim({"a"}));
 }
 
-TEST(BatchStore, workFoldersOfKilledProcessesGoAndOthersStay)
+TEST(BatchStore, onlyWorkFoldersOfKilledProcessesAreRemoved)
 {
     TemporaryFolder folder;
     fs::create_directories(folder / "s/work/killed/1");
@@ -197,7 +197,7 @@ TEST(BatchStore, workFoldersOfKilledProcessesGoAndOthersStay)
     EXPECT_TRUE(fs::exists(*a));
     EXPECT_FALSE(fs::exists(folder / "s/work/killed"));
 
-    // Those without a lock are perhaps about to make one, for a minute.
+    // Folders without a lock are kept for a minute: their process may be about to create it.
     fs::create_directories(folder / "s/work/young");
     fs::create_directories(folder / "s/work/old");
     fs::last_write_time(folder / "s/work/old", fs::file_time_type::clock::now() - std::chrono::minutes(2));
@@ -207,7 +207,7 @@ TEST(BatchStore, workFoldersOfKilledProcessesGoAndOthersStay)
     EXPECT_FALSE(fs::exists(folder / "s/work/old"));
 }
 
-TEST_F(BatchRun, aJobThatCrashesHangsOrEatsMemoryIsOneResultAndNotTheEnd)
+TEST_F(BatchRun, jobsThatCrashHangOrExhaustMemoryDoNotEndTheRun)
 {
     options.processes = 4;
     options.seconds = 1;
@@ -223,7 +223,7 @@ TEST_F(BatchRun, aJobThatCrashesHangsOrEatsMemoryIsOneResultAndNotTheEnd)
     const auto results = run();
     ASSERT_EQ(results.size(), 11u);
     for (std::size_t i = 0; i < std::size(cases); ++i) {
-        if (kSanitized && cases[i].first == "eat") // has no limit then
+        if (kSanitized && cases[i].first == "eat") // memory is not limited then
             continue;
         EXPECT_EQ(results[i].record.state, cases[i].second)
             << cases[i].first << ": " << name(results[i].record.state) << ", " << results[i].record.reason;
@@ -238,10 +238,10 @@ TEST_F(BatchRun, aJobThatCrashesHangsOrEatsMemoryIsOneResultAndNotTheEnd)
         return fmt::format(" with {:.0f} MiB in use", results[i].record.megabytes);
     };
     EXPECT_EQ(results[0].record.reason, "crashed (signal 11, Segmentation fault)" + inUse(0) + ": it printed nothing");
-    EXPECT_EQ(results[2].record.reason, "was killed (signal 9)" + inUse(2) + ", perhaps for want of memory");
-    EXPECT_EQ(results[3].record.reason, "took longer than 1 s and was ended");
+    EXPECT_EQ(results[2].record.reason, "was killed (signal 9)" + inUse(2) + ", perhaps out of memory");
+    EXPECT_EQ(results[3].record.reason, "took longer than 1 s and was terminated");
     if (!kSanitized) {
-        EXPECT_EQ(results[5].record.reason, "wanted more memory than 256 MiB");
+        EXPECT_EQ(results[5].record.reason, "needed more memory than 256 MiB");
         EXPECT_LT(results[6].record.megabytes, 256) << "of a process that does little";
     }
     EXPECT_GT(results[6].record.megabytes, 1) << "of a process that does little";
@@ -251,13 +251,13 @@ TEST_F(BatchRun, aJobThatCrashesHangsOrEatsMemoryIsOneResultAndNotTheEnd)
     EXPECT_EQ(results[9].record.code, 2);
     EXPECT_EQ(results[10].record.state, JobState::limit);
     EXPECT_EQ(results[10].record.reason, "over 3 degrees");
-    const std::string& said = results[6].record.said;
-    EXPECT_TRUE(said.starts_with("the beginning\n") && said.ends_with("the end\n")) << said.substr(0, 50);
-    EXPECT_LT(said.size(), 30000u);
+    const std::string& output = results[6].record.output;
+    EXPECT_TRUE(output.starts_with("the beginning\n") && output.ends_with("the end\n")) << output.substr(0, 50);
+    EXPECT_LT(output.size(), 30000u);
     EXPECT_TRUE(fs::is_empty(folder / "store/work"));
 }
 
-TEST_F(BatchRun, aSecondRunDoesOnlyWhatChanged)
+TEST_F(BatchRun, aSecondRunRepeatsOnlyChangedJobs)
 {
     for (const char* name : {"a", "b", "c"})
         write(name, name);
@@ -265,8 +265,8 @@ TEST_F(BatchRun, aSecondRunDoesOnlyWhatChanged)
     add({"copy", "b", "b1", "log"});
     add({"copy", "b1", "b2", "log"});
     add({"copy", "c", "c1", "log"});
-    add({"copy", "gone", "g1", "log"}); // fails by its inputs: kept, too
-    add({"crash"});                     // not by its inputs: run again
+    add({"copy", "gone", "g1", "log"}); // fails because of its inputs: kept as well
+    add({"crash"});                     // not because of its inputs: run again
     const auto ran = [&] {
         fs::remove(folder / "log");
         std::string names;
@@ -280,7 +280,7 @@ TEST_F(BatchRun, aSecondRunDoesOnlyWhatChanged)
     EXPECT_EQ(log(), "a1\nb1\nc1\ng1\nb2\n"); // b2 became ready when b1 was done
     EXPECT_EQ(ran(), "crash ");
     EXPECT_EQ(log(), "");
-    write("b", "B"); // and with it what is made of it
+    write("b", "B"); // and with it the files made from it
     EXPECT_EQ(ran(), "b1 b2 crash ");
     EXPECT_EQ(readWhole(folder / "b2"), "B");
     fs::remove(folder / "c1");
@@ -293,7 +293,7 @@ TEST_F(BatchRun, aSecondRunDoesOnlyWhatChanged)
     EXPECT_EQ(ran(), "a1 b1 b2 c1 g1 crash ");
 }
 
-TEST_F(BatchRun, whatWaitsForAFailedJobIsSkippedAndTheRestRuns)
+TEST_F(BatchRun, dependentsOfAFailedJobAreSkippedAndTheRestRuns)
 {
     write("a", "a");
     add({"copy", "c", "d"});
@@ -313,7 +313,7 @@ TEST_F(BatchRun, whatWaitsForAFailedJobIsSkippedAndTheRestRuns)
         EXPECT_EQ(merged[i].record.state, results[i].record.state) << i;
 }
 
-TEST_F(BatchRun, aJobThatDiesWhileItWritesLeavesNoPart)
+TEST_F(BatchRun, aJobKilledWhileWritingLeavesNoPartialFile)
 {
     fs::create_directory(folder / "out");
     add({"half", "out/a.png"});
@@ -321,7 +321,7 @@ TEST_F(BatchRun, aJobThatDiesWhileItWritesLeavesNoPart)
     EXPECT_TRUE(fs::is_empty(folder / "out"));
 }
 
-// Of this program, so that it can be killed.
+// Forks a copy of this process that can be killed.
 pid_t runInAnotherProcess(const std::function<void()>& work)
 {
     const pid_t child = ::fork();
@@ -332,7 +332,7 @@ pid_t runInAnotherProcess(const std::function<void()>& work)
     return child;
 }
 
-TEST_F(BatchRun, killedAtAnyMomentTheNextOneGoesOnAndNothingIsLost)
+TEST_F(BatchRun, aRunKilledAtAnyMomentIsContinuedWithoutLoss)
 {
     write("a", "a");
     for (int i = 0; i < 40; ++i)
@@ -367,7 +367,7 @@ TEST_F(BatchRun, killedAtAnyMomentTheNextOneGoesOnAndNothingIsLost)
         EXPECT_FALSE(fs::exists(entry.path() / "lock")) << "left of a run that was killed";
 }
 
-TEST_F(BatchRun, runsSideBySideOnOneStoreShareTheJobs)
+TEST_F(BatchRun, concurrentRunsOnOneStoreShareTheJobs)
 {
     write("a", "a");
     for (int i = 0; i < 60; ++i)
@@ -387,15 +387,15 @@ TEST_F(BatchRun, runsSideBySideOnOneStoreShareTheJobs)
     EXPECT_GT(std::ranges::count_if(results, &JobResult::kept), 0) << "the other one did nothing";
 }
 
-TEST_F(BatchRun, anInputThatChangesWhileTheJobRunsBelongsToTheNextRun)
+TEST_F(BatchRun, anInputThatChangesDuringTheJobInvalidatesItsResult)
 {
     write("a", "x");
-    add({"copy", "a", "b", "a"}); // it logs into what it reads
-    for (int i = 0; i < 30; ++i)  // also where it does so within one step of the file system's clock
+    add({"copy", "a", "b", "a"}); // it writes its log into its own input
+    for (int i = 0; i < 30; ++i)  // even within one step of the file system's clock
         EXPECT_FALSE(run()[0].kept) << i;
 }
 
-TEST(BatchReport, worstFirstAndNothingInAJobEndsThePageEarly)
+TEST(BatchReport, sortsTheWorstFirstAndEscapesTextOfJobs)
 {
     JobList list{"/jobs", {}};
     std::vector<JobResult> results;
@@ -407,7 +407,7 @@ TEST(BatchReport, worstFirstAndNothingInAJobEndsThePageEarly)
         JobResult result{list.jobs.size() - 1, {}, false};
         result.record.state = state;
         result.record.reason = "<img src=x onerror=alert(2)>";
-        result.record.said = "<!--<script>";
+        result.record.output = "<!--<script>";
         if (degrees >= 0)
             result.record.degrees = Degrees{degrees, "<i>"};
         result.record.outputs = {{"/out/\"><script>%20 ü", "00"}};
@@ -427,7 +427,7 @@ TEST(BatchReport, worstFirstAndNothingInAJobEndsThePageEarly)
             ++n;
         return n;
     };
-    // The heads of the columns, from left to right.
+    // The column headings, from left to right.
     std::size_t at = page.find("class=\"row head\"");
     for (const char* const head : {">Job<", ">State<", ">Degrees<", ">Seconds<", ">MiB<", "id=\"list\""}) {
         ASSERT_NE(at = page.find(head, at), std::string::npos) << head;
@@ -445,7 +445,7 @@ TEST(BatchReport, worstFirstAndNothingInAJobEndsThePageEarly)
     EXPECT_EQ(summaryOf(results), "6 jobs: 3 done, 1 over limit, 1 too slow, 1 crashed");
 }
 
-TEST(BatchDegrees, areTheWorstMapWithTheBestFrameAndWhatWasMeasuredByPictures)
+TEST(BatchDegrees, areOfTheWorstMapOrMeasuredInRenders)
 {
     const auto lint = degreesIn(R"({"command": "lint", "fits": [
         {"orthonormal": {"mean": 4}, "cotangent": {"mean": 3}, "smooth": {"mean": 2}},

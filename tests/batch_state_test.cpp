@@ -1,4 +1,4 @@
-// What a batch keeps and how it knows a file again: states of files, records, stores, and what is gathered from them.
+// What a batch stores and how it recognises files: states of files, records, stores, and the results collected.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -19,11 +19,11 @@ using namespace test;
 namespace fs = std::filesystem;
 using Numbers = std::vector<std::size_t>;
 
-TEST(BatchFileStates, areSizeTimesAndNumberOfTheFile)
+TEST(BatchFileStates, holdTheSizeTimesAndInodeOfTheFile)
 {
     const TemporaryFolder folder;
     std::ofstream(folder / "a") << "seven b";
-    const timespec times[] = {{11, 22}, {5, 7}}; // read, written
+    const timespec times[] = {{11, 22}, {5, 7}}; // access, modification
     ASSERT_EQ(::utimensat(AT_FDCWD, (folder / "a").c_str(), times, 0), 0);
     struct stat status {};
     ASSERT_EQ(::stat((folder / "a").c_str(), &status), 0);
@@ -50,8 +50,8 @@ TEST(BatchFileStates, areSizeTimesAndNumberOfTheFile)
         EXPECT_LT(std::abs(clock - now), 1'000'000'000);
 }
 
-// Two seconds after a change the times are enough: the file is not read. A wrong digest shows whether it was.
-TEST(BatchFileStates, areBelievedTwoSecondsAfterTheLastChangeAndNotWhereOneIsAnother)
+// From two seconds after a change on, the times suffice and the file is not read. A wrong digest shows whether it was.
+TEST(BatchFileStates, areTrustedFromTwoSecondsAfterTheLastChange)
 {
     const TemporaryFolder folder;
     std::ofstream(folder / "a") << "seven b";
@@ -74,7 +74,7 @@ TEST(BatchFileStates, areBelievedTwoSecondsAfterTheLastChangeAndNotWhereOneIsAno
     }
 }
 
-// Every field with a value of its own, as it is in a store.
+// Every field has a distinct value, as in a store.
 TEST(BatchRecord, hasEachFieldUnderItsName)
 {
     const auto r = parseRecord(R"({"format": 2, "version": "3", "words": ["x"], "state": "too slow", "code": 4,
@@ -88,7 +88,7 @@ TEST(BatchRecord, hasEachFieldUnderItsName)
     EXPECT_EQ(r->signal, 9);
     EXPECT_EQ(r->runs, 3);
     EXPECT_EQ(r->reason, "why");
-    EXPECT_EQ(r->said, "what");
+    EXPECT_EQ(r->output, "what");
     EXPECT_EQ(r->seconds, 1.5);
     EXPECT_EQ(r->processorSeconds, 2.5);
     EXPECT_EQ(r->megabytes, 3.5);
@@ -126,7 +126,7 @@ TEST(BatchRecord, hasEachFieldUnderItsName)
     }
 }
 
-TEST(BatchStoreFiles, areNamedByVersionAndWords)
+TEST(BatchStoreFiles, areNamedByVersionAndArguments)
 {
     const TemporaryFolder folder;
     fs::path work;
@@ -157,7 +157,7 @@ TEST(BatchStoreFiles, areNamedByVersionAndWords)
     }
 }
 
-TEST(BatchCollect, takesTheNewestRecordThatStillHolds)
+TEST(BatchCollect, takesTheNewestValidRecord)
 {
     const TemporaryFolder folder;
     std::ofstream(folder / "in") << "x";
@@ -191,7 +191,7 @@ TEST(BatchCollect, takesTheNewestRecordThatStillHolds)
     record.inputs = {states.of("in")};
     keep(0, "both", 10, "the old one");
     keep(1, "both", 20, "the new one");
-    record.inputs[0].digest = "00"; // another contents
+    record.inputs[0].digest = "00"; // different contents
     record.inputs[0].bytes = 9;
     keep(2, "both", 30, "of other inputs");
     std::swap(record.inputs, record.outputs);
@@ -206,7 +206,7 @@ TEST(BatchCollect, takesTheNewestRecordThatStillHolds)
             {JobState::done, "the new one"},
             {JobState::failed, "it is broken"},
             {JobState::skipped, "waits for 'broken', which is not done"},
-            {JobState::notRun, "no store has a result of it with these inputs"}};
+            {JobState::notRun, "no store has a result for these inputs"}};
         for (std::size_t i = 0; i < 4; ++i) {
             EXPECT_EQ(results[i].job, i);
             EXPECT_EQ(results[i].record.state, expected[i].first) << i;
@@ -229,12 +229,12 @@ JobList jobsWith(const std::vector<std::pair<std::vector<std::string>, std::vect
     return list;
 }
 
-TEST(BatchPlan, aNeedIsThereOnceAndAJobMayReadWhatIsInItsOwnFolder)
+TEST(BatchPlan, dependenciesAreUniqueAndAJobMayReadItsOutputFolder)
 {
     const auto plan =
         planJobs(jobsWith({{{}, {"folder", "b", "b"}},
                            {{"folder/x", "b", "folder/y"}, {"c"}},
-                           {{"out/deep/x"}, {"out"}}, // the folder is its own, the file in it may be older
+                           {{"out/deep/x"}, {"out"}}, // a job may read its own output folder; files in it may be older
                            {{"folders"}, {"d"}}}));
     ASSERT_TRUE(plan) << plan.error().message;
     EXPECT_EQ(plan->needs, (std::vector<Numbers>{{}, {0}, {}, {}}));
@@ -243,13 +243,13 @@ TEST(BatchPlan, aNeedIsThereOnceAndAJobMayReadWhatIsInItsOwnFolder)
     ASSERT_FALSE(own);
     EXPECT_EQ(own.error().kind, ErrorKind::input);
     EXPECT_EQ(own.error().message,
-              "line 11: writes b, which it reads: a second run would begin from what the first one "
-              "left; expected another name");
+              "line 11: writes b, which it also reads: a second run would start from the first one's "
+              "result; expected another name");
     const auto circle = planJobs(jobsWith({{{}, {"z"}}, {{"a"}, {"b"}}, {{"b"}, {"a"}}}));
     ASSERT_FALSE(circle);
     EXPECT_EQ(circle.error().message,
               "line 11 waits for line 12 waits for line 11: each reads what the next one writes");
-    // What hangs together by a third job has the number of its first.
+    // Jobs connected by a third job have the number of the first of them.
     const auto joined = planJobs(jobsWith({{{}, {"a"}}, {{}, {"b"}}, {{}, {"c"}}, {{"c", "a"}, {"d"}}, {{}, {"e"}}}));
     ASSERT_TRUE(joined);
     EXPECT_EQ(joined->group, (Numbers{0, 1, 0, 0, 2}));

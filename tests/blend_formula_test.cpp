@@ -1,4 +1,4 @@
-// shaders/cotan/blend.h and gradient.h against numbers worked out by hand: no symmetric cases.
+// shaders/cotan/blend.h and gradient.h compared with asymmetric cases that were worked out by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ TEST(BlendFormula, whiteoutAddsTiltsAndMultipliesHeights)
 TEST(BlendFormula, udnKeepsTheHeightOfTheBase)
 {
     expectDirection(cotan_blend_udn(kBase, kDetail), {0.12, 1.08, 0.64});
-    expectDirection(cotan_blend_udn(kDetail, kBase), {0.12, 1.08, 0.8}); // and not that of the detail
+    expectDirection(cotan_blend_udn(kDetail, kBase), {0.12, 1.08, 0.8}); // and not the height of the detail
 }
 
 TEST(BlendFormula, linearIsTheSum) { expectDirection(cotan_blend_linear(kBase, kDetail), {0.12, 1.08, 1.44}); }
@@ -43,21 +43,21 @@ TEST(BlendFormula, slopesAddWithTheirOwnWeights)
     expectDirection(cotan_blend_slopes(kBase, kDetail, 0.5, 2), {-0.525, 1.66875, 1});
 }
 
-TEST(BlendFormula, reorientedTurnsTheDetailAsTheBaseIsTurnedFromFlat)
+TEST(BlendFormula, reorientedRotatesTheDetailLikeTheBaseFromFlat)
 {
-    // The turn from z to the base, by Rodrigues' formula: axis z x base, cosine base.z.
+    // The rotation from z to the base, by Rodrigues' formula: axis z x base, cosine base.z.
     const glm::dvec3 axis(-kBase.y, kBase.x, 0);
-    const glm::dvec3 turned =
+    const glm::dvec3 rotated =
         kDetail * kBase.z + glm::cross(axis, kDetail) + axis * (glm::dot(axis, kDetail) / (1 + kBase.z));
-    expectDirection(cotan_blend_reoriented(kBase, kDetail), turned);
+    expectDirection(cotan_blend_reoriented(kBase, kDetail), rotated);
     expectDirection(cotan_blend_reoriented({0, 0, 1}, kDetail), kDetail);
 }
 
-TEST(BlendFormula, reorientedHoldsABaseThatLooksStraightDown)
+TEST(BlendFormula, reorientedClampsABaseThatPointsStraightDown)
 {
     // t = (0, 0, 0.001), u = (0.36, -0.48, 0.8): t (t.u)/t.z - u = (-0.36, 0.48, -0.7992).
     expectDirection(cotan_blend_reoriented({0, 0, -1}, kDetail), {-0.36, 0.48, -0.7992});
-    // On the other side of the limit nothing is held: z = -0.6.
+    // Beyond the limit nothing is clamped: z = -0.6.
     const glm::dvec3 t(0.64, 0.48, 0.4), u(0.36, -0.48, 0.8);
     expectDirection(cotan_blend_reoriented({0.64, 0.48, -0.6}, kDetail), t * (glm::dot(t, u) / 0.4) - u);
 }
@@ -67,7 +67,7 @@ TEST(GradientFormula, slopesOfATexelAreMinusItsTiltOverItsHeight)
     const glm::dvec2 s = cotan_slope_of_texel(kBase);
     EXPECT_NEAR(s.x, -0.75, kDouble);
     EXPECT_NEAR(s.y, -0.9375, kDouble);
-    // Held at 128, by the longer component: under it nothing changes.
+    // The longer component is clamped to 128; smaller slopes are unchanged.
     EXPECT_NEAR(cotan_slope_of_texel({0.1, -1, 1.0 / 127}).y, 127, 1e-10);
     EXPECT_NEAR(cotan_slope_of_texel({0.1, -1, 1.0 / 129}).y, 128, 1e-10);
     EXPECT_NEAR(cotan_slope_of_texel({1, 0.1, 1.0 / 127}).x, -127, 1e-10);
@@ -88,7 +88,7 @@ TEST(GradientFormula, resolvingSubtracts)
     expectDirection(cotan_resolve_gradient({0, 0.6, 0.8}, {0.5, 0.25, -0.125}), {-0.5, 0.35, 0.925});
 }
 
-TEST(GradientFormula, aNormalBehindCountsWithTheSizeOfItsCosine)
+TEST(GradientFormula, aBackfacingNormalUsesTheAbsoluteCosine)
 {
     const glm::dvec3 front = cotan_gradient_of_normal({0, 0, 1}, {0.36, 0.48, 0.8});
     EXPECT_NEAR(front.x, -0.45, kDouble);
@@ -99,7 +99,7 @@ TEST(GradientFormula, aNormalBehindCountsWithTheSizeOfItsCosine)
     EXPECT_NEAR(cotan_gradient_of_normal({0, 0, 1}, {0, 1, 0}).y, -1e6, 1e-6);
 }
 
-TEST(GradientFormula, aVolumeLosesItsPartAlongTheNormal)
+TEST(GradientFormula, theGradientOfAVolumeIsProjectedOntoTheSurface)
 {
     const glm::dvec3 g = cotan_gradient_of_volume({0, 0.6, 0.8}, {1, 2, 3});
     EXPECT_NEAR(g.x, 1, kDouble);
@@ -107,7 +107,7 @@ TEST(GradientFormula, aVolumeLosesItsPartAlongTheNormal)
     EXPECT_NEAR(g.z, 3 - 0.8 * 3.6, kDouble);
 }
 
-TEST(GradientFormula, heightsOfAShearedFootprint)
+TEST(GradientFormula, heightGradientIsRightOnShearedFootprints)
 {
     // h = 0.3 x - 0.7 y on the plane z = 0; differences (2,1) and (-1,3): dh = -0.1 and -2.4.
     const glm::dvec3 g = cotan_gradient_of_height({0, 0, 1}, {2, 1, 0}, {-1, 3, 0}, -0.1, -2.4);
@@ -118,20 +118,20 @@ TEST(GradientFormula, heightsOfAShearedFootprint)
     EXPECT_NEAR(mirrored.y, -0.7, kDouble);
 }
 
-TEST(GradientFormula, triplanarWeightsAreCubesOfWhatExceedsAFifth)
+TEST(GradientFormula, triplanarWeightsAreCubesOfTheExcessOverAFifth)
 {
     const glm::dvec3 w = cotan_triplanar_weights({-0.6, 0.8, 0}); // 0.4^3 : 0.6^3 = 8 : 27
     EXPECT_NEAR(w.x, 8.0 / 35, kDouble);
     EXPECT_NEAR(w.y, 27.0 / 35, kDouble);
     EXPECT_EQ(w.z, 0);
-    EXPECT_EQ(cotan_triplanar_weights({0.19, 0.98, 0}).x, 0); // under a fifth
+    EXPECT_EQ(cotan_triplanar_weights({0.19, 0.98, 0}).x, 0); // below a fifth
     EXPECT_GT(cotan_triplanar_weights({0.21, 0.97, 0}).x, 0);
     EXPECT_NEAR(cotan_triplanar_weights({0, 0, 0}).y, 1.0 / 3, kDouble);
 }
 
-TEST(GradientFormula, triplanarSlopesGoWhereTheirCoordinatesPoint)
+TEST(GradientFormula, triplanarSlopesFollowTheirCoordinates)
 {
-    // Planes: x at (z,y), y at (x,z), z at (x,y). n = z: the third component drops out.
+    // Planes: x at (z,y), y at (x,z), z at (x,y). With n = z the third component drops out.
     const glm::dvec3 g = cotan_gradient_triplanar({0, 0, 1}, {0.5, 0.3, 0.2}, {1, 2}, {4, 8}, {16, 32});
     EXPECT_NEAR(g.x, 0.2 * 16 + 0.3 * 4, kDouble);
     EXPECT_NEAR(g.y, 0.2 * 32 + 0.5 * 2, kDouble);

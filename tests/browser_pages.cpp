@@ -1,4 +1,4 @@
-// Pages in headless Chromium, with SwiftShader as its device.
+// Loads pages in headless Chromium with SwiftShader as its GPU.
 #include "examples_browser.hpp"
 
 namespace cotan::test {
@@ -19,7 +19,7 @@ json showPages(const TemporaryFolder& folder, const std::vector<std::string>& pa
     put(harness, "PAGES", json(pages).dump());
     write(folder / "all.html", harness);
     const std::string f = folder.path().string();
-    // A canvas of WebGPU asks for textures that both processes share, and these for Vulkan.
+    // A WebGPU canvas needs textures that both processes share, which needs the Vulkan options.
     const std::string line = "timeout " + std::to_string(seconds)
         + " chromium --headless --no-sandbox --allow-file-access-from-files --user-data-dir='" + f
         + "/profile' --use-angle=swiftshader --enable-unsafe-swiftshader --enable-unsafe-webgpu "

@@ -1,4 +1,4 @@
-// The scene that is drawn where no model is given: what has to be in it, whatever it looks like.
+// The scene that is drawn if no model is given: what it must contain, whatever it looks like.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,7 +56,7 @@ TEST(BuiltinScene, isConsistent)
     }
 }
 
-TEST(BuiltinScene, nothingIsBelowTheGroundAndItIsTouched)
+TEST(BuiltinScene, itsLowestPointIsOnTheGround)
 {
     const Scene scene = builtinScene();
     for (const Instance& instance : scene.instances)
@@ -65,7 +65,7 @@ TEST(BuiltinScene, nothingIsBelowTheGroundAndItIsTouched)
     EXPECT_NEAR(bounds(scene).low.y, 0, 1e-6);
 }
 
-// How one unit of u and of v lies in space, over a triangle.
+// The changes of position per unit of u and of v on a triangle.
 std::pair<glm::vec3, glm::vec3> texelAxes(const Mesh& mesh, const Corners& c)
 {
     const glm::vec3 p = mesh.positions[c[1]] - mesh.positions[c[0]], q = mesh.positions[c[2]] - mesh.positions[c[0]];
@@ -75,7 +75,7 @@ std::pair<glm::vec3, glm::vec3> texelAxes(const Mesh& mesh, const Corners& c)
     return {(p * b.y - q * a.y) / area, (q * a.x - p * b.x) / area};
 }
 
-TEST(BuiltinScene, hasStretchedShearedAndSquashedTexcoords)
+TEST(BuiltinScene, hasStretchedShearedAndCompressedTexcoords)
 {
     const Scene scene = builtinScene();
     float body = 0, tip = 1e9f; // square roots of the area of a unit square of uv

@@ -1,7 +1,6 @@
-"""The C API through Python's ctypes: what it exports, what it computes, how it refuses.
+"""The C API through Python's ctypes: what it exports, what it computes and what it refuses.
 
-    c_api_test.py LIBRARY COTAN_MAP
-"""
+    c_api_test.py LIBRARY COTAN_MAP"""
 import ctypes as c
 import json
 import math
@@ -51,14 +50,14 @@ class MapInfo(Struct):
         (n, c.c_double) for n in ("background", "invalid", "below_horizon", "mean_length", "mean_tilt")] + [("mean", c.c_double * 3)]
 
 
-# As it was in version 2: what came later is 0 then.
+# The struct of version 2: later members are then 0.
 class BakeOptions(Struct):
     _fields_ = [("size", sizes_t)] + [(n, text) for n in ("frame", "kind", "convention")] + [
         (n, c.c_int) for n in ("samples", "padding", "dither", "occlusion_rays")] + [
         ("max_distance", c.c_float), ("threads", c.c_int), ("progress", Progress), ("user", c.c_void_p)]
 
 
-# As it was in version 3: a shorter one is filled as far as it goes.
+# The struct of version 3: a shorter one is filled up to its size.
 class BakeResult(Struct):
     _fields_ = [(n, sizes_t) for n in ("size", "texels", "covered", "missed", "negative", "twice", "rays")] + [("ray_distance", c.c_double)]
 
@@ -102,7 +101,7 @@ class Green(c.Structure):
 def call(name, *arguments, expect=0):
     message = c.create_string_buffer(256)
     status = getattr(cotan, name)(*arguments, message, c.c_size_t(256))
-    if expect in ("built", "file") and status == 3:  # where a part is left out
+    if expect in ("built", "file") and status == 3:  # if a part is not built
         assert message.value.startswith(b"not built with "), message.value
         return None
     assert status == {"built": 0, "file": 1}.get(expect, expect), (name, status, message.value)
@@ -110,7 +109,7 @@ def call(name, *arguments, expect=0):
     return message.value.decode()
 
 
-# What is exported is what is written down, no more and no less.
+# The exported symbols are exactly those of the version script.
 listed = set(re.findall(r"^    (cotan_\w+);", open(version_script).read(), re.M))
 lines = subprocess.check_output(["nm", "-D", "--defined-only", library], text=True).splitlines()
 exported = {line.split()[-1].split("@")[0] for line in lines} - {"COTAN_1", "COTAN_2", "COTAN_3", "COTAN_5", "COTAN_6"}
@@ -119,7 +118,7 @@ assert cotan.cotan_api_version() == 6 and re.fullmatch(rb"\d+\.\d+\.\d+", cotan.
 frames = [cotan.cotan_frame_name(i).decode() for i in range(cotan.cotan_frame_count())]
 assert "cotangent" in frames and "mikktspace" in frames and cotan.cotan_frame_name(99) is None
 
-# A plane whose u runs along -x and v along y: the texel's x goes to -x, its y to +y, whatever the frame.
+# A plane with u along -x and v along y: the texel's x goes to -x and its y to +y in every frame.
 normals, dpdx, dpdy, duvdx, duvdy = (array(v) for v in ([0, 0, 1], [2, 0, 0], [0, 2, 0], [-1, 0], [0, 1]))
 places = Places(1, normals, dpdx, dpdy, duvdx, duvdy)
 texel, out, back = array([0.6, 0.48, 0.64]), array([0] * 3), array([0] * 3)
@@ -133,7 +132,7 @@ call("cotan_frame_apply", b"cotangent", None, texel, out, expect=1)
 places.size = 8
 assert "places.size: expected" in call("cotan_frame_apply", b"cotangent", c.byref(places), texel, out, expect=1)
 
-# Tangents of that plane: -x, and glTF's w for v that runs along y: cross(n, t) = -y is up in the picture, where v falls.
+# Tangents of that plane: -x, and glTF's w for v along y: cross(n, t) = -y is up in the image, where v falls.
 indices = (c.c_uint32 * 3)(0, 1, 2)
 mesh = Mesh(3, array([0, 0, 0, 1, 0, 0, 0, 1, 0]), array([0, 0, 1] * 3), array([1, 0, 0, 0, 1, 1]), 3, indices)
 tangents = array([0] * 12)
@@ -143,7 +142,7 @@ for kind in (b"mikktspace", b"vertex"):
 indices[2] = 3
 assert "mesh.indices[2]: expected less than 3, found 3" in call("cotan_tangents", b"mikktspace", c.byref(mesh), 1, tangents, expect=2)
 
-# A relief of waves as a height, its normals, the green that they show, and the height again.
+# A relief of waves as heights, its normal map, the green convention detected in it, and the heights again.
 side = 64
 heights = [math.sin(2 * math.pi * x / side) * math.cos(4 * math.pi * y / side) for y in range(side) for x in range(side)]
 pixels = array([v for h in heights for v in (h, h, h, 1)])
@@ -159,7 +158,7 @@ call("cotan_map_green", c.byref(normal_map), c.byref(green))
 assert green.direction == -1, green.reason
 again = array([0] * (side * side))
 call("cotan_map_to_height", c.byref(normal_map), b"directx", again)
-# Central differences shrink a wave of 32 texels by sin(x)/x with x = 2 pi/32: 0.6 %; those of 64 less.
+# Central differences shrink a wave of 32 texels by sin(x)/x with x = 2 pi/32: 0.6 %, and one of 64 texels by less.
 assert max(abs(a - 2 * h) for a, h in zip(again, heights)) < 0.02 * 2, max(abs(a - 2 * h) for a, h in zip(again, heights))
 
 # Levels arrive largest first, and a caller may stop.
@@ -170,7 +169,7 @@ call("cotan_map_mips", c.byref(normal_map), b"directx", c.c_double(0.3),
 assert sizes == [(i, side >> i, side >> i) for i in range(7)], sizes
 call("cotan_map_mips", c.byref(normal_map), b"directx", c.c_double(0.3), Take(lambda *a: 1), None, expect=6)
 
-# A flat detail changes nothing; the base is unit up to its 8 bits.
+# A flat detail changes nothing; the base has unit length up to its 8 bits.
 flat = (c.c_uint8 * 4)(128, 128, 255, 255)
 small = (c.c_uint8 * 16)(*([100, 150, 250, 255] * 4))
 result = (c.c_uint8 * 16)()
@@ -185,7 +184,7 @@ assert "signed values need" in call("cotan_map_mips", c.byref(base), b"gltf,sign
 target.width = 3
 assert "expected 2 x 2 pixels" in call("cotan_map_convert", c.byref(base), b"gltf", b"gltf", c.byref(target), expect=1)
 
-# What the numbers of a map say, and those of a picture that is none.
+# Statistics of a normal map, and of an image that is none.
 info = MapInfo()
 call("cotan_map_describe", c.byref(normal_map), c.byref(info))
 assert info.content == b"tangent space" and abs(info.mean_length - 1) < 1e-3 and 10 < info.mean_tilt < 60, info.content
@@ -193,7 +192,7 @@ grey = (c.c_uint8 * 64)(*(v for i in range(16) for v in (i * 16, i * 16, i * 16,
 call("cotan_map_describe", c.byref(Picture(4, 4, 8, c.cast(grey, c.c_void_p))), c.byref(info))
 assert info.content.startswith(b"grey"), info.content
 
-# Frames from what is made at the vertices: the plane's tangents and cotangents give what its differences gave.
+# Frames from vertex attributes: the plane's tangents and cotangents give the same as its differences.
 u, v = array([0] * 9), array([0] * 9)
 indices[2] = 2
 call("cotan_smooth_cotangents", c.byref(mesh), u, v)
@@ -205,7 +204,7 @@ for frame, vertex in ((b"mikktspace", VertexPlaces(1, normals, tangents, None, N
     assert max(abs(a - b) for a, b in zip(back, texel)) < 1e-5, (frame, list(back))
 call("cotan_vertex_frame_apply", b"smooth", c.byref(VertexPlaces(1, normals, tangents, None, None)), texel, out, expect=1)
 
-# The plane in other forms. Split: three corners of one value share no vertex. U and V: t = cross(n, u) runs along +u, -x.
+# The plane in other forms. Split: three equal corners share no vertex. U and V: t = cross(n, u) is along +u, -x.
 split, sources, count = (c.c_uint32 * 3)(), (c.c_uint32 * 6)(), c.c_size_t()
 call("cotan_split_vertices", c.c_size_t(3), c.c_size_t(3), indices, tangents, split, sources, c.byref(count))
 assert (list(split), list(sources[:3]), count.value) == ([0, 1, 2], [0, 1, 2], 3)
@@ -234,7 +233,7 @@ for last, provokes in ((0, 0), (1, 2)):
     assert split[provokes] == 0 and count.value == 3 and sources[0] == turned[0], list(split)
 assert "indices[2]: expected less than 2, found 2" in call("cotan_provoking", c.c_size_t(2), c.c_size_t(3), indices, c.c_int(0), split, sources, c.byref(count), turned, expect=2)
 
-# A plane that rises by 0.1 towards +x, baked onto the unit square whose u runs along x and v against y.
+# A plane that rises by 0.1 towards +x, baked onto the unit square with u along x and v against y.
 corners = [0, 0, 1, 0, 1, 1, 0, 1]
 xy = list(zip(corners[::2], corners[1::2]))
 six = (c.c_uint32 * 6)(0, 1, 2, 0, 2, 3)
@@ -248,7 +247,7 @@ for field, width in (("positions", 3), ("normals", 3), ("texcoords", 2)):
         words = ([b"mikktspace"] if function == "cotan_tangents" else []) + [c.byref(low)] + outputs
         assert f"mesh.{field}[1]: expected finite numbers, found nan" in call(function, *words, expect=2)
     numbers[width + 1] = kept
-# The same tangents with progress, which stops them and then has written nothing.
+# The same tangents with progress; stopping it leaves the outputs unwritten.
 for function, words, outputs in (("tangents", [b"mikktspace"], 24), ("tangents", [b"vertex"], 24), ("smooth_cotangents", [], 12)):
     plain, told = ([array([0] * outputs) for _ in range(1 if words else 2)] for _ in range(2))
     call("cotan_" + function, *words, c.byref(low), *([c.c_int(1)] if words else []), *plain)
@@ -272,14 +271,14 @@ if call("cotan_bake", c.byref(low), c.byref(high), c.byref(options), c.byref(bak
     options.progress = Progress(lambda user, done: 1)
     assert call("cotan_bake", c.byref(low), c.byref(high), c.byref(options), c.byref(baked_map), None, expect=6) == "stopped by the caller"
     options.progress = Progress()
-    # Pictures have v downwards: green points where the name of a convention says, up here. This one rises towards +y.
+    # Images have v downwards: green points as the convention's name says, here up. This plane rises towards +y.
     leaning = Mesh(4, array([w for x, y in xy for w in (3 * x - 1, 3 * y - 1, 0.3 * y - 0.15)]), array([0, -0.1 / slope, 1 / slope] * 4), None, 6, six)
     for convention, green in ((b"opengl", 128 - 127 * 0.1 / slope), (b"gltf", 128 - 127 * 0.1 / slope), (b"directx", 128 + 127 * 0.1 / slope)):
         options.convention = convention
         call("cotan_bake", c.byref(low), c.byref(leaning), c.byref(options), c.byref(baked_map), None)
         assert abs(pixels8[1] - green) <= 1, (convention, pixels8[1], green)
     options.convention = None
-    # The same from models; normals that are left out are made.
+    # The same from models; missing normals are generated.
     pixels = bytes(pixels8)
     models = []
     for given, name in ((low, b"a_low"), (Mesh(4, leaning.positions, None, None, 6, six), b"a_high")):
@@ -306,8 +305,8 @@ if call("cotan_bake", c.byref(low), c.byref(high), c.byref(options), c.byref(bak
     assert "low.indices[5]: expected less than 4" in call("cotan_bake", c.byref(low), c.byref(high), None, c.byref(baked_map), None, expect=2)
     six[5] = 3
 
-# A model in memory, its files and pictures too: a rectangle of 2 x 1 under a square of uv, all of its map one texel of
-# MikkTSpace. Frames from differences see u half as steep as v. The pictures are PNG to nobody but us.
+# A model in memory, with its files and images: a rectangle of 2 x 1 whose uv fill the unit square, all texels equal,
+# for MikkTSpace. Frames from differences see u half as steep as v. Only this test decodes its images.
 PNG, side = b"\x89PNG\r\n\x1a\n" + bytes(40), 8
 first = (0.3, 0.2, math.sqrt(1 - 0.3 ** 2 - 0.2 ** 2))
 floats_of = [w for x, y in xy for w in (2 * x, y, 0)] + [0, 0, 1] * 4 + [1, 0, 0, 1] * 4 + [w for x, y in xy for w in (x, 1 - y)]
@@ -373,13 +372,13 @@ def lint_of(data):
 if lint_of(model) is not None:
     assert asked == [b"plane.bin", b"the map.png"] and not kept
     stored = tuple(round(127 * w) for w in first)
-    # 8 bits hold the texel, a float the rest.
+    # 8 bits for the texel, floats for all else.
     assert abs(lint.cotangent_degrees - degrees(stored, (stored[0] / 2, stored[1], stored[2]))) < 0.01, lint.cotangent_degrees
     assert lint.primitives == lint.maps == 1 and abs(lint.orthonormal_degrees) < 0.01 and lint.distrust_stored == 0
     said = json.loads(take(report))
     assert said["recommendation"] == lint.recommendation.decode() and said["primitives"][0]["triangles"] == 2
 
-    # A check: options of the length of version 4.
+    # A check: options with the size of version 4.
     class CheckOptions(Struct):
         _fields_ = LintOptions._fields_ + [("limit", c.c_double), ("limit_area", c.c_double), ("frame", text)]
 
@@ -398,15 +397,15 @@ if lint_of(model) is not None:
     assert not glb and not encoded
     call("cotan_convert_gltf", *arguments, None, c.byref(convert), c.byref(glb), c.byref(how))
     assert convert.maps_converted == 1 and convert.maps_kept == 0 and convert.tangent_bytes_dropped == 64 and len(encoded) == 1
-    # Half as steep along u: the texel is twice as steep there. Half a code is 0.3 degrees.
+    # Half as steep along u: the texel must be twice as steep there. Half a code is 0.3 degrees.
     assert degrees([w - 128 for w in encoded[0][:3]], (2 * stored[0], stored[1], stored[2])) < 0.5, list(encoded[0])
     assert convert.worst_degrees_after < 0.5 < convert.worst_degrees_before
     assert json.loads(take(how))["maps"][0]["size"] == [side, side]
     asked.clear()
     whole = take(glb)
-    assert whole[:4] == b"glTF" and lint_of(whole) is not None and not asked  # all is inside
+    assert whole[:4] == b"glTF" and lint_of(whole) is not None and not asked  # everything is embedded
     take(report)
-    # In two steps the same, but for where the picture lies in the file.
+    # Two steps give the same, except for the image's position in the file.
     conversion, picture, number = c.c_void_p(), Picture(), len(encoded)
     names = []
     Take = c.CFUNCTYPE(c.c_int, c.c_void_p, text, c.c_void_p, c.c_size_t)
@@ -427,13 +426,13 @@ if lint_of(model) is not None:
     steps = take(glb)
     assert PNG[:-1] + b"\x01" in steps and len(steps) == len(whole) and lint_of(steps) is not None
     take(report)
-    # Read as what it is for now, it is right: what the report measures is maps for MikkTSpace.
+    # Read as a map for its new frame it is right: the report assumes maps for MikkTSpace.
     back_again = ConvertOptions(b"cotangent", b"mikktspace", 0, 0, 0, 1, Progress(), None)
     call("cotan_convert_gltf", whole, c.c_size_t(len(whole)), c.byref(files), c.byref(back_again), c.byref(convert), c.byref(glb), None)
     assert degrees([w - 128 for w in encoded[1][:3]], stored) < 0.5 and convert.primitives_given == 1
     cotan.cotan_bytes_free(glb)
 
-    # Without a map nothing is judged, which is not 0 degrees.
+    # Without a map nothing is judged, which is not the same as 0 degrees.
     plain = json.loads(model)
     del plain["materials"][0]["normalTexture"]
     plain = json.dumps(plain).encode()
@@ -442,7 +441,7 @@ if lint_of(model) is not None:
     assert convert.worst_degrees_before == convert.worst_degrees_after == -1
     cotan.cotan_bytes_free(glb)
 
-    # One line for whatever is wrong.
+    # One line for every error.
     del beside[b"the map.png"]
     assert "the map.png" in call("cotan_lint_gltf", *arguments, None, None, None, expect=2)
     files.read = Read()
@@ -454,7 +453,7 @@ if lint_of(model) is not None:
     files.decode = Decode(lambda *a: 7)
     assert "the caller did not decode" in call("cotan_lint_gltf", whole, c.c_size_t(len(whole)), c.byref(files), None, None, None, expect=2)
 
-# Files, where they are built in.
+# Files, if they are built in.
 made = c.c_void_p()
 if call("cotan_render", None, c.c_size_t(0), None, None, None, None, expect="file") is not None:
     class RenderOptions(Struct):
@@ -474,7 +473,7 @@ if call("cotan_render", None, c.c_size_t(0), None, None, None, None, expect="fil
     assert "no such file" in call("cotan_model_open", b"/nowhere/a.glb", c.c_int(1), c.c_int(0), c.byref(made), expect=2)
     assert "no such file" in call("cotan_image_read", b"/nowhere/a.png", c.c_int(0), c.byref(made), expect=2)
 
-# Shader text by its size, then into a buffer; from many threads at once the same.
+# Shader text: its size first, then into a buffer; the same from many threads at once.
 size = c.c_size_t(0)
 call("cotan_shader_text", b"wgsl", b"cotangent", b"gltf", None, c.byref(size))
 texts = []
@@ -492,7 +491,7 @@ for thread in threads:
 for thread in threads:
     thread.join()
 assert len(texts) == 8 and len(set(texts)) == 1 and len(texts[0]) == size.value - 1 and b"fn " in texts[0]
-# A stage behind the frame's name.
+# A stage after the frame's name.
 call("cotan_shader_text", b"wgsl", b"triangle", b"gltf", None, c.byref(size))
 whole = size.value
 call("cotan_shader_text", b"wgsl", b"triangle,fragment", b"gltf", None, c.byref(size))

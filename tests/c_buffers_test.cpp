@@ -1,5 +1,5 @@
-// Every buffer that a function of cotan.h fills: as long as cotan.h says and not an element longer, and every number in
-// it. Data have no symmetry: widths are not heights, x is not y, the first place is not the last.
+// Every buffer that a function of cotan.h fills: its length is as documented there, nothing beyond it is written, and
+// every number in it is right. The data are asymmetric: width and height, x and y, first and last element all differ.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 char message[512];
 
-// `count` elements between two rows of others that a call must leave alone.
+// `count` elements between guard elements that a call must not change.
 template<class T> class Guarded {
 public:
     explicit Guarded(std::size_t count) : all_(count + 2 * kAround, T(77)) {}
@@ -32,7 +32,7 @@ public:
     }
     T* data() { return all_.data() + kAround; }
     T operator[](std::size_t i) const { return all_[kAround + i]; }
-    // Nothing of it was written.
+    // Whether no element was written.
     bool untouched() const
     {
         for (const T& x : all_)
@@ -51,7 +51,7 @@ template<class T> cotan_picture pictureOf(T* pixels, int width, int height)
     return {sizeof(cotan_picture), width, height, int(8 * sizeof(T)), pixels};
 }
 
-// A picture of one colour, floats.
+// A float image of one colour.
 std::vector<float> filled(int width, int height, std::array<float, 3> c)
 {
     std::vector<float> pixels;
@@ -60,7 +60,7 @@ std::vector<float> filled(int width, int height, std::array<float, 3> c)
     return pixels;
 }
 
-// The number that a map of floats stores for one from -1 to 1.
+// The number that a float map stores for a component from -1 to 1.
 float stored(double x) { return float(0.5 * x + 0.5); }
 
 void expectPixel(const float* pixel, double x, double y, double z, double tolerance)
@@ -72,7 +72,7 @@ void expectPixel(const float* pixel, double x, double y, double z, double tolera
 
 constexpr double kRounding = 1e-6; // of floats
 
-// Two triangles that share an edge, without symmetry: u runs along 2 x, v along -3 y. Vertex 4 belongs to none.
+// Two triangles that share an edge, without symmetry: u grows along 2 x, v along -3 y. No triangle uses vertex 4.
 struct TwoTriangles {
     std::vector<float> positions{0, 0, 0, 2, 0, 0, 2, 3, 0, 0, 3, 0, 9, 9, 9};
     std::vector<float> normals{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
@@ -86,7 +86,7 @@ struct TwoTriangles {
 
 } // namespace
 
-TEST(CBuffers, tangentsAreFourFloatsAnIndex)
+TEST(CBuffers, tangentsHaveFourFloatsPerIndex)
 {
     const TwoTriangles two;
     const cotan_mesh mesh = two.mesh();
@@ -105,14 +105,14 @@ TEST(CBuffers, tangentsAreFourFloatsAnIndex)
     EXPECT_TRUE(tangents.untouched());
 }
 
-TEST(CBuffers, aMeshOfAnIndexTooHighOrHalfATriangleIsRefused)
+TEST(CBuffers, outOfRangeIndicesAndIncompleteTrianglesAreRefused)
 {
     TwoTriangles two;
     Guarded<float> out(4 * 6);
     cotan_mesh mesh = two.mesh();
     mesh.index_count = 5;
     EXPECT_EQ(cotan_tangents("mikktspace", &mesh, 1, out.data(), message, sizeof message), COTAN_USAGE) << message;
-    two.indices[5] = 5; // as many as there are vertices
+    two.indices[5] = 5; // equal to the number of vertices
     mesh = two.mesh();
     EXPECT_EQ(cotan_tangents("mikktspace", &mesh, 1, out.data(), message, sizeof message), COTAN_INPUT) << message;
     EXPECT_NE(std::strstr(message, "indices[5]"), nullptr) << message;
@@ -124,13 +124,13 @@ TEST(CBuffers, aMeshOfAnIndexTooHighOrHalfATriangleIsRefused)
     EXPECT_TRUE(out.untouched());
 }
 
-TEST(CBuffers, cotangentsAreThreeFloatsAVertex)
+TEST(CBuffers, cotangentsHaveThreeFloatsPerVertex)
 {
     const TwoTriangles two;
     const cotan_mesh mesh = two.mesh();
     Guarded<float> u(3 * 5), v(3 * 5);
     ASSERT_EQ(cotan_smooth_cotangents(&mesh, u.data(), v.data(), message, sizeof message), COTAN_OK) << message;
-    for (std::size_t i = 0; i < 4; ++i) { // u rises by 1 over 2 units, v falls by 1 over 3: |u| / |v| is 3 / 2
+    for (std::size_t i = 0; i < 4; ++i) { // u grows by 1 over 2 units, v falls by 1 over 3: |u| / |v| is 3 / 2
         EXPECT_GT(u[3 * i], 0);
         EXPECT_GT(-v[3 * i + 1], 0);
         EXPECT_NEAR(u[3 * i] / -v[3 * i + 1], 1.5f, 1e-5);
@@ -139,13 +139,13 @@ TEST(CBuffers, cotangentsAreThreeFloatsAVertex)
     }
 }
 
-TEST(CBuffers, triangleVectorsAreOneFloatAnIndexAndPackIntoThreeWordsATriangle)
+TEST(CBuffers, triangleVectorsHaveOneFloatPerIndexAndPackIntoThreeWords)
 {
     const TwoTriangles two;
     const cotan_mesh mesh = two.mesh();
     Guarded<float> u(mesh.index_count), v(mesh.index_count);
     ASSERT_EQ(cotan_triangle_vectors(&mesh, 1, u.data(), v.data(), message, sizeof message), COTAN_OK) << message;
-    for (std::size_t t = 0; t < 2; ++t) { // cross(n, u) runs along u of the texture, cross(n, v) along its v
+    for (std::size_t t = 0; t < 2; ++t) { // cross(n, u) points along u of the texture, cross(n, v) along its v
         EXPECT_GT(-u[3 * t + 1], 0);
         EXPECT_NEAR(-u[3 * t + 1] / -v[3 * t], 1.5f, 1e-5);
         for (const float none : {u[3 * t], u[3 * t + 2], v[3 * t + 1], v[3 * t + 2]})
@@ -153,7 +153,7 @@ TEST(CBuffers, triangleVectorsAreOneFloatAnIndexAndPackIntoThreeWordsATriangle)
     }
     Guarded<std::uint32_t> words(3 * 2);
     ASSERT_EQ(cotan_pack_triangles(2, u.data(), v.data(), words.data(), message, sizeof message), COTAN_OK) << message;
-    const auto half = [&](std::size_t i) { // without the sign of a zero
+    const auto half = [&](std::size_t i) { // treats -0 as 0
         const std::uint32_t h = words[i / 2] >> (16 * (i % 2)) & 0xffff;
         return h == 0x8000 ? 0 : h;
     };
@@ -182,8 +182,8 @@ TEST(CBuffers, packedCotangentsAndTangentsHaveTheirSizes)
         EXPECT_NE(two[i], 77u);
 }
 
-// Corners of the shared edge differ in w: its two vertices are copied, the others not.
-TEST(CBuffers, splitVerticesFillsIndicesAndAsManySourcesAsItSays)
+// The corners at the shared edge differ in w: its two vertices are copied, the others are not.
+TEST(CBuffers, splitVerticesFillsIndicesAndTheReportedNumberOfSources)
 {
     const TwoTriangles two;
     std::vector<float> corners;
@@ -196,7 +196,7 @@ TEST(CBuffers, splitVerticesFillsIndicesAndAsManySourcesAsItSays)
               COTAN_OK);
     ASSERT_EQ(count, 7u);
     for (std::uint32_t i = 0; i < 5; ++i)
-        EXPECT_EQ(sources[i], i); // the old ones first
+        EXPECT_EQ(sources[i], i); // the original vertices come first
     std::array<int, 5> used{};
     for (std::size_t i = 0; i < 6; ++i) {
         ASSERT_LT(indices[i], count);
@@ -209,7 +209,7 @@ TEST(CBuffers, splitVerticesFillsIndicesAndAsManySourcesAsItSays)
     EXPECT_EQ(sources[7], 77u) << "beyond the count";
 }
 
-TEST(CBuffers, provokingNumbersTheTrianglesByTheirFirstOrLastCorner)
+TEST(CBuffers, provokingNumbersTrianglesByTheirFirstOrLastCorner)
 {
     const TwoTriangles two;
     for (const int last : {0, 1}) {
@@ -228,7 +228,7 @@ TEST(CBuffers, provokingNumbersTheTrianglesByTheirFirstOrLastCorner)
     }
 }
 
-TEST(CBuffers, framesFillThreeFloatsAPlaceAndNothingOfNone)
+TEST(CBuffers, framesFillThreeFloatsPerSample)
 {
     const std::vector<float> normals{0, 0, 1, 0, 1, 0}, dpdx{1, 0, 0, 1, 0, 0}, dpdy{0, 1, 0, 0, 0, -1};
     const std::vector<float> duvdx{1, 0, 1, 0}, duvdy{0, 1, 0, 1}, texels{0.6f, 0, 0.8f, 0, 0.6f, 0.8f};
@@ -269,7 +269,7 @@ TEST(CBuffers, namesOfFramesEndWithTheirCount)
     EXPECT_EQ(cotan_frame_name(-1), nullptr);
 }
 
-TEST(CBuffers, mapsAreConvertedWithinTheirBufferAndOnlyGreenTurnsForDirectX)
+TEST(CBuffers, mapsAreConvertedWithinTheirBufferAndDirectXFlipsOnlyGreen)
 {
     constexpr int kWidth = 5, kHeight = 3;
     const auto pixels = filled(kWidth, kHeight, {stored(0.6), stored(0.48), stored(0.64)});
@@ -283,14 +283,14 @@ TEST(CBuffers, mapsAreConvertedWithinTheirBufferAndOnlyGreenTurnsForDirectX)
     out = pictureOf(bytes.data(), kWidth, kHeight);
     ASSERT_EQ(cotan_map_convert(&map, "opengl", "opengl", &out, message, sizeof message), COTAN_OK) << message;
     for (std::size_t i = 0; i < std::size_t(kWidth * kHeight); ++i) {
-        EXPECT_NEAR(bytes[4 * i], 128 + 0.6 * 127, 1); // 0 is 128, 1 is 255
+        EXPECT_NEAR(bytes[4 * i], 128 + 0.6 * 127, 1); // zero is 128, one is 255
         EXPECT_NEAR(bytes[4 * i + 1], 128 + 0.48 * 127, 1);
         EXPECT_NEAR(bytes[4 * i + 2], 128 + 0.64 * 127, 1);
         EXPECT_EQ(bytes[4 * i + 3], 255);
     }
 }
 
-TEST(CBuffers, picturesOfAnotherSizeOrDepthAreRefusedOnBothSidesOfEachBound)
+TEST(CBuffers, imagesOfWrongSizeOrDepthAreRefused)
 {
     const auto pixels = filled(5, 3, {0.5f, 0.5f, 1});
     cotan_picture map = pictureOf(const_cast<float*>(pixels.data()), 5, 3);
@@ -321,9 +321,9 @@ TEST(CBuffers, picturesOfAnotherSizeOrDepthAreRefusedOnBothSidesOfEachBound)
     EXPECT_TRUE(floats.untouched());
 }
 
-// Domes in a row of four and a column of two. Round ones look the same with red and green exchanged, from their
+// Four domes in a row, two in a column. On round domes, exchanging red and green only mirrors the domes about their
 // diagonal.
-TEST(CBuffers, greenIsToldWithEveryNumberOfItsVerdict)
+TEST(CBuffers, greenDetectionFillsEveryNumber)
 {
     constexpr int kSide = 32;
     for (const int up : {1, -1}) {
@@ -341,16 +341,16 @@ TEST(CBuffers, greenIsToldWithEveryNumberOfItsVerdict)
         EXPECT_EQ(green.direction, up) << green.reason;
         EXPECT_EQ(green.swapped, -1);
         EXPECT_EQ(green.confidence, 2);
-        EXPECT_GT(green.agreement * up, 0.5); // of green with what belongs to red: with its sign
+        EXPECT_GT(green.agreement * up, 0.5); // correlation of green with what red implies: signed
         EXPECT_LE(std::abs(green.agreement), 1);
         EXPECT_GT(std::strlen(green.reason), 10u);
     }
 }
 
-TEST(CBuffers, aMapIsDescribedByAllItsNumbers)
+TEST(CBuffers, mapInfoFillsEveryNumber)
 {
     std::vector<float> pixels = filled(8, 5, {stored(0.6), stored(0.2), stored(std::sqrt(1 - 0.36 - 0.04))});
-    for (int i = 0; i < 8; ++i) // the last row looks down
+    for (int i = 0; i < 8; ++i) // the last row is below the horizon
         pixels[std::size_t(4 * (32 + i) + 2)] = stored(-std::sqrt(1 - 0.36 - 0.04));
     pixels[0] = std::numeric_limits<float>::quiet_NaN();
     cotan_picture map = pictureOf(pixels.data(), 8, 5);
@@ -358,7 +358,7 @@ TEST(CBuffers, aMapIsDescribedByAllItsNumbers)
     info.size = sizeof info;
     ASSERT_EQ(cotan_map_describe(&map, &info, message, sizeof message), COTAN_OK) << message;
     EXPECT_NEAR(info.invalid, 1.0 / 40, 1e-9);
-    EXPECT_NEAR(info.below_horizon, 8.0 / 39, 1.0 / 39 / 40 * 8); // of all texels, or of the valid ones
+    EXPECT_NEAR(info.below_horizon, 8.0 / 39, 1.0 / 39 / 40 * 8); // as a fraction of all texels or of the valid ones
     EXPECT_NEAR(info.mean_length, 1, 1e-5);
     EXPECT_NEAR(info.mean[0], 0.6, 1e-5);
     EXPECT_NEAR(info.mean[1], 0.2, 1e-5);
@@ -371,7 +371,7 @@ TEST(CBuffers, aMapIsDescribedByAllItsNumbers)
     EXPECT_GT(std::strlen(info.content), 3u);
 }
 
-// A ramp whose stored height rises by a tenth a texel along x and falls by a twentieth along y.
+// A ramp whose stored height rises by 0.1 per texel along x and falls by 0.05 along y.
 TEST(CBuffers, slopesOfHeightsHaveAFactorForEachAxis)
 {
     constexpr int kWidth = 7, kHeight = 6;
@@ -383,8 +383,8 @@ TEST(CBuffers, slopesOfHeightsHaveAFactorForEachAxis)
     Guarded<float> made(4 * kWidth * kHeight);
     cotan_picture map = pictureOf(made.data(), kWidth, kHeight);
     ASSERT_EQ(cotan_map_from_height(&height, 2, 3, "gltf", &map, message, sizeof message), COTAN_OK) << message;
-    const double sx = -2 * 0.1, sy = -3 * 0.05, length = std::sqrt(1 + sx * sx + sy * sy); // rises up the picture
-    for (int y = 1; y + 1 < kHeight; ++y) // heights repeat over the borders
+    const double sx = -2 * 0.1, sy = -3 * 0.05, length = std::sqrt(1 + sx * sx + sy * sy); // rises up the image
+    for (int y = 1; y + 1 < kHeight; ++y) // heights wrap around at the borders
         for (int x = 1; x + 1 < kWidth; ++x)
             expectPixel(made.data() + 4 * (y * kWidth + x), sx / length, sy / length, 1 / length, 1e-5);
     for (const double bad : {double(NAN), double(INFINITY)}) {
@@ -393,7 +393,7 @@ TEST(CBuffers, slopesOfHeightsHaveAFactorForEachAxis)
     }
 }
 
-TEST(CBuffers, heightsAreOneFloatATexelWithMeanZero)
+TEST(CBuffers, heightsHaveOneFloatPerTexelAndMeanZero)
 {
     constexpr int kWidth = 6, kHeight = 4;
     std::vector<float> pixels;
@@ -413,12 +413,12 @@ TEST(CBuffers, heightsAreOneFloatATexelWithMeanZero)
                 std::max(differing, std::abs(double(heights[std::size_t(y * kWidth + x)] - heights[std::size_t(x)])));
         }
     EXPECT_NEAR(sum, 0, 1e-5);
-    EXPECT_LT(differing, 1e-5);        // all rows alike
-    EXPECT_GT(heights[0], heights[3]); // normals lean to +x first, so it falls there
+    EXPECT_LT(differing, 1e-5);        // all rows are equal
+    EXPECT_GT(heights[0], heights[3]); // normals point to +x first, so the height falls there
 }
 
-// Slopes add up in the mode "slopes", those of the detail times its strength.
-TEST(CBuffers, detailIsLaidOverTheBaseWithItsStrength)
+// In the mode "slopes" the slopes add up, those of the detail multiplied by its strength.
+TEST(CBuffers, detailIsBlendedOverTheBaseWithItsStrength)
 {
     const auto leaning = [](double x, double y) {
         const double z = 1 / std::sqrt(1 + x * x + y * y);
@@ -442,7 +442,7 @@ TEST(CBuffers, detailIsLaidOverTheBaseWithItsStrength)
     EXPECT_TRUE(made.untouched());
 }
 
-TEST(CBuffers, levelsHalveEachSideAndAnotherAnswerThanZeroStops)
+TEST(CBuffers, levelsHalveEachSideAndANonzeroReturnStops)
 {
     auto pixels = filled(12, 5, {0.5f, 0.5f, 1});
     const cotan_picture map = pictureOf(pixels.data(), 12, 5);
@@ -469,7 +469,7 @@ TEST(CBuffers, levelsHalveEachSideAndAnotherAnswerThanZeroStops)
         EXPECT_EQ(cotan_map_mips(&map, "gltf", bad, take, &seen, message, sizeof message), COTAN_USAGE) << bad;
 }
 
-TEST(CBuffers, shaderTextFillsABufferOfItsSizeAndLeavesASmallerOneAlone)
+TEST(CBuffers, shaderTextFillsOnlyASufficientBuffer)
 {
     std::size_t size = 0;
     ASSERT_EQ(cotan_shader_text("glsl", "orthonormal", "gltf", nullptr, &size, message, sizeof message), COTAN_OK);
@@ -485,8 +485,8 @@ TEST(CBuffers, shaderTextFillsABufferOfItsSizeAndLeavesASmallerOneAlone)
     EXPECT_TRUE(small.untouched());
 }
 
-// Callers that were built with another version have the fields of the first one, or some that nobody knows yet.
-TEST(CBuffers, resultsAreWrittenAsFarAsTheirSizeSaysAndTheLibraryKnows)
+// Callers built with another version have only the fields of the first version, or some unknown to this library.
+TEST(CBuffers, resultsAreWrittenUpToTheStatedAndKnownSize)
 {
     constexpr std::size_t kWord = sizeof(std::uint64_t), kMore = 16;
     const float positions[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, uvs[] = {0, 1, 1, 1, 1, 0, 0, 0};
@@ -526,7 +526,7 @@ TEST(CBuffers, resultsAreWrittenAsFarAsTheirSizeSaysAndTheLibraryKnows)
     longer(cotan_map_info{}, [&](auto* info) { return cotan_map_describe(&map, info, message, sizeof message); });
 }
 
-TEST(CBuffers, messagesAreCutToTheirBuffer)
+TEST(CBuffers, messagesAreTruncatedToTheirBuffer)
 {
     for (const std::size_t size : {std::size_t(1), std::size_t(2), std::size_t(10)}) {
         Guarded<char> text(size);

@@ -1,4 +1,4 @@
-// The array functions of cotan.h in a program by itself, which c_api.cmake runs and core_32bit.cmake builds where
+// The array functions of cotan.h in a stand-alone program, which c_api.cmake runs and core_32bit.cmake builds where
 // size_t has 32 bits. Returns the number of facts that do not hold.
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ bool near(const float* a, float x, float y, float z)
     return std::abs(a[0] - x) < 1e-5f && std::abs(a[1] - y) < 1e-5f && std::abs(a[2] - z) < 1e-5f;
 }
 
-// A square grid in z = 0 whose u runs against x, v along -y as in pictures.
+// A square grid in z = 0; u grows along -x, and v along -y as in images.
 struct Grid {
     std::vector<float> positions, normals, uv;
     std::vector<std::uint32_t> indices;
@@ -64,13 +64,13 @@ void tangentsAndWhatTheyMake()
         bool right = true;
         for (std::size_t i = 0; i < mesh.index_count; ++i)
             right = right && near(&tangents[4 * i], -1, 0, 0)
-                && tangents[4 * i + 3] == -1; // cross(n, t) = -y, v falls with y
+                && tangents[4 * i + 3] == -1; // cross(n, t) = -y, and v falls with y
         expect(right, "every corner of a mirrored plane");
         const float normal[] = {0, 0, 2}, texel[] = {0.6f, 0, 0.8f};
         const cotan_vertex_places place = {sizeof place, 1, normal, tangents.data(), nullptr, nullptr};
         float out[3], back[3];
         expect(cotan_vertex_frame_apply(kind, &place, texel, out, message, sizeof message) == COTAN_OK, kind);
-        if (std::strcmp(kind, "vertex") == 0) // mikktspace takes the normal as long as it is
+        if (std::strcmp(kind, "vertex") == 0) // mikktspace does not normalise the normal
             expect(near(out, -0.6f, 0, 0.8f), "a texel towards +u");
         expect(cotan_vertex_frame_encode(kind, &place, out, back, message, sizeof message) == COTAN_OK
                    && near(back, 0.6f, 0, 0.8f),
@@ -93,11 +93,11 @@ void tangentsAndWhatTheyMake()
 void mapsOfAWave()
 {
     const int side = 64;
-    const double turn = 2 * std::acos(-1.0) / side;
+    const double frequency = 2 * std::acos(-1.0) / side;
     std::vector<float> heights, pixels, again(side * side);
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
-            heights.push_back(float(std::sin(turn * x) * std::cos(2 * turn * y)));
+            heights.push_back(float(std::sin(frequency * x) * std::cos(2 * frequency * y)));
             pixels.insert(pixels.end(), 4, heights.back());
         }
     std::vector<std::uint16_t> made(4 * side * side);
@@ -128,7 +128,7 @@ void mapsOfAWave()
     expect(cotan_map_mips(&map, "gltf", 0.5, count, &levels, message, sizeof message) == COTAN_OK && levels == 7,
            "seven levels");
     expect(cotan_map_blend(&map, &map, "gltf", "udn", 0, &map, message, sizeof message) == COTAN_OK, "blend");
-    if (sizeof(std::size_t) == 4) { // 65536 x 65536 x 4 is 0 there
+    if (sizeof(std::size_t) == 4) { // 65536 x 65536 x 4 wraps around to 0
         cotan_picture large = {sizeof large, 65536, 65536, 8, made.data()};
         expect(cotan_map_green(&large, &green, message, sizeof message) == COTAN_UNAVAILABLE,
                "a picture larger than memory");

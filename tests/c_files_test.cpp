@@ -1,5 +1,5 @@
-// The caller's functions of cotan_model_files: which files and images they are asked for, that each is done with once,
-// and what the library says when they fail. The model is a square with a map beside it.
+// The caller's functions in cotan_model_files: for which files and images they are called, that each result is released
+// once, and what the library reports when they fail. The model is a square with a separate map file.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,20 +32,20 @@ constexpr char kModel[] =
   "meshes": [{"primitives": [
     {"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3, "material": 0}]}]})";
 
-// Which of the functions fails, and how.
+// The function that fails, and how.
 enum class Failing { none, readSaysNo, readGivesNull, decodeSaysNo, decodeGivesBits, encodeSaysNo, encodeGivesNull };
 
 struct Caller {
     Failing failing = Failing::none;
-    std::vector<std::string> calls; // as "read square.bin", "done"
+    std::vector<std::string> calls; // such as "read square.bin" or "done"
     std::vector<unsigned char> binary = std::vector<unsigned char>(140);
     std::array<unsigned char, 4 * 8 * 8> pixels{};
-    // What a PNG begins with; the caller decodes it, so nothing else of it is read.
+    // The PNG signature. The caller decodes, so nothing after the signature is read.
     unsigned char file[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
 
     Caller()
     {
-        // A square of 2 by 3 whose uv is skewed, so that a conversion changes its map.
+        // A square of 2 by 3 with sheared uv, so that a conversion changes its map.
         const float positions[] = {0, 0, 0, 2, 0, 0, 2, 3, 0, 0, 3, 0},
                     normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
         const float texcoords[] = {0, 0.9f, 0.6f, 0.9f, 0.9f, 0, 0.3f, 0};
@@ -104,7 +104,7 @@ struct Caller {
         return cotan_convert_gltf(kModel, sizeof kModel - 1, &f, nullptr, nullptr, glb, nullptr, text, sizeof text);
     }
 
-    // Each call is done with before the next, and no "done" belongs to none.
+    // Every call is released before the next, and every "done" follows a call.
     void expectEachDoneWith() const
     {
         ASSERT_EQ(calls.size() % 2, 0u);
@@ -119,7 +119,7 @@ struct Caller {
     }
 };
 
-TEST(CFiles, eachImageIsDecodedAndEncodedOnceAndEachCallIsDoneWith)
+TEST(CFiles, eachImageIsDecodedAndEncodedOnceAndReleased)
 {
     Caller caller;
     cotan_bytes* glb = nullptr;
@@ -127,14 +127,14 @@ TEST(CFiles, eachImageIsDecodedAndEncodedOnceAndEachCallIsDoneWith)
     caller.expectEachDoneWith();
     for (const char* call : {"read square.bin", "decode model.gltf: bumps.png", "encode 8 x 8"})
         EXPECT_EQ(caller.count(call), 1u) << call << " of " << testing::PrintToString(caller.calls);
-    // The caller's file is what the new model holds.
+    // The new model contains the file that the caller encoded.
     const std::string made(static_cast<const char*>(cotan_bytes_data(glb)), cotan_bytes_size(glb));
     EXPECT_EQ(made.substr(0, 4), "glTF");
     EXPECT_NE(made.find("PNG\r\n", made.find("BIN")), std::string::npos);
     cotan_bytes_free(glb);
 }
 
-TEST(CFiles, aFunctionThatFailsEndsTheCallAndIsDoneWithToo)
+TEST(CFiles, aFailingCallbackEndsTheCallAndIsReleased)
 {
     struct Case {
         Failing failing;
@@ -144,10 +144,10 @@ TEST(CFiles, aFunctionThatFailsEndsTheCallAndIsDoneWithToo)
     const Case cases[] = {
         {Failing::readSaysNo, COTAN_INPUT, "square.bin: there is no such file beside the model"},
         {Failing::readGivesNull, COTAN_INPUT, "square.bin: there is no such file beside the model"},
-        {Failing::decodeSaysNo, COTAN_INPUT, "bumps.png: the caller did not decode the picture"},
+        {Failing::decodeSaysNo, COTAN_INPUT, "bumps.png: the caller did not decode the image"},
         {Failing::decodeGivesBits, COTAN_USAGE, "bumps.png.bits: expected 8, 16 or 32, found 7"},
-        {Failing::encodeSaysNo, COTAN_OUTPUT, "the caller did not encode the picture"},
-        {Failing::encodeGivesNull, COTAN_OUTPUT, "the caller did not encode the picture"},
+        {Failing::encodeSaysNo, COTAN_OUTPUT, "the caller did not encode the image"},
+        {Failing::encodeGivesNull, COTAN_OUTPUT, "the caller did not encode the image"},
     };
     for (const Case& c : cases) {
         Caller caller;
@@ -161,7 +161,7 @@ TEST(CFiles, aFunctionThatFailsEndsTheCallAndIsDoneWithToo)
     }
 }
 
-TEST(CFiles, imagesAreRenderedWithTheWordsThatAreThere)
+TEST(CFiles, imagesAreRenderedWithTheGivenOptions)
 {
     Caller caller;
     const cotan_model_files files = caller.files();
@@ -195,23 +195,23 @@ TEST(CFiles, imagesAreRenderedWithTheWordsThatAreThere)
               std::string::npos)
         << text;
     options.floats = 1;
-    options.word_count = 0; // then no array is read
+    options.word_count = 0; // then the array is not read
     ASSERT_EQ(render(&image), COTAN_OK) << text;
     ASSERT_EQ(cotan_image_picture(image, &made, text, sizeof text), COTAN_OK) << text;
     EXPECT_EQ(made.bits, 32);
     cotan_image_free(image);
 }
 
-// Slopes of waves that cross: the slope along x changes along y as that along y along x. With red and green exchanged
-// it does not.
-TEST(CFiles, exchangedRedAndGreenAreTold)
+// Slopes of crossing waves: the slope along x varies along y as the slope along y varies along x. With red and green
+// exchanged that no longer holds.
+TEST(CFiles, exchangedRedAndGreenAreDetected)
 {
     constexpr int kWidth = 96, kHeight = 64;
     for (const bool exchanged : {false, true}) {
         std::vector<float> pixels;
         for (int y = 0; y < kHeight; ++y)
             for (int x = 0; x < kWidth; ++x) {
-                // Height: 2 sin(x/4 + y/7) + sin(x/9 - y/5) + sin(x/6); y counts down, green points up.
+                // Height: 2 sin(x/4 + y/7) + sin(x/9 - y/5) + sin(x/6); y points down, green up.
                 const double a = std::cos(x / 4.0 + y / 7.0), b = std::cos(x / 9.0 - y / 5.0), c = std::cos(x / 6.0);
                 double dx = -(2 * a / 4 + b / 9 + c / 6), dy = 2 * a / 7 - b / 5;
                 if (exchanged)
@@ -231,9 +231,9 @@ TEST(CFiles, exchangedRedAndGreenAreTold)
     }
 }
 
-// Waves without symmetry, stored as a map of 8 bits in each of the ways that cotan_map_info tells apart: with zero at
-// 128 or between 127 and 128; as if they were a colour, or as if a colour's curve had been taken off them.
-TEST(CFiles, zeroAndTransferOfAMapAreTold)
+// Asymmetric waves stored as an 8-bit map in each way that cotan_map_info distinguishes: zero at 128 or between 127 and
+// 128; encoded as if they were an sRGB colour, or decoded as if they had been one.
+TEST(CFiles, zeroAndTransferOfAMapAreDetected)
 {
     constexpr int kWidth = 96, kHeight = 64;
     const auto toSrgb = [](double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055; };
@@ -241,7 +241,7 @@ TEST(CFiles, zeroAndTransferOfAMapAreTold)
     struct Row {
         double zero, most;
         int curve;
-        int toldZero, toldSrgb;
+        int expectedZero, expectedSrgb;
     };
     for (const Row& row :
          {Row{128, 127, 0, 128, 0}, {127.5, 127.5, 0, 127, 0}, {127.5, 127.5, 1, -1, 1}, {127.5, 127.5, -1, -1, -1}}) {
@@ -260,15 +260,15 @@ TEST(CFiles, zeroAndTransferOfAMapAreTold)
         const cotan_picture map{sizeof map, kWidth, kHeight, 8, pixels.data()};
         cotan_map_info info = COTAN_INIT(cotan_map_info);
         ASSERT_EQ(cotan_map_describe(&map, &info, text, sizeof text), COTAN_OK) << text;
-        EXPECT_EQ(info.srgb, row.toldSrgb) << row.zero << " " << row.curve;
-        if (row.toldZero >= 0) {
-            EXPECT_EQ(info.zero, row.toldZero);
+        EXPECT_EQ(info.srgb, row.expectedSrgb) << row.zero << " " << row.curve;
+        if (row.expectedZero >= 0) {
+            EXPECT_EQ(info.zero, row.expectedZero);
         }
     }
 }
 
-// A picture goes through a file as it is, of 8 and of 16 bits, rows from the top; nothing is written where it is none.
-TEST(CFiles, picturesComeBackFromTheirFileAsTheyWere)
+// An image of 8 or 16 bits survives a file round trip, rows from the top. Invalid ones are not written.
+TEST(CFiles, imagesRoundTripThroughFiles)
 {
     const std::string file = testing::TempDir() + "c_files_picture.png";
     const auto throughFile = [&](auto number) {
@@ -299,8 +299,8 @@ TEST(CFiles, picturesComeBackFromTheirFileAsTheyWere)
     std::remove(file.c_str());
 }
 
-// A model is bytes, or a file or shape that the words name, and not both; and a caller who stops once has stopped.
-TEST(CFiles, renderingRefusesWhatDoesNotGoTogetherAndStops)
+// A model is bytes, or a file or shape named by the words, never both. A caller that stops is not called again.
+TEST(CFiles, renderingRefusesContradictionsAndCanBeStopped)
 {
     Caller caller;
     const cotan_model_files files = caller.files();
@@ -320,9 +320,9 @@ TEST(CFiles, renderingRefusesWhatDoesNotGoTogetherAndStops)
         GTEST_SKIP() << text;
     ASSERT_EQ(status, COTAN_OK) << text;
     const std::string report(static_cast<const char*>(cotan_bytes_data(json)), cotan_bytes_size(json));
-    for (const char* said :
+    for (const char* part :
          {"cotan-render-result", "\"triangles\"", "\"view\"", "shaded", "reference", "\"frame\": \"smooth\""})
-        EXPECT_NE(report.find(said), std::string::npos) << said << report;
+        EXPECT_NE(report.find(part), std::string::npos) << part << report;
     cotan_bytes_free(json);
     cotan_image_free(image);
     image = nullptr;

@@ -1,6 +1,5 @@
-// Models and options of cotan.h: both sides of each bound of the options of bake, lint and convert, what their structs
-// may lack, and what a model of two maps gives: its pictures, its figures, and a conversion in two steps. The caller
-// decodes.
+// Models and options of cotan.h: both sides of each bound of the options of bake, lint and convert, shorter structs of
+// older callers, and the images, figures and two-step conversion of a model with two maps. The caller decodes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,21 +19,21 @@ namespace {
 
 char why[512];
 
-void expectSaid(cotan_status status, const std::string& said, cotan_status expected = COTAN_USAGE)
+void expectError(cotan_status status, const std::string& error, cotan_status expected = COTAN_USAGE)
 {
-    EXPECT_EQ(status, expected) << said << ": " << why;
-    EXPECT_TRUE(std::string(why).starts_with(said)) << said << ": " << why;
+    EXPECT_EQ(status, expected) << error << ": " << why;
+    EXPECT_TRUE(std::string(why).starts_with(error)) << error << ": " << why;
     why[0] = '\0';
 }
 
-// A rectangle of 2 x 1 under a square of uv.
+// A rectangle of 2 x 1 whose uv fill the unit square.
 const float kPositions[] = {0, 0, 0, 2, 0, 0, 2, 1, 0, 0, 1, 0}, kNormals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1},
             kUvs[] = {0, 1, 1, 1, 1, 0, 0, 0};
 const std::uint32_t kIndices[] = {0, 1, 2, 0, 2, 3};
 
 cotan_mesh rectangle() { return {sizeof(cotan_mesh), 4, kPositions, kNormals, kUvs, 6, kIndices}; }
 
-// Two meshes of that rectangle; the map of the first is flat, that of the second leans; the second has a colour too.
+// Two meshes of that rectangle. The map of the first is flat, that of the second tilted; the second also has a colour.
 constexpr char kTwoMaps[] =
     R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
   "nodes": [{"mesh": 0}, {"mesh": 1, "translation": [0, 5, 0]}], "buffers": [{"uri": "data.bin", "byteLength": 140}],
@@ -94,14 +93,14 @@ struct Reader {
     }
 };
 
-std::string taken(cotan_bytes* bytes)
+std::string takeText(cotan_bytes* bytes)
 {
     const std::string made(static_cast<const char*>(cotan_bytes_data(bytes)), cotan_bytes_size(bytes));
     cotan_bytes_free(bytes);
     return made;
 }
 
-// All numbers that a report has by that name, in its order.
+// All values of the member `name` in a report, in order.
 std::vector<std::string> valuesOf(const std::string& report, const std::string& name)
 {
     const std::regex member("\"" + name + "\":\\s*\"?([^\",\\n}\\]]*)");
@@ -111,7 +110,7 @@ std::vector<std::string> valuesOf(const std::string& report, const std::string& 
     return all;
 }
 
-TEST(CModels, optionsOfBakingAreHeldToTheirBounds)
+TEST(CModels, bakeOptionsAreCheckedAgainstTheirBounds)
 {
     const cotan_mesh mesh = rectangle();
     std::vector<std::uint8_t> pixels(4 * 6 * 4, 77), masked(pixels);
@@ -130,17 +129,17 @@ TEST(CModels, optionsOfBakingAreHeldToTheirBounds)
                                       {&Options::extrusion, "extrusion"},
                                       {&Options::cage_reach, "cage_reach"}})
         for (const float bad : {-0.001f, kInf, NAN})
-            expectSaid(bake([&](Options& o) { o.*field = bad; }),
-                       "options." + std::string(name) + ": expected 0 or more");
-    for (const auto& [field, bad, said] : {std::tuple(&Options::threads, -1, "threads: expected 0 or more"),
-                                           {&Options::padding, -2, "padding: expected -1 or more"},
-                                           {&Options::occlusion_rays, -1, "occlusion_rays: expected 0 to 65536"},
-                                           {&Options::occlusion_rays, 65537, "occlusion_rays: expected 0 to 65536"},
-                                           {&Options::material, -1, "material: expected 0 or more"},
-                                           {&Options::material, 2, "material: expected 0 to 1, found 2"},
-                                           {&Options::samples, 3, "samples: expected 1, 2 or 4"}})
-        expectSaid(bake([&](Options& o) { o.*field = bad; }), "options." + std::string(said));
-    for (const auto& [field, said] :
+            expectError(bake([&](Options& o) { o.*field = bad; }),
+                        "options." + std::string(name) + ": expected 0 or more");
+    for (const auto& [field, bad, error] : {std::tuple(&Options::threads, -1, "threads: expected 0 or more"),
+                                            {&Options::padding, -2, "padding: expected -1 or more"},
+                                            {&Options::occlusion_rays, -1, "occlusion_rays: expected 0 to 65536"},
+                                            {&Options::occlusion_rays, 65537, "occlusion_rays: expected 0 to 65536"},
+                                            {&Options::material, -1, "material: expected 0 or more"},
+                                            {&Options::material, 2, "material: expected 0 to 1, found 2"},
+                                            {&Options::samples, 3, "samples: expected 1, 2 or 4"}})
+        expectError(bake([&](Options& o) { o.*field = bad; }), "options." + std::string(error));
+    for (const auto& [field, error] :
          {std::pair(&Options::kind, "kind: expected normal, object-normal, height or occlusion, found 'x'"),
           {&Options::search, "search: expected first or nearest"},
           {&Options::tangents, "tangents: expected stored or generated"},
@@ -151,22 +150,22 @@ TEST(CModels, optionsOfBakingAreHeldToTheirBounds)
            "high_normals: expected map where a map, frame or convention is given, found 'smooth'"},
           {&Options::high_convention,
            "high_normals: expected map where a map, frame or convention is given, found 'smooth'"}})
-        expectSaid(bake([&](Options& o) { o.*field = "x"; }), "options." + std::string(said));
-    expectSaid(bake([](Options& o) { o.high_map_count = 1; }), "options.high_normals: expected map where");
-    expectSaid(bake([](Options& o) { o.high_map_count = 1, o.high_normals = "map"; }),
-               "options.high_maps: expected an array");
-    expectSaid(bake([](Options& o) { o.high_normals = "map", o.high_convention = "x"; }),
-               "options.high_convention: expected gltf");
+        expectError(bake([&](Options& o) { o.*field = "x"; }), "options." + std::string(error));
+    expectError(bake([](Options& o) { o.high_map_count = 1; }), "options.high_normals: expected map where");
+    expectError(bake([](Options& o) { o.high_map_count = 1, o.high_normals = "map"; }),
+                "options.high_maps: expected an array");
+    expectError(bake([](Options& o) { o.high_normals = "map", o.high_convention = "x"; }),
+                "options.high_convention: expected gltf");
     for (const auto& [width, height, bits] : {std::tuple(6, 3, 8), {5, 4, 8}, {6, 4, 16}, {4, 6, 8}})
-        expectSaid(bake([&](Options& o) {
-                       mask.width = width, mask.height = height, mask.bits = bits;
-                       o.mask = &mask;
-                   }),
-                   "options.mask: expected 8 bits and the size of the map");
+        expectError(bake([&](Options& o) {
+                        mask.width = width, mask.height = height, mask.bits = bits;
+                        o.mask = &mask;
+                    }),
+                    "options.mask: expected 8 bits and the size of the map");
     for (const std::size_t least : {offsetof(Options, cage)}) {
-        expectSaid(bake([&](Options& o) { o.size = least - 1; }),
-                   "options.size: expected " + std::to_string(least) + " or more, found " + std::to_string(least - 1));
-        EXPECT_TRUE(std::all_of(pixels.begin(), pixels.end(), [](int x) { return x == 77; })); // nothing until here
+        expectError(bake([&](Options& o) { o.size = least - 1; }),
+                    "options.size: expected " + std::to_string(least) + " or more, found " + std::to_string(least - 1));
+        EXPECT_TRUE(std::all_of(pixels.begin(), pixels.end(), [](int x) { return x == 77; })); // untouched so far
         EXPECT_EQ(bake([&](Options& o) { o.size = least; }), COTAN_OK) << why;
     }
     EXPECT_EQ(bake([](Options& o) { o.padding = -1, o.occlusion_rays = 65536, o.material = 1, o.samples = 4; }),
@@ -177,16 +176,16 @@ TEST(CModels, optionsOfBakingAreHeldToTheirBounds)
         << why;
     cotan_bake_result result = COTAN_INIT(cotan_bake_result);
     result.size = offsetof(cotan_bake_result, further) - 1;
-    expectSaid(cotan_bake(&mesh, &mesh, nullptr, &map, &result, why, sizeof why), "result.size: expected ");
+    expectError(cotan_bake(&mesh, &mesh, nullptr, &map, &result, why, sizeof why), "result.size: expected ");
 }
 
-TEST(CModels, optionsOfLintAndConvertAreHeldToTheirBounds)
+TEST(CModels, lintAndConvertOptionsAreCheckedAgainstTheirBounds)
 {
     Reader reader;
     const cotan_model_files files = reader.files();
     const cotan_mesh mesh = rectangle();
     const cotan_mesh* meshes[] = {&mesh};
-    cotan_model* model = nullptr; // without maps, which is quick
+    cotan_model* model = nullptr; // has no maps, which is fast
     ASSERT_EQ(cotan_model_of_meshes(1, meshes, nullptr, &model, why, sizeof why), COTAN_OK) << why;
     cotan_lint_result result = COTAN_INIT(cotan_lint_result);
     using Lint = cotan_lint_options;
@@ -197,22 +196,22 @@ TEST(CModels, optionsOfLintAndConvertAreHeldToTheirBounds)
     };
     if (lint([](Lint&) {}) == COTAN_UNAVAILABLE)
         GTEST_SKIP() << why;
-    for (const auto& [field, bad, said] : {std::tuple(&Lint::distance, -0.1, "distance: expected 0 or more"),
-                                           {&Lint::distance, double(NAN), "distance: expected 0 or more"},
-                                           {&Lint::limit, -0.1, "limit: expected degrees from 0 to 180"},
-                                           {&Lint::limit, 180.1, "limit: expected degrees from 0 to 180"},
-                                           {&Lint::limit_area, -0.1, "limit_area: expected percent from 0 to 100"},
-                                           {&Lint::limit_area, 100.1, "limit_area: expected percent from 0 to 100"}})
-        expectSaid(lint([&](Lint& o) { o.*field = bad; }), "options." + std::string(said));
+    for (const auto& [field, bad, error] : {std::tuple(&Lint::distance, -0.1, "distance: expected 0 or more"),
+                                            {&Lint::distance, double(NAN), "distance: expected 0 or more"},
+                                            {&Lint::limit, -0.1, "limit: expected degrees from 0 to 180"},
+                                            {&Lint::limit, 180.1, "limit: expected degrees from 0 to 180"},
+                                            {&Lint::limit_area, -0.1, "limit_area: expected percent from 0 to 100"},
+                                            {&Lint::limit_area, 100.1, "limit_area: expected percent from 0 to 100"}})
+        expectError(lint([&](Lint& o) { o.*field = bad; }), "options." + std::string(error));
     for (const char* frame : {"unit", "", "Stored"})
-        expectSaid(lint([&](Lint& o) { o.frame = frame; }),
-                   "options.frame: expected cotangent, orthonormal, smooth, exact, triangle or stored");
+        expectError(lint([&](Lint& o) { o.frame = frame; }),
+                    "options.frame: expected cotangent, orthonormal, smooth, exact, triangle or stored");
     for (const char* frame : {"cotangent", "orthonormal", "smooth", "exact", "triangle", "stored"})
         EXPECT_EQ(lint([&](Lint& o) { o.frame = frame, o.limit = 180, o.limit_area = 100; }), COTAN_OK) << why;
-    expectSaid(lint([](Lint& o) { o.size = offsetof(Lint, limit) - 1; }), "options.size");
+    expectError(lint([](Lint& o) { o.size = offsetof(Lint, limit) - 1; }), "options.size");
     EXPECT_EQ(lint([](Lint& o) { o.size = offsetof(Lint, limit), o.limit = 999; }), COTAN_OK) << why; // not read
     result.size -= 1;
-    expectSaid(lint([](Lint&) {}), "result.size");
+    expectError(lint([](Lint&) {}), "result.size");
     cotan_model_free(model);
 
     using Convert = cotan_convert_options;
@@ -227,15 +226,15 @@ TEST(CModels, optionsOfLintAndConvertAreHeldToTheirBounds)
         glb = nullptr;
         return status;
     };
-    expectSaid(convert([](Convert& o) { o.threads = -1; }), "options.threads: expected 0 or more");
-    expectSaid(convert([](Convert& o) { o.from = "x"; }), "options.from: expected one of cotangent, ");
-    expectSaid(convert([](Convert& o) { o.to = "x"; }), "options.to: expected one of cotangent, ");
-    expectSaid(convert([](Convert& o) { o.expansion = "x"; }), "options.expansion: expected biased or exact");
-    expectSaid(convert([](Convert& o) { o.keep_maps = 1, o.to = "vertex"; }),
-               "options.to: expected a frame without tangents for maps that are kept, found vertex");
-    expectSaid(convert([](Convert& o) { o.keep_maps = 1, o.bits = 8; }),
-               "options.bits: expected 0 where maps are kept");
-    expectSaid(convert([](Convert& o) { o.size = offsetof(Convert, expansion) - 1; }), "options.size");
+    expectError(convert([](Convert& o) { o.threads = -1; }), "options.threads: expected 0 or more");
+    expectError(convert([](Convert& o) { o.from = "x"; }), "options.from: expected one of cotangent, ");
+    expectError(convert([](Convert& o) { o.to = "x"; }), "options.to: expected one of cotangent, ");
+    expectError(convert([](Convert& o) { o.expansion = "x"; }), "options.expansion: expected biased or exact");
+    expectError(convert([](Convert& o) { o.keep_maps = 1, o.to = "vertex"; }),
+                "options.to: expected a frame without tangents for maps that are kept, found vertex");
+    expectError(convert([](Convert& o) { o.keep_maps = 1, o.bits = 8; }),
+                "options.bits: expected 0 where maps are kept");
+    expectError(convert([](Convert& o) { o.size = offsetof(Convert, expansion) - 1; }), "options.size");
     EXPECT_EQ(convert([](Convert& o) { o.size = offsetof(Convert, expansion); }), COTAN_OK) << why;
     EXPECT_EQ(converted.maps_converted + converted.maps_kept, 2u);
     EXPECT_EQ(convert([](Convert& o) { o.keep_maps = 1; }), COTAN_OK) << why;
@@ -243,11 +242,11 @@ TEST(CModels, optionsOfLintAndConvertAreHeldToTheirBounds)
     EXPECT_EQ(converted.maps_converted, 0u);
     EXPECT_EQ(converted.worst_degrees_before, converted.worst_degrees_after);
     converted.size -= 1;
-    expectSaid(convert([](Convert&) {}), "result.size");
+    expectError(convert([](Convert&) {}), "result.size");
 }
 
-// The figures are of the worst map, wherever it stands: u of the rectangle is half as steep for frames that stretch.
-TEST(CModels, figuresOfLintAreThoseOfItsReportAndOfTheWorstMap)
+// The figures are those of the worst map, wherever it is. Frames that keep stretch see u half as steep here.
+TEST(CModels, lintFiguresAreThoseOfTheReportAndTheWorstMap)
 {
     Reader reader;
     const cotan_model_files files = reader.files();
@@ -258,14 +257,14 @@ TEST(CModels, figuresOfLintAreThoseOfItsReportAndOfTheWorstMap)
     if (status == COTAN_UNAVAILABLE)
         GTEST_SKIP() << why;
     ASSERT_EQ(status, COTAN_OK) << why;
-    const std::string report = taken(json);
+    const std::string report = takeText(json);
     EXPECT_EQ(r.primitives, 2u);
     EXPECT_EQ(r.maps, 2u);
     EXPECT_EQ(r.green_against, 0u);
     EXPECT_EQ(r.distrust_stored, 0);
     const double x = 38, y = 25, z = 118, dot = x * x / 2 + y * y + z * z;
-    const double off = std::acos(dot / std::sqrt((x * x + y * y + z * z) * (x * x / 4 + y * y + z * z)));
-    EXPECT_NEAR(r.cotangent_degrees, off * 180 / std::numbers::pi, 0.01);
+    const double angle = std::acos(dot / std::sqrt((x * x + y * y + z * z) * (x * x / 4 + y * y + z * z)));
+    EXPECT_NEAR(r.cotangent_degrees, angle * 180 / std::numbers::pi, 0.01);
     EXPECT_NEAR(r.orthonormal_degrees, 0, 0.01);
     EXPECT_GT(r.smooth_degrees, 1);
     EXPECT_EQ(valuesOf(report, "advice"), std::vector<std::string>{r.advice});
@@ -274,7 +273,7 @@ TEST(CModels, figuresOfLintAreThoseOfItsReportAndOfTheWorstMap)
     EXPECT_NE(report.find("cotan-lint-result"), std::string::npos);
 }
 
-TEST(CModels, picturesArriveInTheirOrderWithTheirNamesUntilOneStops)
+TEST(CModels, imagesArriveInOrderWithNamesUntilTheCallbackStops)
 {
     Reader reader;
     const cotan_model_files files = reader.files();
@@ -297,12 +296,12 @@ TEST(CModels, picturesArriveInTheirOrderWithTheirNamesUntilOneStops)
     EXPECT_EQ(seen.names, (std::vector<std::string>{"colour", "leaning", "even"}));
     EXPECT_EQ(pictures(1), COTAN_OK);
     EXPECT_EQ(seen.names, (std::vector<std::string>{"leaning", "even"}));
-    expectSaid(pictures(0, "leaning"), "stopped by the caller", COTAN_STOPPED);
+    expectError(pictures(0, "leaning"), "stopped by the caller", COTAN_STOPPED);
     EXPECT_EQ(seen.names, (std::vector<std::string>{"colour", "leaning"}));
 }
 
-// Both maps are made anew where bits are asked for. Each PNG file goes to its own picture, whichever is given first.
-TEST(CModels, aConversionOfTwoPicturesTakesTheFileOfEach)
+// If bits are given, both maps are written anew. Each PNG file belongs to its own image, whichever is given first.
+TEST(CModels, aConversionOfTwoImagesUsesTheFileOfEach)
 {
     Reader reader;
     const cotan_model_files files = reader.files();
@@ -320,7 +319,7 @@ TEST(CModels, aConversionOfTwoPicturesTakesTheFileOfEach)
         EXPECT_EQ(result.maps_kept, 0u);
         EXPECT_EQ(result.primitives_given, 0u);
         EXPECT_EQ(result.tangent_bytes_dropped, 0u);
-        EXPECT_GT(result.worst_degrees_before, 5); // of the leaning one, not of the flat one
+        EXPECT_GT(result.worst_degrees_before, 5); // of the tilted map, not the flat one
         EXPECT_LT(result.worst_degrees_after, 0.5);
         ASSERT_EQ(cotan_conversion_count(conversion), 2u);
         cotan_picture picture = COTAN_INIT(cotan_picture);
@@ -334,19 +333,19 @@ TEST(CModels, aConversionOfTwoPicturesTakesTheFileOfEach)
                                         sizeof why);
         };
         cotan_bytes *glb = nullptr, *json = nullptr;
-        expectSaid(cotan_conversion_set(conversion, first, "", 0, why, sizeof why), "png: expected bytes, found none");
-        expectSaid(cotan_conversion_set(conversion, first, nullptr, 1, why, sizeof why), "png: expected bytes");
+        expectError(cotan_conversion_set(conversion, first, "", 0, why, sizeof why), "png: expected bytes, found none");
+        expectError(cotan_conversion_set(conversion, first, nullptr, 1, why, sizeof why), "png: expected bytes");
         ASSERT_EQ(set(first), COTAN_OK) << why;
-        expectSaid(set(first), "number: expected a picture that has no PNG file yet");
-        expectSaid(cotan_convert_end(conversion, &glb, nullptr, why, sizeof why),
-                   "conversion: expected the PNG files of all");
-        expectSaid(cotan_conversion_picture(conversion, 2, &picture, why, sizeof why),
-                   "number: expected less than 2, found 2");
+        expectError(set(first), "number: expected an image that has no PNG file yet");
+        expectError(cotan_convert_end(conversion, &glb, nullptr, why, sizeof why),
+                    "conversion: expected the PNG files of all");
+        expectError(cotan_conversion_picture(conversion, 2, &picture, why, sizeof why),
+                    "number: expected less than 2, found 2");
         ASSERT_EQ(set(1 - first), COTAN_OK) << why;
-        expectSaid(cotan_convert_end(conversion, nullptr, nullptr, why, sizeof why), "conversion and glb");
+        expectError(cotan_convert_end(conversion, nullptr, nullptr, why, sizeof why), "conversion and glb");
         ASSERT_EQ(cotan_convert_end(conversion, &glb, &json, why, sizeof why), COTAN_OK) << why;
         cotan_conversion_free(conversion);
-        const std::string whole = taken(glb), report = taken(json);
+        const std::string whole = takeText(glb), report = takeText(json);
         for (const std::string& file : given)
             EXPECT_NE(whole.find(file), std::string::npos) << file;
         EXPECT_EQ(whole.find("that cotan_conversion_set gives"), std::string::npos);

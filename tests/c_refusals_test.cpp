@@ -1,5 +1,5 @@
-// What functions of cotan.h refuse, an argument at a time: each pointer that may not be null, each struct that is a
-// byte too short, each number on the far side of its bound. The message names the argument, and nothing is written.
+// What functions of cotan.h refuse, one argument at a time: each pointer that may not be null, each struct that is a
+// byte too short, each number beyond its bound. The message names the argument, and nothing is written.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -15,7 +15,7 @@ namespace {
 
 char refusal[512];
 
-// The call is refused, and says which argument.
+// Expects that the call was refused with a message that names the argument.
 void expectRefused(cotan_status status, const std::string& named, cotan_status expected = COTAN_USAGE)
 {
     EXPECT_EQ(status, expected) << named << ": " << refusal;
@@ -42,7 +42,7 @@ struct Picture {
 
 int takeLevel(void*, int, const cotan_picture*, const cotan_picture*) { return 0; }
 
-TEST(CRefusals, framesNeedEachOfTheirArrays)
+TEST(CRefusals, framesRequireAllTheirArrays)
 {
     const float n[3] = {0, 0, 1}, p[3] = {1, 0, 0}, q[3] = {0, 1, 0}, u[2] = {1, 0}, v[2] = {0, 1};
     float out[3] = {77, 77, 77};
@@ -70,7 +70,7 @@ TEST(CRefusals, framesNeedEachOfTheirArrays)
     }
 }
 
-TEST(CRefusals, framesOfVerticesNeedTheArraysThatTheyRead)
+TEST(CRefusals, vertexFramesRequireTheArraysTheyRead)
 {
     const float n[3] = {0, 0, 1}, t[4] = {1, 0, 0, 1}, u[3] = {1, 0, 0}, v[3] = {0, 1, 0};
     float out[3];
@@ -99,7 +99,7 @@ TEST(CRefusals, framesOfVerticesNeedTheArraysThatTheyRead)
     }
 }
 
-TEST(CRefusals, meshesNeedWhatIsMadeOfThem)
+TEST(CRefusals, meshFunctionsRequireTheArraysTheyRead)
 {
     const Square square;
     const cotan_mesh good = square.mesh();
@@ -167,7 +167,7 @@ TEST(CRefusals, meshesNeedWhatIsMadeOfThem)
     expectRefused(cotan_triangle_vectors(&good, -1, u.data(), v.data(), refusal, sizeof refusal), "threads");
 }
 
-TEST(CRefusals, packingNeedsEachArrayUnlessThereIsNothing)
+TEST(CRefusals, packingRequiresEachArrayUnlessTheCountIsZero)
 {
     const float three[3] = {0, 0, 1}, four[4] = {1, 0, 0, 1};
     std::array<std::uint32_t, 3> words{};
@@ -195,7 +195,7 @@ TEST(CRefusals, packingNeedsEachArrayUnlessThereIsNothing)
     EXPECT_EQ(cotan_pack_tangents(1, three, four, &packed, refusal, sizeof refusal), COTAN_OK);
 }
 
-TEST(CRefusals, copiesOfVerticesNeedPlacesForThemAndTheirCount)
+TEST(CRefusals, vertexCopiesRequireBuffersAndACount)
 {
     const Square square;
     const cotan_mesh mesh = square.mesh();
@@ -228,7 +228,7 @@ TEST(CRefusals, copiesOfVerticesNeedPlacesForThemAndTheirCount)
     EXPECT_EQ(provoked(indices.data(), sources.data(), &count, provoking.data()), COTAN_OK) << refusal;
 }
 
-TEST(CRefusals, mapsNeedEachOfTheirPicturesAndWords)
+TEST(CRefusals, mapFunctionsRequireTheirImagesAndNames)
 {
     Picture map, out, other;
     using P = cotan_picture*;
@@ -237,7 +237,7 @@ TEST(CRefusals, mapsNeedEachOfTheirPicturesAndWords)
     cotan_map_info info = {};
     info.size = sizeof info;
     std::vector<float> heights(8);
-    // Each takes the picture that is read.
+    // Each of these functions reads the image.
     const std::vector<std::pair<std::string, std::function<cotan_status(P)>>> readers = {
         {"map", [&](P p) { return cotan_map_green(p, &green, refusal, sizeof refusal); }},
         {"map", [&](P p) { return cotan_map_describe(p, &info, refusal, sizeof refusal); }},
@@ -312,7 +312,7 @@ TEST(CRefusals, mapsNeedEachOfTheirPicturesAndWords)
     EXPECT_EQ(mips("gltf", 1, takeLevel), COTAN_OK) << refusal;
 }
 
-TEST(CRefusals, modelsAndConversionsNeedTheirPointers)
+TEST(CRefusals, modelAndConversionFunctionsRequireTheirPointers)
 {
     const Square square;
     const cotan_mesh mesh = square.mesh();
@@ -365,8 +365,8 @@ TEST(CRefusals, modelsAndConversionsNeedTheirPointers)
     EXPECT_EQ(glb, nullptr);
 }
 
-// A mesh without a name is called by its number.
-TEST(CRefusals, meshesAreCalledByTheirNameOrTheirNumber)
+// Messages name a mesh without a name by its number.
+TEST(CRefusals, messagesNameMeshesByNameOrNumber)
 {
     const Square square;
     const cotan_mesh good = square.mesh();
@@ -385,7 +385,7 @@ TEST(CRefusals, meshesAreCalledByTheirNameOrTheirNumber)
     expectRefused(cotan_model_of_meshes(2, meshes, nullptr, &model, refusal, sizeof refusal),
                   "meshes[1]: expected positions, found null");
     EXPECT_EQ(model, nullptr);
-    bad.vertex_count = bad.index_count = 0; // nothing of it is read
+    bad.vertex_count = bad.index_count = 0; // then no array is read
     EXPECT_EQ(cotan_model_of_meshes(2, meshes, nullptr, &model, refusal, sizeof refusal), COTAN_OK) << refusal;
     cotan_model_free(model);
     EXPECT_EQ(cotan_bytes_data(nullptr), nullptr);
@@ -393,7 +393,7 @@ TEST(CRefusals, meshesAreCalledByTheirNameOrTheirNumber)
     EXPECT_STREQ(cotan_model_warnings(nullptr), "");
 }
 
-TEST(CRefusals, shaderTextIsOfTheStageThatIsNamed)
+TEST(CRefusals, shaderTextIsOfTheRequestedStage)
 {
     const auto text = [](const char* frame) {
         std::size_t size = 0;
@@ -407,20 +407,20 @@ TEST(CRefusals, shaderTextIsOfTheStageThatIsNamed)
     EXPECT_NE(text("triangle,vertex"), text("triangle,fragment"));
     EXPECT_NE(text("triangle,vertex"), text("triangle"));
     std::size_t size = 0;
-    const auto said = [&](const char* language, const char* frame, const char* convention) {
+    const auto errorOf = [&](const char* language, const char* frame, const char* convention) {
         return cotan_shader_text(language, frame, convention, nullptr, &size, refusal, sizeof refusal);
     };
-    expectRefused(said("glsl", "triangle,pixel", "gltf"),
+    expectRefused(errorOf("glsl", "triangle,pixel", "gltf"),
                   "stage: expected fragment, vertex, mesh or compute, found 'pixel'");
-    expectRefused(said("glsl", "triangle,", "gltf"), "stage: expected fragment, vertex, mesh or compute, found ''");
-    expectRefused(said("glsl", "tangent,vertex", "gltf"), "frame: there is none named 'tangent'");
-    expectRefused(said("basic", "triangle", "gltf"), "language: expected ");
-    expectRefused(said("glsl", "triangle", "x"), "convention: ");
-    expectRefused(said(nullptr, "triangle", "gltf"), "language: expected a name, found null");
-    expectRefused(said("glsl", nullptr, "gltf"), "frame: expected a name, found null");
-    expectRefused(said("glsl", "triangle", nullptr), "convention: expected a name, found null");
+    expectRefused(errorOf("glsl", "triangle,", "gltf"), "stage: expected fragment, vertex, mesh or compute, found ''");
+    expectRefused(errorOf("glsl", "tangent,vertex", "gltf"), "frame: expected a frame, found 'tangent'");
+    expectRefused(errorOf("basic", "triangle", "gltf"), "language: expected ");
+    expectRefused(errorOf("glsl", "triangle", "x"), "convention: ");
+    expectRefused(errorOf(nullptr, "triangle", "gltf"), "language: expected a name, found null");
+    expectRefused(errorOf("glsl", nullptr, "gltf"), "frame: expected a name, found null");
+    expectRefused(errorOf("glsl", "triangle", nullptr), "convention: expected a name, found null");
     expectRefused(cotan_shader_text("glsl", "triangle", "gltf", nullptr, nullptr, refusal, sizeof refusal),
-                  "text_size: expected a place");
+                  "text_size: expected a pointer");
     EXPECT_EQ(size, 0u);
 }
 

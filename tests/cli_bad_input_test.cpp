@@ -1,5 +1,5 @@
-// Every malformed and hostile file of the shared data folder through the tool: what EXPECTED.tsv asks
-// for, within five seconds and one GiB, one clear line, no output for a reject.
+// Runs the tool on every malformed and hostile file of the shared data folder and checks what EXPECTED.tsv asks for: at
+// most five seconds and one GiB, one clear line, and no output for rejected files.
 #include <gtest/gtest.h>
 
 #include "expected_list.hpp"
@@ -12,11 +12,11 @@ using namespace test;
 
 constexpr double kMegabytes = 1024;
 
-// A model that reads the picture as its normal map: how the tool meets an image file.
-std::filesystem::path modelAround(const std::filesystem::path& picture, const TemporaryFolder& folder)
+// A model with the image as its normal map, which is how the tool reads an image file.
+std::filesystem::path modelAround(const std::filesystem::path& imageFile, const TemporaryFolder& folder)
 {
-    std::filesystem::copy_file(picture, folder / "picture.png");
-    // one triangle: positions, normals, uv as floats
+    std::filesystem::copy_file(imageFile, folder / "picture.png");
+    // one triangle: positions, normals and uv as floats
     const char* text = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
 "meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2},"material":0}]}],
 "materials":[{"normalTexture":{"index":0}}],"textures":[{"source":0}],"images":[{"uri":"picture.png"}],
@@ -32,7 +32,7 @@ std::filesystem::path modelAround(const std::filesystem::path& picture, const Te
     return folder / "model.gltf";
 }
 
-// What holds whatever a command does with the file.
+// Checks what must hold whatever a command does with the file.
 void checkRun(const ToolRun& run, const Expected& row, const TemporaryFolder& folder)
 {
     EXPECT_LT(run.seconds, kBadInputSeconds);
@@ -57,8 +57,8 @@ void check(const Expected& row)
 {
     SCOPED_TRACE(row.file.string());
     TemporaryFolder folder, model;
-    const bool picture = row.file.extension() == ".png";
-    const auto input = picture ? modelAround(row.file, model) : row.file;
+    const bool imageFile = row.file.extension() == ".png";
+    const auto input = imageFile ? modelAround(row.file, model) : row.file;
     const ToolRun run = runTool({"render", input.string(), "-o", "out.png", "--device", "reference", "--size", "64x64"},
                                 folder.path(), unsigned(4 * kBadInputSeconds));
     checkRun(run, row, folder);
@@ -67,8 +67,8 @@ void check(const Expected& row)
     }
 }
 
-// What is slow to draw, not to read: a million instances; 25,000 triangles on top of one another, each of
-// which covers the picture and the shadow map.
+// Whether drawing, not reading, is slow: a million instances; 25,000 overlapping triangles that each cover the image
+// and the shadow map.
 bool isLeftOut(const std::filesystem::path& file)
 {
     return file.filename() == "million_instances.glb" || file.filename() == "25000_groups.obj";
@@ -76,7 +76,7 @@ bool isLeftOut(const std::filesystem::path& file)
 
 class BadInput : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(BadInput, getsWhatTheListSaysFromTheTool)
+TEST_P(BadInput, getsTheListedResult)
 {
     const auto rows = expectedFor(GetParam());
     if (rows.empty())
@@ -107,18 +107,18 @@ std::vector<Words> modelCommands(const std::string& model)
     return commands;
 }
 
-std::vector<Words> pictureCommands(const std::string& picture)
+std::vector<Words> imageCommands(const std::string& imageFile)
 {
-    return {{"map", "info", picture},
-            {"map", "detect", picture},
-            {"map", "convert", picture, "--from", "gltf", "--to", "directx", "-o", "out.png"},
-            {"map", "from-height", picture, "-o", "out.png"},
-            {"map", "mips", picture, "-o", "out.dds"}};
+    return {{"map", "info", imageFile},
+            {"map", "detect", imageFile},
+            {"map", "convert", imageFile, "--from", "gltf", "--to", "directx", "-o", "out.png"},
+            {"map", "from-height", imageFile, "-o", "out.png"},
+            {"map", "mips", imageFile, "-o", "out.dds"}};
 }
 
-// A model that lacks what a command needs (texture coordinates, a normal map) is refused by it for
-// that, so of what may be drawn only the bounds are checked, and that the command says something.
-TEST(FoundInput, isBoundedInEveryCommandThatReadsIt)
+// A command refuses a model that lacks what it needs (texture coordinates, a normal map). For files that may be drawn,
+// only the bounds are checked and that the command prints something.
+TEST(FoundInput, everyCommandHandlesItWithinBounds)
 {
     std::size_t files = 0;
     for (const char* const extension : {".glb", ".obj", ".ply", ".exr", ".jpg", ".tif", ".dds"})
@@ -130,7 +130,7 @@ TEST(FoundInput, isBoundedInEveryCommandThatReadsIt)
             const bool model = kind == ".glb" || kind == ".obj" || kind == ".ply";
             if (model && row.verdict != "reject")
                 row.verdict = "either";
-            for (const Words& words : model ? modelCommands(row.file) : pictureCommands(row.file)) {
+            for (const Words& words : model ? modelCommands(row.file) : imageCommands(row.file)) {
                 SCOPED_TRACE(words[0] + " " + words[1]);
                 TemporaryFolder folder;
                 checkRun(runTool(words, folder.path(), unsigned(4 * kBadInputSeconds)), row, folder);
@@ -140,8 +140,8 @@ TEST(FoundInput, isBoundedInEveryCommandThatReadsIt)
         GTEST_SKIP() << "no files: " << COTAN_SHARED_DATA << "/found is missing";
 }
 
-// A million instances of 4,000 vertices: 3.9 billion triangles, and 4 billion vertices to find the box around.
-TEST(HugeModels, aMillionInstancesAreRefusedByRenderersAndJudgedByLint)
+// A million instances of 4,000 vertices: 3.9 billion triangles, and 4 billion vertices for the bounding box.
+TEST(HugeModels, renderersRefuseAMillionInstancesAndLintChecksThem)
 {
     const std::string model = std::string(COTAN_SHARED_DATA) + "/found/million_instances.glb";
     if (!std::filesystem::exists(model))
@@ -169,15 +169,15 @@ TEST(HugeModels, aMillionInstancesAreRefusedByRenderersAndJudgedByLint)
     }
 }
 
-// Where it is, and what is there; not what the parser calls it.
-TEST(CommandLine, aModelThatIsNoJsonIsToldByLineAndColumn)
+// The message has the position and the text there, not the parser's own message.
+TEST(CommandLine, invalidJsonIsReportedByLineAndColumn)
 {
     TemporaryFolder folder;
     const std::pair<std::string, std::string> cases[] = {
         {"{\"asset\": x}", "line 1, column 11: expected valid JSON; found '\"asset\": x'"},
         {"{\"a\": [1,\n 2,,3]}", "line 2, column 4: expected valid JSON; found '2,,'"},
         {"{", "line 1, column 2: expected more; found the end of the file"},
-        {"{\"a\": 1e999}", "line 1, column 11: expected a number that a double holds; found '1e999'"},
+        {"{\"a\": 1e999}", "line 1, column 11: expected a number in the range of double; found '1e999'"},
         {"{}\x01\xff", "line 1, column 3: expected valid JSON; found "},
     };
     for (const auto& [text, message] : cases) {

@@ -1,5 +1,5 @@
-// Broken Draco, meshoptimizer, WebP and KTX2 streams, through every command that reads them: one clear line, nothing
-// written, within seconds and one GiB. Made from the seeds of the fuzzers.
+// Broken Draco, meshoptimizer, WebP and KTX2 streams, made from the fuzzers' seeds, through every command that reads
+// them: one clear line, no output, within seconds and one GiB.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -52,7 +52,7 @@ void expectModelRefused(const std::filesystem::path& model)
 
 using Change = std::function<void(json&)>;
 
-// The compressed stream's view or extension, whichever of the two the seed has.
+// The extension object of the compressed buffer view, or else the first view.
 json& stream(json& root)
 {
     for (json& view : root["bufferViews"])
@@ -82,7 +82,7 @@ const std::pair<const char*, Change> kChanges[] = {
 
 class PackedModel : public testing::TestWithParam<const char*> {};
 
-TEST_P(PackedModel, thatIsBrokenIsRefusedByEveryCommand)
+TEST_P(PackedModel, everyCommandRefusesABrokenOne)
 {
     TemporaryFolder folder;
     for (const auto& [name, change] : kChanges) {
@@ -102,26 +102,26 @@ INSTANTIATE_TEST_SUITE_P(Seeds, PackedModel,
                              return name.substr(0, name.find('.'));
                          });
 
-// Bytes at a place become others.
+// Replaces the bytes from offset `at` on by `to`.
 std::string changed(std::string bytes, std::size_t at, const std::string& to)
 {
     return bytes.replace(at, to.size(), to);
 }
 
-TEST(PackedPicture, thatIsBrokenIsRefusedByEveryCommand)
+TEST(PackedImage, everyCommandRefusesABrokenOne)
 {
     const std::string large("\xff\xff\xff\x7f", 4),
         webp = seed("image", "lossy.webp"), zlib = seed("image", "zlib.ktx2"), zstd = seed("image", "zstd.ktx2");
     const std::pair<const char*, std::string> cases[] = {
         {"cut.webp", webp.substr(0, 60)},
-        {"long.webp", changed(webp, 4, large)}, // the size of what follows
+        {"long.webp", changed(webp, 4, large)}, // size of the remaining file
         {"empty.webp", webp.substr(0, 12)},
         {"cut.ktx2", zstd.substr(0, zstd.size() - 8)},
         {"wide.ktx2", changed(zstd, 20, large)},
         {"levels.ktx2", changed(zstd, 40, large)},
-        {"elsewhere.ktx2", changed(zstd, 80, large)},                  // the first level's place
-        {"bomb.ktx2", changed(zlib, 80 + 16, large)},                  // what it says to unpack to
-        {"bomb_that_lies.ktx2", seed("image", "zlib_that_lies.ktx2")}, // 100,000 bytes where 64 are promised
+        {"elsewhere.ktx2", changed(zstd, 80, large)},                  // offset of the first level
+        {"bomb.ktx2", changed(zlib, 80 + 16, large)},                  // its uncompressed size
+        {"bomb_that_lies.ktx2", seed("image", "zlib_that_lies.ktx2")}, // 100,000 bytes where 64 are declared
     };
     TemporaryFolder folder;
     for (const auto& [name, bytes] : cases) {

@@ -1,4 +1,4 @@
-// The command line as a user meets it: right words, wrong words, exit codes, files.
+// The command line from the user's side: valid and invalid words, exit codes, files.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -37,7 +37,7 @@ TEST(CommandLine, helpNamesEveryCommandAndExitsZero)
     EXPECT_NE(runTool({"--version"}, folder.path()).out.find("cotan"), std::string::npos);
 }
 
-TEST(CommandLine, whatIsNoNumberIsAnsweredWithWhatIsExpected)
+TEST(CommandLine, invalidNumbersAreAnsweredWithTheExpectedRange)
 {
     TemporaryFolder folder;
     const std::pair<Words, std::string> cases[] = {
@@ -57,7 +57,7 @@ TEST(CommandLine, whatIsNoNumberIsAnsweredWithWhatIsExpected)
     }
 }
 
-TEST(CommandLine, wrongWordsExitOneWithOneLineAndNoFile)
+TEST(CommandLine, wrongArgumentsExitOneWithOneLineAndNoFile)
 {
     const std::vector<Words> wrong = {
         {},
@@ -79,7 +79,7 @@ TEST(CommandLine, wrongWordsExitOneWithOneLineAndNoFile)
         {"render", "a.glb", "-o", "a.png", "--animation", "0", "--frames", "0-3"},
         {"render", "a.glb", "-o", "a.png", "--animation", "0", "--frames", "0..1000000"},
         {"render", "a.glb", "-o", "a.png", "--animation", "0", "--frames", "0..3", "--time", "1"},
-        {"render", "-o", "a.webp"}, // of --frames
+        {"render", "-o", "a.webp"}, // an animation without --frames
         {"render", "a.glb", "-o", "a.gif", "--animation", "0", "--frames", "0..3", "--rate", "60"},
         {"render", "-o", "a.png", "--environment", "none", "--background", "blur"},
         {"render", "-o", "a.png", "--threads", "-1"},
@@ -100,13 +100,13 @@ TEST(CommandLine, wrongWordsExitOneWithOneLineAndNoFile)
     }
 }
 
-// As /dev/null would be: a file that took its place would be a surprise to everybody else.
-TEST(CommandLine, aReportGoesIntoAPipeAndDoesNotReplaceIt)
+// A pipe stands for devices such as /dev/null: replacing one by a file would break it for all other programs.
+TEST(CommandLine, aReportIsWrittenIntoAPipe)
 {
     TemporaryFolder folder;
     const std::filesystem::path pipe = folder / "pipe";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-    const int reader = ::open(pipe.c_str(), O_RDWR); // writers wait for nobody
+    const int reader = ::open(pipe.c_str(), O_RDWR); // so that writers do not block
     ASSERT_GE(reader, 0);
     const ToolRun run = runTool(with({"render", "-o", "a.png", "--json", "pipe", "--quiet"}, kSmall), folder.path());
     EXPECT_EQ(run.code, 0) << run.err;
@@ -118,7 +118,7 @@ TEST(CommandLine, aReportGoesIntoAPipeAndDoesNotReplaceIt)
     ::close(reader);
 }
 
-TEST(CommandLine, aReportToStandardOutputIsNoFileOfThatName)
+TEST(CommandLine, aReportToStandardOutputMakesNoFileNamedDash)
 {
     TemporaryFolder folder;
     std::filesystem::create_directory(folder / "-");
@@ -130,7 +130,7 @@ TEST(CommandLine, aReportToStandardOutputIsNoFileOfThatName)
     EXPECT_TRUE(std::filesystem::is_empty(folder / "-"));
 }
 
-TEST(CommandLine, anEqualsSignBehindAShortOptionIsNoPartOfTheName)
+TEST(CommandLine, anEqualsSignAfterAShortOptionIsSkipped)
 {
     TemporaryFolder folder;
     ASSERT_EQ(runTool(with({"render", "-o=a.png"}, kSmall), folder.path()).code, 0);
@@ -218,8 +218,8 @@ TEST(CommandLine, exrKeepsUnitNormalsAsFloats)
     EXPECT_GT(covered, 96 * 64 / 4);
 }
 
-// A triangle that moves by 1 along x in a second. Read as glTF's JSON stands in the specification.
-TEST(CommandLine, framesOfAnAnimationAreNumberedPicturesOfItsMoments)
+// A triangle that moves by 1 along x in one second. Its glTF JSON is written from the specification.
+TEST(CommandLine, animationFramesAreNumberedImages)
 {
     TemporaryFolder folder;
     const std::vector<float> numbers = {0, 0, 0, 1, 0, 0, 0, 1, 0, /*times*/ 0, 1, /*moves*/ 0, 0, 0, 1, 0, 0};
@@ -259,8 +259,8 @@ TEST(CommandLine, framesOfAnAnimationAreNumberedPicturesOfItsMoments)
     EXPECT_NE(none.err.find("(go)"), std::string::npos) << none.err;
 }
 
-// How many pixels at the edges of a picture without a background show something, and how many all others.
-std::pair<int, int> seenAtTheEdge(const std::filesystem::path& file)
+// Numbers of pixels that are not transparent: at the edges of an image without background, and inside.
+std::pair<int, int> coveredPixels(const std::filesystem::path& file)
 {
     const auto image = readImage(file);
     if (!image)
@@ -274,7 +274,7 @@ std::pair<int, int> seenAtTheEdge(const std::filesystem::path& file)
     return {edge, inside};
 }
 
-TEST(CommandLine, allMomentsOfAnAnimationAreFramedByOneCamera)
+TEST(CommandLine, oneCameraFramesTheWholeAnimation)
 {
     const std::string model = std::string(COTAN_SHARED_DATA) + "/animated/Fox.glb";
     if (!std::filesystem::exists(model))
@@ -289,18 +289,18 @@ TEST(CommandLine, allMomentsOfAnAnimationAreFramedByOneCamera)
         double covered = 0;
         for (int i = 0; i <= 16; ++i) {
             const auto [edge, inside] =
-                seenAtTheEdge(folder / ((i < 10 ? "f-000" : "f-00") + std::to_string(i) + ".png"));
+                coveredPixels(folder / ((i < 10 ? "f-000" : "f-00") + std::to_string(i) + ".png"));
             EXPECT_EQ(edge, 0) << camera << " " << i;
             covered += inside / 17.0;
         }
-        EXPECT_GT(covered, 120 * 90 / 20) << camera; // not lost in it either; `fit` has a sphere around the whole run
-        // A single moment has the camera of all.
+        EXPECT_GT(covered, 120 * 90 / 20) << camera; // nor is it tiny; `fit` uses a sphere around the whole motion
+        // A single moment is drawn with the camera of the whole animation.
         ASSERT_EQ(runTool(with(draw, {"--time", "0.5", "-o", "t.png"}), folder.path()).code, 0);
         EXPECT_EQ(readWhole(folder / "t.png"), readWhole(folder / "f-0012.png"));
     }
 }
 
-TEST(CommandLine, everyFrameAndViewDraws)
+TEST(CommandLine, everyFrameAndViewIsDrawn)
 {
     TemporaryFolder folder;
     for (const char* frame :
@@ -324,7 +324,7 @@ TEST(CommandLine, compareOfAFrameWithItselfIsZeroDegrees)
         EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
 }
 
-TEST(Tool, pictures_of_an_animation_go_into_one_file)
+TEST(Tool, images_of_an_animation_go_into_one_file)
 {
     const std::string model = std::string(COTAN_SHARED_DATA) + "/animated/Fox.glb";
     if (!std::filesystem::exists(model))
@@ -336,10 +336,10 @@ TEST(Tool, pictures_of_an_animation_go_into_one_file)
     EXPECT_EQ(run.code, 0) << run.err;
     const std::string bytes = readWhole(folder / "fox.webp");
     EXPECT_EQ(bytes.substr(8, 4), "WEBP");
-    int pictures = 0;
+    int images = 0;
     for (std::size_t at = 0; (at = bytes.find("ANMF", at)) != std::string::npos; ++at)
-        ++pictures;
-    EXPECT_EQ(pictures, 3);
+        ++images;
+    EXPECT_EQ(images, 3);
     const auto files = std::filesystem::directory_iterator(folder.path());
     EXPECT_EQ(std::distance(begin(files), end(files)), 1);
 }

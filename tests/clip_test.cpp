@@ -1,4 +1,4 @@
-// Triangles that are cut before they are drawn.
+// Clipping of triangles before rasterisation.
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace cotan::reference {
 namespace {
 
-TEST(Clip, leavesNothingOfATriangleWithACornerThatIsNotFinite)
+TEST(Clip, removesTrianglesWithANonFiniteCorner)
 {
     const std::array<glm::dvec4, 3> whole = {glm::dvec4(0, 0, 0.5, 1), {60, 0, 0.5, 1}, {0, 40, 0.5, 1}};
     EXPECT_EQ(clip(whole, 64, 64).count, 3);

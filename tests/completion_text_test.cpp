@@ -1,5 +1,5 @@
-// Completion of a tool that is made up, for each shell: an option of every kind, commands below commands. What shells
-// want is written by hand.
+// Completion of a made-up tool for each shell: an option of every kind and nested commands. The expected scripts were
+// written by hand.
 #include <gtest/gtest.h>
 
 #include "help/help_files.hpp"
@@ -36,7 +36,7 @@ CommandHelp commandOf(const std::string& name, const std::string& summary)
     return command;
 }
 
-// tool, with map, which has turn, and paint.
+// The tool: its commands are `map`, which has `turn`, and `paint`.
 CommandHelp tool()
 {
     CommandHelp turn = commandOf("turn", "Turn it's.");
@@ -64,7 +64,7 @@ CommandHelp tool()
     return all;
 }
 
-// The lines behind `begin` and before `end`.
+// The text after `begin` and before `end`.
 std::string between(const std::string& text, const std::string& begin, const std::string& end)
 {
     const std::size_t at = text.find(begin);
@@ -143,7 +143,7 @@ _tool "$@"
 )x");
 }
 
-TEST(Completion, forBashKnowsWhatStandsBehindEachOptionOfEachCommand)
+TEST(Completion, forBashKnowsTheValuesOfEachOptionOfEachCommand)
 {
     const std::string text = bashCompletion(tool());
     EXPECT_EQ(between(text, "    case \"$command $before\" in\n", "    esac\n"),
@@ -194,7 +194,7 @@ TEST(Completion, forFishHasALineForEachOptionAndCommand)
         EXPECT_EQ(text.find(word), std::string::npos) << word;
 }
 
-TEST(Completion, filesAreOneForEachShellAndAPageForEachCommand)
+TEST(Completion, filesCoverEachShellAndEachCommand)
 {
     const CommandHelp all = tool();
     const CommandHelp &map = all.commands[0], &turn = map.commands[0], &paint = all.commands[1];
@@ -214,8 +214,8 @@ TEST(Completion, filesAreOneForEachShellAndAPageForEachCommand)
     }
 }
 
-// What roff would take for commands or set as other characters.
-TEST(Completion, pagesHaveTheCharactersOfRoffWrittenOut)
+// Characters that roff would treat as commands or typeset as other characters.
+TEST(Completion, pagesEscapeRoffCharacters)
 {
     CommandHelp all = commandOf("tool", "GLTF\nthings"), inner = commandOf("do-it", "a-b is it"),
                 last = commandOf("last", "glTF, of course");
@@ -249,7 +249,7 @@ TEST(Completion, pagesHaveTheCharactersOfRoffWrittenOut)
                     ".SH \"EXIT STATUS\"\nEnds with 0.\n.SH \"SEE ALSO\"\n\\fBtool\\fR(1)\n");
     const std::string whole = manPage({&all}, "1");
     EXPECT_NE(whole.find(".SH NAME\ntool \\- GLTF things\n"), std::string::npos) << whole;
-    // A heading is written where it changes.
+    // A heading is printed where it changes.
     EXPECT_NE(whole.find(".SH COMMANDS\nEach has a page of its own.\n.TP\n\\fB" + name
                          + "\\fR(1)\nA-b is it.\n.SS \"Others\"\n.TP\n\\fBtool\\-last\\fR(1)\nglTF, of course.\n"),
               std::string::npos)

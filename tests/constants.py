@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""constants.py SOURCES: the files of a part are compiled as one in a release, and their constants meet. Prints those that
-two files of a folder define, and fails if there is one. Constants of headers are not looked at: compilers are."""
+"""constants.py SOURCES: unity builds compile the files of a part as one. Prints constants that two files of a folder
+define, and fails if there are any. Headers are left to compilers."""
 import collections
 import pathlib
 import re

@@ -7,7 +7,7 @@
 namespace cotan {
 namespace {
 
-TEST(Convention, presetsAreFoundByTheirDistinctNames)
+TEST(Convention, presetsAreFoundByTheirUniqueNames)
 {
     std::set<std::string_view> names;
     for (const ConventionPreset& p : conventionPresets()) {
@@ -29,7 +29,7 @@ TEST(Convention, greenAlongVFollowsTheTableOfFour)
     }
 }
 
-TEST(Convention, theFormatTurnsGreenByVAndNotByThePicture)
+TEST(Convention, theFormatFlipsGreenByTheDirectionOfV)
 {
     Convention c;
     for (auto [up, v, sign] : {std::tuple(true, VDirection::down, -1.0), std::tuple(false, VDirection::down, 1.0),
@@ -50,8 +50,8 @@ TEST(Convention, knownEnginesPointGreenTheirWay)
     EXPECT_TRUE(greenAlongV(*conventionFromName("unity")));
 }
 
-// What a flat texel is after reading: 128 of 8 bits, 32768 of 16, 0.5 of floats.
-TEST(Convention, zeroIsTheMiddleCodeOfEveryPresetAtEveryDepth)
+// What a flat texel decodes from: 128 of 8 bits, 32768 of 16, 0.5 of floats.
+TEST(Convention, flatDecodesFromTheMiddleCodeAtEveryDepth)
 {
     for (const ConventionPreset& p : conventionPresets())
         for (auto [bits, middle] : {std::pair(8, 128.0 / 255), {16, 32768.0 / 65535}, {32, 0.5}}) {
@@ -71,7 +71,7 @@ TEST(Convention, descriptionNamesEveryChoice)
         EXPECT_NE(s.find(part), std::string::npos) << part;
 }
 
-TEST(Convention, enumeratorsAreThePortableTextsNumbers)
+TEST(Convention, enumeratorsEqualTheConstantsOfThePortableText)
 {
     EXPECT_EQ(int(Expansion::exact), COTAN_EXPAND_EXACT);
     EXPECT_EQ(int(Expansion::biased), COTAN_EXPAND_BIASED);
@@ -83,17 +83,17 @@ TEST(Convention, enumeratorsAreThePortableTextsNumbers)
     EXPECT_EQ(int(Channels::slope), COTAN_CHANNELS_SLOPE);
 }
 
-TEST(Convention, presetsAreWhatTheImporterIsGivenAndKeepsOnTheCard)
+TEST(Convention, presetsMatchTheEnginesImporters)
 {
     struct Expected {
         const char* name;
         bool greenUp;
         VDirection v;
-        bool twoOnCard;
+        bool twoOnGpu;
     };
     using enum VDirection;
-    // By each program's own documentation (src/core/convention.cpp names it): which way green is drawn, where v = 0 is,
-    // whether blue is dropped on import. All importers are given three channels.
+    // From each program's own documentation, which src/core/convention.cpp cites: the direction of green, where v = 0
+    // is, and whether the import drops blue. All importers are given three channels.
     const Expected table[] = {
         {"gltf", true, down, false},    {"opengl", true, up, false},   {"directx", false, down, false},
         {"unity", true, up, true},      {"unreal", false, down, true}, {"blender", true, up, false},
@@ -108,14 +108,14 @@ TEST(Convention, presetsAreWhatTheImporterIsGivenAndKeepsOnTheCard)
         EXPECT_EQ(c->greenUp, e.greenUp) << e.name;
         EXPECT_EQ(c->v, e.v) << e.name;
         EXPECT_EQ(c->channels, Channels::xyz) << e.name;
-        Convention card = *c;
-        card.channels = e.twoOnCard ? Channels::orthographic : Channels::xyz;
-        EXPECT_EQ(*parseSampledConvention(e.name), card) << e.name;
+        Convention onGpu = *c;
+        onGpu.channels = e.twoOnGpu ? Channels::orthographic : Channels::xyz;
+        EXPECT_EQ(*parseSampledConvention(e.name), onGpu) << e.name;
         EXPECT_EQ(parseConvention(std::string(e.name) + ",xy")->channels, Channels::orthographic) << e.name;
     }
 }
 
-TEST(Convention, wordsForTheChannelsAreToldFromWhatAPresetImplies)
+TEST(Convention, channelWordsAreDistinguishedFromPresets)
 {
     for (const char* words : {"gltf", "unity", "directx,biased", "green-down", "unreal,green-up,signed"}) {
         EXPECT_FALSE(parseStatedConvention(words)->channels) << words;
@@ -130,7 +130,7 @@ TEST(Convention, wordsForTheChannelsAreToldFromWhatAPresetImplies)
     EXPECT_FALSE(parseSampledConvention(""));
 }
 
-TEST(Convention, everyValueHasItsWord)
+TEST(Convention, everyValueHasAWord)
 {
     Convention c;
     const auto says = [&](const char* word) { return describe(c).find(word) != std::string::npos; };
@@ -150,12 +150,12 @@ TEST(Convention, everyValueHasItsWord)
     EXPECT_TRUE(says("xyz")) << describe(c);
 }
 
-TEST(Convention, becomesTheFormatOfThePortableText)
+TEST(Convention, convertsToTheFormatOfThePortableText)
 {
     Convention c;
     c.expansion = Expansion::biased;
     c.channels = Channels::slope;
-    c.greenUp = false; // with v up: against it
+    c.greenUp = false; // v points up: green is opposite
     c.v = VDirection::up;
     const auto f = toFormat<f32::cotan_normal_format>(c, 2.5);
     EXPECT_EQ(f.expansion, COTAN_EXPAND_BIASED);

@@ -1,4 +1,4 @@
-// `cotan convert` as a user runs it: what the files say afterwards, and what --verify measures.
+// `cotan convert` as a user runs it: what the files contain afterwards, and what --verify measures.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,25 +56,25 @@ Image normalMapOf(const std::filesystem::path& file)
     return scene->images.at(std::size_t(scene->materials.at(0).normalMap.image));
 }
 
-TEST(ConvertCommand, aStretchedQuadLooksTheSameAfterwardsWithinRounding)
+TEST(ConvertCommand, aStretchedQuadLooksTheSameAfterwards)
 {
     TemporaryFolder folder;
     write(quad(2), folder.path());
     const json r = convertJson(
         folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb", "--verify", "v", "--device", "reference"});
-    // 8 bits: 0.17 mean; filtering two texels is not the same in the two frames: a little more.
+    // 8 bits cost 0.17 degrees mean. Filtering between texels differs between the two frames, which adds a little.
     EXPECT_LT(r["verify"]["degrees"]["mean_degrees"].get<double>(), 0.25);
     EXPECT_LT(r["verify"]["degrees"]["max_degrees"].get<double>(), 1.5);
     EXPECT_GT(r["verify"]["degrees"]["pixels"].get<std::size_t>(), 100000u);
     for (int k = 0; k < 5; ++k)
         for (const char* name : {"before", "after", "difference"})
             EXPECT_TRUE(std::filesystem::exists(folder / fmt::format("v/{}-{}.png", name, k)));
-    // The control: without the conversion the same reading is far off.
+    // The control: read with cotangent but not converted, the error is large.
     const ToolRun lint = runTool({"lint", "quad.gltf", "--json", "-", "--quiet"}, folder.path());
     EXPECT_GT(json::parse(lint.out)["primitives"][0]["read_with"]["cotangent"]["mean"].get<double>(), 3);
 }
 
-TEST(ConvertCommand, tangentsGoAndEverythingElseStays)
+TEST(ConvertCommand, onlyTangentsAreRemoved)
 {
     TemporaryFolder folder;
     write(quad(2), folder.path());
@@ -107,10 +107,10 @@ TEST(ConvertCommand, towardsMikktspaceWritesTangents)
     int largest = 0;
     for (std::size_t i = 0; i < before.data.size(); ++i)
         largest = std::max(largest, std::abs(int(before.bytes8()[i]) - int(after.bytes8()[i])));
-    EXPECT_LE(largest, 1); // there in 16 bits and back: only that old texels were not quite unit
+    EXPECT_LE(largest, 1); // to 16 bits and back: the old texels were not quite unit length
 }
 
-TEST(ConvertCommand, aTextureTransformDoesWhatTheSameUvInTheVerticesDo)
+TEST(ConvertCommand, aTextureTransformEqualsTransformedUv)
 {
     TemporaryFolder one, other;
     write(quad(2, 0.5f), one.path());
@@ -127,7 +127,7 @@ TEST(ConvertCommand, aTextureTransformDoesWhatTheSameUvInTheVerticesDo)
         0.5);
 }
 
-TEST(ConvertCommand, anImageThatAnotherSlotReadsStaysForIt)
+TEST(ConvertCommand, anImageThatAnotherSlotReadsIsKept)
 {
     TemporaryFolder folder;
     Made m = quad(2);
@@ -142,7 +142,7 @@ TEST(ConvertCommand, anImageThatAnotherSlotReadsStaysForIt)
     EXPECT_NE(scene->images[std::size_t(material.normalMap.image)].data, makeReliefMap(Relief::waves, 128).data);
 }
 
-// A second material with a map of its own, which KHR_materials_variants may put in the first one's place.
+// Adds a second material with its own map, which KHR_materials_variants may put in place of the first.
 void addVariant(Made& m)
 {
     m.root["extensionsUsed"] = {"KHR_materials_variants"};
@@ -154,7 +154,7 @@ void addVariant(Made& m)
         json::array({{{"material", 1}, {"variants", {0}}}});
 }
 
-TEST(ConvertCommand, theMapsOfVariantsAreConvertedToo)
+TEST(ConvertCommand, mapsOfVariantsAreConvertedToo)
 {
     TemporaryFolder folder;
     Made m = quad(2);
@@ -172,7 +172,7 @@ TEST(ConvertCommand, theMapsOfVariantsAreConvertedToo)
 }
 
 // Readers that know the extension would take its image, which is for the old frame.
-TEST(ConvertCommand, otherFormsOfAConvertedMapGo)
+TEST(ConvertCommand, alternativeImagesOfAConvertedMapAreRemoved)
 {
     TemporaryFolder folder;
     Made m = quad(2);
@@ -183,15 +183,15 @@ TEST(ConvertCommand, otherFormsOfAConvertedMapGo)
     write(m, folder.path());
     std::ofstream(folder / "waves.webp") << "RIFF\x10\x01\x01\x01WEBPVP8 ";
     const json r = convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb"});
-    EXPECT_NE(r["notes"].dump().find("EXT_texture_webp taken out"), std::string::npos) << r["notes"];
+    EXPECT_NE(r["notes"].dump().find("EXT_texture_webp removed"), std::string::npos) << r["notes"];
     const json extensions = jsonOfGlb(folder / "out.glb")["textures"][0]["extensions"];
     EXPECT_FALSE(extensions.contains("EXT_texture_webp"));
     EXPECT_FALSE(jsonOfGlb(folder / "out.glb").contains("extensionsUsed"));
     EXPECT_EQ(extensions["VENDOR_other"]["keep"], 1);
 }
 
-// Only the WebP is there, and readers have to know it: so is the new one, with the texels that a PNG has.
-TEST(ConvertCommand, aMapInWebpStaysWebpWithoutLosses)
+// The WebP extension is required here: the converted texture is WebP too, with the texels a PNG would have.
+TEST(ConvertCommand, aMapInWebpBecomesLosslessWebp)
 {
     TemporaryFolder folder;
     Made m = quad(2);
@@ -210,7 +210,7 @@ TEST(ConvertCommand, aMapInWebpStaysWebpWithoutLosses)
     write(m, folder.path());
     const json r = convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb"});
     EXPECT_FALSE(r["maps"][0]["kept"].get<bool>());
-    EXPECT_EQ(r["notes"].dump().find("taken out"), std::string::npos) << r["notes"];
+    EXPECT_EQ(r["notes"].dump().find(" removed: "), std::string::npos) << r["notes"];
     const json out = jsonOfGlb(folder / "out.glb");
     EXPECT_EQ(out["extensionsRequired"], json({"EXT_texture_webp"}));
     EXPECT_EQ(out["extensionsUsed"], json({"EXT_texture_webp"}));
@@ -227,7 +227,7 @@ TEST(ConvertCommand, aMapInWebpStaysWebpWithoutLosses)
               0);
 }
 
-TEST(ConvertCommand, aMapInJpegStaysJpegAndWhereItCannotANoteSaysWhatItCosts)
+TEST(ConvertCommand, aMapInJpegStaysJpegElseANoteStatesTheCost)
 {
     TemporaryFolder folder;
     Made m = quad(2);
@@ -248,12 +248,12 @@ TEST(ConvertCommand, aMapInJpegStaysJpegAndWhereItCannotANoteSaysWhatItCosts)
     EXPECT_EQ(std::filesystem::file_size(folder / file), map["bytes_after"]);
     const json wide = convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "--bits", "16", "-o", "wide.glb"});
     EXPECT_EQ(wide["maps"][0]["format"], "PNG");
-    EXPECT_NE(wide["notes"].dump().find("waves.jpg: JPEG has 8 bits, and 16 are wanted, so the new map is PNG"),
+    EXPECT_NE(wide["notes"].dump().find("waves.jpg: JPEG has 8 bits, but 16 are required, so the new map is PNG"),
               std::string::npos)
         << wide["notes"];
 }
 
-TEST(ConvertCommand, tangentsStayWhereTheMapCannotBeConverted)
+TEST(ConvertCommand, tangentsAreKeptIfTheMapCannotBeConverted)
 {
     TemporaryFolder folder;
     Made m = quad(2);
@@ -265,18 +265,18 @@ TEST(ConvertCommand, tangentsStayWhereTheMapCannotBeConverted)
         << makeKtx2({.format = 0, .packing = 1, .levels = {{"some"}}, .colourModel = 163});
     const json r = convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb"});
     EXPECT_TRUE(r["maps"].empty());
-    EXPECT_NE(r["notes"].dump().find("TANGENT stays"), std::string::npos) << r["notes"];
+    EXPECT_NE(r["notes"].dump().find("TANGENT is kept"), std::string::npos) << r["notes"];
     EXPECT_TRUE(jsonOfGlb(folder / "out.glb")["meshes"][0]["primitives"][0]["attributes"].contains("TANGENT"));
 }
 
-// Square uv: the new map would be the old one but for rounding.
-TEST(ConvertCommand, aMapThatFitsAsItIsStaysToTheByte)
+// With square uv, the new map would equal the old one except for rounding.
+TEST(ConvertCommand, aMapThatFitsUnconvertedKeepsItsBytes)
 {
     TemporaryFolder folder;
     write(quad(1), folder.path());
     const json r = convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "out.glb"});
     EXPECT_TRUE(r["maps"][0]["kept"].get<bool>());
-    EXPECT_EQ(r["notes"].dump().find("show them wrongly"), std::string::npos) << r["notes"];
+    EXPECT_EQ(r["notes"].dump().find("shade them incorrectly"), std::string::npos) << r["notes"];
     const auto before = openGltfDocument(folder / "quad.gltf"), after = openGltfDocument(folder / "out.glb");
     ASSERT_TRUE(before && after);
     EXPECT_EQ(*gltfImageBytes(*before, 0), *gltfImageBytes(*after, 0));
@@ -286,27 +286,27 @@ TEST(ConvertCommand, aMapThatFitsAsItIsStaysToTheByte)
                      .get<bool>());
 }
 
-TEST(ConvertCommand, saysPlainlyWhereNoOneMapFits)
+TEST(ConvertCommand, aNoteSaysIfNoSingleMapFits)
 {
     TemporaryFolder folder;
     Made m = quad(1);
     write(m, folder.path());
     EXPECT_EQ(convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "one.glb"})["notes"].dump().find(
-                  "no one map"),
+                  "No single map"),
               std::string::npos);
-    m.root["nodes"].push_back({{"mesh", 0}, {"scale", {4, 1, 1}}}); // the same texels, stretched here
+    m.root["nodes"].push_back({{"mesh", 0}, {"scale", {4, 1, 1}}}); // the same texels, stretched in this instance
     m.root["scenes"][0]["nodes"] = {0, 1};
     write(m, folder.path());
     EXPECT_NE(convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "-o", "two.glb"})["notes"].dump().find(
-                  "no one map"),
+                  "No single map"),
               std::string::npos);
 }
 
-TEST(ConvertCommand, reversedTangentsAreFollowedOrLeftAsideAsAsked)
+TEST(ConvertCommand, reversedTangentsAreFollowedOrIgnoredAsRequested)
 {
     TemporaryFolder folder;
     Made m = quad(1);
-    for (std::size_t i = 0; i < 6; ++i) { // TANGENT comes after positions and normals
+    for (std::size_t i = 0; i < 6; ++i) { // TANGENT follows positions and normals
         const float w = -1;
         std::memcpy(m.bytes.data() + (18 + 18 + 4 * i + 3) * sizeof(float), &w, sizeof w);
     }
@@ -316,7 +316,7 @@ TEST(ConvertCommand, reversedTangentsAreFollowedOrLeftAsideAsAsked)
     const Image old = normalMapOf(folder / "quad.gltf"), stored = normalMapOf(folder / "stored.glb"),
                 generated = normalMapOf(folder / "generated.glb");
     for (std::size_t i = 0; i < old.pixelCount(); ++i) {
-        EXPECT_NEAR(stored.bytes8()[4 * i + 1], 256 - old.bytes8()[4 * i + 1], 1); // green turns over
+        EXPECT_NEAR(stored.bytes8()[4 * i + 1], 256 - old.bytes8()[4 * i + 1], 1); // green is mirrored
         EXPECT_NEAR(generated.bytes8()[4 * i + 1], old.bytes8()[4 * i + 1], 1);
     }
 }
@@ -325,7 +325,7 @@ TEST(ConvertCommand, realModelsLookTheSameWithoutTangents)
 {
     const struct {
         const char* file;
-        double mean; // degrees; maps of 8 bits cost 0.17, the rest is filtering across facets and shared texels
+        double mean; // degrees; 8-bit maps cost 0.17, the remainder is filtering across facets and shared texels
     } models[] = {{"models/FlightHelmet/FlightHelmet.gltf", 0.5}, {"models/SketchfabCat/scene.gltf", 0.5}};
     for (const auto& model : models) {
         if (!std::filesystem::exists(shared(model.file)))
@@ -342,7 +342,7 @@ TEST(ConvertCommand, realModelsLookTheSameWithoutTangents)
     }
 }
 
-// Bytes of a model and of the files that it names.
+// Bytes of a model and the files that it refers to.
 std::uintmax_t bytesWithItsFiles(const std::filesystem::path& model)
 {
     std::uintmax_t bytes = std::filesystem::file_size(model);
@@ -355,7 +355,7 @@ std::uintmax_t bytesWithItsFiles(const std::filesystem::path& model)
     return bytes;
 }
 
-TEST(ConvertCommand, withKeepMapsTangentsGoMapsStayToTheByteAndTheFileShrinks)
+TEST(ConvertCommand, keepMapsDropsTangentsAndKeepsTheBytesOfMaps)
 {
     std::size_t tried = 0;
     for (const char* file :
@@ -374,7 +374,7 @@ TEST(ConvertCommand, withKeepMapsTangentsGoMapsStayToTheByteAndTheFileShrinks)
         EXPECT_EQ(r["to"], "orthonormal");
         for (const json& map : r["maps"])
             EXPECT_EQ(map["bytes_after"], map["bytes_before"]) << file;
-        // A text of JSON and padding may be laid out anew: 2 %.
+        // JSON text and padding may change size: 2 %.
         EXPECT_LT(double(std::filesystem::file_size(folder / "out.glb")), 1.02 * double(bytesWithItsFiles(model)))
             << file;
         const auto before = openGltfDocument(model), after = openGltfDocument(folder / "out.glb");
@@ -388,13 +388,13 @@ TEST(ConvertCommand, withKeepMapsTangentsGoMapsStayToTheByteAndTheFileShrinks)
         GTEST_SKIP() << "no model is there";
 }
 
-TEST(ConvertCommand, keepMapsIsRefusedBesideWhatItContradicts)
+TEST(ConvertCommand, keepMapsIsRefusedWithContradictoryOptions)
 {
     TemporaryFolder folder;
     write(quad(2), folder.path());
     const std::pair<std::vector<std::string>, const char*> wrong[] = {
-        {{"--keep-tangents"}, "--keep-tangents: with --keep-maps only the tangents go"},
-        {{"--bits", "8"}, "--bits: with --keep-maps only the tangents go"},
+        {{"--keep-tangents"}, "--keep-tangents: --keep-maps drops only the tangents"},
+        {{"--bits", "8"}, "--bits: --keep-maps drops only the tangents"},
         {{"--to-frame", "mikktspace"},
          "--to-frame: expected a frame that reads no tangents, since --keep-maps drops them; found mikktspace"},
     };
@@ -405,9 +405,9 @@ TEST(ConvertCommand, keepMapsIsRefusedBesideWhatItContradicts)
         EXPECT_EQ(run.code, 1);
         EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
     }
-    // What stays off is said: the quad is stretched 2:1, which cotangent follows.
+    // The remaining error is reported: the quad is stretched 2:1, which cotangent follows.
     const json r = convertJson(folder.path(), {"quad.gltf", "--keep-maps", "--to-frame", "cotangent", "-o", "out.glb"});
-    EXPECT_NE(r["notes"].dump().find("as it is, read with cotangent, it is off by"), std::string::npos) << r["notes"];
+    EXPECT_NE(r["notes"].dump().find("unchanged and read with cotangent, its error"), std::string::npos) << r["notes"];
 }
 
 TEST(ConvertCommand, badInputGetsOneClearLineAndLeavesNothing)

@@ -1,5 +1,5 @@
-// Which primitives read which image, and how: each field of a job, of a document in which no two are equal. And what is
-// put back: in which slots, with what said about it.
+// Which primitives read which image, and how: each field of a job, in a document without two equal primitives. Also
+// into which slots a converted map is written back, with which notes.
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -22,8 +22,8 @@ std::vector<std::byte> pngOf(int side)
     return png ? *std::move(png) : std::vector<std::byte>{};
 }
 
-// Two images; two meshes; the first material reads image 0 as its normal map and image 1 as its coat's, the second
-// image 1 as its own. The first mesh stands twice, once stretched.
+// Two images and two meshes. The first material reads image 0 as its normal map and image 1 as its coat's; the second
+// reads image 1 as its normal map. The first mesh has two instances, one of them stretched.
 GltfDocument document()
 {
     Scene scene;
@@ -54,7 +54,7 @@ GltfDocument document()
     return d;
 }
 
-TEST(MapJobs, knowEachReaderWithItsStrengthWrapPlacingsAndTangents)
+TEST(MapJobs, knowTheStrengthWrapTransformsAndTangentsOfEachReader)
 {
     std::vector<std::string> notes;
     const auto jobs = mapJobs(document(), notes);
@@ -68,15 +68,15 @@ TEST(MapJobs, knowEachReaderWithItsStrengthWrapPlacingsAndTangents)
     EXPECT_EQ(b.name, "domes");
     EXPECT_FALSE(a.alsoElsewhere);
     EXPECT_FALSE(b.alsoElsewhere);
-    EXPECT_EQ(a.places, (std::vector<MapSlot>{{0, NormalSlot::surface}}));
-    EXPECT_EQ(b.places, (std::vector<MapSlot>{{0, NormalSlot::coat}, {1, NormalSlot::surface}}));
+    EXPECT_EQ(a.slots, (std::vector<MapSlot>{{0, NormalSlot::surface}}));
+    EXPECT_EQ(b.slots, (std::vector<MapSlot>{{0, NormalSlot::coat}, {1, NormalSlot::surface}}));
     ASSERT_EQ(a.readers.size(), 1u);
     ASSERT_EQ(b.readers.size(), 2u);
     const MapReader &r = a.readers[0], &coat = b.readers[0], &own = b.readers[1];
     EXPECT_EQ(r.mesh, 0u);
     EXPECT_EQ(own.mesh, 1u);
-    EXPECT_EQ(r.place, (MapSlot{0, NormalSlot::surface}));
-    EXPECT_EQ(coat.place, (MapSlot{0, NormalSlot::coat}));
+    EXPECT_EQ(r.slot, (MapSlot{0, NormalSlot::surface}));
+    EXPECT_EQ(coat.slot, (MapSlot{0, NormalSlot::coat}));
     EXPECT_EQ(r.strength, 0.5);
     EXPECT_EQ(coat.strength, 0.25);
     EXPECT_EQ(own.strength, 2);
@@ -84,20 +84,20 @@ TEST(MapJobs, knowEachReaderWithItsStrengthWrapPlacingsAndTangents)
     EXPECT_TRUE(r.wrapV == Wrap::mirror);
     EXPECT_TRUE(own.wrapU == Wrap::mirror);
     EXPECT_TRUE(own.wrapV == Wrap::repeat);
-    EXPECT_EQ(r.triangles, 8u); // of a plane of 2 x 2 squares
+    EXPECT_EQ(r.triangles, 8u); // a plane of 2 x 2 squares
     EXPECT_EQ(r.vertices, 9u);
     EXPECT_EQ(own.triangles, 2u);
     EXPECT_EQ(own.vertices, 4u);
     EXPECT_FALSE(r.stored);
     EXPECT_TRUE(own.stored);
-    EXPECT_EQ(r.placed.size(), 2u); // a rotation makes no other surface
-    EXPECT_EQ(coat.placed.size(), 2u);
-    EXPECT_EQ(own.placed.size(), 1u);
+    EXPECT_EQ(r.transforms.size(), 2u); // a rotation makes no other surface
+    EXPECT_EQ(coat.transforms.size(), 2u);
+    EXPECT_EQ(own.transforms.size(), 1u);
     EXPECT_EQ(surfacesOf(a), 2u);
     EXPECT_EQ(surfacesOf(b), 3u);
 }
 
-TEST(MapJobs, usesFollowTheirReaders)
+TEST(MapJobs, usesMatchTheirReaders)
 {
     const GltfDocument d = document();
     std::vector<std::string> notes;
@@ -112,7 +112,7 @@ TEST(MapJobs, usesFollowTheirReaders)
     EXPECT_TRUE((*uses)[2].wrapV == Wrap::repeat);
 }
 
-TEST(MapJobs, aCoatThatIsNotThereHasNoStrength)
+TEST(MapJobs, aCoatWithoutFactorHasStrengthZero)
 {
     GltfDocument d = document();
     rootOf(d)["materials"][0]["extensions"]["KHR_materials_clearcoat"].erase("clearcoatFactor");
@@ -122,7 +122,7 @@ TEST(MapJobs, aCoatThatIsNotThereHasNoStrength)
     EXPECT_EQ((*jobs)[1].readers[0].strength, 0);
 }
 
-TEST(MapJobs, anImageOfAnotherSlotIsAlsoElsewhereAndIsCopiedForTheNewMap)
+TEST(MapJobs, anImageThatAnotherSlotReadsIsCopiedForTheNewMap)
 {
     GltfDocument d = document();
     const std::size_t old = rootOf(d)["materials"][0]["normalTexture"]["index"];
@@ -143,13 +143,13 @@ TEST(MapJobs, anImageOfAnotherSlotIsAlsoElsewhereAndIsCopiedForTheNewMap)
     EXPECT_EQ(*gltfImageBytes(d, 0), *before);
     EXPECT_EQ(*gltfImageBytes(d, 2), pngOf(3));
     const auto second = gltfImageBytes(d, 1);
-    replaceMap(d, (*jobs)[1], pngOf(5), "image/png", notes); // nobody else reads it: in its place
+    replaceMap(d, (*jobs)[1], pngOf(5), "image/png", notes); // no other slot reads it: replaced in place
     EXPECT_EQ(rootOf(d)["images"].size(), 3u);
     EXPECT_EQ(*gltfImageBytes(d, 1), pngOf(5));
     EXPECT_NE(*gltfImageBytes(d, 1), *second);
 }
 
-TEST(MapJobs, aMapInWebpIsNamedSoOnceAndRequired)
+TEST(MapJobs, aMapInWebpRequiresItsExtensionOnce)
 {
     GltfDocument d = document();
     std::vector<std::string> notes;
@@ -167,7 +167,7 @@ TEST(MapJobs, aMapInWebpIsNamedSoOnceAndRequired)
     }
 }
 
-TEST(MapJobs, primitivesWithoutUvOrTrianglesAreLeftOutAndSaid)
+TEST(MapJobs, primitivesWithoutUvOrTrianglesAreOmittedWithANote)
 {
     GltfDocument d = document();
     rootOf(d)["meshes"][1]["primitives"][0]["attributes"].erase("TEXCOORD_0");
@@ -182,7 +182,7 @@ TEST(MapJobs, primitivesWithoutUvOrTrianglesAreLeftOutAndSaid)
     EXPECT_NE(notes[2].find("meshes[1].primitives[0]: no uv for its normal map"), std::string::npos) << notes[2];
 }
 
-TEST(PutMap, goesToTheNamedMaterialAloneAndForgetsItsScale)
+TEST(PutMap, goesOnlyToTheNamedMaterialAndResetsItsScale)
 {
     GltfDocument d = document();
     std::vector<std::string> notes;
@@ -210,7 +210,7 @@ TEST(PutMap, goesToTheNamedMaterialAloneAndForgetsItsScale)
     EXPECT_NE(two.error().message.find("found 2"), std::string::npos);
 }
 
-TEST(PutMap, withoutANameAllPrimitivesGetItAndOneMaterialIsMadeForThoseWithoutAny)
+TEST(PutMap, withoutANameAllPrimitivesGetIt)
 {
     GltfDocument d = document();
     rootOf(d)["meshes"][1]["primitives"][0].erase("material");
@@ -224,7 +224,7 @@ TEST(PutMap, withoutANameAllPrimitivesGetItAndOneMaterialIsMadeForThoseWithoutAn
     EXPECT_NE(rootOf(d)["materials"][0]["normalTexture"]["index"], rootOf(d)["materials"][1]["normalTexture"]["index"]);
     for (const std::size_t m : {0u, 1u})
         EXPECT_TRUE(rootOf(d)["meshes"][m]["primitives"][0]["attributes"].contains("TANGENT")) << m;
-    EXPECT_TRUE(notes.empty()); // every reader knows MikkTSpace
+    EXPECT_TRUE(notes.empty()); // all readers know MikkTSpace
 }
 
 } // namespace

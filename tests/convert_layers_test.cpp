@@ -1,4 +1,4 @@
-// `cotan convert` where layers over the surface read its frame: a clear coat's normal map, the direction of anisotropy.
+// `cotan convert` with layers that use the surface's frame: a clear coat's normal map and the direction of anisotropy.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,7 +36,7 @@ Image imageOf(const Scene& scene, const Texture& texture) { return scene.images.
 
 bool hasTangents(const std::filesystem::path& file) { return !loaded(file).meshes.at(0).tangents.empty(); }
 
-TEST(ConvertCoat, itsMapIsConvertedAsTheSurfacesOwnWouldBe)
+TEST(ConvertCoat, itsMapIsConvertedLikeTheBaseMap)
 {
     const json moves = {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {0.5, 0.75}}}}}}};
     for (const char* frame : {"cotangent", "orthonormal", "smooth"})
@@ -54,8 +54,8 @@ TEST(ConvertCoat, itsMapIsConvertedAsTheSurfacesOwnWouldBe)
             write(m, coated.path());
             const json r = converted(coated.path(), frame);
             ASSERT_EQ(r["maps"].size(), 2u);
-            // A surface of the new frame reads its own map as its coat does, wherever the uv of both are: but for
-            // `smooth`, which a coat with other uv reads as `cotangent`. On a flat patch these are one.
+            // A surface with the new frame reads its own map like its coat does, whatever the uv of both. Only for
+            // `smooth`, a coat with other uv reads as `cotangent`; on a flat patch the two are equal.
             const Scene a = loaded(own / "out.glb"), b = loaded(coated / "out.glb");
             EXPECT_EQ(imageOf(a, a.materials[0].normalMap).data, imageOf(b, b.materials[0].coat.normalMap).data)
                 << frame << how;
@@ -64,7 +64,7 @@ TEST(ConvertCoat, itsMapIsConvertedAsTheSurfacesOwnWouldBe)
         }
 }
 
-// The mean difference of two pictures in steps of 8 bits, over all channels.
+// The mean difference of two images over all channels, in 8-bit steps.
 double stepsApart(const std::filesystem::path& a, const std::filesystem::path& b)
 {
     const auto one = readImage(a), other = readImage(b);
@@ -76,18 +76,18 @@ double stepsApart(const std::filesystem::path& a, const std::filesystem::path& b
 }
 
 void drawn(const std::filesystem::path& folder, const std::string& model, const std::string& frame,
-           const std::string& picture)
+           const std::string& image)
 {
     const ToolRun run =
-        runTool({"render",        model,      "-o",           picture,    "--frame",    frame,      "--size",
+        runTool({"render",        model,      "-o",           image,    "--frame",    frame,      "--size",
                  "120x60",        "--device", "reference",    "--ground", "off",        "--camera", "fit",
                  "--environment", "none",     "--background", "none",     "--exposure", "1",        "--quiet"},
                 folder, 60);
     EXPECT_EQ(run.code, 0) << run.err;
 }
 
-// As renderers have it: the coat's map is read with the tangents of the surface, whatever its own uv are.
-TEST(ConvertCoat, theCoatLooksTheSameAfterwardsWhereItsUvAreTurnedAndStretched)
+// Like other renderers: the coat's map is read with the tangents of the surface, whatever its own uv are.
+TEST(ConvertCoat, theCoatLooksTheSameWithRotatedAndStretchedUv)
 {
     for (const auto& [frame, stored] : {std::pair("cotangent", true),
                                         {"cotangent", false},
@@ -96,30 +96,30 @@ TEST(ConvertCoat, theCoatLooksTheSameAfterwardsWhereItsUvAreTurnedAndStretched)
                                         {"smooth", false}}) {
         TemporaryFolder folder;
         Made m = quad(2);
-        if (!stored) // made of the surface's uv
+        if (!stored) // then generated from the surface's uv
             m.root["meshes"][0]["primitives"][0]["attributes"].erase("TANGENT");
         addCoat(m,
                 {{"index", 1},
                  {"extensions",
                   {{"KHR_texture_transform", {{"rotation", 0.6}, {"scale", {1.0, 2.0}}, {"offset", {0.3, 0.1}}}}}}});
         m.root["materials"][0].erase("normalTexture");
-        m.root["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0, 0, 0, 1}; // the coat alone is seen
+        m.root["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0, 0, 0, 1}; // only the coat is visible
         write(m, folder.path());
         const json r = converted(folder.path(), frame);
         EXPECT_LT(r["maps"][0]["degrees_after_rounding"]["mean"].get<double>(), 2.0) << r;
         drawn(folder.path(), "quad.gltf", "mikktspace", "before.png");
         drawn(folder.path(), "out.glb", frame, "after.png");
         drawn(folder.path(), "quad.gltf", frame, "unconverted.png");
-        const double off = stepsApart(folder / "before.png", folder / "after.png"),
+        const double difference = stepsApart(folder / "before.png", folder / "after.png"),
                      unconverted = stepsApart(folder / "before.png", folder / "unconverted.png");
         EXPECT_GT(unconverted, 1.2) << frame;
-        EXPECT_LT(off, 0.25 * unconverted) << frame;
+        EXPECT_LT(difference, 0.25 * unconverted) << frame;
         EXPECT_FALSE(hasTangents(folder / "out.glb"));
     }
 }
 
-// One image in both slots, with uv of its own in each: they want different maps, and the report counts where.
-TEST(ConvertCoat, anImageInBothSlotsIsOneMapAndSaysWhereTheyDisagree)
+// One image in both slots, with different uv: they need different maps, and the report counts the conflicts.
+TEST(ConvertCoat, anImageInBothSlotsIsOneMapWithReportedConflicts)
 {
     TemporaryFolder folder;
     Made m = quad(2);
@@ -129,12 +129,12 @@ TEST(ConvertCoat, anImageInBothSlotsIsOneMapAndSaysWhereTheyDisagree)
     ASSERT_EQ(r["maps"].size(), 1u);
     EXPECT_EQ(r["maps"][0]["surfaces"], 2);
     EXPECT_GT(r["maps"][0]["texels_that_disagree"].get<int>(), 1000);
-    EXPECT_NE(r["notes"].dump().find("no one map fits"), std::string::npos) << r["notes"];
+    EXPECT_NE(r["notes"].dump().find("No single map fits"), std::string::npos) << r["notes"];
     const Scene scene = loaded(folder / "out.glb");
     EXPECT_EQ(scene.materials[0].normalMap.image, scene.materials[0].coat.normalMap.image);
 }
 
-TEST(ConvertCoat, anImageThatAnotherSlotReadsStaysForIt)
+TEST(ConvertCoat, anImageThatAnotherSlotReadsIsKept)
 {
     TemporaryFolder folder;
     Made m = quad(2);
@@ -147,7 +147,7 @@ TEST(ConvertCoat, anImageThatAnotherSlotReadsStaysForIt)
     EXPECT_NE(imageOf(scene, scene.materials[0].coat.normalMap).data, makeReliefMap(Relief::waves, 128).data);
 }
 
-TEST(ConvertCoat, ofAStrengthOfZeroItStays)
+TEST(ConvertCoat, itsMapIsKeptIfTheStrengthIsZero)
 {
     TemporaryFolder folder;
     Made m = quad(2);
@@ -168,13 +168,13 @@ Made stretchedHighlights()
     return m;
 }
 
-TEST(ConvertAnisotropy, tangentsGoWhereTheFrameHasTheirDirection)
+TEST(ConvertAnisotropy, tangentsAreDroppedIfTheFrameHasTheirDirection)
 {
     for (const char* frame : {"cotangent", "orthonormal", "smooth"})
         for (const double degrees : {0.0, 4.0, 30.0}) {
             TemporaryFolder folder;
             Made m = stretchedHighlights();
-            turnTangents(m, degrees);
+            rotateTangents(m, degrees);
             write(m, folder.path());
             const json r = converted(folder.path(), frame);
             const json& turned = r["tangents"]["anisotropy"];
@@ -182,12 +182,12 @@ TEST(ConvertAnisotropy, tangentsGoWhereTheFrameHasTheirDirection)
             EXPECT_NEAR(turned[0]["turned_degrees"]["mean"].get<double>(), degrees, 1e-4) << frame;
             EXPECT_EQ(turned[0]["tangents_stay"], degrees > 5) << frame;
             EXPECT_EQ(hasTangents(folder / "out.glb"), degrees > 5) << frame;
-            EXPECT_EQ(r["notes"].dump().find("anisotropy would turn by 30.0 degrees") != std::string::npos, degrees > 5)
+            EXPECT_EQ(r["notes"].dump().find("would rotate by 30.0 degrees") != std::string::npos, degrees > 5)
                 << r["notes"];
         }
 }
 
-TEST(ConvertAnisotropy, tangentsStayWithoutUvToDeriveADirectionFrom)
+TEST(ConvertAnisotropy, tangentsAreKeptWithoutUvToDeriveADirectionFrom)
 {
     TemporaryFolder folder;
     Made m = stretchedHighlights();
@@ -196,10 +196,10 @@ TEST(ConvertAnisotropy, tangentsStayWithoutUvToDeriveADirectionFrom)
     write(m, folder.path());
     const json r = converted(folder.path(), "cotangent");
     EXPECT_TRUE(hasTangents(folder / "out.glb"));
-    EXPECT_NE(r["notes"].dump().find("without uv"), std::string::npos) << r["notes"];
+    EXPECT_NE(r["notes"].dump().find("no uv to derive it from"), std::string::npos) << r["notes"];
 }
 
-// The pictures of Khronos' model before and after: a step of 8 bits and less in the mean.
+// Images of Khronos' model before and after differ by at most one 8-bit step in the mean.
 TEST(ConvertAnisotropy, aRealModelLooksTheSameWithoutTangents)
 {
     const std::string model =
@@ -211,9 +211,9 @@ TEST(ConvertAnisotropy, aRealModelLooksTheSameWithoutTangents)
         ASSERT_EQ(runTool({"convert", model, "--to-frame", frame, "-o", "out.glb", "--quiet"}, folder.path()).code, 0);
         drawn(folder.path(), model, "mikktspace", "before.png");
         drawn(folder.path(), "out.glb", frame, "after.png");
-        const double off = stepsApart(folder / "before.png", folder / "after.png");
-        std::cout << frame << ": " << off << " steps\n";
-        EXPECT_LT(off, bar) << frame;
+        const double difference = stepsApart(folder / "before.png", folder / "after.png");
+        std::cout << frame << ": " << difference << " steps\n";
+        EXPECT_LT(difference, bar) << frame;
     }
 }
 

@@ -1,5 +1,5 @@
-// A whole glTF document for another frame, by one call and without files: texels that are known by hand, what the
-// report says, and what is refused.
+// Converts a whole glTF document to another frame with one call and without files: texels worked out by hand, the
+// contents of the report, and refusals.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ Image mapOf(glm::dvec3 m)
     return image;
 }
 
-// A rectangle in xy whose uv fill the unit square, v down, with a map.
+// A rectangle in xy with a map; its uv fill the unit square, v down.
 GltfDocument documentOf(float width, const Image& map, float uvScale = 1, bool tangents = false, float w = 1)
 {
     Scene scene;
@@ -104,7 +104,7 @@ TEST(ConvertModel, aFlatMapStaysFlatInEveryFrame)
         EXPECT_TRUE(kept->maps[0].kept) << to.name;
         EXPECT_LT(kept->maps[0].figures.unconverted.maximum, 1e-4) << to.name; // float positions and tangents
         EXPECT_EQ(*before, *gltfImageBytes(document, 0)) << to.name;
-        document = documentOf(2, mapOf({0, 0, 1})); // the converted one names its frame
+        document = documentOf(2, mapOf({0, 0, 1})); // the converted document names its frame
         const auto anew = convertModel(
             document, {.frames = {Frame::mikktspace, to.frame}, .bits = 16, .expansion = Expansion::exact});
         ASSERT_TRUE(anew) << anew.error().message;
@@ -119,14 +119,14 @@ TEST(ConvertModel, aFlatMapStaysFlatInEveryFrame)
     }
 }
 
-TEST(ConvertModel, onATwiceAsWideRectangleTheSlopeAlongUDoublesForCotangent)
+TEST(ConvertModel, twiceTheWidthDoublesTheSlopeAlongUForCotangent)
 {
     const Image map = mapOf({0.3, 0.2, 1});
     GltfDocument document = documentOf(2, map);
     const auto report = convertModel(document, {.frames = kThere, .bits = 16, .expansion = Expansion::exact});
     ASSERT_TRUE(report) << report.error().message;
     const glm::dvec3 old = directionAt(map, 3, 3), found = directionAt(normalMapIn(document), 3, 3);
-    EXPECT_NEAR(found.x / found.z, 2 * old.x / old.z, 2e-4); // 16 bits: 1.5e-5 a component, slopes under 1
+    EXPECT_NEAR(found.x / found.z, 2 * old.x / old.z, 2e-4); // 16 bits: 1.5e-5 a component, slopes below 1
     EXPECT_NEAR(found.y / found.z, old.y / old.z, 2e-4);
     const ConvertedMap& m = report->maps.at(0);
     EXPECT_EQ(m.width, 16);
@@ -138,19 +138,19 @@ TEST(ConvertModel, onATwiceAsWideRectangleTheSlopeAlongUDoublesForCotangent)
     EXPECT_GT(m.figures.unconverted.mean, 3);
 }
 
-TEST(ConvertModel, thereAndBackIsWithinRounding)
+TEST(ConvertModel, roundTripIsWithinRounding)
 {
     const Image map = makeReliefMap(Relief::waves, 32);
     GltfDocument document = documentOf(2, map);
     ASSERT_TRUE(convertModel(document, {.frames = kThere, .bits = 16, .expansion = Expansion::exact}));
-    EXPECT_GT(largestAngle(map, normalMapIn(document)), 3); // and it does something
+    EXPECT_GT(largestAngle(map, normalMapIn(document)), 3); // the conversion has an effect
     ASSERT_TRUE(convertModel(document, {.frames = kBack, .bits = 16, .expansion = Expansion::exact}));
     EXPECT_LT(largestAngle(map, normalMapIn(document)), 0.02); // 16 bits, twice
 }
 
-// What readers by 2c - 1 show of flat texels leans towards red and green. Stored tangents whose w is reversed mean
-// green the other way, so they lean against what is then green: 127 does that, 128 does not.
-TEST(ConvertModel, flatTexelsLeanInEnginesAsTheyDid)
+// Readers that decode with 2c - 1 tilt flat texels towards red and green. Stored tangents with reversed w reverse
+// green, so the tilt must be against the new green: code 127 does that, 128 does not.
+TEST(ConvertModel, flatTexelsKeepTheirTiltInEngines)
 {
     const auto texelOf = [](Expansion expansion) {
         GltfDocument document = documentOf(1, mapOf({0, 0, 1}), 1, true, -1);
@@ -166,17 +166,17 @@ TEST(ConvertModel, flatTexelsLeanInEnginesAsTheyDid)
     EXPECT_EQ(texelOf(Expansion::exact), std::pair(128, 128));
 }
 
-TEST(ConvertModel, readsAMapAsItsMaterialSaysAndForgetsWhatIsNoLongerSo)
+TEST(ConvertModel, decodesByTheMaterialsExtrasAndRemovesOutdatedOnes)
 {
     GltfDocument document = documentOf(1, mapOf({0, 0, 1}));
     rootOf(document)["materials"][0]["extras"]["cotanUnsigned"] = "biased";
     ASSERT_TRUE(convertModel(document, {.frames = kThere, .bits = 16, .expansion = Expansion::exact}));
     EXPECT_FALSE(rootOf(document)["materials"][0].value("extras", nlohmann::ordered_json()).contains("cotanUnsigned"));
-    // 128 of 255 is 1 / 255 above the middle, which 16 bits hold.
+    // 128 of 255 is 1 / 255 above the middle, which 16 bits represent.
     EXPECT_NEAR(normalMapIn(document).words()[0], 32768 + 32767.0 / 255, 1);
 }
 
-TEST(ConvertModel, tangentsAreDroppedGivenOrKept)
+TEST(ConvertModel, tangentsAreDroppedGeneratedOrKept)
 {
     const Image map = mapOf({0.3, 0.2, 1});
     GltfDocument document = documentOf(2, map, 1, true);
@@ -198,36 +198,36 @@ TEST(ConvertModel, tangentsAreDroppedGivenOrKept)
     EXPECT_TRUE(has(document, "TANGENT"));
 }
 
-TEST(ConvertModel, progressRunsToOneAndEachMapIsToldOfOnce)
+TEST(ConvertModel, progressRunsToOneAndReportsEachMapOnce)
 {
     GltfDocument document = documentOf(2, mapOf({0.3, 0.2, 1}));
     std::mutex mutex;
-    double last = 0, most = 0;
-    std::size_t told = 0;
+    double last = 0, highest = 0;
+    std::size_t reportedMaps = 0;
     const auto report = convertModel(document,
                                      {.frames = kThere,
                                       .threads = 2,
                                       .progress =
-                                          [&](double share) {
+                                          [&](double fraction) {
                                               const std::lock_guard lock(mutex);
-                                              last = share;
-                                              most = std::max(most, share);
+                                              last = fraction;
+                                              highest = std::max(highest, fraction);
                                               return true;
                                           },
-                                      .mapDone = [&](const ConvertedMap& map) { told += map.image == 0; }});
+                                      .mapDone = [&](const ConvertedMap& map) { reportedMaps += map.image == 0; }});
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_EQ(last, 1);
-    EXPECT_EQ(most, 1);
-    EXPECT_EQ(told, 1u);
+    EXPECT_EQ(highest, 1);
+    EXPECT_EQ(reportedMaps, 1u);
 }
 
-TEST(ConvertModel, stoppedByItsProgressItChangesNothing)
+TEST(ConvertModel, aStopByItsProgressChangesNothing)
 {
     for (const double limit : {0.0, 0.5, 0.999}) {
         GltfDocument document = documentOf(2, mapOf({0.3, 0.2, 1}));
         const auto before = rootOf(document);
         const auto done =
-            convertModel(document, {.frames = kThere, .progress = [=](double share) { return share <= limit; }});
+            convertModel(document, {.frames = kThere, .progress = [=](double fraction) { return fraction <= limit; }});
         ASSERT_FALSE(done) << limit;
         EXPECT_EQ(done.error().kind, ErrorKind::stopped);
         EXPECT_EQ(done.error().message, stoppedError().message);
@@ -235,7 +235,7 @@ TEST(ConvertModel, stoppedByItsProgressItChangesNothing)
     }
 }
 
-TEST(GiveTangents, stoppedByTheirProgressTheyChangeNothing)
+TEST(GiveTangents, aStopByTheirProgressChangesNothing)
 {
     GltfDocument document = documentOf(2, mapOf({0.3, 0.2, 1}));
     const auto before = rootOf(document);
@@ -274,9 +274,9 @@ TEST(ConvertModel, refusalsAreOneLineAndChangeNothing)
     refused(broken, {.frames = kThere}, ErrorKind::input, "map");
 }
 
-// ---- tangents alone -------------------------------------------------------------------------
+// ---- tangents only --------------------------------------------------------------------------
 
-TEST(GiveTangents, aFlatRectangleGetsTheDirectionOfUAndThenDiffersFromItByNothing)
+TEST(GiveTangents, aFlatRectangleGetsTheDirectionOfU)
 {
     for (const Frame frame : {Frame::mikktspace, Frame::vertex}) {
         GltfDocument document = documentOf(2, mapOf({0, 0, 1}));
@@ -292,7 +292,7 @@ TEST(GiveTangents, aFlatRectangleGetsTheDirectionOfUAndThenDiffersFromItByNothin
         ASSERT_TRUE(geometry);
         ASSERT_EQ(geometry->tangents.size(), 4u);
         for (const glm::vec4& t : geometry->tangents)
-            EXPECT_LT(glm::length(t - glm::vec4(1, 0, 0, 1)), 1e-6f); // u along x; cross(n, t) up the picture
+            EXPECT_LT(glm::length(t - glm::vec4(1, 0, 0, 1)), 1e-6f); // u along x; cross(n, t) up the image
         const auto compared = compareTangents(document, {.frame = frame});
         ASSERT_TRUE(compared);
         EXPECT_EQ(compared->whole.corners, 6u);
@@ -300,7 +300,7 @@ TEST(GiveTangents, aFlatRectangleGetsTheDirectionOfUAndThenDiffersFromItByNothin
     }
 }
 
-TEST(GiveTangents, whatIsThereStaysUnlessItIsToBeReplaced)
+TEST(GiveTangents, existingTangentsAreKeptUnlessReplacementIsRequested)
 {
     GltfDocument document = documentOf(2, mapOf({0, 0, 1}), 1, true);
     GltfCornerTangents turned{0, 0, std::vector<glm::vec4>(6, {-1, 0, 0, -1})};
@@ -312,7 +312,7 @@ TEST(GiveTangents, whatIsThereStaysUnlessItIsToBeReplaced)
     const auto off = compareTangents(document, {});
     ASSERT_TRUE(off);
     EXPECT_EQ(verdictOf(off->whole), TangentVerdict::inverted);
-    EXPECT_EQ(turnedShare(off->whole), 1);
+    EXPECT_EQ(reversedFraction(off->whole), 1);
     const auto replaced = giveTangents(document, {.replace = true});
     ASSERT_TRUE(replaced);
     EXPECT_TRUE(replaced->primitives.at(0).stored);
@@ -320,7 +320,7 @@ TEST(GiveTangents, whatIsThereStaysUnlessItIsToBeReplaced)
     EXPECT_EQ(verdictOf(compareTangents(document, {})->whole), TangentVerdict::equal);
 }
 
-TEST(GiveTangents, framesThatHaveNoneAreRefused)
+TEST(GiveTangents, framesWithoutTangentsAreRefused)
 {
     GltfDocument document = documentOf(2, mapOf({0, 0, 1}));
     for (const FrameInfo& f : frames()) {

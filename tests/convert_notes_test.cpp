@@ -1,5 +1,5 @@
-// What a conversion says: each note, warning and refusal whole, with its numbers, and on which side of its bound it is
-// said.
+// What a conversion reports: each note, warning and refusal as a whole, with its numbers, and on which side of its
+// bound it appears.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-// One direction in all texels of a map of 16 bits.
+// A 16-bit map with the same direction in all texels.
 Image slopeMap(glm::dvec3 m, int width = 8, int height = 8)
 {
     Image image = makeImage(width, height, PixelType::unorm16, "slope");
@@ -31,7 +31,7 @@ Image slopeMap(glm::dvec3 m, int width = 8, int height = 8)
     return image;
 }
 
-// A rectangle in xy of this width and height 1, facing +z; uv from `low` to `high`, v down.
+// A rectangle in xy of width `width` and height 1, facing +z; uv from `low` to `high`, v down.
 Mesh wide(float width, glm::vec2 low = {0, 0}, glm::vec2 high = {1, 1})
 {
     Mesh mesh;
@@ -42,7 +42,7 @@ Mesh wide(float width, glm::vec2 low = {0, 0}, glm::vec2 high = {1, 1})
     return mesh;
 }
 
-// Each mesh with a material of its own, all of which read the one map.
+// A document in which each mesh has its own material and all materials read the same map.
 GltfDocument sheets(std::vector<Mesh> meshes, const Image& map)
 {
     Scene scene;
@@ -79,45 +79,45 @@ std::string refusalOf(GltfDocument document, const ConvertModelOptions& options)
     return report ? "converted" : report.error().message;
 }
 
-const std::string kNowFor = "the maps are now for the frame cotangent; readers that make MikkTSpace tangents where "
-                            "TANGENT is missing, as glTF asks, will show them wrongly";
+const std::string kNowFor = "the maps are now for the frame cotangent; readers that generate MikkTSpace tangents where "
+                            "TANGENT is missing, as glTF specifies, will shade them incorrectly";
 
-TEST(ConvertNotes, areNoneButWhatReadersMustKnow)
+TEST(ConvertNotes, areOnlyWhatReadersMustKnow)
 {
     const Image map = slopeMap({0.3, 0.2, 1});
     EXPECT_EQ(notesOf(sheets({wide(2)}, map), towards(Frame::cotangent)), Lines{kNowFor});
-    ConvertModelOptions back = towards(Frame::mikktspace); // as glTF asks: nothing to say
+    ConvertModelOptions back = towards(Frame::mikktspace); // glTF's default: no note
     back.frames.from = Frame::cotangent;
     EXPECT_EQ(notesOf(sheets({wide(2)}, map), back), Lines{});
-    EXPECT_EQ(notesOf(sheets({wide(1)}, map), towards(Frame::cotangent)), Lines{}); // fits as it is: stays
+    EXPECT_EQ(notesOf(sheets({wide(1)}, map), towards(Frame::cotangent)), Lines{}); // fits unconverted: kept
     ConvertModelOptions keeping = towards(Frame::cotangent);
     keeping.keepTangents = true;
     EXPECT_EQ(notesOf(sheets({wide(2)}, map), keeping),
-              (Lines{"TANGENT stays, and a reader that follows it will show the converted maps wrongly", kNowFor}));
+              (Lines{"TANGENT is kept; a reader that uses it will shade the converted maps incorrectly", kNowFor}));
     GltfDocument bare = sheets({wide(2)}, map);
     rootOf(bare)["materials"][0].erase("normalTexture");
     EXPECT_EQ(notesOf(bare, towards(Frame::cotangent)),
               Lines{"no primitive has a normal map and uv: nothing to convert"});
 }
 
-TEST(ConvertNotes, ofKeptMapsTellHowFarTheyAreOffFromHalfADegreeOn)
+TEST(ConvertNotes, stateTheErrorOfKeptMapsFromHalfADegree)
 {
     ConvertModelOptions keeping = towards(Frame::cotangent);
     keeping.keepMaps = true;
-    // Read with cotangent, the slope along u is half of what it was on a rectangle of twice the width.
+    // Read with cotangent, the slope along u is halved on a rectangle twice as wide.
     for (const double slope : {0.016, 0.019, 0.4}) {
         const double degrees = glm::degrees(std::atan(slope) - std::atan(slope / 2)); // 0.46, 0.54, 10.5
         const Lines expected = degrees < 0.5
             ? Lines{}
-            : Lines{
-                fmt::format("slope: as it is, read with cotangent, it is off by {:.1f} degrees on average", degrees)};
+            : Lines{fmt::format("slope: unchanged and read with cotangent, its error is {:.1f} degrees on average",
+                                degrees)};
         EXPECT_EQ(notesOf(sheets({wide(2)}, slopeMap({slope, 0, 1})), keeping), expected) << slope;
     }
 }
 
-TEST(ConvertNotes, ofTexelsThatDisagreeTellTheirShareAndTheirDegrees)
+TEST(ConvertNotes, stateTheFractionAndErrorOfConflictingTexels)
 {
-    // The second rectangle is four times as wide and reads the left quarter of the map only.
+    // The second rectangle is four times as wide and reads only the left quarter of the map.
     const Image map = slopeMap({0.4, 0, 1});
     GltfDocument document = sheets({wide(1), wide(1, {0, 0}, {0.25f, 1})}, map);
     const auto report = convertModel(document, towards(Frame::cotangent));
@@ -126,17 +126,17 @@ TEST(ConvertNotes, ofTexelsThatDisagreeTellTheirShareAndTheirDegrees)
     EXPECT_EQ(figures.covered, 64u);
     EXPECT_EQ(figures.several, 16u);
     EXPECT_EQ(figures.disagreeing, 16u);
-    // They want slopes of 0.4 and 4 * 0.4: the best lies between.
+    // They need slopes of 0.4 and 4 * 0.4: the best is in between.
     EXPECT_GT(figures.disagreement.mean, 5);
     EXPECT_LT(figures.disagreement.mean, 36);
     EXPECT_EQ(
         report->notes,
-        (Lines{fmt::format("slope: on 25 % of it several places share a texel and want it different, {:.1f} degrees "
-                           "off on average at the worst of them: no one map fits; give such parts texels of their "
-                           "own",
+        (Lines{fmt::format("slope: on 25 % of it several surface points share a texel but need different values; the "
+                           "error is {:.1f} degrees on average at the worst of them. No single map fits; give these "
+                           "parts their own texels",
                            figures.disagreement.mean),
                kNowFor}));
-    // A surface that changes under one texel: the right part is four times as wide as uv are.
+    // A surface that changes under one texel: its right part is stretched by four.
     Mesh bent = wide(1, {0, 0}, {0.75f, 1});
     const Mesh right = wide(4, {0.75f, 0}, {1, 1});
     for (std::size_t v = 0; v < 4; ++v) {
@@ -147,20 +147,20 @@ TEST(ConvertNotes, ofTexelsThatDisagreeTellTheirShareAndTheirDegrees)
     for (const std::uint32_t i : right.indices)
         bent.indices.push_back(4 + i);
     GltfDocument coarse = sheets({bent}, slopeMap({0.4, 0, 1}, 1, 1));
-    const auto off = convertModel(coarse, towards(Frame::cotangent));
-    ASSERT_TRUE(off);
-    EXPECT_GT(off->maps.at(0).figures.error.mean, 5);
+    const auto coarseReport = convertModel(coarse, towards(Frame::cotangent));
+    ASSERT_TRUE(coarseReport);
+    EXPECT_GT(coarseReport->maps.at(0).figures.error.mean, 5);
     EXPECT_EQ(
-        off->notes,
-        (Lines{fmt::format("slope: converted, it is still off by {:.1f} degrees on average: its texels are too large "
-                           "for how the surface changes under them",
-                           off->maps[0].figures.error.mean),
+        coarseReport->notes,
+        (Lines{fmt::format("slope: after conversion the error is still {:.1f} degrees on average: its texels are too "
+                           "coarse for the surface",
+                           coarseReport->maps[0].figures.error.mean),
                kNowFor}));
 }
 
 // ---- refusals -------------------------------------------------------------------------------
 
-TEST(ConvertNotes, ofMemoryAreSaidWhereTheTrianglesTakeMore)
+TEST(ConvertNotes, sayIfTheTrianglesTakeMoreMemory)
 {
     Mesh mesh = makePlane(200, 120, 1);
     mesh.tangents.assign(mesh.vertexCount(), {1, 0, 0, 1});
@@ -169,47 +169,47 @@ TEST(ConvertNotes, ofMemoryAreSaidWhereTheTrianglesTakeMore)
     Lines notes;
     const auto jobs = mapJobs(document, notes);
     ASSERT_TRUE(jobs);
-    // Positions, normals, uv and tangents, uv once more as the map has them, indices of 4 bytes; for the raster uv and
-    // indices again, and 20 bytes a triangle.
+    // Positions, normals, uv and tangents, a copy of the uv for the map, indices of 4 bytes; for the raster, uv and
+    // indices again and 20 bytes a triangle.
     const std::size_t expected = v * (12 + 12 + 8 + 16 + 8) + 12 * t + 20 * t + 8 * v + 12 * t;
     EXPECT_EQ(bytesOf(jobs->at(0), {}), expected);
-    FramePair generated; // instead of those of the file: 16 bytes a vertex, and 80 a triangle for a moment
+    FramePair generated; // replaces the file's: 16 bytes a vertex, and temporarily 80 a triangle
     generated.fromTangents = TangentOrigin::generated;
     EXPECT_EQ(bytesOf(jobs->at(0), generated), v * (12 + 12 + 8 + 16 + 8 + 16) + 12 * t + 80 * t);
     ConvertModelOptions options = towards(Frame::cotangent);
     options.progress = [](double) { return false; };
     options.memory = expected;
-    EXPECT_EQ(refusalOf(document, options), stoppedError().message); // behind that check
+    EXPECT_EQ(refusalOf(document, options), stoppedError().message); // passes that check
     options.memory = 0;
     EXPECT_EQ(refusalOf(document, options), stoppedError().message);
     options.memory = std::size_t(1) << 20;
     ASSERT_GE(expected, std::size_t(2) << 20);
     EXPECT_EQ(refusalOf(document, options),
-              fmt::format("slope: the triangles that read it take {} MiB, the limit is 1 MiB", expected / 1048576));
+              fmt::format("slope: the triangles that use it take {} MiB, the limit is 1 MiB", expected / 1048576));
     options.memory = expected - 1;
     EXPECT_NE(refusalOf(document, options).find("MiB, the limit is"), std::string::npos);
 }
 
-TEST(ConvertNotes, ofRowsAreSaidWhereManyTrianglesRepeatTheMap)
+TEST(ConvertNotes, sayIfManyTrianglesRepeatTheMap)
 {
-    // Eleven columns of copies, each of eleven copies of 512 rows and one more of each: 11 * (11 * 512 + 11) = 62,073
-    // under a triangle. 700 of them: 43 million.
+    // Eleven columns of copies with eleven copies of 512 rows each and one more row per copy: 11 * (11 * 512 + 11) =
+    // 62,073 rows under a triangle. 700 triangles: 43 million.
     Mesh mesh = wide(2, {0, 0}, {11, 11});
     const std::vector<std::uint32_t> once = mesh.indices;
     for (int i = 1; i < 350; ++i)
         mesh.indices.insert(mesh.indices.end(), once.begin(), once.end());
     EXPECT_EQ(refusalOf(sheets({mesh}, slopeMap({0.4, 0.2, 1}, 1, 512)), towards(Frame::cotangent)),
-              "slope: its triangles are in 4.35e+07 rows of its texels, each in its own; expected at most 4e+07: fewer "
+              "slope: its triangles cover 4.35e+07 rows of its texels in total; expected at most 4e+07: use fewer "
               "triangles that repeat the map, or a smaller map");
 }
 
-TEST(ConvertNotes, ofFramesThatAreNamedSayWhichAndWhere)
+TEST(ConvertNotes, nameConflictingFramesWithTheirMaterial)
 {
     const Image map = slopeMap({0.3, 0.2, 1});
     GltfDocument document = sheets({wide(1), wide(2), wide(3), wide(4)}, map);
     EXPECT_EQ(*namedFrame(document), std::nullopt);
     rootOf(document)["materials"][0].erase("normalTexture");
-    nameFrame(document, 0, Frame::exact); // has no map: does not count
+    nameFrame(document, 0, Frame::exact); // has no map: ignored
     EXPECT_EQ(*namedFrame(document), std::nullopt);
     nameFrame(document, 1, Frame::smooth);
     nameFrame(document, 3, Frame::smooth);
@@ -221,8 +221,8 @@ TEST(ConvertNotes, ofFramesThatAreNamedSayWhichAndWhere)
     const auto named = namedFrame(document);
     ASSERT_FALSE(named);
     EXPECT_EQ(named.error().message,
-              "materials[3].extras.cotanFrame: expected smooth, as materials[1] has it; found orthonormal");
-    nameFrame(document, 1, Frame::mikktspace); // says nothing
+              "materials[3].extras.cotanFrame: expected smooth, as in materials[1]; found orthonormal");
+    nameFrame(document, 1, Frame::mikktspace); // the default: ignored
     EXPECT_EQ(*namedFrame(document), Frame::orthonormal);
 
     Image saying = map;
@@ -235,13 +235,13 @@ TEST(ConvertNotes, ofFramesThatAreNamedSayWhichAndWhere)
     ConvertModelOptions right = towards(Frame::cotangent);
     right.frames.from = Frame::smooth;
     EXPECT_EQ(refusalOf(ofImage, right), "converted");
-    GltfDocument both = ofImage; // the material counts
+    GltfDocument both = ofImage; // the material takes precedence
     nameFrame(both, 0, Frame::orthonormal);
     right.frames.from = Frame::orthonormal;
     EXPECT_EQ(refusalOf(both, right), "converted");
 }
 
-TEST(ConvertNotes, ofOptionsSayWhatIsExpected)
+TEST(ConvertNotes, optionErrorsSayWhatIsExpected)
 {
     const GltfDocument document = sheets({wide(2)}, slopeMap({0.3, 0.2, 1}));
     ConvertModelOptions options = towards(Frame::cotangent);
@@ -260,18 +260,18 @@ TEST(ConvertNotes, ofOptionsSayWhatIsExpected)
     options = towards(Frame::cotangent);
     options.keepMaps = options.keepTangents = true;
     EXPECT_EQ(refusalOf(document, options),
-              "convert: where maps stay tangents go; expected a frame that reads none, found keepTangents");
+              "convert: with keepMaps the tangents are dropped; expected a frame that reads none, found keepTangents");
     options.keepTangents = false;
     options.frames.to = Frame::vertex;
     EXPECT_EQ(refusalOf(document, options),
-              "convert: where maps stay tangents go; expected a frame that reads none, found vertex");
+              "convert: with keepMaps the tangents are dropped; expected a frame that reads none, found vertex");
 }
 
 // ---- maps that are not read -----------------------------------------------------------------
 
-TEST(ConvertNotes, ofMapsThatAreNotReadNameTheirFormatAndWhatToDo)
+TEST(ConvertNotes, nameTheFormatOfUnreadableMapsAndTheRemedy)
 {
-    // Image 0 is read; 1 is AVIF, named "second"; 2 is a packed KTX2 without a name, of material 2.
+    // Image 0 can be read; 1 is AVIF and named "second"; 2 is an unnamed packed KTX2, used by material 2.
     Scene scene;
     scene.images = {slopeMap({0.3, 0, 1}), slopeMap({0.2, 0, 1}), slopeMap({0.1, 0, 1})};
     for (int i = 0; i < 3; ++i) {
@@ -308,24 +308,19 @@ TEST(ConvertNotes, ofMapsThatAreNotReadNameTheirFormatAndWhatToDo)
     EXPECT_EQ(unread[1].name, "image 2");
     EXPECT_EQ(unread[1].format, "KTX2 with BasisU (UASTC)");
     EXPECT_EQ(unread[1].advice,
-              "make it PNG with \"gltf-transform ktxdecompress IN.glb OUT.glb\", convert, and pack it "
-              "again");
+              "make it PNG with \"gltf-transform ktxdecompress IN.glb OUT.glb\", convert, and compress it again");
     const auto report = convertModel(document, towards(Frame::cotangent));
     ASSERT_TRUE(report) << report.error().message;
     const auto left = [](int m) {
-        return fmt::format(
-            "meshes[{}].primitives[0]: its normal map is in a format that is not read here; left as it is", m);
+        return fmt::format("meshes[{}].primitives[0]: its normal map is in an unsupported format; left unchanged", m);
     };
     const auto stays = [](const UnreadMap& map) {
-        return fmt::format("{}: a normal map in {} is not read here; it stays as it is, and so do the tangents that it "
-                           "needs: {}",
-                           map.name, map.format, map.advice);
+        return fmt::format("{}: a normal map in {} is not supported; it and its tangents are unchanged: {}", map.name,
+                           map.format, map.advice);
     };
     const auto tangents = [](int m) {
         return fmt::format(
-            "materials[{}]: its normal map, in a format that is not read here, is not converted; TANGENT "
-            "stays",
-            m);
+            "materials[{}]: its normal map is in an unsupported format and is not converted; TANGENT is kept", m);
     };
     EXPECT_EQ(report->notes,
               (Lines{left(1), left(2), stays(unread[0]), stays(unread[1]), tangents(1), tangents(2), kNowFor}));
@@ -336,10 +331,10 @@ TEST(ConvertNotes, ofMapsThatAreNotReadNameTheirFormatAndWhatToDo)
         EXPECT_EQ(rootOf(document)["meshes"][m]["primitives"][0]["attributes"].contains("TANGENT"), m > 0) << m;
 }
 
-TEST(ConvertNotes, ofOtherFormsOfAMapNameTheirTextureAndExtension)
+TEST(ConvertNotes, nameTheTextureAndExtensionOfAlternativeImages)
 {
-    // Two textures show image 0: texture 1 has another picture for readers that know an extension, and says the same
-    // image by another.
+    // Two textures use image 0. For readers that know an extension, texture 1 has another image by one extension and
+    // the same image by another.
     GltfDocument document = sheets({wide(1), wide(2)}, slopeMap({0.3, 0.2, 1}));
     auto& root = rootOf(document);
     root["images"].push_back({{"uri", "other.webp"}});
@@ -355,28 +350,28 @@ TEST(ConvertNotes, ofOtherFormsOfAMapNameTheirTextureAndExtension)
     job.textures = {0, 1};
     Lines notes;
     replaceMap(document, job, *encodePng(slopeMap({0, 0.5, 1})), "image/png", notes);
-    EXPECT_EQ(notes, Lines{"textures[1]: MSFT_texture_dds taken out, its image is not converted"});
+    EXPECT_EQ(notes, Lines{"textures[1]: MSFT_texture_dds removed: its image is not converted"});
     EXPECT_EQ(rootOf(document)["textures"][1]["extensions"].dump(), R"({"VENDOR_kept":{"mine":7}})");
     EXPECT_EQ(rootOf(document)["textures"][1]["source"], 0);
     EXPECT_FALSE(rootOf(document)["textures"][0].contains("extensions"));
     EXPECT_EQ(rootOf(document)["extensionsUsed"].dump(), R"(["VENDOR_kept"])");
 }
 
-TEST(ConvertNotes, ofAMapThatIsPutInSayWhoReadsItWrongly)
+TEST(ConvertNotes, sayWhichReadersMisreadAnInsertedMap)
 {
     PutMapOptions options;
-    for (const auto& [frame, said] :
+    for (const auto& [frame, noted] :
          {std::pair(Frame::mikktspace, false), {Frame::vertex, true}, {Frame::smooth, true}}) {
         GltfDocument document = sheets({wide(2)}, slopeMap({0.3, 0.2, 1}));
         options.frame = frame;
         Lines notes;
         ASSERT_TRUE(putNormalMap(document, *encodePng(slopeMap({0, 0, 1})), options, notes));
         EXPECT_EQ(notes,
-                  said ? Lines{fmt::format("the map is for the frame {}; readers that make MikkTSpace tangents where "
-                                           "TANGENT is missing, as glTF asks, will show it wrongly",
-                                           name(frame))}
-                       : Lines{});
-        EXPECT_EQ(*namedFrame(document), said ? std::optional(frame) : std::nullopt);
+                  noted ? Lines{fmt::format("the map is for the frame {}; readers that generate MikkTSpace tangents "
+                                            "where TANGENT is missing, as glTF specifies, will shade it incorrectly",
+                                            name(frame))}
+                        : Lines{});
+        EXPECT_EQ(*namedFrame(document), noted ? std::optional(frame) : std::nullopt);
     }
 }
 

@@ -1,4 +1,4 @@
-// `cotan convert --provoking` as a user runs it: what it reports, what it combines with, and how much models grow.
+// `cotan convert --provoking` as a user runs it: its report, what it combines with, and how much models grow.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ json provoke(const std::filesystem::path& folder, std::vector<std::string> words
     return json::parse(run.out, nullptr, false);
 }
 
-// "6036" as "6,036".
+// Formats 6036 as "6,036".
 std::string withCommas(std::size_t n)
 {
     std::string digits = std::to_string(n);
@@ -35,7 +35,7 @@ std::string withCommas(std::size_t n)
     return digits;
 }
 
-// The row of the table in docs/explanation/triangle.md.
+// Expects this row in the table of docs/explanation/triangle.md.
 void expectDocumented(const std::string& name, std::size_t triangles, std::size_t before, std::size_t after)
 {
     const std::string row = fmt::format("| {} | {} | {} | {} | {:.2f} |", name, withCommas(triangles),
@@ -44,7 +44,7 @@ void expectDocumented(const std::string& name, std::size_t triangles, std::size_
         << "docs/explanation/triangle.md should say: " << row;
 }
 
-TEST(ConvertProvoking, aloneChangesNeitherMapsNorTangentsNorAnythingThatIsDrawn)
+TEST(ConvertProvoking, aloneChangesNeitherMapsNorTangentsNorTheRender)
 {
     TemporaryFolder folder;
     write(quad(2), folder.path());
@@ -57,7 +57,7 @@ TEST(ConvertProvoking, aloneChangesNeitherMapsNorTangentsNorAnythingThatIsDrawn)
     EXPECT_EQ(r["provoking"]["primitives"].size(), 1u);
     EXPECT_TRUE(r["maps"].empty());
     EXPECT_FALSE(r.contains("to"));
-    // Without the ground: its shadow rounds by the order of a triangle's corners.
+    // Without the ground, whose shadow is rounded depending on the order of a triangle's corners.
     for (const std::string model : {"quad.gltf", "out.glb"})
         ASSERT_EQ(runTool({"render", model, "-o", model + ".png", "--frame", "mikktspace", "--size", "64x64",
                            "--device", "reference", "--ground", "off", "--quiet"},
@@ -67,7 +67,7 @@ TEST(ConvertProvoking, aloneChangesNeitherMapsNorTangentsNorAnythingThatIsDrawn)
     EXPECT_EQ(readWhole(folder / "quad.gltf.png"), readWhole(folder / "out.glb.png"));
 }
 
-TEST(ConvertProvoking, goesWithAConversionOfTheMaps)
+TEST(ConvertProvoking, worksTogetherWithAConversionOfTheMaps)
 {
     TemporaryFolder folder;
     write(quad(2), folder.path());
@@ -77,20 +77,20 @@ TEST(ConvertProvoking, goesWithAConversionOfTheMaps)
     EXPECT_EQ(r["provoking"]["vertices_after"], 6);
     EXPECT_FALSE(r["maps"][0]["kept"].get<bool>());
     EXPECT_EQ(r["tangents"]["vertices"], 6);                               // dropped
-    EXPECT_LT(r["verify"]["degrees"]["mean_degrees"].get<double>(), 0.25); // maps of 8 bits
+    EXPECT_LT(r["verify"]["degrees"]["mean_degrees"].get<double>(), 0.25); // 8-bit maps
 }
 
-TEST(ConvertProvoking, wrongWordsGetOneClearLine)
+TEST(ConvertProvoking, wrongArgumentsGetOneClearLine)
 {
     TemporaryFolder folder;
     write(quad(2), folder.path());
     const std::pair<std::vector<std::string>, const char*> cases[] = {
         {{"--provoking", "middle"}, "expected first or last; found 'middle'"},
-        {{"--provoking", "first", "--bits", "16"}, "--bits: is about converting maps"},
-        {{"--provoking", "first", "--verify", "v"}, "--verify: is about converting maps"},
-        {{"--provoking", "first", "--keep-tangents"}, "--keep-tangents: is about converting maps"},
-        {{"--provoking", "first", "--from-frame", "smooth"}, "--from-frame: is about converting maps"},
-        {{"--provoking", "first", "--tangents", "generated"}, "--tangents: is about converting maps"},
+        {{"--provoking", "first", "--bits", "16"}, "--bits: applies to converted maps only"},
+        {{"--provoking", "first", "--verify", "v"}, "--verify: applies to converted maps only"},
+        {{"--provoking", "first", "--keep-tangents"}, "--keep-tangents: applies to converted maps only"},
+        {{"--provoking", "first", "--from-frame", "smooth"}, "--from-frame: applies to converted maps only"},
+        {{"--provoking", "first", "--tangents", "generated"}, "--tangents: applies to converted maps only"},
         {{}, "--to-frame FRAME or --provoking first or last"}};
     for (const auto& [words, message] : cases) {
         std::vector<std::string> all = {"convert", "quad.gltf", "-o", "out.glb"};
@@ -103,8 +103,8 @@ TEST(ConvertProvoking, wrongWordsGetOneClearLine)
     }
 }
 
-// A torus has twice as many triangles as vertices, but for the seams of its uv.
-TEST(ConvertProvoking, aClosedShapeGetsAVertexATriangleAndFewMore)
+// A torus has twice as many triangles as vertices, except for the seams of its uv.
+TEST(ConvertProvoking, aClosedShapeGetsAboutOneVertexPerTriangle)
 {
     const Mesh torus = makeTorus(1, 0.4f, 48, 4, 2), teapot = makeTeapot(12);
     for (const Mesh* mesh : {&torus, &teapot})
@@ -118,7 +118,7 @@ TEST(ConvertProvoking, aClosedShapeGetsAVertexATriangleAndFewMore)
                      provokingMesh(teapot.indices, teapot.positions.size(), ProvokingVertex::first).sources.size());
 }
 
-TEST(ConvertProvoking, modelsGrowAsTheTableSaysAndPassKhronosValidator)
+TEST(ConvertProvoking, modelsGrowAsInTheTableAndPassKhronosValidator)
 {
     const std::filesystem::path npm = COTAN_NPM;
     for (const std::string name : {"BoomBox/BoomBox.gltf", "FlightHelmet/FlightHelmet.gltf"}) {

@@ -1,4 +1,4 @@
-// Maps for another frame, on patches where the new texel is known by hand.
+// Maps for another frame, on patches whose new texels are worked out by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 const auto kGltf = toFormat<f64::cotan_normal_format>(Convention{});
 
-// An 8-bit map with the same texel everywhere; m along (+u, +v, outwards).
+// An 8-bit map with the same texel everywhere; `m` is along (+u, +v, outwards).
 Image constantMap(glm::dvec3 m, int side = 32)
 {
     Image image = makeImage(side, side, PixelType::unorm8, "constant");
@@ -53,7 +53,7 @@ Mesh patch(float stretch, bool mirrored = false)
     }
     for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
         mesh.texcoords[0][i] = (mesh.texcoords[0][i] - low) / (high - low);
-        mesh.positions[i].x *= stretch; // so that the stretch is that of the square over a wider patch
+        mesh.positions[i].x *= stretch; // so that the unit square of uv is stretched by `stretch`
     }
     return mesh;
 }
@@ -63,8 +63,8 @@ constexpr FramePair kToCotangent{Frame::mikktspace, Frame::cotangent, TangentOri
 constexpr FramePair kToOrthonormal{Frame::mikktspace, Frame::orthonormal, TangentOrigin::generated,
                                    TangentOrigin::generated};
 
-// Rounding to 8 bits: half a step of 1/127 along each axis is 0.37 degrees at most for unit vectors of an
-// orthonormal frame; stretching the texel by two at most doubles it.
+// Rounding to 8 bits: half a step of 1/127 per axis is at most 0.37 degrees for unit vectors in an orthonormal frame;
+// stretching the texel by two at most doubles it.
 constexpr double k8Bits = 0.8;
 
 double degrees(glm::dvec3 a, glm::dvec3 b)
@@ -72,9 +72,9 @@ double degrees(glm::dvec3 a, glm::dvec3 b)
     return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }
 
-TEST(Convert, onAPatchStretchedTwoToOneCotangentNeedsTwiceTheSlopeAlongU)
+TEST(Convert, twiceTheWidthDoublesTheSlopeAlongUForCotangent)
 {
-    // grad u is half as long as grad v, and cotangent keeps that ratio: (2x, y, z) gives what (x, y, z) gave.
+    // grad u is half as long as grad v, and cotangent keeps that ratio: (2x, y, z) gives what (x, y, z) gave before.
     const Image map = constantMap({0.3, 0.2, 1});
     const glm::dvec3 old = texelOf(map, 3, 3);
     const MapUse uses[] = {useOf(patch(2))};
@@ -87,13 +87,13 @@ TEST(Convert, onAPatchStretchedTwoToOneCotangentNeedsTwiceTheSlopeAlongU)
         for (int x = 0; x < 32; ++x)
             EXPECT_LT(degrees(texelOf(r.image, x, y), expected), 0.01); // 16 bits and float positions
     EXPECT_NEAR(r.moved.mean, degrees(old, expected), 0.01);
-    // Left alone, cotangent would have halved the slope along u.
+    // Without conversion, cotangent would have halved the slope along u.
     EXPECT_NEAR(r.unconverted.mean, degrees(old, glm::normalize(glm::dvec3(old.x / 2, old.y, old.z))), 0.01);
     EXPECT_LT(r.error.maximum, 0.01);
     EXPECT_LT(reencode(map, uses, kToCotangent, 8).error.maximum, k8Bits);
 }
 
-TEST(Convert, toTheSameFrameOrOnSquareUvNothingChangesButRounding)
+TEST(Convert, theSameFrameOrSquareUvChangeOnlyRounding)
 {
     const Image map = makeReliefMap(Relief::waves, 64);
     const FramePair same{Frame::mikktspace, Frame::mikktspace, TangentOrigin::generated, TangentOrigin::generated};
@@ -102,11 +102,11 @@ TEST(Convert, toTheSameFrameOrOnSquareUvNothingChangesButRounding)
         int largest = 0;
         for (std::size_t i = 0; i < map.data.size(); ++i)
             largest = std::max(largest, std::abs(int(map.bytes8()[i]) - int(r.image.bytes8()[i])));
-        EXPECT_LE(largest, 1); // old texels are not quite unit, new ones are
+        EXPECT_LE(largest, 1); // old texels are not quite unit length, new ones are
     }
 }
 
-TEST(Convert, thereAndBackGivesTheMapBack)
+TEST(Convert, roundTripReproducesTheMap)
 {
     const Image map = makeReliefMap(Relief::waves, 64);
     const MapUse uses[] = {useOf(patch(2))};
@@ -115,10 +115,10 @@ TEST(Convert, thereAndBackGivesTheMapBack)
     const Reencoded back = reencode(there.image, uses, backwards, 16);
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 64; ++x)
-            EXPECT_LT(degrees(texelOf(map, x, y), texelOf(back.image, x, y)), 0.02); // twice 16 bits
+            EXPECT_LT(degrees(texelOf(map, x, y), texelOf(back.image, x, y)), 0.02); // 16 bits, twice
 }
 
-TEST(Convert, mirroredChartsOnTheSameTexelsAgreeWhereBothFramesMirror)
+TEST(Convert, mirroredChartsAgreeIfBothFramesMirror)
 {
     const MapUse uses[] = {useOf(patch(1)), useOf(patch(1, true))};
     const Reencoded r = reencode(makeReliefMap(Relief::waves, 32), uses, kToOrthonormal, 8);
@@ -126,34 +126,34 @@ TEST(Convert, mirroredChartsOnTheSameTexelsAgreeWhereBothFramesMirror)
     EXPECT_EQ(r.disagreeing, 0u);
 }
 
-TEST(Convert, chartsOfDifferentStretchOnTheSameTexelsDisagreeAndAreCounted)
+TEST(Convert, conflictsOfDifferentlyStretchedChartsAreCounted)
 {
     const Image map = constantMap({0.5, 0.2, 1});
     const MapUse uses[] = {useOf(patch(1)), useOf(patch(2, true))};
     const Reencoded r = reencode(map, uses, kToCotangent, 16);
     EXPECT_EQ(r.several, 32u * 32u);
     EXPECT_EQ(r.disagreeing, 32u * 32u);
-    // One place wants (x,y,z), the other (2x,y,z). By symmetry of the sum neither gets it: the worse of the
-    // two is off by at least half of what lies between them, seen where slopes along u count half.
+    // One sample needs (x,y,z), the other (2x,y,z). By symmetry of the sum neither gets its target: the error of the
+    // worse is at least half the angle between them, on a surface where slopes along u count half.
     const glm::dvec3 old = texelOf(map, 0, 0);
     const double apart = degrees(old, glm::normalize(glm::dvec3(old.x / 2, old.y, old.z)));
     EXPECT_GT(r.disagreement.mean, 0.4 * apart);
     EXPECT_LT(r.disagreement.maximum, apart * 1.3);
 }
 
-TEST(Convert, aFlatTexelIsFlatInEveryFrameAndConflictsWithNothing)
+TEST(Convert, aFlatTexelStaysFlatWithoutConflicts)
 {
     const MapUse uses[] = {useOf(patch(1)), useOf(patch(2))};
     const Image map = constantMap({0, 0, 1});
     const Reencoded r = reencode(map, uses, kToCotangent, 8);
-    EXPECT_EQ(r.image.data, map.data); // alpha too
+    EXPECT_EQ(r.image.data, map.data); // including alpha
     EXPECT_EQ(r.disagreeing, 0u);
 }
 
-TEST(Convert, theSolverFindsWhatAGridSearchFinds)
+TEST(Convert, theSolverAgreesWithAGridSearch)
 {
-    const auto frame = [](double sx, double sy, double turn) {
-        const glm::dvec3 t(std::cos(turn), std::sin(turn), 0), b(-std::sin(turn), std::cos(turn), 0);
+    const auto frame = [](double sx, double sy, double rotation) {
+        const glm::dvec3 t(std::cos(rotation), std::sin(rotation), 0), b(-std::sin(rotation), std::cos(rotation), 0);
         return glm::dmat3(t * sx, b * sy, glm::dvec3(0, 0, 1));
     };
     const Demand demands[] = {{frame(1, 1, 0.3), glm::normalize(glm::dvec3(0.4, 0.1, 1))},
@@ -178,7 +178,7 @@ TEST(Convert, theSolverFindsWhatAGridSearchFinds)
     EXPECT_NEAR(glm::length(solved), 1, 1e-12);
 }
 
-TEST(Convert, aFrameThatIsNotInvertibleAsksForNothing)
+TEST(Convert, aSingularFrameDemandsNothing)
 {
     const Demand none{glm::dmat3(glm::dvec3(0), glm::dvec3(0), glm::dvec3(0, 0, 1)), {0.6, 0, 0.8}};
     const Demand sound{glm::dmat3(1), {0, 0.6, 0.8}};
@@ -187,7 +187,7 @@ TEST(Convert, aFrameThatIsNotInvertibleAsksForNothing)
     EXPECT_LT(degrees(solveTexel(both, {0, 0, 1}), sound.target), 1e-6);
 }
 
-TEST(Convert, paddingGoesAlongWithTheNearestChart)
+TEST(Convert, paddingIsConvertedLikeTheNearestChart)
 {
     Mesh mesh = patch(2);
     for (glm::vec2& uv : mesh.texcoords[0])
@@ -203,7 +203,7 @@ TEST(Convert, paddingGoesAlongWithTheNearestChart)
         EXPECT_LT(degrees(texelOf(r.image, x, 9), texelOf(r.image, 3, 3)), 1e-9) << x;
 }
 
-TEST(Convert, unfilledTexelsAndMapsThatNothingCoversStayAsTheyAre)
+TEST(Convert, uncoveredTexelsAndMapsAreUnchanged)
 {
     Image map = makeReliefMap(Relief::waves, 32);
     EXPECT_EQ(reencode(map, {}, kToCotangent, 8).image.data, map.data);
@@ -218,15 +218,15 @@ TEST(Convert, unfilledTexelsAndMapsThatNothingCoversStayAsTheyAre)
         EXPECT_EQ(r.image.bytes8()[4 * (32 * 31 + 31) + k], 0);
 }
 
-TEST(Convert, theScaleOfTheMaterialStaysWithTheMaterial)
+TEST(Convert, theScaleOfTheMaterialIsKept)
 {
-    // With half the slope at reading, and each use with its own: every place sees what it saw.
+    // The material scales slopes when reading, and each use has its own scale: every surface point keeps its normal.
     const Image map = constantMap({0.4, 0.3, 1});
     for (double scale : {0.5, 2.0, -1.0}) {
         const MapUse uses[] = {useOf(patch(2), scale)};
         const Reencoded r = reencode(map, uses, kToCotangent, 16);
         EXPECT_LT(r.error.maximum, 0.02) << scale;
-        // x and y keep their meaning: the factor acts on both sides alike, so the texel is the same as with 1.
+        // x and y keep their meaning: the scale acts on both sides equally, so the texel is the same as with scale 1.
         const glm::dvec3 old = texelOf(map, 0, 0);
         EXPECT_LT(degrees(texelOf(r.image, 5, 5), glm::normalize(glm::dvec3(2 * old.x, old.y, old.z))), 0.02) << scale;
     }
@@ -234,7 +234,7 @@ TEST(Convert, theScaleOfTheMaterialStaysWithTheMaterial)
     EXPECT_EQ(reencode(map, flattened, kToCotangent, 8).image.data, map.data);
 }
 
-TEST(Convert, mirroredWrappingFoldsAndRepeatingStacks)
+TEST(Convert, mirroredAndRepeatingWrapAreDistinguished)
 {
     Mesh mesh = patch(1);
     for (glm::vec2& uv : mesh.texcoords[0])
@@ -252,7 +252,7 @@ TEST(Convert, mirroredWrappingFoldsAndRepeatingStacks)
     EXPECT_EQ(clamped.covered, 32u * 32u);
 }
 
-TEST(Convert, aNodeThatStretchesIsPartOfThePlace)
+TEST(Convert, theScaleOfANodeIsApplied)
 {
     const Image map = constantMap({0.3, 0.2, 1});
     const MapUse straight[] = {useOf(patch(2))};

@@ -5,20 +5,20 @@ cotan_test(core_test
           value_statistics_test.cpp
   LIBRARIES cotan_truth cotan_core)
 
-# What is left with a compiler and GLM alone, as shared libraries, installed and used from outside.
+# The variant that needs only a compiler and GLM: builds it as shared libraries, installs it and uses it from outside.
 if(NOT CMAKE_CXX_FLAGS MATCHES "fsanitize")
-  add_test(NAME SmallestHouse.buildsInstallsAndWorks
+  add_test(NAME SmallestBuild.buildsInstallsAndWorks
     COMMAND ${PROJECT_SOURCE_DIR}/scripts/try-smallest ${PROJECT_BINARY_DIR}/smallest ${CMAKE_CXX_COMPILER})
-  set_tests_properties(SmallestHouse.buildsInstallsAndWorks PROPERTIES TIMEOUT 300 COST 100 PROCESSORS 2)
-  add_test(NAME Consumer.keepsItsCacheItsVectorsAndItsInstall
+  set_tests_properties(SmallestBuild.buildsInstallsAndWorks PROPERTIES TIMEOUT 300 COST 100 PROCESSORS 2)
+  add_test(NAME Consumer.keepsItsCacheVectorTypesAndInstall
     COMMAND ${PROJECT_SOURCE_DIR}/scripts/try-consumer ${PROJECT_BINARY_DIR}/consumer ${CMAKE_CXX_COMPILER})
-  set_tests_properties(Consumer.keepsItsCacheItsVectorsAndItsInstall PROPERTIES TIMEOUT 300 COST 50 PROCESSORS 2)
-  add_test(NAME Suite.failsWhereALibraryIsMissing
+  set_tests_properties(Consumer.keepsItsCacheVectorTypesAndInstall PROPERTIES TIMEOUT 300 COST 50 PROCESSORS 2)
+  add_test(NAME Suite.failsIfALibraryIsMissing
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/suite_test.sh ${PROJECT_BINARY_DIR}/suite ${CMAKE_CXX_COMPILER})
-  set_tests_properties(Suite.failsWhereALibraryIsMissing PROPERTIES TIMEOUT 300)
+  set_tests_properties(Suite.failsIfALibraryIsMissing PROPERTIES TIMEOUT 300)
 endif()
 
-# Every header that is installed, in one file, where there is no JSON library: what stands in its place stops the compiler.
+# All installed headers in one file, with a JSON library whose headers stop the compiler.
 get_property(folders GLOBAL PROPERTY COTAN_INCLUDES)
 set(options "")
 set(text "")
@@ -34,24 +34,32 @@ file(CONFIGURE OUTPUT ${place}/all.cpp CONTENT "${text}" @ONLY)
 foreach(header json json_fwd)
   file(WRITE ${place}/nlohmann/${header}.hpp "#error a public header includes a JSON library\n")
 endforeach()
-add_test(NAME PublicHeaders.compileWhereThereIsNoJsonLibrary
+add_test(NAME PublicHeaders.compileWithoutAJsonLibrary
   COMMAND ${CMAKE_CXX_COMPILER} -std=c++20 -fsyntax-only -Wall -Wextra -Werror -I${place} ${options}
     -I${PROJECT_BINARY_DIR}/include -I${PROJECT_SOURCE_DIR}/shaders ${place}/all.cpp)
 
-# The parts: how many, who includes whom, one header each.
+# The structure of the parts: their number, includes and public headers.
 if(Python3_FOUND)
-  foreach(fact hasFewFolders hasFewLines everySourceIsBuilt hasFewArrows hasNoCircle partsIncludeWhatTheyLink eachPartHasOnePublicHeader
-      noTwoFilesHaveOneName judgesAreIndependent)
+  foreach(fact hasFewFolders hasFewLines everySourceIsBuilt hasFewDependencies hasNoDependencyCycle partsIncludeWhatTheyLink eachPartHasOnePublicHeader
+      fileNamesAreUnique judgesAreIndependent)
     add_test(NAME Architecture.${fact}
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/architecture_test.py ${PROJECT_SOURCE_DIR} ${fact})
   endforeach()
 endif()
 
-# A frame, an image format and a shader language, added to a copy of the sources.
+# The field's terms in comments, messages and names.
+if(Python3_FOUND)
+  foreach(fact comments messages names)
+    add_test(NAME Words.${fact}UseTheTermsOfTheField
+      COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/words_test.py ${PROJECT_SOURCE_DIR} ${fact}UseTheTermsOfTheField)
+  endforeach()
+endif()
+
+# Adds a frame, an image format and a shader language to a copy of the sources.
 if(Python3_FOUND AND TARGET cotan_image AND TARGET OpenImageIO::OpenImageIO)
-  add_test(NAME Extending.addsOneOfEachByTwoPlaces
+  add_test(NAME Extending.addsAFrameAFormatAndALanguage
     COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/extending_test.py ${PROJECT_SOURCE_DIR})
-  set_tests_properties(Extending.addsOneOfEachByTwoPlaces PROPERTIES COST 110)
+  set_tests_properties(Extending.addsAFrameAFormatAndALanguage PROPERTIES COST 110)
 endif()
 if(Python3_FOUND)
   add_test(NAME PublicHeaders.beginWithExamplesThatCompile
@@ -59,8 +67,8 @@ if(Python3_FOUND)
       ${CMAKE_CXX_COMPILER} ${options} -I${PROJECT_BINARY_DIR}/include -I${PROJECT_SOURCE_DIR}/shaders)
 endif()
 
-# The portable text compiles unchanged in every language: joined, behind a few lines that declare
-# the language and call every function.
+# The portable text compiles unchanged in every language: concatenated, with a few lines that declare the language and
+# call every function.
 foreach(language glsl essl hlsl)
   if(COTAN_GLSLANG)
     add_test(NAME PortableText.compilesAs_${language}
@@ -72,7 +80,7 @@ foreach(language glsl essl hlsl)
   endif()
 endforeach()
 
-# Code that mixes vectors and covectors must not compile; the same file without the mixture must.
+# Code that mixes vectors and covectors must not compile, and the same file without the mixture must.
 function(cotan_compile_test name definition will_fail)
   add_test(NAME Covector.${name}
     COMMAND ${CMAKE_CXX_COMPILER} -std=c++20 -fsyntax-only -D${definition}

@@ -1,6 +1,6 @@
-# Builds src/core with tests/core_facts.cpp, and the C API's array functions with tests/c_facts.cpp, for 32 bits and runs
-# them; not optimised, which may hide a shift that is too far. CXX, FLAGS, SOURCE (the repository), OUT (a folder). Says
-# "skipped:" where the compiler has no 32-bit libraries.
+# Builds src/core with tests/core_facts.cpp, and the C API's array functions with tests/c_facts.cpp, for 32 bits and
+# runs them, without optimisation, which could hide a shift that is too large. Variables: CXX, FLAGS, SOURCE (the
+# repository), OUT (a folder). Prints "skipped:" if the compiler has no 32-bit libraries.
 file(MAKE_DIRECTORY ${OUT})
 separate_arguments(FLAGS UNIX_COMMAND "${FLAGS}")
 file(WRITE ${OUT}/empty.cpp "#include <thread>\nint main() { std::thread([] {}).join(); }\n")
@@ -14,7 +14,7 @@ if(failed)
   return()
 endif()
 
-# The files of a part in one, `most` at a time: names in unnamed namespaces meet.
+# Joins the files of a part, at most `most` at a time, since names in unnamed namespaces could clash.
 function(joined part most)
   file(GLOB files ${SOURCE}/src/${part}/*.cpp)
   set(made "")
@@ -45,7 +45,7 @@ function(compile what)
   endif()
 endfunction()
 
-# Builds the program `name` of the sources and the core, and runs it.
+# Builds the program `name` from the sources and the core, and runs it.
 function(run_32bit name)
   compile(${name} ${ARGN} ${OUT}/core.o -o ${OUT}/${name})
   execute_process(COMMAND ${OUT}/${name} RESULT_VARIABLE failed)
@@ -54,7 +54,7 @@ function(run_32bit name)
   endif()
 endfunction()
 
-compile(src/core ${core} -c -o ${OUT}/core.o) # files of the core are one batch
+compile(src/core ${core} -c -o ${OUT}/core.o) # all files of the core are one batch
 run_32bit(core_facts ${SOURCE}/tests/core_facts.cpp)
 run_32bit(c_facts ${maps} ${SOURCE}/src/c/geometry_api.cpp ${SOURCE}/src/c/library.cpp ${SOURCE}/src/c/maps_api.cpp
   ${SOURCE}/tests/c_facts.cpp)

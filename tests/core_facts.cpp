@@ -1,5 +1,5 @@
-// Facts of src/core in a program by itself, for where there is no test library: core_32bit.cmake builds it where size_t
-// has 32 bits, scripts/try-smallest against an installed core. Returns the number of facts that do not hold.
+// Facts about src/core in a stand-alone program, for systems without a test library: core_32bit.cmake builds it where
+// size_t has 32 bits, scripts/try-smallest against an installed core. Returns the number of facts that do not hold.
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -34,7 +34,7 @@ bool areAll(const std::vector<glm::vec4>& tangents, glm::vec3 t, float w)
 void tangentsAreThoseOfTheLayout()
 {
     const Arrays plain = flatGrid(160, {1, 0}, {0, 1}), mirrored = flatGrid(160, {-2, 0}, {0, 1});
-    for (const int threads : {1, 2, 5}) { // hashes are spread over them
+    for (const int threads : {1, 2, 5}) { // hash tables are partitioned among them
         expect(areAll(cotan::mikktspaceTangents(plain.view(), threads), {1, 0, 0}, 1), "mikktspace");
         expect(areAll(cotan::mikktspaceTangents(mirrored.view(), threads), {-1, 0, 0}, -1), "mikktspace, mirrored");
     }
@@ -50,7 +50,7 @@ void tangentsAreThoseOfTheLayout()
 
 void equalVerticesAreOne()
 {
-    // Curved, so that tangents differ from triangle to triangle and what is averaged shows.
+    // On a curved surface tangents differ between triangles, so averaging is visible.
     const Arrays shared = sphereGrid(100), single = unindexed(shared);
     const auto a = cotan::mikktspaceTangents(shared.view(), 1), b = cotan::mikktspaceTangents(single.view(), 3);
     bool same = a.size() == b.size();
@@ -58,7 +58,7 @@ void equalVerticesAreOne()
         same = near(glm::vec3(a[c]), glm::vec3(b[c])) && a[c].w == b[c].w;
     expect(same, "indexed or not, on one thread or three");
     bool east = true;
-    for (std::size_t c = 0; c < a.size(); ++c) // off by less than the turn of east over a cell
+    for (std::size_t c = 0; c < a.size(); ++c) // the error is less than the change of east over a cell
         east &=
             degreesBetween(glm::vec3(a[c]), glm::cross(glm::vec3(0, 1, 0), shared.normals[shared.indices[c]])) < 1.1;
     expect(east, "tangents of a sphere point east");

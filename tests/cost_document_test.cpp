@@ -1,5 +1,5 @@
-// The committed docs/explanation/cost.md, its chart and cost.csv beside it: the bars, and that what the page says
-// follows from the file.
+// The committed docs/explanation/cost.md with its chart and cost.csv: the bars, and that the statements of the page
+// follow from the file.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,34 +24,34 @@ std::string documentText(const std::string& name)
     return text.str();
 }
 
-// Without line breaks inside of sentences.
+// The text of a file with line breaks replaced by spaces.
 std::string prose(const std::string& name) { return std::regex_replace(documentText(name), std::regex("\\s+"), " "); }
 
-const std::vector<DeviceCode>& cards()
+const std::vector<DeviceCode>& gpus()
 {
     static const std::vector<DeviceCode> list = [] {
-        auto read = cardsFromCsv(documentText("docs/explanation/cost.csv"));
+        auto read = gpusFromCsv(documentText("docs/explanation/cost.csv"));
         EXPECT_TRUE(read) << read.error().message;
         return read ? std::move(*read) : std::vector<DeviceCode>();
     }();
     return list;
 }
 
-const DeviceCode& card(const std::string& name)
+const DeviceCode& gpu(const std::string& name)
 {
-    const auto found = std::ranges::find(cards(), name, &DeviceCode::family);
-    EXPECT_NE(found, cards().end()) << name;
+    const auto found = std::ranges::find(gpus(), name, &DeviceCode::family);
+    EXPECT_NE(found, gpus().end()) << name;
     return *found;
 }
 
 using Count = std::optional<double>;
-using Counts = std::vector<std::pair<const DeviceCode*, double>>; // by card: more than stored tangents
+using Counts = std::vector<std::pair<const DeviceCode*, double>>; // per GPU: difference from stored tangents
 
-// Of the cards that have both.
+// Differences on the GPUs that have both figures.
 template<class Read> Counts moreThanStored(const Read& read)
 {
     Counts counts;
-    for (const DeviceCode& d : cards()) {
+    for (const DeviceCode& d : gpus()) {
         const Count mine = read(d, false), stored = read(d, true);
         if (mine && stored)
             counts.emplace_back(&d, *mine - *stored);
@@ -71,15 +71,15 @@ Counts inResolve(std::string_view row)
         [&](const DeviceCode& d, bool stored) { return resolveCode(d, stored ? "mikktspace" : row).instructions; });
 }
 
-bool onAll(const Counts& counts, double most)
+bool onAll(const Counts& counts, double limit)
 {
-    return !counts.empty() && std::ranges::all_of(counts, [&](const auto& c) { return c.second <= most; });
+    return !counts.empty() && std::ranges::all_of(counts, [&](const auto& c) { return c.second <= limit; });
 }
 
-TEST(CostDocument, theFileHasFourteenCardsOfSevenMakersByOneMesa)
+TEST(CostDocument, theFileHasFourteenGpusOfSevenVendorsByOneMesa)
 {
     std::set<std::string> makers, versions;
-    for (const DeviceCode& d : cards()) {
+    for (const DeviceCode& d : gpus()) {
         EXPECT_TRUE(d.silence.empty()) << d.family << ": " << d.silence;
         EXPECT_EQ(d.date.size(), 10u) << d.family;
         makers.insert(d.maker);
@@ -87,23 +87,23 @@ TEST(CostDocument, theFileHasFourteenCardsOfSevenMakersByOneMesa)
         ASSERT_NE(mesa, std::string::npos) << d.family << ": " << d.driver;
         versions.insert(d.driver.substr(mesa));
     }
-    EXPECT_GE(cards().size(), 14u);
+    EXPECT_GE(gpus().size(), 14u);
     EXPECT_GE(makers.size(), 7u);
     EXPECT_EQ(versions.size(), 1u);
-    // Wherever a page gives these numbers, they are these.
+    // Every page that gives these numbers must give exactly these.
     const std::regex claim("(\\d+) cards of (\\d+) makers");
     int claims = 0;
     for (const char* const page : {"README.md", "docs/explanation/cost.md"}) {
         const std::string text = prose(page);
         for (std::sregex_iterator i(text.begin(), text.end(), claim), end; i != end; ++i, ++claims) {
-            EXPECT_EQ((*i)[1], std::to_string(cards().size())) << page;
+            EXPECT_EQ((*i)[1], std::to_string(gpus().size())) << page;
             EXPECT_EQ((*i)[2], std::to_string(makers.size())) << page;
         }
     }
     EXPECT_GE(claims, 1);
 }
 
-TEST(CostDocument, whatIsSaidToHoldOnAllCardsHolds)
+TEST(CostDocument, statementsAboutAllGpusHold)
 {
     const std::string page = prose("docs/explanation/cost.md");
     const auto says = [&](const std::string& sentence) {
@@ -118,16 +118,16 @@ TEST(CostDocument, whatIsSaidToHoldOnAllCardsHolds)
     const auto fewer = std::ranges::count_if(read, [](const auto& c) { return c.second < 0; });
     says("`triangle-read` has at most as many instructions as stored tangents on all " + std::to_string(read.size())
          + " cards that compile that stage, and fewer on " + std::to_string(fewer) + " of them.");
-    // triangle, in the better of its forms
-    int at = 0, asked = 0;
+    // triangle, in the cheaper of its two forms
+    int at = 0, compared = 0;
     std::vector<std::string> over;
-    for (const DeviceCode& d : cards()) {
+    for (const DeviceCode& d : gpus()) {
         const auto measure = d.maker == "Arm" ? &StageCode::inverseThroughput : &StageCode::instructions;
         const Count stored = fragmentCode(d, "mikktspace").*measure, halfs = fragmentCode(d, "triangle-halfs").*measure,
                     floats = fragmentCode(d, "triangle-fused").*measure;
         if (!stored || !halfs || !floats)
             continue;
-        ++asked;
+        ++compared;
         if (std::min(*halfs, *floats) <= *stored)
             ++at;
         else
@@ -136,15 +136,15 @@ TEST(CostDocument, whatIsSaidToHoldOnAllCardsHolds)
     std::string except;
     for (std::size_t i = 0; i < over.size(); ++i)
         except += (i == 0 ? "" : i + 1 == over.size() ? " and " : ", ") + over[i];
-    says(std::to_string(at) + " of " + std::to_string(asked) + " cards, in the better of its two forms"
+    says(std::to_string(at) + " of " + std::to_string(compared) + " cards, in the better of its two forms"
          + (over.empty() ? "." : "; not on " + except + "."));
-    const auto [least, most] = std::ranges::minmax_element(seen, {}, [](const auto& c) { return c.second; });
-    EXPECT_GT(least->second, 0);
-    says("`cotangent-seen` " + std::to_string(int(least->second)) + " to " + std::to_string(int(most->second))
+    const auto [minimum, maximum] = std::ranges::minmax_element(seen, {}, [](const auto& c) { return c.second; });
+    EXPECT_GT(minimum->second, 0);
+    says("`cotangent-seen` " + std::to_string(int(minimum->second)) + " to " + std::to_string(int(maximum->second))
          + " more");
 }
 
-TEST(CostDocument, whatIsChosenForAMakerCostsNoMoreThanStoredTangents)
+TEST(CostDocument, theChoiceForEachVendorCostsNoMoreThanStoredTangents)
 {
     // The table under "How to choose": maker, then a form for each renderer, or "-".
     std::istringstream page(documentText("docs/explanation/cost.md"));
@@ -159,17 +159,17 @@ TEST(CostDocument, whatIsChosenForAMakerCostsNoMoreThanStoredTangents)
             const std::string text = cells[i];
             return text.rfind('`', 0) == 0 ? text.substr(1, text.find('`', 1) - 1) : std::string();
         };
-        int asked = 0;
-        for (const DeviceCode& d : cards()) {
+        int compared = 0;
+        for (const DeviceCode& d : gpus()) {
             if (d.maker != cells[1] && cells[1] != "one shader for all")
                 continue;
-            ++asked;
+            ++compared;
             for (const int column : {2, 3, 5}) {
                 const StageCode& stored = fragmentCode(d, "mikktspace");
                 if (form(column).empty())
                     continue;
                 const StageCode& mine = fragmentCode(d, form(column));
-                const bool cycles = d.maker == "Arm" && cells[1] == "Arm"; // its bound is another unit
+                const bool cycles = d.maker == "Arm" && cells[1] == "Arm"; // there the bound is another unit
                 const auto measure = cycles ? &StageCode::inverseThroughput
                     : stored.instructions   ? &StageCode::instructions
                                             : &StageCode::bytes;
@@ -182,7 +182,7 @@ TEST(CostDocument, whatIsChosenForAMakerCostsNoMoreThanStoredTangents)
                 EXPECT_LE(*mine, *resolveCode(d, "mikktspace").instructions) << d.family;
             }
         }
-        EXPECT_GE(asked, 1) << cells[1];
+        EXPECT_GE(compared, 1) << cells[1];
     }
     EXPECT_EQ(lines, 9);
 }
@@ -190,13 +190,13 @@ TEST(CostDocument, whatIsChosenForAMakerCostsNoMoreThanStoredTangents)
 TEST(CostDocument, theBarsHoldInTheFile)
 {
     const auto over = [](const char* name, const char* row) {
-        return *fragmentCode(card(name), row).instructions - *fragmentCode(card(name), "floor").instructions;
+        return *fragmentCode(gpu(name), row).instructions - *fragmentCode(gpu(name), "floor").instructions;
     };
     EXPECT_LE(over("NAVI21", "triangle-fused"), 13);
     EXPECT_LE(over("NAVI21", "triangle-halfs"), 10);
     EXPECT_LE(over("NAVI21", "smooth-fused"), 14);
     EXPECT_LE(over("NAVI21", "cotangent-seen"), 50);
-    for (const DeviceCode& d : cards())
+    for (const DeviceCode& d : gpus())
         for (const char* const row : {"triangle-fused", "triangle-halfs", "smooth-fused"})
             if (d.maker == "AMD") {
                 EXPECT_LE(*fragmentCode(d, row).inverseThroughput, *fragmentCode(d, "mikktspace").inverseThroughput)
@@ -204,7 +204,7 @@ TEST(CostDocument, theBarsHoldInTheFile)
             }
 }
 
-TEST(CostDocument, theTablesAndTheChartAreThoseOfTheFile)
+TEST(CostDocument, tablesAndChartMatchTheFile)
 {
     const std::string page = documentText("docs/explanation/cost.md"),
                       compiler = "SPIR-V: " + std::string(spirvCompiler()) + ".";
@@ -220,15 +220,15 @@ TEST(CostDocument, theTablesAndTheChartAreThoseOfTheFile)
     EXPECT_TRUE(test::readWhole(folder / "cost.svg") == documentText("docs/explanation/cost.svg"));
 }
 
-TEST(CostDocument, whatPaysByPixelsATriangleFollowsFromTheTablesBesides)
+TEST(CostDocument, breakEvenPixelsPerTriangleFollowFromTheTables)
 {
     const std::string page = documentText("docs/explanation/cost.md"),
                       chart = documentText("docs/explanation/cost.svg");
-    const std::string heading = "### Pixels a triangle where it costs less";
+    const std::string heading = "### Pixels per triangle where it costs less";
     const std::size_t begin = page.find(heading);
     ASSERT_NE(begin, std::string::npos);
     const std::string table = page.substr(begin, page.find("\n#", begin + 1) - begin);
-    const DeviceCode d = card("NAVI21");
+    const DeviceCode d = gpu("NAVI21");
     const auto stored = trianglePrice(d, choices().front());
     for (std::size_t i = 1; i < choices().size(); ++i) {
         const Choice& choice = choices()[i];

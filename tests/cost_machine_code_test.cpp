@@ -1,4 +1,4 @@
-// The bars on NAVI21, and the command.
+// The bars on NAVI21, and `cotan cost`.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ std::vector<const Row*> allRows()
     return list;
 }
 
-// Compiled once, and again by none.
+// Each family is compiled once for all tests.
 const DeviceCode& familyCode(const std::string& family)
 {
     static std::map<std::string, DeviceCode> known;
@@ -43,7 +43,7 @@ double overFloor(std::string_view name)
     return fragmentOf(navi21(), name).instructions.value() - fragmentOf(navi21(), "floor").instructions.value();
 }
 
-// The bars were set with Mesa 22.3. Another compiler moves them all; the floor and mikktspace tell.
+// The bars were set with Mesa 22.3. Another compiler shifts them all; the floor and mikktspace detect that.
 #define COTAN_NEEDS_NAVI21()                                                                                           \
     if (!navi21().silence.empty())                                                                                     \
         GTEST_SKIP() << "NAVI21: " << navi21().silence;                                                                \
@@ -51,11 +51,11 @@ double overFloor(std::string_view name)
         && (navi21().rows[0].fragment.instructions != 45 || overFloor("mikktspace") != 18))                            \
     GTEST_SKIP() << "the bars hold for compilers like Mesa 22.3's; this is " << navi21().driver
 
-TEST(CostNavi21, theRigGivesWhatWasMeasuredBefore)
+TEST(CostNavi21, theRigReproducesThePublishedCounts)
 {
     COTAN_NEEDS_NAVI21();
-    // Published: floor 45, MikkTSpace +18. The plain forms are within the spread between ways of
-    // writing them: cotangent +69, without its own sign +75, orthonormal +87.
+    // Published: floor 45, MikkTSpace +18. The plain forms are within the range of different ways to write them:
+    // cotangent +69, without its own sign +75, orthonormal +87.
     EXPECT_EQ(navi21().rows[0].fragment.instructions, 45);
     EXPECT_EQ(overFloor("mikktspace"), 18);
     EXPECT_NEAR(overFloor("cotangent-plain"), 69, 5);
@@ -71,10 +71,10 @@ TEST(CostNavi21, fusedFormsKeepTheirBars)
     EXPECT_LE(overFloor("gradient-fused"), 50);
     EXPECT_LE(overFloor("orthonormal-fused"), 78);
     EXPECT_LT(overFloor("cotangent-area-fused"),
-              overFloor("cotangent-fused") - 5); // or why offer it
+              overFloor("cotangent-fused") - 5); // otherwise it is not worth offering
 }
 
-// Bars of the rows that need another stage, and of the figure they are published with.
+// Bars of the rows that need another stage; these figures are published.
 constexpr std::pair<const char*, int> kBars[] = {
     {"triangle-fused", 13}, {"triangle-halfs", 10}, {"smooth-fused", 14}}; // instructions over the floor
 
@@ -97,7 +97,7 @@ TEST(CostFamilies, trianglesAndSmoothAreNotSlowerThanStoredTangents)
     }
 }
 
-TEST(CostMachineCode, everyComputeStageIsReportedAndMeshStagesWhereTheDeviceHasThem)
+TEST(CostMachineCode, computeStagesAreReportedAndMeshStagesIfSupported)
 {
     if (!navi21().silence.empty())
         GTEST_SKIP() << "NAVI21: " << navi21().silence;
@@ -108,8 +108,8 @@ TEST(CostMachineCode, everyComputeStageIsReportedAndMeshStagesWhereTheDeviceHasT
         EXPECT_EQ(o.code.instructions.has_value(), o.stage->kind != StageKind::mesh || meshes) << o.stage->name;
         EXPECT_EQ(o.code.inverseThroughput.has_value(), o.code.instructions.has_value()) << o.stage->name;
     }
-    // Where a visibility buffer is resolved the edges are at hand: U and V cost less than what `cotangent` does with
-    // differences, and read from memory they cost less than tangents of three vertices.
+    // The resolve pass of a visibility buffer has the triangle's edges: U and V cost less than cotangent's use of
+    // differences, and less than loading tangents of three vertices if U and V are loaded from memory.
     const auto resolve = [&](std::string_view name) {
         return std::ranges::find_if(
                    others,
@@ -120,7 +120,7 @@ TEST(CostMachineCode, everyComputeStageIsReportedAndMeshStagesWhereTheDeviceHasT
     EXPECT_LT(resolve("triangle-read"), resolve("mikktspace"));
 }
 
-TEST(CostMachineCode, aFamilyThatNoDriverKnowsIsSilentAndNotTheEnd)
+TEST(CostMachineCode, anUnknownFamilyGivesNoRowsAndNoError)
 {
     const DeviceCode code = machineCodeOfFamily(allRows(), "NO_SUCH_FAMILY");
     EXPECT_FALSE(code.silence.empty());
@@ -136,9 +136,9 @@ TEST(CostMachineCode, aTangentCostsInstructionsAtTheVertices)
     EXPECT_GT(v[2].vertex.instructions.value(), v[1].vertex.instructions.value());
 }
 
-TEST(CostTiming, everyRowDrawsAtEverySizeWhereADeviceHasTimestamps)
+TEST(CostTiming, everyRowIsTimedAtEverySize)
 {
-    // On the processor too: the way is the same. What the times are is not tested.
+    // Software devices count too: the code path is the same. The times themselves are not tested.
     const std::vector<const Row*> some = {rowFromName("floor"),          rowFromName("mikktspace"),
                                           rowFromName("smooth"),         rowFromName("exact"),
                                           rowFromName("triangle-halfs"), rowFromName("triangle-read"),
@@ -155,7 +155,7 @@ TEST(CostTiming, everyRowDrawsAtEverySizeWhereADeviceHasTimestamps)
             for (const double t : r.nanosecondsPerMillionPixels)
                 EXPECT_GT(t, 0) << d.name << " " << r.row;
         }
-        // 2 cells^2 triangles, of which each owns its provoking vertex. Few vertices are left over.
+        // 2 cells^2 triangles, each with its own provoking vertex. Few vertices remain unused.
         const auto row = [&](std::string_view name) { return *std::ranges::find(d.rows, name, &TimedRow::row); };
         for (std::size_t i = 0; i < triangleLegs().size(); ++i) {
             const auto cells = std::uint32_t(1024 / triangleLegs()[i]);
@@ -167,7 +167,7 @@ TEST(CostTiming, everyRowDrawsAtEverySizeWhereADeviceHasTimestamps)
     }
 }
 
-TEST(CostTiming, aCaseThatTheDeviceCannotDrawOrThatComesTooLateIsNamed)
+TEST(CostTiming, casesNotDrawnOrNotStartedInTimeAreNamed)
 {
     const std::vector<const Row*> some = {rowFromName("mikktspace"), rowFromName("triangle-halfs")};
     TimingOptions options{{}, true, 3, {{8, 1, 1, 64}, {8, 4, 1, 64}, {1, 1, 3, 64}, {8, 64, 1, 64}}};
@@ -176,44 +176,44 @@ TEST(CostTiming, aCaseThatTheDeviceCannotDrawOrThatComesTooLateIsNamed)
         GTEST_SKIP() << "no Vulkan device with timestamps";
     const DeviceTiming& d = timed->front();
     ASSERT_EQ(d.cases.size() + d.skipped.size(), 4u);
-    ASSERT_GE(d.skipped.size(), 1u); // few devices have 64 samples
+    ASSERT_GE(d.skipped.size(), 1u); // few devices support 64 samples
     EXPECT_EQ(d.skipped.back().what.samples, 64);
-    EXPECT_NE(d.skipped.back().why.find("samples"), std::string::npos) << d.skipped.back().why;
+    EXPECT_NE(d.skipped.back().why.find("sample count"), std::string::npos) << d.skipped.back().why;
     for (const TimedRow& r : d.rows) {
         ASSERT_EQ(r.repeats.size(), d.cases.size());
         for (const std::vector<double>& turns : r.repeats)
             EXPECT_EQ(turns.size(), 3u);
     }
-    // The first turn takes milliseconds, a million take longer than ten seconds.
+    // The first measurement takes milliseconds; a million take longer than ten seconds.
     options.cases = {{8, 1, 1, 64}, {8, 4, 1, 64}};
     options.seconds = 10;
     options.repeats = 1000000;
     const auto endless = timeRows(some, options);
     ASSERT_TRUE(endless);
-    EXPECT_EQ(endless->front().silence, "no time was left");
+    EXPECT_EQ(endless->front().silence, "the time ran out");
     options.seconds = -1;
     const auto late = timeRows(some, options);
     ASSERT_TRUE(late);
-    EXPECT_EQ(late->front().silence, "no time was left");
+    EXPECT_EQ(late->front().silence, "the time ran out");
 }
 
-TEST(CostCommand, withoutAnyDriverTheCountsAreReportedAndTheExitCodeIsThree)
+TEST(CostCommand, withoutADriverCountsAreReportedAndTheExitCodeIsThree)
 {
     const test::TemporaryFolder folder;
     const test::ToolRun run = test::runTool(
         {"cost", "--family", "NO_SUCH_FAMILY", "--json", "report.json", "-o", "cost.md", "--csv", "cost.csv"},
         folder.path());
     EXPECT_EQ(run.code, 3);
-    EXPECT_NE(run.err.find("no driver"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("no queried driver"), std::string::npos) << run.err;
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
     const auto report = nlohmann::json::parse(test::readWhole(folder / "report.json"));
     ASSERT_EQ(report["rows"].size(), rows().size());
-    EXPECT_EQ(report["rows"][0]["scalar"]["total"], 21); // as by hand, cost_test.cpp
+    EXPECT_EQ(report["rows"][0]["scalar"]["total"], 21); // as counted by hand in cost_test.cpp
     EXPECT_NE(test::readWhole(folder / "cost.md").find("| paper-full"), std::string::npos);
     EXPECT_NE(test::readWhole(folder / "cost.csv").find("floor,scalar,,,total,21"), std::string::npos);
 }
 
-TEST(CostCommand, withoutAnyDriverOlderTablesStay)
+TEST(CostCommand, withoutADriverOlderTablesAreKept)
 {
     for (const char* const option : {"-o", "--csv", "--json"}) {
         const test::TemporaryFolder folder;
@@ -225,19 +225,19 @@ TEST(CostCommand, withoutAnyDriverOlderTablesStay)
         }
         const test::ToolRun run = test::runTool(words, folder.path());
         EXPECT_EQ(run.code, 3);
-        EXPECT_NE(run.err.find("old is there and stays as it is"), std::string::npos) << run.err;
+        EXPECT_NE(run.err.find("old exists and is left unchanged"), std::string::npos) << run.err;
         EXPECT_EQ(test::readWhole(folder / "old"), "with machine code");
         EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << option;
     }
 }
 
-TEST(CostCommand, onlyWhatIsBetweenTheMarksIsReplaced)
+TEST(CostCommand, onlyTextBetweenTheMarksIsReplaced)
 {
     const test::TemporaryFolder folder;
     std::ofstream(folder / "doc.md")
         << "before\n<!-- cotan cost: from here to the end mark written by the tool -->\nold\n<!-- "
            "cotan cost: end -->\nafter\n";
-    for (int again = 0; again < 2; ++again) { // the second time leaves the same
+    for (int again = 0; again < 2; ++again) { // the second run changes nothing
         const int code =
             test::runTool({"cost", "--no-timing", "--frames", "cotangent-fused", "-o", "doc.md"}, folder.path()).code;
         if (code == 3)
@@ -249,7 +249,7 @@ TEST(CostCommand, onlyWhatIsBetweenTheMarksIsReplaced)
     EXPECT_EQ(text.find("old"), std::string::npos);
     EXPECT_NE(text.find("| cotangent-fused"), std::string::npos);
     EXPECT_EQ(text.find("| paper-full  "),
-              text.rfind("| paper-full  ")); // only among the operations
+              text.rfind("| paper-full  ")); // only in the table of operations
     EXPECT_EQ(text.substr(text.size() - 6), "after\n");
 }
 

@@ -1,4 +1,4 @@
-// Tables, lists and prices of cards that are made up: each number is another one and stands where its name says.
+// Tables, lists and prices of made-up GPUs: every number is distinct and must be under its name.
 #include <gtest/gtest.h>
 
 #include <sys/utsname.h>
@@ -28,25 +28,25 @@ StageCode codeOf(double instructions)
     return code;
 }
 
-// A card whose rows have these instructions: floor, mikktspace, smooth-fused, cotangent-fused.
-DeviceCode cardOf(const std::string& maker, const std::string& family, std::array<double, 4> rows)
+// A GPU whose rows have these instruction counts: floor, mikktspace, smooth-fused, cotangent-fused.
+DeviceCode gpuOf(const std::string& maker, const std::string& family, std::array<double, 4> rows)
 {
-    DeviceCode card;
-    card.name = "device of " + family;
-    card.maker = maker;
-    card.driver = "driver of " + family;
-    card.family = family;
-    card.date = "2026-11-24";
+    DeviceCode gpu;
+    gpu.name = "device of " + family;
+    gpu.maker = maker;
+    gpu.driver = "driver of " + family;
+    gpu.family = family;
+    gpu.date = "2026-11-24";
     const std::string_view names[] = {"floor", "mikktspace", "smooth-fused", "cotangent-fused"};
     for (std::size_t i = 0; i < 4; ++i)
-        card.rows.push_back({rowFromName(names[i])->name, codeOf(rows[i])});
+        gpu.rows.push_back({rowFromName(names[i])->name, codeOf(rows[i])});
     double next = 200;
     for (const VertexStage& stage : vertexStages())
-        card.vertices.push_back({stage.stored, codeOf(next += 8)});
+        gpu.vertices.push_back({stage.stored, codeOf(next += 8)});
     next = 400;
     for (const Stage& stage : otherStages())
-        card.others.push_back({&stage, codeOf(next += 16)});
-    return card;
+        gpu.others.push_back({&stage, codeOf(next += 16)});
+    return gpu;
 }
 
 CostReport madeUp()
@@ -55,8 +55,8 @@ CostReport madeUp()
     report.machine = "a machine";
     for (const std::string_view name : {"floor", "mikktspace", "smooth-fused", "cotangent-fused"})
         report.rows.push_back(rowFromName(name));
-    report.code = {cardOf("M", "one", {40, 56, 52, 88}), cardOf("M", "two", {40, 64, 64, 104}),
-                   cardOf("N", "three", {48, 64, 80, 72})};
+    report.code = {gpuOf("M", "one", {40, 56, 52, 88}), gpuOf("M", "two", {40, 64, 64, 104}),
+                   gpuOf("N", "three", {48, 64, 80, 72})};
     report.code[1].rows[3].fragment = {};
     report.code[1].rows[3].fragment.failure = "it is too new";
     DeviceCode silent;
@@ -67,7 +67,7 @@ CostReport madeUp()
     return report;
 }
 
-// The cells of the row of a table below a heading; empty where there is none.
+// The cells of the `nth` row that starts with `first` in the table below a heading; empty if there is none.
 std::vector<std::string> cellsOfRow(const std::string& text, const std::string& heading, const std::string& first,
                                     std::size_t nth = 0)
 {
@@ -99,23 +99,23 @@ TEST(CostReportText, formsAreCountedAgainstStoredTangents)
               (Cells{"forward, instructions", "cotangent-fused", "+8 to +32", "2", "0", "0", "one, three"}));
     EXPECT_EQ(cellsOfRow(text, heading, "forward, bound in cycles", 0),
               (Cells{"forward, bound in cycles", "smooth-fused", "-0.5 to +2", "3", "1", "1", "three"}));
-    // Of the resolves each is the same on all three.
+    // Each resolve costs the same on all three GPUs.
     EXPECT_EQ(
         cellsOfRow(text, heading, "visibility buffer, instructions", 0),
         (Cells{"visibility buffer, instructions", "triangle-read", "+32 to +32", "3", "0", "0", "one, two, three"}));
     CostReport many = madeUp();
     for (int i = 0; i < 5; ++i)
-        many.code.push_back(cardOf("O", fmt::format("more {}", i), {40, 50, 60, 70}));
+        many.code.push_back(gpuOf("O", fmt::format("more {}", i), {40, 50, 60, 70}));
     EXPECT_EQ(cellsOfRow(toMarkdown(many), heading, "forward, instructions", 0).at(6),
               "three, more 0, more 1, more 2, more 3, more 4");
-    many.code.push_back(cardOf("O", "last", {40, 50, 60, 70}));
-    EXPECT_EQ(cellsOfRow(toMarkdown(many), heading, "forward, instructions", 0).at(6), "7 cards");
+    many.code.push_back(gpuOf("O", "last", {40, 50, 60, 70}));
+    EXPECT_EQ(cellsOfRow(toMarkdown(many), heading, "forward, instructions", 0).at(6), "7 GPUs");
     CostReport cheap = madeUp();
-    cheap.code = {cardOf("M", "one", {40, 56, 52, 88})};
+    cheap.code = {gpuOf("M", "one", {40, 56, 52, 88})};
     EXPECT_EQ(cellsOfRow(toMarkdown(cheap), heading, "forward, instructions", 0).at(6), "none");
 }
 
-TEST(CostReportText, rowsAreSaidOverTheFloorOrWhole)
+TEST(CostReportText, rowsAreShownOverTheFloorOrInTotal)
 {
     const std::string text = toMarkdown(madeUp());
     const std::string added = "### What perturbing the normal adds, in instructions";
@@ -138,7 +138,7 @@ TEST(CostReportText, rowsAreSaidOverTheFloorOrWhole)
     EXPECT_EQ(cellsOfRow(text, "bound in cycles (inverse throughput), each", "smooth-fused"),
               (Cells{"smooth-fused", "6.5", "8", "10"}));
     EXPECT_EQ(cellsOfRow(text, "latency in cycles", "smooth-fused"), (Cells{"smooth-fused", "156", "192", "240"}));
-    EXPECT_EQ(cellsOfRow(text, "registers a thread", "smooth-fused"), (Cells{"smooth-fused", "26", "32", "40"}));
+    EXPECT_EQ(cellsOfRow(text, "registers per thread", "smooth-fused"), (Cells{"smooth-fused", "26", "32", "40"}));
     EXPECT_EQ(cellsOfRow(text, "### What stored tangents add", "no tangent"),
               (Cells{"no tangent", "0", "208", "208", "208"}));
     EXPECT_EQ(cellsOfRow(text, "### What stored tangents add", "tangent"), (Cells{"tangent", "+16", "+8", "+8", "+8"}));
@@ -147,18 +147,18 @@ TEST(CostReportText, rowsAreSaidOverTheFloorOrWhole)
     EXPECT_EQ(cellsOfRow(text, added, ""), (Cells{"", "", "", "", "one", "two", "three", ""}));
 }
 
-TEST(CostReportText, saysWhoWasAskedAndWhatIsMissing)
+TEST(CostReportText, namesTheQueriedDevicesAndWhatIsMissing)
 {
     CostReport report = madeUp();
     const std::string text = toMarkdown(report, "chart.svg");
     EXPECT_EQ(text.find("Machine: a machine. SPIR-V: "), 0u);
     for (const std::string line :
-         {"- one: device of one, driver of one, asked on 2026-11-24.\n",
-          "- two: device of two, driver of two, asked on 2026-11-24.\n"
+         {"- one: device of one, driver of one, queried on 2026-11-24.\n",
+          "- two: device of two, driver of two, queried on 2026-11-24.\n"
           "  - fragment cotangent-fused: not compiled: it is too new.\n",
           "- mute: no machine code: it says nothing.\n", "](chart.svg)\n", "No timing: nobody asked.\n"})
         EXPECT_NE(text.find(line), std::string::npos) << line;
-    report.cardsRead = true;
+    report.gpusRead = true;
     EXPECT_EQ(toMarkdown(report).find("SPIR-V: "), 0u);
     EXPECT_EQ(toMarkdown(report).find("chart.svg"), std::string::npos);
     report.timingSilence.clear();
@@ -172,7 +172,7 @@ TEST(CostReportText, saysWhoWasAskedAndWhatIsMissing)
     const std::string timed = toMarkdown(report);
     EXPECT_EQ(timed.find("No timing"), std::string::npos);
     EXPECT_NE(
-        timed.find("### a device: nanoseconds per million pixels, medians (draws on the processor)\n\nits driver\n"),
+        timed.find("### a device: nanoseconds per million pixels, medians (renders on the CPU)\n\nits driver\n"),
         std::string::npos);
     EXPECT_EQ(cellsOfRow(timed, "### a device", "smooth-fused"), (Cells{"smooth-fused", "100", "0.50", "600", "1.50"}));
     EXPECT_EQ(cellsOfRow(timed, "### a device", "mikktspace"), (Cells{"mikktspace", "200", "1.00", "400", "1.00"}));
@@ -214,7 +214,7 @@ TEST(CostReportText, jsonHasEachDeviceWithItsStages)
 
 // ---- statistics and prices ---------------------------------------------------------------------------
 
-TEST(CostStatisticNames, eachIsReadIntoItsOwnField)
+TEST(CostStatisticNames, eachIsParsedIntoItsField)
 {
     using Field = std::optional<double> StageCode::*;
     const Field all[] = {&StageCode::instructions, &StageCode::arithmetic,        &StageCode::registers,
@@ -246,7 +246,7 @@ TEST(CostStatisticNames, eachIsReadIntoItsOwnField)
     code.all = {{"VALU", 5}, {"VMEM", 2}};
     nameStatistics(code);
     EXPECT_EQ(code.arithmetic, 5);
-    code.all = {{"VALU", 5}}; // without its counterpart it may be another driver's
+    code.all = {{"VALU", 5}}; // without its counterpart it may belong to another driver
     nameStatistics(code);
     EXPECT_FALSE(code.arithmetic);
     code.all = {{"Cycles", 5}};
@@ -257,10 +257,10 @@ TEST(CostStatisticNames, eachIsReadIntoItsOwnField)
     EXPECT_EQ(code.inverseThroughput, 9);
 }
 
-TEST(CostPrice, ofCardsAsksNoDriverAndKeepsTheFloorAndStoredTangents)
+TEST(CostPrice, ofAFileQueriesNoDriverAndKeepsTheBaselines)
 {
     PriceOptions options;
-    options.cards = cardsToCsv({cardOf("M", "one", {40, 56, 52, 88})});
+    options.cards = gpusToCsv({gpuOf("M", "one", {40, 56, 52, 88})});
     options.frames = {"smooth-fused"};
     const auto report = price(options);
     ASSERT_TRUE(report) << report.error().message;
@@ -268,9 +268,9 @@ TEST(CostPrice, ofCardsAsksNoDriverAndKeepsTheFloorAndStoredTangents)
     for (const Row* row : report->rows)
         names.push_back(row->name);
     EXPECT_EQ(names, (std::vector<std::string_view>{"floor", "mikktspace", "smooth-fused"}));
-    EXPECT_TRUE(report->cardsRead);
+    EXPECT_TRUE(report->gpusRead);
     EXPECT_EQ(report->codeSilence, "");
-    EXPECT_EQ(report->timingSilence, "the figures of these cards were read from a file");
+    EXPECT_EQ(report->timingSilence, "the figures of these GPUs were read from a file");
     EXPECT_EQ(fragmentCode(report->code.at(0), "smooth-fused").instructions, 52);
     utsname name{};
     ASSERT_EQ(::uname(&name), 0);
@@ -290,18 +290,18 @@ TEST(CostPrice, ofCardsAsksNoDriverAndKeepsTheFloorAndStoredTangents)
     EXPECT_EQ(broken.error().message.find("options.cards: line 1: "), 0u);
 }
 
-TEST(CostPrice, asksTheCardsAndDevicesThatAreNamedAndNoOthers)
+TEST(CostPrice, queriesOnlyTheNamedGpusAndDevices)
 {
     PriceOptions options;
     options.frames = {"smooth-fused"};
     options.families = {"no such card"};
-    const auto cards = price(options); // not the devices of this machine: they are neither asked nor timed
-    ASSERT_TRUE(cards) << cards.error().message;
-    ASSERT_EQ(cards->code.size(), 1u);
-    EXPECT_EQ(cards->code[0].family, "no such card");
-    EXPECT_NE(cards->code[0].silence, "");
-    EXPECT_TRUE(cards->timing.empty());
-    EXPECT_EQ(cards->timingSilence, "");
+    const auto gpus = price(options); // excludes this machine's devices: they are neither queried nor timed
+    ASSERT_TRUE(gpus) << gpus.error().message;
+    ASSERT_EQ(gpus->code.size(), 1u);
+    EXPECT_EQ(gpus->code[0].family, "no such card");
+    EXPECT_NE(gpus->code[0].silence, "");
+    EXPECT_TRUE(gpus->timing.empty());
+    EXPECT_EQ(gpus->timingSilence, "");
     options.timing = false;
     options.families.push_back("nor this");
     const auto two = price(options);
@@ -315,14 +315,14 @@ TEST(CostPrice, asksTheCardsAndDevicesThatAreNamedAndNoOthers)
     EXPECT_EQ(named->code.at(0).family, "no such card");
     if (!machineCodeOfDevices({}, {}))
         GTEST_SKIP() << "Vulkan cannot be used here";
-    for (const bool withCards : {false, true}) {
+    for (const bool withGpus : {false, true}) {
         options = {};
         options.frames = {"smooth-fused"};
         options.devices = {"no such device", "nor this"};
-        if (withCards)
+        if (withGpus)
             options.families = {"no such card"};
         const auto none = price(options);
-        ASSERT_TRUE(none) << none.error().message; // operations are counted all the same
+        ASSERT_TRUE(none) << none.error().message; // operations are counted anyway
         EXPECT_EQ(none->rows.size(), 3u);
         EXPECT_TRUE(none->code.empty());
         EXPECT_EQ(none->codeSilence,
@@ -331,8 +331,8 @@ TEST(CostPrice, asksTheCardsAndDevicesThatAreNamedAndNoOthers)
     }
 }
 
-// Bytes follow from what is stored: floats of 4 bytes, and indices as large.
-TEST(CostStages, bytesAreThoseOfWhatIsReadAndStored)
+// Bytes follow from what is stored: floats and indices of 4 bytes.
+TEST(CostStages, bytesAreThoseReadAndStored)
 {
     EXPECT_EQ(vertexStage(Stored::tangent).bytes, 4 * 4);
     EXPECT_EQ(vertexStage(Stored::cotangents).bytes, 2 * 3 * 4);
@@ -350,7 +350,7 @@ TEST(CostStages, bytesAreThoseOfWhatIsReadAndStored)
         ADD_FAILURE() << name;
         return otherStages()[0];
     };
-    const int vertex = 3 * 4 + 3 * 4 + 2 * 4, floor = 4 + 3 * 4 + 3 * vertex; // a triangle's number, indices, vertices
+    const int vertex = 3 * 4 + 3 * 4 + 2 * 4, floor = 4 + 3 * 4 + 3 * vertex; // triangle, indices, vertices
     EXPECT_EQ(stageOf(StageKind::resolve, "floor").perPixel, floor);
     EXPECT_EQ(stageOf(StageKind::resolve, "mikktspace").perPixel, floor + 3 * 4 * 4);
     EXPECT_EQ(stageOf(StageKind::resolve, "smooth-fused").perPixel, floor + 3 * 6 * 4);
@@ -360,7 +360,7 @@ TEST(CostStages, bytesAreThoseOfWhatIsReadAndStored)
     EXPECT_EQ(stageOf(StageKind::pass, "triangle, six halfs").perTriangle, 3 * 4 + vertex / 2 + 6 * 2);
 }
 
-TEST(CostCsv, hasTheOperationsOfEachRowOfWhichFusedOnesAreFewer)
+TEST(CostCsv, hasPlainAndFusedOperationsOfEachRow)
 {
     const std::string csv = toCsv(madeUp());
     for (const Row* row : madeUp().rows) {

@@ -1,4 +1,4 @@
-// Counting: operations, SPIR-V, break-even.
+// Counts of scalar operations and SPIR-V instructions, and break-even points.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,14 +16,14 @@ namespace {
 
 TEST(CostScalar, normalisingAndSummingCountAsByHand)
 {
-    // Floor: |n|^2 3 mul 2 add, root, 3 mul; by m.z 3; the same normalisation again.
+    // Floor: |n|^2 has 3 mul 2 add, a root and 3 mul to scale; m.z times n 3 mul; then the same normalisation again.
     const Operations floor = operationsOfRow("floor");
     EXPECT_EQ(floor.multiply, 15);
     EXPECT_EQ(floor.add, 4);
     EXPECT_EQ(floor.inverseRoot, 2);
     EXPECT_EQ(floor.total(), 21);
-    EXPECT_EQ(floor.totalFused(), 17); // every addition takes a product
-    // Bitangent 6 mul 3 add and 3 mul; sum 9 mul 6 add; normalisation 6 mul 2 add and a root.
+    EXPECT_EQ(floor.totalFused(), 17); // every addition fuses with a product
+    // Bitangent: 6 mul 3 add and 3 mul. Sum: 9 mul 6 add. Normalisation: 6 mul 2 add and a root.
     const Operations mikktspace = operationsOfRow("mikktspace");
     EXPECT_EQ(mikktspace.multiply, 24);
     EXPECT_EQ(mikktspace.add, 11);
@@ -32,22 +32,22 @@ TEST(CostScalar, normalisingAndSummingCountAsByHand)
 
 TEST(CostScalar, framesKeepTheirBars)
 {
-    // Published counts of the formulas, by an independent counter. `paper-full` has divisions where
-    // that one has reciprocals.
+    // Published counts of the formulas, from an independent counter. `paper-full` has divisions where that counter
+    // assumes reciprocals.
     EXPECT_LE(operationsOfFrame("cotangent-2013").total(), 54);
     EXPECT_LE(operationsOfFrame("nonperspective").total(), 36);
     EXPECT_LE(operationsOfFrame("paper-full").total(), 110);
     EXPECT_EQ(operationsOfFrame("cotangent-2013").totalFused(), 38);
     EXPECT_EQ(operationsOfFrame("paper-transpose").total(), 63);
     EXPECT_EQ(operationsOfFrame("paper-orthogonal").total(), 36);
-    // The total form without guarding n.
+    // The total form without the guard of n.
     EXPECT_LE(operationsOfFrame("cotangent").total() - operationsOfSafeNormal().total(), 120);
 }
 
-TEST(CostScalar, fusedFormsKeepTheBarsOfTheFramesTheyStandFor)
+TEST(CostScalar, fusedFormsKeepTheBarsOfTheirFrames)
 {
-    // No frame is built in them. The whole may cost what the bars allow for the frame (60 with its
-    // sign, 48 for the gradient) with normalising n (9) and applying it (24).
+    // They build no frame. The whole may cost what the bars allow for the frame (60 with its sign, 48 for the gradient)
+    // plus normalising n (9) and applying the frame (24).
     EXPECT_LE(operationsOfRow("cotangent-fused").total(), 60 + 9 + 24);
     EXPECT_LE(operationsOfRow("gradient-fused").total(), 48 + 9 + 24);
 }
@@ -72,7 +72,7 @@ TEST(CostRows, everyFrameAndItsFusedFormHaveOne)
     EXPECT_EQ(rows().front().name, "floor");
 }
 
-TEST(CostRows, aFrameIsPricedWithWhatItIsMadeFrom)
+TEST(CostRows, aFrameIsPricedWithItsInputs)
 {
     EXPECT_EQ(rowFromName("mikktspace")->stored, Stored::tangent);
     EXPECT_EQ(rowFromName("smooth")->stored, Stored::cotangents);
@@ -81,7 +81,7 @@ TEST(CostRows, aFrameIsPricedWithWhatItIsMadeFrom)
     EXPECT_EQ(rowFromName("exact")->stored, Stored::nothing);
 }
 
-TEST(CostScalar, everyRowIsCountedAndCountsTheSameTwice)
+TEST(CostScalar, everyRowIsCountedReproducibly)
 {
     for (const Row& row : rows()) {
         EXPECT_GT(operationsOfRow(row.name).total(), 0) << row.name;
@@ -90,17 +90,16 @@ TEST(CostScalar, everyRowIsCountedAndCountsTheSameTwice)
     EXPECT_EQ(operationsOfRow("no such row").total(), 0);
 }
 
-TEST(CostSpirv, countsWhatIsInsideFunctionsAndDoesSomething)
+TEST(CostSpirv, countsOnlyInstructionsThatExecute)
 {
-    // Header; OpTypeVoid %1; OpTypeFunction %2 %1; then OpFunction, OpLabel, OpReturn,
-    // OpFunctionEnd.
+    // Header; OpTypeVoid %1; OpTypeFunction %2 %1; then OpFunction, OpLabel, OpReturn, OpFunctionEnd.
     const std::array<std::uint32_t, 18> module = {
         0x07230203,    0x10000, 0, 5, 0, 2u << 16 | 19,  1, 3u << 16 | 33, 2, 1,
         5u << 16 | 54, 1,       3, 0, 2, 2u << 16 | 248, 4, 1u << 16 | 253};
     EXPECT_EQ(spirvInstructions(module), 1);
 }
 
-TEST(CostSpirv, whatIsNoModuleCountsAsNothing)
+TEST(CostSpirv, invalidModulesCountAsZero)
 {
     const std::array<std::uint32_t, 6> wrongMagic = {1, 0x10000, 0, 5, 0, 1u << 16 | 253};
     const std::array<std::uint32_t, 6> zeroLength = {0x07230203, 0x10000, 0, 5, 0, 253};
@@ -119,25 +118,25 @@ TEST(CostSpirv, everyShaderOfEveryRowHasInstructions)
         EXPECT_GT(spirvInstructions(v.vertex), 10) << v.name;
 }
 
-TEST(CostBreakEven, isWhereBothCostTheSame)
+TEST(CostBreakEven, isAtEqualCost)
 {
-    // 12 at each vertex against 48 at each pixel: equal at a quarter of a pixel per vertex.
+    // 12 per vertex against 48 per pixel: equal at a quarter of a pixel per vertex.
     EXPECT_DOUBLE_EQ(pixelsPerVertex(12, 48), 0.25);
     EXPECT_TRUE(std::isinf(pixelsPerVertex(16, 0)));
     EXPECT_EQ(pixelsPerVertex(0, 48), 0);
 }
 
-// Pixels in quads of which one centre at least is inside of a right-angled triangle with legs along the axes, in the
-// mean over places on a grid of steps x steps within a quad.
+// Pixels in 2x2 quads of which at least one pixel centre is inside a right-angled triangle with axis-aligned legs: the
+// mean over steps x steps offsets within a quad.
 double shadedByRasterising(double leg, int steps)
 {
     double quads = 0;
-    const int most = int(leg) + 4;
+    const int end = int(leg) + 4;
     for (int sy = 0; sy < steps; ++sy)
         for (int sx = 0; sx < steps; ++sx) {
-            const double x0 = 2 * (sx + 0.5) / steps, y0 = 2 * (sy + 0.5) / steps; // the corner at the right angle
-            for (int qy = -2; qy < most; qy += 2)
-                for (int qx = -2; qx < most; qx += 2)
+            const double x0 = 2 * (sx + 0.5) / steps, y0 = 2 * (sy + 0.5) / steps; // the right-angled corner
+            for (int qy = -2; qy < end; qy += 2)
+                for (int qx = -2; qx < end; qx += 2)
                     for (int k = 0; k < 4; ++k) {
                         const double x = qx + k % 2 + 0.5 - x0, y = qy + k / 2 + 0.5 - y0;
                         if (x >= 0 && y >= 0 && x + y <= leg) {
@@ -151,23 +150,23 @@ double shadedByRasterising(double leg, int steps)
 
 TEST(CostBreakEven, shadedPixelsAreThoseOfRasterisedTriangles)
 {
-    // The formula is a mean over all places, this one over a grid with steps of 1/32 pixel. Points on a hypotenuse
-    // count, so each is half a step too far out; there are four, one for each centre.
+    // The formula averages over all offsets, the reference over a grid with steps of 1/32 pixel. Points on the
+    // hypotenuse count as inside, half a step too far out; four times, once per pixel centre.
     for (const double pixels : {0.2, 0.5, 1.0, 1.7, 2.0, 3.3, 8.0, 50.0, 300.0}) {
         const double leg = std::sqrt(2 * pixels);
         EXPECT_NEAR(shadedPixels(pixels), shadedByRasterising(leg, 64), 4 * leg / 64 + 1e-9) << pixels;
     }
     EXPECT_EQ(shadedPixels(0), 0);
-    EXPECT_DOUBLE_EQ(shadedPixels(50), 50 + 2 * std::sqrt(2 * 50.0)); // 10 to a leg: 70
-    EXPECT_DOUBLE_EQ(shadedPixels(0.25), 1);                          // four copies that do not meet
+    EXPECT_DOUBLE_EQ(shadedPixels(50), 50 + 2 * std::sqrt(2 * 50.0)); // legs of 10: 70
+    EXPECT_DOUBLE_EQ(shadedPixels(0.25), 1);                          // four non-overlapping copies
 }
 
-TEST(CostBreakEven, aRangeEndsWhereBothCostTheSame)
+TEST(CostBreakEven, rangesEndAtEqualCost)
 {
     const TrianglePrice stored{60, 100}, early{120, 90}, late{20, 140};
     const PixelRange large = cheaperRange(early, stored), small = cheaperRange(late, stored);
     EXPECT_TRUE(std::isinf(large.below));
-    EXPECT_NEAR(shadedPixels(large.above), 6, 1e-9); // 60 more for each triangle, 10 less for each pixel
+    EXPECT_NEAR(shadedPixels(large.above), 6, 1e-9); // 60 more per triangle, 10 less per pixel
     EXPECT_NEAR(large.above, 2, 1e-9);               // legs of 2 pixels
     EXPECT_NEAR(early.of(large.above), stored.of(large.above), 1e-6);
     EXPECT_EQ(small.above, 0);
@@ -200,7 +199,7 @@ TEST(CostChoices, pricesAreThoseOfTheirStages)
         EXPECT_DOUBLE_EQ(price->fixed,
                          choice.verticesPerTriangle * (100 + double(rows().size()) + double(choice.vertex)))
             << choice.name;
-        // Every stage hands on what the row takes: the same, or unpacked from a smaller form.
+        // The vertex stage outputs what the row reads: the same, or unpacked from a smaller form.
         EXPECT_TRUE(row->stored == choice.vertex
                     || (row->stored == Stored::cotangents && choice.vertex == Stored::cotangents8))
             << choice.name;
@@ -223,8 +222,8 @@ TEST(CostStages, everyOtherStageHasInstructionsAndTheFrameAddsSome)
             EXPECT_GT(spirvInstructions(s.words), spirvInstructions(first->words)) << s.name;
         }
     }
-    // U and V of sound edges: 12 products and 6 sums; the longer of two lengths, 6, 4 and a maximum, and a guard; its
-    // root, and the side: 9 and 5, a sign; 6 to scale. (In the total form guards are added.)
+    // U and V of valid edges: 12 products and 6 sums; two squared lengths with 6 and 4, their maximum and a guard; a
+    // root; the side with 9 and 5 and a sign; 6 to scale. (The total form adds guards.)
     const Operations sound = operationsOfTriangleVectors(false);
     EXPECT_EQ(sound.multiply, 12 + 6 + 9 + 6);
     EXPECT_EQ(sound.add, 6 + 4 + 5);

@@ -1,4 +1,4 @@
-// Cotangents averaged at the vertices (the frame `smooth`).
+// Cotangents averaged at vertices (the frame `smooth`).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,8 +29,8 @@ bool finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && st
 
 TEST(SmoothCotangents, areTheGradientsOfAFlatLayout)
 {
-    // Texcoords are linear in position: the gradients are their rows, y turned up, stretch and
-    // shear and mirroring included.
+    // Texcoords are linear in position: the gradients are the rows with y negated, whether stretched, sheared or
+    // mirrored.
     const glm::vec2 layouts[][2] = {
         {{1, 0}, {0, 1}}, {{2, 0}, {0, 1}}, {{1, 0.7f}, {0, 1}}, {{-1, 0}, {0, 3}}, {{0.6f, 0.8f}, {-4, 3}},
     };
@@ -39,16 +39,16 @@ TEST(SmoothCotangents, areTheGradientsOfAFlatLayout)
         const Cotangents found = smoothCotangents(a.view());
         ASSERT_EQ(found.u.size(), a.positions.size());
         for (std::size_t i = 0; i < found.u.size(); ++i) {
-            // Differences of uv of size 1/5 rounded at 6e-8 * 4, and a few operations.
+            // Uv differences of 1/5 with a rounding of 6e-8 * 4, and a few operations.
             ASSERT_LT(glm::length(found.u[i] - glm::vec3(rows[0].x, -rows[0].y, 0)), 1e-5f);
             ASSERT_LT(glm::length(found.v[i] - glm::vec3(rows[1].x, -rows[1].y, 0)), 1e-5f);
         }
     }
 }
 
-// Corners are derived 256 at a time (CornerLanes): fans of fewer and of more, once over one middle and once with a
-// vertex for every corner, and thin ones among them that are derived alone. Uv are linear in position.
-TEST(SmoothCotangents, areThoseOfTheLayoutAtVerticesOfAnyNumberOfCorners)
+// Corners are processed 256 at a time (CornerLanes): fans of fewer and of more, around one shared vertex or with a
+// vertex per corner. Thin corners among them are processed one by one. Uv are linear in position.
+TEST(SmoothCotangents, areThoseOfTheLayoutForAnyNumberOfCorners)
 {
     const glm::vec3 n(0, 0, 1);
     for (const std::uint32_t corners : {1u, 15u, 16u, 17u, 255u, 256u, 257u, 700u})
@@ -70,19 +70,19 @@ TEST(SmoothCotangents, areThoseOfTheLayoutAtVerticesOfAnyNumberOfCorners)
             fan(corners, {8, 0, 0});
             const Cotangents found = smoothCotangents(a.view());
             for (std::size_t i = 0; i < found.u.size(); ++i) {
-                // Uv of up to 20 rounded at 1e-6, over edges from 0.001: those of thin triangles.
+                // The worst are thin triangles: uv of up to 20 rounded at 1e-6, over edges from 0.001 on.
                 ASSERT_LT(glm::length(found.u[i] - glm::vec3(2, 0.5f, 0)), 2e-2f) << corners << ' ' << i;
                 ASSERT_LT(glm::length(found.v[i] - glm::vec3(0, -1, 0)), 2e-2f) << corners << ' ' << i;
             }
         }
 }
 
-// The largest relative error of the gradients at interior vertices of the sphere.
+// The maximum relative error of the gradients at interior vertices of the sphere.
 double sphereError(std::uint32_t n)
 {
     const Arrays a = sphereGrid(n);
     const Cotangents found = smoothCotangents(a.view());
-    const double perRadian = 3 / (2 * std::numbers::pi); // of u and v by angle
+    const double perRadian = 3 / (2 * std::numbers::pi); // u and v per radian
     double worst = 0;
     for (std::uint32_t j = 1; j < n; ++j)
         for (std::uint32_t i = 1; i < n; ++i) {
@@ -91,7 +91,7 @@ double sphereError(std::uint32_t n)
             const glm::dvec3 east = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), p));
             const double ring = std::sqrt(1 - p.y * p.y);
             const glm::dvec3 gradU = east * (perRadian / ring);
-            const glm::dvec3 gradV = glm::cross(east, p) * perRadian; // southwards
+            const glm::dvec3 gradV = glm::cross(east, p) * perRadian; // towards the south pole
             const double errorU = glm::length(glm::dvec3(found.u[k]) - gradU) * ring;
             const double errorV = glm::length(glm::dvec3(found.v[k]) - gradV);
             worst = std::max(worst, std::max(errorU, errorV) / perRadian);
@@ -108,8 +108,8 @@ TEST(SmoothCotangents, convergeToTheGradientsOfASphereInSecondOrder)
 
 TEST(SmoothCotangents, haveNoJumpAcrossInteriorEdges)
 {
-    // Corners that share position, normal and texcoord get the same bits, indexed or not: what is
-    // interpolated from them agrees along every shared edge.
+    // Corners that share position, normal and texcoord get bitwise equal results, indexed or not, so that the
+    // interpolated gradients agree along every shared edge.
     const Arrays a = sphereGrid(8), b = unindexed(a);
     const Cotangents shared = smoothCotangents(a.view()), single = smoothCotangents(b.view());
     for (std::size_t c = 0; c < a.indices.size(); ++c) {
@@ -118,7 +118,7 @@ TEST(SmoothCotangents, haveNoJumpAcrossInteriorEdges)
     }
 }
 
-TEST(SmoothCotangents, goAsTheInverseOfThePositionsScale)
+TEST(SmoothCotangents, scaleInverselyWithPositions)
 {
     const Arrays plain = sphereGrid(8);
     Arrays scaled = plain;
@@ -148,7 +148,7 @@ TEST(SmoothCotangents, degenerateTrianglesAddNothing)
     more.indices.insert(more.indices.end(), {8, 8, 9, 8, 9, 8, 10, 10, 10}); // no area in space
     const std::uint32_t far = more.add({3, 1, 2}, {0, 0, 1}, plain.texcoords[8]);
     const std::uint32_t same = more.add(plain.positions[9], plain.normals[9], plain.texcoords[9]);
-    more.indices.insert(more.indices.end(), {8, same, far}); // none in uv
+    more.indices.insert(more.indices.end(), {8, same, far}); // no area in uv
     const Cotangents a = smoothCotangents(plain.view()), b = smoothCotangents(more.view());
     for (std::size_t i = 0; i < plain.positions.size(); ++i) {
         ASSERT_EQ(b.u[i], a.u[i]);
@@ -158,7 +158,7 @@ TEST(SmoothCotangents, degenerateTrianglesAddNothing)
     EXPECT_EQ(b.u[same], a.u[9]); // an equal vertex shares the gradients
 }
 
-TEST(SmoothCotangents, sidesOfAMirrorLineDoNotCancelOnceSplit)
+TEST(SmoothCotangents, mirroredSidesDoNotCancelOnceSplit)
 {
     Arrays a = gridOf(4, [](float x, float y) { return Vertex{{x, -y, 0}, {0, 0, 1}, {std::abs(x - 0.5f), y}}; });
     const Arrays b = splitBy(cotan::splitMirrored(a.view()), a);
@@ -172,13 +172,13 @@ TEST(SmoothCotangents, sidesOfAMirrorLineDoNotCancelOnceSplit)
             ASSERT_LT(glm::length(u - glm::vec3(middle < 0.5f ? -1 : 1, 0, 0)), 1e-6f);
         }
     }
-    // Not split, a vertex on the line still gets one side's gradient, not the sum of both.
+    // Without splitting, a vertex on the line still gets the gradient of one side, not the sum of both.
     for (const glm::vec3& u : smoothCotangents(a.view()).u)
         EXPECT_NEAR(glm::length(u), 1, 1e-6);
 }
 
-// Seams anywhere and triangles in any order, so that either side of a vertex may be met first and keep it.
-TEST(SplitSmoothCotangents, areTheTwoStepsWhicheverSideAVertexMeetsFirst)
+// Seams anywhere and triangles in any order: at a vertex either side may come first and keep the original vertex.
+TEST(SplitSmoothCotangents, equalTheTwoStepsInAnyOrderOfTriangles)
 {
     std::mt19937 dice(5);
     std::size_t copies = 0, keptMirrored = 0;
@@ -194,15 +194,15 @@ TEST(SplitSmoothCotangents, areTheTwoStepsWhicheverSideAVertexMeetsFirst)
         for (std::size_t f = 0; f < order.size(); ++f)
             std::copy_n(old.begin() + std::ptrdiff_t(3 * order[f]), 3, a.indices.begin() + std::ptrdiff_t(3 * f));
         const cotan::VertexSplit split = cotan::splitMirrored(a.view());
-        const Cotangents wanted = smoothCotangents(splitBy(split, a).view());
+        const Cotangents expected = smoothCotangents(splitBy(split, a).view());
         const cotan::SplitCotangents found = cotan::splitSmoothCotangents(a.view());
         EXPECT_EQ(found.split.sources, split.sources);
         EXPECT_EQ(found.split.indices, split.indices);
         ASSERT_EQ(found.cotangents.u.size(), split.sources.size());
         ASSERT_EQ(found.cotangents.v.size(), split.sources.size());
         for (std::size_t i = 0; i < split.sources.size(); ++i) {
-            ASSERT_LT(glm::length(found.cotangents.u[i] - wanted.u[i]), 1e-5f) << round << ' ' << i;
-            ASSERT_LT(glm::length(found.cotangents.v[i] - wanted.v[i]), 1e-5f) << round << ' ' << i;
+            ASSERT_LT(glm::length(found.cotangents.u[i] - expected.u[i]), 1e-5f) << round << ' ' << i;
+            ASSERT_LT(glm::length(found.cotangents.v[i] - expected.v[i]), 1e-5f) << round << ' ' << i;
         }
         for (std::size_t i = a.positions.size(); i < split.sources.size(); ++i) {
             ++copies;
@@ -236,7 +236,7 @@ TEST(SmoothCotangents, areFiniteForBrokenInput)
         }
 }
 
-TEST(SmoothCotangents, arraysThatDoNotFitGiveNothing)
+TEST(SmoothCotangents, inconsistentArraysGiveNothing)
 {
     Arrays a = flatGrid(1, {1, 0}, {0, 1});
     a.indices[0] = 99;

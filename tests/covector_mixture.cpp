@@ -7,7 +7,7 @@ Vector3d tangent, bitangent;
 Covector3d normal;
 
 #if defined(COTAN_MIX_SUM)
-// The function of the 2013 follow-up: a tangent frame with a normal in it is ill-formed.
+// The function of the 2013 follow-up: a frame of tangent vectors and a normal covector is ill-formed.
 Covector3d perturbNormal(double a, double b, double c) { return a * tangent + b * bitangent + c * normal; }
 #elif defined(COTAN_MIX_ASSIGN)
 Covector3d assigned = tangent;

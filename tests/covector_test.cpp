@@ -1,5 +1,5 @@
-// Vectors and covectors, and the three ways to carry a normal. What must not compile is tested by
-// tests/core.cmake with covector_mixture.cpp.
+// Vectors and covectors, and the three ways to transform a normal. tests/core.cmake checks with covector_mixture.cpp
+// what must not compile.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ TEST(Covector, pairingIsTheSameInEverySpace)
     for (int i = 0; i < 200; ++i) {
         const LinearMap<double> map(randomMatrix(random));
         if (std::abs(map.determinant()) < 0.05)
-            continue; // nearly singular: the inverse loses too many digits to compare
+            continue; // nearly singular: the inverse loses too many digits
         const Vector3d v(random.direction());
         const Covector3d c(random.direction());
         EXPECT_NEAR(dot(map(c), map(v)), dot(c, v), 1e-11);
@@ -50,7 +50,7 @@ TEST(Covector, transformedNormalStaysPerpendicularToTransformedTangents)
     }
 }
 
-TEST(Covector, planeImageOfAFlattenedObjectIsTheNormalOfWhatRemains)
+TEST(Covector, planeImageOfAFlattenedObjectIsTheNormalOfThePlane)
 {
     const LinearMap<double> flatten(glm::dmat3(1, 0, 0, 0, 1, 0, 0, 0, 0)); // z scaled to zero
     EXPECT_EQ(flatten(Covector3d{0, 0, 1}), (Covector3d{}));
@@ -65,15 +65,15 @@ glm::dmat3 rotation()
     return glm::dmat3(x, y, glm::cross(x, y));
 }
 
-double disagreement(NormalTransform way, const glm::dmat3& m, glm::dvec3 n)
+double disagreement(NormalTransform method, const glm::dmat3& m, glm::dvec3 n)
 {
-    return degreesBetween(transformNormal(way, m, Covector3d(n)).raw(),
+    return degreesBetween(transformNormal(method, m, Covector3d(n)).raw(),
                           transformNormal(NormalTransform::inverseTranspose, m, Covector3d(n)).raw());
 }
 
 glm::dmat3 scale(double x, double y, double z) { return glm::dmat3(x, 0, 0, 0, y, 0, 0, 0, z); }
 
-TEST(NormalTransform, allThreeWaysAgreeForRotationAndUniformScale)
+TEST(NormalTransform, allThreeMethodsAgreeForRotationAndUniformScale)
 {
     Random random(34);
     for (int i = 0; i < 50; ++i) {
@@ -84,7 +84,7 @@ TEST(NormalTransform, allThreeWaysAgreeForRotationAndUniformScale)
     }
 }
 
-TEST(NormalTransform, undoingTheScaleIsRightForScaleAlongTheAxesMirroredOrNot)
+TEST(NormalTransform, undoingTheScaleIsRightForAxisAlignedScale)
 {
     Random random(35);
     for (double sign : {1.0, -1.0})
@@ -110,11 +110,11 @@ TEST(NormalTransform, rotationOnlyIsWrongByAtMost36Point9DegreesForOneToFour)
 
 TEST(NormalTransform, zeroScaleGivesAFiniteUnitNormal)
 {
-    for (auto way : {NormalTransform::undoScale, NormalTransform::rotationOnly, NormalTransform::inverseTranspose})
-        EXPECT_NEAR(length(transformNormal(way, scale(1, 1, 0), Covector3d{0, 0.6, 0.8})), 1, 1e-12);
+    for (auto method : {NormalTransform::undoScale, NormalTransform::rotationOnly, NormalTransform::inverseTranspose})
+        EXPECT_NEAR(length(transformNormal(method, scale(1, 1, 0), Covector3d{0, 0.6, 0.8})), 1, 1e-12);
 }
 
-TEST(CotangentFrame, uniformScaleAndRotationCarryTheFrameWithTheNormal)
+TEST(CotangentFrame, uniformScaleAndRotationTransformTheFrameLikeTheNormal)
 {
     Random random(36);
     const AffinePatch p = randomPatch(random, false);
@@ -143,7 +143,7 @@ TEST(Covector, arithmeticIsByComponent)
     EXPECT_EQ(a.raw(), glm::dvec3(1, -2, 3));
 }
 
-TEST(Covector, normalizeOrGivesTheOtherForZeroInfinityAndNan)
+TEST(Covector, normalizeOrReturnsTheFallbackForZeroInfinityAndNan)
 {
     const Vector3d other(0, 1, 0);
     const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
@@ -152,7 +152,7 @@ TEST(Covector, normalizeOrGivesTheOtherForZeroInfinityAndNan)
         EXPECT_EQ(normalizeOr(bad, other), other);
 }
 
-TEST(Covector, angleIsAccurateNearZeroAndHalfATurn)
+TEST(Covector, angleIsAccurateNear0And180Degrees)
 {
     const Vector3d x(3, 0, 0);
     EXPECT_NEAR(angle(x, Vector3d(std::cos(1e-9), std::sin(1e-9), 0)), 1e-9, 1e-18);
@@ -161,7 +161,7 @@ TEST(Covector, angleIsAccurateNearZeroAndHalfATurn)
     EXPECT_EQ(angle(x, Vector3d(0, 0, 0)), 0);
 }
 
-TEST(Covector, mapsGoByTheMatrixAndItsInverseTranspose)
+TEST(Covector, mapsUseTheMatrixAndItsInverseTranspose)
 {
     const glm::dmat3 m(1, 0, 0, 2, 3, 0, 0, 1, -4); // columns; determinant -12
     const LinearMap<double> map(m);
@@ -169,30 +169,30 @@ TEST(Covector, mapsGoByTheMatrixAndItsInverseTranspose)
     EXPECT_EQ(map(Vector3d(1, 2, 3)), Vector3d(m * glm::dvec3(1, 2, 3)));
     const glm::dvec3 c(0.5, -1, 2), expected = glm::transpose(glm::inverse(m)) * c;
     EXPECT_LT(length(map(Covector3d(c)) - Covector3d(expected)), 1e-12);
-    // The cofactors times c have the same direction, mirrored or not.
+    // The cofactor matrix times c has the same direction, mirrored or not.
     EXPECT_LT(length(map.planeImage(Covector3d(c)) - Covector3d(expected * 12.0)), 1e-12);
     const LinearMap<double> unmirrored(glm::dmat3(1, 0, 0, 2, 3, 0, 0, 1, 4));
     EXPECT_GT(dot(unmirrored.planeImage(Covector3d(c)), raise(unmirrored(Covector3d(c)))), 0);
 }
 
-TEST(NormalTransform, formulasOfAMirroredScaleInARotation)
+TEST(NormalTransform, mirroredScaleInARotationMatchesTheFormulas)
 {
-    // M = R S with S = (-2, 3, 5): inverse transpose and undoing the scale are R S^-1 n; R n drops S.
+    // M = R S, S = (-2, 3, 5): inverse transpose and undoing the scale give R S^-1 n; rotation only ignores S.
     const glm::dmat3 r(0, 1, 0, 0, 0, 1, 1, 0, 0); // x to y, y to z, z to x
     const glm::dmat3 m(r[0] * -2.0, r[1] * 3.0, r[2] * 5.0);
     const glm::dvec3 n(0.6, -0.48, 0.64);
-    const glm::dvec3 undone = glm::normalize(r * glm::dvec3(n.x / -2, n.y / 3, n.z / 5));
-    for (const NormalTransform way : {NormalTransform::undoScale, NormalTransform::inverseTranspose})
-        EXPECT_LT(glm::length(transformNormal(way, m, Covector3d(n)).raw() - undone), 1e-12);
+    const glm::dvec3 unscaled = glm::normalize(r * glm::dvec3(n.x / -2, n.y / 3, n.z / 5));
+    for (const NormalTransform method : {NormalTransform::undoScale, NormalTransform::inverseTranspose})
+        EXPECT_LT(glm::length(transformNormal(method, m, Covector3d(n)).raw() - unscaled), 1e-12);
     EXPECT_LT(glm::length(transformNormal(NormalTransform::rotationOnly, m, Covector3d(n)).raw() - r * n), 1e-12);
-    // A scale of zero leaves n, at unit length.
+    // A scale of zero returns n, normalised.
     const glm::dmat3 flat(r[0], r[1], r[2] * 0.0);
-    for (const NormalTransform way :
+    for (const NormalTransform method :
          {NormalTransform::undoScale, NormalTransform::rotationOnly, NormalTransform::inverseTranspose})
-        EXPECT_LT(glm::length(transformNormal(way, flat, Covector3d(n * 3.0)).raw() - n), 1e-12);
+        EXPECT_LT(glm::length(transformNormal(method, flat, Covector3d(n * 3.0)).raw() - n), 1e-12);
 }
 
-TEST(CotangentFrame, goesToAnotherSpaceByTheInverseTranspose)
+TEST(CotangentFrame, isTransformedByTheInverseTranspose)
 {
     const glm::dmat3 m(1, 0, 0, 2, 3, 0, 0, 1, -4);
     const CotangentFrame<double> f{Covector3d(1, 0.2, -0.3), Covector3d(0.4, 2, 0.1), Covector3d(-0.2, 0.3, 0.9)};

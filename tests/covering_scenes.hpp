@@ -1,16 +1,16 @@
-// Coloured transmittance and the edges of masks, for the tests of both renderers.
+// Tests for both renderers: coloured transmittance, and edges of alpha masks.
 #pragma once
 
 #include "layered_scenes.hpp"
 
 namespace cotan::layers {
 
-// Panes that nothing lights and that reflect nothing: only what they let through of what is behind is seen, tinted, in
-// the order of distance among blended ones; alpha counts what passes of white light.
-inline void transmissiveLayersTintWhatIsBehind(const Draw& draw)
+// Unlit panes without reflection show only the tinted light from behind. Blended panes are sorted by distance; alpha is
+// the fraction of white light that is blocked.
+inline void transmissiveLayersTintLayersBehindThem(const Draw& draw)
 {
     struct Layer {
-        glm::vec4 color; // alpha counts where the pane is blended
+        glm::vec4 color; // alpha applies if the pane is blended
         bool transmits;
         AlphaMode mode;
     };
@@ -22,7 +22,7 @@ inline void transmissiveLayersTintWhatIsBehind(const Draw& draw)
     for (const bool wall : {false, true})
         for (const int samples : {1, 4}) {
             Scene scene;
-            glm::vec3 light(0), through(1);
+            glm::vec3 light(0), transmittance(1);
             for (const int k : {3, 0, 4, 2, 1}) {
                 const Layer& layer = nearestFirst[k];
                 Pane pane;
@@ -37,34 +37,34 @@ inline void transmissiveLayersTintWhatIsBehind(const Draw& draw)
             for (const Layer& layer : nearestFirst) {
                 const float alpha = layer.mode == AlphaMode::blend ? layer.color.w : 1.0f;
                 if (layer.transmits) {
-                    through *= glm::vec3(layer.color) * alpha + (1 - alpha);
+                    transmittance *= glm::vec3(layer.color) * alpha + (1 - alpha);
                 } else {
-                    light += through * glm::vec3(layer.color) * alpha;
-                    through *= 1 - alpha;
+                    light += transmittance * glm::vec3(layer.color) * alpha;
+                    transmittance *= 1 - alpha;
                 }
             }
-            float passing = (through.x + through.y + through.z) / 3;
+            float passing = (transmittance.x + transmittance.y + transmittance.z) / 3;
             if (wall) {
                 Pane behind;
                 behind.corner.z = -9;
                 behind.color = {0.5f, 0.6f, 0.7f, 1};
                 addPane(scene, behind, AlphaMode::opaque);
-                light += through * glm::vec3(behind.color);
+                light += transmittance * glm::vec3(behind.color);
                 passing = 0;
             }
             const Image image = draw(scene, flatView(samples));
             expectNear(at(image, 32, 16), glm::vec4(light, 1 - passing), wall ? "before a wall" : "before nothing");
             View view = flatView();
-            view.output = Output::depth; // vectors are those of the nearest surface
+            view.output = Output::depth; // vectors come from the nearest surface
             EXPECT_NEAR(at(draw(scene, view), 32, 16).x, 50, 1e-4f);
         }
 }
 
-// The edge of a mask covers the samples on its side, as that of a triangle does; vectors and single samples are kept or
-// not as a whole. Alpha is a plane: 0.5 along x = 0.25 y + `edge`.
+// The edge of a mask covers individual samples, like the edge of a triangle. Vectors and single-sample images are kept
+// or dropped as a whole. Alpha is a plane that is 0.5 along x = 0.25 y + `edge`.
 inline void masksCoverTheSamplesOnTheirSide(const Draw& draw)
 {
-    const glm::vec2 places[] = {{-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
+    const glm::vec2 sampleOffsets[] = {{-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}};
     for (const float edge : {0.0f, 0.3f, 0.55f}) {
         Scene scene;
         Pane pane;
@@ -85,11 +85,11 @@ inline void masksCoverTheSamplesOnTheirSide(const Draw& draw)
             for (int x = 25; x < 39; ++x) {
                 const float cx = float(x) - 31.5f, cy = 15.5f - float(y);
                 float covered = 0;
-                for (const glm::vec2& place : places)
-                    covered += side(cx + place.x, cy - place.y) >= 0 ? 0.25f : 0.0f;
+                for (const glm::vec2& offset : sampleOffsets)
+                    covered += side(cx + offset.x, cy - offset.y) >= 0 ? 0.25f : 0.0f;
                 bool close = std::abs(side(cx, cy)) < 1e-3f;
-                for (const glm::vec2& place : places)
-                    close = close || std::abs(side(cx + place.x, cy - place.y)) < 1e-3f;
+                for (const glm::vec2& offset : sampleOffsets)
+                    close = close || std::abs(side(cx + offset.x, cy - offset.y)) < 1e-3f;
                 if (close)
                     continue; // rounding decides
                 const float whole = side(cx, cy) >= 0 ? 1.0f : 0.0f;

@@ -1,4 +1,4 @@
-# What structs hold to which nothing was given, over all parts.
+# Default values of the structs of all parts.
 cotan_test(defaults_test
   SOURCES defaults_options_test.cpp defaults_results_test.cpp
   LIBRARIES cotan_bake cotan_batch cotan_figures cotan_files cotan_gltf cotan_gltf_json cotan_image cotan_inspect

@@ -1,5 +1,5 @@
-// What a caller gets who sets nothing. Headers promise it field by field, programs leave fields out for it, and the
-// command line and cotan.h have defaults of their own: so no run of either shows what these are.
+// Default values of options. Headers promise them field by field, and programs rely on them. The command line and
+// cotan.h have their own defaults, so no run of either tests these.
 #include <gtest/gtest.h>
 
 #include "batch/child.hpp"
@@ -91,14 +91,14 @@ TEST(Defaults, ofViewsShowTheSceneFromTheFront)
     EXPECT_FALSE(v.rowsUpward);
     Camera c;
     EXPECT_FALSE(c.orthographic);
-    EXPECT_NEAR(c.verticalFieldOfView, 3.14159265 / 4, 1e-6); // the lens of 45 degrees of every camera here
+    EXPECT_NEAR(c.verticalFieldOfView, 3.14159265 / 4, 1e-6); // 45 degrees, the default of every camera here
     EXPECT_EQ(c.verticalExtent, 2);
     EXPECT_EQ(c.eye, glm::vec3(0, 0, 5));
     EXPECT_EQ(c.target, glm::vec3(0));
     EXPECT_EQ(c.up, glm::vec3(0, 1, 0));
 }
 
-TEST(Defaults, ofPicturesAreThoseOfTheHelp)
+TEST(Defaults, ofRendersAreThoseOfTheHelp)
 {
     PictureOptions o;
     EXPECT_EQ(o.samples, 4);
@@ -143,7 +143,7 @@ TEST(Defaults, ofBakingAreOneTileOfAMap)
     EXPECT_FALSE(m.mask);
 }
 
-TEST(Defaults, ofConversionsLimitNothingAndKeepNothing)
+TEST(Defaults, ofConversionsHaveNoLimitAndKeepNothing)
 {
     ConvertModelOptions c;
     EXPECT_EQ(c.bits, 0);
@@ -166,7 +166,7 @@ TEST(Defaults, ofConversionsLimitNothingAndKeepNothing)
     EXPECT_EQ(limits.frame, "orthonormal");
 }
 
-TEST(Defaults, ofReadingLimitPicturesAndGeometry)
+TEST(Defaults, ofReadingLimitImagesAndGeometry)
 {
     LoadLimits l;
     EXPECT_EQ(l.fileBytes, std::size_t(2) << 30);
@@ -187,7 +187,7 @@ TEST(Defaults, ofMapsAreThoseOfTheHelp)
     EXPECT_EQ(b.mask, nullptr);
     EXPECT_FALSE(b.dither);
     EXPECT_EQ(b.firstRow, 0);
-    EXPECT_EQ(b.pictureHeight, 0);
+    EXPECT_EQ(b.imageHeight, 0);
     maps::MipSettings m;
     EXPECT_FALSE(m.keepLengths);
     EXPECT_TRUE(m.model == maps::VarianceModel::lean);
@@ -240,7 +240,7 @@ TEST(Defaults, ofMapFilesAreThoseOfTheHelp)
     EXPECT_EQ(m.compress, "none");
 }
 
-TEST(Defaults, ofBatchesRunOneJobOfOneThreadForAnHour)
+TEST(Defaults, ofBatchesRunOneSingleThreadedJobForAnHour)
 {
     RunOptions r;
     EXPECT_EQ(r.processes, 1u);

@@ -1,4 +1,4 @@
-// A result to which nothing was added: counts are none, shares are nothing, and what is an index is no index.
+// Default values of results: counts and fractions are zero, and indices are invalid.
 #include <gtest/gtest.h>
 
 #include "bake/bake_surfaces.hpp"
@@ -14,10 +14,10 @@
 #include "cotan/maps.hpp"
 #include "cotan/tangents.hpp"
 #include "gltf/json/views.hpp"
+#include "high_view.hpp"
 #include "map_files/convert.hpp"
 #include "map_files/height.hpp"
 #include "scene/environment_map.hpp"
-#include "seen_high.hpp"
 #include "smooth_report.hpp"
 
 namespace cotan {
@@ -35,10 +35,10 @@ TEST(EmptyResults, ofBakingCountNothing)
     EXPECT_EQ(b.width, 0);
     EXPECT_EQ(b.height, 0);
     RayStarts starts;
-    EXPECT_FALSE(starts.bent);
+    EXPECT_FALSE(starts.directionsDiffer);
     for (const float x : {starts.farthest, starts.skip, starts.limit})
         EXPECT_EQ(x, 0);
-    app::SeenHigh seen;
+    app::HighView seen;
     EXPECT_EQ(seen.others, 0u);
     EXPECT_EQ(seen.compared, 0u);
 }
@@ -53,7 +53,7 @@ TEST(EmptyResults, ofLintJudgeNothing)
     StoredTangents t;
     EXPECT_FALSE(t.present);
     EXPECT_EQ(t.reversedW, 0);
-    EXPECT_EQ(t.turned, 0);
+    EXPECT_EQ(t.rotated, 0);
     PrimitiveLint p;
     EXPECT_EQ(p.placing, 0u);
     EXPECT_EQ(p.placings, 1u);
@@ -134,7 +134,7 @@ TEST(EmptyResults, ofMapsKnowNothing)
     maps::ConvertedFile c;
     EXPECT_EQ(c.width, 0);
     EXPECT_EQ(c.height, 0);
-    EXPECT_EQ(c.shown, 0u);
+    EXPECT_EQ(c.covered, 0u);
     EXPECT_EQ(maps::ToHeightFile().unit, 1);
 }
 
@@ -155,7 +155,7 @@ TEST(EmptyResults, ofGltfNameNothing)
     EXPECT_EQ(t.strength, 1);
 }
 
-TEST(EmptyResults, ofPicturesAndPlacesHaveNoSize)
+TEST(EmptyResults, ofImagesAndSamplesHaveNoSize)
 {
     Image i;
     EXPECT_EQ(i.width, 0);
@@ -179,7 +179,7 @@ TEST(EmptyResults, ofPicturesAndPlacesHaveNoSize)
     EXPECT_FALSE(h.storedTangents);
 }
 
-TEST(EmptyResults, ofJobsHaveTakenNothing)
+TEST(EmptyResults, ofJobsHaveTakenNoTime)
 {
     JobRecord r;
     EXPECT_EQ(r.runs, 0);

@@ -1,4 +1,4 @@
-// Bytes packed by zlib, for files that tests make.
+// Zlib compression, for files made by tests.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Models that bend: tangents that are stored and carried along with the pose, against frames that are made of it.
+// Deforming models: stored tangents that follow the pose, compared with frames derived from the posed surface.
 // docs/explanation/deforming.md has the numbers.
 #include <algorithm>
 #include <array>
@@ -27,7 +27,7 @@ const std::filesystem::path kAnimated = std::string(COTAN_SHARED_DATA) + "/anima
 
 // ---- vertex attributes that a file lacks ----
 
-// A GLB in its two parts.
+// The JSON and the binary part of a GLB file.
 struct Glb {
     json root;
     std::string bytes;
@@ -59,7 +59,7 @@ void writeGlb(const std::filesystem::path& file, Glb glb)
         << word(glb.bytes.size()) << std::string("BIN\0", 4) << glb.bytes;
 }
 
-// Normals averaged over equal positions, for the only primitive of a file without indices and normals.
+// Adds normals averaged over equal positions to a file whose only primitive has neither indices nor normals.
 void addNormals(Glb& glb, const std::vector<glm::vec3>& positions)
 {
     std::map<std::array<float, 3>, glm::vec3> sums;
@@ -81,11 +81,11 @@ void addNormals(Glb& glb, const std::vector<glm::vec3>& positions)
     }
 }
 
-// The model with MikkTSpace tangents of its rest pose.
+// Writes the model with MikkTSpace tangents of its rest pose; returns the path.
 std::filesystem::path withTangents(const TemporaryFolder& folder, const std::string& name)
 {
     std::filesystem::path source = kAnimated / name;
-    if (name == "Fox.glb") { // it has no normals
+    if (name == "Fox.glb") { // Fox.glb has no normals
         auto document = openGltfDocument(source);
         EXPECT_TRUE(document);
         Glb glb = readGlb(source);
@@ -110,15 +110,15 @@ std::filesystem::path withTangents(const TemporaryFolder& folder, const std::str
     return file;
 }
 
-// ---- how far perturbed normals are off ----
+// ---- errors of perturbed normals ----
 
-enum Way { kStored, kRemade, kTriangle, kSmooth, kWays };
-using Errors = std::array<double, kWays>; // mean degrees, by area
+enum Method { kStored, kRemade, kTriangle, kSmooth, kMethods };
+using Errors = std::array<double, kMethods>; // mean degrees, weighted by area
 
 glm::dvec3 waves(glm::dvec2 uv)
 {
-    const glm::dvec2 turn = uv * (16 * std::numbers::pi);
-    return glm::normalize(glm::dvec3(0.7 * std::sin(turn.x), 0.7 * std::sin(turn.y), 1));
+    const glm::dvec2 phase = uv * (16 * std::numbers::pi);
+    return glm::normalize(glm::dvec3(0.7 * std::sin(phase.x), 0.7 * std::sin(phase.y), 1));
 }
 
 glm::vec3 byTangent(glm::vec3 n, glm::vec4 t, glm::vec3 m)
@@ -131,8 +131,8 @@ double degrees(glm::dvec3 a, glm::dvec3 b)
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi;
 }
 
-// The posed triangles are the surface, and texcoords are linear on each: so their gradients are known exactly. The
-// normal is the interpolated one in all ways, as the engine carries it.
+// The posed triangles are the surface and texcoords are linear on each, so the exact gradients are known. All methods
+// use the interpolated normal as the engine transforms it.
 void add(const Mesh& mesh, Errors& sums, double& area)
 {
     const auto& uv = mesh.texcoords[0];
@@ -166,12 +166,12 @@ void add(const Mesh& mesh, Errors& sums, double& area)
             const glm::dvec3 truth =
                 f64::cotan_apply(f64::cotan_frame_cotangent(glm::normalize(glm::dvec3(n)), e1, e2, d1, d2), m);
             const TriangleVectors& t = triangles[f / 3];
-            const std::array<glm::vec3, kWays> found = {byTangent(n, at(mesh.tangents, v), m),
+            const std::array<glm::vec3, kMethods> found = {byTangent(n, at(mesh.tangents, v), m),
                                                         byTangent(n, at(remade, corner), m),
                                                         f32::cotan_perturb_triangle(n, t.u, t.v, m),
                                                         f32::cotan_perturb_smooth(n, at(unit.u, s), at(unit.v, s), m)};
-            for (std::size_t way = 0; way < kWays; ++way)
-                sums[way] += degrees(found[way], truth) * size / 4;
+            for (std::size_t method = 0; method < kMethods; ++method)
+                sums[method] += degrees(found[method], truth) * size / 4;
         }
         area += size;
     }
@@ -214,18 +214,18 @@ TEST_P(DeformingModel, derivedFramesFollowAndStoredTangentsDoNot)
         ::testing::Test::RecordProperty(what, row);
     };
     tell("rest", rest);
-    double most = 0;
+    double largest = 0;
     for (const auto& [animation, seconds] : moments.at(GetParam())) {
         const Errors posed = errorsOf(file, animation, seconds);
         tell(animation + std::to_string(int(100 * seconds)), posed);
-        most = std::max(most, posed[kStored]);
+        largest = std::max(largest, posed[kStored]);
         EXPECT_LT(posed[kTriangle], posed[kStored] / 5) << animation;
         EXPECT_LT(posed[kSmooth], posed[kStored]) << animation;
-        EXPECT_NEAR(posed[kRemade], posed[kStored], 0.3) << animation; // made anew they are still square
+        EXPECT_NEAR(posed[kRemade], posed[kStored], 0.3) << animation; // recomputed tangents are still orthonormal
     }
-    // The lumberjack's bones are stiff; what swells or is drawn long as the fox's legs are changes the texture.
+    // The lumberjack's bones are rigid. Parts that swell, or stretch like the fox's legs, deform the texture.
     if (std::string(GetParam()) != "lumberjack.glb") {
-        EXPECT_GT(most, rest[kStored] + 3);
+        EXPECT_GT(largest, rest[kStored] + 3);
     }
 }
 

@@ -1,6 +1,6 @@
-// Bar D3: nineteen kinds of input, most of them degenerate, in float with denormals flushed as
-// GPUs do. No NaN or infinity, unit length, the plain normal where no frame exists, and the same
-// bits as the unguarded form on good input.
+// Bar D3: nineteen kinds of input, most of them degenerate, in float with denormals flushed as on GPUs. The result must
+// be finite and of unit length, must be the unperturbed normal where no frame exists, and must match the unguarded form
+// bit for bit on regular input.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 using f32::cotan_frame;
 
-// The sign-corrected frame without a guard, from its formula.
+// The sign-corrected frame without guards, from its formula.
 cotan_frame unguarded(glm::vec3 n, const Differences<float>& d)
 {
     const glm::vec3 a = glm::cross(d.dpdy.raw(), n), b = glm::cross(n, d.dpdx.raw());
@@ -71,7 +71,7 @@ TEST(FrameBarD3, degenerateInputReturnsThePlainNormal)
         }
 }
 
-TEST(FrameBarD3, guardsChangeNoBitOfAGoodPixel)
+TEST(FrameBarD3, guardsChangeNoBitOfARegularPixel)
 {
     FlushDenormals flush;
     for (const DegenerateCase& c : degenerateCases()) {
@@ -88,9 +88,9 @@ TEST(FrameBarD3, guardsChangeNoBitOfAGoodPixel)
     }
 }
 
-TEST(FrameBarD3, theUnguardedFormGivesNanOnConstantUv)
+TEST(FrameBarD3, unguardedFormGivesNanOnConstantUv)
 {
-    Random random(94); // the control: the guards are needed
+    Random random(94); // the control: guards are needed
     PixelInput x = makeInput(random, degenerateCases().front());
     x.d.duvdx = x.d.duvdy = {0, 0};
     EXPECT_TRUE(std::isnan(unguarded(x.n, x.d).t.x));
@@ -130,7 +130,7 @@ TEST(Frame, noFiniteOrNonFiniteBitPatternGivesANan)
     }
 }
 
-TEST(Frame, normalThatCancelledOutIsReplacedByTheFaceNormal)
+TEST(Frame, zeroNormalIsReplacedByTheFaceNormal)
 {
     Random random(96);
     PixelInput x = makeInput(random, degenerateCases().front());

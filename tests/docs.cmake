@@ -1,26 +1,26 @@
-# The documents against the tool, the sources and the measured tables.
+# Compares the documents with the tool, the sources and the measured tables.
 cotan_test(docs_test
   SOURCES docs_test.cpp tutorials_test.cpp version_test.cpp
   LIBRARIES fmt::fmt)
 target_compile_definitions(docs_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_VERSION="${PROJECT_VERSION}")
 add_dependencies(docs_test cotan)
-# The page of the command line is the tool's own help.
+# The page of the command line must be the tool's own help.
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)
-  add_test(NAME Documents.commandLineIsWhatTheToolPrints COMMAND ${Python3_EXECUTABLE}
+  add_test(NAME Documents.commandLinePageMatchesTheTool COMMAND ${Python3_EXECUTABLE}
     ${PROJECT_SOURCE_DIR}/docs/reference/make-command-line $<TARGET_FILE:cotan> ${PROJECT_BINARY_DIR}/share --check)
-  add_test(NAME Documents.pagesOfLibrariesAreWhatTheHeadersSay COMMAND ${Python3_EXECUTABLE}
+  add_test(NAME Documents.libraryPagesMatchTheHeaders COMMAND ${Python3_EXECUTABLE}
     ${PROJECT_SOURCE_DIR}/docs/reference/make-api --check)
-  add_test(NAME Documents.drawingOfThePartsIsDrawn COMMAND ${Python3_EXECUTABLE}
+  add_test(NAME Documents.architectureDrawingIsCurrent COMMAND ${Python3_EXECUTABLE}
     ${PROJECT_SOURCE_DIR}/docs/project/make-architecture --check)
 endif()
-# The limit of .clang-format, for C, C++ and shaders. What is not in git is not looked at.
+# The line limit of .clang-format, for C, C++ and shaders. Needs git, which lists the files.
 if(Python3_FOUND AND EXISTS ${PROJECT_SOURCE_DIR}/.git)
   add_test(NAME Format.noLineIsOverTheLimit COMMAND ${PROJECT_SOURCE_DIR}/scripts/format --long-lines)
 endif()
 if(Python3_FOUND)
-  add_test(NAME Format.constantsOfAPartHaveOneName COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/constants.py ${PROJECT_SOURCE_DIR})
-  add_test(NAME Mutants.aLineFollowsItsPlace COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/mutation/repair_test.py)
-  add_test(NAME Changelog.gathersWhatIsUnreleased COMMAND ${PROJECT_SOURCE_DIR}/scripts/changelog)
-  add_test(NAME Mutants.everyMistakeHasItsPlace COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/mutants --check)
+  add_test(NAME Format.constantNamesAreUniqueInEachPart COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/constants.py ${PROJECT_SOURCE_DIR})
+  add_test(NAME Mutants.linesFollowMovedCode COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/mutation/repair_test.py)
+  add_test(NAME Changelog.collectsUnreleasedChanges COMMAND ${PROJECT_SOURCE_DIR}/scripts/changelog)
+  add_test(NAME Mutants.everyMistakeMatchesTheSource COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/mutants --check)
 endif()

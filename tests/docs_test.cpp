@@ -1,5 +1,4 @@
-// What the documents say: their links, the names and options they use, and the numbers that they repeat from the tables
-// that are measured.
+// Checks the documents: links, the names and options in them, and the numbers that they repeat from measured tables.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,14 +38,14 @@ std::vector<fs::path> documents()
 
 std::string shortName(const fs::path& file) { return file.lexically_relative(kSources).string(); }
 
-// What people wrote of a page: up to the mark behind which `cotan cost` writes its tables.
+// The hand-written part of a page: up to the mark after which `cotan cost` writes its tables.
 std::string writtenPart(const fs::path& file)
 {
     const std::string text = readWhole(file);
     return text.substr(0, text.find("<!-- cotan cost: from here"));
 }
 
-// Words of a text one space apart, so that a phrase is found across line ends.
+// A text with whitespace folded to single spaces, so that phrases are found across line breaks.
 std::string folded(const std::string& text)
 {
     std::string result;
@@ -66,7 +65,7 @@ std::vector<std::string> matches(const std::string& text, const std::regex& patt
     return found;
 }
 
-// A heading as the anchor that pages on the web give it.
+// The anchor of a heading, as web hosts generate it.
 std::string anchorOf(const std::string& heading)
 {
     std::string anchor;
@@ -87,7 +86,7 @@ bool hasAnchor(const fs::path& file, const std::string& anchor)
     return false;
 }
 
-TEST(Documents, everyLinkLeadsToAFileAndAHeading)
+TEST(Documents, everyLinkPointsToAFileAndAHeading)
 {
     const std::regex link(R"(\]\(([^)\s]+)\))");
     std::size_t checked = 0;
@@ -107,10 +106,10 @@ TEST(Documents, everyLinkLeadsToAFileAndAHeading)
     EXPECT_GT(checked, 30u);
 }
 
-// The page whose tables of files are still wider.
+// The only page whose tables of files may still be wider.
 const std::set<std::string> kPagesWithWideTables = {"docs/project/architecture.md"};
 
-std::size_t columnsOf(const std::string& line) // of UTF-8
+std::size_t columnsOf(const std::string& line) // counts UTF-8 characters
 {
     return std::size_t(
         std::ranges::count_if(line, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
@@ -119,7 +118,7 @@ std::size_t columnsOf(const std::string& line) // of UTF-8
 TEST(Documents, noLineIsOverTheLimit)
 {
     constexpr std::size_t kMaxColumns = 120;
-    const std::set<std::string> generated = {"docs/reference/javascript.md"}; // the typings as they are
+    const std::set<std::string> generated = {"docs/reference/javascript.md"}; // contains type declarations verbatim
     for (const fs::path& file : documents()) {
         const std::string name = shortName(file);
         if (generated.contains(name) || name == "CHANGELOG.md")
@@ -132,7 +131,7 @@ TEST(Documents, noLineIsOverTheLimit)
     }
 }
 
-// Two branches that change one place leave both versions between marks until somebody chooses.
+// A merge conflict leaves both versions between marks until it is resolved.
 TEST(Sources, haveNoMarksOfAnUnfinishedMerge)
 {
     std::size_t read = 0;
@@ -146,7 +145,7 @@ TEST(Sources, haveNoMarksOfAnUnfinishedMerge)
                     files.push_back(entry.path());
         for (const fs::path& file : files) {
             const std::string text = readWhole(file);
-            if (text.find('\0') != std::string::npos) // an image, a model
+            if (text.find('\0') != std::string::npos) // binary: an image or a model
                 continue;
             ++read;
             for (const char* word : {"<<<<<<< ", ">>>>>>> "})
@@ -157,14 +156,14 @@ TEST(Sources, haveNoMarksOfAnUnfinishedMerge)
     EXPECT_GT(read, 1000u);
 }
 
-// A page without its code and the targets of its links.
+// A page without code and link targets.
 std::string proseOf(const fs::path& file)
 {
     const std::string text = std::regex_replace(writtenPart(file), std::regex("```[^`]*```"), "");
     return std::regex_replace(text, std::regex(R"(`[^`]*`|\]\([^)]*\))"), "");
 }
 
-// Pages that people write: not those made from comments and help texts, nor the change log.
+// Hand-written pages: not those generated from comments and help texts, nor the change log.
 std::vector<fs::path> writtenPages()
 {
     const std::set<std::string> others = {"docs/reference/c.md", "docs/reference/cpp.md",
@@ -189,8 +188,8 @@ void expectNone(const fs::path& file, const std::vector<Wording>& wordings)
     }
 }
 
-// Words that this project had to itself: a reader of the field knows the others.
-TEST(Documents, speakTheTermsOfTheField)
+// Private words of this project; readers know the field's terms.
+TEST(Documents, useTheTermsOfTheField)
 {
     for (const fs::path& file : writtenPages())
         expectNone(file,
@@ -210,27 +209,24 @@ TEST(Documents, speakTheTermsOfTheField)
                     {R"(\bthrows? (a|no|the) shadows?\b)", "casts"}});
 }
 
-// Phrases that leave a reader to guess what is meant.
-TEST(Documents, haveNoRiddles)
+// Phrases that leave the reader guessing.
+TEST(Documents, haveNoVaguePhrases)
 {
     for (const fs::path& file : writtenPages())
-        if (shortName(file) != "docs/project/architecture.md")
-            expectNone(file,
-                       {{R"(\bof which\b)", "a sentence of its own"},
-                        {R"(\bwhat (it|they) (was|were) (given|told)\b)", "the name of the input"},
-                        {R"(\bnobody (knows|would)\b)", "what is unknown"},
-                        {R"(\bshuts out\b)", "what is excluded, and by what"},
-                        {R"([.!?] Of the )", "the subject first"}});
+        expectNone(file,
+                   {{R"(\bof which\b)", "a sentence of its own"},
+                    {R"(\bwhat (it|they) (was|were) (given|told)\b)", "the name of the input"},
+                    {R"(\bnobody (knows|would)\b)", "what is unknown"},
+                    {R"(\bshuts out\b)", "what is excluded, and by what"},
+                    {R"([.!?] Of the )", "the subject first"}});
 }
 
-// One idea a paragraph: a list item counts as one.
+// One idea per paragraph or list item.
 TEST(Documents, haveShortParagraphs)
 {
     constexpr int kMaxLines = 7;
     const std::regex item(R"(^\s*([-*]|\d+\.)\s)");
     for (const fs::path& file : writtenPages()) {
-        if (shortName(file) == "docs/project/architecture.md")
-            continue;
         std::istringstream text(writtenPart(file));
         int lines = 0;
         bool fenced = false;
@@ -246,7 +242,7 @@ TEST(Documents, haveShortParagraphs)
     }
 }
 
-TEST(Documents, everyPictureIsSmallAndShownSomewhere)
+TEST(Documents, everyImageIsSmallAndUsed)
 {
     std::string pages;
     for (const fs::path& file : documents())
@@ -263,8 +259,8 @@ TEST(Documents, everyPictureIsSmallAndShownSomewhere)
     EXPECT_GT(checked, 25u);
 }
 
-// A reader finds every page from the index or from the page of its folder.
-TEST(Documents, theIndexLeadsToEveryPage)
+// Every page is reachable from the index or from the page of its folder.
+TEST(Documents, theIndexLinksEveryPage)
 {
     const std::string index = readWhole(kSources / "docs/README.md");
     for (const auto& entry : fs::recursive_directory_iterator(kSources / "docs"))
@@ -274,8 +270,8 @@ TEST(Documents, theIndexLeadsToEveryPage)
         }
 }
 
-// The first screen: what an artist and a baker look for stands early.
-TEST(Documents, theReadmeSaysEarlyHowGreenIsTurnedAndHowAMapIsBaked)
+// The first screen of the README has what artists and bakers look for.
+TEST(Documents, theReadmeShowsEarlyHowToFlipGreenAndBake)
 {
     std::istringstream text(readWhole(kSources / "README.md"));
     std::size_t number = 0, green = 0, bake = 0;
@@ -291,8 +287,8 @@ TEST(Documents, theReadmeSaysEarlyHowGreenIsTurnedAndHowAMapIsBaked)
     EXPECT_LE(number, 120u);
 }
 
-// Unity's map: README up to the line that leads to the page, and the page up to the command and the setting.
-TEST(Documents, theMapForUnityIsFoundWithinSixtyLines)
+// The map for Unity: the README up to the link to the page, plus the page up to the command and the setting.
+TEST(Documents, theReadmeShowsTheMapForUnityWithinSixtyLines)
 {
     const auto linesUntil = [](const char* page, const char* words) {
         const std::string text = readWhole(kSources / page);
@@ -318,12 +314,12 @@ std::string wholeSource()
     return all;
 }
 
-// `FrameBarA1` and the like: names of tests, types and functions that a reader will look for.
-TEST(Documents, everyNameInThemIsInTheSources)
+// Names such as `FrameBarA1`: tests, types and functions that a reader will look for.
+TEST(Documents, everyQuotedNameIsInTheSources)
 {
     const std::string sources = wholeSource();
     const std::regex name(R"(`([A-Z][a-z0-9]+[A-Z][A-Za-z0-9]*|cotan_[a-z0-9_]+|COTAN_[A-Z0-9_]+)[(`])");
-    // Words of other programs and formats.
+    // Names of other programs and formats.
     const std::set<std::string> foreign = {"UpperCamel",       "GLTFLoader", "UnpackNormal",
                                            "WebGLRenderer",    "Cotan_half", "ShaderMaterial",
                                            "COTAN_BENCHMARKS", "ValueError", "RuntimeError"};
@@ -338,8 +334,8 @@ TEST(Documents, everyNameInThemIsInTheSources)
     EXPECT_GT(checked, 25u);
 }
 
-// `src/...` and the like, up to a place in capitals such as NAME.
-TEST(Documents, everyFileThatTheyNameIsThere)
+// Paths such as `src/...`, up to a placeholder in capitals such as NAME.
+TEST(Documents, everyNamedFileExists)
 {
     const std::regex name(R"(`((?:apps|docs|examples|fuzz|include|scripts|shaders|src|tests)/[a-z0-9_./-]*)[`:])");
     std::size_t checked = 0;
@@ -351,7 +347,7 @@ TEST(Documents, everyFileThatTheyNameIsThere)
     EXPECT_GT(checked, 60u);
 }
 
-// Lines of code that call the tool, continued lines joined, comments off.
+// Lines of code that call the tool: continued lines joined, comments removed.
 std::vector<std::string> callsIn(const std::string& text)
 {
     std::vector<std::string> calls;
@@ -384,23 +380,23 @@ std::string helpOf(const std::vector<std::string>& words)
     return entry->second;
 }
 
-// docs/project/architecture.md: a row for each folder of src, and no other; the drawing has them all.
-TEST(Documents, architectureHasTheFoldersOfTheSources)
+// docs/project/architecture.md has exactly one row for each folder of src, and all of them in the diagram.
+TEST(Documents, architectureListsTheSourceFolders)
 {
     std::set<std::string> folders, rows;
     for (const auto& entry : fs::directory_iterator(kSources / "src"))
         folders.insert(entry.path().filename().string());
     const std::string plan = readWhole(kSources / "docs/project/architecture.md"),
-                      picture = readWhole(kSources / "docs/project/architecture.svg");
+                      diagram = readWhole(kSources / "docs/project/architecture.svg");
     for (const std::string& row : matches(plan, std::regex("\\n\\| `([a-z_]+)` \\|"), 1))
         rows.insert(row);
     EXPECT_EQ(rows, folders);
     EXPECT_GT(folders.size(), 10u);
     for (const std::string& folder : folders)
-        EXPECT_NE(picture.find(">" + folder + "<"), std::string::npos) << folder;
+        EXPECT_NE(diagram.find(">" + folder + "<"), std::string::npos) << folder;
 }
 
-// What a command of the shell prints, run in the sources.
+// The output of a shell command that runs in the source folder.
 std::string printed(const std::string& command)
 {
     std::string text;
@@ -412,7 +408,7 @@ std::string printed(const std::string& command)
     return text;
 }
 
-// docs/project/extending.md: under each heading with a grep, a list of the files that it prints and no other.
+// docs/project/extending.md: each heading with a grep is followed by a list of exactly the files that the grep prints.
 TEST(Documents, walkThroughsListTheFilesThatNameTheirExample)
 {
     const std::string page = readWhole(kSources / "docs/project/extending.md");
@@ -438,8 +434,8 @@ TEST(Documents, walkThroughsListTheFilesThatNameTheirExample)
     EXPECT_EQ(checked, 5u);
 }
 
-// A command and its subcommand, and each --option of the line, are what --help has.
-TEST(Documents, everyCommandInThemIsOneThatTheToolTakes)
+// The command, its subcommand and each --option of the line must be in the help.
+TEST(Documents, everyCommandIsAcceptedByTheTool)
 {
     std::size_t checked = 0;
     for (const fs::path& file : documents())
@@ -464,7 +460,7 @@ TEST(Documents, everyCommandInThemIsOneThatTheToolTakes)
     EXPECT_GT(checked, 40u);
 }
 
-// The cells of the line of docs/accuracy.csv that begins with `row`: samples, mean, 95 %, maximum.
+// A cell of the line of docs/accuracy.csv that begins with `row`: samples, mean, 95 % or maximum.
 double fromAccuracy(const std::string& row, std::size_t column)
 {
     std::istringstream lines(readWhole(kSources / "docs/accuracy.csv"));
@@ -486,7 +482,7 @@ std::string trimmed(const std::string& text)
     return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') + 1 - first);
 }
 
-// A cell of the first table of docs/explanation/cost.md behind a heading that begins so, with this row and card.
+// A cell by row and GPU, of docs/explanation/cost.md's first table under a heading that begins with `heading`.
 double fromCost(const std::string& row, const std::string& column, const std::string& heading = "What perturbing")
 {
     bool inside = false;
@@ -502,7 +498,7 @@ double fromCost(const std::string& row, const std::string& column, const std::st
             std::istringstream stream(line.substr(1));
             for (std::string cell; std::getline(stream, cell, '|');)
                 cells.push_back(trimmed(cell));
-            if (heads.empty() || cells[0].empty()) // makers, then cards
+            if (heads.empty() || cells[0].empty()) // makers, then GPUs
                 heads = cells;
             const auto at = std::find(heads.begin(), heads.end(), column);
             if (at != heads.end() && cells[0] == row
@@ -526,7 +522,7 @@ std::string sphere(int segments, const char* frame)
     return fmt::format("curved,sphere,{},{},S,double", segments, frame);
 }
 
-// A phrase of a document whose numbers come from tables: {} stands for each.
+// A phrase of a document whose numbers come from tables; each {} is one number.
 struct Claim {
     const char* document;
     const char* phrase;
@@ -547,20 +543,20 @@ std::string filled(const Claim& claim)
     return text;
 }
 
-TEST(Documents, repeatNumbersAsTheMeasuredTablesHaveThem)
+TEST(Documents, numbersMatchTheMeasuredTables)
 {
     auto over = [](const char* row) { return fromCost(row, "NAVI21"); };
-    auto onCards = [](const char* row, const char* heading = "What perturbing") {
+    auto onGpus = [](const char* row, const char* heading = "What perturbing") {
         std::vector<double> numbers;
-        for (const char* card : {"NAVI21", "Ada", "DG2", "Adreno 750", "Mali-G610", "M1"})
-            numbers.push_back(fromCost(row, card, heading));
+        for (const char* gpu : {"NAVI21", "Ada", "DG2", "Adreno 750", "Mali-G610", "M1"})
+            numbers.push_back(fromCost(row, gpu, heading));
         return numbers;
     };
-    // Instructions on three cards, and the bound in cycles on the first.
+    // Instructions on three GPUs, and the bound in cycles on the first.
     auto ofTriangle = [](const char* row) {
         std::vector<double> numbers;
-        for (const char* card : {"NAVI21", "NAVI31", "POLARIS10"})
-            numbers.push_back(fromCost(row, card));
+        for (const char* gpu : {"NAVI21", "NAVI31", "POLARIS10"})
+            numbers.push_back(fromCost(row, gpu));
         numbers.push_back(fromCost(row, "NAVI21", "Whole fragment shaders, bound"));
         return numbers;
     };
@@ -621,25 +617,25 @@ TEST(Documents, repeatNumbersAsTheMeasuredTablesHaveThem)
          {over("smooth-fused"), fromCost("smooth-fused", "Ada"), fromCost("smooth-fused", "Mali-G610"),
           over("cotangent-fused"), fromCost("cotangent-fused", "Ada"), fromCost("cotangent-fused", "Mali-G610"),
           over("mikktspace"), fromCost("mikktspace", "Ada"), fromCost("mikktspace", "Mali-G610")}},
-        {"docs/how-to/my-engine.md", "| `mikktspace` | +{} | +{} | +{} | +{} | +{} | +{} |", onCards("mikktspace")},
+        {"docs/how-to/my-engine.md", "| `mikktspace` | +{} | +{} | +{} | +{} | +{} | +{} |", onGpus("mikktspace")},
         {"docs/how-to/my-engine.md", "| `smooth`, fused | +{} | +{} | +{} | +{} | +{} | +{} |",
-         onCards("smooth-fused")},
+         onGpus("smooth-fused")},
         {"docs/how-to/my-engine.md", "| `triangle`, packed in halfs | +{} | +{} | +{} | +{} | +{} | +{} |",
-         onCards("triangle-halfs")},
+         onGpus("triangle-halfs")},
         {"docs/how-to/my-engine.md", "| `triangle`, in floats | +{} | +{} | +{} | +{} | +{} | +{} |",
-         onCards("triangle-fused")},
+         onGpus("triangle-fused")},
         {"docs/how-to/my-engine.md", "| `cotangent`, normal on the seen side | +{} | +{} | +{} | +{} | +{} | +{} |",
-         onCards("cotangent-seen")},
+         onGpus("cotangent-seen")},
         {"docs/how-to/my-engine.md", "| `cotangent`, fused | +{} | +{} | +{} | +{} | +{} | +{} |",
-         onCards("cotangent-fused")},
+         onGpus("cotangent-fused")},
         {"docs/how-to/my-engine.md", "| `orthonormal`, fused | +{} | +{} | +{} | +{} | +{} | +{} |",
-         onCards("orthonormal-fused")},
+         onGpus("orthonormal-fused")},
         {"docs/how-to/my-engine.md", "| `mikktspace`, resolved | +{} | +{} | +{} | +{} | +{} | +{} |",
-         onCards("mikktspace", "What a frame adds where a visibility buffer")},
+         onGpus("mikktspace", "What a frame adds where a visibility buffer")},
         {"docs/how-to/my-engine.md", "| `triangle`, read | +{} | +{} | +{} | +{} | +{} | +{} |",
-         onCards("triangle-read", "What a frame adds where a visibility buffer")},
+         onGpus("triangle-read", "What a frame adds where a visibility buffer")},
         {"docs/how-to/my-engine.md", "| `cotangent`, resolved | +{} | +{} | +{} | +{} | +{} | +{} |",
-         onCards("cotangent-fused", "What a frame adds where a visibility buffer")},
+         onGpus("cotangent-fused", "What a frame adds where a visibility buffer")},
         {"docs/explanation/degrees.md",
          "`triangle` is {} degrees off and MikkTSpace {}, by truth S.",
          {fromAccuracy(sphere(32, "triangle"), kMean), fromAccuracy(sphere(32, "mikktspace"), kMean)},

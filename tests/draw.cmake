@@ -1,4 +1,4 @@
-# Drawing and verifying as a program calls them: no file, no process.
+# Drawing and verification through the C++ interface, without files and processes.
 cotan_test(draw_test
   SOURCES draw_test.cpp draw_random_test.cpp scene_check_test.cpp scene_parts_test.cpp scene_parts_bounds_test.cpp
     exposure_meter_test.cpp

@@ -1,5 +1,5 @@
-// Scenes drawn at random, of everything that materials, lights and cameras have, by both renderers: two programs that
-// share no code but the portable text, which one of them runs as C++ and the other as SPIR-V.
+// Random scenes with all features of materials, lights and cameras, drawn by both renderers. The two share no code
+// except the portable text, which one runs as C++ and the other as SPIR-V.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -32,7 +32,7 @@ private:
     std::mt19937 bits_;
 };
 
-// Bytes that differ a little from texel to texel in every channel: no filter meets a cliff.
+// Bytes that vary only a little between texels in every channel, so that filters meet no sharp edges.
 Image randomImage(Dice& dice, bool normals)
 {
     Image image = makeImage(3 + dice.below(6), 3 + dice.below(6), PixelType::unorm8, "random");
@@ -102,7 +102,7 @@ Material randomMaterial(Dice& dice, Scene& scene)
     return m;
 }
 
-// A ball before a wall, both with colours at their vertices and a second set of uv that is not the first.
+// A ball in front of a wall; both have vertex colours and a second, different set of uv.
 Scene randomScene(Dice& dice)
 {
     Scene scene;
@@ -110,18 +110,18 @@ Scene randomScene(Dice& dice)
     for (std::size_t k = 0; k < scene.meshes.size(); ++k) {
         Mesh& mesh = scene.meshes[k];
         mesh.material = int(k);
-        const float turn = dice.from(-1, 1);
+        const float shear = dice.from(-1, 1);
         for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
             const glm::vec2 uv = mesh.texcoords[0][i];
-            mesh.texcoords[1].push_back({uv.x * 0.7f + uv.y * turn, 0.2f - uv.y * 0.8f});
+            mesh.texcoords[1].push_back({uv.x * 0.7f + uv.y * shear, 0.2f - uv.y * 0.8f});
             mesh.colors.push_back({0.8f + 0.2f * std::sin(4 * uv.x), 0.7f + 0.1f * uv.y, 0.9f, 1});
         }
         scene.materials.push_back(randomMaterial(dice, scene));
     }
-    const glm::mat4 place = glm::rotate(glm::mat4(1), dice.from(-2, 2), glm::vec3(0.3f, 1, 0.2f));
+    const glm::mat4 rotation = glm::rotate(glm::mat4(1), dice.from(-2, 2), glm::vec3(0.3f, 1, 0.2f));
     const float mirrored = dice.heads() ? -1.0f : 1.0f;
     scene.instances = {
-        {"ball", 0, glm::scale(place, glm::vec3(mirrored * dice.from(0.8f, 1.2f), dice.from(0.8f, 1.2f), 1))},
+        {"ball", 0, glm::scale(rotation, glm::vec3(mirrored * dice.from(0.8f, 1.2f), dice.from(0.8f, 1.2f), 1))},
         {"wall", 1, glm::translate(glm::rotate(glm::mat4(1), 1.4f, glm::vec3(1, 0, 0)), {0.3f, -1.6f, 0.2f})}};
     return scene;
 }
@@ -144,7 +144,7 @@ View randomView(Dice& dice, Output output)
     view.exposure = dice.from(0.5f, 2);
     view.samples = dice.heads() ? 1 : 4;
     view.rowsUpward = dice.heads();
-    view.shadows = false; // their edges are cliffs; tests of their own hold them
+    view.shadows = false; // shadow edges are sharp; other tests cover them
     const glm::vec3 towards = glm::normalize(glm::vec3(dice.from(-1, 1), dice.from(-1, 1), -1.5f));
     view.lights.push_back({LightKind::directional, dice.three(0.3f, 1), dice.from(0.5f, 2), {}, towards, 0, 0, 0});
     view.lights.push_back({LightKind::point,
@@ -161,10 +161,10 @@ View randomView(Dice& dice, Output output)
     return view;
 }
 
-// The share of pixels that differ by more than edges, filters of 8 bits of fraction and rounding explain, and the mean
-// difference of the rest.
+// The fraction of pixels that differ by more than edges, filters with 8 fractional bits and rounding explain, and the
+// mean difference of all other pixels.
 struct Difference {
-    double share = 0, mean = 0;
+    double fraction = 0, mean = 0;
 };
 
 Difference between(const Image& a, const Image& b)
@@ -183,12 +183,12 @@ Difference between(const Image& a, const Image& b)
         else
             ++others;
     }
-    d.share = double(others) / double(a.pixelCount());
+    d.fraction = double(others) / double(a.pixelCount());
     d.mean = sum / double(a.pixelCount());
     return d;
 }
 
-TEST(DrawRandom, bothRenderersShowTheSameOfScenesWithEverything)
+TEST(DrawRandom, bothRenderersAgreeOnRandomScenesWithAllFeatures)
 {
     const auto device = openRenderer("auto");
     ASSERT_TRUE(device);
@@ -209,7 +209,7 @@ TEST(DrawRandom, bothRenderersShowTheSameOfScenesWithEverything)
             ASSERT_TRUE(a) << a.error().message;
             ASSERT_TRUE(b) << b.error().message;
             const Difference d = between(*a, *b);
-            EXPECT_LT(d.share, 0.02) << "seed " << seed << ", " << name(view.frame) << ", output " << int(output);
+            EXPECT_LT(d.fraction, 0.02) << "seed " << seed << ", " << name(view.frame) << ", output " << int(output);
             EXPECT_LT(d.mean, 0.002) << "seed " << seed << ", " << name(view.frame) << ", output " << int(output);
         }
     }

@@ -1,4 +1,4 @@
-// One picture in one call, and a renderer for several: as a program uses them.
+// Drawing one image with one call, and several with a renderer, as programs do.
 #include "reference_scene.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ using namespace cotan::testing;
 constexpr glm::ivec3 kTilted{168, 98, 240};
 const glm::dvec3 kTiltedTexel{40, -30, 112};
 
-// A square quad, with a map that is tilted everywhere.
+// A square quad whose map is tilted everywhere.
 Scene mappedQuad()
 {
     Scene scene = sceneOf(meshOf(Patch{}));
@@ -23,7 +23,7 @@ Scene mappedQuad()
     return scene;
 }
 
-// On a square every frame is the same rotation, so that all must show the same normal.
+// On a square every frame is the same rotation, so all must give the same normal.
 void expectTiltedNormals(const std::string& device)
 {
     for (Frame frame : {Frame::cotangent, Frame::exact, Frame::smooth, Frame::vertex, Frame::mikktspace}) {
@@ -35,13 +35,13 @@ void expectTiltedNormals(const std::string& device)
             worst = std::max(worst, degreesBetween(glm::dvec3(value), expected));
         });
         EXPECT_GT(covered, 400) << name(frame);
-        EXPECT_LT(worst, 0.02) << name(frame); // float differences and, on devices, textures of 8 bits of fraction
+        EXPECT_LT(worst, 0.02) << name(frame); // float differences; on GPUs, texture filters with 8 fractional bits
     }
 }
 
-TEST(DrawView, aMappedQuadShowsTheMapsNormalInEveryFrameWithoutAnotherCall) { expectTiltedNormals("reference"); }
+TEST(DrawView, drawsTheMapsNormalInEveryFrameWithoutPreparation) { expectTiltedNormals("reference"); }
 
-TEST(DrawView, aVulkanDeviceShowsTheSame)
+TEST(DrawView, drawsTheSameOnAVulkanDevice)
 {
     const auto renderer = openRenderer("auto");
     ASSERT_TRUE(renderer);
@@ -50,10 +50,10 @@ TEST(DrawView, aVulkanDeviceShowsTheSame)
     expectTiltedNormals("auto");
 }
 
-TEST(DrawView, tangentsOfTheSceneAreKept)
+TEST(DrawView, storedTangentsAreKept)
 {
     Scene scene = mappedQuad();
-    scene.meshes[0].tangents.assign(4, {0, 1, 0, 1}); // a quarter turn from those of its uv
+    scene.meshes[0].tangents.assign(4, {0, 1, 0, 1}); // rotated by 90 degrees from those of its uv
     const auto kept = drawView(scene, viewOf(Output::tangent, Frame::mikktspace), "reference");
     ASSERT_TRUE(kept) << kept.error().message;
     const int covered = forCovered(*kept, [](int, int, glm::vec4 value) {
@@ -77,7 +77,7 @@ TEST(DrawView, unknownDevicesAndFramesAreRefused)
     }
 }
 
-TEST(Renderer, aSceneThatWasNotMadeReadyForTheFrameIsRefusedOnEveryDevice)
+TEST(Renderer, unpreparedScenesAreRefusedOnEveryDevice)
 {
     for (const char* device : {"reference", "auto"}) {
         const auto renderer = openRenderer(device);
@@ -99,7 +99,7 @@ TEST(Renderer, aSceneThatWasNotMadeReadyForTheFrameIsRefusedOnEveryDevice)
     }
 }
 
-TEST(Renderer, autoAlwaysOpensAndSaysWhyTheReferenceRendererDraws)
+TEST(Renderer, autoAlwaysOpensAndExplainsTheReferenceRenderer)
 {
     const auto renderer = openRenderer();
     ASSERT_TRUE(renderer) << renderer.error().message;
@@ -110,7 +110,7 @@ TEST(Renderer, autoAlwaysOpensAndSaysWhyTheReferenceRendererDraws)
     EXPECT_EQ((*named)->note, "");
 }
 
-TEST(Renderer, drawsOnlyWhatIsLoadedNow)
+TEST(Renderer, drawsOnlyTheLoadedScene)
 {
     const auto renderer = openRenderer("reference");
     ASSERT_TRUE(renderer);
@@ -128,35 +128,35 @@ TEST(Renderer, drawsOnlyWhatIsLoadedNow)
     EXPECT_FALSE((*renderer)->draw(view));
 }
 
-TEST(Renderer, progressGetsZeroBeforeEachPictureAndOneAtItsEnd)
+TEST(Renderer, progressRunsFromZeroToOneForEachImage)
 {
     const auto renderer = openRenderer("reference", 1);
     ASSERT_TRUE(renderer);
     const Scene quad = mappedQuad();
     ASSERT_TRUE((*renderer)->load(quad));
-    std::vector<double> shares;
-    (*renderer)->progress = [&](double share) {
-        shares.push_back(share);
+    std::vector<double> fractions;
+    (*renderer)->progress = [&](double fraction) {
+        fractions.push_back(fraction);
         return true;
     };
-    for (int picture = 1; picture <= 2; ++picture) {
+    for (int imageNumber = 1; imageNumber <= 2; ++imageNumber) {
         ASSERT_TRUE((*renderer)->draw(viewOf(Output::normal)));
-        EXPECT_EQ(std::count(shares.begin(), shares.end(), 0.0), picture);
-        EXPECT_EQ(shares.back(), 1.0);
+        EXPECT_EQ(std::count(fractions.begin(), fractions.end(), 0.0), imageNumber);
+        EXPECT_EQ(fractions.back(), 1.0);
     }
 }
 
-TEST(Renderer, stopsWhereItsProgressSaysSoAndDrawsTheNextPicture)
+TEST(Renderer, aStopByItsProgressDoesNotAffectTheNextImage)
 {
     const auto renderer = openRenderer("reference", 1);
     ASSERT_TRUE(renderer);
     const Scene quad = mappedQuad();
     ASSERT_TRUE((*renderer)->load(quad));
-    for (const double limit : {-1.0, 0.0}) { // before the picture, and within it
-        (*renderer)->progress = [=](double share) { return share <= limit; };
-        const auto picture = (*renderer)->draw(viewOf(Output::normal));
-        ASSERT_FALSE(picture) << limit;
-        EXPECT_EQ(picture.error().kind, ErrorKind::stopped);
+    for (const double limit : {-1.0, 0.0}) { // before the image, and while it is drawn
+        (*renderer)->progress = [=](double fraction) { return fraction <= limit; };
+        const auto imageNumber = (*renderer)->draw(viewOf(Output::normal));
+        ASSERT_FALSE(imageNumber) << limit;
+        EXPECT_EQ(imageNumber.error().kind, ErrorKind::stopped);
     }
     (*renderer)->progress = {};
     EXPECT_TRUE((*renderer)->draw(viewOf(Output::normal)));

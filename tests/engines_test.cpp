@@ -1,4 +1,4 @@
-// The commands and the code of docs/how-to/engines.md, as a reader would put them together.
+// The commands and code of docs/how-to/engines.md, put together as a reader would.
 #include <cstdlib>
 #include <fstream>
 #include <regex>
@@ -12,7 +12,7 @@
 namespace cotan::test {
 namespace {
 
-// The text of one engine's section.
+// The section of one engine.
 std::string section(const std::string& engine)
 {
     const std::string page = readWhole(std::filesystem::path(COTAN_SOURCE_DIR) / "docs/how-to/engines.md");
@@ -22,7 +22,7 @@ std::string section(const std::string& engine)
     return page.substr(start, page.find("\n## ", start + 1) - start);
 }
 
-// Its first code block of a language that begins with a word.
+// The section's first code block in `language` that begins with `first`.
 std::string block(const std::string& engine, const std::string& language, const std::string& first = "")
 {
     const std::string text = section(engine), fence = "```" + language + "\n";
@@ -32,14 +32,14 @@ std::string block(const std::string& engine, const std::string& language, const 
     return text.substr(start + fence.size(), text.find("```", start + fence.size()) - start - fence.size());
 }
 
-// What the section's `cotan shader` writes.
+// The output of the section's `cotan shader` command.
 std::string printed(const std::string& engine)
 {
     const TemporaryFolder folder;
     std::istringstream command(block(engine, "sh", "cotan shader"));
     std::vector<std::string> words;
     std::string word;
-    command >> word; // cotan
+    command >> word; // skips "cotan"
     while (command >> word)
         words.push_back(word);
     const ToolRun run = runTool(words, folder.path());
@@ -54,7 +54,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return at == std::string::npos ? text : text.replace(at, what.size(), by);
 }
 
-// What glslang says; empty where it has nothing to say against the text.
+// The messages of glslang; empty if it accepts the text.
 std::string complaints(const std::string& text, const std::string& options, const std::string& extension)
 {
     const TemporaryFolder folder;
@@ -83,8 +83,8 @@ float4 main(float3 n : A, float3 p : B, float2 uv : C) : SV_Target
 TEST(Engines, unrealsCustomNodeCompilesInBothStages)
 {
     const std::string code = replaced(block("Unreal", "hlsl"), "    // the text of cotan.ush\n", printed("Unreal"));
-    // Unreal puts all of it into a function. glslang takes functions of a struct only outside; HLSL's own compiler
-    // both.
+    // Unreal puts the whole text into a function. glslang accepts member functions of a struct only outside of
+    // functions; HLSL's own compiler accepts both.
     const std::string end = "} cotan;\n";
     const std::size_t body = code.find(end);
     ASSERT_NE(body, std::string::npos);
@@ -95,7 +95,7 @@ float4 main(float3 n : A, float3 p : B, float2 uv : C) : SV_Target { return floa
     EXPECT_EQ(complaints("#define PIXELSHADER 0\n" + text, kHlsl, ".hlsl"), "");
 }
 
-TEST(Engines, godotsShaderCompilesOnceItsOwnWordsAreTakenAway)
+TEST(Engines, godotsShaderCompilesWithoutItsKeywords)
 {
     std::string code = block("Godot", "glsl");
     code = replaced(code, "shader_type spatial;\n", "");

@@ -1,4 +1,4 @@
-// Light from an environment: against integrals over all directions, and drawn by both renderers.
+// Environment lighting: compared with integrals over all directions, and drawn by both renderers.
 #include "cotan/view.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ using glm::vec2;
 using glm::vec3;
 constexpr double kPi = std::numbers::pi;
 
-// Of metallic-roughness alone.
+// With metallic-roughness only.
 vec3 reflectedOf(const EnvironmentMap& map, const f32::cotan_surface& s)
 {
     return reflectedGlossy(map, s, f32::cotan_plain_gloss());
@@ -32,7 +32,7 @@ vec3 reflectedOf(const EnvironmentMap& map, const f32::cotan_surface& s)
 
 vec3 white(vec3) { return vec3(1); }
 
-// A dark room with one wide lamp at +x: one that no mean hides.
+// A dark room with one wide lamp at +x, bright enough not to vanish in a mean.
 vec3 lamp(vec3 d) { return vec3(0.1f, 0.2f, 0.3f) + vec3(4, 2, 1) * f32::cotan_smooth(0.7f, 0.9f, d.x); }
 
 const EnvironmentMap& whiteMap()
@@ -57,7 +57,7 @@ std::vector<vec3> directions()
     return all;
 }
 
-// Sums value(direction) times solid angle over the sphere, in steps that are even in y and in longitude.
+// Integrates value(direction) over the sphere in uniform steps of y and longitude.
 template<class Value> dvec3 overSphere(const Value& value, int steps = 700)
 {
     dvec3 sum(0);
@@ -94,11 +94,11 @@ TEST(Environment, whiteSurfacesAndMirrorsVanishInAWhiteFurnace)
             EXPECT_EQ(diffuse.x, diffuse.z);
         }
     for (const float nv : {1.0f, 0.7f, 0.3f, 0.1f})
-        for (const float roughness : {0.0f, 0.4f, 0.7f, 1.0f}) // what the rough ones lose at first comes back
+        for (const float roughness : {0.0f, 0.4f, 0.7f, 1.0f}) // rough surfaces get back what single scattering loses
             EXPECT_NEAR(reflectedOf(whiteMap(), surface(vec3(1), 1, roughness, nv)).x, 1, 0.01) << nv;
 }
 
-// Over what it covers, so that nothing is gained: base times what the coat lets through, plus the coat.
+// Reference: the coat's formula for one light direction, integrated over all directions.
 TEST(Environment, aCoatReflectsAWhiteFurnaceByItsAlbedo)
 {
     f32::cotan_coat coat;
@@ -116,8 +116,8 @@ TEST(Environment, aCoatReflectsAWhiteFurnaceByItsAlbedo)
         }
 }
 
-// With the values of glTF's defaults it is the surface as ever; stretched, it mirrors along the bent normal.
-TEST(Environment, glossOfDefaultsChangesNothingAndBendsWhereItIsStretched)
+// glTF's default gloss leaves the surface unchanged; anisotropic gloss mirrors about the bent normal.
+TEST(Environment, defaultGlossChangesNothingAndAnisotropyBendsTheNormal)
 {
     const f32::cotan_surface s = surface(vec3(0.8f, 0.5f, 0.3f), 0.5f, 0.3f, 0.6f);
     f32::cotan_gloss gloss = f32::cotan_gloss_of(1.5f, 1, vec3(1));
@@ -125,19 +125,19 @@ TEST(Environment, glossOfDefaultsChangesNothingAndBendsWhereItIsStretched)
         EXPECT_NEAR(reflectedGlossy(lampMap(), s, gloss)[c], reflectedOf(lampMap(), s)[c], 1e-5f);
     gloss.anisotropy = 1;
     gloss.t = glm::normalize(glm::cross(s.n, vec3(0.2f, 0.1f, 1)));
-    f32::cotan_surface bent = s;
-    bent.metallic = 1;
+    f32::cotan_surface perturbed = s;
+    perturbed.metallic = 1;
     const vec3 n = f32::cotan_bent_normal(s.n, s.v, s.roughness, 1, gloss.t);
     const glm::vec2 albedo = albedoOf(lampMap(), s.n, s.v, s.roughness);
-    const f32::cotan_bounces bounces = f32::cotan_bounces_of(bent.base_color, 1, albedo);
+    const f32::cotan_bounces bounces = f32::cotan_bounces_of(perturbed.base_color, 1, albedo);
     const vec3 expected = radianceAlong(lampMap(), f32::cotan_mirrored(n, s.v), s.roughness) * bounces.once
         + irradianceAlong(lampMap(), s.n) * bounces.more;
     for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(reflectedGlossy(lampMap(), bent, gloss)[c], expected[c], 1e-5f);
+        EXPECT_NEAR(reflectedGlossy(lampMap(), perturbed, gloss)[c], expected[c], 1e-5f);
 }
 
-// What lamps of all directions together give the same surface, by the formula for one lamp, which knows of one bounce.
-TEST(Environment, onceReflectedIsWhatTheSameMetalReflectsOfAllLamps)
+// Reference: the same metal under lamps in all directions, by the formula for one lamp, which has one bounce.
+TEST(Environment, singleReflectionEqualsTheIntegralOverAllLamps)
 {
     for (const float nv : {0.9f, 0.5f, 0.2f})
         for (const float roughness : {0.3f, 0.6f, 1.0f})
@@ -154,13 +154,13 @@ TEST(Environment, onceReflectedIsWhatTheSameMetalReflectsOfAllLamps)
                 for (int c = 0; c < 3; ++c)
                     EXPECT_NEAR(found[c], expected[c], 0.01) << nv << " " << roughness;
             }
-    // So much is missing of the roughest seen straight on: there is something to come back.
+    // Seen straight on, the roughest metal loses enough for multiple scattering to matter.
     const f32::cotan_surface roughest = surface(vec3(1), 1, 1, 0.9f);
     const glm::vec2 albedo = albedoOf(whiteMap(), roughest.n, roughest.v, 1);
     EXPECT_LT(albedo.x + albedo.y, 0.4f);
 }
 
-// A colour is met at every bounce: gold comes back more golden, and darker than white.
+// Each bounce multiplies by the colour: gold becomes more golden, and darker than white.
 TEST(Environment, lightThatBouncesMoreThanOnceIsColouredMore)
 {
     const vec3 gold(0.9f, 0.6f, 0.2f);
@@ -169,10 +169,10 @@ TEST(Environment, lightThatBouncesMoreThanOnceIsColouredMore)
     for (int c = 0; c < 3; ++c)
         EXPECT_LT(found[c], once[c]) << c;
     EXPECT_LT(found.z / found.x, once.z / once.x);
-    EXPECT_GT(found.x, 0.7f); // some two bounces of 0.9; the first one alone gives less than 0.4
+    EXPECT_GT(found.x, 0.7f); // about two bounces of 0.9; a single bounce gives less than 0.4
 }
 
-TEST(Environment, aMirrorShowsTheSurroundingsThemselves)
+TEST(Environment, aMirrorShowsTheEnvironment)
 {
     for (const vec3& d : directions())
         for (int c = 0; c < 3; ++c)
@@ -181,7 +181,7 @@ TEST(Environment, aMirrorShowsTheSurroundingsThemselves)
     EXPECT_NEAR(reflectedOf(lampMap(), s).x, lamp(f32::cotan_mirrored(s.n, s.v)).x, 0.02f);
 }
 
-// The lobe that is seen straight on: microfacets by GGX, weighted by the cosine.
+// The lobe seen straight on: GGX microfacets, weighted by the cosine.
 vec3 lobesMean(const Radiance& radiance, vec3 d, float roughness)
 {
     const double alpha2 = std::pow(roughness, 4);
@@ -199,8 +199,8 @@ vec3 lobesMean(const Radiance& radiance, vec3 d, float roughness)
     return vec3(sum / (4 * kPi) * (700.0 * 700.0) / weights);
 }
 
-// A read is off by half a texel, 0.7 degrees, where the map is folded: 0.7 % of the lamp.
-TEST(Environment, filteredRadianceIsTheLobesMean)
+// Where the map is folded, lookups are up to half a texel, 0.7 degrees, away: 0.7 % of the lamp.
+TEST(Environment, filteredRadianceIsTheMeanOverTheLobe)
 {
     for (const float roughness : {0.25f, 0.5f, 1.0f})
         for (const vec3& d : directions()) {
@@ -210,9 +210,9 @@ TEST(Environment, filteredRadianceIsTheLobesMean)
         }
 }
 
-// Boxes of up to a thousand times what is around them: what far ones add to a dark place is right, too. 5 % of what is
-// there: a texel far off counts where its light has its middle.
-TEST(Environment, filteredStudiosAreRightInDarkPlacesToo)
+// Softboxes up to a thousand times brighter than the rest: their distant contribution to dark directions is right, too.
+// The tolerance is 5 %: the light of a distant texel counts at its centre.
+TEST(Environment, filteredStudiosAreRightInDarkDirectionsToo)
 {
     const Radiance studio = [](vec3 d) {
         const bool lit = d.z > 0.8f && d.x > 0.1f && d.x < 0.5f && d.y > -0.1f && d.y < 0.1f;
@@ -228,7 +228,7 @@ TEST(Environment, filteredStudiosAreRightInDarkPlacesToo)
         }
 }
 
-TEST(Environment, irradianceIsTheCosinesMean)
+TEST(Environment, irradianceIsTheCosineWeightedMean)
 {
     for (const vec3& d : directions()) {
         const dvec3 expected =
@@ -239,8 +239,8 @@ TEST(Environment, irradianceIsTheCosinesMean)
     }
 }
 
-// A sun of half a degree, of 10000 times the sky. Sampled without a filter it would make dots.
-TEST(Environment, aSmallSunMakesNoDots)
+// A sun of half a degree, 10000 times as bright as the sky. Without filtering it would cause fireflies.
+TEST(Environment, aSmallSunMakesNoFireflies)
 {
     const vec3 sun = glm::normalize(vec3(0.4f, 0.5f, -0.3f));
     const EnvironmentMap map = makeEnvironment(
@@ -260,34 +260,34 @@ TEST(Environment, aSmallSunMakesNoDots)
     }
 }
 
-TEST(Environment, rotationTurnsItCounterClockwiseFromAbove)
+TEST(Environment, rotationIsCounterclockwiseFromAbove)
 {
     EnvironmentOptions quarter;
     quarter.rotation = float(kPi / 2);
     quarter.intensity = 2;
-    const EnvironmentMap turned = makeEnvironment(lamp, 1, quarter);
+    const EnvironmentMap rotated = makeEnvironment(lamp, 1, quarter);
     for (const vec3& d : directions()) {
         const vec3 after(d.z, d.y, -d.x); // +x goes to -z
         for (const float roughness : {0.0f, 0.5f})
             for (int c = 0; c < 3; ++c)
-                EXPECT_NEAR(radianceAlong(turned, after, roughness)[c], 2 * radianceAlong(lampMap(), d, roughness)[c],
+                EXPECT_NEAR(radianceAlong(rotated, after, roughness)[c], 2 * radianceAlong(lampMap(), d, roughness)[c],
                             0.04f);
     }
 }
 
-// Bright columns of an otherwise black picture: where they are in the world.
-TEST(Environment, theMiddleOfAPictureIsTowardsXAndItsTopUp)
+// Bright columns of an otherwise black image, to find their directions in the world.
+TEST(Environment, theCentreOfAnImageIsTowardsXAndItsTopUp)
 {
-    Image picture = makeImage(64, 32, PixelType::float32, "test");
+    Image image = makeImage(64, 32, PixelType::float32, "test");
     const auto fill = [&](int x0, int x1, int y0, int y1, int channel) {
         for (int y = y0; y < y1; ++y)
             for (int x = x0; x < x1; ++x)
-                picture.floats()[4 * (y * 64 + x) + channel] = 1;
+                image.floats()[4 * (y * 64 + x) + channel] = 1;
     };
     fill(28, 36, 8, 24, 0); // the middle: red
     fill(44, 52, 8, 24, 1); // a quarter to the right: green
     fill(0, 64, 0, 4, 2);   // the top: blue
-    const auto map = environmentOfPicture(picture);
+    const auto map = environmentOfImage(image);
     ASSERT_TRUE(map) << map.error().message;
     const auto expectColor = [&](vec3 d, vec3 color) {
         for (int c = 0; c < 3; ++c)
@@ -301,35 +301,35 @@ TEST(Environment, theMiddleOfAPictureIsTowardsXAndItsTopUp)
     expectColor({0, -1, 0}, {0, 0, 0});
 }
 
-// Ramps across the planes x = 0 and z = 0, over which the map is folded below the horizon: there they are ramps, too.
+// Ramps across the planes x = 0 and z = 0, where the map is folded below the horizon: lookups give ramps there as well.
 TEST(Environment, thereIsNoSeam)
 {
     const auto ramps = [](vec3 d) {
         return glm::clamp(0.5f + 50.0f * d, 0.0f, 1.0f);
-    }; // a texel is up to a quarter of it
+    }; // a texel is up to a quarter of a ramp
     const EnvironmentMap map = makeEnvironment(ramps, 2);
     for (const float y : {-0.05f, -0.3f, -0.6f, -0.9f, 0.2f})
         for (const vec2 side : {vec2(1, 0), vec2(-1, 0), vec2(0, 1), vec2(0, -1)})
-            for (const float off : {-0.004f, -0.001f, 0.001f, 0.004f}) {
-                const vec2 level = std::sqrt(1 - y * y) * side + off * vec2(side.y, side.x);
+            for (const float offset : {-0.004f, -0.001f, 0.001f, 0.004f}) {
+                const vec2 level = std::sqrt(1 - y * y) * side + offset * vec2(side.y, side.x);
                 const vec3 d = glm::normalize(vec3(level.x, y, level.y));
                 for (const int c : {0, 2})
                     EXPECT_NEAR(radianceAlong(map, d, 0)[c], ramps(d)[c], 0.02f) << d.x << ' ' << d.y << ' ' << d.z;
             }
 }
 
-// Between the middles of its pixels a picture is what lies between them, round the back, too.
-TEST(Environment, picturesAreReadBetweenTheirPixels)
+// Between pixel centres an image is interpolated, also across its left and right borders.
+TEST(Environment, imagesAreInterpolated)
 {
     constexpr int kWidth = 16, kHeight = 8;
-    Image picture = makeImage(kWidth, kHeight, PixelType::float32, "test");
+    Image image = makeImage(kWidth, kHeight, PixelType::float32, "test");
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
             const double longitude = 2 * kPi * (x + 0.5) / kWidth - kPi;
-            picture.floats()[4 * (y * kWidth + x)] = float(y);
-            picture.floats()[4 * (y * kWidth + x) + 1] = float(1 + std::sin(longitude));
+            image.floats()[4 * (y * kWidth + x)] = float(y);
+            image.floats()[4 * (y * kWidth + x) + 1] = float(1 + std::sin(longitude));
         }
-    const auto map = environmentOfPicture(picture);
+    const auto map = environmentOfImage(image);
     ASSERT_TRUE(map) << map.error().message;
     for (double colatitude = 0.35; colatitude < 2.8; colatitude += 0.05)
         for (double longitude = 0.1 - kPi; longitude < kPi; longitude += 0.2) {
@@ -337,31 +337,31 @@ TEST(Environment, picturesAreReadBetweenTheirPixels)
                          std::sin(colatitude) * std::sin(longitude));
             const vec3 found = radianceAlong(*map, d, 0);
             EXPECT_NEAR(found.x, colatitude / kPi * kHeight - 0.5, 0.08) << colatitude;
-            // A sine between 16 of its values: off by (2 pi / 16)^2 / 8 at most.
+            // A sine interpolated between 16 values: an error of (2 pi / 16)^2 / 8 at most.
             EXPECT_NEAR(found.y, 1 + std::sin(longitude), 0.02 + 0.02) << longitude;
         }
 }
 
-TEST(Environment, picturesOfOtherShapesAndTypesAreRefused)
+TEST(Environment, imagesOfOtherShapesAndTypesAreRefused)
 {
     for (const Image& wrong : {makeImage(64, 64, PixelType::float32), makeImage(0, 0, PixelType::float32),
                                makeImage(64, 32, PixelType::unorm8)}) {
-        const auto map = environmentOfPicture(wrong);
+        const auto map = environmentOfImage(wrong);
         ASSERT_FALSE(map);
         EXPECT_EQ(map.error().kind, ErrorKind::input);
     }
-    // What is no light counts as none: the atlas is finite.
+    // Values that are not light count as zero: the atlas is finite.
     Image odd = makeImage(8, 4, PixelType::float32);
     std::fill_n(odd.floats(), 8 * 4 * 4, std::nanf(""));
     odd.floats()[0] = -1;
     odd.floats()[4] = std::numeric_limits<float>::infinity();
-    const auto map = environmentOfPicture(odd);
+    const auto map = environmentOfImage(odd);
     ASSERT_TRUE(map);
     for (std::size_t i = 0; i < 4 * map->atlas.pixelCount(); ++i)
         ASSERT_TRUE(map->atlas.floats()[i] >= 0 && map->atlas.floats()[i] <= 65504) << i;
 }
 
-TEST(Environment, theStoredStudioIsTheOneThatIsMade)
+TEST(Environment, theStoredStudioEqualsAComputedOne)
 {
     const auto stored = builtinEnvironment("studio");
     const EnvironmentMap made = makeEnvironment(*builtinRadiance("studio"), 1);
@@ -386,7 +386,7 @@ TEST(Environment, theAtlasHasTheSameBytesForAnyNumberOfThreads)
     EXPECT_EQ(one->atlas.data, many->atlas.data);
 }
 
-// A ball of that material in front of the lamp, without other lights.
+// A ball of this material in front of the lamp, without other lights.
 Scene ball(float metallic, float roughness)
 {
     Scene scene;
@@ -411,7 +411,7 @@ View lampView()
     return view;
 }
 
-TEST(Environment, aDrawnMirrorBallShowsWhatItsNormalMirrors)
+TEST(Environment, aMirrorBallReflectsTheEnvironmentByItsNormal)
 {
     const Scene scene = ball(1, 0);
     auto renderer = openRenderer("reference");
@@ -422,7 +422,7 @@ TEST(Environment, aDrawnMirrorBallShowsWhatItsNormalMirrors)
     const auto normals = (*renderer)->draw(view);
     ASSERT_TRUE(shaded && normals);
     const float half = std::tan(view.camera.verticalFieldOfView / 2);
-    int seen = 0;
+    int covered = 0;
     for (int y = 0; y < 160; ++y)
         for (int x = 0; x < 160; ++x) {
             const float* n = normals->floats() + 4 * (y * 160 + x);
@@ -430,13 +430,13 @@ TEST(Environment, aDrawnMirrorBallShowsWhatItsNormalMirrors)
                 glm::normalize(vec3(half * ((float(x) + 0.5f) / 80 - 1), half * (1 - (float(y) + 0.5f) / 80), -1));
             const vec3 normal(n[0], n[1], n[2]);
             if (n[3] > 0 && -glm::dot(normal, ray) < 0.4f)
-                continue; // Fresnel's term is no longer the metal's
+                continue; // there Fresnel's term differs from the metal's
             const vec3 d = n[3] > 0 ? f32::cotan_mirrored(normal, -ray) : ray;
             const float expected = lamp(d).x * (n[3] > 0 ? 0.9f : 1.0f);
             EXPECT_NEAR(shaded->floats()[4 * (y * 160 + x)], expected, 0.02f + 0.03f * expected) << x << " " << y;
-            seen += n[3] > 0;
+            covered += n[3] > 0;
         }
-    EXPECT_GT(seen, 5000);
+    EXPECT_GT(covered, 5000);
 }
 
 TEST(Environment, bothRenderersDrawTheSame)
@@ -460,7 +460,7 @@ TEST(Environment, bothRenderersDrawTheSame)
                     int large = 0;
                     for (std::size_t i = 0; i < a->data.size(); ++i)
                         large += std::abs(int(a->bytes8()[i]) - int(b->bytes8()[i])) > 2;
-                    // A rim of pixels is covered by one and not by the other; the rest differs by rounding.
+                    // Only one renderer covers some pixels at the silhouette; the others differ by rounding.
                     EXPECT_LT(large, int(a->data.size()) / 200) << metallic << " " << roughness << " " << int(tone);
                 }
 }

@@ -1,4 +1,4 @@
-# The integration examples, run as they are shipped.
+# Runs the integration examples as they are shipped.
 cotan_test(examples_test FIXTURE npm
   SOURCES examples_browser_test.cpp browser_pages.cpp examples_triangle_web_test.cpp
   LIBRARIES cotan_model cotan_scene cotan_gltf_json)
@@ -6,27 +6,27 @@ target_compile_definitions(examples_test PRIVATE
   COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
 add_dependencies(examples_test cotan)
 
-# The package for three.js, and repairs for other engines of the web.
+# The package for three.js, and repairs for other web engines.
 cotan_test(web_engines_test FIXTURE npm
   SOURCES three_package_test.cpp repairs_test.cpp browser_pages.cpp
   LIBRARIES cotan_model cotan_scene nlohmann_json::nlohmann_json)
 target_compile_definitions(web_engines_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
 add_dependencies(web_engines_test cotan)
 
-# Pictures of real models beside those of three.js.
-cotan_test(second_opinion_test FIXTURE npm
-  SOURCES second_opinion_test.cpp browser_pages.cpp flip.cpp flip_test.cpp
+# Compares renders of real models with those of three.js.
+cotan_test(three_comparison_test FIXTURE npm
+  SOURCES three_comparison_test.cpp browser_pages.cpp flip.cpp flip_test.cpp
   LIBRARIES cotan_model cotan_render cotan_scene cotan_bake cotan_inspect nlohmann_json::nlohmann_json)
-target_compile_definitions(second_opinion_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm"
-  COTAN_PAIRS="${CMAKE_CURRENT_BINARY_DIR}/second_opinion")
+target_compile_definitions(three_comparison_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm"
+  COTAN_PAIRS="${CMAKE_CURRENT_BINARY_DIR}/three_comparison")
 
-# What lint predicts, judged by three.js.
+# Compares predictions of lint with three.js.
 cotan_test(three_judge_test FIXTURE npm
   SOURCES three_judge_test.cpp browser_pages.cpp
   LIBRARIES cotan_model cotan_render cotan_bake cotan_inspect nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(three_judge_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
 
-# As their own CMakeLists.txt build them, but within this build.
+# The examples, built as by their own CMakeLists.txt but within this build.
 target_sources(examples_test PRIVATE examples_sheets_test.cpp examples_triangle_test.cpp examples_deforming_test.cpp)
 add_executable(example_raytracing ${PROJECT_SOURCE_DIR}/examples/raytracing/main.cpp)
 target_compile_features(example_raytracing PRIVATE cxx_std_17)
@@ -37,7 +37,7 @@ if(TARGET Vulkan::Vulkan AND COTAN_GLSLANG)
   set(GLSLANG ${COTAN_GLSLANG})
   add_subdirectory(${PROJECT_SOURCE_DIR}/examples/vulkan ${CMAKE_CURRENT_BINARY_DIR}/examples_vulkan)
   target_link_libraries(vulkan_example PRIVATE cotan_warnings)
-  target_compile_options(vulkan_example PRIVATE -Wno-missing-field-initializers) # Vulkan's structs: the rest is zero
+  target_compile_options(vulkan_example PRIVATE -Wno-missing-field-initializers) # they are zero
   target_compile_definitions(examples_test PRIVATE COTAN_VULKAN_EXAMPLE="$<TARGET_FILE:vulkan_example>")
   add_dependencies(examples_test vulkan_example)
   add_subdirectory(${PROJECT_SOURCE_DIR}/examples/triangle ${CMAKE_CURRENT_BINARY_DIR}/examples_triangle)

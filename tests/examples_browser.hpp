@@ -1,4 +1,4 @@
-// What the tests of pages share.
+// Helpers of the tests that open pages in a browser.
 #pragma once
 
 #include <filesystem>
@@ -13,11 +13,11 @@
 
 namespace cotan::test {
 
-// Shows pages that lie in the folder, in one launch of Chromium. What they report, by the name that each gives itself;
-// a string that says why where they cannot run. seconds: the browser is ended after that.
+// Opens the pages of the folder in one Chromium process. Returns their reports by the names they give themselves, or a
+// string with the reason if they cannot run. seconds: time limit of the browser.
 nlohmann::json showPages(const TemporaryFolder& folder, const std::vector<std::string>& pages, int seconds = 120);
 
-// Puts `value` in the place of each `word`.
+// Replaces each `word` by `value`.
 void put(std::string& text, const std::string& word, const std::string& value);
 
 inline void write(const std::filesystem::path& file, const std::string& text)
@@ -25,7 +25,7 @@ inline void write(const std::filesystem::path& file, const std::string& text)
     std::ofstream(file, std::ios::binary) << text;
 }
 
-// Rows from the bottom, as WebGL has them.
+// The bytes of an image with its rows from the bottom, as in WebGL.
 inline std::string rowsFromTheBottom(const Image& image)
 {
     const std::size_t row = std::size_t(image.width) * image.bytesPerPixel();

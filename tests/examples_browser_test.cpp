@@ -1,5 +1,5 @@
-// The pages of examples/ in headless Chromium: the pasted text is what the tool prints today, and the normals are
-// those of the analytic surface. One launch shows all pages.
+// The pages of examples/ in headless Chromium, all in one launch: the pasted text equals the tool's present output, and
+// normals are those of the analytic surface.
 #include <gtest/gtest.h>
 
 #include "examples_browser.hpp"
@@ -11,11 +11,11 @@ using nlohmann::json;
 
 const std::string kSources = COTAN_SOURCE_DIR;
 
-// Float differences of a pixel: a pixel is at least 2e-3 of the distance to the eye; the text's own
-// introduction promises 0.002 degrees at 1e-3; times five for the slopes of up to 53 degrees.
+// Error of float differences: a pixel is at least 2e-3 of the distance to the eye. The text's own introduction promises
+// 0.002 degrees at 1e-3; times five for slopes of up to 53 degrees.
 constexpr double kDegrees = 0.01;
 
-// tests/examples_NAME.html.in with its addresses put in, about an example that takes an npm package.
+// Writes tests/examples_NAME.html.in with its addresses filled in, for an example that uses an npm package.
 void writeNpmPage(const TemporaryFolder& folder, const std::string& name, const std::string& example,
                   const std::string& library)
 {
@@ -27,7 +27,7 @@ void writeNpmPage(const TemporaryFolder& folder, const std::string& name, const 
     write(folder / (name + ".html"), page);
 }
 
-// What the pages report, by page; a string that says why where they cannot run.
+// The reports of all pages, by page; or a string with the reason if they cannot run.
 json measure()
 {
     TemporaryFolder folder;
@@ -67,7 +67,7 @@ TEST(ExampleWebGl2, thePastedTextIsWhatTheToolPrintsToday)
         << "paste the output of `cotan shader --lang essl` into examples/webgl2/index.html again";
 }
 
-TEST(ExampleWebGl2, normalsAreTheSheetsOnBothSidesBothHalvesAndUpsideDown)
+TEST(ExampleWebGl2, normalsMatchTheSheetOnBothSidesAndUpsideDown)
 {
     if (measured().is_string())
         GTEST_SKIP() << measured().get<std::string>();
@@ -82,7 +82,7 @@ TEST(ExampleWebGl2, normalsAreTheSheetsOnBothSidesBothHalvesAndUpsideDown)
         }
 }
 
-// The text in the file beside an example whose material takes the frame alone.
+// The text in the file beside an example whose material uses only the frame.
 void expectPrintedToday(const std::string& example)
 {
     TemporaryFolder folder;
@@ -92,16 +92,16 @@ void expectPrintedToday(const std::string& example)
         << "cotan shader --lang essl --form total -o examples/" + example + "/cotan.glsl";
 }
 
-// Ours is right in every scene, the library's own in those that are not flipped.
+// Cotan's frame is right in every scene, the library's own in those that are not flipped.
 void expectRightWhereTheirsIsAndFlipped(const json& page)
 {
     ASSERT_TRUE(page.contains("cotan")) << page;
     for (const auto& [scene, ours] : page["cotan"].items()) {
         expectRight(scene, ours);
         const json& stock = page["stock"][scene];
-        // Their frames have no sign of their own, so they reverse t and b where y runs down; in mirrors Babylon turns
-        // its frame round twice. The domes' mean slope is some twenty degrees, and the error twice that. Should they
-        // fix it, the page and this line can go.
+        // Their frames have no handedness of their own, so they reverse t and b where y points down; in mirrors Babylon
+        // reverses its frame twice. The domes' mean slope is about twenty degrees, and the error twice that. If they
+        // fix it, this line and the page's note can go.
         if (scene.starts_with("flipped"))
             EXPECT_GT(stock["mean"].get<double>(), 20) << scene;
         else
@@ -111,7 +111,7 @@ void expectRightWhereTheirsIsAndFlipped(const json& page)
 
 TEST(ExampleBabylon, thePastedTextIsWhatTheToolPrintsToday) { expectPrintedToday("babylon"); }
 
-TEST(ExampleBabylon, cotansFrameIsRightWhereverBabylonsOwnIsAndInFlippedTargetsAndMirrorsToo)
+TEST(ExampleBabylon, cotansFrameIsRightEvenInFlippedTargetsAndMirrors)
 {
     if (measured().is_string())
         GTEST_SKIP() << measured().get<std::string>();

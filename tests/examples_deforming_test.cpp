@@ -1,5 +1,5 @@
-// examples/deforming, built and run as it is shipped: the compute passes against the C++, and stored against derived
-// frames on a surface that is known.
+// examples/deforming, built and run as shipped: compute passes compared with C++, and stored with derived frames on a
+// surface known analytically.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,68 +30,69 @@ DeformingRun runDeforming(const std::string& words)
 }
 
 // What `check` prints after the name of a motion.
-struct PassesOff {
+struct PassErrors {
     double smooth = 0, notCompared = 0, tangents = 0, further = 0, triangles = 0;
 };
 
-std::map<std::string, PassesOff> passesOff(const std::string& printed)
+std::map<std::string, PassErrors> passErrors(const std::string& printed)
 {
-    std::map<std::string, PassesOff> found;
+    std::map<std::string, PassErrors> found;
     std::istringstream lines(printed);
     for (std::string line; std::getline(lines, line);) {
         std::istringstream words(line);
         std::string name;
-        PassesOff off;
-        if (words >> name >> off.smooth >> off.notCompared >> off.tangents >> off.further >> off.triangles)
-            found[name] = off;
+        PassErrors errors;
+        if (words >> name >> errors.smooth >> errors.notCompared >> errors.tangents >> errors.further
+            >> errors.triangles)
+            found[name] = errors;
     }
     return found;
 }
 
 struct DeformingCase {
     const char* mesh;
-    double notCompared; // vertices where gradients cancel, or that other vertices meet in the pose
-    double further;     // corners where MikkTSpace groups finer, or has a degenerate triangle
+    double notCompared; // vertices where gradients cancel, or that coincide with others in the pose
+    double further;     // corners where MikkTSpace groups more finely, or has a degenerate triangle
 };
 
 class ExampleDeforming : public testing::TestWithParam<DeformingCase> {};
 
-TEST_P(ExampleDeforming, derivesWhatTheCppDoesFromEveryPose)
+TEST_P(ExampleDeforming, derivesTheFramesOfTheCppInEveryPose)
 {
     const auto [mesh, notCompared, further] = GetParam();
     const DeformingRun run = runDeforming(std::string("check ") + mesh);
     if (run.code == 3)
         GTEST_SKIP() << run.err;
     ASSERT_EQ(run.code, 0) << run.err;
-    std::cout << run.out; // with the times
-    const auto off = passesOff(run.out);
-    ASSERT_EQ(off.size(), 3u);
-    for (const auto& [motion, o] : off) {
+    std::cout << run.out; // includes the times
+    const auto errors = passErrors(run.out);
+    ASSERT_EQ(errors.size(), 3u);
+    for (const auto& [motion, o] : errors) {
         SCOPED_TRACE(motion);
-        // Half a step of SNORM16 in two or three components, and the unit length made of it: 0.003; the rest is float.
+        // Half a step of SNORM16 in two or three components, normalised: 0.003; the remainder is float rounding.
         EXPECT_LT(o.smooth, 0.005);
         EXPECT_LT(o.tangents, 0.005);
         EXPECT_LT(o.triangles, 0.03); // half a step of half, 2^-12, in three components: 0.024
         EXPECT_LE(o.notCompared, notCompared);
         EXPECT_LE(o.further, further);
-        EXPECT_GT(o.smooth + o.tangents, 0); // floats are never this kind: zero says that nothing was compared
+        EXPECT_GT(o.smooth + o.tangents, 0); // zero would mean that nothing was compared: floats always differ a little
     }
 }
 
-// teapot: a fiftieth of its 5400 vertices, at its poles and where it meets its bottom; there 28 groups, of up to 6
-// corners, are two to MikkTSpace. strange: seven degenerate triangles, and two vertices that have an area or no place
-// only once they are bent.
+// teapot: a fiftieth of its 5400 vertices, at its poles and where the body meets the bottom; there MikkTSpace splits 28
+// groups of up to 6 corners in two. strange: seven degenerate triangles, and two vertices that have an area or a
+// distinct position only when bent.
 INSTANTIATE_TEST_SUITE_P(Meshes, ExampleDeforming,
                          testing::Values(DeformingCase{"tube", 0, 0}, DeformingCase{"teapot", 150, 28 * 6},
                                          DeformingCase{"seam", 0, 0}, DeformingCase{"strange", 2, 21},
                                          DeformingCase{"large", 0, 0}),
                          [](const auto& c) { return std::string(c.param.mesh); });
 
-// Rows of `figure`: motion, normals and time, then mean degrees of each way.
+// Rows of `figure`: motion, normals and time, then mean degrees of each method.
 enum { kNormalAlone, kStored, kRederived, kCotangent, kTriangle, kSmooth, kWayCount };
 using FigureRows = std::map<std::string, std::array<double, kWayCount>>;
 
-// The tables of docs/explanation/deforming.md say what was measured, to what another driver's rounding may change.
+// The tables of docs/explanation/deforming.md must match the measurements within the rounding differences of drivers.
 void expectDocumented(const FigureRows& measured)
 {
     std::istringstream lines(readWhole(COTAN_SOURCE_DIR "/docs/explanation/deforming.md"));
@@ -108,20 +109,20 @@ void expectDocumented(const FigureRows& measured)
         if (second != "normals" || !(words >> normals))
             continue;
         if (normals == "carried")
-            words >> second; // along
+            words >> second; // skips "along"
         const auto row = measured.find(first + " " + normals + " " + time);
         ASSERT_NE(row, measured.end()) << line;
         ++rows;
         for (const double degrees : row->second) {
-            double said = -1;
-            words >> said;
-            EXPECT_NEAR(said, degrees, 0.015) << line;
+            double documented = -1;
+            words >> documented;
+            EXPECT_NEAR(documented, degrees, 0.015) << line;
         }
     }
     EXPECT_EQ(rows, 12u);
 }
 
-TEST(ExampleDeformingFigure, derivedFramesFollowBendTwistAndShearAndStoredOnesDoNot)
+TEST(ExampleDeformingFigure, onlyDerivedFramesFollowBendTwistAndShear)
 {
     TemporaryFolder folder;
     const std::string file = (folder.path() / "page.html").string();
@@ -147,32 +148,32 @@ TEST(ExampleDeformingFigure, derivedFramesFollowBendTwistAndShearAndStoredOnesDo
         const std::string name = motion;
         for (const char* normals : {" carried 0.00", " derived 0.00"})
             for (const double degrees : rows[name + normals])
-                EXPECT_LT(degrees, 0.05); // at rest all are right: the texture lies square on the tube
+                EXPECT_LT(degrees, 0.05); // at rest all are right: the texture is square on the tube
         const auto end = rows[name + " derived 1.00"], half = rows[name + " derived 0.50"];
-        // An orthonormal frame cannot hold stretch and shear, whether it is stored or made anew.
+        // An orthonormal frame cannot represent stretch and shear, whether stored or recomputed.
         EXPECT_GT(end[kStored], 3);
         EXPECT_GT(end[kRederived], 3);
-        // What is left is what one gradient a triangle costs on any curved mesh; smooth is of second order.
+        // The remaining error is that of one gradient per triangle on any curved mesh; smooth is second order.
         EXPECT_LT(end[kTriangle], 0.4);
         EXPECT_LT(half[kTriangle], 0.2);
         EXPECT_LT(end[kSmooth], 0.2);
         EXPECT_NEAR(end[kTriangle], end[kCotangent], 0.02);
-        EXPECT_LT(end[kNormalAlone], 0.2); // normals.comp
-        // With normals that the engine carries along no frame is better than these.
+        EXPECT_LT(end[kNormalAlone], 0.2); // from normals.comp
+        // With normals carried along by the engine, no frame is better than they are.
         const auto carried = rows[name + " carried 0.50"];
         EXPECT_NEAR(carried[kSmooth], carried[kNormalAlone], 0.1 * carried[kNormalAlone]);
     }
-    // Sheared by 45 degrees: what the smallest slopes lose and the largest is far from rounding.
+    // Sheared by 45 degrees: the error of stored tangents is more than 40 times that of triangle.
     EXPECT_GT(rows["shear derived 1.00"][kStored], 40 * rows["shear derived 1.00"][kTriangle]);
     expectDocumented(rows);
     const std::string page = readWhole(file);
     EXPECT_NE(page.find("<input id=\"time\" type=\"range\""), std::string::npos);
     EXPECT_EQ(page.find("http://", page.find("<script>")),
-              page.find("http://www.w3.org/2000/svg")); // names a kind, loads nothing
+              page.find("http://www.w3.org/2000/svg")); // names the SVG namespace, loads nothing
     EXPECT_EQ(page.find("src="), std::string::npos);
 }
 
-TEST(ExampleDeformingWords, areChecked)
+TEST(ExampleDeformingArguments, wrongOnesAreRefused)
 {
     for (const char* words : {"", "check", "rumour a", "check tube more"}) {
         const DeformingRun run = runDeforming(words);

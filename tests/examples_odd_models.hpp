@@ -1,5 +1,5 @@
-// One folded sheet as glTF files that store its triangles in every odd way: lists, strips and fans, with triangles that
-// have no area, indices of 8, 16 and 32 bits and none, vertices that are shared, also across a mirrored seam, and not.
+// One folded sheet as glTF files that store its triangles in every unusual way: lists, strips and fans; triangles
+// without area; indices of 8, 16 and 32 bits or none; vertices shared, also across a mirrored seam, or not.
 #pragma once
 
 #include <cmath>
@@ -15,12 +15,12 @@ namespace cotan::test {
 
 struct OddModel {
     const char* name;
-    int mode = 4;                       // of glTF: 4 list, 5 strip, 6 fan
-    std::vector<std::uint32_t> indices; // of the six vertices below
-    int bits = 32;                      // 0: no indices, a vertex for each of them
+    int mode = 4;                       // glTF: 4 list, 5 strip, 6 fan
+    std::vector<std::uint32_t> indices; // into the six vertices below
+    int bits = 32;                      // 0: no indices, one vertex for each of them
 };
 
-// Vertices 0 and 1 are the left edge's, 2 and 3 the fold's, 4 and 5 the right edge's; u is mirrored at the fold.
+// Vertices 0 and 1 are on the left edge, 2 and 3 on the fold, 4 and 5 on the right edge; u is mirrored at the fold.
 inline const std::vector<OddModel>& oddModels()
 {
     static const std::vector<OddModel> models = {

@@ -1,11 +1,11 @@
-// Shared by the pages for three.js and Babylon.js: how far normals are from those of the sheet of the examples, drawn with
-// its texels unfiltered. Right-handed axes, the eye in the origin looking along -z; the sheet is turned about y by
-// `angle`, moved to `place` and scaled by `scaleX` in x. pixels: RGBA floats, the first row at the picture's bottom;
-// up: -1 where that row is the top; zoom: 1 / tan(half the field of view). expected: in place of the analytic sheet's,
-// normals laid out like `pixels`. above: what is lower than this in y is left out. chart: u = chart[0] |x| + chart[1] y +
-// chart[2], v likewise with the next three; green points along v. frame: 'cotangent', or 'orthonormal' (tangent first).
-// oneSided: back faces keep the front's normal. half: 1 for the plain half only, -1 for the mirrored. Degrees, the largest
-// and the mean.
+// Shared by the pages for three.js and Babylon.js. Returns the largest and the mean error, in degrees, of normals drawn
+// on the examples' sheet with unfiltered texels. Axes are right-handed, with the eye at the origin looking along -z.
+// The sheet is rotated about y by `angle`, moved to `place` and scaled by `scaleX` in x. pixels: RGBA floats, bottom
+// row first; up: -1 if the top row is first; zoom: 1 / tan(half the field of view); expected: normals laid out like
+// `pixels`, which replace the analytic ones; above: points lower than this in y are skipped; chart: u = chart[0] |x| +
+// chart[1] y + chart[2], and v likewise with the next three, green along v; frame: 'cotangent', or 'orthonormal'
+// (tangent first); oneSided: back faces keep the front's normal; half: 1 for the unmirrored half only, -1 for the
+// mirrored.
 function sheetErrors({ pixels, size, texels, texelCount, place, angle, scaleX, up, zoom, expected, above = -Infinity,
                        chart = [1, 0, 0, 0, 1, 1], frame = 'cotangent', oneSided, half = 0 }) {
   const c = Math.cos(angle), s = Math.sin(angle);
@@ -18,12 +18,12 @@ function sheetErrors({ pixels, size, texels, texelCount, place, angle, scaleX, u
       const facing = dot(normal, ray), depth = dot(normal, place) / facing;
       const hit = ray.map((r, i) => r * depth - place[i]);
       const x = dot(hit, along), y = hit[1];
-      // More than the 2x2 pixels that differences are taken over, and the snapping of corners to 1/16 of a pixel.
+      // Margins for the 2x2 pixels that differences use and the snapping of corners to 1/16 of a pixel.
       if (!(Math.abs(x) < 0.97 && Math.abs(y) < 0.97 && Math.abs(x) > 0.03 && x * half >= 0)) continue;
       if (y + place[1] < above + 0.03) continue;
-      const turns = f => f - Math.floor(f);
-      const u = turns(chart[0] * Math.abs(x) + chart[1] * y + chart[2]) * texelCount;
-      const v = turns(chart[3] * Math.abs(x) + chart[4] * y + chart[5]) * texelCount;
+      const fractional = f => f - Math.floor(f);
+      const u = fractional(chart[0] * Math.abs(x) + chart[1] * y + chart[2]) * texelCount;
+      const v = fractional(chart[3] * Math.abs(x) + chart[4] * y + chart[5]) * texelCount;
       const near = f => Math.abs(f - Math.round(f)) < 0.2;
       if (near(u) || near(v)) continue;
       const at = (Math.floor(v) * texelCount + Math.floor(u)) * 4;
@@ -36,26 +36,26 @@ function sheetErrors({ pixels, size, texels, texelCount, place, angle, scaleX, u
       const cross = Math.hypot(n[1] * got[2] - n[2] * got[1], n[2] * got[0] - n[0] * got[2], n[0] * got[1] - n[1] * got[0]);
       const unit = Math.abs(Math.hypot(...got) - 1) < 0.02;
       const degrees = unit ? Math.atan2(cross, dot(n, got)) * 180 / Math.PI : NaN;
-      worst = degrees <= worst ? worst : degrees; // a NaN stays
+      worst = degrees <= worst ? worst : degrees; // NaN is kept
       sum += degrees;
       ++count;
     }
   return { worst, mean: sum / count, count };
 }
 
-// The two covectors of a chart in the sheet's plane, where x has this sign; zeros where it is constant.
+// The two covectors of a chart in the plane of the sheet where x has this sign; zeros where the chart is constant.
 function chartFrame(chart, sign, frame) {
   const u = [chart[0] * sign, chart[1]], v = [chart[3] * sign, chart[4]];
   if (frame === 'cotangent') {
     const longest = Math.max(Math.hypot(...u), Math.hypot(...v)) || 1;
     return [u.map(c => c / longest), v.map(c => c / longest)];
   }
-  const turned = Math.sign(u[0] * v[1] - u[1] * v[0]); // dP/du is at right angles to the gradient of v
-  const t = [v[1], -v[0]].map(c => turned * c / (Math.hypot(...v) || 1));
-  return [t, [-t[1] * turned, t[0] * turned]];
+  const handedness = Math.sign(u[0] * v[1] - u[1] * v[0]); // dP/du is perpendicular to the gradient of v
+  const t = [v[1], -v[0]].map(c => handedness * c / (Math.hypot(...v) || 1));
+  return [t, [-t[1] * handedness, t[0] * handedness]];
 }
 
-// Texels of four by four domes, RGBA of 8 bits, read as 2c - 1, green along v.
+// Texels of four by four domes, 8-bit RGBA, decoded as 2c - 1, green along v.
 function domeTexels(count) {
   const texels = new Uint8Array(count * count * 4);
   for (let row = 0; row < count; ++row)
@@ -67,16 +67,16 @@ function domeTexels(count) {
   return texels;
 }
 
-const greenTurned = texels => texels.map((x, i) => (i % 4 === 1 ? 255 - x : x));
+const greenFlipped = texels => texels.map((x, i) => (i % 4 === 1 ? 255 - x : x));
 
-// x, y, u and v of the sheet's four triangles, corner by corner; the first six are the mirrored half.
+// x, y, u and v of the sheet's four triangles, corner by corner; the first six corners are the mirrored half.
 function sheetCorners(chart) {
   const halves = [[[-1, 1], [-1, -1], [0, 1], [0, 1], [-1, -1], [0, -1]], [[0, 1], [0, -1], [1, 1], [1, 1], [0, -1], [1, -1]]];
   return halves.flat().map(([x, y]) =>
     [x, y, chart[0] * Math.abs(x) + chart[1] * y + chart[2], chart[3] * Math.abs(x) + chart[4] * y + chart[5]]);
 }
 
-// A file from the disk, which fetch() does not read. type: 'text' or 'arraybuffer'.
+// Loads a file from the disk, which fetch() refuses. type: 'text' or 'arraybuffer'.
 function loadFile(url, type) {
   const request = new XMLHttpRequest();
   return new Promise((done, fail) => {

@@ -1,4 +1,4 @@
-// The sheet of the three.js example as a glTF model, for our own renderer.
+// The sheet of the three.js example as a glTF model for Cotan's own renderer.
 #pragma once
 
 #include <cmath>
@@ -14,9 +14,9 @@
 
 namespace cotan::test {
 
-// Writes NAME.gltf with its parts: two by two units, the left half with mirrored uv, turned about y by `angle`
-// (radians) and moved to (0.1, -0.05, -3.5) before a camera of 40 degrees in the origin; double-sided; `map` repeats
-// twice in v.
+// Writes NAME.gltf with its parts: a sheet of two by two units whose left half has mirrored uv, rotated about y by
+// `angle` (radians) and moved to (0.1, -0.05, -3.5), with a camera of 40 degrees at the origin. It is double-sided;
+// `map` repeats twice in v.
 inline void writeSheet(const std::filesystem::path& folder, const std::string& name, double angle, const Image& map)
 {
     using nlohmann::json;

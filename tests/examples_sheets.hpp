@@ -1,4 +1,4 @@
-// The analytic sheets that the examples draw, and what their normals must be.
+// The analytic sheets that the examples draw, and their exact normals.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace cotan::test {
 
-// A program that was built, or that of its name in the folder COTAN_PROGRAMS: where bench/on-gpu has carried it.
+// A program that was built here, or the one with its name in the folder COTAN_PROGRAMS, where bench/on-gpu copies it.
 inline std::string programAt(const std::filesystem::path& built)
 {
     const char* folder = std::getenv("COTAN_PROGRAMS");
@@ -30,7 +30,7 @@ inline double degreesBetween(Vec a, Vec b)
     return std::atan2(std::sqrt(dot(c, c)), dot(a, b)) * 180 / M_PI;
 }
 
-// Along (+u, +v, outwards), of the map with four domes; z = 0 close to a dome's rim, where a rounding decides.
+// The texel along (+u, +v, outwards) of the map with four domes; z = 0 near a dome's rim, where rounding decides.
 inline Vec domes(double u, double v)
 {
     const double x = std::fmod(u * 4, 2) - 1, y = std::fmod(v * 4, 2) - 1;
@@ -40,14 +40,14 @@ inline Vec domes(double u, double v)
     return z2 > 0.36 ? Vec{x, y, std::sqrt(z2)} : Vec{0, 0, 1};
 }
 
-// The frames that stand on the sheet as on paper.
+// The frames whose exact result on the sheet is worked out in `truth`.
 enum class SheetFrame {
     cotangent,
     gradient,
     orthonormal, // tangent first
 };
 
-// Where a ray from the eye meets the plane of a sheet: along the sheet's own axes, from its middle.
+// Intersection of a ray from the eye with the plane of a sheet, in the sheet's own axes from its centre.
 inline std::array<double, 2> onSheet(Vec ray, double middle, double angle)
 {
     const double c = std::cos(angle), s = std::sin(angle);
@@ -57,9 +57,9 @@ inline std::array<double, 2> onSheet(Vec ray, double middle, double angle)
     return {dot(hit, along), hit[1]};
 }
 
-// u = |x| + (1 - y)/2, v = 1 - y on a sheet of which x and y are the axes, by hand: grad u = (sign x, -1/2),
-// grad v = (0, -1); the longer, grad u, is sqrt(5)/2; along u runs (sign x, 0). Zero where the ray misses, or near a
-// rim or an edge.
+// The exact normal for u = |x| + (1 - y)/2, v = 1 - y, where x and y are the sheet's axes. By hand: grad u = (sign x,
+// -1/2) is the longer with sqrt(5)/2, grad v = (0, -1), and u grows along (sign x, 0). Zero where the ray misses, or
+// near a rim or an edge.
 inline Vec truth(Vec ray, double middle, double angle, SheetFrame frame = SheetFrame::cotangent,
                  Vec (*map)(double, double) = domes)
 {
@@ -76,7 +76,7 @@ inline Vec truth(Vec ray, double middle, double angle, SheetFrame frame = SheetF
     return {side * (onX * along[0] + m[2] * normal[0]), side * onY, side * (onX * along[2] + m[2] * normal[2])};
 }
 
-// What a picture of 480 x 240 normals holds, rows from the bottom; nothing where it is not one.
+// Reads an image of 480 x 240 normals, rows from the bottom; empty if the file is anything else.
 inline std::vector<Vec> normalsOf(const std::filesystem::path& file)
 {
     const std::string bytes = readWhole(file), head = "PF\n480 240\n-1.0\n";
@@ -91,8 +91,8 @@ inline std::vector<Vec> normalsOf(const std::filesystem::path& file)
     return normals;
 }
 
-// Runs a program that draws the sheets; no normal may be further from the truth, in degrees.
-inline void expectSheets(const std::string& program, double most)
+// Runs a program that draws the sheets; each normal's error must be below `maxError` degrees.
+inline void expectSheets(const std::string& program, double maxError)
 {
     TemporaryFolder folder;
     const std::string f = folder.path().string();
@@ -111,9 +111,9 @@ inline void expectSheets(const std::string& program, double most)
             if (dot(expected, expected) == 0)
                 continue;
             ++counts[right];
-            ASSERT_LT(degreesBetween(normals[row * 480 + column], expected), most) << column << ", " << row;
+            ASSERT_LT(degreesBetween(normals[row * 480 + column], expected), maxError) << column << ", " << row;
         }
-    EXPECT_GT(counts[0], 10000); // each sheet covers a fifth of the picture
+    EXPECT_GT(counts[0], 10000); // each sheet covers a fifth of the image
     EXPECT_GT(counts[1], 10000);
 }
 

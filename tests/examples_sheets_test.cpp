@@ -1,5 +1,5 @@
-// examples/raytracing and examples/vulkan, built and run as they are shipped: their normals are those of the analytic
-// sheets, which both draw.
+// examples/raytracing and examples/vulkan, built and run as shipped: both draw the analytic sheets, and their normals
+// must be those of the sheets.
 #include <gtest/gtest.h>
 
 #include "examples_sheets.hpp"
@@ -18,10 +18,10 @@ TEST(ExampleRaytracing, thePastedTextIsWhatTheToolPrintsToday)
 }
 
 #ifdef COTAN_RAYTRACING
-TEST(ExampleRaytracing, normalsAreTheShearedSheetsOnBothSidesAndBothHalves)
+TEST(ExampleRaytracing, normalsMatchTheShearedSheetOnBothSides)
 {
-    // The frame is good to 3e-6 degrees; the texel is read where float says that the ray hit: a rounding of
-    // 3e-7 of four units away, times 4 for the domes in u and 1.7 for their steepest slope, is 5e-4 degrees.
+    // The frame is accurate to 3e-6 degrees. The texel is read where float computes the hit: a rounding of 3e-7 at a
+    // distance of four, times 4 for the domes in u and 1.7 for their steepest slope, is 5e-4 degrees.
     expectSheets(COTAN_RAYTRACING, 2e-3);
 }
 #endif
@@ -36,10 +36,10 @@ TEST(ExampleVulkan, thePastedTextIsWhatTheToolPrintsToday)
         << "cotan shader --lang glsl -o examples/vulkan/cotan.glsl";
 }
 
-TEST(ExampleVulkan, normalsAreTheShearedSheetsOnBothSidesAndBothHalves)
+TEST(ExampleVulkan, normalsMatchTheShearedSheetOnBothSides)
 {
-    // Interpolated position and uv are good to some 4e-7, their differences over a pixel, 0.015, to 3e-5: 0.002 degrees
-    // in the frame, a little more where a sheet is seen aslant. The least step of an 8-bit texel is 0.4.
+    // Interpolated position and uv are accurate to 4e-7, their differences over a pixel, 0.015, to 3e-5: 0.002 degrees
+    // in the frame, more for oblique sheets. One step of an 8-bit texel is at least 0.4 degrees.
     expectSheets(COTAN_VULKAN_EXAMPLE, 0.02);
 }
 #endif

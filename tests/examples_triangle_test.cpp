@@ -1,4 +1,4 @@
-// examples/triangle, built and run as it is shipped: each way of delivering U and V, on the analytic sheets and on the
+// examples/triangle, built and run as shipped: each method of delivering U and V, on the analytic sheets and the
 // teapot.
 #include <gtest/gtest.h>
 
@@ -13,14 +13,14 @@ namespace cotan::test {
 namespace {
 
 #ifdef COTAN_TRIANGLE_EXAMPLE
-std::string way(const std::string& name) { return programAt(COTAN_TRIANGLE_EXAMPLE) + " " + name; }
+std::string shellLine(const std::string& name) { return programAt(COTAN_TRIANGLE_EXAMPLE) + " " + name; }
 
-// All normals of the teapot or a file, empty pixels being zero.
+// All normals of the teapot or of a file; empty pixels are zero.
 std::vector<Vec> drawn(const std::string& name, const std::string& what)
 {
     TemporaryFolder folder;
     const std::string f = folder.path().string();
-    if (std::system((way(name) + " '" + f + "/a.ppm' '" + f + "/a.pfm' '" + what + "' >/dev/null").c_str()) != 0)
+    if (std::system((shellLine(name) + " '" + f + "/a.ppm' '" + f + "/a.pfm' '" + what + "' >/dev/null").c_str()) != 0)
         return {};
     return normalsOf(f + "/a.pfm");
 }
@@ -45,7 +45,7 @@ Difference between(const std::vector<Vec>& a, const std::vector<Vec>& b)
     return d;
 }
 
-// The same sheet from lists, strips and fans, shared and unshared vertices, indices of all widths and none.
+// Expects the same sheet from lists, strips and fans, shared and unshared vertices, indices of all widths and none.
 void expectSameHoweverStored(const std::string& name)
 {
     TemporaryFolder folder;
@@ -63,7 +63,7 @@ void expectSameHoweverStored(const std::string& name)
             if (!here || !there)
                 continue;
             ++pixels;
-            // Both have been rounded to halfs, from other edges; on the seam another triangle may be hit.
+            // Both were rounded to halfs from different edges; on the seam another triangle may be hit.
             if (degreesBetween(normals[i], first[i]) > 0.06)
                 ++only;
         }
@@ -74,36 +74,36 @@ void expectSameHoweverStored(const std::string& name)
 
 class ExampleTriangle : public testing::TestWithParam<const char*> {};
 
-TEST_P(ExampleTriangle, normalsAreTheShearedSheetsOnBothSidesAndBothHalves)
+TEST_P(ExampleTriangle, normalsMatchTheShearedSheetOnBothSides)
 {
-    // Rounding U and V to halfs may turn a normal by 0.03 degrees; the rest is as for floats in a picture.
-    expectSheets(way(GetParam()), 0.03);
+    // Rounding U and V to halfs may rotate a normal by 0.03 degrees; all else is as for floats in an image.
+    expectSheets(shellLine(GetParam()), 0.03);
 }
 
 TEST_P(ExampleTriangle, drawsTheTeapotAsScreenDerivativesDo)
 {
     const Difference d = between(teapot(GetParam()), teapot("derivatives"));
     EXPECT_GT(d.pixels, 40000u); // of 115,200
-    // The scale is the triangle's: with 12 cells a patch normals lean by some 4 degrees from their triangle, and
-    // slopes change by 1 - cos(4 degrees) = 0.2 %, of domes 45 degrees steep 0.07 degrees. `smooth` is another frame:
-    // it is closer to the curved surface, by a fraction of a degree.
+    // The scale is the triangle's: with 12 cells a patch, normals are tilted by about 4 degrees from their triangle.
+    // Slopes change by 1 - cos(4 degrees) = 0.2 %, which is 0.07 degrees on 45-degree domes. `smooth` is another frame:
+    // it is closer to the curved surface by a fraction of a degree.
     const bool smooth = std::string(GetParam()) == "smooth" || std::string(GetParam()) == "ring";
     EXPECT_LT(d.mean, smooth ? 0.5 : 0.02);
     EXPECT_LT(d.most95, smooth ? 2 : 0.1);
-    EXPECT_GT(d.mean, 0); // not the same picture
+    EXPECT_GT(d.mean, 0); // not the same image
 }
 
 TEST_P(ExampleTriangle, drawsTheSameSheetHoweverItsTrianglesAreStored) { expectSameHoweverStored(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Ways, ExampleTriangle,
                          testing::Values("provoking", "read", "smooth", "ring", "visibility", "visibility-read"),
-                         [](const auto& way) {
-                             const std::string name = way.param;
+                         [](const auto& shellLine) {
+                             const std::string name = shellLine.param;
                              return name == "visibility-read" ? std::string("visibilityRead") : name;
                          });
 
-// The same frames, but made by work groups from a meshlet and the ring around it: rounding to SNORM16 apart.
-TEST(ExampleTriangleRing, makesTheFramesThatTheProcessorMakes)
+// The same frames, computed on the GPU from a meshlet and its ring; only the rounding to SNORM16 differs.
+TEST(ExampleTriangleRing, makesTheFramesOfTheCpu)
 {
     for (const char* what : {"sheets", "teapot"}) {
         const std::vector<Vec> made = drawn("ring", what), stored = drawn("smooth", what);
@@ -116,23 +116,23 @@ TEST(ExampleTriangleRing, makesTheFramesThatTheProcessorMakes)
 
 class ExampleTriangleMesh : public testing::TestWithParam<const char*> {};
 
-TEST_P(ExampleTriangleMesh, drawsTheSheetsOrSaysThatTheDeviceCannot)
+TEST_P(ExampleTriangleMesh, drawsTheSheetsOrReportsMissingSupport)
 {
     TemporaryFolder folder;
     const std::string f = folder.path().string();
-    const int status = std::system((way(GetParam()) + " '" + f + "/a.ppm' 2>'" + f + "/err'").c_str());
+    const int status = std::system((shellLine(GetParam()) + " '" + f + "/a.ppm' 2>'" + f + "/err'").c_str());
     if (WEXITSTATUS(status) == 3) {
         EXPECT_EQ(readWhole(folder / "err"), "triangle_example: this device has no VK_EXT_mesh_shader\n");
         GTEST_SKIP() << "no mesh shaders here; the shaders are compiled and validated when they are built";
     }
-    expectSheets(way(GetParam()), 0.03);
+    expectSheets(shellLine(GetParam()), 0.03);
     expectSameHoweverStored(GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, ExampleTriangleMesh, testing::Values("mesh", "mesh-smooth"),
-                         [](const auto& way) { return std::string(way.param) == "mesh" ? "triangle" : "smooth"; });
+                         [](const auto& each) { return std::string(each.param) == "mesh" ? "triangle" : "smooth"; });
 
-// dxc is in no package of Debian: the mesh shader, which glslang does not know in HLSL, is not compiled.
+// Debian has no package of dxc, so the mesh shader is not compiled: glslang does not support mesh shaders in HLSL.
 TEST(ExampleTriangleHlsl, compilesForEveryStage)
 {
     if (std::system("glslangValidator --version >/dev/null 2>&1") != 0)
@@ -145,18 +145,19 @@ TEST(ExampleTriangleHlsl, compilesForEveryStage)
                                        {"shadeRead", "frag"},
                                        {"pack", "comp"},
                                        {"resolve", "comp"}}) {
-        const std::string command = std::string("glslangValidator -D -V --auto-map-bindings -e ") + entry + " -S "
+        const std::string shellLine = std::string("glslangValidator -D -V --auto-map-bindings -e ") + entry + " -S "
             + stage
             + " '-I" COTAN_SOURCE_DIR "/shaders' '" COTAN_SOURCE_DIR "/examples/triangle/hlsl/triangle.hlsl' -o '" + f
             + "/a.spv' > '" + f + "/log' 2>&1";
-        EXPECT_EQ(std::system(command.c_str()), 0) << entry << ": " << readWhole(folder / "log");
+        EXPECT_EQ(std::system(shellLine.c_str()), 0) << entry << ": " << readWhole(folder / "log");
     }
 }
 
-TEST(ExampleTriangleWords, areCheckedBeforeAnythingIsDrawn)
+TEST(ExampleTriangleArguments, areCheckedBeforeDrawing)
 {
-    EXPECT_EQ(WEXITSTATUS(std::system((way("rumour a.ppm") + " 2>/dev/null").c_str())), 1);
-    EXPECT_EQ(WEXITSTATUS(std::system((way("read /tmp/a.ppm /tmp/a.pfm /no/such.glb") + " 2>/dev/null").c_str())), 2);
+    EXPECT_EQ(WEXITSTATUS(std::system((shellLine("rumour a.ppm") + " 2>/dev/null").c_str())), 1);
+    EXPECT_EQ(WEXITSTATUS(std::system((shellLine("read /tmp/a.ppm /tmp/a.pfm /no/such.glb") + " 2>/dev/null").c_str())),
+              2);
 }
 #endif
 

@@ -1,7 +1,7 @@
-// Runs after the scripts of examples/triangle-web/*.html: how far the page's normals are from those of the analytic sheets,
-// and of the models beside this page from those that Cotan's own renderer drew of them with the frame triangle
-// (NAME.normals, four floats a pixel), with the same map (map.bytes). drawn(way) draws into floats, rows from the bottom; texels
-// are read without filtering, so that the stored bytes are the input.
+// Runs after the scripts of examples/triangle-web/*.html. Measures the page's normals against those of the analytic
+// sheets, and normals of the models beside this page against those that Cotan's own renderer drew with the frame
+// triangle (NAME.normals, four floats a pixel) and the same map (map.bytes). drawn(way) draws into floats, bottom row
+// first; texels are read without filtering, so that the stored bytes are the input.
 const width = 480, height = 240;
 document.querySelector('canvas').width = width;
 document.querySelector('canvas').height = height;
@@ -18,17 +18,17 @@ function fetched(name) {
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 function degreesBetween(a, b) {
   const cross = Math.hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
-  return Math.atan2(cross, dot(a, b)) * 180 / Math.PI; // NaN stays
+  return Math.atan2(cross, dot(a, b)) * 180 / Math.PI; // NaN is kept
 }
-// u = |x| + (1 - y)/2, v = 1 - y on the sheet, by hand: grad u = (sign x, -1/2), grad v = (0, -1); the longer, grad u, is
-// sqrt(5)/2. Nothing where the ray misses, near a sheet's edge and seams, and near the edge of a texel.
+// u = |x| + (1 - y)/2, v = 1 - y on the sheet. By hand: grad u = (sign x, -1/2) is the longer with sqrt(5)/2, grad v =
+// (0, -1). Null where the ray misses, near a sheet's edge or seam, and near the edge of a texel.
 function truth(ray, middle, angle) {
   const c = Math.cos(angle), s = Math.sin(angle), normal = [s, 0, c], along = [c, 0, -s], toMiddle = [middle, 0, -4];
   const depth = dot(normal, toMiddle) / dot(normal, ray);
   const hit = ray.map((r, i) => r * depth - toMiddle[i]), x = dot(hit, along), y = hit[1];
   if (!(Math.abs(x) < 0.99 && Math.abs(y) < 0.99 && Math.abs(x) > 0.01)) return null;
   const column = (Math.abs(x) + (1 - y) / 2) % 1 * mapSize, row = (1 - y) % 1 * mapSize;
-  // Corners are snapped to 1/16 of a pixel or finer, and a pixel is up to 6 texels here.
+  // Corners are snapped to 1/16 of a pixel or finer, and a pixel is up to 6 texels wide here.
   const near = f => Math.abs(f - Math.round(f)) < 0.3;
   if (near(column) || near(row)) return null;
   const at = (Math.floor(row) * mapSize + Math.floor(column)) * 4;
@@ -47,13 +47,13 @@ function sheetErrors(pixels) {
       if (!expected) continue;
       const at = 4 * (row * width + column), degrees = degreesBetween(pixels.subarray(at, at + 3), expected);
       const side = found[right ? 'back' : 'front'];
-      side.worst = degrees <= side.worst ? side.worst : degrees; // a NaN stays
+      side.worst = degrees <= side.worst ? side.worst : degrees; // NaN is kept
       ++side.count;
     }
   return found;
 }
-// How far the lit picture of the sheets is from that of the analytic normals, in steps of 8 bits. bytes: rows from the top.
-function pictureErrors(bytes) {
+// Error of the lit image of the sheets compared with the analytic normals, in 8-bit steps. bytes: rows from the top.
+function imageErrors(bytes) {
   const found = { worst: 0, count: 0 }, toLight = [-1, 1.5, 1.5].map(k => k / Math.hypot(1, 1.5, 1.5));
   for (let row = 0; row < height; ++row)
     for (let column = 0; column < width; ++column) {
@@ -77,7 +77,7 @@ function modelErrors(pixels, expected) {
   return { count: degrees.length, finite: degrees.every(Number.isFinite), median: degrees[degrees.length >> 1],
            most95: degrees[Math.floor(degrees.length * 0.95)] };
 }
-// How many pixels two pictures both have, and in how many they are apart, be it that one has none there.
+// The number of pixels covered in both images, and the number that differ or are covered in only one.
 function apart(a, b) {
   const found = { pixels: 0, apart: 0 };
   for (let at = 0; at < 4 * width * height; at += 4) {
@@ -87,8 +87,8 @@ function apart(a, b) {
   }
   return found;
 }
-// ways: that the page draws in. provoking: the corner. models: by name. odd: how many there are of odd0 and so on, which
-// all look the same.
+// ways: the page's methods; provoking: the corner; models: by name; odd: the number of files odd0, odd1, ..., which all
+// look the same.
 async function errorsOf(ways, provoking, models, odd, drawn) {
   const found = { sheets: {}, models: {}, odd: [] };
   load(sheets(provoking));
@@ -148,9 +148,9 @@ async function webgpu() {
   found.canvas = await canvasErrors(usage);
   return found;
 }
-// Of a texture with so many bytes a pixel; rows from the top.
+// Reads back a texture with `perPixel` bytes a pixel, rows from the top.
 async function bytesOf(texture, perPixel) {
-  const row = perPixel * width, bytesPerRow = Math.ceil(row / 256) * 256; // as copies ask for
+  const row = perPixel * width, bytesPerRow = Math.ceil(row / 256) * 256; // alignment required by copies
   const read = device.createBuffer({ size: bytesPerRow * height, usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST });
   const encoder = device.createCommandEncoder();
   encoder.copyTextureToBuffer({ texture }, { buffer: read, bytesPerRow }, [width, height]);
@@ -165,7 +165,7 @@ function upwards(down) {
   for (let y = 0; y < height; ++y) pixels.set(down.subarray(y * row, (y + 1) * row), (height - 1 - y) * row);
   return pixels;
 }
-// The page's own canvas: normals as halfs, and the picture that it shows.
+// The page's own canvas: normals as halfs, and the image that it displays.
 async function canvasErrors(usage) {
   const drawn = async (format, showNormals, perPixel) => {
     context.configure({ device, format, usage, alphaMode: 'premultiplied' });
@@ -177,7 +177,7 @@ async function canvasErrors(usage) {
                                                                     : (h & 1023) * 2 ** -24);
   const halfs = new Uint16Array(await drawn('rgba16float', true, 8));
   const sheets = sheetErrors(upwards(Float32Array.from(halfs, ofHalf)));
-  const picture = pictureErrors(new Uint8Array(await drawn(navigator.gpu.getPreferredCanvasFormat(), false, 4)));
+  const picture = imageErrors(new Uint8Array(await drawn(navigator.gpu.getPreferredCanvasFormat(), false, 4)));
   return { sheets, picture };
 }
 (async () => {

@@ -1,5 +1,5 @@
-// examples/triangle-web in headless Chromium: the analytic sheets, and models that `cotan convert --provoking` wrote
-// against what Cotan's own renderer draws of them.
+// examples/triangle-web in headless Chromium: the analytic sheets, and models written by `cotan convert --provoking`,
+// compared with what Cotan's own renderer draws.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using nlohmann::json;
 const std::string kWeb = std::string(COTAN_SOURCE_DIR) + "/examples/triangle-web";
 const std::filesystem::path kBoomBox = std::string(COTAN_SHARED_DATA) + "/models/BoomBox/BoomBox.gltf";
 
-// NAME_first.glb and NAME_last.glb.
+// Writes NAME_first.glb and NAME_last.glb.
 void writeProvoking(const TemporaryFolder& folder, const std::string& model)
 {
     const std::string name = model.substr(0, model.find('.'));
@@ -33,7 +33,7 @@ void writeProvoking(const TemporaryFolder& folder, const std::string& model)
     }
 }
 
-// NAME.glb with the map and a camera that sees it as the pages do; what writeProvoking writes; and NAME.normals.
+// Writes NAME.glb with the map and the camera of the pages, the files of writeProvoking, and NAME.normals.
 void writeModel(const TemporaryFolder& folder, const std::string& name, Mesh mesh, const Image& map)
 {
     Scene scene;
@@ -50,7 +50,7 @@ void writeModel(const TemporaryFolder& folder, const std::string& name, Mesh mes
     const auto positions = root["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<std::size_t>();
     const auto low = root["accessors"][positions]["min"].get<std::array<double, 3>>(),
                high = root["accessors"][positions]["max"].get<std::array<double, 3>>();
-    // The pages scale it into a box of 5 x 3 and look at its middle from 4 away.
+    // The pages scale the model into a box of 5 x 3 and look at its centre from a distance of 4.
     const double away = 4 / std::min(5 / (high[0] - low[0]), 3 / (high[1] - low[1]));
     root["cameras"] = {
         {{"type", "perspective"},
@@ -74,7 +74,7 @@ void writeModel(const TemporaryFolder& folder, const std::string& name, Mesh mes
     write(folder / (name + ".normals"), rowsFromTheBottom(*normals));
 }
 
-// What tests/examples_triangle_web.js fetches; the names of the models.
+// Writes the files that tests/examples_triangle_web.js loads; returns the names of the models.
 json writeModels(const TemporaryFolder& folder)
 {
     const Image map = makeReliefMap(Relief::domes, 128);
@@ -94,7 +94,7 @@ json writeModels(const TemporaryFolder& folder)
     return names;
 }
 
-// What the page reports, or why it does not.
+// The page's report, or the reason why there is none.
 json reportOf(const std::string& page)
 {
     TemporaryFolder folder;
@@ -108,41 +108,41 @@ json reportOf(const std::string& page)
     return found.is_string() ? json{{"skipped", found}} : found.value(page, found);
 }
 
-void expectWebSheets(const json& page, const std::string& way)
+void expectWebSheets(const json& page, const std::string& method)
 {
     for (const char* side : {"front", "back"}) {
         ASSERT_TRUE(page.contains("sheets")) << page;
-        const json& found = page["sheets"][way][side];
-        EXPECT_GT(found["count"].get<int>(), 2000) << way;
-        ASSERT_TRUE(found["worst"].is_number()) << way << ": a normal is not finite"; // JSON writes NaN as null
-        // Rounding U and V to halfs may turn a normal by 0.03 degrees.
-        EXPECT_LT(found["worst"].get<double>(), 0.03) << way << ", " << side;
+        const json& found = page["sheets"][method][side];
+        EXPECT_GT(found["count"].get<int>(), 2000) << method;
+        ASSERT_TRUE(found["worst"].is_number()) << method << ": a normal is not finite"; // JSON writes NaN as null
+        // Rounding U and V to halfs may rotate a normal by 0.03 degrees.
+        EXPECT_LT(found["worst"].get<double>(), 0.03) << method << ", " << side;
     }
 }
 
-void expectWebModels(const json& page, const std::string& way)
+void expectWebModels(const json& page, const std::string& method)
 {
     for (const auto& [name, found] : page["models"].items()) {
-        const json& errors = found[way];
+        const json& errors = found[method];
         EXPECT_GT(errors["count"].get<int>(), 30000) << name;
         EXPECT_TRUE(errors["finite"].get<bool>()) << name;
-        EXPECT_LT(errors["median"].get<double>(), 0.03) << name << ", " << way; // the halfs
-        // Corners are snapped, to 1/16 of a pixel and finer, and interpolated normals turn by some 2 degrees a pixel.
-        // At one pixel in twenty at most another texel is the nearest, or another triangle is hit.
-        EXPECT_LT(errors["most95"].get<double>(), 0.25) << name << ", " << way;
+        EXPECT_LT(errors["median"].get<double>(), 0.03) << name << ", " << method; // rounding to halfs
+        // Corners are snapped to 1/16 of a pixel or finer, and interpolated normals rotate by about 2 degrees a pixel.
+        // At no more than one pixel in twenty, another texel is nearest or another triangle is hit.
+        EXPECT_LT(errors["most95"].get<double>(), 0.25) << name << ", " << method;
         EXPECT_NE(found["refused"].get<std::string>().find("cotan convert --provoking"), std::string::npos) << name;
     }
     EXPECT_EQ(page["models"].size(), std::filesystem::exists(kBoomBox) ? 2u : 1u);
 }
 
-void expectPage(const json& page, const std::vector<std::string>& ways)
+void expectPage(const json& page, const std::vector<std::string>& methods)
 {
     ASSERT_FALSE(page.contains("error")) << page;
-    for (const std::string& way : ways) {
-        expectWebSheets(page, way);
-        expectWebModels(page, way);
+    for (const std::string& method : methods) {
+        expectWebSheets(page, method);
+        expectWebModels(page, method);
     }
-    ASSERT_EQ(page["odd"].size(), ways.size() * oddModels().size());
+    ASSERT_EQ(page["odd"].size(), methods.size() * oddModels().size());
     for (std::size_t k = 0; k < page["odd"].size(); ++k) {
         const char* const name = oddModels()[k % oddModels().size()].name;
         EXPECT_GT(page["odd"][k]["pixels"].get<int>(), 20000) << name;
@@ -152,7 +152,7 @@ void expectPage(const json& page, const std::vector<std::string>& ways)
 
 void expectCanvas(const json& page)
 {
-    // On the page's own canvas: halfs of U and V, and of the canvas, may turn a normal by 0.03 degrees each.
+    // On the page's own canvas: the halfs of U and V and those of the canvas may each rotate a normal by 0.03 degrees.
     ASSERT_TRUE(page.contains("canvas")) << page;
     for (const char* side : {"front", "back"}) {
         const json& found = page["canvas"]["sheets"][side];
@@ -161,7 +161,7 @@ void expectCanvas(const json& page)
         EXPECT_LT(found["worst"].get<double>(), 0.06) << side;
         ::testing::Test::RecordProperty(side, found["worst"].dump());
     }
-    // What it shows, in steps of 8 bits: rounding is a half.
+    // The displayed image, in 8-bit steps: rounding is half a step.
     EXPECT_GT(page["canvas"]["picture"]["count"].get<int>(), 4000);
     EXPECT_LT(page["canvas"]["picture"]["worst"].get<double>(), 1);
     ::testing::Test::RecordProperty("steps", page["canvas"]["picture"]["worst"].dump());
@@ -183,7 +183,7 @@ TEST(ExampleTriangleWeb, thePastedTextIsWhatTheToolPrintsToday)
         }
 }
 
-TEST(ExampleTriangleWeb, normalsInWebGl2AreRightFromFlatVaryingsAndFromDataTextures)
+TEST(ExampleTriangleWeb, webGl2NormalsAreRightFromFlatVaryingsAndDataTextures)
 {
     const json page = reportOf("webgl2");
     if (page.contains("skipped"))
@@ -191,19 +191,19 @@ TEST(ExampleTriangleWeb, normalsInWebGl2AreRightFromFlatVaryingsAndFromDataTextu
     expectPage(page, {"provoking", "read"});
 }
 
-TEST(ExampleTriangleWeb, normalsInWebGpuAreRightFromTheProvokingVertexAndFromAVisibilityBuffer)
+TEST(ExampleTriangleWeb, webGpuNormalsAreRightFromProvokingVertexAndVisibilityBuffer)
 {
     const json page = reportOf("webgpu");
     if (page.contains("skipped"))
         GTEST_SKIP() << page["skipped"];
-    const std::vector<std::string> ways = page.value("ways", std::vector<std::string>{});
-    EXPECT_GE(ways.size(), 2u); // and `read` where the browser has the number of the primitive
-    expectPage(page, ways);
+    const std::vector<std::string> methods = page.value("ways", std::vector<std::string>{});
+    EXPECT_GE(methods.size(), 2u); // and `read` if the browser supports the primitive index
+    expectPage(page, methods);
     expectCanvas(page);
 }
 
-// Dawn without a browser: on Mesa 24 and newer it has the number of the primitive, so nothing has to provoke.
-TEST(ExampleTriangleWeb, normalsInDawnAreRightFromTheNumberOfThePrimitive)
+// Dawn without a browser: on Mesa 24 and newer it supports the primitive index, so no provoking vertex is needed.
+TEST(ExampleTriangleWeb, dawnNormalsAreRightFromThePrimitiveIndex)
 {
     TemporaryFolder folder;
     write(folder / "names.json", json{{"modelNames", writeModels(folder)}, {"oddCount", oddModels().size()}}.dump());
@@ -214,9 +214,9 @@ TEST(ExampleTriangleWeb, normalsInDawnAreRightFromTheNumberOfThePrimitive)
         GTEST_SKIP() << readWhole(folder / "out");
     ASSERT_EQ(status, 0) << readWhole(folder / "err");
     const json page = json::parse(readWhole(folder / "out"));
-    const auto ways = page.value("ways", std::vector<std::string>{});
-    ASSERT_EQ(ways, (std::vector<std::string>{"provoking", "visibility", "read"})) << page;
-    expectPage(page, ways);
+    const auto methods = page.value("ways", std::vector<std::string>{});
+    ASSERT_EQ(methods, (std::vector<std::string>{"provoking", "visibility", "read"})) << page;
+    expectPage(page, methods);
     expectCanvas(page);
 }
 

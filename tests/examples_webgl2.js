@@ -1,6 +1,6 @@
-// Runs after the script of examples/webgl2: the largest angle between the page's normals and those of the
-// analytic sheet, over the pixels of a float target; texels are read without filtering, so that the stored bytes
-// are the input.
+// Runs after the script of examples/webgl2. Returns the largest angle between the page's normals and those of the
+// analytic sheet over the pixels of a float target. Texels are read without filtering, so that the stored bytes are the
+// input.
 function report() {
   if (!gl.getExtension('EXT_color_buffer_float')) return { skipped: 'no float targets' };
   const width = gl.drawingBufferWidth, height = gl.drawingBufferHeight, aspect = width / height;
@@ -30,14 +30,14 @@ function report() {
           Math.hypot(n[1] * got[2] - n[2] * got[1], n[2] * got[0] - n[0] * got[2], n[0] * got[1] - n[1] * got[0]),
           n[0] * got[0] + n[1] * got[1] + n[2] * got[2]) * 180 / Math.PI;
         const s = side[expected.side];
-        s.worst = degrees <= s.worst ? s.worst : degrees; // a NaN stays
+        s.worst = degrees <= s.worst ? s.worst : degrees; // NaN is kept
         ++s.count;
       }
     result[up > 0 ? 'upright' : 'flipped'] = side;
   }
   return result;
 }
-// What the ray (rx, ry, -1) from the eye meets, or nothing near the edge of a texel, of a quad or of the mirror line.
+// The normal that the ray (rx, ry, -1) from the eye hits, or null near an edge of a texel, quad or the mirror line.
 function truth(rx, ry) {
   for (const { place, angle } of views) {
     const c = Math.cos(angle), s = Math.sin(angle);
@@ -46,16 +46,16 @@ function truth(rx, ry) {
     const toPlace = place.map((p, i) => p - eye[i]);
     const facing = normal[0] * ray[0] + normal[2] * ray[2];
     const depth = (normal[0] * toPlace[0] + normal[2] * toPlace[2]) / facing;
-    const hit = ray.map((r, i) => r * depth - toPlace[i]);  // from the sheet's middle
+    const hit = ray.map((r, i) => r * depth - toPlace[i]);  // from the sheet's centre
     const x = hit[0] * along[0] + hit[2] * along[2], y = hit[1];
-    // 0.02 is more than the 2x2 pixels that differences are taken over.
+    // 0.02 exceeds the 2x2 pixels that differences use.
     if (Math.abs(x) > 0.98 || Math.abs(y) > 0.98 || Math.abs(x) < 0.02) continue;
     const column = Math.abs(x) * mapSize, row = (1 - y) % 1 * mapSize;
-    // Corners are snapped to 1/16 of a pixel or finer, and a pixel is up to 3 texels here: 0.1 of a texel each way.
+    // Corners are snapped to 1/16 of a pixel or finer, and a pixel is up to 3 texels wide: 0.1 of a texel each way.
     const near = f => Math.abs(f - Math.round(f)) < 0.2;
     if (near(column) || near(row)) return null;
     const at = (Math.floor(row) * mapSize + Math.floor(column)) * 4;
-    // The stored vector: red along +u, which is away from the middle; green against +v, which is up.
+    // The stored vector: red along +u, away from the centre; green against +v, upwards.
     const m = [0, 1, 2].map(i => Math.max((map[at + i] - 128) / 127, -1));
     const mx = m[0] * Math.sign(x), sign = facing < 0 ? 1 : -1;
     const v = [mx * along[0] + m[2] * normal[0], m[1], mx * along[2] + m[2] * normal[2]].map(k => k * sign);

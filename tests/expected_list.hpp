@@ -1,4 +1,4 @@
-// The lists of malformed and hostile files in the shared data folder, with what must happen.
+// The lists of malformed and hostile files in the shared data folder, with the expected outcome of each.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace cotan::test {
 
-// What bad input may take, of processor. Builds with sanitizers need several times as much.
+// Limit of processor time for bad input. Builds with sanitizers need several times as much.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr double kBadInputSeconds = 30;
 #else
@@ -21,8 +21,8 @@ struct Expected {
     std::string verdict; // reject, accept, warn, either
 };
 
-// The rows of both folders, bad (collected) and found (by hard use), whose file has that extension;
-// empty where they are missing.
+// The rows of both folders, bad (collected) and found (by stress tests), whose file has this extension; empty if the
+// folders are missing.
 inline std::vector<Expected> expectedFor(const std::string& extension)
 {
     std::vector<Expected> rows;

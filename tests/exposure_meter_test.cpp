@@ -1,5 +1,5 @@
-// What automatic exposure asks a renderer for and makes of its picture, and what every renderer does: of one that
-// paints a picture that is given to it.
+// What automatic exposure requests from a renderer and computes from its image, and what all renderers have in common:
+// tested with a renderer that returns a given image.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,11 +12,11 @@
 namespace cotan {
 namespace {
 
-struct Painter final : Renderer {
+struct FakeRenderer final : Renderer {
     std::string device() const override { return "painter"; }
-    Image picture = makeImage(1, 1, PixelType::unorm8);
+    Image nextImage = makeImage(1, 1, PixelType::unorm8);
     Status loads = Done{};
-    View asked; // by the last draw
+    View requested; // by the last draw
     int draws = 0;
     std::vector<bool> sameImages; // of each load
 
@@ -28,15 +28,15 @@ private:
     }
     Result<Image> drawLoaded(const View& view) override
     {
-        asked = view;
+        requested = view;
         ++draws;
-        return picture;
+        return nextImage;
     }
 };
 
 using Texel = std::array<int, 4>;
 
-// So many pixels of each colour.
+// An image with the given number of pixels of each colour.
 Image pixels(const std::vector<std::pair<int, Texel>>& colors)
 {
     int count = 0;
@@ -51,10 +51,10 @@ Image pixels(const std::vector<std::pair<int, Texel>>& colors)
     return image;
 }
 
-float exposureOf(Image picture)
+float exposureOf(Image image)
 {
-    Painter painter;
-    painter.picture = std::move(picture);
+    FakeRenderer painter;
+    painter.nextImage = std::move(image);
     EXPECT_TRUE(painter.load(Scene()));
     View view;
     view.toneMapping = ToneMapping::none;
@@ -63,47 +63,47 @@ float exposureOf(Image picture)
     return exposure ? *exposure : 0;
 }
 
-// Of the light before a camera at exposure 1: what is drawn has a quarter of it.
+// Light in front of a camera at exposure 1. The metering image has a quarter of it.
 double lightOf(int code)
 {
     const double c = code / 255.0;
     return 4 * (c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
 }
 
-// A third and a little more of the way from the mean to a fifth, in stops, but within what is dark and bright, and so
-// that the brightest fiftieth shows.
+// 35 % of the way from the mean to 0.2, in stops, within the limits for dark and bright scenes, and such that the
+// brightest fiftieth is not clipped.
 double expectedOf(double mean, double bright)
 {
-    const double wanted = std::clamp(std::pow(mean, 0.65) * std::pow(0.2, 0.35), 0.045, 0.45);
-    return std::min(wanted / mean, 0.92 / bright);
+    const double target = std::clamp(std::pow(mean, 0.65) * std::pow(0.2, 0.35), 0.045, 0.45);
+    return std::min(target / mean, 0.92 / bright);
 }
 
-// To a 32nd of a stop, of which half is rounding and a little the table of the curve.
-void expectExposure(const Image& picture, double mean, double bright, const std::string& what)
+// The exposure is rounded to 1/32 stop. Half a step is rounding, and a little more the table of the tone curve.
+void expectExposure(const Image& image, double mean, double bright, const std::string& what)
 {
-    const double found = double(exposureOf(picture)), steps = 32 * std::log2(found);
+    const double found = double(exposureOf(image)), steps = 32 * std::log2(found);
     EXPECT_NEAR(steps, std::round(steps), 1e-3) << what;
     EXPECT_NEAR(steps, 32 * std::log2(expectedOf(mean, bright)), 0.8) << what;
 }
 
-TEST(MeterExposure, isThatOfTheMeanUnlessTheBrightestFiftiethBurnsOut)
+TEST(MeterExposure, isThatOfTheMeanUnlessTheBrightestTwoPercentClip)
 {
-    for (const int code : {2, 10, 30, 62, 90, 128, 180, 230, 254}) // from darker than dark to brighter than bright
+    for (const int code : {2, 10, 30, 62, 90, 128, 180, 230, 254}) // from below the dark limit to above the bright one
         expectExposure(pixels({{10, {code, code, code, 255}}}), lightOf(code), lightOf(code), std::to_string(code));
     const double dark = lightOf(30), light = lightOf(220);
-    const auto mean = [&](double share) { return std::pow(dark, 1 - share) * std::pow(light, share); };
+    const auto mean = [&](double fraction) { return std::pow(dark, 1 - fraction) * std::pow(light, fraction); };
     const Texel darkTexel{30, 30, 30, 255}, lightTexel{220, 220, 220, 255};
     expectExposure(pixels({{98, darkTexel}, {2, lightTexel}}), mean(0.02), light, "two of a hundred");
     expectExposure(pixels({{99, darkTexel}, {1, lightTexel}}), mean(0.01), dark, "one of a hundred");
     expectExposure(pixels({{3, lightTexel}, {97, darkTexel}}), mean(0.03), light, "in any order");
-    // A pixel counts where the scene covers half of it.
+    // A pixel counts if the scene covers half of it.
     expectExposure(pixels({{50, {30, 30, 30, 128}}, {50, {220, 220, 220, 127}}}), dark, dark, "half covered");
     EXPECT_EQ(exposureOf(pixels({{50, {220, 220, 220, 127}}})), 1) << "nothing";
-    // Black is a thousandth.
+    // Black counts as 0.001.
     expectExposure(pixels({{50, {0, 0, 0, 255}}, {50, lightTexel}}), std::sqrt(1e-3 * light), light, "black");
 }
 
-TEST(MeterExposure, coloursCountAsTheyAreSeen)
+TEST(MeterExposure, coloursAreWeightedByLuminance)
 {
     const double full = lightOf(200);
     expectExposure(pixels({{9, {200, 0, 0, 255}}}), 0.2126 * full, 0.2126 * full, "red");
@@ -111,10 +111,10 @@ TEST(MeterExposure, coloursCountAsTheyAreSeen)
     expectExposure(pixels({{9, {0, 0, 200, 255}}}), 0.0722 * full, 0.0722 * full, "blue");
 }
 
-// Of at most 20,000 pixels, in the shape of the picture, with nothing but the scene.
-TEST(MeterExposure, asksForASmallPictureOfTheSceneAlone)
+// At most 20,000 pixels, with the aspect ratio of the image and nothing but the scene.
+TEST(MeterExposure, rendersASmallImageOfTheSceneAlone)
 {
-    Painter painter;
+    FakeRenderer painter;
     ASSERT_TRUE(painter.load(Scene()));
     for (const auto& [width, height, smallWidth, smallHeight] : {std::tuple(1280, 720, 188, 106),
                                                                  {200, 100, 200, 100},
@@ -126,10 +126,10 @@ TEST(MeterExposure, asksForASmallPictureOfTheSceneAlone)
         view.width = width;
         view.height = height;
         ASSERT_TRUE(meterExposure(painter, view));
-        EXPECT_EQ(painter.asked.width, smallWidth) << width;
-        EXPECT_EQ(painter.asked.height, smallHeight) << width;
+        EXPECT_EQ(painter.requested.width, smallWidth) << width;
+        EXPECT_EQ(painter.requested.height, smallHeight) << width;
     }
-    for (const auto& [samples, asked] : {std::pair(1, 1), {4, 4}, {16, 4}}) {
+    for (const auto& [samples, requested] : {std::pair(1, 1), {4, 4}, {16, 4}}) {
         View view;
         view.samples = samples;
         view.output = Output::normal;
@@ -139,8 +139,8 @@ TEST(MeterExposure, asksForASmallPictureOfTheSceneAlone)
         view.toneMapping = ToneMapping::agx;
         view.lights.resize(2);
         ASSERT_TRUE(meterExposure(painter, view));
-        const View& small = painter.asked;
-        EXPECT_EQ(small.samples, asked);
+        const View& small = painter.requested;
+        EXPECT_EQ(small.samples, requested);
         EXPECT_EQ(small.output, Output::shaded);
         EXPECT_FALSE(small.linearOutput || small.dither || small.background || small.ground);
         EXPECT_EQ(small.exposure, 0.25f);
@@ -149,15 +149,15 @@ TEST(MeterExposure, asksForASmallPictureOfTheSceneAlone)
     }
 }
 
-TEST(Renderer, drawsOnlyWhatItHoldsAndKeepsImagesOnlyOfALoadThatWorked)
+TEST(Renderer, drawsOnlyALoadedSceneAndKeepsImagesOfSuccessfulLoads)
 {
-    Painter painter;
+    FakeRenderer painter;
     const View view;
     const auto none = painter.draw(view);
     ASSERT_FALSE(none);
     EXPECT_EQ(none.error().kind, ErrorKind::usage);
     EXPECT_EQ(none.error().message, "draw: no scene is loaded");
-    EXPECT_TRUE(painter.load(Scene(), true)); // there were none to keep
+    EXPECT_TRUE(painter.load(Scene(), true)); // there were no images to keep
     EXPECT_TRUE(painter.draw(view));
     EXPECT_TRUE(painter.load(Scene(), true));
     EXPECT_TRUE(painter.load(Scene()));
@@ -179,15 +179,15 @@ TEST(Renderer, drawsOnlyWhatItHoldsAndKeepsImagesOnlyOfALoadThatWorked)
     EXPECT_EQ(painter.sameImages.size(), 6u) << "nobody was asked to load it";
     ASSERT_TRUE(painter.load(Scene()));
     const int before = painter.draws;
-    std::vector<double> told;
-    painter.progress = [&](double share) {
-        told.push_back(share);
+    std::vector<double> reported;
+    painter.progress = [&](double fraction) {
+        reported.push_back(fraction);
         return false;
     };
     const auto stopped = painter.draw(view);
     ASSERT_FALSE(stopped);
     EXPECT_EQ(stopped.error().kind, ErrorKind::stopped);
-    EXPECT_EQ(told, std::vector<double>{0});
+    EXPECT_EQ(reported, std::vector<double>{0});
     EXPECT_EQ(painter.draws, before);
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""extending_test.py SOURCES: adds a frame, an image format and a shader language to a copy of the sources, each by two
-places at most, builds what reads them, and tries them. Says what does not work."""
+"""extending_test.py SOURCES: adds a frame, an image format and a shader language to a copy of the sources, each in at
+most two places, builds what uses them, and tries them. Prints what does not work."""
 import pathlib
 import shutil
 import subprocess
@@ -135,7 +135,7 @@ with tempfile.TemporaryDirectory() as folder:
             sys.exit(f"{command[0]}: exit code {done.returncode}")
 
     run(["cmake", "-G", "Ninja", "-S", copy, "-B", build, *options])
-    pixel_shader = "apps/lab/cost/frame_planted.h" # of its cost; only where there is a compiler of shaders
+    pixel_shader = "apps/lab/cost/frame_planted.h" # for its cost; built only if there is a shader compiler
     shaders = [pixel_shader] if f"{pixel_shader}:" in (build / "build.ninja").read_text().replace(" ", ":") else []
     run(["cmake", "--build", build, "--target", "added", *shaders])
     run([build / "added"])

@@ -1,4 +1,4 @@
-// Normal mapping by rays: what becomes of white light from all around, and whether light and eye may change places.
+// Normal mapping by rays: the fraction of uniform white light that is reflected, and reciprocity of light and eye.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -16,17 +16,17 @@ namespace {
 using namespace cotan::testing;
 
 struct Sheet {
-    float tilt = 0;   // degrees that the map turns the normal
-    float turned = 0; // degrees: towards the eye, across, away
+    float tilt = 0;   // degrees by which the map tilts the normal
+    float azimuth = 0; // degrees: towards the eye, across, away
     float view = 0;   // degrees from the surface's normal to the eye
     float metallic = 0;
     float roughness = 1;
 };
 
-// A direction by its angle from the sheet's normal and its turn around it, 0 being the eye's side.
-glm::vec3 direction(float fromNormal, float turned)
+// A direction at the angle `fromNormal` from the sheet's normal, rotated about it by `azimuth`; 0 is the eye's side.
+glm::vec3 direction(float fromNormal, float azimuth)
 {
-    const float a = glm::radians(fromNormal), t = glm::radians(turned);
+    const float a = glm::radians(fromNormal), t = glm::radians(azimuth);
     return {std::sin(a) * std::cos(t), std::sin(a) * std::sin(t), std::cos(a)};
 }
 
@@ -38,7 +38,7 @@ Scene sheetScene(const Sheet& sheet)
     material.metallic = sheet.metallic;
     material.roughness = sheet.roughness;
     Image map = makeImage(1, 1, PixelType::float32);
-    const glm::vec3 n = direction(sheet.tilt, sheet.turned);
+    const glm::vec3 n = direction(sheet.tilt, sheet.azimuth);
     for (int c = 0; c < 3; ++c)
         map.floats()[c] = n[c] * 0.5f + 0.5f;
     map.floats()[3] = 1;
@@ -81,50 +81,50 @@ double furnace(const Sheet& sheet, NormalMapping mapping)
     return meanOf(sheetScene(sheet), view);
 }
 
-// What is left of white light over tilts and views, where the eye sees the turned normal at all.
+// The reflected fraction of white light over all tilts and views in which the perturbed normal faces the eye.
 struct Left {
-    double least = 2, most = 0, mean = 0;
+    double minimum = 2, maximum = 0, mean = 0;
 };
 Left leftOf(NormalMapping mapping, float metallic, float roughness)
 {
     Left left;
     int cases = 0;
     for (const float tilt : {0.0f, 35.0f, 70.0f})
-        for (const float turned : {0.0f, 90.0f, 180.0f})
+        for (const float azimuth : {0.0f, 90.0f, 180.0f})
             for (const float view : {0.0f, 40.0f, 75.0f}) {
                 const bool classic = mapping == NormalMapping::rays || mapping == NormalMapping::shadowed;
-                if (classic && glm::dot(direction(tilt, turned), direction(view, 0)) < 0.1f)
+                if (classic && glm::dot(direction(tilt, azimuth), direction(view, 0)) < 0.1f)
                     continue;
-                const double all = furnace({tilt, turned, view, metallic, roughness}, mapping);
-                left = {std::min(left.least, all), std::max(left.most, all), left.mean + all};
+                const double all = furnace({tilt, azimuth, view, metallic, roughness}, mapping);
+                left = {std::min(left.minimum, all), std::max(left.maximum, all), left.mean + all};
                 ++cases;
             }
     left.mean /= cases;
     const std::string name = "mapping_" + std::to_string(int(mapping)) + "_metallic_" + std::to_string(int(metallic))
         + "_roughness_" + std::to_string(int(100 * roughness));
     ::testing::Test::RecordProperty( // least, mean, most
-        name, std::to_string(left.least) + " " + std::to_string(left.mean) + " " + std::to_string(left.most));
+        name, std::to_string(left.minimum) + " " + std::to_string(left.mean) + " " + std::to_string(left.maximum));
     return left;
 }
 
 // 25600 walks each: their noise is 0.3 % at most.
-TEST(Facets, keepAllLightOfAWhiteFurnaceWhereClassicNormalMappingLosesOverATenth)
+TEST(Facets, keepAllLightInAWhiteFurnaceUnlikeClassicNormalMapping)
 {
     for (const float metallic : {0.0f, 1.0f})
         for (const float roughness : {0.15f, 0.5f, 1.0f}) {
             for (const NormalMapping mapping : {NormalMapping::facets, NormalMapping::mirrorFacet}) {
                 const Left left = leftOf(mapping, metallic, roughness);
-                EXPECT_GT(left.least, 0.99) << int(mapping) << " " << metallic << " " << roughness;
-                EXPECT_LT(left.most, 1.01) << int(mapping) << " " << metallic << " " << roughness;
+                EXPECT_GT(left.minimum, 0.99) << int(mapping) << " " << metallic << " " << roughness;
+                EXPECT_LT(left.maximum, 1.01) << int(mapping) << " " << metallic << " " << roughness;
             }
             const Left rays = leftOf(NormalMapping::rays, metallic, roughness);
             EXPECT_LT(rays.mean, 0.9) << metallic << " " << roughness;
-            EXPECT_LT(rays.least, 0.8) << metallic << " " << roughness;
+            EXPECT_LT(rays.minimum, 0.8) << metallic << " " << roughness;
             EXPECT_LT(leftOf(NormalMapping::shadowed, metallic, roughness).mean, rays.mean - 0.02);
         }
 }
 
-// Radiance of a light of irradiance 1 on the sheet itself.
+// Radiance under a light that gives the unperturbed sheet an irradiance of 1.
 double reflected(const Sheet& sheet, glm::vec3 eye, glm::vec3 toLight, NormalMapping mapping)
 {
     View view = towards(eye, mapping);
@@ -137,15 +137,15 @@ double reflected(const Sheet& sheet, glm::vec3 eye, glm::vec3 toLight, NormalMap
     return meanOf(sheetScene(sheet), view);
 }
 
-TEST(Facets, lightAndEyeMayChangePlacesWhereClassicNormalMappingDoesNotLetThem)
+TEST(Facets, areReciprocalUnlikeClassicNormalMapping)
 {
     const glm::vec3 a = direction(65, 0), b = direction(30, 140);
     for (const float metallic : {0.0f, 1.0f})
-        for (const float turned : {0.0f, 80.0f, 180.0f}) {
-            const Sheet sheet{45, turned, 0, metallic, 0.7f};
+        for (const float azimuth : {0.0f, 80.0f, 180.0f}) {
+            const Sheet sheet{45, azimuth, 0, metallic, 0.7f};
             for (const NormalMapping mapping : {NormalMapping::facets, NormalMapping::mirrorFacet}) {
                 const double there = reflected(sheet, a, b, mapping), back = reflected(sheet, b, a, mapping);
-                EXPECT_NEAR(there, back, 0.01 * std::max(there, back)) << metallic << " " << turned;
+                EXPECT_NEAR(there, back, 0.01 * std::max(there, back)) << metallic << " " << azimuth;
             }
         }
     const Sheet towardsEye{45, 0, 0, 1, 0.7f};

@@ -1,6 +1,6 @@
-// Loaded before a program (LD_PRELOAD), makes its Nth call that touches a file of one folder fail: open, read, write,
-// rename and so on. COTAN_FAIL_FOLDER: the folder; COTAN_FAIL_CALL: N, from 1; 0: none. COTAN_FAIL_LOG: a file to which
-// a process that ends adds a line with the names of such calls that it made. tests/failing_calls_test.py uses it.
+// Preloaded into a program (LD_PRELOAD), makes its Nth call on a file of one folder fail: open, read, write, rename and
+// so on. COTAN_FAIL_FOLDER: the folder; COTAN_FAIL_CALL: N, from 1 on, or 0 for none; COTAN_FAIL_LOG: a file to which
+// each process appends a line with the names of its calls when it ends. Used by tests/failing_calls_test.py.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -16,10 +16,10 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
-enum { kMostFiles = 4096, kMostCalls = 4096 };
+enum { kMaxFiles = 4096, kMaxCalls = 4096 };
 static atomic_long calls;
-static const char* names[kMostCalls];
-static atomic_char ours[kMostFiles]; // by descriptor: a file of the folder
+static const char* names[kMaxCalls];
+static atomic_char ours[kMaxFiles]; // by descriptor: whether it is a file of the folder
 static long failing;
 static char folder[PATH_MAX];
 
@@ -37,7 +37,7 @@ __attribute__((destructor)) static void end(void)
     FILE* (*real)(const char*, const char*) = (FILE * (*)(const char*, const char*)) dlsym(RTLD_NEXT, "fopen");
     FILE* file = log ? real(log, "a") : NULL;
     if (file) {
-        for (long i = 0; i < calls && i < kMostCalls; ++i)
+        for (long i = 0; i < calls && i < kMaxCalls; ++i)
             fprintf(file, "%s ", names[i] ? names[i] : "?");
         fputc('\n', file);
         fclose(file);
@@ -52,7 +52,7 @@ static int isOurs(const char* path)
 static int fails(const char* name, int error)
 {
     const long call = atomic_fetch_add(&calls, 1);
-    if (call < kMostCalls)
+    if (call < kMaxCalls)
         names[call] = name;
     if (call + 1 != failing)
         return 0;
@@ -62,11 +62,11 @@ static int fails(const char* name, int error)
 
 static void mark(int file, int mine)
 {
-    if (file >= 0 && file < kMostFiles)
+    if (file >= 0 && file < kMaxFiles)
         ours[file] = (char)mine;
 }
 
-static int marked(int file) { return file >= 0 && file < kMostFiles && ours[file]; }
+static int marked(int file) { return file >= 0 && file < kMaxFiles && ours[file]; }
 
 #define REAL(type, name, ...) type (*real)(__VA_ARGS__) = (type(*)(__VA_ARGS__))dlsym(RTLD_NEXT, name)
 
@@ -120,7 +120,7 @@ OPENAT(openat64)
 FOPEN(fopen)
 FOPEN(fopen64)
 
-// A call of the real one but for the one that fails. mine: whether it is about a file of the folder.
+// Forwards to the real function unless this call must fail. mine: whether the call concerns a file of the folder.
 #define FAILING(type, name, mine, error, parameters, arguments, ...)                                                   \
     type name parameters                                                                                               \
     {                                                                                                                  \

@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
-"""Whatever call on a file fails, a command writes what it always writes, or says so in one line and leaves nothing.
+"""If any call on a file fails, a command writes what it always writes, or prints one line and leaves nothing.
 
-  failing_calls_test.py TOOL [COMMAND LINE]
+failing_calls_test.py TOOL [COMMAND LINE]
 
-The library failing_calls.c beside this file is loaded before the tool. Each command first runs without a fault, which
-names its calls on files of its folder: open, read, write, rename and so on. Then it runs once for each of these calls,
-and that call fails. Of many equal calls in a row, such as the 200 writes of an EXR, it is the first and last four and
-each eighth. A process that the command starts counts its own calls, and fails at the same number. Last, each format is
-written where files may not grow beyond 512 bytes, which is what a full disk looks like to a program.
-"""
+The library failing_calls.c beside this file is preloaded into the tool. Each command first runs without a fault, which
+lists its calls on files of its folder: open, read, write, rename and so on. Then it runs once for each of these calls,
+and that call fails. Of many equal calls in a row, such as the 200 writes of an EXR, only the first and last four and
+each eighth fail. A process that the command starts counts its own calls, and fails at the same number. Last, each
+format is written with file sizes limited to 512 bytes, which looks to a program like a full disk."""
 import concurrent.futures
 import itertools
 import os
@@ -45,7 +44,7 @@ MOST_BYTES = 512
 
 
 def run(tool, library, inputs, words, call):
-    """Exit code, errors, what is new in the folder by name, and the names of the calls that there were."""
+    """Exit code, errors, new files of the folder by name, and the names of all calls."""
     with tempfile.TemporaryDirectory() as name:
         folder, log = pathlib.Path(name) / "here", pathlib.Path(name) / "log"
         shutil.copytree(inputs, folder)
@@ -57,14 +56,14 @@ def run(tool, library, inputs, words, call):
         for path in sorted(p for p in folder.rglob("*") if p.is_file() and p not in before):
             try:
                 new[str(path.relative_to(folder))] = content(path)
-            except Exception as problem:  # no whole file of its kind
+            except Exception as problem:  # not a complete file of its kind
                 new[str(path.relative_to(folder))] = repr(problem)
         calls = max((line.split() for line in log.read_text().splitlines()), key=len, default=[]) if log.exists() else []
         return done.returncode, done.stderr, new, calls, lost
 
 
 def tried_of(calls):
-    """Numbers from 1 of the calls that are made to fail."""
+    """Numbers, from 1, of the calls that are made to fail."""
     begin = 1
     for _, equal in itertools.groupby(calls):
         count = len(list(equal))
@@ -82,13 +81,13 @@ def judge(line, call, outcome, usual):
         return "" if new == usual else f"{where}exit code 0, but other outputs: {sorted(new)}"
     if code not in (2, 3, 4) or len(said) != 1:
         return f"{where}exit code {code}, said: {errors.strip()}"
-    if "report.json" in said[0]:  # the result is there and whole; only the report on it is missing
+    if "report.json" in said[0]:  # the result is complete; only its report is missing
         new = {name: data for name, data in new.items() if data != usual[name]}
     return f"{where}exit code {code}, left {sorted(new)}" if new else ""
 
 
 def without_room(tool, inputs, line):
-    """What is wrong with a command that may write no file of more than 512 bytes."""
+    """What is wrong with a command that may write no file larger than 512 bytes."""
     def limit():
         resource.setrlimit(resource.RLIMIT_FSIZE, (MOST_BYTES, MOST_BYTES))
     with tempfile.TemporaryDirectory() as name:

@@ -1,4 +1,4 @@
-// `cotan figures`: what it writes, and numbers that are known without it.
+// `cotan figures`: the files it writes, compared with numbers known independently.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -31,7 +31,7 @@ Words command(const std::string& folder, const Words& more)
     return words;
 }
 
-// The report of some figures. Angles by figure and name.
+// The report of some figures. `angle` reads from it by figure and name.
 nlohmann::json report(const std::string& only, const std::string& size)
 {
     TemporaryFolder folder;
@@ -48,12 +48,12 @@ double angle(const nlohmann::json& report, std::size_t figure, const std::string
     return angles.contains(name) ? angles[name][key].get<double>() : -1;
 }
 
-// The mean angle over one embossed dome between the normal that the gradients of u and v give and
-// that of another frame, by a sum over a grid in uv; where the dome tilts by 5 degrees and more.
+// Mean angle over one embossed dome between the normal from the gradients of u and v and that of another frame, summed
+// over a grid in uv where the dome is tilted by at least 5 degrees.
 enum class Wrong { orthonormal, unit };
 double domeMean(double stretch, double shear, Wrong wrong)
 {
-    // u = (x - shear y)/stretch and v = y, y downwards; here with y up.
+    // u = (x - shear y)/stretch and v = y with y down; here y is up.
     const glm::dvec2 gradU = glm::dvec2(1, shear) / stretch, gradV(0, -1);
     const double s = 1 / std::max(glm::length(gradU), glm::length(gradV));
     const glm::dvec2 t = wrong == Wrong::unit ? glm::normalize(gradU) : glm::dvec2(1, 0); // dP/du is along x
@@ -75,7 +75,7 @@ double domeMean(double stretch, double shear, Wrong wrong)
     return sum / count;
 }
 
-TEST(Figures, everyNameMakesPicturesAndOnePageThatNeedsNothingElse)
+TEST(Figures, everyNameMakesImagesAndOneSelfContainedPage)
 {
     TemporaryFolder folder;
     const Words small = {"--size", "64x48", "--json", "report.json"};
@@ -87,7 +87,7 @@ TEST(Figures, everyNameMakesPicturesAndOnePageThatNeedsNothingElse)
     ASSERT_EQ(report["figures"].size(), std::size(kNames));
     EXPECT_NE(run.out.find("page: a/index.html\n"), std::string::npos) << run.out;
     const std::string page = readWhole(folder / "a/index.html");
-    std::size_t pictures = 0;
+    std::size_t images = 0;
     for (std::size_t i = 0; i < std::size(kNames); ++i) {
         EXPECT_EQ(report["figures"][i]["name"], kNames[i]);
         EXPECT_NE(page.find(std::string("cotan figures --only ") + kNames[i] + " -o"), std::string::npos) << kNames[i];
@@ -96,24 +96,24 @@ TEST(Figures, everyNameMakesPicturesAndOnePageThatNeedsNothingElse)
             const auto image = readImage(folder / ("a/" + file));
             ASSERT_TRUE(image) << file;
             EXPECT_EQ(image->height, 48) << file;
-            ++pictures;
+            ++images;
         }
     }
     std::size_t embedded = 0;
     for (std::size_t at = page.find("src="); at != std::string::npos; at = page.find("src=", at + 1), ++embedded)
         EXPECT_EQ(page.compare(at, 27, "src=\"data:image/png;base64,"), 0);
-    EXPECT_EQ(embedded, pictures);
+    EXPECT_EQ(embedded, images);
     for (const char* outside : {"http:", "https:", "url(", "@import", "file:"})
         EXPECT_EQ(page.find(outside), std::string::npos) << outside;
 
     const ToolRun second = runTool(command("b", again), folder.path());
     ASSERT_EQ(second.code, 0) << second.err;
-    // The page embeds every picture, so it is enough to compare it, and the overview.
+    // The page embeds every image, so comparing the page and the overview suffices.
     EXPECT_EQ(page, readWhole(folder / "b/index.html"));
     EXPECT_EQ(readWhole(folder / "a/overview.png"), readWhole(folder / "b/overview.png"));
 }
 
-TEST(Figures, squarePatchErrorsAreThoseOfTheDomesMathematics)
+TEST(Figures, squarePatchErrorsMatchTheAnalyticDomes)
 {
     const auto r = report("2.6.4", "240x240");
     const struct {
@@ -125,43 +125,43 @@ TEST(Figures, squarePatchErrorsAreThoseOfTheDomesMathematics)
                    {"stretched 2:1 and sheared", 2, 1}};
     for (const auto& l : layouts) {
         const std::string name = l.layout;
-        // Pixels sample the domes on a grid of their own: sixteen to a radius, a hundredth of the mean.
+        // Pixels sample the domes on another grid, with sixteen per radius: 1 % of the mean.
         const double orthonormal = domeMean(l.stretch, l.shear, Wrong::orthonormal);
         EXPECT_NEAR(angle(r, 0, name + ", orthonormal"), orthonormal, 0.015 * orthonormal) << name;
         const double unit = domeMean(l.stretch, l.shear, Wrong::unit);
         EXPECT_NEAR(angle(r, 0, name + ", unit"), unit, 0.015 * unit) << name;
-        // The bilinear reading of a 16-bit map with 51 texels to a dome's radius.
+        // Bilinear filtering of a 16-bit map with 51 texels per dome radius.
         EXPECT_LT(angle(r, 0, name + ", cotangent", "max_degrees"), 0.1) << name;
     }
     for (const char* frame : {"orthonormal", "unit", "cotangent"})
         EXPECT_LT(angle(r, 0, std::string("square, ") + frame, "max_degrees"), 0.1) << frame;
-    // Published figures: 9.47 degrees for 2:1 (bar A2 of docs/project/testing.md).
+    // Published: 9.47 degrees for 2:1 (bar A2 of docs/project/testing.md).
     EXPECT_NEAR(domeMean(2, 0, Wrong::orthonormal), 9.47, 0.01);
 }
 
-TEST(Figures, foreshorteningNotPerspectiveBreaksTheShortCut)
+TEST(Figures, foreshorteningNotPerspectiveBreaksTheShortcut)
 {
     const auto r = report("2.6.5", "120x90");
-    // Facing the camera the short cut is exact but for rounding.
+    // Facing the camera the shortcut is exact except for rounding.
     EXPECT_LT(angle(r, 0, "orthographic, 0 degrees, formula", "max_degrees"), 1e-4);
-    // Known from an independent program over random azimuths and turns: 6.5 and 12.5 degrees on
-    // average at 45 and 60 degrees of tilt, 11.7 and 22.3 at most; sampling noise a few hundredths.
+    // From an independent program over random azimuths and rotations: 6.5 and 12.5 degrees mean at tilts of 45 and 60
+    // degrees, 11.7 and 22.3 maximum; the sampling noise is a few hundredths.
     EXPECT_NEAR(angle(r, 0, "orthographic, 45 degrees, formula"), 6.5, 0.1);
     EXPECT_NEAR(angle(r, 0, "orthographic, 45 degrees, formula", "max_degrees"), 11.7, 0.1);
     EXPECT_NEAR(angle(r, 0, "orthographic, 60 degrees, formula"), 12.5, 0.1);
     EXPECT_NEAR(angle(r, 0, "orthographic, 60 degrees, formula", "max_degrees"), 22.3, 0.1);
-    // No picture can be off by more than the steepest texel allows, and a tilted one must be off.
-    EXPECT_GT(angle(r, 0, "orthographic, 60 degrees, the dots of the picture", "max_degrees"), 15);
+    // The steepest texel bounds the error of an image; a tilted one must have an error.
+    EXPECT_GT(angle(r, 0, "orthographic, 60 degrees, as drawn", "max_degrees"), 15);
 }
 
 TEST(Figures, decodingNormalMatricesAndTargetsHaveTheirKnownErrors)
 {
     const auto r = report("normal-matrices,targets,decode", "120x90");
-    // atan((k-1)/(2 sqrt k)) for k = 4; the vertices of the sphere come within a degree of the worst place.
+    // atan((k-1)/(2 sqrt k)) for k = 4; some vertex of the sphere is within a degree of the worst direction.
     EXPECT_NEAR(angle(r, 0, "rotation only, vertex normals, scaled 1 : 1 : 4", "max_degrees"), 36.87, 0.05);
     EXPECT_LT(angle(r, 0, "scale undone, vertex normals, scaled 1 : 1 : 4", "max_degrees"), 1e-4);
     EXPECT_GT(angle(r, 0, "scale undone, vertex normals, turned and then scaled", "max_degrees"), 30);
-    // Rounding of float, and few pixels inside the spout, where no frame of 2013 is right.
+    // Float rounding, and a few pixels inside the spout, where no frame of 2013 is right.
     EXPECT_LT(angle(r, 1, "cotangent, y down"), 0.1);
     EXPECT_LT(angle(r, 1, "cotangent, y up"), 0.1);
     EXPECT_LT(angle(r, 1, "cotangent-2013, y up"), 0.5);
@@ -169,42 +169,42 @@ TEST(Figures, decodingNormalMatricesAndTargetsHaveTheirKnownErrors)
     // (128,128,255) as 2c - 1 is (1,1,255)/255: atan(sqrt 2 / 255).
     EXPECT_NEAR(angle(r, 2, "flat texel 128, biased"), std::atan(std::sqrt(2) / 255) * 180 / std::numbers::pi, 1e-3);
     EXPECT_LT(angle(r, 2, "flat texel 128, exact", "max_degrees"), 1e-4);
-    // A slope of 0.92 at most: turned over in v it is off by at most twice its tilt of 42.6 degrees.
+    // Slopes up to 0.92: with v reversed, the error is at most twice the tilt of 42.6 degrees.
     EXPECT_NEAR(angle(r, 2, "green the wrong way", "max_degrees"),
                 2 * std::atan(2.4 * 2 / (3 * std::sqrt(3))) * 180 / std::numbers::pi, 1);
 }
 
-TEST(Figures, curvedMeshesConvergeWithTheFramesThatFollowTheTexture)
+TEST(Figures, curvedMeshesConvergeForFramesThatFollowTheTexture)
 {
     const auto r = report("2.6.3,mirrored,faceting", "120x90");
     const auto gain = [&](const std::string& frame) {
         return angle(r, 2, frame + ", 12 segments") / angle(r, 2, frame + ", 48 segments");
     };
-    // Four times the segments: a frame that is constant in a triangle gains four (first order), averaged
-    // cotangents up to sixteen (second order), and an orthonormal frame next to nothing where the
-    // latitudes squeeze the texture. Half of each for coarse meshes, where other terms count.
+    // With four times the segments, a frame constant per triangle improves by four (first order), averaged cotangents
+    // by up to sixteen (second order), and an orthonormal frame hardly at all where the latitudes squeeze the texture.
+    // Half of each for coarse meshes, where other terms matter.
     EXPECT_GT(gain("cotangent"), 2);
     EXPECT_GT(gain("triangle"), 2);
     EXPECT_GT(gain("smooth"), 8);
     EXPECT_LT(gain("mikktspace"), 2);
-    // Reversed on half of the sphere, where domes tilt by tens of degrees; right on both.
+    // Reversed on half of the sphere, where domes tilt by tens of degrees; right on both halves.
     EXPECT_GT(angle(r, 1, "stored tangents without their sign"), 5);
     EXPECT_LT(angle(r, 1, "cotangent, nothing stored"), 0.5);
-    // What the chapter's figure shows: by and large alike, but not at the nozzle.
+    // As in the chapter's figure: similar overall, but not at the nozzle.
     EXPECT_GT(angle(r, 0, "vertex, inset at the nozzle"), 4 * angle(r, 0, "cotangent, inset at the nozzle"));
     EXPECT_GT(angle(r, 0, "vertex, inset at the nozzle"), 2 * angle(r, 0, "vertex, whole teapot"));
 }
 
-TEST(Figures, tangentSpaceByTheInverseAgreesWithTheWorldToALevel)
+TEST(Figures, tangentSpaceByTheInverseAgreesWithWorldSpace)
 {
     const auto r = report("tutorial", "160x120");
     const auto& numbers = r["figures"][0]["numbers"];
-    // 8-bit pictures of the same numbers may differ where they round.
+    // 8-bit images of the same numbers may differ by rounding.
     EXPECT_LE(numbers["tangent space, vectors by the pixel's inverse, most levels of 255"].get<double>(), 1);
     EXPECT_GT(numbers["the same with the frame cotangent, most levels of 255"].get<double>(), 3);
 }
 
-TEST(Figures, wrongWordsExitOneAndAnUnwritableFolderExitsFour)
+TEST(Figures, wrongArgumentsExitOneAndAnUnwritableFolderExitsFour)
 {
     for (const Words& words : {Words{"--only", "2.6.9"}, Words{"--only", "2.6.4,"}, Words{"--size", "10x"}}) {
         TemporaryFolder folder;
@@ -221,7 +221,7 @@ TEST(Figures, wrongWordsExitOneAndAnUnwritableFolderExitsFour)
     EXPECT_EQ(lines(run.err), 1) << run.err;
 }
 
-TEST(Lighting, inTangentSpaceIsDrawnByTheReferenceAndAsksForTangents)
+TEST(Lighting, inTangentSpaceUsesTheReferenceAndRequiresTangents)
 {
     TemporaryFolder folder;
     const ToolRun run = runTool({"render", "-o", "a.png", "--size", "32x24", "--samples", "1", "--lighting",
@@ -232,14 +232,14 @@ TEST(Lighting, inTangentSpaceIsDrawnByTheReferenceAndAsksForTangents)
     const ToolRun wrong = runTool({"render", "-o", "b.png", "--lighting", "tangent-vertex"}, folder.path());
     EXPECT_EQ(wrong.code, 1);
     EXPECT_EQ(lines(wrong.err), 1) << wrong.err;
-    // No Vulkan device does it, and where there is none the code is the same.
+    // No Vulkan device supports it; without any device the exit code is the same.
     EXPECT_EQ(
         runTool({"render", "-o", "b.png", "--lighting", "tangent-pixel", "--device", "llvmpipe"}, folder.path()).code,
         3);
     EXPECT_FALSE(std::filesystem::exists(folder / "b.png"));
 }
 
-TEST(NormalMapping, byRaysIsDrawnByTheReferenceAndAsksForPbrInTheWorld)
+TEST(NormalMapping, byRaysUsesTheReferenceAndRequiresWorldSpacePbr)
 {
     TemporaryFolder folder;
     const Words start = {"render",    "-o", "a.png",  "--size", "32x24",
@@ -252,19 +252,19 @@ TEST(NormalMapping, byRaysIsDrawnByTheReferenceAndAsksForPbrInTheWorld)
     EXPECT_EQ(with({"facets", "--shading", "blinn-phong"}).code, 1);
     EXPECT_EQ(with({"facets", "--lighting", "tangent-pixel"}).code, 1);
     EXPECT_EQ(with({"microfacets"}).code, 1);
-    EXPECT_EQ(with({"facets", "--device", "llvmpipe"}).code, 3); // without Vulkan, too
+    EXPECT_EQ(with({"facets", "--device", "llvmpipe"}).code, 3); // also without Vulkan
     EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
     const ToolRun run = with({"facets"});
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(nlohmann::json::parse(run.out)["device"], "reference");
 }
 
-// The furnace's bar is 1 %; the ball's rim has every view.
-TEST(Figures, facetsLoseNoLightOfAFurnaceAndTurnedNormalsATenth)
+// The furnace test allows 1 %; the ball's rim has every view angle.
+TEST(Figures, facetsLoseNoLightAndPerturbedNormalsATenth)
 {
     const nlohmann::json numbers = report("furnace", "64x48")["figures"][0]["numbers"];
-    const auto lost = [&](const char* way) {
-        return numbers[std::string(way) + ", light lost in a white furnace, %"].get<double>();
+    const auto lost = [&](const char* method) {
+        return numbers[std::string(method) + ", light lost in a white furnace, %"].get<double>();
     };
     EXPECT_NEAR(lost("facets"), 0, 1);
     EXPECT_NEAR(lost("mirror-facet"), 0, 1);
@@ -272,7 +272,7 @@ TEST(Figures, facetsLoseNoLightOfAFurnaceAndTurnedNormalsATenth)
     EXPECT_GT(lost("shadowed"), lost("rays"));
 }
 
-TEST(Figures, antialiasedHighlightsHaveHalfOfTheErrorOfSparkles)
+TEST(Figures, antialiasingHalvesTheErrorOfHighlights)
 {
     const nlohmann::json numbers = report("sparkle", "400x300")["figures"][0]["numbers"];
     for (const std::string map : {"grain", "domes"}) {
@@ -292,7 +292,7 @@ TEST(Page, escapesTextAndEncodesBytes)
     EXPECT_EQ(toBase64("\xff\xfe\xfd"), "//79");
 }
 
-TEST(Page, noTextOfAFigureCanLeaveItsPlace)
+TEST(Page, textOfAFigureIsEscapedEverywhere)
 {
     const std::string evil = "\"><script>x</script>";
     Page page{evil, {evil}, {}, evil};

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Each field of a glTF file that a render depends on has its effect, and without it the specification's default holds.
+"""Every field of a glTF file that a render depends on has an effect, and without it the specification's default
+applies.
 
-  file_fields_test.py TOOL PART    (of the fields: 0 to 3)
+file_fields_test.py TOOL PART    (of the fields: 0 to 3)
 
-The defaults are those of Khronos: of glTF 2.0 and of its extensions. A scene has every field with a value that is not the
-default. For each field it is drawn as it is, without the field, with the default, and with each component of the value
-changed alone. Without it and with the default the image is the same to the byte; any two others differ.
-"""
+The defaults are those of glTF 2.0 and its extensions. In a scene every field has a value other than its default. For
+each field it is drawn unchanged, without the field, with the default, and with each component of the value changed
+alone. Images without the field and with the default are bitwise equal; any two others differ."""
 import copy
 import itertools
 import json
@@ -24,7 +24,7 @@ MATERIAL = "materials/0/"
 LIGHTS = "extensions/KHR_lights_punctual/lights/"
 ONE, NONE = [1, 1, 1], [0, 0, 0]
 
-# Where the field is, its default, and the words that draw it. ABSENT: without the field there is no value that says the same.
+# Path of the field, its default, and the words that draw it. ABSENT: no value means the same as leaving the field out.
 ABSENT = object()
 FIELDS = [
     (MATERIAL + "pbrMetallicRoughness/baseColorFactor", [1, 1, 1, 1], CAMERA_0),
@@ -97,7 +97,7 @@ FIELDS = [
     ("scene", 0, CAMERA_0),
 ]
 
-# Fields that have no default or may not be left out: each component of them changes the image.
+# Fields without a default, or that may not be left out: each component changes the image.
 REQUIRED = [
     ("cameras/0/perspective/yfov", CAMERA_0),
     ("cameras/1/orthographic/ymag", CAMERA_1),
@@ -116,7 +116,7 @@ REQUIRED = [
     ("animations/0/channels/1/target/path", [*CAMERA_0, "--animation", "0", "--time", "0.7"]),
 ]
 
-# In place of the value, where a number of it cannot simply be another one. Of an index: the next.
+# Replacement values for fields whose numbers cannot simply be changed. For an index: the next.
 OTHERS = {
     "materials/3/alphaMode": ["MASK"], "materials/4/alphaMode": ["BLEND"],
     "samplers/0/wrapS": [33071], "samplers/0/wrapT": [33648], "samplers/0/magFilter": [],
@@ -129,7 +129,7 @@ OTHERS = {
 
 
 def scene(folder):
-    """The room of the tables, with what it lacks: every texture, a second scene, a child, a matrix."""
+    """The room of the tables plus what it lacks: every texture, a second scene, a child, a matrix."""
     make_inputs(folder)
     root = json.loads((folder / "room.gltf").read_text())
     first = root["materials"][0]
@@ -164,7 +164,7 @@ def scene(folder):
 
 
 def owner(root, path):
-    """What holds the last name of the path, and that name."""
+    """The container of the last name of the path, and that name."""
     *names, last = [int(n) if n.isdigit() else n for n in path.split("/")]
     for name in names:
         root = root[name]
@@ -172,7 +172,7 @@ def owner(root, path):
 
 
 def changed(root, path, value):
-    """A copy with another value there, or without the field."""
+    """A copy with another value at the path, or without the field."""
     made = copy.deepcopy(root)
     holder, name = owner(made, path)
     if value is ABSENT:
@@ -184,7 +184,7 @@ def changed(root, path, value):
 
 
 def others(path, value):
-    """The value with each of its numbers changed alone."""
+    """The value with each of its numbers changed on its own."""
     if path in OTHERS:
         return OTHERS[path]
     if isinstance(value, dict) or isinstance(value, (str, bool)):

@@ -1,4 +1,4 @@
-// The one way in which files are written, and the account of what is read and written.
+// OutputFile, through which all files are written, and the record of files read and written.
 #include <gtest/gtest.h>
 
 #include <cerrno>
@@ -24,8 +24,8 @@ namespace {
 using namespace test;
 namespace fs = std::filesystem;
 
-// The account is the process's; each test has one of its own.
-class FileAccount : public ::testing::Test {
+// The record belongs to the process; every test starts a new one.
+class InputGuard : public ::testing::Test {
 protected:
     void SetUp() override
     {
@@ -39,13 +39,13 @@ protected:
     void TearDown() override { guardInputs(/*overwrite*/ true); }
 
     TemporaryFolder folder;
-    // Names of one file.
+    // Names of the same file.
     const std::vector<std::string> spellings = {"real/in.png", "real/./in.png",       "real/deep/../in.png",
                                                 "link/in.png", "link/deep/../in.png", "hard.png",
                                                 "soft.png"};
 };
 
-TEST(Outputs, throughASymbolicLinkGoToWhatItLeadsTo)
+TEST(Outputs, throughASymbolicLinkReplaceItsTarget)
 {
     TemporaryFolder folder;
     fs::create_directory(folder / "real");
@@ -66,8 +66,8 @@ TEST(Outputs, throughASymbolicLinkGoToWhatItLeadsTo)
     EXPECT_EQ(text, "made");
 }
 
-// Such a folder has no name that the system takes: names in it are told apart as they are written.
-TEST_F(FileAccount, filesAreToldApartInFoldersDeeperThanNamesMayBeLong)
+// The system accepts no full path of a file in such a folder; names in it are compared as they are spelled.
+TEST_F(InputGuard, filesAreDistinguishedInFoldersDeeperThanTheLongestPath)
 {
     const int start = open(".", O_RDONLY | O_DIRECTORY);
     ASSERT_GE(start, 0);
@@ -94,7 +94,7 @@ TEST_F(FileAccount, filesAreToldApartInFoldersDeeperThanNamesMayBeLong)
     fs::remove(top);
 }
 
-TEST_F(FileAccount, anOutputIsRefusedByEveryNameOfAnInput)
+TEST_F(InputGuard, anOutputIsRefusedByEveryNameOfAnInput)
 {
     for (const std::string& input : spellings)
         for (const std::string& output : spellings) {
@@ -104,23 +104,23 @@ TEST_F(FileAccount, anOutputIsRefusedByEveryNameOfAnInput)
             ASSERT_FALSE(planned) << input << " " << output;
             EXPECT_EQ(planned.error().kind, ErrorKind::usage);
             EXPECT_NE(planned.error().message.find("-o " + (folder / output).string()), std::string::npos);
-            EXPECT_NE(planned.error().message.find((folder / input).string() + ", which is read"), std::string::npos);
+            EXPECT_NE(planned.error().message.find((folder / input).string() + ", which is an"), std::string::npos);
         }
 }
 
-TEST_F(FileAccount, readingIsRefusedByEveryNameOfAPlannedOutput)
+TEST_F(InputGuard, readingIsRefusedByEveryNameOfAPlannedOutput)
 {
     for (const std::string& input : spellings)
         for (const std::string& output : spellings) {
             guardInputs(false);
             ASSERT_TRUE(planOutput("-o", folder / output));
             EXPECT_FALSE(noteInput(folder / input)) << input << " " << output;
-            EXPECT_TRUE(refusal().has_value());
+            EXPECT_TRUE(firstRefusal().has_value());
             EXPECT_FALSE(beginOutput(folder / output)) << "written although a reader went on without it";
         }
 }
 
-TEST_F(FileAccount, twoOutputsAreRefusedInOnePlaceThatDoesNotExistYet)
+TEST_F(InputGuard, twoOutputsWithOneNewPathAreRefused)
 {
     for (const auto& [a, b] : {std::pair("new.png", "./new.png"),
                                {"real/new.png", "link/deep/../new.png"},
@@ -135,7 +135,7 @@ TEST_F(FileAccount, twoOutputsAreRefusedInOnePlaceThatDoesNotExistYet)
     }
 }
 
-TEST_F(FileAccount, whatIsWrittenWithoutAPlanIsCheckedToo)
+TEST_F(InputGuard, unplannedOutputsAreCheckedToo)
 {
     ASSERT_TRUE(noteInput(folder / "real/in.png"));
     EXPECT_FALSE(writeFileWhole(folder / "hard.png", "new"));
@@ -145,7 +145,7 @@ TEST_F(FileAccount, whatIsWrittenWithoutAPlanIsCheckedToo)
     EXPECT_EQ(readWhole(folder / "a"), "first");
 }
 
-TEST_F(FileAccount, differentFilesPipesAndFinishedOutputsAreLeftAlone)
+TEST_F(InputGuard, differentFilesPipesAndFinishedOutputsAreAllowed)
 {
     ASSERT_TRUE(noteInput(folder / "real/in.png"));
     EXPECT_TRUE(planOutput("-o", folder / "in.png"));
@@ -155,7 +155,7 @@ TEST_F(FileAccount, differentFilesPipesAndFinishedOutputsAreLeftAlone)
     EXPECT_TRUE(planOutput("--json", "/dev/null"));
 }
 
-TEST_F(FileAccount, withOverwriteEverythingIsAllowedAndReplacedWhole)
+TEST_F(InputGuard, withOverwriteEverythingIsAllowed)
 {
     guardInputs(/*overwrite*/ true);
     ASSERT_TRUE(noteInput(folder / "real/in.png"));
@@ -167,7 +167,7 @@ TEST_F(FileAccount, withOverwriteEverythingIsAllowedAndReplacedWhole)
 
 std::size_t entries(const fs::path& folder) { return std::size_t(std::distance(fs::directory_iterator(folder), {})); }
 
-TEST(OutputFiles, whatIsNotCommittedLeavesNothingAndTheOldFile)
+TEST(OutputFiles, uncommittedOutputsKeepTheOldFile)
 {
     TemporaryFolder folder;
     std::ofstream(folder / "a.png") << "old";
@@ -190,23 +190,23 @@ TEST(OutputFiles, aNameAsLongAsAFolderTakesCanBeWritten)
     EXPECT_EQ(readWhole(folder / name), "text");
 }
 
-TEST(OutputFiles, aFullDeviceIsSaidToBeFull)
+TEST(OutputFiles, aFullDeviceIsReportedAsFull)
 {
     const Status written = writeFileWhole("/dev/full", "text");
     ASSERT_FALSE(written);
     EXPECT_EQ(written.error().message, "/dev/full: cannot write: no space left on the device");
 }
 
-TEST(OutputFiles, partsOfProcessesThatAreGoneAreFoundAndOthersAreNot)
+TEST(OutputFiles, onlyPartialFilesOfEndedProcessesAreFound)
 {
     TemporaryFolder folder;
     const pid_t child = ::fork();
     if (child == 0) {
         const auto half = OutputFile::begin(folder / "a.png");
-        ::_exit(half && writeBytes(half->path(), {}) ? 0 : 1); // without removing it
+        ::_exit(half && writeBytes(half->path(), {}) ? 0 : 1); // without removing the part
     }
     int status = -1;
-    ASSERT_EQ(::waitpid(child, &status, 0), child); // its number is free now
+    ASSERT_EQ(::waitpid(child, &status, 0), child); // its process number is free now
     ASSERT_EQ(status, 0);
     const fs::path left = fs::directory_iterator(folder.path())->path();
     EXPECT_TRUE(left.filename().string().starts_with(".cotan-" + std::to_string(child) + "-")) << left;
@@ -219,7 +219,7 @@ TEST(OutputFiles, partsOfProcessesThatAreGoneAreFoundAndOthersAreNot)
     std::ofstream(folder / ".cotan-x-0.part") << "mine";
     std::ofstream(folder / "a.part.png") << "mine";
     EXPECT_EQ(leftParts(folder.path()), std::vector<fs::path>{left});
-    removeParts(folder.path(), 0); // no process has a part
+    removeParts(folder.path(), 0); // process 0 has no parts
     EXPECT_TRUE(fs::exists(left));
     EXPECT_TRUE(fs::exists(folder / "a.part.png"));
     removeParts(folder.path(), child);
@@ -228,12 +228,12 @@ TEST(OutputFiles, partsOfProcessesThatAreGoneAreFoundAndOthersAreNot)
     EXPECT_TRUE(fs::exists(ours->path()));
 }
 
-TEST(OutputFiles, aNameWithoutAProcessIsNoPart)
+TEST(OutputFiles, aNameWithoutAProcessIsNoPartialFile)
 {
     TemporaryFolder folder;
     auto ours = OutputFile::begin(folder / "a.png");
     ASSERT_TRUE(ours);
-    // A process below 0 stands for a group, which is not there.
+    // A negative process number would mean a process group, and there is no such group.
     const std::string number = std::to_string(::getpid());
     std::string name = ours->path().filename().string();
     name.replace(name.find(number), number.size(), "-999999");
@@ -241,7 +241,7 @@ TEST(OutputFiles, aNameWithoutAProcessIsNoPart)
     EXPECT_TRUE(leftParts(folder.path()).empty());
 }
 
-TEST(OutputFiles, whatIsOpenUnderProcIsWrittenThrough)
+TEST(OutputFiles, filesOpenUnderProcAreWrittenThrough)
 {
     TemporaryFolder folder;
     std::ofstream(folder / "a.txt") << "old";
@@ -249,13 +249,13 @@ TEST(OutputFiles, whatIsOpenUnderProcIsWrittenThrough)
     ASSERT_GE(file, 0);
     EXPECT_TRUE(writeFileWhole("/proc/self/fd/" + std::to_string(file), "new"));
     char text[4] = "";
-    EXPECT_EQ(::pread(file, text, 3, 0), 3); // the file that is open, not another one of its name
+    EXPECT_EQ(::pread(file, text, 3, 0), 3); // the open file, not another one of its name
     EXPECT_EQ(std::string(text), "new");
     ::close(file);
     EXPECT_EQ(entries(folder.path()), 1u);
 }
 
-TEST(OutputFiles, writingGoesOnAfterASignal)
+TEST(OutputFiles, writingContinuesAfterASignal)
 {
     TemporaryFolder folder;
     const fs::path pipe = folder / "pipe";
@@ -268,7 +268,7 @@ TEST(OutputFiles, writingGoesOnAfterASignal)
     const std::string sent(300000, 'x');
     Status written = Done{};
     std::thread writer([&] { written = writeBytes(pipe, std::as_bytes(std::span(sent.data(), sent.size()))); });
-    for (int i = 0; i < 50; ++i) { // the pipe is full soon
+    for (int i = 0; i < 50; ++i) { // the pipe is soon full
         ::usleep(2000);
         ::pthread_kill(writer.native_handle(), SIGUSR1);
     }
@@ -282,21 +282,21 @@ TEST(OutputFiles, writingGoesOnAfterASignal)
             ++idle;
         }
     }
-    ::close(reader); // a writer that still waits ends
+    ::close(reader); // ends a writer that still waits
     writer.join();
     ::sigaction(SIGUSR1, &before, nullptr);
     EXPECT_TRUE(written) << written.error().message;
     EXPECT_EQ(received, sent.size());
 }
 
-TEST(OutputFiles, aFullQuotaIsNoSpace)
+TEST(OutputFiles, aFullQuotaIsReportedAsNoSpace)
 {
     EXPECT_EQ(reasonOf(EDQUOT), "no space left on the device");
     EXPECT_EQ(reasonOf(ENOSPC), "no space left on the device");
     EXPECT_EQ(reasonOf(EACCES), "permission denied");
 }
 
-TEST(OutputFiles, whatALibrarySaysOfAPartIsSaidOfTheFile)
+TEST(OutputFiles, libraryErrorsAboutPartialFilesNameTheFinalFile)
 {
     TemporaryFolder folder;
     auto output = OutputFile::begin(folder / "a.png");
@@ -305,12 +305,12 @@ TEST(OutputFiles, whatALibrarySaysOfAPartIsSaidOfTheFile)
     EXPECT_EQ(output->failed(outputError(part + ": bad; " + name)).message,
               (folder / "a.png").string() + ": bad; a.png");
     EXPECT_EQ(output->failed(inputError(part)).message, part) << "of an input nothing is changed";
-    auto here = OutputFile::begin("a.png"); // in the folder of work, whose part is ./...
+    auto here = OutputFile::begin("a.png"); // in the working folder, where parts are named ./...
     ASSERT_TRUE(here);
     EXPECT_EQ(here->failed(outputError(here->path().string() + ": bad")).message, "a.png: bad");
 }
 
-TEST(OutputPlan, foldersAreMadeOnlyWhereThatWasSaidAndOptionsAreNamed)
+TEST(OutputPlan, foldersAreMadeOnlyIfAllowedAndErrorsNameOptions)
 {
     TemporaryFolder folder;
     using app::plannedIn, app::planOutputs;
@@ -327,12 +327,12 @@ TEST(OutputPlan, foldersAreMadeOnlyWhereThatWasSaidAndOptionsAreNamed)
     EXPECT_NE(twice.error().message.find("--csv"), std::string::npos) << twice.error().message;
 }
 
-// Dies by `signal` in the middle of writing; the status of the process.
+// Writes in a child process that dies by `signal` half-way; returns the status of the process.
 int statusAfter(int signal, const fs::path& folder, bool hold, bool ignored)
 {
     const pid_t child = ::fork();
     if (child == 0) {
-        ::signal(signal, ignored ? SIG_IGN : SIG_DFL); // whatever the shell handed on (nohup)
+        ::signal(signal, ignored ? SIG_IGN : SIG_DFL); // overrides what the shell passed on (nohup)
         removePartsOnInterrupt();
         auto a = OutputFile::begin(folder / "a.png"), b = OutputFile::begin(folder / "b.png");
         if (!a || !b || !writeBytes(a->path(), {}) || !writeBytes(b->path(), {}))
@@ -352,7 +352,7 @@ int statusAfter(int signal, const fs::path& folder, bool hold, bool ignored)
     return status;
 }
 
-TEST(OutputFiles, signalsRemoveThePartsAndEndTheProcessAsTheyWouldHave)
+TEST(OutputFiles, signalsRemovePartialFilesAndEndTheProcessAsUsual)
 {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
         TemporaryFolder folder;
@@ -363,7 +363,7 @@ TEST(OutputFiles, signalsRemoveThePartsAndEndTheProcessAsTheyWouldHave)
     }
 }
 
-TEST(OutputFiles, aSignalThatIsHeldComesAfterwardsAndOneThatWasIgnoredStaysIgnored)
+TEST(OutputFiles, blockedSignalsArriveLaterAndIgnoredOnesStayIgnored)
 {
     TemporaryFolder folder;
     const int held = statusAfter(SIGTERM, folder.path(), true, false);

@@ -18,13 +18,13 @@ using glm::dvec3;
 
 constexpr double kPixelsPerDegree = 0.7 * 3840 / 0.7 * std::numbers::pi / 180;
 
-// sRGB's linear colours to CIE XYZ, by columns, and what its white is there.
+// Linear sRGB colours to CIE XYZ, by columns, and the XYZ of white.
 const dmat3 kToXyz(0.4124564, 0.2126729, 0.0193339, 0.3575761, 0.7151522, 0.1191920, 0.1804375, 0.0721750, 0.9503041);
 const dvec3 kWhite = kToXyz * dvec3(1);
 
 double linearOf(double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); }
 
-// Luminance and two differences of colours, and back.
+// Luminance and two colour differences, and the inverse.
 dvec3 opponentOf(dvec3 linear)
 {
     const dvec3 c = kToXyz * linear / kWhite;
@@ -37,7 +37,7 @@ dvec3 linearOfOpponent(dvec3 c)
     return glm::inverse(kToXyz) * (dvec3(y + c.y / 500, y, y - c.z / 200) * kWhite);
 }
 
-// CIE L*a*b*, with less colour where it is dark (R. W. G. Hunt).
+// CIE L*a*b* with reduced chroma in dark colours (Hunt's adjustment).
 dvec3 labOf(dvec3 linear)
 {
     const dvec3 c = kToXyz * linear / kWhite;
@@ -51,7 +51,7 @@ dvec3 labOf(dvec3 linear)
 
 double distanceOf(dvec3 a, dvec3 b) { return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z); }
 
-// A kernel that is the product of a row and a column.
+// A separable kernel's row or column.
 using Row = std::vector<double>;
 
 struct Plane {
@@ -83,13 +83,13 @@ struct Normal {
     double weight, width; // a and b: weight * sqrt(pi / width) * exp(-pi^2 x^2 / width), x in degrees
 };
 
-// What the eye still tells apart of one opponent channel: a sum of two Gaussians.
-Plane seen(const Plane& plane, Normal first, Normal second, double widest)
+// An opponent channel after the eye's contrast sensitivity: filtered with a sum of two Gaussians.
+Plane filteredByEye(const Plane& plane, Normal first, Normal second, double widest)
 {
     const int radius =
         int(std::ceil(3 * std::sqrt(widest / (2 * std::numbers::pi * std::numbers::pi)) * kPixelsPerDegree));
     std::array<Row, 2> rows;
-    std::array<double, 2> share{};
+    std::array<double, 2> total{};
     for (int i = 0; i < 2; ++i) {
         const Normal g = i == 0 ? first : second;
         double sum = 0;
@@ -100,18 +100,18 @@ Plane seen(const Plane& plane, Normal first, Normal second, double widest)
         }
         for (double& w : rows[std::size_t(i)])
             w /= sum;
-        share[std::size_t(i)] = g.weight * std::sqrt(std::numbers::pi / g.width) * sum * sum;
+        total[std::size_t(i)] = g.weight * std::sqrt(std::numbers::pi / g.width) * sum * sum;
     }
     Plane a = plane.filtered(rows[0], rows[0]);
     if (second.weight == 0)
         return a;
     const Plane b = plane.filtered(rows[1], rows[1]);
     for (std::size_t i = 0; i < a.values.size(); ++i)
-        a.values[i] = (a.values[i] * share[0] + b.values[i] * share[1]) / (share[0] + share[1]);
+        a.values[i] = (a.values[i] * total[0] + b.values[i] * total[1]) / (total[0] + total[1]);
     return a;
 }
 
-// Edges and points of the luminance: the lengths of the answers to a first and a second derivative.
+// Edges and points of the luminance: responses to first and second derivatives.
 struct Features {
     Plane edgeX, edgeY, pointX, pointY;
     glm::dvec2 at(std::size_t i) const
@@ -136,7 +136,7 @@ Features featuresOf(const Plane& luminance)
         sum += g;
     for (double& g : gauss)
         g /= sum;
-    for (Row* const row : {&first, &second}) { // weights above and below zero are 1 and -1 together
+    for (Row* const row : {&first, &second}) { // positive and negative weights sum to 1 and -1
         double above = 0, below = 0;
         for (const double w : *row)
             (w > 0 ? above : below) += std::abs(w);
@@ -167,9 +167,9 @@ Eye eyeOf(const Image& image)
         luminance.values.push_back((opponent.x + 16) / 116);
     }
     constexpr double widest = 0.04;
-    planes[0] = seen(planes[0], {1, 0.0047}, {0, 1e-5}, widest);
-    planes[1] = seen(planes[1], {1, 0.0053}, {0, 1e-5}, widest);
-    planes[2] = seen(planes[2], {34.1, 0.04}, {13.5, 0.025}, widest);
+    planes[0] = filteredByEye(planes[0], {1, 0.0047}, {0, 1e-5}, widest);
+    planes[1] = filteredByEye(planes[1], {1, 0.0053}, {0, 1e-5}, widest);
+    planes[2] = filteredByEye(planes[2], {34.1, 0.04}, {13.5, 0.025}, widest);
     Eye eye{{}, featuresOf(luminance)};
     for (std::size_t i = 0; i < image.pixelCount(); ++i)
         eye.lab.push_back(labOf(glm::clamp(
@@ -179,17 +179,17 @@ Eye eyeOf(const Image& image)
 
 } // namespace
 
-double flipError(const Image& reference, const Image& picture, const std::vector<bool>& counted)
+double flipError(const Image& reference, const Image& candidate, const std::vector<bool>& counted)
 {
-    const Eye a = eyeOf(reference), b = eyeOf(picture);
-    const double most = std::pow(distanceOf(labOf({0, 1, 0}), labOf({0, 0, 1})), 0.7), knee = 0.4 * most;
+    const Eye a = eyeOf(reference), b = eyeOf(candidate);
+    const double maxDistance = std::pow(distanceOf(labOf({0, 1, 0}), labOf({0, 0, 1})), 0.7), knee = 0.4 * maxDistance;
     double sum = 0;
     std::size_t count = 0;
     for (std::size_t i = 0; i < reference.pixelCount(); ++i) {
         if (!counted[i])
             continue;
         const double apart = std::pow(distanceOf(a.lab[i], b.lab[i]), 0.7);
-        const double colour = apart < knee ? apart * 0.95 / knee : 0.95 + (apart - knee) / (most - knee) * 0.05;
+        const double colour = apart < knee ? apart * 0.95 / knee : 0.95 + (apart - knee) / (maxDistance - knee) * 0.05;
         const glm::dvec2 change = glm::abs(a.features.at(i) - b.features.at(i));
         const double feature = std::sqrt(std::max(change.x, change.y) / std::numbers::sqrt2);
         sum += std::pow(colour, 1 - std::min(feature, 1.0));

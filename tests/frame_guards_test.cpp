@@ -1,4 +1,4 @@
-// The guards of frame.h one by one, the frames from vertex attributes, and the table of frames.
+// The guards of frame.h one by one, frames from vertex attributes, and the table of frames.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr std::array kUnusable = {kNan, kInf, -kInf, 3e38f, -3e38f};
 
-// Every number that a frame from differences takes.
+// All numbers that a frame from differences takes.
 struct Arguments {
     std::array<float, 13> numbers = {0.2f,  -0.1f, 0.9f,                    // n
                                      0.03f, 0.01f, 0,     -0.02f, 0.05f, 0, // dpdx, dpdy
@@ -39,7 +39,7 @@ void expectPlain(const f32::cotan_frame& f, const char* what, std::string_view f
     EXPECT_EQ(f.b, glm::vec3(0)) << what << ' ' << frame << ' ' << k << ' ' << bad;
 }
 
-TEST(FrameGuards, oneUnusableDifferenceLeavesThePlainNormal)
+TEST(FrameGuards, anyUnusableDifferenceGivesThePlainNormal)
 {
     const glm::vec3 n = glm::normalize(Arguments().triple(0));
     for (const Frame frame : kTotal)
@@ -53,13 +53,13 @@ TEST(FrameGuards, oneUnusableDifferenceLeavesThePlainNormal)
             }
 }
 
-TEST(FrameGuards, aNormalThatIsNotFiniteIsReplacedByTheFootprintsAndTheFrameStays)
+TEST(FrameGuards, nonFiniteNormalsAreReplacedByThatOfTheFootprint)
 {
     for (const Frame frame : kTotal) {
         Arguments facing;
         facing.numbers[0] = facing.numbers[1] = 0;
         facing.numbers[2] = 1;
-        const f32::cotan_frame expected = facing.frame(frame); // the footprint lies in z = 0, counter-clockwise
+        const f32::cotan_frame expected = facing.frame(frame); // the footprint is in z = 0, counter-clockwise
         for (std::size_t k = 0; k < 3; ++k)
             for (const float bad : kUnusable) {
                 Arguments a;
@@ -72,9 +72,9 @@ TEST(FrameGuards, aNormalThatIsNotFiniteIsReplacedByTheFootprintsAndTheFrameStay
     }
 }
 
-TEST(FrameGuards, badUvDoNotTakeThePositionsWithThem)
+TEST(FrameGuards, badUvDoNotInvalidateThePositions)
 {
-    // Without n, the positions still say where the surface faces.
+    // Without n, the positions still give the direction that the surface faces.
     for (const Frame frame : kTotal) {
         Arguments a;
         a.numbers[0] = a.numbers[1] = a.numbers[2] = 0;
@@ -87,7 +87,7 @@ TEST(FrameGuards, badUvDoNotTakeThePositionsWithThem)
     }
 }
 
-TEST(FrameGuards, zeroAndConstantInputsLeaveThePlainNormal)
+TEST(FrameGuards, zeroAndConstantInputsGiveThePlainNormal)
 {
     for (const Frame frame : kTotal) {
         Arguments uv;
@@ -99,7 +99,7 @@ TEST(FrameGuards, zeroAndConstantInputsLeaveThePlainNormal)
             p.numbers[k] = 0;
         expectPlain(p.frame(frame), "one place", name(frame), 0, 0);
     }
-    Arguments line; // uv along one line: no orthonormal frame; a footprint without area: no gradient
+    Arguments line; // collinear uv: no orthonormal frame; a footprint without area: no gradient
     line.numbers[11] = 2 * line.numbers[9];
     line.numbers[12] = 2 * line.numbers[10];
     expectPlain(line.frame(Frame::orthonormal), "uv along a line", "orthonormal", 0, 0);
@@ -108,14 +108,14 @@ TEST(FrameGuards, zeroAndConstantInputsLeaveThePlainNormal)
         thin.numbers[6 + k] = 2 * thin.numbers[3 + k];
     expectPlain(thin.frame(Frame::gradient), "no area", "gradient", 0, 0);
     expectPlain(thin.frame(Frame::exact), "no area", "exact", 0, 0);
-    Arguments edgeOn; // n in the plane of the footprint, along dpdx
+    Arguments edgeOn; // n lies in the plane of the footprint, along dpdx
     edgeOn.numbers = {0.6f, 0.8f, 0, 0.3f, 0.4f, 0, -0.4f, 0.3f, 0, 0.2f, -0.1f, 0.05f, 0.3f};
     expectPlain(edgeOn.frame(Frame::gradient), "n in the plane", "gradient", 0, 0);
 }
 
-TEST(FrameGuards, gradientHasNoFrameWhereItsDivisionWouldOverflow)
+TEST(FrameGuards, gradientHasNoFrameIfItsDivisionWouldOverflow)
 {
-    // Seen along n, the footprint has that share of its area: on both sides of the threshold of 1e-12.
+    // `seen` is the fraction of the footprint's area that is visible along n: on both sides of the threshold of 1e-12.
     for (const float seen : {1e-13f, 1e-11f}) {
         Arguments a;
         a.numbers = {1, 0, seen, 1, 0, 0, 0, 1, 0, 0.5f, 0.25f, -0.5f, 1};
@@ -128,7 +128,7 @@ TEST(FrameGuards, gradientHasNoFrameWhereItsDivisionWouldOverflow)
     }
 }
 
-TEST(FrameGuards, scaleIsAPowerOfTwoThatPutsTheLargestInOneToTwo)
+TEST(FrameGuards, scaleIsAPowerOfTwoThatNormalisesTheLargest)
 {
     for (const auto& [m, s] : {std::pair(1.0f, 1.0f), std::pair(1.99f, 1.0f), std::pair(2.0f, 0.5f),
                                std::pair(3.5f, 0.5f), std::pair(0.75f, 2.0f), std::pair(0.03f, 64.0f)})
@@ -145,7 +145,7 @@ TEST(FrameGuards, scaleIsAPowerOfTwoThatPutsTheLargestInOneToTwo)
     EXPECT_EQ(d.dpdy, glm::vec3(0.025f, 0, 0.5f));
     EXPECT_EQ(d.duvdx, glm::vec2(0.32f, 0.64f));
     EXPECT_EQ(d.duvdy, glm::vec2(-1.92f, 0));
-    // The largest may be any of the ten.
+    // Any of the ten numbers may be the largest.
     for (std::size_t k = 3; k < 13; ++k) {
         Arguments a;
         a.numbers[k] = -24;
@@ -154,7 +154,7 @@ TEST(FrameGuards, scaleIsAPowerOfTwoThatPutsTheLargestInOneToTwo)
     }
 }
 
-TEST(FrameGuards, normalizeOrKeepsEveryLengthItCanAndReturnsTheOtherAsItIs)
+TEST(FrameGuards, normalizeOrReturnsTheFallbackOnlyIfItMust)
 {
     const glm::vec3 v(2, -3, 6), other(0.1f, 0.2f, 0.3f);
     for (const float length : {1e-36f, 1e-20f, 1.0f, 1e10f, 1e35f})
@@ -162,7 +162,7 @@ TEST(FrameGuards, normalizeOrKeepsEveryLengthItCanAndReturnsTheOtherAsItIs)
     for (const glm::vec3 bad : {glm::vec3(0), glm::vec3(kNan, 1, 2), glm::vec3(1, kNan, 2), glm::vec3(1, 2, kNan),
                                 glm::vec3(1, kInf, 0), glm::vec3(0, 0, 3e37f)})
         EXPECT_EQ(f32::cotan_normalize_or(bad, other), other) << bad.x << ' ' << bad.y << ' ' << bad.z;
-    // A normal that cancelled out, no footprint either.
+    // Neither the normal nor the footprint is usable.
     EXPECT_EQ(f32::cotan_safe_normal({0, 0, 0}, {0, 0, 0}, {0, 0, 0}), glm::vec3(0, 0, 1));
     EXPECT_LT(glm::length(f32::cotan_safe_normal({0, 0, 0}, {0, 2, 0}, {0, 0, 3}) - glm::vec3(1, 0, 0)), 1e-6f);
 }
@@ -189,22 +189,22 @@ f32::cotan_frame skewed()
     return f;
 }
 
-TEST(FrameGuards, applyIsTheNormalisedSumAndReturnsNWhereThereIsNone)
+TEST(FrameGuards, applyIsTheNormalisedSumOrN)
 {
     const f32::cotan_frame f = skewed();
     const glm::vec3 m(0.3f, -0.5f, 0.7f);
     EXPECT_LT(glm::length(f32::cotan_apply(f, m) - glm::normalize(f.t * m.x + f.b * m.y + f.n * m.z)), 1e-6f);
-    EXPECT_EQ(f32::cotan_apply(f, {0, 0, 0}), f.n); // as it stands, not unit
+    EXPECT_EQ(f32::cotan_apply(f, {0, 0, 0}), f.n); // unchanged, not normalised
     EXPECT_EQ(f32::cotan_apply(f, {1e-8f, 0, 0}), f.n);
     EXPECT_EQ(f32::cotan_apply(f, {kNan, 0, 1}), f.n);
     EXPECT_EQ(f32::cotan_apply(f, {0, kInf, 1}), f.n);
-    EXPECT_EQ(f32::cotan_apply(f, {1e19f, 0, 1}), f.n); // its square is past 1e37
+    EXPECT_EQ(f32::cotan_apply(f, {1e19f, 0, 1}), f.n); // its square exceeds 1e37
     f32::cotan_frame flat = f;
     flat.t = flat.b = glm::vec3(0);
     EXPECT_EQ(f32::cotan_apply(flat, {1, 0, 0}), f.n);
 }
 
-TEST(FrameGuards, encodeSolvesForTheTexelOfAnyThreeAxesAndIsFlatForDependentOnes)
+TEST(FrameGuards, encodeSolvesForTheTexelAndIsFlatForDependentAxes)
 {
     const f32::cotan_frame f = skewed();
     for (const glm::vec3 m : {glm::vec3(2, -3, 6) / 7.0f, glm::vec3(-6, 2, 3) / 7.0f, glm::vec3(3, 6, -2) / 7.0f}) {
@@ -215,7 +215,7 @@ TEST(FrameGuards, encodeSolvesForTheTexelOfAnyThreeAxesAndIsFlatForDependentOnes
     }
     f32::cotan_frame dependent = f;
     dependent.t = {1, 0, 0};
-    dependent.b = {2, 0, 0}; // along the axis no rounding hides it
+    dependent.b = {2, 0, 0}; // axis-aligned, so that no rounding hides it
     for (const f32::cotan_frame& g : {dependent, f32::cotan_frame{{0, 0, 0}, {0, 0, 0}, {0, 0, 1}},
                                       f32::cotan_frame{{kNan, 0, 0}, {0, 1, 0}, {0, 0, 1}}})
         EXPECT_EQ(f32::cotan_encode(g, {0.6f, 0, 0.8f}), glm::vec3(0, 0, 1));
@@ -240,7 +240,7 @@ TEST(SmoothFrame, isProjectedOntoThePlaneOfNAndScaledByTheLonger)
     }
 }
 
-TEST(SmoothFrame, oneUnusableNumberLeavesThePlainNormal)
+TEST(SmoothFrame, anyUnusableNumberGivesThePlainNormal)
 {
     const glm::vec3 n(0, 0.6f, 0.8f);
     for (std::size_t k = 0; k < 6; ++k)
@@ -252,7 +252,7 @@ TEST(SmoothFrame, oneUnusableNumberLeavesThePlainNormal)
             EXPECT_EQ(f.b, glm::vec3(0)) << k << ' ' << bad;
             EXPECT_LT(glm::length(f.n - n), 1e-6f) << k << ' ' << bad;
         }
-    // However different in length.
+    // Lengths may differ by any factor.
     EXPECT_EQ(f32::cotan_frame_smooth({0, 0, 1}, {1e-20f, 0, 0}, {0, 1e20f, 0}).b, glm::vec3(0, 1, 0));
     EXPECT_EQ(f32::cotan_frame_smooth({0, 0, 1}, {1e20f, 0, 0}, {0, 1e-20f, 0}).t, glm::vec3(1, 0, 0));
     const f32::cotan_frame none = f32::cotan_frame_smooth(n, {0, 0, 0}, {0, 0, 0});
@@ -277,7 +277,7 @@ TEST(VertexFrame, isMadeOrthonormalAgain)
     }
 }
 
-TEST(VertexFrame, aTangentThatIsNoneOrAlongNLeavesThePlainNormal)
+TEST(VertexFrame, missingTangentsOrOnesAlongNGiveThePlainNormal)
 {
     const glm::vec3 n(0, 0, 2);
     for (const glm::vec3 t : {glm::vec3(0), glm::vec3(0, 0, 3), glm::vec3(0, 0, -1e-30f), glm::vec3(kNan, 0, 0),
@@ -289,7 +289,7 @@ TEST(VertexFrame, aTangentThatIsNoneOrAlongNLeavesThePlainNormal)
     }
 }
 
-TEST(MikktspaceFrame, takesWhatIsInterpolatedAsItIs)
+TEST(MikktspaceFrame, usesInterpolatedVectorsUnchanged)
 {
     const glm::vec3 n(0.1f, 0.2f, 0.7f), t(0.8f, -0.3f, 0.2f);
     for (const float handedness : {1.0f, -1.0f}) {
@@ -302,7 +302,7 @@ TEST(MikktspaceFrame, takesWhatIsInterpolatedAsItIs)
 
 // ---- the table of frames -----------------------------------------------------------------------
 
-TEST(FrameTable, whatIsTotalIsFiniteWithoutAnyDifferenceAndTheRestIsNot)
+TEST(FrameTable, onlyTotalFramesAreFiniteForZeroDifferences)
 {
     for (const FrameInfo& f : frames()) {
         const f32::cotan_frame none =
@@ -311,7 +311,7 @@ TEST(FrameTable, whatIsTotalIsFiniteWithoutAnyDifferenceAndTheRestIsNot)
     }
 }
 
-// A function of the portable text against the evaluation of the frame that has its name, with one list of arguments.
+// Compares a function of the portable text with the evaluation of the frame of that name, for the same arguments.
 template<class Found, class Expected>
 void expectSame(const Found& found, const Expected& expected, std::string_view name)
 {
@@ -321,8 +321,8 @@ void expectSame(const Found& found, const Expected& expected, std::string_view n
     EXPECT_EQ(found.n, expected.n) << name;
 }
 
-// By hand for one frame of each source: the rows themselves are made by one macro.
-TEST(FrameTable, evaluationCallsTheFunctionOfThatNameInBothPrecisions)
+// One frame of each source by hand; one macro generates the rows themselves.
+TEST(FrameTable, evaluationCallsTheNamedFunctionInBothPrecisions)
 {
     const Arguments a;
     const glm::vec3 n = a.triple(0), x = a.triple(3), y = a.triple(6);
@@ -340,8 +340,8 @@ TEST(FrameTable, evaluationCallsTheFunctionOfThatNameInBothPrecisions)
     expectSame(evaluateTangents(Frame::mikktspace, nd, xd, -1), f64::cotan_frame_mikktspace(nd, xd, -1), "f64");
 }
 
-// What reads the vertices has nothing to evaluate from differences, and the other way round.
-TEST(FrameTable, aFrameOfAnotherSourceIsThePlainNormal)
+// Frames from vertices cannot be evaluated from differences, nor the reverse.
+TEST(FrameTable, framesOfAnotherSourceGiveThePlainNormal)
 {
     const Arguments a;
     for (const FrameInfo& f : frames()) {

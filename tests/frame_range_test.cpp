@@ -1,5 +1,5 @@
-// The ranges that fused.h and frame.h state: random input, log-uniform over all of them and at their
-// corners, in float with denormals flushed, against the frames in double.
+// The ranges stated in fused.h and frame.h: random input, log-uniform over the ranges and at their corners, in float
+// with denormals flushed, compared with the frames in double.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,13 +12,13 @@ namespace cotan {
 namespace {
 
 struct Interval {
-    double least, most;
+    double low, high;
 };
 
-// Lengths of the longest position and uv differences, of their product and of n.
+// Ranges of the longest position and uv differences, of their product and of the length of n.
 struct InputRange {
     Interval position, uv, product, normal;
-    double minArea; // of a footprint, by its longest difference squared
+    double minArea; // of a footprint, relative to its longest difference squared
     double mostLean = 80;
 };
 
@@ -27,29 +27,28 @@ struct RangeInput {
     glm::vec2 duvdx, duvdy;
 
     double area() const { return glm::length(glm::cross(glm::dvec3(dpdx), glm::dvec3(dpdy))); }
-    double slope() const // the longest uv difference by the longest position difference
+    double slope() const // longest uv difference / longest position difference
     {
         return double(std::max(glm::length(duvdx), glm::length(duvdy)))
             / std::max(glm::length(glm::dvec3(dpdx)), glm::length(glm::dvec3(dpdy)));
     }
 };
 
-bool isWithin(double x, Interval i) { return x >= i.least && x <= i.most; }
+bool isWithin(double x, Interval i) { return x >= i.low && x <= i.high; }
 
-// Log-uniform, and at each end one time in seven. The ends are moved in by what rounding to float
-// may take.
+// A log-uniform number; in two of seven cases one of the ends. The ends are moved inwards by the rounding to float.
 double anyIn(Random& random, Interval i)
 {
     const double k = random.unit();
     if (k < 1.0 / 7)
-        return i.least * (1 + 1e-5);
+        return i.low * (1 + 1e-5);
     if (k > 6.0 / 7)
-        return i.most * (1 - 1e-5);
-    return std::exp(random.range(std::log(i.least), std::log(i.most)));
+        return i.high * (1 - 1e-5);
+    return std::exp(random.range(std::log(i.low), std::log(i.high)));
 }
 
-// Two differences, the longer of that length, with at least that share of its square between them:
-// short ones, nearly parallel ones, along the axes, in either order.
+// Two differences, the longer of length `longest`, that span at least `minArea` of its square: short ones, nearly
+// parallel ones, ones along the axes, in either order.
 void anyPair(Random& random, double longest, double minArea, glm::dvec2& a, glm::dvec2& b)
 {
     double shorter = 0, angle = 0;
@@ -97,7 +96,7 @@ double apart(glm::dvec3 a, glm::dvec3 b) { return std::atan2(glm::length(glm::cr
 using Shade = glm::vec3 (*)(const RangeInput&);
 using Truth = f64::cotan_frame (*)(glm::dvec3, glm::dvec3, glm::dvec3, glm::dvec2, glm::dvec2);
 
-// `cotangent` with its area-normalised scale, as a frame.
+// The frame `cotangent` with area-normalised scale.
 f64::cotan_frame byArea(glm::dvec3 n, glm::dvec3 dpdx, glm::dvec3 dpdy, glm::dvec2 duvdx, glm::dvec2 duvdy)
 {
     f64::cotan_frame f = f64::cotan_frame_cotangent(n, dpdx, dpdy, duvdx, duvdy);
@@ -111,7 +110,7 @@ struct RangedForm {
     const char* name;
     Shade shade;
     Truth truth;
-    bool (*covers)(const RangeInput&); // limits of its own
+    bool (*covers)(const RangeInput&); // additional limits of this form
 };
 
 bool any(const RangeInput&) { return true; }
@@ -145,7 +144,7 @@ const RangedForm kFusedForms[] = {
 const RangedForm kTotalForms[] = {
     {"cotangent", COTAN_TOTAL(cotan_frame_cotangent), f64::cotan_frame_cotangent, any},
     {"orthonormal", COTAN_TOTAL(cotan_frame_orthonormal), f64::cotan_frame_orthonormal, any},
-    // Slopes whose squares floats hold.
+    // Slopes whose squares fit into floats.
     {"gradient", COTAN_TOTAL(cotan_frame_gradient), f64::cotan_frame_gradient,
      [](const RangeInput& i) {
          return isWithin(i.slope(), {1e-17, 1e17});
@@ -153,7 +152,7 @@ const RangedForm kTotalForms[] = {
     {"exact", COTAN_TOTAL(cotan_frame_exact), f64::cotan_frame_exact, any},
 };
 
-// The largest angle in degrees from the truth, and the largest departure from unit length.
+// The largest angle from the truth, in degrees, and the largest deviation from unit length.
 struct Worst {
     double degrees = 0, length = 0;
 };
@@ -169,19 +168,19 @@ Worst worstOf(const RangedForm& form, const InputRange& range, int count)
             continue;
         const glm::dvec3 found(form.shade(i));
         const glm::dvec3 truth = f64::cotan_apply(form.truth(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy), i.m);
-        const double degrees = apart(truth, found); // a NaN is as wrong as can be
+        const double degrees = apart(truth, found); // a NaN counts as the largest error
         worst.degrees = std::isnan(degrees) ? 180 : std::max(worst.degrees, degrees);
         worst.length = std::max(worst.length, std::abs(glm::length(found) - 1));
     }
     return worst;
 }
 
-// A hundredth of a degree, as fused.h states it. Over 5 million inputs a form the worst was 0.007; a
-// floor that is met shows as whole degrees, rounding amplified fifty times as 0.005.
+// The hundredth of a degree that fused.h states. Over 5 million inputs per form the worst was 0.007. A guard that takes
+// effect would give whole degrees; rounding amplified fifty times gives 0.005.
 constexpr double kStated = 0.01;
 constexpr double kUnit = 1e-6; // a few roundings
 
-TEST(FusedRange, inTheStatedRangeTheFusedFormsAreTheFramesInDouble)
+TEST(FusedRange, fusedFormsMatchTheFramesInDoubleInTheStatedRange)
 {
     const InputRange stated = {{1e-9, 1e6}, {1e-9, 1e6}, {1e-12, 1e5}, {0.01, 100}, 0.1};
     for (const RangedForm& form : kFusedForms) {
@@ -191,29 +190,28 @@ TEST(FusedRange, inTheStatedRangeTheFusedFormsAreTheFramesInDouble)
     }
 }
 
-TEST(FusedRange, sliversOfAFiftiethHoldFromTheirProductOn)
+TEST(FusedRange, sliversMatchFromTheStatedProduct)
 {
     const InputRange slivers = {{1e-9, 1e6}, {1e-9, 1e6}, {1e-11, 1e5}, {0.01, 100}, 0.02};
     for (const RangedForm& form : kFusedForms)
         EXPECT_LT(worstOf(form, slivers, 60000).degrees, kStated) << form.name;
 }
 
-TEST(FusedRange, belowTheStatedProductTheyFadeWhichIsWhyItIsStated)
+TEST(FusedRange, fusedFormsAreInaccurateBelowTheStatedProduct)
 {
     const InputRange tooSmall = {{1e-9, 1e6}, {1e-9, 1e6}, {1e-16, 1e-15}, {0.01, 0.02}, 0.1};
     EXPECT_GT(worstOf(kFusedForms[0], tooSmall, 2000).degrees, 1);
     EXPECT_GT(worstOf(kFusedForms[4], tooSmall, 2000).degrees, 1);
 }
 
-// Any magnitude that counts as finite in frame.h and is no denormal; a sum of six components stays
-// below 1e37.
-TEST(TotalRange, theTotalFormsAreTheirFramesInDoubleAtEveryMagnitude)
+// Any magnitude that frame.h considers finite and that is not denormal; a sum of six components stays below 1e37.
+TEST(TotalRange, totalFormsMatchTheFramesInDoubleAtEveryMagnitude)
 {
     const InputRange everything = {{1e-36, 1e36}, {1e-36, 1e36}, {1e-72, 1e72}, {1e-36, 1e36}, 0.02};
     for (const RangedForm& form : kTotalForms) {
         const Worst worst = worstOf(form, everything, 60000);
-        // Rounding amplified by slivers of a fiftieth and a lean of 80 degrees: 6e-8 * 50 * 6 rad is
-        // 0.001 degrees, and a dozen of them may add up. Over 5 million inputs a form the worst was 0.006.
+        // Rounding amplified by slivers of a fiftieth and a tilt of 80 degrees: 6e-8 * 50 * 6 rad is 0.001 degrees, and
+        // a dozen may add up. Over 5 million inputs per form the worst was 0.006.
         EXPECT_LT(worst.degrees, 0.02) << form.name;
         EXPECT_LT(worst.length, kUnit) << form.name;
     }

@@ -1,4 +1,4 @@
-// What a frame of the table cotan/frames.inc needs in other places, by name: whoever adds a row reads here what is
+// The other files in which each frame of the table cotan/frames.inc must appear. Tells the author of a new row what is
 // missing.
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ std::string read(const std::string& file)
     return text.str();
 }
 
-// The frame's row in the table of docs/reference/conventions.md, and what the frame's properties make of it.
+// The frame's row in the table of docs/reference/conventions.md, derived from its properties.
 std::string rowOfDocs(const FrameInfo& f)
 {
     const char* from = f.source == FrameSource::differences ? "differences"
@@ -38,18 +38,18 @@ std::string rowOfDocs(const FrameInfo& f)
     return "| `" + std::string(f.name) + "` | " + from + " |" + yes(f.total) + yes(f.fused) + yes(!f.dependsOnView);
 }
 
-struct Place {
-    std::string file, text; // what of which file
+struct Requirement {
+    std::string file, text; // the file, and what it must contain
 };
 
-std::vector<Place> placesOf(const FrameInfo& f)
+std::vector<Requirement> requirementsOf(const FrameInfo& f)
 {
     const std::string word(f.word), name(f.name);
     const bool historical = read("shaders/cotan/history.h").find(" cotan_frame_" + word + "(") != std::string::npos;
     const std::string text = readsTriangleVectors(f.frame) ? "shaders/cotan/triangle.h"
         : historical                                       ? "shaders/cotan/history.h"
                                                            : "shaders/cotan/frame.h";
-    std::vector<Place> places = {{text, " cotan_frame_" + word + "("},
+    std::vector<Requirement> requirements = {{text, " cotan_frame_" + word + "("},
                                  {"docs/explanation/cost.md", "| " + name + " "},
                                  {"docs/reference/conventions.md", rowOfDocs(f)},
                                  {"docs/accuracy.csv", "," + name + ","},
@@ -57,28 +57,28 @@ std::vector<Place> placesOf(const FrameInfo& f)
                                  {"tests/portable_main.hlsl", "cotan_frame_" + word + "("}};
     if (f.fused)
         for (const char* file : {"shaders/cotan/fused.h", "tests/portable_main.glsl", "tests/portable_main.hlsl"})
-            places.push_back({file, "cotan_perturb_" + word + "("});
-    return places;
+            requirements.push_back({file, "cotan_perturb_" + word + "("});
+    return requirements;
 }
 
-// One line for each place that does not know the frame.
+// One line for each file that lacks the frame.
 std::vector<std::string> missing(const FrameInfo& f)
 {
     std::vector<std::string> lines;
-    for (const Place& place : placesOf(f))
-        if (read(place.file).find(place.text) == std::string::npos)
-            lines.push_back(std::string(f.name) + ": expected '" + place.text + "' in " + place.file + "; found none");
+    for (const Requirement& need : requirementsOf(f))
+        if (read(need.file).find(need.text) == std::string::npos)
+            lines.push_back(std::string(f.name) + ": expected '" + need.text + "' in " + need.file + "; found none");
     return lines;
 }
 
-TEST(FrameTable, everyPlaceThatNamesFramesKnowsEachOfThem)
+TEST(FrameTable, everyFileThatListsFramesHasEachFrame)
 {
     for (const FrameInfo& f : frames())
         for (const std::string& line : missing(f))
             ADD_FAILURE() << line;
 }
 
-TEST(FrameTable, ofAFrameThatIsNowhereEveryPlaceIsMissing)
+TEST(FrameTable, anUnknownFrameIsMissingFromEveryFile)
 {
     const FrameInfo unknown{Frame::cotangent,
                             "no-such",
@@ -90,20 +90,20 @@ TEST(FrameTable, ofAFrameThatIsNowhereEveryPlaceIsMissing)
                             true,
                             "",
                             ""};
-    EXPECT_EQ(missing(unknown).size(), placesOf(unknown).size());
+    EXPECT_EQ(missing(unknown).size(), requirementsOf(unknown).size());
 }
 
-TEST(FrameTable, aFusedFormIsStatedWhereThereIsOne)
+TEST(FrameTable, aFusedFormIsDeclaredIfItExists)
 {
     const std::string text = read("shaders/cotan/fused.h");
     for (const FrameInfo& f : frames())
         EXPECT_EQ(text.find("cotan_perturb_" + std::string(f.word) + "(") != std::string::npos, f.fused) << f.name;
 }
 
-// Printed text and tables of cost take their facts from the table: none of them asks which frame it is, but for
-// `cotangent`, the default, which alone has the forms `seen` and `area`, `gradient`, whose reference is that of sums of
-// gradients, `mikktspace`, with which costs are compared, and the four whose instructions the chapter of 2006 counted.
-TEST(FrameTable, textAndCostNameNoFrameThatIsNotAnException)
+// Shader text and cost tables test for no particular frame. Exceptions: `cotangent`, the default, which alone has the
+// forms `seen` and `area`; `gradient`, the reference for sums of gradients; `mikktspace`, with which costs are
+// compared; and the four frames whose instructions the chapter of 2006 counted.
+TEST(FrameTable, textAndCostNameOnlyTheExceptedFrames)
 {
     const std::map<std::string, std::set<std::string>> exceptions = {
         {"src/shader_text", {"cotangent", "gradient"}},
@@ -121,7 +121,7 @@ TEST(FrameTable, textAndCostNameNoFrameThatIsNotAnException)
         }
 }
 
-TEST(FrameTable, theDocumentHasNoFrameThatIsNot)
+TEST(FrameTable, theDocumentListsNoUnknownFrame)
 {
     std::istringstream text(read("docs/reference/conventions.md"));
     std::size_t rows = 0;
@@ -133,7 +133,7 @@ TEST(FrameTable, theDocumentHasNoFrameThatIsNot)
     EXPECT_EQ(rows, frames().size());
 }
 
-TEST(FrameTable, theShaderTextOfEachIsItsFunctionInEveryLanguage)
+TEST(FrameTable, theShaderTextOfEachFrameContainsItsFunction)
 {
     for (const FrameInfo& f : frames())
         for (const shader_text::Language language : shader_text::kLanguages)
@@ -142,7 +142,7 @@ TEST(FrameTable, theShaderTextOfEachIsItsFunctionInEveryLanguage)
                 choice.language = language;
                 choice.frame = f.frame;
                 choice.form = form;
-                choice.functionsOnly = true; // a whole shader of Godot cannot see edges
+                choice.functionsOnly = true; // a whole Godot shader cannot access edges
                 const auto made = makeShaderText(choice);
                 const bool fused = form == shader_text::Form::fused;
                 ASSERT_EQ(bool(made), !fused || f.fused) << f.name;
@@ -153,8 +153,8 @@ TEST(FrameTable, theShaderTextOfEachIsItsFunctionInEveryLanguage)
             }
 }
 
-// A triangle in xy whose u runs along x: whoever makes the tangents, they do.
-TEST(FrameTable, whatReadsTangentsHasAGeneratorOfThem)
+// On a triangle in xy with u along x, every generator must give the same tangent.
+TEST(FrameTable, framesThatReadTangentsHaveAGenerator)
 {
     const std::vector<glm::vec3> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, normals(3, {0, 0, 1});
     const std::vector<glm::vec2> uv = {{0, 1}, {1, 1}, {0, 0}};
@@ -163,7 +163,7 @@ TEST(FrameTable, whatReadsTangentsHasAGeneratorOfThem)
         const auto tangents = generateTangents(f.frame, {positions, normals, uv, indices});
         ASSERT_EQ(tangents.size(), readsTangents(f.frame) ? 3u : 0u) << f.name;
         for (const glm::vec4& t : tangents)
-            EXPECT_EQ(t, glm::vec4(1, 0, 0, 1)) << f.name; // v runs down: cross(n, t) points up the picture
+            EXPECT_EQ(t, glm::vec4(1, 0, 0, 1)) << f.name; // v points down: cross(n, t) points up the image
     }
 }
 

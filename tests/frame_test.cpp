@@ -16,14 +16,14 @@ constexpr std::array kDifferenceFrames = {
     Frame::orthonormal, Frame::gradient,       Frame::exact,
 };
 
-// Frames that are right for both y directions, all facings and mirrored uv: all but the one that
-// is kept as printed.
+// Frames that are right for both y directions, both facings and mirrored uv: all except the one that is kept as
+// printed.
 constexpr std::array kSignCorrectFrames = {
     Frame::cotangent,       Frame::nonperspective, Frame::paperFull,   Frame::paperNodet, Frame::paperTranspose,
     Frame::paperOrthogonal, Frame::unit,           Frame::orthonormal, Frame::gradient,   Frame::exact,
 };
 
-TEST(Frame, everyNameIsFoundAgainAndNamesAreDistinct)
+TEST(Frame, everyNameIsFoundAndNamesAreUnique)
 {
     std::set<std::string_view> names;
     for (const FrameInfo& f : frames()) {
@@ -75,7 +75,7 @@ TEST(Frame, uniformScaleOfTheObjectChangesOnlyTheMetricFrame)
         d.dpdy = d.dpdy * 7.0;
         const double change = degreesBetween(before, shade(frame, p.normal, d, m));
         if (frame == Frame::gradient) {
-            EXPECT_GT(change, 5); // bumps of the same height on an object seven times as large
+            EXPECT_GT(change, 5); // bumps of the same height on an object seven times larger
         } else {
             EXPECT_LT(change, 1e-10) << name(frame);
         }
@@ -90,11 +90,11 @@ TEST(Frame, rotatingTheSceneRotatesTheNormal)
         const AffinePatch p = randomPatch(random, true);
         const auto d =
             screenDifferences(PixelCamera::lookAt(p.normal * 3.0, {0, 0, 0}, random.direction(), 800), p, {0, 0, 0});
-        auto turned = d;
-        turned.dpdx = Vector3d(r * d.dpdx.raw());
-        turned.dpdy = Vector3d(r * d.dpdy.raw());
+        auto flipped = d;
+        flipped.dpdx = Vector3d(r * d.dpdx.raw());
+        flipped.dpdy = Vector3d(r * d.dpdy.raw());
         const glm::dvec3 m = tiltedTexel(random, 40);
-        EXPECT_LT(degreesBetween(r * shade(frame, p.normal, d, m), shade(frame, r * p.normal, turned, m)), 1e-11)
+        EXPECT_LT(degreesBetween(r * shade(frame, p.normal, d, m), shade(frame, r * p.normal, flipped, m)), 1e-11)
             << name(frame);
     }
 }
@@ -115,7 +115,7 @@ TEST(Frame, mirroredUFlipsTheTangentOnly)
     }
 }
 
-TEST(Frame, turningTheNormalRoundLeavesTheCotangentsAlone)
+TEST(Frame, reversingTheNormalKeepsTheCotangents)
 {
     Random random(5);
     for (Frame frame : {Frame::cotangent, Frame::gradient, Frame::exact}) {
@@ -129,7 +129,7 @@ TEST(Frame, turningTheNormalRoundLeavesTheCotangentsAlone)
     }
 }
 
-TEST(Frame, twoOptimisedPaperFormsAreTheSame)
+TEST(Frame, twoOptimisedPaperFormsAreEqual)
 {
     Random random(6);
     for (int i = 0; i < 200; ++i) {
@@ -144,8 +144,7 @@ TEST(Frame, twoOptimisedPaperFormsAreTheSame)
     }
 }
 
-// Where n leans away from the face normal the cotangents stay perpendicular to n, so that a map's z
-// keeps the sign of n.N.
+// If n is tilted from the face normal the cotangents stay perpendicular to n, so that a map's z keeps the sign of n.N.
 TEST(Frame, cotangentsArePerpendicularToTheInterpolatedNormal)
 {
     Random random(7);
@@ -174,7 +173,7 @@ TEST(Frame, encodeIsTheInverseOfApplyForSkewedFrames)
             const glm::dvec3 m = tiltedTexel(random, random.range(0, 80));
             worst = std::max(worst, degreesBetween(encode(f, perturb(f, m)), m));
         }
-    // Bar C1 asks for 1e-8 in double; the inverse loses what the frame's condition costs.
+    // Bar C1 allows 1e-8 in double; the inverse loses accuracy by the frame's condition number.
     EXPECT_LT(worst, 1e-8);
 }
 
@@ -221,8 +220,8 @@ TEST(FrameBarA1, exactOnFlatPatchesFromEveryView)
     }
 }
 
-// The harness discriminates: frames known to be wrong here are wrong by their known amounts (A2).
-TEST(FrameBarA2, squarePatchFramesMissStretchedUvByTheKnownAmount)
+// The control: frames known to be wrong here have their known errors (A2).
+TEST(FrameBarA2, squarePatchFramesAreWrongOnStretchedUvByTheKnownAmount)
 {
     auto meanError = [](Frame frame, const Layout& layout) {
         const AffinePatch p = patchOf(layout);
@@ -253,7 +252,7 @@ TEST(FrameBarA2, squarePatchFramesMissStretchedUvByTheKnownAmount)
 
 // ---- A3: view independence -------------------------------------------------------------------
 
-TEST(FrameBarA3, cotangentIsTheSameForAnyTwoSourcesOfDifferences)
+TEST(FrameBarA3, cotangentIsTheSameForAnyTwoDirectionsOfDifferences)
 {
     Random random(11);
     double worst = 0, worstFloat = 0;
@@ -273,7 +272,7 @@ TEST(FrameBarA3, cotangentIsTheSameForAnyTwoSourcesOfDifferences)
             c.rowsDown = k == 1;
             sources.push_back(screenDifferences(c, p, e * 0.2, k == 1 ? 64 : 1));
         }
-        // a uv-space raster, v down: steps of one texel along +u and along -v
+        // a uv-space raster, v down: steps of one texel along +u and -v
         const glm::dvec3 area = glm::cross(p.gradU, p.gradV);
         const double a2 = glm::dot(area, area);
         const glm::dvec3 dpdu = glm::cross(p.gradV, area) / a2, dpdv = glm::cross(area, p.gradU) / a2;
@@ -301,8 +300,8 @@ TEST(FrameBarA3, cotangentIsTheSameForAnyTwoSourcesOfDifferences)
     EXPECT_LT(worstFloat, 5e-4); // measured 1.3e-5
 }
 
-// The largest angle between what a frame makes of a texel from two eyes, the rows of the second picture running either
-// way.
+// The largest angle between the normals that a frame gives for one texel from two eyes; rows of the second image run in
+// either direction.
 double changeWithTheView(Frame frame)
 {
     Random random(21);
@@ -333,7 +332,7 @@ TEST(FrameTable, saysWhichFramesDependOnTheView)
 {
     for (const FrameInfo& f : frames()) {
         if (readsVertices(f.frame)) {
-            EXPECT_FALSE(f.dependsOnView) << f.name; // no difference goes in
+            EXPECT_FALSE(f.dependsOnView) << f.name; // uses no differences
         } else if (f.dependsOnView) {
             EXPECT_GT(changeWithTheView(f.frame), 30) << f.name;
         } else {
@@ -367,8 +366,8 @@ TEST(FrameBarA3, nonperspectiveDependsOnTheView)
 
 // ---- A4: signs -------------------------------------------------------------------------------
 
-// Share of random planes where t points along grad u and b along grad v.
-double shareRight(Frame frame, const SignCase& c)
+// Fraction of random planes where t points along grad u and b along grad v.
+double fractionRight(Frame frame, const SignCase& c)
 {
     Random random(7);
     int right = 0;
@@ -383,17 +382,17 @@ TEST(FrameBarA4, all24SignCombinationsAreRightForEverySignCorrectFrame)
     ASSERT_EQ(signCases().size(), 24u);
     for (Frame frame : kSignCorrectFrames)
         for (const SignCase& c : signCases())
-            EXPECT_EQ(shareRight(frame, c), 1) << name(frame) << ", " << c.name();
+            EXPECT_EQ(fractionRight(frame, c), 1) << name(frame) << ", " << c.name();
 }
 
 TEST(FrameBarA4, cotangent2013IsReversedInExactlyHalfOfThem)
 {
     int reversed = 0;
     for (const SignCase& c : signCases()) {
-        const double share = shareRight(Frame::cotangent2013, c);
-        EXPECT_TRUE(share == 0 || share == 1);
-        reversed += share == 0;
-        EXPECT_EQ(share == 1, c.positive());
+        const double fraction = fractionRight(Frame::cotangent2013, c);
+        EXPECT_TRUE(fraction == 0 || fraction == 1);
+        reversed += fraction == 0;
+        EXPECT_EQ(fraction == 1, c.positive());
     }
     EXPECT_EQ(reversed, 12);
 }

@@ -1,4 +1,4 @@
-// A camera that fills the picture: every vertex projected on its own.
+// Cameras that fill the image, checked by projecting each vertex separately.
 #include "cotan/view.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace cotan {
 namespace {
 
-Scene placed(Mesh mesh, const glm::mat4& toWorld)
+Scene sceneWithInstance(Mesh mesh, const glm::mat4& toWorld)
 {
     Scene scene;
     scene.materials.resize(1);
@@ -24,7 +24,7 @@ Scene placed(Mesh mesh, const glm::mat4& toWorld)
 }
 
 struct Extent {
-    double left = 9, right = -9, bottom = 9, top = -9; // -1 to 1 is the picture
+    double left = 9, right = -9, bottom = 9, top = -9; // the image is -1 to 1
 };
 
 Extent extentOf(const Scene& scene, const Camera& camera, double aspect)
@@ -46,45 +46,45 @@ Extent extentOf(const Scene& scene, const Camera& camera, double aspect)
     return e;
 }
 
-TEST(FrontCamera, verticesFillThePictureInOneDirectionAndAreCentredInBoth)
+TEST(FrontCamera, verticesFillTheImageInOneDirectionAndAreCentredInBoth)
 {
     glm::mat4 moved(1), stretched(1);
     moved[3] = glm::vec4(30, -20, 5, 1);
     stretched[0][0] = 7, stretched[3] = glm::vec4(-1000, 2, 3, 1);
     for (const glm::mat4& toWorld : {glm::mat4(1), moved, stretched, glm::mat4(1e-3f)})
         for (const auto& [width, height] : {std::pair(640, 480), std::pair(300, 900)}) {
-            const Scene scene = placed(makeTeapot(6), toWorld);
+            const Scene scene = sceneWithInstance(makeTeapot(6), toWorld);
             const Extent e = extentOf(scene, frontCamera(scene, width, height), double(width) / height);
             const double wide = std::max(-e.left, e.right), high = std::max(-e.bottom, e.top);
-            EXPECT_NEAR(std::max(wide, high), 0.92, 0.003);              // the eye is a float
-            EXPECT_NEAR(e.left + e.right, 0, wide > high ? 0.003 : 0.1); // equal room where it is tight
+            EXPECT_NEAR(std::max(wide, high), 0.92, 0.003);              // the eye is stored as float
+            EXPECT_NEAR(e.left + e.right, 0, wide > high ? 0.003 : 0.1); // equal margins in the tight direction
             EXPECT_NEAR(e.bottom + e.top, 0, high > wide ? 0.003 : 0.1);
         }
 }
 
-TEST(FrontCamera, flatModelsAreSeenStraightOnAndPointsFromSomewhere)
+TEST(FrontCamera, flatModelsAreSeenFaceOnAndPointsGetAFiniteCamera)
 {
     Mesh quad;
     quad.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-    const Camera camera = frontCamera(placed(quad, glm::mat4(1)), 100, 100);
+    const Camera camera = frontCamera(sceneWithInstance(quad, glm::mat4(1)), 100, 100);
     EXPECT_EQ(camera.eye.x, camera.target.x);
     EXPECT_EQ(camera.eye.y, camera.target.y);
     EXPECT_GT(camera.eye.z, camera.target.z);
     Mesh point;
     point.positions = {{5000, 0, 0}};
-    const Camera near = frontCamera(placed(point, glm::mat4(1)), 100, 100);
+    const Camera near = frontCamera(sceneWithInstance(point, glm::mat4(1)), 100, 100);
     EXPECT_NE(near.eye, near.target);
     EXPECT_EQ(near.target, glm::vec3(5000, 0, 0));
     EXPECT_EQ(frontCamera(Scene{}, 100, 100).eye, Camera{}.eye);
 }
 
-TEST(OrbitCamera, sidesAreSeenStraightOnAndFillThePicture)
+TEST(OrbitCamera, sidesAreSeenFaceOnAndFillTheImage)
 {
     struct Case {
         double azimuth, elevation;
         glm::vec3 from, up;
     };
-    const Scene scene = placed(makeTeapot(6), glm::mat4(1));
+    const Scene scene = sceneWithInstance(makeTeapot(6), glm::mat4(1));
     for (const Case& c :
          {Case{0, 0, {0, 0, 1}, {0, 1, 0}}, Case{90, 0, {1, 0, 0}, {0, 1, 0}}, Case{-90, 0, {-1, 0, 0}, {0, 1, 0}},
           Case{270, 0, {-1, 0, 0}, {0, 1, 0}}, Case{180, 0, {0, 0, -1}, {0, 1, 0}}, Case{0, 90, {0, 1, 0}, {0, 0, -1}},
@@ -98,9 +98,9 @@ TEST(OrbitCamera, sidesAreSeenStraightOnAndFillThePicture)
     }
 }
 
-TEST(OrbitCamera, anglesAreThoseFromTheFrontAndFromTheHorizon)
+TEST(OrbitCamera, anglesAreMeasuredFromTheFrontAndTheHorizon)
 {
-    const Scene scene = placed(makeTeapot(6), glm::mat4(1));
+    const Scene scene = sceneWithInstance(makeTeapot(6), glm::mat4(1));
     for (const auto& [azimuth, elevation] : {std::pair(30.0, 20.0), std::pair(-120.0, -45.0), std::pair(200.0, 80.0)}) {
         const Camera camera = orbitCamera(scene, azimuth, elevation, 200, 100);
         const glm::dvec3 from = glm::normalize(glm::dvec3(camera.eye) - glm::dvec3(camera.target));

@@ -1,4 +1,4 @@
-// fused.h against frame.h: the fused forms in float give what the readable forms give in double.
+// fused.h compared with frame.h: the fused forms in float give the same as the readable forms in double.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -11,7 +11,7 @@ namespace {
 using Fused = glm::vec3 (*)(glm::vec3, glm::vec3, glm::vec3, glm::vec2, glm::vec2, glm::vec3);
 using Plain = f64::cotan_frame (*)(glm::dvec3, glm::dvec3, glm::dvec3, glm::dvec2, glm::dvec2);
 
-// The definition of the area-normalised scale, as a frame.
+// The frame `cotangent` with area-normalised scale, by its definition.
 f64::cotan_frame areaFrame(glm::dvec3 n, glm::dvec3 dpdx, glm::dvec3 dpdy, glm::dvec2 duvdx, glm::dvec2 duvdy)
 {
     f64::cotan_frame f = f64::cotan_frame_cotangent(n, dpdx, dpdy, duvdx, duvdy);
@@ -21,8 +21,8 @@ f64::cotan_frame areaFrame(glm::dvec3 n, glm::dvec3 dpdx, glm::dvec3 dpdy, glm::
     return f;
 }
 
-// With the side that makes n the one that is seen.
-glm::vec3 seen(glm::vec3 n, glm::vec3 dpdx, glm::vec3 dpdy, glm::vec2 duvdx, glm::vec2 duvdy, glm::vec3 m)
+// Passes the side for which n faces the viewer.
+glm::vec3 perturbSeen(glm::vec3 n, glm::vec3 dpdx, glm::vec3 dpdy, glm::vec2 duvdx, glm::vec2 duvdy, glm::vec3 m)
 {
     const float side = glm::dot(glm::dvec3(n), glm::cross(glm::dvec3(dpdx), glm::dvec3(dpdy))) < 0 ? -1.0f : 1.0f;
     return f32::cotan_perturb_cotangent_seen(n, dpdx, dpdy, duvdx, duvdy, m, side);
@@ -37,7 +37,7 @@ struct Pair {
 const std::array kPairs = {
     Pair{"cotangent", f32::cotan_perturb_cotangent, f64::cotan_frame_cotangent},
     Pair{"cotangent-area", f32::cotan_perturb_cotangent_area, areaFrame},
-    Pair{"cotangent-seen", seen, f64::cotan_frame_triangle},
+    Pair{"cotangent-seen", perturbSeen, f64::cotan_frame_triangle},
     Pair{"gradient", f32::cotan_perturb_gradient, f64::cotan_frame_gradient},
     Pair{"orthonormal", f32::cotan_perturb_orthonormal, f64::cotan_frame_orthonormal},
 };
@@ -52,18 +52,18 @@ struct Input {
     glm::vec2 duvdx, duvdy;
 };
 
-// Footprints with an area: the angle between the differences of position is at least 20 degrees, as
-// is that between those of uv; n leans up to 60 degrees and is up to 40 % short.
+// Footprints with an area: the angle between position differences is at least 20 degrees, as is that between uv
+// differences; n is tilted by up to 60 degrees and up to 40 % short.
 Input soundInput(Random& random, bool mirrored, bool seenFromBehind, double scale)
 {
-    const auto turned = [&](double degrees, double length) {
+    const auto polar = [&](double degrees, double length) {
         return glm::dvec2(std::cos(degrees * kDegree), std::sin(degrees * kDegree)) * length;
     };
     const glm::dvec3 face = random.direction();
     const glm::dvec3 x = glm::normalize(glm::cross(face, random.direction())), y = glm::cross(face, x);
     const double start = random.range(0, 360);
-    const glm::dvec2 p0 = turned(start, random.range(0.3, 1)),
-                     p1 = turned(start + random.range(20, 160), random.range(0.3, 1));
+    const glm::dvec2 p0 = polar(start, random.range(0.3, 1)),
+                     p1 = polar(start + random.range(20, 160), random.range(0.3, 1));
     const double uvStart = random.range(0, 360), side = mirrored ? -1 : 1;
     const double away = random.range(0, 60) * kDegree;
     const glm::dvec3 n = face * std::cos(away) + (x * p0.y - y * p0.x) / glm::length(p0) * std::sin(away);
@@ -71,23 +71,23 @@ Input soundInput(Random& random, bool mirrored, bool seenFromBehind, double scal
     i.n = glm::vec3(n * random.range(0.6, 1) * (seenFromBehind ? -1.0 : 1.0));
     i.dpdx = glm::vec3((x * p0.x + y * p0.y) * scale);
     i.dpdy = glm::vec3((x * p1.x + y * p1.y) * scale);
-    i.duvdx = glm::vec2(turned(uvStart, random.range(0.3, 1)) * scale);
-    i.duvdy = glm::vec2(turned(uvStart + side * random.range(20, 160), random.range(0.3, 1)) * scale);
+    i.duvdx = glm::vec2(polar(uvStart, random.range(0.3, 1)) * scale);
+    i.duvdy = glm::vec2(polar(uvStart + side * random.range(20, 160), random.range(0.3, 1)) * scale);
     i.m = glm::vec3(tiltedTexel(random, 60));
     return i;
 }
 
 glm::vec3 run(Fused f, const Input& i) { return f(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy, i.m); }
 
-// A gradient times a footprint is of the order of one for differences of uv as long as those of
-// position; the scales keep both alike.
+// A gradient times a footprint is about one if uv differences are as long as position differences; both are scaled
+// equally.
 class FusedIsPlain : public testing::TestWithParam<double> {};
 
-TEST_P(FusedIsPlain, toRoundingOnSoundInputOfEveryHandedness)
+TEST_P(FusedIsPlain, upToRoundingOnRegularInput)
 {
-    // Some thirty roundings of 6e-8 each, amplified by the conditioning of the input (a factor of
-    // 1/sin 20 degrees for positions and for uv, 1/cos 60 degrees for n, again for tilted m):
-    // 30 * 6e-8 * 3 * 3 * 2 * 2 rad = 4e-3 degrees if all conspired.
+    // About thirty roundings of 6e-8, amplified by the conditioning of the input (1/sin 20 degrees for positions and
+    // for uv, 1/cos 60 degrees for n and again for tilted m): 30 * 6e-8 * 3 * 3 * 2 * 2 rad = 4e-3 degrees in the worst
+    // case.
     constexpr double kRounding = 4e-3;
     Random random(17);
     for (const Pair& pair : kPairs)
@@ -101,14 +101,14 @@ TEST_P(FusedIsPlain, toRoundingOnSoundInputOfEveryHandedness)
         }
 }
 
-TEST_P(FusedIsPlain, overTwoUvSetsItIsTheSumOfTheirGradients)
+TEST_P(FusedIsPlain, forTwoUvSetsItIsTheSumOfTheirGradients)
 {
-    constexpr double kStated = 0.01; // degrees, as fused.h says
+    constexpr double kStated = 0.01; // degrees, from fused.h
     Random random(19);
     for (int k = 0; k < 4000; ++k) {
         const Input i = soundInput(random, k & 1, k & 2, GetParam());
         Input other = soundInput(random, k & 4, k & 2, GetParam());
-        other.duvdx *= 16; // a detail map, its texel in its own sense
+        other.duvdx *= 16; // a detail map with its own texel orientation
         other.duvdy *= 16;
         const auto gradientOf = [&](const Input& set) {
             const f64::cotan_frame f = f64::cotan_frame_cotangent(i.n, i.dpdx, i.dpdy, set.duvdx, set.duvdy);
@@ -126,7 +126,7 @@ TEST_P(FusedIsPlain, overTwoUvSetsItIsTheSumOfTheirGradients)
         const glm::vec3 flat = f32::cotan_perturb_footprint(f, f32::cotan_footprint_slope(f, i.duvdx, i.duvdy, {}));
         ASSERT_LT(degreesBetween(glm::normalize(glm::dvec3(i.n)), flat), 1e-4) << "an empty texel";
         Input steep = i;
-        steep.m.z = -steep.m.z; // below the horizon: held at the steepest slope
+        steep.m.z = -steep.m.z; // below the horizon: clamped to the steepest slope
         const glm::vec3 held =
             f32::cotan_perturb_footprint(f, f32::cotan_footprint_slope(f, i.duvdx, i.duvdy, steep.m));
         const glm::dvec3 horizon = f64::cotan_resolve_gradient(glm::normalize(glm::dvec3(i.n)), gradientOf(steep));
@@ -134,13 +134,12 @@ TEST_P(FusedIsPlain, overTwoUvSetsItIsTheSumOfTheirGradients)
     }
 }
 
-// Footprints of ten metres, a millimetre, and close to the least area that `gradient` is stated
-// for.
+// Footprints of ten metres, a millimetre, and nearly the smallest area stated for `gradient`.
 INSTANTIATE_TEST_SUITE_P(FromLargeToSmall, FusedIsPlain, testing::Values(10.0, 1e-3, 1e-4));
 
 TEST(Fused, swappingTheDifferencesChangesNothing)
 {
-    // What y-up and y-down targets, and any relabelling of the two directions, come to.
+    // y-up against y-down targets, and any exchange of the two directions.
     Random random(18);
     for (const Pair& pair : kPairs)
         for (int k = 0; k < 1000; ++k) {
@@ -159,7 +158,7 @@ TEST(Fused, swappingTheDifferencesChangesNothing)
 struct Degenerate {
     const char* name;
     void (*spoil)(Input&);
-    bool plainNormal; // the answer is n
+    bool plainNormal; // the result is n
 };
 
 const std::array kDegenerate = {
@@ -208,7 +207,7 @@ const std::array kDegenerate = {
                true},
 };
 
-TEST(Fused, degenerateInputGivesAUnitNormalAndTheInterpolatedOneWhereThereIsNoFrame)
+TEST(Fused, degenerateInputGivesAUnitOrTheInterpolatedNormal)
 {
     Random random(19);
     for (const Pair& pair : kPairs)
@@ -217,17 +216,17 @@ TEST(Fused, degenerateInputGivesAUnitNormalAndTheInterpolatedOneWhereThereIsNoFr
                 Input i = soundInput(random, k & 1, k & 2, 1e-2);
                 d.spoil(i);
                 const glm::vec3 found = run(pair.fused, i);
-                ASSERT_NEAR(glm::length(found), 1, 1e-6) << pair.name << ", " << d.name; // NaN fails
+                ASSERT_NEAR(glm::length(found), 1, 1e-6) << pair.name << ", " << d.name; // also fails for NaN
                 if (d.plainNormal) {
-                    // m.z may be negative nowhere here; the angle is a few roundings.
+                    // m.z is never negative here; the angle is a few roundings.
                     ASSERT_LT(degreesBetween(i.n, found), 1e-4) << pair.name << ", " << d.name;
                 }
             }
 }
 
-TEST(Fused, orthonormalLeansNothingWhereUvHaveNoArea)
+TEST(Fused, orthonormalKeepsTheNormalIfUvHaveNoArea)
 {
-    // As its frame, which has no t and b there. Doubling is exact, and so is the area of zero.
+    // Like its frame, which has no t and b there. Doubling is exact, and so is the area of zero.
     Random random(23);
     for (int k = 0; k < 500; ++k) {
         Input i = soundInput(random, k & 1, k & 2, 1e-2);
@@ -236,10 +235,10 @@ TEST(Fused, orthonormalLeansNothingWhereUvHaveNoArea)
     }
 }
 
-TEST(Fused, theLimitsOfScaleAreInside)
+TEST(Fused, theScaleLimitsAreInTheStatedRange)
 {
-    // Products of the differences of 1e-12 and 1e5, as fused.h promises; cotangent-seen and gradient
-    // have their own limits.
+    // Products of the differences of 1e-12 and 1e5, the limits in fused.h; cotangent-seen and gradient have their own
+    // limits.
     Random random(20);
     for (const Pair& pair : {kPairs[0], kPairs[1], kPairs[4]})
         for (const auto& [p, uv] :
@@ -247,7 +246,7 @@ TEST(Fused, theLimitsOfScaleAreInside)
             for (int k = 0; k < 500; ++k) {
                 Input i = soundInput(random, k & 1, k & 2, 1);
                 const glm::vec3 before = run(pair.fused, i);
-                // "Longest" is at most 1 in soundInput; 0.3 at least, so divide by that below.
+                // The longest difference in soundInput is between 0.3 and 1, so divide by 0.3 at the lower limit.
                 const float up = p * uv < 1 ? 1 / 0.3f : 1.0f;
                 i.dpdx *= p * up;
                 i.dpdy *= p * up;
@@ -259,8 +258,8 @@ TEST(Fused, theLimitsOfScaleAreInside)
 
 TEST(Fused, areaScaleSteepensSlopesByTheStatedFactor)
 {
-    // uv stretched a:1 on a square footprint: sqrt(a). Sheared by s: 1/cos(s), as
-    // t = (1, 0), b = (-tan s, 1): L^2 = 1/cos^2, |t x b| = 1, so sqrt of that.
+    // uv stretched a:1 on a square footprint: sqrt(a). Sheared by the angle s: t = (1, 0), b = (-tan s, 1), so L^2 =
+    // 1/cos^2 s and |t x b| = 1; the factor is the root of L^2 / |t x b|, 1/cos(s).
     const auto slope = [](Fused f, glm::vec2 duvdx, glm::vec2 duvdy) {
         const glm::vec3 v = f({0, 0, 1}, {0.01f, 0, 0}, {0, 0.01f, 0}, duvdx, duvdy, glm::vec3(0.3f, 0, 0.9f));
         return std::hypot(double(v.x), double(v.y)) / double(v.z);

@@ -1,4 +1,4 @@
-// Small geometry: boxes, cameras that show everything, normals from triangles.
+// Basic geometry: boxes, cameras that show everything, normals from triangles.
 #include "scene/geometry.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace cotan {
 namespace {
 
-// The cube [-1,1]^3 with eight shared vertices and twelve triangles, outwards.
+// The cube [-1,1]^3 with eight shared vertices and twelve triangles that face outwards.
 Mesh sharedCube()
 {
     Mesh mesh;
@@ -28,7 +28,7 @@ Mesh sharedCube()
     return mesh;
 }
 
-// A point in the camera's picture: x and y in [-1,1] where visible, z the distance in front.
+// Projects a point: x and y in [-1,1] if visible, z the distance in front of the camera.
 glm::vec3 project(const Camera& camera, float aspect, glm::vec3 p)
 {
     const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
@@ -53,7 +53,7 @@ TEST(Bounds, areOfTheTransformedInstances)
     EXPECT_TRUE(bounds(Scene{}).empty());
 }
 
-// Points on the unit sphere, its poles on all axes among them.
+// Points on the unit sphere, including its poles on all axes.
 Mesh pointsOnASphere(int count)
 {
     Mesh mesh;
@@ -69,30 +69,30 @@ Mesh pointsOnASphere(int count)
     return mesh;
 }
 
-TEST(Bounds, areTheSmallestForFewInstancesAndHoldTheBoxesOfMany)
+TEST(Bounds, areTightForFewInstancesAndEncloseTheBoxesOfMany)
 {
     Scene scene;
     scene.meshes = {pointsOnASphere(4000)};
-    const glm::mat4 turned = glm::rotate(glm::mat4(1), 0.6f, glm::normalize(glm::vec3(1, 2, 3)));
-    scene.instances = {{"", 0, turned}};
+    const glm::mat4 rotated = glm::rotate(glm::mat4(1), 0.6f, glm::normalize(glm::vec3(1, 2, 3)));
+    scene.instances = {{"", 0, rotated}};
     const Bounds one = bounds(scene);
     for (int axis = 0; axis < 3; ++axis) {
-        EXPECT_NEAR(one.high[axis], 1, 2e-3f); // of a sphere in 4000 points
+        EXPECT_NEAR(one.high[axis], 1, 2e-3f); // a sphere sampled by 4000 points
         EXPECT_NEAR(one.low[axis], -1, 2e-3f);
     }
-    // 4006 vertices each: 4188 instances are the last that are looked at vertex by vertex.
-    scene.instances.assign(kMaxPlacedVertices / 4006, {"", 0, turned});
+    // With 4006 vertices each, 4188 instances are the most that are transformed vertex by vertex.
+    scene.instances.assign(kMaxExactBoundsVertices / 4006, {"", 0, rotated});
     EXPECT_EQ(bounds(scene).high, one.high);
-    scene.instances.push_back({"", 0, turned});
+    scene.instances.push_back({"", 0, rotated});
     const Bounds many = bounds(scene);
-    for (int axis = 0; axis < 3; ++axis) { // the corners of [-1, 1]^3, turned: the rows' absolute sums
-        const float reach = std::abs(turned[0][axis]) + std::abs(turned[1][axis]) + std::abs(turned[2][axis]);
+    for (int axis = 0; axis < 3; ++axis) { // corners of the rotated [-1, 1]^3: absolute sums of the rows
+        const float reach = std::abs(rotated[0][axis]) + std::abs(rotated[1][axis]) + std::abs(rotated[2][axis]);
         EXPECT_NEAR(many.high[axis], reach, 1e-6f);
         EXPECT_NEAR(many.low[axis], -reach, 1e-6f);
     }
 }
 
-TEST(Bounds, areExactOfAMillionInstancesThatOnlyMove)
+TEST(Bounds, areExactForAMillionTranslatedInstances)
 {
     Scene scene;
     scene.meshes = {pointsOnASphere(4000)};
@@ -103,7 +103,7 @@ TEST(Bounds, areExactOfAMillionInstancesThatOnlyMove)
     EXPECT_EQ(box.high, glm::vec3(100));
 }
 
-TEST(Bounds, leaveOutWhatIsNotFiniteAndHoldTheLargestFloats)
+TEST(Bounds, omitNonFinitePointsAndHoldTheLargestFloats)
 {
     Scene scene;
     scene.meshes = {sharedCube()};
@@ -118,7 +118,7 @@ TEST(Bounds, leaveOutWhatIsNotFiniteAndHoldTheLargestFloats)
     EXPECT_TRUE(bounds(scene).empty());
 }
 
-TEST(FitCamera, wholeBoxIsVisibleAndFillsThePictureAtAnyAspectRatio)
+TEST(FitCamera, wholeBoxIsVisibleAndFillsTheImageAtAnyAspectRatio)
 {
     const Bounds boxes[] = {{{-1, -1, -1}, {1, 1, 1}},
                             {{100, 5, -3}, {100.1f, 9, 4}},
@@ -143,7 +143,7 @@ TEST(FitCamera, wholeBoxIsVisibleAndFillsThePictureAtAnyAspectRatio)
     }
 }
 
-TEST(FitCamera, flatFacingPlaneIsSeenStraightOnAndASolidFromTheRightAndAbove)
+TEST(FitCamera, flatPlanesAreSeenFaceOnAndSolidsObliquely)
 {
     const Camera plane = fitCamera({{-2, -1, 0}, {2, 1, 0.01f}}, 640, 480);
     EXPECT_EQ(plane.eye.x, plane.target.x);
@@ -155,19 +155,19 @@ TEST(FitCamera, flatFacingPlaneIsSeenStraightOnAndASolidFromTheRightAndAbove)
     EXPECT_GT(solid.eye.z, std::max(solid.eye.x, solid.eye.y));
 }
 
-TEST(TurnedAbout, aQuarterIsCounterclockwiseFromAboveAndFourOfThemComeBack)
+TEST(RotatedAbout, aQuarterIsCounterclockwiseFromAboveAndFourAreTheIdentity)
 {
     Camera camera;
     camera.eye = {1, 2, 5};
     camera.target = {1, 0, 2};
-    const Camera quarter = turnedAbout(camera, std::numbers::pi / 2);
-    EXPECT_LT(glm::distance(quarter.eye, glm::vec3(4, 2, 2)), 1e-6f); // what was in front (+z) is to the right (+x)
+    const Camera quarter = orbitedCamera(camera, std::numbers::pi / 2);
+    EXPECT_LT(glm::distance(quarter.eye, glm::vec3(4, 2, 2)), 1e-6f); // front (+z) moves to the right (+x)
     EXPECT_EQ(quarter.target, camera.target);
     EXPECT_EQ(quarter.up, camera.up);
-    EXPECT_LT(glm::distance(turnedAbout(camera, std::numbers::pi * 2).eye, camera.eye), 1e-6f);
+    EXPECT_LT(glm::distance(orbitedCamera(camera, std::numbers::pi * 2).eye, camera.eye), 1e-6f);
 }
 
-TEST(DrawsNormalMaps, asksForAPlacedMeshWithTrianglesAndTheUvOfItsMap)
+TEST(DrawsNormalMaps, requiresAnInstanceWithTrianglesAndTheUvOfItsMap)
 {
     Scene scene;
     scene.materials.resize(1);
@@ -177,7 +177,7 @@ TEST(DrawsNormalMaps, asksForAPlacedMeshWithTrianglesAndTheUvOfItsMap)
     mesh.positions.resize(3);
     mesh.indices = {0, 1, 2};
     mesh.texcoords[0].resize(3);
-    EXPECT_FALSE(drawsNormalMaps(scene)); // nothing is placed
+    EXPECT_FALSE(drawsNormalMaps(scene)); // there is no instance
     scene.instances = {{"", 0, glm::mat4(1)}};
     EXPECT_TRUE(drawsNormalMaps(scene));
     scene.materials[0].normalMap.texcoord = 1;
@@ -191,7 +191,7 @@ TEST(DrawsNormalMaps, asksForAPlacedMeshWithTrianglesAndTheUvOfItsMap)
     EXPECT_FALSE(drawsNormalMaps(scene));
 }
 
-TEST(FitCamera, emptyPointAndEndlessBoxesGiveAFiniteCamera)
+TEST(FitCamera, emptyPointAndInfiniteBoxesGiveAFiniteCamera)
 {
     const float inf = std::numeric_limits<float>::infinity();
     for (const Bounds& box :
@@ -220,7 +220,7 @@ TEST(DefaultLights, keyLightComesFromTheUpperLeftFront)
 
 TEST(GenerateNormals, cubeSmoothedHasDiagonalsWhateverItsTriangulation)
 {
-    // Weighted by angle, the three faces at a corner count alike; by area or number they do not.
+    // Weighted by angle, the three faces at a corner count equally; by area or number they would not.
     Mesh mesh = sharedCube();
     generateNormals(mesh);
     ASSERT_EQ(mesh.vertexCount(), 8u);
@@ -228,7 +228,7 @@ TEST(GenerateNormals, cubeSmoothedHasDiagonalsWhateverItsTriangulation)
         EXPECT_NEAR(glm::dot(mesh.normals[i], glm::normalize(mesh.positions[i])), 1, 1e-6);
 }
 
-TEST(GenerateNormals, cubeWithCreasesGetsThreeVerticesACorner)
+TEST(GenerateNormals, cubeWithCreasesGetsThreeVerticesPerCorner)
 {
     Mesh mesh = sharedCube();
     for (const glm::vec3& p : mesh.positions)
@@ -246,7 +246,7 @@ TEST(GenerateNormals, cubeWithCreasesGetsThreeVerticesACorner)
             glm::cross(mesh.positions[mesh.indices[base + 1]] - a, mesh.positions[mesh.indices[base + 2]] - a));
         const glm::vec3 normal = mesh.normals[mesh.indices[c]];
         EXPECT_NEAR(glm::dot(normal, face), 1, 1e-6);
-        EXPECT_EQ(mesh.texcoords[0][mesh.indices[c]], texcoords[indices[c]]); // taken along
+        EXPECT_EQ(mesh.texcoords[0][mesh.indices[c]], texcoords[indices[c]]); // copied with the corner
         normals.emplace(normal.x, normal.y, normal.z);
     }
     EXPECT_EQ(normals.size(), 6u);
@@ -257,7 +257,7 @@ TEST(GenerateNormals, sphereIsSmoothAcrossItsTextureSeam)
     Mesh mesh = makeSphere(1, 64);
     mesh.normals.clear();
     generateNormals(mesh, 60);
-    // Angle weights on a regular grid are of second order in the cell: (2 pi / 64)^2 = 0.0096 rad.
+    // Angle weights on a regular grid are second order in the cell size: (2 pi / 64)^2 = 0.0096 rad.
     for (const std::uint32_t i : mesh.indices)
         EXPECT_GT(glm::dot(mesh.normals[i], glm::normalize(mesh.positions[i])), std::cos(0.0096f));
 }
@@ -266,7 +266,7 @@ TEST(GenerateNormals, degenerateTrianglesAndLooseVerticesGetAUnitNormal)
 {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, -1}, {2, 0, 0}, {5, 5, 5}};
-    mesh.indices = {0, 1, 2, 0, 1, 3, 1, 1, 1}; // faces +y; on a line; a point
+    mesh.indices = {0, 1, 2, 0, 1, 3, 1, 1, 1}; // faces +y; collinear; a point
     for (const float crease : {30.0f, 180.0f}) {
         Mesh made = mesh;
         generateNormals(made, crease);
@@ -282,7 +282,7 @@ TEST(GenerateNormals, degenerateTrianglesAndLooseVerticesGetAUnitNormal)
     EXPECT_TRUE(empty.normals.empty());
 }
 
-TEST(GenerateNormals, sheetsBackToBackDoNotCancelToZero)
+TEST(GenerateNormals, backToBackSheetsDoNotCancelToZero)
 {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

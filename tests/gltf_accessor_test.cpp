@@ -1,5 +1,5 @@
-// Every way of storing numbers, read by the loader and by the editor. Expected values come from the
-// formulas of glTF 2.0, section 3.6.2, and of its extensions.
+// Every way to store numbers, read by the loader and by the editor. Expected values come from the formulas of glTF 2.0,
+// section 3.6.2, and of its extensions.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -17,11 +17,11 @@ using namespace cotan::test;
 
 namespace {
 
-// What both readers make of a corner, in the order of the corners.
+// What both readers return for a corner; corners are in order.
 struct Corner {
     glm::vec3 position{0}, normal{0};
     glm::vec4 tangent{0};
-    glm::vec2 uv{0}; // as the normal map reads it
+    glm::vec2 uv{0}; // transformed for the normal map
 };
 
 std::vector<Corner> loaded(const Gltf& g)
@@ -64,7 +64,7 @@ std::vector<Corner> edited(const Gltf& g)
     return corners;
 }
 
-// The corners, after both readers were found to agree on them.
+// The corners, after checking that both readers agree on them.
 std::vector<Corner> both(const Gltf& g)
 {
     const auto a = loaded(g), b = edited(g);
@@ -78,7 +78,7 @@ std::vector<Corner> both(const Gltf& g)
     return a;
 }
 
-// The bytes of numbers as a view with that stride and offset, filled up with a value that would show.
+// A view of numbers with this stride and offset; the gaps have a value that would be noticed.
 template<class T>
 int stridedView(Gltf& g, const std::vector<T>& values, std::size_t components, std::size_t offset, std::size_t stride)
 {
@@ -89,14 +89,14 @@ int stridedView(Gltf& g, const std::vector<T>& values, std::size_t components, s
     return g.view(bytes);
 }
 
-// Texture coordinates of one type, behind an offset and with a stride, come out as the formula says.
+// Texture coordinates of one type, with an offset and a stride, must match the formula.
 template<class T> void checkTexcoords(int componentType, bool normalized)
 {
     SCOPED_TRACE(testing::Message() << componentType << (normalized ? " normalised" : ""));
-    const T most = std::numeric_limits<T>::max(), least = std::numeric_limits<T>::lowest();
+    const T maximum = std::numeric_limits<T>::max(), minimum = std::numeric_limits<T>::lowest();
     const std::vector<T> stored = std::is_same_v<T, float>
         ? std::vector<T>{T(0.25f), T(3), T(1), T(2), T(5), T(7), T(11), T(13)}
-        : std::vector<T>{T(1), most, least, T(3), T(0), T(most / 2), T(7), T(100)};
+        : std::vector<T>{T(1), maximum, minimum, T(3), T(0), T(maximum / 2), T(7), T(100)};
     const std::size_t size = 2 * sizeof(T), stride = (size + 4 + 3) / 4 * 4;
     Gltf g = square();
     addNormalMap(g);
@@ -112,7 +112,7 @@ template<class T> void checkTexcoords(int componentType, bool normalized)
     ASSERT_EQ(corners.size(), 6u);
     const auto expected = [&](T value) {
         const double c = double(value);
-        return float(normalized ? std::max(c / double(most), -1.0) : c);
+        return float(normalized ? std::max(c / double(maximum), -1.0) : c);
     };
     for (std::size_t i = 0; i < 6; ++i) {
         const std::size_t v = kSquareIndices[i];
@@ -121,7 +121,7 @@ template<class T> void checkTexcoords(int componentType, bool normalized)
     }
 }
 
-TEST(GltfAccessor, everyComponentTypeNormalisedOrNotBehindOffsetAndStride)
+TEST(GltfAccessor, everyComponentTypeIsReadWithOffsetAndStride)
 {
     for (const bool normalized : {false, true}) {
         checkTexcoords<std::int8_t>(kByte, normalized);
@@ -136,7 +136,7 @@ template<class Index> void checkSparse(int indexType, bool base)
 {
     SCOPED_TRACE(testing::Message() << indexType << (base ? "" : " without view"));
     Gltf g = square();
-    // Shorts, three to an element of eight bytes; the replacements are packed, behind an offset of 8.
+    // Shorts, three in each element of eight bytes; the replacements are packed, after an offset of 8.
     const int view = stridedView(g, std::vector<std::int16_t>{10, 11, 12, 20, 21, 22, 30, 31, 32, 40, 41, 42}, 3, 0, 8);
     g.root["bufferViews"][std::size_t(view)]["byteStride"] = 8;
     const int indices = g.view(std::vector<Index>{9, 9, 9, 9, 0, 2, 3});
@@ -164,7 +164,7 @@ template<class Index> void checkSparse(int indexType, bool base)
     }
 }
 
-TEST(GltfAccessor, sparseValuesReplaceThoseOfTheViewForAllVerticesOrSome)
+TEST(GltfAccessor, sparseValuesReplaceThoseOfTheView)
 {
     for (const bool base : {true, false}) {
         checkSparse<std::uint8_t>(kUByte, base);
@@ -173,8 +173,8 @@ TEST(GltfAccessor, sparseValuesReplaceThoseOfTheViewForAllVerticesOrSome)
     }
 }
 
-// A large accessor of which few vertices are used is read by another way than a small one.
-TEST(GltfAccessor, aFewVerticesOfManyKeepTheirNumbers)
+// If few vertices of a large accessor are used, another code path reads them.
+TEST(GltfAccessor, aFewVerticesOfALargeAccessorKeepTheirValues)
 {
     Gltf g = square();
     std::vector<float> positions, normals, uv;
@@ -202,20 +202,19 @@ TEST(GltfAccessor, aFewVerticesOfManyKeepTheirNumbers)
     }
 }
 
-// KHR_texture_transform: translation * rotation * scale, as the extension multiplies them; nothing is
-// the same for u and v.
-TEST(GltfAccessor, uvAreScaledThenTurnedThenShifted)
+// KHR_texture_transform: translation * rotation * scale, in the extension's order; u and v differ in everything.
+TEST(GltfAccessor, uvAreScaledThenRotatedThenShifted)
 {
     Gltf g = square();
     addNormalMap(g);
-    const double turn = 0.4;
+    const double theta = 0.4;
     primitive(g)["attributes"]["TEXCOORD_1"] = g.floats({0.1f, 0.7f, 0.9f, 0.3f, 5, -2, 0, 1}, "VEC2");
-    g.root["materials"][0]["normalTexture"]["texCoord"] = 0; // the extension's own counts
+    g.root["materials"][0]["normalTexture"]["texCoord"] = 0; // the extension's texCoord takes precedence
     g.root["materials"][0]["normalTexture"]["extensions"]["KHR_texture_transform"] = {
-        {"offset", {0.25, -0.5}}, {"rotation", turn}, {"scale", {2, 3}}, {"texCoord", 1}};
-    // The matrices of the extension's text, by columns.
+        {"offset", {0.25, -0.5}}, {"rotation", theta}, {"scale", {2, 3}}, {"texCoord", 1}};
+    // The matrices in the extension's text, by columns.
     const glm::dmat3 translation(1, 0, 0, 0, 1, 0, 0.25, -0.5, 1);
-    const glm::dmat3 rotation(std::cos(turn), -std::sin(turn), 0, std::sin(turn), std::cos(turn), 0, 0, 0, 1);
+    const glm::dmat3 rotation(std::cos(theta), -std::sin(theta), 0, std::sin(theta), std::cos(theta), 0, 0, 0, 1);
     const glm::dmat3 scale(2, 0, 0, 0, 3, 0, 0, 0, 1);
     const std::vector<glm::dvec2> uv = {{0.1, 0.7}, {0.9, 0.3}, {5, -2}, {0, 1}};
     const auto corners = both(g);
@@ -250,8 +249,8 @@ TEST(GltfAccessor, aPrimitiveWithoutPositionHasAnEmptyGeometry)
     EXPECT_TRUE(geometry->normals.empty());
 }
 
-// The loader reads two uv sets and looks at no other; the editor reads the one that the normal map names.
-TEST(GltfAccessor, anotherUvSetThanTheFirstTwoIsCheckedBeforeItIsRead)
+// The loader reads two uv sets and no others; the editor reads the one that the normal map names.
+TEST(GltfAccessor, uvSetsBeyondTheSecondAreCheckedBeforeUse)
 {
     Gltf g = square();
     addNormalMap(g);
@@ -266,7 +265,7 @@ TEST(GltfAccessor, anotherUvSetThanTheFirstTwoIsCheckedBeforeItIsRead)
 
 // ---- materials and nodes ------------------------------------------------------------------------
 
-TEST(GltfSampler, isReadAsItWasWritten)
+TEST(GltfSampler, roundTrips)
 {
     for (const Wrap u : {Wrap::repeat, Wrap::mirror, Wrap::clamp})
         for (const Wrap v : {Wrap::repeat, Wrap::mirror, Wrap::clamp})
@@ -283,7 +282,7 @@ TEST(GltfSampler, isReadAsItWasWritten)
                     }
 }
 
-TEST(GltfSampler, everyModeOfEachAxisAndFilterHasItsOwnMeaning)
+TEST(GltfSampler, everyWrapModeAndFilterIsDistinguished)
 {
     const std::pair<int, Wrap> wraps[] = {{10497, Wrap::repeat}, {33071, Wrap::clamp}, {33648, Wrap::mirror}};
     const std::tuple<int, Filter, MipFilter> filters[] = {
@@ -307,8 +306,8 @@ TEST(GltfSampler, everyModeOfEachAxisAndFilterHasItsOwnMeaning)
             }
 }
 
-// Each slot has its own image, uv set and strength: none is taken for another.
-TEST(GltfSlots, everyMapGoesToItsOwnSlot)
+// Each slot has its own image, uv set and strength, so that mixing them up is noticed.
+TEST(GltfSlots, everyMapIsReadIntoItsSlot)
 {
     Gltf g = square();
     primitive(g)["attributes"]["TEXCOORD_1"] = g.floats(kSquareUv, "VEC2");
@@ -343,7 +342,7 @@ TEST(GltfSlots, everyMapGoesToItsOwnSlot)
 }
 
 // world = parent * (translation * rotation * scale), checked against glm's own functions.
-TEST(GltfPlacing, chainsOfTurnedAndStretchedNodesMultiplyFromTheRoot)
+TEST(GltfTransforms, rotatedAndScaledNodesMultiplyFromTheRoot)
 {
     Gltf g = square();
     const glm::dvec3 axis = glm::normalize(glm::dvec3(1, 2, 3));
@@ -366,8 +365,8 @@ TEST(GltfPlacing, chainsOfTurnedAndStretchedNodesMultiplyFromTheRoot)
             EXPECT_NEAR(scene.instances.at(0).toWorld[column][row], world[column][row], 1e-5) << column << row;
 }
 
-// Instances turn and stretch before the node does.
-TEST(GltfPlacing, gpuInstancesAreWithinTheirNode)
+// Instance transforms apply before the node's.
+TEST(GltfTransforms, gpuInstancesAreRelativeToTheirNode)
 {
     Gltf g = square();
     const float h = std::sqrt(0.5f);
@@ -376,14 +375,14 @@ TEST(GltfPlacing, gpuInstancesAreWithinTheirNode)
     g.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
         {"ROTATION", g.floats({0, 0, h, h}, "VEC4")}, {"TRANSLATION", g.floats({3, 0, 0}, "VEC3")}};
     COTAN_LOADED(scene, g.load());
-    const glm::vec3 p(scene.instances.at(0).toWorld * glm::vec4(1, 0, 0, 1)); // turned to (0, 1), shifted, stretched
+    const glm::vec3 p(scene.instances.at(0).toWorld * glm::vec4(1, 0, 0, 1)); // rotated to (0, 1), moved, scaled
     EXPECT_LT(glm::length(p - glm::vec3(3, 10, 0)), 1e-5f);
 }
 
-TEST(GltfSkin, inverseBindMatricesMayStandBehindAnOffset)
+TEST(GltfSkin, inverseBindMatricesMayHaveAnOffset)
 {
     Gltf g = square();
-    std::vector<float> matrices(4, 77.0f); // passed over
+    std::vector<float> matrices(4, 77.0f); // skipped by the offset
     for (const float shift : {100.0f, 5.0f})
         matrices.insert(matrices.end(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, shift, 0, 0, 1});
     const int bind = g.accessor({{"bufferView", g.view(matrices)},
@@ -406,8 +405,8 @@ TEST(GltfSkin, inverseBindMatricesMayStandBehindAnOffset)
     EXPECT_EQ(mesh.positions[3], glm::vec3(100, 2, 0));
 }
 
-// Weights that do not add up to one are taken as shares.
-TEST(GltfSkin, weightsAreSharesOfTheirSum)
+// Weights that do not add up to one are normalised.
+TEST(GltfSkin, weightsAreNormalisedByTheirSum)
 {
     Gltf g = square();
     primitive(g)["attributes"]["JOINTS_0"] =
@@ -432,17 +431,17 @@ TEST(GltfMorph, eachTargetHasItsOwnWeight)
     EXPECT_EQ(scene.meshes.at(0).positions[2], glm::vec3(1.5f, 1.25f, 0));
 }
 
-// The corners of a grid of signed bytes are up to 0.0069 off, and are left alone.
+// Lengths on a grid of signed bytes differ from one by up to 0.0069 and are not reported.
 TEST(GltfNormals, lengthsWithinOneHundredthAreUnit)
 {
-    for (const auto& [length, said] :
+    for (const auto& [length, warned] :
          {std::pair(1.008f, false), std::pair(0.992f, false), std::pair(1.05f, true), std::pair(0.95f, true)}) {
         Gltf g = square();
         std::vector<float> normals = kSquareNormals;
         normals[2] = length;
         primitive(g)["attributes"]["NORMAL"] = g.floats(normals, "VEC3");
         COTAN_LOADED(scene, g.load());
-        EXPECT_EQ(warns(scene, "not of unit length"), said) << length;
+        EXPECT_EQ(warns(scene, "not of unit length"), warned) << length;
         EXPECT_EQ(scene.meshes.at(0).normals[0], glm::vec3(0, 0, 1));
     }
 }

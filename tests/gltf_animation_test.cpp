@@ -1,4 +1,4 @@
-// A model at a moment of an animation, against the formulas of glTF 2.0, section 3.11 and appendix C.
+// A model at a time of an animation, compared with the formulas of glTF 2.0, section 3.11 and appendix C.
 #include <cmath>
 #include <numbers>
 
@@ -19,8 +19,8 @@ struct Track {
     std::string interpolation = "LINEAR";
 };
 
-// The square, whose node the tracks move.
-Gltf moved(const std::vector<Track>& tracks)
+// The square, whose node is animated by the tracks.
+Gltf animated(const std::vector<Track>& tracks)
 {
     Gltf g = square();
     json animation = {{"name", "go"}, {"channels", json::array()}, {"samplers", json::array()}};
@@ -43,36 +43,36 @@ LoadLimits at(double seconds, const std::string& animation = "go")
     return limits;
 }
 
-// Where the node puts a point at a moment.
-glm::vec3 placed(const Gltf& g, double seconds, glm::vec3 p = glm::vec3(0))
+// Where the node moves a point at a time.
+glm::vec3 movedPoint(const Gltf& g, double seconds, glm::vec3 p = glm::vec3(0))
 {
     const auto scene = g.load(at(seconds));
     EXPECT_TRUE(scene) << (scene ? "" : scene.error().message);
     return scene ? glm::vec3(scene->instances[0].toWorld * glm::vec4(p, 1)) : glm::vec3(NAN);
 }
 
-TEST(GltfAnimation, goesStraightBetweenKeysAndStaysAtTheEnds)
+TEST(GltfAnimation, interpolatesLinearlyAndClampsAtTheEnds)
 {
-    const Gltf g = moved({{"translation", {1, 3}, {0, 0, 0, 4, 8, -2}, "VEC3"}});
-    expectNear(placed(g, 0), {0, 0, 0});
-    expectNear(placed(g, 1), {0, 0, 0});
-    expectNear(placed(g, 1.5), {1, 2, -0.5f});
-    expectNear(placed(g, 3), {4, 8, -2});
-    expectNear(placed(g, 100), {4, 8, -2});
-    const auto rest = g.load(); // the pose of the file
+    const Gltf g = animated({{"translation", {1, 3}, {0, 0, 0, 4, 8, -2}, "VEC3"}});
+    expectNear(movedPoint(g, 0), {0, 0, 0});
+    expectNear(movedPoint(g, 1), {0, 0, 0});
+    expectNear(movedPoint(g, 1.5), {1, 2, -0.5f});
+    expectNear(movedPoint(g, 3), {4, 8, -2});
+    expectNear(movedPoint(g, 100), {4, 8, -2});
+    const auto rest = g.load(); // the pose stored in the file
     ASSERT_TRUE(rest);
     expectNear(glm::vec3(rest->instances[0].toWorld[3]), {0, 0, 0});
 }
 
 TEST(GltfAnimation, stepsAtKeys)
 {
-    const Gltf g = moved({{"translation", {0, 1, 2}, {1, 0, 0, 2, 0, 0, 3, 0, 0}, "VEC3", "STEP"}});
-    expectNear(placed(g, 0.99), {1, 0, 0});
-    expectNear(placed(g, 1), {2, 0, 0});
-    expectNear(placed(g, 1.99), {2, 0, 0});
+    const Gltf g = animated({{"translation", {0, 1, 2}, {1, 0, 0, 2, 0, 0, 3, 0, 0}, "VEC3", "STEP"}});
+    expectNear(movedPoint(g, 0.99), {1, 0, 0});
+    expectNear(movedPoint(g, 1), {2, 0, 0});
+    expectNear(movedPoint(g, 1.99), {2, 0, 0});
 }
 
-// A cubic through values and slopes at two keys is that cubic: x = s^3 - 2s + 1, its derivative 3s^2 - 2.
+// The spline through values and slopes of a cubic at two keys is that cubic: x = s^3 - 2s + 1, its derivative 3s^2 - 2.
 TEST(GltfAnimation, splineIsTheCubicWithItsSlopes)
 {
     const auto x = [](float s) { return s * s * s - 2 * s + 1; };
@@ -81,46 +81,46 @@ TEST(GltfAnimation, splineIsTheCubicWithItsSlopes)
     for (const float s : {0.5f, 2.5f})
         for (const float part : {slope(s), x(s), slope(s)}) // in-tangent, value, out-tangent
             values.insert(values.end(), {part, 2 * part, 0});
-    // Foreign slopes, that must not count: into the first key and out of the last.
+    // Slopes into the first key and out of the last must be ignored.
     values[0] = values[15] = 77;
-    const Gltf g = moved({{"translation", {0.5f, 2.5f}, values, "VEC3", "CUBICSPLINE"}});
+    const Gltf g = animated({{"translation", {0.5f, 2.5f}, values, "VEC3", "CUBICSPLINE"}});
     for (const float s : {0.5f, 0.9f, 1.5f, 2.2f, 2.5f})
-        EXPECT_LT(glm::length(placed(g, double(s)) - glm::vec3(x(s), 2 * x(s), 0)), 1e-5f) << s;
+        EXPECT_LT(glm::length(movedPoint(g, double(s)) - glm::vec3(x(s), 2 * x(s), 0)), 1e-5f) << s;
 }
 
-TEST(GltfAnimation, turnsEvenlyAlongTheShorterWay)
+TEST(GltfAnimation, rotatesEvenlyAlongTheShorterArc)
 {
-    // From 0 to 90 degrees around z; the second quaternion is negated, which is the same rotation.
+    // From 0 to 90 degrees about z; the second quaternion is negated, which is the same rotation.
     const float half = std::numbers::sqrt2_v<float> / 2;
     for (const float sign : {1.0f, -1.0f}) {
-        const Gltf g = moved({{"rotation", {0, 3}, {0, 0, 0, 1, 0, 0, sign * half, sign * half}, "VEC4"}});
+        const Gltf g = animated({{"rotation", {0, 3}, {0, 0, 0, 1, 0, 0, sign * half, sign * half}, "VEC4"}});
         for (const double part : {0.0, 1.0 / 3, 0.5, 1.0}) {
             const float angle = float(part * std::numbers::pi / 2);
-            expectNear(placed(g, 3 * part, {1, 0, 0}), {std::cos(angle), std::sin(angle), 0});
+            expectNear(movedPoint(g, 3 * part, {1, 0, 0}), {std::cos(angle), std::sin(angle), 0});
         }
     }
 }
 
 TEST(GltfAnimation, readsRotationsOfIntegers)
 {
-    Gltf g = moved({{"rotation", {0}, {0, 0, 0, 1}, "VEC4"}});
+    Gltf g = animated({{"rotation", {0}, {0, 0, 0, 1}, "VEC4"}});
     const int half = g.accessor(std::vector<std::int16_t>{0, 0, 23170, 23170}, "VEC4", kShort, true);
     g.root["animations"][1]["samplers"][0]["output"] = half;
-    EXPECT_LT(glm::length(placed(g, 0, {1, 0, 0}) - glm::vec3(0, 1, 0)), 1e-4f); // 15 bits
+    EXPECT_LT(glm::length(movedPoint(g, 0, {1, 0, 0}) - glm::vec3(0, 1, 0)), 1e-4f); // 15 bits
     g.root["accessors"][std::size_t(half)]["normalized"] = false;
     COTAN_REFUSED(g.load(at(0)), "expected floats or normalized integers");
 }
 
-TEST(GltfAnimation, movesAllOfANodeTogether)
+TEST(GltfAnimation, combinesTheChannelsOfANode)
 {
     const float half = std::numbers::sqrt2_v<float> / 2;
-    const Gltf g = moved({{"translation", {0}, {5, 6, 7}, "VEC3"},
+    const Gltf g = animated({{"translation", {0}, {5, 6, 7}, "VEC3"},
                           {"rotation", {0}, {0, 0, half, half}, "VEC4"},
                           {"scale", {0}, {2, 3, 4}, "VEC3"}});
-    expectNear(placed(g, 0, {1, 1, 1}), {5 - 3, 6 + 2, 7 + 4}); // scaled, turned by 90 degrees, moved
+    expectNear(movedPoint(g, 0, {1, 1, 1}), {5 - 3, 6 + 2, 7 + 4}); // scaled, rotated by 90 degrees, moved
 }
 
-TEST(GltfAnimation, morphsByWeightsOfAMoment)
+TEST(GltfAnimation, morphsByTheWeightsAtEachTime)
 {
     const auto withTargets = [](Gltf g) {
         const int up = g.floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
@@ -128,16 +128,16 @@ TEST(GltfAnimation, morphsByWeightsOfAMoment)
         primitive(g)["targets"] = {{{"POSITION", up}}, {{"POSITION", aside}}};
         return g;
     };
-    const Gltf g = withTargets(moved({{"weights", {0, 2}, {0, 1, 1, 0.5f}, "SCALAR"}}));
-    const auto scene = g.load(at(0.5)); // 0.25 of the first, 0.875 of the second
+    const Gltf g = withTargets(animated({{"weights", {0, 2}, {0, 1, 1, 0.5f}, "SCALAR"}}));
+    const auto scene = g.load(at(0.5)); // 0.25 of the first target, 0.875 of the second
     ASSERT_TRUE(scene) << scene.error().message;
     for (std::size_t v = 0; v < 4; ++v)
         expectNear(scene->meshes[0].positions[v],
                    glm::vec3(kSquare[3 * v], kSquare[3 * v + 1], kSquare[3 * v + 2]) + glm::vec3(1.75f, 0, 0.25f));
-    COTAN_REFUSED(withTargets(moved({{"weights", {0, 2}, {0, 1, 1}, "SCALAR"}})).load(at(0)), "4 elements, found 3");
+    COTAN_REFUSED(withTargets(animated({{"weights", {0, 2}, {0, 1, 1}, "SCALAR"}})).load(at(0)), "4 elements, found 3");
 }
 
-// Two joints: the second turns by 90 degrees around z; half of the vertices follow it, normals with them.
+// Two joints: the second rotates by 90 degrees about x; half of the vertices and their normals follow it.
 TEST(GltfAnimation, skinsFollowTheirJoints)
 {
     const float half = std::numbers::sqrt2_v<float> / 2;
@@ -158,14 +158,14 @@ TEST(GltfAnimation, skinsFollowTheirJoints)
     const Mesh& mesh = scene->meshes[0];
     expectNear(mesh.positions[0], {0, 0, 0});
     expectNear(mesh.positions[1], {1, 0, 0});
-    expectNear(mesh.positions[2], {1, 0, 1}); // y turned to z
+    expectNear(mesh.positions[2], {1, 0, 1}); // y is rotated to z
     expectNear(mesh.normals[3], {0, 0, 1});
     expectNear(mesh.normals[2], {0, -1, 0});
 }
 
 TEST(GltfAnimation, isFoundByNameOrNumber)
 {
-    const Gltf g = moved({{"translation", {0}, {1, 2, 3}, "VEC3"}});
+    const Gltf g = animated({{"translation", {0}, {1, 2, 3}, "VEC3"}});
     for (const char* const word : {"go", "1"}) {
         const auto scene = g.load(at(0, word));
         ASSERT_TRUE(scene) << scene.error().message;
@@ -181,23 +181,23 @@ TEST(GltfAnimation, isFoundByNameOrNumber)
     }
     const auto still = square().load(at(0));
     ASSERT_FALSE(still);
-    EXPECT_NE(still.error().message.find("it has none"), std::string::npos);
+    EXPECT_NE(still.error().message.find("found none"), std::string::npos);
 }
 
-TEST(GltfAnimation, damageIsOneLineWhereItIsAskedForAndElseNoMatter)
+TEST(GltfAnimation, damageIsOneLineOnlyIfTheAnimationIsRequested)
 {
     const std::tuple<std::string, json, const char*> cases[] = {
         {"/channels/0/sampler", 1, "channels[0].sampler: expected an index below 1"},
         {"/channels/0/target/node", 9, "target.node: expected an index below 1"},
         {"/channels/0/target/path", 3, "target.path: expected a string"},
         {"/samplers/0/input", 99, "samplers[0].input: expected an index below"},
-        {"/samplers/0/input", 0, "expected floats in accessors[0], the times of its keys"},
+        {"/samplers/0/input", 0, "expected floats in accessors[0] for the key times"},
         {"/samplers/0/output", 0, "expected accessors[0] with 2 elements"},
         {"/samplers/0/interpolation", "FAST", "expected one of LINEAR, STEP, CUBICSPLINE"},
         {"/samplers/0/interpolation", "CUBICSPLINE", "with 6 elements, found 2"},
         {"/channels", 3, "channels: expected an array"},
     };
-    const Gltf good = moved({{"translation", {0, 1}, {1, 2, 3, 4, 5, 6}, "VEC3"}});
+    const Gltf good = animated({{"translation", {0, 1}, {1, 2, 3, 4, 5, 6}, "VEC3"}});
     ASSERT_TRUE(good.load(at(0)));
     for (const auto& [where, value, word] : cases) {
         Gltf g = good;
@@ -205,7 +205,7 @@ TEST(GltfAnimation, damageIsOneLineWhereItIsAskedForAndElseNoMatter)
         COTAN_REFUSED(g.load(at(0)), word);
         EXPECT_TRUE(g.load()) << where;
     }
-    Gltf unnamed = good; // names are looked for before they are checked
+    Gltf unnamed = good; // names are searched before they are checked
     unnamed.root["animations"][1]["name"] = 5;
     COTAN_REFUSED(unnamed.load(at(0, "1")), "animations[1].name: expected a string");
     const auto unknown = unnamed.load(at(0, "go"));
@@ -213,7 +213,7 @@ TEST(GltfAnimation, damageIsOneLineWhereItIsAskedForAndElseNoMatter)
     EXPECT_NE(unknown.error().message.find("expected one of its 2 animations"), std::string::npos)
         << unknown.error().message;
     EXPECT_TRUE(unnamed.load());
-    COTAN_REFUSED(moved({{"translation", {1, 1}, {1, 2, 3, 4, 5, 6}, "VEC3"}}).load(at(0)), "expected rising times");
+    COTAN_REFUSED(animated({{"translation", {1, 1}, {1, 2, 3, 4, 5, 6}, "VEC3"}}).load(at(0)), "expected ascending");
     Gltf fixed = good;
     fixed.root["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     COTAN_REFUSED(fixed.load(at(0)), "has a matrix");
@@ -221,23 +221,23 @@ TEST(GltfAnimation, damageIsOneLineWhereItIsAskedForAndElseNoMatter)
     pointer.root["animations"][1]["channels"][0]["target"]["path"] = "pointer";
     const auto scene = pointer.load(at(0));
     ASSERT_TRUE(scene);
-    EXPECT_TRUE(warns(*scene, "the path \"pointer\" is not animated here"));
+    EXPECT_TRUE(warns(*scene, "animation of the path \"pointer\" is not supported"));
 }
 
-// ---- one reading, many moments ------------------------------------------------------------------
+// ---- one file, many times -----------------------------------------------------------------------
 
-// The file, opened to be read at many moments.
+// Opens the file for reading at many times.
 std::unique_ptr<AnimatedGltf> opened(const Gltf& g, const LoadLimits& limits = {})
 {
     TemporaryFolder folder;
     auto model = AnimatedGltf::open(folder.write("model.gltf", g.text()), limits);
     EXPECT_TRUE(model) << (model ? "" : model.error().message);
-    return model ? std::move(*model) : nullptr; // the file is gone by now
+    return model ? std::move(*model) : nullptr; // the file is deleted by now
 }
 
-TEST(AnimatedGltf, isAtEachMomentWhatAReadingOfTheFileIs)
+TEST(AnimatedGltf, equalsALoadOfTheFileAtEachTime)
 {
-    const Gltf g = moved({{"translation", {1, 3}, {0, 0, 0, 4, 8, -2}, "VEC3"}});
+    const Gltf g = animated({{"translation", {1, 3}, {0, 0, 0, 4, 8, -2}, "VEC3"}});
     const auto model = opened(g);
     ASSERT_TRUE(model);
     for (const double seconds : {2.0, 0.0, 1.5, 1e9, 1.0}) {
@@ -251,16 +251,16 @@ TEST(AnimatedGltf, isAtEachMomentWhatAReadingOfTheFileIs)
     }
     const auto rest = model->at({});
     ASSERT_TRUE(rest);
-    expectNear(glm::vec3(rest->instances[0].toWorld[3]), {0, 0, 0}); // nothing of the moments before is left
+    expectNear(glm::vec3(rest->instances[0].toWorld[3]), {0, 0, 0}); // unaffected by the previous times
     const auto unknown = model->at({"fly", 0});
     ASSERT_FALSE(unknown);
     EXPECT_EQ(unknown.error().kind, ErrorKind::usage);
     EXPECT_TRUE(model->at({"go", 2}));
 }
 
-TEST(AnimatedGltf, isAsLongAsItsLastKey)
+TEST(AnimatedGltf, lengthIsTheTimeOfTheLastKey)
 {
-    Gltf g = moved(
+    Gltf g = animated(
         {{"translation", {0, 1.5f}, {0, 0, 0, 1, 0, 0}, "VEC3"}, {"scale", {0.5f, 2.25f}, {1, 1, 1, 2, 2, 2}, "VEC3"}});
     const auto model = opened(g);
     ASSERT_TRUE(model);
@@ -269,7 +269,7 @@ TEST(AnimatedGltf, isAsLongAsItsLastKey)
     EXPECT_EQ(model->animations()[0].seconds, 0);
     EXPECT_EQ(model->animations()[1].name, "go");
     EXPECT_EQ(model->animations()[1].seconds, 2.25);
-    g.root["animations"][1]["samplers"][0]["input"] = "damaged"; // said where it is asked for, and not before
+    g.root["animations"][1]["samplers"][0]["input"] = "damaged"; // reported when it is requested, not before
     const auto damaged = opened(g);
     ASSERT_TRUE(damaged);
     EXPECT_EQ(damaged->animations()[1].seconds, 0);
@@ -277,10 +277,10 @@ TEST(AnimatedGltf, isAsLongAsItsLastKey)
     EXPECT_FALSE(damaged->at({"go", 0}));
 }
 
-// Their length is asked for before anybody asks for a moment: it is 0 where the keys are no times.
-TEST(AnimatedGltf, keysThatAreNoTimesHaveNoLength)
+// The length is read before any time is requested; it is 0 if the keys are not times.
+TEST(AnimatedGltf, lengthIsZeroIfTheKeysAreNotTimes)
 {
-    const Gltf good = moved({{"translation", {0, 2}, {0, 0, 0, 1, 0, 0}, "VEC3"}});
+    const Gltf good = animated({{"translation", {0, 2}, {0, 0, 0, 1, 0, 0}, "VEC3"}});
     const auto secondsWith = [&](const auto& input) {
         Gltf g = good;
         g.root["animations"][1]["samplers"][0]["input"] = input(g);
@@ -298,7 +298,7 @@ TEST(AnimatedGltf, keysThatAreNoTimesHaveNoLength)
 
 TEST(AnimatedGltf, decodesItsImagesOnce)
 {
-    Gltf g = moved({{"translation", {0, 1}, {0, 0, 0, 1, 0, 0}, "VEC3"}});
+    Gltf g = animated({{"translation", {0, 1}, {0, 0, 0, 1, 0, 0}, "VEC3"}});
     addNormalMap(g);
     int decoded = 0;
     LoadLimits limits;

@@ -1,4 +1,4 @@
-// Every malformed or hostile glTF file of the shared data gets what EXPECTED.tsv says.
+// Every malformed or hostile glTF file of the shared data gets the verdict in EXPECTED.tsv.
 #include <ctime>
 #include <filesystem>
 #include <string>
@@ -23,7 +23,7 @@ std::vector<cotan::test::Expected> gltfCases()
     return cases;
 }
 
-// One line that names the file, as every message on bad input has to be.
+// Expects one line that names the file, as for every message about bad input.
 void expectOneLine(const cotan::Error& error, const fs::path& file)
 {
     EXPECT_EQ(error.kind, cotan::ErrorKind::input);
@@ -51,7 +51,7 @@ void expectVerdict(const cotan::test::Expected& expected)
     }
 }
 
-TEST(GltfBad, everyFileGetsItsVerdict)
+TEST(GltfBad, everyFileIsAcceptedOrRefusedAsListed)
 {
     if (!fs::exists(kBad))
         GTEST_SKIP() << "no shared data at " COTAN_SHARED_DATA;
@@ -60,8 +60,8 @@ TEST(GltfBad, everyFileGetsItsVerdict)
         expectVerdict(expected);
 }
 
-// The message has to be about what is wrong, not about something else that is odd as well.
-TEST(GltfBad, messagesSayWhatIsWrong)
+// The message must be about the fault, not about another oddity of the file.
+TEST(GltfBad, messagesNameTheProblem)
 {
     if (!fs::exists(kBad))
         GTEST_SKIP() << "no shared data at " COTAN_SHARED_DATA;
@@ -96,7 +96,7 @@ TEST(GltfBad, messagesSayWhatIsWrong)
     }
 }
 
-TEST(GltfBad, warningsSayWhatIsWrong)
+TEST(GltfBad, warningsNameTheProblem)
 {
     if (!fs::exists(kBad))
         GTEST_SKIP() << "no shared data at " COTAN_SHARED_DATA;

@@ -1,4 +1,4 @@
-// Both sides of each limit of a glTF model, and what its warnings say and count.
+// Both sides of each limit of a glTF model, and the text and counts of its warnings.
 #include <map>
 
 #include "gltf_edit_maker.hpp"
@@ -14,7 +14,7 @@ std::string refusalOf(const Gltf& g, const LoadLimits& limits)
     return scene ? "" : scene.error().message;
 }
 
-// Two squares in one mesh, shown by two nodes, and a third node that shows nothing.
+// Two squares in one mesh that two nodes show, and a third node without a mesh.
 Gltf squares()
 {
     Gltf g = square();
@@ -25,33 +25,33 @@ Gltf squares()
     return g;
 }
 
-TEST(GltfBounds, limitsAreReachedAndNotPassed)
+TEST(GltfBounds, limitsAreInclusive)
 {
     const Gltf g = squares();
     ASSERT_EQ(refusalOf(g, {}), "");
     struct Row {
         std::size_t LoadLimits::*field;
         std::size_t enough;
-        const char* said;
+        const char* message;
     };
     const std::size_t bytes = g.text().size();
     for (const Row& row :
-         {Row{&LoadLimits::vertices, 8, "meshes[0].primitives[1]: the limit is 7 vertices in all, this one brings 4"},
-          {&LoadLimits::triangles, 4, "meshes[0].primitives[1]: the limit is 3 triangles in all, this one brings 2"},
-          {&LoadLimits::nodes, 4, "the limit is 3 instances in all"}, // two primitives by two nodes
+         {Row{&LoadLimits::vertices, 8, "meshes[0].primitives[1]: the limit is 7 vertices in total, this one adds 4"},
+          {&LoadLimits::triangles, 4, "meshes[0].primitives[1]: the limit is 3 triangles in total, this one adds 2"},
+          {&LoadLimits::nodes, 4, "the limit is 3 instances in total"}, // two primitives in two nodes
           {&LoadLimits::fileBytes, bytes, "the limit is"}}) {
         LoadLimits limits;
         limits.*row.field = row.enough;
         EXPECT_EQ(refusalOf(g, limits), "");
         limits.*row.field = row.enough - 1;
-        EXPECT_NE(refusalOf(g, limits).find(row.said), std::string::npos) << refusalOf(g, limits);
+        EXPECT_NE(refusalOf(g, limits).find(row.message), std::string::npos) << refusalOf(g, limits);
     }
     LoadLimits limits;
-    limits.nodes = 2; // fewer than nodes are listed
+    limits.nodes = 2; // fewer than the listed nodes
     EXPECT_NE(refusalOf(g, limits).find("nodes: the limit is 2, found 3"), std::string::npos);
 }
 
-// The last vertex may be named, the one behind it may not: by indices of each width.
+// For indices of each width: the last vertex is valid, the number of vertices is not.
 TEST(GltfBounds, anIndexIsBelowTheNumberOfVertices)
 {
     for (const int type : {kUByte, kUShort, kUInt})
@@ -62,18 +62,18 @@ TEST(GltfBounds, anIndexIsBelowTheNumberOfVertices)
                 : type == kUShort
                 ? g.accessor(std::vector<std::uint16_t>(order.begin(), order.end()), "SCALAR", kUShort)
                 : g.accessor(std::vector<std::uint8_t>(order.begin(), order.end()), "SCALAR", kUByte);
-            const std::string said = refusalOf(g, {});
+            const std::string message = refusalOf(g, {});
             if (index < 4) {
-                EXPECT_EQ(said, "") << type;
+                EXPECT_EQ(message, "") << type;
             } else {
-                EXPECT_NE(said.find("meshes[0].primitives[0].indices: index 5 is 4, but there are 4 vertices"),
+                EXPECT_NE(message.find("meshes[0].primitives[0].indices: index 5 is 4, but there are 4 vertices"),
                           std::string::npos)
-                    << type << said;
+                    << type << message;
             }
         }
 }
 
-// Vertices of zeros, which cost the file nothing: one accessor of each type stands for all attributes of that type.
+// Vertices of zeros, which need no bytes in the file: one accessor per type serves all attributes of that type.
 struct Zeros {
     explicit Zeros(std::size_t vertices) : count(vertices)
     {
@@ -83,10 +83,10 @@ struct Zeros {
     }
     int of(const char* type, int componentType = kFloat)
     {
-        const auto [place, isNew] = made.try_emplace(type + std::to_string(componentType), 0);
+        const auto [accessor, isNew] = made.try_emplace(type + std::to_string(componentType), 0);
         if (isNew)
-            place->second = g.accessor({{"componentType", componentType}, {"type", type}, {"count", count}});
-        return place->second;
+            accessor->second = g.accessor({{"componentType", componentType}, {"type", type}, {"count", count}});
+        return accessor->second;
     }
     void give(const char* name, const char* type, int componentType = kFloat)
     {
@@ -98,15 +98,15 @@ struct Zeros {
     std::map<std::string, int> made;
 };
 
-// What a model takes is what its arrays have: 4 bytes an index, 12, 16 and 8 for vectors of three, four and two. Of a
-// file 16 times its own size comes on top of the limit.
-TEST(GltfBounds, geometryTakesTheBytesOfItsArraysAndNoMore)
+// A model needs the bytes of its arrays: 4 per index, and 12, 16 and 8 per vector of three, four and two. The allowance
+// is the limit plus 16 times the size of the file.
+TEST(GltfBounds, geometryCountsTheBytesOfItsArrays)
 {
     constexpr std::size_t kCount = 6000, kOrder = 4, kPosition = 12, kNormal = 12;
     struct Row {
         const char* what;
         void (*add)(Zeros&);
-        std::size_t bytes; // a vertex
+        std::size_t bytes; // per vertex
     };
     const auto joints = [](Zeros& z) { z.give("JOINTS_0", "VEC4", kUByte), z.give("WEIGHTS_0", "VEC4"); };
     for (const Row& row :
@@ -141,13 +141,13 @@ TEST(GltfBounds, geometryTakesTheBytesOfItsArraysAndNoMore)
     }
 }
 
-// The first set of joints comes with its vertices; others, morph targets and corners of flat triangles count again.
-TEST(GltfBounds, whatAsksForVerticesAgainCountsThemAgain)
+// The first set of joints is part of its vertices; further sets, morph targets and flat corners count again.
+TEST(GltfBounds, eachUseOfVerticesCountsThem)
 {
     struct Row {
         const char* what;
         void (*add)(Zeros&);
-        std::size_t vertices, last; // in all, and of what comes last
+        std::size_t vertices, last; // in total, and of the last item
     };
     const auto joints = [](Zeros& z) {
         z.give("JOINTS_0", "VEC4", kUByte), z.give("WEIGHTS_0", "VEC4");
@@ -181,15 +181,16 @@ TEST(GltfBounds, whatAsksForVerticesAgainCountsThemAgain)
         limits.vertices = row.vertices;
         EXPECT_EQ(refusalOf(z.g, limits), "") << row.what;
         --limits.vertices;
-        const std::string said = refusalOf(z.g, limits), limit = std::to_string(limits.vertices);
-        EXPECT_NE(said.find("the limit is " + limit + " vertices in all, this one brings " + std::to_string(row.last)),
-                  std::string::npos)
-            << row.what << ": " << said;
+        const std::string message = refusalOf(z.g, limits), limit = std::to_string(limits.vertices);
+        EXPECT_NE(
+            message.find("the limit is " + limit + " vertices in total, this one adds " + std::to_string(row.last)),
+            std::string::npos)
+            << row.what << ": " << message;
     }
 }
 
 // Columns of matrices begin at multiples of four bytes (glTF 2.0, 3.6.2.4).
-TEST(GltfBounds, anElementOfEachTypeAndComponentTakesItsBytes)
+TEST(GltfBounds, elementsOfEachTypeHaveTheirSize)
 {
     const std::tuple<const char*, int, std::size_t> cases[] = {
         {"SCALAR", kUByte, 1}, {"VEC3", kUByte, 3},  {"VEC4", kUShort, 8},  {"MAT2", kUByte, 8},   {"MAT2", kUShort, 8},
@@ -200,16 +201,16 @@ TEST(GltfBounds, anElementOfEachTypeAndComponentTakesItsBytes)
             Gltf g = square();
             const int view = g.view(std::vector<std::uint8_t>(3 * bytes - missing, 0));
             g.accessor({{"bufferView", view}, {"componentType", component}, {"type", type}, {"count", 3}});
-            const std::string said = refusalOf(g, {});
-            EXPECT_EQ(said == "", missing == 0) << type << component << said;
+            const std::string message = refusalOf(g, {});
+            EXPECT_EQ(message == "", missing == 0) << type << component << message;
         }
 }
 
-TEST(GltfBounds, imagesOfAllAndOfOneAreHeldToTheirBytes)
+TEST(GltfBounds, imagesAreLimitedSinglyAndInTotal)
 {
     Gltf g = square();
-    addNormalMap(g);                                                                // 2 x 2: 16 bytes
-    g.add("images", {{"uri", "data:image/png;base64," + base64(flatPng() + " ")}}); // the same with another byte
+    addNormalMap(g);                                                                // 2 x 2 pixels: 16 bytes
+    g.add("images", {{"uri", "data:image/png;base64," + base64(flatPng() + " ")}}); // the same with one more byte
     g.add("textures", {{"source", 1}});
     g.root["materials"][0]["emissiveTexture"] = {{"index", 1}};
     struct Row {
@@ -231,7 +232,7 @@ TEST(GltfBounds, imagesOfAllAndOfOneAreHeldToTheirBytes)
     EXPECT_FALSE(g.load(limits).error().memory);
     EXPECT_NE(refusalOf(g, limits).find("images[0]"), std::string::npos);
     limits = {};
-    limits.pixels = cotan::Pixels::none; // then none is decoded
+    limits.pixels = cotan::Pixels::none; // then no image is decoded
     limits.allImageBytes = 0;
     COTAN_LOADED(scene, g.load(limits));
     EXPECT_TRUE(scene.images.at(0).data.empty());
@@ -249,7 +250,7 @@ TEST(GltfBounds, theBudgetOfImagesGrowsWithTheirFilesUpToTheLimitOfAll)
     EXPECT_EQ(cotan::imageBudget(limits, std::uint64_t(1) << 60), 5000u);
 }
 
-TEST(GltfBounds, instancesOfOneNodeAreHeldToTheLimitOfNodes)
+TEST(GltfBounds, instancesOfANodeCountAsNodes)
 {
     Gltf g = square();
     g.root["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
@@ -267,7 +268,7 @@ TEST(GltfBounds, instancesOfOneNodeAreHeldToTheLimitOfNodes)
         << refusalOf(g, limits);
 }
 
-// One line for each kind, with the first place, how many more there are, and what they count together.
+// One line per kind, with the first occurrence, the number of others, and their total count.
 TEST(GltfBounds, warningsOfOneKindAreOneLineThatCountsThem)
 {
     Gltf g = square();
@@ -282,12 +283,12 @@ TEST(GltfBounds, warningsOfOneKindAreOneLineThatCountsThem)
     COTAN_LOADED(once, one.load());
     EXPECT_TRUE(warns(once, "nodes[0]: its transform is singular (a scale of zero)"));
     EXPECT_FALSE(warns(once, "more:"));
-    one.root["nodes"][0]["scale"] = {1e-6, 1e-6, 1e-6}; // small is not flat
+    one.root["nodes"][0]["scale"] = {1e-6, 1e-6, 1e-6}; // small is not singular
     COTAN_LOADED(small, one.load());
     EXPECT_FALSE(warns(small, "singular"));
 }
 
-TEST(GltfBounds, skinsWithoutJointsAreIgnoredAndNodesThatAreNoRootsSaid)
+TEST(GltfBounds, skinsWithoutJointsAreIgnoredAndNonRootNodesWarnedOf)
 {
     Gltf g = square();
     g.add("nodes", {{"name", "joint"}});
@@ -296,10 +297,10 @@ TEST(GltfBounds, skinsWithoutJointsAreIgnoredAndNodesThatAreNoRootsSaid)
     g.root["nodes"][0]["translation"] = {1, 2, 3};
     COTAN_LOADED(scene, g.load());
     EXPECT_TRUE(warns(scene, "nodes[0]: its mesh lacks JOINTS_0, so its skin is ignored"));
-    EXPECT_EQ(glm::vec3(scene.instances.at(0).toWorld[3]), glm::vec3(1, 2, 3)); // and the node counts again
+    EXPECT_EQ(glm::vec3(scene.instances.at(0).toWorld[3]), glm::vec3(1, 2, 3)); // the node's transform applies again
     Gltf child = square();
     child.add("nodes", {{"children", {0}}, {"translation", {0, 5, 0}}});
-    COTAN_LOADED(listed, child.load()); // the scene lists the child alone
+    COTAN_LOADED(listed, child.load()); // the scene lists only the child
     EXPECT_TRUE(warns(listed, "scenes[0]: it lists nodes that are not roots"));
     ASSERT_EQ(listed.instances.size(), 1u);
     EXPECT_EQ(listed.instances[0].toWorld[3].y, 5); // where its parent puts it
@@ -308,14 +309,14 @@ TEST(GltfBounds, skinsWithoutJointsAreIgnoredAndNodesThatAreNoRootsSaid)
     EXPECT_FALSE(warns(root, "roots"));
 }
 
-TEST(GltfBounds, theSceneThatIsNamedIsShownAndWithoutScenesAllRoots)
+TEST(GltfBounds, theDefaultSceneIsShownElseAllRoots)
 {
     Gltf g = square();
     g.add("nodes", {{"mesh", 0}, {"name", "second"}});
     g.add("scenes", {{"nodes", {1}}});
     COTAN_LOADED(first, g.load());
     ASSERT_EQ(first.instances.size(), 1u);
-    EXPECT_EQ(first.instances[0].name, "square"); // its mesh's, for it has none
+    EXPECT_EQ(first.instances[0].name, "square"); // the mesh's name, as the node has none
     g.root["scene"] = 1;
     COTAN_LOADED(second, g.load());
     ASSERT_EQ(second.instances.size(), 1u);
@@ -326,8 +327,8 @@ TEST(GltfBounds, theSceneThatIsNamedIsShownAndWithoutScenesAllRoots)
     EXPECT_EQ(all.instances.size(), 2u);
 }
 
-// The name says what a file is to be; what it is say its first bytes.
-TEST(GltfBounds, aGlbBeginsWithItsMagicAndATextMayNotBeCalledOne)
+// The extension announces the container; the first bytes must match.
+TEST(GltfBounds, aGlbMustBeginWithItsMagic)
 {
     const auto named = loadText(square().text(), "model.glb");
     ASSERT_FALSE(named);
@@ -336,8 +337,8 @@ TEST(GltfBounds, aGlbBeginsWithItsMagicAndATextMayNotBeCalledOne)
     EXPECT_TRUE(loadText(square().text(), "model.gltf"));
 }
 
-// A camera or a light of a node whose axes have no length keeps the directions that it would have without.
-TEST(GltfBounds, camerasOfFlatNodesLookAlongMinusZ)
+// A camera or a light of a node whose axes have zero length keeps the untransformed directions.
+TEST(GltfBounds, camerasOfNodesScaledToZeroLookAlongMinusZ)
 {
     Gltf g = square();
     g.add("cameras", {{"type", "perspective"}, {"name", "own"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}});
@@ -345,7 +346,7 @@ TEST(GltfBounds, camerasOfFlatNodesLookAlongMinusZ)
     g.root["scenes"][0]["nodes"] = {0, 1};
     COTAN_LOADED(scene, g.load());
     ASSERT_EQ(scene.cameras.size(), 1u);
-    EXPECT_EQ(scene.cameras[0].name, "own"); // before its node's
+    EXPECT_EQ(scene.cameras[0].name, "own"); // takes precedence over the node's
     expectNear(scene.cameras[0].target, {0, 0, 8});
     expectNear(scene.cameras[0].up, {0, 1, 0});
 }

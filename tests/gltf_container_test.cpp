@@ -1,5 +1,5 @@
-// How a glTF file is taken apart before anything of it is looked at: chunks, JSON, URIs and buffers, with the numbers
-// that messages give. Sources: glTF 2.0, sections 3.6.1 and 4.4; RFC 3986, 2.1; RFC 4648.
+// How a glTF file is parsed before its contents are examined: chunks, JSON, URIs and buffers, with the numbers in
+// messages. Sources: glTF 2.0, sections 3.6.1 and 4.4; RFC 3986, 2.1; RFC 4648.
 #include <tuple>
 
 #include "gltf_maker.hpp"
@@ -9,7 +9,7 @@ namespace {
 using namespace cotan::test;
 using cotan::LoadLimits;
 
-// What is said of a file behind its name; "" where it is read.
+// The error message after the file name; "" if the file is read.
 std::string complaint(const cotan::Result<cotan::Scene>& scene)
 {
     if (scene)
@@ -31,7 +31,7 @@ std::string container(const std::string& chunks, std::uint32_t version = 2, std:
 
 const std::string kBin("BIN\0", 4), kOther("ABCD");
 
-// The square's JSON, whose buffer is a chunk, in whole words.
+// The square's JSON with its buffer in a chunk, padded to a multiple of four bytes.
 std::string plainJson(const Gltf& g)
 {
     json root = g.root;
@@ -41,7 +41,7 @@ std::string plainJson(const Gltf& g)
     return text;
 }
 
-TEST(GltfContainer, headersAndChunksAreHeldToTheirLengths)
+TEST(GltfContainer, headerAndChunkLengthsAreChecked)
 {
     const Gltf g = square();
     const std::string text = chunkOf("JSON", plainJson(g)), bin = chunkOf(kBin, g.bytes);
@@ -53,22 +53,21 @@ TEST(GltfContainer, headersAndChunksAreHeldToTheirLengths)
         {container(std::string(7, ' ')), "GLB header: expected at least 20 bytes, found 19"},
         {container(text, 3), "GLB header: expected version 2, found 3"},
         {container(text, 0), "GLB header: expected version 2, found 0"},
-        {container(chunkOf("JSON", ""), 2, 1), "GLB header: it says that the file has 21 bytes, found 20"},
+        {container(chunkOf("JSON", ""), 2, 1), "GLB header: expected a file of 21 bytes, found 20"},
         {container(text + bin.substr(0, 7)), "GLB chunk 1: expected a header of 8 bytes, found 7 bytes"},
         {container(text.substr(0, text.size() - 1)),
-         "GLB chunk 0: it says that it has " + length + " bytes, but " + std::to_string(text.size() - 9) + " are left"},
+         "GLB chunk 0: expected " + length + " bytes, but only " + std::to_string(text.size() - 9) + " are left"},
         {container(text + bin.substr(0, bin.size() - 1)),
-         "GLB chunk 1: it says that it has " + data + " bytes, but " + std::to_string(g.bytes.size() - 1)
-             + " are left"},
+         "GLB chunk 1: expected " + data + " bytes, but only " + std::to_string(g.bytes.size() - 1) + " are left"},
         {container(bin + text), "GLB chunk 0: expected JSON first, found type 0x004e4942"},
         {container(text + bin + text), "GLB chunk 2: expected JSON only once, found type 0x4e4f534a"},
         // The binary chunk is the second one, or there is none.
         {container(text + chunkOf(kOther, "1234") + bin),
-         "buffers[0].byteLength: " + data + " bytes are promised, found 0"},
-        {container(text), "buffers[0].byteLength: " + data + " bytes are promised, found 0"},
+         "buffers[0].byteLength: expected " + data + " bytes, found 0"},
+        {container(text), "buffers[0].byteLength: expected " + data + " bytes, found 0"},
     };
-    for (const auto& [bytes, said] : cases)
-        EXPECT_EQ(complaint(loadText(bytes, "model.glb")), said);
+    for (const auto& [bytes, message] : cases)
+        EXPECT_EQ(complaint(loadText(bytes, "model.glb")), message);
     COTAN_LOADED(odd, loadText(container(text + bin + chunkOf(kOther, "12345")), "model.glb"));
     EXPECT_EQ(odd.warnings, std::vector<std::string>{"GLB chunk 2: its length is not a multiple of 4"});
     EXPECT_EQ(odd.name, "model");
@@ -79,39 +78,39 @@ TEST(GltfContainer, aBufferHasAUriUnlessItIsTheFirstOfAGlb)
     Gltf g = square();
     json root = g.root;
     root["buffers"] = {{{"byteLength", g.bytes.size()}}, {{"byteLength", 4}}};
-    const std::string missing = ".uri: missing; only the first buffer of a GLB may go without";
+    const std::string missing = ".uri: missing; only the first buffer of a GLB may omit it";
     EXPECT_EQ(complaint(loadText(container(chunkOf("JSON", root.dump()) + chunkOf(kBin, g.bytes)), "model.glb")),
               "buffers[1]" + missing);
     EXPECT_EQ(complaint(loadText(root.dump())), "buffers[0]" + missing);
 }
 
-TEST(GltfContainer, jsonThatIsNoneIsShownByLineAndColumn)
+TEST(GltfContainer, invalidJsonIsReportedByLineAndColumn)
 {
-    // What is said ends with the place: where the parser read more than that, its end.
+    // The message ends with the text at that position: the end of what the parser read, if it is long.
     const std::tuple<std::string, std::string, std::string> cases[] = {
         {"{\"a\":}", "line 1, column 6: expected valid JSON; found '", "}'"},
         {"{\n \"a\": x}", "line 2, column 7: expected valid JSON; found '", "x'"},
         {"\n\n\n  ]", "line 4, column 3: expected valid JSON; found '", "]'"},
         {"{\"a\": 1", "line 1, column 8: expected more; found ", "the end of the file"},
         {"{\"a\":\n[", "line 2, column 2: expected more; found ", "the end of the file"},
-        {"{\"a\": 1e999}", "line 1, column 11: expected a number that a double holds; found '", "1e999'"},
-        // Of long ones the last 24 characters, and none that a terminal would take for more than text.
+        {"{\"a\": 1e999}", "line 1, column 11: expected a number in the range of double; found '", "1e999'"},
+        // Of long texts the last 24 characters, without any that a terminal would interpret.
         {"[123456789012345678901234567890x", "line 1, column 32: expected valid JSON; found '",
          "89012345678901234567890x'"},
         {"[\"0123456789012345678901234567890\xff\"", "line 1, column 34: expected valid JSON; found '",
          "89012345678901234567890?'"},
     };
-    for (const auto& [text, said, end] : cases) {
+    for (const auto& [text, message, end] : cases) {
         const std::string found = complaint(loadText(text));
-        EXPECT_TRUE(found.starts_with("JSON: " + said)) << found;
+        EXPECT_TRUE(found.starts_with("JSON: " + message)) << found;
         EXPECT_TRUE(found.ends_with(end)) << found;
-        EXPECT_LE(found.size(), 6 + said.size() + 24 + 1) << found;
+        EXPECT_LE(found.size(), 6 + message.size() + 24 + 1) << found;
     }
 }
 
 TEST(GltfContainer, jsonMayBeNested128LevelsDeep)
 {
-    for (const int arrays : {127, 128}) { // in the object that the document is
+    for (const int arrays : {127, 128}) { // inside the object that is the document
         std::string text = square().text();
         text.insert(
             1, "\"extras\":" + std::string(std::size_t(arrays), '[') + std::string(std::size_t(arrays), ']') + ",");
@@ -119,14 +118,14 @@ TEST(GltfContainer, jsonMayBeNested128LevelsDeep)
     }
 }
 
-// A percent sign that starts no code stands for itself, and only what comes before the first / ? or # can be a scheme.
-TEST(GltfContainer, urisNameFilesAsTheyAreWrittenOrEncoded)
+// A percent sign that starts no code stands for itself, and a scheme must precede the first / ? or #.
+TEST(GltfContainer, urisNameFilesPlainOrPercentEncoded)
 {
     const TemporaryFolder folder;
     Gltf g = square();
     const std::string bytes = g.bytes;
     g.bytes.clear();
-    const auto said = [&](const std::string& uri) {
+    const auto message = [&](const std::string& uri) {
         g.root["buffers"] = {{{"byteLength", bytes.size()}, {"uri", uri}}};
         return complaint(cotan::loadGltf(folder.write("model.gltf", g.text())));
     };
@@ -138,18 +137,18 @@ TEST(GltfContainer, urisNameFilesAsTheyAreWrittenOrEncoded)
     };
     for (const auto& [uri, name] : names) {
         folder.write(name, bytes);
-        EXPECT_EQ(said(uri), "") << uri;
+        EXPECT_EQ(message(uri), "") << uri;
     }
     folder.write("n:o", bytes);
-    EXPECT_EQ(said("n:o"), "buffers[0].uri: expected a file in the model's folder, found \"n:o\"");
-    EXPECT_EQ(said("../p"),
+    EXPECT_EQ(message("n:o"), "buffers[0].uri: expected a file in the model's folder, found \"n:o\"");
+    EXPECT_EQ(message("../p"),
               "buffers[0].uri: expected a file in the model's folder, found \"../p\", which leads out of it");
-    EXPECT_EQ(said("%41%42"), "buffers[0].uri: there is no file \"%41%42\" in the model's folder");
+    EXPECT_EQ(message("%41%42"), "buffers[0].uri: there is no file \"%41%42\" in the model's folder");
 }
 
 TEST(GltfContainer, dataUrisAreBase64OfAnyLengthPaddedOrNot)
 {
-    const auto said = [](const std::string& uri, std::size_t length) {
+    const auto message = [](const std::string& uri, std::size_t length) {
         const json root = {{"asset", {{"version", "2.0"}}}, {"buffers", {{{"byteLength", length}, {"uri", uri}}}}};
         return complaint(loadText(root.dump()));
     };
@@ -163,24 +162,24 @@ TEST(GltfContainer, dataUrisAreBase64OfAnyLengthPaddedOrNot)
                                       {"AAAAAA==", 4},
                                       {"AAAAAAA", 5},
                                       {"AAAAAAAA", 6}}) {
-        EXPECT_EQ(said(head + text, std::size_t(bytes)), "") << text;
-        EXPECT_EQ(said(head + text, std::size_t(bytes) + 1),
-                  "buffers[0].byteLength: " + std::to_string(bytes + 1) + " bytes are promised, found "
+        EXPECT_EQ(message(head + text, std::size_t(bytes)), "") << text;
+        EXPECT_EQ(message(head + text, std::size_t(bytes) + 1),
+                  "buffers[0].byteLength: expected " + std::to_string(bytes + 1) + " bytes, found "
                       + std::to_string(bytes));
     }
     for (const char* text : {"A", "AAAAA", "A===", "AA=A", "A A=", "AA-_", "AAA\u00e9"})
-        EXPECT_EQ(said(head + text, 0), "buffers[0].uri: the data URI is not valid base64") << text;
+        EXPECT_EQ(message(head + text, 0), "buffers[0].uri: the data URI is not valid base64") << text;
     const std::string expected = "buffers[0].uri: expected data:TYPE;base64,... , found ";
-    EXPECT_EQ(said("data:,AAAA", 0), expected + "data:,AAAA...");
-    EXPECT_EQ(said("data:a/b;;base64,AAAA", 0), expected + "data:a/b;;base64,AAAA...");
+    EXPECT_EQ(message("data:,AAAA", 0), expected + "data:,AAAA...");
+    EXPECT_EQ(message("data:a/b;;base64,AAAA", 0), expected + "data:a/b;;base64,AAAA...");
     const std::string longest = "data:" + std::string(100, 'x');
-    EXPECT_EQ(said(longest, 0), expected + longest.substr(0, 60) + "...");
-    EXPECT_EQ(said("data:;base64,AAAA", 3), "");
-    EXPECT_EQ(said("data:a/b;c=d;base64,AAAA", 3), "");
+    EXPECT_EQ(message(longest, 0), expected + longest.substr(0, 60) + "...");
+    EXPECT_EQ(message("data:;base64,AAAA", 3), "");
+    EXPECT_EQ(message("data:a/b;c=d;base64,AAAA", 3), "");
 }
 
-// The bytes of a view, and what they are, are those of its buffer.
-TEST(GltfContainer, viewsEndWithTheirBuffer)
+// Views must end within their buffer, even empty ones.
+TEST(GltfContainer, viewsMustEndWithinTheirBuffer)
 {
     Gltf g = square();
     const std::size_t all = g.bytes.size();
@@ -194,32 +193,32 @@ TEST(GltfContainer, viewsEndWithTheirBuffer)
     EXPECT_EQ(complaint(g.load()), "bufferViews[3]: it ends at byte " + std::to_string(all + 1) + has);
 }
 
-// A buffer file is read once however many buffers are in it; it is held to the limit of a file, and counts as a part of
-// the model where geometry is held to its size.
-TEST(GltfContainer, bufferFilesAreReadOnceAndCountAsPartsOfTheModel)
+// A buffer file is read once however many buffers it contains. It is subject to the limit of file sizes, and its size
+// counts towards the model's when geometry is limited relative to the model's size.
+TEST(GltfContainer, bufferFilesAreReadOnceAndCountAsInputs)
 {
     Gltf g = square();
     const std::size_t used = g.bytes.size();
     json root = g.root;
     root["buffers"] = {{{"byteLength", used}, {"uri", "data%20file.bin"}},
                        {{"byteLength", 9}, {"uri", "data%20file.bin"}}};
-    const std::string text = root.dump(), data = g.bytes + std::string(text.size(), 'x'); // the longer of the two
-    std::vector<std::string> asked;
+    const std::string text = root.dump(), data = g.bytes + std::string(text.size(), 'x'); // longer than the JSON
+    std::vector<std::string> requested;
     LoadLimits limits;
     const auto asBytes = [](const std::string& s) {
         const auto* const first = reinterpret_cast<const std::byte*>(s.data());
         return cotan::Result<std::vector<std::byte>>(std::vector<std::byte>(first, first + s.size()));
     };
     const auto loaded = [&](const std::string& model) {
-        asked.clear();
+        requested.clear();
         limits.readFile = [&](const std::string& name) {
-            asked.push_back(name);
-            return asBytes(asked.size() == 1 ? model : data);
+            requested.push_back(name);
+            return asBytes(requested.size() == 1 ? model : data);
         };
         return cotan::loadGltf("folder/model.gltf", limits);
     };
     EXPECT_EQ(complaint(loaded(text)), "");
-    EXPECT_EQ(asked, (std::vector<std::string>{"folder/model.gltf", "data file.bin"}));
+    EXPECT_EQ(requested, (std::vector<std::string>{"folder/model.gltf", "data file.bin"}));
     limits.fileBytes = data.size();
     EXPECT_EQ(complaint(loaded(text)), "");
     limits.fileBytes = data.size() - 1;
@@ -237,17 +236,17 @@ TEST(GltfContainer, bufferFilesAreReadOnceAndCountAsPartsOfTheModel)
     const std::size_t size = large.size() + data.size(), before = 48 + 48 + 32 + 12; // the square's accessors
     EXPECT_EQ(complaint(loaded(large)),
               "accessors[4]: the accessors take " + std::to_string(before + 60'000'000)
-                  + " bytes with it, the limit is " + std::to_string(1000 + 16 * size) + " for a file of "
-                  + std::to_string(size));
+                  + " bytes in total, the limit is " + std::to_string(1000 + 16 * size) + " for a file of "
+                  + std::to_string(size) + " bytes");
 }
 
-// A hundred kinds are named, and how many more there are; what is said already goes on being counted.
-TEST(GltfWarnings, atMostAHundredKindsOfWarnings)
+// A hundred kinds are listed, and then the number of others; kinds already listed continue to be counted.
+TEST(GltfWarnings, atMostAHundredKindsAreListed)
 {
     for (const int kinds : {100, 101, 103}) {
         Gltf g = square();
         const json p = primitive(g);
-        for (int i = 0; i < kinds + 1; ++i) { // the last as the first
+        for (int i = 0; i < kinds + 1; ++i) { // the last repeats the first
             g.root["materials"][std::size_t(i)] = {{"extras", {{"cotanFrame", "f" + std::to_string(i % kinds)}}}};
             json next = p;
             next["material"] = i;
@@ -256,32 +255,32 @@ TEST(GltfWarnings, atMostAHundredKindsOfWarnings)
         COTAN_LOADED(scene, g.load());
         ASSERT_EQ(scene.warnings.size(), kinds == 100 ? 100u : 101u);
         EXPECT_EQ(scene.warnings[0],
-                  "materials[0].extras.cotanFrame and 1 more: expected the name of a frame, found 'f0'; left out");
+                  "materials[0].extras.cotanFrame and 1 more: expected the name of a frame, found 'f0'; ignored");
         EXPECT_EQ(scene.warnings[99],
-                  "materials[99].extras.cotanFrame: expected the name of a frame, found 'f99'; left out");
+                  "materials[99].extras.cotanFrame: expected the name of a frame, found 'f99'; ignored");
         if (kinds > 100) {
             EXPECT_EQ(scene.warnings[100], std::to_string(kinds - 100) + " more warnings are left out");
         }
     }
 }
 
-// Text of a file goes onto one line and is cut behind 500 bytes.
-TEST(GltfWarnings, textOfTheFileIsOneLineOfBoundedLength)
+// Text from a file is put on one line and cut after 500 bytes.
+TEST(GltfWarnings, quotedTextIsOneLineOfBoundedLength)
 {
-    const auto saidOf = [](const std::string& frame) {
+    const auto warningOf = [](const std::string& frame) {
         Gltf g = square();
         g.root["materials"][0]["extras"]["cotanFrame"] = frame;
         const auto scene = g.load();
         return scene && !scene->warnings.empty() ? scene->warnings[0] : "";
     };
     const std::string before = "materials[0].extras.cotanFrame: expected the name of a frame, found '",
-                      after = "'; left out";
-    EXPECT_EQ(saidOf("a\nb\tc\x7f\x1f"
-                     "d e \n"),
+                      after = "'; ignored";
+    EXPECT_EQ(warningOf("a\nb\tc\x7f\x1f"
+                        "d e \n"),
               before + "a b c  d e" + after);
-    const std::string most(500 - before.size() - after.size(), 'x');
-    EXPECT_EQ(saidOf(most), before + most + after);
-    EXPECT_EQ(saidOf(most + "x"), (before + most + "x" + after).substr(0, 500) + "...");
+    const std::string filler(500 - before.size() - after.size(), 'x');
+    EXPECT_EQ(warningOf(filler), before + filler + after);
+    EXPECT_EQ(warningOf(filler + "x"), (before + filler + "x" + after).substr(0, 500) + "...");
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-# The npm packages of tests/npm, in the build folder. Where they cannot be had this is skipped, and
-# the tests that need them skip and say so.
+# Installs the npm packages of tests/npm in the build folder. If that is not possible, this is skipped, and the tests
+# that need them skip and say so.
 add_test(NAME npm_packages
   COMMAND ${PROJECT_SOURCE_DIR}/scripts/npm-packages ${PROJECT_BINARY_DIR}/npm)
 set_tests_properties(npm_packages PROPERTIES

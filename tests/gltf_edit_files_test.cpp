@@ -1,4 +1,4 @@
-// The files that the glTF editor writes, byte by byte: containers, names, what is counted, what is joined.
+// The files that the glTF editor writes, byte by byte: containers, names, counts and joined buffers.
 #include "gltf_edit_maker.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ std::vector<std::byte> bytesOf(const std::string& text)
     return {first, first + text.size()};
 }
 
-// A model with two images in files, the first of them under two names, its buffer in two files.
+// A model with two image files, the first of them under two names, and its buffer in a file.
 stdfs::path writeModel(const TemporaryFolder& folder)
 {
     Gltf g = square();
@@ -25,15 +25,15 @@ stdfs::path writeModel(const TemporaryFolder& folder)
     g.root["materials"][0]["occlusionTexture"] = {{"index", 2}};
     g.root["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", "model.bin"}, {"name", "first"}}};
     folder.write("maps/a b.png", flatPng());
-    folder.write("c.png", flatPng() + "    "); // other bytes
+    folder.write("c.png", flatPng() + "    "); // different bytes
     folder.write("model.bin", g.bytes);
     return folder.write("model.gltf", g.root.dump());
 }
 
-TEST(GltfFiles, aGlbIsItsHeaderAndChunksOfWholeWords)
+TEST(GltfFiles, aGlbHasAHeaderAndChunksPaddedToFourBytes)
 {
     const TemporaryFolder folder;
-    for (const std::string extra : {"", "1", "12", "123"}) { // each length of the text, and of the bytes
+    for (const std::string extra : {"", "1", "12", "123"}) { // all lengths modulo four of the text and the bytes
         Gltf g = square();
         g.root["asset"]["copyright"] = extra;
         g.bytes += extra;
@@ -69,10 +69,10 @@ TEST(GltfFiles, aGlbIsItsHeaderAndChunksOfWholeWords)
     ASSERT_TRUE(nothing);
     ASSERT_TRUE(cotan::writeGltf(*nothing, folder.path / "out.glb"));
     const std::string bytes = wholeFile(folder.path / "out.glb");
-    EXPECT_EQ(20 + wordAt(bytes, 12), bytes.size()); // and no chunk of bytes
+    EXPECT_EQ(20 + wordAt(bytes, 12), bytes.size()); // there is no binary chunk
 }
 
-TEST(GltfFiles, anImageThatIsUsedTwiceIsEmbeddedOnceAndWhatIsNoImageStaysOutside)
+TEST(GltfFiles, sharedImagesAreEmbeddedOnceAndOtherFilesStayExternal)
 {
     const TemporaryFolder folder;
     const auto document = cotan::openGltfDocument(writeModel(folder));
@@ -99,17 +99,17 @@ TEST(GltfFiles, anImageThatIsUsedTwiceIsEmbeddedOnceAndWhatIsNoImageStaysOutside
     const auto poor = cotan::writeGltf(*document, folder.path / "out.glb");
     ASSERT_TRUE(poor);
     ASSERT_EQ(poor->notes.size(), 3u);
-    EXPECT_EQ(poor->notes[0], R"(images[0]: "maps/a%20b.png" is missing or no picture and stays a reference)");
-    EXPECT_EQ(poor->notes[1], R"(images[1]: "c.png" is missing or no picture and stays a reference)");
+    EXPECT_EQ(poor->notes[0], R"(images[0]: "maps/a%20b.png" is missing or not an image; its URI is kept)");
+    EXPECT_EQ(poor->notes[1], R"(images[1]: "c.png" is missing or not an image; its URI is kept)");
     EXPECT_EQ(readBack(folder.path / "out.glb").root["images"][1]["uri"], "c.png");
 }
 
-TEST(GltfFiles, aGltfInAnotherFolderTakesItsImagesToTheSamePlacesAndCountsThem)
+TEST(GltfFiles, imagesAreCopiedToTheSameRelativePaths)
 {
     const TemporaryFolder folder, other;
     const auto document = cotan::openGltfDocument(writeModel(folder));
     ASSERT_TRUE(document);
-    other.write("c.png", flatPng() + "    "); // the same is there: it stays
+    other.write("c.png", flatPng() + "    "); // an equal file is there and is kept
     const auto written = cotan::writeGltf(*document, other.path / "x.gltf");
     ASSERT_TRUE(written) << written.error().message;
     std::vector<std::string> names;
@@ -120,7 +120,7 @@ TEST(GltfFiles, aGltfInAnotherFolderTakesItsImagesToTheSamePlacesAndCountsThem)
     EXPECT_EQ(written->bytesAfter,
               stdfs::file_size(other.path / "x.gltf") + stdfs::file_size(other.path / "x.bin") + 2 * flatPng().size()
                   + 4);
-    const auto beside = cotan::writeGltf(*document, folder.path / "y.gltf"); // in its own folder none is copied
+    const auto beside = cotan::writeGltf(*document, folder.path / "y.gltf"); // beside the source no image is copied
     ASSERT_TRUE(beside);
     EXPECT_EQ(beside->files.size(), 2u);
     EXPECT_EQ(beside->bytesAfter,
@@ -128,10 +128,10 @@ TEST(GltfFiles, aGltfInAnotherFolderTakesItsImagesToTheSamePlacesAndCountsThem)
                   + 4);
     const std::string text = wholeFile(folder.path / "y.gltf");
     EXPECT_EQ(text.back(), '\n');
-    EXPECT_NE(text.find("\n  \"asset\""), std::string::npos); // two spaces a level
+    EXPECT_NE(text.find("\n  \"asset\""), std::string::npos); // two spaces per level
 }
 
-TEST(GltfFiles, theBufferOfTheSourceIsNotTakenForAnotherModel)
+TEST(GltfFiles, theBufferOfTheSourceIsNotOverwrittenByAnotherModel)
 {
     const TemporaryFolder folder;
     const stdfs::path model = writeModel(folder);
@@ -145,8 +145,8 @@ TEST(GltfFiles, theBufferOfTheSourceIsNotTakenForAnotherModel)
     EXPECT_EQ(readBack(folder.path / "other.gltf").root["buffers"][0]["name"], "first");
 }
 
-// New images are called MODEL-NAME; what a name may not hold becomes an underscore, and a name that is taken a number.
-TEST(GltfFiles, newImagesBesideAModelGetPlainNamesThatAreFree)
+// New images are named MODEL-NAME; invalid characters become underscores, and a name that is in use gets a number.
+TEST(GltfFiles, newImagesGetPlainUnusedNames)
 {
     const TemporaryFolder folder;
     auto document = cotan::openGltfDocument(writeModel(folder));
@@ -180,8 +180,8 @@ TEST(GltfFiles, newImagesBesideAModelGetPlainNamesThatAreFree)
                                         "m-image7.png", "m-other.png"}));
     EXPECT_EQ(wholeFile(folder.path / "m-plain-name_1-2.png"), "someone's");
     EXPECT_EQ(wholeFile(folder.path / "m-a_b_c___.jpg"), jpeg);
-    EXPECT_EQ(wholeFile(folder.path / "c.png"), flatPng() + "    "); // which was replaced in the model alone
-    // Written again over itself, the names that are the model's own are taken again.
+    EXPECT_EQ(wholeFile(folder.path / "c.png"), flatPng() + "    "); // replaced only in the model
+    // Writing over the model again reuses the names that belong to it.
     const auto again = cotan::writeGltf(*document, folder.path / "m.gltf");
     ASSERT_TRUE(again);
     std::vector<std::string> same;
@@ -191,8 +191,8 @@ TEST(GltfFiles, newImagesBesideAModelGetPlainNamesThatAreFree)
     EXPECT_EQ(same, uris);
 }
 
-// An image that was read is never replaced, not even where it is the model's own.
-TEST(GltfFiles, newImagesBesideAModelDoNotReplaceThoseThatItWasReadFrom)
+// A source image is never replaced, not even if it belongs to the model.
+TEST(GltfFiles, newImagesDoNotReplaceThoseOfTheSource)
 {
     const TemporaryFolder folder;
     const stdfs::path source = writeModel(folder), model = folder.path / "m.gltf";
@@ -210,8 +210,8 @@ TEST(GltfFiles, newImagesBesideAModelDoNotReplaceThoseThatItWasReadFrom)
     EXPECT_EQ(wholeFile(folder.path / "m-c-2.png"), flatPng());
 }
 
-// Whatever was there, it goes; only the images that it calls its own may go with it.
-TEST(GltfFiles, aModelThatIsReplacedMayHaveNoImagesOrBeNoModel)
+// Whatever file is there is replaced; of its images only those that belong to it may be removed with it.
+TEST(GltfFiles, aReplacedFileMayHaveNoImagesOrBeNoModel)
 {
     const TemporaryFolder folder;
     auto document = cotan::openGltfDocument(writeModel(folder));
@@ -228,11 +228,11 @@ TEST(GltfFiles, aModelThatIsReplacedMayHaveNoImagesOrBeNoModel)
     }
 }
 
-TEST(GltfFiles, viewsKeepTheirBytesAndGapsBetweenThemGo)
+TEST(GltfFiles, viewsKeepTheirBytesAndGapsAreRemoved)
 {
     Gltf g = square();
     const std::size_t used = g.bytes.size();
-    g.bytes += std::string(40, 'g'); // which no view covers
+    g.bytes += std::string(40, 'g'); // no view covers these bytes
     const int times = g.floats({0, 1}, "SCALAR"), values = g.floats({0, 0, 0, 1, 2, 3}, "VEC3");
     g.root["animations"] = {{{"samplers", {{{"input", times}, {"output", values}}}},
                              {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
@@ -247,7 +247,7 @@ TEST(GltfFiles, viewsKeepTheirBytesAndGapsBetweenThemGo)
     EXPECT_EQ(floatsOf(out, values, 3), (std::vector<float>{0, 0, 0, 1, 2, 3}));
 }
 
-TEST(GltfFiles, viewsThatShareBytesGoOnSharingThem)
+TEST(GltfFiles, viewsThatShareBytesStillShareThem)
 {
     Gltf g = square();
     const std::size_t start = (g.bytes.size() + 3) / 4 * 4;
@@ -258,10 +258,10 @@ TEST(GltfFiles, viewsThatShareBytesGoOnSharingThem)
     g.root["accessors"].push_back(
         {{"bufferView", g.root["bufferViews"].size() - 1}, {"componentType", 5126}, {"type", "SCALAR"}, {"count", 3}});
     const int part = int(g.root["accessors"].size()) - 1;
-    const int turns = g.floats(std::vector<float>(32, 0.5f), "VEC4"),
+    const int rotations = g.floats(std::vector<float>(32, 0.5f), "VEC4"),
               moves = g.floats({0, 0, 0, 1, 2, 3, 4, 5, 6}, "VEC3");
     g.root["animations"] = {
-        {{"samplers", {{{"input", whole}, {"output", turns}}, {{"input", part}, {"output", moves}}}},
+        {{"samplers", {{{"input", whole}, {"output", rotations}}, {{"input", part}, {"output", moves}}}},
          {"channels", json::array()}}};
     const TemporaryFolder folder;
     const auto document = openText(folder, g.text());
@@ -273,7 +273,7 @@ TEST(GltfFiles, viewsThatShareBytesGoOnSharingThem)
     EXPECT_EQ(out.buffer.size(), g.bytes.size());
 }
 
-TEST(GltfFiles, severalBuffersAreJoinedAndThatIsSaid)
+TEST(GltfFiles, severalBuffersAreJoinedWithANote)
 {
     const TemporaryFolder folder;
     Gltf g = square();

@@ -1,5 +1,5 @@
-// What the editor keeps of a file's bytes and references when something falls out of use: expected places are counted
-// by hand from the sizes of the elements.
+// Bytes and references of a file after something is no longer used. Expected offsets are counted by hand from the sizes
+// of the elements.
 #include "gltf_edit_maker.hpp"
 
 namespace cotan::test {
@@ -12,7 +12,7 @@ struct Dropped {
     std::vector<std::string> notes;
 };
 
-// The model without the tangents of its first primitive, written and read back.
+// Removes the tangents of the first primitive, writes the model and reads it back.
 Dropped withoutTangents(const Gltf& g)
 {
     const TemporaryFolder folder;
@@ -35,20 +35,20 @@ json inView(int view, std::size_t offset, int componentType, const char* type, s
             {"count", count}};
 }
 
-// ---- views that lose a part -----------------------------------------------------------------
+// ---- views that shrink ----------------------------------------------------------------------
 
-// One view without stride: 6 bytes of indices, tangents, positions of which a second accessor reads a part, normals.
-TEST(GltfLayout, partsOfAViewMoveTogetherWhereOneIsGone)
+// One view without stride: 6 bytes of indices, tangents, positions partly shared with a second accessor, normals.
+TEST(GltfLayout, partsOfAViewAreCompactedIfOneIsRemoved)
 {
     Gltf g;
-    std::vector<float> words = {0, 0}; // indices 0 1 2, and 2 bytes of nobody
+    std::vector<float> words = {0, 0}; // indices 0 1 2, and 2 unused bytes
     const std::uint16_t order[] = {0, 1, 2};
     std::memcpy(words.data(), order, sizeof order);
     words.insert(words.end(), kTangents.begin(), kTangents.end()); // from byte 8
-    std::vector<float> places(12);
+    std::vector<float> squares(12);
     for (std::size_t i = 0; i < 12; ++i)
-        places[i] = float(i * i);
-    words.insert(words.end(), places.begin(), places.end());                 // from byte 72
+        squares[i] = float(i * i);
+    words.insert(words.end(), squares.begin(), squares.end());                 // from byte 72
     words.insert(words.end(), kSquareNormals.begin(), kSquareNormals.end()); // from byte 120
     words.insert(words.end(), {0, 0});                                       // shorts from byte 170
     const std::uint16_t late[] = {7, 8};
@@ -70,9 +70,9 @@ TEST(GltfLayout, partsOfAViewMoveTogetherWhereOneIsGone)
     const Dropped done = withoutTangents(g);
     const json& p = done.out.root["meshes"][0]["primitives"][0];
     EXPECT_EQ(shortsOf(done.out, p["indices"]), (std::vector<std::uint16_t>{0, 1, 2}));
-    EXPECT_EQ(floatsOf(done.out, p["attributes"]["POSITION"], 3), places);
+    EXPECT_EQ(floatsOf(done.out, p["attributes"]["POSITION"], 3), squares);
     EXPECT_EQ(floatsOf(done.out, p["attributes"]["_PART"], 1),
-              std::vector<float>(places.begin() + 3, places.begin() + 7));
+              std::vector<float>(squares.begin() + 3, squares.begin() + 7));
     EXPECT_EQ(floatsOf(done.out, p["attributes"]["NORMAL"], 3), kSquareNormals);
     ASSERT_EQ(done.out.root["bufferViews"].size(), 1u);
     EXPECT_EQ(done.out.root["bufferViews"][0]["name"], "all");
@@ -86,18 +86,18 @@ TEST(GltfLayout, partsOfAViewMoveTogetherWhereOneIsGone)
     EXPECT_EQ(offset(p["attributes"]["POSITION"]), 8);
     EXPECT_EQ(offset(p["attributes"]["_PART"]), 20);
     EXPECT_EQ(offset(p["attributes"]["NORMAL"]), 56);
-    EXPECT_EQ(offset(shorts - 1), 106); // what it was modulo four it stays
+    EXPECT_EQ(offset(shorts - 1), 106); // the offset modulo four is unchanged
     EXPECT_TRUE(done.notes.empty());
 }
 
-// Rows of 36 bytes behind a start of 8: position, tangent, two shorts that share a word, three or four bytes that end
-// the view. Directly behind them the rows of another primitive, which keeps its tangents.
+// Rows of 36 bytes from offset 8: position, tangent, two shorts in one word, and three or four bytes at the end of the
+// view. The rows of another primitive, which keeps its tangents, follow directly.
 void checkColumns(std::size_t width)
 {
     SCOPED_TRACE(width);
     Gltf g;
     constexpr std::size_t kStride = 36;
-    std::string bytes(8 + 8 * kStride + width - 4, 'g'); // the last row lacks a byte that nobody reads
+    std::string bytes(8 + 8 * kStride + width - 4, 'g'); // the last row may lack one unused byte
     for (std::size_t row = 0; row < 8; ++row) {
         const auto put = [&](std::size_t at, const void* from, std::size_t size) {
             std::memcpy(bytes.data() + 8 + row * kStride + at, from, size);
@@ -142,19 +142,19 @@ void checkColumns(std::size_t width)
         EXPECT_EQ(rows["byteStride"], m == 0 ? 20 : 36);
     }
     EXPECT_EQ(floatsOf(done.out, done.out.root["meshes"][1]["primitives"][0]["attributes"]["TANGENT"], 4), kTangents);
-    // Four rows of 20 bytes, and four as they were, which may lack the last byte: no gaps but to words of four.
+    // Four rows of 20 bytes, and four unchanged ones that may lack the last byte: gaps only for alignment to four.
     EXPECT_LE(done.out.buffer.size(), 4 * 20 + 4 * kStride);
     EXPECT_GE(done.out.buffer.size(), 4 * 20 + 4 * kStride + width - 4);
 }
 
-TEST(GltfLayout, columnsOfInterleavedRowsGoAndTheOthersMoveUp)
+TEST(GltfLayout, interleavedColumnsAreRemovedAndTheOthersCompacted)
 {
     checkColumns(3);
     checkColumns(4);
 }
 
-// What an image, or sparse values, read as well cannot be taken apart.
-TEST(GltfLayout, aViewThatSomethingElseReadsStaysWhole)
+// A view that an image or sparse values also use cannot be split.
+TEST(GltfLayout, viewsWithOtherReadersAreNotSplit)
 {
     for (const bool image : {true, false}) {
         Gltf g = square();
@@ -167,7 +167,7 @@ TEST(GltfLayout, aViewThatSomethingElseReadsStaysWhole)
             g.add("images", {{"bufferView", view}, {"mimeType", "image/png"}});
             g.add("textures", {{"source", 0}});
         } else {
-            const int places = g.view(std::vector<std::uint16_t>{2});
+            const int sparseIndices = g.view(std::vector<std::uint16_t>{2});
             primitive(g)["targets"] = {
                 {{"POSITION",
                   g.accessor({{"componentType", kFloat},
@@ -175,7 +175,7 @@ TEST(GltfLayout, aViewThatSomethingElseReadsStaysWhole)
                               {"type", "VEC3"},
                               {"sparse",
                                {{"count", 1},
-                                {"indices", {{"bufferView", places}, {"componentType", kUShort}}},
+                                {"indices", {{"bufferView", sparseIndices}, {"componentType", kUShort}}},
                                 {"values", {{"bufferView", view}, {"byteOffset", 16}}}}}})}}};
         }
         const Dropped done = withoutTangents(g);
@@ -191,8 +191,8 @@ TEST(GltfLayout, aViewThatSomethingElseReadsStaysWhole)
     }
 }
 
-// Only what fell out of use goes: what the file itself did not use stays, what was added and is not used goes.
-TEST(GltfLayout, whatTheFileNeverUsedStaysAndWhatWasAddedInVainGoes)
+// Only what the edit stopped using is removed, and what was added in vain. What the file never used stays.
+TEST(GltfLayout, initiallyUnusedDataIsKeptAndUnusedAdditionsAreRemoved)
 {
     Gltf g = square();
     addNormalMap(g);
@@ -204,7 +204,7 @@ TEST(GltfLayout, whatTheFileNeverUsedStaysAndWhatWasAddedInVainGoes)
     auto document = openText(folder, g.text());
     ASSERT_TRUE(document) << document.error().message;
     ASSERT_TRUE(dropGltfTangents(*document, 0, 0));
-    EXPECT_FALSE(dropGltfTangents(*document, 0, 0)); // there are none now
+    EXPECT_FALSE(dropGltfTangents(*document, 0, 0)); // already removed
     EXPECT_EQ(addGltfImage(*document, std::vector<std::byte>(20), "image/png", "in vain"), 2u);
     ASSERT_TRUE(writeGltf(*document, folder.path / "out.glb"));
     const ReadBack out = readBack(folder.path / "out.glb");
@@ -217,7 +217,7 @@ TEST(GltfLayout, whatTheFileNeverUsedStaysAndWhatWasAddedInVainGoes)
     EXPECT_EQ(out.buffer.size(), g.bytes.size() - 64);
 }
 
-// Views in any order of the JSON, one around two others, one without an offset: each has its bytes where they belong.
+// Views in any order of the JSON, one around two others, one without an offset: each keeps its bytes.
 TEST(GltfLayout, viewsWithinAViewMoveWithIt)
 {
     Gltf g;
@@ -229,7 +229,7 @@ TEST(GltfLayout, viewsWithinAViewMoveWithIt)
             v["byteOffset"] = 4 * first;
         g.root["bufferViews"].push_back(v);
     };
-    view(30, 2), view(10, 18), view(12, 3), view(20, 8), view(0, 3); // 3 to 9, 28, 29 and 32 to 39 are nobody's
+    view(30, 2), view(10, 18), view(12, 3), view(20, 8), view(0, 3); // 3 to 9, 28, 29 and 32 to 39 are unused
     for (int v = 0; v < 5; ++v)
         g.accessor({{"bufferView", v}, {"componentType", kUInt}, {"type", "SCALAR"}, {"count", 2}});
     const TemporaryFolder folder;
@@ -237,9 +237,9 @@ TEST(GltfLayout, viewsWithinAViewMoveWithIt)
     ASSERT_TRUE(document) << document.error().message;
     ASSERT_TRUE(writeGltf(*document, folder.path / "out.gltf"));
     const ReadBack out = readBack(folder.path / "out.gltf");
-    const std::size_t places[] = {3 + 18, 3, 3 + 2, 3 + 10, 0};
+    const std::size_t offsets[] = {3 + 18, 3, 3 + 2, 3 + 10, 0};
     for (std::size_t v = 0; v < 5; ++v) {
-        EXPECT_EQ(out.root["bufferViews"][v].value("byteOffset", 0u), 4 * places[v]) << v;
+        EXPECT_EQ(out.root["bufferViews"][v].value("byteOffset", 0u), 4 * offsets[v]) << v;
         EXPECT_EQ(out.root["bufferViews"][v]["byteLength"], g.root["bufferViews"][v]["byteLength"]) << v;
     }
     EXPECT_FALSE(out.root["bufferViews"][4].contains("byteOffset"));
@@ -248,26 +248,26 @@ TEST(GltfLayout, viewsWithinAViewMoveWithIt)
 
 // ---- references -----------------------------------------------------------------------------
 
-// Accessor 0, its view and, where it is asked for, an image are gone: all that refers to later ones has to follow.
-TEST(GltfReferences, ofEveryKindFollowWhatMovesUp)
+// Accessor 0, its view and, if requested, an image are removed: all references to later ones must be adjusted.
+TEST(GltfReferences, ofEveryKindFollowIndexChanges)
 {
     Gltf g;
     const int tangents = g.floats(kTangents, "VEC4");
     const json attributes = {{"POSITION", g.floats(kSquare, "VEC3")}, {"NORMAL", g.floats(kSquareNormals, "VEC3")}};
     const int order = g.accessor(kSquareIndices, "SCALAR", kUShort), morph = g.floats(std::vector<float>(12), "VEC3");
     const int inverse = g.floats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, "MAT4");
-    const int times = g.floats({0, 1}, "SCALAR"), turns = g.floats({0, 0, 0, 1, 0, 0, 1, 0}, "VEC4");
+    const int times = g.floats({0, 1}, "SCALAR"), rotations = g.floats({0, 0, 0, 1, 0, 0, 1, 0}, "VEC4");
     const int moves = g.floats({1, 2, 3}, "VEC3");
-    const int places = g.view(std::vector<std::uint16_t>{1}), values = g.view(std::vector<float>{7, 8, 9});
+    const int sparseIndices = g.view(std::vector<std::uint16_t>{1}), values = g.view(std::vector<float>{7, 8, 9});
     const int sparse = g.accessor({{"componentType", kFloat},
                                    {"count", 4},
                                    {"type", "VEC3"},
                                    {"sparse",
                                     {{"count", 1},
-                                     {"indices", {{"bufferView", places}, {"componentType", kUShort}}},
+                                     {"indices", {{"bufferView", sparseIndices}, {"componentType", kUShort}}},
                                      {"values", {{"bufferView", values}}}}}});
     const std::string png = flatPng();
-    const int picture = g.view(std::vector<char>(png.begin(), png.end()));
+    const int imageView = g.view(std::vector<char>(png.begin(), png.end()));
     g.add("meshes",
           {{"primitives",
             {{{"attributes", attributes},
@@ -278,11 +278,11 @@ TEST(GltfReferences, ofEveryKindFollowWhatMovesUp)
     g.add("nodes",
           {{"mesh", 0}, {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", moves}}}}}}}});
     g.add("skins", {{"joints", {1}}, {"inverseBindMatrices", inverse}});
-    const std::size_t behind = g.root["accessors"].size(); // one that there is not: animations are not checked
+    const std::size_t behind = g.root["accessors"].size(); // one past the end: animations are not checked
     g.root["animations"] = {
-        {{"samplers", {{{"input", times}, {"output", turns}}, {{"input", behind}, {"output", -1}}, 5}}},
+        {{"samplers", {{{"input", times}, {"output", rotations}}, {{"input", behind}, {"output", -1}}, 5}}},
         {{"samplers", 3}}};
-    g.root["images"] = {{{"bufferView", picture}, {"mimeType", "image/png"}}};
+    g.root["images"] = {{{"bufferView", imageView}, {"mimeType", "image/png"}}};
     g.root["textures"] = {{{"source", 0}},
                           {{"extensions", {{"EXT_texture_webp", {{"source", 0}}}, {"KHR_texture_x", 2}}}}};
     const Dropped done = withoutTangents(g);
@@ -297,12 +297,12 @@ TEST(GltfReferences, ofEveryKindFollowWhatMovesUp)
         {p["targets"][1]["POSITION"], sparse},
         {root["skins"][0]["inverseBindMatrices"], inverse},
         {root["animations"][0]["samplers"][0]["input"], times},
-        {root["animations"][0]["samplers"][0]["output"], turns},
+        {root["animations"][0]["samplers"][0]["output"], rotations},
         {root["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"], moves},
         {root["accessors"][1]["bufferView"], 2},
-        {root["accessors"][sparse - 1]["sparse"]["indices"]["bufferView"], places},
+        {root["accessors"][sparse - 1]["sparse"]["indices"]["bufferView"], sparseIndices},
         {root["accessors"][sparse - 1]["sparse"]["values"]["bufferView"], values},
-        {root["images"][0]["bufferView"], picture}};
+        {root["images"][0]["bufferView"], imageView}};
     for (const auto& [reference, before] : moved)
         EXPECT_EQ(reference, before - 1) << before;
     EXPECT_EQ(root["animations"][0]["samplers"][1]["input"], behind);
@@ -330,7 +330,7 @@ TEST(GltfReferences, toImagesFollowInTexturesAndTheirExtensions)
               json({{{"source", 1}}, {{"source", 1}}, {{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}}}));
 }
 
-// By its name or its family an extension is known to hold no reference; of any other all data stay, and that is said.
+// Known extensions and families hold no references. For any other extension all data are kept, with a note.
 TEST(GltfReferences, ofUnknownExtensionsKeepAllData)
 {
     const std::pair<const char*, bool> names[] = {{"KHR_lights_punctual", true},
@@ -353,20 +353,20 @@ TEST(GltfReferences, ofUnknownExtensionsKeepAllData)
         Gltf g = square();
         primitive(g)["attributes"]["TANGENT"] = g.floats(kTangents, "VEC4");
         g.root["scenes"][0]["extensions"][name] = json::object();
-        // What stands in extras is no extension.
+        // Contents of extras are not extensions.
         g.root["scenes"][0]["extras"] = {{"extensions", {{"ACME_in_extras", 1}}}};
         const Dropped done = withoutTangents(g);
         EXPECT_EQ(done.out.buffer.size(), g.bytes.size() - (known ? 64 : 0)) << name;
         EXPECT_EQ(done.notes.size(), known ? 0u : 1u) << name;
     }
-    // Within lists, and within another extension; said in order, each once.
+    // In lists and within another extension; listed in order, each once.
     Gltf g = square();
     primitive(g)["attributes"]["TANGENT"] = g.floats(kTangents, "VEC4");
     g.root["scenes"][0]["extensions"]["KHR_xmp"] = {{"list", {{{"extensions", {{"ZZZ_late", 1}}}}}}};
     g.root["nodes"][0]["extensions"] = {{"ZZZ_late", 2}, {"ACME_early", 3}};
     const Dropped done = withoutTangents(g);
     ASSERT_EQ(done.notes.size(), 1u);
-    EXPECT_EQ(done.notes[0], "nothing is removed: unknown extensions may refer to any data (ACME_early, ZZZ_late)");
+    EXPECT_EQ(done.notes[0], "unused data is kept, because unknown extensions may refer to it (ACME_early, ZZZ_late)");
 }
 
 TEST(GltfReferences, ofUnknownExtensionsForbidJoiningBuffers)
@@ -384,7 +384,7 @@ TEST(GltfReferences, ofUnknownExtensionsForbidJoiningBuffers)
     EXPECT_EQ(written.error().kind, ErrorKind::input);
     EXPECT_EQ(written.error().message,
               (folder.path / "model.gltf").string()
-                  + ": buffers: expected one where an unknown extension (ACME_a) may refer to them, found 2");
+                  + ": buffers: expected one, since an unknown extension (ACME_a) may refer to them, found 2");
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// Opening, writing and reading back small models in tests of the glTF editor.
+// Opens, writes and reads back small models in tests of the glTF editor.
 #pragma once
 
 #include "cotan/gltf.hpp"

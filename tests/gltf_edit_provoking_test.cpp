@@ -1,4 +1,4 @@
-// A vertex of its own for every triangle of a glTF model: what is drawn stays the same to the bit.
+// Gives every triangle of a glTF model its own provoking vertex: drawing must stay bitwise the same.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -11,7 +11,7 @@
 namespace cotan::test {
 namespace {
 
-// The bytes of each element of an accessor, sparse values put in; zeros where it has no view.
+// The bytes of each element of an accessor, including sparse values; zeros if it has no view.
 std::vector<std::string> bytesOf(const ReadBack& model, int accessor)
 {
     const json& a = model.root["accessors"][accessor];
@@ -32,14 +32,14 @@ std::vector<std::string> bytesOf(const ReadBack& model, int accessor)
     };
     for (std::size_t i = 0; i < sparse["count"]; ++i) {
         const std::string index = at("indices", i, sizes.at(sparse["indices"]["componentType"]));
-        std::uint32_t place = 0;
-        std::memcpy(&place, index.data(), index.size());
-        out.at(place) = at("values", i, size);
+        std::uint32_t element = 0;
+        std::memcpy(&element, index.data(), index.size());
+        out.at(element) = at("values", i, size);
     }
     return out;
 }
 
-// The corners of a primitive's triangles, by a second implementation of strips and fans.
+// The corners of a primitive's triangles, from an independent implementation of strips and fans.
 std::vector<std::uint32_t> cornersOf(const ReadBack& model, const json& primitive)
 {
     std::vector<std::uint32_t> order;
@@ -62,7 +62,7 @@ std::vector<std::uint32_t> cornersOf(const ReadBack& model, const json& primitiv
     return order;
 }
 
-// Per triangle what its three corners hold of an accessor, the provoking one (of `after`) turned to the front or not.
+// For each triangle: the bytes that its three corners have in an accessor.
 using Corners = std::vector<std::array<std::string, 3>>;
 
 Corners heldBy(const ReadBack& model, const json& primitive, int accessor)
@@ -75,7 +75,7 @@ Corners heldBy(const ReadBack& model, const json& primitive, int accessor)
     return out;
 }
 
-// The same turn for all attributes: found by what all of them hold together.
+// Concatenates the attributes of each corner, so that one rotation applies to all of them.
 void add(Corners& all, const Corners& more)
 {
     all.resize(more.size());
@@ -109,7 +109,7 @@ void expectSameDrawn(const ReadBack& before, const ReadBack& after, const json& 
     EXPECT_EQ(made.value("mode", 4), 4);
 }
 
-// min and max of positions are exact, as glTF asks.
+// Expects exact min and max of positions, as glTF requires.
 void expectBounds(const ReadBack& model, const json& primitive)
 {
     const int accessor = primitive["attributes"]["POSITION"];
@@ -133,7 +133,7 @@ struct Provoked {
     ReadBack out;
 };
 
-// Both ways round: written, read back, compared with the file as it was.
+// Writes the document, reads it back and compares it with the original.
 Provoked expectProvoked(const Gltf& g, ProvokingVertex provoking = ProvokingVertex::first)
 {
     Provoked provoked;
@@ -176,7 +176,7 @@ json indexed(Gltf& g, const std::vector<std::uint32_t>& order, int type)
     return g.accessor(order, "SCALAR", type);
 }
 
-TEST(GltfProvoking, aSquareNeedsNoMoreVerticesAndStaysWhatItWas)
+TEST(GltfProvoking, aSquareNeedsNoMoreVertices)
 {
     for (const auto provoking : {ProvokingVertex::first, ProvokingVertex::last}) {
         const Provoked p = expectProvoked(square(), provoking);
@@ -200,8 +200,8 @@ Gltf withoutViews()
     return g;
 }
 
-// The first view of a document was added while its primitives were held by reference.
-TEST(GltfProvoking, aModelWithoutAnyViewsGetsItsFirst)
+// Adding the first view of a document once invalidated references to its primitives.
+TEST(GltfProvoking, aModelWithoutViewsGetsItsFirst)
 {
     const TemporaryFolder folder;
     auto document = openText(folder, withoutViews().text());
@@ -215,7 +215,7 @@ TEST(GltfProvoking, aModelWithoutAnyViewsGetsItsFirst)
     EXPECT_EQ(out["accessors"][out["meshes"][0]["primitives"][0]["indices"].get<int>()]["count"], 3);
 }
 
-TEST(GltfEdit, aModelWithoutAnyViewsIsWrittenWithoutAny)
+TEST(GltfEdit, aModelWithoutViewsIsWrittenWithoutAny)
 {
     const TemporaryFolder folder;
     auto document = openText(folder, withoutViews().text());
@@ -224,7 +224,7 @@ TEST(GltfEdit, aModelWithoutAnyViewsIsWrittenWithoutAny)
     EXPECT_FALSE(readBack(folder.path / "out.glb").root.contains("bufferViews"));
 }
 
-TEST(GltfProvoking, indicesOfAllWidthsStripsFansAndNoneComeOutAsLists)
+TEST(GltfProvoking, allIndexTypesStripsAndFansBecomeLists)
 {
     const std::vector<std::uint32_t> strip = {0, 1, 3, 2}, fan = {0, 1, 2, 3}, list = {0, 1, 2, 0, 2, 3};
     for (const auto& [mode, order] : {std::pair{4, list}, {5, strip}, {6, fan}})
@@ -236,7 +236,7 @@ TEST(GltfProvoking, indicesOfAllWidthsStripsFansAndNoneComeOutAsLists)
                 primitive(g)["indices"] = indexed(g, order, type);
                 EXPECT_EQ(expectProvoked(g, provoking).rows.at(0).triangles, 2u);
             }
-    for (const auto& [mode, triangles] : {std::pair{4, 1u}, {5, 2u}, {6, 2u}}) { // a list of four ends early
+    for (const auto& [mode, triangles] : {std::pair{4, 1u}, {5, 2u}, {6, 2u}}) { // a list of four is incomplete
         Gltf g = square();
         primitive(g)["mode"] = mode;
         primitive(g).erase("indices");
@@ -244,7 +244,7 @@ TEST(GltfProvoking, indicesOfAllWidthsStripsFansAndNoneComeOutAsLists)
     }
 }
 
-TEST(GltfProvoking, degenerateTrianglesOfListsStayAndThoseThatJoinStripsGo)
+TEST(GltfProvoking, degenerateTrianglesAreKeptInListsAndRemovedFromStrips)
 {
     Gltf g = square();
     primitive(g)["indices"] = indexed(g, {0, 1, 2, 2, 2, 0, 1, 1, 1, 0, 2, 3, 0, 1, 2}, kUShort);
@@ -252,7 +252,7 @@ TEST(GltfProvoking, degenerateTrianglesOfListsStayAndThoseThatJoinStripsGo)
     primitive(g)["indices"] = indexed(g, {0, 1, 3, 3, 1, 1, 2, 3}, kUShort);
     primitive(g)["mode"] = 5;
     EXPECT_EQ(expectProvoked(g).rows.at(0).triangles, 2u);
-    primitive(g)["indices"] = indexed(g, {0, 0, 0, 0}, kUShort); // nothing is left
+    primitive(g)["indices"] = indexed(g, {0, 0, 0, 0}, kUShort); // no triangle remains
     EXPECT_TRUE(expectProvoked(g).rows.empty());
 }
 
@@ -267,8 +267,8 @@ TEST(GltfProvoking, theRestartValueIsRefusedAndNeverWritten)
         ASSERT_FALSE(document);
         EXPECT_NE(document.error().message.find("the primitive restart value"), std::string::npos);
     }
-    // 255 vertices fit into bytes, 256 do not, for 255 means restart; so for shorts. Three vertices provoke three
-    // triangles; a fourth needs a copy.
+    // 255 vertices fit into bytes and 256 do not, because 255 means restart; likewise for shorts. Three vertices
+    // provoke three triangles; a fourth needs a copy.
     for (const auto& [vertices, before, again, after] : {std::tuple{255u, kUByte, 2, kUByte},
                                                          {255u, kUByte, 3, kUShort},
                                                          {65535u, kUShort, 2, kUShort},
@@ -286,8 +286,8 @@ TEST(GltfProvoking, theRestartValueIsRefusedAndNeverWritten)
     }
 }
 
-// A seam at which u is mirrored and whose vertices both sides share: each triangle has its own U and V.
-TEST(GltfProvoking, mirroredSeamsShareVerticesAsBefore)
+// A seam where u is mirrored and both sides share vertices: each triangle has its own U and V.
+TEST(GltfProvoking, mirroredSeamsStillShareVertices)
 {
     Gltf g = square();
     primitive(g)["attributes"]["POSITION"] =
@@ -300,13 +300,12 @@ TEST(GltfProvoking, mirroredSeamsShareVerticesAsBefore)
     EXPECT_EQ(p.rows.at(0).verticesAfter, 6u); // four provoke, two do not
 }
 
-// Joints, weights, colours of bytes, an attribute that nobody knows, a sparse morph target, bounds, and a vertex that
-// no triangle uses.
-TEST(GltfProvoking, attributesOfAnyTypeFollowAndBoundsAreMadeAnew)
+// Joints, weights, colours of bytes, an unknown attribute, a sparse morph target, bounds, and an unused vertex.
+TEST(GltfProvoking, attributesOfAnyTypeFollowAndBoundsAreRecomputed)
 {
     Gltf g = square();
     json& p = primitive(g);
-    p["indices"] = indexed(g, {0, 1, 3, 1, 3, 0, 3, 0, 1}, kUShort); // vertex 2 is used by nobody
+    p["indices"] = indexed(g, {0, 1, 3, 1, 3, 0, 3, 0, 1}, kUShort); // vertex 2 is unused
     p["attributes"]["_PART"] = g.accessor(std::vector<std::uint8_t>{7, 8, 9, 10}, "SCALAR", kUByte);
     p["attributes"]["COLOR_0"] =
         g.accessor(std::vector<std::uint8_t>{1, 2, 3, 0, 4, 5, 6, 0, 7, 8, 9, 0, 1, 1, 1, 0}, "VEC4", kUByte, true);
@@ -314,7 +313,7 @@ TEST(GltfProvoking, attributesOfAnyTypeFollowAndBoundsAreMadeAnew)
         g.accessor(std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}, "VEC4", kUByte);
     p["attributes"]["WEIGHTS_0"] = g.floats({1, 0, 0, 0, .5f, .5f, 0, 0, 1, 0, 0, 0, .25f, .75f, 0, 0}, "VEC4");
     p["attributes"]["TANGENT"] = g.floats({1, 0, 0, 1, 1, 0, 0, -1, 0, 1, 0, 1, 1, 0, 0, 1}, "VEC4");
-    const int places = g.view(std::vector<std::uint16_t>{1, 2});
+    const int sparseIndices = g.view(std::vector<std::uint16_t>{1, 2});
     const int values = g.view(std::vector<float>{0, 0, 5, 0, 0, 6});
     const auto target = [&](int count) {
         return g.accessor({{"componentType", kFloat},
@@ -324,7 +323,7 @@ TEST(GltfProvoking, attributesOfAnyTypeFollowAndBoundsAreMadeAnew)
                            {"max", {0, 0, 6}},
                            {"sparse",
                             {{"count", count},
-                             {"indices", {{"bufferView", places}, {"componentType", kUShort}}},
+                             {"indices", {{"bufferView", sparseIndices}, {"componentType", kUShort}}},
                              {"values", {{"bufferView", values}}}}}});
     };
     p["targets"] = {{{"POSITION", target(2)}}, {{"NORMAL", target(1)}}};
@@ -341,11 +340,11 @@ TEST(GltfProvoking, attributesOfAnyTypeFollowAndBoundsAreMadeAnew)
     EXPECT_EQ(morph["max"], json({0, 0, 5})) << "6 was at the vertex that is gone";
 }
 
-// The bounds of integers are integers, though they stand for parts of 1.
-TEST(GltfProvoking, boundsOfQuantisedPositionsAreThoseOfTheStoredNumbers)
+// Bounds of integers are integers, even if they are normalised.
+TEST(GltfProvoking, boundsOfQuantisedPositionsAreThoseOfTheStoredIntegers)
 {
     Gltf g = square();
-    primitive(g)["indices"] = indexed(g, {0, 1, 3}, kUShort); // vertex 2 goes
+    primitive(g)["indices"] = indexed(g, {0, 1, 3}, kUShort); // removes vertex 2
     const int view = g.view(std::vector<std::int16_t>{-5, 0, 0, 0, 100, 0, 0, 0, 32767, 32767, 0, 0, 0, 300, 0, 0});
     g.root["bufferViews"][std::size_t(view)]["byteStride"] = 8;
     primitive(g)["attributes"]["POSITION"] = g.accessor({{"bufferView", view},
@@ -367,26 +366,26 @@ TEST(GltfProvoking, boundsOfQuantisedPositionsAreThoseOfTheStoredNumbers)
     EXPECT_EQ(made["max"].dump(), "[100,300,0]");
 }
 
-// A target whose only change was at a vertex that is gone: glTF forbids sparse parts without values.
-TEST(GltfProvoking, sparsePartsWithoutValuesGo)
+// A target whose only change was at a removed vertex: glTF forbids sparse accessors without values.
+TEST(GltfProvoking, sparsePartsWithoutValuesAreRemoved)
 {
     Gltf g = square();
     primitive(g)["indices"] = indexed(g, {0, 1, 3}, kUShort);
-    const int places = g.view(std::vector<std::uint16_t>{2}), values = g.view(std::vector<float>{0, 0, 5});
+    const int sparseIndices = g.view(std::vector<std::uint16_t>{2}), values = g.view(std::vector<float>{0, 0, 5});
     primitive(g)["targets"] = {{{"POSITION",
                                  g.accessor({{"componentType", kFloat},
                                              {"count", 4},
                                              {"type", "VEC3"},
                                              {"sparse",
                                               {{"count", 1},
-                                               {"indices", {{"bufferView", places}, {"componentType", kUShort}}},
+                                               {"indices", {{"bufferView", sparseIndices}, {"componentType", kUShort}}},
                                                {"values", {{"bufferView", values}}}}}})}}};
     const Provoked p = expectProvoked(g);
     EXPECT_EQ(p.out.root.dump().find("sparse"), std::string::npos);
 }
 
 // Two primitives with parts of the same arrays, and one that draws the same as the first.
-TEST(GltfProvoking, primitivesThatShareVerticesGetTheirOwnAndEqualOnesGoOnSharing)
+TEST(GltfProvoking, onlyEqualPrimitivesStillShareVertices)
 {
     Gltf g = square();
     json& primitives = g.root["meshes"][0]["primitives"];
@@ -395,7 +394,7 @@ TEST(GltfProvoking, primitivesThatShareVerticesGetTheirOwnAndEqualOnesGoOnSharin
     primitives[1]["indices"] = indexed(g, {0, 2, 3}, kUShort);
     primitives.push_back(first);
     primitives.push_back(first);
-    primitives[3]["mode"] = 1; // lines: stay
+    primitives[3]["mode"] = 1; // lines are left unchanged
     const Provoked p = expectProvoked(g);
     ASSERT_EQ(p.rows.size(), 2u);
     EXPECT_EQ(p.rows[1].verticesAfter, 3u);

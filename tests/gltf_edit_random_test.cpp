@@ -1,6 +1,6 @@
-// Documents drawn at random through the editor and back: views that overlap, interleave and leave gaps over several
-// buffers, accessors of many types, sparse ones, morph targets. What each corner of each triangle has is read by a
-// small reader of this file, before and after, and has to be the same to the bit.
+// Random documents through the editor and back: views that overlap, interleave and leave gaps in several buffers,
+// accessors of many types, sparse ones, morph targets. A small reader in this file reads the data of every triangle
+// corner before and after; they must be bitwise equal.
 #include <map>
 #include <random>
 
@@ -38,7 +38,7 @@ struct Files {
     std::vector<std::string> buffers;
 };
 
-// The bytes of every element of an accessor, as the specification has it.
+// The bytes of every element of an accessor, by the specification.
 std::vector<std::string> read(const Files& files, std::size_t index)
 {
     const json& a = files.root["accessors"][index];
@@ -61,15 +61,15 @@ std::vector<std::string> read(const Files& files, std::size_t index)
         const std::size_t width = sizeOf(s["indices"]["componentType"]), number = s["count"];
         const auto at = run(s["indices"], width, number), with = run(s["values"], size, number);
         for (std::size_t i = 0; i < number; ++i) {
-            std::uint32_t place = 0;
-            std::memcpy(&place, at[i].data(), width);
-            values[place] = with[i];
+            std::uint32_t vertex = 0;
+            std::memcpy(&vertex, at[i].data(), width);
+            values[vertex] = with[i];
         }
     }
     return values;
 }
 
-// Of each triangle corner of a primitive: every attribute's and target's bytes, by name.
+// The bytes of every attribute and target at a triangle corner, by name.
 using Corner = std::map<std::string, std::string>;
 std::vector<Corner> cornersIn(const Files& files, const json& primitive)
 {
@@ -124,7 +124,7 @@ public:
     Files files() const { return files_; }
 
 private:
-    // Bytes at a multiple of four in a buffer drawn at random, behind a gap; or, if there are any, in those of before.
+    // Appends the bytes after a gap, at a multiple of four in a random buffer.
     std::size_t view(const std::string& bytes, std::size_t stride)
     {
         const std::size_t b = dice_.below(files_.buffers.size());
@@ -168,17 +168,17 @@ private:
         if (offset > 0)
             a["byteOffset"] = offset;
         if (dice_.below(4) == 0) {
-            std::string places, values;
+            std::string sparseIndices, values;
             std::size_t number = 0;
             for (std::size_t i = 0; i < count; ++i)
                 if (dice_.below(3) == 0) {
-                    places += char(i);
+                    sparseIndices += char(i);
                     values += element(a);
                     ++number;
                 }
             if (number > 0)
                 a["sparse"] = {{"count", number},
-                               {"indices", {{"bufferView", view(places, 0)}, {"componentType", 5121}}},
+                               {"indices", {{"bufferView", view(sparseIndices, 0)}, {"componentType", 5121}}},
                                {"values", {{"bufferView", view(values, 0)}}}};
         }
         files_.root["accessors"].push_back(a);
@@ -188,7 +188,7 @@ private:
         return made;
     }
 
-    // Two accessors whose views share some of their bytes: the second begins within the first and ends behind it.
+    // Adds two accessors whose views overlap: the second starts inside the first and ends after it.
     void addOverlapping(json& attributes, std::size_t count)
     {
         const std::size_t behind = 1 + dice_.below(count);
@@ -281,7 +281,7 @@ Files writtenAs(const TemporaryFolder& folder, cotan::GltfDocument& document, co
     return {back.root, {back.buffer}};
 }
 
-// Bounds are those of the numbers, and no accessor or view is beyond what it lies in or at an odd place.
+// Expects exact bounds, and every accessor and view inside its container and aligned.
 void expectSound(const Files& files)
 {
     for (std::size_t a = 0; a < files.root["accessors"].size(); ++a) {
@@ -318,7 +318,7 @@ template<class Look> void forEachPrimitive(const Files& before, const Files& aft
     }
 }
 
-TEST(GltfEditRandom, writtenAgainEveryCornerHasWhatItHad)
+TEST(GltfEditRandom, everyCornerKeepsItsAttributesWhenWritten)
 {
     for (std::uint32_t seed = 1; seed <= 40; ++seed) {
         const TemporaryFolder folder;
@@ -336,7 +336,7 @@ TEST(GltfEditRandom, writtenAgainEveryCornerHasWhatItHad)
     }
 }
 
-// The numbers of an element: whole ones are normalised.
+// The numbers of an element; integers are normalised.
 std::vector<float> decoded(const std::string& bytes, int componentType)
 {
     std::vector<float> numbers;
@@ -357,13 +357,13 @@ template<int N> void expectNumbers(const std::vector<float>& numbers, const glm:
         EXPECT_FLOAT_EQ(found[c], numbers[std::size_t(c)]);
 }
 
-TEST(GltfEditRandom, theSceneHasAtEveryCornerTheNumbersOfTheFile)
+TEST(GltfEditRandom, theSceneHasTheAttributesOfTheFileAtEveryCorner)
 {
     std::size_t corners = 0, colored = 0;
     for (std::uint32_t seed = 1; seed <= 40; ++seed) {
         const TemporaryFolder folder;
         const Files files = Maker(seed).files();
-        auto document = opened(folder, files); // which writes the buffers
+        auto document = opened(folder, files); // also writes the buffers
         ASSERT_TRUE(document) << document.error().message;
         ASSERT_TRUE(cotan::writeGltf(*document, folder.path / "in.gltf"));
         const auto scene = cotan::loadGltf(folder.path / "in.gltf");
@@ -374,21 +374,21 @@ TEST(GltfEditRandom, theSceneHasAtEveryCornerTheNumbersOfTheFile)
             for (const json& primitive : mesh["primitives"]) {
                 ASSERT_LT(at, scene->meshes.size());
                 const cotan::Mesh& m = scene->meshes[at++];
-                const auto wanted = cornersIn(files, primitive);
-                ASSERT_EQ(m.indices.size(), wanted.size()) << "seed " << seed;
+                const auto expected = cornersIn(files, primitive);
+                ASSERT_EQ(m.indices.size(), expected.size()) << "seed " << seed;
                 const auto typeOf = [&](const char* name) {
                     return files.root["accessors"][primitive["attributes"][name].get<std::size_t>()]["componentType"]
                         .get<int>();
                 };
-                for (std::size_t k = 0; k < wanted.size(); ++k) {
+                for (std::size_t k = 0; k < expected.size(); ++k) {
                     const std::uint32_t v = m.indices[k];
-                    expectNumbers<3>(decoded(wanted[k].at("POSITION"), 5126), m.positions[v]);
-                    const std::vector<float> n = decoded(wanted[k].at("NORMAL"), 5126);
+                    expectNumbers<3>(decoded(expected[k].at("POSITION"), 5126), m.positions[v]);
+                    const std::vector<float> n = decoded(expected[k].at("NORMAL"), 5126);
                     const glm::vec3 unit = glm::normalize(glm::vec3(n[0], n[1], n[2]));
                     EXPECT_LT(glm::distance(m.normals[v], unit), 1e-6f);
-                    expectNumbers<2>(decoded(wanted[k].at("TEXCOORD_0"), typeOf("TEXCOORD_0")), m.texcoords[0][v]);
-                    if (wanted[k].contains("COLOR_0")) {
-                        expectNumbers<4>(decoded(wanted[k].at("COLOR_0"), typeOf("COLOR_0")), m.colors[v]);
+                    expectNumbers<2>(decoded(expected[k].at("TEXCOORD_0"), typeOf("TEXCOORD_0")), m.texcoords[0][v]);
+                    if (expected[k].contains("COLOR_0")) {
+                        expectNumbers<4>(decoded(expected[k].at("COLOR_0"), typeOf("COLOR_0")), m.colors[v]);
                         ++colored;
                     } else {
                         EXPECT_TRUE(m.colors.empty());
@@ -402,7 +402,7 @@ TEST(GltfEditRandom, theSceneHasAtEveryCornerTheNumbersOfTheFile)
     EXPECT_GT(colored, 200u);
 }
 
-TEST(GltfEditRandom, tangentsOfCornersArriveAndNothingElseChanges)
+TEST(GltfEditRandom, settingCornerTangentsChangesNothingElse)
 {
     for (std::uint32_t seed = 1; seed <= 40; ++seed) {
         const TemporaryFolder folder;
@@ -442,8 +442,8 @@ TEST(GltfEditRandom, tangentsOfCornersArriveAndNothingElseChanges)
     }
 }
 
-// Triangles keep their order and their winding, and vertex k is a corner of triangle k: its first, or its last.
-TEST(GltfEditRandom, numberedByProvokingVerticesTrianglesAreTurnedAtMost)
+// Triangles keep their order and winding, and vertex k is the first or the last corner of triangle k.
+TEST(GltfEditRandom, provokingVerticesOnlyRotateTheCornersOfTriangles)
 {
     for (std::uint32_t seed = 1; seed <= 40; ++seed)
         for (const bool last : {false, true}) {

@@ -1,4 +1,4 @@
-// Setting and dropping TANGENT: which vertices are copied, and that nothing else changes.
+// Setting and removing TANGENT: which vertices are copied, and that nothing else changes.
 #include "gltf_edit_maker.hpp"
 
 namespace {
@@ -6,7 +6,7 @@ namespace {
 using namespace cotan::test;
 using cotan::GltfCornerTangents;
 
-// Sets the corners on primitive 0 of mesh 0 and writes a .glb.
+// Sets tangents of corners and writes a .glb.
 ReadBack withTangents(const TemporaryFolder& folder, const std::string& text,
                       const std::vector<GltfCornerTangents>& tangents, std::size_t added)
 {
@@ -22,7 +22,7 @@ ReadBack withTangents(const TemporaryFolder& folder, const std::string& text,
     return readBack(folder.path / "out.glb");
 }
 
-TEST(GltfTangents, addNothingElseWhereCornersAgree)
+TEST(GltfTangents, copyNothingIfCornersAgree)
 {
     const TemporaryFolder folder;
     const ReadBack out = withTangents(folder, square().text(), {{0, 0, cornersOf({1, 1, 1, 1, 1, 1})}}, 0);
@@ -36,19 +36,19 @@ TEST(GltfTangents, addNothingElseWhereCornersAgree)
 TEST(GltfTangents, copyOnlyTheVertexWhoseCornersDiffer)
 {
     Gltf g = square();
-    primitive(g)["mode"] = 4; // said though it is the default: stays
+    primitive(g)["mode"] = 4; // the default, stated explicitly: stays
     const TemporaryFolder folder;
     const ReadBack out = withTangents(folder, g.text(), {{0, 0, cornersOf({1, 1, 1, 1, -1, 1})}}, 1);
     const json& p = out.root["meshes"][0]["primitives"][0];
     EXPECT_EQ(shortsOf(out, p["indices"]), (std::vector<std::uint16_t>{0, 1, 2, 0, 4, 3}));
     std::vector<float> positions = kSquare;
-    positions.insert(positions.end(), {1, 1, 0}); // vertex 2 again
+    positions.insert(positions.end(), {1, 1, 0}); // copy of vertex 2
     EXPECT_EQ(floatsOf(out, p["attributes"]["POSITION"], 3), positions);
     EXPECT_EQ(out.root["accessors"].size(), 5u) << "the old ones are gone";
     EXPECT_EQ(p["mode"], 4);
 }
 
-// Two triangles on so many vertices, of which tangents copy one more.
+// Two triangles on `vertices` vertices, one of which is copied because of its tangents.
 void expectIndexType(std::size_t vertices, int before, int after)
 {
     Gltf g;
@@ -74,7 +74,7 @@ void expectIndexType(std::size_t vertices, int before, int after)
     EXPECT_EQ(out.root["accessors"][p["indices"].get<int>()]["componentType"], after) << vertices;
 }
 
-// The largest value of a type restarts primitives and is never an index.
+// The largest value of an index type restarts primitives and is never an index.
 TEST(GltfTangents, indicesGrowBeforeTheRestartValueIsMet)
 {
     expectIndexType(254, kUByte, kUByte);
@@ -83,11 +83,11 @@ TEST(GltfTangents, indicesGrowBeforeTheRestartValueIsMet)
     expectIndexType(65535, kUShort, kUInt);
 }
 
-// Floats at byte 2 of a view at byte 2: a view keeps its place within four bytes when it moves.
+// Floats at byte 2 of a view at byte 2: a moved view keeps its offset modulo four.
 TEST(GltfTangents, viewsKeepTheirAlignment)
 {
     Gltf g = square();
-    std::vector<std::uint8_t> gap(6, 0x77); // 4 bytes of the view's and 2 before it
+    std::vector<std::uint8_t> gap(6, 0x77); // 4 bytes of the view and 2 before it
     const int first = g.view(gap);
     const int positions = g.view(kSquare);
     json& view = g.root["bufferViews"][std::size_t(positions)];
@@ -106,8 +106,8 @@ TEST(GltfTangents, viewsKeepTheirAlignment)
     EXPECT_EQ(offset % 4, 0u) << "floats begin at multiples of four bytes";
 }
 
-// Bytes and shorts with padding, joints, weights, an attribute that nobody knows, a morph target and
-// sparse values: all follow, byte for byte.
+// Bytes and shorts with padding, joints, weights, an unknown attribute, a morph target and sparse values are all copied
+// exactly.
 TEST(GltfTangents, copyAttributesOfAnyType)
 {
     Gltf g = square();
@@ -117,7 +117,7 @@ TEST(GltfTangents, copyAttributesOfAnyType)
     p["attributes"]["JOINTS_0"] =
         g.accessor(std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}, "VEC4", kUByte);
     p["attributes"]["WEIGHTS_0"] = g.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
-    const int places = g.view(std::vector<std::uint16_t>{1, 2});
+    const int sparseIndices = g.view(std::vector<std::uint16_t>{1, 2});
     const int values = g.view(std::vector<float>{0, 0, 5, 0, 0, 6});
     const int target = g.accessor({{"componentType", kFloat},
                                    {"count", 4},
@@ -126,7 +126,7 @@ TEST(GltfTangents, copyAttributesOfAnyType)
                                    {"max", {0, 0, 6}},
                                    {"sparse",
                                     {{"count", 2},
-                                     {"indices", {{"bufferView", places}, {"componentType", kUShort}}},
+                                     {"indices", {{"bufferView", sparseIndices}, {"componentType", kUShort}}},
                                      {"values", {{"bufferView", values}}}}}});
     p["targets"] = {{{"POSITION", target}}};
 
@@ -148,7 +148,7 @@ TEST(GltfTangents, copyAttributesOfAnyType)
     EXPECT_EQ(moved, (std::vector<float>{0, 0, 5, 0, 0, 6, 0, 0, 6}));
 }
 
-TEST(GltfTangents, primitivesThatShareAttributesGoOnSharing)
+TEST(GltfTangents, primitivesThatShareAttributesStillShareThem)
 {
     Gltf g = square();
     json second = primitive(g);
@@ -171,11 +171,11 @@ TEST(GltfTangents, stripsBecomeLists)
     const ReadBack out = withTangents(folder, g.text(), {{0, 0, cornersOf({1, 1, 1, 1, 1, 1})}}, 0);
     const json& p = out.root["meshes"][0]["primitives"][0];
     EXPECT_FALSE(p.contains("mode"));
-    // The second triangle of a strip is turned round: (2, 3, 0), as (1, 2, 0) seen from +z.
+    // The second triangle of a strip is reversed: (2, 3, 0), with the winding of (1, 2, 0) seen from +z.
     EXPECT_EQ(shortsOf(out, p["indices"]), (std::vector<std::uint16_t>{1, 2, 0, 2, 3, 0}));
 }
 
-TEST(GltfTangents, refuseWhatHasNoNormals)
+TEST(GltfTangents, refusePrimitivesWithoutNormals)
 {
     Gltf g = square();
     primitive(g)["attributes"].erase("NORMAL");
@@ -188,8 +188,8 @@ TEST(GltfTangents, refuseWhatHasNoNormals)
     EXPECT_EQ(rootOf(*document), before);
 }
 
-// Interleaved with the others: the column has to go, and the file gets smaller by it.
-TEST(GltfTangents, droppedOnesLeaveInterleavedVertices)
+// Tangents are interleaved with other attributes: the column is removed, and the file shrinks by its size.
+TEST(GltfTangents, droppedOnesAreRemovedFromInterleavedVertices)
 {
     Gltf g = square();
     std::vector<float> rows;
@@ -221,7 +221,7 @@ TEST(GltfTangents, droppedOnesLeaveInterleavedVertices)
     EXPECT_EQ(out.buffer.size(), g.bytes.size() - 4 * 16);
 }
 
-TEST(GltfTangents, droppedOnesLeaveMorphTargetsToo)
+TEST(GltfTangents, droppedOnesAreRemovedFromMorphTargetsToo)
 {
     Gltf g = square();
     primitive(g)["attributes"]["TANGENT"] = g.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
@@ -238,7 +238,7 @@ TEST(GltfTangents, droppedOnesLeaveMorphTargetsToo)
     EXPECT_TRUE(cotan::loadGltf(folder.path / "out.glb"));
 }
 
-TEST(GltfTangents, droppedOnesMayBeAllThatAPrimitiveHas)
+TEST(GltfTangents, droppedOnesMayBeTheOnlyAttributes)
 {
     Gltf g = square();
     primitive(g)["attributes"] = {{"TANGENT", g.floats(std::vector<float>(16, 1), "VEC4")}};

@@ -1,11 +1,11 @@
-// What the glTF editor leaves alone, and what it removes.
+// What the glTF editor preserves and what it removes.
 #include "gltf_edit_maker.hpp"
 
 namespace {
 
 using namespace cotan::test;
 
-// A square with things that mean nothing to us.
+// A square with members that mean nothing to Cotan.
 Gltf richSquare()
 {
     Gltf g = square();
@@ -18,13 +18,13 @@ Gltf richSquare()
     const int times = g.floats({0, 1}, "SCALAR");
     g.root["accessors"][times]["min"] = {0};
     g.root["accessors"][times]["max"] = {1};
-    const int turns = g.floats({0, 0, 0, 1, 0, 0, 0, 1}, "VEC4");
-    g.root["animations"] = {{{"samplers", {{{"input", times}, {"output", turns}}}},
+    const int rotations = g.floats({0, 0, 0, 1, 0, 0, 0, 1}, "VEC4");
+    g.root["animations"] = {{{"samplers", {{{"input", times}, {"output", rotations}}}},
                              {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}}}};
     return g;
 }
 
-// Without what says where bytes are.
+// Removes the members that describe the location of bytes.
 json withoutBytes(json root)
 {
     for (const char* const part : {"buffers", "bufferViews"})
@@ -67,14 +67,14 @@ TEST(GltfEdit, membersKeepTheirOrder)
     EXPECT_EQ(out.dump(), text);
 }
 
-// The animation and the extras keep pointing at what they did when accessors move up.
+// The animation and the extras keep their references when accessors are renumbered.
 TEST(GltfEdit, indicesFollowWhenSomethingIsRemoved)
 {
     Gltf g = square();
     primitive(g)["attributes"]["TANGENT"] = g.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
     const int times = g.floats({0, 1}, "SCALAR");
-    const int turns = g.floats({0, 0, 0, 1, 0, 0, 1, 0}, "VEC4");
-    g.root["animations"] = {{{"samplers", {{{"input", times}, {"output", turns}}}}, {"channels", json::array()}}};
+    const int rotations = g.floats({0, 0, 0, 1, 0, 0, 1, 0}, "VEC4");
+    g.root["animations"] = {{{"samplers", {{{"input", times}, {"output", rotations}}}}, {"channels", json::array()}}};
     const TemporaryFolder folder;
     auto document = openText(folder, g.text());
     ASSERT_TRUE(document) << document.error().message;
@@ -90,7 +90,7 @@ TEST(GltfEdit, indicesFollowWhenSomethingIsRemoved)
     EXPECT_EQ(floatsOf(out, sampler["output"], 4), (std::vector<float>{0, 0, 0, 1, 0, 0, 1, 0}));
 }
 
-// What an extension refers to cannot be known: everything stays where it is.
+// References of an extension cannot be known, so all data are kept.
 TEST(GltfEdit, unknownExtensionsKeepAllData)
 {
     Gltf g = square();
@@ -131,7 +131,7 @@ TEST(GltfEdit, replacedImageIsReadBack)
         EXPECT_EQ(scene.images[0].width, 1);
         const ReadBack out = readBack(folder.path / name);
         EXPECT_EQ(out.root["images"][0]["name"], "bumps");
-        // Inside the .glb, beside the .gltf.
+        // Embedded in the .glb, a separate file beside the .gltf.
         EXPECT_EQ(out.root["images"][0].value("uri", ""), std::string(name) == "out.gltf" ? "out-bumps.png" : "");
     }
 }

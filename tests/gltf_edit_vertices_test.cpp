@@ -1,5 +1,4 @@
-// What copies of vertices and new triangles have besides their numbers: bounds, offsets, targets of views, notes,
-// counts; and what is refused.
+// Metadata of copied vertices and new triangles: bounds, offsets, targets of views, notes and counts. Also refusals.
 #include <limits>
 
 #include "gltf_edit_maker.hpp"
@@ -7,7 +6,7 @@
 namespace cotan::test {
 namespace {
 
-// Mesh 0: the square. Mesh 1: two primitives with vertices of their own, of which the second is a triangle.
+// Mesh 0: the square. Mesh 1: two primitives with their own vertices; the second is a triangle.
 Gltf threeParts()
 {
     Gltf g = square();
@@ -25,7 +24,7 @@ Gltf threeParts()
     return g;
 }
 
-TEST(GltfVertices, ofEachGroupAreCopiedByThemselvesAndAllCopiesCount)
+TEST(GltfVertices, areCopiedPerGroupAndAllCopiesAreCounted)
 {
     const TemporaryFolder folder;
     auto document = openText(folder, threeParts().text());
@@ -42,15 +41,15 @@ TEST(GltfVertices, ofEachGroupAreCopiedByThemselvesAndAllCopiesCount)
     EXPECT_EQ(shortsOf(out, one["indices"]), (std::vector<std::uint16_t>{0, 1, 2, 0, 4, 3}));
     EXPECT_EQ(shortsOf(out, two[0]["indices"]), (std::vector<std::uint16_t>{0, 1, 2, 4, 5, 3}));
     EXPECT_EQ(shortsOf(out, two[1]["indices"]), (std::vector<std::uint16_t>{3, 1, 0}));
-    // Of the third, vertex 2 belongs to no triangle: its tangent is a unit vector all the same.
+    // Vertex 2 of the third group is in no triangle; its tangent is a unit vector nevertheless.
     EXPECT_EQ(floatsOf(out, two[1]["attributes"]["TANGENT"], 4),
               (std::vector<float>{1, 0, 0, -1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}));
     EXPECT_EQ(out.root["accessors"][two[1]["attributes"]["TANGENT"].get<int>()]["count"], 4);
 }
 
-TEST(GltfVertices, ofWhatCannotHaveTangentsAreRefusedAndNothingChanges)
+TEST(GltfVertices, refuseTangentsWithoutChangesIfImpossible)
 {
-    const auto refused = [](Gltf g, const GltfCornerTangents& t, ErrorKind kind, const std::string& said) {
+    const auto refused = [](Gltf g, const GltfCornerTangents& t, ErrorKind kind, const std::string& message) {
         const TemporaryFolder folder;
         auto document = openText(folder, g.text());
         ASSERT_TRUE(document) << document.error().message;
@@ -58,8 +57,7 @@ TEST(GltfVertices, ofWhatCannotHaveTangentsAreRefusedAndNothingChanges)
         const auto set = setGltfTangents(*document, {&t, 1});
         ASSERT_FALSE(set);
         EXPECT_EQ(set.error().kind, kind);
-        EXPECT_EQ(set.error().message,
-                  (kind == ErrorKind::input ? (folder.path / "model.gltf: ").string() : "") + said);
+        EXPECT_EQ(set.error().message, (folder.path / "model.gltf: ").string() + message);
         EXPECT_EQ(rootOf(*document), before);
     };
     const auto without = [](const char* name) {
@@ -71,15 +69,15 @@ TEST(GltfVertices, ofWhatCannotHaveTangentsAreRefusedAndNothingChanges)
     for (const char* const name : {"POSITION", "NORMAL"})
         refused(without(name), six, ErrorKind::input,
                 "meshes[1].primitives[0]: expected " + std::string(name)
-                    + ", without which glTF gives TANGENT no meaning");
+                    + ", without which glTF does not define TANGENT");
     refused(threeParts(), {1, 0, test::cornersOf({1, 1, 1, 1, 1})}, ErrorKind::usage,
             "meshes[1].primitives[0]: expected 6 corner tangents, found 5");
     refused(threeParts(), {1, 1, test::cornersOf({1, 1, 1, 1, 1, 1})}, ErrorKind::usage,
             "meshes[1].primitives[1]: expected 3 corner tangents, found 6");
 }
 
-// An extension that may hold something for each vertex is named where vertices were copied, and nowhere else.
-TEST(GltfVertices, thatAreCopiedLeaveANoteWhereAnExtensionIsUnknown)
+// An extension that may store data per vertex is named in a note if vertices were copied, and only then.
+TEST(GltfVertices, copiesUnderUnknownExtensionsGetANote)
 {
     for (const float w : {1.0f, -1.0f}) {
         Gltf g = threeParts();
@@ -92,13 +90,13 @@ TEST(GltfVertices, thatAreCopiedLeaveANoteWhereAnExtensionIsUnknown)
         ASSERT_TRUE(setGltfTangents(*document, {&t, 1}));
         std::vector<std::string> expected;
         if (w < 0)
-            expected = {"meshes[1].primitives[0]: vertices were copied; its extension ACME_hair is kept as it is"};
+            expected = {"meshes[1].primitives[0]: vertices were copied; its extension ACME_hair is unchanged"};
         EXPECT_EQ(document->notes, expected);
     }
 }
 
-// Bounds may be wider than the numbers: they stay while all vertices do, and are those of the numbers where some go.
-TEST(GltfVertices, keepTheirBoundsWhileAllOfThemStay)
+// Bounds may be wider than the data. They stay while all vertices do, and become exact if some are removed.
+TEST(GltfVertices, keepTheirBoundsIfNoneIsRemoved)
 {
     for (const bool all : {true, false}) {
         Gltf g = square();
@@ -119,11 +117,11 @@ TEST(GltfVertices, keepTheirBoundsWhileAllOfThemStay)
     }
 }
 
-// Sparse parts behind offsets, and indices with all that an accessor may say: what is new begins at 0 of its own view.
-TEST(GltfVertices, andTrianglesThatAreNewHaveViewsOfTheirOwn)
+// Sparse parts at offsets, and index accessors with every optional member: new ones start at 0 of their own view.
+TEST(GltfVertices, newOnesAndNewTrianglesHaveTheirOwnViews)
 {
     Gltf g = square();
-    const int places = g.view(std::vector<std::uint16_t>{9, 9, 0, 2});
+    const int sparseIndices = g.view(std::vector<std::uint16_t>{9, 9, 0, 2});
     const int values = g.view(std::vector<float>{9, 9, 9, 1, 2, 3, 4, 5, 6});
     primitive(g)["targets"] = {
         {{"POSITION",
@@ -132,7 +130,7 @@ TEST(GltfVertices, andTrianglesThatAreNewHaveViewsOfTheirOwn)
                       {"type", "VEC3"},
                       {"sparse",
                        {{"count", 2},
-                        {"indices", {{"bufferView", places}, {"byteOffset", 4}, {"componentType", kUShort}}},
+                        {"indices", {{"bufferView", sparseIndices}, {"byteOffset", 4}, {"componentType", kUShort}}},
                         {"values", {{"bufferView", values}, {"byteOffset", 12}}}}}})}}};
     const int order = g.accessor({{"bufferView", g.view(std::vector<std::uint16_t>{7, 7, 1, 2, 0, 3})},
                                   {"byteOffset", 4},
@@ -183,8 +181,8 @@ TEST(GltfVertices, andTrianglesThatAreNewHaveViewsOfTheirOwn)
     EXPECT_EQ(std::memcmp(out.buffer.data() + at, expected.data(), 36), 0);
 }
 
-// Equal strips share all that they draw, morph targets too; with other targets, or other triangles, they do not.
-TEST(GltfVertices, areSharedByPrimitivesThatDrawTheSame)
+// Equal strips share all that they draw, also morph targets; with other targets or triangles they do not.
+TEST(GltfVertices, areSharedByEqualPrimitives)
 {
     Gltf g = square();
     primitive(g)["indices"] = g.accessor(std::vector<std::uint16_t>{1, 2, 0, 3}, "SCALAR", kUShort);
@@ -202,7 +200,7 @@ TEST(GltfVertices, areSharedByPrimitivesThatDrawTheSame)
     ASSERT_TRUE(document) << document.error().message;
     const auto rows = setGltfProvoking(*document, ProvokingVertex::last);
     ASSERT_TRUE(rows) << rows.error().message;
-    ASSERT_EQ(rows->size(), 2u); // the first of each kind; points are none
+    ASSERT_EQ(rows->size(), 2u); // the first of each kind; points have no triangles
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_EQ(rows->at(i).mesh, 0u);
         EXPECT_EQ(rows->at(i).primitive, i);
@@ -223,7 +221,7 @@ TEST(GltfVertices, areSharedByPrimitivesThatDrawTheSame)
     EXPECT_EQ(far[0]["mode"], 0);
 }
 
-// Of each target: only one that has nothing else becomes an explicit "no change".
+// In each target: only a target with nothing else becomes an explicit "no change".
 TEST(GltfVertices, loseTangentsInEveryMorphTarget)
 {
     Gltf g = square();
@@ -246,8 +244,8 @@ TEST(GltfVertices, loseTangentsInEveryMorphTarget)
 
 // ---- opening --------------------------------------------------------------------------------
 
-// Also what loadGltf has no use for: attributes of names that nobody knows, in any primitive and target.
-TEST(GltfVertices, ofAttributesThatDifferInNumberAreRefused)
+// Also attributes that loadGltf ignores: unknown names, in any primitive and target.
+TEST(GltfVertices, differentAttributeCountsAreRefused)
 {
     for (const bool target : {false, true}) {
         Gltf g = threeParts();
@@ -256,7 +254,7 @@ TEST(GltfVertices, ofAttributesThatDifferInNumberAreRefused)
         (target ? p["targets"][0] : p["attributes"])["_ODD"] = three;
         const TemporaryFolder folder;
         COTAN_REFUSED(openText(folder, g.text()), "meshes[1].primitives[1]._ODD: expected 4 elements, found 3");
-        p["attributes"].erase("POSITION"); // then nobody reads any of it
+        p["attributes"].erase("POSITION"); // then none of it is read
         EXPECT_TRUE(openText(folder, g.text()));
     }
     Gltf g = threeParts();
@@ -270,8 +268,8 @@ TEST(GltfVertices, ofAttributesThatDifferInNumberAreRefused)
     COTAN_REFUSED(openText(folder, g.text()), "nodes[");
 }
 
-// What is no number reads the map's first texel, moved as all others are.
-TEST(GltfVertices, withoutUsableUvReadTheOrigin)
+// NaN reads the map's first texel, transformed like all others.
+TEST(GltfVertices, withoutUsableUvReadTheOriginOfTheMap)
 {
     const float nan = std::numeric_limits<float>::quiet_NaN(), far = std::numeric_limits<float>::infinity();
     for (const bool moved : {false, true}) {
@@ -293,8 +291,8 @@ TEST(GltfVertices, withoutUsableUvReadTheOrigin)
     }
 }
 
-// The uv set and the transform are those of the slot that is asked for, and of the material that is put in place.
-TEST(GltfVertices, haveTheUvOfTheMapThatIsAskedFor)
+// The uv set and transform are those of the requested slot and of the replacement material.
+TEST(GltfVertices, haveTheUvOfTheRequestedMap)
 {
     Gltf g = square();
     addNormalMap(g);

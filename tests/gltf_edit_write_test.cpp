@@ -1,4 +1,4 @@
-// Files that the glTF editor writes, and those that it must not touch.
+// Files that the glTF editor writes, and files that it must not touch.
 #include "gltf_edit_maker.hpp"
 
 namespace {
@@ -6,7 +6,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace cotan::test;
 
-// A model with its buffer and an image in files of their own.
+// A model with its buffer and an image in separate files.
 fs::path writeWithFiles(const TemporaryFolder& folder)
 {
     Gltf g = square();
@@ -43,7 +43,7 @@ TEST(GltfWrite, glbHoldsImagesFromFiles)
     EXPECT_EQ(readBack(other.path / "out.glb").root["images"][0]["mimeType"], "image/png");
 }
 
-TEST(GltfWrite, gltfTakesImagesToAnotherFolder)
+TEST(GltfWrite, gltfCopiesImagesToAnotherFolder)
 {
     const TemporaryFolder folder, other;
     const auto document = cotan::openGltfDocument(writeWithFiles(folder));
@@ -71,7 +71,7 @@ TEST(GltfWrite, doesNotReplaceADifferentImage)
     EXPECT_EQ(wholeFile(other.path / "maps/bumps 1.png"), "something else");
 }
 
-// Another model whose name would give the buffer the name of ours.
+// Another model whose name would give its buffer the name of this one's.
 TEST(GltfWrite, doesNotReplaceTheBufferOfItsSource)
 {
     const TemporaryFolder folder;
@@ -102,12 +102,12 @@ TEST(GltfWrite, mayReplaceItsSource)
     EXPECT_EQ(filesIn(folder.path), 3u);
 }
 
-TEST(GltfWrite, leavesNothingWhereItCannotWrite)
+TEST(GltfWrite, leavesNothingIfItCannotWrite)
 {
     const TemporaryFolder folder, other;
     const auto document = cotan::openGltfDocument(writeWithFiles(folder));
     ASSERT_TRUE(document);
-    fs::create_directories(other.path / "out.bin"); // a folder where the buffer should go
+    fs::create_directories(other.path / "out.bin"); // a folder with the name of the buffer
     const auto written = cotan::writeGltf(*document, other.path / "out.gltf");
     ASSERT_FALSE(written);
     EXPECT_EQ(written.error().kind, cotan::ErrorKind::output);

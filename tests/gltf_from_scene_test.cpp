@@ -44,7 +44,7 @@ Scene twoPatches()
     a.normalMap.image = 1;
     a.normalScale = 0.5f;
     a.normalMap.sampler = {Wrap::clamp, Wrap::mirror, Filter::nearest, Filter::linear, MipFilter::nearest};
-    // A turn by 0.3, scales 2 and 3, an offset: as KHR_texture_transform has them.
+    // A rotation by 0.3, scales 2 and 3, an offset: as in KHR_texture_transform.
     const float c = std::cos(0.3f), s = std::sin(0.3f);
     a.normalMap.uRow = {c * 2, s * 3, 0.125f};
     a.normalMap.vRow = {-s * 2, c * 3, 0.25f};
@@ -60,7 +60,7 @@ Scene twoPatches()
     return scene;
 }
 
-TEST(GltfFromScene, comesBackWithGeometryAndPlaces)
+TEST(GltfFromScene, roundTripsGeometryAndTransforms)
 {
     const Scene scene = twoPatches(), back = written(scene);
     ASSERT_EQ(back.meshes.size(), 2u);
@@ -77,7 +77,7 @@ TEST(GltfFromScene, comesBackWithGeometryAndPlaces)
     }
 }
 
-TEST(GltfFromScene, comesBackWithMaterialsAndTextures)
+TEST(GltfFromScene, roundTripsMaterialsAndTextures)
 {
     const Scene scene = twoPatches(), back = written(scene);
     ASSERT_EQ(back.materials.size(), 2u);
@@ -107,7 +107,7 @@ TEST(GltfFromScene, comesBackWithMaterialsAndTextures)
     EXPECT_TRUE(back.materials[1].baseColorMap.present());
 }
 
-TEST(GltfFromScene, saysThatAShearHasNoPlace)
+TEST(GltfFromScene, warnsThatShearsCannotBeStored)
 {
     Scene scene = twoPatches();
     EXPECT_TRUE(gltfDocumentOf(scene)->notes.empty());
@@ -119,7 +119,7 @@ TEST(GltfFromScene, saysThatAShearHasNoPlace)
     EXPECT_NE(document->notes[0].find("shear"), std::string::npos);
 }
 
-TEST(GltfFromScene, refusesPicturesOfFloats)
+TEST(GltfFromScene, refusesFloatImages)
 {
     Scene scene = twoPatches();
     scene.images[0] = makeImage(2, 2, PixelType::float32, "light.exr");
@@ -135,8 +135,8 @@ json jsonOf(const Scene& scene)
     return document ? json::parse(rootOf(*document).dump()) : json();
 }
 
-// Nothing is written that says no more than glTF's defaults, and all else as the specification names it.
-TEST(GltfFromScene, writesWhatIsNotADefaultAndNoMore)
+// Values equal to glTF's defaults are omitted, all others are written under the specification's names.
+TEST(GltfFromScene, writesOnlyNonDefaultValues)
 {
     Scene scene;
     scene.meshes = {makePatch(1, 0.25f, false, 2)};
@@ -169,10 +169,10 @@ TEST(GltfFromScene, writesWhatIsNotADefaultAndNoMore)
     json material = root["materials"][0];
     EXPECT_EQ(material, plain);
     Material& m = scene.materials[0];
-    m.emissive = {0.25f, 0.5f, 1}; // as bright as glTF's own factor goes
+    m.emissive = {0.25f, 0.5f, 1}; // the maximum of glTF's own factor
     m.alphaMode = AlphaMode::blend;
-    m.alphaCutoff = 0.25f; // is of masks
-    m.normalScale = 0.5f;  // are of maps
+    m.alphaCutoff = 0.25f; // applies only to masks
+    m.normalScale = 0.5f;  // applies only to maps
     m.occlusionStrength = 0.5f;
     m.normalFrame = Frame::smooth;
     material = jsonOf(scene)["materials"][0];
@@ -181,7 +181,7 @@ TEST(GltfFromScene, writesWhatIsNotADefaultAndNoMore)
     EXPECT_EQ(material["extras"]["cotanFrame"], "smooth");
     for (const char* const absent : {"extensions", "alphaCutoff", "normalTexture", "occlusionTexture", "doubleSided"})
         EXPECT_FALSE(material.contains(absent)) << absent;
-    for (int k = 0; k < 3; ++k) { // the brightest may be any of them
+    for (int k = 0; k < 3; ++k) { // any of them may be the brightest
         m.emissive = glm::vec3(0.5f);
         m.emissive[k] = 8;
         root = jsonOf(scene);
@@ -203,9 +203,9 @@ TEST(GltfFromScene, writesWhatIsNotADefaultAndNoMore)
     EXPECT_FALSE(material.contains("emissiveFactor"));
 }
 
-TEST(GltfFromScene, comesBackWithBothUvSetsAndTangentsAsTheFileHadThem)
+TEST(GltfFromScene, roundTripsBothUvSetsAndTangents)
 {
-    for (const bool reversed : {false, true}) { // what was read with green turned is written as it was
+    for (const bool reversed : {false, true}) { // tangents read with reversed green are written unchanged
         Scene scene = twoPatches();
         Mesh& mesh = scene.meshes[1];
         mesh.texcoords[1] = mesh.texcoords[0];
@@ -234,8 +234,8 @@ TEST(GltfFromScene, comesBackWithBothUvSetsAndTangentsAsTheFileHadThem)
     }
 }
 
-// Each map of a material stands in its own slot, with its own image, uv set and sampler.
-TEST(GltfFromScene, everyMapComesBackInItsOwnSlot)
+// Each map of a material is in its own slot, with its own image, uv set and sampler.
+TEST(GltfFromScene, roundTripsEveryMapInItsSlot)
 {
     Scene scene = twoPatches();
     scene.meshes[0].texcoords[1] = scene.meshes[0].texcoords[0];
@@ -269,13 +269,13 @@ TEST(GltfFromScene, everyMapComesBackInItsOwnSlot)
     EXPECT_EQ(material["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"], 1);
 }
 
-// KHR_texture_transform: a turn, a scale for each axis of uv, negative ones and none too, and an offset. What leans
-// against that by more than rounding is said.
-TEST(GltfFromScene, uvTransformsComeBackAndShearsAreSaid)
+// KHR_texture_transform: a rotation, a scale for each axis of uv, also negative or zero, and an offset. A shear beyond
+// rounding gives a warning.
+TEST(GltfFromScene, roundTripsUvTransformsAndWarnsOfShears)
 {
     struct Row {
-        double turn, scaleU, scaleV, shear;
-        bool said;
+        double rotation, scaleU, scaleV, shear;
+        bool warned;
     };
     for (const Row& row : {Row{0.5, 2, 3, 0, false},
                            {-2.5, 0.5, 4, 0, false},
@@ -283,20 +283,20 @@ TEST(GltfFromScene, uvTransformsComeBackAndShearsAreSaid)
                            {3, 1, 1, 0, false},
                            {0, 0, 2, 0, false},
                            {0, 1, 0, 0, false},
-                           {0.5, 2, 3, 2e-5, false}, // 1e-5 of the scales together
+                           {0.5, 2, 3, 2e-5, false}, // 1e-5 relative to the scales
                            {0.5, 2, -3, 8e-5, true},
                            {0.5, 2, 3, 8e-5, true},
                            {0, 0, 2, 1, true}}) {
         Scene scene = twoPatches();
         Texture& map = scene.materials[0].normalMap;
-        const double c = std::cos(row.turn), s = std::sin(row.turn);
+        const double c = std::cos(row.rotation), s = std::sin(row.rotation);
         map.uRow = {c * row.scaleU, s * row.scaleV + c * row.shear, 0.25f};
         map.vRow = {-s * row.scaleU, c * row.scaleV - s * row.shear, -0.75f};
         const auto document = gltfDocumentOf(scene);
         ASSERT_TRUE(document);
-        const std::vector<std::string> said = {
+        const std::vector<std::string> notes = {
             "normalTexture: the shear of its texture coordinates cannot be stored in glTF"};
-        EXPECT_EQ(document->notes, row.said ? said : std::vector<std::string>()) << row.turn << " " << row.shear;
+        EXPECT_EQ(document->notes, row.warned ? notes : std::vector<std::string>()) << row.rotation << " " << row.shear;
         const Texture back = written(scene).materials.at(0).normalMap;
         const auto near = [](const glm::vec3& a, double x, double y, double z) {
             EXPECT_LT(glm::distance(a, glm::vec3(x, y, z)), 1e-5f) << a.x << " " << a.y << " " << a.z;
@@ -306,7 +306,7 @@ TEST(GltfFromScene, uvTransformsComeBackAndShearsAreSaid)
     }
 }
 
-TEST(GltfFromScene, whatIsSaidOfADocumentWithoutAFileBeginsWithItsField)
+TEST(GltfFromScene, errorsOfDocumentsWithoutAFileBeginWithTheField)
 {
     auto document = gltfDocumentOf(twoPatches());
     ASSERT_TRUE(document);
@@ -315,10 +315,10 @@ TEST(GltfFromScene, whatIsSaidOfADocumentWithoutAFileBeginsWithItsField)
     const auto set = setGltfTangents(*document, {&tangents, 1});
     ASSERT_FALSE(set);
     EXPECT_EQ(set.error().message,
-              "meshes[1].primitives[0]: expected NORMAL, without which glTF gives TANGENT no meaning");
+              "meshes[1].primitives[0]: expected NORMAL, without which glTF does not define TANGENT");
 }
 
-TEST(GltfFromScene, picturesWithoutPixelsAreRefusedByName)
+TEST(GltfFromScene, refusesEmptyImagesByName)
 {
     for (const bool floats : {false, true}) {
         Scene scene = twoPatches();

@@ -1,4 +1,4 @@
-// Hostile input that the shared data do not have: made here, each wrong in one way.
+// Hostile input that the shared data lack: made here, each file with one fault.
 #include <chrono>
 #include <filesystem>
 #include <limits>
@@ -19,7 +19,7 @@ std::string glb(const std::string& text, const std::string& binary = {})
     return "glTF" + word(2) + word(std::uint32_t(12 + chunks.size())) + chunks;
 }
 
-// The square as GLB, its buffer in the BIN chunk.
+// The square as GLB, with its buffer in the BIN chunk.
 std::string squareGlb()
 {
     Gltf g = square();
@@ -29,15 +29,15 @@ std::string squareGlb()
     return glb(text, g.bytes);
 }
 
-TEST(GltfHostile, aGlbIsReadWhole)
+TEST(GltfHostile, aGlbIsRead)
 {
     COTAN_LOADED(scene, loadText(squareGlb(), "model.glb"));
     EXPECT_EQ(scene.meshes.at(0).positions[2], glm::vec3(1, 1, 0));
     EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
 }
 
-// The address sanitizer looks at this one: URIs of images are views of the JSON, of which only a part is kept.
-TEST(GltfHostile, anImageOfAFileWithoutMaterialsIsLookedAtByItsUri)
+// For the address sanitizer: URIs of images are views into the JSON, only a part of which is kept.
+TEST(GltfHostile, imagesOfFilesWithoutMaterialsAreCheckedByUri)
 {
     const auto scene = loadText(R"({"asset":{"version":"2.0"},"images":[{"uri":"../a-name-that-is-not-short.png"}]})");
     if (scene) {
@@ -49,7 +49,7 @@ TEST(GltfHostile, anImageOfAFileWithoutMaterialsIsLookedAtByItsUri)
     }
 }
 
-// Cut anywhere, with the header's length corrected or not, it is an error, never a crash.
+// A GLB cut at any byte gives an error and no crash, whether or not the header's length is corrected.
 TEST(GltfHostile, aGlbCutAnywhereIsRefused)
 {
     const std::string whole = squareGlb();
@@ -62,7 +62,7 @@ TEST(GltfHostile, aGlbCutAnywhereIsRefused)
     }
 }
 
-// Every byte of the GLB set to 0 and to 255 in turn: whatever comes out, it comes out.
+// Sets every byte of the GLB to 0, 255 and '9' in turn: any result is allowed except a crash.
 TEST(GltfHostile, anyByteOfAGlbMayBeWrong)
 {
     const TemporaryFolder folder;
@@ -97,8 +97,8 @@ TEST(GltfHostile, bracketsInStringsAreNotNesting)
     EXPECT_EQ(scene.meshes.size(), 1u);
 }
 
-// JSON leaves open what two members of one name mean; here the last counts, be the object small or large.
-TEST(GltfHostile, theLastOfMembersOfOneNameCounts)
+// JSON does not define duplicate names; here the last one counts, in small and in large objects.
+TEST(GltfHostile, theLastDuplicateMemberWins)
 {
     for (const int others : {0, 100}) {
         std::string members;
@@ -113,8 +113,8 @@ TEST(GltfHostile, theLastOfMembersOfOneNameCounts)
     }
 }
 
-// An object in which each new member is compared with all before it would take minutes here.
-TEST(GltfHostile, aMillionMembersOfAnObjectAreReadAtOnce)
+// Comparing each new member with all previous ones would take minutes here.
+TEST(GltfHostile, aMillionMembersOfAnObjectAreReadQuickly)
 {
     std::string text = square().text();
     std::string extras;
@@ -128,7 +128,7 @@ TEST(GltfHostile, aMillionMembersOfAnObjectAreReadAtOnce)
     EXPECT_LT(seconds.count(), 60); // about 1 s, and ten times that with sanitizers
 }
 
-// What reads a file looks for a name among all members of an object: 50,000 in the root made a conversion take 10 s.
+// Readers search all members of an object for a name: 50,000 in the root made a conversion take 10 s.
 TEST(GltfHostile, objectsHaveAtMost4096MembersOutsideExtras)
 {
     const auto membersOf = [](int count) {
@@ -221,8 +221,8 @@ TEST(GltfHostile, wrongTypesAndRangesAreNamed)
     }
 }
 
-// Before anything about structure, which is another one there.
-TEST(GltfHostile, versionOneIsNamedWithWhatConvertsIt)
+// Checked before the structure, which is different in version 1.
+TEST(GltfHostile, versionOneIsRefusedWithAConverterNamed)
 {
     const std::vector<json> files = {
         {{"asset", {{"version", "1.0"}}}, {"meshes", {{"m", json::object()}}}},
@@ -237,7 +237,7 @@ TEST(GltfHostile, versionOneIsNamedWithWhatConvertsIt)
         COTAN_REFUSED(loadText(root.dump()), "glTF version 1 is not supported");
         COTAN_REFUSED(loadText(root.dump()), "npx gltf-pipeline");
     }
-    // Its GLB: 20 bytes of header, the length of the JSON and its format instead of chunks.
+    // GLB of version 1: 20 bytes of header with the length and format of the JSON instead of chunks.
     const std::string text = "{\"asset\":{\"version\":\"1.0\"}}  ";
     COTAN_REFUSED(loadText("glTF" + word(1) + word(std::uint32_t(20 + text.size())) + word(std::uint32_t(text.size()))
                                + word(0) + text,
@@ -275,7 +275,7 @@ TEST(GltfHostile, sparseIndicesAreChecked)
     COTAN_REFUSED(g.load(), "accessors[0].sparse.count");
 }
 
-// As the specification asks; reading parts of an accessor relies on it.
+// The specification requires it; reading parts of an accessor relies on it.
 TEST(GltfHostile, sparseIndicesHaveToRise)
 {
     for (const auto& order : {std::vector<std::uint8_t>{1, 1}, std::vector<std::uint8_t>{3, 2}}) {
@@ -300,7 +300,7 @@ TEST(GltfHostile, attributesOfTheWrongKindAreRefused)
     COTAN_REFUSED(g.load(), "expected unsigned integers");
 }
 
-// Zeros, says the specification; but no triangle has three corners at vertex 0.
+// The specification says zeros, but no triangle has three corners at vertex 0.
 TEST(GltfHostile, indicesWithoutDataAreRefused)
 {
     Gltf g = square();
@@ -349,23 +349,23 @@ TEST(GltfHostile, limitsAreKept)
     COTAN_REFUSED(g.load(limits), "images[0]");
 }
 
-// A few bytes may ask for zeros without end.
+// A few bytes may request any number of zeros.
 TEST(GltfHostile, accessorsWithoutViewCannotTakeAllMemory)
 {
     Gltf g = square();
     primitive(g)["attributes"] = {
         {"POSITION", g.accessor({{"componentType", kFloat}, {"type", "VEC3"}, {"count", 4000000000u}})}};
     COTAN_REFUSED(g.load(), "the limit is");
-    // 30 million of them stay below every limit on counts.
+    // 30 million of them are below every limit on counts.
     g.root["accessors"].back()["count"] = 30'000'000;
     COTAN_REFUSED(g.load(), "accessors[4]: the accessors take 360");
-    // So do morph targets, skins and instances that nothing draws.
+    // So are morph targets, skins and instances that are not drawn.
     g = square();
     g.accessor({{"componentType", kFloat}, {"type", "MAT4"}, {"count", 30'000'000}});
     COTAN_REFUSED(g.load(), "the accessors take");
 }
 
-// The limit grows with the file: 16 times its size and geometryBytes.
+// The limit grows with the file: 16 times its size plus geometryBytes.
 TEST(GltfHostile, zerosWithinTheAllowanceAreRead)
 {
     Gltf g = square();
@@ -376,8 +376,8 @@ TEST(GltfHostile, zerosWithinTheAllowanceAreRead)
     EXPECT_EQ(scene.meshes.at(0).colors.at(0), glm::vec4(0));
 }
 
-// A mesh of many parts with one set of vertices: each part has its own vertices, not all of them.
-TEST(GltfHostile, primitivesThatShareAnAccessorTakeTheirOwnPartOfIt)
+// A mesh of many parts with one set of vertices: each part loads only its own vertices.
+TEST(GltfHostile, primitivesThatShareAnAccessorLoadOnlyTheirPart)
 {
     constexpr std::uint32_t kParts = 2000;
     Gltf g;
@@ -412,13 +412,13 @@ TEST(GltfHostile, primitivesThatShareAnAccessorTakeTheirOwnPartOfIt)
         for (std::uint32_t corner = 0; corner < 3; ++corner)
             EXPECT_EQ(mesh.positions[mesh.indices[corner]].x, float(3 * kParts - 1 - 3 * part - corner));
     }
-    // The same part a thousand times over is a copy each, and they are counted.
+    // Without indices, each part is a copy of all vertices, and all copies count.
     for (json& p : g.root["meshes"][0]["primitives"])
         p.erase("indices");
     COTAN_REFUSED(g.load(limits), "the geometry takes");
 }
 
-TEST(GltfHostile, aPrimitiveWithoutPositionIsLeftOut)
+TEST(GltfHostile, aPrimitiveWithoutPositionIsOmitted)
 {
     Gltf g = square();
     json second = primitive(g);
@@ -432,26 +432,26 @@ TEST(GltfHostile, aPrimitiveWithoutPositionIsLeftOut)
 
 // ---- images ---------------------------------------------------------------------------------
 
-TEST(GltfHostile, brokenImagesThatNothingUsesAreNamedAndTheModelDrawn)
+TEST(GltfHostile, brokenUnusedImagesAreOnlyWarnedOf)
 {
     const std::vector<std::pair<json, std::string>> images = {
         {{{"uri", "../secret.png"}}, "leads out of it"},
         {{{"uri", "http://localhost/a.png"}}, "http://localhost/a.png"},
         {{{"uri", "data:image/png;base64,*"}}, "not valid base64"},
-        {{{"uri", "data:image/png;base64,iVBORw0KGgo="}}, "ends in its header"},
+        {{{"uri", "data:image/png;base64,iVBORw0KGgo="}}, "ends within its header"},
         {json{{"name", "none"}}, "either uri or bufferView"},
     };
     for (const auto& [image, problem] : images) {
         Gltf g = square();
         addNormalMap(g);
         g.add("images", image);
-        g.add("textures", {{"source", 1}}); // which no material reads
+        g.add("textures", {{"source", 1}}); // no material reads it
         SCOPED_TRACE(image.dump());
         COTAN_LOADED(scene, g.load());
         EXPECT_EQ(scene.images.size(), 1u);
         EXPECT_TRUE(warns(scene, "images[1]")) << scene.warnings.size();
         EXPECT_TRUE(warns(scene, problem));
-        EXPECT_TRUE(warns(scene, "nothing uses this image"));
+        EXPECT_TRUE(warns(scene, "this unused image is ignored"));
         g.root["materials"][0]["normalTexture"]["index"] = 1;
         COTAN_REFUSED(g.load(), "images[1]");
     }
@@ -495,7 +495,7 @@ TEST(GltfHostile, buffersMayBeLongerButNotShorter)
     COTAN_REFUSED(loadGltf(model), "buffers[0].byteLength");
 }
 
-TEST(GltfHostile, whatIsNoFileIsAnErrorOfOneLine)
+TEST(GltfHostile, missingEmptyAndForeignFilesAreAnErrorOfOneLine)
 {
     const TemporaryFolder folder;
     COTAN_REFUSED(loadGltf(folder.path / "missing.gltf"), "missing.gltf");

@@ -1,5 +1,5 @@
-// Images of glTF files: what they are called, which of them are looked at and how far, what is said of those that are
-// none, and that files beside the model count where images are held to its size.
+// Images of glTF files: their names, which are examined and how far, the errors for invalid ones, and that image files
+// count towards the model's size where images are limited relative to it.
 #include "gltf_maker.hpp"
 
 namespace {
@@ -17,7 +17,7 @@ json asView(Gltf& g, const std::string& bytes)
 }
 
 // A square whose normal map and base colour are these images.
-Gltf pictured(const std::string& normals, const std::string& colors)
+Gltf imageSquare(const std::string& normals, const std::string& colors)
 {
     Gltf g = square();
     g.add("images", asView(g, normals));
@@ -34,11 +34,11 @@ std::string refusal(const Result<cotan::Scene>& scene)
     return scene ? "" : message.substr(message.find(name) + name.size());
 }
 
-TEST(GltfImages, haveTheNameOfTheirFileOrTheirOwnOrTheirNumber)
+TEST(GltfImages, areNamedByFileNameOrIndex)
 {
     const TemporaryFolder folder;
     folder.write("maps/flat map.png", flatPng());
-    Gltf g = pictured(flatPng(), flatPng());
+    Gltf g = imageSquare(flatPng(), flatPng());
     g.root["images"][1] = {{"uri", "maps/flat%20map.png"}, {"name", "not this"}};
     const auto names = [&] {
         const auto scene = cotan::loadGltf(folder.write("model.gltf", g.text()));
@@ -53,28 +53,28 @@ TEST(GltfImages, haveTheNameOfTheirFileOrTheirOwnOrTheirNumber)
     EXPECT_EQ(names(), "bumps|image 1");
 }
 
-TEST(GltfImages, thatAreUsedAreRefusedByTheFirstInTheFile)
+TEST(GltfImages, theFirstBrokenUsedOneIsReported)
 {
     const std::string none = "no picture";
-    EXPECT_EQ(refusal(pictured(flatPng(), flatPng()).load()), "");
-    EXPECT_EQ(refusal(pictured(flatPng(), none).load()), "images[1]: expected PNG or JPEG data in image 1");
-    EXPECT_EQ(refusal(pictured(none, none).load()), "images[0]: expected PNG or JPEG data in image 0");
-    Gltf g = pictured(flatPng(), flatPng());
+    EXPECT_EQ(refusal(imageSquare(flatPng(), flatPng()).load()), "");
+    EXPECT_EQ(refusal(imageSquare(flatPng(), none).load()), "images[1]: expected PNG or JPEG data in image 1");
+    EXPECT_EQ(refusal(imageSquare(none, none).load()), "images[0]: expected PNG or JPEG data in image 0");
+    Gltf g = imageSquare(flatPng(), flatPng());
     g.root["images"][1]["bufferView"] = 0;
     EXPECT_EQ(refusal(g.load()), "images[1]: images[1]: expected either uri or bufferView");
     LoadLimits limits;
-    limits.pixels = cotan::Pixels::none; // looked at all the same, as far as their first bytes
-    EXPECT_EQ(refusal(pictured(flatPng(), none).load(limits)), "images[1]: expected PNG or JPEG data in image 1");
-    EXPECT_EQ(refusal(pictured(flatPng().substr(0, 32), flatPng()).load(limits)),
-              "images[0]: the PNG image 0 ends in its header");
-    EXPECT_EQ(refusal(pictured(flatPng().substr(0, 33), flatPng()).load(limits)), "");
+    limits.pixels = cotan::Pixels::none; // the first bytes are examined nevertheless
+    EXPECT_EQ(refusal(imageSquare(flatPng(), none).load(limits)), "images[1]: expected PNG or JPEG data in image 1");
+    EXPECT_EQ(refusal(imageSquare(flatPng().substr(0, 32), flatPng()).load(limits)),
+              "images[0]: the PNG image 0 ends within its header");
+    EXPECT_EQ(refusal(imageSquare(flatPng().substr(0, 33), flatPng()).load(limits)), "");
 }
 
-// Signature, and IHDR with its length, type and checksum: 33 bytes.
-TEST(GltfImages, thatNothingUsesAreNamedWhereTheyEndInTheirHeader)
+// The signature, and IHDR with its length, type and checksum: 33 bytes.
+TEST(GltfImages, unusedOnesTruncatedInTheHeaderAreWarnedOf)
 {
     const TemporaryFolder folder;
-    const std::string said = "the PNG short.png ends in its header: nothing uses this image, it is left out";
+    const std::string message = "the PNG short.png ends within its header: this unused image is ignored";
     Gltf g = square();
     g.add("images", asUri(flatPng()));
     g.add("images", {{"uri", "short.png"}});
@@ -82,18 +82,18 @@ TEST(GltfImages, thatNothingUsesAreNamedWhereTheyEndInTheirHeader)
         folder.write("short.png", flatPng().substr(0, bytes));
         COTAN_LOADED(scene, cotan::loadGltf(folder.write("model.gltf", g.text())));
         EXPECT_EQ(scene.warnings,
-                  bytes == 8 || bytes == 32 ? std::vector<std::string>{"images[1]: " + said}
+                  bytes == 8 || bytes == 32 ? std::vector<std::string>{"images[1]: " + message}
                                             : std::vector<std::string>())
             << bytes;
         EXPECT_TRUE(scene.images.empty());
     }
-    folder.write("short.png", flatPng().substr(0, 32)); // where nothing is drawn, it is all that there is
+    folder.write("short.png", flatPng().substr(0, 32)); // if nothing is drawn, every image is checked
     g.root["scenes"][0]["nodes"] = json::array();
     EXPECT_EQ(refusal(cotan::loadGltf(folder.write("model.gltf", g.text()))),
-              "images[1]: the PNG short.png ends in its header");
-    std::filesystem::remove(folder.path / "short.png"); // one that is not there is not looked at
+              "images[1]: the PNG short.png ends within its header");
+    std::filesystem::remove(folder.path / "short.png"); // a missing file is not examined
     EXPECT_EQ(refusal(cotan::loadGltf(folder.write("model.gltf", g.text()))), "");
-    // What is not on the disk is not fetched only to be looked at.
+    // Files that are not on the disk are not fetched only for this check.
     int fetched = 0;
     LoadLimits limits;
     limits.readFile = [&](const std::string&) -> Result<std::vector<std::byte>> {
@@ -106,15 +106,15 @@ TEST(GltfImages, thatNothingUsesAreNamedWhereTheyEndInTheirHeader)
     EXPECT_EQ(fetched, 1);
 }
 
-// Images may take 128 times the bytes of the model and of the files that they are in, be their names encoded or not. A
-// byte more is too much.
-TEST(GltfImages, theirFilesCountWhereTheyAreHeldToTheModelsSize)
+// Images may take 128 times the bytes of the model and of their files, whether or not their names are percent-encoded.
+// One byte more is too much.
+TEST(GltfImages, theirFilesCountTowardsTheModelsSize)
 {
     const TemporaryFolder folder;
     const std::string png = flatPng() + std::string(1000, ' ');
     for (const auto& [name, uri] : {std::pair{"plain.png", "plain.png"}, {"two words.png", "two%20words.png"}}) {
         folder.write(name, png);
-        Gltf g = pictured(flatPng(), flatPng());
+        Gltf g = imageSquare(flatPng(), flatPng());
         g.root["materials"][0].erase("normalTexture");
         g.root["images"][1] = {{"uri", uri}};
         const std::string text = g.text();

@@ -1,4 +1,4 @@
-// Finding one's way in the JSON of a model, and tangents of a whole file: rows, counts, names and reasons.
+// Looking up elements in the JSON of a model; tangents of a whole file: rows, counts, names and reasons.
 #include "gltf_edit_maker.hpp"
 
 namespace cotan::test {
@@ -8,7 +8,7 @@ gltf::Json parsed(const char* text) { return gltf::Json::parse(text); }
 
 // ---- materials and textures -----------------------------------------------------------------
 
-TEST(GltfLookup, materialsOfAPrimitiveAreItsOwnThenThoseOfVariantsEachOnce)
+TEST(GltfLookup, materialsOfAPrimitiveIncludeVariantsOnce)
 {
     const gltf::Json root = parsed(R"({"materials":[{},{},{},{}]})");
     const std::pair<const char*, std::vector<std::size_t>> cases[] = {
@@ -26,8 +26,8 @@ TEST(GltfLookup, materialsOfAPrimitiveAreItsOwnThenThoseOfVariantsEachOnce)
     EXPECT_EQ(primitiveField(3, 1), "meshes[3].primitives[1]");
 }
 
-// By glTF every slot of a texture has a name that ends in "Texture", with the texture's number as "index".
-TEST(GltfLookup, texturesAreThoseOfAllSlotsBelowAnObject)
+// In glTF every texture slot has a name that ends in "Texture", with the texture's number as "index".
+TEST(GltfLookup, texturesInAllSlotsBelowAnObjectAreFound)
 {
     const gltf::Json material = parsed(R"({
         "normalTexture":{"index":1},"texture":{"index":2},"exture":{"index":90},"pictures":{"index":91},
@@ -63,7 +63,7 @@ TEST(GltfLookup, aSamplerIsThatOfTheTextureOrTheDefault)
     EXPECT_EQ(own.magnify, Filter::nearest);
 }
 
-TEST(GltfLookup, extrasAndExtensionsAreTakenOutWithWhatHeldThem)
+TEST(GltfLookup, removingExtrasAndExtensionsRemovesEmptyParents)
 {
     gltf::Json material = parsed(R"({"name":"m","extras":{"other":1}})");
     setExtra(material, "key", "text");
@@ -74,7 +74,7 @@ TEST(GltfLookup, extrasAndExtensionsAreTakenOutWithWhatHeldThem)
     EXPECT_EQ(material.dump(), R"({"name":"m"})");
     setExtra(material, "other", "");
     EXPECT_EQ(material.dump(), R"({"name":"m"})");
-    material["extras"] = 5; // what is no object cannot hold it
+    material["extras"] = 5; // a number cannot hold it
     takeOut(material, "extras", "key");
     EXPECT_EQ(material["extras"], 5);
     setExtra(material, "key", "text");
@@ -95,7 +95,7 @@ TEST(GltfLookup, extrasAndExtensionsAreTakenOutWithWhatHeldThem)
     EXPECT_EQ(root.dump(), "{}");
 }
 
-TEST(GltfLookup, whatIsAddedHasTheLastIndexAndACopiedTextureNoOtherSource)
+TEST(GltfLookup, additionsGetTheLastIndexAndCopiedTexturesOneSource)
 {
     Gltf g = square();
     addNormalMap(g);
@@ -121,18 +121,18 @@ TEST(GltfLookup, whatIsAddedHasTheLastIndexAndACopiedTextureNoOtherSource)
     EXPECT_EQ(gltfImageBytes(*document, 0)->size(), flatPng().size());
 }
 
-// ---- placing --------------------------------------------------------------------------------
+// ---- transforms -----------------------------------------------------------------------------
 
-TEST(GltfLookup, placingsMultiplyFromTheRootAndStandOnceForThoseThatAreAlike)
+TEST(GltfLookup, transformsMultiplyFromTheRootWithoutDuplicates)
 {
-    // Mesh 0 below a stretched node, twice turned alike; mesh 1 with a skin; mesh 2 that no node shows.
+    // Mesh 0 below a stretched node, twice with equal rotation; mesh 1 with a skin; mesh 2 without a node.
     const gltf::Json root = parsed(R"({"meshes":[{},{},{}],"nodes":[
         {"scale":[2,1,1],"children":[1,2]},
         {"mesh":0,"scale":[1,3,1],"translation":[9,9,9]},
         {"mesh":0,"scale":[1,3,1]},
         {"mesh":1,"skin":0,"scale":[5,1,1]},
         {"mesh":0,"scale":[1,1,4]}],"skins":[{"joints":[0]}]})");
-    const auto placings = gltfPlacings(root);
+    const auto placings = gltfMeshTransforms(root);
     ASSERT_EQ(placings.size(), 3u);
     ASSERT_EQ(placings[0].size(), 2u);
     const auto diagonal = [](const glm::dmat3& m) { return glm::dvec3(m[0][0], m[1][1], m[2][2]); };
@@ -159,7 +159,7 @@ TEST(GltfLookup, aMeshHasUnitNormalsOrThoseOfItsTriangles)
     const std::vector<glm::vec3> unit = {{0, 0, 1}, {0, 0.6f, 0.8f}, {0, 0, 0}, {0, -1, 0}};
     for (std::size_t v = 0; v < 4; ++v)
         EXPECT_LT(glm::length(with.normals[v] - unit[v]), kRounding) << v;
-    EXPECT_TRUE(flat.tangents.empty()); // of other normals
+    EXPECT_TRUE(flat.tangents.empty()); // they belong to other normals
     ASSERT_EQ(flat.positions.size(), 9u);
     ASSERT_EQ(flat.normals.size(), 9u);
     const glm::vec3 sides[] = {{0, 0, 1}, {1, 0, 0}, {0, 0, 0}}; // the last has no area
@@ -172,8 +172,8 @@ TEST(GltfLookup, aMeshHasUnitNormalsOrThoseOfItsTriangles)
 
 // ---- tangents of a whole file ---------------------------------------------------------------
 
-// Mesh 0, "square", has a map of its coat on uv set 0; mesh 1 has no name and four primitives: with tangents, without
-// normals, points, and with a map that reads a uv set that there is not.
+// Mesh 0, "square", has a coat map on uv set 0. Mesh 1 has no name and four primitives: with tangents, without normals,
+// points, and with a map that reads a missing uv set.
 Gltf manyReasons()
 {
     Gltf g = square();
@@ -195,16 +195,16 @@ Gltf manyReasons()
     return g;
 }
 
-TEST(GltfTangentsOfFiles, areCountedAndReasonedForEachPrimitive)
+TEST(GltfTangentsOfFiles, areCountedWithReasonsForEachPrimitive)
 {
     const TemporaryFolder folder;
     auto document = openText(folder, manyReasons().text());
     ASSERT_TRUE(document) << document.error().message;
-    std::vector<double> shares;
-    const auto progress = [&](double share) { return shares.push_back(share), true; };
+    std::vector<double> fractions;
+    const auto progress = [&](double fraction) { return fractions.push_back(fraction), true; };
     const auto compared = compareTangents(*document, {.progress = progress});
     ASSERT_TRUE(compared) << compared.error().message;
-    EXPECT_EQ(shares, (std::vector<double>{0.2, 0.4, 0.6, 0.8, 1}));
+    EXPECT_EQ(fractions, (std::vector<double>{0.2, 0.4, 0.6, 0.8, 1}));
     EXPECT_EQ(compared->without, 1u);
     EXPECT_EQ(compared->whole.corners, 6u);
     const auto given = giveTangents(*document, {});
@@ -217,7 +217,7 @@ TEST(GltfTangentsOfFiles, areCountedAndReasonedForEachPrimitive)
         const char* name;
         std::size_t triangles;
         bool stored, generated;
-        const char* cannot;
+        const char* reason;
     };
     const Row rows[] = {{0, 0, "square", 2, false, true, ""},
                         {1, 0, "mesh 1/0", 2, true, false, ""},
@@ -237,16 +237,16 @@ TEST(GltfTangentsOfFiles, areCountedAndReasonedForEachPrimitive)
         EXPECT_EQ(found.triangles, rows[i].triangles) << i;
         EXPECT_EQ(found.stored, rows[i].stored) << i;
         EXPECT_EQ(found.generated, rows[i].generated) << i;
-        EXPECT_EQ(found.cannot, rows[i].cannot) << i;
+        EXPECT_EQ(found.reason, rows[i].reason) << i;
         EXPECT_EQ(before.difference.has_value(), rows[i].stored) << i;
         EXPECT_FALSE(before.generated) << i;
         EXPECT_EQ(listed->at(i).name, rows[i].name) << i;
-        EXPECT_EQ(listed->at(i).cannot, rows[i].cannot) << i;
+        EXPECT_EQ(listed->at(i).reason, rows[i].reason) << i;
     }
 }
 
-// A map of the coat, or of any variant's material, counts.
-TEST(GltfTangentsOfFiles, mayBeAskedForMappedPrimitivesAlone)
+// A coat map counts, and so does a map of any variant's material.
+TEST(GltfTangentsOfFiles, mayBeLimitedToMappedPrimitives)
 {
     Gltf g = manyReasons();
     g.root["meshes"][1]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"] = {
@@ -265,8 +265,8 @@ TEST(GltfTangentsOfFiles, mayBeAskedForMappedPrimitivesAlone)
     EXPECT_EQ(refused.error().message, "tangents: expected the frame mikktspace or vertex; found smooth");
 }
 
-// Where uv have no area MikkTSpace has no direction: glTF wants a unit vector, any will do.
-TEST(GltfTangentsOfFiles, areUnitWhereUvHaveNoDirection)
+// Where uv have no area MikkTSpace has no direction. glTF requires a unit vector, so any will do.
+TEST(GltfTangentsOfFiles, areUnitIfUvHaveNoArea)
 {
     Gltf g = square();
     primitive(g)["attributes"]["TEXCOORD_0"] = g.floats(std::vector<float>(8, 0.5f), "VEC2");

@@ -1,4 +1,4 @@
-// Small glTF files for tests: JSON with the buffer embedded, written to a folder of their own.
+// Small glTF files for tests: JSON with an embedded buffer, written to a folder of their own.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ inline std::string base64(const std::string& bytes)
     return text;
 }
 
-// A folder that is removed with the object.
+// A temporary folder, removed by the destructor.
 class TemporaryFolder {
 public:
     TemporaryFolder()
@@ -90,7 +90,7 @@ struct Gltf {
     json root = {{"asset", {{"version", "2.0"}}}};
     std::string bytes;
 
-    // A buffer view of the given numbers, aligned to four bytes.
+    // Adds a buffer view of these numbers, aligned to four bytes.
     template<class T> int view(const std::vector<T>& values)
     {
         bytes.resize((bytes.size() + 3) / 4 * 4);
@@ -126,7 +126,7 @@ struct Gltf {
         return int(root[collection].size()) - 1;
     }
 
-    // The file's text. The buffer goes in as a data URI.
+    // The file's text, with the buffer as a data URI.
     std::string text() const
     {
         json whole = root;
@@ -142,12 +142,12 @@ struct Gltf {
 // Positions of a unit square in xy, counter-clockwise seen from +z.
 inline const std::vector<float> kSquare = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
 inline const std::vector<float> kSquareNormals = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
-// Upright: v = 0, the top row of the image, at y = 1.
+// Upright: v = 0, the top row of the image, is at y = 1.
 inline const std::vector<float> kSquareUv = {0, 1, 1, 1, 1, 0, 0, 0};
 inline const std::vector<std::uint16_t> kSquareIndices = {0, 1, 2, 0, 2, 3};
 
-// A square with normals and uv, shown by one node. json pointers of what tests change:
-// /meshes/0/primitives/0, /nodes/0, /materials/0.
+// A square with normals and uv, shown by one node. JSON pointers of what tests change: /meshes/0/primitives/0,
+// /nodes/0, /materials/0.
 inline Gltf square()
 {
     Gltf g;
@@ -165,7 +165,7 @@ inline Gltf square()
 
 inline json& primitive(Gltf& g) { return g.root["meshes"][0]["primitives"][0]; }
 
-// A flat normal map for the square's material.
+// Adds a flat normal map to the square's material.
 inline void addNormalMap(Gltf& g)
 {
     g.add("images", {{"uri", "data:image/png;base64," + base64(flatPng())}});
@@ -181,7 +181,7 @@ inline bool warns(const Scene& scene, const std::string& word)
     return false;
 }
 
-// Rounding of a handful of float operations on numbers of order one.
+// Rounding of a few float operations on numbers near one.
 inline constexpr float kRounding = 1e-6f;
 
 inline void expectNear(const glm::vec3& a, const glm::vec3& b)
@@ -192,7 +192,7 @@ inline void expectNear(const glm::vec3& a, const glm::vec3& b)
 
 } // namespace cotan::test
 
-// The loaded scene, or the end of the test with the reader's message.
+// Defines `name` as the loaded scene; on failure ends the test with the reader's message.
 #define COTAN_LOADED(name, result)                                                                                     \
     auto name##Result = (result);                                                                                      \
     ASSERT_TRUE(name##Result) << name##Result.error().message;                                                         \

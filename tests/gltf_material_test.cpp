@@ -1,4 +1,4 @@
-// What extensions say of a material, as it arrives in the scene.
+// Material extensions, as they arrive in the scene.
 #include <tuple>
 
 #include "gltf_maker.hpp"
@@ -8,7 +8,7 @@ using namespace cotan::test;
 
 namespace {
 
-TEST(GltfMaterial, coatAndAnisotropyArrive)
+TEST(GltfMaterial, coatAndAnisotropyAreRead)
 {
     Gltf g = square();
     addNormalMap(g);
@@ -41,19 +41,19 @@ TEST(GltfMaterial, coatAndAnisotropyArrive)
 
 TEST(GltfMaterial, extrasSayHowTheNormalMapIsStored)
 {
-    for (const auto& [said, expected] : {std::pair<json, Expansion>("biased", Expansion::biased),
-                                         {"exact", Expansion::exact},
-                                         {"other", Expansion::exact},
-                                         {7, Expansion::exact}}) {
+    for (const auto& [stored, expected] : {std::pair<json, Expansion>("biased", Expansion::biased),
+                                           {"exact", Expansion::exact},
+                                           {"other", Expansion::exact},
+                                           {7, Expansion::exact}}) {
         Gltf g = square();
         addNormalMap(g);
-        g.root["materials"][0]["extras"]["cotanUnsigned"] = said;
+        g.root["materials"][0]["extras"]["cotanUnsigned"] = stored;
         COTAN_LOADED(scene, g.load());
-        EXPECT_EQ(scene.materials.at(0).normalFormat.expansion, expected) << said;
+        EXPECT_EQ(scene.materials.at(0).normalFormat.expansion, expected) << stored;
     }
 }
 
-TEST(GltfMaterial, specularSheenAndTransmissionArrive)
+TEST(GltfMaterial, specularSheenAndTransmissionAreRead)
 {
     Gltf g = square();
     addNormalMap(g);
@@ -92,14 +92,14 @@ TEST(GltfMaterial, specularSheenAndTransmissionArrive)
         EXPECT_TRUE(maps[i]->present()) << i;
         EXPECT_FLOAT_EQ(maps[i]->uRow.z, 0.1f * float(i + 1));
     }
-    // A material without light has none of it.
+    // An unlit material ignores these extensions.
     g.root["materials"][0]["extensions"]["KHR_materials_unlit"] = json::object();
     COTAN_LOADED(unlit, g.load());
     EXPECT_FALSE(unlit.materials.at(0).translucent() || unlit.materials.at(0).glossy());
     EXPECT_FALSE(unlit.materials.at(0).sheen.present());
 }
 
-TEST(GltfMaterial, factorsOfExtensionsAreBroughtIntoTheirRanges)
+TEST(GltfMaterial, factorsOfExtensionsAreClamped)
 {
     struct Case {
         json extension;
@@ -153,7 +153,7 @@ TEST(GltfMaterial, factorsOfExtensionsAreBroughtIntoTheirRanges)
     }
 }
 
-TEST(GltfMaterial, layersWithoutStrengthAskForNoPictures)
+TEST(GltfMaterial, layersWithoutStrengthReadNoImages)
 {
     Gltf g = square();
     addNormalMap(g);
@@ -173,7 +173,7 @@ TEST(GltfMaterial, layersWithoutStrengthAskForNoPictures)
         << refused.error().message;
 }
 
-// A square whose base colour and normal map are two images of the same bytes, in two views.
+// A square whose base colour and normal map are two images with equal bytes in two views.
 Gltf squareOfEqualImages()
 {
     Gltf g = square();
@@ -187,15 +187,15 @@ Gltf squareOfEqualImages()
     return g;
 }
 
-TEST(GltfImages, ofEqualBytesAreHeldOnce)
+TEST(GltfImages, equalOnesAreStoredOnce)
 {
     COTAN_LOADED(scene, squareOfEqualImages().load());
     ASSERT_EQ(scene.images.size(), 1u);
     EXPECT_EQ(scene.materials.at(0).normalMap.image, 0);
     EXPECT_EQ(scene.materials.at(0).baseColorMap.image, 0);
     Gltf other = squareOfEqualImages();
-    // The checksum of the pixels of the second, in front of the 12 bytes of the last chunk, whose own libpng 1.6.48
-    // ignores.
+    // The checksum of the second image's pixel data, before the 12 bytes of the last chunk, whose own checksum libpng
+    // 1.6.48 ignores.
     char& checksum = other.bytes.at(other.bytes.size() - 13);
     checksum = char(checksum ^ 1);
     const auto refused = other.load();
@@ -203,13 +203,13 @@ TEST(GltfImages, ofEqualBytesAreHeldOnce)
     EXPECT_NE(refused.error().message.find("images[1]"), std::string::npos) << refused.error().message;
 }
 
-TEST(GltfImages, ofAModelShareABudgetThatGrowsWithItsFile)
+TEST(GltfImages, shareABudgetThatGrowsWithTheFile)
 {
     Gltf g = square();
     addNormalMap(g); // 16 bytes of pixels
     EXPECT_TRUE(g.load());
     LoadLimits none;
-    none.imageBytesBeyond = 0; // 128 times its own size are enough
+    none.imageBytesBeyond = 0; // 128 times its own size suffices
     EXPECT_TRUE(g.load(none));
     none.allImageBytes = 15;
     const auto refused = g.load(none);

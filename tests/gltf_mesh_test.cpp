@@ -13,7 +13,7 @@ namespace {
 TEST(GltfNormals, missingOnesAreFlatAndUnwelded)
 {
     Gltf g = square();
-    // The second triangle is folded up by a right angle about the edge that they share.
+    // The second triangle is folded up by 90 degrees about the shared edge.
     primitive(g)["attributes"]["POSITION"] = g.floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3");
     primitive(g)["attributes"].erase("NORMAL");
     primitive(g)["indices"] = g.accessor(std::vector<std::uint16_t>{0, 1, 2, 0, 3, 1}, "SCALAR", kUShort);
@@ -35,10 +35,10 @@ TEST(GltfNormals, otherLengthsAreNormalised)
     COTAN_LOADED(scene, g.load());
     for (const glm::vec3& n : scene.meshes[0].normals)
         expectNear(n, {0, 0, 1});
-    EXPECT_TRUE(warns(scene, "NORMAL: not of unit length, normalised (vertices: 2)"));
+    EXPECT_TRUE(warns(scene, "NORMAL: not of unit length; normalised (vertices: 2)"));
 }
 
-TEST(GltfNormals, zeroStaysZeroAndIsSaid)
+TEST(GltfNormals, zeroIsKeptWithAWarning)
 {
     Gltf g = square();
     primitive(g)["attributes"]["NORMAL"] = g.floats(std::vector<float>(12, 0.0f), "VEC3");
@@ -47,8 +47,8 @@ TEST(GltfNormals, zeroStaysZeroAndIsSaid)
     EXPECT_TRUE(warns(scene, "NORMAL: zero length"));
 }
 
-// What reports and messages call a primitive.
-TEST(GltfNames, ofPrimitivesAreThoseOfTheirMeshAndTheirNumberWhereThereAreSeveral)
+// The names of primitives in reports and messages.
+TEST(GltfNames, ofPrimitivesAreThoseOfTheMeshAndAnIndex)
 {
     for (const bool named : {true, false}) {
         Gltf g = square();
@@ -79,7 +79,7 @@ Gltf squareWithTangents(float w)
     return g;
 }
 
-// u runs along x and v against y; glTF's bitangent cross(n, t) * w points against v, so w = 1.
+// u points along x and v against y; glTF's bitangent cross(n, t) * w points against v, so w = 1.
 TEST(GltfTangents, uprightUvAgreeWithPlusOne)
 {
     COTAN_LOADED(scene, squareWithTangents(1).load());
@@ -87,7 +87,7 @@ TEST(GltfTangents, uprightUvAgreeWithPlusOne)
     EXPECT_EQ(scene.meshes[0].tangents[1], glm::vec4(1, 0, 0, 1));
 }
 
-TEST(GltfTangents, aSignAgainstTheUvIsSaid)
+TEST(GltfTangents, aSignAgainstTheUvIsWarnedOf)
 {
     COTAN_LOADED(scene, squareWithTangents(-1).load());
     EXPECT_TRUE(warns(scene, "TANGENT.w inverted"));
@@ -113,7 +113,7 @@ TEST(GltfTangents, theUvSetOfTheNormalMapDecides)
     EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
 }
 
-TEST(GltfTangents, withoutNormalsTheyAreIgnored)
+TEST(GltfTangents, areIgnoredWithoutNormals)
 {
     Gltf g = squareWithTangents(1);
     primitive(g)["attributes"].erase("NORMAL");
@@ -122,7 +122,7 @@ TEST(GltfTangents, withoutNormalsTheyAreIgnored)
     EXPECT_TRUE(warns(scene, "TANGENT without NORMAL"));
 }
 
-TEST(GltfTangents, wIsMadePlusOrMinusOne)
+TEST(GltfTangents, wBecomesPlusOrMinusOne)
 {
     COTAN_LOADED(scene, squareWithTangents(0.25f).load());
     EXPECT_EQ(scene.meshes[0].tangents[0].w, 1.0f);
@@ -147,7 +147,7 @@ TEST(GltfMorph, weightsOfTheMeshAreTheRestState)
     EXPECT_EQ(scene.meshes[0].positions[2], glm::vec3(1, 1, 0.5));
 }
 
-TEST(GltfMorph, withoutWeightsNothingMoves)
+TEST(GltfMorph, withoutWeightsTargetsHaveNoEffect)
 {
     COTAN_LOADED(scene, squareWithTarget().load());
     EXPECT_EQ(scene.meshes[0].positions[2], glm::vec3(1, 1, 0));
@@ -174,7 +174,7 @@ TEST(GltfMorph, aTargetOfAnotherSizeIsRefused)
 
 // ---- skins ----------------------------------------------------------------------------------
 
-// All vertices follow node 1, whose inverse bind matrix is given (columns).
+// All vertices follow node 1, with this inverse bind matrix (by columns).
 Gltf skinnedSquare(const std::vector<float>& inverseBind)
 {
     Gltf g = square();
@@ -190,7 +190,7 @@ Gltf skinnedSquare(const std::vector<float>& inverseBind)
 
 const std::vector<float> kMovedBack = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -3, 0, 0, 1};
 
-TEST(GltfSkin, verticesGoByJointTimesInverseBind)
+TEST(GltfSkin, verticesAreTransformedByJointTimesInverseBind)
 {
     Gltf g = skinnedSquare(kMovedBack);
     g.root["nodes"][1]["translation"] = {3, 0, 5};
@@ -198,7 +198,7 @@ TEST(GltfSkin, verticesGoByJointTimesInverseBind)
     expectNear(scene.meshes[0].positions[2], {1, 1, 5});
 }
 
-TEST(GltfSkin, theTransformOfTheSkinnedNodeDoesNotCount)
+TEST(GltfSkin, theTransformOfTheSkinnedNodeIsIgnored)
 {
     Gltf g = skinnedSquare(kMovedBack);
     g.root["nodes"][0]["translation"] = {100, 0, 0};
@@ -208,9 +208,9 @@ TEST(GltfSkin, theTransformOfTheSkinnedNodeDoesNotCount)
     expectNear(scene.meshes[0].positions[2], {1, 1, 0});
 }
 
-// A joint that stretches x by 2: a normal (1, 1, 0) goes by the inverse transpose to (1/2, 1, 0),
-// a tangent (1, -1, 0) with the surface to (2, -1, 0). They stay perpendicular.
-TEST(GltfSkin, normalsGoByTheInverseTransposeAndTangentsWithTheSurface)
+// A joint that scales x by 2: the inverse transpose moves the normal (1, 1, 0) to (1/2, 1, 0), and the tangent (1, -1,
+// 0) follows the surface to (2, -1, 0). They stay perpendicular.
+TEST(GltfSkin, normalsUseTheInverseTransposeAndTangentsTheMatrix)
 {
     Gltf g = skinnedSquare({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
     const float h = std::sqrt(0.5f);
@@ -222,7 +222,7 @@ TEST(GltfSkin, normalsGoByTheInverseTransposeAndTangentsWithTheSurface)
     expectNear(glm::vec3(scene.meshes[0].tangents[0]), glm::normalize(glm::vec3(2, -1, 0)));
 }
 
-TEST(GltfSkin, aMirroringJointTurnsSignAndWinding)
+TEST(GltfSkin, aMirroringJointFlipsSignAndWinding)
 {
     Gltf g = skinnedSquare({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
     primitive(g)["attributes"]["TANGENT"] = g.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
@@ -251,7 +251,7 @@ TEST(GltfSkin, aJointThatTheSkinLacksIsRefused)
 {
     Gltf g = skinnedSquare(kMovedBack);
     primitive(g)["attributes"]["JOINTS_0"] = g.accessor(std::vector<std::uint8_t>(16, 1), "VEC4", kUByte);
-    COTAN_REFUSED(g.load(), "names joint 1, but the skin has 1");
+    COTAN_REFUSED(g.load(), "refers to joint 1, but the skin has 1");
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-// The models of the shared data, against facts that come from elsewhere: their JSON, read here
-// without the reader under test, and what is known about them (README.md of that folder).
+// The models of the shared data, compared with independent facts: their JSON, read here without the reader under test,
+// and the README.md of that folder.
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -32,8 +32,7 @@ json readJson(const fs::path& file)
     return json::parse(text);
 }
 
-// Triangles of the file; all these models are made of triangle lists with indices, and show each
-// mesh exactly once.
+// Triangles of the file. All these models have indexed triangle lists and show each mesh exactly once.
 std::size_t trianglesInFile(const json& root)
 {
     std::size_t corners = 0;
@@ -43,7 +42,7 @@ std::size_t trianglesInFile(const json& root)
     return corners / 3;
 }
 
-std::size_t trianglesShown(const Scene& scene)
+std::size_t trianglesDrawn(const Scene& scene)
 {
     std::size_t triangles = 0;
     for (const Instance& instance : scene.instances)
@@ -70,7 +69,7 @@ bool warns(const Scene& scene, const std::string& word)
     return false;
 }
 
-// What every loaded scene promises (cotan/scene.hpp).
+// Checks the invariants of every loaded scene (cotan/scene.hpp).
 void expectSound(const Scene& scene)
 {
     for (const Mesh& mesh : scene.meshes) {
@@ -112,13 +111,13 @@ protected:
     }
 };
 
-TEST_F(GltfModels, everyOneLoadsWithAllItsTriangles)
+TEST_F(GltfModels, everyModelLoadsWithAllItsTriangles)
 {
     for (const fs::path& file : models()) {
         SCOPED_TRACE(file.string());
         const Result<Scene> scene = loadGltf(file);
         ASSERT_TRUE(scene) << scene.error().message;
-        EXPECT_EQ(trianglesShown(*scene), trianglesInFile(readJson(file)));
+        EXPECT_EQ(trianglesDrawn(*scene), trianglesInFile(readJson(file)));
         expectSound(*scene);
     }
 }
@@ -126,7 +125,7 @@ TEST_F(GltfModels, everyOneLoadsWithAllItsTriangles)
 TEST_F(GltfModels, flightHelmetIsComplete)
 {
     const Scene scene = load("models/FlightHelmet/FlightHelmet.gltf");
-    EXPECT_EQ(trianglesShown(scene), 94722u);
+    EXPECT_EQ(trianglesDrawn(scene), 94722u);
     EXPECT_EQ(scene.images.size(), 15u);
     EXPECT_TRUE(scene.warnings.empty());
     for (const Mesh& mesh : scene.meshes)
@@ -184,7 +183,7 @@ TEST_F(GltfModels, vertexColorsAreKept)
     EXPECT_GT(colored, 0u);
 }
 
-TEST_F(GltfModels, negativeScalesOfNodesSurvive)
+TEST_F(GltfModels, negativeScalesOfNodesAreKept)
 {
     const Scene scene = load("synthetic/uv_cases.gltf");
     std::set<std::string> mirrored;

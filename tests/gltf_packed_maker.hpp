@@ -1,4 +1,4 @@
-// Geometry compressed with Draco and meshoptimizer by their own encoders, for tests.
+// Geometry for tests, compressed by the encoders of Draco and meshoptimizer.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@ namespace cotan::test {
 
 // ---- Draco ------------------------------------------------------------------------------------
 
-// A sheet of n x n cells that waves, with texture coordinates, and bytes that say which vertex it is.
+// A wavy sheet of n x n cells with texture coordinates and bytes that identify each vertex.
 struct Sheet {
     std::vector<float> positions, texcoords;
-    std::vector<std::uint8_t> numbers; // three of a vertex: its column, its row, 7
+    std::vector<std::uint8_t> numbers; // three per vertex: its column, its row, 7
     std::vector<std::uint32_t> indices;
     std::size_t vertices() const { return positions.size() / 3; }
 };
@@ -79,7 +79,7 @@ inline std::string dracoStream(const Sheet& s, int method, const std::vector<flo
 
 inline constexpr std::array<int, 2> kMethods{draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING};
 
-// The model whose only primitive is that stream.
+// A model whose only primitive is this stream.
 inline Gltf dracoModel(const Sheet& s, const std::string& stream)
 {
     Gltf g;
@@ -113,7 +113,7 @@ struct Packed {
     std::string bytes{}, filter = "NONE";
 };
 
-// The square's model; view `view`, of elements of `packed.stride` bytes, is only there compressed.
+// The square's model; view `view`, with elements of `packed.stride` bytes, exists only compressed.
 inline std::string packedModel(Gltf g, std::size_t view, const Packed& packed,
                                const char* name = "EXT_meshopt_compression")
 {

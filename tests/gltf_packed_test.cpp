@@ -1,5 +1,5 @@
-// Compressed geometry: what of it a document keeps, writes and notes, primitive by primitive and view by view; what
-// the decoders ask of a stream.
+// Compressed geometry: what a document keeps, writes and notes of each primitive and view, and the decoders'
+// requirements on a stream.
 #include <algorithm>
 
 #include "cotan/scene.hpp"
@@ -14,7 +14,7 @@ constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
 // ---- Draco: several primitives --------------------------------------------------------------
 
-// Mesh 0: a sheet whose stream has tangents. Mesh 1: a smaller one, with normals beside its stream.
+// Mesh 0: a sheet whose stream has tangents. Mesh 1: a smaller one whose normals are not compressed.
 Gltf twoStreams()
 {
     const Sheet large = sheet(4), small = sheet(3);
@@ -43,7 +43,7 @@ Gltf twoStreams()
     return g;
 }
 
-TEST(DracoGeometry, ofSeveralPrimitivesIsKeptOrWrittenPlainByItself)
+TEST(DracoGeometry, isKeptOrDecodedPerPrimitive)
 {
     for (const bool required : {true, false}) {
         Gltf g = twoStreams();
@@ -56,7 +56,7 @@ TEST(DracoGeometry, ofSeveralPrimitivesIsKeptOrWrittenPlainByItself)
         const auto geometry = gltfGeometry(*document, 1, 0);
         ASSERT_TRUE(geometry);
         GltfCornerTangents corners{1, 0, std::vector<glm::vec4>(geometry->indices.size(), {1, 0, 0, 1})};
-        for (std::size_t i = 0; i < corners.corners.size(); ++i) // one corner of a vertex that has several
+        for (std::size_t i = 0; i < corners.corners.size(); ++i) // one corner of a shared vertex
             if (std::ranges::count(geometry->indices, geometry->indices[i]) > 1) {
                 corners.corners[i].w = -1;
                 break;
@@ -67,9 +67,9 @@ TEST(DracoGeometry, ofSeveralPrimitivesIsKeptOrWrittenPlainByItself)
         const auto written = writeGltf(*document, folder.path / "out.glb");
         ASSERT_TRUE(written) << written.error().message;
         ASSERT_EQ(written->notes.size(), 2u);
-        EXPECT_EQ(written->notes[0].find("KHR_draco_mesh_compression: 1 of 2 streams are kept as they are"), 0u)
+        EXPECT_EQ(written->notes[0].find("KHR_draco_mesh_compression: 1 of 2 streams are unchanged"), 0u)
             << written->notes[0];
-        EXPECT_EQ(written->notes[1].find("KHR_draco_mesh_compression: 1 of 2 primitives have other vertices now"), 0u)
+        EXPECT_EQ(written->notes[1].find("KHR_draco_mesh_compression: 1 of 2 primitives changed"), 0u)
             << written->notes[1];
         const ReadBack out = readBack(folder.path / "out.glb");
         EXPECT_EQ(out.root["extensionsUsed"], json({kDraco}));
@@ -86,7 +86,7 @@ TEST(DracoGeometry, ofSeveralPrimitivesIsKeptOrWrittenPlainByItself)
     }
 }
 
-TEST(DracoGeometry, thatTwoPrimitivesShareIsDecodedAndWrittenOnce)
+TEST(DracoGeometry, sharedByTwoPrimitivesIsDecodedAndWrittenOnce)
 {
     const Sheet s = sheet(4);
     const std::string stream = dracoStream(s, draco::MESH_EDGEBREAKER_ENCODING);
@@ -103,16 +103,16 @@ TEST(DracoGeometry, thatTwoPrimitivesShareIsDecodedAndWrittenOnce)
     EXPECT_EQ(out.root["meshes"], g.root["meshes"]);
     EXPECT_EQ(out.root["accessors"], g.root["accessors"]);
     EXPECT_LT(out.buffer.size(), stream.size() + 4);
-    // Streams of their own must not fill the same accessor.
+    // Two different streams must not fill the same accessor.
     json order = g.root["accessors"][3];
     g.root["meshes"][0]["primitives"][1]["indices"] = g.accessor(order);
     COTAN_REFUSED(g.load(),
-                  "meshes[0].primitives[1].extensions.KHR_draco_mesh_compression: accessors[0] belongs to another "
-                  "compressed primitive too");
+                  "meshes[0].primitives[1].extensions.KHR_draco_mesh_compression: accessors[0] also belongs to another "
+                  "compressed primitive");
 }
 
-// Attributes begin at multiples of four bytes, as glTF asks; indices do not. A stream is of no use to other modes.
-TEST(DracoGeometry, isPlainNumbersOfGltfInTheDocument)
+// Attributes begin at multiples of four bytes, as glTF requires; indices do not. Other modes cannot use a stream.
+TEST(DracoGeometry, isDecodedIntoPlainAccessors)
 {
     const Sheet s = sheet(4); // 25 vertices, 96 indices
     for (const int method : kMethods) {
@@ -128,17 +128,17 @@ TEST(DracoGeometry, isPlainNumbersOfGltfInTheDocument)
             EXPECT_EQ(viewOf(accessor)["byteLength"], bytes) << accessor;
             EXPECT_EQ(viewOf(accessor).value("byteStride", 0), accessor == 2 ? 4 : 0) << accessor;
         }
-        root["meshes"][0]["primitives"][0]["mode"] = 0; // points, from here on
+        root["meshes"][0]["primitives"][0]["mode"] = 0; // points from here on
         const auto written = writeGltf(*document, folder.path / "out.glb");
         ASSERT_TRUE(written);
         EXPECT_EQ(written->notes.size(), 1u);
         const ReadBack out = readBack(folder.path / "out.glb");
         EXPECT_EQ(out.root.dump().find("draco"), std::string::npos);
-        const std::vector<float> places = floatsOf(out, 0, 3), uv = floatsOf(out, 1, 2);
+        const std::vector<float> positions = floatsOf(out, 0, 3), uv = floatsOf(out, 1, 2);
         const std::vector<std::string> numbers = elements(out, 2, 3);
         glm::vec3 low(9), high(-9);
         for (std::size_t v = 0; v < s.vertices(); ++v) {
-            const glm::vec3 p(places[3 * v], places[3 * v + 1], places[3 * v + 2]);
+            const glm::vec3 p(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]);
             EXPECT_EQ(numbers[v], (std::string{char(std::lround(4 * p.x)), char(std::lround(4 * p.y)), char(7)})) << v;
             EXPECT_NEAR(uv[2 * v], p.x, 1e-3);
             EXPECT_NEAR(uv[2 * v + 1], 1 - p.y, 1e-3);
@@ -155,19 +155,19 @@ TEST(DracoGeometry, isPlainNumbersOfGltfInTheDocument)
     }
 }
 
-TEST(DracoGeometry, isDecodedWhereAnyOfItsNumbersIsMissing)
+TEST(DracoGeometry, isDecodedIfAnyAccessorHasNoView)
 {
     const Sheet s = sheet(4);
     Gltf g = dracoModel(s, dracoStream(s, draco::MESH_SEQUENTIAL_ENCODING));
     const auto whole = g.load();
-    primitive(g)["mode"] = 4; // said though it is the default
+    primitive(g)["mode"] = 4; // the default, stated explicitly
     g.root["accessors"][2]["bufferView"] = g.view(std::vector<std::uint8_t>(75, 1));
     const auto mixed = g.load();
     ASSERT_TRUE(mixed) << mixed.error().message;
     EXPECT_EQ(mixed->meshes[0].positions, whole->meshes[0].positions);
 }
 
-TEST(DracoGeometry, isRefusedWithTheFieldThatIsWrong)
+TEST(DracoGeometry, errorsNameTheWrongField)
 {
     const Sheet s = sheet(4);
     const std::string stream = dracoStream(s, draco::MESH_SEQUENTIAL_ENCODING);
@@ -182,8 +182,8 @@ TEST(DracoGeometry, isRefusedWithTheFieldThatIsWrong)
         {packed + "/attributes", json::object(), field + ".attributes: expected at least one, with vertices"},
         {packed + "/attributes/POSITION", 4294967296, field + ".attributes.POSITION: expected the id"},
         {packed + "/attributes/POSITION", 4294967295,
-         field + ": the Draco stream has no attribute of the id 4294967295"},
-        {"/accessors/1/type", "VEC4", field + ": expected 4 components in the Draco attribute of the id 1, found 2"}};
+         field + ": the Draco stream has no attribute with the id 4294967295"},
+        {"/accessors/1/type", "VEC4", field + ": expected 4 components in the Draco attribute with the id 1, found 2"}};
     for (const auto& [where, value, word] : cases) {
         Gltf g = dracoModel(s, stream);
         g.root[json::json_pointer(where)] = value;
@@ -195,8 +195,8 @@ TEST(DracoGeometry, isRefusedWithTheFieldThatIsWrong)
     COTAN_REFUSED(none.load(), field + ".attributes: expected at least one, with vertices");
 }
 
-// The first index that does not fit, and the first vertex, by their numbers.
-TEST(DracoGeometry, thatDoesNotFitItsAccessorIsNamedByIndexAndVertex)
+// The number of the first index, and of the first vertex, that does not fit.
+TEST(DracoGeometry, errorsNameTheFirstWrongIndexAndVertex)
 {
     const Sheet s = sheet(20); // 441 vertices
     for (const int method : kMethods) {
@@ -211,14 +211,14 @@ TEST(DracoGeometry, thatDoesNotFitItsAccessorIsNamedByIndexAndVertex)
         g.root["accessors"][3]["componentType"] = kUByte;
         COTAN_REFUSED(g.load(),
                       "index " + std::to_string(index - geometry->indices.begin()) + " of the Draco stream is "
-                          + std::to_string(*index) + ", but there are 441 vertices and 1 bytes for it");
+                          + std::to_string(*index) + ", but there are 441 vertices and an index has 1 bytes");
         g.root["accessors"][3]["componentType"] = kUShort;
         const auto below = std::ranges::find_if(geometry->positions, [](const glm::vec3& p) { return p.z < 0; });
         ASSERT_NE(below, geometry->positions.end());
         g.root["accessors"][0]["componentType"] = kUByte;
         COTAN_REFUSED(g.load(),
                       "vertex " + std::to_string(below - geometry->positions.begin())
-                          + " of the Draco attribute of the id 0 is no bytes");
+                          + " of the Draco attribute with the id 0 cannot be converted to bytes");
     }
 }
 
@@ -241,8 +241,8 @@ std::string refusalOf(const DracoJob& job)
     return meshes.error().message;
 }
 
-// Draco Bitstream Specification 2.2, section 4: "DRACO", version, kind, method, flags; then counts, each a byte here.
-TEST(DracoHeader, promisesWhatTheModelSaysOrTheStreamIsRefused)
+// Draco Bitstream Specification 2.2, section 4: "DRACO", version, kind, method, flags; then counts, each one byte here.
+TEST(DracoHeader, mustMatchTheModel)
 {
     const Sheet s = sheet(4); // 25 vertices, 32 triangles
     for (const int method : kMethods) {
@@ -260,14 +260,14 @@ TEST(DracoHeader, promisesWhatTheModelSaysOrTheStreamIsRefused)
             {7, 0, "here: expected a mesh of triangles, found another kind of Draco stream"},
             {7, 2, "here: expected a mesh of triangles, found another kind of Draco stream"},
             {8, 2, "here: expected a mesh of triangles, found another kind of Draco stream"},
-            {10, 0x80, "here: the Draco stream has metadata, which is not read here"},
+            {10, 0x80, "here: the Draco stream has metadata, which is not supported"},
             {faces, 31, "here: expected 96 indices, as the accessor has, found 31 triangles in the Draco stream"},
             {faces, 33, "here: expected 96 indices, as the accessor has, found 33 triangles in the Draco stream"},
             {vertices, 26, "here: expected 25 vertices, as the accessors have, found 26 in the Draco stream"}};
-        for (const auto& [at, value, said] : cases) {
+        for (const auto& [at, value, message] : cases) {
             DracoJob wrong = job;
             wrong.bytes[at] = std::byte(value);
-            EXPECT_EQ(refusalOf(wrong), said) << at << " in " << method;
+            EXPECT_EQ(refusalOf(wrong), message) << at << " in " << method;
         }
         const std::size_t header = sequential ? 13 : 14;
         for (std::size_t length = 11; length <= header; ++length) {
@@ -276,7 +276,7 @@ TEST(DracoHeader, promisesWhatTheModelSaysOrTheStreamIsRefused)
             EXPECT_EQ(refusalOf(cut) == "here: the Draco stream ends within its header", length < header) << length;
         }
         DracoJob other = job;
-        other.indices = 97; // no whole triangles
+        other.indices = 97; // not a multiple of three
         EXPECT_EQ(refusalOf(other).find("here: expected 97 indices, as the accessor has, found 32 triangles"), 0u);
         other = job;
         other.vertices = 26;
@@ -284,8 +284,8 @@ TEST(DracoHeader, promisesWhatTheModelSaysOrTheStreamIsRefused)
     }
 }
 
-// Each stream answers its own job, and indices of each width are the same.
-TEST(DracoHeader, isFollowedByNumbersOfTheTypesThatAreAsked)
+// Each stream yields the data of its own job, and indices of each width are equal.
+TEST(DracoHeader, isFollowedByDataOfTheRequestedTypes)
 {
     const Sheet large = sheet(4), small = sheet(2);
     const std::string stream = dracoStream(large, draco::MESH_EDGEBREAKER_ENCODING);

@@ -1,5 +1,5 @@
-// Buffer views that meshoptimizer compressed: several in one file, kept or replaced each by itself; strides, filters,
-// messages and the limit on what they may take.
+// Buffer views compressed by meshoptimizer: several in one file, each kept or replaced separately; strides, filters,
+// messages and the limit on their size.
 #include <algorithm>
 
 #include "cotan/scene.hpp"
@@ -12,12 +12,12 @@ namespace {
 constexpr const char* kEarlier = "EXT_meshopt_compression";
 constexpr const char* kLater = "KHR_meshopt_compression";
 
-// Puts views of a model, given with what packs them, into a fallback buffer, at places that are multiples of eight.
+// Moves views of a model, given with their compressed form, into a fallback buffer, at multiples of eight.
 class PackedViews {
 public:
     explicit PackedViews(const Gltf& g) : g_(g) {}
 
-    // The bytes of the stream.
+    // Returns the bytes of the stream.
     std::string pack(std::size_t view, const Packed& packed, const char* name)
     {
         g_.bytes.resize((g_.bytes.size() + 3) / 4 * 4);
@@ -54,14 +54,14 @@ private:
     std::size_t fallback_ = 0;
 };
 
-// Decoded, the views lie one behind the other at multiples of four.
-TEST(PackedViews, eachKeepsItsStreamAndItsExtension)
+// Decoded views are stored one after another at multiples of four.
+TEST(PackedViews, keepTheirStreamAndExtension)
 {
     Gltf g = square();
     primitive(g)["indices"] = g.accessor(std::vector<std::uint16_t>{0, 1, 2}, "SCALAR", kUShort); // view 4
     PackedViews views(g);
     const std::string order = views.pack(4, packedIndices({0, 1, 2}, true), kLater);
-    const std::string places = views.pack(0, packedVertices(kSquare, 3), kEarlier);
+    const std::string positionStream = views.pack(0, packedVertices(kSquare, 3), kEarlier);
     const TemporaryFolder folder;
     const auto document = openText(folder, views.text({kEarlier, kLater}));
     ASSERT_TRUE(document) << document.error().message;
@@ -85,11 +85,11 @@ TEST(PackedViews, eachKeepsItsStreamAndItsExtension)
         const json& e = view["extensions"][name];
         return out.buffer.substr(e["byteOffset"], e["byteLength"]);
     };
-    EXPECT_EQ(streamOf(positions, kEarlier), places);
+    EXPECT_EQ(streamOf(positions, kEarlier), positionStream);
     EXPECT_EQ(streamOf(indices, kLater), order);
     COTAN_LOADED(again, loadGltf(folder.path / "out.glb"));
     EXPECT_EQ(again.meshes[0].positions, (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}));
-    // Required is what the file requires, no more.
+    // Extensions are required only if the file requires them.
     const auto optional = openText(folder, views.text({kLater}));
     ASSERT_TRUE(optional);
     ASSERT_TRUE(writeGltf(*optional, folder.path / "out.glb"));
@@ -98,13 +98,13 @@ TEST(PackedViews, eachKeepsItsStreamAndItsExtension)
     EXPECT_EQ(second.root["extensionsRequired"], json({kLater}));
 }
 
-// Positions and the times of an animation are compressed: new vertices replace the first alone. Nothing is noted where
-// a view goes and nothing comes for it, or where something comes and none goes.
-TEST(PackedViews, thatAreReplacedByPlainOnesAreCounted)
+// Positions and the times of an animation are compressed: new vertices replace only the first. There is no note if a
+// view is removed without a replacement, or one is added and none removed.
+TEST(PackedViews, replacedByPlainOnesAreCounted)
 {
     Gltf g = square();
-    const int times = g.floats({0, 1}, "SCALAR"), turns = g.floats({0, 0, 0, 1, 0, 0, 1, 0}, "VEC4");
-    g.root["animations"] = {{{"samplers", {{{"input", times}, {"output", turns}}}}, {"channels", json::array()}}};
+    const int times = g.floats({0, 1}, "SCALAR"), rotations = g.floats({0, 0, 0, 1, 0, 0, 1, 0}, "VEC4");
+    g.root["animations"] = {{{"samplers", {{{"input", times}, {"output", rotations}}}}, {"channels", json::array()}}};
     const auto open = [](const TemporaryFolder& folder, const PackedViews& views) {
         auto document = openText(folder, views.text({kEarlier}));
         EXPECT_TRUE(document) << document.error().message;
@@ -117,7 +117,8 @@ TEST(PackedViews, thatAreReplacedByPlainOnesAreCounted)
     const std::pair<std::vector<glm::vec4>, std::vector<std::string>> cases[] = {
         {cornersOf({1, 1, 1, 1, 1, 1}), {}},
         {cornersOf({1, 1, 1, 1, -1, 1}),
-         {"1 of 2 compressed buffer views are replaced by plain ones; \"gltf-transform meshopt\" packs them again"}}};
+         {"1 of 2 compressed buffer views are replaced by uncompressed ones; \"gltf-transform meshopt\" compresses "
+          "them again"}}};
     for (const auto& [corners, notes] : cases) {
         auto document = open(folder, views);
         const GltfCornerTangents t{0, 0, corners};
@@ -140,8 +141,8 @@ TEST(PackedViews, thatAreReplacedByPlainOnesAreCounted)
     EXPECT_EQ(readBack(folder.path / "out.glb").root.dump().find("meshopt"), std::string::npos);
 }
 
-// Taken apart it would have to be packed anew.
-TEST(PackedViews, ofInterleavedRowsStayWholeWhereAColumnGoes)
+// Splitting it would require compressing it again.
+TEST(PackedViews, keepInterleavedRowsIfAColumnIsRemoved)
 {
     Gltf g = square();
     std::vector<float> rows;
@@ -169,7 +170,7 @@ TEST(PackedViews, ofInterleavedRowsStayWholeWhereAColumnGoes)
     EXPECT_EQ(scene.meshes[0].positions[2], glm::vec3(1, 1, 0));
 }
 
-TEST(PackedViews, ofIndicesMayHaveFourBytesAndNormalsOfBytesFour)
+TEST(PackedViews, mayHaveFourByteIndicesAndNormals)
 {
     for (const bool triangles : {true, false}) {
         Packed packed = packedIndices(kTwoTriangles, triangles);
@@ -199,17 +200,18 @@ TEST(PackedViews, ofIndicesMayHaveFourBytesAndNormalsOfBytesFour)
         EXPECT_LT(glm::length(found - n), 0.025f); // bytes: half a step of 1/127 in each of two numbers, twice
 }
 
-// q and -q are the same turn.
-TEST(PackedViews, ofQuaternionsAreTheSameTurns)
+// q and -q are the same rotation.
+TEST(PackedViews, quaternionsKeepTheirRotation)
 {
-    std::vector<float> turns = {0.1f, 0.2f, 0.3f, 0.9f, 0.9f, 0.1f, -0.3f, 0.2f, 0, 0, 1, 0, -0.5f, 0.5f, 0.5f, 0.5f};
+    std::vector<float> rotations = {0.1f, 0.2f, 0.3f, 0.9f, 0.9f,  0.1f, -0.3f, 0.2f,
+                                    0,    0,    1,    0,    -0.5f, 0.5f, 0.5f,  0.5f};
     for (std::size_t q = 0; q < 16; q += 4) {
-        const float length = glm::length(glm::vec4(turns[q], turns[q + 1], turns[q + 2], turns[q + 3]));
+        const float length = glm::length(glm::vec4(rotations[q], rotations[q + 1], rotations[q + 2], rotations[q + 3]));
         for (std::size_t c = 0; c < 4; ++c)
-            turns[q + c] /= length;
+            rotations[q + c] /= length;
     }
     std::vector<std::int16_t> encoded(16);
-    meshopt_encodeFilterQuat(encoded.data(), 4, 8, 12, turns.data());
+    meshopt_encodeFilterQuat(encoded.data(), 4, 8, 12, rotations.data());
     Packed packed = packedVertices(encoded, 4);
     packed.filter = "QUATERNION";
     Gltf g = square();
@@ -221,13 +223,13 @@ TEST(PackedViews, ofQuaternionsAreTheSameTurns)
     const auto geometry = gltfGeometry(*document, 0, 0);
     ASSERT_TRUE(geometry);
     for (std::size_t v = 0; v < 4; ++v) {
-        const glm::vec4 q(turns[4 * v], turns[4 * v + 1], turns[4 * v + 2], turns[4 * v + 3]);
-        // Half a step of 1/32767 in each of four numbers, of which the sum of sizes is at most 2.
+        const glm::vec4 q(rotations[4 * v], rotations[4 * v + 1], rotations[4 * v + 2], rotations[4 * v + 3]);
+        // Half a step of 1/32767 in each of four numbers, whose absolute values sum to at most 2.
         EXPECT_GT(std::abs(glm::dot(geometry->tangents[v], q)), 1 - 4e-5f) << v;
     }
 }
 
-TEST(PackedViews, areRefusedWithTheFieldThatIsWrong)
+TEST(PackedViews, errorsNameTheWrongField)
 {
     const Packed vertices = packedVertices(kSquare, 3), indices = packedIndices(kTwoTriangles, true);
     const auto with = [](Packed p, std::size_t count, std::size_t stride, const char* filter = "NONE",
@@ -258,8 +260,8 @@ TEST(PackedViews, areRefusedWithTheFieldThatIsWrong)
                   "elements of 12 bytes");
 }
 
-// 64 times the file, and geometryBytes, may come out of it: the last byte is allowed, one more is not.
-TEST(PackedViews, takeNoMoreThanTheirAllowance)
+// 64 times the file's size plus geometryBytes may be decoded: the last byte is allowed, one more is not.
+TEST(PackedViews, areLimitedToTheirAllowance)
 {
     constexpr std::size_t kCount = 8192, kViews = 10;
     Gltf g = square();
@@ -274,17 +276,17 @@ TEST(PackedViews, takeNoMoreThanTheirAllowance)
     json whole = json::parse(g.text());
     whole["buffers"].push_back({{"byteLength", 12 * kCount}, {"extensions", {{kEarlier, {{"fallback", true}}}}}});
     const std::string text = whole.dump();
-    constexpr std::size_t kTaken = 12 * kCount * kViews;
-    ASSERT_GT(kTaken, 64 * text.size());
+    constexpr std::size_t kDecodedBytes = 12 * kCount * kViews;
+    ASSERT_GT(kDecodedBytes, 64 * text.size());
     LoadLimits limits;
-    limits.geometryBytes = kTaken - 64 * text.size();
+    limits.geometryBytes = kDecodedBytes - 64 * text.size();
     EXPECT_TRUE(loadText(text, "model.gltf", limits));
     --limits.geometryBytes;
     COTAN_REFUSED(
         loadText(text, "model.gltf", limits),
-        "bufferViews[13].extensions.EXT_meshopt_compression: decoded geometry takes 983040 bytes with it, the "
-        "limit is 983039 for a file of "
-            + std::to_string(text.size()));
+        "bufferViews[13].extensions.EXT_meshopt_compression: decoded geometry takes 983040 bytes in total, the limit "
+        "is 983039 for a file of "
+            + std::to_string(text.size()) + " bytes");
 }
 
 } // namespace

@@ -13,23 +13,23 @@ using namespace cotan::test;
 
 namespace {
 
-glm::vec3 place(const Instance& instance, const glm::vec3& p) { return glm::vec3(instance.toWorld * glm::vec4(p, 1)); }
+glm::vec3 moved(const Instance& instance, const glm::vec3& p) { return glm::vec3(instance.toWorld * glm::vec4(p, 1)); }
 
 // ---- nodes ----------------------------------------------------------------------------------
 
 TEST(GltfNodes, scaleThenRotateThenTranslate)
 {
     Gltf g = square();
-    const double h = std::sqrt(0.5); // a quarter turn about z: x goes to y
+    const double h = std::sqrt(0.5); // 90 degrees about z: x goes to y
     g.root["nodes"][0]["translation"] = {10, 0, 0};
     g.root["nodes"][0]["rotation"] = {0, 0, h, h};
     g.root["nodes"][0]["scale"] = {2, 3, 1};
     COTAN_LOADED(scene, g.load());
-    expectNear(place(scene.instances[0], {1, 0, 0}), {10, 2, 0});
-    expectNear(place(scene.instances[0], {0, 1, 0}), {7, 0, 0});
+    expectNear(moved(scene.instances[0], {1, 0, 0}), {10, 2, 0});
+    expectNear(moved(scene.instances[0], {0, 1, 0}), {7, 0, 0});
 }
 
-TEST(GltfNodes, aRotationWithoutLengthTurnsNothing)
+TEST(GltfNodes, aRotationOfZeroLengthIsIgnored)
 {
     Gltf g = square();
     g.root["nodes"][0]["rotation"] = {0, 0, 0, 0};
@@ -42,7 +42,7 @@ TEST(GltfNodes, matricesAreStoredByColumns)
     Gltf g = square();
     g.root["nodes"][0]["matrix"] = {1, 2, 3, 0, 4, 5, 7, 0, 7, 8, 10, 0, 11, 12, 13, 1};
     COTAN_LOADED(scene, g.load());
-    EXPECT_EQ(place(scene.instances[0], {1, 0, 0}), glm::vec3(12, 14, 16));
+    EXPECT_EQ(moved(scene.instances[0], {1, 0, 0}), glm::vec3(12, 14, 16));
 }
 
 TEST(GltfNodes, childrenFollowTheirParents)
@@ -53,7 +53,7 @@ TEST(GltfNodes, childrenFollowTheirParents)
     g.root["scenes"][0]["nodes"] = {1};
     COTAN_LOADED(scene, g.load());
     ASSERT_EQ(scene.instances.size(), 1u);
-    EXPECT_EQ(place(scene.instances[0], {1, 1, 0}), glm::vec3(-4, 1, 0));
+    EXPECT_EQ(moved(scene.instances[0], {1, 1, 0}), glm::vec3(-4, 1, 0));
 }
 
 TEST(GltfNodes, instancesShareTheirMesh)
@@ -106,11 +106,11 @@ TEST(GltfNodes, gpuInstancingPlacesCopies)
                                                                                  {"SCALE", scales}};
     COTAN_LOADED(scene, g.load());
     ASSERT_EQ(scene.instances.size(), 2u);
-    EXPECT_EQ(place(scene.instances[0], {1, 1, 0}), glm::vec3(2, 1, 0));
-    EXPECT_EQ(place(scene.instances[1], {1, 1, 0}), glm::vec3(3, 9, 0));
+    EXPECT_EQ(moved(scene.instances[0], {1, 1, 0}), glm::vec3(2, 1, 0));
+    EXPECT_EQ(moved(scene.instances[1], {1, 1, 0}), glm::vec3(3, 9, 0));
 }
 
-TEST(GltfNodes, aChainOfManyNodesIsNoProblem)
+TEST(GltfNodes, longChainsOfNodesAreRead)
 {
     constexpr int kLength = 20000; // far deeper than any hand-made hierarchy
     Gltf g = square();
@@ -118,19 +118,19 @@ TEST(GltfNodes, aChainOfManyNodesIsNoProblem)
         g.add("nodes", {{"children", {i}}, {"translation", {1, 0, 0}}});
     g.root["scenes"][0]["nodes"] = {kLength};
     COTAN_LOADED(scene, g.load());
-    EXPECT_EQ(place(scene.instances.at(0), {0, 0, 0}), glm::vec3(kLength, 0, 0));
+    EXPECT_EQ(moved(scene.instances.at(0), {0, 0, 0}), glm::vec3(kLength, 0, 0));
 }
 
 // ---- materials ------------------------------------------------------------------------------
 
-LoadLimits shown(const std::string& variant)
+LoadLimits loadVariant(const std::string& variant)
 {
     LoadLimits limits;
     limits.variant = variant;
     return limits;
 }
 
-// A square that is red, green where the variant "leaf" is asked for.
+// A red square, which is green in the variant "leaf".
 Gltf leaf()
 {
     Gltf g = square();
@@ -144,30 +144,30 @@ Gltf leaf()
     return g;
 }
 
-TEST(GltfVariant, isThatOfItsNameOrNumber)
+TEST(GltfVariant, isSelectedByNameOrNumber)
 {
     for (const auto& [variant, green] : {std::pair{"", 0.0f}, {"bare", 0.0f}, {"leaf", 1.0f}, {"1", 1.0f}}) {
-        COTAN_LOADED(scene, leaf().load(shown(variant)));
+        COTAN_LOADED(scene, leaf().load(loadVariant(variant)));
         EXPECT_EQ(scene.materials[std::size_t(scene.meshes[0].material)].baseColor.y, green) << variant;
     }
 }
 
-TEST(GltfVariant, thatIsNotThereOrDamagedIsRefused)
+TEST(GltfVariant, missingOrDamagedOnesAreRefused)
 {
-    const auto none = leaf().load(shown("bark"));
+    const auto none = leaf().load(loadVariant("bark"));
     ASSERT_FALSE(none);
     EXPECT_EQ(none.error().kind, ErrorKind::usage);
     EXPECT_NE(
         none.error().message.find("expected one of its 2 variants by number or name (bare, leaf), found \"bark\""),
         std::string::npos)
         << none.error().message;
-    EXPECT_FALSE(square().load(shown("leaf")));
+    EXPECT_FALSE(square().load(loadVariant("leaf")));
     for (const json& broken : {json(2), json(-1), json("red"), json()}) {
         Gltf g = leaf();
         g.root["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"][0]["material"] =
             broken;
         EXPECT_TRUE(g.load()) << broken;
-        const auto refused = g.load(shown("leaf"));
+        const auto refused = g.load(loadVariant("leaf"));
         ASSERT_FALSE(refused) << broken;
         EXPECT_NE(refused.error().message.find("meshes[0].primitives[0].extensions.KHR_materials_variants"),
                   std::string::npos)
@@ -176,7 +176,7 @@ TEST(GltfVariant, thatIsNotThereOrDamagedIsRefused)
     for (const json& odd : {json(3), json::array({1, "x", json::object()}), json::object()}) {
         Gltf g = leaf();
         g.root["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"] = odd;
-        EXPECT_TRUE(g.load(shown("leaf"))) << odd;
+        EXPECT_TRUE(g.load(loadVariant("leaf"))) << odd;
     }
 }
 
@@ -195,7 +195,7 @@ TEST(GltfMaterial, defaultsAreThoseOfTheSpecification)
     EXPECT_FALSE(m.normalMap.present());
 }
 
-TEST(GltfMaterial, factorsArrive)
+TEST(GltfMaterial, factorsAreRead)
 {
     Gltf g = square();
     g.root["materials"][0] = {
@@ -221,7 +221,7 @@ TEST(GltfMaterial, factorsArrive)
     EXPECT_TRUE(m.unlit);
 }
 
-TEST(GltfMaterial, normalMapsAreGreenAgainstVAndExact)
+TEST(GltfMaterial, normalMapsHaveGreenAgainstVAndExactZero)
 {
     Gltf g = square();
     addNormalMap(g);
@@ -238,7 +238,7 @@ TEST(GltfMaterial, normalMapsAreGreenAgainstVAndExact)
     EXPECT_EQ(image.bytes8()[2], 255) << "blue of a flat texel";
 }
 
-TEST(GltfMaterial, samplersArrive)
+TEST(GltfMaterial, samplersAreRead)
 {
     Gltf g = square();
     addNormalMap(g);
@@ -253,8 +253,8 @@ TEST(GltfMaterial, samplersArrive)
     EXPECT_EQ(s.wrapV, Wrap::mirror);
 }
 
-// The example of the extension's text: an offset of (0,1), a quarter turn and a scale of 1/2
-// show the lower left quadrant of the image, turned clockwise.
+// The example in the extension's text: an offset of (0,1), a rotation of 90 degrees and a scale of 1/2 show the lower
+// left quadrant of the image, rotated clockwise.
 TEST(GltfMaterial, textureTransformSelectsTheQuadrantOfItsExample)
 {
     Gltf g = square();
@@ -282,7 +282,7 @@ TEST(GltfMaterial, textureTransformMayNameAnotherUvSet)
     EXPECT_EQ(scene.materials.at(0).normalMap.texcoord, 1);
 }
 
-TEST(GltfMaterial, aTextureIsLeftOutOnlyWhereTheUvAreMissing)
+TEST(GltfMaterial, texturesAreOmittedOnlyIfUvAreMissing)
 {
     Gltf g = square();
     addNormalMap(g);
@@ -307,7 +307,7 @@ TEST(GltfMaterial, imagesInBufferViewsAndFilesAreRead)
     COTAN_LOADED(file, loadGltf(folder.write("model.gltf", g.text())));
     EXPECT_EQ(file.images.at(0).width, 2);
     for (const char* uri : {"maps/%66%6C%61%74%20map.png", "maps/fl%61t%20m%61p%2epng", "maps/flat%20map%2Epng"}) {
-        g.root["images"][0]["uri"] = uri; // digits of both cases: RFC 3986, 2.1
+        g.root["images"][0]["uri"] = uri; // hexadecimal digits of both cases: RFC 3986, 2.1
         COTAN_LOADED(encoded, loadGltf(folder.write("encoded.gltf", g.text())));
         EXPECT_EQ(encoded.images.at(0).data, file.images.at(0).data) << uri;
         EXPECT_EQ(encoded.warnings, file.warnings) << uri;
@@ -318,7 +318,7 @@ TEST(GltfMaterial, imagesInBufferViewsAndFilesAreRead)
     EXPECT_EQ(embedded.images.at(0).data, file.images.at(0).data);
 }
 
-TEST(GltfMaterial, aWebpOfItsExtensionIsReadWhereThereIsNoPlainSource)
+TEST(GltfMaterial, aWebpExtensionIsReadIfThereIsNoPlainSource)
 {
     Gltf g = square();
     addNormalMap(g);
@@ -338,8 +338,8 @@ TEST(GltfMaterial, aWebpOfItsExtensionIsReadWhereThereIsNoPlainSource)
     EXPECT_EQ(image.bytes8()[2], 250);
 }
 
-// (0.6, 0, 0.8) within a code: 128 + 127 * 0.6 is 204.2, so x is 76 / 127 and z 0.8012, which is 101.75 codes.
-TEST(GltfMaterial, aNormalMapOfTwoChannelsGetsItsThird)
+// (0.6, 0, 0.8) to within one code: 128 + 127 * 0.6 is 204.2, so x is 76 / 127 and z 0.8012, which is 101.75 codes.
+TEST(GltfMaterial, aTwoChannelNormalMapGetsItsThird)
 {
     Gltf g = square();
     addNormalMap(g);
@@ -367,7 +367,7 @@ TEST(GltfMaterial, unusedImagesAreNotDecoded)
 TEST(GltfLights, shineAlongTheirNodesMinusZ)
 {
     Gltf g = square();
-    const double h = std::sqrt(0.5); // -z turned about x by -90 degrees points down
+    const double h = std::sqrt(0.5); // -z rotated about x by -90 degrees points down
     g.root["extensionsUsed"] = {"KHR_lights_punctual"};
     g.root["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "spot"},
@@ -402,7 +402,7 @@ TEST(GltfCameras, lookAlongTheirNodesMinusZ)
     g.add("cameras",
           {{"type", "orthographic"}, {"orthographic", {{"xmag", 4}, {"ymag", 3}, {"znear", 0}, {"zfar", 9}}}});
     g.add("nodes", {{"camera", 0}, {"name", "front"}, {"translation", {0, 0, 9}}});
-    g.add("nodes", {{"camera", 1}, {"rotation", {0, 1, 0, 0}}}); // half a turn about y
+    g.add("nodes", {{"camera", 1}, {"rotation", {0, 1, 0, 0}}}); // 180 degrees about y
     g.root["scenes"][0]["nodes"] = {0, 1, 2};
     COTAN_LOADED(scene, g.load());
     ASSERT_EQ(scene.cameras.size(), 2u);
@@ -417,8 +417,8 @@ TEST(GltfCameras, lookAlongTheirNodesMinusZ)
     expectNear(scene.cameras[1].target, {0, 0, 1});
 }
 
-// Those of docs/reference/files.md.
-TEST(GltfExtensions, thoseThatAreReadAreNotCalledIgnored)
+// The extensions listed in docs/reference/files.md.
+TEST(GltfExtensions, supportedOnesAreNotReportedAsIgnored)
 {
     for (const char* const name :
          {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_mesh_quantization",
@@ -433,7 +433,7 @@ TEST(GltfExtensions, thoseThatAreReadAreNotCalledIgnored)
     }
 }
 
-TEST(GltfExtensions, ignoredOnesAreSaid)
+TEST(GltfExtensions, ignoredOnesAreWarnedOf)
 {
     Gltf g = square();
     g.root["extensionsUsed"] = {"KHR_materials_iridescence", "KHR_texture_transform"};

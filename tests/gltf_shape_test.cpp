@@ -1,5 +1,5 @@
-// What the JSON of a model may say, up to each bound and one beyond, and the whole message where it may not. Bounds are
-// those of the specifications of glTF 2.0 and its extensions, and of src/gltf/schema.hpp.
+// Values allowed in the JSON of a model, at each bound and one beyond, and the whole error message. Bounds are those of
+// the glTF 2.0 specification and its extensions, and of src/gltf/schema.hpp.
 #include <limits>
 
 #include "gltf_edit_maker.hpp"
@@ -7,8 +7,8 @@
 namespace cotan::test {
 namespace {
 
-// The message behind the name of the file, of a text or of a model with one member set; empty where it is read.
-std::string saidOf(const std::string& text, const LoadLimits& limits = {})
+// The error message after the file name, for a text or for a model with one member set; empty if it is read.
+std::string jsonError(const std::string& text, const LoadLimits& limits = {})
 {
     const TemporaryFolder folder;
     const auto scene = loadGltf(folder.write("model.gltf", text), limits);
@@ -20,15 +20,15 @@ std::string saidOf(const std::string& text, const LoadLimits& limits = {})
     return scene.error().message.substr(before.size());
 }
 
-std::string saidWith(const std::string& pointer, const json& value)
+std::string errorWith(const std::string& pointer, const json& value)
 {
     Gltf g = square();
     addNormalMap(g);
     g.root[json::json_pointer(pointer)] = value;
-    return saidOf(g.text());
+    return jsonError(g.text());
 }
 
-TEST(GltfShape, numbersMayReachTheirBoundsAndNotPassThem)
+TEST(GltfShape, boundsAreInclusive)
 {
     const std::string strength = "/materials/0/extensions/KHR_materials_emissive_strength/emissiveStrength";
     const std::tuple<std::string, json, std::string> cases[] = {
@@ -75,32 +75,32 @@ TEST(GltfShape, numbersMayReachTheirBoundsAndNotPassThem)
         {"/meshes/0/primitives/0/attributes", 3, "meshes[0].primitives[0].attributes: expected an object, found 3"},
         {"/meshes/0/primitives/0/attributes/_A\nB", 9,
          "meshes[0].primitives[0].attributes._A B: expected an index below 4, the number of accessors, found 9"}};
-    for (const auto& [pointer, value, said] : cases)
-        EXPECT_EQ(saidWith(pointer, value), said) << pointer << " = " << value.dump();
-    // A light that there is, one behind it, and lists that are none.
+    for (const auto& [pointer, value, message] : cases)
+        EXPECT_EQ(errorWith(pointer, value), message) << pointer << " = " << value.dump();
+    // An existing light, one past the end, and lists of another type.
     Gltf g = square();
     g.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}, {{"type", "directional"}}};
     for (const int light : {1, 2}) {
         g.root["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = light;
-        EXPECT_EQ(saidOf(g.text()),
+        EXPECT_EQ(jsonError(g.text()),
                   light < 2 ? ""
                             : "nodes[0].extensions.KHR_lights_punctual.light: expected an index below 2, the number of "
                               "lights, found 2");
     }
 }
 
-// A value of 60 characters is quoted whole, of a longer one as many.
+// A value of 60 characters is quoted whole; of longer ones, the first 60 characters.
 TEST(GltfShape, messagesQuoteTheFirstSixtyCharacters)
 {
     for (const std::size_t length : {58, 59}) {
         const std::string text(length, 'x'), quoted = "\"" + text + "\"";
-        EXPECT_EQ(saidWith("/nodes/0/mesh", text),
+        EXPECT_EQ(errorWith("/nodes/0/mesh", text),
                   "nodes[0].mesh: expected an index below 1, the number of meshes, found "
                       + (length == 58 ? quoted : quoted.substr(0, 60) + "..."));
     }
 }
 
-TEST(GltfShape, theVersionIsTwoAndWhatIsOlderIsNamed)
+TEST(GltfShape, onlyVersionTwoIsAccepted)
 {
     const std::pair<const char*, const char*> cases[] = {
         {R"({"asset":{"version":"2.7","minVersion":"2.0"}})", ""},
@@ -112,20 +112,20 @@ TEST(GltfShape, theVersionIsTwoAndWhatIsOlderIsNamed)
         {R"({})", "asset: missing"},
         {R"([1])", "JSON: expected an object, found an array"},
         {R"(7)", "JSON: expected an object, found 7"}};
-    for (const auto& [text, said] : cases)
-        EXPECT_EQ(saidOf(text), said) << text;
+    for (const auto& [text, message] : cases)
+        EXPECT_EQ(jsonError(text), message) << text;
     for (const char* const version : {"\"1\"", "\"1.0\"", "\"0.8\"", "1"})
-        EXPECT_EQ(saidOf(R"({"asset":{"version":)" + std::string(version) + "}}")
+        EXPECT_EQ(jsonError(R"({"asset":{"version":)" + std::string(version) + "}}")
                       .find("asset.version: glTF version 1 is not supported, expected 2.0;"),
                   0u)
             << version;
     for (const std::string collection : {"meshes", "nodes", "scenes", "accessors", "bufferViews"})
-        EXPECT_EQ(saidOf("{\"" + collection + "\":{}}").find(collection + ": glTF version 1 is not supported"), 0u);
-    EXPECT_EQ(saidOf(R"({"meshes":[],"images":{}})"), "asset: missing");
+        EXPECT_EQ(jsonError("{\"" + collection + "\":{}}").find(collection + ": glTF version 1 is not supported"), 0u);
+    EXPECT_EQ(jsonError(R"({"meshes":[],"images":{}})"), "asset: missing");
 }
 
-// Each extension that is read may be required and is not named in a warning; of others those that leave shape and
-// normal map alone may be, with a warning that names each once.
+// Each supported extension may be required and gives no warning. Other extensions may be required if they leave shape
+// and normal map alone; one warning names each once.
 TEST(GltfShape, extensionsAreReadOrIgnoredOrRefused)
 {
     for (const std::string name :
@@ -145,63 +145,65 @@ TEST(GltfShape, extensionsAreReadOrIgnoredOrRefused)
     COTAN_LOADED(scene, g.load());
     EXPECT_EQ(scene.warnings, (std::vector<std::string>{"extensionsUsed: ignored: KHR_materials_odd, ACME_x"}));
     g.root["extensionsRequired"] = {"KHR_materials_odd", "ACME_x"};
-    EXPECT_EQ(saidOf(g.text()), "extensionsRequired: \"ACME_x\" is not supported");
-    // Images of a kind that is not read matter only to who needs all pixels.
+    EXPECT_EQ(jsonError(g.text()), "extensionsRequired: \"ACME_x\" is not supported");
+    // Unsupported image formats matter only if all pixels are needed.
     g.root["extensionsUsed"] = g.root["extensionsRequired"] = {"EXT_texture_avif"};
-    EXPECT_EQ(saidOf(g.text()), "extensionsRequired: \"EXT_texture_avif\" is not supported");
+    EXPECT_EQ(jsonError(g.text()), "extensionsRequired: \"EXT_texture_avif\" is not supported");
     LoadLimits limits;
     limits.pixels = Pixels::none;
-    EXPECT_EQ(saidOf(g.text(), limits), "");
+    EXPECT_EQ(jsonError(g.text(), limits), "");
 }
 
 // ---- accessors ------------------------------------------------------------------------------
 
-json sparseOf(Gltf& g, const std::vector<std::uint16_t>& places, std::size_t values)
+json sparseOf(Gltf& g, const std::vector<std::uint16_t>& indices, std::size_t values)
 {
-    return {{"count", places.size()},
-            {"indices", {{"bufferView", g.view(places)}, {"componentType", kUShort}}},
+    return {{"count", indices.size()},
+            {"indices", {{"bufferView", g.view(indices)}, {"componentType", kUShort}}},
             {"values", {{"bufferView", g.view(std::vector<float>(3 * values, 0.5f))}}}};
 }
 
-// The end of an accessor may be the end of its view, and no byte behind it; messages have all their numbers.
+// An accessor may end exactly where its view ends, but no byte later; messages have all their numbers.
 TEST(GltfShape, elementsEndWithinTheirView)
 {
     struct Row {
         const char* member;
         int value;
-        const char* said;
+        const char* message;
     };
     for (const Row& row :
          {Row{"byteOffset", 8, ""},
           {"byteOffset", 12, "accessors[0]: 4 elements end at byte 72 of bufferViews[4], which has 68"},
           {"count", 5, "accessors[0]: 5 elements end at byte 84 of bufferViews[4], which has 68"}}) {
         Gltf g = square();
-        const int view = g.view(std::vector<float>(17, 0)); // 8 bytes, rows of 16, the last of 12
+        const int view = g.view(std::vector<float>(17, 0)); // offset 8, rows of 16, the last of 12
         g.root["bufferViews"][std::size_t(view)]["byteStride"] = 16;
         g.root["accessors"][0].update({{"bufferView", view}, {"byteOffset", 8}});
         g.root["accessors"][0][row.member] = row.value;
-        EXPECT_EQ(saidOf(g.text()), row.said);
+        EXPECT_EQ(jsonError(g.text()), row.message);
     }
-    EXPECT_EQ(saidWith("/bufferViews/0/byteStride", 8),
+    EXPECT_EQ(errorWith("/bufferViews/0/byteStride", 8),
               "accessors[0]: expected a stride of at least 12 bytes, found 8");
     Gltf g = square();
     const Gltf plain = g;
-    const auto with = [&](const std::vector<std::uint16_t>& places, std::size_t values) {
+    const auto with = [&](const std::vector<std::uint16_t>& indices, std::size_t values) {
         g = plain;
-        g.root["accessors"][0]["sparse"] = sparseOf(g, places, values);
-        return saidOf(g.text());
+        g.root["accessors"][0]["sparse"] = sparseOf(g, indices, values);
+        return jsonError(g.text());
     };
     EXPECT_EQ(with({0, 1, 2, 3}, 4), "");
     EXPECT_EQ(with({0, 1, 2, 3, 3}, 5), "accessors[0].sparse.count: expected at most 4, the accessor's count, found 5");
     EXPECT_EQ(with({0, 2}, 1), "accessors[0].sparse.values: 2 elements end at byte 24 of bufferViews[5], which has 12");
     EXPECT_EQ(with({0, 4}, 2), "accessors[0].sparse.indices[1]: expected an index below 4, found 4");
-    EXPECT_EQ(with({1, 2, 2}, 3), "accessors[0].sparse.indices[2]: expected an index above 2, the one before, found 2");
+    EXPECT_EQ(with({1, 2, 2}, 3),
+              "accessors[0].sparse.indices[2]: expected an index above 2, the previous one, found 2");
     with({0, 1}, 2);
     g.root["accessors"][0]["sparse"]["indices"]["byteOffset"] = 2;
-    EXPECT_EQ(saidOf(g.text()), "accessors[0].sparse.indices: 2 elements end at byte 6 of bufferViews[4], which has 4");
+    EXPECT_EQ(jsonError(g.text()),
+              "accessors[0].sparse.indices: 2 elements end at byte 6 of bufferViews[4], which has 4");
 }
 
-// Each float of each element and of each sparse value is looked at.
+// Every float of every element and every sparse value is checked.
 TEST(GltfShape, floatsAreFinite)
 {
     for (const std::size_t at : {0, 7, 11})
@@ -215,12 +217,12 @@ TEST(GltfShape, floatsAreFinite)
                 g.root["accessors"][0]["sparse"] = sparseOf(g, {0, 1, 2, 3}, 4);
                 g.root["accessors"][0]["sparse"]["values"]["bufferView"] = view;
             }
-            EXPECT_EQ(saidOf(g.text()),
+            EXPECT_EQ(jsonError(g.text()),
                       "accessors[0]: expected finite numbers, found -inf in element " + std::to_string(at / 3));
         }
 }
 
-// What serves as something has its type and number, of unsigned integers where it is indices.
+// Accessors have the type and count that their use needs; indices are unsigned integers.
 TEST(GltfShape, accessorsHaveTheTypeOfTheirRole)
 {
     const std::string field = "meshes[0].primitives[0].";
@@ -233,9 +235,9 @@ TEST(GltfShape, accessorsHaveTheTypeOfTheirRole)
          field + "indices: expected unsigned integers in accessors[3], found signed shorts"},
         {"/accessors/3/componentType", 5120,
          field + "indices: expected unsigned integers in accessors[3], found signed bytes"}};
-    for (const auto& [pointer, value, said] : cases)
-        EXPECT_EQ(saidWith(pointer, value), said);
-    EXPECT_EQ(saidWith("/accessors/1/componentType", 5125),
+    for (const auto& [pointer, value, message] : cases)
+        EXPECT_EQ(errorWith(pointer, value), message);
+    EXPECT_EQ(errorWith("/accessors/1/componentType", 5125),
               field + "NORMAL: expected floats, bytes or shorts in accessors[1], found unsigned integers");
 }
 

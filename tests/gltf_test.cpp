@@ -9,7 +9,7 @@ using namespace cotan::test;
 
 namespace {
 
-TEST(Gltf, attributesArriveAsTheyAreStored)
+TEST(Gltf, attributesAreReadAsStored)
 {
     COTAN_LOADED(scene, square().load());
     EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
@@ -29,7 +29,7 @@ TEST(Gltf, attributesArriveAsTheyAreStored)
 TEST(Gltf, interleavedAttributesUseTheStride)
 {
     Gltf g = square();
-    // x y z and a number that must be passed over.
+    // x y z and a number that must be skipped.
     const int view = g.view(std::vector<float>{0, 0, 0, 9, 1, 0, 0, 9, 1, 1, 0, 9, 0, 1, 0, 9});
     g.root["bufferViews"][view]["byteStride"] = 16;
     primitive(g)["attributes"]["POSITION"] =
@@ -85,7 +85,7 @@ TEST(Gltf, normalizedIntegersBecomeFractions)
 {
     Gltf g = square();
     json& attributes = primitive(g)["attributes"];
-    // Signed bytes padded to four, as KHR_mesh_quantization asks for: 127 is 1, -128 is -1 too.
+    // Signed bytes padded to four, as KHR_mesh_quantization requires: 127 is 1, and -128 is -1 like -127.
     const int view = g.view(std::vector<std::int8_t>{0, 0, 127, 0, 0, 0, -128, 0, 0, 127, 0, 0, -127, 0, 0, 0});
     g.root["bufferViews"][view]["byteStride"] = 4;
     attributes["NORMAL"] = g.accessor(
@@ -162,13 +162,13 @@ TEST(Gltf, degenerateTrianglesOfStripsAreRemoved)
 {
     Gltf g = square();
     primitive(g)["mode"] = 5;
-    // Two strips joined by repeated corners: only triangles with three corners stay.
+    // Two strips joined by repeated corners: only triangles with three distinct corners remain.
     primitive(g)["indices"] = g.accessor(std::vector<std::uint16_t>{0, 1, 3, 3, 1, 1, 2, 3}, "SCALAR", kUShort);
     COTAN_LOADED(scene, g.load());
     EXPECT_EQ(scene.meshes[0].triangleCount(), 2u);
 }
 
-TEST(Gltf, fansTurnAboutTheirFirstVertex)
+TEST(Gltf, fansShareTheirFirstVertex)
 {
     Gltf g = square();
     primitive(g)["mode"] = 6;
@@ -188,7 +188,7 @@ TEST(Gltf, pointsAndLinesAreSkippedWithAWarning)
     }
 }
 
-TEST(Gltf, aThirdUvSetIsSaid)
+TEST(Gltf, aThirdUvSetIsWarnedOf)
 {
     Gltf g = square();
     primitive(g)["attributes"]["TEXCOORD_1"] = g.floats(kSquareUv, "VEC2");

@@ -1,4 +1,4 @@
-// Geometry compressed with Draco and meshoptimizer, made here by their own encoders, against the plain numbers.
+// Geometry compressed with Draco and meshoptimizer by their own encoders, compared with the uncompressed numbers.
 #include <algorithm>
 #include <random>
 
@@ -17,13 +17,13 @@ class DracoGeometryIs : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Methods, DracoGeometryIs, testing::ValuesIn(kMethods),
                          [](const auto& at) { return at.param == 0 ? "sequential" : "edgebreaker"; });
 
-// Draco orders triangles and vertices as it likes: each is found by its place in the sheet.
-TEST_P(DracoGeometryIs, thatOfTheSheetToTheQuantisation)
+// Draco reorders triangles and vertices: each is identified by its position in the sheet.
+TEST_P(DracoGeometryIs, decodedUpToQuantisation)
 {
     const Sheet s = sheet(20);
     const auto scene = dracoModel(s, dracoStream(s, GetParam())).load();
     ASSERT_TRUE(scene) << scene.error().message;
-    ASSERT_EQ(scene->warnings.size(), 1u); // no normals
+    ASSERT_EQ(scene->warnings.size(), 1u); // missing normals
     ASSERT_EQ(scene->meshes.size(), 1u);
     const Mesh& mesh = scene->meshes[0];
     ASSERT_EQ(mesh.triangleCount(), 800u);
@@ -34,7 +34,7 @@ TEST_P(DracoGeometryIs, thatOfTheSheetToTheQuantisation)
             const std::uint32_t v = mesh.indices[3 * f + k];
             const glm::vec3 p = mesh.positions[v];
             middle += p / 3.0f;
-            // Half a step of the quantisation, of a box of 1: of the texture coordinates and of the place.
+            // Half a quantisation step, on a box of 1, of the texture coordinates and the positions.
             EXPECT_LT(std::abs(p.z - 0.1f * std::sin(5 * p.x + 3 * p.y)), 1.6f / (1 << kPositionBits));
             EXPECT_LT(std::abs(mesh.texcoords[0][v].x - p.x), 0.65f / (1 << kTexcoordBits));
             EXPECT_LT(std::abs(mesh.texcoords[0][v].y - (1 - p.y)), 0.65f / (1 << kTexcoordBits));
@@ -45,7 +45,7 @@ TEST_P(DracoGeometryIs, thatOfTheSheetToTheQuantisation)
         EXPECT_EQ(triangles, 2);
 }
 
-TEST_P(DracoGeometryIs, writtenAsItCameWhereNobodyChangedIt)
+TEST_P(DracoGeometryIs, writtenUnchangedIfNotEdited)
 {
     const TemporaryFolder folder;
     const Sheet s = sheet(4);
@@ -65,8 +65,8 @@ TEST_P(DracoGeometryIs, writtenAsItCameWhereNobodyChangedIt)
     EXPECT_EQ(loadGltf(folder.path / "out.glb")->meshes[0].positions, g.load()->meshes[0].positions);
 }
 
-// The stream holds it still, under an id that nothing names: no decoder asks for it.
-TEST_P(DracoGeometryIs, writtenAsItCameWithoutTheNameOfADroppedAttribute)
+// The stream still contains it under an id that nothing names, so no decoder requests it.
+TEST_P(DracoGeometryIs, writtenUnchangedWithoutADroppedAttribute)
 {
     const TemporaryFolder folder;
     const Sheet s = sheet(4);
@@ -91,13 +91,13 @@ TEST_P(DracoGeometryIs, writtenAsItCameWithoutTheNameOfADroppedAttribute)
     EXPECT_EQ(out.root["accessors"].size(), g.root["accessors"].size() - 1);
     EXPECT_EQ(out.buffer.substr(0, stream.size()), stream);
     ASSERT_EQ(written->notes.size(), 1u);
-    EXPECT_NE(written->notes[0].find("1 of 1 streams are kept as they are, with the tangents inside"),
+    EXPECT_NE(written->notes[0].find("1 of 1 streams are unchanged and still contain the removed tangents"),
               std::string::npos)
         << written->notes[0];
 }
 
-// A morph target has no stream of its own: what it reads has to have bytes.
-TEST_P(DracoGeometryIs, plainTooWhereSomethingElseReadsItsNumbers)
+// A morph target has no stream of its own: the accessor it uses needs bytes.
+TEST_P(DracoGeometryIs, decodedIfSomethingElseReadsItsAccessors)
 {
     const TemporaryFolder folder;
     const Sheet s = sheet(4);
@@ -121,7 +121,7 @@ TEST_P(DracoGeometryIs, plainTooWhereSomethingElseReadsItsNumbers)
     EXPECT_EQ(scene->meshes[0].positions, g.load()->meshes[0].positions);
 }
 
-TEST_P(DracoGeometryIs, plainInADocumentWhoseVerticesChanged)
+TEST_P(DracoGeometryIs, decodedIfTheVerticesChanged)
 {
     const TemporaryFolder folder;
     const Sheet s = sheet(4);
@@ -131,33 +131,33 @@ TEST_P(DracoGeometryIs, plainInADocumentWhoseVerticesChanged)
     const auto written = writeGltf(*document, folder.path / "out.glb");
     ASSERT_TRUE(written) << written.error().message;
     ASSERT_EQ(written->notes.size(), 1u);
-    EXPECT_NE(written->notes[0].find("1 of 1 primitives have other vertices now and are written plain"),
+    EXPECT_NE(written->notes[0].find("1 of 1 primitives changed and are written uncompressed"),
               std::string::npos)
         << written->notes[0];
     const ReadBack out = readBack(folder.path / "out.glb");
-    EXPECT_EQ(out.buffer.find(dracoStream(s, GetParam())), std::string::npos); // nothing reads it
+    EXPECT_EQ(out.buffer.find(dracoStream(s, GetParam())), std::string::npos); // nothing uses it
     EXPECT_FALSE(out.root.contains("extensionsUsed"));
     EXPECT_FALSE(out.root.contains("extensionsRequired"));
     EXPECT_EQ(out.root.dump().find("draco"), std::string::npos);
     const json& bounds =
         out.root["accessors"][out.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<std::size_t>()];
-    float lowest = 1; // of z, as it was quantised
+    float lowest = 1; // of z, after quantisation
     const auto again = loadGltf(folder.path / "out.glb");
     ASSERT_TRUE(again) << again.error().message;
     for (const glm::vec3& p : again->meshes[0].positions)
         lowest = std::min(lowest, p.z);
     EXPECT_EQ(bounds["min"][2].get<float>(), lowest);
     EXPECT_EQ(bounds["max"][0], 1.0f);
-    // The numbers of each vertex have its place: three bytes, the next vertex begins behind four.
+    // The identifying bytes of each vertex match its position: three bytes, with the next vertex four bytes later.
     const json& primitive = out.root["meshes"][0]["primitives"][0];
     const json& numbers = out.root["accessors"][primitive["attributes"]["_NUMBERS"].get<std::size_t>()];
     const json& view = out.root["bufferViews"][numbers["bufferView"].get<std::size_t>()];
     EXPECT_EQ(view["byteStride"], 4);
-    const json& places = out.root["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
-    const json& placesView = out.root["bufferViews"][places["bufferView"].get<std::size_t>()];
+    const json& stored = out.root["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
+    const json& positionsView = out.root["bufferViews"][stored["bufferView"].get<std::size_t>()];
     for (std::size_t v = 0; v < s.vertices(); ++v) {
         float x = 0, y = 0;
-        const std::size_t at = placesView["byteOffset"].get<std::size_t>() + 12 * v;
+        const std::size_t at = positionsView["byteOffset"].get<std::size_t>() + 12 * v;
         std::memcpy(&x, out.buffer.data() + at, 4);
         std::memcpy(&y, out.buffer.data() + at + 4, 4);
         const std::size_t mine = view["byteOffset"].get<std::size_t>() + 4 * v;
@@ -167,7 +167,7 @@ TEST_P(DracoGeometryIs, plainInADocumentWhoseVerticesChanged)
     }
 }
 
-TEST_P(DracoGeometryIs, refusedWhereTheModelSaysSomethingElse)
+TEST_P(DracoGeometryIs, refusedIfTheModelContradictsIt)
 {
     const Sheet s = sheet(4);
     const std::string stream = dracoStream(s, GetParam());
@@ -179,7 +179,7 @@ TEST_P(DracoGeometryIs, refusedWhereTheModelSaysSomethingElse)
         {"/accessors/0/count", 24, "expected 24 elements, found 25"},
         {"/accessors/0/type", "VEC4", "expected 4 components"},
         {"/accessors/3/componentType", kFloat, "expected unsigned integers"},
-        {draco + "/attributes/POSITION", 9, "no attribute of the id 9"},
+        {draco + "/attributes/POSITION", 9, "no attribute with the id 9"},
         {draco + "/attributes/POSITION", -1, "expected the id"},
         {draco + "/attributes/COLOR_0", 1, "expected the id of an attribute that the primitive has"},
         {draco + "/bufferView", 7, "expected an index below 1"},
@@ -199,7 +199,7 @@ TEST_P(DracoGeometryIs, refusedWhereTheModelSaysSomethingElse)
     COTAN_REFUSED(without.load(), "indices: missing");
 }
 
-TEST_P(DracoGeometryIs, refusedInOneLineOrReadWhereTheStreamIsDamaged)
+TEST_P(DracoGeometryIs, refusedInOneLineOrReadIfDamaged)
 {
     const Sheet s = sheet(6);
     const std::string stream = dracoStream(s, GetParam());
@@ -216,11 +216,11 @@ TEST_P(DracoGeometryIs, refusedInOneLineOrReadWhereTheStreamIsDamaged)
             EXPECT_EQ(scene.error().message.find('\n'), std::string::npos);
         }
     }
-    EXPECT_GT(refused, 30); // flips of coordinates are not noticed
+    EXPECT_GT(refused, 30); // flipped bits of coordinates are not noticed
 }
 
-// As exporters write it that found equal uv sets: one accessor by two names, with an id for each.
-TEST(DracoGeometry, mayHaveOneAccessorByTwoNames)
+// As written by exporters that merge equal uv sets: one accessor under two names, with an id for each.
+TEST(DracoGeometry, mayHaveOneAccessorUnderTwoNames)
 {
     const Sheet s = sheet(4);
     Gltf g = dracoModel(s, dracoStream(s, draco::MESH_EDGEBREAKER_ENCODING));
@@ -231,11 +231,11 @@ TEST(DracoGeometry, mayHaveOneAccessorByTwoNames)
     EXPECT_EQ(scene->meshes[0].texcoords[0], scene->meshes[0].texcoords[1]);
 }
 
-TEST(DracoGeometry, isLeftAloneWherePlainNumbersAreThereToo)
+TEST(DracoGeometry, isIgnoredIfPlainAccessorsExist)
 {
     Gltf g = square();
     primitive(g)["extensions"]["KHR_draco_mesh_compression"] = {
-        {"bufferView", 0}, {"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}}; // no Draco stream at all
+        {"bufferView", 0}, {"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}}; // not a Draco stream
     const auto scene = g.load();
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->meshes[0].triangleCount(), 2u);
@@ -243,7 +243,7 @@ TEST(DracoGeometry, isLeftAloneWherePlainNumbersAreThereToo)
 
 // ---- meshoptimizer ----------------------------------------------------------------------------
 
-TEST(MeshoptGeometry, ofAttributesAndIndicesIsThatOfThePlainFile)
+TEST(MeshoptGeometry, equalsThePlainFile)
 {
     const auto plain = square().load();
     ASSERT_TRUE(plain);
@@ -259,7 +259,7 @@ TEST(MeshoptGeometry, ofAttributesAndIndicesIsThatOfThePlainFile)
             EXPECT_EQ(scene->meshes[0].positions, plain->meshes[0].positions);
             EXPECT_EQ(scene->meshes[0].texcoords[0], plain->meshes[0].texcoords[0]);
             ASSERT_EQ(scene->meshes[0].indices.size(), 6u);
-            // The codec may turn a triangle's corners round.
+            // The codec may rotate a triangle's corners.
             for (std::size_t f = 0; f < 6; f += 3) {
                 const auto& there = scene->meshes[0].indices;
                 std::array<std::uint32_t, 3> a{there[f], there[f + 1], there[f + 2]};
@@ -270,8 +270,8 @@ TEST(MeshoptGeometry, ofAttributesAndIndicesIsThatOfThePlainFile)
         }
 }
 
-// Filters against their formulas in the extension: the encoder is the library's, the truth are the numbers given to it.
-TEST(MeshoptGeometry, withFiltersIsWhatWasFiltered)
+// Filters compared with their formulas in the extension. The library encodes; the truth is its input.
+TEST(MeshoptGeometry, filtersReproduceTheirInput)
 {
     const glm::vec3 n = glm::normalize(glm::vec3(0.3f, -0.5f, 0.8f));
     std::vector<float> normals;
@@ -290,26 +290,26 @@ TEST(MeshoptGeometry, withFiltersIsWhatWasFiltered)
         EXPECT_LT(glm::length(scene->meshes[0].normals[v] - glm::vec3(n.x, n.y, v < 2 ? n.z : -n.z)), 1.5e-3f) << v;
 
     std::vector<std::uint32_t> exponential(12);
-    std::vector<float> places = kSquare;
-    for (float& x : places)
+    std::vector<float> stored = kSquare;
+    for (float& x : stored)
         x = x * 3.7f - 1.1f;
 #if MESHOPTIMIZER_VERSION >= 200 // 0.20
-    meshopt_encodeFilterExp(exponential.data(), 4, 12, 15, places.data(), meshopt_EncodeExpSharedVector);
+    meshopt_encodeFilterExp(exponential.data(), 4, 12, 15, stored.data(), meshopt_EncodeExpSharedVector);
 #else
-    meshopt_encodeFilterExp(exponential.data(), 4, 12, 15, places.data());
+    meshopt_encodeFilterExp(exponential.data(), 4, 12, 15, stored.data());
 #endif
     packed = packedVertices(exponential, 3);
     packed.filter = "EXPONENTIAL";
     const auto moved = loadPacked(0, packed);
     ASSERT_TRUE(moved) << moved.error().message;
-    for (std::size_t v = 0; v < 4; ++v) // 15 bits, an exponent for each vertex: numbers up to 4
+    for (std::size_t v = 0; v < 4; ++v) // 15 bits with an exponent per vertex: numbers up to 4
         EXPECT_LT(
-            glm::length(moved->meshes[0].positions[v] - glm::vec3(places[3 * v], places[3 * v + 1], places[3 * v + 2])),
+            glm::length(moved->meshes[0].positions[v] - glm::vec3(stored[3 * v], stored[3 * v + 1], stored[3 * v + 2])),
             4.0f / (1 << 13))
             << v;
 }
 
-TEST(MeshoptGeometry, isWrittenAsItCameWhereNobodyChangedIt)
+TEST(MeshoptGeometry, isWrittenUnchangedIfNotEdited)
 {
     for (const char* const name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
         const TemporaryFolder folder;
@@ -334,7 +334,7 @@ TEST(MeshoptGeometry, isWrittenAsItCameWhereNobodyChangedIt)
     }
 }
 
-TEST(MeshoptGeometry, isPlainInADocumentWhoseVerticesChanged)
+TEST(MeshoptGeometry, isDecodedIfTheVerticesChanged)
 {
     const TemporaryFolder folder;
     auto document = openGltfDocument(folder.write("in.gltf", packedModel(square(), 0, packedVertices(kSquare, 3))));
@@ -343,7 +343,7 @@ TEST(MeshoptGeometry, isPlainInADocumentWhoseVerticesChanged)
     const auto written = writeGltf(*document, folder.path / "out.glb");
     ASSERT_TRUE(written) << written.error().message;
     ASSERT_EQ(written->notes.size(), 1u);
-    EXPECT_NE(written->notes[0].find("1 of 1 compressed buffer views are replaced by plain ones"), std::string::npos)
+    EXPECT_NE(written->notes[0].find("1 of 1 compressed buffer views are replaced by uncompressed"), std::string::npos)
         << written->notes[0];
     const ReadBack out = readBack(folder.path / "out.glb");
     EXPECT_EQ(out.root["extensionsUsed"], json({"KHR_mesh_quantization"}));
@@ -354,7 +354,7 @@ TEST(MeshoptGeometry, isPlainInADocumentWhoseVerticesChanged)
     EXPECT_EQ(scene->meshes[0].triangleCount(), 2u);
 }
 
-TEST(MeshoptGeometry, isRefusedWhereItsNumbersDoNotFit)
+TEST(MeshoptGeometry, isRefusedIfItContradictsItself)
 {
     const Packed vertices = packedVertices(kSquare, 3), indices = packedIndices(kTwoTriangles, true);
     const auto with = [](Packed p, const auto& change) {
@@ -367,7 +367,7 @@ TEST(MeshoptGeometry, isRefusedWhereItsNumbersDoNotFit)
         {0, with(vertices, [](Packed& p) { p.bytes[0] = '\xa1'; }), "expected a stream that meshoptimizer 0.18 reads"},
         {0, with(vertices, [](Packed& p) { p.filter = "OCTAHEDRAL"; }), "expected 4 or 8 for filter OCTAHEDRAL"},
         {0, with(vertices, [](Packed& p) { p.filter = "QUATERNION"; }), "expected 8 for filter QUATERNION"},
-        {0, with(vertices, [](Packed& p) { p.filter = "COLOR"; }), "COLOR is not read here"},
+        {0, with(vertices, [](Packed& p) { p.filter = "COLOR"; }), "COLOR is not supported"},
         {0, with(vertices, [](Packed& p) { p.filter = "MAGIC"; }), "expected one of NONE"},
         {0, with(vertices, [](Packed& p) { p.mode = "TRIANGLES"; }), "expected 2 or 4"},
         {0, with(vertices, [](Packed& p) { p.stride = 6, p.count = 8; }), "expected a multiple of 4 up to 256"},
@@ -389,7 +389,7 @@ TEST(MeshoptGeometry, isRefusedWhereItsNumbersDoNotFit)
     COTAN_REFUSED(loadText(wrong.dump()), "which has 0");
 }
 
-TEST(MeshoptGeometry, isRefusedInOneLineOrReadWhereBytesAreFlipped)
+TEST(MeshoptGeometry, isRefusedInOneLineOrReadIfDamaged)
 {
     std::mt19937 random(5);
     const Packed vertices = packedVertices(kSquare, 3), indices = packedIndices(kTwoTriangles, true);
@@ -403,10 +403,10 @@ TEST(MeshoptGeometry, isRefusedInOneLineOrReadWhereBytesAreFlipped)
     }
 }
 
-TEST(MeshoptGeometry, isLeftAloneWherePlainBytesAreThereToo)
+TEST(MeshoptGeometry, isIgnoredIfPlainBytesExist)
 {
     json whole = json::parse(packedModel(square(), 0, packedVertices(kSquare, 3)));
-    whole["bufferViews"][0]["buffer"] = 0; // whose first bytes are the positions
+    whole["bufferViews"][0]["buffer"] = 0; // its first bytes are the positions
     whole["bufferViews"][0]["extensions"]["EXT_meshopt_compression"]["mode"] = "INDICES"; // would be refused
     const auto scene = loadText(whole.dump());
     ASSERT_TRUE(scene) << scene.error().message;

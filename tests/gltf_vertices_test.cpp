@@ -1,5 +1,5 @@
-// What becomes of vertices beside the ways of gltf_mesh_test.cpp: both sides of each tolerance, several sets of joints,
-// morphed normals and tangents; the order of nodes; and how cameras, lights and factors are brought into their ranges.
+// Vertices of glTF beyond gltf_mesh_test.cpp: both sides of each tolerance, several sets of joints, morphed normals and
+// tangents; the order of nodes; clamping of cameras, lights and factors to their ranges.
 #include <cmath>
 #include <numbers>
 
@@ -14,9 +14,9 @@ using namespace cotan::test;
 
 // ---- tolerances -----------------------------------------------------------------------------
 
-// Normals that are unit up to rounding keep their bits, others get exactly unit length; triangles without area have
-// none.
-TEST(GltfVertices, normalsThatAreUnitUpToRoundingKeepTheirBits)
+// Normals of unit length up to rounding keep their bits; others get exactly unit length. Triangles without area have no
+// normals.
+TEST(GltfVertices, unitNormalsKeepTheirBits)
 {
     for (const auto& [length, kept] :
          {std::pair(1 + 1e-6f, true), {1 - 1e-6f, true}, {1 + 4e-6f, false}, {1 - 4e-6f, false}}) {
@@ -29,12 +29,12 @@ TEST(GltfVertices, normalsThatAreUnitUpToRoundingKeepTheirBits)
     Gltf flat = square();
     primitive(flat)["attributes"].erase("NORMAL");
     primitive(flat)["attributes"]["POSITION"] = flat.floats({0, 0, 0, 2, 0, 0, 1, 0, 0, 0, 3, 0}, "VEC3");
-    COTAN_LOADED(scene, flat.load()); // 0, 1, 2 lie on a line
+    COTAN_LOADED(scene, flat.load()); // 0, 1, 2 are collinear
     EXPECT_EQ(scene.meshes.at(0).normals[2], glm::vec3(0));
     EXPECT_EQ(scene.meshes.at(0).normals[3], glm::vec3(0, 0, 1));
 }
 
-TEST(GltfVertices, tangentsWithinOneHundredthAreLeftAsTheyAre)
+TEST(GltfVertices, tangentsWithinOneHundredthAreUnchanged)
 {
     Gltf g = square();
     const std::vector<float> stored = {1.009f, 0, 0, 1, 0.991f, 0, 0, 0.995f, 0, 2, 0, 0.5f, 0, 0, 0, -0.25f};
@@ -43,15 +43,15 @@ TEST(GltfVertices, tangentsWithinOneHundredthAreLeftAsTheyAre)
     const std::vector<glm::vec4> expected = {{1.009f, 0, 0, 1}, {0.991f, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 0, -1}};
     EXPECT_EQ(scene.meshes.at(0).tangents, expected);
     const std::string at = "meshes[0].primitives[0].TANGENT: ";
-    for (const char* line : {"zero length (vertices: 1)", "not of unit length, normalised (vertices: 1)",
-                             "w is not +-1, its sign is taken (vertices: 2)"})
+    for (const char* line : {"zero length (vertices: 1)", "not of unit length; normalised (vertices: 1)",
+                             "w is not +-1; only its sign is used (vertices: 2)"})
         EXPECT_TRUE(warns(scene, at + line)) << line;
 }
 
-// Where more than half of the triangles that can be judged disagree with their uv, by the sum of their corners.
-TEST(GltfVertices, mostTrianglesDecideWhetherSignsContradictTheUv)
+// Signs contradict the uv if more than half of the triangles that can be judged do, by the sum of their corners.
+TEST(GltfVertices, theMajorityOfTrianglesDecidesIfSignsContradictTheUv)
 {
-    // Three triangles of six vertices; the third's uv have no area where it is `flat`.
+    // Three triangles of six vertices; the uv of the third have no area if `flat`.
     const auto warned = [](const std::vector<float>& signs, bool flat) {
         Gltf g = square();
         std::vector<float> positions, normals, uv, tangents;
@@ -101,7 +101,7 @@ TEST(GltfVertices, targetsMoveNormalsAndTangentsToo)
         {{"POSITION", g.floats(all({2, 4, 8}), "VEC3")}},
         {{"NORMAL", g.floats(all({0.4f, 0.8f, -2}), "VEC3")}, {"TANGENT", g.floats(all({-2, 0.6f, 1.4f}), "VEC3")}},
         {{"POSITION", g.floats(all({50, 50, 50}), "VEC3")}}};
-    g.root["meshes"][0]["weights"] = {0.25, 0.5}; // of the third none: 0
+    g.root["meshes"][0]["weights"] = {0.25, 0.5}; // no weight for the third: 0
     COTAN_LOADED(scene, g.load());
     const Mesh& mesh = scene.meshes.at(0);
     expectNear(mesh.positions[2], {1.5f, 2, 2});
@@ -110,7 +110,7 @@ TEST(GltfVertices, targetsMoveNormalsAndTangentsToo)
     EXPECT_EQ(mesh.tangents[2].w, -1);
 }
 
-// Four joints a set and two sets; vertices without weight stay, and only what mirrors all turns the winding.
+// Four joints a set and two sets. Vertices without weight stay, and only mirroring all vertices reverses the winding.
 TEST(GltfVertices, followAllSetsOfJoints)
 {
     Gltf g = square();
@@ -134,21 +134,21 @@ TEST(GltfVertices, followAllSetsOfJoints)
     const Mesh& mesh = scene.meshes.at(0);
     expectNear(mesh.positions[0], {4, 0, 1});  // halfway from (8, 0, 0) to (0, 0, 2)
     expectNear(mesh.positions[1], {-1, 4, 0}); // mirrored
-    // A quarter of (1 + 8, 1, 0) and three of (-1, 1 + 4, 0).
+    // A quarter of (1 + 8, 1, 0) and three quarters of (-1, 1 + 4, 0).
     expectNear(mesh.positions[2], {0.25f * 9 - 0.75f, 0.25f * 1 + 0.75f * 5, 0});
-    EXPECT_EQ(mesh.positions[3], glm::vec3(0, 1, 0)); // in place
+    EXPECT_EQ(mesh.positions[3], glm::vec3(0, 1, 0)); // not moved
     EXPECT_EQ(mesh.tangents[0], glm::vec4(1, 0, 0, 1));
     EXPECT_EQ(mesh.tangents[1], glm::vec4(-1, 0, 0, -1));
     EXPECT_EQ(mesh.tangents[2], glm::vec4(-1, 0, 0, -1)); // 0.25 - 0.75 along x
     EXPECT_EQ(mesh.indices, (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
-    EXPECT_TRUE(warns(scene, "meshes[0].primitives[0]: skinned without weights, left in place (vertices: 1)"));
+    EXPECT_TRUE(warns(scene, "meshes[0].primitives[0]: skinned without weights; not moved (vertices: 1)"));
     Gltf high = g;
     high.root["accessors"][primitive(g)["attributes"]["WEIGHTS_1"].get<std::size_t>()]["bufferView"] =
         high.view(std::vector<float>{0.5f, 0, 0, 0, 0, 0, 0, 0, 0, 0.75f, 0, 0, 0, 0, 1, 0});
-    COTAN_REFUSED(high.load(), "meshes[0].primitives[0].JOINTS_1: vertex 3 names joint 9, but the skin has 3");
+    COTAN_REFUSED(high.load(), "meshes[0].primitives[0].JOINTS_1: vertex 3 refers to joint 9, but the skin has 3");
 }
 
-// One mesh by two skins is two meshes; a skin of which one primitive has no joints is none.
+// One mesh with two skins becomes two meshes; a skin is ignored for a primitive without joints.
 TEST(GltfVertices, aMeshIsMadeOnceForEachSkin)
 {
     Gltf g = square();
@@ -173,15 +173,15 @@ TEST(GltfVertices, aMeshIsMadeOnceForEachSkin)
     EXPECT_EQ(scene.instances[3].toWorld[3], glm::vec4(0, 0, 7, 1));
     EXPECT_EQ(of(4), glm::vec3(0));
     EXPECT_EQ(scene.instances[1].name, "own");
-    EXPECT_EQ(scene.instances[0].name, "square"); // its mesh's
+    EXPECT_EQ(scene.instances[0].name, "square"); // its mesh's name
     EXPECT_EQ(scene.instances[5].name, "mixed/1");
     EXPECT_EQ(scene.warnings, std::vector<std::string>{"nodes[4]: its mesh lacks JOINTS_0, so its skin is ignored"});
 }
 
 // ---- nodes ----------------------------------------------------------------------------------
 
-// Parents first, then their children in the order that the file lists them.
-TEST(GltfVertices, nodesComeInTheOrderOfTheirLists)
+// Parents first, then their children in the order of the file's lists.
+TEST(GltfVertices, nodesKeepTheOrderOfTheirLists)
 {
     Gltf g = square();
     const auto named = [](const char* name, json children) {
@@ -197,17 +197,17 @@ TEST(GltfVertices, nodesComeInTheOrderOfTheirLists)
     EXPECT_EQ(order, "cadbe");
 }
 
-// Rounding in the last row of a matrix is taken for what it is, up to 1e-4 of its numbers together.
+// Rounding in the last row of a matrix is accepted: deviations of 1e-4 in total.
 TEST(GltfVertices, lastRowsOfMatricesMayBeRounded)
 {
-    for (const int place : {3, 7, 11, 15})
-        for (const double off : {0.9e-4, -0.9e-4, 1.1e-4, -1.1e-4}) {
+    for (const int index : {3, 7, 11, 15})
+        for (const double error : {0.9e-4, -0.9e-4, 1.1e-4, -1.1e-4}) {
             Gltf g = square();
             std::vector<double> matrix = {2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4, 0, 5, 6, 7, 1};
-            matrix[std::size_t(place)] += off;
+            matrix[std::size_t(index)] += error;
             g.root["nodes"][0]["matrix"] = matrix;
             const auto scene = g.load();
-            ASSERT_EQ(bool(scene), std::abs(off) < 1e-4) << place;
+            ASSERT_EQ(bool(scene), std::abs(error) < 1e-4) << index;
             if (scene) {
                 glm::mat4 exact(1);
                 exact[0].x = 2, exact[1].y = 3, exact[2].z = 4;
@@ -219,7 +219,7 @@ TEST(GltfVertices, lastRowsOfMatricesMayBeRounded)
 
 // ---- cameras, lights and factors ------------------------------------------------------------
 
-TEST(GltfVertices, camerasThatWouldShowNothingAreBroughtToTheNearestThatDo)
+TEST(GltfVertices, camerasThatWouldShowNothingAreClamped)
 {
     for (const auto& [yfov, expected] :
          {std::pair(0.5, 0.5f), {0.0, 0.001f}, {-1.0, 0.001f}, {3.0, 3.0f}, {3.1, 3.1f}, {4.0, 3.1f}, {0.002, 0.002f}})
@@ -248,7 +248,7 @@ TEST(GltfVertices, camerasThatWouldShowNothingAreBroughtToTheNearestThatDo)
 }
 
 // Defaults and ranges are those of KHR_lights_punctual.
-TEST(GltfVertices, lightsHaveTheirDefaultsAndConesWithinOneAnother)
+TEST(GltfVertices, lightsHaveDefaultsAndNestedCones)
 {
     const float quarter = float(std::numbers::pi / 4), half = float(std::numbers::pi / 2);
     struct Row {
@@ -275,14 +275,14 @@ TEST(GltfVertices, lightsHaveTheirDefaultsAndConesWithinOneAnother)
         EXPECT_EQ(light.kind, row.kind);
         EXPECT_EQ(light.color, glm::vec3(1));
         EXPECT_EQ(light.intensity, 1);
-        EXPECT_EQ(light.range, 0); // without end
+        EXPECT_EQ(light.range, 0); // infinite
         EXPECT_EQ(light.innerCone, row.inner) << row.light;
         EXPECT_EQ(light.outerCone, row.outer) << row.light;
         EXPECT_EQ(light.position, glm::vec3(1, 2, 3));
     }
 }
 
-TEST(GltfVertices, factorsOfMaterialsAreBroughtIntoTheirRanges)
+TEST(GltfVertices, factorsOfMaterialsAreClamped)
 {
     for (const double k : {-1.0, 0.25, 3.0}) {
         const float in = float(std::clamp(k, 0.0, 1.0));

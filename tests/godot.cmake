@@ -1,4 +1,4 @@
-# What `cotan shader --lang godot` prints, and examples/godot, in Godot 3 on a display of its own, with both of its drivers.
+# Runs the output of `cotan shader --lang godot`, and examples/godot, in Godot 3 on a display, with both drivers.
 if(TARGET shader_test)
   add_executable(godot_test godot_test.cpp godot_draw.cpp godot_parity.cpp shader_cases.cpp shader_light.cpp)
   target_link_libraries(godot_test PRIVATE cotan_shader_text cotan_scene cotan_truth cotan_image

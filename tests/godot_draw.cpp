@@ -82,15 +82,15 @@ std::vector<std::string> GodotJobs::draw(const std::string& driver)
     store(folder_ / "jobs.json", jobs_.dump());
     const std::string printed =
         runGodot(COTAN_SOURCE_DIR "/tests/godot", driver, "--folder='" + folder_.path().string() + "'");
-    std::vector<std::string> pictures;
+    std::vector<std::string> images;
     for (const nlohmann::json& job : jobs_) {
-        pictures.push_back(readWhole(job["out"].get<std::string>()));
+        images.push_back(readWhole(job["out"].get<std::string>()));
         const std::size_t bytes =
             job["size"][0].get<std::size_t>() * job["size"][1].get<std::size_t>() * job["parts"].get<std::size_t>() * 3;
-        if (pictures.back().size() != bytes)
+        if (images.back().size() != bytes)
             throw std::runtime_error("no picture of " + job["shader"].get<std::string>() + ": " + printed);
     }
-    return pictures;
+    return images;
 }
 
 std::string runGodot(const std::string& project, const std::string& driver, const std::string& words)
@@ -104,7 +104,7 @@ std::string runGodot(const std::string& project, const std::string& driver, cons
     const bool ran = std::system(line.c_str()) == 0;
     const std::string printed = readWhole(home / "log");
     std::string wrong = ran ? "" : "it failed";
-    std::istringstream lines(printed); // shaders that do not compile are in there from their first line to their last
+    std::istringstream lines(printed); // it contains shaders that do not compile, from their first line to their last
     for (std::string text; std::getline(lines, text);)
         if (text.find("SHADER ERROR") != std::string::npos || text.find("SCRIPT ERROR") != std::string::npos)
             wrong += '\n' + text;

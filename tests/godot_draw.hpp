@@ -1,4 +1,4 @@
-// Pictures that Godot 3 draws: tests/godot is the project, these are its jobs.
+// Images drawn by Godot 3: tests/godot is the project, these are its jobs.
 #pragma once
 
 #include <string>
@@ -10,18 +10,18 @@
 
 namespace cotan::test {
 
-// The work of one run of Godot.
+// The jobs of one run of Godot.
 class GodotJobs {
 public:
-    // A picture of width x height, `parts` times with the shader's uniform `part` counting from 0. Returns its number.
-    // more: what tests/godot/draw.gd reads besides.
+    // Adds an image of width x height that is drawn `parts` times, with the shader's uniform `part` counting from 0.
+    // Returns its index. more: other members that tests/godot/draw.gd reads.
     std::size_t add(const std::string& shader, int width, int height, int parts, const nlohmann::json& more = {});
 
     // A texture of RGBA bytes, for `more`.
     nlohmann::json texture(const std::string& bytes, int width, int height);
 
-    // RGB bytes of each job, rows from the top, part behind part. driver: GLES3 or GLES2. Throws std::runtime_error
-    // with what Godot printed where a shader does not compile or nothing came.
+    // RGB bytes of each job, rows from the top, its parts one after another. driver: GLES3 or GLES2. Throws
+    // std::runtime_error with Godot's output if a shader does not compile or an image is missing.
     std::vector<std::string> draw(const std::string& driver);
 
 private:
@@ -30,13 +30,13 @@ private:
     std::size_t textures_ = 0;
 };
 
-// Runs godot3 with a display of its own; throws where it printed a shader's or a script's error. What it printed.
+// Runs godot3 on its own display and returns its output; throws if that has an error of a shader or script.
 std::string runGodot(const std::string& project, const std::string& driver, const std::string& words);
 
-// Functions for shaders of jobs: cotan_test_unit(x), x of -1 to 1 in 24 bits of a colour; cotan_test_float(x, half),
-// any float in two colours.
+// Functions for shaders of jobs: cotan_test_unit(x) stores x from -1 to 1 in 24 bits of a colour; cotan_test_float(x,
+// half) stores any float in two colours.
 extern const char kGodotNumbers[];
-// What these stand for. at: the colour's first byte; of floats the two colours.
+// The inverse. at: the colour's first byte; floats take the two colours.
 double unitOfBytes(const char* at);
 double floatOfBytes(const char* first, const char* second);
 

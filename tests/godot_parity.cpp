@@ -1,4 +1,4 @@
-// A case as an unshaded material: a column of the picture for each sample, whose numbers come as bytes of a texture.
+// Draws a case as an unshaded material: the image has a column for each sample, whose numbers are bytes of a texture.
 #include "godot_parity.hpp"
 
 #include "godot_draw.hpp"
@@ -64,12 +64,12 @@ Results runGodotCases(const std::vector<Case>& cases, const std::vector<Sample>&
     for (const Case& c : cases)
         jobs.add(shaderOf(c, samples.size()), count, 2, 6, {{"textures", {{"inputs", inputs}}}});
     const std::size_t part = samples.size() * 2 * 3;
-    for (const std::string& picture : jobs.draw(driver)) {
+    for (const std::string& image : jobs.draw(driver)) {
         results.values.emplace_back();
         for (std::size_t s = 0; s < samples.size(); ++s) {
             glm::dvec3 value;
             for (int k = 0; k < 3; ++k) {
-                const char* at = picture.data() + 3 * s + 2 * part * static_cast<std::size_t>(k);
+                const char* at = image.data() + 3 * s + 2 * part * static_cast<std::size_t>(k);
                 value[k] = floatOfBytes(at, at + part);
             }
             results.values.back().push_back(value);

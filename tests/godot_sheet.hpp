@@ -1,4 +1,4 @@
-// The analytic sheet for Godot: its map and its mesh, with what each frame reads of it.
+// The analytic sheet for Godot: its map, its mesh, and the attributes that each frame reads.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace cotan::test {
 
-// Four domes as glTF stores them, 256 x 256, RGBA: red along u, green up the image, flat is (128, 128, 255).
+// Four domes in glTF's convention, 256 x 256, RGBA: red along u, green up the image, flat is (128, 128, 255).
 inline constexpr int kMapSize = 256;
 inline const std::string& domeBytes()
 {
@@ -30,7 +30,7 @@ inline const std::string& domeBytes()
     return bytes;
 }
 
-// The texel at u and v, decoded with z from the other two; zero near its edge, where a rounding decides.
+// The texel at u and v, with z reconstructed from x and y; zero near the texel's edge, where rounding decides.
 inline Vec domeTexel(double u, double v)
 {
     const double column = (u - std::floor(u)) * kMapSize, row = (v - std::floor(v)) * kMapSize;
@@ -43,7 +43,7 @@ inline Vec domeTexel(double u, double v)
     return {x, y, std::sqrt(std::max(1 - x * x - y * y, 0.0))};
 }
 
-// The sheet's two halves, clockwise as Godot has it, with what a frame reads of the mesh.
+// The sheet's two halves, clockwise as in Godot, with the attributes that a frame reads from the mesh.
 struct SheetMesh {
     std::vector<glm::vec3> positions, normals;
     std::vector<glm::vec2> uvs;

@@ -1,4 +1,4 @@
-// Godot 3 draws what `cotan shader --lang godot` prints. A door: without godot3 and xvfb-run it is skipped.
+// Godot 3 draws the output of `cotan shader --lang godot`. Skipped without godot3 and xvfb-run.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,21 +21,22 @@ using shader_text::Language;
 class Godot : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Driver, Godot, testing::Values("GLES3", "GLES2"), [](const auto& p) { return p.param; });
 
-// Of what one rounding of the result and of each input change at most (Case::allowance).
+// Maximum error in units of what one rounding of the result and of each input changes (Case::allowance).
 double maxRoundings(const Case& c, const std::vector<Sample>& samples, const std::vector<glm::dvec3>& values)
 {
-    double most = 0;
+    double maximum = 0;
     for (std::size_t s = 0; s < samples.size(); ++s)
         if (samples[s].kind == Kind::light) {
-            const glm::dvec3 off = glm::abs(values[s] - c.expected(samples[s].v)), allowed = c.allowance(samples[s].v);
+            const glm::dvec3 error = glm::abs(values[s] - c.expected(samples[s].v)),
+                             allowed = c.allowance(samples[s].v);
             for (int k = 0; k < 3; ++k)
-                if (off[k] != 0)
-                    most = off[k] / allowed[k] <= most ? most : off[k] / allowed[k]; // a NaN stays
+                if (error[k] != 0)
+                    maximum = error[k] / allowed[k] <= maximum ? maximum : error[k] / allowed[k]; // NaN is kept
         }
-    return most;
+    return maximum;
 }
 
-TEST_P(Godot, functionsGiveWhatTheOtherLanguagesGive)
+TEST_P(Godot, functionsAgreeWithTheOtherLanguages)
 {
     std::vector<Case> some;
     for (Case& c : godotCases())
@@ -46,23 +47,23 @@ TEST_P(Godot, functionsGiveWhatTheOtherLanguagesGive)
             finite.push_back(s);
     const Results r = runGodotCases(some, finite, GetParam());
     for (std::size_t k = 0; k < some.size(); ++k) {
-        double most = 0;
+        double maximum = 0;
         if (some[k].light) {
             const double roundings = maxRoundings(some[k], finite, r.values[k]);
             fmt::print("| {:24} | {} | {:.1f} roundings |\n", some[k].name, r.language, roundings);
-            // 64 as in the other languages (shader_test.cpp); reading back by exp2 and log2 is 16; and Godot 3 keeps
-            // six digits of a number in the text, 8 roundings, of which functions here have six at most.
+            // 64 as in the other languages (shader_test.cpp), 16 for reading back with exp2 and log2, and 8 for the six
+            // digits to which Godot 3 shortens constants, for up to six constants per function.
             EXPECT_LT(roundings, 128) << some[k].name;
             continue;
         }
         for (std::size_t s = 0; s < finite.size(); ++s)
             if (finite[s].kind <= some[k].last) {
                 const glm::dvec3 expected = some[k].expected(finite[s].v);
-                const double off = cotan::degreesBetween(r.values[k][s], expected);
-                most = off <= most ? most : off; // a NaN stays
+                const double error = cotan::degreesBetween(r.values[k][s], expected);
+                maximum = error <= maximum ? maximum : error; // NaN is kept
             }
-        fmt::print("| {:24} | {} | {:.1e} |\n", some[k].name, r.language, most);
-        EXPECT_LT(most, 1.2e-3) << some[k].name;
+        fmt::print("| {:24} | {} | {:.1e} |\n", some[k].name, r.language, maximum);
+        EXPECT_LT(maximum, 1.2e-3) << some[k].name;
     }
 }
 
@@ -73,7 +74,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
     return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-// The printed shader, its normal written as a colour.
+// The printed shader, which writes its normal as a colour.
 std::string normalShader(const Choice& choice)
 {
     const auto made = makeShaderText(choice);
@@ -96,21 +97,21 @@ Vec rayAt(int row, int column)
     return {((2 * (column + 0.5) / kWidth) - 1) * 2 / 2.2, (1 - 2 * (row + 0.5) / kHeight) / 2.2, -1};
 }
 
-// Of a picture in three parts.
-Vec vectorAt(const std::string& picture, int pixel)
+// Reads a vector from an image in three parts.
+Vec vectorAt(const std::string& image, int pixel)
 {
     Vec n{};
     for (int part = 0; part < 3; ++part)
-        n[static_cast<std::size_t>(part)] = unitOfBytes(picture.data() + 3 * (part * kWidth * kHeight + pixel));
+        n[static_cast<std::size_t>(part)] = unitOfBytes(image.data() + 3 * (part * kWidth * kHeight + pixel));
     return n;
 }
 
 struct SheetError {
-    double most = 0, mean = 0;
+    double maximum = 0, mean = 0;
     int count = 0;
 };
 
-// On the left sheet, which is seen from the front, or the right one, from behind. normalAt(pixel): from the top.
+// Errors on the left sheet (front) or the right one (back). normalAt(pixel): counted from the top.
 template<class NormalAt>
 SheetError sheetError(bool right, SheetFrame frame, Vec (*map)(double, double), NormalAt normalAt)
 {
@@ -121,16 +122,16 @@ SheetError sheetError(bool right, SheetFrame frame, Vec (*map)(double, double), 
             const Vec expected = right ? truth(ray, 1.2, M_PI - 0.4, frame, map) : truth(ray, -1.2, 0.4, frame, map);
             if (dot(expected, expected) == 0)
                 continue;
-            const double off = degreesBetween(normalAt(row * kWidth + column), expected);
-            e.most = off <= e.most ? e.most : off;
-            e.mean += off;
+            const double error = degreesBetween(normalAt(row * kWidth + column), expected);
+            e.maximum = error <= e.maximum ? e.maximum : error;
+            e.mean += error;
             ++e.count;
         }
     e.mean /= e.count;
     return e;
 }
 
-TEST_P(Godot, shadersDrawTheShearedSheetOnBothSidesAndBothHalves)
+TEST_P(Godot, shadersDrawTheShearedSheetOnBothSides)
 {
     struct Row {
         Frame frame;
@@ -146,10 +147,10 @@ TEST_P(Godot, shadersDrawTheShearedSheetOnBothSidesAndBothHalves)
                           {Frame::smooth, SheetFrame::cotangent, Form::fused},
                           {Frame::mikktspace, SheetFrame::orthonormal},
                           {Frame::vertex, SheetFrame::orthonormal}};
-    struct Way : Row {
-        bool twoSided, mirrored; // the latter by the transform
+    struct SheetCase : Row {
+        bool twoSided, mirrored; // mirrored: by the transform
     };
-    std::vector<Way> rows;
+    std::vector<SheetCase> rows;
     for (const Row& row : frames)
         if (GetParam() == "GLES3" || info(row.frame).source != FrameSource::differences) // GLES2 has no derivatives
             for (const bool twoSided : {false, true})
@@ -157,7 +158,7 @@ TEST_P(Godot, shadersDrawTheShearedSheetOnBothSidesAndBothHalves)
                     rows.push_back({row, twoSided, mirrored});
     GodotJobs jobs;
     const nlohmann::json map = jobs.texture(domeBytes(), kMapSize, kMapSize);
-    for (const Way& row : rows) {
+    for (const SheetCase& row : rows) {
         Choice choice;
         choice.twoSided = row.twoSided;
         choice.language = Language::godot;
@@ -167,9 +168,9 @@ TEST_P(Godot, shadersDrawTheShearedSheetOnBothSidesAndBothHalves)
         jobs.add(normalShader(choice), kWidth, kHeight, 3,
                  {{"textures", {{"normal_map", map}}}, {"sheet", sheetFor(row.frame)}, {"mirrored", row.mirrored}});
     }
-    const std::vector<std::string> pictures = jobs.draw(GetParam());
+    const std::vector<std::string> images = jobs.draw(GetParam());
     for (std::size_t k = 0; k < rows.size(); ++k) {
-        const auto normalAt = [&](int pixel) { return vectorAt(pictures[k], pixel); };
+        const auto normalAt = [&](int pixel) { return vectorAt(images[k], pixel); };
         for (const bool right : {false, true}) {
             if (right && !rows[k].twoSided)
                 continue;
@@ -177,19 +178,19 @@ TEST_P(Godot, shadersDrawTheShearedSheetOnBothSidesAndBothHalves)
             const std::string label = fmt::format("{} {}{}, {}{}", info(rows[k].frame).name, GetParam(),
                                                   rows[k].twoSided ? ", two-sided" : "", right ? "back" : "front",
                                                   rows[k].mirrored ? ", mirrored" : "");
-            fmt::print("| {:50} | {:.4f} {:.4f} |\n", label, e.mean, e.most);
+            fmt::print("| {:50} | {:.4f} {:.4f} |\n", label, e.mean, e.maximum);
             EXPECT_GT(e.count, 8000);
-            EXPECT_LT(e.most, 0.02) << label;
+            EXPECT_LT(e.maximum, 0.02) << label;
         }
     }
 }
 
-// With all that can be asked for together.
+// Combines all options.
 TEST_P(Godot, everyWholeShaderCompiles)
 {
     GodotJobs jobs;
     for (const FrameInfo& f : frames()) {
-        const bool derivatives = f.source == FrameSource::differences; // which GLES2 has not
+        const bool derivatives = f.source == FrameSource::differences; // not in GLES2
         if (f.frame == Frame::exact || (derivatives && GetParam() == "GLES2"))
             continue;
         Choice choice;
@@ -205,7 +206,7 @@ TEST_P(Godot, everyWholeShaderCompiles)
     EXPECT_NO_THROW(jobs.draw(GetParam()));
 }
 
-TEST_P(Godot, theDirectionOfUIsTheSheets)
+TEST_P(Godot, theDirectionOfUIsThatOfTheSheet)
 {
     if (GetParam() == "GLES2")
         GTEST_SKIP() << "GLES2 of Godot 3.2 has no derivatives";
@@ -219,17 +220,17 @@ TEST_P(Godot, theDirectionOfUIsTheSheets)
                  "    TANGENT = cotan_direction_of_u(NORMAL, VERTEX, UV);\n    BINORMAL = cross(NORMAL, TANGENT);\n"
                  "    ANISOTROPY = 0.8;\n    NORMAL = TANGENT;\n    ALBEDO ="),
         kWidth, kHeight, 3, {{"textures", {{"normal_map", map}}}, {"sheet", sheetFor(Frame::cotangent)}});
-    const std::string picture = jobs.draw(GetParam())[0];
+    const std::string image = jobs.draw(GetParam())[0];
     int count = 0;
     for (int row = 0; row < kHeight; ++row)
         for (int column = 0; column < kWidth / 2; ++column) {
             const Vec ray = rayAt(row, column);
-            // As truth() has it: the sheet's x, and where it is positive u runs along it, else against it.
+            // As in truth(): u grows along the sheet's x where x is positive, and against it elsewhere.
             const double x = onSheet(ray, -1.2, 0.4)[0];
             if (dot(truth(ray, -1.2, 0.4), truth(ray, -1.2, 0.4)) == 0)
                 continue;
             const double sign = x < 0 ? -1 : 1;
-            ASSERT_LT(degreesBetween(vectorAt(picture, row * kWidth + column),
+            ASSERT_LT(degreesBetween(vectorAt(image, row * kWidth + column),
                                      {sign * std::cos(0.4), 0, -sign * std::sin(0.4)}),
                       0.02)
                 << column << ", " << row;
@@ -238,10 +239,10 @@ TEST_P(Godot, theDirectionOfUIsTheSheets)
     EXPECT_GT(count, 8000);
 }
 
-// light(): metallic-roughness under a coat whose normal is the sheet's own, by one red light, against the portable text
-// in double. A colour's step is 1/255; rounding is half of it. The normal is 0.0012 degrees off, times the slope of a
-// highlight of roughness 0.3, under 20 a radian: 4e-4.
-TEST_P(Godot, lightIsThatOfThePortableText)
+// light(): metallic-roughness under a coat whose normal is the sheet's own, with one red light, compared with the
+// portable text in double. A step of a colour is 1/255, rounding is half of it. The normal's error of 0.0012 degrees,
+// times the slope of a highlight of roughness 0.3, below 20 per radian, is 4e-4.
+TEST_P(Godot, lightMatchesThePortableText)
 {
     const bool derivatives = GetParam() == "GLES3";
     Choice choice;
@@ -263,8 +264,8 @@ TEST_P(Godot, lightIsThatOfThePortableText)
     const glm::dvec3 to = glm::normalize(glm::dvec3(-0.3, 0.4, 1.0));
     jobs.add(text, kWidth, kHeight, 1,
              {{"textures", {{"normal_map", map}}}, {"sheet", sheetFor(choice.frame)}, {"light", {{to.x, to.y, to.z}}}});
-    const std::string picture = jobs.draw(GetParam())[0];
-    double most = 0, brightest = 0;
+    const std::string image = jobs.draw(GetParam())[0];
+    double maximum = 0, brightest = 0;
     for (const bool right : {false, true}) {
         int count = 0;
         for (int row = 0; row < kHeight; ++row)
@@ -285,23 +286,23 @@ TEST_P(Godot, lightIsThatOfThePortableText)
                                            v};
                 const f64::cotan_coat c{1, 0.3, {side * std::sin(angle), 0, side * std::cos(angle)}};
                 const double expected = M_PI
-                    * (f64::cotan_reflect_pbr(s, to).x * (1 - f64::cotan_coat_share(c, v))
+                    * (f64::cotan_reflect_pbr(s, to).x * (1 - f64::cotan_coat_fraction(c, v))
                        + f64::cotan_reflect_coat(c, v, to));
-                const char* at = picture.data() + 3 * (row * kWidth + column);
+                const char* at = image.data() + 3 * (row * kWidth + column);
                 const double got = static_cast<unsigned char>(at[0]) / 255.0;
                 brightest = std::max(brightest, got);
-                most = std::max(most, std::abs(got - std::min(expected, 1.0)));
+                maximum = std::max(maximum, std::abs(got - std::min(expected, 1.0)));
                 EXPECT_LT(static_cast<unsigned char>(at[1]), 2) << "the light is red";
                 ++count;
             }
         EXPECT_GT(count, 8000);
     }
-    fmt::print("light {}: {:.4f} off at most, {:.2f} at the brightest\n", GetParam(), most, brightest);
-    EXPECT_LT(most, 0.5 / 255 + 4e-4);
+    fmt::print("light {}: {:.4f} off at most, {:.2f} at the brightest\n", GetParam(), maximum, brightest);
+    EXPECT_LT(maximum, 0.5 / 255 + 4e-4);
     EXPECT_GT(brightest, 0.3);
 }
 
-// The domes where a map of 128 x 128 that is filtered, with mips, is theirs: not within two texels of a rim.
+// The domes, except within two texels of a rim, where a filtered 128 x 128 map with mips differs from them.
 Vec domesAwayFromRims(double u, double v)
 {
     const double x = std::fmod(u * 4, 2) - 1, y = std::fmod(v * 4, 2) - 1;
@@ -315,25 +316,25 @@ TEST_P(Godot, theExampleDrawsTheAnalyticSheet)
         const std::string file = folder / ("normals" + mirrored + ".png");
         runGodot(COTAN_SOURCE_DIR "/examples/godot", GetParam(),
                  "--resolution 480x240 --normals" + mirrored + " '--picture=" + file + "'");
-        const auto picture = readImage(file);
-        ASSERT_TRUE(picture) << picture.error().message;
-        ASSERT_EQ(picture->width, kWidth);
-        ASSERT_EQ(picture->height, kHeight);
+        const auto image = readImage(file);
+        ASSERT_TRUE(image) << image.error().message;
+        ASSERT_EQ(image->width, kWidth);
+        ASSERT_EQ(image->height, kHeight);
         const auto normalAt = [&](int pixel) {
             Vec n{};
             for (int k = 0; k < 3; ++k)
-                n[static_cast<std::size_t>(k)] = picture->bytes8()[4 * pixel + k] / 127.5 - 1;
+                n[static_cast<std::size_t>(k)] = image->bytes8()[4 * pixel + k] / 127.5 - 1;
             return n;
         };
         for (const bool right : {false, true}) {
             const SheetError e = sheetError(right, SheetFrame::cotangent, domesAwayFromRims, normalAt);
             fmt::print("example {}{}, {}: {:.2f} degrees in the mean, {:.2f} at most\n", GetParam(), mirrored,
-                       right ? "back" : "front", e.mean, e.most);
+                       right ? "back" : "front", e.mean, e.maximum);
             EXPECT_GT(e.count, 5000);
-            // A step of the picture's 8 bits is 0.45 degrees along an axis: rounding, 0.13 in the mean along each of
-            // two. The map's 8 bits add as much, and its filter.
+            // A step of the image's 8 bits is 0.45 degrees along an axis; rounding gives a mean of 0.13 along each of
+            // two. The map's 8 bits and filtering add about as much.
             EXPECT_LT(e.mean, 0.3);
-            EXPECT_LT(e.most, 1.0);
+            EXPECT_LT(e.maximum, 1.0);
         }
     }
 }

@@ -1,5 +1,5 @@
-// Small meshes for GPUs, worked out by hand from what cotan/gpu_meshes.hpp promises: which triangles share a meshlet,
-// and which copy of a vertex a triangle takes.
+// Small meshes for GPUs, worked out by hand from the documentation in cotan/gpu_meshes.hpp: which triangles share a
+// meshlet, and which copy of a vertex a triangle uses.
 #include <gtest/gtest.h>
 
 #include <utility>
@@ -12,9 +12,9 @@ namespace {
 
 using Numbers = std::vector<std::uint32_t>;
 
-TEST(RingMeshlets, takeTrianglesAsLongAsTheyFit)
+TEST(RingMeshlets, takeTrianglesWhileTheyFit)
 {
-    // Ten triangles that share nothing: how many there are of 9, 10 and 11 vertices, and of 2 triangles.
+    // Ten separate triangles: sizes of the meshlets for at most 9, 10 and 11 vertices, and for 2 triangles.
     const cotan::test::Arrays apart = cotan::test::unindexed(cotan::test::flatGrid(4, {1, 0}, {0, 1}));
     cotan::test::Arrays ten = apart;
     ten.indices.resize(30);
@@ -55,10 +55,10 @@ TEST(RingMeshlets, countAVertexOnceHoweverOftenATriangleNamesIt)
     }
 }
 
-TEST(Provoking, theVertexWithTheFewestTrianglesLeftGoesFirstAndTheLastCopyIsTaken)
+TEST(Provoking, theVertexWithTheFewestRemainingTrianglesGoesFirst)
 {
-    // Four times the same, then one with a new vertex. 2 has the fewest left; then 0 before 1; then none is left, and
-    // the first corner gets another copy, which the last triangle takes.
+    // The same triangle four times, then one with a new vertex. 2 has the fewest triangles left; then 0 precedes 1;
+    // then no vertex is left, so the first corner is copied, and the last triangle uses that copy.
     const Numbers indices{0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 0, 1};
     const auto first = cotan::provokingMesh(indices, 4, cotan::ProvokingVertex::first),
                last = cotan::provokingMesh(indices, 4, cotan::ProvokingVertex::last);
@@ -68,7 +68,7 @@ TEST(Provoking, theVertexWithTheFewestTrianglesLeftGoesFirstAndTheLastCopyIsTake
     EXPECT_EQ(last.sources, first.sources);
     EXPECT_EQ(last.corners, first.corners);
     EXPECT_EQ(last.indices, (Numbers{1, 2, 0, 2, 0, 1, 0, 1, 2, 2, 0, 3, 3, 2, 4}));
-    // What provokes nothing stands behind, in the order in which it is met.
+    // Vertices that provoke no triangle follow in the order of first use.
     const auto pair = cotan::provokingMesh(Numbers{0, 1, 2, 2, 1, 3}, 4, cotan::ProvokingVertex::first);
     EXPECT_EQ(pair.sources, (Numbers{0, 2, 1, 3}));
     EXPECT_EQ(pair.indices, (Numbers{0, 2, 1, 1, 2, 3}));

@@ -1,4 +1,4 @@
-// Surface gradients and blends against what they stand for.
+// Surface gradients and blends compared with their definitions.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,7 +14,7 @@ using namespace f64;
 
 glm::dvec3 texel(Random& random, double degrees) { return tiltedTexel(random, random.range(0, degrees)); }
 
-TEST(Gradient, resolvingASlopeIsApplyingItsTexel)
+TEST(Gradient, resolvingASlopeEqualsApplyingItsTexel)
 {
     Random random(51);
     for (int i = 0; i < 500; ++i) {
@@ -33,7 +33,7 @@ TEST(Gradient, gradientsOfTwoUvSetsAddUpToTheSumOfTheirHeights)
 {
     Random random(52);
     for (int i = 0; i < 200; ++i) {
-        // Two layouts on one plane; heights linear in their uv, so that grad h is known exactly.
+        // Two layouts on one plane, with heights linear in their uv, so that grad h is known exactly.
         AffinePatch a = randomPatch(random, false), b = randomPatch(random, true);
         b.normal = a.normal;
         b.gradU -= a.normal * glm::dot(a.normal, b.gradU);
@@ -60,21 +60,21 @@ TEST(Gradient, theGradientOfANormalResolvesToThatNormal)
             continue;
         EXPECT_LT(degreesBetween(cotan_resolve_gradient(n, cotan_gradient_of_normal(n, v * 3.0)), v), 1e-9);
     }
-    // At the horizon and behind it: steep, finite, unit.
+    // At the horizon and below it: steep, finite, of unit length.
     for (glm::dvec3 v : {glm::dvec3(1, 0, 0), {0.6, 0, -0.8}, {0, 0, -1}}) {
         const glm::dvec3 r = cotan_resolve_gradient({0, 0, 1}, cotan_gradient_of_normal({0, 0, 1}, v));
         EXPECT_NEAR(glm::length(r), 1, 1e-12);
     }
 }
 
-TEST(Gradient, heightDifferencesGiveTheGradientWhicheverWayTheyRun)
+TEST(Gradient, heightDifferencesGiveTheGradientInAnyDirection)
 {
     Random random(54);
     for (int i = 0; i < 200; ++i) {
         const AffinePatch p = randomPatch(random, false);
         const auto d = screenDifferences(
             PixelCamera::lookAt(random.direction() * 3.0 + p.normal, {0, 0, 0}, random.direction(), 800), p, {0, 0, 0});
-        // h = u: its differences are those of u.
+        // h = u, so its differences are those of u.
         const glm::dvec3 g = cotan_gradient_of_height(p.normal, d.dpdx.raw(), d.dpdy.raw(), d.duvdx.x, d.duvdy.x);
         EXPECT_LT(glm::length(g - p.gradU), 1e-9 * glm::length(p.gradU));
         const glm::dvec3 swapped = cotan_gradient_of_height(p.normal, d.dpdy.raw(), d.dpdx.raw(), d.duvdy.x, d.duvdx.x);
@@ -83,9 +83,9 @@ TEST(Gradient, heightDifferencesGiveTheGradientWhicheverWayTheyRun)
     EXPECT_EQ(cotan_gradient_of_height({0, 0, 1}, {1, 0, 0}, {2, 0, 0}, 1, 2), glm::dvec3(0));
 }
 
-TEST(Gradient, triplanarMapsOfOneHeightGiveItsGradientOnEverySideOfABox)
+TEST(Gradient, triplanarMapsOfOneHeightGiveItsGradient)
 {
-    // h = a . p: each plane's map has the slopes of its two coordinates.
+    // h = a . p: each plane's map has the slopes along its two coordinates.
     const glm::dvec3 a(0.3, -0.2, 0.5);
     for (int side = 0; side < 6; ++side) {
         glm::dvec3 n(0);
@@ -101,7 +101,7 @@ TEST(Gradient, triplanarMapsOfOneHeightGiveItsGradientOnEverySideOfABox)
                 1, 1e-15);
 }
 
-TEST(Gradient, slopesAreHeldAt128)
+TEST(Gradient, slopesAreClampedTo128)
 {
     EXPECT_NEAR(cotan_slope_of_texel({1, 0, 0}).x, -128, 1e-9);
     EXPECT_NEAR(cotan_slope_of_texel({0, -0.6, -0.8}).y, 128, 1e-9);
@@ -116,7 +116,7 @@ TEST(Gradient, noInputResolvesToNan)
     EXPECT_EQ(cotan_resolve_gradient({0, 0, 1}, {0, 0, 1}), glm::dvec3(0, 0, 1));
 }
 
-// The rotation that takes z to b by the shortest way, by Rodrigues' formula.
+// The shortest rotation from z to b, by Rodrigues' formula.
 glm::dvec3 rotateZTo(glm::dvec3 b, glm::dvec3 v)
 {
     const glm::dvec3 axis = glm::cross(glm::dvec3(0, 0, 1), b);
@@ -155,13 +155,13 @@ TEST(Blend, aFlatDetailLeavesTheBaseAndAFlatBaseTheDetail)
                                  cotan_blend_udn(m, flat)};
         for (const glm::dvec3& r : both)
             EXPECT_LT(degreesBetween(r, m), 1e-9);
-        // Not so for the other two: UDN takes the base's height, linear halves both.
+        // The other two modes differ: UDN keeps the base's height, linear halves both tilts.
         EXPECT_GE(cotan_blend_udn(flat, m).z, m.z - 1e-12);
         EXPECT_NEAR(degreesBetween(cotan_blend_linear(m, flat), flat), degreesBetween(m, flat) / 2, 1e-6);
     }
 }
 
-TEST(Blend, oppositeAndEmptyTexelsGiveTheBase)
+TEST(Blend, oppositeAndZeroTexelsGiveTheBase)
 {
     EXPECT_EQ(cotan_blend_linear({0, 0, 1}, {0, 0, -1}), glm::dvec3(0, 0, 1));
     EXPECT_EQ(cotan_blend_slopes({0, 0, 1}, {0, 0, 0}, 1, 1), glm::dvec3(0, 0, 1));

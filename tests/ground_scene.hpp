@@ -1,4 +1,4 @@
-// A ball and a box over a plane, as a formula and as meshes, and rays to a lamp's disc around them.
+// A ball and a box above a plane, as a formula and as meshes, and rays around them to a disc light.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace cotan::test {
 
-// What stands there, as a formula and as a mesh: a ball, and a box that is as wide as it is deep.
+// The solids as a formula and as meshes: a ball, and a box that is as wide as it is deep.
 struct Solids {
     glm::dvec3 ballCentre{-0.6, 0.9, 0.1};
     double ballRadius = 0.4;
@@ -46,7 +46,7 @@ inline void add(Scene& scene, Mesh mesh, const glm::mat4& toWorld)
     scene.instances.push_back(instance);
 }
 
-inline glm::mat4 placedAt(const glm::dvec3& at, const glm::dvec3& size)
+inline glm::mat4 translationScale(const glm::dvec3& at, const glm::dvec3& size)
 {
     glm::mat4 m(1);
     for (int i = 0; i < 3; ++i)
@@ -58,8 +58,9 @@ inline glm::mat4 placedAt(const glm::dvec3& at, const glm::dvec3& size)
 inline Scene sceneOf(const Solids& solids)
 {
     Scene scene;
-    add(scene, makeSphere(1, 96), placedAt(solids.ballCentre, glm::dvec3(solids.ballRadius)));
-    add(scene, makeCube(1, 1), placedAt((solids.boxLow + solids.boxHigh) / 2.0, solids.boxHigh - solids.boxLow));
+    add(scene, makeSphere(1, 96), translationScale(solids.ballCentre, glm::dvec3(solids.ballRadius)));
+    add(scene, makeCube(1, 1),
+        translationScale((solids.boxLow + solids.boxHigh) / 2.0, solids.boxHigh - solids.boxLow));
     return scene;
 }
 
@@ -75,8 +76,9 @@ inline View sunnyView()
     return view;
 }
 
-// The share of rays to a disc around the light that nothing stops.
-inline double lightTraced(const Solids& solids, const glm::dvec3& from, const glm::dvec3& toLight, double softness)
+// The fraction of unoccluded rays to a disc around the light.
+inline double tracedTransmittance(const Solids& solids, const glm::dvec3& from, const glm::dvec3& toLight,
+                                  double softness)
 {
     const glm::dvec3 right = glm::normalize(glm::cross(toLight, glm::dvec3(0, 1, 0))), up = glm::cross(right, toLight);
     constexpr int kSide = 24;
@@ -91,7 +93,7 @@ inline double lightTraced(const Solids& solids, const glm::dvec3& from, const gl
     return double(passed) / seen;
 }
 
-inline std::vector<std::unique_ptr<Renderer>> painters()
+inline std::vector<std::unique_ptr<Renderer>> renderers()
 {
     std::vector<std::unique_ptr<Renderer>> all;
     all.push_back(*openRenderer("reference"));

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""header_examples.py SOURCES OUT COMPILER...: each public header begins with an example. All of them, in one file, as
-functions that have a scene, a view and arrays of a mesh, are written to OUT, and the compiler is asked whether they are C++."""
+"""header_examples.py SOURCES OUT COMPILER...: every public header begins with an example. Writes all examples to OUT,
+as functions that have a scene, a view and arrays of a mesh, and checks that the compiler accepts the file."""
 import pathlib
 import re
 import subprocess
 import sys
 
 WITHOUT = {"packed.hpp", "packed_only.hpp", "vector.hpp", "covector.hpp", "portable.hpp", "gpu_meshes.hpp", "result.hpp",
-           "triangle.hpp"}  # of the core, which core.hpp, frame.hpp and tangents.hpp show
+           "triangle.hpp"}  # core headers used by the examples of core.hpp, frame.hpp and tangents.hpp
 sources, out = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
 headers = sorted(sources.glob("src/*/include/cotan/*.hpp"))
 text = ["#include <cstdio>", "#include <memory>", *(f"#include <cotan/{h.name}>" for h in headers),

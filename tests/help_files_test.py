@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The manual's pages and the completion of shells against --help and the tool itself, each shell asked for real.
-help_files_test.py TOOL SHARE man|bash|zsh|fish|words; exit code 77 and a reason where the program asked is missing.
-SHARE: the folder that the tool wrote by --help-files, or `-`: it writes one now."""
+"""Compares the manual pages and shell completions with --help and the tool itself, using the real shells.
+help_files_test.py TOOL SHARE man|bash|zsh|fish|words; exit code 77 and a reason if the program needed is missing.
+SHARE: the folder that the tool wrote with --help-files, or `-` to write one now."""
 import os
 import pathlib
 import pty
@@ -20,29 +20,29 @@ if sys.argv[2] == "-":
     subprocess.run([tool, "--help-files", share], check=True)
 FRAMES = "cotangent cotangent-2013 nonperspective paper-full paper-nodet paper-transpose paper-orthogonal unit orthonormal " \
     "gradient exact smooth vertex mikktspace triangle".split()
-# Words that are taken and that nobody needs: what is always there.
+# Valid words that need not be offered, because they are implied.
 UNTOLD = {("shader", "--set"): {"frame"}}
-# Options that take a name which nobody can list.
+# Options with names that cannot be listed.
 FREE_NAMES = {("cost", "--device"), ("cost", "--name"), ("accuracy", "--scene")}
 
 
 class Option:
     def __init__(self, line, command):
-        # The help comes after two spaces, or in the next line.
+        # The help follows after two spaces or on the next line.
         names, self.value = re.match(r"  ((?:-\w, )?--?[\w-]+(?:, --[\w-]+)*) ?(\S*)", line).groups()
         self.names = names.split(", ")
-        # Any word names a file, and the command would begin its work.
+        # Any word names a file, and the command would start its work.
         self.words = words_of(command, self.names[-1]) if self.value and not re.match("FILE|PATH", self.value) else []
 
 
 def words_of(command, option):
-    """Those of an option that takes no others: what it says of one that it does not take, before it begins its work."""
+    """The words of an option that accepts no others, from its error about an invalid word, before any work."""
     with tempfile.TemporaryDirectory() as folder:
         said = subprocess.run([tool, *command.split(), option, "zzz"], capture_output=True, text=True, cwd=folder,
                               timeout=60).stderr
     told = re.search(rf"error: {option}: expected ([\w, -]+); found 'zzz' \(see", said)
     words = re.split(", | or ", told.group(1)) if told else []
-    return [] if any(" " in word for word in words) else words  # "a number from 0 to 1"
+    return [] if any(" " in word for word in words) else words  # such as "a number from 0 to 1"
 
 
 def help_of(command):
@@ -59,7 +59,7 @@ def lines_of(text, kind):
     return re.findall(rf"^(  {beginnings[kind]}.*)", lists, re.M)
 
 
-# Every command, by its words, with what its help says.
+# Every command by its words, with its help.
 commands, options, operands, examples, helps = {}, {}, {}, {}, {}
 
 
@@ -109,12 +109,12 @@ def man():
         wrong = subprocess.run(["man", "--warnings", "-E", "UTF-8", "-l", "-Tutf8", "-Z", file], capture_output=True, text=True,
                                env={**os.environ, "MANWIDTH": "80", "LC_ALL": "C.UTF-8"})
         assert wrong.returncode == 0 and not wrong.stderr, f"{page}: {wrong.stderr}"
-        # What apropos and whatis read.
+        # For apropos and whatis.
         name = subprocess.run(["lexgrog", file], capture_output=True, text=True)
         assert name.returncode == 0 and page[:-2] + " - " in name.stdout, name.stdout
 
 
-# ---- shells: each function answers a list of beginnings of command lines with what is offered at their ends -----------
+# ---- shells: each function maps beginnings of command lines to what the shell offers at their ends --------------------
 
 
 def bash(lines, folder):
@@ -188,7 +188,7 @@ again
     for line in lines:
         os.write(terminal, line.encode() + b"\t")
         wait("done")
-        # A file may be offered by two tags; names come quoted.
+        # A file may be offered by two tags; names are quoted.
         offered.append([word.replace("\\ ", " ") for word in dict.fromkeys((place / "done").read_text().splitlines())])
         (place / "done").unlink()
         os.write(terminal, b"\x15again\n")
@@ -205,12 +205,12 @@ def offers(shell):
             (pathlib.Path(folder) / file).touch()
         (pathlib.Path(folder) / "pictures").mkdir()
         everything = {"a model.glb", "rocks.png", "pictures"}
-        wanted = []  # (line, what is offered there)
+        wanted = []  # (line, words offered at its end)
         for command, inner in commands.items():
             start = f"cotan {command} " if command else "cotan "
             operand = set(commands[""]) - {"help"} if command == "help" else everything if operands[command] else None
             wanted.append((start, set(inner) if inner else operand))
-            # zsh offers the two dashes by themselves only to those who typed one.
+            # zsh offers options with two dashes only after one dash was typed.
             wanted.append((start + "--", {name for option in options[command] for name in option.names if name[:2] == "--"}))
             for option in options[command]:
                 line = f"{start}{option.names[-1]} "
@@ -246,12 +246,12 @@ def offers(shell):
             said = {re.sub(r".*,", "", word).removesuffix("/") for word in said}
             if words is None:
                 continue
-            # Between words, fish also lists nothing but `-` options it was asked for; zsh a folder's options, too.
+            # Between words, fish lists `-` options only on request; zsh also lists those of a folder.
             assert said == words, f"{line!r}: missing {words - said}, too many {said - words}"
         return len(wanted)
 
 
-# ---- words: each that is offered is one that the tool takes, by what it says of one that it does not ------------------
+# ---- words: the tool accepts every word that is offered, by its error about an invalid one ----------------------------
 
 
 def words():
@@ -270,11 +270,11 @@ def words():
                 run = subprocess.run([tool, *example_without(command, option), option.names[-1], "zzz"], capture_output=True,
                                      text=True, cwd=folder)
                 said = set(re.split(r"[^\w.-]+", run.stderr))
-                # Some look at a file first, or at how the words go together.
+                # Some options check a file first, or the combination of words.
                 if "expected" in run.stderr and "'zzz'" in run.stderr and said & set(listed):
                     assert run.returncode == 1 and set(listed) <= said, f"{command}: {set(listed) - said}: {run.stderr}"
                     checked += 1
-                    # A plain list of all words there are: none is kept from those who ask a shell.
+                    # A plain list of all words: completion offers all of them.
                     told = re.search(r"expected (?:one of )?([\w., -]+); found 'zzz'", run.stderr)
                     names = re.split(", | or ", told.group(1)) if told else []
                     if all(re.fullmatch(r"[\w.-]+", name) for name in names):

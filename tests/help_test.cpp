@@ -1,4 +1,4 @@
-// What --help says is so: its examples run, its options are used, and wrong words get an answer that helps.
+// Checks that --help is right: its examples run, its options are used, and invalid words get a helpful error.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ Words split(const std::string& line)
     return {std::istream_iterator<std::string>(stream), {}};
 }
 
-// The names of commands that a help text lists: those are in lines of their own, and no option.
+// The names of commands in a help text: they have lines of their own that are not options.
 Words subcommandsOf(const std::string& help)
 {
     Words names;
@@ -47,7 +47,7 @@ std::vector<Words> examplesOf(const std::string& help)
     return examples;
 }
 
-// Every command with its help.
+// The help of every command.
 std::map<std::string, std::string> helps()
 {
     TemporaryFolder folder;
@@ -67,7 +67,7 @@ std::map<std::string, std::string> helps()
     return all;
 }
 
-// The files that examples name.
+// Writes the files that examples name.
 void prepare(const TemporaryFolder& folder)
 {
     write(quad(2), folder.path());
@@ -93,7 +93,7 @@ TEST(Help, everyCommandHasTwoExamplesAndTheExitCodes)
     }
 }
 
-TEST(Help, everyCommandBeginsWithASentenceThatSaysWhatItDoes)
+TEST(Help, everyCommandBeginsWithASentenceAboutItsPurpose)
 {
     for (const auto& [name, help] : helps()) {
         const std::string first = help.substr(0, help.find("\n\n"));
@@ -103,7 +103,7 @@ TEST(Help, everyCommandBeginsWithASentenceThatSaysWhatItDoes)
     }
 }
 
-TEST(Help, usageNamesWhatIsRequired)
+TEST(Help, usageNamesRequiredArguments)
 {
     TemporaryFolder folder;
     const auto all = helps();
@@ -112,12 +112,12 @@ TEST(Help, usageNamesWhatIsRequired)
     EXPECT_NE(all.at("map convert").find("\nUsage: cotan map convert FILE -o PATH --from WORDS --to WORDS"),
               std::string::npos);
     EXPECT_NE(all.at("map info").find("\nUsage: cotan map info FILE... [OPTIONS]\n"), std::string::npos);
-    // And nothing runs without it.
+    // Without it, nothing runs.
     for (const Words& words : std::vector<Words>{{"render"}, {"bake"}, {"map", "convert"}, {"map", "info"}})
         EXPECT_EQ(runTool(words, folder.path()).code, 1) << words[0];
 }
 
-TEST(Help, itFitsTheWidthOfTheTerminal)
+TEST(Help, fitsTheWidthOfTheTerminal)
 {
     for (const int width : {50, 80, 120}) {
         ::setenv("COLUMNS", std::to_string(width).c_str(), 1);
@@ -126,7 +126,7 @@ TEST(Help, itFitsTheWidthOfTheTerminal)
             std::istringstream text(help.substr(0, help.find("\nExamples:")));
             for (std::string line; std::getline(text, line);) {
                 longest = std::max(longest, line.size());
-                // A word may be longer than the room that there is.
+                // A single word may be longer than the line.
                 EXPECT_TRUE(line.size() <= std::size_t(width) || split(line).size() == 1) << name << ": " << line;
             }
         }
@@ -135,7 +135,7 @@ TEST(Help, itFitsTheWidthOfTheTerminal)
     ::unsetenv("COLUMNS");
 }
 
-TEST(Help, optionsStandUnderHeadingsAndTheOnesThatMatterComeFirst)
+TEST(Help, optionsAreUnderHeadingsWithTheMainOnesFirst)
 {
     const std::string help = helps().at("render");
     std::size_t at = 0;
@@ -152,7 +152,7 @@ TEST(Help, optionsStandUnderHeadingsAndTheOnesThatMatterComeFirst)
         EXPECT_NE(main.find(option), std::string::npos) << option;
 }
 
-TEST(Help, theShortFormHasTheMainOptionsAndSaysHowManyMoreThereAre)
+TEST(Help, theShortFormHasTheMainOptionsAndCountsTheOthers)
 {
     TemporaryFolder folder;
     const ToolRun brief = runTool({"render", "-h"}, folder.path()), full = runTool({"render", "--help"}, folder.path());
@@ -163,7 +163,7 @@ TEST(Help, theShortFormHasTheMainOptionsAndSaysHowManyMoreThereAre)
     EXPECT_NE(full.out.find("--tone-mapping"), std::string::npos);
 }
 
-TEST(Help, helpAndACommandIsThatCommandAndHelp)
+TEST(Help, helpCommandEqualsTheHelpOption)
 {
     TemporaryFolder folder;
     for (const Words& words : std::vector<Words>{{}, {"render"}, {"map"}, {"map", "convert"}, {"help"}}) {
@@ -179,7 +179,7 @@ TEST(Help, helpAndACommandIsThatCommandAndHelp)
     EXPECT_EQ(wrong.err, "cotan: error: unknown command 'redner'; did you mean render?\n");
 }
 
-TEST(Help, historicalFramesAreListedOnRequestAndAreNoPartOfTheHelp)
+TEST(Help, historicalFramesAreListedOnlyOnRequest)
 {
     TemporaryFolder folder;
     for (const auto& [name, help] : helps()) {
@@ -197,8 +197,8 @@ TEST(Help, historicalFramesAreListedOnRequestAndAreNoPartOfTheHelp)
     }
 }
 
-// cost may have no driver to ask, and view gets no display: exit code 3.
-TEST(Help, everyExampleRunsAsItIsPrinted)
+// cost may have no driver, and view has no display: exit code 3.
+TEST(Help, everyExampleRunsAsPrinted)
 {
     ::unsetenv("DISPLAY");
     ::unsetenv("WAYLAND_DISPLAY");
@@ -213,7 +213,7 @@ TEST(Help, everyExampleRunsAsItIsPrinted)
         }
 }
 
-TEST(Help, optionsThatACommandDoesNotUseAreNotListedAndOutputIsRefused)
+TEST(Help, unusedOptionsAreNotListedAndOutputIsRefused)
 {
     const auto all = helps();
     for (const char* name : {"lint", "map info", "map detect"}) {
@@ -233,7 +233,7 @@ TEST(Help, optionsThatACommandDoesNotUseAreNotListedAndOutputIsRefused)
     EXPECT_NE(all.at("render").find("--threads"), std::string::npos);
 }
 
-TEST(Help, aNameHasOneMeaningAndOlderNamesGoOnWorking)
+TEST(Help, eachNameHasOneMeaningAndOlderNamesStillWork)
 {
     const auto all = helps();
     for (const auto& [name, text] : all) {
@@ -262,7 +262,7 @@ TEST(Help, aNameHasOneMeaningAndOlderNamesGoOnWorking)
         1);
 }
 
-// By command: words with which it would work, and the options that take any text, which cannot be wrong.
+// For each command: words with which it would work, and the options that accept any text.
 struct Usual {
     Words words;
     std::set<std::string> anyText;
@@ -272,7 +272,7 @@ const std::map<std::string, Usual> kUsual = {
     {"compare", {{"model.glb", "-o", "a"}, {"--variant", "--animation", "--device", "--camera", "--environment"}}},
     {"bake",
      {{"--high", "statue.obj", "--low", "statue_low.obj", "-o", "a.png"},
-      {"--object", "--device", "--high-convention", "--high-frame"}}}, // the last two want a map of the high mesh
+      {"--object", "--device", "--high-convention", "--high-frame"}}}, // the last two need a map of the high mesh
     {"convert", {{"model.glb", "-o", "a.glb", "--to-frame", "orthonormal"}, {"--device"}}},
     {"lint", {{"model.glb"}, {}}},
     {"tangents", {{"model.glb"}, {}}},
@@ -283,7 +283,7 @@ const std::map<std::string, Usual> kUsual = {
     {"cost", {{}, {"--device", "--family", "--name"}}},
     {"accuracy", {{}, {"--device", "--scene"}}},
     {"figures", {{"-o", "figures"}, {"--device"}}},
-    {"map convert", {{"rocks.png", "-o", "a.png", "--from", "gltf", "--to", "directx"}, {"--frame"}}}, // with --mesh
+    {"map convert", {{"rocks.png", "-o", "a.png", "--from", "gltf", "--to", "directx"}, {"--frame"}}}, // needs --mesh
     {"map blend", {{"rocks.png", "grain.png", "-o", "a.png"}, {}}},
     {"map diff", {{"rocks.png", "other.png"}, {}}},
     {"map mips", {{"rocks.png", "-o", "a.dds"}, {}}},
@@ -293,8 +293,8 @@ const std::map<std::string, Usual> kUsual = {
     {"map to-height", {{"rocks.png", "-o", "a.png"}, {}}},
 };
 
-// Each option of each command, once with a word that is none of its own.
-TEST(Help, everyOptionRefusesAWrongWordByItsNameWithWhatItFound)
+// Gives each option of each command an invalid value once.
+TEST(Help, everyOptionErrorNamesTheOptionAndTheInvalidValue)
 {
     TemporaryFolder folder;
     prepare(folder);
@@ -316,7 +316,7 @@ TEST(Help, everyOptionRefusesAWrongWordByItsNameWithWhatItFound)
                 continue;
             const std::string option = words[0], value = words[1];
             if (option.ends_with(",") || line.find(option + " " + value) == std::string::npos)
-                continue; // two long names of one; no value, but a text that follows
+                continue; // two names of one option, or no value but the help text
             const bool takesFile = value.starts_with("FILE") || value == "PATH" || value == "DIR" || value == "FOLDER";
             if (!std::isupper(static_cast<unsigned char>(value[0])) || takesFile
                 || usual->second.anyText.contains(option))
@@ -331,21 +331,21 @@ TEST(Help, everyOptionRefusesAWrongWordByItsNameWithWhatItFound)
             if (!replaced)
                 all.insert(all.end(), {option, wrong});
             const ToolRun run = runTool(all, folder.path());
-            const std::string said = command + " " + option + ": " + run.err;
-            EXPECT_EQ(run.code, 1) << said;
-            EXPECT_TRUE(run.err.starts_with("cotan: error: " + option + ": expected ")) << said;
+            const std::string message = command + " " + option + ": " + run.err;
+            EXPECT_EQ(run.code, 1) << message;
+            EXPECT_TRUE(run.err.starts_with("cotan: error: " + option + ": expected ")) << message;
             const std::string found = "; found '" + wrong + "'";
             EXPECT_TRUE(run.err.ends_with(found + "\n")
                         || run.err.ends_with(found + " (see cotan " + command + " --help)\n"))
-                << said;
-            EXPECT_EQ(run.out, "") << said;
+                << message;
+            EXPECT_EQ(run.out, "") << message;
             ++tried;
         }
     }
     EXPECT_GT(tried, 150u);
 }
 
-TEST(Help, anUnknownCommandIsNamedWithTheNearestOne)
+TEST(Help, anUnknownCommandSuggestsTheNearestOne)
 {
     TemporaryFolder folder;
     const std::vector<std::pair<Words, std::string>> cases = {{{"rendr"}, "did you mean render?"},
@@ -375,20 +375,20 @@ TEST(Help, mapsInJpegAreWarnedOf)
                             {"map", "blend", "rocks.png", "grain.png", "-o", "z.jpg"}}) {
         const ToolRun run = runTool(words, folder.path());
         EXPECT_EQ(run.code, 0) << run.err;
-        const std::size_t first = run.err.find("JPEG loses degrees");
+        const std::size_t first = run.err.find("JPEG adds errors");
         EXPECT_NE(first, std::string::npos) << words[0] << run.err;
-        EXPECT_EQ(run.err.find("JPEG loses degrees", first + 1), std::string::npos) << run.err;
+        EXPECT_EQ(run.err.find("JPEG adds errors", first + 1), std::string::npos) << run.err;
     }
 }
 
-TEST(Help, standardOutputThatCannotBeWrittenIsExitCodeFourAndAReaderThatLeavesIsNoError)
+TEST(Help, unwritableStandardOutputExitsFourUnlessTheReaderClosedIt)
 {
     TemporaryFolder folder;
     prepare(folder);
     for (const std::string line :
          {"--help", "--version", "lint model.glb", "lint model.glb --json -", "map info rocks.png", "accuracy --list",
           "shader --lang glsl", "tangents model.glb", "render --size 16x16 --device reference -o a.png"})
-        // A full disk, and a pipe whose reader, like head, has ended: that one had what it wanted.
+        // A full disk, and a pipe whose reader, like head, has ended: that reader had enough.
         for (const std::string sink : {">/dev/full", "> >(true); wait $!"}) {
             const bool full = sink == ">/dev/full";
             const std::string script = "exec 3" + sink + "; \"" COTAN_TOOL "\" " + line + " >&3";

@@ -1,4 +1,4 @@
-// The text of --help, line by line, on both sides of every width; commands below commands; which option was meant.
+// The text of --help, line by line, on both sides of every width; nested commands; suggestions for misspelt options.
 #include <gtest/gtest.h>
 
 #include "terminal/arguments.hpp"
@@ -19,7 +19,7 @@ OptionHelp optionOf(HelpGroup group, std::vector<std::string> names, const std::
     return option;
 }
 
-// Of each kind one, whose lines are as long as they may be, and one that is a letter longer.
+// One option of each kind whose line just fits, and one that is a letter longer.
 CommandHelp bake()
 {
     CommandHelp command;
@@ -33,8 +33,8 @@ CommandHelp bake()
     OptionHelp output = optionOf(HelpGroup::main, {"-o", "--output"}, "PATH", "where it goes");
     output.required = true;
     OptionHelp size = optionOf(HelpGroup::output, {"--size"}, "N", "texels a side");
-    size.least = "1";
-    size.most = "64";
+    size.minimum = "1";
+    size.maximum = "64";
     size.usual = "16";
     OptionHelp kind = optionOf(HelpGroup::output, {"--kind"}, "NAME", "flat or round");
     kind.words = {"flat", "round"};
@@ -43,7 +43,7 @@ CommandHelp bake()
     way.words = {"round", "down"};
     way.closed = true;
     OptionHelp free = optionOf(HelpGroup::rays, {"--free"}, "NAME", "any");
-    free.words = {"a", "b"}; // to begin with: others are as good
+    free.words = {"a", "b"}; // suggestions: other values are valid, too
     command.options = {model,
                        more,
                        output,
@@ -90,7 +90,7 @@ TEST(HelpText, hasEveryOptionInItsColumnAndWrapsAtTheWidth)
               begin + "\n\"tool help bake\" shows 7 more options.\n" + end);
 }
 
-// Up to 59 columns the text begins in the ninth; no width is less than 40.
+// Below 60 columns the text begins in the ninth; the minimum width is 40.
 TEST(HelpText, isNarrowOnNarrowTerminals)
 {
     CommandHelp tool;
@@ -117,7 +117,7 @@ TEST(HelpText, isNarrowOnNarrowTerminals)
               std::string::npos);
 }
 
-TEST(HelpText, ofAToolListsItsCommandsUnderTheirHeadings)
+TEST(HelpText, listsCommandsUnderTheirHeadings)
 {
     CommandHelp tool, plain, more, last;
     tool.name = "tool";
@@ -143,7 +143,7 @@ TEST(HelpText, ofAToolListsItsCommandsUnderTheirHeadings)
     EXPECT_EQ(brief.find("--version"), std::string::npos);
 }
 
-TEST(HelpText, valuesAreOfTheKindOfTheirWord)
+TEST(HelpText, placeholdersDetermineTheKindOfValue)
 {
     for (const auto& [word, kind] : {std::pair("", ValueKind::none),
                                      {"PATH", ValueKind::file},
@@ -159,8 +159,8 @@ TEST(HelpText, valuesAreOfTheKindOfTheirWord)
         EXPECT_EQ(valueKind(word), kind) << word;
 }
 
-// Cut at the first pause behind 20 letters, else at a word's end within 70.
-TEST(HelpText, theShortFormOfASentenceEndsAtAPause)
+// Cut at the first pause after 20 letters, otherwise at the end of a word within 70.
+TEST(HelpText, shortFormsOfSentencesEndAtAPause)
 {
     const std::string a19(19, 'a'), a20(20, 'a'), a70(70, 'a'), a60(60, 'a');
     EXPECT_EQ(shortHelp(a19 + "; rest of it: and on"), a19 + "; rest of it");
@@ -172,15 +172,15 @@ TEST(HelpText, theShortFormOfASentenceEndsAtAPause)
     EXPECT_EQ(shortHelp("short"), "short");
 }
 
-TEST(HelpText, controlCharactersAreWrittenOutAndOthersStay)
+TEST(HelpText, onlyControlCharactersAreEscaped)
 {
     EXPECT_EQ(printable("a b~"), "a b~");
     EXPECT_EQ(printable("\n\t\x1b\x1f\x7f"), "\\n\\x09\\x1b\\x1f\\x7f");
     EXPECT_EQ(printable("\xc2\x80\xc2\x9f\xc2\xa0\xc3\x85"), "\\x80\\x9f\xc2\xa0\xc3\x85");
-    EXPECT_EQ(printable("\xc2"), "\xc2"); // the half of a letter
+    EXPECT_EQ(printable("\xc2"), "\xc2"); // half a UTF-8 character
 }
 
-// Two commands below another one, and what is asked of each.
+// Two commands below another one, and the options of each.
 TEST(Arguments, aCommandBelowAnotherHasBothNames)
 {
     Arguments tool("tool", "what it is", "1.2.3");
@@ -214,16 +214,16 @@ TEST(Arguments, aCommandBelowAnotherHasBothNames)
     EXPECT_EQ(ran, "mix");
     EXPECT_EQ(from, "c");
     EXPECT_EQ(printed, "");
-    const auto said = [&](const std::vector<std::string>& words) {
+    const auto errorOf = [&](const std::vector<std::string>& words) {
         const Status done = tool.run(words, print);
         return done ? "" : done.error().message;
     };
-    EXPECT_EQ(said({"map"}), "map needs a command: turn or mix (see tool map --help)");
-    EXPECT_EQ(said({"map", "turn"}), "map turn needs FROM (see tool map turn --help)");
-    EXPECT_EQ(said({"map", "turn", "a", "--ot", "b"}),
+    EXPECT_EQ(errorOf({"map"}), "map needs a command: turn or mix (see tool map --help)");
+    EXPECT_EQ(errorOf({"map", "turn"}), "map turn needs FROM (see tool map turn --help)");
+    EXPECT_EQ(errorOf({"map", "turn", "a", "--ot", "b"}),
               "unknown option --ot; did you mean --to? (see tool map turn --help)");
-    EXPECT_EQ(said({"map", "turn", "a", "--to"}), "--to needs a value: --to FILE (see tool map turn --help)");
-    EXPECT_EQ(said({"map", "tun"}), "unknown map command 'tun'; did you mean turn?");
+    EXPECT_EQ(errorOf({"map", "turn", "a", "--to"}), "--to needs a value: --to FILE (see tool map turn --help)");
+    EXPECT_EQ(errorOf({"map", "tun"}), "unknown map command 'tun'; did you mean turn?");
     for (const std::vector<std::string>& words :
          {std::vector<std::string>{"map", "turn", "--help"}, {"map", "turn", "-h"}}) {
         printed.clear();
@@ -242,8 +242,8 @@ TEST(Arguments, aCommandBelowAnotherHasBothNames)
     EXPECT_TRUE(help.commands[0].commands[1].options[0].kind == ValueKind::file);
 }
 
-// A name is meant where at most a letter, and one more for every four, are others, and of two the nearer one.
-TEST(Arguments, theNearestOptionIsMeantWhereOneIsNear)
+// A name is suggested if at most one letter, plus one for every four, differ; the nearer of two is preferred.
+TEST(Arguments, theNearestOptionIsSuggested)
 {
     Arguments tool("tool", "what it is", "1");
     Arguments command = tool.command("do", "what it does");
@@ -257,7 +257,7 @@ TEST(Arguments, theNearestOptionIsMeantWhereOneIsNear)
         const std::size_t at = message.find(begin);
         return at == std::string::npos ? "" : message.substr(at + begin.size(), message.find('?') - at - begin.size());
     };
-    for (const auto& [word, name] : {std::pair("--abx", "--abc"), // the first of two that are as near
+    for (const auto& [word, name] : {std::pair("--abx", "--abc"), // the first of two equally near names
                                      {"--abdd", "--abd"},
                                      {"--xyc", ""}, // two letters of three
                                      {"--longre", "--longer"},
@@ -266,12 +266,12 @@ TEST(Arguments, theNearestOptionIsMeantWhereOneIsNear)
                                      {"--elsxxxere", "--elsewhere"}, // three of nine
                                      {"--elxxxxere", ""},            // four of nine
                                      {"--ano", "--another-word"},    // its beginning
-                                     {"--an", ""}})                  // two letters are the beginning of much
+                                     {"--an", ""}})                  // two letters are the beginning of too many
         EXPECT_EQ(meant(word), name) << word;
-    const auto said = [&](const std::string& word) { return tool.run({"do", word, "x"}, {}).error().message; };
+    const auto errorOf = [&](const std::string& word) { return tool.run({"do", word, "x"}, {}).error().message; };
     const std::string long100 = "--" + std::string(98, 'y'), long101 = long100 + "y";
-    EXPECT_EQ(said(long100), "unknown option " + long100 + " (see tool do --help)");
-    EXPECT_EQ(said(long101), "unknown option of 101 letters (see tool do --help)");
+    EXPECT_EQ(errorOf(long100), "unknown option " + long100 + " (see tool do --help)");
+    EXPECT_EQ(errorOf(long101), "unknown option of 101 letters (see tool do --help)");
 }
 
 } // namespace

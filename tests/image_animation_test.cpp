@@ -1,5 +1,5 @@
-// Animated WebP and GIF, read back by libwebp's demuxer and by OpenImageIO, whose reader of GIF is another library than
-// its writer.
+// Animated WebP and GIF, read back by libwebp's demuxer and by OpenImageIO, which reads GIF with another library than
+// it writes GIF with.
 #include "cotan/image.hpp"
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@ using test::TemporaryFolder;
 
 constexpr int kWidth = 64, kHeight = 48;
 
-// Smooth colours that change from picture to picture; alpha falls to the right.
-Image pictureOf(int number, bool alpha)
+// Smooth colours that change with each frame; alpha falls to the right.
+Image frameImage(int number, bool alpha)
 {
     Image image = makeImage(kWidth, kHeight, PixelType::unorm8, "picture");
     for (int y = 0; y < kHeight; ++y)
@@ -39,7 +39,7 @@ void writeFive(const std::filesystem::path& file, double rate, bool alpha = fals
     auto writer = createAnimation(file, {kWidth, kHeight, 5, rate});
     ASSERT_TRUE(writer) << writer.error().message;
     for (int i = 0; i < 5; ++i)
-        ASSERT_TRUE((*writer)->add(pictureOf(i, alpha)));
+        ASSERT_TRUE((*writer)->add(frameImage(i, alpha)));
     EXPECT_FALSE(std::filesystem::exists(file));
     const Status done = (*writer)->finish();
     ASSERT_TRUE(done) << done.error().message;
@@ -53,8 +53,8 @@ std::size_t filesIn(const std::filesystem::path& folder)
     return count;
 }
 
-// The mean difference of a channel, of pixels that are seen.
-double offFrom(const Image& expected, const std::uint8_t* found, std::size_t channel)
+// Mean difference of one channel over the pixels that are not fully transparent.
+double meanChannelDifference(const Image& expected, const std::uint8_t* found, std::size_t channel)
 {
     double sum = 0;
     for (std::size_t i = 0; i < expected.pixelCount(); ++i)
@@ -62,7 +62,7 @@ double offFrom(const Image& expected, const std::uint8_t* found, std::size_t cha
     return sum / double(expected.pixelCount());
 }
 
-TEST(Animation, aWebpHasEveryPictureAtItsTimeWithItsAlpha)
+TEST(Animation, webpStoresEveryFrameWithItsTimeAndAlpha)
 {
     for (const bool alpha : {false, true}) {
         TemporaryFolder folder;
@@ -85,14 +85,14 @@ TEST(Animation, aWebpHasEveryPictureAtItsTimeWithItsAlpha)
             ASSERT_TRUE(WebPAnimDecoderGetNext(decoder.get(), &pixels, &until));
             EXPECT_EQ(until, std::lround(1000 * (i + 1) / 24.0)) << i;
             for (std::size_t c = 0; c < 3; ++c)
-                EXPECT_LT(offFrom(pictureOf(i, alpha), pixels, c), 3) << i << c; // quality 90
-            EXPECT_EQ(offFrom(pictureOf(i, alpha), pixels, 3), 0) << i;
+                EXPECT_LT(meanChannelDifference(frameImage(i, alpha), pixels, c), 3) << i << c; // quality 90
+            EXPECT_EQ(meanChannelDifference(frameImage(i, alpha), pixels, 3), 0) << i;
         }
         EXPECT_FALSE(WebPAnimDecoderHasMoreFrames(decoder.get()));
     }
 }
 
-TEST(Animation, aGifHasEveryPictureAtHundredthsOfASecond)
+TEST(Animation, gifStoresEveryFrameInHundredthsOfASecond)
 {
     TemporaryFolder folder;
     if (std::system("command -v oiiotool > /dev/null") != 0)
@@ -112,27 +112,27 @@ TEST(Animation, aGifHasEveryPictureAtHundredthsOfASecond)
         const auto frame = readImage(png);
         ASSERT_TRUE(frame);
         for (std::size_t c = 0; c < 3; ++c)
-            EXPECT_LT(offFrom(pictureOf(i, false), frame->bytes8(), c), 8) << i << c; // 256 colours
+            EXPECT_LT(meanChannelDifference(frameImage(i, false), frame->bytes8(), c), 8) << i << c; // 256 colours
     }
 }
 
-TEST(Animation, whatIsNotFinishedLeavesNothing)
+TEST(Animation, unfinishedAnimationLeavesNoFile)
 {
     for (const char* name : {"a.webp", "a.gif"}) {
         TemporaryFolder folder;
         {
             auto writer = createAnimation(folder.path / name, {kWidth, kHeight, 5, 24});
             ASSERT_TRUE(writer) << writer.error().message;
-            ASSERT_TRUE((*writer)->add(pictureOf(0, false)));
+            ASSERT_TRUE((*writer)->add(frameImage(0, false)));
             const Status other = (*writer)->add(makeImage(8, 8, PixelType::unorm8));
             ASSERT_FALSE(other);
-            EXPECT_NE(other.error().message.find("expected pictures of 64 x 48; found 8 x 8"), std::string::npos);
+            EXPECT_NE(other.error().message.find("expected images of 64 x 48; found 8 x 8"), std::string::npos);
         }
         EXPECT_EQ(filesIn(folder.path), 0u) << name;
     }
 }
 
-TEST(Animation, whatSuchFilesCannotHoldIsRefusedInOneLine)
+TEST(Animation, unsupportedSizesAndRatesAreRefusedInOneLine)
 {
     TemporaryFolder folder;
     const std::pair<const char*, AnimationFormat> cases[] = {{"a.webp", {16384, 8, 1, 24}}, {"a.webp", {0, 8, 1, 24}},

@@ -1,11 +1,11 @@
-// DDS files made by hand: forms that are read, and those that are not.
+// Hand-made DDS files: forms that are read and forms that are refused.
 #include <algorithm>
 #include <cstring>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "picture_file.hpp"
+#include "image_io.hpp"
 
 namespace cotan::test {
 namespace {
@@ -21,9 +21,9 @@ std::string dx10(int width, int height, std::uint32_t format)
     return {reinterpret_cast<const char*>(header.data()), sizeof header};
 }
 
-TEST_F(PictureFile, ddsWithTheNewerHeaderNeedsAllItsBlocks)
+TEST_F(ImageIo, ddsWithDx10HeaderRequiresAllBlocks)
 {
-    // BC5, 5 x 7 pixels: 2 x 2 blocks of two BC4 halves, all indices 0: each channel its first endpoint.
+    // BC5, 5 x 7 pixels: 2 x 2 blocks of two BC4 halves. All indices are 0: each channel is its first endpoint.
     std::string file = dx10(5, 7, 83);
     for (const int red : {200, 40, 90, 10})
         file += std::string(1, char(red)) + std::string(7, '\0') + std::string(1, char(red / 2)) + std::string(7, '\0');
@@ -41,8 +41,8 @@ TEST_F(PictureFile, ddsWithTheNewerHeaderNeedsAllItsBlocks)
     EXPECT_FALSE(decodeImage(bytesOf(dx10(0x7fffffff, 0x7fffffff, 83) + std::string(4096, '\0')), "a.dds"));
 }
 
-// One block of zeros: alpha is 0, by which the library would divide. The same block is sound as DXT5.
-TEST_F(PictureFile, ddsOfColoursMultipliedByAlphaIsRefused)
+// One block of zeros. Its alpha of 0 would make the library divide by 0 for DXT2 and DXT4; as DXT5 the block is valid.
+TEST_F(ImageIo, ddsWithPremultipliedAlphaIsRefused)
 {
     for (const std::string& name : {std::string("DXT2"), std::string("DXT4"), std::string("DXT5")}) {
         const std::string file = dx10(4, 4, 0).substr(0, 128).replace(84, 4, name) + std::string(16, '\0');
@@ -52,7 +52,7 @@ TEST_F(PictureFile, ddsOfColoursMultipliedByAlphaIsRefused)
     }
 }
 
-TEST_F(PictureFile, ddsOfMoreLevelsThanAPictureCanHaveIsRefused)
+TEST_F(ImageIo, ddsWithTooManyLevelsIsRefused)
 {
     const std::string file = dx10(4, 4, 83) + std::string(16, '\0');
     EXPECT_TRUE(decodeImage(bytesOf(std::string(file).replace(28, 1, 1, '\x03')), "a.dds"));
@@ -61,7 +61,7 @@ TEST_F(PictureFile, ddsOfMoreLevelsThanAPictureCanHaveIsRefused)
     EXPECT_NE(image.error().message.find("it has 1195853639 levels"), std::string::npos) << image.error().message;
 }
 
-TEST_F(PictureFile, ddsOfNormalsInOneChannelIsRefused)
+TEST_F(ImageIo, ddsOfNormalsInOneChannelIsRefused)
 {
     for (const std::string& name : {std::string("ATI1"), std::string("BC4U"), std::string("ATI2")}) {
         const std::string plain = dx10(4, 4, 0).substr(0, 128).replace(84, 4, name) + std::string(16, '\x10');
@@ -71,7 +71,7 @@ TEST_F(PictureFile, ddsOfNormalsInOneChannelIsRefused)
     }
 }
 
-TEST_F(PictureFile, ddsOfChannelsWithoutBitsOrOfNoKnownKindIsRefused)
+TEST_F(ImageIo, ddsWithEmptyMasksOrUnknownKindIsRefused)
 {
     std::string file = dx10(1, 1, 0).substr(0, 128);
     file.replace(80, 28,
@@ -92,12 +92,12 @@ TEST_F(PictureFile, ddsOfChannelsWithoutBitsOrOfNoKnownKindIsRefused)
         return bool(decodeImage(bytesOf(other), "a.dds"));
     };
     EXPECT_TRUE(ofKind(0x40) && ofKind(0x20000) && ofKind(0x20001)) << "colours and brightness";
-    // Alpha alone, palettes, YUV: read as colours whatever their masks are.
+    // Alpha alone, palettes, YUV: OpenImageIO reads them as colours whatever their masks are.
     for (const std::uint32_t flags : {0u, 1u, 2u, 0x20u, 0x21u, 0x200u, 0x20040u})
         EXPECT_FALSE(ofKind(flags)) << flags;
 }
 
-TEST_F(PictureFile, ddsOfPlainPixelsNeedsAllOfThem)
+TEST_F(ImageIo, uncompressedDdsRequiresAllPixels)
 {
     std::string file = dx10(4, 4, 0).substr(0, 128);
     file.replace(80, 28, words({0x41, 0, 32, 0xff0000, 0xff00, 0xff, 0xff000000}));
@@ -107,9 +107,9 @@ TEST_F(PictureFile, ddsOfPlainPixelsNeedsAllOfThem)
         std::string::npos);
 }
 
-// Microsoft's DXGI_FORMAT and the letters of DDS_PIXELFORMAT, each with the bytes of a block of 4 x 4 pixels or of a
-// pixel. 5 x 7 pixels are 2 x 2 blocks.
-TEST_F(PictureFile, ddsOfEveryFormatIsHeldToItsBytesAndToldThemAll)
+// DXGI_FORMAT values and DDS_PIXELFORMAT FourCC codes by Microsoft, each with the bytes of a 4 x 4 block or of a pixel.
+// 5 x 7 pixels are 2 x 2 blocks.
+TEST_F(ImageIo, everyDdsFormatRequiresItsByteCount)
 {
     const struct {
         std::uint32_t first, last;
@@ -121,14 +121,14 @@ TEST_F(PictureFile, ddsOfEveryFormatIsHeldToItsBytesAndToldThemAll)
         const std::size_t each = std::size_t(block + pixel), count = block > 0 ? 4 : 35;
         const auto told = [&](std::size_t found) {
             return "a.dds: broken dds image: 5 x 7 pixels take " + std::to_string(count) + " times "
-                + std::to_string(each) + " bytes, the file has " + std::to_string(found) + " behind its header";
+                + std::to_string(each) + " bytes, the file has " + std::to_string(found) + " after its header";
         };
         for (const std::size_t found : {std::size_t(0), each * count - 1})
             EXPECT_EQ(messageOf(decodeImage(bytesOf(header + std::string(found, '\0')), "a.dds")), told(found));
         const std::string all = header + std::string(each * count, '\0');
-        EXPECT_EQ(messageOf(decodeImage(bytesOf(all), "a.dds")).find("behind its header"), std::string::npos);
+        EXPECT_EQ(messageOf(decodeImage(bytesOf(all), "a.dds")).find("after its header"), std::string::npos);
     };
-    const std::string unknown = "a.dds: broken dds image: its pixel format is not read here";
+    const std::string unknown = "a.dds: broken dds image: its pixel format is not supported";
     for (std::uint32_t format = 0; format < 120; ++format) {
         SCOPED_TRACE(format);
         const auto* const known = std::ranges::find_if(
@@ -152,18 +152,18 @@ TEST_F(PictureFile, ddsOfEveryFormatIsHeldToItsBytesAndToldThemAll)
                    int(bits) / 8);
 }
 
-TEST_F(PictureFile, ddsHeadersEndWhereTheirKindEndsAndLevelsAreAtMost32)
+TEST_F(ImageIo, ddsHeadersAreCompleteAndLevelsAreAtMost32)
 {
-    const std::string cut = "a.dds: broken dds image: its header goes on behind the end of the file";
+    const std::string cut = "a.dds: broken dds image: its header extends past the end of the file";
     const std::string newer = dx10(5, 7, 83), older = std::string(newer).replace(84, 4, "DXT5").substr(0, 128);
     for (const std::string& header : {newer, older}) {
         EXPECT_EQ(messageOf(decodeImage(bytesOf(header.substr(0, header.size() - 1)), "a.dds")), cut);
         EXPECT_EQ(messageOf(decodeImage(bytesOf(header), "a.dds")),
-                  "a.dds: broken dds image: 5 x 7 pixels take 4 times 16 bytes, the file has 0 behind its header");
+                  "a.dds: broken dds image: 5 x 7 pixels take 4 times 16 bytes, the file has 0 after its header");
     }
     const std::string many = dx10(4, 4, 83) + std::string(16, '\0');
     EXPECT_EQ(messageOf(decodeImage(bytesOf(std::string(many).replace(28, 1, 1, '\x21')), "a.dds")),
-              "a.dds: broken dds image: it has 33 levels, the most is 32");
+              "a.dds: broken dds image: it has 33 levels, the limit is 32");
     EXPECT_EQ(messageOf(decodeImage(bytesOf(std::string(many).replace(28, 1, 1, '\x20')), "a.dds")).find("levels"),
               std::string::npos);
 }

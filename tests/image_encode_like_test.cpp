@@ -1,4 +1,4 @@
-// Pictures in the format of another file.
+// Images encoded in the format and with the settings of another file.
 #include "cotan/image.hpp"
 
 #include <cmath>
@@ -40,8 +40,8 @@ double meanDifference(const Image& a, const Image& b)
 
 Image mapOf(int side) { return makeReliefMap(Relief::domes, side); }
 
-// A picture that went through JPEG once goes through the same tables again with next to no loss.
-TEST(EncodeLike, aJpegHasTheTablesTheSamplingAndTheScansOfTheOldOne)
+// An image decoded from a JPEG is encoded with the same tables again at almost no loss.
+TEST(EncodeLike, jpegKeepsTablesSamplingAndScans)
 {
     for (const int quality : {30, 75, 90, 100})
         for (const bool halved : {false, true}) {
@@ -51,7 +51,7 @@ TEST(EncodeLike, aJpegHasTheTablesTheSamplingAndTheScansOfTheOldOne)
             ASSERT_TRUE(made) << made.error().message;
             EXPECT_EQ(made->format, "JPEG");
             EXPECT_EQ(made->mime, "image/jpeg");
-            EXPECT_EQ(made->whyNot, "");
+            EXPECT_EQ(made->reason, "");
             EXPECT_NEAR(made->quality, quality, 1); // libjpeg rounds each step
             EXPECT_LE(made->bytes.size(), old.size() + old.size() / 50) << quality;
             const auto again = decodeImage(made->bytes, "new.jpg");
@@ -60,7 +60,7 @@ TEST(EncodeLike, aJpegHasTheTablesTheSamplingAndTheScansOfTheOldOne)
         }
 }
 
-TEST(EncodeLike, aWebpKeepsAllOrAboutTheQualityOfTheOldOne)
+TEST(EncodeLike, webpKeepsLosslessModeOrNearlyTheQuality)
 {
     const Image image = mapOf(128);
     const auto lossless = encodeLike(image, webpOf(image, 0));
@@ -73,30 +73,30 @@ TEST(EncodeLike, aWebpKeepsAllOrAboutTheQualityOfTheOldOne)
         const auto made = encodeLike(image, webpOf(image, float(quality)));
         ASSERT_TRUE(made) << made.error().message;
         EXPECT_EQ(made->mime, "image/webp");
-        EXPECT_NEAR(made->quality, quality, 10); // parts of a picture have their own
+        EXPECT_NEAR(made->quality, quality, 10); // regions of an image have their own quantisers
         EXPECT_GT(made->quality, last);
         last = made->quality;
         EXPECT_LT(meanDifference(*decodeImage(made->bytes, "new.webp"), image), 8) << quality;
     }
 }
 
-TEST(EncodeLike, allElseIsPngAndSaysWhy)
+TEST(EncodeLike, otherFormatsBecomePngWithAReason)
 {
     Image image = mapOf(16);
     const auto jpeg = jpegOf(image, {.quality = 80});
     const auto formatOf = [&](std::span<const std::byte> old) {
         const auto made = encodeLike(image, old);
-        return made->format + ": " + made->whyNot;
+        return made->format + ": " + made->reason;
     };
     EXPECT_EQ(formatOf(*encodePng(image)), "PNG: ");
     EXPECT_EQ(formatOf({}), "PNG: ");
     image.bytes8()[3] = 254;
     EXPECT_EQ(formatOf(jpeg), "PNG: JPEG has no alpha");
     image = makeImage(16, 16, PixelType::unorm16);
-    EXPECT_EQ(formatOf(jpeg), "PNG: JPEG has 8 bits, and 16 are wanted");
+    EXPECT_EQ(formatOf(jpeg), "PNG: JPEG has 8 bits, but 16 are required");
 }
 
-// Headers that end early say nothing of a quality; the picture is written all the same.
+// Truncated headers do not state a quality; the image is written all the same.
 TEST(EncodeLike, brokenOldFilesDoNoHarm)
 {
     const Image image = mapOf(16);
@@ -108,7 +108,7 @@ TEST(EncodeLike, brokenOldFilesDoNoHarm)
         }
 }
 
-// The content of the segments of a JPEG that begin with a marker, behind their length.
+// Contents of all segments of a JPEG file with the given marker, without their length fields.
 std::string segments(std::span<const std::byte> file, unsigned char marker)
 {
     const std::string text(reinterpret_cast<const char*>(file.data()), file.size());
@@ -123,21 +123,21 @@ std::string segments(std::span<const std::byte> file, unsigned char marker)
     return found;
 }
 
-// Of the frame's header: precision, height, width, then each component's number, sampling and table (ITU-T T.81).
-TEST(EncodeLike, aJpegHasTheOldStepsAndSamplingByteByByte)
+// The frame header has precision, height, width, then number, sampling and table of each component (ITU-T T.81).
+TEST(EncodeLike, jpegKeepsQuantisationAndSamplingByteForByte)
 {
     Image image = makeImage(37, 21, PixelType::unorm8);
     for (std::size_t i = 0; i < 4 * image.pixelCount(); ++i)
         image.bytes8()[i] = i % 4 == 3 ? 255 : std::uint8_t(i * 7);
-    for (const JpegMaking& making : {JpegMaking{.quality = 40},
-                                     {.quality = 40, .halved = true},
-                                     {.quality = 85, .halvedAcross = true},
-                                     {.quality = 85, .halvedAcross = true, .progressive = true},
-                                     {.quality = 60, .rgb = true}}) {
-        const auto old = jpegOf(image, making);
+    for (const JpegSettings& settings : {JpegSettings{.quality = 40},
+                                         {.quality = 40, .halved = true},
+                                         {.quality = 85, .halvedAcross = true},
+                                         {.quality = 85, .halvedAcross = true, .progressive = true},
+                                         {.quality = 60, .rgb = true}}) {
+        const auto old = jpegOf(image, settings);
         const auto made = encodeLike(image, old);
         ASSERT_TRUE(made) << made.error().message;
-        const unsigned char frame = making.progressive ? 0xc2 : 0xc0, other = making.progressive ? 0xc0 : 0xc2;
+        const unsigned char frame = settings.progressive ? 0xc2 : 0xc0, other = settings.progressive ? 0xc0 : 0xc2;
         ASSERT_EQ(segments(made->bytes, frame).size(), 15u);
         EXPECT_EQ(segments(made->bytes, frame), segments(old, frame));
         EXPECT_EQ(segments(made->bytes, other), "");
@@ -146,11 +146,11 @@ TEST(EncodeLike, aJpegHasTheOldStepsAndSamplingByteByByte)
         ASSERT_TRUE(again);
         EXPECT_EQ(again->channels, 3);
     }
-    for (const int quality : {25, 49, 50, 51, 97}) // below 25 libjpeg holds some steps at 255
+    for (const int quality : {25, 49, 50, 51, 97}) // below 25 libjpeg clamps some steps to 255
         EXPECT_NEAR(encodeLike(image, jpegOf(image, {.quality = quality}))->quality, quality, 1);
 }
 
-// The boolean encoder of RFC 6386, 7.3, for flags that are as likely as not.
+// Boolean encoder of RFC 6386, 7.3, for flags with a probability of one half.
 class FlagsOut {
 public:
     void flag(bool value)
@@ -177,14 +177,14 @@ public:
         return *this;
     }
 
-    // Whether it is there, its size, its sign.
+    // A flag for presence, then magnitude and sign.
     FlagsOut& optional(int value, int bits)
     {
         number(1, 1).number(std::abs(value), bits).flag(value < 0);
         return *this;
     }
 
-    // Enough flags behind it that what came before is in whole bytes.
+    // Pads with enough flags to flush all earlier ones into whole bytes.
     std::string done() { return number(0, 32).bytes_; }
 
 private:
@@ -202,9 +202,9 @@ private:
     int left_ = 24;
 };
 
-// RFC 6386, 9.2 to 9.6, and libwebp's own curve from a quality to the quantiser: 127 (1 - cbrt(linear)), where linear
-// is two thirds of the share up to 0.75 and twice the share less 1 above.
-TEST(EncodeLike, aWebpHasTheQualityOfTheQuantiserThatItsHeaderStates)
+// RFC 6386, 9.2 to 9.6, and libwebp's curve from quality to quantiser: 127 (1 - cbrt(linear)), where linear is two
+// thirds of the fraction quality/100 up to 0.75 and twice the fraction less 1 above.
+TEST(EncodeLike, webpQualityFollowsTheQuantiserInTheHeader)
 {
     const Image image = mapOf(16);
     const auto expectQuality = [&](double quantiser, FlagsOut bits, const std::string& before) {
@@ -213,10 +213,10 @@ TEST(EncodeLike, aWebpHasTheQualityOfTheQuantiserThatItsHeaderStates)
         const auto made = encodeLike(image, std::as_bytes(std::span(file)));
         ASSERT_TRUE(made) << made.error().message;
         const auto quantiserOf = [](double quality) {
-            const double share = quality / 100;
-            return 127 * (1 - std::cbrt(share < 0.75 ? share * 2 / 3 : 2 * share - 1));
+            const double fraction = quality / 100;
+            return 127 * (1 - std::cbrt(fraction < 0.75 ? fraction * 2 / 3 : 2 * fraction - 1));
         };
-        // Of all whole qualities the nearest in the curve's argument; those beside it are further off.
+        // The nearest whole quality in the curve's argument; its neighbours are farther away.
         EXPECT_GE(made->quality, 1);
         EXPECT_LE(made->quality, 100);
         if (made->quality > 1) {
@@ -230,7 +230,7 @@ TEST(EncodeLike, aWebpHasTheQualityOfTheQuantiserThatItsHeaderStates)
         expectQuality(
             quantiser,
             FlagsOut().number(0, 2).number(0, 1).number(0x155, 10).number(0, 1).number(0, 2).number(quantiser, 7), "");
-    // Segments: a map of them, and data; a quantiser each, or what is added to that of all; their loop filter, too.
+    // Segments with a map and data: each has an absolute or relative quantiser, and a loop filter.
     for (const bool map : {false, true})
         for (const bool absolute : {false, true}) {
             FlagsOut bits;
@@ -239,14 +239,14 @@ TEST(EncodeLike, aWebpHasTheQualityOfTheQuantiserThatItsHeaderStates)
             bits.optional(-63, 6).number(0, 1).optional(5, 6).number(0, 1);
             if (map)
                 bits.number(1, 1).number(0xa5, 8).number(0, 1).number(1, 1).number(0x3c, 8);
-            bits.number(0x2aa, 10).number(1, 1).number(1, 1); // filter by reference and mode
+            bits.number(0x2aa, 10).number(1, 1).number(1, 1); // filter deltas by reference and mode
             for (int i = 0; i < 8; ++i)
                 i % 3 == 0 ? bits.optional(i - 4, 6) : bits.number(0, 1);
             bits.number(2, 2).number(50, 7);
             expectQuality(absolute ? (44 + 12 + 0 + 16) / 4.0 : 50 + (44 - 20 + 0 + 16) / 4.0, bits,
                           riffChunk("ALPH", "odd"));
         }
-    // Segments whose quantisers stay as they were, and a filter of which nothing is changed.
+    // Segments whose quantisers stay unchanged, and filter deltas without an update.
     expectQuality(33,
                   FlagsOut()
                       .number(0, 2)
@@ -262,20 +262,20 @@ TEST(EncodeLike, aWebpHasTheQualityOfTheQuantiserThatItsHeaderStates)
                   "");
 }
 
-TEST(EncodeLike, whyAPictureIsPngIsSaidByTheOldFormat)
+TEST(EncodeLike, reasonForPngNamesTheOriginalFormat)
 {
     const Image image = mapOf(16);
-    const auto whyNot = [&](const std::string& old, const Image& picture) {
-        const auto made = encodeLike(picture, std::as_bytes(std::span(old)));
+    const auto whyNot = [&](const std::string& old, const Image& source) {
+        const auto made = encodeLike(source, std::as_bytes(std::span(old)));
         EXPECT_EQ(made->mime, "image/png");
         EXPECT_EQ(made->quality, 0);
-        EXPECT_EQ(decodeImage(made->bytes, "new")->data, picture.data);
-        return made->whyNot;
+        EXPECT_EQ(decodeImage(made->bytes, "new")->data, source.data);
+        return made->reason;
     };
-    EXPECT_EQ(whyNot("II*\0"s, image), "TIFF is not written here");
-    EXPECT_EQ(whyNot("GIF89a", image), "GIF is not written here");
-    EXPECT_EQ(whyNot("\xff\xd8\xff", image), "a grey JPEG has no directions, or this build has no libjpeg");
-    EXPECT_EQ(whyNot("RIFF1234WEBP", makeImage(2, 3, PixelType::unorm16)), "WebP has 8 bits, and 16 are wanted");
+    EXPECT_EQ(whyNot("II*\0"s, image), "TIFF cannot be written");
+    EXPECT_EQ(whyNot("GIF89a", image), "GIF cannot be written");
+    EXPECT_EQ(whyNot("\xff\xd8\xff", image), "a grey JPEG holds no normals, or this build has no libjpeg");
+    EXPECT_EQ(whyNot("RIFF1234WEBP", makeImage(2, 3, PixelType::unorm16)), "WebP has 8 bits, but 16 are required");
     Image clear = image;
     clear.bytes8()[4 * 255 + 3] = 0;
     EXPECT_EQ(whyNot("\xff\xd8\xff", clear), "JPEG has no alpha");

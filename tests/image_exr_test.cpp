@@ -1,4 +1,4 @@
-// OpenEXR files made by hand: attributes and blocks that are not what the header says.
+// Hand-made OpenEXR files whose attributes and blocks contradict the header.
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -8,12 +8,12 @@
 
 #include <gtest/gtest.h>
 
-#include "picture_file.hpp"
+#include "image_io.hpp"
 
 namespace cotan::test {
 namespace {
 
-TEST_F(PictureFile, exrAttributesLargerThanTheFileAreRefused)
+TEST_F(ImageIo, exrAttributesLargerThanTheFileAreRefused)
 {
     const std::string start("\x76\x2f\x31\x01\2\0\0\0", 8);
     for (const std::string& size : {std::string("\xff\xff\xff\x7f", 4), std::string("\xff\xff\xff\xff", 4)}) {
@@ -28,7 +28,7 @@ TEST_F(PictureFile, exrAttributesLargerThanTheFileAreRefused)
     EXPECT_FALSE(decodeImage(bytesOf(start), "a.exr"));
 }
 
-// A file of OpenEXR that has only a header: attributes of (name, type, size as stored, bytes).
+// An OpenEXR file that has only a header. Attributes are (name, type, size as stored, bytes).
 using ExrAttributes = std::vector<std::tuple<std::string, std::string, std::uint32_t, std::string>>;
 
 std::string exrHeader(const ExrAttributes& attributes)
@@ -43,7 +43,7 @@ std::string exrHeader(const ExrAttributes& attributes)
     return header + '\0';
 }
 
-// What every picture of one channel has. type: 1 halves, 2 floats.
+// The attributes that every single-channel image needs. type: 1 half, 2 float.
 ExrAttributes exrAttributes(const std::string& window, std::uint32_t type, char compression, std::uint32_t sampling = 1)
 {
     return {{"channels", "chlist", 19, std::string("R\0", 2) + words({type, 0, sampling, sampling}) + '\0'},
@@ -56,7 +56,7 @@ ExrAttributes exrAttributes(const std::string& window, std::uint32_t type, char 
             {"screenWindowWidth", "float", 4, words({0x3f800000})}};
 }
 
-TEST_F(PictureFile, exrBlocksLargerThanTheLimitsAreRefusedBeforeMemoryIsTaken)
+TEST_F(ImageIo, exrBlocksOverTheLimitsAreRefusedBeforeAllocation)
 {
     const std::string magic("\x76\x2f\x31\x01\2\0\0\0", 8);
     const std::string channels = std::string("R\0", 2) + words({1, 0, 1, 1}) + '\0';
@@ -77,13 +77,13 @@ TEST_F(PictureFile, exrBlocksLargerThanTheLimitsAreRefusedBeforeMemoryIsTaken)
             EXPECT_TRUE(error.memory) << error.message;
         }
     };
-    refused(0x1000000, 0, 0, ""); // 16.8 million pixels beside each other
+    refused(0x1000000, 0, 0, ""); // 16.8 million pixels in one row
     refused(0, 0x1000000, 0, "");
     refused(3, 3, 0, words({0x4000, 0x8000}) + '\0');               // tiles of 2 GB
-    refused(16383, 255, 9, words({0xffffffff, 0xffffffff}) + '\0'); // beyond 64 bits, were it not stopped
+    refused(16383, 255, 9, words({0xffffffff, 0xffffffff}) + '\0'); // overflows 64 bits unless checked
 }
 
-// 2 x 2 of one channel of floats, in blocks of a row; or in one tile, level 0. Parts: two of the same.
+// 2 x 2 pixels of one float channel, in blocks of one row or in one tile of level 0. `parts` makes two equal parts.
 std::string makeExr(bool tiled, bool parts, char compression)
 {
     ExrAttributes attributes = exrAttributes(words({0, 0, 1, 1}), 2, compression);
@@ -117,7 +117,7 @@ std::string makeExr(bool tiled, bool parts, char compression)
     return start + table + pixels;
 }
 
-TEST_F(PictureFile, exrBlocksThatAreNotThereOrTooShortAreRefusedWholeAndByRows)
+TEST_F(ImageIo, missingOrShortExrBlocksAreRefusedWholeAndByRows)
 {
     for (const bool tiled : {false, true})
         for (const bool parts : {false, true}) {
@@ -127,7 +127,7 @@ TEST_F(PictureFile, exrBlocksThatAreNotThereOrTooShortAreRefusedWholeAndByRows)
             EXPECT_EQ(image->floats()[0], 0.5f);
             const std::size_t blocks = tiled ? 1 : 2, before = (parts ? 4 : 0) + (tiled ? 16 : 4);
             const std::size_t first =
-                sound.size() - blocks * (parts ? 2 : 1) * (before + 4 + (tiled ? 16 : 8)); // behind the tables
+                sound.size() - blocks * (parts ? 2 : 1) * (before + 4 + (tiled ? 16 : 8)); // after the tables
             const std::size_t table = first - 8 * blocks * (parts ? 2 : 1);
             const auto refused = [&](std::size_t at, std::uint32_t value, const std::string& why, char compression) {
                 std::string file = makeExr(tiled, parts, compression);
@@ -137,18 +137,18 @@ TEST_F(PictureFile, exrBlocksThatAreNotThereOrTooShortAreRefusedWholeAndByRows)
                     EXPECT_NE(message.find(why), std::string::npos) << tiled << parts << ": " << message;
             };
             for (const char* const name :
-                 {"dataWindow", "compression", "channels"}) // once 64 x 64 of what the memory held
+                 {"dataWindow", "compression", "channels"}) // once an image of 64 x 64 uninitialised pixels
                 refused(sound.find(name + std::string(1, '\0')), 0x78787878, "lacks a data window", 0);
             refused(table, 0, "block 0 of " + std::to_string(blocks) + " is not in the file", 0);
             refused(table, 100000, "block 0 of " + std::to_string(blocks) + " is not in the file", 0);
             refused(first + before, 7, "block 0 has 7 bytes, expected " + std::to_string(tiled ? 16 : 8), 0);
-            refused(first + before, 0, "block 0 has 0 bytes, expected 1", 2); // once whatever the memory held
+            refused(first + before, 0, "block 0 has 0 bytes, expected 1", 2); // once uninitialised memory
             refused(first + before, 100000, "block 0 takes 100000 bytes from ", 2);
         }
 }
 
-// The size says that the header ends before what the reader of the type goes on to, an attribute of 1.7 GB.
-TEST_F(PictureFile, exrAttributesThatAreNotAsLongAsTheirTypeAreRefused)
+// A reader that ignores a wrong size loses its position and next finds an attribute of 1.7 GB.
+TEST_F(ImageIo, exrAttributesOfWrongSizeAreRefused)
 {
     const std::string scanLines("\x76\x2f\x31\x01\2\0\0\0", 8), tiles("\x76\x2f\x31\x01\2\2\0\0", 8),
         parts("\x76\x2f\x31\x01\2\x10\0\0", 8);
@@ -168,8 +168,8 @@ TEST_F(PictureFile, exrAttributesThatAreNotAsLongAsTheirTypeAreRefused)
                     + exrHeader({{"u", "unknown", 2, "ab"}, {"a", type, stored, bytes}}) + std::string(4, '\0') + huge;
                 const auto image = decodeImage(bytesOf(file), "a.exr");
                 ASSERT_FALSE(image);
-                // A true size passes the check, and what is missing is OpenEXR's to say.
-                EXPECT_EQ(image.error().message.find("which its type does not take") != std::string::npos,
+                // A true size passes this check; OpenEXR itself reports what else is missing.
+                EXPECT_EQ(image.error().message.find("which do not fit its type") != std::string::npos,
                           stored != size)
                     << type << ' ' << stored << ": " << image.error().message;
                 EXPECT_FALSE(openRows(write("a.exr", file)));
@@ -178,8 +178,8 @@ TEST_F(PictureFile, exrAttributesThatAreNotAsLongAsTheirTypeAreRefused)
     }
 }
 
-// Scan lines, or square tiles, of one channel that is not compressed; `type` 1: halves, 2: floats. A pixel's value is
-// 1 + x + 4 y of the data window, or 0.5 in halves.
+// Uncompressed scan lines or square tiles of one channel. type: 1 half, 2 float. The value of pixel (x, y) of the data
+// window is 1 + x + 4 y, or 0.5 for half.
 std::string plainExr(std::uint32_t left, std::uint32_t top, std::uint32_t width, std::uint32_t height,
                      std::uint32_t type, std::uint32_t tile)
 {
@@ -205,7 +205,7 @@ std::string plainExr(std::uint32_t left, std::uint32_t top, std::uint32_t width,
     return start + table + body;
 }
 
-TEST_F(PictureFile, exrOfAnyWindowTypeAndTilesHasItsValuesInTheirPlaces)
+TEST_F(ImageIo, everyExrLayoutIsReadCorrectly)
 {
     const struct {
         std::uint32_t left, top, width, height, type, tile;
@@ -231,8 +231,8 @@ TEST_F(PictureFile, exrOfAnyWindowTypeAndTilesHasItsValuesInTheirPlaces)
     }
 }
 
-// What OpenImageIO says of these is better than what could be said of their blocks.
-TEST_F(PictureFile, exrOfDeepOrSubsampledPixelsIsRefusedByItsName)
+// OpenImageIO's messages for these files are clearer than a message about their blocks could be.
+TEST_F(ImageIo, deepOrSubsampledExrIsRefusedByName)
 {
     const auto file = [](std::uint32_t version, std::uint32_t sampling, const std::string& type, std::uint32_t bytes) {
         ExrAttributes attributes = exrAttributes(words({0, 0, 1, 1}), 2, '\0', sampling);
@@ -255,7 +255,7 @@ TEST_F(PictureFile, exrOfDeepOrSubsampledPixelsIsRefusedByItsName)
             EXPECT_NE(message.find(why), std::string::npos) << message;
 }
 
-std::string toldOfExr(const std::string& file, const LoadLimits& limits = {})
+std::string exrMessage(const std::string& file, const LoadLimits& limits = {})
 {
     return messageOf(decodeImage(bytesOf(file), "a.exr", limits));
 }
@@ -264,8 +264,8 @@ const std::string kExrStart("\x76\x2f\x31\x01\2\0\0\0", 8);
 const std::string kBrokenExr = "a.exr: broken openexr image: ";
 const std::string kLacking = kBrokenExr + "its header lacks a data window, a compression or channels";
 
-// "OpenEXR File Layout", predefined attribute types.
-TEST_F(PictureFile, exrAttributesOfEveryTypeHaveItsBytesAndStayWithinTheFile)
+// Predefined attribute types of "OpenEXR File Layout" with their sizes in bytes.
+TEST_F(ImageIo, exrAttributesOfEveryTypeAreCheckedForSize)
 {
     const std::pair<const char*, std::uint32_t> types[] = {{"box2i", 16},         {"box2f", 16}, {"chromaticities", 32},
                                                            {"compression", 1},    {"double", 8}, {"envmap", 1},
@@ -277,30 +277,30 @@ TEST_F(PictureFile, exrAttributesOfEveryTypeHaveItsBytesAndStayWithinTheFile)
                                                            {"deepImageState", 1}, {"v3d", 24},   {"timecode", 8}};
     for (const auto& [type, size] : types)
         for (const std::uint32_t stored : {size - 1, size, size + 1})
-            EXPECT_EQ(toldOfExr(kExrStart + exrHeader({{"a", type, stored, std::string(stored, '\1')}})),
+            EXPECT_EQ(exrMessage(kExrStart + exrHeader({{"a", type, stored, std::string(stored, '\1')}})),
                       stored == size ? kLacking
                                      : kBrokenExr + "an attribute of its header has " + std::to_string(stored)
-                              + " bytes, which its type does not take")
+                              + " bytes, which do not fit its type")
                 << type;
-    for (const std::uint32_t stored : {0u, 1u, 7u}) // no more than the size counts
-        EXPECT_EQ(toldOfExr(kExrStart
-                            + exrHeader({{"a", "string", stored, std::string(stored, 's')},
-                                         {"b", "somebody's", stored, std::string(stored, 's')}})),
+    for (const std::uint32_t stored : {0u, 1u, 7u}) // for these types, any size is valid
+        EXPECT_EQ(exrMessage(kExrStart
+                             + exrHeader({{"a", "string", stored, std::string(stored, 's')},
+                                          {"b", "somebody's", stored, std::string(stored, 's')}})),
                   kLacking);
     const auto open = [](std::uint32_t size) { return kExrStart + std::string("a\0string\0", 9) + words({size}); };
-    EXPECT_EQ(toldOfExr(open(5) + "abcd"),
+    EXPECT_EQ(exrMessage(open(5) + "abcd"),
               kBrokenExr + "an attribute of its header takes 5 bytes, the file has 4 left");
-    EXPECT_EQ(toldOfExr(open(4) + "abcd"), kBrokenExr + "its header goes on behind the end of the file");
-    EXPECT_EQ(toldOfExr(kExrStart + exrHeader({{std::string(255, 'n'), std::string(255, 't'), 1, "x"}})), kLacking);
-    EXPECT_EQ(toldOfExr(kExrStart + exrHeader({{std::string(256, 'n'), "int", 4, "1234"}})),
+    EXPECT_EQ(exrMessage(open(4) + "abcd"), kBrokenExr + "its header extends past the end of the file");
+    EXPECT_EQ(exrMessage(kExrStart + exrHeader({{std::string(255, 'n'), std::string(255, 't'), 1, "x"}})), kLacking);
+    EXPECT_EQ(exrMessage(kExrStart + exrHeader({{std::string(256, 'n'), "int", 4, "1234"}})),
               kBrokenExr + "an attribute of its header has a name without an end");
-    EXPECT_NE(toldOfExr(kExrStart + exrHeader({{"n", std::string(256, 't'), 4, "1234"}}))
+    EXPECT_NE(exrMessage(kExrStart + exrHeader({{"n", std::string(256, 't'), 4, "1234"}}))
                   .find("an attribute of its header takes"),
               std::string::npos);
 }
 
-// Rows of a block by compression: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB. The table is of zeros.
-TEST_F(PictureFile, exrBlocksAreCountedByTheirRowsOrTilesAndTheirBytesAgainstTheLimits)
+// Rows of a block by compression: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB. The offset table is zero.
+TEST_F(ImageIo, exrBlockCountsFollowRowsOrTilesAndLimits)
 {
     const auto file = [](std::uint32_t width, std::uint32_t height, char compression, std::uint32_t across = 0,
                          std::uint32_t down = 0) {
@@ -316,7 +316,7 @@ TEST_F(PictureFile, exrBlocksAreCountedByTheirRowsOrTilesAndTheirBytesAgainstThe
     for (char compression = 0; compression < 10; ++compression) {
         const std::uint32_t each = rows[std::size_t(compression)];
         for (const std::uint32_t height : {1u, 256u, 257u, 300u})
-            EXPECT_EQ(toldOfExr(file(3, height, compression)), missing((height + each - 1) / each))
+            EXPECT_EQ(exrMessage(file(3, height, compression)), missing((height + each - 1) / each))
                 << int(compression) << ' ' << height;
         // 3 pixels of 4 bytes in each row of a block.
         LoadLimits limits;
@@ -328,27 +328,27 @@ TEST_F(PictureFile, exrBlocksAreCountedByTheirRowsOrTilesAndTheirBytesAgainstThe
                   kBrokenExr + "its blocks have " + std::to_string(3 * each) + " pixels of 4 bytes, the limit is "
                       + std::to_string(12 * each - 1) + " bytes");
         limits.imageBytes = 12 * each;
-        EXPECT_EQ(toldOfExr(file(3, 300, compression), limits), missing((300 + each - 1) / each));
+        EXPECT_EQ(exrMessage(file(3, 300, compression), limits), missing((300 + each - 1) / each));
     }
-    EXPECT_EQ(toldOfExr(file(3, 9, 10)), missing(9)); // of a compression that nobody knows
-    EXPECT_EQ(toldOfExr(file(5, 7, 0, 2, 3)), missing(3 * 3));
-    EXPECT_EQ(toldOfExr(file(5, 7, 0, 3, 2)), missing(2 * 4));
-    EXPECT_EQ(toldOfExr(file(6, 7, 0, 3, 7)), missing(2 * 1));
+    EXPECT_EQ(exrMessage(file(3, 9, 10)), missing(9)); // unknown compression
+    EXPECT_EQ(exrMessage(file(5, 7, 0, 2, 3)), missing(3 * 3));
+    EXPECT_EQ(exrMessage(file(5, 7, 0, 3, 2)), missing(2 * 4));
+    EXPECT_EQ(exrMessage(file(6, 7, 0, 3, 7)), missing(2 * 1));
     LoadLimits limits;
     limits.imageBytes = 4 * 30 * 20 - 1;
-    EXPECT_EQ(toldOfExr(file(5, 7, 0, 30, 20), limits),
+    EXPECT_EQ(exrMessage(file(5, 7, 0, 30, 20), limits),
               kBrokenExr + "its blocks have 600 pixels of 4 bytes, the limit is 2399 bytes");
     limits.imageBytes += 1;
-    EXPECT_EQ(toldOfExr(file(5, 7, 0, 30, 20), limits), missing(1));
+    EXPECT_EQ(exrMessage(file(5, 7, 0, 30, 20), limits), missing(1));
     limits = {};
     limits.imageSide = 6;
-    EXPECT_EQ(toldOfExr(file(7, 5, 0), limits), kBrokenExr + "7 x 5 pixels, the limit is 6 a side");
-    EXPECT_EQ(toldOfExr(file(5, 7, 0), limits), kBrokenExr + "5 x 7 pixels, the limit is 6 a side");
-    EXPECT_EQ(toldOfExr(file(6, 6, 0), limits), missing(6));
+    EXPECT_EQ(exrMessage(file(7, 5, 0), limits), kBrokenExr + "7 x 5 pixels, the limit is 6 per side");
+    EXPECT_EQ(exrMessage(file(5, 7, 0), limits), kBrokenExr + "5 x 7 pixels, the limit is 6 per side");
+    EXPECT_EQ(exrMessage(file(6, 6, 0), limits), missing(6));
 }
 
-// Every block of a file, at the edges too, has as many bytes as the pixels in it; halves two a pixel and floats four.
-TEST_F(PictureFile, exrBlocksOfOneByteLessThanTheirPixelsAreToldByNumber)
+// Every block, also at the edges, must have the bytes of its pixels: 2 for each half, 4 for each float.
+TEST_F(ImageIo, exrBlocksOneByteTooShortAreReportedByNumber)
 {
     for (const std::uint32_t type : {1u, 2u})
         for (const std::uint32_t tile : {0u, 2u}) {
@@ -360,13 +360,13 @@ TEST_F(PictureFile, exrBlocksOfOneByteLessThanTheirPixelsAreToldByNumber)
             std::size_t at = file.size() - width * height * bytes - count * (before + 4);
             for (std::uint32_t i = 0; i < count; ++i) {
                 const std::uint32_t pixels = tile == 0 ? width : (i % across == 0 ? 2 : 1) * (i / across < 2 ? 2 : 1);
-                const std::string told = "block " + std::to_string(i) + " has " + std::to_string(pixels * bytes - 1)
-                    + " bytes, expected " + std::to_string(pixels * bytes);
-                EXPECT_EQ(toldOfExr(std::string(file).replace(at + before, 4, words({pixels * bytes - 1}))),
-                          kBrokenExr + told);
+                const std::string wrongSize = "block " + std::to_string(i) + " has "
+                    + std::to_string(pixels * bytes - 1) + " bytes, expected " + std::to_string(pixels * bytes);
+                EXPECT_EQ(exrMessage(std::string(file).replace(at + before, 4, words({pixels * bytes - 1}))),
+                          kBrokenExr + wrongSize);
                 const std::string beyond = "block " + std::to_string(i) + " takes 99999 bytes from "
                     + std::to_string(at + before + 4) + ", the file has " + std::to_string(file.size());
-                EXPECT_EQ(toldOfExr(std::string(file).replace(at + before, 4, words({99999}))), kBrokenExr + beyond);
+                EXPECT_EQ(exrMessage(std::string(file).replace(at + before, 4, words({99999}))), kBrokenExr + beyond);
                 at += before + 4 + pixels * bytes;
             }
             EXPECT_EQ(at, file.size());

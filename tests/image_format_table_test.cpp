@@ -1,11 +1,11 @@
-// The table of image formats says what readers and writers do.
+// The table of image formats agrees with what readers and writers do.
 #include "image/format_table.hpp"
 
 #include <algorithm>
 #include <cctype>
 
 #include "cotan/image.hpp"
-#include "picture_file.hpp"
+#include "image_io.hpp"
 
 namespace cotan::test {
 namespace {
@@ -37,7 +37,7 @@ Image ramp(PixelType type)
 
 constexpr std::array kTypes = {PixelType::unorm8, PixelType::unorm16, PixelType::float32};
 
-TEST_F(PictureFile, namesInCapitalsAreWrittenAsTheirTwinsInSmallLetters)
+TEST_F(ImageIo, upperCaseEndingsWriteTheSameFile)
 {
     for (const ImageFormat& format : kImageFormats)
         for (const std::string_view ending : format.endings) {
@@ -61,7 +61,7 @@ TEST_F(PictureFile, namesInCapitalsAreWrittenAsTheirTwinsInSmallLetters)
         }
 }
 
-TEST_F(PictureFile, theTableSaysWhichBitsAndAlphaAWrittenFileKeeps)
+TEST_F(ImageIo, formatTableStatesStoredBitsAndAlpha)
 {
     for (const ImageFormat& format : kImageFormats) {
         const auto file = folder / ("a" + std::string(format.endings[0]));
@@ -96,7 +96,7 @@ TEST_F(PictureFile, theTableSaysWhichBitsAndAlphaAWrittenFileKeeps)
     }
 }
 
-TEST_F(PictureFile, theTableSaysHowFilesBegin)
+TEST_F(ImageIo, formatTableStatesFileSignatures)
 {
     for (const ImageFormat& format : kImageFormats) {
         if (!format.writes)
@@ -109,7 +109,7 @@ TEST_F(PictureFile, theTableSaysHowFilesBegin)
             EXPECT_EQ(found, nullptr);
         else
             ASSERT_TRUE(found && found->name == format.name) << format.name;
-        // Contents count, not the name; but for TGA.
+        // Contents decide the format, not the name, except for TGA.
         if (format.name != "TGA") {
             EXPECT_TRUE(decodeImage(bytesOf(bytes), "a.unknown")) << format.name;
         }
@@ -120,7 +120,7 @@ TEST_F(PictureFile, theTableSaysHowFilesBegin)
     EXPECT_EQ(imageFormatOf(bytesOf("RIFF1234WEBP"))->name, "WebP");
 }
 
-TEST(ImageFormats, areFoundByTheirEndingsWithoutRegardToCase)
+TEST(ImageFormats, areFoundByEndingIgnoringCase)
 {
     EXPECT_EQ(imageFormatOf(std::filesystem::path("a/B.ExR"))->name, "EXR");
     EXPECT_EQ(imageFormatOf(std::filesystem::path("x.TIFF"))->name, "TIFF");
@@ -135,7 +135,7 @@ TEST(ImageFormats, areFoundByTheirEndingsWithoutRegardToCase)
     EXPECT_FALSE(isAnimation("a.png"));
 }
 
-TEST(ImageFormats, endingsAreListedForPeople)
+TEST(ImageFormats, endingsAreListedForMessages)
 {
     EXPECT_EQ(imageEndings(&ImageFormat::animation), ".webp .gif");
     EXPECT_EQ(imageEndings(&ImageFormat::animation, ", ", " or "), ".webp or .gif");

@@ -1,11 +1,11 @@
-// The frame that a normal map was made for, as image files carry it: key cotanFrame.
+// The tangent frame that a normal map was made for, as image files store it under the key cotanFrame.
 #include <array>
 
 #include <gtest/gtest.h>
 
 #include "image/component_types.hpp"
 #include "ktx2_maker.hpp"
-#include "picture_file.hpp"
+#include "image_io.hpp"
 #include "png_maker.hpp"
 
 namespace cotan::test {
@@ -26,7 +26,7 @@ Image flatMap(PixelType type, const std::string& frame)
     return image;
 }
 
-// One pixel of 8 bits behind these chunks.
+// One pixel of 8 bits after the given chunks.
 Result<Image> pngWith(const std::string& chunks)
 {
     Png png;
@@ -35,7 +35,7 @@ Result<Image> pngWith(const std::string& chunks)
     return decodeImage(makePng(png), "a.png");
 }
 
-TEST_F(PictureFile, pngAndExrCarryTheFrameOfAMapWholeAndByRows)
+TEST_F(ImageIo, pngAndExrStoreTheFrameWholeAndByRows)
 {
     for (const char* name : {"a.png", "a.exr"})
         for (const PixelType type : {PixelType::unorm8, PixelType::unorm16, PixelType::float32}) {
@@ -54,7 +54,7 @@ TEST_F(PictureFile, pngAndExrCarryTheFrameOfAMapWholeAndByRows)
         }
 }
 
-TEST_F(PictureFile, theFrameIsStoredAsOtherReadersFindIt)
+TEST_F(ImageIo, frameIsStoredInStandardMetadata)
 {
     ASSERT_TRUE(writeImage(folder / "a.png", flatMap(PixelType::unorm8, "smooth")));
     EXPECT_NE(wholeFile(folder / "a.png").find(chunk("tEXt", "cotanFrame\0smooth"s)), std::string::npos);
@@ -64,7 +64,7 @@ TEST_F(PictureFile, theFrameIsStoredAsOtherReadersFindIt)
     EXPECT_NE(wholeFile(folder / "a.exr").find("cotanFrame\0string\0\6\0\0\0smooth"s), std::string::npos);
 }
 
-TEST_F(PictureFile, aMapWithoutAFrameIsStoredWithoutTheKey)
+TEST_F(ImageIo, mapWithoutFrameIsStoredWithoutTheKey)
 {
     for (const char* name : {"a.png", "a.exr", "a.tif", "a.tga", "a.jpg", "a.hdr"}) {
         ASSERT_TRUE(writeImage(folder / name, flatMap(PixelType::float32, "")));
@@ -73,7 +73,7 @@ TEST_F(PictureFile, aMapWithoutAFrameIsStoredWithoutTheKey)
     }
 }
 
-TEST_F(PictureFile, formatsWithoutAPlaceForTheFrameAreWrittenAsEver)
+TEST_F(ImageIo, formatsWithoutFrameMetadataAreWrittenUnchanged)
 {
     for (const char* name : {"a.tif", "a.tga", "a.jpg", "a.hdr"}) {
         ASSERT_TRUE(writeImage(folder / name, flatMap(PixelType::unorm8, "")));
@@ -83,7 +83,7 @@ TEST_F(PictureFile, formatsWithoutAPlaceForTheFrameAreWrittenAsEver)
     }
 }
 
-TEST(ImageFrame, ofPngIsReadFromBothPlainChunksOfText)
+TEST(ImageFrame, pngFrameIsReadFromUncompressedTextChunks)
 {
     EXPECT_EQ(pngWith(chunk("tEXt", "cotanFrame\0smooth"s))->frame, "smooth");
     EXPECT_EQ(pngWith(chunk("iTXt", "cotanFrame\0\0\0\0\0smooth"s))->frame, "smooth");
@@ -91,21 +91,21 @@ TEST(ImageFrame, ofPngIsReadFromBothPlainChunksOfText)
     EXPECT_EQ(pngWith(chunk("tEXt", "Title\0x"s) + chunk("tEXt", "cotanFrame\0gradient"s))->frame, "gradient");
 }
 
-TEST(ImageFrame, whatIsNoWordIsNotTaken)
+TEST(ImageFrame, invalidFrameNamesAreIgnored)
 {
     for (const std::string& value : {""s, std::string(65, 'x'), "two words"s, "line\nbreak"s, "\x1b[31m"s, "h\xe9"s}) {
         EXPECT_EQ(pngWith(chunk("tEXt", "cotanFrame\0"s + value))->frame, "") << value;
         EXPECT_EQ(pngWith(chunk("iTXt", "cotanFrame\0\0\0\0\0"s + value))->frame, "") << value;
     }
     EXPECT_EQ(pngWith(chunk("tEXt", "cotanFrame\0"s + std::string(64, 'x')))->frame, std::string(64, 'x'));
-    // Cut short, compressed, another key.
+    // Truncated, compressed, or under another key.
     for (const std::string& data : {"cotanFrame"s, "cotanFrame\0"s, "cotanFrame\0\0"s, "cotanFrame\0\0\0de"s,
                                     "cotanFrame\0\1\0\0\0x\x9c"s, "cotanFramed\0\0\0\0\0smooth"s, ""s})
         EXPECT_EQ(pngWith(chunk("iTXt", data))->frame, "") << data;
     EXPECT_EQ(pngWith(chunk("zTXt", "cotanFrame\0\0smooth"s))->frame, "");
 }
 
-TEST(ImageFrame, ofKtx2IsAKeyAndItsValue)
+TEST(ImageFrame, ktx2FrameIsAKeyAndItsValue)
 {
     const auto frameOf = [](const std::string& key) {
         const std::string file = makeKtx2({.levels = {{"rgba"}}, .keys = {"KTXorientation\0rd\0"s, key}});
@@ -117,7 +117,7 @@ TEST(ImageFrame, ofKtx2IsAKeyAndItsValue)
     EXPECT_EQ(frameOf("cotanFrame\0two words\0"s), "");
 }
 
-TEST(ImageFrame, isKeptWhenAnImageIsMade8Bits)
+TEST(ImageFrame, isKeptByConversionTo8Bits)
 {
     EXPECT_EQ(toUnorm8(flatMap(PixelType::float32, "smooth")).frame, "smooth");
     EXPECT_EQ(toUnorm8(flatMap(PixelType::unorm16, "smooth")).frame, "smooth");

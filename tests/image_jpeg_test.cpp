@@ -1,10 +1,10 @@
-// JPEG files of many scans.
+// JPEG files with many scans.
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "jpeg_maker.hpp"
-#include "picture_file.hpp"
+#include "image_io.hpp"
 
 namespace cotan::test {
 namespace {
@@ -19,21 +19,21 @@ std::string makeJpeg(int width, int height, bool progressive)
     return {reinterpret_cast<const char*>(file.data()), file.size()};
 }
 
-TEST_F(PictureFile, jpegOfOddSizeIsReadWithEveryNumberOfScans)
+TEST_F(ImageIo, baselineAndProgressiveJpegOfOddSizeAreRead)
 {
     for (const bool progressive : {false, true}) {
         const auto image = decodeImage(bytesOf(makeJpeg(37, 21, progressive)), "a.jpg");
         ASSERT_TRUE(image) << image.error().message;
         EXPECT_EQ(image->width, 37);
         EXPECT_EQ(image->height, 21);
-        // A ramp survives quality 75 within a few steps.
+        // A ramp survives quality 75 within a few codes.
         EXPECT_NEAR(component(*image, 10, 15, 0), 195, 12);
         EXPECT_EQ(component(*image, 36, 20, 3), 255);
     }
 }
 
-// The library's words stand in a sentence of ours.
-TEST_F(PictureFile, aBrokenJpegIsToldByFileExpectedAndFound)
+// The message of libjpeg is quoted inside our own sentence.
+TEST_F(ImageIo, brokenJpegErrorNamesFileExpectedAndFound)
 {
     const std::string file = makeJpeg(37, 21, false);
     const auto refused = decodeImage(bytesOf(file.substr(0, file.size() / 2)), "a.jpg");
@@ -43,7 +43,7 @@ TEST_F(PictureFile, aBrokenJpegIsToldByFileExpectedAndFound)
         << refused.error().message;
 }
 
-TEST_F(PictureFile, jpegScansAreCountedBeforeTheyAreDecoded)
+TEST_F(ImageIo, jpegScansAreCountedBeforeTheyAreDecoded)
 {
     const std::string file = makeJpeg(64, 64, true);
     const std::size_t last = file.rfind("\xff\xda");
@@ -55,7 +55,7 @@ TEST_F(PictureFile, jpegScansAreCountedBeforeTheyAreDecoded)
     const auto refused = decodeImage(bytesOf(many + end), "a.jpg");
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().message.find("expected at most 100 scans"), std::string::npos) << refused.error().message;
-    // Ten scans of 30000 x 30000 pixels: over the limit in all. The size stands behind the frame's marker.
+    // Ten scans of 30000 x 30000 pixels exceed the limit in total. The size follows the frame marker.
     std::string large = file;
     const std::size_t frame = large.find("\xff\xc2");
     ASSERT_NE(frame, std::string::npos);
@@ -69,7 +69,7 @@ TEST_F(PictureFile, jpegScansAreCountedBeforeTheyAreDecoded)
 }
 
 // Three components of 64 x 64 coefficients of two bytes are 24576 bytes; the pixels take 16384.
-TEST_F(PictureFile, coefficientsOfAProgressiveJpegCountAgainstTheLimit)
+TEST_F(ImageIo, coefficientsOfAProgressiveJpegCountAgainstTheLimit)
 {
     LoadLimits limits;
     limits.imageBytes = 20000;
@@ -81,8 +81,8 @@ TEST_F(PictureFile, coefficientsOfAProgressiveJpegCountAgainstTheLimit)
     EXPECT_TRUE(decodeImage(bytesOf(makeJpeg(64, 64, true)), "a.jpg", limits));
 }
 
-// libjpeg would go on with grey, or with what it made of the bits. Of these it says so in progressive files.
-TEST_F(PictureFile, jpegWhosePixelsEndEarlyOrAreNoCodesIsRefused)
+// libjpeg would continue with grey or with wrongly decoded bits, and reports the latter only in progressive files.
+TEST_F(ImageIo, jpegWithTruncatedOrInvalidCodesIsRefused)
 {
     const struct {
         bool progressive;
@@ -100,14 +100,14 @@ TEST_F(PictureFile, jpegWhosePixelsEndEarlyOrAreNoCodesIsRefused)
     }
 }
 
-// A hundred scans are read, whatever looks like one inside of other segments, and one more is not.
-TEST_F(PictureFile, jpegOfAHundredScansIsReadAndOfOneMoreToldWithItsNumbers)
+// 100 scans are read and 101 are refused; bytes inside other segments that look like a scan marker do not count.
+TEST_F(ImageIo, jpegScansAreLimitedTo100)
 {
     const std::string file = makeJpeg(40, 24, true);
     std::size_t scans = 0;
     for (std::size_t at = file.find("\xff\xda"); at != std::string::npos; at = file.find("\xff\xda", at + 1))
         ++scans;
-    // The first one, coarse, may come again before the others; a table of codes is behind it.
+    // The first, coarse scan may be repeated before the others; it ends where the next Huffman table begins.
     const std::size_t first = file.find("\xff\xda"), behind = file.find("\xff\xc4", first);
     ASSERT_NE(behind, std::string::npos);
     const auto with = [&](std::size_t count) {
@@ -119,13 +119,13 @@ TEST_F(PictureFile, jpegOfAHundredScansIsReadAndOfOneMoreToldWithItsNumbers)
     EXPECT_EQ(messageOf(decodeImage(bytesOf(with(100)), "a.jpg")), "accepted");
     EXPECT_EQ(
         messageOf(decodeImage(bytesOf(with(101)), "a.jpg")),
-        "a.jpg: expected at most 100 scans and 4000000000 pixels in all of them, found 101 scans of 40 x 24 pixels");
+        "a.jpg: expected at most 100 scans and 4000000000 pixels in all, found 101 scans of 40 x 24 pixels");
     std::string comment;
     for (int i = 0; i < 150; ++i)
         comment += "\xff\xda";
     const std::string noted = file.substr(0, 2) + std::string("\xff\xfe\x01\x2e", 4) + comment + file.substr(2);
     EXPECT_EQ(messageOf(decodeImage(bytesOf(noted), "a.jpg")), "accepted");
-    // Coefficients: 5 x 3 blocks of 64 in each of 3 components, of two bytes.
+    // Coefficients: 5 x 3 blocks of 64 in each of 3 components, two bytes each.
     LoadLimits limits;
     limits.imageBytes = 2 * 3 * 15 * 64 - 1;
     EXPECT_EQ(messageOf(decodeImage(bytesOf(file), "a.jpg", limits)),

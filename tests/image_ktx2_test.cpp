@@ -1,4 +1,4 @@
-// KTX 2.0 files: formats, packings, keys; cut short and lying.
+// KTX 2.0 files: formats, supercompression, keys; truncated files and files with false headers.
 #include "cotan/image.hpp"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ std::vector<double> texel(const Image& image, std::size_t i)
     return t;
 }
 
-TEST(Ktx2, everyPlainFormatComesBackAsItIsStored)
+TEST(Ktx2, everyUncompressedFormatRoundTrips)
 {
     using V = std::vector<double>;
     const struct {
@@ -72,7 +72,7 @@ TEST(Ktx2, everyPlainFormatComesBackAsItIsStored)
     }
 }
 
-TEST(Ktx2, packedLevelsAreUnpackedAndTheLargestIsTaken)
+TEST(Ktx2, supercompressedLevelsAreUnpackedAndTheLargestIsRead)
 {
     const std::string large = ramp(4 * 6 * 4), small = ramp(2 * 3 * 4), least = ramp(4);
     const auto plain = ktx2Image(makeKtx2({.width = 6, .height = 4, .levels = {{large}, {ramp(3 * 2 * 4)}, {least}}}));
@@ -88,7 +88,7 @@ TEST(Ktx2, packedLevelsAreUnpackedAndTheLargestIsTaken)
     EXPECT_EQ(d->data, plain->data);
 }
 
-TEST(Ktx2, keysTurnRowsAndChannels)
+TEST(Ktx2, orientationAndSwizzleKeysAreApplied)
 {
     const auto agNormal =
         ktx2Image(makeKtx2({.format = 16, .levels = {{"\x10\x20"}}, .keys = {"KTXswizzle\0rrrg\0"s}}));
@@ -97,9 +97,9 @@ TEST(Ktx2, keysTurnRowsAndChannels)
     const auto normal = ktx2Image(makeKtx2({.format = 16, .levels = {{"\x10\x20"}}, .keys = {"KTXswizzle\0rg01\0"s}}));
     ASSERT_TRUE(normal);
     EXPECT_EQ(texel(*normal, 0), (std::vector<double>{16, 32, 128, 255}));
-    const auto turned = ktx2Image(makeKtx2({.levels = {{"\x10\x20\x30\x40"}}, .keys = {"KTXswizzle\0a01g\0"s}}));
-    ASSERT_TRUE(turned);
-    EXPECT_EQ(texel(*turned, 0), (std::vector<double>{64, 0, 255, 32}));
+    const auto swizzled = ktx2Image(makeKtx2({.levels = {{"\x10\x20\x30\x40"}}, .keys = {"KTXswizzle\0a01g\0"s}}));
+    ASSERT_TRUE(swizzled);
+    EXPECT_EQ(texel(*swizzled, 0), (std::vector<double>{64, 0, 255, 32}));
     const Ktx2File up{.format = 9, .height = 3, .levels = {{"\1\2\3"}}, .keys = {"by\0me\0"s, "KTXorientation\0ru\0"s}};
     const auto flipped = ktx2Image(makeKtx2(up));
     ASSERT_TRUE(flipped) << flipped.error().message;
@@ -108,15 +108,15 @@ TEST(Ktx2, keysTurnRowsAndChannels)
     EXPECT_EQ(texel(*flipped, 2)[0], 1);
 }
 
-// A block of BC4 is two ends and sixteen places of 3 bits: place 0 is the first end, 1 the second; with the first the
-// larger, 2 to 7 are sevenths between them.
+// A BC4 block has two endpoints and sixteen indices of 3 bits. Index 0 is the first endpoint, 1 the second; with the
+// larger endpoint first, 2 to 7 interpolate in sevenths.
 TEST(Ktx2, blocksAreDecoded)
 {
-    const auto block = [](int first, int second, std::uint64_t place) {
-        std::uint64_t places = 0;
+    const auto block = [](int first, int second, std::uint64_t index) {
+        std::uint64_t indices = 0;
         for (int i = 0; i < 16; ++i)
-            places |= place << 3 * i;
-        return ""s + char(first) + char(second) + little(places, 6);
+            indices |= index << 3 * i;
+        return ""s + char(first) + char(second) + little(indices, 6);
     };
     const auto bc5 =
         ktx2Image(makeKtx2({.format = 141,
@@ -129,7 +129,7 @@ TEST(Ktx2, blocksAreDecoded)
     const auto bc4 = ktx2Image(makeKtx2({.format = 139, .width = 4, .height = 4, .levels = {{block(240, 30, 1)}}}));
     ASSERT_TRUE(bc4) << bc4.error().message;
     EXPECT_EQ(texel(*bc4, 15), (std::vector<double>{30, 30, 30, 255}));
-    // BC1: 5:6:5 white and black, all the first; BC3 with alpha in front; zstd around it.
+    // BC1: white and black in 5:6:5, all indices 0; BC3 with alpha before it; zstd around it.
     const std::string white = "\xff\xff\0\0"s + std::string(4, '\0');
     const auto bc1 = ktx2Image(makeKtx2({.format = 132, .width = 4, .height = 4, .levels = {{white}}}));
     ASSERT_TRUE(bc1) << bc1.error().message;
@@ -138,35 +138,35 @@ TEST(Ktx2, blocksAreDecoded)
         {.format = 137, .width = 4, .height = 4, .packing = 2, .levels = {{zstd(block(90, 9, 0) + white), 16}}}));
     ASSERT_TRUE(bc3) << bc3.error().message;
     EXPECT_EQ(texel(*bc3, 5), (std::vector<double>{255, 255, 255, 90}));
-    // BC2: four bits of alpha each.
+    // BC2: 4 bits of alpha for each pixel.
     const auto bc2 =
         ktx2Image(makeKtx2({.format = 135, .width = 4, .height = 4, .levels = {{std::string(8, '\xaa') + white}}}));
     ASSERT_TRUE(bc2) << bc2.error().message;
     EXPECT_EQ(texel(*bc2, 5), (std::vector<double>{255, 255, 255, 170}));
-    // BC7, mode 5 of a block of zeros but its mode: black, and alpha of 0.
+    // BC7, mode 5, with every other bit zero: black with alpha 0.
     const auto bc7 =
         ktx2Image(makeKtx2({.format = 145, .width = 4, .height = 4, .levels = {{"\x20"s + std::string(15, '\0')}}}));
     ASSERT_TRUE(bc7) << bc7.error().message;
     EXPECT_EQ(texel(*bc7, 0), (std::vector<double>{0, 0, 0, 0}));
 }
 
-TEST(Ktx2, basisIsRefusedWithTheCommandThatHelps)
+TEST(Ktx2, basisErrorNamesTheCommandToTranscodeIt)
 {
     const auto etc1s = ktx2Image(makeKtx2({.format = 0, .packing = 1, .levels = {{"some"}}, .colourModel = 163}));
     ASSERT_FALSE(etc1s);
     EXPECT_EQ(etc1s.error().kind, ErrorKind::unavailable);
     EXPECT_EQ(
         etc1s.error().message,
-        "a.ktx2: BasisU (ETC1S) is not decoded here; \"ktx transcode --target rgba8 IN.ktx2 OUT.ktx2\" makes a file "
-        "that is, and \"gltf-transform ktxdecompress IN.glb OUT.glb\" such a model");
+        "a.ktx2: BasisU (ETC1S) is not supported; \"ktx transcode --target rgba8 IN.ktx2 OUT.ktx2\" converts a file, "
+        "\"gltf-transform ktxdecompress IN.glb OUT.glb\" a model");
     const std::string uastc = makeKtx2({.format = 0, .packing = 2, .levels = {{"some"}}, .colourModel = 166});
     EXPECT_NE(ktx2Refusal(uastc).find("BasisU (UASTC)"), std::string::npos);
-    EXPECT_EQ(foreignFormat(std::as_bytes(std::span(uastc))), "KTX2 with BasisU (UASTC)");
-    EXPECT_NE(ktx2Refusal(makeKtx2({.format = 157, .levels = {{"some"}}})).find("ASTC is not decoded"),
+    EXPECT_EQ(unreadableFormat(std::as_bytes(std::span(uastc))), "KTX2 with BasisU (UASTC)");
+    EXPECT_NE(ktx2Refusal(makeKtx2({.format = 157, .levels = {{"some"}}})).find("ASTC is not supported"),
               std::string::npos);
 }
 
-TEST(Ktx2, filesThatEndTooSoonAreRefusedWhereverTheyEnd)
+TEST(Ktx2, truncatedFilesAreRefusedAtEveryLength)
 {
     const std::string file = makeKtx2(
         {.width = 6, .height = 4, .packing = 2, .levels = {{zstd(ramp(96)), 96}}, .keys = {"KTXswizzle\0rgba\0"s}});
@@ -178,8 +178,8 @@ TEST(Ktx2, filesThatEndTooSoonAreRefusedWhereverTheyEnd)
     }
 }
 
-// The longer side says how many there are: 8, 4, 2, 1.
-TEST(Ktx2, thinPicturesHaveTheLevelsOfTheirLongerSide)
+// The longer side determines the number of levels: 8, 4, 2, 1.
+TEST(Ktx2, levelCountFollowsTheLongerSide)
 {
     for (const auto& [width, height] : {std::pair{8u, 2u}, {2u, 8u}}) {
         Ktx2File k{.width = width, .height = height};
@@ -194,7 +194,7 @@ TEST(Ktx2, thinPicturesHaveTheLevelsOfTheirLongerSide)
     }
 }
 
-TEST(Ktx2, headersThatLieAreRefused)
+TEST(Ktx2, inconsistentHeadersAreRefused)
 {
     const std::string texels = ramp(96);
     const Ktx2File good{.width = 6, .height = 4, .levels = {{texels}}};
@@ -203,7 +203,7 @@ TEST(Ktx2, headersThatLieAreRefused)
         EXPECT_NE(message.find(why), std::string::npos) << message;
     };
     Ktx2File k = good;
-    k.height = 5, refused(k, "its size asks for 120");
+    k.height = 5, refused(k, "its size requires 120");
     k = good, k.levels[0].plainBytes = 97, refused(k, "level 0 has 97 bytes");
     k = good, k.packing = 2, refused(k, "zstd: ");
     k = good, k.packing = 3, refused(k, "zlib: ");
@@ -211,8 +211,8 @@ TEST(Ktx2, headersThatLieAreRefused)
     k = good, k.packing = 1, refused(k, "supercompression 1");
     k = good, k.faces = 6, refused(k, "6 faces");
     k = good, k.layers = 3, refused(k, "3 layers");
-    k = good, k.depth = 2, refused(k, "expected one flat picture");
-    k = good, k.height = 0, refused(k, "expected one flat picture");
+    k = good, k.depth = 2, refused(k, "expected one flat image");
+    k = good, k.height = 0, refused(k, "expected one flat image");
     k = good, k.format = 4711, refused(k, "its format 4711");
     k = good, k.levelCount = 4, refused(k, "it has 4 levels, 6 x 4 pixels have 3");
     k = good, k.levelCount = 3, refused(k, "level 1 ");
@@ -225,8 +225,8 @@ TEST(Ktx2, headersThatLieAreRefused)
     EXPECT_NE(ktx2Refusal(far).find("its keys take"), std::string::npos) << ktx2Refusal(far);
 }
 
-// Streams that unpack to more, or to less, than the header says, and pictures over the limit.
-TEST(Ktx2, bombsAreRefusedBeforeMemoryIsTaken)
+// Streams that unpack to more or fewer bytes than the header says, and images over the limit.
+TEST(Ktx2, decompressionBombsAreRefusedBeforeAllocation)
 {
     const std::string zeros(std::size_t(1) << 20, '\0');
     for (const std::uint32_t packing : {2u, 3u}) {
@@ -244,14 +244,14 @@ TEST(Ktx2, bombsAreRefusedBeforeMemoryIsTaken)
     }
 }
 
-TEST(Ktx2, aPlainLevelOfMoreBytesThanItsPixelsIsRefused)
+TEST(Ktx2, oversizedUncompressedLevelIsRefused)
 {
     EXPECT_NE(
-        ktx2Refusal(makeKtx2({.levels = {{"\1\2\3\4\5", 4}}})).find("has 4 bytes, 5 as stored; its size asks for 4"),
+        ktx2Refusal(makeKtx2({.levels = {{"\1\2\3\4\5", 4}}})).find("has 4 bytes, 5 as stored; its size requires 4"),
         std::string::npos);
 }
 
-TEST(Ktx2, componentsOfTwoAndFourBytesComeIntoTheirPlaces)
+TEST(Ktx2, halfAndFloatComponentsAreReadInOrder)
 {
     using V = std::vector<double>;
     const std::string halves = "\x00\x3c\x00\xc0\x00\x38\x00\x34"s; // 1, -2, 0.5, 0.25
@@ -275,7 +275,7 @@ TEST(Ktx2, componentsOfTwoAndFourBytesComeIntoTheirPlaces)
               (V{513, 0, 65535, 513}));
 }
 
-// What is left of blue and alpha says how many channels there are.
+// The swizzle of blue and alpha determines the number of channels.
 TEST(Ktx2, aSwizzleWithoutBlueAndAlphaLeavesTwoChannels)
 {
     const auto channels = [](std::uint32_t format, const std::string& swizzle) {

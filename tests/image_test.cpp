@@ -1,4 +1,4 @@
-// Image files: what is stored comes back, and what is broken is refused.
+// Image files: stored values are read back, and broken files are refused.
 #include "cotan/image.hpp"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ Pixel pixel(const Image& image, int x, int y)
     return p;
 }
 
-// A folder of its own for every test, removed afterwards.
+// Provides an own folder for each test, which is removed afterwards.
 class ImageFile : public testing::Test {
 protected:
     fs::path folder = fs::temp_directory_path()
@@ -88,7 +88,7 @@ TEST(Png, greyOfFewBitsIsScaledToTheFullRange)
     }
 }
 
-TEST(Png, paletteBecomesColoursAndItsTransparencyAlpha)
+TEST(Png, paletteBecomesColoursWithAlpha)
 {
     const auto image = decodeImage(
         makePng({.width = 2,
@@ -109,7 +109,7 @@ TEST(Png, sixteenBitsAreKept)
     EXPECT_EQ(pixel(*image, 0, 0), (Pixel{0x1234, 0xabcd, 1, 65535}));
 }
 
-TEST(Png, valuesAreNotMultipliedByAlphaNorConvertedByGamma)
+TEST(Png, valuesAreNeitherPremultipliedNorGammaConverted)
 {
     const auto image = decodeImage(
         makePng({.colour = 6, .rows = "\0\xc8\x64\x32\x0a"s, .before = test::chunk("gAMA", test::big32(100000))}),
@@ -118,10 +118,10 @@ TEST(Png, valuesAreNotMultipliedByAlphaNorConvertedByGamma)
     EXPECT_EQ(pixel(*image, 0, 0), (Pixel{200, 100, 50, 10}));
 }
 
-TEST(Png, interlacedRowsFindTheirPlaces)
+TEST(Png, interlacedPixelsAreReordered)
 {
-    // 3 x 3 in Adam7: pass 1 has (0,0), pass 4 (2,0), pass 5 row 2: (0,2) (2,2), pass 6 columns 1
-    // of rows 0 and 2, pass 7 row 1. Every pixel holds 10 * x + y.
+    // 3 x 3 in Adam7: pass 1 has (0,0), pass 4 (2,0), pass 5 row 2: (0,2) (2,2), pass 6 column 1 of rows 0 and 2, pass
+    // 7 row 1. Every pixel holds 10 * x + y.
     const auto image = decodeImage(makePng({.width = 3,
                                             .height = 3,
                                             .colour = 0,
@@ -161,9 +161,9 @@ TEST(Png, brokenFilesAreRefusedSilentlyWithOneLine)
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(Png, claimedSizeOverALimitIsRefusedBeforeItIsAllocated)
+TEST(Png, claimedSizeOverALimitIsRefusedBeforeAllocation)
 {
-    // 16000 x 16000 RGBA would be 1 GB; the peak memory of this process must not move by a tenth.
+    // 16000 x 16000 RGBA would be 1 GB; the peak memory of this process must not rise by a tenth of it.
     const Bytes claim = makePng({.width = 16000, .height = 16000, .colour = 6, .rows = "\0"s});
     rusage before{}, after{};
     getrusage(RUSAGE_SELF, &before);
@@ -179,7 +179,7 @@ TEST(Png, claimedSizeOverALimitIsRefusedBeforeItIsAllocated)
     EXPECT_TRUE(decodeImage(makePng({.width = 3, .colour = 0, .rows = "\0abc"s}), "wide", small));
 }
 
-TEST(Decode, whatIsNoImageIsRefused)
+TEST(Decode, otherDataIsRefused)
 {
     Bytes text;
     test::put(text, "this is text, not an image");
@@ -188,7 +188,7 @@ TEST(Decode, whatIsNoImageIsRefused)
     EXPECT_FALSE(decodeImage({}, "nothing.png"));
 }
 
-// The first letters of formats are looked for in as many bytes as there are.
+// Format signatures are compared only within the bytes that the file has.
 TEST(Decode, filesOfAFewBytesAreRefused)
 {
     for (const std::string& head :
@@ -202,7 +202,7 @@ TEST(Decode, filesOfAFewBytesAreRefused)
         }
 }
 
-TEST(Decode, tgaStoredFromTheBottomComesOutUpright)
+TEST(Decode, bottomUpTgaIsFlipped)
 {
     Bytes tga;
     test::put(tga, "\0\0\2\0\0\0\0\0\0\0\0\0\1\0\2\0\x18\0"s); // 1 x 2, 24 bits, bottom row first
@@ -264,7 +264,7 @@ TEST_F(ImageFile, floatsAreClampedToEightBitsInPng)
     EXPECT_EQ(pixel(*back, 1, 0), (Pixel{0, 0, 255, 255}));
 }
 
-TEST_F(ImageFile, anImageWhoseBytesAreNotThoseOfItsSizeIsNotWrittenAndTheSizeIsSaid)
+TEST_F(ImageFile, imageWithWrongByteCountIsNotWritten)
 {
     Image image = pattern(PixelType::unorm8, 7, 5);
     image.data.pop_back();
@@ -279,7 +279,7 @@ TEST_F(ImageFile, anImageWhoseBytesAreNotThoseOfItsSizeIsNotWrittenAndTheSizeIsS
 TEST_F(ImageFile, exrKeepsFloatsExactly)
 {
     Image image = pattern(PixelType::float32, 40, 30);
-    image.floats()[3] = 0.0f; // colour under alpha 0 stays
+    image.floats()[3] = 0.0f; // colour under alpha 0 is kept
     const auto status = writeImage(folder / "a.exr", image);
     ASSERT_TRUE(status) << status.error().message;
     const auto back = readImage(folder / "a.exr");
@@ -305,7 +305,7 @@ TEST_F(ImageFile, tiffAndTgaKeepColourUnderAlpha)
     EXPECT_EQ(back->data, wide.data);
 }
 
-TEST_F(ImageFile, jpegAndHdrComeBackNearAndOpaque)
+TEST_F(ImageFile, jpegAndHdrRoundTripApproximatelyAndOpaque)
 {
     Image image = makeImage(16, 16, PixelType::float32);
     for (std::size_t i = 0; i < image.pixelCount(); ++i) {
@@ -318,7 +318,7 @@ TEST_F(ImageFile, jpegAndHdrComeBackNearAndOpaque)
     const auto hdr = readImage(folder / "a.hdr");
     ASSERT_TRUE(jpeg) << jpeg.error().message;
     ASSERT_TRUE(hdr) << hdr.error().message;
-    // An even grey survives the transform up to its rounding; 0.5 is a power of two for RGBE.
+    // A constant grey survives the transform up to its rounding; 0.5 is a power of two, exact in RGBE.
     EXPECT_NEAR(pixel(*jpeg, 5, 5)[0], 128, 1);
     EXPECT_EQ(pixel(*jpeg, 5, 5)[3], 255);
     EXPECT_EQ(hdr->floats()[0], 0.5f);
@@ -343,7 +343,7 @@ TEST_F(ImageFile, brokenJpegIsRefusedSilentlyWithOneLine)
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-TEST_F(ImageFile, samePictureSameBytesAtAnyTime)
+TEST_F(ImageFile, filesContainNoTimestamp)
 {
     const Image bytes = pattern(PixelType::unorm8, 20, 20);
     const Image floats = pattern(PixelType::float32, 20, 20);
@@ -354,13 +354,13 @@ TEST_F(ImageFile, samePictureSameBytesAtAnyTime)
             EXPECT_TRUE(writeImage(folder / (stem + extension), floats)) << extension;
     };
     write("a");
-    std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // past a second, as stamps count
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // time stamps count seconds
     write("b");
     for (const char* extension : {".png", ".tif", ".tga", ".jpg", ".exr", ".hdr"})
         EXPECT_EQ(readAll(folder / ("a"s + extension)), readAll(folder / ("b"s + extension))) << extension;
 }
 
-TEST_F(ImageFile, failedWriteLeavesNothingAndKeepsTheOlderFile)
+TEST_F(ImageFile, failedWriteLeavesNoFileAndKeepsTheOldOne)
 {
     const Image image = pattern(PixelType::unorm8, 4, 4);
     const auto noFolder = writeImage(folder / "missing" / "a.png", image);
@@ -382,10 +382,10 @@ TEST_F(ImageFile, failedWriteLeavesNothingAndKeepsTheOlderFile)
     EXPECT_EQ(fileCount(), 2u);
 }
 
-TEST(ConvertImage, sixteenBitsGoToTheNearestOfEight)
+TEST(ConvertImage, sixteenBitsRoundToTheNearestOf8)
 {
     Image words = makeImage(2, 1, PixelType::unorm16);
-    const std::array<std::uint16_t, 8> values = {0, 128, 129, 385, 386, 65406, 65407, 65535}; // 257 a step
+    const std::array<std::uint16_t, 8> values = {0, 128, 129, 385, 386, 65406, 65407, 65535}; // steps of 257
     std::ranges::copy(values, words.words());
     const Image bytes = toUnorm8(words);
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -393,7 +393,7 @@ TEST(ConvertImage, sixteenBitsGoToTheNearestOfEight)
 }
 
 // x = 100 / 127, y = 40 / 127 and z = 67.15 / 127 have length 1.
-TEST(ConvertImage, blueIsMadeOfRedAndGreenWhereItIsMissingEverywhereAndThereIsNoAlpha)
+TEST(ConvertImage, missingBlueIsReconstructedInOpaqueImages)
 {
     Image image = makeImage(2, 1, PixelType::unorm8);
     const std::array<std::uint8_t, 8> stored = {228, 88, 128, 255, 128, 128, 128, 255};
@@ -401,7 +401,7 @@ TEST(ConvertImage, blueIsMadeOfRedAndGreenWhereItIsMissingEverywhereAndThereIsNo
     completeNormals(image);
     EXPECT_EQ(image.bytes8()[2], 128 + 67);
     EXPECT_EQ(image.bytes8()[6], 255);
-    for (const std::size_t other : {2u, 3u}) { // another blue, or an alpha, in one texel
+    for (const std::size_t other : {2u, 3u}) { // another blue or another alpha in one texel
         Image kept = makeImage(2, 1, PixelType::unorm8);
         std::ranges::copy(stored, kept.bytes8());
         kept.bytes8()[4 + other] = 200;
@@ -410,7 +410,7 @@ TEST(ConvertImage, blueIsMadeOfRedAndGreenWhereItIsMissingEverywhereAndThereIsNo
     }
 }
 
-TEST(BadData, everyPngGetsItsVerdictInTimeAndMemory)
+TEST(BadData, everyPngIsJudgedWithinTimeAndMemory)
 {
     const auto rows = test::expectedFor(".png");
     if (rows.empty())

@@ -1,4 +1,4 @@
-// TIFF files of one strip or tile, whose directory is made by hand: what its entries may say.
+// TIFF files of one strip or tile with hand-made directories: the entries that are accepted and refused.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -7,13 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "deflate.hpp"
-#include "picture_file.hpp"
+#include "image_io.hpp"
 #include "webp_maker.hpp" // little()
 
 namespace cotan::test {
 namespace {
 
-// One strip or tile behind the header, 8 bytes or BigTIFF's 16, then a directory of these entries alone: tag, type,
+// One strip or tile after the header (8 bytes, or BigTIFF's 16), then a directory of exactly these entries: tag, type,
 // count, value.
 constexpr std::uint64_t kShort = 3, kLong = 4;
 
@@ -30,7 +30,7 @@ std::string tiffOf(const std::vector<std::array<std::uint64_t, 4>>& entries, con
     return file + little(0, word);
 }
 
-// What the directory of a picture in one strip, at 8, says. bytes: of the strip.
+// Directory entries of an image in one strip at offset 8. `bytes` is the size of the strip.
 struct OneStrip {
     std::uint64_t width, height, bytes;
     std::uint64_t bits = 8, compression = 1, photometric = 1, channels = 1;
@@ -43,13 +43,13 @@ struct OneStrip {
     }
 };
 
-TEST_F(PictureFile, tiffOfLargeOffsetsIsReadAndItsStripsAreHeldToTheirSize)
+TEST_F(ImageIo, bigTiffIsReadAndItsStripSizesAreChecked)
 {
     const std::string pixels = "abcdefghijklmnopqr"; // 3 x 2 x 3 bytes
     const auto file = [&](std::uint64_t offset, std::uint64_t bytes) {
         return tiffOf({{256, kLong, 1, 3},
                        {257, kLong, 1, 2},
-                       {258, kShort, 3, 0x000800080008}, // in the entry itself
+                       {258, kShort, 3, 0x000800080008}, // stored in the entry itself
                        {259, kShort, 1, 1},
                        {262, kShort, 1, 2},
                        {273, 16, 1, offset},
@@ -70,8 +70,8 @@ TEST_F(PictureFile, tiffOfLargeOffsetsIsReadAndItsStripsAreHeldToTheirSize)
     EXPECT_NE(messageOf(decodeImage(bytesOf(file(size - 17, 18)), "a.tif")).find(beyond), std::string::npos);
 }
 
-// Nine pixels of one bit take two bytes.
-TEST_F(PictureFile, tiffRowsOfOddBitsTakeWholeBytes)
+// Nine 1-bit pixels take two bytes.
+TEST_F(ImageIo, tiffRowsOfOddBitsTakeWholeBytes)
 {
     const auto file = [](std::uint64_t bytes) {
         return tiffOf(OneStrip{.width = 9, .height = 2, .bytes = bytes, .bits = 1}.entries(),
@@ -86,7 +86,7 @@ TEST_F(PictureFile, tiffRowsOfOddBitsTakeWholeBytes)
               std::string::npos);
 }
 
-TEST_F(PictureFile, tiffOfPackedStripsThatGoOnBehindTheFileIsRefused)
+TEST_F(ImageIo, tiffStripsBeyondTheFileAreRefused)
 {
     const std::string packed = deflated(std::string(3 * 2, 'x'));
     const auto file = [&](std::uint64_t bytes) {
@@ -104,7 +104,7 @@ std::string tiffOfChannels(std::uint64_t channels)
     return tiffOf(strip.entries(), std::string(4 * channels, 'x'));
 }
 
-TEST_F(PictureFile, rowsSayWhetherThereIsAlphaByTheNumberOfChannels)
+TEST_F(ImageIo, rowReaderDerivesAlphaFromTheChannelCount)
 {
     for (const std::uint64_t channels : {1u, 2u, 3u, 4u, 5u}) {
         const auto rows = openRows(write("a.tif", tiffOfChannels(channels)));
@@ -113,8 +113,8 @@ TEST_F(PictureFile, rowsSayWhetherThereIsAlphaByTheNumberOfChannels)
     }
 }
 
-// What is read of a picture is four channels; what it takes is all.
-TEST_F(PictureFile, channelsThatNobodyReadsAndTilesBesideThePictureCountAgainstTheLimit)
+// Only four channels are read, but the limit applies to all stored channels and to whole tiles.
+TEST_F(ImageIo, unreadChannelsAndWholeTilesCountAgainstTheLimit)
 {
     LoadLimits limits;
     limits.imageBytes = 255;
@@ -141,8 +141,8 @@ TEST_F(PictureFile, channelsThatNobodyReadsAndTilesBesideThePictureCountAgainstT
     EXPECT_TRUE(openRows(file, limits));
 }
 
-// Blocks of 2 x 2 brightnesses share two colours (TIFF 6.0, section 21): 24 bytes for 4 x 4 pixels, not 48.
-TEST_F(PictureFile, tiffOfSharedColoursIsReadWholeAndByRows)
+// Blocks of 2 x 2 luma samples share two chroma samples (TIFF 6.0, section 21): 24 bytes for 4 x 4 pixels, not 48.
+TEST_F(ImageIo, chromaSubsampledTiffIsReadWholeAndByRows)
 {
     std::string pixels;
     for (int block = 0; block < 4; ++block)
@@ -165,14 +165,14 @@ TEST_F(PictureFile, tiffOfSharedColoursIsReadWholeAndByRows)
         }
 }
 
-std::string toldOfTiff(const std::string& file, const LoadLimits& limits = {})
+std::string tiffMessage(const std::string& file, const LoadLimits& limits = {})
 {
     return messageOf(decodeImage(bytesOf(file), "a.tif", limits));
 }
 
 const std::string kBrokenTiff = "a.tif: broken tiff image: ";
 
-// 3 x 3 pixels of a byte in strips of two rows, in one plane or two: rows 0 and 1, then row 2.
+// 3 x 3 pixels of one byte in strips of two rows, in one plane or two: rows 0 and 1, then row 2.
 std::string tiffOfStrips(const std::vector<std::uint32_t>& counts, std::uint64_t planes = 1)
 {
     std::vector<std::uint32_t> offsets;
@@ -192,41 +192,41 @@ std::string tiffOfStrips(const std::vector<std::uint32_t>& counts, std::uint64_t
                   "abcdefghijklmnopqr__" + words(offsets) + words(counts));
 }
 
-TEST_F(PictureFile, tiffStripsAreHeldToTheirRowsOneByOneAndTold)
+TEST_F(ImageIo, eachTiffStripRequiresTheBytesOfItsRows)
 {
-    EXPECT_EQ(toldOfTiff(tiffOfStrips({6, 3})), "accepted");
-    EXPECT_EQ(toldOfTiff(tiffOfStrips({5, 3})), kBrokenTiff + "strip 0 has 5 bytes, expected 6");
-    EXPECT_EQ(toldOfTiff(tiffOfStrips({6, 2})), kBrokenTiff + "strip 1 has 2 bytes, expected 3");
-    EXPECT_EQ(toldOfTiff(tiffOfStrips({6, 0})), kBrokenTiff + "strip 1 has no bytes");
-    EXPECT_EQ(toldOfTiff(tiffOfStrips({6, 3, 6, 3}, 2)), "accepted");
-    EXPECT_EQ(toldOfTiff(tiffOfStrips({6, 3, 5, 3}, 2)), kBrokenTiff + "strip 2 has 5 bytes, expected 6");
-    EXPECT_EQ(toldOfTiff(tiffOfStrips({6, 3, 6, 2}, 2)), kBrokenTiff + "strip 3 has 2 bytes, expected 3");
-    EXPECT_EQ(toldOfTiff(tiffOfStrips({6, 3, 6}, 2)), kBrokenTiff + "its directory lists 3 strips, expected 4");
+    EXPECT_EQ(tiffMessage(tiffOfStrips({6, 3})), "accepted");
+    EXPECT_EQ(tiffMessage(tiffOfStrips({5, 3})), kBrokenTiff + "strip 0 has 5 bytes, expected 6");
+    EXPECT_EQ(tiffMessage(tiffOfStrips({6, 2})), kBrokenTiff + "strip 1 has 2 bytes, expected 3");
+    EXPECT_EQ(tiffMessage(tiffOfStrips({6, 0})), kBrokenTiff + "strip 1 has no bytes");
+    EXPECT_EQ(tiffMessage(tiffOfStrips({6, 3, 6, 3}, 2)), "accepted");
+    EXPECT_EQ(tiffMessage(tiffOfStrips({6, 3, 5, 3}, 2)), kBrokenTiff + "strip 2 has 5 bytes, expected 6");
+    EXPECT_EQ(tiffMessage(tiffOfStrips({6, 3, 6, 2}, 2)), kBrokenTiff + "strip 3 has 2 bytes, expected 3");
+    EXPECT_EQ(tiffMessage(tiffOfStrips({6, 3, 6}, 2)), kBrokenTiff + "its directory lists 3 strips, expected 4");
     const auto image = decodeImage(bytesOf(tiffOfStrips({6, 3})), "a.tif");
     ASSERT_TRUE(image);
     for (int i = 0; i < 9; ++i)
         EXPECT_EQ(component(*image, i % 3, i / 3, 0), 'a' + i);
-    // Tiles of 16 x 16 over 20 x 33 pixels, of each plane.
+    // Tiles of 16 x 16 over 20 x 33 pixels, for each plane.
     const auto tiles = [](std::uint64_t planes) {
-        return toldOfTiff(tiffOf({{256, kLong, 1, 20},
-                                  {257, kLong, 1, 33},
-                                  {258, kShort, 1, 8},
-                                  {259, kShort, 1, 1},
-                                  {262, kShort, 1, 1},
-                                  {277, kShort, 1, planes},
-                                  {284, kShort, 1, planes == 1 ? 1u : 2u},
-                                  {322, kLong, 1, 16},
-                                  {323, kLong, 1, 16},
-                                  {324, kLong, 1, 8},
-                                  {325, kLong, 1, 256}},
-                                 std::string(256, 'x')));
+        return tiffMessage(tiffOf({{256, kLong, 1, 20},
+                                   {257, kLong, 1, 33},
+                                   {258, kShort, 1, 8},
+                                   {259, kShort, 1, 1},
+                                   {262, kShort, 1, 1},
+                                   {277, kShort, 1, planes},
+                                   {284, kShort, 1, planes == 1 ? 1u : 2u},
+                                   {322, kLong, 1, 16},
+                                   {323, kLong, 1, 16},
+                                   {324, kLong, 1, 8},
+                                   {325, kLong, 1, 256}},
+                                  std::string(256, 'x')));
     };
     EXPECT_EQ(tiles(1), kBrokenTiff + "its directory lists 1 tiles, expected 6");
     EXPECT_EQ(tiles(3), kBrokenTiff + "its directory lists 1 tiles, expected 18");
 }
 
-// Without a list of sizes they follow from the picture's.
-TEST_F(PictureFile, tiffStripsOfNoStatedSizeHaveToEndWithinTheFile)
+// Without a list of strip sizes, they follow from the size of the image.
+TEST_F(ImageIo, tiffStripsWithoutStatedSizeMustEndWithinTheFile)
 {
     const auto file = [](std::uint64_t offset) {
         auto entries = OneStrip{.width = 3, .height = 2, .bytes = 6}.entries();
@@ -235,53 +235,54 @@ TEST_F(PictureFile, tiffStripsOfNoStatedSizeHaveToEndWithinTheFile)
         return tiffOf(entries, "abcdef");
     };
     const std::size_t size = file(8).size();
-    EXPECT_EQ(toldOfTiff(file(size - 5)),
+    EXPECT_EQ(tiffMessage(file(size - 5)),
               kBrokenTiff + "strip 0 takes 6 bytes from " + std::to_string(size - 5) + ", the file has "
                   + std::to_string(size));
-    EXPECT_EQ(toldOfTiff(file(size - 6)), "accepted");
-    EXPECT_EQ(toldOfTiff(file(8)), "accepted");
+    EXPECT_EQ(tiffMessage(file(size - 6)), "accepted");
+    EXPECT_EQ(tiffMessage(file(8)), "accepted");
 }
 
-// TIFF 6.0, section 2: whole numbers are BYTE, SHORT, LONG, SBYTE, SSHORT and SLONG; in BigTIFF LONG8 and SLONG8 too.
-// The height, 2, is of each type; where it is read, one strip of one row is too few.
-TEST_F(PictureFile, tiffNumbersAreReadOfEveryWholeTypeAndOfNoOther)
+// TIFF 6.0, section 2: integers are BYTE, SHORT, LONG, SBYTE, SSHORT and SLONG; in BigTIFF LONG8 and SLONG8 too. The
+// height, 2, has each type in turn; where it is understood, one strip of one row is too few.
+TEST_F(ImageIo, tiffNumbersAreReadFromEveryIntegerType)
 {
     const std::string few = kBrokenTiff + "its directory lists 1 strips, expected 2";
-    const auto told = [](std::uint64_t type, bool large) {
+    const auto messageFor = [](std::uint64_t type, bool large) {
         auto entries = OneStrip{.width = 3, .height = 2, .bytes = 3}.entries();
         entries[1] = {257, type, 1, 2};
         entries[5][3] = large ? 16 : 8;
         entries[7][3] = 1;
-        return toldOfTiff(tiffOf(entries, "abcdef", large));
+        return tiffMessage(tiffOf(entries, "abcdef", large));
     };
     for (const std::uint64_t type : {1u, 3u, 4u, 6u, 8u, 9u}) {
-        EXPECT_EQ(told(type, false), few) << type;
-        EXPECT_EQ(told(type, true), few) << type;
+        EXPECT_EQ(messageFor(type, false), few) << type;
+        EXPECT_EQ(messageFor(type, true), few) << type;
     }
     for (const std::uint64_t type : {16u, 17u})
-        EXPECT_EQ(told(type, true), few) << type;
+        EXPECT_EQ(messageFor(type, true), few) << type;
     for (const std::uint64_t type : {0u, 2u, 5u, 7u, 10u, 11u, 12u, 15u, 18u, 99u})
-        EXPECT_EQ(told(type, true).find("expected 2"), std::string::npos) << type;
+        EXPECT_EQ(messageFor(type, true).find("expected 2"), std::string::npos) << type;
 }
 
-TEST_F(PictureFile, tiffOfEveryCompressionThatIsKnownIsGivenToItsReaderAndOfOthersNone)
+TEST_F(ImageIo, onlyKnownTiffCompressionsReachTheReader)
 {
-    const auto told = [](std::uint64_t compression) {
-        return toldOfTiff(
+    const auto messageFor = [](std::uint64_t compression) {
+        return tiffMessage(
             tiffOf(OneStrip{.width = 3, .height = 2, .bytes = 6, .compression = compression}.entries(), "abcdef"));
     };
     const std::uint64_t known[] = {1, 2, 3, 4, 5, 7, 8, 32773, 32946, 34925, 50000, 50001};
     for (const std::uint64_t compression : known) {
-        EXPECT_EQ(told(compression).find("is not read here"), std::string::npos) << compression;
+        EXPECT_EQ(messageFor(compression).find("is not supported"), std::string::npos) << compression;
         for (const std::uint64_t other : {compression - 1, compression + 1})
             if (std::ranges::find(known, other) == std::end(known)) {
-                EXPECT_EQ(told(other), kBrokenTiff + "its compression " + std::to_string(other) + " is not read here");
+                EXPECT_EQ(messageFor(other),
+                          kBrokenTiff + "its compression " + std::to_string(other) + " is not supported");
             }
     }
 }
 
-// Memory for all rows of a strip, of four channels: 3 pixels of 4 or 8 bytes in each of 100.
-TEST_F(PictureFile, tiffStripsOfMoreRowsThanThePictureCountAgainstTheLimit)
+// The limit covers all rows of a strip at four channels: 3 pixels of 4 or 8 bytes in each of 100 rows.
+TEST_F(ImageIo, tiffStripsTallerThanTheImageCountAgainstTheLimit)
 {
     for (const std::uint64_t bits : {8u, 16u}) {
         auto entries = OneStrip{.width = 3, .height = 2, .bytes = 6 * bits / 8, .bits = bits}.entries();
@@ -289,13 +290,13 @@ TEST_F(PictureFile, tiffStripsOfMoreRowsThanThePictureCountAgainstTheLimit)
         const std::string file = tiffOf(entries, std::string(12, 'x'));
         LoadLimits limits;
         limits.imageBytes = 3 * 4 * bits / 8 * 100;
-        EXPECT_EQ(toldOfTiff(file, limits), "accepted");
+        EXPECT_EQ(tiffMessage(file, limits), "accepted");
         limits.imageBytes -= 1;
-        EXPECT_EQ(toldOfTiff(file, limits), kBrokenTiff + "its strips have 100 rows, the picture 2");
+        EXPECT_EQ(tiffMessage(file, limits), kBrokenTiff + "its strips have 100 rows, the image 2");
     }
 }
 
-TEST_F(PictureFile, rowsOverALimitAreToldWithTheirSizeAndTheLimits)
+TEST_F(ImageIo, rowsOverALimitAreReportedWithSizeAndLimits)
 {
     const auto file = [&](std::uint64_t width, std::uint64_t height) {
         return write("a.tif",
@@ -306,9 +307,9 @@ TEST_F(PictureFile, rowsOverALimitAreToldWithTheirSizeAndTheLimits)
     limits.imageSide = 4;
     limits.imageBytes = 1000;
     EXPECT_EQ(messageOf(openRows(file(5, 3), limits)),
-              name + ": 5 x 3 pixels in rows of 80 bytes, the limit is 4 a side and 1000 bytes");
+              name + ": 5 x 3 pixels in rows of 80 bytes, the limit is 4 per side and 1000 bytes");
     EXPECT_EQ(messageOf(openRows(file(3, 5), limits)),
-              name + ": 3 x 5 pixels in rows of 48 bytes, the limit is 4 a side and 1000 bytes");
+              name + ": 3 x 5 pixels in rows of 48 bytes, the limit is 4 per side and 1000 bytes");
     limits.imageSide = 5;
     std::size_t expected = 0;
     limits.expect = [&](std::size_t bytes) { expected = bytes; };
@@ -319,14 +320,15 @@ TEST_F(PictureFile, rowsOverALimitAreToldWithTheirSizeAndTheLimits)
     const auto refused = openRows(file(5, 3), limits);
     ASSERT_FALSE(refused);
     EXPECT_TRUE(refused.error().memory);
-    EXPECT_EQ(refused.error().message, name + ": 5 x 3 pixels in rows of 80 bytes, the limit is 5 a side and 79 bytes");
-    // Whole: what is stored, and what it becomes. 64 channels of 2 x 2 bytes are 256.
+    EXPECT_EQ(refused.error().message,
+              name + ": 5 x 3 pixels in rows of 80 bytes, the limit is 5 per side and 79 bytes");
+    // Whole images: the stored bytes and the decoded bytes both count. 64 channels of 2 x 2 bytes are 256.
     limits = {};
     limits.imageBytes = 255;
-    EXPECT_EQ(toldOfTiff(tiffOfChannels(64), limits), "a.tif: the pixels take 256 bytes as stored, the limit is 255");
+    EXPECT_EQ(tiffMessage(tiffOfChannels(64), limits), "a.tif: the pixels take 256 bytes as stored, the limit is 255");
     limits.imageBytes = 59;
     EXPECT_EQ(
-        toldOfTiff(tiffOf(OneStrip{.width = 5, .height = 3, .bytes = 15}.entries(), std::string(15, 'x')), limits),
+        tiffMessage(tiffOf(OneStrip{.width = 5, .height = 3, .bytes = 15}.entries(), std::string(15, 'x')), limits),
         "a.tif: 5 x 3 pixels take 60 bytes, the limit is 59");
 }
 

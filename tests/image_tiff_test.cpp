@@ -1,4 +1,4 @@
-// TIFF files made by hand, in every layout that a reader has to get right, and cut short.
+// Hand-made TIFF files in every layout that a reader has to support, and truncated files.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -7,20 +7,20 @@
 
 #include <gtest/gtest.h>
 
-#include "picture_file.hpp"
+#include "image_io.hpp"
 
 namespace cotan::test {
 namespace {
 
-// From first principles (TIFF 6.0).
+// Parameters of a file written from first principles (TIFF 6.0).
 struct Tiff {
     int width = 1, height = 1, channels = 3, bits = 8;
     bool bigEndian = false;
     int rowsPerStrip = 0;                    // 0: tiles of 16 x 16
-    bool planes = false;                     // each channel on its own
-    std::vector<std::uint16_t> palette = {}; // reds, greens, blues
+    bool planes = false;                     // each channel separately
+    std::vector<std::uint16_t> palette = {}; // all reds, then greens, then blues
 
-    // What channel c has at (x, y): every bit of 16 is of use, and x and y differ.
+    // The value of channel c at (x, y): uses all 16 bits and depends differently on x and y.
     std::uint16_t value(int x, int y, int c) const
     {
         return std::uint16_t((4129 * x + 8221 * y + 16411 * c + 259) & (bits == 16 ? 0xffff : 0xff));
@@ -40,7 +40,7 @@ public:
             entries.push_back({tag, type, n, value});
         };
         const bool tiled = t_.rowsPerStrip == 0, indexed = !t_.palette.empty();
-        const std::size_t known = 10 + (tiled ? 1 : 0) + (indexed ? 1 : 0); // entries
+        const std::size_t known = 10 + (tiled ? 1 : 0) + (indexed ? 1 : 0); // number of entries
         std::size_t at = 8 + 2 + 12 * known + 4;
         const auto offsetsAt = std::uint32_t(at), countsAt = std::uint32_t(at + 4 * count);
         at += 8 * count;
@@ -51,10 +51,10 @@ public:
         if (t_.channels > 2)
             add(258, 3, std::uint32_t(t_.channels), bitsAt);
         else
-            add(258, 3, 1, std::uint32_t(t_.bits)); // a short: the first half of its place
+            add(258, 3, 1, std::uint32_t(t_.bits)); // a short: the first half of the value field
         add(259, 3, 1, 1);
         add(262, 3, 1, indexed ? 3 : t_.channels >= 3 ? 2 : 1);
-        const bool single = count == 1; // then the value stands in the entry
+        const bool single = count == 1; // the value is then stored in the entry
         const auto list = [&](std::uint32_t tag, std::uint32_t value, const std::vector<std::uint32_t>& values) {
             add(tag, 4, std::uint32_t(count), single ? values[0] : value);
         };
@@ -147,7 +147,7 @@ std::vector<Tiff> tiffs()
     return all;
 }
 
-TEST_F(PictureFile, tiffOfEveryLayoutHasItsValuesInTheirPlaces)
+TEST_F(ImageIo, everyTiffLayoutIsReadCorrectly)
 {
     for (const Tiff& t : tiffs()) {
         SCOPED_TRACE(testing::Message() << t.width << " x " << t.height << ", " << t.bits << " bits, big-endian "
@@ -172,7 +172,7 @@ TEST_F(PictureFile, tiffOfEveryLayoutHasItsValuesInTheirPlaces)
     }
 }
 
-TEST_F(PictureFile, tiffPaletteBecomesColours)
+TEST_F(ImageIo, tiffPaletteBecomesColours)
 {
     Tiff t{.width = 5, .height = 2, .channels = 1, .bits = 8, .rowsPerStrip = 2};
     for (int c = 0; c < 3; ++c)
@@ -187,7 +187,7 @@ TEST_F(PictureFile, tiffPaletteBecomesColours)
 }
 
 // Grey and alpha, of odd width.
-TEST_F(PictureFile, tiffOfTwoChannelsIsGreyAndAlpha)
+TEST_F(ImageIo, tiffOfTwoChannelsIsGreyAndAlpha)
 {
     const Tiff t{.width = 5, .height = 3, .channels = 2, .bits = 16, .bigEndian = true, .rowsPerStrip = 2};
     const auto image = decodeImage(bytesOf(TiffWriter(t).make()), "a.tif");
@@ -196,14 +196,14 @@ TEST_F(PictureFile, tiffOfTwoChannelsIsGreyAndAlpha)
         EXPECT_EQ(component(*image, 4, 2, c), t.value(4, 2, c == 3 ? 1 : 0)) << c;
 }
 
-TEST_F(PictureFile, tiffCutAnywhereIsRefused)
+TEST_F(ImageIo, tiffCutAnywhereIsRefused)
 {
     for (const Tiff& t : tiffs())
         if (t.bits == 16 || t.bigEndian)
             expectCutsRefused("a.tif", TiffWriter(t).make(), 8);
 }
 
-TEST_F(PictureFile, compressedTiffAndExrCutAnywhereAreRefused)
+TEST_F(ImageIo, compressedTiffAndExrCutAnywhereAreRefused)
 {
     Image image = makeImage(23, 9, PixelType::float32);
     for (std::size_t i = 0; i < image.pixelCount() * 4; ++i)
@@ -220,13 +220,13 @@ TEST_F(PictureFile, compressedTiffAndExrCutAnywhereAreRefused)
     }
 }
 
-TEST_F(PictureFile, tiffThatDoesNotStateItsBitsIsRefusedWholeAndByRows)
+TEST_F(ImageIo, tiffWithoutBitsPerSampleIsRefusedWholeAndByRows)
 {
-    // By the format these are 1 bit; OpenImageIO takes them for 8 and finds other pixels by rows than whole.
+    // By the format these are 1 bit; OpenImageIO takes them for 8 and reads other pixels by rows than whole.
     std::string file = TiffWriter({.width = 2, .height = 2, .rowsPerStrip = 2}).make();
-    const std::size_t bits = file.find(std::string("\x02\x01\x03\0", 4)); // tag 258, a short
+    const std::size_t bits = file.find(std::string("\x02\x01\x03\0", 4)); // tag 258, type short
     ASSERT_NE(bits, std::string::npos);
-    file[bits] = '\xff'; // tag 511, which nobody knows
+    file[bits] = '\xff'; // tag 511, which is undefined
     const auto image = decodeImage(bytesOf(file), "a.tif");
     ASSERT_FALSE(image);
     EXPECT_NE(image.error().message.find("bits per sample"), std::string::npos) << image.error().message;
@@ -236,7 +236,7 @@ TEST_F(PictureFile, tiffThatDoesNotStateItsBitsIsRefusedWholeAndByRows)
               image.error().message.substr(image.error().message.find("broken")));
 }
 
-TEST_F(PictureFile, tiffOfAnUnknownCompressionOrOfEndlessStripsIsRefusedWholeAndByRows)
+TEST_F(ImageIo, unknownCompressionOrEndlessTiffStripsAreRefused)
 {
     const std::string sound = TiffWriter({.width = 2, .height = 2, .rowsPerStrip = 2}).make();
     const auto with = [&](const std::string& entry, const std::string& value, const std::string& why) {
@@ -249,21 +249,21 @@ TEST_F(PictureFile, tiffOfAnUnknownCompressionOrOfEndlessStripsIsRefusedWholeAnd
             EXPECT_NE(message.find(why), std::string::npos) << message;
     };
     with(std::string("\x03\x01\x03\0", 4), std::string("\x01\x38", 2),
-         "compression 14337"); // once zeros, or whatever was there
+         "compression 14337"); // once zeros or uninitialised memory
     with(std::string("\x16\x01\x04\0", 4), std::string("\0\0\0\x1d", 4), "strips have 486539264 rows"); // once 3.9 GB
-    with(std::string("\x16\x01\x04\0", 4), std::string("\xff\xff\xff\xff", 4), "accepted"); // one strip, however high
+    with(std::string("\x16\x01\x04\0", 4), std::string("\xff\xff\xff\xff", 4), "accepted"); // one strip of any height
 }
 
-TEST_F(PictureFile, tiffWhoseStripsCannotBeDecodedIsRefusedWholeAndInAnyNumberOfRows)
+TEST_F(ImageIo, undecodableTiffStripsAreRefusedWholeAndByRows)
 {
     const std::string sound = TiffWriter({.width = 2, .height = 2, .rowsPerStrip = 2}).make();
-    const std::size_t entry = sound.find(std::string("\x03\x01\x03\0", 4)); // the tag of the compression
+    const std::size_t entry = sound.find(std::string("\x03\x01\x03\0", 4)); // the compression tag
     ASSERT_NE(entry, std::string::npos);
-    for (const char compression : {'\2', '\3', '\4', '\5', '\7', '\x08'}) { // faxes, LZW, JPEG, zip
+    for (const char compression : {'\2', '\3', '\4', '\5', '\7', '\x08'}) { // CCITT fax, LZW, JPEG, Deflate
         std::string file = sound;
         file[entry + 8] = compression;
         EXPECT_NE(messageOf(decodeImage(bytesOf(file), "a.tif")).find("a.tif: broken tiff image"), std::string::npos)
-            << int(compression); // once zeros, or whatever was there
+            << int(compression); // once zeros or uninitialised memory
         for (const int rows : {1, 2}) {
             auto reader = openRows(write("a.tif", file));
             ASSERT_TRUE(reader) << reader.error().message;
@@ -273,7 +273,7 @@ TEST_F(PictureFile, tiffWhoseStripsCannotBeDecodedIsRefusedWholeAndInAnyNumberOf
     }
 }
 
-TEST_F(PictureFile, tiffOfStripsWithoutBytesIsRefusedWholeAndByRows)
+TEST_F(ImageIo, emptyTiffStripsAreRefusedWholeAndByRows)
 {
     const Tiff t{.width = 5, .height = 6, .channels = 3, .bits = 8, .rowsPerStrip = 2};
     const std::string sound = TiffWriter(t).make();
@@ -291,7 +291,7 @@ TEST_F(PictureFile, tiffOfStripsWithoutBytesIsRefusedWholeAndByRows)
     std::string none = sound;
     none.replace(count + 4, 4, 4, '\0');
     refused(none, "strip 1 has no bytes");
-    std::string taller = sound; // 7 rows are four strips; the list has three
+    std::string taller = sound; // 7 rows need four strips; the list has three
     const std::size_t height = taller.find(std::string("\x01\x01\x04\0\1\0\0\0\6", 9));
     ASSERT_NE(height, std::string::npos);
     taller[height + 8] = 7;

@@ -1,4 +1,4 @@
-// WebP files, whole, cut short and lying.
+// WebP files: whole, truncated, and with false headers.
 #include "cotan/image.hpp"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ std::string hex(const std::string& digits)
     return bytes;
 }
 
-// Google's samples for browsers that may know a part of the format: one pixel, lossy, and with alpha, and animated.
+// Google's samples for detecting browser support: one pixel, lossy, with alpha, and animated.
 const std::string kLossy = hex("52494646220000005745425056503820160000003001009d012a010001000ec0fe25a400037000000000");
 const std::string kAlpha =
     hex("524946464a00000057454250565038580a00000010000000000000000000414c50480c00000011071011fd0f44"
@@ -46,7 +46,7 @@ const std::string kAnimated =
     hex("524946465200000057454250565038580a00000012000000000000000000414e494d06000000ffffffff000041"
         "4e4d4626000000000000000000000000000000640000005650384c0d0000002f00000010071011118888fe0700");
 
-TEST(Webp, losslessValuesComeBackAsTheyAreEvenWhereAlphaIsNone)
+TEST(Webp, losslessValuesRoundTripEvenAtAlphaZero)
 {
     const auto texels = webpTexels(15);
     const auto image = decodeImage(webpBytes(makeWebp(5, 3, texels)), "a.webp");
@@ -59,7 +59,7 @@ TEST(Webp, losslessValuesComeBackAsTheyAreEvenWhereAlphaIsNone)
             EXPECT_EQ(image->bytes8()[4 * i + c], texels[i][c]) << i << " " << c;
 }
 
-TEST(Webp, lossyAndExtendedFilesAreReadAndAnimationsAreNot)
+TEST(Webp, lossyAndExtendedFilesAreReadAndAnimationsRefused)
 {
     for (const std::string& file : {kLossy, kAlpha}) {
         const auto image = decodeImage(webpBytes(file), "a.webp");
@@ -67,10 +67,10 @@ TEST(Webp, lossyAndExtendedFilesAreReadAndAnimationsAreNot)
         EXPECT_EQ(image->width, 1);
         EXPECT_EQ(image->height, 1);
     }
-    EXPECT_EQ(refusal(kAnimated), "a.webp: broken webp image: expected one picture, found an animation");
+    EXPECT_EQ(refusal(kAnimated), "a.webp: broken webp image: expected one image, found an animation");
 }
 
-TEST(Webp, filesThatEndTooSoonAreRefusedWhereverTheyEnd)
+TEST(Webp, truncatedFilesAreRefusedAtEveryLength)
 {
     for (const std::string& file : {makeWebp(5, 3, webpTexels(15)), kLossy, kAlpha})
         for (std::size_t size = 12; size < file.size(); ++size) {
@@ -78,13 +78,13 @@ TEST(Webp, filesThatEndTooSoonAreRefusedWhereverTheyEnd)
             EXPECT_TRUE(why.starts_with("a.webp: broken webp image: ")) << size << why;
             EXPECT_EQ(why.find('\n'), std::string::npos) << why;
         }
-    // The header is right and the codes are not.
+    // The header is valid but the codes are truncated.
     const std::string data = test::losslessData(5, 3, webpTexels(15));
     for (std::size_t size = 0; size + 1 < data.size(); ++size)
         EXPECT_NE(refusal(riffWebp(riffChunk("VP8L", data.substr(0, size)))), "accepted") << size;
 }
 
-TEST(Webp, chunksThatLieAreRefused)
+TEST(Webp, inconsistentChunksAreRefused)
 {
     const std::string data = test::losslessData(5, 3, webpTexels(15)), picture = riffChunk("VP8L", data);
     const auto canvas = [](int width, int height) {
@@ -93,56 +93,56 @@ TEST(Webp, chunksThatLieAreRefused)
                              + little(std::uint64_t(height) - 1, 3));
     };
     EXPECT_EQ(refusal(riffWebp(canvas(5, 3) + riffChunk("XXXX", "odd") + picture)), "accepted");
-    EXPECT_NE(refusal(riffWebp(canvas(5, 4) + picture)).find("its canvas is 5 x 4, its picture 5 x 3"),
+    EXPECT_NE(refusal(riffWebp(canvas(5, 4) + picture)).find("its canvas is 5 x 4, its image 5 x 3"),
               std::string::npos);
     EXPECT_NE(refusal(riffWebp("VP8L" + little(0xfffffff0, 4) + data)).find("a chunk takes 4294967280 bytes"),
               std::string::npos);
     EXPECT_NE(refusal(riffWebp(riffChunk("VP8X", "short"))).find("its VP8X chunk has 5 bytes"), std::string::npos);
-    EXPECT_NE(refusal(riffWebp(riffChunk("EXIF", "nothing"))).find("it has no picture"), std::string::npos);
+    EXPECT_NE(refusal(riffWebp(riffChunk("EXIF", "nothing"))).find("it has no image"), std::string::npos);
     std::string lossy = kLossy;
-    lossy[22] = '\x7f'; // the size of the first part
-    EXPECT_NE(refusal(lossy).find("the first part of its picture takes"), std::string::npos) << refusal(lossy);
+    lossy[22] = '\x7f'; // the size of the first partition
+    EXPECT_NE(refusal(lossy).find("the first part of its image takes"), std::string::npos) << refusal(lossy);
     lossy = kLossy;
-    lossy[20] = '\x31'; // no key frame
+    lossy[20] = '\x31'; // not a key frame
     EXPECT_NE(refusal(lossy).find("does not begin with a key frame"), std::string::npos) << refusal(lossy);
 }
 
-// 16384 x 16384 pixels promised by some 300 bytes take a gibibyte.
-TEST(Webp, sizesOverTheLimitAreRefusedBeforeTheyAreDecoded)
+// 16384 x 16384 pixels, claimed by about 300 bytes, take 1 GiB.
+TEST(Webp, sizesOverTheLimitAreRefusedBeforeDecoding)
 {
     EXPECT_NE(refusal(makeWebp(16384, 16384, webpTexels(1))).find("take 1073741824 bytes, the limit is"),
               std::string::npos);
     LoadLimits limits;
     limits.imageSide = 4;
-    EXPECT_NE(refusal(makeWebp(5, 3, webpTexels(15)), limits).find("the limit is 4 a side"), std::string::npos);
-    bool told = false;
+    EXPECT_NE(refusal(makeWebp(5, 3, webpTexels(15)), limits).find("the limit is 4 per side"), std::string::npos);
+    bool announced = false;
     limits = {};
-    limits.expect = [&](std::size_t bytes) { told = bytes == 60; };
+    limits.expect = [&](std::size_t bytes) { announced = bytes == 60; };
     EXPECT_EQ(refusal(makeWebp(5, 3, webpTexels(15)), limits), "accepted");
-    EXPECT_TRUE(told);
+    EXPECT_TRUE(announced);
 }
 
-// kLossy is one chunk of 22 bytes behind 20, of which 10 are the header of its frame; RFC 9649 and RFC 6386, 9.1.
-TEST(Webp, whatIsWrongIsToldWithItsNumbersAndOnlyBeyondEachBound)
+// kLossy is one chunk of 22 bytes after 20, of which 10 are the frame header; RFC 9649 and RFC 6386, 9.1.
+TEST(Webp, errorsStateNumbersAndBeginBeyondEachBound)
 {
     const std::string broken = "a.webp: broken webp image: ";
     const auto lossy = [](std::size_t bytes) { return riffWebp(riffChunk("VP8 ", kLossy.substr(20, bytes))); };
     EXPECT_EQ(refusal(lossy(9)), broken + "its VP8 chunk has 9 bytes, expected at least 10");
     EXPECT_EQ(refusal(lossy(10)),
-              broken + "the first part of its picture takes 9 bytes, its chunk has 0 behind the header");
+              broken + "the first part of its image takes 9 bytes, its chunk has 0 after the header");
     EXPECT_EQ(refusal(lossy(18)),
-              broken + "the first part of its picture takes 9 bytes, its chunk has 8 behind the header");
+              broken + "the first part of its image takes 9 bytes, its chunk has 8 after the header");
     EXPECT_EQ(refusal(lossy(19)).find("the first part"), std::string::npos);
     std::string file = kLossy;
-    file[21] = '\x02'; // the first part has 9 + 8 bytes of the 12 that are there
+    file[21] = '\x02'; // the first partition claims 9 + 8 bytes, 12 are present
     EXPECT_EQ(refusal(file),
-              broken + "the first part of its picture takes 17 bytes, its chunk has 12 behind the header");
+              broken + "the first part of its image takes 17 bytes, its chunk has 12 after the header");
     for (const std::size_t mark : {23u, 24u, 25u}) {
         file = kLossy;
         file[mark] ^= 1;
         EXPECT_EQ(refusal(file), broken + "its VP8 chunk does not begin with a key frame") << mark;
     }
-    file = kLossy; // two bits of each size say how it is to be scaled, which no reader does
+    file = kLossy; // two bits of each size give an upscaling hint, which readers ignore
     file[27] ^= '\x40', file[29] ^= '\x80';
     EXPECT_EQ(refusal(file), "accepted");
 
@@ -154,16 +154,16 @@ TEST(Webp, whatIsWrongIsToldWithItsNumbersAndOnlyBeyondEachBound)
         std::string other = data;
         other[std::size_t(at)] = char(other[std::size_t(at)] ^ bit);
         EXPECT_EQ(refusal(riffWebp(riffChunk("VP8L", other))),
-                  broken + "its VP8L chunk begins with another mark or version");
+                  broken + "its VP8L chunk has an unknown signature or version");
     }
 
     const std::string whole = riffWebp(riffChunk("VP8L", data));
     const auto count = [](std::size_t n) { return std::to_string(n); };
     EXPECT_EQ(refusal(whole + "and more"), "accepted");
     EXPECT_EQ(refusal(whole.substr(0, whole.size() - 1)),
-              broken + "its header promises " + count(whole.size()) + " bytes, the file has "
+              broken + "its header announces " + count(whole.size()) + " bytes, the file has "
                   + count(whole.size() - 1));
-    const std::size_t left = whole.size() - 20; // behind the chunk's name and size
+    const std::size_t left = whole.size() - 20; // after the name and size of the chunk
     std::string longer = whole;
     longer.replace(16, 4, little(left + 1, 4));
     EXPECT_EQ(refusal(longer),
@@ -180,8 +180,8 @@ TEST(Webp, whatIsWrongIsToldWithItsNumbersAndOnlyBeyondEachBound)
     };
     EXPECT_EQ(refusal(riffWebp(canvas(10, 5, 3))), "accepted");
     EXPECT_EQ(refusal(riffWebp(canvas(9, 5, 3))), broken + "its VP8X chunk has 9 bytes, expected 10");
-    EXPECT_EQ(refusal(riffWebp(canvas(10, 6, 3))), broken + "its canvas is 6 x 3, its picture 5 x 3");
-    EXPECT_EQ(refusal(riffWebp(canvas(10, 5, 70000))), broken + "its canvas is 5 x 70000, its picture 5 x 3");
+    EXPECT_EQ(refusal(riffWebp(canvas(10, 6, 3))), broken + "its canvas is 6 x 3, its image 5 x 3");
+    EXPECT_EQ(refusal(riffWebp(canvas(10, 5, 70000))), broken + "its canvas is 5 x 70000, its image 5 x 3");
     LoadLimits limits;
     limits.imageBytes = 59;
     EXPECT_EQ(refusal(whole, limits), "a.webp: 5 x 3 pixels take 60 bytes, the limit is 59");

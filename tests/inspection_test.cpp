@@ -1,4 +1,4 @@
-// A model in telling colours, and what is at one of its points.
+// Models drawn in diagnostic colours, and the values at one of their points.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 namespace cotan {
 namespace {
 
-// A unit square facing +z, as wide as high on the picture, and the camera that fills the picture with it.
+// A unit square facing +z and the camera whose image it fills.
 Scene square(float stretch, float shear, bool mirrored)
 {
     Scene scene;
@@ -53,7 +53,7 @@ glm::ivec3 middleOf(const Scene& scene, Inspection inspection, View view = strai
     return {p[0], p[1], p[2]};
 }
 
-// Within the rounding of one code from sRGB to linear and back.
+// Tolerates the rounding of one code from sRGB to linear and back.
 void expectColor(glm::ivec3 found, glm::ivec3 expected)
 {
     for (int i = 0; i < 3; ++i)
@@ -68,8 +68,8 @@ TEST(Inspection, everyNameIsKnownAndNoOther)
     EXPECT_FALSE(inspectionFromName("shaded"));
 }
 
-// The colours of the scale: green stands for a stretch of 1.4 and for 2 degrees, white for the end.
-TEST(Inspection, stretchAndShearHaveTheColoursOfTheirScale)
+// Colours of the scale: green means a stretch of 1.4 or a shear of 2 degrees, white the end of the scale.
+TEST(Inspection, stretchAndShearAreColouredByTheirScale)
 {
     expectColor(middleOf(square(1, 0, false), Inspection::stretch), {0, 0, 0});
     expectColor(middleOf(square(1.4f, 0, false), Inspection::stretch), {30, 180, 80});
@@ -78,7 +78,7 @@ TEST(Inspection, stretchAndShearHaveTheColoursOfTheirScale)
     expectColor(middleOf(square(1, 1, false), Inspection::shear), {255, 255, 255}); // 45 degrees
 }
 
-TEST(Inspection, mirroredPartsAndStoredTangentsTellTheirSide)
+TEST(Inspection, mirroredUvAndTangentWAreColoured)
 {
     const glm::ivec3 plain = middleOf(square(1, 0, false), Inspection::mirrored),
                      mirrored = middleOf(square(1, 0, true), Inspection::mirrored);
@@ -91,28 +91,28 @@ TEST(Inspection, mirroredPartsAndStoredTangentsTellTheirSide)
     EXPECT_EQ(middleOf(scene, Inspection::w), mirrored);
 }
 
-TEST(Inspection, aMeshThatInstancesStretchDifferentlyCountsAsTheFirstShowsIt)
+TEST(Inspection, stretchIsThatOfTheFirstInstance)
 {
     Scene scene = square(1, 0, false);
     const glm::mat4 wide = glm::scale(glm::translate(glm::mat4(1), glm::vec3(10, 0, 0)), glm::vec3(20, 1, 1));
-    scene.instances.push_back({"wide", 0, wide}); // out of the picture
+    scene.instances.push_back({"wide", 0, wide}); // outside the image
     expectColor(middleOf(scene, Inspection::stretch), {0, 0, 0});
     std::swap(scene.instances[0], scene.instances[1]);
     expectColor(middleOf(scene, Inspection::stretch), {255, 255, 255});
 }
 
-TEST(Inspection, uvWithoutAreaAreNeitherMirroredNorNot)
+TEST(Inspection, uvWithoutAreaHaveNoMirroring)
 {
     Scene scene = square(1, 0, true);
-    const glm::ivec3 without = middleOf(square(1, 0, true), Inspection::w); // grey: it has no tangents
+    const glm::ivec3 without = middleOf(square(1, 0, true), Inspection::w); // grey: the mesh has no tangents
     scene.meshes[0].texcoords[0].assign(scene.meshes[0].vertexCount(), {0.25f, 0.5f});
     EXPECT_EQ(middleOf(scene, Inspection::mirrored), without);
     scene.meshes[0].texcoords[0].clear();
     EXPECT_EQ(middleOf(scene, Inspection::mirrored), without);
 }
 
-// An `up` along the line of sight says nothing: y takes its place, as it does where the picture is drawn.
-TEST(Inspection, aCameraWithoutUpPicksWhatItDraws)
+// An `up` along the view direction is unusable: y replaces it, as in the renderer.
+TEST(Inspection, cameraWithoutUpPicksThePointItDraws)
 {
     Scene scene = square(1, 0, false);
     View view = straightOn();
@@ -124,7 +124,7 @@ TEST(Inspection, aCameraWithoutUpPicksWhatItDraws)
     EXPECT_EQ(upright->barycentric, without->barycentric);
 }
 
-TEST(Inspection, theInsideOfASurfaceIsSeenInAnotherColour)
+TEST(Inspection, backFacesHaveAnotherColour)
 {
     const Scene scene = square(1, 0, false);
     const glm::ivec3 front = middleOf(scene, Inspection::facing);
@@ -135,7 +135,7 @@ TEST(Inspection, theInsideOfASurfaceIsSeenInAnotherColour)
     EXPECT_GT(back.x, back.z);
 }
 
-TEST(Inspection, aMapIsShownWithItsCodesAsTheyAre)
+TEST(Inspection, mapsAreShownWithUnchangedCodes)
 {
     Scene scene = square(1, 0, false);
     Image image = makeImage(1, 1, PixelType::unorm8);
@@ -154,19 +154,19 @@ TEST(Inspection, aMapIsShownWithItsCodesAsTheyAre)
     expectColor(middleOf(scene, Inspection::normalMap), {128, 128, 255});
 }
 
-TEST(Inspection, densityIsToldAgainstTheMedian)
+TEST(Inspection, densityIsRelativeToTheMedian)
 {
     Scene scene = square(1, 0, false);
     scene.meshes.push_back(scene.meshes[0]);
     scene.meshes.push_back(scene.meshes[0]);
     for (glm::vec2& uv : scene.meshes[0].texcoords[0])
-        uv *= 4.0f; // of three alike, with 4, 1 and 1 times the texels
+        uv *= 4.0f; // the three meshes have 4, 1 and 1 times the texel density
     for (int i = 1; i < 3; ++i)
         scene.instances.push_back({"away", i, glm::translate(glm::mat4(1), glm::vec3(5 * i, 0, 0))});
     expectColor(middleOf(scene, Inspection::density), {220, 30, 20});
 }
 
-TEST(Probe, untilSomethingIsFoundItHasNothing)
+TEST(Probe, isEmptyByDefault)
 {
     const viewer::Probed p;
     EXPECT_EQ(p.normal, glm::vec3(0));
@@ -175,9 +175,9 @@ TEST(Probe, untilSomethingIsFoundItHasNothing)
     EXPECT_EQ(p.texel, glm::ivec2(-1));
 }
 
-TEST(Probe, theFrameAtAPointIsThatOfTheGradients)
+TEST(Probe, frameAtAPointFollowsTheGradients)
 {
-    const Scene scene = square(2, 0, false); // u runs half as fast as v
+    const Scene scene = square(2, 0, false); // u changes half as fast as v
     const auto hit = pick(scene, straightOn().camera, {16, 16}, {8, 8});
     ASSERT_TRUE(hit);
     viewer::Prober prober;
@@ -193,36 +193,36 @@ TEST(Probe, theFrameAtAPointIsThatOfTheGradients)
     EXPECT_EQ(prober.at(mirrored, 2, *hit, Frame::orthonormal, TangentOrigin::stored).w, -1);
 }
 
-TEST(Probe, theTexelIsInsideTheMapWhereverUvAre)
+TEST(Probe, texelIsInsideTheMapForAnyUv)
 {
     Scene scene = square(1, 0, false);
     scene.images.push_back(makeImage(8, 4, PixelType::unorm8));
     scene.materials[0].normalMap.image = 0;
     for (glm::vec2& uv : scene.meshes[0].texcoords[0])
         uv = uv + glm::vec2(-3, 5);
-    const auto hit = pick(scene, straightOn().camera, {16, 16}, {8.5f, 4.5f}); // right of the middle, a quarter down
+    const auto hit = pick(scene, straightOn().camera, {16, 16}, {8.5f, 4.5f}); // right of the centre, a quarter down
     ASSERT_TRUE(hit);
     const viewer::Probed p = viewer::Prober().at(scene, 1, *hit, Frame::cotangent, TangentOrigin::stored);
     EXPECT_EQ(p.texel, glm::ivec2(4, 1));
 }
 
-TEST(ProblemAreas, theWorstTriangleIsLookedAtAlongItsNormal)
+TEST(ProblemAreas, cameraLooksAtTheWorstTriangleAlongItsNormal)
 {
     Scene scene = square(1, 0, false);
     scene.meshes.push_back(makePatch(3, 0, false, 1));
     scene.instances.push_back({"stretched", 1, glm::translate(glm::mat4(1), glm::vec3(10, 0, 0))});
     const std::vector<ProblemArea> spots = problemAreas(scene);
     ASSERT_EQ(spots.size(), 1u);
-    EXPECT_NE(spots[0].text.find("stretched over 1.2: 100.0 % of "), std::string::npos) << spots[0].text;
+    EXPECT_NE(spots[0].text.find("stretched by more than 1.2: 100.0 % of "), std::string::npos) << spots[0].text;
     EXPECT_TRUE(spots[0].text.ends_with(", here 3")) << spots[0].text;
     EXPECT_NEAR(spots[0].camera.target.x, 10, 0.5f);
-    EXPECT_GT(spots[0].camera.eye.z, 1.6f); // an eighth of a model 13 wide at 45 degrees
+    EXPECT_GT(spots[0].camera.eye.z, 1.6f); // an eighth of a model that is 13 wide, at 45 degrees
     const auto hit = pick(scene, spots[0].camera, {100, 100}, {50, 50});
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->mesh, 1);
 }
 
-TEST(ProblemAreas, theCameraIsNearerThanWhatStandsBeforeTheTriangle)
+TEST(ProblemAreas, cameraIsInFrontOfOccluders)
 {
     Scene scene;
     scene.materials.emplace_back();
@@ -240,26 +240,26 @@ TEST(ProblemAreas, theCameraIsNearerThanWhatStandsBeforeTheTriangle)
     EXPECT_EQ(spots[0].view, "stretch");
 }
 
-// The window lists what `lint` reports: the same shares of the same things.
-TEST(ProblemAreas, haveTheSharesOfLint)
+// The window lists what `lint` reports, with the same fractions.
+TEST(ProblemAreas, fractionsEqualThoseOfLint)
 {
     const std::filesystem::path file = COTAN_SHARED_DATA "/animated/lumberjack.glb";
     if (!std::filesystem::exists(file))
         GTEST_SKIP() << "no shared data at " << file;
     const Scene scene = *loadScene(file);
     const PrimitiveLint lint = lintScene(scene).primitives.at(0);
-    std::map<std::string, double> shares;
+    std::map<std::string, double> fractions;
     for (const ProblemArea& spot : problemAreas(scene))
-        for (const char* words : {"without area", "stretched", "sheared", "w against the uv", "turned"})
+        for (const char* words : {"without area", "stretched", "sheared", "w contradicts the uv", "rotated"})
             if (spot.text.find(words) != std::string::npos)
-                shares[words] = spot.share;
-    EXPECT_NEAR(shares["stretched"], lint.uv.stretched, 1e-12);
-    EXPECT_NEAR(shares["sheared"], lint.uv.sheared, 1e-12);
-    // Where green makes up for w, what is left to look at are the other corners.
+                fractions[words] = spot.share;
+    EXPECT_NEAR(fractions["stretched"], lint.uv.stretched, 1e-12);
+    EXPECT_NEAR(fractions["sheared"], lint.uv.sheared, 1e-12);
+    // Reversed green compensates w at most corners, so the problem area counts the remaining ones.
     ASSERT_TRUE(scene.materials[std::size_t(scene.meshes[0].material)].greenReversed);
-    EXPECT_NEAR(shares["w against the uv"], 1 - lint.stored.reversedW, 1e-12);
-    EXPECT_NEAR(shares["turned"], lint.stored.turned, 1e-12);
-    EXPECT_EQ(shares.contains("without area"), lint.uv.degenerate >= 0.001);
+    EXPECT_NEAR(fractions["w contradicts the uv"], 1 - lint.stored.reversedW, 1e-12);
+    EXPECT_NEAR(fractions["rotated"], lint.stored.rotated, 1e-12);
+    EXPECT_EQ(fractions.contains("without area"), lint.uv.degenerate >= 0.001);
 }
 
 TEST(ProblemAreas, aStoredTangentOnTheWrongSideIsFound)
@@ -270,7 +270,7 @@ TEST(ProblemAreas, aStoredTangentOnTheWrongSideIsFound)
     for (glm::vec4& tangent : scene.meshes[0].tangents)
         tangent.w = -1;
     ASSERT_EQ(problemAreas(scene).size(), 1u);
-    EXPECT_NE(problemAreas(scene)[0].text.find("w against the uv: 100.0 %"), std::string::npos);
+    EXPECT_NE(problemAreas(scene)[0].text.find("w contradicts the uv: 100.0 %"), std::string::npos);
 }
 
 } // namespace
@@ -279,7 +279,7 @@ TEST(ProblemAreas, aStoredTangentOnTheWrongSideIsFound)
 namespace cotan {
 namespace {
 
-// Two triangles that share an edge, with corners of their own; uv of the second are moved, or mirrored at the edge.
+// Two triangles that share an edge but no vertices; uv of the second are moved, or mirrored at the edge.
 Scene twoTriangles(float moved, bool mirrored)
 {
     Scene scene;
@@ -314,14 +314,14 @@ EdgeKind sharedEdgeOf(const Scene& scene)
     return found;
 }
 
-TEST(Edges, tellWhereUvGoOnBreakAndAreMirrored)
+TEST(Edges, areInnerSeamsOrMirroredSeams)
 {
     EXPECT_EQ(sharedEdgeOf(twoTriangles(0, false)), EdgeKind::inner);
     EXPECT_EQ(sharedEdgeOf(twoTriangles(0.25f, false)), EdgeKind::seam);
     EXPECT_EQ(sharedEdgeOf(twoTriangles(0, true)), EdgeKind::mirroredSeam);
 }
 
-// Of 64 by 64 pixels, 50 a unit, straight at a point of the plane z = 0.
+// 64 by 64 pixels, 50 per unit, looking straight at a point of the plane z = 0.
 View straightAt(float x, float y)
 {
     View view;
@@ -333,21 +333,21 @@ View straightAt(float x, float y)
     return view;
 }
 
-// Pixels of the seams and borders of `edges` over a picture of the scene, by column.
+// Number of pixels in each column that the seams and borders of `edges` cover in a view of the scene.
 std::vector<int> seamsByColumn(const Scene& scene, View view, const std::vector<SurfaceEdge>& edges)
 {
     view.output = Output::depth;
     const auto depth = drawView(scene, view, "reference");
     EXPECT_TRUE(depth) << depth.error().message;
-    Image picture = makeImage(view.width, view.height, PixelType::unorm8);
-    drawEdges(picture, *depth, view.camera, edges, {false, true});
+    Image image = makeImage(view.width, view.height, PixelType::unorm8);
+    drawEdges(image, *depth, view.camera, edges, {false, true});
     std::vector<int> cyan(std::size_t(view.width));
-    for (std::size_t i = 0; i < picture.pixelCount(); ++i)
-        cyan[i % cyan.size()] += picture.bytes8()[4 * i + 2] == 255;
+    for (std::size_t i = 0; i < image.pixelCount(); ++i)
+        cyan[i % cyan.size()] += image.bytes8()[4 * i + 2] == 255;
     return cyan;
 }
 
-TEST(Edges, areDrawnWhereTheyAreAndNotBehindOtherSurfaces)
+TEST(Edges, areDrawnInPositionAndHiddenBehindSurfaces)
 {
     Scene scene = twoTriangles(0, false);
     const auto seen = [&] {
@@ -355,16 +355,16 @@ TEST(Edges, areDrawnWhereTheyAreAndNotBehindOtherSurfaces)
         return std::accumulate(columns.begin(), columns.end(), 0);
     };
     EXPECT_NEAR(seen(), 200, 8);             // four sides of 50 pixels
-    scene.meshes.push_back(scene.meshes[0]); // the same, before it and larger
+    scene.meshes.push_back(scene.meshes[0]); // an occluder: the same mesh, nearer and larger
     scene.instances.push_back({"before", 1, glm::scale(glm::translate(glm::mat4(1), {-1, -1, 1}), {8, 8, 1})});
     EXPECT_LE(seen(), 4);
 }
 
-TEST(Edges, thatGoFarBeyondTheImageAreDrawnWithoutGapsInIt)
+TEST(Edges, longEdgesAreDrawnWithoutGaps)
 {
     Scene scene = twoTriangles(0, false);
     for (glm::vec3& p : scene.meshes[0].positions)
-        p = (p - 0.5f) * 4000.0f + glm::vec3(0, 2000, 2000); // of it only one side crosses the image, along x
+        p = (p - 0.5f) * 4000.0f + glm::vec3(0, 2000, 2000); // only one of its sides crosses the image, along x
     const std::vector<int> columns = seamsByColumn(scene, straightAt(0.01f, 0.01f), surfaceEdges(scene));
     for (std::size_t x = 0; x < columns.size(); ++x)
         EXPECT_GE(columns[x], 1) << x;

@@ -1,5 +1,5 @@
-// Each view of a model in telling colours reads its own map and channel; problem areas are looked at from where they
-// say; what is under the pointer has every number right.
+// Each diagnostic view reads its own map and channel; problem areas are seen from the camera that they state; every
+// value under the pointer is right.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace cotan {
 namespace {
 
-// A square of 2 x 2 facing +z around the origin, uv from the top left.
+// A square of 2 x 2 facing +z around the origin, with uv (0, 0) at the top left.
 Scene panel()
 {
     Scene scene;
@@ -41,7 +41,7 @@ Image oneColor(std::array<int, 4> codes)
     return image;
 }
 
-glm::ivec3 shownOf(const Scene& scene, Inspection inspection)
+glm::ivec3 displayedColor(const Scene& scene, Inspection inspection)
 {
     View view;
     view.width = view.height = 8;
@@ -57,9 +57,9 @@ glm::ivec3 shownOf(const Scene& scene, Inspection inspection)
     return {p[0], p[1], p[2]};
 }
 
-void expectShown(const Scene& scene, Inspection inspection, glm::ivec3 expected)
+void expectDisplayed(const Scene& scene, Inspection inspection, glm::ivec3 expected)
 {
-    const glm::ivec3 found = shownOf(scene, inspection);
+    const glm::ivec3 found = displayedColor(scene, inspection);
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(found[c], expected[c], 1) << inspectionNames()[std::size_t(inspection)] << " " << c;
 }
@@ -69,7 +69,7 @@ TEST(InspectionViews, eachReadsItsOwnMapAndChannel)
     Scene scene = panel();
     Material& m = scene.materials[0];
     Texture* const slots[] = {&m.baseColorMap, &m.normalMap, &m.metallicRoughnessMap, &m.occlusionMap, &m.emissiveMap};
-    for (int k = 0; k < 5; ++k) { // no two numbers are the same
+    for (int k = 0; k < 5; ++k) { // no two codes are equal
         scene.images.push_back(oneColor({41 + 40 * k, 51 + 40 * k, 61 + 40 * k, 71 + 40 * k}));
         slots[k]->image = k;
     }
@@ -77,46 +77,46 @@ TEST(InspectionViews, eachReadsItsOwnMapAndChannel)
     m.roughness = m.metallic = 1;
     m.alphaMode = AlphaMode::blend;
     const auto grey = [](int code) { return glm::ivec3(code); };
-    expectShown(scene, Inspection::baseColor, {41, 51, 61});
-    expectShown(scene, Inspection::alpha, grey(71));
-    expectShown(scene, Inspection::normalMap, {81, 91, 101});
-    expectShown(scene, Inspection::normalMapRed, grey(81));
-    expectShown(scene, Inspection::normalMapGreen, grey(91));
-    expectShown(scene, Inspection::normalMapBlue, grey(101));
-    expectShown(scene, Inspection::roughness, grey(131));
-    expectShown(scene, Inspection::metallic, grey(141));
-    expectShown(scene, Inspection::occlusion, grey(161));
-    expectShown(scene, Inspection::emissive, {201, 211, 221});
+    expectDisplayed(scene, Inspection::baseColor, {41, 51, 61});
+    expectDisplayed(scene, Inspection::alpha, grey(71));
+    expectDisplayed(scene, Inspection::normalMap, {81, 91, 101});
+    expectDisplayed(scene, Inspection::normalMapRed, grey(81));
+    expectDisplayed(scene, Inspection::normalMapGreen, grey(91));
+    expectDisplayed(scene, Inspection::normalMapBlue, grey(101));
+    expectDisplayed(scene, Inspection::roughness, grey(131));
+    expectDisplayed(scene, Inspection::metallic, grey(141));
+    expectDisplayed(scene, Inspection::occlusion, grey(161));
+    expectDisplayed(scene, Inspection::emissive, {201, 211, 221});
 }
 
-TEST(InspectionViews, withoutAMapTheFactorIsShownAsItWouldBeStored)
+TEST(InspectionViews, withoutAMapTheFactorIsShownAsStored)
 {
     Scene scene = panel();
     Material& m = scene.materials[0];
-    const auto srgb = [](double c) { // of light
+    const auto srgb = [](double c) { // c is linear
         return int(std::lround(255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055)));
     };
     m.baseColor = {0.25f, 0.5f, 0.75f, 0.4f};
     m.roughness = 0.3f;
     m.metallic = 0.6f;
     m.emissive = {0.5f, 4, 0};
-    expectShown(scene, Inspection::baseColor, {srgb(0.25), srgb(0.5), srgb(0.75)});
-    expectShown(scene, Inspection::alpha, glm::ivec3(255)); // opaque: alpha does not count
+    expectDisplayed(scene, Inspection::baseColor, {srgb(0.25), srgb(0.5), srgb(0.75)});
+    expectDisplayed(scene, Inspection::alpha, glm::ivec3(255)); // alpha is ignored in opaque mode
     m.alphaMode = AlphaMode::mask;
-    expectShown(scene, Inspection::alpha, glm::ivec3(102));
-    expectShown(scene, Inspection::roughness, glm::ivec3(77));
-    expectShown(scene, Inspection::metallic, glm::ivec3(153));
-    expectShown(scene, Inspection::emissive, {srgb(0.5), 255, 0});
-    expectShown(scene, Inspection::occlusion, glm::ivec3(255));
-    expectShown(scene, Inspection::normalMap, {128, 128, 255});
+    expectDisplayed(scene, Inspection::alpha, glm::ivec3(102));
+    expectDisplayed(scene, Inspection::roughness, glm::ivec3(77));
+    expectDisplayed(scene, Inspection::metallic, glm::ivec3(153));
+    expectDisplayed(scene, Inspection::emissive, {srgb(0.5), 255, 0});
+    expectDisplayed(scene, Inspection::occlusion, glm::ivec3(255));
+    expectDisplayed(scene, Inspection::normalMap, {128, 128, 255});
 }
 
-// 8 x 8 squares, light and dark in turn; the first row has the least hue.
-TEST(InspectionViews, theCheckerHasSixtyFourSquaresWhoseHueIsThatOfTheirColumn)
+// 8 x 8 squares, alternately light and dark; the first row is the least saturated.
+TEST(InspectionViews, checkerHas64SquaresWithTheHueOfTheirColumn)
 {
-    const Scene shown = inspected(panel(), Inspection::checker);
-    ASSERT_EQ(shown.images.size(), 1u);
-    const Image& image = shown.images[0];
+    const Scene displayed = inspected(panel(), Inspection::checker);
+    ASSERT_EQ(displayed.images.size(), 1u);
+    const Image& image = displayed.images[0];
     ASSERT_EQ(image.width, 512);
     ASSERT_EQ(image.height, 512);
     const auto at = [&](int column, int row) {
@@ -130,13 +130,13 @@ TEST(InspectionViews, theCheckerHasSixtyFourSquaresWhoseHueIsThatOfTheirColumn)
             if (column < 7) {
                 EXPECT_EQ(sum(c) < sum(at(column + 1, row)), (column + row) % 2 == 0) << column << row;
             }
-            // The brightest of red, green and blue by thirds of the circle.
+            // The brightest of red, green and blue changes at thirds of the hue circle.
             const double hue = column / 8.0 * 3;
             const int brightest = int(std::lround(hue)) % 3;
             for (int k = 0; k < 3; ++k)
                 EXPECT_LE(c[k], c[brightest]) << column << row;
             const double fade = 0.35 + 0.65 * row / 7, bright = (column + row) % 2 ? 0.92 : 0.35;
-            if (column == 0) { // red: tint 1, and a quarter for the two others
+            if (column == 0) { // red has tint 1, the two others a quarter
                 EXPECT_NEAR(c.x, 255 * bright, 1);
                 EXPECT_NEAR(c.y, 255 * bright * (1 - 0.6 * fade * 0.75), 1);
                 EXPECT_NEAR(c.z, c.y, 1);
@@ -144,7 +144,7 @@ TEST(InspectionViews, theCheckerHasSixtyFourSquaresWhoseHueIsThatOfTheirColumn)
         }
 }
 
-TEST(InspectionViews, trianglesKeepTheirPlacesAndGetCornersOfTheirOwn)
+TEST(InspectionViews, trianglesKeepTheirOrderAndShareNoVertices)
 {
     for (const Inspection inspection : {Inspection::stretch, Inspection::mirrored, Inspection::facing}) {
         const Scene before = panel(), after = inspected(before, inspection);
@@ -171,7 +171,7 @@ TEST(InspectionViews, trianglesKeepTheirPlacesAndGetCornersOfTheirOwn)
 
 // ---- problem areas -------------------------------------------------------------------------------------
 
-// Patches beside each other: 4 wide, sheared by 45 degrees, and without area in uv.
+// Patches side by side: stretched by 4, sheared by 45 degrees, and without area in uv.
 Scene faulty()
 {
     Scene scene;
@@ -187,11 +187,11 @@ Scene faulty()
     for (glm::vec2& uv : scene.meshes[2].texcoords[0])
         uv.y = uv.x;
     add("", makePatch(1, 0, false, 1), 30);
-    scene.meshes[3].tangents.assign(scene.meshes[3].vertexCount(), {0, 1, 0, -1}); // turned by 90 degrees, w wrong
+    scene.meshes[3].tangents.assign(scene.meshes[3].vertexCount(), {0, 1, 0, -1}); // rotated by 90 degrees, w wrong
     return scene;
 }
 
-TEST(ProblemAreas, ofEachKindAreNamedWithTheirViewAndTheWorstComesFirst)
+TEST(ProblemAreas, areNamedWithTheirViewWorstFirst)
 {
     const std::vector<ProblemArea> spots = problemAreas(faulty());
     ASSERT_GE(spots.size(), 5u);
@@ -201,11 +201,11 @@ TEST(ProblemAreas, ofEachKindAreNamedWithTheirViewAndTheWorstComesFirst)
         bool storedTangents;
     };
     for (const Row& row :
-         {Row{"wide", "stretched over 1.2: 100.0 % of wide, here 4", "stretch", 0, false},
-          {"sheared", "sheared over 10 degrees: 100.0 % of sheared, here 45", "shear", 1, false},
+         {Row{"wide", "stretched by more than 1.2: 100.0 % of wide, here 4", "stretch", 0, false},
+          {"sheared", "sheared by more than 10 degrees: 100.0 % of sheared, here 45", "shear", 1, false},
           {"flat", "uv without area: 100.0 % of flat", "mirrored", 2, false},
-          {"", "stored w against the uv: 100.0 % of mesh 3", "w", 3, false},
-          {"", "stored tangents turned over 45 degrees: 100.0 % of mesh 3, here 90", "tangent", 3, true}}) {
+          {"", "stored w contradicts the uv: 100.0 % of mesh 3", "w", 3, false},
+          {"", "stored tangents rotated by more than 45 degrees: 100.0 % of mesh 3, here 90", "tangent", 3, true}}) {
         const auto spot = std::ranges::find(spots, std::string(row.words), &ProblemArea::text);
         ASSERT_NE(spot, spots.end()) << row.words;
         EXPECT_EQ(spot->view, row.view);
@@ -219,8 +219,8 @@ TEST(ProblemAreas, ofEachKindAreNamedWithTheirViewAndTheWorstComesFirst)
     EXPECT_EQ(problemAreas(faulty(), 2)[1].text, spots[1].text);
 }
 
-// From four times the longest edge, or a sixth of the model where that is more, along the normal.
-TEST(ProblemAreas, areSeenAlongTheirNormalFromFourTimesTheirSize)
+// Seen along the normal from four times the longest edge, or from a sixth of the model's size if that is more.
+TEST(ProblemAreas, areViewedAlongTheNormalFromFourTimesTheirSize)
 {
     for (const float mirror : {1.0f, -1.0f}) {
         Scene scene;
@@ -238,17 +238,17 @@ TEST(ProblemAreas, areSeenAlongTheirNormalFromFourTimesTheirSize)
         EXPECT_NEAR(glm::length(spot.camera.target - middle), 0, 1e-5);
         EXPECT_NEAR(glm::length(spot.camera.eye - middle - glm::vec3(0, 0, 4 * longest)), 0, 1e-4) << mirror;
         EXPECT_TRUE(pick(scene, spot.camera, {100, 100}, {50, 50}));
-        scene.meshes.push_back(makePatch(1, 0, false, 1)); // far away: the model is 1000 wide
+        scene.meshes.push_back(makePatch(1, 0, false, 1)); // far away: makes the model 1000 wide
         scene.instances.push_back({"b", 1, glm::translate(glm::mat4(1), glm::vec3(1000, 0, 0))});
         const ProblemArea small = problemAreas(scene).at(0);
         EXPECT_NEAR(glm::length(small.camera.eye - small.camera.target), 1000.0 / 6, 2);
     }
-    Scene floor; // seen from above, up the picture is away
+    Scene floor; // seen from above; up in the image points away
     floor.materials.emplace_back();
     floor.meshes = {makePatch(4, 0, false, 1)};
     floor.instances.push_back({"a", 0, glm::rotate(glm::mat4(1), -1.5707963f, glm::vec3(1, 0, 0))});
     EXPECT_EQ(problemAreas(floor).at(0).camera.up, glm::vec3(0, 0, -1));
-    for (const float degrees : {-30.0f, 45.0f, 80.0f}) { // a slope, from above or below, is seen with up upwards
+    for (const float degrees : {-30.0f, 45.0f, 80.0f}) { // a slope seen from above or below keeps y up
         floor.instances[0].toWorld = glm::rotate(glm::mat4(1), glm::radians(degrees), glm::vec3(1, 0, 0));
         const Camera camera = problemAreas(floor).at(0).camera;
         EXPECT_EQ(camera.up, glm::vec3(0, 1, 0)) << degrees;
@@ -258,7 +258,7 @@ TEST(ProblemAreas, areSeenAlongTheirNormalFromFourTimesTheirSize)
 
 // ---- what is under the pointer ------------------------------------------------------------------------
 
-TEST(ProbeValues, areThoseOfThePointInItsInstance)
+TEST(ProbeValues, applyTheInstanceTransform)
 {
     Scene scene = panel();
     scene.images.push_back(makeImage(8, 4, PixelType::unorm8));
@@ -271,7 +271,7 @@ TEST(ProbeValues, areThoseOfThePointInItsInstance)
     camera.orthographic = true;
     camera.verticalExtent = 2;
     viewer::Prober prober;
-    const auto hit = pick(scene, camera, {100, 100}, {75, 40}); // (0.5, 0.2) in the turned one: its own (0.2, -0.5)
+    const auto hit = pick(scene, camera, {100, 100}, {75, 40}); // world (0.5, 0.2), in the rotated instance (0.2, -0.5)
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->instance, 1);
     EXPECT_NEAR(hit->depth, 6, 1e-5);
@@ -283,7 +283,7 @@ TEST(ProbeValues, areThoseOfThePointInItsInstance)
     EXPECT_NEAR(glm::length(glm::normalize(p.t) - glm::vec3(0, 1, 0)), 0, 1e-5);
     EXPECT_NEAR(glm::length(glm::normalize(p.b) - glm::vec3(1, 0, 0)), 0, 1e-5);
     EXPECT_EQ(p.w, 1);
-    camera.eye = {0, 0, 2}; // below the turned one: the other instance, with the same prober
+    camera.eye = {0, 0, 2}; // below the rotated instance: hits the other one, with the same prober
     const auto other = pick(scene, camera, {100, 100}, {75, 40});
     ASSERT_TRUE(other);
     EXPECT_EQ(other->instance, 0);
@@ -291,7 +291,7 @@ TEST(ProbeValues, areThoseOfThePointInItsInstance)
     EXPECT_NEAR(q.uv.x, 0.75f, 1e-5);
     EXPECT_NEAR(q.uv.y, 0.4f, 1e-5);
     EXPECT_NEAR(glm::length(glm::normalize(q.t) - glm::vec3(1, 0, 0)), 0, 1e-5);
-    scene.meshes[0].texcoords[0].clear(); // another scene by its number
+    scene.meshes[0].texcoords[0].clear(); // the new number marks another scene
     const viewer::Probed none = prober.at(scene, 2, *other, Frame::cotangent, TangentOrigin::stored);
     EXPECT_FALSE(none.hasUv);
     EXPECT_EQ(none.w, 0);

@@ -1,4 +1,4 @@
-// JPEG files for tests, by libjpeg itself.
+// JPEG files for tests, encoded by libjpeg itself.
 #pragma once
 
 #include <cstdio>
@@ -11,16 +11,16 @@
 
 namespace cotan::test {
 
-struct JpegMaking {
+struct JpegSettings {
     int quality = 75;
-    bool halved = false;       // colours at half the size
-    bool halvedAcross = false; // at half the width
+    bool halved = false;       // chroma at half the width and height
+    bool halvedAcross = false; // chroma at half the width
     bool progressive = false;
-    bool rgb = false; // stored as red, green and blue, not as luminance and colour
+    bool rgb = false; // stored as RGB, not as luma and chroma
 };
 
-// image: of unorm8; its alpha is left out.
-inline std::vector<std::byte> jpegOf(const Image& image, const JpegMaking& making = {})
+// image: of type unorm8; its alpha is dropped.
+inline std::vector<std::byte> jpegOf(const Image& image, const JpegSettings& settings = {})
 {
     jpeg_compress_struct jpeg{};
     jpeg_error_mgr errors{};
@@ -34,11 +34,11 @@ inline std::vector<std::byte> jpegOf(const Image& image, const JpegMaking& makin
     jpeg.input_components = 4;
     jpeg.in_color_space = JCS_EXT_RGBA;
     jpeg_set_defaults(&jpeg);
-    jpeg_set_colorspace(&jpeg, making.rgb ? JCS_RGB : JCS_YCbCr);
-    jpeg_set_quality(&jpeg, making.quality, TRUE);
-    jpeg.comp_info[0].h_samp_factor = making.halved || making.halvedAcross ? 2 : 1;
-    jpeg.comp_info[0].v_samp_factor = making.halved ? 2 : 1;
-    if (making.progressive)
+    jpeg_set_colorspace(&jpeg, settings.rgb ? JCS_RGB : JCS_YCbCr);
+    jpeg_set_quality(&jpeg, settings.quality, TRUE);
+    jpeg.comp_info[0].h_samp_factor = settings.halved || settings.halvedAcross ? 2 : 1;
+    jpeg.comp_info[0].v_samp_factor = settings.halved ? 2 : 1;
+    if (settings.progressive)
         jpeg_simple_progression(&jpeg);
     jpeg_start_compress(&jpeg, TRUE);
     while (jpeg.next_scanline < jpeg.image_height) {

@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
-"""docs/reference/json.md against what commands write: no field of a report is missing there, and none is there that no
-report has.
+"""Compares docs/reference/json.md with the reports of commands: it must list every field of a report, and no other.
 
-  json_fields_test.py TOOL DOCS          says which fields differ; exit code 1 if one does
-  json_fields_test.py TOOL DOCS --rows   prints the rows that the tables lack, to be given a meaning
+  json_fields_test.py TOOL DOCS          lists the fields that differ; exit code 1 if any does
+  json_fields_test.py TOOL DOCS --rows   prints the rows that the tables lack, without meanings
 
 How a table reads: `...` stands for the fields of a shape; `a.b[].c` is the member c of each item of the list b of the object a; NAME is any name; a field that
 ends in ? is not in every report. A type that is the name of a shape stands for the object of that shape's table.
@@ -20,7 +19,7 @@ from output_inputs import make_inputs
 
 HERE = pathlib.Path(__file__).resolve().parent
 
-# Command lines that together write every field but those of UNSEEN.
+# Command lines that together write every field except those in UNSEEN.
 COMMANDS = """
 render panel.gltf --size 32x32 -o r.png --device reference
 render panel.gltf --size 32x32 -o r.png --device reference --view error
@@ -62,7 +61,7 @@ cost --frames cotangent --no-timing
 batch jobs.jsonl --store kept
 """.strip().splitlines()
 
-# Documented, and written only of models, devices and windows that are not made here.
+# Documented fields that only models, devices and windows which this test does not create would write.
 UNSEEN = {
     "cotan-render": {"pose", "pose.animation", "pose.seconds", "note"},
     "cotan-compare": {"pose", "pose.animation", "pose.seconds"},
@@ -87,7 +86,7 @@ class Documented:
 
     def __init__(self, page):
         self.reports, self.versions, shapes, here = {}, {}, {}, None
-        self.perhaps = set()  # members of shapes that some of their uses never have
+        self.perhaps = set()  # members of shapes that some reports with the shape never have
         for line in page.read_text().splitlines():
             if heading := re.fullmatch(r"#+ (cotan-[a-z-]+), version (\d+)", line):
                 here = self.reports.setdefault(heading[1], {})
@@ -105,7 +104,7 @@ class Documented:
         found = {}
         for field, types in fields.items():
             shape = types.removesuffix(" or null").removeprefix("list of ")
-            if field == "...":  # all of a shape's, where the report has them
+            if field == "...":  # all fields of the shape, as far as the report has them
                 inside = self.expanded(shapes[shape], shapes)
                 self.perhaps |= {name.rstrip("?") for name in inside if name.endswith("?") and "." not in name}
                 found |= {name if "." in name or name.endswith("?") else name + "?": t for name, t in inside.items()}
@@ -123,7 +122,7 @@ class Seen:
     """Fields of the reports of one format: their types, and whether every object that could have them had them."""
 
     def __init__(self, documented):
-        # `a.NAME.b`: any name there. Question marks stand at the ends of names.
+        # `a.NAME.b` matches any name there. Question marks are only at the ends of names.
         self.named = {field.replace("?", "") for field in documented if "NAME" in field}
         self.types, self.times = {}, {}
 
@@ -147,7 +146,7 @@ def parent_of(field):
 
 
 def differences(name, page, reports):
-    """What a page says wrongly of these reports, one sentence each."""
+    """Mistakes of a page about these reports, one sentence each."""
     documented = page.reports.get(name, {})
     seen = Seen(documented)
     for report in reports:
@@ -183,7 +182,7 @@ def differences(name, page, reports):
 
 
 def run_all(tool, folder):
-    """The reports of all commands, by format."""
+    """Reports of all commands, by format."""
     make_inputs(folder)
     jobs = [{"name": "a", "command": ["map", "info", "rocks.png"]}, {"name": "b", "command": ["lint", "plain.gltf"]},
             {"name": "c", "command": ["map", "info", "gone.png"]}]

@@ -18,7 +18,7 @@ struct Corner {
     glm::vec3 normal{0, 0, 1};
 };
 
-// Three corners a triangle, none shared.
+// Three vertices for each triangle, none shared.
 inline Mesh meshOf(const std::vector<Corner>& corners)
 {
     Mesh mesh;
@@ -31,7 +31,7 @@ inline Mesh meshOf(const std::vector<Corner>& corners)
     return mesh;
 }
 
-// A rectangle in xy facing +z with the lower left corner `at`; its uv run from `low` (top left, as v runs down) to
+// A rectangle in xy facing +z with its lower left corner at `at`; uv run from `low` (top left, as v runs down) to
 // `high`.
 inline std::vector<Corner> rectangle(glm::vec2 at, glm::vec2 size, glm::vec2 low, glm::vec2 high)
 {
@@ -50,10 +50,10 @@ inline std::vector<Corner> operator+(std::vector<Corner> a, const std::vector<Co
     return a;
 }
 
-inline constexpr Convention kAsMeant{.expansion = Expansion::signedValues,
-                                     .greenUp = false}; // signed, green along v: stored as it is meant
+inline constexpr Convention kUnconverted{.expansion = Expansion::signedValues,
+                                     .greenUp = false}; // signed, green along v: stored without conversion
 
-// A float map; texel(x, y) along (+u, +v, outwards).
+// A float map; texel(x, y) returns the normal along (+u, +v, outwards).
 template<class Texel> Image floatMap(int width, int height, const Texel& texel)
 {
     Image image = makeImage(width, height, PixelType::float32, "map");

@@ -1,5 +1,5 @@
-// The tool's verdicts as a user meets them: what could not be judged is said, advice is what the command does, and a
-// converted .gltf has its pictures beside it.
+// The tool's verdicts as users see them: lint and convert state what could not be judged, convert does what lint
+// advises, and a converted .gltf has its images beside it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,9 +32,9 @@ json jsonOf(std::vector<std::string> words, const std::filesystem::path& folder,
 
 bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
-// ---- places between texel centres -----------------------------------------------------------
+// ---- samples between texel centres ----------------------------------------------------------
 
-// A quad of 8 by 1 under one row of texels: u is half as dense as v, v runs from 0.05 to 0.3, and no texel centre is
+// A quad of 8 by 1 under a map of one row: u is half as dense as v, v runs from 0.05 to 0.3, and no texel centre is
 // inside.
 void writeOneRow(const std::filesystem::path& folder, float low = 0.05f, float high = 0.3f)
 {
@@ -50,7 +50,7 @@ void writeOneRow(const std::filesystem::path& folder, float low = 0.05f, float h
     ASSERT_TRUE(writeImage(folder / "waves.png", row));
 }
 
-TEST(Judgement, aMapWhoseRowLiesBetweenTexelCentresIsConvertedAndMeasured)
+TEST(Judgement, uvLineBetweenTexelCentresIsConvertedAndMeasured)
 {
     TemporaryFolder folder;
     writeOneRow(folder.path());
@@ -65,26 +65,26 @@ TEST(Judgement, aMapWhoseRowLiesBetweenTexelCentresIsConvertedAndMeasured)
     EXPECT_NEAR(map["degrees_unconverted"]["mean"].get<double>(), predicted, 0.01);
     EXPECT_GT(map["degrees_after_rounding"]["count"].get<int>(), 0);
     EXPECT_LT(map["degrees_after_rounding"]["mean"].get<double>(), 0.5); // 8 bits
-    EXPECT_TRUE(map["disagreement_degrees"]["mean"].is_null());          // of no texel
+    EXPECT_TRUE(map["disagreement_degrees"]["mean"].is_null());          // over no texel
 }
 
-TEST(Judgement, whereNothingShowsTheMapNothingIsSaidToFit)
+TEST(Judgement, mapOnNoAreaIsNotJudged)
 {
     TemporaryFolder folder;
     writeOneRow(folder.path(), 0.3f, 0.3f); // a line in uv
     const ToolRun run = runTool({"convert", "quad.gltf", "--to", "cotangent", "-o", "out.glb"}, folder.path());
     EXPECT_EQ(run.code, 0) << run.err;
-    EXPECT_TRUE(says(run.out, "nothing was judged")) << run.out;
+    EXPECT_TRUE(says(run.out, "not checked")) << run.out;
     EXPECT_FALSE(says(run.out, "0.00")) << run.out;
     const json map = jsonOf({"convert", "quad.gltf", "--to", "cotangent", "-o", "out.glb"}, folder.path())["maps"][0];
     EXPECT_TRUE(map["kept"].get<bool>());
     EXPECT_EQ(map["degrees_unconverted"]["count"], 0);
     EXPECT_TRUE(map["degrees_unconverted"]["mean"].is_null());
     const json lint = jsonOf({"lint", "quad.gltf"}, folder.path());
-    EXPECT_EQ(lint["primitives"][0]["not_judged"], "no triangle has area, also in uv");
+    EXPECT_EQ(lint["primitives"][0]["not_judged"], "no triangle has an area both in space and in uv");
     EXPECT_TRUE(lint["primitives"][0]["read_with"]["cotangent"]["mean"].is_null());
     EXPECT_EQ(runTool({"lint", "quad.gltf", "--limit", "5", "--quiet"}, folder.path()).code,
-              5); // nothing judged is nothing proved
+              5); // nothing judged proves nothing
     EXPECT_EQ(runTool({"lint", "quad.gltf", "--quiet"}, folder.path()).code, 0);
 }
 
@@ -129,7 +129,7 @@ TEST(Judgement, comparisonsWithoutANormalMapHaveNoAverage)
 
 // ---- advice is what the command does --------------------------------------------------------
 
-// Runs what lint advises and holds it against what lint says it would do.
+// Runs the command that lint advises and compares the outcome with lint's prediction.
 void runAdvice(const std::filesystem::path& folder, const std::string& model)
 {
     const json lint = jsonOf({"lint", model}, folder);
@@ -150,7 +150,7 @@ void runAdvice(const std::filesystem::path& folder, const std::string& model)
     EXPECT_TRUE(converted > 0 || r["tangents"]["dropped_primitives"].get<int>() > 0) << "it does nothing";
 }
 
-TEST(Advice, aCommandThatWouldDoNothingIsNotAdvised)
+TEST(Advice, commandWithoutEffectIsNotAdvised)
 {
     TemporaryFolder folder;
     Made m = quad(1);
@@ -167,16 +167,16 @@ TEST(Advice, aCommandThatWouldDoNothingIsNotAdvised)
     EXPECT_EQ(b["run"], "") << b["recommendation"];
 }
 
-TEST(Advice, whatLintForeseesIsWhatConvertDoes)
+TEST(Advice, convertDoesWhatLintPredicts)
 {
     TemporaryFolder folder;
-    write(quad(1), folder.path()); // tangents go, the map stays
+    write(quad(1), folder.path()); // tangents are removed, the map is kept
     runAdvice(folder.path(), "quad.gltf");
-    // A mesh whose stored tangents are turned a little: convert follows them, and the map does not fit as it is.
+    // A mesh whose stored tangents are slightly rotated: convert follows them, so the map needs conversion.
     Made m = quad(1);
     for (std::size_t i = 0; i < 6; ++i) {
-        const float turned[2] = {std::cos(0.2f), std::sin(0.2f)};
-        std::memcpy(m.bytes.data() + (18 + 18 + 4 * i) * sizeof(float), turned, sizeof turned);
+        const float rotated[2] = {std::cos(0.2f), std::sin(0.2f)};
+        std::memcpy(m.bytes.data() + (18 + 18 + 4 * i) * sizeof(float), rotated, sizeof rotated);
     }
     write(m, folder.path());
     runAdvice(folder.path(), "quad.gltf");
@@ -185,7 +185,7 @@ TEST(Advice, whatLintForeseesIsWhatConvertDoes)
 
 // ---- verdict first --------------------------------------------------------------------------
 
-TEST(LintOutput, beginsWithAVerdictOfAtMostTenLinesAndGivesFiguresOnRequest)
+TEST(LintOutput, verdictHasAtMostTenLinesAndDetailsAreOptional)
 {
     TemporaryFolder folder;
     Made m = quad(2);
@@ -196,7 +196,7 @@ TEST(LintOutput, beginsWithAVerdictOfAtMostTenLinesAndGivesFiguresOnRequest)
     EXPECT_LE(lines(verdict.out), 10) << verdict.out;
     EXPECT_TRUE(verdict.out.starts_with("quad.gltf: 30 primitives, 30 with a normal map, 30 with stored tangents\n"))
         << verdict.out;
-    EXPECT_TRUE(says(verdict.out, "degrees off on average"));
+    EXPECT_TRUE(says(verdict.out, "degrees on average"));
     EXPECT_TRUE(says(verdict.out, "\n  cotan convert quad.gltf ")) << verdict.out;
     EXPECT_TRUE(says(verdict.out, "--details adds")) << verdict.out;
     const ToolRun all = runTool({"lint", "quad.gltf", "--details"}, folder.path());
@@ -229,7 +229,7 @@ void writeForeign(const Foreign& f, const std::filesystem::path& folder)
     std::ofstream(folder / f.file, std::ios::binary) << f.bytes;
 }
 
-TEST(ForeignMaps, lintJudgesWhatNeedsNoPixelsAndNamesWhatWasNot)
+TEST(ForeignMaps, lintJudgesUvAndTangentsAndNamesUnreadMaps)
 {
     for (const Foreign& f : kForeign) {
         TemporaryFolder folder;
@@ -265,27 +265,27 @@ TEST(ForeignMaps, tangentsAreComparedAndWritten)
     }
 }
 
-TEST(ForeignMaps, convertLeavesThemAndTheTangentsThatTheyNeed)
+TEST(ForeignMaps, convertKeepsForeignMapsAndTheirTangents)
 {
     for (const Foreign& f : kForeign) {
         TemporaryFolder folder;
         writeForeign(f, folder.path());
         const json r = jsonOf({"convert", "quad.gltf", "--to", "cotangent", "-o", "out.glb"}, folder.path());
         EXPECT_TRUE(r["maps"].empty()) << f.name;
-        EXPECT_TRUE(says(r["notes"].dump(), "TANGENT stays")) << r["notes"];
+        EXPECT_TRUE(says(r["notes"].dump(), "TANGENT is kept")) << r["notes"];
         EXPECT_TRUE(says(r["notes"].dump(), fmt::format("{}: a normal map in {}", f.file, f.name))) << r["notes"];
         EXPECT_TRUE(says(r["notes"].dump(), "make it PNG")) << r["notes"];
-        // Against the specification, but met: the texture itself names such an image.
+        // Violates the specification but occurs in practice: the texture itself names such an image.
         Made m = quad(2);
         m.root["images"][0] = {{"uri", f.file}};
         write(m, folder.path());
         const json s = jsonOf({"convert", "quad.gltf", "--to", "cotangent", "-o", "out.glb"}, folder.path());
         EXPECT_TRUE(s["maps"].empty()) << f.name;
-        EXPECT_TRUE(says(s["notes"].dump(), "TANGENT stays")) << s["notes"];
+        EXPECT_TRUE(says(s["notes"].dump(), "TANGENT is kept")) << s["notes"];
     }
 }
 
-TEST(ForeignMaps, whoNeedsThePixelsStillRefuses)
+TEST(ForeignMaps, commandsThatNeedPixelsRefuse)
 {
     TemporaryFolder folder;
     writeForeign(kForeign[0], folder.path());
@@ -304,7 +304,7 @@ TEST(ForeignMaps, whoNeedsThePixelsStillRefuses)
 
 // ---- memory ---------------------------------------------------------------------------------
 
-TEST(Memory, oneOptionOneLimitAndTheSameWordsEverywhere)
+TEST(Memory, limitAndMessageAreTheSameInEveryCommand)
 {
     TemporaryFolder folder;
     write(quad(2), folder.path());
@@ -327,9 +327,9 @@ TEST(Memory, oneOptionOneLimitAndTheSameWordsEverywhere)
     EXPECT_EQ(runTool({"tangents", "quad.gltf", "--quiet"}, folder.path()).code, 0); // needs no pixels
 }
 
-// ---- pictures beside a .gltf ----------------------------------------------------------------
+// ---- images beside a .gltf ------------------------------------------------------------------
 
-TEST(PicturesBeside, newMapsAreFilesNamedForTheModel)
+TEST(ExternalImages, newMapsAreFilesNamedForTheModel)
 {
     TemporaryFolder folder;
     write(quad(2), folder.path());
@@ -343,19 +343,19 @@ TEST(PicturesBeside, newMapsAreFilesNamedForTheModel)
     EXPECT_EQ(r["bytes_after"].get<std::size_t>(),
               std::filesystem::file_size(folder / "out.gltf") + std::filesystem::file_size(folder / "out.bin")
                   + std::filesystem::file_size(folder / "out-waves.png"));
-    // What is drawn is what the .glb would have.
+    // The .gltf renders the same as the .glb.
     jsonOf({"convert", "quad.gltf", "--to", "cotangent", "-o", "out.glb"}, folder.path());
-    const auto beside = loadScene(folder / "out.gltf"), inside = loadScene(folder / "out.glb");
-    ASSERT_TRUE(beside && inside);
-    EXPECT_EQ(beside->images.at(0).data, inside->images.at(0).data);
-    // Again: its own picture is replaced.
+    const auto external = loadScene(folder / "out.gltf"), embedded = loadScene(folder / "out.glb");
+    ASSERT_TRUE(external && embedded);
+    EXPECT_EQ(external->images.at(0).data, embedded->images.at(0).data);
+    // A second run replaces its own image.
     jsonOf({"convert", "quad.gltf", "--to", "cotangent", "--bits", "16", "-o", "out.gltf"}, folder.path());
     EXPECT_EQ(json::parse(readWhole(folder / "out.gltf"))["images"][0]["uri"], "out-waves.png");
     EXPECT_EQ(loadScene(folder / "out.gltf")->images.at(0).type, PixelType::unorm16);
     EXPECT_FALSE(std::filesystem::exists(folder / "out-waves-2.png"));
 }
 
-TEST(PicturesBeside, aFileThatDoesNotBelongToTheModelIsLeftAlone)
+TEST(ExternalImages, unrelatedFilesAreNotOverwritten)
 {
     TemporaryFolder folder;
     write(quad(2), folder.path());
@@ -366,7 +366,7 @@ TEST(PicturesBeside, aFileThatDoesNotBelongToTheModelIsLeftAlone)
     EXPECT_TRUE(loadScene(folder / "out.gltf"));
 }
 
-TEST(PicturesBeside, namesAreMadePlainAndTwoMapsOfOneNameAreTwoFiles)
+TEST(ExternalImages, namesAreSanitisedAndMadeUnique)
 {
     TemporaryFolder folder;
     Made m = quad(2);

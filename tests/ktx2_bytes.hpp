@@ -1,4 +1,4 @@
-// Bytes of the levels of KTX 2.0 files: of all values, and packed by Zstandard.
+// Bytes for levels of KTX 2.0 files: a ramp of all values, and data compressed by Zstandard.
 #pragma once
 
 #include <string>

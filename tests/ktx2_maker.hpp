@@ -1,4 +1,4 @@
-// KTX 2.0 files from first principles (Khronos' specification, version 2.0.4).
+// KTX 2.0 files written from first principles (Khronos' specification, version 2.0.4).
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,9 @@ struct Ktx2File {
     std::uint32_t width = 1, height = 1, depth = 0, layers = 0, faces = 1;
     std::uint32_t packing = 0; // supercompression scheme
     std::vector<Ktx2Level> levels = {};
-    std::vector<std::string> keys = {}; // each with its zero and its value
+    std::vector<std::string> keys = {}; // each key with its terminating zero and its value
     int colourModel = 1;                // RGBSDA
-    int levelCount = -1;                // -1: that of the levels
+    int levelCount = -1;                // -1: the number of `levels`
 };
 
 inline std::string makeKtx2(const Ktx2File& k)

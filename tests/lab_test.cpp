@@ -1,4 +1,4 @@
-// What the tool offers for the laboratory's commands is what the laboratory has.
+// The options that the tool offers for the laboratory's commands match the laboratory's tables.
 #include <set>
 #include <string>
 #include <string_view>

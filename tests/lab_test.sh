@@ -9,7 +9,7 @@ failed() { echo "lab_test: $1" >&2; exit 1; }
 code_of() { local code=0; "$@" > said.txt 2> error.txt || code=$?; echo "$code"; }
 
 # Words, output, report and exit codes are those of the program itself.
-saysTheSame() {
+printsTheSame() {
   local words=(accuracy --tables flat --frames cotangent --csv)
   "$cotan" "${words[@]}" tool.csv --json tool.json > tool.txt
   "$lab" "${words[@]}" lab.csv --json lab.json > lab.txt
@@ -18,14 +18,14 @@ saysTheSame() {
   "$lab" accuracy --help > lab.txt
   [ -s tool.txt ] && cmp tool.txt lab.txt
   [ "$(code_of "$cotan" accuracy --tables none)" = 1 ] || failed "expected exit code 1 for a table that there is not"
-  [ "$(wc -l < error.txt)" = 1 ] && grep -q "^cotan: error: --tables: expected names out of flat" error.txt
+  [ "$(wc -l < error.txt)" = 1 ] && grep -q "^cotan: error: --tables: expected names from flat" error.txt
   [ "$(code_of "$cotan" accuracy --no-such-option)" = 1 ] || failed "expected exit code 1 for an option that there is not"
   printf 'a b\n' > old.csv
   [ "$(code_of "$cotan" accuracy --tables flat --against old.csv)" = 2 ] || failed "expected exit code 2 for a file that is no table"
 }
 
 # The tool alone goes on, and says what it misses.
-isMissed() {
+missingProgramIsReported() {
   mkdir bin
   ln "$cotan" bin/cotan 2>/dev/null || cp "$cotan" bin/cotan
   bin/cotan shader --lang glsl > shader.txt
@@ -37,7 +37,7 @@ isMissed() {
 }
 
 # A signal to what was started as the tool ends the work, and leaves no file.
-endsBySignals() {
+endsOnSignals() {
   local code=0
   "$cotan" accuracy --tables curved,facets --threads 1 --csv all.csv -o all.md > /dev/null 2>&1 &
   local process=$!
@@ -49,6 +49,6 @@ endsBySignals() {
 }
 
 case "$3" in
-  saysTheSame|isMissed|endsBySignals) "$3" ;;
-  *) failed "expected saysTheSame, isMissed or endsBySignals; found $3" ;;
+  printsTheSame|missingProgramIsReported|endsOnSignals) "$3" ;;
+  *) failed "expected saysTheSame, missingProgramIsReported or endsOnSignals; found $3" ;;
 esac

@@ -1,4 +1,4 @@
-// Translucent scenes by hand with their analytic composites, for the tests of both renderers.
+// Hand-made translucent scenes with their analytic composites, for the tests of both renderers.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,10 @@ namespace cotan::layers {
 
 using Draw = std::function<Image(const Scene&, const View&)>;
 
-// Rounding of the float sums below, and of 1 - alpha, of which there are at most 64.
+// Rounding of the float sums below and of 1 - alpha for at most 64 layers.
 constexpr float kTolerance = 2e-5f;
 
-// One world unit a pixel: the middle of pixel (x, y) is at (x - 31.5, 15.5 - y).
+// One world unit per pixel: the centre of pixel (x, y) is at (x - 31.5, 15.5 - y).
 inline View flatView(int samples = 4)
 {
     View view;
@@ -33,7 +33,7 @@ inline View flatView(int samples = 4)
     return view;
 }
 
-// A parallelogram seen from +z, uv (0,0) at `corner`.
+// A parallelogram seen from +z with uv (0,0) at `corner`.
 struct Pane {
     glm::vec3 corner{-20, 10, 0};
     glm::vec3 alongU{40, 0, 0};
@@ -92,26 +92,26 @@ inline void expectNear(glm::vec4 found, glm::vec4 expected, const char* what, fl
         EXPECT_NEAR(found[c], expected[c], tolerance) << what << ", channel " << c;
 }
 
-// Colours over one another, the nearest first: Porter and Duff's `over`, multiplied by alpha.
+// Composite of the colours, nearest first, by Porter and Duff's `over`; the result is premultiplied.
 inline glm::vec4 over(const std::vector<glm::vec4>& nearestFirst)
 {
     glm::dvec4 sum(0);
     for (const glm::vec4& c : nearestFirst) {
-        const double through = 1 - sum.w;
+        const double transmittance = 1 - sum.w;
         sum += glm::dvec4(double(c.x) * double(c.w), double(c.y) * double(c.w), double(c.z) * double(c.w), double(c.w))
-            * through;
+            * transmittance;
     }
     return glm::vec4(sum);
 }
 
-// Different in every channel, of alphas between 0.1 and 0.7.
+// A colour that differs in every channel, with alpha between 0.1 and 0.7.
 inline glm::vec4 colorOf(int i)
 {
     return {float((i * 37 + 11) % 97) / 96, float((i * 53 + 5) % 89) / 88, float((i * 71 + 29) % 83) / 82,
             0.1f + 0.6f * float((i * 7) % 11) / 10};
 }
 
-// `count` panes one unit behind another, listed in an order far from their own: in one mesh or each in its own.
+// Draws `count` panes half a unit apart, listed out of order, in one mesh or each in its own.
 inline void manyPanesComposeInTheOrderOfDistance(const Draw& draw, int count)
 {
     std::vector<glm::vec4> nearestFirst;
@@ -128,7 +128,7 @@ inline void manyPanesComposeInTheOrderOfDistance(const Draw& draw, int count)
             Scene scene;
             Mesh all;
             for (int k = 0; k < count; ++k) {
-                const Pane& pane = panes[std::size_t((k * 7 + 3) % count)]; // 7 divides none of the counts
+                const Pane& pane = panes[std::size_t((k * 7 + 3) % count)]; // no count is a multiple of 7
                 if (oneMesh)
                     append(all, pane);
                 else
@@ -143,13 +143,13 @@ inline void manyPanesComposeInTheOrderOfDistance(const Draw& draw, int count)
         }
 }
 
-inline void texelsOfAlphaOneHideWhatIsBehind(const Draw& draw)
+inline void opaqueTexelsHideLayersBehindThem(const Draw& draw)
 {
     Scene scene;
     Pane front, back;
     back.corner.z = -5;
     back.color = {0, 1, 0, 0.5f};
-    const int pierced = addPane(scene, front); // listed first: drawn before what it hides
+    const int pierced = addPane(scene, front); // listed first: drawn before the surface that it hides
     addPane(scene, back);
     Image texels = makeImage(2, 1, PixelType::float32);
     const float values[8] = {1, 0, 0, 1, 0, 0, 1, 0.25f};
@@ -163,8 +163,8 @@ inline void texelsOfAlphaOneHideWhatIsBehind(const Draw& draw)
     expectNear(at(image, 44, 12), over({{0, 0, 1, 0.25f}, {0, 1, 0, 0.5f}}), "alpha 0.25");
 }
 
-// Two panes that cross in the line x = 0.5, which runs through the middle of column 32: two of its four
-// samples lie on either side.
+// Draws two panes that cross in the line x = 0.5, which runs through the centre of column 32: two of its four samples
+// are on either side.
 inline void crossingPanesChangeTheirOrderInsideAPixel(const Draw& draw)
 {
     const glm::vec4 red(1, 0, 0, 0.5f), green(0, 1, 0, 0.75f);
@@ -193,15 +193,15 @@ inline void crossingPanesChangeTheirOrderInsideAPixel(const Draw& draw)
     }
 }
 
-// An opaque pane that crosses a translucent one hides two of four samples there, one side wholly, and
-// shows through on the other.
+// Draws an opaque pane that crosses a translucent one. At the crossing it hides the layer at two of four samples, on
+// one side everywhere, and on the other side it is visible behind the layer.
 inline void opaqueSurfacesHideLayersBehindThem(const Draw& draw)
 {
     const glm::vec4 red(1, 0, 0, 0.5f), white(1, 1, 1, 1);
     Pane layer, wall;
     layer.color = red;
     wall.corner = {-19.5f, 10, 20};
-    wall.alongU = {40, 0, -40}; // before the layer left of x = 0.5
+    wall.alongU = {40, 0, -40}; // in front of the layer left of x = 0.5
     for (const bool wallFirst : {false, true}) {
         Scene scene;
         if (wallFirst)
@@ -214,14 +214,14 @@ inline void opaqueSurfacesHideLayersBehindThem(const Draw& draw)
         expectNear(at(image, 33, 20), over({red, white}), "before the wall");
         expectNear(at(image, 32, 20), (white + over({red, white})) * 0.5f, "on the line");
     }
-    Scene glass; // which is opaque by its alpha mode, and comes before what hides it
+    Scene glass; // opaque by its alpha mode, and listed before the surface that hides it
     addPane(glass, layer, AlphaMode::opaque);
     glass.materials[0].transmission.strength = 1;
     addPane(glass, wall, AlphaMode::opaque);
     expectNear(at(draw(glass, flatView()), 31, 20), white, "glass, hidden");
 }
 
-// A border at half a pixel covers two of the four samples; two layers that meet there do not mix.
+// Draws two layers that meet at half a pixel: each covers two of the four samples, and they do not mix.
 inline void layersCoverTheirOwnSamplesOnly(const Draw& draw)
 {
     const glm::vec4 red(1, 0, 0, 0.5f), green(0, 1, 0, 0.75f);
@@ -242,8 +242,8 @@ inline void layersCoverTheirOwnSamplesOnly(const Draw& draw)
     expectNear(at(image, 12, 16), over({red}) * 0.5f, "the left border");
 }
 
-// Of equally far layers the later in the scene, or in its mesh, is in front.
-inline void ofEquallyFarLayersTheLaterIsInFront(const Draw& draw)
+// Draws two layers at equal distance: the later one in the scene, or in its mesh, is in front.
+inline void laterOfEquallyFarLayersIsInFront(const Draw& draw)
 {
     const glm::vec4 red(1, 0, 0, 0.5f), green(0, 1, 0, 0.75f);
     Pane first, second;
@@ -261,7 +261,7 @@ inline void ofEquallyFarLayersTheLaterIsInFront(const Draw& draw)
     expectNear(at(draw(scene, flatView()), 30, 18), over({green, red}), "one mesh");
 }
 
-// In perspective, seen from behind, and with the rows of the raster running upward.
+// Draws two layers in perspective, from the front and from behind, with rows running downward and upward.
 inline void perspectiveAndRowsUpwardKeepTheOrder(const Draw& draw)
 {
     const glm::vec4 red(1, 0, 0, 0.5f), green(0, 1, 0, 0.75f);
@@ -270,7 +270,7 @@ inline void perspectiveAndRowsUpwardKeepTheOrder(const Draw& draw)
             Scene scene;
             Pane a, b;
             a.corner = {-20, 10, 4};
-            a.alongV = {0, -9, 0}; // the upper half only
+            a.alongV = {0, -9, 0}; // only the upper half
             a.color = red;
             b.color = green;
             addPane(scene, a);
@@ -285,7 +285,7 @@ inline void perspectiveAndRowsUpwardKeepTheOrder(const Draw& draw)
         }
 }
 
-// Everything but the shaded picture shows the nearest surface of alpha 1/255 and more.
+// Every output but the shaded image shows the nearest surface whose alpha is at least 1/255.
 inline void dataOutputsShowTheNearestLayer(const Draw& draw)
 {
     Scene scene;
@@ -297,13 +297,13 @@ inline void dataOutputsShowTheNearestLayer(const Draw& draw)
     }
     View view = flatView();
     view.output = Output::depth;
-    EXPECT_NEAR(at(draw(scene, view), 32, 16).x, 45, 1e-4f); // the layer at 5; at 9 it is all but invisible
+    EXPECT_NEAR(at(draw(scene, view), 32, 16).x, 45, 1e-4f); // the layer at 5; the one at 9 has alpha below 1/255
     view.output = Output::normal;
     EXPECT_EQ(at(draw(scene, view), 32, 16), glm::vec4(0, 0, 1, 1));
 }
 
-// What a caster over a lit floor stops, as a share of the light. All and nothing are exact; between them lies the mean
-// of nine texels that are covered or not.
+// Draws a caster above a lit floor that blocks the fraction `stopped` of the light. 0 and 1 are exact; between them the
+// result is a mean of nine texels that are each covered or not.
 inline void casterAboveAFloor(const Draw& draw, AlphaMode mode, float alpha, float cutoff, float stopped,
                               const char* what, float transmission = 0)
 {
@@ -321,12 +321,12 @@ inline void casterAboveAFloor(const Draw& draw, AlphaMode mode, float alpha, flo
     scene.materials[0].metallic = 0;
     View view = flatView();
     Light light;
-    light.direction = glm::normalize(glm::vec3(1, 0, -0.5f)); // the shadow lies 16 units to the right
+    light.direction = glm::normalize(glm::vec3(1, 0, -0.5f)); // the shadow is 16 units to the right
     view.lights.push_back(light);
     const Image with = draw(scene, view);
     view.shadows = false;
     const Image without = draw(scene, view);
-    const glm::vec4 full = at(without, 38, 14); // under the middle of the shadow, x from 2 to 10
+    const glm::vec4 full = at(without, 38, 14); // below the centre of the shadow, which covers x from 2 to 10
     EXPECT_GT(full.x, 0.1f) << what;
     const float grain = stopped > 0 && stopped < 1 ? 0.12f : 0;
     EXPECT_NEAR(at(with, 38, 14).x / full.x, 1 - stopped, grain) << what;
@@ -334,7 +334,7 @@ inline void casterAboveAFloor(const Draw& draw, AlphaMode mode, float alpha, flo
     EXPECT_EQ(at(with, 38, 24), at(without, 38, 24)) << what << ": below the shadow";
 }
 
-inline void castersShadowWhereTheirMaterialStands(const Draw& draw)
+inline void castersShadowByTheirMaterial(const Draw& draw)
 {
     casterAboveAFloor(draw, AlphaMode::opaque, 0.2f, 0.5f, 1, "opaque, whatever its alpha");
     casterAboveAFloor(draw, AlphaMode::mask, 0.25f, 0.25f, 1, "masked, alpha at its cutoff");

@@ -1,23 +1,22 @@
-// Clear coat, stretched highlights, sheen and transmission of light.h and sheen.h against formulas written on their
-// own, in double, and against what holds for all reflection: it may be turned round, and gives back no more than
-// arrives.
+// Clear coat, anisotropic highlights, sheen and transmission of light.h and sheen.h against independent formulas in
+// double, and against two properties of every reflection: reciprocity and energy conservation.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "scene/picture_text.hpp"
+#include "scene/render_text.hpp"
 #include "truth/patch.hpp"
 
 namespace cotan {
 namespace {
 
 struct LayerRay {
-    glm::dvec3 n, t, v, l; // t perpendicular to n
+    glm::dvec3 n, t, v, l; // t is perpendicular to n
 };
 
-LayerRay anyLayerRay(Random& random)
+LayerRay randomLayerRay(Random& random)
 {
     for (;;) {
         LayerRay r{random.direction(), random.direction(), random.direction(), random.direction()};
@@ -27,9 +26,9 @@ LayerRay anyLayerRay(Random& random)
     }
 }
 
-// B. Walter and others 2007 and E. Heitz 2014: a GGX surface that is stretched is the even one seen in a space that
-// is shrunk by the two roughnesses; masking by Lambda of the projected roughness.
-double stretchedByTheBook(const LayerRay& r, double along, double across)
+// B. Walter and others 2007 and E. Heitz 2014: an anisotropic GGX surface is an isotropic one in a space scaled by the
+// two roughnesses; masking uses Lambda of the projected roughness.
+double anisotropicByTheBook(const LayerRay& r, double along, double across)
 {
     const glm::dvec3 b = glm::cross(r.n, r.t), h = glm::normalize(r.v + r.l);
     const auto slopes = [&](glm::dvec3 w) { return glm::dvec2(glm::dot(w, r.t), glm::dot(w, b)) / glm::dot(w, r.n); };
@@ -44,41 +43,41 @@ double stretchedByTheBook(const LayerRay& r, double along, double across)
     return density * masking / (4 * glm::dot(r.n, r.v) * glm::dot(r.n, r.l));
 }
 
-TEST(LightLayers, aStretchedHighlightIsHeitzsFormula)
+TEST(LightLayers, anisotropicHighlightIsHeitzsFormula)
 {
     Random random(901);
     double worst = 0;
     for (const double roughness : {0.045, 0.2, 0.5, 1.0})
         for (const double strength : {0.0, 0.3, 0.7, 1.0})
             for (int k = 0; k < 500; ++k) {
-                const LayerRay r = anyLayerRay(random);
+                const LayerRay r = randomLayerRay(random);
                 const double across = roughness * roughness, along = across + (1 - across) * strength * strength;
-                const double expected = stretchedByTheBook(r, along, across);
-                const double found = f64::cotan_ggx_stretched(r.n, r.v, r.l, roughness, strength, r.t);
+                const double expected = anisotropicByTheBook(r, along, across);
+                const double found = f64::cotan_ggx_anisotropic(r.n, r.v, r.l, roughness, strength, r.t);
                 worst = std::max(worst, std::abs(found / expected - 1));
             }
-    EXPECT_LT(worst, 1e-6); // double, and mirrors that amplify its roundings
+    EXPECT_LT(worst, 1e-6); // double precision; near-mirrors amplify rounding errors
 }
 
-TEST(LightLayers, aHighlightThatIsNotStretchedIsTheEvenOne)
+TEST(LightLayers, anisotropyOfZeroIsIsotropic)
 {
     Random random(902);
     for (int k = 0; k < 1000; ++k) {
-        const LayerRay r = anyLayerRay(random);
+        const LayerRay r = randomLayerRay(random);
         const double roughness = random.range(0.05, 1);
         const double even = f64::cotan_ggx(r.n, r.v, r.l, roughness);
-        EXPECT_NEAR(f64::cotan_ggx_stretched(r.n, r.v, r.l, roughness, 0, r.t) / even, 1, 1e-6);
+        EXPECT_NEAR(f64::cotan_ggx_anisotropic(r.n, r.v, r.l, roughness, 0, r.t) / even, 1, 1e-6);
     }
 }
 
-TEST(LightLayers, theEyeAndTheLightMayChangePlaces)
+TEST(LightLayers, reflectionIsReciprocal)
 {
     Random random(903);
     for (int k = 0; k < 1000; ++k) {
-        const LayerRay r = anyLayerRay(random);
+        const LayerRay r = randomLayerRay(random);
         const double roughness = random.range(0.05, 1), strength = random.unit();
-        const double there = f64::cotan_ggx_stretched(r.n, r.v, r.l, roughness, strength, r.t);
-        const double back = f64::cotan_ggx_stretched(r.n, r.l, r.v, roughness, strength, r.t);
+        const double there = f64::cotan_ggx_anisotropic(r.n, r.v, r.l, roughness, strength, r.t);
+        const double back = f64::cotan_ggx_anisotropic(r.n, r.l, r.v, roughness, strength, r.t);
         EXPECT_NEAR(back / there, 1, 1e-9);
         const f64::cotan_coat coat{strength, roughness, r.n};
         const double coatThere = f64::cotan_reflect_coat(coat, r.v, r.l) / glm::dot(r.n, r.l);
@@ -87,7 +86,7 @@ TEST(LightLayers, theEyeAndTheLightMayChangePlaces)
     }
 }
 
-// What comes back of a white furnace: the integral over all lights, in cells of equal solid angle.
+// Light reflected in a white furnace: the integral of `reflect` over all lights, in cells of equal solid angle.
 template<class Reflect> double furnace(glm::dvec3 n, glm::dvec3 t, int cells, Reflect reflect)
 {
     const glm::dvec3 b = glm::cross(n, t);
@@ -100,28 +99,28 @@ template<class Reflect> double furnace(glm::dvec3 n, glm::dvec3 t, int cells, Re
     return sum * 2 * std::numbers::pi / (2.0 * cells * cells);
 }
 
-TEST(LightLayers, aStretchedWhiteMetalGivesBackNoMoreThanArrives)
+TEST(LightLayers, anisotropicWhiteMetalConservesEnergy)
 {
     const glm::dvec3 n(0, 0, 1), t(1, 0, 0);
     double smooth = 0;
     for (const double roughness : {0.3, 0.6, 1.0})
         for (const double strength : {0.0, 0.5, 1.0})
             for (const double degrees : {0.0, 40.0, 75.0})
-                for (const double turn : {0.0, 45.0, 90.0}) {
-                    const double a = degrees * kDegree, p = turn * kDegree;
+                for (const double rotation : {0.0, 45.0, 90.0}) {
+                    const double a = degrees * kDegree, p = rotation * kDegree;
                     const glm::dvec3 v(std::sin(a) * std::cos(p), std::sin(a) * std::sin(p), std::cos(a));
                     const double all = furnace(n, t, 256, [&](glm::dvec3 l) {
-                        return f64::cotan_ggx_stretched(n, v, l, roughness, strength, t) * l.z;
+                        return f64::cotan_ggx_anisotropic(n, v, l, roughness, strength, t) * l.z;
                     });
-                    EXPECT_LT(all, 1.002) << roughness << " " << strength << " " << degrees; // of the sum by cells
-                    EXPECT_GT(all, 0.3) << roughness << " " << strength << " " << degrees;   // one bounce of many
+                    EXPECT_LT(all, 1.002) << roughness << " " << strength << " " << degrees; // sum over cells
+                    EXPECT_GT(all, 0.3) << roughness << " " << strength << " " << degrees;   // one bounce only
                     if (roughness < 0.5 && strength == 0)
                         smooth = std::max(smooth, all);
                 }
-    EXPECT_GT(smooth, 0.97); // smooth ones lose next to nothing
+    EXPECT_GT(smooth, 0.97); // smooth surfaces lose almost nothing
 }
 
-TEST(LightLayers, aCoatOverWhiteGivesBackNoMoreThanArrives)
+TEST(LightLayers, coatOverWhiteConservesEnergy)
 {
     const glm::dvec3 n(0, 0, 1), t(1, 0, 0);
     for (const double roughness : {0.2, 0.5, 1.0})
@@ -130,17 +129,17 @@ TEST(LightLayers, aCoatOverWhiteGivesBackNoMoreThanArrives)
             const glm::dvec3 v(std::sin(a), 0, std::cos(a));
             const f64::cotan_coat coat{1, roughness, n};
             const double lobe = furnace(n, t, 256, [&](glm::dvec3 l) { return f64::cotan_reflect_coat(coat, v, l); });
-            // Beneath: what gives back all.
-            EXPECT_LT(lobe + 1 - f64::cotan_coat_share(coat, v), 1.005) << roughness << " " << degrees;
+            // A base below the coat that reflects everything.
+            EXPECT_LT(lobe + 1 - f64::cotan_coat_fraction(coat, v), 1.005) << roughness << " " << degrees;
             EXPECT_GT(lobe, 0.01);
         }
 }
 
-TEST(LightLayers, theCoatIsABlackDielectricsHighlightTimesItsStrength)
+TEST(LightLayers, coatIsABlackDielectricTimesItsStrength)
 {
     Random random(904);
     for (int k = 0; k < 500; ++k) {
-        const LayerRay r = anyLayerRay(random);
+        const LayerRay r = randomLayerRay(random);
         const double roughness = random.range(0.05, 1), strength = random.unit();
         f64::cotan_surface s{};
         s.roughness = roughness;
@@ -153,7 +152,7 @@ TEST(LightLayers, theCoatIsABlackDielectricsHighlightTimesItsStrength)
         const glm::dvec3 around = f64::cotan_reflect_environment(s) * strength;
         EXPECT_LT(glm::length(f64::cotan_reflect_coat_environment(coat, r.v) - around), 1e-9);
         const double power = std::pow(1 - glm::dot(r.n, r.v), 5);
-        EXPECT_NEAR(f64::cotan_coat_share(coat, r.v), strength * (0.04 + 0.96 * power), 1e-12);
+        EXPECT_NEAR(f64::cotan_coat_fraction(coat, r.v), strength * (0.04 + 0.96 * power), 1e-12);
     }
 }
 
@@ -161,7 +160,7 @@ TEST(LightLayers, plainGlossIsMetallicRoughness)
 {
     Random random(905);
     for (int k = 0; k < 200; ++k) {
-        const LayerRay r = anyLayerRay(random);
+        const LayerRay r = randomLayerRay(random);
         f64::cotan_surface s{};
         s.base_color = {random.unit(), random.unit(), random.unit()};
         s.metallic = random.unit();
@@ -175,14 +174,14 @@ TEST(LightLayers, plainGlossIsMetallicRoughness)
                   1e-9);
         EXPECT_EQ(f64::cotan_reflecting_normal(s, plain), s.n);
     }
-    // Water, glass, diamond; an index of 0 stands for infinity.
+    // Water and diamond; an index of 0 stands for infinity.
     EXPECT_NEAR(f64::cotan_gloss_of(1.33, 1, {1, 1, 1}).f0.x, 0.0201, 1e-4);
     EXPECT_NEAR(f64::cotan_gloss_of(2.42, 1, {1, 1, 1}).f0.x, 0.1724, 1e-4);
     EXPECT_EQ(f64::cotan_gloss_of(0, 0.5, {1, 1, 1}).f0.x, 0.5);
-    EXPECT_EQ(f64::cotan_gloss_of(2.42, 0.5, {9, 1, 0}).f0.x, 0.5); // limited to 1, then times strength
+    EXPECT_EQ(f64::cotan_gloss_of(2.42, 0.5, {9, 1, 0}).f0.x, 0.5); // clamped to 1, then multiplied by the strength
 }
 
-// As KHR_materials_sheen writes it down.
+// Charlie sheen as specified by KHR_materials_sheen.
 double charlieByTheBook(const LayerRay& r, double roughness)
 {
     const double alpha = roughness * roughness, inverse = 1 / alpha;
@@ -201,24 +200,24 @@ double charlieByTheBook(const LayerRay& r, double roughness)
     return density * std::min(1 / ((1 + lambda(nv) + lambda(nl)) * 4 * nv * nl), 1.0);
 }
 
-TEST(LightLayers, fibresReflectByCharliesFormula)
+TEST(LightLayers, sheenReflectsByCharliesFormula)
 {
     Random random(907);
     double worst = 0;
     for (const double roughness : {0.15, 0.3, 0.6, 1.0})
         for (int k = 0; k < 500; ++k) {
-            const LayerRay r = anyLayerRay(random);
+            const LayerRay r = randomLayerRay(random);
             const double expected = charlieByTheBook(r, roughness);
             if (expected > 1e-6)
                 worst = std::max(worst, std::abs(f64::cotan_charlie(r.n, r.v, r.l, roughness) / expected - 1));
         }
     EXPECT_LT(worst, 1e-9);
-    // Finer fibres than that are taken as these.
-    const LayerRay r = anyLayerRay(random);
+    // Roughness below 0.15 is treated as 0.15.
+    const LayerRay r = randomLayerRay(random);
     EXPECT_EQ(f64::cotan_charlie(r.n, r.v, r.l, 0), f64::cotan_charlie(r.n, r.v, r.l, 0.15));
 }
 
-TEST(LightLayers, theAlbedoOfFibresIsTheirIntegral)
+TEST(LightLayers, sheenAlbedoIsItsIntegral)
 {
     const glm::dvec3 n(0, 0, 1), t(1, 0, 0);
     double worst = 0, sum = 0;
@@ -228,16 +227,16 @@ TEST(LightLayers, theAlbedoOfFibresIsTheirIntegral)
             const glm::dvec3 v(std::sqrt(1 - nv * nv), 0, nv);
             const double all =
                 furnace(n, t, 200, [&](glm::dvec3 l) { return f64::cotan_charlie(n, v, l, roughness) * l.z; });
-            const double off = std::abs(f64::cotan_sheen_albedo(nv, roughness) - all);
-            worst = std::max(worst, off);
-            sum += off;
+            const double error = std::abs(f64::cotan_sheen_albedo(nv, roughness) - all);
+            worst = std::max(worst, error);
+            sum += error;
             ++count;
         }
-    EXPECT_LT(worst, 0.03);        // as sheen.h states, and what the sum by cells adds
-    EXPECT_LT(sum / count, 0.008); // many of these are at small cosines, where the fit is worse than in the mean
+    EXPECT_LT(worst, 0.03);        // as sheen.h states, plus the error of the sum over cells
+    EXPECT_LT(sum / count, 0.008); // many cosines here are small, where the fit is worse than on average
 }
 
-TEST(LightLayers, fibresOverWhiteGiveBackNoMoreThanArrives)
+TEST(LightLayers, sheenOverWhiteConservesEnergy)
 {
     const glm::dvec3 n(0, 0, 1), t(1, 0, 0), white(1);
     for (const double roughness : {0.0, 0.3, 0.6, 1.0})
@@ -247,17 +246,17 @@ TEST(LightLayers, fibresOverWhiteGiveBackNoMoreThanArrives)
             const auto lambert = [&](glm::dvec3 l) { return white * (l.z / std::numbers::pi); };
             const double all = furnace(
                 n, t, 200, [&](glm::dvec3 l) { return f64::cotan_reflect_sheen(cloth, n, v, l, lambert(l)).y; });
-            EXPECT_LT(all, 1.045) << roughness << " " << nv; // the fit's error
+            EXPECT_LT(all, 1.045) << roughness << " " << nv; // error of the fit
             EXPECT_GT(all, 0.6) << roughness << " " << nv;
             EXPECT_NEAR(f64::cotan_reflect_sheen_around(cloth, n, v, white, white).y, 1, 1e-12);
         }
 }
 
-TEST(LightLayers, throughFibresTheEyeAndTheLightMayChangePlaces)
+TEST(LightLayers, sheenIsReciprocal)
 {
     Random random(908);
     for (int k = 0; k < 1000; ++k) {
-        const LayerRay r = anyLayerRay(random);
+        const LayerRay r = randomLayerRay(random);
         const f64::cotan_sheen cloth{{random.unit(), random.unit(), random.unit()}, random.unit()};
         const double nl = glm::dot(r.n, r.l), nv = glm::dot(r.n, r.v);
         const glm::dvec3 color(0.2, 0.5, 0.8);
@@ -267,12 +266,12 @@ TEST(LightLayers, throughFibresTheEyeAndTheLightMayChangePlaces)
     }
 }
 
-// Reflected, scattered and passed on: all that arrives, whatever the share that passes. A metal lets nothing through.
-TEST(LightLayers, whatDoesNotPassIsScatteredBack)
+// Reflected, scattered and transmitted light sum to 1, whatever the transmission. Metals transmit none.
+TEST(LightLayers, reflectedAndTransmittedLightSumToOne)
 {
     Random random(909);
     for (int k = 0; k < 500; ++k) {
-        const LayerRay r = anyLayerRay(random);
+        const LayerRay r = randomLayerRay(random);
         f64::cotan_surface s{};
         s.base_color = {1, 1, 1};
         s.roughness = random.range(0.05, 1);
@@ -283,13 +282,13 @@ TEST(LightLayers, whatDoesNotPassIsScatteredBack)
         g.transmission = random.unit();
         const glm::dvec2 albedo = f64::cotan_split_sum(glm::dot(r.n, r.v), s.roughness);
         const glm::dvec3 white(1), back = f64::cotan_reflect_image(s, g, white, white, albedo);
-        const glm::dvec3 through = f64::cotan_transmittance(s, g);
+        const glm::dvec3 transmitted = f64::cotan_transmittance(s, g);
         for (int c = 0; c < 3; ++c) {
-            EXPECT_NEAR(back[c] + through[c], 1,
-                        0.02); // light that bounces more than once is not taken from what passes
-            EXPECT_LE(through[c], g.transmission);
+            EXPECT_NEAR(back[c] + transmitted[c], 1,
+                        0.02); // transmittance does not account for multiple bounces
+            EXPECT_LE(transmitted[c], g.transmission);
         }
-        // What is scattered of a lamp is less by the same share.
+        // Light scattered from a lamp falls by the same fraction.
         f64::cotan_gloss opaque = g;
         opaque.transmission = 0;
         const glm::dvec3 glint = f64::cotan_reflect_highlight(s, g, r.l, 3);
@@ -304,11 +303,11 @@ TEST(LightLayers, whatDoesNotPassIsScatteredBack)
     }
 }
 
-TEST(LightLayers, aDirectionRunsAlongTheTangentOfASkewedParametrisation)
+TEST(LightLayers, anisotropyFollowsTheTangentOfASkewedParametrisation)
 {
     Random random(906);
     for (int k = 0; k < 500; ++k) {
-        // A plane p = p0 + u du + v dv; its gradients are t and b of the cotangent frame.
+        // The plane p = p0 + u du + v dv; the gradients of u and v are t and b of the cotangent frame.
         const glm::dvec3 du = random.direction() * random.range(0.1, 10),
                          dv = random.direction() * random.range(0.1, 10);
         const glm::dvec3 n = glm::normalize(glm::cross(du, dv)) * (random.unit() < 0.5 ? -1.0 : 1.0);
@@ -320,16 +319,16 @@ TEST(LightLayers, aDirectionRunsAlongTheTangentOfASkewedParametrisation)
         EXPECT_NEAR(glm::dot(across, along), 0, 1e-6);
         EXPECT_GT(glm::dot(across, dv), 0);
         const glm::dvec3 bent = glm::normalize(n + random.direction() * 0.5);
-        const glm::dvec3 turned = f64::cotan_direction_on_surface(n, t, b, {0.6, -0.8}, bent);
-        EXPECT_NEAR(glm::dot(turned, bent), 0, 1e-6);
-        EXPECT_NEAR(glm::length(turned), 1, 1e-6);
+        const glm::dvec3 direction = f64::cotan_direction_on_surface(n, t, b, {0.6, -0.8}, bent);
+        EXPECT_NEAR(glm::dot(direction, bent), 0, 1e-6);
+        EXPECT_NEAR(glm::length(direction), 1, 1e-6);
     }
     EXPECT_EQ(f32::cotan_direction_on_surface({0, 0, 1}, {0, 0, 0}, {0, 0, 0}, {1, 0}, {0, 0, 1}), glm::vec3(0));
 }
 
-TEST(LightLayers, theBentNormalOfAMirrorStretchedWhollyLiesAcrossTheDirection)
+TEST(LightLayers, bentNormalOfAFullyAnisotropicMirrorIsAcrossTheDirection)
 {
-    // A brushed mirror seen from along its brushing sees what a cylinder with that axis would.
+    // Seen along its brushing, a brushed mirror reflects like a cylinder with that axis.
     const glm::dvec3 n(0, 0, 1), t(1, 0, 0), v = glm::normalize(glm::dvec3(0.4, 0.5, 0.7));
     const glm::dvec3 bent = f64::cotan_bent_normal(n, v, 0, 1, t);
     EXPECT_LT(glm::length(bent - glm::normalize(glm::dvec3(0.4, 0, 0.7))), 1e-9);

@@ -1,19 +1,19 @@
-// light.h against formulas written on their own, in double: at grazing angles, over all roughnesses and on
-// both sides of every threshold.
+// light.h against independent formulas in double: at grazing angles, over all roughnesses and on both sides of every
+// threshold.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "scene/picture_text.hpp"
+#include "scene/render_text.hpp"
 #include "truth/patch.hpp"
 
 namespace cotan {
 namespace {
 
-// A unit vector in float, `angle` radians from z. Not inlined: gcc 12 at -O2 may otherwise go on with the
-// digits that the rounding to float has taken.
-[[gnu::noinline]] glm::vec3 leanedBy(Random& random, glm::dvec3 z, double angle)
+// A float unit vector at `angle` radians from z. Not inlined: gcc 12 at -O2 may otherwise continue with digits that the
+// rounding to float removes.
+[[gnu::noinline]] glm::vec3 tiltedBy(Random& random, glm::dvec3 z, double angle)
 {
     const glm::dvec3 side = glm::normalize(glm::cross(z, random.direction()));
     return glm::vec3(glm::normalize(z * std::cos(angle) + side * std::sin(angle)));
@@ -33,8 +33,8 @@ Surface surfaceOf(glm::dvec3 baseColor, double metallic, double roughness, glm::
     return s;
 }
 
-// The glTF 2.0 specification, appendix B: GGX as a density of slopes, Smith's height-correlated masking
-// by its Lambda, Schlick's Fresnel; times n.l. Roughness and n.v are held from zero as light.h says.
+// glTF 2.0 specification, appendix B: GGX as a density of slopes, Smith's height-correlated masking by its Lambda,
+// Schlick's Fresnel; times n.l. Roughness and n.v have the lower bounds that light.h states.
 glm::dvec3 pbrByTheBook(const f64::cotan_surface& s, glm::dvec3 l)
 {
     const double roughness = std::max(s.roughness, 0.045), alpha = roughness * roughness;
@@ -56,7 +56,7 @@ glm::dvec3 pbrByTheBook(const f64::cotan_surface& s, glm::dvec3 l)
     return (diffuse + fresnel * (density * masking / (4 * nl * nv))) * nl;
 }
 
-// The largest difference of a channel, relative to it.
+// Maximum relative difference of the channels; 1 if it is not finite.
 double relative(glm::dvec3 found, glm::dvec3 expected)
 {
     double worst = 0;
@@ -66,23 +66,23 @@ double relative(glm::dvec3 found, glm::dvec3 expected)
 }
 
 struct LitInput {
-    glm::dvec3 n, l, v; // float values
+    glm::dvec3 n, l, v; // values that float can represent
     glm::dvec3 baseColor;
     double metallic, roughness;
 };
 
-// Cosines of n.v and n.l down to 1e-3; half of the lights inside and around the highlight.
-LitInput anyLit(Random& random, double roughness)
+// Cosines n.v and n.l from 1e-3 to 1; half of the lights are inside and around the highlight.
+LitInput randomLitInput(Random& random, double roughness)
 {
     const double alpha = std::pow(std::max(roughness, 0.045), 2);
     for (;;) {
-        const glm::dvec3 n(leanedBy(random, random.direction(), 0));
-        const glm::dvec3 v(leanedBy(random, n, std::acos(std::pow(10, random.range(-3, 0)))));
-        glm::dvec3 l(leanedBy(random, n, std::acos(std::pow(10, random.range(-3, 0)))));
+        const glm::dvec3 n(tiltedBy(random, random.direction(), 0));
+        const glm::dvec3 v(tiltedBy(random, n, std::acos(std::pow(10, random.range(-3, 0)))));
+        glm::dvec3 l(tiltedBy(random, n, std::acos(std::pow(10, random.range(-3, 0)))));
         if (random.unit() < 0.5) {
             const glm::dvec3 h(
-                leanedBy(random, n, random.unit() < 0.2 ? 0 : alpha * std::pow(10, random.range(-2, 1.5))));
-            l = glm::dvec3(leanedBy(random, glm::normalize(h * (2 * glm::dot(v, h)) - v), 0));
+                tiltedBy(random, n, random.unit() < 0.2 ? 0 : alpha * std::pow(10, random.range(-2, 1.5))));
+            l = glm::dvec3(tiltedBy(random, glm::normalize(h * (2 * glm::dot(v, h)) - v), 0));
         }
         if (glm::dot(n, l) > 1e-3 && glm::dot(n, v) > 1e-3 && glm::length(l + v) > 1e-3)
             return {
@@ -91,13 +91,13 @@ LitInput anyLit(Random& random, double roughness)
     }
 }
 
-TEST(Light, pbrIsTheSpecificationsFormulaAtEveryRoughnessAndAngle)
+TEST(Light, pbrIsTheSpecifiedFormulaForAllRoughnessesAndAngles)
 {
     Random random(81);
     double worst = 0, worstFloat = 0;
     for (const double roughness : {0.0, 0.02, 0.0451, 0.1, 0.25, 0.5, 0.75, 1.0})
         for (int k = 0; k < 4000; ++k) {
-            const LitInput i = anyLit(random, double(float(roughness)));
+            const LitInput i = randomLitInput(random, double(float(roughness)));
             const auto s = surfaceOf<f64::cotan_surface>(i.baseColor, i.metallic, i.roughness, i.n, i.v);
             const glm::dvec3 expected = pbrByTheBook(s, i.l);
             worst = std::max(worst, relative(f64::cotan_reflect_pbr(s, i.l), expected));
@@ -105,9 +105,9 @@ TEST(Light, pbrIsTheSpecificationsFormulaAtEveryRoughnessAndAngle)
             worstFloat =
                 std::max(worstFloat, relative(glm::dvec3(f32::cotan_reflect_pbr(f, glm::vec3(i.l))), expected));
         }
-    // Vectors that are unit to 6e-8 only: the book's sine and cosine and ours differ by that over alpha.
+    // The vectors have unit length only to 6e-8: the sine and cosine of the two formulas differ by that over alpha.
     EXPECT_LT(worst, 1e-4);
-    EXPECT_LT(worstFloat, 1e-3); // as light.h states; 1 - (n.h)^2 taken as a difference loses 15 %
+    EXPECT_LT(worstFloat, 1e-3); // as light.h states; computing 1 - (n.h)^2 as a difference loses 15 %
 }
 
 TEST(Light, pbrFacingTheHighlightIsTheClosedFormAtRoughnessZero)
@@ -121,7 +121,7 @@ TEST(Light, pbrFacingTheHighlightIsTheClosedFormAtRoughnessZero)
 
 TEST(Light, fresnelIsSchlicksFifthPower)
 {
-    // A black and a white metal in the same light: their ratio is F alone, since white has F = 1.
+    // Ratio of a coloured and a white metal in the same light: F alone, since white has F = 1.
     for (const double degrees : {0.0, 20.0, 45.0, 60.0, 75.0, 85.0, 89.0}) {
         const double a = degrees * kDegree;
         const glm::dvec3 n(0, 0, 1), v(std::sin(a), 0, std::cos(a)), l(-std::sin(a), 0, std::cos(a));
@@ -134,18 +134,18 @@ TEST(Light, fresnelIsSchlicksFifthPower)
     }
 }
 
-TEST(Light, aDielectricReflectsFourHundredthsWhateverItsColour)
+TEST(Light, dielectricReflects4PercentForAnyColour)
 {
-    // Black: no diffuse light; facing, F = 0.04, against a white metal's 1.
+    // Black dielectric: no diffuse light; facing the light, F = 0.04 against a white metal's 1.
     const glm::dvec3 n(0, 0, 1);
     const glm::dvec3 black = f64::cotan_reflect_pbr(surfaceOf<f64::cotan_surface>({0, 0, 0}, 0, 0.5, n, n), n);
     const glm::dvec3 white = f64::cotan_reflect_pbr(surfaceOf<f64::cotan_surface>({1, 1, 1}, 1, 0.5, n, n), n);
     EXPECT_NEAR(black.x / white.x, 0.04, 1e-9);
     const glm::dvec3 half = f64::cotan_reflect_pbr(surfaceOf<f64::cotan_surface>({0, 0, 0}, 0.5, 0.5, n, n), n);
-    EXPECT_NEAR(half.y / white.y, 0.02, 1e-9); // half a black metal
+    EXPECT_NEAR(half.y / white.y, 0.02, 1e-9); // half metallic, black
 }
 
-TEST(Light, nothingIsReflectedFromBehindAndTheBackOfANormalCountsAsItsFront)
+TEST(Light, lightFromBehindIsNotReflected)
 {
     const glm::dvec3 n(0, 0, 1), v = glm::normalize(glm::dvec3(0.3, -0.2, 1));
     const auto s = surfaceOf<f64::cotan_surface>({0.5, 0.6, 0.7}, 0.2, 0.4, n, v);
@@ -154,8 +154,8 @@ TEST(Light, nothingIsReflectedFromBehindAndTheBackOfANormalCountsAsItsFront)
         EXPECT_EQ(f64::cotan_reflect_pbr(s, l), glm::dvec3(0));
         EXPECT_EQ(f64::cotan_reflect_blinn_phong(s, l), glm::dvec3(0));
     }
-    // An eye behind the normal's horizon, the light just before it, opposite: half-way between them is the back of a
-    // mirror, one degree from -n. No highlight there.
+    // Eye slightly below the normal's horizon, light slightly above it on the opposite side: the half vector is one
+    // degree from -n, on the back of a mirror. No highlight there.
     auto behind = s;
     behind.roughness = 0;
     behind.v = {std::sqrt(1 - 0.03 * 0.03), 0, -0.03};
@@ -169,7 +169,7 @@ TEST(Light, blinnPhongIsItsFormula)
     double worst = 0, worstFloat = 0;
     for (const double roughness : {0.0, 0.05, 0.11, 0.3, 0.6, 0.95, 1.0})
         for (int k = 0; k < 500; ++k) {
-            const LitInput i = anyLit(random, double(float(roughness)));
+            const LitInput i = randomLitInput(random, double(float(roughness)));
             const double rough = std::max(i.roughness, 0.1), alpha = rough * rough;
             const double exponent = std::max(2 / (alpha * alpha) - 2, 1.0);
             const double nh = std::max(glm::dot(i.n, glm::normalize(i.l + i.v)), 1e-4);
@@ -195,9 +195,9 @@ TEST(Light, halfVectorIsUnitAndZeroBetweenOpposites)
     EXPECT_EQ(f64::cotan_half_vector(l, -l), glm::dvec3(0));
 }
 
-TEST(Light, smoothIsZeroAtOneEdgeOneAtTheOtherAndTheCubicBetween)
+TEST(Light, smoothIsTheCubicBetweenItsEdges)
 {
-    // The edges of a spot's cone, cosines of 40 and 25 degrees, and an asymmetrical place between.
+    // The edges of a spot's cone, cosines of 40 and 25 degrees, and points between them.
     const double outer = std::cos(40 * kDegree), inner = std::cos(25 * kDegree);
     const auto at = [&](double part) { return f64::cotan_smooth(outer, inner, outer + (inner - outer) * part); };
     EXPECT_EQ(at(-0.01), 0);
@@ -209,7 +209,7 @@ TEST(Light, smoothIsZeroAtOneEdgeOneAtTheOtherAndTheCubicBetween)
     EXPECT_EQ(at(1.01), 1);
 }
 
-TEST(Light, falloffIsWindowedToZeroAtTheRangeAndStaysThereBehindIt)
+TEST(Light, falloffIsZeroAtAndBeyondTheRange)
 {
     using f64::cotan_light_falloff;
     EXPECT_NEAR(cotan_light_falloff(1, 2), 1 - 1.0 / 16, 1e-12);
@@ -223,7 +223,7 @@ TEST(Light, falloffIsWindowedToZeroAtTheRangeAndStaysThereBehindIt)
         EXPECT_NEAR(cotan_light_falloff(5, infinite), 0.04, 1e-12);
     EXPECT_NEAR(cotan_light_falloff(0.02, 0), 2500, 1e-9);
     EXPECT_NEAR(cotan_light_falloff(0.01, 0), 1e4, 1e-6);
-    EXPECT_NEAR(cotan_light_falloff(0.001, 0), 1e4, 1e-6); // nearer than 0.01 as at 0.01
+    EXPECT_NEAR(cotan_light_falloff(0.001, 0), 1e4, 1e-6); // distances below 0.01 count as 0.01
     EXPECT_NEAR(cotan_light_falloff(0, 1), 1e4, 1e-6);
 }
 
@@ -236,10 +236,10 @@ TEST(Light, toneCurveIsNarkowiczsOfEachChannel)
     EXPECT_NEAR(c.z, curve(3), 1e-12);
     EXPECT_NEAR(f64::cotan_tone(1), 2.54 / 3.16, 1e-12);
     EXPECT_EQ(f64::cotan_tone(0), 0);
-    EXPECT_EQ(f64::cotan_tone(1000), 1); // the curve passes 1 near 10
+    EXPECT_EQ(f64::cotan_tone(1000), 1); // the curve reaches 1 near 10
 }
 
-TEST(Light, srgbIsTheStandardsOnBothSidesOfItsThresholds)
+TEST(Light, srgbIsTheStandardOnBothSidesOfItsThresholds)
 {
     // IEC 61966-2-1: linear below 0.0031308 and 0.04045, a power of 2.4 above.
     for (const double x : {0.0, 0.0005, 0.001, 0.002, 0.0031, 0.0031307})
@@ -250,7 +250,7 @@ TEST(Light, srgbIsTheStandardsOnBothSidesOfItsThresholds)
         EXPECT_NEAR(f64::cotan_srgb_to_linear(x), x / 12.92, 1e-12) << x;
     for (const double x : {0.04046, 0.041, 0.05, 0.08, 0.2, 0.5, 1.0})
         EXPECT_NEAR(f64::cotan_srgb_to_linear(x), std::pow((x + 0.055) / 1.055, 2.4), 1e-12) << x;
-    // Published values of bytes 10, 11 and 188.
+    // Published values for the codes 10, 11 and 188.
     EXPECT_NEAR(f64::cotan_srgb_to_linear(10 / 255.0), 0.0030353, 1e-7);
     EXPECT_NEAR(f64::cotan_srgb_to_linear(11 / 255.0), 0.0033465, 1e-7);
     EXPECT_NEAR(f64::cotan_srgb_to_linear(188 / 255.0), 0.5028865, 1e-7);
@@ -267,8 +267,8 @@ double hermite(double k)
     return k * k * (3 - 2 * k);
 }
 
-// The description in words: a sky from horizon to zenith over a ground, and a box of light. A blurred one
-// has wider edges, a sky of middle colour and a weaker box.
+// Independent version of the environment: a sky from horizon to zenith over a ground, and a box light. Blur widens the
+// edges, averages the sky and weakens the box.
 glm::dvec3 skyOf(glm::dvec3 d, double blur)
 {
     const auto between = [blur](double sharp, double blurred) { return sharp * (1 - blur) + blurred * blur; };
@@ -298,14 +298,14 @@ TEST(Light, environmentIsSkyOverGroundWithABox)
 
 TEST(Light, environmentIsReflectedByKarissFit)
 {
-    // EnvBRDFApprox of B. Karis, Physically Based Shading on Mobile (2014), as printed there.
+    // EnvBRDFApprox of B. Karis, Physically Based Shading on Mobile (2014), as published.
     Random random(84);
     for (int k = 0; k < 2000; ++k) {
-        const LitInput i = anyLit(random, random.unit());
+        const LitInput i = randomLitInput(random, random.unit());
         auto s = surfaceOf<f64::cotan_surface>(i.baseColor, i.metallic, i.roughness, i.n, i.v);
         s.occlusion = random.unit();
         if (k % 5 == 0)
-            s.v = -s.v; // behind: n.v counts as zero
+            s.v = -s.v; // from behind: n.v counts as zero
         const double nv = std::max(glm::dot(s.n, s.v), 0.0);
         const glm::dvec4 r = s.roughness * glm::dvec4(-1, -0.0275, -0.572, 0.022) + glm::dvec4(1, 0.0425, 1.04, -0.04);
         const double a004 = std::min(r.x * r.x, std::exp2(-9.28 * std::min(nv, 1.0))) * r.x + r.y;

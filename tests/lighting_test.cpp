@@ -1,4 +1,4 @@
-// Lighting in tangent space against lighting in the world: where they must agree, and where not.
+// Lighting in tangent space against lighting in world space: where they must agree and where they cannot.
 #include <algorithm>
 
 #include "reference_scene.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 using namespace cotan::testing;
 
-// A square plane, tilted, with a tilted texel everywhere: tilted along u and v alike.
+// A tilted plane whose texels are all tilted, along u and v alike.
 Scene tiltedScene(glm::dvec3 alongU, glm::dvec3 alongV)
 {
     Patch patch;
@@ -45,7 +45,7 @@ View litView(Shading shading, Lighting lighting, Frame frame)
     return view;
 }
 
-// The largest difference of a channel, relative to the brightest value of the picture in the world.
+// Maximum difference of a channel, relative to the brightest value of the world-space render.
 double largestDifference(const Scene& scene, View view)
 {
     const Image there = rendered(scene, view);
@@ -62,19 +62,19 @@ double largestDifference(const Scene& scene, View view)
     return largest / brightest;
 }
 
-// Float rounding of unit vectors, times an exponent of some thirty in the highlight.
+// Float rounding of unit vectors, times an exponent of about 30 in the highlight.
 constexpr double kRounding = 1e-4;
 
-TEST(TangentSpaceLighting, byTheInverseOfAnOrthonormalFrameIsTheSameAsInTheWorld)
+TEST(TangentSpaceLighting, orthonormalFramesEqualWorldSpaceLighting)
 {
-    // Square and stretched: an orthonormal frame may be wrong about the bumps, and still agrees.
+    // Square and stretched: an orthonormal frame may misplace the bumps, and the two lightings still agree.
     for (const Scene& scene : {squareScene(), tiltedScene({1, 0, 0.3}, {0.7, -2, 0})})
         for (Shading shading : {Shading::blinnPhong, Shading::pbr})
             EXPECT_LT(largestDifference(scene, litView(shading, Lighting::tangentPixel, Frame::orthonormal)),
                       kRounding);
 }
 
-TEST(TangentSpaceLighting, agreesOnTheBackOfASheet)
+TEST(TangentSpaceLighting, agreesOnBackFaces)
 {
     Scene scene = squareScene();
     scene.materials[0].doubleSided = true;
@@ -87,7 +87,7 @@ TEST(TangentSpaceLighting, agreesOnTheBackOfASheet)
     EXPECT_LT(largestDifference(scene, view), kRounding);
 }
 
-TEST(TangentSpaceLighting, fromTheVerticesIsExactOnAFlatSquarePlane)
+TEST(TangentSpaceLighting, vertexFramesAreExactOnAFlatSquarePlane)
 {
     Scene scene = squareScene();
     deriveVertexFrames(scene, Frame::vertex, TangentOrigin::generated);
@@ -96,26 +96,26 @@ TEST(TangentSpaceLighting, fromTheVerticesIsExactOnAFlatSquarePlane)
         EXPECT_LT(largestDifference(scene, litView(shading, Lighting::tangentVertex, Frame::vertex)), kRounding);
 }
 
-TEST(TangentSpaceLighting, byTheInverseOfAGeneralFrameIsNotTheSame)
+TEST(TangentSpaceLighting, generalFramesDifferFromWorldSpaceLighting)
 {
-    // Stretched 2:1 the frame's inverse is not its transpose: angles come out wrong by degrees, and
-    // light by more than a hundredth.
+    // At a stretch of 2:1 the frame's inverse is not its transpose: angles differ by degrees and light by more than
+    // 0.01.
     const Scene scene = tiltedScene({1, 0, 0.3}, {0, -2, 0});
     EXPECT_GT(largestDifference(scene, litView(Shading::blinnPhong, Lighting::tangentPixel, Frame::cotangent)), 0.01);
 }
 
-TEST(TangentSpaceLighting, withoutMapOrTangentsIsLightingInTheWorld)
+TEST(TangentSpaceLighting, withoutMapOrTangentsEqualsWorldSpaceLighting)
 {
     Scene unmapped = squareScene();
     unmapped.materials[0].normalMap.image = -1;
     EXPECT_EQ(largestDifference(unmapped, litView(Shading::blinnPhong, Lighting::tangentPixel, Frame::cotangent)), 0);
-    // A frame that reads no tangents: with those that do, a scene without them is refused.
+    // The frame must read no tangents: those that do refuse a scene without them.
     EXPECT_EQ(largestDifference(squareScene(), litView(Shading::blinnPhong, Lighting::tangentVertex, Frame::cotangent)),
               0);
 }
 
-// Of lights, that is; the environment is read in the world, with stretched highlights.
-TEST(TangentSpaceLighting, doesNotStretchHighlightsAndFollowsNoRays)
+// Applies to lights only; the environment is read in world space, with anisotropic highlights.
+TEST(TangentSpaceLighting, ignoresAnisotropyAndNormalMappingByRays)
 {
     Scene little = squareScene();
     little.materials[0].metallic = 1;

@@ -1,4 +1,4 @@
-// What lint advises on reports that tests make by hand.
+// Lint's advice on hand-made reports.
 #pragma once
 
 #include <utility>

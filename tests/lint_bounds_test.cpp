@@ -1,5 +1,5 @@
-// What lint says at its very limits, and in whole sentences: on reports made by hand, in which no two figures are
-// alike.
+// Lint's verdicts exactly at its limits, and their full sentences, on hand-made reports in which no two figures are
+// equal.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kJustOver = 1 + 1e-9;
 
-// Of one value alone: the least that counts.
-ValueSummary oneAt(double mean, double percentile95) { return {1, mean, percentile95, 2 * percentile95}; }
+// A summary of a single value, the fewest that count.
+ValueSummary oneValue(double mean, double percentile95) { return {1, mean, percentile95, 2 * percentile95}; }
 
 PrimitiveLint judgedAs(const std::string& mesh, double mean, double percentile95, double area = 1)
 {
@@ -28,14 +28,14 @@ PrimitiveLint judgedAs(const std::string& mesh, double mean, double percentile95
     p.triangles = 2;
     p.hasUv = true;
     p.uv.area = area;
-    p.steps = {1, oneAt(0.1, 0.2), {}};
-    p.readings = {{"cotangent", oneAt(7.25, 9)}, {"orthonormal", oneAt(mean, percentile95)}};
+    p.steps = {1, oneValue(0.1, 0.2), {}};
+    p.readings = {{"cotangent", oneValue(7.25, 9)}, {"orthonormal", oneValue(mean, percentile95)}};
     return p;
 }
 
 MapFit fitAs(double mean, double percentile95 = 9)
 {
-    return {{oneAt(mean, percentile95), oneAt(mean, percentile95), oneAt(mean, percentile95)}, 0, "map"};
+    return {{oneValue(mean, percentile95), oneValue(mean, percentile95), oneValue(mean, percentile95)}, 0, "map"};
 }
 
 GreenEvidence greenOf(const std::string& name, maps::Green green, int image = 3)
@@ -55,7 +55,7 @@ LintReport advisedOn(std::vector<PrimitiveLint> primitives, std::vector<MapFit> 
 PrimitiveLint storedAs(double reversedW, double turned, double area = 1)
 {
     PrimitiveLint p = judgedAs("stored", 0.1, 0.2, area);
-    p.stored = {true, reversedW, turned, oneAt(1, 2)};
+    p.stored = {true, reversedW, turned, oneValue(1, 2)};
     return p;
 }
 
@@ -71,33 +71,33 @@ std::vector<std::string> textsOf(const LintCheck& check)
 
 using Texts = std::vector<std::string>;
 
-TEST(LintCheck, whatIsAtALimitPassesAndWhatIsOverItFailsAlsoWhereTheLimitIs0)
+TEST(LintCheck, valuesAtALimitPassAndValuesOverItFail)
 {
     struct Case {
         const char* kind;
         double PrimitiveLint::*precision;
         double UvQuality::*uv;
         double StoredTangents::*stored;
-        double share; // of what limits are said in
+        double factor; // factor from the unit of the limits to that of the value
     };
     const Case cases[] = {{"reading", nullptr, nullptr, nullptr, 1},
                           {"rounding", &PrimitiveLint::precision, nullptr, nullptr, 1},
                           {"degenerate_uv", nullptr, &UvQuality::degenerate, nullptr, 0.01},
                           {"mirrored_overlap", nullptr, &UvQuality::overlappingMirrored, nullptr, 0.01},
                           {"reversed_w", nullptr, nullptr, &StoredTangents::reversedW, 0.01},
-                          {"turned_tangents", nullptr, nullptr, &StoredTangents::turned, 0.01}};
+                          {"turned_tangents", nullptr, nullptr, &StoredTangents::rotated, 0.01}};
     for (const Case& c : cases)
         for (const double limit : {0.0, 25.0}) {
             const auto checkAt = [&](double value) {
                 PrimitiveLint p = judgedAs("door", 0, 0);
-                double& place = c.precision ? p.*c.precision
+                double& field = c.precision ? p.*c.precision
                     : c.uv                  ? p.uv.*c.uv
                     : c.stored              ? p.stored.*c.stored
                                             : p.readings[1].error.percentile95;
-                place = value * c.share;
+                field = value * c.factor;
                 LintReport report;
                 report.primitives = {p};
-                return checkLimits(report, c.share == 1 ? LintLimits{.degrees = limit} : LintLimits{.area = limit});
+                return checkLimits(report, c.factor == 1 ? LintLimits{.degrees = limit} : LintLimits{.area = limit});
             };
             EXPECT_TRUE(checkAt(limit).passed()) << c.kind << " " << limit;
             const LintCheck over = checkAt(limit + 0.5);
@@ -106,12 +106,12 @@ TEST(LintCheck, whatIsAtALimitPassesAndWhatIsOverItFailsAlsoWhereTheLimitIs0)
             EXPECT_EQ(f.kind, c.kind);
             EXPECT_DOUBLE_EQ(f.value, limit + 0.5);
             EXPECT_EQ(f.limit, limit);
-            EXPECT_EQ(f.percent, c.share != 1) << c.kind;
+            EXPECT_EQ(f.percent, c.factor != 1) << c.kind;
             EXPECT_EQ(f.beside.empty(), std::string(c.kind) != "reading");
         }
 }
 
-TEST(LintCheck, eachFailureIsASentenceWithItsNamesAndFigures)
+TEST(LintCheck, failuresAreSentencesWithNamesAndFigures)
 {
     PrimitiveLint p = judgedAs("door", 1.5, 3);
     p.material = "oak";
@@ -120,7 +120,7 @@ TEST(LintCheck, eachFailureIsASentenceWithItsNamesAndFigures)
     p.precision = 7.5;
     p.uv.degenerate = 0.02;
     p.uv.overlappingMirrored = 0.03;
-    p.stored = {true, 0.04, 0.055, oneAt(1, 2)};
+    p.stored = {true, 0.04, 0.055, oneValue(1, 2)};
     PrimitiveLint unread = judgedAs("", 0, 0);
     unread.readings.clear();
     unread.unread = true;
@@ -130,17 +130,17 @@ TEST(LintCheck, eachFailureIsASentenceWithItsNamesAndFigures)
     report.maps = {greenOf("bumps", maps::Green::down), greenOf("", maps::Green::down, 7),
                    greenOf("right", maps::Green::up)};
     const LintCheck check = checkLimits(report, {.degrees = 1, .area = 1});
-    const std::string door = "door, material oak, stretched by its nodes in 4 ways, number 2";
+    const std::string door = "door, material oak, node scaling 2 of 4";
     EXPECT_EQ(textsOf(check),
-              (Texts{"reading | " + door + ": 95 % of the error of reading with orthonormal 3 degrees, limit 1",
+              (Texts{"reading | " + door + ": 95th percentile of the error with orthonormal 3 degrees, limit 1",
                      "rounding | " + door + ": rounding 7.5 degrees, limit 1",
                      "degenerate_uv | " + door + ": degenerate uv on 2 % of the area, limit 1",
                      "mirrored_overlap | " + door + ": uv overlapping in both orientations on 3 % of the area, limit 1",
-                     "reversed_w | " + door + ": TANGENT.w against the uv on 4 % of the area, limit 1",
-                     "turned_tangents | " + door + ": stored tangents turned on 5.5 % of the area, limit 1",
+                     "reversed_w | " + door + ": TANGENT.w contradicting the uv on 4 % of the area, limit 1",
+                     "turned_tangents | " + door + ": stored tangents rotated on 5.5 % of the area, limit 1",
                      "not_judged | primitive 1: not judged, x.webp was not read",
-                     "reversed_green | normal map bumps: green points the other way than the file says (certain)",
-                     "reversed_green | normal map image 7: green points the other way than the file says (certain)"}));
+                     "reversed_green | normal map bumps: green points opposite to what the file says (certain)",
+                     "reversed_green | normal map image 7: green points opposite to what the file says (certain)"}));
     for (std::size_t i = 0; i < 6; ++i) {
         EXPECT_EQ(check.failures[i].where, door);
         EXPECT_EQ(check.failures[i].mesh, "door");
@@ -153,7 +153,7 @@ TEST(LintCheck, eachFailureIsASentenceWithItsNamesAndFigures)
     EXPECT_EQ(check.failures[8].where, "image 7");
 }
 
-TEST(LintCheck, whereNoMapCouldBeJudgedThatIsTheOnlyFailureAndOfTheWholeModel)
+TEST(LintCheck, modelWithoutJudgedMapsFailsOnce)
 {
     PrimitiveLint p = judgedAs("door", 0, 0);
     p.readings.clear();
@@ -163,65 +163,65 @@ TEST(LintCheck, whereNoMapCouldBeJudgedThatIsTheOnlyFailureAndOfTheWholeModel)
     EXPECT_EQ(textsOf(checkLimits(report, {.degrees = 1})), (Texts{"not_judged | no normal map could be judged"}));
     EXPECT_EQ(checkLimits(report, {.degrees = 0}).failures.at(0).where, "");
     EXPECT_TRUE(checkLimits(report, {.area = 1}).passed());
-    report.primitives[0].precision = 2; // something else fails: that is said in its place
+    report.primitives[0].precision = 2; // another failure replaces the message
     EXPECT_EQ(textsOf(checkLimits(report, {.degrees = 1})), (Texts{"rounding | door: rounding 2 degrees, limit 1"}));
-    report.primitives[0].image = -1; // rounding is of a map
+    report.primitives[0].image = -1; // rounding concerns a map
     EXPECT_TRUE(checkLimits(report, {.degrees = 1}).passed());
 }
 
-// A primitive without area has no part in the mean of the model; where there is no other, there is no such mean.
-TEST(LintCheck, theMeanOfAModelWithoutAreaIsThatOfThePrimitive)
+// A primitive without area does not count in the model's mean; if there is no other, its own mean is used.
+TEST(LintCheck, meanOfAModelWithoutAreaIsThatOfThePrimitive)
 {
     LintReport report;
     report.primitives = {judgedAs("door", 1.5, 3, 0)};
     EXPECT_EQ(checkLimits(report, {.degrees = 1}).failures.at(0).beside,
-              "each primitive is held to it by itself; the mean of this one is 1.5, of the model 1.5");
+              "the limit applies to each primitive; the mean of this one is 1.5, of the model 1.5");
 }
 
 // ---- recommendations --------------------------------------------------------------------------
 
-TEST(Recommend, atEachLimitItIsTheOtherSideThatIsMeant)
+TEST(Recommend, valuesExactlyAtALimitAreOnTheDefinedSide)
 {
-    // Of the mean and the 95 %: below half a degree and two degrees nobody sees it.
+    // Mean and 95th percentile: errors below half a degree and two degrees are invisible.
     for (const auto& [mean, percentile95, unseen] :
          {std::tuple(0.499, 1.999, true), std::tuple(0.5, 1.999, false), std::tuple(0.499, 2.0, false)})
         EXPECT_EQ(advisedOn({judgedAs("a", mean, percentile95)}, {fitAs(2)}).advice == Advice::convertToOrthonormal,
                   unseen)
             << mean << " " << percentile95;
-    // One degree is what converted maps stay off by.
+    // One degree is the error that converted maps keep.
     EXPECT_EQ(advisedOn({judgedAs("a", 1, 5)}, {fitAs(0.1)}).advice, Advice::convertToCotangent);
     EXPECT_EQ(advisedOn({judgedAs("a", 0.1, 0.2)}, {fitAs(1)}).advice, Advice::convertToOrthonormal);
     PrimitiveLint creased = judgedAs("a", 4, 5);
-    creased.steps.cotangent = oneAt(1, 2);
+    creased.steps.cotangent = oneValue(1, 2);
     EXPECT_EQ(advisedOn({creased}).advice, Advice::convertToCotangent);
-    creased.steps.cotangent = oneAt(1, 2 * kJustOver);
+    creased.steps.cotangent = oneValue(1, 2 * kJustOver);
     EXPECT_EQ(advisedOn({creased}).advice, Advice::convertToSmooth);
-    // A tenth of the area, where a map tells.
-    const std::vector<GreenEvidence> told = {greenOf("bumps", maps::Green::up)};
-    EXPECT_FALSE(advisedOn({storedAs(0.1, 0.1)}, {fitAs(9)}, told).distrustStored);
-    EXPECT_TRUE(advisedOn({storedAs(0.1 * kJustOver, 0)}, {fitAs(9)}, told).distrustStored);
-    EXPECT_TRUE(advisedOn({storedAs(0, 0.1 * kJustOver)}, {fitAs(9)}, told).distrustStored);
-    // Half of it: with green the other way that is still a contradiction, above they make up for each other.
+    // A tenth of the area, if a map determines green.
+    const std::vector<GreenEvidence> evidence = {greenOf("bumps", maps::Green::up)};
+    EXPECT_FALSE(advisedOn({storedAs(0.1, 0.1)}, {fitAs(9)}, evidence).distrustStored);
+    EXPECT_TRUE(advisedOn({storedAs(0.1 * kJustOver, 0)}, {fitAs(9)}, evidence).distrustStored);
+    EXPECT_TRUE(advisedOn({storedAs(0, 0.1 * kJustOver)}, {fitAs(9)}, evidence).distrustStored);
+    // Half of the area: with reversed green that is still a contradiction; above half, the two compensate each other.
     const std::vector<GreenEvidence> both = {greenOf("sound", maps::Green::up), greenOf("bumps", maps::Green::down)};
     EXPECT_TRUE(advisedOn({storedAs(0.5, 0)}, {fitAs(9)}, both).distrustStored);
     EXPECT_FALSE(advisedOn({storedAs(0.5 * kJustOver, 0)}, {fitAs(9)}, both).distrustStored);
-    // Three tenths of a degree, which rounding costs anyhow.
+    // 0.3 degrees, no more than rounding costs.
     EXPECT_EQ(advisedOn({judgedAs("a", 4, 5)}, {fitAs(2, 0.3)}).mapsKept, 1u);
     EXPECT_EQ(advisedOn({judgedAs("a", 4, 5)}, {fitAs(2, 0.3 * kJustOver)}).mapsConverted, 1u);
 }
 
-TEST(Recommend, whatIsSeenIsOneWholeSentence)
+TEST(Recommend, visibilityIsOneSentence)
 {
     const auto sentence = [](const std::string& how, const std::string& mean) {
-        return "If the maps were made for MikkTSpace and are read without tangents, " + how + ": " + mean
-            + " degrees off on average with the frame orthonormal (7.25 with cotangent).";
+        return "If the maps were made for MikkTSpace and are read without tangents, " + how + ": the error is " + mean
+            + " degrees on average with the frame orthonormal (7.25 with cotangent).";
     };
-    EXPECT_EQ(advisedOn({judgedAs("a", 0.25, 1)}).seen, sentence("nobody sees a difference", "0.25"));
+    EXPECT_EQ(advisedOn({judgedAs("a", 0.25, 1)}).seen, sentence("the difference is invisible", "0.25"));
     EXPECT_EQ(advisedOn({judgedAs("a", 4.996, 9)}).seen, sentence("moving highlights show a difference", "5.00"));
     EXPECT_EQ(advisedOn({judgedAs("a", 5, 9)}).seen, sentence("the light seems to come from elsewhere", "5.00"));
 }
 
-TEST(Recommend, theFirstOfEquallyBadPrimitivesIsNamedAndOneAtTheLimitIsNot)
+TEST(Recommend, firstOfEqualWorstPrimitivesIsNamed)
 {
     const auto worst = [](std::vector<PrimitiveLint> all) { return advisedOn(std::move(all)).worst; };
     const auto said = [](const std::string& name, const char* figures) {
@@ -237,12 +237,12 @@ TEST(Recommend, theFirstOfEquallyBadPrimitivesIsNamedAndOneAtTheLimitIsNot)
     EXPECT_EQ(worst({unnamed, judgedAs("a", 2, 4)}), said("oak", "3.00 degrees on average, over 8.2"));
 }
 
-TEST(Recommend, eachAdviceIsOneWholeSentence)
+TEST(Recommend, eachAdviceIsOneSentence)
 {
     PrimitiveLint creased = judgedAs("a", 4, 5), plain = judgedAs("a", 4, 5), good = judgedAs("a", 0.1, 0.2);
-    creased.steps.cotangent = oneAt(1, 17.25);
+    creased.steps.cotangent = oneValue(1, 17.25);
     const auto withTangents = [](PrimitiveLint p) {
-        p.stored = {true, 0, 0, oneAt(0, 0)};
+        p.stored = {true, 0, 0, oneValue(0, 0)};
         return p;
     };
     const auto advised = [](const PrimitiveLint& p, std::vector<MapFit> fits, std::vector<GreenEvidence> maps = {}) {
@@ -259,36 +259,37 @@ TEST(Recommend, eachAdviceIsOneWholeSentence)
     EXPECT_EQ(advised(withTangents(plain), {far}),
               "Convert the maps to the frame cotangent. The command drops the tangents.");
     EXPECT_EQ(advised(creased, {far}),
-              "Convert the maps to the frame smooth (cotangent steps by up to 17 degrees at edges, 95 %).");
+              "Convert the maps to the frame smooth (cotangent has steps of 17 degrees at edges, 95th percentile).");
     EXPECT_EQ(
         advised(withTangents(creased), {far, fits, fits}),
-        "Convert 1 of 3 maps to the frame smooth (cotangent steps by up to 17 degrees at edges, 95 %); the others "
+        "Convert 1 of 3 maps to the frame smooth (cotangent has steps of 17 degrees at edges, 95th percentile); the "
+        "others "
         "can be read with it as they are. The command drops the tangents.");
 }
 
-// Maps that are broken as files: nothing has to be converted, but something to be fixed.
-TEST(Recommend, brokenMapsAreNamedOneAfterTheOther)
+// Broken image files: nothing to convert, but something to fix.
+TEST(Recommend, brokenMapsAreListed)
 {
     GreenEvidence first = greenOf("", maps::Green::undecidable, 5), second = greenOf("bark", maps::Green::undecidable);
     for (GreenEvidence* g : {&first, &second})
         g->verdict.statistics.eightBits = true;
     const LintReport r =
         advisedOn({judgedAs("a", 0.1, 0.2)}, {fitAs(0.1)}, {first, greenOf("sound", maps::Green::up), second});
-    EXPECT_EQ(r.defects.find("Image 5: its 16 bits hold steps of 8 bits only"), 0u) << r.defects;
-    EXPECT_NE(r.defects.find(" bark: its 16 bits hold"), std::string::npos) << r.defects;
+    EXPECT_EQ(r.defects.find("Image 5: its 16-bit values are all multiples of an 8-bit step"), 0u) << r.defects;
+    EXPECT_NE(r.defects.find(" bark: its 16-bit values"), std::string::npos) << r.defects;
     EXPECT_EQ(r.defects.find("sound"), std::string::npos) << r.defects;
     EXPECT_EQ(r.advised, "Fix the maps; then they can be read with the frame orthonormal.");
 }
 
-TEST(Recommend, whatIsWrongWithTangentsAndGreenIsSaidInFull)
+TEST(Recommend, tangentAndGreenDefectsAreSentences)
 {
     const auto defects = [](const PrimitiveLint& p, std::vector<GreenEvidence> maps = {}) {
         return advisedOn({p}, {fitAs(9)}, std::move(maps)).defects;
     };
     const GreenEvidence up = greenOf("sound", maps::Green::up), down = greenOf("", maps::Green::down, 4);
-    const std::string followed = " Whether green is right cannot be told from the maps, so the tangents are followed.";
+    const std::string followed = " The maps do not show whether green is right, so the tangents are trusted.";
     const std::string contradict = "The stored tangents contradict the uv: w is reversed on 20 % of the area, the "
-                                   "tangent turned by over 45 degrees on 30 %.";
+                                   "tangent is rotated by more than 45 degrees on 30 %.";
     EXPECT_EQ(defects(storedAs(0.1, 0.1)), "");
     EXPECT_EQ(defects(storedAs(0.5, 0), {up}).find("The stored tangents contradict the uv: w is reversed on 50 %"), 0u);
     EXPECT_EQ(defects(storedAs(0.2, 0.3), {up}), contradict);
@@ -296,38 +297,39 @@ TEST(Recommend, whatIsWrongWithTangentsAndGreenIsSaidInFull)
     EXPECT_EQ(defects(storedAs(0.7, 0.3)), "The stored TANGENT.w is reversed on 70 % of the area." + followed);
     EXPECT_EQ(
         defects(storedAs(0.7, 0.3), {down}),
-        "The stored TANGENT.w is reversed on 70 % of the area and green points the other way in image 4: together "
-        "they are right, each alone is not.");
+        "The stored TANGENT.w is reversed on 70 % of the area and green is flipped in image 4: together they cancel "
+        "out, each alone is wrong.");
     EXPECT_EQ(defects(storedAs(0.2, 0.3), {down}),
               contradict
-                  + " Green seems to point the other way in image 4 (cotan map convert --from directx --to gltf turns "
-                    "it).");
+                  + " Green seems to be flipped in image 4 (cotan map convert --from directx --to gltf flips it "
+                    "back).");
 }
 
-TEST(Recommend, sharesAreOfTheAreaWithAMapAndMeasuredTangents)
+TEST(Recommend, defectPercentagesAreAveragedByArea)
 {
     // 40 % of 1 and 12 % of 3 are 19 %; 8 % of 1 and 60 % of 3 are 47 %.
     EXPECT_NE(advisedOn({storedAs(0.4, 0.08, 1), storedAs(0.12, 0.6, 3)})
-                  .defects.find("w is reversed on 19 % of the area, the tangent turned by over 45 degrees on 47 %"),
+                  .defects.find("w is reversed on 19 % of the area, the tangent is rotated by more than 45 degrees on "
+                                "47 %"),
               std::string::npos);
 }
 
-TEST(Recommend, tangentsStayForWhatTurnsByMoreThanFiveDegreesWithTheAdvisedFrame)
+TEST(Recommend, tangentsAreKeptForOtherReadersOverFiveDegrees)
 {
     const auto reading = [](double orthonormal, double cotangent, double smooth) {
         PrimitiveLint p = judgedAs("a", 4, 5);
         p.tangentsFor = "KHR_materials_anisotropy";
-        p.turned = {oneAt(0, orthonormal), oneAt(0, cotangent), oneAt(0, smooth)};
-        p.stored = {true, 0, 0, oneAt(0, 0)};
+        p.rotation = {oneValue(0, orthonormal), oneValue(0, cotangent), oneValue(0, smooth)};
+        p.stored = {true, 0, 0, oneValue(0, 0)};
         return p;
     };
-    const std::string stay = "Tangents are also read by what is not converted and stay for it: a material "
+    const std::string stay = "Tangents are also read by unconverted extensions and are kept for them: a material "
                              "(KHR_materials_anisotropy).";
     for (const auto& [turned, stays] : {std::pair(5.0, false), {5 * kJustOver, true}}) {
         PrimitiveLint asCotangent = reading(stays ? 0 : 9, turned, stays ? 0 : 9), asSmooth = reading(9, 9, turned),
                       asOrthonormal = reading(turned, 9, 9);
-        asSmooth.steps.cotangent = oneAt(1, 3);
-        asOrthonormal.readings[1].error = oneAt(0.1, 0.2);
+        asSmooth.steps.cotangent = oneValue(1, 3);
+        asOrthonormal.readings[1].error = oneValue(0.1, 0.2);
         for (const auto& [p, fit] :
              {std::pair(asCotangent, fitAs(9)), {asSmooth, fitAs(9)}, {asOrthonormal, fitAs(0.1)}}) {
             const LintReport r = advisedOn({p}, {fit});
@@ -337,7 +339,7 @@ TEST(Recommend, tangentsStayForWhatTurnsByMoreThanFiveDegreesWithTheAdvisedFrame
     }
 }
 
-TEST(Recommend, withoutAJudgedMapEachCaseHasItsOwnSentence)
+TEST(Recommend, eachCaseWithoutAJudgedMapHasItsSentence)
 {
     PrimitiveLint bare;
     bare.mesh = "wall";
@@ -347,7 +349,7 @@ TEST(Recommend, withoutAJudgedMapEachCaseHasItsOwnSentence)
               "Only clear coats have normal maps: cotan convert judges each by itself.");
     PrimitiveLint hair = bare, unread = bare;
     hair.tangentsFor = "KHR_materials_anisotropy";
-    hair.turned = {oneAt(0, 9), {}, {}};
+    hair.rotation = {oneValue(0, 9), {}, {}};
     EXPECT_EQ(advisedOn({hair}, {}).advised,
               "No primitive has a normal map and uv to read it with: no normal map uses tangents.");
     unread.notJudged = "no uv";
@@ -356,16 +358,16 @@ TEST(Recommend, withoutAJudgedMapEachCaseHasItsOwnSentence)
     EXPECT_EQ(r.notJudged, "The normal map could not be judged in wall (no uv).");
 }
 
-TEST(Recommend, aNamedFrameIsReadAndNothingIsDropped)
+TEST(Recommend, namedFrameIsReadAndTangentsAreKept)
 {
     for (const auto& [frame, seen] :
          {std::pair(Frame::orthonormal, "The file says that its maps are for the frame orthonormal."),
           {Frame::cotangent,
-           "The file says that its maps are for the frame cotangent; read with orthonormal they are "
-           "off by 7.50 degrees on average."}}) {
+           "The file says that its maps are for the frame cotangent; read with orthonormal, their error is 7.50 "
+           "degrees on average."}}) {
         LintReport r;
         r.primitives = {judgedAs("a", 7.5, 9)};
-        r.primitives[0].stored = {true, 0, 0, oneAt(0, 0)};
+        r.primitives[0].stored = {true, 0, 0, oneValue(0, 0)};
         r.fits = {fitAs(9, 9), fitAs(0.1, 0.1)};
         r.named = frame;
         lint::recommend(r);
@@ -378,10 +380,10 @@ TEST(Recommend, aNamedFrameIsReadAndNothingIsDropped)
     }
 }
 
-TEST(Recommend, allSixSentencesStandInTheirOrder)
+TEST(Recommend, sentencesAreInFixedOrder)
 {
     PrimitiveLint p = storedAs(0.7, 0.3), unread = judgedAs("wall", 0, 0);
-    p.readings[1].error = oneAt(4, 5);
+    p.readings[1].error = oneValue(4, 5);
     p.tangentsFor = "KHR_materials_anisotropy";
     unread.readings.clear();
     unread.notJudged = "no uv";

@@ -1,4 +1,4 @@
-// The verdict of a check: what fails it, on reports made by hand, each limit from both sides.
+// What fails a check, on hand-made reports, with each limit from both sides.
 #include <gtest/gtest.h>
 
 #include "cotan/lint.hpp"
@@ -6,10 +6,10 @@
 namespace cotan {
 namespace {
 
-ValueSummary spreadAt(double percentile95) { return {100, percentile95 / 2, percentile95, 2 * percentile95}; }
+ValueSummary summaryAt(double percentile95) { return {100, percentile95 / 2, percentile95, 2 * percentile95}; }
 
-// A primitive whose map was judged, with nothing wrong.
-PrimitiveLint sound()
+// A primitive whose map was judged and has no problems.
+PrimitiveLint passingPrimitive()
 {
     PrimitiveLint p;
     p.mesh = "door";
@@ -17,7 +17,7 @@ PrimitiveLint sound()
     p.triangles = 2;
     p.hasUv = true;
     p.uv.area = 1;
-    p.readings = {{"cotangent", spreadAt(1)}, {"orthonormal", spreadAt(3)}};
+    p.readings = {{"cotangent", summaryAt(1)}, {"orthonormal", summaryAt(3)}};
     return p;
 }
 
@@ -49,34 +49,34 @@ using Kinds = std::vector<std::string>;
 
 TEST(LintCheck, withoutALimitNothingIsChecked)
 {
-    PrimitiveLint p = sound();
+    PrimitiveLint p = passingPrimitive();
     p.unread = true;
     const LintCheck check = checkLimits(reportOf(p, maps::Green::down), {});
     EXPECT_FALSE(check.limits.any());
     EXPECT_TRUE(check.passed());
 }
 
-TEST(LintCheck, degreesAreThoseOf95PercentWithTheFrameThatIsAskedFor)
+TEST(LintCheck, degreesAreThe95thPercentileWithTheRequestedFrame)
 {
-    const LintReport report = reportOf(sound());
+    const LintReport report = reportOf(passingPrimitive());
     EXPECT_TRUE(checkLimits(report, {.degrees = 1.01, .frame = "cotangent"}).passed());
     EXPECT_EQ(kindsOf(checkLimits(report, {.degrees = 0.99, .frame = "cotangent"})), Kinds{"reading"});
     EXPECT_TRUE(checkLimits(report, {.degrees = 3.01}).passed());
-    const LintCheck over = checkLimits(report, {.degrees = 2.99}); // of orthonormal
+    const LintCheck over = checkLimits(report, {.degrees = 2.99}); // the error of orthonormal
     ASSERT_EQ(kindsOf(over), Kinds{"reading"});
     EXPECT_EQ(over.failures[0].where, "door");
     EXPECT_EQ(over.failures[0].value, 3);
     EXPECT_EQ(over.failures[0].limit, 2.99);
-    EXPECT_EQ(over.failures[0].text, "door: 95 % of the error of reading with orthonormal 3 degrees, limit 2.99");
+    EXPECT_EQ(over.failures[0].text, "door: 95th percentile of the error with orthonormal 3 degrees, limit 2.99");
     EXPECT_EQ(over.failures[0].mesh, "door");
     EXPECT_FALSE(over.failures[0].percent);
 }
 
-// The mean of a model may be far under a limit that one primitive exceeds.
-TEST(LintCheck, theSentenceSaysThatEachPrimitiveCountsAndWhatTheMeansAre)
+// The model's mean may be far below a limit that one primitive exceeds.
+TEST(LintCheck, failureStatesTheMeansOfPrimitiveAndModel)
 {
-    LintReport report = reportOf(sound());
-    PrimitiveLint wall = sound();
+    LintReport report = reportOf(passingPrimitive());
+    PrimitiveLint wall = passingPrimitive();
     wall.mesh = "wall";
     wall.uv.area = 9;
     wall.readings = {{"orthonormal", {100, 0.25, 0.5, 1}}};
@@ -84,16 +84,16 @@ TEST(LintCheck, theSentenceSaysThatEachPrimitiveCountsAndWhatTheMeansAre)
     const LintCheck check = checkLimits(report, {.degrees = 1});
     ASSERT_EQ(kindsOf(check), Kinds{"reading"});
     EXPECT_EQ(check.failures[0].beside,
-              "each primitive is held to it by itself; the mean of this one is 1.5, of the model 0.375");
+              "the limit applies to each primitive; the mean of this one is 1.5, of the model 0.375");
 }
 
-TEST(LintCheck, areasAreHeldAgainstTheLimitInPercent)
+TEST(LintCheck, areaLimitIsInPercent)
 {
-    PrimitiveLint p = sound();
+    PrimitiveLint p = passingPrimitive();
     p.uv.degenerate = 0.02;
     p.uv.overlappingMirrored = 0.03;
     p.stored.reversedW = 0.04;
-    p.stored.turned = 0.05;
+    p.stored.rotated = 0.05;
     EXPECT_TRUE(checkLimits(reportOf(p), {.area = 5}).passed());
     EXPECT_EQ(kindsOf(checkLimits(reportOf(p), {.area = 1})),
               (Kinds{"degenerate_uv", "mirrored_overlap", "reversed_w", "turned_tangents"}));
@@ -101,45 +101,45 @@ TEST(LintCheck, areasAreHeldAgainstTheLimitInPercent)
     EXPECT_TRUE(checkLimits(reportOf(p), {.degrees = 10}).passed());
 }
 
-TEST(LintCheck, reversedGreenFailsWhicheverLimitThereIs)
+TEST(LintCheck, reversedGreenFailsUnderAnyLimit)
 {
-    const LintReport report = reportOf(sound(), maps::Green::down);
+    const LintReport report = reportOf(passingPrimitive(), maps::Green::down);
     for (const LintLimits& limits : {LintLimits{.degrees = 180}, LintLimits{.area = 100}}) {
         const LintCheck check = checkLimits(report, limits);
         ASSERT_EQ(kindsOf(check), Kinds{"reversed_green"});
         EXPECT_EQ(check.failures[0].where, "bumps");
         EXPECT_LT(check.failures[0].limit, 0);
     }
-    EXPECT_TRUE(checkLimits(reportOf(sound(), maps::Green::undecidable), {.degrees = 180}).passed());
+    EXPECT_TRUE(checkLimits(reportOf(passingPrimitive(), maps::Green::undecidable), {.degrees = 180}).passed());
     EXPECT_EQ(lintWarnings(report),
-              std::vector<std::string>{"normal map bumps: green points the other way than the file says (certain)"});
-    EXPECT_TRUE(lintWarnings(reportOf(sound())).empty());
+              std::vector<std::string>{"normal map bumps: green points opposite to what the file says (certain)"});
+    EXPECT_TRUE(lintWarnings(reportOf(passingPrimitive())).empty());
 }
 
-TEST(LintCheck, aMapThatWasNotReadFailsBesideOnesThatWere)
+TEST(LintCheck, unreadMapFailsAmongReadOnes)
 {
-    PrimitiveLint p = sound();
+    PrimitiveLint p = passingPrimitive();
     p.unread = true;
     p.notJudged = "door.ktx2 was not read";
     p.readings.clear();
-    LintReport report = reportOf(sound());
+    LintReport report = reportOf(passingPrimitive());
     report.primitives.push_back(p);
     EXPECT_EQ(kindsOf(checkLimits(report, {.degrees = 180})), Kinds{"not_judged"});
     EXPECT_TRUE(checkLimits(report, {.area = 100}).passed()); // uv and tangents were judged
 }
 
-// uv without area on one primitive of several is nothing that a limit in degrees speaks of; on all it is no check.
-TEST(LintCheck, mapsOfWhichNoneWasJudgedDoNotPass)
+// Limits in degrees ignore one primitive without uv area among several; if no primitive can be judged, the check fails.
+TEST(LintCheck, unjudgedMapsDoNotPass)
 {
-    PrimitiveLint p = sound();
+    PrimitiveLint p = passingPrimitive();
     p.notJudged = "no uv";
     p.readings.clear();
     for (const double degrees : {0.0, 0.5, 180.0})
         EXPECT_EQ(kindsOf(checkLimits(reportOf(p), {.degrees = degrees})), Kinds{"not_judged"}) << degrees;
-    LintReport both = reportOf(sound());
+    LintReport both = reportOf(passingPrimitive());
     both.primitives.push_back(p);
     EXPECT_TRUE(checkLimits(both, {.degrees = 180}).passed());
-    PrimitiveLint bare = sound();
+    PrimitiveLint bare = passingPrimitive();
     bare.image = -1;
     bare.readings.clear();
     LintReport unmapped = reportOf(bare);

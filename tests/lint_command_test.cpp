@@ -1,4 +1,4 @@
-// `cotan lint` as a user runs it: models of known layout, exit codes, one clear line.
+// `cotan lint` as users run it: models of known layout, exit codes, one-line errors.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ const json& named(const json& report, const std::string& mesh)
     return report;
 }
 
-TEST(LintCommand, theUvCasesAreReportedAsTheyWereMade)
+TEST(LintCommand, reportMatchesTheUvCases)
 {
     COTAN_NEEDS("synthetic/uv_cases.gltf");
     const json r = lintJson("synthetic/uv_cases.gltf");
@@ -55,11 +55,11 @@ TEST(LintCommand, theUvCasesAreReportedAsTheyWereMade)
     EXPECT_LT(named(r, "identity")["read_with"]["cotangent"]["maximum"].get<double>(), 1e-3);
     EXPECT_GT(named(r, "stretched4")["read_with"]["cotangent"]["mean"].get<double>(), 5);
     EXPECT_TRUE(r["maps"][0]["decided"].get<bool>());
-    EXPECT_TRUE(r["maps"][0]["as_declared"].get<bool>()); // made in the file's own convention
+    EXPECT_TRUE(r["maps"][0]["as_declared"].get<bool>()); // the map has the convention that the file declares
 }
 
 // data/README: w is wrong almost everywhere, and the maps are probably green-down.
-TEST(LintCommand, sketchfabCatHasReversedHandednessAndGreenThatMakeUpForEachOther)
+TEST(LintCommand, sketchfabCatHasReversedHandednessAndGreenThatCancelOut)
 {
     COTAN_NEEDS("models/SketchfabCat/scene.gltf");
     const json r = lintJson("models/SketchfabCat/scene.gltf");
@@ -69,11 +69,11 @@ TEST(LintCommand, sketchfabCatHasReversedHandednessAndGreenThatMakeUpForEachOthe
         }
     for (const json& m : r["maps"])
         EXPECT_TRUE(m["decided"].get<bool>() && !m["as_declared"].get<bool>()) << m.dump();
-    EXPECT_NE(r["recommendation"].get<std::string>().find("together they are right"), std::string::npos);
+    EXPECT_NE(r["recommendation"].get<std::string>().find("together they cancel out"), std::string::npos);
     EXPECT_EQ(r["run"].get<std::string>().find("generated"), std::string::npos);
 }
 
-// Its TANGENTs are those of MikkTSpace (data/README), and its quads are mirrored.
+// By data/README its TANGENTs are those of MikkTSpace; its quads are mirrored.
 TEST(LintCommand, normalTangentMirrorTestAgreesWithItsStoredTangents)
 {
     COTAN_NEEDS("models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb");
@@ -85,7 +85,7 @@ TEST(LintCommand, normalTangentMirrorTestAgreesWithItsStoredTangents)
     EXPECT_NE(r["recommendation"].get<std::string>().find("orthonormal"), std::string::npos);
 }
 
-TEST(LintCommand, flightHelmetAndBoomBoxCanBeReadAsTheyAre)
+TEST(LintCommand, flightHelmetAndBoomBoxNeedNoConversion)
 {
     for (const char* file : {"models/FlightHelmet/FlightHelmet.gltf", "models/BoomBox/BoomBox.gltf"}) {
         if (!std::filesystem::exists(shared(file)))
@@ -97,7 +97,7 @@ TEST(LintCommand, flightHelmetAndBoomBoxCanBeReadAsTheyAre)
     }
 }
 
-TEST(LintCommand, stretchedHighlightsKeepTangentsThatPointElsewhere)
+TEST(LintCommand, anisotropyKeepsTangentsOfAnotherDirection)
 {
     for (const bool elsewhere : {false, true}) {
         TemporaryFolder folder;
@@ -106,16 +106,16 @@ TEST(LintCommand, stretchedHighlightsKeepTangentsThatPointElsewhere)
         m.root["materials"][0].erase("normalTexture");
         m.root["materials"][0]["extensions"]["KHR_materials_anisotropy"]["anisotropyStrength"] = 1;
         if (elsewhere)
-            turnTangents(m, 30);
+            rotateTangents(m, 30);
         write(m, folder.path());
         const std::string text =
             json::parse(runTool({"lint", "quad.gltf", "--json", "-"}, folder.path()).out)["recommendation"];
-        EXPECT_EQ(text.find("stay for it: relief (KHR_materials_anisotropy)") != std::string::npos, elsewhere) << text;
+        EXPECT_EQ(text.find("for them: relief (KHR_materials_anisotropy)") != std::string::npos, elsewhere) << text;
         EXPECT_EQ(text.find("can be dropped") == std::string::npos, elsewhere) << text;
     }
 }
 
-// What `convert` would do with a coat's map is counted with the others.
+// The map of a clear coat counts among those that `convert` would change.
 TEST(LintCommand, aCoatsMapIsJudgedToo)
 {
     TemporaryFolder folder;
@@ -132,7 +132,7 @@ TEST(LintCommand, aCoatsMapIsJudgedToo)
     EXPECT_EQ(both["fits"][0]["cotangent"], both["fits"][1]["cotangent"]);
 }
 
-TEST(LintCommand, aLimitEndsWithFiveWhereSomethingIsOverIt)
+TEST(LintCommand, exceededLimitExitsWith5)
 {
     COTAN_NEEDS("synthetic/uv_cases.gltf");
     const std::string model = shared("synthetic/uv_cases.gltf");
@@ -144,13 +144,13 @@ TEST(LintCommand, aLimitEndsWithFiveWhereSomethingIsOverIt)
     EXPECT_EQ(
         runTool({"lint", model, "--strict", "--limit", "1", "--frame", "cotangent", "--quiet"}, folder.path()).code, 5);
     EXPECT_EQ(runTool({"lint", model, "--limit", "60", "--quiet"}, folder.path()).code, 0);
-    // `sheared` is square to an orthonormal reader; `tiny` reads 4e-8 of the map, and rounding is 0.8 there.
+    // `sheared` reads like a square with orthonormal; `tiny` covers 4e-8 of the map, and its rounding is 0.8.
     EXPECT_EQ(runTool({"lint", model, "--limit", "1", "--quiet"}, folder.path()).code, 0); // orthonormal is the default
     EXPECT_EQ(runTool({"lint", model, "--limit-area", "5", "--quiet"}, folder.path()).code, 5);
     EXPECT_EQ(runTool({"lint", model, "--quiet"}, folder.path()).code, 0);
 }
 
-TEST(LintCommand, theReportOfACheckSaysWhatFailedAndByHowMuch)
+TEST(LintCommand, reportOfACheckListsFailuresWithValues)
 {
     TemporaryFolder folder;
     write(quad(2), folder.path());
@@ -177,13 +177,13 @@ TEST(LintCommand, theReportOfACheckSaysWhatFailedAndByHowMuch)
     EXPECT_TRUE(over[0]["percent"].is_null() && over[0]["map"].is_null()) << over;
     EXPECT_FALSE(failed["passed"].get<bool>());
     EXPECT_EQ(failed["limit_area"], 3.0);
-    ASSERT_EQ(failed["failures"].size(), 1u) << failed; // twice as wide as high: cotangent is off, the uv are sound
+    ASSERT_EQ(failed["failures"].size(), 1u) << failed; // stretch 2: cotangent differs, the uv are valid
     EXPECT_EQ(failed["failures"][0]["kind"], "reading");
     EXPECT_GT(failed["failures"][0]["value"].get<double>(), 1);
     EXPECT_EQ(failed["failures"][0]["limit"], 1.0);
 }
 
-TEST(LintCommand, greenThatPointsTheOtherWayIsAWarningAndFailsACheck)
+TEST(LintCommand, reversedGreenWarnsAndFailsACheck)
 {
     TemporaryFolder folder;
     write(quad(1), folder.path());
@@ -197,16 +197,16 @@ TEST(LintCommand, greenThatPointsTheOtherWayIsAWarningAndFailsACheck)
     EXPECT_EQ(plain.code, 0) << plain.err;
     const json warnings = json::parse(plain.out)["warnings"];
     ASSERT_EQ(warnings.size(), 1u) << warnings;
-    EXPECT_NE(warnings[0].get<std::string>().find("green points the other way"), std::string::npos) << warnings;
+    EXPECT_NE(warnings[0].get<std::string>().find("green points opposite to"), std::string::npos) << warnings;
     for (const char* limit : {"--limit", "--limit-area"}) {
         const ToolRun run = runTool({"lint", "quad.gltf", limit, "50", "--quiet"}, folder.path());
         EXPECT_EQ(run.code, 5) << limit;
-        EXPECT_NE(run.err.find("green points the other way"), std::string::npos) << run.err;
+        EXPECT_NE(run.err.find("green points opposite to"), std::string::npos) << run.err;
     }
 }
 
-// The mean over the pixels of one view, in degrees, between MikkTSpace and another frame; nearest texels, since
-// lint looks at the map itself.
+// Mean over the pixels of one view of the degrees between MikkTSpace and `frame`. Sampled at nearest texels, since lint
+// looks at the map itself.
 double measured(const std::string& model, const std::string& frame, const std::filesystem::path& folder)
 {
     const ToolRun run = runTool({"compare", model, "--frames", "mikktspace," + frame, "--tangents", "generated",
@@ -217,19 +217,19 @@ double measured(const std::string& model, const std::string& frame, const std::f
     return json::parse(run.out)["normals"]["mean_degrees"].get<double>();
 }
 
-TEST(LintCommand, whatItPredictsForAFlatPatchIsWhatCompareMeasures)
+TEST(LintCommand, predictionForAFlatPatchEqualsCompare)
 {
     TemporaryFolder folder;
     write(quad(2), folder.path());
     const ToolRun run = runTool({"lint", "quad.gltf", "--json", "-", "--quiet"}, folder.path());
     const double predicted = json::parse(run.out)["primitives"][0]["read_with"]["cotangent"]["mean"].get<double>();
-    // All of it is seen at one distance: the same mean, from 4096 points and from some 10^4 pixels.
+    // The whole quad is seen at one distance: the mean over 4096 points equals that over about 10^4 pixels.
     EXPECT_NEAR(measured("quad.gltf", "cotangent", folder.path()) / predicted, 1, 0.03);
 }
 
-// One view sees a part of a model, and what it sees foreshortened: a factor of two either way, three where half
-// of the model is seen from behind only. The error itself ranges over a factor of 80 between these.
-TEST(LintCommand, whatItPredictsForModelsIsWhatCompareMeasures)
+// One view sees only a part of a model, foreshortened: a factor of two either way, three where half of the model is
+// only seen from behind. The errors of these models range over a factor of 80.
+TEST(LintCommand, predictionsForModelsAgreeWithCompare)
 {
     const struct {
         const char *file, *frame;

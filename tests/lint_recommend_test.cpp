@@ -1,4 +1,4 @@
-// What lint advises, on reports made by hand: each limit from both sides.
+// Lint's advice on hand-made reports, with each limit from both sides.
 #include <gtest/gtest.h>
 
 #include "bake/lint/map_fit.hpp"
@@ -9,9 +9,9 @@
 namespace cotan {
 namespace {
 
-ValueSummary spreadAt(double mean, double percentile95) { return {100, mean, percentile95, 2 * percentile95}; }
+ValueSummary summaryAt(double mean, double percentile95) { return {100, mean, percentile95, 2 * percentile95}; }
 
-// A primitive with a normal map that orthonormal reads so far off.
+// A primitive whose normal map has the given errors in degrees when it is read with orthonormal.
 PrimitiveLint judgedAs(double mean, double percentile95, double area = 1)
 {
     PrimitiveLint p;
@@ -21,14 +21,14 @@ PrimitiveLint judgedAs(double mean, double percentile95, double area = 1)
     p.hasUv = true;
     p.uv.area = area;
     p.steps.edges = 1;
-    p.steps.cotangent = spreadAt(0.1, 0.2);
-    p.readings = {{"cotangent", spreadAt(7.25, 9)}, {"orthonormal", spreadAt(mean, percentile95)}};
+    p.steps.cotangent = summaryAt(0.1, 0.2);
+    p.readings = {{"cotangent", summaryAt(7.25, 9)}, {"orthonormal", summaryAt(mean, percentile95)}};
     return p;
 }
 
 MapFit fitAs(double orthonormal95, double cotangent95 = 9, double smooth95 = 9)
 {
-    return {{spreadAt(0, orthonormal95), spreadAt(0, cotangent95), spreadAt(0, smooth95)}, 0, "map"};
+    return {{summaryAt(0, orthonormal95), summaryAt(0, cotangent95), summaryAt(0, smooth95)}, 0, "map"};
 }
 
 LintReport advisedOn(std::vector<PrimitiveLint> primitives, std::vector<MapFit> fits = {fitAs(9)},
@@ -39,25 +39,25 @@ LintReport advisedOn(std::vector<PrimitiveLint> primitives, std::vector<MapFit> 
 
 bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
-// Against tangents as everybody generates them, and against those of the file.
-TEST(Recommend, mapsAreReadAsTheyAreWhereThatIsLessThanADegreeOff)
+// Errors against generated tangents, and against those of the file.
+TEST(Recommend, mapsAreReadUnconvertedBelowOneDegree)
 {
     EXPECT_EQ(advisedOn({judgedAs(0.99, 5)}).advice, Advice::readOrthonormal);
     EXPECT_EQ(advisedOn({judgedAs(1.01, 5)}).advice, Advice::convertToCotangent);
-    const auto fit = [](double mean) { return MapFit{{spreadAt(mean, 2 * mean), {}, {}}, 0, "map"}; };
+    const auto fit = [](double mean) { return MapFit{{summaryAt(mean, 2 * mean), {}, {}}, 0, "map"}; };
     EXPECT_EQ(advisedOn({judgedAs(0.1, 0.2)}, {fit(0.1), fit(0.99)}).advice, Advice::readOrthonormal);
     EXPECT_EQ(advisedOn({judgedAs(0.1, 0.2)}, {fit(0.1), fit(1.01)}).advice, Advice::convertToOrthonormal);
     EXPECT_EQ(advisedOn({judgedAs(4, 5)}, {fit(0.1)}).advice, Advice::convertToCotangent);
 }
 
-TEST(Recommend, aMapThatIsReadAsItIsIsNotTouchedByTheCommand)
+TEST(Recommend, unconvertedMapIsKeptByTheCommand)
 {
     PrimitiveLint p = judgedAs(0.4, 1);
     p.stored.present = true;
-    p.stored.angle = spreadAt(0, 0);
+    p.stored.angle = summaryAt(0, 0);
     const LintReport fits = advisedOn({p}, {fitAs(0.29)}), close = advisedOn({p}, {fitAs(0.31)});
     EXPECT_TRUE(fits.dropsTangents);
-    // convert would make it anew: the command keeps it (--keep-maps), and the tangents go all the same.
+    // convert would rewrite the map: the command keeps it (--keep-maps), and still removes the tangents.
     EXPECT_EQ(close.advice, Advice::readOrthonormal);
     EXPECT_TRUE(close.dropsTangents);
     EXPECT_EQ(close.mapsConverted, 0u);
@@ -65,7 +65,7 @@ TEST(Recommend, aMapThatIsReadAsItIsIsNotTouchedByTheCommand)
     EXPECT_TRUE(says(close.advised, "as they are; the command drops the tangents")) << close.advised;
 }
 
-TEST(Recommend, theFrameThatTheFileNamesIsTheOneToReadItWith)
+TEST(Recommend, frameNamedByTheFileIsAdvised)
 {
     LintReport report;
     report.primitives = {judgedAs(7, 9)};
@@ -77,7 +77,7 @@ TEST(Recommend, theFrameThatTheFileNamesIsTheOneToReadItWith)
     EXPECT_EQ(report.mapsConverted, 0u);
     EXPECT_FALSE(report.dropsTangents);
     EXPECT_TRUE(says(report.advised, "read the maps with the frame smooth as they are")) << report.advised;
-    EXPECT_TRUE(says(report.seen, "its maps are for the frame smooth; read with orthonormal they are off by 7.00"))
+    EXPECT_TRUE(says(report.seen, "its maps are for the frame smooth; read with orthonormal, their error is 7.00"))
         << report.seen;
 }
 
@@ -88,50 +88,50 @@ TEST(Recommend, largerAreasWeighMore)
     EXPECT_EQ(advisedOn({judgedAs(0.05, 0.1, 1), judgedAs(4, 1.9, 9)}).advice, Advice::convertToCotangent);
 }
 
-TEST(Recommend, aPrimitiveOfWhichNothingWasMeasuredDoesNotDiluteTheOthers)
+TEST(Recommend, unmeasuredPrimitiveDoesNotDiluteTheOthers)
 {
     PrimitiveLint nothing = judgedAs(0, 0, 1000);
     for (Reading& r : nothing.readings)
         r.error = {};
-    nothing.steps.cotangent = spreadAt(0, 0);
+    nothing.steps.cotangent = summaryAt(0, 0);
     EXPECT_EQ(advisedOn({nothing, judgedAs(4, 5)}).advice, Advice::convertToCotangent);
     const LintReport alone = advisedOn({nothing});
     EXPECT_EQ(alone.advice, Advice::nothing);
     EXPECT_TRUE(alone.seen.empty());
-    // The same for the steps at edges: a primitive without interior edges says nothing about creases.
+    // Likewise for steps at edges: a primitive without interior edges says nothing about creases.
     PrimitiveLint creased = judgedAs(4, 5), without = judgedAs(4, 5, 1000);
-    creased.steps.cotangent = spreadAt(1, 3);
+    creased.steps.cotangent = summaryAt(1, 3);
     without.steps = {};
     EXPECT_EQ(advisedOn({creased, without}).advice, Advice::convertToSmooth);
 }
 
-TEST(Recommend, stepsAtEdgesOfOverTwoDegreesAskForSmooth)
+TEST(Recommend, edgeStepsOverTwoDegreesRequireSmooth)
 {
     PrimitiveLint p = judgedAs(4, 5);
-    p.steps.cotangent = spreadAt(1, 1.9);
+    p.steps.cotangent = summaryAt(1, 1.9);
     EXPECT_EQ(advisedOn({p}).advice, Advice::convertToCotangent);
-    p.steps.cotangent = spreadAt(1, 2.1);
+    p.steps.cotangent = summaryAt(1, 2.1);
     EXPECT_EQ(advisedOn({p}).advice, Advice::convertToSmooth);
-    EXPECT_TRUE(says(advisedOn({p}).advised, "steps by up to 2 degrees")) << advisedOn({p}).advised;
-    PrimitiveLint plain; // no map: its edges show nothing
+    EXPECT_TRUE(says(advisedOn({p}).advised, "has steps of 2 degrees")) << advisedOn({p}).advised;
+    PrimitiveLint plain; // no map: its edges are invisible
     plain.uv.area = 1000;
-    plain.steps.cotangent = spreadAt(0, 0);
+    plain.steps.cotangent = summaryAt(0, 0);
     EXPECT_EQ(advisedOn({p, plain}).advice, Advice::convertToSmooth);
-    p.steps.orthonormal = spreadAt(0, 0);
+    p.steps.orthonormal = summaryAt(0, 0);
     EXPECT_EQ(advisedOn({p}).advice, Advice::convertToSmooth); // the steps of cotangent count
 }
 
-TEST(Recommend, whatIsSeenIsSaidInThreeDegrees)
+TEST(Recommend, visibilityHasThreeLevels)
 {
-    EXPECT_TRUE(says(advisedOn({judgedAs(0.4, 1)}).seen, "nobody sees"));
+    EXPECT_TRUE(says(advisedOn({judgedAs(0.4, 1)}).seen, "the difference is invisible"));
     EXPECT_TRUE(says(advisedOn({judgedAs(0.6, 1)}).seen, "moving highlights"));
     EXPECT_TRUE(says(advisedOn({judgedAs(4.9, 9)}).seen, "moving highlights"));
     EXPECT_TRUE(says(advisedOn({judgedAs(5.1, 9)}).seen, "from elsewhere"));
     EXPECT_TRUE(says(advisedOn({judgedAs(5.1, 9)}).seen,
-                     "5.10 degrees off on average with the frame orthonormal (7.25 with cotangent)"));
+                     "5.10 degrees on average with the frame orthonormal (7.25 with cotangent)"));
 }
 
-TEST(Recommend, theWorstPrimitiveIsNamedIfItIsSeenAtAll)
+TEST(Recommend, worstVisiblePrimitiveIsNamed)
 {
     PrimitiveLint a = judgedAs(0.6, 1), b = judgedAs(0.9, 1.5), c = judgedAs(0.1, 0.2, 1000);
     a.mesh = "first";
@@ -140,15 +140,15 @@ TEST(Recommend, theWorstPrimitiveIsNamedIfItIsSeenAtAll)
     EXPECT_TRUE(says(advisedOn({a, b, c}).worst, "in second: 0.90 degrees on average, over 1.5 on 5 % of its area."));
     EXPECT_TRUE(says(advisedOn({b, a, c}).worst, "in second"));
     EXPECT_EQ(advisedOn({c}).worst, "");
-    b.readings[1].error = spreadAt(0.4, 2.1); // rarely, but much
+    b.readings[1].error = summaryAt(0.4, 2.1); // rarely, but by much
     EXPECT_TRUE(says(advisedOn({b, c}).worst, "in second"));
-    b.readings[1].error = spreadAt(0.4, 1.9);
+    b.readings[1].error = summaryAt(0.4, 1.9);
     EXPECT_EQ(advisedOn({b, c}).worst, "");
 }
 
-TEST(Recommend, convertIsAdvisedForTheMapsThatItWouldChangeAndForNoOthers)
+TEST(Recommend, convertIsAdvisedOnlyForMapsThatItChanges)
 {
-    const MapFit far{{spreadAt(3, 4), {}, {}}, 0, "map"}, near{{spreadAt(1, 0.29), {}, {}}, 0, "map"};
+    const MapFit far{{summaryAt(3, 4), {}, {}}, 0, "map"}, near{{summaryAt(1, 0.29), {}, {}}, 0, "map"};
     const LintReport none = advisedOn({judgedAs(0.4, 1)}, {fitAs(0.29)}), one = advisedOn({judgedAs(0.4, 1)}, {far});
     EXPECT_EQ(none.mapsConverted, 0u);
     EXPECT_EQ(none.mapsKept, 1u);
@@ -160,13 +160,13 @@ TEST(Recommend, convertIsAdvisedForTheMapsThatItWouldChangeAndForNoOthers)
     EXPECT_EQ(two.mapsConverted, 1u);
     EXPECT_EQ(two.mapsKept, 2u);
     EXPECT_TRUE(says(two.advised, "Convert 1 of 3 maps")) << two.advised;
-    EXPECT_EQ(advisedOn({judgedAs(0.4, 1)}, {MapFit{}}).mapsConverted, 0u); // of what was not judged nothing is known
+    EXPECT_EQ(advisedOn({judgedAs(0.4, 1)}, {MapFit{}}).mapsConverted, 0u); // not judged, so nothing is known
 }
 
 TEST(Recommend, eachFrameIsJudgedByItsOwnFit)
 {
     PrimitiveLint creased = judgedAs(4, 5);
-    creased.steps.cotangent = spreadAt(1, 3);
+    creased.steps.cotangent = summaryAt(1, 3);
     EXPECT_EQ(advisedOn({judgedAs(0.1, 0.2)}, {fitAs(0.1, 9, 9)}).mapsConverted, 0u);
     EXPECT_EQ(advisedOn({judgedAs(4, 5)}, {fitAs(9, 0.1, 9)}).mapsConverted, 0u);
     EXPECT_EQ(advisedOn({creased}, {fitAs(9, 9, 0.1)}).mapsConverted, 0u);
@@ -177,12 +177,12 @@ TEST(Recommend, eachFrameIsJudgedByItsOwnFit)
     EXPECT_EQ(frameOf(advisedOn({creased})), Frame::smooth);
 }
 
-TEST(Recommend, tangentsAreDroppedWhereNothingElseReadsThem)
+TEST(Recommend, tangentsWithoutOtherReadersAreDropped)
 {
     PrimitiveLint p = judgedAs(0.1, 0.2);
     EXPECT_FALSE(advisedOn({p}, {fitAs(0.1)}).dropsTangents);
     p.stored.present = true;
-    p.stored.angle = spreadAt(0, 0);
+    p.stored.angle = summaryAt(0, 0);
     const LintReport r = advisedOn({p}, {fitAs(0.1)});
     EXPECT_TRUE(r.dropsTangents);
     EXPECT_TRUE(says(r.advised, "as they are; the command drops the tangents")) << r.advised;
@@ -200,7 +200,7 @@ TEST(Recommend, tangentsAreDroppedWhereNothingElseReadsThem)
 PrimitiveLint storedAs(double reversedW, double turned, double area = 1)
 {
     PrimitiveLint p = judgedAs(0.1, 0.2, area);
-    p.stored = {true, reversedW, turned, spreadAt(1, 2)};
+    p.stored = {true, reversedW, turned, summaryAt(1, 2)};
     return p;
 }
 
@@ -214,76 +214,76 @@ GreenEvidence greenAs(bool decided, bool asDeclared, const std::string& name)
     return g;
 }
 
-TEST(Recommend, storedTangentsAreDistrustedFromATenthOfTheAreaOn)
+TEST(Recommend, storedTangentsAreDistrustedFrom10PercentOfTheArea)
 {
-    // A map shows that green is as declared.
-    const auto told = [](std::vector<PrimitiveLint> primitives) {
+    // One map determines that green is as declared.
+    const auto withEvidence = [](std::vector<PrimitiveLint> primitives) {
         return advisedOn(std::move(primitives), {fitAs(9)}, {greenAs(true, true, "bumps")});
     };
-    EXPECT_FALSE(told({storedAs(0.09, 0)}).distrustStored);
-    EXPECT_TRUE(told({storedAs(0.11, 0)}).distrustStored);
-    EXPECT_FALSE(told({storedAs(0, 0.09)}).distrustStored);
-    EXPECT_TRUE(told({storedAs(0, 0.11)}).distrustStored);
-    // 0.5 on a third of the area is 0.17 of all, on a ninth 0.06.
-    EXPECT_TRUE(told({storedAs(0.5, 0, 1), storedAs(0, 0, 2)}).distrustStored);
-    EXPECT_FALSE(told({storedAs(0.5, 0, 1), storedAs(0, 0, 8)}).distrustStored);
+    EXPECT_FALSE(withEvidence({storedAs(0.09, 0)}).distrustStored);
+    EXPECT_TRUE(withEvidence({storedAs(0.11, 0)}).distrustStored);
+    EXPECT_FALSE(withEvidence({storedAs(0, 0.09)}).distrustStored);
+    EXPECT_TRUE(withEvidence({storedAs(0, 0.11)}).distrustStored);
+    // 0.5 on a third of the area is 0.17 of the total, on a ninth 0.06.
+    EXPECT_TRUE(withEvidence({storedAs(0.5, 0, 1), storedAs(0, 0, 2)}).distrustStored);
+    EXPECT_FALSE(withEvidence({storedAs(0.5, 0, 1), storedAs(0, 0, 8)}).distrustStored);
     PrimitiveLint unmapped = storedAs(1, 1, 100);
     unmapped.image = -1;
     unmapped.readings.clear();
-    EXPECT_FALSE(told({storedAs(0, 0), unmapped}).distrustStored);
+    EXPECT_FALSE(withEvidence({storedAs(0, 0), unmapped}).distrustStored);
     PrimitiveLint unmeasured = storedAs(1, 1, 100);
     unmeasured.stored.angle = {};
-    EXPECT_FALSE(told({storedAs(0, 0), unmeasured}).distrustStored);
+    EXPECT_FALSE(withEvidence({storedAs(0, 0), unmeasured}).distrustStored);
 }
 
-TEST(Recommend, whereNoMapTellsWhichWayGreenPointsTheStoredTangentsAreFollowed)
+TEST(Recommend, storedTangentsAreTrustedIfGreenIsUndecidable)
 {
     for (const PrimitiveLint& p : {storedAs(1, 0), storedAs(0.5, 0), storedAs(0, 1)}) {
         const LintReport r = advisedOn({p}, {fitAs(9)}, {greenAs(false, false, "bumps")});
         EXPECT_FALSE(r.distrustStored);
-        EXPECT_TRUE(says(r.defects, "so the tangents are followed")) << r.defects;
+        EXPECT_TRUE(says(r.defects, "so the tangents are trusted")) << r.defects;
     }
 }
 
-TEST(Recommend, whatIsWrongWithStoredTangentsIsSaidWithItsShare)
+TEST(Recommend, tangentDefectsAreStatedInPercentOfArea)
 {
     EXPECT_TRUE(advisedOn({storedAs(0.09, 0.05)}).defects.empty());
     EXPECT_TRUE(says(advisedOn({storedAs(0.49, 0.2)}).defects,
-                     "contradict the uv: w is reversed on 49 % of the area, the tangent turned by "
-                     "over 45 degrees on 20 %"));
+                     "contradict the uv: w is reversed on 49 % of the area, the tangent is rotated by more than 45 "
+                     "degrees on 20 %"));
     EXPECT_EQ(advisedOn({storedAs(0.51, 0.2)}, {}, {greenAs(true, true, "bumps")}).defects,
               "The stored TANGENT.w is reversed on 51 % of the area.");
 }
 
-TEST(Recommend, aReversedWAndReversedGreenMakeUpForEachOther)
+TEST(Recommend, reversedWAndReversedGreenCancelOut)
 {
     const std::vector<GreenEvidence> other = {greenAs(true, false, "bumps")};
     const LintReport both = advisedOn({storedAs(0.51, 0)}, {fitAs(9)}, other);
     EXPECT_FALSE(both.distrustStored);
-    EXPECT_TRUE(says(both.defects, "together they are right"));
+    EXPECT_TRUE(says(both.defects, "together they cancel out"));
     const LintReport less = advisedOn({storedAs(0.49, 0)}, {fitAs(9)}, other);
-    EXPECT_FALSE(less.distrustStored); // neither is right everywhere: it stays what it is
+    EXPECT_FALSE(less.distrustStored); // neither is right everywhere, so nothing changes
     EXPECT_TRUE(says(less.defects, "contradict the uv")
-                && says(less.defects, "Green seems to point the other way in bumps"))
+                && says(less.defects, "Green seems to be flipped in bumps"))
         << less.defects;
     EXPECT_TRUE(
         advisedOn({storedAs(0.51, 0)}, {fitAs(9)}, {greenAs(true, true, "bumps")}).distrustStored); // as declared
     EXPECT_TRUE(says(advisedOn({judgedAs(0.1, 0.2)}, {fitAs(9)}, {greenAs(true, false, "")}).defects, "in image 3 "));
 }
 
-TEST(Recommend, greenIsTurnedAboutWhatIsZeroInTheMaps)
+TEST(Recommend, greenIsReversedAboutTheZeroCodeOfTheMap)
 {
     std::vector<GreenEvidence> given = {greenAs(true, false, "a"), greenAs(true, false, "b"),
                                         greenAs(true, true, "sound")};
     given[0].verdict.statistics.centre = maps::Centre::biased;
-    const char* const about128 = "(cotan map convert --from directx --to gltf turns it)";
+    const char* const about128 = "(cotan map convert --from directx --to gltf flips it back)";
     EXPECT_TRUE(says(advisedOn({judgedAs(0.1, 0.2)}, {}, given).defects, about128));
     given[1].verdict.statistics.centre = maps::Centre::biased;
     EXPECT_TRUE(says(advisedOn({judgedAs(0.1, 0.2)}, {}, given).defects,
-                     "(cotan map convert --from directx,biased --to gltf,biased turns it)"));
+                     "(cotan map convert --from directx,biased --to gltf,biased flips it back)"));
 }
 
-TEST(Recommend, ofManyNamesThreeAreSaid)
+TEST(Recommend, atMostThreeNamesAreListed)
 {
     std::vector<GreenEvidence> maps;
     for (const char* name : {"a", "b", "c", "d", "e"})
@@ -295,7 +295,7 @@ TEST(Recommend, ofManyNamesThreeAreSaid)
     EXPECT_TRUE(says(advisedOn({judgedAs(0.1, 0.2)}, {}, maps).defects, "in a, b, c ("));
 }
 
-TEST(Recommend, withoutAMapTangentsCanGoUnlessSomethingElseReadsThem)
+TEST(Recommend, tangentsWithoutMapCanBeDroppedUnlessReadElsewhere)
 {
     PrimitiveLint p;
     EXPECT_TRUE(says(advisedOn({p}, {}).advised, "can be dropped"));
@@ -304,11 +304,11 @@ TEST(Recommend, withoutAMapTangentsCanGoUnlessSomethingElseReadsThem)
     p.tangentsFor = "KHR_materials_anisotropy";
     const LintReport r = advisedOn({p, p}, {});
     EXPECT_FALSE(says(r.recommendation, "can be dropped"));
-    EXPECT_TRUE(says(r.otherReaders, "stay for it: hair (KHR_materials_anisotropy).")) << r.otherReaders; // once
+    EXPECT_TRUE(says(r.otherReaders, "for them: hair (KHR_materials_anisotropy).")) << r.otherReaders; // named once
     EXPECT_EQ(r.advice, Advice::nothing);
 }
 
-TEST(Recommend, aMapThatWasNotJudgedIsNamedAndNothingIsConcludedFromIt)
+TEST(Recommend, unjudgedMapIsNamedAndIgnored)
 {
     PrimitiveLint p;
     p.mesh = "door";
@@ -324,7 +324,7 @@ TEST(Recommend, aMapThatWasNotJudgedIsNamedAndNothingIsConcludedFromIt)
     EXPECT_TRUE(says(both.recommendation, "could not be judged in door"));
 }
 
-TEST(Recommend, theRecommendationIsAllSentencesTogether)
+TEST(Recommend, recommendationIsAllSentencesJoined)
 {
     PrimitiveLint p = storedAs(0.6, 0);
     p.tangentsFor = "KHR_materials_clearcoat";

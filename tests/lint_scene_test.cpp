@@ -1,5 +1,5 @@
-// What lint does with a scene as a whole: distances, rounding, which maps and coats are looked at and how they are
-// read, progress and memory. The scenes are small, and no two things in them are alike.
+// What lint does with a whole scene: distances, rounding, the maps and coats that it judges and how it reads them,
+// progress and memory. The scenes are small, and no two things in them are equal.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,16 +16,16 @@ namespace {
 
 using namespace test;
 
-const double kHalfView = glm::radians(22.5); // half of the field of view
+const double kHalfFieldOfView = glm::radians(22.5); // half of the field of view
 
-// A material whose normal map is that image, stored as it is meant; -1: none.
+// A material with the given normal map, stored without conversion; -1: none.
 Material mapped(int image, const std::string& name = "")
 {
     Material m;
     m.name = name;
     m.normalMap.image = image;
-    m.normalFormat = kAsMeant;
-    m.coat.normalFormat = kAsMeant;
+    m.normalFormat = kUnconverted;
+    m.coat.normalFormat = kUnconverted;
     return m;
 }
 
@@ -38,7 +38,7 @@ Image constant(const glm::dvec3& m, const std::string& name = "map")
 
 const glm::dvec3 kTilted(0.4, 0.3, 1);
 
-// Each mesh with the material of its number, shown once as it stands.
+// Each mesh gets the material of its index and one instance without a transform.
 Scene sceneOf(const std::vector<std::vector<Corner>>& meshes, std::vector<Material> materials,
               std::vector<Image> images)
 {
@@ -57,30 +57,30 @@ Scene sceneOf(const std::vector<std::vector<Corner>>& meshes, std::vector<Materi
 std::vector<Corner> square() { return rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}); }
 std::vector<Corner> wide() { return rectangle({0, 0}, {2, 1}, {0, 0}, {1, 1}); } // u is half as dense as v
 
-// Two triangles whose uv differ in density and direction, so that what is averaged at the edge is none of the two.
+// Two triangles whose uv differ in density and direction, so that averages at the edge equal neither.
 std::vector<Corner> uneven()
 {
     return {{{0, 0, 0}, {0, 1}}, {{0, 1, 0}, {0, 0}},       {{-1, 0, 0}, {-1, 1}},
             {{0, 0, 0}, {0, 1}}, {{1, 0, 0}, {0.5f, 1.5f}}, {{0, 1, 0}, {0, 0}}};
 }
 
-TEST(Lint, looksFromWhereTheSphereAroundAllFitsIntoThePicture)
+TEST(Lint, defaultDistanceFitsTheBoundingSphere)
 {
-    // A box of 2 by 3 by 6: its diagonal is 7 long.
+    // A box of 2 by 3 by 6: its diagonal is 7.
     const std::vector<Corner> triangle = {{{1, 2, 3}, {0, 0}}, {{3, 5, 9}, {1, 0}}, {{1, 5, 3}, {0, 1}}};
     Scene scene = sceneOf({triangle}, {mapped(-1)}, {});
-    EXPECT_NEAR(lintScene(scene).distance, 3.5 / std::sin(kHalfView), 1e-5);
+    EXPECT_NEAR(lintScene(scene).distance, 3.5 / std::sin(kHalfFieldOfView), 1e-5);
     EXPECT_EQ(lintScene(scene, {.distance = 0.25}).distance, 0.25);
     scene.instances.push_back({"", 0, glm::translate(glm::mat4(1), {10, 0, 0})}); // now 12 by 3 by 6
-    EXPECT_NEAR(lintScene(scene).distance, std::sqrt(144.0 + 9 + 36) / 2 / std::sin(kHalfView), 1e-5);
+    EXPECT_NEAR(lintScene(scene).distance, std::sqrt(144.0 + 9 + 36) / 2 / std::sin(kHalfFieldOfView), 1e-5);
     const std::vector<Corner> point(3, {{1, 2, 3}, {0, 0}});
     EXPECT_EQ(lintScene(sceneOf({point}, {mapped(-1)}, {})).distance, 1);
     EXPECT_EQ(lintScene(Scene{}).distance, 1);
 }
 
-TEST(Lint, roundingIsThatOfTheLargestUvInThePixelsOfTheDenserGradient)
+TEST(Lint, roundingFollowsTheLargestUvAndTheLongerGradient)
 {
-    const double pixel = 2 * std::tan(kHalfView) / 1080; // at distance 1
+    const double pixel = 2 * std::tan(kHalfFieldOfView) / 1080; // at distance 1
     const auto lintAt = [&](glm::vec2 from, glm::vec2 to, double distance) {
         const Scene scene = sceneOf({rectangle({0, 0}, {1, 2}, from, to)}, {mapped(-1)}, {});
         return lintScene(scene, {.distance = distance}).primitives.at(0);
@@ -88,12 +88,12 @@ TEST(Lint, roundingIsThatOfTheLargestUvInThePixelsOfTheDenserGradient)
     const PrimitiveLint p = lintAt({0, 0}, {3, 1}, 5); // gradients 3 and 1/2
     EXPECT_NEAR(p.precision / (3 * 1e-6 / (pixel * 3) / 5), 1, 1e-5);
     EXPECT_NEAR(p.closest / (3 * 1e-6 / (pixel * 3) / 0.5), 1, 1e-5);
-    EXPECT_NEAR(lintAt({0, 0}, {0.25f, 0.25f}, 5).precision / (1e-6 / (pixel * 0.25) / 5), 1, 1e-5); // uv as if up to 1
+    EXPECT_NEAR(lintAt({0, 0}, {0.25f, 0.25f}, 5).precision / (1e-6 / (pixel * 0.25) / 5), 1, 1e-5); // uv below 1 as 1
     EXPECT_EQ(lintAt({0, 0}, {3, 1}, 1e-9).precision, 180);
 }
 
-// The largest is at any corner, of u or of v, and below zero as well.
-TEST(UvQuality, theLargestUvIsThatOfEveryCornerAndOfEitherSign)
+// The largest uv may be at any corner, in u or v, and negative.
+TEST(UvQuality, largestUvIsTheMaximumMagnitudeOverAllCorners)
 {
     for (int corner = 0; corner < 3; ++corner)
         for (const glm::vec2 uv : {glm::vec2(5, 0.5f), {0.5f, 5}, {-5, 0.5f}, {0.5f, -5}}) {
@@ -104,7 +104,7 @@ TEST(UvQuality, theLargestUvIsThatOfEveryCornerAndOfEitherSign)
         }
 }
 
-TEST(Lint, saysOfEachPrimitiveWhyItsMapWasNotJudged)
+TEST(Lint, primitivesStateWhyTheirMapWasNotJudged)
 {
     const auto lintOf = [](const Scene& scene) { return lintScene(scene).primitives.at(0); };
     Scene scene = sceneOf({square() + square()}, {mapped(0, "oak")}, {constant(kTilted, "bark.webp")});
@@ -125,7 +125,7 @@ TEST(Lint, saysOfEachPrimitiveWhyItsMapWasNotJudged)
     EXPECT_TRUE(lintOf(other).readings.empty());
     other = scene;
     other.meshes[0].texcoords[0].assign(12, {0.25f, 0.5f});
-    EXPECT_EQ(lintOf(other).notJudged, "no triangle has area, also in uv");
+    EXPECT_EQ(lintOf(other).notJudged, "no triangle has an area both in space and in uv");
     other = scene;
     other.images[0] = Image{};
     EXPECT_EQ(lintOf(other).notJudged, "its pixels were not read");
@@ -139,29 +139,29 @@ TEST(Lint, saysOfEachPrimitiveWhyItsMapWasNotJudged)
     EXPECT_EQ(lintOf(other).image, -1);
 }
 
-TEST(Lint, aSceneThatDoesNotHoldTogetherIsNotLookedAt)
+TEST(Lint, inconsistentSceneIsNotChecked)
 {
     Scene scene = sceneOf({square()}, {mapped(-1)}, {});
-    scene.meshes[0].positions[0].x = NAN; // that is no reason
+    scene.meshes[0].positions[0].x = NAN; // not a reason to refuse the scene
     EXPECT_EQ(lintScene(scene).primitives.size(), 1u);
     scene.meshes[0].material = 1;
     const LintReport report = lintScene(scene);
-    EXPECT_EQ(report.defects.find("Nothing was looked at: scene: "), 0u) << report.defects;
+    EXPECT_EQ(report.defects.find("Nothing was checked: scene: "), 0u) << report.defects;
     EXPECT_EQ(report.defects.back(), '.');
     EXPECT_EQ(report.recommendation, report.defects);
     EXPECT_TRUE(report.primitives.empty());
 }
 
-TEST(Lint, primitivesOverlapWhereTheyReadTheSameMapAndInAllTheirPlacings)
+TEST(Lint, primitivesOverlapIfTheyShareAMap)
 {
     const auto overlapping = [](const Scene& scene) {
-        std::vector<double> shares;
+        std::vector<double> fractions;
         for (const PrimitiveLint& p : lintScene(scene).primitives)
-            shares.push_back(p.uv.overlapping);
-        return shares;
+            fractions.push_back(p.uv.overlapping);
+        return fractions;
     };
     const auto both = {square(), square()};
-    const std::vector<Image> images(2); // whose pixels were not read: uv are judged all the same
+    const std::vector<Image> images(2); // without pixels: uv are judged all the same
     EXPECT_EQ(overlapping(sceneOf(both, {mapped(0), mapped(1)}, images)), (std::vector<double>{0, 0}));
     EXPECT_EQ(overlapping(sceneOf(both, {mapped(-1), mapped(-1)}, {})), (std::vector<double>{0, 0}));
     Scene same = sceneOf(both, {mapped(1), mapped(1)}, images);
@@ -174,7 +174,7 @@ TEST(Lint, primitivesOverlapWhereTheyReadTheSameMapAndInAllTheirPlacings)
     EXPECT_EQ(report.primitives[1].placings, 2u);
 }
 
-TEST(Lint, eachMapIsLookedAtOnceAsTheFirstMaterialWithItReadsIt)
+TEST(Lint, eachMapIsCheckedOnceAsItsFirstMaterialReadsIt)
 {
     std::vector<Material> materials = {mapped(-1), mapped(1), mapped(1), mapped(0), mapped(2)};
     materials[1].normalFormat.greenUp = true;
@@ -195,7 +195,7 @@ TEST(Lint, eachMapIsLookedAtOnceAsTheFirstMaterialWithItReadsIt)
     EXPECT_FALSE(report.maps[2].decided());
 }
 
-TEST(Lint, ofMaterialsWhoseGreenIsReversedWIsHeldAgainstTheFile)
+TEST(Lint, wIsComparedWithTheFileIfGreenIsReversed)
 {
     Scene scene = sceneOf({square() + rectangle({2, 0}, {3, 1}, {0, 0}, {3, 1})}, {mapped(-1)}, {});
     scene.meshes[0].tangents.assign(12, glm::vec4(1, 0, 0, 1));
@@ -208,7 +208,7 @@ TEST(Lint, ofMaterialsWhoseGreenIsReversedWIsHeldAgainstTheFile)
 
 // ---- how maps and coats would do -------------------------------------------------------------
 
-TEST(Lint, theFitOfAMapIsThatOfEachFrameAgainstTheOneThatItIsFor)
+TEST(Lint, fitComparesEachFrameWithTheOneOfTheMap)
 {
     const auto fitOf = [&](std::optional<Frame> frame) {
         Scene scene = sceneOf({uneven()}, {mapped(1)}, {Image{}, constant(kTilted, "grain")});
@@ -233,62 +233,62 @@ TEST(Lint, theFitOfAMapIsThatOfEachFrameAgainstTheOneThatItIsFor)
     EXPECT_NEAR(smooth.smooth.mean, 0, 1e-3);
 }
 
-TEST(Lint, aCoatReadsItsOwnMapWithItsOwnSampler)
+TEST(Lint, coatReadsItsOwnMapWithItsOwnSampler)
 {
-    // The left texel is tilted, the right one is not; u runs from 1 on: the left again, or the right for ever.
+    // Only the left texel is tilted. u starts at 1: repeat reads the left texel again, clamp the right one.
     const Image halves = floatMap(2, 1, [](int x, int) { return x == 0 ? kTilted : glm::dvec3(0, 0, 1); });
-    // Read with cotangent, the gradient of u, half that of v, halves the slope along u.
-    const double off = angleBetween(kTilted, {0.2, 0.3, 1});
+    // cotangent has half the gradient in u that it has in v, which halves the slope along u.
+    const double expected = angleBetween(kTilted, {0.2, 0.3, 1});
     for (const bool ofCoat : {false, true}) {
         Scene scene = sceneOf({rectangle({0, 0}, {0.875f, 2}, {1, 0}, {1.4375f, 2})}, {mapped(0)}, {halves, halves});
         Material& m = scene.materials[0];
         m.coat.normalMap.image = 1;
         Sampler &along = ofCoat ? m.coat.normalMap.sampler : m.normalMap.sampler,
                 &other = ofCoat ? m.normalMap.sampler : m.coat.normalMap.sampler;
-        along.wrapV = other.wrapU = Wrap::clamp; // what is not said repeats
+        along.wrapV = other.wrapU = Wrap::clamp; // the other modes repeat
         const LintReport report = lintScene(scene);
         ASSERT_EQ(report.fits.size(), 2u);
-        EXPECT_NEAR(report.fits[ofCoat].cotangent.mean, off, 1e-4) << ofCoat;
+        EXPECT_NEAR(report.fits[ofCoat].cotangent.mean, expected, 1e-4) << ofCoat;
         EXPECT_NEAR(report.fits[!ofCoat].cotangent.mean, 0, 1e-4) << ofCoat;
     }
 }
 
-TEST(Lint, aCoatsStrengthIsItsOwn)
+TEST(Lint, coatUsesItsOwnNormalScale)
 {
     Scene scene = sceneOf({wide()}, {mapped(0)}, {constant(kTilted), constant(kTilted)});
     scene.materials[0].coat.normalMap.image = 1;
     scene.materials[0].coat.normalScale = 2;
     EXPECT_NEAR(lintScene(scene).fits[1].cotangent.mean, angleBetween({0.8, 0.6, 1}, {0.4, 0.6, 1}), 1e-4);
-    scene.materials[0].coat.normalScale = 0; // shows nothing
+    scene.materials[0].coat.normalScale = 0; // flattens the map
     const LintReport flattened = lintScene(scene);
     EXPECT_EQ(flattened.fits[1].cotangent.count, 0u);
     EXPECT_NEAR(flattened.fits[0].cotangent.mean, angleBetween(kTilted, {0.2, 0.3, 1}), 1e-4);
 }
 
-TEST(Lint, aCoatWhosePixelsWereNotReadNeedsItsTangentsWhateverElseDoes)
+TEST(Lint, unreadCoatMapNeedsTangents)
 {
     Scene scene = sceneOf({uneven()}, {mapped(-1)}, {constant(kTilted)});
     scene.materials[0].tangentsFor = "KHR_materials_anisotropy";
     scene.materials[0].coat.normalMap.image = 0;
     const PrimitiveLint read = lintScene(scene).primitives.at(0);
     EXPECT_EQ(read.tangentsFor, "KHR_materials_anisotropy");
-    // Both point along the lines of equal v in each triangle, which turn at the edge; `smooth` averages as tangents do.
-    EXPECT_GT(read.turned.orthonormal.mean, 5);
-    EXPECT_NEAR(read.turned.cotangent.mean, read.turned.orthonormal.mean, 1e-3);
-    EXPECT_LT(read.turned.smooth.mean, read.turned.orthonormal.mean - 1);
+    // Both follow the lines of equal v in each triangle, which turn at the edge; `smooth` averages like tangents do.
+    EXPECT_GT(read.rotation.orthonormal.mean, 5);
+    EXPECT_NEAR(read.rotation.cotangent.mean, read.rotation.orthonormal.mean, 1e-3);
+    EXPECT_LT(read.rotation.smooth.mean, read.rotation.orthonormal.mean - 1);
     scene.images[0] = Image{};
     const LintReport report = lintScene(scene);
     EXPECT_EQ(report.primitives.at(0).tangentsFor, "KHR_materials_clearcoat");
-    EXPECT_EQ(report.primitives.at(0).turned.orthonormal.count, 0u);
+    EXPECT_EQ(report.primitives.at(0).rotation.orthonormal.count, 0u);
     EXPECT_EQ(report.fits.at(0).orthonormal.count, 0u);
     scene.materials[0].coat.normalMap.image = -1;
     scene.materials[0].tangentsFor.clear();
     EXPECT_EQ(lintScene(scene).primitives.at(0).tangentsFor, "");
-    EXPECT_EQ(lintScene(scene).primitives.at(0).turned.cotangent.count, 0u);
+    EXPECT_EQ(lintScene(scene).primitives.at(0).rotation.cotangent.count, 0u);
 }
 
-// Of 129 surfaces each has 128 / 129 of the points that one has; of ways in which a mesh is stretched eight count.
-TEST(Lint, manySurfacesShareTheirPoints)
+// 129 surfaces share the points, so each has 128 / 129 of its own; at most eight stretches of a mesh count.
+TEST(Lint, manySurfacesShareTheSamplePoints)
 {
     Scene scene = sceneOf({square()}, {mapped(0), mapped(-1)}, {constant(kTilted)});
     const Mesh plain = [] {
@@ -309,17 +309,17 @@ TEST(Lint, manySurfacesShareTheirPoints)
 
 // ---- progress and memory -----------------------------------------------------------------------
 
-TEST(Lint, tellsTheShareOfTheTrianglesThatEachStepHasSeen)
+TEST(Lint, progressIsTheFractionOfProcessedTriangles)
 {
-    // 2 triangles, and 6 that are shown twice, stretched by one of the two.
+    // 2 triangles, and 6 with two instances, one of them stretched.
     Scene scene = sceneOf({square(), square() + square() + square()}, {mapped(-1), mapped(-1)}, {});
     scene.instances.push_back({"", 1, glm::scale(glm::mat4(1), {3, 1, 1})});
-    std::vector<double> shares;
-    ASSERT_TRUE(lintScene(scene, {}, [&](double share) {
-        shares.push_back(share);
+    std::vector<double> fractions;
+    ASSERT_TRUE(lintScene(scene, {}, [&](double fraction) {
+        fractions.push_back(fraction);
         return true;
     }));
-    // Of a mesh 0.4 for its surface and 3 * 0.15 for all looks at it; then three times 0.05, the rest at the end.
+    // Progress: 0.4 of a mesh for its surface and 3 * 0.15 for its looks; then 0.05 twice for all, and 1 at the end.
     std::vector<double> expected;
     double done = 0;
     const auto add = [&](double triangles) { expected.push_back((done += triangles) / 8); };
@@ -332,19 +332,19 @@ TEST(Lint, tellsTheShareOfTheTrianglesThatEachStepHasSeen)
     add(0.05 * 8);
     add(0.05 * 8);
     expected.push_back(1);
-    ASSERT_EQ(shares.size(), expected.size());
-    for (std::size_t i = 0; i < shares.size(); ++i)
-        EXPECT_NEAR(shares[i], expected[i], 1e-12) << i;
-    for (std::size_t most = 1; most <= shares.size(); ++most) { // at the last one, too
+    ASSERT_EQ(fractions.size(), expected.size());
+    for (std::size_t i = 0; i < fractions.size(); ++i)
+        EXPECT_NEAR(fractions[i], expected[i], 1e-12) << i;
+    for (std::size_t last = 1; last <= fractions.size(); ++last) { // stops at the last step, too
         std::size_t calls = 0;
-        const auto stopped = lintScene(scene, {}, [&](double) { return ++calls < most; });
-        ASSERT_FALSE(stopped) << most;
+        const auto stopped = lintScene(scene, {}, [&](double) { return ++calls < last; });
+        ASSERT_FALSE(stopped) << last;
         EXPECT_EQ(stopped.error().kind, ErrorKind::stopped);
-        EXPECT_EQ(calls, most);
+        EXPECT_EQ(calls, last);
     }
 }
 
-TEST(Lint, takesTheMemoryOfAllSurfacesAndOfTheMakingOfOne)
+TEST(Lint, memoryIsAllSurfacesAndTheLargestConstruction)
 {
     const auto one = square(), three = square() + square() + square();
     const std::vector<Material> materials = {mapped(-1), mapped(-1)};
@@ -364,7 +364,7 @@ TEST(Lint, takesTheMemoryOfAllSurfacesAndOfTheMakingOfOne)
     EXPECT_TRUE(lintScene(scene, {.memory = bytes}, {}));
     EXPECT_TRUE(lintScene(scene, {.memory = 0}, {}));
     EXPECT_FALSE(lintScene(scene, {.memory = bytes - 1}, {}));
-    EXPECT_EQ(lintScene(scene, {.memory = 1}).primitives.size(), 1u); // this one is not asked
+    EXPECT_EQ(lintScene(scene, {.memory = 1}).primitives.size(), 1u); // this overload ignores the limit
     std::vector<std::uint32_t>& indices = scene.meshes[0].indices;
     while (indices.size() < 300000)
         indices.insert(indices.end(), indices.begin(), indices.end());

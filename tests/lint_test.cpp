@@ -1,4 +1,4 @@
-// What lint measures, on shapes where the answer is known by hand.
+// Lint's measurements on shapes whose values can be derived by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace cotan {
 namespace {
 
-// A float map with the same texel everywhere; m along (+u, +v, outwards).
+// A float map with the same texel everywhere; m is along (+u, +v, outwards).
 Image constantMap(glm::dvec3 m)
 {
     Image image = makeImage(4, 4, PixelType::float32, "constant");
@@ -28,7 +28,7 @@ Image constantMap(glm::dvec3 m)
     return image;
 }
 
-// The mesh, or several, with one material and a map.
+// One or several meshes with one material and a map.
 Scene sceneOf(std::vector<Mesh> meshes, Image map = makeReliefMap(Relief::waves, 64))
 {
     Scene scene;
@@ -37,7 +37,7 @@ Scene sceneOf(std::vector<Mesh> meshes, Image map = makeReliefMap(Relief::waves,
     material.normalMap.image = 0;
     if (scene.images[0].type == PixelType::float32)
         material.normalFormat = {.expansion = Expansion::signedValues,
-                                 .greenUp = false}; // signed, green along v: stored as it is meant
+                                 .greenUp = false}; // signed, green along v: stored without conversion
     scene.materials.push_back(material);
     for (Mesh& mesh : meshes) {
         scene.instances.push_back({"", int(scene.meshes.size()), glm::mat4(1)});
@@ -60,10 +60,10 @@ ValueSummary errorOf(const PrimitiveLint& p, const std::string& frame)
     return {};
 }
 
-// Positions and uv are floats: ratios and angles of their differences are good to about 1e-6.
+// Positions and uv are floats: ratios and angles of their differences are accurate to about 1e-6.
 constexpr double kFloat = 1e-4;
 
-TEST(Lint, aPatchStretchedTwoToOneHasStretchTwoAndNoShear)
+TEST(Lint, twoToOnePatchHasStretchTwoAndNoShear)
 {
     const PrimitiveLint p = lintOf(makePatch(2, 0, false, 4));
     EXPECT_NEAR(p.uv.stretch.mean, 2, kFloat);
@@ -74,7 +74,7 @@ TEST(Lint, aPatchStretchedTwoToOneHasStretchTwoAndNoShear)
     EXPECT_EQ(p.uv.mirrored, 0);
 }
 
-TEST(Lint, aPatchShearedByOneIs45DegreesOffSquareAndStretchedByTheGoldenRatioSquared)
+TEST(Lint, unitShearIs45DegreesAndStretchesByTheGoldenRatioSquared)
 {
     // grad u = (1,-1), grad v = (0,1): 135 degrees apart; singular values of a unit shear.
     const PrimitiveLint p = lintOf(makePatch(1, 1, false, 4));
@@ -83,7 +83,7 @@ TEST(Lint, aPatchShearedByOneIs45DegreesOffSquareAndStretchedByTheGoldenRatioSqu
     EXPECT_NEAR(p.uv.sheared, 1, 1e-9);
 }
 
-TEST(Lint, mirroringIsSeenInTheUvAndInTheNode)
+TEST(Lint, mirroringIsDetectedInUvAndInNodes)
 {
     EXPECT_NEAR(lintOf(makePatch(1, 0, true, 4)).uv.mirrored, 1, 1e-9);
     Scene scene = sceneOf({makePatch(1, 0, false, 4)});
@@ -91,14 +91,14 @@ TEST(Lint, mirroringIsSeenInTheUvAndInTheNode)
     EXPECT_NEAR(lintScene(scene).primitives[0].uv.mirrored, 1, 1e-9);
 }
 
-TEST(Lint, aNodeThatStretchesStretchesTheUv)
+TEST(Lint, nodeScaleStretchesTheUv)
 {
     Scene scene = sceneOf({makePatch(1, 0, false, 4)});
     scene.instances[0].toWorld[0][0] = 3;
     EXPECT_NEAR(lintScene(scene).primitives[0].uv.stretch.mean, 3, kFloat);
 }
 
-TEST(Lint, uvInOnePointAreDegenerateAndGiveNoError)
+TEST(Lint, uvInOnePointAreDegenerateWithoutAnError)
 {
     Mesh mesh = makePatch(1, 0, false, 4);
     for (glm::vec2& uv : mesh.texcoords[0])
@@ -107,14 +107,14 @@ TEST(Lint, uvInOnePointAreDegenerateAndGiveNoError)
     EXPECT_NEAR(p.uv.degenerate, 1, 1e-9);
     EXPECT_EQ(p.steps.edges, 0u);
     EXPECT_EQ(errorOf(p, "cotangent").count, 0u); // not an error of zero
-    EXPECT_EQ(p.notJudged, "no triangle has area, also in uv");
+    EXPECT_EQ(p.notJudged, "no triangle has an area both in space and in uv");
 }
 
 TEST(Lint, chartsThatShareTexelsOverlapAndNeighboursDoNot)
 {
     Mesh left = makePatch(1, 0, false, 4), mirrored = makePatch(1, 0, true, 4), right = left;
     for (glm::vec2& uv : mirrored.texcoords[0])
-        uv.x += 1; // over -1..0 before
+        uv.x += 1; // was over -1..0
     for (Mesh* m : {&left, &mirrored, &right})
         for (glm::vec2& uv : m->texcoords[0])
             uv.x *= 0.5f;
@@ -132,7 +132,7 @@ TEST(Lint, chartsThatShareTexelsOverlapAndNeighboursDoNot)
     EXPECT_EQ(both.primitives[2].uv.overlapping, 0);
 }
 
-TEST(Lint, uvThatRepeatAMillionTimesEndInBoundedTime)
+TEST(Lint, uvRepeatingAMillionTimesTakeBoundedTime)
 {
     Mesh mesh = makePatch(1, 0, false, 1);
     for (glm::vec2& uv : mesh.texcoords[0])
@@ -140,10 +140,10 @@ TEST(Lint, uvThatRepeatAMillionTimesEndInBoundedTime)
     EXPECT_EQ(lintOf(mesh).uv.overlapping, 1);
     for (glm::vec2& uv : mesh.texcoords[0])
         uv *= 1e30f;
-    EXPECT_EQ(lintOf(mesh).uv.overlapping, 0); // out of every range: not drawn
+    EXPECT_EQ(lintOf(mesh).uv.overlapping, 0); // out of range: not drawn
 }
 
-// The tessellation of the truth's sphere, which ends 15 degrees from the poles.
+// The tessellated sphere of the truth module, which ends 15 degrees from the poles.
 Mesh truthSphere(int segments)
 {
     const Tessellation t = tessellate(surfaces()[0], segments, false, false);
@@ -155,12 +155,12 @@ Mesh truthSphere(int segments)
     return mesh;
 }
 
-TEST(Lint, stepsOnTheSphereAreThoseOfTheTheoryAndHalveWithTheEdges)
+TEST(Lint, sphereStepsMatchTheTheoryAndAreFirstOrder)
 {
     ASSERT_EQ(std::string(surfaces()[0].name), "sphere");
-    // docs/accuracy.csv, table facets: 2.549 mean, 8.438 at most for 32 segments, measured by other code
-    // on random points of random edges. Weights of area favour the equator, where steps are smaller
-    // (15 %); the middle of an edge and eight directions miss the very largest (10 %).
+    // docs/accuracy.csv, table facets: mean 2.549, maximum 8.438 for 32 segments, measured by other code on random
+    // points of random edges. Weighting by area favours the equator, where steps are smaller (15 %); the middle of an
+    // edge and eight directions miss the maximum (10 %).
     const EdgeSteps at32 = lintOf(truthSphere(32)).steps, at64 = lintOf(truthSphere(64)).steps;
     EXPECT_NEAR(at32.cotangent.mean, 2.5, 0.4);
     EXPECT_NEAR(at32.cotangent.maximum, 8.4, 0.8);
@@ -171,11 +171,11 @@ TEST(Lint, stepsOnTheSphereAreThoseOfTheTheoryAndHalveWithTheEdges)
 TEST(Lint, aFlatPatchHasNoSteps)
 {
     const EdgeSteps s = lintOf(makePatch(2, 0.5f, false, 4)).steps;
-    EXPECT_EQ(s.edges, 40u); // 4 x 4 cells of two triangles: 56 edges, of which 16 on the border
+    EXPECT_EQ(s.edges, 40u); // 4 x 4 cells of two triangles: 56 edges, 16 of them on the border
     EXPECT_LT(s.cotangent.maximum, kFloat);
 }
 
-TEST(Lint, readingAStretchedPatchIsOffByTheAngleOfHalvedSlopes)
+TEST(Lint, errorOnAStretchedPatchIsThatOfHalvedSlopes)
 {
     // uv = (x/2, y): grad u is half as long as grad v, so cotangent halves the slope along u.
     const glm::dvec3 m = glm::normalize(glm::dvec3(0.4, 0.3, 1));
@@ -192,7 +192,7 @@ TEST(Lint, readingAStretchedPatchIsOffByTheAngleOfHalvedSlopes)
 TEST(Lint, storedTangentsThatContradictTheUvAreFound)
 {
     Mesh mesh = makePatch(1, 0, false, 4);
-    mesh.tangents.assign(mesh.vertexCount(), glm::vec4(1, 0, 0, 1)); // right: bitangent up, against +v
+    mesh.tangents.assign(mesh.vertexCount(), glm::vec4(1, 0, 0, 1)); // correct: bitangent up, against +v
     EXPECT_EQ(lintOf(mesh).stored.reversedW, 0);
     EXPECT_NEAR(lintOf(mesh).stored.angle.maximum, 0, kFloat);
     EXPECT_EQ(errorOf(lintOf(mesh), "stored").maximum, 0);
@@ -200,13 +200,13 @@ TEST(Lint, storedTangentsThatContradictTheUvAreFound)
         t.w = -1;
     const LintReport reversed = lintScene(sceneOf({mesh}));
     EXPECT_NEAR(reversed.primitives[0].stored.reversedW, 1, 1e-9);
-    EXPECT_EQ(reversed.primitives[0].stored.turned, 0);
+    EXPECT_EQ(reversed.primitives[0].stored.rotated, 0);
     EXPECT_EQ(reversed.distrustStored,
-              reversed.maps[0].decided() && reversed.maps[0].asDeclared()); // where the map can tell
+              reversed.maps[0].decided() && reversed.maps[0].asDeclared()); // if the map determines green
     EXPECT_GT(errorOf(reversed.primitives[0], "stored").mean, 5);
     for (glm::vec4& t : mesh.tangents)
         t = {0, 1, 0, 1};
-    EXPECT_NEAR(lintOf(mesh).stored.turned, 1, 1e-9);
+    EXPECT_NEAR(lintOf(mesh).stored.rotated, 1, 1e-9);
     EXPECT_NEAR(lintOf(mesh).stored.angle.mean, 90, kFloat);
 }
 
@@ -221,21 +221,21 @@ Image withGreenReversed(Image image)
 
 GreenEvidence greenOf(Image map) { return lintScene(sceneOf({makePatch(1, 0, false, 1)}, std::move(map))).maps.at(0); }
 
-TEST(Lint, theCurlOfTheMapTellsGreenWhereTheReliefGoesBothWays)
+TEST(Lint, curlOfTheMapDecidesGreen)
 {
     for (Relief relief : {Relief::waves, Relief::domes, Relief::bricks}) {
         const GreenEvidence right = greenOf(makeReliefMap(relief, 256));
-        // bricks: straight edges say nothing, the corners must do
+        // in bricks, straight edges are inconclusive and only corners count
         EXPECT_TRUE(right.decided() && right.asDeclared()) << int(relief) << " " << right.verdict.agreement;
         const GreenEvidence wrong = greenOf(withGreenReversed(makeReliefMap(relief, 256)));
         EXPECT_TRUE(wrong.decided() && !wrong.asDeclared()) << int(relief) << " " << wrong.verdict.agreement;
     }
-    // A smooth height field, but for rounding to 8 bits, and for steps over the detector's limit, which count as that
-    // limit.
+    // A smooth height field, except for rounding to 8 bits and steps over the detector's limit, which are clamped to
+    // it.
     EXPECT_GT(greenOf(makeReliefMap(Relief::waves, 256)).verdict.agreement, 0.9);
 }
 
-TEST(Lint, givesTheVerdictOfTheMapsOwnDetectorAlsoOnAMapOfCharts)
+TEST(Lint, greenVerdictEqualsMapDetectOnCharts)
 {
     Image map = makeReliefMap(Relief::waves, 128);
     for (std::size_t i = 0; i < map.pixelCount(); ++i)
@@ -249,7 +249,7 @@ TEST(Lint, givesTheVerdictOfTheMapsOwnDetectorAlsoOnAMapOfCharts)
     EXPECT_EQ(e.verdict.confidence, v.confidence);
 }
 
-TEST(Lint, aFlatMapAndOneThatVariesOneWaySayNothing)
+TEST(Lint, flatAndOneDimensionalMapsAreUndecided)
 {
     Image flat = makeImage(64, 64, PixelType::unorm8, "flat"), ridges = flat;
     for (std::size_t i = 0; i < flat.pixelCount(); ++i) {
@@ -276,7 +276,7 @@ TEST(Lint, roundingFallsWithTheDistanceAndGrowsWithTheUv)
     EXPECT_NEAR(lintScene(scene, {1}).primitives[0].precision, near * 101, near);
 }
 
-TEST(Lint, roundingIsNothingWhereUvHaveNoGradient)
+TEST(Lint, roundingIsZeroWithoutUvGradient)
 {
     Mesh mesh = makePlane(1, 2, 1);
     mesh.texcoords[0].assign(mesh.vertexCount(), {0.25f, 0.5f});
@@ -289,7 +289,7 @@ TEST(Lint, roundingIsNothingWhereUvHaveNoGradient)
 TEST(Lint, theAdviceFollowsTheNumbers)
 {
     EXPECT_EQ(lintScene(sceneOf({makePatch(1, 0, false, 4)})).advice, Advice::readOrthonormal);
-    // A coarse sphere: an orthonormal frame that steps at edges is not MikkTSpace, and cotangent creases.
+    // A coarse sphere: an orthonormal frame with steps at edges differs from MikkTSpace, and cotangent creases.
     EXPECT_EQ(lintScene(sceneOf({makeSphere(1, 8)}, makeReliefMap(Relief::domes, 128))).advice,
               Advice::convertToSmooth);
     Scene plain = sceneOf({makePatch(1, 0, false, 4)});
@@ -298,7 +298,7 @@ TEST(Lint, theAdviceFollowsTheNumbers)
     EXPECT_EQ(lintScene(Scene{}).advice, Advice::nothing);
 }
 
-TEST(Lint, aMeshThatIsShownStretchedOnlyIsNotJudgedAsItIs)
+TEST(Lint, meshIsJudgedWithTheStretchOfItsInstances)
 {
     Scene scene = sceneOf({makePatch(1, 0, false, 4)});
     for (Instance& instance : scene.instances)
@@ -309,15 +309,15 @@ TEST(Lint, aMeshThatIsShownStretchedOnlyIsNotJudgedAsItIs)
     EXPECT_NEAR(r.primitives[0].uv.stretch.mean, 2, kFloat);
 }
 
-TEST(Lint, instancesThatStretchAMeshDifferentlyAreReportedApartAndOthersAreNot)
+TEST(Lint, onlyInstancesOfDifferentStretchAreReportedApart)
 {
     Scene scene = sceneOf({makePatch(1, 0, false, 4)});
-    glm::mat4 larger(3), turned(1), wide(1);
+    glm::mat4 larger(3), rotated(1), wide(1);
     larger[3][3] = 1;
-    turned[0] = {0, 1, 0, 0};
-    turned[1] = {1, 0, 0, 0}; // mirrors as well
+    rotated[0] = {0, 1, 0, 0};
+    rotated[1] = {1, 0, 0, 0}; // mirrors as well
     wide[0][0] = 2;
-    for (const glm::mat4& m : {larger, turned, wide, wide})
+    for (const glm::mat4& m : {larger, rotated, wide, wide})
         scene.instances.push_back({"", 0, m});
     const LintReport r = lintScene(scene);
     ASSERT_EQ(r.primitives.size(), 2u);
@@ -325,7 +325,7 @@ TEST(Lint, instancesThatStretchAMeshDifferentlyAreReportedApartAndOthersAreNot)
     EXPECT_NEAR(r.primitives[1].uv.stretch.mean, 2, kFloat);
     EXPECT_EQ(r.primitives[1].placing, 1u);
     EXPECT_EQ(r.primitives[1].placings, 2u);
-    EXPECT_EQ(r.primitives[1].uv.overlapping, 0); // of itself elsewhere: not what overlapping uv are
+    EXPECT_EQ(r.primitives[1].uv.overlapping, 0); // copies elsewhere do not count as overlapping uv
     for (int k = 0; k < 20; ++k) {
         wide[0][0] = 3 + float(k);
         scene.instances.push_back({"", 0, wide});
@@ -348,7 +348,7 @@ TEST(Lint, tangentsThatAnExtensionReadsAreNotCalledUnused)
     EXPECT_EQ(text.find("can be dropped"), std::string::npos) << text;
 }
 
-TEST(Lint, aPrimitiveThatIsFarOffIsNamedEvenWhereTheWholeModelIsNot)
+TEST(Lint, primitiveOfLargeErrorIsNamedInAGoodModel)
 {
     Mesh sphere = makeSphere(1, 16), plane = makePatch(1, 0, false, 4);
     sphere.name = "coarse";
@@ -378,7 +378,7 @@ TEST(Lint, hostileNumbersGiveNoNaN)
     EXPECT_FALSE(lintOf(noUv).hasUv);
 }
 
-TEST(Lint, stopsWhereItsProgressSaysSoAndElseIsTheSameWithIt)
+TEST(Lint, progressStopsLintAndDoesNotChangeIt)
 {
     const Scene scene = sceneOf({makeSphere(1, 8), makePlane(1, 1, 1)});
     int calls = 0;
@@ -387,8 +387,8 @@ TEST(Lint, stopsWhereItsProgressSaysSoAndElseIsTheSameWithIt)
     EXPECT_EQ(stopped.error().kind, ErrorKind::stopped);
     EXPECT_EQ(calls, 1);
     double last = 0;
-    const auto whole = lintScene(scene, {}, [&](double share) {
-        last = share;
+    const auto whole = lintScene(scene, {}, [&](double fraction) {
+        last = fraction;
         return true;
     });
     ASSERT_TRUE(whole);
@@ -396,21 +396,21 @@ TEST(Lint, stopsWhereItsProgressSaysSoAndElseIsTheSameWithIt)
     EXPECT_EQ(whole->recommendation, lintScene(scene).recommendation);
 }
 
-TEST(Lint, tellsHowFarItIsInOneMeshAndStopsThere)
+TEST(Lint, progressAdvancesAndStopsWithinOneMesh)
 {
     const Scene scene = sceneOf({makeSphere(1, 8)});
-    std::vector<double> shares;
-    ASSERT_TRUE(lintScene(scene, {}, [&](double share) {
-        shares.push_back(share);
+    std::vector<double> fractions;
+    ASSERT_TRUE(lintScene(scene, {}, [&](double fraction) {
+        fractions.push_back(fraction);
         return true;
     }));
-    EXPECT_GE(shares.size(), 5u);
-    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
-    EXPECT_LE(shares.front(), 0.5);
-    for (std::size_t most = 1; most < shares.size(); ++most) {
+    EXPECT_GE(fractions.size(), 5u);
+    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+    EXPECT_LE(fractions.front(), 0.5);
+    for (std::size_t last = 1; last < fractions.size(); ++last) {
         std::size_t calls = 0;
-        EXPECT_FALSE(lintScene(scene, {}, [&](double) { return ++calls < most; }));
-        EXPECT_EQ(calls, most);
+        EXPECT_FALSE(lintScene(scene, {}, [&](double) { return ++calls < last; }));
+        EXPECT_EQ(calls, last);
     }
 }
 

@@ -1,4 +1,4 @@
-// The loops of core/loops.hpp, and map_files/pipeline.hpp, where there is no oneTBB: on several threads all the same.
+// The loops of core/loops.hpp, and map_files/pipeline.hpp, built without oneTBB: they still run on several threads.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -18,7 +18,7 @@
 #error "this test is for the loops without oneTBB"
 #endif
 
-// The allocation on this thread that fails, counted down; below 0: none.
+// Counts down to the allocation on this thread that fails; below 0: none.
 thread_local int failing = -1;
 
 [[gnu::noinline]] void* operator new(std::size_t size)
@@ -35,12 +35,12 @@ thread_local int failing = -1;
 namespace cotan {
 namespace {
 
-// Calls of meet() wait for each other.
+// Lets `size` calls of meet() wait for each other.
 class Meeting {
 public:
     explicit Meeting(int size) : missing_(size) {}
 
-    // Whether the others have come, too.
+    // Whether all others have arrived within 20 seconds.
     bool meet()
     {
         std::unique_lock lock(mutex_);
@@ -55,7 +55,7 @@ private:
     int missing_;
 };
 
-TEST(LoopsByThreads, everyIndexIsMetOnceInPartsOfTheGrainOrMore)
+TEST(ParallelLoops, everyIndexIsVisitedOnceInRangesOfTheGrainOrMore)
 {
     for (const int threads : {1, 2, 5})
         for (const int last : {3, 4, 10, 999})
@@ -74,22 +74,22 @@ TEST(LoopsByThreads, everyIndexIsMetOnceInPartsOfTheGrainOrMore)
     parallelFor(5, 2, [](int) { FAIL(); });
 }
 
-TEST(LoopsByThreads, asManyThreadsWorkAsTheCallerSays)
+TEST(ParallelLoops, threadCountIsTheRequestedOne)
 {
     Meeting meeting(3);
-    std::atomic<int> met{0}, working{0}, most{0};
+    std::atomic<int> met{0}, working{0}, maxWorking{0};
     withThreads(3, [&] {
         EXPECT_EQ(loopThreads(), 3);
         parallelFor(0, 3, [&](int) { met += meeting.meet(); });
         parallelFor(0, 100, [&](int) {
             const int now = ++working;
-            for (int before = most; now > before && !most.compare_exchange_weak(before, now);) {
+            for (int before = maxWorking; now > before && !maxWorking.compare_exchange_weak(before, now);) {
             }
             --working;
         });
     });
     EXPECT_EQ(met, 3); // at the same time
-    EXPECT_LE(most, 3);
+    EXPECT_LE(maxWorking, 3);
     EXPECT_EQ(loopThreads(), std::max(1, int(std::thread::hardware_concurrency())));
     EXPECT_EQ(withThreads(2, [] { return withThreads(0, [] { return loopThreads(); }); }), 2);
     withThreads(1, [&] {
@@ -98,7 +98,7 @@ TEST(LoopsByThreads, asManyThreadsWorkAsTheCallerSays)
     });
 }
 
-TEST(LoopsByThreads, loopsInsideShareTheThreadsThatAreLeft)
+TEST(ParallelLoops, nestedLoopsShareTheRemainingThreads)
 {
     withThreads(5, [&] {
         parallelFor(0, 1, [](int) { EXPECT_EQ(loopThreads(), 5); });
@@ -108,7 +108,7 @@ TEST(LoopsByThreads, loopsInsideShareTheThreadsThatAreLeft)
     });
 }
 
-TEST(LoopsByThreads, whatIsThrownArrives)
+TEST(ParallelLoops, exceptionsReachTheCaller)
 {
     const auto throwing = [](int i) {
         if (i == 7)
@@ -118,13 +118,13 @@ TEST(LoopsByThreads, whatIsThrownArrives)
         EXPECT_THROW(withThreads(threads, [&] { parallelFor(0, 50, throwing); }), std::runtime_error);
 }
 
-// A vector of threads that run may not end by an exception: the process would.
-TEST(LoopsByThreads, withoutMemoryForAThreadTheOthersDoItsWork)
+// An exception must not destroy a vector of running threads: that would terminate the process.
+TEST(ParallelLoops, allWorkIsDoneIfAThreadCannotStart)
 {
     int refused = 0;
     for (int allocation = 0; allocation < 9; ++allocation) {
         std::atomic<int> done{0};
-        failing = allocation; // 0: the list of the threads; then one for each thread
+        failing = allocation; // 0: the vector of threads; then one for each thread
         try {
             runTasks(100, 8, [&](std::size_t) { ++done; });
             EXPECT_EQ(done, 100) << allocation;
@@ -137,24 +137,24 @@ TEST(LoopsByThreads, withoutMemoryForAThreadTheOthersDoItsWork)
     EXPECT_EQ(refused, 1);
 }
 
-TEST(LoopsByThreads, aPipelineReadsAndGivesInOrderAndWorksOnSeveralAtOnce)
+TEST(ParallelLoops, pipelineKeepsOrderAndWorksInParallel)
 {
-    for (const std::size_t most : {0u, 1u, 3u}) {
+    for (const std::size_t limit : {0u, 1u, 3u}) {
         int read = 0, given = 0;
         std::atomic<int> met{0};
-        Meeting meeting{int(most)};
+        Meeting meeting{int(limit)};
         const auto next = [&]() -> std::shared_ptr<int> {
-            EXPECT_LE(read - given, std::max(int(most), 1) - 1);
+            EXPECT_LE(read - given, std::max(int(limit), 1) - 1);
             return read < 10 ? std::make_shared<int>(read++) : nullptr;
         };
         const auto work = [&](const std::shared_ptr<int>& item) {
-            met += *item < int(most) && meeting.meet();
+            met += *item < int(limit) && meeting.meet();
             *item *= 2;
         };
         const auto give = [&](const std::shared_ptr<int>& item) { EXPECT_EQ(*item, 2 * given++); };
-        withThreads(3, [&] { pipeline(most, next, work, give); });
+        withThreads(3, [&] { pipeline(limit, next, work, give); });
         EXPECT_EQ(given, 10);
-        EXPECT_EQ(met, int(most));
+        EXPECT_EQ(met, int(limit));
     }
 }
 

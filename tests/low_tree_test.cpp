@@ -1,4 +1,4 @@
-// Nearest points and rays among random triangles, against a search through all of them in double precision.
+// Nearest points and rays among random triangles, against an exhaustive search in double precision.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -15,7 +15,7 @@ struct Triangles {
     std::vector<std::int64_t> shown;
 };
 
-// Triangles of one size and needles a tenth as wide; what they show is -1, 0 or 1.
+// Triangles of one size and needles a tenth as wide; `shown` cycles through -1, 0 and 1.
 Triangles randomTriangles(std::mt19937& random, std::size_t count)
 {
     std::uniform_real_distribution<float> unit(-1, 1);
@@ -49,7 +49,7 @@ glm::dvec3 nearestOnSegment(glm::dvec3 a, glm::dvec3 b, glm::dvec3 p)
     return a + (length2 > 0 ? glm::clamp(glm::dot(p - a, b - a) / length2, 0.0, 1.0) : 0.0) * (b - a);
 }
 
-// The distance to a triangle: to its plane where the foot is inside of all edges, else to the nearest edge.
+// Distance to the triangle: to its plane if the foot is inside all edges, otherwise to the nearest edge.
 double distanceTo(const Corners& t, glm::dvec3 p)
 {
     const glm::dvec3 n = glm::cross(t.b - t.a, t.c - t.a);
@@ -63,7 +63,7 @@ double distanceTo(const Corners& t, glm::dvec3 p)
                      glm::distance(p, nearestOnSegment(t.c, t.a, p))});
 }
 
-TEST(LowTree, nearestPointIsThatOfASearchThroughAllTriangles)
+TEST(LowTree, nearestPointEqualsLinearSearch)
 {
     std::mt19937 random(5);
     const Triangles t = randomTriangles(random, 60);
@@ -75,34 +75,34 @@ TEST(LowTree, nearestPointIsThatOfASearchThroughAllTriangles)
         const glm::vec3 p(unit(random), unit(random), unit(random));
         const float radius = i % 4 == 0 ? 0.2f : 10.0f;
         const auto accepts = [&](std::uint32_t f) { return i % 2 == 0 || f % 2 == 0; };
-        double least = std::numeric_limits<double>::infinity();
+        double nearestDistance = std::numeric_limits<double>::infinity();
         for (std::uint32_t f = 0; f < 60; ++f)
             if (accepts(f))
-                least = std::min(least, distanceTo(cornersOf(t, f), p));
+                nearestDistance = std::min(nearestDistance, distanceTo(cornersOf(t, f), p));
         const LowTree::Nearest found = tree->nearest(p, radius, accepts);
-        if (std::abs(least - radius) < 1e-5)
-            continue; // a rounding decides whether it is near enough
-        ASSERT_EQ(found.found, least < radius) << i;
+        if (std::abs(nearestDistance - radius) < 1e-5)
+            continue; // rounding decides whether the triangle is near enough
+        ASSERT_EQ(found.found, nearestDistance < radius) << i;
         if (!found.found) {
             ++none;
             continue;
         }
         // A float keeps 24 bits of coordinates below 2.
-        EXPECT_NEAR(found.distance, least, 2e-6) << i;
+        EXPECT_NEAR(found.distance, nearestDistance, 2e-6) << i;
         EXPECT_TRUE(accepts(found.triangle)) << i;
         const Corners of = cornersOf(t, found.triangle);
-        EXPECT_NEAR(distanceTo(of, p), least, 2e-6) << i;
+        EXPECT_NEAR(distanceTo(of, p), nearestDistance, 2e-6) << i;
         const double b1 = found.b1, b2 = found.b2, b0 = 1 - b1 - b2;
         EXPECT_TRUE(b0 >= -1e-6 && b1 >= 0 && b2 >= 0) << b0 << ' ' << b1 << ' ' << b2;
         EXPECT_LT(glm::distance(of.a * b0 + of.b * b1 + of.c * b2, glm::dvec3(found.point)), 2e-6) << i;
-        EXPECT_NEAR(glm::distance(glm::dvec3(found.point), glm::dvec3(p)), least, 2e-6) << i;
+        EXPECT_NEAR(glm::distance(glm::dvec3(found.point), glm::dvec3(p)), nearestDistance, 2e-6) << i;
         const int zeros = (b0 < 1e-6) + (b1 < 1e-6) + (b2 < 1e-6);
         ++(zeros == 2 ? corners : zeros == 1 ? edges : inside);
     }
-    EXPECT_GT(std::min({corners, edges, inside, none}), 50u); // each region of a triangle is met
+    EXPECT_GT(std::min({corners, edges, inside, none}), 50u); // each region of a triangle is tested
 }
 
-// Along a unit ray the distance to the triangle, infinity where it is missed (plane, then the side of each edge).
+// Distance to the triangle along a unit ray, infinity if it misses (plane, then the side of each edge).
 double rayDistance(const Corners& t, glm::dvec3 origin, glm::dvec3 direction, double& margin)
 {
     const glm::dvec3 n = glm::cross(t.b - t.a, t.c - t.a);
@@ -119,7 +119,7 @@ double rayDistance(const Corners& t, glm::dvec3 origin, glm::dvec3 direction, do
     return least >= 0 ? distance : std::numeric_limits<double>::infinity();
 }
 
-TEST(LowTree, firstTriangleOnARayIsThatOfASearchThroughAllTriangles)
+TEST(LowTree, firstHitEqualsLinearSearch)
 {
     std::mt19937 random(6);
     const Triangles t = randomTriangles(random, 200);
@@ -131,7 +131,7 @@ TEST(LowTree, firstTriangleOnARayIsThatOfASearchThroughAllTriangles)
         const glm::vec3 origin = 2.0f * glm::normalize(glm::vec3(unit(random), unit(random), unit(random)));
         const Ray ray{origin, glm::normalize(0.8f * glm::vec3(unit(random), unit(random), unit(random)) - origin), 0.5f,
                       2.5f};
-        const std::uint32_t asking = std::uint32_t(i) % 200;
+        const std::uint32_t fromTriangle = std::uint32_t(i) % 200;
         double nearest = std::numeric_limits<double>::infinity(), nearestBeside = nearest, margin = 1;
         for (std::uint32_t f = 0; f < 200; ++f) {
             const double distance = rayDistance(cornersOf(t, f), ray.origin, ray.direction, margin);
@@ -139,12 +139,12 @@ TEST(LowTree, firstTriangleOnARayIsThatOfASearchThroughAllTriangles)
             if (distance < ray.nearest || distance > ray.farthest)
                 continue;
             nearest = std::min(nearest, distance);
-            if (t.shown[asking] < 0 || t.shown[f] < 0 || t.shown[asking] == t.shown[f])
+            if (t.shown[fromTriangle] < 0 || t.shown[f] < 0 || t.shown[fromTriangle] == t.shown[f])
                 nearestBeside = std::min(nearestBeside, distance);
         }
         if (margin < 1e-4)
-            continue; // an edge or an end of the ray: a rounding decides
-        const LowTree::Met first = tree->first(ray), besides = tree->firstBeside(asking, ray);
+            continue; // an edge or an end of the ray: rounding decides
+        const LowTree::TreeHit first = tree->first(ray), besides = tree->firstBeside(fromTriangle, ray);
         ASSERT_EQ(first.found, std::isfinite(nearest)) << i;
         ASSERT_EQ(besides.found, std::isfinite(nearestBeside)) << i;
         ++(first.found ? met : missed);
@@ -165,7 +165,7 @@ TEST(LowTree, firstTriangleOnARayIsThatOfASearchThroughAllTriangles)
     EXPECT_GT(std::min({met, missed, beside}), 50u);
 }
 
-TEST(LowTree, facesAreUnitByTheOrderOfCornersAndZeroWithoutArea)
+TEST(LowTree, faceNormalsAreUnitAndZeroWithoutArea)
 {
     const auto tree = LowTree::make({{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {1, 0, 0}}, {0, 1, 2, 2, 1, 0, 0, 1, 3}, {}, 1);
     ASSERT_TRUE(tree) << tree.error().message;

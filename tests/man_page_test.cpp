@@ -1,4 +1,4 @@
-// A page of the manual of a command that is made up: what man(7) wants, written by hand.
+// The manual page of a made-up command, against hand-written text in the form that man(7) requires.
 #include <gtest/gtest.h>
 
 #include "help/help_files.hpp"
@@ -34,8 +34,8 @@ CommandHelp madeUp()
     output.required = true;
     OptionHelp gloss = option(HelpGroup::look, {"--gloss"}, "X", "how glossy, as --matt");
     gloss.usual = "0.5";
-    gloss.least = "0";
-    gloss.most = "1";
+    gloss.minimum = "0";
+    gloss.maximum = "1";
     OptionHelp tone = option(HelpGroup::look, {"--tone"}, "NAME", "curve, none by default");
     tone.words = {"none", "aces"};
     tone.closed = true;
@@ -52,7 +52,7 @@ CommandHelp madeUp()
     return paint;
 }
 
-TEST(ManPage, hasEveryPartOfACommandInItsPlace)
+TEST(ManPage, hasEverySectionOfACommand)
 {
     const CommandHelp paint = madeUp();
     CommandHelp tool = commandOf("tool", "Draw things.");
@@ -76,7 +76,7 @@ TEST(ManPage, hasEveryPartOfACommandInItsPlace)
         ".SH \"SEE ALSO\"\n\\fBtool\\fR(1)\n");
 }
 
-TEST(ManPage, ofAToolListsItsCommandsByTheirPages)
+TEST(ManPage, toolPageListsThePagesOfItsCommands)
 {
     CommandHelp tool = commandOf("tool", "Draw things.");
     tool.commands = {madeUp(), commandOf("wash", "clean")};

@@ -1,4 +1,4 @@
-// Blends against what composed heights give, and the settings.
+// Blended maps against maps of the summed heights, and the settings of blends.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ Image blended(const Image& base, const Image& detail, BlendSettings s)
     return blend(base, detail, s, invalid);
 }
 
-constexpr double kRounding = 1e-4; // degrees: some steps of float arithmetic on unit vectors
+constexpr double kRounding = 1e-4; // degrees: a few float operations on unit vectors
 constexpr BlendMode kModes[] = {BlendMode::reoriented, BlendMode::whiteout, BlendMode::udn, BlendMode::slopes};
 
 const auto kHills = [](int x, int y) {
@@ -65,7 +65,7 @@ TEST(Blend, flat_details_change_nothing)
         EXPECT_LT(largestAngle(blended(base, flat(20, 12), {.mode = mode}), base), kRounding) << int(mode);
 }
 
-TEST(Blend, on_a_flat_base_the_detail_comes_out_except_with_udn_and_linear)
+TEST(Blend, a_flat_base_keeps_the_detail_except_with_udn_and_linear)
 {
     const Image detail = mapOf(20, 12, kGrain);
     for (BlendMode mode : {BlendMode::reoriented, BlendMode::whiteout, BlendMode::slopes})
@@ -73,7 +73,7 @@ TEST(Blend, on_a_flat_base_the_detail_comes_out_except_with_udn_and_linear)
     EXPECT_GT(largestAngle(blended(flat(20, 12), detail, {.mode = BlendMode::linear}), detail), 1);
 }
 
-TEST(Blend, slopes_is_what_added_heights_give)
+TEST(Blend, slopes_equals_the_sum_of_heights)
 {
     const Image sum = mapOf(20, 12, [](int x, int y) { return kHills(x, y) + 0.5f * kGrain(x, y); });
     EXPECT_LT(
@@ -84,7 +84,7 @@ TEST(Blend, slopes_is_what_added_heights_give)
 
 TEST(Blend, reoriented_keeps_the_angle_between_details)
 {
-    // A rotation by the base: what was 30 degrees from flat is 30 degrees from the base.
+    // The base rotates the detail: 30 degrees from flat become 30 degrees from the base.
     const Image base = mapOf(1, 1, [](int, int) { return glm::vec2(0.7f, -0.2f); });
     const Image detail = mapOf(1, 1, [](int, int) { return glm::vec2(std::tan(0.5235988f), 0); });
     EXPECT_NEAR(largestAngle(blended(base, detail, {}), base), 30, 1e-3);
@@ -116,12 +116,12 @@ TEST(Blend, tiles_repeat_the_detail)
 
 TEST(Blend, details_smaller_than_a_texel_are_averaged_as_vectors)
 {
-    // Opposite slopes side by side, two to a texel of the base: flat.
+    // Opposite slopes side by side, two for each texel of the base, cancel out.
     const Image detail = mapOf(16, 4, [](int x, int) { return glm::vec2(x % 2 == 0 ? 1.0f : -1.0f, 0); });
     EXPECT_LT(largestAngle(blended(flat(8, 4), detail, {}), flat(8, 4)), kRounding);
 }
 
-TEST(Blend, texels_that_are_no_direction_leave_the_other_map)
+TEST(Blend, texels_without_direction_keep_the_other_map)
 {
     Image base = mapOf(4, 1, kHills);
     base.floats()[0] = std::numeric_limits<float>::quiet_NaN();

@@ -1,4 +1,4 @@
-// BC5 and BC4, read back by the definition of their blocks.
+// BC5, BC4 and BC7, decoded by the definition of their blocks.
 #include "map_files/block.hpp"
 
 #include <algorithm>
@@ -23,12 +23,12 @@ using Half = std::array<double, 16>;
 std::array<double, 8> blockLevels(double a, double b)
 {
     std::array<double, 8> levels{a, b};
-    for (int i = 1; i < 7; ++i) // a is never below b here
+    for (int i = 1; i < 7; ++i) // a > b in every block here
         levels[std::size_t(i) + 1] = ((7 - i) * a + i * b) / 7;
     return levels;
 }
 
-// Codes, not rounded, as graphics processors have them.
+// Decoded codes, not rounded, as GPUs compute them.
 Half decodedHalf(const std::byte* block)
 {
     const auto levels = blockLevels(std::to_integer<int>(block[0]), std::to_integer<int>(block[1]));
@@ -42,7 +42,7 @@ Half decodedHalf(const std::byte* block)
     return texels;
 }
 
-double degreesOff(glm::dvec2 codes, const glm::dvec3& normal)
+double angleError(glm::dvec2 codes, const glm::dvec3& normal)
 {
     const glm::dvec2 xy = (codes - 128.0) / 127.0;
     const glm::dvec3 n = glm::normalize(glm::dvec3(xy, std::sqrt(std::max(0.0, 1 - glm::dot(xy, xy)))));
@@ -58,11 +58,11 @@ Image blockOf(const std::vector<glm::dvec3>& normals, int width)
     return image;
 }
 
-// A block of directions around one that is tilted so far.
-std::vector<glm::dvec3> tilted(double tilt, double spread, std::mt19937& random)
+// A block of directions within `range` radians of one that is tilted by `tilt` degrees.
+std::vector<glm::dvec3> tilted(double tilt, double range, std::mt19937& random)
 {
-    std::uniform_real_distribution<double> turn(0, glm::radians(360.0)), step(-spread, spread);
-    const double around = turn(random);
+    std::uniform_real_distribution<double> azimuth(0, glm::radians(360.0)), step(-range, range);
+    const double around = azimuth(random);
     std::vector<glm::dvec3> normals;
     for (int i = 0; i < 16; ++i) {
         const double angle = glm::radians(tilt) + step(random), at = around + step(random);
@@ -79,7 +79,7 @@ Half codesOf(const std::vector<glm::dvec3>& normals, int axis)
     return codes;
 }
 
-// What fits each channel best by itself, of all ends: the sum of squares of codes.
+// The best fit of a single channel over all endpoint pairs, by the sum of squared code differences.
 Half bestChannel(const Half& values)
 {
     Half best{};
@@ -104,21 +104,20 @@ Half bestChannel(const Half& values)
     return best;
 }
 
-TEST(Block, flatNormalsStayFlatAndOneDirectionIsKeptWithinAFractionOfACode)
+TEST(Block, constantBlocksAreKeptWithinAFractionOfACode)
 {
     for (const glm::dvec3& n : {glm::dvec3(0, 0, 1), glm::normalize(glm::dvec3(0.3, -0.4, 0.7))}) {
         const auto bytes = encodeBc5(blockOf(std::vector<glm::dvec3>(16, n), 4), {});
         ASSERT_EQ(bytes.size(), 16u);
         const Half x = decodedHalf(bytes.data()), y = decodedHalf(bytes.data() + 8);
         for (std::size_t i = 0; i < 16; ++i) {
-            EXPECT_NEAR(x[i], 128 + 127 * n.x, n.x == 0 ? 0 : 0.5 / 7 + 1e-3); // half a step of ends that are one apart
+            EXPECT_NEAR(x[i], 128 + 127 * n.x, n.x == 0 ? 0 : 0.5 / 7 + 1e-3); // half a step of endpoints 1 apart
             EXPECT_NEAR(y[i], 128 + 127 * n.y, n.y == 0 ? 0 : 0.5 / 7 + 1e-3);
         }
     }
 }
 
-// Codes that are each as close as they can be are not the smallest angles: steep normals, whose z the error of x and y
-// is multiplied in.
+// The closest code of each channel is not the smallest angle: for steep normals, z multiplies the error of x and y.
 TEST(Block, anglesAreSmallerThanThoseOfTheClosestCodes)
 {
     std::mt19937 random(7);
@@ -130,15 +129,15 @@ TEST(Block, anglesAreSmallerThanThoseOfTheClosestCodes)
         const Half ourX = decodedHalf(bytes.data()), ourY = decodedHalf(bytes.data() + 8), bestX = bestChannel(x),
                    bestY = bestChannel(y);
         for (std::size_t i = 0; i < 16; ++i) {
-            ours += degreesOff({ourX[i], ourY[i]}, normals[i]) / (12 * 16);
-            closest += degreesOff({bestX[i], bestY[i]}, normals[i]) / (12 * 16);
+            ours += angleError({ourX[i], ourY[i]}, normals[i]) / (12 * 16);
+            closest += angleError({bestX[i], bestY[i]}, normals[i]) / (12 * 16);
         }
     }
     EXPECT_LT(ours, 0.9 * closest) << ours << " degrees, " << closest;
 }
 
-// Where little is steep the two aims are one, and a search of all ends is the best that there is.
-TEST(Block, ofGentleNormalsTheEndsAreNearlyTheBestThatThereAre)
+// For gentle normals both criteria agree, and the exhaustive search over endpoints is optimal.
+TEST(Block, endpointsOfGentleNormalsAreNearlyOptimal)
 {
     std::mt19937 random(11);
     double ours = 0, best = 0;
@@ -155,7 +154,7 @@ TEST(Block, ofGentleNormalsTheEndsAreNearlyTheBestThatThereAre)
     EXPECT_LT(ours, 1.1 * best);
 }
 
-TEST(Block, edgesOfOddSizesAreRepeatedAndThreadsDoNotMatter)
+TEST(Block, oddSizesRepeatTheirEdgesForAnyThreads)
 {
     std::mt19937 random(3);
     std::vector<glm::dvec3> normals;
@@ -181,7 +180,7 @@ TEST(Block, edgesOfOddSizesAreRepeatedAndThreadsDoNotMatter)
 
 using Texel = std::array<int, 4>;
 
-// Microsoft's definition of mode 6.
+// Decodes mode 6 as Microsoft defines it.
 std::array<Texel, 16> decodedMode6(const std::byte* block)
 {
     std::size_t bit = 0;
@@ -212,7 +211,7 @@ std::array<Texel, 16> decodedMode6(const std::byte* block)
     return texels;
 }
 
-double degreesOff(const Texel& codes, const glm::dvec3& normal)
+double angleError(const Texel& codes, const glm::dvec3& normal)
 {
     const glm::dvec3 n = glm::normalize((glm::dvec3(codes[0], codes[1], codes[2]) - 128.0) / 127.0);
     return glm::degrees(std::atan2(glm::length(glm::cross(n, normal)), glm::dot(n, normal)));
@@ -226,9 +225,9 @@ Image opaqueBlockOf(const std::vector<glm::dvec3>& normals, int width)
     return image;
 }
 
-TEST(Bc7, codesOnALineAreKeptWithinHalfASixteenthOfItAndAlphaOfOneStays)
+TEST(Bc7, linearCodesAreKeptWithinHalfAStepAndAlphaOneStays)
 {
-    for (const bool falls : {false, true}) { // the first place has a bit less
+    for (const bool falls : {false, true}) { // the first index has one bit less
         Image ramp = makeImage(4, 4, PixelType::float32);
         for (int i = 0; i < 16; ++i) {
             const float t = float(falls ? 15 - i : i);
@@ -239,7 +238,7 @@ TEST(Bc7, codesOnALineAreKeptWithinHalfASixteenthOfItAndAlphaOfOneStays)
         const auto back = decodedMode6(encodeBc7(ramp, {}, true).data());
         for (int i = 0; i < 16; ++i) {
             const int t = falls ? 15 - i : i;
-            // Ends are 1 off at most where their lowest bits are not those of all channels.
+            // Endpoints differ by at most 1 if the lowest bit does not suit all channels.
             EXPECT_NEAR(back[std::size_t(i)][0], 100 + 2 * t, 2) << i;
             EXPECT_NEAR(back[std::size_t(i)][1], 200 - 3 * t, 2) << i;
             EXPECT_NEAR(back[std::size_t(i)][3], 40 + 5 * t, 2) << i;
@@ -251,8 +250,8 @@ TEST(Bc7, codesOnALineAreKeptWithinHalfASixteenthOfItAndAlphaOfOneStays)
             EXPECT_EQ(texel[3], 255);
 }
 
-// Whichever channels run along a line or against each other, and whichever stay: red says nothing of the others.
-TEST(Bc7, channelsThatRunAgainstEachOtherAreKept)
+// Any channels may rise, fall or stay constant together: red alone does not determine the direction of the line.
+TEST(Bc7, opposingChannelsAreKept)
 {
     const float steps[][4] = {{0, 3, -3, 0}, {3, -3, 0, 0},  {0, 0, 4, -4}, {0, 5, -5, 5},
                               {3, 0, -3, 0}, {-2, 4, 0, -4}, {0, 3, 3, 0},  {0, 0, 0, 5}};
@@ -275,14 +274,14 @@ TEST(Bc7, flatNormalsStayFlat)
     const auto back =
         decodedMode6(encodeBc7(opaqueBlockOf(std::vector<glm::dvec3>(16, glm::dvec3(0, 0, 1)), 4), {}).data());
     for (const Texel& texel : back) {
-        // With alpha of 255 the lowest bit of all ends is set: 128 is between 127 and 129.
+        // With alpha 255 the lowest bit of every endpoint is set, so 128 is interpolated between 127 and 129.
         EXPECT_EQ(texel[0], 128);
         EXPECT_EQ(texel[1], 128);
     }
 }
 
-// The length of what is decoded does not matter: among vectors a little longer and shorter are some whose codes are the
-// better directions, where the block itself is nearly even.
+// The length of decoded vectors does not matter. In nearly constant blocks, slightly longer or shorter vectors have
+// codes that are closer in direction.
 TEST(Bc7, anglesAreSmallerThanThoseOfTheClosestVectors)
 {
     std::mt19937 random(9);
@@ -293,14 +292,14 @@ TEST(Bc7, anglesAreSmallerThanThoseOfTheClosestVectors)
         const auto angles = decodedMode6(encodeBc7(map, {}).data()),
                    vectors = decodedMode6(encodeBc7(map, {}, true).data());
         for (std::size_t i = 0; i < 16; ++i) {
-            ours += std::pow(degreesOff(angles[i], normals[i]), 2);
-            closest += std::pow(degreesOff(vectors[i], normals[i]), 2);
+            ours += std::pow(angleError(angles[i], normals[i]), 2);
+            closest += std::pow(angleError(vectors[i], normals[i]), 2);
         }
     }
     EXPECT_LT(ours, 0.85 * closest) << ours << ", " << closest;
 }
 
-TEST(Bc7, edgesOfOddSizesAreRepeatedAndThreadsDoNotMatter)
+TEST(Bc7, oddSizesRepeatTheirEdgesForAnyThreads)
 {
     std::mt19937 random(3);
     std::vector<glm::dvec3> normals;
@@ -319,7 +318,7 @@ TEST(Bc7, edgesOfOddSizesAreRepeatedAndThreadsDoNotMatter)
         EXPECT_EQ(corner[i], corner[i == 3 ? 2 : i % 4]);
 }
 
-TEST(Block, oneChannelIsKeptWithinHalfASeventhOfItsRange)
+TEST(Block, oneChannelIsKeptWithinHalfAStep)
 {
     Image ramp = makeImage(4, 4, PixelType::float32);
     for (int i = 0; i < 16; ++i)

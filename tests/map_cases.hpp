@@ -1,4 +1,4 @@
-// Small maps of floats for the tests of src/maps.
+// Small float maps for the tests of src/maps.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace cotan::maps::cases {
 
 inline constexpr Convention kFloats{.expansion = Expansion::signedValues};
 
-// A map of floats from a function of (column, row); vectors of picture space, y up, as they are.
+// A float map from a function of (column, row) that returns vectors in image space, y up; they are stored unchanged.
 template<class Normal> Image floatMap(int width, int height, Normal normal)
 {
     Image image = makeImage(width, height, PixelType::float32);
@@ -38,10 +38,10 @@ inline glm::vec3 texelAt(const Image& floats, int x, int y)
 
 inline glm::vec3 ofSlopes(double right, double up) { return glm::vec3(glm::normalize(glm::dvec3(-right, -up, 1))); }
 
-// The slopes rightwards and up that a normal stands for.
+// Slopes of the surface, rightwards and up, for the normal n.
 inline glm::dvec2 slopesOf(const glm::vec3& n) { return {-double(n.x) / double(n.z), -double(n.y) / double(n.z)}; }
 
-// Rows [first, last) of a picture.
+// Rows [first, last) of an image.
 inline Image rowsOf(const Image& image, int first, int last)
 {
     Image strip = makeImage(image.width, last - first, image.type);
@@ -58,7 +58,7 @@ inline Image joined(const Image& above, const Image& below)
     return all;
 }
 
-// Numbers in [0,1) without any pattern.
+// Pseudorandom numbers in [0,1).
 class Noise {
 public:
     explicit Noise(unsigned seed) : state_(seed) {}

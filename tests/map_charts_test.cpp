@@ -1,4 +1,4 @@
-// Maps of charts: which way green points on islands, whatever lies between them.
+// Maps of charts: the direction of green on islands, whatever fills the space between them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,21 +19,21 @@ enum class Between { flat, black, white, transparent, grey, padded };
 constexpr Between kBetween[] = {Between::flat,        Between::black, Between::white,
                                 Between::transparent, Between::grey,  Between::padded};
 
-// Round charts, each with a relief of its own that ends where the chart ends, so that slopes jump there. covered:
-// share of the picture, roughly.
+// Round charts with a separate relief each, which ends at the border, so that slopes jump there. covered: approximate
+// fraction of the image that the charts cover.
 struct Atlas {
     int side = 256, across = 4;
     double covered = 0.4;
 
     double radius() const { return std::sqrt(covered / 3.14159265358979) * side / across; }
-    // The chart's middle that is nearest, and how far that is.
+    // The centre of the nearest chart and the distance to it.
     std::pair<glm::dvec2, double> nearest(double x, double y) const
     {
         const double step = double(side) / across;
         const glm::dvec2 middle((std::floor(x / step) + 0.5) * step, (std::floor(y / step) + 0.5) * step);
         return {middle, glm::length(glm::dvec2(x, y) - middle)};
     }
-    // Waves of two directions that differ from chart to chart, around a tilt of the chart's own.
+    // Waves in two directions that differ between charts, added to a tilt of the chart.
     glm::dvec2 slopes(glm::dvec2 p, glm::dvec2 middle) const
     {
         const double k = 0.013 * middle.x + 0.029 * middle.y;
@@ -71,7 +71,7 @@ Image atlasMap(const Atlas& atlas, Between between, bool greenUp, PixelType type
     return image;
 }
 
-TEST(Charts, green_is_told_whatever_lies_between_them)
+TEST(Charts, green_is_detected_with_any_background)
 {
     for (const auto& [covered, across, type] : {std::tuple(0.1, 2, PixelType::unorm8),
                                                 {0.1, 5, PixelType::unorm16},
@@ -84,7 +84,7 @@ TEST(Charts, green_is_told_whatever_lies_between_them)
                     (testing::Message() << covered << ' ' << across << ' ' << int(between) << ' ' << up << ": "
                                         << v.agreement << ' ' << v.deviations << ' ' << v.reason)
                         .GetString();
-                if (v.green == Green::undecidable) // only where padding is most of the picture
+                if (v.green == Green::undecidable) // only if padding covers most of the image
                     EXPECT_TRUE(between == Between::padded && covered < 0.2) << which;
                 else
                     EXPECT_EQ(v.green, up ? Green::up : Green::down) << which;
@@ -100,8 +100,8 @@ TEST(Charts, a_background_of_one_colour_changes_nothing)
             << int(between);
 }
 
-// Waves along both axes, plus noise of that size, and a tilt of its own for every square.
-Image disturbed(int side, double noiseSize, double tiltSize, int square, unsigned seed, bool up = true)
+// Waves along both axes, plus noise of amplitude noiseSize, plus a random tilt for each square.
+Image noisyWaves(int side, double noiseSize, double tiltSize, int square, unsigned seed, bool up = true)
 {
     Noise noise(seed);
     std::vector<glm::dvec2> tilts;
@@ -117,19 +117,19 @@ Image disturbed(int side, double noiseSize, double tiltSize, int square, unsigne
     });
 }
 
-TEST(Charts, steps_where_they_meet_do_not_drown_what_is_on_them)
+TEST(Charts, steps_at_chart_borders_do_not_hide_the_relief)
 {
-    const GreenVerdict plain = greenOf(disturbed(256, 0, 0, 16, 1)), stepped = greenOf(disturbed(256, 0, 1.2, 16, 1));
+    const GreenVerdict plain = greenOf(noisyWaves(256, 0, 0, 16, 1)), stepped = greenOf(noisyWaves(256, 0, 1.2, 16, 1));
     EXPECT_GT(plain.agreement, 0.95);
     EXPECT_GT(stepped.agreement, 0.6); // the steps are ten times as high as the waves, on one texel in eight
     EXPECT_EQ(stepped.green, Green::up);
 }
 
-TEST(Charts, verdicts_are_as_sure_as_their_figures)
+TEST(Charts, confidence_follows_the_agreement)
 {
     for (bool up : {true, false}) {
-        const GreenVerdict sure = greenOf(disturbed(256, 0.01, 0, 16, 1, up)),
-                           likely = greenOf(disturbed(256, 0.06, 0, 16, 1, up));
+        const GreenVerdict sure = greenOf(noisyWaves(256, 0.01, 0, 16, 1, up)),
+                           likely = greenOf(noisyWaves(256, 0.06, 0, 16, 1, up));
         for (const GreenVerdict& v : {sure, likely}) {
             EXPECT_EQ(v.green, up ? Green::up : Green::down);
             const double size = std::abs(v.agreement);
@@ -142,17 +142,17 @@ TEST(Charts, verdicts_are_as_sure_as_their_figures)
     }
 }
 
-TEST(Charts, small_noise_agrees_by_chance_and_is_not_believed)
+TEST(Charts, small_noise_is_undecidable_despite_chance_agreement)
 {
-    double most = 0;
+    double largest = 0;
     for (unsigned seed = 1; seed <= 200; ++seed) {
         Noise noise(7919 * seed);
         const GreenVerdict v =
             greenOf(floatMap(12, 12, [&](int, int) { return ofSlopes(noise.next() - 0.5, noise.next() - 0.5); }));
         EXPECT_EQ(v.green, Green::undecidable) << seed << ' ' << v.agreement << ' ' << v.deviations;
-        most = std::max(most, std::abs(v.agreement));
+        largest = std::max(largest, std::abs(v.agreement));
     }
-    EXPECT_GT(most, 0.12); // which would do, were it not for its uncertainty
+    EXPECT_GT(largest, 0.12); // would suffice if uncertainty were ignored
 }
 
 TEST(Charts, noise_on_islands_is_undecidable)
@@ -172,9 +172,9 @@ TEST(Charts, noise_on_islands_is_undecidable)
     }
 }
 
-TEST(Charts, the_figures_of_a_map_leave_its_background_out)
+TEST(Charts, figures_exclude_the_background)
 {
-    // Half black, half tilted by (0.6, 0, 0.8) as 8 bits hold it.
+    // Half background, half tilted by (0.6, 0, 0.8) rounded to 8 bits.
     for (const std::array<std::uint8_t, 4>& outside :
          {std::array<std::uint8_t, 4>{0, 0, 0, 255}, {255, 255, 255, 255}, {90, 200, 10, 0}, {128, 128, 128, 255}}) {
         Image map = makeImage(16, 16, PixelType::unorm8);
@@ -193,7 +193,7 @@ TEST(Charts, the_figures_of_a_map_leave_its_background_out)
     }
 }
 
-TEST(Charts, what_is_outside_is_told_on_both_sides_of_its_limits)
+TEST(Charts, background_is_detected_on_both_sides_of_its_limits)
 {
     const auto texel = [](float c, float a) { return glm::vec4(c / 255, c / 255, c / 255, a); };
     EXPECT_TRUE(outsideCharts(texel(8, 1)));
@@ -207,15 +207,15 @@ TEST(Charts, what_is_outside_is_told_on_both_sides_of_its_limits)
     EXPECT_FALSE(outsideCharts({1, 1, 0.5f, 1}));
 }
 
-TEST(Patches, hold_small_pictures_whole_and_overlap_by_one_row_and_column)
+TEST(Patches, cover_small_images_and_overlap_by_one_texel)
 {
     Noise noise(13);
-    Image picture = makeImage(37, 21, PixelType::unorm8);
-    for (std::byte& b : picture.data)
+    Image image = makeImage(37, 21, PixelType::unorm8);
+    for (std::byte& b : image.data)
         b = std::byte(int(256 * noise.next()));
     PatchSampler sampler(37, 21, PixelType::unorm8);
-    sampler.add(picture, 0);
-    EXPECT_EQ(sampler.share(), 1);
+    sampler.add(image, 0);
+    EXPECT_EQ(sampler.coveredFraction(), 1);
     EXPECT_EQ(sampler.patches().size(), 13u * 7u); // squares of 3
     std::vector<int> seen(37 * 21, 0);
     for (const Patch& p : sampler.patches()) {
@@ -225,7 +225,7 @@ TEST(Patches, hold_small_pictures_whole_and_overlap_by_one_row_and_column)
             for (int x = 0; x < p.texels.width; ++x) {
                 seen[std::size_t((p.y + y) * 37 + p.x + x)] += x < 3 && y < 3;
                 ASSERT_EQ(p.texels.bytes8()[4 * (y * p.texels.width + x) + 1],
-                          picture.bytes8()[4 * ((p.y + y) * 37 + p.x + x) + 1]);
+                          image.bytes8()[4 * ((p.y + y) * 37 + p.x + x) + 1]);
             }
     }
     EXPECT_EQ(std::ranges::count(seen, 1), 37 * 21); // each texel once
@@ -234,37 +234,37 @@ TEST(Patches, hold_small_pictures_whole_and_overlap_by_one_row_and_column)
 TEST(Patches, do_not_depend_on_the_strips)
 {
     Noise noise(14);
-    Image picture = makeImage(70, 100, PixelType::unorm16);
-    for (std::byte& b : picture.data)
+    Image image = makeImage(70, 100, PixelType::unorm16);
+    for (std::byte& b : image.data)
         b = std::byte(int(256 * noise.next()));
     PatchSampler whole(70, 100, PixelType::unorm16), cut(70, 100, PixelType::unorm16);
-    whole.add(picture, 0);
+    whole.add(image, 0);
     for (int y = 0; y < 100; y += 3)
-        cut.add(rowsOf(picture, y, std::min(y + 3, 100)), y);
+        cut.add(rowsOf(image, y, std::min(y + 3, 100)), y);
     for (std::size_t i = 0; i < whole.patches().size(); ++i)
         EXPECT_EQ(whole.patches()[i].texels.data, cut.patches()[i].texels.data) << i;
 }
 
-TEST(Patches, of_large_pictures_are_the_middles_of_their_squares)
+TEST(Patches, of_large_images_are_the_centres_of_squares)
 {
     const PatchSampler whole(2048, 100, PixelType::unorm8), part(4096, 2048, PixelType::unorm8);
-    EXPECT_EQ(whole.share(), 1);
+    EXPECT_EQ(whole.coveredFraction(), 1);
     EXPECT_EQ(part.patches().size(), 16u * 8u);
     EXPECT_EQ(part.patches()[17].x, 256 + 64);
     EXPECT_EQ(part.patches()[17].y, 256 + 64);
     EXPECT_EQ(part.patches()[17].texels.width, 129);
-    EXPECT_NEAR(part.share(), 0.25, 1e-12);
-    EXPECT_LT(PatchSampler(2049, 2049, PixelType::unorm8).share(), 1);
+    EXPECT_NEAR(part.coveredFraction(), 0.25, 1e-12);
+    EXPECT_LT(PatchSampler(2049, 2049, PixelType::unorm8).coveredFraction(), 1);
 }
 
-TEST(Surveys, of_one_colour_need_one_pass_and_say_the_same)
+TEST(Surveys, one_colour_needs_one_pass)
 {
     const auto survey = [](const Image& map, bool second) {
         MapSurvey s;
         for (int y = 0; y < map.height; y += 16)
-            s.first(rowsOf(map, y, std::min(y + 16, map.height)));
+            s.addFirstPass(rowsOf(map, y, std::min(y + 16, map.height)));
         for (int y = 0; y < map.height && second; y += 16)
-            s.second(rowsOf(map, y, std::min(y + 16, map.height)));
+            s.addSecondPass(rowsOf(map, y, std::min(y + 16, map.height)));
         return std::pair(s.oneColour(), s.finish());
     };
     Image map = makeImage(19, 40, PixelType::unorm8);
@@ -283,7 +283,7 @@ TEST(Surveys, of_one_colour_need_one_pass_and_say_the_same)
     EXPECT_NEAR(quick.mean[1], slow.mean[1], 1e-9);
     EXPECT_EQ(quick.tilt, slow.tilt);
     EXPECT_NEAR(quick.meanTilt, 38.15, 0.05); // atan(hypot(76, 20) / 100)
-    // One texel that differs, first, last or in the middle, is noticed.
+    // A texel that differs is noticed at the start, in the middle and at the end.
     for (std::size_t i : {std::size_t(0), map.pixelCount() / 2, map.pixelCount() - 1}) {
         Image other = map;
         other.bytes8()[4 * i + 1] = 90;
@@ -295,7 +295,7 @@ TEST(Surveys, of_one_colour_need_one_pass_and_say_the_same)
 
 NormalStatistics statisticsOf(double mistake, int bits, int seed, float (*curve)(float) = nullptr)
 {
-    // Unit vectors, stored with zero at the middle code less `mistake` of it.
+    // Unit vectors, stored with zero `mistake` codes below the middle code.
     Noise noise{unsigned(seed)};
     Image map = makeImage(64, 64, bits == 8 ? PixelType::unorm8 : PixelType::unorm16);
     for (std::size_t i = 0; i < map.pixelCount(); ++i) {
@@ -314,33 +314,33 @@ NormalStatistics statisticsOf(double mistake, int bits, int seed, float (*curve)
     return statisticsOfMap(map);
 }
 
-TEST(Surveys, tell_128_from_127_and_a_half)
+TEST(Surveys, distinguish_128_from_127_and_a_half)
 {
     for (int seed : {1, 2, 3}) {
         EXPECT_EQ(statisticsOf(0, 8, seed).centre, Centre::exact);
         EXPECT_EQ(statisticsOf(0.5, 8, seed).centre, Centre::biased);
         EXPECT_LT(statisticsOf(0, 8, seed).rmsExact, statisticsOf(0, 8, seed).rmsBiased);
     }
-    EXPECT_LT(statisticsOf(0, 16, 1).rmsExact, 2e-5); // 16 bits are read with their own middle
+    EXPECT_LT(statisticsOf(0, 16, 1).rmsExact, 2e-5); // 16-bit codes have their own middle
 }
 
-float bent(float c) { return c <= 0.0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f; }
-float unbent(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
-float slightlyBent(float c) { return std::pow(c, 0.95f); }
+float encodeSrgb(float c) { return c <= 0.0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f; }
+float decodeSrgb(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
+float mildCurve(float c) { return std::pow(c, 0.95f); }
 
-TEST(Surveys, suspect_the_srgb_curve_both_ways_and_nothing_milder)
+TEST(Surveys, detect_the_srgb_curve_and_its_inverse)
 {
-    EXPECT_EQ(statisticsOf(0, 8, 1, bent).transfer, Transfer::srgb);
-    EXPECT_EQ(statisticsOf(0, 8, 1, unbent).transfer, Transfer::linearised);
-    EXPECT_EQ(statisticsOf(0, 16, 1, bent).transfer, Transfer::srgb);
-    EXPECT_EQ(statisticsOf(0, 8, 1, slightlyBent).transfer, Transfer::linear);
+    EXPECT_EQ(statisticsOf(0, 8, 1, encodeSrgb).transfer, Transfer::srgb);
+    EXPECT_EQ(statisticsOf(0, 8, 1, decodeSrgb).transfer, Transfer::linearised);
+    EXPECT_EQ(statisticsOf(0, 16, 1, encodeSrgb).transfer, Transfer::srgb);
+    EXPECT_EQ(statisticsOf(0, 8, 1, mildCurve).transfer, Transfer::linear);
     EXPECT_EQ(statisticsOf(0, 8, 1).transfer, Transfer::linear);
-    EXPECT_NEAR(statisticsOf(0, 8, 1, bent).meanLength, 1, 0.02); // read with the curve undone
+    EXPECT_NEAR(statisticsOf(0, 8, 1, encodeSrgb).meanLength, 1, 0.02); // the curve is undone before measuring
 }
 
-TEST(Surveys, count_shares_on_both_sides_of_their_limits)
+TEST(Surveys, count_fractions_on_both_sides_of_limits)
 {
-    // One row each: below the horizon or just not, short or just not, outside the disc or not.
+    // One row for each limit: just below the horizon or not, too short or not, outside the disc or not.
     const auto counted = [](glm::vec3 n, glm::vec3 rest) {
         return statisticsOfMap(floatMap(10, 1, [&](int x, int) { return x == 3 ? n : rest; }));
     };
@@ -361,7 +361,7 @@ TEST(Surveys, count_shares_on_both_sides_of_their_limits)
     EXPECT_NEAR(s.highest[1], 0.6, 1e-6);
 }
 
-TEST(Surveys, tell_contents_on_both_sides_of_a_constant_blue)
+TEST(Surveys, detect_two_channels_by_a_constant_blue)
 {
     const auto content = [](int blueRange) {
         Noise noise(8);

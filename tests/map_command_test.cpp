@@ -34,14 +34,14 @@ void expectRefused(const ToolRun& run, int code, const TemporaryFolder& folder, 
     EXPECT_FALSE(fs::exists(folder / output));
 }
 
-// Black everywhere: background, and nothing besides. What is averaged over nothing is no number.
-TEST(MapCommand, info_gives_no_figures_of_nothing)
+// Black everywhere: only background. Averages over nothing are not numbers.
+TEST(MapCommand, info_prints_no_figures_without_texels)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "black.png", makeImage(16, 8, PixelType::unorm8)));
     const ToolRun text = runTool({"map", "info", "black.png"}, folder.path());
     EXPECT_EQ(text.code, 0) << text.err;
-    EXPECT_NE(text.out.find("no direction is left to measure"), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("no texel has a direction to measure"), std::string::npos) << text.out;
     EXPECT_EQ(text.out.find("mean"), std::string::npos) << text.out;
     const ToolRun report = runTool({"map", "info", "black.png", "--json", "-"}, folder.path());
     const auto j = nlohmann::json::parse(report.out);
@@ -71,7 +71,7 @@ TEST(MapCommand, detects_every_texture_of_the_collection)
     EXPECT_GT(seen, 0);
 }
 
-// A relief on the left half; `outside` fills the right one.
+// A relief on the left half; `outside` fills the right half.
 Image chartOn(const std::array<std::uint8_t, 4>& outside)
 {
     Image map = makeReliefMap(Relief::waves, 128);
@@ -81,7 +81,7 @@ Image chartOn(const std::array<std::uint8_t, 4>& outside)
     return map;
 }
 
-TEST(MapCommand, what_lies_between_charts_is_left_out)
+TEST(MapCommand, background_between_charts_is_excluded)
 {
     TemporaryFolder folder;
     for (const std::array<std::uint8_t, 4>& outside :
@@ -118,17 +118,17 @@ TEST(MapCommand, heights_with_free_borders_honour_the_kernel)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::domes, 64)));
-    const auto share = [&](const std::string& kernel) {
+    const auto residualFraction = [&](const std::string& kernel) {
         const auto report = reportOf(
             runTool({"map", "to-height", "map.png", "--free", "--kernel", kernel, "-o", kernel + ".exr", "--json", "-"},
                     folder.path()));
         return report["residual_share"].get<double>();
     };
-    EXPECT_NE(share("forward"), share("spectral"));
-    EXPECT_NE(share("scharr"), share("central"));
+    EXPECT_NE(residualFraction("forward"), residualFraction("spectral"));
+    EXPECT_NE(residualFraction("scharr"), residualFraction("central"));
 }
 
-TEST(MapCommand, conversion_there_and_back_is_within_rounding)
+TEST(MapCommand, conversion_round_trips_within_rounding)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::domes, 96)));
@@ -166,7 +166,7 @@ TEST(MapCommand, float_formats_keep_signed_values)
     }
 }
 
-TEST(MapCommand, half_floats_keep_directions_to_their_own_rounding)
+TEST(MapCommand, half_floats_keep_directions_within_their_rounding)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 32)));
@@ -177,12 +177,12 @@ TEST(MapCommand, half_floats_keep_directions_to_their_own_rounding)
               0);
     const auto report = reportOf(
         runTool({"map", "diff", "map.png", "there.exr", "--to", "directx,signed", "--json", "-"}, folder.path()));
-    // 11 bits of fraction: half a step is 2^-12 of each component, 0.024 degrees for all three at worst.
+    // 11 bits of fraction: half a step is 2^-12 of each component, at most 0.024 degrees for all three.
     EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 0.025);
-    EXPECT_GT(report["angles"]["max_degrees"].get<double>(), 0.001); // and it is not stored as float
+    EXPECT_GT(report["angles"]["max_degrees"].get<double>(), 0.001); // proves that it is not stored as float
 }
 
-// A wavefront file of a grid over the whole map; shape: position of (u, v up), each in [0,1].
+// Writes a Wavefront file with a grid over the whole map; shape: maps (u, v up), each in [0,1], to a position.
 template<class Shape> void writeObj(const fs::path& file, int cells, Shape shape)
 {
     std::ofstream out(file);
@@ -200,7 +200,7 @@ template<class Shape> void writeObj(const fs::path& file, int cells, Shape shape
         }
 }
 
-TEST(MapCommand, on_a_plane_that_faces_z_object_space_is_tangent_space_with_green_up)
+TEST(MapCommand, object_space_of_a_z_plane_is_tangent_space_with_green_up)
 {
     TemporaryFolder folder;
     Image map = makeReliefMap(Relief::domes, 48);
@@ -219,7 +219,7 @@ TEST(MapCommand, on_a_plane_that_faces_z_object_space_is_tangent_space_with_gree
     }
 }
 
-TEST(MapCommand, object_space_and_back_is_within_rounding_on_a_bent_and_sheared_mesh)
+TEST(MapCommand, object_space_round_trips_on_a_bent_mesh)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 64)));
@@ -236,10 +236,11 @@ TEST(MapCommand, object_space_and_back_is_within_rounding_on_a_bent_and_sheared_
         ASSERT_EQ(convert("gltf,exact,object", "directx,exact", "object.png", "back.png").code, 0);
         const auto report = reportOf(
             runTool({"map", "diff", "map.png", "back.png", "--to", "directx,exact", "--json", "-"}, folder.path()));
-        // Two roundings of 0.0015 degrees; the frame stretches them by 3 at most (uv 2 x 0.7, sheared by 0.2).
+        // Two roundings of 0.0015 degrees; the frame enlarges them by at most 3 (uv 2 x 0.7, sheared by 0.2).
         EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 0.008) << frame;
-        const auto turned = reportOf(runTool({"map", "diff", "map.png", "object.png", "--json", "-"}, folder.path()));
-        EXPECT_GT(turned["angles"]["max_degrees"].get<double>(), 90) << frame; // the mesh turns by 115 degrees
+        const auto difference =
+            reportOf(runTool({"map", "diff", "map.png", "object.png", "--json", "-"}, folder.path()));
+        EXPECT_GT(difference["angles"]["max_degrees"].get<double>(), 90) << frame; // the mesh bends by 115 degrees
     }
     const auto refuse = [&](std::vector<std::string> words, int code) {
         words.insert(words.begin(), {"map", "convert", "map.png", "--from", "gltf", "-o", "none.png"});
@@ -252,12 +253,12 @@ TEST(MapCommand, object_space_and_back_is_within_rounding_on_a_bent_and_sheared_
     refuse({"--to", "gltf,object", "--mesh", "bent.obj", "--strength", "2"}, 1);
 }
 
-// 66,000 triangles in a file of 1 MB took 64 s on a map of 4096 x 4096.
-TEST(MapCommand, meshes_that_lie_over_one_another_too_often_are_refused_as_by_bakes)
+// 66,000 triangles in a file of 1 MB once took 64 s on a map of 4096 x 4096.
+TEST(MapCommand, too_much_uv_overlap_is_refused_as_by_bakes)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeImage(1, 65535, PixelType::unorm8)));
-    const auto convert = [&](int triangles) { // each in all rows of the map; 612 are allowed (BakeBounds)
+    const auto convert = [&](int triangles) { // each covers all rows of the map; 612 are allowed (BakeBounds)
         std::ofstream out(folder / "mesh.obj");
         out << "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
         for (int i = 0; i < triangles; ++i)
@@ -270,13 +271,13 @@ TEST(MapCommand, meshes_that_lie_over_one_another_too_often_are_refused_as_by_ba
     const ToolRun most = convert(612), more = convert(613);
     EXPECT_EQ(most.code, 0) << most.err;
     EXPECT_EQ(more.code, 2);
-    EXPECT_NE(more.err.find("mesh.obj: its triangles lie over one another in 4.02e+07 rows of texels; expected at most "
-                            "4.01e+07: fewer, or a smaller map"),
+    EXPECT_NE(more.err.find("mesh.obj: its triangles overlap in 4.02e+07 rows of texels; expected at most "
+                            "4.01e+07: use fewer triangles or a smaller map"),
               std::string::npos)
         << more.err;
 }
 
-TEST(MapCommand, heights_come_back_from_normals_within_rounding)
+TEST(MapCommand, heights_round_trip_through_normals)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 96)));
@@ -289,18 +290,18 @@ TEST(MapCommand, heights_come_back_from_normals_within_rounding)
             .code,
         0);
     const auto report = reportOf(runTool({"map", "diff", "map.png", "again.png", "--json", "-"}, folder.path()));
-    // The map's 8 bits: 0.4 degrees at worst (sqrt(3)/2 steps of 1/127); the heights' 16 bits: half a step of
-    // range 9 texels/65535 is a slope of 1e-4.
+    // 8 bits of the map: at most 0.4 degrees (sqrt(3)/2 steps of 1/127). 16 bits of the heights: half a step of range 9
+    // texels/65535 is a slope of 1e-4.
     EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 0.6) << report;
-    EXPECT_LT(heights["residual_share"].get<double>(), 0.02); // rounding of 1/127/sqrt(12) beside slopes of 0.2
+    EXPECT_LT(heights["residual_share"].get<double>(), 0.02); // rounding of 1/127/sqrt(12) over slopes of 0.2
 }
 
-TEST(MapCommand, free_borders_follow_a_map_that_leans)
+TEST(MapCommand, free_borders_follow_the_mean_tilt)
 {
     TemporaryFolder folder;
     Image slope = makeImage(40, 20, PixelType::unorm8);
     for (std::size_t i = 0; i < slope.pixelCount(); ++i) {
-        const std::uint8_t texel[4] = {192, 128, 238, 255}; // falls to the right, by 64/110 a texel
+        const std::uint8_t texel[4] = {192, 128, 238, 255}; // falls to the right by 64/110 per texel
         std::copy_n(texel, 4, slope.bytes8() + 4 * i);
     }
     ASSERT_TRUE(writeImage(folder / "map.png", slope));
@@ -313,7 +314,7 @@ TEST(MapCommand, free_borders_follow_a_map_that_leans)
     EXPECT_NEAR(flat["mean_tilt_degrees"].get<double>(), std::atan(64.0 / 110) * 180 / 3.14159265, 1e-3);
 }
 
-TEST(MapCommand, blending_with_a_flat_map_keeps_the_base_within_rounding)
+TEST(MapCommand, blending_a_flat_map_keeps_the_base_within_rounding)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "base.png", makeReliefMap(Relief::domes, 64)));
@@ -335,8 +336,8 @@ TEST(MapCommand, blending_with_a_flat_map_keeps_the_base_within_rounding)
     }
 }
 
-// Read back by other code: DDS and the blocks of KTX2 by OpenImageIO, which rounds to 8 bits.
-TEST(MapCommand, textures_hold_the_same_normals_plain_and_in_blocks)
+// Decoded by other code: OpenImageIO reads DDS and the blocks of KTX2, rounding to 8 bits.
+TEST(MapCommand, textures_hold_the_same_normals_with_and_without_compression)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 50)));
@@ -363,28 +364,28 @@ TEST(MapCommand, textures_hold_the_same_normals_plain_and_in_blocks)
         EXPECT_NE(packed7.out.find("bc7: tangent space, xyz"), std::string::npos) << packed7.out;
         const auto diff7 =
             reportOf(runTool({"map", "diff", "map.png", three, "--to", "directx", "--json", "-"}, folder.path()));
-        EXPECT_LT(diff7["angles"]["mean_degrees"].get<double>(), 4) << diff7; // one line a block
+        EXPECT_LT(diff7["angles"]["mean_degrees"].get<double>(), 4) << diff7; // one line per block
         const auto image = readImage(folder / three);
         ASSERT_TRUE(image);
         EXPECT_EQ(image->bytes8()[3], 255);
     }
 }
 
-TEST(MapCommand, mips_appear_all_or_none)
+TEST(MapCommand, mips_are_written_all_or_none)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 8)));
     std::ofstream(folder / "level_0.png") << "older";
-    fs::create_directory(folder / "level_roughness_2.png"); // the sixth of eight cannot be written
+    fs::create_directory(folder / "level_roughness_2.png"); // prevents writing the sixth of eight files
     const ToolRun run = runTool({"map", "mips", "map.png", "-o", "level.png"}, folder.path());
     EXPECT_EQ(run.code, 4) << run.err;
     EXPECT_EQ(fs::file_size(folder / "level_0.png"), 5u);
     for (const char* name : {"level_roughness_0.png", "level_1.png", "level_2.png"})
         EXPECT_FALSE(fs::exists(folder / name)) << name;
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 3); // and no part
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 3); // no partial files either
 }
 
-TEST(MapCommand, mips_in_blocks_have_their_roughness_in_a_second_file)
+TEST(MapCommand, two_channel_compressed_mips_write_roughness_to_a_second_file)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 32)));
@@ -404,7 +405,7 @@ TEST(MapCommand, mips_in_blocks_have_their_roughness_in_a_second_file)
     EXPECT_EQ(fs::file_size(folder / "chain_roughness.dds"), 148u + 87 * 8);
 }
 
-TEST(MapCommand, mips_in_blocks_of_four_channels_are_one_file)
+TEST(MapCommand, four_channel_compressed_mips_are_one_file)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 32)));
@@ -422,7 +423,7 @@ TEST(MapCommand, mips_in_blocks_of_four_channels_are_one_file)
     EXPECT_EQ(fs::file_size(folder / "chain.dds"), 148u + 87 * 16);
 }
 
-TEST(MapCommand, what_textures_cannot_hold_is_refused_in_one_line)
+TEST(MapCommand, options_that_textures_cannot_store_are_refused_in_one_line)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 8)));
@@ -444,7 +445,7 @@ TEST(MapCommand, what_textures_cannot_hold_is_refused_in_one_line)
     }
 }
 
-TEST(MapCommand, mips_come_as_a_dds_that_others_read_and_as_files)
+TEST(MapCommand, mips_are_written_as_a_standard_dds_or_as_files)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::bricks, 32)));
@@ -462,7 +463,7 @@ TEST(MapCommand, mips_come_as_a_dds_that_others_read_and_as_files)
     EXPECT_TRUE(fs::exists(folder / "level_roughness_5.png"));
 }
 
-TEST(MapCommand, refuses_what_it_cannot_do_in_one_line)
+TEST(MapCommand, bad_input_is_refused_in_one_line)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 32)));
@@ -503,7 +504,7 @@ TEST(MapCommand, refuses_what_it_cannot_do_in_one_line)
     expectRefused(runTool({"map", "diff", "map.png", "map.png", "--from", "nobody"}, folder.path()), 1, folder, "none");
 }
 
-TEST(MapCommand, what_has_to_be_held_whole_is_refused_over_the_memory_limit_before_taking_it)
+TEST(MapCommand, whole_images_over_the_memory_limit_are_refused_before_allocation)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 600))); // 1.4 MB
@@ -512,10 +513,10 @@ TEST(MapCommand, what_has_to_be_held_whole_is_refused_over_the_memory_limit_befo
         expectRefused(run, 2, folder, "none.png");
         EXPECT_NE(run.err.find("--memory"), std::string::npos) << run.err;
     }
-    EXPECT_EQ(runTool({"map", "info", "map.png", "--memory", "1"}, folder.path()).code, 0); // by rows
+    EXPECT_EQ(runTool({"map", "info", "map.png", "--memory", "1"}, folder.path()).code, 0); // read by rows
 }
 
-TEST(MapCommand, odd_pictures_behave)
+TEST(MapCommand, degenerate_images_are_handled)
 {
     TemporaryFolder folder;
     Image one = makeImage(1, 1, PixelType::unorm8), wide = makeImage(301, 1, PixelType::unorm16);

@@ -1,4 +1,4 @@
-// What a map says about itself, on maps whose truth is known by how they were made.
+// The properties that are detected in a map, on maps whose properties are known by construction.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -88,9 +88,9 @@ TEST(Detect, a_relief_along_one_axis_is_undecidable)
     EXPECT_EQ(verdict(across).green, Green::undecidable);
 }
 
-TEST(Detect, slanted_ridges_tell_green_but_not_an_exchange)
+TEST(Detect, slanted_ridges_decide_green_but_not_exchange)
 {
-    // h = f(x + y): both slopes are the same, so exchanging them changes nothing.
+    // h = f(x + y): both slopes are equal, so exchanging them changes nothing.
     const Image slanted = mapOf(128, 128, [](float x, float y) { return glm::vec2(0.4f * std::sin(30 * (x + y))); });
     EXPECT_EQ(verdict(slanted).green, Green::up);
     EXPECT_EQ(verdict(slanted).swapped, Swapped::undecidable);
@@ -107,7 +107,7 @@ TEST(Detect, noise_without_a_relief_is_undecidable)
     EXPECT_EQ(verdict(noise).green, Green::undecidable);
 }
 
-TEST(Detect, one_small_dome_in_a_large_flat_map_is_enough)
+TEST(Detect, one_small_dome_in_a_large_flat_map_decides_green)
 {
     const auto dome = [](float x, float y) {
         const glm::vec2 d(x - 0.3f, y - 0.6f);
@@ -117,7 +117,7 @@ TEST(Detect, one_small_dome_in_a_large_flat_map_is_enough)
     EXPECT_EQ(verdict(mapOf(512, 512, dome)).green, Green::up);
 }
 
-TEST(Detect, two_channel_and_slope_maps_answer_too)
+TEST(Detect, two_channel_and_slope_maps_are_decided_too)
 {
     const auto bumps = [](float x, float y) {
         return glm::vec2(0.8f * std::cos(25 * x) * std::sin(19 * y), 0.6f * std::sin(25 * x) * std::cos(19 * y));
@@ -130,7 +130,7 @@ TEST(Detect, two_channel_and_slope_maps_answer_too)
     }
 }
 
-TEST(Detect, degenerate_pictures_are_undecidable_with_a_reason)
+TEST(Detect, degenerate_images_are_undecidable_with_a_reason)
 {
     for (const Image& image : {makeImage(1, 1, PixelType::unorm8), makeImage(1, 64, PixelType::unorm8),
                                makeImage(64, 64, PixelType::unorm16), makeImage(2, 2, PixelType::float32)}) {
@@ -143,7 +143,7 @@ TEST(Detect, degenerate_pictures_are_undecidable_with_a_reason)
     EXPECT_EQ(statisticsOfMap(nan).invalid, 1);
 }
 
-TEST(Info, tells_which_code_is_zero)
+TEST(Info, detects_the_zero_code)
 {
     const auto waves = [](float x, float y) {
         const HeightSample s = relief(Relief::waves, x, 1 - y);
@@ -156,7 +156,7 @@ TEST(Info, tells_which_code_is_zero)
     EXPECT_EQ(statisticsOfMap(mapOf(128, 128, waves, c)).centre, Centre::biased);
 }
 
-TEST(Info, finds_maps_that_went_through_the_srgb_curve)
+TEST(Info, detects_the_srgb_curve)
 {
     const Image map = makeReliefMap(Relief::waves, 64);
     EXPECT_EQ(statisticsOfMap(map).transfer, Transfer::linear);
@@ -167,7 +167,7 @@ TEST(Info, finds_maps_that_went_through_the_srgb_curve)
     EXPECT_EQ(statisticsOfMap(bent).transfer, Transfer::srgb);
 }
 
-TEST(Info, tells_contents_apart)
+TEST(Info, distinguishes_contents)
 {
     const Image tangent = makeReliefMap(Relief::bricks, 64);
     EXPECT_EQ(statisticsOfMap(tangent).content, Content::tangentSpace);
@@ -175,7 +175,7 @@ TEST(Info, tells_contents_apart)
     EXPECT_EQ(statisticsOfMap(changed(tangent, [](std::uint8_t* p) { p[0] = p[1] = p[2]; })).content, Content::grey);
     EXPECT_EQ(statisticsOfMap(changed(tangent, [](std::uint8_t* p) { p[0] = p[1] = 128, p[2] = 255; })).content,
               Content::flat);
-    // Two-channel files arrive as grey and alpha.
+    // Two-channel files are read as grey and alpha.
     const Image grey = changed(tangent, [](std::uint8_t* p) { p[3] = p[1], p[1] = p[2] = p[0]; });
     EXPECT_EQ(statisticsOfMap(grey).swizzle, Swizzle::greyAlpha);
     EXPECT_EQ(statisticsOfMap(grey).content, Content::twoChannel);

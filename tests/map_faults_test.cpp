@@ -1,4 +1,4 @@
-// Maps that are broken as files: they are named, and the command that is printed fixes them.
+// Faulty map files: the fault is named, and the printed command fixes the file.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,11 +20,11 @@ namespace {
 
 using namespace test;
 
-// Slopes of a sum of waves that are drawn at random: a relief, green up.
-Image someRelief(unsigned seed, PixelType type = PixelType::unorm8)
+// A relief with green up, whose slopes are a sum of random waves.
+Image randomRelief(unsigned seed, PixelType type = PixelType::unorm8)
 {
     std::mt19937 random(seed);
-    std::uniform_real_distribution<float> turn(0, 6.28f), steep(0.1f, 0.4f);
+    std::uniform_real_distribution<float> anyPhase(0, 6.28f), steep(0.1f, 0.4f);
     std::uniform_int_distribution<int> waves(2, 9);
     struct Wave {
         glm::vec2 k;
@@ -32,7 +32,7 @@ Image someRelief(unsigned seed, PixelType type = PixelType::unorm8)
     };
     std::vector<Wave> relief(5);
     for (Wave& w : relief)
-        w = {{float(waves(random)), float(waves(random))}, turn(random), steep(random)};
+        w = {{float(waves(random)), float(waves(random))}, anyPhase(random), steep(random)};
     Image image = makeImage(256, 256, type);
     std::vector<glm::vec4> row(256);
     for (int y = 0; y < 256; ++y) {
@@ -67,7 +67,7 @@ struct Broken {
     void (*change)(glm::vec4&);
 };
 
-// None of these is made with Cotan's own `undo`.
+// None of these changes uses Cotan's own `undo`.
 const Broken kBroken[] = {
     {"srgb",
      [](glm::vec4& t) {
@@ -95,19 +95,19 @@ TEST(MapFaults, soundMapsHaveNone)
 {
     for (unsigned seed = 1; seed <= 6; ++seed)
         for (const PixelType type : {PixelType::unorm8, PixelType::unorm16})
-            EXPECT_EQ(kindsOf(someRelief(seed, type)), std::vector<std::string>{}) << seed;
+            EXPECT_EQ(kindsOf(randomRelief(seed, type)), std::vector<std::string>{}) << seed;
 }
 
-TEST(MapFaults, eachIsNamedOnReliefsThatAreDrawnAtRandom)
+TEST(MapFaults, eachIsDetectedOnRandomReliefs)
 {
     for (unsigned seed = 1; seed <= 6; ++seed)
         for (const Broken& broken : kBroken)
-            EXPECT_EQ(kindsOf(brokenBy(someRelief(seed), broken.change)), std::vector{broken.kind}) << seed;
+            EXPECT_EQ(kindsOf(brokenBy(randomRelief(seed), broken.change)), std::vector{broken.kind}) << seed;
 }
 
 TEST(MapFaults, eightBitsInAFileOf16AreNamed)
 {
-    const Image eight = someRelief(3);
+    const Image eight = randomRelief(3);
     Image wide = makeImage(eight.width, eight.height, PixelType::unorm16);
     std::vector<glm::vec4> row(std::size_t(eight.width));
     for (int y = 0; y < eight.height; ++y) {
@@ -117,20 +117,20 @@ TEST(MapFaults, eightBitsInAFileOf16AreNamed)
     EXPECT_EQ(kindsOf(wide), std::vector<std::string>{"8_in_16"});
 }
 
-// The command is run as it is printed; the picture is compared with the one before it was broken.
-TEST(MapFaults, theCommandThatInfoAndDetectPrintFixesTheFile)
+// Runs the command as printed and compares the image with the one before the damage.
+TEST(MapFaults, printedCommandFixesTheFile)
 {
     TemporaryFolder folder;
-    const Image sound = someRelief(7);
+    const Image sound = randomRelief(7);
     for (const Broken& broken : kBroken) {
         ASSERT_TRUE(writeImage(folder / "a map.png", brokenBy(sound, broken.change)));
         for (const char* command : {"info", "detect"}) {
             if (broken.kind == "green_down" && command == std::string("info"))
-                continue; // it looks at numbers alone
-            const ToolRun told = runTool({"map", command, "a map.png"}, folder.path());
-            const std::size_t at = told.out.find("to fix it: cotan ");
-            ASSERT_NE(at, std::string::npos) << broken.kind << "\n" << told.out;
-            const std::string line = told.out.substr(at + 18, told.out.find('\n', at) - at - 18);
+                continue; // info does not judge green
+            const ToolRun printed = runTool({"map", command, "a map.png"}, folder.path());
+            const std::size_t at = printed.out.find("to fix it: cotan ");
+            ASSERT_NE(at, std::string::npos) << broken.kind << "\n" << printed.out;
+            const std::string line = printed.out.substr(at + 18, printed.out.find('\n', at) - at - 18);
             EXPECT_NE(line.find("'a map.png'"), std::string::npos) << line;
             std::vector<std::string> words{"map", "convert", "a map.png"};
             std::istringstream rest(line.substr(line.find("' ") + 2, line.find(" -o ") - line.find("' ") - 2));
@@ -141,22 +141,22 @@ TEST(MapFaults, theCommandThatInfoAndDetectPrintFixesTheFile)
             ASSERT_EQ(fixed.code, 0) << fixed.err;
             const auto image = readImage(folder / "fixed.png");
             ASSERT_TRUE(image);
-            // Curves and weaker vectors lose steps: two of 255. Others lose nothing.
-            const int most = broken.kind == "bgr" || broken.kind == "green_down" ? 0 : 2;
+            // Curves and shorter vectors lose up to two of 255 steps. The other faults are undone exactly.
+            const int tolerance = broken.kind == "bgr" || broken.kind == "green_down" ? 0 : 2;
             int worst = 0;
             for (std::size_t i = 0; i < 4 * sound.pixelCount(); ++i)
                 worst = std::max(worst, std::abs(int(sound.bytes8()[i]) - int(image->bytes8()[i])));
-            EXPECT_LE(worst, most) << broken.kind << " " << line;
+            EXPECT_LE(worst, tolerance) << broken.kind << " " << line;
         }
     }
 }
 
-// Of a map whose zero is 127.5, green that is turned about 128 leans by 0.45 degrees.
-TEST(MapFaults, greenOfAMapThatIsMadeFor2cMinus1IsTurnedAbout127AndAHalf)
+// If the zero of a map is 127.5, reversing green about 128 tilts normals by 0.45 degrees.
+TEST(MapFaults, greenOfABiasedMapIsReversedAbout127AndAHalf)
 {
     TemporaryFolder folder;
-    const Image relief = someRelief(7, PixelType::float32);
-    Image sound = makeImage(relief.width, relief.height, PixelType::unorm8), turned = sound;
+    const Image relief = randomRelief(7, PixelType::float32);
+    Image sound = makeImage(relief.width, relief.height, PixelType::unorm8), reversed = sound;
     std::vector<glm::vec4> row(std::size_t(relief.width));
     for (int y = 0; y < relief.height; ++y) {
         loadRow(relief, y, row);
@@ -166,12 +166,12 @@ TEST(MapFaults, greenOfAMapThatIsMadeFor2cMinus1IsTurnedAbout127AndAHalf)
         loadRow(sound, y, row);
         for (glm::vec4& t : row)
             t.y = 1 - t.y;
-        storeRow(turned, y, row);
+        storeRow(reversed, y, row);
     }
-    ASSERT_TRUE(writeImage(folder / "turned.png", turned));
-    const ToolRun told = runTool({"map", "detect", "turned.png"}, folder.path());
-    EXPECT_NE(told.out.find("convert turned.png --from directx,biased --to gltf,biased"), std::string::npos)
-        << told.out;
+    ASSERT_TRUE(writeImage(folder / "turned.png", reversed));
+    const ToolRun printed = runTool({"map", "detect", "turned.png"}, folder.path());
+    EXPECT_NE(printed.out.find("convert turned.png --from directx,biased --to gltf,biased"), std::string::npos)
+        << printed.out;
     ASSERT_EQ(runTool({"map", "convert", "turned.png", "--from", "directx,biased", "--to", "gltf,biased", "-o",
                        "fixed.png", "--quiet"},
                       folder.path())
@@ -182,7 +182,7 @@ TEST(MapFaults, greenOfAMapThatIsMadeFor2cMinus1IsTurnedAbout127AndAHalf)
     EXPECT_TRUE(std::equal(sound.bytes8(), sound.bytes8() + 4 * sound.pixelCount(), fixed->bytes8()));
 }
 
-// Each texel by itself, in images that are wider than high and higher than wide.
+// Each texel on its own, in images wider than high and higher than wide.
 TEST(MapFaults, damageIsUndoneTexelByTexel)
 {
     std::mt19937 dice(3);
@@ -208,8 +208,8 @@ TEST(MapFaults, damageIsUndoneTexelByTexel)
     }
 }
 
-// A rendered picture, or a photograph, has no channels to exchange and no curve to undo.
-TEST(MapFaults, picturesThatAreNoNormalMapsHaveNoFaultsOfOne)
+// A render or a photograph has no channels to exchange and no curve to undo.
+TEST(MapFaults, imagesThatAreNoNormalMapsHaveNoFaults)
 {
     for (const Content content : {Content::other, Content::grey})
         for (const Transfer transfer : {Transfer::srgb, Transfer::linearised}) {
@@ -221,21 +221,21 @@ TEST(MapFaults, picturesThatAreNoNormalMapsHaveNoFaultsOfOne)
         }
 }
 
-TEST(MapFaults, exchangedRedAndBlueAreTheReasonWhyGreenCannotBeTold)
+TEST(MapFaults, exchangedRedAndBlueMakeGreenUndecidable)
 {
-    const GreenVerdict verdict = greenOf(brokenBy(someRelief(2), [](glm::vec4& t) { std::swap(t.x, t.z); }));
+    const GreenVerdict verdict = greenOf(brokenBy(randomRelief(2), [](glm::vec4& t) { std::swap(t.x, t.z); }));
     EXPECT_EQ(verdict.green, Green::undecidable);
     EXPECT_NE(verdict.reason.find("red and blue are exchanged"), std::string::npos) << verdict.reason;
 }
 
-TEST(MapFaults, noMapIsWrittenBroken)
+TEST(MapFaults, brokenConventionsAreRefusedAsTarget)
 {
     TemporaryFolder folder;
-    ASSERT_TRUE(writeImage(folder / "map.png", someRelief(1)));
+    ASSERT_TRUE(writeImage(folder / "map.png", randomRelief(1)));
     const ToolRun run =
         runTool({"map", "convert", "map.png", "--from", "gltf", "--to", "gltf,srgb", "-o", "out.png"}, folder.path());
     EXPECT_EQ(run.code, 1);
-    EXPECT_NE(run.err.find("--to: srgb, linearised, bgr and grb say how a broken map is stored"), std::string::npos)
+    EXPECT_NE(run.err.find("--to: srgb, linearised, bgr and grb describe broken maps"), std::string::npos)
         << run.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
 }

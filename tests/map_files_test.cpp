@@ -1,4 +1,4 @@
-// Files of maps by the calls that `cotan map` makes: what they say, and that a stopped one leaves nothing.
+// Map files by the calls that `cotan map` makes: their messages, and that a stopped call leaves no file.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ class MapFiles : public ::testing::Test {
 protected:
     void SetUp() override { ASSERT_TRUE(writeImage(map, makeReliefMap(Relief::domes, 64))); }
 
-    // Every call that takes long, with these options; writes OUT where it writes.
+    // Results of every call that takes long, with the given options; those that write a file write `out`.
     std::vector<Status> allCalls(const maps::FileOptions& files) const
     {
         const auto status = [](const auto& result) { return result ? Status(Done{}) : Status(result.error()); };
@@ -59,17 +59,17 @@ protected:
     const fs::path map = folder / "map.png", out = folder / "out.png";
 };
 
-TEST_F(MapFiles, workOnASmallFileIsHeldToItsSize)
+TEST_F(MapFiles, memoryIsLimitedByTheFileSize)
 {
-    // One colour, which a PNG holds in a few hundred bytes. Decoding it is within the budget, work on it is not.
+    // One colour, which a PNG stores in a few hundred bytes. Decoding is within the budget, processing is not.
     const fs::path flat = folder / "flat.png";
     ASSERT_TRUE(writeImage(flat, Image{"", 512, 512, PixelType::unorm8, std::vector(4 * 512 * 512, std::byte{128})}));
     maps::FileOptions files;
     const double size = double(fs::file_size(flat));
-    const auto leftBeyond = [&](double bytes) { files.limits.imageBytesBeyond = std::size_t(bytes - 128 * size); };
-    ASSERT_GT(4.0 * 512 * 512, 128 * size); // else there is nothing to be refused
+    const auto allowBytes = [&](double bytes) { files.limits.imageBytesBeyond = std::size_t(bytes - 128 * size); };
+    ASSERT_GT(4.0 * 512 * 512, 128 * size); // otherwise nothing would be refused
 
-    leftBeyond(4.0 * 512 * 512 + 1);
+    allowBytes(4.0 * 512 * 512 + 1);
     const auto height = maps::heightFromNormalsFile(flat, out, {.from = asGltf()}, files);
     const auto mips = maps::writeMips(flat, out, {.from = asGltf(), .to = asGltf()}, files);
     ASSERT_FALSE(height);
@@ -78,13 +78,13 @@ TEST_F(MapFiles, workOnASmallFileIsHeldToItsSize)
     EXPECT_NE(mips.error().message.find("the chain takes"), std::string::npos) << mips.error().message;
     EXPECT_TRUE(height.error().memory && mips.error().memory);
     files.limits.imageBytes = 1;
-    const auto rows = maps::surveyFile(flat, files); // a PNG is opened whatever its rows take, and refused then
+    const auto rows = maps::surveyFile(flat, files); // opening a PNG succeeds at any limit; reading it is refused
     ASSERT_FALSE(rows);
     EXPECT_TRUE(rows.error().memory) << rows.error().message;
     EXPECT_FALSE(fs::exists(out));
 }
 
-TEST_F(MapFiles, aCallThatIsStoppedSaysSoAndLeavesNoFile)
+TEST_F(MapFiles, stoppedCallFailsAndLeavesNoFile)
 {
     std::ofstream(folder / "quad.obj")
         << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
@@ -97,18 +97,18 @@ TEST_F(MapFiles, aCallThatIsStoppedSaysSoAndLeavesNoFile)
         ++number;
     }
     EXPECT_EQ(filesIn(folder.path()), before);
-    // The same calls are not refused for another reason.
+    // Without the stop, the same calls succeed.
     for (const Status& done : allCalls({}))
         EXPECT_TRUE(done) << done.error().message;
     EXPECT_GT(filesIn(folder.path()).size(), before.size() + 2);
 }
 
-TEST_F(MapFiles, progressRunsToOneWhereNothingStopsIt)
+TEST_F(MapFiles, progressEndsAtOne)
 {
     double last = 0;
-    const maps::FileOptions files{.limits = {}, .threads = 1, .progress = [&](double share) {
-                                      EXPECT_GE(share, last);
-                                      last = share;
+    const maps::FileOptions files{.limits = {}, .threads = 1, .progress = [&](double fraction) {
+                                      EXPECT_GE(fraction, last);
+                                      last = fraction;
                                       return true;
                                   }};
     ASSERT_TRUE(maps::surveyFile(map, files)); // in two passes
@@ -118,7 +118,7 @@ TEST_F(MapFiles, progressRunsToOneWhereNothingStopsIt)
     EXPECT_EQ(last, 1);
 }
 
-TEST_F(MapFiles, aConvertedFileIsWhatItsPixelsConvertTo)
+TEST_F(MapFiles, convertedFileHasTheConvertedPixels)
 {
     const auto done = maps::convertFile(map, out, {.from = asGltf(), .to = asDirectx()});
     ASSERT_TRUE(done) << done.error().message;

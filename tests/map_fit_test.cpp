@@ -1,4 +1,4 @@
-// Whether a map fits another frame: judged at places on the surface, wherever they lie between texels.
+// Whether a map fits another frame, judged at surface points that may lie anywhere between texels.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ using namespace test;
 
 MapUse fitUse(const std::vector<Corner>& corners, double scale = 1)
 {
-    MapUse use{surfaceOf(corners), kAsMeant};
+    MapUse use{surfaceOf(corners), kUnconverted};
     use.strength = scale;
     return use;
 }
@@ -26,7 +26,7 @@ Image fitMap()
     return floatMap(4, 4, [](int, int) { return kTexel; });
 }
 
-TEST(MapFit, pointsAreSpreadByArea)
+TEST(MapFit, pointsAreDistributedByArea)
 {
     // Areas 1 and 3 (two triangles each), and 4 without area in uv.
     const MappedSurface s =
@@ -47,11 +47,11 @@ TEST(MapFit, pointsAreSpreadByArea)
     EXPECT_EQ(counts[2], 300u);
     EXPECT_EQ(counts[3], 300u);
     for (int k = 0; k < 3; ++k)
-        EXPECT_NEAR(middle[k], 1.0 / 3, 0.01); // of random points the mean would be good to 0.008
+        EXPECT_NEAR(middle[k], 1.0 / 3, 0.01); // for random points the mean would be accurate to 0.008
     EXPECT_TRUE(pointsOver(surfaceOf(rectangle({4, 0}, {2, 2}, {0.5f, 0}, {0.5f, 1})), 10).empty());
 }
 
-TEST(MapFit, theErrorIsThatOfTheOtherFrame)
+TEST(MapFit, errorIsThatOfTheOtherFrame)
 {
     const MapUse use = fitUse(rectangle({0, 0}, {2, 1}, {0, 0}, {1, 1})); // u is half as dense as v
     const Image map = fitMap();
@@ -67,13 +67,13 @@ TEST(MapFit, theErrorIsThatOfTheOtherFrame)
                          {Frame::mikktspace, Frame::orthonormal, TangentOrigin::generated, TangentOrigin::generated})
                     .mean,
                 0, 1e-4);
-    // The right answer for the new frame, in a map of another size.
+    // The exact result for the new frame, in a map of another size.
     const Image right = floatMap(2, 8, [](int, int) { return glm::dvec3(0.8, 0.3, 1); });
     EXPECT_NEAR(mapError(map, right, {&use, 1}, kFitCotangent).maximum, 0, 1e-4);
     EXPECT_GT(mapError(right, map, {&use, 1}, kFitCotangent).mean, 10);
 }
 
-TEST(MapFit, usesWeighByTheirAreaAndFlattenedOnesDoNotCount)
+TEST(MapFit, usesAreWeightedByAreaAndZeroStrengthIsIgnored)
 {
     const MapUse good = fitUse(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1})),
                  bad = fitUse(rectangle({0, 0}, {4, 2}, {0, 0}, {1, 1}));
@@ -87,9 +87,9 @@ TEST(MapFit, usesWeighByTheirAreaAndFlattenedOnesDoNotCount)
     EXPECT_NEAR(mapError(map, map, {&negative, 1}, kFitCotangent).mean, alone, 1e-4);
 }
 
-TEST(MapFit, readsTheMapAsTheUseSays)
+TEST(MapFit, readsTheMapWithTheWrapModesOfTheUse)
 {
-    // Only the third column of four is not flat. u from 1.5 to 1.75 repeats it, mirrors the second, clamps to the last.
+    // Only the third of four columns is tilted. u from 1.5 to 1.75 reads it with repeat, not with mirror or clamp.
     const Image map = floatMap(4, 1, [](int x, int) { return x == 2 ? kTexel : glm::dvec3(0, 0, 1); });
     for (const auto& [wrap, seen] : {std::pair(Wrap::repeat, true), {Wrap::mirror, false}, {Wrap::clamp, false}}) {
         MapUse use = fitUse(rectangle({0, 0}, {2, 4}, {1.5f, 0}, {1.75f, 1}));
@@ -102,7 +102,7 @@ TEST(MapFit, readsTheMapAsTheUseSays)
     }
 }
 
-// No triangle covers the centre of a texel: v runs from 0.05 to 0.3 of a single row, whose centre is at 0.5.
+// No triangle covers a texel centre: v runs from 0.05 to 0.3 of a single row, whose centre is at 0.5.
 TEST(MapFit, aRowBetweenTexelCentresIsJudged)
 {
     const MapUse use = fitUse(rectangle({0, 0}, {4, 0.5f}, {0, 0.05f}, {1, 0.3f}));
@@ -113,7 +113,7 @@ TEST(MapFit, aRowBetweenTexelCentresIsJudged)
     EXPECT_FALSE(fitsAsItIs(s));
 }
 
-TEST(MapFit, nothingIsSaidWhereNothingShowsTheMap)
+TEST(MapFit, mapOnNoAreaHasNoError)
 {
     const MapUse line = fitUse(rectangle({0, 0}, {4, 1}, {0, 0.5f}, {1, 0.5f})), empty = fitUse({});
     const Image map = fitMap();
@@ -131,15 +131,15 @@ TEST(MapFit, manyUsesShareThePoints)
     EXPECT_EQ(mapError(map, map, uses, kFitCotangent).count, 100u * (65536u / 100u));
 }
 
-TEST(MapFit, aMapFitsUpToThreeTenthsOfADegreeOn95PercentOfTheArea)
+TEST(MapFit, mapFitsUpTo0Point3DegreesAtThe95thPercentile)
 {
     EXPECT_TRUE(fitsAsItIs({100, 0.1, 0.29, 5}));
     EXPECT_FALSE(fitsAsItIs({100, 0.1, 0.31, 0.4}));
     EXPECT_TRUE(fitsAsItIs({100, 0.5, 0.29, 5}));
-    EXPECT_TRUE(fitsAsItIs({})); // nothing shows it: nothing asks for another
+    EXPECT_TRUE(fitsAsItIs({})); // not visible, so no other map is needed
 }
 
-TEST(MapFit, pointsInATriangleAreTheSequenceOfThePlasticNumber)
+TEST(MapFit, pointsInATriangleAreTheR2Sequence)
 {
     double rho = 1.3; // rho^3 = rho + 1
     for (int i = 0; i < 50; ++i)
@@ -151,7 +151,7 @@ TEST(MapFit, pointsInATriangleAreTheSequenceOfThePlasticNumber)
         double a = 0.5 + k / rho, b = 0.5 + k / (rho * rho);
         a -= std::floor(a);
         b -= std::floor(b);
-        if (a + b > 1 + 1e-9) // of the square's other half: turned about its middle
+        if (a + b > 1 + 1e-9) // in the other half of the square: rotated about its centre
             a = 1 - a, b = 1 - b;
         const glm::dvec3 found = points[std::size_t(k)].barycentric;
         EXPECT_NEAR(found.y, a, 1e-11) << k;
@@ -160,7 +160,7 @@ TEST(MapFit, pointsInATriangleAreTheSequenceOfThePlasticNumber)
     }
 }
 
-TEST(MapFit, theAreaOfThePointsIsThatOfTheTrianglesThatShowTheMap)
+TEST(MapFit, areaIsThatOfTrianglesWithUvArea)
 {
     double area = -1;
     const MappedSurface some = surfaceOf(rectangle({0, 0}, {1, 3}, {0, 0}, {1, 1})
@@ -171,7 +171,7 @@ TEST(MapFit, theAreaOfThePointsIsThatOfTheTrianglesThatShowTheMap)
     EXPECT_EQ(area, 0);
 }
 
-TEST(MapFit, surfacesShareThePointsOf128AndHave16AtLeast)
+TEST(MapFit, surfacesShareThePointsOf128AndHaveAtLeast16)
 {
     for (const auto& [surfaces, points] : {std::pair(0u, 4096u),
                                            {1u, 4096u},
@@ -183,12 +183,12 @@ TEST(MapFit, surfacesShareThePointsOf128AndHave16AtLeast)
         EXPECT_EQ(pointsOfEach(surfaces), points) << surfaces;
 }
 
-TEST(MapFit, usesShareThePointsOf16AndMayBeGivenFewer)
+TEST(MapFit, usesShareThePointsOf16UpToAGivenLimit)
 {
     const MapUse use = fitUse(rectangle({0, 0}, {2, 1}, {0, 0}, {1, 1}));
     const Image map = fitMap();
-    const auto count = [&](std::size_t uses, std::size_t most) {
-        return mapErrors(map, map, std::vector(uses, use), {&kFitCotangent, 1}, {}, most)[0].count;
+    const auto count = [&](std::size_t uses, std::size_t limit) {
+        return mapErrors(map, map, std::vector(uses, use), {&kFitCotangent, 1}, {}, limit)[0].count;
     };
     EXPECT_EQ(count(1, 7), 7u);
     EXPECT_EQ(count(1, 5000), 4096u);
@@ -196,8 +196,8 @@ TEST(MapFit, usesShareThePointsOf16AndMayBeGivenFewer)
     EXPECT_EQ(count(64, 100), 6400u);
 }
 
-// Of more than 1,024 uses every second is measured, the first among them.
-TEST(MapFit, ofVeryManyUsesEvenlyChosenOnesAreMeasured)
+// Of more than 1,024 uses every second one is measured, starting with the first.
+TEST(MapFit, manyUsesAreSampledEvenly)
 {
     const Image map = fitMap();
     const MapUse good = fitUse(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1})),
@@ -213,7 +213,7 @@ TEST(MapFit, ofVeryManyUsesEvenlyChosenOnesAreMeasured)
     EXPECT_GT(errorOf().maximum, 1);
 }
 
-TEST(MapFit, whatIsFlattenedToAMillionthDoesNotCount)
+TEST(MapFit, strengthUpToAMillionthIsIgnored)
 {
     const Image map = fitMap();
     for (const auto& [strength, counts] :
@@ -223,8 +223,8 @@ TEST(MapFit, whatIsFlattenedToAMillionthDoesNotCount)
     }
 }
 
-// The same texel twice: signed, and coded about the middle; each is read by its own rule.
-TEST(MapFit, theMapAfterwardsIsReadWithItsOwnExpansion)
+// The same normal stored signed and as codes about the middle; each map is read with its own expansion.
+TEST(MapFit, convertedMapIsReadWithItsOwnExpansion)
 {
     const MapUse use = fitUse(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}));
     const glm::dvec3 m = glm::normalize(kTexel);
@@ -236,7 +236,7 @@ TEST(MapFit, theMapAfterwardsIsReadWithItsOwnExpansion)
     EXPECT_GT(mapError(before, after, {&use, 1}, same).mean, 1);
 }
 
-TEST(MapFit, directionsTurnAsLinesAndSayNothingWhereOneHasNone)
+TEST(MapFit, directionsAreComparedAsUndirectedLines)
 {
     Mesh mesh = meshOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}));
     const auto turn = [&](double degrees) {
@@ -256,7 +256,7 @@ TEST(MapFit, directionsTurnAsLinesAndSayNothingWhereOneHasNone)
     EXPECT_EQ(turn(999).count, 0u);
 }
 
-TEST(MapFit, whatIsReadAtVerticesHasToBeDerivedUnlessTheFileHasIt)
+TEST(MapFit, vertexFramesAreDerivedUnlessTheFileHasThem)
 {
     using enum TangentOrigin;
     struct Case {
@@ -284,7 +284,7 @@ TEST(MapFit, whatIsReadAtVerticesHasToBeDerivedUnlessTheFileHasIt)
 
 // ---- texels ---------------------------------------------------------------------------------
 
-TEST(Texels, areFoundByColumnThenRowInEveryType)
+TEST(Texels, areReadByColumnAndRowInEveryType)
 {
     Image bytes = makeImage(3, 2, PixelType::unorm8, ""), words = makeImage(3, 2, PixelType::unorm16, "");
     for (std::size_t i = 0; i < 24; ++i) {
@@ -296,12 +296,12 @@ TEST(Texels, areFoundByColumnThenRowInEveryType)
     EXPECT_EQ(storedTexel(words, 0, 1), glm::dvec3(12000, 13000, 14000) / 65535.0);
     const Image floats = floatMap(3, 2, [](int x, int y) { return glm::dvec3(x, y, 7); });
     EXPECT_EQ(storedTexel(floats, 2, 1), glm::dvec3(2, 1, 7));
-    const auto asMeant = toFormat<f64::cotan_normal_format>(kAsMeant);
+    const auto asMeant = toFormat<f64::cotan_normal_format>(kUnconverted);
     EXPECT_EQ(decodedAt(floats, Wrap::repeat, Wrap::clamp, asMeant, {-0.1, 1.9}).x, 2); // repeats along u
-    EXPECT_EQ(decodedAt(floats, Wrap::repeat, Wrap::clamp, asMeant, {-0.1, 1.9}).y, 1); // and stays in the last row
+    EXPECT_EQ(decodedAt(floats, Wrap::repeat, Wrap::clamp, asMeant, {-0.1, 1.9}).y, 1); // clamps to the last row
 }
 
-TEST(Texels, coordinatesWrapAsTheSamplerSays)
+TEST(Texels, coordinatesFollowTheWrapMode)
 {
     EXPECT_EQ(wrappedTexel(0.26, 4, Wrap::repeat), 1);
     EXPECT_EQ(wrappedTexel(1.26, 4, Wrap::repeat), 1);
@@ -313,7 +313,7 @@ TEST(Texels, coordinatesWrapAsTheSamplerSays)
     EXPECT_EQ(wrappedTexel(std::nan(""), 4, Wrap::repeat), 0);
 }
 
-TEST(Texels, anImageHasPixelsOnlyWithAllOfThem)
+TEST(Texels, imageWithMissingBytesHasNoPixels)
 {
     Image image = makeImage(2, 2, PixelType::unorm8, "");
     EXPECT_TRUE(hasPixels(image));

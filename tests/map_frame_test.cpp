@@ -1,4 +1,4 @@
-// The frame that a normal map was made for stays with it from file to file.
+// The frame that a normal map was made for is kept from file to file.
 #include <array>
 #include <fstream>
 
@@ -24,7 +24,7 @@ protected:
         ASSERT_TRUE(writeImage(folder / "map.png", map));
     }
 
-    // What the file says that the command makes; its last word.
+    // The frame stored in the file that the command writes, which is its last argument unless `file` names it.
     std::string after(std::vector<std::string> command, const std::string& file = {}) const
     {
         command.insert(command.begin(), "map");
@@ -37,7 +37,7 @@ protected:
     TemporaryFolder folder;
 };
 
-TEST_F(MapFrame, infoSaysIt)
+TEST_F(MapFrame, isPrintedByInfo)
 {
     const ToolRun said = runTool({"map", "info", "map.png"}, folder.path());
     EXPECT_NE(said.out.find("made for the frame: smooth\n"), std::string::npos) << said.out;
@@ -60,7 +60,7 @@ TEST_F(MapFrame, staysWhenGreenChannelsBitsAndCompressionChange)
     EXPECT_EQ(converted({"gltf", "-o", "a.ktx2"}), "smooth");
     EXPECT_EQ(converted({"gltf", "--compress", "bc5", "-o", "b.ktx2"}), "smooth");
     EXPECT_EQ(converted({"gltf", "--compress", "bc7", "-o", "c.ktx2"}), "smooth");
-    EXPECT_EQ(converted({"gltf", "-o", "a.tif"}), ""); // has no place for it
+    EXPECT_EQ(converted({"gltf", "-o", "a.tif"}), ""); // the format cannot store it
     EXPECT_EQ(after({"convert", "plain.png", "--from", "gltf", "--to", "directx", "-o", "d.png"}), "");
 }
 
@@ -76,7 +76,7 @@ TEST_F(MapFrame, staysInMipLevelsAndUnderADetail)
     EXPECT_EQ(after({"blend", "plain.png", "map.png", "-o", "c.png"}), "");
 }
 
-TEST_F(MapFrame, isLostInObjectSpaceAndComesFromTheMeshThatLeadsBack)
+TEST_F(MapFrame, isDroppedInObjectSpaceAndSetByConversionBack)
 {
     std::ofstream(folder / "quad.obj")
         << "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
@@ -88,8 +88,8 @@ TEST_F(MapFrame, isLostInObjectSpaceAndComesFromTheMeshThatLeadsBack)
               "orthonormal");
 }
 
-// Two channels hold no direction into the surface: what points there is counted and said.
-TEST_F(MapFrame, directionsBehindTheMeshAreCountedWhereTwoChannelsCannotHoldThem)
+// Two channels cannot store directions into the surface; these are counted and reported.
+TEST_F(MapFrame, directionsBelowTheSurfaceAreCountedForTwoChannels)
 {
     std::ofstream(folder / "quad.obj")
         << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";

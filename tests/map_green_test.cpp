@@ -1,5 +1,5 @@
-// The figures of a map's green, on reliefs whose derivatives are the same everywhere: h = (p x^2 + 2 q x y + r y^2) / 2
-// has the slopes (p x + q y, q x + r y), so that da/dx, da/dy and db/dx, db/dy are p, q and q, r.
+// Figures of green on reliefs with constant second derivatives: h = (p x^2 + 2 q x y + r y^2) / 2 has the slopes (p x +
+// q y, q x + r y), so da/dx, da/dy and db/dx, db/dy are p, q and q, r.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ struct Quadric {
     double p, q, r;
 };
 
-// x to the right and y up, both in texels from the middle, times 1/width.
+// x to the right and y up, both in texels from the centre, divided by the width.
 Image mapOf(const Quadric& h, int width, int height, PixelType type = PixelType::float32)
 {
     Image image = makeImage(width, height, type);
@@ -31,7 +31,7 @@ Image mapOf(const Quadric& h, int width, int height, PixelType type = PixelType:
     return image;
 }
 
-// Correlations: 2 q q / (q^2 + q^2) as it is, 2 p r / (p^2 + r^2) with red and green exchanged; signs turn with green.
+// Correlations: 2 q q / (q^2 + q^2) as stored, 2 p r / (p^2 + r^2) for exchanged channels; reversed green negates both.
 TEST(GreenFigures, areTheCorrelationsOfTheDerivatives)
 {
     for (const Quadric& h : {Quadric{0.4, 0.3, 0.2}, {0.1, -0.4, 0.6}, {0.5, 0.2, -0.15}})
@@ -52,12 +52,12 @@ TEST(GreenFigures, areTheCorrelationsOfTheDerivatives)
             EXPECT_EQ(v.sampled, 1);
             EXPECT_GT(v.deviations, 500); // the patches agree
             EXPECT_GT(v.residualRatio, 1000);
-            EXPECT_LE(v.residualRatio, 20000); // 2 over the least that counts
+            EXPECT_LE(v.residualRatio, 20000); // 2 over the smallest residual that counts
             EXPECT_LE(v.deviations, 1000);
         }
 }
 
-TEST(GreenFigures, areOfExchangedChannelsWhereTheseExplainMore)
+TEST(GreenFigures, areThoseOfExchangedChannelsIfTheyExplainMore)
 {
     for (const bool up : {true, false}) {
         Image image = mapOf({0.5, 0.3, 0.1}, 96, 64); // 2 p r / (p^2 + r^2): 0.38
@@ -74,17 +74,17 @@ TEST(GreenFigures, areOfExchangedChannelsWhereTheseExplainMore)
         EXPECT_EQ(v.swapped, Swapped::yes) << v.reason;
         EXPECT_NEAR(v.votes, 1, 1e-9);
     }
-    // Both explain it alike, and a relief that has none across.
+    // Undecidable: both orders explain the relief equally, or it has no slope across.
     EXPECT_EQ(greenOf(mapOf({0.3, 0.2, 0.3}, 96, 64)).swapped, Swapped::undecidable);
     const GreenVerdict along = greenOf(mapOf({0.5, 0, 0.2}, 96, 64));
     EXPECT_EQ(along.green, Green::undecidable);
-    EXPECT_EQ(along.reason, "the relief runs along the rows and columns only: either way of green explains it");
+    EXPECT_EQ(along.reason, "the relief runs along the rows and columns only: both directions of green explain it");
 }
 
-// A figure of rounding alone has no relief.
+// A change within rounding is not a relief.
 TEST(GreenFigures, needAReliefAboveTheRoundingOfItsType)
 {
-    // Slopes change by some 0.0004 from texel to texel; the steps of 8 bits are 1/127, of 16 bits 1/32767.
+    // Slopes change by about 0.0004 per texel; the steps of 8 bits are 1/127, of 16 bits 1/32767.
     const Quadric weak{0.04, 0.03, 0.02};
     EXPECT_EQ(greenOf(mapOf(weak, 96, 64, PixelType::unorm8)).green, Green::undecidable);
     EXPECT_EQ(greenOf(mapOf(weak, 96, 64, PixelType::unorm16)).green, Green::up);
@@ -92,15 +92,15 @@ TEST(GreenFigures, needAReliefAboveTheRoundingOfItsType)
     EXPECT_EQ(greenOf(mapOf({0.4, 0.3, 0.2}, 96, 64, PixelType::unorm16)).green, Green::up);
 }
 
-// Pictures of up to 2048 a side are looked at whole, of larger ones squares of 128 in the middle of each of 16 a side.
-TEST(GreenFigures, tellWhichShareOfThePictureWasLookedAt)
+// Images up to 2048 a side are sampled whole, larger ones by 128 x 128 squares at the centres of a grid of 16 a side.
+TEST(GreenFigures, stateTheSampledFractionOfTheImage)
 {
-    EXPECT_EQ(PatchSampler(2048, 3, PixelType::unorm8).share(), 1);
-    EXPECT_EQ(PatchSampler(3, 2048, PixelType::unorm8).share(), 1);
-    EXPECT_NEAR(PatchSampler(4096, 512, PixelType::unorm8).share(), 0.25, 1e-9); // of each square of 256
-    EXPECT_NEAR(PatchSampler(512, 4096, PixelType::unorm8).share(), 0.25, 1e-9);
-    EXPECT_NEAR(PatchSampler(4096, 100, PixelType::unorm8).share(), 0.5 * 36 / 100, 1e-9); // from row 64 on
-    // Strips of any height give the same as the whole.
+    EXPECT_EQ(PatchSampler(2048, 3, PixelType::unorm8).coveredFraction(), 1);
+    EXPECT_EQ(PatchSampler(3, 2048, PixelType::unorm8).coveredFraction(), 1);
+    EXPECT_NEAR(PatchSampler(4096, 512, PixelType::unorm8).coveredFraction(), 0.25, 1e-9); // of each square of 256
+    EXPECT_NEAR(PatchSampler(512, 4096, PixelType::unorm8).coveredFraction(), 0.25, 1e-9);
+    EXPECT_NEAR(PatchSampler(4096, 100, PixelType::unorm8).coveredFraction(), 0.5 * 36 / 100, 1e-9); // from row 64 on
+    // Strips of any height give the same result as the whole image.
     const Image image = mapOf({0.5, 0.3, 0.1}, 90, 70);
     const GreenVerdict whole = greenOf(image);
     for (const int height : {1, 7, 69}) {

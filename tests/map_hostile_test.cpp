@@ -1,4 +1,4 @@
-// `cotan map` on pictures that are broken, huge, or stored in rare ways.
+// `cotan map` on broken or huge images and on rare storage formats.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ void writeBytes(const fs::path& file, const void* data, std::size_t size)
     std::ofstream(file, std::ios::binary).write(static_cast<const char*>(data), std::streamsize(size));
 }
 
-// Every subcommand on `file`, which has to be refused by all.
+// Expects that every subcommand refuses `file`.
 void expectAllRefuse(const TemporaryFolder& folder, const std::string& file)
 {
     const std::vector<std::vector<std::string>> commands = {
@@ -49,7 +49,7 @@ void expectAllRefuse(const TemporaryFolder& folder, const std::string& file)
     }
 }
 
-TEST(MapHostile, a_truncated_picture_is_refused_and_leaves_nothing)
+TEST(MapHostile, a_truncated_image_is_refused_and_leaves_no_file)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::bricks, 200)));
@@ -86,7 +86,7 @@ void writeTall(const fs::path& file, int width, int height)
     ASSERT_TRUE((*writer)->finish());
 }
 
-TEST(MapHostile, memory_does_not_grow_with_the_picture)
+TEST(MapHostile, memory_does_not_grow_with_the_image)
 {
 #ifdef __SANITIZE_ADDRESS__
     GTEST_SKIP() << "the address sanitizer keeps what was freed";
@@ -110,14 +110,14 @@ TEST(MapHostile, memory_does_not_grow_with_the_picture)
             std::ranges::replace(these, std::string("FILE"), std::string(i == 0 ? "low.png" : "tall.png"));
             megabytes[i] = peak(these);
         }
-        // How many of the three strips of 8 MB, in and out, are under way at once is a matter of luck.
+        // The number of 8 MB strips, in and out, that are in flight at once varies up to three.
         EXPECT_LT(megabytes[1], megabytes[0] + 25) << words[0];
     }
 }
 
-TEST(MapHostile, wide_pictures_give_the_texels_of_narrow_ones_and_borders_repeat)
+TEST(MapHostile, strip_height_does_not_change_texels_and_borders_repeat)
 {
-    // Cut into strips of another height than the narrow picture's, and with the rows beyond top and bottom.
+    // The wide image is cut into strips of another height, and reads rows beyond top and bottom.
     TemporaryFolder folder;
     const auto heights = [](int width, int height, int period) {
         Image image = makeImage(width, height, PixelType::unorm16);
@@ -146,14 +146,14 @@ TEST(MapHostile, wide_pictures_give_the_texels_of_narrow_ones_and_borders_repeat
             ASSERT_TRUE(image);
             out[i] = *image;
         }
-        for (int y = 0; y < 100; ++y) // the middle 32 columns
+        for (int y = 0; y < 100; ++y) // 30 columns in the middle
             EXPECT_EQ(
                 std::memcmp(out[0].words() + 4 * (y * 32) + 4, out[1].words() + 4 * (y * 32768 + 16384) + 4, 30 * 8), 0)
                 << wrap << " row " << y;
     }
 }
 
-// A BC5 block: two of Microsoft's BC4 halves; every index is 0, so each channel is its first endpoint.
+// A BC5 block of two BC4 halves; every index is 0, which selects the first endpoint.
 std::string bc5Block(int red, int green)
 {
     std::string block(16, '\0');
@@ -166,7 +166,7 @@ std::string ddsHeader(int width, int height, const char* fourCc)
     std::array<std::uint32_t, 32> header{};
     header[0] = 0x20534444, header[1] = 124, header[2] = 0x1007; // caps, height, width, pixel format
     header[3] = std::uint32_t(height), header[4] = std::uint32_t(width);
-    header[19] = 32, header[20] = 0x4; // the format is named by four letters
+    header[19] = 32, header[20] = 0x4; // the format is a FourCC
     std::memcpy(&header[21], fourCc, 4);
     header[27] = 0x1000;
     return {reinterpret_cast<const char*>(header.data()), sizeof header};
@@ -175,7 +175,7 @@ std::string ddsHeader(int width, int height, const char* fourCc)
 TEST(MapHostile, bc5_files_are_read_as_x_and_y)
 {
     TemporaryFolder folder;
-    for (const bool vary : {true, false}) { // a constant y must not be taken for an opaque alpha
+    for (const bool vary : {true, false}) { // a constant y must not be mistaken for an opaque alpha
         const std::string dds = ddsHeader(8, 4, "ATI2") + bc5Block(200, 60) + bc5Block(40, vary ? 180 : 60);
         writeBytes(folder / "map.dds", dds.data(), dds.size());
         const ToolRun run = runTool({"map", "convert", "map.dds", "--from", "gltf,orthographic", "--to",

@@ -1,4 +1,4 @@
-// Every kernel against its formula, every border against a picture padded by hand, and the way back.
+// Every kernel against its formula, every border against an image padded by hand, and the inverse of each kernel.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,15 +30,15 @@ Image normals(const Image& height, Kernel kernel, Wrap wrap, double scaleX = 1, 
 
 TEST(Kernels, equal_their_formulas_on_a_cubic)
 {
-    // h = 0.01 x^3 - 0.02 y^3 + 0.015 x^2 y + 0.03 x y^2, y up. Beyond the derivative: central adds h_xxx / 6, the
-    // kernels that smooth across add h_xyy times half of their second moment: 1/4 (1 2 1), 3/16 (3 10 3).
+    // h = 0.01 x^3 - 0.02 y^3 + 0.015 x^2 y + 0.03 x y^2, y up. To the derivative, central adds h_xxx / 6, and kernels
+    // that smooth across add h_xyy times half of their second moment: 1/4 (1 2 1), 3/16 (3 10 3).
     const auto h = [](double x, double y) {
         return 0.01 * x * x * x - 0.02 * y * y * y + 0.015 * x * x * y + 0.03 * x * y * y;
     };
     const int side = 9;
-    const Image picture = heights(side, side, [&](int x, int y) { return h(x - 4, 4 - y); });
+    const Image image = heights(side, side, [&](int x, int y) { return h(x - 4, 4 - y); });
     for (Kernel kernel : kKernels) {
-        const Image map = normals(picture, kernel, Wrap::clamp, 0.5, 0.25);
+        const Image map = normals(image, kernel, Wrap::clamp, 0.5, 0.25);
         for (int row = 1; row + 1 < side; ++row)
             for (int column = 1; column + 1 < side; ++column) {
                 const double x = column - 4, y = 4 - row;
@@ -63,10 +63,10 @@ int inside(int i, int size, Wrap wrap)
 {
     if (wrap == Wrap::repeat)
         return (i + size) % size;
-    return std::clamp(i, 0, size - 1); // one row beyond the border: the mirror image of the border is itself
+    return std::clamp(i, 0, size - 1); // one row beyond the border, mirroring repeats the border itself
 }
 
-TEST(Kernels, borders_are_those_of_a_picture_padded_by_hand)
+TEST(Kernels, borders_equal_those_of_a_padded_image)
 {
     Noise noise(3);
     const int width = 5, height = 4;
@@ -74,13 +74,13 @@ TEST(Kernels, borders_are_those_of_a_picture_padded_by_hand)
     for (auto& row : h)
         for (double& v : row)
             v = noise.next();
-    const Image picture = heights(width, height, [&](int x, int y) { return h[std::size_t(y)][std::size_t(x)]; });
+    const Image image = heights(width, height, [&](int x, int y) { return h[std::size_t(y)][std::size_t(x)]; });
     for (Wrap wrap : {Wrap::repeat, Wrap::clamp, Wrap::mirror}) {
         const Image padded = heights(width + 2, height + 2, [&](int x, int y) {
             return h[std::size_t(inside(y - 1, height, wrap))][std::size_t(inside(x - 1, width, wrap))];
         });
         for (Kernel kernel : kKernels) {
-            const Image direct = normals(picture, kernel, wrap), around = normals(padded, kernel, Wrap::clamp);
+            const Image direct = normals(image, kernel, wrap), around = normals(padded, kernel, Wrap::clamp);
             for (int y = 0; y < height; ++y)
                 for (int x = 0; x < width; ++x)
                     EXPECT_EQ(texelAt(direct, x, y), texelAt(around, x + 1, y + 1))
@@ -92,7 +92,7 @@ TEST(Kernels, borders_are_those_of_a_picture_padded_by_hand)
 TEST(Kernels, strips_with_their_borders_equal_the_whole)
 {
     Noise noise(4);
-    const Image picture = heights(6, 50, [&](int, int) { return noise.next(); });
+    const Image image = heights(6, 50, [&](int, int) { return noise.next(); });
     std::size_t invalid = 0;
     FromHeightSettings s{.kernel = Kernel::scharr,
                          .wrap = Wrap::repeat,
@@ -101,18 +101,17 @@ TEST(Kernels, strips_with_their_borders_equal_the_whole)
                          .to = {},
                          .type = PixelType::unorm8,
                          .dither = true};
-    const Image whole = normalsFromHeight(picture, s, invalid);
+    const Image whole = normalsFromHeight(image, s, invalid);
     s.bordered = true;
     s.firstRow = 17;
-    const Image strip =
-        normalsFromHeight(rowsOf(picture, 16, 40), s, invalid); // rows 17 to 38, and one more at either end
+    const Image strip = normalsFromHeight(rowsOf(image, 16, 40), s, invalid); // rows 17 to 38, plus one at either end
     EXPECT_EQ(strip.data, rowsOf(whole, 17, 39).data);
 }
 
-TEST(ToHeight, free_borders_undo_the_kernel_too)
+TEST(ToHeight, free_borders_invert_the_kernel_too)
 {
-    // Heights that do not repeat and differ along x and y. Forward differences keep every frequency; the others
-    // wipe out the highest, so theirs is a smooth relief: cosines that are flat at the borders.
+    // Heights that do not repeat and differ along x and y. Forward differences keep every frequency; the others remove
+    // the highest, so they get a smooth relief: cosines that are flat at the borders.
     Noise noise(7);
     const int width = 21, height = 14;
     const Image rough = heights(width, height, [&](int, int) { return noise.next(); });
@@ -132,9 +131,9 @@ TEST(ToHeight, free_borders_undo_the_kernel_too)
     }
 }
 
-TEST(ToHeight, free_borders_are_least_squares_for_slopes_of_no_height)
+TEST(ToHeight, free_borders_are_least_squares_for_slopes_with_curl)
 {
-    // At the least squares, no change of a single height makes the slopes fit better.
+    // At the least-squares solution, changing any single height increases the error of the slopes.
     Noise noise(9);
     const int width = 7, height = 6;
     const Image map =
@@ -149,7 +148,7 @@ TEST(ToHeight, free_borders_are_least_squares_for_slopes_of_no_height)
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
                 const glm::dvec2 s =
-                    slopesOf(texelAt(map, x, y)); // forward: to the right, and up; none over the border
+                    slopesOf(texelAt(map, x, y)); // forward differences to the right and up; none across the border
                 if (x + 1 < width)
                     sum += std::pow(h(x + 1, y) - h(x, y) - s.x, 2);
                 if (y > 0)
@@ -164,9 +163,9 @@ TEST(ToHeight, free_borders_are_least_squares_for_slopes_of_no_height)
             EXPECT_GT(misfit(i, by), least) << i;
 }
 
-TEST(ToHeight, the_share_of_slopes_and_the_lean_are_those_of_the_map)
+TEST(ToHeight, rms_slope_residual_and_mean_tilt_are_those_of_the_map)
 {
-    // One slope everywhere: all of it is lean, and free borders follow it exactly; repeating heights cannot.
+    // A constant slope is entirely mean tilt: free borders follow it exactly, repeating heights cannot.
     const Image map = floatMap(12, 9, [](int, int) { return ofSlopes(0.3, -0.4); });
     for (Kernel kernel : {Kernel::spectral, Kernel::forward}) {
         const Heights free = heightFromNormals(map, {.from = kFloats, .boundary = Boundary::free, .kernel = kernel});
@@ -174,19 +173,19 @@ TEST(ToHeight, the_share_of_slopes_and_the_lean_are_those_of_the_map)
         EXPECT_NEAR(free.residual, 0, 1e-5);
         EXPECT_NEAR(free.meanTilt, 26.565, 1e-3); // atan(0.5)
         EXPECT_NEAR(double(free.texels[1] - free.texels[0]), 0.3, 1e-5);
-        EXPECT_NEAR(double(free.texels[12] - free.texels[0]), 0.4, 1e-5); // a row down: up is -0.4
+        EXPECT_NEAR(double(free.texels[12] - free.texels[0]), 0.4, 1e-5); // one row down; the slope up is -0.4
         EXPECT_NEAR(free.highest - free.lowest, 11 * 0.3 + 8 * 0.4, 1e-4);
     }
     const Heights repeating = heightFromNormals(map, {.from = kFloats});
     EXPECT_NEAR(repeating.residual, 0.5, 1e-6);
     EXPECT_NEAR(repeating.meanTilt, 26.565, 1e-3);
-    // Texels twice as high as wide: a slope down the picture rises twice as much.
+    // Texels twice as high as wide: a slope down the image rises twice as much.
     const Heights tall = heightFromNormals(map, {.from = kFloats, .boundary = Boundary::free, .aspect = 2});
     EXPECT_NEAR(double(tall.texels[12] - tall.texels[0]), 0.8, 1e-5);
     EXPECT_NEAR(double(tall.texels[1] - tall.texels[0]), 0.3, 1e-5);
 }
 
-TEST(ToHeight, steep_slopes_are_held_at_128)
+TEST(ToHeight, slopes_are_clamped_to_128)
 {
     const Image map = floatMap(2, 1, [](int, int) { return glm::vec3(-1, 0, 1e-6f); });
     const Heights h = heightFromNormals(map, {.from = kFloats, .boundary = Boundary::free});

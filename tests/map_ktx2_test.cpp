@@ -1,4 +1,4 @@
-// The KTX2 files of `cotan map` as another reader sees them: ktx-parse, which three.js loads them with.
+// The KTX2 files of `cotan map` as ktx-parse, the loader of three.js, reads them.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-json readElsewhere(const std::filesystem::path& file)
+json readByKtxParse(const std::filesystem::path& file)
 {
     const std::string line =
         "node '" COTAN_SOURCE_DIR "/tests/npm/ktx2.mjs' '" COTAN_NPM "/node_modules' '" + file.string() + "'";
@@ -22,8 +22,8 @@ json readElsewhere(const std::filesystem::path& file)
     return json::parse(readWhole(file.string() + ".json"), nullptr, false);
 }
 
-// What the specifications ask for: VkFormat, the colour model and channels of the Khronos Data Format, bytes of a pixel
-// or block and its pixels a side.
+// Values required by the specifications: VkFormat, colour model and channels of the Khronos Data Format, bytes of a
+// pixel or block, and the side of a block in pixels.
 struct Expected {
     std::string compress, file;
     int format, model;
@@ -32,7 +32,7 @@ struct Expected {
     int side;
 };
 
-TEST(MapKtx2, anotherReaderFindsTheFormatItsDescriptorAndEveryLevelsBytes)
+TEST(MapKtx2, ktxParseReadsFormatDescriptorAndLevels)
 {
     if (!std::filesystem::exists(COTAN_NPM "/installed-lock.json"))
         GTEST_SKIP() << "scripts/npm-packages could not install three in " << COTAN_NPM;
@@ -47,7 +47,7 @@ TEST(MapKtx2, anotherReaderFindsTheFormatItsDescriptorAndEveryLevelsBytes)
                               folder.path())
                           .code,
                       0);
-        const json k = readElsewhere(folder / (e.file + ".ktx2"));
+        const json k = readByKtxParse(folder / (e.file + ".ktx2"));
         EXPECT_EQ(k["format"], e.format);
         EXPECT_EQ(k["typeSize"], 1);
         EXPECT_EQ(k["size"], json({44, 44, 0}));
@@ -58,7 +58,7 @@ TEST(MapKtx2, anotherReaderFindsTheFormatItsDescriptorAndEveryLevelsBytes)
         ASSERT_EQ(k["descriptor"].size(), 1u);
         const json& d = k["descriptor"][0];
         EXPECT_EQ(d["colorModel"], e.model);
-        EXPECT_EQ(d["transferFunction"], 1); // linear: normals are no colours
+        EXPECT_EQ(d["transferFunction"], 1); // linear: normals are not colours
         EXPECT_EQ(d["texelBlockDimension"], json({e.side - 1, e.side - 1, 0, 0}));
         EXPECT_EQ(d["bytesPlane"][0], e.bytes);
         ASSERT_EQ(d["samples"].size(), e.channels.size());
@@ -70,7 +70,7 @@ TEST(MapKtx2, anotherReaderFindsTheFormatItsDescriptorAndEveryLevelsBytes)
             EXPECT_EQ(d["samples"][c]["sampleLower"], 0);
             EXPECT_EQ(d["samples"][c]["sampleUpper"], e.side == 4 ? 0xffffffffu : 255u);
         }
-        // The same levels as in the DDS, which OpenImageIO reads elsewhere.
+        // The same levels as in the DDS file, which OpenImageIO reads in another test.
         const std::string dds = readWhole(folder / (e.file + ".dds"));
         EXPECT_TRUE(dds.substr(e.side == 4 ? 148 : 128) == readWhole(folder / (e.file + ".ktx2.levels"))) << e.compress;
         ASSERT_EQ(k["levels"].size(), 6u); // 44, 22, 11, 5, 2, 1

@@ -1,4 +1,4 @@
-// What `map info` and `map detect` print of figures, line by line, and what their reports have under which name.
+// The lines that `map info` and `map detect` print for their figures, and the names of the figures in reports.
 #include <gtest/gtest.h>
 
 #include "files/report/json.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-// No two figures are the same.
+// No two figures are equal.
 SurveyedFile surveyed()
 {
     SurveyedFile file;
@@ -32,40 +32,41 @@ SurveyedFile surveyed()
     return file;
 }
 
-TEST(MapLines, ofAMapHaveEachFigureInItsPlace)
+TEST(MapLines, printEveryFigureOfAMap)
 {
     SurveyedFile file = surveyed();
     const Texts rest = {"invalid (not finite, or no length): 1.10 %; below the horizon: 2.20 %; x^2+y^2 over 1: 3.30 %",
-                        "length: mean 0.9900, spread 0.0123; under 0.9: 3.40 %",
-                        "tilt from flat: mean 12.35 degrees; share from  0 50.0 %  10 20.0 %  20 10.0 %  30 5.0 %  40 "
-                        "4.0 %  50 3.0 %  60 2.0 %  70 4.0 %  80+ 2.0 %",
+                        "length: mean 0.9900, standard deviation 0.0123; under 0.9: 3.40 %",
+                        "tilt from flat: mean 12.35 degrees; fraction from  0 50.0 %  10 20.0 %  20 10.0 %  30 5.0 %  "
+                        "40 4.0 %  50 3.0 %  60 2.0 %  70 4.0 %  80+ 2.0 %",
                         "mean direction: 0.1000 -0.2000 0.9000"};
     const auto expectLines = [&](Texts expected, bool measured = true) {
         expected.insert(expected.end(), rest.begin(), measured ? rest.end() : rest.begin() + 1);
         if (!measured)
-            expected.emplace_back("no direction is left to measure");
+            expected.emplace_back("no texel has a direction to measure");
         Texts found = linesOf(file, "a b.png");
         found.at(0) = found.at(0).substr(0, found[0].find(", "));
         EXPECT_EQ(found, expected);
     };
     const std::string head = "a b.png: 30 x 20", tangent = "contents: tangent space";
-    expectLines({head, tangent, "centre: 128 is zero (exact expansion): lengths err by 0.0011, with 127.5 by 0.0022"});
+    expectLines({head, tangent, "centre: 128 is zero (exact expansion): length error 0.0011, with 127.5 0.0022"});
     file.statistics.centre = Centre::biased;
     file.channels = 2;
     file.frame = "smooth";
     file.statistics.background = 0.125;
     expectLines({head, tangent, "the file stores two channels", "made for the frame: smooth",
-                 "background (alpha 0, black, white, or fields of a colour that is no normal): 12.50 %; left out below",
-                 "centre: 127.5 is zero (biased expansion, 2c-1): lengths err by 0.0022, with 128 by 0.0011"});
+                 "background (alpha 0, black, white, or areas of a colour that is not a normal): 12.50 %; left out "
+                 "below",
+                 "centre: 127.5 is zero (biased expansion, 2c-1): length error 0.0022, with 128 0.0011"});
     file = surveyed();
     file.statistics.centre = Centre::unknown;
-    expectLines({head, tangent, "centre: 128 or 127.5: cannot be told from the lengths"});
+    expectLines({head, tangent, "centre: 128 or 127.5: undecidable from the lengths"});
     file.statistics.content = Content::objectSpace;
     expectLines({head, "contents: object space (directions on both sides)",
-                 "centre: 128 or 127.5: cannot be told from the lengths"});
+                 "centre: 128 or 127.5: undecidable from the lengths"});
     file.statistics.content = Content::twoChannel;
     file.statistics.swizzle = Swizzle::greyAlpha;
-    const std::string two = "contents: two channels (x and y; z is to be rebuilt)";
+    const std::string two = "contents: two channels (x and y; z is reconstructed)";
     expectLines({head, two, "channels: two (x as grey, y as alpha)"});
     file.statistics.swizzle = Swizzle::alphaGreen;
     expectLines({head, two, "channels: two (x in alpha, y in green)"});
@@ -73,8 +74,8 @@ TEST(MapLines, ofAMapHaveEachFigureInItsPlace)
     expectLines({head, two, "channels: two (x in alpha, y in green)"}, false);
     file = surveyed();
     file.statistics.tilt = {};
-    file.statistics.tilt[8] = 0.01; // one that is measured is enough
-    EXPECT_NE(linesOf(file, "a").back(), "no direction is left to measure");
+    file.statistics.tilt[8] = 0.01; // one measured figure suffices
+    EXPECT_NE(linesOf(file, "a").back(), "no texel has a direction to measure");
     file.statistics.content = Content::grey;
     EXPECT_EQ(linesOf(file, "a").size(), 2u);
     EXPECT_EQ(linesOf(file, "a")[1], "contents: grey: a height map, not a normal map");
@@ -87,7 +88,7 @@ TEST(MapLines, ofAMapHaveEachFigureInItsPlace)
     EXPECT_TRUE(wrong[4].ends_with(" --to gltf -o 'a b-fixed.png'")) << wrong[4];
 }
 
-TEST(MapLines, theReportHasNullForFiguresOfNothing)
+TEST(MapLines, jsonHasNullForUndefinedFigures)
 {
     SurveyedFile file = surveyed();
     const Texts figures = {"mean_length", "length_spread",     "shortened",
@@ -118,7 +119,7 @@ TEST(MapLines, theReportHasNullForFiguresOfNothing)
     EXPECT_NE(none.find("\"invalid\": 0.011"), std::string::npos);
 }
 
-TEST(MapLines, ofAVerdictSayWhatItIsMadeOf)
+TEST(MapLines, explainTheVerdict)
 {
     GreenOfFile found;
     GreenVerdict& v = found.verdict;
@@ -126,7 +127,7 @@ TEST(MapLines, ofAVerdictSayWhatItIsMadeOf)
     v.swapped = Swapped::no;
     v.confidence = Confidence::likely;
     const std::string bump =
-        "bump or dent cannot be told from a normal map: this takes red to point right, as every convention does";
+        "bumps and dents look alike in a normal map: this assumes that red points right, as every convention does";
     EXPECT_EQ(linesOf(found, "a"), (Texts{"green: up (+Y, OpenGL, glTF), likely", bump}));
     v.swapped = Swapped::undecidable;
     v.used = 0.5;
@@ -139,11 +140,10 @@ TEST(MapLines, ofAVerdictSayWhatItIsMadeOf)
     found.patches = 17;
     EXPECT_EQ(
         linesOf(found, "a"),
-        (Texts{"green: up (+Y, OpenGL, glTF), likely; whether red and green are exchanged cannot be told from this "
-               "relief",
-               "judged by 17 patches of 128 x 128 texels, spread evenly: 12 % of the picture",
+        (Texts{"green: up (+Y, OpenGL, glTF), likely; this relief does not show whether red and green are exchanged",
+               "judged by 17 patches of 128 x 128 texels, evenly distributed: 12 % of the image",
                "agreement +0.88 (12 times its uncertainty; exchanged -0.12); the other way leaves 3.46 times as "
-               "much unexplained; 79 % of the picture votes so",
+               "much unexplained; 79 % of the image agrees",
                bump}));
     v.green = Green::down;
     v.swapped = Swapped::yes;
@@ -152,7 +152,7 @@ TEST(MapLines, ofAVerdictSayWhatItIsMadeOf)
     v.sampled = 1;
     EXPECT_EQ(linesOf(found, "a.png"),
               (Texts{"green: down (-Y, Direct3D), certain; red and green are exchanged (the answer is for the map with "
-                     "them put right)",
+                     "them exchanged back)",
                      "wrong: red and green are exchanged",
                      "wrong: green points down (DirectX), which glTF and OpenGL read as dents",
                      linesOf(found, "a.png").at(3), bump}));

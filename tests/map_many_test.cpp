@@ -59,7 +59,7 @@ TEST_F(MapMany, filesAndFoldersAreJudgedOneAfterTheOther)
     }
 }
 
-TEST_F(MapMany, aFileThatCannotBeReadDoesNotKeepTheOthersFromIt)
+TEST_F(MapMany, unreadableFileDoesNotStopTheOthers)
 {
     const ToolRun many = run({"detect", "broken.png", "d.png", "gone.png", "--json", "r.json"});
     EXPECT_EQ(many.code, 2);
@@ -75,7 +75,7 @@ TEST_F(MapMany, aFileThatCannotBeReadDoesNotKeepTheOthersFromIt)
     EXPECT_EQ(lines(one.err), 1) << one.err;
     const ToolRun none = run({"info", "empty"});
     EXPECT_EQ(none.code, 2);
-    EXPECT_NE(none.err.find("empty: expected a folder with pictures; found none"), std::string::npos) << none.err;
+    EXPECT_NE(none.err.find("empty: expected a folder with images; found none"), std::string::npos) << none.err;
     EXPECT_EQ(run({"info"}).code, 1);
 }
 

@@ -1,4 +1,4 @@
-// Mip chains: directions as means of vectors, roughness as the spread that was lost.
+// Mip chains: directions are means of vectors, roughness is the variance of normals that averaging loses.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,7 +39,7 @@ TEST(Mips, halve_down_to_one_texel_also_for_odd_sizes)
     EXPECT_EQ(mipChain(tilted(1, 1, 10), {.from = kSigned, .to = kSigned}).size(), 1u);
 }
 
-TEST(Mips, opposite_tilts_become_flat_and_their_length_is_the_cosine)
+TEST(Mips, opposite_tilts_average_to_flat_with_length_cosine)
 {
     const auto chain =
         mipChain(tilted(16, 16, 30), {.from = kSigned, .to = kSigned, .keepLengths = true, .type = PixelType::float32});
@@ -51,7 +51,7 @@ TEST(Mips, opposite_tilts_become_flat_and_their_length_is_the_cosine)
     }
 }
 
-TEST(Mips, two_channel_chains_hold_the_same_directions_as_three_channel_ones)
+TEST(Mips, two_channel_chains_equal_three_channel_chains)
 {
     const Image map = makeReliefMap(Relief::bricks, 64);
     Convention two;
@@ -60,25 +60,25 @@ TEST(Mips, two_channel_chains_hold_the_same_directions_as_three_channel_ones)
                b = mipChain(map, {.to = two, .type = PixelType::unorm16});
     for (std::size_t level = 0; level < a.size(); ++level) {
         const auto degrees = anglesBetween(a[level].normals, {}, b[level].normals, two);
-        for (float d : degrees) // roundings of both, at up to 60 degrees of tilt
+        for (float d : degrees) // rounding of both, at up to 60 degrees of tilt
             EXPECT_LE(double(d), quantisationDegrees({}, 16, 60) + quantisationDegrees(two, 16, 60)) << level;
         EXPECT_EQ(a[level].roughness.data, b[level].roughness.data);
     }
 }
 
-TEST(Mips, the_models_agree_where_normals_spread_little_and_evenly)
+TEST(Mips, models_agree_for_small_isotropic_variance)
 {
-    // Slopes of variance s along each axis: R = 1 - s to first order, and all three widen alpha^2 by 2s.
+    // Slopes of variance s along each axis: R = 1 - s to first order, and all three models increase alpha^2 by 2s.
     const double roughness = 0.4, s = 0.001, truth = std::pow(std::pow(roughness, 4) + 2 * s, 0.25);
     EXPECT_NEAR(roughnessFromVariance(roughness, 2 * s), truth, 1e-12);
     EXPECT_NEAR(roughnessFromLength(roughness, 1 - s, VarianceModel::vmf), truth, 1e-4); // second order in s
-    // Toksvig's is of the exponent e = 2/alpha^2 - 2: it widens by 2s (1 - alpha^2)^2, which is short by a
-    // share of 2 alpha^2; the second order in s gets a tenth of that.
+    // Toksvig's model uses the exponent e = 2/alpha^2 - 2: it adds 2s (1 - alpha^2)^2, too little by a fraction of 2
+    // alpha^2; the second order in s is allowed a tenth of that.
     EXPECT_NEAR(roughnessFromLength(roughness, 1 - s, VarianceModel::toksvig), truth,
                 2.2 * std::pow(roughness, 4) * (truth - roughness));
 }
 
-TEST(Mips, roughness_never_falls_and_never_leaves_its_range)
+TEST(Mips, roughness_never_decreases_and_stays_in_range)
 {
     for (VarianceModel model : {VarianceModel::toksvig, VarianceModel::vmf})
         for (double roughness : {0.0, 0.05, 0.5, 1.0}) {
@@ -104,7 +104,7 @@ TEST(Mips, lean_measures_the_variance_of_slopes)
     EXPECT_NEAR(chain[1].meanRoughness, std::pow(0.0625 + variance, 0.25), 1e-6);
 }
 
-TEST(Mips, texels_that_are_no_direction_do_not_count)
+TEST(Mips, texels_without_direction_are_ignored)
 {
     Image map = tilted(2, 2, 0);
     map.floats()[0] = std::numeric_limits<float>::quiet_NaN();

@@ -1,4 +1,4 @@
-// From one convention to another and back: within the rounding of what is stored between.
+// Conversions from one convention to another and back, within the rounding of the stored values.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,21 +45,21 @@ TEST(Recode, every_convention_round_trips_within_its_rounding)
 {
     const Image map = makeReliefMap(Relief::waves, 64);
     const double tilt = steepestDegrees(map);
-    ASSERT_LT(tilt, 45); // slope maps hold no more
+    ASSERT_LT(tilt, 45); // slope maps store at most 45 degrees
     for (Channels channels : {Channels::xyz, Channels::orthographic, Channels::stereographic, Channels::slope})
         for (Expansion expansion : {Expansion::exact, Expansion::biased})
             for (bool greenUp : {true, false})
                 for (PixelType type : {PixelType::unorm8, PixelType::unorm16}) {
                     const Convention c{.expansion = expansion, .channels = channels, .greenUp = greenUp};
                     const Image there = recoded(map, kGltf, c, type);
-                    // First order of the rounding, and 5 % for the rest of the series.
+                    // First order of the rounding, and 5 % for the higher orders.
                     const double bits = type == PixelType::unorm8 ? 8 : 16;
                     EXPECT_LT(largestAngle(map, kGltf, there, c), 1.05 * quantisationDegrees(c, int(bits), tilt))
                         << describe(c) << " " << bits;
                 }
 }
 
-TEST(Recode, presets_differ_in_the_picture_by_green_only)
+TEST(Recode, presets_differ_in_green_only)
 {
     const Image map = makeReliefMap(Relief::domes, 32);
     for (const ConventionPreset& p : conventionPresets()) {
@@ -73,11 +73,11 @@ TEST(Recode, presets_differ_in_the_picture_by_green_only)
     }
 }
 
-TEST(Recode, turning_green_twice_gives_the_same_bytes_and_keeps_lengths_and_alpha)
+TEST(Recode, reversing_green_twice_restores_every_byte)
 {
     Image map = makeReliefMap(Relief::bricks, 32);
     for (std::size_t i = 0; i < map.pixelCount(); ++i)
-        for (int c = 0; c < 3; ++c) // lengths well under 1, as a filtered map has
+        for (int c = 0; c < 3; ++c) // lengths well below 1, as in filtered maps
             map.bytes8()[4 * i + c] = std::uint8_t(128 + (map.bytes8()[4 * i + c] - 128) / 2);
     map.bytes8()[3] = 17;
     Convention down = kGltf;
@@ -86,9 +86,9 @@ TEST(Recode, turning_green_twice_gives_the_same_bytes_and_keeps_lengths_and_alph
     EXPECT_EQ(back.data, map.data);
 }
 
-TEST(Recode, single_components_of_8_bits_go_the_same_way_as_whole_texels)
+TEST(Recode, component_tables_of_8_bits_equal_whole_texels)
 {
-    Image map = makeImage(256, 3, PixelType::unorm8); // every code in every place, and some without length
+    Image map = makeImage(256, 3, PixelType::unorm8); // every code in every channel; three texels have no length
     for (std::size_t i = 0; i < map.pixelCount(); ++i)
         for (std::size_t c = 0; c < 4; ++c)
             map.bytes8()[4 * i + c] = std::uint8_t(c == i / 256 ? i % 256 : 128);
@@ -122,7 +122,7 @@ TEST(Recode, flat_stays_flat_in_the_exact_form_even_with_dither)
     EXPECT_EQ(deep.words()[0], 32768);
 }
 
-TEST(Recode, dither_keeps_the_mean_where_rounding_moves_it)
+TEST(Recode, dither_keeps_the_mean_that_rounding_changes)
 {
     // x = 0.3 of a step above zero at 8 bits: rounding stores 0 everywhere.
     Image map = makeImage(128, 128, PixelType::float32);
@@ -141,11 +141,11 @@ TEST(Recode, dither_keeps_the_mean_where_rounding_moves_it)
         noisyMean += noisy.bytes8()[4 * i] - 128.0;
     }
     EXPECT_EQ(plainMean, 0);
-    // 16384 draws of a yes with chance 0.3: standard deviation 0.0036; five of them.
+    // 16384 draws with probability 0.3: standard deviation 0.0036; five of them.
     EXPECT_NEAR(noisyMean / double(map.pixelCount()), 0.3, 0.018);
 }
 
-TEST(Recode, texels_that_are_no_direction_become_flat_and_are_counted)
+TEST(Recode, texels_without_direction_become_flat_and_are_counted)
 {
     Image map = makeImage(3, 1, PixelType::float32);
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
@@ -175,7 +175,7 @@ TEST(Recode, strength_multiplies_slopes)
     EXPECT_NEAR(glm::length(glm::vec3(out.floats()[0], out.floats()[1], out.floats()[2])), 1, 1e-6);
 }
 
-TEST(Recode, slopes_that_do_not_fit_are_counted)
+TEST(Recode, clamped_slopes_are_counted)
 {
     Image map = makeImage(2, 1, PixelType::float32);
     const float texels[8] = {0.8f, 0, 0.6f, 1, 0.6f, 0, 0.8f, 1};
@@ -196,7 +196,7 @@ TEST(Recode, threads_do_not_change_a_byte)
     withThreads(1, [&] { EXPECT_EQ(recoded(map, kGltf, to, PixelType::unorm8, true).data, many.data); });
 }
 
-TEST(Diff, the_angle_between_tilted_maps_is_their_angle)
+TEST(Diff, angle_between_tilted_maps_is_their_tilt)
 {
     Image a = makeImage(1, 1, PixelType::float32), b = a;
     a.floats()[2] = 1;
@@ -206,8 +206,8 @@ TEST(Diff, the_angle_between_tilted_maps_is_their_angle)
     EXPECT_NEAR(anglesBetween(a, stored, b, stored)[0], 0.01 * 180 / 3.14159265358979, 1e-5); // float rounding
 }
 
-// What callers in C++ may cast.
-TEST(Texts, ofNumbersThatAreNoEnumeratorsAreThoseOfOne)
+// Values that C++ callers may cast to the enumerations.
+TEST(Descriptions, invalidEnumeratorsAreDescribedAsValidOnes)
 {
     EXPECT_EQ(describe(Content(99)), describe(Content::other));
     EXPECT_STREQ(name(Fault::Kind(-1)), "green_down");
@@ -215,7 +215,7 @@ TEST(Texts, ofNumbersThatAreNoEnumeratorsAreThoseOfOne)
     EXPECT_EQ(describe(none), "height, slopes, green up, v down, signed");
 }
 
-TEST(Heights, kernelsThatHaveNoDifferencesAreTakenAsScharr)
+TEST(Heights, spectralKernelFallsBackToScharr)
 {
     const Image height = makeReliefMap(Relief::waves, 20);
     std::size_t invalid = 0;

@@ -1,4 +1,4 @@
-// Blends, mips and conversions on maps small enough to work out by hand; x and y never alike.
+// Blends, mips and conversions on maps small enough for results by hand; x and y always differ.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace cases;
 
-constexpr double kSingle = 2e-6; // some steps of float on numbers up to 1
+constexpr double kSingle = 2e-6; // a few float operations on numbers up to 1
 
 Image blendOf(const Image& base, const Image& detail, BlendSettings s)
 {
@@ -40,7 +40,7 @@ TEST(SmallBlends, strength_multiplies_both_slopes_of_the_detail)
     expectSlopes(blendOf(base, detail, {.mode = BlendMode::slopes, .strength = -2}), 0, 0, {-0.7, 1.9});
 }
 
-TEST(SmallBlends, every_mode_is_its_own)
+TEST(SmallBlends, every_mode_follows_its_formula)
 {
     const Image base = floatMap(1, 1, [](int, int) { return glm::vec3(0.48f, 0.6f, 0.64f); });
     const Image detail = floatMap(1, 1, [](int, int) { return glm::vec3(-0.36f, 0.48f, 0.8f); });
@@ -56,9 +56,9 @@ TEST(SmallBlends, every_mode_is_its_own)
     expectMode(BlendMode::reoriented, t * (glm::dot(t, u) / 1.64f) - u);
 }
 
-TEST(SmallBlends, tiles_and_masks_lie_where_columns_and_rows_say)
+TEST(SmallBlends, tiles_and_masks_follow_columns_and_rows)
 {
-    // Slope 1 right on the left half of the detail, 0.5 up on its lower half: 2 x 2 texels, twice across, once down.
+    // Slope 1 right in the left half of the detail, 0.5 up in its lower half: 2 x 2 texels, two tiles across, one down.
     const Image detail = floatMap(2, 2, [](int x, int y) { return ofSlopes(x == 0 ? 1 : 0, y == 1 ? 0.5 : 0); });
     Image mask = makeImage(4, 1, PixelType::unorm16); // 0, 1/3, 2/3, 1
     for (int x = 0; x < 4; ++x)
@@ -77,23 +77,23 @@ TEST(SmallBlends, tiles_and_masks_lie_where_columns_and_rows_say)
 
 TEST(SmallBlends, a_small_detail_is_filtered_linearly_and_repeats)
 {
-    // Two columns over four: centres at 1/4, 3/4, 5/4, 7/4 of a column: weights 3/4 and 1/4 of the neighbours.
+    // Two columns over four: centres at 1/4, 3/4, 5/4, 7/4 of a column, so the neighbours weigh 3/4 and 1/4.
     const glm::vec3 a = ofSlopes(0.6, 0.2), b = ofSlopes(-0.3, 0.4);
     const Image detail = floatMap(2, 1, [&](int x, int) { return x == 0 ? a : b; });
     const Image out = blendOf(floatMap(4, 1, kFlat), detail, {.mode = BlendMode::slopes});
-    const float share[4] = {0.75f, 0.75f, 0.25f, 0.25f};
+    const float weight[4] = {0.75f, 0.75f, 0.25f, 0.25f};
     for (int x = 0; x < 4; ++x)
-        EXPECT_LT(glm::length(texelAt(out, x, 0) - glm::normalize(a * share[x] + b * (1 - share[x]))), 1e-6f) << x;
-    // Down the rows the same.
+        EXPECT_LT(glm::length(texelAt(out, x, 0) - glm::normalize(a * weight[x] + b * (1 - weight[x]))), 1e-6f) << x;
+    // Likewise down the rows.
     const Image upright = floatMap(1, 2, [&](int, int y) { return y == 0 ? a : b; });
     const Image down = blendOf(floatMap(1, 4, kFlat), upright, {.mode = BlendMode::slopes});
     for (int y = 0; y < 4; ++y)
-        EXPECT_LT(glm::length(texelAt(down, 0, y) - glm::normalize(a * share[y] + b * (1 - share[y]))), 1e-6f) << y;
+        EXPECT_LT(glm::length(texelAt(down, 0, y) - glm::normalize(a * weight[y] + b * (1 - weight[y]))), 1e-6f) << y;
 }
 
-TEST(SmallBlends, a_large_detail_is_averaged_by_the_share_of_its_texels)
+TEST(SmallBlends, a_large_detail_is_averaged_by_texel_area)
 {
-    // Three columns over two: the first holds the first and half of the second.
+    // Three columns over two: the first covers one and a half columns.
     const glm::vec3 n[3] = {ofSlopes(0.6, 0.2), ofSlopes(-0.3, 0.4), ofSlopes(0.1, -0.9)};
     const Image detail = floatMap(3, 1, [&](int x, int) { return n[x]; });
     const Image out = blendOf(floatMap(2, 1, kFlat), detail, {.mode = BlendMode::slopes});
@@ -118,16 +118,16 @@ TEST(SmallBlends, strips_equal_the_whole)
                     .mask = &mask,
                     .type = PixelType::unorm8,
                     .dither = true,
-                    .pictureHeight = 40};
+                    .imageHeight = 40};
     std::size_t invalid = 0;
     const Image whole = blend(base, detail, s, invalid), top = blend(rowsOf(base, 0, 13), detail, s, invalid);
     s.firstRow = 13;
     EXPECT_EQ(joined(top, blend(rowsOf(base, 13, 40), detail, s, invalid)).data, whole.data);
 }
 
-TEST(SmallMips, an_impulse_goes_into_odd_sizes_by_its_share)
+TEST(SmallMips, an_impulse_is_weighted_by_area_in_odd_sizes)
 {
-    // 5 x 3 becomes 2 x 1: each texel 2.5 columns and 3 rows.
+    // 5 x 3 becomes 2 x 1: each texel covers 2.5 columns and 3 rows.
     const glm::vec3 up(0, 0, 1), tilted = ofSlopes(0.5, -1.5);
     const MipSettings s{.from = kFloats, .to = kFloats, .keepLengths = true, .type = PixelType::float32};
     const double left[5] = {1 / 7.5, 1 / 7.5, 0.5 / 7.5, 0, 0};
@@ -136,8 +136,9 @@ TEST(SmallMips, an_impulse_goes_into_odd_sizes_by_its_share)
             const auto chain =
                 mipChain(floatMap(5, 3, [&](int i, int j) { return i == x && j == y ? tilted : up; }), s);
             for (int side = 0; side < 2; ++side) {
-                const float share = float(left[side == 0 ? x : 4 - x]);
-                EXPECT_LT(glm::length(texelAt(chain[1].normals, side, 0) - (up * (1 - share) + tilted * share)), 1e-6f)
+                const float weight = float(left[side == 0 ? x : 4 - x]);
+                EXPECT_LT(glm::length(texelAt(chain[1].normals, side, 0) - (up * (1 - weight) + tilted * weight)),
+                          1e-6f)
                     << x << ' ' << y;
             }
             // The last level is the mean of all 15.
@@ -146,8 +147,8 @@ TEST(SmallMips, an_impulse_goes_into_odd_sizes_by_its_share)
     // Down the rows: 1 x 5 becomes 1 x 2.
     for (int y = 0; y < 5; ++y) {
         const auto chain = mipChain(floatMap(1, 5, [&](int, int j) { return j == y ? tilted : up; }), s);
-        const float share = float(3 * left[y]);
-        EXPECT_LT(glm::length(texelAt(chain[1].normals, 0, 0) - (up * (1 - share) + tilted * share)), 1e-6f) << y;
+        const float weight = float(3 * left[y]);
+        EXPECT_LT(glm::length(texelAt(chain[1].normals, 0, 0) - (up * (1 - weight) + tilted * weight)), 1e-6f) << y;
     }
 }
 
@@ -168,7 +169,7 @@ TEST(SmallMips, toksvig_and_vmf_follow_the_length_of_the_mean)
     const Image map = floatMap(2, 1, [](int x, int) { return ofSlopes(x == 0 ? 0.9 : -0.4, x == 0 ? -0.2 : 0.5); });
     const double length = double(glm::length(texelAt(map, 0, 0) + texelAt(map, 1, 0))) / 2, alpha2 = std::pow(0.3, 4);
     const double exponent = 2 / alpha2 - 2,
-                 shortened = exponent / (1 + exponent * (1 - length) / length); // Blinn-Phong's
+                 shortened = exponent / (1 + exponent * (1 - length) / length); // exponent of Blinn-Phong
     const double kappa = (3 * length - length * length * length) / (1 - length * length);
     for (auto [model, expected] :
          {std::pair(VarianceModel::toksvig, 2 / (shortened + 2)), {VarianceModel::vmf, alpha2 + 2 / kappa}}) {
@@ -180,7 +181,7 @@ TEST(SmallMips, toksvig_and_vmf_follow_the_length_of_the_mean)
     }
 }
 
-TEST(SmallMips, texels_without_direction_leave_the_others_their_weight)
+TEST(SmallMips, texels_without_direction_are_ignored)
 {
     const glm::vec3 tilted = ofSlopes(0.5, -1.5);
     const Image map = floatMap(2, 1, [&](int x, int) { return x == 0 ? glm::vec3(0) : tilted; });
@@ -196,7 +197,7 @@ Image recoded(const Image& map, RecodeSettings s)
     return recode(map, s, counts);
 }
 
-TEST(SmallConversions, flat_texels_stay_flat_between_all_conventions_and_depths)
+TEST(SmallConversions, flat_stays_flat_between_all_conventions_and_depths)
 {
     for (const ConventionPreset& from : conventionPresets())
         for (const ConventionPreset& to : conventionPresets())
@@ -215,7 +216,7 @@ TEST(SmallConversions, flat_texels_stay_flat_between_all_conventions_and_depths)
             }
 }
 
-TEST(SmallConversions, the_middle_code_is_flat_at_both_depths_and_half_is_of_floats)
+TEST(SmallConversions, the_middle_code_is_flat_in_every_type)
 {
     Image deep = makeImage(1, 1, PixelType::unorm16), floats = makeImage(1, 1, PixelType::float32);
     const std::uint16_t words[4] = {32768, 32768, 65535, 65535};
@@ -227,7 +228,7 @@ TEST(SmallConversions, the_middle_code_is_flat_at_both_depths_and_half_is_of_flo
         decodeRow(map, 0, {}, {&n, 1});
         EXPECT_LT(glm::length(n - glm::vec3(0, 0, 1)), 1e-6f);
     }
-    // The two forms at 8 bits, as an engine that expands with 2c - 1 sees 128: 1/255 in x and y.
+    // Code 128 of the exact form in an engine that expands with 2c - 1: 1/255 in x and y instead of 0.
     const Convention biased{.expansion = Expansion::biased};
     const glm::vec3 seen = decodeTexel(glm::vec4(128 / 255.0f, 128 / 255.0f, 1, 1), biased, PixelType::unorm8);
     EXPECT_NEAR(double(seen.x), 1.0 / 255, 1e-7);
@@ -243,7 +244,7 @@ TEST(SmallConversions, strength_multiplies_both_slopes_and_makes_unit_again)
     EXPECT_NEAR(double(glm::length(texelAt(out, 0, 0))), 1, kSingle);
 }
 
-TEST(SmallConversions, lengths_are_kept_unless_they_are_to_be_unit)
+TEST(SmallConversions, lengths_are_kept_unless_normalised)
 {
     const Image map = floatMap(1, 1, [](int, int) { return 0.7f * ofSlopes(0.4, -0.6); });
     const RecodeSettings keep{.from = kFloats, .to = kFloats, .type = PixelType::float32};
@@ -253,7 +254,7 @@ TEST(SmallConversions, lengths_are_kept_unless_they_are_to_be_unit)
     EXPECT_NEAR(double(glm::length(texelAt(recoded(map, unit), 0, 0))), 1, kSingle);
 }
 
-TEST(SmallConversions, what_a_form_cannot_hold_is_counted_on_its_side_of_the_limit)
+TEST(SmallConversions, clamped_texels_are_counted_from_the_limit_on)
 {
     const auto clampedIn = [](Channels channels, glm::vec3 n) {
         RecodeCounts counts;
@@ -283,7 +284,7 @@ TEST(SmallConversions, strips_equal_the_whole_with_dither)
     EXPECT_EQ(joined(top, recoded(rowsOf(map, 11, 40), s)).data, whole.data);
 }
 
-TEST(SmallConversions, alpha_stays_with_three_channels_and_is_one_with_two)
+TEST(SmallConversions, three_channels_keep_alpha_and_two_set_it_to_one)
 {
     Image map = makeImage(1, 1, PixelType::unorm8);
     const std::uint8_t texel[4] = {150, 90, 240, 17};
@@ -294,7 +295,7 @@ TEST(SmallConversions, alpha_stays_with_three_channels_and_is_one_with_two)
     EXPECT_EQ(recoded(map, {.from = {}, .to = two, .type = PixelType::unorm8}).bytes8()[3], 255);
 }
 
-TEST(SmallConversions, what_is_not_finite_is_stored_as_zero)
+TEST(SmallConversions, non_finite_values_are_stored_as_zero)
 {
     for (PixelType type : {PixelType::unorm8, PixelType::unorm16, PixelType::float32}) {
         Image image = makeImage(1, 1, type);
@@ -326,9 +327,9 @@ TEST(SmallConversions, swizzles_put_x_and_y_into_red_and_green)
     EXPECT_EQ(int(dxt.bytes8()[3]), 255);
 }
 
-TEST(SmallConversions, swizzles_are_told_apart_by_what_varies_by_more_than_three_codes)
+TEST(SmallConversions, swizzles_are_detected_by_channels_varying_over_three_codes)
 {
-    const auto swizzle = [](int red, int green, int blue, int alpha) { // how far each goes from 100
+    const auto swizzle = [](int red, int green, int blue, int alpha) { // range of each channel from 100 upwards
         Image image = makeImage(2, 1, PixelType::unorm8);
         const int range[4] = {red, green, blue, alpha};
         for (int c = 0; c < 4; ++c) {
@@ -345,19 +346,19 @@ TEST(SmallConversions, swizzles_are_told_apart_by_what_varies_by_more_than_three
     EXPECT_EQ(swizzle(0, 3, 1, 50), Swizzle::rg);
 }
 
-TEST(SmallConversions, angles_are_between_what_each_convention_means)
+TEST(SmallConversions, angles_compare_directions_not_codes)
 {
     Convention down;
     down.greenUp = false;
     Image a = makeImage(2, 1, PixelType::unorm8);
-    const std::uint8_t texels[8] = {128, 128 + 76, 128 + 102, 255, 128, 128, 128, 255}; // (0, 0.6, 0.8), and nothing
+    const std::uint8_t texels[8] = {128, 128 + 76, 128 + 102, 255, 128, 128, 128, 255}; // (0, 0.6, 0.8), and flat
     std::copy_n(texels, 8, a.bytes8());
     const auto degrees = anglesBetween(a, {}, a, down);
     EXPECT_NEAR(double(degrees[0]), 2 * std::atan2(76, 102) * 180 / 3.14159265358979, 1e-4);
     EXPECT_EQ(degrees[1], -1);
 }
 
-TEST(SmallConversions, rounding_costs_what_the_documentation_says)
+TEST(SmallConversions, rounding_errors_match_the_documentation)
 {
     const auto degrees = [](Channels channels, int bits, double tilt) {
         Convention c;

@@ -1,5 +1,5 @@
-// How files of maps are read and stored, by the functions themselves: types for formats, textures byte by byte, strips
-// of pictures, limits at both sides.
+// How map files are read and stored, by the functions themselves: types for formats, textures byte by byte, strips of
+// images, limits from both sides.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,11 +25,11 @@ using test::readWhole, test::TemporaryFolder;
 
 Convention as(const char* words) { return *parseConvention(words); }
 
-TEST(MapStored, typesAreTheInputsAsFarAsTheFormatHoldsThem)
+TEST(MapStored, typeIsThatOfTheInputIfTheFormatStoresIt)
 {
     struct Row {
         const char *wanted, *file;
-        const char* of[3]; // for inputs of 8 bits, 16 bits and floats: the name of the type, or the refusal
+        const char* of[3]; // for inputs of 8 bits, 16 bits and floats: the type's name, or the refusal
     };
     const char *const no8 = " files cannot hold 8 bit", *const no16 = " files cannot hold 16 bit",
                       *const noFloats = " files cannot hold float", *const noHalfs = " files cannot hold half";
@@ -64,7 +64,7 @@ TEST(MapStored, typesAreTheInputsAsFarAsTheFormatHoldsThem)
     EXPECT_FALSE(bitsFor("8", PixelType::unorm8, "a.xyz"));
 }
 
-TEST(MapStored, signedValuesNeedFloatsInAFileThatHoldsNegativeOnes)
+TEST(MapStored, signedValuesRequireAFloatFormat)
 {
     Convention signedOne = as("gltf");
     signedOne.expansion = Expansion::signedValues;
@@ -83,12 +83,12 @@ TEST(MapStored, signedValuesNeedFloatsInAFileThatHoldsNegativeOnes)
     EXPECT_TRUE(bitsFor("8", PixelType::unorm8, as("gltf"), "a.tif"));
 }
 
-TEST(MapStored, halfFloatsAreRoundedAndWhatCannotBeWrittenIsSaid)
+TEST(MapStored, halfFloatsAreRoundedAndWriteErrorsReported)
 {
     const TemporaryFolder folder;
     Image image = makeImage(3, 2, PixelType::float32);
     for (std::size_t i = 0; i < 24; ++i)
-        image.floats()[i] = i % 4 == 3 ? 1 : 1 + float(i) / 4096; // halfs have steps of 1 / 1024 from 1 on
+        image.floats()[i] = i % 4 == 3 ? 1 : 1 + float(i) / 4096; // steps of half floats are 1 / 1024 from 1 on
     image.frame = "smooth";
     for (const bool half : {false, true}) {
         ASSERT_TRUE(writeMap(folder / "a.exr", image, {PixelType::float32, half}));
@@ -109,12 +109,12 @@ TEST(MapStored, halfFloatsAreRoundedAndWhatCannotBeWrittenIsSaid)
     EXPECT_FALSE(readMap(folder / "gone.png", as("gltf"), "options.from"));
 }
 
-// x in red and y in alpha, or x in alpha and y in green: both ways to read bring them to red and green.
-TEST(MapStored, twoChannelsAreFoundWhereTheyAre)
+// x in red and y in alpha, or x in alpha and y in green: reading whole and by rows moves both to red and green.
+TEST(MapStored, twoChannelsAreMovedToRedAndGreen)
 {
     const TemporaryFolder folder;
     const auto expectXy = [&](const std::array<int, 4>& order, const char* convention, bool moved) {
-        // What order says of red, green, blue and alpha: 0 x, 1 y, 2 the same everywhere.
+        // `order` for red, green, blue and alpha: 0 x, 1 y, 2 constant.
         Image image = makeImage(5, 3, PixelType::unorm8);
         const auto value = [](int i, int what) {
             return std::uint8_t(what == 0 ? 40 + i : what == 1 ? 90 + 3 * i : 7);
@@ -140,10 +140,10 @@ TEST(MapStored, twoChannelsAreFoundWhereTheyAre)
     expectXy({0, 0, 0, 1}, "gltf,orthographic", true);
     expectXy({2, 1, 2, 0}, "gltf,orthographic", true);
     expectXy({0, 1, 2, 2}, "gltf,orthographic", false);
-    expectXy({2, 1, 2, 0}, "gltf", false); // three channels stay where they are
+    expectXy({2, 1, 2, 0}, "gltf", false); // three channels are not moved
 }
 
-TEST(MapStored, workOnAPictureIsAllowedUpToItsBudgetAndRefusedWithBothNumbers)
+TEST(MapStored, workOverTheBudgetIsRefusedWithBothNumbers)
 {
     const TemporaryFolder folder;
     const fs::path flat = folder / "flat.png";
@@ -163,7 +163,7 @@ TEST(MapStored, workOnAPictureIsAllowedUpToItsBudgetAndRefusedWithBothNumbers)
         const auto done = heightFromNormalsFile(flat, folder / "h.png", {.from = as("gltf")}, files);
         return done ? "" : done.error().message;
     };
-    budget(12 * pixels); // two complex numbers and a height
+    budget(12 * pixels); // a complex number and a height
     EXPECT_EQ(height(), "");
     budget(12 * pixels - 1);
     EXPECT_EQ(height(),
@@ -173,16 +173,16 @@ TEST(MapStored, workOnAPictureIsAllowedUpToItsBudgetAndRefusedWithBothNumbers)
         const auto done = writeMips(flat, folder / out, {.from = as("gltf"), .bits = bits}, files);
         return done ? "" : done.error().message;
     };
-    budget(19 * pixels / 3); // 8 bytes of moments and 11 components of a byte, of three times the budget
+    budget(19 * pixels / 3); // 8 bytes of moments and 11 one-byte components; mips may take three times the budget
     EXPECT_EQ(mips("8", "a.dds"), "");
     budget(19 * pixels / 3 - 1);
     const std::string begin = flat.string() + ": the chain takes ", end = " MiB for a file of this size";
-    EXPECT_EQ(mips("8", "b.dds"), begin + "3 MiB for 512 x 384, the limit is 3" + end);  // 3.56 MiB, and a little less
+    EXPECT_EQ(mips("8", "b.dds"), begin + "3 MiB for 512 x 384, the limit is 3" + end);  // 3.56 MiB, limit a bit less
     EXPECT_EQ(mips("16", "c.png"), begin + "5 MiB for 512 x 384, the limit is 3" + end); // 30 bytes: 5.6 MiB
     EXPECT_FALSE(fs::exists(folder / "b.dds"));
 }
 
-TEST(MapStored, whatATextureCannotHoldIsSaid)
+TEST(MapStored, unsupportedTextureFormatsAreReported)
 {
     const auto said = [](const char* compress, const char* bits, const char* to, const char* file) -> std::string {
         const auto code = codeFor(compress, bits, as(to), file);
@@ -212,7 +212,7 @@ TEST(MapStored, whatATextureCannotHoldIsSaid)
                   "options.to: bc7 holds x, y and z; found two channels, which bc5 is for");
     EXPECT_EQ(said("none", "8", "gltf,signed", "a.dds"), "options.to: signed values need a .exr or .tif of floats");
     EXPECT_EQ(said("none", "8", "gltf,signed", "a.exr"), "rgba8");
-    // Blocks are made of values from 0 to 1 about a half, whatever a shader takes for zero.
+    // Blocks store values from 0 to 1 around a half, whatever a shader treats as zero.
     for (const auto& [code, channels, expansion] : {std::tuple(TexelCode::rgba8, Channels::xyz, Expansion::exact),
                                                     {TexelCode::bc5, Channels::orthographic, Expansion::biased},
                                                     {TexelCode::bc7, Channels::xyz, Expansion::biased}}) {

@@ -1,4 +1,4 @@
-// Pictures in strips, with the rows beside them; files of levels; two files compared.
+// Images in strips with neighbouring rows; files of mip levels; comparison of two files.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::readWhole, test::TemporaryFolder;
 
-// A picture whose texels say their row.
+// An image whose texels hold their row number.
 class Rows : public RowReader {
 public:
     Rows(int w, int h, int failAt = -1) : failAt_(failAt)
@@ -46,7 +46,7 @@ private:
 
 using Numbers = std::vector<int>;
 
-// What each row of a strip says, after it was read whole: its first texel and its last byte.
+// The row numbers in a strip, by the first texel and the last byte of each row.
 Numbers rowsOf(const Image& strip)
 {
     Numbers rows;
@@ -59,7 +59,7 @@ Numbers rowsOf(const Image& strip)
     return rows;
 }
 
-TEST(MapStrips, haveTheRowsBesideThemAndWhatLiesBeyondTheEnds)
+TEST(MapStrips, includeNeighbouringRowsAndBorders)
 {
     const int width = 65536; // strips of 16 rows
     for (const int height : {1, 2, 15, 16, 17, 18, 32, 40})
@@ -89,8 +89,8 @@ TEST(MapStrips, haveTheRowsBesideThemAndWhatLiesBeyondTheEnds)
         }
 }
 
-// 16 MiB of floats, in multiples of 64 rows or 16; 16 at least, 4096 at most.
-TEST(MapStrips, haveAsManyRowsAsTheirWidthAllows)
+// 16 MiB of floats, in multiples of 64 rows or 16; at least 16, at most 4096.
+TEST(MapStrips, heightFollowsTheWidth)
 {
     for (const auto& [width, rows] : {std::pair(1, 4096),
                                       {256, 4096},
@@ -112,7 +112,7 @@ TEST(MapStrips, haveAsManyRowsAsTheirWidthAllows)
     }
 }
 
-TEST(MapStrips, endAtTheFirstErrorAndSayIt)
+TEST(MapStrips, endAtTheFirstErrorAndReturnIt)
 {
     const int width = 65536, height = 80;
     const auto run = [&](int failRead, int failTake, int stopAt, Numbers& taken) {
@@ -146,7 +146,7 @@ TEST(MapStrips, endAtTheFirstErrorAndSayIt)
     EXPECT_EQ(taken, (Numbers{0, 16}));
 }
 
-TEST(MipFiles, areAskedAboutBeforeTheFirstIsWrittenAndHaveTheRoughnessOfTheirLevel)
+TEST(MipFiles, areConfirmedBeforeWritingAndStoreTheRoughnessOfTheirLevel)
 {
     const TemporaryFolder folder;
     const StatedConvention gltf = *parseConvention("gltf");
@@ -208,7 +208,7 @@ TEST(MipFiles, areAskedAboutBeforeTheFirstIsWrittenAndHaveTheRoughnessOfTheirLev
     EXPECT_EQ(readWhole(folder / "k.dds").substr(128, 4), std::string("\x80\x80\xff\x66"));
 }
 
-TEST(MapsCompared, haveOneSizeAndWhatHasNoDirectionIsCounted)
+TEST(MapComparison, requiresEqualSizesAndCountsTexelsWithoutDirection)
 {
     const TemporaryFolder folder;
     const StatedConvention gltf = *parseConvention("gltf");

@@ -1,4 +1,4 @@
-// What it costs which code is zero, in degrees, on real maps: the table of docs/explanation/zero.md.
+// The cost in degrees of each choice of the zero code, on real maps: the table of docs/explanation/zero.md.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr Convention kExact{}, kBiased{.expansion = Expansion::biased};
 
-// Mean angles of texels under 2 degrees of tilt, and from 20 degrees on.
+// Mean angles of texels below 2 degrees of tilt, and from 20 degrees on.
 struct Means {
     double flats = 0, slopes = 0;
 };
@@ -30,10 +30,10 @@ Means meansOf(const Image& truth, const std::vector<float>& degrees)
         decodeRow(truth, y, kExact, row);
         for (std::size_t x = 0; x < row.size(); ++x) {
             const double tilt = std::atan2(std::hypot(row[x].x, row[x].y), row[x].z) * 180 / 3.14159265358979;
-            const float off = degrees[std::size_t(y) * row.size() + x];
-            if (off < 0 || (tilt >= 2 && tilt < 20))
+            const float error = degrees[std::size_t(y) * row.size() + x];
+            if (error < 0 || (tilt >= 2 && tilt < 20))
                 continue;
-            sum[tilt >= 20] += double(off);
+            sum[tilt >= 20] += double(error);
             count[tilt >= 20] += 1;
         }
     }
@@ -52,8 +52,8 @@ Image texture(const std::string& name)
     return image ? *std::move(image) : Image{};
 }
 
-// An engine that expands with 2c - 1 reads a map whose flat texel is 128; the same the other way round.
-TEST(Zero, read_with_the_other_zero_flats_lean_by_a_third_of_a_degree_and_slopes_turn_as_far)
+// An engine that expands with 2c - 1 reads a map whose flat texel is 128; the error is equal the other way round.
+TEST(Zero, reading_with_the_other_zero_costs_a_third_of_a_degree)
 {
     if (!fs::exists(fs::path(COTAN_SHARED_DATA) / "textures"))
         GTEST_SKIP() << "no " << COTAN_SHARED_DATA << "/textures";
@@ -64,15 +64,15 @@ TEST(Zero, read_with_the_other_zero_flats_lean_by_a_third_of_a_degree_and_slopes
     for (const auto& [name, expected] : documented) {
         const Image map = texture(name);
         ASSERT_GT(map.width, 0) << name;
-        const Means off = meansOf(map, anglesBetween(map, kExact, map, kBiased));
-        std::printf("%s: flats %.3f, slopes %.3f degrees\n", name, off.flats, off.slopes);
-        EXPECT_NEAR(off.flats, expected.flats, 0.01) << name;
-        EXPECT_NEAR(off.slopes, expected.slopes, 0.01) << name;
+        const Means error = meansOf(map, anglesBetween(map, kExact, map, kBiased));
+        std::printf("%s: flats %.3f, slopes %.3f degrees\n", name, error.flats, error.slopes);
+        EXPECT_NEAR(error.flats, expected.flats, 0.01) << name;
+        EXPECT_NEAR(error.slopes, expected.slopes, 0.01) << name;
     }
 }
 
-// A map of 16 bits at 8: what rounding costs with either zero, read as it was stored and as it was not.
-TEST(Zero, at_8_bits_only_the_exact_form_holds_flat)
+// A 16-bit map rounded to 8 bits: errors for either zero, read with the same and with the other zero.
+TEST(Zero, only_the_exact_form_stores_flat_at_8_bits)
 {
     if (!fs::exists(fs::path(COTAN_SHARED_DATA) / "textures"))
         GTEST_SKIP() << "no " << COTAN_SHARED_DATA << "/textures";
@@ -88,16 +88,16 @@ TEST(Zero, at_8_bits_only_the_exact_form_holds_flat)
                           {kBiased, kExact, {0.10, 0.33}}};
     for (const Case& c : cases) {
         const Image there = stored8(truth, c.stored);
-        const Means off = meansOf(truth, anglesBetween(truth, kExact, there, c.read));
+        const Means error = meansOf(truth, anglesBetween(truth, kExact, there, c.read));
         std::printf("stored %s, read %s: flats %.3f, slopes %.3f degrees\n", describe(c.stored).c_str(),
-                    describe(c.read).c_str(), off.flats, off.slopes);
-        EXPECT_NEAR(off.flats, c.expected.flats, 0.01);
-        EXPECT_NEAR(off.slopes, c.expected.slopes, 0.01);
+                    describe(c.read).c_str(), error.flats, error.slopes);
+        EXPECT_NEAR(error.flats, c.expected.flats, 0.01);
+        EXPECT_NEAR(error.slopes, c.expected.slopes, 0.01);
     }
 }
 
-// 16 bits: read with the zero of 8 bits, as a shader does that does not know better, or with 2c - 1.
-TEST(Zero, sixteen_bits_hardly_differ_from_2c_minus_1_and_lean_when_read_as_8)
+// 16 bits read with the zero of 8 bits, as a shader does that ignores the depth, or with 2c - 1.
+TEST(Zero, sixteen_bits_read_as_8_tilt_by_a_third_of_a_degree)
 {
     const glm::vec4 flat(32768 / 65535.0f, 32768 / 65535.0f, 1, 1);
     const auto lean = [](const glm::vec3& m) { return std::atan2(std::hypot(m.x, m.y), m.z) * 180 / 3.14159265358979; };

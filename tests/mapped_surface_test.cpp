@@ -1,4 +1,4 @@
-// A mesh as its normal map sees it: what is moved, what is missing, and which corner has which value.
+// The mesh under a normal map: transformed values, missing values, and the values of each corner.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace test;
 
-TEST(MappedSurface, uvThatAreNotFiniteAreZeroEachByItself)
+TEST(MappedSurface, nonFiniteUvComponentsAreZero)
 {
     const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
     Mesh mesh = meshOf({{{0, 0, 0}, {nan, 0.25f}}, {{1, 0, 0}, {0.5f, inf}}, {{0, 1, 0}, {-inf, -nan}}});
@@ -24,15 +24,15 @@ TEST(MappedSurface, uvThatAreNotFiniteAreZeroEachByItself)
     EXPECT_EQ(s.uv(0), glm::dvec2(0, 0.25));
     EXPECT_EQ(s.uv(1), glm::dvec2(0.5, 0));
     EXPECT_EQ(s.uv(2), glm::dvec2(0, 0));
-    mesh.texcoords[0][0] = {-1e29f, 1e29f}; // finite: as they are
+    mesh.texcoords[0][0] = {-1e29f, 1e29f}; // finite values are kept
     EXPECT_EQ(makeSurface(mesh, Texture{}).uv(0), glm::dvec2(glm::vec2(-1e29f, 1e29f)));
-    mesh.texcoords[0].pop_back(); // not one a vertex: none
+    mesh.texcoords[0].pop_back(); // fewer than vertices: ignored
     EXPECT_FALSE(makeSurface(mesh, Texture{}).hasUv());
     EXPECT_EQ(edgesOf(makeSurface(mesh, Texture{}), 0).uv1, glm::dvec2(0));
     EXPECT_EQ(edgesOf(makeSurface(mesh, Texture{}), 0).p2, glm::dvec3(0, 1, 0));
 }
 
-TEST(MappedSurface, tangentsAndNormalsMoveWithTheSurfaceAndMirrorsTurnW)
+TEST(MappedSurface, tangentsAndNormalsFollowTheTransformAndMirroringFlipsW)
 {
     Mesh mesh = meshOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}));
     mesh.tangents.assign(6, glm::vec4(1, 0, 0, 1));
@@ -40,7 +40,7 @@ TEST(MappedSurface, tangentsAndNormalsMoveWithTheSurfaceAndMirrorsTurnW)
     const glm::dmat3 stretched({2, 0, 0}, {0, 1, 0}, {0, 0, 1}), mirrored({0, -3, 0}, {-1, 0, 0}, {0, 0, 1}),
         turned({0, 1, 0}, {-1, 0, 0}, {0, 0, 1});
     ASSERT_LT(glm::determinant(mirrored), 0);
-    const double plain = makeSurface(mesh, Texture{}).stored(0).w; // as along v, which runs down: against glTF's
+    const double plain = makeSurface(mesh, Texture{}).stored(0).w; // w along v, which runs down: the opposite of glTF's
     EXPECT_EQ(plain, -1);
     for (const auto& [linear, direction, w] : {std::tuple(stretched, glm::dvec3(1, 0, 0), plain),
                                                {mirrored, {0, -1, 0}, -plain},
@@ -51,18 +51,18 @@ TEST(MappedSurface, tangentsAndNormalsMoveWithTheSurfaceAndMirrorsTurnW)
             EXPECT_LT(glm::length(s.position(corner) - linear * glm::dvec3(mesh.positions[corner])), 1e-12);
         }
         const glm::dvec3 n = glm::normalize(glm::inverse(glm::transpose(linear)) * glm::dvec3(mesh.normals[0]));
-        EXPECT_LT(glm::length(s.normal(0) - n), 1e-6); // the outside stays outside
+        EXPECT_LT(glm::length(s.normal(0) - n), 1e-6); // the normal still points outwards
     }
     const MappedSurface flat = makeSurface(mesh, Texture{}, glm::dmat3({0, 0, 0}, {0, 0, 0}, {0, 0, 0}));
     EXPECT_EQ(flat.normal(0), glm::dvec3(0));
     EXPECT_EQ(glm::dvec3(flat.stored(0)), glm::dvec3(0));
-    mesh.tangents.pop_back(); // not one a vertex: none
+    mesh.tangents.pop_back(); // fewer than vertices: ignored
     EXPECT_FALSE(makeSurface(mesh, Texture{}).hasStored());
     EXPECT_FALSE(MappedSurface{}.hasStored() || MappedSurface{}.hasUv());
     EXPECT_EQ(MappedSurface{}.triangleCount(), 0u);
 }
 
-// A fan around one vertex, whose corners there have some hundred different tangents, and a mirrored part.
+// A fan around one vertex, whose corners there have about a hundred different tangents; parts of it are mirrored.
 Mesh fanOfManyTangents()
 {
     constexpr std::uint32_t kSides = 150;
@@ -77,12 +77,12 @@ Mesh fanOfManyTangents()
     }
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         mesh.normals.push_back({0, 0, 1});
-        mesh.texcoords[0].push_back({unit(random), unit(random)}); // every second triangle or so is mirrored
+        mesh.texcoords[0].push_back({unit(random), unit(random)}); // mirrors about every second triangle
     }
     return mesh;
 }
 
-TEST(MappedSurface, eachCornerHasTheTangentThatWasGeneratedForIt)
+TEST(MappedSurface, eachCornerHasItsGeneratedTangent)
 {
     const Mesh mesh = fanOfManyTangents();
     const MappedSurface s = makeSurface(mesh, Texture{});
@@ -96,11 +96,11 @@ TEST(MappedSurface, eachCornerHasTheTangentThatWasGeneratedForIt)
         for (std::size_t corner = 0; corner < expected.size(); ++corner) {
             const glm::dvec4 found = s.generated(info.frame, corner);
             EXPECT_LT(glm::length(glm::dvec3(found) - glm::dvec3(expected[corner])), 1e-6) << corner;
-            EXPECT_EQ(found.w, -double(expected[corner].w)) << corner; // along v, against glTF's
+            EXPECT_EQ(found.w, -double(expected[corner].w)) << corner; // along v, the opposite of glTF's
             different += corner % 3 == 0 && expected[corner] != expected[0];
         }
         if (info.frame == Frame::mikktspace) {
-            EXPECT_GT(different, 20u); // at the one vertex
+            EXPECT_GT(different, 20u); // at the shared vertex
         }
     }
     const MappedSurface none = makeSurface(mesh, Texture{}, glm::dmat3(1), FrameSet());
@@ -110,9 +110,9 @@ TEST(MappedSurface, eachCornerHasTheTangentThatWasGeneratedForIt)
     EXPECT_EQ(without.b, glm::dvec3(0));
 }
 
-TEST(MappedSurface, smoothCotangentsAreThoseOfTheCornersOwnSide)
+TEST(MappedSurface, smoothCotangentsDoNotMixMirroredSides)
 {
-    // Mirrored and unmirrored triangles are apart; those of a vertex are the values of splitSmoothCotangents.
+    // Mirrored and unmirrored triangles are separate; the values at each vertex are those of splitSmoothCotangents.
     const Mesh mesh = fanOfManyTangents();
     const MappedSurface s = makeSurface(mesh, Texture{});
     const SplitCotangents made = splitSmoothCotangents({mesh.positions, mesh.normals, mesh.texcoords[0], mesh.indices});
@@ -120,9 +120,9 @@ TEST(MappedSurface, smoothCotangentsAreThoseOfTheCornersOwnSide)
         const glm::dvec3 weights(0.5, 0.2, 0.3);
         glm::dvec3 u(0), v(0);
         for (int k = 0; k < 3; ++k) {
-            const std::uint32_t place = made.split.indices[3 * t + std::size_t(k)];
-            u += weights[k] * glm::dvec3(made.cotangents.u[place]);
-            v += weights[k] * glm::dvec3(made.cotangents.v[place]);
+            const std::uint32_t index = made.split.indices[3 * t + std::size_t(k)];
+            u += weights[k] * glm::dvec3(made.cotangents.u[index]);
+            v += weights[k] * glm::dvec3(made.cotangents.v[index]);
         }
         const f64::cotan_frame expected = evaluateCotangents(Frame::smooth, glm::dvec3(0, 0, 1), u, v);
         const f64::cotan_frame found = frameAt(s, Frame::smooth, TangentOrigin::generated, t, weights);
@@ -131,7 +131,7 @@ TEST(MappedSurface, smoothCotangentsAreThoseOfTheCornersOwnSide)
     }
 }
 
-TEST(MappedSurface, aCoatWithOtherUvHasTheTangentsOfTheSurfaceAndNoSmoothFrame)
+TEST(MappedSurface, coatWithOtherUvSharesTangentsButNotTheSmoothFrame)
 {
     auto mesh = std::make_shared<Mesh>(fanOfManyTangents());
     mesh->texcoords[1] = mesh->texcoords[0];
@@ -152,14 +152,14 @@ TEST(MappedSurface, aCoatWithOtherUvHasTheTangentsOfTheSurfaceAndNoSmoothFrame)
     EXPECT_EQ(coat.uv(5), glm::dvec2(mesh->texcoords[1][mesh->indices[5]]));
 }
 
-TEST(MappedSurface, areasThatAreNotFiniteAreNone)
+TEST(MappedSurface, nonFiniteAreasAreZero)
 {
     EXPECT_EQ(areaOf(surfaceOf({{{0, 0, 0}, {}}, {{3, 0, 0}, {}}, {{0, 4, 0}, {}}}), 0), 6);
     const float inf = std::numeric_limits<float>::infinity();
     EXPECT_EQ(areaOf(surfaceOf({{{0, 0, 0}, {}}, {{inf, 0, 0}, {}}, {{0, 4, 0}, {}}}), 0), 0);
 }
 
-TEST(MappedSurface, orientationIsSeenFromTheSideOfTheNormals)
+TEST(MappedSurface, orientationIsThatSeenFromTheNormals)
 {
     // v runs down on the unmirrored rectangle.
     const glm::vec3 up(0, 0, 1), down(0, 0, -1);
@@ -182,13 +182,13 @@ TEST(MappedSurface, orientationIsSeenFromTheSideOfTheNormals)
         EXPECT_EQ(signOf(plain, most), 1) << odd;
         EXPECT_EQ(signOf(plain, few), -1) << odd;
     }
-    EXPECT_EQ(signOf(plain, {glm::vec3(0), glm::vec3(0), glm::vec3(0)}), 1); // unknown: by the corners
+    EXPECT_EQ(signOf(plain, {glm::vec3(0), glm::vec3(0), glm::vec3(0)}), 1); // no normals: the winding decides
     Mesh bare = meshOf(plain);
     bare.texcoords[0].clear();
     EXPECT_EQ(orientationOf(makeSurface(bare, Texture{}), 0), 0);
 }
 
-TEST(MappedSurface, bytesAreThoseOfTheValuesAndOfTheLargestGenerator)
+TEST(MappedSurface, bytesCountValuesAndTheLargestGenerator)
 {
     const auto bytes = [](std::initializer_list<Frame> frames) {
         FrameSet set;
@@ -196,14 +196,14 @@ TEST(MappedSurface, bytesAreThoseOfTheValuesAndOfTheLargestGenerator)
             set.set(std::size_t(f));
         return surfaceBytes(1000, 300, set);
     };
-    // uv: two floats a vertex; gradients of u and v: six; tangents: four.
+    // uv: two floats per vertex; gradients of u and v: six; tangents: four.
     EXPECT_EQ(bytes({}).kept, 8000u);
     EXPECT_EQ(bytes({}).making, 0u);
     EXPECT_EQ(bytes({Frame::smooth}).kept, 8000u + 24000u);
     EXPECT_EQ(bytes({Frame::mikktspace}).kept, 8000u + 16000u);
     EXPECT_EQ(bytes({Frame::mikktspace, Frame::vertex, Frame::smooth}).kept, 8000u + 2 * 16000u + 24000u);
-    EXPECT_EQ(bytes({Frame::cotangent, Frame::orthonormal}).kept, 8000u); // read no vertices
-    // One after the other is made: the most that one takes counts.
+    EXPECT_EQ(bytes({Frame::cotangent, Frame::orthonormal}).kept, 8000u); // do not read vertex values
+    // Generators run one after the other: the maximum counts.
     const std::size_t smooth = bytes({Frame::smooth}).making, tangents = bytes({Frame::mikktspace}).making;
     EXPECT_GT(smooth, 0u);
     EXPECT_GT(tangents, smooth);

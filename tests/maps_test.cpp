@@ -26,9 +26,8 @@ cotan::f64::cotan_vec3 decodedTexel(const cotan::Image& image, int x, int y)
 
 TEST(Reliefs, derivativesEqualCentralDifferences)
 {
-    // The largest second derivative is that of the brick edges, 6 * 0.009 / 0.014^2 = 276. Where
-    // it jumps a central difference over +-1e-6 is off by up to 276 * 1e-6 / 4 = 7e-5; rounding
-    // adds 1e-16 / 1e-6.
+    // The maximum second derivative is that of brick edges, 6 * 0.009 / 0.014^2 = 276. Where it jumps, a central
+    // difference over +-1e-6 has an error of up to 276 * 1e-6 / 4 = 7e-5; rounding adds 1e-16 / 1e-6.
     const double step = 1e-6, tolerance = 1e-4;
     std::mt19937 random(1);
     std::uniform_real_distribution<double> coordinate(-2, 2);
@@ -51,14 +50,14 @@ TEST(Reliefs, repeatWithTheUnitSquare)
         for (int i = 0; i < 1000; ++i) {
             const double u = coordinate(random), v = coordinate(random);
             const HeightSample a = relief(kind, u, v), b = relief(kind, u + 3, v - 2);
-            // Rounding of u + 3 (2e-16 relative) times the largest second derivative, 276.
+            // Rounding of u + 3 (2e-16 relative) times the maximum second derivative, 276.
             ASSERT_NEAR(a.h, b.h, 1e-12);
             ASSERT_NEAR(a.hu, b.hu, 1e-12);
             ASSERT_NEAR(a.hv, b.hv, 1e-12);
         }
 }
 
-TEST(Reliefs, areNeitherFlatNorSteeperThan45Degrees)
+TEST(Reliefs, haveAMaximumSlopeBetweenHalfAndOne)
 {
     for (const Relief kind : kReliefs) {
         double steepest = 0;
@@ -74,8 +73,7 @@ TEST(Reliefs, areNeitherFlatNorSteeperThan45Degrees)
 
 TEST(Reliefs, domesAreSteepestAtRadiusOverRootThree)
 {
-    // h = a (1 - r^2)^2 with a = 0.6 R: |dh/d(rR)| = 0.6 * 4 r (1 - r^2), at most 0.6 * 8/(3 sqrt
-    // 3).
+    // h = a (1 - r^2)^2 with a = 0.6 R: |dh/d(rR)| = 0.6 * 4 r (1 - r^2), at most 0.6 * 8/(3 sqrt 3).
     const double r = 0.1 / std::numbers::sqrt3;
     const HeightSample s = relief(Relief::domes, 0.125 + r, 0.125);
     EXPECT_NEAR(s.hu, -0.6 * 8 / (3 * std::numbers::sqrt3), 1e-12);
@@ -83,7 +81,7 @@ TEST(Reliefs, domesAreSteepestAtRadiusOverRootThree)
     EXPECT_EQ(relief(Relief::domes, 0.25, 0.25).h, 0);
 }
 
-TEST(Reliefs, everyOtherCourseOfBricksIsMovedByHalfABrick)
+TEST(Reliefs, everySecondCourseOfBricksIsShiftedByHalfABrick)
 {
     for (double u = 0; u < 1; u += 1.0 / 64)
         EXPECT_NEAR(relief(Relief::bricks, u, 0.03).h, relief(Relief::bricks, u + 0.125, 0.155).h, 1e-15);
@@ -93,8 +91,7 @@ TEST(Reliefs, everyOtherCourseOfBricksIsMovedByHalfABrick)
 
 TEST(ReliefMaps, decodeToTheAnalyticNormal)
 {
-    // Rounding moves each component by at most 1/254, the vector by at most sqrt(3)/254 =
-    // 0.0068 = 0.39 degrees.
+    // Rounding moves each component by at most 1/254, the vector by at most sqrt(3)/254 = 0.0068 = 0.39 degrees.
     const int side = 128;
     for (const Relief kind : kReliefs) {
         const cotan::Image map = cotan::makeReliefMap(kind, side);
@@ -125,12 +122,12 @@ TEST(ReliefMaps, flatTexelsAreExact)
 
 TEST(ReliefMaps, greenIsBrightOnTheUpperSideOfADome)
 {
-    // The dome at (1/8, 1/8) of a 64 map is centred on the corner of texels 7 and 8.
+    // The dome at (1/8, 1/8) of a 64 x 64 map is centred on the corner between texels 7 and 8.
     const cotan::Image map = cotan::makeReliefMap(Relief::domes, 64);
     const auto texel = [&](int x, int y) { return map.bytes8() + (y * 64 + x) * 4; };
-    EXPECT_GT(texel(8, 4)[1], 200); // above the middle: faces up in the image, green against +v
+    EXPECT_GT(texel(8, 4)[1], 200); // above the centre: faces up in the image, green against +v
     EXPECT_LT(texel(8, 11)[1], 55);
-    EXPECT_LT(texel(4, 8)[0], 55); // left of the middle: faces left
+    EXPECT_LT(texel(4, 8)[0], 55); // left of the centre: faces left
     EXPECT_GT(texel(11, 8)[0], 200);
 }
 

@@ -1,4 +1,4 @@
-// Meshlets with the ring around them: what a mesh shader makes of them, by the text that it runs.
+// Meshlets with the ring around them: the frames that a mesh shader computes from them, by the shader's own code.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -23,11 +23,11 @@ using namespace cotan::test;
 using cotan::RingMeshlets;
 using cotan::ringMeshlets;
 
-// As ringFrame of examples/triangle/ring.glsl.
-cotan::f32::cotan_covectors ringFrame(const Arrays& a, const RingMeshlets& cut, std::uint32_t place, glm::vec3 n)
+// Like ringFrame of examples/triangle/ring.glsl.
+cotan::f32::cotan_covectors ringFrame(const Arrays& a, const RingMeshlets& cut, std::uint32_t slot, glm::vec3 n)
 {
     cotan::f32::cotan_covectors sum{glm::vec3(0), glm::vec3(0)};
-    for (std::uint32_t i = cut.ringBegin[place]; i < cut.ringBegin[place + 1]; ++i) {
+    for (std::uint32_t i = cut.ringBegin[slot]; i < cut.ringBegin[slot + 1]; ++i) {
         const std::uint32_t c = cut.corners[i], k = c % 3, first = c - k;
         const std::uint32_t v0 = a.indices[c], v1 = a.indices[first + (k + 1) % 3], v2 = a.indices[first + (k + 2) % 3];
         const auto one =
@@ -39,22 +39,23 @@ cotan::f32::cotan_covectors ringFrame(const Arrays& a, const RingMeshlets& cut, 
     return cotan::f32::cotan_smooth_of_sum(sum);
 }
 
-// The largest difference between what work groups make at any vertex and smoothCotangents, the longer one being 1.
-double mostOff(const Arrays& a, const RingMeshlets& cut)
+// Maximum difference between the frames of work groups and smoothCotangents at any vertex; the longer vector has length
+// 1.
+double maxFrameError(const Arrays& a, const RingMeshlets& cut)
 {
     const cotan::Cotangents expected = cotan::unitCotangents(cotan::smoothCotangents(a.view()));
-    double most = cut.vertices.empty() ? 1e9 : 0;
-    for (std::uint32_t place = 0; place < cut.vertices.size(); ++place) {
-        const std::uint32_t v = cut.vertices[place];
-        const auto frame = ringFrame(a, cut, place, a.normals[v]);
-        most = std::max(
-            {most, double(glm::length(frame.t - expected.u[v])), double(glm::length(frame.b - expected.v[v]))});
+    double largest = cut.vertices.empty() ? 1e9 : 0;
+    for (std::uint32_t slot = 0; slot < cut.vertices.size(); ++slot) {
+        const std::uint32_t v = cut.vertices[slot];
+        const auto frame = ringFrame(a, cut, slot, a.normals[v]);
+        largest = std::max(
+            {largest, double(glm::length(frame.t - expected.u[v])), double(glm::length(frame.b - expected.v[v]))});
     }
-    return most;
+    return largest;
 }
 
-// All triangles in their order, within the limits, from vertices that are listed once a meshlet.
-void expectWhole(const Arrays& a, const RingMeshlets& cut, std::uint32_t maxVertices, std::uint32_t maxTriangles)
+// Expects all triangles in order, within the limits, and each vertex listed once per meshlet.
+void expectComplete(const Arrays& a, const RingMeshlets& cut, std::uint32_t maxVertices, std::uint32_t maxTriangles)
 {
     std::vector<std::uint32_t> indices;
     ASSERT_EQ(cut.ringBegin.size(), cut.vertices.size() + 1);
@@ -68,15 +69,15 @@ void expectWhole(const Arrays& a, const RingMeshlets& cut, std::uint32_t maxVert
         EXPECT_EQ(std::set<std::uint32_t>(begin, begin + m.vertexCount).size(), m.vertexCount);
         for (std::uint32_t t = 0; t < m.triangleCount; ++t)
             for (int k = 0; k < 3; ++k) {
-                const std::uint32_t place = cut.triangles[m.firstTriangle + t] >> (8 * k) & 255u;
-                ASSERT_LT(place, m.vertexCount);
-                indices.push_back(begin[place]);
+                const std::uint32_t slot = cut.triangles[m.firstTriangle + t] >> (8 * k) & 255u;
+                ASSERT_LT(slot, m.vertexCount);
+                indices.push_back(begin[slot]);
             }
     }
     EXPECT_EQ(indices, a.indices);
 }
 
-// A few roundings of float at edges of 1/24 between coordinates of 1, as for Adjacency.
+// A few float roundings at edges of 1/24 between coordinates of 1, as for Adjacency.
 constexpr double kRounding = 2e-5;
 
 TEST(RingMeshlets, makeSmoothCotangentsOnASphereIndexedOrNot)
@@ -84,8 +85,8 @@ TEST(RingMeshlets, makeSmoothCotangentsOnASphereIndexedOrNot)
     for (const Arrays& a : {sphereGrid(24), unindexed(sphereGrid(24))})
         for (const auto& [vertices, triangles] : {std::array{64u, 124u}, {3u, 1u}, {256u, 1000u}, {17u, 9u}}) {
             const RingMeshlets cut = ringMeshlets(a.view(), vertices, triangles);
-            expectWhole(a, cut, vertices, triangles);
-            EXPECT_LT(mostOff(a, cut), kRounding) << vertices;
+            expectComplete(a, cut, vertices, triangles);
+            EXPECT_LT(maxFrameError(a, cut), kRounding) << vertices;
         }
 }
 
@@ -94,17 +95,17 @@ TEST(RingMeshlets, reachTheTrianglesOfOtherMeshlets)
     const Arrays a = sphereGrid(24);
     const RingMeshlets cut = ringMeshlets(a.view());
     ASSERT_GT(cut.meshlets.size(), 8u);
-    // A vertex inside the sheet has six corners in every meshlet that lists it.
+    // An interior vertex has six corners in every meshlet that lists it.
     for (std::size_t i = 0; i < cut.vertices.size(); ++i) {
         const std::uint32_t x = cut.vertices[i] % 25, y = cut.vertices[i] / 25;
         if (x > 0 && x < 24 && y > 0 && y < 24) {
             EXPECT_EQ(cut.ringBegin[i + 1] - cut.ringBegin[i], 6u);
         }
     }
-    RingMeshlets torn = cut; // without the ring the frames at the edges of meshlets are others
+    RingMeshlets torn = cut; // without the ring, frames at meshlet borders differ
     for (std::size_t i = 0; i < cut.vertices.size(); ++i)
         torn.ringBegin[i + 1] = std::min(torn.ringBegin[i + 1], cut.ringBegin[i] + 3);
-    EXPECT_GT(mostOff(a, torn), 100 * kRounding);
+    EXPECT_GT(maxFrameError(a, torn), 100 * kRounding);
 }
 
 TEST(RingMeshlets, keepMirroredHalvesApartAndLeaveDegenerateTrianglesOut)
@@ -121,11 +122,11 @@ TEST(RingMeshlets, keepMirroredHalvesApartAndLeaveDegenerateTrianglesOut)
     for (const std::uint32_t i : {p, p, q, p, p, p, 0u, 0u, 1u})
         a.indices.push_back(i);
     const RingMeshlets cut = ringMeshlets(a.view());
-    expectWhole(a, cut, 64, 124);
-    EXPECT_LT(mostOff(a, cut), kRounding);
+    expectComplete(a, cut, 64, 124);
+    EXPECT_LT(maxFrameError(a, cut), kRounding);
 }
 
-TEST(RingMeshlets, areEmptyForWhatDoesNotFit)
+TEST(RingMeshlets, areEmptyForInvalidInput)
 {
     Arrays a = sphereGrid(2);
     EXPECT_TRUE(ringMeshlets(a.view(), 2, 124).meshlets.empty());
@@ -136,8 +137,8 @@ TEST(RingMeshlets, areEmptyForWhatDoesNotFit)
     EXPECT_TRUE(ringMeshlets(a.view()).meshlets.empty());
 }
 
-// Overflow, underflow and numbers that are not finite give no frame, not a broken one.
-TEST(SmoothCorner, isTotal)
+// Overflow, underflow and non-finite numbers give no frame instead of a broken one.
+TEST(SmoothCorner, isFiniteForAnyInput)
 {
     const float big = 1e30f, tiny = 1e-30f, nan = std::numeric_limits<float>::quiet_NaN();
     for (const float scale : {1.0f, big, tiny, nan, 0.0f})

@@ -1,4 +1,4 @@
-// COLLADA and PLY: textures, cameras and nodes of the one, headers of the other, each fault alone.
+// COLLADA and PLY: textures, cameras and nodes of COLLADA, headers of PLY, and each fault on its own.
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +13,8 @@ namespace {
 // ---- COLLADA ----------------------------------------------------------------------------------------
 
 struct Collada {
-    std::string sampler;        // of the diffuse texture: MAYA's words
-    std::string uvName = "UV0"; // that the texture reads
+    std::string sampler;        // of the diffuse texture, in Maya's syntax
+    std::string uvName = "UV0"; // the set that the texture reads
     std::string nodes = "<node id=\"n\"><instance_geometry url=\"#g\"><bind_material><technique_common>"
                         "<instance_material symbol=\"M\" target=\"#m\"><bind_vertex_input semantic=\"UV0\" "
                         "input_semantic=\"TEXCOORD\" input_set=\"0\"/><bind_vertex_input semantic=\"UV1\" "
@@ -22,7 +22,7 @@ struct Collada {
                         "</bind_material></instance_geometry></node>";
     std::string libraries;
     std::string positions = "0 0 0 1 0 0 0 1 0";
-    int counted = 9; // numbers, as the array says
+    int counted = 9; // the count that the array states
 
     std::string text() const
     {
@@ -79,8 +79,8 @@ TEST_F(ModelFile, colladaWrapsEachDirectionByItself)
     }
 }
 
-// Scaled, turned about the middle of the image, and shifted, with v up.
-TEST_F(ModelFile, colladaTexturesAreScaledTurnedAndShifted)
+// Scaled, rotated about the centre of the image, and shifted, with v up.
+TEST_F(ModelFile, colladaTextureTransformsAreApplied)
 {
     paint("a.png", {10, 20, 200});
     struct Row {
@@ -109,7 +109,7 @@ TEST_F(ModelFile, colladaTexturesAreScaledTurnedAndShifted)
     }
 }
 
-TEST_F(ModelFile, colladaTexturesReadTheSetOfCoordinatesThatTheyName)
+TEST_F(ModelFile, colladaTexturesUseTheirNamedUvSet)
 {
     paint("a.png", {10, 20, 200});
     for (const int set : {0, 1}) {
@@ -128,12 +128,13 @@ TEST_F(ModelFile, colladaTexturesReadTheSetOfCoordinatesThatTheyName)
     }
 }
 
-TEST_F(ModelFile, colladaAccessorsReachToTheEndOfTheirArrayAndNoFurther)
+TEST_F(ModelFile, colladaAccessorsStayWithinTheirArray)
 {
     Collada collada;
     EXPECT_EQ(refusal("a.dae", collada.text()), "");
     collada.counted = 8;
-    EXPECT_NE(refusal("a.dae", collada.text()).find("accessor of #pa: expected an array of 9 numbers or more, found 8"),
+    EXPECT_NE(refusal("a.dae", collada.text())
+                  .find("accessor of #pa: expected an array of at least 9 numbers, found 8"),
               std::string::npos);
     collada.counted = 10;
     collada.positions += " 0";
@@ -141,26 +142,26 @@ TEST_F(ModelFile, colladaAccessorsReachToTheEndOfTheirArrayAndNoFurther)
     std::string text = Collada().text();
     const std::size_t at = text.find("stride=\"3\"");
     text.insert(at, "offset=\"1\" ");
-    EXPECT_NE(refusal("a.dae", text).find("expected an array of 10 numbers or more, found 9"), std::string::npos);
+    EXPECT_NE(refusal("a.dae", text).find("expected an array of at least 10 numbers, found 9"), std::string::npos);
     text = Collada().text();
     text.replace(text.find("stride=\"3\""), 10, "stride=\"4\"");
-    EXPECT_NE(refusal("a.dae", text).find("expected an array of 11 numbers or more, found 9"), std::string::npos);
+    EXPECT_NE(refusal("a.dae", text).find("expected an array of at least 11 numbers, found 9"), std::string::npos);
     EXPECT_NE(refusal("a.dae", std::string("<COLLADA>\0</COLLADA>", 20)).find("found a zero byte"), std::string::npos);
     for (const std::string element : {"p", "h", "v", "vcount", "int_array"}) {
         const auto fault = [&](const std::string& inside) {
             return refusal("a.dae", "<COLLADA><" + element + inside + "</" + element + "></COLLADA>");
         };
-        const std::string words = "nothing but whole numbers in <" + element + ">";
+        const std::string words = "only integers in <" + element + ">";
         EXPECT_NE(fault(">0 1 x").find(words), std::string::npos) << element;
         EXPECT_NE(fault(" a='b'>0 1.5").find(words), std::string::npos) << element;
         EXPECT_EQ(fault(">0 -1 +2\t3\n").find(words), std::string::npos) << element;
-        EXPECT_EQ(fault("x>abc").find(words), std::string::npos) << element; // a longer name
+        EXPECT_EQ(fault("x>abc").find(words), std::string::npos) << element; // another element with a longer name
     }
     for (const std::string attribute : {"count", "offset", "stride"})
         for (const char quote : {'"', '\''}) {
             const std::string open = "<COLLADA><a " + attribute + "=" + quote,
                               close = std::string(1, quote) + "/></COLLADA>";
-            const std::size_t size = (open + "99" + close).size(); // a count of that many bytes fits
+            const std::size_t size = (open + "99" + close).size(); // a count up to the file's size fits
             const std::string words = "expected a " + attribute + " that fits the file";
             EXPECT_EQ(refusal("a.dae", open + std::to_string(size) + close).find(words), std::string::npos)
                 << attribute;
@@ -170,7 +171,7 @@ TEST_F(ModelFile, colladaAccessorsReachToTheEndOfTheirArrayAndNoFurther)
         }
 }
 
-TEST_F(ModelFile, colladaNodesAreLimitedPlacedInOrderAndTheirLightsLeftOut)
+TEST_F(ModelFile, colladaNodesAreTransformedLimitedAndLoseTheirLights)
 {
     paint("a.png", {10, 20, 200});
     const std::string use = "<instance_geometry url=\"#g\"/>";
@@ -181,7 +182,7 @@ TEST_F(ModelFile, colladaNodesAreLimitedPlacedInOrderAndTheirLightsLeftOut)
     collada.libraries = "<library_lights><light id=\"l\"><technique_common><point><color>1 1 1</color></point>"
                         "</technique_common></light></library_lights>";
     LoadLimits limits;
-    limits.nodes = 4; // with the root
+    limits.nodes = 4; // including the root
     const Scene scene = get("a.dae", collada.text(), limits);
     limits.nodes = 3;
     EXPECT_NE(refusal("a.dae", collada.text(), limits).find("over the limit of 3 nodes"), std::string::npos);
@@ -195,11 +196,11 @@ TEST_F(ModelFile, colladaNodesAreLimitedPlacedInOrderAndTheirLightsLeftOut)
     EXPECT_NEAR(glm::length(at(0, {1, 0, 0}) - glm::vec3(2, 2, 3)), 0, 1e-5);
     EXPECT_NEAR(glm::length(at(1, {1, 0, 0}) - glm::vec3(1, 3, 3)), 0, 1e-5); // x becomes y
     EXPECT_NEAR(glm::length(at(2, {1, 0, 0}) - glm::vec3(1, 0, 0)), 0, 1e-5);
-    EXPECT_TRUE(says(scene, "1 lights are left out: this format gives them no unit"));
+    EXPECT_TRUE(says(scene, "1 lights are ignored: this format defines no unit"));
     EXPECT_EQ(scene.meshes.size(), 1u);
 }
 
-TEST_F(ModelFile, colladaCamerasWithoutAViewAreLeftOutAndSaid)
+TEST_F(ModelFile, invalidColladaCamerasAreSkippedWithAWarning)
 {
     const auto with = [&](const std::string& perspective, const std::string& transform) {
         Collada collada;
@@ -213,17 +214,17 @@ TEST_F(ModelFile, colladaCamerasWithoutAViewAreLeftOutAndSaid)
     ASSERT_EQ(good.cameras.size(), 1u);
     EXPECT_NEAR(good.cameras[0].verticalFieldOfView, 0.5235988, 1e-4);
     const glm::vec3 forward = glm::normalize(good.cameras[0].target - good.cameras[0].eye);
-    EXPECT_NEAR(glm::length(forward - glm::vec3(-1, 0, 0)), 0, 1e-5); // -z, a quarter about y
+    EXPECT_NEAR(glm::length(forward - glm::vec3(-1, 0, 0)), 0, 1e-5); // -z, rotated by 90 degrees about y
     const Scene flat = with("<yfov>30</yfov><aspect_ratio>1.5</aspect_ratio>", "<scale>0 0 0</scale>");
     EXPECT_TRUE(flat.cameras.empty());
-    EXPECT_TRUE(says(flat, "is degenerate; left out"));
+    EXPECT_TRUE(says(flat, "degenerate; left out"));
     const Scene narrow = with("<xfov>0.01</xfov><aspect_ratio>1.5</aspect_ratio>", "");
     EXPECT_TRUE(narrow.cameras.empty());
 }
 
 // ---- PLY ------------------------------------------------------------------------------------------
 
-TEST_F(ModelFile, plyHeadersAreReadWordByWordAndTheFaultIsNamedWithItsLine)
+TEST_F(ModelFile, plyHeaderErrorsNameTheLine)
 {
     const std::string numbers = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
     const auto with = [&](const std::string& format, const std::string& vertex, const std::string& face) {
@@ -240,13 +241,13 @@ TEST_F(ModelFile, plyHeadersAreReadWordByWordAndTheFaultIsNamedWithItsLine)
     EXPECT_NE(with(format, vertex + format, face).find("line 4: expected ascii"), std::string::npos);
     EXPECT_NE(with(format, "\n" + vertex, face).find("line 3: expected a header line"), std::string::npos);
     EXPECT_NE(with(format, "element vertex x\n", face).find("line 3: expected a count at the end"), std::string::npos);
-    EXPECT_NE(with(format, "element vertex 999999\n", face).find("it counts 999999 elements"), std::string::npos);
+    EXPECT_NE(with(format, "element vertex 999999\n", face).find("999999 elements exceed"), std::string::npos);
     EXPECT_NE(with(format, "element 3d 3\n", face).find("starts with a letter, found \"3d\""), std::string::npos);
     EXPECT_NE(with(format, "property float q\n" + vertex, face).find("line 3: expected a type and a name"),
               std::string::npos);
     EXPECT_NE(with(format, vertex + "property quad q\n", face).find("line 4: expected a type and a name"),
               std::string::npos);
-    EXPECT_NE(with(format, vertex, face + "property list float int q\n").find("a whole number as the count of a list"),
+    EXPECT_NE(with(format, vertex, face + "property list float int q\n").find("integer type for the count of a list"),
               std::string::npos);
     LoadLimits limits;
     limits.vertices = 3;

@@ -28,7 +28,7 @@ protected:
         return folder / name;
     }
 
-    // An image of one colour.
+    // Writes an image of one colour.
     void paint(const std::string& name, std::array<int, 3> colour, int width = 4, int height = 4) const
     {
         Image image = makeImage(width, height, PixelType::unorm8);
@@ -53,7 +53,7 @@ protected:
         return scene ? "" : scene.error().message;
     }
 
-    // A triangle whose material has these lines.
+    // A scene with a triangle whose material has these lines.
     Scene paintedBy(const std::string& lines, const LoadLimits& limits = {}) const
     {
         put("m.mtl", "newmtl m\n" + lines);

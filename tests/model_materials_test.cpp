@@ -1,4 +1,4 @@
-// Materials and limits of OBJ models: each statement alone, both sides of each bound.
+// Materials and limits of OBJ models: each statement on its own, each limit from both sides.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -16,7 +16,7 @@ const std::string kPlainTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 // ---- MTL ------------------------------------------------------------------------------------------
 
-TEST_F(ModelFile, aMaterialWithoutStatementsIsGreyRoughAndNoMetal)
+TEST_F(ModelFile, defaultMaterialIsGreyRoughAndNotMetallic)
 {
     const Scene none = get("a.obj", kPlainTriangle);
     ASSERT_EQ(none.materials.size(), 1u);
@@ -38,7 +38,7 @@ TEST_F(ModelFile, aMaterialWithoutStatementsIsGreyRoughAndNoMetal)
     EXPECT_EQ(none.name, "a.obj");
 }
 
-TEST_F(ModelFile, eachMapIsThatOfItsOwnStatement)
+TEST_F(ModelFile, eachMapComesFromItsStatement)
 {
     paint("a.png", {10, 20, 200});
     struct Row {
@@ -58,8 +58,8 @@ TEST_F(ModelFile, eachMapIsThatOfItsOwnStatement)
     }
 }
 
-// Exporters leave a factor at black where the map alone is meant; any other colour is a factor.
-TEST_F(ModelFile, aBlackFactorBesideItsMapIsWhite)
+// Exporters write a black factor where they mean the map alone; any other colour is a factor.
+TEST_F(ModelFile, blackFactorOfAMappedChannelBecomesWhite)
 {
     paint("a.png", {10, 20, 200});
     EXPECT_EQ(materialBy("Kd 0 0 0\nmap_Kd a.png\n").baseColor, glm::vec4(1));
@@ -68,11 +68,11 @@ TEST_F(ModelFile, aBlackFactorBesideItsMapIsWhite)
     EXPECT_EQ(materialBy("Kd 0 0.25 0\nmap_Kd a.png\n").baseColor, glm::vec4(0, 0.25f, 0, 1));
     EXPECT_EQ(materialBy("map_Ke a.png\n").emissive, glm::vec3(1));
     EXPECT_EQ(materialBy("Ke 0 0 0.5\nmap_Ke a.png\n").emissive, glm::vec3(0, 0, 0.5f));
-    EXPECT_EQ(materialBy("Ke 3 0 0.5\n").emissive, glm::vec3(3, 0, 0.5f)); // brighter than white is light, too
+    EXPECT_EQ(materialBy("Ke 3 0 0.5\n").emissive, glm::vec3(3, 0, 0.5f)); // light brighter than white is kept
     EXPECT_EQ(materialBy("map_Ke gone.png\n").emissive, glm::vec3(0));
 }
 
-TEST_F(ModelFile, opacityBlendsBelowOneAndZeroIsAMistakeThatIsSaid)
+TEST_F(ModelFile, opacityBelowOneBlendsAndZeroIsReported)
 {
     struct Row {
         const char* line;
@@ -91,7 +91,7 @@ TEST_F(ModelFile, opacityBlendsBelowOneAndZeroIsAMistakeThatIsSaid)
         const Scene scene = paintedBy(row.line);
         EXPECT_EQ(scene.materials.at(0).baseColor.w, row.alpha) << row.line;
         EXPECT_EQ(scene.materials.at(0).alphaMode, row.mode) << row.line;
-        EXPECT_EQ(says(scene, "material m: its opacity is 0; taken as opaque"), row.said) << row.line;
+        EXPECT_EQ(says(scene, "material m: its opacity is 0; treated as opaque"), row.said) << row.line;
     }
     paint("a.png", {10, 20, 200});
     paint("b.png", {10, 20, 200});
@@ -101,7 +101,7 @@ TEST_F(ModelFile, opacityBlendsBelowOneAndZeroIsAMistakeThatIsSaid)
     EXPECT_TRUE(says(other, "material m: the opacity map b.png is left out"));
 }
 
-TEST_F(ModelFile, roughnessIsWhatIsSaidOrFromTheShininessAndIsClamped)
+TEST_F(ModelFile, roughnessIsStatedOrDerivedFromShininess)
 {
     for (const auto& [line, roughness] : {std::pair("Ns 6\n", std::pow(2.0 / 8, 0.25)),
                                           {"Ns 0\n", 0.7},
@@ -114,13 +114,13 @@ TEST_F(ModelFile, roughnessIsWhatIsSaidOrFromTheShininessAndIsClamped)
     for (const auto& [line, metallic] : {std::pair("Pm 1.5\n", 1.0f), {"Pm -1\n", 0.0f}, {"Pm 0.25\n", 0.25f}})
         EXPECT_EQ(materialBy(line).metallic, metallic) << line;
     paint("a.png", {10, 20, 200});
-    EXPECT_EQ(materialBy("map_Pr a.png\n").roughness, 1); // a map has its factor at one
+    EXPECT_EQ(materialBy("map_Pr a.png\n").roughness, 1); // a map has factor 1
     EXPECT_EQ(materialBy("map_Pr a.png\n").metallic, 0);
     EXPECT_EQ(materialBy("map_Pm a.png\n").metallic, 1);
     EXPECT_EQ(materialBy("map_Pm a.png\n").roughness, 0.7f);
     EXPECT_EQ(materialBy("map_Pr a.png\nPr 0.5\n").roughness, 0.5f);
     EXPECT_EQ(materialBy("map_Pm a.png\nPm 0.5\n").metallic, 0.5f);
-    // Alone, a map leaves the other channel white.
+    // A single map leaves the other channel white.
     for (const auto& [line, green, blue] : {std::tuple("map_Pr a.png\n", 10, 255), {"map_Pm a.png\n", 255, 10}}) {
         const Scene scene = paintedBy(line);
         const Image& image = scene.images.at(std::size_t(scene.materials.at(0).metallicRoughnessMap.image));
@@ -132,7 +132,7 @@ TEST_F(ModelFile, roughnessIsWhatIsSaidOrFromTheShininessAndIsClamped)
     }
 }
 
-TEST_F(ModelFile, aNormalMapGoesBeforeABumpMapInAnyOrder)
+TEST_F(ModelFile, normalMapTakesPrecedenceOverBumpMap)
 {
     paint("n.png", {128, 128, 255});
     paint("b.png", {120, 120, 255});
@@ -145,15 +145,15 @@ TEST_F(ModelFile, aNormalMapGoesBeforeABumpMapInAnyOrder)
     EXPECT_EQ(materialBy("norm -bm 0.25 gone.png\n").normalScale, 1);
 }
 
-// What is nearly grey is a height map: red and blue are at most 3 % of the range apart in the mean.
-TEST_F(ModelFile, aBumpMapIsOfHeightsWhereRedIsNearlyBlue)
+// A nearly grey image is a height map: mean red and blue differ by at most 3 % of the range.
+TEST_F(ModelFile, greyBumpMapIsAHeightMap)
 {
     for (const auto& [blue, height] : {std::pair(100, true), {107, true}, {108, false}, {92, false}, {93, true}}) {
         const std::string name = fmt::format("{}.png", blue);
         paint(name, {100, 30, blue});
-        EXPECT_EQ(says(paintedBy("bump " + name + "\n"), "is grey: taken as a height map"), height) << blue;
+        EXPECT_EQ(says(paintedBy("bump " + name + "\n"), "is grey: treated as a height map"), height) << blue;
     }
-    // A hundredth of the width at white, and -bm scales it: a ramp of one step in 255 a texel.
+    // White is a hundredth of the width high, and -bm scales that: a ramp of one step in 255 per texel.
     Image ramp = makeImage(64, 8, PixelType::unorm8);
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 64; ++x) {
@@ -164,29 +164,29 @@ TEST_F(ModelFile, aBumpMapIsOfHeightsWhereRedIsNearlyBlue)
     ASSERT_TRUE(writeImage(folder / "ramp.png", ramp));
     for (const double strength : {1.0, 8.0}) {
         const Scene scene = paintedBy(fmt::format("bump -bm {} ramp.png\n", strength));
-        EXPECT_EQ(scene.materials.at(0).normalScale, 1); // the strength is in the conversion
+        EXPECT_EQ(scene.materials.at(0).normalScale, 1); // the conversion contains the strength
         const Image& map = scene.images.at(std::size_t(scene.materials.at(0).normalMap.image));
         EXPECT_TRUE(map.name.ends_with(" (bump)")) << map.name;
         const std::uint8_t* texel = map.bytes8() + 4 * (4 * 64 + 30);
-        const double slope = 2.0 / 255 * 0.01 * 64 * strength; // height over a texel, in texels
+        const double slope = 2.0 / 255 * 0.01 * 64 * strength; // rise over a texel, in texels
         EXPECT_NEAR((texel[0] / 127.5 - 1) / (texel[2] / 127.5 - 1), -slope, 0.01) << strength;
         EXPECT_NEAR(texel[1] / 127.5 - 1, 0, 0.01) << strength;
     }
 }
 
-TEST_F(ModelFile, aMapOnAMeshWithoutTextureCoordinatesIsSaidOnce)
+TEST_F(ModelFile, mapOnAMeshWithoutUvIsReportedOnce)
 {
     paint("a.png", {10, 20, 200});
     put("m.mtl", "newmtl m\nmap_Kd a.png\nmap_Ke a.png\n");
     const Scene scene = get("b.obj", "mtllib m.mtl\nusemtl m\no it\n" + kPlainTriangle);
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_EQ(scene.warnings[0],
-              "mesh it: it has no texture coordinates 0, which material m needs; textures and normal map cannot show");
+              "mesh it: it has no texture coordinates 0, which material m needs; its textures are not drawn");
     const Scene mixed = get("c.obj", kPlainTriangle + "vt 0 0\nf 1/1 2/1 3/1\n");
-    EXPECT_TRUE(says(mixed, "1 of 2 faces have no texture coordinates; theirs are 0"));
+    EXPECT_TRUE(says(mixed, "1 of 2 faces have no texture coordinates; 0 is used"));
 }
 
-TEST_F(ModelFile, imagesTakeWhatIsLeftOfTheBudgetOfAll)
+TEST_F(ModelFile, imagesShareOneMemoryBudget)
 {
     paint("a.png", {1, 2, 200});
     paint("b.png", {4, 5, 200});
@@ -198,7 +198,7 @@ TEST_F(ModelFile, imagesTakeWhatIsLeftOfTheBudgetOfAll)
         EXPECT_EQ(scene.images.size(), images) << budget;
         EXPECT_EQ(scene.warnings.size(), 2 - images) << budget;
     }
-    paint("g.png", {50, 50, 50}); // a height map and the normal map of it
+    paint("g.png", {50, 50, 50}); // a height map and its normal map
     for (const auto& [budget, images] : {std::pair(128, 2u), {127, 1u}}) {
         LoadLimits limits;
         limits.allImageBytes = std::size_t(budget);
@@ -224,7 +224,7 @@ TEST_F(ModelFile, oneHeightMapOfOneStrengthIsConvertedOnce)
 
 // ---- OBJ ------------------------------------------------------------------------------------------
 
-TEST_F(ModelFile, limitsAreReachedAndNotPassed)
+TEST_F(ModelFile, limitsAreInclusive)
 {
     const std::string two = kPlainTriangle + "o b\nf 1 3 2\n"; // 3 positions, 2 triangles, 2 parts
     const auto limited = [](auto field, std::size_t value) {
@@ -240,13 +240,13 @@ TEST_F(ModelFile, limitsAreReachedAndNotPassed)
     EXPECT_NE(refusal("a.obj", two, limited(&LoadLimits::nodes, 1)), "");
     EXPECT_EQ(refusal("a.obj", two, limited(&LoadLimits::fileBytes, two.size())), "");
     EXPECT_NE(refusal("a.obj", two, limited(&LoadLimits::fileBytes, two.size() - 1)), "");
-    for (const std::string word : {"vt 0 0\n", "vn 0 0 1\n"}) { // these are counted, too
+    for (const std::string word : {"vt 0 0\n", "vn 0 0 1\n"}) { // these count, too
         EXPECT_EQ(refusal("a.obj", word + word + word + two, limited(&LoadLimits::vertices, 3)), "") << word;
         EXPECT_NE(refusal("a.obj", word + word + word + word + two, limited(&LoadLimits::vertices, 3)), "") << word;
     }
 }
 
-TEST_F(ModelFile, numbersReachToTheEndsOfFloat)
+TEST_F(ModelFile, onlyFiniteNumbersAreRead)
 {
     const auto with = [&](const std::string& x) {
         return refusal("a.obj", "v " + x + " 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
@@ -257,7 +257,7 @@ TEST_F(ModelFile, numbersReachToTheEndsOfFloat)
         EXPECT_NE(with(bad).find("line 1: expected a finite number"), std::string::npos) << bad << with(bad);
 }
 
-TEST_F(ModelFile, theLineOfAFaultCountsThoseThatAreJoined)
+TEST_F(ModelFile, errorLinesCountContinuedLines)
 {
     const std::string joined = "v 0 0 \\\n0\nv 1 0 0\r\nv 0 \\\r\n1 0\n";
     EXPECT_NE(refusal("a.obj", joined + "f 1 2 x\n").find("line 6: "), std::string::npos)
@@ -268,7 +268,7 @@ TEST_F(ModelFile, theLineOfAFaultCountsThoseThatAreJoined)
     EXPECT_NE(refusal("a.obj", "v 0 0 \\\nx\n").find("line 1: "), std::string::npos);
 }
 
-TEST_F(ModelFile, verticesAreSharedWhereAllOfThemIsEqualAndApartWhereAnythingDiffers)
+TEST_F(ModelFile, onlyIdenticalVerticesAreShared)
 {
     const std::string head = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
                              "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 0.5 0\nvn 0 0 1\nvn 0 1 0\n";
@@ -281,7 +281,7 @@ TEST_F(ModelFile, verticesAreSharedWhereAllOfThemIsEqualAndApartWhereAnythingDif
     EXPECT_EQ(vertices("1/5/1 3/5/1 4/4/2"), 6u);
 }
 
-TEST_F(ModelFile, modelsWithZUpAreTurnedAndAnimationsAreOfGltfAlone)
+TEST_F(ModelFile, zUpIsConvertedAndAnimationsRequireGltf)
 {
     LoadLimits limits;
     limits.up = Up::z;

@@ -1,4 +1,4 @@
-# Whole models through both renderers, against what is known about them.
+# Compares whole models, drawn by both renderers, with known facts about them.
 cotan_test(models_test
   SOURCES models_normal_tangent_test.cpp models_uv_cases_test.cpp models_devices_test.cpp
           models_materials_test.cpp models_extensions_test.cpp

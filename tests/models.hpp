@@ -1,4 +1,4 @@
-// Models of the shared data folder, drawn.
+// Draws models of the shared data folder.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace cotan::test {
 
 inline std::filesystem::path shared(const char* file) { return std::filesystem::path(COTAN_SHARED_DATA) / file; }
 
-// Skips the test where the model is not there.
+// Skips the test if the model is missing.
 #define COTAN_NEEDS_MODEL(file)                                                                                        \
     if (!std::filesystem::exists(shared(file)))                                                                        \
     GTEST_SKIP() << shared(file) << " is missing"
@@ -30,8 +30,8 @@ inline Scene loadModel(const char* file)
     return std::move(*scene);
 }
 
-// The renderer of that name; null where it is not available (the Vulkan one on machines without).
-inline std::unique_ptr<Renderer> painterFor(const std::string& device)
+// The renderer of that name; null if it is unavailable (e.g. Vulkan on machines without it).
+inline std::unique_ptr<Renderer> rendererFor(const std::string& device)
 {
     auto renderer = openRenderer(device);
     return renderer && (*renderer)->note.empty() ? std::move(*renderer) : nullptr;
@@ -47,7 +47,7 @@ inline Image drawWith(Renderer& renderer, const View& view)
     return std::move(*image);
 }
 
-// Orthographic, looking along -z at the rectangle, `perUnit` pixels a world unit.
+// Orthographic view along -z of the rectangle, with `perUnit` pixels per world unit.
 inline View frontView(glm::vec2 low, glm::vec2 high, float perUnit)
 {
     View view;

@@ -35,7 +35,7 @@ AngleStatistics difference(const Scene& scene, Renderer& gpu, Renderer& referenc
 TEST_P(Devices, pointSampledNormalsAgreeWithTheReference)
 {
     COTAN_NEEDS_MODEL(GetParam().file);
-    auto gpu = painterFor("auto"), reference = painterFor("reference");
+    auto gpu = rendererFor("auto"), reference = rendererFor("reference");
     if (!gpu)
         GTEST_SKIP() << "no Vulkan device";
     const Scene scene = loadModel(GetParam().file);
@@ -44,23 +44,23 @@ TEST_P(Devices, pointSampledNormalsAgreeWithTheReference)
     const AngleStatistics s = difference(scene, *gpu, *reference, true);
     EXPECT_GT(s.count, 5000u);
     EXPECT_LT(s.median, 0.02);      // rounding of interpolation and differences
-    EXPECT_LT(s.percentile99, 0.5); // texels whose border falls between two roundings of uv
+    EXPECT_LT(s.percentile99, 0.5); // texels whose border falls between the two roundings of uv
     RecordProperty("point_sampled", toText(s));
-    // Filtered maps differ by what an anisotropic sampler is free to choose (docs/project/testing.md has the
-    // measured parts): reported, and bounded loosely so that a broken mip chain would show.
+    // Filtered maps differ, since anisotropic sampling is implementation-defined (measured in docs/project/testing.md):
+    // reported, and bounded loosely to detect a broken mip chain.
     const AngleStatistics t = difference(scene, *gpu, *reference, false);
     EXPECT_LT(t.median, 0.5);
     RecordProperty("trilinear", toText(t));
     std::cout << GetParam().name << ": point sampled " << toText(s) << "\n    trilinear " << toText(t) << "\n";
 }
 
-// How a blended model differs from the same cut out at half alpha: where its texels are solid, not at all.
-struct Twins {
-    double share = 0; // of pixels that differ by more than 3 steps of 8 bits
-    double mean = 0;  // steps, of the largest channel
+// Difference between a blended model and the same model cut out at half alpha: none where its texels are opaque.
+struct ModeDifference {
+    double fraction = 0; // fraction of pixels that differ by more than 3 steps of 8 bits
+    double mean = 0;     // mean of the largest channel difference, in steps
 };
 
-Twins twins(const Scene& scene, Renderer& renderer)
+ModeDifference modeDifference(const Scene& scene, Renderer& renderer)
 {
     Scene cut = scene;
     for (Material& m : cut.materials)
@@ -75,31 +75,31 @@ Twins twins(const Scene& scene, Renderer& renderer)
     const Image blended = drawWith(renderer, view);
     EXPECT_TRUE(renderer.load(cut));
     const Image solid = drawWith(renderer, view);
-    Twins result;
+    ModeDifference result;
     for (std::size_t i = 0; i < blended.pixelCount(); ++i) {
         int step = 0;
         for (std::size_t c = 0; c < 3; ++c)
             step = std::max(step, std::abs(int(blended.bytes8()[4 * i + c]) - int(solid.bytes8()[4 * i + c])));
-        result.share += step > 3 ? 1 : 0;
+        result.fraction += step > 3 ? 1 : 0;
         result.mean += step;
     }
-    result.share /= double(blended.pixelCount());
+    result.fraction /= double(blended.pixelCount());
     result.mean /= double(blended.pixelCount());
-    std::cout << "share " << result.share << ", mean " << result.mean << "\n";
+    std::cout << "share " << result.fraction << ", mean " << result.mean << "\n";
     return result;
 }
 
-// Drawn without an order of its layers, the cat has hollow eyes and its coat behind its body.
-TEST(BlendedModel, solidTexelsHideWhatIsBehindThemOnBothDevices)
+// Without sorted layers, the cat has hollow eyes and its coat is behind its body.
+TEST(BlendedModel, opaqueTexelsHideLayersBehindThemOnBothDevices)
 {
     COTAN_NEEDS_MODEL("models/SketchfabCat/scene.gltf");
     const Scene scene = loadModel("models/SketchfabCat/scene.gltf");
     for (const char* device : {"reference", "auto"}) {
-        auto renderer = painterFor(device);
+        auto renderer = rendererFor(device);
         if (!renderer)
             continue; // no Vulkan device
-        const Twins t = twins(scene, *renderer);
-        EXPECT_LT(t.share, 0.005) << device;
+        const ModeDifference t = modeDifference(scene, *renderer);
+        EXPECT_LT(t.fraction, 0.005) << device;
         EXPECT_LT(t.mean, 0.1) << device;
     }
 }

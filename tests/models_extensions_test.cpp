@@ -1,5 +1,5 @@
-// The maps and factors that extensions give a material, on both renderers.
-#include "leaning_quad.hpp"
+// The maps and factors that extensions add to a material, on both renderers.
+#include "tilted_quad.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-// A factor of an extension, the map that it is times with, and a material on which it shows.
+// A factor of an extension, the map that multiplies it, and a material that shows the effect.
 struct MappedFactor {
     const char* name;
     void (*make)(Material&, float factor);
@@ -37,16 +37,16 @@ const MappedFactor kMappedFactors[] = {
      [](Material& m) { return &m.transmission.map; }},
 };
 
-// White on the right half of uv set 1, as the use's transform turns it, and 0 on the left: there the picture is that
-// of the factor 0, and on the right of the factor alone.
-TEST(MaterialExtensions, everyMapIsTimesItsFactorWithUvOfItsOwn)
+// The map uses uv set 1 through a transform: 1 on the right half, 0 on the left. The left must equal a render with
+// factor 0, the right one with the factor alone.
+TEST(MaterialExtensions, everyMapIsMultipliedByItsFactorAndUsesItsOwnUv)
 {
     for (const char* device : {"reference", "auto"}) {
-        auto renderer = painterFor(device);
+        auto renderer = rendererFor(device);
         if (!renderer)
             continue;
         for (const MappedFactor& f : kMappedFactors) {
-            Scene scene = leaningQuad();
+            Scene scene = tiltedQuad();
             Mesh& mesh = scene.meshes[0];
             for (const glm::vec3& p : mesh.positions)
                 mesh.texcoords[1].push_back({7, 4 * p.x}); // v grows to the right
@@ -88,15 +88,15 @@ TEST(MaterialExtensions, everyMapIsTimesItsFactorWithUvOfItsOwn)
     }
 }
 
-// Values that a program may put there: pictures stay finite, and both renderers draw.
-TEST(MaterialExtensions, oddNumbersGiveFinitePictures)
+// Values that programs may set: images stay finite, and both renderers draw.
+TEST(MaterialExtensions, extremeNumbersGiveFiniteImages)
 {
     const float odd[] = {-1, 0, 1e30f, std::numeric_limits<float>::infinity(), std::nanf("")};
     for (const char* device : {"reference", "auto"}) {
-        auto renderer = painterFor(device);
+        auto renderer = rendererFor(device);
         if (!renderer)
             continue;
-        Scene scene = leaningQuad();
+        Scene scene = tiltedQuad();
         for (const float value : odd)
             for (int k = 0; k < 5; ++k) {
                 Material m;
@@ -109,7 +109,7 @@ TEST(MaterialExtensions, oddNumbersGiveFinitePictures)
                 scene.materials[0] = m;
                 const auto loaded = renderer->load(scene);
                 if (!loaded)
-                    continue; // said so
+                    continue; // refused with an error
                 View view = quadView(Frame::cotangent);
                 view.environment = true;
                 const Image image = drawWith(*renderer, view);

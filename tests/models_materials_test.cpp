@@ -1,5 +1,5 @@
-// What extensions add to materials, on both renderers and on the models that have it.
-#include "leaning_quad.hpp"
+// Material extensions on both renderers and on the models that use them.
+#include "tilted_quad.hpp"
 
 #include <algorithm>
 #include <iostream>
@@ -12,8 +12,8 @@ namespace {
 
 using namespace test;
 
-// Its coat and all else of its first material is alpha 1 nearly everywhere. What is left is where it is not.
-TEST(Shadows, aCoatThatIsOpaqueNearlyEverywhereThrowsTheShadowOfAnOpaqueOne)
+// Alpha of the cat's coat and of its first material is 1 almost everywhere; the difference allows for the other texels.
+TEST(Shadows, nearlyOpaqueBlendingCastsTheShadowOfAnOpaqueSurface)
 {
     COTAN_NEEDS_MODEL("models/SketchfabCat/scene.gltf");
     Scene scene = loadModel("models/SketchfabCat/scene.gltf");
@@ -25,10 +25,10 @@ TEST(Shadows, aCoatThatIsOpaqueNearlyEverywhereThrowsTheShadowOfAnOpaqueOne)
     view.lights.resize(1);
     view.lights[0].direction = glm::normalize(glm::vec3(0.62f, -0.9f, -0.7f));
     for (const char* device : {"reference", "auto"}) {
-        auto renderer = painterFor(device);
+        auto renderer = rendererFor(device);
         if (!renderer)
             continue;
-        std::vector<Image> pictures;
+        std::vector<Image> images;
         for (const AlphaMode mode : {AlphaMode::opaque, AlphaMode::blend}) {
             for (Material& material : scene.materials)
                 material.alphaMode = mode;
@@ -37,39 +37,40 @@ TEST(Shadows, aCoatThatIsOpaqueNearlyEverywhereThrowsTheShadowOfAnOpaqueOne)
             ASSERT_TRUE(ground);
             drawn.ground = std::make_shared<const GroundMap>(std::move(*ground));
             ASSERT_TRUE(renderer->load(scene));
-            pictures.push_back(drawWith(*renderer, drawn));
+            images.push_back(drawWith(*renderer, drawn));
         }
         double sum = 0;
-        for (std::size_t i = 0; i < pictures[0].data.size(); ++i)
-            sum += std::abs(int(pictures[0].bytes8()[i]) - int(pictures[1].bytes8()[i]));
-        // Levels: 7 without the coat's shadow. What is left is where decals, fur and buttons are not opaque.
-        EXPECT_LT(sum / double(pictures[0].pixelCount() * 3), 1) << device;
+        for (std::size_t i = 0; i < images[0].data.size(); ++i)
+            sum += std::abs(int(images[0].bytes8()[i]) - int(images[1].bytes8()[i]));
+        // In steps of 255: 7 without the coat's shadow. The rest comes from decals, fur and buttons, which are not
+        // opaque.
+        EXPECT_LT(sum / double(images[0].pixelCount() * 3), 1) << device;
     }
 }
 
-TEST(Coat, itsMapIsReadAsTheSurfacesOwnWouldBe)
+TEST(Coat, normalMapIsReadLikeThatOfTheSurface)
 {
     for (const char* device : {"reference", "auto"}) {
-        auto renderer = painterFor(device);
+        auto renderer = rendererFor(device);
         if (!renderer)
             continue;
         for (const FrameInfo& frame : frames())
-            for (const bool turned : {false, true}) {
+            for (const bool transformed : {false, true}) {
                 Texture map;
                 map.image = 0;
-                if (turned) { // a quarter, and stretched
+                if (transformed) { // by 90 degrees, and stretched
                     map.uRow = {0, 1.5f, 0};
                     map.vRow = {-1, 0, 1};
                 }
-                // A black dielectric reflects by its highlight alone, which is that of a coat.
-                Scene own = leaningQuad();
+                // A black dielectric reflects by its highlight alone, like a coat.
+                Scene own = tiltedQuad();
                 Material& black = own.materials[0];
                 black.baseColor = {0, 0, 0, 1};
                 black.metallic = 0;
                 black.roughness = 0.5f;
                 black.normalMap = map;
-                // A black metal reflects nothing but at grazing angles. Its own map leans otherwise.
-                Scene coated = leaningQuad();
+                // A black metal reflects nothing except at grazing angles. Its own map has another tilt.
+                Scene coated = tiltedQuad();
                 Material& metal = coated.materials[0];
                 metal.baseColor = {0, 0, 0, 1};
                 metal.metallic = 1;
@@ -78,8 +79,8 @@ TEST(Coat, itsMapIsReadAsTheSurfacesOwnWouldBe)
                 metal.coat.normalMap = map;
                 deriveVertexFrames(own, frame.frame, TangentOrigin::stored);
                 deriveVertexFrames(coated, frame.frame, TangentOrigin::stored);
-                // Tangents are made for the surface's own map.
-                const bool stored = readsTangents(frame.frame) && turned;
+                // Tangents are generated for the surface's own map.
+                const bool stored = readsTangents(frame.frame) && transformed;
                 View view = quadView(frame.frame);
                 ASSERT_TRUE(renderer->load(own));
                 const Image expected = drawWith(*renderer, view);
@@ -88,11 +89,11 @@ TEST(Coat, itsMapIsReadAsTheSurfacesOwnWouldBe)
                 const double a = redAt(expected, 12, 17), b = redAt(found, 12, 17);
                 EXPECT_GT(a, 0.001) << device << ", " << frame.name;
                 if (!stored) {
-                    EXPECT_NEAR(b / a, 1, 2e-3) << device << ", " << frame.name << ", " << turned;
+                    EXPECT_NEAR(b / a, 1, 2e-3) << device << ", " << frame.name << ", " << transformed;
                 }
                 if (frame.frame != Frame::cotangent)
                     continue;
-                // Without its map the highlight lies elsewhere.
+                // Without the coat's map the highlight moves.
                 coated.materials[0].coat.normalMap = {};
                 ASSERT_TRUE(renderer->load(coated));
                 EXPECT_GT(std::abs(redAt(drawWith(*renderer, view), 12, 17) / a - 1), 0.05) << device << frame.name;
@@ -100,13 +101,13 @@ TEST(Coat, itsMapIsReadAsTheSurfacesOwnWouldBe)
     }
 }
 
-TEST(Coat, takesItsShareFromEmission)
+TEST(Coat, attenuatesEmission)
 {
     for (const char* device : {"reference", "auto"}) {
-        auto renderer = painterFor(device);
+        auto renderer = rendererFor(device);
         if (!renderer)
             continue;
-        Scene scene = leaningQuad();
+        Scene scene = tiltedQuad();
         scene.materials[0].emissive = {0.5f, 0.5f, 0.5f};
         scene.materials[0].coat.strength = 0.5f;
         View view = quadView(Frame::cotangent);
@@ -116,23 +117,24 @@ TEST(Coat, takesItsShareFromEmission)
     }
 }
 
-TEST(Anisotropy, aHighlightFollowsItsDirectionOnBothRenderers)
+TEST(Anisotropy, highlightFollowsTheDirectionOnBothRenderers)
 {
-    // Seen and lit from straight ahead, leaned along u: stretched along u it is brighter there than across.
+    // View and light straight ahead, normal tilted along u: stretched along u, the highlight is brighter there than
+    // across.
     for (const char* device : {"reference", "auto"}) {
-        auto renderer = painterFor(device);
+        auto renderer = rendererFor(device);
         if (!renderer)
             continue;
-        Scene scene = leaningQuad();
+        Scene scene = tiltedQuad();
         for (glm::vec2& uv : scene.meshes[0].texcoords[0])
             uv.x = 1 - uv.x; // not mirrored
         Material& m = scene.materials[0];
         m.roughness = 0.3f;
         m.anisotropy.strength = 0.9f;
         View view = quadView(Frame::cotangent);
-        const auto lit = [&](float rotation, glm::vec3 way) {
+        const auto lit = [&](float rotation, glm::vec3 direction) {
             m.anisotropy.rotation = rotation;
-            view.lights[0].direction = glm::normalize(way);
+            view.lights[0].direction = glm::normalize(direction);
             EXPECT_TRUE(renderer->load(scene));
             return redAt(drawWith(*renderer, view), 12, 17);
         };
@@ -140,19 +142,19 @@ TEST(Anisotropy, aHighlightFollowsItsDirectionOnBothRenderers)
         const glm::vec3 along(-0.8f, 0, -1), across(0, -0.8f, -1), slant(-0.57f, -0.57f, -1);
         EXPECT_GT(lit(0, along), 5 * lit(0, across)) << device;
         EXPECT_GT(lit(1.5708f, across), 5 * lit(1.5708f, along)) << device;
-        // From +u towards -v, which is up: an eighth of a turn leans to the upper right.
+        // From +u towards -v, which is up: 45 degrees point to the upper right.
         const glm::vec3 other(-0.57f, 0.57f, -1);
         EXPECT_GT(lit(0.7854f, slant), 5 * lit(0.7854f, other)) << device;
     }
 }
 
-// Its base colour is all but black; what is seen is the sheen.
+// The base colour is almost black; the visible colour is the sheen.
 TEST(MaterialModels, theVelvetSofaIsBlue)
 {
     COTAN_NEEDS_MODEL("models/GlamVelvetSofa/GlamVelvetSofa.glb");
     const Scene scene = loadModel("models/GlamVelvetSofa/GlamVelvetSofa.glb");
     for (const char* device : {"reference", "auto"}) {
-        auto renderer = painterFor(device);
+        auto renderer = rendererFor(device);
         if (!renderer)
             continue;
         View view;
@@ -171,7 +173,7 @@ TEST(MaterialModels, theVelvetSofaIsBlue)
                 sum[c] += double(image.floats()[4 * i + std::size_t(c)]);
         const glm::dvec3 mean = glm::dvec3(sum) / sum.w;
         std::cout << device << ": " << mean.x << " " << mean.y << " " << mean.z << "\n";
-        // The fibres' colour is 0.05 0.17 0.5, of which at most half is seen from within 60 degrees.
+        // The fibres' colour is 0.05 0.17 0.5; at most half of it is visible from within 60 degrees.
         EXPECT_GT(mean.z, 0.05) << device;
         EXPECT_LT(mean.z, 0.5) << device;
         EXPECT_GT(mean.z, 2 * mean.y) << device;
@@ -179,7 +181,7 @@ TEST(MaterialModels, theVelvetSofaIsBlue)
     }
 }
 
-// Of a shaded picture, in steps of 8 bits: the mean over the largest channel of each pixel.
+// Mean over all pixels of the largest channel difference between shaded images, in steps of 8 bits.
 double meanStep(const Image& a, const Image& b)
 {
     double sum = 0;
@@ -192,7 +194,7 @@ double meanStep(const Image& a, const Image& b)
     return sum / double(a.pixelCount());
 }
 
-Image pictureOf(Renderer& renderer, Scene scene, Frame frame, bool layers)
+Image renderOf(Renderer& renderer, Scene scene, Frame frame, bool layers)
 {
     for (Material& m : scene.materials)
         if (!layers) {
@@ -213,7 +215,7 @@ Image pictureOf(Renderer& renderer, Scene scene, Frame frame, bool layers)
 
 TEST(MaterialModels, bothRenderersDrawTheSameLayers)
 {
-    auto gpu = painterFor("auto"), reference = painterFor("reference");
+    auto gpu = rendererFor("auto"), reference = rendererFor("reference");
     if (!gpu)
         GTEST_SKIP() << "no Vulkan device";
     for (const char* file :
@@ -223,21 +225,21 @@ TEST(MaterialModels, bothRenderersDrawTheSameLayers)
           "materials/TransmissionRoughnessTest.glb"}) {
         COTAN_NEEDS_MODEL(file);
         const Scene scene = loadModel(file);
-        const Image plain = pictureOf(*reference, scene, Frame::cotangent, false);
-        const double edges = meanStep(pictureOf(*gpu, scene, Frame::cotangent, false), plain);
-        const Image layered = pictureOf(*reference, scene, Frame::cotangent, true);
-        const double mean = meanStep(pictureOf(*gpu, scene, Frame::cotangent, true), layered);
+        const Image plain = renderOf(*reference, scene, Frame::cotangent, false);
+        const double edges = meanStep(renderOf(*gpu, scene, Frame::cotangent, false), plain);
+        const Image layered = renderOf(*reference, scene, Frame::cotangent, true);
+        const double mean = meanStep(renderOf(*gpu, scene, Frame::cotangent, true), layered);
         const double layers = meanStep(plain, layered);
         std::cout << file << ": " << mean << " steps of 255; without its layers " << edges << "; they change " << layers
                   << "\n";
-        // Edges of triangles and filtered maps differ without layers too; these have sharper highlights.
+        // Triangle edges and filtered maps differ without layers too; these models have sharper highlights.
         EXPECT_LT(mean, edges + 0.15 * layers) << file;
     }
 }
 
-// How far the direction of anisotropy from a derived frame lies from that of the file's tangents, in degrees, at four
-// points of every triangle whose material has it.
-std::vector<float> directionsApart(const Scene& scene, Frame derived)
+// Degrees between the anisotropy direction of a derived frame and that of the file's tangents, at four points of every
+// triangle whose material is anisotropic.
+std::vector<float> directionDifferences(const Scene& scene, Frame derived)
 {
     std::vector<float> apart;
     for (const Mesh& mesh : scene.meshes) {
@@ -269,7 +271,7 @@ std::vector<float> directionsApart(const Scene& scene, Frame derived)
                 const glm::vec2 along(1, 0);
                 const glm::vec3 a = f32::cotan_direction_on_surface(n, own.t, own.b, along, n);
                 const glm::vec3 b = f32::cotan_direction_on_surface(n, stored.t, stored.b, along, n);
-                // A highlight has no sign.
+                // The direction of a highlight has no sign.
                 const float cosine = std::abs(glm::dot(a, b)), sine = glm::length(glm::cross(a, b));
                 apart.push_back(float(std::atan2(sine, cosine) * 57.29577951308232));
             }
@@ -278,21 +280,21 @@ std::vector<float> directionsApart(const Scene& scene, Frame derived)
     return apart;
 }
 
-TEST(Anisotropy, theDerivedDirectionIsThatOfTheStoredTangents)
+TEST(Anisotropy, derivedDirectionIsThatOfTheStoredTangents)
 {
     for (const char* file :
          {"materials/AnisotropyDiscTest.glb", "models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb"}) {
         COTAN_NEEDS_MODEL(file);
         for (const Frame frame : {Frame::cotangent, Frame::smooth}) {
             Scene scene = loadModel(file);
-            // Where the file has none: MikkTSpace's, as an engine would make them.
+            // For files without tangents: MikkTSpace's, as an engine generates them.
             deriveVertexFrames(scene, Frame::mikktspace, TangentOrigin::stored);
             deriveVertexFrames(scene, frame, TangentOrigin::stored);
-            const AngleStatistics s = angleStatistics(directionsApart(scene, frame));
+            const AngleStatistics s = angleStatistics(directionDifferences(scene, frame));
             std::cout << file << ", " << name(frame) << ": " << toText(s) << "\n";
             EXPECT_GT(s.count, 300u) << file;
-            // Averaged at the vertices as tangents are, derived directions are theirs. In the pixel each triangle has
-            // its own direction, where interpolated tangents turn: on spheres of 24 segments by a few degrees.
+            // `smooth` averages at vertices as tangents do and agrees. Per pixel, each triangle has a constant
+            // direction while interpolated tangents rotate: by a few degrees on spheres of 24 segments.
             EXPECT_LT(s.maximum, frame == Frame::smooth ? 0.2 : 6) << file;
             EXPECT_LT(s.mean, frame == Frame::smooth ? 0.1 : 2.5) << file;
         }

@@ -1,5 +1,5 @@
-// NormalTangentTest and NormalTangentMirrorTest: real half-spheres beside quads whose normal map shows
-// the same half-sphere, with uv turned and mirrored. No tangent is used. Both must look alike.
+// NormalTangentTest and NormalTangentMirrorTest: real half-spheres beside quads whose normal map shows the same
+// half-sphere under rotated and mirrored uv. Without tangents, both must look alike.
 #include "models.hpp"
 
 #include <algorithm>
@@ -16,15 +16,15 @@ namespace {
 using namespace test;
 
 struct Pair {
-    double real, mapped; // x of the two squares' centres
+    double real, mapped; // x of the centres of the two squares
 };
 
-// The squares of both models are 0.3 wide and lie in rows at these heights.
+// The squares of both models are 0.3 wide and form rows at these heights.
 constexpr double kRows[] = {-0.8, -0.4, 0, 0.4, 0.8};
-constexpr double kHalfSide = 0.14; // a little less than half of 0.3: no border pixel
+constexpr double kHalfSide = 0.14; // slightly less than half of 0.3: excludes border pixels
 constexpr float kPerUnit = 600;
 
-// The exact centre of the square whose centre is near (x, row): the middle of its vertices.
+// The exact centre of the square near (x, row): the centre of the bounds of its vertices.
 glm::dvec2 centreNear(const Scene& scene, double x, double row)
 {
     glm::dvec2 low(1e9), high(-1e9);
@@ -37,7 +37,7 @@ glm::dvec2 centreNear(const Scene& scene, double x, double row)
     return (low + high) * 0.5;
 }
 
-// The direction at a point of the plane, between the four nearest pixels.
+// The direction at a point of the plane, interpolated from the four nearest pixels.
 glm::dvec3 directionNear(const Image& normals, const View& view, glm::dvec2 p)
 {
     const double x = (p.x - view.camera.eye.x) * kPerUnit + view.width * 0.5 - 0.5;
@@ -51,7 +51,7 @@ glm::dvec3 directionNear(const Image& normals, const View& view, glm::dvec2 p)
 // Mean angle in degrees between the real half-sphere and the mapped quad over the whole square.
 double meanDifference(const Image& normals, const View& view, glm::dvec2 real, glm::dvec2 mapped)
 {
-    constexpr int kSteps = 160; // a side
+    constexpr int kSteps = 160; // samples per side
     double sum = 0;
     for (int j = 0; j < kSteps; ++j)
         for (int i = 0; i < kSteps; ++i) {
@@ -68,7 +68,7 @@ double meanDifference(const Image& normals, const View& view, glm::dvec2 real, g
 void check(const char* device, const char* model, const std::vector<Pair>& pairs)
 {
     COTAN_NEEDS_MODEL(model);
-    auto renderer = painterFor(device);
+    auto renderer = rendererFor(device);
     if (!renderer)
         GTEST_SKIP() << "no Vulkan device";
     const Scene scene = loadModel(model);
@@ -92,23 +92,23 @@ void check(const char* device, const char* model, const std::vector<Pair>& pairs
     std::cout << model << " on " << renderer->device() << ": worst mean " << worst << " degrees\n";
 }
 
-const std::vector<Pair> kTurned = {{-0.96, -0.64}, {-0.16, 0.16}, {0.64, 0.96}};
+const std::vector<Pair> kRotated = {{-0.96, -0.64}, {-0.16, 0.16}, {0.64, 0.96}};
 const std::vector<Pair> kMirrored = {{-1.275, -0.955}, {-1.275, -0.629}, {-1.275, -0.291},
                                      {0.300, 0.620},   {0.300, 0.941},   {0.300, 1.264}};
 
 TEST(NormalTangentModels, mappedQuadsMatchHalfSpheresOnTheReference)
 {
-    check("reference", "models/NormalTangentTest/NormalTangentTest.glb", kTurned);
+    check("reference", "models/NormalTangentTest/NormalTangentTest.glb", kRotated);
 }
 TEST(NormalTangentModels, mappedQuadsMatchHalfSpheresOnVulkan)
 {
-    check("auto", "models/NormalTangentTest/NormalTangentTest.glb", kTurned);
+    check("auto", "models/NormalTangentTest/NormalTangentTest.glb", kRotated);
 }
-TEST(NormalTangentModels, mirroredQuadsMatchHalfSpheresOnTheReferenceWithoutTheirTangents)
+TEST(NormalTangentModels, mirroredQuadsWithoutTangentsMatchHalfSpheresOnTheReference)
 {
     check("reference", "models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb", kMirrored);
 }
-TEST(NormalTangentModels, mirroredQuadsMatchHalfSpheresOnVulkanWithoutTheirTangents)
+TEST(NormalTangentModels, mirroredQuadsWithoutTangentsMatchHalfSpheresOnVulkan)
 {
     check("auto", "models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb", kMirrored);
 }

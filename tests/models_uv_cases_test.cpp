@@ -1,5 +1,5 @@
-// uv_cases.gltf: one flat grid under sixteen uv and node transforms. The answer is known: the
-// gradients of uv over the plane of each grid, scaled together, applied to the texel.
+// uv_cases.gltf: one flat grid under sixteen uv and node transforms. The expected normals follow from the gradients of
+// uv over the plane of each grid, scaled together and applied to the texel.
 #include "models.hpp"
 
 #include <algorithm>
@@ -17,13 +17,12 @@ using namespace test;
 
 constexpr const char* kModel = "synthetic/uv_cases.gltf";
 
-// What one grid looks like in the world: an affine map from world xy to uv, solved from three of
-// its vertices with the widest spread.
+// World-space description of a grid: an affine map from world xy to uv, solved from three vertices that are far apart.
 struct Grid {
     std::string name;
-    glm::dvec3 low, high; // world
+    glm::dvec3 low, high; // world space
     glm::dvec3 normal;
-    glm::dvec3 gradU, gradV; // zero where the uv are degenerate
+    glm::dvec3 gradU, gradV; // zero for degenerate uv
     glm::dvec2 uvAtOrigin;
     bool degenerate = false;
 };
@@ -62,7 +61,7 @@ Grid gridOf(const Scene& scene, const Instance& instance)
     return g;
 }
 
-// The decoded texel that nearest sampling gives; false near a texel's border, where rounding decides.
+// The decoded texel for nearest sampling; false near a texel's border, where rounding decides.
 bool texelAt(const Image& map, glm::dvec2 uv, glm::dvec3& m)
 {
     const glm::dvec2 t = (uv - glm::floor(uv)) * glm::dvec2(map.width, map.height);
@@ -88,7 +87,7 @@ Error errorOver(const Grid& g, const Scene& scene, Renderer& renderer)
     const Image& map = scene.images[0];
     const double scale = g.degenerate ? 0 : commonScale(g.gradU, g.gradV);
     const double perUnit = view.height / double(view.camera.verticalExtent);
-    // The nodes that turn the grid's back to the camera are drawn as a thin sheet: negated.
+    // Nodes that turn the grid's back to the camera are drawn as a thin sheet: negated.
     const double facing = g.normal.z < 0 ? -1 : 1;
     Error error;
     for (int y = 4; y + 4 < view.height; ++y)
@@ -121,7 +120,7 @@ Error errorOver(const Grid& g, const Scene& scene, Renderer& renderer)
 void check(const char* device)
 {
     COTAN_NEEDS_MODEL(kModel);
-    auto renderer = painterFor(device);
+    auto renderer = rendererFor(device);
     if (!renderer)
         GTEST_SKIP() << "no Vulkan device";
     const Scene scene = loadModel(kModel);
@@ -132,10 +131,10 @@ void check(const char* device)
     for (const Instance& instance : scene.instances) {
         const Grid g = gridOf(scene, instance);
         const Error e = errorOver(g, scene, *renderer);
-        EXPECT_GT(e.count, 3000) << g.name; // `tiny` shows so few texels that most pixels are near a border
+        EXPECT_GT(e.count, 3000) << g.name; // `tiny` covers so few texels that most pixels are near a border
         degenerate += g.degenerate;
         if (!g.degenerate) {
-            EXPECT_LT(e.worst, 0.1) << g.name; // float differences of a 1/300 pixel: measured below 0.03
+            EXPECT_LT(e.worst, 0.1) << g.name; // float differences of 1/300 pixel: measured below 0.03
         }
         ::testing::Test::RecordProperty(g.name, std::to_string(e.mean) + " mean, " + std::to_string(e.worst) + " max");
     }

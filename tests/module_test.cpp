@@ -1,4 +1,4 @@
-// Parts of a program that are loaded when they are needed, and what is said where they are not right.
+// Modules that a program loads on demand, and the messages for missing or broken ones.
 #include <cstring>
 #include <fstream>
 
@@ -17,13 +17,13 @@ Result<const void*> loaded(const std::string& folder, const char* entry, const s
     return loadModule({MODULE_NAME, "no/such", folder.c_str(), ""}, entry, fits, "this thing");
 }
 
-TEST(Module, countsWhereItFitsAndIsRefusedInOneLineWhereNot)
+TEST(Module, isLoadedOnlyIfItsVersionMatches)
 {
     const auto other = loaded(MODULE_FOLDER, "versionSix", kRight);
     ASSERT_FALSE(other);
     EXPECT_EQ(other.error().kind, ErrorKind::unavailable);
     EXPECT_EQ(other.error().message,
-              "this thing needs the module " MODULE_NAME ": " MODULE_FOLDER "/" MODULE_NAME " is not of this version");
+              "this thing needs the module " MODULE_NAME ": " MODULE_FOLDER "/" MODULE_NAME " has a different version");
     const auto without = loaded(MODULE_FOLDER, "noSuchEntry", [](const void*) { return true; });
     EXPECT_FALSE(without);
     const auto nothing = loaded(MODULE_FOLDER, "offersNothing", [](const void*) { return true; });
@@ -33,7 +33,7 @@ TEST(Module, countsWhereItFitsAndIsRefusedInOneLineWhereNot)
     EXPECT_STREQ(static_cast<const char*>(*right), "7");
 }
 
-TEST(Module, thatIsMissingOrBrokenIsSaidSo)
+TEST(Module, missingOrBrokenModulesAreReported)
 {
     const test::TemporaryFolder folder;
     const auto missing = loaded(folder.path().string(), "versionSeven", kRight);

@@ -1,4 +1,4 @@
-// normal.h by hand: one texel that is different in x, y and z through every storage, both ways.
+// normal.h against results by hand: one texel with different x, y and z through every storage, both ways.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -26,7 +26,7 @@ void expectNear(glm::dvec3 found, glm::dvec3 expected, const char* what)
     EXPECT_NEAR(found.z, expected.z, 1e-12) << what;
 }
 
-TEST(NormalCodec, expansionsAreTheirFormulasAndStopAtMinusOne)
+TEST(NormalCodec, expansionsFollowTheirFormulasAndClampAtMinusOne)
 {
     EXPECT_NEAR(f64::cotan_expand(200 / 255.0, COTAN_EXPAND_EXACT), 72 / 127.0, 1e-12);
     EXPECT_NEAR(f64::cotan_expand(90 / 255.0, COTAN_EXPAND_EXACT), -38 / 127.0, 1e-12);
@@ -37,7 +37,7 @@ TEST(NormalCodec, expansionsAreTheirFormulasAndStopAtMinusOne)
     EXPECT_EQ(f64::cotan_expand(0, COTAN_EXPAND_BIASED), -1);
 }
 
-TEST(NormalCodec, compressionIsTheInverseAndStopsAtBothEnds)
+TEST(NormalCodec, compressionIsTheInverseAndClampsAtBothEnds)
 {
     for (const int expansion : {COTAN_EXPAND_EXACT, COTAN_EXPAND_BIASED, COTAN_EXPAND_SIGNED}) {
         for (const double x : {-1.0, -0.3, 0.0, 0.45, 1.0})
@@ -49,9 +49,9 @@ TEST(NormalCodec, compressionIsTheInverseAndStopsAtBothEnds)
     EXPECT_NEAR(f64::cotan_compress(-1, COTAN_EXPAND_EXACT), 1 / 255.0, 1e-12);
 }
 
-TEST(NormalCodec, everyStorageOfOneNormal)
+TEST(NormalCodec, everyStorageEncodesAKnownNormal)
 {
-    // (2, -3, 6)/7: z from x and y; over 1 + z = 13/7; slopes the negative of x/z and y/z.
+    // (2, -3, 6)/7: z from x and y; over 1 + z = 13/7; slopes are the negative of x/z and y/z.
     const glm::dvec3 m(2 / 7.0, -3 / 7.0, 6 / 7.0);
     struct Storage {
         const char* name;
@@ -68,11 +68,11 @@ TEST(NormalCodec, everyStorageOfOneNormal)
         const auto f = stored(COTAN_EXPAND_SIGNED, s.channels);
         expectNear(f64::cotan_encode_texel(m, f), s.texel, s.name);
         expectNear(f64::cotan_decode(s.texel, f), s.decoded, s.name);
-        // Green the other way turns y alone; in two-channel maps z is the value of zero.
+        // Reversed green negates y alone; in two-channel maps z is the code of zero.
         const auto down = stored(COTAN_EXPAND_SIGNED, s.channels, -1);
         expectNear(f64::cotan_encode_texel(m, down), {s.texel.x, -s.texel.y, s.texel.z}, s.name);
         expectNear(f64::cotan_decode(s.texel, down), {s.decoded.x, -s.decoded.y, s.decoded.z}, s.name);
-        // Strength is a factor on x and y after decoding.
+        // Strength multiplies x and y after decoding.
         expectNear(f64::cotan_decode(s.texel, stored(COTAN_EXPAND_SIGNED, s.channels, 1, 3)),
                    {3 * s.decoded.x, 3 * s.decoded.y, s.decoded.z}, s.name);
         expectNear(f64::cotan_decode(s.texel, stored(COTAN_EXPAND_SIGNED, s.channels, -1, 0)), {0, 0, s.decoded.z},
@@ -85,7 +85,7 @@ TEST(NormalCodec, everyStorageOfOneNormal)
     }
 }
 
-TEST(NormalCodec, strengthIsTakenOutOfWhatIsStored)
+TEST(NormalCodec, strengthIsDividedOutOfTheStoredSlopes)
 {
     // Slopes (1/3, -1/2) at strength 2 are stored as (1/6, -1/4).
     const glm::dvec3 m(2 / 7.0, -3 / 7.0, 6 / 7.0), half = glm::normalize(glm::dvec3(1, -1.5, 6));
@@ -94,9 +94,9 @@ TEST(NormalCodec, strengthIsTakenOutOfWhatIsStored)
                {-1 / 6.0, -0.25, 0}, "slope");
 }
 
-TEST(NormalCodec, whatAStorageCannotHoldIsMovedToItsRim)
+TEST(NormalCodec, unstorableNormalsAreMovedToTheRim)
 {
-    // Below the horizon, 3:4 aside.
+    // Below the horizon, x to y as 3:4.
     const glm::dvec3 below = glm::normalize(glm::dvec3(0.6, -0.8, -0.5));
     expectNear(f64::cotan_encode_texel(below, stored(COTAN_EXPAND_SIGNED, COTAN_CHANNELS_ORTHOGRAPHIC)), {0.6, -0.8, 0},
                "orthographic");
@@ -105,11 +105,11 @@ TEST(NormalCodec, whatAStorageCannotHoldIsMovedToItsRim)
     expectNear(f64::cotan_encode_texel(glm::normalize(glm::dvec3(0.2, -3, 1)),
                                        stored(COTAN_EXPAND_SIGNED, COTAN_CHANNELS_SLOPE)),
                {-0.2, 1, 0}, "slope");
-    // xyz and stereographic hold everything but (0,0,-1).
+    // xyz and stereographic store everything except (0,0,-1).
     expectNear(f64::cotan_encode_texel(below, stored(COTAN_EXPAND_SIGNED, COTAN_CHANNELS_XYZ)), below, "xyz");
     const glm::dvec2 p = f64::cotan_to_stereographic({0, 0, -1});
     EXPECT_EQ(p, glm::dvec2(0));
-    EXPECT_NEAR(f64::cotan_to_stereographic({0.6, -0.8, -1}).y, -800, 1e-6); // z is taken as -0.999
+    EXPECT_NEAR(f64::cotan_to_stereographic({0.6, -0.8, -1}).y, -800, 1e-6); // z is clamped to -0.999
     EXPECT_EQ(f64::cotan_orthographic_z({0.8, -0.9}), 0);                    // longer than one: no NaN
     EXPECT_NEAR(f64::cotan_orthographic_z({0.48, -0.64}), 0.6, 1e-12);
     expectNear(f64::cotan_from_stereographic({2, -1}), glm::dvec3(4, -2, -4) / 6.0, "outside the unit circle");

@@ -30,7 +30,7 @@ TEST(NormalTexel, exactExpansionMakes128ZeroAnd255One)
     EXPECT_EQ(expandByte(0, COTAN_EXPAND_EXACT), -1); // would be -1.0079: clamped
 }
 
-TEST(NormalTexel, biasedExpansionLeansAFlatTexelBy0Point32Degrees)
+TEST(NormalTexel, biasedExpansionTiltsAFlatTexelBy0Point32Degrees)
 {
     const glm::dvec3 m = cotan_decode(glm::dvec3(128 / 255.0, 128 / 255.0, 1), format(COTAN_EXPAND_BIASED, 0));
     // each component is 1/255: atan(sqrt(2)/255)
@@ -79,7 +79,7 @@ TEST(NormalTexel, strengthScalesTheSlope)
 
 TEST(NormalTexel, slopeMapStoresTheHeightsDerivatives)
 {
-    // dh/du = 0.5, dh/dv = -0.25: the normal leans against the slope
+    // dh/du = 0.5, dh/dv = -0.25: the normal tilts against the slope
     const glm::dvec3 m = cotan_decode(glm::dvec3(0.5, -0.25, 0), format(COTAN_EXPAND_SIGNED, COTAN_CHANNELS_SLOPE));
     EXPECT_EQ(m, glm::dvec3(-0.5, 0.25, 1));
 }
@@ -91,7 +91,7 @@ TEST(NormalTexel, orthographicStorageMovesNormalsBelowTheHorizonOntoIt)
     EXPECT_LT(glm::length(back - glm::dvec3(1, 0, 0)), 1e-9);
 }
 
-// The table of four of docs/reference/conventions.md: a dome drawn in an image, on a plane seen upright.
+// The table of four in docs/reference/conventions.md: a dome drawn in an image, on a plane seen upright.
 TEST(NormalTexel, greenFlagSetFromTheTableOfFourGivesNoError)
 {
     Random random(22);

@@ -1,4 +1,4 @@
-// What parts say where a library is missing: their sources for that case, which this build has no use for.
+// Messages of parts whose library is missing, from their replacement sources, which this build does not use otherwise.
 #include <gtest/gtest.h>
 
 #include "bake/high_surface.hpp"
@@ -14,7 +14,7 @@ template<class T> void expectOneLine(const Result<T>& result, const std::string&
     EXPECT_EQ(result.error().message, line);
 }
 
-TEST(NotBuilt, namesTheLibraryAndWhatToInstall)
+TEST(NotBuilt, errorNamesTheLibraryAndThePackage)
 {
     expectOneLine(HighSurface::make({}, 1), "not built with Embree: install libembree-dev and build Cotan again");
     expectOneLine(loadWithAssimp("a/b.fbx"),

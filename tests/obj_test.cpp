@@ -1,4 +1,4 @@
-// OBJ and MTL files. Expected values come from their text and from geometry.
+// OBJ and MTL files. Expected values follow from their text and from geometry.
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -50,7 +50,7 @@ protected:
         return scene ? "" : scene.error().message;
     }
 
-    // The material of a triangle whose library has these lines.
+    // A scene with a triangle whose material library has these lines.
     Scene loadMaterial(const std::string& lines) const
     {
         write("m.mtl", lines);
@@ -67,7 +67,7 @@ const Material& materialOf(const Scene& scene) { return scene.materials.at(std::
 
 // ---- numbers and statements -------------------------------------------------------------------
 
-TEST_F(ObjFile, numbersMayBeSpeltInEveryUsualWay)
+TEST_F(ObjFile, everyCommonNumberFormatIsRead)
 {
     const std::pair<std::string, float> spellings[] = {{".5", 0.5f},
                                                        {"-.5", -0.5f},
@@ -106,7 +106,7 @@ TEST_F(ObjFile, positionsMayHaveAWeightOrAColour)
     EXPECT_NE(problem("v 2 4 6 0\n" + rest).find("line 1: expected a weight other than 0"), std::string::npos);
     EXPECT_NE(problem("v 2 4 6 1 1\n" + rest).find("found 5"), std::string::npos);
 
-    const Scene coloured = load("v 0 0 5 1 0 1 0.25\n" + rest); // the others have none: white
+    const Scene coloured = load("v 0 0 5 1 0 1 0.25\n" + rest); // the others have no colour: white
     const Mesh& mesh = coloured.meshes.at(0);
     ASSERT_EQ(mesh.colors.size(), 3u);
     EXPECT_EQ(mesh.colors[0], glm::vec4(1, 0, 1, 0.25f));
@@ -115,7 +115,7 @@ TEST_F(ObjFile, positionsMayHaveAWeightOrAColour)
     EXPECT_NEAR(load("v 1 0 0\nv 0 0 0 0.5 0.5 0.5\nv 0 1 0\nf 1 2 3\n").meshes.at(0).colors[1].x, 0.2140, 1e-4);
 }
 
-TEST_F(ObjFile, aFaceMayStandBeforeItsVerticesAndCountBackFromWhereItStands)
+TEST_F(ObjFile, facesMayPrecedeTheirVerticesAndUseRelativeIndices)
 {
     const Scene scene =
         load("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\nv 6 5 5\nv 5 6 5\nfo -3 -2 -1\n");
@@ -134,7 +134,7 @@ TEST_F(ObjFile, eachGroupAndMaterialIsAMesh)
     EXPECT_EQ(scene.meshes[0].name, "left arm");
     EXPECT_EQ(scene.meshes[0].triangleCount(), 1u);
     EXPECT_EQ(scene.meshes[1].name, "left arm");
-    EXPECT_EQ(scene.meshes[1].triangleCount(), 2u); // again, with blue
+    EXPECT_EQ(scene.meshes[1].triangleCount(), 2u); // the second mesh with blue
     EXPECT_EQ(scene.meshes[2].name, "body");
     ASSERT_EQ(scene.instances.size(), 3u);
     EXPECT_EQ(scene.instances[2].name, "body");
@@ -143,11 +143,11 @@ TEST_F(ObjFile, eachGroupAndMaterialIsAMesh)
     EXPECT_NE(problem(text, limits).find("line 10: over the limit of 2 nodes"), std::string::npos);
 }
 
-TEST_F(ObjFile, manyGroupsAndMaterialsTakeTimeByTheirNumber)
+TEST_F(ObjFile, manyGroupsAndMaterialsTakeLinearTime)
 {
     std::ostringstream text, library;
     text << "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    constexpr int kGroups = 30000; // once the square of it: no end
+    constexpr int kGroups = 30000; // once took quadratic time and never finished
     for (int i = 0; i < kGroups; ++i) {
         text << "g " << i << "\nusemtl m" << i << "\nf 1 2 3\n";
         library << "newmtl m" << i << "\nKd 0 0 1\n";
@@ -160,7 +160,7 @@ TEST_F(ObjFile, manyGroupsAndMaterialsTakeTimeByTheirNumber)
     EXPECT_EQ(scene.materials.size(), std::size_t(kGroups));
 }
 
-TEST_F(ObjFile, theHighestIndexOfAnyFaceIsHeldToWhatThereIs)
+TEST_F(ObjFile, faceIndicesAreCheckedAgainstTheCounts)
 {
     const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     EXPECT_NE(problem(vertices + "f 1 2 9\nf 1 2 3\n").find("line 4: expected a position index up to 3, found 9"),
@@ -169,7 +169,7 @@ TEST_F(ObjFile, theHighestIndexOfAnyFaceIsHeldToWhatThereIs)
     EXPECT_NE(problem(vertices + "vn 0 0 1\nf 1 2//1 3//1\n").find("found a mixture"), std::string::npos);
 }
 
-TEST_F(ObjFile, verticesBeforeTheFirstColourAreWhiteAndEachComponentIsMadeLinear)
+TEST_F(ObjFile, uncolouredVerticesAreWhiteAndColoursBecomeLinear)
 {
     const Mesh mesh = load("v 1 0 0\nv 0 0 0 0.25 0.5 0.75\nv 0 1 0\nf 1 2 3\n").meshes.at(0);
     EXPECT_EQ(mesh.colors.at(0), glm::vec4(1));
@@ -180,20 +180,20 @@ TEST_F(ObjFile, verticesBeforeTheFirstColourAreWhiteAndEachComponentIsMadeLinear
     EXPECT_EQ(mesh.colors.at(2), glm::vec4(1));
 }
 
-TEST_F(ObjFile, linesAndPointsAreNoMeshes)
+TEST_F(ObjFile, linesAndPointsMakeNoMesh)
 {
     const Scene scene = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wire\nf 1 2\nf 3\nusemtl skin\nf 1 2 3\n");
     ASSERT_EQ(scene.meshes.size(), 1u);
     EXPECT_EQ(scene.meshes[0].triangleCount(), 1u);
 }
 
-TEST_F(ObjFile, normalsThatAreNoDirectionsAreAllMadeAnewAndSaid)
+TEST_F(ObjFile, invalidNormalsAreRegeneratedWithAWarning)
 {
     const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     const Scene zero = load(vertices + "vn 0 3 4\nvn 0 0 0\nf 1//1 2//1 3//2\n");
     for (const glm::vec3& n : zero.meshes.at(0).normals)
         EXPECT_EQ(n, glm::vec3(0, 0, 1));
-    EXPECT_TRUE(mentions(zero, "some normals are zero or missing; all are made anew"));
+    EXPECT_TRUE(mentions(zero, "some normals are zero or missing; all are regenerated"));
     const Scene kept = load(vertices + "vn 0 3 4\nf 1//1 2//1 3//1\n");
     EXPECT_EQ(kept.meshes.at(0).normals.at(0), glm::vec3(0, 0.6f, 0.8f));
     EXPECT_TRUE(kept.warnings.empty());
@@ -211,7 +211,7 @@ double areaOf(const Polygon& p)
     return twice / 2;
 }
 
-// By the crossings of a ray.
+// Whether q is inside p, by the crossings of a ray.
 bool isInside(const Polygon& p, glm::dvec2 q)
 {
     bool inside = false;
@@ -257,7 +257,7 @@ Polygon spiral(int corners)
 
 const std::vector<std::pair<const char*, Polygon>> kPolygons = {
     {"arrow head", {{0, 0}, {4, -2}, {1, 0}, {4, 2}}},
-    // its shorter diagonal lies outside
+    // its shorter diagonal is outside
     {"dart", {{0, 0}, {10, -1}, {0.5, 0.2}, {1, 10}}},
     {"pentagon with a notch", {{0, 0}, {4, 0}, {4, 4}, {2, 1}, {0, 4}}},
     {"corners in line", {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}},
@@ -268,14 +268,14 @@ const std::vector<std::pair<const char*, Polygon>> kPolygons = {
     {"spiral", spiral(60)},
 };
 
-// A point of the polygon's plane, one of six planes.
+// Places a point of the polygon in one of six planes.
 glm::dvec3 placed(glm::dvec2 p, int plane)
 {
     switch (plane) {
     case 0: return {p, 5};
     case 1: return {-3, p};
     case 2: return {p.y, 2, p.x};
-    case 3: return {p.y, p.x, 0}; // turned over
+    case 3: return {p.y, p.x, 0}; // flipped
     case 4: return {p, p.x};      // tilted by 45 degrees
     default: return {p.x, 100 - p.x - 2 * p.y, p.y};
     }
@@ -296,8 +296,8 @@ std::string faceText(const Polygon& polygon, int plane, std::size_t first)
     return text.str();
 }
 
-// Every place of the polygon is in one triangle, none in more, and nothing beside it is covered.
-TEST_F(ObjFile, trianglesCoverAPolygonOnceAndNothingElse)
+// The triangles cover every point of the polygon exactly once and nothing outside.
+TEST_F(ObjFile, trianglesCoverAPolygonExactlyOnce)
 {
     for (const auto& [name, polygon] : kPolygons)
         for (int plane = 0; plane < 6; ++plane)
@@ -307,7 +307,7 @@ TEST_F(ObjFile, trianglesCoverAPolygonOnceAndNothingElse)
                 const Scene scene = load(faceText(polygon, plane, first));
                 const Mesh& mesh = scene.meshes.at(0);
                 ASSERT_EQ(mesh.triangleCount(), polygon.size() - 2);
-                // Back to the polygon's own coordinates.
+                // Maps vertices back to the polygon's own coordinates.
                 const auto back = [&](std::uint32_t i) -> glm::dvec2 {
                     const glm::dvec3 q = mesh.positions[i];
                     return plane == 1 ? glm::dvec2(q.y, q.z)
@@ -362,17 +362,17 @@ TEST_F(ObjFile, aPolygonOfFiveThousandCornersIsQuick)
     }
 }
 
-TEST_F(ObjFile, polygonsThatTakeTheSquareOfTheirCornersAreRefusedInTime)
+TEST_F(ObjFile, quadraticTriangulationIsRefusedInTime)
 {
     const std::clock_t start = std::clock();
     EXPECT_NE(
-        problem(faceText(star(100000, 0.5), 0, 0)).find("steps to cut polygons into triangles, here one of 200000"),
+        problem(faceText(star(100000, 0.5), 0, 0)).find("triangulation steps, at a polygon of 200000"),
         std::string::npos);
     EXPECT_LT(double(std::clock() - start) / CLOCKS_PER_SEC, 5.0);
     EXPECT_EQ(problem(faceText(star(100000, 0.99999999), 0, 0)), ""); // a circle, up to rounding
 }
 
-TEST_F(ObjFile, polygonsThatCrossThemselvesStillBecomeTriangles)
+TEST_F(ObjFile, selfIntersectingPolygonsAreTriangulated)
 {
     for (const Polygon& polygon : {Polygon{{0, 0}, {1, 1}, {1, 0}, {0, 1}}, Polygon{{0, 0}, {0, 0}, {0, 0}, {0, 0}},
                                    Polygon{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {1, 0}},
@@ -384,30 +384,30 @@ TEST_F(ObjFile, polygonsThatCrossThemselvesStillBecomeTriangles)
 
 // ---- material libraries ---------------------------------------------------------------------------
 
-TEST_F(ObjFile, statementsBeforeTheFirstNewmtlAreLeftOutAndSaid)
+TEST_F(ObjFile, statementsBeforeTheFirstNewmtlAreSkippedWithAWarning)
 {
     const Scene scene = loadMaterial("Kd 1 0 0\na 1\nmap_Kd x.png\nnewmtl m\nKd 0 1 0\n");
     EXPECT_EQ(materialOf(scene).baseColor, glm::vec4(0, 1, 0, 1));
     EXPECT_TRUE(mentions(scene, "material library m.mtl: 3 lines before the first newmtl are left out"));
 }
 
-TEST_F(ObjFile, numbersOfALibraryThatCannotBeReadAreLeftOutAndSaid)
+TEST_F(ObjFile, unreadableMaterialNumbersAreSkippedWithAWarning)
 {
     const Scene scene = loadMaterial("newmtl m\nKd red\nNs 1e99\nd\nPr .25\nKd 0.5\nKe nan 0 0\n");
-    EXPECT_EQ(materialOf(scene).baseColor, glm::vec4(0.5f, 0.5f, 0.5f, 1)); // one number is a grey
+    EXPECT_EQ(materialOf(scene).baseColor, glm::vec4(0.5f, 0.5f, 0.5f, 1)); // a single number is a grey
     EXPECT_EQ(materialOf(scene).roughness, 0.25f);
     EXPECT_EQ(materialOf(scene).emissive, glm::vec3(0));
     EXPECT_TRUE(mentions(scene, "4 lines whose numbers cannot be read are left out, the first is line 2"));
 }
 
-TEST_F(ObjFile, transparencyIsOneLessOpacity)
+TEST_F(ObjFile, transparencyIsOneMinusOpacity)
 {
     EXPECT_EQ(materialOf(loadMaterial("newmtl m\nTr 0.25\n")).baseColor[3], 0.75f);
     EXPECT_EQ(materialOf(loadMaterial("newmtl m\nd -halo 0.25\n")).baseColor[3], 0.25f);
     EXPECT_EQ(materialOf(loadMaterial("newmtl m\n")).baseColor[3], 1.0f);
 }
 
-TEST_F(ObjFile, namesOfMaterialsLibrariesAndPicturesMayHoldSpaces)
+TEST_F(ObjFile, namesMayContainSpaces)
 {
     write("my materials.mtl", "newmtl red paint\t\r\nmap_Kd -bm 1 -type sphere  my picture.png \r\n");
     const Scene scene =
@@ -416,7 +416,7 @@ TEST_F(ObjFile, namesOfMaterialsLibrariesAndPicturesMayHoldSpaces)
     EXPECT_TRUE(mentions(scene, "texture my picture.png: no such file"));
 }
 
-TEST_F(ObjFile, oneLineMayNameSeveralLibrariesAndTheFirstOfANameCounts)
+TEST_F(ObjFile, mtllibListsSeveralLibrariesAndTheFirstDefinitionWins)
 {
     write("a.mtl", "newmtl m\nKd 1 0 0\n");
     write("b.mtl", "newmtl m\nKd 0 1 0\nnewmtl n\nKd 0 0 1\n");
@@ -430,11 +430,11 @@ TEST_F(ObjFile, oneLineMayNameSeveralLibrariesAndTheFirstOfANameCounts)
     EXPECT_TRUE(mentions(lacking, "1 parts name materials that no library has, the first is \"n\""));
     write("model.mtl", "newmtl n\nKd 0 0 1\n");
     const Scene beside = load("mtllib gone.mtl\n" + triangle);
-    EXPECT_TRUE(mentions(beside, "gone.mtl was not found; model.mtl is read in its place"));
+    EXPECT_TRUE(mentions(beside, "gone.mtl was not found; model.mtl is read instead"));
     EXPECT_EQ(beside.materials.at(1).baseColor, glm::vec4(0, 0, 1, 1));
 }
 
-// u v of the file, v up, become s u + o; ours has v down.
+// u v of the file, v up, become s u + o; here v runs down.
 TEST_F(ObjFile, mapsAreScaledShiftedAndClamped)
 {
     const Scene scene = loadMaterial("newmtl m\nmap_Kd -s 2 3 1 -o 0.25 0.125 -clamp on 1.png\n");
@@ -450,7 +450,7 @@ TEST_F(ObjFile, mapsAreScaledShiftedAndClamped)
     EXPECT_EQ(materialOf(loadMaterial("newmtl m\nmap_Kd -clamp off 1.png\n")).baseColorMap.sampler.wrapU, Wrap::repeat);
 }
 
-TEST_F(ObjFile, onlyTheClampOptionClampsAndColoursAreNotNegative)
+TEST_F(ObjFile, onlyTheClampOptionClampsAndNegativeColoursBecomeZero)
 {
     const Texture t = materialOf(loadMaterial("newmtl m\nmap_Kd -blendu on -cc on 1.png\n")).baseColorMap;
     EXPECT_EQ(t.sampler.wrapU, Wrap::repeat);

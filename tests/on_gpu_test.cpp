@@ -1,4 +1,4 @@
-// bench/on-gpu: the page that it writes, and that what it carries runs.
+// bench/on-gpu: the page that it writes, and that its packed program runs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace cotan::bench {
 namespace {
 
-Figures soundFigures()
+Figures validFigures()
 {
     Figures f;
     f.rows.name = "Device";
@@ -25,7 +25,7 @@ Figures soundFigures()
     return f;
 }
 
-TEST(OnGpu, middleIsTheMedianAndHalfOfWhatQuartilesAreApart)
+TEST(OnGpu, middleIsTheMedianAndHalfTheInterquartileRange)
 {
     const Middle m = middleOf({9, 1, 5, 3, 7});
     EXPECT_EQ(m.median, 5);
@@ -34,36 +34,36 @@ TEST(OnGpu, middleIsTheMedianAndHalfOfWhatQuartilesAreApart)
     EXPECT_EQ(middleOf({4}).spread, 0);
 }
 
-TEST(OnGpu, ratiosAreOfTheSameRepetition)
+TEST(OnGpu, ratiosAreFormedWithinARepetition)
 {
-    // The medians' ratio is 0.75; repetition by repetition they are 1.5, 0.75 and 0.5.
-    const Middle m = ratioOf(soundFigures(), soundFigures().rows.rows[2], 0);
+    // The ratio of the medians is 0.75; the ratios of each repetition are 1.5, 0.75 and 0.5.
+    const Middle m = ratioOf(validFigures(), validFigures().rows.rows[2], 0);
     EXPECT_EQ(m.median, 0.75);
-    EXPECT_EQ(ratioOf(soundFigures(), soundFigures().rows.rows[0], 0).median, 0.5);
-    EXPECT_EQ(m.spread, (1.5 - 0.75) / 2); // of three the quartiles are the second and the third
+    EXPECT_EQ(ratioOf(validFigures(), validFigures().rows.rows[0], 0).median, 0.5);
+    EXPECT_EQ(m.spread, (1.5 - 0.75) / 2); // for three values the quartiles are the second and the third
 }
 
-TEST(OnGpu, aTimeOfZeroIsNamedAndMakesNoPage)
+TEST(OnGpu, zeroTimesAreNamedAndMakeNoPage)
 {
-    EXPECT_EQ(unsound(soundFigures()), "");
-    Figures zero = soundFigures();
+    EXPECT_EQ(whyInvalid(validFigures()), "");
+    Figures zero = validFigures();
     zero.rows.rows[2].repeats[1][0] = 0;
-    EXPECT_NE(unsound(zero).find("triangle-halfs, legs of 16 px"), std::string::npos) << unsound(zero);
-    Figures missing = soundFigures();
+    EXPECT_NE(whyInvalid(zero).find("triangle-halfs, legs of 16 px"), std::string::npos) << whyInvalid(zero);
+    Figures missing = validFigures();
     missing.rows.rows[0].repeats.pop_back();
-    EXPECT_NE(unsound(missing).find("floor"), std::string::npos);
-    Figures pass = soundFigures();
+    EXPECT_NE(whyInvalid(missing).find("floor"), std::string::npos);
+    Figures pass = validFigures();
     pass.passes[0].nanoseconds[1] = std::nan("");
-    EXPECT_NE(unsound(pass).find("triangles.comp"), std::string::npos);
-    Figures nothing = soundFigures();
+    EXPECT_NE(whyInvalid(pass).find("triangles.comp"), std::string::npos);
+    Figures nothing = validFigures();
     nothing.rows.cases.clear();
-    EXPECT_NE(unsound(nothing), "");
-    Figures without = soundFigures();
+    EXPECT_NE(whyInvalid(nothing), "");
+    Figures without = validFigures();
     without.rows.rows.erase(without.rows.rows.begin() + 1);
-    EXPECT_NE(unsound(without), "");
+    EXPECT_NE(whyInvalid(without), "");
 }
 
-TEST(OnGpu, testsThatFailedOrDidNotEndAreReported)
+TEST(OnGpu, failedAndUnfinishedTestsAreReported)
 {
     std::istringstream log("[ RUN      ] A.one\n"
                            "| cotangent                | glsl       | 1.2e-04 |\n"
@@ -96,7 +96,7 @@ ShellRun runShell(const std::string& line)
     return {WEXITSTATUS(status), test::readWhole(f + "/out"), test::readWhole(f + "/err")};
 }
 
-TEST(OnGpuProgram, hasATimeAndARatioForEveryRowAtEverySizeWithSamplesAndLayers)
+TEST(OnGpuProgram, reportsTimeAndRatioForEveryRow)
 {
     test::TemporaryFolder folder;
     const std::string file = (folder / "gpu.md").string();
@@ -129,7 +129,7 @@ TEST(OnGpuProgram, hasATimeAndARatioForEveryRowAtEverySizeWithSamplesAndLayers)
             << pass;
 }
 
-TEST(OnGpuProgram, refusesWhatItCannotDoInALine)
+TEST(OnGpuProgram, refusesBadOptionsInOneLine)
 {
     EXPECT_EQ(runShell(COTAN_ON_GPU " --rumour").code, 1);
     const ShellRun none = runShell("VK_DRIVER_FILES=/no/such.json VK_ICD_FILENAMES=/no/such.json " COTAN_ON_GPU);
@@ -139,31 +139,31 @@ TEST(OnGpuProgram, refusesWhatItCannotDoInALine)
     EXPECT_EQ(late.code, 3) << late.err;
 }
 
-// The measuring program alone: the tests that are carried beside it are run by this suite anyway.
-TEST(OnGpuPack, whatIsCarriedRunsByItselfAndWritesNoTablesOfSmallSizes)
+// Runs the measuring program alone; the packed tests are run by this suite anyway.
+TEST(OnGpuPack, packedProgramRunsAlone)
 {
     test::TemporaryFolder folder;
     std::filesystem::create_directories(folder / "build/tests");
     std::filesystem::create_symlink(COTAN_ON_GPU, folder / "build/tests/on_gpu");
-    const std::string place = (folder / "pack").string();
+    const std::string pack = (folder / "pack").string();
     const ShellRun packed = runShell("ON_GPU_BUILD='" + (folder / "build").string()
-                                     + "' '" COTAN_SOURCE_DIR "/bench/on-gpu' pack '" + place + "'");
+                                     + "' '" COTAN_SOURCE_DIR "/bench/on-gpu' pack '" + pack + "'");
     ASSERT_EQ(packed.code, 0) << packed.err;
     EXPECT_NE(packed.err.find("has no shader_test"), std::string::npos) << packed.err;
-    const ShellRun none = runShell("VK_DRIVER_FILES=/no/such.json VK_ICD_FILENAMES=/no/such.json '" + place + "/run'");
+    const ShellRun none = runShell("VK_DRIVER_FILES=/no/such.json VK_ICD_FILENAMES=/no/such.json '" + pack + "/run'");
     EXPECT_EQ(none.code, 3);
     EXPECT_EQ(std::count(none.err.begin(), none.err.end(), '\n'), 1) << none.err;
-    EXPECT_EQ(runShell("'" + place + "/run' a b").code, 1);
-    const ShellRun run = runShell("'" + place + "/run' --quick '" + place + "/page.md'");
+    EXPECT_EQ(runShell("'" + pack + "/run' a b").code, 1);
+    const ShellRun run = runShell("'" + pack + "/run' --quick '" + pack + "/page.md'");
     if (run.code == 3)
         GTEST_SKIP() << run.err;
     EXPECT_EQ(run.code, 0) << run.err;
-    const std::string page = test::readWhole(place + "/page.md");
+    const std::string page = test::readWhole(pack + "/page.md");
     EXPECT_NE(page.find("No figures yet"), std::string::npos) << page;
     EXPECT_EQ(page.find("| `"), std::string::npos);
 }
 
-TEST(OnGpuPack, aBuildWithoutTheProgramIsNamed)
+TEST(OnGpuPack, buildWithoutTheProgramIsNamed)
 {
     test::TemporaryFolder folder;
     std::filesystem::create_directories(folder / "build/tests");

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Each option of each command changes the result, and each of its words in a way of its own.
+"""Each option of each command changes the result, and each of its words differently.
 
-  option_effects_test.py TOOL COMMAND    (of map all; `others`: those without a test of their own)
+  option_effects_test.py TOOL COMMAND    (map with its subcommands; `others`: commands without a separate test)
 
-The options are those that --help lists; their words are those that the tool names when it refuses a wrong one. So an
-option or a word that is new has to be tried here, too. For each option a command runs without it and with each of its
-words: of any two of these runs the files differ, or, where none is written, what is printed. Words that another option of
-the line rules out are refused.
+The options are those that --help lists, and their words those that the tool names when it refuses a wrong one, so new
+options and words must be tried here, too. For each option, a command runs without it and with each of its words: any two
+runs must write different files or, if they write none, print different text. Words that another option of the line
+excludes must be refused.
 """
 import itertools
 import json
@@ -26,11 +26,11 @@ COMPARE = "compare room.gltf --device reference --size 40x25 --frames cotangent,
 BAKE = "bake --high high.obj --low low.obj --size 24x24 -o out.png"
 SHADER = "shader --lang glsl"
 
-# Command lines, and options that are tried with each. Between the words of an option is `|`; `*` stands for those that the
-# tool names. `~` before a word: it is what the option is by default. `=`: it changes nothing, as it only says how the work
-# is done. `!`: it is refused here. `&`: what these words give is equal: paper-transpose is paper-nodet in another form, whose
-# rounding these lines do not show; a kernel of three texels sees one beyond the border, which clamp and mirror choose alike;
-# and a map that is as good for a new frame as one that is made for it stays. A flag has no words.
+# Command lines with the options that are tried on each. `|` separates the words of an option; `*` stands for the words that
+# the tool names. Prefixes of words: `~` the default; `=` changes nothing, since it only affects how the work is done; `!` is
+# refused here; `&` words with equal results: paper-transpose is paper-nodet with other rounding, invisible here; a kernel of
+# three texels reads one texel beyond the border, where clamp and mirror agree; and a map that fits the new frame as well as
+# a converted one is kept. A flag has no words.
 CASES = [
     (RENDER, {
         "--size": "40x30 | thumbnail", "--view": "~shaded | *", "--up": "~y | *", "--exposure": "~auto | 0.3 | 2",
@@ -69,7 +69,7 @@ CASES = [
     ("compare --device reference --size 48x30 --frames cotangent,smooth -o out --normal-map rocks.png --shape plane", {"--shape": "~plane | *"}),
     ("lint room.gltf", {"--normal-map": "grain.png | as-directx.png", "--details": "", "--limit": "0.01 | 80", "--memory": "=800"}),
     ("lint room.gltf --details", {"--distance": "2 | 20"}),
-    ("lint low.ply", {"--up": "~y | =z"}), # no figure depends on how a model is turned
+    ("lint low.ply", {"--up": "~y | =z"}), # no figure depends on the orientation
     ("lint room.gltf --normal-map rocks.png", {"--convention": "~gltf | directx", "--material": "~-1 | 1"}),
     ("lint room.gltf --limit 0.01", {"--frame": "~orthonormal | *"}),
     ("lint room.gltf", {"--strict": "!"}),
@@ -137,14 +137,14 @@ CASES = [
     ("figures --only decode --size 32x24 -o out", {"--only": "*", "--size": "40x24", "--device": "reference", "--threads": "=1 | =3"}),
 ]
 GROUPS = ["render", "compare", "bake", "convert", "map"]
-# What has its tests elsewhere.
+# Options and commands with tests in other files.
 OPTIONS_ELSEWHERE = {"--help", "--json", "--quiet", "--output", "--overwrite"}  # help_test, json_fields_test.py, cli_test, files_test
 ELSEWHERE = {"accuracy": {"--device"}}  # accuracy_command_test: the table that is drawn takes minutes
 COMMANDS_ELSEWHERE = {"view", "cost", "batch", "help"}  # these need a screen, drivers, time: view_window_test, cost_report_test, batch_command_test
 
 
 def run(tool, inputs, words):
-    """Exit code, errors, and what a command wrote, or printed where it wrote nothing."""
+    """Exit code, errors, and the files that a command wrote, or its printed output if it wrote none."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         for path in inputs.iterdir():
@@ -183,7 +183,7 @@ def words_named(refusal, option):
 
 
 def try_option(tool, inputs, base, option, words):
-    """What is wrong with an option, in lines; and how many words were tried."""
+    """Problems of an option, one per line, and the number of words tried."""
     wanted = [w.strip() for w in words.split("|")]
     usual = {w[1:] for w in wanted if w.startswith("~")}
     same = {w[1:] for w in wanted if w.startswith("=")}
@@ -210,7 +210,7 @@ def try_option(tool, inputs, base, option, words):
     for word in usual | same:
         if results[word][2] != first:
             wrong.append(f"{base}: the same with {option} {word}; the result differs")
-    # A default that is one of the words and is not marked: one of them may be as without the option.
+    # A default that is one of the words without a mark: one word may give the result of leaving the option out.
     apart = {w: r[2] for w, r in results.items() if w not in usual | same}
     equal = [pair for pair in itertools.combinations(apart, 2) if apart[pair[0]] == apart[pair[1]]]
     for pair in itertools.chain.from_iterable(itertools.combinations(sorted(e), 2) for e in equals):

@@ -1,5 +1,5 @@
-# The bytes that commands print and write, held by tables; that each option changes them; that both renderers draw the
-# same; that the fields of a file change them; and that a fault leaves none.
+# Compares the bytes that commands print and write with tables. Checks that each option changes them, that both
+# renderers draw the same, that each field of a file changes them, and that a fault leaves no partial output.
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)
   foreach(table lab maps meshes pictures shader_text)
@@ -10,10 +10,10 @@ if(Python3_FOUND)
   add_test(NAME TwoRenderers.drawTheSame
     COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/two_renderers_test.py $<TARGET_FILE:cotan> ${CMAKE_CURRENT_SOURCE_DIR}/output_bytes/pictures.txt)
   set_tests_properties(TwoRenderers.drawTheSame PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77 COST 75)
-  if(NOT CMAKE_CXX_FLAGS MATCHES "fsanitize") # whose library wants to be the first
-    add_test(NAME FailingCalls.leaveAllOrNothing
+  if(NOT CMAKE_CXX_FLAGS MATCHES "fsanitize") # the sanitizers' library must be loaded first
+    add_test(NAME FailingCalls.leaveCompleteOutputOrNone
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/failing_calls_test.py $<TARGET_FILE:cotan>)
-    set_tests_properties(FailingCalls.leaveAllOrNothing PROPERTIES TIMEOUT 900 SKIP_RETURN_CODE 77 COST 120 PROCESSORS 2)
+    set_tests_properties(FailingCalls.leaveCompleteOutputOrNone PROPERTIES TIMEOUT 900 SKIP_RETURN_CODE 77 COST 120 PROCESSORS 2)
   endif()
   foreach(command render compare bake convert map others)
     add_test(NAME OptionEffects.${command}

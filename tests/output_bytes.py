@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""What each command of a table prints and writes, against what it printed and wrote when it was last accepted.
+"""Compares the outputs of each command of a table with those that were last accepted.
 
-  output_bytes.py TOOL TABLE                says which outputs are others than the table's; exit code 1 if one is
-  output_bytes.py TOOL TABLE --accept       writes the outputs of now into the table
-  output_bytes.py TOOL TABLE --first        the same, and ends at the first that is another one
-  output_bytes.py TOOL TABLE --keep FOLDER  leaves all outputs there, to be looked at
+  output_bytes.py TOOL TABLE                lists the outputs that differ from the table's; exit code 1 if any does
+  output_bytes.py TOOL TABLE --accept       writes the current outputs into the table
+  output_bytes.py TOOL TABLE --first        lists the differences, and ends at the first
+  output_bytes.py TOOL TABLE --keep FOLDER  keeps all outputs there for inspection
 
-The table has a command a line, and below it its outputs with the first 16 digits of their SHA-256. Commands run in one
-folder, from top to bottom: one may read what another wrote. The first inputs are made here. Pictures count by their
-pixels, so that another zlib is no change; times are left out. To add a command, write its line and --accept.
-Embree takes other instructions on other processors: keep bakes to 8 bits and small sizes, or their last bits differ.
+The table has one command per line, followed by its outputs with the first 16 digits of their SHA-256. Commands run in
+one folder from top to bottom, so a command may read the outputs of earlier ones; make_inputs writes the first inputs.
+Images are compared by pixels, independent of the zlib version; times are left out. To add a command, add its line and
+run --accept. Embree's instructions depend on the processor: keep bakes small and at 8 bits, or their last bits differ.
 """
 import hashlib
 import json
@@ -26,14 +26,14 @@ import zlib
 
 from output_inputs import make_inputs
 
-SKIPPED = 77  # the exit code that CMake's SKIP_RETURN_CODE names
+SKIPPED = 77  # the exit code in CMake's SKIP_RETURN_CODE
 NOT_BUILT = hashlib.sha256(b"3").hexdigest()[:16]  # as an exit code in the table
 
 
 # Outputs.
 
 def png_pixels(data):
-    """The parts of a PNG but its compressed data, and the rows of that: of small ones without their filters."""
+    """The chunks of a PNG except its compressed data, and the rows of that data; those of small images unfiltered."""
     at, rest, packed = 8, b"", b""
     while at < len(data):
         size, name = struct.unpack(">I4s", data[at:at + 8])
@@ -45,7 +45,7 @@ def png_pixels(data):
     width, height, bits, kind = struct.unpack(">IIBB", data[16:26])
     step = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}[kind] * bits // 8
     rows, pitch, before = zlib.decompress(packed), step * width, bytearray(step * width)
-    if len(rows) > 1 << 18:  # in Python that takes a second each
+    if len(rows) > 1 << 18:  # Python would take a second for each
         return rest + rows
     for y in range(height):
         how, row = rows[y * (pitch + 1)], bytearray(rows[y * (pitch + 1) + 1:(y + 1) * (pitch + 1)])
@@ -62,7 +62,7 @@ def png_pixels(data):
     return rest
 
 
-# What a run takes, and how well zlib packs, differ from run to run or from machine to machine.
+# Times, and the sizes that zlib reaches, differ between runs or machines.
 UNSTEADY = (
     (r'"seconds": *\{[^}]*\}', '"seconds": {}'),
     (r'("[A-Za-z_]*(?:second|bytes|memory)[A-Za-z_]*": *)[-+0-9.eE]+', r"\1N"),
@@ -106,8 +106,8 @@ def content(path):
 
 
 def outputs(tool, words, folder, known):
-    """Runs a command; what it printed and what it wrote, by name."""
-    # glibc's sines are others where there is a fused multiply-add.
+    """Runs a command and returns its printed output and its files, by name."""
+    # glibc's sine differs with fused multiply-add.
     environment = {**os.environ, "HOME": str(folder), "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2"}
     run = subprocess.run([tool, *words], cwd=folder, env=environment, capture_output=True, timeout=120, check=False)
     found = {}
@@ -118,7 +118,7 @@ def outputs(tool, words, folder, known):
             found[name] = steady(printed.decode()).encode()
     for path in sorted(folder.rglob("*")):
         if path.is_file():
-            # A file is new, or it was written again.
+            # Counts files that are new or were rewritten.
             state = (path.stat().st_ino, path.stat().st_mtime_ns)
             if known.get(path) != state:
                 known[path] = state

@@ -1,4 +1,4 @@
-"""The files that the commands of the tables output_bytes/ read: maps of a relief that a formula gives, and models with them."""
+"""Inputs for the command tables of output_bytes/: maps of a relief given by a formula, and models with them."""
 import json
 import math
 import struct
@@ -8,7 +8,7 @@ FLOAT, BYTES, SHORTS, INTS = 5126, 5121, 5123, 5125  # component types of glTF
 
 
 def png(path, width, height, channels, bits, sample):
-    """A PNG whose channel c of the texel x, y is sample(x, y, c), an integer."""
+    """Writes a PNG whose channel c of texel (x, y) is the integer sample(x, y, c)."""
     pack = (lambda v: struct.pack(">H", v)) if bits == 16 else (lambda v: bytes([v]))
     rows = b"".join(b"\0" + b"".join(pack(sample(x, y, c)) for x in range(width) for c in range(channels)) for y in range(height))
 
@@ -53,7 +53,7 @@ def patch(segments, bumps):
 
 
 def layers(mesh, apart):
-    """The mesh, and over the left half of it another one, that far in front."""
+    """The mesh, and a second copy over its left half, `apart` in front of it."""
     positions, normals, coordinates, triangles = mesh
     count = len(positions)
     over = [[x + apart * n for x, n in zip(p, m)] for p, m in zip(positions, normals)]
@@ -101,7 +101,7 @@ def stl(path, mesh):
 
 
 class Gltf:
-    """A glTF file with one buffer beside it: `root` is its JSON, add() gives numbers of accessors."""
+    """A glTF file with one buffer beside it: `root` is its JSON, add() returns accessor indices."""
 
     def __init__(self):
         self.root, self.data = {"asset": {"version": "2.0"}, "bufferViews": [], "accessors": []}, b""
@@ -128,7 +128,7 @@ class Gltf:
         return {"attributes": attributes, "indices": self.add(triangles, "SCALAR", INTS), "material": material}
 
     def write(self, path):
-        for name in ("bufferViews", "accessors"):  # to the end, as most exporters do
+        for name in ("bufferViews", "accessors"):  # at the end, like most exporters
             self.root[name] = self.root.pop(name)
         self.root["buffers"] = [{"uri": path.stem + ".bin", "byteLength": len(self.data)}]
         path.with_suffix(".bin").write_bytes(self.data)
@@ -145,7 +145,7 @@ def panel(path, mesh, picture, with_tangents):
 
 
 def room_materials():
-    """Materials that use what Cotan reads of glTF's extensions, no two alike. Textures: 0 rocks, 1 grain, 2 and 3 colours."""
+    """Materials that use the glTF extensions which Cotan reads. Textures: 0 rocks, 1 grain, 2 and 3 colours."""
     turned = {"KHR_texture_transform": {"offset": [0.1, 0.3], "rotation": 0.4, "scale": [2, 1.5]}}
     return [
         {"name": "painted", "normalTexture": {"index": 0, "scale": 0.8, "extensions": turned},
@@ -171,7 +171,7 @@ def room_materials():
 
 
 def room(path, mesh):
-    """A scene with most of what a glTF file can hold: materials, variants, lights, cameras, copies, animations, a skin."""
+    """A scene with most features of glTF: materials, variants, lights, cameras, copies, animations, a skin."""
     positions, normals, coordinates, triangles = mesh
     g = Gltf()
     primitives = [g.primitive(mesh, k, with_tangents=k == 1) for k in range(6)]
@@ -180,7 +180,7 @@ def room(path, mesh):
     primitives[2]["targets"] = [{"POSITION": g.add([[0.3 * y * n for n in m] for (_, y, _), m in zip(positions, normals)], "VEC3", bounds=True)}]
     primitives[3]["attributes"]["JOINTS_0"] = g.add([[0, 1, 0, 0]] * len(positions), "VEC4", BYTES)
     primitives[3]["attributes"]["WEIGHTS_0"] = g.add([[0.5 - y, 0.5 + y, 0, 0] for _, y, _ in positions], "VEC4")
-    primitives[5].pop("indices")  # each three vertices a triangle
+    primitives[5].pop("indices")  # three vertices for each triangle
     primitives[5]["attributes"] = {
         name: g.add([values[i] for t in triangles for i in t], kind, bounds=name == "POSITION")
         for name, kind, values in (("POSITION", "VEC3", positions), ("NORMAL", "VEC3", normals), ("TEXCOORD_0", "VEC2", coordinates))}

@@ -1,4 +1,4 @@
-// No command replaces what it reads, or writes two outputs to one place, unless --overwrite is given.
+// No command replaces its inputs or writes two outputs to one file unless --overwrite is given.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ using namespace test;
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-// A map n.png, a model quad.gltf with quad.bin and waves.png, a mesh mesh.ply; n.png once more by links.
+// A map n.png, a model quad.gltf with quad.bin and waves.png, a mesh mesh.ply; links to n.png.
 class Overwrite : public ::testing::Test {
 protected:
     void SetUp() override
@@ -41,7 +41,7 @@ protected:
         return all;
     }
 
-    // Exit 1 with one line that names both, and nothing changes.
+    // Expects exit code 1, a one-line error that names both, and no change of any file.
     void expectRefused(const Words& words, const std::string& a, const std::string& b)
     {
         const auto before = contents();
@@ -58,7 +58,7 @@ protected:
     TemporaryFolder folder;
 };
 
-TEST_F(Overwrite, everyMapCommandRefusesItsInputByAnyName)
+TEST_F(Overwrite, everyMapCommandRefusesItsInputUnderAnyPath)
 {
     const std::vector<Words> commands = {{"convert", "n.png", "--from", "directx", "--to", "opengl"},
                                          {"from-height", "n.png"},
@@ -70,45 +70,45 @@ TEST_F(Overwrite, everyMapCommandRefusesItsInputByAnyName)
             Words words = {"map"};
             words.insert(words.end(), command.begin(), command.end());
             words.insert(words.end(), {"-o", name});
-            expectRefused(words, fmt::format("-o {}", name), "n.png, which is read");
+            expectRefused(words, fmt::format("-o {}", name), "n.png, which is an input");
         }
     expectRefused({"map", "mips", "hard.png", "-o", "hard.png", "--json", "./n.png"}, "--json ./n.png",
-                  "hard.png, which is read");
-    expectRefused({"map", "info", "n.png", "--json", "soft.png"}, "--json soft.png", "n.png, which is read");
-    expectRefused({"map", "detect", "n.png", "--json", "n.png"}, "--json n.png", "n.png, which is read");
+                  "hard.png, which is an input");
+    expectRefused({"map", "info", "n.png", "--json", "soft.png"}, "--json soft.png", "n.png, which is an input");
+    expectRefused({"map", "detect", "n.png", "--json", "n.png"}, "--json n.png", "n.png, which is an input");
 }
 
-TEST_F(Overwrite, modelsAreRefusedWithEveryFileTheyReferTo)
+TEST_F(Overwrite, everyFileOfAModelIsProtected)
 {
     const Words small = {"--device", "reference", "--size", "32x32"};
     const auto with = [&](Words words) {
         words.insert(words.end(), small.begin(), small.end());
         return words;
     };
-    expectRefused(with({"render", "quad.gltf", "-o", "waves.png"}), "-o waves.png", "waves.png, which is read");
+    expectRefused(with({"render", "quad.gltf", "-o", "waves.png"}), "-o waves.png", "waves.png, which is an input");
     expectRefused(with({"render", "quad.gltf", "-o", "a.png", "--json", "quad.bin"}), "--json quad.bin",
-                  "quad.bin, which is read");
+                  "quad.bin, which is an input");
     expectRefused(with({"compare", "quad.gltf", "-o", "d", "--json", "sub/../quad.gltf"}), "--json sub/../quad.gltf",
-                  "quad.gltf, which is read");
-    expectRefused({"lint", "quad.gltf", "--json", "quad.bin"}, "--json quad.bin", "quad.bin, which is read");
-    expectRefused({"tangents", "quad.gltf", "-o", "./quad.gltf"}, "-o ./quad.gltf", "quad.gltf, which is read");
+                  "quad.gltf, which is an input");
+    expectRefused({"lint", "quad.gltf", "--json", "quad.bin"}, "--json quad.bin", "quad.bin, which is an input");
+    expectRefused({"tangents", "quad.gltf", "-o", "./quad.gltf"}, "-o ./quad.gltf", "quad.gltf, which is an input");
     expectRefused({"convert", "quad.gltf", "--to", "cotangent", "-o", "quad.gltf"}, "-o quad.gltf",
-                  "quad.gltf, which is read");
+                  "quad.gltf, which is an input");
     expectRefused({"bake", "--high", "quad.gltf", "--low", "quad.gltf", "--size", "8x8", "-o", "waves.png"},
-                  "-o waves.png", "waves.png, which is read");
+                  "-o waves.png", "waves.png, which is an input");
 }
 
-TEST_F(Overwrite, aPictureInTheFolderOfAModelIsNotReplacedByOneOfAFolderOfPictures)
+TEST_F(Overwrite, imagesOfAModelAreProtectedFromAnOutputFolder)
 {
     fs::rename(folder / "waves.png", folder / "difference.png");
     std::string model = readWhole(folder / "quad.gltf");
     model.replace(model.find("waves.png"), 9, "difference.png");
     std::ofstream(folder / "quad.gltf") << model;
     expectRefused({"compare", "quad.gltf", "-o", ".", "--device", "reference", "--size", "32x32"},
-                  "-o ./difference.png", "difference.png, which is read");
+                  "-o ./difference.png", "difference.png, which is an input");
 }
 
-TEST_F(Overwrite, twoOutputsInOnePlaceAreRefusedBeforeWork)
+TEST_F(Overwrite, equalOutputPathsAreRefusedBeforeWork)
 {
     expectRefused({"render", "-o", "a.png", "--json", "sub/../a.png"}, "-o a.png", "--json sub/../a.png");
     expectRefused({"compare", "-o", "new", "--json", "new/difference.png"}, "-o new/difference.png",
@@ -122,7 +122,7 @@ TEST_F(Overwrite, twoOutputsInOnePlaceAreRefusedBeforeWork)
                   "-o a.png", "--json a.png");
 }
 
-TEST_F(Overwrite, withTheOptionTheInputIsReplacedWhole)
+TEST_F(Overwrite, overwriteOptionReplacesTheInput)
 {
     ASSERT_EQ(
         runTool({"map", "convert", "n.png", "--from", "directx", "--to", "opengl", "-o", "good.png"}, folder.path())
@@ -140,7 +140,7 @@ TEST_F(Overwrite, withTheOptionTheInputIsReplacedWhole)
     EXPECT_EQ(runTool({"tangents", "quad.gltf"}, folder.path()).code, 0);
 }
 
-TEST_F(Overwrite, aNameBesideTheInputIsNotRefused)
+TEST_F(Overwrite, derivedOutputNamesAreAccepted)
 {
     EXPECT_EQ(runTool({"map", "mips", "n.png", "-o", "n.png"}, folder.path()).code,
               0); // n_0.png, n_roughness_0.png, ...
@@ -163,12 +163,12 @@ TEST_F(Overwrite, unwritableReportsAreNoticedBeforeTheMainOutput)
     }
 }
 
-TEST_F(Overwrite, whatAKilledRunLeftIsSaidByTheNextOne)
+TEST_F(Overwrite, leftoverTemporaryFilesAreReportedByTheNextRun)
 {
     const pid_t child = ::fork();
     if (child == 0) {
         const auto half = OutputFile::begin(folder / "half.png");
-        ::_exit(half && writeBytes(half->path(), {}) ? 0 : 1); // without removing it
+        ::_exit(half && writeBytes(half->path(), {}) ? 0 : 1); // exits without removing the temporary file
     }
     ASSERT_EQ(::waitpid(child, nullptr, 0), child);
     std::string part;

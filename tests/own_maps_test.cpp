@@ -1,5 +1,5 @@
-// --normal-map, --base-color and so on: pictures on a model, read as the words say; and bake -o MODEL, which puts it
-// there for good.
+// --normal-map, --base-color and similar options: images applied to a model and read by the given convention; and bake
+// -o MODEL, which stores the map in the model.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace cotan::test {
 namespace {
 
-// Every texel the same.
+// Writes a map with the same texel everywhere.
 void writeMap(const std::filesystem::path& file, std::array<int, 4> texel)
 {
     Image image = makeImage(4, 4, PixelType::unorm8);
@@ -26,7 +26,7 @@ void writeMap(const std::filesystem::path& file, std::array<int, 4> texel)
     ASSERT_TRUE(writeImage(file, image));
 }
 
-// A unit square in xy that faces +z, u along x, v of the file along y.
+// Writes a unit square in xy that faces +z, u along x, the file's v along y.
 void writeSquare(const std::filesystem::path& file, bool texcoords = true)
 {
     std::ofstream obj(file);
@@ -49,26 +49,25 @@ glm::vec3 normalInTheMiddle(const std::filesystem::path& file)
     return glm::vec3(c[0], c[1], c[2]) / 127.5f - 1.0f;
 }
 
-const std::vector<std::string> kSeen = {"--size",   "64x64",     "--view",  "normal", "--camera", "0.5,0.5,2,0.5,0.5,0",
+const std::vector<std::string> kView = {"--size",   "64x64",     "--view",  "normal", "--camera", "0.5,0.5,2,0.5,0.5,0",
                                         "--device", "reference", "--quiet", "-o",     "n.png"};
 
 std::vector<std::string> drawn(std::vector<std::string> words)
 {
-    words.insert(words.end(), kSeen.begin(), kSeen.end());
+    words.insert(words.end(), kView.begin(), kView.end());
     return words;
 }
 
-// The texel (0.6, 0.48, 0.64): x to the right, y up where green points up, down where it points down. A byte's step is
-// 0.0079, half of it in each of three components moves a unit vector by at most 0.007; the picture rounds once more.
-TEST(OwnMaps, readsTheMapAsTheConventionSays)
+// The texel (0.6, 0.48, 0.64): x to the right, y up for green up, down for green down. A byte's step is 0.0079; half of
+// it in three components moves a unit vector by at most 0.007. The render rounds once more.
+TEST(OwnMaps, mapIsReadWithTheGivenConvention)
 {
     TemporaryFolder folder;
     writeSquare(folder / "square.obj");
     const auto byte = [](double x) { return int(std::lround(x * 127 + 128)); };
     writeMap(folder / "xyz.png", {byte(0.6), byte(0.48), byte(0.64), 255});
-    // The same direction in two channels: x and y as red and green; as grey and alpha; as slopes.
+    // The same direction in two channels: x and y as red and green.
     writeMap(folder / "rg.png", {byte(0.6), byte(0.48), 0, 255});
-    writeMap(folder / "ga.png", {byte(0.48), byte(0.48), byte(0.48), byte(0.6)});
     const struct {
         const char* file;
         const char* convention;
@@ -84,8 +83,8 @@ TEST(OwnMaps, readsTheMapAsTheConventionSays)
     }
 }
 
-// The same texel in BC5, whose codes are 8 bits, and as red and green with the middle in blue.
-TEST(OwnMaps, believesAFileThatStoresTwoChannels)
+// The same texel in BC5, whose codes are 8 bits, and as red and green with the middle code in blue.
+TEST(OwnMaps, twoChannelFilesAreReadAsTwoChannels)
 {
     TemporaryFolder folder;
     writeSquare(folder / "square.obj");
@@ -109,7 +108,7 @@ TEST(OwnMaps, believesAFileThatStoresTwoChannels)
     EXPECT_NE(wrong.err.find("--convention: bc5.ktx2 stores two channels"), std::string::npos) << wrong.err;
 }
 
-TEST(OwnMaps, saysWhatIsWrongWithItInOneLine)
+TEST(OwnMaps, errorsAreOneLine)
 {
     TemporaryFolder folder;
     writeSquare(folder / "square.obj");
@@ -123,7 +122,7 @@ TEST(OwnMaps, saysWhatIsWrongWithItInOneLine)
     } cases[] = {
         {{"render", "square.obj", "--convention", "directx"}, 1, "--convention: expected --normal-map"},
         {{"render", "square.obj", "--material", "0"}, 1, "--material: expected --normal-map"},
-        {{"render", "square.obj", "--normal-map", "map.png", "--convention", "gltf,object"}, 1, "tangent space"},
+        {{"render", "square.obj", "--normal-map", "map.png", "--convention", "gltf,object"}, 1, "tangent-space map"},
         {{"render", "square.obj", "--normal-map", "map.png", "--convention", "left"}, 1, "found 'left'"},
         {{"render", "square.obj", "--normal-map", "map.png", "--material", "7"}, 1, "found 7"},
         {{"render", "square.obj", "--base-color", "map.png", "--material", "7"}, 1, "found 7"},
@@ -152,7 +151,7 @@ double meanOf(const std::filesystem::path& file)
     return sum;
 }
 
-TEST(OwnMaps, ofColourIsWhatTheMaterialFileSaysWithIt)
+TEST(OwnMaps, colourMapEqualsTheOneOfAMaterialFile)
 {
     TemporaryFolder folder;
     writeSquare(folder / "plain.obj");
@@ -166,7 +165,7 @@ TEST(OwnMaps, ofColourIsWhatTheMaterialFileSaysWithIt)
         const ToolRun r = runTool(words, folder.path());
         EXPECT_EQ(r.code, 0) << r.err;
     };
-    // The same material but for its colour: the picture's takes the place of Kd and of map_Kd.
+    // The same material in another colour: the option replaces both Kd and map_Kd.
     draw({"render", "named.obj", "-o", "file.png"});
     std::ofstream(folder / "m.mtl") << "newmtl m\nKd 0.2 0.3 0.9\nNs 0\nmap_Kd blue.png\n";
     writeMap(folder / "blue.png", {0, 0, 255, 255});
@@ -176,7 +175,7 @@ TEST(OwnMaps, ofColourIsWhatTheMaterialFileSaysWithIt)
     EXPECT_EQ(readWhole(folder / "file.png"), readWhole(folder / "own.png"));
 }
 
-TEST(OwnMaps, ofRoughnessAndOcclusionChangeLight)
+TEST(OwnMaps, roughnessAndOcclusionMapsChangeLight)
 {
     TemporaryFolder folder;
     writeSquare(folder / "square.obj");
@@ -194,12 +193,12 @@ TEST(OwnMaps, ofRoughnessAndOcclusionChangeLight)
     const double plain = mean({});
     EXPECT_EQ(mean({"--occlusion", "white.png"}), plain);
     EXPECT_LT(mean({"--occlusion", "black.png"}), plain);
-    // Metal has no diffuse light.
+    // Metals have no diffuse light.
     EXPECT_LT(mean({"--metallic-roughness", "white.png"}), mean({"--metallic-roughness", "dielectric.png"}));
 }
 
-// A map that leans to one side everywhere is no relief; what lint says of it has to be about this file.
-TEST(OwnMaps, lintAndCompareTakeIt)
+// A constant tilt is not a relief; lint's statements must be about the file given by the option.
+TEST(OwnMaps, lintAndCompareReadOwnMaps)
 {
     TemporaryFolder folder;
     writeSquare(folder / "square.obj");
@@ -218,7 +217,7 @@ TEST(OwnMaps, lintAndCompareTakeIt)
               0.01); // square texels: the frames agree
 }
 
-// A bump between two flat squares.
+// Writes a mesh with a bump between two flat squares.
 void writeBump(const std::filesystem::path& file)
 {
     std::ofstream obj(file);
@@ -237,8 +236,8 @@ void writeBump(const std::filesystem::path& file)
 
 class BakeIntoModel : public testing::TestWithParam<const char*> {};
 
-// The model that bake writes draws as the low mesh with the map that bake writes otherwise: to the bit, for OBJ and for
-// glTF.
+// The model that bake writes renders the same, to the bit, as the low mesh with the map that bake writes to an image,
+// for OBJ and glTF.
 TEST_P(BakeIntoModel, drawsAsTheMapOnTheLowMesh)
 {
     TemporaryFolder folder;
@@ -251,7 +250,7 @@ TEST_P(BakeIntoModel, drawsAsTheMapOnTheLowMesh)
                                   folder.path());
         EXPECT_EQ(r.code, 0) << r.err;
     };
-    const auto picture = [&](std::vector<std::string> words) {
+    const auto renderData = [&](std::vector<std::string> words) {
         words.insert(words.end(), {"--frame", frame});
         const ToolRun r = runTool(drawn(words), folder.path());
         EXPECT_EQ(r.code, 0) << r.err;
@@ -260,48 +259,48 @@ TEST_P(BakeIntoModel, drawsAsTheMapOnTheLowMesh)
     };
     bake("low.obj", "map.png");
     bake("low.obj", "first.glb");
-    bake("first.glb", "second.gltf"); // its map is replaced, and the files of a .gltf are found again
-    const auto expected = picture({"render", "low.obj", "--normal-map", "map.png", "--convention", "opengl"});
+    bake("first.glb", "second.gltf"); // replaces the map and finds the files of the .gltf
+    const auto expected = renderData({"render", "low.obj", "--normal-map", "map.png", "--convention", "opengl"});
     ASSERT_FALSE(expected.empty());
-    EXPECT_EQ(picture({"render", "first.glb"}), expected);
-    EXPECT_EQ(picture({"render", "second.gltf"}), expected);
-    const auto flat = picture({"render", "low.obj"});
-    EXPECT_NE(flat, expected); // there is a bump to be seen
+    EXPECT_EQ(renderData({"render", "first.glb"}), expected);
+    EXPECT_EQ(renderData({"render", "second.gltf"}), expected);
+    const auto flat = renderData({"render", "low.obj"});
+    EXPECT_NE(flat, expected); // the bump is visible
     const auto scene = loadGltf(folder / "second.gltf");
     ASSERT_TRUE(scene);
     EXPECT_EQ(nlohmann::json::parse(readWhole(folder / "second.gltf"))["images"].size(), 1u); // the first map is gone
     EXPECT_EQ(scene->meshes[0].tangents.empty(), frame != "mikktspace" && frame != "vertex");
 }
 
-// Green points up in the model's map; read as if it pointed down, every normal leans the other way.
-TEST(OwnMaps, aConventionAloneReadsTheModelsOwnMapsOtherwise)
+// Green points up in the model's map; read as green down, every normal is mirrored in y.
+TEST(OwnMaps, conventionAloneAppliesToTheMapsOfTheModel)
 {
     TemporaryFolder folder;
     write(quad(1), folder.path());
     writeSquare(folder / "plain.obj");
-    std::vector<Image> pictures;
+    std::vector<Image> renders;
     for (const char* words : {"gltf", "directx", "opengl"}) {
         const ToolRun r = runTool(drawn({"render", "quad.gltf", "--convention", words}), folder.path());
         ASSERT_EQ(r.code, 0) << r.err;
-        pictures.push_back(*readImage(folder / "n.png"));
+        renders.push_back(*readImage(folder / "n.png"));
     }
-    int most = 0;
-    for (std::size_t i = 1; i < pictures[0].data.size(); i += 4) {
-        if (pictures[0].bytes8()[i + 2] == 0) // nothing there
+    int largest = 0;
+    for (std::size_t i = 1; i < renders[0].data.size(); i += 4) {
+        if (renders[0].bytes8()[i + 2] == 0) // background
             continue;
-        const int up = pictures[0].bytes8()[i], down = pictures[1].bytes8()[i];
+        const int up = renders[0].bytes8()[i], down = renders[1].bytes8()[i];
         EXPECT_NEAR(up + down, 255, 2);
-        EXPECT_EQ(up, pictures[2].bytes8()[i]);
-        most = std::max(most, std::abs(up - down));
+        EXPECT_EQ(up, renders[2].bytes8()[i]);
+        largest = std::max(largest, std::abs(up - down));
     }
-    EXPECT_GT(most, 40);
+    EXPECT_GT(largest, 40);
     const ToolRun none = runTool(drawn({"render", "plain.obj", "--convention", "directx"}), folder.path());
     EXPECT_EQ(none.code, 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Frames, BakeIntoModel, testing::Values("cotangent", "smooth", "mikktspace", "vertex"));
 
-TEST(BakeIntoModelWords, refusesWhatAModelCannotHold)
+TEST(BakeIntoModelOptions, unsupportedMapOptionsAreRefused)
 {
     TemporaryFolder folder;
     writeSquare(folder / "low.obj");

@@ -1,5 +1,5 @@
-// Loops over several threads: every item once, whatever the number of threads, and what a task throws arrives. And
-// the search for equal keys that is spread over them.
+// Loops over several threads: every item runs once for any number of threads, and exceptions of tasks arrive. Also the
+// search for equal keys that runs on these threads.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,9 +28,9 @@ TEST(Parallel, partsCoverEveryItemOnceAndInOrder)
         }
 }
 
-TEST(Parallel, partsOfFourBillionItemsBeginWhereTheyShould)
+TEST(Parallel, partsOfFourBillionItemsDoNotOverflow)
 {
-    // The products pass 32 bits, which is all that size_t has on some targets.
+    // The products exceed 32 bits, the width of size_t on some targets.
     EXPECT_EQ(cotan::partBegin(4000000000u, 63, 64), 3937500000u);
     EXPECT_EQ(cotan::partBegin(4000000000u, 64, 64), 4000000000u);
     EXPECT_EQ(cotan::partBegin(10, 0, 3), 0u);
@@ -38,7 +38,7 @@ TEST(Parallel, partsOfFourBillionItemsBeginWhereTheyShould)
     EXPECT_EQ(cotan::partBegin(10, 2, 3), 6u);
 }
 
-TEST(Parallel, threadsAreAsManyAsWantedAndAsThereIsWorkFor)
+TEST(Parallel, threadCountIsLimitedByTheWork)
 {
     EXPECT_EQ(cotan::threadsFor(100, 10, 4), 4u);
     EXPECT_EQ(cotan::threadsFor(39, 10, 4), 3u);
@@ -48,7 +48,7 @@ TEST(Parallel, threadsAreAsManyAsWantedAndAsThereIsWorkFor)
     EXPECT_EQ(cotan::threadsFor(100000, 1, 0), std::max(1u, std::thread::hardware_concurrency()));
 }
 
-TEST(Parallel, whatATaskThrowsArrivesAfterAllHaveEnded)
+TEST(Parallel, exceptionsAreRethrownAfterAllTasksEnd)
 {
     for (const std::size_t threads : {1u, 4u}) {
         std::atomic<int> running{0};
@@ -66,9 +66,9 @@ TEST(Parallel, whatATaskThrowsArrivesAfterAllHaveEnded)
     }
 }
 
-TEST(FirstEqual, keysWithEqualHashesAreToldApart)
+TEST(FirstEqual, collidingHashesAreDistinguished)
 {
-    // Among 300,000 keys some ten pairs share their 32 bits of hash. Every tenth is the one before it again.
+    // Of 300,000 keys, about ten pairs share their 32-bit hash. Every tenth key repeats the previous one.
     std::mt19937 random(9);
     std::vector<std::array<std::uint32_t, 2>> keys;
     for (std::uint32_t i = 0; i < 300000; ++i)

@@ -1,4 +1,4 @@
-// What is under a pixel.
+// The surface under a pixel.
 #include <gtest/gtest.h>
 
 #include <glm/ext/matrix_transform.hpp>
@@ -23,23 +23,23 @@ Scene sphere()
 
 constexpr glm::ivec2 kSize{200, 100};
 
-TEST(Pick, theHitIsWhereThePixelIs)
+TEST(Pick, hitProjectsToThePixel)
 {
     const Scene scene = builtinScene();
     const Camera camera = scene.cameras[0];
     int found = 0;
     for (int y = 5; y < kSize.y; y += 10)
         for (int x = 5; x < kSize.x; x += 10) {
-            const glm::vec2 place{float(x) + 0.5f, float(y) + 0.5f};
-            const auto hit = pick(scene, camera, kSize, place);
+            const glm::vec2 centre{float(x) + 0.5f, float(y) + 0.5f};
+            const auto hit = pick(scene, camera, kSize, centre);
             if (!hit)
                 continue;
             ++found;
-            const glm::vec3 seen = viewer::onPicture(camera, hit->position, kSize);
-            EXPECT_NEAR(seen.x, place.x, 1e-3f);
-            EXPECT_NEAR(seen.y, place.y, 1e-3f);
+            const glm::vec3 seen = viewer::projectToImage(camera, hit->position, kSize);
+            EXPECT_NEAR(seen.x, centre.x, 1e-3f);
+            EXPECT_NEAR(seen.y, centre.y, 1e-3f);
             EXPECT_NEAR(seen.z, hit->depth, 1e-4f * hit->depth);
-            glm::dvec3 point{0}; // the same from the triangle
+            glm::dvec3 point{0}; // the same point, from the triangle
             const Mesh& mesh = scene.meshes[std::size_t(hit->mesh)];
             for (std::size_t k = 0; k < 3; ++k)
                 point += hit->barycentric[int(k)] * glm::dvec3(mesh.positions[mesh.indices[3 * hit->triangle + k]]);
@@ -49,7 +49,7 @@ TEST(Pick, theHitIsWhereThePixelIs)
     EXPECT_GT(found, 60);
 }
 
-TEST(Pick, theNearestSurfaceIsTakenAndBacksOfSingleSidedOnesAreNot)
+TEST(Pick, nearestVisibleSurfaceIsPicked)
 {
     Scene scene = sphere();
     Camera camera;
@@ -81,11 +81,11 @@ TEST(Pick, orthographicRaysAreParallel)
     camera.eye = {0, 0, 5};
     camera.orthographic = true;
     camera.verticalExtent = 2.5f;
-    EXPECT_TRUE(pick(scene, camera, kSize, {100, 89.0f}));  // 39 of 50 pixels: 0.975 units from the middle
+    EXPECT_TRUE(pick(scene, camera, kSize, {100, 89.0f}));  // 39 of 50 pixels: 0.975 units from the centre
     EXPECT_FALSE(pick(scene, camera, kSize, {100, 91.0f})); // 1.025
 }
 
-TEST(Pick, nothingIsThereWhereNothingIsNorInAnEmptyPicture)
+TEST(Pick, emptySpaceAndEmptyImagesHaveNoHit)
 {
     EXPECT_FALSE(pick({}, {}, kSize, {1, 1}));
     EXPECT_FALSE(pick(sphere(), {}, {0, 0}, {0, 0}));

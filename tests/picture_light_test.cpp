@@ -1,4 +1,4 @@
-// The light that options give an image, and the maps that they put on a model: each option alone.
+// The lights of an image and the maps on its model, as options set them: each option on its own.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,25 +24,25 @@ PictureOptions optionsWith(void (*set)(PictureOptions&))
 
 using Options = PictureOptions;
 
-TEST(PictureLight, lampsTurnWithTheEnvironmentAndShineByItsIntensity)
+TEST(PictureLight, lampsFollowRotationAndIntensityOfTheEnvironment)
 {
     const auto lampsOf = [](void (*set)(Options&)) { return lightsOf(optionsWith(set), Scene()); };
     const Light studio = lampsOf([](Options&) {}).at(0);
     EXPECT_NEAR(glm::length(studio.direction), 1, 1e-6);
-    EXPECT_LT(studio.direction.y, 0); // from above, in front and on the left
+    EXPECT_LT(studio.direction.y, 0); // from above, front and left
     EXPECT_LT(studio.direction.z, 0);
     EXPECT_GT(studio.direction.x, 0);
     const Light evening = lampsOf([](Options& o) { o.environment = "evening"; }).at(0);
-    EXPECT_GT(evening.color.x, 2 * evening.color.z); // the sun when it is low
+    EXPECT_GT(evening.color.x, 2 * evening.color.z); // a low, reddish sun
     EXPECT_LT(std::abs(evening.direction.y), std::abs(studio.direction.y));
-    EXPECT_LT(evening.direction.y, -0.1f); // and still above the horizon
+    EXPECT_LT(evening.direction.y, -0.1f); // still above the horizon
     for (const double degrees : {90.0, -30.0, 180.0}) {
         Options o;
         o.environmentRotation = degrees;
         o.environmentIntensity = 2;
         const Light turned = lightsOf(o, Scene()).at(0);
         const double c = std::cos(degrees * 0.017453292519943295), s = std::sin(degrees * 0.017453292519943295);
-        const glm::vec3 d = studio.direction; // about the vertical, to the right as seen from above
+        const glm::vec3 d = studio.direction; // rotated about the vertical, to the right as seen from above
         EXPECT_NEAR(turned.direction.x, c * d.x + s * d.z, 1e-5) << degrees;
         EXPECT_NEAR(turned.direction.y, d.y, 1e-6) << degrees;
         EXPECT_NEAR(turned.direction.z, c * d.z - s * d.x, 1e-5) << degrees;
@@ -90,7 +90,7 @@ TEST(PictureLight, eachOptionSetsItsOwnFieldOfTheView)
     EXPECT_EQ(viewWith([](Options& o) { o.toneMapping = ToneMapping::agx; }).toneMapping, ToneMapping::agx);
 }
 
-TEST(PictureLight, withoutAnEnvironmentItsOptionsAreRefusedByName)
+TEST(PictureLight, environmentOptionsWithoutEnvironmentAreRefused)
 {
     struct Row {
         void (*set)(Options&);
@@ -115,13 +115,13 @@ TEST(PictureLight, withoutAnEnvironmentItsOptionsAreRefusedByName)
     const auto opened = openEnvironmentMap(unknown);
     ASSERT_FALSE(opened);
     EXPECT_NE(opened.error().message.find("none, or a .hdr or .exr file; found 'noon'"), std::string::npos);
-    unknown.use = PictureUse::data; // where nothing is lit nothing is opened
+    unknown.use = PictureUse::data; // unlit images open no environment map
     EXPECT_TRUE(openEnvironmentMap(unknown));
 }
 
 // ---- maps --------------------------------------------------------------------------------------------
 
-// Removed with everything in it.
+// A temporary folder, removed with its contents.
 struct MapFolder {
     std::filesystem::path path =
         std::filesystem::temp_directory_path() / ("cotan_picture_maps_" + std::to_string(::getpid()));
@@ -130,7 +130,7 @@ struct MapFolder {
     std::filesystem::path operator/(const char* name) const { return path / name; }
 };
 
-// Two squares, each with a material whose every factor is another one.
+// Two squares, each with a material, all of whose factors differ.
 Scene twoMaterials()
 {
     Scene scene;
@@ -149,7 +149,7 @@ Scene twoMaterials()
     return scene;
 }
 
-TEST(PictureMaps, eachGoesToItsOwnSlotWithAFactorOfOne)
+TEST(PictureMaps, eachMapSetsItsSlotAndAFactorOfOne)
 {
     const MapFolder folder;
     Image image = makeImage(2, 1, PixelType::unorm8);
@@ -188,7 +188,7 @@ TEST(PictureMaps, eachGoesToItsOwnSlotWithAFactorOfOne)
         }
 }
 
-TEST(PictureMaps, whatDoesNotGoTogetherIsRefusedByTheRuleThatIsBroken)
+TEST(PictureMaps, incompatibleOptionsNameTheBrokenRule)
 {
     const MapFolder folder;
     Image image = makeImage(1, 1, PixelType::unorm8);
@@ -213,7 +213,7 @@ TEST(PictureMaps, whatDoesNotGoTogetherIsRefusedByTheRuleThatIsBroken)
           {high, ErrorKind::usage, "--material: expected 0 to 1; found 2"},
           {convention, ErrorKind::usage,
            "--convention: expected --normal-map FILE with it, or a model with normal maps"},
-          {object, ErrorKind::usage, "--convention: expected a map in tangent space; found 'gltf,object'"},
+          {object, ErrorKind::usage, "--convention: expected a tangent-space map; found 'gltf,object'"},
           {words, ErrorKind::usage, "--convention: "},
           {missing, ErrorKind::input, "gone.png"}}) {
         Scene scene = twoMaterials();
@@ -237,8 +237,8 @@ TEST(PictureMaps, whatDoesNotGoTogetherIsRefusedByTheRuleThatIsBroken)
               "two.obj: expected a mesh with texture coordinates to show " + file + " on; found none");
 }
 
-// A convention alone says how the model's own maps are read, of one material or all.
-TEST(PictureMaps, aConventionAloneIsForTheMapsOfTheModel)
+// A convention alone sets how the model's own maps are read, for one material or all.
+TEST(PictureMaps, conventionAloneAppliesToTheMapsOfTheModel)
 {
     for (const int material : {-1, 0, 1}) {
         Scene scene = twoMaterials();

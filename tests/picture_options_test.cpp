@@ -1,4 +1,4 @@
-// Words of `render` and `compare` as sizes, cameras and views; both sides of every limit.
+// Option words of `render` and `compare` for sizes, cameras and views, on both sides of every limit.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -15,7 +15,7 @@
 namespace cotan::app {
 namespace {
 
-TEST(PictureWords, sizesReachFromOneTo16384OnEachSide)
+TEST(PictureOptionValues, sizesReachFromOneTo16384OnEachSide)
 {
     EXPECT_EQ(*parseSize("1x16384"), (PictureSize{1, 16384}));
     EXPECT_EQ(*parseSize("16384x1"), (PictureSize{16384, 1}));
@@ -25,7 +25,7 @@ TEST(PictureWords, sizesReachFromOneTo16384OnEachSide)
         EXPECT_FALSE(parseSize(wrong)) << wrong;
 }
 
-TEST(PictureWords, picturesHaveSizesByNameAndMapsDoNot)
+TEST(PictureOptionValues, namedSizesAreForRendersOnly)
 {
     EXPECT_EQ(*parsePictureSize("1080p"), (PictureSize{1920, 1080}));
     EXPECT_EQ(*parsePictureSize("square"), (PictureSize{1024, 1024}));
@@ -36,7 +36,7 @@ TEST(PictureWords, picturesHaveSizesByNameAndMapsDoNot)
         EXPECT_TRUE(parsePictureSize(word)) << word;
 }
 
-TEST(PictureWords, camerasHaveTheNamesOfSides)
+TEST(PictureOptionValues, camerasAreNamedAfterSides)
 {
     const Scene scene = builtinScene();
     const auto from = [&](const char* words) {
@@ -54,8 +54,8 @@ TEST(PictureWords, camerasHaveTheNamesOfSides)
         EXPECT_FALSE(parseCamera(wrong, scene, 10, 10)) << wrong;
 }
 
-// Eye, target and lens: degrees, or the height of what an orthographic one sees.
-TEST(PictureWords, lensesAreAbove0AndBelow180DegreesAndHeightsAbove0)
+// Eye, target and lens: degrees, or the height that an orthographic camera covers.
+TEST(PictureOptionValues, fieldOfViewAndHeightAreChecked)
 {
     const Scene scene = builtinScene();
     const auto with = [&](const std::string& lens) { return parseCamera("1,2,4,0,0.2,0," + lens, scene, 10, 10); };
@@ -69,7 +69,7 @@ TEST(PictureWords, lensesAreAbove0AndBelow180DegreesAndHeightsAbove0)
     EXPECT_FALSE(with("30")->orthographic);
 }
 
-TEST(PictureWords, camerasAreNumberedFromNoughtToTheLast)
+TEST(PictureOptionValues, camerasAreNumberedFromZero)
 {
     Scene scene = builtinScene();
     scene.cameras.resize(2);
@@ -81,7 +81,7 @@ TEST(PictureWords, camerasAreNumberedFromNoughtToTheLast)
     EXPECT_FALSE(parseCamera("-1", scene, 10, 10));
 }
 
-TEST(PictureWords, aCameraLooksFromAndToWithAnUpThatIsNotItsDirection)
+TEST(PictureOptionValues, cameraUpIsNeverTheViewDirection)
 {
     const Scene scene;
     const auto level = parseCamera("1,2,3,4,2,8", scene, 10, 10);
@@ -91,7 +91,7 @@ TEST(PictureWords, aCameraLooksFromAndToWithAnUpThatIsNotItsDirection)
     for (const char* straight : {"0,5,0,0,-1,0", "0,-5,0,0,1,0"})
         EXPECT_GT(glm::length(glm::cross(parseCamera(straight, scene, 10, 10)->up, glm::vec3(0, 1, 0))), 0.5f)
             << straight;
-    EXPECT_FALSE(parseCamera("1,2,3,1,2,3", scene, 10, 10)); // nowhere to look
+    EXPECT_FALSE(parseCamera("1,2,3,1,2,3", scene, 10, 10)); // eye and target are equal
     EXPECT_FALSE(parseCamera("1,2,3,4,5", scene, 10, 10));
     EXPECT_FALSE(parseCamera("1,2,3,4,5,nan", scene, 10, 10));
 }
@@ -103,7 +103,7 @@ CommonOptions quiet()
     return common;
 }
 
-TEST(PictureWords, rowsRunTheWayThatWasAskedFor)
+TEST(PictureOptionValues, rowDirectionIsTheRequestedOne)
 {
     PictureOptions options;
     EXPECT_FALSE(loadPicture(options, quiet(), {Frame::cotangent})->view.rowsUpward);
@@ -111,7 +111,7 @@ TEST(PictureWords, rowsRunTheWayThatWasAskedFor)
     EXPECT_TRUE(loadPicture(options, quiet(), {Frame::cotangent})->view.rowsUpward);
 }
 
-TEST(PictureWords, lightsOfTheSceneAreTakenWhereItHasSome)
+TEST(PictureOptionValues, lightsOfTheSceneAreUsed)
 {
     const auto picture = loadPicture({}, quiet(), {Frame::cotangent});
     ASSERT_TRUE(picture);
@@ -123,7 +123,7 @@ TEST(PictureWords, lightsOfTheSceneAreTakenWhereItHasSome)
     }
 }
 
-TEST(PictureWords, picturesAreOfAStudioUnlessTheyAreToldOtherwise)
+TEST(PictureOptionValues, studioIsTheDefaultEnvironment)
 {
     PictureOptions options;
     const auto picture = loadPicture(options, quiet(), {Frame::cotangent});
@@ -136,17 +136,17 @@ TEST(PictureWords, picturesAreOfAStudioUnlessTheyAreToldOtherwise)
     options.environment = "overcast";
     EXPECT_EQ(loadPicture(options, quiet(), {Frame::cotangent})->view.backdrop, Backdrop::blurred);
 
-    // A sky in clouds casts no shadow; a low sun casts a long one, with edges.
+    // An overcast sky casts no shadow; a low sun casts a long one with sharp edges.
     Scene ball;
     EXPECT_TRUE(lightsOf(options, ball).empty());
     options.environment = "evening";
     const auto sun = lightsOf(options, ball);
     ASSERT_EQ(sun.size(), 1u);
-    EXPECT_GT(-sun[0].direction.y, 0.174f); // 10 degrees: lower lamps throw none on the ground
+    EXPECT_GT(-sun[0].direction.y, 0.174f); // 10 degrees: lower lamps cast no shadow on the ground
     EXPECT_LT(-sun[0].direction.y, 0.5f);
-    PictureOptions turned = options;
-    turned.environmentRotation = 90; // counter-clockwise from above: z becomes x
-    EXPECT_NEAR(lightsOf(turned, ball)[0].direction.x, sun[0].direction.z, 1e-6f);
+    PictureOptions rotated = options;
+    rotated.environmentRotation = 90; // counter-clockwise from above: z becomes x
+    EXPECT_NEAR(lightsOf(rotated, ball)[0].direction.x, sun[0].direction.z, 1e-6f);
     EXPECT_NEAR(loadPicture(options, quiet(), {Frame::cotangent})->view.shadowSoftness, 0.0262f, 1e-4f); // 1.5 degrees
 
     options.environment = "none";
@@ -159,7 +159,7 @@ TEST(PictureWords, picturesAreOfAStudioUnlessTheyAreToldOtherwise)
     EXPECT_EQ(plain->view.exposure, 1.5f);
     EXPECT_EQ(plain->view.shadowSoftness, 0);
 
-    // What shows no light is spared making it.
+    // Unlit images do not prepare an environment or a meter.
     PictureOptions normals;
     normals.use = PictureUse::data;
     const auto data = loadPicture(normals, quiet(), {Frame::cotangent});
@@ -220,7 +220,7 @@ constexpr WordRow kWordRows[] = {
      }},
 };
 
-// Reads the words of one option into `options`; what its help then says of its default is the word of that value.
+// Sets one option in `options` to `word`; `usual` receives the default that its help then shows, which is that word.
 Status readInto(PictureOptions& options, const std::string& option, const std::string& word, std::string* usual = {})
 {
     const auto declared = [&options] {
@@ -236,7 +236,7 @@ Status readInto(PictureOptions& options, const std::string& option, const std::s
     return done;
 }
 
-TEST(PictureWords, eachWordOfAnOptionIsOneValueAndBack)
+TEST(PictureOptionValues, optionValuesRoundTripThroughText)
 {
     for (const WordRow& row : kWordRows) {
         PictureOptions options;
@@ -257,7 +257,7 @@ TEST(PictureWords, eachWordOfAnOptionIsOneValueAndBack)
     EXPECT_EQ(options.shadowSoftness, 0.5);
 }
 
-TEST(PictureWords, anotherWordIsRefusedWithThoseThatThereAre)
+TEST(PictureOptionValues, unknownValuesAreRefusedWithTheKnownOnes)
 {
     for (const auto& [option, expected] : {std::pair("--up", "y or z"),
                                            {"--edges", "none, triangles, seams or all"},
@@ -284,7 +284,7 @@ TEST(PictureWords, anotherWordIsRefusedWithThoseThatThereAre)
         }
 }
 
-TEST(PictureWords, aSizeThatIsNoneIsWhatTheCommandEndsWith)
+TEST(PictureOptionValues, invalidSizesAreRefused)
 {
     PictureOptions options;
     const Status done = readInto(options, "--size", "640x");
@@ -305,7 +305,7 @@ TEST(PictureWords, aSizeThatIsNoneIsWhatTheCommandEndsWith)
     }
 }
 
-TEST(OptionNames, aFieldOfOptionsIsAnOptionAndMemoryIsNamedOnce)
+TEST(OptionNames, fieldsBecomeOptionNamesAndMemoryIsNamedOnce)
 {
     const auto named = [](const Error& error) { return withOptionNames(error).message; };
     EXPECT_EQ(named(about("options.maxDistance", usageError("expected 0"))), "--max-distance: expected 0");
@@ -317,7 +317,7 @@ TEST(OptionNames, aFieldOfOptionsIsAnOptionAndMemoryIsNamedOnce)
     EXPECT_EQ(withOptionNames(memoryError("")).kind, ErrorKind::input);
 }
 
-TEST(PictureWords, lightingThatDoesNotGoTogetherIsToldInItsWords)
+TEST(PictureOptionValues, incompatibleLightingOptionsAreNamed)
 {
     PictureOptions options;
     options.normalMapping = NormalMapping::mirrorFacet;
@@ -330,7 +330,7 @@ TEST(PictureWords, lightingThatDoesNotGoTogetherIsToldInItsWords)
               "and tangent-pixel");
 }
 
-// A command with the options of `render` that are not for files.
+// A command with the options of `render` except those for files.
 struct DeclaredTool {
     PictureOptions options;
     std::string frame{kAutoFrame};
@@ -344,20 +344,20 @@ struct DeclaredTool {
     }
 };
 
-// The options, as the help has them.
+// The options as its help lists them.
 std::vector<OptionHelp> declaredOptions() { return DeclaredTool().tool.describe().options; }
 
-// What the command line says to these words, without naming its help.
-std::string saidByCommandLine(const std::vector<std::string>& words)
+// The command line's error for these words, without the hint at the help; empty if it accepts them.
+std::string commandLineMessage(const std::vector<std::string>& words)
 {
     DeclaredTool declared;
     declared.tool.does([] { return Done{}; });
     const Status done = declared.tool.run(words, {});
-    const std::string said = done ? "" : done.error().message;
-    return said.substr(0, said.find(" (see tool --help)"));
+    const std::string message = done ? "" : done.error().message;
+    return message.substr(0, message.find(" (see tool --help)"));
 }
 
-std::string saidByLibrary(const std::vector<std::string>& words)
+std::string libraryMessage(const std::vector<std::string>& words)
 {
     PictureOptions options;
     std::string frame(kAutoFrame);
@@ -366,7 +366,7 @@ std::string saidByLibrary(const std::vector<std::string>& words)
     return done ? "" : done.error().message;
 }
 
-TEST(PictureWords, theLibraryTakesAndRefusesWhatTheCommandLineDoes)
+TEST(PictureOptionValues, libraryAcceptsAndRefusesLikeTheCommandLine)
 {
     std::size_t options = 0;
     for (const OptionHelp& help : declaredOptions()) {
@@ -375,20 +375,20 @@ TEST(PictureWords, theLibraryTakesAndRefusesWhatTheCommandLineDoes)
             continue;
         ++options;
         if (help.value.empty()) {
-            EXPECT_EQ(saidByLibrary({name}), "");
+            EXPECT_EQ(libraryMessage({name}), "");
             continue;
         }
         std::vector<std::string> words = {"",    "prb", "-1", "0",     "1",      "3.5",     "16",  "0x10",
                                           "nan", "1e9", "61", "65537", "100001", "640x480", "a\nb"};
-        words.insert(words.end(), {help.least, help.most});
+        words.insert(words.end(), {help.minimum, help.maximum});
         words.insert(words.end(), help.words.begin(), help.words.end());
         for (const std::string& word : words)
-            EXPECT_EQ(saidByLibrary({name, word}), saidByCommandLine({name, word})) << name << " " << word;
+            EXPECT_EQ(libraryMessage({name, word}), commandLineMessage({name, word})) << name << " " << word;
     }
     EXPECT_EQ(options, 37u);
 }
 
-TEST(PictureWords, theLibraryReadsTheSameValues)
+TEST(PictureOptionValues, libraryReadsTheSameValues)
 {
     for (const WordRow& row : kWordRows)
         for (const bool joined : {false, true}) {
@@ -451,7 +451,7 @@ TEST(PictureWords, theLibraryReadsTheSameValues)
     EXPECT_EQ(o.model, "--model");
 }
 
-TEST(PictureWords, aWordTakesTheValueOfAnOptionBack)
+TEST(PictureOptionValues, laterValuesResetAnOption)
 {
     PictureOptions o;
     o.exposure = 2.0f;
@@ -465,23 +465,23 @@ TEST(PictureWords, aWordTakesTheValueOfAnOptionBack)
     EXPECT_EQ(o.edges, Edges::none);
 }
 
-TEST(PictureWords, theLibraryRefusesWhatIsNoOptionOfAPicture)
+TEST(PictureOptionValues, libraryRefusesUnknownOptions)
 {
-    for (const auto& [words, said] : {std::pair(std::vector<std::string>{"-o", "a.png"}, "unknown option -o"),
-                                      {{"--help"}, "unknown option --help"},
-                                      {{"--sizes=8"}, "unknown option --sizes"},
-                                      {{"a.glb", "b.glb"}, "unexpected word 'b.glb'"},
-                                      {{"a.glb", "--", "--"}, "unexpected word '--'"},
-                                      {{"--size"}, "--size needs a value"},
-                                      {{"--up=y", "--up", "z"}, "--up is given 2 times; expected once"},
-                                      {{"--no-shadows=\n"}, "--no-shadows takes no value; found ' '"}})
-        EXPECT_EQ(saidByLibrary(words), said);
-    EXPECT_EQ(saidByLibrary({"-"}), ""); // a model
-    EXPECT_EQ(saidByLibrary({"--no-shadows", "--no-shadows"}), "");
-    EXPECT_EQ(saidByLibrary({}), "");
+    for (const auto& [words, message] : {std::pair(std::vector<std::string>{"-o", "a.png"}, "unknown option -o"),
+                                         {{"--help"}, "unknown option --help"},
+                                         {{"--sizes=8"}, "unknown option --sizes"},
+                                         {{"a.glb", "b.glb"}, "unexpected word 'b.glb'"},
+                                         {{"a.glb", "--", "--"}, "unexpected word '--'"},
+                                         {{"--size"}, "--size needs a value"},
+                                         {{"--up=y", "--up", "z"}, "--up is given twice; expected once"},
+                                         {{"--no-shadows=\n"}, "--no-shadows takes no value; found ' '"}})
+        EXPECT_EQ(libraryMessage(words), message);
+    EXPECT_EQ(libraryMessage({"-"}), ""); // a model
+    EXPECT_EQ(libraryMessage({"--no-shadows", "--no-shadows"}), "");
+    EXPECT_EQ(libraryMessage({}), "");
 }
 
-TEST(PictureWords, exposureIsAutoOrAPositiveNumber)
+TEST(PictureOptionValues, exposureIsAutoOrAPositiveNumber)
 {
     for (const auto& [text, good] : {std::pair("0.001", true),
                                      {"auto", true},

@@ -1,5 +1,5 @@
-// PNG files from first principles (the PNG specification and zlib), so that what the reader is
-// tested against does not come from the library that it uses.
+// PNG files written from first principles (the PNG specification and zlib), independent of the library that the reader
+// under test uses.
 #pragma once
 
 #include <cstddef>
@@ -39,8 +39,8 @@ struct Png {
     int bits = 8;
     int colour = 2; // 0 grey, 2 rgb, 3 palette, 4 grey and alpha, 6 rgb and alpha
     bool interlaced = false;
-    std::string rows;        // as stored, each with its filter byte
-    std::string before = {}; // chunks between header and pixels, whole
+    std::string rows;        // as stored, each row with its filter byte
+    std::string before = {}; // whole chunks between header and pixels
 };
 
 inline std::string chunk(const std::string& type, const std::string& data)

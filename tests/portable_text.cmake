@@ -1,4 +1,4 @@
-# Joins the portable text behind a prologue for LANGUAGE and compiles it.
+# Concatenates a prologue for LANGUAGE and the portable text, and compiles the result.
 if(LANGUAGE STREQUAL "glsl")
   set(text "#version 450\n#define COTAN_LANG_GLSL\n")
   set(flags -V -o ${OUT}.spv)

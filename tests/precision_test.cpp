@@ -1,5 +1,5 @@
-// Bar D1: float, camera-relative, uv in [0,1): the error at a pixel footprint and a distance from
-// the origin, against exact arithmetic on the same stored mesh.
+// Bar D1: float, camera-relative, uv in [0,1): the error for a pixel footprint and a distance from the origin, against
+// exact arithmetic on the same stored mesh.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ Deviation meanError(double offset, double footprint, PositionSource source)
     return error;
 }
 
-TEST(FrameBarD1, cameraRelativePositionsMakeTheDistanceFromTheOriginIrrelevant)
+TEST(FrameBarD1, cameraRelativePositionsAreIndependentOfTheOrigin)
 {
     for (auto [footprint, bar] : {std::pair(1e-3, 0.002), std::pair(1e-5, 0.12)}) {
         const Deviation near = meanError(0, footprint, PositionSource::cameraRelative);
@@ -51,7 +51,7 @@ TEST(FrameBarD1, interpolatedWorldPositionsAreUnusableFarFromTheOrigin)
     EXPECT_GT(meanError(1e5, 1e-3, PositionSource::world).mean, 10); // the control; measured 24
 }
 
-TEST(FrameBarD1, exactGradientsHoldAtEveryFootprint)
+TEST(FrameBarD1, exactGradientsAreAccurateAtEveryFootprint)
 {
     for (double offset : {0.0, 1e6}) {
         Random random(83);
@@ -59,10 +59,10 @@ TEST(FrameBarD1, exactGradientsHoldAtEveryFootprint)
         for (int i = 0; i < 3000; ++i) {
             const PrecisionTrial t = makeTrial(random, {offset, 1e-6});
             const glm::dvec3 r = shadeFloat(Frame::exact, t.normal, floatEdges(t), t.texel);
-            // Pixel differences in double at 1e6 would lose more digits than `exact` does in float.
+            // Pixel differences in double at 1e6 would lose more digits than `exact` loses in float.
             worst = std::max(worst, degreesBetween(r, shade(Frame::exact, t.normal, exactEdges(t), t.texel)));
         }
-        EXPECT_LT(worst, 1e-4) << offset; // the bar asks it of the mean; measured 3e-6 mean
+        EXPECT_LT(worst, 1e-4) << offset; // the bar limits the mean; measured mean 3e-6
     }
 }
 

@@ -1,4 +1,4 @@
-// The line that says how far a long command is, on a terminal and off it.
+// The progress line of long commands, on a terminal and elsewhere.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 using namespace test;
 using Words = std::vector<std::string>;
 
-// What `work`, in a process of its own, writes to standard error, which is a terminal of that width.
+// Runs `work` in a child process whose standard error is a terminal of `columns` columns; returns what it writes there.
 template<class Work> std::string onTerminal(unsigned short columns, Work work)
 {
     int terminal = -1;
@@ -42,7 +42,7 @@ template<class Work> std::string onTerminal(unsigned short columns, Work work)
     return text;
 }
 
-// The states of the line; the last is the empty one that it is wiped to.
+// The successive states of the line; the last is the empty one after it is wiped.
 std::vector<std::string> states(const std::string& text)
 {
     const std::string wipe = "\r\033[K";
@@ -66,8 +66,8 @@ double percentOf(const std::string& line)
     return end == std::string::npos ? -1 : std::stod(line.substr(line.rfind(": ", end) + 2));
 }
 
-// 500 steps, each of `milliseconds`, by two threads.
-std::vector<std::string> workOf(unsigned short columns, const std::string& name, int milliseconds, int steps)
+// States of the line while two threads do `steps` steps each of `milliseconds`.
+std::vector<std::string> statesOfWork(unsigned short columns, const std::string& name, int milliseconds, int steps)
 {
     return states(onTerminal(columns, [&] {
         ProgressLine progress(false, std::size_t(2 * steps), name);
@@ -83,9 +83,9 @@ std::vector<std::string> workOf(unsigned short columns, const std::string& name,
     }));
 }
 
-TEST(ProgressLine, isRedrawnTenTimesASecondAtMostAndDoesNotGoBack)
+TEST(ProgressLine, isRedrawnAtMostTenTimesASecondAndNeverDecreases)
 {
-    const auto lines = workOf(80, "work", 5, 600); // 3 s at least
+    const auto lines = statesOfWork(80, "work", 5, 600); // 3 s at least
     ASSERT_GT(lines.size(), 5u);
     EXPECT_LT(lines.size(), 10u * 30); // a loaded machine takes longer, but not ten times
     double before = -1;
@@ -97,15 +97,15 @@ TEST(ProgressLine, isRedrawnTenTimesASecondAtMostAndDoesNotGoBack)
     EXPECT_LT(lines.size(), 1200u / 2) << "drawn at every step";
 }
 
-// The work is even, so what is left is what was told before, less the time since; a machine that is busy with other
-// things halves or doubles it.
-TEST(ProgressLine, tellsNoTimeBeforeItKnowsAndThenOneThatHolds)
+// The work is even, so the time left is the one stated before less the time since; other load on the machine may halve
+// or double it.
+TEST(ProgressLine, showsTheRemainingTimeOnceItIsReliable)
 {
-    const auto lines = workOf(80, "work", 10, 600); // 6 s at least
-    bool told = false;
+    const auto lines = statesOfWork(80, "work", 10, 600); // 6 s at least
+    bool timeShown = false;
     for (const std::string& line : lines) {
         const std::size_t at = line.find("about ");
-        told = told || at != std::string::npos;
+        timeShown = timeShown || at != std::string::npos;
         if (percentOf(line) >= 0 && percentOf(line) < 3) {
             EXPECT_EQ(at, std::string::npos) << line;
         }
@@ -113,21 +113,21 @@ TEST(ProgressLine, tellsNoTimeBeforeItKnowsAndThenOneThatHolds)
             EXPECT_LE(std::stod(line.substr(at + 6)), 20) << line;
         }
     }
-    EXPECT_TRUE(told);
+    EXPECT_TRUE(timeShown);
 }
 
-TEST(ProgressLine, fitsTheTerminalWhateverTheNameHolds)
+TEST(ProgressLine, fitsTheTerminalForAnyName)
 {
     const std::string name = "a\nb\033[31m" + std::string(60, 'x') + "\xc3\xa4\xc3\xb6\xc3\xbc" + std::string(200, 'y');
     for (const unsigned short columns : std::initializer_list<unsigned short>{80, 200, 40, 12})
-        for (const std::string& line : workOf(columns, name, 1, 150)) {
+        for (const std::string& line : statesOfWork(columns, name, 1, 150)) {
             EXPECT_LT(columnsOf(line), std::min<std::size_t>(columns, 80)) << line;
             for (const char c : line)
                 EXPECT_GE(static_cast<unsigned char>(c), 32) << line;
         }
 }
 
-// Each state as a whole, of steps that are further apart than the line is drawn.
+// States of the line for steps that are farther apart than two redraws, without the time left.
 std::vector<std::string> drawnBy(unsigned short columns, std::size_t total, const std::string& name,
                                  const std::function<void(ProgressLine&, const std::function<void()>&)>& work)
 {
@@ -135,34 +135,34 @@ std::vector<std::string> drawnBy(unsigned short columns, std::size_t total, cons
         ProgressLine progress(false, total, name);
         work(progress, [] { std::this_thread::sleep_for(std::chrono::milliseconds(120)); });
     }));
-    for (std::string& line : lines) // of a machine that is so busy that there was a time to tell
+    for (std::string& line : lines) // a busy machine may have stated a time
         line = line.substr(0, line.find(", about "));
     return lines;
 }
 
-TEST(ProgressLine, countsItsStepsAndNeverSays100)
+TEST(ProgressLine, countsStepsAndNeverShows100)
 {
     const auto lines = drawnBy(80, 3, "work", [](ProgressLine& progress, const auto& later) {
-        for (int i = 0; i < 4; ++i) { // one more than there are
+        for (int i = 0; i < 4; ++i) { // one more than the total
             later();
             progress.step();
         }
     });
     EXPECT_EQ(lines, (Words{"work: 0 %", "work: 33 %", "work: 66 %", "work: 99 %", "work: 99 %", ""}));
-    // 0 begins the next step; a share that is none, or goes back, counts for nothing.
+    // 0 begins the next step; fractions that are out of range or fall are ignored.
     const auto parts = drawnBy(80, 2, "p", [](ProgressLine& progress, const auto& later) {
         const Progress within = progress.within();
-        for (const double share : {0.5, 0.25, 1.5, 0.0}) {
+        for (const double fraction : {0.5, 0.25, 1.5, 0.0}) {
             later();
-            EXPECT_TRUE(within(share));
+            EXPECT_TRUE(within(fraction));
         }
     });
     EXPECT_EQ(parts, (Words{"p: 0 %", "p: 25 %", "p: 25 %", "p: 50 %", "p: 50 %", ""}));
     const auto begun = drawnBy(80, 2, "p", [](ProgressLine& progress, const auto& later) {
         const Progress within = progress.within();
-        for (const double share : {0.0, 0.5}) { // of the first step
+        for (const double fraction : {0.0, 0.5}) { // of the first step
             later();
-            within(share);
+            within(fraction);
         }
     });
     EXPECT_EQ(begun, (Words{"p: 0 %", "p: 0 %", "p: 25 %", ""}));
@@ -173,8 +173,8 @@ TEST(ProgressLine, countsItsStepsAndNeverSays100)
     EXPECT_EQ(unknown, (Words{"of who knows how many ...", "of who knows how many ...", ""}));
 }
 
-// One column of the terminal stays free, and of 79 at most are used: what does not fit ends in three dots.
-TEST(ProgressLine, cutsALongNameByWholeLettersAndKeepsTheShare)
+// One column of the terminal stays free, and at most 79 are used; longer lines end in three dots.
+TEST(ProgressLine, cutsLongNamesByWholeLettersAndKeepsThePercentage)
 {
     const auto first = [](unsigned short columns, const std::string& name) {
         return drawnBy(columns, 3, name, [](ProgressLine&, const auto&) {}).at(0);
@@ -189,10 +189,10 @@ TEST(ProgressLine, cutsALongNameByWholeLettersAndKeepsTheShare)
     EXPECT_EQ(first(20, umlauts.substr(0, 28)), umlauts.substr(0, 28) + ": 0 %");
     EXPECT_EQ(first(20, umlauts), umlauts.substr(0, 22) + "...: 0 %");
     EXPECT_EQ(first(20, "a\nb\x7f~"), "a?b?~: 0 %");
-    EXPECT_EQ(first(6, "work"), "wo..."); // no room for a share
+    EXPECT_EQ(first(6, "work"), "wo..."); // no space for a percentage
 }
 
-TEST(ProgressLine, isSilentWhereNobodyLooks)
+TEST(ProgressLine, isSilentWithoutATerminal)
 {
     ::testing::internal::CaptureStderr();
     {
@@ -203,21 +203,20 @@ TEST(ProgressLine, isSilentWhereNobodyLooks)
     EXPECT_EQ(onTerminal(80, [&] { ProgressLine progress(true, 3, "work"); }), "");
 }
 
-// The commands that can take over two seconds.
-// `compare --edges` drew two more pictures, told to a line that was gone.
-TEST(ProgressLine, aRendererTellsItNothingOnceItIsGone)
+// `compare --edges` once rendered two more images that reported progress to a destroyed line.
+TEST(ProgressLine, isDetachedFromTheRendererWhenDestroyed)
 {
     const auto renderer = openRenderer("reference", 1);
     ASSERT_TRUE(renderer) << renderer.error().message;
     app::CommonOptions quiet;
     quiet.quiet = true;
-    const bool told =
+    const bool reported =
         app::drawWithProgress(quiet, **renderer, 1, "drawing", [&] { return bool((*renderer)->progress); });
-    EXPECT_TRUE(told);
+    EXPECT_TRUE(reported);
     EXPECT_FALSE((*renderer)->progress);
 }
 
-TEST(ProgressLine, isShownByEveryLongCommandOnATerminalOnly)
+TEST(ProgressLine, isShownByEveryLongCommandOnlyOnATerminal)
 {
     TemporaryFolder folder;
     write(quad(2), folder.path());

@@ -1,8 +1,8 @@
-# The Python package over the C API. Libraries that are built with sanitizers cannot be loaded by a program without.
+# The Python package over the C API. A program without sanitizers cannot load a library that is built with them.
 if(CMAKE_CXX_FLAGS MATCHES "fsanitize" OR NOT TARGET cotan_app)
   return()
 endif()
-# The first Python that has numpy and pytest: Debian's, beside which there may be others.
+# The first Python that has numpy and pytest: Debian's, if another one comes first.
 find_package(Python3 COMPONENTS Interpreter)
 foreach(python ${Python3_EXECUTABLE} /usr/bin/python3)
   execute_process(COMMAND ${python} -c "import numpy, pytest" RESULT_VARIABLE missing OUTPUT_QUIET ERROR_QUIET)
@@ -21,7 +21,7 @@ foreach(part header arrays geometry maps bake models render json types work opti
   else()
     set(test sh -c "echo skipped: no python3 with numpy and pytest here; exit 77")
   endif()
-  if(part STREQUAL "install") # pip takes its time
+  if(part STREQUAL "install") # pip is slow
     cotan_door(${name} COMMAND ${test})
   else()
     add_test(NAME ${name} COMMAND ${test})

@@ -1,4 +1,4 @@
-// A small glTF model for tests of commands, its parts in separate files.
+// A small glTF model for tests of commands, whose parts are separate files.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ namespace cotan::test {
 
 using nlohmann::json;
 
-// A rectangle in xy with TANGENT and a map of waves, as JSON and a buffer to be changed and written.
+// A rectangle in xy with TANGENT and a map of waves, as JSON and a buffer that tests may change and write.
 struct Made {
     json root;
     std::string bytes;
@@ -36,7 +36,7 @@ struct Made {
     }
 };
 
-// stretch: how much wider than high what the unit square of uv covers. uvScale: in the vertices.
+// stretch: width of the rectangle, whose height is 1; uv cover the unit square. uvScale: scale of the vertices' uv.
 inline Made quad(float stretch, float uvScale = 1)
 {
     Made m;
@@ -67,8 +67,8 @@ inline Made quad(float stretch, float uvScale = 1)
     return m;
 }
 
-// Turns TANGENT in its plane.
-inline void turnTangents(Made& m, double degrees)
+// Rotates TANGENT in its plane.
+inline void rotateTangents(Made& m, double degrees)
 {
     const float a = float(degrees * 3.14159265358979 / 180);
     const std::size_t accessor = m.root["meshes"][0]["primitives"][0]["attributes"]["TANGENT"];
@@ -80,7 +80,7 @@ inline void turnTangents(Made& m, double degrees)
     }
 }
 
-// A clear coat with a normal map: texture 1 reads the image coat.png, the same waves.
+// Adds a clear coat with a normal map: texture 1 reads the image coat.png, the same waves.
 inline void addCoat(Made& m, json normalTexture)
 {
     m.root["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_texture_transform"};
@@ -103,7 +103,7 @@ inline void write(Made m, const std::filesystem::path& folder)
                                    std::filesystem::copy_options::overwrite_existing);
 }
 
-// A rectangle that goes up by 1 in 2 s, or by 3 in 4 s.
+// A rectangle that rises by 1 in 2 s, or by 3 in 4 s.
 inline Made movingQuad()
 {
     Made m = quad(2);

@@ -1,4 +1,4 @@
-// What rounding to the components of a normal map costs.
+// Errors from rounding the components of a normal map.
 #pragma once
 
 #include <algorithm>
@@ -9,9 +9,9 @@
 
 namespace cotan::maps {
 
-// The largest angle in degrees between a vector and what an encoding of `bits` per component gives
-// back for it, by rounding alone, anywhere on the upper hemisphere up to `tilt` degrees from flat.
-// 32 bits: that of float arithmetic. (docs/reference/maps.md has the table.)
+// Maximum angle in degrees between a vector and its decoded value when each component has `bits` bits, from rounding
+// alone, on the upper hemisphere up to `tilt` degrees from flat. 32 bits: the error of float arithmetic.
+// (docs/reference/maps.md has the table.)
 inline double quantisationDegrees(const Convention& convention, int bits, double tilt)
 {
     // Half a step in each stored component, as a signed number.
@@ -21,7 +21,7 @@ inline double quantisationDegrees(const Convention& convention, int bits, double
                                                    : 1 / (codes - 1);
     const double z = std::max(std::cos(tilt * std::numbers::pi / 180), 1e-9);
     // Tangential part of the error, to first order:
-    double error = half * std::sqrt(3.0); // xyz: the whole error vector at worst
+    double error = half * std::sqrt(3.0); // xyz: at most the whole error vector
     if (convention.channels == Channels::orthographic)
         error = half * std::sqrt(2.0) / z; // steepest direction: d(tilt) = d(sin)/cos
     if (convention.channels == Channels::stereographic)

@@ -1,5 +1,4 @@
-// The reference renderer against the mathematics, with x different from y everywhere and both sides of
-// each threshold.
+// The reference renderer against mathematics, with different x and y everywhere and on both sides of each threshold.
 #include <algorithm>
 #include <array>
 #include <set>
@@ -13,7 +12,7 @@ namespace {
 
 const Patch kWide{{-1, 1, 0}, {2, 0, 0}, {0, -2, 0}};
 
-// One world unit a pixel, 64 x 40; the middle of pixel (x, y) is at (x - 31.5, 19.5 - y).
+// One world unit per pixel, 64 x 40; the centre of pixel (x, y) is at (x - 31.5, 19.5 - y).
 View unitView(Output output)
 {
     View view = viewOf(output);
@@ -37,7 +36,7 @@ glm::mat4 scaling(glm::vec3 s)
     return m;
 }
 
-// An unlit square of 2 x 2 whose uv run from 0 to 1, one uv unit on 64 pixels; the image is linear.
+// An unlit square of 2 x 2 with uv from 0 to 1, one uv unit on 64 pixels; the image is linear.
 Scene texturedSquare(Image image, glm::vec2 texelsPerPixel)
 {
     Scene scene = sceneOf(meshOf(kWide));
@@ -58,7 +57,7 @@ View squareView()
     return view;
 }
 
-// Red and green without a pattern, so that a texel read from the wrong place shows.
+// Red and green without a pattern, so that a read of the wrong texel is noticed.
 double noise(int x, int y, int channel) { return ((x * 29 + y * 57 + channel * 31 + x * y * 7) % 101) / 100.0; }
 
 Image noiseImage(int width, int height)
@@ -74,7 +73,7 @@ Image noiseImage(int width, int height)
     return image;
 }
 
-// A level of red values.
+// Red values of a mip level.
 struct Level {
     int width, height;
     std::vector<double> values;
@@ -83,7 +82,7 @@ struct Level {
         const int i = (x % width + width) % width, j = (y % height + height) % height;
         return values[std::size_t(j * width + i)];
     }
-    // Repeating, between texel centres at half-integers; uv in [0, 1) units of the image.
+    // Bilinear interpolation with repeat; texel centres are at half-integers, uv in [0, 1).
     double bilinear(double u, double v) const
     {
         const double x = u * width - 0.5, y = v * height - 0.5;
@@ -103,8 +102,8 @@ Level levelZero(int width, int height)
     return level;
 }
 
-// The mean over the area that each texel covers, by a grid fine enough to be exact: every border of the
-// larger and of the smaller level is one of the grid's.
+// Each texel is the mean over the area that it covers, on a grid that is fine enough to be exact: it contains every
+// texel border of both levels.
 Level halved(const Level& from)
 {
     Level to{std::max(1, from.width / 2), std::max(1, from.height / 2), {}};
@@ -119,26 +118,25 @@ Level halved(const Level& from)
     return to;
 }
 
-// The largest difference of the picture's red from expected(u, v), uv in units of the image.
-template<class Expected>
-double worst(const Image& picture, glm::dvec2 size, glm::dvec2 texelsPerPixel, Expected expected)
+// Maximum difference between the image's red and expected(u, v), with uv in units of the image.
+template<class Expected> double worst(const Image& image, glm::dvec2 size, glm::dvec2 texelsPerPixel, Expected expected)
 {
-    double most = 0;
-    for (int y = 0; y < picture.height; ++y)
-        for (int x = 0; x < picture.width; ++x) {
+    double largest = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
             const double u = (x + 0.5) * texelsPerPixel.x / size.x, v = (y + 0.5) * texelsPerPixel.y / size.y;
-            most = std::max(
-                most, std::abs(double(pixelOf(picture, x, y).x) - expected(u - std::floor(u), v - std::floor(v))));
+            largest = std::max(
+                largest, std::abs(double(pixelOf(image, x, y).x) - expected(u - std::floor(u), v - std::floor(v))));
         }
-    return most;
+    return largest;
 }
 
 } // namespace
 
-TEST(ReferenceExact, whatIsNearerThanTheNearPlaneIsNotDrawn)
+TEST(ReferenceExact, surfacesBeforeTheNearPlaneAreNotDrawn)
 {
-    // The near plane lies at 1e-4 of the distance to the far side of the ball around the scene, seen here
-    // from one of its ends.
+    // The near plane is at 1e-4 of the distance to the far side of the scene's bounding sphere, whose scene is seen
+    // here from one end.
     Mesh far = meshOf({{-300, 200, -1000}, {600, 0, 0}, {0, -400, 0}});
     const double halfDiagonal = 0.5 * std::sqrt(600.0 * 600 + 400 * 400 + 1000 * 1000);
     const double near = 1e-4 * (500 + halfDiagonal);
@@ -153,7 +151,7 @@ TEST(ReferenceExact, whatIsNearerThanTheNearPlaneIsNotDrawn)
         const float depth = pixelOf(rendered(scene, view), 30, 36).x;
         EXPECT_NEAR(depth, drawn ? d : 1000, drawn ? 1e-4 * d : 0.01) << distance;
     }
-    // A pane that runs from behind the eye to far away begins at the near plane, not before.
+    // A pane from behind the eye to far away is clipped at the near plane.
     Scene scene = sceneOf(far);
     scene.materials[0].doubleSided = true;
     scene.meshes.push_back(meshOf({{-0.01, 0.02, 1}, {0.02, 0, 0}, {0, -0.04, -20}}));
@@ -182,9 +180,9 @@ TEST(ReferenceExact, normalsOfMirroredAndScaledInstancesFollowTheInverseTranspos
                               {2, -0.25f, 3}}) {
         Mesh mesh = meshOf(kWide);
         mesh.normals.assign(4, glm::vec3(n));
-        const Scene scene = sceneOf(mesh, scaling(s)); // one-sided: its front has to stay its front
+        const Scene scene = sceneOf(mesh, scaling(s)); // one-sided: the front must remain the front
         View view = viewOf(Output::normal);
-        const double side = s.z < 0 ? -1 : 1; // mirrored along the view, the front looks the other way
+        const double side = s.z < 0 ? -1 : 1; // mirrored along the view, the front faces the other way
         view.camera.eye.z = float(side) * 4;
         const glm::dvec3 expected = glm::normalize(n / glm::dvec3(s));
         const int count = forCovered(rendered(scene, view), [&](int, int, glm::vec4 value) {
@@ -196,7 +194,7 @@ TEST(ReferenceExact, normalsOfMirroredAndScaledInstancesFollowTheInverseTranspos
     }
 }
 
-TEST(ReferenceExact, bordersThroughPixelCentresAreCoveredAtTheTopAndLeftOnly)
+TEST(ReferenceExact, bordersFollowTheTopLeftRule)
 {
     // From (-16.5, 9.5) to (11.5, -3.5): the centres of columns 15 and 43, of rows 10 and 23.
     const Patch patch{{-16.5, 9.5, 0}, {28, 0, 0}, {0, -13, 0}};
@@ -206,7 +204,7 @@ TEST(ReferenceExact, bordersThroughPixelCentresAreCoveredAtTheTopAndLeftOnly)
             ASSERT_EQ(pixelOf(image, x, y).w, x >= 15 && x < 43 && y >= 10 && y < 23 ? 1 : 0) << x << " " << y;
 }
 
-TEST(ReferenceExact, maskKeepsAlphaAtItsCutoffOfFactorTexelAndVertexColour)
+TEST(ReferenceExact, maskKeepsAlphaAtTheCutoff)
 {
     for (const auto& [cutoff, kept] : {std::pair{0.124f, true}, {0.125f, true}, {0.1251f, false}}) {
         Mesh mesh = meshOf(kWide);
@@ -253,9 +251,9 @@ TEST(ReferenceExact, wrapModesActOnTheirOwnAxis)
         }
 }
 
-TEST(ReferenceExact, footprintsChooseTheirLevelAlsoOfOddSizes)
+TEST(ReferenceExact, footprintsSelectTheMipLevelAlsoForOddSizes)
 {
-    // 45 x 27 -> 22 x 13 -> 11 x 6. Footprints are square, so one probe reads each pixel.
+    // 45 x 27 -> 22 x 13 -> 11 x 6. Footprints are square, so each pixel is read by one probe.
     const Level zero = levelZero(45, 27), one = halved(zero), two = halved(one);
     ASSERT_EQ(two.width, 11);
     ASSERT_EQ(two.height, 6);
@@ -268,27 +266,27 @@ TEST(ReferenceExact, footprintsChooseTheirLevelAlsoOfOddSizes)
         s.minify = minify;
         return rendered(scene, squareView());
     };
-    const auto differs = [&](const Image& picture, double texels, auto expected) {
-        return worst(picture, size, glm::dvec2(texels), expected);
+    const auto differs = [&](const Image& image, double texels, auto expected) {
+        return worst(image, size, glm::dvec2(texels), expected);
     };
     const auto readZero = [&](double u, double v) { return zero.bilinear(u, v); };
     const auto readOne = [&](double u, double v) { return one.bilinear(u, v); };
     const auto readTwo = [&](double u, double v) { return two.bilinear(u, v); };
     const auto nearestZero = [&](double u, double v) { return zero.at(int(u * 45), int(v * 27)); };
-    // Rounding of uv (1e-6 of the picture, 60 texels, times a step of the noise).
+    // Rounding of uv (1e-6 of the image, 60 texels, times a step of the noise).
     constexpr double kSame = 1e-3;
-    // The footprints are a little beside a power of two, whose logarithm rounding could put on either side.
+    // The footprints are slightly off a power of two, whose logarithm could round to either side.
     EXPECT_LT(differs(drawn(1.999, MipFilter::linear, Filter::linear, Filter::linear), 1.999, readOne), 2e-3);
     EXPECT_LT(differs(drawn(4.002, MipFilter::linear, Filter::linear, Filter::linear), 4.002, readTwo), 2e-3);
     const double between = std::pow(2, 1.25);
     EXPECT_LT(differs(drawn(between, MipFilter::linear, Filter::linear, Filter::linear), between,
                       [&](double u, double v) { return readOne(u, v) * 0.75 + readTwo(u, v) * 0.25; }),
               kSame);
-    // The nearest level changes half way between the levels.
+    // With nearest, the level changes half way between two levels.
     const double below = std::pow(2, 1.49), above = std::pow(2, 1.51);
     EXPECT_LT(differs(drawn(below, MipFilter::nearest, Filter::linear, Filter::linear), below, readOne), kSame);
     EXPECT_LT(differs(drawn(above, MipFilter::nearest, Filter::linear, Filter::linear), above, readTwo), kSame);
-    // One texel a pixel parts magnifying from minifying; without levels both read the finest.
+    // One texel per pixel separates magnification from minification; without levels both read the finest.
     EXPECT_LT(differs(drawn(0.98, MipFilter::none, Filter::linear, Filter::nearest), 0.98, readZero), kSame);
     EXPECT_LT(differs(drawn(1.02, MipFilter::none, Filter::nearest, Filter::linear), 1.02, readZero), kSame);
     EXPECT_GT(differs(drawn(0.98, MipFilter::none, Filter::nearest, Filter::linear), 0.98, readZero), 0.1);
@@ -296,16 +294,16 @@ TEST(ReferenceExact, footprintsChooseTheirLevelAlsoOfOddSizes)
     EXPECT_LT(differs(drawn(0.7, MipFilter::linear, Filter::nearest, Filter::linear), 0.7, nearestZero), 1e-6);
 }
 
-TEST(ReferenceExact, longFootprintsAreReadInStepsAlongTheirLongerAxis)
+TEST(ReferenceExact, longFootprintsAreSampledAlongTheirLongerAxis)
 {
-    // Two texels a pixel along one axis, one along the other: two probes a third of a pixel apart, of the
-    // finest level.
+    // Two texels per pixel along one axis, one along the other: two probes a third of a pixel apart in the finest
+    // level.
     const Level zero = levelZero(45, 27);
     for (const bool alongX : {true, false}) {
         const glm::dvec2 texels = alongX ? glm::dvec2(1.98, 1) : glm::dvec2(1, 1.98);
-        const Image picture = rendered(texturedSquare(noiseImage(45, 27), glm::vec2(texels)), squareView());
+        const Image image = rendered(texturedSquare(noiseImage(45, 27), glm::vec2(texels)), squareView());
         const double step = 1.98 / 6, u1 = alongX ? step / 45 : 0, v1 = alongX ? 0 : step / 27;
-        EXPECT_LT(worst(picture, {45, 27}, texels,
+        EXPECT_LT(worst(image, {45, 27}, texels,
                         [&](double u, double v) {
                             return 0.5 * (zero.bilinear(u - u1, v - v1) + zero.bilinear(u + u1, v + v1));
                         }),
@@ -315,9 +313,8 @@ TEST(ReferenceExact, longFootprintsAreReadInStepsAlongTheirLongerAxis)
 
 namespace {
 
-// What a light adds in the middle of a pixel of a white floor (z = 0) that scatters evenly, over what it
-// adds without range and cone.
-double shareOfLight(Light light, int x, int y)
+// Light at a pixel centre of a white diffuse floor (z = 0), relative to the same light without range and cone.
+double lightFraction(Light light, int x, int y)
 {
     Scene scene = sceneOf(meshOf({{-40, 30, 0}, {80, 0, 0}, {0, -60, 0}}));
     scene.materials[0].metallic = 0;
@@ -331,23 +328,23 @@ double shareOfLight(Light light, int x, int y)
 
 } // namespace
 
-TEST(ReferenceExact, pointLightsFadeToNothingAtTheirRange)
+TEST(ReferenceExact, pointLightsFadeToZeroAtTheirRange)
 {
     Light light;
     light.kind = LightKind::point;
     light.intensity = 100;
-    light.position = {3.5f, -6.5f, 8}; // over pixel (35, 26)
+    light.position = {3.5f, -6.5f, 8}; // above pixel (35, 26)
     // KHR_lights_punctual: 1/d^2 times 1 - (d / range)^4, not below 0.
     light.range = 10;
-    EXPECT_NEAR(shareOfLight(light, 35, 26), 1 - std::pow(0.8, 4), 1e-5);
-    EXPECT_NEAR(shareOfLight(light, 39, 23), 1 - std::pow(std::sqrt(16 + 9 + 64.0) / 10, 4), 1e-5);
+    EXPECT_NEAR(lightFraction(light, 35, 26), 1 - std::pow(0.8, 4), 1e-5);
+    EXPECT_NEAR(lightFraction(light, 39, 23), 1 - std::pow(std::sqrt(16 + 9 + 64.0) / 10, 4), 1e-5);
     light.range = 8.01f;
-    EXPECT_NEAR(shareOfLight(light, 35, 26), 1 - std::pow(8 / 8.01, 4), 1e-4);
+    EXPECT_NEAR(lightFraction(light, 35, 26), 1 - std::pow(8 / 8.01, 4), 1e-4);
     light.range = 7.99f;
-    EXPECT_EQ(shareOfLight(light, 35, 26), 0);
-    light.range = -1; // as 0: without end
-    EXPECT_EQ(shareOfLight(light, 35, 26), 1);
-    // Without range it falls with the square of the distance.
+    EXPECT_EQ(lightFraction(light, 35, 26), 0);
+    light.range = -1; // like 0: unlimited
+    EXPECT_EQ(lightFraction(light, 35, 26), 1);
+    // Without range, light falls with the square of the distance.
     Scene scene = sceneOf(meshOf({{-40, 30, 0}, {80, 0, 0}, {0, -60, 0}}));
     scene.materials[0].metallic = 0;
     View view = unitView(Output::shaded);
@@ -367,10 +364,10 @@ TEST(ReferenceExact, spotLightsFadeFromTheirInnerToTheirOuterCone)
     light.direction = glm::normalize(glm::vec3(6, 4, -10)); // at pixel (41, 22)
     light.innerCone = 0.1f;
     light.outerCone = 0.3f;
-    // The angle between the axis and the way to a pixel, and the smooth step of its cosine.
+    // The angle between the axis and the direction to a pixel, and the smooth step of its cosine.
     const auto expected = [&](int x, int y) {
-        const glm::dvec3 way(x - 31.5 - 3.5, 19.5 - y + 6.5, -10);
-        const double cosine = glm::dot(glm::normalize(way), glm::normalize(glm::dvec3(6, 4, -10)));
+        const glm::dvec3 direction(x - 31.5 - 3.5, 19.5 - y + 6.5, -10);
+        const double cosine = glm::dot(glm::normalize(direction), glm::normalize(glm::dvec3(6, 4, -10)));
         const double k = (cosine - std::cos(0.3)) / (std::cos(0.1) - std::cos(0.3));
         return k <= 0 ? 0.0 : k >= 1 ? 1.0 : k * k * (3 - 2 * k);
     };
@@ -386,16 +383,16 @@ TEST(ReferenceExact, spotLightsFadeFromTheirInnerToTheirOuterCone)
                                {29, 30},
                                {29, 22},
                                {41, 30}}) {
-        EXPECT_NEAR(shareOfLight(light, x, y), expected(x, y), 1e-4) << x << " " << y;
+        EXPECT_NEAR(lightFraction(light, x, y), expected(x, y), 1e-4) << x << " " << y;
         seen.insert(expected(x, y));
     }
     EXPECT_GT(seen.size(), 4u); // inside, outside, and between
 }
 
-TEST(ReferenceExact, orthographicViewersSeeOneReflectionAllOver)
+TEST(ReferenceExact, orthographicViewHasOneReflectionDirection)
 {
-    // A smooth floor under a directional light: highlights depend on the eye, which is equally far away
-    // from all places of an orthographic picture.
+    // A smooth floor under a directional light: highlights depend on the view direction, which is constant in an
+    // orthographic view.
     Scene scene = sceneOf(meshOf({{-40, 30, 0}, {80, 0, 0}, {0, -60, 0}}));
     scene.materials[0].metallic = 0;
     scene.materials[0].roughness = 0.3f;
@@ -411,7 +408,7 @@ TEST(ReferenceExact, orthographicViewersSeeOneReflectionAllOver)
     EXPECT_GT(std::abs(pixelOf(deep, 1, 1).x - pixelOf(deep, 60, 38).x), 0.01f);
 }
 
-TEST(ReferenceExact, firstDirectionalLightAloneCastsTheShadow)
+TEST(ReferenceExact, onlyTheFirstDirectionalLightCastsAShadow)
 {
     Scene scene = sceneOf(meshOf({{-30, 18, 0}, {60, 0, 0}, {0, -36, 0}}));
     scene.materials[0].metallic = 0;
@@ -422,7 +419,7 @@ TEST(ReferenceExact, firstDirectionalLightAloneCastsTheShadow)
     view.lights[0].kind = LightKind::point;
     view.lights[0].position = {0, 0, 30};
     view.lights[0].intensity = 300;
-    view.lights[1].direction = glm::normalize(glm::vec3(1, 0, -0.5f));  // the shadow 16 to the right: x 2 to 10
+    view.lights[1].direction = glm::normalize(glm::vec3(1, 0, -0.5f));  // the shadow is 16 to the right: x 2 to 10
     view.lights[2].direction = glm::normalize(glm::vec3(0, -1, -0.8f)); // 10 down: y -12 to -4
     const Image all = rendered(scene, view);
     View others = view;
@@ -431,15 +428,15 @@ TEST(ReferenceExact, firstDirectionalLightAloneCastsTheShadow)
     const Image without = rendered(scene, others);
     view.shadows = false;
     const Image lit = rendered(scene, view);
-    EXPECT_EQ(pixelOf(all, 38, 18), pixelOf(without, 38, 18)); // in the shadow the other two are left
+    EXPECT_EQ(pixelOf(all, 38, 18), pixelOf(without, 38, 18)); // in the shadow, only the two other lights remain
     EXPECT_LT(pixelOf(all, 38, 18).x, pixelOf(lit, 38, 18).x);
-    EXPECT_EQ(pixelOf(all, 22, 28), pixelOf(lit, 22, 28)); // the third light has no shadow
+    EXPECT_EQ(pixelOf(all, 22, 28), pixelOf(lit, 22, 28)); // the third light casts no shadow
     EXPECT_EQ(pixelOf(all, 55, 5), pixelOf(lit, 55, 5));
 }
 
 TEST(ReferenceExact, vertexColoursAndAlphaAreInterpolatedInPerspective)
 {
-    // A floor seen along: half way up the picture is not half way along the floor.
+    // A floor at a grazing angle: half way up the image is not half way along the floor.
     Mesh mesh = meshOf({{-1, 0, 0}, {2, 0, 0}, {0, 0, -6}});
     mesh.colors = {{0, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}, {1, 1, 0, 1}}; // red along u, green along v
     Scene scene = sceneOf(mesh);

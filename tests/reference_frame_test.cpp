@@ -1,4 +1,4 @@
-// Frames and normals as the reference renderer shows them.
+// Frames and normals of the reference renderer.
 #include "reference_scene.hpp"
 
 using namespace cotan;
@@ -9,14 +9,14 @@ namespace {
 // A patch seen at an angle, with uv stretched 2:1 and sheared.
 const Patch kSheared{{-1.2, 0.9, -0.4}, {2.4, 0.2, 0.7}, {0.4, -1.3, 0.6}};
 
-// Angles that float differences leave: positions of magnitude 4 are rounded to 2.4e-7 and their
-// differences are about 0.04, which makes 6e-6 radians; ten times that.
+// Tolerance for float differences: positions of magnitude 4 are rounded to 2.4e-7 and their differences are about 0.04,
+// which gives 6e-6 radians; ten times that.
 constexpr double kDegrees = 4e-3;
 
 constexpr glm::ivec3 kTexel{170, 90, 220};
 const glm::dvec3 kDecoded{42.0 / 127, -38.0 / 127, 92.0 / 127};
 
-// Everything that a frame may need, from the patch's own gradients.
+// A mesh with every attribute that a frame may read, from the patch's own gradients.
 Mesh fullMesh(const Patch& patch)
 {
     Mesh mesh = meshOf(patch);
@@ -76,7 +76,7 @@ TEST(ReferenceFrame, allFramesAgreeOnASquarePatchFacingTheCamera)
         if (f.frame == Frame::gradient)
             continue; // bump height in world units: differs by the size of the patch
         View view = viewOf(Output::normal, f.frame);
-        // `cotangent-2013` is right only where the rows of the raster run upward.
+        // `cotangent-2013` is correct only if the rows of the raster run upward.
         view.rowsUpward = f.frame == Frame::cotangent2013;
         int count = forCovered(rendered(scene, view), [&](int, int, glm::vec4 value) {
             ASSERT_LT(degreesBetween(glm::vec3(value), expected), kDegrees) << f.name;
@@ -94,7 +94,7 @@ TEST(ReferenceFrame, gradientHasTheLengthOfTheTrueGradient)
     EXPECT_LT(glm::length(glm::dvec3(pixelOf(b, 32, 32)) - kSheared.gradV()), 1e-4);
 }
 
-TEST(ReferenceFrame, greenAgainstVIsTheSameMapWithGreenReversed)
+TEST(ReferenceFrame, greenUpEqualsReversedGreen)
 {
     Scene along = sceneOf(fullMesh(kSheared)), against = along;
     addNormalMap(along, kTexel);
@@ -107,7 +107,7 @@ TEST(ReferenceFrame, greenAgainstVIsTheSameMapWithGreenReversed)
     });
 }
 
-TEST(ReferenceFrame, rowsUpwardReversesOnlyTheFrameAsPrinted)
+TEST(ReferenceFrame, rowsUpwardReversesOnlyTheFrameOf2013)
 {
     Scene scene = sceneOf(meshOf(kSheared));
     addNormalMap(scene, kTexel);
@@ -119,7 +119,7 @@ TEST(ReferenceFrame, rowsUpwardReversesOnlyTheFrameAsPrinted)
         int count = forCovered(a, [&](int x, int y, glm::vec4 value) {
             glm::vec4 other = pixelOf(b, x, y);
             if (other.w == 0)
-                return; // on the border, where the rule for edges follows the raster
+                return; // on the border, where the edge rule depends on the raster
             ASSERT_LT(degreesBetween(glm::vec3(value), sign * glm::dvec3(other)), kDegrees);
         });
         EXPECT_GT(count, 300);
@@ -140,15 +140,15 @@ TEST(ReferenceFrame, fineAndCoarseAgreeOnAPlane)
     View fine = viewOf(Output::normal), coarse = fine;
     coarse.derivatives = Derivatives::coarse;
     Image a = rendered(scene, fine), b = rendered(scene, coarse);
-    EXPECT_NE(a.data, b.data); // so that the two are known to be different computations
+    EXPECT_NE(a.data, b.data); // proves that the two are different computations
     forCovered(a, [&](int x, int y, glm::vec4 value) {
         ASSERT_LT(degreesBetween(glm::vec3(value), glm::vec3(pixelOf(b, x, y))), kDegrees);
     });
 }
 
-// Section "signs" of docs/explanation/theory.md: handedness of the world (a mirroring instance turns it),
-// direction of the raster's rows, mirrored uv, and the side that is seen with the normal as
-// stored or turned to the viewer: 24 combinations.
+// Section "signs" of docs/explanation/theory.md: handedness of the world (reversed by a mirroring instance), direction
+// of the raster's rows, mirrored uv, and the visible side with the normal as stored or flipped towards the viewer: 24
+// combinations.
 TEST(ReferenceFrame, tangentsFollowGradientsInAll24SignCombinations)
 {
     struct Side {
@@ -193,8 +193,8 @@ TEST(ReferenceFrame, tangentsFollowGradientsInAll24SignCombinations)
 
 TEST(ReferenceFrame, mirroredInstanceKeepsTangentsAlongTheGradients)
 {
-    // Gradients are covectors: under diag(s) they go with 1/s. Stored tangents are vectors and, for
-    // the orthonormal frames, right where uv stay square.
+    // Gradients are covectors: diag(s) scales them by 1/s. Stored tangents are vectors, correct for the orthonormal
+    // frames as long as uv stay square.
     Scene scene = sceneOf(fullMesh(kSquare), scaling(-1, 1, 1));
     for (Frame frame :
          {Frame::cotangent, Frame::exact, Frame::smooth, Frame::vertex, Frame::mikktspace, Frame::orthonormal}) {
@@ -229,7 +229,7 @@ TEST(ReferenceFrame, nonUniformScaleMovesGradientsAsCovectors)
     }
 }
 
-TEST(ReferenceFrame, mirroringInstanceDoesNotTurnFrontIntoBack)
+TEST(ReferenceFrame, mirroringInstanceKeepsFrontFaces)
 {
     Image image = rendered(sceneOf(meshOf(kSquare), scaling(-1, 1, 1)), viewOf(Output::normal));
     EXPECT_GT(forCovered(image, [](int, int, glm::vec4) {}), 300);
@@ -243,7 +243,7 @@ TEST(ReferenceFrame, backFacesAreCulledUnlessDoubleSided)
     view.camera.eye.z = -4;
     EXPECT_EQ(forCovered(rendered(scene, view), [](int, int, glm::vec4) {}), 0);
     scene.materials[0].doubleSided = true;
-    // The back of a thin sheet: the finished normal, negated.
+    // The back of a thin sheet: the final normal, negated.
     glm::dvec3 expected = -kSquare.perturbed(kDecoded);
     int count = forCovered(rendered(scene, view), [&](int, int, glm::vec4 value) {
         ASSERT_LT(degreesBetween(glm::vec3(value), expected), kDegrees);
@@ -251,7 +251,7 @@ TEST(ReferenceFrame, backFacesAreCulledUnlessDoubleSided)
     EXPECT_GT(count, 300);
 }
 
-TEST(ReferenceFrame, normalMapsOffShowsTheInterpolatedNormal)
+TEST(ReferenceFrame, disabledNormalMapsShowTheInterpolatedNormal)
 {
     Scene scene = sceneOf(meshOf(kSheared));
     addNormalMap(scene, kTexel);
@@ -272,9 +272,9 @@ TEST(ReferenceFrame, normalScaleMultipliesTheSlopes)
                [&](int, int, glm::vec4 value) { ASSERT_LT(degreesBetween(glm::vec3(value), expected), kDegrees); });
 }
 
-TEST(ReferenceFrame, textureTransformTurnsTheFrame)
+TEST(ReferenceFrame, textureTransformRotatesTheFrame)
 {
-    // A quarter turn of the coordinates: new u runs along old v, new v against old u.
+    // Coordinates rotated by 90 degrees: new u runs along old v, new v against old u.
     Scene scene = sceneOf(meshOf(kSquare));
     addNormalMap(scene, kTexel);
     scene.materials[0].normalMap.uRow = {0, 1, 0};
@@ -287,7 +287,7 @@ TEST(ReferenceFrame, textureTransformTurnsTheFrame)
                    [&](int, int, glm::vec4 value) { ASSERT_LT(degreesBetween(glm::vec3(value), expected), kDegrees); });
 }
 
-TEST(ReferenceFrame, secondUvSetIsUsedWhereTheMapAsksForIt)
+TEST(ReferenceFrame, secondUvSetIsUsedIfTheMapSelectsIt)
 {
     Mesh mesh = meshOf(kSquare);
     mesh.texcoords[1] = mesh.texcoords[0];
@@ -323,7 +323,7 @@ TEST(ReferenceFrame, degenerateUvGiveTheInterpolatedNormal)
     }
 }
 
-TEST(ReferenceFrame, framesFromVerticesAreRefusedWithoutTheirAttributes)
+TEST(ReferenceFrame, vertexFramesWithoutAttributesAreRefused)
 {
     Scene scene = sceneOf(meshOf(kSheared));
     addNormalMap(scene, kTexel);
@@ -344,7 +344,7 @@ TEST(ReferenceFrame, framesFromVerticesAreRefusedWithoutTheirAttributes)
     EXPECT_TRUE(renderReference(scene, viewOf(Output::normal, Frame::smooth)));
 }
 
-TEST(ReferenceFrame, framesFromVerticesAreZeroWithoutUvToMakeThemFrom)
+TEST(ReferenceFrame, vertexFramesWithoutUvAreZero)
 {
     Scene scene = sceneOf(meshOf(kSheared));
     scene.meshes[0].texcoords[0].clear();
@@ -356,10 +356,10 @@ TEST(ReferenceFrame, framesFromVerticesAreZeroWithoutUvToMakeThemFrom)
     }
 }
 
-TEST(ReferenceFrame, farFromTheWorldsOriginNothingIsLost)
+TEST(ReferenceFrame, precisionIsIndependentOfTheOrigin)
 {
-    // Positions are relative to the eye: a million units out the float matrix still holds
-    // sixteenths, and the patch's own coordinates keep all their bits.
+    // Positions are relative to the eye: a million units away the float matrix still represents sixteenths, and the
+    // patch's own coordinates keep all their bits.
     glm::mat4 away(1);
     away[3] = {1048576, -1048576, 524288, 1};
     Scene scene = sceneOf(meshOf(kSheared), away);

@@ -1,4 +1,4 @@
-// Input that no exporter should write: the picture must be finite all the same.
+// Input that no exporter should write: the image must still be finite.
 #include <algorithm>
 #include <limits>
 
@@ -18,7 +18,7 @@ void expectFinitePicture(const Scene& scene, View view, const char* what)
             << what << ", " << name(view.frame) << ", output " << int(view.output);
 }
 
-// Draws with every frame and output and expects numbers everywhere.
+// Draws with every frame and output and expects finite numbers everywhere.
 void expectFinite(const Scene& scene, const char* what)
 {
     for (const FrameInfo& f : frames())
@@ -156,7 +156,7 @@ TEST(ReferenceHostile, flattenedInstanceKeepsTheNormalOfItsPlane)
     });
 }
 
-TEST(ReferenceHostile, indicesOutOfRangeAreLeftOut)
+TEST(ReferenceHostile, indicesOutOfRangeAreIgnored)
 {
     Scene scene = fullScene();
     scene.meshes[0].indices = {0, 2, 1, 1, 2, 4000000000u, 7};
@@ -165,14 +165,14 @@ TEST(ReferenceHostile, indicesOutOfRangeAreLeftOut)
     scene.materials[0].baseColorMap.image = 99;
     scene.materials[0].emissiveMap.image = 1;
     scene.images.push_back(makeImage(4, 4, PixelType::unorm8));
-    scene.images.back().data.resize(3); // shorter than its size says
+    scene.images.back().data.resize(3); // shorter than its size requires
     expectFinite(scene, "indices");
     scene.meshes[0].material = 5;
     expectFinite(scene, "material index");
 }
 
-// Which words each gets: tests/scene_check_test.cpp.
-TEST(ReferenceHostile, camerasThatLookNowhereAreRefused)
+// tests/scene_check_test.cpp tests the messages.
+TEST(ReferenceHostile, degenerateCamerasAreRefused)
 {
     void (*const wrong[])(Camera&) = {
         [](Camera& c) { c.target = c.eye; },

@@ -1,4 +1,4 @@
-// Translucent layers and the shadows of casters, as the reference renderer draws them.
+// Translucent layers and the shadows of casters in the reference renderer.
 #include "covering_scenes.hpp"
 #include "reference_scene.hpp"
 
@@ -13,7 +13,7 @@ TEST(ReferenceLayers, manyPanesComposeInTheOrderOfDistance)
         layers::manyPanesComposeInTheOrderOfDistance(draw, count);
 }
 
-TEST(ReferenceLayers, texelsOfAlphaOneHideWhatIsBehind) { layers::texelsOfAlphaOneHideWhatIsBehind(draw); }
+TEST(ReferenceLayers, opaqueTexelsHideLayersBehindThem) { layers::opaqueTexelsHideLayersBehindThem(draw); }
 
 TEST(ReferenceLayers, crossingPanesChangeTheirOrderInsideAPixel)
 {
@@ -24,40 +24,40 @@ TEST(ReferenceLayers, opaqueSurfacesHideLayersBehindThem) { layers::opaqueSurfac
 
 TEST(ReferenceLayers, layersCoverTheirOwnSamplesOnly) { layers::layersCoverTheirOwnSamplesOnly(draw); }
 
-TEST(ReferenceLayers, ofEquallyFarLayersTheLaterIsInFront) { layers::ofEquallyFarLayersTheLaterIsInFront(draw); }
+TEST(ReferenceLayers, laterOfEquallyFarLayersIsInFront) { layers::laterOfEquallyFarLayersIsInFront(draw); }
 
 TEST(ReferenceLayers, perspectiveAndRowsUpwardKeepTheOrder) { layers::perspectiveAndRowsUpwardKeepTheOrder(draw); }
 
 TEST(ReferenceLayers, dataOutputsShowTheNearestLayer) { layers::dataOutputsShowTheNearestLayer(draw); }
 
-TEST(ReferenceLayers, transmissiveLayersTintWhatIsBehind) { layers::transmissiveLayersTintWhatIsBehind(draw); }
+TEST(ReferenceLayers, transmissiveLayersTintLayersBehindThem) { layers::transmissiveLayersTintLayersBehindThem(draw); }
 
 TEST(ReferenceLayers, masksCoverTheSamplesOnTheirSide) { layers::masksCoverTheSamplesOnTheirSide(draw); }
 
-TEST(ReferenceLayers, castersShadowWhereTheirMaterialStands) { layers::castersShadowWhereTheirMaterialStands(draw); }
+TEST(ReferenceLayers, castersShadowByTheirMaterial) { layers::castersShadowByTheirMaterial(draw); }
 
-// Nearest first, each sample is written once. Farthest first, most of what is drawn is hidden later: after a while it
-// is looked at what comes, and not shaded.
+// Nearest first, each sample is shaded once. Farthest first, most shaded samples are hidden later, so the renderer
+// switches to determining visibility before it shades.
 TEST(ReferenceLayers, opaqueSurfacesLookTheSameInAnyOrder)
 {
     const auto drawnBy = [](bool nearestFirst) {
         Scene scene;
         Mesh mesh;
         for (int k = 0; k < 40; ++k) {
-            const int i = nearestFirst ? 39 - k : k; // the higher, the nearer
+            const int i = nearestFirst ? 39 - k : k; // larger i is nearer
             layers::Pane pane;
             pane.corner = {-20.0f + 0.37f * float(i % 7), 10.0f - 0.21f * float(i % 11), 0.5f * float(i)};
-            pane.alongU = {40.0f - 0.9f * float(i), 0, 0.3f}; // leans
+            pane.alongU = {40.0f - 0.9f * float(i), 0, 0.3f}; // tilted
             pane.alongV = {0.2f * float(i % 5), -20.0f + 0.4f * float(i), 0};
             pane.color = layers::colorOf(i);
             layers::append(mesh, pane);
         }
         layers::addMesh(scene, mesh, layers::addMaterial(scene, AlphaMode::opaque));
-        layers::Pane holes; // of a mask that is nowhere: before all, and hides nothing
+        layers::Pane holes; // a mask without any opaque texel: in front of everything, hides nothing
         holes.corner.z = 30;
         holes.color.w = 0.2f;
         layers::addPane(scene, holes, AlphaMode::mask);
-        layers::Pane glass; // behind some, before others
+        layers::Pane glass; // behind some panes, in front of others
         glass.corner.z = 10.2f;
         glass.color.w = 0.5f;
         layers::addPane(scene, glass);
@@ -68,13 +68,13 @@ TEST(ReferenceLayers, opaqueSurfacesLookTheSameInAnyOrder)
     EXPECT_NE(layers::at(nearestFirst, 32, 16), layers::at(nearestFirst, 13, 7)) << "several panes are seen";
 }
 
-TEST(ReferenceLayers, over1024LayersInAWholeTileAreRefused)
+TEST(ReferenceLayers, tooManyFragmentsInATileAreRefused)
 {
     layers::Pane pane;
     pane.color.w = 0.01f;
     View view = layers::flatView(1);
     view.width = view.height = 32;
-    view.camera.verticalExtent = 16; // the pane fills the picture
+    view.camera.verticalExtent = 16; // the pane fills the image
     for (const int count : {1024, 1025}) {
         Mesh mesh;
         for (int i = 0; i < count; ++i)
@@ -91,7 +91,7 @@ TEST(ReferenceLayers, over1024LayersInAWholeTileAreRefused)
     }
 }
 
-TEST(ReferenceLayers, tooManyTrianglesAreRefusedBeforeAnythingIsMade)
+TEST(ReferenceLayers, tooManyTrianglesAreRefusedBeforeAllocation)
 {
     Scene scene = testing::sceneOf(Mesh{});
     scene.meshes[0].indices.resize(3 * 200'000);

@@ -6,7 +6,7 @@ using namespace cotan::testing;
 
 namespace {
 
-// The ray through the centre of a pixel, from camera parameters alone.
+// The ray through the centre of a pixel, computed from camera parameters alone.
 struct Ray {
     glm::dvec3 origin, direction;
 };
@@ -27,7 +27,7 @@ Ray rayThrough(const View& view, int x, int y)
     return {eye, forward + right * (sx * slope) + up * (sy * slope)};
 }
 
-// Where the ray meets the patch's plane: (u, v, distance in units of the direction).
+// The ray's intersection with the patch's plane: (u, v, distance in units of the direction).
 glm::dvec3 hit(const Patch& patch, const Ray& ray)
 {
     double t = glm::dot(patch.origin - ray.origin, patch.normal()) / glm::dot(ray.direction, patch.normal());
@@ -35,8 +35,8 @@ glm::dvec3 hit(const Patch& patch, const Ray& ray)
     return {glm::dot(p, patch.gradU()), glm::dot(p, patch.gradV()), t};
 }
 
-// Compares the uv picture with rays. margin: uv distance from the border inside of which coverage
-// is not judged: corners are snapped to 1/256 pixel. tolerance: in uv.
+// Compares a uv image with rays. margin: distance from the border in uv within which coverage is not tested, as corners
+// are snapped to 1/256 pixel. tolerance: in uv.
 void expectUvOfRays(const Patch& patch, View view, double margin, double tolerance)
 {
     view.output = Output::uv;
@@ -66,7 +66,7 @@ const Patch kTilted{{-1.2, 0.5, -2.5}, {2.2, 0.3, 1.5}, {0.2, -1.1, 2.9}};
 
 } // namespace
 
-// Rounding: uv is stored in float, and so are the corners relative to the eye, 1e-7 each.
+// Rounding: uv and the corners relative to the eye are floats, 1e-7 each.
 constexpr double kUvRounding = 2e-6;
 
 TEST(ReferenceRaster, tiltedPatchInterpolatesUvAsRaysDo)
@@ -82,7 +82,7 @@ TEST(ReferenceRaster, orthographicPatchInterpolatesUvAsRaysDo)
     expectUvOfRays(kTilted, view, 1e-3, kUvRounding);
 }
 
-TEST(ReferenceRaster, turnedCamerasInterpolateAlikeInBothProjections)
+TEST(ReferenceRaster, rotatedCamerasInterpolateUvAsRaysDo)
 {
     View view = viewOf(Output::uv);
     view.width = 90;
@@ -99,7 +99,7 @@ TEST(ReferenceRaster, turnedCamerasInterpolateAlikeInBothProjections)
         }
 }
 
-TEST(ReferenceRaster, oddSizesInterpolateAlike)
+TEST(ReferenceRaster, oddSizesInterpolateUvAsRaysDo)
 {
     View view = viewOf(Output::uv);
     view.width = 101;
@@ -110,15 +110,15 @@ TEST(ReferenceRaster, oddSizesInterpolateAlike)
     }
 }
 
-TEST(ReferenceRaster, patchThroughTheEyesPlaneKeepsItsUv)
+TEST(ReferenceRaster, patchThroughTheEyePlaneInterpolatesUvAsRaysDo)
 {
-    // A floor that reaches behind the camera on both sides: both triangles are clipped. Rounding
-    // grows with the floor: 200 units, eye 1 above it.
+    // A floor that extends behind the camera on both sides: both triangles are clipped. Rounding grows with the floor:
+    // 200 units, eye 1 above it.
     Patch floor{{-100, -1, -100}, {200, 0, 0}, {0, 0, 200}};
     View view = viewOf(Output::uv);
     view.camera.target = {0, -0.5f, 0};
     expectUvOfRays(floor, view, 2e-3, 1e-5);
-    view.camera.up = {1, 1, 0}; // the horizon at an angle
+    view.camera.up = {1, 1, 0}; // tilts the horizon
     expectUvOfRays(floor, view, 2e-3, 1e-5);
 }
 
@@ -127,7 +127,7 @@ TEST(ReferenceRaster, depthIsTheDistanceAlongTheViewAxis)
     View view = viewOf(Output::depth);
     Image image = rendered(sceneOf(meshOf(kTilted)), view);
     int count = forCovered(image, [&](int x, int y, glm::vec4 value) {
-        // The ray's direction has length one along the axis, so its parameter is the distance.
+        // The ray's direction has length one along the view axis, so its parameter is the distance.
         ASSERT_NEAR(value.x, hit(kTilted, rayThrough(view, x, y)).z, 1e-5);
     });
     EXPECT_GT(count, 300);
@@ -135,8 +135,8 @@ TEST(ReferenceRaster, depthIsTheDistanceAlongTheViewAxis)
 
 namespace {
 
-// How often each pixel of a fan of triangles is covered: black surfaces that let half of the light
-// through, over a white ground, leave 1/2 of it each time.
+// Makes coverage countable: each black surface that transmits half of the light halves what remains of the white
+// ground.
 Scene halfTransparent(Mesh mesh)
 {
     Scene scene = sceneOf(std::move(mesh));
@@ -152,8 +152,8 @@ Scene halfTransparent(Mesh mesh)
 
 TEST(ReferenceRaster, trianglesThatShareEdgesLeaveNoGapAndNoDoubleCoverage)
 {
-    // A fan around an off-centre point, turned through many angles; inside the rim every sample
-    // must be covered exactly once, wherever the spokes run.
+    // A fan around an off-centre point, rotated by many angles: inside the rim every sample must be covered exactly
+    // once, at any angle of the spokes.
     for (int turn = 0; turn < 24; ++turn) {
         Mesh mesh;
         mesh.positions.push_back({0.13f, -0.07f, 0});
@@ -187,8 +187,8 @@ TEST(ReferenceRaster, trianglesThatShareEdgesLeaveNoGapAndNoDoubleCoverage)
 
 TEST(ReferenceRaster, edgesThroughSampleCentresBelongToOneTriangle)
 {
-    // In an orthographic view with one unit a pixel every edge of this grid runs exactly through
-    // pixel centres, straight or diagonal.
+    // In an orthographic view with one unit per pixel, every straight or diagonal edge of this grid passes exactly
+    // through pixel centres.
     Mesh mesh;
     for (int i = 0; i < 81; ++i)
         mesh.positions.push_back({float(i % 9) * 4 - 16.5f, float(i / 9) * 4 - 16.5f, 0});
@@ -208,12 +208,12 @@ TEST(ReferenceRaster, edgesThroughSampleCentresBelongToOneTriangle)
     view.background = false;
     Image image = rendered(halfTransparent(mesh), view);
     int count = forCovered(image, [](int x, int y, glm::vec4 value) { ASSERT_EQ(value.w, 0.5f) << x << " " << y; });
-    EXPECT_EQ(count, 32 * 32); // 32 units a side, its left and top borders included
+    EXPECT_EQ(count, 32 * 32); // 32 units a side, including the left and top borders
 }
 
 TEST(ReferenceRaster, fourSamplesGiveQuarterSteps)
 {
-    // A vertical border at 0.5 of a pixel: the samples at x = 3/8 and 1/8 lie left of it.
+    // A vertical border at 0.5 of a pixel: the samples at x = 3/8 and 1/8 are left of it.
     Patch patch{{-1.5, 40, 0}, {40, 0, 0}, {0, -80, 0}};
     Scene scene = sceneOf(meshOf(patch));
     scene.materials[0].unlit = true;
@@ -278,13 +278,13 @@ TEST(ReferenceRaster, sizesOutOfRangeAreUsageErrors)
         ASSERT_FALSE(result);
         EXPECT_EQ(result.error().kind, ErrorKind::usage);
         EXPECT_EQ(result.error().message,
-                  "picture size: expected 1 to 16384 pixels a side, found " + std::to_string(width) + "x"
+                  "image size: expected 1 to 16384 pixels per side, found " + std::to_string(width) + "x"
                       + std::to_string(height));
     }
 }
 
-// A step for each tile of 32 x 32 pixels, and of 16 samples for each tile of each of them; whoever says no ends it.
-TEST(ReferenceRaster, progressIsToldInEqualStepsUpToTheWhole)
+// One step for each tile of 32 x 32 pixels, or 16 per tile with 16 samples; returning false stops the render.
+TEST(ReferenceRaster, progressAdvancesInEqualStepsToOne)
 {
     const Scene scene = sceneOf(meshOf(Patch{}));
     for (const auto& [samples, steps] : {std::pair(1, 6), {4, 6}, {16, 96}}) {
@@ -292,15 +292,15 @@ TEST(ReferenceRaster, progressIsToldInEqualStepsUpToTheWhole)
         view.width = 70;
         view.height = 40;
         view.samples = samples;
-        std::vector<double> told;
-        const auto whole = renderReference(scene, view, 1, [&](double share) {
-            told.push_back(share);
+        std::vector<double> fractions;
+        const auto whole = renderReference(scene, view, 1, [&](double fraction) {
+            fractions.push_back(fraction);
             return true;
         });
         ASSERT_TRUE(whole);
-        ASSERT_EQ(told.size(), std::size_t(steps));
-        for (std::size_t i = 0; i < told.size(); ++i)
-            EXPECT_NEAR(told[i], double(i + 1) / steps, 1e-9) << samples;
+        ASSERT_EQ(fractions.size(), std::size_t(steps));
+        for (std::size_t i = 0; i < fractions.size(); ++i)
+            EXPECT_NEAR(fractions[i], double(i + 1) / steps, 1e-9) << samples;
         for (const int last : {1, steps / 2, steps}) {
             int count = 0;
             const auto stopped = renderReference(scene, view, 1, [&](double) { return ++count < last; });

@@ -1,4 +1,4 @@
-// Small scenes by hand for the tests of the reference renderer, and their analytic answers.
+// Small hand-made scenes for the tests of the reference renderer, and their analytic results.
 #pragma once
 
 #include <algorithm>
@@ -20,10 +20,10 @@ struct Patch {
     glm::dvec3 alongU{2, 0, 0};
     glm::dvec3 alongV{0, -2, 0}; // v runs down, as in glTF
 
-    // Unit normal on the side from which the triangles run counterclockwise.
+    // Unit normal on the side from which the triangles are counterclockwise.
     glm::dvec3 normal() const { return glm::normalize(glm::cross(alongV, alongU)); }
 
-    // Gradients of u and v in the plane: one along its own edge, none along the other.
+    // Gradients of u and v in the plane: each is perpendicular to the other's edge.
     glm::dvec3 gradU() const
     {
         glm::dvec3 g = glm::cross(alongV, normal());
@@ -35,8 +35,7 @@ struct Patch {
         return g / glm::dot(g, alongV);
     }
 
-    // The perturbed normal where the longer gradient counts as length one (truth S): m along
-    // (+u, +v, outwards).
+    // The perturbed normal if the longer gradient has length one (truth S); m is along (+u, +v, outwards).
     glm::dvec3 perturbed(glm::dvec3 m) const
     {
         double scale = 1 / std::max(glm::length(gradU()), glm::length(gradV()));
@@ -44,7 +43,7 @@ struct Patch {
     }
 };
 
-// A patch whose uv are square, so that every frame agrees on it.
+// A patch with square uv, so that every frame agrees on it.
 inline const Patch kSquare;
 
 inline Mesh meshOf(const Patch& p)
@@ -60,7 +59,7 @@ inline Mesh meshOf(const Patch& p)
     return mesh;
 }
 
-// One instance of one mesh with a plain material.
+// One instance of one mesh with a default material.
 inline Scene sceneOf(Mesh mesh, glm::mat4 toWorld = glm::mat4(1))
 {
     Scene scene;
@@ -78,8 +77,7 @@ inline Image solidImage(glm::ivec4 bytes, int size = 1)
     return image;
 }
 
-// Gives material 0 a normal map of one colour, green along +v. The exact expansion:
-// byte 128 + 127x stands for x.
+// Gives material 0 a normal map of one colour, green along +v, in the exact expansion: code 128 + 127x means x.
 inline void addNormalMap(Scene& scene, glm::ivec3 bytes)
 {
     scene.images.push_back(solidImage({bytes, 255}));
@@ -87,7 +85,7 @@ inline void addNormalMap(Scene& scene, glm::ivec3 bytes)
     scene.materials[0].normalFormat.greenUp = false;
 }
 
-// A small square picture, without lights, from (0,0,distance) towards the origin.
+// A small square view without lights, from (0,0,distance) towards the origin.
 inline View viewOf(Output output, Frame frame = Frame::cotangent, float distance = 4)
 {
     View view;
@@ -118,7 +116,7 @@ inline glm::vec4 pixelOf(const Image& image, int x, int y)
     return value;
 }
 
-// Calls check(x, y, value) for every pixel with a surface and returns their number.
+// Calls check(x, y, value) for every pixel with a surface; returns the number of calls.
 template<class Check> int forCovered(const Image& image, Check check)
 {
     int count = 0;

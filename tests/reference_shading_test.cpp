@@ -44,24 +44,24 @@ TEST(ReferenceShading, unlitShowsFactorTimesDecodedTexelTimesVertexColour)
     EXPECT_EQ(value.w, 1);
 }
 
-TEST(ReferenceShading, roughWhiteUnderUnitLightReflectsOneOverPiAndTheSpecularPart)
+TEST(ReferenceShading, roughWhiteReflectsOneOverPiPlusSpecular)
 {
-    // Light, eye and normal coincide in the middle: diffuse (1 - F) / pi with F = 0.04, specular
-    // D V F with D = 1/pi (alpha 1) and V = 1/4.
+    // Light, eye and normal coincide in the centre: diffuse (1 - F) / pi with F = 0.04, specular D V F with D = 1/pi
+    // (alpha 1) and V = 1/4.
     Scene scene = litScene(meshOf(kSquare));
     View view = shadedView();
     view.shadows = false;
     view.lights.push_back({});
     view.lights[0].direction = {0, 0, -1};
     view.lights[0].intensity = 1;
-    view.width = view.height = 65; // a pixel in the very middle
+    view.width = view.height = 65; // puts a pixel in the exact centre
     double expected = (0.96 + 0.04 / 4) / 3.14159265358979;
     EXPECT_NEAR(pixelOf(rendered(scene, view), 32, 32).x, expected, 1e-5);
     view.exposure = 2;
     EXPECT_NEAR(pixelOf(rendered(scene, view), 32, 32).x, 2 * expected, 2e-5);
 }
 
-// Light that comes in is intensity times colour, channel by channel; nothing here glares, so all of it shows.
+// Incoming light is intensity times colour in each channel; it stays below the range that tone mapping compresses.
 TEST(ReferenceShading, lightIsItsIntensityTimesItsColour)
 {
     Scene scene = litScene(meshOf(kSquare));
@@ -79,7 +79,7 @@ TEST(ReferenceShading, lightIsItsIntensityTimesItsColour)
     EXPECT_NEAR(three.z, 0.75 * one.z, 1e-6);
 }
 
-// glTF: blue is metallic, green rough. A metal has no diffuse part, so that a black metal reflects nothing head-on.
+// glTF: blue is metallic, green is roughness. Metals have no diffuse part, so a black metal reflects nothing head-on.
 TEST(ReferenceShading, blueOfTheMapIsMetallicAndGreenIsRough)
 {
     Scene scene = sceneOf(meshOf(kSquare));
@@ -114,14 +114,14 @@ TEST(ReferenceShading, pointLightFallsOffWithTheSquareAndSpotsEndAtTheirCone)
     light.position = {0, 0, 2};
     EXPECT_NEAR(pixelOf(rendered(scene, view), 32, 32).x, near / 4, 1e-5);
     light.kind = LightKind::spot;
-    light.outerCone = 0.2f; // reaches 0.4 from the middle; 16 pixels are 0.83
+    light.outerCone = 0.2f; // reaches 0.4 from the centre; 16 pixels are 0.83
     Image image = rendered(scene, view);
     EXPECT_NEAR(pixelOf(image, 32, 32).x, near / 4, 1e-5);
     EXPECT_EQ(pixelOf(image, 48, 32).x, 0);
     EXPECT_EQ(pixelOf(image, 48, 32).w, 1);
 }
 
-TEST(ReferenceShading, shadowFallsWhereTheOccluderIsAndNowhereElse)
+TEST(ReferenceShading, shadowIsExactlyWhereTheOccluderBlocksTheLight)
 {
     Scene scene = litScene(meshOf({{-2, 2, 0}, {4, 0, 0}, {0, -4, 0}}));
     scene.meshes.push_back(meshOf({{-0.3, 0.3, 1}, {0.6, 0, 0}, {0, -0.6, 0}}));
@@ -130,7 +130,7 @@ TEST(ReferenceShading, shadowFallsWhereTheOccluderIsAndNowhereElse)
     View view = shadedView();
     view.width = view.height = 128;
     view.lights.push_back({});
-    // Comes from the right at 45 degrees: the shadow lies one unit to the left.
+    // Light from the right at 45 degrees: the shadow is one unit to the left.
     view.lights[0].direction = glm::normalize(glm::vec3(-1, 0, -1));
     Image with = rendered(scene, view);
     view.shadows = false;
@@ -139,13 +139,13 @@ TEST(ReferenceShading, shadowFallsWhereTheOccluderIsAndNowhereElse)
     int dark = 0;
     forCovered(with, [&](int x, int y, glm::vec4 value) {
         double px = (x + 0.5 - 64) / pixelsPerUnit, py = (64 - y - 0.5) / pixelsPerUnit;
-        // Where the eye sees the ground: the occluder at z = 1 looks larger by 4/3.
+        // Excludes the occluder, which at z = 1 appears larger by 4/3.
         if (std::abs(px) < 0.45 && std::abs(py) < 0.45)
             return;
         double distance = std::max(std::abs(px + 1), std::abs(py)) - 0.3;
         float full = pixelOf(without, x, y).x;
         ASSERT_GT(full, 0);
-        // The map has 2048 texels on 5.7 units; the filter is 4 wide: 0.011, and a pixel is 0.026.
+        // The map has 2048 texels for 5.7 units; the filter is 4 wide: 0.011, and a pixel is 0.026.
         if (distance < -0.06) {
             ++dark;
             ASSERT_EQ(value.x, 0) << x << " " << y;
@@ -207,9 +207,9 @@ TEST(ReferenceShading, blendedPanesAreMixedBackToFront)
     }
 }
 
-TEST(ReferenceShading, halfTransparentOverNothingKeepsItsColourInTheFile)
+TEST(ReferenceShading, halfTransparentColourIsStoredUnpremultiplied)
 {
-    // Image files hold colours that are not multiplied by alpha.
+    // Image files store colours without multiplied alpha.
     Scene scene = sceneOf(meshOf(kSquare));
     scene.materials[0].unlit = true;
     scene.materials[0].baseColor = {0.8f, 0.3f, 0.05f, 1};
@@ -247,7 +247,7 @@ TEST(ReferenceShading, occlusionDarkensTheEnvironmentOnly)
     EXPECT_GT(pixelOf(rendered(scene, view), 32, 32).z, 0.1f);
 }
 
-TEST(ReferenceShading, pictureIsToneMappedAndSrgbEncoded)
+TEST(ReferenceShading, imageIsToneMappedAndSrgbEncoded)
 {
     Scene scene = sceneOf(meshOf(kSquare));
     scene.materials[0].unlit = true;
@@ -274,13 +274,13 @@ TEST(ReferenceShading, backgroundIsOpaqueAndUprightInBothRasterDirections)
     Image up = rendered({}, view);
     for (int y = 0; y < 64; ++y) {
         EXPECT_EQ(pixelOf(down, 5, y).w, 1);
-        // The same ray from the other end of the raster: rounding of its direction only.
+        // The same ray from the other end of the raster: only its direction is rounded differently.
         EXPECT_NEAR(pixelOf(down, 5, y).z, pixelOf(up, 5, y).z, 1e-6);
     }
     EXPECT_GT(pixelOf(down, 5, 0).z, pixelOf(down, 5, 63).z); // sky above, ground below
 }
 
-TEST(ReferenceShading, shadingModelsGiveTheirFormulasAtFortyFiveDegrees)
+TEST(ReferenceShading, shadingModelsFollowTheirFormulasAt45Degrees)
 {
     // Light at 45 degrees, eye along the normal, white, roughness 1 (alpha 1).
     Scene scene = litScene(meshOf(kSquare));

@@ -8,7 +8,7 @@ using namespace cotan::testing;
 
 namespace {
 
-// An orthographic view in which the unit square of uv covers 64 x 64 pixels exactly.
+// An orthographic view in which the unit square of uv covers exactly 64 x 64 pixels.
 View squareView()
 {
     View view = viewOf(Output::shaded);
@@ -20,7 +20,7 @@ View squareView()
     return view;
 }
 
-// The image on an unlit square. Float images are linear, so values come back as they are.
+// The image on an unlit square. Float images are linear, so their values are output unchanged.
 Scene textured(Image image)
 {
     Scene scene = sceneOf(meshOf(kSquare));
@@ -70,7 +70,7 @@ TEST(ReferenceTexture, bilinearFilterInterpolatesBetweenTexelCentres)
     scene.materials[0].baseColorMap.sampler.wrapU = Wrap::clamp;
     scene.materials[0].baseColorMap.sampler.wrapV = Wrap::clamp;
     forCovered(rendered(scene, squareView()), [](int x, int y, glm::vec4 value) {
-        // Texel centres lie at half-integers of an 8 texel image.
+        // Texel centres are at half-integers of an 8-texel image.
         ASSERT_NEAR(value.x, std::clamp((x + 0.5) / 8 - 0.5, 0.0, 7.0), 1e-5);
         ASSERT_NEAR(value.y, std::clamp((y + 0.5) / 8 - 0.5, 0.0, 7.0), 1e-5);
     });
@@ -82,7 +82,7 @@ TEST(ReferenceTexture, wrapModesRepeatMirrorAndClamp)
         Scene scene = textured(ramp(8, 8));
         Texture& texture = scene.materials[0].baseColorMap;
         texture.sampler.wrapU = wrap;
-        texture.uRow = {4, 0, -2}; // u from -2 to 2: sixteen pixels each
+        texture.uRow = {4, 0, -2}; // u from -2 to 2: sixteen pixels for each unit
         View view = squareView();
         view.pointSampled = true;
         Image image = rendered(scene, view);
@@ -96,9 +96,9 @@ TEST(ReferenceTexture, wrapModesRepeatMirrorAndClamp)
     }
 }
 
-TEST(ReferenceTexture, minifiedCheckerIsHalfTheLightNotHalfTheByte)
+TEST(ReferenceTexture, minifiedCheckerAveragesLightNotBytes)
 {
-    // 512 texels on 64 pixels: level 3, where black and white have been averaged as light.
+    // 512 texels on 64 pixels: level 3, where black and white were averaged in linear light.
     Scene scene = textured(checker(512));
     forCovered(rendered(scene, squareView()), [](int, int, glm::vec4 value) {
         ASSERT_NEAR(value.x, 0.5f, 0.003f); // the levels are bytes: half a step of sRGB at 0.5
@@ -114,9 +114,9 @@ TEST(ReferenceTexture, withoutMipsMinificationAliases)
                [](int, int, glm::vec4 value) { ASSERT_TRUE(value.x == 0 || value.x == 1); });
 }
 
-TEST(ReferenceTexture, oddSizesKeepTheirMeanDownTheChain)
+TEST(ReferenceTexture, oddSizesKeepTheirMeanInTheMipChain)
 {
-    // 45 -> 22 -> 11 -> 5 -> 2 -> 1: each level weighs every texel by the area it covers.
+    // 45 -> 22 -> 11 -> 5 -> 2 -> 1: each level weights every texel by the area that it covers.
     Scene scene = textured(ramp(45, 45));
     scene.materials[0].baseColorMap.uRow = {6400, 0, 0};
     scene.materials[0].baseColorMap.vRow = {0, 6400, 0};
@@ -126,10 +126,10 @@ TEST(ReferenceTexture, oddSizesKeepTheirMeanDownTheChain)
     });
 }
 
-TEST(ReferenceTexture, stretchedFootprintsStaySharpAcrossTheirNarrowSide)
+TEST(ReferenceTexture, anisotropicFootprintsStaySharpAcrossTheNarrowSide)
 {
-    // Stripes along v, seen with v squeezed eightfold: one texel a pixel across, eight along. An
-    // isotropic read would average the stripes away.
+    // Stripes along v, with v compressed eightfold: one texel per pixel across, eight along. An isotropic filter would
+    // average the stripes away.
     Image stripes = makeImage(64, 512, PixelType::float32);
     for (int i = 0; i < 64 * 512; ++i) {
         stripes.floats()[4 * i] = float(i % 64 % 2);
@@ -141,7 +141,7 @@ TEST(ReferenceTexture, stretchedFootprintsStaySharpAcrossTheirNarrowSide)
 
 TEST(ReferenceTexture, normalMapLevelsAverageVectorsAndStayUnit)
 {
-    // Texels that lean 45 degrees to either side average to the plain normal.
+    // Texels tilted by 45 degrees to either side average to the plain normal.
     Scene scene = sceneOf(meshOf(kSquare));
     Image map = makeImage(512, 512, PixelType::unorm8);
     for (int i = 0; i < 512 * 512; ++i) {

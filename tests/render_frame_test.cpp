@@ -1,4 +1,4 @@
-// Normals and frames as the GPU makes them, against analytic answers.
+// Normals and frames from the GPU, against analytic results.
 #include <algorithm>
 
 #include "render_scene.hpp"
@@ -12,16 +12,16 @@ namespace {
 struct Gradients {
     glm::dvec3 u;
     glm::dvec3 v;
-    glm::dvec3 n; // the mesh's normal in the world
+    glm::dvec3 n; // the mesh's normal in world space
 };
 
-// Of the plane quad() with those uv, moved by a matrix: the dual basis of dP/du, dP/dv.
+// Gradients for quad() with these uv under a matrix: the dual basis of dP/du, dP/dv.
 Gradients gradientsOf(glm::dvec2 du, glm::dvec2 dv, const glm::mat4& toWorld)
 {
     const glm::dmat3 m(toWorld);
     const glm::dvec3 px = m[0]; // dP/dx, dP/dy of the quad's own coordinates
     const glm::dvec3 py = m[1];
-    // (u,v) = (x,y) * D; so (x,y) changes with u by the inverse of D.
+    // (u,v) = (x,y) * D, so (x,y) depends on u by the inverse of D.
     const double det = du.x * dv.y - du.y * dv.x;
     const glm::dvec3 pu = (px * dv.y - py * du.y) / det;
     const glm::dvec3 pv = (py * du.x - px * dv.x) / det;
@@ -33,7 +33,7 @@ Gradients gradientsOf(glm::dvec2 du, glm::dvec2 dv, const glm::mat4& toWorld)
     return g;
 }
 
-// A skewed, stretched and turned placement that keeps the quad in the camera's middle.
+// A skewed, stretched and rotated placement that keeps the quad at the centre of the view.
 glm::mat4 placement(bool mirrored)
 {
     glm::mat4 m(1);
@@ -49,7 +49,7 @@ bool everyFrameExists(Frame frame, VulkanRenderer& renderer)
     return bool(image);
 }
 
-// Pixels where the pictures show a surface, with the vectors there.
+// Calls check for each pixel with a surface, with its vector; returns the number of calls.
 template<class Check> int overSurface(const Image& a, Check check)
 {
     int count = 0;
@@ -64,9 +64,9 @@ template<class Check> int overSurface(const Image& a, Check check)
 
 } // namespace
 
-// Two columns of texels, 10 steps of 8 bits apart, over the whole picture. A step is 0.45 degrees: what a driver rounds
-// to 8 bits again when it filters is up to 0.23 off; what remains here is the 8 bits of the weights, 0.02.
-TEST(RenderFrame, magnifiedMapsOfEightBitsAreFilteredBetweenTheirSteps)
+// Two columns of texels, 10 steps of 8 bits apart, over the whole image. A step is 0.45 degrees: a driver that rounds
+// filtered values to 8 bits errs by up to 0.23; the tolerance only allows for 8-bit weights, 0.02.
+TEST(RenderFrame, magnified8BitMapsAreFilteredAboveTheirPrecision)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});
     Image map = makeImage(2, 2, PixelType::unorm8);
@@ -83,9 +83,9 @@ TEST(RenderFrame, magnifiedMapsOfEightBitsAreFilteredBetweenTheirSteps)
         for (int x = 0; x < view.width; ++x) {
             const glm::vec3 n(floatPixel(image, x, y));
             const double half =
-                0.5 * std::tan(0.5 * double(view.camera.verticalFieldOfView)); // of the plane, in the picture
-            const double place = half * (2 * (x + 0.5) / view.width - 1);      // on the quad, -1 to 1
-            const glm::dvec3 expected(10.0 / 127 * (0.5 + 0.5 * place), 0, 1);
+                0.5 * std::tan(0.5 * double(view.camera.verticalFieldOfView)); // visible half-width of the plane
+            const double position = half * (2 * (x + 0.5) / view.width - 1);   // on the quad, -1 to 1
+            const glm::dvec3 expected(10.0 / 127 * (0.5 + 0.5 * position), 0, 1);
             worst = std::max(worst, degreesBetween(n, glm::normalize(expected)));
             seen += n.z > 0 ? 1 : 0;
         }
@@ -116,7 +116,7 @@ TEST(RenderFrame, flatMapChangesNothingInAnyFrame)
     }
 }
 
-TEST(RenderFrame, rowDirectionTurnsTheFrameOf2013AndNotOurs)
+TEST(RenderFrame, rowDirectionChangesOnlyTheFrameOf2013)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});
     load(renderer, sceneOf(sphere(16), flatImage(texelOf({0.4f, 0.3f, 1}))));
@@ -131,8 +131,8 @@ TEST(RenderFrame, rowDirectionTurnsTheFrameOf2013AndNotOurs)
             if (glm::length(t) < 0.1 || glm::length(other) < 0.1)
                 return; // at the poles u has no direction
             const double angle = degreesBetween(t, other);
-            // The height is even, so both rasters pair the same rows: equal up to rounding of
-            // the derivatives of a pixel, 1e-6 of 1/32.
+            // The height is even, so both rasters pair the same rows: equal up to rounding of pixel derivatives, 1e-6
+            // of 1/32.
             EXPECT_LT(frame == Frame::cotangent ? angle : 180 - angle, 0.1);
             ++count;
         });
@@ -140,7 +140,7 @@ TEST(RenderFrame, rowDirectionTurnsTheFrameOf2013AndNotOurs)
     }
 }
 
-TEST(RenderFrame, tangentsFollowTheGradientsForEverySignThatAPictureCanHave)
+TEST(RenderFrame, tangentsFollowTheGradientsInEverySignCombination)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});
     int combinations = 0;
@@ -208,7 +208,7 @@ TEST(RenderFrame, planeWithAKnownMapHasTheAnalyticNormals)
                 glm::dvec2 at = glm::dvec2(floatPixel(uv, x, y)) * double(kSize);
                 const glm::dvec2 inTexel = at - glm::floor(at);
                 if (std::min({inTexel.x, inTexel.y, 1 - inTexel.x, 1 - inTexel.y}) < 1e-3)
-                    return; // which texel is a matter of rounding
+                    return; // rounding decides which texel is read
                 at = at - double(kSize) * glm::floor(at / double(kSize));
                 const glm::dvec3 m = stored[std::size_t(int(at.y) * kSize + int(at.x))];
                 const double green = greenAlongV ? 1 : -1;
@@ -270,9 +270,9 @@ TEST(RenderFrame, uvWithoutAreaGiveThePlainNormal)
     }
 }
 
-// glTF: the bitangent is cross(n, t) * w and points along green. For quad() u runs right and v
-// down, so the green of a glTF map points up, t = +x, and w = +1.
-TEST(RenderFrame, storedTangentsAgreeWithTheUvTheyStandFor)
+// glTF: the bitangent is cross(n, t) * w and points along green. In quad() u runs right and v down, so the green of a
+// glTF map points up, t = +x, and w = +1.
+TEST(RenderFrame, storedTangentsAgreeWithTheUv)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});
     for (const bool uvMirrored : {false, true})
@@ -293,7 +293,7 @@ TEST(RenderFrame, storedTangentsAgreeWithTheUvTheyStandFor)
         }
 }
 
-TEST(RenderFrame, farFromTheOriginNothingChanges)
+TEST(RenderFrame, precisionIsIndependentOfTheOrigin)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});
     const View near = viewOf(Output::normal);

@@ -1,4 +1,4 @@
-// Translucent layers and the shadows of casters, as the device draws them.
+// Translucent layers and the shadows of casters on the device.
 #include "covering_scenes.hpp"
 #include "render_scene.hpp"
 
@@ -8,7 +8,7 @@ using namespace rendertest;
 
 namespace {
 
-// One device for all, with the validation layer where it is installed: what it says fails the test.
+// One device for all tests, with the validation layer if it is installed; any of its messages fails the test.
 class RenderLayers : public ::testing::Test {
 protected:
     static void SetUpTestSuite()
@@ -52,7 +52,7 @@ TEST_F(RenderLayers, manyPanesComposeInTheOrderOfDistance)
         layers::manyPanesComposeInTheOrderOfDistance(draw, count);
 }
 
-TEST_F(RenderLayers, texelsOfAlphaOneHideWhatIsBehind) { layers::texelsOfAlphaOneHideWhatIsBehind(draw); }
+TEST_F(RenderLayers, opaqueTexelsHideLayersBehindThem) { layers::opaqueTexelsHideLayersBehindThem(draw); }
 
 TEST_F(RenderLayers, crossingPanesChangeTheirOrderInsideAPixel)
 {
@@ -63,20 +63,20 @@ TEST_F(RenderLayers, opaqueSurfacesHideLayersBehindThem) { layers::opaqueSurface
 
 TEST_F(RenderLayers, layersCoverTheirOwnSamplesOnly) { layers::layersCoverTheirOwnSamplesOnly(draw); }
 
-TEST_F(RenderLayers, ofEquallyFarLayersTheLaterIsInFront) { layers::ofEquallyFarLayersTheLaterIsInFront(draw); }
+TEST_F(RenderLayers, laterOfEquallyFarLayersIsInFront) { layers::laterOfEquallyFarLayersIsInFront(draw); }
 
 TEST_F(RenderLayers, perspectiveAndRowsUpwardKeepTheOrder) { layers::perspectiveAndRowsUpwardKeepTheOrder(draw); }
 
 TEST_F(RenderLayers, dataOutputsShowTheNearestLayer) { layers::dataOutputsShowTheNearestLayer(draw); }
 
-TEST_F(RenderLayers, transmissiveLayersTintWhatIsBehind) { layers::transmissiveLayersTintWhatIsBehind(draw); }
+TEST_F(RenderLayers, transmissiveLayersTintLayersBehindThem) { layers::transmissiveLayersTintLayersBehindThem(draw); }
 
 TEST_F(RenderLayers, masksCoverTheSamplesOnTheirSide) { layers::masksCoverTheSamplesOnTheirSide(draw); }
 
-TEST_F(RenderLayers, castersShadowWhereTheirMaterialStands) { layers::castersShadowWhereTheirMaterialStands(draw); }
+TEST_F(RenderLayers, castersShadowByTheirMaterial) { layers::castersShadowByTheirMaterial(draw); }
 
-// The lists hold 2.8 million layers: these make 3.5 and are drawn in bands.
-TEST_F(RenderLayers, picturesWithMoreLayersThanFitAreDrawnInBands)
+// The lists hold 2.8 million layers: these panes make 3.5 million and are drawn in bands.
+TEST_F(RenderLayers, imagesWithMoreLayersThanFitAreDrawnInBands)
 {
     Scene scene;
     std::vector<glm::vec4> nearestFirst;
@@ -114,7 +114,7 @@ TEST_F(RenderLayers, oneRowWithMoreLayersThanFitIsRefused)
     ASSERT_FALSE(image);
     EXPECT_EQ(image.error().kind, ErrorKind::unavailable);
     EXPECT_EQ(image.error().message,
-              "2867200 translucent fragments in one row of pixels: at most 2796202 can be put in order");
+              "2867200 translucent fragments in one row of pixels: at most 2796202 can be sorted");
 }
 
 } // namespace

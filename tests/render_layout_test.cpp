@@ -1,4 +1,4 @@
-// The structs that C++ fills lie in memory as the compiled shaders read them.
+// The structs that C++ fills have the memory layout that the compiled shaders read.
 #include <initializer_list>
 #include <map>
 #include <span>
@@ -49,7 +49,7 @@ std::map<std::string, std::uint32_t> memberOffsets(Spirv words)
 
 } // namespace
 
-TEST(RenderLayout, fragmentStageReadsMaterialLightAndViewWhereTheyAreWritten)
+TEST(RenderLayout, fragmentStageHasTheOffsetsOfMaterialLightAndView)
 {
     for (const Spirv& shader : std::initializer_list<Spirv>{cotanForwardFrag, cotanForwardExactFrag}) {
         const auto offsets = memberOffsets(shader);
@@ -76,7 +76,7 @@ TEST(RenderLayout, fragmentStageReadsMaterialLightAndViewWhereTheyAreWritten)
     }
 }
 
-TEST(RenderLayout, whatExtensionsAddIsReadWhereItIsWritten)
+TEST(RenderLayout, extendedFragmentStageHasTheOffsetsOfTheExtensions)
 {
     for (const Spirv& shader :
          std::initializer_list<Spirv>{cotanForwardExtendedFrag, cotanForwardExactExtendedFrag,
@@ -92,7 +92,7 @@ TEST(RenderLayout, whatExtensionsAddIsReadWhereItIsWritten)
     }
 }
 
-TEST(RenderLayout, vertexStageReadsViewAndDrawWhereTheyAreWritten)
+TEST(RenderLayout, vertexStageHasTheOffsetsOfViewAndDraw)
 {
     const auto offsets = memberOffsets(cotanForwardVert);
     EXPECT_OFFSET(CotanView, clipX);
@@ -111,7 +111,7 @@ TEST(RenderLayout, vertexStageReadsViewAndDrawWhereTheyAreWritten)
     EXPECT_OFFSET(CotanDraw, flags);
 }
 
-TEST(RenderLayout, translucentFragmentsAreReadWhereTheyAreWritten)
+TEST(RenderLayout, layerShadersHaveTheOffsetsOfTheLayerLists)
 {
     for (const Spirv& shader : std::initializer_list<Spirv>{cotanForwardLayersFrag, cotanForwardExactLayersFrag,
                                                             cotanComposeFrag, cotanComposeMultisampledFrag}) {
@@ -121,10 +121,10 @@ TEST(RenderLayout, translucentFragmentsAreReadWhereTheyAreWritten)
         EXPECT_OFFSET(CotanLayerLists, width);
         EXPECT_OFFSET(CotanLayerLists, top);
         EXPECT_OFFSET(CotanLayer, light);
-        EXPECT_OFFSET(CotanLayer, through);
+        EXPECT_OFFSET(CotanLayer, transmittance);
         EXPECT_OFFSET(CotanLayer, depthY);
-        EXPECT_OFFSET(CotanLayer, place);
-        EXPECT_OFFSET(CotanLayer, before);
+        EXPECT_OFFSET(CotanLayer, orderAndCoverage);
+        EXPECT_OFFSET(CotanLayer, previous);
     }
     EXPECT_EQ(memberOffsets(cotanComposeFrag).at("ListBlock.newest"), sizeof(gpu::CotanLayerLists));
 }

@@ -1,4 +1,4 @@
-// Mip chains: what is averaged is what the texels mean.
+// Mip chains average the values that texels stand for, not their codes.
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -45,7 +45,7 @@ TEST(RenderMips, colourIsAveragedInLinearLight)
     const MipChain chain = chainOf(image, TextureKind::color);
     ASSERT_EQ(chain.levels.size(), 2u);
     EXPECT_EQ(chain.format, TexelFormat::srgb8);
-    // Half the light is sRGB 187.5, not 127.5; alpha is linear. One step for the table.
+    // Half the light is sRGB 187.5, not 127.5; alpha is linear. The table may be off by one step.
     EXPECT_NEAR(byteAt(chain.levels[1], 0), 188, 1);
     EXPECT_NEAR(byteAt(chain.levels[1], 3), 128, 1);
 }
@@ -73,7 +73,7 @@ TEST(RenderMips, twoChannelNormalsAreAveragedAsVectors)
 {
     Convention format;
     format.channels = Channels::orthographic;
-    // 60 degrees and upright: the mean vector leans 30 degrees, sin 30 = 0.5.
+    // 60 degrees and upright: the mean vector is tilted by 30 degrees, sin 30 = 0.5.
     const Image image = image8(2, 1, {{{128 + 110, 128, 0, 255}}, {{128, 128, 0, 255}}});
     const MipChain chain = chainOf(image, TextureKind::normal, format);
     EXPECT_NEAR(byteAt(chain.levels[1], 0), 128 + 127 * 0.5, 1.0);
@@ -109,7 +109,7 @@ TEST(RenderMips, levelsAboveTheLimitAreLeftOut)
     EXPECT_EQ(chain.levels.size(), 3u);
 }
 
-TEST(RenderMips, texelsThatAreNotNumbersDoNotSpread)
+TEST(RenderMips, nanTexelsDoNotSpread)
 {
     Image image = makeImage(2, 1, PixelType::float32);
     image.floats()[0] = std::numeric_limits<float>::quiet_NaN();
@@ -129,13 +129,13 @@ TEST(RenderMips, sixteenBitColourIsStoredLinear)
     ASSERT_EQ(chain.format, TexelFormat::unorm16);
     std::uint16_t words[4];
     std::memcpy(words, chain.levels[0].data.data(), sizeof words);
-    // sRGB 0.5 is 0.2140 of the light (IEC 61966-2-1); alpha stays.
+    // sRGB 0.5 is 0.2140 of linear light (IEC 61966-2-1); alpha is unchanged.
     EXPECT_NEAR(words[0] / 65535.0, 0.21404, 1e-4);
     EXPECT_EQ(words[3], 32768);
 }
 
-// How an image of each type is stored: with all of its precision where the device filters that, or as floats.
-TEST(RenderMips, theFormatKeepsThePrecisionThatTheDeviceCanFilter)
+// Storage of each image type: at full precision if the device can filter that, otherwise as floats.
+TEST(RenderMips, formatHasThePrecisionThatTheDeviceCanFilter)
 {
     using enum TexelFormat;
     struct Row {
@@ -163,8 +163,8 @@ TEST(RenderMips, theFormatKeepsThePrecisionThatTheDeviceCanFilter)
         EXPECT_EQ(bytesPerTexel(format), bytes);
 }
 
-// The finest level is the image's own bytes where its codes are what is stored: no texel is changed, none copied.
-TEST(RenderMips, theFinestLevelIsTheImageItselfOnlyWhereItsCodesAreStored)
+// The finest level refers to the image's own bytes if these are stored unchanged; otherwise it is converted.
+TEST(RenderMips, finestLevelIsTheImageIfItsCodesAreStored)
 {
     using enum TexelFormat;
     struct Row {
@@ -218,7 +218,7 @@ TEST(RenderMips, theFinestLevelIsTheImageItselfOnlyWhereItsCodesAreStored)
             std::memcpy(&value, finest.data.data() + 4 * i, 4);
             return value;
         };
-        for (std::size_t i = 0; i < 24; ++i) { // every component of every texel, in its place
+        for (std::size_t i = 0; i < 24; ++i) { // every component of every texel
             const double value = row.type == PixelType::unorm8 ? image.bytes8()[i] / 255.0
                 : row.type == PixelType::unorm16               ? image.words()[i] / 65535.0
                                                                : double(image.floats()[i]);
@@ -226,15 +226,15 @@ TEST(RenderMips, theFinestLevelIsTheImageItselfOnlyWhereItsCodesAreStored)
             const double found = row.format == float16 ? double(half(i))
                 : row.format == float32                ? double(number(i))
                 : row.format == unorm8                 ? byteAt(finest, i) / 255.0
-                                                       : expected; // looked at where it is the image itself
+                                                       : expected; // not compared again if it is the image itself
             EXPECT_NEAR(found, expected, row.format == float16 ? 5e-4 : 1e-6) << of << " " << i;
         }
     }
 }
 
-// Directions count alike, whatever their codes' alpha says, and one that has no direction counts for nothing. The
-// fourth channel of a smaller level is how long their mean is: 1 where they agree, less where they spread.
-TEST(RenderMips, theLengthOfAMeanNormalIsKeptBesideIt)
+// Directions have equal weight whatever their alpha, and texels without a direction have none. The fourth channel of
+// smaller levels is the length of the mean: 1 if all directions agree, less the more they differ.
+TEST(RenderMips, lengthOfTheMeanNormalIsStored)
 {
     const auto levelOf = [](std::initializer_list<std::array<int, 4>> texels) {
         const MipChain chain = chainOf(image8(int(texels.size()), 1, texels), TextureKind::normal);
@@ -247,11 +247,11 @@ TEST(RenderMips, theLengthOfAMeanNormalIsKeptBesideIt)
     EXPECT_NEAR(same[0], 128 + 76, 1); // 3-4-5
     EXPECT_NEAR(same[2], 128 + 102, 1);
     EXPECT_EQ(same[3], 255);
-    // Along x and along y: the mean lies between them and is the root of a half long.
-    const auto spread = levelOf({{{255, 128, 128, 255}}, {{128, 255, 128, 255}}});
-    EXPECT_NEAR(spread[0], 128 + 127 * 0.7071, 1);
-    EXPECT_NEAR(spread[1], 128 + 127 * 0.7071, 1);
-    EXPECT_NEAR(spread[3], 255 * 0.7071, 1.5);
+    // Along x and along y: the mean is half way between and has length sqrt(0.5).
+    const auto perpendicular = levelOf({{{255, 128, 128, 255}}, {{128, 255, 128, 255}}});
+    EXPECT_NEAR(perpendicular[0], 128 + 127 * 0.7071, 1);
+    EXPECT_NEAR(perpendicular[1], 128 + 127 * 0.7071, 1);
+    EXPECT_NEAR(perpendicular[3], 255 * 0.7071, 1.5);
     // Floats, which have an exact zero.
     const auto meanOf = [](glm::vec3 a, glm::vec3 b) {
         Image image = makeImage(2, 1, PixelType::float32);
@@ -266,7 +266,7 @@ TEST(RenderMips, theLengthOfAMeanNormalIsKeptBesideIt)
         std::memcpy(&mean, chain.levels.at(1).data.data(), sizeof mean);
         return mean;
     };
-    EXPECT_EQ(meanOf({2, 0, 0}, {-3, 0, 0}), glm::vec4(0, 0, 1, 0)); // nothing is left: straight up
+    EXPECT_EQ(meanOf({2, 0, 0}, {-3, 0, 0}), glm::vec4(0, 0, 1, 0)); // opposite directions cancel: straight up
     EXPECT_EQ(meanOf({0, 5, 0}, {0, 0, 0}), glm::vec4(0, 1, 0, 1));  // the second has no direction
     EXPECT_EQ(meanOf({0, 0, 0}, {0, 0, 0}), glm::vec4(0, 0, 1, 1));
 }

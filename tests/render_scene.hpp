@@ -1,4 +1,4 @@
-// Small scenes and looks at pictures, for the tests of the Vulkan renderer.
+// Small scenes and pixel accessors for the tests of the Vulkan renderer.
 #pragma once
 
 #include <cmath>
@@ -14,8 +14,8 @@
 
 namespace cotan::rendertest {
 
-// Mesa's CPU driver compiles a shader for every picture of its kind: of most tests here that is most of the time, and a
-// third of it is to make code fast that then draws 64 x 64 pixels. Read by the driver when it starts.
+// Mesa's CPU driver compiles a shader for each kind of image, which takes most of the time of these tests; a third of
+// that is optimisation, useless for 64 x 64 pixels. The driver reads the variable when it starts.
 inline const bool kQuicklyCompiled = ::setenv("GALLIVM_PERF", "nopt", /*replace*/ 0) == 0;
 
 // Opens a renderer, or skips the test with the reason.
@@ -27,7 +27,7 @@ inline const bool kQuicklyCompiled = ::setenv("GALLIVM_PERF", "nopt", /*replace*
 
 inline double degreesBetween(glm::dvec3 a, glm::dvec3 b)
 {
-    // By the sine and the cosine: acos alone cannot resolve small angles.
+    // Uses sine and cosine: acos alone cannot resolve small angles.
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 57.29577951308232;
 }
 
@@ -53,7 +53,7 @@ inline bool allFinite(const Image& image)
     return true;
 }
 
-// A picture of one colour, as float.
+// A float image of one colour.
 inline Image flatImage(glm::vec4 color, int size = 2)
 {
     Image image = makeImage(size, size, PixelType::float32);
@@ -63,7 +63,7 @@ inline Image flatImage(glm::vec4 color, int size = 2)
     return image;
 }
 
-// Stored texel of floats of the tangent-space vector m (along +u, along green, outwards): 0.5 is zero.
+// Stored float texel of the tangent-space vector m (along +u, along green, outwards): 0.5 is zero.
 inline glm::vec4 texelOf(glm::vec3 m) { return glm::vec4(glm::normalize(m) * 0.5f + 0.5f, 1.0f); }
 
 // A quad in the xy plane, -1 to 1, facing +z; uv = uv0 + du * x + dv * y.
@@ -104,7 +104,7 @@ inline Mesh sphere(int segments)
     return mesh;
 }
 
-// One mesh, one material, one instance. An image, if given, becomes the normal map.
+// One mesh, one material, one instance; `normalMap`, if given, is the material's normal map.
 inline Scene sceneOf(Mesh mesh, std::optional<Image> normalMap = std::nullopt, glm::mat4 toWorld = glm::mat4(1))
 {
     Scene scene;
@@ -120,7 +120,7 @@ inline Scene sceneOf(Mesh mesh, std::optional<Image> normalMap = std::nullopt, g
     return scene;
 }
 
-// Small, from the front.
+// A small view from the front.
 inline View viewOf(Output output, Frame frame = Frame::cotangent)
 {
     View view;

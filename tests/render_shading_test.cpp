@@ -1,8 +1,8 @@
-// Light, alpha, textures and the lie of the picture.
+// Light, alpha, textures and the orientation of the image.
 #include "render_scene.hpp"
 
 #include "cotan/portable.hpp"
-#include "scene/picture_text.hpp"
+#include "scene/render_text.hpp"
 
 namespace cotan {
 
@@ -10,7 +10,7 @@ using namespace rendertest;
 
 namespace {
 
-// Only what is asked for: no environment, no background, linear floats.
+// A view without environment and background that outputs linear floats.
 View bareView()
 {
     View view = viewOf(Output::shaded);
@@ -29,7 +29,7 @@ Scene unlitQuad(glm::vec4 color)
     return scene;
 }
 
-// Black and white texels like a chess board.
+// Alternating black and white texels, like a chessboard.
 Image chessboard(int size)
 {
     Image image = makeImage(size, size, PixelType::unorm8);
@@ -42,7 +42,7 @@ Image chessboard(int size)
 
 } // namespace
 
-TEST(RenderShading, pictureIsUprightForBothRowDirections)
+TEST(RenderShading, imageIsUprightForBothRowDirections)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});
     // A texture whose texels are red, green (top row), blue, white (bottom row).
@@ -59,11 +59,11 @@ TEST(RenderShading, pictureIsUprightForBothRowDirections)
     view.pointSampled = true;
     for (const bool rowsUpward : {false, true}) {
         view.rowsUpward = rowsUpward;
-        const Image picture = drawn(renderer, view);
-        EXPECT_EQ(glm::vec3(floatPixel(picture, 24, 24)), glm::vec3(1, 0, 0));
-        EXPECT_EQ(glm::vec3(floatPixel(picture, 40, 24)), glm::vec3(0, 1, 0));
-        EXPECT_EQ(glm::vec3(floatPixel(picture, 24, 40)), glm::vec3(0, 0, 1));
-        EXPECT_EQ(glm::vec3(floatPixel(picture, 40, 40)), glm::vec3(1, 1, 1));
+        const Image output = drawn(renderer, view);
+        EXPECT_EQ(glm::vec3(floatPixel(output, 24, 24)), glm::vec3(1, 0, 0));
+        EXPECT_EQ(glm::vec3(floatPixel(output, 40, 24)), glm::vec3(0, 1, 0));
+        EXPECT_EQ(glm::vec3(floatPixel(output, 24, 40)), glm::vec3(0, 0, 1));
+        EXPECT_EQ(glm::vec3(floatPixel(output, 40, 40)), glm::vec3(1, 1, 1));
     }
 }
 
@@ -76,14 +76,14 @@ TEST(RenderShading, depthIsTheDistanceAlongTheViewAxis)
         view.camera.orthographic = orthographic;
         view.camera.verticalExtent = 2.5f;
         const Image image = drawn(renderer, view);
-        // The same over the whole plane, not longer towards the corners.
+        // Equal over the whole plane, not longer towards the corners.
         for (const int x : {20, 32, 44})
             EXPECT_NEAR(floatPixel(image, x, 22).x, 3.0f, 1e-5f);
         EXPECT_EQ(floatPixel(image, 1, 1), glm::vec4(0));
     }
 }
 
-TEST(RenderShading, uvOutputIsThatOfTheNormalMapTransformed)
+TEST(RenderShading, uvOutputIsTheTransformedUvOfTheNormalMap)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});
     Scene scene = sceneOf(quad(), flatImage(texelOf({0, 0, 1})));
@@ -92,7 +92,7 @@ TEST(RenderShading, uvOutputIsThatOfTheNormalMapTransformed)
     scene.materials[0].normalMap.vRow = {-1, 0, 0.5f};
     load(renderer, scene);
     const View view = viewOf(Output::uv);
-    // At the middle uv = (0.5, 0.5). A pixel's centre lies 1/64 of the picture's half beside it.
+    // uv = (0.5, 0.5) at the centre, which is 1/64 of the image's half-width from the nearest pixel centre.
     const glm::vec4 a = floatPixel(drawn(renderer, view), 32, 32);
     EXPECT_NEAR(a.x, 1.25f, 0.03f);
     EXPECT_NEAR(a.y, 0.0f, 0.03f);
@@ -103,7 +103,7 @@ TEST(RenderShading, uvOutputIsThatOfTheNormalMapTransformed)
     EXPECT_NEAR(b.y, -2.5f, 1e-4f);
 }
 
-TEST(RenderShading, lightsAddWhatThePortableTextSays)
+TEST(RenderShading, lightsAddAsInThePortableText)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});
     Scene scene = sceneOf(quad());
@@ -113,7 +113,7 @@ TEST(RenderShading, lightsAddWhatThePortableTextSays)
     scene.materials[0].emissive = {0.1f, 0.2f, 0.3f};
     load(renderer, scene);
     View view = bareView();
-    view.width = view.height = 65; // the middle pixel's centre is the middle
+    view.width = view.height = 65; // puts a pixel centre at the image centre
     view.shadows = false;
     Light sun;
     sun.direction = glm::normalize(glm::vec3(0.3f, -0.4f, -1));
@@ -146,11 +146,11 @@ TEST(RenderShading, lightsAddWhatThePortableTextSays)
         const float spotDistance = glm::length(spot.position);
         const glm::vec3 toSpot = spot.position / spotDistance;
         const float cone = f32::cotan_smooth(std::cos(0.2f), std::cos(0.02f), glm::dot(-toSpot, spot.direction));
-        EXPECT_GT(cone, 0.1f); // so that the cone's edge is what is tested
+        EXPECT_GT(cone, 0.1f); // the point is at the cone's edge
         EXPECT_LT(cone, 0.9f);
         expected += 3.0f * f32::cotan_light_falloff(spotDistance, 9) * cone * reflect(toSpot);
         const glm::vec3 color(floatPixel(drawn(renderer, view), 32, 32));
-        // The same float formulas; GPU division, pow and rsqrt may be off by a few units of 1e-7.
+        // The same float formulas; GPU division, pow and rsqrt may differ by a few units of 1e-7.
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(color[c], expected[c], 1e-3f * expected[c]);
     }
@@ -200,13 +200,13 @@ TEST(RenderShading, farTexturesShowTheirMeanInLinearLight)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});
     Scene scene = unlitQuad({1, 1, 1, 1});
-    scene.images.push_back(chessboard(256)); // four texels a pixel and more
+    scene.images.push_back(chessboard(256)); // four texels per pixel and more
     scene.materials[0].baseColorMap.image = 0;
     load(renderer, scene);
     View view = bareView();
     view.camera.eye.z = 6;
     const glm::vec4 color = floatPixel(drawn(renderer, view), 32, 32);
-    // One step of sRGB at 188 is 0.008 of the light.
+    // One step of sRGB at 188 is 0.008 of linear light.
     EXPECT_NEAR(color.x, 0.5f, 0.01f);
 }
 
@@ -225,7 +225,7 @@ TEST(RenderShading, sixteenBitAndFloatImagesKeepTheirValues)
     scene.materials[0].baseColorMap.image = 1;
     load(renderer, scene);
     const glm::vec4 color = floatPixel(drawn(renderer, view), 32, 32);
-    EXPECT_NEAR(color.x, 2.5f, 1e-3f); // half floats, where a device filters no others
+    EXPECT_NEAR(color.x, 2.5f, 1e-3f); // half floats, if the device cannot filter floats
     EXPECT_NEAR(color.y, 0.001f, 1e-5f);
 }
 
@@ -240,7 +240,7 @@ TEST(RenderShading, maskCutsAndBlendMixesFarToNear)
         material.baseColor = colors[i];
         material.alphaMode = i == 0 ? AlphaMode::opaque : AlphaMode::blend;
         if (i == 3)
-            material.alphaMode = AlphaMode::mask; // 0.3 < 0.5: nothing is left of it
+            material.alphaMode = AlphaMode::mask; // 0.3 < 0.5: discarded
         scene.materials.push_back(material);
         scene.meshes.push_back(quad());
         scene.meshes.back().material = i;
@@ -248,7 +248,7 @@ TEST(RenderShading, maskCutsAndBlendMixesFarToNear)
         m[3][2] = 0.2f * float(i);
         scene.instances.push_back({"", i, m});
     }
-    std::swap(scene.instances[1], scene.instances[2]); // the order in the file does not matter
+    std::swap(scene.instances[1], scene.instances[2]); // the order in the file is irrelevant
     load(renderer, scene);
     const glm::vec4 color = floatPixel(drawn(renderer, bareView()), 32, 32);
     EXPECT_NEAR(color.x, 0.5f * 0.75f, 1e-5f);
@@ -271,11 +271,11 @@ TEST(RenderShading, halfCoveredPixelsKeepTheirColourWithoutBackground)
     load(renderer, scene);
     const Image half = drawn(renderer, view);
     EXPECT_NEAR(bytePixel(half, 32, 32)[3], 128, 1);
-    for (int c = 0; c < 3; ++c) // dividing by alpha doubles the rounding
+    for (int c = 0; c < 3; ++c) // dividing by alpha doubles the rounding error
         EXPECT_NEAR(bytePixel(half, 32, 32)[c], bytePixel(opaque, 32, 32)[c], 2);
 }
 
-TEST(RenderShading, shadowFallsWhereSomethingStandsBeforeTheLight)
+TEST(RenderShading, shadowIsWhereTheOccluderBlocksTheLight)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});
     Scene scene = sceneOf(quad());
@@ -286,17 +286,17 @@ TEST(RenderShading, shadowFallsWhereSomethingStandsBeforeTheLight)
     load(renderer, scene);
     View view = bareView();
     Light light;
-    light.direction = glm::normalize(glm::vec3(-0.5f, 0, -1)); // the shadow falls 0.5 to the left
+    light.direction = glm::normalize(glm::vec3(-0.5f, 0, -1)); // the shadow is 0.5 to the left
     view.lights = {light};
     const auto at = [](const Image& image, float x, float y) {
-        // World position on the plane z = 0 to pixel.
+        // Pixel of a world position on the plane z = 0.
         const float scale = 32.0f / (3.0f * std::tan(0.785398f / 2));
         return floatPixel(image, int(32 + x * scale), int(32 - y * scale)).x;
     };
     const Image shadowed = drawn(renderer, view);
     EXPECT_EQ(at(shadowed, -0.5f, 0.1f), 0.0f);
     EXPECT_GT(at(shadowed, -0.5f, 0.6f), 0.1f);
-    EXPECT_GT(at(shadowed, 0.7f, 0.7f), 0.1f); // no light plane shadows itself
+    EXPECT_GT(at(shadowed, 0.7f, 0.7f), 0.1f); // planes do not shadow themselves
     view.shadows = false;
     EXPECT_GT(at(drawn(renderer, view), -0.5f, 0.1f), 0.1f);
 }

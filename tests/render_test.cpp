@@ -16,7 +16,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr Output kOutputs[] = {Output::shaded,    Output::normal, Output::tangent,
                                Output::bitangent, Output::uv,     Output::depth};
 
-// One material: every alpha mode more is one more pipeline to compile.
+// A single opaque material: every further alpha mode compiles another pipeline.
 Scene opaqueOnly(Scene scene)
 {
     for (Material& material : scene.materials) {
@@ -67,7 +67,7 @@ Scene everything()
     return scene;
 }
 
-std::vector<Light> someLights()
+std::vector<Light> testLights()
 {
     Light point;
     point.kind = LightKind::point;
@@ -105,13 +105,13 @@ Scene hostile()
     scene.instances.push_back({"no mesh", 99, glm::mat4(1)});
     scene.images.push_back(Image{});
     scene.materials[3].baseColorMap.image = 1;  // an image without pixels
-    scene.materials[3].normalMap.image = 12345; // none at all
+    scene.materials[3].normalMap.image = 12345; // no such image
     return scene;
 }
 
 } // namespace
 
-TEST(RenderDevice, unknownNameIsUnavailableAndSaysWhatThereIs)
+TEST(RenderDevice, unknownNameIsRefusedWithTheKnownNames)
 {
     const Result<std::vector<std::string>> devices = renderDevices();
     if (!devices)
@@ -126,7 +126,7 @@ TEST(RenderDevice, unknownNameIsUnavailableAndSaysWhatThereIs)
     EXPECT_EQ(renderer.error().message.find('\n'), std::string::npos);
 }
 
-TEST(RenderDevice, partOfTheNameInAnyCaseChoosesIt)
+TEST(RenderDevice, partOfTheNameInAnyCaseSelectsTheDevice)
 {
     const Result<std::vector<std::string>> devices = renderDevices();
     if (!devices)
@@ -169,25 +169,25 @@ TEST(RenderDevice, drawsOddAndTinySizes)
     }
 }
 
-TEST(RenderDevice, aSceneReplacesTheOneBefore)
+TEST(RenderDevice, loadReplacesThePreviousScene)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});
     const View view = viewOf(Output::normal);
-    EXPECT_EQ(floatPixel(drawn(renderer, view), 32, 32).w, 0.0f); // nothing loaded, nothing drawn
+    EXPECT_EQ(floatPixel(drawn(renderer, view), 32, 32).w, 0.0f); // no scene is loaded
     load(renderer, sceneOf(quad()));
     EXPECT_EQ(floatPixel(drawn(renderer, view), 32, 32).w, 1.0f);
     load(renderer, Scene{});
     EXPECT_EQ(floatPixel(drawn(renderer, view), 32, 32).w, 0.0f);
 }
 
-// The third scene has another picture on purpose, which must not be looked at.
+// The third scene has another image on purpose: with sameImages it must not be read.
 TEST(RenderDevice, texturesOfTheSameImagesStayOnTheDevice)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});
     const Scene still = sceneOf(sphere(6), flatImage(texelOf({0.3f, 0.1f, 1})));
     Scene moved = still;
     moved.instances[0].toWorld[3] = {0.3f, 0.2f, 0, 1};
-    moved.materials[0].baseColorMap.image = 0; // another way of use
+    moved.materials[0].baseColorMap.image = 0; // another use of the image
     Scene other = moved;
     other.images[0] = flatImage(texelOf({-0.3f, 0.5f, 1}));
     const View view = viewOf(Output::normal);
@@ -203,15 +203,15 @@ TEST(RenderDevice, texturesOfTheSameImagesStayOnTheDevice)
     }
 }
 
-// Several threads reach the same pixel in another order each time. With four samples some drivers also draw at pixels
-// just beside the scissor's rectangle, which have no list of layers.
-TEST(RenderDevice, samePictureTwiceIsTheSameBytes)
+// Several threads reach a pixel in varying order. With four samples, some drivers also draw pixels just outside the
+// scissor rectangle, which have no list of layers.
+TEST(RenderDevice, renderingTwiceGivesTheSameBytes)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});
     View view;
     view.width = 160;
     view.height = 90;
-    view.lights = someLights();
+    view.lights = testLights();
     const auto differing = [&] {
         const Image a = drawn(renderer, view), b = drawn(renderer, view);
         std::size_t pixels = 0;
@@ -222,14 +222,14 @@ TEST(RenderDevice, samePictureTwiceIsTheSameBytes)
     load(renderer, opaqueOnly(everything()));
     EXPECT_EQ(differing(), 0u);
     load(renderer, everything());
-    for (int i = 0; i < 40; ++i) // threads come one after the other in another order now and then
+    for (int i = 0; i < 40; ++i) // the order of threads changes only sometimes
         EXPECT_EQ(differing(), 0u);
     view.samples = 1;
     EXPECT_EQ(differing(), 0u);
 }
 
-// What a frame can spoil are its two vectors and the normal made with it. What is made of that normal, and what no
-// frame has a part in, is the same text for all: drawn with the first.
+// Frames affect their two vectors and the normal. Shading from the normal, and the outputs that use no frame, share one
+// code: drawn with the first frame only.
 TEST(RenderHostile, everyPixelOfEveryOutputAndFrameIsFinite)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});
@@ -241,17 +241,17 @@ TEST(RenderHostile, everyPixelOfEveryOutputAndFrameIsFinite)
                 continue;
             View view = viewOf(output, info.frame);
             view.linearOutput = true;
-            view.lights = someLights();
+            view.lights = testLights();
             const Result<Image> image = renderer.render(view);
             if (!image && info.source == FrameSource::triangle)
-                continue; // the device cannot
+                continue; // not supported by the device
             ASSERT_TRUE(image) << image.error().message;
             EXPECT_TRUE(allFinite(*image)) << info.name << ", output " << int(output);
         }
     }
 }
 
-TEST(RenderHostile, camerasThatLookNowhereAreRefused)
+TEST(RenderHostile, degenerateCamerasAreRefused)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});
     load(renderer, everything());
@@ -271,7 +271,7 @@ TEST(RenderHostile, camerasThatLookNowhereAreRefused)
     }
 }
 
-// Some tangents and cotangents, for the frames that read them.
+// Adds arbitrary tangents and cotangents, for the frames that read them.
 Scene withAttributes(Scene scene)
 {
     for (Mesh& mesh : scene.meshes) {
@@ -282,15 +282,15 @@ Scene withAttributes(Scene scene)
     return scene;
 }
 
-TEST(RenderValidation, layerHasNothingToSayAboutAnyOutputAndFrame)
+TEST(RenderValidation, everyOutputAndFrameIsValid)
 {
     VulkanRendererOptions options;
     options.validation = true;
     COTAN_RENDERER_OR_SKIP(renderer, options);
     if (!renderer.messages().empty())
         GTEST_SKIP() << renderer.messages().front();
-    // Frames made from differences give the driver the same buffers and the same stages, so one of them draws every
-    // output of both scenes; the others one picture of each scene, for their shader.
+    // Frames from differences give the driver the same buffers and stages, so one of them draws every output of both
+    // scenes, the others one image of each scene, for their shader.
     for (const FrameInfo& info : frames()) {
         const bool first = info.frame == Frame::cotangent;
         const bool alike = !first && info.source == FrameSource::differences;
@@ -301,7 +301,7 @@ TEST(RenderValidation, layerHasNothingToSayAboutAnyOutputAndFrame)
                     continue;
                 View view = viewOf(output, info.frame);
                 view.width = view.height = 16;
-                view.lights = someLights();
+                view.lights = testLights();
                 view.linearOutput = int(info.frame) % 2 == 0;
                 view.background = int(info.frame) % 3 != 0;
                 view.samples = int(info.frame) % 4 == 1 ? 1 : 4;

@@ -1,4 +1,4 @@
-// `cotan render` of a turning model, of named sides and sizes, and without a background.
+// `cotan render` with a turntable, with named sides and sizes, and without a background.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +30,7 @@ std::size_t count(const std::string& text, const std::string& part)
     return found;
 }
 
-// Pixels whose alpha is above 0: at the edges of the image, and all.
+// Number of pixels with alpha above 0: at the edges of the image, and in total.
 std::pair<int, int> seen(const Image& image)
 {
     int edge = 0, all = 0;
@@ -52,21 +52,21 @@ double meanDifference(const Image& a, const Image& b)
     return sum / size;
 }
 
-TEST(RenderTurntable, aFileHoldsAllImagesOfTheTurn)
+TEST(RenderTurntable, fileContainsAllImagesOfTheTurn)
 {
     TemporaryFolder folder;
     for (const std::string file : {"turn.gif", "turn.webp"}) {
         const ToolRun run = draw({"--device", "reference", "--turntable", "5", "-o", file}, folder);
         ASSERT_EQ(run.code, 0) << run.err;
-        EXPECT_EQ(run.err, ""); // the usual rate is one that the file can have
+        EXPECT_EQ(run.err, ""); // the default rate suits the format
         EXPECT_EQ(lines(run.out), 1) << run.out;
         const std::string bytes = readWhole(folder / file);
-        // Graphic control extensions, and chunks of frames.
+        // Graphic control extensions, and ANMF chunks.
         EXPECT_EQ(count(bytes, file == "turn.gif" ? std::string("\x21\xf9\x04", 3) : "ANMF"), 5u) << file;
     }
 }
 
-TEST(RenderTurntable, imagesDifferStayInsideAndAreThoseOfBothRenderers)
+TEST(RenderTurntable, imagesDifferFitAndAgreeOnBothRenderers)
 {
     TemporaryFolder folder;
     const Words turn = {"--turntable", "4", "--background", "none", "--ground", "off"};
@@ -75,7 +75,7 @@ TEST(RenderTurntable, imagesDifferStayInsideAndAreThoseOfBothRenderers)
         return more;
     };
     ASSERT_EQ(draw(with({"--device", "reference", "-o", "r.png"}), folder).code, 0);
-    ASSERT_EQ(draw(with({"-o", "v.png"}), folder).code, 0); // Vulkan where there is a device
+    ASSERT_EQ(draw(with({"-o", "v.png"}), folder).code, 0); // Vulkan if there is a device
     std::set<std::string> different;
     for (int i = 0; i < 4; ++i) {
         const std::string number = "-000" + std::to_string(i) + ".png";
@@ -84,16 +84,16 @@ TEST(RenderTurntable, imagesDifferStayInsideAndAreThoseOfBothRenderers)
         const auto [edge, all] = seen(*reference);
         EXPECT_EQ(edge, 0) << i;
         EXPECT_GT(all, 64 * 48 / 8) << i;
-        EXPECT_LT(meanDifference(*reference, *device), 1.5) << i; // of 255: edges, one sample a pixel
+        EXPECT_LT(meanDifference(*reference, *device), 1.5) << i; // of 255: edges, one sample per pixel
         different.insert(readWhole(folder / ("r" + number)));
     }
     EXPECT_EQ(different.size(), 4u);
     EXPECT_FALSE(std::filesystem::exists(folder / "r.png"));
 }
 
-TEST(RenderTurntable, aCameraOnTheOtherSideSeesTheHalfTurn)
+TEST(RenderTurntable, oppositeCameraSeesTheHalfTurn)
 {
-    // Which side faces the eye knows no light: half a turn of the model is half a turn of the camera.
+    // `facing` is independent of light: turning the model by 180 degrees equals turning the camera by 180 degrees.
     TemporaryFolder folder;
     ASSERT_EQ(
         draw({"--device", "reference", "--view", "facing", "--camera", "orbit:0,20", "--turntable", "2", "-o", "t.png"},
@@ -105,20 +105,20 @@ TEST(RenderTurntable, aCameraOnTheOtherSideSeesTheHalfTurn)
                    folder)
                   .code,
               0);
-    const auto turned = readImage(folder / "t-0001.png"), behind = readImage(folder / "b-0000.png");
-    ASSERT_TRUE(turned && behind);
-    EXPECT_LT(meanDifference(*turned, *behind), 0.2);
-    EXPECT_GT(meanDifference(*turned, *readImage(folder / "t-0000.png")), 1);
+    const auto rotated = readImage(folder / "t-0001.png"), behind = readImage(folder / "b-0000.png");
+    ASSERT_TRUE(rotated && behind);
+    EXPECT_LT(meanDifference(*rotated, *behind), 0.2);
+    EXPECT_GT(meanDifference(*rotated, *readImage(folder / "t-0000.png")), 1);
 }
 
-TEST(RenderTurntable, badWordsAreRefusedInOneLineAndNothingIsWritten)
+TEST(RenderTurntable, badOptionsAreRefusedInOneLineAndNothingIsWritten)
 {
     const std::pair<Words, std::string> cases[] = {
         {{"--turntable", "1", "-o", "a.gif"}, "--turntable: expected a whole number from 2 to 3600; found '1'"},
         {{"--turntable", "4", "--frames", "0..2", "-o", "a.gif"}, "expected neither --frames nor --json"},
         {{"--turntable", "4", "--json", "r.json", "-o", "a.gif"}, "expected neither --frames nor --json"},
         {{"--turntable", "4", "--rate", "60", "-o", "a.gif"},
-         "a.gif: expected at most 50 pictures a second in such a file; found 60"},
+         "a.gif: expected at most 50 images per second in such a file; found 60"},
         {{"-o", "a.gif"}, "hold the images of --turntable or --frames"},
         {{"--background", "none", "--turntable", "4", "-o", "a.gif"},
          "--background none: .gif files keep no transparency; expected .png"},
@@ -143,7 +143,7 @@ TEST(RenderTurntable, badWordsAreRefusedInOneLineAndNothingIsWritten)
     EXPECT_NE(run.err.find("thumbnail, 720p"), std::string::npos) << run.err;
 }
 
-TEST(RenderTurntable, sizesHaveNames)
+TEST(RenderTurntable, sizesMayBeNamed)
 {
     TemporaryFolder folder;
     const ToolRun run = runTool({"render", "--shape", "plane", "--size", "thumbnail", "--device", "reference",

@@ -1,5 +1,5 @@
-// The numbers of a picture that the device gets, against plain geometry: where points fall on the picture, the shadow
-// map and the ground, and how instances and lights look from the eye.
+// The per-view constants of the device against plain geometry: projection to the image, the shadow map and the ground,
+// and eye-space instances and lights.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -15,7 +15,7 @@ namespace cotan {
 
 namespace {
 
-// Seen from (4, 5, 6) along -x; to the right is -z, up is y. 60 x 40 pixels, half as high as it is far at distance 1.
+// A view from (4, 5, 6) along -x; right is -z, up is y. 60 x 40 pixels; at distance 1 the visible height is 1.
 View sideView(bool orthographic)
 {
     View view;
@@ -39,29 +39,29 @@ Bounds boxFrom(glm::vec3 low, glm::vec3 high)
 
 const Bounds kBox = boxFrom({-7, 1, 2}, {3, 8, 11});
 
-gpu::CotanView constantsOf(const View& view, glm::dvec2 place = glm::dvec2(0), const Bounds& box = kBox)
+gpu::CotanView constantsOf(const View& view, glm::dvec2 sampleOffset = glm::dvec2(0), const Bounds& box = kBox)
 {
-    return viewConstants(view, cameraAxes(view.camera), box, place);
+    return viewConstants(view, cameraAxes(view.camera), box, sampleOffset);
 }
 
 double along(const gpu::vec4& row, const glm::dvec3& p) { return glm::dot(glm::dvec4(row), glm::dvec4(p, 1)); }
 
-// x, y and depth of what lies there from the eye, after the division.
+// x, y and depth of a point relative to the eye, after the perspective division.
 glm::dvec3 clipped(const gpu::CotanView& g, const glm::dvec3& fromEye)
 {
     return glm::dvec3(along(g.clipX, fromEye), along(g.clipY, fromEye), along(g.clipZ, fromEye))
         / along(g.clipW, fromEye);
 }
 
-void expectNear(const glm::dvec3& found, const glm::dvec3& expected, double most, const char* what)
+void expectNear(const glm::dvec3& found, const glm::dvec3& expected, double tolerance, const char* what)
 {
     for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(found[c], expected[c], most) << what << " " << c;
+        EXPECT_NEAR(found[c], expected[c], tolerance) << what << " " << c;
 }
 
 } // namespace
 
-TEST(RenderViewData, cornersOfThePictureAreCornersOfTheClipSpace)
+TEST(RenderViewData, imageCornersAreClipSpaceCorners)
 {
     for (const bool orthographic : {false, true})
         for (const bool upward : {false, true}) {
@@ -69,10 +69,10 @@ TEST(RenderViewData, cornersOfThePictureAreCornersOfTheClipSpace)
             view.rowsUpward = upward;
             const gpu::CotanView g = constantsOf(view);
             for (const double away : {2.0, 7.0}) {
-                const double high = orthographic ? 4 : 0.5 * away; // half the picture
+                const double high = orthographic ? 4 : 0.5 * away; // half the image height
                 const glm::dvec3 rightAbove(-away, high, -1.5 * high);
                 const glm::dvec3 seen = clipped(g, rightAbove), leftBelow = clipped(g, {-away, -high, 1.5 * high});
-                const double y = upward ? 1 : -1; // rows that run down have the top at -1
+                const double y = upward ? 1 : -1; // if rows run down, the top is at -1
                 EXPECT_NEAR(seen.x, 1, 1e-6);
                 EXPECT_NEAR(seen.y, y, 1e-6);
                 EXPECT_NEAR(leftBelow.x, -1, 1e-6);
@@ -88,14 +88,14 @@ TEST(RenderViewData, cornersOfThePictureAreCornersOfTheClipSpace)
             expectNear(glm::dvec3(g.up), {0, up, 0}, 1e-6, "up");
             EXPECT_EQ(g.counts.z, upward ? 40u : 0u);
         }
-    // The near plane of a perspective is a ten-thousandth of what is seen; an orthographic one begins at the eye.
+    // The near plane of a perspective view is at 1e-4 of the visible range; an orthographic view begins at the eye.
     const double reach = glm::length(glm::dvec3(-6, -0.5, 0.5)) + std::sqrt(10.0 * 10 + 7 * 7 + 9 * 9) / 2;
     EXPECT_NEAR(clipped(constantsOf(sideView(false)), {-1e-4 * reach, 0, 0}).z, 1, 1e-6);
     EXPECT_NEAR(clipped(constantsOf(sideView(true)), {0, 0, 0}).z, 1, 1e-6);
     EXPECT_NEAR(clipped(constantsOf(sideView(true)), {-1.01 * reach, 0, 0}).z, 0, 1e-6);
 }
 
-TEST(RenderViewData, aSampleSeesWhatLiesBesideTheMiddleOfItsPixel)
+TEST(RenderViewData, sampleOffsetsShiftTheProjection)
 {
     for (const bool orthographic : {false, true}) {
         const View view = sideView(orthographic);
@@ -104,22 +104,21 @@ TEST(RenderViewData, aSampleSeesWhatLiesBesideTheMiddleOfItsPixel)
         EXPECT_NEAR(before.x - after.x, 2 * 0.25 / 60, 1e-6);
         EXPECT_NEAR(before.y - after.y, 2 * -0.375 / 40, 1e-6);
         EXPECT_NEAR(before.z, after.z, 1e-7);
-        // The ray through the middle of the picture goes to where the sample is.
-        const glm::dvec3 turned = glm::dvec3(moved.forward) - glm::dvec3(middle.forward);
+        // The ray through the image centre is shifted to the position of the sample.
+        const glm::dvec3 shift = glm::dvec3(moved.forward) - glm::dvec3(middle.forward);
         const glm::dvec3 expected =
             glm::dvec3(middle.right) * (2 * 0.25 / 60) + glm::dvec3(middle.up) * (2 * -0.375 / 40);
-        expectNear(turned, expected, 1e-6, "forward");
+        expectNear(shift, expected, 1e-6, "forward");
     }
 }
 
-// A square of the widest extent of the scene, and four texels more on each side; depth from 0 to 1 with a hundredth
-// more.
-TEST(RenderViewData, theShadowMapHoldsTheSceneAndAMargin)
+// A square of the scene's maximum extent plus four texels on each side; depth from 0 to 1 with a margin of a hundredth.
+TEST(RenderViewData, shadowMapCoversTheSceneAndAMargin)
 {
     View view = sideView(false);
     view.lights.resize(3);
     view.lights[0].kind = LightKind::point;
-    view.lights[1].direction = {0, 0, -2}; // the first that is directional, of any length
+    view.lights[1].direction = {0, 0, -2}; // the first directional light; any length
     view.lights[2].direction = {1, 0, 0};
     view.shadowSoftness = 0.25f;
     const gpu::CotanView g = constantsOf(view);
@@ -138,7 +137,7 @@ TEST(RenderViewData, theShadowMapHoldsTheSceneAndAMargin)
     EXPECT_EQ(g.shadow.y, 2048);
     EXPECT_NEAR(g.shadow.z, 0.5 * size / 2048 / deep, 1e-8);
     EXPECT_NEAR(g.soft.x, 0.25 * deep / size, 1e-7);
-    EXPECT_EQ(g.soft.y, kWidestPenumbra);
+    EXPECT_EQ(g.soft.y, kMaxPenumbra);
     EXPECT_NEAR(g.soft.z, size / deep, 1e-6);
     EXPECT_TRUE(castsShadow(view));
     view.shadows = false;
@@ -148,7 +147,7 @@ TEST(RenderViewData, theShadowMapHoldsTheSceneAndAMargin)
     EXPECT_FALSE(castsShadow(view)) << "a point light casts none";
 }
 
-TEST(RenderViewData, groundAndCountsAreThoseOfTheView)
+TEST(RenderViewData, groundAndCountsMatchTheView)
 {
     View view = sideView(false);
     view.lights.resize(5);
@@ -160,13 +159,13 @@ TEST(RenderViewData, groundAndCountsAreThoseOfTheView)
     ground->extent = {4, 16};
     view.ground = ground;
     const gpu::CotanView g = constantsOf(view);
-    const auto placeOf = [&](double x, double z) { // world
+    const auto groundUv = [&](double x, double z) { // world space
         return glm::dvec2((x - 4) * g.ground.x + g.ground.y, (z - 6) * g.ground.z + g.ground.w);
     };
-    EXPECT_NEAR(placeOf(-3, 7).x, 0, 1e-6);
-    EXPECT_NEAR(placeOf(-3, 7).y, 0, 1e-6);
-    EXPECT_NEAR(placeOf(1, 23).x, 1, 1e-6);
-    EXPECT_NEAR(placeOf(1, 23).y, 1, 1e-6);
+    EXPECT_NEAR(groundUv(-3, 7).x, 0, 1e-6);
+    EXPECT_NEAR(groundUv(-3, 7).y, 0, 1e-6);
+    EXPECT_NEAR(groundUv(1, 23).x, 1, 1e-6);
+    EXPECT_NEAR(groundUv(1, 23).y, 1, 1e-6);
     EXPECT_EQ(g.tone.x, 1.75f);
     EXPECT_EQ(g.tone.y, kBackdropRoughness);
     EXPECT_EQ(g.tone.z, -7.5f); // below the eye
@@ -178,7 +177,7 @@ TEST(RenderViewData, groundAndCountsAreThoseOfTheView)
     EXPECT_EQ(constantsOf(view).tone.y, 0);
 }
 
-TEST(RenderViewData, lightsAreSeenFromTheEyeAndTheFirstDirectionalOneIsMarked)
+TEST(RenderViewData, lightsAreRelativeToTheEyeAndTheFirstDirectionalIsMarked)
 {
     View view = sideView(false);
     Light spot{.kind = LightKind::spot,
@@ -213,7 +212,7 @@ TEST(RenderViewData, lightsAreSeenFromTheEyeAndTheFirstDirectionalOneIsMarked)
     EXPECT_EQ(lightConstants(view, cameraAxes(view.camera)).size(), 1u);
 }
 
-TEST(RenderViewData, instancesHaveTheirMatrixFromTheEyeAndTheNormalsThatGoWithIt)
+TEST(RenderViewData, instanceMatricesAreRelativeToTheEye)
 {
     glm::mat4 toWorld(1); // columns
     toWorld[0] = {2, 1, 0, 0};
@@ -228,7 +227,7 @@ TEST(RenderViewData, instancesHaveTheirMatrixFromTheEyeAndTheNormalsThatGoWithIt
     const double determinant = glm::determinant(m);
     EXPECT_LT(determinant, 0);
     EXPECT_EQ(g.normalX.w, -1);
-    // Normals go by the inverse transpose, times a positive factor.
+    // Normals transform by the inverse transpose, times a positive factor.
     const glm::dmat3 inverse = glm::transpose(glm::inverse(m));
     const auto normal = [&](const glm::dvec3& n) {
         return glm::dvec3(glm::dot(glm::dvec3(g.normalX), n), glm::dot(glm::dvec3(g.normalY), n),
@@ -249,13 +248,13 @@ TEST(RenderViewData, instancesHaveTheirMatrixFromTheEyeAndTheNormalsThatGoWithIt
     EXPECT_EQ(glm::dvec3(flat.normalX), glm::dvec3(0));
 }
 
-// In whole pixels, two more to the left and above, three to the right and below, and no more than the picture.
-TEST(RenderViewData, theAreaOfAnInstanceIsItsBoxAndAFewPixelsMore)
+// Whole pixels, with a margin of two on the left and top and three on the right and bottom, clamped to the image.
+TEST(RenderViewData, pixelAreaOfAnInstanceIsItsBoxAndAMargin)
 {
     View view = sideView(true);
     view.camera.eye = {0, 0, 10};
     view.camera.target = {0, 0, 0};
-    view.camera.verticalExtent = 40; // a pixel is a unit; the middle is at (30, 20)
+    view.camera.verticalExtent = 40; // one unit per pixel; the centre is at (30, 20)
     const gpu::CotanView g = constantsOf(view, glm::dvec2(0), boxFrom({-50, -50, -5}, {50, 50, 5}));
     const gpu::CotanDraw draw = drawConstants(glm::mat4(1), {0, 0, 10});
     const auto area = [&](glm::vec3 low, glm::vec3 high) {

@@ -1,5 +1,5 @@
-// The repairs of examples/ for engines of the web, in headless Chromium beside the engines' own text, which comes from
-// their npm packages.
+// The repairs of web engines in examples/, run in headless Chromium beside the engines' own code from their npm
+// packages.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -18,7 +18,7 @@ const std::filesystem::path kModules = COTAN_NPM "/node_modules";
 // As for the examples: float differences of a pixel of at least 2e-3 of the distance to the eye.
 constexpr double kRepaired = 0.01;
 
-// Copies the files that the patch names into folder/node_modules and applies it there.
+// Copies the files that the patch changes to folder/node_modules and applies the patch there.
 void applyPatch(const TemporaryFolder& folder, const std::string& patch)
 {
     std::istringstream lines(readWhole(patch));
@@ -35,7 +35,7 @@ void applyPatch(const TemporaryFolder& folder, const std::string& patch)
     ASSERT_EQ(std::system(line.c_str()), 0) << patch << ": " << readWhole(folder / "said");
 }
 
-// What tests/NAME.html.in reports; a string that says why where it cannot run.
+// The report of tests/NAME.html.in, or a string with the reason why it cannot run.
 json repairPage(const std::string& name, const std::vector<std::string>& packages,
                 const std::vector<std::string>& patches)
 {
@@ -57,8 +57,8 @@ json repairPage(const std::string& name, const std::vector<std::string>& package
     return found.value(name, found);
 }
 
-// stock is wrong in the scenes of `wrong`, by at least so many degrees in the mean (0: not finite), and right in the
-// others; fixed is right in all but those of `left`.
+// Expects that stock has a mean error above the degrees in `wrong` in those scenes (0: not finite) and is right in the
+// others; that fixed is right except in the scenes of `left`.
 void expectRepair(const std::string& label, const json& stock, const json& fixed,
                   const std::map<std::string, double>& wrong, const std::set<std::string>& left = {})
 {
@@ -88,15 +88,15 @@ void expectRepair(const std::string& label, const json& stock, const json& fixed
         EXPECT_TRUE(stock.contains(scene)) << label << ": " << scene;
 }
 
-TEST(Repairs, playCanvasIsRightInMirroringProjectionsAndOnOneSidedBackFaces)
+TEST(Repairs, playCanvasPatchFixesMirroringAndOneSidedBackFaces)
 {
     const json page = repairPage("repair_playcanvas", {"playcanvas"}, {});
     if (page.is_string())
         GTEST_SKIP() << page.get<std::string>();
     ASSERT_TRUE(page.contains("webgl2 stock")) << page;
-    const std::string coat = "coat on uv set 1, bumps on set 0"; // one frame for both: not fixed
+    const std::string coat = "coat on uv set 1, bumps on set 0"; // both use one frame: not fixed
     for (const std::string device : {"webgl2", "webgpu"})
-        if (page.contains(device + " stock")) // else a Chromium without WebGPU
+        if (page.contains(device + " stock")) // not in a Chromium without WebGPU
             expectRepair(device, page[device + " stock"], page[device + " cotan"],
                          {{"back, one-sided lighting", 30},
                           {"projection with y down", 30},
@@ -105,7 +105,7 @@ TEST(Repairs, playCanvasIsRightInMirroringProjectionsAndOnOneSidedBackFaces)
                          {coat});
 }
 
-TEST(Repairs, functionsOfCesiumLumaAndPexAreRightAfterTheirPatches)
+TEST(Repairs, patchesFixCesiumLumaAndPex)
 {
     const json page = repairPage("repair_functions", {"@cesium/engine", "@luma.gl/shadertools", "pex-renderer"},
                                  {"cesium/@cesium+engine+26.3.0.patch", "luma/@luma.gl+shadertools+9.4.2.patch",
@@ -113,7 +113,7 @@ TEST(Repairs, functionsOfCesiumLumaAndPexAreRightAfterTheirPatches)
     if (page.is_string())
         GTEST_SKIP() << page.get<std::string>();
     ASSERT_TRUE(page.contains("cesium stock")) << page;
-    // One half of the sheet is mirrored, and its bitangents run the wrong way there: half the error in the mean.
+    // Half of the sheet is mirrored and has reversed bitangents, so the mean error is halved.
     const std::map<std::string, double> mirrored = {
         {"mirrored half", 20}, {"mirrored transform", 10}, {"back", 10},   {"stretched", 10},
         {"sheared", 10},       {"seen at 60 degrees", 10}, {"y down", 10}, {"constant texture coordinates", 0}};
@@ -125,8 +125,8 @@ TEST(Repairs, functionsOfCesiumLumaAndPexAreRightAfterTheirPatches)
         repaired(what, mirrored);
     if (page.contains("luma on WebGPU stock"))
         repaired("luma on WebGPU", mirrored);
-    // The view vector is normalised before its differences are taken, which is wrong everywhere, and more so at grazing
-    // angles; unit lengths are where uv is stretched; y down turns t and b round.
+    // pex normalises the view vector before it takes differences: wrong everywhere, most at grazing angles. Unit
+    // lengths fail if uv are stretched; y down reverses t and b.
     for (const char* what : {"pex", "pex, clear coat"})
         repaired(what,
                  {{"plain half", 1},

@@ -1,4 +1,4 @@
-// Lines and JSON of what a conversion did, filled by hand: each number is another one.
+// Lines and JSON of hand-made conversion reports: all numbers differ.
 #include <string>
 #include <vector>
 
@@ -33,15 +33,15 @@ ConvertedMap convertedMap()
     return m;
 }
 
-TEST(ConvertLines, ofAMapHaveEachFigureInItsPlace)
+TEST(ConvertLines, printEveryFigureOfAMap)
 {
     ConvertedMap m = convertedMap();
     EXPECT_EQ(linesOf(m, "smooth"),
-              (Lines{"leather: 20x10, 25.0 % covered by 2 surfaces; read with smooth as it is, off by 30.00 / 31.00 / "
+              (Lines{"leather: 20x10, 25.0 % covered by 2 surfaces; read with smooth unchanged, error 30.00 / 31.00 / "
                      "32.00 degrees",
-                     "  72 texels are used in several places; in 5 (10.00 % of the covered) these disagree by over 0.5 "
-                     "degrees: 20.00 / 21.00 / 22.00 off at the worst place",
-                     "  converted and rounded to 16 bits, off by 40.00 / 41.00 / 42.00 degrees; 61 texels of padding "
+                     "  72 texels are used at several surface points; in 5 (10.00 % of the covered) these differ by "
+                     "over 0.5 degrees: 20.00 / 21.00 / 22.00 at the worst point",
+                     "  converted and rounded to 16 bits, error 40.00 / 41.00 / 42.00 degrees; 61 padding texels "
                      "converted too; JPEG of quality 90, 222 bytes, before 111",
                      "  8 texels point below the horizon of the frame"}));
     m.figures.disagreeing = 0, m.figures.belowHorizon = 0, m.quality = 0, m.surfaces = 1;
@@ -49,20 +49,20 @@ TEST(ConvertLines, ofAMapHaveEachFigureInItsPlace)
     ASSERT_EQ(lines.size(), 3u);
     EXPECT_NE(lines[0].find("by 1 surface;"), std::string::npos);
     EXPECT_EQ(lines[1],
-              "  72 texels are used in several places; in 0 (0.00 % of the covered) these disagree by over 0.5 "
+              "  72 texels are used at several surface points; in 0 (0.00 % of the covered) these differ by over 0.5 "
               "degrees");
     EXPECT_NE(lines[2].find("too; JPEG 222 bytes"), std::string::npos) << lines[2];
     m.figures.several = 0;
     EXPECT_EQ(linesOf(m, "smooth").size(), 2u);
     m.kept = true;
     EXPECT_EQ(linesOf(m, "smooth"),
-              Lines{"leather: stays as it is: read with smooth it is off by 30.00 / 31.00 / 32.00 degrees on 1 "
-                    "surface, no more than rounding a new one costs"});
+              Lines{"leather: unchanged: read with smooth its error is 30.00 / 31.00 / 32.00 degrees on 1 surface, no "
+                    "more than that of rounding a new map"});
     m.figures.unconverted.count = 0;
-    EXPECT_NE(linesOf(m, "smooth").at(0).find("nothing was judged"), std::string::npos);
+    EXPECT_NE(linesOf(m, "smooth").at(0).find("not checked"), std::string::npos);
 }
 
-TEST(ConvertLines, jsonOfAMapHasEachFigureUnderItsName)
+TEST(ConvertLines, jsonOfAMapHasEveryFigure)
 {
     ConvertedMap m = convertedMap();
     m.alsoElsewhere = true;
@@ -103,7 +103,7 @@ TEST(ConvertLines, jsonOfAMapHasEachFigureUnderItsName)
     EXPECT_FALSE(kept.contains("bits"));
 }
 
-TEST(ConvertLines, ofTangentsNameTheWorstDirection)
+TEST(ConvertLines, tangentsLineNamesTheWorstDirection)
 {
     ConvertModelReport report;
     report.tangents = TangentsAfter::kept;
@@ -117,7 +117,7 @@ TEST(ConvertLines, ofTangentsNameTheWorstDirection)
     EXPECT_EQ(tangentsLines(report, "smooth"), Lines{"no TANGENT to drop"});
     report.dropped.vertices = 10, report.dropped.bytes = 160, report.dropped.primitives = 2;
     EXPECT_EQ(tangentsLines(report, "smooth"),
-              Lines{"TANGENT dropped from 2 primitives: 16 bytes a vertex, 10 vertices, 160 bytes"});
+              Lines{"TANGENT dropped from 2 primitives: 16 bytes per vertex, 10 vertices, 160 bytes"});
     report.dropped.directions = {{0, 1, 5, figures(1), false},
                                  {1, 2, 6, figures(4), false},
                                  {2, 3, 7, figures(2), false},
@@ -140,13 +140,13 @@ TEST(ConvertLines, ofTangentsNameTheWorstDirection)
     EXPECT_EQ(j["anisotropy"][3]["turned_degrees"]["mean"], 9);
 }
 
-TEST(ConvertLines, ofProvokingAddUpThePrimitives)
+TEST(ConvertLines, provokingLineSumsThePrimitives)
 {
     const std::vector<GltfProvoked> all = {{0, 0, 10, 20, 25}, {0, 1, 1, 4, 5}};
     EXPECT_EQ(provokingLine(all, "last"),
               "11 triangles of 2 primitives: 30 vertices, before 24: 1.25 times as many; vertex k provokes triangle k "
               "as its last");
-    EXPECT_EQ(provokingLine({}, "last"), "no triangles: nothing was numbered anew");
+    EXPECT_EQ(provokingLine({}, "last"), "no triangles: no vertices were reordered");
     const auto j = parsed(provokingJson(all, "first"));
     EXPECT_EQ(j["vertex"], "first");
     EXPECT_EQ(j["triangles"], 11);
@@ -159,7 +159,7 @@ TEST(ConvertLines, ofProvokingAddUpThePrimitives)
     EXPECT_EQ(parsed(provokingJson({}, "first"))["growth"], 1);
 }
 
-TEST(ReportWords, countWhatASceneHas)
+TEST(ReportText, countsTheObjectsOfAScene)
 {
     EXPECT_EQ(counted(0, "map"), "0 maps");
     EXPECT_EQ(counted(1, "map"), "1 map");

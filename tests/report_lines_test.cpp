@@ -1,5 +1,5 @@
-// Lines and JSON of reports that were filled by hand: each number is another one, so each has to stand where its name
-// says, and lines for what there is not have to be missing.
+// Lines and JSON of hand-made reports: all numbers differ, so each must appear under its name; lines for missing parts
+// must be absent.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -17,9 +17,9 @@ using Lines = std::vector<std::string>;
 
 nlohmann::json readBack(const Json& json) { return nlohmann::json::parse(toText(json)); }
 
-ValueSummary spreadFrom(double mean) { return {7, mean, mean + 1, mean + 2}; }
+ValueSummary summaryFrom(double mean) { return {7, mean, mean + 1, mean + 2}; }
 
-// A primitive whose every figure is another number.
+// A primitive whose figures all differ.
 PrimitiveLint primitive()
 {
     PrimitiveLint p;
@@ -30,10 +30,10 @@ PrimitiveLint primitive()
     p.uv.area = 2;
     p.uv.degenerate = 0.011, p.uv.mirrored = 0.022, p.uv.overlapping = 0.033, p.uv.overlappingMirrored = 0.044;
     p.uv.stretched = 0.055, p.uv.sheared = 0.066, p.uv.gradient = 0.5, p.uv.largestUv = 3.5;
-    p.uv.stretch = spreadFrom(11), p.uv.shear = spreadFrom(21);
-    p.steps = {654, spreadFrom(31), spreadFrom(41)};
-    p.stored = {true, 0.077, 0.088, spreadFrom(51)};
-    p.readings = {{"cotangent", spreadFrom(61)}, {"smooth", spreadFrom(71)}};
+    p.uv.stretch = summaryFrom(11), p.uv.shear = summaryFrom(21);
+    p.steps = {654, summaryFrom(31), summaryFrom(41)};
+    p.stored = {true, 0.077, 0.088, summaryFrom(51)};
+    p.readings = {{"cotangent", summaryFrom(61)}, {"smooth", summaryFrom(71)}};
     p.precision = 0.25, p.closest = 0.75;
     return p;
 }
@@ -46,19 +46,19 @@ LintReport oneOf(const PrimitiveLint& p)
     return report;
 }
 
-TEST(LintLines, detailsOfAPrimitiveHaveEachFigureInItsPlace)
+TEST(LintLines, detailsPrintEveryFigureOfAPrimitive)
 {
     const Lines lines = detailLines(oneOf(primitive()));
     const Lines expected = {
-        "Three figures are mean / 95 % / maximum, weighted by area.",
+        "Three values are mean / 95 % / maximum, weighted by area.",
         nameOf(primitive(), 0) + ": 321 triangles, normal map 4",
-        "  uv: degenerate 1.1 %, mirrored 2.2 %, overlapping 3.3 % (in both orientations 4.4 %), stretched over 1.2 "
-        "5.5 %, sheared over 10 degrees 6.6 % of the area",
+        "  uv: degenerate 1.1 %, mirrored 2.2 %, overlapping 3.3 % (in both orientations 4.4 %), stretch above 1.2 "
+        "5.5 %, shear above 10 degrees 6.6 % of the area",
         "  stretch 11.00 / 12.00 / 13.00, shear 21.00 / 22.00 / 23.00 degrees",
         "  steps at 654 interior edges, texel tilted 35 degrees: cotangent 31.00 / 32.00 / 33.00, orthonormal 41.00 / "
         "42.00 / 43.00",
-        "  stored tangents: w against the uv on 7.7 %, turned over 45 degrees on 8.8 % of the area; 51.00 / 52.00 / "
-        "53.00 degrees from dP/du",
+        "  stored tangents: w against the uv on 7.7 %, rotated by more than 45 degrees on 8.8 % of the area; 51.00 / "
+        "52.00 / 53.00 degrees from dP/du",
         "  made for MikkTSpace, read with cotangent: 61.00 / 62.00 / 63.00",
         "  made for MikkTSpace, read with smooth: 71.00 / 72.00 / 73.00",
         "  rounding at distance 12: 0.25 degrees; half a degree at 0.75"};
@@ -71,7 +71,7 @@ TEST(LintLines, detailsOfAPrimitiveHaveEachFigureInItsPlace)
     }
 }
 
-TEST(LintLines, whatAPrimitiveLacksIsSaidOrLeftOut)
+TEST(LintLines, missingDataOfAPrimitiveIsStatedOrOmitted)
 {
     const auto second = [](const PrimitiveLint& p) { return detailLines(oneOf(p)).at(2); };
     PrimitiveLint p = primitive();
@@ -105,7 +105,7 @@ TEST(LintLines, whatAPrimitiveLacksIsSaidOrLeftOut)
     EXPECT_TRUE(has(p, "made for smooth, read with cotangent"));
 }
 
-// Green as declared, against it, and not to be told, in other numbers.
+// A report with different numbers of maps whose green is as declared, reversed, and undecidable.
 LintReport withMaps()
 {
     LintReport report = oneOf(primitive());
@@ -135,7 +135,7 @@ LintReport withMaps()
     MapFit fit;
     fit.image = 9;
     fit.name = "leather";
-    fit.orthonormal = spreadFrom(1), fit.cotangent = spreadFrom(2), fit.smooth = spreadFrom(3);
+    fit.orthonormal = summaryFrom(1), fit.cotangent = summaryFrom(2), fit.smooth = summaryFrom(3);
     report.fits = {fit};
     return report;
 }
@@ -145,20 +145,20 @@ TEST(LintLines, mapsAreListedWithTheirVerdicts)
     const Lines all = detailLines(withMaps());
     const Lines maps(all.end() - 7, all.end());
     EXPECT_EQ(maps[0],
-              "normal map 5 right: green, taking red as right, as declared (likely); agreement +0.25 for "
+              "normal map 5 right: green, if red points right, as declared (likely); agreement +0.25 for "
               "green up, 62.5 % of the detail agrees");
     EXPECT_EQ(maps[1],
-              "normal map 6: green, taking red as right, as declared (likely); agreement -0.75 for green up, "
+              "normal map 6: green, if red points right, as declared (likely); agreement -0.75 for green up, "
               "62.5 % of the detail agrees");
-    EXPECT_NE(maps[3].find("wrong: green, taking red as right, the other way than declared (likely)"),
+    EXPECT_NE(maps[3].find("wrong: green, if red points right, opposite to the declaration (likely)"),
               std::string::npos);
-    EXPECT_NE(maps[5].find("cannot be told from the map (it is flat)"), std::string::npos);
+    EXPECT_NE(maps[5].find("undecidable from the map (it is flat)"), std::string::npos);
     EXPECT_EQ(maps[6],
-              "normal map 9 leather: read as it is, orthonormal 1.00 / 2.00 / 3.00, cotangent 2.00 / 3.00 / "
+              "normal map 9 leather: read unchanged, orthonormal 1.00 / 2.00 / 3.00, cotangent 2.00 / 3.00 / "
               "4.00, smooth 3.00 / 4.00 / 5.00");
 }
 
-TEST(LintLines, theVerdictCountsAndLeavesOutWhatThereIsNot)
+TEST(LintLines, verdictCountsAndOmitsEmptySentences)
 {
     LintReport report = withMaps();
     report.defects = "D.", report.seen = "S.", report.notJudged = "N.", report.otherReaders = "O.";
@@ -166,7 +166,7 @@ TEST(LintLines, theVerdictCountsAndLeavesOutWhatThereIsNot)
     const Lines expected = {"m.glb: 3 primitives, 2 with a normal map, 1 with stored tangents",
                             "D.",
                             "S.",
-                            "Green, judged by the maps alone: as declared in 3, the other way in 2, cannot be told "
+                            "Green, judged by the maps alone: as declared in 3, the other way in 2, undecidable "
                             "in 1.",
                             "N.",
                             "O.",
@@ -179,7 +179,7 @@ TEST(LintLines, theVerdictCountsAndLeavesOutWhatThereIsNot)
               Lines{"m.glb: 1 primitive, 0 with a normal map, 0 with stored tangents"});
 }
 
-TEST(LintLines, jsonHasEachFigureUnderItsName)
+TEST(LintLines, jsonHasEveryFigure)
 {
     const auto lists = readBack(listsOf(withMaps()));
     ASSERT_EQ(lists["primitives"].size(), 3u);
@@ -192,11 +192,11 @@ TEST(LintLines, jsonHasEachFigureUnderItsName)
     EXPECT_EQ(p["made_for"], "mikktspace");
     EXPECT_EQ(p["triangles"], 321);
     EXPECT_EQ(p["has_uv"], true);
-    const std::vector<std::pair<const char*, double>> shares = {
+    const std::vector<std::pair<const char*, double>> fractions = {
         {"area", 2},          {"degenerate", 0.011}, {"mirrored", 0.022}, {"overlapping", 0.033},
         {"stretched", 0.055}, {"sheared", 0.066},    {"gradient", 0.5},   {"overlapping_mirrored", 0.044},
         {"largest_uv", 3.5}};
-    for (const auto& [key, value] : shares)
+    for (const auto& [key, value] : fractions)
         EXPECT_EQ(p["uv"][key].get<double>(), value) << key;
     EXPECT_EQ(p["uv"]["stretch"]["mean"], 11);
     EXPECT_EQ(p["uv"]["stretch"]["percentile95"], 12);
@@ -223,7 +223,7 @@ TEST(LintLines, jsonHasEachFigureUnderItsName)
     EXPECT_EQ(g["confidence"], "likely");
     EXPECT_EQ(g["agreement"], 0.25);
     EXPECT_EQ(g["votes"], 0.625);
-    EXPECT_EQ(g["verdict"], "the other way than declared (likely)");
+    EXPECT_EQ(g["verdict"], "opposite to the declaration (likely)");
     EXPECT_EQ(lists["maps"][5]["decided"], false);
     EXPECT_EQ(lists["maps"][5]["reason"], "it is flat");
     const auto& f = lists["fits"][0];
@@ -244,7 +244,7 @@ LintCheck failed()
     return check;
 }
 
-TEST(LintLines, aCheckSaysWhatFailedAndHowManyMore)
+TEST(LintLines, checkPrintsFailuresAndTheNumberOfOthers)
 {
     const LintCheck check = failed();
     EXPECT_EQ(checkLines(check, 5),
@@ -259,7 +259,7 @@ TEST(LintLines, aCheckSaysWhatFailedAndHowManyMore)
     EXPECT_EQ(summaryOf({}), "");
 }
 
-TEST(LintLines, aCheckInJsonHasNullForWhatIsNot)
+TEST(LintLines, jsonOfACheckHasNullForMissingFields)
 {
     const auto over = readBack(overLimits(failed()));
     ASSERT_EQ(over.size(), 3u);

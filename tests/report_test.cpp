@@ -22,7 +22,7 @@ Image directions(std::vector<std::array<float, 4>> pixels)
 
 nlohmann::json writtenOf(const Json& json) { return nlohmann::json::parse(toText(json)); }
 
-TEST(Statistics, ofOneToHundredAreItsRanks)
+TEST(Statistics, percentilesOfOneToHundredAreRanks)
 {
     std::vector<float> v;
     for (int i = 100; i >= 1; --i)
@@ -38,14 +38,14 @@ TEST(Statistics, ofOneToHundredAreItsRanks)
     EXPECT_NEAR(s.over5, 0.50, 1e-9);
 }
 
-TEST(Statistics, ofNothingAreNoNumbers)
+TEST(Statistics, emptyInputGivesNaN)
 {
     for (const AngleStatistics& s :
          {angleStatistics({}), AngleCounter().statistics(), angleStatistics({-1, -1}), AngleStatistics{}}) {
         EXPECT_EQ(s.count, 0u);
         for (double x : {s.mean, s.median, s.percentile95, s.percentile99, s.maximum, s.over1, s.over5})
             EXPECT_TRUE(std::isnan(x));
-        EXPECT_FALSE(s.mean < 1 || s.maximum <= 0); // no limit holds
+        EXPECT_FALSE(s.mean < 1 || s.maximum <= 0); // NaN passes no limit
         EXPECT_EQ(toText(s), "nothing was compared");
         const auto written = writtenOf(toJson(s));
         EXPECT_EQ(written["pixels"], 0);
@@ -56,7 +56,7 @@ TEST(Statistics, ofNothingAreNoNumbers)
     EXPECT_TRUE(std::isnan(shareOpposed({-1, -1})));
 }
 
-TEST(Statistics, ofOneAngleAreThatAngle)
+TEST(Statistics, oneAngleGivesThatAngle)
 {
     AngleCounter counter;
     counter.add(3.0f);
@@ -85,17 +85,17 @@ TEST(Statistics, areWrittenUnderTheirNames)
     EXPECT_EQ(written["share_over_5_degrees"], 0.25);
 }
 
-TEST(Statistics, leaveOutWhatIsNoAngle)
+TEST(Statistics, ignoreInvalidAngles)
 {
     const AngleStatistics s = angleStatistics({3, -1, NAN, INFINITY, 1, -0.5f, 5});
     EXPECT_EQ(s.count, 3u);
     EXPECT_EQ(s.mean, 3);
     EXPECT_EQ(s.maximum, 5);
-    EXPECT_EQ(s.over1, 2 / 3.0); // over means over
+    EXPECT_EQ(s.over1, 2 / 3.0); // exactly 1 does not count
     EXPECT_EQ(s.over5, 0);
 }
 
-TEST(Measurements, withoutAFiniteResultHaveNoFiguresInJson)
+TEST(Measurements, withoutFiniteResultsAreNullInJson)
 {
     const auto written = writtenOf(toJson(std::vector<Measurement>{{"t", "s", "x", "f", "S", "half", 10, 1, 2, 3, 0.5},
                                                                    {"t", "s", "y", "f", "S", "half", 10, 0, 0, 0, 1}}));
@@ -115,22 +115,22 @@ TangentDifference difference(std::vector<float> degrees, std::size_t handedness)
     return d;
 }
 
-TEST(TangentDifferenceText, saysInWordsWhatIsWrongAndPrintsNoRounding)
+TEST(TangentDifferenceText, describesTheDifferenceAndHidesRounding)
 {
     const auto text = [](const TangentDifference& d) { return toText(d, "MikkTSpace"); };
     EXPECT_EQ(text(difference({0, 1e-6f}, 0)), "equal to MikkTSpace (max under 0.001 degrees)");
-    EXPECT_EQ(text(difference({0, 1e-13f, 0, 0}, 1)), "directions equal to MikkTSpace; w different on 1 of 4 corners");
+    EXPECT_EQ(text(difference({0, 1e-13f, 0, 0}, 1)), "directions equal to MikkTSpace; w differs on 1 of 4 corners");
     EXPECT_NE(text(difference({0, 0, 0}, 3)).find("w inverted against MikkTSpace on 100.0 %"), std::string::npos);
-    EXPECT_NE(text(difference({0, 180, 0, 180}, 0)).find("half of them turned against MikkTSpace"), std::string::npos);
-    EXPECT_NE(text(difference({0, 7, 8, 9}, 0)).find("off MikkTSpace by mean 6"), std::string::npos);
+    EXPECT_NE(text(difference({0, 180, 0, 180}, 0)).find("half reversed against MikkTSpace"), std::string::npos);
+    EXPECT_NE(text(difference({0, 7, 8, 9}, 0)).find("differs from MikkTSpace by mean 6"), std::string::npos);
     EXPECT_EQ(text(difference({}, 0)), "nothing to compare");
 }
 
-TEST(TangentDifferenceVerdict, hasLimitsOnBothSides)
+TEST(TangentDifferenceVerdict, changesExactlyAtItsLimits)
 {
-    const auto verdict = [](int turned, int w) { // of 100 corners
+    const auto verdict = [](int opposed, int w) { // of 100 corners
         std::vector<float> degrees(100, 10.0f);
-        std::fill_n(degrees.begin(), turned, 170.0f);
+        std::fill_n(degrees.begin(), opposed, 170.0f);
         return verdictOf(difference(degrees, std::size_t(w)));
     };
     EXPECT_EQ(verdict(0, 90), TangentVerdict::inverted);
@@ -139,14 +139,14 @@ TEST(TangentDifferenceVerdict, hasLimitsOnBothSides)
     EXPECT_EQ(verdict(40, 0), TangentVerdict::turned);
     EXPECT_EQ(verdict(60, 0), TangentVerdict::turned);
     EXPECT_EQ(verdict(61, 0), TangentVerdict::off);
-    EXPECT_EQ(verdict(50, 95), TangentVerdict::inverted); // w first
+    EXPECT_EQ(verdict(50, 95), TangentVerdict::inverted); // w is checked first
     EXPECT_EQ(verdictOf(difference({0, 0.049f}, 0)), TangentVerdict::equal);
     EXPECT_EQ(verdictOf(difference({0, 0.051f}, 0)), TangentVerdict::off);
     EXPECT_EQ(verdictOf(difference({0, 0.01f}, 1)), TangentVerdict::off);
     EXPECT_EQ(verdictOf(difference({}, 0)), TangentVerdict::nothing);
 }
 
-TEST(TangentDifferenceVerdict, isWrittenWithItsShares)
+TEST(TangentDifferenceVerdict, isWrittenWithItsFractions)
 {
     TangentDifference d = difference({10, 170, 20, 30}, 1);
     d.corners = 6;
@@ -168,7 +168,7 @@ TEST(TangentDifferenceVerdict, isWrittenWithItsShares)
     EXPECT_EQ(sum.handedness, 2u);
 }
 
-TEST(Angles, areMeasuredWhereBothPicturesHaveADirection)
+TEST(Angles, areMeasuredWhereBothImagesHaveADirection)
 {
     const Image a = directions({{1, 0, 0, 1}, {0, 0, 1, 1}, {0, 0, 1, 0}, {0, 0, 0, 1}, {0, 0, 2, 1}});
     const Image b = directions({{0, 1, 0, 1}, {0, 0, -1, 1}, {0, 0, 1, 1}, {0, 0, 1, 1}, {0, 1, 1, 1}});
@@ -182,7 +182,7 @@ TEST(Angles, areMeasuredWhereBothPicturesHaveADirection)
     EXPECT_NEAR(shareOpposed(d), 1.0 / 3, 1e-9);
 }
 
-TEST(Angles, interiorLeavesOutTheBorderOfWhatWasCompared)
+TEST(Angles, interiorExcludesTheBorderOfTheComparedPixels)
 {
     std::vector<float> d(25, 1.0f);
     keepInterior(d, 5, 5);
@@ -193,7 +193,7 @@ TEST(Angles, interiorLeavesOutTheBorderOfWhatWasCompared)
     EXPECT_EQ(std::count(d.begin(), d.end(), 1.0f), 0);
 }
 
-TEST(Angles, interiorKeepsWhatTouchesNothingMissingInAnOblongPicture)
+TEST(Angles, interiorKeepsPixelsWithoutMissingNeighbours)
 {
     std::vector<float> d(7 * 4, 1.0f);
     d[1 * 7 + 4] = -1; // (4,1)
@@ -205,7 +205,7 @@ TEST(Angles, interiorKeepsWhatTouchesNothingMissingInAnOblongPicture)
         }
 }
 
-TEST(HeatMap, goesThroughItsStops)
+TEST(HeatMap, interpolatesItsColourStops)
 {
     const auto color = [](float degrees) {
         const Image h = heatMap({degrees}, 1, 1);
@@ -219,7 +219,7 @@ TEST(HeatMap, goesThroughItsStops)
     EXPECT_EQ(color(3.5f), (std::array{140, 200, 60})); // half way
 }
 
-TEST(Pictures, showDirectionsUvAndDepthWhereThereIsSurface)
+TEST(OutputColours, encodeDirectionsUvAndDepthOnSurfaces)
 {
     const Image d = asColor(Output::normal, directions({{1, -1, 0, 1}, {0, 0, 1, 0}}));
     EXPECT_EQ(d.bytes8()[0], 255);
@@ -236,7 +236,7 @@ TEST(Pictures, showDirectionsUvAndDepthWhereThereIsSurface)
     EXPECT_EQ(depth.bytes8()[8], 148); // 147.5 rounded
 }
 
-TEST(HeatMap, isBlackAtZeroWhiteAt45AndGreyWhereNothingWasCompared)
+TEST(HeatMap, isBlackAtZeroWhiteAt45AndGreyWithoutComparison)
 {
     const Image h = heatMap({0, 60, -1}, 3, 1);
     EXPECT_EQ(h.bytes8()[0], 0);

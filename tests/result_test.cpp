@@ -31,7 +31,7 @@ TEST(Result, aFalseValueIsStillAValue)
     EXPECT_TRUE(Result<std::unique_ptr<int>>(std::unique_ptr<int>()));
 }
 
-TEST(Result, handsOnWhatCannotBeCopied)
+TEST(Result, holdsMoveOnlyValues)
 {
     Result<std::unique_ptr<int>> owner(std::make_unique<int>(3));
     EXPECT_EQ(*owner->get(), 3);
@@ -52,7 +52,7 @@ TEST(Result, kindsAreTheExitCodes)
     EXPECT_FALSE(inputError("").memory);
 }
 
-TEST(Result, anErrorKnowsTheFieldThatItsMessageBeginsWith)
+TEST(Result, errorStatesTheFieldOfItsMessage)
 {
     const Error error = about("options.tiles", memoryError("expected fewer"));
     EXPECT_EQ(error.message, "options.tiles: expected fewer");

@@ -1,4 +1,4 @@
-// Runs the tool as a process of its own, with what it prints and uses.
+// Runs the tool in a separate process and measures it.
 #pragma once
 
 #include <cstdlib>
@@ -19,11 +19,11 @@ struct ToolRun {
     int code = -1; // exit code; 128 + signal if it was killed
     std::string out;
     std::string err;
-    double seconds = 0;   // processor time
-    double megabytes = 0; // largest resident size
+    double seconds = 0;   // CPU time
+    double megabytes = 0; // peak resident size
 };
 
-// A folder that is removed with everything in it.
+// A folder that is removed with its contents.
 class TemporaryFolder {
 public:
     TemporaryFolder()
@@ -53,7 +53,7 @@ inline std::string readWhole(const std::filesystem::path& file)
     return text.str();
 }
 
-// Runs COTAN_TOOL with these words in `folder`; killed after `limitSeconds` of processor time.
+// Runs COTAN_TOOL with these arguments in `folder`; kills it after `limitSeconds` of CPU time.
 inline ToolRun runTool(const std::vector<std::string>& words, const std::filesystem::path& folder,
                        unsigned limitSeconds = 60)
 {

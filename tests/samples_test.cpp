@@ -1,5 +1,5 @@
-// Samples that are lit one by one, and levels of 8 bits that do not band.
-#include "scene/sample_places.hpp"
+// Sample patterns, shading of every sample, and dithering of 8-bit output against banding.
+#include "scene/sample_positions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,26 +16,26 @@ namespace {
 
 using namespace test;
 
-TEST(SamplePlaces, everySixteenthOfAPixelHasOneHoweverItIsCut)
+TEST(SamplePositions, formANetInEveryDivision)
 {
     for (int columns = 1; columns <= 16; columns *= 2) {
         std::set<std::pair<int, int>> parts;
-        for (int i = 0; i < kPlaces; ++i) {
-            const glm::dvec2 p = samplePlace(i) + 0.5;
+        for (int i = 0; i < kSampleCount; ++i) {
+            const glm::dvec2 p = samplePosition(i) + 0.5;
             parts.insert({int(p.x * columns), int(p.y * 16 / columns)});
         }
         EXPECT_EQ(parts.size(), 16u) << columns;
     }
     double nearest = 1;
-    for (int i = 0; i < kPlaces; ++i)
+    for (int i = 0; i < kSampleCount; ++i)
         for (int k = 0; k < i; ++k) {
-            const glm::dvec2 apart = samplePlace(i) - samplePlace(k);
-            nearest = std::min(nearest, glm::length(apart - glm::round(apart))); // also to those of the pixels beside
+            const glm::dvec2 apart = samplePosition(i) - samplePosition(k);
+            nearest = std::min(nearest, glm::length(apart - glm::round(apart))); // or of neighbours
         }
     EXPECT_NEAR(nearest, 0.198, 0.001);
 }
 
-// A square without light of its own that is brighter than black, tilted, before nothing.
+// An unlit scene without background or environment, in linear output.
 View flatView(int samples)
 {
     View view;
@@ -59,8 +59,8 @@ Scene tiltedSquare(float radians)
     return scene;
 }
 
-// Alpha of a pixel against the area of the square in it, by 32 x 32 points.
-double worstCoverage(const Image& picture, float radians)
+// Maximum difference between the alpha of a pixel and the area of the square in it, which 32 x 32 points estimate.
+double worstCoverage(const Image& image, float radians)
 {
     const double c = std::cos(radians), s = std::sin(radians);
     double worst = 0;
@@ -72,16 +72,16 @@ double worstCoverage(const Image& picture, float radians)
                 const double py = -(y + (i / 32 + 0.5) / 32 - 32) * 3 / 64;
                 inside += std::abs(px * c + py * s) < 1 && std::abs(px * s - py * c) < 1;
             }
-            const double alpha = picture.floats()[4 * (64 * y + x) + 3];
+            const double alpha = image.floats()[4 * (64 * y + x) + 3];
             worst = std::max(worst, std::abs(alpha - inside / 1024.0));
         }
     return worst;
 }
 
-// A half-plane is off by less than two of the sixteen places of a net, and a corner by four.
-TEST(Samples, sixteenCoverWhatATriangleCovers)
+// The coverage that a net of 16 samples gives errs by below 2/16 for a half-plane, and by below 4/16 for a corner.
+TEST(Samples, sixteenApproximateTheCoveredArea)
 {
-    for (const auto& renderer : painters())
+    for (const auto& renderer : renderers())
         for (const float radians : {0.0f, 0.1f, 0.4f, 0.785f}) {
             const Scene scene = tiltedSquare(radians);
             ASSERT_TRUE(renderer->load(scene));
@@ -92,7 +92,7 @@ TEST(Samples, sixteenCoverWhatATriangleCovers)
         }
 }
 
-// A polished metal ball with fine grooves, as BoomBox has.
+// A polished metal ball with fine grooves, similar to the BoomBox model.
 Scene groovedBall()
 {
     Scene scene;
@@ -123,13 +123,13 @@ View studioView(int side, int samples)
     return view;
 }
 
-// What is shown of the light: edges of bright places would count for all otherwise.
-double shownDifference(const Image& a, const Image& b)
+// RMS difference of sRGB values clamped to [0,1]; in linear light a few bright edges would dominate.
+double displayedDifference(const Image& a, const Image& b)
 {
     double sum = 0;
     for (std::size_t i = 0; i < a.pixelCount() * 4; ++i) {
-        const auto shown = [](float x) { return f32::cotan_linear_to_srgb(f32::cotan_saturate(x)); };
-        const double d = shown(a.floats()[i]) - shown(b.floats()[i]);
+        const auto displayed = [](float x) { return f32::cotan_linear_to_srgb(f32::cotan_saturate(x)); };
+        const double d = displayed(a.floats()[i]) - displayed(b.floats()[i]);
         sum += d * d;
     }
     return std::sqrt(sum / (double(a.pixelCount()) * 3));
@@ -146,29 +146,29 @@ Image quarter(const Image& large)
     return small;
 }
 
-// Against 256 samples a pixel: the same drawn four times as wide and high, where each pixel has 16.
-TEST(Samples, sixteenDrawTheHighlightsOfNearMirrorsThatFourDot)
+// The reference is 256 samples a pixel: a render four times as wide and high with 16 samples in each pixel.
+TEST(Samples, sixteenResolveHighlightsThatFourAlias)
 {
     const Scene scene = groovedBall();
-    for (const auto& renderer : painters()) {
+    for (const auto& renderer : renderers()) {
         ASSERT_TRUE(renderer->load(scene));
         const auto large = renderer->draw(studioView(256, 16));
         const auto four = renderer->draw(studioView(64, 4)), sixteen = renderer->draw(studioView(64, 16));
         ASSERT_TRUE(large && four && sixteen);
         const Image truth = quarter(*large);
-        const double before = shownDifference(*four, truth), after = shownDifference(*sixteen, truth);
+        const double before = displayedDifference(*four, truth), after = displayedDifference(*sixteen, truth);
         EXPECT_GT(before, 0.05) << renderer->device();
         EXPECT_LT(after, 0.35 * before) << renderer->device() << " " << before << " " << after;
     }
 }
 
-TEST(Samples, bothRenderersDrawSixteenAlike)
+TEST(Samples, bothRenderersAgreeAtSixteen)
 {
-    const auto all = painters();
+    const auto all = renderers();
     if (all.size() < 2)
         GTEST_SKIP() << "no Vulkan device";
     Scene scene = groovedBall();
-    add(scene, makeTorus(0.9f, 0.2f, 48, 1, 1), placedAt({0, -0.3, 0.9}, glm::dvec3(1)));
+    add(scene, makeTorus(0.9f, 0.2f, 48, 1, 1), translationScale({0, -0.3, 0.9}, glm::dvec3(1)));
     scene.materials.resize(2);
     scene.materials[1].alphaMode = AlphaMode::blend;
     scene.materials[1].baseColor = {0.2f, 0.8f, 0.3f, 0.5f};
@@ -187,7 +187,7 @@ TEST(Samples, bothRenderersDrawSixteenAlike)
             double sum = 0;
             for (std::size_t i = 0; i < a->data.size(); ++i)
                 sum += std::abs(int(a->bytes8()[i]) - int(b->bytes8()[i]));
-            EXPECT_LT(sum / double(a->data.size()), 0.5) << orthographic << upward; // levels
+            EXPECT_LT(sum / double(a->data.size()), 0.5) << orthographic << upward; // in 8-bit levels
         }
 }
 
@@ -199,38 +199,38 @@ View paperView(bool dither)
     view.toneMapping = ToneMapping::none;
     view.dither = dither;
     view.camera.eye = {0, 0, 5};
-    view.camera.verticalFieldOfView = 0.08f; // two levels or so from bottom to top
+    view.camera.verticalFieldOfView = 0.08f; // about two 8-bit levels from bottom to top
     return view;
 }
 
-// How far means of 16 x 16 pixels are from what they would be without levels, in levels.
+// Maximum error of the mean of a 16 x 16 block against the render that is not quantized, in 8-bit levels.
 double worstBlock(const Image& bytes, const Image& light)
 {
     double worst = 0;
     for (int y = 0; y < 256; y += 16)
         for (int x = 0; x < 256; x += 16)
             for (int c = 0; c < 3; ++c) {
-                double off = 0;
+                double error = 0;
                 for (int i = 0; i < 256; ++i) {
                     const int at = 4 * (256 * (y + i / 16) + x + i % 16) + c;
-                    off += bytes.bytes8()[at] - 255.0 * f32::cotan_linear_to_srgb(light.floats()[at]);
+                    error += bytes.bytes8()[at] - 255.0 * f32::cotan_linear_to_srgb(light.floats()[at]);
                 }
-                worst = std::max(worst, std::abs(off) / 256);
+                worst = std::max(worst, std::abs(error) / 256);
             }
     return worst;
 }
 
-// The steps of 8 bits are half a level off over whole bands; dithered, blocks keep their brightness.
-TEST(Levels, paperDoesNotBand)
+// Quantization to 8 bits errs by half a level over whole bands. Dithering keeps the mean of every block.
+TEST(Dithering, preventsBandingOfPaper)
 {
-    for (const auto& renderer : painters())
+    for (const auto& renderer : renderers())
         for (const int samples : {1, 4, 16})
             for (const bool model : {false, true}) {
                 Scene scene;
-                // In the area of a model the paper is drawn with it, and else by itself.
+                // Paper is drawn together with a model inside the model's area, and on its own elsewhere.
                 for (const double at : {-1.0, 1.0})
                     if (model)
-                        add(scene, makeCube(1e-4f, 1), placedAt({at, at, 0}, glm::dvec3(1)));
+                        add(scene, makeCube(1e-4f, 1), translationScale({at, at, 0}, glm::dvec3(1)));
                 ASSERT_TRUE(renderer->load(scene));
                 View view = paperView(true), plain = paperView(false), light = paperView(true);
                 view.samples = plain.samples = light.samples = samples;
@@ -243,7 +243,7 @@ TEST(Levels, paperDoesNotBand)
             }
 }
 
-TEST(Levels, ofTheSamePictureAreTheSameForAnyNumberOfThreads)
+TEST(Dithering, doesNotDependOnTheNumberOfThreads)
 {
     const auto one = openRenderer("reference", 1), two = openRenderer("reference", 2);
     ASSERT_TRUE(one && two);
@@ -258,10 +258,10 @@ TEST(Levels, ofTheSamePictureAreTheSameForAnyNumberOfThreads)
     }
 }
 
-// Colours of 8 bits that a picture shows as they are stay what they are, and so do pictures that tell numbers.
-TEST(Levels, flatColoursAndDataAreNotDithered)
+// Flat colours that 8 bits represent exactly stay unchanged, and so do outputs that are data, such as normals.
+TEST(Dithering, leavesFlatColoursAndDataUnchanged)
 {
-    for (const auto& renderer : painters()) {
+    for (const auto& renderer : renderers()) {
         Scene scene = tiltedSquare(0);
         const float level = f32::cotan_srgb_to_linear(77 / 255.0f);
         scene.materials[0].baseColor = {level, level, level, 1};
@@ -269,11 +269,11 @@ TEST(Levels, flatColoursAndDataAreNotDithered)
         View view = flatView(4);
         view.linearOutput = false;
         view.toneMapping = ToneMapping::none;
-        const auto picture = renderer->draw(view);
-        ASSERT_TRUE(picture);
+        const auto image = renderer->draw(view);
+        ASSERT_TRUE(image);
         int covered = 0;
-        for (std::size_t i = 0; i < picture->pixelCount(); ++i) {
-            const std::uint8_t* p = picture->bytes8() + 4 * i;
+        for (std::size_t i = 0; i < image->pixelCount(); ++i) {
+            const std::uint8_t* p = image->bytes8() + 4 * i;
             if (p[3] < 255)
                 continue;
             ++covered;

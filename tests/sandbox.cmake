@@ -1,4 +1,4 @@
-# Readers in a child process. sandbox_child plays readers that misbehave.
+# Readers in a child process. sandbox_child is a reader that misbehaves.
 find_package(assimp REQUIRED)
 add_executable(sandbox_child sandbox_child.cpp)
 target_link_libraries(sandbox_child PRIVATE cotan_model cotan_files cotan_scene fmt::fmt cotan_warnings)

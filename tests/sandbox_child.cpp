@@ -1,4 +1,4 @@
-// A reader's process as tests need it: it reads, or does what SANDBOX_CHILD_DOES says.
+// A reader process for tests. It reads as usual, or misbehaves as the variable SANDBOX_CHILD_DOES requests.
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -87,7 +87,7 @@ void answerError(const std::string& message)
     out.flush();
 }
 
-// What SANDBOX_CHILD_PICTURE says: width, height, channels, bytes.
+// An image with a header that may be false, from SANDBOX_CHILD_PICTURE: width, height, channels, number of bytes.
 struct Claim {
     std::string name = "picture", frame;
     int width = 0, height = 0, channels = 0;
@@ -115,7 +115,7 @@ void expectFor(std::function<bool()> more)
     } while (out.flush() && more());
 }
 
-// What a reader that has been taken over could still do. Folder: of the request's file.
+// Forbidden actions that succeed: what a compromised reader could do in the folder of the requested file and elsewhere.
 std::string powers(const ReaderRequest& request)
 {
     const auto folder = std::filesystem::path(request.name).parent_path();
@@ -135,12 +135,12 @@ std::string powers(const ReaderRequest& request)
     note(child > 0, "fork");
     note(::kill(::getppid(), 0) == 0, "kill");
     char* const words[] = {nullptr};
-    ::execve("/bin/true", words, words);                            // ends this process where it works
-    note(::open(request.name.c_str(), O_RDONLY) < 0, "no-reading"); // that it must be able to
+    ::execve("/bin/true", words, words);                            // replaces this process if it succeeds
+    note(::open(request.name.c_str(), O_RDONLY) < 0, "no-reading"); // reading must stay possible
     return found;
 }
 
-// Calls that are not refused. One that is answers EPERM, whatever it is given; others say what is wrong with that.
+// System calls that are not refused. A refused one fails with EPERM for any arguments; others report bad arguments.
 std::string notRefused()
 {
     const std::pair<long, const char*> calls[] = {
@@ -254,7 +254,7 @@ const std::map<std::string, void (*)(const ReaderRequest&)> kActs = {
      }},
     {"deaf",
      [](const ReaderRequest&) {
-         ::close(0); // and lives on
+         ::close(0); // keeps running
          for (;;)
              ::pause();
      }},
@@ -291,7 +291,7 @@ const std::map<std::string, void (*)(const ReaderRequest&)> kActs = {
          out.array(std::string("scene"));
          out.number(std::uint64_t(0));
          out.number(std::uint64_t(0));
-         out.number(std::uint64_t(1)); // one mesh of 3 GB of positions, in no bytes
+         out.number(std::uint64_t(1)); // announces a mesh of 3 GB of positions, and sends none
          out.array(std::string("mesh"));
          out.number(int(0));
          out.number(std::uint64_t(1) << 28);
@@ -305,15 +305,15 @@ const std::map<std::string, void (*)(const ReaderRequest&)> kActs = {
          exchangeImage(out, claim);
          out.flush();
      }},
-    {"rows", // once
+    {"rows", // answers one request for rows
      [](const ReaderRequest&) {
          const Claim claim = claimed();
          WireOut out(sendAll);
          out.choice(ReaderFrame::value, ReaderFrame::error);
          exchangeRowFacts(out, claim);
          out.flush();
-         std::int32_t asked = 0;
-         if (::recv(0, &asked, sizeof asked, MSG_WAITALL) != sizeof asked)
+         std::int32_t requested = 0;
+         if (::recv(0, &requested, sizeof requested, MSG_WAITALL) != sizeof requested)
              return;
          out.choice(ReaderFrame::value, ReaderFrame::error);
          out.array(claim.data);

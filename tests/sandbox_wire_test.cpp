@@ -1,4 +1,4 @@
-// Bytes of another process that are not to be trusted.
+// Serialization between processes; received bytes are not trusted.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,7 +35,7 @@ Bytes bytesOf(const Scene& scene)
     return written([&](WireOut& out) { exchangeScene(out, scene); });
 }
 
-// Bytes that arrive in pieces of up to `piece`.
+// Delivers `bytes` from offset `at`, at most `piece` bytes per call.
 WireIn arriving(const Bytes& bytes, std::size_t& at, std::size_t piece, std::uint64_t limit = 1 << 26)
 {
     return WireIn(
@@ -48,7 +48,7 @@ WireIn arriving(const Bytes& bytes, std::size_t& at, std::size_t piece, std::uin
         limit);
 }
 
-// A scene in which every field has a value of its own, not the default.
+// A scene in which no field has its default value.
 Scene everything()
 {
     Scene scene;
@@ -89,7 +89,7 @@ Scene everything()
     return scene;
 }
 
-TEST(Wire, aSceneArrivesAsItWasHoweverItsBytesArePutIntoPieces)
+TEST(Wire, scenesArriveUnchangedInPiecesOfAnySize)
 {
     const Scene scene = everything();
     const Bytes bytes = bytesOf(scene);
@@ -108,7 +108,7 @@ TEST(Wire, aSceneArrivesAsItWasHoweverItsBytesArePutIntoPieces)
     }
 }
 
-// A field that neither side exchanges would leave equal bytes.
+// Values are compared: a field that neither side exchanges would still give equal bytes.
 TEST(Wire, everyFieldOfALightAndACameraArrives)
 {
     const Bytes bytes = bytesOf(everything());
@@ -136,7 +136,7 @@ TEST(Wire, everyFieldOfALightAndACameraArrives)
     EXPECT_EQ(camera.up, glm::vec3(0, 0, 1));
 }
 
-// Every texture of a material and every number of it, each with a value of its own.
+// Every texture and number of a material has a distinct value.
 TEST(Wire, everyTextureAndNumberOfAMaterialArrives)
 {
     Scene scene = everything();
@@ -210,7 +210,7 @@ TEST(Wire, everyTextureAndNumberOfAMaterialArrives)
     EXPECT_TRUE(b.doubleSided && b.unlit);
 }
 
-TEST(Wire, anErrorArrivesWithItsKindAndWhetherMemoryWasShort)
+TEST(Wire, errorsKeepTheirKindAndMemoryFlag)
 {
     for (const Error& error : {memoryError("a.png: too large"), unavailableError("not here")}) {
         const Bytes bytes = written([&](WireOut& out) { exchangeError(out, error); });
@@ -228,7 +228,7 @@ TEST(Wire, anErrorArrivesWithItsKindAndWhetherMemoryWasShort)
 
 TEST(Wire, largeArraysArriveWhole)
 {
-    std::vector<std::uint32_t> numbers(9'000'000), back; // over the step in which memory is taken
+    std::vector<std::uint32_t> numbers(9'000'000), back; // more than one step of the growing allocation
     for (std::size_t i = 0; i < numbers.size(); ++i)
         numbers[i] = std::uint32_t(i * 2654435761u);
     const Bytes bytes = written([&](WireOut& out) { out.array(numbers); });
@@ -239,7 +239,7 @@ TEST(Wire, largeArraysArriveWhole)
     EXPECT_EQ(back, numbers);
 }
 
-TEST(Wire, countsThatLieTakeNoMemory)
+TEST(Wire, falseCountsAllocateAtMost17MiB)
 {
     for (const std::uint64_t count :
          {std::uint64_t(1) << 40, std::uint64_t(1) << 62, ~std::uint64_t(0), std::uint64_t(6'000'000)}) {
@@ -294,8 +294,8 @@ TEST(Wire, moreThanTheLimitIsRefused)
     }
 }
 
-// Each is one thing that a scene must not have.
-TEST(SceneCheck, findsWhatWouldLeadOutOfTheScene)
+// Each fault breaks one rule for scenes.
+TEST(SceneCheck, findsInvalidIndicesSizesAndNumbers)
 {
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
     const std::pair<void (*)(Scene&, float), std::string> faults[] = {
@@ -312,16 +312,16 @@ TEST(SceneCheck, findsWhatWouldLeadOutOfTheScene)
         {[](Scene& s, float x) { s.materials[0].alphaCutoff = x; }, "material 0: expected finite factors"},
         {[](Scene& s, float x) { s.materials[0].normalScale = x; }, "material 0: expected finite factors"},
         {[](Scene& s, float) { s.materials[0].normalFormat.expansion = Expansion(4); },
-         "expected a way to store normals"},
+         "expected a normal encoding"},
         {[](Scene& s, float) { s.materials[0].normalFormat.channels = Channels(-1); },
-         "expected a way to store normals"},
+         "expected a normal encoding"},
         {[](Scene& s, float) { s.meshes[0].material = 1; }, "mesh 0: expected a material below 1, found 1"},
         {[](Scene& s, float) { s.meshes[0].material = -1; }, "expected a material below 1, found -1"},
         {[](Scene& s, float) { s.meshes[0].indices[5] = 9; }, "triangle 1: expected an index below 9, found 9"},
-        {[](Scene& s, float) { s.meshes[0].indices.pop_back(); }, "three indices a triangle"},
+        {[](Scene& s, float) { s.meshes[0].indices.pop_back(); }, "three indices per triangle"},
         {[](Scene& s, float) { s.meshes[0].normals.clear(); }, "normals: expected 9 entries"},
         {[](Scene& s, float) { s.meshes[0].tangents.pop_back(); },
-         "tangent: expected 9 entries, one a vertex, found 8"},
+         "tangent: expected 9 entries, one per vertex, found 8"},
         {[](Scene& s, float) { s.meshes[0].texcoords[1].emplace_back(0); }, "uv set 1: expected 9 entries"},
         {[](Scene& s, float) { s.meshes[0].colors.resize(1); }, "colour: expected 9 entries"},
         {[](Scene& s, float) { s.meshes[0].cotangentsV.resize(1); }, "cotangent v: expected 9 entries"},
@@ -345,7 +345,7 @@ TEST(SceneCheck, findsWhatWouldLeadOutOfTheScene)
     }
 }
 
-TEST(ReaderBudget, growsWithTheFileItsPicturesAndWhatAPictureMayTake)
+TEST(ReaderBudget, growsWithFileSizeImageSizeAndMemoryLimit)
 {
     constexpr std::size_t kMegabyte = 1 << 20;
     LoadLimits limits;
@@ -358,10 +358,10 @@ TEST(ReaderBudget, growsWithTheFileItsPicturesAndWhatAPictureMayTake)
     EXPECT_EQ(budgetFor(limits, SIZE_MAX, 0).megabytes, 8192);
     EXPECT_EQ(budgetFor(limits, 0, SIZE_MAX).seconds, 3600);
 
-    limits.imageBytes = 6000 * kMegabyte; // as --memory sets it
+    limits.imageBytes = 6000 * kMegabyte; // as option --memory sets it
     EXPECT_DOUBLE_EQ(budgetFor(limits, 0, 0).megabytes, start.megabytes + 6000 - 640);
     EXPECT_EQ(budgetFor(limits, SIZE_MAX, 0).megabytes, 12000);
-    limits.imageBytes = kMegabyte; // a reader's libraries need more than such a picture
+    limits.imageBytes = kMegabyte; // the libraries of a reader need more than such an image
     EXPECT_EQ(budgetFor(limits, 0, 0).megabytes, start.megabytes);
 
     limits.sandbox.megabytes = 100, limits.sandbox.seconds = 2;
@@ -369,7 +369,7 @@ TEST(ReaderBudget, growsWithTheFileItsPicturesAndWhatAPictureMayTake)
     EXPECT_EQ(budgetFor(limits, SIZE_MAX, SIZE_MAX).seconds, 2);
 }
 
-// Either refused, or a scene that can be looked at in every place.
+// Received bytes are refused, or give a scene in which every index is valid and every number finite.
 void receive(const Bytes& bytes)
 {
     std::size_t at = 0;
@@ -385,7 +385,7 @@ void receive(const Bytes& bytes)
     }
 }
 
-TEST(Wire, randomAndDamagedBytesAreRefusedOrSound)
+TEST(Wire, damagedBytesAreRefusedOrGiveValidScenes)
 {
     std::mt19937 random(20261122);
     const Bytes whole = bytesOf(everything());
@@ -405,7 +405,7 @@ TEST(Wire, randomAndDamagedBytesAreRefusedOrSound)
     for (int round = 0; round < 1000; ++round) {
         Bytes bytes(random() % 400);
         for (std::byte& b : bytes)
-            b = std::byte(random() % 3 ? 0 : random()); // zeros, so that counts can be small
+            b = std::byte(random() % 3 ? 0 : random()); // zeros make small counts frequent
         receive(bytes);
     }
 }

@@ -1,9 +1,10 @@
-// Large models: how much memory `lint` and `convert` take a triangle, and what they do where it is not enough. Bounds
-// of memory, never of time; bench/scans measures both at full size.
+// Large models: memory per triangle of `lint` and `convert`, and their refusal when memory does not suffice. Memory is
+// bounded here, never time; bench/scans measures both at full size.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
+#include "files/sandbox/confine.hpp"
 #include "run_tool.hpp"
 #include "scan_model.hpp"
 
@@ -28,7 +29,7 @@ protected:
 
     static const std::filesystem::path& folder() { return folder_->path(); }
 
-    // Bytes for each triangle at most: the process, less the same with a small mesh and the same map.
+    // Bytes per triangle: peak memory of the process, less that with a small mesh and the same map.
     static double bytesATriangle(const std::vector<std::string>& before, const std::vector<std::string>& after)
     {
         const auto megabytes = [&](const char* model) {
@@ -47,21 +48,14 @@ private:
     static inline TemporaryFolder* folder_ = nullptr;
 };
 
-// Under sanitizers every byte takes more of them.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
-
-TEST_F(Scans, lintTakesLessThan200BytesATriangle)
+TEST_F(Scans, lintTakesLessThan200BytesPerTriangle)
 {
     if (kSanitized)
         GTEST_SKIP() << "sanitizers take memory of their own";
     EXPECT_LT(bytesATriangle({"lint"}, {"--quiet"}), 200);
 }
 
-TEST_F(Scans, convertTakesLessThan150BytesATriangle)
+TEST_F(Scans, convertTakesLessThan150BytesPerTriangle)
 {
     if (kSanitized)
         GTEST_SKIP() << "sanitizers take memory of their own";
@@ -70,8 +64,8 @@ TEST_F(Scans, convertTakesLessThan150BytesATriangle)
             << frame;
 }
 
-// Whatever the number of triangles, one that is refused is refused before the work.
-TEST_F(Scans, aModelThatTakesMoreThanTheMemoryIsRefusedInALine)
+// A model that does not fit is refused before any work, whatever its number of triangles.
+TEST_F(Scans, modelsThatExceedTheMemoryAreRefused)
 {
     for (const std::vector<std::string>& command :
          {std::vector<std::string>{"lint", "large.glb"},

@@ -1,4 +1,4 @@
-// A scan for tests and benchmarks of size: a bumpy sphere of any number of triangles, one chart, one normal map.
+// A synthetic scan for tests and benchmarks of large models: a bumpy sphere with one chart and one normal map.
 #pragma once
 
 #include <bit>
@@ -19,17 +19,17 @@
 namespace cotan::test {
 
 struct ScanOptions {
-    int rows = 100;        // of quads from pole to pole; twice as many around, so 4 * rows * rows triangles
-    int mapSide = 256;     // texels of the normal map
-    bool tangents = false; // TANGENT along +u
-    float repeats = 1;     // of the map, along u and v
+    int rows = 100;        // quads from pole to pole and twice as many around: 4 * rows * rows triangles
+    int mapSide = 256;     // width and height of the normal map in texels
+    bool tangents = false; // writes TANGENT, along +u
+    float repeats = 1;     // of the map along u and v
 };
 
 inline std::size_t trianglesOf(const ScanOptions& o) { return 4 * std::size_t(o.rows) * std::size_t(o.rows); }
 
 namespace scan {
 
-// The point at u from 0 to 1 around and v from 0 to 1 downwards; not quite up to the poles.
+// The surface point at u (around) and v (downwards), both from 0 to 1; the poles themselves are left out.
 inline glm::dvec3 pointAt(double u, double v)
 {
     const double around = 2 * std::numbers::pi * u, up = (0.5 - v) * std::numbers::pi * 0.98;
@@ -39,7 +39,7 @@ inline glm::dvec3 pointAt(double u, double v)
 
 class Glb {
 public:
-    // The number of the buffer view with these bytes.
+    // Appends bytes; returns the index of their buffer view.
     int addView(const void* bytes, std::size_t size)
     {
         views_.push_back({{"buffer", 0}, {"byteOffset", data_.size()}, {"byteLength", size}});
@@ -87,7 +87,7 @@ private:
 
 } // namespace scan
 
-// Writes the scan as a .glb.
+// Writes the scan as a .glb file.
 inline void writeScan(const std::filesystem::path& file, const ScanOptions& o)
 {
     const int columns = 2 * o.rows;

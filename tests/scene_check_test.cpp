@@ -1,4 +1,4 @@
-// Scenes that were filled by hand, and wrongly: what takes a scene says so and does not follow an index out of it.
+// Scenes with invalid indices, sizes or numbers are refused with an error that names the fault.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -16,7 +16,7 @@
 namespace cotan {
 namespace {
 
-// A mapped plane with everything that a mesh may have.
+// A plane with a normal map and every optional vertex attribute.
 Scene soundScene()
 {
     Scene scene;
@@ -52,7 +52,7 @@ BakeModelOptions smallBake()
 
 struct Fault {
     void (*make)(Scene&);
-    std::string where; // what is said of it
+    std::string where; // the start of the expected message, after the name of the scene
 };
 
 const Fault kBroken[] = {
@@ -69,14 +69,14 @@ const Fault kBroken[] = {
     {[](Scene& s) { s.materials[0].normalMap.texcoord = 2; },
      "material 0: normal map: expected uv set 0 or 1, found 2"},
     {[](Scene& s) { s.materials[0].normalFormat.channels = Channels(77); },
-     "material 0: expected a way to store normals"},
+     "material 0: expected a normal encoding"},
     {[](Scene& s) { s.materials.clear(); }, "mesh 0: expected a material below 0, found 0"},
     {[](Scene& s) { s.meshes[0].material = -1; }, "mesh 0: expected a material below 1, found -1"},
     {[](Scene& s) { s.meshes[0].indices[4] = 1u << 31; },
      "mesh 0: triangle 1: expected an index below 9, found 2147483648"},
-    {[](Scene& s) { s.meshes[0].indices.pop_back(); }, "mesh 0: expected three indices a triangle"},
-    {[](Scene& s) { s.meshes[0].positions.resize(2); }, "mesh 0: normals: expected 2 entries, one a vertex, found 9"},
-    {[](Scene& s) { s.meshes[0].normals.clear(); }, "mesh 0: normals: expected 9 entries, one a vertex, found 0"},
+    {[](Scene& s) { s.meshes[0].indices.pop_back(); }, "mesh 0: expected three indices per triangle"},
+    {[](Scene& s) { s.meshes[0].positions.resize(2); }, "mesh 0: normals: expected 2 entries, one per vertex, found 9"},
+    {[](Scene& s) { s.meshes[0].normals.clear(); }, "mesh 0: normals: expected 9 entries, one per vertex, found 0"},
     {[](Scene& s) { s.meshes[0].texcoords[0].resize(1); }, "mesh 0: uv set 0: expected 9 entries"},
     {[](Scene& s) { s.meshes[0].tangents.resize(1); }, "mesh 0: tangent: expected 9 entries"},
     {[](Scene& s) { s.instances[0].mesh = 1; }, "instance 0: expected a mesh below 1, found 1"},
@@ -91,7 +91,7 @@ void expectRefused(const Result<T>& result, const std::string& line, ErrorKind k
     EXPECT_TRUE(result.error().message.starts_with(line)) << result.error().message;
 }
 
-TEST(SceneCheck, aSoundSceneIsTakenByEverybody)
+TEST(SceneCheck, validScenesAreAcceptedEverywhere)
 {
     const Scene scene = soundScene();
     EXPECT_TRUE(checkScene(scene));
@@ -102,7 +102,7 @@ TEST(SceneCheck, aSoundSceneIsTakenByEverybody)
     EXPECT_TRUE(baked) << baked.error().message;
 }
 
-TEST(SceneCheck, everybodyRefusesIndicesAndSizesThatLeadOutOfTheScene)
+TEST(SceneCheck, indicesAndSizesOutOfRangeAreRefusedEverywhere)
 {
     const Scene sound = soundScene();
     const View view = smallView(sound);
@@ -123,12 +123,12 @@ TEST(SceneCheck, everybodyRefusesIndicesAndSizesThatLeadOutOfTheScene)
         expectRefused(bakeModel(sound, {.scenes = {sound}, .maps = {}}, caged), "options.cage: " + where);
         const LintReport report = lintScene(scene);
         EXPECT_TRUE(report.primitives.empty());
-        EXPECT_TRUE(report.defects.starts_with("Nothing was looked at: scene: " + where)) << report.defects;
+        EXPECT_TRUE(report.defects.starts_with("Nothing was checked: scene: " + where)) << report.defects;
         EXPECT_EQ(report.recommendation, report.defects);
     }
 }
 
-TEST(SceneCheck, numbersThatAreNotFiniteAreDrawnAndLintedButNotBaked)
+TEST(SceneCheck, nonFiniteNumbersAreDrawnAndLintedButNotBaked)
 {
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
         Scene scene = soundScene();
@@ -140,7 +140,7 @@ TEST(SceneCheck, numbersThatAreNotFiniteAreDrawnAndLintedButNotBaked)
     }
 }
 
-TEST(SceneCheck, bothRenderersRefuseAViewThatShowsNothing)
+TEST(SceneCheck, invalidViewsAreRefusedByBothRenderers)
 {
     const Scene scene = soundScene();
     const float bad = std::numeric_limits<float>::quiet_NaN();
@@ -153,14 +153,14 @@ TEST(SceneCheck, bothRenderersRefuseAViewThatShowsNothing)
         {[](View& v, float) { v.camera.target = v.camera.eye; },
          "view.camera: the eye and the target are the same point"},
         {[](View& v, float) { v.camera.up = v.camera.target - v.camera.eye; },
-         "view.camera: expected a direction up across the line of sight; found one along it, or zero"},
+         "view.camera: expected an up direction across the line of sight; found one along it, or zero"},
         {[](View& v, float) { v.camera.verticalFieldOfView = 0; },
-         "view.camera: expected a verticalFieldOfView over 0 and below pi; found 0.000000"},
+         "view.camera: expected a verticalFieldOfView above 0 and below pi; found 0.000000"},
     };
     EXPECT_TRUE(checkView(smallView(scene)));
     View empty = smallView(scene);
     empty.width = 0;
-    expectRefused(checkView(empty), "view: expected a width and a height from 1 on; found 0x16", ErrorKind::usage);
+    expectRefused(checkView(empty), "view: expected a width and a height of at least 1; found 0x16", ErrorKind::usage);
     for (const auto& [make, message] : wrong) {
         View view = smallView(scene);
         make(view, bad);
@@ -170,7 +170,7 @@ TEST(SceneCheck, bothRenderersRefuseAViewThatShowsNothing)
     }
 }
 
-TEST(SceneCheck, picturesMayBeLeftOutWhereTheRulesSaySo)
+TEST(SceneCheck, emptyImagesAreAcceptedIfPixelsAreNotRequired)
 {
     Scene scene = soundScene();
     scene.images[0] = {};

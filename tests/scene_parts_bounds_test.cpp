@@ -1,4 +1,4 @@
-// What is joined and what stays, and each limit on what covers a picture, met exactly and passed by one.
+// Which parts are joined, and each limit on covered pixels, met exactly and exceeded by the smallest step.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace cotan {
 namespace {
 
-// Right triangles beside each other along x, of opaque material 0.
+// Right triangles side by side along x, with opaque material 0.
 Mesh triangles(std::size_t count)
 {
     Mesh mesh;
@@ -40,46 +40,46 @@ glm::mat4 movedBy(float x, float y, float z)
     return moved;
 }
 
-TEST(SceneParts, ofUpTo256TrianglesAreJoinedAndLargerOnesStayAsTheyAre)
+TEST(SceneParts, areJoinedUpTo256Triangles)
 {
     Mesh odd = triangles(2);
     odd.cotangentsU.assign(6, {1, 0, 0});
     Scene scene = sceneWith({triangles(257), triangles(256), odd, triangles(258)});
     scene.instances = {{"a", 3, movedBy(1, 2, 3)}, {"b", 1, movedBy(4, 5, 6)}, {"c", 0, movedBy(7, 8, 9)},
                        {"d", 3, glm::mat4(2)},     {"e", 2, movedBy(3, 1, 2)}, {"f", 1, glm::mat4(1)}};
-    scene.instances.push_back({"g", 0, movedBy(0, std::numeric_limits<float>::infinity(), 0)}); // nowhere
+    scene.instances.push_back({"g", 0, movedBy(0, std::numeric_limits<float>::infinity(), 0)}); // not finite
     Scene all = scene;
     joinParts(all, 7);
-    EXPECT_EQ(all.instances.size(), 7u); // not more than that: nothing is done
+    EXPECT_EQ(all.instances.size(), 7u); // already within the limit, so nothing is joined
     joinParts(scene, 6);
     struct Row {
         const char* name;
         std::size_t triangles;
-        glm::mat4 place;
+        glm::mat4 transform;
     };
     const Row rows[] = {{"a", 258, movedBy(1, 2, 3)},
                         {"c", 257, movedBy(7, 8, 9)},
                         {"d", 258, glm::mat4(2)},
                         {"e", 2, movedBy(3, 1, 2)},
-                        {"", 512, glm::mat4(1)}}; // b and f, placed already
+                        {"", 512, glm::mat4(1)}}; // b and f, transformed to world space
     ASSERT_EQ(scene.instances.size(), std::size(rows));
     for (std::size_t i = 0; i < std::size(rows); ++i) {
         const Instance& instance = scene.instances[i];
         EXPECT_EQ(instance.name, rows[i].name) << i;
-        EXPECT_EQ(instance.toWorld, rows[i].place) << i;
+        EXPECT_EQ(instance.toWorld, rows[i].transform) << i;
         EXPECT_EQ(scene.meshes.at(std::size_t(instance.mesh)).triangleCount(), rows[i].triangles) << i;
     }
     EXPECT_EQ(scene.meshes.size(), 4u);
     EXPECT_EQ(scene.instances[0].mesh, scene.instances[2].mesh);
     const Mesh& joined = scene.meshes[std::size_t(scene.instances.back().mesh)];
     EXPECT_EQ(joined.positions[0], glm::vec3(4, 5, 6));
-    EXPECT_EQ(joined.positions[767], glm::vec3(4 + 255, 6, 6)); // the last of b
-    EXPECT_EQ(joined.positions[768], glm::vec3(0, 0, 0));       // the first of f
+    EXPECT_EQ(joined.positions[767], glm::vec3(4 + 255, 6, 6)); // the last vertex of b
+    EXPECT_EQ(joined.positions[768], glm::vec3(0, 0, 0));       // the first vertex of f
     EXPECT_EQ(joined.indices[768], 768u);
 }
 
-// What one has and the other lacks could not lie in one mesh.
-TEST(SceneParts, areJoinedOnlyWithThoseThatHaveTheSameArrays)
+// Meshes with different vertex attributes are not joined.
+TEST(SceneParts, areJoinedOnlyWithTheSameAttributes)
 {
     Mesh full = triangles(1);
     full.tangents.assign(3, {1, 0, 0, 1});
@@ -121,8 +121,8 @@ TEST(SceneParts, areJoinedOnlyWithThoseThatHaveTheSameArrays)
     EXPECT_EQ(complete, 1);
 }
 
-// Normals stay at right angles to the surface and tangents in it, and both are unit.
-TEST(SceneParts, thatAreStretchedKeepNormalsAndTangentsOnTheirSurface)
+// Normals stay perpendicular to the surface and tangents in it, and both stay unit vectors.
+TEST(SceneParts, keepNormalsAndTangentsValidUnderStretching)
 {
     Mesh mesh = triangles(1);
     mesh.positions = {{0, 0, 0}, {1, 0, 1}, {0, 1, 0}}; // in the plane z = x
@@ -137,7 +137,7 @@ TEST(SceneParts, thatAreStretchedKeepNormalsAndTangentsOnTheirSurface)
     joinParts(scene, 1);
     const Mesh& joined = scene.meshes.at(0);
     ASSERT_EQ(joined.normals.size(), 6u);
-    const float length = std::sqrt(10.0f); // of (3, 0, 1), along which the tangent lies
+    const float length = std::sqrt(10.0f); // of (3, 0, 1), the tangent's direction
     for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(joined.normals[0][c], (glm::vec3(-1, 0, 3) / length)[c], 1e-6f) << c;
         EXPECT_NEAR(joined.tangents[0][c], (glm::vec3(3, 0, 1) / length)[c], 1e-6f) << c;
@@ -148,7 +148,7 @@ TEST(SceneParts, thatAreStretchedKeepNormalsAndTangentsOnTheirSurface)
 
 // ---- limits ------------------------------------------------------------------------------------
 
-// A pixel is a unit, and the middle of 128 x 128 of them is where the axes begin. All numbers are exact.
+// One pixel is one unit, with the origin in the centre of 128 x 128 pixels. All numbers are exact.
 View pixelView(int width = 128)
 {
     View view;
@@ -161,7 +161,7 @@ View pixelView(int width = 128)
     return view;
 }
 
-// So many times one right triangle, with one corner at (x, y) and the others right of it and above it.
+// A right triangle `times` times, with its right angle at (x, y) and legs `wide` along x and `high` along y.
 Scene oneTriangle(float x, float y, float wide, float high, std::size_t times = 1)
 {
     Mesh mesh = triangles(1);
@@ -171,83 +171,83 @@ Scene oneTriangle(float x, float y, float wide, float high, std::size_t times = 
     return scene;
 }
 
-std::string refusedWith(Scene scene, const View& view, std::size_t pictures = 1)
+std::string refusedWith(Scene scene, const View& view, std::size_t images = 1)
 {
-    const Status settled = settleCovered(scene, view, pictures);
+    const Status settled = limitCoverage(scene, view, images);
     return settled ? "" : settled.error().message;
 }
 
-void expectLimit(const Scene& most, const Scene& more, const View& view, const std::string& message)
+void expectLimit(const Scene& allowed, const Scene& excessive, const View& view, const std::string& message)
 {
-    EXPECT_EQ(refusedWith(most, view), "");
-    EXPECT_EQ(refusedWith(more, view), "model: " + message);
+    EXPECT_EQ(refusedWith(allowed, view), "");
+    EXPECT_EQ(refusedWith(excessive, view), "model: " + message);
 }
 
-TEST(SceneParts, areRefusedByOneMoreThanEachLimit)
+TEST(SceneParts, areRefusedJustAboveEachLimit)
 {
-    const std::string advice = ": look from further away, or leave some out";
-    // Half of the picture each: 128 of them cover it 64 times, 129 of them 64.5 times.
+    const std::string advice = ": move the camera away, or remove some triangles";
+    // Each covers half of the image: 128 of them cover it 64 times, 129 of them 64.5 times.
     expectLimit(oneTriangle(-64, -64, 128, 128, 128), oneTriangle(-64, -64, 128, 128, 129), pixelView(),
-                "its triangles cover the picture 65 times over, expected at most 64" + advice);
+                "its triangles cover the image 65 times, expected at most 64" + advice);
     EXPECT_NE(refusedWith(oneTriangle(-64, -64, 128, 128, 66), pixelView(), 2), "") << "two halves of the size";
-    Scene most = oneTriangle(-64, -64, 128, 128, 64), more = oneTriangle(-64, -64, 128, 128, 66);
-    for (Scene* scene : {&most, &more})
-        scene->materials[0].alphaMode = AlphaMode::blend; // counted half
-    expectLimit(most, more, pixelView(),
-                "its translucent triangles cover the picture 17 times over, expected at most 16" + advice);
-    // Boxes of 48 x 64 have diagonals of 80: 64 pixels more than 16. 512 of them are twice the picture.
+    Scene allowed = oneTriangle(-64, -64, 128, 128, 64), excessive = oneTriangle(-64, -64, 128, 128, 66);
+    for (Scene* scene : {&allowed, &excessive})
+        scene->materials[0].alphaMode = AlphaMode::blend; // counts half
+    expectLimit(allowed, excessive, pixelView(),
+                "its translucent triangles cover the image 17 times, expected at most 16" + advice);
+    // Bounding boxes of 48 x 64 have diagonals of 80, 64 pixels over the free 16. 512 of them fill the image twice.
     expectLimit(oneTriangle(0, 0, 48, 64, 512), oneTriangle(0, 0, 48, 64, 544), pixelView(),
-                "the long edges of its triangles fill the picture 2.1 times over, expected at most 2" + advice);
-    Scene places = oneTriangle(0, 0, 48, 64, 1024); // 4 times: twice as much as a model of 30,000 positions may
-    places.meshes.push_back(triangles(1));
-    std::vector<glm::vec3>& others = places.meshes[1].positions;
+                "the long edges of its triangles cover the image 2.1 times, expected at most 2" + advice);
+    Scene longEdges = oneTriangle(0, 0, 48, 64, 1024); // fills it 4 times, the limit for 60,000 positions
+    longEdges.meshes.push_back(triangles(1));
+    std::vector<glm::vec3>& others = longEdges.meshes[1].positions;
     others.resize(60'000 - 3, glm::vec3(0));
     for (std::size_t i = 0; i < others.size(); ++i)
         others[i].y = float(i / 2) * (i % 2 ? 1.0f : -1.0f) + 0.5f;
-    Scene fewer = places;
+    Scene fewer = longEdges;
     fewer.meshes[1].positions.back() = fewer.meshes[1].positions.front();
-    expectLimit(places, fewer, pixelView(),
-                "the long edges of its triangles fill the picture 2 times over, expected at most 2" + advice);
+    expectLimit(longEdges, fewer, pixelView(),
+                "the long edges of its triangles cover the image 2 times, expected at most 2" + advice);
 }
 
-TEST(SceneParts, areLitByAtMost200LightsTimesTheShareOfThePicture)
+TEST(SceneParts, lightsTimesCoverageIsLimitedTo200)
 {
-    for (const auto& [triangles, most, told] : {std::tuple(1, 400, "201"), {2, 200, "201"}, {3, 200, "201"}}) {
+    for (const auto& [triangles, allowed, times] : {std::tuple(1, 400, "201"), {2, 200, "201"}, {3, 200, "201"}}) {
         const Scene scene = oneTriangle(-64, -64, 128, 128, std::size_t(triangles));
         View view = pixelView();
-        view.lights.resize(std::size_t(most));
+        view.lights.resize(std::size_t(allowed));
         EXPECT_EQ(refusedWith(scene, view), "") << triangles;
-        view.lights.resize(std::size_t(most) + 1);
+        view.lights.resize(std::size_t(allowed) + 1);
         EXPECT_EQ(refusedWith(scene, view),
-                  "model: its lights shine on the picture " + std::string(told)
-                      + " times over, expected at most 200: leave some out");
+                  "model: its lights illuminate the image " + std::string(times)
+                      + " times, expected at most 200: remove some lights");
     }
 }
 
-TEST(SceneParts, loseWhatRepeatsWhereTheyCoverThePictureOver20Times)
+TEST(SceneParts, loseRepeatedTrianglesAboveACoverageOf20)
 {
     for (const std::size_t times : {40, 41}) {
         Scene scene = oneTriangle(-64, -64, 128, 128);
         std::vector<std::uint32_t>& indices = scene.meshes[0].indices;
         for (std::size_t i = 1; i < times; ++i)
             indices.insert(indices.end(), {0, 1, 2});
-        EXPECT_TRUE(settleCovered(scene, pixelView()));
+        EXPECT_TRUE(limitCoverage(scene, pixelView()));
         EXPECT_EQ(scene.meshes[0].triangleCount(), times == 40 ? 40u : 1u);
     }
 }
 
-TEST(SceneParts, coverWhatOfThemIsInThePicture)
+TEST(SceneParts, coverageIsClippedToTheImage)
 {
     struct Row {
         float x, y, wide, high;
         double pixels;
     };
     for (const Row& row : {Row{-10, -20, 30, 40, 600},               // inside
-                           {-96, -10, 64, 20, 32.0 * 20},            // at the left: no more than the box of the rest
+                           {-96, -10, 64, 20, 32.0 * 20},            // left: only the box of the remainder
                            {-10, -96, 20, 64, 20 * 32.0},            // below
-                           {96, -10, 200, 20, 0},                    // in the wider picture alone
+                           {96, -10, 200, 20, 0},                    // only in the wider image
                            {-64, -300, 128, 236, 0},                 // touches the edge
-                           {-1000, -1000, 4000, 4000, 128 * 128}}) { // all of it
+                           {-1000, -1000, 4000, 4000, 128 * 128}}) { // covers the image
         const Scene scene = oneTriangle(row.x, row.y, row.wide, row.high);
         EXPECT_EQ(pixelsCovered(scene, pixelView()), row.pixels) << row.x << " " << row.y;
     }
@@ -257,7 +257,7 @@ TEST(SceneParts, coverWhatOfThemIsInThePicture)
     EXPECT_EQ(pixelsCovered(wide, pixelView(256)), 256.0 * 128);
 }
 
-TEST(SceneParts, thatReachBehindTheEyeCountAsHalfThePicture)
+TEST(SceneParts, coverHalfTheImageIfPartlyBehindTheEye)
 {
     View view = pixelView(256);
     for (const bool orthographic : {true, false}) {
@@ -265,7 +265,7 @@ TEST(SceneParts, thatReachBehindTheEyeCountAsHalfThePicture)
         for (int behind = 0; behind <= 3; ++behind) {
             Scene scene = oneTriangle(-1, -1, 2, 2);
             for (int k = 0; k < behind; ++k)
-                scene.meshes[0].positions[std::size_t(k)].z = 5; // at the eye: no longer before it
+                scene.meshes[0].positions[std::size_t(k)].z = 5; // at the eye, no longer in front of it
             const double found = pixelsCovered(scene, view);
             if (behind == 0)
                 EXPECT_LT(found, 2000) << orthographic;
@@ -277,7 +277,7 @@ TEST(SceneParts, thatReachBehindTheEyeCountAsHalfThePicture)
 
 // ---- triangles that repeat ---------------------------------------------------------------------
 
-// `same` of them lie on the first; the others have places of their own. All by key where that says so.
+// Triangles 1 to `same` repeat triangle 0; the others differ. With `keysDiffer` every triangle has its own key.
 std::vector<std::uint8_t> repeatedOf(std::size_t count, std::size_t same, bool keysDiffer = false)
 {
     return repeatedTriangles(count, [&](std::size_t i) {
@@ -287,7 +287,7 @@ std::vector<std::uint8_t> repeatedOf(std::size_t count, std::size_t same, bool k
     });
 }
 
-TEST(RepeatedTriangles, areCountedUpToTwoAndOnlyWhereFortyOfASampleRepeat)
+TEST(RepeatedTriangles, areCountedOnlyIfFortySampledOnesRepeat)
 {
     EXPECT_TRUE(repeatedOf(100, 39).empty());
     EXPECT_TRUE(repeatedOf(100, 99, true).empty()) << "their keys differ";
@@ -296,7 +296,7 @@ TEST(RepeatedTriangles, areCountedUpToTwoAndOnlyWhereFortyOfASampleRepeat)
     ASSERT_EQ(forty.size(), 100u);
     for (std::size_t i = 0; i < forty.size(); ++i)
         EXPECT_EQ(int(forty[i]), i > 40 ? 0 : i < 2 ? int(i) : 2) << i;
-    // Of 8192 every second is asked: of 80 that repeat the first 40.
+    // Of 8192 triangles every second is sampled: 40 of the 80 that repeat.
     EXPECT_EQ(repeatedOf(8192, 81).size(), 8192u);
     EXPECT_TRUE(repeatedOf(8192, 79).empty());
 }

@@ -14,41 +14,41 @@ using shader_text::Choice;
 using shader_text::Form;
 using shader_text::Language;
 
-glm::dvec2 turned(double degrees, double length)
+glm::dvec2 polar(double degrees, double length)
 {
     const double a = degrees * std::numbers::pi / 180;
     return {length * std::cos(a), length * std::sin(a)};
 }
 
-// Well conditioned: differences 30..150 degrees apart, n within 50 degrees of the surface's normal,
-// m within 55 of its own.
+// Well-conditioned input: differences 30 to 150 degrees apart, n within 50 degrees of the surface normal, the texel's
+// normal within 55 degrees of z.
 Vectors soundVectors(Random& random, bool mirrored, bool behind, bool yDown)
 {
     const glm::dvec3 z = random.direction();
     const glm::dvec3 x = glm::normalize(glm::cross(z, std::abs(z.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
     const glm::dvec3 y = glm::cross(z, x);
     const double start = random.range(0, 360), uvStart = random.range(0, 360), scale = 0.01;
-    const glm::dvec2 p0 = turned(start, random.range(0.3, 1));
-    glm::dvec2 p1 = turned(start + random.range(30, 150), random.range(0.3, 1));
-    glm::dvec2 uv1 = turned(uvStart + (mirrored ? -1 : 1) * random.range(30, 150), random.range(0.3, 1));
+    const glm::dvec2 p0 = polar(start, random.range(0.3, 1));
+    glm::dvec2 p1 = polar(start + random.range(30, 150), random.range(0.3, 1));
+    glm::dvec2 uv1 = polar(uvStart + (mirrored ? -1 : 1) * random.range(30, 150), random.range(0.3, 1));
     if (yDown) {
         p1 = -p1;
         uv1 = -uv1;
     }
     const double away = random.range(0, 50) * std::numbers::pi / 180;
-    const glm::dvec2 lean = turned(random.range(0, 360), std::sin(away));
+    const glm::dvec2 lean = polar(random.range(0, 360), std::sin(away));
     const glm::dvec3 n = z * std::cos(away) + x * lean.x + y * lean.y;
     Vectors v;
     v.n = glm::vec3(n * (behind ? -1.0 : 1.0));
     v.dpdx = glm::vec3((x * p0.x + y * p0.y) * scale);
     v.dpdy = glm::vec3((x * p1.x + y * p1.y) * scale);
-    v.duvdx = glm::vec2(turned(uvStart, random.range(0.3, 1)) * scale);
+    v.duvdx = glm::vec2(polar(uvStart, random.range(0.3, 1)) * scale);
     v.duvdy = glm::vec2(uv1 * scale);
     v.texel = glm::vec3(tiltedTexel(random, random.range(0, 55)) * (127.0 / 255) + 128.0 / 255);
     return v;
 }
 
-// The normal as frames that ask for a unit one get it.
+// The normal as frames that require a unit normal get it.
 glm::dvec3 unitOf(glm::vec3 n) { return glm::normalize(glm::dvec3(n)); }
 
 glm::dvec3 decoded(const Vectors& v, const Convention& c = {})
@@ -56,7 +56,7 @@ glm::dvec3 decoded(const Vectors& v, const Convention& c = {})
     return f64::cotan_decode(v.texel, toFormat<f64::cotan_normal_format>(c));
 }
 
-// drawn: with the function that takes derivatives itself.
+// drawn: calls the function that takes screen-space derivatives itself.
 Case frameCase(const std::string& label, Choice choice, bool drawn = false)
 {
     Case c;
@@ -74,7 +74,7 @@ Case frameCase(const std::string& label, Choice choice, bool drawn = false)
     };
     const auto made = makeShaderText(choice);
     const bool fused = made && made->form == Form::fused;
-    // `mikktspace` hands a normal that is not finite on as it is.
+    // `mikktspace` returns a normal that is not finite unchanged.
     c.last = fused || choice.frame == Frame::mikktspace ? Kind::degenerate : total ? Kind::nonFinite : Kind::sound;
     const Frame frame = choice.frame;
     const Convention convention = choice.convention;
@@ -91,7 +91,7 @@ Case frameCase(const std::string& label, Choice choice, bool drawn = false)
     c.call = made->entry + (readsCotangents(frame) ? "(n, dpdx, dpdy, m)" : "(n, dpdx, -1.0, m)");
     c.expected = [=](const Vectors& v) {
         const glm::dvec3 n(v.n), x(v.dpdx), y(v.dpdy);
-        if (fused) // another formula, not the frame to rounding
+        if (fused) // a different formula from the frame's: equal only up to rounding
             return f64::cotan_perturb_smooth(n, x, y, decoded(v));
         const f64::cotan_frame f =
             readsCotangents(frame) ? evaluateCotangents(frame, n, x, y) : evaluateTangents(frame, n, x, 1.0);
@@ -100,7 +100,7 @@ Case frameCase(const std::string& label, Choice choice, bool drawn = false)
     return c;
 }
 
-glm::dvec3 ofTwoSets(Frame frame, const Vectors& v, glm::dvec2 otherDx, glm::dvec2 otherDy)
+glm::dvec3 perturbedByTwoSets(Frame frame, const Vectors& v, glm::dvec2 otherDx, glm::dvec2 otherDy)
 {
     const glm::dvec3 n(v.n), dpdx(v.dpdx), dpdy(v.dpdy);
     const auto a = evaluate(frame, n, dpdx, dpdy, glm::dvec2(v.duvdx), glm::dvec2(v.duvdy));
@@ -110,7 +110,7 @@ glm::dvec3 ofTwoSets(Frame frame, const Vectors& v, glm::dvec2 otherDx, glm::dve
                                        f64::cotan_gradient_of_slope(a, slope) + f64::cotan_gradient_of_slope(b, slope));
 }
 
-// `gradient` in its total form, `cotangent` in its fused one.
+// `gradient` in its total form, `cotangent` in its fused form.
 Case uvSetsCase(Frame frame, bool drawn = false)
 {
     Choice choice;
@@ -120,14 +120,14 @@ Case uvSetsCase(Frame frame, bool drawn = false)
     c.call = drawn ? "cotan_perturb_normal(n, p, uv, m, uv * 3.0, m)"
                    : "cotan_perturb_normal_from_differences(n, dpdx, dpdy, duvdx, duvdy, m, duvdy, duvdx, m)";
     c.expected = [frame, drawn](const Vectors& v) {
-        return drawn ? ofTwoSets(frame, v, glm::dvec2(v.duvdx) * 3.0, glm::dvec2(v.duvdy) * 3.0)
-                     : ofTwoSets(frame, v, v.duvdy, v.duvdx);
+        return drawn ? perturbedByTwoSets(frame, v, glm::dvec2(v.duvdx) * 3.0, glm::dvec2(v.duvdy) * 3.0)
+                     : perturbedByTwoSets(frame, v, v.duvdy, v.duvdx);
     };
     return c;
 }
 
-// Functions that are called by a line of portable text; the line is also C++, read with f64's names.
-// n, m, m2 are unit.
+// Cases given by one line of portable text. The same line is compiled as C++ with the names of f64. n, m and m2 are
+// unit vectors.
 #define COTAN_LINE_CASE(label, ...) COTAN_EXPANDED_LINE_CASE(label, __VA_ARGS__)
 #define COTAN_EXPANDED_LINE_CASE(label, ...)                                                                           \
     lineCase(label, #__VA_ARGS__,                                                                                      \
@@ -137,7 +137,7 @@ Case uvSetsCase(Frame frame, bool drawn = false)
                  return __VA_ARGS__;                                                                                   \
              })
 
-// A triangle with uv of its own, and the same moved by a matrix that shears and mirrors.
+// A triangle with uv, and the same triangle transformed by a matrix that shears and mirrors.
 #define COTAN_EDGES                                                                                                    \
     dpdx, dpdy, cotan_vec2(cotan_real(1.0), cotan_real(0.25)), cotan_vec2(cotan_real(-0.5), cotan_real(0.75)), n
 #define COTAN_TRANSFORMED                                                                                              \
@@ -213,7 +213,7 @@ void addLines(std::vector<Case>& all)
                                   cotan_perturb_triangle(n, COTAN_TRANSFORMED.u, COTAN_TRANSFORMED.v, m)));
     all.push_back(
         COTAN_LINE_CASE("smooth, fused", cotan_perturb_smooth(n, m2 * cotan_real(0.5), cotan_vec3(m.z, m.x, m.y), m)));
-    // Times 1, which the compiler cannot know: Mesa 22.3 folds the packing of constants into wrong words.
+    // The factors are 1, unknown to the compiler: Mesa 22.3 folds the packing of constants to wrong words.
     all.push_back(COTAN_LINE_CASE(
         "triangle in 12 bytes",
         cotan_normalize_or(
@@ -280,7 +280,7 @@ std::vector<Sample> samples()
     std::vector<Sample> all;
     for (int k = 0; k < 512; ++k)
         all.push_back({soundVectors(random, k & 1, k & 2, k & 4), Kind::sound});
-    // Answers that do not hang on rounding: see fused.h for those that do.
+    // Only answers that do not depend on rounding; fused.h names those that do.
     for (int k = 0; k < 16; ++k) {
         Vectors v = soundVectors(random, k & 1, k & 2, k & 4);
         v.duvdx = v.duvdy = {0, 0};
@@ -308,7 +308,7 @@ std::vector<Sample> samples()
     return all;
 }
 
-// The forms of `cotangent` that have no frame of their own; Godot has none of them.
+// The forms of `cotangent` without a frame of their own; Godot has neither.
 Case cotangentCase(Form form)
 {
     Case c;
@@ -369,7 +369,7 @@ std::vector<Case> casesOfAllLanguages()
     for (Channels channels : {Channels::orthographic, Channels::stereographic, Channels::slope}) {
         Choice choice;
         choice.convention.channels = channels;
-        choice.convention.v = VDirection::up; // green along v
+        choice.convention.v = VDirection::up; // green increases along v
         choice.convention.expansion = channels == Channels::slope ? Expansion::signedValues : Expansion::biased;
         all.push_back(frameCase(channels == Channels::orthographic ? "two channels, 2c - 1"
                                     : channels == Channels::slope  ? "slopes, signed"

@@ -1,4 +1,4 @@
-// What is run in every language: a text, the call of it, and what the portable text says in double.
+// Cases that run in every shading language: the shader text, a call, and the expected result in double precision.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace cotan::test {
 
-// As passed to every language: 16 floats.
+// Input of a case in every language: 16 floats.
 struct Vectors {
     glm::vec3 n, dpdx, dpdy;
     glm::vec2 duvdx, duvdy;
@@ -20,7 +20,7 @@ struct Vectors {
 };
 static_assert(sizeof(Vectors) == 16 * sizeof(float));
 
-// A lit surface: n, to the light, to the eye, (metallic, roughness), two numbers, colour.
+// For `light`, the vectors hold n, to the light, to the eye, (metallic, roughness), two parameters, and a colour.
 enum class Kind { sound, degenerate, nonFinite, light };
 
 struct Sample {
@@ -28,55 +28,54 @@ struct Sample {
     Kind kind = Kind::sound;
 };
 
-// Random, mirrored, y up and y down, both facings; then degenerate ones; then non-finite ones; then
-// lit surfaces.
+// Random sound samples (mirrored or not, y up and y down, both facings), then degenerate ones, non-finite ones and lit
+// surfaces.
 std::vector<Sample> samples();
 std::vector<Sample> litSamples();
 
-// A float's: half a unit in the last place of one.
+// Rounding error of float: half a unit in the last place of 1.
 inline constexpr double kRounding = 1.0 / (1 << 24);
 
 struct Case {
     std::string name;
-    std::string call;        // of (n, dpdx, dpdy, duvdx, duvdy, m)
-    Kind last = Kind::sound; // the hardest kind that it is defined for
+    std::string call;        // an expression in (n, dpdx, dpdy, duvdx, duvdy, m)
+    Kind last = Kind::sound; // the hardest kind of sample that is defined for it
     std::function<std::string(shader_text::Language)> text;
     std::function<glm::dvec3(const Vectors&)> expected;
-    bool light = false; // compared on lit surfaces, as numbers; else as directions
-    // What one rounding of the result and of each input changes at most; where `light`.
+    bool light = false; // compared on lit surfaces as numbers; otherwise as directions
+    // For `light`: maximum change of the result by one rounding of the result and of each input.
     std::function<glm::dvec3(const Vectors&)> allowance;
 };
 
-// Every frame in each form, ways of storing maps, two uv sets, every function of gradient.h,
-// blend.h, light.h, sheen.h, environment.h, tone.h and shadow.h.
+// Every frame in each form, map encodings, two uv sets, and every function of gradient.h, blend.h, light.h, sheen.h,
+// environment.h, tone.h and shadow.h.
 std::vector<Case> cases();
-std::vector<Case> frameCases(bool drawn = false); // the frames of them
-std::vector<Case> godotCases();                   // what needs no bits of floats
-std::vector<Case> litCases();                     // light, environment, tone and shadow
+std::vector<Case> frameCases(bool drawn = false); // only the frames
+std::vector<Case> godotCases();                   // cases that do not access the bits of floats
+std::vector<Case> litCases();                     // light, environment, tone mapping and shadow
 
-// A target of kTiles x kTiles tiles, each with differences of its own that are constant in it: the
-// functions that take derivatives themselves.
+// A render target of kTiles x kTiles tiles with constant derivatives inside each, for the functions that take
+// screen-space derivatives themselves.
 inline constexpr int kTile = 4; // pixels
 inline constexpr int kTiles = 8;
 inline constexpr int kTarget = kTile * kTiles;
 
-// A corner of a triangle, as vertex data: 13 floats.
+// A corner of a triangle as vertex data: 13 floats.
 struct Corner {
-    glm::vec2 at; // in clip space, y along with the rows of the tiles
+    glm::vec2 at; // clip space, y increasing with the rows of tiles
     glm::vec3 n, p;
     glm::vec2 uv;
     glm::vec3 texel;
 };
 static_assert(sizeof(Corner) == 13 * sizeof(float));
 
-std::vector<Vectors> tiles(); // row by row
+std::vector<Vectors> tiles(); // in row order
 std::vector<Corner> corners(const std::vector<Vectors>& tiles);
 
-// Of (n, p, uv, m), with `expected` as of the differences.
+// Cases called with (n, p, uv, m); `expected` takes the derivatives.
 std::vector<Case> drawnCases();
 
-// One language's results: for each case, for each sample. Empty, with a reason, if it cannot run
-// here.
+// Results of one language, for each case and each sample; if it cannot run here, no values and the reason in `skipped`.
 struct Results {
     std::string language;
     std::string skipped;
@@ -85,13 +84,12 @@ struct Results {
 
 Results runCpp(const std::vector<Case>& cases, const std::vector<Sample>& samples, bool doubles);
 Results runMsl(const std::vector<Case>& cases, const std::vector<Sample>& samples);
-// What SPIRV-Cross makes of the printed GLSL, as Metal text.
+// Compiles the printed GLSL to SPIR-V and that to Metal text by SPIRV-Cross, and runs the result.
 Results runSpirvCross(const std::vector<Case>& cases, const std::vector<Sample>& samples);
-// language: GLSL, HLSL, or Godot's, whose functions are GLSL as they stand.
+// language: GLSL, HLSL or Godot, whose functions are GLSL without changes.
 Results runVulkan(const std::vector<Case>& cases, const std::vector<Sample>& samples, shader_text::Language language);
 
-// For each drawn case its pixels in the order of memory, with clip space as it is, then with y
-// turned round.
+// For each drawn case its pixels in memory order, first with clip space unchanged, then with y flipped.
 Results drawVulkan(const std::vector<Case>& drawn, const std::vector<Corner>& corners, shader_text::Language language);
 
 struct BrowserResults {

@@ -1,4 +1,4 @@
-// A case as a compute shader, compiled to SPIR-V.
+// Compiles a case as a compute shader to SPIR-V.
 #include "shader_run.hpp"
 
 namespace cotan::test {

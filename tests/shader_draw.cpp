@@ -1,4 +1,4 @@
-// What is drawn for the functions that take derivatives themselves.
+// Geometry that is drawn for the functions that take screen-space derivatives themselves.
 #include "shader_cases.hpp"
 
 namespace cotan::test {
@@ -17,7 +17,7 @@ std::vector<Corner> corners(const std::vector<Vectors>& tiles)
     std::vector<Corner> all;
     for (int k = 0; k < kTiles * kTiles; ++k) {
         const Vectors& v = tiles[static_cast<std::size_t>(k)];
-        // Position and uv are zero in the middle of the tile and linear in it.
+        // Position and uv are zero in the centre of the tile and linear across it.
         auto corner = [&](int right, int down) {
             const float x = kTile * (static_cast<float>(right) - 0.5f), y = kTile * (static_cast<float>(down) - 0.5f);
             const glm::vec2 at(k % kTiles + right, k / kTiles + down);

@@ -1,5 +1,4 @@
-// Fragment shaders that take derivatives themselves, in GLSL and HLSL, with y down and with the
-// viewport turned round.
+// Runs fragment shaders that take screen-space derivatives, in GLSL and HLSL, with the viewport's y down and flipped.
 #include "shader_run.hpp"
 #include "shader_vulkan.hpp"
 #include "timing_scene.hpp"
@@ -45,9 +44,9 @@ std::string fragmentOf(const Case& c, Language language)
         + c.text(language) + "void main()\n{\n    color = vec4(" + c.call + ", 1.0);\n}\n";
 }
 
-class Painter {
+class ShaderRenderer {
 public:
-    Painter(cost::Device& device, const std::vector<Corner>& corners)
+    ShaderRenderer(cost::Device& device, const std::vector<Corner>& corners)
         : device_(device), count_(static_cast<std::uint32_t>(corners.size()))
     {
         using U = vk::BufferUsageFlagBits;
@@ -55,7 +54,7 @@ public:
         corners_ = cost::makeBuffer(device, U::eVertexBuffer, corners.data(), corners.size() * sizeof(Corner));
         const std::vector<float> none(kTarget * kTarget * 4, 9.0f);
         out_ = cost::makeBuffer(device, U::eTransferDst, none.data(), none.size() * sizeof(float));
-        target_ = cost::makePicture(device, kFormat, kTarget, I::eColorAttachment | I::eTransferSrc);
+        target_ = cost::makeGpuImage(device, kFormat, kTarget, I::eColorAttachment | I::eTransferSrc);
         layout_ = vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo());
         vertex_ = module(toSpirv(kVertex, "vert", false, "vertex shader"));
         commandPool_ = vk::raii::CommandPool(device.device, {{}, device.queueFamily});
@@ -108,8 +107,8 @@ private:
         using C = vk::ColorComponentFlagBits;
         attachment.colorWriteMask = C::eR | C::eG | C::eB | C::eA;
         const vk::PipelineColorBlendStateCreateInfo blend({}, VK_FALSE, {}, attachment);
-        const vk::DynamicState turned = vk::DynamicState::eViewport;
-        const vk::PipelineDynamicStateCreateInfo dynamic({}, turned);
+        const vk::DynamicState dynamicState = vk::DynamicState::eViewport;
+        const vk::PipelineDynamicStateCreateInfo dynamic({}, dynamicState);
         const vk::PipelineRenderingCreateInfo rendering(0, kFormat);
         vk::GraphicsPipelineCreateInfo info({}, stages, &input, &assembly, nullptr, &view, &raster, &multisample,
                                             nullptr, &blend, &dynamic, *layout_);
@@ -147,7 +146,7 @@ private:
     cost::Device& device_;
     std::uint32_t count_;
     cost::Buffer corners_, out_;
-    cost::Picture target_;
+    cost::GpuImage target_;
     vk::raii::PipelineLayout layout_{nullptr};
     vk::raii::ShaderModule vertex_{nullptr};
     vk::raii::CommandPool commandPool_{nullptr};
@@ -158,7 +157,7 @@ private:
 Results drawVulkan(const std::vector<Case>& drawn, const std::vector<Corner>& corners, Language language)
 {
     return onFirstDevice(language, [&](cost::Device& device, Results& results) {
-        Painter painter(device, corners);
+        ShaderRenderer painter(device, corners);
         for (const Case& c : drawn)
             results.values.push_back(
                 painter.draw(toSpirv(fragmentOf(c, language), "frag", language == Language::hlsl, c.name)));

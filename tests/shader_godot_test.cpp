@@ -1,5 +1,4 @@
-// The whole shaders that `cotan shader --lang godot` prints, as far as they can be held without Godot; godot_test runs
-// them in it.
+// The complete shaders that `cotan shader --lang godot` prints, checked without Godot; godot_test runs them in Godot.
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -12,7 +11,7 @@ namespace {
 using shader_text::Choice;
 using shader_text::Language;
 
-// With Godot's own words taken away or declared, a whole shader is GLSL ES; all of it as one fragment stage.
+// With Godot's keywords removed or declared, a complete shader compiles as a single GLSL ES fragment stage.
 TEST(ShaderGodot, wholeShadersCompile)
 {
     constexpr char kGodot[] = R"(#version 300 es
@@ -54,7 +53,7 @@ out vec4 colour;
         }
 }
 
-TEST(ShaderGodot, theExampleHasWhatTheToolPrintsToday)
+TEST(ShaderGodot, theExampleEqualsTheToolsOutput)
 {
     TemporaryFolder folder;
     for (const auto& [file, frame] :
@@ -66,8 +65,8 @@ TEST(ShaderGodot, theExampleHasWhatTheToolPrintsToday)
     }
 }
 
-// Godot's importer may drop blue: without a word, its own preset.
-TEST(ShaderGodot, mapsHaveTwoChannelsUnlessToldOtherwise)
+// Godot's importer may drop the blue channel, so its own preset, with two channels, is the default.
+TEST(ShaderGodot, mapsHaveTwoChannelsByDefault)
 {
     TemporaryFolder folder;
     const std::string plain = runTool({"shader", "--lang", "godot"}, folder.path()).out;

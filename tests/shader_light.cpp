@@ -1,9 +1,9 @@
-// Lighting in every language: what is lit, and how far from the portable text in double a result is.
+// Lighting cases for every language: the surfaces that are lit, the functions, and the allowed rounding errors.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "scene/picture_text.hpp"
+#include "scene/render_text.hpp"
 #include "shader_cases.hpp"
 #include "truth/patch.hpp"
 
@@ -13,12 +13,12 @@ namespace {
 
 using shader_text::Language;
 
-// The sixteen numbers, read as a lit surface.
+// A lit surface, from the sixteen numbers of a sample.
 struct Lit {
     f64::cotan_surface s;
     glm::dvec3 l;
-    double x; // -1.5 to 1.5: a distance, a step's argument
-    double y; // 0 to 1: a range, an exposure, also the occlusion
+    double x; // -1.5 to 1.5: a distance, or the argument of a step
+    double y; // 0 to 1: a range, an exposure, and the occlusion
     f64::cotan_coat c;
     f64::cotan_gloss g;
     f64::cotan_sheen h;
@@ -73,7 +73,7 @@ template<class Function> Case litCase(const std::string& label, const std::strin
     c.call = "cotan_case(n, dpdx, dpdy, duvdx, duvdy, m)";
     c.text = [line](Language l) { return shader_text::translate(l, kLitText + line + ";\n}\n"); };
     c.expected = [function](const Vectors& v) { return function(litOf(numbersOf(v))); };
-    // Unit vectors are rounded in proportion to one, other numbers in proportion to themselves.
+    // Rounding errors of unit vectors are proportional to 1, those of other numbers to the number itself.
     c.allowance = [function](const Vectors& v) {
         const Numbers numbers = numbersOf(v);
         const glm::dvec3 value = function(litOf(numbers));
@@ -93,7 +93,7 @@ template<class Function> Case litCase(const std::string& label, const std::strin
     return c;
 }
 
-// A line of portable text that is also C++, read with f64's names.
+// A case given by one line of portable text, which is also compiled as C++ with the names of f64.
 #define COTAN_LIT_CASE(label, ...)                                                                                     \
     litCase(label, #__VA_ARGS__, [](const Lit& lit) -> glm::dvec3 {                                                    \
         using namespace f64;                                                                                           \
@@ -107,7 +107,7 @@ template<class Function> Case litCase(const std::string& label, const std::strin
         return __VA_ARGS__;                                                                                            \
     })
 
-// A unit vector at the cosine `c` from z.
+// A unit vector whose angle to z has the cosine `c`.
 glm::vec3 leaned(Random& random, glm::vec3 z, double c)
 {
     const glm::dvec3 side = glm::normalize(glm::cross(glm::dvec3(z), random.direction()));
@@ -149,14 +149,14 @@ std::vector<Sample> litSamples()
         [](Random&, Vectors& v, glm::vec3) {
             v.dpdx = v.n * (2 * glm::dot(v.n, v.dpdy)) - v.dpdy;
             v.duvdx.y = 0;
-        }, // its glint
+        }, // light in the mirror direction
         [](Random&, Vectors& v, glm::vec3) {
             v.dpdx = v.n * (2 * glm::dot(v.n, v.dpdy)) - v.dpdy;
             v.duvdx.y = 0.2f;
         },
         [](Random&, Vectors& v, glm::vec3) {
             v.duvdx = {0, 1};
-        }, // chalk
+        }, // completely rough
         [](Random&, Vectors& v, glm::vec3) {
             v.duvdx = {1, 0.5f};
             v.texel = {0, 0, 0};
@@ -183,7 +183,7 @@ std::vector<Sample> litSamples()
 
 namespace {
 
-// The polynomial of AgX adds terms of up to 40 to a value below one: so much does a rounding inside of it count.
+// The polynomial of AgX adds terms of up to 40 to a value below 1, which amplifies rounding errors inside it as much.
 constexpr double kAgxTerm = 40.14;
 
 void steeper(Case& c, double times)
@@ -193,10 +193,10 @@ void steeper(Case& c, double times)
 
 void addPictureCases(std::vector<Case>& all)
 {
-    // Whole numbers of tiles are not meant to be between; what is there is read from the nearest.
+    // A tile is an integer by definition; fractional arguments are compared as well.
     all.push_back(COTAN_LIT_CASE("tile", cotan_environment_tile(y * cotan_real(10.0))));
     all.push_back(COTAN_LIT_CASE(
-        "octahedral place", cotan_vec3(cotan_octahedral_place(l).x, cotan_octahedral_place(l).y, cotan_real(1.0))));
+        "octahedral place", cotan_vec3(cotan_octahedral_point(l).x, cotan_octahedral_point(l).y, cotan_real(1.0))));
     all.push_back(COTAN_LIT_CASE("octahedral direction", cotan_octahedral_direction(cotan_vec2(s.metallic, y))));
     all.push_back(COTAN_LIT_CASE("environment texel",
                                  cotan_vec3(cotan_environment_texel(l, cotan_real(0.0)).x,
@@ -206,7 +206,7 @@ void addPictureCases(std::vector<Case>& all)
                                             cotan_environment_albedo_texel(x, s.roughness).y, cotan_real(1.0))));
     all.push_back(
         COTAN_LIT_CASE("bounces, once", cotan_bounces_of(s.base_color, y, cotan_split_sum(y, s.roughness)).once));
-    all.push_back( // 0 of shares that add up to one
+    all.push_back( // base_color is added because `more` vanishes where the split sum is 1
         COTAN_LIT_CASE("bounces, more",
                        cotan_bounces_of(s.base_color, y, cotan_split_sum(y, s.roughness)).more + s.base_color));
     all.push_back(COTAN_LIT_CASE(
@@ -253,7 +253,7 @@ std::vector<Case> litCases()
         "ggx, grazing, split sum",
         cotan_vec3(cotan_ggx(s.n, s.v, l, s.roughness), cotan_grazing(y), cotan_split_sum(y, s.roughness).y)));
     all.push_back(
-        COTAN_LIT_CASE("ggx stretched", cotan_vec3(cotan_ggx_stretched(s.n, s.v, l, s.roughness, y, g.t), y, y)));
+        COTAN_LIT_CASE("ggx stretched", cotan_vec3(cotan_ggx_anisotropic(s.n, s.v, l, s.roughness, y, g.t), y, y)));
     all.push_back(COTAN_LIT_CASE("gloss", cotan_gloss_of(abs(x), y, s.base_color).f0));
     all.push_back(COTAN_LIT_CASE(
         "direction",
@@ -271,22 +271,22 @@ std::vector<Case> litCases()
                                             cotan_real(1.0))));
     all.push_back(COTAN_LIT_CASE("charlie, sheen's share",
                                  cotan_vec3(cotan_charlie(s.n, s.v, l, s.roughness), cotan_sheen_albedo(y, s.roughness),
-                                            cotan_sheen_share(h, y))));
+                                            cotan_sheen_fraction(h, y))));
     all.push_back(COTAN_LIT_CASE("reflect sheen", cotan_reflect_sheen(h, s.n, s.v, l, s.base_color)));
     all.push_back(
         COTAN_LIT_CASE("sheen around", cotan_reflect_sheen_around(h, s.n, s.v, s.base_color, s.base_color * y)));
     all.push_back(COTAN_LIT_CASE("environment glossy", cotan_reflect_environment_glossy(s, g)));
-    all.push_back(COTAN_LIT_CASE("coat", cotan_vec3(cotan_coat_share(c, s.v), cotan_reflect_coat(c, s.v, l), y)));
+    all.push_back(COTAN_LIT_CASE("coat", cotan_vec3(cotan_coat_fraction(c, s.v), cotan_reflect_coat(c, s.v, l), y)));
     all.push_back(COTAN_LIT_CASE("coat environment", cotan_reflect_coat_environment(c, s.v)));
     all.push_back(COTAN_LIT_CASE("falloff",
                                  cotan_vec3(cotan_light_falloff(abs(x), y), cotan_light_falloff(y, abs(x)),
                                             cotan_light_falloff(y, cotan_real(0.0)))));
     all.push_back(COTAN_LIT_CASE("roughness of a spread",
-                                 cotan_vec3(cotan_roughness_of_spread(s.roughness, y), cotan_spread_of_turn(l, s.v),
-                                            cotan_spread_of_length(y))));
+                                 cotan_vec3(cotan_roughness_of_variance(s.roughness, y),
+                                            cotan_variance_of_curvature(l, s.v), cotan_variance_of_length(y))));
     all.push_back(COTAN_LIT_CASE("places of a roughness",
-                                 cotan_vec3(cotan_places_of_roughness(s.roughness), cotan_places_of_roughness(y),
-                                            cotan_places_of_roughness(cotan_real(0.0)))
+                                 cotan_vec3(cotan_samples_of_roughness(s.roughness), cotan_samples_of_roughness(y),
+                                            cotan_samples_of_roughness(cotan_real(0.0)))
                                      * cotan_real(0.0625)));
     all.push_back(COTAN_LIT_CASE("tone map", cotan_tone_map(s.base_color * (y * cotan_real(8.0)))));
     all.push_back(COTAN_LIT_CASE("linear to sRGB",

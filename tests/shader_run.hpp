@@ -1,4 +1,4 @@
-// Files and processes of the parity test.
+// Files and processes of the tests that compare shading languages.
 #pragma once
 
 #include <cstdint>
@@ -38,8 +38,8 @@ inline bool shell(const std::string& line, const std::filesystem::path& log)
     return std::system(("(" + line + ") > '" + log.string() + "' 2>&1").c_str()) == 0;
 }
 
-// SPIR-V's bytes by glslang. stage: as it calls it, `comp`. label: for what is thrown. Kept in the folder COTAN_SPIRV,
-// where that names one, and read from there: for a machine without glslang to which bench/on-gpu has carried them.
+// Returns SPIR-V bytes by glslang. stage: glslang's name, such as `comp`. label: prefix of errors. Results are kept in
+// and read from the folder COTAN_SPIRV, if set, which bench/on-gpu carries to machines without glslang.
 std::string toSpirv(const std::string& shader, const std::string& stage, bool hlsl, const std::string& label);
 
 // A case as a compute shader: inputs at binding 0, outputs at binding 1.
@@ -52,7 +52,7 @@ inline std::vector<std::uint32_t> wordsOf(const std::string& spirv)
     return words;
 }
 
-// Three numbers each, case by case.
+// Parses three numbers per sample, case by case; empty if the number of bytes is wrong.
 template<class Real>
 std::vector<std::vector<glm::dvec3>> valuesOf(const std::string& bytes, std::size_t caseCount, std::size_t sampleCount)
 {

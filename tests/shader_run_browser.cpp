@@ -1,4 +1,4 @@
-// ESSL as WebGL 2 and WGSL as WebGPU, both in headless Chromium on its own CPU drivers.
+// Runs ESSL by WebGL 2 and WGSL by WebGPU, both in headless Chromium with its software drivers.
 #include <nlohmann/json.hpp>
 
 #include "shader_run.hpp"
@@ -45,7 +45,7 @@ std::string fromBase64(const std::string& text)
     return bytes;
 }
 
-// A fragment shader over the largest set, compiled only.
+// Fragment shaders with every set of functions, which are only compiled.
 json fragmentOf(const FrameInfo& f)
 {
     shader_text::Choice choice;
@@ -63,7 +63,7 @@ json fragmentOf(const FrameInfo& f)
     return {{"name", f.name}, {"essl", essl}, {"wgsl", wgsl}};
 }
 
-// key: of the list in `found`. count: vectors of three of one case.
+// key: name of the list in `found`. count: number of 3-vectors of a case.
 Results resultsOf(const std::string& label, const json& found, const char* key, std::size_t count)
 {
     Results results{label, {}, {}};

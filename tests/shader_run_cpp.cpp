@@ -1,5 +1,5 @@
-// The printed C++; and over a shim of Metal's types, as C++: the printed Metal text, and what
-// SPIRV-Cross makes of the printed GLSL.
+// Runs the printed C++ and, compiled as C++ over a shim of Metal's types, the printed Metal text and the Metal text
+// that SPIRV-Cross makes of the printed GLSL.
 #include <regex>
 
 #include "shader_run.hpp"
@@ -16,7 +16,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
     return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-// Compiles `source` and runs it on the samples' file: what it wrote.
+// Compiles `source` and runs it on the file of samples; returns the file that it writes.
 std::string runSource(const std::string& label, const std::string& source, const std::vector<Sample>& samples,
                       const std::string& flags)
 {

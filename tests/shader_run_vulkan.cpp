@@ -1,4 +1,4 @@
-// GLSL and HLSL as compute shaders on the first Vulkan device that opens.
+// Runs GLSL and HLSL as compute shaders on the first usable Vulkan device.
 #include "shader_run.hpp"
 #include "shader_vulkan.hpp"
 #include "timing_scene.hpp"

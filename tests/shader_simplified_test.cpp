@@ -1,5 +1,5 @@
-// What becomes of portable functions before they are printed: what is known is put in, what nothing needs goes; and
-// what is no portable text is refused with its line.
+// Transformations of portable functions before they are printed (known values are substituted, unused code is removed),
+// and errors with line numbers for text that is not portable.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -34,7 +34,7 @@ std::string simplified(const std::string& body)
     return text.substr(text.find("{\n") + 2);
 }
 
-TEST(SimplifiedText, aDeclarationTakesTheAssignmentBehindItUnlessThatReadsIt)
+TEST(SimplifiedText, declarationsAbsorbTheAssignmentThatFollows)
 {
     EXPECT_EQ(simplified("    cotan_real a = x;\n    a = x * x;\n    return a * a;\n"),
               "    float a = x * x;\n    return a * a;\n}\n");
@@ -42,7 +42,7 @@ TEST(SimplifiedText, aDeclarationTakesTheAssignmentBehindItUnlessThatReadsIt)
     EXPECT_EQ(simplified("    cotan_real a = x;\n    a = a * x;\n    return a * a;\n"), reading);
 }
 
-TEST(SimplifiedText, aVariableThatIsReadAgainKeepsItsName)
+TEST(SimplifiedText, aliasesAreRemovedUnlessTheOriginalIsReadAgain)
 {
     EXPECT_EQ(simplified("    cotan_real a = x * x;\n    cotan_real b = a;\n    return b * b;\n"),
               "    float b = x * x;\n    return b * b;\n}\n");
@@ -50,8 +50,8 @@ TEST(SimplifiedText, aVariableThatIsReadAgainKeepsItsName)
               "    float a = x * x;\n    float b = a;\n    return a * b;\n}\n");
 }
 
-// What is known is decided, and what only looks like it stays.
-TEST(SimplifiedText, factorsOfOneEqualNumbersAndParenthesesGoAndNothingThatIsLikeThem)
+// Expressions with known values are evaluated; similar ones without stay.
+TEST(SimplifiedText, expressionsWithKnownValuesAreEvaluated)
 {
     const std::pair<const char*, const char*> cases[] = {{"x * 1.0", "x"},
                                                          {"x * -1.0", "-x"},
@@ -77,12 +77,12 @@ TEST(SimplifiedText, factorsOfOneEqualNumbersAndParenthesesGoAndNothingThatIsLik
                                                          {"true ? x : 2.0", "x"},
                                                          {"false ? x : 2.0", "2.0"},
                                                          {"min(x * 1.0, (x))", "min(x, x)"}};
-    for (const auto& [given, left] : cases)
-        EXPECT_EQ(simplified("    return " + std::string(given) + ";\n"), "    return " + std::string(left) + ";\n}\n")
+    for (const auto& [given, kept] : cases)
+        EXPECT_EQ(simplified("    return " + std::string(given) + ";\n"), "    return " + std::string(kept) + ";\n}\n")
             << given;
 }
 
-TEST(SimplifiedText, decidedBranchesAreTakenOrGoneAndWhatNobodyReadsGoes)
+TEST(SimplifiedText, decidedBranchesAndUnusedVariablesAreRemoved)
 {
     const std::string end = "    return x;\n}\n";
     EXPECT_EQ(simplified("    if (1.0 == 1.0)\n        x = 2.0;\n    x = x * x;\n    return x;\n"),
@@ -94,12 +94,12 @@ TEST(SimplifiedText, decidedBranchesAreTakenOrGoneAndWhatNobodyReadsGoes)
     EXPECT_EQ(simplified("    cotan_real a = x;\n    cotan_real b = a * x;\n    return x;\n"), end);
     EXPECT_EQ(simplified("    cotan_real a = x;\n    x = a * a;\n    return x;\n"),
               "    float a = x;\n    x = a * a;\n" + end);
-    // A declaration takes only the assignment of itself, right behind it.
+    // A declaration absorbs only an assignment to its own variable that follows immediately.
     EXPECT_EQ(simplified("    cotan_real a = 1.0;\n    x = 2.0;\n    a = x;\n    return a * x;\n"),
               "    float a = 1.0;\n    x = 2.0;\n    a = x;\n    return a * x;\n}\n");
     EXPECT_EQ(simplified("    cotan_real a;\n    a = x * x;\n    return a * a;\n"),
               "    float a = x * x;\n    return a * a;\n}\n");
-    // And a variable goes into the next only as it is.
+    // A variable is replaced by its value only where that is its whole use.
     EXPECT_EQ(simplified("    cotan_real a = x * x;\n    cotan_real b = -a;\n    return b * b;\n"),
               "    float a = x * x;\n    float b = -a;\n    return b * b;\n}\n");
 }
@@ -122,7 +122,7 @@ std::string printedWith(const char* name, const char* field, const char* value)
     return text.substr(text.find("float f("));
 }
 
-TEST(BoundArgument, standsInPlaceOfItsNameAndGoesFromEveryCall)
+TEST(BoundArgument, replacesItsParameterAndLeavesEveryCall)
 {
     EXPECT_EQ(printedWith("x", "", "3.0"),
               "float f(cotan_two t, float y)\n{\n    if (3.0 < y) {\n        return t.b;\n    }\n"
@@ -138,7 +138,7 @@ TEST(BoundArgument, standsInPlaceOfItsNameAndGoesFromEveryCall)
               "float g(float x, cotan_two t)\n{\n    return f(x, t, 2.0) + f(t.a, t, x);\n}\n");
 }
 
-TEST(NeededText, isWhatTheRootsCallAndTheStructsOfThose)
+TEST(NeededText, containsWhatTheRootsCallAndTheirStructs)
 {
     const auto names = [](const std::vector<std::string>& roots) {
         const Module needed = neededBy(parsed(kThree), roots);
@@ -156,9 +156,9 @@ TEST(NeededText, isWhatTheRootsCallAndTheStructsOfThose)
     EXPECT_EQ(names({}), "");
 }
 
-// ---- what is no portable text ---------------------------------------------------------------
+// ---- text that is not portable --------------------------------------------------------------
 
-std::string saidOf(const std::string& text)
+std::string errorOf(const std::string& text)
 {
     try {
         parsed(text);
@@ -168,7 +168,7 @@ std::string saidOf(const std::string& text)
     return "";
 }
 
-TEST(ParsedText, whatLeavesTheLanguageIsSaidWithItsLine)
+TEST(ParsedText, syntaxErrorsNameTheirLine)
 {
     const std::string head = "COTAN_FUNCTION cotan_real f(cotan_real x)\n{\n";
     const auto line = [](int number) {
@@ -191,17 +191,17 @@ TEST(ParsedText, whatLeavesTheLanguageIsSaidWithItsLine)
         {"struct two {\n    cotan_real a\n};\n", line(3) + "';'; found '}'"},
         {"COTAN_FUNCTION cotan_real f(cotan_real x cotan_real y)\n{\n}\n", line(1) + "','; found 'cotan_real'"},
         {"#define COTAN_A 1.0 2.0\n", line(1) + "nothing more; found '2.0'"}};
-    for (const auto& [text, said] : cases)
-        EXPECT_EQ(saidOf(text), said) << text;
+    for (const auto& [text, expected] : cases)
+        EXPECT_EQ(errorOf(text), expected) << text;
 }
 
-TEST(ParsedText, operatorsBindAsInCAndNumbersHoldTheirPointsAndExponents)
+TEST(ParsedText, operatorsAndNumbersParseAsInC)
 {
     const auto valueOf = [](const std::string& text) {
         const Module module = parsed("cotan_real f(cotan_real x)\n{\n    return " + text + ";\n}\n");
         return module.functions.at(0).body.at(0).value;
     };
-    // From loose to tight: each on its own is the root above all that follow.
+    // Ordered from loose to tight: each operator is the root above any that follows it.
     const std::vector<std::vector<std::string>> levels = {
         {"||"}, {"&&"}, {"|"}, {"&"}, {"==", "!="}, {"<", ">", "<=", ">="}, {"<<", ">>"}, {"+", "-"}, {"*", "/"}};
     for (std::size_t i = 0; i < levels.size(); ++i)
@@ -209,7 +209,7 @@ TEST(ParsedText, operatorsBindAsInCAndNumbersHoldTheirPointsAndExponents)
             for (const std::string& loose : levels[i])
                 for (const std::string& tight : levels[k]) {
                     const std::string last = "x " + loose + " y " + tight + " z";
-                    EXPECT_EQ(valueOf(last).text, i == k ? tight : loose) << last; // from left to right
+                    EXPECT_EQ(valueOf(last).text, i == k ? tight : loose) << last; // left-associative
                     const std::string first = "x " + tight + " y " + loose + " z";
                     EXPECT_EQ(valueOf(first).text, loose) << first;
                 }

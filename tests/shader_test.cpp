@@ -1,5 +1,4 @@
-// The printed shader text: the same normals in every language, the same bytes every time, and it
-// compiles as it stands.
+// The printed shader text gives the same normals in every language, is deterministic, and compiles unchanged.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,28 +17,26 @@ using shader_text::Choice;
 using shader_text::Form;
 using shader_text::Language;
 
-// Some thirty roundings of 6e-8 each (square roots and their inverses count as two), amplified by
-// the conditioning of the vectors: 1/sin 30 degrees for positions and again for uv, 1/cos 50 for n,
-// 1/cos 55 for m; 30 * 6e-8 * 2 * 2 * 1.6 * 1.7 rad = 1.1e-3 degrees if all conspired.
+// About thirty roundings of 6e-8 each (square roots and inverse square roots count twice), amplified by the
+// conditioning of the vectors: 1/sin 30 degrees for positions and again for uv, 1/cos 50 for n, 1/cos 55 for m. In the
+// worst case: 30 * 6e-8 * 2 * 2 * 1.6 * 1.7 rad = 1.1e-3 degrees.
 constexpr double kFloatDegrees = 1.2e-3;
-// The text in C++ double is the same operations as the portable text, but for GLM's order of sums;
-// the 1e-16 that fused.h adds to m.z is 1e-11 radians beside a determinant of 1e-5.
+// The text in C++ double performs the operations of the portable text, except for GLM's order of sums.
 constexpr double kDoubleDegrees = 1e-9;
-// Fused forms add a rest of 1e-12 to m.z (fused.h), 6e-11 degrees; `gradient` one of 1e-15 to m.z times the footprint's
-// area, of which the smallest here are about 1e-5: 6e-9 degrees.
+// Fused forms add 1e-12 to m.z (fused.h), 6e-11 degrees; `gradient` adds 1e-15 to m.z times the area of the footprint,
+// which is at least about 1e-5 here: 6e-9 degrees.
 constexpr double kDoubleFusedDegrees = 1e-8;
 
-// Of what one rounding of the result and one of each input change together (`Case::allowance`): a
-// stable evaluation in float is exact for inputs some roundings away. Loosest is pow where the
-// driver makes it of exp2 and log2: 2^-21 absolute for log2 (Vulkan's bound) is a base 5.5
-// roundings away; exp2(-9.28) is good to 22 units in the last place, 44 roundings. Then some
-// twenty multiplications and sums.
+// Maximum error in units of `Case::allowance`, the change by one rounding of the result and one of each input: a stable
+// evaluation in float is exact for inputs a few roundings away. The loosest function is pow, if the driver computes it
+// by exp2 and log2: Vulkan allows log2 an absolute error of 2^-21, 5.5 roundings of the base, and exp2(-9.28) an error
+// of 22 units in the last place, 44 roundings. About twenty multiplications and additions follow.
 constexpr double kFloatRoundings = 64;
-constexpr double kDoubleRoundings = 1e-6; // 2^-29 of them, with reserve for kinks
+constexpr double kDoubleRoundings = 1e-6; // 2^-29 of a float's roundings, with reserve for kinks
 
-// Drawn, the differences are those of interpolated values. An interpolator that counts from the
-// target's corner adds up to 32 differences, each rounded: 32 * 6e-8 of a difference. Both of each
-// pair, amplified as above: 2 * 1.9e-6 * 2 * 2 * 1.6 * 1.7 rad = 2.4e-3 degrees, besides those above.
+// Differences between interpolated values of drawn pixels. An interpolator that accumulates from the corner of the
+// target adds up to 32 rounded differences: a relative error of 32 * 6e-8 for both of each pair. Amplified as above: 2
+// * 1.9e-6 * 2 * 2 * 1.6 * 1.7 rad = 2.4e-3 degrees, in addition to kFloatDegrees.
 constexpr double kDrawnDegrees = 3.6e-3;
 
 const std::vector<Case>& allCases()
@@ -54,8 +51,8 @@ const std::vector<Sample>& allSamples()
     return all;
 }
 
-// WGSL lets an implementation assume that no number is NaN or infinite; GLSL ES 3.00 likewise
-// requires neither. The text says so; nothing is promised there.
+// WGSL may assume that no number is NaN or infinite, and GLSL ES 3.00 requires support for neither. The printed text
+// says so; nothing is promised there.
 Kind hardest(const Case& c, const std::string& language)
 {
     const bool finiteOnly = language == "wgsl" || language == "essl";
@@ -71,47 +68,47 @@ double degreesApart(glm::dvec3 a, glm::dvec3 b)
 
 double worst(const Case& c, const Results& r, std::size_t index)
 {
-    double most = 0;
+    double largest = 0;
     for (std::size_t s = 0; s < allSamples().size(); ++s)
         if (allSamples()[s].kind <= hardest(c, r.language))
-            most = std::max(most, degreesApart(r.values[index][s], c.expected(allSamples()[s].v)));
-    return most;
+            largest = std::max(largest, degreesApart(r.values[index][s], c.expected(allSamples()[s].v)));
+    return largest;
 }
 
 struct LightError {
-    double relative = 0;  // to the largest channel, where roughness is at least kRough
-    double glossy = 0;    // the same, where it is less: highlights amplify the roundings of n and h
+    double relative = 0;  // relative to the largest channel, for roughness of at least kRough
+    double glossy = 0;    // the same for lower roughness, where highlights amplify the roundings of n and h
     double roundings = 0; // see kFloatRoundings
 };
 constexpr float kRough = 0.25f;
 
 LightError worstLight(const Case& c, const Results& r, std::size_t index)
 {
-    LightError most;
+    LightError largest;
     for (std::size_t s = 0; s < allSamples().size(); ++s) {
         if (allSamples()[s].kind != Kind::light)
             continue;
         const glm::dvec3 expected = c.expected(allSamples()[s].v), allowed = c.allowance(allSamples()[s].v);
         for (int k = 0; k < 3; ++k) {
-            const double off = std::abs(r.values[index][s][k] - expected[k]);
+            const double error = std::abs(r.values[index][s][k] - expected[k]);
             const double size = std::max({std::abs(expected.x), std::abs(expected.y), std::abs(expected.z)});
-            if (off == 0)
+            if (error == 0)
                 continue;
-            // Written such that a NaN counts as large.
-            double& relative = allSamples()[s].v.duvdx.y < kRough ? most.glossy : most.relative;
-            relative = off / size <= relative ? relative : off / size;
-            most.roundings = off / allowed[k] <= most.roundings ? most.roundings : off / allowed[k];
+            // The comparison makes a NaN count as large.
+            double& relative = allSamples()[s].v.duvdx.y < kRough ? largest.glossy : largest.relative;
+            relative = error / size <= relative ? relative : error / size;
+            largest.roundings = error / allowed[k] <= largest.roundings ? largest.roundings : error / allowed[k];
         }
     }
-    return most;
+    return largest;
 }
 
 void expectLight(const Case& c, const Results& r, std::size_t index)
 {
-    const LightError most = worstLight(c, r, index);
+    const LightError largest = worstLight(c, r, index);
     fmt::print("| {:24} | {:10} | {:.1e} relative, glossy {:.1e}, {:.1f} roundings |\n", c.name, r.language,
-               most.relative, most.glossy, most.roundings);
-    EXPECT_LT(most.roundings, r.language == "cpp double" ? kDoubleRoundings : kFloatRoundings)
+               largest.relative, largest.glossy, largest.roundings);
+    EXPECT_LT(largest.roundings, r.language == "cpp double" ? kDoubleRoundings : kFloatRoundings)
         << r.language << ", " << c.name;
 }
 
@@ -128,9 +125,9 @@ void expectParity(const Results& r, const std::vector<Case>& run = allCases())
             expectLight(c, r, k);
             continue;
         }
-        const double most = worst(c, r, k);
-        fmt::print("| {:24} | {:10} | {:.1e} |\n", c.name, r.language, most);
-        EXPECT_LT(most, limit) << r.language << ", " << c.name;
+        const double largest = worst(c, r, k);
+        fmt::print("| {:24} | {:10} | {:.1e} |\n", c.name, r.language, largest);
+        EXPECT_LT(largest, limit) << r.language << ", " << c.name;
     }
 }
 
@@ -138,7 +135,7 @@ TEST(ShaderParity, cppFloat) { expectParity(runCpp(allCases(), allSamples(), fal
 TEST(ShaderParity, cppDouble) { expectParity(runCpp(allCases(), allSamples(), true)); }
 TEST(ShaderParity, metalTextAsCpp) { expectParity(runMsl(allCases(), allSamples())); }
 
-// Every frame in each form, and light with pow, exp2 and a struct: the rest is like them.
+// Every frame in each form, and lighting with pow, exp2 and a struct; the remaining cases use nothing else.
 TEST(ShaderParity, spirvCrossMetalTextOfTheGlslAsCpp)
 {
     std::vector<Case> some = frameCases();
@@ -155,11 +152,11 @@ TEST(ShaderParity, hlslOnVulkan) { expectParity(runVulkan(allCases(), allSamples
 TEST(ShaderParity, godotOnVulkan)
 {
     const std::vector<Case> some = godotCases();
-    ASSERT_GT(some.size() + 12, allCases().size()); // all but what packs
+    ASSERT_GT(some.size() + 12, allCases().size()); // all except those that pack bits
     expectParity(runVulkan(some, allSamples(), Language::godot), some);
 }
 #endif
-// y of window space runs along with clip space's in WebGL and Vulkan, against it in WebGPU.
+// The y axes of window space and clip space agree in WebGL and Vulkan, and are opposite in WebGPU.
 void expectDrawn(const Results& r)
 {
     if (!r.skipped.empty())
@@ -168,21 +165,21 @@ void expectDrawn(const Results& r)
     const std::vector<Vectors> drawnTiles = tiles();
     ASSERT_EQ(r.values.size(), drawn.size());
     for (std::size_t c = 0; c < drawn.size(); ++c)
-        for (int turn = 0; turn < 2; ++turn) {
-            const bool along = (turn == 0) != (r.language == "wgsl");
-            double most = 0;
+        for (int flipped = 0; flipped < 2; ++flipped) {
+            const bool along = (flipped == 0) != (r.language == "wgsl");
+            double largest = 0;
             for (int row = 0; row < kTarget; ++row)
                 for (int column = 0; column < kTarget; ++column) {
                     const int tileRow = (along ? row : kTarget - 1 - row) / kTile;
                     Vectors v = drawnTiles[static_cast<std::size_t>(tileRow * kTiles + column / kTile)];
                     v.dpdy = along ? v.dpdy : -v.dpdy;
                     v.duvdy = along ? v.duvdy : -v.duvdy;
-                    const std::size_t pixel = static_cast<std::size_t>((turn * kTarget + row) * kTarget + column);
-                    most = std::max(most, degreesApart(r.values[c][pixel], drawn[c].expected(v)));
+                    const std::size_t pixel = static_cast<std::size_t>((flipped * kTarget + row) * kTarget + column);
+                    largest = std::max(largest, degreesApart(r.values[c][pixel], drawn[c].expected(v)));
                 }
-            fmt::print("| {:24} | {:10} | {:.1e} | drawn, y {} |\n", drawn[c].name, r.language, most,
+            fmt::print("| {:24} | {:10} | {:.1e} | drawn, y {} |\n", drawn[c].name, r.language, largest,
                        along ? "along" : "against");
-            EXPECT_LT(most, kDrawnDegrees) << r.language << ", " << drawn[c].name << ", along: " << along;
+            EXPECT_LT(largest, kDrawnDegrees) << r.language << ", " << drawn[c].name << ", along: " << along;
         }
 }
 
@@ -200,7 +197,7 @@ TEST(ShaderParity, webGl2AndWebGpu)
     expectDrawn(r.drawnWgsl);
 }
 
-// Nothing of light, its environment, shadow and tone is left out above.
+// The cases above leave out no function of lighting, environment, shadow and tone mapping.
 TEST(ShaderParity, everyFunctionOfLightIsRun)
 {
     std::string run;
@@ -218,7 +215,7 @@ TEST(ShaderParity, everyFunctionOfLightIsRun)
     }
 }
 
-TEST(ShaderText, theSameChoiceGivesTheSameBytesInEveryLanguage)
+TEST(ShaderText, isDeterministicAndFreeOfMacros)
 {
     for (Language l : shader_text::kLanguages)
         for (const FrameInfo& f : frames()) {
@@ -228,10 +225,10 @@ TEST(ShaderText, theSameChoiceGivesTheSameBytesInEveryLanguage)
             for (const shader_text::Set set : shader_text::kSets)
                 if (hasSet(l, set))
                     choice.sets.push_back(set);
-            choice.functionsOnly = f.frame == Frame::exact; // Godot's shaders do not see edges
+            choice.functionsOnly = f.frame == Frame::exact; // Godot's shaders have no access to edges
             const std::string text = makeShaderText(choice)->text;
             EXPECT_EQ(text, makeShaderText(choice)->text);
-            // No macro of the portable text is left, no line is too wide for a page.
+            // No macro of the portable text is left.
             EXPECT_EQ(text.find("COTAN_"), std::string::npos) << text.substr(text.find("COTAN_"), 60);
             EXPECT_EQ(text.find("\n#define"), std::string::npos);
         }
@@ -249,7 +246,7 @@ TEST(ShaderText, onlyWhatIsNeededIsPrinted)
     EXPECT_EQ(makeShaderText(choice)->text.find("dFdx("), std::string::npos);
 }
 
-TEST(ShaderText, whatAFrameDoesNotHaveIsRefused)
+TEST(ShaderText, choicesThatAFrameDoesNotSupportAreRefused)
 {
     Choice choice;
     choice.frame = Frame::unit;
@@ -263,7 +260,7 @@ TEST(ShaderText, whatAFrameDoesNotHaveIsRefused)
     EXPECT_EQ(makeShaderText(choice).error().kind, ErrorKind::usage);
 }
 
-// Every set with every frame, as a fragment shader that calls the function with derivatives.
+// Every set with every frame, in a fragment shader that calls the function that takes derivatives itself.
 TEST(ShaderText, everySetCompilesAsAFragmentShader)
 {
     TemporaryFolder folder;
@@ -296,7 +293,7 @@ TEST(ShaderText, everySetCompilesAsAFragmentShader)
         }
 }
 
-TEST(ShaderCommand, badWordsGetOneLineAndExitCode1)
+TEST(ShaderCommand, badArgumentsGiveOneLineAndExitCode1)
 {
     TemporaryFolder folder;
     for (const std::vector<std::string>& words :
@@ -323,7 +320,7 @@ TEST(ShaderCommand, badWordsGetOneLineAndExitCode1)
     }
 }
 
-TEST(ShaderCommand, writesTheTextWholeAndListsItsFunctions)
+TEST(ShaderCommand, writesTheCompleteTextAndListsItsFunctions)
 {
     TemporaryFolder folder;
     const ToolRun printed = runTool({"shader", "--lang", "wgsl"}, folder.path());

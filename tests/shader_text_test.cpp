@@ -1,5 +1,5 @@
-// What is printed for small texts and single options, written down by hand: the parity tests compile and run everything
-// and so take their time, and cannot see what all languages get wrong alike.
+// Expected output for small texts and single options, written by hand. The parity tests compile and run everything, but
+// are slow and miss an error that all languages share.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::string textOf(const Choice& choice)
 
 // ---- forms of cotangent -----------------------------------------------------------------------
 
-TEST(ShaderForms, seenAsksForTheSideAndSaysWhichItIs)
+TEST(ShaderForms, seenTakesTheSideAsAnArgument)
 {
     for (const Language language : kLanguages) {
         Choice choice;
@@ -50,7 +50,7 @@ TEST(ShaderForms, areaHasTheArgumentsOfTheFrame)
     EXPECT_FALSE(has(textOf(choice), "side)"));
 }
 
-TEST(ShaderForms, seenAndAreaAreOfCotangentOverOneUvSet)
+TEST(ShaderForms, seenAndAreaRequireCotangentOverOneUvSet)
 {
     for (const Form form : {Form::seen, Form::area})
         for (const auto& [frame, sets] : {std::pair{Frame::gradient, 1}, {Frame::triangle, 1}, {Frame::cotangent, 2}}) {
@@ -64,7 +64,7 @@ TEST(ShaderForms, seenAndAreaAreOfCotangentOverOneUvSet)
         }
 }
 
-TEST(ShaderForms, theErrorOfASphereIsSaidOfTheFrameThatHasIt)
+TEST(ShaderForms, theErrorOnASphereIsStatedOnlyForCotangent)
 {
     Choice choice;
     EXPECT_TRUE(has(textOf(choice), "1.1 degrees in the mean"));
@@ -84,14 +84,14 @@ TEST(PreprocessedText, oneBranchOfAChainIsRead)
     EXPECT_EQ(preprocess(text, "COTAN_LANG_HLSL").text, "other\nall\n");
 }
 
-TEST(PreprocessedText, branchesInsideOfUnreadOnesAreNotRead)
+TEST(PreprocessedText, branchesInsideSkippedOnesAreSkipped)
 {
     const char* const text = "#ifndef GUARD\n#if defined(COTAN_LANG_CPP)\n#if "
                              "defined(COTAN_LANG_GLSL)\ninner\n#endif\n#else\nouter\n#endif\n#endif\n";
     EXPECT_EQ(preprocess(text, "COTAN_LANG_GLSL").text, "outer\n");
 }
 
-TEST(PreprocessedText, constantsAreThoseOfOurPrefixWithAValue)
+TEST(PreprocessedText, constantsHaveTheCotanPrefixAndAValue)
 {
     const auto found =
         preprocess("#define COTAN_HUGE cotan_real(1e37) // why\n#define COTAN_FUNCTION inline\n#define COTAN_ON\n"
@@ -109,7 +109,7 @@ const char* const kSmall = "COTAN_FUNCTION cotan_real half_or_less(cotan_real x,
                            "    cotan_vec2 v = cotan_vec2(x, y);\n"
                            "    return x < y ? v.x : v.y;\n}\n";
 
-TEST(PrintedText, glslHlslAndMetalDifferInWords)
+TEST(PrintedText, glslHlslAndMetalDifferInSpelling)
 {
     EXPECT_TRUE(has(translate(Language::glsl, kSmall),
                     "float half_or_less(float x, float y)\n{\n    x = x * 0.5;\n"
@@ -119,7 +119,7 @@ TEST(PrintedText, glslHlslAndMetalDifferInWords)
         has(translate(Language::msl, kSmall), "inline float half_or_less(float x, float y)\n{\n    x = x * 0.5f;\n"));
 }
 
-TEST(PrintedText, wgslCopiesParametersThatChangeAndSelectsTheOtherWayRound)
+TEST(PrintedText, wgslCopiesAssignedParametersAndReversesSelect)
 {
     const std::string text = translate(Language::wgsl, kSmall);
     EXPECT_TRUE(has(text,
@@ -128,7 +128,7 @@ TEST(PrintedText, wgslCopiesParametersThatChangeAndSelectsTheOtherWayRound)
         << text;
 }
 
-TEST(PrintedText, structsComeWithTheFunctionsThatDeclareThem)
+TEST(PrintedText, structsAreIncludedOnlyIfUsed)
 {
     const char* const text =
         "struct cotan_two {\n    cotan_real a; // first\n    cotan_real b; // second\n};\n"
@@ -141,7 +141,7 @@ TEST(PrintedText, structsComeWithTheFunctionsThatDeclareThem)
 
 const char* const kPair = "struct cotan_two {\n    cotan_real a;\n    cotan_vec3 b;\n};\n";
 
-TEST(WithoutStructs, whatIsReturnedIsWrittenToParametersAndFieldsAreVariables)
+TEST(WithoutStructs, resultsBecomeOutParametersAndFieldsBecomeVariables)
 {
     const std::string text = std::string(kPair)
         + "COTAN_FUNCTION cotan_two two_of(cotan_real x)\n{\n    // first\n    cotan_two t;\n    t.a = x;\n"
@@ -164,8 +164,8 @@ TEST(WithoutStructs, whatIsReturnedIsWrittenToParametersAndFieldsAreVariables)
               "    result_a = u_a;\n    result_b = u_b;\n}\n");
 }
 
-// A local variable that is returned early too is still the parameter.
-TEST(WithoutStructs, whatIsReturnedEarlyEndsThere)
+// A local variable that is returned early is also replaced by the output parameters.
+TEST(WithoutStructs, earlyReturnsEndTheFunction)
 {
     const std::string text = std::string(kPair)
         + "COTAN_FUNCTION cotan_two early(cotan_real x)\n{\n    cotan_two t;\n    t.a = x;\n    t.b = cotan_vec3(x, x, "
@@ -175,7 +175,7 @@ TEST(WithoutStructs, whatIsReturnedEarlyEndsThere)
         has(translate(Language::godot, text), "    if (x < 0.0) {\n        return;\n    }\n    t_a = x * x;\n}\n"));
 }
 
-TEST(WithoutStructs, aNameThatIsTakenAndAStructBehindAConditionAreRefused)
+TEST(WithoutStructs, nameClashesAndConditionalStructsAreRefused)
 {
     const std::string start =
         std::string(kPair) + "COTAN_FUNCTION cotan_real f(cotan_two t, cotan_two s, cotan_real x)\n{\n";
@@ -188,7 +188,7 @@ TEST(WithoutStructs, aNameThatIsTakenAndAStructBehindAConditionAreRefused)
 
 // ---- options --------------------------------------------------------------------------------
 
-TEST(ChosenText, theStoredFormIsWrittenOutAndTheOthersAreGone)
+TEST(ChosenText, containsOnlyTheChosenStoredForm)
 {
     Choice choice;
     choice.frame = Frame::unit;
@@ -215,7 +215,7 @@ TEST(ChosenText, theStoredFormIsWrittenOutAndTheOthersAreGone)
     EXPECT_TRUE(has(textOf(choice), "    vec3 m = cotan_from_stereographic(xy);\n"));
 }
 
-TEST(ChosenText, greenIsTurnedWhereItPointsAgainstV)
+TEST(ChosenText, greenIsInvertedIfItPointsAgainstV)
 {
     for (const bool greenUp : {true, false})
         for (const VDirection v : {VDirection::up, VDirection::down}) {
@@ -228,7 +228,7 @@ TEST(ChosenText, greenIsTurnedWhereItPointsAgainstV)
         }
 }
 
-TEST(ChosenText, severalUvSetsAreAddedAndCounted)
+TEST(ChosenText, uvSetsAreSummedAndLimitedToFour)
 {
     Choice choice;
     choice.frame = Frame::gradient;
@@ -259,7 +259,7 @@ TEST(ChosenText, severalUvSetsAreAddedAndCounted)
     }
 }
 
-TEST(ChosenText, framesThatAskForAUnitNormalGetOne)
+TEST(ChosenText, framesThatNeedAUnitNormalGetOne)
 {
     for (const FrameInfo& f : frames()) {
         if (f.source != FrameSource::differences)
@@ -271,7 +271,7 @@ TEST(ChosenText, framesThatAskForAUnitNormalGetOne)
     }
 }
 
-TEST(ChosenText, screenDerivativesAreTakenWhereTheLanguageAndTheFrameHaveThem)
+TEST(ChosenText, screenDerivativesAreUsedIfLanguageAndFrameHaveThem)
 {
     for (const Language language : kLanguages)
         for (const bool caller : {false, true}) {
@@ -284,16 +284,16 @@ TEST(ChosenText, screenDerivativesAreTakenWhereTheLanguageAndTheFrameHaveThem)
                 return std::ranges::count(t.functions, "cotan_perturb_normal");
             };
             EXPECT_EQ(taken(*text), !caller && language != Language::cpp) << name(language);
-            choice.frame = Frame::exact; // from edges
+            choice.frame = Frame::exact; // made from edges
             choice.functionsOnly = true;
             EXPECT_EQ(taken(*makeShaderText(choice)), 0) << name(language);
         }
 }
 
-TEST(ChosenText, setsOfFunctionsComeOnlyWhenAskedFor)
+TEST(ChosenText, functionSetsAreIncludedOnlyOnRequest)
 {
-    // Of each set a function that no other one calls.
-    const std::map<Set, std::string> own = {{Set::gradient, "cotan_gradient_triplanar("},
+    // For each set, a function that no other set includes.
+    const std::map<Set, std::string> exclusive = {{Set::gradient, "cotan_gradient_triplanar("},
                                             {Set::blend, "cotan_blend_udn("},
                                             {Set::light, "cotan_reflect_coat("},
                                             {Set::environment, "cotan_environment_texel("},
@@ -303,13 +303,13 @@ TEST(ChosenText, setsOfFunctionsComeOnlyWhenAskedFor)
         Choice with, others;
         with.sets = {set};
         std::ranges::copy_if(kSets, std::back_inserter(others.sets), [&](Set s) { return s != set; });
-        EXPECT_TRUE(has(textOf(with), own.at(set))) << name(set);
-        EXPECT_FALSE(has(textOf(others), own.at(set))) << name(set);
+        EXPECT_TRUE(has(textOf(with), exclusive.at(set))) << name(set);
+        EXPECT_FALSE(has(textOf(others), exclusive.at(set))) << name(set);
     }
 }
 
-// GLSL ES and WGSL convert no whole number by themselves.
-TEST(ChosenText, wholeNumbersBecomeRealsByName)
+// GLSL ES and WGSL have no implicit conversion from integers.
+TEST(ChosenText, integersAreConvertedExplicitly)
 {
     const char* const text = "COTAN_FUNCTION cotan_real half(int i)\n{\n"
                              "    return cotan_real(i) * cotan_real(3) + cotan_real(0.5);\n}\n";
@@ -318,7 +318,7 @@ TEST(ChosenText, wholeNumbersBecomeRealsByName)
     EXPECT_TRUE(has(translate(Language::msl, text), "return float(i) * 3.0f + 0.5f;"));
 }
 
-TEST(Stages, aNumberThatIsNoneIsCalledAll)
+TEST(Stages, unknownNumbersAreNamedAll)
 {
     EXPECT_EQ(name(Stage(9)), "all");
     EXPECT_EQ(name(Stage::compute), "compute");

@@ -1,4 +1,4 @@
-// The device that the parity test computes and draws on.
+// The device on which the parity tests compute and draw.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace cotan::test {
 
-// The values of cases on the first device that has what pricing needs: work(device, results) adds them. Without one,
-// results say why they were skipped.
+// Runs work(device, results), which adds the values of cases, on the first device with all features that bench/gpu
+// needs. Without such a device, results.skipped says why.
 template<class Work> Results onFirstDevice(shader_text::Language language, const Work& work)
 {
     Results results{std::string(shader_text::name(language)), "no Vulkan device", {}};

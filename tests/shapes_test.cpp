@@ -1,4 +1,4 @@
-// The built-in shapes against geometry.
+// Compares the built-in shapes with geometry.
 #include "cotan/scene.hpp"
 
 #include <algorithm>
@@ -72,7 +72,7 @@ double volume(const Mesh& mesh)
     return sum;
 }
 
-// Vertices that share a position are one; an edge is named by its two vertices, in order.
+// Counts of a mesh whose vertices are merged by position. Edges are undirected.
 struct Topology {
     long vertices, edges, faces;
     bool closed; // every edge is used once in each direction
@@ -147,7 +147,7 @@ TEST(Shapes, sphereIsClosedWithoutHandles)
     EXPECT_EQ(t.eulerCharacteristic(), 2);
 }
 
-// A triangle at a pole has a corner of its own there, in the middle of its columns.
+// Each triangle at a pole has its own vertex there, with u in the centre of its column.
 TEST(Shapes, polesHaveAVertexInTheMiddleOfEveryColumn)
 {
     constexpr std::size_t kColumns = 8;
@@ -179,8 +179,8 @@ TEST(Shapes, cubeIsClosedWithoutHandles)
 
 TEST(Shapes, volumesApproachTheExactOnes)
 {
-    // A polyhedron inscribed with n cells around a circle falls short by O(1/n^2): 2 pi^2/(3 n^2)
-    // = 1e-4 around the great circle at n = 256, and four times that for the coarser section.
+    // A polyhedron inscribed with n cells around a circle has a volume too small by O(1/n^2): 2 pi^2/(3 n^2) = 1e-4 for
+    // the great circle at n = 256, and four times that for the coarser section.
     EXPECT_NEAR(volume(cotan::makeCube(3, 1)), 27, 1e-5);
     EXPECT_NEAR(volume(cotan::makeSphere(2, 256)) / (4 * kPi / 3 * 8), 1, 1e-3);
     EXPECT_NEAR(volume(cotan::makeTorus(2, 0.5f, 256, 1, 1)) / (2 * kPi * kPi * 2 * 0.25), 1, 1e-3);
@@ -220,7 +220,7 @@ TEST(Shapes, patchTexcoordsAreTheInverseLayout)
     const Mesh mesh = cotan::makePatch(stretch, shear, false, 3);
     for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
         const glm::vec2 uv = mesh.texcoords[0][i];
-        // L uv = p, from the top left corner, rightwards and downwards.
+        // L uv = p, with p from the top left corner, to the right and down.
         const glm::vec2 p{stretch * uv.x + shear * uv.y, uv.y};
         EXPECT_NEAR(p.x, mesh.positions[i].x + 0.5f, 1e-6f);
         EXPECT_NEAR(p.y, 0.5f - mesh.positions[i].y, 1e-6f);
@@ -228,8 +228,8 @@ TEST(Shapes, patchTexcoordsAreTheInverseLayout)
     }
 }
 
-// The largest angle between the stored normals and those of central differences on an n x n grid
-// of vertices that starts at `first`.
+// Maximum angle in degrees between the stored normals and those of central differences, on a grid of n x n cells whose
+// vertices start at `first`.
 double normalError(const Mesh& mesh, std::size_t first, std::size_t n)
 {
     double worst = 0;
@@ -245,7 +245,7 @@ double normalError(const Mesh& mesh, std::size_t first, std::size_t n)
 
 TEST(Shapes, spoutNormalsEqualDifferences)
 {
-    // Second order: the error falls about fourfold when the step is halved.
+    // Central differences are of second order: half the step reduces the error about fourfold.
     const double coarse = normalError(cotan::makeSpout(64), 0, 64);
     const double fine = normalError(cotan::makeSpout(128), 0, 128);
     EXPECT_LT(fine, 0.2);
@@ -265,7 +265,7 @@ TEST(Shapes, spoutSquashesTheTextureTowardsTheTip)
     EXPECT_GT(ring(n), 5 * ring(0));
 }
 
-// Vertices of a teapot patch without poles, and whether the patch has one.
+// Whether a patch of the teapot contains a pole.
 bool patchHasPole(std::size_t patch) { return (patch >= 20 && patch < 24) || patch >= 28; }
 
 TEST(Teapot, standsOnTheGroundAndIsOneHigh)
@@ -282,7 +282,7 @@ TEST(Teapot, standsOnTheGroundAndIsOneHigh)
 
 TEST(Teapot, verticesAreSharedInsideAPatch)
 {
-    // 24 patches of (n+1)^2 vertices, 8 with a pole: n vertices in place of n+1.
+    // 24 patches have (n+1)^2 vertices; 8 have a pole, with n vertices instead of n+1.
     const int n = 6;
     const Mesh mesh = cotan::makeTeapot(n);
     EXPECT_EQ(mesh.vertexCount(), std::size_t(24 * (n + 1) * (n + 1) + 8 * ((n + 1) * n + n)));
@@ -291,8 +291,7 @@ TEST(Teapot, verticesAreSharedInsideAPatch)
 
 TEST(Teapot, normalsEqualDifferences)
 {
-    // Second order: the error falls about fourfold when the step is halved; the poles are
-    // checked below.
+    // Central differences are of second order: half the step reduces the error about fourfold. Poles are tested below.
     const auto worst = [](std::size_t n) {
         const Mesh mesh = cotan::makeTeapot(int(n));
         double error = 0;
@@ -321,15 +320,14 @@ TEST(Teapot, polesHaveTheLimitNormal)
         EXPECT_LT(glm::length(mesh.normals[i] - expected), 1e-6f);
         ++(p.y > 0.5f ? top : bottom);
     }
-    EXPECT_EQ(top, 4 * 7); // four patches meet, one vertex a column
+    EXPECT_EQ(top, 4 * 7); // four patches meet, each with one vertex per column
     EXPECT_EQ(bottom, 4 * 7);
 }
 
 TEST(Teapot, normalsAgreeBetweenPatchesOfTheBody)
 {
-    // Patches 1-12 are the body (0 based 0-11), four around; its pieces join smoothly. The shared
-    // vertices are the same bits; the control points have three digits, which bends the joint
-    // by up to 0.1 degrees.
+    // Patches 1-12 (here 0-11) are the body, four around, and join smoothly. Shared vertices are equal to the bit.
+    // Control points have three digits, which bends the joint by up to 0.1 degrees.
     const std::size_t n = 8, perPatch = (n + 1) * (n + 1);
     const Mesh mesh = cotan::makeTeapot(int(n));
     for (std::size_t patch = 0; patch < 12; ++patch) {

@@ -1,4 +1,4 @@
-// Soft shadows on the model against rays to an area light.
+// Soft shadows on the model, compared with rays to an area light.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,9 +14,9 @@ using namespace test;
 using glm::dvec3;
 using glm::vec3;
 
-// Percentage-closer filtering takes one distance for all that stands before the lamp, and one disc for the search: the
-// bar is what that leaves on the floor under a ball and a box; sharp shadows are off by three times as much.
-TEST(SoftShadows, areThoseOfRaysToTheLampsDisc)
+// Percentage-closer filtering assumes one distance for all occluders, and one disc for the search for them. The bound
+// is the resulting error on the floor under a ball and a box; the error of sharp shadows is about three times as large.
+TEST(SoftShadows, matchRaysToTheLightsDisc)
 {
     const Solids solids;
     Scene scene = sceneOf(solids);
@@ -31,7 +31,7 @@ TEST(SoftShadows, areThoseOfRaysToTheLampsDisc)
     view.samples = 1;
     view.shadowSoftness = 0.06f;
     const dvec3 toLight = -dvec3(view.lights[0].direction);
-    for (const auto& renderer : painters()) {
+    for (const auto& renderer : renderers()) {
         ASSERT_TRUE(renderer->load(scene));
         const auto meanError = [&](const View& drawn) {
             View bare = drawn;
@@ -42,9 +42,9 @@ TEST(SoftShadows, areThoseOfRaysToTheLampsDisc)
             for (int i = 0; with && without && i < 96 * 96; ++i) {
                 const dvec3 p((i % 96 + 0.5) / 24 - 2, 0, (i / 96 + 0.5) / 24 - 2);
                 if (solids.stop(p, {1e-9, 1, 1e-9}))
-                    continue; // not the floor
-                const double share = with->floats()[4 * i] / double(without->floats()[4 * i]);
-                sum += std::abs(share - lightTraced(solids, p, toLight, view.shadowSoftness));
+                    continue; // a solid covers the floor here
+                const double lit = with->floats()[4 * i] / double(without->floats()[4 * i]);
+                sum += std::abs(lit - tracedTransmittance(solids, p, toLight, view.shadowSoftness));
                 ++count;
             }
             EXPECT_GT(count, 5000);
@@ -57,19 +57,19 @@ TEST(SoftShadows, areThoseOfRaysToTheLampsDisc)
     }
 }
 
-// A crowded tile of the reference's shadow map is drawn in another order than a plain one.
-TEST(SoftShadows, ofManyThingsInOnePlaceAreThoseOfOne)
+// The reference renderer draws a tile of the shadow map with many triangles in a different order.
+TEST(SoftShadows, ofCoincidentOccludersEqualThoseOfOne)
 {
-    const auto picture = [](int copies, int more) {
+    const auto floorBytes = [](int copies, int shaded) {
         Scene scene;
         add(scene, makePlane(6, 1, 1), glm::mat4(1));
         for (int i = 0; i < copies; ++i)
-            add(scene, makePlane(1, 1, 1), placedAt({0, 0.8, 0}, dvec3(1)));
-        for (int i = 0; i < more; ++i) // below, in its shadow
-            add(scene, makePlane(0.5f, 1, 1), placedAt({0, 0.7 - 0.001 * i, 0}, dvec3(1)));
+            add(scene, makePlane(1, 1, 1), translationScale({0, 0.8, 0}, dvec3(1)));
+        for (int i = 0; i < shaded; ++i) // below the others, in their shadow
+            add(scene, makePlane(0.5f, 1, 1), translationScale({0, 0.7 - 0.001 * i, 0}, dvec3(1)));
         View view = sunnyView();
         view.width = view.height = 48;
-        view.camera.orthographic = true; // the floor under them
+        view.camera.orthographic = true; // shows only the floor under them
         view.camera.verticalExtent = 0.3f;
         view.camera.eye = {0, 0.5f, 1};
         view.camera.target = {0, 0, 0};
@@ -77,31 +77,30 @@ TEST(SoftShadows, ofManyThingsInOnePlaceAreThoseOfOne)
         EXPECT_TRUE(drawn);
         return drawn ? drawn->data : std::vector<std::byte>();
     };
-    EXPECT_EQ(picture(1, 0), picture(100, 0));
-    EXPECT_EQ(picture(1, 3), picture(80, 3));
+    EXPECT_EQ(floorBytes(1, 0), floorBytes(100, 0));
+    EXPECT_EQ(floorBytes(1, 3), floorBytes(80, 3));
 }
 
-// What a pane throws on the floor under it is 1 less its alpha, in both renderers and with every kind of edge: in the
-// mean to 0.012; in single pixels to a ninth, the grain of nine texels, and where 24 reads are spread over a disc to
-// 0.2.
-TEST(SoftShadows, panesStopLightByTheirAlphaInBothRenderers)
+// The floor under a pane gets 1 - alpha of the light in both renderers, with sharp and soft shadows: the mean within
+// 0.012, single pixels within a ninth (the granularity of nine texels), or 0.2 where 24 taps are spread over a disc.
+TEST(SoftShadows, translucentPanesBlockLightByTheirAlpha)
 {
     Scene scene;
     add(scene, makePlane(6, 1, 1), glm::mat4(1));
-    add(scene, makePlane(1, 1, 1), placedAt({0, 0.8, 0}, dvec3(1)));
+    add(scene, makePlane(1, 1, 1), translationScale({0, 0.8, 0}, dvec3(1)));
     scene.materials.resize(2);
     scene.materials[1].alphaMode = AlphaMode::blend;
     scene.meshes[1].material = 1;
     View view = sunnyView();
     view.lights[0].direction = glm::normalize(vec3(0.05f, -1, 0.03f));
     view.width = view.height = 48;
-    view.camera.orthographic = true; // the floor under the pane, and not the pane
+    view.camera.orthographic = true; // shows the floor under the pane, not the pane
     view.camera.verticalExtent = 0.3f;
     view.camera.eye = {0, 0.5f, 1};
     view.camera.target = {0, 0, 0};
     view.linearOutput = true;
     view.samples = 1;
-    for (const auto& renderer : painters())
+    for (const auto& renderer : renderers())
         for (const float alpha : {0.0f, 0.1f, 0.35f, 0.5f, 0.8f, 1.0f}) {
             scene.materials[1].baseColor.w = alpha;
             ASSERT_TRUE(renderer->load(scene));
@@ -111,14 +110,14 @@ TEST(SoftShadows, panesStopLightByTheirAlphaInBothRenderers)
                 bare.shadows = false;
                 const auto with = renderer->draw(view), without = renderer->draw(bare);
                 ASSERT_TRUE(with && without);
-                double mean = 0, most = 0;
+                double mean = 0, worst = 0;
                 for (std::size_t i = 0; i < with->pixelCount(); ++i) {
-                    const double share = with->floats()[4 * i] / double(without->floats()[4 * i]);
-                    mean += share / double(with->pixelCount());
-                    most = std::max(most, std::abs(share - (1 - alpha)));
+                    const double lit = with->floats()[4 * i] / double(without->floats()[4 * i]);
+                    mean += lit / double(with->pixelCount());
+                    worst = std::max(worst, std::abs(lit - (1 - alpha)));
                 }
                 EXPECT_NEAR(mean, 1 - alpha, 0.012) << renderer->device() << " " << alpha << " " << softness;
-                EXPECT_LT(most, softness > 0 ? 0.2 : 0.112) << renderer->device() << " " << alpha << " " << softness;
+                EXPECT_LT(worst, softness > 0 ? 0.2 : 0.112) << renderer->device() << " " << alpha << " " << softness;
             }
         }
 }
@@ -133,7 +132,7 @@ TEST(SoftShadows, convexSolidsDoNotShadeTheirLitSides)
     view.camera.target = {-0.6f, 0.9f, 0.1f};
     view.linearOutput = true;
     view.samples = 1;
-    for (const auto& renderer : painters()) {
+    for (const auto& renderer : renderers()) {
         ASSERT_TRUE(renderer->load(scene));
         View bare = view;
         bare.shadows = false;
@@ -146,11 +145,11 @@ TEST(SoftShadows, convexSolidsDoNotShadeTheirLitSides)
 
 TEST(SoftShadows, bothRenderersDrawTheSameOverEveryBackground)
 {
-    const auto all = painters();
+    const auto all = renderers();
     if (all.size() < 2)
         GTEST_SKIP() << "no Vulkan device";
     Scene scene = sceneOf({});
-    add(scene, makeTorus(0.3f, 0.1f, 48, 1, 1), placedAt({0, 0.4, 0.6}, dvec3(1)));
+    add(scene, makeTorus(0.3f, 0.1f, 48, 1, 1), translationScale({0, 0.4, 0.6}, dvec3(1)));
     scene.materials.resize(2);
     scene.materials[1].alphaMode = AlphaMode::blend;
     scene.materials[1].baseColor = {0.2f, 0.8f, 0.3f, 0.5f};
@@ -178,11 +177,11 @@ TEST(SoftShadows, bothRenderersDrawTheSameOverEveryBackground)
                 int large = 0;
                 for (std::size_t i = 0; i < a->data.size(); ++i)
                     large += std::abs(int(a->bytes8()[i]) - int(b->bytes8()[i])) > 3;
-                // Rims of the shadow on the solids, whose maps have texels of their own.
+                // Edges of shadows on the solids differ, because each renderer's shadow maps have their own texels.
                 EXPECT_LT(large, int(a->data.size()) / 100) << int(backdrop) << background << orthographic;
                 if (background)
                     continue;
-                // The shadow alone: black, as opaque as it is dark.
+                // Without a background only the shadow remains: black, with its darkness as alpha.
                 const std::uint8_t* shadow = a->bytes8() + 4 * (240 * 170 + 120);
                 EXPECT_EQ(shadow[0] + shadow[1] + shadow[2], 0);
                 int half = 0;

@@ -1,5 +1,4 @@
-// Highlights that are smaller than a pixel: pictures of a sample a pixel, with and without, against 256 samples a
-// pixel.
+// Highlights smaller than a pixel: one sample per pixel, with and without antialiasing, against 256 samples per pixel.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,13 +9,13 @@
 #include "cotan/portable.hpp"
 #include "cotan/render.hpp"
 #include "cotan/scene.hpp"
-#include "scene/picture_text.hpp"
+#include "scene/render_text.hpp"
 #include "truth/grain.hpp"
 
 namespace cotan::test {
 namespace {
 
-constexpr int kSide = 64, kFiner = 16; // pixels, and samples a side of one
+constexpr int kSide = 64, kFiner = 16; // pixels a side, and samples a side of a pixel
 
 Scene shiny(Mesh mesh, float roughness, bool mapped)
 {
@@ -59,9 +58,9 @@ Image drawn(const Scene& scene, const View& view)
     return std::move(*image);
 }
 
-glm::vec3 shown(glm::vec3 linear) { return f32::cotan_tone_of(int(ToneMapping::neutral), linear); }
+glm::vec3 displayed(glm::vec3 linear) { return f32::cotan_tone_of(int(ToneMapping::neutral), linear); }
 
-// The mean of kFiner * kFiner pixels each.
+// Averages blocks of kFiner x kFiner pixels.
 Image averaged(const Image& fine)
 {
     Image out = makeImage(kSide, kSide, PixelType::float32);
@@ -74,17 +73,17 @@ Image averaged(const Image& fine)
     return out;
 }
 
-// Root of the mean square of what is shown, over pixels that are covered whole.
-double error(const Image& picture, const Image& truth)
+// RMS difference of tone-mapped colours, over completely covered pixels.
+double error(const Image& render, const Image& truth)
 {
     double sum = 0;
     int count = 0;
     for (std::size_t i = 0; i < truth.pixelCount(); ++i) {
-        const float* const a = picture.floats() + 4 * i;
+        const float* const a = render.floats() + 4 * i;
         const float* const b = truth.floats() + 4 * i;
         if (b[3] < 0.999f)
             continue;
-        const glm::vec3 d = shown({a[0], a[1], a[2]}) - shown({b[0], b[1], b[2]});
+        const glm::vec3 d = displayed({a[0], a[1], a[2]}) - displayed({b[0], b[1], b[2]});
         sum += glm::dot(d, d) / 3;
         ++count;
     }
@@ -100,7 +99,7 @@ Errors errorsOf(const Scene& scene, bool environment = true)
 {
     View fine = sunlit(kSide * kFiner), view = sunlit(kSide);
     fine.environment = view.environment = environment;
-    Scene finest = scene; // smaller levels of the map have lost the spread that is looked for
+    Scene finest = scene; // higher mip levels average out the variance of normals that is the subject here
     for (Material& material : finest.materials)
         material.normalMap.sampler.mip = MipFilter::none;
     const Image truth = averaged(drawn(finest, fine));
@@ -111,8 +110,8 @@ Errors errorsOf(const Scene& scene, bool environment = true)
     return e;
 }
 
-// What is measured is in docs/explanation/lighting.md, with what no method can do that knows only statistics.
-TEST(SpecularAntialiasing, halvesTheErrorOfGrainAndDomesInSurroundings)
+// docs/explanation/lighting.md lists the measured errors and the limits of any method that knows only statistics.
+TEST(SpecularAntialiasing, halvesTheErrorUnderAnEnvironment)
 {
     for (const float repeat : {1.0f, 3.0f, 8.0f}) {
         const auto torus = [&] { return makeTorus(0.8f, 0.35f, 96, 4 * repeat, repeat); };
@@ -126,17 +125,17 @@ TEST(SpecularAntialiasing, halvesTheErrorOfGrainAndDomesInSurroundings)
     }
 }
 
-TEST(SpecularAntialiasing, lightsTheMorePlacesTheSharperAndFourASideAtLeastAndSixteenAtMost)
+TEST(SpecularAntialiasing, takes4To16SamplesASideByRoughness)
 {
-    EXPECT_EQ(f32::cotan_places_of_roughness(1), 4);
-    EXPECT_EQ(f32::cotan_places_of_roughness(0), 16);
-    EXPECT_EQ(std::floor(f32::cotan_places_of_roughness(0.35f)), 4);
-    EXPECT_EQ(std::floor(f32::cotan_places_of_roughness(0.2f)), 8);
-    EXPECT_EQ(std::floor(f32::cotan_places_of_roughness(0.125f)), 12);
+    EXPECT_EQ(f32::cotan_samples_of_roughness(1), 4);
+    EXPECT_EQ(f32::cotan_samples_of_roughness(0), 16);
+    EXPECT_EQ(std::floor(f32::cotan_samples_of_roughness(0.35f)), 4);
+    EXPECT_EQ(std::floor(f32::cotan_samples_of_roughness(0.2f)), 8);
+    EXPECT_EQ(std::floor(f32::cotan_samples_of_roughness(0.125f)), 12);
 }
 
-// What lies between few places: a highlight of half a degree. The ring turns by several degrees in a pixel, too.
-TEST(SpecularAntialiasing, takesTwoThirdsOfTheErrorOfSharpHighlightsWhereSomeTexelsAreInAPixel)
+// A highlight of half a degree falls between sparse samples; the ring's normal varies by several degrees a pixel.
+TEST(SpecularAntialiasing, removesTwoThirdsOfTheErrorOfSharpHighlights)
 {
     for (const bool domes : {false, true}) {
         Scene scene = shiny(makeTorus(0.8f, 0.35f, 96, 4, 1), 0.1f, true);
@@ -147,7 +146,7 @@ TEST(SpecularAntialiasing, takesTwoThirdsOfTheErrorOfSharpHighlightsWhereSomeTex
     }
 }
 
-TEST(SpecularAntialiasing, takesAQuarterOfTheErrorOfASmallLampsGrainAtLeast)
+TEST(SpecularAntialiasing, removesAQuarterOfTheErrorUnderASmallLight)
 {
     for (const float repeat : {3.0f, 8.0f}) {
         const Scene scene = shiny(makeTorus(0.8f, 0.35f, 96, 4 * repeat, repeat), 0.35f, true);
@@ -156,26 +155,26 @@ TEST(SpecularAntialiasing, takesAQuarterOfTheErrorOfASmallLampsGrainAtLeast)
     }
 }
 
-// A ball that turns by 3 degrees a pixel needs next to nothing.
-TEST(SpecularAntialiasing, leavesWhatIsWideEnoughAlone)
+// A ball whose normal changes by 3 degrees per pixel needs almost no filtering.
+TEST(SpecularAntialiasing, keepsWideHighlightsAccurate)
 {
-    EXPECT_LT(errorsOf(shiny(makeSphere(0.9f, 96), 0.35f, false)).with, 0.003); // less than a step of 8 bits
+    EXPECT_LT(errorsOf(shiny(makeSphere(0.9f, 96), 0.35f, false)).with, 0.003); // less than one 8-bit level
 }
 
-// Texels that lean by turns: seen from afar, every level but the first is one direction, of one length.
-Image leaning()
+// Texels that tilt alternately to both sides: every mip level above 0 is constant, with shortened normals.
+Image alternatingTilts()
 {
     Image image = makeImage(256, 256, PixelType::unorm8);
     for (int i = 0; i < 256 * 256; ++i) {
-        const int bytes[4] = {(i + i / 256) % 2 ? 178 : 78, 128, 128 + 117, 3}; // an alpha that means nothing
+        const int bytes[4] = {(i + i / 256) % 2 ? 178 : 78, 128, 128 + 117, 3}; // the alpha has no meaning
         for (int c = 0; c < 4; ++c)
             image.bytes8()[4 * i + c] = std::uint8_t(bytes[c]);
     }
     return image;
 }
 
-// Over all pixels, of what is shown.
-double apart(const Image& a, const Image& b)
+// Mean absolute difference of tone-mapped channels over all pixels.
+double meanToneDifference(const Image& a, const Image& b)
 {
     double sum = 0;
     for (std::size_t i = 0; i < a.pixelCount(); ++i)
@@ -184,7 +183,7 @@ double apart(const Image& a, const Image& b)
     return sum / double(3 * a.pixelCount());
 }
 
-TEST(SpecularAntialiasing, isTheSameOnTheDevice)
+TEST(SpecularAntialiasing, matchesTheReferenceOnTheDevice)
 {
     auto device = openRenderer("auto");
     if (!device || !(*device)->note.empty())
@@ -192,14 +191,14 @@ TEST(SpecularAntialiasing, isTheSameOnTheDevice)
     struct Case {
         bool mapped;
         MipFilter mip;
-        double most; // of what the option changes
+        double limit; // as a fraction of what the option changes
     };
-    // With levels the reference filters along the longer side of a pixel, which Mesa's CPU driver is not asked to.
+    // With mip levels the reference filters anisotropically, which is not requested from Mesa's CPU driver.
     for (const Case& c : {Case{false, MipFilter::linear, 0.001}, Case{true, MipFilter::none, 0.005},
                           Case{true, MipFilter::linear, 0.3}}) {
         Scene scene = shiny(makeTorus(0.8f, 0.35f, 96, 32, 8), 0.2f, c.mapped);
         if (c.mapped)
-            scene.images[0] = leaning();
+            scene.images[0] = alternatingTilts();
         scene.materials[0].normalMap.sampler.mip = c.mip;
         scene.materials[0].coat.strength = 0.5f;
         scene.materials[0].coat.roughness = 0.1f;
@@ -211,13 +210,13 @@ TEST(SpecularAntialiasing, isTheSameOnTheDevice)
         const Image ours = drawn(scene, view);
         auto theirs = (*device)->draw(view);
         ASSERT_TRUE(theirs) << theirs.error().message;
-        EXPECT_GT(apart(ours, without), 0.001) << c.most;
-        EXPECT_LT(apart(ours, *theirs), c.most * apart(ours, without)) << c.mapped;
+        EXPECT_GT(meanToneDifference(ours, without), 0.001) << c.limit;
+        EXPECT_LT(meanToneDifference(ours, *theirs), c.limit * meanToneDifference(ours, without)) << c.mapped;
     }
 }
 
-// Domes of some texels a pixel, and a highlight of half a degree: a place whose normal is turned the wrong way is seen.
-TEST(SpecularAntialiasing, turnsEachPlaceWithTheSurfaceOnTheDeviceToo)
+// Domes of a few texels per pixel and a highlight of half a degree: a normal that is rotated the wrong way is visible.
+TEST(SpecularAntialiasing, rotatesEachSampleOnTheDevice)
 {
     auto device = openRenderer("auto");
     if (!device || !(*device)->note.empty())
@@ -231,8 +230,9 @@ TEST(SpecularAntialiasing, turnsEachPlaceWithTheSurfaceOnTheDeviceToo)
     const Image ours = drawn(scene, view);
     auto theirs = (*device)->draw(view);
     ASSERT_TRUE(theirs) << theirs.error().message;
-    EXPECT_GT(apart(ours, without), 0.005) << "there is nothing to see";
-    EXPECT_LT(apart(ours, *theirs), 0.05 * apart(ours, without)); // 0.009; turned along y only: 0.16
+    EXPECT_GT(meanToneDifference(ours, without), 0.005) << "there is nothing to see";
+    // Measured 0.009; 0.16 if normals are rotated along y only.
+    EXPECT_LT(meanToneDifference(ours, *theirs), 0.05 * meanToneDifference(ours, without));
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// Green of normal maps as the stored tangents mean it.
+// The sense of green in normal maps that stored tangents imply.
 #include "scene/normal_maps.hpp"
 
 #include <gtest/gtest.h>
@@ -6,17 +6,17 @@
 namespace cotan {
 namespace {
 
-// Unit squares in a row in xy, seen from +z, each with its own w on the right tangent. right: what glTF asks for.
-struct Row {
+// Rectangles in the xy plane that face +z, each with a normal map and a tangent w of its own.
+struct Rectangles {
     Scene scene;
 
-    Row()
+    Rectangles()
     {
         scene.images.push_back({"waves", 1, 1, PixelType::unorm8, std::vector<std::byte>(4)});
         scene.materials.resize(1);
         scene.materials[0].normalMap.image = 0;
     }
-    // mirrored: u runs to the left.
+    // mirrored: u increases to the left.
     void add(float w, float width = 1, int material = 0, bool mirrored = false)
     {
         Mesh mesh;
@@ -32,21 +32,21 @@ struct Row {
     }
 };
 
-TEST(StoredGreen, wAgainstTheUvTurnsGreenAndWTogether)
+TEST(StoredGreen, reversedWFlipsGreenAndWTogether)
 {
     for (const bool mirrored : {false, true}) {
-        const float right = mirrored ? -1.0f : 1.0f; // u to the right and v down in a right-handed space
-        Row agrees, contradicts;
+        const float right = mirrored ? -1.0f : 1.0f; // w of glTF: u to the right, v down, right-handed space
+        Rectangles agrees, contradicts;
         agrees.add(right, 1, 0, mirrored);
         contradicts.add(-right, 1, 0, mirrored);
-        EXPECT_TRUE(followStoredTangents(agrees.scene).empty());
+        EXPECT_TRUE(reconcileGreenWithTangents(agrees.scene).empty());
         EXPECT_FALSE(agrees.scene.materials[0].greenReversed);
         EXPECT_EQ(agrees.scene.meshes[0].tangents[0].w, right);
 
-        const std::vector<std::string> lines = followStoredTangents(contradicts.scene);
+        const std::vector<std::string> lines = reconcileGreenWithTangents(contradicts.scene);
         ASSERT_EQ(lines.size(), 1u);
         EXPECT_NE(lines[0].find("100 % of the area of normal map 'waves'"), std::string::npos) << lines[0];
-        EXPECT_NE(lines[0].find("green is read the other way"), std::string::npos) << lines[0];
+        EXPECT_NE(lines[0].find("green is flipped"), std::string::npos) << lines[0];
         const Material& m = contradicts.scene.materials[0];
         EXPECT_TRUE(m.greenReversed);
         EXPECT_FALSE(m.normalFormat.greenUp);
@@ -56,108 +56,108 @@ TEST(StoredGreen, wAgainstTheUvTurnsGreenAndWTogether)
     }
 }
 
-TEST(StoredGreen, theLimitIsNineTenthsOfTheMapsArea)
+TEST(StoredGreen, greenFlipsAboveNineTenthsOfTheMapsArea)
 {
-    const auto reversedOver = [](float width) { // of ten
-        Row row;
-        row.add(-1, width);
-        row.add(1, 10 - width);
-        const auto lines = followStoredTangents(row.scene);
-        return std::pair(row.scene.materials[0].greenReversed, lines.size());
+    const auto reversedOver = [](float width) { // `width` of a total of ten
+        Rectangles rectangles;
+        rectangles.add(-1, width);
+        rectangles.add(1, 10 - width);
+        const auto lines = reconcileGreenWithTangents(rectangles.scene);
+        return std::pair(rectangles.scene.materials[0].greenReversed, lines.size());
     };
     EXPECT_EQ(reversedOver(9.1f), std::pair(true, std::size_t(1)));
-    EXPECT_EQ(reversedOver(8.9f), std::pair(false, std::size_t(1))); // mentioned
+    EXPECT_EQ(reversedOver(8.9f), std::pair(false, std::size_t(1))); // left as declared, with a warning
     EXPECT_EQ(reversedOver(1.1f), std::pair(false, std::size_t(1)));
     EXPECT_EQ(reversedOver(0.9f), std::pair(false, std::size_t(0)));
 }
 
-TEST(StoredGreen, mapsAreDecidedApartAndMaterialsOfOneMapTogether)
+TEST(StoredGreen, eachMapIsDecidedForAllItsMaterials)
 {
-    Row row;
-    row.scene.images.push_back({"rings", 1, 1, PixelType::unorm8, std::vector<std::byte>(4)});
-    row.scene.materials.resize(4);
-    row.scene.materials[1].normalMap.image = 1; // another map
-    row.scene.materials[2].coat.normalMap.image = 0;
-    row.scene.materials[3] = {}; // none
-    row.add(-1, 10, 0);
-    row.add(1, 1, 1);
-    row.add(1, 1, 2); // little of the area of map 0
-    row.add(-1, 1, 3);
-    EXPECT_EQ(followStoredTangents(row.scene).size(), 1u);
-    EXPECT_TRUE(row.scene.materials[0].greenReversed);
-    EXPECT_FALSE(row.scene.materials[1].greenReversed);
-    EXPECT_TRUE(row.scene.materials[2].greenReversed);
-    EXPECT_FALSE(row.scene.materials[3].greenReversed);
-    EXPECT_EQ(row.scene.meshes[1].tangents[0].w, 1);
-    EXPECT_EQ(row.scene.meshes[2].tangents[0].w, -1); // so that stored tangents show what they showed
-    EXPECT_EQ(row.scene.meshes[3].tangents[0].w, -1);
+    Rectangles rectangles;
+    rectangles.scene.images.push_back({"rings", 1, 1, PixelType::unorm8, std::vector<std::byte>(4)});
+    rectangles.scene.materials.resize(4);
+    rectangles.scene.materials[1].normalMap.image = 1; // another map
+    rectangles.scene.materials[2].coat.normalMap.image = 0;
+    rectangles.scene.materials[3] = {}; // none
+    rectangles.add(-1, 10, 0);
+    rectangles.add(1, 1, 1);
+    rectangles.add(1, 1, 2); // a small part of the area that uses map 0
+    rectangles.add(-1, 1, 3);
+    EXPECT_EQ(reconcileGreenWithTangents(rectangles.scene).size(), 1u);
+    EXPECT_TRUE(rectangles.scene.materials[0].greenReversed);
+    EXPECT_FALSE(rectangles.scene.materials[1].greenReversed);
+    EXPECT_TRUE(rectangles.scene.materials[2].greenReversed);
+    EXPECT_FALSE(rectangles.scene.materials[3].greenReversed);
+    EXPECT_EQ(rectangles.scene.meshes[1].tangents[0].w, 1);
+    EXPECT_EQ(rectangles.scene.meshes[2].tangents[0].w, -1); // keeps the appearance with stored tangents
+    EXPECT_EQ(rectangles.scene.meshes[3].tangents[0].w, -1);
 }
 
-TEST(StoredGreen, whatCannotBeComparedDoesNotCount)
+TEST(StoredGreen, trianglesWithoutUvAreaOrTangentsDoNotCount)
 {
-    Row row;
-    row.add(-1, 9.5f);
-    row.add(1, 100); // uv without area
-    row.scene.meshes[1].texcoords[0].assign(4, {0.5f, 0.5f});
-    row.add(1, 100); // tangents against dP/du: red is the other way as well
-    for (glm::vec4& t : row.scene.meshes[2].tangents)
+    Rectangles rectangles;
+    rectangles.add(-1, 9.5f);
+    rectangles.add(1, 100); // uv without area
+    rectangles.scene.meshes[1].texcoords[0].assign(4, {0.5f, 0.5f});
+    rectangles.add(1, 100); // tangents opposite to dP/du: red is inverted as well
+    for (glm::vec4& t : rectangles.scene.meshes[2].tangents)
         t.x = -1;
-    row.add(1, 0.5f);
-    row.add(1, 100); // no tangents
-    row.scene.meshes[4].tangents.clear();
-    Row none;
+    rectangles.add(1, 0.5f);
+    rectangles.add(1, 100); // no tangents
+    rectangles.scene.meshes[4].tangents.clear();
+    Rectangles none;
     none.add(1);
     none.scene.meshes[0].tangents.clear();
-    EXPECT_TRUE(followStoredTangents(none.scene).empty());
+    EXPECT_TRUE(reconcileGreenWithTangents(none.scene).empty());
     EXPECT_FALSE(none.scene.materials[0].greenReversed);
-    // The turned tangents are compared, and do not contradict in the way that green makes up for.
-    const auto lines = followStoredTangents(row.scene);
+    // Rotated tangents are compared too, and contradict the uv in a way that green cannot compensate.
+    const auto lines = reconcileGreenWithTangents(rectangles.scene);
     EXPECT_TRUE(lines.empty());
-    row.scene.meshes.erase(row.scene.meshes.begin() + 2);
-    row.scene.instances.pop_back();
-    EXPECT_EQ(followStoredTangents(row.scene).size(), 1u);
-    EXPECT_TRUE(row.scene.materials[0].greenReversed);
+    rectangles.scene.meshes.erase(rectangles.scene.meshes.begin() + 2);
+    rectangles.scene.instances.pop_back();
+    EXPECT_EQ(reconcileGreenWithTangents(rectangles.scene).size(), 1u);
+    EXPECT_TRUE(rectangles.scene.materials[0].greenReversed);
 }
 
-TEST(StoredGreen, restoringGivesTheFilesOwnBack)
+TEST(StoredGreen, restoringGivesBackTheDeclaredGreen)
 {
-    Row row;
-    row.scene.materials[0].anisotropy = {.strength = 1, .rotation = 0.5f, .map = {}};
-    row.add(-1);
-    followStoredTangents(row.scene);
-    EXPECT_EQ(row.scene.materials[0].anisotropy.rotation, -0.5f);
-    restoreDeclaredGreen(row.scene, 0);
-    EXPECT_FALSE(row.scene.materials[0].greenReversed);
-    EXPECT_TRUE(row.scene.materials[0].normalFormat.greenUp);
-    EXPECT_EQ(row.scene.materials[0].anisotropy.rotation, 0.5f);
-    EXPECT_EQ(row.scene.meshes[0].tangents[0].w, -1);
-    restoreDeclaredGreen(row.scene); // nothing is left to restore
-    EXPECT_EQ(row.scene.meshes[0].tangents[0].w, -1);
+    Rectangles rectangles;
+    rectangles.scene.materials[0].anisotropy = {.strength = 1, .rotation = 0.5f, .map = {}};
+    rectangles.add(-1);
+    reconcileGreenWithTangents(rectangles.scene);
+    EXPECT_EQ(rectangles.scene.materials[0].anisotropy.rotation, -0.5f);
+    restoreDeclaredGreen(rectangles.scene, 0);
+    EXPECT_FALSE(rectangles.scene.materials[0].greenReversed);
+    EXPECT_TRUE(rectangles.scene.materials[0].normalFormat.greenUp);
+    EXPECT_EQ(rectangles.scene.materials[0].anisotropy.rotation, 0.5f);
+    EXPECT_EQ(rectangles.scene.meshes[0].tangents[0].w, -1);
+    restoreDeclaredGreen(rectangles.scene); // nothing remains to be restored
+    EXPECT_EQ(rectangles.scene.meshes[0].tangents[0].w, -1);
 }
 
-TEST(StoredGreen, directionsOfAnisotropyInAMapKeepTheDeclaration)
+TEST(StoredGreen, anisotropyMapsKeepTheDeclaredGreen)
 {
-    Row row;
-    row.scene.materials[0].anisotropy.strength = 1;
-    row.scene.materials[0].anisotropy.map.image = 0;
-    row.add(-1);
-    const auto lines = followStoredTangents(row.scene);
+    Rectangles rectangles;
+    rectangles.scene.materials[0].anisotropy.strength = 1;
+    rectangles.scene.materials[0].anisotropy.map.image = 0;
+    rectangles.add(-1);
+    const auto lines = reconcileGreenWithTangents(rectangles.scene);
     ASSERT_EQ(lines.size(), 1u);
     EXPECT_NE(lines[0].find("as declared"), std::string::npos) << lines[0];
-    EXPECT_FALSE(row.scene.materials[0].greenReversed);
+    EXPECT_FALSE(rectangles.scene.materials[0].greenReversed);
 }
 
-TEST(StoredGreen, anotherMapPutOnTheModelIsReadAsItSays)
+TEST(StoredGreen, aReplacedMapIsReadByItsOwnConvention)
 {
-    Row row;
-    row.add(-1);
-    followStoredTangents(row.scene);
-    row.scene.materials[0].normalFrame = Frame::smooth;
-    putNormalMap(row.scene, Image(row.scene.images[0]), Convention{});
-    EXPECT_FALSE(row.scene.materials[0].greenReversed);
-    EXPECT_TRUE(row.scene.materials[0].normalFormat.greenUp);
-    EXPECT_FALSE(row.scene.materials[0].normalFrame);
-    EXPECT_EQ(row.scene.meshes[0].tangents[0].w, -1);
+    Rectangles rectangles;
+    rectangles.add(-1);
+    reconcileGreenWithTangents(rectangles.scene);
+    rectangles.scene.materials[0].normalFrame = Frame::smooth;
+    putNormalMap(rectangles.scene, Image(rectangles.scene.images[0]), Convention{});
+    EXPECT_FALSE(rectangles.scene.materials[0].greenReversed);
+    EXPECT_TRUE(rectangles.scene.materials[0].normalFormat.greenUp);
+    EXPECT_FALSE(rectangles.scene.materials[0].normalFrame);
+    EXPECT_EQ(rectangles.scene.meshes[0].tangents[0].w, -1);
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-"""Prints what ran, what was skipped and why, from ctest's report: summary.py REPORT.xml"""
+"""Prints from a report of ctest which tests failed and which were skipped, with the reasons: summary.py REPORT.xml"""
 import collections
 import re
 import sys

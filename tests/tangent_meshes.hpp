@@ -1,4 +1,4 @@
-// Small meshes for the tests of tangents and cotangents.
+// Small meshes for tests of tangents and cotangents.
 #pragma once
 
 #include <cmath>
@@ -34,7 +34,7 @@ struct Vertex {
     glm::vec2 texcoord;
 };
 
-// n x n cells over the unit square; (x, y) runs right and down seen from outside.
+// A grid of n x n cells; x and y of `at` run from 0 to 1, to the right and down as seen from outside.
 inline Arrays gridOf(std::uint32_t n, const std::function<Vertex(float x, float y)>& at)
 {
     Arrays a;
@@ -51,7 +51,7 @@ inline Arrays gridOf(std::uint32_t n, const std::function<Vertex(float x, float 
     return a;
 }
 
-// The square in xy facing +z with texcoords rows . (x, y), y downwards.
+// A square in xy that faces +z, with u = uRow . (x, y) and v = vRow . (x, y), y downwards.
 inline Arrays flatGrid(std::uint32_t n, glm::vec2 uRow, glm::vec2 vRow)
 {
     return gridOf(n, [=](float x, float y) {
@@ -60,7 +60,7 @@ inline Arrays flatGrid(std::uint32_t n, glm::vec2 uRow, glm::vec2 vRow)
     });
 }
 
-// A third of the unit sphere between 60 degrees north and south; u to the east, v to the south.
+// A third of the unit sphere between 60 degrees north and south; u increases to the east, v to the south.
 inline Arrays sphereGrid(std::uint32_t n)
 {
     return gridOf(n, [](float x, float y) {
@@ -72,7 +72,7 @@ inline Arrays sphereGrid(std::uint32_t n)
     });
 }
 
-// The same triangles with a vertex of its own for every corner.
+// The same triangles without shared vertices.
 inline Arrays unindexed(const Arrays& a)
 {
     Arrays b;

@@ -7,13 +7,13 @@ cotan_test(tangents_gltf_test
   SOURCES tangents_gltf_test.cpp
   LIBRARIES cotan_model cotan_scene)
 
-# Loops as they are without oneTBB, which no part that has it would compile.
+# The loops for builds without oneTBB, which parts that have it do not compile.
 cotan_test(loops_test SOURCES loops_test.cpp LIBRARIES cotan_core)
 target_include_directories(loops_test PRIVATE ${PROJECT_SOURCE_DIR}/apps/cotan)
 
-# Where size_t has 32 bits.
-add_test(NAME Core.isRightWhereSizesHave32Bits
+# Tests with a size_t of 32 bits.
+add_test(NAME Core.isRightWith32BitSizes
   COMMAND ${CMAKE_COMMAND} -DCXX=${CMAKE_CXX_COMPILER} "-DFLAGS=-m32 -idirafter /usr/include/${CMAKE_LIBRARY_ARCHITECTURE}"
     -DSOURCE=${PROJECT_SOURCE_DIR} -DOUT=${CMAKE_CURRENT_BINARY_DIR}/core_32bit
     -P ${CMAKE_CURRENT_SOURCE_DIR}/core_32bit.cmake)
-set_tests_properties(Core.isRightWhereSizesHave32Bits PROPERTIES SKIP_REGULAR_EXPRESSION "skipped:" TIMEOUT 300)
+set_tests_properties(Core.isRightWith32BitSizes PROPERTIES SKIP_REGULAR_EXPRESSION "skipped:" TIMEOUT 300)

@@ -1,4 +1,4 @@
-// cotan tangents as users run it: verdicts about the tangents that models bring, refusals.
+// The command `cotan tangents`: verdicts on tangents stored in models, and errors.
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -13,14 +13,14 @@ using nlohmann::json;
 
 const std::filesystem::path kModels = std::filesystem::path(COTAN_SHARED_DATA) / "models";
 
-// The report about a model of the shared data, or null where it is missing.
-json reportOn(const std::string& model, const std::vector<std::string>& more = {})
+// The command's JSON report on a model of the shared data, or null if the model is missing.
+json reportOn(const std::string& model, const std::vector<std::string>& options = {})
 {
     if (!std::filesystem::exists(kModels / model))
         return nullptr;
     TemporaryFolder folder;
     std::vector<std::string> words{"tangents", (kModels / model).string(), "--json", "-"};
-    words.insert(words.end(), more.begin(), more.end());
+    words.insert(words.end(), options.begin(), options.end());
     const ToolRun run = runTool(words, folder.path());
     EXPECT_EQ(run.code, 0) << run.err;
     return json::parse(run.out);
@@ -33,8 +33,8 @@ struct Verdict {
 
 class TangentVerdicts : public ::testing::TestWithParam<Verdict> {};
 
-// What is known about these models from elsewhere: see the list that comes with them.
-TEST_P(TangentVerdicts, sayWhatIsKnownAboutTheModel)
+// The expected verdicts come from the list that accompanies the models.
+TEST_P(TangentVerdicts, matchTheKnownVerdicts)
 {
     const json report = reportOn(GetParam().model);
     if (report.is_null())
@@ -48,12 +48,12 @@ INSTANTIATE_TEST_SUITE_P(Models, TangentVerdicts,
                                            Verdict{"FlightHelmet/FlightHelmet.gltf", "off"},
                                            Verdict{"SketchfabCat/scene.gltf", "w inverted"},
                                            Verdict{"TwoSidedPlane/TwoSidedPlane.glb", "w inverted"},
-                                           Verdict{"MultiUVTest/MultiUVTest.glb", "half turned"}),
+                                           Verdict{"MultiUVTest/MultiUVTest.glb", "half reversed"}),
                          [](const auto& v) { return std::filesystem::path(v.param.model).parent_path().string(); });
 
-// The model's description says median 0.35 degrees and 99 % within 10; its last digit is rounded and
-// "99 % within 10" is at 10.4 here.
-TEST(TangentVerdicts, measureHowFarFlightHelmetIsOff)
+// Expected values from the model's description: median 0.35 degrees (rounded), 99 % within 10 degrees. The 99th
+// percentile is 10.4 degrees here.
+TEST(TangentVerdicts, measureTheErrorOfFlightHelmet)
 {
     const json report = reportOn("FlightHelmet/FlightHelmet.gltf");
     if (report.is_null())
@@ -63,18 +63,18 @@ TEST(TangentVerdicts, measureHowFarFlightHelmetIsOff)
     EXPECT_LT(report["whole"]["w_different"].get<double>(), 0.001);
 }
 
-// A sphere-like model is nowhere without a frame, and a plane has no shear.
+// A plane with perpendicular texture axes has a frame everywhere and no shear.
 TEST(TangentsCommand, reportsOnSmoothCotangents)
 {
     const json report = reportOn("TwoSidedPlane/TwoSidedPlane.glb", {"--frame", "smooth"});
     if (report.is_null())
         GTEST_SKIP() << "no TwoSidedPlane in " << kModels;
     EXPECT_EQ(report["primitives"][0]["without_frame"], 0);
-    // a plane's texcoords at right angles: nothing but rounding of float
+    // only rounding errors of float
     EXPECT_LT(report["primitives"][0]["shear"]["max_degrees"].get<double>(), 1e-3);
 }
 
-std::string squareText()
+std::string triangleText()
 {
     return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
 "meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2}}]}],
@@ -88,13 +88,13 @@ std::string squareText()
 
 std::string writeTriangle(const TemporaryFolder& folder)
 {
-    std::ofstream(folder / "model.gltf") << squareText();
+    std::ofstream(folder / "model.gltf") << triangleText();
     const float data[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
     std::ofstream(folder / "triangle.bin", std::ios::binary).write(reinterpret_cast<const char*>(data), sizeof data);
     return (folder / "model.gltf").string();
 }
 
-TEST(TangentsCommand, refusesWithOneLine)
+TEST(TangentsCommand, errorsAreOneLineWithTheirExitCode)
 {
     TemporaryFolder folder;
     const std::string model = writeTriangle(folder);
@@ -105,7 +105,7 @@ TEST(TangentsCommand, refusesWithOneLine)
         {{model, "--replace"}, 1},
         {{model, "-o", "out.obj"}, 1},
         {{"missing.gltf"}, 2},
-        {{"model.obj"}, 1}, // its content is not taken for JSON
+        {{"model.obj"}, 1}, // its content is not parsed as JSON
         {{model, "-o", "no-such-folder/out.glb"}, 4},
     };
     for (auto [words, code] : cases) {
@@ -118,7 +118,7 @@ TEST(TangentsCommand, refusesWithOneLine)
     }
 }
 
-TEST(TangentsCommand, takesAModelWhoseNameIsInCapitals)
+TEST(TangentsCommand, acceptsUppercaseExtensions)
 {
     TemporaryFolder folder;
     std::filesystem::rename(writeTriangle(folder), folder / "MODEL.GLTF");
@@ -144,8 +144,8 @@ TEST(TangentsCommand, bytesDoNotDependOnTheNumberOfThreads)
 
 class TangentsBadInput : public ::testing::TestWithParam<const char*> {};
 
-// Malformed and hostile files: one clear line and no output, or a written model.
-TEST_P(TangentsBadInput, getsWhatTheListSays)
+// Malformed and hostile files give one clear line and no output, or a written model.
+TEST_P(TangentsBadInput, givesTheListedVerdict)
 {
     const auto rows = expectedFor(GetParam());
     if (rows.empty())

@@ -1,4 +1,4 @@
-// MikkTSpace on real models in glTF files: agreement with another implementation.
+// Compares MikkTSpace tangents of glTF models with those of another implementation.
 #include "tangents_oracle.hpp"
 
 #include "cotan/model.hpp"
@@ -9,8 +9,7 @@ using namespace cotan::test;
 
 class MikktspaceGltfOracle : public testing::TestWithParam<const char*> {};
 
-// The oracle lists the corners of all primitives in file order, which in these models is the
-// order of the loaded meshes.
+// The oracle lists the corners of all primitives in file order, which for these models is the order of loaded meshes.
 TEST_P(MikktspaceGltfOracle, agreesOnGltfModel)
 {
     const std::filesystem::path data(COTAN_SHARED_DATA);
@@ -21,14 +20,14 @@ TEST_P(MikktspaceGltfOracle, agreesOnGltfModel)
     const cotan::Result<cotan::Scene> scene = cotan::loadScene(model);
     ASSERT_TRUE(scene) << scene.error().message;
     const std::vector<glm::vec4> expected = readOracle(oracle);
-    std::size_t first = 0, apart = 0;
+    std::size_t first = 0, different = 0;
     for (const cotan::Mesh& mesh : scene->meshes) {
         const cotan::MeshView view{mesh.positions, mesh.normals, mesh.texcoords[0], mesh.indices};
-        apart += cornersApart(view, expected, first, mesh.name);
+        different += differingCorners(view, expected, first, mesh.name);
         first += mesh.indices.size();
     }
     EXPECT_EQ(first, expected.size());
-    EXPECT_EQ(apart, 0u);
+    EXPECT_EQ(different, 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, MikktspaceGltfOracle,

@@ -9,8 +9,8 @@ namespace {
 
 using namespace cotan::test;
 
-// A fan around vertex 0, wavy so that every triangle has a direction of its own. Without triangles 0 and n/2
-// it falls into two, which share nothing but the vertex.
+// Number of different tangents at the tip of a fan of n triangles, which is wavy so that each has its own direction.
+// Without triangles 0 and n/2 (`whole` is false) the fan falls into two groups that share only the tip.
 std::size_t groupsAtTheTip(std::uint32_t n, bool whole)
 {
     const glm::vec3 up(0, 0, 1);
@@ -31,10 +31,10 @@ std::size_t groupsAtTheTip(std::uint32_t n, bool whole)
     return different.size();
 }
 
-TEST(MikktspaceTangents, allTrianglesThatHangTogetherAtAVertexAreOneGroupHoweverMany)
+TEST(MikktspaceTangents, connectedTrianglesAtAVertexFormOneGroup)
 {
     for (const std::uint32_t n :
-         {7u, 8u, 9u, 10u, 16u, 17u, 18u, 19u, 41u, 200u}) { // up to 8, up to 16 and more are paired differently
+         {7u, 8u, 9u, 10u, 16u, 17u, 18u, 19u, 41u, 200u}) { // paired differently up to 8, up to 16 and above
         EXPECT_EQ(groupsAtTheTip(n, true), 1u) << n;
         EXPECT_EQ(groupsAtTheTip(n, false), 2u) << n;
     }

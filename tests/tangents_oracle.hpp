@@ -1,4 +1,4 @@
-// MikkTSpace tangents that another implementation made, and the comparison with them.
+// MikkTSpace tangents computed by another implementation, and comparison with them.
 #pragma once
 
 #include <bit>
@@ -15,7 +15,7 @@
 
 namespace cotan::test {
 
-// The file's little-endian floats x y z w, one tangent a triangle corner.
+// Reads one tangent per triangle corner: little-endian floats x, y, z, w.
 inline std::vector<glm::vec4> readOracle(const std::filesystem::path& file)
 {
     std::ifstream stream(file, std::ios::binary);
@@ -27,32 +27,32 @@ inline std::vector<glm::vec4> readOracle(const std::filesystem::path& file)
     return tangents;
 }
 
-// Whether two tangents differ: another w, or over 0.05 degrees apart (float sums in another order, next to nearly
-// cancelling ones, stay below). Where directions cancel out both are zero.
+// Whether two tangents have different w, or differ by more than 0.05 degrees. Sums of floats in another order differ by
+// less, even near cancellation. Where directions cancel out, both tangents are zero.
 inline bool differ(glm::vec4 a, glm::vec4 b)
 {
-    constexpr float kApart = 0.05f * std::numbers::pi_v<float> / 180;
-    return !(glm::length(glm::vec3(a) - glm::vec3(b)) <= kApart) || a.w != b.w;
+    constexpr float kTolerance = 0.05f * std::numbers::pi_v<float> / 180;
+    return !(glm::length(glm::vec3(a) - glm::vec3(b)) <= kTolerance) || a.w != b.w;
 }
 
-// Whether neither has a direction, which is (1,0,0) in both: mikktspace.c has w = -1 then whichever way v runs, which
-// is +1 or -1 by the way in which it was called.
-inline bool bothWithout(glm::vec4 a, glm::vec4 b)
+// Whether both tangents are (1,0,0), which means no direction. mikktspace.c then has w = -1 for either direction of v,
+// which is +1 or -1 in our convention, depending on how it was called.
+inline bool neitherHasDirection(glm::vec4 a, glm::vec4 b)
 {
     return glm::vec3(a) == glm::vec3(1, 0, 0) && glm::vec3(b) == glm::vec3(1, 0, 0);
 }
 
-// Our tangents of one mesh against the oracle's, from oracle[first] on: the number of corners that differ.
-inline std::size_t cornersApart(const MeshView& mesh, const std::vector<glm::vec4>& oracle, std::size_t first,
+// Number of corners of a mesh at which our tangents differ from the oracle's, which start at oracle[first].
+inline std::size_t differingCorners(const MeshView& mesh, const std::vector<glm::vec4>& oracle, std::size_t first,
                                 const std::string& name)
 {
     const std::vector<glm::vec4> ours = mikktspaceTangents(mesh);
     EXPECT_EQ(ours.size(), mesh.indices.size()) << name;
     EXPECT_LE(first + ours.size(), oracle.size()) << name;
-    std::size_t apart = 0;
+    std::size_t different = 0;
     for (std::size_t c = 0; c < ours.size() && first + c < oracle.size(); ++c)
-        apart += !bothWithout(ours[c], oracle[first + c]) && differ(ours[c], oracle[first + c]);
-    return apart;
+        different += !neitherHasDirection(ours[c], oracle[first + c]) && differ(ours[c], oracle[first + c]);
+    return different;
 }
 
 } // namespace cotan::test

@@ -1,4 +1,4 @@
-// MikkTSpace on real models in OBJ files: agreement with another implementation.
+// Compares MikkTSpace tangents of OBJ models with those of another implementation.
 #include <array>
 #include <cstdio>
 #include <map>
@@ -10,8 +10,8 @@ namespace {
 
 using namespace cotan::test;
 
-// Positions, normals and texcoords of an OBJ file whose corners all read v/vt/vn; polygons become
-// fans. v is negated: downwards, without rounding.
+// Reads an OBJ file whose corners are all v/vt/vn; polygons become fans. v is negated, which directs it downwards
+// without rounding.
 Arrays readObj(const std::filesystem::path& file)
 {
     Arrays a;
@@ -34,10 +34,10 @@ Arrays readObj(const std::filesystem::path& file)
             std::vector<std::uint32_t> polygon;
             std::array<unsigned, 3> k{};
             while (line >> word && std::sscanf(word.c_str(), "%u/%u/%u", &k[0], &k[1], &k[2]) == 3) {
-                const auto [place, isNew] = seen.try_emplace(k, std::uint32_t(a.positions.size()));
+                const auto [entry, isNew] = seen.try_emplace(k, std::uint32_t(a.positions.size()));
                 if (isNew)
                     a.add(positions.at(k[0] - 1), normals.at(k[2] - 1), texcoords.at(k[1] - 1));
-                polygon.push_back(place->second);
+                polygon.push_back(entry->second);
             }
             for (std::size_t i = 2; i < polygon.size(); ++i)
                 a.indices.insert(a.indices.end(), {polygon[0], polygon[i - 1], polygon[i]});
@@ -58,15 +58,15 @@ TEST_P(MikktspaceOracle, agreesOnObjModel)
     const Arrays a = readObj(model);
     std::vector<glm::vec4> expected = readOracle(oracle);
     ASSERT_EQ(a.indices.size(), expected.size());
-    // The oracle was asked with v upwards. What has no direction gets -1 whichever way v runs, which is +1 in our
-    // terms.
+    // The oracle was computed with v upwards. Corners without a direction have w = -1 for either direction of v, which
+    // is +1 in our convention.
     const std::vector<glm::vec4> ours = mikktspaceTangents(a.view());
     for (std::size_t c = 0; c < expected.size(); ++c)
         if (ours[c] == glm::vec4(1, 0, 0, 1) && expected[c] == glm::vec4(1, 0, 0, -1))
             expected[c].w = 1;
     const std::string name = model.stem().string();
-    EXPECT_EQ(cornersApart(a.view(), expected, 0, name), 0u);
-    EXPECT_EQ(cornersApart(unindexed(a).view(), expected, 0, name + ", unindexed"), 0u);
+    EXPECT_EQ(differingCorners(a.view(), expected, 0, name), 0u);
+    EXPECT_EQ(differingCorners(unindexed(a).view(), expected, 0, name + ", unindexed"), 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, MikktspaceOracle,

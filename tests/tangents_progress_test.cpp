@@ -1,4 +1,4 @@
-// Tangents and cotangents with progress, a way to stop, and the reason where there are none.
+// Progress and cancellation of tangents and cotangents, and errors for invalid meshes.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -12,7 +12,7 @@ namespace {
 
 using namespace cotan::test;
 
-// flatBelow: triangles without area in uv take MikkTSpace's other way.
+// A mesh whose triangles have no area in uv where y < flatBelow; MikkTSpace treats these separately.
 Arrays wavy(float flatBelow)
 {
     return gridOf(400, [&](float x, float y) {
@@ -21,36 +21,36 @@ Arrays wavy(float flatBelow)
     });
 }
 
-struct Heard {
+struct ProgressLog {
     std::mutex mutex;
-    std::vector<double> shares;
-    std::size_t most = 1000; // then it says to stop
+    std::vector<double> fractions;
+    std::size_t limit = 1000; // number of calls until the callback requests a stop
 
     cotan::Progress progress()
     {
-        return [this](double share) {
+        return [this](double fraction) {
             const std::lock_guard lock(mutex);
-            shares.push_back(share);
-            return shares.size() < most;
+            fractions.push_back(fraction);
+            return fractions.size() < limit;
         };
     }
 };
 
-TEST(TangentsProgress, isTheResultWithoutItAndEndsWithTheWhole)
+TEST(TangentsProgress, doesNotChangeTheResultAndEndsAtOne)
 {
     for (const float flatBelow : {0.0f, 0.2f}) {
         const Arrays a = wavy(flatBelow);
         for (const int threads : {1, 3}) {
-            Heard mikktspace, smooth;
+            ProgressLog mikktspace, smooth;
             const auto tangents = cotan::mikktspaceTangents(a.view(), threads, mikktspace.progress());
             const auto cotangents = cotan::smoothCotangents(a.view(), threads, smooth.progress());
             ASSERT_TRUE(tangents && cotangents);
             EXPECT_EQ(*tangents, cotan::mikktspaceTangents(a.view(), threads));
             EXPECT_EQ(cotangents->u, cotan::smoothCotangents(a.view(), threads).u);
-            for (const Heard* heard : {&mikktspace, &smooth}) {
-                EXPECT_GE(heard->shares.size(), 4u);
-                EXPECT_EQ(*std::max_element(heard->shares.begin(), heard->shares.end()), 1);
-                EXPECT_LT(heard->shares.front(), 0.5);
+            for (const ProgressLog* log : {&mikktspace, &smooth}) {
+                EXPECT_GE(log->fractions.size(), 4u);
+                EXPECT_EQ(*std::max_element(log->fractions.begin(), log->fractions.end()), 1);
+                EXPECT_LT(log->fractions.front(), 0.5);
             }
         }
     }
@@ -60,29 +60,29 @@ TEST(TangentsProgress, stopsAtEveryStep)
 {
     for (const float flatBelow : {0.0f, 0.2f}) {
         const Arrays a = wavy(flatBelow);
-        Heard whole;
+        ProgressLog whole;
         ASSERT_TRUE(cotan::mikktspaceTangents(a.view(), 1, whole.progress()));
-        for (std::size_t most = 1; most <= whole.shares.size(); ++most) {
-            Heard heard;
-            heard.most = most;
-            const auto tangents = cotan::mikktspaceTangents(a.view(), 1, heard.progress());
-            ASSERT_FALSE(tangents) << most;
+        for (std::size_t limit = 1; limit <= whole.fractions.size(); ++limit) {
+            ProgressLog log;
+            log.limit = limit;
+            const auto tangents = cotan::mikktspaceTangents(a.view(), 1, log.progress());
+            ASSERT_FALSE(tangents) << limit;
             EXPECT_EQ(tangents.error().kind, cotan::ErrorKind::stopped);
-            EXPECT_EQ(heard.shares.size(), most);
+            EXPECT_EQ(log.fractions.size(), limit);
         }
     }
     const Arrays a = wavy(0);
-    for (std::size_t most = 1; most <= 3; ++most) {
-        Heard heard;
-        heard.most = most;
-        const auto cotangents = cotan::smoothCotangents(a.view(), 1, heard.progress());
-        ASSERT_FALSE(cotangents) << most;
+    for (std::size_t limit = 1; limit <= 3; ++limit) {
+        ProgressLog log;
+        log.limit = limit;
+        const auto cotangents = cotan::smoothCotangents(a.view(), 1, log.progress());
+        ASSERT_FALSE(cotangents) << limit;
         EXPECT_EQ(cotangents.error().kind, cotan::ErrorKind::stopped);
-        EXPECT_EQ(heard.shares.size(), most);
+        EXPECT_EQ(log.fractions.size(), limit);
     }
 }
 
-TEST(TangentsProgress, saysWhatIsWrongWithAMesh)
+TEST(TangentsProgress, errorsNameTheFaultOfTheMesh)
 {
     const Arrays good = gridOf(1, [](float x, float y) { return Vertex{{x, -y, 0}, {0, 0, 1}, {x, y}}; });
     const auto problemOf = [&](const auto& change) {
@@ -98,17 +98,17 @@ TEST(TangentsProgress, saysWhatIsWrongWithAMesh)
         EXPECT_EQ(tangents.error().message, cotangents.error().message);
         return tangents.error().message;
     };
-    EXPECT_EQ(problemOf([](Arrays& a) { a.normals.pop_back(); }), "normals: expected one a position (4), found 3");
-    EXPECT_EQ(problemOf([](Arrays& a) { a.texcoords.clear(); }), "texcoords: expected one a position (4), found 0");
+    EXPECT_EQ(problemOf([](Arrays& a) { a.normals.pop_back(); }), "normals: expected one per position (4), found 3");
+    EXPECT_EQ(problemOf([](Arrays& a) { a.texcoords.clear(); }), "texcoords: expected one per position (4), found 0");
     EXPECT_EQ(problemOf([](Arrays& a) { a.indices.pop_back(); }),
-              "indices: expected three a triangle, less than 4294967295, found 5");
+              "indices: expected three per triangle, less than 4294967295, found 5");
     EXPECT_EQ(problemOf([](Arrays& a) { a.indices[4] = 9; }), "indices[4]: expected a number below 4, found 9");
     EXPECT_TRUE(cotan::mikktspaceTangents({}, 1, {}));
-    // More vertices than an index can name: refused by the sizes alone, nothing is read.
-    const std::size_t most = 4294967294;
+    // More vertices than an index can address are refused by the array sizes; nothing is read.
+    const std::size_t limit = 4294967294;
     for (const auto& [count, expected] :
-         {std::pair(most + 1, "positions: expected less than 4294967295, found 4294967295"),
-          {most, "normals: expected one a position (4294967294), found 4"}}) {
+         {std::pair(limit + 1, "positions: expected less than 4294967295, found 4294967295"),
+          {limit, "normals: expected one per position (4294967294), found 4"}}) {
         cotan::MeshView mesh = good.view();
         mesh.positions = {good.positions.data(), count};
         const auto refused = cotan::mikktspaceTangents(mesh, 1, {});

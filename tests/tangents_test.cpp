@@ -1,4 +1,4 @@
-// Tangents of both kinds (`mikktspace` and `vertex`) and the splitting of vertices.
+// Tangents of both kinds (`mikktspace` and `vertex`) and splitting of vertices.
 #include "cotan/tangents.hpp"
 
 #include <algorithm>
@@ -21,12 +21,12 @@ struct Kind {
     Generator generate;
 };
 
-// Facts that hold for both procedures run for both.
+// Properties that hold for both kinds of tangents.
 class Tangents : public testing::TestWithParam<Kind> {
 protected:
     std::vector<glm::vec4> tangents(const Arrays& a) const { return GetParam().generate(a.view()); }
 
-    // Every corner has this tangent. 1e-6: rounding of a few float operations.
+    // Expects this tangent at every corner. 1e-6: rounding of a few float operations.
     void expectAll(const Arrays& a, glm::vec3 t, float w) const
     {
         const std::vector<glm::vec4> found = tangents(a);
@@ -37,7 +37,7 @@ protected:
         }
     }
 
-    // Finite, unit (or zero, where those of mikktspace cancel out), w = +-1: what is promised for any input at all.
+    // Expects what holds for any input: finite unit tangents (or zero, where those of mikktspace cancel out), w = +-1.
     void expectSound(const Arrays& a) const
     {
         const std::vector<glm::vec4> found = tangents(a);
@@ -64,26 +64,26 @@ TEST_P(Tangents, bitangentPointsUpInTheImage)
     const Arrays a = flatGrid(1, {1, 0}, {0, 1});
     const glm::vec4 t = tangents(a)[0];
     const glm::vec3 up = glm::cross(a.normals[0], glm::vec3(t)) * t.w;
-    EXPECT_LT(glm::length(up - glm::vec3(0, 1, 0)), 1e-6f); // v grows along -y in this grid
+    EXPECT_LT(glm::length(up - glm::vec3(0, 1, 0)), 1e-6f); // v increases along -y in this grid
 }
 
 TEST_P(Tangents, mirroredUFlipsTangentAndHandedness) { expectAll(flatGrid(4, {-1, 0}, {0, 1}), {-1, 0, 0}, -1); }
 
 TEST_P(Tangents, mirroredVFlipsHandednessOnly) { expectAll(flatGrid(4, {1, 0}, {0, -1}), {1, 0, 0}, -1); }
 
-TEST_P(Tangents, rotationRotates)
+TEST_P(Tangents, followTheRotationOfTheTexcoords)
 {
     for (int degrees = 0; degrees < 360; degrees += 30) {
         const float a = float(degrees) * std::numbers::pi_v<float> / 180;
         const float c = std::cos(a), s = std::sin(a);
-        // u grows along (c, s) in the grid's (x, y), whose y runs down.
+        // u increases along (c, s) in the grid's (x, y), whose y points down.
         expectAll(flatGrid(3, {c, s}, {-s, c}), {c, -s, 0}, 1);
     }
 }
 
-TEST_P(Tangents, shearOfULeavesTheLinesOfConstantV)
+TEST_P(Tangents, followLinesOfConstantVUnderShear)
 {
-    // dP/du runs where v is constant: here along x, however u is sheared.
+    // dP/du follows lines of constant v: here along x, however u is sheared.
     expectAll(flatGrid(3, {1, 0.8f}, {0, 1}), {1, 0, 0}, 1);
 }
 
@@ -91,7 +91,7 @@ TEST_P(Tangents, uniformScaleChangesNothing)
 {
     const Arrays plain = sphereGrid(8);
     const std::vector<glm::vec4> expected = tangents(plain);
-    for (const float scale : {1.0f / 1024, 4.0f, 65536.0f}) { // exact in floats, so are the results
+    for (const float scale : {1.0f / 1024, 4.0f, 65536.0f}) { // powers of two: the results are exact
         Arrays scaled = plain;
         for (glm::vec3& p : scaled.positions)
             p *= scale;
@@ -118,7 +118,7 @@ TEST_P(Tangents, doNotDependOnTheOrderOfTriangles)
 {
     const Arrays plain = sphereGrid(8);
     Arrays reversed = plain;
-    std::reverse(reversed.indices.begin(), reversed.indices.end()); // turns triangles over as well
+    std::reverse(reversed.indices.begin(), reversed.indices.end()); // reverses the winding, restored below
     for (std::size_t i = 0; i < reversed.indices.size(); i += 3)
         std::swap(reversed.indices[i], reversed.indices[i + 2]);
     const std::vector<glm::vec4> a = tangents(plain), b = tangents(reversed);
@@ -148,8 +148,8 @@ TEST_P(Tangents, arePerpendicularToTheNormal)
 
 TEST_P(Tangents, pointEastOnASphere)
 {
-    // An angle-weighted or plain mean over the triangles around a vertex is off by less than the
-    // turn of "east" over one cell: 120/64 degrees times the sine of the latitude.
+    // An angle-weighted or plain mean over the triangles around a vertex differs by less than the rotation of "east"
+    // over one cell: 120/64 degrees times the sine of the latitude.
     const Arrays a = sphereGrid(64);
     const std::vector<glm::vec4> found = tangents(a);
     for (std::size_t c = 0; c < found.size(); ++c) {
@@ -162,7 +162,7 @@ TEST_P(Tangents, pointEastOnASphere)
 
 TEST_P(Tangents, mirrorLineKeepsBothSides)
 {
-    // u = |x - 1/2|: the corners on the line x = 1/2 belong to either side.
+    // u = |x - 1/2|: each corner on the line x = 1/2 belongs to one of its sides.
     const Arrays a = gridOf(4, [](float x, float y) { return Vertex{{x, -y, 0}, {0, 0, 1}, {std::abs(x - 0.5f), y}}; });
     const std::vector<glm::vec4> found = tangents(a);
     for (std::size_t f = 0; f < found.size(); f += 3) {
@@ -184,8 +184,8 @@ TEST_P(Tangents, triangleWithEqualPositionsInherits)
 
 TEST_P(Tangents, triangleWithoutUvAreaTakesItsNeighbours)
 {
-    // The grid's second row of vertices repeats the texcoords of the first: the upper cells have
-    // no area in uv, and every corner of theirs touches a sound triangle but the topmost.
+    // The first row of vertices has the texcoords of the second: the upper cells have no area in uv. All their corners
+    // except the topmost touch a sound triangle.
     Arrays a = flatGrid(2, {1, 0}, {0, 1});
     for (std::size_t i = 0; i < 3; ++i)
         a.texcoords[i] = a.texcoords[i + 3];
@@ -210,8 +210,8 @@ TEST_P(Tangents, constantTexcoordsGiveSomeUnitTangentInThePlane)
 
 TEST_P(Tangents, oppositeDirectionsAreNotAveragedToNothing)
 {
-    // Two triangles folded onto each other at the edge x = 0, so that their dP/du, seen along the
-    // shared normal, are opposite: each keeps its own.
+    // Two triangles are folded onto each other at the edge x = 0. Their dP/du, seen along the shared normal, are
+    // opposite, and each keeps its own.
     Arrays a;
     const glm::vec3 n(0, 0, 1);
     const std::uint32_t p = a.add({0, 0, 0}, n, {0, 0}), q = a.add({0, -1, 0}, n, {0, 1});
@@ -249,7 +249,7 @@ TEST_P(Tangents, areSoundForRandomTriangles)
     std::uniform_int_distribution<std::uint32_t> vertex(0, 29);
     const auto any = [&] { return float(coordinate(random)); };
     for (int round = 0; round < 300; ++round) {
-        Arrays a; // few different values, so that everything coincides somewhere
+        Arrays a; // few different values, so that many coincide
         for (int i = 0; i < 30; ++i)
             a.add({any(), any(), any()}, {any(), any(), any()}, {any(), any()});
         for (int i = 0; i < 3 * 40; ++i)
@@ -260,7 +260,7 @@ TEST_P(Tangents, areSoundForRandomTriangles)
 
 TEST_P(Tangents, nothingInNothingOut) { EXPECT_TRUE(GetParam().generate({}).empty()); }
 
-TEST_P(Tangents, arraysThatDoNotFitGiveNothing)
+TEST_P(Tangents, mismatchedArraysGiveNothing)
 {
     const Arrays good = flatGrid(1, {1, 0}, {0, 1});
     Arrays a = good;
@@ -279,7 +279,7 @@ TEST_P(Tangents, arraysThatDoNotFitGiveNothing)
 
 TEST_P(Tangents, manyTrianglesAtOneVertexOrEdgeStayLinear)
 {
-    // Quadratic work would be 10^11 steps here and run into the suite's time limit.
+    // Quadratic work would be 10^11 steps here and exceed the time limit of the suite.
     const std::uint32_t n = 300000;
     Arrays fan, book, closedBook;
     fan.add({0, 0, 0}, {0, 0, 1}, {0, 0});
@@ -294,7 +294,7 @@ TEST_P(Tangents, manyTrianglesAtOneVertexOrEdgeStayLinear)
     closedBook = book;
     for (std::uint32_t i = 0; i < n; ++i) {
         fan.indices.insert(fan.indices.end(), {0, i + 1, i + 2});
-        book.indices.insert(book.indices.end(), {n + 1, n + 2, i}); // all edges run the same way
+        book.indices.insert(book.indices.end(), {n + 1, n + 2, i}); // all edges have the same direction
         closedBook.indices.insert(closedBook.indices.end(), {i % 2 ? n + 1 : n + 2, i % 2 ? n + 2 : n + 1, i});
     }
     expectSound(fan);
@@ -304,8 +304,8 @@ TEST_P(Tangents, manyTrianglesAtOneVertexOrEdgeStayLinear)
 
 TEST(MikktspaceTangents, weighByTheAngleAtTheCorner)
 {
-    // At the origin a corner of 90 degrees with u along x meets, across the shared edge along y,
-    // one of 45 degrees whose dP/du is turned by the shear of its texcoords.
+    // At the origin a corner of 90 degrees with u along x meets, across the shared edge along y, a corner of 45 degrees
+    // whose dP/du is rotated by the shear of its texcoords.
     Arrays a;
     const glm::vec3 n(0, 0, 1);
     const std::uint32_t o = a.add({0, 0, 0}, n, {0, 0}), up = a.add({0, 1, 0}, n, {0, -1});
@@ -318,8 +318,8 @@ TEST(MikktspaceTangents, weighByTheAngleAtTheCorner)
     EXPECT_EQ(found[0], found[3]);
 }
 
-// Those of mikktspace.c: (1,0,0) where no triangle at the vertex has a direction, zero where directions cancel out.
-TEST(MikktspaceTangents, areTheSourcesOwnWhereThereIsNoDirection)
+// mikktspace.c gives (1,0,0) where no triangle at the vertex has a direction, and zero where directions cancel out.
+TEST(MikktspaceTangents, equalThoseOfMikktspaceWithoutADirection)
 {
     Arrays line = flatGrid(2, {1, 0}, {0, 0});
     for (glm::vec3& n : line.normals)
@@ -327,8 +327,8 @@ TEST(MikktspaceTangents, areTheSourcesOwnWhereThereIsNoDirection)
     for (const glm::vec4& t : cotan::mikktspaceTangents(line.view()))
         EXPECT_EQ(t, glm::vec4(1, 0, 0, 1));
 
-    // Two triangles at the origin whose dP/du are opposite, each of 60 degrees, and between them one without area in
-    // uv, which is averaged with both.
+    // Two triangles at the origin with opposite dP/du, each of 60 degrees, and between them one without area in uv,
+    // which is averaged with both.
     Arrays fan;
     const glm::vec3 n(0, 0, 1);
     const std::uint32_t o = fan.add({0, 0, 0}, n, {0, 0}), e = fan.add({1, 0, 0}, n, {1, 0});
@@ -341,7 +341,7 @@ TEST(MikktspaceTangents, areTheSourcesOwnWhereThereIsNoDirection)
     EXPECT_EQ(found[6], glm::vec4(-1, 0, 0, 1));
 }
 
-TEST(VertexTangents, weighEveryTriangleAlike)
+TEST(VertexTangents, weighAllTrianglesEqually)
 {
     Arrays a;
     const glm::vec3 n(0, 0, 1);
@@ -356,14 +356,14 @@ TEST(VertexTangents, weighEveryTriangleAlike)
 
 TEST(MikktspaceTangents, groupsThatOnlyShareAVertexStayApart)
 {
-    // Two triangles of one orientation meet in a point, without a common edge. The classic
-    // procedure averages them, MikkTSpace does not.
+    // Two triangles of one orientation meet in a point, without a common edge. `vertex` averages them, MikkTSpace does
+    // not.
     Arrays a;
     const glm::vec3 n(0, 0, 1);
     const std::uint32_t o = a.add({0, 0, 0}, n, {0, 0});
     a.add({1, 0, 0}, n, {1, 0});
     a.add({0, 1, 0}, n, {0, -1});
-    a.add({-1, 0, 0}, n, {0, 1}); // turned by 90 degrees
+    a.add({-1, 0, 0}, n, {0, 1}); // u rotated by 90 degrees
     a.add({0, -1, 0}, n, {1, 0});
     a.indices = {o, 1, 2, o, 3, 4};
     const std::vector<glm::vec4> apart = cotan::mikktspaceTangents(a.view());
@@ -396,15 +396,15 @@ TEST(SplitVertices, everyCornerFindsItsValueAndItsVertex)
     for (std::size_t i = 0; i < corners.size(); ++i) {
         ASSERT_LT(split.indices[i], split.sources.size());
         EXPECT_EQ(split.sources[split.indices[i]], a.indices[i]);
-        glm::vec4& place = stored[split.indices[i]];
-        EXPECT_TRUE(place == glm::vec4(-1) || place == corners[i]);
-        place = corners[i];
+        glm::vec4& slot = stored[split.indices[i]];
+        EXPECT_TRUE(slot == glm::vec4(-1) || slot == corners[i]);
+        slot = corners[i];
     }
-    EXPECT_LE(split.sources.size(), 3 * a.positions.size()); // three values a vertex at most
+    EXPECT_LE(split.sources.size(), 3 * a.positions.size()); // at most three values per vertex
 }
 
-// Large enough for several threads; mirrored along a line, and in the second round with triangles
-// without uv area, which make the order in which groups are found count.
+// Large enough for several threads and mirrored along a line. The second round adds triangles without uv area, for
+// which the order in which groups are found matters.
 TEST(Mikktspace, doesNotDependOnTheNumberOfThreads)
 {
     for (const float flatBelow : {0.0f, 0.2f}) {

@@ -1,5 +1,5 @@
-// Which neighbours MikkTSpace finds: all, as three.js 0.187 does. mikktspace.c, and with it npm's mikktspace, leaves
-// the edges of the last vertex unsorted and so misses some there.
+// Like three.js 0.187, our MikkTSpace finds all neighbours. mikktspace.c, and therefore npm's mikktspace, leaves the
+// edges of the last vertex unsorted and misses some neighbours there.
 #include <algorithm>
 #include <random>
 
@@ -12,11 +12,11 @@ namespace {
 
 using namespace test;
 
-struct Apart {
-    std::size_t corners = 0, fromThree = 0, fromReference = 0; // that differ
+struct DifferenceCounts {
+    std::size_t corners = 0, fromThree = 0, fromReference = 0; // corners compared, and corners that differ
 };
 
-Apart compareWithNpm(const std::vector<Arrays>& meshes)
+DifferenceCounts compareWithNpm(const std::vector<Arrays>& meshes)
 {
     TemporaryFolder folder;
     std::ofstream file(folder / "meshes", std::ios::binary);
@@ -33,31 +33,31 @@ Apart compareWithNpm(const std::vector<Arrays>& meshes)
         + (folder / "meshes").string() + "' '" + (folder / "out").string() + "'";
     EXPECT_EQ(std::system(command.c_str()), 0);
     const std::vector<glm::vec4> theirs = readOracle(folder / "out");
-    Apart apart;
+    DifferenceCounts counts;
     std::size_t at = 0;
     for (const Arrays& mesh : meshes) {
         const std::vector<glm::vec4> ours = mikktspaceTangents(mesh.view());
         EXPECT_LE(at + 2 * ours.size(), theirs.size());
         if (at + 2 * ours.size() > theirs.size())
-            return apart;
-        const auto turned = [](glm::vec4 t) { return glm::vec4(t.x, t.y, t.z, -t.w); }; // their v runs up
+            return counts;
+        const auto flippedW = [](glm::vec4 t) { return glm::vec4(t.x, t.y, t.z, -t.w); }; // their v points up
         for (std::size_t c = 0; c < ours.size(); ++c) {
             const glm::vec4 three = theirs[at + c], reference = theirs[at + ours.size() + c];
-            ++apart.corners;
-            apart.fromThree += differ(ours[c], turned(three));
-            apart.fromReference += reference != glm::vec4(0) && differ(ours[c], turned(reference));
+            ++counts.corners;
+            counts.fromThree += differ(ours[c], flippedW(three));
+            counts.fromReference += reference != glm::vec4(0) && differ(ours[c], flippedW(reference));
         }
         at += 2 * ours.size();
     }
     EXPECT_EQ(at, theirs.size());
-    return apart;
+    return counts;
 }
 
-// Small uneven sheets, their triangles in any order: which vertex is the last, and how its edges get sorted, differs.
+// Small uneven sheets with triangles in random order, which varies the last vertex and how its edges are sorted.
 std::vector<Arrays> unevenSheets(int count)
 {
     std::mt19937 random(7);
-    const auto any = [&] { return float(random() % 2001) / 1000 - 1; }; // -1 to 1, the same with every library
+    const auto any = [&] { return float(random() % 2001) / 1000 - 1; }; // -1 to 1, the same in every standard library
     std::vector<Arrays> sheets;
     for (int i = 0; i < count; ++i) {
         const std::uint32_t n = 3 + std::uint32_t(random() % 5);
@@ -85,16 +85,16 @@ protected:
     }
 };
 
-TEST_F(MikktspacePairing, isThatOfThreeWhereTheReferenceMissesNeighbours)
+TEST_F(MikktspacePairing, matchesThreeWhereTheReferenceMissesNeighbours)
 {
-    const Apart apart = compareWithNpm(unevenSheets(400));
-    EXPECT_EQ(apart.fromThree, 0u) << "of " << apart.corners;
-    EXPECT_GT(apart.fromReference, 0u);                  // else this shows nothing
-    EXPECT_LT(apart.fromReference, apart.corners / 500); // corners at one vertex of some meshes
+    const DifferenceCounts counts = compareWithNpm(unevenSheets(400));
+    EXPECT_EQ(counts.fromThree, 0u) << "of " << counts.corners;
+    EXPECT_GT(counts.fromReference, 0u);                  // otherwise the test shows nothing
+    EXPECT_LT(counts.fromReference, counts.corners / 500); // only corners at one vertex of some meshes
 }
 
-// Cells whose uv are one point, a line or those of a neighbour's edge, and triangles with two equal positions: some
-// among sound neighbours, some alone.
+// Sheets with cells whose uv are a point, a line or a neighbour's edge, and triangles with two equal positions, both
+// among sound neighbours and isolated.
 std::vector<Arrays> sheetsWithHoles(int count)
 {
     std::vector<Arrays> sheets = unevenSheets(count);
@@ -116,19 +116,19 @@ std::vector<Arrays> sheetsWithHoles(int count)
     return sheets;
 }
 
-TEST_F(MikktspacePairing, isThatOfThreeWhereTrianglesHaveNoAreaInUvOrSpace)
+TEST_F(MikktspacePairing, matchesThreeForDegenerateTriangles)
 {
-    const Apart apart = compareWithNpm(sheetsWithHoles(400));
-    EXPECT_EQ(apart.fromThree, 0u) << "of " << apart.corners;
-    EXPECT_LT(apart.fromReference, apart.corners / 500); // its last vertex, as above
+    const DifferenceCounts counts = compareWithNpm(sheetsWithHoles(400));
+    EXPECT_EQ(counts.fromThree, 0u) << "of " << counts.corners;
+    EXPECT_LT(counts.fromReference, counts.corners / 500); // the last vertex, as above
 }
 
-TEST_F(MikktspacePairing, isThatOfThreeOnModels)
+TEST_F(MikktspacePairing, matchesThreeOnModels)
 {
     const std::filesystem::path models = std::filesystem::path(COTAN_SHARED_DATA) / "models";
     if (!std::filesystem::exists(models))
         GTEST_SKIP() << "no " << models;
-    // In the sunglasses 4,268 triangles have one point for texture coordinates.
+    // 4,268 triangles of the sunglasses have a single point as texture coordinates.
     for (const char* const name : {"NormalTangentTest/NormalTangentTest.glb", "BoomBox/BoomBox.gltf",
                                    "FlightHelmet/FlightHelmet.gltf", "ClearCoatTest/ClearCoatTest.glb",
                                    "SunglassesKhronos/SunglassesKhronos.glb", "VertexColorTest/VertexColorTest.glb"}) {
@@ -138,9 +138,9 @@ TEST_F(MikktspacePairing, isThatOfThreeOnModels)
         for (const Mesh& m : scene->meshes)
             if (!m.texcoords[0].empty())
                 meshes.push_back({m.positions, m.normals, m.texcoords[0], m.indices});
-        const Apart apart = compareWithNpm(meshes);
-        EXPECT_EQ(apart.fromThree, 0u) << name << ", of " << apart.corners;
-        EXPECT_EQ(apart.fromReference, 0u) << name << ", of " << apart.corners; // none of these meets the defect
+        const DifferenceCounts counts = compareWithNpm(meshes);
+        EXPECT_EQ(counts.fromThree, 0u) << name << ", of " << counts.corners;
+        EXPECT_EQ(counts.fromReference, 0u) << name << ", of " << counts.corners; // these models avoid the defect
     }
 }
 

@@ -1,4 +1,4 @@
-// Models with tangents that cotan wrote: valid, no vertex more than needed, everything else as before.
+// Models written by `cotan tangents` are valid, have no unnecessary vertices, and are otherwise unchanged.
 #include <map>
 #include <set>
 
@@ -48,9 +48,9 @@ TEST_P(TangentsWritten, passKhronosValidator)
     EXPECT_NE(log.find("out.gltf: 0 errors"), std::string::npos) << log;
 }
 
-// Position, normal and uv of each corner, and the tangents that we generate, come back; the number
-// of vertices is that of distinct pairs of (vertex, tangent), and of vertices that nothing uses.
-TEST_P(TangentsWritten, haveTheSameGeometryAndNoVertexTooMany)
+// Position, normal and uv of each corner and the generated tangents survive writing. The number of vertices is that of
+// distinct pairs (vertex, tangent) plus that of unused vertices.
+TEST_P(TangentsWritten, keepTheGeometryAndAddNoNeedlessVertex)
 {
     const auto before = openGltfDocument(model());
     const auto after = openGltfDocument(folder / "out.glb");
@@ -89,7 +89,7 @@ TEST_P(TangentsWritten, haveTheSameGeometryAndNoVertexTooMany)
     }
 }
 
-// All but geometry and where bytes are.
+// Returns the JSON without geometry and without the locations of bytes.
 json unrelated(const nlohmann::ordered_json& root)
 {
     json j = root;
@@ -123,7 +123,7 @@ TEST_P(TangentsWritten, keepAllOtherJson)
     }
 }
 
-// What was just written is what would be generated again: loading and writing lose nothing.
+// The written tangents equal newly generated ones: writing and loading lose nothing.
 TEST_P(TangentsWritten, areEqualToMikktspace)
 {
     const ToolRun run = runTool({"tangents", "out.glb", "--json", "-"}, folder.path());

@@ -1,4 +1,4 @@
-// A tessellated surface as a scene.
+// Tessellated surfaces as scenes.
 #pragma once
 
 #include "cotan/scene.hpp"
@@ -6,7 +6,7 @@
 
 namespace cotan {
 
-// A tessellated sphere or spout as the low mesh of a scene.
+// A scene named "low" of one tessellated surface.
 inline Scene sceneOf(const Tessellation& mesh)
 {
     Scene scene;

@@ -1,4 +1,4 @@
-// Textures byte by byte, as KTX 2.0 and DDS define them.
+// Compares texture files byte by byte with the definitions of KTX 2.0 and DDS.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -13,7 +13,7 @@ namespace {
 
 using test::readWhole, test::TemporaryFolder;
 
-// Numbers in the order of x86's bytes.
+// Access to little-endian numbers of a file.
 class BytesOfFile {
 public:
     explicit BytesOfFile(std::string text) : text_(std::move(text)) {}
@@ -44,7 +44,7 @@ const std::vector<Format> kFormats = {{TexelCode::rgba8, 37, 28, 4, 1, {0, 1, 2,
                                       {TexelCode::bc7, 145, 98, 16, 134, {0}},
                                       {TexelCode::bc4, 139, 80, 8, 131, {0}}};
 
-// Of 6 x 5, 3 x 2 and 1 x 1, no two bytes beside each other the same.
+// Levels of 6 x 5, 3 x 2 and 1 x 1 texels in which no two adjacent bytes are equal.
 std::vector<TextureLevel> levelsOf(const Format& format)
 {
     std::vector<TextureLevel> levels{{6, 5, {}}, {3, 2, {}}, {1, 1, {}}};
@@ -62,7 +62,7 @@ std::string textOf(const std::vector<std::byte>& bytes)
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-TEST(TextureBytes, ofKtx2AreThoseOfItsSpecification)
+TEST(TextureBytes, ktx2FollowsItsSpecification)
 {
     const TemporaryFolder folder;
     for (const Format& format : kFormats)
@@ -82,9 +82,9 @@ TEST(TextureBytes, ofKtx2AreThoseOfItsSpecification)
                 at += 4;
             }
             const std::size_t keysAt = file.word(56), keysSize = file.word(60);
-            EXPECT_EQ(file.number(64, 8), 0u); // no data for all levels together
+            EXPECT_EQ(file.number(64, 8), 0u); // no supercompression global data
             EXPECT_EQ(file.number(72, 8), 0u);
-            // The descriptor.
+            // The data format descriptor.
             at = 152;
             EXPECT_EQ(file.word(at), described);
             EXPECT_EQ(file.word(at + 4), 0u);
@@ -99,7 +99,7 @@ TEST(TextureBytes, ofKtx2AreThoseOfItsSpecification)
                 EXPECT_EQ(file.number(sample + 4, 8), 0u);
                 EXPECT_EQ(file.word(sample + 12), blocks ? 0xffffffffu : 255u);
             }
-            // Keys with their values, each begun at a multiple of four, in the order of the keys.
+            // Keys with their values in the order of the keys, each pair starting at a multiple of four.
             std::vector<std::string> keys;
             for (at = keysAt; at < keysAt + keysSize;) {
                 const std::size_t size = file.word(at);
@@ -114,23 +114,23 @@ TEST(TextureBytes, ofKtx2AreThoseOfItsSpecification)
             if (!frame.empty())
                 expected.push_back(std::string("cotanFrame\0smooth", 17) + '\0');
             EXPECT_EQ(keys, expected);
-            // The levels, the smallest first, each at a multiple of its blocks.
+            // The levels, smallest first, each aligned to its block size.
             std::size_t end = keysAt + keysSize;
             for (std::size_t i = 3; i-- > 0;) {
-                const std::size_t place = file.number(80 + 24 * i, 8), size = levels[i].texels.size();
-                EXPECT_EQ(place, (end + format.bytes - 1) / format.bytes * format.bytes) << i;
+                const std::size_t offset = file.number(80 + 24 * i, 8), size = levels[i].texels.size();
+                EXPECT_EQ(offset, (end + format.bytes - 1) / format.bytes * format.bytes) << i;
                 EXPECT_EQ(file.number(88 + 24 * i, 8), size);
                 EXPECT_EQ(file.number(96 + 24 * i, 8), size);
-                EXPECT_EQ(file.text(place, size), textOf(levels[i].texels)) << i;
-                for (; end < place; ++end)
+                EXPECT_EQ(file.text(offset, size), textOf(levels[i].texels)) << i;
+                for (; end < offset; ++end)
                     EXPECT_EQ(file.number(end, 1), 0u);
-                end = place + size;
+                end = offset + size;
             }
             EXPECT_EQ(file.size(), end);
         }
 }
 
-TEST(TextureBytes, ofDdsAreAHeaderAndTheLevelsFromTheLargest)
+TEST(TextureBytes, ddsIsAHeaderAndTheLevelsFromTheLargest)
 {
     const TemporaryFolder folder;
     for (const Format& format : kFormats) {
@@ -156,7 +156,7 @@ TEST(TextureBytes, ofDdsAreAHeaderAndTheLevelsFromTheLargest)
     }
 }
 
-// x and y of one direction, by what a shader of each expansion takes for zero and for one.
+// x and y of one direction, with the codes for zero and one that shaders of each expansion assume.
 TEST(TextureBytes, blocksHaveTheCodesOfTheirExpansion)
 {
     const double x = 0.3, y = -0.55;
@@ -165,7 +165,7 @@ TEST(TextureBytes, blocksHaveTheCodesOfTheirExpansion)
         float* const p = image.floats() + 4 * i;
         p[0] = float((x + 1) / 2), p[1] = float((y + 1) / 2), p[2] = 0.9f, p[3] = 1;
     }
-    const auto decoded = [](const std::byte* block, std::size_t texel) { // of BC4, its first end larger
+    const auto decoded = [](const std::byte* block, std::size_t texel) { // BC4 whose first endpoint is larger
         const int a = std::to_integer<int>(block[0]), b = std::to_integer<int>(block[1]);
         std::uint64_t bits = 0;
         std::memcpy(&bits, block + 2, 6);

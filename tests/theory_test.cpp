@@ -33,12 +33,12 @@ TEST(Theory, theNonperspectiveFormIsNotTheInverseTransposeOfTheTangents)
     constexpr int kPixels = 1000;
     for (int i = 0; i < kPixels; ++i) {
         const Pixel x = randomPixel(random, false);
-        // Tangents dP/du, dP/dv from the inverse of the uv differences.
+        // Tangents dP/du and dP/dv by the inverse of the uv differences.
         const double det = determinant(x.d);
         const glm::dvec3 px = x.d.dpdx.raw(), py = x.d.dpdy.raw();
         const glm::dvec3 dpdu = (px * x.d.duvdy.y - py * x.d.duvdx.y) / det;
         const glm::dvec3 dpdv = (py * x.d.duvdx.x - px * x.d.duvdy.x) / det;
-        // Their inverse transpose with n: the gradients, as the exact frame has them.
+        // Their inverse transpose with n gives the gradients, as in the exact frame.
         const glm::dvec3 area = glm::cross(dpdu, dpdv);
         AffinePatch gradients = x.patch;
         gradients.gradU = glm::cross(dpdv, area) / glm::dot(area, area);
@@ -50,23 +50,23 @@ TEST(Theory, theNonperspectiveFormIsNotTheInverseTransposeOfTheTangents)
     EXPECT_GT(sum / kPixels, 10);
 }
 
-TEST(Theory, mirroredUvHaveANegativeDeterminantAndNotAZero)
+TEST(Theory, mirroredUvHaveANegativeDeterminant)
 {
     Random random(32);
     for (int i = 0; i < 1000; ++i) {
-        // Rows up and the surface seen from its front: unmirrored uv turn as the screen does.
+        // Rows point up and the surface is seen from its front: unmirrored uv have the orientation of the screen.
         EXPECT_GT(determinant(randomPixel(random, false).d), 0);
         EXPECT_LT(determinant(randomPixel(random, true).d), 0);
     }
 }
 
-TEST(Theory, gradientOfUIsTheTangentOfVCrossedWithTheNormalInThatOrder)
+TEST(Theory, gradientOfUIsTheTangentOfVCrossTheNormal)
 {
     for (const Surface& surface : surfaces()) {
         Random random(33);
         for (int i = 0; i < 100; ++i) {
             const SurfacePoint p = surface.at({random.unit(), random.unit()});
-            // |N| = |Pu x Pv|; the sign is that of uv against the outward normal.
+            // |N| = |Pu x Pv|; n is outward or inward, depending on the orientation of uv.
             const glm::dvec3 area = glm::cross(p.dpdu, p.dpdv);
             const glm::dvec3 n = glm::normalize(area);
             EXPECT_LT(glm::length(glm::cross(p.dpdv, n) / glm::length(area) - p.gradU), 1e-9) << surface.name;
@@ -75,8 +75,8 @@ TEST(Theory, gradientOfUIsTheTangentOfVCrossedWithTheNormalInThatOrder)
     }
 }
 
-// A steep relief on a coarse sphere: the texels that encode its normals.
-double shareOfNegativeZ(Frame frame)
+// Fraction of texels that need a negative z to encode a steep relief on a coarse sphere, for normals on the outside.
+double fractionOfNegativeZ(Frame frame)
 {
     const Surface& sphere = surfaces().front();
     const Tessellation mesh = tessellate(sphere, 8, false, false);
@@ -95,9 +95,9 @@ double shareOfNegativeZ(Frame frame)
 
 TEST(Theory, onlyFramesInThePlaneOfTheFaceNeedNegativeZ)
 {
-    EXPECT_EQ(shareOfNegativeZ(Frame::cotangent), 0); // t and b perpendicular to n: z has the sign of n . target
-    EXPECT_EQ(shareOfNegativeZ(Frame::exact), 0);
-    EXPECT_GT(shareOfNegativeZ(Frame::paperFull), 0.05);
+    EXPECT_EQ(fractionOfNegativeZ(Frame::cotangent), 0); // t and b perpendicular to n: z has the sign of n . target
+    EXPECT_EQ(fractionOfNegativeZ(Frame::exact), 0);
+    EXPECT_GT(fractionOfNegativeZ(Frame::paperFull), 0.05);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-// Three.js, which nobody here wrote, as the judge of what `lint` predicts: how far normals are off where a model's maps
-// are read without tangents, and of what `convert` makes of them.
+// Three.js as an independent reference for predictions of `lint` (the error of normals if a model's maps are read
+// without tangents) and for the maps that `convert` writes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-// What tests/three_judge.html.in says of the cases; a string that says why where it cannot run.
+// Report of tests/three_judge.html.in on the cases; a string with the reason if the page cannot run.
 json judged(const json& cases, int side)
 {
     if (!std::filesystem::exists(COTAN_NPM "/node_modules/three"))
@@ -34,7 +34,7 @@ json judged(const json& cases, int side)
 
 std::string urlOf(const char* file) { return "file://" + std::filesystem::canonical(shared(file)).string(); }
 
-// Over all primitives that were judged, by the area that is seen of them: of as many points each, those that count.
+// Mean error that lint predicts over all primitives, weighted by area and by the number of points that count.
 double predicted(const LintReport& report, const std::string& frame)
 {
     double sum = 0, area = 0;
@@ -50,15 +50,15 @@ double predicted(const LintReport& report, const std::string& frame)
 
 struct Judged {
     const char* file;
-    int side; // pixels of the judge's pictures: fewer where there are many meshes
+    int side; // width and height of the page's images in pixels, smaller for models with many meshes
 };
 
 std::ostream& operator<<(std::ostream& out, const Judged& model) { return out << model.file; }
 
 class ThreeJudge : public testing::TestWithParam<Judged> {};
 
-// Within 1.3 either way. Below 0.05 degrees nobody sees anything, and flat texels, which three reads as 2c - 1,
-// decide.
+// Prediction and measurement agree within a factor of 1.3. Below 0.05 degrees errors are invisible, and flat texels,
+// which three.js decodes as 2c - 1, dominate them.
 TEST_P(ThreeJudge, measuresWhatLintPredicts)
 {
     const auto& [file, side] = GetParam();
@@ -70,15 +70,15 @@ TEST_P(ThreeJudge, measuresWhatLintPredicts)
         GTEST_SKIP() << page.get<std::string>();
     ASSERT_TRUE(page.contains("model") && !page["model"].contains("error")) << page.dump();
     const LintReport report = lintScene(loadModel(file));
-    for (const auto& [frame, way] : {std::pair("cotangent", "dropped"), std::pair("orthonormal", "orthonormal")}) {
-        const json& seen = page["model"][std::string("meant / ") + way];
+    for (const auto& [frame, variant] : {std::pair("cotangent", "dropped"), std::pair("orthonormal", "orthonormal")}) {
+        const json& seen = page["model"][std::string("meant / ") + variant];
         ASSERT_GT(seen["count"].get<int>(), 1000) << frame;
-        const double measured = seen["mean"].get<double>(), said = predicted(report, frame);
-        std::printf("| %s | %s | %.3f | %.3f |\n", file, frame, said, measured);
-        if (measured < 0.05 && said < 0.05)
+        const double measured = seen["mean"].get<double>(), expected = predicted(report, frame);
+        std::printf("| %s | %s | %.3f | %.3f |\n", file, frame, expected, measured);
+        if (measured < 0.05 && expected < 0.05)
             continue;
-        EXPECT_GT(measured / said, 1 / 1.3) << frame << ": predicted " << said << ", measured " << measured;
-        EXPECT_LT(measured / said, 1.3) << frame << ": predicted " << said << ", measured " << measured;
+        EXPECT_GT(measured / expected, 1 / 1.3) << frame << ": predicted " << expected << ", measured " << measured;
+        EXPECT_LT(measured / expected, 1.3) << frame << ": predicted " << expected << ", measured " << measured;
     }
 }
 
@@ -97,9 +97,9 @@ INSTANTIATE_TEST_SUITE_P(
             + std::filesystem::path(model.param.file).stem().string();
     });
 
-// Converted maps, by an engine that expands with 2c - 1, against the original in it: made for such engines they are
-// read better than the old map is, made for others every flat texel leans by 0.45 degrees where green was turned.
-TEST(ThreeJudgeOfConvertedMaps, readsThemAsItReadTheOldOnes)
+// Converted maps in an engine that decodes 2c - 1, compared with the original. Maps made for 2c - 1 are read more
+// accurately than it; in others every flat texel is tilted by 0.45 degrees where green was inverted.
+TEST(ThreeJudgeOfConvertedMaps, readsThemLikeTheOriginals)
 {
     constexpr const char* kModel = "compressed/chess_board_draco.glb";
     COTAN_NEEDS_MODEL(kModel);
@@ -122,14 +122,14 @@ TEST(ThreeJudgeOfConvertedMaps, readsThemAsItReadTheOldOnes)
         return page["chess"][pairs[k][0].get<std::string>() + " / " + pairs[k][1].get<std::string>()]["mean"]
             .get<double>();
     };
-    EXPECT_LT(mean(1), mean(0)); // else converting would be for nothing
+    EXPECT_LT(mean(1), mean(0)); // otherwise converting would be pointless
     EXPECT_LT(mean(1), 0.14);
-    EXPECT_GT(mean(2), 0.35); // JPEG, which keeps the flat texels of `exact`, adds what it loses
+    EXPECT_GT(mean(2), 0.35); // JPEG keeps the flat texels of `exact`, and adds its own losses
 }
 
-// Under nodes that mirror, three makes bitangents of a normal and a tangent that are mirrored both, and so turns them
-// round: its own frame without tangents shows the other side there, as we do.
-TEST(ThreeJudgeOfMirroredNodes, isWrongWhereItReadsTangentsAndRightWhereItDoesNot)
+// Under nodes that mirror, three.js makes bitangents from a mirrored normal and a mirrored tangent, which inverts them.
+// Its frame without tangents inverts the side there, as ours does.
+TEST(ThreeJudgeOfMirroredNodes, isWrongOnlyWithTangents)
 {
     COTAN_NEEDS_MODEL("synthetic/uv_cases_tangents.gltf");
     json stock = {{"name", "stock"}, {"url", urlOf("synthetic/uv_cases_tangents.gltf")}};

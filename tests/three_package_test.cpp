@@ -1,5 +1,5 @@
-// bindings/js/three, the package for three.js, in headless Chromium beside what three.js does itself. One launch shows
-// all pages.
+// Tests bindings/js/three, the package for three.js, in headless Chromium against three.js itself. Each test launches
+// one page.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -14,12 +14,12 @@ using nlohmann::json;
 
 const std::string kSourceFolder = COTAN_SOURCE_DIR;
 
-// As for the examples: float differences of a pixel of at least 2e-3 of the distance to the eye.
+// Maximum error in degrees, as for the examples: float differences of a pixel of 2e-3 or more of the eye's distance.
 constexpr double kRight = 0.01;
-// A frame that is wrong by a sign, an axis or an unstretched length: the domes' slopes are some twenty degrees.
+// Minimum mean error of a frame with a wrong sign, axis or length: the domes have slopes of about twenty degrees.
 constexpr double kWrong = 4;
 
-// The normals that our own renderer draws of the sheet of examples/three from both sides, the map on it, and the sheet
+// Writes the normals that our renderer draws of the sheet of examples/three from both sides, its map, and the sheet
 // with stored tangents.
 void writeSheetNormals(const TemporaryFolder& folder)
 {
@@ -42,7 +42,7 @@ void writeSheetNormals(const TemporaryFolder& folder)
     }
 }
 
-// tests/NAME.html.in with its addresses put in.
+// Writes tests/NAME.html.in with its placeholders replaced; returns the file name.
 std::string writePackagePage(const TemporaryFolder& folder, const std::string& name)
 {
     std::string page = readWhole(kSourceFolder + "/tests/" + name + ".html.in");
@@ -59,7 +59,7 @@ std::string writePackagePage(const TemporaryFolder& folder, const std::string& n
     return name + ".html";
 }
 
-// What one page reports; a string that says why where it cannot run. Each test is a program of its own.
+// Report of one page; a string with the reason if it cannot run. Each test is a program of its own.
 json packagePage(const std::string& name)
 {
     if (!std::filesystem::exists(COTAN_NPM "/node_modules/three"))
@@ -83,12 +83,12 @@ void expectDrawnRight(const std::string& label, const json& found)
 void expectDrawnWrong(const std::string& label, const json& found)
 {
     ASSERT_TRUE(found.contains("worst")) << label << ": " << found;
-    if (found["mean"].is_number()) { // else a direction is not of unit length, or not finite
+    if (found["mean"].is_number()) { // otherwise a direction is not finite, or not of unit length
         EXPECT_GT(found["mean"].get<double>(), kWrong) << label;
     }
 }
 
-// Where three.js itself is wrong, and why. Should it fix one, the line can go.
+// Cases that three.js itself gets wrong, and the reason. An entry can be removed once three.js is fixed.
 const std::map<std::string, const char*> kWrongInThree = {
     {"y down", "its frame has no sign of its own"},
     {"y down, back", "the same"},
@@ -99,12 +99,12 @@ const std::map<std::string, const char*> kWrongInThree = {
     {"anisotropy along u, sheared", "directions lie along gradients, not along the surface's u"},
     {"anisotropy across, stretched", "directions are as long as the gradients"},
 };
-// Only with WebGLRenderer.
+// Wrong only with WebGLRenderer.
 const std::map<std::string, const char*> kWrongOnWebGl = {
     {"coat, tangents against v",
      "tangents are used where there is a map of bumps, and the coat's scale counts on them"},
 };
-// Only with WebGPURenderer.
+// Wrong only with WebGPURenderer.
 const std::map<std::string, const char*> kWrongInNodes = {
     {"uv set 1", "the frame is made over getUV(), which is set 0"},
     {"rotated texture", "and is not transformed"},
@@ -130,7 +130,7 @@ void expectOurs(const std::string& label, const json& scenes, std::size_t count)
         expectDrawnRight(label + scene, found);
 }
 
-TEST(ThreePackage, itsShaderTextIsWhatTheToolPrintsToday)
+TEST(ThreePackage, shaderTextEqualsTheToolsOutput)
 {
     TemporaryFolder folder;
     const std::string line =
@@ -140,7 +140,7 @@ TEST(ThreePackage, itsShaderTextIsWhatTheToolPrintsToday)
         << "scripts/three-shader-text TOOL > bindings/js/three/shader_text.js";
 }
 
-TEST(ThreePackage, everySceneIsRightWithWebGLRendererWhereThreesOwnAreAndWhereTheyAreNot)
+TEST(ThreePackage, drawsEverySceneRightWithWebGLRenderer)
 {
     const json page = packagePage("three_webgl");
     if (page.is_string())
@@ -148,15 +148,15 @@ TEST(ThreePackage, everySceneIsRightWithWebGLRendererWhereThreesOwnAreAndWhereTh
     ASSERT_TRUE(page.contains("stock")) << page;
     expectStock("stock, ", page["stock"], kWrongOnWebGl);
     EXPECT_GT(page["stock"].size(), 25u);
-    for (const char* way : {"untangled", "smooth", "triangle"})
-        expectOurs(std::string(way) + ", ", page[way], page["stock"].size());
-    for (const char* way : {"cotangent", "orthonormal"})
-        expectOurs(std::string(way) + ", ", page[way], 9);
+    for (const char* method : {"untangled", "smooth", "triangle"})
+        expectOurs(std::string(method) + ", ", page[method], page["stock"].size());
+    for (const char* method : {"cotangent", "orthonormal"})
+        expectOurs(std::string(method) + ", ", page[method], 9);
     for (const auto& [scene, found] : page["broken"].items())
         expectDrawnWrong("broken, " + scene, found);
 }
 
-TEST(ThreePackage, everySceneIsRightWithWebGPURendererOnBothBackends)
+TEST(ThreePackage, drawsEverySceneRightWithWebGPURenderer)
 {
     const json page = packagePage("three_webgpu");
     if (page.is_string())
@@ -167,18 +167,18 @@ TEST(ThreePackage, everySceneIsRightWithWebGPURendererOnBothBackends)
             continue; // a Chromium without WebGPU
         expectStock(backend + "stock, ", page[backend + "stock"], kWrongInNodes);
         EXPECT_GT(page[backend + "stock"].size(), 22u);
-        for (const std::string way : {"untangled", "triangle"})
-            expectOurs(backend + way + ", ", page[backend + way], page[backend + "stock"].size());
-        for (const std::string way : {"orthonormal", "smooth"})
-            expectOurs(backend + way + ", ", page[backend + way], 9);
+        for (const std::string method : {"untangled", "triangle"})
+            expectOurs(backend + method + ", ", page[backend + method], page[backend + "stock"].size());
+        for (const std::string method : {"orthonormal", "smooth"})
+            expectOurs(backend + method + ", ", page[backend + method], 9);
         expectDrawnWrong(backend + "reversed", page[backend + "broken"]["front"]);
         EXPECT_EQ(page[backend + "lit"].size(), 5u);
-        for (const auto& [scene, picture] : page[backend + "lit"].items()) {
-            EXPECT_GT(picture["covered"].get<int>(), 30000) << scene;
-            EXPECT_LE(picture["worst"].get<int>(), 1)
+        for (const auto& [scene, render] : page[backend + "lit"].items()) {
+            EXPECT_GT(render["covered"].get<int>(), 30000) << scene;
+            EXPECT_LE(render["worst"].get<int>(), 1)
                 << backend << scene << ": a colour may lie at the edge between two steps";
-            if (!scene.starts_with("anisotropy")) { // which has no bumps here
-                EXPECT_GT(picture["reversed"].get<int>(), 10) << backend << scene;
+            if (!scene.starts_with("anisotropy")) { // which has no bumps in this test
+                EXPECT_GT(render["reversed"].get<int>(), 10) << backend << scene;
             }
         }
     }
@@ -186,7 +186,7 @@ TEST(ThreePackage, everySceneIsRightWithWebGPURendererOnBothBackends)
     EXPECT_NE(page["refused"].get<std::string>().find("expected a renderer"), std::string::npos);
 }
 
-TEST(ThreePackage, tangentsThatStayAreToldOfMaterialsAreSharedAndLoadedAnisotropyRunsAsGltfMeans)
+TEST(ThreePackage, warnsOfKeptTangentsSharesMaterialsAndReadsAnisotropy)
 {
     const json page = packagePage("three_calls");
     if (page.is_string())
@@ -199,7 +199,7 @@ TEST(ThreePackage, tangentsThatStayAreToldOfMaterialsAreSharedAndLoadedAnisotrop
         << "along v, against v, and none, of one material; then again";
     EXPECT_EQ(page["sharing"]["materials"], 3);
     EXPECT_EQ(page["sharing"]["own"], 3) << "what the user did in onBeforeCompile stays";
-    // A mesh that comes later gets the triangles of the material that it shares.
+    // A mesh that is added later gets the triangles of the material that it shares.
     EXPECT_EQ(page["sharing"]["triangles"], json::parse("[[false, false], [true, true], [true, true]]"));
     expectDrawnRight("loaded", page["loaded"]["cotan"]);
     EXPECT_GT(page["loaded"]["stock"]["mean"].get<double>(), 179)
@@ -215,7 +215,7 @@ TEST(ThreePackage, tangentsThatStayAreToldOfMaterialsAreSharedAndLoadedAnisotrop
     EXPECT_EQ(page["refused"][5], page["refused"][1]);
 }
 
-TEST(ThreePackage, picturesAreThreesOwnAndDoNotChangeInFlippedTargets)
+TEST(ThreePackage, drawsAsThreeAlsoIntoFlippedTargets)
 {
     const json found = packagePage("three_pictures");
     if (found.is_string())
@@ -228,20 +228,20 @@ TEST(ThreePackage, picturesAreThreesOwnAndDoNotChangeInFlippedTargets)
             << side;                                    // the sheet covers more than half of 256 x 256
         EXPECT_LE(worst("stock and cotan"), 1) << side; // a colour may lie at the edge between two steps
         EXPECT_LE(worst("cotan upright and y down"), 2)
-            << side; // so may it in both; interpolation rounds otherwise there
-        // The domes are lit from the other side, or are dents; between them nothing changes.
+            << side; // so may it in both renders, and interpolation rounds differently
+        // The domes are lit from the opposite side or become dents; the flat area between them does not change.
         EXPECT_GT(page["stock upright and y down"]["mean"].get<double>(), 15) << side;
         EXPECT_GT(page["stock and broken"]["mean"].get<double>(), 3) << side; // less light falls on the back
         expectDrawnRight(std::string("three and Cotan's own renderer, ") + side, page["normals"]);
-        // A model with tangents, through three's loader.
+        // A model with tangents, loaded by three's GLTFLoader.
         for (const char* loaded : {"loaded, stock", "loaded, cotan", "loaded, cotan, y down"})
             expectDrawnRight(std::string(loaded) + ", " + side, page[loaded]);
         expectDrawnWrong(std::string("loaded, broken, ") + side, page["loaded, broken"]);
     }
 }
 
-// Models whose maps were baked for their tangents. Read as orthonormal they stay as they were; the bars are some three
-// times what was measured.
+// Models whose maps were baked for their tangents look the same if their maps are read as orthonormal. The bounds are
+// about three times the measured values.
 TEST(ThreePackage, modelsWithTangentsLookTheSameWithoutThem)
 {
     if (!std::filesystem::exists(std::string(COTAN_SHARED_DATA) + "/models/ClearCoatTest"))
@@ -253,18 +253,18 @@ TEST(ThreePackage, modelsWithTangentsLookTheSameWithoutThem)
         ASSERT_TRUE(page.contains(model)) << page;
         const json& found = page[model];
         EXPECT_EQ(found["tangents"], 0) << model;
-        for (const char* way : {"default", "cotangent", "triangle"}) {
-            if (!found.contains(way))
-                continue; // `triangle` once
-            EXPECT_GT(found[way]["count"].get<int>(), 30000) << model;
-            EXPECT_TRUE(found[way]["finite"].get<bool>()) << model << ", " << way;
+        for (const char* method : {"default", "cotangent", "triangle"}) {
+            if (!found.contains(method))
+                continue; // `triangle` is drawn for one model only
+            EXPECT_GT(found[method]["count"].get<int>(), 30000) << model;
+            EXPECT_TRUE(found[method]["finite"].get<bool>()) << model << ", " << method;
         }
         EXPECT_LT(found["default"]["mean"].get<double>(), 0.05) << model;
         EXPECT_LT(found["default"]["worst"].get<double>(), 1) << model << ", 99 pixels in 100";
         EXPECT_LT(found["default"]["steps"].get<double>(), 0.1) << model << ", the lit picture";
         EXPECT_LT(found["default"]["mean"].get<double>(), found["cotangent"]["mean"].get<double>()) << model;
     }
-    // Triangles there are flat or small: the directions are those of `cotangent`.
+    // The triangles of this model are flat or small: directions are those of `cotangent`.
     const json& mirrored = page["mirrored"];
     EXPECT_NEAR(mirrored["triangle"]["mean"].get<double>(), mirrored["cotangent"]["mean"].get<double>(), 0.01);
 }

@@ -1,4 +1,4 @@
-// Scenes that three.js draws of the sheet, for both of its renderers.
+// Scenes of the sheet that three.js draws with both of its renderers.
 
 const sheetTexels = 128;
 
@@ -9,7 +9,7 @@ function sheetMap(THREE) {
   return map;
 }
 
-// Two by two units, the left half mirrored. Set 1 is set 0 turned by 90 degrees. stored: whether it has tangents, whose
+// Two by two units, the left half mirrored. uv set 1 is set 0 rotated by 90 degrees. stored: 0 without tangents; else
 // bitangents run along v (1) or against it (-1).
 function sheetGeometry(THREE, chart, stored) {
   const position = [], normal = [], uv = [], uv1 = [], tangent = [];
@@ -37,7 +37,8 @@ const sheetCharts = {
   sheared: [1, 0.5, 0.1, 0, 1, 1],
 };
 
-// what: 'normal', 'coat', 't' or 'b'. chart: of the map's own coordinates.
+// what: the drawn vector, 'normal' (default), 'coat', 't' or 'b'. chart: a key of sheetCharts, for the map's
+// coordinates.
 const sheetCases = {
   front: {},
   back: { angle: Math.PI - 0.4 },
@@ -72,15 +73,16 @@ const sheetCases = {
   'anisotropy across, tangents against v': { what: 'b', stored: -1 },
 };
 
-// A few of each kind, for ways whose parts other ways have been through already.
+// A few cases of each kind, for frames whose parts other frames' tests cover.
 const someCases = ['front', 'back', 'stretched', 'sheared', 'tangents, stretched', 'y down', 'y down, wound for it', 'coat', 'uv set 1', 'anisotropy across'];
 
-// Texels that stand for the direction of u, of v, or against v.
+// Texels that encode the direction of u, of v, or against v.
 const directionTexels = (what, sign) =>
   new Float32Array(sheetTexels * sheetTexels * 4).map((_, i) => (i % 4 === (what === 't' ? 0 : 1) ? 127.5 * (1 + sign) : 127.5));
 
-// draw(scene, camera, what, up): RGBA floats, the first row at the bottom of the target. frame: what the map is read with;
-// 'stock': orthonormal where there are tangents, else cotangent; undefined: also where the map is not repeated.
+// draw(scene, camera, what, up) returns RGBA floats, bottom row first. frame: the frame in which the map is read;
+// 'stock' is orthonormal with tangents and otherwise cotangent; undefined is the same, but orthonormal also where the
+// map is not repeated.
 function sheetScenes(THREE, size, frame, draw, cases = Object.keys(sheetCases)) {
   const result = {};
   const map = sheetMap(THREE);
@@ -89,7 +91,7 @@ function sheetScenes(THREE, size, frame, draw, cases = Object.keys(sheetCases)) 
             channel = 0, rotation = 0, flat, instanced, both, wound } = sheetCases[name];
     let chart = sheetCharts[chartName];
     const geometry = sheetGeometry(THREE, chart, stored);
-    if (wound) geometry.setIndex([2, 1, 0, 5, 4, 3, 8, 7, 6, 11, 10, 9]); // y down turns the winding round
+    if (wound) geometry.setIndex([2, 1, 0, 5, 4, 3, 8, 7, 6, 11, 10, 9]); // y down reverses the winding
     const own = map.clone();
     own.channel = channel;
     own.rotation = rotation;
@@ -112,7 +114,7 @@ function sheetScenes(THREE, size, frame, draw, cases = Object.keys(sheetCases)) 
     mesh.position.set(0.1, -0.05, -3.5);
     mesh.rotation.y = angle;
     mesh.scale.x = instanced ? 1 : scaleX;
-    if (instanced) mesh.setMatrixAt(0, new THREE.Matrix4().makeScale(0.5, 0.5, 0.5)); // in a mesh of twice the size
+    if (instanced) mesh.setMatrixAt(0, new THREE.Matrix4().makeScale(0.5, 0.5, 0.5)); // the mesh has twice the size
     if (instanced) mesh.scale.setScalar(2);
     mesh.frustumCulled = false;
     const camera = new THREE.PerspectiveCamera(40, 1, 0.1, 100);

@@ -1,14 +1,14 @@
-// Draws with WebGLRenderer into floats what a material gives to lighting.
+// Draws with WebGLRenderer, as floats, the vectors that a material passes to lighting.
 function webglSheets(THREE) {
   const size = 256, gl = document.createElement('canvas').getContext('webgl2');
-  // A target with y down turns the winding round; three cannot be told, so it is told here.
+  // A target with y down reverses the winding. Three.js has no option for it, so gl.frontFace is overridden.
   let up = 1;
   const frontFace = gl.frontFace.bind(gl);
   gl.frontFace = mode => frontFace(up > 0 ? mode : gl.CW + gl.CCW - mode);
   const renderer = new THREE.WebGLRenderer({ canvas: gl.canvas, context: gl });
   const target = new THREE.WebGLRenderTarget(size, size, { type: THREE.FloatType });
   renderer.setClearColor(0, 0);
-  // What the fragment shader is to write, after lighting.
+  // Expressions that the fragment shader writes after lighting.
   const written = { normal: 'normal', coat: 'clearcoatNormal', t: 'material.anisotropyT', b: 'material.anisotropyB' };
   const draw = (scene, camera, direction) => {
     up = direction;

@@ -1,4 +1,4 @@
-// tone.h against the published formulas, written on their own with matrices and in double.
+// Compares tone.h with the published formulas, implemented independently with matrices and in double.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "scene/picture_text.hpp"
+#include "scene/render_text.hpp"
 
 namespace cotan {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 using glm::dmat3;
 using glm::dvec3;
 
-// Colours of every hue, from nothing to 100.
+// Colours of several hues and strengths from 0 to 100.
 std::vector<dvec3> colors()
 {
     std::vector<dvec3> all;
@@ -34,7 +34,7 @@ void expectNear(dvec3 found, dvec3 expected, double tolerance, dvec3 of)
         EXPECT_NEAR(found[c], expected[c], tolerance) << of.x << " " << of.y << " " << of.z;
 }
 
-// Section "Tone mapping function" of Khronos's specification, with its names.
+// Section "Tone mapping function" of the Khronos PBR Neutral specification, with its names.
 dvec3 khronosNeutral(dvec3 c)
 {
     const double F90 = 0.04, ks = 0.8 - F90, kd = 0.15;
@@ -49,28 +49,27 @@ dvec3 khronosNeutral(dvec3 c)
     return base * (pn / p) * g + dvec3(pn) * (1 - g);
 }
 
-TEST(Tone, neutralIsKhronossFormula)
+TEST(Tone, neutralIsTheKhronosFormula)
 {
     for (const dvec3& c : colors()) {
         expectNear(f64::cotan_tone_neutral(c), khronosNeutral(c), 1e-12, c);
-        expectNear(dvec3(f32::cotan_tone_neutral(glm::vec3(c))), khronosNeutral(c), 2e-6, c); // float's rounding
+        expectNear(dvec3(f32::cotan_tone_neutral(glm::vec3(c))), khronosNeutral(c), 2e-6, c); // rounding of float
     }
 }
 
-// With a channel at 0 there is nothing that a dielectric would have reflected of white light.
-TEST(Tone, neutralKeepsColoursBelowItsStartToTheBit)
+// With a channel at 0, the reflection of white light by a dielectric, which the curve subtracts, is 0.
+TEST(Tone, neutralKeepsColoursBelowItsStartExactly)
 {
     for (float r = 0; r < 0.76f; r += 0.0371f)
         for (float g = 0; g < 0.76f; g += 0.0293f) {
             EXPECT_EQ(f32::cotan_tone_neutral({r, g, 0}), glm::vec3(r, g, 0));
             EXPECT_EQ(f32::cotan_tone_neutral({0, r, g}), glm::vec3(0, r, g));
         }
-    // Elsewhere it takes away the same of each channel: 0.04 from where the darkest has 0.08.
+    // Other colours lose the same from each channel: 0.04 if the darkest has at least 0.08.
     expectNear(f64::cotan_tone_neutral({0.5, 0.3, 0.08}), {0.46, 0.26, 0.04}, 1e-15, {});
 }
 
-// Sobotka's AgX as Filament has it: matrices by their columns; the two pairs are inverse of each other to what their
-// digits give.
+// Sobotka's AgX as in Filament, with matrices by columns; the two pairs are inverse of each other within their digits.
 dvec3 agx(dvec3 c)
 {
     const dmat3 toWide({0.6274, 0.0691, 0.0164}, {0.3293, 0.9195, 0.0880}, {0.0433, 0.0113, 0.8956});
@@ -101,11 +100,11 @@ TEST(Tone, agxIsFilamentsMatricesAroundWrenschsPolynomial)
 {
     for (const dvec3& c : colors()) {
         expectNear(f64::cotan_tone_agx(c), agx(c), 1e-12, c);
-        expectNear(dvec3(f32::cotan_tone_agx(glm::vec3(c))), agx(c), 1e-5, c); // 40 x^5 cancels: 1e-7 of it
+        expectNear(dvec3(f32::cotan_tone_agx(glm::vec3(c))), agx(c), 1e-5, c); // terms of 40 x^5 cancel: 1e-7 of them
     }
 }
 
-TEST(Tone, everyCurveLeadsFromBlackToAtMostWhiteAndNeverDown)
+TEST(Tone, everyCurveRisesFromBlackToAtMostWhite)
 {
     for (const int curve : {COTAN_TONE_NONE, COTAN_TONE_ACES, COTAN_TONE_NEUTRAL, COTAN_TONE_AGX}) {
         EXPECT_EQ(f32::cotan_tone_of(curve, glm::vec3(0)), glm::vec3(0)) << curve;
@@ -124,7 +123,7 @@ TEST(Tone, everyCurveLeadsFromBlackToAtMostWhiteAndNeverDown)
     }
 }
 
-TEST(Tone, numbersNameTheCurves)
+TEST(Tone, numbersSelectTheCurves)
 {
     const glm::vec3 c(0.2f, 1.4f, 0.05f);
     EXPECT_EQ(f32::cotan_tone_of(COTAN_TONE_NONE, c), glm::vec3(0.2f, 1, 0.05f));

@@ -1,4 +1,4 @@
-// U and V of a triangle, small forms, provoking vertices.
+// U and V of triangles, packed forms, and provoking vertices.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,7 +24,7 @@ double degreesBetween(Vec a, Vec b)
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 57.29577951308232;
 }
 
-// A triangle with uv of its own, not a sliver in either; wound either way against its normal.
+// A triangle that is no sliver in space or in uv; n is on either side of it.
 struct RandomTriangle {
     Vec dp1, dp2, n, m;
     glm::dvec2 duv1, duv2;
@@ -56,7 +56,7 @@ f32::cotan_triangle vectorsOf(const RandomTriangle& t)
     return f32::cotan_triangle_of_edges(t.dp1, t.dp2, t.duv1, t.duv2, t.n);
 }
 
-// Cotangents of `cotangent`, per triangle: they are perpendicular to n, as `smooth` has them at vertices.
+// The frame of `cotangent` for a triangle: its cotangents are perpendicular to n, as those of `smooth` at vertices.
 f64::cotan_frame frameOf(const RandomTriangle& t)
 {
     return f64::cotan_frame_cotangent(t.n, t.dp1, t.dp2, t.duv1, t.duv2);
@@ -69,20 +69,20 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 } // namespace
 
-TEST(Triangle, givesTheNormalsOfCotangentWithTheScaleOfThePixel)
+TEST(Triangle, scaledTrianglesGiveTheNormalsOfCotangent)
 {
     Random random(1);
     for (int i = 0; i < 20000; ++i) {
         const RandomTriangle t = randomTriangle(random);
         const f32::cotan_triangle v = vectorsOf(t);
         const Vec expected = f64::cotan_apply(frameOf(t), t.m);
-        // The length of n cancels.
+        // The length of n cancels out.
         const Vec found = f32::cotan_perturb_triangle_scaled(t.n * 3.0, v.u, v.v, t.m);
-        ASSERT_LT(degreesBetween(found, expected), 1e-4); // float
+        ASSERT_LT(degreesBetween(found, expected), 1e-4); // rounding of float
     }
 }
 
-TEST(Triangle, changesSlopesByAFactorBetweenTheCosineOfTheLeanAndOne)
+TEST(Triangle, scalesSlopesByTheCosineOfTheTiltToOne)
 {
     Random random(2);
     for (int i = 0; i < 20000; ++i) {
@@ -93,7 +93,7 @@ TEST(Triangle, changesSlopesByAFactorBetweenTheCosineOfTheLeanAndOne)
         const double lean = std::abs(glm::dot(t.n, glm::normalize(glm::cross(t.dp1, t.dp2))));
         ASSERT_LE(factor, 1 + 1e-12);
         ASSERT_GE(factor, lean - 1e-12);
-        // One factor for both, and the same directions.
+        // Both have the same factor, and the same directions.
         ASSERT_LT(glm::length(triangle.t - pixel.t * factor), 1e-12);
         ASSERT_LT(glm::length(triangle.b - pixel.b * factor), 1e-12);
     }
@@ -112,23 +112,23 @@ TEST(Triangle, fusedEqualsTotal)
     }
 }
 
-TEST(Triangle, doesNotCareWhichVertexComesFirstNorHowItIsWound)
+TEST(Triangle, doesNotDependOnTheFirstVertexOrTheWinding)
 {
     Random random(4);
     for (int i = 0; i < 2000; ++i) {
         const RandomTriangle t = randomTriangle(random);
         const f32::cotan_triangle v = vectorsOf(t);
-        const f32::cotan_triangle turned =
+        const f32::cotan_triangle rotated =
             f32::cotan_triangle_of_edges(t.dp2 - t.dp1, -t.dp1, t.duv2 - t.duv1, -t.duv1, t.n);
         const f32::cotan_triangle wound = f32::cotan_triangle_of_edges(t.dp2, t.dp1, t.duv2, t.duv1, t.n);
-        ASSERT_LT(glm::length(turned.u - v.u) + glm::length(turned.v - v.v), 1e-5);
+        ASSERT_LT(glm::length(rotated.u - v.u) + glm::length(rotated.v - v.v), 1e-5);
         ASSERT_LT(glm::length(wound.u - v.u) + glm::length(wound.v - v.v), 1e-6);
     }
 }
 
 TEST(Triangle, followsAnyTransformExactly)
 {
-    // Rows of a shear with a non-uniform scale, and of the same mirrored.
+    // Rows of a shear with a non-uniform scale, without and with a mirror.
     for (const double side : {1.0, -1.0}) {
         const Vec row0(side * 2, 0.3, 0), row1(0, 0.5, 0.2), row2(0.4, 0, 1.5);
         const Vec c0 = glm::cross(row1, row2), c1 = glm::cross(row2, row0), c2 = glm::cross(row0, row1);
@@ -143,7 +143,7 @@ TEST(Triangle, followsAnyTransformExactly)
             const f64::cotan_triangle world = f64::cotan_triangle_transformed(object, row0, row1, row2, side);
             const f64::cotan_triangle expected =
                 f64::cotan_triangle_of_edges(moved(t.dp1), moved(t.dp2), t.duv1, t.duv2, covector(t.n));
-            // A normal that leans far can come to lie on the other side of a sheared triangle.
+            // A strongly tilted normal can end up on the other side of a sheared triangle.
             const double before = glm::dot(t.n, glm::cross(t.dp1, t.dp2));
             const double after = side * glm::dot(covector(t.n), glm::cross(moved(t.dp1), moved(t.dp2)));
             if (before * after < 0 && ++changed)
@@ -154,13 +154,13 @@ TEST(Triangle, followsAnyTransformExactly)
     }
 }
 
-TEST(Triangle, onBackFacesANegatedZGivesTheBumpsFromBehind)
+TEST(Triangle, negatedZGivesTheBumpsOfBackFaces)
 {
     Random random(6);
     for (int i = 0; i < 2000; ++i) {
         const RandomTriangle t = randomTriangle(random);
         const f32::cotan_triangle v = vectorsOf(t);
-        // What `cotangent` gives for the turned normal.
+        // The result of `cotangent` for the negated normal.
         const Vec expected = f64::cotan_apply(f64::cotan_frame_cotangent(-t.n, t.dp1, t.dp2, t.duv1, t.duv2), t.m);
         const Vec found = f32::cotan_perturb_triangle_scaled(t.n, v.u, v.v, Vec(t.m.x, t.m.y, -t.m.z));
         ASSERT_LT(degreesBetween(found, expected), 1e-4);
@@ -181,7 +181,7 @@ TEST(Triangle, neverGivesNaN)
         ASSERT_TRUE(length == 0 || std::abs(length - 1) < 1e-5f);
         const glm::vec3 p = f32::cotan_perturb_triangle(n, t.u, t.v, m);
         ASSERT_NEAR(glm::length(p), 1, 1e-5);
-        // Also where U and V themselves are anything.
+        // The same for arbitrary U and V.
         const glm::vec3 q = f32::cotan_apply(f32::cotan_frame_of_triangle(side, dp1, dp2), m);
         ASSERT_NEAR(glm::length(q), 1, 1e-5);
         const f32::cotan_triangle moved = f32::cotan_triangle_transformed(t, dp1, dp2, side, 1.0f);
@@ -189,7 +189,7 @@ TEST(Triangle, neverGivesNaN)
     }
 }
 
-TEST(Triangle, degenerateOnesHaveNoFrame)
+TEST(Triangle, degenerateTrianglesHaveNoFrame)
 {
     const glm::vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1), zero(0);
     const glm::vec2 u(1, 0), v(0, 1), none(0);
@@ -199,12 +199,12 @@ TEST(Triangle, degenerateOnesHaveNoFrame)
     EXPECT_TRUE(isNone(f32::cotan_triangle_of_edges(x, zero, u, v, z)));
     EXPECT_TRUE(isNone(f32::cotan_triangle_of_edges(x, y, none, none, z)));
     EXPECT_TRUE(isNone(f32::cotan_triangle_of_edges(x, glm::vec3(kNan), u, v, z)));
-    // Without normals the winding decides: seen counterclockwise, +z is outside.
+    // Without normals the winding decides: the side where it is counter-clockwise is outside, here +z.
     const f32::cotan_triangle wound = f32::cotan_triangle_of_edges(x, y, u, v, zero);
     EXPECT_LT(glm::length(glm::cross(z, wound.u) - x), 1e-6f);
 }
 
-TEST(Triangle, ofArraysIsThatOfEachTriangle)
+TEST(Triangle, arraysGiveTheVectorsOfEachTriangle)
 {
     const test::Arrays mesh = test::flatGrid(40, {2, 0.5f}, {-0.25f, 1});
     for (const int threads : {1, 3}) {
@@ -224,7 +224,7 @@ TEST(Triangle, ofArraysIsThatOfEachTriangle)
 
 // ---- small forms --------------------------------------------------------------------------------
 
-TEST(Pack, aTriangleInTwelveBytesTurnsNormalsByThreeHundredthsOfADegree)
+TEST(Pack, twelveByteTrianglesErrByThreeHundredthsOfADegree)
 {
     Random random(8);
     double largest = 0;
@@ -238,12 +238,12 @@ TEST(Pack, aTriangleInTwelveBytesTurnsNormalsByThreeHundredthsOfADegree)
             f32::cotan_perturb_triangle(t.n, f32::cotan_unpack_triangle_u(p), f32::cotan_unpack_triangle_v(p), t.m);
         largest = std::max(largest, degreesBetween(exact, found));
     }
-    // Half an ulp of a half is 2^-12 of a number: 0.014 degrees for one component, six take part.
+    // Half an ulp of a half float is 2^-12 of a number: 0.014 degrees for one component, and six contribute.
     EXPECT_LT(largest, 0.03);
-    EXPECT_GT(largest, 0.002); // something was rounded
+    EXPECT_GT(largest, 0.002); // rounding has an effect
 }
 
-TEST(Pack, smoothInEightAndInFourBytes)
+TEST(Pack, smoothIsAccurateInEightAndInFourBytes)
 {
     Random random(9);
     double largest8 = 0, largest4 = 0, sum4 = 0;
@@ -252,7 +252,7 @@ TEST(Pack, smoothInEightAndInFourBytes)
         const RandomTriangle t = randomTriangle(random);
         const glm::vec3 n(t.n);
         const f64::cotan_frame f = f64::cotan_frame_cotangent(Vec(n), t.dp1, t.dp2, t.duv1, t.duv2);
-        // Their common scale does not matter.
+        // The common scale of both does not matter.
         const Cotangents stored{{glm::vec3(f.t * 7.0)}, {glm::vec3(f.b * 7.0)}};
         const auto normalOf = [&](const f32::cotan_covectors& c) {
             return Vec(f64::cotan_perturb_smooth(Vec(n), c.t, c.b, t.m));
@@ -262,16 +262,16 @@ TEST(Pack, smoothInEightAndInFourBytes)
         const glm::vec4 fetched = glm::vec4(q[0], q[1], q[2], q[3]) / 32767.0f; // SNORM16
         largest8 = std::max(largest8, degreesBetween(exact, normalOf(f32::cotan_unpack_smooth8(n, fetched))));
         const std::uint32_t word = packSmooth4(std::array{n}, stored).at(0);
-        const double off = degreesBetween(exact, normalOf(f32::cotan_unpack_smooth4(n, word)));
-        largest4 = std::max(largest4, off);
-        sum4 += off;
+        const double error = degreesBetween(exact, normalOf(f32::cotan_unpack_smooth4(n, word)));
+        largest4 = std::max(largest4, error);
+        sum4 += error;
     }
     EXPECT_LT(largest8, 0.003); // four steps of 1/65534: 0.0035 at worst
     EXPECT_LT(largest4, 0.2);   // steps of 1/511 and 1/255 of the largest number, halved
     EXPECT_LT(sum4 / kCount, 0.05);
 }
 
-TEST(Pack, smoothOfNothingStaysNothing)
+TEST(Pack, invalidCotangentsPackToZero)
 {
     const std::array normals{glm::vec3(0, 0, 1), glm::vec3(0, 0, -1), glm::vec3(1, 0, 0)};
     const Cotangents none{{glm::vec3(0), glm::vec3(kNan), glm::vec3(kInfinity)},
@@ -292,7 +292,7 @@ TEST(Pack, aTangentInTwoBytesIsWithinAHundredthOfADegree)
     Random random(10);
     double largest = 0;
     for (int i = 0; i < 100000; ++i) {
-        // Normals close to the seams of the basis, too.
+        // Some normals are close to the seams of the basis.
         const glm::vec3 n = i % 7 == 0 ? glm::vec3(0, 0, -1)
             : i % 7 == 1               ? glm::normalize(glm::vec3(random.range(-1, 1), 1, i % 2 ? 1e-7 : -1e-7))
                                        : glm::vec3(randomTriangle(random).n);
@@ -306,7 +306,7 @@ TEST(Pack, aTangentInTwoBytesIsWithinAHundredthOfADegree)
         ASSERT_EQ(found.w, w);
         largest = std::max(largest, degreesBetween(exact, Vec(found.x, found.y, found.z)));
     }
-    // 32768 steps around the square; at the middle of a side a step is 4/32768 of 2 radians: half of it.
+    // 32768 steps around the square; in the middle of a side a step is 4/32768 of 2 radians, the error half of it.
     EXPECT_LT(largest, 0.0075);
 }
 
@@ -319,14 +319,14 @@ TEST(Pack, theBasisOfANormalIsOrthonormalEverywhere)
             continue;
         n = glm::normalize(n);
         const f32::cotan_basis b = f32::cotan_basis_of_normal(n);
-        // Duff et al. find 1e-6 at most in float.
+        // Duff et al. report at most 1e-6 in float.
         ASSERT_NEAR(glm::dot(b.x, b.x), 1, 2e-6);
         ASSERT_NEAR(glm::dot(b.y, b.y), 1, 2e-6);
         ASSERT_LT(glm::length(glm::cross(b.x, b.y) - n), 2e-6);
     }
 }
 
-TEST(Pack, unitCotangentsHaveALongerOneOfLengthOne)
+TEST(Pack, unitCotangentsScaleTheLongerOneToOne)
 {
     const Cotangents c{{{3, 0, 0}, {0, 0, 0}, {0, 1e-30f, 0}, {0, 0, 1e30f}},
                        {{0, 4, 0}, {0, 0, 0}, {1e-31f, 0, 0}, {1, 0, 0}}};
@@ -342,34 +342,34 @@ TEST(Pack, unitCotangentsHaveALongerOneOfLengthOne)
 
 namespace {
 
-// What must hold of every result: same triangles, same winding, an own vertex for each.
+// Expects what holds for every result: the same triangles with the same winding, and a provoking vertex for each.
 void expectSound(const ProvokingMesh& mesh, std::span<const std::uint32_t> indices, ProvokingVertex provoking)
 {
-    const std::size_t triangles = indices.size() / 3, place = provoking == ProvokingVertex::first ? 0 : 2;
+    const std::size_t triangles = indices.size() / 3, slot = provoking == ProvokingVertex::first ? 0 : 2;
     ASSERT_EQ(mesh.indices.size(), indices.size());
     ASSERT_EQ(mesh.corners.size(), indices.size());
     ASSERT_GE(mesh.sources.size(), triangles);
     for (std::size_t f = 0; f < triangles; ++f) {
-        ASSERT_EQ(mesh.indices[3 * f + place], f); // its own number
+        ASSERT_EQ(mesh.indices[3 * f + slot], f); // the index of its triangle
         std::array<std::uint32_t, 3> found{}, expected{};
         for (std::size_t k = 0; k < 3; ++k) {
             ASSERT_LT(mesh.indices[3 * f + k], mesh.sources.size());
             found[k] = mesh.sources[mesh.indices[3 * f + k]];
             expected[k] = indices[3 * f + k];
         }
-        // The same three in the same turn.
+        // The same three vertices, up to a cyclic rotation.
         bool same = false;
-        for (int turn = 0; turn < 3; ++turn) {
+        for (int rotation = 0; rotation < 3; ++rotation) {
             same = same || found == expected;
             std::rotate(expected.begin(), expected.begin() + 1, expected.end());
         }
         ASSERT_TRUE(same) << "triangle " << f;
         for (std::size_t k = 0; k < 3; ++k)
-            ASSERT_EQ(mesh.corners[3 * f + k], found[(place + k) % 3]);
+            ASSERT_EQ(mesh.corners[3 * f + k], found[(slot + k) % 3]);
     }
 }
 
-// Corners of an n x n torus: closed, every vertex in six triangles.
+// Triangles of a torus of n x n vertices: closed, with every vertex in six triangles.
 std::vector<std::uint32_t> torusIndices(std::uint32_t n)
 {
     std::vector<std::uint32_t> indices;
@@ -395,12 +395,12 @@ TEST(Provoking, aClosedMeshGetsAboutAsManyVerticesAsTriangles)
 {
     const std::uint32_t n = 50;
     const auto mesh = provokingMesh(torusIndices(n), n * n, ProvokingVertex::first);
-    const std::size_t triangles = 2 * n * n; // twice the vertices
+    const std::size_t triangles = 2 * n * n; // twice the number of vertices
     EXPECT_GE(mesh.sources.size(), triangles);
     EXPECT_LE(mesh.sources.size(), triangles + triangles / 100);
 }
 
-TEST(Provoking, unsharedVerticesStayAsManyAsTheyWere)
+TEST(Provoking, unsharedVerticesAreNotDuplicated)
 {
     std::vector<std::uint32_t> indices(300);
     std::iota(indices.begin(), indices.end(), 0u);
@@ -409,9 +409,9 @@ TEST(Provoking, unsharedVerticesStayAsManyAsTheyWere)
     EXPECT_EQ(mesh.sources.size(), 300u);
 }
 
-TEST(Provoking, oddTrianglesAreKept)
+TEST(Provoking, equalAndDegenerateTrianglesAreKept)
 {
-    // Twice the same, a needle, a point; vertex 9 is used by nobody.
+    // Four equal triangles, a needle and a point; vertex 9 is unused.
     const std::vector<std::uint32_t> indices{0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 3, 3, 4, 5, 5, 5};
     for (const auto provoking : {ProvokingVertex::first, ProvokingVertex::last}) {
         const auto mesh = provokingMesh(indices, 10, provoking);
@@ -440,15 +440,15 @@ TEST(Provoking, badIndicesGiveNothing)
     EXPECT_TRUE(provokingMesh({}, 0, ProvokingVertex::first).sources.empty());
 }
 
-TEST(Provoking, stripsAndFansBecomeTrianglesWoundAlike)
+TEST(Provoking, stripsAndFansKeepTheirWinding)
 {
     using List = std::vector<std::uint32_t>;
     EXPECT_EQ(trianglesOfStrip(std::array{0u, 1u, 2u, 3u, 4u}), (List{0, 1, 2, 2, 1, 3, 2, 3, 4}));
     EXPECT_EQ(trianglesOfFan(std::array{0u, 1u, 2u, 3u, 4u}), (List{0, 1, 2, 0, 2, 3, 0, 3, 4}));
-    // A restart begins with the first winding again; 255 for indices of one byte.
+    // A restart begins with the first winding again; the restart index of one-byte indices is 255.
     EXPECT_EQ(trianglesOfStrip(std::array{0u, 1u, 2u, 255u, 3u, 4u, 5u, 6u}, 255), (List{0, 1, 2, 3, 4, 5, 5, 4, 6}));
     EXPECT_EQ(trianglesOfFan(std::array{0u, 1u, 255u, 255u, 3u, 4u, 5u}, 255), (List{3, 4, 5}));
-    // Two strips joined by repeated vertices; the second begins at an odd place, so its winding is turned.
+    // Two strips joined by repeated vertices; the second begins at an odd index, so its winding is reversed.
     EXPECT_EQ(trianglesOfStrip(std::array{0u, 1u, 2u, 2u, 3u, 3u, 4u, 5u}), (List{0, 1, 2, 4, 3, 5}));
     EXPECT_TRUE(trianglesOfStrip({}).empty());
 }

@@ -1,4 +1,4 @@
-// The analytic surfaces against finite differences of their own positions.
+// Compares the analytic surfaces with finite differences of their positions.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -97,8 +97,8 @@ TEST(TruthSurface, outwardNormalsPointAwayFromTheAxis)
     }
 }
 
-// What is said of each of them in surface.hpp, by formulas of their own.
-TEST(TruthSurface, eachHasTheShapeAndTheCoordinatesOfItsName)
+// The properties that surface.hpp states for each surface, by independent formulas.
+TEST(TruthSurface, surfacesHaveTheirStatedShapeAndCoordinates)
 {
     std::map<std::string, const Surface*> named;
     for (const Surface& surface : surfaces())
@@ -126,18 +126,18 @@ TEST(TruthSurface, eachHasTheShapeAndTheCoordinatesOfItsName)
                     1e-12);
         EXPECT_NEAR(glm::length(torus.normal - (ring * std::cos(tube) + up * std::sin(tube))), 0, 1e-9);
         EXPECT_NEAR(glm::length(torus.dpdv), 2 * pi, 1e-9);
-        // The spout is a mirror image of itself, narrower the further along.
+        // The spout is symmetric in y.
         const Surface& spout = *named["spout"];
         const glm::dvec3 here = spout.at({s, t}).position, there = spout.at({1 - s, t}).position;
         EXPECT_NEAR(glm::length(here - there * glm::dvec3(1, -1, 1)), 0, 1e-12);
         EXPECT_EQ(spout.uv({s, t}), glm::dvec2(s + t * 0.25, 1.5 * t));
     }
-    // Cubic Bezier curves: a quarter of the ends and three of the middle points, at a half.
+    // At 1/2 a cubic Bezier curve weighs its control points by 1/8, 3/8, 3/8 and 1/8.
     const Surface& spout = *named["spout"];
     const auto expectAt = [&](double s, double t, glm::dvec3 expected) {
         EXPECT_NEAR(glm::length(spout.at({s, t}).position - expected), 0, 1e-12) << s << " " << t;
     };
-    const double height = 0.75 * 1.33; // of the half tube, over its radius
+    const double height = 0.75 * 1.33; // of the half tube, relative to its radius
     expectAt(0, 0, {0, -0.6, 0});
     expectAt(1, 0, {0, 0.6, 0});
     expectAt(0.5, 0, {0.6 * 0.1 * height, 0, 0.6 * height});
@@ -148,13 +148,13 @@ TEST(TruthSurface, eachHasTheShapeAndTheCoordinatesOfItsName)
     expectAt(0.5, 0.5, {7.8 / 8 + height * outX / 8, 0, 4.1 / 8 + height * outZ / 8});
 }
 
-// A parallelogram turned over, whose gradients of uv have the lengths 1 and 2: the longer one is 2.
-TEST(TruthSurface, aFlatPatchIsItsMatrixAndItsUnitsAreThoseOfTheLongerGradient)
+// A patch with reversed orientation whose uv gradients have the lengths 1 and 2; the longer one defines the units.
+TEST(TruthSurface, flatPatchesFollowTheirMatrix)
 {
     const Surface patch = patchSurface({"patch", 0, 1, 0.5, 0});
     const SurfacePoint p = patch.at({0.25, 0.75});
     EXPECT_EQ(p.position, glm::dvec3(0.75, 0.125, 0));
-    EXPECT_EQ(p.normal, glm::dvec3(0, 0, 1)); // though u and v run the other way round
+    EXPECT_EQ(p.normal, glm::dvec3(0, 0, 1)); // although uv have the opposite orientation
     EXPECT_NEAR(glm::length(p.gradU - glm::dvec3(0, 2, 0)), 0, 1e-12);
     EXPECT_NEAR(glm::length(p.gradV - glm::dvec3(1, 0, 0)), 0, 1e-12);
     EXPECT_NEAR(patch.unitsPerUv(), 0.5, 1e-12);
@@ -177,7 +177,7 @@ TEST(Tessellation, trianglesFaceTheirNormalsAndCoverTheParameters)
                 const glm::dvec2 b = mesh.parameters[v[2]] - mesh.parameters[v[0]];
                 area += std::abs(a.x * b.y - a.y * b.x) / 2;
             }
-            EXPECT_NEAR(area, 1, 1e-9) << surface.name; // no triangle folds over
+            EXPECT_NEAR(area, 1, 1e-9) << surface.name; // no triangles overlap
         }
 }
 

@@ -1,4 +1,4 @@
-// A model that turns once around: where it stands, and that one camera sees all of it.
+// Rotation of a model through a full turn: its poses, and cameras that see all of it.
 #include "cotan/picture.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ Scene movedTeapot()
     return scene;
 }
 
-TEST(Turntable, turnsCounterClockwiseAboutTheMiddleOfTheBoxAndComesBackExactly)
+TEST(Turntable, rotatesCounterClockwiseAboutTheCentre)
 {
     Scene scene = movedTeapot();
     const glm::mat4 before = scene.instances[0].toWorld;
@@ -34,7 +34,7 @@ TEST(Turntable, turnsCounterClockwiseAboutTheMiddleOfTheBoxAndComesBackExactly)
     table.turn(scene, 90);
     const glm::vec3 right =
         scene.instances[0].toWorld * (glm::inverse(before) * glm::vec4(middle + glm::vec3(1, 2, 0), 1));
-    EXPECT_LT(glm::distance(right, middle + glm::vec3(0, 2, -1)), 1e-5f); // what was at the right is behind
+    EXPECT_LT(glm::distance(right, middle + glm::vec3(0, 2, -1)), 1e-5f); // the point on the right is now behind
     EXPECT_LT(glm::distance(bounds(scene).centre(), middle), 0.2f);
     table.turn(scene, 0);
     EXPECT_EQ(scene.instances[0].toWorld, before);
@@ -43,7 +43,7 @@ TEST(Turntable, turnsCounterClockwiseAboutTheMiddleOfTheBoxAndComesBackExactly)
         EXPECT_LT(glm::distance(scene.instances[0].toWorld[i], before[i]), 1e-5f);
 }
 
-TEST(Turntable, lightsAndCamerasStay)
+TEST(Turntable, doesNotMoveLightsAndCameras)
 {
     Scene scene = builtinScene();
     const glm::vec3 light = scene.lights.at(0).direction, eye = scene.cameras.at(0).eye;
@@ -52,7 +52,7 @@ TEST(Turntable, lightsAndCamerasStay)
     EXPECT_EQ(scene.cameras[0].eye, eye);
 }
 
-// Of all vertices at all angles: the largest distance from the middle of the image, of half its width or height.
+// Maximum distance of a vertex from the centre of the image over all angles, relative to half its width or height.
 double furthest(Scene scene, const Camera& camera, double aspect)
 {
     const Turntable table(scene);
@@ -60,21 +60,21 @@ double furthest(Scene scene, const Camera& camera, double aspect)
     const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(camera.up))),
                      up = glm::cross(right, forward);
     const double tanY = std::tan(camera.verticalFieldOfView / 2.0);
-    double most = 0;
+    double largest = 0;
     for (int angle = 0; angle < 360; angle += 7) {
         table.turn(scene, angle);
         forEachPlacedPoint(scene, [&](const glm::mat4& toWorld, const glm::vec3& point) {
             const glm::dvec3 d = glm::dvec3(toWorld * glm::vec4(point, 1)) - glm::dvec3(camera.eye);
             const double depth = glm::dot(d, forward);
             EXPECT_GT(depth, 0);
-            most = std::max({most, std::abs(glm::dot(d, right)) / (depth * tanY * aspect),
+            largest = std::max({largest, std::abs(glm::dot(d, right)) / (depth * tanY * aspect),
                              std::abs(glm::dot(d, up)) / (depth * tanY)});
         });
     }
-    return most;
+    return largest;
 }
 
-TEST(Turntable, oneCameraSeesAllOfItAtEveryAngleAndIsNear)
+TEST(Turntable, oneCameraFramesTheModelAtEveryAngle)
 {
     const Scene still = movedTeapot();
     Scene scene = still;
@@ -82,18 +82,18 @@ TEST(Turntable, oneCameraSeesAllOfItAtEveryAngleAndIsNear)
     for (const double aspect : {16 / 9.0, 0.5}) {
         const int width = int(900 * aspect);
         for (const Camera& camera : {frontCamera(scene, width, 900), orbitCamera(scene, 40, 60, width, 900)}) {
-            const double most = furthest(still, camera, aspect);
-            EXPECT_LT(most, 0.93);
-            EXPECT_GT(most, 0.85);
+            const double largest = furthest(still, camera, aspect);
+            EXPECT_LT(largest, 0.93);
+            EXPECT_GT(largest, 0.85);
         }
-        // The camera of one moment cuts it off at another.
+        // The camera for one pose cuts off another.
         EXPECT_GT(furthest(still, frontCamera(still, width, 900), aspect), aspect < 1 ? 0.9 : 0.0);
     }
 }
 
-// Rings of 32 points at 33 heights: those above and below a vertex are at least as far out as it is, and no further
-// than what stands in the slices beside them.
-TEST(Turntable, theRingsAboveAndBelowAVertexHoldItsCircle)
+// sweptPoints returns 33 rings of 32 points. The rings directly above and below a vertex have at least its radius, and
+// at most that of the vertices in the adjacent slices.
+TEST(Turntable, adjacentRingsEncloseTheCircleOfAVertex)
 {
     std::mt19937 dice(11);
     std::uniform_real_distribution<float> unit(-1, 1);
@@ -101,7 +101,7 @@ TEST(Turntable, theRingsAboveAndBelowAVertexHoldItsCircle)
         Scene scene;
         scene.materials.emplace_back();
         Mesh mesh;
-        for (int i = 0; i < 24; ++i) // most near the axis, so that slices differ
+        for (int i = 0; i < 24; ++i) // most points near the axis, so that slices differ
             mesh.positions.push_back({unit(dice) * unit(dice) * unit(dice), 3 * unit(dice), unit(dice) * unit(dice)});
         for (std::uint32_t i = 0; i + 2 < 24; ++i)
             mesh.indices.insert(mesh.indices.end(), {i, i + 1, i + 2});
@@ -125,7 +125,7 @@ TEST(Turntable, theRingsAboveAndBelowAVertexHoldItsCircle)
             for (std::size_t k = 0; k < 32; ++k) {
                 const glm::dvec3 p(points[32 * ring + k]);
                 const double radius = std::hypot(p.x - middle.x, p.z - middle.z);
-                EXPECT_GT(radius + 1e-5, needed[ring]) << round << " " << ring; // floats
+                EXPECT_GT(radius + 1e-5, needed[ring]) << round << " " << ring; // rounding of float
                 EXPECT_LT(radius, needed[ring] * 1.006 + 1e-5) << round << ' ' << ring;
                 EXPECT_NEAR(p.y, double(box.low.y) + height * double(ring) / 32, 1e-5);
             }
@@ -141,7 +141,7 @@ TEST(Turntable, aSceneWithoutExtentSweepsNothing)
     EXPECT_EQ(scene.instances.size(), 1u);
 }
 
-TEST(Turntable, isForThoseWhoAskForIt)
+TEST(Turntable, sweepsPointsOnlyOnRequest)
 {
     const auto reach = [](const PictureOptions& options) {
         auto picture = openPicture(options, 1, {FrameChoice()});

@@ -1,5 +1,5 @@
-// The tutorials as a reader would do them: each line of their blocks of `sh`, in a folder that holds nothing but the
-// scripts of docs. What needs npm, Blender or a build stands in blocks of `console` and is not run here.
+// Runs the tutorials as a reader would: each line of their `sh` blocks, in a folder that contains only the scripts of
+// docs. Commands that need npm, Blender or a build are in `console` blocks and are not run here.
 #include <gtest/gtest.h>
 
 #include <cctype>
@@ -33,12 +33,12 @@ std::vector<std::string> blocksOf(const std::string& text, const std::string& la
 
 struct Lesson {
     std::string text;       // of the page
-    std::string printed;    // by all of its commands, one after the other
-    std::size_t steps = 0;  // commands run
-    TemporaryFolder folder; // where they ran
+    std::string printed;    // output of all its commands
+    std::size_t steps = 0;  // number of commands run
+    TemporaryFolder folder; // where the commands ran
 };
 
-// Saves what "Save this as `NAME`" asks for, then runs every line; a line that fails is a failure of the test.
+// Saves the files that the page introduces by "Save this as `NAME`", then runs every line, none of which may fail.
 void follow(const std::string& name, Lesson& lesson)
 {
     lesson.text = readWhole(kDocs / "tutorials" / (name + ".md"));
@@ -60,10 +60,10 @@ void follow(const std::string& name, Lesson& lesson)
     lesson.printed = readWhole(lesson.folder / "printed.txt");
 }
 
-// The files that -o asks for, and the pictures that the page shows.
+// Expects the files that -o options name, at least `least` PNG images among them, and the images that the page links.
 void expectPictures(const Lesson& lesson, std::size_t least)
 {
-    const std::regex output(R"( -o ([A-Za-z0-9_./-]+))"), shown(R"(\]\(\.\./pictures/([a-z-]+\.[a-z]+)\))");
+    const std::regex output(R"( -o ([A-Za-z0-9_./-]+))"), linked(R"(\]\(\.\./pictures/([a-z-]+\.[a-z]+)\))");
     std::size_t pictures = 0;
     for (const std::string& block : blocksOf(lesson.text, "sh"))
         for (auto it = std::sregex_iterator(block.begin(), block.end(), output); it != std::sregex_iterator(); ++it) {
@@ -73,7 +73,7 @@ void expectPictures(const Lesson& lesson, std::size_t least)
         }
     EXPECT_GE(pictures, least);
     std::size_t onPage = 0;
-    for (auto it = std::sregex_iterator(lesson.text.begin(), lesson.text.end(), shown); it != std::sregex_iterator();
+    for (auto it = std::sregex_iterator(lesson.text.begin(), lesson.text.end(), linked); it != std::sregex_iterator();
          ++it, ++onPage)
         EXPECT_LE(fs::file_size(kDocs / "pictures" / (*it)[1].str()), 300'000u) << (*it)[1];
     EXPECT_GE(onPage, 1u);
@@ -124,7 +124,7 @@ TEST(Tutorials, theWrongMapIsFoundAndFixed)
     EXPECT_NE(lesson.printed.find("mean 39.7"), std::string::npos) << "the page says 40 degrees\n" << lesson.printed;
 }
 
-TEST(Tutorials, theFirstBakeCoversAllTexelsAndComesBackWithinHalfADegree)
+TEST(Tutorials, theFirstBakeCoversAllTexelsWithinHalfADegree)
 {
     COTAN_NEEDS_PYTHON();
     Lesson lesson;
@@ -138,7 +138,7 @@ TEST(Tutorials, theFirstBakeCoversAllTexelsAndComesBackWithinHalfADegree)
     EXPECT_LT(std::stod(mean[1]), 0.5);
 }
 
-TEST(Tutorials, theVaseLosesItsTangentsAndSeventeenPercent)
+TEST(Tutorials, theVaseShrinksBySeventeenPercentWithoutTangents)
 {
     COTAN_NEEDS_PYTHON();
     Lesson lesson;
@@ -151,15 +151,15 @@ TEST(Tutorials, theVaseLosesItsTangentsAndSeventeenPercent)
     EXPECT_EQ(readWhole(lesson.folder / "free.glb").find("TANGENT"), std::string::npos);
 }
 
-// The page's program is the package's, which tests/web/readme_test.mjs runs in a browser.
-TEST(Tutorials, theWebPagesProgramIsTheOneThatThePackageShows)
+// The page shows the program of the package's README, which tests/web/readme_test.mjs runs in a browser.
+TEST(Tutorials, theWebPagesProgramEqualsTheReadmes)
 {
     const std::string page = readWhole(kDocs / "tutorials/web-model.md"),
                       readme = readWhole(fs::path(COTAN_SOURCE_DIR) / "bindings/js/README.md");
     const auto blocks = blocksOf(page, "js");
     ASSERT_EQ(blocks.size(), 1u);
     EXPECT_NE(readme.find(blocks[0]), std::string::npos);
-    // And so are the lines that need npm, but for where the package lies.
+    // The lines that need npm agree as well, except for the path of the package.
     std::size_t lines = 0;
     for (const std::string& block : blocksOf(page, "console")) {
         std::istringstream stream(
@@ -191,10 +191,10 @@ TEST(Tutorials, theStoneIsBakedForTheFrameThatGodotsShaderReads)
     EXPECT_NE(lesson.printed.find("the map is for the frame orthonormal"), std::string::npos) << lesson.printed;
 }
 
-// Pages of tasks name files of the reader's; here each is one that the tutorials start with.
-class PagesOfTasks : public testing::TestWithParam<const char*> {};
+// How-to pages use the reader's file names. Here each file is a copy of one that the tutorials start with.
+class PageCommands : public testing::TestWithParam<const char*> {};
 
-TEST_P(PagesOfTasks, everyCommandRuns)
+TEST_P(PageCommands, everyCommandRuns)
 {
     COTAN_NEEDS_PYTHON();
     const TemporaryFolder folder;
@@ -230,7 +230,7 @@ TEST_P(PagesOfTasks, everyCommandRuns)
     EXPECT_GE(ran, 1u);
 }
 
-INSTANTIATE_TEST_SUITE_P(, PagesOfTasks,
+INSTANTIATE_TEST_SUITE_P(, PageCommands,
                          testing::Values("README.md", "docs/how-to/choose-a-frame.md", "docs/how-to/fix-a-map.md",
                                          "docs/how-to/bake.md", "docs/how-to/remove-tangents.md",
                                          "docs/how-to/engines.md", "docs/how-to/my-engine.md", "docs/how-to/batch.md",

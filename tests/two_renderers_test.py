@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""The Vulkan renderer draws what the reference renderer draws, for every `render` of tests/output_bytes/pictures.txt.
+"""The Vulkan renderer draws the same as the reference renderer, for each `render` of tests/output_bytes/pictures.txt.
 
   two_renderers_test.py TOOL TABLE
 
-Vulkan's validation layer watches, where it is installed, and has to be silent. The two renderers share their text of the
-shading, and nothing else: not the projection, the rasteriser, the order of layers. How maps are filtered is each device's
-own choice, so that both read the nearest texel of the finest level.
+Vulkan's validation layer is enabled if it is installed, and must report nothing. The renderers share only the text of
+their shaders, not the projection, the rasterizer or the order of layers. Filtering of maps depends on the device, so
+that both read the nearest texel of mip level 0.
 """
 import json
 import os
@@ -18,11 +18,11 @@ import tempfile
 from output_bytes import SKIPPED, png_pixels
 from output_inputs import make_inputs
 
-# Levels of 255. Environments are filtered by the device: 1.03 levels in the overcast. An edge that passes a sample's place
-# by less than rounding is a pixel that differs.
-MEAN, LARGE, MANY = 1.5, 12, 0.02  # the mean difference, and the share of pixels that may differ by more than LARGE
+# Limits in 8-bit levels. Devices filter environments: the overcast one differs by 1.03 levels. An edge whose distance
+# to a sample is below rounding gives a different pixel.
+MEAN, LARGE, MANY = 1.5, 12, 0.02  # the mean difference, and the fraction of pixels that may differ by more than LARGE
 LAYERS = {"VK_INSTANCE_LAYERS": "VK_LAYER_KHRONOS_validation"}
-OWN = ("--lighting", "--normal-mapping", "--rate", "--shadow-softness")  # the first two are the reference renderer's alone
+OWN = ("--lighting", "--normal-mapping", "--rate", "--shadow-softness")  # only the reference renderer has the first two
 
 
 def pixels(path):
@@ -33,7 +33,7 @@ def pixels(path):
 
 
 def difference(a, b):
-    """Mean difference in levels, and the share of pixels with a large one."""
+    """Returns the mean difference in levels, and the fraction of pixels that differ by more than LARGE."""
     (first, channels), (second, others) = pixels(a), pixels(b)
     if channels != others or len(first) != len(second):
         return 255.0, 1.0

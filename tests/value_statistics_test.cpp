@@ -18,7 +18,7 @@ ValueStatistics of(const std::vector<std::pair<double, double>>& weighted)
     return s;
 }
 
-TEST(ValueStatistics, weighWhatTheyAreGiven)
+TEST(ValueStatistics, weighTheirValues)
 {
     ValueStatistics s = of({{2, 2}, {1, 94}, {8, 4}});
     EXPECT_EQ(s.count(), 3u);
@@ -29,13 +29,13 @@ TEST(ValueStatistics, weighWhatTheyAreGiven)
     EXPECT_EQ(s.percentile(0.96), 2);
     EXPECT_EQ(s.percentile(0.97), 8);
     EXPECT_EQ(s.percentile(1), 8);
-    s.add(0.5, 100); // after a percentile sorted the rest
+    s.add(0.5, 100); // after percentile() has sorted the values
     EXPECT_EQ(s.percentile(0.5), 0.5);
     EXPECT_EQ(s.percentile(0.51), 1);
     EXPECT_EQ(s.percentile(0.01), 0.5);
 }
 
-TEST(ValueStatistics, leaveOutWhatHasNoWeightOrIsNoNumber)
+TEST(ValueStatistics, ignoreInvalidValuesAndWeights)
 {
     ValueStatistics s = of({{3, 1}, {100, 0}, {NAN, 5}, {5, -1}, {INFINITY, 1}, {1, NAN}, {1, INFINITY}});
     EXPECT_EQ(s.count(), 1u);
@@ -44,7 +44,7 @@ TEST(ValueStatistics, leaveOutWhatHasNoWeightOrIsNoNumber)
     EXPECT_EQ(s.percentile(1), 3);
 }
 
-TEST(ValueStatistics, ofNothingAreNoNumbersAndOfZerosAreZero)
+TEST(ValueStatistics, areNanIfEmptyAndZeroForZeros)
 {
     ValueStatistics none, zeros;
     zeros.add(0);
@@ -55,7 +55,7 @@ TEST(ValueStatistics, ofNothingAreNoNumbersAndOfZerosAreZero)
         EXPECT_EQ(x, 0);
 }
 
-TEST(ValueStatistics, ofMoreThanFitAreRightToOnePartIn4096)
+TEST(ValueStatistics, areAccurateToOneIn4096BeyondTheExactValues)
 {
     constexpr std::size_t kCount = 3 * ValueStatistics::kExactValues;
     std::vector<double> sorted;
@@ -69,7 +69,7 @@ TEST(ValueStatistics, ofMoreThanFitAreRightToOnePartIn4096)
         sum += value * weight;
         total += weight;
         if (i + 1 == ValueStatistics::kExactValues
-            || i == ValueStatistics::kExactValues) { // the last exact, and the next
+            || i == ValueStatistics::kExactValues) { // the last exact one, and the next
             std::sort(sorted.begin(), sorted.end());
             const double exact = sorted[std::size_t(std::ceil(0.95 * total)) - 1];
             EXPECT_GE(s.percentile(0.95), exact);
@@ -88,7 +88,7 @@ TEST(ValueStatistics, ofMoreThanFitAreRightToOnePartIn4096)
     EXPECT_EQ(s.percentile(1), sorted.back());
 }
 
-TEST(ValueStatistics, ofManyZerosAreZero)
+TEST(ValueStatistics, medianOfManyZerosIsZero)
 {
     ValueStatistics s;
     for (std::size_t i = 0; i < 2 * ValueStatistics::kExactValues; ++i)

@@ -1,4 +1,4 @@
-// What GLM lacks for vectors that may be zero or not finite, and the axes of what looks along a direction.
+// Extensions of GLM for vectors that may be zero or not finite, and the axes for a viewing direction.
 #include "cotan/vector.hpp"
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-TEST(Vector, oneComponentThatIsNotFiniteIsFoundWhereverItStands)
+TEST(Vector, anyNonFiniteComponentIsFound)
 {
     EXPECT_TRUE(isFinite(glm::vec4(1e38f, -3e38f, 0, 1e-45f)));
     EXPECT_TRUE(isFinite(glm::mat4(1)));
@@ -31,14 +31,14 @@ TEST(Vector, oneComponentThatIsNotFiniteIsFoundWhereverItStands)
     }
 }
 
-TEST(Vector, whatHasNoDirectionGivesTheOther)
+TEST(Vector, vectorsWithoutADirectionGiveTheFallback)
 {
     const glm::dvec3 other(0, 0, -1);
     EXPECT_EQ(unitOr(glm::dvec3(0, 3, 4), other), glm::dvec3(0, 0.6, 0.8));
     EXPECT_EQ(unitOr(glm::dvec3(0), other), other);
     EXPECT_EQ(unitOr(glm::dvec3(0, double(kInfinity), 0), other), other);
     EXPECT_EQ(unitOr(glm::dvec3(0, std::nan(""), 1), other), other);
-    EXPECT_EQ(unitOr(glm::dvec3(0, 0.5, 0), other, 0.5), other); // not over the least
+    EXPECT_EQ(unitOr(glm::dvec3(0, 0.5, 0), other, 0.5), other); // not longer than the minimum
     EXPECT_EQ(unitOr(glm::dvec3(0, 0.5, 0), other, 0.25), glm::dvec3(0, 1, 0));
     EXPECT_EQ(unitOrZero(glm::dvec3(0)), glm::vec3(0));
     EXPECT_EQ(unitOrZero(glm::dvec3(-1e-150, 0, 0)), glm::vec3(-1, 0, 0));
@@ -53,7 +53,7 @@ void expectAxes(const CameraAxes& a)
     EXPECT_NEAR(glm::length(glm::cross(a.forward, a.up) - a.right), 0, 1e-15);
 }
 
-TEST(CameraAxes, upIsAsNearToTheGivenOneAsItCanBe)
+TEST(CameraAxes, upIsTheClosestToTheGivenOne)
 {
     const CameraAxes a = axesAlong({0, 0, -1}, {0.2, 3, 5});
     expectAxes(a);
@@ -61,7 +61,7 @@ TEST(CameraAxes, upIsAsNearToTheGivenOneAsItCanBe)
     EXPECT_NEAR(glm::length(a.up - glm::normalize(glm::dvec3(0.2, 3, 0))), 0, 1e-15);
 }
 
-TEST(CameraAxes, anUpThatIsNoneGivesYOrMinusZ)
+TEST(CameraAxes, invalidUpGivesYOrMinusZ)
 {
     for (const glm::dvec3& up : {glm::dvec3(0), glm::dvec3(0, 0, -7), glm::dvec3(std::nan(""), 1, 0)}) {
         const CameraAxes a = axesAlong({0, 0, -1}, up);
@@ -75,7 +75,7 @@ TEST(CameraAxes, anUpThatIsNoneGivesYOrMinusZ)
     }
 }
 
-TEST(CameraAxes, aCameraThatLooksNowhereLooksAlongMinusZ)
+TEST(CameraAxes, aCameraWithoutADirectionLooksAlongMinusZ)
 {
     Camera camera;
     camera.eye = camera.target = glm::vec3(3, 2, 1);

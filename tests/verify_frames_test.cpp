@@ -1,5 +1,5 @@
-// One view with two frames: which of tangent and bitangent is reversed, on which share of the pixels, and how far the
-// normals come apart for it. Stored tangents are reversed by hand, against the exact frame.
+// Compares one view in two frames: the fractions of pixels with reversed tangents and bitangents, and the resulting
+// difference of normals. Stored tangents are reversed by hand and compared with the exact frame.
 #include "reference_scene.hpp"
 
 #include <cmath>
@@ -14,7 +14,7 @@ using namespace cotan::testing;
 // Bytes 128 + 127 x: m = (40, -30, 112) / 127.
 constexpr glm::ivec3 kTiltedBytes{168, 98, 240};
 
-// A square quad with this tangent at each corner; right is (1, 0, 0, 1): u runs along x, green up along y.
+// A square quad with this tangent at each corner. (1, 0, 0, 1) is correct: u runs along x, green up along y.
 Scene quadWithTangents(glm::vec4 tangent)
 {
     Scene scene = sceneOf(meshOf(Patch{}));
@@ -39,7 +39,7 @@ ComparedFrames compared(const Scene& scene, std::array<Frame, 2> frames = {Frame
 
 double degreesOf(double cosine) { return std::acos(cosine / (40 * 40 + 30 * 30 + 112 * 112)) * 57.29577951308232; }
 
-TEST(CompareFrames, tellsWhichOfTheTwoIsReversed)
+TEST(CompareFrames, findsReversedTangentsAndBitangents)
 {
     const double square = 112 * 112;
     struct Case {
@@ -76,7 +76,7 @@ TEST(CompareFrames, tellsWhichOfTheTwoIsReversed)
     }
 }
 
-TEST(CompareFrames, sharesAreOfThePixelsThatShowIt)
+TEST(CompareFrames, fractionsCountVisiblePixels)
 {
     Scene scene = quadWithTangents({1, 0, 0, 1});
     Mesh other = meshOf(Patch{});
@@ -91,7 +91,7 @@ TEST(CompareFrames, sharesAreOfThePixelsThatShowIt)
     EXPECT_EQ(f.bitangentsOpposed, 0);
 }
 
-TEST(CompareFrames, thePicturesAreInTheOrderOfTheFrames)
+TEST(CompareFrames, imagesFollowTheOrderOfTheFrames)
 {
     const Scene scene = quadWithTangents({1, 0, 0, -1});
     const ComparedFrames f = compared(scene), back = compared(scene, {Frame::exact, Frame::mikktspace});
@@ -110,10 +110,10 @@ TEST(CompareFrames, thePicturesAreInTheOrderOfTheFrames)
 
 TEST(CompareFrames, withoutANormalMapNothingIsCompared)
 {
-    const ComparedFrames off = compared(quadWithTangents({1, 0, 0, -1}), {Frame::mikktspace, Frame::exact}, false);
-    EXPECT_FALSE(off.mapped);
-    EXPECT_EQ(off.normals.count, 0u);
-    EXPECT_EQ(toText(off), "nothing was compared: no normal map is drawn");
+    const ComparedFrames unmapped = compared(quadWithTangents({1, 0, 0, -1}), {Frame::mikktspace, Frame::exact}, false);
+    EXPECT_FALSE(unmapped.mapped);
+    EXPECT_EQ(unmapped.normals.count, 0u);
+    EXPECT_EQ(toText(unmapped), "nothing was compared: no normal map is drawn");
     Scene bare = quadWithTangents({1, 0, 0, 1});
     bare.materials[0].normalMap.image = -1;
     EXPECT_FALSE(compared(bare).mapped);

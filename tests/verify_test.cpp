@@ -1,4 +1,4 @@
-// Maps drawn back and compared, as a program calls it: the degrees are known from geometry.
+// Draws maps and compares them through the C++ interface; the expected degrees follow from geometry.
 #include "reference_scene.hpp"
 
 #include <cmath>
@@ -13,9 +13,9 @@ using namespace cotan::testing;
 
 using app::kBakeViews, app::verifyBake;
 
-constexpr int kPixels = 96; // a side of the pictures
+constexpr int kPixels = 96; // width and height of the images
 
-// A square quad, seen from both sides, with a map of one colour.
+// A square quad, visible from both sides, with a map of one colour.
 Scene quadWith(glm::ivec3 texel)
 {
     Scene scene = sceneOf(meshOf(Patch{}));
@@ -32,7 +32,7 @@ std::unique_ptr<Renderer> reference()
     return renderer ? std::move(*renderer) : nullptr;
 }
 
-TEST(VerifyConversion, equalModelsAreNoDegreesApart)
+TEST(VerifyConversion, equalModelsDifferByZeroDegrees)
 {
     const auto renderer = reference();
     const Scene scene = quadWith({168, 98, 240});
@@ -52,31 +52,31 @@ TEST(VerifyConversion, equalModelsAreNoDegreesApart)
         }
     }
     EXPECT_EQ(count, compared->all.count);
-    EXPECT_FALSE(renderer->draw(viewOf(Output::normal))); // the scene is gone, and the renderer knows
+    EXPECT_FALSE(renderer->draw(viewOf(Output::normal))); // the renderer no longer has a scene
 }
 
-TEST(VerifyConversion, aFlatMapInThePlaceOfATiltedOneIsOffByTheTilt)
+TEST(VerifyConversion, aFlatMapErrsByTheTiltOfTheOriginal)
 {
     const auto renderer = reference();
     const double tilt = std::atan2(std::hypot(40, 30), 112) * 57.295779513;
-    // All frames of a square are one rotation, those from vertices too: made without being asked for.
+    // All frames of a square are one rotation. Frames at vertices are derived without a request.
     const auto compared = verifyConversion(*renderer, {quadWith({168, 98, 240}), Frame::mikktspace},
                                            {quadWith(kFlatTexel), Frame::smooth}, kPixels);
     ASSERT_TRUE(compared) << compared.error().message;
     EXPECT_GT(compared->views[0].degrees.count, 1000u); // from the front
     EXPECT_GT(compared->views[2].degrees.count, 1000u); // from behind
-    for (std::size_t side : {1, 3, 4})                  // from the sides and from above the quad is a line
+    for (std::size_t side : {1, 3, 4})                  // the quad is a line from the sides and from above
         EXPECT_EQ(compared->views[side].degrees.count, 0u) << side;
-    EXPECT_NEAR(compared->all.mean, tilt, 1e-3); // float
+    EXPECT_NEAR(compared->all.mean, tilt, 1e-3); // rounding of float
     EXPECT_NEAR(compared->all.maximum, tilt, 1e-2);
 }
 
-TEST(VerifyConversion, theSecondModelIsSeenWithTheCamerasOfTheFirst)
+TEST(VerifyConversion, theSecondModelIsDrawnWithTheCamerasOfTheFirst)
 {
     const auto renderer = reference();
     const Scene here = quadWith(kFlatTexel);
     Scene there = here;
-    there.instances[0].toWorld[3][0] = 10; // out of their sight
+    there.instances[0].toWorld[3][0] = 10; // out of sight
     const auto compared = verifyConversion(*renderer, {here, Frame::cotangent}, {there, Frame::cotangent}, kPixels);
     ASSERT_TRUE(compared) << compared.error().message;
     EXPECT_TRUE(compared->mapped);
@@ -94,7 +94,7 @@ TEST(VerifyConversion, modelsWithoutMapsAreNotCompared)
     EXPECT_TRUE(std::isnan(compared->all.mean));
 }
 
-TEST(VerifyConversion, aMapInOneOfTheTwoModelsIsEnoughToCompareThem)
+TEST(VerifyConversion, oneMappedModelIsEnoughToCompare)
 {
     const auto renderer = reference();
     const Scene plain = sceneOf(meshOf(Patch{})), mapped = quadWith({168, 98, 240});
@@ -104,11 +104,11 @@ TEST(VerifyConversion, aMapInOneOfTheTwoModelsIsEnoughToCompareThem)
         ASSERT_TRUE(compared) << compared.error().message;
         EXPECT_TRUE(compared->mapped) << first;
         EXPECT_GT(compared->all.count, 1000u) << first;
-        EXPECT_GT(compared->all.mean, 5) << first; // degrees by which the one map tilts
+        EXPECT_GT(compared->all.mean, 5) << first; // degrees by which the only map tilts
     }
 }
 
-TEST(VerifyConversion, picturesOfAnotherNumberOrSizeAreRefused)
+TEST(VerifyConversion, imagesOfADifferentNumberOrSizeAreRefused)
 {
     const auto renderer = reference();
     const Scene scene = quadWith(kFlatTexel);
@@ -117,12 +117,12 @@ TEST(VerifyConversion, picturesOfAnotherNumberOrSizeAreRefused)
     const auto few = drawSides(*renderer, {scene, Frame::cotangent}, {all->cameras[0]}, kPixels);
     const auto small = drawSides(*renderer, {scene, Frame::cotangent}, all->cameras, kPixels / 2);
     ASSERT_TRUE(few && small);
-    for (const auto& [other, said] : {std::pair(&*few, "expected as many pictures after as before, 5; found 1"),
-                                      {&*small, "expected pictures of one size, 96 x 96; found 48 x 48"}}) {
+    for (const auto& [other, expected] : {std::pair(&*few, "expected as many images after as before, 5; found 1"),
+                                      {&*small, "expected images of the same size, 96 x 96; found 48 x 48"}}) {
         const auto compared = compareSides(*all, *other);
         ASSERT_FALSE(compared);
         EXPECT_EQ(compared.error().kind, ErrorKind::usage);
-        EXPECT_EQ(compared.error().message, "verify: " + std::string(said));
+        EXPECT_EQ(compared.error().message, "verify: " + std::string(expected));
     }
     DrawnSides upright, level;
     upright.normals = {makeImage(2, 3, PixelType::float32)};
@@ -131,21 +131,21 @@ TEST(VerifyConversion, picturesOfAnotherNumberOrSizeAreRefused)
         const auto compared = compareSides(upright, level);
         ASSERT_FALSE(compared);
         EXPECT_EQ(compared.error().message,
-                  "verify: expected pictures of one size, 2 x 3; found " + std::to_string(width) + " x "
+                  "verify: expected images of the same size, 2 x 3; found " + std::to_string(width) + " x "
                       + std::to_string(height));
     }
     level.normals = upright.normals;
     EXPECT_TRUE(compareSides(upright, level));
 }
 
-// From the front, turned by quarters, and from above; all as far away, with the middle of the model in the middle.
-TEST(VerifyConversion, theSidesAreFourAroundAndOneFromAbove)
+// Cameras in front, at three quarter turns, and above, all at the same distance and aimed at the centre of the model.
+TEST(VerifyConversion, camerasAreFourAroundAndOneAbove)
 {
     const auto renderer = reference();
     Scene scene = quadWith(kFlatTexel);
     scene.instances[0].toWorld[2][2] = 3;
     scene.instances[0].toWorld[3] = {5, 6, 7, 1};
-    Instance behind = scene.instances[0]; // which makes it deep
+    Instance behind = scene.instances[0]; // gives the model depth
     behind.toWorld[3] = {5, 6, 9, 1};
     scene.instances.push_back(behind);
     const auto sides = drawSides(*renderer, {scene, Frame::cotangent}, {}, 16);
@@ -170,7 +170,7 @@ TEST(VerifyConversion, theSidesAreFourAroundAndOneFromAbove)
     EXPECT_EQ(sides->cameras[4].up, glm::vec3(0, 0, -1));
 }
 
-// Many sheets of one place, which are no longer one: a renderer would draw them all.
+// Instances of a quad in one place, none of which a renderer leaves out.
 Scene stackOf(std::size_t sheets)
 {
     Scene scene = quadWith(kFlatTexel);
@@ -178,8 +178,8 @@ Scene stackOf(std::size_t sheets)
     return scene;
 }
 
-// A conversion of 1 MB took over a minute.
-TEST(VerifyConversion, whatIsDrawnTooManyTimesOverIsRefusedBeforeItIsDrawn)
+// A conversion of a model of 1 MB once took over a minute.
+TEST(VerifyConversion, excessiveOverdrawIsRefusedBeforeDrawing)
 {
     const auto renderer = reference();
     const auto few = drawSides(*renderer, {stackOf(20), Frame::cotangent}, {}, 32);
@@ -187,7 +187,7 @@ TEST(VerifyConversion, whatIsDrawnTooManyTimesOverIsRefusedBeforeItIsDrawn)
     const auto many = drawSides(*renderer, {stackOf(300), Frame::cotangent}, {}, 32);
     ASSERT_FALSE(many);
     EXPECT_EQ(many.error().kind, ErrorKind::input);
-    EXPECT_NE(many.error().message.find("its triangles cover the picture"), std::string::npos) << many.error().message;
+    EXPECT_NE(many.error().message.find("its triangles cover the image"), std::string::npos) << many.error().message;
     Scene aside = stackOf(300); // lines from the front
     for (Instance& sheet : aside.instances)
         std::swap(sheet.toWorld[0], sheet.toWorld[2]);
@@ -199,7 +199,7 @@ TEST(VerifyConversion, whatIsDrawnTooManyTimesOverIsRefusedBeforeItIsDrawn)
     EXPECT_FALSE(drawSides(*renderer, {aside, Frame::cotangent}, around->cameras, 256));
 }
 
-TEST(VerifyConversion, modelsAsLargeAsFloatsWithoutTheirSquaresAreDrawn)
+TEST(VerifyConversion, modelsTooLargeForSquaresInFloatAreDrawn)
 {
     const auto renderer = reference();
     Scene scene = quadWith(kFlatTexel);
@@ -210,7 +210,7 @@ TEST(VerifyConversion, modelsAsLargeAsFloatsWithoutTheirSquaresAreDrawn)
     for (const Camera& camera : sides->cameras)
         EXPECT_NEAR(glm::length(glm::dvec3(camera.eye - camera.target))
                         / glm::length(glm::dvec3(sides->cameras[0].eye - sides->cameras[0].target)),
-                    1, 1e-5); // floats
+                    1, 1e-5); // rounding of float
 }
 
 // A quad at z = 0, and above it one that rises by `slope` along x.
@@ -226,7 +226,7 @@ Pair tiltedPair(double slope)
     return {sceneOf(meshOf(Patch{})), sceneOf(meshOf(rising))};
 }
 
-TEST(VerifyBake, whatIsBakedFitsAndAFlatMapIsOffByTheSlopeOfTheHighSurface)
+TEST(VerifyBake, bakedMapsMatchAndFlatMapsErrByTheSlope)
 {
     const double slope = 0.2;
     const Pair pair = tiltedPair(slope);
@@ -247,17 +247,17 @@ TEST(VerifyBake, whatIsBakedFitsAndAFlatMapIsOffByTheSlopeOfTheHighSurface)
     ASSERT_TRUE(fits) << fits.error().message;
     ASSERT_EQ(fits->views.size(), std::size_t(kBakeViews));
     EXPECT_GT(fits->views[0].degrees.count, 1000u);
-    EXPECT_LT(fits->views[0].degrees.maximum, 0.45); // what rounding to 8 bits costs at worst
+    EXPECT_LT(fits->views[0].degrees.maximum, 0.45); // worst case of rounding to 8 bits
 
-    const auto off = verifyBake(*renderer, {pair.low, *low, *high, options, flat, stored.format}, kPixels);
-    ASSERT_TRUE(off) << off.error().message;
-    EXPECT_NEAR(off->views[0].degrees.mean, std::atan(slope) * 57.295779513, 1e-3);
-    EXPECT_EQ(off->views[0].degrees.count, fits->views[0].degrees.count);
-    for (std::size_t side : {1, 3}) // from there the low quad is a line
-        EXPECT_EQ(off->views[side].degrees.count, 0u) << side;
+    const auto wrong = verifyBake(*renderer, {pair.low, *low, *high, options, flat, stored.format}, kPixels);
+    ASSERT_TRUE(wrong) << wrong.error().message;
+    EXPECT_NEAR(wrong->views[0].degrees.mean, std::atan(slope) * 57.295779513, 1e-3);
+    EXPECT_EQ(wrong->views[0].degrees.count, fits->views[0].degrees.count);
+    for (std::size_t side : {1, 3}) // the low quad is a line from there
+        EXPECT_EQ(wrong->views[side].degrees.count, 0u) << side;
 }
 
-// A flat map of a tilted pair, compared; scene: what is drawn with it.
+// Compares a flat map for a tilted pair, drawn on `scene`.
 Result<ComparedViews> verifiedFlat(const Scene& scene, int material, int side)
 {
     const Pair pair = tiltedPair(0.1);
@@ -270,13 +270,13 @@ Result<ComparedViews> verifiedFlat(const Scene& scene, int material, int side)
     return verifyBake(*reference(), {scene, *low, *high, options, map, {}, material}, side);
 }
 
-TEST(VerifyBake, whatIsDrawnTooManyTimesOverIsRefusedBeforeItIsDrawn)
+TEST(VerifyBake, excessiveOverdrawIsRefusedBeforeDrawing)
 {
     EXPECT_TRUE(verifiedFlat(stackOf(20), -1, 32));
     const auto compared = verifiedFlat(stackOf(300), -1, 32);
     ASSERT_FALSE(compared);
     EXPECT_EQ(compared.error().kind, ErrorKind::input);
-    EXPECT_NE(compared.error().message.find("its triangles cover the picture"), std::string::npos);
+    EXPECT_NE(compared.error().message.find("its triangles cover the image"), std::string::npos);
 }
 
 TEST(VerifyBake, aMaterialThatTheSceneDoesNotHaveIsRefused)

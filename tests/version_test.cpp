@@ -1,4 +1,4 @@
-// The version stands in CMakeLists.txt; where people and other tools read it, too, it is the same.
+// CMakeLists.txt defines the version. Other files that repeat it for people and tools must agree.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -13,10 +13,10 @@ namespace {
 
 struct Copy {
     const char* file;
-    const char* pattern; // the version is its first group
+    const char* pattern; // regular expression for the text before the version
 };
 
-TEST(Version, isTheSameWhereverItIsWrittenAgain)
+TEST(Version, isTheSameInEveryFile)
 {
     const std::string number = R"((\d+\.\d+\.\d+))";
     for (const Copy& copy : std::vector<Copy>{{"CITATION.cff", "\nversion: "},
@@ -35,7 +35,7 @@ TEST(Version, isTheSameWhereverItIsWrittenAgain)
     }
 }
 
-TEST(Version, isThatOfTheNewestSectionOfTheChangelog)
+TEST(Version, isTheNewestOfTheChangelog)
 {
     const std::string text = readWhole(std::filesystem::path(COTAN_SOURCE_DIR) / "CHANGELOG.md");
     const std::size_t begin = text.find("\n## ", text.find("## Unreleased") + 1);
@@ -43,23 +43,23 @@ TEST(Version, isThatOfTheNewestSectionOfTheChangelog)
     EXPECT_EQ(text.substr(begin + 4, text.find_first_of(" \n", begin + 4) - begin - 4), COTAN_VERSION);
 }
 
-TEST(Version, isTheOneThatExamplesAskFor)
+TEST(Version, isTheOneThatExamplesRequest)
 {
-    const std::regex asked(R"(find_package\(cotan (\d+\.\d+))");
+    const std::regex requested(R"(find_package\(cotan (\d+\.\d+))");
     int found = 0;
     for (const char* folder : {"examples", "docs", "tests/smallest"})
         for (const auto& entry :
              std::filesystem::recursive_directory_iterator(std::filesystem::path(COTAN_SOURCE_DIR) / folder))
             if (entry.path().filename() == "CMakeLists.txt" || entry.path().extension() == ".md") {
                 const std::string text = readWhole(entry.path());
-                for (auto it = std::sregex_iterator(text.begin(), text.end(), asked); it != std::sregex_iterator();
+                for (auto it = std::sregex_iterator(text.begin(), text.end(), requested); it != std::sregex_iterator();
                      ++it, ++found)
                     EXPECT_TRUE(std::string(COTAN_VERSION).starts_with((*it)[1].str() + ".")) << entry.path();
             }
     EXPECT_GE(found, 6);
 }
 
-TEST(Version, isWhatTheToolSays)
+TEST(Version, isPrintedByTheTool)
 {
     TemporaryFolder folder;
     EXPECT_EQ(runTool({"--version"}, folder.path()).out, "cotan " COTAN_VERSION "\n");

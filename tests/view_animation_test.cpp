@@ -1,4 +1,4 @@
-// `cotan view` of models that move.
+// `cotan view` with animated models.
 #include <gtest/gtest.h>
 
 #include "cotan/scene.hpp"
@@ -8,7 +8,7 @@
 namespace cotan::test {
 namespace {
 
-TEST(ViewAnimation, aMomentIsThePictureThatRenderWritesAndTheFileIsReadOnce)
+TEST(ViewAnimation, aMomentMatchesRenderAndLoadsTheFileOnce)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
@@ -24,12 +24,12 @@ TEST(ViewAnimation, aMomentIsThePictureThatRenderWritesAndTheFileIsReadOnce)
                                    "--exposure", "1", "--animation", "high", "--time", "2.5"},
                                   folder.path());
     ASSERT_EQ(drawn.code, 0) << drawn.err;
-    EXPECT_EQ(differentPixels(readPicture(folder / "window.png"), readPicture(folder / "r.png")), 0u);
+    EXPECT_EQ(differentPixels(readImageFile(folder / "window.png"), readImageFile(folder / "r.png")), 0u);
 }
 
-// Textures stay on the device between moments, also those of another way to read a map; a map that has changed
-// meanwhile, of the same size, does not.
-TEST(ViewAnimation, everyMomentHasTheTexturesThatRenderHas)
+// Textures stay on the device from moment to moment, also those for another convention of the map. A different map of
+// the same size does not reuse them.
+TEST(ViewAnimation, texturesMatchRenderAtEveryMoment)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
@@ -50,14 +50,14 @@ TEST(ViewAnimation, everyMomentHasTheTexturesThatRenderHas)
     ASSERT_EQ(run.code, 0) << run.err;
     for (const std::string name : {"v1.png", "v2.png", "v3.png", "v4.png"}) {
         std::filesystem::rename(folder / name, folder / ("window-" + name));
-        const std::string command = doWritten(folder, run.out, name);
+        const std::string command = runPrinted(folder, run.out, name);
         ASSERT_NE(command, "") << run.out;
         EXPECT_TRUE(readWhole(folder / name) == readWhole(folder / ("window-" + name))) << command;
     }
-    EXPECT_GT(differentPixels(readPicture(folder / "v1.png"), readPicture(folder / "v4.png")), 100u);
+    EXPECT_GT(differentPixels(readImageFile(folder / "v1.png"), readImageFile(folder / "v4.png")), 100u);
 }
 
-TEST(ViewAnimation, playingMovesWhatIsShownAndPausingHoldsIt)
+TEST(ViewAnimation, playingChangesTheImageAndPausingHoldsIt)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
@@ -68,17 +68,17 @@ TEST(ViewAnimation, playingMovesWhatIsShownAndPausingHoldsIt)
              "1.5 do window b.png\n9 wait\n9 do window c.png\n9 do report r.txt\n",
              {"quad.gltf", "--size", "160x120", "--camera", "0,1,6,0,1,0", "--ground", "off"});
     ASSERT_EQ(run.code, 0) << run.err;
-    const Image a = readPicture(folder / "a.png"), b = readPicture(folder / "b.png");
+    const Image a = readImageFile(folder / "a.png"), b = readImageFile(folder / "b.png");
     EXPECT_GT(differentPixels(a, b), 100u);
-    EXPECT_EQ(differentPixels(b, readPicture(folder / "c.png")), 0u);
+    EXPECT_EQ(differentPixels(b, readImageFile(folder / "c.png")), 0u);
     const std::string report = readWhole(folder / "r.txt");
     EXPECT_EQ(lineOf(report, "time"), "1.5");
     EXPECT_EQ(lineOf(report, "playing"), "no");
     EXPECT_EQ(lineOf(report, "loads"), "1 failed 0");
 }
 
-// Front frames all of the animation: the picture would wobble otherwise, and leave the window.
-TEST(ViewAnimation, theCameraFramesAllMomentsAndStaysWhileTheModelMoves)
+// The front camera frames the whole animation; otherwise it would move with the model, or the model leave the window.
+TEST(ViewAnimation, theCameraFramesTheWholeAnimation)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
@@ -91,12 +91,12 @@ TEST(ViewAnimation, theCameraFramesAllMomentsAndStaysWhileTheModelMoves)
     EXPECT_NE(lineOf(readWhole(folder / "rest.txt"), "eye"), lineOf(readWhole(folder / "a.txt"), "eye"));
     EXPECT_EQ(lineOf(readWhole(folder / "a.txt"), "eye"), lineOf(readWhole(folder / "b.txt"), "eye"));
     std::filesystem::rename(folder / "a.png", folder / "window.png");
-    const std::string command = doWritten(folder, run.out, "a.png");
+    const std::string command = runPrinted(folder, run.out, "a.png");
     ASSERT_NE(command, "") << run.out;
     EXPECT_TRUE(readWhole(folder / "a.png") == readWhole(folder / "window.png")) << command;
 }
 
-TEST(ViewAnimation, oneThatIsNotThereIsSaidAndTheModelStays)
+TEST(ViewAnimation, missingAnimationsAreReported)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;

@@ -1,4 +1,4 @@
-// `cotan view` on displays that are less than usual, and moved about by a window manager.
+// `cotan view` on displays with fewer features than usual, and under a window manager.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -11,8 +11,8 @@
 namespace cotan::test {
 namespace {
 
-// As a display on another machine is reached: no memory is shared with it.
-TEST(ViewDisplay, withoutSharedMemoryThePictureIsTheSame)
+// Like a display on another machine, which shares no memory with the tool.
+TEST(ViewDisplay, theImageIsTheSameWithoutSharedMemory)
 {
     const Display far({"-extension", "MIT-SHM"});
     if (far.name().empty())
@@ -24,12 +24,12 @@ TEST(ViewDisplay, withoutSharedMemoryThePictureIsTheSame)
             {"--size", "200x150"}, on);
         ASSERT_EQ(run.code, 0) << run.err;
     }
-    EXPECT_EQ(readPicture(folder / "far.png").width, 333);
-    EXPECT_EQ(differentPixels(readPicture(folder / "far.png"), readPicture(folder / "near.png")), 0u);
+    EXPECT_EQ(readImageFile(folder / "far.png").width, 333);
+    EXPECT_EQ(differentPixels(readImageFile(folder / "far.png"), readImageFile(folder / "near.png")), 0u);
 }
 
-// Vulkan's drivers present where pixels hold their colours, and not where they are numbers in a palette.
-TEST(ViewDisplay, whereNoDeviceCanPresentIsExitCodeThreeAndOneLine)
+// Drivers of Vulkan present on screens whose pixels store colours, and not on those whose pixels index a palette.
+TEST(ViewDisplay, noPresentingDeviceGivesExitCodeThreeAndOneLine)
 {
     const Display palette({"-screen", "0", "640x480x8"});
     if (palette.name().empty())
@@ -49,8 +49,8 @@ TEST(ViewDisplay, whereNoDeviceCanPresentIsExitCodeThreeAndOneLine)
     EXPECT_NE(none.err.find("Vulkan"), std::string::npos) << none.err;
 }
 
-// A window manager that minimises a window takes it off the screen. Keys and the pointer are the real ones here.
-TEST(ViewDisplay, aWindowIsMinimisedResizedAndQuitByItsKeys)
+// A window manager unmaps a window to minimise it. Keys and pointer are those of the display here.
+TEST(ViewDisplay, windowsHandleMinimisingResizingAndKeys)
 {
     COTAN_NEEDS_DISPLAY();
     if (std::system("command -v xdotool > /dev/null") != 0)
@@ -72,8 +72,8 @@ TEST(ViewDisplay, aWindowIsMinimisedResizedAndQuitByItsKeys)
     EXPECT_TRUE(std::filesystem::exists(folder / "times.json"));
 }
 
-// In a window there is someone to read why, and to fix it: the file is read once it is there.
-TEST(ViewDisplay, aWindowStaysWithoutItsFirstModelAndShowsItOnceItIsThere)
+// In a window there is someone to read the error and to fix it: the file is loaded as soon as it exists.
+TEST(ViewDisplay, windowsLoadAMissingFirstModelOnceItExists)
 {
     COTAN_NEEDS_DISPLAY();
     if (std::system("command -v xdotool > /dev/null") != 0)

@@ -1,4 +1,4 @@
-// What `cotan view` opens, and what it cannot.
+// Files that `cotan view` opens, and errors for those that it cannot open.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace cotan::test {
 namespace {
 
-TEST(ViewWindow, aBadFileSaysSoAndTheLastModelStays)
+TEST(ViewWindow, badFilesAreReportedAndTheLastModelStays)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
@@ -29,7 +29,7 @@ TEST(ViewWindow, aBadFileSaysSoAndTheLastModelStays)
     EXPECT_EQ(lineOf(readWhole(folder / "b.txt"), "loads"), "1 failed 2");
 }
 
-TEST(ViewWindow, aModelThatChangesIsReadAgainAndTheCameraStays)
+TEST(ViewWindow, reloadingKeepsTheCamera)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
@@ -50,7 +50,7 @@ Image greySky()
     return sky;
 }
 
-TEST(ViewWindow, aLightThatIsDroppedLightsAndABadOneIsLeft)
+TEST(ViewWindow, droppedEnvironmentsAreUsedAndBadOnesReported)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
@@ -66,8 +66,8 @@ TEST(ViewWindow, aLightThatIsDroppedLightsAndABadOneIsLeft)
     EXPECT_NE(lineOf(readWhole(folder / "b.txt"), "problem").find("bad.hdr"), std::string::npos);
 }
 
-// The large pictures take longer than a file has to rest before it is read again.
-TEST(ViewWindow, aLightThatIsChosenLaterIsReadAgainWhenItChanges)
+// Writing the large images takes longer than a file must stay unchanged before it is reloaded.
+TEST(ViewWindow, aChangedEnvironmentFileIsReloaded)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
@@ -83,7 +83,7 @@ TEST(ViewWindow, aLightThatIsChosenLaterIsReadAgainWhenItChanges)
     EXPECT_EQ(lineOf(readWhole(folder / "b.txt"), "loads"), "2 failed 0");
 }
 
-TEST(ViewWindow, aMapAloneStandsOnAShapeAndTheDialogOpensAModel)
+TEST(ViewWindow, aMapAloneIsShownOnAShapeAndTheDialogOpensAModel)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
@@ -105,7 +105,7 @@ TEST(ViewWindow, aMapAloneStandsOnAShapeAndTheDialogOpensAModel)
     EXPECT_EQ(lineOf(readWhole(folder / "c.txt"), "model"), "quad.gltf");
 }
 
-TEST(ViewWindow, aMapThatWasSavedAsAColourIsNamedOnceAsLintDoes)
+TEST(ViewWindow, srgbEncodedMapsAreReportedOnceAsByLint)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
@@ -129,7 +129,7 @@ TEST(ViewWindow, aMapThatWasSavedAsAColourIsNamedOnceAsLintDoes)
     EXPECT_NE((lint.out + lint.err).find(sentence), std::string::npos) << lint.out << lint.err;
 }
 
-TEST(ViewWindow, itsProblemAreasAreThoseOfLintAndTheCameraGoesThere)
+TEST(ViewWindow, problemAreasMatchLintAndMoveTheCamera)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
@@ -144,12 +144,12 @@ TEST(ViewWindow, itsProblemAreasAreThoseOfLintAndTheCameraGoesThere)
     const json spots = json::parse(readWhole(folder / "lint.json"))["hot_spots"];
     ASSERT_FALSE(spots.empty());
     const std::string report = readWhole(folder / "r.txt");
-    EXPECT_EQ(lineOf(report, "hot spots"), std::to_string(spots.size()));
-    EXPECT_EQ(lineOf(report, "hot spot"), spots[0]["text"].get<std::string>());
+    EXPECT_EQ(lineOf(report, "problem areas"), std::to_string(spots.size()));
+    EXPECT_EQ(lineOf(report, "problem area"), spots[0]["text"].get<std::string>());
     EXPECT_NE(run.out.find(spots[0]["camera"].get<std::string>()), std::string::npos) << run.out;
 }
 
-TEST(ViewWindow, aFirstModelThatCannotBeReadEndsWhatIsPlayedAndWhatHasNoWindow)
+TEST(ViewWindow, anUnreadableFirstModelEndsASessionWithExitCode2)
 {
     TemporaryFolder folder;
     std::ofstream(folder / "bad.glb") << "glTF nonsense";
@@ -170,7 +170,7 @@ TEST(ViewWindow, aFirstModelThatCannotBeReadEndsWhatIsPlayedAndWhatHasNoWindow)
     EXPECT_FALSE(std::filesystem::exists(folder / "r.txt"));
 }
 
-TEST(ViewWindow, wrongWordsEndAtOnce)
+TEST(ViewWindow, badArgumentsEndAtOnce)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;

@@ -1,4 +1,4 @@
-// What the window of `cotan view` lays over the image, where, and what a hand does with it.
+// The panels that `cotan view` draws over the image: their positions, their contents and clicks on them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace cotan::test {
 namespace {
 
-// Text of 100 % is 15 pixels high, a line of the interface 21.
+// At a scale of 1 text is 15 pixels high, a line of the interface 21.
 constexpr int kWide = 640, kHigh = 480, kLine = 21;
 
 using Pixel = std::array<int, 3>;
@@ -61,7 +61,7 @@ protected:
         ASSERT_EQ(run.code, 0) << run.err;
         out = run.out;
     }
-    Image image(const std::string& name) const { return readPicture(folder / name); }
+    Image image(const std::string& name) const { return readImageFile(folder / name); }
     std::string report(const std::string& file, const std::string& line) const
     {
         return lineOf(readWhole(folder / file), line);
@@ -69,10 +69,10 @@ protected:
     std::string out;
 };
 
-// A click in the window and what the state is then.
+// Session lines for a click.
 std::string clickAt(int x, int y) { return fmt::format("0 move {} {}\n0 press left\n0 release left\n0 wait\n", x, y); }
 
-TEST_F(ViewPanels, theDividerShowsTheFirstLeftOfItAndTheSecondRightOfItToTheByte)
+TEST_F(ViewPanels, theDividerShowsTheFirstLeftAndTheSecondRight)
 {
     show("0 do toggle interface\n0 do second frame exact\n0 do show normal\n0 do divider 0.25\n0 wait\n"
          "0 do picture a.png\n0 do compare flip\n0 do flip\n0 wait\n0 do picture b.png\n"
@@ -84,15 +84,15 @@ TEST_F(ViewPanels, theDividerShowsTheFirstLeftOfItAndTheSecondRightOfItToTheByte
     EXPECT_EQ(differentPixels(image("angle.png"), image("angle-file.png")), 0u);
 }
 
-TEST_F(ViewPanels, theBarIsAsHighAsItsTextAndDarkOrLight)
+TEST_F(ViewPanels, theBarScalesWithItsTextAndFollowsTheTheme)
 {
     show("0 do toggle interface\n0 do window bare.png\n0 do toggle interface\n0 do window dark.png\n"
          "0 do scale 2\n0 do window large.png\n0 do scale 1\n0 do toggle look\n0 do window light.png\n"
          "0 do toggle look\n0 do window again.png\n");
     const Image bare = image("bare.png"), dark = image("dark.png");
-    const auto barOf = [&](const Image& shown) { // rows that are changed at the right end, where no menu is
+    const auto barOf = [&](const Image& window) { // rows that differ at the right end, where no menu is
         int rows = 0;
-        while (rows < kHigh && pixelAt(shown, kWide - 5, rows) != pixelAt(bare, kWide - 5, rows))
+        while (rows < kHigh && pixelAt(window, kWide - 5, rows) != pixelAt(bare, kWide - 5, rows))
             ++rows;
         return rows;
     };
@@ -102,7 +102,7 @@ TEST_F(ViewPanels, theBarIsAsHighAsItsTextAndDarkOrLight)
     EXPECT_LT(bright(pixelAt(dark, kWide - 5, 5)), 200);
     EXPECT_GT(bright(pixelAt(image("light.png"), kWide - 5, 5)), 600);
     EXPECT_EQ(differentPixels(dark, image("again.png")), 0u);
-    // In the middle nothing lies over the image.
+    // Nothing covers the middle of the image.
     EXPECT_EQ(countWhere(dark,
                          [&](int x, int y) {
                              return y > 2 * kLine && y < kHigh - 4 * kLine
@@ -132,7 +132,7 @@ TEST_F(ViewPanels, eachSliderSetsItsOwnSettingUpToBothEnds)
         const double expected = k == 1 ? 0 : k == 3 ? 30 : 1; // the geometric mean of 0.05 and 20 is one
         EXPECT_NEAR(middle, expected, k == 1 ? 5 : k == 3 ? 1 : 0.1) << names[k];
         EXPECT_EQ(report(fmt::format("high{}.txt", k), "camera moved"),
-                  "no"); // what a panel takes the image does not get
+                  "no"); // the panel consumes the click
     }
 }
 
@@ -141,41 +141,41 @@ TEST_F(ViewPanels, theScaleOfDegreesHasItsColoursAtItsStops)
     show("0 do toggle card\n0 do compare angle\n0 do second frame exact\n0 wait\n0 do window angle.png\n");
     const Image angle = image("angle.png");
     const Pixel stops[] = {{0, 0, 0}, {20, 60, 200}, {30, 180, 80}, {250, 220, 40}, {220, 30, 20}, {255, 255, 255}};
-    const int x = int(kWide - 4.5 * 15) + 7; // a line from the left end of the bar, 4.5 lines from the right
+    const int x = int(kWide - 4.5 * 15) + 7; // in the bar, whose left end is 4.5 text heights from the right
     for (int k = 0; k <= 5; ++k) {
         const int y = kHigh / 4 + (5 - k) * kHigh / 2 / 5 + (k == 5 ? 1 : k == 0 ? -1 : 0);
         EXPECT_TRUE(isNear(pixelAt(angle, x, y), stops[k], 12))
             << k << " " << ::testing::PrintToString(pixelAt(angle, x, y));
     }
-    const Pixel between = pixelAt(angle, x, kHigh / 4 + kHigh / 20); // of the last two
+    const Pixel between = pixelAt(angle, x, kHigh / 4 + kHigh / 20); // halfway between the last two
     EXPECT_TRUE(isNear(between, {237, 142, 137}, 12)) << ::testing::PrintToString(between);
 }
 
-// Beside the pointer, on the side where there is room.
-TEST_F(ViewPanels, theCardLiesBesideThePointerAndArrowsStandOnTheSurface)
+// The card is next to the pointer, on the side that has enough space.
+TEST_F(ViewPanels, theCardIsNextToThePointerAndArrowsAreDrawn)
 {
     std::string session;
-    const std::vector<glm::ivec2> places = {{150, 160}, {490, 160}, {150, 320}, {490, 320}};
-    for (std::size_t k = 0; k < places.size(); ++k)
-        session += fmt::format("0 move {} {}\n0 wait\n0 do window on{}.png\n0 do report r{}.txt\n", places[k].x,
-                               places[k].y, k, k);
+    const std::vector<glm::ivec2> positions = {{150, 160}, {490, 160}, {150, 320}, {490, 320}};
+    for (std::size_t k = 0; k < positions.size(); ++k)
+        session += fmt::format("0 move {} {}\n0 wait\n0 do window on{}.png\n0 do report r{}.txt\n", positions[k].x,
+                               positions[k].y, k, k);
     session += "0 do toggle card\n0 wait\n0 do window off.png\n";
     show(session);
     const Image off = image("off.png");
     EXPECT_EQ(countOf(off, {242, 76, 64}), 0);
-    for (std::size_t k = 0; k < places.size(); ++k) {
+    for (std::size_t k = 0; k < positions.size(); ++k) {
         const Image on = image(fmt::format("on{}.png", k));
         EXPECT_NE(report(fmt::format("r{}.txt", k), "uv"), "no such line");
-        int rightOf = 0, leftOf = 0, above = 0, below = 0; // farther than arrows reach
+        int rightOf = 0, leftOf = 0, above = 0, below = 0; // out of reach of the arrows
         for (int y = kLine + 1; y < kHigh - 5 * kLine; ++y)
             for (int x = 0; x < kWide; ++x)
                 if (pixelAt(on, x, y) != pixelAt(off, x, y)) {
-                    rightOf += x > places[k].x + 130;
-                    leftOf += x < places[k].x - 130;
-                    above += y < places[k].y - 90;
-                    below += y > places[k].y + 90;
+                    rightOf += x > positions[k].x + 130;
+                    leftOf += x < positions[k].x - 130;
+                    above += y < positions[k].y - 90;
+                    below += y > positions[k].y + 90;
                 }
-        const bool right = places[k].x > 0.6 * kWide, low = places[k].y > 0.6 * kHigh;
+        const bool right = positions[k].x > 0.6 * kWide, low = positions[k].y > 0.6 * kHigh;
         EXPECT_EQ(rightOf > 100, !right) << k;
         EXPECT_EQ(leftOf > 100, right) << k;
         EXPECT_EQ(above > 100, low) << k;
@@ -185,7 +185,7 @@ TEST_F(ViewPanels, theCardLiesBesideThePointerAndArrowsStandOnTheSurface)
     }
 }
 
-TEST_F(ViewPanels, problemsKeysAndSpotsAreShownInTheirColours)
+TEST_F(ViewPanels, errorsKeysAndProblemAreasHaveTheirColours)
 {
     std::ofstream(folder / "bad.glb") << "glTF nonsense";
     show("0 do toggle card\n0 do window before.png\n0 do toggle help\n0 do window keys.png\n0 do toggle help\n"
@@ -209,8 +209,8 @@ TEST_F(ViewPanels, problemsKeysAndSpotsAreShownInTheirColours)
     EXPECT_EQ(report("spot.txt", "camera moved"), "yes");
 }
 
-// What the command line says is what the session begins with.
-TEST_F(ViewPanels, wordsOfTheCommandLineAreThoseOfBothSides)
+// The options of the command line set the initial state of the session.
+TEST_F(ViewPanels, commandLineOptionsSetBothSides)
 {
     ASSERT_TRUE(writeImage(folder / "n.png", makeReliefMap(Relief::domes, 16)));
     show("0 do report r.txt\n0 key d\n0 wait\n0 do report off.txt\n",
@@ -239,7 +239,7 @@ TEST_F(ViewPanels, wordsOfTheCommandLineAreThoseOfBothSides)
         EXPECT_GT(end["seconds"][what].get<double>(), 0) << what;
 }
 
-TEST_F(ViewPanels, theClipboardGivesBackWhatWasCopied)
+TEST_F(ViewPanels, theClipboardReturnsTheCopiedText)
 {
     show("0 do copy camera\n0 do paste\n0 wait\n0 do report pasted.txt\n");
     const std::string camera = out.substr(0, out.find('\n'));

@@ -1,4 +1,4 @@
-// The desktop's dialog for files: a bus of the test's own, and a portal on it that answers at once.
+// The desktop's file dialog, with a private bus and a portal on it that answers at once.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kRequest = "/org/freedesktop/portal/desktop/request/1/1";
 
-// org.freedesktop.portal.FileChooser, which has chosen a file as soon as it is asked; an empty URI: someone closed it.
+// Implements org.freedesktop.portal.FileChooser, which answers with `uri`; an empty one: the user closed the dialog.
 class FakePortal {
 public:
     explicit FakePortal(std::string uri) : uri_(std::move(uri))
@@ -56,14 +56,14 @@ public:
         if (daemon_)
             ::pclose(daemon_);
     }
-    const std::string& address() const { return address_; } // empty: there is no dbus-daemon
-    int asked() const { return asked_; }
+    const std::string& address() const { return address_; } // empty if there is no dbus-daemon
+    int callCount() const { return callCount_; }
 
 private:
     static int opened(sd_bus_message* call, void* self, sd_bus_error*)
     {
         FakePortal& portal = *static_cast<FakePortal*>(self);
-        ++portal.asked_;
+        ++portal.callCount_;
         sd_bus_reply_method_return(call, "o", kRequest);
         sd_bus_message* signal = nullptr;
         sd_bus_message_new_signal(portal.bus_, &signal, kRequest, "org.freedesktop.portal.Request", "Response");
@@ -82,12 +82,12 @@ private:
     sd_bus* bus_ = nullptr;
     sd_bus_message* reply_ = nullptr;
     std::uint32_t process_ = 0;
-    std::atomic<int> asked_ = 0;
+    std::atomic<int> callCount_ = 0;
     std::atomic<bool> ends_ = false;
     std::thread thread_;
 };
 
-// The report of a session that opens the dialog once, on that bus.
+// Opens the dialog once on this bus and returns the report of the session.
 std::string reportAfterDialog(const TemporaryFolder& folder, const std::string& bus)
 {
     ::setenv("DBUS_SESSION_BUS_ADDRESS", bus.c_str(), 1);
@@ -97,7 +97,7 @@ std::string reportAfterDialog(const TemporaryFolder& folder, const std::string& 
     return readWhole(folder / "r.txt");
 }
 
-TEST(ViewPortal, opensWhatWasChosenInTheDesktopsDialog)
+TEST(ViewPortal, opensTheFileChosenInTheDesktopsDialog)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
@@ -107,12 +107,12 @@ TEST(ViewPortal, opensWhatWasChosenInTheDesktopsDialog)
     if (portal.address().empty())
         GTEST_SKIP() << "no dbus-daemon";
     const std::string report = reportAfterDialog(folder, portal.address());
-    EXPECT_EQ(portal.asked(), 1);
+    EXPECT_EQ(portal.callCount(), 1);
     EXPECT_EQ(lineOf(report, "model"), "a quad.gltf");
     EXPECT_EQ(lineOf(report, "problem"), "none");
 }
 
-TEST(ViewPortal, aDialogThatIsClosedChangesNothing)
+TEST(ViewPortal, aCancelledDialogChangesNothing)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
@@ -120,12 +120,12 @@ TEST(ViewPortal, aDialogThatIsClosedChangesNothing)
     if (portal.address().empty())
         GTEST_SKIP() << "no dbus-daemon";
     const std::string report = reportAfterDialog(folder, portal.address());
-    EXPECT_EQ(portal.asked(), 1);
+    EXPECT_EQ(portal.callCount(), 1);
     EXPECT_EQ(lineOf(report, "loads"), "1 failed 0");
     EXPECT_EQ(lineOf(report, "problem"), "none");
 }
 
-TEST(ViewPortal, withoutABusAndAProgramItIsSaid)
+TEST(ViewPortal, missingDialogProgramsAreReported)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;

@@ -1,4 +1,4 @@
-// `cotan view` under random events, and over and over again.
+// `cotan view` under random events and many reloads.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -13,10 +13,10 @@
 namespace cotan::test {
 namespace {
 
-// COTAN_VIEW_EVENTS and COTAN_VIEW_SEED make it longer, or another; COTAN_VIEW_KEEP is a folder that gets it;
-// COTAN_VIEW_PRELOAD are libraries that the tool is started with: a driver that is never unloaded loses none of what it
-// keeps, and a leak checker finds leaks alone.
-TEST(ViewWindow, randomEventsAreLivedThrough)
+// COTAN_VIEW_EVENTS and COTAN_VIEW_SEED set the number of events and the seed. COTAN_VIEW_KEEP names a folder that
+// receives the session and its files. COTAN_VIEW_PRELOAD lists libraries to preload: a driver that is never unloaded
+// keeps its memory reachable, so that a leak checker reports only leaks.
+TEST(ViewWindow, survivesRandomEvents)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
@@ -76,7 +76,7 @@ TEST(ViewWindow, randomEventsAreLivedThrough)
         }
         session += '\n';
     }
-    if (const char* kept = std::getenv("COTAN_VIEW_KEEP")) // a folder, to look at a finding
+    if (const char* kept = std::getenv("COTAN_VIEW_KEEP")) // to reproduce a failure
         std::filesystem::copy(folder.path(), kept,
                               std::filesystem::copy_options::overwrite_existing
                                   | std::filesystem::copy_options::recursive),
@@ -87,11 +87,11 @@ TEST(ViewWindow, randomEventsAreLivedThrough)
                              {"quad.gltf", "--size", "160x120", "--json", "end.json"});
     ::unsetenv("LD_PRELOAD");
     EXPECT_EQ(run.code, 0) << run.err;
-    // A session may choose Quit from the menu, and then lives through fewer events. No other event asks for the end.
+    // A session may choose Quit from the menu and then ends early. No other event ends it.
     const std::string end = readWhole(folder / "end.json");
     if (end.find(R"("ended": "menu")") != std::string::npos) {
         std::cout << "Quit was chosen from a menu before the last event:\n" << end;
-        EXPECT_NE(seed, 1); // which is there to live through all of them
+        EXPECT_NE(seed, 1); // seed 1 must get through all events
         return;
     }
     EXPECT_NE(end.find(R"("ended": "last event")"), std::string::npos) << end;
@@ -99,7 +99,7 @@ TEST(ViewWindow, randomEventsAreLivedThrough)
     EXPECT_NE(lineOf(readWhole(folder / "r.txt"), "model"), "no such line");
 }
 
-TEST(ViewWindow, reloadsTakeNoMoreAndMoreMemory)
+TEST(ViewWindow, reloadsDoNotLeakMemory)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
@@ -113,7 +113,7 @@ TEST(ViewWindow, reloadsTakeNoMoreAndMoreMemory)
         return run.megabytes;
     };
     const double few = megabytesOf(20), many = megabytesOf(80);
-    EXPECT_LT(many, few + 12); // 60 more of 0.2 MB a reload would be more; drivers' pools move by some
+    EXPECT_LT(many, few + 12); // leaks of 0.2 MB a reload would exceed it; drivers' pools vary by a few MB
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// Played sessions of `cotan view`, on a display in memory.
+// Plays sessions of `cotan view` on a display in memory.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,11 +19,11 @@
 
 namespace cotan::test {
 
-// No dialog of the desktop that the tests run on.
+// Prevents dialogs of the desktop on which the tests run.
 inline constexpr const char* kNoBus = "unix:path=/nowhere";
 inline const bool kBusIsHidden = ::setenv("DBUS_SESSION_BUS_ADDRESS", kNoBus, 1) == 0;
 
-// Xvfb on a free display; options: more words of its command line.
+// Xvfb on a free display; options: additional arguments.
 class Display {
 public:
     explicit Display(std::vector<std::string> options = {})
@@ -58,21 +58,21 @@ public:
             ::waitpid(child_, nullptr, 0);
         }
     }
-    const std::string& name() const { return name_; } // empty: there is no Xvfb
+    const std::string& name() const { return name_; } // empty if there is no Xvfb
 
 private:
     pid_t child_ = -1;
     std::string name_;
 };
 
-// What those tests share that say nothing of theirs.
+// The display that all tests share, except those that need special options.
 inline const std::string& display()
 {
     static const Display one;
     return one.name();
 }
 
-// Plays a session; words: of the command line before --play.
+// Plays a session; words: arguments before --play.
 inline ToolRun play(const TemporaryFolder& folder, const std::string& session, std::vector<std::string> words = {},
                     const std::string& on = display())
 {
@@ -84,11 +84,11 @@ inline ToolRun play(const TemporaryFolder& folder, const std::string& session, s
     return runTool(words, folder.path(), 120);
 }
 
-// Does the command for that file which a session has said. Returns the command; empty where it failed, or was not said.
-inline std::string doWritten(const TemporaryFolder& folder, const std::string& said, const std::string& file)
+// Runs the command for `file` that a session printed. Returns the command; empty if it failed or was not printed.
+inline std::string runPrinted(const TemporaryFolder& folder, const std::string& output, const std::string& file)
 {
-    for (std::size_t start = 0; (start = said.find("cotan render ", start)) != std::string::npos; ++start) {
-        const std::string command = said.substr(start + 6, said.find('\n', start) - start - 6);
+    for (std::size_t start = 0; (start = output.find("cotan render ", start)) != std::string::npos; ++start) {
+        const std::string command = output.substr(start + 6, output.find('\n', start) - start - 6);
         if (command.find("-o " + file) == std::string::npos)
             continue;
         const std::string shell = "cd " + folder.path().string() + " && " COTAN_TOOL " " + command + " > /dev/null";
@@ -101,14 +101,14 @@ inline std::string doWritten(const TemporaryFolder& folder, const std::string& s
     if (display().empty())                                                                                             \
     GTEST_SKIP() << "no Xvfb to open a window on"
 
-inline Image readPicture(const std::filesystem::path& file)
+inline Image readImageFile(const std::filesystem::path& file)
 {
     auto image = readImage(file);
     EXPECT_TRUE(image) << image.error().message;
     return image ? *image : Image();
 }
 
-// Of red, green and blue; a window has no alpha.
+// Number of pixels whose red, green or blue differ. A window has no alpha.
 inline std::size_t differentPixels(const Image& a, const Image& b)
 {
     if (a.width != b.width || a.height != b.height)

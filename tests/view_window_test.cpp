@@ -1,4 +1,4 @@
-// `cotan view` in a window: pictures to the byte, the pointer and the keys.
+// `cotan view` in a window: its exact image, the pointer and the keys.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 namespace cotan::test {
 namespace {
 
-TEST(ViewWindow, showsThePictureThatRenderWritesToTheByte)
+TEST(ViewWindow, showsExactlyTheImageOfRender)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
@@ -28,12 +28,12 @@ TEST(ViewWindow, showsThePictureThatRenderWritesToTheByte)
         words.insert(words.end(), {"-o", "render.png", "--overwrite"});
         const ToolRun drawn = runTool(words, folder.path());
         ASSERT_EQ(drawn.code, 0) << drawn.err;
-        EXPECT_EQ(differentPixels(readPicture(folder / "window.png"), readPicture(folder / "render.png")), 0u)
+        EXPECT_EQ(differentPixels(readImageFile(folder / "window.png"), readImageFile(folder / "render.png")), 0u)
             << ::testing::PrintToString(options);
     }
 }
 
-TEST(ViewWindow, theCommandThatItWritesDrawsTheSamePicture)
+TEST(ViewWindow, thePrintedCommandDrawsTheSameImage)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
@@ -45,21 +45,21 @@ TEST(ViewWindow, theCommandThatItWritesDrawsTheSamePicture)
              "0 do picture b.png\n0 do picture c.exr 60 40\n",
              {"--size", "160x120"});
     ASSERT_EQ(seen.code, 0) << seen.err;
-    EXPECT_EQ(differentPixels(readPicture(folder / "window.png"), readPicture(folder / "a.png")), 0u);
+    EXPECT_EQ(differentPixels(readImageFile(folder / "window.png"), readImageFile(folder / "a.png")), 0u);
     for (const std::string name : {"a.png", "b.png", "c.exr"}) {
         std::filesystem::rename(folder / name, folder / ("viewer-" + name));
-        const std::string command = doWritten(folder, seen.out, name);
+        const std::string command = runPrinted(folder, seen.out, name);
         ASSERT_NE(command, "") << seen.out;
         EXPECT_TRUE(readWhole(folder / name) == readWhole(folder / ("viewer-" + name))) << command;
     }
 }
 
-TEST(ViewWindow, noDisplayIsExitCodeThreeAndOneLine)
+TEST(ViewWindow, noDisplayGivesExitCodeThreeAndOneLine)
 {
     TemporaryFolder folder;
     ::unsetenv("DISPLAY");
     ::unsetenv("WAYLAND_DISPLAY");
-    for (const char* name : {"", ":40777"}) { // none, and one that is not there
+    for (const char* name : {"", ":40777"}) { // none, and one that does not exist
         if (*name)
             ::setenv("DISPLAY", name, 1);
         const ToolRun run = runTool({"view", "--forget"}, folder.path());
@@ -69,7 +69,7 @@ TEST(ViewWindow, noDisplayIsExitCodeThreeAndOneLine)
     }
 }
 
-TEST(ViewWindow, dragsAndKeysDoTheSameEveryTime)
+TEST(ViewWindow, dragsAndKeysAreDeterministic)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
@@ -92,11 +92,11 @@ TEST(ViewWindow, dragsAndKeysDoTheSameEveryTime)
     EXPECT_EQ(lineOf(report, "problem"), "none");
 }
 
-TEST(ViewWindow, aMenuIsOpenedAndChosenFromByThePointer)
+TEST(ViewWindow, thePointerOpensMenusAndChoosesEntries)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
-    // The third menu, which has room below the bar, and one of its first entries.
+    // The third menu, which fits below the bar, and one of its first entries.
     const ToolRun run =
         play(folder,
              "0 do scale 1\n0 wait\n0 move 137 10\n0 press left\n0 release left\n0 wait\n0 do window menu.png\n"
@@ -105,10 +105,10 @@ TEST(ViewWindow, aMenuIsOpenedAndChosenFromByThePointer)
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(lineOf(readWhole(folder / "r.txt"), "first"), "triangle stored - -");
     EXPECT_EQ(lineOf(readWhole(folder / "r.txt"), "camera moved"),
-              "no"); // what the menu takes the picture does not get
+              "no"); // the menu consumes the click
 }
 
-// Code 0 alone does not tell a session that was lived through from one that chose Quit on its way.
+// Exit code 0 does not tell a complete session from one that chose Quit early.
 TEST(ViewWindow, theReportSaysHowASessionEnded)
 {
     COTAN_NEEDS_DISPLAY();
@@ -130,7 +130,7 @@ TEST(ViewWindow, theReportSaysHowASessionEnded)
     }
 }
 
-TEST(ViewWindow, sizesSurfacesAndMinimisingAreLivedThrough)
+TEST(ViewWindow, survivesResizingAndLostSurfaces)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
@@ -145,10 +145,10 @@ TEST(ViewWindow, sizesSurfacesAndMinimisingAreLivedThrough)
         {"render", "-o", "r.png", "--size", "300x200", "--exposure", lineOf(readWhole(folder / "r.txt"), "metered")},
         folder.path());
     ASSERT_EQ(drawn.code, 0) << drawn.err;
-    EXPECT_EQ(readPicture(folder / "w.png").width, 300);
+    EXPECT_EQ(readImageFile(folder / "w.png").width, 300);
 }
 
-TEST(ViewWindow, whatIsRecordedIsDoneAgain)
+TEST(ViewWindow, recordedSessionsReplayIdentically)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;

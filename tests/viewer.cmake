@@ -1,4 +1,4 @@
-# The viewer: what it does, without a window; and the window itself, on a display in memory.
+# The viewer's behaviour without a window, and the window on a display in memory.
 if(TARGET cotan_viewer)
   cotan_test(viewer_test
     SOURCES viewer_camera_test.cpp viewer_camera_moves_test.cpp viewer_commands_test.cpp viewer_menus_test.cpp viewer_state_test.cpp

@@ -1,4 +1,4 @@
-// Cameras of the viewer in tests, and the angles from which they look.
+// Cameras for tests of the viewer, and the angles from which they look.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace cotan::viewer {
 
 inline constexpr float kDegreesOfRadian = 57.29578f;
 
-// Degrees about the vertical, and above the horizon, from which a camera looks at its pivot.
+// Azimuth and elevation above the horizon, in degrees, from which a camera looks at its pivot.
 inline glm::vec2 anglesFrom(const Camera& camera)
 {
     const glm::vec3 back = camera.eye - camera.target;
@@ -26,7 +26,7 @@ inline void expectClose(const glm::vec3& a, const glm::vec3& b, float tolerance)
         << a.x << ' ' << a.y << ' ' << a.z << " against " << b.x << ' ' << b.y << ' ' << b.z;
 }
 
-// A level camera 5 units before the origin.
+// A level camera 5 units in front of the origin.
 inline Camera levelCamera(bool orthographic = false)
 {
     Camera camera;

@@ -1,4 +1,4 @@
-// How the camera moves: against formulas and projections by hand, over random cameras, and at both sides of limits.
+// Camera movements: compared with formulas and projections by hand for random cameras, and at both sides of limits.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ Camera randomCamera(std::mt19937& dice)
     return camera;
 }
 
-TEST(ViewerCameraMoves, turnByTheAnglesThatTheyAreGiven)
+TEST(ViewerCameraMoves, rotateByTheGivenAngles)
 {
     std::mt19937 dice(7);
     std::uniform_real_distribution<float> turn(-1, 1);
@@ -43,19 +43,19 @@ TEST(ViewerCameraMoves, turnByTheAnglesThatTheyAreGiven)
         EXPECT_NEAR(is.y, std::min(was.y + upward * kDegreesOfRadian, 1.56f * kDegreesOfRadian), 0.05f);
         EXPECT_NEAR(glm::length(camera.eye - camera.target), distance, 1e-4f * distance);
         camera = before;
-        look(camera, right, upward); // the pivot stands where the eye of the opposite direction would
-        Camera turned = before;
-        std::swap(turned.eye, turned.target);
-        const glm::vec2 from = anglesFrom(turned);
-        turned.eye = camera.target, turned.target = camera.eye;
-        EXPECT_NEAR(difference(anglesFrom(turned).x, from.x - right * kDegreesOfRadian), 0, 0.02f);
-        EXPECT_NEAR(anglesFrom(turned).y, from.y + upward * kDegreesOfRadian, 0.05f);
+        look(camera, right, upward); // an orbit about the eye: eye and pivot change roles
+        Camera reversed = before;
+        std::swap(reversed.eye, reversed.target);
+        const glm::vec2 from = anglesFrom(reversed);
+        reversed.eye = camera.target, reversed.target = camera.eye;
+        EXPECT_NEAR(difference(anglesFrom(reversed).x, from.x - right * kDegreesOfRadian), 0, 0.02f);
+        EXPECT_NEAR(anglesFrom(reversed).y, from.y + upward * kDegreesOfRadian, 0.05f);
         EXPECT_EQ(camera.eye, before.eye);
     }
 }
 
-// A point is where the projection by hand puts it: right along x, up along y, from the middle.
-TEST(ViewerCameraMoves, pointsLieWhereAProjectionByHandPutsThem)
+// onPicture agrees with a projection by hand: x to the right and y down, from the centre of the image.
+TEST(ViewerCameraMoves, projectionMatchesItsDefinition)
 {
     std::mt19937 dice(11);
     std::uniform_real_distribution<float> within(-3, 3);
@@ -69,7 +69,7 @@ TEST(ViewerCameraMoves, pointsLieWhereAProjectionByHandPutsThem)
         const float depth = glm::dot(to, forward);
         const float high =
             camera.orthographic ? camera.verticalExtent : 2 * depth * std::tan(camera.verticalFieldOfView / 2);
-        const glm::vec3 seen = onPicture(camera, point, size);
+        const glm::vec3 seen = projectToImage(camera, point, size);
         EXPECT_NEAR(seen.x, 400 + glm::dot(to, right) / high * 600, 0.05f);
         EXPECT_NEAR(seen.y, 300 - glm::dot(to, up) / high * 600, 0.05f);
         EXPECT_NEAR(seen.z, camera.orthographic ? 1 : depth, 1e-4f);
@@ -77,43 +77,43 @@ TEST(ViewerCameraMoves, pointsLieWhereAProjectionByHandPutsThem)
     }
 }
 
-TEST(ViewerCameraMoves, aPointBehindTheEyeIsInTheMiddleWithItsDepthAndOnlyInPerspective)
+TEST(ViewerCameraMoves, pointsBehindAPerspectiveEyeProjectToTheCentre)
 {
-    const glm::vec3 behind = onPicture(levelCamera(), {1, 2, 7}, {800, 600});
+    const glm::vec3 behind = projectToImage(levelCamera(), {1, 2, 7}, {800, 600});
     EXPECT_EQ(behind, glm::vec3(400, 300, -2));
-    const glm::vec3 parallel = onPicture(levelCamera(true), {1, 2, 7}, {800, 600});
+    const glm::vec3 parallel = projectToImage(levelCamera(true), {1, 2, 7}, {800, 600});
     expectClose(parallel, {400 + 150, 300 - 300, 1}, 1e-3f);
-    EXPECT_GT(unitsOfPixel(levelCamera(true), 5, {800, 0}), 0); // no division by no height
+    EXPECT_GT(unitsOfPixel(levelCamera(true), 5, {800, 0}), 0); // no division by the height of 0
 }
 
-TEST(ViewerCameraMoves, stopAtHairFromStraightUpAndDown)
+TEST(ViewerCameraMoves, stopJustShortOfStraightUpAndDown)
 {
-    for (const float way : {1.0f, -1.0f}) {
+    for (const float direction : {1.0f, -1.0f}) {
         Camera camera = levelCamera();
-        orbit(camera, 0.3f, way * 9);
-        EXPECT_NEAR(anglesFrom(camera).y, way * 1.56f * kDegreesOfRadian, 0.01f);
+        orbit(camera, 0.3f, direction * 9);
+        EXPECT_NEAR(anglesFrom(camera).y, direction * 1.56f * kDegreesOfRadian, 0.01f);
         EXPECT_NEAR(anglesFrom(camera).x, 0.3f * kDegreesOfRadian, 0.05f);
         camera = levelCamera();
-        look(camera, 0, way * 9);
+        look(camera, 0, direction * 9);
         const glm::vec3 to = glm::normalize(camera.target - camera.eye);
-        EXPECT_NEAR(std::asin(to.y) * kDegreesOfRadian, way * 1.56f * kDegreesOfRadian, 0.01f);
+        EXPECT_NEAR(std::asin(to.y) * kDegreesOfRadian, direction * 1.56f * kDegreesOfRadian, 0.01f);
     }
 }
 
-// Straight from above the top of the picture is -z: turning on from there goes on from that side.
-TEST(ViewerCameraMoves, goOnFromAboveAndBelowWithoutAJump)
+// Seen straight from above, the top of the image is -z; an orbit continues from that side.
+TEST(ViewerCameraMoves, continueFromAboveAndBelowWithoutAJump)
 {
-    for (const auto& [side, way] : {std::pair("top", -0.5f), {"bottom", 0.5f}}) {
+    for (const auto& [side, direction] : {std::pair("top", -0.5f), {"bottom", 0.5f}}) {
         Camera camera = levelCamera();
-        ASSERT_TRUE(seeFrom(camera, side));
+        ASSERT_TRUE(viewFrom(camera, side));
         EXPECT_EQ(camera.up, (side == std::string("top") ? glm::vec3(0, 0, -1) : glm::vec3(0, 0, 1)));
-        orbit(camera, 0, way);
+        orbit(camera, 0, direction);
         EXPECT_NEAR(camera.eye.x, 0, 1e-3f) << side;
         EXPECT_NEAR(camera.eye.z, 5 * std::sin(0.5f), 0.01f) << side;
     }
 }
 
-TEST(ViewerCameraMoves, areRefusedWhereNoPictureWouldBeLeft)
+TEST(ViewerCameraMoves, areRefusedForDegenerateCameras)
 {
     const Camera before = levelCamera();
     const auto unchanged = [&](const Camera& after) {
@@ -127,7 +127,7 @@ TEST(ViewerCameraMoves, areRefusedWhereNoPictureWouldBeLeft)
     EXPECT_TRUE(unchanged(camera));
     fly(camera, {INFINITY, 0, 0});
     EXPECT_TRUE(unchanged(camera));
-    setPivot(camera, {0, 3, 5}); // right above the eye
+    setPivot(camera, {0, 3, 5}); // directly above the eye
     EXPECT_TRUE(unchanged(camera));
     setPivot(camera, {NAN, 0, 0});
     EXPECT_TRUE(unchanged(camera));
@@ -140,7 +140,7 @@ TEST(ViewerCameraMoves, areRefusedWhereNoPictureWouldBeLeft)
     EXPECT_EQ(camera.verticalExtent, 4.0f);
 }
 
-TEST(ViewerCameraMoves, anOrthographicPivotTakesTheEyeAlong)
+TEST(ViewerCameraMoves, anOrthographicPivotMovesTheEye)
 {
     Camera camera = levelCamera(true);
     setPivot(camera, {1, 2, -3});
@@ -158,7 +158,7 @@ TEST(ViewerCameraMoves, anOrthographicZoomKeepsTheDistanceAndPerspectiveTheExten
     }
 }
 
-TEST(ViewerCameraMoves, theOtherProjectionKeepsTheDirectionAndTheSizeOfThePivot)
+TEST(ViewerCameraMoves, changingTheProjectionKeepsDirectionAndScale)
 {
     Camera camera = levelCamera();
     camera.verticalFieldOfView = 0.8f;
@@ -174,7 +174,7 @@ TEST(ViewerCameraMoves, theOtherProjectionKeepsTheDirectionAndTheSizeOfThePivot)
     EXPECT_EQ(camera.eye, same.eye);
 }
 
-TEST(ViewerCameraWords, azimuthIsFromTheFrontToTheRight)
+TEST(ViewerCameraAngles, azimuthIncreasesFromTheFrontToTheRight)
 {
     for (const auto& [eye, degrees] : {std::pair(glm::vec3(0, 3, 5), 0.0f),
                                        {{5, 1, 0}, 90.0f},
@@ -187,7 +187,7 @@ TEST(ViewerCameraWords, azimuthIsFromTheFrontToTheRight)
     }
 }
 
-TEST(ViewerCameraCommands, eachTakesItsNumbersInTheirOrder)
+TEST(ViewerCameraCommands, takeTheirNumbersInOrder)
 {
     struct Case {
         const char* command;
@@ -208,7 +208,7 @@ TEST(ViewerCameraCommands, eachTakesItsNumbersInTheirOrder)
                [](Camera& x) {
                    fly(x, {1, 2, 3});
                }},
-          Case{"see left", [](Camera& x) { seeFrom(x, "left"); }},
+          Case{"see left", [](Camera& x) { viewFrom(x, "left"); }},
           Case{"orthographic", [](Camera& x) { setOrthographic(x, true); }}}) {
         State state = builtIn();
         state.cameraMoved = false;
@@ -229,7 +229,7 @@ TEST(ViewerCameraCommands, eachTakesItsNumbersInTheirOrder)
     EXPECT_EQ(state.camera.eye, builtIn().camera.eye);
 }
 
-TEST(ViewerCameraCommands, lightTurnsRoundAndIsKeptInThousandths)
+TEST(ViewerCameraCommands, environmentRotationWrapsAndIsRoundedToThousandths)
 {
     State state = builtIn();
     for (const auto& [before, by, after] :

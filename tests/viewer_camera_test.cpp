@@ -1,4 +1,4 @@
-// What a hand does to the viewer's camera.
+// Camera movements of the viewer.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -53,36 +53,36 @@ TEST(ViewerCamera, orbitToTheRightGoesToTheRight)
     expectNear(camera.eye, {0, 5 * std::sin(0.5f), 5 * std::cos(0.5f)}, 1e-5f);
 }
 
-TEST(ViewerCamera, panTakesThePivotAlongWithThePointer)
+TEST(ViewerCamera, panMovesThePivotWithThePointer)
 {
     for (const bool orthographic : {false, true}) {
         Camera camera = someCamera(orthographic);
         const glm::vec3 before = camera.target;
         pan(camera, {37, -12}, kSize);
-        const glm::vec3 seen = onPicture(camera, before, kSize);
+        const glm::vec3 seen = projectToImage(camera, before, kSize);
         EXPECT_NEAR(seen.x, 400 + 37, 0.01f);
         EXPECT_NEAR(seen.y, 300 - 12, 0.01f);
     }
 }
 
-TEST(ViewerCamera, zoomKeepsWhatIsUnderThePointerAtThePivotsDepth)
+TEST(ViewerCamera, zoomKeepsThePointUnderThePointer)
 {
     for (const bool orthographic : {false, true}) {
         Camera camera = someCamera(orthographic);
         const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
         const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
         const glm::vec3 point = camera.target + right * 0.7f + glm::cross(right, forward) * 0.4f;
-        const glm::vec3 before = onPicture(camera, point, kSize);
+        const glm::vec3 before = projectToImage(camera, point, kSize);
         const float unit = unitsOfPixel(camera, glm::length(camera.target - camera.eye), kSize);
         zoomTo(camera, 0.5f, glm::vec2(before), kSize);
-        const glm::vec3 after = onPicture(camera, point, kSize);
+        const glm::vec3 after = projectToImage(camera, point, kSize);
         EXPECT_NEAR(after.x, before.x, 0.01f);
         EXPECT_NEAR(after.y, before.y, 0.01f);
         EXPECT_NEAR(unitsOfPixel(camera, glm::length(camera.target - camera.eye), kSize), unit / 2, unit * 1e-4f);
     }
 }
 
-TEST(ViewerCamera, zoomNeverReachesThePivotNorLeavesFloats)
+TEST(ViewerCamera, zoomNeverReachesThePivotAndStaysFinite)
 {
     for (const bool orthographic : {false, true}) {
         Camera camera = someCamera(orthographic);
@@ -95,7 +95,7 @@ TEST(ViewerCamera, zoomNeverReachesThePivotNorLeavesFloats)
     }
 }
 
-TEST(ViewerCamera, aSideIsSeenStraightOnFromTheSameDistance)
+TEST(ViewerCamera, sideViewsKeepTheDistance)
 {
     for (const auto& [side, from] : {std::pair("front", glm::vec3(0, 0, 1)),
                                      {"back", {0, 0, -1}},
@@ -105,17 +105,17 @@ TEST(ViewerCamera, aSideIsSeenStraightOnFromTheSameDistance)
                                      {"bottom", {0, -1, 0}}}) {
         Camera camera = someCamera();
         const float distance = glm::length(camera.eye - camera.target);
-        ASSERT_TRUE(seeFrom(camera, side));
+        ASSERT_TRUE(viewFrom(camera, side));
         expectNear(camera.eye, camera.target + from * distance, 1e-4f);
-        orbit(camera, 0.1f, 0.1f); // and it can be left again
+        orbit(camera, 0.1f, 0.1f); // the side view can be left again
         EXPECT_NEAR(glm::length(camera.eye - camera.target), distance, 1e-3f) << side;
         EXPECT_EQ(camera.up, glm::vec3(0, 1, 0)) << side;
     }
     Camera camera = someCamera();
-    EXPECT_FALSE(seeFrom(camera, "behind"));
+    EXPECT_FALSE(viewFrom(camera, "behind"));
 }
 
-TEST(ViewerCamera, theOtherProjectionShowsThePivotAsLargeAndComesBack)
+TEST(ViewerCamera, changingTheProjectionKeepsTheSizeAtThePivot)
 {
     Camera camera = someCamera();
     const float unit = unitsOfPixel(camera, glm::length(camera.eye - camera.target), kSize);
@@ -126,7 +126,7 @@ TEST(ViewerCamera, theOtherProjectionShowsThePivotAsLargeAndComesBack)
     EXPECT_NEAR(unitsOfPixel(camera, glm::length(camera.eye - camera.target), kSize), unit / 2, unit * 1e-4f);
 }
 
-TEST(ViewerCamera, lookTurnsAboutTheEyeAndFlyMovesIt)
+TEST(ViewerCamera, lookRotatesAboutTheEyeAndFlyMovesTheEye)
 {
     Camera camera;
     camera.eye = {0, 0, 5};
@@ -147,12 +147,12 @@ TEST(ViewerCamera, aClickedPointBecomesThePivotAndTheEyeStays)
     setPivot(camera, {1, 1, 1});
     EXPECT_EQ(camera.eye, eye);
     EXPECT_EQ(camera.target, glm::vec3(1, 1, 1));
-    setPivot(camera, eye); // no view would be left
+    setPivot(camera, eye); // the eye and the pivot must differ
     EXPECT_EQ(camera.target, glm::vec3(1, 1, 1));
 }
 
-// The words stand in command lines that draw the same picture.
-TEST(CameraWords, comeBackAsTheSameCameraToTheBit)
+// The formatted camera is used in command lines that must draw the same image.
+TEST(CameraText, roundTripsExactly)
 {
     Camera camera = someCamera();
     for (int i = 0; i < 500; ++i) {
@@ -161,7 +161,7 @@ TEST(CameraWords, comeBackAsTheSameCameraToTheBit)
         camera.verticalFieldOfView = 0.1f + 0.005f * float(i);
         camera.orthographic = i % 3 == 0;
         if (i % 50 == 49)
-            seeFrom(camera, i % 100 == 99 ? "top" : "bottom");
+            viewFrom(camera, i % 100 == 99 ? "top" : "bottom");
         const std::string words = formatCamera(camera);
         const auto back = parseCamera(words, {}, kSize.x, kSize.y);
         ASSERT_TRUE(back) << words << ": " << back.error().message;
@@ -177,7 +177,7 @@ TEST(CameraWords, comeBackAsTheSameCameraToTheBit)
     }
 }
 
-TEST(CameraWords, wrongOnesAreRefused)
+TEST(CameraText, badTextIsRefused)
 {
     for (const char* words : {"0,0,5,0,0,0,", "0,0,5,0,0,0,0", "0,0,5,0,0,0,180", "0,0,5,0,0,0,h0", "0,0,5,0,0,0,h",
                               "0,0,5,0,0,0,nan", "0,0,5,0,0,0,45,0", "0,0,5,0,0,0,45,0,0,1", "0,0,5,0,0,0,45,0,0,0",

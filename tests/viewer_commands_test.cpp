@@ -1,4 +1,4 @@
-// Each command of the viewer: what it changes and nothing else, both sides of each bound, and each menu entry's tick.
+// Each command of the viewer: what it changes, that nothing else changes, both sides of each limit, and menu ticks.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -15,14 +15,14 @@
 namespace cotan::viewer {
 namespace {
 
-// The built-in scene, made once.
+// The state with the built-in scene, which is loaded once.
 State start()
 {
     static const State state = withModel();
     return state;
 }
 
-// What performing a line gives: the state after it.
+// The state after a line is performed.
 State after(const std::string& line, State state = start())
 {
     const Status done = perform(state, line);
@@ -40,8 +40,8 @@ TEST(ViewerCommands, sizesAreOneTo16384OnEachSide)
         EXPECT_EQ(std::get<request::Resize>(s.requests[0]).size, glm::ivec2(width, height));
         const State p = after(fmt::format("picture a.png {} {}", width, height));
         ASSERT_EQ(p.requests.size(), 1u);
-        EXPECT_EQ(std::get<request::WritePicture>(p.requests[0]).size, glm::ivec2(width, height));
-        EXPECT_EQ(std::get<request::WritePicture>(p.requests[0]).file, "a.png");
+        EXPECT_EQ(std::get<request::WriteImage>(p.requests[0]).size, glm::ivec2(width, height));
+        EXPECT_EQ(std::get<request::WriteImage>(p.requests[0]).file, "a.png");
     }
     for (const char* wrong : {"0 1", "1 0", "16385 1", "1 16385", "-5 7", "7", "x 7", "7 x"})
         EXPECT_TRUE(refused(fmt::format("size {}", wrong))) << wrong;
@@ -52,16 +52,16 @@ TEST(ViewerCommands, sizesAreOneTo16384OnEachSide)
     for (const char* file : {"my file.png", "a.png", "7.png", "a 7.png", "a b 7", "16 9 x.png"}) {
         const State written = after(std::string("picture ") + file, s);
         ASSERT_EQ(written.requests.size(), 1u) << file;
-        EXPECT_EQ(std::get<request::WritePicture>(written.requests[0]).file, file);
-        EXPECT_EQ(std::get<request::WritePicture>(written.requests[0]).size, glm::ivec2(300, 200));
+        EXPECT_EQ(std::get<request::WriteImage>(written.requests[0]).file, file);
+        EXPECT_EQ(std::get<request::WriteImage>(written.requests[0]).size, glm::ivec2(300, 200));
     }
     const State both = after("picture my file.png 64 32", s);
     ASSERT_EQ(both.requests.size(), 1u);
-    EXPECT_EQ(std::get<request::WritePicture>(both.requests[0]).file, "my file.png");
-    EXPECT_EQ(std::get<request::WritePicture>(both.requests[0]).size, glm::ivec2(64, 32));
+    EXPECT_EQ(std::get<request::WriteImage>(both.requests[0]).file, "my file.png");
+    EXPECT_EQ(std::get<request::WriteImage>(both.requests[0]).size, glm::ivec2(64, 32));
 }
 
-TEST(ViewerCommands, numbersAreHeldInTheirRange)
+TEST(ViewerCommands, numbersAreClampedToTheirRange)
 {
     for (const auto& [given, held] : {std::pair{-0.5f, 0.0f}, {0.0f, 0.0f}, {0.3f, 0.3f}, {1.0f, 1.0f}, {1.5f, 1.0f}})
         EXPECT_EQ(after(fmt::format("divider {}", given)).divider, held) << given;
@@ -70,7 +70,7 @@ TEST(ViewerCommands, numbersAreHeldInTheirRange)
         EXPECT_EQ(after(fmt::format("scale {}", given)).scale, held) << given;
 }
 
-TEST(ViewerCommands, eachSwitchTurnsItsOwnFieldAndBack)
+TEST(ViewerCommands, eachSwitchTogglesItsOwnField)
 {
     const std::map<std::string, bool State::*> switches = {{"interface", &State::interfaceShown},
                                                            {"help", &State::cheatSheet},
@@ -90,7 +90,7 @@ TEST(ViewerCommands, eachSwitchTurnsItsOwnFieldAndBack)
         }
     }
     const State listed = after("toggle hot-spots", before);
-    ASSERT_EQ(listed.requests.size(), 1u); // nobody has looked for them yet
+    ASSERT_EQ(listed.requests.size(), 1u); // the areas are not known yet
     EXPECT_TRUE(std::holds_alternative<request::FindProblemAreas>(listed.requests[0]));
     State found = before;
     found.problemAreas.emplace();
@@ -100,8 +100,8 @@ TEST(ViewerCommands, eachSwitchTurnsItsOwnFieldAndBack)
     EXPECT_FALSE(after("toggle hot-spots", found).problemArea);
 }
 
-// What light there is changes what the exposure is found from; what is read or posed has to be read or posed again.
-TEST(ViewerCommands, eachSettingIsFollowedByWhatItMakesStale)
+// Changed light makes the metered exposure stale. A setting of the file or the pose requires a new load or a new pose.
+TEST(ViewerCommands, eachSettingRequestsItsLoadPoseOrMetering)
 {
     const std::map<std::string, std::string> values = {{"exposure", "2"},
                                                        {"environment", "evening"},
@@ -139,7 +139,7 @@ TEST(ViewerCommands, eachSettingIsFollowedByWhatItMakesStale)
     EXPECT_EQ(posed, 2u);
 }
 
-TEST(ViewerCommands, sidesAreSetApartAndExchanged)
+TEST(ViewerCommands, sidesAreSetSeparatelyAndSwapped)
 {
     const char* const lines[] = {"frame smooth", "tangents generated", "normal-map a b.png", "convention directx"};
     for (const char* line : lines) {
@@ -164,7 +164,7 @@ TEST(ViewerCommands, sidesAreSetApartAndExchanged)
         EXPECT_TRUE(refused(wrong)) << wrong;
 }
 
-TEST(ViewerCommands, comparisonsBeginWithTheFirstAndAFlipShowsTheOther)
+TEST(ViewerCommands, comparisonsBeginWithTheFirstSideAndFlipSwitches)
 {
     for (const auto& [word, mode] : {std::pair("off", Compare::off),
                                      {"divider", Compare::divider},
@@ -177,42 +177,42 @@ TEST(ViewerCommands, comparisonsBeginWithTheFirstAndAFlipShowsTheOther)
         EXPECT_FALSE(s.second) << word;
     }
     State s = start();
-    s.second = true; // of a comparison before
+    s.second = true; // from an earlier comparison
     s = after("flip", s);
     EXPECT_TRUE(s.compare == Compare::flip);
     EXPECT_TRUE(s.second);
     EXPECT_FALSE(after("flip", s).second);
 }
 
-TEST(ViewerCommands, whatTheSessionDoesIsAskedForWithItsWords)
+TEST(ViewerCommands, commandsIssueTheirRequest)
 {
     State s = start();
     s.picture.model = "here.glb";
-    const auto asks = [&](const char* line) {
+    const auto issued = [&](const char* line) {
         const State done = after(line, s);
         EXPECT_EQ(done.requests.size(), 1u) << line;
         return done.requests.at(0);
     };
-    EXPECT_EQ(std::get<request::Load>(asks("open a b.glb")).model, "a b.glb");
-    EXPECT_EQ(std::get<request::Load>(asks("drop c.obj")).model, "c.obj");
-    EXPECT_EQ(std::get<request::Load>(asks("reload")).model, "here.glb");
-    EXPECT_TRUE(std::holds_alternative<request::Paste>(asks("paste")));
-    EXPECT_TRUE(std::holds_alternative<request::ChooseFile>(asks("choose")));
-    EXPECT_TRUE(std::holds_alternative<request::FindProblemAreas>(asks("find-hot-spots")));
-    EXPECT_TRUE(std::holds_alternative<request::LoseSurface>(asks("lose-surface")));
-    EXPECT_TRUE(std::holds_alternative<request::Quit>(asks("quit")));
-    EXPECT_EQ(std::get<request::WriteWindow>(asks("window w.png")).file, "w.png");
-    EXPECT_EQ(std::get<request::WriteReport>(asks("report r.txt")).file, "r.txt");
+    EXPECT_EQ(std::get<request::Load>(issued("open a b.glb")).model, "a b.glb");
+    EXPECT_EQ(std::get<request::Load>(issued("drop c.obj")).model, "c.obj");
+    EXPECT_EQ(std::get<request::Load>(issued("reload")).model, "here.glb");
+    EXPECT_TRUE(std::holds_alternative<request::Paste>(issued("paste")));
+    EXPECT_TRUE(std::holds_alternative<request::ChooseFile>(issued("choose")));
+    EXPECT_TRUE(std::holds_alternative<request::FindProblemAreas>(issued("find-hot-spots")));
+    EXPECT_TRUE(std::holds_alternative<request::LoseSurface>(issued("lose-surface")));
+    EXPECT_TRUE(std::holds_alternative<request::Quit>(issued("quit")));
+    EXPECT_EQ(std::get<request::WriteWindow>(issued("window w.png")).file, "w.png");
+    EXPECT_EQ(std::get<request::WriteReport>(issued("report r.txt")).file, "r.txt");
     for (const char* wrong : {"open", "drop", "window", "report"})
         EXPECT_TRUE(refused(wrong, s)) << wrong;
-    const std::string command = std::get<request::Copy>(asks("copy command")).text;
+    const std::string command = std::get<request::Copy>(issued("copy command")).text;
     EXPECT_EQ(command.rfind("cotan render here.glb", 0), 0u) << command;
-    const State there = after("camera " + std::get<request::Copy>(asks("copy camera")).text, after("orbit 40 10", s));
+    const State there = after("camera " + std::get<request::Copy>(issued("copy camera")).text, after("orbit 40 10", s));
     EXPECT_EQ(there.camera.eye, s.camera.eye);
     EXPECT_EQ(there.camera.target, s.camera.target);
 }
 
-TEST(ViewerCommands, droppedPicturesAreMapsAndThoseOfFloatsLight)
+TEST(ViewerCommands, droppedImagesAreMapsOrEnvironments)
 {
     State s = start();
     s.picture.model = "here.glb";
@@ -225,9 +225,9 @@ TEST(ViewerCommands, droppedPicturesAreMapsAndThoseOfFloatsLight)
     State light = after("open sky.hdr", s);
     EXPECT_EQ(light.picture.environment, "sky.hdr");
     EXPECT_EQ(light.a.normalMap, "");
-    EXPECT_EQ(light.metered, 0); // another light is metered again
+    EXPECT_EQ(light.metered, 0); // the new light requires new metering
     map = after("open m.png", start());
-    EXPECT_EQ(map.picture.shape, "plane"); // without a model a map needs something to lie on
+    EXPECT_EQ(map.picture.shape, "plane"); // a map without a model is put on a plane
     ASSERT_EQ(map.requests.size(), 1u);
     EXPECT_EQ(std::get<request::Load>(map.requests[0]).model, "");
     State shaped = start();
@@ -237,7 +237,7 @@ TEST(ViewerCommands, droppedPicturesAreMapsAndThoseOfFloatsLight)
     EXPECT_TRUE(map.requests.empty());
 }
 
-TEST(ViewerCommands, withoutSurroundingsTheirOptionsGo)
+TEST(ViewerCommands, removingTheEnvironmentResetsItsOptions)
 {
     State s = start();
     s = after("set environment-rotation 30", s);
@@ -254,8 +254,8 @@ TEST(ViewerCommands, withoutSurroundingsTheirOptionsGo)
     }
 }
 
-// The command line declares its options by itself: what it takes, a setting of that name takes, up to the same bounds.
-TEST(ViewerSettings, haveTheBoundsAndWordsOfTheCommandLine)
+// The command line declares its options independently: a setting must accept the words and the bounds of its option.
+TEST(ViewerSettings, haveTheBoundsAndChoicesOfTheCommandLine)
 {
     PictureOptions declared;
     Arguments tool("tool", "", "");
@@ -270,10 +270,10 @@ TEST(ViewerSettings, haveTheBoundsAndWordsOfTheCommandLine)
         const auto found = help.find(std::string("--") + setting.name);
         ASSERT_TRUE(found != help.end()) << setting.name;
         PictureOptions o;
-        if (const std::string& most = found->second.most; !most.empty()) {
+        if (const std::string& maximum = found->second.maximum; !maximum.empty()) {
             ++ranges;
-            const double high = std::stod(most);
-            EXPECT_TRUE(setValue(setting, most, o)) << setting.name;
+            const double high = std::stod(maximum);
+            EXPECT_TRUE(setValue(setting, maximum, o)) << setting.name;
             EXPECT_FALSE(setValue(setting, fmt::format("{}", high * 1.0000001), o)) << setting.name;
         }
         for (const std::string& word : found->second.words)
@@ -284,7 +284,7 @@ TEST(ViewerSettings, haveTheBoundsAndWordsOfTheCommandLine)
     }
     EXPECT_GE(ranges, 3u); // rotation, softness, time
     EXPECT_GE(words, 20u);
-    for (const char* name : {"exposure", "environment-intensity"}) { // above 0 and at most 1e6, as its help says
+    for (const char* name : {"exposure", "environment-intensity"}) { // above 0 and at most 1e6 according to the help
         PictureOptions o;
         EXPECT_TRUE(setValue(*findSetting(name), "1e6", o)) << name;
         for (const char* wrong : {"1000000.5", "0", "-1", "nan"})
@@ -292,8 +292,8 @@ TEST(ViewerSettings, haveTheBoundsAndWordsOfTheCommandLine)
     }
 }
 
-// A choice is ticked once it is chosen and was not before; a switch is ticked every other time.
-TEST(ViewerMenus, whatIsChosenIsTickedAndNothingElseOfItsSubmenu)
+// The chosen entry of a choice is ticked, and was not before. A switch changes its tick each time.
+TEST(ViewerMenus, onlyTheChosenEntryOfASubmenuIsTicked)
 {
     const State beginning = start();
     std::size_t tried = 0;
@@ -356,7 +356,7 @@ TEST(ViewerMenus, whatIsChosenIsTickedAndNothingElseOfItsSubmenu)
     }
 }
 
-TEST(ViewerMenus, entriesThatNeedSomethingAreGreyWithoutIt)
+TEST(ViewerMenus, entriesAreDisabledWithoutWhatTheyNeed)
 {
     const auto usable = [](const State& s, const std::string& label) {
         for (const Entry& entry : entriesOf(s))
@@ -416,7 +416,7 @@ TEST(ViewerMemory, keepsEachSwitchAndSizesFrom160x120To8192)
     State back;
     remember(memoryOf(s), back);
     ASSERT_EQ(back.recent.size(), kMaxRecent);
-    EXPECT_EQ(back.recent[3], "/4.glb"); // what a line cannot hold is left out
+    EXPECT_EQ(back.recent[3], "/4.glb"); // names that do not fit in a line are left out
 }
 
 } // namespace

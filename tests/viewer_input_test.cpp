@@ -1,4 +1,4 @@
-// What the hand does: each event alone, with numbers that differ along x and y, and both sides of each limit.
+// Input events, each on its own, with different numbers along x and y, and both sides of each limit.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace cotan::viewer {
 namespace {
 
-TEST(ViewerDrag, aPixelTurnsTheEyeByAThirdOfADegreeTheOtherWay)
+TEST(ViewerDrag, aPixelOrbitsTheEyeByAThirdOfADegree)
 {
     State state = builtIn();
     state.camera = levelCamera();
@@ -39,7 +39,7 @@ TEST(ViewerDrag, eachButtonHasItsMeaning)
     }
 }
 
-TEST(ViewerDrag, withTheRightButtonAndAKeyTheHeadTurns)
+TEST(ViewerDrag, theRightButtonWithAKeyLooksAround)
 {
     State state = builtIn();
     state.camera = levelCamera();
@@ -50,7 +50,7 @@ TEST(ViewerDrag, withTheRightButtonAndAKeyTheHeadTurns)
     EXPECT_NEAR(std::asin(to.y) * kDegreesOfRadian, -20 * 0.35f, 1e-3f);        // and down
 }
 
-TEST(ViewerDrag, fourPixelsAreAClickAndMoreAreNot)
+TEST(ViewerDrag, fourPixelsAreAClickAndFiveADrag)
 {
     for (const auto& [pixels, drags] : {std::pair(4, false), {5, true}}) {
         State state = builtIn();
@@ -61,7 +61,7 @@ TEST(ViewerDrag, fourPixelsAreAClickAndMoreAreNot)
     }
 }
 
-TEST(ViewerDrag, isForgottenWithItsButtonAndBeginsAnew)
+TEST(ViewerDrag, endsWithItsButton)
 {
     State state = builtIn();
     send(state, "0 move 100 100\npress left\nmove 200 100\nrelease left\nmove 640 400\npress left\n");
@@ -69,7 +69,7 @@ TEST(ViewerDrag, isForgottenWithItsButtonAndBeginsAnew)
     EXPECT_EQ(state.pressedAt, glm::vec2(640, 400));
     EXPECT_EQ(state.held, "left");
     const glm::vec3 eye = state.camera.eye;
-    send(state, "0 release left\n"); // a click, though the one before was a drag
+    send(state, "0 release left\n"); // a click, although the previous one was a drag
     EXPECT_EQ(state.camera.eye, eye);
     EXPECT_TRUE(state.held.empty());
 }
@@ -92,11 +92,11 @@ TEST(ViewerDrag, aClickOfAnotherButtonOrBesideTheModelKeepsThePivot)
     EXPECT_TRUE(state.cameraMoved);
 }
 
-TEST(ViewerDivider, isGrippedFromEightPixelsOnBothSidesByTheLeftButtonAlone)
+TEST(ViewerDivider, isGrabbedWithinEightPixelsByTheLeftButton)
 {
     struct Case {
         const char* compare;
-        float share, x;
+        float fraction, x;
         const char* button;
         bool held;
     };
@@ -106,13 +106,13 @@ TEST(ViewerDivider, isGrippedFromEightPixelsOnBothSidesByTheLeftButtonAlone)
                           Case{"flip", 0.25f, 320, "left", false}, Case{"off", 0.25f, 320, "left", false}}) {
         State state = builtIn();
         send(state, std::string("0 do compare ") + c.compare + "\n");
-        state.divider = c.share;
+        state.divider = c.fraction;
         send(state, fmt::format("0 move {} 700\npress {}\n", c.x, c.button));
         EXPECT_EQ(state.holdsDivider, c.held) << c.compare << ' ' << c.x << ' ' << c.button;
     }
 }
 
-TEST(ViewerDivider, followsThePointerFromTheFirstPixelAndIsLetGo)
+TEST(ViewerDivider, followsThePointerUntilReleased)
 {
     State state = builtIn();
     send(state, "0 do compare divider\nmove 641 700\npress left\nmove 642 10\n");
@@ -122,13 +122,13 @@ TEST(ViewerDivider, followsThePointerFromTheFirstPixelAndIsLetGo)
     EXPECT_EQ(state.divider, 0.0f);
     const glm::vec3 pivot = state.camera.target;
     send(state, "0 move 640 400\nrelease left\n");
-    EXPECT_EQ(state.camera.target, pivot); // no click
+    EXPECT_EQ(state.camera.target, pivot); // not a click
     EXPECT_FALSE(state.holdsDivider);
     send(state, "0 move 900 400\n");
     EXPECT_EQ(state.divider, 0.5f);
 }
 
-TEST(ViewerWheel, aStepUpGoesNearerByFifteenPercentAndTwentyAreTheMost)
+TEST(ViewerWheel, aStepZoomsByFifteenPercentUpToTwentySteps)
 {
     for (const auto& [steps, factor] : {std::pair(1.0f, 0.85),
                                         {-1.0f, 1 / 0.85},
@@ -148,7 +148,7 @@ TEST(ViewerWheel, aStepUpGoesNearerByFifteenPercentAndTwentyAreTheMost)
     }
 }
 
-TEST(ViewerFlying, eachKeyGoesItsOwnWayAndTwoCancel)
+TEST(ViewerFlying, eachKeyHasItsDirectionAndOppositeKeysCancel)
 {
     struct Case {
         const char* keys;
@@ -163,7 +163,7 @@ TEST(ViewerFlying, eachKeyGoesItsOwnWayAndTwoCancel)
         send(state, "0 press right\n");
         for (const char key : std::string(c.keys))
             send(state, std::string("0 key ") + key + "\n");
-        goOn(state, 0.5);
+        advance(state, 0.5);
         const float size = glm::length(state.model->box.high - state.model->box.low);
         expectClose(state.camera.eye, glm::vec3(0, 0, 5) + c.to * size * 0.125f, 1e-4f * size);
         expectClose(state.camera.target, c.to * size * 0.125f, 1e-4f * size);
@@ -171,7 +171,7 @@ TEST(ViewerFlying, eachKeyGoesItsOwnWayAndTwoCancel)
     }
 }
 
-TEST(ViewerFlying, aKeyIsDownOnceAndOnlyWithTheRightButton)
+TEST(ViewerFlying, keysCountOnceAndOnlyWithTheRightButton)
 {
     State state = builtIn();
     send(state, "0 press right\nkey w\nkey w\nkey shift+d\nkey x\n");
@@ -180,55 +180,55 @@ TEST(ViewerFlying, aKeyIsDownOnceAndOnlyWithTheRightButton)
     EXPECT_EQ(state.keysDown, std::vector<std::string>{"d"});
     send(state, "0 release right\n");
     const glm::vec3 eye = state.camera.eye;
-    goOn(state, 1);
+    advance(state, 1);
     EXPECT_EQ(state.camera.eye, eye);
     State other = builtIn();
     send(other, "0 press left\nkey w\n");
     EXPECT_TRUE(other.keysDown.empty());
 }
 
-TEST(ViewerTime, goesOnByTheRateAndOnlyWhilePlaying)
+TEST(ViewerTime, advancesByTheRateOnlyWhilePlaying)
 {
     State state = builtIn();
     state.picture.time = 1;
     state.rate = 0.5f;
-    goOn(state, 3);
+    advance(state, 3);
     EXPECT_EQ(state.picture.time, 1.0);
     EXPECT_TRUE(state.requests.empty());
     state.playing = true;
-    goOn(state, 0);
+    advance(state, 0);
     EXPECT_EQ(state.picture.time, 1.0);
     EXPECT_TRUE(state.requests.empty());
-    goOn(state, 3);
+    advance(state, 3);
     EXPECT_EQ(state.picture.time, 2.5);
     ASSERT_EQ(state.requests.size(), 1u);
     EXPECT_TRUE(std::holds_alternative<request::Pose>(state.requests[0]));
 }
 
-TEST(ViewerWindowSize, isThatOfTheEventByWidthAndHeight)
+TEST(ViewerWindowSize, followsTheResizeEvent)
 {
     State state = builtIn();
     send(state, "0 resize 321.7 123\n");
     EXPECT_EQ(state.size, glm::ivec2(321, 123));
 }
 
-TEST(ViewerProblems, goWithTheNextCommandThatWorksButNotWithAReport)
+TEST(ViewerProblems, areClearedByTheNextCommandButNotByAReport)
 {
     State state = builtIn();
-    state.said = "something";
+    state.message = "something";
     send(state, "0 do frame nonsense\n");
     const std::string problem = state.problem;
     EXPECT_NE(problem.find("nonsense"), std::string::npos);
-    EXPECT_EQ(state.said, "something");
+    EXPECT_EQ(state.message, "something");
     send(state, "0 do report a.txt\ndo window b.png\n");
     EXPECT_EQ(state.problem, problem);
-    EXPECT_EQ(state.said, "something");
+    EXPECT_EQ(state.message, "something");
     send(state, "0 do orbit 1 0\n");
     EXPECT_EQ(state.problem, "");
-    EXPECT_EQ(state.said, "");
+    EXPECT_EQ(state.message, "");
 }
 
-TEST(ViewerClosing, aDropAndTheWindowsButtonAreCommands)
+TEST(ViewerClosing, closeAndDropEventsBecomeRequests)
 {
     State state = builtIn();
     send(state, "0 close\n");

@@ -1,4 +1,4 @@
-// What the viewer shows beside the image: every line and value, each with an input of its own.
+// The viewer's interface beside the image: every line and value, each with an input of its own.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace cotan::viewer {
 namespace {
 
-TEST(ViewerInterface, theCardHasALineForEachThingThatIsThereAndStandsAtThePointer)
+TEST(ViewerInterface, theCardListsTheAvailableValuesAtThePointer)
 {
     State s = probed();
     const Interface i = interfaceOf(s);
@@ -41,13 +41,13 @@ TEST(ViewerInterface, theCardHasALineForEachThingThatIsThereAndStandsAtThePointe
     }
 }
 
-// From the front x goes right, y up; z, towards the eye, is a point in the middle of the image.
+// Seen from the front, x points right and y up in the image; z points to the eye and is a point in the centre.
 TEST(ViewerInterface, arrowsAre60PixelsLongAlongTheirDirections)
 {
     for (const bool orthographic : {false, true}) {
         State s = probed();
         s.camera.up = {0, 1, 0};
-        ASSERT_TRUE(seeFrom(s.camera, "front"));
+        ASSERT_TRUE(viewFrom(s.camera, "front"));
         setOrthographic(s.camera, orthographic);
         s.probe.hit->depth = glm::length(s.camera.target - s.camera.eye);
         const std::vector<Line2D> lines = interfaceOf(s).lines;
@@ -64,7 +64,7 @@ TEST(ViewerInterface, arrowsAre60PixelsLongAlongTheirDirections)
         EXPECT_GT(lines[1].color.x, 2 * lines[1].color.y); // t red, b green, n blue
         EXPECT_GT(lines[2].color.y, 2 * lines[2].color.x);
         EXPECT_GT(lines[3].color.z, 2 * lines[3].color.x);
-        s.probe.surface.t = glm::vec3(0); // where there is no frame there is no arrow
+        s.probe.surface.t = glm::vec3(0); // no arrow without a frame
         EXPECT_EQ(interfaceOf(s).lines.size(), 3u);
     }
 }
@@ -82,10 +82,10 @@ TEST(ViewerInterface, theStatusNamesTheModelTheFramesTheDegreesAndTheDevice)
     s.drawSeconds = 0.0123;
     EXPECT_EQ(interfaceOf(s).status, "jar.glb   " + triangles + "   shaded, smooth   a card (12 ms)");
     s.drawSeconds = 0;
-    s.said = "copied";
+    s.message = "copied";
     s.compare = Compare::divider;
     EXPECT_EQ(interfaceOf(s).status, "copied\njar.glb   " + triangles + "   shaded, smooth | exact   a card");
-    s.said.clear();
+    s.message.clear();
     s.compare = Compare::angle;
     s.statisticsOf = "first against second";
     s.statistics = angleStatistics({1, 2, 6});
@@ -94,7 +94,7 @@ TEST(ViewerInterface, theStatusNamesTheModelTheFramesTheDegreesAndTheDevice)
     EXPECT_EQ(interfaceOf(s).status,
               "jar.glb   " + triangles + "   shaded, smooth against exact   " + degrees + "   a card");
     s.statistics = {};
-    EXPECT_NE(interfaceOf(s).status.find("first against second: no normal map is seen"), std::string::npos);
+    EXPECT_NE(interfaceOf(s).status.find("first against second: no normal map is visible"), std::string::npos);
     s.statisticsShown = false;
     EXPECT_EQ(interfaceOf(s).status.find("first against second"), std::string::npos);
     s.compare = Compare::flip;
@@ -104,7 +104,7 @@ TEST(ViewerInterface, theStatusNamesTheModelTheFramesTheDegreesAndTheDevice)
     EXPECT_EQ(interfaceOf(bare).status, "built-in scene   shaded, auto   ");
     bare.picture.shape = "torus";
     EXPECT_EQ(interfaceOf(bare).status, "torus   shaded, auto   ");
-    State chosen = builtIn(); // of "auto" also what it is for the model's maps, unless another map is on it
+    State chosen = builtIn(); // "auto" is followed by the frame that it stands for, unless another normal map is used
     const std::string status = interfaceOf(chosen).status;
     EXPECT_NE(status.find("shaded, auto ("), std::string::npos) << status;
     chosen.a.normalMap = "m.png";
@@ -145,7 +145,7 @@ TEST(ViewerInterface, slidersHaveTheValuesAndBoundsOfTheirSettings)
     expectRows(s, rows);
     s.picture.exposure = 0.25f;
     rows[0].value = 0.25;
-    s.picture.shadowSoftness.reset(); // that of the lamp: the evening's is smaller
+    s.picture.shadowSoftness.reset(); // default: the lamp's softness, which is smaller for the evening
     rows[3].value = 10;
     expectRows(s, rows);
     s.picture.environment = "evening";
@@ -163,12 +163,12 @@ TEST(ViewerInterface, slidersHaveTheValuesAndBoundsOfTheirSettings)
     s.picture.time = 0.5;
     rows.push_back({"time", "set time", "s", 0.5, 0, 2.5, false});
     expectRows(s, rows);
-    model->animations[0].seconds = 0; // a pose has no time
+    model->animations[0].seconds = 0; // a pose has no duration
     rows.pop_back();
     expectRows(s, rows);
 }
 
-TEST(ViewerInterface, degreesHaveAScaleOfColoursWhereTheyAreShown)
+TEST(ViewerInterface, viewsOfDegreesHaveAColourScale)
 {
     State s = builtIn();
     EXPECT_TRUE(interfaceOf(s).scaleBar.empty());
@@ -181,7 +181,7 @@ TEST(ViewerInterface, degreesHaveAScaleOfColoursWhereTheyAreShown)
         const double stops[] = {0, 0.5, 2, 5, 15, 45};
         for (std::size_t k = 0; k < 6; ++k) {
             EXPECT_EQ(bar[k].first, stops[k]);
-            const Image one = heatMap({float(stops[k])}, 1, 1); // the colour that the view has there
+            const Image one = heatMap({float(stops[k])}, 1, 1); // the colour of these degrees in the view
             for (int c = 0; c < 3; ++c)
                 EXPECT_EQ(std::lround(255 * bar[k].second[c]), one.bytes8()[c]) << k << " " << c;
         }
@@ -190,7 +190,7 @@ TEST(ViewerInterface, degreesHaveAScaleOfColoursWhereTheyAreShown)
     }
 }
 
-TEST(ViewerInterface, theDividerStandsAtItsShareWithTheNamesOfBothSides)
+TEST(ViewerInterface, theDividerIsAtItsFractionWithBothNames)
 {
     State s = builtIn();
     s.size = {800, 300};
@@ -207,7 +207,7 @@ TEST(ViewerInterface, theDividerStandsAtItsShareWithTheNamesOfBothSides)
     EXPECT_LT(interfaceOf(s).divider, 0);
 }
 
-TEST(ViewerInterface, switchesAndWhatIsLoadingAreThoseOfTheState)
+TEST(ViewerInterface, switchesAndLoadingProgressFollowTheState)
 {
     State s = builtIn();
     s.problemAreas = std::vector<ProblemArea>(2);
@@ -239,13 +239,13 @@ TEST(ViewerInterface, switchesAndWhatIsLoadingAreThoseOfTheState)
     }
 }
 
-TEST(ViewerInterface, aTriangleBehindTheEyeOrOfAMomentThatHasGoneHasNoOutline)
+TEST(ViewerInterface, trianglesBehindTheEyeOrWhilePlayingHaveNoOutline)
 {
     State s = builtIn();
     s.problemAreas = std::vector<ProblemArea>(1);
     const glm::vec3 forward = glm::normalize(s.camera.target - s.camera.eye);
     (*s.problemAreas)[0].corners = {s.camera.target, s.camera.target + s.camera.up, s.camera.eye + 2.0f * forward};
-    EXPECT_TRUE(interfaceOf(s).lines.empty()); // nobody has gone to it
+    EXPECT_TRUE(interfaceOf(s).lines.empty()); // no area is selected
     s.problemArea = 0;
     const std::vector<Line2D> lines = interfaceOf(s).lines;
     ASSERT_EQ(lines.size(), 3u);

@@ -12,12 +12,12 @@
 namespace cotan::viewer {
 namespace {
 
-// All that a switch can change.
+// Everything that a switch can change.
 std::string keyLike(const State& s) { return reportOf(s) + fmt::format("{} {}", s.settingsShown, s.cardShown); }
 
 // ---- menus and keys ----------------------------------------------------------------------------
 
-TEST(ViewerMenus, everyEntryCanBeDoneAndNoKeyHasTwoMeanings)
+TEST(ViewerMenus, everyEntryWorksAndKeysAreUnique)
 {
     std::map<std::string, std::string> keys;
     for (const Entry& entry : entriesOf(withModel())) {
@@ -37,12 +37,12 @@ TEST(ViewerMenus, everyEntryCanBeDoneAndNoKeyHasTwoMeanings)
     }
     for (const char* key : {"1", "9", "h", "f12", "tab", "ctrl+c", "f5", "r", "o", "d", "f", "g"})
         EXPECT_TRUE(keys.contains(key)) << key;
-    for (std::size_t i = 0; i < 9; ++i) // those of the numbers, in their order
+    for (std::size_t i = 0; i < 9; ++i) // alt+1 to alt+9 in the order of the views
         EXPECT_EQ(keys[fmt::format("alt+{}", i + 1)], showNames()[i]);
     EXPECT_FALSE(keys.contains("alt+0"));
 }
 
-// With text of 200 % a line takes 40 pixels of the 720, and the bar one.
+// At a scale of 2 a line takes 40 of 720 pixels. The menu bar takes one line.
 TEST(ViewerMenus, everyMenuAndSubmenuFitsASmallWindowWithLargeText)
 {
     State state = withModel();
@@ -51,18 +51,18 @@ TEST(ViewerMenus, everyMenuAndSubmenuFitsASmallWindowWithLargeText)
     std::map<std::string, std::size_t> lines;
     std::string last;
     for (const Entry& entry : entriesOf(state)) {
-        const std::string place = entry.menu + "/" + entry.submenu;
-        if (place != last && !entry.submenu.empty())
+        const std::string menuPath = entry.menu + "/" + entry.submenu;
+        if (menuPath != last && !entry.submenu.empty())
             ++lines[entry.menu + "/"]; // its title
-        last = place;
-        ++lines[place];
+        last = menuPath;
+        ++lines[menuPath];
     }
     EXPECT_GT(lines.size(), 12u);
-    for (const auto& [place, count] : lines)
-        EXPECT_LE(count, kMaxLines) << place;
+    for (const auto& [menuPath, count] : lines)
+        EXPECT_LE(count, kMaxLines) << menuPath;
 }
 
-TEST(ViewerMenus, theSheetHasEveryKeyAndSaysWhatIsOn)
+TEST(ViewerMenus, theKeySheetListsEveryKeyAndItsState)
 {
     State state = withModel();
     const auto lineOf = [&](const char* key) {
@@ -88,7 +88,7 @@ TEST(ViewerMenus, theSheetHasEveryKeyAndSaysWhatIsOn)
     EXPECT_EQ(lineOf("Shift+1 ... 9"), "Compare with: exact");
 }
 
-TEST(ViewerMenus, theSheetHasATitleForEachMenuWithKeysAndOneForTheMouse)
+TEST(ViewerMenus, theKeySheetHasATitlePerMenuAndOneForTheMouse)
 {
     std::vector<std::string> titles;
     const auto sheet = interfaceOf(withModel()).sheet;
@@ -125,7 +125,7 @@ TEST(ViewerMenus, keysAreNamedAsOnAKeyboard)
     EXPECT_TRUE(found);
 }
 
-TEST(ViewerMenus, theFirstStartSaysWhereTheKeysAre)
+TEST(ViewerMenus, theFirstStartShowsTheHelpKey)
 {
     State first = withModel(), later = first;
     remember("", first);
@@ -136,7 +136,7 @@ TEST(ViewerMenus, theFirstStartSaysWhereTheKeysAre)
     EXPECT_EQ(interfaceOf(later).status.find("H: keys"), std::string::npos);
 }
 
-TEST(ViewerMenus, aSwitchThatIsChosenTwiceIsAsBefore)
+TEST(ViewerMenus, choosingASwitchTwiceRestoresTheState)
 {
     State state = withModel();
     for (const char* key : {"d", "g", "o", "n", "tab", "h", "s", "i", "p", "a"}) {
@@ -151,7 +151,7 @@ TEST(ViewerMenus, aSwitchThatIsChosenTwiceIsAsBefore)
 
 // ---- played events -----------------------------------------------------------------------------
 
-TEST(ViewerPlayer, beginsWithTheFirstPictureAndWaitsWhereItIsTold)
+TEST(ViewerPlayer, beginsWithTheFirstImageAndWaitsOnRequest)
 {
     const std::vector<Event> events = {{0.5, EventKind::key, 0, 0, "3"},
                                        {1, EventKind::wait, 0, 0, ""},
@@ -165,21 +165,21 @@ TEST(ViewerPlayer, beginsWithTheFirstPictureAndWaitsWhereItIsTold)
     };
     EXPECT_EQ(step(false), "-");
     EXPECT_EQ(step(true), "0.500 key 3");
-    EXPECT_EQ(step(false), "-"); // to wait
+    EXPECT_EQ(step(false), "-"); // starts to wait
     EXPECT_EQ(step(false), "-");
     EXPECT_EQ(step(true), "2.000 key 4");
-    EXPECT_EQ(step(false), "-"); // what is written is what is drawn by then
+    EXPECT_EQ(step(false), "-"); // a window is written after it is drawn
     EXPECT_FALSE(player.ended());
     EXPECT_EQ(step(true), "2.000 do window a.png");
     EXPECT_TRUE(player.ended());
     EXPECT_EQ(step(false), "-");
     now += 1000;
-    EXPECT_FALSE(player.step(false, now)); // not for ever
+    EXPECT_FALSE(player.step(false, now)); // waiting has a limit
 }
 
 // ---- animations --------------------------------------------------------------------------------
 
-// With two animations, of 2 s and of 4 s.
+// The state of a model with two animations, of 2 s and of 4 s.
 State withAnimations()
 {
     State state = withModel();
@@ -189,21 +189,21 @@ State withAnimations()
     return state;
 }
 
-TEST(ViewerAnimation, playingGoesRoundAndStopsAtTheEndOtherwise)
+TEST(ViewerAnimation, playingLoopsOrStopsAtTheEnd)
 {
     State state = withAnimations();
-    send(state, "0 key space\n"); // the first one, where none is chosen
+    send(state, "0 key space\n"); // starts the first one if none is chosen
     EXPECT_TRUE(state.playing);
     EXPECT_EQ(state.picture.animation, "0");
-    goOn(state, 1.5);
+    advance(state, 1.5);
     EXPECT_DOUBLE_EQ(state.picture.time, 1.5);
-    goOn(state, 1);
+    advance(state, 1);
     EXPECT_DOUBLE_EQ(state.picture.time, 0.5);
     send(state, "0 do toggle loop\n");
-    goOn(state, 7);
+    advance(state, 7);
     EXPECT_DOUBLE_EQ(state.picture.time, 2);
     EXPECT_FALSE(state.playing);
-    send(state, "0 key space\n"); // from the end it begins again
+    send(state, "0 key space\n"); // starts again from the end
     EXPECT_TRUE(state.playing);
     EXPECT_DOUBLE_EQ(state.picture.time, 0);
 }
@@ -224,7 +224,7 @@ TEST(ViewerAnimation, theSliderIsAsLongAsTheAnimation)
     }
 }
 
-TEST(ViewerAnimation, theMenuHasThoseOfTheModelAndTicksTheOneThatIsShown)
+TEST(ViewerAnimation, theMenuListsAnimationsAndTicksTheCurrentOne)
 {
     State state = withAnimations();
     perform(state, "set animation walk");
@@ -235,12 +235,12 @@ TEST(ViewerAnimation, theMenuHasThoseOfTheModelAndTicksTheOneThatIsShown)
             ticked += entry.on;
             EXPECT_EQ(entry.on, entry.label == "0: walk, 2 s") << entry.label;
         }
-    EXPECT_EQ(listed, 3); // and the file's pose
+    EXPECT_EQ(listed, 3); // and the pose of the file
     EXPECT_EQ(ticked, 1);
-    EXPECT_FALSE(perform(*std::make_unique<State>(withModel()), "play")); // a model that does not move
+    EXPECT_FALSE(perform(*std::make_unique<State>(withModel()), "play")); // a model without animations
 }
 
-TEST(ViewerAnimation, aMomentIsAPoseAndNotAReading)
+TEST(ViewerAnimation, changingTheTimePosesWithoutReloading)
 {
     State state = withAnimations();
     perform(state, "set animation 1");

@@ -1,4 +1,4 @@
-// What the viewer's threads are asked and what comes back is put into the state; its dialogs, and names of files.
+// Orders to the viewer's threads, and how their results enter the state; file dialogs, and names of files.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -16,7 +16,7 @@ namespace {
 
 // ---- orders -------------------------------------------------------------------------------------
 
-TEST(ViewerOrders, haveFiguresWhereStatisticsAreShownOfAModelThatRestsAndIsShownAsItIs)
+TEST(ViewerOrders, requestStatisticsForModelsAtRest)
 {
     std::vector<std::string> shows = {"shaded", "normal"};
     for (const std::string_view name : inspectionNames())
@@ -55,7 +55,7 @@ TEST(ViewerOrders, haveEachFieldOfTheState)
     EXPECT_TRUE(order.flipped);
     EXPECT_EQ(order.model, s.model);
     EXPECT_EQ(order.exposure, 2.5f);
-    EXPECT_EQ(order.meteredFrom, "left"); // where nothing else was said
+    EXPECT_EQ(order.meteredFrom, "left"); // unless meteredFrom is set
     EXPECT_EQ(order.number, 0u);
     EXPECT_EQ(order.first.maps.normal, "a.png");
     EXPECT_EQ(order.second.maps.normal, "");
@@ -70,7 +70,7 @@ TEST(ViewerOrders, haveEachFieldOfTheState)
     EXPECT_FALSE(order.flipped);
 }
 
-// ---- what was read ------------------------------------------------------------------------------
+// ---- loaded models ------------------------------------------------------------------------------
 
 Loaded read(const char* file, const std::string& animation = "", double time = 0)
 {
@@ -85,7 +85,7 @@ Loaded read(const char* file, const std::string& animation = "", double time = 0
     return loaded;
 }
 
-TEST(ViewerLoader, whatWasReadIsPutIntoTheStateAndWhatWentWrongIsSaidUntilItWorks)
+TEST(ViewerLoader, loadsUpdateTheStateAndErrorsStayUntilSuccess)
 {
     State s;
     Loaded wrong;
@@ -99,7 +99,7 @@ TEST(ViewerLoader, whatWasReadIsPutIntoTheStateAndWhatWentWrongIsSaidUntilItWork
     EXPECT_EQ(s.failedLoads, 1u);
     EXPECT_EQ(s.loads, 0u);
     EXPECT_FALSE(s.playing);
-    EXPECT_EQ(s.picture.animation, "walk"); // of no model before it
+    EXPECT_EQ(s.picture.animation, "walk"); // there is no earlier model to restore
     EXPECT_FALSE(s.model);
     take(s, {}); // nothing
     EXPECT_EQ(s.loads, 0u);
@@ -115,7 +115,7 @@ TEST(ViewerLoader, whatWasReadIsPutIntoTheStateAndWhatWentWrongIsSaidUntilItWork
     EXPECT_EQ(s.problem, "");
     EXPECT_EQ(s.loads, 1u);
     EXPECT_EQ(s.failedLoads, 1u);
-    EXPECT_EQ(s.said, "first");
+    EXPECT_EQ(s.message, "first");
     EXPECT_EQ(s.model, good.model);
     EXPECT_EQ(s.picture.model, "/f/m.glb");
     EXPECT_EQ(s.picture.variant, "red");
@@ -126,7 +126,8 @@ TEST(ViewerLoader, whatWasReadIsPutIntoTheStateAndWhatWentWrongIsSaidUntilItWork
     EXPECT_TRUE(std::holds_alternative<request::FindProblemAreas>(s.requests[0]));
     s.requests.clear();
 
-    // A problem of another kind stays; while it is playing the moment goes on, and the same model keeps playing.
+    // Problems of another kind stay. Time goes on while an animation plays, and a reload of the same model does not
+    // stop it.
     s.problem = "something else", s.loadProblem = "m.glb: broken";
     s.playing = true, s.picture.time = 7;
     take(s, read("/f/m.glb", "run", 3));
@@ -134,7 +135,7 @@ TEST(ViewerLoader, whatWasReadIsPutIntoTheStateAndWhatWentWrongIsSaidUntilItWork
     EXPECT_EQ(s.loadProblem, "");
     EXPECT_TRUE(s.playing);
     EXPECT_EQ(s.picture.time, 7);
-    EXPECT_EQ(s.said, "first");
+    EXPECT_EQ(s.message, "first");
     Loaded shape = read("");
     shape.options.shape = "torus";
     take(s, shape);
@@ -145,7 +146,7 @@ TEST(ViewerLoader, whatWasReadIsPutIntoTheStateAndWhatWentWrongIsSaidUntilItWork
     Loaded faults;
     faults.faults = {"map a", "map b"};
     take(s, faults);
-    EXPECT_EQ(s.said, "map a");
+    EXPECT_EQ(s.message, "map a");
     Loaded areas;
     areas.problemAreas.emplace(2);
     const std::size_t loads = s.loads;
@@ -155,7 +156,7 @@ TEST(ViewerLoader, whatWasReadIsPutIntoTheStateAndWhatWentWrongIsSaidUntilItWork
     EXPECT_EQ(s.loads, loads);
 }
 
-TEST(ViewerLoader, aPoseKeepsTheCameraOfItsAnimationAndOthersAreFramedAnew)
+TEST(ViewerLoader, posesKeepTheCameraAndOtherAnimationsAreFramed)
 {
     State s;
     take(s, read("/f/m.glb", "run", 1));
@@ -172,7 +173,7 @@ TEST(ViewerLoader, aPoseKeepsTheCameraOfItsAnimationAndOthersAreFramedAnew)
     s.playing = true;
     pose("run", 2);
     EXPECT_EQ(s.camera.eye, away);
-    EXPECT_TRUE(s.problemAreas); // while it plays nobody looks for others
+    EXPECT_TRUE(s.problemAreas); // no search for new ones while it plays
     s.playing = false;
     pose("run", 3);
     EXPECT_FALSE(s.problemAreas);
@@ -197,7 +198,7 @@ TEST(ViewerLoader, aPoseKeepsTheCameraOfItsAnimationAndOthersAreFramedAnew)
 
 // ---- the pointer --------------------------------------------------------------------------------
 
-TEST(ViewerPointer, isLookedUnderWhereACardIsShownAndNoButtonIsHeld)
+TEST(ViewerPointer, isProbedOnlyForTheCardAndWithoutAHeldButton)
 {
     State s = builtIn();
     s.size = {64, 48};
@@ -231,7 +232,7 @@ TEST(ViewerPointer, isLookedUnderWhereACardIsShownAndNoButtonIsHeld)
     EXPECT_TRUE(follow());
     s.model = nullptr;
     EXPECT_FALSE(follow());
-    State corner = builtIn(); // the first pixel is one
+    State corner = builtIn(); // pixel (0, 0) belongs to the image
     corner.size = {64, 48};
     corner.pointer = {0, 0};
     probe.follow(corner);
@@ -240,8 +241,8 @@ TEST(ViewerPointer, isLookedUnderWhereACardIsShownAndNoButtonIsHeld)
 
 // ---- dialogs ------------------------------------------------------------------------------------
 
-// Without a portal the programs of the desktop are asked, the first that PATH has.
-TEST(ViewerDialog, programsThatChooseAFileBeginInTheFolderAndSayOnePath)
+// Without a portal, the first program for file dialogs in PATH is run.
+TEST(ViewerDialog, dialogProgramsStartInTheFolderAndReturnOnePath)
 {
     const test::TemporaryFolder folder;
     const auto program = [&](const char* name, const std::string& says) {
@@ -255,8 +256,8 @@ TEST(ViewerDialog, programsThatChooseAFileBeginInTheFolderAndSayOnePath)
     const std::string zenity = program("zenity", "/m/a b.glb\\nmore\\n"), kdialog = program("kdialog", "");
     std::ofstream(folder / "kdialog" / "zenity") << "no program";
     const std::string usual = std::getenv("PATH");
-    Asked asked;
-    RememberingWindow window(asked);
+    WindowCalls calls;
+    RecordingWindow window(calls);
     window.answer = {FileAnswer::refused, ""};
     const std::string beside = (folder / "sub" / "x.glb").string(), begin = (folder / "sub" / "").string();
     const auto choose = [&](const std::string& path) {
@@ -274,16 +275,16 @@ TEST(ViewerDialog, programsThatChooseAFileBeginInTheFolderAndSayOnePath)
     };
     EXPECT_EQ(choose("/nowhere:" + zenity + ":" + kdialog), "/m/a b.glb");
     EXPECT_EQ(test::readWhole(folder / "words"), "--file-selection\n--title=cotan view\n--filename=" + begin + "\n");
-    EXPECT_EQ(asked.folder, begin);
+    EXPECT_EQ(calls.folder, begin);
     EXPECT_EQ(choose(kdialog), ""); // nothing was chosen
     EXPECT_EQ(test::readWhole(folder / "words"), "--getopenfilename\n" + begin + "\n");
     EXPECT_EQ(choose((folder / "none").string()),
-              "open: no dialog to choose a file: install zenity; or drop a file, or paste its path");
+              "open: no file dialog: install zenity; or drop a file, or paste its path");
 }
 
 // ---- names of files -----------------------------------------------------------------------------
 
-TEST(ViewerFiles, bytesOfAUriAreTwoHexadecimalDigitsAndNothingElse)
+TEST(ViewerFiles, uriEscapesAreTwoHexadecimalDigits)
 {
     const std::string digits = "0123456789abcdef", capitals = "0123456789ABCDEF";
     for (int i = 1; i < 256; ++i) {
@@ -306,15 +307,15 @@ TEST(ViewerFiles, bytesOfAUriAreTwoHexadecimalDigitsAndNothingElse)
     EXPECT_EQ(pathOf(" \t "), "");
 }
 
-TEST(ViewerFiles, modelsAndPicturesAreKnownByTheirEndings)
+TEST(ViewerFiles, modelsAndImagesAreRecognisedByTheirExtension)
 {
     for (const char* const model : {".gltf", ".glb", ".obj", ".ply", ".stl", ".dae", ".fbx", ".3ds", ".GLB"})
-        EXPECT_TRUE(isModel(std::string("a") + model) && !isPicture(std::string("a") + model)) << model;
+        EXPECT_TRUE(isModel(std::string("a") + model) && !isImageFile(std::string("a") + model)) << model;
     for (const char* const picture :
          {".png", ".exr", ".tif", ".tiff", ".tga", ".jpg", ".jpeg", ".hdr", ".dds", ".ktx2", ".webp", ".bmp", ".PNG"})
-        EXPECT_TRUE(isPicture(std::string("a") + picture) && !isModel(std::string("a") + picture)) << picture;
+        EXPECT_TRUE(isImageFile(std::string("a") + picture) && !isModel(std::string("a") + picture)) << picture;
     for (const char* const other : {"a.gif", "a.txt", "glb", ".glb", "a.glb.txt", "", "a."})
-        EXPECT_FALSE(isPicture(other) || isModel(other)) << other;
+        EXPECT_FALSE(isImageFile(other) || isModel(other)) << other;
 }
 
 TEST(ViewerFiles, neighboursAreReachedByAnyNumberOfStepsInAnyFolder)
@@ -332,14 +333,14 @@ TEST(ViewerFiles, neighboursAreReachedByAnyNumberOfStepsInAnyFolder)
     EXPECT_EQ(neighbourOf("a.obj", 5), "c.ply");
     EXPECT_EQ(neighbourOf("b.glb", -2), "c.ply");
     EXPECT_EQ(neighbourOf("b.glb", -4), "a.obj");
-    EXPECT_EQ(neighbourOf("none.glb", -1), "a.obj"); // from outside the first
+    EXPECT_EQ(neighbourOf("none.glb", -1), "a.obj"); // a file that is not among the models leads to the first
     EXPECT_EQ(neighbourOf("one/only.glb", 1), "");
     EXPECT_EQ(neighbourOf("one/other.glb", 1), "one/only.glb");
     EXPECT_EQ(neighbourOf("aa.glb/x.glb", 1), "");
     fs::current_path(before);
 }
 
-TEST(ViewerFiles, namesThatAModelDoesNotHoldAsTextAreNotWatched)
+TEST(ViewerFiles, urisThatAreNotTextAreNotWatched)
 {
     const test::TemporaryFolder folder;
     for (const char* name : {"b.bin", "i.png", "c.mtl"})
@@ -367,12 +368,12 @@ TEST(ViewerFiles, namesThatAModelDoesNotHoldAsTextAreNotWatched)
 
 // ---- events -------------------------------------------------------------------------------------
 
-TEST(ViewerEvents, whatIsWrongWithALineIsSaidWithWhatWasFound)
+TEST(ViewerEvents, errorsNameWhatWasFound)
 {
     const std::string kinds =
         "expected one of move, press, release, scroll, key, keyup, text, drop, resize, close, do, wait; found ";
-    const std::pair<const char*, std::string> cases[] = {{"0.25 wait", "expected a time from 0.5 up; found '0.25'"},
-                                                         {"nan wait", "expected a time from 0.5 up; found 'nan'"},
+    const std::pair<const char*, std::string> cases[] = {{"0.25 wait", "expected a time of at least 0.5; found '0.25'"},
+                                                         {"nan wait", "expected a time of at least 0.5; found 'nan'"},
                                                          {"0.5 wait", ""},
                                                          {"move 1", "move: expected two numbers; found '1 '"},
                                                          {"scroll 1 b", "scroll: expected two numbers; found '1 b'"},
@@ -381,7 +382,7 @@ TEST(ViewerEvents, whatIsWrongWithALineIsSaidWithWhatWasFound)
                                                          {"move  1  2  ", ""},
                                                          {"close now", "close: expected nothing more; found 'now'"},
                                                          {"wait  ", ""},
-                                                         {"key", "key: expected a word behind it; found none"},
+                                                         {"key", "key: expected a word after it; found none"},
                                                          {"do a b", ""},
                                                          {"1 jump", kinds + "'jump'"},
                                                          {"1", kinds + "''"}};

@@ -1,4 +1,4 @@
-// Images that the viewer draws for a state, and files that it watches; with a window that only remembers.
+// Images that the viewer draws for a state, and files that it watches, with a window that only records calls.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,16 +10,16 @@
 namespace cotan::viewer {
 namespace {
 
-TEST(ViewerPictures, aSideIsWhatItsOwnOptionsDrawAndIsDrawnOnceUntilTheyChange)
+TEST(ViewerPictures, eachSideIsDrawnOnceUntilItsOptionsChange)
 {
     HeadlessSession at;
-    at.parts.pictures.ask(at.state()); // of no model
+    at.parts.pictures.ask(at.state()); // there is no model yet
     EXPECT_TRUE(at.parts.pictures.idle(at.state()));
     at.load("");
     at.draw();
     State& s = at.state();
     EXPECT_EQ(s.pictures, 1u);
-    EXPECT_GT(s.metered, 0); // found by the first image
+    EXPECT_GT(s.metered, 0); // metered from the first image
     EXPECT_GT(s.drawSeconds, 0);
     EXPECT_NE(s.device.find("reference"), std::string::npos) << s.device;
     EXPECT_EQ(s.statisticsOf.find(" against exact"), s.statisticsOf.size() - 14) << s.statisticsOf;
@@ -66,27 +66,27 @@ TEST(ViewerPictures, degreesAtThePointerAreThoseOfItsPixel)
     s.b.frame = "paper-nodet";
     s.compare = Compare::angle;
     at.draw();
-    double most = -1;
+    double largest = -1;
     int covered = 0;
     for (int y = 0; y < 48; ++y)
         for (int x = 0; x < 64; ++x) {
             s.pointer = {float(x) + 0.75f, float(y) + 0.25f};
             const double here = at.parts.pictures.degreesAtPointer(s);
-            most = std::max(most, here);
+            largest = std::max(largest, here);
             covered += here >= 0;
         }
     EXPECT_EQ(covered, int(s.statistics.count));
-    EXPECT_NEAR(most, s.statistics.maximum, 1e-4);
+    EXPECT_NEAR(largest, s.statistics.maximum, 1e-4);
     for (const glm::vec2 outside : {glm::vec2(-1, 5), {5, -1}, {64, 5}, {5, 48}}) {
         s.pointer = outside;
         EXPECT_LT(at.parts.pictures.degreesAtPointer(s), 0) << outside.x << " " << outside.y;
     }
-    s.size = {63, 48}; // another size than the image has
+    s.size = {63, 48}; // differs from the size of the image
     s.pointer = {30, 20};
     EXPECT_LT(at.parts.pictures.degreesAtPointer(s), 0);
 }
 
-TEST(ViewerPictures, whatCannotBeDrawnIsSaidAndTheOptionsThatCouldBeDrawnComeBack)
+TEST(ViewerPictures, failedRendersAreReportedAndRestoreTheOptions)
 {
     HeadlessSession at;
     at.load("");
@@ -98,7 +98,7 @@ TEST(ViewerPictures, whatCannotBeDrawnIsSaidAndTheOptionsThatCouldBeDrawnComeBac
     const auto pictures = s.pictures;
     s.picture.environment = at.in("missing.hdr");
     s.a.frame = "exact";
-    s.picture.camera = "left"; // what is no cause of it stays
+    s.picture.camera = "left"; // not related to the failure: kept
     at.draw();
     EXPECT_NE(s.problem.find("missing.hdr"), std::string::npos) << s.problem;
     EXPECT_EQ(s.picture.environment, "evening");
@@ -106,12 +106,12 @@ TEST(ViewerPictures, whatCannotBeDrawnIsSaidAndTheOptionsThatCouldBeDrawnComeBac
     EXPECT_EQ(s.picture.camera, "left");
     at.draw();
     EXPECT_EQ(s.picture.environment, "evening");
-    EXPECT_NE(s.problem, ""); // it stays until something is done about it
+    EXPECT_NE(s.problem, ""); // until the user acts
     EXPECT_GE(s.pictures, pictures);
 }
 
-// While the camera is moved an image that took more than a twentieth of a second has 160,000 pixels of one sample.
-TEST(ViewerPictures, aSlowOneIsDrawnSmallerWhileTheCameraMovesAndWholeWhenItRests)
+// While the camera moves, an image that took over 1/20 s is drawn with 160,000 pixels of one sample each.
+TEST(ViewerPictures, slowRendersAreSmallerWhileTheCameraMoves)
 {
     State state = HeadlessSession::small();
     state.size = {1000, 640};
@@ -133,12 +133,12 @@ TEST(ViewerPictures, aSlowOneIsDrawnSmallerWhileTheCameraMovesAndWholeWhenItRest
     EXPECT_EQ(at.parts.pictures.shown(s).picture->height, 640);
 }
 
-// Scenes, light and the ground are kept between images: each change of what they are made of is drawn, and is gone when
-// it is taken back.
-TEST(ViewerPictures, eachChangeIsDrawnAndGoneWhenItIsTakenBack)
+// Scenes, light and the ground are cached between images. Each change of their inputs is drawn, and disappears when it
+// is undone.
+TEST(ViewerPictures, eachChangeIsDrawnAndCanBeUndone)
 {
     State dim = HeadlessSession::small();
-    dim.picture.environment = "none"; // which takes no time
+    dim.picture.environment = "none"; // needs no time
     HeadlessSession at(std::move(dim));
     test::write(test::quad(2), at.folder.path());
     const auto paint = [&](const char* name, int red, int green, int blue) {
@@ -191,7 +191,7 @@ TEST(ViewerPictures, eachChangeIsDrawnAndGoneWhenItIsTakenBack)
             EXPECT_NE(all[i], all[k]) << changes[i].first << ", " << changes[k].first;
 }
 
-TEST(ViewerPictures, ofFloatsAreLightBeforeTheToneCurve)
+TEST(ViewerPictures, floatImagesAreRadianceBeforeToneMapping)
 {
     HeadlessSession at;
     at.load("");
@@ -221,20 +221,20 @@ TEST(ViewerPictures, ofFloatsAreLightBeforeTheToneCurve)
 
 // ---- files that change --------------------------------------------------------------------------------
 
-TEST(ViewerFiles, areLookedAtFourTimesASecondAndReadOnceTheyRested)
+TEST(ViewerFiles, arePolledFourTimesASecondUntilTheyRest)
 {
     test::TemporaryFolder folder;
     const fs::path file = folder / "a.glb";
     std::ofstream(file) << "one";
     Watch watch;
-    EXPECT_FALSE(watch.changed(0)); // of nothing
+    EXPECT_FALSE(watch.changed(0)); // no files yet
     watch.on({file, file, fs::path()});
     EXPECT_FALSE(watch.changed(1));
     std::ofstream(file) << "longer";
-    EXPECT_FALSE(watch.changed(1.2));  // not looked at yet
-    EXPECT_FALSE(watch.changed(1.3));  // seen
-    EXPECT_FALSE(watch.changed(1.58)); // rested for 0.28 s
-    EXPECT_TRUE(watch.changed(1.84));  // 0.54 s
+    EXPECT_FALSE(watch.changed(1.2));  // not polled yet
+    EXPECT_FALSE(watch.changed(1.3));  // noticed
+    EXPECT_FALSE(watch.changed(1.58)); // unchanged for 0.28 s
+    EXPECT_TRUE(watch.changed(1.84));  // unchanged for 0.54 s
     std::ofstream(file) << "longer still";
     EXPECT_FALSE(watch.changed(3));
     EXPECT_FALSE(watch.changed(3.29));
@@ -242,7 +242,7 @@ TEST(ViewerFiles, areLookedAtFourTimesASecondAndReadOnceTheyRested)
     EXPECT_FALSE(watch.changed(4));
 }
 
-TEST(ViewerFiles, everyFileThatIsShownIsWatchedAndReadAgainWhenItChanges)
+TEST(ViewerFiles, everyFileInUseIsWatchedAndReloaded)
 {
     HeadlessSession at;
     test::write(test::quad(2), at.folder.path());

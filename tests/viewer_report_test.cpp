@@ -1,4 +1,4 @@
-// What the viewer says of itself in words: its report, the command line of its image, where it keeps its state.
+// Text that the viewer writes: its report, the command line of its image, and the file that keeps its state.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -23,7 +23,7 @@ std::string lineOf(const std::string& report, const std::string& name)
     return report.substr(from, report.find('\n', from) - from);
 }
 
-TEST(ViewerReport, hasTheValueOfEachFieldInTheLineOfItsName)
+TEST(ViewerReport, hasALineForEachField)
 {
     State s = probed();
     s.picture.model = "/a folder/b.glb";
@@ -58,7 +58,7 @@ TEST(ViewerReport, hasTheValueOfEachFieldInTheLineOfItsName)
         {"divider", "0.125"},
         {"camera moved", "yes"},
         {"eye", "1.0000 2.0000 3.2500"},
-        {"pivot", "0.0000 0.5000 -1.0000"}, // and no -0
+        {"pivot", "0.0000 0.5000 -1.0000"}, // not -0
         {"lens", "30.00 degrees"},
         {"playing", "yes"},
         {"metered", "1.7500"},
@@ -74,8 +74,8 @@ TEST(ViewerReport, hasTheValueOfEachFieldInTheLineOfItsName)
         {"w", "-1"},
         {"stored tangent", "0.6000 0.8000 0.0000"},
         {"degrees there", "12.35"},
-        {"hot spots", "2"},
-        {"hot spot", "first spot"},
+        {"problem areas", "2"},
+        {"problem area", "first spot"},
         {"loads", "4 failed 2"},
         {"problem", "a problem"}};
     for (const auto& [name, value] : lines)
@@ -91,7 +91,7 @@ TEST(ViewerReport, hasTheValueOfEachFieldInTheLineOfItsName)
         {"model", "built-in"},           {"triangles", "none"}, {"compare", "off"},     {"camera moved", "no"},
         {"lens", "orthographic 3.5000"}, {"playing", "no"},     {"light pinned", "no"}, {"interface", "shown"},
         {"cheat sheet", "hidden"},       {"look", "dark"},      {"degrees", "none"},    {"uv", "no such line"},
-        {"hot spots", "no such line"},   {"problem", "none"}};
+        {"problem areas", "no such line"},   {"problem", "none"}};
     for (const auto& [name, value] : empty)
         EXPECT_EQ(lineOf(bare, name), value) << name;
     other.picture.shape = "torus";
@@ -111,8 +111,8 @@ TEST(ViewerReport, hasTheValueOfEachFieldInTheLineOfItsName)
 
 // ---- the command line --------------------------------------------------------------------------------
 
-// One field at a time: each is said by its option, and where it is at its default nothing is.
-TEST(ViewerCommandLine, saysEachFieldByItsOwnOption)
+// Each field on its own is written as its option, and not at all at its default.
+TEST(ViewerCommandLine, writesEachFieldAsItsOption)
 {
     struct Row {
         void (*set)(State&);
@@ -144,7 +144,7 @@ TEST(ViewerCommandLine, saysEachFieldByItsOwnOption)
         EXPECT_EQ(commandLine(s, "a.png", {7, 5}), std::string("cotan render -o a.png --size 7x5 ") + row.words);
     }
     State s;
-    s.metered = 0.5f; // what was metered is light, which a file of floats has without it, and other views do not have
+    s.metered = 0.5f; // files of floats and views without light do not depend on the metered exposure
     EXPECT_EQ(commandLine(s, "a.exr", {7, 5}), "cotan render -o a.exr --size 7x5");
     s.show = "normal";
     EXPECT_EQ(commandLine(s, "a.png", {7, 5}), "cotan render -o a.png --size 7x5 --view normal");
@@ -163,7 +163,7 @@ TEST(ViewerCommandLine, saysEachFieldByItsOwnOption)
     }
 }
 
-TEST(ViewerCommandLine, anExposureThatWasMeteredIsNotSaidWhereAnglesAreCompared)
+TEST(ViewerCommandLine, omitsTheMeteredExposureForAngles)
 {
     State s;
     s.metered = 0.5f;
@@ -175,7 +175,7 @@ TEST(ViewerCommandLine, anExposureThatWasMeteredIsNotSaidWhereAnglesAreCompared)
 
 // ---- played sessions -----------------------------------------------------------------------------------
 
-TEST(ViewerPlayer, tellsTheSecondsSinceTheStepBefore)
+TEST(ViewerPlayer, returnsTheSecondsSinceTheLastStep)
 {
     const std::vector<Event> events = {{0.5, EventKind::key, 0, 0, "1"},
                                        {0.75, EventKind::key, 0, 0, "2"},
@@ -192,11 +192,11 @@ TEST(ViewerPlayer, tellsTheSecondsSinceTheStepBefore)
 
 // ---- where the state is kept ---------------------------------------------------------------------------
 
-TEST(ViewerMemory, isKeptInTheFolderForStateOfTheDesktop)
+TEST(ViewerMemory, isStoredInTheXdgStateFolder)
 {
-    const char* place = std::getenv("XDG_STATE_HOME");
+    const char* stateHome = std::getenv("XDG_STATE_HOME");
     const char* home = std::getenv("HOME");
-    const std::optional<std::string> before[] = {place ? std::optional<std::string>(place) : std::nullopt,
+    const std::optional<std::string> before[] = {stateHome ? std::optional<std::string>(stateHome) : std::nullopt,
                                                  home ? std::optional<std::string>(home) : std::nullopt};
     const auto at = [](const char* state, const char* folder) {
         state ? ::setenv("XDG_STATE_HOME", state, 1) : ::unsetenv("XDG_STATE_HOME");

@@ -1,4 +1,4 @@
-// What the viewer does beside changing its state: requests carried out, models taken over.
+// Requests of the viewer that do more than change its state, and how loaded models are taken over.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -10,47 +10,47 @@
 namespace cotan::viewer {
 namespace {
 
-TEST(ViewerRequests, eachAsksTheWindowForOneThingOnce)
+TEST(ViewerRequests, eachCallsTheWindowOnce)
 {
     HeadlessSession at;
     EXPECT_TRUE(at.ask(request::Resize{{300, 200}}));
-    EXPECT_EQ(at.asked.sizes, (std::vector<glm::ivec2>{{300, 200}}));
+    EXPECT_EQ(at.calls.sizes, (std::vector<glm::ivec2>{{300, 200}}));
     EXPECT_TRUE(at.ask(request::LoseSurface{}));
-    EXPECT_EQ(at.asked.lost, 1);
+    EXPECT_EQ(at.calls.lost, 1);
     EXPECT_TRUE(at.ask(request::Copy{"some text"}));
-    EXPECT_EQ(at.asked.copied, "some text");
-    EXPECT_EQ(at.state().said, "copied: some text");
+    EXPECT_EQ(at.calls.copied, "some text");
+    EXPECT_EQ(at.state().message, "copied: some text");
     EXPECT_FALSE(at.parts.quits);
     EXPECT_TRUE(at.ask(request::Quit{}));
     EXPECT_TRUE(at.parts.quits);
-    EXPECT_EQ(at.asked.sizes.size(), 1u);
-    EXPECT_EQ(at.asked.lost, 1);
+    EXPECT_EQ(at.calls.sizes.size(), 1u);
+    EXPECT_EQ(at.calls.lost, 1);
     EXPECT_TRUE(at.state().requests.empty());
     EXPECT_EQ(at.state().problem, "");
 }
 
-TEST(ViewerRequests, aPastedPathIsOpenedAndNoneIsSaid)
+TEST(ViewerRequests, pastingOpensAPathOrReportsItsAbsence)
 {
     HeadlessSession at;
     EXPECT_FALSE(at.ask(request::Paste{}));
-    EXPECT_NE(at.state().problem.find("paste: expected the path of a file"), std::string::npos) << at.state().problem;
+    EXPECT_NE(at.state().problem.find("paste: expected a copied file path"), std::string::npos) << at.state().problem;
     at.state().picture.model = "x.glb";
     at.window->pasted = " 'a map.png'\n";
     EXPECT_TRUE(at.ask(request::Paste{}));
     EXPECT_EQ(at.state().a.normalMap, "a map.png");
 }
 
-TEST(ViewerRequests, theDialogBeginsInTheFolderOfTheModelAndWhatIsChosenIsOpened)
+TEST(ViewerRequests, theDialogStartsInTheModelsFolderAndOpensTheChoice)
 {
     HeadlessSession at;
     at.state().picture.model = at.in("sub/x.glb");
     at.window->answer = {FileAnswer::open, ""};
     EXPECT_TRUE(at.ask(request::ChooseFile{}));
-    EXPECT_EQ(at.asked.folder, at.in("sub/"));
+    EXPECT_EQ(at.calls.folder, at.in("sub/"));
     EXPECT_TRUE(at.parts.dialog.open());
-    at.asked.folder.clear();
-    EXPECT_TRUE(at.ask(request::ChooseFile{})); // one is open
-    EXPECT_EQ(at.asked.folder, "");
+    at.calls.folder.clear();
+    EXPECT_TRUE(at.ask(request::ChooseFile{})); // one is open already
+    EXPECT_EQ(at.calls.folder, "");
     at.window->answer = {FileAnswer::closed, "file:///m/a%20b.png"};
     at.state().requests.clear();
     EXPECT_TRUE(carryOutRequests(at.parts));
@@ -61,13 +61,13 @@ TEST(ViewerRequests, theDialogBeginsInTheFolderOfTheModelAndWhatIsChosenIsOpened
     EXPECT_EQ(at.state().a.normalMap, "/m/a b.png");
 }
 
-TEST(ViewerRequests, theReportAndTheWindowAreWrittenWhereTheyAreToldTo)
+TEST(ViewerRequests, reportsAndWindowImagesAreWrittenToTheGivenPath)
 {
     HeadlessSession at;
     EXPECT_TRUE(at.ask(request::WriteReport{at.in("r.txt")}));
     EXPECT_EQ(test::readWhole(at.folder / "r.txt"), reportOf(at.state()));
     EXPECT_TRUE(at.ask(request::WriteWindow{at.in("w.png")}));
-    EXPECT_EQ(at.asked.shows, 1); // what is written is what is shown now
+    EXPECT_EQ(at.calls.shows, 1); // the state is shown before the window is written
     const auto image = readImage(at.folder / "w.png");
     ASSERT_TRUE(image);
     EXPECT_EQ(image->width, 2);
@@ -82,8 +82,8 @@ TEST(ViewerRequests, theReportAndTheWindowAreWrittenWhereTheyAreToldTo)
     }
 }
 
-// The first failure is the one that is returned; later ones are done all the same.
-TEST(ViewerRequests, oneThatFailsDoesNotHoldBackTheOthers)
+// The first error is returned; later requests are still carried out.
+TEST(ViewerRequests, aFailedRequestDoesNotStopTheOthers)
 {
     HeadlessSession at;
     at.state().requests = {request::Paste{}, request::WriteReport{at.in("no/such.txt")}, request::Resize{{7, 5}}};
@@ -91,22 +91,22 @@ TEST(ViewerRequests, oneThatFailsDoesNotHoldBackTheOthers)
     ASSERT_FALSE(done);
     EXPECT_NE(done.error().message.find("paste"), std::string::npos);
     EXPECT_NE(at.state().problem.find("such.txt"), std::string::npos);
-    EXPECT_EQ(at.asked.sizes.size(), 1u);
+    EXPECT_EQ(at.calls.sizes.size(), 1u);
 }
 
-TEST(ViewerRequests, imagesAreWrittenAsTheStateShowsThemUnderANameThatIsFree)
+TEST(ViewerRequests, imagesAreWrittenUnderAFreeName)
 {
     HeadlessSession at;
-    EXPECT_FALSE(at.ask(request::WritePicture{at.in("a.png")})); // there is no model yet
+    EXPECT_FALSE(at.ask(request::WriteImage{at.in("a.png")})); // there is no model yet
     EXPECT_FALSE(fs::exists(at.folder / "a.png"));
     at.load("");
     const fs::path before = fs::current_path();
     fs::current_path(at.folder.path());
     std::ofstream(at.folder / "cotan-picture-1.png") << "taken";
-    EXPECT_TRUE(at.ask(request::WritePicture{"", {20, 10}}));
-    EXPECT_TRUE(at.ask(request::WritePicture{"-", {30, 12}}));
-    EXPECT_TRUE(at.ask(request::WritePicture{".exr"}));
-    EXPECT_TRUE(at.ask(request::WritePicture{"named.png", {40, 14}}));
+    EXPECT_TRUE(at.ask(request::WriteImage{"", {20, 10}}));
+    EXPECT_TRUE(at.ask(request::WriteImage{"-", {30, 12}}));
+    EXPECT_TRUE(at.ask(request::WriteImage{".exr"}));
+    EXPECT_TRUE(at.ask(request::WriteImage{"named.png", {40, 14}}));
     fs::current_path(before);
     EXPECT_EQ(test::readWhole(at.folder / "cotan-picture-1.png"), "taken");
     const std::vector<std::tuple<const char*, int, int>> written = {{"cotan-picture-2.png", 20, 10},
@@ -119,14 +119,14 @@ TEST(ViewerRequests, imagesAreWrittenAsTheStateShowsThemUnderANameThatIsFree)
         EXPECT_EQ(image->width, width) << name;
         EXPECT_EQ(image->height, height) << name;
     }
-    EXPECT_NE(at.state().said.find("-o named.png --size 40x14"), std::string::npos) << at.state().said;
-    EXPECT_EQ(at.state().size, glm::ivec2(64, 48)); // and the window stays as it is
+    EXPECT_NE(at.state().message.find("-o named.png --size 40x14"), std::string::npos) << at.state().message;
+    EXPECT_EQ(at.state().size, glm::ivec2(64, 48)); // the window keeps its size
 }
 
-TEST(ViewerRequests, problemAreasAreThoseOfTheModelThatIsShown)
+TEST(ViewerRequests, problemAreasAreThoseOfTheShownModel)
 {
     HeadlessSession at;
-    EXPECT_TRUE(at.ask(request::FindProblemAreas{})); // of nothing
+    EXPECT_TRUE(at.ask(request::FindProblemAreas{})); // there is no model yet
     EXPECT_FALSE(at.parts.loader.busy());
     at.load("");
     EXPECT_TRUE(at.ask(request::FindProblemAreas{}));
@@ -134,7 +134,7 @@ TEST(ViewerRequests, problemAreasAreThoseOfTheModelThatIsShown)
     EXPECT_EQ(at.state().problemAreas->size(), problemAreas(at.state().model->scene).size());
 }
 
-TEST(ViewerRequests, anotherModelForgetsTheShapeTheVariantAndTheMoment)
+TEST(ViewerRequests, loadingAnotherModelResetsShapeVariantAndTime)
 {
     HeadlessSession at;
     test::write(test::quad(2), at.folder.path());
@@ -153,7 +153,7 @@ TEST(ViewerRequests, anotherModelForgetsTheShapeTheVariantAndTheMoment)
     s.playing = true;
     s.requests = {request::Resize{{7, 5}}, request::Load{at.in("quad.gltf")}, request::Pose{}};
     beginLoads(at.parts);
-    ASSERT_EQ(s.requests.size(), 1u); // what is for the window waits for it
+    ASSERT_EQ(s.requests.size(), 1u); // requests to the window stay queued
     EXPECT_TRUE(std::holds_alternative<request::Resize>(s.requests[0]));
     s.requests.clear();
     EXPECT_EQ(s.loading, "quad.gltf");
@@ -169,7 +169,7 @@ TEST(ViewerRequests, anotherModelForgetsTheShapeTheVariantAndTheMoment)
     EXPECT_FALSE(s.playing);
     EXPECT_EQ(s.loads, 2u);
     EXPECT_EQ(s.recent, std::vector<std::string>{at.in("quad.gltf")});
-    s.cameraMoved = true; // read again, the hand's camera and what was metered stay
+    s.cameraMoved = true; // a reload keeps the user's camera and the metered exposure
     s.metered = 2;
     const glm::vec3 eye = s.camera.eye += glm::vec3(1, 2, 3);
     const std::uint64_t number = s.model->number;
@@ -180,7 +180,7 @@ TEST(ViewerRequests, anotherModelForgetsTheShapeTheVariantAndTheMoment)
     EXPECT_NE(s.model->number, number);
     EXPECT_EQ(s.recent.size(), 1u);
     EXPECT_EQ(s.loads, 3u);
-    at.load(at.in("missing.glb")); // the last model stays, and why is said
+    at.load(at.in("missing.glb")); // the last model stays, and the problem is reported
     EXPECT_EQ(s.failedLoads, 1u);
     EXPECT_EQ(s.loads, 3u);
     EXPECT_EQ(s.picture.model, at.in("quad.gltf"));
@@ -189,7 +189,7 @@ TEST(ViewerRequests, anotherModelForgetsTheShapeTheVariantAndTheMoment)
     EXPECT_EQ(s.problem, "");
 }
 
-TEST(ViewerLoader, recentFilesAreTenTheLatestFirstAndEachOnce)
+TEST(ViewerLoader, recentFilesAreTheTenLatestWithoutRepeats)
 {
     State s;
     auto model = std::make_shared<Model>();
@@ -211,7 +211,7 @@ TEST(ViewerLoader, recentFilesAreTenTheLatestFirstAndEachOnce)
     EXPECT_EQ(s.loads, 13u);
 }
 
-TEST(ViewerLoader, posesOfAMovingModelKeepItsImagesAndTellTheirMoment)
+TEST(ViewerLoader, posesKeepTheImagesAndRecordTheirTime)
 {
     HeadlessSession at;
     test::write(test::movingQuad(), at.folder.path());
@@ -235,17 +235,17 @@ TEST(ViewerLoader, posesOfAMovingModelKeepItsImagesAndTellTheirMoment)
     EXPECT_EQ(heightAt(1), early);
     EXPECT_EQ(s.loads, 1u);
     s.playing = true;
-    s.picture.animation = "none of these"; // what cannot be done is not asked for any longer
+    s.picture.animation = "none of these"; // an animation that fails is no longer requested
     EXPECT_TRUE(at.ask(request::Pose{}));
     at.work([&] { return !at.parts.loader.busy(); });
     EXPECT_EQ(s.picture.animation, "high");
     EXPECT_EQ(s.picture.time, 1);
     EXPECT_FALSE(s.playing);
     EXPECT_NE(s.problem.find("none of these"), std::string::npos) << s.problem;
-    EXPECT_EQ(s.failedLoads, 0u); // its file can be read
+    EXPECT_EQ(s.failedLoads, 0u); // the file can be loaded
 }
 
-TEST(ViewerLoader, aModelThatDoesNotMoveHasNoAnimationToGoTo)
+TEST(ViewerLoader, animationsOfStaticModelsAreRefused)
 {
     HeadlessSession at;
     at.load("");

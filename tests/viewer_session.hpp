@@ -1,4 +1,4 @@
-// A session of the viewer without a display: its window only remembers what it was asked for.
+// A session of the viewer without a display, whose window only records calls.
 #pragma once
 
 #include <chrono>
@@ -13,20 +13,20 @@ namespace cotan::viewer {
 
 namespace fs = std::filesystem;
 
-struct Asked { // of the window
+struct WindowCalls { // of the window
     std::vector<glm::ivec2> sizes;
     std::string copied, folder;
     int lost = 0, shows = 0;
 };
 
-class RememberingWindow : public Window {
+class RecordingWindow : public Window {
 public:
-    explicit RememberingWindow(Asked& asked) : asked_(asked) {}
+    explicit RecordingWindow(WindowCalls& calls) : calls_(calls) {}
     std::vector<Event> poll(double) override { return {}; }
     std::vector<Event> interact(const Interface&, const std::vector<Event>& events) override { return events; }
     Status show(const Interface&, const Shown&) override
     {
-        ++asked_.shows;
+        ++calls_.shows;
         return Done{};
     }
     Result<Image> read() override
@@ -40,13 +40,13 @@ public:
         return image;
     }
     glm::ivec2 size() const override { return {64, 48}; }
-    void resize(int width, int height) override { asked_.sizes.emplace_back(width, height); }
+    void resize(int width, int height) override { calls_.sizes.emplace_back(width, height); }
     void setTitle(const std::string&) override {}
     std::string clipboard() override { return pasted; }
-    void setClipboard(const std::string& text) override { asked_.copied = text; }
-    void askForFile(const std::string& folder) override { asked_.folder = folder; }
+    void setClipboard(const std::string& text) override { calls_.copied = text; }
+    void askForFile(const std::string& folder) override { calls_.folder = folder; }
     FileAnswer fileAnswer() override { return answer; }
-    void loseSurface() override { ++asked_.lost; }
+    void loseSurface() override { ++calls_.lost; }
     std::string device() const override { return {}; }
     const std::vector<std::string>& messages() const override { return messages_; }
     void wake() override {}
@@ -55,17 +55,17 @@ public:
     FileAnswer answer;
 
 private:
-    Asked& asked_;
+    WindowCalls& calls_;
     std::vector<std::string> messages_;
 };
 
-// A session of a small image on the reference renderer, without a display.
+// A session that draws small images on the reference renderer, without a display.
 struct HeadlessSession {
     test::TemporaryFolder folder;
-    Asked asked;
+    WindowCalls calls;
     SessionOptions options;
     Parts parts;
-    RememberingWindow* window;
+    RecordingWindow* window;
 
     static State small()
     {
@@ -78,7 +78,7 @@ struct HeadlessSession {
     }
     explicit HeadlessSession(State state = small()) : parts(std::move(state), quiet(options))
     {
-        auto made = std::make_unique<RememberingWindow>(asked);
+        auto made = std::make_unique<RecordingWindow>(calls);
         window = made.get();
         parts.window = std::move(made);
     }
@@ -113,7 +113,7 @@ struct HeadlessSession {
     void draw()
     {
         work([&] {
-            parts.pictures.ask(parts.state); // as the session does: what was put back is drawn again
+            parts.pictures.ask(parts.state); // as the session does: restored options are drawn again
             return parts.pictures.idle(parts.state);
         });
     }

@@ -1,4 +1,4 @@
-// A viewer's state to try things on, without a window.
+// States of the viewer for tests, without a window.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 namespace cotan::viewer {
 
-// The built-in scene.
+// A state with the built-in scene.
 inline State withModel()
 {
     State state;
@@ -25,14 +25,14 @@ inline State withModel()
     return state;
 }
 
-// The built-in scene, made once.
+// A state with the built-in scene, which is loaded once.
 inline State builtIn()
 {
     static const State state = withModel();
     return state;
 }
 
-// The built-in scene with something under the pointer; no two numbers of it are the same.
+// A state with the built-in scene and a surface under the pointer, all of whose numbers differ.
 inline State probed()
 {
     State s = builtIn();
@@ -57,7 +57,7 @@ inline State probed()
     return s;
 }
 
-// Events as text.
+// Applies events that are given as text.
 inline void send(State& state, const std::string& text)
 {
     const auto events = eventsOf(text, "text");

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 // ---- events ----------------------------------------------------------------------------------
 
-TEST(ViewerEvents, everyKindComesBackFromItsText)
+TEST(ViewerEvents, everyKindRoundTripsAsText)
 {
     const std::vector<Event> all = {{0, EventKind::move, 1.5f, -2, ""},
                                     {0.25, EventKind::press, 0, 0, "shift+left"},
@@ -44,7 +44,7 @@ TEST(ViewerEvents, everyKindComesBackFromItsText)
     EXPECT_EQ(*back, all);
 }
 
-TEST(ViewerEvents, aWrongLineIsNamedWithItsNumber)
+TEST(ViewerEvents, errorsNameTheLine)
 {
     for (const char* line :
          {"0 mvoe 1 2", "0 move 1", "0 move 1 x", "0 press", "-1 wait", "nan wait", "0 wait 3", "0 move 1 2 3"}) {
@@ -55,14 +55,14 @@ TEST(ViewerEvents, aWrongLineIsNamedWithItsNumber)
     }
 }
 
-TEST(ViewerEvents, aLineWithoutATimeHappensAtThatBefore)
+TEST(ViewerEvents, linesWithoutATimeTakeThePreviousOne)
 {
     const auto events = eventsOf("0.5 wait\nkey h\n", "x");
     ASSERT_TRUE(events);
     EXPECT_EQ((*events)[1].seconds, 0.5);
 }
 
-TEST(ViewerEvents, whatIsHeldIsTold)
+TEST(ViewerEvents, modifierKeysAreParsed)
 {
     const Event event{0, EventKind::key, 0, 0, "ctrl+shift++"};
     EXPECT_TRUE(holds(event, "ctrl"));
@@ -75,7 +75,7 @@ TEST(ViewerEvents, whatIsHeldIsTold)
 
 // ---- pointer and keys --------------------------------------------------------------------------
 
-TEST(ViewerInput, draggingTurnsAndReleasingEndsIt)
+TEST(ViewerInput, draggingOrbitsUntilReleased)
 {
     State state = withModel();
     const Camera before = state.camera;
@@ -91,18 +91,18 @@ TEST(ViewerInput, draggingTurnsAndReleasingEndsIt)
     EXPECT_EQ(state.camera.eye, after.eye);
 }
 
-TEST(ViewerInput, aClickSetsThePivotAndASmallTremorIsAClick)
+TEST(ViewerInput, aClickWithASmallTremorSetsThePivot)
 {
     State state = withModel();
     const glm::vec3 eye = state.camera.eye, pivot = state.camera.target;
     send(state, "0 move 640 500\npress left\nmove 642 500\nrelease left\n");
     EXPECT_EQ(state.camera.eye, eye);
     EXPECT_NE(state.camera.target, pivot);
-    const glm::vec3 seen = onPicture(state.camera, state.camera.target, state.size);
+    const glm::vec3 seen = projectToImage(state.camera, state.camera.target, state.size);
     EXPECT_NEAR(seen.x, 640, 1);
 }
 
-TEST(ViewerInput, theDividerIsDraggedFromWhereItIsAndNowhereElse)
+TEST(ViewerInput, theDividerIsDraggedOnlyFromItsPosition)
 {
     State state = withModel();
     send(state, "0 do compare divider\nmove 643 200\npress left\nmove 900 200\nrelease left\n");
@@ -115,7 +115,7 @@ TEST(ViewerInput, theDividerIsDraggedFromWhereItIsAndNowhereElse)
     EXPECT_EQ(state.divider, 1.0f);
 }
 
-TEST(ViewerInput, shiftAndDragTurnTheLightOnly)
+TEST(ViewerInput, shiftDragRotatesOnlyTheLight)
 {
     State state = withModel();
     const Camera before = state.camera;
@@ -124,7 +124,7 @@ TEST(ViewerInput, shiftAndDragTurnTheLightOnly)
     EXPECT_EQ(state.camera.eye, before.eye);
 }
 
-TEST(ViewerInput, aPinnedLightTurnsWithTheCamera)
+TEST(ViewerInput, aPinnedLightRotatesWithTheCamera)
 {
     State state = withModel();
     send(state, "0 do toggle pin-light\ndo orbit 30 0\n");
@@ -133,26 +133,26 @@ TEST(ViewerInput, aPinnedLightTurnsWithTheCamera)
     EXPECT_NEAR(state.picture.environmentRotation, 30, 1e-3);
 }
 
-TEST(ViewerInput, flyingGoesOnWhileAKeyIsDown)
+TEST(ViewerInput, flyingContinuesWhileAKeyIsDown)
 {
     State state = withModel();
     const glm::vec3 eye = state.camera.eye, to = glm::normalize(state.camera.target - eye);
     send(state, "0 move 10 10\npress right\nkey w\n");
-    goOn(state, 0.5);
+    advance(state, 0.5);
     const glm::vec3 went = state.camera.eye - eye;
     EXPECT_GT(glm::dot(went, to), 0.99f * glm::length(went));
     EXPECT_GT(glm::length(went), 0.0f);
     send(state, "0 keyup w\n");
     const glm::vec3 stands = state.camera.eye;
-    goOn(state, 0.5);
+    advance(state, 0.5);
     EXPECT_EQ(state.camera.eye, stands);
 }
 
-TEST(ViewerInput, whatCannotBeDoneIsSaidAndChangesNothing)
+TEST(ViewerInput, invalidCommandsAreReportedAndChangeNothing)
 {
     State state = withModel();
     const std::string before = reportOf(state);
-    // What is said begins with the command or the option, and ends with what was found.
+    // The error begins with the command or the option, and ends with what was found.
     for (const auto& [line, about, found] : {std::tuple("frame none", "frame: ", "'none'"),
                                              {"show heat", "show: ", "'heat'"},
                                              {"set exposure -1", "exposure: ", "'-1'"},
@@ -180,16 +180,16 @@ TEST(ViewerInput, whatCannotBeDoneIsSaidAndChangesNothing)
         EXPECT_TRUE(state.problem.starts_with(std::string(about) + "expected ")) << line << ": " << state.problem;
         EXPECT_TRUE(state.problem.ends_with(std::string("; found ") + found)) << line << ": " << state.problem;
         state.problem.clear();
-        state.said.clear();
+        state.message.clear();
         EXPECT_EQ(reportOf(state), before) << line;
         EXPECT_TRUE(state.requests.empty()) << line;
     }
     state.problem.clear();
     send(state, "0 do  \n");
-    EXPECT_EQ(state.problem, "expected a command of the viewer; found ''");
+    EXPECT_EQ(state.problem, "expected a viewer command; found ''");
 }
 
-TEST(ViewerInput, aProblemAreaIsOutlinedInTheViewThatShowsItWithTheModelAround)
+TEST(ViewerInput, problemAreasAreOutlinedInTheirView)
 {
     State state = withModel();
     state.problemAreas = problemAreas(state.model->scene);
@@ -210,7 +210,7 @@ TEST(ViewerInput, aProblemAreaIsOutlinedInTheViewThatShowsItWithTheModelAround)
     EXPECT_TRUE(interfaceOf(state).lines.empty());
 }
 
-TEST(ViewerInput, aPictureHasTheNamedCameraUntilItIsMovedAndThenItsPlace)
+TEST(ViewerInput, theNamedCameraIsUsedUntilItMoves)
 {
     State state = withModel();
     state.picture.camera = "left";
@@ -220,8 +220,8 @@ TEST(ViewerInput, aPictureHasTheNamedCameraUntilItIsMovedAndThenItsPlace)
     EXPECT_EQ(optionsOf(state, true).camera, formatCamera(state.camera));
 }
 
-// Without an environment `render` refuses to turn them.
-TEST(ViewerInput, lightIsNotTurnedWhereThereAreNoSurroundings)
+// Without an environment `render` refuses a rotation of it.
+TEST(ViewerInput, lightIsNotRotatedWithoutAnEnvironment)
 {
     State state = withModel();
     send(state, "0 do turn-light 30\ndo set background blur\ndo set environment none\ndo turn-light 30\n");
@@ -232,7 +232,7 @@ TEST(ViewerInput, lightIsNotTurnedWhereThereAreNoSurroundings)
 
 // ---- the command line ---------------------------------------------------------------------------
 
-TEST(ViewerCommandLine, saysWhatDiffersFromTheUsualAndQuotesIt)
+TEST(ViewerCommandLine, writesAndQuotesOnlyChangedOptions)
 {
     State state = withModel();
     EXPECT_EQ(commandLine(state, "a.png", {640, 360}), "cotan render -o a.png --size 640x360");
@@ -250,7 +250,7 @@ TEST(ViewerCommandLine, saysWhatDiffersFromTheUsualAndQuotesIt)
 
 // ---- settings -----------------------------------------------------------------------------------
 
-TEST(ViewerSettings, everyOneTakesItsOwnValueAndRefusesNonsense)
+TEST(ViewerSettings, acceptTheirOwnValueAndRefuseNonsense)
 {
     PictureOptions options;
     for (const Setting& setting : settings()) {
@@ -272,7 +272,7 @@ TEST(ViewerSettings, everyOneTakesItsOwnValueAndRefusesNonsense)
     EXPECT_TRUE(options.noShadows);
 }
 
-TEST(ViewerMemory, whatIsKeptComesBackUnlessTheCommandLineSaysOtherwise)
+TEST(ViewerMemory, restoresWhatTheCommandLineDoesNotSet)
 {
     State kept;
     kept.dark = false;
@@ -282,7 +282,7 @@ TEST(ViewerMemory, whatIsKeptComesBackUnlessTheCommandLineSaysOtherwise)
     kept.picture.toneMapping = ToneMapping::agx;
     kept.recent = {"/a/b c.glb", "/d.obj"};
     State back;
-    back.picture.toneMapping = ToneMapping::aces; // said on the command line
+    back.picture.toneMapping = ToneMapping::aces; // set on the command line
     remember(memoryOf(kept), back);
     EXPECT_FALSE(back.dark);
     EXPECT_EQ(back.scale, 1.5f);
@@ -292,7 +292,7 @@ TEST(ViewerMemory, whatIsKeptComesBackUnlessTheCommandLineSaysOtherwise)
     EXPECT_EQ(back.recent, kept.recent);
 }
 
-TEST(ViewerMemory, aBrokenFileDoesNoHarm)
+TEST(ViewerMemory, ignoresABrokenFile)
 {
     const State before;
     State state;
@@ -329,7 +329,7 @@ TEST(ViewerFiles, neighboursAreTheModelsOfTheFolderInTheirOrder)
     EXPECT_EQ(neighbourOf("/nowhere/a.glb", 1), "");
 }
 
-TEST(ViewerFiles, aChangeIsToldOnceAndNotBeforeItRests)
+TEST(ViewerFiles, aChangeIsReportedOnceAndOnlyAtRest)
 {
     test::TemporaryFolder folder;
     const fs::path file = folder / "a.glb";
@@ -339,7 +339,7 @@ TEST(ViewerFiles, aChangeIsToldOnceAndNotBeforeItRests)
     EXPECT_FALSE(watch.changed(0));
     EXPECT_FALSE(watch.changed(1));
     std::ofstream(file) << "longer";
-    EXPECT_FALSE(watch.changed(2)); // seen, and perhaps still being written
+    EXPECT_FALSE(watch.changed(2)); // noticed, but perhaps still being written
     EXPECT_TRUE(watch.changed(3));
     EXPECT_FALSE(watch.changed(4));
     fs::remove(file);
@@ -350,7 +350,7 @@ TEST(ViewerFiles, aChangeIsToldOnceAndNotBeforeItRests)
     EXPECT_TRUE(watch.changed(8));
 }
 
-TEST(ViewerFiles, aModelsOwnPicturesAreWatchedAlsoWhereTheyAreReplacedByRenaming)
+TEST(ViewerFiles, imagesOfModelsAreWatchedEvenIfReplacedByRenaming)
 {
     test::TemporaryFolder folder;
     std::ofstream(folder / "a.gltf") << R"({"images": [{"uri": "a%20map.png"}, {"uri": "data:image/png;base64,AA"}],
@@ -367,7 +367,7 @@ TEST(ViewerFiles, aModelsOwnPicturesAreWatchedAlsoWhereTheyAreReplacedByRenaming
     std::ofstream(folder / "a map.png.part") << "another";
     fs::rename(folder / "a map.png.part", folder / "a map.png");
     EXPECT_FALSE(watch.changed(1));
-    watch.on(files); // the model was read again meanwhile: the change is not forgotten
+    watch.on(files); // the model was reloaded meanwhile: the change is not forgotten
     EXPECT_TRUE(watch.changed(2));
     EXPECT_FALSE(watch.changed(3));
 }

@@ -1,5 +1,5 @@
-// Lossless WebP files from first principles (RFC 9649), so that what the reader is tested against does not come from
-// the library that it uses.
+// Lossless WebP files written from the specification (RFC 9649), so that the reader is not tested with files from the
+// library that it uses.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ inline std::string riffWebp(const std::string& chunks)
     return "RIFF" + little(chunks.size() + 4, 4) + "WEBP" + chunks;
 }
 
-// The data of a VP8L chunk: every colour a literal of 8 bits, nothing predicted.
+// Data of a VP8L chunk: every colour is a literal of 8 bits, without prediction.
 inline std::string losslessData(int width, int height, const std::vector<std::array<int, 4>>& rgba)
 {
     std::string data(1, '\x2f');
@@ -40,10 +40,10 @@ inline std::string losslessData(int width, int height, const std::vector<std::ar
     };
     put(std::uint64_t(width) - 1, 14), put(std::uint64_t(height) - 1, 14);
     put(1, 1), put(0, 3);                                 // alpha is used, version
-    put(0, 1), put(0, 1), put(0, 1);                      // no transform, no cache of colours, one group of codes
+    put(0, 1), put(0, 1), put(0, 1);                      // no transform, no colour cache, one group of prefix codes
     for (const int symbols : {256 + 24, 256, 256, 256}) { // green and lengths, red, blue, alpha
-        // Lengths of codes 0 and 8 have codes of one bit: 0 and 1. Of the 12 that are stored, in the order of the
-        // format, those are the third and the last.
+        // Code lengths 0 and 8 have codes of one bit, 0 and 1. Of the 12 lengths of these codes that are stored, in the
+        // order of the format, they are the third and the last.
         put(0, 1), put(12 - 4, 4);
         for (int i = 0; i < 12; ++i)
             put(i == 2 || i == 11 ? 1 : 0, 3);
@@ -51,10 +51,10 @@ inline std::string losslessData(int width, int height, const std::vector<std::ar
         for (int s = 0; s < symbols; ++s)
             put(s < 256 ? 1 : 0, 1);
     }
-    put(1, 1), put(0, 1), put(0, 1), put(0, 1); // distances: one symbol, 0
+    put(1, 1), put(0, 1), put(0, 1), put(0, 1); // distances: a single symbol, 0
     for (const auto& p : rgba)
         for (const int channel : {1, 0, 2, 3})
-            for (int bit = 7; bit >= 0; --bit) // codes come highest bit first
+            for (int bit = 7; bit >= 0; --bit) // codes are stored highest bit first
                 put(std::uint64_t(p[std::size_t(channel)] >> bit & 1), 1);
     put(0, 7);
     return data;

@@ -1,5 +1,5 @@
 // Builds the page into a folder: node web/build.mjs FOLDER NODE_MODULES COTAN_PACKAGE
-// NODE_MODULES: of the packages that package.json names. COTAN_PACKAGE: the folder of the npm package `cotan`.
+// NODE_MODULES: has the packages that package.json names. COTAN_PACKAGE: the folder of the npm package `cotan`.
 import { cpSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join, relative, resolve } from 'node:path';
@@ -16,7 +16,7 @@ const { build } = await load('esbuild/lib/main.js'), { marked } = await load('ma
 
 rmSync(out, { recursive: true, force: true });
 mkdirSync(out, { recursive: true });
-const named = mkdtempSync(join(tmpdir(), 'cotan-page-')); // where the package is found by its name
+const named = mkdtempSync(join(tmpdir(), 'cotan-page-')); // lets esbuild find the package by its name
 symlinkSync(cotan, join(named, 'cotan'));
 await build({
   entryPoints: ['main.js', 'worker.js'].map(name => join(here, name)), outdir: out, bundle: true, splitting: true, format: 'esm', minify: true, target: 'es2022',
@@ -24,15 +24,15 @@ await build({
 });
 rmSync(named, { recursive: true });
 for (const name of ['index.html', 'style.css']) cpSync(join(here, name), join(out, name));
-cpSync(join(cotan, 'wasm/cotan.wasm'), join(out, 'cotan.wasm')); // beside worker.js, which the package ends up in
+cpSync(join(cotan, 'wasm/cotan.wasm'), join(out, 'cotan.wasm')); // beside worker.js, into which the package is bundled
 cpSync(join(modules, 'draco3dgltf/draco_decoder_gltf.wasm'), join(out, 'draco/gltf.wasm'));
 const libs = join(modules, 'three/examples/jsm/libs');
 for (const name of ['draco_decoder.js', 'draco_decoder.wasm', 'draco_wasm_wrapper.js']) cpSync(join(libs, 'draco/gltf', name), join(out, 'draco', name));
 cpSync(join(libs, 'basis/basis_transcoder.wasm'), join(out, 'basis/basis_transcoder.wasm'));
 writeFileSync(join(out, 'basis/basis_transcoder.js'), withoutEval(readFileSync(join(libs, 'basis/basis_transcoder.js'), 'utf8')));
 
-// Documents of the repository that the page shows, with their pictures. Links lead to each other; those to other files
-// lead nowhere here, and stay words.
+// Documents of the repository that become pages, with their images. Links between them are kept; links to other files
+// become plain text.
 const documents = { theory: 'Theory', figures: 'The figures', cost: 'Cost' };
 mkdirSync(join(out, 'pictures'));
 const [policy] = /<meta http-equiv="Content-Security-Policy"[^>]*>/.exec(readFileSync(join(here, 'index.html'), 'utf8'));
@@ -51,8 +51,8 @@ for (const [name, title] of Object.entries(documents)) {
 <body><header><a class="name" href="index.html">Cotan</a><nav>${Object.entries(documents).map(([page, words]) => `<a href="${page}.html"${page === name ? ' aria-current="page"' : ''}>${words}</a>`).join('')}</nav></header><main class="document">${text}</main></body></html>\n`);
 }
 
-// The transcoder makes functions out of texts, which the page's Content-Security-Policy forbids; as emscripten has them without
-// (DYNAMIC_EXECUTION=0).
+// Replaces the code of the transcoder that compiles functions from strings, which the page's Content-Security-Policy
+// forbids, by what emscripten generates with DYNAMIC_EXECUTION=0.
 function withoutEval(text) {
   const replaced = [[/let\[args,invokerFnBody\]=createJsInvoker\(.*?var invokerFn=newFunc\(Function,args\)\(\.\.\.closureArgs\);/s, `
 var count=argCount-2;
@@ -70,18 +70,18 @@ var invokerFunction=(obj,func,destructorsRef,given)=>{
   if(!retType.isVoid)return emval_returnValue(retType,destructorsRef,rv);
 };`]];
   return replaced.reduce((some, [pattern, by]) => {
-    if (!pattern.test(some)) throw new Error(`basis_transcoder.js: expected ${pattern}, found none: it is another version than three 0.187 has`);
+    if (!pattern.test(some)) throw new Error(`basis_transcoder.js: expected ${pattern}, as in three 0.187, found none`);
     return some.replace(pattern, () => by);
   }, text);
 }
 
-// The name of a heading in links, as GitHub makes it.
+// The anchor of a heading, as GitHub makes it.
 function anchor(words, known) {
   const name = words.replace(/<[^>]*>|&[a-z#0-9]+;/g, '').toLowerCase().replace(/[^\p{L}\p{N} _-]/gu, '').replaceAll(' ', '-'), before = known.get(name) ?? 0;
   known.set(name, before + 1);
   return before === 0 ? name : `${name}-${before}`;
 }
 
-// All files are kept by the browser, so that the page works without a network.
+// Lists all files for the cache, so that the page works without a network.
 const files = (folder) => readdirSync(folder).flatMap(name => statSync(join(folder, name)).isDirectory() ? files(join(folder, name)) : [relative(out, join(folder, name))]);
 writeFileSync(join(out, 'offline.js'), readFileSync(join(here, 'offline.js'), 'utf8').replace('[/* files */]', JSON.stringify(['./', ...files(out)])).replace('/* version */', String(Date.now())));

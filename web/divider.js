@@ -1,9 +1,9 @@
-// A picture in two halves whose border follows a slider, the pointer moves the slider too when it drags near the border.
+// The slider of an image in two halves, which moves the border between them. Dragging near the border moves it too.
 import { el } from './elements.js';
 
-// draw(share): draws the canvas with the border at that share of its width.
+// draw(fraction): draws the canvas with the border at this fraction of its width.
 export function divider(canvas, draw, [left, right]) {
-  const range = el('input', { type: 'range', min: 0, max: 100, value: 50, step: 1, 'aria-label': `Where ${left} ends and ${right} begins, % of the width`,
+  const range = el('input', { type: 'range', min: 0, max: 100, value: 50, step: 1, 'aria-label': `Border between ${left} and ${right}, % of the width`,
     oninput: () => draw(share()) });
   const share = () => Number(range.value) / 100;
   let dragged = false;
@@ -12,7 +12,7 @@ export function divider(canvas, draw, [left, right]) {
     dragged = Math.abs((event.clientX - box.left) / box.width - share()) < 0.03;
     if (!dragged) return;
     canvas.setPointerCapture(event.pointerId);
-    event.stopImmediatePropagation(); // the camera stays
+    event.stopImmediatePropagation(); // so that the camera does not move
   }, true);
   canvas.addEventListener('pointermove', event => {
     if (!dragged) return;
@@ -28,7 +28,7 @@ export function divider(canvas, draw, [left, right]) {
     element: el('div', {}, range, el('div', { class: 'labels' }, ...labels)),
     rename(names) {
       labels.forEach((label, k) => { label.textContent = names[k]; });
-      range.setAttribute('aria-label', `Where ${names[0]} ends and ${names[1]} begins, % of the width`);
+      range.setAttribute('aria-label', `Border between ${names[0]} and ${names[1]}, % of the width`);
     },
   };
 }

@@ -1,4 +1,4 @@
-// Elements of the page from words: el('p', { class: 'small' }, 'text', otherElement).
+// Creates an element with attributes and children: el('p', { class: 'small' }, 'text', otherElement).
 export function el(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
@@ -10,20 +10,20 @@ export function el(tag, attributes = {}, ...children) {
   return element;
 }
 
-// A list to choose from: names with what is shown for each.
+// A drop-down list. names: the text to show for each value.
 export function choice(label, names, chosen, changed) {
   const select = el('select', { onchange: () => changed(select.value) },
     ...Object.entries(names).map(([value, text]) => el('option', { value, selected: value === chosen }, text)));
   return { element: el('label', {}, label, select), select };
 }
 
-// Rows of two columns: [['name', 'value'], ...]; rows without a value are left out.
+// A table of two columns, [['name', 'value'], ...]; rows whose value is undefined are left out.
 export function table(caption, rows) {
   return el('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': caption }, el('table', { 'aria-label': caption }, el('tbody', {},
     ...rows.filter(([, value]) => value !== undefined).map(([name, value]) => el('tr', {}, el('th', { scope: 'row' }, name), el('td', {}, value))))));
 }
 
-// A file to save. The address is given back when the link is made anew.
+// Offers the bytes as a file to save. The object URL is revoked after a minute.
 export function download(bytes, name, type) {
   const link = el('a', { href: URL.createObjectURL(new Blob([bytes], { type })), download: name });
   link.click();
@@ -32,7 +32,7 @@ export function download(bytes, name, type) {
 
 export const degrees = value => `${value < 0.095 ? value.toFixed(2) : value.toFixed(1)}°`;
 
-export const percent = share => `${share > 0 && share < 0.001 ? 'below 0.1' : (100 * share).toFixed(share < 0.1 ? 1 : 0)} %`;
+export const percent = fraction => `${fraction > 0 && fraction < 0.001 ? 'below 0.1' : (100 * fraction).toFixed(fraction < 0.1 ? 1 : 0)} %`;
 
 // "12 bytes", "3.4 KB", "5.6 MB".
 export const size = bytes => bytes < 1000 ? `${bytes} bytes` : bytes < 1e6 ? `${(bytes / 1e3).toFixed(1)} KB` : `${(bytes / 1e6).toFixed(1)} MB`;

@@ -1,5 +1,5 @@
-// Files that were chosen or dropped, folders included, as [{ name, path, bytes }].
-const kMostBytes = 2 ** 30;
+// Reads files that were chosen or dropped, including those in folders, as [{ name, path, bytes }].
+const kMaxBytes = 2 ** 30;
 
 export async function readChosen(list) {
   return read([...list].map(file => ({ path: file.webkitRelativePath || file.name, file })));
@@ -20,7 +20,7 @@ async function walk(entry, found) {
     return;
   }
   const reader = entry.createReader();
-  for (;;) { // a call gives a part of a folder
+  for (;;) { // a call returns only some of the entries
     const some = await new Promise((done, failed) => reader.readEntries(done, failed));
     if (some.length === 0) return;
     for (const inner of some) await walk(inner, found);
@@ -29,22 +29,22 @@ async function walk(entry, found) {
 
 async function read(found) {
   const total = found.reduce((sum, { file }) => sum + file.size, 0);
-  if (total > kMostBytes) throw new Error(`expected files of at most 1 GiB together, found ${(total / 2 ** 30).toFixed(1)} GiB`);
+  if (total > kMaxBytes) throw new Error(`expected files of at most 1 GiB in total, found ${(total / 2 ** 30).toFixed(1)} GiB`);
   return Promise.all(found.map(async ({ path, file }) => ({ name: file.name, path, bytes: new Uint8Array(await file.arrayBuffer()) })));
 }
 
 export const isGlb = bytes => bytes.length >= 4 && bytes[0] === 0x67 && bytes[1] === 0x6c && bytes[2] === 0x54 && bytes[3] === 0x46;
 
-// Which of the files is the model: { model, beside } with what lies beside it by path; undefined where there is none.
+// The model among the files: { model, beside }, where beside maps paths to bytes of the other files; undefined if none.
 export function modelAmong(files) {
   const model = files.find(file => isGlb(file.bytes)) ?? files.find(file => /\.gltf$/i.test(file.name));
   return model && { model, beside: new Map(files.filter(file => file !== model).map(file => [file.path, file.bytes])) };
 }
 
-// The bytes of a file that a model names by URI, from what lies beside it; undefined where there is none.
+// The bytes of a file that a model references by URI; undefined if missing.
 export function besideModel({ model, beside }, uri) {
   let path = uri;
-  try { path = decodeURIComponent(uri); } catch { /* as it is */ }
+  try { path = decodeURIComponent(uri); } catch { /* keep it undecoded */ }
   const folder = model.path.includes('/') ? model.path.slice(0, model.path.lastIndexOf('/') + 1) : '';
   const name = path.slice(path.lastIndexOf('/') + 1);
   const exact = beside.get(new URL(path, `file:///${folder}`).pathname.slice(1)) ?? beside.get(folder + path);

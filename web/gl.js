@@ -1,4 +1,4 @@
-// A picture by WebGL 2: see picture.js.
+// The WebGL 2 backend of picture.js.
 import { packed } from './gpu.js';
 
 const kWholeCanvas = `#version 300 es
@@ -17,7 +17,7 @@ void main() { colour = colour_at(place); }`;
 
 export function glPainter(canvas, shader) {
   const gl = canvas.getContext('webgl2', { antialias: false, preserveDrawingBuffer: true });
-  if (!gl) throw new Error('this browser has neither');
+  if (!gl) throw new Error('this browser supports neither');
   const program = gl.createProgram();
   for (const [type, text] of [[gl.VERTEX_SHADER, kWholeCanvas], [gl.FRAGMENT_SHADER, pixels(shader)]]) {
     const stage = gl.createShader(type);

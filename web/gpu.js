@@ -1,7 +1,7 @@
-// A picture by WebGPU: see picture.js. All pictures share one device.
+// The WebGPU backend of picture.js. All images share one device.
 let asked;
 
-// The device; null where there is none, and once it is lost.
+// A promise of the device; null if there is none or after it was lost.
 export function gpuDevice() {
   asked ??= request().catch(() => null);
   return asked;
@@ -10,13 +10,13 @@ export function gpuDevice() {
 async function request() {
   const adapter = await navigator.gpu?.requestAdapter();
   if (!adapter) return null;
-  const { maxTextureDimension2D } = adapter.limits; // for large maps
+  const { maxTextureDimension2D } = adapter.limits; // the default limit is too low for large maps
   const device = await adapter.requestDevice({ requiredLimits: { maxTextureDimension2D } });
   device.lost.then(() => { asked = Promise.resolve(null); });
   return device;
 }
 
-// Values by name as vec4s in the order of the names.
+// The values as an array of vec4s in the order of `names`.
 export function packed(names, values) {
   const numbers = new Float32Array(4 * names.length);
   names.forEach((name, k) => numbers.set([values[name]].flat(), 4 * k));
@@ -38,7 +38,7 @@ ${maps.length > 0 ? '@group(0) @binding(1) var smoothly: sampler;' : ''}
 ${maps.map((name, k) => `@group(0) @binding(${k + 2}) var ${name}: texture_2d<f32>;`).join('\n')}
 ${wgsl}${kWholeCanvas}`;
 
-// A level of a texture from the one above: every texel the mean of four.
+// Computes a mip level from the next larger one: each texel is the mean of four.
 const kHalved = `
 @group(0) @binding(0) var smoothly: sampler;
 @group(0) @binding(1) var above: texture_2d<f32>;
@@ -49,7 +49,7 @@ async function pipelineOf(device, code, format) {
   return device.createRenderPipelineAsync({ layout: 'auto', vertex: { module }, fragment: { module, targets: [{ format }] } });
 }
 
-// Where the texts do not compile, that is an error.
+// Throws if the shaders do not compile.
 export async function gpuPainter(device, canvas, shader) {
   const context = canvas.getContext('webgpu'), format = navigator.gpu.getPreferredCanvasFormat();
   const [pipeline, halved] = await Promise.all([pipelineOf(device, pixels(shader), format), pipelineOf(device, kHalved, 'rgba8unorm')]);

@@ -1,5 +1,5 @@
-// The library, which works in a thread of its own so that the page never waits for it: (await cotan()).lint(...) and so on.
-// Errors come back with their message, and with their code where they have one.
+// The library in a worker, so that it never blocks the page: (await cotan()).lint(...).
+// Errors keep their message and code.
 let library;
 
 export function cotan() {
@@ -16,8 +16,8 @@ async function start() {
     waiting.delete(call);
     if (error) failed(Object.assign(new Error(error.message), error)); else done(result);
   };
-  worker.onerror = worker.onmessageerror = event => { // for ever: what is asked later is answered, too
-    broken = new Error(`the library could not be loaded${event.message ? `: ${event.message}` : ': is the page served whole, and do its server and browser allow workers and WebAssembly?'}`);
+  worker.onerror = worker.onmessageerror = event => { // also rejects all later calls
+    broken = new Error(`the library could not be loaded${event.message ? `: ${event.message}` : ': are all files of the page served, and do the server and the browser allow workers and WebAssembly?'}`);
     for (const { failed } of waiting.values()) failed(broken);
     waiting.clear();
   };

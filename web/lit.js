@@ -1,5 +1,5 @@
-// A lit surface, for all small pictures: one light near the surface, a soft highlight.
-// surface: position of the pixel, z up; n: its normal; light: position.
+// Shading for all small images: one point light near the surface, with a soft highlight.
+// surface: position of the pixel, z up; n: its normal; light: position of the light; base: colour of the surface.
 export const kLit = {
   essl: `
 vec3 lit(vec3 surface, vec3 n, vec3 light, vec3 base) {

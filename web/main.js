@@ -1,4 +1,4 @@
-// The page: files in, panels out.
+// The page: reads files and shows panels with the results.
 import { el } from './elements.js';
 import { cotan } from './library.js';
 import { modelAmong, readChosen, readDropped } from './files.js';
@@ -6,7 +6,7 @@ import { showShader } from './shader_panel.js';
 import { showWhy } from './why_panel.js';
 
 const [status, problem, result] = ['status', 'problem', 'result'].map(id => document.getElementById(id));
-let latest = 0; // only the newest files are shown
+let latest = 0; // number of the newest call of show(); results of earlier calls are dropped
 
 async function show(reading) {
   const turn = ++latest;
@@ -19,7 +19,7 @@ async function show(reading) {
     if (turn !== latest) return;
     const scratch = el('div');
     const model = modelAmong(files);
-    waits.on(`Looking at ${(model?.model ?? files[0]).name} …`);
+    waits.on(`Checking ${(model?.model ?? files[0]).name} …`);
     if (model) {
       const { showModel } = await import('./model_panel.js');
       await showModel(scratch, model);
@@ -34,7 +34,7 @@ async function show(reading) {
     if (result.getBoundingClientRect().top > 0.6 * innerHeight) result.scrollIntoView({ behavior: 'smooth', block: 'start' });
   } catch (error) {
     if (turn !== latest) return;
-    result.replaceChildren(); // what is there is of another file
+    result.replaceChildren(); // the old result belongs to another file
     status.textContent = '';
     problem.textContent = error.message;
     if (!['CotanError', 'Error'].includes(error.name)) console.error(error);
@@ -43,7 +43,7 @@ async function show(reading) {
   }
 }
 
-// What is being done, and from time to time for how long.
+// Shows the current activity and, after 5 seconds, the elapsed time.
 function waiting() {
   let words = '', timer;
   const began = performance.now();

@@ -1,36 +1,36 @@
-// What is found of a normal map, and the fixed file.
+// The panel for a normal map: the findings, a preview and the fixed file.
 import { choice, degrees, download, el, percent, table } from './elements.js';
 import { cotan } from './library.js';
 import { divider } from './divider.js';
 import { mapView } from './map_view.js';
 
-// What the programs of the field read, by the word of the command line.
+// Names of the programs for each convention of the command line.
 const kEngines = {
-  gltf: 'glTF, three.js, Babylon.js', opengl: 'OpenGL, a map with green up', directx: 'DirectX, a map with green down', unity: 'Unity', unreal: 'Unreal Engine',
+  gltf: 'glTF, three.js, Babylon.js', opengl: 'OpenGL (green up)', directx: 'DirectX (green down)', unity: 'Unity', unreal: 'Unreal Engine',
   blender: 'Blender', godot: 'Godot', maya: 'Maya', '3dsmax': '3ds Max', source: 'Source',
 };
 const kGreenDown = new Set(['directx', 'unreal', '3dsmax', 'source']);
 
-export async function showMap(result, name, picture) {
+export async function showMap(result, name, image) {
   const library = await cotan();
   const text = language => library.shader({ language, frame: 'cotangent', convention: 'gltf' });
-  const [green, info, essl, wgsl] = await Promise.all([library.detect(picture), library.info(picture), text('essl'), text('wgsl')]);
-  const preview = mapView({ essl, wgsl }, { 'aria-label': 'The map as relief, lit from where the pointer is' });
-  preview.put('before', picture);
+  const [green, info, essl, wgsl] = await Promise.all([library.detect(image), library.info(image), text('essl'), text('wgsl')]);
+  const preview = mapView({ essl, wgsl }, { 'aria-label': 'The map as a relief, lit from the position of the pointer' });
+  preview.put('before', image);
   const words = greenWords(green, info), verdict = el('p', {}), advice = el('p', {});
   const button = el('button', { type: 'button', class: 'main', onclick: save }, 'Download the fixed map');
   const command = el('code', {});
   const inThree = el('p', { class: 'small', hidden: true }, 'Without a new file, in three.js: ', el('code', { 'data-paste': '' }, 'material.normalScale.y *= -1;'));
   const known = green.green !== 'unknown', isDown = green.green === 'down';
   let target = isDown ? 'gltf' : 'unreal', fixed;
-  const engine = choice('Your engine reads', kEngines, target, value => { target = value; fix(); });
-  const halves = divider(preview.element, share => preview.show(share), ['as it is', 'fixed']);
+  const engine = choice('Your engine or format', kEngines, target, value => { target = value; fix(); });
+  const halves = divider(preview.element, share => preview.show(share), ['original', 'fixed']);
 
   const from = `${isDown ? 'directx' : 'opengl'}${info.zero === 127 ? ',biased' : ''}`;
   const newName = () => `${name.replace(/\.[^.]*$/, '')}_${target}.png`;
   async function fix() {
     const wanted = target, down = kGreenDown.has(target), fits = !known || down === isDown;
-    const made = !known ? picture : await library.convertMap(picture, { from, to: wanted });
+    const made = !known ? image : await library.convertMap(image, { from, to: wanted });
     if (wanted !== target) return;
     fixed = made;
     preview.greenDown = down;
@@ -50,10 +50,10 @@ export async function showMap(result, name, picture) {
 
   result.replaceChildren(el('div', { class: 'result' },
     el('div', {}, verdict, advice, el('div', { class: 'choices' }, engine.element, button),
-      table('What the numbers of the map say', rows(name, picture, green, info)),
+      table('Statistics of the map', rows(name, image, green, info)),
       !known ? undefined : el('p', { class: 'small' }, 'On the command line: ', command), inThree),
     el('figure', { class: 'view' }, preview.element, halves.element,
-      el('figcaption', {}, 'Move the pointer over the image to move the light. Left: the map as your engine reads it now.'))));
+      el('figcaption', {}, 'Move the pointer over the image to move the light. Left: the original map as your engine reads it.'))));
   await Promise.all([fix(), preview.ready]);
 }
 
@@ -61,25 +61,25 @@ function greenWords({ green, confidence, swapped, reason }, info) {
   if (green === 'unknown') return `Nothing in this map shows which way green points${reason ? `: ${reason}` : ''}.`;
   const way = green === 'up' ? 'up (OpenGL, glTF, Unity, Blender, Godot)' : 'down (DirectX, Unreal, 3ds Max, Source)';
   return `Green points ${way}; ${confidence}.${swapped ? ' Red and green are exchanged.' : ''}${info.transfer !== 'linear'
-    ? ' The numbers look as if a program had stored the map as a colour (sRGB): export it as data, or "non-colour".' : ''}`;
+    ? ' The values look as if the map was stored as a colour (sRGB): export it as data ("non-colour").' : ''}`;
 }
 
 function rows(name, { width, height, bits, data }, { agreement, green }, info) {
   return [
     ['file', `${name}, ${width} x ${height}, ${bits} bits`],
-    ['what it is', info.content],
-    ['agreement of green with its verdict', green !== 'unknown' ? Math.abs(agreement).toFixed(2) : undefined],
+    ['content', info.content],
+    ['agreement of green with the verdict', green !== 'unknown' ? Math.abs(agreement).toFixed(2) : undefined],
     ['blue', hasBlue(data) ? 'three channels: z is stored' : 'two channels: z is computed from x and y'],
-    ['what stands for zero', info.zero === 128 ? '128 of 255' : info.zero === 127 ? '127.5 of 255 (2c − 1)' : 'unknown'],
-    ['colour or data', info.transfer === 'srgb' ? 'stored as if it were a colour (sRGB)' : info.transfer === 'linearised' ? 'as if a reader had taken it for a colour' : 'data'],
-    ['mean tilt from flat', degrees(info.meanTilt)],
+    ['code for zero', info.zero === 128 ? '128 of 255' : info.zero === 127 ? '127.5 of 255 (2c − 1)' : 'unknown'],
+    ['colour or data', info.transfer === 'srgb' ? 'encoded as a colour (sRGB)' : info.transfer === 'linearised' ? 'decoded as if it were a colour' : 'data'],
+    ['mean tilt', degrees(info.meanTilt)],
     ['background', info.background > 0 ? percent(info.background) : undefined],
-    ['no direction at all', info.invalid > 0 ? percent(info.invalid) : undefined],
+    ['no valid direction', info.invalid > 0 ? percent(info.invalid) : undefined],
     ['below the horizon', info.belowHorizon > 0 ? percent(info.belowHorizon) : undefined],
   ];
 }
 
-// Whether blue varies or stands for something else than nothing.
+// Whether blue holds z: it varies, or has a constant value other than zero or full.
 function hasBlue(data) {
   const first = data[2];
   for (let k = 2; k < data.length; k += 4) if (data[k] !== first) return true;

@@ -1,9 +1,8 @@
-// A normal map as relief under a light that follows the pointer: as it is on the left of the border, fixed on the right.
+// A normal map as a relief lit from the pointer's position: the original left of the border, the fixed map right of it.
 import { kLit } from './lit.js';
 import { pictureOf } from './picture.js';
 
-// The map lies flat in the picture, in units of its width, and v runs down. Where the engine reads green the other way, v
-// is turned instead: that is the same.
+// The map is a flat rectangle, in units of its width, with v down. Green is reversed by negating v instead.
 const kEssl = `
 vec4 colour_at(vec2 place) {
   vec2 at = vec2(place.x, 1.0 - place.y);
@@ -22,7 +21,7 @@ fn colour_at(place: vec2f) -> vec4f {
   return vec4f(select(lit(surface, n, v.light.xyz, vec3f(0.42, 0.45, 0.52)), vec3f(1.0), edge), 1.0);
 }`;
 
-// texts: of the library's shader for maps of glTF, { essl, wgsl }.
+// texts: { essl, wgsl }, the library's shader text for glTF maps.
 export function mapView(texts, attributes) {
   const shader = { essl: texts.essl + kLit.essl + kEssl, wgsl: texts.wgsl + kLit.wgsl + kWgsl,
     values: ['light', 'border', 'aspect', 'width', 'along_v'], maps: ['before', 'after'] };
@@ -54,7 +53,7 @@ export function mapView(texts, attributes) {
   };
 }
 
-// Whatever its bits, in 8, for looking at.
+// The image with 8 bits, for display.
 function inBytes({ width, height, bits, data }) {
   return { width, height, data: bits === 8 ? data : Uint8Array.from(data, value => bits === 16 ? Math.round(value / 257) : 255 * Math.min(1, Math.max(0, value))) };
 }

@@ -1,4 +1,4 @@
-// Models in the library's thread: what lies beside them by URI, and geometry that is packed unpacked first.
+// lint and convert for models in the worker. Finds referenced files by URI and first unpacks compressed geometry.
 import { convert, lint } from 'cotan/beside';
 import { besideModel, isGlb } from './files.js';
 
@@ -6,14 +6,14 @@ const kPacked = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression', 'KHR_m
 
 export const lintModel = async files => lint(...await given(files));
 
-// unpacked: whether geometry that was compressed is not any more.
+// unpacked in the result: whether the input had compressed geometry, which the output has uncompressed.
 export async function convertModel(files, options) {
   const [model, more] = await given(files), made = await convert(model, { ...more, ...options }), unpacked = model !== files.model.bytes;
   if (unpacked) made.report.bytes.before = files.model.bytes.length + [...files.beside.values()].reduce((sum, bytes) => sum + bytes.length, 0);
   return { ...made, unpacked };
 }
 
-// The arguments that the library takes.
+// The arguments for the library: [bytes, options].
 async function given(files) {
   const { bytes } = files.model, json = jsonOf(bytes), beside = {};
   for (const { uri } of [...json?.buffers ?? [], ...json?.images ?? []]) {
@@ -25,7 +25,7 @@ async function given(files) {
   return [await unpack(files.model, isGlb(bytes) ? null : json, beside), {}];
 }
 
-// The JSON of a model; undefined where there is none that can be read: the library says what is wrong.
+// The JSON of a model; undefined if it cannot be parsed, which the library reports.
 function jsonOf(bytes) {
   try {
     const length = isGlb(bytes) ? new DataView(bytes.buffer, bytes.byteOffset).getUint32(12, true) : 0;

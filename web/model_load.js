@@ -1,4 +1,4 @@
-// A model as three.js has it, from files in memory. Draco, meshopt and KTX2 are decoded by three's own decoders.
+// Loads a model into three.js from files in memory. three's own decoders handle Draco, meshopt and KTX2.
 import * as three from 'three';
 import { DRACOLoader } from 'three/addons/loaders/DRACOLoader.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
@@ -8,11 +8,11 @@ import { besideModel } from './files.js';
 
 const kPatience = 120000; // milliseconds
 
-// three's decoders work in threads whose failures it does not hand on.
+// Rejects after kPatience or on a violation of the security policy, since three hides failures of its workers.
 async function answered(loading) {
   let timer, forbidden;
   const failing = new Promise((_, failed) => {
-    timer = setTimeout(() => failed(new Error(`no answer of the decoders for ${kPatience / 1000} seconds`)), kPatience);
+    timer = setTimeout(() => failed(new Error(`the decoders did not respond within ${kPatience / 1000} seconds`)), kPatience);
     forbidden = event => failed(new Error(`${event.effectiveDirective} of the page's Content-Security-Policy forbids ${event.blockedURI}`));
     document.addEventListener('securitypolicyviolation', forbidden);
   });
@@ -24,7 +24,7 @@ async function answered(loading) {
   }
 }
 
-let formats; // a renderer that is asked what textures there are
+let formats; // a renderer that detects the supported texture formats
 
 export async function loadModel(files) {
   const manager = new three.LoadingManager(), addresses = [], missing = [];
@@ -48,7 +48,7 @@ export async function loadModel(files) {
     return gltf;
   } catch (error) {
     const name = files.model.name;
-    throw new Error(missing.length > 0 ? `${name}: expected ${missing.join(', ')} beside it, found nothing: drop the files together`
+    throw new Error(missing.length > 0 ? `${name}: expected ${missing.join(', ')} beside it, found nothing: drop all files together`
       : `${name}: expected a glTF model, found: ${error.message ?? error}`);
   } finally {
     draco.dispose();

@@ -1,4 +1,4 @@
-// What is found of a model, the two halves of its picture, and the converted file.
+// The panel for a model: the findings, a view in two halves, and the converted file.
 import { choice, degrees, download, el, size, table } from './elements.js';
 import { cotan } from './library.js';
 import { divider } from './divider.js';
@@ -6,22 +6,22 @@ import { loadModel } from './model_load.js';
 import { modelView } from './model_view.js';
 
 const kFrames = {
-  tangents: 'stored tangents', auto: 'auto: as the maps were made', orthonormal: 'orthonormal (nothing stored)', cotangent: 'cotangent (nothing stored)',
-  smooth: 'smooth (cotangents at the vertices)', triangle: 'triangle (two vectors a triangle)',
+  tangents: 'stored tangents', auto: 'auto: the frame of the maps', orthonormal: 'orthonormal (nothing stored)', cotangent: 'cotangent (nothing stored)',
+  smooth: 'smooth (cotangents at the vertices)', triangle: 'triangle (two vectors per triangle)',
 };
-const kMapsAfter = { '': 'as they are where that is near enough', orthonormal: 'made again for orthonormal', cotangent: 'made again for cotangent', smooth: 'made again for smooth' };
+const kMapsAfter = { '': 'kept if accurate enough', orthonormal: 'remade for orthonormal', cotangent: 'remade for cotangent', smooth: 'remade for smooth' };
 const kScales = { 2: '0 to 2°', 10: '0 to 10°', 45: '0 to 45°' };
-let open; // the view on screen: there is one at a time
+let open; // the view on screen, at most one
 
 export async function showModel(result, files) {
   const { name } = files.model, library = await cotan();
   const [gltf, lint] = await Promise.all([loadModel(files), library.lint(files).catch(error => ({ error }))]);
   open?.close();
-  const canvas = el('canvas', { tabindex: 0, 'aria-label': `${name}, drawn with two frames. Drag to turn it.` });
+  const canvas = el('canvas', { tabindex: 0, 'aria-label': `${name}, drawn with two frames. Drag to rotate it.` });
   const view = open = modelView(canvas);
   let stored = false;
   gltf.scene.traverse(object => { stored ||= object.isMesh && object.geometry.attributes.tangent !== undefined; });
-  const names = stored ? kFrames : { ...kFrames, tangents: 'MikkTSpace tangents, made here' };
+  const names = stored ? kFrames : { ...kFrames, tangents: 'MikkTSpace tangents, generated here' };
   const chosen = { left: 'tangents', right: 'auto' };
   const halves = divider(canvas, share => { view.share = share; }, [names.tangents, names.auto]);
   const under = el('p', { role: 'status', class: 'small' }), figures = el('p', {}), notes = el('p', { class: 'small' });
@@ -30,7 +30,7 @@ export async function showModel(result, files) {
   const scaleChoice = choice('Colours', kScales, '10', value => { view.most = Number(value); });
   const scale = el('div', { hidden: true }, el('div', { class: 'scale' }), scaleChoice.element);
   const saved = el('p', { role: 'status' }), button = el('button', { type: 'button', class: 'main', onclick: convert }, wrongGreen(lint).length > 0 ? 'Fix green and download' : 'Convert and download');
-  const to = choice('Its normal maps', kMapsAfter, '', () => {});
+  const to = choice('Normal maps', kMapsAfter, '', () => {});
 
   result.replaceChildren(el('div', { class: 'result' },
     el('div', {}, ...verdictOf(lint, name),
@@ -40,7 +40,7 @@ export async function showModel(result, files) {
     el('figure', { class: 'view' }, canvas, halves.element,
       el('div', { class: 'choices' }, pick('Left', 'left').element, pick('Right', 'right').element, el('label', { class: 'tick' }, mode, 'Show the angle between them')),
       scale, figures, notes, under,
-      el('figcaption', {}, 'Drag turns, the wheel comes nearer. The number under the pointer is the angle between the normals of both halves.'))));
+      el('figcaption', {}, 'Drag to rotate, use the wheel to zoom. Rest the pointer on the model to see the angle between the normals of the two halves.'))));
   view.open(gltf);
   await changed();
   let resting;
@@ -50,7 +50,7 @@ export async function showModel(result, files) {
     const box = canvas.getBoundingClientRect(), place = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
     resting = setTimeout(() => {
       const angle = view.at(...place);
-      under.textContent = angle === undefined ? 'Beside the model.' : `Under the pointer: ${degrees(angle)} between both normals.`;
+      under.textContent = angle === undefined ? 'The pointer is not on the model.' : `Under the pointer: ${degrees(angle)} between the two normals.`;
     }, 60);
   });
   canvas.addEventListener('pointerup', () => setTimeout(measure, 100));
@@ -64,7 +64,7 @@ export async function showModel(result, files) {
   function measure() {
     if (!canvas.isConnected) { requestAnimationFrame(measure); return; }
     const found = view.statistics();
-    figures.textContent = found ? `Over what is visible, the two are apart by ${degrees(found.mean)} in the mean, by ${degrees(found.most)} or less on 95 % of it.` : '';
+    figures.textContent = found ? `Over the visible surface, the normals of the two halves differ by ${degrees(found.mean)} on average, by at most ${degrees(found.most)} on 95 % of it.` : '';
     canvas.parentElement.dataset.shows = view.names.join(' ');
     view.show();
   }
@@ -82,29 +82,29 @@ export async function showModel(result, files) {
   }
 }
 
-// Maps whose green points the other way than the model says, with no tangents that mean it so.
+// Maps whose green points the other way than the model says, unless stored tangents reverse it too.
 function wrongGreen(lint) {
   const meant = new Set((lint.primitives ?? []).filter(({ stored_tangents: stored }) => stored?.reversed_w > 0.5).map(({ normal_map: image }) => image));
   return (lint.maps ?? []).filter(map => map.decided && !map.as_declared && !meant.has(map.image));
 }
 
-// The lines for a program in three.js that needs no new file.
+// Code for three.js that works without a new file.
 function linesFor(lint) {
   const wrong = wrongGreen(lint).length > 0, all = wrong && wrongGreen(lint).length === lint.maps.length;
   return [el('h2', { class: 'part' }, 'Without a new file'), el('p', {}, 'In three.js, after the model is loaded:'), el('pre', { tabindex: 0 }, el('code', { 'data-paste': '' },
     `import { untangle } from 'cotan/three';\nuntangle(gltf${all ? ", { convention: 'directx' }" : ''});${wrong ? '\n\n// or, with three alone, of each material once:\nmaterial.normalScale.y *= -1;' : ''}`))];
 }
 
-// The verdict of the library in a few words, and its own.
+// A short verdict, the library's recommendation and a table of figures.
 function verdictOf(lint, name) {
-  if (lint.error) return [el('p', { class: 'verdict' }, 'The model is drawn, but it could not be judged.'), el('p', {}, lint.error.message)];
+  if (lint.error) return [el('p', { class: 'verdict' }, 'The model is displayed, but it could not be checked.'), el('p', {}, lint.error.message)];
   const green = lint.maps.some(map => map.decided && !map.as_declared), changes = lint.maps_converted > 0, empty = lint.maps.length === 0;
   const reversed = lint.primitives.some(({ stored_tangents: stored }) => stored?.reversed_w > 0.5), distrusted = lint.distrust_stored;
   const words = empty ? 'It has no normal map: there is nothing to judge.'
-    : green && reversed ? 'Green and the stored tangents are both reversed: together they are right, each alone is not.'
-      : green ? 'Green of a normal map points the other way than the model says: bumps look like dents.'
-        : distrusted ? `Its stored tangents contradict its texture coordinates${reversed ? ': without them green is read as they mean it' : ''}.`
-          : changes ? `Without stored tangents its maps have to be made again for the frame ${lint.advice}.`
+    : green && reversed ? 'Green and the stored tangents are both reversed: together they cancel out, each alone is wrong.'
+      : green ? 'Green of a normal map points opposite to what the model says: bumps look like dents.'
+        : distrusted ? `Its stored tangents contradict its texture coordinates${reversed ? ': without them green is read as they imply' : ''}.`
+          : changes ? `Without stored tangents its maps have to be remade for the frame ${lint.advice}.`
             : lint.advice ? `It needs no stored tangents: its maps are read as they are, with the frame ${lint.advice}.`
               : 'None of its normal maps was judged as a whole.';
   const off = frame => {
@@ -113,41 +113,41 @@ function verdictOf(lint, name) {
   };
   return [el('p', { class: `verdict ${green || distrusted ? 'bad' : empty || changes || !lint.advice ? '' : 'good'}` }, words),
     el('p', {}, lint.recommendation),
-    table(`What is found in ${name}`, [
+    table(`Findings for ${name}`, [
       ['file', name], ['primitives, normal maps', `${lint.primitives.length}, ${lint.maps.length}`],
-      ['maps as they are, read by orthonormal: off by', off('orthonormal')], ['by cotangent', off('cotangent')], ['by smooth', off('smooth')],
+      ['error of unchanged maps with orthonormal', off('orthonormal')], ['with cotangent', off('cotangent')], ['with smooth', off('smooth')],
     ]),
-    el('p', { class: 'small' }, 'Degrees: mean over the surface, of the worst of the maps, where they were made for MikkTSpace.')];
+    el('p', { class: 'small' }, 'Degrees: mean over the surface, of the worst map, if the maps were made for MikkTSpace.')];
 }
 
-// The same check that the command line makes: a limit, whether the model keeps it, and the report as a file.
+// The check of the command line: fields for the limits, the verdict, and the report as a file.
 function checkOf(lint, name, library) {
   const verdict = el('p', { role: 'status', 'data-check': '' }), lines = el('ul', { class: 'small' });
   const field = (label, unit, value, max) => {
     const input = el('input', { type: 'number', min: 0, max, step: 'any', value, onchange: judge });
     return { element: el('label', {}, label, el('span', { class: 'unit' }, input, unit)), value: () => input.value === '' || !input.validity.valid ? undefined : Number(input.value) };
   };
-  const limit = field('At most off by, on 95 % of the area', ' °', 2, 180), area = field('At most contradictory', ' % of the area', undefined, 100);
+  const limit = field('Maximum error on 95 % of the area', ' °', 2, 180), area = field('Maximum area with bad uv or tangents', ' %', undefined, 100);
   const limits = () => ({ limit: limit.value(), limitArea: area.value() });
   let over = [];
   async function judge() {
     over = await library.overLimits(lint, limits());
     const none = Object.values(limits()).every(value => value === undefined);
-    verdict.textContent = none ? 'No limit is set.' : over.length === 0 ? 'The check passes.' : `The check fails: ${over.length === 1 ? 'one thing is' : `${over.length} things are`} over the limit.`;
+    verdict.textContent = none ? 'No limit is set.' : over.length === 0 ? 'The check passes.' : `The check fails: ${over.length === 1 ? 'one finding is' : `${over.length} findings are`} over the limit.`;
     lines.replaceChildren(...over.slice(0, 5).map(({ text }) => el('li', {}, text)), ...(over.length > 5 ? [el('li', {}, `and ${over.length - 5} more`)] : []));
   }
   judge();
   const save = () => download(new TextEncoder().encode(`${JSON.stringify({ model: name, ...lint, limits: limits(), over_limit: over }, null, 2)}\n`), `${name.replace(/\.[^.]*$/, '')}_lint.json`, 'application/json');
-  return [el('h2', { class: 'part' }, 'A check'), el('div', { class: 'choices' }, limit.element, area.element), verdict, lines,
+  return [el('h2', { class: 'part' }, 'Check'), el('div', { class: 'choices' }, limit.element, area.element), verdict, lines,
     el('button', { type: 'button', onclick: save }, 'Download the report (JSON)')];
 }
 
 function savedWords({ report, unpacked }) {
   const made = report.maps.filter(map => !map.kept), off = made.map(map => map.degrees_after_rounding?.mean).filter(mean => typeof mean === 'number');
   const { before, after } = report.bytes, fixed = report.green_fixed ?? [];
-  return `${fixed.length > 0 ? `Green of ${fixed.join(', ')} is reversed; ` : ''}${made.length} ${made.length === 1 ? 'map' : 'maps'} made again, ${report.maps.length - made.length} kept, `
-    + `${report.mode === 'keep' ? 'tangents kept' : `${size(report.tangents.bytes)} of tangents dropped`}; the file: ${size(before)} before, ${size(after)} after.${unpacked ? ' Its geometry is not compressed any more: glTF-Transform\u2019s untangent keeps that.' : ''}`
-    + `${off.length > 0 ? ` With the new maps normals are off by ${degrees(Math.max(...off))}.` : ''}`
-    + report.unread_maps.map(({ name, format, advice }) => ` ${name} is in ${format}, which is not read here, and stays with its tangents: ${advice}.`).join('')
+  return `${fixed.length > 0 ? `Green of ${fixed.join(', ')} was reversed; ` : ''}${made.length} ${made.length === 1 ? 'map' : 'maps'} remade, ${report.maps.length - made.length} kept, `
+    + `${report.mode === 'keep' ? 'tangents kept' : `${size(report.tangents.bytes)} of tangents dropped`}; the file: ${size(before)} before, ${size(after)} after.${unpacked ? ' Its geometry is no longer compressed; glTF-Transform\u2019s untangent keeps the compression.' : ''}`
+    + `${off.length > 0 ? ` With the new maps the error of the normals is ${degrees(Math.max(...off))} on average.` : ''}`
+    + report.unread_maps.map(({ name, format, advice }) => ` ${name} is in ${format}, which is not supported; it and its tangents are unchanged: ${advice}.`).join('')
     + (report.mode === 'convert' ? '' : report.notes.map(line => ` ${line}.`).join(''));
 }

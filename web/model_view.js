@@ -1,5 +1,5 @@
-// A model in two halves, each with the frame that was chosen for it, or the angle between their normals in false colours.
-// three.js draws; its materials take other frames from cotan/three.
+// A view of a model in two halves, each with its own frame, or of the angle between their normals in false colours.
+// Drawn by three.js with the frames of cotan/three.
 import * as three from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
@@ -7,9 +7,9 @@ import { clone as cloneScene } from 'three/addons/utils/SkeletonUtils.js';
 import { untangle } from 'cotan/three';
 import { giveMikkTSpace } from './mikktspace.js';
 
-const kStraight = 0.7; // the neutral tone curve bends from 0.76 on
+const kLinearMax = 0.7; // three's neutral tone curve is linear up to 0.76
 
-// Of a canvas whose size follows its place in the page.
+// The view on a canvas, whose resolution follows its size on the page.
 export function modelView(canvas) {
   const renderer = new three.WebGLRenderer({ canvas, antialias: true });
   renderer.toneMapping = three.NeutralToneMapping;
@@ -20,7 +20,7 @@ export function modelView(canvas) {
   world.environment = new three.PMREMGenerator(renderer).fromScene(new RoomEnvironment(), 0.03).texture;
   world.environmentIntensity = 0.55;
   world.add(light, light.target);
-  const what = { value: 0 }; // 0: shaded; 1: normals of the view
+  const what = { value: 0 }; // 0: shaded; 1: normals in view space
   const targets = [0, 1].map(() => new three.WebGLRenderTarget(1, 1, { type: three.FloatType, minFilter: three.NearestFilter, magFilter: three.NearestFilter }));
   const angles = angleQuad(targets);
   const state = { gltf: null, variants: new Map(), notes: new Set(), names: ['tangents', 'auto'], share: 0.5, angle: false, most: 10 };
@@ -30,7 +30,7 @@ export function modelView(canvas) {
 
   const variant = name => state.variants.get(name);
 
-  // Shaders for the picture and for the normals are compiled beside the page's own work, where the browser can.
+  // Compiles the shaders for shading and for normals asynchronously, if the browser supports that.
   async function compiled(model) {
     if (!renderer.getContext().getExtension('KHR_parallel_shader_compile')) return;
     await Promise.all([null, targets[0]].map(target => {
@@ -79,7 +79,7 @@ export function modelView(canvas) {
     world.remove(model);
   }
 
-  // White keeps its bumps: what is brightest, but for highlights, stays where the tone curve is straight.
+  // Sets the exposure so that all but highlights stay in the linear range of the tone curve and white keeps its bumps.
   function expose() {
     const small = [240, 135];
     placeLight();
@@ -88,7 +88,7 @@ export function modelView(canvas) {
     renderer.readRenderTargetPixels(targets[0], 0, 0, ...small, values);
     for (let k = 0; k < values.length; k += 4) if (values[k + 3] > 0.5) found.push(Math.max(values[k], values[k + 1], values[k + 2]));
     const bright = found.sort((a, b) => a - b)[Math.floor(0.9 * found.length)];
-    renderer.toneMappingExposure = bright > 0 ? Math.min(1, kStraight / bright) : 1;
+    renderer.toneMappingExposure = bright > 0 ? Math.min(1, kLinearMax / bright) : 1;
   }
 
   function placeLight() {
@@ -98,8 +98,8 @@ export function modelView(canvas) {
 
   const drawNormals = (pair, width, height) => drawInto(pair, 1, width, height);
 
-  function drawInto(pair, shown, width, height) {
-    what.value = shown;
+  function drawInto(pair, mode, width, height) {
+    what.value = mode;
     const background = world.background;
     world.background = null;
     pair.forEach((model, k) => {
@@ -114,7 +114,7 @@ export function modelView(canvas) {
     renderer.setRenderTarget(null);
   }
 
-  // Degrees between the normals of a part of the picture, where both show a surface.
+  // Angles in degrees between both halves' normals in a rectangle, for the pixels where both show a surface.
   function degreesOver(x, y, width, height) {
     const pixels = targets.map(target => {
       const values = new Float32Array(width * height * 4);
@@ -142,7 +142,7 @@ export function modelView(canvas) {
       frameAll(gltf.scene, camera, controls);
       show();
     },
-    // Makes copies of the model where a frame is chosen for the first time.
+    // Copies the model when a frame is chosen for the first time.
     async choose(left, right) {
       const { gltf } = state;
       for (const name of [left, right])
@@ -158,12 +158,12 @@ export function modelView(canvas) {
       show();
     },
     get names() { return state.names; },
-    // What cotan/three says of the model.
+    // Notes of cotan/three on the model.
     get notes() { return [...state.notes]; },
     set share(value) { state.share = value; show(); },
     set angle(value) { state.angle = value; show(); },
     set most(value) { state.most = value; show(); },
-    // Mean and 95 % over the surface that is visible now; undefined where none is.
+    // Mean and 95th percentile of the angle over the visible surface; undefined if nothing is visible.
     statistics() {
       if (!state.names.every(variant)) return undefined;
       const small = [480, 270];
@@ -171,7 +171,7 @@ export function modelView(canvas) {
       const found = degreesOver(0, 0, ...small).sort((a, b) => a - b);
       return found.length === 0 ? undefined : { mean: found.reduce((sum, value) => sum + value, 0) / found.length, most: found[Math.floor(0.95 * (found.length - 1))] };
     },
-    // Degrees at a place, shares of width and height from the top left; undefined beside the model.
+    // Angle in degrees at (u, v), fractions of width and height from the top left; undefined beside the model.
     at(u, v) {
       if (!state.names.every(variant)) return undefined;
       const [width, height] = [canvas.width, canvas.height];
@@ -182,7 +182,7 @@ export function modelView(canvas) {
   };
 }
 
-// name: 'tangents', stored ones or, where there are none, MikkTSpace's; else a frame.
+// A copy of the scene with a frame. name: 'tangents' (stored, else MikkTSpace's) or a frame of cotan/three.
 async function makeVariant(scene, name, what, notes) {
   const copy = cloneScene(scene), materials = new Map(), geometries = new Map();
   const once = (known, source) => known.get(source) ?? known.set(source, source.clone()).get(source);
@@ -197,7 +197,7 @@ async function makeVariant(scene, name, what, notes) {
   return copy;
 }
 
-// Lets a material write its normal in place of its colour.
+// Makes a material write its normal instead of its colour while `what` is 1.
 function showNormals(material, what) {
   const text = material.isMeshStandardMaterial ? 'vec4( normalize( normal ), 1.0 )' : 'vec4( 0.0 )';
   material.onBeforeCompile = shader => {
@@ -217,7 +217,7 @@ function frameAll(scene, camera, controls) {
   controls.update();
 }
 
-// The angle between two pictures of normals, black at 0 to yellow at the most.
+// Draws the angle between two images of normals, from black at 0 to yellow at `most` degrees.
 function angleQuad(targets) {
   const material = new three.ShaderMaterial({
     uniforms: { a: { value: targets[0].texture }, b: { value: targets[1].texture }, most: { value: 10 } },

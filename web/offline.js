@@ -1,4 +1,4 @@
-// Keeps the page in the browser, so that it works without a network. The list is filled in by build.mjs.
+// Caches the page in the browser, so that it works without a network. build.mjs fills in the version and the files.
 const kCache = 'cotan-/* version */';
 const kFiles = [/* files */];
 

@@ -1,14 +1,14 @@
-// A flat patch of a surface with texture coordinates that are stretched, sheared and mirrored, and how frames read a normal
-// map on it. All angles in degrees; the patch lies in the plane z = 0, its normal is (0, 0, 1).
+// A flat patch with stretched, sheared and mirrored texture coordinates, and how frames read a normal map on it. Angles
+// are in degrees. The patch is in the plane z = 0, its normal is (0, 0, 1).
 
 export const kFrames = {
-  cotangent: { name: 'Cotangents', text: 'the gradients of u and v, the longer of length one' },
-  printed: { name: 'As printed in 2013', text: 'the same without its sign: turned over where rows run down' },
-  unit: { name: 'Tangents, each of unit length', text: 'dP/du and dP/dv taken for gradients' },
-  orthonormal: { name: 'Tangents at right angles', text: 'what is stored at vertices, as in MikkTSpace' },
+  cotangent: { name: 'Cotangents', text: 'the gradients of u and v, scaled so that the longer has length one' },
+  printed: { name: 'As printed in 2013', text: 'the same without the sign: reversed where rows run down' },
+  unit: { name: 'Tangents, each of unit length', text: 'dP/du and dP/dv used as gradients' },
+  orthonormal: { name: 'Tangents at right angles', text: 'as stored per vertex, for example by MikkTSpace' },
 };
 
-// Columns of the matrix from uv to the plane: where u, and where v, leads.
+// dP/du and dP/dv, the columns of the matrix from uv to the plane.
 export function patch({ stretch, shear, mirrored }) {
   const lean = shear * Math.PI / 180;
   return { u: [(mirrored ? -1 : 1) * stretch, 0], v: [Math.sin(lean), Math.cos(lean)] };
@@ -22,7 +22,7 @@ export function gradients({ u, v }) {
 const length = a => Math.hypot(a[0], a[1]);
 const times = (a, s) => [a[0] * s, a[1] * s];
 
-// The two vectors in the plane that the frame multiplies the texel's x and y with. rowsDown: of the target drawn into.
+// The two vectors by which the frame multiplies the texel's x and y. rowsDown: whether rows of the target run down.
 export function frameOf(name, lies, rowsDown) {
   const g = gradients(lies);
   if (name === 'cotangent' || name === 'printed') {
@@ -35,7 +35,7 @@ export function frameOf(name, lies, rowsDown) {
   return { t, b: [-t[1] * side, t[0] * side] };
 }
 
-// Slopes of the relief along u and v, in the middle of a tile of 1 x 1: round domes. The shaders have the same.
+// dh/du and dh/dv of the relief, four round domes per unit square of uv. The same in shaders and in JavaScript.
 export const kRelief = {
   essl: `
 vec2 slopes(vec2 uv) { // dh/du, dh/dv
@@ -53,8 +53,8 @@ export function slopes(u, v) {
   return r2 < 1 ? times(d, -4.2 * (1 - r2)) : [0, 0];
 }
 
-// The mean angle between the normals of a frame and those of the relief that is stretched with the surface, over its domes.
-// Truth: normal minus the gradient of the height, h_u grad u + h_v grad v, both scaled so that the longer has length one.
+// Mean angle over the domes between the normals of a frame and those of the relief that is stretched with the surface.
+// Reference: normal minus h_u grad u + h_v grad v, with the gradients scaled so that the longer has length one.
 export function meanError(name, lies, rowsDown) {
   const right = frameOf('cotangent', lies, false), frame = frameOf(name, lies, rowsDown), steps = 64;
   let sum = 0, count = 0;

@@ -1,12 +1,12 @@
-// A picture whose pixels come from one shader: drawn with WebGPU where the browser has an adapter, otherwise, and once the
-// device is lost, with WebGL 2.
+// An image drawn by one fragment shader: with WebGPU if the browser has an adapter, otherwise, or after the device was
+// lost, with WebGL 2.
 import { el } from './elements.js';
 import { glPainter } from './gl.js';
 import { gpuDevice, gpuPainter } from './gpu.js';
 
-// shader: { essl, wgsl, values, maps }. In both languages the text has a function colour_at(place), place of the canvas 0 to 1
-// from the bottom left, that reads v.NAME, a vec4 for each name of `values`, and textures by the names of `maps`.
-// The element says in data-drawn-with what draws; it is drawn as soon as that is known.
+// shader: { essl, wgsl, values, maps }. Both texts define colour_at(place); place is the position on the canvas, 0 to 1
+// from the bottom left. They read v.NAME, a vec4 for each name in `values`, and textures by the names in `maps`. The
+// element's data-drawn-with names the backend, which is chosen asynchronously.
 export function pictureOf(shader, attributes, width, height) {
   const element = el('div', { role: 'img', ...attributes }), held = { size: [], maps: {}, values: undefined };
   let canvas, painter;
@@ -17,7 +17,7 @@ export function pictureOf(shader, attributes, width, height) {
     painter.draw(held.values);
   }
 
-  // A canvas keeps its first way of drawing for life, so every way begins with a new one.
+  // A canvas cannot change its context type, so each backend starts with a new canvas.
   async function begin(name, makePainter) {
     const fresh = el('canvas');
     painter = await makePainter(fresh);
@@ -39,19 +39,19 @@ export function pictureOf(shader, attributes, width, height) {
   }).catch(said);
 
   function said(error) {
-    element.replaceChildren(el('p', { class: 'small' }, `This picture needs WebGPU or WebGL 2: ${error.message}`));
+    element.replaceChildren(el('p', { class: 'small' }, `This image needs WebGPU or WebGL 2: ${error.message}`));
   }
-  new ResizeObserver(draw).observe(element); // what was drawn before the element was shown may not be kept
+  new ResizeObserver(draw).observe(element); // what was drawn while the element was hidden may be lost
 
   function resize(wide, high) {
     held.size = [wide, high];
-    element.style.aspectRatio = `${wide} / ${high}`; // its place, until there is a canvas
+    element.style.aspectRatio = `${wide} / ${high}`; // reserves the space until there is a canvas
   }
   resize(width, height);
 
   return {
     element, ready, resize,
-    // picture: { width, height, data }, four bytes a texel
+    // picture: { width, height, data }, four bytes per texel
     put(map, picture) { held.maps[map] = picture; painter?.put(map, picture); },
     // numbers, or lists of up to four, by name
     draw(values) { held.values = values; draw(); },

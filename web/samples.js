@@ -1,8 +1,8 @@
-// Files for visitors who have none at hand, made here.
+// Generates sample files for visitors who have none at hand.
 import { cotan } from './library.js';
 import { slopes } from './patch.js';
 
-// Domes as a normal map; green points down, as DirectX has it, unless it is to point up.
+// A normal map of domes. Green points down as in DirectX, unless greenUp.
 function domes(size, greenUp) {
   const data = new Uint8Array(size * size * 4);
   for (let y = 0; y < size; ++y)
@@ -19,7 +19,7 @@ export async function map() {
   return [{ name: 'domes.png', path: 'domes.png', bytes: await library.encodePng(domes(512, false)) }];
 }
 
-// A ring whose texture is six times as long as it is wide, with tangents stored.
+// A ring with a stretched texture and stored tangents.
 export async function model() {
   const [three, { GLTFExporter }] = await Promise.all([import('three'), import('three/addons/exporters/GLTFExporter.js')]);
   const geometry = new three.TorusGeometry(1, 0.42, 48, 96), { width, height, data } = domes(512, true);
@@ -27,7 +27,7 @@ export async function model() {
   for (let k = 0; k < uv.count; ++k) uv.setXY(k, uv.getX(k) * 4, 4 - uv.getY(k) * 4); // glTF's v runs down
   geometry.computeTangents();
   const { tangent } = geometry.attributes;
-  for (let k = 0; k < tangent.count; ++k) tangent.setW(k, -tangent.getW(k)); // along v; glTF's bitangent runs against it
+  for (let k = 0; k < tangent.count; ++k) tangent.setW(k, -tangent.getW(k)); // computeTangents has bitangents along v, glTF against it
   const canvas = new OffscreenCanvas(width, height);
   canvas.getContext('2d').putImageData(new ImageData(new Uint8ClampedArray(data.buffer), width, height), 0, 0);
   const texture = new three.CanvasTexture(canvas);

@@ -1,11 +1,11 @@
-// The text of the shader for a language and a frame, kept in the address: #shader?lang=wgsl&frame=cotangent&map=gltf
+// The panel with the shader text. The choice is kept in the URL: #shader?lang=wgsl&frame=cotangent&map=gltf
 import { choice, download, el } from './elements.js';
 import { cotan } from './library.js';
 
 const kLanguages = { essl: 'WebGL 2 (GLSL ES 3.00)', wgsl: 'WebGPU (WGSL)', glsl: 'Vulkan, OpenGL (GLSL)', hlsl: 'Direct3D, Unity, Unreal (HLSL)', msl: 'Metal', godot: 'Godot 3 and 4', cpp: 'C++' };
 const kFrames = {
   cotangent: 'cotangent: nothing stored, exact on stretched uv', orthonormal: 'orthonormal: for maps baked for MikkTSpace',
-  triangle: 'triangle: two vectors a triangle, the cheapest', smooth: 'smooth: cotangents at the vertices', mikktspace: 'mikktspace: stored tangents',
+  triangle: 'triangle: two vectors per triangle, the cheapest', smooth: 'smooth: cotangents at the vertices', mikktspace: 'mikktspace: stored tangents',
 };
 const kMaps = { gltf: 'glTF', opengl: 'OpenGL, green up', directx: 'DirectX, green down', unity: 'Unity', unreal: 'Unreal', godot: 'Godot', blender: 'Blender' };
 const kStages = { '': 'all', fragment: 'pixel', vertex: 'vertex', mesh: 'mesh', compute: 'compute' };
@@ -50,7 +50,7 @@ export async function showShader(panel) {
       said.textContent = 'Copied.';
     } catch {
       getSelection().selectAllChildren(text);
-      said.textContent = 'The browser does not let this page copy. The text is selected: press Ctrl+C.';
+      said.textContent = 'The browser does not allow this page to copy. The text is selected: press Ctrl+C.';
     }
   }
 }
@@ -58,26 +58,26 @@ export async function showShader(panel) {
 function instructions({ lang, frame }) {
   if (lang === 'godot')
     return [el('h3', {}, 'Where it goes'), el('ol', {},
-      el('li', {}, 'It is a whole spatial shader: give it to a ShaderMaterial. In Godot 4 name the file .gdshader.'),
+      el('li', {}, 'It is a complete spatial shader: assign it to a ShaderMaterial. In Godot 4, use the extension .gdshader.'),
       el('li', {}, 'Set its normal_map, imported without sRGB. Choose “The map is stored for Godot”, since the importer may drop blue.'),
-      el('li', {}, frame === 'cotangent' || frame === 'orthonormal' ? 'Switch off tangents where meshes are imported. In Godot 3 the driver is GLES3.'
-        : frame === 'mikktspace' ? 'Keep tangents where meshes are imported.' : 'The comment at the top says which arrays of the mesh it reads.')),
-    el('p', { class: 'small' }, 'The address of this page keeps your choice.')];
+      el('li', {}, frame === 'cotangent' || frame === 'orthonormal' ? 'Disable tangents in the import settings of meshes. In Godot 3, use the GLES3 driver.'
+        : frame === 'mikktspace' ? 'Enable tangents in the import settings of meshes.' : 'The comment at the top says which arrays of the mesh it reads.')),
+    el('p', { class: 'small' }, 'The address of this page stores your choice.')];
   const needs = {
     cotangent: 'Call cotan_perturb_normal once in the pixel stage, before any branch.', orthonormal: 'Call cotan_perturb_normal once in the pixel stage, before any branch.',
-    triangle: 'Make the two vectors of a triangle where triangles are at hand (load, vertex, mesh or compute stage), hand them on without interpolation, and call cotan_perturb_normal_on_triangle.',
-    smooth: 'Make cotangents at the vertices once (npm cotan, or cotan tangents), interpolate them, and call cotan_perturb_normal_from_vertices.',
-    mikktspace: 'Interpolate normal and tangent as they are, without normalising, and call cotan_perturb_normal_from_gltf_tangent.',
+    triangle: 'Compute the two vectors of each triangle where triangles are available (at load, or in the vertex, mesh or compute stage), pass them on without interpolation, and call cotan_perturb_normal_on_triangle.',
+    smooth: 'Compute the cotangents of the vertices once (npm cotan, or cotan tangents), interpolate them, and call cotan_perturb_normal_from_vertices.',
+    mikktspace: 'Interpolate the normal and the tangent without normalising them, and call cotan_perturb_normal_from_gltf_tangent.',
   };
   const space = {
-    essl: 'Say "precision highp float; precision highp int;" first.', wgsl: 'Derivatives want uniform control flow: call it before any return or discard.',
-    hlsl: 'In Unity and Unreal the texel comes expanded: take the text of the command line with --unsigned signed.', glsl: 'Version 4.30 or higher, or Vulkan.',
-    msl: 'Include <metal_stdlib> first.', cpp: 'A header of its own: it includes nothing of Cotan.',
+    essl: 'Put "precision highp float; precision highp int;" before it.', wgsl: 'Derivatives need uniform control flow: call it before any return or discard.',
+    hlsl: 'In Unity and Unreal the texel is already decoded: use the text that cotan shader --unsigned signed prints.', glsl: 'Version 4.30 or higher, or Vulkan.',
+    msl: 'Include <metal_stdlib> before it.', cpp: 'It is a self-contained header and includes nothing from Cotan.',
   };
   return [el('h3', {}, 'Where it goes'), el('ol', {},
     el('li', {}, 'Paste the text above your pixel shader.'), el('li', {}, needs[frame]),
-    el('li', {}, 'Give it the position minus the eye’s, in the space of the normal; do not normalise it.'),
-    el('li', {}, 'Give it the uv that the texture is sampled with.'),
+    el('li', {}, 'Pass the position minus the eye’s, in the space of the normal; do not normalise it.'),
+    el('li', {}, 'Pass the uv that the texture is sampled with.'),
     el('li', {}, space[lang])),
-  el('p', { class: 'small' }, 'The address of this page keeps your choice.')];
+  el('p', { class: 'small' }, 'The address of this page stores your choice.')];
 }

@@ -1,10 +1,10 @@
-// Models with Draco or meshopt geometry as plain ones, by the decoders of glTF-Transform.
+// Decompresses Draco and meshopt geometry by glTF-Transform.
 import { WebIO } from '@gltf-transform/core';
 import { ALL_EXTENSIONS } from '@gltf-transform/extensions';
 import { MeshoptDecoder } from 'meshoptimizer';
 import createDecoder from 'draco3dgltf/draco_decoder_gltf_nodejs.js';
 
-// A GLB. json, beside: of a model that is no GLB.
+// Returns the bytes of a GLB. json, beside: the JSON and the referenced files of a .gltf; json is null for a GLB.
 export async function unpack({ name, bytes }, json, beside) {
   await MeshoptDecoder.ready;
   const decoder = await createDecoder({ locateFile: () => new URL('draco/gltf.wasm', self.location.href).href });
@@ -14,6 +14,6 @@ export async function unpack({ name, bytes }, json, beside) {
     for (const extension of document.getRoot().listExtensionsUsed()) if (/draco|meshopt/.test(extension.extensionName)) extension.dispose();
     return await io.writeBinary(document);
   } catch (error) {
-    throw new Error(`${name}: expected geometry that can be unpacked, found: ${error.message}`);
+    throw new Error(`${name}: expected geometry that can be decompressed, found: ${error.message}`);
   }
 }

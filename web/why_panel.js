@@ -1,4 +1,4 @@
-// The idea, to be pulled at: a patch, its two pairs of arrows, and the pictures that four frames make of it.
+// An interactive explanation: a patch with arrows for its tangents and cotangents, and images drawn with four frames.
 import { degrees, el } from './elements.js';
 import { kLit } from './lit.js';
 import { frameOf, gradients, kFrames, kRelief, meanError, patch } from './patch.js';
@@ -40,9 +40,9 @@ export function showWhy(panel) {
       el('p', { class: 'small' }, 'Filled arrows: gradients of ', el('span', { class: 'u' }, 'u'), ' and ', el('span', { class: 'v' }, 'v'),
         ', at right angles to the lines of the grid. Hollow arrows: tangents, along the lines.')),
     el('div', { class: 'patches two' }, ...pictures.map(({ element }) => element))),
-  el('p', {}, 'Degrees are the mean over the dots, against the relief that is stretched with the surface. The gradients need nothing stored: in the pixel shader, the differences of position ',
-    'and uv between neighbouring pixels give them (2006, 2013). Only the sign needs care. The differences say which way rows run on the screen, and that is no property of the surface. One ',
-    'more product puts the sign right on every backend. ', el('a', { href: 'theory.html' }, 'The derivation'), ' has the rest.'),
+  el('p', {}, 'Degrees are the mean error over the dots, compared with a relief that is stretched with the surface. The gradients need no stored data: in the pixel shader, the differences of position ',
+    'and uv between neighbouring pixels give them (2006, 2013). Only the sign needs care: the differences depend on which way rows run on the screen, which is not a property of the surface. One ',
+    'more product makes the sign right on every backend. ', el('a', { href: 'theory.html' }, 'The derivation'), ' has the details.'),
   papers());
 
   pull(drawing, state, () => { stretch.follow(); shear.follow(); show(); });
@@ -68,10 +68,9 @@ export function showWhy(panel) {
   }
 }
 
-const kUnit = 105; // pixels
+const kUnit = 105; // pixels per unit of the plane
 const toCanvas = (canvas, [x, y]) => [canvas.width / 2 + kUnit * x, canvas.height / 2 - kUnit * y];
 
-// The ends of the two edges that can be pulled.
 function drawPatch(canvas, lies, g) {
   const c = canvas.getContext('2d'), style = getComputedStyle(document.documentElement), colour = name => style.getPropertyValue(name).trim();
   c.clearRect(0, 0, canvas.width, canvas.height);
@@ -109,7 +108,7 @@ function arrow(c, canvas, to, colour, filled, text) {
   c.fillText(text, x1 + 12 * dx + 4, y1 + 24 * dy + 6 - (filled ? 0 : 20 * Math.abs(dx)));
 }
 
-// Handles: the ends of dP/du and dP/dv follow the pointer.
+// Makes the ends of dP/du and dP/dv handles that follow the pointer.
 function pull(canvas, state, changed) {
   let held = null;
   const where = event => {
@@ -136,7 +135,7 @@ function pull(canvas, state, changed) {
   canvas.addEventListener('pointerup', () => { held = null; canvas.style.cursor = ''; });
 }
 
-// What the chapter's own figures give when they are drawn and measured (docs/explanation/figures.md).
+// The figures of the chapter with their measured errors (docs/explanation/figures.md).
 function papers() {
   const rows = [
     ['Embossed dots, stretched 2 : 1', '9.5°', '0.02°', '9.5°'], ['Sheared by 45°', '16.2°', '0.02°', '5.3°'], ['Both', '13.6°', '0.02°', '5.3°'],

@@ -1,4 +1,4 @@
-// The thread that the library works in: { call, name, values } in, { call, result } or { call, error } out.
+// The worker that runs the library. Receives { call, name, values }; answers { call, result } or { call, error }.
 import * as cotan from 'cotan/beside';
 import { convertModel, lintModel } from './model_files.js';
 

@@ -46,7 +46,7 @@ Json describe(const BakeStatistics& s)
             {"rays_per_second", s.seconds > 0 ? double(s.rays) / s.seconds : 0}};
 }
 
-// What rays did not find, or not as the older rule would have.
+// Warns of covered texels where rays found nothing, or another surface than the nearest one.
 void explainRays(const BakeCommandOptions& o, const BakeStatistics& s)
 {
     if (s.further > 0 && o.cage.empty())
@@ -61,12 +61,13 @@ void explainRays(const BakeCommandOptions& o, const BakeStatistics& s)
              s.further, s.covered);
     if (s.missed > s.further)
         warn(o,
-             "{} of {} covered texels have no high surface before or behind them at any distance: it has holes, or "
+             "{} of {} covered texels have no high surface in front or behind at any distance: it has holes, or "
              "ends before the low mesh does (--mask shows where)",
              s.missed - s.further, s.covered);
     if (s.nearer > 0)
         warn(o,
-             "{} of {} covered texels show the first surface from outside, not the nearest one: parts stand off there "
+             "{} of {} covered texels show the first surface from outside, not the nearest one: parts are detached "
+             "there "
              "({})",
              s.nearer, s.covered,
              s.rayStart > 0 && o.extrusion == 0
@@ -74,17 +75,17 @@ void explainRays(const BakeCommandOptions& o, const BakeStatistics& s)
                  : "--search nearest");
 }
 
-// What the statistics mean for the one who baked.
+// Prints the statistics, and warns of what they reveal.
 void explain(const BakeCommandOptions& o, const BakeJob& job, const BakeStatistics& s)
 {
-    say(o, "{} of {} texels covered, {} more filled at the edges of charts; {:.1f} s, {:.1f} million rays a second",
+    say(o, "{} of {} texels covered, {} more filled at the edges of charts; {:.1f} s, {:.1f} million rays per second",
         s.covered, s.texels, s.touched, s.seconds, double(s.rays) / s.seconds / 1e6);
     if (s.covered == 0)
         warn(o, "no triangle covers the centre of a texel on tile {}; only edges touch it (--udim, --size)", o.udim);
     explainRays(o, s);
     if (s.negative > 0)
         warn(o,
-             "{} of {} covered texels look below the frame's horizon (negative z): the low mesh is too coarse there, "
+             "{} of {} covered texels point below the frame's horizon (negative z): the low mesh is too coarse there, "
              "or rays hit another part",
              s.negative, s.covered);
     if (s.twice > 0)
@@ -102,17 +103,17 @@ void explain(const BakeCommandOptions& o, const BakeJob& job, const BakeStatisti
              name(job.frame()));
 }
 
-// What can be said of an -o that names a glTF model before anything is loaded. Errors: ErrorKind::usage.
+// Checks the options for an -o that is a glTF model, before anything is loaded. Errors: ErrorKind::usage.
 Status checkModelOutput(const BakeCommandOptions& o)
 {
     if (!namedAsGltf(o.output))
         return Done{};
     if (o.kind != "normal")
         return usageError(
-            fmt::format("-o {}: a model takes a map of the kind normal; found {}", o.output.string(), o.kind));
+            fmt::format("-o {}: expected --kind normal for a map in a model; found {}", o.output.string(), o.kind));
     if (o.bits == 32)
         return usageError(
-            fmt::format("-o {}: expected --bits 8 or 16, as a picture in a model has; found 32", o.output.string()));
+            fmt::format("-o {}: expected --bits 8 or 16 for an image in a model; found 32", o.output.string()));
     if (o.udim != 1001)
         return usageError(
             fmt::format("-o {}: one map covers tile 1001 of the texture coordinates only; found --udim {}",
@@ -120,7 +121,7 @@ Status checkModelOutput(const BakeCommandOptions& o)
     return Done{};
 }
 
-// Whether what is baked has tangents everywhere and they count.
+// Whether the stored tangents are used, and all baked meshes have them.
 bool hasStoredTangents(const Scene& low, const BakeModelOptions& options)
 {
     return options.tangents == TangentOrigin::stored
@@ -130,14 +131,14 @@ bool hasStoredTangents(const Scene& low, const BakeModelOptions& options)
            });
 }
 
-// Writes the low model with the map in it. Warns where readers that make MikkTSpace would show the map wrongly.
+// Writes the low model with the map. Warns if readers that generate MikkTSpace tangents would show the map wrongly.
 Status writeBakedModel(const BakeCommandOptions& o, const BakeJob& job, const Image& map)
 {
     PutMapOptions options{.frame = job.frame(),
                           .material = {},
                           .expansion = job.setup.options.stored.format.expansion,
                           .keepTangents = hasStoredTangents(job.lowScene, job.setup.options)};
-    if (o.material >= 0) // a scene numbers its materials as meshes use them
+    if (o.material >= 0) // by name, since a scene numbers its materials in the order in which meshes use them
         options.material = job.lowScene.materials[std::size_t(o.material)].name;
     const auto written = writeModelWithMap(job.lowScene, o.low, map, options, o.output);
     if (!written)
@@ -147,36 +148,36 @@ Status writeBakedModel(const BakeCommandOptions& o, const BakeJob& job, const Im
     return Done{};
 }
 
-// What one map is written to.
+// The output files of one map.
 std::vector<PlannedOutput> filesOf(const BakeCommandOptions& o)
 {
     std::vector<PlannedOutput> files = {{"-o", o.output}, {"--mask", o.mask}};
     if (!o.verify.empty())
-        for (const PlannedOutput& picture : plannedIn("--verify", o.verify, picturesOf(kBakeNames, kBakeViews)))
+        for (const PlannedOutput& picture : plannedIn("--verify", o.verify, imageNames(kBakeNames, kBakeViews)))
             files.push_back(picture);
     return files;
 }
 
-// What goes with maps of single objects.
+// Checks the options for maps of single objects.
 Status checkObjects(const BakeCommandOptions& o)
 {
     const char* const option = o.perObject ? "--per-object" : "--object";
     if (!o.perObject && o.object.empty())
         return Done{};
     if (o.perObject && !o.object.empty())
-        return usageError("--per-object: makes a map for each object; expected it without --object; found both");
+        return usageError("--per-object: makes a map for each object; expected no --object with it");
     if (namedAsGltf(o.output))
-        return usageError(fmt::format("-o {}: expected a picture with {}; found a model", o.output.string(), option));
+        return usageError(fmt::format("-o {}: expected an image with {}; found a model", o.output.string(), option));
     if (o.perObject && !o.cage.empty())
-        return usageError("--per-object: expected no --cage, which belongs to one object; --object NAME takes one");
+        return usageError("--per-object: expected no --cage, which belongs to one object; --object NAME accepts one");
     return Done{};
 }
 
-// Hours may pass before anything is written: what would fail then fails now.
+// Baking may take hours, so that errors of the outputs must be found before.
 Status checkOutputs(const BakeCommandOptions& o)
 {
     if (o.output.empty())
-        return usageError("bake needs -o FILE, to write the map to");
+        return usageError("bake needs -o FILE for the map");
     if (!o.verify.empty() && o.kind != "normal")
         return usageError("--verify: only maps of the kind normal can be drawn and compared");
     if (Status ok = checkModelOutput(o); !ok)
@@ -184,25 +185,25 @@ Status checkOutputs(const BakeCommandOptions& o)
     if (Status ok = checkObjects(o); !ok)
         return ok;
     if (o.bits == 32 && !imageFormatHas(o.output, &ImageFormat::negative))
-        return usageError(fmt::format("--bits 32: expected a map named {}; found '{}'",
+        return usageError(fmt::format("--bits 32: expected a file that ends in {}; found '{}'",
                                       imageEndings(&ImageFormat::negative, ", ", " or "), o.output.string()));
     warnIfLossy(o, o.output);
     return beginOutputs(o, o.perObject ? std::vector<PlannedOutput>() : filesOf(o));
 }
 
-// Who reads a map for that frame, and how.
+// Tells which engines can use a map for this frame, and how.
 std::string readersOf(Frame frame)
 {
     if (frame == Frame::mikktspace)
         return "the map is for the frame mikktspace: Unity, Unreal, Godot, Blender and glTF viewers read it with "
                "tangents "
-               "that they make or import, Cotan's shaders without tangents by the frame orthonormal";
-    return fmt::format("the map is for the frame {0}: read it by that; engines make MikkTSpace tangents and show it "
+               "that they generate or import, Cotan's shaders without tangents with the frame orthonormal";
+    return fmt::format("the map is for the frame {0}: read it with that; engines use MikkTSpace tangents and show it "
                        "wrongly (--frame mikktspace is for them)",
                        name(frame));
 }
 
-// Makes one map, and describes it.
+// Bakes one map, and returns its report.
 Result<Json> bakeOne(const BakeCommandOptions& o)
 {
     Stopwatch watch;
@@ -262,8 +263,8 @@ Result<Json> bakeOne(const BakeCommandOptions& o)
     return report;
 }
 
-// An object's name as a part of a file's.
-std::string inFileName(const std::string& object)
+// Makes an object's name usable as part of a file name.
+std::string fileNamePart(const std::string& object)
 {
     std::string name = object.empty() ? "unnamed" : object;
     for (char& c : name)
@@ -273,16 +274,16 @@ std::string inFileName(const std::string& object)
     return name;
 }
 
-// map.png of the object lid: map-lid.png. Empty stays empty.
+// map.png for the object lid: map-lid.png. An empty file stays empty.
 std::filesystem::path fileOf(const std::filesystem::path& file, const std::string& object)
 {
     if (file.empty())
         return {};
-    const std::string name = file.stem().string() + "-" + inFileName(object) + file.extension().string();
+    const std::string name = file.stem().string() + "-" + fileNamePart(object) + file.extension().string();
     return std::filesystem::path(file).replace_filename(name);
 }
 
-// A map for each object.
+// Bakes one map per object.
 Result<Json> bakeEach(const BakeCommandOptions& o)
 {
     const auto names = lowObjects(o);
@@ -296,7 +297,7 @@ Result<Json> bakeEach(const BakeCommandOptions& o)
         one.output = fileOf(o.output, name);
         one.mask = fileOf(o.mask, name).string();
         if (!o.verify.empty())
-            one.verify = o.verify / inFileName(name);
+            one.verify = o.verify / fileNamePart(name);
         for (PlannedOutput& file : filesOf(one))
             files.push_back(std::move(file));
     }
@@ -345,7 +346,7 @@ void declare(Arguments& a, BakeCommandOptions& o)
     a.group(HelpGroup::rays);
     a.option("--samples", o.samples, "samples per texel: 1, 4 or 16").from({1, 4, 16}).in("N");
     a.option("--search", o.search,
-             "surface that counts: first that a ray from outside inwards meets, or nearest to the low mesh, either way")
+             "surface to bake: first (that a ray from outside meets), or nearest (to the low mesh, on either side)")
         .from({"first", "nearest"})
         .in("NAME");
     a.option("--extrusion", o.extrusion,
@@ -353,7 +354,7 @@ void declare(Arguments& a, BakeCommandOptions& o)
         .within(0.0, 1e9)
         .in("D");
     a.option("--max-distance", o.maxDistance,
-             "high surfaces further from the low mesh do not count, in model units; 0: 10 % of the low mesh's diagonal "
+             "ignore high surfaces further from the low mesh, in model units; 0: 10 % of the low mesh's diagonal "
              "(--search nearest: 5 % of the high mesh's)")
         .within(0.0, 1e9)
         .in("D");
@@ -365,10 +366,10 @@ void declare(Arguments& a, BakeCommandOptions& o)
     a.group(HelpGroup::input);
     a.flag("--match-by-name", o.matchByName, "bake each low mesh NAME_low from the high mesh NAME_high only");
     addUpOption(a, o.up, "the files");
-    a.choice("--high-up", o.highUp, kUps, "the same of the high mesh alone, where it is another: y or z");
+    a.choice("--high-up", o.highUp, kUps, "the same for the high mesh only, where it differs: y or z");
     a.option("--object", o.object, "bake this object of the low mesh only: the name of its node, else of its mesh")
         .in("TEXT");
-    a.flag("--per-object", o.perObject, "make a map for each object of the low mesh: -o map.png is map-NAME.png")
+    a.flag("--per-object", o.perObject, "make a map for each object of the low mesh: -o map.png writes map-NAME.png")
         .under(HelpGroup::output);
     a.option("--material", o.material, "number of the low mesh's material to bake; -1: all").within(-1, 100000).in("N");
     a.option("--udim", o.udim, "tile of the texture coordinates to bake").within(1001, 1999).in("N");
@@ -384,8 +385,7 @@ void declare(Arguments& a, BakeCommandOptions& o)
          "frame that the high mesh's map was made for; default: mikktspace, from TANGENT or generated, as glTF says")
         .in("NAME")
         .offers(frameWords());
-    a.option("--high-map", o.highMaps,
-             "image that takes the place of the high mesh's normal maps; one, or one for each --high")
+    a.option("--high-map", o.highMaps, "image that replaces the high mesh's normal maps; one, or one for each --high")
         .in("FILE")
         .reads();
     a.option("--high-convention", o.highConvention,
@@ -398,13 +398,13 @@ void declare(Arguments& a, BakeCommandOptions& o)
              "bits per component: 8, 16 or 32 (float; " + imageEndings(&ImageFormat::negative, ", ", " or ") + ")")
         .from({8, 16, 32})
         .in("N");
-    a.flag("--dither", o.dither, "with 8 bits: round by a fixed pattern, so that slopes show no steps");
+    a.flag("--dither", o.dither, "with 8 bits: dither with a fixed pattern, so that slopes show no steps");
     a.option("--convention", o.convention, "how the map is stored: " + conventionWords())
         .in("WORDS")
         .offers(conventionWordList());
     a.option("--unsigned", o.expansion,
              "which code means zero: exact (128, or 32768 with 16 bits) or biased (none: 2c - 1) (default: biased in a "
-             "glTF model, whose readers take it so, else exact)")
+             "glTF model, as its readers assume, else exact)")
         .from({"exact", "biased"})
         .in("NAME")
         .withoutDefault();
@@ -412,7 +412,7 @@ void declare(Arguments& a, BakeCommandOptions& o)
              "how many texels around charts are filled from the nearest chart; 0: all, -1: none")
         .within(-1, 65536)
         .in("N");
-    a.option("--mask", o.mask, "write an image of what became of each texel")
+    a.option("--mask", o.mask, "write an image that shows the state of each texel as a colour")
         .in("FILE")
         .writes()
         .under(HelpGroup::diagnostics);

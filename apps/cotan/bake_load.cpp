@@ -1,4 +1,4 @@
-// What `cotan bake` was asked for, checked, and the files that it names.
+// Checks the options of `cotan bake` and loads its files.
 #include "bake_options.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ Result<Convention> formatFromName(const std::string& option, const std::string& 
     if (!convention)
         return usageError(option + ": " + convention.error().message);
     if (convention->kind != MapKind::tangentSpace)
-        return usageError(fmt::format("{}: expected a map in tangent space; found '{}'", option, name));
+        return usageError(fmt::format("{}: expected a tangent-space map; found '{}'", option, name));
     return inScene(*convention);
 }
 
@@ -62,7 +62,7 @@ BakeKind kindOf(const std::string& word)
                                   : BakeKind::occlusion;
 }
 
-// What --high-normals and its options say.
+// Parses --high-normals and its options.
 Status parseHigh(const BakeCommandOptions& o, BakeModelOptions& options)
 {
     const bool map = o.highNormals == "map";
@@ -96,14 +96,14 @@ Status parseHigh(const BakeCommandOptions& o, BakeModelOptions& options)
     return Done{};
 }
 
-// Options about where rays start that contradict each other.
+// Refuses ray options that contradict each other.
 Status checkRays(const BakeCommandOptions& o)
 {
     const bool nearest = o.search == "nearest";
     if (nearest && o.extrusion > 0)
-        return usageError("--extrusion: --search nearest looks both ways from the low mesh; expected one of them");
+        return usageError("--extrusion: expected --search first with it; found nearest, which needs no extrusion");
     if (!o.cage.empty() && (nearest || o.extrusion > 0))
-        return usageError(fmt::format("--cage: rays start on it and the first surface counts; found {} as well",
+        return usageError(fmt::format("--cage: rays start on it and stop at the first surface; expected no {} with it",
                                       nearest ? "--search nearest" : "--extrusion"));
     return Done{};
 }
@@ -153,7 +153,7 @@ Result<Scene> loadUp(const BakeCommandOptions& o, const std::string& file, Up up
     return loadSceneWithin(limits, file);
 }
 
-// The high meshes, and the images of --high-map where they count.
+// Loads the high meshes and, if maps are used, the images of --high-map.
 Result<HighModel> loadHigh(const BakeCommandOptions& o, bool mapsCount)
 {
     HighModel high;
@@ -167,14 +167,14 @@ Result<HighModel> loadHigh(const BakeCommandOptions& o, bool mapsCount)
         auto image = readImageWithin(o.memory, o.highMaps[i]);
         if (!image)
             return image.error();
-        if (image->channels == 2) // what the file leaves out
+        if (image->channels == 2) // z is missing in the file
             completeNormals(*image);
         high.maps.push_back(std::move(*image));
     }
     return high;
 }
 
-// The frame that the high meshes' maps name, or those of --high-map.
+// The frame named by the --high-map images, or without these by the high meshes' maps.
 std::optional<Frame> namedHighFrame(const HighModel& high)
 {
     for (const Image& map : high.maps)
@@ -192,17 +192,17 @@ bool mayHaveZUp(const std::string& file)
     return ending == ".ply" || ending == ".stl";
 }
 
-// The options with which two sides would lie over one another; empty where no options are.
-std::string turnOptions(const BakeCommandOptions& o, LikelyTurn turn)
+// The options that would align the meshes after the rotation `turn`; empty if there are none.
+std::string upOptions(const BakeCommandOptions& o, UpMismatch turn)
 {
     Up low = o.up, high = highUp(o);
-    const bool ofHigh =
-        turn == LikelyTurn::first || (turn == LikelyTurn::either && (mayHaveZUp(o.high.front()) || !mayHaveZUp(o.low)));
-    Up &undone = ofHigh ? low : high, &done = ofHigh ? high : low;
-    if (undone == Up::z) // what was asked for may be what is wrong
-        undone = Up::y;
-    else if (done == Up::y)
-        done = Up::z;
+    const bool rotateHigh =
+        turn == UpMismatch::first || (turn == UpMismatch::either && (mayHaveZUp(o.high.front()) || !mayHaveZUp(o.low)));
+    Up &other = rotateHigh ? low : high, &rotated = rotateHigh ? high : low;
+    if (other == Up::z) // the given option of the other side may be the wrong one
+        other = Up::y;
+    else if (rotated == Up::y)
+        rotated = Up::z;
     else
         return {};
     return low == high  ? "--up " + wordOf(kUps, low)
@@ -211,8 +211,8 @@ std::string turnOptions(const BakeCommandOptions& o, LikelyTurn turn)
                         : "--high-up z";
 }
 
-// What to say where the meshes do not lie over one another and would if one side were turned; empty where they do.
-std::string turnWarning(const BakeCommandOptions& o, std::initializer_list<const Scene*> low, const HighModel& high)
+// A warning if the meshes do not overlap, but would if one were rotated; else empty.
+std::string upWarning(const BakeCommandOptions& o, std::initializer_list<const Scene*> low, const HighModel& high)
 {
     const auto add = [](Bounds& box, const Scene& scene) {
         const Bounds more = bounds(scene);
@@ -223,22 +223,22 @@ std::string turnWarning(const BakeCommandOptions& o, std::initializer_list<const
         add(lowBox, *scene);
     for (const Scene& scene : high.scenes)
         add(highBox, scene);
-    const LikelyTurn turn = likelyTurn(highBox, lowBox);
-    const std::string options = turn == LikelyTurn::none ? "" : turnOptions(o, turn);
+    const UpMismatch turn = findUpMismatch(highBox, lowBox);
+    const std::string options = turn == UpMismatch::none ? "" : upOptions(o, turn);
     return options.empty()
         ? ""
-        : fmt::format("the low and the high mesh do not lie over one another, and would if one were turned by 90 "
-                      "degrees: it probably has z up; try {}",
+        : fmt::format("the low and the high mesh do not overlap, but would if one were rotated by 90 degrees: it "
+                      "probably has z up; try {}",
                       options);
 }
 
-// What was odd about the files, each line once also where both are one file.
+// The warnings of all files, without duplicates if low and high are the same file.
 std::vector<std::string> warningsOf(const BakeCommandOptions& o, const Scene& low, const HighModel& high,
                                     bool mapsCount)
 {
     std::vector<std::string> warnings = low.warnings;
     if (!mapsCount && o.highNormals == "map")
-        warnings.push_back(fmt::format("--high-normals map changes nothing in a map of the kind {}", o.kind));
+        warnings.push_back(fmt::format("--high-normals map has no effect on a map of kind {}", o.kind));
     for (const Scene& scene : high.scenes)
         for (const std::string& line : scene.warnings)
             if (std::find(low.warnings.begin(), low.warnings.end(), line) == low.warnings.end())
@@ -295,7 +295,7 @@ Result<BakeJob> loadBake(const BakeCommandOptions& o)
     auto low = loadUp(o, o.low, o.up, Pixels::all);
     if (!low)
         return low.error();
-    restoreDeclaredGreen(*low); // the new map takes the place of the old one, beside the tangents as they are stored
+    restoreDeclaredGreen(*low); // the new map replaces the old one, next to the stored tangents
     Scene others;
     if (!o.object.empty()) {
         if (Status known = checkObject(o, objectNames(*low)); !known)
@@ -319,7 +319,7 @@ Result<BakeJob> loadBake(const BakeCommandOptions& o)
     if (mapsCount && o.highFrame.empty())
         options->highFrame = namedHighFrame(*high).value_or(options->highFrame);
     std::vector<std::string> warnings = warningsOf(o, *low, *high, mapsCount);
-    if (std::string turn = turnWarning(o, {&*low, &others}, *high); !turn.empty())
+    if (std::string turn = upWarning(o, {&*low, &others}, *high); !turn.empty())
         warnings.push_back(std::move(turn));
     auto setup = prepareBake(*low, std::move(*high), *options);
     if (!setup)

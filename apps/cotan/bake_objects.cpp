@@ -9,7 +9,7 @@ namespace cotan::app {
 
 namespace {
 
-// The meshes that these instances place, in their order, and the instances with the new numbers.
+// The meshes of these instances, in the order of their first use. Renumbers the instances accordingly.
 std::vector<Mesh> meshesOf(std::vector<Instance>& instances, const std::vector<Mesh>& meshes)
 {
     std::vector<int> number(meshes.size(), -1);

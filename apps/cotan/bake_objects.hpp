@@ -1,4 +1,4 @@
-// What a scene holds under one name: its objects.
+// The objects of a scene: instances with the same name.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace cotan::app {
 
-// The names of all instances, each once, in the order of the scene. Instances of one name are one object.
+// The names of all instances without duplicates, in scene order. Instances with the same name are one object.
 std::vector<std::string> objectNames(const Scene& scene);
 
 struct SplitScene {
-    Scene object; // the instances of one name, with all else that the scene has
+    Scene object; // the instances with the name, and everything else in the scene
     Scene others; // the other instances with their meshes; no images, one plain material
 };
 
-// Takes a scene apart. Meshes that nothing places are left out; what both parts place is copied. A name that nothing
-// has gives an object without instances.
+// Splits a scene. Meshes without instances are dropped; meshes used by both parts are copied. If no instance has the
+// name, `object` has no instances.
 SplitScene splitObject(Scene scene, std::string_view name);
 
 } // namespace cotan::app

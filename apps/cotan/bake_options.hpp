@@ -1,4 +1,4 @@
-// What `cotan bake` was asked for, and what of it the baker needs.
+// The options of `cotan bake`, and what the baker needs of them.
 #pragma once
 
 #include <optional>
@@ -15,12 +15,12 @@ struct BakeCommandOptions : CommonOptions {
     std::vector<std::string> high;
     std::string low, cage, mask, device = "auto";
     std::string frame = "mikktspace", kind = "normal", size = "1024x1024", convention = "opengl",
-                expansion; // empty: by -o
+                expansion; // empty: depends on -o
     TangentOrigin tangents = TangentOrigin::stored;
     std::string highNormals = "smooth", highFrame, highConvention; // empty: not given
     std::vector<std::string> highMaps;
     Up up = Up::y;
-    std::optional<Up> highUp; // none: as up
+    std::optional<Up> highUp; // empty: as `up`
     std::string object;       // of the low mesh; empty: all
     std::filesystem::path verify;
     int samples = 1, bits = 8, padding = 0, material = -1, udim = 1001, occlusionRays = 64;
@@ -30,23 +30,23 @@ struct BakeCommandOptions : CommonOptions {
     bool dither = false, matchByName = false, perObject = false;
 };
 
-// Everything that was loaded and prepared for one bake.
+// Everything loaded and prepared for one bake.
 struct BakeJob {
     Scene lowScene;
     BakeSetup setup;
-    std::vector<std::string> warnings; // of the files and of preparing, one line each
-    std::size_t objects = 1;           // of the low mesh that are baked into this one map
+    std::vector<std::string> warnings; // from loading and preparing, one line each
+    std::size_t objects = 1;           // number of low-mesh objects baked into this map
 
     Frame frame() const { return setup.options.bake.frame; }
 };
 
-// Checks the words, loads the files, prepares. Errors: those of the words and files.
+// Checks the options, loads the files and prepares the bake. Errors: those of the options and files.
 Result<BakeJob> loadBake(const BakeCommandOptions& o);
 
-// The names of the low mesh's objects. Errors: of reading it; ErrorKind::input where it has none.
+// The names of the low mesh's objects. Errors: those of reading it; ErrorKind::input if it has no object.
 Result<std::vector<std::string>> lowObjects(const BakeCommandOptions& o);
 
-// An error about one of the library's options, with the command's word for it.
+// Replaces the name of a library option in an error by that of the command's option.
 Error withBakeOptionNames(const BakeCommandOptions& o, const Error& error);
 
 } // namespace cotan::app

@@ -18,21 +18,21 @@ namespace {
 struct BatchOptions : CommonOptions {
     std::string jobs, shard, thumbnails = "pictures";
     std::vector<std::string> stores;
-    int processes = 0, rows = 50000, memory = -1; // memory: below 0, the machine's share
+    int processes = 0, rows = 50000, memory = -1; // memory: negative: that of the machine / processes
     int retries = 0;
     double seconds = 3600, processorSeconds = 0;
     bool merge = false, again = false;
 };
 
-// The table of all commands says what a job's words name.
-Status fillIn(const Arguments& tool, Job& job)
+// Sets a job's files and flags from its words, by the declarations of all commands.
+Status setFiles(const Arguments& tool, Job& job)
 {
     const auto given = tool.parse(job.words);
     if (!given)
         return given.error();
     for (const char* name : {"batch", "view"})
         if (given->name == name)
-            return usageError(fmt::format("{} is no work for a batch", name));
+            return usageError(fmt::format("{} cannot run in a batch", name));
     for (const GivenOption& option : given->options) {
         if (option.name == "threads")
             job.threads = true;
@@ -44,7 +44,7 @@ Status fillIn(const Arguments& tool, Job& job)
             job.outputs.insert(job.outputs.end(), option.values.begin(), option.values.end());
     }
     if (job.json == "-")
-        return usageError("--json -: expected a file, or nothing: batch reads the report; found standard output");
+        return usageError("--json -: expected a file or no --json, as batch reads the report; found standard output");
     return Done{};
 }
 
@@ -84,8 +84,7 @@ Status checkUsage(const BatchOptions& o)
     if (o.output.empty() && o.stores.empty())
         return usageError("expected -o REPORT.html, or --store FOLDER and no report; found neither");
     if (o.merge && (!o.shard.empty() || o.again))
-        return usageError(
-            fmt::format("--merge runs nothing: expected it without {}; found both", o.again ? "--again" : "--shard"));
+        return usageError(fmt::format("--merge runs nothing: expected no {} with it", o.again ? "--again" : "--shard"));
     if (o.merge && o.output.empty() && o.json.empty())
         return usageError("--merge: expected -o REPORT.html or --json FILE; found neither");
     if (!o.merge && o.stores.size() > 1)
@@ -114,7 +113,7 @@ Result<std::vector<JobResult>> results(const BatchOptions& o, const JobList& lis
     });
 }
 
-// What the exit code tells: the worst result.
+// The worst result, as the status for the exit code.
 Status verdict(const JobList& list, const std::vector<JobResult>& all)
 {
     if (all.empty())
@@ -122,7 +121,7 @@ Status verdict(const JobList& list, const std::vector<JobResult>& all)
     const StateCounts counts = countsOf(all);
     const std::size_t good = counts[std::size_t(JobState::done)] + counts[std::size_t(JobState::limit)];
     const std::vector<std::size_t> order = worstFirst(all);
-    // Of those that the sentence is about.
+    // The worst of the jobs that the message counts.
     const JobResult& worst = all[*std::ranges::find_if(order, [&](std::size_t i) {
         const JobState state = all[i].record.state;
         return good == all.size() || (state != JobState::done && state != JobState::limit);
@@ -151,13 +150,13 @@ Status run(const Arguments& tool, const BatchOptions& o)
     if (Status planned = beginOutputs(o, {{"-o", o.output}}); !planned)
         return planned;
     Stopwatch watch;
-    const auto list = readJobs(o.jobs, [&](Job& job) { return fillIn(tool, job); });
+    const auto list = readJobs(o.jobs, [&](Job& job) { return setFiles(tool, job); });
     if (!list)
         return list.error();
     const auto plan = planJobs(*list);
     if (!plan)
         return inputError(fmt::format("{}: {}", o.jobs, plan.error().message));
-    // From here on the registry would only grow: each job has one of its own, and the store replaces its own files.
+    // Later outputs need no registration: each job process has its own, and the store replaces only its own files.
     guardInputs(/*overwrite*/ true);
     const auto all = results(o, *list, *plan, shard);
     if (!all)
@@ -189,7 +188,7 @@ void declare(Arguments& a, BatchOptions& o)
         .required()
         .reads();
     a.group(HelpGroup::jobs);
-    a.option("--jobs", o.processes, "jobs to run at a time; 0: one for each core, which share --threads")
+    a.option("--jobs", o.processes, "jobs to run at a time, which share --threads; 0: one per core")
         .within(0, 4096)
         .in("N")
         .main();
@@ -201,14 +200,14 @@ void declare(Arguments& a, BatchOptions& o)
         .in("K/N");
     a.flag("--merge", o.merge, "run nothing; report what the stores hold");
     a.flag("--again", o.again, "run all jobs, also those whose results are kept");
-    a.option("--limit-time,--limit-seconds", o.seconds, "time on the clock that a job may take").above0().in("S");
+    a.option("--limit-time,--limit-seconds", o.seconds, "elapsed time that a job may take").above0().in("S");
     a.option("--limit-processor-time", o.processorSeconds,
-             "processor time that the process of a job may take, its threads together, which does not depend on what "
-             "else the machine does; whole seconds; 0: no limit")
+             "processor time that the process of a job may take, summed over its threads, whatever else the machine "
+             "does; whole seconds; 0: no limit")
         .within(0.0, 1e6)
         .in("S");
     a.option("--retries", o.retries,
-             "how often a job runs again that was ended by a limit or a signal, or lacked something here")
+             "how often to retry a job that a limit or a signal ended, or that ended with exit code 3 or 4")
         .within(0, 100)
         .in("N");
     a.option("--limit-memory", o.memory,
@@ -221,7 +220,7 @@ void declare(Arguments& a, BatchOptions& o)
         .within(1, 250000)
         .in("N");
     a.option("--thumbnails", o.thumbnails,
-             "pictures: of the first image that a job writes; models: else of the model that it reads, drawn for it; "
+             "pictures: of the first image that a job writes; models: otherwise a render of the model that it reads; "
              "none")
         .from({"none", "pictures", "models"})
         .in("NAME");

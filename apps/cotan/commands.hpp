@@ -1,4 +1,4 @@
-// The commands, each in a file of its own.
+// Adds the commands, each defined in a file of its own.
 #pragma once
 
 #include "common.hpp"
@@ -13,6 +13,6 @@ void addTangentsCommand(Arguments& tool);
 void addLintCommand(Arguments& tool);
 void addConvertCommand(Arguments& tool);
 void addShaderCommand(Arguments& tool);
-void addBatchCommand(Arguments& tool); // of the commands of `tool`, which it outlives not
+void addBatchCommand(Arguments& tool); // runs commands of `tool`, which must outlive it
 
 } // namespace cotan::app

@@ -22,7 +22,7 @@ namespace {
 constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 usage, 2 bad input, 3 not available here, 4 cannot write, 5 over a limit.";
 
-int printErrno = 0; // of the first print that failed
+int printErrno = 0; // errno of the first print that failed
 
 } // namespace
 
@@ -36,15 +36,15 @@ void addCommonOptions(Arguments& command, CommonOptions& options, const std::str
     command.option("--json", options.json, "write a machine-readable report; - is standard output").in("FILE").writes();
     command.flag("--overwrite", options.overwrite, "let outputs replace input files");
     command.group(HelpGroup::general);
-    command.flag("--quiet", options.quiet, "print no notes and warnings");
+    command.flag("--quiet", options.quiet, "print no notes or warnings");
     command.option("--threads", options.threads, "threads to use; 0 means all cores").within(0, 1024).in("N");
 }
 
 void addOlderName(Arguments& command, const std::string& older, const std::string& name, std::string& value)
 {
-    // Not by CLI11's `excludes`: the help would list it at the newer option, without a name.
+    // CLI11's `excludes` would list the old option in the help of the new one, without a name.
     command.option(older, value, "").unlisted().refused([newer = command.find(name), older, name] {
-        return newer.count() > 0 ? older + " is another word for " + name + ": expected one of them, found both" : "";
+        return newer.count() > 0 ? older + " is another name for " + name + ": expected one of them, found both" : "";
     });
 }
 
@@ -107,7 +107,7 @@ Status flushOutput()
 {
     if (printErrno == 0 && std::fflush(stdout) != 0)
         printErrno = errno;
-    if (printErrno == EPIPE) // the reader, such as `head`, has what it wanted
+    if (printErrno == EPIPE) // the reader, such as `head`, has read enough
         return Done{};
     if (printErrno != 0)
         return outputError("standard output: cannot write: " + reasonOf(printErrno));
@@ -152,7 +152,7 @@ void warn(const CommonOptions& options, const std::string& line)
 void warnIfLossy(const CommonOptions& options, const std::filesystem::path& map)
 {
     if (imageFormatHas(map, &ImageFormat::lossy))
-        warn(options, "{} loses degrees on normal maps; PNG or TIFF keep them", imageFormatOf(map)->name);
+        warn(options, "{} adds errors of degrees to normal maps; PNG and TIFF are lossless", imageFormatOf(map)->name);
 }
 
 } // namespace cotan::app

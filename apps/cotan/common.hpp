@@ -1,4 +1,4 @@
-// What every command shares: its options, its report, its way to fail.
+// Shared by all commands: options, reports and messages.
 #pragma once
 
 #include <chrono>
@@ -25,28 +25,28 @@ struct CommonOptions {
     std::string json; // a file, "-" for standard output, empty for none
     bool quiet = false;
     int threads = 0;        // 0: all cores
-    bool overwrite = false; // inputs, and one output by another
+    bool overwrite = false; // allows replacing inputs, and one output by another
 };
 
-// Adds -o/--output, --json, --quiet, --threads and --overwrite to a command. An empty outputHelp: the command writes
-// nothing but its report; -o is not listed, and refused.
+// Adds -o/--output, --json, --quiet, --threads and --overwrite to a command. An empty outputHelp means that the command
+// writes only its report; -o is then unlisted and refused.
 void addCommonOptions(Arguments& command, CommonOptions& options, const std::string& outputHelp);
 
-// Another name for an option of that name, which goes on working and is not listed.
+// Adds an older name of the option `name`, which still works but is not listed.
 void addOlderName(Arguments& command, const std::string& older, const std::string& name, std::string& value);
 
-// Ends a command's help with commands that work, and the exit codes.
+// Ends a command's help with example commands and the exit codes.
 void addExamples(Arguments& command, const std::vector<std::string>& lines);
 
-// What a command is, for addCommand.
+// Describes a command for addCommand.
 struct CommandText {
     const char *name, *summary;
     std::string output; // what -o writes; empty: nothing
     std::vector<std::string> examples;
-    bool needsOutput = false; // it does nothing without -o
+    bool needsOutput = false; // -o is required
 };
 
-// Adds a command whose options are CommonOptions and more: `declare` adds the others, `run` does what they ask for.
+// Adds a command with options derived from CommonOptions: `declare` adds the others, `run` runs the command.
 template<class Options>
 void addCommand(Arguments& parent, const CommandText& text, void (*declare)(Arguments&, Options&),
                 Status (*run)(const Options&))
@@ -61,7 +61,7 @@ void addCommand(Arguments& parent, const CommandText& text, void (*declare)(Argu
     command.does([options, run] { return withThreads(options->threads, [&] { return run(*options); }); });
 }
 
-// Seconds since it was made or last asked.
+// Measures the seconds since its construction or the last call.
 class Stopwatch {
 public:
     double lap()
@@ -78,40 +78,40 @@ private:
 
 // A file that will be written.
 struct PlannedOutput {
-    std::string option; // that asked for it, for messages
+    std::string option; // that names the file, for messages
     std::filesystem::path file;
-    bool makesFolder = false; // its folder will be made
+    bool makesFolder = false; // a missing folder will be created
 };
 
-// The files of these names in a folder that an option names.
+// Files with these names in a folder that an option names.
 std::vector<PlannedOutput> plannedIn(const std::string& option, const std::filesystem::path& folder,
                                      const std::vector<std::string>& names);
 
-// Plans each (see planOutput) and looks whether it can come to be there (see checkWritable); empty names are left out.
-// Returns a sentence about each folder in which a killed run left unfinished files. Errors: those of the two.
+// Calls planOutput and checkWritable for each file; empty names are skipped. Returns a sentence about each folder with
+// unfinished files of a killed run. Errors: those of the two functions.
 Result<std::vector<std::string>> planOutputs(std::vector<PlannedOutput> files);
 
-// What every command calls before it reads anything: says what it will write, --json included; empty names are left
-// out. From here on no output may be a file that is read or another output, unless --overwrite was given. Warns of
-// what a killed run left in the folders. Errors: ErrorKind::usage for two outputs in one place; ErrorKind::output
-// where a file cannot be written.
+// Every command calls this before it reads anything. Registers the output files, including --json; empty names are
+// skipped. From here on no output may be an input file or another output, unless --overwrite was given. Warns of
+// unfinished files of a killed run. Errors: ErrorKind::usage for two outputs with the same path; ErrorKind::output if a
+// file cannot be written.
 Status beginOutputs(const CommonOptions& options, std::vector<PlannedOutput> files);
 
-// Prints on standard output. It does not fail: the first error is kept for flushOutput.
+// Prints on standard output. Does not fail: the first error is kept for flushOutput.
 void print(const std::string& text);
 
-// Whether all that was printed has arrived, or its reader has closed the pipe and wants no more. Errors:
-// ErrorKind::output.
+// Flushes standard output. A reader that has closed the pipe is no error. Errors: ErrorKind::output if anything printed
+// was lost.
 Status flushOutput();
 
-// Writes the report where --json says, with its format and version (docs/reference/json.md); nothing if it was not
-// asked for. It has the member "command".
+// Writes the report to --json, with its format and version (docs/reference/json.md); does nothing without --json. The
+// report has the member "command".
 Status writeReport(const CommonOptions& options, const Json& report);
 
-// Prints a line, its control characters escaped, on standard output unless --quiet was given or the report goes there.
+// Prints a line on standard output, with control characters escaped, unless --quiet was given or the report goes there.
 void say(const CommonOptions& options, const std::string& line);
 
-// The same of a text of several lines, each by itself: say escapes line breaks.
+// Prints a text of several lines by say, which would escape the line breaks.
 void sayLines(const CommonOptions& options, const std::string& text);
 
 // Prints "cotan: warning: LINE" on standard error unless --quiet was given.
@@ -129,7 +129,7 @@ void warn(const CommonOptions& options, fmt::format_string<First, Others...> tex
     warn(options, fmt::format(text, std::forward<First>(first), std::forward<Others>(others)...));
 }
 
-// Runs work(progress) under a line for so many steps; 0: nobody knows how many.
+// Runs work(progress) while showing a progress line with `steps` steps; 0: their number is unknown.
 template<class Work>
 auto withProgress(const CommonOptions& options, std::size_t steps, std::string what, const Work& work)
 {
@@ -137,7 +137,7 @@ auto withProgress(const CommonOptions& options, std::size_t steps, std::string w
     return work(line.within());
 }
 
-// The same for what a renderer draws in work(). It tells nobody afterwards: the line is gone.
+// The same, with the progress of `renderer` during work(). The renderer is detached from the line afterwards.
 template<class Work>
 auto drawWithProgress(const CommonOptions& options, Renderer& renderer, std::size_t steps, std::string what,
                       const Work& work)
@@ -150,7 +150,7 @@ auto drawWithProgress(const CommonOptions& options, Renderer& renderer, std::siz
     });
 }
 
-// Warns where a map goes into a format that does not keep it.
+// Warns if the format of a normal map is lossy.
 void warnIfLossy(const CommonOptions& options, const std::filesystem::path& map);
 
 } // namespace cotan::app

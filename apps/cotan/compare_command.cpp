@@ -36,7 +36,7 @@ Result<std::array<FrameChoice, 2>> parsePair(const std::string& text)
     return std::array{*a, *b};
 }
 
-// What may be written: `auto` may turn out to be any frame.
+// All possible file names, since `auto` may become any frame.
 std::vector<std::string> comparedFiles(const std::array<FrameChoice, 2>& pair)
 {
     std::set<std::string> names = {"difference.png"};
@@ -57,13 +57,13 @@ Status run(const CompareCommandOptions& o)
     for (const FrameChoice& frame : *pair)
         if (Status fits = checkLighting(o.picture, frame); !fits)
             return fits;
-    // Before the model is read, so that no file of it is replaced.
+    // Before the model is read, so that none of its files is replaced.
     if (Status planned = beginOutputs(o, plannedIn("-o", o.output, comparedFiles(*pair))); !planned)
         return planned;
     auto picture = loadPicture(o.picture, o, {(*pair)[0], (*pair)[1]});
     if (!picture)
         return picture.error();
-    if (Status fits = settleCovered(picture->scene, picture->view, 2); !fits)
+    if (Status fits = limitCoverage(picture->scene, picture->view, 2); !fits)
         return fits;
     const std::array<Frame, 2> frames = {picture->frames[0], picture->frames[1]};
     const std::string a(name(frames[0])), b(name(frames[1]));
@@ -74,7 +74,7 @@ Status run(const CompareCommandOptions& o)
     if (!renderer)
         return renderer.error();
     Stopwatch watch;
-    const std::size_t pictures = kComparedFramesPictures + (o.picture.edges != Edges::none ? 2 : 0);
+    const std::size_t pictures = kComparedFramesImages + (o.picture.edges != Edges::none ? 2 : 0);
     const auto compared = drawWithProgress(o, **renderer, pictures, "drawing", [&]() -> Result<ComparedFrames> {
         auto drawn = compareFrames(**renderer, picture->scene, picture->view, frames);
         if (drawn)
@@ -108,7 +108,7 @@ Status run(const CompareCommandOptions& o)
     say(o, "{} against {}, {} pixels: {}", a, b, compared->normals.count, toText(*compared));
     say(o, compared->verdict);
     say(o,
-        "pictures in {}: {}.png, {}.png, difference.png (black 0, blue 0.5, "
+        "images in {}: {}.png, {}.png, difference.png (black 0, blue 0.5, "
         "green 2, yellow 5, red 15, white 45 degrees)",
         o.output.string(), a, b);
     return writeReport(o, report);

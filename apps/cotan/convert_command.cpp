@@ -23,10 +23,10 @@ namespace {
 
 struct ConvertCommandOptions : CommonOptions {
     std::string model;
-    std::string from, to; // from: empty for the frame that the file names, or mikktspace
+    std::string from, to; // empty `from`: the frame that the file names, else mikktspace
     TangentOrigin tangents = TangentOrigin::stored;
     bool keepTangents = false, keepMaps = false;
-    std::string provoking; // empty: vertices stay
+    std::string provoking; // empty: vertices stay unchanged
     int memory = kDefaultMemory;
     int bits = 0; // 0: as the old map
     std::string expansion = "biased";
@@ -40,13 +40,13 @@ Result<Frame> frameFor(const char* option, const std::string& text)
     if (!frame)
         return frame.error();
     if (dependsOnView(*frame))
-        return usageError(fmt::format(
-            "{}: expected a frame that is the same from every side; {} is not, so no map can be made for it", option,
-            text));
+        return usageError(
+            fmt::format("{}: expected a frame that does not depend on the view; found {}, for which no map can be made",
+                        option, text));
     return *frame;
 }
 
-// Without --to-frame the maps stay, and nothing may be asked of their conversion.
+// Without --to-frame the maps stay unchanged, so options for converting them are errors.
 Status checkVerticesOnly(const ConvertCommandOptions& o)
 {
     if (o.provoking.empty())
@@ -60,16 +60,17 @@ Status checkVerticesOnly(const ConvertCommandOptions& o)
                                         {"--unsigned", o.expansion != unset.expansion},
                                         {"--verify", !o.verify.empty()}})
         if (given)
-            return usageError(fmt::format("{}: is about converting maps; expected --to-frame FRAME with it", option));
+            return usageError(
+                fmt::format("{}: applies to converted maps only; expected --to-frame FRAME with it", option));
     return Done{};
 }
 
-// The frames of the maps; none where the maps stay.
+// The frames of the maps; empty if the maps stay unchanged.
 Result<std::optional<FramePair>> checkUsage(const ConvertCommandOptions& o)
 {
     if (o.keepMaps && (o.keepTangents || o.bits != 0))
         return usageError(
-            fmt::format("{}: with --keep-maps only the tangents go", o.keepTangents ? "--keep-tangents" : "--bits"));
+            fmt::format("{}: --keep-maps drops only the tangents", o.keepTangents ? "--keep-tangents" : "--bits"));
     if (o.to.empty() && !o.keepMaps)
         if (Status alone = checkVerticesOnly(o); !alone)
             return alone.error();
@@ -89,7 +90,7 @@ Result<std::optional<FramePair>> checkUsage(const ConvertCommandOptions& o)
     std::vector<PlannedOutput> files = {{"-o", o.output}};
     if (!o.verify.empty())
         for (const PlannedOutput& picture :
-             plannedIn("--verify", o.verify, picturesOf(kConversionNames, kConversionViews)))
+             plannedIn("--verify", o.verify, imageNames(kConversionNames, kConversionViews)))
             files.push_back(picture);
     if (Status planned = beginOutputs(o, files); !planned)
         return planned.error();
@@ -101,13 +102,13 @@ Result<std::optional<FramePair>> checkUsage(const ConvertCommandOptions& o)
     return std::optional(FramePair{*from, *to, o.tangents, TangentOrigin::generated});
 }
 
-// Converts, and says what became of each map when it is done.
+// Converts the maps, and prints the result of each when it is done.
 Result<ConvertModelReport> convert(const ConvertCommandOptions& o, const FramePair& frames, GltfDocument& document)
 {
     bool first = true;
     const auto mapDone = [&](const ConvertedMap& map) {
         if (std::exchange(first, false))
-            say(o, "three figures are: mean / 95 % / maximum, by area of the surface");
+            say(o, "three values are mean / 95 % / maximum, weighted by surface area");
         for (const std::string& line : linesOf(map, std::string(name(frames.to))))
             say(o, line);
     };
@@ -142,7 +143,7 @@ Status writeModel(const ConvertCommandOptions& o, const GltfDocument& document, 
     return Done{};
 }
 
-// Converts the maps, and puts into the report what became of them.
+// Converts the maps, and adds the results to the report.
 Status convertMaps(const ConvertCommandOptions& o, const FramePair& frames, GltfDocument& document, Json& report,
                    std::vector<std::string>& notes)
 {
@@ -158,7 +159,7 @@ Status convertMaps(const ConvertCommandOptions& o, const FramePair& frames, Gltf
     return Done{};
 }
 
-// Numbers vertices anew, and says how many more there are.
+// Reorders vertices for the provoking vertex, and prints how many were added.
 Status provoke(const ConvertCommandOptions& o, GltfDocument& document, Json& report)
 {
     const auto done =
@@ -176,7 +177,7 @@ Status run(const ConvertCommandOptions& o)
     if (!frames)
         return frames.error();
     Stopwatch watch;
-    if (!o.verify.empty()) { // before anything is done
+    if (!o.verify.empty()) { // fails before any work
         if (const auto renderer = openRenderer(o.device, o.threads); !renderer)
             return renderer.error();
     }
@@ -205,7 +206,7 @@ Status run(const ConvertCommandOptions& o)
     if (!o.provoking.empty())
         if (Status provoked = provoke(o, document, report); !provoked)
             return provoked;
-    if (!o.verify.empty()) // before anything is written
+    if (!o.verify.empty()) // fails before anything is written
         if (Status made = makeFolder(o.verify); !made)
             return made;
     if (Status written = writeModel(o, document, report); !written)
@@ -246,31 +247,31 @@ void declare(Arguments& a, ConvertCommandOptions& o)
         a, o.tangents,
         "for --from-frame mikktspace or vertex: stored (as in the file, generated where missing) or generated");
     a.flag("--keep-maps", o.keepMaps,
-           "leave the maps byte for byte as they are, to be read with --to-frame (default then: orthonormal), and drop "
-           "the tangents only: the file never grows by maps")
+           "keep the maps byte for byte, to be read with --to-frame (default then: orthonormal), and drop only the "
+           "tangents: maps never make the file larger")
         .main();
     a.group(HelpGroup::output);
     a.flag("--keep-tangents", o.keepTangents, "keep the tangents of the file");
     a.option("--bits", o.bits,
-             "bits of the new maps, 8 or 16; writes all anew (default: bits of the old map; a map that fits stays)")
+             "bits of the new maps, 8 or 16; rewrites all maps (default: bits of the old map; a suitable map is kept)")
         .from({8, 16})
         .in("N")
         .withoutDefault();
     a.option(
          "--unsigned", o.expansion,
-         "how the engine takes the maps' numbers: biased (2c - 1, as glTF says and stock engines do) or exact (zero "
-         "is 128, as Cotan reads maps that say nothing)")
+         "how the engine decodes the maps: biased (2c - 1, as glTF says and stock engines do) or exact (zero is 128, "
+         "Cotan's default for maps that do not say)")
         .from({"biased", "exact"})
         .in("NAME");
     a.option(
          "--provoking", o.provoking,
-         "give every triangle a vertex of its own, its first (Vulkan, Direct3D, Metal, WebGPU) or its last (OpenGL, "
-         "WebGL), for the frame triangle: vertex k then provokes triangle k. Copies vertices; without --to-frame "
+         "give every triangle its own provoking vertex, its first (Vulkan, Direct3D, Metal, WebGPU) or its last "
+         "(OpenGL, WebGL), for the frame triangle: vertex k provokes triangle k. Copies vertices; without --to-frame "
          "nothing else changes")
         .from({"first", "last"})
         .in("CORNER")
         .withoutDefault();
-    addMemoryOption(a, o.memory, ", and most that the triangles of one map take besides the model");
+    addMemoryOption(a, o.memory, ", and the maximum for the triangles of one map besides the model");
     a.option("--verify", o.verify,
              "draw both models from five sides, compare normals, and write the images into this folder")
         .in("FOLDER")
@@ -286,8 +287,8 @@ void addConvertCommand(Arguments& tool)
     addCommand<ConvertCommandOptions>(
         tool,
         {"convert",
-         "Convert a glTF model's normal maps to another frame and drop its tangents, or its vertices to the frame "
-         "triangle.",
+         "Convert a glTF model's normal maps to another frame and drop its tangents, or prepare its vertices for the "
+         "frame triangle.",
          "the converted model, .glb or .gltf",
          {"cotan convert model.glb --to-frame smooth -o out.glb", "cotan convert model.glb --keep-maps -o out.glb",
           "cotan convert model.glb --from-frame mikktspace --to-frame orthonormal -o out.glb --verify check",

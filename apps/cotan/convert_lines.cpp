@@ -11,16 +11,15 @@ namespace cotan {
 
 namespace {
 
-// What is to be said of a map that stays.
+// The line about a map that is left unchanged.
 std::string whyKept(const ConvertedMap& map, const std::string& to)
 {
-    const ValueSummary& off = map.figures.unconverted;
-    if (off.count == 0)
-        return fmt::format("{}: stays as it is; nothing was judged, for no triangle with area, also in uv, shows it",
-                           map.name);
+    const ValueSummary& unconverted = map.figures.unconverted;
+    if (unconverted.count == 0)
+        return fmt::format("{}: unchanged; not checked, since no triangle with an area, in uv too, uses it", map.name);
     return fmt::format(
-        "{}: stays as it is: read with {} it is off by {} degrees on {}, no more than rounding a new one costs",
-        map.name, to, toText(off), counted(map.surfaces, "surface"));
+        "{}: unchanged: read with {} its error is {} degrees on {}, no more than that of rounding a new map", map.name,
+        to, toText(unconverted), counted(map.surfaces, "surface"));
 }
 
 // "JPEG of quality 90,"
@@ -62,16 +61,16 @@ std::vector<std::string> linesOf(const ConvertedMap& map, const std::string& to)
     const ReencodeFigures& r = map.figures;
     const double texels = double(map.width) * double(map.height);
     std::vector<std::string> lines;
-    lines.push_back(fmt::format("{}: {}x{}, {:.1f} % covered by {}; read with {} as it is, off by {} degrees", map.name,
+    lines.push_back(fmt::format("{}: {}x{}, {:.1f} % covered by {}; read with {} unchanged, error {} degrees", map.name,
                                 map.width, map.height, 100 * double(r.covered) / texels,
                                 counted(map.surfaces, "surface"), to, toText(r.unconverted)));
     if (r.several > 0)
         lines.push_back(fmt::format(
-            "  {} texels are used in several places; in {} ({:.2f} % of the covered) these disagree by over {} "
+            "  {} texels are used at several surface points; in {} ({:.2f} % of the covered) these differ by over {} "
             "degrees{}",
             r.several, r.disagreeing, 100 * double(r.disagreeing) / double(std::max<std::size_t>(r.covered, 1)),
-            kDisagree, r.disagreeing > 0 ? fmt::format(": {} off at the worst place", toText(r.disagreement)) : ""));
-    lines.push_back(fmt::format("  converted and rounded to {} bits, off by {} degrees; {} texels of padding converted "
+            kDisagree, r.disagreeing > 0 ? fmt::format(": {} at the worst point", toText(r.disagreement)) : ""));
+    lines.push_back(fmt::format("  converted and rounded to {} bits, error {} degrees; {} padding texels converted "
                                 "too; {} {} bytes, before {}",
                                 map.bits, toText(r.error), r.padded, formatOf(map), map.bytesAfter, map.bytesBefore));
     if (r.belowHorizon > 0)
@@ -88,21 +87,21 @@ std::vector<std::string> tangentsLines(const ConvertModelReport& report, const s
     const TangentBytes& d = report.dropped;
     std::vector<std::string> lines = {
         d.bytes > 0
-            ? fmt::format("TANGENT dropped from {}: {:.3g} bytes a vertex, {} vertices, {} bytes",
+            ? fmt::format("TANGENT dropped from {}: {:.3g} bytes per vertex, {} vertices, {} bytes",
                           counted(d.primitives, "primitive"), double(d.bytes) / double(d.vertices), d.vertices, d.bytes)
             : "no TANGENT to drop"};
-    const TurnedDirection* worst = nullptr;
-    std::size_t turned = 0;
-    for (const TurnedDirection& direction : d.directions)
+    const RotatedDirection* worst = nullptr;
+    std::size_t rotated = 0;
+    for (const RotatedDirection& direction : d.directions)
         if (!direction.stays) {
-            ++turned;
+            ++rotated;
             if (!worst || direction.degrees.percentile95 > worst->degrees.percentile95)
                 worst = &direction;
         }
     if (worst)
-        lines.push_back(fmt::format("  highlights of {} were stretched along it; along {} they turn by {} degrees at "
-                                    "the worst, in {}",
-                                    counted(turned, "primitive"), to, toText(worst->degrees),
+        lines.push_back(fmt::format("  anisotropic highlights of {} followed TANGENT; with {} they rotate by {} "
+                                    "degrees in the worst one, {}",
+                                    counted(rotated, "primitive"), to, toText(worst->degrees),
                                     primitiveField(worst->mesh, worst->primitive)));
     return lines;
 }
@@ -111,7 +110,7 @@ std::string provokingLine(const std::vector<GltfProvoked>& primitives, const std
 {
     const GltfProvoked sum = sumOf(primitives);
     if (primitives.empty())
-        return "no triangles: nothing was numbered anew";
+        return "no triangles: no vertices were reordered";
     return fmt::format("{} of {}: {} vertices, before {}: {:.2f} times as many; vertex k provokes triangle k as its {}",
                        counted(sum.triangles, "triangle"), counted(primitives.size(), "primitive"), sum.verticesAfter,
                        sum.verticesBefore, growthOf(sum), provoking);

@@ -1,4 +1,4 @@
-// What a conversion did, in lines, as `cotan convert` prints them.
+// The lines about a conversion that `cotan convert` prints.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace cotan {
 
-// What became of a map; `to`: the new frame's name.
+// How a map was converted; `to`: the new frame's name.
 std::vector<std::string> linesOf(const ConvertedMap& map, const std::string& to);
 
-// What became of the tangents, and of highlights that are stretched along them; empty where nothing did.
+// What happened to the tangents, and to anisotropic highlights along them; empty if nothing did.
 std::vector<std::string> tangentsLines(const ConvertModelReport& report, const std::string& to);
 
-// How many vertices the triangles used before and use now; provoking: "first" or "last".
+// The number of vertices that the triangles used before and use now; provoking: "first" or "last".
 std::string provokingLine(const std::vector<GltfProvoked>& primitives, const std::string& provoking);
 Json provokingJson(const std::vector<GltfProvoked>& primitives, const std::string& provoking);
 

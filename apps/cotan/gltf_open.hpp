@@ -1,4 +1,4 @@
-// What the commands that rewrite glTF files have in common.
+// Shared by the commands that rewrite glTF files.
 #pragma once
 
 #include <string>
@@ -9,26 +9,25 @@
 
 namespace cotan::app {
 
-// Whether a file is named as glTF, .gltf or .glb in any case.
+// Whether the extension is .gltf or .glb, in any case.
 bool namedAsGltf(const std::filesystem::path& file);
 
-// Whether MODEL is named as glTF. Errors: ErrorKind::usage, also for an -o that is not .gltf or .glb in
-// lower case. No -o is no error here.
+// Checks that MODEL, and -o if given, have a glTF extension. Errors: ErrorKind::usage.
 Status checkGltfNames(const std::string& model, const std::filesystem::path& output);
 
 struct OpenedGltf {
     GltfDocument document;
-    std::vector<std::string> warnings; // of loading; the user has been told
+    std::vector<std::string> warnings; // of loading, already printed
 };
 
-// Opens a model to change it. Everything in the file is looked at but the pixels of its images: what cannot be
-// shown is not rewritten. Errors: ErrorKind::input.
+// Opens a model for editing. The whole file is checked, except the pixels of its images: models that cannot be drawn
+// are not rewritten. Errors: ErrorKind::input.
 Result<OpenedGltf> openGltfToEdit(const std::string& model, const CommonOptions& common);
 
-// Writes it where -o says, and warns of what the user should know. Errors: as writeGltf.
+// Writes the document to -o and prints its notes as warnings. Errors: as writeGltf.
 Result<GltfWritten> writeGltfWithProgress(const GltfDocument& document, const CommonOptions& common);
 
-// The files that were written, for a report.
+// The names of the written files, for a report.
 std::vector<std::string> fileNames(const GltfWritten& written);
 
 } // namespace cotan::app

@@ -1,4 +1,4 @@
-// Text and bytes as HTML has them.
+// Encodes text and bytes for HTML.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace cotan {
 
-// Text that HTML shows as it is, inside elements and quoted attributes.
+// Escapes text for elements and quoted attributes.
 std::string escapeHtml(std::string_view text);
 
 // RFC 4648 base64, with padding.

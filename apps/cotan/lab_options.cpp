@@ -12,12 +12,12 @@ namespace cotan::app {
 
 namespace {
 
-// Of the laboratory's own tables; a test holds that they are the same.
+// Copies of the tables in apps/lab; a test compares them.
 constexpr const char* kTables[] = {"flat",   "foreshortening", "perspective", "views",      "signs",      "curved",
                                    "facets", "precision",      "half",        "degenerate", "procedural", "rendered"};
 constexpr const char* kFigures[] = {"2.6.3",   "2.6.4",  "2.6.5",    "tutorial", "normal-matrices", "mirrored",
                                     "targets", "decode", "faceting", "furnace",  "sparkle"};
-// Beside the frames and their fused forms.
+// Rows other than the frames and their fused forms.
 constexpr const char* kRows[] = {"triangle-halfs",   "triangle-read",        "triangle-scaled",
                                  "cotangent-seen",   "cotangent-area-fused", "cotangent-plain",
                                  "cotangent-facing", "gradient-plain",       "orthonormal-plain"};
@@ -63,7 +63,7 @@ void declare(Arguments& a, AccuracyCommandOptions& o)
     a.option("--scene", o.scene, "only this scene of the tables, such as sphere").in("NAME").main();
     a.group(HelpGroup::output);
     a.option("--csv", o.csv, "write all figures as CSV").in("FILE").writes();
-    a.option("--against", o.against, "compare with figures that --csv wrote; exit code 5 if one is worse")
+    a.option("--against", o.against, "compare with figures that --csv wrote; exit code 5 if any is worse")
         .in("FILE")
         .reads()
         .under(HelpGroup::diagnostics);
@@ -86,7 +86,7 @@ void declare(Arguments& a, FiguresCommandOptions& o)
 #ifdef COTAN_WITH_VULKAN
 void declare(Arguments& a, CostCommandOptions& o)
 {
-    a.find("--threads").unlisted(); // accepted by all commands, listed where it is used
+    a.find("--threads").unlisted(); // accepted by all commands, but listed only where used
     a.option("--frames", o.frames, "frames to measure besides floor and mikktspace; default: all")
         .separatedByCommas()
         .in("A,B")
@@ -95,24 +95,24 @@ void declare(Arguments& a, CostCommandOptions& o)
     a.group(HelpGroup::input);
     a.option("--device", o.devices, "only devices with this in their name; default: all").in("NAME");
     a.option("--family", o.families,
-             "graphics cards that Mesa's Radeon driver compiles for without the card; default, if no --device is "
-             "given: POLARIS10, VEGA10, NAVI21, GFX1100")
+             "GPUs that Mesa's Radeon driver compiles for without having them; default, if no --device is given: "
+             "POLARIS10, VEGA10, NAVI21, GFX1100")
         .in("NAME")
         .offers({"POLARIS10", "VEGA10", "NAVI21", "GFX1100"});
     a.group(HelpGroup::diagnostics);
     a.flag("--no-timing", o.noTiming, "measure no times");
-    a.flag("--time-cpu-devices", o.timeCpuDevices, "measure times also where a driver draws on the processor");
+    a.flag("--time-cpu-devices", o.timeCpuDevices, "measure times also on devices that render on the CPU");
     a.option("--repeats", o.repeats, "how often to draw; the time is the median").within(1, 1000).in("N");
     a.option("--csv", o.csv, "write every number, one per line").in("FILE").writes().under(HelpGroup::output);
-    a.option("--write-cards", o.writeCards, "write a line for each card and stage, which --cards reads")
+    a.option("--write-cards", o.writeCards, "write a line for each GPU and stage, which --cards reads")
         .in("FILE.csv")
         .writes()
         .under(HelpGroup::output);
-    a.option("--cards", o.cards, "make the tables of the cards in this file instead of asking drivers")
+    a.option("--cards", o.cards, "make the tables of the GPUs in this file instead of querying drivers")
         .in("FILE.csv")
         .reads()
         .under(HelpGroup::input);
-    a.option("--name", o.name, "what the tables call the device, where there is one; default: its own name").in("NAME");
+    a.option("--name", o.name, "name in the tables of the device, if only one; default: its own name").in("NAME");
 }
 #endif
 
@@ -148,13 +148,13 @@ void addCostCommand(Arguments& tool, Status (*run)(const CostCommandOptions&))
         tool,
         {"cost",
          "Measure what each frame costs: operations, SPIR-V, machine code, time.",
-         "file for the tables instead of standard output, and beside it a chart, .svg; where it has the marks of "
-         "docs/explanation/cost.md, only what is between them is replaced",
+         "file for the tables instead of standard output, with a chart (.svg) beside it; if it has the marks of "
+         "docs/explanation/cost.md, only the text between them is replaced",
          {"cotan cost --frames cotangent --no-timing", "cotan cost --family NAVI21 --csv cost.csv"}},
         declare, run);
 }
 #else
-// Takes any words and says what is missing.
+// Accepts any words and reports what is missing.
 void addCostCommand(Arguments& tool, Status (*)(const CostCommandOptions&))
 {
     Arguments command = tool.command("cost", "Measure what each frame costs. Not in this build: needs Vulkan.");

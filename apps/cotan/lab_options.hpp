@@ -1,5 +1,5 @@
-// What `cotan accuracy`, `figures` and `cost` take. The tool declares these commands, for its help, its completion and
-// `cotan batch`; the program cotan-lab does them (apps/lab).
+// Options of `cotan accuracy`, `figures` and `cost`. The tool declares these commands for its help, completion and
+// `cotan batch`; the program cotan-lab runs them (apps/lab).
 #pragma once
 
 #include <filesystem>
@@ -38,12 +38,12 @@ struct CostCommandOptions : CommonOptions {
     std::string writeCards;
 };
 
-// Each adds a command that does `run`.
+// Each adds a command that calls `run`.
 void addAccuracyCommand(Arguments& tool, Status (*run)(const AccuracyCommandOptions&));
 void addFiguresCommand(Arguments& tool, Status (*run)(const FiguresCommandOptions&));
 void addCostCommand(Arguments& tool, Status (*run)(const CostCommandOptions&));
 
-// The names that --tables, --only and --frames offer, in the order of the help.
+// The values of --tables, --only and --frames, in the order of the help.
 std::vector<std::string> accuracyTableNames();
 std::vector<std::string> figureOptionNames();
 std::vector<std::string> costRowNames();

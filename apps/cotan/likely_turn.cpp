@@ -8,7 +8,7 @@ namespace cotan::app {
 
 namespace {
 
-constexpr double kHardly = 0.5, kMore = 0.3; // of the volume that both fill
+constexpr double kHardly = 0.5, kMore = 0.3; // fractions of the union of the volumes
 constexpr float kThinnest = 0.01f;           // of the longest side
 
 Bounds thickened(Bounds box)
@@ -25,7 +25,7 @@ double volumeOf(const Bounds& box)
     return size.x * size.y * size.z;
 }
 
-// What two boxes share, of what they fill together: 0 to 1.
+// Intersection over union of two boxes, 0 to 1.
 double shared(const Bounds& a, const Bounds& b)
 {
     const double both = volumeOf({glm::max(a.low, b.low), glm::min(a.high, b.high)});
@@ -35,23 +35,23 @@ double shared(const Bounds& a, const Bounds& b)
 
 } // namespace
 
-Bounds turnedZUp(const Bounds& box)
+Bounds rotatedZUp(const Bounds& box)
 {
     return {{box.low.x, box.low.z, -box.high.y}, {box.high.x, box.high.z, -box.low.y}};
 }
 
-LikelyTurn likelyTurn(const Bounds& first, const Bounds& second)
+UpMismatch findUpMismatch(const Bounds& first, const Bounds& second)
 {
     if (first.empty() || second.empty())
-        return LikelyTurn::none;
+        return UpMismatch::none;
     const Bounds a = thickened(first), b = thickened(second);
-    const double now = shared(a, b), ofFirst = shared(turnedZUp(a), b), ofSecond = shared(a, turnedZUp(b));
+    const double now = shared(a, b), ofFirst = shared(rotatedZUp(a), b), ofSecond = shared(a, rotatedZUp(b));
     const double best = std::max(ofFirst, ofSecond);
     if (now >= kHardly || best < now + kMore)
-        return LikelyTurn::none;
+        return UpMismatch::none;
     if (std::min(ofFirst, ofSecond) > 0.9 * best)
-        return LikelyTurn::either;
-    return ofFirst > ofSecond ? LikelyTurn::first : LikelyTurn::second;
+        return UpMismatch::either;
+    return ofFirst > ofSecond ? UpMismatch::first : UpMismatch::second;
 }
 
 } // namespace cotan::app

@@ -1,24 +1,24 @@
-// Whether one of two models has z up, by their boxes.
+// Guesses from the bounding boxes whether one of two models is z-up.
 #pragma once
 
 #include "cotan/scene.hpp"
 
 namespace cotan::app {
 
-// The box of what turnZUp (scene/geometry.hpp) turns.
-Bounds turnedZUp(const Bounds& box);
+// The bounding box after rotateZUpToYUp (scene/geometry.hpp).
+Bounds rotatedZUp(const Bounds& box);
 
-// What would lay two boxes over one another that are hardly so.
-enum class LikelyTurn {
+// Which rotation would align two boxes that hardly overlap.
+enum class UpMismatch {
     none,
-    first,  // turnZUp of the first
-    second, // of the second
+    first,  // rotateZUpToYUp of the first
+    second, // rotateZUpToYUp of the second
     either, // the boxes do not tell which
 };
 
-// Whether two models that ought to lie over one another would do so if one of them were turned: their boxes share less
-// than half of the volume that they fill together, and turned at least three tenths more of it. Flat boxes count as if
-// they were a hundredth of their size thick. none for an empty box.
-LikelyTurn likelyTurn(const Bounds& first, const Bounds& second);
+// Whether rotating one of two models would align them: the intersection of their boxes is less than half of the union
+// of the volumes, and after the rotation at least 0.3 more of it. Flat boxes count as 1 % of their size thick. Returns
+// none for an empty box.
+UpMismatch findUpMismatch(const Bounds& first, const Bounds& second);
 
 } // namespace cotan::app

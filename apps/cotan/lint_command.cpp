@@ -27,7 +27,7 @@ struct LintCommandOptions : CommonOptions {
     LintLimits limits;
 };
 
-// What does what is advised; empty where that would do nothing.
+// The command that follows the advice; empty if it would change nothing.
 std::string commandFor(const LintCommandOptions& o, const LintReport& report)
 {
     if (report.advice == Advice::nothing || !o.maps.normal.empty()) // convert reads the model's own maps
@@ -48,7 +48,7 @@ Status checkUsage(const LintCommandOptions& o)
 {
     if (!(o.distance >= 0 && o.distance <= 1e9))
         return usageError(fmt::format("--distance: expected a number from 0 to 1e9; found {}", o.distance));
-    const auto outside = [](double limit, double most) { return !(limit == -1 || (limit >= 0 && limit <= most)); };
+    const auto outside = [](double limit, double max) { return !(limit == -1 || (limit >= 0 && limit <= max)); };
     if (outside(o.limits.degrees, 180))
         return usageError(fmt::format("--limit: expected degrees from 0 to 180; found {}", o.limits.degrees));
     if (outside(o.limits.area, 100))
@@ -99,8 +99,8 @@ Status run(const LintCommandOptions& o)
             say(o, line);
     else
         say(o,
-            "--details adds {} lines: the statistics of each primitive and map, and cameras that look at the worst "
-            "places",
+            "--details adds {} lines: the statistics of each primitive and map, and cameras that look at the problem "
+            "areas",
             details.size());
 
     Json j = {{"command", "lint"},
@@ -133,32 +133,32 @@ Status run(const LintCommandOptions& o)
 
 void declare(Arguments& a, LintCommandOptions& o)
 {
-    a.find("--threads").unlisted(); // accepted by all commands, listed where it is used
+    a.find("--threads").unlisted(); // accepted by all commands, but listed only where used
     a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file").required().reads();
     addUpOption(a, o.up);
-    addMemoryOption(a, o.memory, ", and most that all triangles take besides the model");
+    addMemoryOption(a, o.memory, ", and the maximum for all triangles besides the model");
     a.flag("--details", o.details,
-           "print the figures of each primitive and map, too, and cameras that look at the worst places")
+           "also print the statistics of each primitive and map, and cameras that look at the problem areas")
         .main();
     addOwnNormalMap(a, o.maps);
     a.group(HelpGroup::diagnostics);
     a.option("--distance", o.distance,
-             "distance from the eye in world units, for a picture of 45 degrees and 1080 lines; 0: where the model "
-             "fills it")
+             "distance from the eye in world units, for an image with a 45 degree view and 1080 rows; 0: where the "
+             "model fills it")
         .in("D");
     a.option(
          "--limit", o.limits.degrees,
-         "a check of each primitive by itself: exit code 5 where the error with --frame exceeds this many degrees on "
-         "more than 5 % of a primitive's area, a map's green points the other way, or a normal map could not be judged")
+         "check each primitive: exit code 5 if the error with --frame exceeds this many degrees on more than 5 % of "
+         "a primitive's area, a map's green points the other way, or a normal map could not be judged")
         .in("DEGREES")
         .withoutDefault()
         .main();
     a.option("--limit-area", o.limits.area,
-             "a check: exit code 5 where degenerate uv, mirrored uv that overlap, or stored tangents against the uv "
-             "exceed this % of a primitive's area, or a map's green points the other way")
+             "check each primitive: exit code 5 if degenerate uv, mirrored uv that overlap, or stored tangents against "
+             "the uv exceed this % of a primitive's area, or a map's green points the other way")
         .in("PERCENT")
         .withoutDefault();
-    a.flag("--strict", o.strict, "ask for --limit or --limit-area: without either it is an error of usage");
+    a.flag("--strict", o.strict, "require --limit or --limit-area: without either it is a usage error");
     a.option("--frame", o.limits.frame,
              "frame that --limit judges: cotangent, orthonormal, smooth, exact, triangle or stored")
         .from(readingNames())
@@ -170,14 +170,13 @@ void declare(Arguments& a, LintCommandOptions& o)
 
 void addLintCommand(Arguments& tool)
 {
-    addCommand<LintCommandOptions>(
-        tool,
-        {"lint",
-         "Check a model: how far off its normal maps will be without stored tangents, in degrees.",
-         "",
-         {"cotan lint model.glb", "cotan lint model.glb --limit 2",
-          "cotan lint model.glb --distance 3 --json report.json"}},
-        declare, run);
+    addCommand<LintCommandOptions>(tool,
+                                   {"lint",
+                                    "Check a model: the error of its normal maps without stored tangents, in degrees.",
+                                    "",
+                                    {"cotan lint model.glb", "cotan lint model.glb --limit 2",
+                                     "cotan lint model.glb --distance 3 --json report.json"}},
+                                   declare, run);
 }
 
 } // namespace cotan::app

@@ -11,11 +11,11 @@ namespace cotan {
 
 namespace {
 
-std::string percentOf(double share) { return fmt::format("{:.1f} %", 100 * share); }
+std::string percentOf(double fraction) { return fmt::format("{:.1f} %", 100 * fraction); }
 
 std::string frameWord(Frame frame) { return frame == Frame::mikktspace ? "MikkTSpace" : std::string(name(frame)); }
 
-// A failure with what is beside the value.
+// A failure with its additional values.
 std::string sentenceOf(const LintFailure& f) { return f.beside.empty() ? f.text : f.text + " (" + f.beside + ")"; }
 
 void addPrimitive(const LintReport& report, std::size_t index, std::vector<std::string>& lines)
@@ -31,8 +31,8 @@ void addPrimitive(const LintReport& report, std::size_t index, std::vector<std::
         return;
     }
     lines.push_back(fmt::format(
-        "  uv: degenerate {}, mirrored {}, overlapping {} (in both orientations {}), stretched over {:.1f} {}, "
-        "sheared over {:.0f} degrees {} of the area",
+        "  uv: degenerate {}, mirrored {}, overlapping {} (in both orientations {}), stretch above {:.1f} {}, "
+        "shear above {:.0f} degrees {} of the area",
         percentOf(p.uv.degenerate), percentOf(p.uv.mirrored), percentOf(p.uv.overlapping),
         percentOf(p.uv.overlappingMirrored), kStretched, percentOf(p.uv.stretched), kSheared, percentOf(p.uv.sheared)));
     lines.push_back(fmt::format("  stretch {}, shear {} degrees", toText(p.uv.stretch), toText(p.uv.shear)));
@@ -42,10 +42,10 @@ void addPrimitive(const LintReport& report, std::size_t index, std::vector<std::
     if (p.stored.present && p.stored.angle.count == 0)
         lines.push_back("  stored tangents: nothing to compare them with, the uv have no area");
     else if (p.stored.present)
-        lines.push_back(
-            fmt::format("  stored tangents: w against the uv on {}, turned over {:.0f} degrees on {} of the area; "
-                        "{} degrees from dP/du",
-                        percentOf(p.stored.reversedW), kTurned, percentOf(p.stored.turned), toText(p.stored.angle)));
+        lines.push_back(fmt::format(
+            "  stored tangents: w against the uv on {}, rotated by more than {:.0f} degrees on {} of the "
+            "area; {} degrees from dP/du",
+            percentOf(p.stored.reversedW), kMaxTangentAngle, percentOf(p.stored.rotated), toText(p.stored.angle)));
     if (!p.notJudged.empty())
         lines.push_back("  normal map not judged: " + p.notJudged);
     else
@@ -77,7 +77,7 @@ std::string greenLine(const LintReport& report)
     }
     if (report.maps.empty())
         return {};
-    return fmt::format("Green, judged by the maps alone: as declared in {}, the other way in {}, cannot be told in {}.",
+    return fmt::format("Green, judged by the maps alone: as declared in {}, the other way in {}, undecidable in {}.",
                        right, wrong, report.maps.size() - right - wrong);
 }
 
@@ -111,16 +111,16 @@ std::vector<std::string> detailLines(const LintReport& report)
     std::vector<std::string> lines;
     if (!report.worst.empty())
         lines.push_back(report.worst);
-    lines.emplace_back("Three figures are mean / 95 % / maximum, weighted by area.");
+    lines.emplace_back("Three values are mean / 95 % / maximum, weighted by area.");
     for (std::size_t i = 0; i < report.primitives.size(); ++i)
         addPrimitive(report, i, lines);
     for (const GreenEvidence& g : report.maps)
         lines.push_back(fmt::format(
-            "normal map {}{}: green, taking red as right, {}; agreement {:+.2f} for green up, {} of the detail agrees",
+            "normal map {}{}: green, if red points right, {}; agreement {:+.2f} for green up, {} of the detail agrees",
             g.image, g.name.empty() ? "" : " " + g.name, greenVerdict(g), g.verdict.agreement,
             percentOf(g.verdict.votes)));
     for (const MapFit& f : report.fits)
-        lines.push_back(fmt::format("normal map {}{}: read as it is, orthonormal {}, cotangent {}, smooth {}", f.image,
+        lines.push_back(fmt::format("normal map {}{}: read unchanged, orthonormal {}, cotangent {}, smooth {}", f.image,
                                     f.name.empty() ? "" : " " + f.name, toText(f.orthonormal), toText(f.cotangent),
                                     toText(f.smooth)));
     return lines;

@@ -1,4 +1,4 @@
-// A LintReport in lines, as `cotan lint` prints it, and words that other reports share.
+// The lines of a LintReport that `cotan lint` prints, and texts that other reports share.
 #pragma once
 
 #include <cstddef>
@@ -16,22 +16,21 @@ std::string counted(std::size_t number, const std::string& noun);
 // "mean / 95 % / maximum"; "nothing to measure" for an empty set.
 std::string toText(const ValueSummary& summary);
 
-// The verdict: what the model is, what will be seen and how much, what is wrong, what to do. At most seven lines.
-// run: the command that does it; empty if there is none.
+// The verdict in at most seven lines: the model, the visible error, the defects, the advice. run: the command that
+// follows the advice; empty if there is none.
 std::vector<std::string> verdictLines(const std::string& model, const LintReport& report, const std::string& run);
 
-// All that was measured: a few lines for each primitive, one for each map.
+// All measurements: a few lines per primitive, one per map.
 std::vector<std::string> detailLines(const LintReport& report);
 
-// "passed" or what failed: the first `most` failures, one line each, the last with the number of those left out.
+// "passed", or the first `most` failures, one line each; the last line also has the number of omitted ones.
 std::vector<std::string> checkLines(const LintCheck& check, std::size_t most);
 
-// The first failure and how many more there are, without a line's beginning; empty where the check passed.
+// The first failure and the number of others, without a prefix; empty if the check passed.
 std::string summaryOf(const LintCheck& check);
 
 // The failures as objects: {"kind", "mesh", "material", "map", "degrees", "percent", "limit", "text"}. Names are null
-// where the failure is about something else or the file gives none; of degrees and percent the one that was measured is
-// not null.
+// if they do not apply or the file gives none. Of degrees and percent, only the measured one is not null.
 Json overLimits(const LintCheck& check);
 
 } // namespace cotan

@@ -19,7 +19,7 @@ Error withOptionNames(const Error& error)
                                                                   : std::string(1, c);
         text.replace(0, error.field.size(), option);
     }
-    // Without the flag: whoever asks again does not give the hint twice.
+    // The new error lacks the memory flag, so that another call does not append the hint again.
     return {error.kind, text + (error.memory ? " (--memory raises it)" : "")};
 }
 

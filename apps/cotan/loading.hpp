@@ -1,4 +1,4 @@
-// What is read within --memory, and drawn by --device.
+// Loading within --memory, and opening --device.
 #pragma once
 
 #include <filesystem>
@@ -12,23 +12,23 @@
 
 namespace cotan::app {
 
-// An error of a part in words of the command line: "options.maxDistance: ..." is "--max-distance: ...", and --memory is
-// named where a limit of memory was met.
+// Replaces library names in an error by options: "options.maxDistance: ..." becomes "--max-distance: ...", and exceeded
+// memory limits mention --memory.
 Error withOptionNames(const Error& error);
 
-// A model and a picture read within so many MiB a picture. Errors: as loadScene and readImage, in words.
+// Loads a scene or image with at most `memory` MiB per image. Errors: as loadScene and readImage, with option names.
 Result<Scene> loadSceneWithin(const LoadLimits& limits, const std::filesystem::path& file);
 Result<Scene> loadSceneWithin(int memory, const std::filesystem::path& file, Pixels pixels = Pixels::all);
 Result<Image> readImageWithin(int memory, const std::filesystem::path& file);
 
-// loadSceneWithin under a line of progress.
+// loadSceneWithin with a progress line.
 Result<Scene> loadWithProgress(const CommonOptions& common, const LoadLimits& limits, const std::string& file);
 
-// Warns of a renderer's note.
+// Prints a renderer's note as a warning.
 Result<std::unique_ptr<Renderer>> warnOfNote(Result<std::unique_ptr<Renderer>> renderer, const CommonOptions& common);
 
-// Opens the device of that name, as openRenderer does; where "auto" falls back to the reference renderer, a warning
-// says why. Errors: those of openRenderer.
+// Opens a device by openRenderer. If "auto" falls back to the reference renderer, prints a warning with the reason.
+// Errors: those of openRenderer.
 Result<std::unique_ptr<Renderer>> openDevice(const std::string& device, const CommonOptions& common,
                                              bool validation = false);
 

@@ -16,11 +16,11 @@ namespace {
 
 using cotan::app::finish;
 
-// The manual's pages and the completion of shells, into a folder as share/ has them. For the build: see CMakeLists.txt.
+// Writes manual pages and shell completions to a folder laid out like share/, for the build (CMakeLists.txt).
 cotan::Status writeHelpFiles(const cotan::Arguments& tool, const std::filesystem::path& folder)
 {
     for (const cotan::HelpFile& file : cotan::helpFiles(tool.describe(), COTAN_VERSION)) {
-        std::error_code failed; // the file then cannot be written, either
+        std::error_code failed; // if set, writing the file fails as well
         std::filesystem::create_directories((folder / file.path).parent_path(), failed);
         if (cotan::Status written = cotan::writeFileWhole(folder / file.path, file.text); !written)
             return written;
@@ -28,7 +28,7 @@ cotan::Status writeHelpFiles(const cotan::Arguments& tool, const std::filesystem
     return cotan::Done{};
 }
 
-// Arguments itself takes "help render" for "render --help"; this is what the help and completion have of it.
+// Arguments itself parses "help render" as "render --help"; this entry is for the help and completion only.
 void addHelpCommand(cotan::Arguments& tool)
 {
     std::vector<std::string> names;
@@ -41,10 +41,10 @@ void addHelpCommand(cotan::Arguments& tool)
     command.does([words] { return cotan::Status(cotan::Done{}); });
 }
 
-// Accuracy, figures and costs are the other program's: whoever bakes does not carry them.
+// Accuracy, figures and costs belong to another program, so that users who only bake need not install it.
 template<class Options> cotan::Status runInLab(const Options&) { return cotan::app::startLab(); }
 
-// By what somebody wants to do; the order here is that of the help.
+// Grouped by task; the order is that of the help.
 void addCommands(cotan::Arguments& tool)
 {
     using namespace cotan::app;
@@ -59,10 +59,10 @@ void addCommands(cotan::Arguments& tool)
     addBakeCommand(tool);
     addConvertCommand(tool);
     addTangentsCommand(tool);
-    tool.heading("Put it into an engine");
+    tool.heading("Use in an engine");
     addShaderCommand(tool);
     addCostCommand(tool, runInLab<CostCommandOptions>);
-    tool.heading("Many files, and proofs");
+    tool.heading("Batches and measurements");
     addBatchCommand(tool);
     addAccuracyCommand(tool, runInLab<AccuracyCommandOptions>);
     addFiguresCommand(tool, runInLab<FiguresCommandOptions>);

@@ -1,4 +1,4 @@
-// `cotan map blend`: a base and a detail as one map.
+// `cotan map blend`: blends a base map and a detail map.
 #include <cstdlib>
 #include <utility>
 
@@ -18,7 +18,7 @@ struct MapBlendCommandOptions : MapOptions {
     bool dither = false;
 };
 
-// "N" or "NxM", each 1..4096.
+// Parses "N" or "NxM", each 1 to 4096.
 Result<std::pair<int, int>> parseTiles(const std::string& text)
 {
     char* end = nullptr;
@@ -77,7 +77,7 @@ Status run(const MapBlendCommandOptions& o)
     if (!done)
         return done.error();
     if (done->invalid > 0)
-        warn(o, "{} texels are no direction in one of the maps; the other counts alone there", done->invalid);
+        warn(o, "{} texels have no direction in one of the maps; the other map is used there", done->invalid);
     say(o, "{}: {} x {}, {}: {}, {}", o.output.string(), done->width, done->height, bitsName(done->bits), o.mode,
         describe(done->to));
     return writeReport(o,

@@ -22,8 +22,8 @@ void addCompress(Arguments& command, std::string& compress)
     command
         .option("--compress", compress,
                 "for " + imageEndings(&ImageFormat::texture, ", ", " and ")
-                    + ": none, or blocks of a byte a texel: bc5, x and y, which are the more exact for it; "
-                      "bc7, x, y, z and alpha")
+                    + ": none, or blocks of one byte per texel: bc5 (x and y only, more exact) or bc7 (x, y, z and "
+                      "alpha)")
         .in("NAME")
         .offers({"none", "bc5", "bc7"})
         .under(HelpGroup::output);

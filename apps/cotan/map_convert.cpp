@@ -1,4 +1,4 @@
-// `cotan map convert`: the same directions, stored another way.
+// `cotan map convert`: converts a map to another convention.
 #include <fmt/format.h>
 
 #include "image/format_table.hpp"
@@ -28,8 +28,8 @@ Status run(const MapConvertCommandOptions& o)
     const StatedConvention& from = conventions->first;
     const Convention& to = conventions->second.convention;
     if (conventions->second.damage.any())
-        return usageError(fmt::format("--to: srgb, linearised, bgr and grb say how a broken map is stored; expected "
-                                      "others, found '{}'",
+        return usageError(fmt::format("--to: srgb, linearised, bgr and grb describe broken maps; expected a convention "
+                                      "without them, found '{}'",
                                       o.to));
     if (Status given = needOutput(o, "convert"); !given)
         return given;
@@ -49,16 +49,16 @@ Status run(const MapConvertCommandOptions& o)
         options.mesh = {o.mesh, *frame, o.tangents, o.material, o.up};
     }
     const auto done =
-        onFilesToMap(o, o.mesh.empty() ? o.file : "turning texels by the mesh", [&](const maps::FileOptions& files) {
+        onFilesToMap(o, o.mesh.empty() ? o.file : "converting with the mesh", [&](const maps::FileOptions& files) {
             return maps::convertFile(o.file, o.output, options, files);
         });
     if (!done)
         return done.error();
     if (!o.mesh.empty())
-        say(o, "{}: the mesh shows {:.1f} % of the map; the rest is padding", o.mesh,
-            100 * double(done->shown) / (double(done->width) * double(done->height)));
+        say(o, "{}: the mesh uses {:.1f} % of the map; the rest is padding", o.mesh,
+            100 * double(done->covered) / (double(done->width) * double(done->height)));
     if (done->counts.invalid > 0)
-        warn(o, "{}: {} texels are no direction; written as flat", o.file, done->counts.invalid);
+        warn(o, "{}: {} texels have no direction; written as flat", o.file, done->counts.invalid);
     if (done->counts.clamped > 0)
         warn(o, "{}: {} texels are steeper than {} can hold; clamped", o.file, done->counts.clamped, describe(to));
     Convention stored = to;
@@ -91,7 +91,7 @@ void declare(Arguments& a, MapConvertCommandOptions& o)
         damages += ' ' + word;
     }
     a.option("--from", o.from,
-             "how the map is stored: " + conventionWords() + "; and of broken maps, which are repaired:" + damages)
+             "how the map is stored: " + conventionWords() + "; and for broken maps, which are repaired:" + damages)
         .in("WORDS")
         .offers(words)
         .required()
@@ -104,11 +104,11 @@ void declare(Arguments& a, MapConvertCommandOptions& o)
     addBits(a, o, "");
     a.option("--strength", o.strength, "factor on the slopes; negative turns bumps into dents").in("X").main();
     a.flag("--normalise", o.normalise,
-           "make every vector of unit length; without this, vectors of three channels keep their lengths")
+           "normalise every vector; without this, vectors of three channels keep their lengths")
         .under(HelpGroup::output);
     addCompress(a, o.compress);
     addDither(a, o.dither);
-    a.option("--mesh", o.mesh, "mesh of the map; needed to or from object space").in("FILE").reads();
+    a.option("--mesh", o.mesh, "mesh that uses the map; required to or from object space").in("FILE").reads();
     a.option("--frame", o.frame, "with --mesh: the frame that reads the tangent-space map")
         .in("NAME")
         .offers(frameWords())

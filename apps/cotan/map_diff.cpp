@@ -1,4 +1,4 @@
-// `cotan map diff`: two maps against each other, in degrees.
+// `cotan map diff`: compares two maps, in degrees.
 #include <fmt/format.h>
 
 #include "map_files/inspect.hpp"
@@ -26,7 +26,7 @@ Status run(const MapDiffCommandOptions& o)
         return compared.error();
     say(o, "{} texels: {}", compared->angles.count, toText(compared->angles));
     if (compared->skipped > 0)
-        say(o, "{} texels are no direction in one of the two and were left out", compared->skipped);
+        say(o, "{} texels have no direction in one of the maps and were left out", compared->skipped);
     if (!o.output.empty())
         say(o, "{}: black 0, blue 0.5, green 2, yellow 5, red 15, white 45 degrees and more", o.output.string());
     return writeReport(o,

@@ -1,4 +1,4 @@
-// `cotan map from-height` and `to-height`: a normal map from a height picture, and back.
+// `cotan map from-height` and `to-height`: converts a height image to a normal map, and back.
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -13,7 +13,7 @@ namespace cotan::app {
 
 namespace {
 
-// What both take.
+// Options of both commands.
 struct HeightOptions : MapOptions {
     std::string file, convention = "gltf", metres, kernel;
 };
@@ -30,12 +30,12 @@ struct MapToHeightCommandOptions : HeightOptions {
     bool free = false;
 };
 
-// "W" or "WxH" in metres; nothing for an empty text.
+// Parses "W" or "WxH" in metres; empty for an empty text.
 Result<std::optional<maps::Metres>> parseMetres(const std::string& text)
 {
     if (text.empty())
         return std::optional<maps::Metres>();
-    // from_chars, as strtod reads "0x1" as one number.
+    // Not strtod, which would parse "0x1" as one number.
     maps::Metres metres{0, 0};
     const char* const last = text.data() + text.size();
     const char* end = std::from_chars(text.data(), last, metres.width).ptr;
@@ -87,7 +87,7 @@ Status runFrom(const MapFromHeightCommandOptions& o)
     if (!done)
         return done.error();
     if (done->invalid > 0)
-        warn(o, "{}: {} texels have no finite height beside them; written as flat", o.file, done->invalid);
+        warn(o, "{}: {} texels have no finite height next to them; written as flat", o.file, done->invalid);
     if (done->heights == PixelType::unorm8)
         warn(o, "{}: 8-bit heights make steps; one step is a slope of {:.3g} here", o.file, done->slopeX / 255 / 2);
     say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bitsName(done->bits),
@@ -102,8 +102,8 @@ Status runFrom(const MapFromHeightCommandOptions& o)
                         {"invalid", done->invalid}});
 }
 
-// The options that turn the heights back to the map.
-std::string backAgain(const MapToHeightCommandOptions& o, const maps::ToHeightFile& done)
+// The options that convert the heights back to the map.
+std::string inverseOptions(const MapToHeightCommandOptions& o, const maps::ToHeightFile& done)
 {
     const double range = done.heights.highest - done.heights.lowest;
     std::string options = o.metres.empty() ? fmt::format("--strength {:.9g}", 100 * range / done.width)
@@ -143,17 +143,17 @@ Status runTo(const MapToHeightCommandOptions& o)
         return done.error();
     const maps::Heights& h = done->heights;
     const double lowest = h.lowest * done->unit, highest = h.highest * done->unit;
-    const double share = h.slope > 0 ? h.residual / h.slope : 0;
+    const double fraction = h.slope > 0 ? h.residual / h.slope : 0;
     const char* const unit = o.metres.empty() ? "texels" : "metres";
     if (h.invalid > 0)
-        warn(o, "{}: {} texels are no direction; taken as flat", o.file, h.invalid);
+        warn(o, "{}: {} texels have no direction; treated as flat", o.file, h.invalid);
     if (!o.free && h.meanTilt > 1)
-        warn(o, "the whole map leans by {:.1f} degrees, which no repeating height can; --free follows it", h.meanTilt);
+        warn(o, "the mean normal tilts by {:.1f} degrees, which no repeating heights give; --free does", h.meanTilt);
     say(o, "{}: {} x {}, {}; from {:.6g} to {:.6g} {}", o.output.string(), done->width, done->height,
         bitsName(done->bits), lowest, highest, unit);
-    say(o, "slopes {:.4f} (rms), {:.4f} of which no height explains ({:.1f} %)", h.slope, h.residual, share * 100);
+    say(o, "slopes {:.4f} (rms), {:.4f} not explained by any height ({:.1f} %)", h.slope, h.residual, fraction * 100);
     if (done->bits.type != PixelType::float32)
-        say(o, "back: cotan map from-height " + backAgain(o, *done));
+        say(o, "to convert back: cotan map from-height " + inverseOptions(o, *done));
     return writeReport(o,
                        {{"command", "map to-height"},
                         {"file", o.file},
@@ -165,7 +165,7 @@ Status runTo(const MapToHeightCommandOptions& o)
                         {"strength", 100 * (h.highest - h.lowest) / done->width},
                         {"slope_rms", h.slope},
                         {"residual_rms", h.residual},
-                        {"residual_share", share},
+                        {"residual_share", fraction},
                         {"mean_tilt_degrees", h.meanTilt},
                         {"invalid", h.invalid}});
 }
@@ -239,7 +239,7 @@ void addMapToHeight(Arguments& map)
 {
     addCommand<MapToHeightCommandOptions>(map,
                                           {"to-height",
-                                           "Make a height map from a normal map: the one whose slopes are nearest.",
+                                           "Make a height map from a normal map: the one whose slopes are closest.",
                                            "the heights; floats keep their unit, others go from black to white",
                                            {"cotan map to-height rocks.png -o height.png",
                                             "cotan map to-height rocks.png --metres 2 --bits float -o height.exr"},

@@ -1,4 +1,4 @@
-// `cotan map info` and `detect`: nothing is changed.
+// `cotan map info` and `detect`: inspects maps.
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -19,17 +19,17 @@ struct InspectOptions : MapOptions {
     std::vector<std::string> files; // or folders
 };
 
-// What is said of one file.
-struct Looked {
+// The result for one file.
+struct Inspected {
     std::vector<std::string> lines;
     Json figures;
-    std::size_t brief; // how many of the lines are said of each of several files
+    std::size_t brief; // number of the lines that are printed if there are several files
 };
 
-using Look = Result<Looked> (*)(const InspectOptions& o, const std::string& file);
+using Inspect = Result<Inspected> (*)(const InspectOptions& o, const std::string& file);
 
-// The pictures in a folder and those below it, in the order of their names.
-Result<std::vector<std::string>> picturesIn(const std::string& folder)
+// The images in a folder and its subfolders, sorted by path.
+Result<std::vector<std::string>> imagesIn(const std::string& folder)
 {
     std::vector<std::string> files;
     std::error_code error;
@@ -39,12 +39,12 @@ Result<std::vector<std::string>> picturesIn(const std::string& folder)
     if (error)
         return inputError(fmt::format("{}: cannot be read: {}", folder, error.message()));
     if (files.empty())
-        return inputError(fmt::format("{}: expected a folder with pictures; found none", folder));
+        return inputError(fmt::format("{}: expected a folder with images; found none", folder));
     std::ranges::sort(files);
     return files;
 }
 
-// All files that the words name.
+// The files of the command line, with folders expanded.
 Result<std::vector<std::string>> filesOf(const InspectOptions& o)
 {
     std::vector<std::string> all;
@@ -53,7 +53,7 @@ Result<std::vector<std::string>> filesOf(const InspectOptions& o)
             all.push_back(name);
             continue;
         }
-        const auto inside = picturesIn(name);
+        const auto inside = imagesIn(name);
         if (!inside)
             return inside.error();
         all.insert(all.end(), inside->begin(), inside->end());
@@ -61,20 +61,20 @@ Result<std::vector<std::string>> filesOf(const InspectOptions& o)
     return all;
 }
 
-Status runOne(const InspectOptions& o, const char* command, Look look)
+Status runOne(const InspectOptions& o, const char* command, Inspect inspect)
 {
-    const auto looked = look(o, o.files.front());
-    if (!looked)
-        return looked.error();
-    for (const std::string& line : looked->lines)
+    const auto inspected = inspect(o, o.files.front());
+    if (!inspected)
+        return inspected.error();
+    for (const std::string& line : inspected->lines)
         say(o, line);
     Json report = {{"command", command}, {"file", o.files.front()}};
-    report.update(looked->figures);
+    report.update(inspected->figures);
     return writeReport(o, report);
 }
 
-// One after the other; a file that cannot be read does not keep the others from it.
-Status runAll(const InspectOptions& o, const char* command, Look look)
+// Inspects the files in turn, and continues after those that cannot be read.
+Status runAll(const InspectOptions& o, const char* command, Inspect inspect)
 {
     const auto files = filesOf(o);
     if (!files)
@@ -82,18 +82,18 @@ Status runAll(const InspectOptions& o, const char* command, Look look)
     std::vector<Error> errors;
     Json all = Json::array();
     for (const std::string& file : *files) {
-        const auto looked = look(o, file);
+        const auto inspected = inspect(o, file);
         Json report = {{"file", file}};
-        if (looked) {
-            for (std::size_t i = 0; i < std::min(looked->brief, looked->lines.size()); ++i) {
-                const std::string& line = looked->lines[i];
+        if (inspected) {
+            for (std::size_t i = 0; i < std::min(inspected->brief, inspected->lines.size()); ++i) {
+                const std::string& line = inspected->lines[i];
                 say(o, line.starts_with(file) ? line : file + ": " + line);
             }
-            report.update(looked->figures);
+            report.update(inspected->figures);
         } else {
-            warn(o, looked.error().message);
-            errors.push_back(looked.error());
-            report["error"] = looked.error().message;
+            warn(o, inspected.error().message);
+            errors.push_back(inspected.error());
+            report["error"] = inspected.error().message;
         }
         all.push_back(std::move(report));
     }
@@ -106,35 +106,35 @@ Status runAll(const InspectOptions& o, const char* command, Look look)
                              errors.front().message)};
 }
 
-Status run(const InspectOptions& o, const char* command, Look look)
+Status run(const InspectOptions& o, const char* command, Inspect inspect)
 {
     if (Status planned = beginOutputs(o, {}); !planned)
         return planned;
     std::error_code ignored;
     const bool one = o.files.size() == 1 && !fs::is_directory(o.files.front(), ignored);
-    return one ? runOne(o, command, look) : runAll(o, command, look);
+    return one ? runOne(o, command, inspect) : runAll(o, command, inspect);
 }
 
-Result<Looked> survey(const InspectOptions& o, const std::string& file)
+Result<Inspected> survey(const InspectOptions& o, const std::string& file)
 {
     const auto found = onFiles(o, file, [&](const maps::FileOptions& files) { return maps::surveyFile(file, files); });
     if (!found)
         return found.error();
     const auto lines = maps::linesOf(*found, file);
-    return Looked{lines, maps::toJson(*found), lines.size()};
+    return Inspected{lines, maps::toJson(*found), lines.size()};
 }
 
-Result<Looked> detect(const InspectOptions& o, const std::string& file)
+Result<Inspected> detect(const InspectOptions& o, const std::string& file)
 {
     const auto found = onFiles(o, file, [&](const maps::FileOptions& files) { return maps::greenOfFile(file, files); });
     if (!found)
         return found.error();
     const auto lines = maps::linesOf(*found, file);
-    // The verdict, and what is wrong.
+    // Briefly: the verdict and the faults.
     const auto rest = std::ranges::find_if(lines.begin() + 1, lines.end(), [](const std::string& line) {
         return !line.starts_with("wrong: ") && !line.starts_with("to fix it: ");
     });
-    return Looked{lines, maps::toJson(*found), std::size_t(rest - lines.begin())};
+    return Inspected{lines, maps::toJson(*found), std::size_t(rest - lines.begin())};
 }
 
 Status runInfo(const InspectOptions& o) { return run(o, "map info", survey); }

@@ -1,4 +1,4 @@
-// `cotan map mips`: the chain as one DDS or a file for each level.
+// `cotan map mips`: writes mip levels as one texture or as a file per level.
 #include <fmt/format.h>
 
 #include "files/file_registry.hpp"

@@ -1,4 +1,4 @@
-// What the subcommands of `cotan map` share.
+// Shared by the subcommands of `cotan map`.
 #pragma once
 
 #include <string>
@@ -12,26 +12,25 @@
 namespace cotan::app {
 
 struct MapOptions : CommonOptions {
-    int memory = kDefaultMemory; // of one picture that is decoded whole
+    int memory = kDefaultMemory; // for an image that is decoded whole
     std::string bits = "auto";
 };
 
-// The options that they share besides those of all commands.
+// Options shared by subcommands, besides those of all commands.
 void addBits(Arguments& command, MapOptions& options, const std::string& help);
 void addCompress(Arguments& command, std::string& compress);
 void addDither(Arguments& command, bool& dither);
 
-// parseStatedConvention with the option in front of its message.
+// parseStatedConvention with the option's name in its error.
 Result<StatedConvention> parseConvention(const std::string& text, const std::string& option);
 
-// The two of --from and --to.
+// Parses --from and --to.
 Result<std::pair<StatedConvention, StatedConvention>> parseFromTo(const std::string& from, const std::string& to);
 
-// For the commands that write a map: -o has to be given, and what is written is planned: `file`, the one that -o names
-// if empty.
+// For commands that write a map: requires -o, and plans the output `file`, or that of -o if `file` is empty.
 Status needOutput(const MapOptions& options, const std::string& command, const std::filesystem::path& file = {});
 
-// Runs a call of cotan/map_files under a line of progress; errors are in words of the command line.
+// Runs a function of map_files with a progress line. Errors have option names.
 template<class Work> auto onFiles(const MapOptions& o, const std::string& what, const Work& work)
 {
     auto result = withProgress(o, 1, what, [&](Progress progress) {
@@ -40,21 +39,21 @@ template<class Work> auto onFiles(const MapOptions& o, const std::string& what, 
     return result ? std::move(result) : decltype(result)(withOptionNames(result.error()));
 }
 
-// The same for work that writes a normal map: once the work has begun, warns where the format of -o does not keep it.
+// The same for work that writes a normal map: once the work has started, warns if the format of -o is lossy.
 template<class Work> auto onFilesToMap(const MapOptions& o, const std::string& what, const Work& work)
 {
-    bool told = false;
+    bool warned = false;
     return onFiles(o, what, [&](maps::FileOptions files) {
-        files.progress = [&, line = std::move(files.progress)](double share) {
-            if (!std::exchange(told, true))
+        files.progress = [&, line = std::move(files.progress)](double fraction) {
+            if (!std::exchange(warned, true))
                 warnIfLossy(o, o.output);
-            return line(share);
+            return line(fraction);
         };
         return work(files);
     });
 }
 
-// Each adds its command.
+// Each adds one command.
 void addMapInfo(Arguments& map);
 void addMapDetect(Arguments& map);
 void addMapConvert(Arguments& map);

@@ -1,4 +1,4 @@
-// `cotan batch` where there is no xxHash to tell files apart: it takes any words and says what is missing.
+// `cotan batch` in builds without xxHash, which detects changed files: accepts any words and reports what is missing.
 #include "commands.hpp"
 #include "core/not_built.hpp"
 

@@ -1,4 +1,4 @@
-// Words of the command line to values. Each error names the option, what it expects and what it got.
+// Parses words of the command line. Each error names the option, what it expects and what it found.
 #pragma once
 
 #include <string>
@@ -13,18 +13,18 @@
 
 namespace cotan::app {
 
-// The names of the conventions that have one.
+// The names of the convention presets.
 std::vector<std::string> presetWords();
 
-// The words between commas; none of an empty text.
+// The words between commas; none for an empty text.
 std::vector<std::string> splitAtCommas(const std::string& text);
 
-// A frame's name; the error lists all of them, and begins with the option.
+// Parses a frame name. The error begins with the option and lists all frames.
 Result<Frame> parseFrame(const std::string& text, std::string_view option);
 
 template<class Value> using Words = std::vector<std::pair<std::string_view, Value>>;
 
-// Says that a word is none of these: "--mode: expected a, b or c; found 'x'".
+// The error for an unknown word: "--mode: expected a, b or c; found 'x'".
 Error unknownWord(const std::string& option, const std::vector<std::string_view>& known, const std::string& word);
 // The same for longer lists: "--mode: expected one of a, b, c; found 'x'".
 Error notOneOf(const std::string& option, const std::vector<std::string_view>& known, const std::string& word);
@@ -48,7 +48,7 @@ template<class Value> Result<Value> oneOf(const std::string& option, const std::
     return valueOf(option, word, words, notOneOf);
 }
 
-// The same into `value`, which stays as it is where no word was given.
+// Sets `value` to that of the word; an empty word leaves it unchanged.
 template<class Value>
 Status choose(Value& value, const std::string& option, const std::string& word, const Words<Value>& words)
 {

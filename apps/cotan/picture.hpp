@@ -1,4 +1,4 @@
-// What `render` and `compare` share: the words that say which model, seen how, drawn by what (src/picture).
+// Shared by `render` and `compare`: loading the model and opening the renderer by PictureOptions (src/picture).
 #pragma once
 
 #include "common.hpp"
@@ -7,7 +7,7 @@
 
 namespace cotan::app {
 
-// The same of the part, under a line of progress; warnings are printed, errors are in words.
+// openPicture and openPictureRenderer with a progress line; warnings are printed, errors have option names.
 Result<Picture> loadPicture(const PictureOptions& options, const CommonOptions& common,
                             std::initializer_list<FrameChoice> frames, const View* like = nullptr);
 Result<std::unique_ptr<Renderer>> makePictureRenderer(const PictureOptions& options, const CommonOptions& common,

@@ -41,8 +41,7 @@ std::string listOfFrames()
 void addListOfFrames(Arguments& a)
 {
     a.group(HelpGroup::frame);
-    a.answers("--list-frames", "print every frame with a line on what it is, historical ones too, and end",
-              listOfFrames);
+    a.answers("--list-frames", "list all frames with a line on each, historical ones too, and exit", listOfFrames);
 }
 
 void addMemoryOption(Arguments& a, int& memory, const std::string& also)
@@ -73,7 +72,7 @@ void addTangentsOption(Arguments& a, TangentOrigin& tangents, const std::string&
 
 void addDeviceOption(Arguments& a, std::string& device, const std::string& use)
 {
-    a.option("--device", device, use + "auto, reference, or a part of a Vulkan device's name")
+    a.option("--device", device, use + "auto, reference, or part of a Vulkan device's name")
         .in("DEVICE")
         .offers({"auto", "reference"})
         .under(HelpGroup::general);
@@ -89,16 +88,16 @@ void addLightOptions(Arguments& a, PictureOptions& o)
          [&o](const std::string& word) -> Status {
              o.exposure.reset();
              if (word != kAutoExposure)
-                 o.exposure = std::strtof(word.c_str(), nullptr); // as above0Or has read it
+                 o.exposure = std::strtof(word.c_str(), nullptr); // above0Or has checked it
              return Done{};
          },
-         "factor that multiplies all light, or auto: by the brightness of the model (1 in files that keep floats)")
+         "factor on all light, or auto: from the brightness of the model (1 in files that keep floats)")
         .above0Or(kAutoExposure)
         .in("X|auto")
         .offers({kAutoExposure});
     a.choice("--tone-mapping", o.toneMapping, kToneMappings,
-             "how bright light becomes a colour: none (clamped to 1), neutral (Khronos PBR Neutral), aces (Narkowicz's "
-             "curve) or agx; files that keep floats stay linear")
+             "curve from light to displayed colour: none (clamped to 1), neutral (Khronos PBR Neutral), aces "
+             "(Narkowicz's) or agx; files that keep floats stay linear")
         .under(HelpGroup::look);
     a.option(
          "--environment", o.environment,
@@ -109,21 +108,21 @@ void addLightOptions(Arguments& a, PictureOptions& o)
         .reads();
     a.option("--environment-rotation", o.environmentRotation,
              "rotate the environment counter-clockwise, seen from above")
-        .within(kRotations.least, kRotations.most)
+        .within(kRotations.minimum, kRotations.maximum)
         .in("DEGREES");
     a.option("--environment-intensity", o.environmentIntensity, "factor on the light of the environment")
         .above0()
         .in("X");
     a.choice("--background", o.background, kBackgrounds,
              "what is behind the model: paper (a photographer's; the default in the studio), blur (the environment out "
-             "of focus; the default in others), environment, gradient (the default without), or none (transparent)")
+             "of focus; the default in others), environment, gradient (the default without one), or none (transparent)")
         .under(HelpGroup::look);
     a.choice("--ground", o.ground, kGrounds,
              "on: the model stands on level ground, which only shows its shadow; off: it floats");
     a.option("--shadow-softness", o.shadowSoftness,
-             "angle that the light which casts shadows covers, seen from the model: 0 for sharp edges, 0.5 for the sun "
-             "(default: 10, in the evening 3)")
-        .within(kSoftnesses.least, kSoftnesses.most)
+             "angle that the shadow-casting light subtends: 0 for sharp edges, 0.5 for the sun (default: 10, in the "
+             "evening 3)")
+        .within(kSoftnesses.minimum, kSoftnesses.maximum)
         .in("DEGREES");
     a.flag("--no-shadows", o.noShadows, "draw no shadows of lights");
 }
@@ -137,7 +136,7 @@ void addOwnNormalMap(Arguments& a, OwnMaps& maps)
         .reads()
         .under(HelpGroup::input);
     a.option("--convention", maps.convention,
-             "how that image is stored (default: gltf), or without one how the model's own normal maps are to be read "
+             "how that image is stored (default: gltf) or, without one, how to decode the model's own normal maps "
              "(default: as the model says): "
                  + conventionWords())
         .in("WORDS")
@@ -210,7 +209,7 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
              "animation of a glTF model, by name or number; the pose of the file if left out")
         .in("NAME|N");
     a.option("--time", o.time, "moment of --animation, in seconds from its start")
-        .within(kMoments.least, kMoments.most)
+        .within(kMoments.minimum, kMoments.maximum)
         .in("S");
     a.group(HelpGroup::camera);
     a.option(
@@ -229,12 +228,12 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     a.option("--camera", o.camera,
              "where to look from: front (a little from the right and above), left, right, top, bottom, back, or "
              "orbit:AZ,EL "
-             "(degrees around and above), each as near as the model fills the image; fit (farther: the whole box "
-             "around the "
-             "model); the number of a camera in the file; or eye and target \"ex,ey,ez,tx,ty,tz\" in world units, then "
-             "\",DEGREES\" for another lens than 45 or \",hX\" for an orthographic view X units high, then "
+             "(degrees around and above), each so near that the model fills the image; fit (farther: the whole "
+             "bounding "
+             "box); the number of a camera in the file; or eye and target \"ex,ey,ez,tx,ty,tz\" in world units, then "
+             "\",DEGREES\" for a field of view other than 45 or \",hX\" for an orthographic view X units high, then "
              "\",ux,uy,uz\" for "
-             "the direction up (default: front; the built-in scene's own)")
+             "the up direction (default: front; the built-in scene's own)")
         .in("CAMERA")
         .offers({"front", "left", "right", "top", "bottom", "back", "fit"})
         .main();
@@ -247,13 +246,13 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
              "space to light in: world; or tangent space, entered per vertex (tangent-vertex) or per pixel "
              "(tangent-pixel), for comparison and on the reference device only");
     a.choice("--normal-mapping", o.normalMapping, kNormalMappings,
-             "what a perturbed normal does: shading; or by rays, on the reference device only: rays (light from below "
-             "the surface is lost), shadowed, facets (a second facet makes up for it), mirror-facet");
+             "how perturbed normals are used: shading; or with rays, on the reference device only: rays (light from "
+             "below the surface is lost), shadowed, facets (a second facet compensates), mirror-facet");
     addTangentsOption(
         a, o.tangents,
         "for the frames vertex and mikktspace: stored (as in the file, generated where missing) or generated");
     a.choice("--samples", o.samples, kSampleCounts,
-             "samples per pixel of the shaded image: 1; 4 for smooth edges; or 16, each lit by itself, for smooth "
+             "samples per pixel of the shaded image: 1; 4 for smooth edges; or 16, each shaded separately, for smooth "
              "highlights too, at the cost of 16 images")
         .in("N")
         .under(HelpGroup::look);
@@ -264,8 +263,8 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     a.choice("--derivatives", o.derivatives, kDerivatives, "screen derivatives: fine or coarse");
     a.flag("--no-normal-maps", o.noNormalMaps, "use interpolated normals only");
     a.flag("--specular-antialiasing", o.specularAntialiasing,
-           "light 16 to 256 normals of a pixel, the more the sharper, each rougher by what is smaller than its part of "
-           "it")
+           "light 16 to 256 normals per pixel, more for sharper highlights, each roughened by the detail below its "
+           "spacing")
         .under(HelpGroup::look);
     a.flag("--point-sampled", o.pointSampled, "read the nearest texel of the finest level, for comparing devices");
 }

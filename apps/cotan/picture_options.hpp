@@ -1,5 +1,5 @@
-// The options of `render` and `compare`, which say which model, seen how, drawn by what, as the command line declares
-// them: their help and groups. Words and bounds are those of picture/option_words.hpp.
+// Declares the options of `render` and `compare`, with help and groups: the model, the view and the device. Words and
+// bounds are those of picture/option_words.hpp.
 #pragma once
 
 #include <string>
@@ -10,35 +10,34 @@
 
 namespace cotan::app {
 
-// The names of the frames to choose from: those that no input makes NaN. The others are historical, to compare with.
+// The names of the frames recommended for use: those that give no NaN for any input. Others are historical.
 std::string usefulFrameNames();
 
-// Adds --list-frames, which prints all of them, a line for each.
+// Adds --list-frames, which prints all frames, one per line.
 void addListOfFrames(Arguments& a);
 
-// Adds --memory MIB.
-// also: what else it limits, after the picture.
+// Adds --memory MIB. also: what else it limits, appended to "image".
 void addMemoryOption(Arguments& a, int& memory, const std::string& also = "");
 
-// Adds --up, y or z. what: whose up it is.
+// Adds --up, y or z. what: whose up axis it is.
 void addUpOption(Arguments& a, Up& up, const std::string& what = "the model's file");
 
 // Adds --tangents, stored or generated.
 void addTangentsOption(Arguments& a, TangentOrigin& tangents, const std::string& help);
 
-// Adds --device. use: what its help begins with.
+// Adds --device. use: the beginning of its help.
 void addDeviceOption(Arguments& a, std::string& device, const std::string& use = "device that draws: ");
 
 // Adds --normal-map, --convention and --material.
 void addOwnNormalMap(Arguments& a, OwnMaps& maps);
 
-// Adds --frame, also for kAutoFrame, and --list-frames.
+// Adds --frame, which also accepts kAutoFrame, and --list-frames.
 void addFrameOption(Arguments& a, std::string& frame);
 
 // Adds --view.
 void addShowOption(Arguments& a, std::string& show);
 
-// Adds all others.
+// Adds all other options.
 void addPictureOptions(Arguments& a, PictureOptions& options);
 
 } // namespace cotan::app

@@ -26,9 +26,9 @@ namespace cotan::app {
 
 namespace {
 
-char** startedWith = nullptr; // main's argv
+char** programArguments = nullptr; // main's argv
 
-// Not fmt::print, which throws where standard error cannot be written.
+// Does not use fmt::print, which throws if standard error cannot be written.
 int fail(const Error& error)
 {
     std::fputs(fmt::format("cotan: error: {}\n", printable(error.message)).c_str(), stderr);
@@ -39,8 +39,8 @@ int fail(const Error& error)
 
 int finish(const Status& status)
 {
-    if (const auto refused = refusal(); refused && !status)
-        return fail(*refused); // a reader may have put it in other words
+    if (const auto refused = firstRefusal(); refused && !status)
+        return fail(*refused); // a reader may have replaced its message
     if (!status)
         return fail(status.error());
     const Status printed = flushOutput();
@@ -52,15 +52,15 @@ Status startLab()
     std::error_code failed;
     const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", failed);
     const std::filesystem::path lab = self.parent_path() / "cotan-lab";
-    if (!failed && startedWith)
-        ::execv(lab.c_str(), startedWith);
+    if (!failed && programArguments)
+        ::execv(lab.c_str(), programArguments);
     const std::string why = failed ? failed.message() : std::strerror(errno);
-    return unavailableError(fmt::format("{}: the program of this command does not start: {}", lab.string(), why));
+    return unavailableError(fmt::format("{}: the program of this command cannot be started: {}", lab.string(), why));
 }
 
 int runProgram(int argc, char** argv, int (*commandLine)(std::vector<std::string>))
 {
-    startedWith = argv;
+    programArguments = argv;
     if (isReaderProcess(argc, argv))
         return runReaderProcess();
     sandboxByDefault({.program = "/proc/self/exe"});
@@ -73,7 +73,7 @@ int runProgram(int argc, char** argv, int (*commandLine)(std::vector<std::string
         return commandLine({argv + std::min(argc, 1), argv + argc});
     } catch (const std::bad_alloc&) {
         return fail({ErrorKind::unavailable, "not enough memory"});
-    } catch (const std::system_error& e) { // of threads, too
+    } catch (const std::system_error& e) { // also from starting threads
         return fail({ErrorKind::unavailable,
                      e.code() == std::errc::resource_unavailable_try_again
                          ? "no more threads or processes are allowed here (ulimit -u)"

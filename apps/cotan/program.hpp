@@ -1,4 +1,4 @@
-// What the programs cotan and cotan-lab have in common: how a process begins and ends.
+// Shared by the programs cotan and cotan-lab: how a process starts and ends.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace cotan::app {
 
-// What main() of either returns. A reader of untrusted files and a job of a batch are this program, too; else
-// `commandLine` gets the words behind the program's name and returns the exit code.
+// The main() of both programs. They also serve as reader processes for untrusted files and as job processes of a batch;
+// otherwise `commandLine` gets the words after the program's name and returns the exit code.
 int runProgram(int argc, char** argv, int (*commandLine)(std::vector<std::string> words));
 
-// The exit code of a command, once what it printed has arrived; prints its error.
+// Prints the error of a command, if any, and flushes its output. Returns the exit code.
 int finish(const Status& status);
 
-// Becomes the program cotan-lab, which lies beside this one, with the words that this one was started with. Returns
-// only where that cannot be. Errors: ErrorKind::unavailable.
+// Replaces this process by the program cotan-lab in the same folder, with the same arguments. Returns only on failure.
+// Errors: ErrorKind::unavailable.
 Status startLab();
 
 } // namespace cotan::app

@@ -24,11 +24,11 @@ struct RenderCommandOptions : CommonOptions {
     PictureOptions picture;
     std::string frame{kAutoFrame};
     std::string frames; // "A..B"
-    int turntable = 0;  // images of one turn; 0: it stands
+    int turntable = 0;  // number of images of a full rotation; 0: no rotation
     double rate = 0;    // images per second; 0: the usual rate of the file
 };
 
-constexpr double kUsualRate = 24, kUsualGifRate = 25; // GIF counts in hundredths of a second
+constexpr double kUsualRate = 24, kUsualGifRate = 25; // GIF stores durations in hundredths of a second
 
 double rateOf(const RenderCommandOptions& o)
 {
@@ -50,14 +50,14 @@ Result<Image> drawPicture(Renderer& renderer, const Picture& picture, const Rend
     return image;
 }
 
-// What the pictures of a sequence share: the view that is made for the first, with its camera, which frames all of the
-// animation, and an environment that takes a second to make; and the file of all, where there is one.
+// Shared by the images of a sequence: the view of the first image, whose camera covers the whole animation and whose
+// environment takes a second to compute, and the animation file, if any.
 struct Sequence {
     std::optional<View> view;
     std::unique_ptr<AnimationWriter> animation;
 };
 
-// The model with the frame that was chosen for it. like: the view of the image before.
+// The model with its chosen frame. like: the view of the previous image.
 Result<Picture> loadFramed(const RenderCommandOptions& o, FrameChoice frame, const View* like)
 {
     auto picture = loadPicture(o.picture, o, {frame, Frame::exact}, like);
@@ -70,7 +70,7 @@ Result<Picture> loadFramed(const RenderCommandOptions& o, FrameChoice frame, con
     return picture;
 }
 
-// For an image: errors are drawn beside what they are measured against.
+// Number of draws per image: errors also need the reference frame.
 std::size_t drawsOf(const RenderCommandOptions& o) { return o.picture.show == "error" ? 2 : 1; }
 
 Status writeNext(const RenderCommandOptions& o, const Image& image, Sequence& sequence)
@@ -78,7 +78,7 @@ Status writeNext(const RenderCommandOptions& o, const Image& image, Sequence& se
     return sequence.animation ? sequence.animation->add(image) : writeImage(o.output, image);
 }
 
-// Draws one picture into o.output, or as the next one of the sequence's file.
+// Draws one image to o.output, or appends it to the animation file.
 Status renderOne(const RenderCommandOptions& o, FrameChoice frame, Sequence& sequence)
 {
     std::optional<View>& shared = sequence.view;
@@ -119,7 +119,7 @@ Status renderOne(const RenderCommandOptions& o, FrameChoice frame, Sequence& seq
 
 constexpr int kMaxFrames = 100000;
 
-// The numbers of the images of --frames or --turntable; none without either.
+// The image numbers of --frames or --turntable; empty without either.
 Result<std::vector<int>> imageNumbers(const RenderCommandOptions& o)
 {
     std::vector<int> frames;
@@ -137,7 +137,7 @@ Result<std::vector<int>> imageNumbers(const RenderCommandOptions& o)
     const std::string_view text = o.frames;
     if (dots == std::string::npos || !parseNumber(text.substr(0, dots), first)
         || !parseNumber(text.substr(dots + 2), last) || first < 0 || last < first || last - first >= kMaxFrames)
-        return usageError(fmt::format("--frames: expected A..B, numbers from 0 up, at most {} pictures; found '{}'",
+        return usageError(fmt::format("--frames: expected A..B, numbers from 0 up, at most {} images; found '{}'",
                                       kMaxFrames, o.frames));
     if (o.picture.animation.empty() || o.picture.time > 0 || !o.json.empty())
         return usageError("--frames: expected --animation with it, and neither --time nor --json");
@@ -146,31 +146,31 @@ Result<std::vector<int>> imageNumbers(const RenderCommandOptions& o)
     return frames;
 }
 
-// out.png of number 7: out-0007.png.
+// out.png with number 7: out-0007.png.
 std::filesystem::path numbered(std::filesystem::path file, int number)
 {
     const std::string name = fmt::format("{}-{:04}{}", file.stem().string(), number, file.extension().string());
     return file.replace_filename(name);
 }
 
-// One file for all pictures.
-Status beginAnimation(const RenderCommandOptions& o, std::size_t pictures, Sequence& sequence)
+// Starts one file for all images.
+Status beginAnimation(const RenderCommandOptions& o, std::size_t images, Sequence& sequence)
 {
-    const double wanted = rateOf(o);
-    auto animation = createAnimation(o.output, {o.picture.size.width, o.picture.size.height, pictures, wanted});
+    const double requested = rateOf(o);
+    auto animation = createAnimation(o.output, {o.picture.size.width, o.picture.size.height, images, requested});
     if (!animation)
         return animation.error();
     sequence.animation = std::move(*animation);
-    if (const double rate = animationRate(o.output, wanted); rate != wanted)
+    if (const double rate = animationRate(o.output, requested); rate != requested)
         warn(o, "{}: GIF counts in hundredths of a second: {:.4g} images per second, not {:g}", o.output.string(), rate,
-             wanted);
+             requested);
     return Done{};
 }
 
-// Puts the animation in its place, where there is one.
+// Completes the animation file, if any.
 Status finish(Sequence& sequence) { return sequence.animation ? sequence.animation->finish() : Status(Done{}); }
 
-// The images of --frames: the model is posed anew for each.
+// Draws the images of --frames: the model is loaded in a new pose for each.
 Status renderFrames(const RenderCommandOptions& o, FrameChoice frame, const std::vector<int>& numbers,
                     Sequence& sequence)
 {
@@ -181,14 +181,14 @@ Status renderFrames(const RenderCommandOptions& o, FrameChoice frame, const std:
         one.picture.time = number / rateOf(o);
         if (Status drawn = renderOne(one, frame, sequence); !drawn)
             return drawn;
-        if (one.quiet && !sequence.animation) // the first speaks for itself
+        if (one.quiet && !sequence.animation) // the first image has printed its own line
             say(o, "{}", one.output.string());
-        one.quiet = true; // what is to be warned of was said for the first
+        one.quiet = true; // all warnings were printed with the first image
     }
     return finish(sequence);
 }
 
-// The images of --turntable: one model, loaded once, and its shadow for each.
+// Draws the images of --turntable: the model is loaded once, its shadow is computed for each image.
 Status renderTurn(const RenderCommandOptions& o, FrameChoice frame, const std::vector<int>& numbers, Sequence& sequence)
 {
     RenderCommandOptions one = o;
@@ -200,7 +200,7 @@ Status renderTurn(const RenderCommandOptions& o, FrameChoice frame, const std::v
     if (!renderer)
         return renderer.error();
     const Turntable table(picture->scene);
-    one.quiet = true; // not a line for each
+    one.quiet = true; // no line per image
     Json none;
     const std::size_t draws = numbers.size() * drawsOf(o);
     const auto drawAll = [&]() -> Status {
@@ -232,7 +232,7 @@ Status renderTurn(const RenderCommandOptions& o, FrameChoice frame, const std::v
     return Done{};
 }
 
-// Files that drop alpha would show black.
+// Refuses a transparent background in formats without alpha, where it would be black.
 Status checkBackground(const RenderCommandOptions& o)
 {
     if (o.picture.background != Background::none || imageFormatHas(o.output, &ImageFormat::alpha)
@@ -296,7 +296,7 @@ void declare(Arguments& a, RenderCommandOptions& o)
                  + imageEndings(&ImageFormat::animation, ", ", " or "))
         .in("A..B");
     a.option("--turntable", o.turntable,
-             "turn the model once around, counter-clockwise from above, in N images: written as those of --frames")
+             "turn the model once around, counter-clockwise from above, in N images, written like those of --frames")
         .within(2, 3600)
         .in("N")
         .withoutDefault();

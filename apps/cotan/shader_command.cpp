@@ -15,7 +15,7 @@ using shader_text::Form;
 
 struct ShaderCommandOptions : CommonOptions {
     std::string language;
-    std::string frame; // empty: by the language
+    std::string frame; // empty: depends on the language
     std::string form, stage;
     std::string preset, channels, green, expansion;
     std::vector<std::string> sets;
@@ -29,8 +29,8 @@ Result<Convention> conventionOf(const ShaderCommandOptions& o)
     Convention c;
     Words<Convention> presets;
     for (const ConventionPreset& p : conventionPresets())
-        presets.push_back({p.name, onCard(p)});
-    // Godot's importer may drop blue; a text that reads it would fail without an error.
+        presets.push_back({p.name, onGpu(p)});
+    // Godot's importer may drop blue; code that reads it would fail silently.
     const std::string preset = o.preset.empty() && o.language == "godot" ? o.language : o.preset;
     if (Status ok = choose(c, "--preset", preset, presets); !ok)
         return ok.error();
@@ -83,10 +83,10 @@ Result<Choice> choiceOf(const ShaderCommandOptions& o)
     Choice choice;
     if (Status ok = chooseText(o, choice); !ok)
         return ok.error();
-    // In Godot the text is a model's material, and maps of models are for MikkTSpace; elsewhere it is a function.
+    // In Godot the text is the material of a model, whose maps are made for MikkTSpace; elsewhere it is a function.
     const std::string usual(name(o.language == "godot" ? Frame::orthonormal : Frame::cotangent));
     std::string wanted = o.frame.empty() ? usual : o.frame;
-    // As tables of cost name them: forms of `cotangent`, not frames.
+    // The cost tables list these forms of `cotangent` like frames.
     for (const Form form : {Form::seen, Form::area})
         if (wanted == "cotangent-" + std::string(name(form)) && (!choice.form || choice.form == form)) {
             choice.form = form;
@@ -102,9 +102,9 @@ Result<Choice> choiceOf(const ShaderCommandOptions& o)
     choice.convention = *convention;
     choice.uvSets = o.uvSets;
     if (o.functions && choice.language != shader_text::Language::godot)
-        return usageError("--functions: for --lang godot; the other languages have nothing but functions");
+        return usageError("--functions: only for --lang godot; the other languages have nothing but functions");
     if (o.twoSided && (choice.language != shader_text::Language::godot || o.functions))
-        return usageError("--two-sided: for --lang godot and a whole shader; functions are for either");
+        return usageError("--two-sided: only for a whole shader of --lang godot; functions work for both sides");
     choice.functionsOnly = o.functions;
     choice.twoSided = o.twoSided;
     Words<std::vector<shader_text::Set>> sets{{"frame", {}}};
@@ -154,7 +154,7 @@ Status run(const ShaderCommandOptions& o)
 
 void declare(Arguments& a, ShaderCommandOptions& o)
 {
-    a.find("--threads").unlisted(); // accepted by all commands, listed where it is used
+    a.find("--threads").unlisted(); // accepted by all commands, but listed only where used
     a.option("--lang", o.language, shader_text::languageNames() + "; godot is a whole spatial shader")
         .required()
         .in("NAME")
@@ -169,16 +169,16 @@ void declare(Arguments& a, ShaderCommandOptions& o)
     a.option(
          "--form", o.form,
          "fused: frame and texel in one step (cotangent, gradient, orthonormal, smooth, triangle); total: the frame as "
-         "three covectors, for any input; readable: another word for total; of cotangent also seen (the cheapest: "
-         "normal on "
-         "the side that is seen, a constant says how the picture lies) and area (for square texels). Default: fused "
+         "three covectors, for any input; readable: another name for total; for cotangent also seen (the cheapest: "
+         "the normal "
+         "faces the viewer; a constant gives the image orientation) and area (for square texels). Default: fused "
          "where "
-         "there is one, but for smooth")
+         "available, except for smooth")
         .in("NAME")
         .offers({"fused", "total", "readable", "seen", "area"});
     a.option("--stage", o.stage,
-             "of the frame triangle: fragment, the pixel's part; vertex or mesh, what makes its two vectors there; "
-             "compute, both in one. Default: all")
+             "for the frame triangle: fragment, the code per pixel; vertex or mesh, the code that makes the "
+             "triangle's two vectors; compute, both in one. Default: all")
         .in("NAME")
         .offers({"fragment", "vertex", "mesh", "compute"});
     a.group(HelpGroup::input);
@@ -208,7 +208,7 @@ void declare(Arguments& a, ShaderCommandOptions& o)
         .main();
     a.flag("--functions", o.functions,
            "Godot: the functions alone, to paste or as a .gdshaderinc, without shader_type, the map and fragment()");
-    a.flag("--two-sided", o.twoSided, "Godot: with back faces, as of a thin sheet: a bump in front is a dent behind");
+    a.flag("--two-sided", o.twoSided, "Godot: draw back faces, as of a thin sheet: a bump in front is a dent behind");
     a.option("--differences", o.differences,
              "shader: with a function that takes the screen derivatives itself; caller: without it, for compute, ray "
              "tracing and vertex stages")

@@ -47,7 +47,7 @@ std::string toText(const SmoothStatistics& s)
 Json toJson(const SmoothStatistics& s)
 {
     Json shear = toJson(s.shear);
-    shear.erase("pixels"); // vertices here
+    shear.erase("pixels"); // these are vertices, not pixels
     return {{"vertices", s.vertices},
             {"vertices_added", s.added},
             {"without_frame", s.without},

@@ -1,4 +1,4 @@
-// Statistics of the cotangents that the frame `smooth` derives.
+// Statistics of the cotangents of the frame `smooth`.
 #pragma once
 
 #include <cstddef>
@@ -9,17 +9,18 @@
 namespace cotan {
 
 struct SmoothStatistics {
-    std::size_t vertices = 0; // after mirrored charts are kept apart
-    std::size_t added = 0;    // of these: copies
-    std::size_t without = 0;  // ... and those without a frame, which count below nowhere
-    AngleStatistics shear;    // how far the two cotangents are from perpendicular, degrees
-    double stretchMedian = kOfNothing, stretchMaximum = kOfNothing; // the longer over the shorter one, at least 1
+    std::size_t vertices = 0; // after splitting at mirrored charts
+    std::size_t added = 0;    // copies made by the split
+    std::size_t without = 0;  // vertices without a frame, which the figures below exclude
+    AngleStatistics shear;    // deviation of the two cotangents from perpendicular, in degrees
+    double stretchMedian = kEmptyStatistics,
+           stretchMaximum = kEmptyStatistics; // length of the longer over the shorter one
 };
 
 // Derives the cotangents of a mesh with normals and texture coordinates, as a renderer does when it loads the mesh.
 SmoothStatistics smoothStatistics(const MeshView& mesh);
 
-// One line, and the same for reports.
+// The statistics as one line, and for reports.
 std::string toText(const SmoothStatistics& statistics);
 Json toJson(const SmoothStatistics& statistics);
 

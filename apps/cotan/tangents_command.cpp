@@ -40,20 +40,20 @@ std::string referenceName(const TangentsCommandOptions& o)
     return o.frame == "vertex" ? "the classic tangents" : "MikkTSpace";
 }
 
-// Says of one primitive how far its tangents are off.
+// Reports the tangent differences of one primitive.
 void reportDifference(const TangentsCommandOptions& o, const PrimitiveTangents& p, Json& row)
 {
-    std::string said = p.cannot.empty() ? "no TANGENT" : p.cannot;
-    if (!p.cannot.empty()) {
-        row["cannot"] = p.cannot;
+    std::string text = p.reason.empty() ? "no TANGENT" : p.reason;
+    if (!p.reason.empty()) {
+        row["cannot"] = p.reason;
     } else if (p.difference) {
         row.update(toJson(*p.difference));
-        said = toText(*p.difference, referenceName(o));
+        text = toText(*p.difference, referenceName(o));
     }
-    say(o, "{} ({} triangles): {}", p.name, p.triangles, said);
+    say(o, "{} ({} triangles): {}", p.name, p.triangles, text);
 }
 
-// Compares what is stored.
+// Compares stored tangents with generated ones.
 Status compare(const TangentsCommandOptions& o, const GltfDocument& document, Json& report)
 {
     const auto compared = withProgress(
@@ -76,7 +76,7 @@ Status compare(const TangentsCommandOptions& o, const GltfDocument& document, Js
     return Done{};
 }
 
-// Generates and writes.
+// Generates tangents and writes the model.
 Status write(const TangentsCommandOptions& o, GltfDocument& document, Json& report)
 {
     const auto given = withProgress(
@@ -86,9 +86,9 @@ Status write(const TangentsCommandOptions& o, GltfDocument& document, Json& repo
     for (const PrimitiveTangents& p : given->primitives) {
         auto row = describe(p);
         row["generated"] = p.generated;
-        if (!p.cannot.empty()) {
-            row["cannot"] = p.cannot;
-            warn(o, "{}: {}, no tangents", p.name, p.cannot);
+        if (!p.reason.empty()) {
+            row["cannot"] = p.reason;
+            warn(o, "{}: {}, no tangents", p.name, p.reason);
         }
         report["primitives"].push_back(std::move(row));
     }
@@ -103,13 +103,13 @@ Status write(const TangentsCommandOptions& o, GltfDocument& document, Json& repo
     report["bytes_after"] = written->bytesAfter;
     report["files"] = fileNames(*written);
     report["notes"] = written->notes;
-    say(o, "{} got {} tangents, {} kept theirs, {} can have none; {} vertices added",
+    say(o, "{} got {} tangents, {} kept theirs, {} cannot have any; {} vertices added",
         counted(given->generated, "primitive"), o.frame, given->kept, given->skipped, given->verticesAdded);
     say(o, "{}: {} bytes, before {}", o.output.string(), written->bytesAfter, written->bytesBefore);
     return Done{};
 }
 
-// Statistics of the frame that is derived when a model is loaded.
+// Statistics of the frame `smooth`, which is derived when a model is loaded.
 Status describeSmooth(const TangentsCommandOptions& o, const GltfDocument& document, Json& report)
 {
     const auto primitives = gltfPrimitives(document);
@@ -118,8 +118,8 @@ Status describeSmooth(const TangentsCommandOptions& o, const GltfDocument& docum
     for (const GltfPrimitiveGeometry& p : *primitives) {
         const GltfGeometry& g = p.geometry;
         Json row = describe({p.mesh, p.primitive, p.name, g.indices.size() / 3, !g.tangents.empty()});
-        std::string line = p.cannot;
-        if (p.cannot.empty()) {
+        std::string line = p.reason;
+        if (p.reason.empty()) {
             const SmoothStatistics smooth = smoothStatistics(p.view());
             row.update(toJson(smooth));
             line = toText(smooth);

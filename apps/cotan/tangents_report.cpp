@@ -9,15 +9,15 @@ namespace cotan {
 
 namespace {
 
-std::string percent(double part) { return fmt::format("{:.1f} %", part * 100); }
+std::string percent(double fraction) { return fmt::format("{:.1f} %", fraction * 100); }
 
 const char* name(TangentVerdict verdict)
 {
-    constexpr std::array names{"nothing to compare", "equal", "w inverted", "half turned", "off"};
+    constexpr std::array names{"nothing to compare", "equal", "w inverted", "half reversed", "off"};
     return names[std::size_t(verdict)];
 }
 
-// Smaller ones are rounding.
+// Smaller values are rounding errors.
 std::string degreesText(double degrees) { return degrees < 0.001 ? "under 0.001" : fmt::format("{:.3g}", degrees); }
 
 std::string directions(const AngleStatistics& s)
@@ -41,18 +41,18 @@ std::string toText(const TangentDifference& d, const std::string& reference)
         break;
     case TangentVerdict::inverted:
         line = fmt::format("w inverted against {} on {} of the corners; directions {}", reference,
-                           percent(invertedShare(d)), directions(s));
+                           percent(invertedFraction(d)), directions(s));
         break;
     case TangentVerdict::turned:
-        line = fmt::format("half of them turned against {}: {} point the other way; w different "
-                           "on {} of the corners; directions {}",
-                           reference, percent(turnedShare(d)), percent(invertedShare(d)), directions(s));
+        line = fmt::format("half reversed against {}: {} point the other way; w differs on {} of the corners; "
+                           "directions {}",
+                           reference, percent(reversedFraction(d)), percent(invertedFraction(d)), directions(s));
         break;
     case TangentVerdict::off:
         line = s.maximum <= kEqualTangents ? fmt::format("directions equal to {}", reference)
-                                           : fmt::format("off {} by {}", reference, directions(s));
+                                           : fmt::format("differs from {} by {}", reference, directions(s));
         line += d.handedness == 0 ? "; w equal"
-                                  : fmt::format("; w different on {} of {} corners", d.handedness, d.degrees.size());
+                                  : fmt::format("; w differs on {} of {} corners", d.handedness, d.degrees.size());
         break;
     }
     if (d.degenerate > 0)
@@ -63,9 +63,9 @@ std::string toText(const TangentDifference& d, const std::string& reference)
 Json toJson(const TangentDifference& d)
 {
     Json directions = toJson(angleStatistics(d.degrees));
-    directions.erase("pixels"); // corners here
-    return {{"verdict", name(verdictOf(d))},   {"corners", d.corners},     {"degenerate", d.degenerate},
-            {"w_different", invertedShare(d)}, {"turned", turnedShare(d)}, {"directions", directions}};
+    directions.erase("pixels"); // these are corners, not pixels
+    return {{"verdict", name(verdictOf(d))},      {"corners", d.corners},          {"degenerate", d.degenerate},
+            {"w_different", invertedFraction(d)}, {"turned", reversedFraction(d)}, {"directions", directions}};
 }
 
 } // namespace cotan

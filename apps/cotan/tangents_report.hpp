@@ -1,4 +1,4 @@
-// How far stored tangents are off, in words and in reports.
+// Texts and reports about the errors of stored tangents.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace cotan {
 
-// One line for users. reference: what the stored tangents were compared with, "MikkTSpace".
+// One line for users. reference: what the tangents were compared with, "MikkTSpace".
 std::string toText(const TangentDifference& difference, const std::string& reference);
 Json toJson(const TangentDifference& difference);
 

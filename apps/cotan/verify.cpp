@@ -14,22 +14,22 @@ namespace cotan::app {
 
 namespace {
 
-std::string pictureName(const char* what, std::size_t view) { return fmt::format("{}-{}.png", what, view); }
+std::string imageName(const char* what, std::size_t view) { return fmt::format("{}-{}.png", what, view); }
 
-// Into a folder that is there.
+// Writes the images of all views into an existing folder.
 Status writeViews(const ComparedViews& compared, const ViewNames& names, const std::filesystem::path& folder)
 {
     for (std::size_t k = 0; k < compared.views.size(); ++k) {
         const ComparedView& v = compared.views[k];
         for (const auto& [what, image] :
              {std::pair(names.expected, &v.expected), {names.drawn, &v.drawn}, {names.difference, &v.difference}})
-            if (Status written = writeImage(folder / pictureName(what, k), *image); !written)
+            if (Status written = writeImage(folder / imageName(what, k), *image); !written)
                 return written;
     }
     return Done{};
 }
 
-// The degrees of each.
+// The degrees of each view.
 Json viewsOf(const ComparedViews& compared)
 {
     Json views = Json::array();
@@ -51,8 +51,8 @@ Result<DrawnSides> drawModel(Renderer& renderer, const std::filesystem::path& fi
                             [&] { return drawSides(renderer, std::move(model), std::move(cameras)); });
 }
 
-// A map that was made for 2c - 1 stands for one that was read so.
-Status readAsAfter(Scene& before, const VerifyOptions& o)
+// Decodes the original's maps with the expansion of the converted ones, as the renderer that they are made for.
+Status copyExpansion(Scene& before, const VerifyOptions& o)
 {
     LoadLimits limits = limitsFor(o.memory);
     limits.pixels = Pixels::none;
@@ -64,13 +64,13 @@ Status readAsAfter(Scene& before, const VerifyOptions& o)
     return Done{};
 }
 
-// One model at a time is in memory.
+// Draws and compares. Only one model is in memory at a time.
 Result<ComparedViews> drawAndCompare(const VerifyOptions& o, const CommonOptions& common, std::string& device)
 {
     auto before = loadSceneWithin(o.memory, o.before);
     if (!before)
         return before.error();
-    if (Status read = readAsAfter(*before, o); !read)
+    if (Status read = copyExpansion(*before, o); !read)
         return read.error();
     const auto renderer = openDevice(o.device, common);
     if (!renderer)
@@ -90,12 +90,12 @@ Result<ComparedViews> drawAndCompare(const VerifyOptions& o, const CommonOptions
 
 } // namespace
 
-std::vector<std::string> picturesOf(const ViewNames& names, std::size_t views)
+std::vector<std::string> imageNames(const ViewNames& names, std::size_t views)
 {
     std::vector<std::string> all;
     for (std::size_t view = 0; view < views; ++view)
         for (const char* what : {names.expected, names.drawn, names.difference})
-            all.push_back(pictureName(what, view));
+            all.push_back(imageName(what, view));
     return all;
 }
 
@@ -116,7 +116,7 @@ Result<Json> verifyConversion(const VerifyOptions& o, const CommonOptions& commo
         warn(common, "--verify compared nothing: {}",
              compared->mapped ? "no pixel shows the inside of a surface in both" : kNoNormalMap);
     say(common,
-        "pictures in {}: before-N.png, after-N.png, difference-N.png (black 0, blue 0.5, green 2, "
+        "images in {}: before-N.png, after-N.png, difference-N.png (black 0, blue 0.5, green 2, "
         "yellow 5, red 15, white 45 degrees)",
         o.folder.string());
     return Json{{"device", device}, {"degrees", toJson(s)}, {"views", viewsOf(*compared)}};
@@ -144,11 +144,10 @@ Result<Json> verifyBake(const BakeToVerify& bake, const std::string& device, con
     const bool lost = !showsHighSurface(*compared);
     if (lost)
         warn(common,
-             "--verify: {} of {} pixels show another surface than the high mesh does there (magenta in error-N.png): "
-             "the "
+             "--verify: {} of {} pixels do not show the surface that the high mesh shows (magenta in error-N.png): the "
              "map is wrong{}",
              others, pixels,
-             bake.options.search == BakeSearch::nearest ? "; --search first takes what is in front"
+             bake.options.search == BakeSearch::nearest ? "; --search first takes the surface in front"
                                                         : " (--extrusion, --max-distance, --cage)");
     else if (pixels == 0)
         warn(common, "--verify compared nothing: the camera sees no high surface where the low one is");

@@ -1,4 +1,4 @@
-// --verify: what was made is drawn and compared, and the pictures go into a folder.
+// --verify: draws the result, compares it, and writes the images into a folder.
 #pragma once
 
 #include <filesystem>
@@ -21,18 +21,18 @@ struct VerifyOptions {
     int memory = 0;
 };
 
-// What the pictures of a view are called: NAME-0.png, NAME-1.png and so on.
+// Name parts of a view's images: NAME-0.png, NAME-1.png etc.
 struct ViewNames {
     const char *expected, *drawn, *difference;
 };
 
 inline constexpr ViewNames kConversionNames = {"before", "after", "difference"}, kBakeNames = {"high", "low", "error"};
 
-// The files of so many views.
-std::vector<std::string> picturesOf(const ViewNames& names, std::size_t views);
+// The file names of the images of `views` views.
+std::vector<std::string> imageNames(const ViewNames& names, std::size_t views);
 
-// Draw, write the pictures, say the degrees, and return them for a report.
-// Errors: of loading, drawing and writing.
+// Both draw, write the images, print the degrees, and return them for a report.
+// Errors: those of loading, drawing and writing.
 Result<Json> verifyConversion(const VerifyOptions& options, const CommonOptions& common);
 Result<Json> verifyBake(const BakeToVerify& bake, const std::string& device, const std::filesystem::path& folder,
                         const CommonOptions& common);

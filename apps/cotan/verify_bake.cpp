@@ -6,18 +6,18 @@
 
 #include <fmt/format.h>
 
+#include "high_view.hpp"
 #include "inspect/angles.hpp"
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
 #include "scene/parts.hpp"
-#include "seen_high.hpp"
 
 namespace cotan::app {
 
 namespace {
 
-// The view, with the high surface itself, and pixels that show another surface in magenta.
-ComparedView compareView(const SeenHigh& seen, const Image& drawn, const std::vector<float>& degrees)
+// The view with the high surface as expected image, and in the heat map magenta for pixels that show another surface.
+ComparedView compareView(const HighView& seen, const Image& drawn, const std::vector<float>& degrees)
 {
     constexpr std::uint8_t kOtherColor[4] = {255, 0, 255, 255};
     ComparedView view{angleStatistics(degrees),
@@ -32,7 +32,7 @@ ComparedView compareView(const SeenHigh& seen, const Image& drawn, const std::ve
     return view;
 }
 
-// From all around.
+// Views from all sides.
 std::vector<View> viewsOf(const Scene& scene, const BakeToVerify& bake, int side)
 {
     constexpr double kQuarter = 1.5707963; // radians
@@ -43,11 +43,11 @@ std::vector<View> viewsOf(const Scene& scene, const BakeToVerify& bake, int side
     std::vector<View> views(kBakeViews, view);
     const Camera front = fitCamera(bounds(scene), side, side);
     for (int k = 0; k < kBakeViews; ++k)
-        views[std::size_t(k)].camera = turnedAbout(front, k * kQuarter);
+        views[std::size_t(k)].camera = orbitedCamera(front, k * kQuarter);
     return views;
 }
 
-// views: of the scene that is loaded.
+// Draws and compares all views. views: of the loaded scene.
 Result<ComparedViews> compareAround(Renderer& renderer, const std::vector<View>& views, const BakeToVerify& bake)
 {
     ComparedViews compared;
@@ -57,7 +57,7 @@ Result<ComparedViews> compareAround(Renderer& renderer, const std::vector<View>&
         const auto drawn = renderer.draw(view);
         if (!drawn)
             return drawn.error();
-        const auto seen = seeHigh(bake.low, bake.high, bake.options, view);
+        const auto seen = renderHighView(bake.low, bake.high, bake.options, view);
         if (!seen)
             return seen.error();
         const std::vector<float> degrees = interiorAngles(seen->expected, *drawn);
@@ -75,7 +75,7 @@ Result<ComparedViews> compareAround(Renderer& renderer, const std::vector<View>&
 
 bool showsHighSurface(const ComparedViews& compared)
 {
-    constexpr double kMaxOthers = 0.01; // of a view's pixels
+    constexpr double kMaxOthers = 0.01; // fraction of a view's pixels
     return std::none_of(compared.views.begin(), compared.views.end(), [](const ComparedView& view) {
         return double(view.others) > kMaxOthers * double(view.pixels);
     });
@@ -91,10 +91,10 @@ Result<ComparedViews> verifyBake(Renderer& renderer, const BakeToVerify& bake, i
     deriveVertexFrames(scene, bake.options.frame, bake.tangents);
     const std::vector<View> views = viewsOf(scene, bake, side);
     for (const View& view : views)
-        if (Status fits = settleCovered(scene, view); !fits)
+        if (Status fits = limitCoverage(scene, view); !fits)
             return fits.error();
-    const auto forget = [](Renderer* drawing) { drawing->forget(); }; // the scene ends here
-    const std::unique_ptr<Renderer, decltype(forget)> shown(&renderer, forget);
+    const auto forget = [](Renderer* drawing) { drawing->forget(); }; // the scene goes out of scope here
+    const std::unique_ptr<Renderer, decltype(forget)> unloadAtEnd(&renderer, forget);
     if (Status loaded = renderer.load(scene); !loaded)
         return loaded.error();
     return compareAround(renderer, views, bake);

@@ -1,5 +1,5 @@
-// Whether a baked map shows the detailed surface: the simple one drawn with the map, and its normals compared
-// with those of the detailed surface that a camera sees.
+// Checks that a baked map shows the detailed surface: compares the simple mesh, drawn with the map, with the normals of
+// the detailed surface that a camera sees.
 #pragma once
 
 #include "bake/bake_surfaces.hpp"
@@ -9,31 +9,30 @@
 
 namespace cotan::app {
 
-inline constexpr int kBakeViews = 4;  // from the front, and turned by quarters
+inline constexpr int kBakeViews = 4;  // front view, and rotations by 90 degrees
 inline constexpr int kBakeSide = 640; // pixels
 
-// A map and what it was baked from. All of it is the caller's, and must live until verifyBake returns.
+// A map and what it was baked from. References must stay valid until verifyBake returns.
 struct BakeToVerify {
     const Scene& scene; // of the low surface
     const LowSurface& low;
     const HighSurface& high;
-    const BakeOptions& options; // that the map was baked with; its frame draws
+    const BakeOptions& options; // of the bake; its frame is used to draw
     const Image& map;
     Convention format;                              // of the map
-    int material = -1;                              // index of the scene's material that reads the map; -1: all do
-    TangentOrigin tangents = TangentOrigin::stored; // that are drawn with
+    int material = -1;                              // index of the scene's material that uses the map; -1: all
+    TangentOrigin tangents = TangentOrigin::stored; // used to draw
 };
 
-// Whether no view shows another surface than the camera sees on more than 1 % of its pixels. Less than that are rims of
-// parts that stand off: at most 0.3 % of a view in the cases of tests/bake_cases.hpp, where maps that lose such parts
-// have 2 % and more. True where nothing was compared.
+// Whether at most 1 % of the pixels of each view show another surface than the camera sees. Smaller fractions are rims
+// of detached parts: at most 0.3 % of a view in the cases of tests/bake_cases.hpp, where maps that lose such parts have
+// 2 % or more. True if nothing was compared.
 bool showsHighSurface(const ComparedViews& compared);
 
-// Draws kBakeViews of the scene with the map and compares. In the result `drawn` is the scene with the map, `expected`
-// the high surface itself, as rays from the eye meet it; the degrees compare the pixels of the low surface with those
-// normals of the high one that belong there (seeHigh). side: of a picture, in pixels. The renderer has no scene
-// afterwards. Errors: those of Renderer::load, Renderer::draw and seeHigh; ErrorKind::usage for a material that the
-// scene does not have.
+// Draws kBakeViews views of the scene with the map and compares them. In the result `drawn` is the scene with the map,
+// and `expected` the high surface where rays from the eye hit it; the degrees compare the pixels of the low surface
+// with the normals that renderHighView expects there. side: image size in pixels. Afterwards the renderer has no scene.
+// Errors: those of Renderer::load, Renderer::draw and renderHighView; ErrorKind::usage if the scene lacks the material.
 Result<ComparedViews> verifyBake(Renderer& renderer, const BakeToVerify& bake, int side = kBakeSide);
 
 } // namespace cotan::app

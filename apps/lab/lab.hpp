@@ -1,4 +1,4 @@
-// The commands of cotan-lab. Their options are those that the tool declares.
+// The commands of cotan-lab. The cotan tool declares their options.
 #pragma once
 
 #include "lab_options.hpp"

@@ -1,5 +1,5 @@
-// cotan-lab: what `cotan accuracy`, `figures` and `cost` do. The tool starts it with its own words, so it calls itself
-// cotan.
+// cotan-lab implements `cotan accuracy`, `figures` and `cost`. The tool starts it with its own arguments, so it calls
+// itself cotan in messages.
 #include "common.hpp"
 #include "lab.hpp"
 #include "program.hpp"

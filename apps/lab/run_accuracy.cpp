@@ -39,7 +39,7 @@ Result<ChosenTables> chooseTables(const std::string& text)
         const auto& all = accuracyTables();
         const auto found = std::find_if(all.begin(), all.end(), [&](const AccuracyTable& t) { return t.name == word; });
         if (found == all.end())
-            return usageError(fmt::format("--tables: expected names out of {}; found '{}'", names, word));
+            return usageError(fmt::format("--tables: expected names from {}; found '{}'", names, word));
         chosen.computed.push_back(&*found);
     }
     if (text.empty()) {
@@ -63,7 +63,7 @@ Result<AccuracySelection> chooseRows(const AccuracyCommandOptions& o)
     return selection;
 }
 
-// Says what has become worse than in the file --against names.
+// Prints which results are worse than in the file given by --against.
 Status compareWith(const AccuracyCommandOptions& o, const std::vector<Measurement>& rows)
 {
     const auto before = readMeasurements(o.against);
@@ -104,7 +104,7 @@ Status runAccuracy(const AccuracyCommandOptions& o)
         return planned;
     if (o.list)
         return listTables(o);
-    if (!o.against.empty()) // read first: hours may pass before it is compared
+    if (!o.against.empty()) // check it first: measuring may take hours
         if (const auto before = readMeasurements(o.against); !before)
             return before.error();
     const auto tables = chooseTables(o.tables);
@@ -113,7 +113,7 @@ Status runAccuracy(const AccuracyCommandOptions& o)
     const auto selection = chooseRows(o);
     if (!selection)
         return selection.error();
-    std::unique_ptr<Renderer> renderer; // opened first: a device that is not there is no reason to measure for minutes
+    std::unique_ptr<Renderer> renderer; // opened first: a missing device is reported before measuring
     if (tables->rendered && o.device != "none") {
         auto opened = openDevice(o.device, o);
         if (!opened)

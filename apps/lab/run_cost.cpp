@@ -48,17 +48,17 @@ Status runCost(const CostCommandOptions& o)
     });
     if (!report)
         return withOptionNames(report.error());
-    // Tables without machine code do not take the place of older ones that may have it.
+    // Tables without machine code must not overwrite older ones that may have it.
     if (!report->codeSilence.empty())
         for (const std::filesystem::path& file : {std::filesystem::path(o.output), std::filesystem::path(o.csv),
                                                   std::filesystem::path(o.json), std::filesystem::path(o.writeCards)})
             if (std::filesystem::is_regular_file(file))
                 return unavailableError(
-                    fmt::format("{}; {} is there and stays as it is", report->codeSilence, file.string()));
-    const auto picture = o.output.empty() ? std::nullopt : costChart(*report);
-    const std::string tables = toMarkdown(*report, picture ? chart.filename().string() : "");
-    if (picture)
-        if (Status written = writeFileWhole(chart, *picture); !written)
+                    fmt::format("{}; {} exists and is left unchanged", report->codeSilence, file.string()));
+    const auto svg = o.output.empty() ? std::nullopt : costChart(*report);
+    const std::string tables = toMarkdown(*report, svg ? chart.filename().string() : "");
+    if (svg)
+        if (Status written = writeFileWhole(chart, *svg); !written)
             return written;
     if (!o.output.empty()) {
         if (Status written = writeTables(o.output, tables); !written)
@@ -70,7 +70,7 @@ Status runCost(const CostCommandOptions& o)
         if (Status written = writeFileWhole(o.csv, toCsv(*report)); !written)
             return written;
     if (!o.writeCards.empty())
-        if (Status written = writeFileWhole(o.writeCards, cost::cardsToCsv(report->code)); !written)
+        if (Status written = writeFileWhole(o.writeCards, cost::gpusToCsv(report->code)); !written)
             return written;
     if (Status written = writeReport(o, toJson(*report)); !written)
         return written;

@@ -12,7 +12,7 @@ namespace cotan::app {
 
 namespace {
 
-// What the page adds to the command line of a figure.
+// Options that the page shows in the command line of each figure.
 std::string commandOf(const FiguresCommandOptions& o)
 {
     std::string command;

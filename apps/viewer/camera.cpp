@@ -15,8 +15,8 @@ namespace cotan::viewer {
 
 namespace {
 
-constexpr float kNearest = 1e-6f, kFarthest = 1e12f; // of the eye from the pivot, world units
-constexpr float kSteepest = 1.56f;                   // radians above the horizon: 89.4 degrees
+constexpr float kMinDistance = 1e-6f, kMaxDistance = 1e12f; // distance of the eye from the pivot, world units
+constexpr float kMaxElevation = 1.56f;                      // maximum elevation, radians: 89.4 degrees
 
 struct Axes {
     glm::vec3 right, up, forward;
@@ -35,7 +35,7 @@ glm::vec3 directionAt(float azimuth, float elevation)
     return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation), std::cos(azimuth) * std::cos(elevation)};
 }
 
-// Azimuth and elevation of a direction; straight up and down have the azimuth of `up` or its opposite.
+// Azimuth and elevation of a direction. Vertical directions get the azimuth of `up` or of its opposite.
 std::pair<float, float> anglesOf(const glm::vec3& direction, const glm::vec3& up)
 {
     const bool vertical = std::abs(direction.x) + std::abs(direction.z) < 1e-4f;
@@ -43,13 +43,13 @@ std::pair<float, float> anglesOf(const glm::vec3& direction, const glm::vec3& up
     return {std::atan2(level.x, level.z), std::asin(std::clamp(direction.y, -1.0f, 1.0f))};
 }
 
-// Takes a change only where it leaves a camera that can be drawn with.
+// Applies a change only if the result is a usable camera.
 void change(Camera& camera, const Camera& to)
 {
     const float distance = glm::length(to.eye - to.target);
-    const bool turned = glm::length(glm::cross(to.target - to.eye, to.up)) > 1e-5f * distance;
-    if (isFinite(to.eye) && isFinite(to.target) && distance >= kNearest && distance <= kFarthest && turned
-        && to.verticalExtent > kNearest && to.verticalExtent < kFarthest)
+    const bool upValid = glm::length(glm::cross(to.target - to.eye, to.up)) > 1e-5f * distance;
+    if (isFinite(to.eye) && isFinite(to.target) && distance >= kMinDistance && distance <= kMaxDistance && upValid
+        && to.verticalExtent > kMinDistance && to.verticalExtent < kMaxDistance)
         camera = to;
 }
 
@@ -69,8 +69,8 @@ void orbit(Camera& camera, float right, float upward)
     const auto [azimuth, elevation] = anglesOf(back / distance, camera.up);
     Camera to = camera;
     to.up = {0, 1, 0};
-    to.eye =
-        camera.target + directionAt(azimuth + right, std::clamp(elevation + upward, -kSteepest, kSteepest)) * distance;
+    to.eye = camera.target
+        + directionAt(azimuth + right, std::clamp(elevation + upward, -kMaxElevation, kMaxElevation)) * distance;
     change(camera, to);
 }
 
@@ -106,8 +106,8 @@ void look(Camera& camera, float right, float upward)
     const auto [azimuth, elevation] = anglesOf(forward / distance, -camera.up);
     Camera to = camera;
     to.up = {0, 1, 0};
-    to.target =
-        camera.eye + directionAt(azimuth - right, std::clamp(elevation + upward, -kSteepest, kSteepest)) * distance;
+    to.target = camera.eye
+        + directionAt(azimuth - right, std::clamp(elevation + upward, -kMaxElevation, kMaxElevation)) * distance;
     change(camera, to);
 }
 
@@ -125,7 +125,7 @@ void setPivot(Camera& camera, const glm::vec3& point)
 {
     const Axes axes = axesOf(camera);
     Camera to = camera;
-    if (camera.orthographic) { // nothing turns; the eye goes beside
+    if (camera.orthographic) { // keep the direction and move the eye
         to.target = point;
         to.eye = point - axes.forward * axes.distance;
     } else {
@@ -134,7 +134,7 @@ void setPivot(Camera& camera, const glm::vec3& point)
     change(camera, to);
 }
 
-bool seeFrom(Camera& camera, const std::string& side)
+bool viewFrom(Camera& camera, const std::string& side)
 {
     struct Direction {
         const char* name;
@@ -172,7 +172,7 @@ void setOrthographic(Camera& camera, bool orthographic)
     change(camera, to);
 }
 
-glm::vec3 onPicture(const Camera& camera, const glm::vec3& point, glm::ivec2 size)
+glm::vec3 projectToImage(const Camera& camera, const glm::vec3& point, glm::ivec2 size)
 {
     const Axes axes = axesOf(camera);
     const glm::vec3 to = point - camera.eye;

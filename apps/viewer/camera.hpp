@@ -1,5 +1,5 @@
-// How a hand moves a camera. Its target is the pivot. All of them keep a camera usable: the eye off the target, numbers
-// finite, `up` across the view.
+// Interactive camera motion. The camera's target is the pivot. All functions keep the camera usable: the eye is apart
+// from the target, all numbers are finite, and `up` is not parallel to the view direction.
 #pragma once
 
 #include <string>
@@ -10,34 +10,34 @@
 
 namespace cotan::viewer {
 
-// Around the pivot: radians to the right about the vertical, and upwards, up to a hair from straight up and down.
+// Orbits around the pivot, in radians: right about the vertical, and up to almost straight up or down.
 void orbit(Camera& camera, float right, float upward);
 
-// Moves eye and pivot across the view so that what is at the pivot's depth goes along with the pointer. delta: of the
-// pointer, pixels, y downwards; size: of the picture.
+// Moves eye and pivot parallel to the view plane, so that points at the pivot's depth follow the pointer. delta:
+// pointer motion in pixels, y downwards; size: of the image.
 void pan(Camera& camera, glm::vec2 delta, glm::ivec2 size);
 
-// Goes nearer (factor below 1) or away so that what is at the pivot's depth under the pointer stays there.
+// Zooms in (factor below 1) or out, keeping the point at the pivot's depth under the pointer in place.
 void zoomTo(Camera& camera, float factor, glm::vec2 pointer, glm::ivec2 size);
 
-// Turns the view about the eye, and moves both through the scene: world units to the right, upwards, forwards.
+// `look` rotates the view about the eye, in radians; `fly` moves eye and pivot: world units right, up, forwards.
 void look(Camera& camera, float right, float upward);
 void fly(Camera& camera, glm::vec3 by);
 
-// The point of the ray nearest to what was clicked becomes the pivot; the eye stays and turns towards it.
+// Makes `point` the pivot. A perspective camera rotates towards it; an orthographic camera moves instead.
 void setPivot(Camera& camera, const glm::vec3& point);
 
-// From one of front, back, left, right, top, bottom, at the distance that it has. False for other words.
-bool seeFrom(Camera& camera, const std::string& side);
+// Views the pivot from front, back, left, right, top or bottom at the current distance. False for other words.
+bool viewFrom(Camera& camera, const std::string& side);
 
-// The other projection, with what is at the pivot as large as before.
+// Switches the projection, keeping the apparent size at the pivot.
 void setOrthographic(Camera& camera, bool orthographic);
 
-// Where a point is on the picture, in pixels from the top left corner; z: its depth along the view, world units, and
-// 0 or less where it is not before the eye.
-glm::vec3 onPicture(const Camera& camera, const glm::vec3& point, glm::ivec2 size);
+// Projects a point: x and y in pixels from the top left corner of the image; z is the depth along the view in world
+// units, 0 or less if the point is not in front of the eye.
+glm::vec3 projectToImage(const Camera& camera, const glm::vec3& point, glm::ivec2 size);
 
-// World units that a pixel is high at that depth.
+// Height of a pixel in world units at the given depth.
 float unitsOfPixel(const Camera& camera, float depth, glm::ivec2 size);
 
 } // namespace cotan::viewer

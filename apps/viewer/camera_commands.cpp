@@ -1,4 +1,4 @@
-// Commands that move the camera, and the light that goes with it.
+// Commands that move the camera, and the light that is pinned to it.
 #include <cmath>
 
 #include "camera.hpp"
@@ -11,19 +11,19 @@ namespace {
 
 constexpr float kRadians = 0.017453293f;
 
-void turnLight(PictureOptions& o, double degrees)
+void rotateLight(PictureOptions& o, double degrees)
 {
-    const double turned = std::remainder(o.environmentRotation + degrees, 360.0);
-    o.environmentRotation = std::round(turned * 1000) / 1000;
+    const double rotated = std::remainder(o.environmentRotation + degrees, 360.0);
+    o.environmentRotation = std::round(rotated * 1000) / 1000;
 }
 
-// What comes after each change of the camera. The light goes with it where it is pinned to it.
-Status moved(State& state)
+// Called after each change of the camera. Rotates the light along if it is pinned to the camera.
+Status afterCameraMove(State& state)
 {
     state.cameraMoved = true;
     if (state.lightPinned) {
         const float azimuth = azimuthOf(state.camera);
-        turnLight(state.picture, double(azimuth - state.pinnedAt));
+        rotateLight(state.picture, double(azimuth - state.pinnedAt));
         state.pinnedAt = azimuth;
     }
     return Done{};
@@ -37,7 +37,7 @@ Status setCamera(State& state, const std::string& words)
     if (!camera)
         return camera.error();
     state.camera = *camera;
-    return moved(state);
+    return afterCameraMove(state);
 }
 
 Status goToProblemArea(State& state, Words& words)
@@ -47,18 +47,19 @@ Status goToProblemArea(State& state, Words& words)
         return number.error();
     const std::size_t count = state.problemAreas ? state.problemAreas->size() : 0;
     if (*number < 0 || std::size_t(*number) >= count)
-        return expected("hot-spot", count > 0 ? fmt::format("0 to {}", count - 1) : "hot spots to have been found",
+        return expected("hot-spot",
+                        count > 0 ? fmt::format("0 to {}", count - 1) : "a previous search for problem areas",
                         fmt::format("{}", *number));
     state.problemArea = std::size_t(*number);
     const ProblemArea& area = (*state.problemAreas)[*state.problemArea];
     state.camera = area.camera;
     state.show = std::string(area.view);
-    state.compare = Compare::off; // whose pictures would cover it
+    state.compare = Compare::off; // comparisons would hide the view
     if (area.storedTangents) {
         state.a.frame = "mikktspace";
         state.a.tangents = TangentOrigin::stored;
     }
-    return moved(state);
+    return afterCameraMove(state);
 }
 
 using Numbers = std::vector<float>;
@@ -75,7 +76,7 @@ Result<Numbers> numbersOf(Words& words, const char* command, int count)
     return all;
 }
 
-// Commands of the camera that take numbers.
+// Camera commands with numeric arguments.
 struct Motion {
     const char* name;
     int count;
@@ -112,7 +113,7 @@ std::optional<Status> performCamera(State& state, const std::string& command, Wo
             if (!numbers)
                 return numbers.error();
             motion.move(state, *numbers);
-            return moved(state);
+            return afterCameraMove(state);
         }
     if (command == "reset") {
         resetCamera(state);
@@ -120,11 +121,11 @@ std::optional<Status> performCamera(State& state, const std::string& command, Wo
     }
     if (command == "orthographic") {
         setOrthographic(state.camera, !state.camera.orthographic);
-        return moved(state);
+        return afterCameraMove(state);
     }
     if (command == "see")
-        return seeFrom(state.camera, words.rest)
-            ? moved(state)
+        return viewFrom(state.camera, words.rest)
+            ? afterCameraMove(state)
             : expected("see", "front, back, left, right, top or bottom", words.rest);
     if (command == "camera")
         return setCamera(state, words.rest);
@@ -134,7 +135,7 @@ std::optional<Status> performCamera(State& state, const std::string& command, Wo
         const auto degrees = words.number("turn-light");
         if (!degrees)
             return degrees.error();
-        turnLight(state.picture, double(*degrees));
+        rotateLight(state.picture, double(*degrees));
         return Done{};
     }
     return std::nullopt;

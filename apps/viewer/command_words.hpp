@@ -1,4 +1,4 @@
-// What the files of commands share: the words of a line, and what is said of wrong ones.
+// Shared by the command files: parsing the words of a line, and errors for invalid ones.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace cotan::viewer {
 
-// A line that is read word by word.
+// A command line that is parsed word by word.
 struct Words {
     std::string rest;
 
@@ -42,10 +42,10 @@ inline Status expected(const std::string& command, const std::string& what, cons
     return usageError(fmt::format("{}: expected {}; found '{}'", command, what, found));
 }
 
-// A command that moves the camera, or the light with it; nothing where it is none. words: what stands behind it.
+// Performs a command that moves the camera or the light; returns nothing for other commands. words: the arguments.
 std::optional<Status> performCamera(State& state, const std::string& command, Words& words);
 
-// The camera's turn about the vertical, degrees: a light that is pinned to it follows that.
+// The camera's azimuth in degrees, which a pinned light follows.
 float azimuthOf(const Camera& camera);
 
 } // namespace cotan::viewer

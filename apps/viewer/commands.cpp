@@ -22,16 +22,16 @@ Status openFile(State& state, const std::string& file)
 {
     if (file.empty())
         return expected("open", "a file", "");
-    if (isPicture(file)) {
+    if (isImageFile(file)) {
         const ImageFormat& format = *imageFormatOf(file);
-        // Light; of formats that hold directions below zero only beside a model, without one they are taken for a map.
+        // HDR images become the environment; if the format has negative values and there is no model, a normal map.
         const bool light = format.floats && !format.bits8;
         if (light && (!format.negative || !state.picture.model.empty())) {
             state.picture.environment = file;
             state.metered = 0;
             return Done{};
         }
-        state.a.normalMap = file; // a map
+        state.a.normalMap = file; // a normal map
         if (state.picture.model.empty() && state.picture.shape.empty()) {
             state.picture.shape = "plane";
             state.requests.push_back(request::Load{});
@@ -140,7 +140,7 @@ Status resize(State& state, const Words& words)
     return Done{};
 }
 
-// FILE [W H]; a file may have spaces: only two numbers at the end are a size.
+// Parses FILE [W H]. File names may contain spaces: only two numbers at the end are a size.
 Status writePicture(State& state, const std::string& rest)
 {
     const std::size_t height = rest.rfind(' '), width = height == 0 ? rest.npos : rest.rfind(' ', height - 1);
@@ -150,7 +150,7 @@ Status writePicture(State& state, const std::string& rest)
     const auto pixels = sized ? sizeFrom(size, "picture") : Result<glm::ivec2>(state.size);
     if (!pixels)
         return pixels.error();
-    state.requests.push_back(request::WritePicture{sized ? rest.substr(0, width) : rest, *pixels});
+    state.requests.push_back(request::WriteImage{sized ? rest.substr(0, width) : rest, *pixels});
     return Done{};
 }
 
@@ -200,7 +200,7 @@ Status performSet(State& state, Words& words)
     const std::string name = words.next();
     const Setting* setting = findSetting(name);
     if (!setting)
-        return expected("set", "an option of the picture", name);
+        return expected("set", "a setting of the view", name);
     if (Status set = setValue(*setting, words.rest, state.picture); !set)
         return set;
     if (setting->after == Setting::After::metering)
@@ -243,8 +243,8 @@ template<class What> Status requested(State& state, Words&)
 
 using Perform = Status (*)(State&, Words&);
 
-// Each by its name; the camera's are elsewhere (performCamera).
-const std::map<std::string, Perform>& performers()
+// Commands by name; performCamera has those of the camera.
+const std::map<std::string, Perform>& commandTable()
 {
     static const Perform open = [](State& s, Words& w) { return openFile(s, w.rest); };
     static const std::map<std::string, Perform> all = {
@@ -282,7 +282,7 @@ const std::map<std::string, Perform>& performers()
         {"compare", [](State& s, Words& w) { return setCompare(s, w.rest); }},
         {"divider",
          [](State& s, Words& w) {
-             return withNumber(w, "divider", [&](float share) { s.divider = std::clamp(share, 0.0f, 1.0f); });
+             return withNumber(w, "divider", [&](float fraction) { s.divider = std::clamp(fraction, 0.0f, 1.0f); });
          }},
         {"scale",
          [](State& s, Words& w) {
@@ -299,8 +299,8 @@ const std::map<std::string, Perform>& performers()
     return all;
 }
 
-// Options that are refused without an environment go with it.
-void settle(PictureOptions& o)
+// Resets options that are refused without an environment.
+void resetWithoutEnvironment(PictureOptions& o)
 {
     if (o.environment != "none")
         return;
@@ -316,10 +316,9 @@ Status performOne(State& state, const std::string& line)
     const std::string command = words.next();
     if (const auto moved = performCamera(state, command, words))
         return *moved;
-    const auto known = performers().find(command);
-    return known == performers().end()
-        ? usageError(fmt::format("expected a command of the viewer; found '{}'", command))
-        : known->second(state, words);
+    const auto known = commandTable().find(command);
+    return known == commandTable().end() ? usageError(fmt::format("expected a viewer command; found '{}'", command))
+                                         : known->second(state, words);
 }
 
 } // namespace
@@ -327,7 +326,7 @@ Status performOne(State& state, const std::string& line)
 Status perform(State& state, const std::string& line)
 {
     Status done = performOne(state, line);
-    settle(state.picture);
+    resetWithoutEnvironment(state.picture);
     return done;
 }
 

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The program of that name in PATH; empty without.
+// Finds a program in PATH; empty if there is none.
 std::string findProgram(const std::string& name)
 {
     const char* path = std::getenv("PATH");
@@ -59,10 +59,10 @@ Status Dialog::startProgram()
     else if (const std::string kdialog = findProgram("kdialog"); !kdialog.empty())
         words = {kdialog, "--getopenfilename", folder_};
     else
-        return unavailableError("open: no dialog to choose a file: install zenity; or drop a file, or paste its path");
+        return unavailableError("open: no file dialog: install zenity; or drop a file, or paste its path");
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0)
-        return unavailableError("open: no dialog to choose a file: no pipe");
+        return unavailableError("open: no file dialog: no pipe could be created");
     std::vector<char*> arguments;
     for (std::string& word : words)
         arguments.push_back(word.data());
@@ -77,7 +77,7 @@ Status Dialog::startProgram()
     if (child_ < 0) {
         ::close(ends[0]);
         child_ = 0;
-        return unavailableError("open: no dialog to choose a file: no process");
+        return unavailableError("open: no file dialog: no process could be started");
     }
     pipe_ = ends[0];
     ::fcntl(pipe_, F_SETFL, O_NONBLOCK);

@@ -1,4 +1,4 @@
-// The platform's dialog for choosing a file: nothing waits for it.
+// A non-blocking file dialog of the platform.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace cotan::viewer {
 
-// The desktop's portal; where there is none zenity or kdialog, in a process of its own.
+// Uses the desktop portal, or else zenity or kdialog in a child process.
 class Dialog {
 public:
     Dialog() = default;
@@ -18,10 +18,10 @@ public:
     Dialog(const Dialog&) = delete;
     Dialog& operator=(const Dialog&) = delete;
 
-    // Opens it; does nothing while one is open. beside: a file of the folder to begin in.
+    // Opens the dialog unless one is open. beside: a file in the initial folder.
     void ask(Window& window, const std::string& beside);
     bool open() const { return asked_ || child_ > 0; }
-    // What was chosen, once; empty otherwise. Errors: ErrorKind::unavailable where there is no dialog of any kind.
+    // Returns the chosen file once, otherwise "". Errors: ErrorKind::unavailable if there is no dialog of any kind.
     Result<std::string> take(Window& window);
 
 private:
@@ -29,7 +29,7 @@ private:
     std::string takeFromProgram();
 
     std::string folder_;
-    bool asked_ = false; // the portal
+    bool asked_ = false; // a portal dialog is open
     pid_t child_ = 0;
     int pipe_ = -1;
     std::string said_;

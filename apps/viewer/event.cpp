@@ -13,7 +13,7 @@ namespace cotan::viewer {
 
 namespace {
 
-enum class Holds { nothing, place, word };
+enum class Holds { nothing, position, word };
 
 struct KindWord {
     EventKind kind;
@@ -21,15 +21,15 @@ struct KindWord {
     Holds holds;
 };
 
-constexpr std::array<KindWord, 12> kKinds = {{{EventKind::move, "move", Holds::place},
+constexpr std::array<KindWord, 12> kKinds = {{{EventKind::move, "move", Holds::position},
                                               {EventKind::press, "press", Holds::word},
                                               {EventKind::release, "release", Holds::word},
-                                              {EventKind::scroll, "scroll", Holds::place},
+                                              {EventKind::scroll, "scroll", Holds::position},
                                               {EventKind::key, "key", Holds::word},
                                               {EventKind::keyUp, "keyup", Holds::word},
                                               {EventKind::text, "text", Holds::word},
                                               {EventKind::drop, "drop", Holds::word},
-                                              {EventKind::resize, "resize", Holds::place},
+                                              {EventKind::resize, "resize", Holds::position},
                                               {EventKind::close, "close", Holds::nothing},
                                               {EventKind::command, "do", Holds::word},
                                               {EventKind::wait, "wait", Holds::nothing}}};
@@ -43,7 +43,7 @@ std::string nextWord(std::string_view& rest)
     return word;
 }
 
-// A line without comment; what is wrong with it, or nothing.
+// Parses a line that is not a comment. Returns an error message, or "" if it is valid.
 std::string read(std::string_view line, double before, Event& event)
 {
     std::string_view rest = line;
@@ -51,7 +51,7 @@ std::string read(std::string_view line, double before, Event& event)
     std::string word = nextWord(rest);
     if (double seconds = 0; parseNumber(std::string_view(word), seconds)) {
         if (!(seconds >= before))
-            return fmt::format("expected a time from {} up; found '{}'", before, word);
+            return fmt::format("expected a time of at least {}; found '{}'", before, word);
         event.seconds = seconds;
         word = nextWord(rest);
     }
@@ -59,14 +59,14 @@ std::string read(std::string_view line, double before, Event& event)
         if (kind.word != word)
             continue;
         event.kind = kind.kind;
-        if (kind.holds == Holds::place) {
+        if (kind.holds == Holds::position) {
             const std::string x = nextWord(rest), y = nextWord(rest);
             if (!parseNumber(std::string_view(x), event.x) || !parseNumber(std::string_view(y), event.y))
                 return fmt::format("{}: expected two numbers; found '{} {}'", word, x, y);
         } else if (kind.holds == Holds::word) {
             event.word = rest;
             if (event.word.empty())
-                return fmt::format("{}: expected a word behind it; found none", word);
+                return fmt::format("{}: expected a word after it; found none", word);
             return {};
         }
         return rest.find_first_not_of(' ') == std::string_view::npos
@@ -86,7 +86,7 @@ std::string toText(const Event& event)
     for (const KindWord& kind : kKinds)
         if (kind.kind == event.kind) {
             std::string text = fmt::format("{:.3f} {}", event.seconds, kind.word);
-            if (kind.holds == Holds::place)
+            if (kind.holds == Holds::position)
                 text += fmt::format(" {} {}", event.x, event.y);
             else if (kind.holds == Holds::word)
                 text += " " + event.word;

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kEvery = 0.25, kRest = 0.3; // seconds
+constexpr double kPollSeconds = 0.25, kRestSeconds = 0.3; // polling interval, and time without changes; seconds
 
 template<std::size_t n> bool endsWithOneOf(const fs::path& file, const std::array<std::string_view, n>& endings)
 {
@@ -47,7 +47,7 @@ std::string percentDecoded(const std::string& text)
 
 } // namespace
 
-bool isPicture(const fs::path& file) { return imageFormatHas(file, &ImageFormat::reads); }
+bool isImageFile(const fs::path& file) { return imageFormatHas(file, &ImageFormat::reads); }
 
 bool isModel(const fs::path& file)
 {
@@ -90,15 +90,15 @@ std::string pathOf(std::string text)
     constexpr std::string_view kScheme = "file://";
     if (!text.starts_with(kScheme))
         return text;
-    const std::size_t start = text.find('/', kScheme.size()); // past the name of the machine
+    const std::size_t start = text.find('/', kScheme.size()); // skip the host name
     return percentDecoded(text.substr(std::min(start, text.size())));
 }
 
-std::optional<Watch::Look> Watch::lookAt(const fs::path& file)
+std::optional<Watch::FileStamp> Watch::stampOf(const fs::path& file)
 {
     std::error_code error;
-    const Look look{fs::last_write_time(file, error), error ? 0 : fs::file_size(file, error)};
-    return error ? std::nullopt : std::optional(look);
+    const FileStamp stamp{fs::last_write_time(file, error), error ? 0 : fs::file_size(file, error)};
+    return error ? std::nullopt : std::optional(stamp);
 }
 
 void Watch::on(const std::vector<fs::path>& files)
@@ -112,7 +112,7 @@ void Watch::on(const std::vector<fs::path>& files)
             next.push_back(*before);
             continue;
         }
-        const auto now = lookAt(path);
+        const auto now = stampOf(path);
         next.push_back({path, now, now});
     }
     files_ = std::move(next);
@@ -120,13 +120,13 @@ void Watch::on(const std::vector<fs::path>& files)
 
 bool Watch::changed(File& file, double seconds)
 {
-    const auto now = lookAt(file.path);
+    const auto now = stampOf(file.path);
     if (now != file.last) {
         file.last = now;
         file.sinceLast = seconds;
         return false;
     }
-    if (!now || now == file.known || seconds - file.sinceLast < kRest)
+    if (!now || now == file.known || seconds - file.sinceLast < kRestSeconds)
         return false;
     file.known = now;
     return true;
@@ -134,9 +134,9 @@ bool Watch::changed(File& file, double seconds)
 
 bool Watch::changed(double seconds)
 {
-    if (files_.empty() || (lookedAt_ >= 0 && seconds < lookedAt_ + kEvery))
+    if (files_.empty() || (polledAt_ >= 0 && seconds < polledAt_ + kPollSeconds))
         return false;
-    lookedAt_ = seconds;
+    polledAt_ = seconds;
     bool any = false;
     for (File& file : files_)
         any = changed(file, seconds) || any;

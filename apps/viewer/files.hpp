@@ -1,4 +1,4 @@
-// Files that the viewer opens: what they are, their neighbours, whether they have changed.
+// Files that the viewer opens: their kinds, their neighbours, and whether they have changed.
 #pragma once
 
 #include <filesystem>
@@ -8,48 +8,48 @@
 
 namespace cotan::viewer {
 
-// By the ending: a picture, or a model. Everything else is neither.
-bool isPicture(const std::filesystem::path& file);
+// Whether the file's extension is that of an image, or of a model.
+bool isImageFile(const std::filesystem::path& file);
 bool isModel(const std::filesystem::path& file);
 
-// Its name without folders.
+// The file name without folders.
 inline std::string fileName(const std::filesystem::path& file) { return file.filename().string(); }
 
-// The model `step` places behind this one among those of its folder, by name, around the end. Empty where there is no
-// other.
+// The model `step` positions after this one among those in its folder, sorted by name, wrapping around. Empty if there
+// is no other.
 std::string neighbourOf(const std::filesystem::path& file, int step);
 
-// A file path as people paste it: without the spaces, quotes and file:// around it.
+// Cleans up a pasted file path: removes surrounding spaces and quotes, and a file:// prefix.
 std::string pathOf(std::string text);
 
-// Tells when one of some files has changed and then rested for a moment, so that half of it is not read.
+// Reports when a watched file has changed and then not changed for a moment, so that no half-written file is read.
 class Watch {
 public:
-    // Files that were watched before go on being watched from what was seen of them last.
+    // Sets the watched files. Files that were already watched keep their last known state.
     void on(const std::vector<std::filesystem::path>& files);
-    // Whether any has. seconds: of any clock that goes on.
+    // Whether any file has changed. seconds: of any clock that never goes back.
     bool changed(double seconds);
 
 private:
-    struct Look {
+    struct FileStamp {
         std::filesystem::file_time_type time;
         std::uintmax_t bytes = 0;
-        friend bool operator==(const Look&, const Look&) = default;
+        friend bool operator==(const FileStamp&, const FileStamp&) = default;
     };
     struct File {
         std::filesystem::path path;
-        std::optional<Look> known, last;
+        std::optional<FileStamp> known, last;
         double sinceLast = 0;
     };
-    static std::optional<Look> lookAt(const std::filesystem::path& file);
+    static std::optional<FileStamp> stampOf(const std::filesystem::path& file);
     static bool changed(File& file, double seconds);
 
     std::vector<File> files_;
-    double lookedAt_ = -1;
+    double polledAt_ = -1;
 };
 
-// The model and the files that it names: buffers and pictures of a .gltf; of others the pictures of these names, and
-// the materials, in its folder. Those that are not there are left out.
+// The model and the existing files it refers to: buffers and images of a .gltf; for other formats the images with these
+// names and the .mtl file in its folder.
 std::vector<std::filesystem::path> filesOf(const std::filesystem::path& model,
                                            const std::vector<std::string>& pictureNames);
 

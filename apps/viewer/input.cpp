@@ -14,9 +14,9 @@ namespace cotan::viewer {
 
 namespace {
 
-constexpr float kClick = 4;             // pixels that a click may move
-constexpr float kDegreesAPixel = 0.35f; // of turning
-constexpr float kGrip = 8;              // pixels beside the divider that take hold of it
+constexpr float kClick = 4;             // maximum pointer motion of a click, pixels
+constexpr float kDegreesAPixel = 0.35f; // of rotation
+constexpr float kGrip = 8;              // pixels beside the divider that grab it
 constexpr const char* kFlyKeys = "wasdqe";
 
 void run(State& state, const std::string& command)
@@ -24,10 +24,10 @@ void run(State& state, const std::string& command)
     const Status done = perform(state, command);
     if (!done)
         state.problem = done.error().message;
-    if (!done || command.starts_with("report ") || command.starts_with("window ")) // what is written is what is seen
+    if (!done || command.starts_with("report ") || command.starts_with("window ")) // they write the current messages
         return;
     state.problem.clear();
-    state.said.clear();
+    state.message.clear();
 }
 
 bool flying(const State& state) { return state.held == "right" && !state.keysDown.empty(); }
@@ -134,7 +134,7 @@ void apply(State& state, const Event& event)
     }
 }
 
-void goOn(State& state, double seconds)
+void advance(State& state, double seconds)
 {
     if (flying(state) && state.model && !state.model->box.empty()) {
         glm::vec3 by{0};

@@ -1,4 +1,4 @@
-// Events of the pointer and the keys, as changes of the state.
+// Applies pointer and key events to the state.
 #pragma once
 
 #include "event.hpp"
@@ -6,10 +6,10 @@
 
 namespace cotan::viewer {
 
-// What it cannot do becomes state.problem.
+// Errors are stored in state.problem.
 void apply(State& state, const Event& event);
 
-// What goes on by itself: flying, playing. seconds: since the last call.
-void goOn(State& state, double seconds);
+// Advances continuous changes: flying, playing. seconds: since the last call.
+void advance(State& state, double seconds);
 
 } // namespace cotan::viewer

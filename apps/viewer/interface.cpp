@@ -1,4 +1,4 @@
-// What the state looks like, as plain values for the window.
+// Describes the state as plain values for the window.
 #include "interface.hpp"
 
 #include <array>
@@ -21,7 +21,7 @@ namespace {
 
 std::string degrees(double value) { return fmt::format("{:.2f}\xc2\xb0", value); }
 
-// The frame's name; of "auto" also the one that it is for the model's own maps.
+// The frame's name; for "auto", followed by the frame chosen for the model's own maps.
 std::string frameLabel(const State& s, const Side& side)
 {
     if (side.frame != kAutoFrame || !s.model || !side.normalMap.empty())
@@ -44,11 +44,11 @@ std::string statusOf(const State& s)
         text += s.statistics.count > 0
             ? fmt::format("   {}: mean {}, 95 % {}, max {}", s.statisticsOf, degrees(s.statistics.mean),
                           degrees(s.statistics.percentile95), degrees(s.statistics.maximum))
-            : fmt::format("   {}: no normal map is seen", s.statisticsOf);
+            : fmt::format("   {}: no normal map is visible", s.statisticsOf);
     text += "   " + s.device;
     if (s.drawSeconds > 0)
         text += fmt::format(" ({:.0f} ms)", s.drawSeconds * 1000);
-    return s.said.empty() ? text : s.said + "\n" + text;
+    return s.message.empty() ? text : s.message + "\n" + text;
 }
 
 std::vector<Slider> slidersOf(const State& s)
@@ -90,19 +90,19 @@ std::vector<std::string> cardOf(const State& s)
     return card;
 }
 
-// The frame on the surface, 60 pixels long.
+// The axes of the frame on the surface, 60 pixels long.
 std::vector<Line2D> arrowsOf(const State& s)
 {
     const PickedPoint& hit = *s.probe.hit;
     const Probed& p = s.probe.surface;
     const float length = 60 * unitsOfPixel(s.camera, s.camera.orthographic ? 1 : hit.depth, s.size);
-    const glm::vec2 from(onPicture(s.camera, hit.position, s.size));
+    const glm::vec2 from(projectToImage(s.camera, hit.position, s.size));
     std::vector<Line2D> lines;
-    const auto add = [&](const glm::vec3& direction, const glm::vec3& color, const char* name, float share) {
+    const auto add = [&](const glm::vec3& direction, const glm::vec3& color, const char* name, float fraction) {
         const float size = glm::length(direction);
         if (!(size > 0))
             return;
-        const glm::vec3 to = onPicture(s.camera, hit.position + direction / size * length * share, s.size);
+        const glm::vec3 to = projectToImage(s.camera, hit.position + direction / size * length * fraction, s.size);
         if (to.z > 0)
             lines.push_back({from, glm::vec2(to), color, name});
     };
@@ -113,13 +113,13 @@ std::vector<Line2D> arrowsOf(const State& s)
     return lines;
 }
 
-// The triangle of the hot spot that was gone to.
+// The outline of the selected problem area's triangle.
 void addOutline(const State& s, std::vector<Line2D>& lines)
 {
     const std::array<glm::vec3, 3>& corners = (*s.problemAreas)[*s.problemArea].corners;
     std::array<glm::vec3, 3> at;
     for (std::size_t k = 0; k < 3; ++k) {
-        at[k] = onPicture(s.camera, corners[k], s.size);
+        at[k] = projectToImage(s.camera, corners[k], s.size);
         if (!(at[k].z > 0)) // behind the eye
             return;
     }
@@ -127,7 +127,7 @@ void addOutline(const State& s, std::vector<Line2D>& lines)
         lines.push_back({glm::vec2(at[k]), glm::vec2(at[(k + 1) % 3]), {1, 1, 1}, {}});
 }
 
-// The false colours of degrees.
+// The colour scale of angles in degrees.
 std::vector<std::pair<double, glm::vec3>> scaleOfDegrees()
 {
     const std::vector<float> stops = {0, 0.5f, 2, 5, 15, 45};
@@ -140,8 +140,8 @@ std::vector<std::pair<double, glm::vec3>> scaleOfDegrees()
     return scale;
 }
 
-// A line of the list of keys; the keys 1 to 9 of a menu share one, which says what is chosen. The first line of a menu
-// comes behind its title.
+// Adds a line to the list of keys, and the menu's title before its first key. Keys 1 to 9 of a menu share one line,
+// which names the active entry.
 void addToSheet(const Entry& entry, std::string& heading, std::vector<std::pair<std::string, std::string>>& sheet)
 {
     if (entry.key.empty())
@@ -180,7 +180,7 @@ Interface interfaceOf(const State& s)
             {entry.label, keyLabel(entry.key), entry.command, entry.on, entry.usable, entry.submenu});
         addToSheet(entry, heading, i.sheet);
     }
-    for (auto& [key, what] : i.sheet) // none of 1 to 9 is chosen
+    for (auto& [key, what] : i.sheet) // remove the colon if none of 1 to 9 is active
         if (what.ends_with(": "))
             what.resize(what.size() - 2);
     i.sheet.emplace_back("", "Mouse");
@@ -203,7 +203,7 @@ Interface interfaceOf(const State& s)
     }
     if (s.interfaceShown && (s.compare == Compare::angle || s.show == "error" || s.show == "shear"))
         i.scaleBar = scaleOfDegrees();
-    if (s.problemAreas && s.problemArea && s.interfaceShown && !s.playing) // what plays has moved on
+    if (s.problemAreas && s.problemArea && s.interfaceShown && !s.playing) // an animation moves away from the triangle
         addOutline(s, i.lines);
     if (s.problemAreas)
         for (std::size_t k = 0; k < s.problemAreas->size(); ++k)

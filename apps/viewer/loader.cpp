@@ -12,7 +12,7 @@
 
 namespace cotan::viewer {
 
-// The model that was read last, and what poses it; null where it does not move.
+// The model read last, and the data for posing it, null if the model is not animated.
 struct LastRead {
     std::shared_ptr<const Model> model;
     std::unique_ptr<AnimatedGltf> animated;
@@ -45,7 +45,7 @@ Loaded poseKept(const PictureOptions& wanted, std::uint64_t number, LastRead& ke
 {
     Loaded loaded;
     loaded.posed = true;
-    loaded.options = kept.model->read; // all but the pose is as it was read
+    loaded.options = kept.model->read; // everything except the pose is as it was read
     loaded.options.animation = wanted.animation;
     loaded.options.time = wanted.animation.empty() ? 0 : wanted.time;
     if (!kept.animated) {
@@ -69,7 +69,7 @@ Loaded poseKept(const PictureOptions& wanted, std::uint64_t number, LastRead& ke
     return loaded;
 }
 
-// What could not be done is not asked for any longer.
+// Resets options that could not be satisfied to those of the current model.
 void giveUp(State& state, const Loaded& loaded)
 {
     state.problem = state.loadProblem = loaded.error->message;
@@ -89,9 +89,9 @@ void takePosed(State& state, const Loaded& loaded)
 {
     const bool other = !state.model || state.model->read.animation != loaded.model->read.animation;
     state.model = loaded.model;
-    if (other && !state.cameraMoved) // it frames all of the animation, and stays for all of its moments
+    if (other && !state.cameraMoved) // the camera frames the whole animation, and stays when the time changes
         resetCamera(state);
-    if (state.playing) // the moment has gone on
+    if (state.playing) // the time has advanced since
         return;
     forgetProblemAreas(state);
 }
@@ -105,7 +105,7 @@ void take(State& state, const Loaded& loaded)
         return;
     }
     if (!loaded.faults.empty()) {
-        state.said = loaded.faults[0]; // all of them are printed
+        state.message = loaded.faults[0]; // all of them are printed
         return;
     }
     if (loaded.error)
@@ -115,7 +115,7 @@ void take(State& state, const Loaded& loaded)
     if (loaded.posed)
         return takePosed(state, loaded);
     ++state.loads;
-    if (state.problem == std::exchange(state.loadProblem, {})) // the file is good again
+    if (state.problem == std::exchange(state.loadProblem, {})) // the file is valid again
         state.problem.clear();
     const bool other =
         !state.model || loaded.options.model != state.picture.model || loaded.options.shape != state.picture.shape;
@@ -145,7 +145,7 @@ void take(State& state, const Loaded& loaded)
         state.recent.resize(std::min(state.recent.size(), kMaxRecent));
     }
     if (!loaded.model->scene.warnings.empty())
-        state.said = loaded.model->scene.warnings[0];
+        state.message = loaded.model->scene.warnings[0];
 }
 
 struct Loader::Work {
@@ -183,7 +183,7 @@ struct Loader::Work {
     {
         lock.lock();
         working = reading = false;
-        if (!read) // else this is out of date
+        if (!read) // otherwise this result is out of date
             ready.push_back(std::move(loaded));
         if (done)
             done();
@@ -222,10 +222,10 @@ struct Loader::Work {
     std::optional<PictureOptions> read, pose;
     std::shared_ptr<const Model> look;
     std::deque<Loaded> ready;
-    LastRead kept;            // of the thread
-    std::uint64_t number = 0; // likewise
+    LastRead kept;            // used only by the thread
+    std::uint64_t number = 0; // used only by the thread
     bool working = false, reading = false, stop = false;
-    std::thread thread; // last: it uses all the others
+    std::thread thread; // declared last, because it uses all other members
 };
 
 Loader::Loader(std::function<void()> done) : work_(std::make_unique<Work>(std::move(done))) {}

@@ -1,4 +1,4 @@
-// Reads models on a thread of its own.
+// Reads models on its own thread.
 #pragma once
 
 #include <functional>
@@ -10,34 +10,34 @@
 namespace cotan::viewer {
 
 struct Loaded {
-    bool posed = false;                 // the model as before, at another moment
-    PictureOptions options;             // that it was read with
-    std::shared_ptr<const Model> model; // null where there is an error, or nothing else
+    bool posed = false;                 // the same model at another time of its animation
+    PictureOptions options;             // options that the model was read with
+    std::shared_ptr<const Model> model; // null if there is an error or another kind of result
     std::optional<std::vector<ProblemArea>> problemAreas;
-    std::vector<std::string> faults; // of its maps; they come after the model, since looking takes longer than drawing
+    std::vector<std::string> faults; // of the maps; delivered after the model, because checking is slower than drawing
     std::optional<Error> error;
     double seconds = 0;
 };
 
-// Puts what was read into the state. A model that could not be read leaves the last one, and says why.
+// Puts a result into the state. If a model could not be read, the state keeps the previous one and the error.
 void take(State& state, const Loaded& loaded);
 
 class Loader {
 public:
-    // done: called on the loader's thread where something can be taken.
+    // done: called on the loader's thread when take() has something to return.
     explicit Loader(std::function<void()> done);
     ~Loader();
 
-    // Reads this next; what waits is dropped, what is being read goes on and is forgotten.
+    // Reads this model next. Waiting requests are dropped; the result of a read in progress is discarded.
     void read(const PictureOptions& options);
-    // Puts the model that was read last into the pose that the options name, without reading its file and decoding its
-    // images again; a pose that waits is dropped. Nothing while a model is being read.
+    // Poses the model that was read last, without reading its file or decoding its images again. Replaces a waiting
+    // pose. Does nothing while a model is being read.
     void pose(const PictureOptions& options);
-    // Looks for hot spots of a model.
+    // Searches a model for problem areas.
     void findProblemAreas(std::shared_ptr<const Model> model);
     std::optional<Loaded> take();
-    bool busy() const;    // something was asked for and is not taken yet
-    bool reading() const; // a file
+    bool busy() const;    // there are requests or results that were not taken yet
+    bool reading() const; // a file is being read
 
 private:
     struct Work;

@@ -42,9 +42,9 @@ std::string memoryOf(const State& state)
 
 void remember(const std::string& text, State& state)
 {
-    if (text.empty()) // nothing was kept: the first start
-        state.said = "H: keys";
-    const PictureOptions usual;
+    if (text.empty()) // nothing was stored: the first start
+        state.message = "H: keys";
+    const PictureOptions defaults;
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
         std::istringstream words(line);
@@ -54,7 +54,7 @@ void remember(const std::string& text, State& state)
             state.recent.push_back(line.substr(7));
         else if (first == "scale")
             perform(state, line);
-        else if (first == "size" && state.picture.size == usual.size) {
+        else if (first == "size" && state.picture.size == defaults.size) {
             glm::ivec2 size{0};
             std::istringstream(line.substr(4)) >> size.x >> size.y;
             if (size.x >= 160 && size.y >= 120 && size.x <= 8192 && size.y <= 8192)
@@ -63,7 +63,7 @@ void remember(const std::string& text, State& state)
             const Setting* setting = findSetting(second);
             const std::size_t start = line.find(second) + second.size() + 1;
             if (setting && std::ranges::find(kKeptSettings, second) != kKeptSettings.end()
-                && valueOf(*setting, state.picture) == valueOf(*setting, usual))
+                && valueOf(*setting, state.picture) == valueOf(*setting, defaults))
                 setValue(*setting, line.substr(std::min(start, line.size())), state.picture);
         } else
             for (const Switch& s : kKeptSwitches)
@@ -74,11 +74,11 @@ void remember(const std::string& text, State& state)
 
 std::filesystem::path memoryFile()
 {
-    const char* place = std::getenv("XDG_STATE_HOME");
+    const char* stateHome = std::getenv("XDG_STATE_HOME");
     const char* home = std::getenv("HOME");
-    std::filesystem::path folder = place && *place == '/' ? std::filesystem::path(place)
-        : home && *home                                   ? std::filesystem::path(home) / ".local" / "state"
-                                                          : std::filesystem::path();
+    std::filesystem::path folder = stateHome && *stateHome == '/' ? std::filesystem::path(stateHome)
+        : home && *home                                           ? std::filesystem::path(home) / ".local" / "state"
+                                                                  : std::filesystem::path();
     return folder.empty() ? folder : folder / "cotan" / "view.txt";
 }
 

@@ -1,4 +1,4 @@
-// Menus and keys: one list of entries for both, and for the cheat sheet.
+// Menus and keys: one list of entries for both and for the cheat sheet.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -26,16 +26,15 @@ public:
         menu_ = title;
         submenu_.clear();
     }
-    // What is added next stands in a submenu; empty: no longer.
+    // Puts the entries added next into a submenu; an empty title ends it.
     void submenu(const char* title) { submenu_ = title; }
     void add(std::string label, std::string key, std::string command, bool on = false, bool usable = true)
     {
-        all.push_back({menu_, std::move(label), std::move(key), std::move(command), on, usable, {}, submenu_});
+        all.push_back({menu_, std::move(label), std::move(key), std::move(command), on, usable, submenu_});
     }
-    void line() { all.push_back({menu_, {}, {}, {}, false, true, {}, submenu_}); }
-    void standing(std::string text) { all.back().standing = std::move(text); }
+    void line() { all.push_back({menu_, {}, {}, {}, false, true, submenu_}); }
 
-    // An entry for each value of an option.
+    // Adds an entry for each value of an option.
     void choose(const char* name, std::initializer_list<std::pair<const char*, const char*>> values)
     {
         const Setting& setting = *findSetting(name);
@@ -62,7 +61,7 @@ std::string capital(std::string word)
     return word;
 }
 
-// Lists of a file's or a person's own, as submenus of no more than fit: "Cameras", "Cameras 2" and so on.
+// Adds a list of variable length as submenus of at most kMaxLines entries: "Cameras", "Cameras 2" and so on.
 template<class Add> void addList(Entries& e, const std::string& title, std::size_t count, const Add& add)
 {
     for (std::size_t i = 0; i < count; ++i) {

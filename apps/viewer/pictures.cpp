@@ -11,13 +11,13 @@ namespace cotan::viewer {
 
 namespace {
 
-// What a picture depends on, but for the exposure that was found.
+// Everything that an image depends on, except the metered exposure.
 std::string keyOf(const State& s)
 {
     State other = s;
     other.metered = 0;
     other.compare = Compare::flip;
-    other.picture.animation.clear(); // the model that is drawn has its pose
+    other.picture.animation.clear(); // the model that is drawn already has its pose
     other.picture.time = 0;
     std::string key;
     for (const bool second : {false, true}) {
@@ -42,7 +42,7 @@ void Pictures::ask(const State& state)
         return;
     const std::string key = keyOf(state);
     const bool meter = state.metered == 0 && state.show == "shaded" && meters(optionsOf(state, false))
-        && !renderThread_.busy() && !failed_; // what failed would fail again
+        && !renderThread_.busy() && !failed_; // a failed order would fail again
     if (key == key_ && !meter)
         return;
     key_ = key;
@@ -61,12 +61,12 @@ void Pictures::receive(State& state, bool timed)
     if (failed_) {
         state.problem = state.drawProblem = drawn->problem;
         failedAtLoads_ = state.loads;
-        goBack(state);
+        revert(state);
     } else if (drawn->picture) {
-        // What is drawn now may be what was good before; but a file that was read again is good.
+        // Redrawing the last valid state must not clear the error; a reload of the file may.
         if (state.loads != failedAtLoads_ && state.problem == std::exchange(state.drawProblem, {}))
             state.problem.clear();
-        good_ = {true, state.picture, state.a, state.b};
+        lastGood_ = {true, state.picture, state.a, state.b};
     }
     if (drawn->picture && drawn->picture != drawn_.picture) {
         ++serial_;
@@ -89,20 +89,20 @@ void Pictures::receive(State& state, bool timed)
         drawn_ = std::move(*drawn);
 }
 
-// What could not be drawn is left: a light or a map that cannot be read, a convention that does not fit.
-void Pictures::goBack(State& state) const
+// Reverts what could not be drawn: an unreadable environment or map, or a convention that does not fit.
+void Pictures::revert(State& state) const
 {
-    if (!good_.any)
+    if (!lastGood_.any)
         return;
-    const PictureOptions now = std::exchange(state.picture, good_.picture);
+    const PictureOptions now = std::exchange(state.picture, lastGood_.picture);
     state.picture.model = now.model;
     state.picture.shape = now.shape;
     state.picture.variant = now.variant;
     state.picture.animation = now.animation;
     state.picture.time = now.time;
     state.picture.camera = now.camera;
-    state.a = good_.a;
-    state.b = good_.b;
+    state.a = lastGood_.a;
+    state.b = lastGood_.b;
 }
 
 bool Pictures::idle(const State& state) const

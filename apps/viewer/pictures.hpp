@@ -1,4 +1,4 @@
-// What asks the renderer: one picture after another of what the state shows, and what comes back.
+// Orders images of the state from the render thread and puts the results into the state.
 #pragma once
 
 #include <functional>
@@ -13,28 +13,28 @@ namespace cotan::viewer {
 
 class Pictures {
 public:
-    // As for RenderThread.
+    // Parameters as for RenderThread.
     Pictures(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done);
 
-    // Orders a picture where the state shows something else than the last order.
+    // Orders an image if the state differs from that of the last order.
     void ask(const State& state);
-    // Puts what was drawn since the last call into the state. What cannot be drawn becomes state.problem, and the state
-    // goes back to what could be. timed: how long it took goes into the state, too.
+    // Puts what was drawn since the last call into the state. If drawing failed, stores the error in state.problem and
+    // reverts the state to the last one that could be drawn. timed: also store the drawing time in the state.
     void receive(State& state, bool timed);
-    // All that the state shows was drawn.
+    // Whether everything that the state shows is drawn.
     bool idle(const State& state) const;
 
-    // What was drawn last, for the window; until the next receive().
+    // The last image drawn, for the window; valid until the next receive().
     Shown shown(const State& state) const;
-    // Of the picture that is shown, at the pointer; below 0: none.
+    // The angle of the displayed image at the pointer; negative: none.
     float degreesAtPointer(const State& state) const;
-    // A picture for a file, whatever is drawn meanwhile; waits for it.
+    // Draws an image for a file, independent of other orders; waits for the result.
     Result<Image> drawNow(const Order& order, bool floats) { return renderThread_.drawNow(order, floats); }
 
     std::vector<std::string> finish() { return renderThread_.finish(); }
 
     bool any() const { return drawn_.picture != nullptr; }
-    double firstSeconds() const { return firstSeconds_; } // that the first picture took
+    double firstSeconds() const { return firstSeconds_; } // drawing time of the first image
 
 private:
     RenderThread renderThread_;
@@ -43,18 +43,18 @@ private:
         bool any = false;
         PictureOptions picture;
         Side a, b;
-    } good_; // of the last picture that could be drawn
+    } lastGood_; // state of the last image that could be drawn
     struct {
         glm::ivec2 size{0};
         std::vector<float> degrees;
-    } figures_; // of the picture that is shown
+    } figures_; // of the displayed image
     std::string key_;
     std::uint64_t serial_ = 0, orders_ = 0;
     double firstSeconds_ = 0;
     bool failed_ = false;
-    std::size_t failedAtLoads_ = 0; // State::loads when it last failed
+    std::size_t failedAtLoads_ = 0; // State::loads at the last failure
 
-    void goBack(State& state) const;
+    void revert(State& state) const;
 };
 
 } // namespace cotan::viewer

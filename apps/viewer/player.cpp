@@ -4,9 +4,9 @@ namespace cotan::viewer {
 
 namespace {
 
-constexpr double kPatience = 120; // seconds that a session waits for one picture
+constexpr double kPatience = 120; // maximum seconds that a session waits for one image
 
-// What is written is what is drawn by then.
+// Whether the event writes something, which must wait until everything is drawn.
 bool writes(const Event& event)
 {
     return event.kind == EventKind::command
@@ -21,11 +21,11 @@ Result<Player::Step> Player::step(bool idle, double now)
         waitsSince_ = waitsSince_.value_or(now);
         if (!idle)
             return now - *waitsSince_ > kPatience
-                ? Result<Step>(unavailableError("view: a played session waited too long for a picture"))
+                ? Result<Step>(unavailableError("view: the replay waited too long for an image"))
                 : Step{};
         waits_ = false;
     }
-    const bool last = ended(); // wait for the last picture
+    const bool last = ended(); // wait for the last image
     if (last || events_[next_].kind == EventKind::wait || writes(events_[next_])) {
         waits_ = last || !idle;
         waitsSince_ = now;

@@ -1,4 +1,4 @@
-// Hands out the events of a played session, each when what came before it is drawn where it asks for that.
+// Hands out the events of a played session, waiting for drawing to finish where necessary.
 #pragma once
 
 #include <optional>
@@ -15,17 +15,17 @@ public:
 
     struct Step {
         std::optional<Event> event;
-        double passed = 0; // seconds of the session since the step before
+        double passed = 0; // seconds of session time since the previous step
     };
-    // idle: all that was asked for is drawn. now: seconds of any clock that goes on. Errors: ErrorKind::unavailable
-    // where it was not idle for two minutes.
+    // idle: everything requested is drawn. now: seconds of any clock that never goes back. Errors:
+    // ErrorKind::unavailable if `idle` was false for two minutes.
     Result<Step> step(bool idle, double now);
 
     bool waits() const { return waits_; }
     bool ended() const { return next_ == events_.size(); }
-    std::size_t played() const { return next_; } // events
+    std::size_t played() const { return next_; } // number of events
 
-    // What a played command could not do: the first of them is how the session ends.
+    // Records the error of a played command. The first one is the result of the session.
     void blame(const std::string& problem);
     Status verdict() const;
 
@@ -33,8 +33,8 @@ private:
     const std::vector<Event>& events_;
     std::size_t next_ = 0;
     double playedTo_ = 0;                // seconds
-    std::optional<double> waitsSince_{}; // likewise
-    bool waits_ = true;                  // for the first picture: what is done before it would be done to nothing
+    std::optional<double> waitsSince_{}; // seconds
+    bool waits_ = true;                  // starts by waiting for the first image; earlier commands would do nothing
     std::string blamed_;
 };
 

@@ -45,7 +45,7 @@ void PointerProbe::follow(State& state)
         } catch (...) {
             found.set_exception(std::current_exception());
         }
-        done_(); // who is woken finds the result
+        done_(); // after the result is set, so that the woken thread finds it
     });
 }
 

@@ -1,4 +1,4 @@
-// What is under the pointer, found on a thread of its own: a large mesh takes a moment.
+// Finds the surface under the pointer on another thread, because it takes a moment for large meshes.
 #pragma once
 
 #include <functional>
@@ -11,11 +11,11 @@ namespace cotan::viewer {
 
 class PointerProbe {
 public:
-    // done: called on another thread where something was found.
+    // done: called on another thread when a result is available.
     explicit PointerProbe(std::function<void()> done) : done_(std::move(done)) {}
 
-    // Puts what was found into the state, and looks again where the pointer, the camera, the model or the frame is
-    // another.
+    // Puts the last result into the state, and starts a new search if the pointer, the camera, the model or the frame
+    // has changed.
     void follow(State& state);
     bool busy() const { return finding_.valid(); }
 
@@ -24,7 +24,7 @@ private:
     Prober prober_;
     std::string key_;
     std::future<Probe> finding_;
-    std::future<void> running_; // the thread that finds it; last: it uses the others
+    std::future<void> running_; // the searching thread; declared last, because it uses the others
 };
 
 } // namespace cotan::viewer

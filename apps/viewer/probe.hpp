@@ -1,4 +1,4 @@
-// What a scene is at one point of a surface: texture coordinates, texel, and the frame there.
+// Values of a scene at one surface point: texture coordinates, texel and frame.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -10,20 +10,20 @@
 namespace cotan::viewer {
 
 struct Probed {
-    glm::vec3 normal{0};        // world, as interpolated, unit
-    glm::vec3 t{0}, b{0};       // of the frame, world; zero where there is none
-    glm::vec3 storedTangent{0}; // world, unit, along +u; zero where the mesh has none
-    int w = 0; // as glTF stores it: +1 where -b, up the picture, is along cross(n, t); -1; 0 without a frame
+    glm::vec3 normal{0};        // world space, interpolated, unit
+    glm::vec3 t{0}, b{0};       // of the frame, world space; zero if there is none
+    glm::vec3 storedTangent{0}; // world space, unit, along +u; zero if the mesh has none
+    int w = 0; // sign as in glTF: +1 if -b, up in the image, is along cross(n, t); else -1; 0 without a frame
     bool hasUv = false;
     glm::vec2 uv{0};      // of the normal map
-    glm::ivec2 texel{-1}; // of the normal map, from its top left corner; -1: there is none
+    glm::ivec2 texel{-1}; // of the normal map, from its top left corner; -1: none
 };
 
-// Keeps the surface of the mesh that was asked for last.
+// Caches the surface of the last mesh requested.
 class Prober {
 public:
-    // The scene as it was loaded; `number`: another for another scene. What a frame reads at the vertices is derived
-    // for the whole mesh where it is asked for first.
+    // scene: as loaded; number: identifies the scene. Vertex attributes of a frame are derived for the whole mesh when
+    // first needed.
     Probed at(const Scene& scene, std::uint64_t number, const PickedPoint& hit, Frame frame, TangentOrigin tangents);
 
 private:

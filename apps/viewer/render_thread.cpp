@@ -45,7 +45,7 @@ struct RenderThread::Work {
             const bool whole = order.figures && drawn.problem.empty() && !drawn.draft;
             const auto figureless = drawn;
             publish(std::move(drawn), whole && !next);
-            if (whole && !next && !stop) { // figures can wait for a moment without orders
+            if (whole && !next && !stop) { // compute figures only while no order is waiting
                 lock.unlock();
                 Drawn more = figureless;
                 more = guarded(
@@ -94,7 +94,7 @@ struct RenderThread::Work {
     std::optional<Drawn> ready;
     const std::function<void()>* file = nullptr;
     bool working = false, stop = false;
-    std::thread thread; // last: it uses all the others
+    std::thread thread; // declared last, because it uses all other members
 };
 
 RenderThread::RenderThread(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done)

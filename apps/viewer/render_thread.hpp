@@ -1,4 +1,4 @@
-// Draws what the state asks for, on a thread of its own: the interface never waits for a picture.
+// Draws images of the state on its own thread, so that the interface never waits.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace cotan::viewer {
 
-// What is to be drawn: copied from the state.
+// What to draw, copied from the state.
 struct Order {
     std::uint64_t number = 0; // ascending
     PictureOptions first, second;
@@ -18,47 +18,47 @@ struct Order {
     Compare compare = Compare::off;
     bool flipped = false;
     std::shared_ptr<const Model> model;
-    float exposure = 0;      // for "auto": what was found before; 0: find it
-    std::string meteredFrom; // from this camera, in words
-    bool draft = false;      // smaller, and without figures, if pictures take long
+    float exposure = 0;      // the metered exposure for "auto"; 0: meter it
+    std::string meteredFrom; // camera to meter from, as text
+    bool draft = false;      // if drawing is slow, draw smaller and without figures
     bool figures = false;
 };
 
 struct Drawn {
     std::uint64_t number = 0;
-    std::shared_ptr<const Image> picture, other; // 8 bits; other: of a divider
-    View view;                                   // that the first was drawn with
-    float exposure = 0;                          // that was found for "auto"; 0: it was not asked for
-    std::string device, problem;                 // a problem comes without a picture
+    std::shared_ptr<const Image> picture, other; // 8 bits; other: right side of a divider
+    View view;                                   // of `picture`
+    float exposure = 0;                          // metered for "auto"; 0: not requested
+    std::string device, problem;                 // if there is a problem, there is no image
     double seconds = 0;
     bool draft = false;
-    // Figures, which come later than the picture; degrees has an entry a pixel, or is empty.
+    // Figures, which arrive later than the image; degrees has one entry per pixel, or is empty.
     bool hasFigures = false;
     std::vector<float> degrees;
     AngleStatistics statistics;
     std::string statisticsOf;
 };
 
-// The order for a state; draft: while the camera moves.
+// The order for a state; a draft while the camera moves or an animation plays.
 Order orderOf(const State& state);
 
 class RenderThread {
 public:
-    // first: what will be asked for; its device and environment are opened while the model is still being read.
-    // validation: with Vulkan's validation layer. done: called on the render thread where something new can be taken.
+    // first: the expected options; their device and environment are opened while the model is still being read.
+    // validation: use Vulkan's validation layer. done: called on the render thread when take() has a result.
     RenderThread(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done);
     ~RenderThread();
 
-    // Draws this next; an order that waits is dropped.
+    // Draws this order next; replaces a waiting order.
     void ask(Order order);
-    // What was drawn last, once.
+    // Returns the last result, once.
     std::optional<Drawn> take();
-    bool busy() const; // something was asked for and is not drawn yet
+    bool busy() const; // there are orders or results that were not taken yet
 
-    // A picture for a file, whatever is drawn meanwhile; waits for it. floats: as for a file that keeps them.
+    // Draws an image for a file, independent of other orders, and waits. floats: for a file with float values.
     Result<Image> drawNow(const Order& order, bool floats);
 
-    // Ends its work. Returns what the validation layer has said.
+    // Ends the thread. Returns the messages of the validation layer.
     std::vector<std::string> finish();
 
 private:

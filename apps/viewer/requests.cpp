@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A name that is not there yet: picture-1.png and so on.
-fs::path freeName(const std::string& stem, const std::string& ending)
+// Returns an unused file name: STEM-1.png and so on.
+fs::path unusedName(const std::string& stem, const std::string& ending)
 {
     std::error_code error;
     for (int i = 1;; ++i)
@@ -24,15 +24,15 @@ fs::path freeName(const std::string& stem, const std::string& ending)
             return file;
 }
 
-// ---- each by its kind -------------------------------------------------------------------------
+// ---- one function per kind of request ---------------------------------------------------------
 
-Status carryOut(Parts& parts, const request::WritePicture& r)
+Status carryOut(Parts& parts, const request::WriteImage& r)
 {
     State& state = parts.state;
     if (!state.model)
         return usageError("picture: expected a model; found none");
     const bool named = !r.file.empty() && r.file != "-" && r.file != ".exr";
-    const fs::path file = named ? fs::path(r.file) : freeName("cotan-picture", r.file == ".exr" ? ".exr" : ".png");
+    const fs::path file = named ? fs::path(r.file) : unusedName("cotan-picture", r.file == ".exr" ? ".exr" : ".png");
     State wanted = state;
     wanted.size = r.size.x > 0 ? r.size : state.size;
     wanted.moving = wanted.playing = false;
@@ -47,8 +47,8 @@ Status carryOut(Parts& parts, const request::WritePicture& r)
         return app::withOptionNames(image.error());
     if (Status done = writeImage(file, *image); !done)
         return done;
-    state.said = commandLine(wanted, file.string(), wanted.size);
-    app::say(parts.options.common, state.said);
+    state.message = commandLine(wanted, file.string(), wanted.size);
+    app::say(parts.options.common, state.message);
     return Done{};
 }
 
@@ -70,7 +70,7 @@ Status carryOut(Parts& parts, const request::WriteReport& r)
 Status carryOut(Parts& parts, const request::Paste&)
 {
     const std::string path = pathOf(parts.window->clipboard());
-    return path.empty() ? Status(usageError("paste: expected the path of a file to have been copied; found none"))
+    return path.empty() ? Status(usageError("paste: expected a copied file path; found none"))
                         : perform(parts.state, "drop " + path);
 }
 
@@ -83,7 +83,7 @@ Status carryOut(Parts& parts, const request::ChooseFile&)
 Status carryOut(Parts& parts, const request::Copy& r)
 {
     parts.window->setClipboard(r.text);
-    parts.state.said = "copied: " + r.text;
+    parts.state.message = "copied: " + r.text;
     if (parts.options.plays)
         app::say(parts.options.common, r.text);
     return Done{};
@@ -168,7 +168,7 @@ void watchShown(Parts& parts)
             pictures.push_back(image.name);
     std::vector<std::filesystem::path> files = filesOf(s.picture.model, pictures);
     for (std::size_t i = 2; i < named.size(); ++i)
-        if (std::filesystem::path(named[i]).has_extension()) // others are names of lights, or nothing
+        if (std::filesystem::path(named[i]).has_extension()) // others are built-in environments or empty
             files.emplace_back(named[i]);
     parts.watch.on(files);
 }

@@ -1,18 +1,18 @@
-// What the state requests, and no change of the state does: reading, writing, the clipboard, the window.
+// Performs requests that need more than a change of the state: reading, writing, the clipboard, the window.
 #pragma once
 
 #include "session_parts.hpp"
 
 namespace cotan::viewer {
 
-// Before there is a model: hands those that are requested to the loader, and drops poses; what else is requested stays.
+// Before there is a model: passes load requests to the loader, drops pose requests, and keeps all others.
 void beginLoads(Parts& parts);
 
-// Does all that is requested; also opens what was chosen in the dialog, and reads again what has changed on the disk.
-// What cannot be done becomes state.problem. Errors: the first of those.
+// Performs all requests; also opens the file chosen in the dialog, and reloads files that have changed on disk. Errors
+// are stored in state.problem; returns the first one.
 Status carryOutRequests(Parts& parts);
 
-// Watches all files that are shown: the model with its own, maps and the environment, as soon as they are chosen.
+// Watches all displayed files as soon as they are chosen: the model with its files, maps and the environment.
 void watchShown(Parts& parts);
 
 } // namespace cotan::viewer

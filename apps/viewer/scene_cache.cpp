@@ -16,10 +16,10 @@ namespace cotan::viewer {
 
 namespace {
 
-constexpr double kSmooth = 0.05; // seconds: a picture that takes longer is drawn smaller while the camera moves
+constexpr double kSmooth = 0.05; // seconds: slower images are drawn smaller while the camera moves
 constexpr double kDraftPixels = 160000;
 
-// What of the options and the side the scene depends on.
+// Everything that the scene of a side depends on.
 std::string sceneKey(const Model& model, const PictureOptions& o, Frame frame, const std::string& inspection)
 {
     const std::string vertices =
@@ -36,7 +36,7 @@ bool plain(const PictureOptions& o, Frame frame)
         && m.occlusion.empty() && m.convention == none.convention;
 }
 
-// Of a side, whose words are known to be right.
+// The frame of a side. The frame's name must be valid.
 Frame frameOf(const Order& order, bool second, const Scene& scene)
 {
     return chosenFrame(*parseFrameChoice((second ? order.b : order.a).frame), second ? order.second : order.first,
@@ -45,12 +45,12 @@ Frame frameOf(const Order& order, bool second, const Scene& scene)
 
 std::string lightKey(const PictureOptions& o)
 {
-    std::error_code none; // of names that are no files
+    std::error_code none; // names of built-in environments are no files
     const auto written = std::filesystem::last_write_time(o.environment, none).time_since_epoch().count();
     return fmt::format("{}|{}|{}|{}", o.environment, none ? 0 : written, o.environmentRotation, o.environmentIntensity);
 }
 
-// Compared, and not told by keys: a map's file may have changed meanwhile, and a model that is read again may not have.
+// Compares the pixels. Keys would not do: a map's file may have changed, or be unchanged in a model that was reloaded.
 bool sameImages(const std::vector<Image>& a, const std::vector<Image>& b)
 {
     return std::ranges::equal(a, b, [](const Image& x, const Image& y) {
@@ -183,14 +183,14 @@ Result<Image> SceneCache::drawSide(const Order& order, CachedScene& s, const Vie
 }
 
 Status SceneCache::layEdgesOn(const Order& order, CachedScene& s, const View& view, const PictureOptions& o,
-                              Image& picture)
+                              Image& image)
 {
     if (o.edges == Edges::none)
         return Done{};
     const std::string key = fmt::format("{}", order.model->number);
     if (edges_.key != key || !edges_.value)
         edges_ = {key, surfaceEdges(order.model->scene)};
-    return layEdges(*s.renderer, view, o, *edges_.value, picture);
+    return layEdges(*s.renderer, view, o, *edges_.value, image);
 }
 
 Result<std::vector<float>> SceneCache::degreesOf(const Order& order, CachedScene& first, const View& view,
@@ -203,10 +203,10 @@ Result<std::vector<float>> SceneCache::degreesOf(const Order& order, CachedScene
         return a.error();
     CachedScene* other = &first;
     if (two) {
-        auto staged = cachedScene(1, order, true, true);
-        if (!staged)
-            return staged.error();
-        other = *staged;
+        auto secondScene = cachedScene(1, order, true, true);
+        if (!secondScene)
+            return secondScene.error();
+        other = *secondScene;
         normals.frame = frameOf(order, true, *other->scene);
         normals.normalMaps = !second.noNormalMaps;
     } else {
@@ -229,7 +229,7 @@ Result<CachedScene*> SceneCache::cachedScene(std::size_t index, const Order& ord
         return choice.error();
     const std::string inspection = !normals && inspectionFromName(order.show) ? order.show : "";
     const Frame frame =
-        chosenFrame(*choice, o, order.model->scene); // of the model's own maps: others are not on it yet
+        chosenFrame(*choice, o, order.model->scene); // of the model's own maps; others are not applied yet
     const std::string key = sceneKey(*order.model, o, frame, inspection);
     for (CachedScene& known : cachedScenes_)
         if (known.key == key && known.renderer)
@@ -269,26 +269,26 @@ Result<View> SceneCache::viewFor(const Order& order, CachedScene& s, bool second
     view->frame = frameOf(order, second, *s.scene);
     view->output = outputOf(order.show);
     view->lights = lightsOf(o, *s.scene);
-    const bool dark = o.use == PictureUse::data; // nothing is lit then
-    if (!dark && (environment_.key != lightKey(o) || !environment_.value)) {
+    const bool unlit = o.use == PictureUse::data; // data is drawn without lighting
+    if (!unlit && (environment_.key != lightKey(o) || !environment_.value)) {
         auto opened = openEnvironmentMap(o);
         if (!opened)
             return opened.error();
         environment_ = {lightKey(o), *opened};
     }
-    view->environmentMap = dark ? nullptr : *environment_.value;
+    view->environmentMap = unlit ? nullptr : *environment_.value;
     const std::string under =
         fmt::format("{}|{}|{}|{}|{}", s.key, lightKey(o), o.ground, o.noShadows, o.shadowSoftness.value_or(-1));
     if (under != ground_.key || !ground_.value)
         ground_ = {under, groundOf(o, *s.scene, *view)};
     view->ground = *ground_.value;
     if (meters(o) && exposure <= 0) {
-        View looked = *view;
+        View meteringView = *view;
         PictureOptions from = o;
         from.camera = order.meteredFrom;
         if (const auto there = viewOf(from, *s.scene))
-            looked.camera = there->camera;
-        const auto found = meterExposure(*s.renderer, looked);
+            meteringView.camera = there->camera;
+        const auto found = meterExposure(*s.renderer, meteringView);
         if (!found)
             return found.error();
         exposure = *found;

@@ -1,4 +1,4 @@
-// Draws orders, one after another, and keeps what several of them need: devices, scenes, the environment, the ground.
+// Draws orders one by one, and caches what they share: devices, scenes, the environment, the ground.
 #pragma once
 
 #include <array>
@@ -12,47 +12,47 @@
 
 namespace cotan::viewer {
 
-// Keeps what was made for a key, until another one is asked for.
+// A value cached for one key.
 template<class T> struct Kept {
     std::string key;
     std::optional<T> value;
 };
 
-// A scene with the maps and the attributes of one side, on a device.
+// A scene with the maps and attributes of one side, loaded on a device.
 struct CachedScene {
     std::string key;
-    std::shared_ptr<const Model> model; // what `scene` points to, where nothing had to be made
+    std::shared_ptr<const Model> model; // owns what `scene` points to if no copy was needed
     Scene own;
     const Scene* scene = nullptr;
     std::unique_ptr<Renderer> renderer;
 };
 
-// Touched by one thread alone.
+// Used by one thread only.
 class SceneCache {
 public:
     SceneCache(app::CommonOptions common, bool validation) : common_(std::move(common)), validation_(validation) {}
 
-    // What can be had before there is a model. What fails fails again, and is said, when it is needed.
+    // Opens what needs no model. Errors are ignored, because they occur again, and are reported, on use.
     void open(const PictureOptions& o);
     Drawn draw(const Order& order);
-    // Adds degrees and statistics to what was drawn.
+    // Adds degrees and statistics to a result.
     Status drawFigures(const Order& order, Drawn& drawn);
-    // floats: as for a file that keeps them.
+    // floats: for a file with float values.
     Result<Image> drawForFile(const Order& order, bool floats);
-    // Of the validation layer, on all devices.
+    // Messages of the validation layer from all devices.
     std::vector<std::string> messages() const;
 
 private:
     Status drawInto(const Order& order, Drawn& drawn, bool floats);
     Result<Image> drawSide(const Order& order, CachedScene& s, const View& view, const PictureOptions& o, bool floats);
-    Status layEdgesOn(const Order& order, CachedScene& s, const View& view, const PictureOptions& o, Image& picture);
-    // Between the normals of the first picture and those of the second, or those of the frame `exact`.
+    Status layEdgesOn(const Order& order, CachedScene& s, const View& view, const PictureOptions& o, Image& image);
+    // Angles between the normals of the first image and those of the second, or those of the frame `exact`.
     Result<std::vector<float>> degreesOf(const Order& order, CachedScene& first, const View& view,
                                          const PictureOptions& second, bool two);
-    // The scene of a side on a renderer; the second has a renderer of its own only where its scene is another.
-    // normals: not in the colours that are shown, but as a surface.
+    // The scene of a side on a renderer. The second side has its own renderer only if its scene differs. normals: for
+    // drawing normals, so without inspection colours.
     Result<CachedScene*> cachedScene(std::size_t index, const Order& order, bool second, bool normals = false);
-    // As `cotan render` makes it. exposure: for "auto"; 0: found by metering.
+    // The view as in `cotan render`. exposure: for "auto"; 0: meter it.
     Result<View> viewFor(const Order& order, CachedScene& s, bool second, float exposure);
 
     app::CommonOptions common_;
@@ -61,7 +61,7 @@ private:
     Kept<std::shared_ptr<const EnvironmentMap>> environment_;
     Kept<std::shared_ptr<const GroundMap>> ground_;
     Kept<std::vector<SurfaceEdge>> edges_;
-    double seconds_ = 0; // of the last whole picture
+    double seconds_ = 0; // drawing time of the last image that is no draft
 };
 
 } // namespace cotan::viewer

@@ -27,7 +27,7 @@ namespace {
 
 app::CommonOptions quiet(app::CommonOptions common)
 {
-    common.quiet = true; // what is to be said is said in the window
+    common.quiet = true; // messages are shown in the window
     return common;
 }
 
@@ -44,13 +44,13 @@ Interface interfaceNow(const Parts& parts)
 {
     Interface i = interfaceOf(parts.state);
     if (i.progress >= 0)
-        i.progress = float(std::fmod(secondsNow(), 1.0)); // nobody knows how long it takes: it runs
+        i.progress = float(std::fmod(secondsNow(), 1.0)); // the remaining time is unknown, so the bar just moves
     return i;
 }
 
 namespace {
 
-// By what the user asked for the end.
+// What the user quit with.
 const char* quitBy(const Event& event)
 {
     switch (event.kind) {
@@ -82,7 +82,7 @@ public:
         parts_.waker.set(nullptr);
         if (done && recording_.is_open() && !recording_.flush())
             done = outputError(fmt::format("{}: cannot be written", options_.record.string()));
-        keepState();
+        saveState();
         if (done)
             done = writeReport(options_.common, reportOfTimes());
         return done ? checkValidation() : done;
@@ -109,7 +109,7 @@ private:
         return Done{};
     }
 
-    // A model that cannot be read is the first thing to be said, with a window or without.
+    // A model that cannot be read is reported first, even if there is no window.
     Status withoutWindow(Status why)
     {
         while (parts_.loader.busy())
@@ -130,7 +130,7 @@ private:
                           : Status(outputError(fmt::format("{}: cannot be written", options_.record.string())));
     }
 
-    // Data goes one way: events, the state, what is asked for, what came back, the window.
+    // Data flows in one direction: events, state, requests, results, window.
     Status loop()
     {
         while (!parts_.quits) {
@@ -138,15 +138,15 @@ private:
             const auto events = nextEvents(passed);
             if (!events)
                 return events.error();
-            takeIn(*events, passed);
-            fitWindow();
+            handleEvents(*events, passed);
+            adoptWindowSize();
             if (const Status done = carryOutRequests(parts_); !done && written_)
                 player_.blame(done.error().message);
             while (auto loaded = parts_.loader.take())
                 takeLoaded(std::move(*loaded));
-            if (options_.plays && !state_.model && refused_) // there is nothing to play with
-                return *refused_;
-            parts_.pictures.receive(state_, !options_.plays); // played sessions look the same every time
+            if (options_.plays && !state_.model && modelError_) // there is nothing to play with
+                return *modelError_;
+            parts_.pictures.receive(state_, !options_.plays); // played sessions must look the same every time
             parts_.pictures.ask(state_);
             parts_.probe.follow(state_);
             state_.probe.degrees = parts_.pictures.degreesAtPointer(state_);
@@ -166,7 +166,7 @@ private:
             && !parts_.probe.busy();
     }
 
-    // Seconds to wait for events.
+    // Maximum seconds to wait for events.
     double pause() const
     {
         if (options_.plays)
@@ -191,12 +191,12 @@ private:
                 events.push_back(std::move(*step->event));
         }
         for (const Event& event : events)
-            if (recording_.is_open() && event.seconds >= 0) // what is chosen in the interface follows from the clicks
+            if (recording_.is_open() && event.seconds >= 0) // commands chosen in the interface follow from the clicks
                 recording_ << toText(event) << '\n';
         return events;
     }
 
-    void takeIn(const std::vector<Event>& events, double passed)
+    void handleEvents(const std::vector<Event>& events, double passed)
     {
         written_ = false;
         for (const Event& event : parts_.window->interact(interfaceNow(parts_), events)) {
@@ -210,10 +210,10 @@ private:
                 }))
                 ended_ = quitBy(event);
         }
-        goOn(state_, passed);
+        advance(state_, passed);
     }
 
-    void fitWindow()
+    void adoptWindowSize()
     {
         const glm::ivec2 now = parts_.window->size();
         if (now.x < 1 || now.y < 1 || now == state_.size)
@@ -232,7 +232,7 @@ private:
         }
         take(state_, loaded);
         if (loaded.error && options_.plays && !state_.model)
-            refused_ = loaded.error;
+            modelError_ = loaded.error;
         else if (loaded.error)
             app::warn(options_.common, loaded.error->message);
         for (const std::string& fault : loaded.faults)
@@ -270,13 +270,13 @@ private:
                   {"first_shown", firstShown_}}}};
     }
 
-    void keepState() const
+    void saveState() const
     {
         if (options_.memory.empty())
             return;
         std::error_code error;
         fs::create_directories(options_.memory.parent_path(), error);
-        std::ofstream(options_.memory, std::ios::binary) << memoryOf(state_); // nothing depends on it
+        std::ofstream(options_.memory, std::ios::binary) << memoryOf(state_); // errors do not matter
     }
 
     const SessionOptions& options_;
@@ -286,9 +286,9 @@ private:
     Player player_;
     std::ofstream recording_;
     double start_ = 0, last_ = 0, windowSeconds_ = 0, loadSeconds_ = 0, firstShown_ = 0;
-    std::optional<Error> refused_; // why there is no first model
-    bool written_ = false;         // what happens now was written as a command
-    std::string ended_;            // what asked for the end; empty: nothing has
+    std::optional<Error> modelError_; // error of the first model
+    bool written_ = false;            // the current event is a written command
+    std::string ended_;               // what ended the session; empty: nothing yet
 };
 
 } // namespace

@@ -1,6 +1,5 @@
-// What a session is made of. Events change the state (input.hpp); what it requests is done (requests.hpp); what it
-// shows is asked of the renderer (pictures.hpp); what comes back goes into the state again; the interface is drawn from
-// it.
+// The parts of a session. Events change the state (input.hpp); its requests are performed (requests.hpp); images of it
+// are ordered from the renderer (pictures.hpp); results go back into the state; the interface is drawn from the state.
 #pragma once
 
 #include <memory>
@@ -15,7 +14,7 @@
 
 namespace cotan::viewer {
 
-// Ends the window's waiting for events, from any thread, while there is a window.
+// Wakes the window from waiting for events, from any thread, while there is a window.
 class Waker {
 public:
     void set(Window* window)
@@ -40,21 +39,21 @@ struct Parts {
 
     State state;
     const SessionOptions& options;
-    std::unique_ptr<Window> window; // outlives the threads of those below, which wake it
+    std::unique_ptr<Window> window; // outlives the threads of the members below, which wake it
     Waker waker;
     Loader loader;
     Pictures pictures;
     PointerProbe probe;
     Dialog dialog;
-    Watch watch;                      // of all files that are shown
-    std::vector<std::string> watched; // what they were named after
+    Watch watch;                      // all displayed files
+    std::vector<std::string> watched; // the names that these files were found by
     bool quits = false;
 };
 
-// Seconds of a clock that goes on.
+// Seconds of a monotonic clock.
 double secondsNow();
 
-// All that the window shows beside the picture, at this moment.
+// Everything that the window currently shows besides the image.
 Interface interfaceNow(const Parts& parts);
 
 } // namespace cotan::viewer

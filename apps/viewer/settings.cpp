@@ -15,7 +15,7 @@ namespace {
 using Options = PictureOptions;
 using After = Setting::After;
 
-// What can be empty, an optional or a text, is that by the empty word.
+// A setting with named values. Optional and text fields also accept the empty word.
 template<class Value, std::size_t count>
 Setting choice(const char* name, auto Options::*field, const Named<Value> (&all)[count], After after = After::nothing)
 {
@@ -56,7 +56,7 @@ Setting flag(const char* name, bool Options::*field)
     return {name, get, set, After::nothing, true, "on, off or toggle"};
 }
 
-// none: of an empty optional, as is a number below 0.
+// none: the word for an empty optional; negative numbers empty it too.
 template<class Field>
 Setting number(const char* name, Field Options::*field, const Bounded& bounds, After after = After::nothing,
                const std::string& none = "")
@@ -71,7 +71,8 @@ Setting number(const char* name, Field Options::*field, const Bounded& bounds, A
     const auto set = [field, bounds, none](Options& o, const std::string& word) {
         double value = -1;
         const bool known = mayBeNone && word == none;
-        if (!known && !(parseNumber(std::string_view(word), value) && value >= bounds.least && value <= bounds.most))
+        if (!known
+            && !(parseNumber(std::string_view(word), value) && value >= bounds.minimum && value <= bounds.maximum))
             return false;
         if constexpr (mayBeNone)
             o.*field = value < 0 ? Field() : Field(typename Field::value_type(value));
@@ -79,14 +80,14 @@ Setting number(const char* name, Field Options::*field, const Bounded& bounds, A
             o.*field = Field(value);
         return true;
     };
-    return {name, get, set, after, false, fmt::format("a number from {} to {}", bounds.least, bounds.most)};
+    return {name, get, set, after, false, fmt::format("a number from {} to {}", bounds.minimum, bounds.maximum)};
 }
 
 } // namespace
 
 std::span<const Setting> settings()
 {
-    constexpr Bounded kFactors = {1e-6, 1e6}, kSoftnessOrNone = {-1, kSoftnesses.most};
+    constexpr Bounded kFactors = {1e-6, 1e6}, kSoftnessOrNone = {-1, kSoftnesses.maximum};
     static const std::vector<Setting> all = {
         number("exposure", &Options::exposure, kFactors, After::metering, kAutoExposure),
         choice("tone-mapping", &Options::toneMapping, kToneMappings, After::metering),

@@ -1,4 +1,4 @@
-// The options of a picture that can be changed while it is looked at, each by its name on the command line.
+// The options that can be changed while the image is shown, each by its name on the command line.
 #pragma once
 
 #include <functional>
@@ -11,16 +11,16 @@
 namespace cotan::viewer {
 
 struct Setting {
-    // What comes after a change: nothing, or the exposure is found again, the model read again or put into its pose.
+    // What a changed setting requires: nothing, new metering of the exposure, a reload of the model, or a new pose.
     enum class After { nothing, metering, loading, posing };
 
-    const char* name; // of the option, without --
+    const char* name; // option name without --
     std::function<std::string(const PictureOptions&)> get;
-    std::function<bool(PictureOptions&, const std::string&)> set; // false: not such a value
+    std::function<bool(PictureOptions&, const std::string&)> set; // false: invalid value
     After after = After::nothing;
     bool flag = false;
-    std::string expected{};           // for messages; empty: anything
-    std::vector<std::string> words{}; // that it may have; empty: others
+    std::string expected{};           // for error messages; empty: any text
+    std::vector<std::string> words{}; // valid values; empty: not a fixed list
 };
 
 std::span<const Setting> settings();

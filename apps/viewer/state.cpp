@@ -18,7 +18,7 @@ namespace cotan::viewer {
 
 namespace {
 
-// A word as a shell reads it.
+// Quotes a word for a shell if necessary.
 std::string quoted(const std::string& word)
 {
     const bool safe = !word.empty()
@@ -95,12 +95,12 @@ void resetCamera(State& state)
         return;
     state.camera = view->camera;
     state.camera.name.clear();
-    // A camera of a file may look at a point that is not in the model: the pivot goes to the model's depth.
+    // The target of a file's camera may be outside the model, so the pivot is moved to the model's depth.
     const glm::vec3 forward = glm::normalize(state.camera.target - state.camera.eye);
     if (!state.model->box.empty()) {
         const float depth = glm::dot(state.model->box.centre() - state.camera.eye, forward);
         const bool own =
-            !o.camera.empty() && !std::isalpha(static_cast<unsigned char>(o.camera[0])); // of eye and target
+            !o.camera.empty() && !std::isalpha(static_cast<unsigned char>(o.camera[0])); // given by eye and target
         if (own && depth > 0)
             state.camera.target = state.camera.eye + forward * depth;
     }
@@ -213,9 +213,9 @@ std::string reportOf(const State& state)
         add("degrees there", state.probe.degrees < 0 ? "none" : fmt::format("{:.2f}", state.probe.degrees));
     }
     if (state.problemAreas) {
-        add("hot spots", fmt::format("{}", state.problemAreas->size()));
+        add("problem areas", fmt::format("{}", state.problemAreas->size()));
         for (const ProblemArea& area : *state.problemAreas)
-            add("hot spot", area.text);
+            add("problem area", area.text);
     }
     add("loads", fmt::format("{} failed {}", state.loads, state.failedLoads));
     add("problem", state.problem.empty() ? "none" : state.problem);

@@ -61,7 +61,7 @@ Status run(const ViewCommandOptions& o)
         text << std::ifstream(session.memory, std::ios::binary).rdbuf();
         viewer::remember(text.str(), state);
     }
-    if (viewer::isPicture(state.picture.model)) { // a map alone, or a light
+    if (viewer::isImageFile(state.picture.model)) { // a map or an environment without a model
         const std::string file = std::exchange(state.picture.model, {});
         if (state.picture.shape.empty())
             state.picture.shape = "plane";
@@ -82,15 +82,15 @@ void declare(Arguments& a, ViewCommandOptions& o)
 {
     addPictureOptions(a, o.picture);
     addFrameOption(a, o.frame);
-    a.option("--second", o.second, "another frame, to compare with the first").in("NAME").offers(frameWords()).main();
+    a.option("--second", o.second, "a second frame, to compare with the first").in("NAME").offers(frameWords()).main();
     addShowOption(a, o.picture.show);
     a.group(HelpGroup::diagnostics);
-    a.option("--do", o.commands, "a command of the viewer to begin with, such as \"compare angle\"; may be repeated")
+    a.option("--do", o.commands, "a viewer command to run at the start, such as \"compare angle\"; may be repeated")
         .in("TEXT");
-    a.option("--record", o.record, "write what happens in the window to a file").in("FILE");
-    a.option("--play", o.play, "do what such a file says, as fast as it can be done, and end").in("FILE");
-    a.flag("--forget", o.forget, "neither read nor keep the window's state of the last time");
-    a.flag("--validate", o.validate, "end with an error where Vulkan's validation layer has something to say");
+    a.option("--record", o.record, "record the session to a file").in("FILE");
+    a.option("--play", o.play, "play a recorded session as fast as possible, then quit").in("FILE");
+    a.flag("--forget", o.forget, "neither load nor save the state of the window");
+    a.flag("--validate", o.validate, "fail if Vulkan's validation layer reports anything");
 }
 
 } // namespace

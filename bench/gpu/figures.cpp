@@ -11,38 +11,38 @@ namespace {
 
 constexpr char kHow[] = R"(# On a real GPU
 
-Instructions ([Cost](cost.md)) are not nanoseconds. This page says how to measure a frame on a machine with a Vulkan GPU
-and little else:
+Instructions ([Cost](cost.md)) are not nanoseconds. This page says how to measure a frame on a machine with a Vulkan
+GPU. The machine needs little else:
 
 ```sh
-bench/on-gpu pack FOLDER    # where Cotan is built: what the measurement needs, tens of MB
+bench/on-gpu pack FOLDER    # on the machine that built Cotan: packs what the measurement needs, tens of MB
 FOLDER/run                  # on the machine with the GPU, under ten minutes: writes FOLDER/gpu.md, which is this page
 bench/on-gpu                # both, on one machine: writes docs/explanation/gpu.md
 ```
 
-FOLDER holds programs, libraries and compiled shaders. The machine needs x86-64 Linux with glibc 2.35 or later (Debian
-12, Ubuntu 22.04) and a driver for Vulkan 1.3. It needs no display, compiler, network or Vulkan loader. `FOLDER/run`
-ends with 3 and one line if it finds no driver, and with 5 if a test fails.
+FOLDER contains programs, libraries and compiled shaders. The machine needs x86-64 Linux with glibc 2.35 or later
+(Debian 12, Ubuntu 22.04) and a driver for Vulkan 1.3. It needs no display, compiler, network or Vulkan loader. If
+`FOLDER/run` finds no driver, it prints one line and exits with code 3. If a test fails, it exits with code 5.
 
 ## What is measured
 
 **Rows** are those of [Cost](cost.md). Whole pipelines fill a square of 2048 x 2048 pixels (1024 x 1024 for the smallest
-triangles) with right-angled triangles of equal legs. The target has four half floats, without depth or blending. Meshes
-and target are in the device's memory. Two timestamps enclose one draw. All rows are drawn in turn, 15 times, after a
-first time that does not count.
+triangles) with right-angled triangles of equal legs. The target has four half floats per pixel, and no depth or
+blending. Meshes and target are in the device's memory. Two timestamps enclose one draw. All rows are drawn in turn, 15
+times, after a warm-up that does not count.
 
-"4 samples" is a multisampled target, not resolved. "4 layers" draws every pixel four times in one draw, nothing hidden;
-each counts. `triangle-read` reads vectors that were made at load. Other rows of the triangle make them at provoking
-vertices. A mesh has almost twice as many of these, and the times include that.
+"4 samples" is a multisampled target, not resolved. "4 layers" draws each pixel four times in one draw; no layer is
+hidden, and all count. `triangle-read` reads vectors that were made at load. The other `triangle` rows make them at
+provoking vertices. This needs almost twice as many vertices, and the times include that.
 
-**A cell** has the median in nanoseconds per million pixels. Then it has the median, over repetitions, of the ratio to
-`mikktspace` in the same repetition, and half the distance between that ratio's quartiles.
+**A cell** has the median in nanoseconds per million pixels. Then it has the median of the ratio to `mikktspace` in the
+same repetition, and half the distance between that ratio's quartiles.
 
 **Passes** are those of [examples/deforming](../../examples/deforming), over a tube of a million triangles. Timestamps
 enclose each dispatch alone.
 
-**Tests** are the parity tests of the portable text and those of the examples, as `./run-tests` has them, on this
-device.
+**Tests** are the parity tests of the portable text and the tests of the examples, which `./run-tests` also runs, on
+this device.
 
 )";
 
@@ -70,8 +70,8 @@ std::string rowTable(const Figures& figures, int samples, int layers)
         return {};
     std::sort(cases.begin(), cases.end(),
               [&](std::size_t a, std::size_t b) { return figures.rows.cases[a].leg < figures.rows.cases[b].leg; });
-    std::string text = fmt::format("### {} sample{} a pixel, {} layer{}\n\n", samples, samples == 1 ? "" : "s", layers,
-                                   layers == 1 ? "" : "s");
+    std::string text = fmt::format("### {} sample{} per pixel, {} layer{}\n\n", samples, samples == 1 ? "" : "s",
+                                   layers, layers == 1 ? "" : "s");
     std::vector<std::string> head = {"legs of the triangles"}, rule = {"---"};
     for (const std::size_t i : cases) {
         head.push_back(fmt::format("{} px", figures.rows.cases[i].leg));
@@ -118,7 +118,7 @@ std::string testTable(const Figures& figures)
 Middle middleOf(std::vector<double> values)
 {
     std::sort(values.begin(), values.end());
-    const auto at = [&](double share) { return values[std::size_t(share * double(values.size() - 1) + 0.5)]; };
+    const auto at = [&](double fraction) { return values[std::size_t(fraction * double(values.size() - 1) + 0.5)]; };
     return {at(0.5), (at(0.75) - at(0.25)) / 2};
 }
 
@@ -139,7 +139,7 @@ Middle ratioOf(const Figures& figures, const cost::TimedRow& row, std::size_t at
     return middleOf(std::move(ratios));
 }
 
-std::string unsound(const Figures& figures)
+std::string whyInvalid(const Figures& figures)
 {
     const auto took = [](const std::vector<double>& times) {
         return !times.empty()
@@ -152,13 +152,13 @@ std::string unsound(const Figures& figures)
         for (std::size_t i = 0; i < cases.size(); ++i)
             if (row.repeats.size() != cases.size() || row.nanosecondsPerMillionPixels.size() != cases.size()
                 || row.repeats[i].size() != baseOf(figures)->repeats[i].size() || !took(row.repeats[i]))
-                return fmt::format("row {}, {}: expected times above zero in all repetitions; found another", row.row,
+                return fmt::format("row {}, {}: expected times above zero in all repetitions; found others", row.row,
                                    textOf(cases[i]));
     if (figures.passes.empty())
         return "no pass was run";
     for (const PassTimes& pass : figures.passes)
         if (!took(pass.nanoseconds))
-            return fmt::format("pass {}: expected times above zero in all repetitions; found another", pass.name);
+            return fmt::format("pass {}: expected times above zero in all repetitions; found others", pass.name);
     return {};
 }
 
@@ -169,17 +169,17 @@ std::string page(const Figures& figures, bool tables)
         return text
             + fmt::format(
                    "## No figures yet\n\n{} Small sizes were drawn on {} to check that the programs work. Their times "
-                   "would say nothing.\n",
-                   figures.rows.cpu ? "No GPU was met so far." : "Nothing was measured.", figures.rows.name);
+                   "mean nothing.\n",
+                   figures.rows.cpu ? "No GPU has been measured yet." : "Nothing was measured.", figures.rows.name);
     text += fmt::format("## {}\n\n{}. {}. Measured on {}.\n\n", figures.rows.name, figures.rows.driver, figures.machine,
                         figures.date);
     if (figures.rows.cpu)
-        text += "This device draws on the processor: the times say nothing about a GPU.\n\n";
+        text += "This device renders on the CPU: the times say nothing about a GPU.\n\n";
     for (const int layers : {1, 4})
         for (const int samples : {1, 4})
             text += rowTable(figures, samples, layers);
     for (const cost::SkippedCase& s : figures.rows.skipped)
-        text += fmt::format("Left out: {}: {}.\n\n", textOf(s.what), s.why);
+        text += fmt::format("Skipped: {}: {}.\n\n", textOf(s.what), s.why);
     return text + passTable(figures) + testTable(figures);
 }
 

@@ -1,5 +1,5 @@
-// Times every row of `cotan cost` and the passes of examples/deforming on a GPU, and writes docs/explanation/gpu.md;
-// bench/on-gpu carries it to a machine that has one.
+// Times every row of `cotan cost` and the passes of examples/deforming on a GPU, and writes docs/explanation/gpu.md.
+// bench/on-gpu copies this program to a machine with a GPU.
 #include <chrono>
 #include <fstream>
 #include <iostream>
@@ -30,7 +30,7 @@ struct Found {
     std::string name, missing;
     bool cpu = true;
 };
-// The first that draws, GPUs before others. Throws where Vulkan cannot be used.
+// Returns the first device that draws; GPUs come first. Throws if Vulkan cannot be used.
 Found findDevice()
 {
     Found found{{}, "no Vulkan device", true};
@@ -43,7 +43,7 @@ Found findDevice()
     return found;
 }
 
-// Sizes that say most come first: what comes last may meet the limit of time.
+// The most informative sizes come first, because the last ones may exceed the time limit.
 std::vector<cost::TimingCase> casesOf(bool quick)
 {
     std::vector<cost::TimingCase> cases;
@@ -75,7 +75,7 @@ int measure(const Options& options)
     Figures figures;
     figures.machine = systemName();
     figures.date = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
-    const bool quick = options.quick || device.cpu; // a check of the way, not a measurement
+    const bool quick = options.quick || device.cpu; // a check that everything runs, not a measurement
     const int repeats = quick ? 3 : 15;
     if (!options.log.empty()) {
         std::ifstream log(options.log);
@@ -90,7 +90,7 @@ int measure(const Options& options)
     figures.passes = timePasses(around, along, repeats, passDevice);
     if (passDevice != device.name)
         return failed(
-            3, fmt::format("rows would be timed on {}, passes on {}: leave one driver", device.name, passDevice));
+            3, fmt::format("rows would be timed on {}, passes on {}: keep only one driver", device.name, passDevice));
 
     std::vector<const cost::Row*> rows;
     for (const cost::Row& row : cost::rows())
@@ -101,7 +101,7 @@ int measure(const Options& options)
     figures.rows = std::move(timed->front());
     if (!figures.rows.silence.empty())
         return failed(3, device.name + ": " + figures.rows.silence);
-    if (const std::string why = unsound(figures); !why.empty())
+    if (const std::string why = whyInvalid(figures); !why.empty())
         return failed(3, device.name + ": " + why);
 
     std::ofstream file(options.output, std::ios::binary);
@@ -123,10 +123,10 @@ int main(int count, char** words)
     cotan::bench::Options options;
     CLI::App app("times every row of cotan cost and the passes of examples/deforming on a GPU");
     app.add_option("-o,--output", options.output, "file for the page");
-    app.add_option("--tests", options.log, "what the test programs printed");
-    app.add_option("--seconds", options.seconds, "sizes of triangles that would end later are left out, and named");
-    app.add_flag("--quick", options.quick, "small sizes, as on a device that draws on the processor");
-    app.add_flag("--tables", options.tables, "write tables of small sizes, too: they say nothing about a GPU");
+    app.add_option("--tests", options.log, "output of the test programs");
+    app.add_option("--seconds", options.seconds, "triangle sizes that would end later are skipped and listed");
+    app.add_flag("--quick", options.quick, "small sizes, as on a device that renders on the CPU");
+    app.add_flag("--tables", options.tables, "also write tables of small sizes; they say nothing about a GPU");
     app.add_flag("--probe", options.probe, "print `gpu` or `cpu` and the name of the device, and stop");
     try {
         app.parse(count, words);

@@ -15,12 +15,12 @@ std::vector<PassTimes> timePasses(std::uint32_t around, std::uint32_t along, int
     passes.pose(pose.positions, pose.normals);
     constexpr Pass kPasses[] = {Pass::triangles, Pass::smooth, Pass::tangents, Pass::normals};
     std::vector<PassTimes> times = {
-        {"triangles.comp", "U and V of `triangle`, six halfs: at load, or for every pose", {}},
-        {"smooth.comp", "t and b of `smooth`, 8 bytes a vertex", {}},
-        {"tangents.comp", "orthonormal tangents, 8 bytes a vertex", {}},
+        {"triangles.comp", "U and V of `triangle`, six halfs: at load, or for each pose", {}},
+        {"smooth.comp", "t and b of `smooth`, 8 bytes per vertex", {}},
+        {"tangents.comp", "orthonormal tangents, 8 bytes per vertex", {}},
         {"normals.comp", "unit normals", {}}};
     const double millions = double(rest.indices.size() / 3) * 1e-6;
-    for (int repeat = -1; repeat < repeats; ++repeat) // the first warms up
+    for (int repeat = -1; repeat < repeats; ++repeat) // the first is a warm-up
         for (std::size_t i = 0; i < times.size(); ++i) {
             const double milliseconds = passes.run(kPasses[i]);
             if (repeat >= 0)

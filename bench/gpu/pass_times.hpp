@@ -1,4 +1,4 @@
-// The compute passes of examples/deforming, by the clock of the device.
+// Times the compute passes of examples/deforming with GPU timestamps.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@ namespace cotan::bench {
 
 struct PassTimes {
     std::string name, makes;
-    std::vector<double> nanoseconds; // of a million triangles, each repetition
+    std::vector<double> nanoseconds; // per million triangles, one entry per repetition
 };
 
-// Derives frames of a tube of `around` x `along` x 2 triangles, posed, all passes in turn. `device` is set to the name
-// of the device that did it. Throws std::exception where there is none.
+// Derives frames of a posed tube of `around` x `along` x 2 triangles, running all passes in turn. `device` receives the
+// name of the device. Throws std::exception if there is none.
 std::vector<PassTimes> timePasses(std::uint32_t around, std::uint32_t along, int repeats, std::string& device);
 
 } // namespace cotan::bench

@@ -1,4 +1,4 @@
-// What GoogleTest programs printed.
+// Parses the output of GoogleTest programs.
 #pragma once
 
 #include <istream>
@@ -9,9 +9,9 @@ namespace cotan::bench {
 
 struct TestOutcome {
     std::string name;
-    std::string result;    // passed, skipped or failed; failed too where it began and did not end
-    std::size_t cases = 0; // lines like | name | language | 1.2e-04 | that it printed
-    double worst = 0;      // degrees, of those
+    std::string result;    // passed, skipped or failed; a test that did not end has failed
+    std::size_t cases = 0; // number of printed lines such as | name | language | 1.2e-04 |
+    double worst = 0;      // maximum of these lines, degrees
     std::string worstCase;
 };
 

@@ -1,5 +1,5 @@
-// Puts the package together and packs it: node build.mjs WASM_FOLDER OUT_FOLDER VERSION. The folder then holds
-// package/, what is in the tarball, and cotan-VERSION.tgz.
+// Assembles and packs the npm package: node build.mjs WASM_FOLDER OUT_FOLDER VERSION. Writes package/, the contents of
+// the tarball, and the tarball cotan-VERSION.tgz to OUT_FOLDER.
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
@@ -12,15 +12,15 @@ if (!version) {
   process.exit(1);
 }
 const here = path.dirname(fileURLToPath(import.meta.url));
-const place = path.join(out, 'package');
-fs.rmSync(place, { recursive: true, force: true });
-fs.mkdirSync(path.join(place, 'wasm'), { recursive: true });
+const packageFolder = path.join(out, 'package');
+fs.rmSync(packageFolder, { recursive: true, force: true });
+fs.mkdirSync(path.join(packageFolder, 'wasm'), { recursive: true });
 
-// Comments and indentation are for readers of the repository; what users read is in the typings. No file has a text over
-// several lines.
+// Strips comment lines and indentation, since the typings document the package for its users. Valid only because no
+// source file has a multi-line string.
 const slim = (text) => text.split('\n').map((line) => line.trim()).filter((line) => !/^(\/\/.*|\/\*\*.*\*\/|\/\*\*.*|\* .*|)$/.test(line)).join('\n') + '\n';
 const put = (name, text) => {
-  const file = path.join(place, name);
+  const file = path.join(packageFolder, name);
   fs.mkdirSync(path.dirname(file), { recursive: true });
   fs.writeFileSync(file, text);
 };
@@ -29,7 +29,7 @@ for (const file of fs.readdirSync(path.join(here, 'src')).filter((name) => name.
 
 for (const [name, built] of [['cotan', 'cotan_js_whole.wasm'], ['tangents', 'cotan_js_tangents.wasm']]) {
   const bytes = fs.readFileSync(path.join(wasmFolder, built));
-  fs.writeFileSync(path.join(place, `wasm/${name}.wasm`), bytes);
+  fs.writeFileSync(path.join(packageFolder, `wasm/${name}.wasm`), bytes);
   const text = deflateRawSync(bytes, { level: 9, memLevel: 7 }).toString('base64'); // memLevel: shorter blocks suit code
   put(`wasm/${name}_inside.js`, `import { through } from '../src/streams.js';
 const text = '${text}';
@@ -77,17 +77,17 @@ export { CotanError };
 for (const [name, text] of Object.entries(entries)) {
   put(`${name}.js`, text('inside'));
   put(`${name}_beside.js`, text('beside'));
-  fs.copyFileSync(path.join(here, `types/${name}.d.ts`), path.join(place, `${name}.d.ts`));
+  fs.copyFileSync(path.join(here, `types/${name}.d.ts`), path.join(packageFolder, `${name}.d.ts`));
 }
 for (const folder of ['three', 'gltf-transform'])
-  if (fs.existsSync(path.join(here, folder))) fs.cpSync(path.join(here, folder), path.join(place, folder), { recursive: true });
+  if (fs.existsSync(path.join(here, folder))) fs.cpSync(path.join(here, folder), path.join(packageFolder, folder), { recursive: true });
 
 const manifest = JSON.parse(fs.readFileSync(path.join(here, 'package.json'), 'utf8'));
 manifest.version = version;
 delete manifest.private;
 for (const [name, target] of Object.entries(manifest.exports))
-  if (!fs.existsSync(path.join(place, typeof target === 'string' ? target : target.default))) delete manifest.exports[name];
+  if (!fs.existsSync(path.join(packageFolder, typeof target === 'string' ? target : target.default))) delete manifest.exports[name];
 put('package.json', JSON.stringify(manifest, null, 2) + '\n');
-fs.copyFileSync(path.join(here, 'README.md'), path.join(place, 'README.md'));
-fs.copyFileSync(path.join(here, '../../LICENSE'), path.join(place, 'LICENSE'));
-execFileSync('npm', ['pack', '--silent', '--offline', '--pack-destination', path.resolve(out)], { cwd: place, stdio: ['ignore', 'ignore', 'inherit'] });
+fs.copyFileSync(path.join(here, 'README.md'), path.join(packageFolder, 'README.md'));
+fs.copyFileSync(path.join(here, '../../LICENSE'), path.join(packageFolder, 'LICENSE'));
+execFileSync('npm', ['pack', '--silent', '--offline', '--pack-destination', path.resolve(out)], { cwd: packageFolder, stdio: ['ignore', 'ignore', 'inherit'] });

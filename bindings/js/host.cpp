@@ -1,4 +1,4 @@
-// What the library asks of JavaScript while it works: files, pictures, levels, progress. The functions of the module
+// Callbacks of the library that JavaScript implements: files, images, mip levels, progress. The functions of the module
 // `cotan` are in src/host.js.
 #include "cotan.h"
 
@@ -14,7 +14,7 @@ COTAN_FROM_HOST("take_level")
 int hostTakeLevel(void* user, int level, const cotan_picture* map, const cotan_picture* roughness);
 COTAN_FROM_HOST("take_file") int hostTakeFile(void* user, const char* name, const void* bytes, size_t byteCount);
 
-// Their addresses, for structs that JavaScript makes: as in the enumeration of src/host.js.
+// Address of the function with this number in kFunction of src/host.js, for the structs that JavaScript fills.
 void* cotan_js_function(int number)
 {
     switch (number) {

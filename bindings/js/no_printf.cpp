@@ -1,7 +1,7 @@
-// Two functions of the compiler's libraries that would print, and bring all of printf for it.
+// Replaces two runtime functions that print, which would link all of printf.
 extern "C" {
-// Where an exception meets noexcept: a trap, which the loader turns into an error.
+// Called when an exception leaves a noexcept function. The loader turns the trap into an error.
 [[noreturn]] void abort_message(const char*, ...) { __builtin_trap(); }
-// Errors of dlopen, which nobody calls; emscripten exports it all the same.
+// Reports errors of dlopen, which is never called; emscripten exports it anyway.
 void __dl_seterr(const char*, ...) {}
 }

@@ -1,5 +1,5 @@
-"""A wheel that carries libcotan is for one kind of machine, and for every Python 3 there: no part of it is compiled
-against Python. Without the library the wheel is for all machines."""
+"""Builds the wheel. With libcotan inside, it is tagged for one platform and any Python 3, since nothing is compiled
+against Python. Without the library, the wheel is for all platforms."""
 
 import pathlib
 

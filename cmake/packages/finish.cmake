@@ -1,4 +1,4 @@
-# Run by CPack between install and packing: what Debian wants of installed files, and what the packages need.
+# Run by CPack between install and packing: Debian's rules for installed files, and the packages' dependencies.
 cmake_policy(VERSION 3.25)
 set(place ${CPACK_TEMPORARY_DIRECTORY})
 unset(CPACK_PACKAGE_DESCRIPTION_SUMMARY) # each package has its own
@@ -16,8 +16,8 @@ set(tool ${place}/cotan/usr/bin/cotan)
 execute_process(COMMAND strip --remove-section=.comment --remove-section=.note ${tool} ${library} ${window} ${formats}
   COMMAND_ERROR_IS_FATAL ANY)
 
-# cotan_needs(RESULT KNOWN FILES...): the packages with the libraries that the files link, by dpkg-shlibdeps, without
-# those that KNOWN names.
+# cotan_needs(RESULT KNOWN FILES...): the packages of the libraries that the files link, by dpkg-shlibdeps, except those
+# that KNOWN names.
 function(cotan_needs result known)
   set(packages "")
   if(ARGN)
@@ -46,6 +46,6 @@ function(cotan_needs result known)
 endfunction()
 cotan_needs(CPACK_DEBIAN_LIBCOTAN0_PACKAGE_DEPENDS "" ${library})
 cotan_needs(CPACK_DEBIAN_COTAN_PACKAGE_DEPENDS "" ${tool})
-# The window, and what reads further kinds of pictures, are loaded when they are needed, and nothing else misses them.
+# The window and the reader of further image formats are modules that are loaded on demand; the rest works without them.
 cotan_needs(CPACK_DEBIAN_COTAN_PACKAGE_RECOMMENDS "${CPACK_DEBIAN_COTAN_PACKAGE_DEPENDS}" ${window})
 cotan_needs(CPACK_DEBIAN_COTAN_PACKAGE_SUGGESTS "${CPACK_DEBIAN_COTAN_PACKAGE_DEPENDS}" ${formats})

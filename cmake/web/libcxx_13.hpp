@@ -1,5 +1,5 @@
-// What the library of emscripten 3.1.6, libc++ 13, lacks of C++20 and the parts use; included before every file by the
-// preset `web`. Newer ones have it, atomic_ref from 19 on, and then this is nothing.
+// Additions to libc++ 13, the library of emscripten 3.1.6: C++20 functions that the parts use and that it lacks. The
+// preset `web` includes this file before every source. With newer libraries it is empty: libc++ 19 has all of these.
 #pragma once
 #include <version>
 #if defined(_LIBCPP_VERSION) && !defined(__cpp_lib_atomic_ref)
@@ -8,15 +8,15 @@
 
 namespace std {
 
-// Of the preset's modules, which have one thread: plain reads and writes.
+// Uses plain reads and writes, because the modules of the preset have one thread.
 template<class T> struct atomic_ref {
     explicit atomic_ref(T& object) : object_(object) {}
     T load(std::memory_order) const { return object_; }
     void store(T value, std::memory_order) const { object_ = value; }
-    bool compare_exchange_weak(T& expected, T wanted, std::memory_order) const
+    bool compare_exchange_weak(T& expected, T desired, std::memory_order) const
     {
         const bool same = object_ == expected;
-        (same ? object_ : expected) = same ? wanted : object_;
+        (same ? object_ : expected) = same ? desired : object_;
         return same;
     }
 
@@ -44,7 +44,7 @@ namespace std {
 
 template<class To, class From> constexpr To bit_cast(const From& from) noexcept { return __builtin_bit_cast(To, from); }
 
-// Numbers that fill the text, as callers here want; shorter than 64 characters.
+// Accepts texts shorter than 64 characters. Unlike the standard's function, strtod also accepts hexadecimal numbers.
 template<class Real>
 requires std::is_floating_point_v<Real> std::from_chars_result from_chars(const char* first, const char* last,
                                                                           Real& value)
@@ -61,8 +61,8 @@ requires std::is_floating_point_v<Real> std::from_chars_result from_chars(const 
 
 namespace ranges {
 
-// An element as the projection shows it, or two of them to the comparison.
-template<class Test, class Projection> constexpr auto seenBy(Test& test, Projection& projection)
+// Returns a function that applies `test` to one or two projected elements.
+template<class Test, class Projection> constexpr auto onProjected(Test& test, Projection& projection)
 {
     return [&](auto&&... items) -> bool { return std::invoke(test, std::invoke(projection, items)...); };
 }
@@ -70,7 +70,7 @@ template<class Test, class Projection> constexpr auto seenBy(Test& test, Project
 template<class Range, class Test, class Projection = std::identity>
 constexpr auto find_if(Range&& range, Test test, Projection projection = {})
 {
-    return std::find_if(std::begin(range), std::end(range), seenBy(test, projection));
+    return std::find_if(std::begin(range), std::end(range), onProjected(test, projection));
 }
 template<class Range, class Value, class Projection = std::identity>
 constexpr auto find(Range&& range, const Value& value, Projection projection = {})
@@ -81,22 +81,22 @@ constexpr auto find(Range&& range, const Value& value, Projection projection = {
 template<class Range, class Test, class Projection = std::identity>
 constexpr bool all_of(Range&& range, Test test, Projection projection = {})
 {
-    return std::all_of(std::begin(range), std::end(range), seenBy(test, projection));
+    return std::all_of(std::begin(range), std::end(range), onProjected(test, projection));
 }
 template<class Range, class Test, class Projection = std::identity>
 constexpr bool any_of(Range&& range, Test test, Projection projection = {})
 {
-    return std::any_of(std::begin(range), std::end(range), seenBy(test, projection));
+    return std::any_of(std::begin(range), std::end(range), onProjected(test, projection));
 }
 template<class Range, class Test, class Projection = std::identity>
 constexpr bool none_of(Range&& range, Test test, Projection projection = {})
 {
-    return std::none_of(std::begin(range), std::end(range), seenBy(test, projection));
+    return std::none_of(std::begin(range), std::end(range), onProjected(test, projection));
 }
 template<class Range, class Test, class Projection = std::identity>
 constexpr auto count_if(Range&& range, Test test, Projection projection = {})
 {
-    return std::count_if(std::begin(range), std::end(range), seenBy(test, projection));
+    return std::count_if(std::begin(range), std::end(range), onProjected(test, projection));
 }
 template<class One, class Other, class Test> constexpr bool equal(One&& one, Other&& other, Test test)
 {
@@ -119,30 +119,30 @@ constexpr auto upper_bound(Range&& range, const Value& value, Less less = {}, Pr
 template<class Range, class Less = std::less<>, class Projection = std::identity>
 constexpr auto max_element(Range&& range, Less less = {}, Projection projection = {})
 {
-    return std::max_element(std::begin(range), std::end(range), seenBy(less, projection));
+    return std::max_element(std::begin(range), std::end(range), onProjected(less, projection));
 }
 template<class Range> constexpr auto minmax(const Range& range)
 {
-    const auto [least, most] = std::minmax_element(std::begin(range), std::end(range));
-    return std::pair(*least, *most);
+    const auto [minimum, maximum] = std::minmax_element(std::begin(range), std::end(range));
+    return std::pair(*minimum, *maximum);
 }
-template<class Range, class Place> constexpr void nth_element(Range&& range, Place place)
+template<class Range, class Iterator> constexpr void nth_element(Range&& range, Iterator nth)
 {
-    std::nth_element(std::begin(range), place, std::end(range));
+    std::nth_element(std::begin(range), nth, std::end(range));
 }
-template<class Range, class Value> constexpr void replace(Range&& range, const Value& old, const Value& with)
+template<class Range, class Value> constexpr void replace(Range&& range, const Value& old, const Value& replacement)
 {
-    std::replace(std::begin(range), std::end(range), old, with);
+    std::replace(std::begin(range), std::end(range), old, replacement);
 }
 template<class Range, class Less = std::less<>, class Projection = std::identity>
 constexpr void sort(Range&& range, Less less = {}, Projection projection = {})
 {
-    std::sort(std::begin(range), std::end(range), seenBy(less, projection));
+    std::sort(std::begin(range), std::end(range), onProjected(less, projection));
 }
-template<class Range, class Out, class Change> constexpr auto transform(Range&& range, Out out, Change change)
+template<class Range, class Out, class Function> constexpr auto transform(Range&& range, Out out, Function function)
 {
     return std::transform(std::begin(range), std::end(range), out,
-                          [&](auto&& item) -> decltype(auto) { return std::invoke(change, item); });
+                          [&](auto&& item) -> decltype(auto) { return std::invoke(function, item); });
 }
 
 } // namespace ranges

@@ -6,8 +6,8 @@
 // Needs from the caller:
 //   normal     interpolated surface normal; any space, the same for all vectors
 //   position   camera-relative (world axes, origin at the eye), interpolated, NOT normalised;
-//              normalising it first is wrong by 11 degrees at 45 degrees of grazing
-//   uv         as the normal map is sampled with
+//              normalising it first gives an error of 11 degrees at a grazing angle of 45 degrees
+//   uv         those of the normal map
 //   derivatives of position and uv: taken here by dFdx and dFdy
 //
 // Call:
@@ -19,7 +19,8 @@
 //   differences) the result is the unit interpolated normal.
 //   Right for y-up and y-down targets, both handednesses, mirrored uv and transforms, and back
 //   faces, with no uniform and no front-face flag.
-//   In float, footprints of 1e-3 of the distance to the eye keep 0.002 degrees, of 1e-5 0.12.
+//   In float, the error is 0.002 degrees for footprints of 1e-3 of the distance to the eye, and
+//   0.12 degrees for 1e-5.
 //   On flat-shaded uv the frame is constant per triangle: on coarse curved meshes it steps at
 //   edges (a sphere of 32 segments: 1.1 degrees in the mean).
 //   The shader must say: precision highp float; precision highp int;
@@ -35,21 +36,20 @@ struct cotan_frame
     vec3 n; // normal
 };
 
-// The four differences, made safe: either all finite and scaled by powers of two so that the
-// largest position component and the largest uv component lie in [1,2), or all zero.
+// The four differences after checking: either all finite and scaled by powers of two so that the largest position
+// component and the largest uv component lie in [1,2), or all zero.
 struct cotan_differences
 {
     vec3 dpdx;
     vec3 dpdy;
     vec2 duvdx;
     vec2 duvdy;
-    float p_scale; // what dpdx and dpdy were multiplied by
-    float uv_scale; // what duvdx and duvdy were multiplied by
+    float p_scale; // the factor applied to dpdx and dpdy
+    float uv_scale; // the factor applied to duvdx and duvdy
 };
 
-// A power of two s such that m*s lies in [1,2), for m in [1e-37, 1e37]; m outside that range is
-// clamped into it first. Multiplying by s is exact, so a formula of products gives the same bits
-// before and after, except that it no longer under- or overflows.
+// Returns the power of two s for which m*s lies in [1,2), after clamping m to [1e-37, 1e37]. Multiplying by s is exact,
+// so formulas made of products give the same bits with scaled values, but no longer underflow or overflow.
 // m: any magnitude (zero gives the largest scale), not NaN.
 float cotan_power_of_two_scale(float m)
 {
@@ -58,7 +58,7 @@ float cotan_power_of_two_scale(float m)
     return uintBitsToFloat((254u << 23) - exponent);
 }
 
-// The signed number that a stored component stands for, in [-1,1].
+// The signed value of a stored component, in [-1,1].
 float cotan_expand(float c)
 {
     float x = c * (255.0 / 127.0) - (128.0 / 127.0);
@@ -86,19 +86,18 @@ float cotan_max_abs(vec3 a)
     return max(abs(a.x), max(abs(a.y), abs(a.z)));
 }
 
-// -1 for x < 0, otherwise +1 (also for -0 and NaN).
+// Returns -1 for x < 0, otherwise +1 (also for -0 and NaN).
 float cotan_sign(float x)
 {
     return x < 0.0 ? -1.0 : 1.0;
 }
 
-// Scales the differences (exact, see cotan_power_of_two_scale) and zeroes what is unusable:
-// if a component of dpdx or dpdy is not finite or exceeds 1e37, all four; if a component of
-// duvdx or duvdy is, those two. Frames that ignore the common scale of positions and of uv are
-// unchanged by it, bit for bit.
+// Scales the differences (exactly, see cotan_power_of_two_scale) and zeroes unusable ones: all four if a component of
+// dpdx or dpdy is not finite or exceeds 1e37; only duvdx and duvdy if a component of these does. Frames that do not
+// depend on the common scale of positions or of uv are unchanged, bit for bit.
 cotan_differences cotan_scale_differences(vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2 duvdy)
 {
-    // A sum of magnitudes stays NaN or infinite if one term is; max() would drop a NaN.
+    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN.
     bool p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) <= 1e37;
     bool uv_usable = p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x) + abs(duvdy.y) <= 1e37;
     cotan_differences d;
@@ -116,8 +115,8 @@ cotan_differences cotan_scale_differences(vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2
     return d;
 }
 
-// A unit vector along v, or `otherwise` where v is zero, shorter than 1e-6 of the clamp range of
-// cotan_power_of_two_scale, or not finite. `otherwise` is returned as it is.
+// Returns the unit vector along v. Returns `otherwise`, unchanged, if v is zero, shorter than about 1e-43 (1e-6 times
+// the lower clamp of cotan_power_of_two_scale), or not finite.
 vec3 cotan_normalize_or(vec3 v, vec3 otherwise)
 {
     bool usable = cotan_sum_abs(v) <= 1e37;
@@ -128,9 +127,9 @@ vec3 cotan_normalize_or(vec3 v, vec3 otherwise)
     return length2 > 1e-12 ? unit : otherwise;
 }
 
-// The interpolated normal as a unit vector. Where it has cancelled out (zero length) or is not
-// finite: the normal of the plane of dpdx and dpdy; where that is degenerate too: (0,0,1).
-// The plane normal's sign follows dpdx x dpdy; nothing better is known at such a pixel.
+// Returns the interpolated normal as a unit vector. If it is zero (normals cancelled out) or not finite: the normal of
+// the plane of dpdx and dpdy, and (0,0,1) if that is degenerate too. The sign of the plane normal is that of dpdx x
+// dpdy; such a pixel has no better information.
 // n: any length. dpdx, dpdy: finite, as cotan_scale_differences returns them.
 vec3 cotan_safe_normal(vec3 n, vec3 dpdx, vec3 dpdy)
 {
@@ -138,9 +137,9 @@ vec3 cotan_safe_normal(vec3 n, vec3 dpdx, vec3 dpdy)
     return cotan_normalize_or(n, cotan_normalize_or(cross(dpdx, dpdy), z));
 }
 
-// The perturbed normal: normalize(t*m.x + b*m.y + n*m.z). Where that sum is shorter than 1e-6 or
-// not finite (an unfilled texel, m = 0; a horizontal m where the frame has no t and b): n as it
-// stands in the frame, so unit or what the caller gave.
+// Returns the perturbed normal normalize(t*m.x + b*m.y + n*m.z). If that sum is shorter than 1e-6 or not finite (an
+// unfilled texel, m = 0; a horizontal m where t = b = 0), returns f.n unchanged: unit, or as long as the caller passed
+// it.
 // m: decoded texel, along (+u, +v, outwards); any length.
 vec3 cotan_apply(cotan_frame f, vec3 m)
 {
@@ -151,18 +150,16 @@ vec3 cotan_apply(cotan_frame f, vec3 m)
     return usable ? unit : f.n;
 }
 
-// `cotangent`, the default. The cotangent frame of [2013] with two departures:
-// - it carries the sign of n . (dpdx x dpdy), so it is right for y-up and y-down targets, both
-//   world handednesses, mirrored transforms, back faces and uv-space rasters alike ([2013] is
-//   right only where that sign is positive);
-// - it is total: no input gives a NaN or an infinity.
-// t and b keep their relative lengths and skew; the longer of the two has length one, so bumps
-// do not depend on the scale of the object (truth S of docs/explanation/theory.md). View independent. t and b
-// are perpendicular to n.
-// n need not be unit; f.n is.
-// Degenerate input: constant uv, zero or non-finite differences give t = b = 0, so that
-// cotan_apply returns n; so do uv that vary less than about 1e-6 of the footprint's length (the
-// frame fades to the plain normal there). uv along one line give t parallel to b.
+// `cotangent`, the default. The cotangent frame of [2013] with two differences:
+// - It carries the sign of n . (dpdx x dpdy), so it is correct for y-up and y-down targets, both world handednesses,
+//   mirrored transforms, back faces and uv-space rasters alike. [2013] is correct only where that sign is positive.
+// - It is total: no input gives a NaN or an infinity.
+// t and b keep their relative lengths and skew. The longer of the two has length one, so bumps do not depend on the
+// scale of the object (truth S of docs/explanation/theory.md). View independent. t and b are perpendicular to n. n need
+// not be unit; f.n is.
+// Degenerate input: constant uv, zero or non-finite differences give t = b = 0, so that cotan_apply returns n. The same
+// holds where uv vary by less than about 1e-6 of the footprint's length: the frame fades to the plain normal there.
+// Where uv vary along one line only, t is parallel to b.
 // Source: [2013] 'cotangent_frame'; the sign and the guards are ours.
 cotan_frame cotan_frame_cotangent(vec3 n, vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2 duvdy)
 {

@@ -15,7 +15,7 @@ export function mirroredSheet(BABYLON, scene) {
   data.indices = [0, 1, 2, 2, 1, 3, 2, 3, 4, 4, 3, 5];
   const mesh = new BABYLON.Mesh('sheet', scene);
   data.applyToMesh(mesh);
-  mesh.sideOrientation = BABYLON.Material.CounterClockWiseSideOrientation;  // the front, as the indices go
+  mesh.sideOrientation = BABYLON.Material.CounterClockWiseSideOrientation;  // the front by the order of the indices
   return mesh;
 }
 

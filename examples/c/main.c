@@ -1,4 +1,4 @@
-/* The C API: tangents and a perturbed normal of one triangle, a map stored another way, a shader, a bake. */
+/* Uses the C API: tangents and a perturbed normal of one triangle, conversion of a map, shader text, a bake. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@ static void check(cotan_status status, const char* message)
     }
 }
 
-/* Long work says how much of it is done; 1 would stop it. */
+/* Called with the fraction done, 0 to 1. Returning 1 would stop the work. */
 static int progress(void* user, double done)
 {
     *(double*)user = done;
@@ -25,7 +25,7 @@ int main(void)
     char message[256];
     printf("cotan %s, %d frames\n", cotan_version(), cotan_frame_count());
 
-    /* A triangle in the plane z = 0 whose u runs against x. */
+    /* A triangle in the plane z = 0 with u along -x. */
     const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1},
                 uv[] = {1, 1, 0, 1, 1, 0};
     const uint32_t indices[] = {0, 1, 2};
@@ -34,7 +34,7 @@ int main(void)
     check(cotan_tangents("mikktspace", &mesh, 1, tangents, message, sizeof message), message);
     printf("tangent %g %g %g, w %g\n", tangents[0], tangents[1], tangents[2], tangents[3]);
 
-    /* The same without tangents: edges and differences of uv, and a texel that leans towards +u. */
+    /* A frame without tangents, from differences of position and uv, applied to a texel that leans towards +u. */
     const float dpdx[] = {1, 0, 0}, dpdy[] = {0, 1, 0}, duvdx[] = {-1, 0}, duvdy[] = {0, -1}, texel[] = {0.6f, 0, 0.8f};
     const cotan_places place = {sizeof place, 1, normals, dpdx, dpdy, duvdx, duvdy};
     float normal[3], back[3];
@@ -42,12 +42,12 @@ int main(void)
     check(cotan_frame_encode("cotangent", &place, normal, back, message, sizeof message), message);
     printf("normal %g %g %g\n", normal[0], normal[1], normal[2]);
 
-    /* One texel from Direct3D's convention to glTF's: green turns, and 128 is zero. */
-    uint8_t pixels[] = {128, 200, 230, 255}, turned[4];
+    /* Converts one texel from Direct3D's convention to glTF's: green is reversed about 128, which stands for zero. */
+    uint8_t pixels[] = {128, 200, 230, 255}, converted[4];
     const cotan_picture map = {sizeof map, 1, 1, 8, pixels};
-    cotan_picture out = {sizeof out, 1, 1, 8, turned};
+    cotan_picture out = {sizeof out, 1, 1, 8, converted};
     check(cotan_map_convert(&map, "directx", "gltf", &out, message, sizeof message), message);
-    printf("texel %d %d %d\n", turned[0], turned[1], turned[2]);
+    printf("texel %d %d %d\n", converted[0], converted[1], converted[2]);
 
     size_t size = 0;
     check(cotan_shader_text("glsl", "cotangent", "gltf", NULL, &size, message, sizeof message), message);
@@ -56,7 +56,7 @@ int main(void)
     printf("shader of %zu bytes\n", size - 1);
     free(text);
 
-    /* The triangle, risen towards +x, baked onto itself. Where the library is built without Embree it says so. */
+    /* Bakes the triangle, with normals tilted towards -x, onto itself. Unavailable if the library lacks Embree. */
     const float leaning[] = {-0.6f, 0, 0.8f, -0.6f, 0, 0.8f, -0.6f, 0, 0.8f};
     const cotan_mesh detailed = {sizeof detailed, 3, positions, leaning, NULL, 3, indices};
     double done = 0;
@@ -64,22 +64,22 @@ int main(void)
     options.progress = progress;
     options.user = &done;
     uint8_t baked[8 * 8 * 4];
-    cotan_picture map_of_it = {sizeof map_of_it, 8, 8, 8, baked};
-    const cotan_status made = cotan_bake(&mesh, &detailed, &options, &map_of_it, NULL, message, sizeof message);
+    cotan_picture baked_map = {sizeof baked_map, 8, 8, 8, baked};
+    const cotan_status made = cotan_bake(&mesh, &detailed, &options, &baked_map, NULL, message, sizeof message);
     if (made == COTAN_UNAVAILABLE)
         printf("%s\n", message);
     else
         check(made, message);
-    /* u runs against x, so that the normal leans towards +u: 0.6 of 127 steps above 128. */
+    /* Since u runs along -x, the normals lean towards +u: 0.6 of 127 steps above 128. */
     const int baked_right =
         made == COTAN_UNAVAILABLE || (baked[0] == 204 && baked[1] == 128 && baked[2] == 230 && done == 1);
     printf("baked %d %d %d\n", made == COTAN_OK ? baked[0] : 0, made == COTAN_OK ? baked[1] : 0,
            made == COTAN_OK ? baked[2] : 0);
 
-    /* What is wrong is said in one line. */
+    /* Errors come with a message of one line. */
     const cotan_status status = cotan_frame_apply("nonsense", &place, texel, normal, message, sizeof message);
     printf("%d: %s\n", (int)status, message);
-    const int right = tangents[0] < -0.999f && normal[0] < 0 && fabsf(back[0] - 0.6f) < 1e-5f && turned[0] == 128
-        && turned[1] == 56 && turned[2] == 230 && status == COTAN_USAGE && baked_right;
+    const int right = tangents[0] < -0.999f && normal[0] < 0 && fabsf(back[0] - 0.6f) < 1e-5f && converted[0] == 128
+        && converted[1] == 56 && converted[2] == 230 && status == COTAN_USAGE && baked_right;
     return right ? 0 : 1;
 }

@@ -16,15 +16,15 @@ namespace {
 
 namespace f32 = cotan::f32;
 
-// How far apart two vectors are of which the longer of a pair is 1 long, as an angle. NaN counts as far.
-double apart(glm::vec3 a, glm::vec3 b)
+// Length of a - b in radians, converted to degrees, for vectors of about unit length; 180 for NaN.
+double errorOf(glm::vec3 a, glm::vec3 b)
 {
     const double difference = glm::length(glm::dvec3(a) - glm::dvec3(b));
     return std::isfinite(difference) ? difference * 57.29577951308232 : 180;
 }
 
-// Per vertex the corners that it gathers from. Smoothing a pose groups anew: vertices can be equal in it that are
-// not at rest, and triangles without area can have some.
+// For each vertex: the corners that its group averages. Groups can differ between a pose and the rest pose, since
+// vertices may become equal and degenerate triangles may get area.
 std::vector<std::vector<std::uint32_t>> cornersOf(const cotan::Adjacency& a)
 {
     std::vector<std::vector<std::uint32_t>> corners(a.vertices.size());
@@ -35,8 +35,8 @@ std::vector<std::vector<std::uint32_t>> cornersOf(const cotan::Adjacency& a)
     return corners;
 }
 
-// Whether the gradients at these corners cancel, as at poles where patches meet that are turned against one
-// another: what is left of them is rounding, here as there.
+// Whether the gradients at these corners cancel, as at poles where differently oriented patches meet. Their sum is then
+// only rounding error, in the shaders and in C++.
 bool cancel(const Mesh& mesh, const std::vector<std::uint32_t>& corners)
 {
     glm::dvec3 u(0), v(0);
@@ -56,7 +56,7 @@ bool cancel(const Mesh& mesh, const std::vector<std::uint32_t>& corners)
     return std::max(glm::length(u), glm::length(v)) < 0.1 * longest;
 }
 
-// Vertices that have the same triangles in the pose as at load, a normal, and a direction.
+// Whether each vertex has the same corners in the pose as at rest, a finite normal, and gradients that do not cancel.
 std::vector<bool> comparable(const cotan::Adjacency& rest, const Mesh& pose)
 {
     const auto before = cornersOf(rest), now = cornersOf(cotan::makeAdjacency(viewOf(pose)));
@@ -67,49 +67,49 @@ std::vector<bool> comparable(const cotan::Adjacency& rest, const Mesh& pose)
     return out;
 }
 
-double smoothOff(const Mesh& pose, const std::vector<glm::vec4>& packed, const std::vector<bool>& compared)
+double smoothError(const Mesh& pose, const std::vector<glm::vec4>& packed, const std::vector<bool>& compared)
 {
     const cotan::Cotangents expected = cotan::unitCotangents(cotan::smoothCotangents(viewOf(pose)));
-    double most = 0;
+    double maxDegrees = 0;
     for (std::size_t v = 0; v < packed.size(); ++v) {
         if (!compared[v])
             continue;
         const f32::cotan_covectors c = f32::cotan_unpack_smooth8(pose.normals[v], packed[v]);
-        most = std::max({most, apart(c.t, expected.u[v]), apart(c.b, expected.v[v])});
+        maxDegrees = std::max({maxDegrees, errorOf(c.t, expected.u[v]), errorOf(c.b, expected.v[v])});
     }
-    return most;
+    return maxDegrees;
 }
 
-double trianglesOff(const Mesh& pose, const std::vector<std::array<std::uint32_t, 3>>& packed)
+double trianglesError(const Mesh& pose, const std::vector<std::array<std::uint32_t, 3>>& packed)
 {
     const std::vector<cotan::TriangleVectors> expected = cotan::triangleVectors(viewOf(pose));
-    double most = 0;
+    double maxDegrees = 0;
     for (std::size_t f = 0; f < packed.size(); ++f) {
         const f32::cotan_packed_triangle p{packed[f][0], packed[f][1], packed[f][2]};
-        most = std::max({most, apart(f32::cotan_unpack_triangle_u(p), expected[f].u),
-                         apart(f32::cotan_unpack_triangle_v(p), expected[f].v)});
+        maxDegrees = std::max({maxDegrees, errorOf(f32::cotan_unpack_triangle_u(p), expected[f].u),
+                         errorOf(f32::cotan_unpack_triangle_v(p), expected[f].v)});
     }
-    return most;
+    return maxDegrees;
 }
 
-// MikkTSpace splits finer in places: where triangles meet at a vertex only. There its tangent is another.
-struct TangentsOff {
-    double within = 0;       // degrees, of the corners that are no further apart than a degree
-    std::size_t further = 0; // corners
+// MikkTSpace also splits where triangles share only a vertex. Its tangents differ there.
+struct TangentErrors {
+    double within = 0;       // maximum error in degrees of the corners whose error is at most a degree
+    std::size_t further = 0; // number of corners whose error exceeds a degree
 };
-TangentsOff tangentsOff(const Mesh& pose, const std::vector<glm::vec4>& frames, const std::vector<bool>& compared)
+TangentErrors tangentErrors(const Mesh& pose, const std::vector<glm::vec4>& frames, const std::vector<bool>& compared)
 {
     const std::vector<glm::vec4> expected = cotan::mikktspaceTangents(viewOf(pose));
-    TangentsOff off;
+    TangentErrors errors;
     for (std::size_t c = 0; c < expected.size(); ++c) {
         if (!compared[pose.indices[c]])
             continue;
         const glm::vec4 found = frames[pose.indices[c]];
-        const double degrees = found.w * expected[c].w > 0 ? apart(glm::vec3(found), glm::vec3(expected[c])) : 180;
-        off.further += degrees > 1;
-        off.within = std::max(off.within, degrees > 1 ? 0 : degrees);
+        const double degrees = found.w * expected[c].w > 0 ? errorOf(glm::vec3(found), glm::vec3(expected[c])) : 180;
+        errors.further += degrees > 1;
+        errors.within = std::max(errors.within, degrees > 1 ? 0 : degrees);
     }
-    return off;
+    return errors;
 }
 
 } // namespace
@@ -130,10 +130,10 @@ void check(const Gpu& gpu, const Mesh& rest)
         const Mesh pose = posed(rest, motion, 1, Normals::exact);
         passes.pose(pose.positions, pose.normals);
         const std::vector<bool> compared = comparable(adjacency, pose);
-        const double smoothTime = passes.run(Pass::smooth), smooth = smoothOff(pose, passes.frames(), compared);
+        const double smoothTime = passes.run(Pass::smooth), smooth = smoothError(pose, passes.frames(), compared);
         const double tangentsTime = passes.run(Pass::tangents);
-        const TangentsOff tangents = tangentsOff(pose, passes.frames(), compared);
-        const double trianglesTime = passes.run(Pass::triangles), triangles = trianglesOff(pose, passes.triangles());
+        const TangentErrors tangents = tangentErrors(pose, passes.frames(), compared);
+        const double trianglesTime = passes.run(Pass::triangles), triangles = trianglesError(pose, passes.triangles());
         const double normalsTime = passes.run(Pass::normals);
         std::printf("%s %.4f %td %.4f %zu %.4f %.2f %.2f %.2f %.2f\n", motion.name, smooth,
                     std::count(compared.begin(), compared.end(), false), tangents.within, tangents.further, triangles,

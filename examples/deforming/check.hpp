@@ -1,7 +1,7 @@
-// The passes against the C++ functions.
+// Compares the compute passes with the C++ functions.
 #pragma once
 
 #include "passes.hpp"
 
-// Prints, for each motion, by how much they differ and how long each pass takes.
+// Prints for each motion the maximum difference and the time of each pass.
 void check(const Gpu& gpu, const Mesh& rest);

@@ -1,4 +1,4 @@
-// What the passes share: where the mesh and its adjacency lie in memory, and a corner of a triangle.
+// Shared by the passes: buffers of the mesh and its adjacency, and the corners of triangles.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #define COTAN_LANG_GLSL
@@ -13,17 +13,17 @@ layout(buffer_reference, std430, buffer_reference_align = 4) buffer Floats { flo
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Words { uint at[]; };
 
 layout(push_constant, std430) uniform Derive {
-    Floats positions; // three a vertex, new in every picture
-    Floats normals;   // three a vertex, unit, new in every picture
+    Floats positions; // three per vertex, new for every image
+    Floats normals;   // three per vertex, unit, new for every image
     Floats texcoords;
     Words indices;
-    Words vertexBegin; // the four arrays of cotan::Adjacency, made at load
+    Words vertexBegin; // this and the next three: the arrays of cotan::Adjacency, made at load
     Words vertices;
     Words cornerBegin;
     Words corners;
-    Words frames;    // out: two words a vertex, SNORM16x4
-    Words triangles; // out: three words a triangle, six halfs
-    uint count;      // of groups or triangles
+    Words frames;    // output: two words per vertex, SNORM16x4
+    Words triangles; // output: three words per triangle, six halfs
+    uint count;      // number of groups or triangles
     uint firstMirrored;
 }
 derive;
@@ -33,7 +33,7 @@ vec3 positionOf(uint v) { return vectorAt(derive.positions, v); }
 vec3 normalOf(uint v) { return vectorAt(derive.normals, v); }
 vec2 texcoordOf(uint v) { return vec2(derive.texcoords.at[2u * v], derive.texcoords.at[2u * v + 1u]); }
 
-// A dispatch may be wider than one row of work groups can be.
+// Index of the invocation. Large dispatches have several rows of work groups.
 uint invocation()
 {
     return gl_GlobalInvocationID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x) + gl_GlobalInvocationID.x;

@@ -1,4 +1,4 @@
-// Frames of a mesh that deforms, derived anew for every picture by compute shaders.
+// Frames of a deforming mesh, computed for every image by compute shaders.
 #include <cstdio>
 #include <exception>
 #include <string>

@@ -18,7 +18,7 @@ double degreesBetween(glm::dvec3 a, glm::dvec3 b)
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi;
 }
 
-// The normal map: waves with slopes of up to 0.7, two a unit. Along increasing u, increasing v, outwards.
+// The normal map: waves with slopes of up to 0.7, two per unit of uv. x is along +u, y along +v, z outwards.
 glm::dvec3 texel(glm::dvec2 uv)
 {
     constexpr double kTurn = 4 * std::numbers::pi;
@@ -29,8 +29,8 @@ struct Truth {
     glm::dvec3 normal, perturbed;
 };
 
-// Of the deformed tube at these texcoords: the scale invariant truth, with the gradients of u and v on the
-// exact surface, the longer made 1.
+// The exact normal of the deformed tube at these texcoords, and the normal perturbed with the gradients of u and v on
+// the exact surface, scaled so that the longer has length 1.
 Truth truthAt(const Motion& motion, double s, glm::dvec2 uv, glm::dvec3 m)
 {
     const double turn = uv.x / kTubeRadius;
@@ -45,7 +45,7 @@ Truth truthAt(const Motion& motion, double s, glm::dvec2 uv, glm::dvec3 m)
     return {n, glm::normalize(n * m.z + (u * m.x + v * m.y) * scale)};
 }
 
-// Of one triangle, what a pixel stage would have.
+// Interpolates vertex attributes at a point of a triangle, like the pixel stage.
 struct Corners {
     std::array<std::uint32_t, 3> v;
     glm::dvec3 weights;
@@ -70,7 +70,7 @@ Measured::Measured(const Gpu& gpu, std::uint32_t around, std::uint32_t along)
 {
     const std::vector<glm::vec4> corners = cotan::mikktspaceTangents(viewOf(rest_));
     for (std::size_t c = 0; c < corners.size(); ++c)
-        tangents_[rest_.indices[c]] = corners[c]; // nothing is mirrored: all corners of a vertex agree
+        tangents_[rest_.indices[c]] = corners[c]; // no triangle is mirrored, so all corners of a vertex agree
 }
 
 Errors Measured::at(const Motion& motion, double s, bool deriveNormals)

@@ -1,4 +1,4 @@
-// How far perturbed normals are from those of the exact deformed surface.
+// Measures errors of perturbed normals against those of the exact deformed surface.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ struct Way {
     const char* name;
     const char* text;
 };
-// In the order of the numbers below.
+// The methods that are compared, in the order of the arrays of Errors.
 constexpr std::array<Way, 6> kWays = {{
     {"normal alone", "The interpolated normal against the exact one, without a map."},
     {"mikktspace, stored", "Tangents of the rest pose, carried along by the engine."},
@@ -23,19 +23,19 @@ constexpr std::array<Way, 6> kWays = {{
 
 struct Errors {
     std::array<double, kWays.size()> mean{}, most95{};      // degrees
-    std::array<std::vector<float>, kWays.size()> triangles; // the mean of each triangle
+    std::array<std::vector<float>, kWays.size()> triangles; // mean of each triangle
 };
 
-// A tube with its passes, ready for any time of a motion.
+// A tube with its compute passes.
 class Measured {
 public:
     Measured(const Gpu& gpu, std::uint32_t around, std::uint32_t along);
-    // With normals as the engine carries them along, or derived from the pose (normals.comp).
+    // Errors at time s of a motion, with normals carried along by the engine or derived from the pose (normals.comp).
     Errors at(const Motion& motion, double s, bool deriveNormals);
     const Mesh& rest() const { return rest_; }
 
 private:
     Mesh rest_;
-    std::vector<glm::vec4> tangents_; // at rest, per vertex
+    std::vector<glm::vec4> tangents_; // of each vertex in the rest pose
     Passes passes_;
 };

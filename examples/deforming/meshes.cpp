@@ -47,11 +47,11 @@ Mesh strange()
     const std::uint32_t a = add({1, 0, 0}, {0, 0}), b = add({2, 0, 0}, {1, 0}), c = add({3, 0, 0}, {0, 1}),
                         d = add({1, 1, 0}, {2, 0}), e = add({nan, 0, 0}, {0, 2}), f = add({2, 1, 0}, {nan, 0}),
                         equal = add({1, 0, 0}, {1, 1});
-    // On a line in space, on a line in uv, the same vertex twice and three times, the same place twice, not finite.
+    // Collinear positions, collinear uv, a vertex used twice, one used three times, equal positions, non-finite values.
     for (const std::uint32_t i : {a, b, c, a, b, d, a, b, b, a, a, a, a, equal, d, a, b, e, a, b, f})
         mesh.indices.push_back(i);
-    add({0, 1, 0}, {0, 0});                                      // used by none
-    mesh.indices.insert(mesh.indices.end(), {0, 1, 0, 5, 5, 5}); // sound vertices, too
+    add({0, 1, 0}, {0, 0});                                      // used by no triangle
+    mesh.indices.insert(mesh.indices.end(), {0, 1, 0, 5, 5, 5}); // degenerate triangles at regular vertices
     return mesh;
 }
 

@@ -9,17 +9,17 @@
 
 namespace {
 
-// Two bones, one below and one above the origin. The weight of the upper one over the height.
+// Weight of the upper of two bones, which meet at the origin, and its derivative by height.
 struct Weight {
     double value = 0, slope = 0;
 };
 Weight upperWeight(double y)
 {
-    const double x = std::clamp(y / 2.4 + 0.5, 0.0, 1.0); // both have a part within 1.2 of the joint
+    const double x = std::clamp(y / 2.4 + 0.5, 0.0, 1.0); // bones blend within 1.2 of the joint
     return {x * x * (3 - 2 * x), x > 0 && x < 1 ? 6 * x * (1 - x) / 2.4 : 0};
 }
 
-// Columns: where the axes go.
+// Rotations about an axis.
 glm::dmat3 aboutZ(double angle)
 {
     const double c = std::cos(angle), s = std::sin(angle);
@@ -37,7 +37,7 @@ glm::dmat3 blended(const glm::dmat3& upper, double y)
     return glm::dmat3(1) * (1 - w) + upper * w;
 }
 
-// By the point also the weights change: they add (upper p - p) times their slope to what y does.
+// Derivative of the skinned position by p. The changing weight adds (upper p - p) times its slope to the column of y.
 glm::dmat3 derivativeOf(const glm::dmat3& upper, glm::dvec3 p)
 {
     glm::dmat3 d = blended(upper, p.y);

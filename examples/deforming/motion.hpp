@@ -1,4 +1,4 @@
-// Motions whose deformed surface is known exactly, and what an engine carries along with them.
+// Motions whose deformed surface is known exactly, and the normals and tangents that an engine carries along.
 #pragma once
 
 #include <array>
@@ -10,25 +10,24 @@
 struct Motion {
     const char* name;
     const char* text;
-    // Where a point of the rest pose goes at time s from 0 to 1, and the derivative of that by the point: the
-    // exact surface follows from both.
+    // Position of a point p of the rest pose at time s, 0 to 1, and its derivative by p. They give the exact surface.
     glm::dvec3 (*position)(glm::dvec3 p, double s);
     glm::dmat3 (*derivative)(glm::dvec3 p, double s);
-    // Skinned: the blended matrix, by which an engine takes normals and tangents along. Null: morphed by one
-    // target with positions and normals.
+    // For skinned motions: the blended matrix, which an engine applies to normals and tangents. Null for a morph target
+    // with positions and normals.
     glm::dmat3 (*blend)(glm::dvec3 p, double s);
 
-    // To rest normals and tangents, as the engine has them; unit.
+    // The normal n and tangent t of the rest pose as an engine transforms them; unit.
     glm::dvec3 carriedNormal(glm::dvec3 p, glm::dvec3 n, double s) const;
     glm::dvec3 carriedTangent(glm::dvec3 p, glm::dvec3 t, double s) const;
-    // The normal of the deformed surface, from that at rest; unit.
+    // The exact normal of the deformed surface for the normal n of the rest pose; unit.
     glm::dvec3 exactNormal(glm::dvec3 p, glm::dvec3 n, double s) const;
 };
 
-// Bend and twist by two bones, shear by a morph target.
+// Bending and twisting by two bones, shearing by a morph target.
 extern const std::array<Motion, 3> kMotions;
 
-// carried: as an engine has them, to be replaced where they are derived.
+// carried: normals as an engine transforms them.
 enum class Normals { carried, exact };
 
 // The mesh at time s.

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Unit normals of every vertex from the positions alone: those of the triangles, averaged by angle. One invocation
-// a group of makeNormalAdjacency. Where there is none the normal stays as it was.
+// Computes unit vertex normals from positions: triangle normals averaged by angle. One invocation per group of
+// makeNormalAdjacency. A vertex without a valid triangle keeps its normal.
 #include "common.glsl"
 
 void main()

@@ -8,11 +8,11 @@
 
 namespace {
 
-constexpr std::uint32_t kAround = 48, kAlong = 64;           // of the mesh that is measured
-constexpr std::uint32_t kCellsAround = 16, kCellsAlong = 32; // of the drawing, each of several triangles
+constexpr std::uint32_t kAround = 48, kAlong = 64;           // quads of the measured mesh
+constexpr std::uint32_t kCellsAround = 16, kCellsAlong = 32; // cells of the drawing, each of several quads
 constexpr std::uint32_t kSteps = 20;
 
-// Items in brackets, as JSON.
+// A JSON array of count items.
 template<class Item> std::string list(std::size_t count, const Item& item)
 {
     std::string text = "[";
@@ -30,7 +30,7 @@ std::string number(double x)
 
 std::string quoted(const char* text) { return "\"" + std::string(text) + "\""; }
 
-// Where the corners of the cells are in a drawing of 600 x 540, and how near.
+// x, y and reversed depth of the cells' corners in a drawing of 600 x 540.
 std::string drawing(const Mesh& pose)
 {
     const double c = std::cos(0.4), s = std::sin(0.4), d = std::cos(0.3), t = std::sin(0.3);
@@ -44,7 +44,7 @@ std::string drawing(const Mesh& pose)
     });
 }
 
-// A character a cell: its mean in half degrees from '#' on, up to 28.
+// One character per cell: '#' plus the mean error in half degrees, clamped to 28 degrees.
 std::string cells(const std::vector<float>& triangles)
 {
     constexpr std::uint32_t kWide = kAround / kCellsAround, kTall = kAlong / kCellsAlong;
@@ -63,7 +63,7 @@ std::string cells(const std::vector<float>& triangles)
 
 std::string measured(Measured& tube, const Motion& motion)
 {
-    std::vector<Errors> errors[2]; // with carried and with derived normals, over time
+    std::vector<Errors> errors[2]; // with carried and with derived normals; by time
     for (int derived = 0; derived < 2; ++derived) {
         for (std::uint32_t step = 0; step <= kSteps; ++step)
             errors[derived].push_back(tube.at(motion, double(step) / kSteps, derived == 1));
@@ -74,7 +74,7 @@ std::string measured(Measured& tube, const Motion& motion)
             std::printf("\n");
         }
     }
-    // value(errors at one time, way) by normals, way from `first` on, and time.
+    // value(errors at one time, method) as nested arrays by kind of normals, method from `first` on, and time.
     const auto over = [&](std::size_t first, const auto& value) {
         return list(2, [&](std::size_t derived) {
             return list(kWays.size() - first, [&](std::size_t way) {

@@ -1,9 +1,9 @@
-// A page that stands alone: the tubes over time and how far each way is off.
+// A self-contained page with the tubes over time and the error of each method.
 #pragma once
 
 #include <string>
 
 #include "measure.hpp"
 
-// Prints the table at five times, and returns the page.
+// Prints a table of the errors at five times and returns the page.
 std::string figure(const Gpu& gpu);

@@ -13,7 +13,7 @@
 
 namespace {
 
-// As common.glsl has it.
+// The push constants of common.glsl.
 struct Derive {
     std::uint64_t positions, normals, texcoords, indices, vertexBegin, vertices, cornerBegin, corners, frames,
         triangles;
@@ -21,7 +21,7 @@ struct Derive {
 };
 
 constexpr std::uint32_t kGroupSize = 64;
-constexpr std::uint32_t kMaxInARow = 65535; // what every device can
+constexpr std::uint32_t kMaxInARow = 65535; // the minimum that Vulkan guarantees
 
 } // namespace
 
@@ -85,7 +85,7 @@ double Passes::run(Pass pass)
     commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *times_, 0);
     commands.dispatch(row, (workGroups + row - 1) / row, 1);
     commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *times_, 1);
-    // In an application: a barrier from here to the vertex or fragment stage that reads.
+    // An application needs a barrier to the vertex or fragment stage that reads the result instead.
     const vk::MemoryBarrier2 written(vk::PipelineStageFlagBits2::eComputeShader,
                                      vk::AccessFlagBits2::eShaderStorageWrite, vk::PipelineStageFlagBits2::eHost,
                                      vk::AccessFlagBits2::eHostRead);
@@ -110,7 +110,7 @@ std::vector<glm::vec3> Passes::normals() const
 std::vector<glm::vec4> Passes::frames() const
 {
     std::vector<std::uint32_t> words(2 * vertexCount_);
-    std::memcpy(words.data(), frames_.data, words.size() * sizeof(words[0])); // at once: it may lie on the device
+    std::memcpy(words.data(), frames_.data, words.size() * sizeof(words[0])); // one copy: reads can be slow
     std::vector<glm::vec4> out;
     for (std::size_t v = 0; v < vertexCount_; ++v) {
         const glm::vec2 low = glm::unpackSnorm2x16(words[2 * v]), high = glm::unpackSnorm2x16(words[2 * v + 1]);

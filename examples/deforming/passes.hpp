@@ -1,4 +1,4 @@
-// The compute passes over one mesh, whose positions and normals are new for every picture.
+// The compute passes over one mesh whose positions and normals change for every image.
 #pragma once
 
 #include <array>
@@ -16,17 +16,17 @@ enum class Pass { normals, smooth, tangents, triangles };
 
 class Passes {
 public:
-    // Uploads what stays as it is: texcoords, indices, adjacency.
+    // Uploads the constant data: texcoords, indices, adjacency.
     Passes(const Gpu& gpu, const Mesh& rest, const cotan::Adjacency& adjacency,
            const cotan::Adjacency& normalAdjacency);
 
-    // The pose for the passes that follow, in the order of the rest mesh. Pass::normals writes over the normals.
+    // Sets the pose for the next passes, in the order of the rest mesh. Pass::normals overwrites the normals.
     void pose(const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& normals);
 
-    // Runs a pass and waits for it. Milliseconds by the device's clock; NaN where it has none.
+    // Runs a pass and waits for it. Returns milliseconds by the device's timestamps; NaN if it has none.
     double run(Pass pass);
 
-    // What the last run has written.
+    // The output of the last run.
     std::vector<glm::vec3> normals() const;
     std::vector<glm::vec4> frames() const; // smooth: for cotan_unpack_smooth8; tangents: xyz and sign
     std::vector<std::array<std::uint32_t, 3>> triangles() const; // for cotan_unpack_triangle_u and _v

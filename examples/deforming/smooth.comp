@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The frame `smooth` of every vertex, 8 bytes: gradients of u and v averaged by angle. One invocation a group.
+// Computes the frame `smooth` of each vertex, 8 bytes: gradients of uv averaged by angle. One invocation per group.
 #include "common.glsl"
 
 void main()
@@ -16,5 +16,5 @@ void main()
         t += one.t;
         b += one.b;
     }
-    writeToGroup(group, cotan_pack_smooth8(n, t, b)); // which makes the longer one long
+    writeToGroup(group, cotan_pack_smooth8(n, t, b)); // scales the longer vector to unit length
 }

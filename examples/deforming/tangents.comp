@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Orthonormal tangents as MikkTSpace averages them, 8 bytes a vertex: xyz, and the sign as glTF's TANGENT
-// has it. One invocation a group.
+// Computes tangents with the averaging of MikkTSpace, 8 bytes per vertex: unit xyz, and the sign as in glTF's TANGENT.
+// One invocation per group.
 #include "common.glsl"
 
 void main()
@@ -15,7 +15,7 @@ void main()
     for (uint i = derive.cornerBegin.at[group]; i < derive.cornerBegin.at[group + 1u]; ++i) {
         Corner c = cornerAt(derive.corners.at[i]);
         cotan_differences d = cotan_scale_differences(c.dp1, c.dp2, c.duv1, c.duv2);
-        // dP/du, up to its length.
+        // The direction of dP/du.
         float side = sign(d.duvdx.x * d.duvdy.y - d.duvdx.y * d.duvdy.x);
         vec3 along = cotan_normalize_or((d.dpdx * d.duvdy.y - d.dpdy * d.duvdx.y) * side, zero);
         vec3 t = cotan_normalize_or(along - n * dot(n, along), zero);
@@ -23,6 +23,6 @@ void main()
     }
     vec3 t = cotan_normalize_or(sum, zero);
     bool found = dot(t, t) > 0.0;
-    t = found ? t : cotan_basis_of_normal(n).x; // some direction in the tangent plane
+    t = found ? t : cotan_basis_of_normal(n).x; // any direction in the tangent plane
     writeToGroup(group, vec4(t, found && group >= derive.firstMirrored ? -1.0 : 1.0));
 }

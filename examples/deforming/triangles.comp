@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// U and V of every triangle, 12 bytes. Needs no adjacency. One invocation a triangle.
+// Computes U and V of each triangle, 12 bytes. Needs no adjacency. One invocation per triangle.
 #include "common.glsl"
 
 void main()

@@ -1,5 +1,4 @@
-// Perturbs a normal without a stored tangent: a triangle whose uv are mirrored, seen through an
-// installed Cotan.
+// Perturbs a normal of a triangle with mirrored uv, without a stored tangent, with an installed Cotan.
 #include <cstdio>
 
 #include <cotan/convention.hpp>
@@ -17,7 +16,7 @@ int main()
     d.duvdy = {0, 1};
     const Covector3f n(0, 0, 1);
 
-    // A texel of a glTF normal map, 8 bit: it leans towards +u and up the image (against +v).
+    // A texel of an 8-bit glTF normal map. It leans towards +u and up the image (against +v).
     const auto format = toFormat<f32::cotan_normal_format>(*conventionFromName("gltf"));
     const glm::vec3 m = f32::cotan_decode(glm::vec3(191, 191, 218) / 255.0f, format);
 

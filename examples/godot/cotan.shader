@@ -3,17 +3,17 @@
 //
 // Normal map: two channels, z = sqrt(1 - x^2 - y^2), (255c - 128)/127, green against increasing v.
 //
-// A whole shader of a material; in one of yours, take what is between shader_type and
-// fragment() and the lines of fragment(). In Godot 4 take the functions alone (option
+// A complete material shader. To use it in your own, copy what is between shader_type and
+// fragment() and the lines of fragment(). In Godot 4 use the functions alone (option
 // --functions) as a .gdshaderinc.
 //
 // Needs:
-//   normal_map an image as it is in the file: imported without sRGB. Green up, as Godot has it
+//   normal_map the values of the file: imported without sRGB. Green up, as Godot expects
 //   VERTEX     the position in view space, as it is in fragment(); not normalised
 //   dFdx, dFdy In Godot 3 the driver GLES3: GLES2 has none. The frames triangle and smooth need none
-//   No tangents: switch them off where the mesh is imported. Do not write NORMALMAP (NORMAL_MAP in
-//   Godot 4), which is the way through stored tangents.
-//   For ANISOTROPY, behind NORMAL = ...:  TANGENT = cotan_direction_of_u(NORMAL, VERTEX, UV);
+//   No tangents: disable them in the import of the mesh. Do not write NORMALMAP (NORMAL_MAP in
+//   Godot 4), which uses stored tangents.
+//   For ANISOTROPY, after NORMAL = ...:   TANGENT = cotan_direction_of_u(NORMAL, VERTEX, UV);
 //                                         BINORMAL = cross(NORMAL, TANGENT);
 //
 // Call:
@@ -23,12 +23,13 @@
 // Limits:
 //   No NaN for constant uv, zero differences, footprints without area or empty texels: the
 //   result is then the interpolated normal, or as the function says. Undefined for
-//   non-finite input and normals shorter than 0.01. The frame to 0.01 degrees for (longest
+//   non-finite input and normals shorter than 0.01. Matches the frame to 0.01 degrees for (longest
 //   position difference) * (longest uv difference) within 1e-12 .. 1e5, each within
-//   1e-9 .. 1e6, and footprints that are no slivers (area a tenth of the longest squared).
+//   1e-9 .. 1e6, and footprints that are not slivers (area a tenth of the longest squared).
 //   Right for y-up and y-down targets, both handednesses, mirrored uv and transforms, and back
 //   faces, with no uniform and no front-face flag.
-//   In float, footprints of 1e-3 of the distance to the eye keep 0.002 degrees, of 1e-5 0.12.
+//   In float, the error is 0.002 degrees for footprints of 1e-3 of the distance to the eye, and
+//   0.12 degrees for 1e-5.
 //   On flat-shaded uv the frame is constant per triangle: on coarse curved meshes it steps at
 //   edges (a sphere of 32 segments: 1.1 degrees in the mean).
 //   GLES2 on phones may compute with 16 bits, which is too little for positions: use GLES3 there.
@@ -44,22 +45,22 @@ render_mode cull_disabled;
 uniform sampler2D normal_map : hint_normal;
 varying vec3 cotan_normal;
 
-// x with the sign bit of s. x: not negative. s: any; -0 counts as negative.
-// Without access to bits: -0 counts as positive.
+// Returns x with the sign bit of s. x: not negative. s: any value; -0 counts as negative.
+// Without access to the bits, -0 counts as positive.
 float cotan_copy_sign(float x, float s)
 {
     return s < 0.0 ? -x : x;
 }
 
-// The signed number that a stored component stands for, in [-1,1].
+// The signed value of a stored component, in [-1,1].
 float cotan_expand(float c)
 {
     float x = c * (255.0 / 127.0) - (128.0 / 127.0);
     return max(x, -1.0);
 }
 
-// z of a unit vector from x and y; 0 where x^2 + y^2 > 1 (6.9 % of 8-bit texels tilted by 60 to
-// 90 degrees: without the clamp each is a NaN).
+// Returns z of a unit vector from x and y; 0 where x^2 + y^2 > 1. Without this clamp, 6.9 % of 8-bit texels tilted by
+// 60 to 90 degrees would give NaN.
 float cotan_orthographic_z(vec2 xy)
 {
     return sqrt(max(1.0 - dot(xy, xy), 0.0));
@@ -76,10 +77,10 @@ vec3 cotan_decode(vec3 texel)
     return vec3(m.x, -m.y, m.z);
 }
 
-// `cotangent`, fused. uv along one line, or a footprint without area: as the frame (t parallel to
-// b), but for the sign, which is then rounding.
-// How: with t' and b' from the n as it is, t = t'/|n|; multiplied by |n|, the sum is
-// t' m.x |n|/L + b' m.y |n|/L + n m.z, where L is the longer of t' and b'.
+// `cotangent`, fused. Where uv vary along one line only, or for a footprint without area: like the frame (t parallel to
+// b), except for the sign, which depends on rounding.
+// Method: with t' and b' computed from the unnormalised n, t = t'/|n|. Multiplied by |n|, the sum is
+// t' m.x |n|/L + b' m.y |n|/L + n m.z, where L is the length of the longer of t' and b'.
 vec3 cotan_perturb_cotangent(vec3 n, vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2 duvdy, vec3 m)
 {
     vec3 dpdy_perp = cross(dpdy, n);
@@ -139,7 +140,7 @@ void vertex()
 
 void fragment()
 {
-    // Seen from behind? FRONT_FACING says the opposite in Godot 3 where the transform mirrors.
+    // Seen from behind? FRONT_FACING is inverted in Godot 3 where the transform mirrors.
     vec3 seen = cross(dFdx(VERTEX), dFdy(VERTEX));
     vec3 away = mix(VERTEX, vec3(0.0, 0.0, -1.0), PROJECTION_MATRIX[3][3]); // from the eye
     float side = dot(cotan_normal, seen) * dot(seen, away) > 0.0 ? -1.0 : 1.0;

@@ -1,7 +1,6 @@
-# A sheet with four domes of a normal map and no tangents: half of its texture coordinates are mirrored, all are sheared; it is
-# seen from the front (left) and from behind (right). With the driver GLES2, which has no derivatives, the frame is
-# `triangle`.
-#   --mirrored          the sheets' transforms mirror them in x: the same picture
+# A sheet with a normal map of domes but no tangents, seen from the front (left) and from behind (right). Its texture
+# coordinates are sheared, half of them mirrored. The driver GLES2 has no derivatives and gets the frame `triangle`.
+#   --mirrored          mirrors the sheets in x by their transforms; the image stays the same
 #   --normals           the normals in view space as colours, (n + 1)/2
 #   --picture=FILE.png  saves the picture and stops
 extends Spatial
@@ -39,8 +38,8 @@ func _ready():
 		if argument.begins_with("--picture="):
 			save(argument.substr(10))
 
-# u = |x| + (1 - y)/2, v = 1 - y, clockwise as Godot has it. Nothing is shared between triangles, so each can have the two
-# vectors of `triangle` at all of its corners: U in the array of tangents and V in that of colours.
+# u = |x| + (1 - y)/2, v = 1 - y, clockwise as Godot expects. Triangles share no vertices, so that the two vectors of
+# `triangle` can be stored at all three corners: U in the array of tangents and V in that of colours.
 func sheet_mesh():
 	var positions = PoolVector3Array()
 	var normals = PoolVector3Array()
@@ -73,7 +72,7 @@ func sheet_mesh():
 	mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays, [], 0) # 0: keep the floats
 	return mesh
 
-# U and V of the frame `triangle`, of corners p with texture coordinates t; n says which side is outside.
+# U and V of the frame `triangle` for corners p with texture coordinates t. n: normal of the outer side.
 func triangle_vectors(p, t, n):
 	var e1 = p[1] - p[0]
 	var e2 = p[2] - p[0]
@@ -85,7 +84,7 @@ func triangle_vectors(p, t, n):
 	var side = -1 if e1.cross(e2).dot(n) < 0 else 1
 	return [u * side / longest, v * side / longest] if longest > 0 else [Vector3(), Vector3()]
 
-# Red along u, green up the image, flat is (128, 128, 255).
+# A normal map of domes: red along u, green up the image, flat is (128, 128, 255).
 func domes(size):
 	var bytes = PoolByteArray()
 	for row in range(size):
@@ -101,7 +100,7 @@ func domes(size):
 	texture.create_from_image(image, Texture.FLAG_REPEAT | Texture.FLAG_FILTER | Texture.FLAG_MIPMAPS)
 	return texture
 
-# The shader with its normal as a colour; fragment() is its last function.
+# The shader changed to output its normal as a colour; fragment() must be its last function.
 func showing_normals(shader):
 	var shown = Shader.new()
 	var code = shader.code.replace("render_mode cull_disabled;", "render_mode cull_disabled, unshaded;")

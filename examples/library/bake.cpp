@@ -1,4 +1,4 @@
-// The normal map of a detailed model for a simple one, read without tangents: bake LOW HIGH PICTURE
+// Bakes a normal map of a detailed model for a simple one, to be read without tangents: bake LOW HIGH PICTURE
 #include <cstdio>
 
 #include <cotan/bake.hpp>

@@ -1,4 +1,4 @@
-// A glTF model's normal maps for the frame `smooth`, without tangents: convert IN OUT
+// Converts the normal maps of a glTF model to the frame `smooth` and drops its tangents: convert IN OUT
 #include <cstdio>
 
 #include <cotan/convert.hpp>

@@ -1,4 +1,4 @@
-// Which way green of a normal map points: green FILE
+// Prints which way green of a normal map points: green FILE
 #include <cstdio>
 
 #include <cotan/image.hpp>

@@ -1,4 +1,4 @@
-// What a model will look like without its tangents: lint FILE
+// Reports what to expect of a model without its tangents: lint FILE
 #include <cstdio>
 
 #include <cotan/lint.hpp>

@@ -1,4 +1,4 @@
-// How many vertices of a model would have to be split to store MikkTSpace's tangents: tangents FILE
+// Prints how many vertices of a model must be split to store MikkTSpace tangents: tangents FILE
 #include <cstdio>
 
 #include <cotan/model.hpp>

@@ -1,6 +1,6 @@
-// Fixes PlayCanvas's frame without tangents, in every material of a graphics device: the sign of the frame comes from the
-// triangle that is seen, not from the uniform tbnBasis, so it is right in cameras that mirror, in projections with y down, and
-// on back faces without two-sided lighting. Call it before the first frame: useCotanFrame(pc, app.graphicsDevice).
+// Fixes PlayCanvas's frame without tangents for all materials of a graphics device. Takes the sign of the frame from
+// the visible triangle instead of the uniform tbnBasis. Correct for mirroring cameras, projections with y down, and back
+// faces without two-sided lighting. Call before the first frame: useCotanFrame(pc, app.graphicsDevice).
 export function useCotanFrame(pc, device) {
   const fixes = {
     [pc.SHADERLANGUAGE_GLSL]: [
@@ -24,7 +24,7 @@ export function useCotanFrame(pc, device) {
       chunks.set(name, text);
     };
     fix('TBNPS', fixes[language]);
-    // Until now t and b came out reversed on back faces, and two-sided lighting turned n only.
+    // Before this fix t and b were already reversed on back faces, so that two-sided lighting negated only n.
     fix('twoSidedLightingPS', [[/dTBN\[2\]\s*=\s*-dTBN\[2\]/, language === pc.SHADERLANGUAGE_GLSL ? 'dTBN = -dTBN' : 'dTBN = dTBN * -1.0']]);
   }
 }

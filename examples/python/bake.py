@@ -1,5 +1,5 @@
-"""Bakes the normal map of a detailed mesh for a simple one. The meshes are read here, with numpy alone, to show what a
-pipeline of your own hands to Cotan; `cotan.bake(path, path)` reads files by itself.
+"""Bakes the normal map of a detailed mesh for a simple one. Reads the meshes itself, with numpy, to show what your own
+pipeline passes to Cotan; `cotan.bake(path, path)` also reads files.
 
     python3 bake.py low.obj high.obj normal.png
 """
@@ -12,7 +12,7 @@ import cotan
 
 
 def read_obj(file):
-    """The mesh in an OBJ file: one vertex for each different corner v/vt/vn, polygons cut into fans."""
+    """The mesh in an OBJ file: one vertex for each distinct corner v/vt/vn, polygons triangulated as fans."""
     rows, corners = {"v": [], "vt": [], "vn": []}, []
     with open(file, encoding="utf-8") as lines:
         for line in lines:
@@ -25,7 +25,7 @@ def read_obj(file):
                     corners += [face[0], second, third]
     corners, indices = np.unique(np.array(corners, int), axis=0, return_inverse=True)
     v, vt, vn = (np.array(rows[word], np.float32) for word in ("v", "vt", "vn"))
-    has_vt, has_vn = (corners[:, 1:] > 0).all(axis=0)  # numbers count from 1; 0: left out
+    has_vt, has_vn = (corners[:, 1:] > 0).all(axis=0)  # indices count from 1; 0: missing
     return cotan.Mesh(
         positions=v[corners[:, 0] - 1],
         indices=indices,
@@ -39,7 +39,7 @@ def main(low, high, out):
         read_obj(low),
         read_obj(high),
         size=512,
-        frame="smooth",  # that the shader will read the map with
+        frame="smooth",  # the frame that the shader will use
         progress=lambda done: print(f"\rbaking {done:4.0%}", end="", file=sys.stderr),
     )
     print(file=sys.stderr)

@@ -83,16 +83,16 @@ struct cotan_frame
     cotan_vec3 n; // normal
 };
 
-// The four differences, made safe: either all finite and scaled by powers of two so that the
-// largest position component and the largest uv component lie in [1,2), or all zero.
+// The four differences after checking: either all finite and scaled by powers of two so that the largest position
+// component and the largest uv component lie in [1,2), or all zero.
 struct cotan_differences
 {
     cotan_vec3 dpdx;
     cotan_vec3 dpdy;
     cotan_vec2 duvdx;
     cotan_vec2 duvdy;
-    cotan_real p_scale; // what dpdx and dpdy were multiplied by
-    cotan_real uv_scale; // what duvdx and duvdy were multiplied by
+    cotan_real p_scale; // the factor applied to dpdx and dpdy
+    cotan_real uv_scale; // the factor applied to duvdx and duvdy
 };
 
 inline cotan_real cotan_inversesqrt(cotan_real x)
@@ -100,9 +100,8 @@ inline cotan_real cotan_inversesqrt(cotan_real x)
     return cotan_real(1) / sqrt(x);
 }
 
-// A power of two s such that m*s lies in [1,2), for m in [1e-37, 1e37]; m outside that range is
-// clamped into it first. Multiplying by s is exact, so a formula of products gives the same bits
-// before and after, except that it no longer under- or overflows.
+// Returns the power of two s for which m*s lies in [1,2), after clamping m to [1e-37, 1e37]. Multiplying by s is exact,
+// so formulas made of products give the same bits with scaled values, but no longer underflow or overflow.
 // m: any magnitude (zero gives the largest scale), not NaN.
 inline cotan_real cotan_power_of_two_scale(cotan_real m)
 {
@@ -110,7 +109,7 @@ inline cotan_real cotan_power_of_two_scale(cotan_real m)
     return cotan_inverse_power_of_two(m);
 }
 
-// The signed number that a stored component stands for, in [-1,1].
+// The signed value of a stored component, in [-1,1].
 inline cotan_real cotan_expand(cotan_real c)
 {
     cotan_real x = c * cotan_real(255.0 / 127.0) - cotan_real(128.0 / 127.0);
@@ -138,14 +137,13 @@ inline cotan_real cotan_max_abs(cotan_vec3 a)
     return max(abs(a.x), max(abs(a.y), abs(a.z)));
 }
 
-// Scales the differences (exact, see cotan_power_of_two_scale) and zeroes what is unusable:
-// if a component of dpdx or dpdy is not finite or exceeds 1e37, all four; if a component of
-// duvdx or duvdy is, those two. Frames that ignore the common scale of positions and of uv are
-// unchanged by it, bit for bit.
+// Scales the differences (exactly, see cotan_power_of_two_scale) and zeroes unusable ones: all four if a component of
+// dpdx or dpdy is not finite or exceeds 1e37; only duvdx and duvdy if a component of these does. Frames that do not
+// depend on the common scale of positions or of uv are unchanged, bit for bit.
 inline cotan_differences cotan_scale_differences(cotan_vec3 dpdx, cotan_vec3 dpdy,
     cotan_vec2 duvdx, cotan_vec2 duvdy)
 {
-    // A sum of magnitudes stays NaN or infinite if one term is; max() would drop a NaN.
+    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN.
     bool p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) <= cotan_real(1e37);
     bool uv_usable = p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x)
         + abs(duvdy.y) <= cotan_real(1e37);
@@ -164,8 +162,8 @@ inline cotan_differences cotan_scale_differences(cotan_vec3 dpdx, cotan_vec3 dpd
     return d;
 }
 
-// A unit vector along v, or `otherwise` where v is zero, shorter than 1e-6 of the clamp range of
-// cotan_power_of_two_scale, or not finite. `otherwise` is returned as it is.
+// Returns the unit vector along v. Returns `otherwise`, unchanged, if v is zero, shorter than about 1e-43 (1e-6 times
+// the lower clamp of cotan_power_of_two_scale), or not finite.
 inline cotan_vec3 cotan_normalize_or(cotan_vec3 v, cotan_vec3 otherwise)
 {
     bool usable = cotan_sum_abs(v) <= cotan_real(1e37);
@@ -176,9 +174,9 @@ inline cotan_vec3 cotan_normalize_or(cotan_vec3 v, cotan_vec3 otherwise)
     return length2 > cotan_real(1e-12) ? unit : otherwise;
 }
 
-// The interpolated normal as a unit vector. Where it has cancelled out (zero length) or is not
-// finite: the normal of the plane of dpdx and dpdy; where that is degenerate too: (0,0,1).
-// The plane normal's sign follows dpdx x dpdy; nothing better is known at such a pixel.
+// Returns the interpolated normal as a unit vector. If it is zero (normals cancelled out) or not finite: the normal of
+// the plane of dpdx and dpdy, and (0,0,1) if that is degenerate too. The sign of the plane normal is that of dpdx x
+// dpdy; such a pixel has no better information.
 // n: any length. dpdx, dpdy: finite, as cotan_scale_differences returns them.
 inline cotan_vec3 cotan_safe_normal(cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy)
 {
@@ -186,9 +184,9 @@ inline cotan_vec3 cotan_safe_normal(cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dp
     return cotan_normalize_or(n, cotan_normalize_or(cross(dpdx, dpdy), z));
 }
 
-// The perturbed normal: normalize(t*m.x + b*m.y + n*m.z). Where that sum is shorter than 1e-6 or
-// not finite (an unfilled texel, m = 0; a horizontal m where the frame has no t and b): n as it
-// stands in the frame, so unit or what the caller gave.
+// Returns the perturbed normal normalize(t*m.x + b*m.y + n*m.z). If that sum is shorter than 1e-6 or not finite (an
+// unfilled texel, m = 0; a horizontal m where t = b = 0), returns f.n unchanged: unit, or as long as the caller passed
+// it.
 // m: decoded texel, along (+u, +v, outwards); any length.
 inline cotan_vec3 cotan_apply(cotan_frame f, cotan_vec3 m)
 {
@@ -199,15 +197,16 @@ inline cotan_vec3 cotan_apply(cotan_frame f, cotan_vec3 m)
     return usable ? unit : f.n;
 }
 
-// `exact`: gradients of u and v over a whole triangle, from its edges instead of screen
-// derivatives, projected orthogonally onto the plane of n; the longer has length one. Where
-// vertex data can be fetched this is simply better than differences of a tiny pixel: 2.7e-6
-// degrees in float at every distance and footprint. Total; n need not be unit, f.n is.
+// `exact`: gradients of u and v over a whole triangle, from its edges instead of screen derivatives, projected
+// orthogonally onto the plane of n; the longer of t and b has length one. More accurate than differences over a small
+// pixel wherever vertex data can be fetched: 2.7e-6 degrees in float at every distance and footprint. Total; n need not
+// be unit, f.n is.
 //   n             interpolated normal at the shaded point
 //   dpdx, dpdy    edges p1 - p0 and p2 - p0
 //   duvdx, duvdy  uv1 - uv0 and uv2 - uv0
 // Degenerate input: a triangle without area, constant uv, non-finite input give t = b = 0.
-// Source: [2006] equation of the tangent frame, without the pixel; the projection is ours.
+// Source: [2006], the equation of the tangent frame applied to the triangle instead of the pixel; the projection is
+// ours.
 inline cotan_frame cotan_frame_exact(cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy,
     cotan_vec2 duvdx, cotan_vec2 duvdy)
 {

@@ -1,7 +1,7 @@
-// Normal mapping without tangents in a ray tracer: raytracing picture.ppm [normals.pfm]
-// A ray has no screen derivatives, but a ray tracer has the triangle: the frame `exact` takes its edges. Two sheets
-// with sheared texture coordinates, mirrored on the left half; one is seen from the front, one from behind.
-// cotan.hpp is the output of `cotan shader --lang cpp --frame exact`.
+// Normal mapping without tangents in a ray tracer: raytracing picture.ppm [normals.pfm] A ray has no screen
+// derivatives, but a ray tracer knows the triangle, and the frame `exact` uses its edges. Draws two sheets with sheared
+// texture coordinates, mirrored on the left half, one from the front and one from behind. cotan.hpp is the output of
+// `cotan shader --lang cpp --frame exact`.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -28,7 +28,7 @@ struct Mesh {
     std::vector<std::uint32_t> corners; // three per triangle
 };
 
-// Two by two units around `middle`, turned about y.
+// A sheet of two by two units around `middle`, rotated about y.
 void addSheet(Mesh& mesh, Vec3 middle, float angle)
 {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -44,7 +44,7 @@ void addSheet(Mesh& mesh, Vec3 middle, float angle)
         mesh.corners.push_back(first + corner);
 }
 
-// The texel of a map with four domes, as a glTF map stores it: red along +u, green up the image.
+// A texel of a glTF normal map of four domes: red along +u, green up the image.
 Vec3 sampleDomes(Vec2 uv)
 {
     const float x = std::fmod(uv.x * 4, 2.0f) - 1, down = std::fmod(uv.y * 4, 2.0f) - 1;
@@ -53,7 +53,7 @@ Vec3 sampleDomes(Vec2 uv)
     return {(127 * m.x + 128) / 255, (127 * m.y + 128) / 255, (127 * m.z + 128) / 255};
 }
 
-// The shading normal where a ray met a triangle at the barycentric u and v.
+// The shading normal at the barycentric coordinates u and v of a triangle.
 Vec3 shadingNormal(const Mesh& mesh, const RTCRayHit& r)
 {
     const std::uint32_t* c = &mesh.corners[3 * std::size_t(r.hit.primID)];
@@ -65,7 +65,7 @@ Vec3 shadingNormal(const Mesh& mesh, const RTCRayHit& r)
     const Vec3 p0 = mesh.positions[c[0]];
     const Vec3 n = cotan_shader::cotan_perturb_normal_from_edges(
         normal, mesh.positions[c[1]] - p0, mesh.positions[c[2]] - p0, edge1, edge2, sampleDomes(uv));
-    // A thin sheet: a bump in front is a dent behind.
+    // For a thin sheet a bump in front is a dent behind.
     const bool behind = dot(normal, Vec3{r.ray.dir_x, r.ray.dir_y, r.ray.dir_z}) > 0;
     return n * (behind ? -1.0f : 1.0f);
 }
@@ -81,7 +81,7 @@ int main(int count, char** words)
     RTCDevice device = rtcNewDevice(nullptr);
     RTCScene scene = rtcNewScene(device);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    // Embree reads whole vectors, so it gets buffers of its own, which it pads.
+    // Embree reads beyond the last element, so the data is copied to buffers that Embree pads.
     auto* vertices = static_cast<Vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                 sizeof(Vec3), mesh.positions.size()));
     auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
@@ -133,7 +133,7 @@ int main(int count, char** words)
     std::fclose(picture);
     if (std::FILE* out = count > 2 ? std::fopen(words[2], "wb") : nullptr) {
         std::fprintf(out, "PF\n%u %u\n-1.0\n", kWidth, kHeight);
-        for (unsigned row = kHeight; row-- > 0;) // PFM has its rows from the bottom
+        for (unsigned row = kHeight; row-- > 0;) // PFM stores rows from the bottom
             std::fwrite(&normals[row * kWidth], sizeof(Vec3), kWidth, out);
         std::fclose(out);
     }

@@ -1,5 +1,5 @@
 // A sheet of two by two units whose left half has mirrored texture coordinates, and a normal map for it, as three.js
-// wants it from a texture that is not flipped: v up, green along v.
+// expects it in an unflipped texture: v up, green along v.
 export function mirroredSheet(THREE) {
   const geometry = new THREE.BufferGeometry();
   const position = [], uv = [], normal = [];

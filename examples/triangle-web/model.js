@@ -1,8 +1,8 @@
-// What both pages draw. Every triangle owns a vertex: vertex k provokes triangle k, as its first corner in WebGPU and as
-// its last in WebGL. Positions are relative to the eye, which looks along -z; v runs down.
+// The models that both pages draw. Vertex k is the provoking vertex of triangle k: its first corner in WebGPU, its last
+// in WebGL. Positions are relative to the eye, which looks along -z; v runs down.
 
-// Two sheets of sheared texture coordinates, mirrored on the left half; the right one is seen from behind. Numbered by
-// hand: the six vertices of a sheet are shared by its four triangles, and four of them provoke.
+// Two sheets with sheared texture coordinates, mirrored on their left halves; the right sheet is seen from behind.
+// `number` orders the six vertices that the four triangles of a sheet share so that the four provoking ones come first.
 function sheets(provoking) {
   const positions = new Float32Array(36), normals = new Float32Array(36), texcoords = new Float32Array(24), indices = [];
   const number = (sheet, i) => (i < 4 ? 4 * sheet + i : 4 + 2 * sheet + i);
@@ -21,8 +21,8 @@ function sheets(provoking) {
   return { positions, normals, texcoords, indices: new Uint32Array(indices) };
 }
 
-// The first primitive of a .glb, moved and scaled into view; nodes and materials are not read. provoking: 'first' or 'last'
-// where `cotan convert --provoking` has to have written it.
+// The first primitive of a .glb, moved and scaled into view, without its nodes and materials. provoking: 'first' or
+// 'last' if the file must have been written by `cotan convert --provoking`.
 function readGlb(buffer, provoking) {
   const view = new DataView(buffer);
   if (buffer.byteLength < 20 || view.getUint32(0, true) !== 0x46546C67) throw new Error('expected a .glb file');
@@ -53,7 +53,7 @@ function readGlb(buffer, provoking) {
   return mesh;
 }
 
-// Draws the model that is chosen, or says what is wrong with it. provoking: a function that gives the corner, or nothing.
+// Draws the chosen model or shows the error. provoking: a function that returns the provoking argument of readGlb.
 function drawChosen(provoking, show) {
   document.getElementById('model').onchange = async e => {
     const said = document.getElementById('said');
@@ -67,7 +67,7 @@ function drawChosen(provoking, show) {
   };
 }
 
-// Four domes, as glTF stores them: red along +u, green up the image, flat is (128, 128, 255).
+// A normal map of four domes as in glTF: red along +u, green up the image, flat is (128, 128, 255).
 const mapSize = 256;
 const map = new Uint8Array(mapSize * mapSize * 4);
 for (let row = 0; row < mapSize; ++row)
@@ -78,4 +78,4 @@ for (let row = 0; row < mapSize; ++row)
     map.set([...n.map(c => Math.round(127 * c + 128)), 255], (row * mapSize + column) * 4);
   }
 
-const zoom = 2.2; // the height of the picture at distance 1 is 2/zoom
+const zoom = 2.2; // the height of the view at distance 1 is 2/zoom

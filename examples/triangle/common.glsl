@@ -1,4 +1,4 @@
-// What all ways share: where the mesh lies in memory, how a point is projected, and the texel.
+// Shared by all methods: buffers of the mesh, projection, and the normal map.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #define COTAN_LANG_GLSL
@@ -12,14 +12,14 @@ layout(buffer_reference, std430, buffer_reference_align = 4) buffer Floats { flo
 layout(buffer_reference, std430, buffer_reference_align = 4) buffer Words { uint at[]; };
 
 layout(push_constant, std430) uniform Draw {
-    Floats positions; // three a vertex, relative to the eye, which looks along -z
+    Floats positions; // three per vertex, relative to the eye, which looks along -z
     Floats normals;
     Floats texcoords;
-    Words corners;   // three a triangle: vertices of the mesh
-    Words sources;   // per new vertex the vertex of the mesh (provoking); two words a vertex (smooth)
-    Words packed;    // three words a triangle: U and V as halfs
-    Words ids;       // per pixel the number of the triangle plus one (visibility)
-    Floats result;   // per pixel (visibility)
+    Words corners;   // three vertex indices per triangle
+    Words sources;   // provoking: for each new vertex the old one; smooth: the frame, two words per vertex
+    Words packed;    // three words per triangle: U and V as halfs
+    Words ids;       // visibility: the triangle index plus one of each pixel
+    Floats result;   // visibility: the colour of each pixel
     Words meshlets;  // the arrays of cotan::RingMeshlets (mesh-smooth, ring)
     Words meshletVertices;
     Words meshletTriangles;
@@ -41,11 +41,11 @@ vec3 normalOf(uint v)
 }
 vec2 texcoordOf(uint v) { return vec2(draw.texcoords.at[2u * v], draw.texcoords.at[2u * v + 1u]); }
 
-// Half the field of view is where x/2 or y is 1/2.2 of the depth. y runs down the target.
+// The border of the view is at |x|/2 = depth/2.2 and |y| = depth/2.2. y runs down the render target.
 const float kZoom = 2.2;
 vec4 projected(vec3 p) { return vec4(0.5 * kZoom * p.x, -kZoom * p.y, -p.z - 0.5, -p.z); }
 
-// Of a map with four domes, decoded: along +u, +v, outwards.
+// The decoded texel of a normal map of four domes: along +u, +v, outwards.
 vec3 domes(vec2 uv)
 {
     vec2 p = mod(uv * 4.0, 2.0) - 1.0;
@@ -53,8 +53,8 @@ vec3 domes(vec2 uv)
     return z2 > 0.36 ? vec3(p, sqrt(z2)) : vec3(0.0, 0.0, 1.0);
 }
 
-// The model is a thin sheet: a bump in front is a dent behind. n stays as interpolated, for that is the
-// side that U and V were made for, and the whole result is turned.
+// For a thin sheet a bump in front is a dent behind. So the frame uses the interpolated n, the side that U and V were
+// computed for, and on back faces the result is negated.
 vec4 seen(vec3 perturbed, vec3 n, vec3 position)
 {
     return vec4(dot(n, position) > 0.0 ? -perturbed : perturbed, 1.0);

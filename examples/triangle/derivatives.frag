@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// For comparison: `cotangent` from screen derivatives.
+// The frame `cotangent` from screen derivatives, for comparison.
 #include "common.glsl"
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;

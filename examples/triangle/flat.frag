@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// U and V come with the triangle: from its provoking vertex, or from the mesh shader (MESH), which
-// hands them on for each primitive.
+// Reads U and V of the triangle, flat inputs from its provoking vertex or per primitive from the mesh shader (MESH).
 #ifdef MESH
 #extension GL_EXT_mesh_shader : require
 #endif

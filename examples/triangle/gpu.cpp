@@ -17,7 +17,7 @@ Gpu openGpu()
         return device.getProperties().deviceType != vk::PhysicalDeviceType::eCpu;
     };
     const auto best = std::find_if(all.begin(), all.end(), draws);
-    gpu.physical = best != all.end() ? *best : all.front(); // on the processor where nothing else draws
+    gpu.physical = best != all.end() ? *best : all.front(); // a CPU device only if there is no other
     for (const auto& extension : gpu.physical.enumerateDeviceExtensionProperties())
         gpu.meshShaders =
             gpu.meshShaders || std::string(extension.extensionName.data()) == VK_EXT_MESH_SHADER_EXTENSION_NAME;
@@ -25,16 +25,16 @@ Gpu openGpu()
     vk::PhysicalDeviceMeshShaderFeaturesEXT meshShader;
     meshShader.meshShader = VK_TRUE;
     vk::PhysicalDeviceVulkan13Features v13;
-    v13.dynamicRendering = v13.synchronization2 = v13.maintenance4 = VK_TRUE; // the last: sizes of work groups
-    v13.shaderDemoteToHelperInvocation = VK_TRUE;                             // what newer glslang makes of discard
+    v13.dynamicRendering = v13.synchronization2 = v13.maintenance4 = VK_TRUE; // maintenance4: LocalSizeId
+    v13.shaderDemoteToHelperInvocation = VK_TRUE;                             // newer glslang compiles discard to this
     v13.pNext = gpu.meshShaders ? &meshShader : nullptr;
     vk::PhysicalDeviceVulkan12Features v12;
     v12.bufferDeviceAddress = VK_TRUE;
     v12.pNext = &v13;
     vk::PhysicalDeviceFeatures2 features;
-    features.features.geometryShader = VK_TRUE; // gl_PrimitiveID in the fragment stage
+    features.features.geometryShader = VK_TRUE; // needed for gl_PrimitiveID in the fragment stage
     features.pNext = &v12;
-    const float priority = 1; // queue family 0 draws on every desktop driver
+    const float priority = 1; // queue family 0 supports graphics on every desktop driver
     const vk::DeviceQueueCreateInfo queue({}, 0, 1, &priority);
     std::vector<const char*> extensions;
     if (gpu.meshShaders)
@@ -45,7 +45,7 @@ Gpu openGpu()
     return gpu;
 }
 
-// Of the device's own, where it has such.
+// Index of a memory type with the wanted properties, preferably local to the device.
 static std::uint32_t memoryType(const Gpu& gpu, std::uint32_t allowed, vk::MemoryPropertyFlags wanted)
 {
     const auto memory = gpu.physical.getMemoryProperties();
@@ -119,7 +119,7 @@ vk::raii::Pipeline makePipeline(const Gpu& gpu, vk::PipelineLayout layout, std::
     }
     if (stages.front().stage == vk::ShaderStageFlagBits::eCompute)
         return vk::raii::Pipeline(gpu.device, nullptr, vk::ComputePipelineCreateInfo({}, infos.front(), layout));
-    const vk::PipelineVertexInputStateCreateInfo input; // everything is read from buffers
+    const vk::PipelineVertexInputStateCreateInfo input; // empty: shaders read everything from buffers
     const vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
     const vk::Viewport viewport(0, 0, float(size.width), float(size.height), 0, 1);
     const vk::Rect2D scissor({0, 0}, size);

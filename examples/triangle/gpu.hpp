@@ -1,4 +1,4 @@
-// The little of Vulkan 1.3 that all ways need: a device, buffers with addresses, a target with a depth.
+// The parts of Vulkan 1.3 that all methods need: a device, buffers with addresses, a render target with depth.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +22,9 @@ struct Buffer {
     vk::raii::Buffer buffer{nullptr};
     vk::raii::DeviceMemory memory{nullptr};
     std::uint64_t address = 0;
-    void* data = nullptr; // mapped as long as it lives
+    void* data = nullptr; // mapped for the lifetime of the buffer
 };
-// Visible to both sides. Never empty; data may be null.
+// A buffer that host and device can access, at least a few bytes large. data: its initial contents, or null.
 Buffer makeBuffer(const Gpu& gpu, const void* data, std::size_t bytes);
 template<class T> Buffer makeBuffer(const Gpu& gpu, const std::vector<T>& items)
 {
@@ -39,7 +39,7 @@ struct Target {
 Target makeTarget(const Gpu& gpu, vk::Format format, vk::Extent2D size, vk::ImageUsageFlags usage,
                   vk::ImageAspectFlags aspect);
 
-// Waits for all that was written, and turns the image round for what comes.
+// Waits for all earlier writes and changes the layout of the image.
 void barrier(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageAspectFlags aspect,
              vk::ImageLayout from, vk::ImageLayout to);
 

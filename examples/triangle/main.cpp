@@ -1,5 +1,5 @@
-// The frame `triangle`, delivered in five ways, and `smooth` in three: triangle_example WAY picture.ppm [normals.pfm]
-// [sheets|teapot|MODEL]
+// Draws with the frame `triangle`, provided to the pixel stage in five ways, and with `smooth` in three:
+// triangle_example WAY picture.ppm [normals.pfm] [sheets|teapot|MODEL]
 // WAY: provoking, read, smooth, mesh, mesh-smooth, ring, visibility, visibility-read; derivatives for comparison.
 #include <algorithm>
 #include <array>
@@ -35,7 +35,7 @@ namespace {
 constexpr vk::Extent2D kSize(480, 240);
 constexpr std::size_t kPixels = kSize.width * kSize.height;
 
-// As common.glsl has it.
+// The push constants of common.glsl.
 struct Draw {
     std::uint64_t positions, normals, texcoords, corners, sources, packed, ids, result;
     std::uint64_t meshlets, meshletVertices, meshletTriangles, ringBegin, ring;
@@ -46,8 +46,8 @@ struct Way {
     const char* name;
     std::vector<Stage> stages;
     bool meshShader = false;
-    std::span<const std::uint32_t> resolve{}; // of a visibility buffer
-    bool ring = false; // meshlets with the ring around them; frames are made before, where no mesh shader makes them
+    std::span<const std::uint32_t> resolve{}; // compute shader that resolves the visibility buffer
+    bool ring = false; // uses meshlets with their rings; ring.comp computes the frames if there is no mesh shader
 };
 
 using S = vk::ShaderStageFlagBits;
@@ -68,11 +68,11 @@ const std::vector<Way>& ways()
     return list;
 }
 
-// What the mesh gets before it is drawn, on the device.
+// The buffers of a mesh on the device.
 struct Prepared {
     Buffer positions, normals, texcoords, corners, sources, packed, indices;
     Buffer meshlets, meshletVertices, meshletTriangles, ringBegin, ring;
-    std::uint32_t indexCount = 0, groups = 0; // work groups of a mesh shader, one a meshlet
+    std::uint32_t indexCount = 0, groups = 0; // groups: work groups of a mesh shader, one per meshlet
 };
 
 Prepared prepare(const Gpu& gpu, const Way& way, const Mesh& given)
@@ -89,7 +89,7 @@ Prepared prepare(const Gpu& gpu, const Way& way, const Mesh& given)
     p.sources = makeBuffer(gpu, nullptr, 0);
     p.packed = makeBuffer(gpu, nullptr, 0);
     p.indexCount = static_cast<std::uint32_t>(mesh.indices.size());
-    p.groups = (p.indexCount / 3 + 31) / 32; // of meshlet.mesh
+    p.groups = (p.indexCount / 3 + 31) / 32; // meshlet.mesh draws 32 triangles per work group
     cotan::RingMeshlets cut;
     if (way.ring) {
         cut = cotan::ringMeshlets(view);
@@ -212,7 +212,7 @@ bool write(const char* file, const float* pixels, bool picture)
     for (std::uint32_t row = 0; row < kSize.height; ++row)
         for (std::uint32_t column = 0; column < kSize.width; ++column) {
             const float* n = pixels
-                + 4 * ((picture ? row : kSize.height - 1 - row) * kSize.width + column); // PFM begins at the bottom
+                + 4 * ((picture ? row : kSize.height - 1 - row) * kSize.width + column); // PFM starts at the bottom
             const float light = std::max(0.0f, -0.4264f * n[0] + 0.6396f * n[1] + 0.6396f * n[2]);
             const auto grey = static_cast<unsigned char>(n[3] > 0 ? 255 * std::pow(0.1f + 0.9f * light, 1 / 2.2f) : 34);
             const unsigned char rgb[3] = {grey, grey, grey};

@@ -14,7 +14,7 @@
 
 namespace {
 
-// Two by two units around (middle, 0, -4), turned about y.
+// Adds a sheet of two by two units around (middle, 0, -4), rotated about y.
 void addSheet(Mesh& mesh, float middle, float angle)
 {
     const float c = std::cos(angle), s = std::sin(angle);
@@ -29,19 +29,19 @@ void addSheet(Mesh& mesh, float middle, float angle)
         mesh.indices.push_back(first + corner);
 }
 
-// Turned a little, and scaled to a box of 5 x 3 units, 4 in front of the eye.
+// The mesh, rotated a little and scaled to fit 5 x 3 units at distance 4 from the eye.
 Mesh placed(const cotan::Mesh& source)
 {
     Mesh mesh{source.positions, source.normals, source.texcoords[0], source.indices};
     const float c = std::cos(0.5f), s = std::sin(0.5f), d = std::cos(0.4f), t = std::sin(0.4f);
-    const auto turned = [&](glm::vec3 p) {
+    const auto rotated = [&](glm::vec3 p) {
         const glm::vec3 q(c * p.x + s * p.z, p.y, c * p.z - s * p.x); // about y, then about x
         return glm::vec3(q.x, d * q.y - t * q.z, t * q.y + d * q.z);
     };
     glm::vec3 low(1e30f), high(-1e30f);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        mesh.positions[i] = turned(mesh.positions[i]);
-        mesh.normals[i] = turned(mesh.normals[i]);
+        mesh.positions[i] = rotated(mesh.positions[i]);
+        mesh.normals[i] = rotated(mesh.normals[i]);
         low = glm::min(low, mesh.positions[i]);
         high = glm::max(high, mesh.positions[i]);
     }

@@ -1,4 +1,4 @@
-// What is drawn, and what each way needs of it.
+// The meshes that are drawn.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,10 @@ struct Mesh {
     std::vector<std::uint32_t> indices;
 };
 
-// Two flat sheets whose texture coordinates are sheared and half mirrored; the right one is seen from behind.
+// Two flat sheets with sheared, half mirrored texture coordinates. The right sheet is seen from behind.
 Mesh sheets();
 Mesh teapot();
-// The first mesh of a file, scaled into view. Ends the program with a line where there is none.
-// The same with a copy of each vertex that mirrored and unmirrored triangles share: averages must not mix them.
+// The mesh with a copy of each vertex that mirrored and unmirrored triangles share, since averages must not mix them.
 Mesh splitAtMirrors(const Mesh& mesh);
+// The first mesh of a file, scaled into view. Prints an error and exits if there is none.
 Mesh model(const std::string& file);

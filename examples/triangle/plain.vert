@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// An ordinary vertex stage: for the ways that have U and V from elsewhere.
+// An ordinary vertex shader, for the methods that do not compute U and V in the vertex stage.
 #include "common.glsl"
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// 1. The provoking vertex of triangle k has number k: it reads the other two and hands on U and V.
+// 1. Vertex k is the provoking vertex of triangle k. It reads the other two vertices and outputs U and V.
 #include "common.glsl"
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
@@ -17,7 +17,7 @@ void main()
 
     uint k = uint(gl_VertexIndex);
     halfs = uvec3(0u);
-    if (k < draw.triangles) { // the others provoke nothing
+    if (k < draw.triangles) { // later vertices provoke no triangle
         uint v1 = draw.corners.at[3u * k + 1u];
         uint v2 = draw.corners.at[3u * k + 2u];
         cotan_triangle t = cotan_triangle_of_sound_edges(positionOf(v1) - position, positionOf(v2) - position,

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// 2. U and V were made when the mesh was loaded: 12 bytes a triangle, read by the number of the triangle.
+// 2. Reads U and V by the triangle's index. They were computed when the mesh was loaded, 12 bytes per triangle.
 #include "common.glsl"
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;

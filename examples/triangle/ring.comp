@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// 3c. What meshlet_smooth.mesh makes, where there are no mesh shaders: one work group a meshlet writes the frames of its
-// vertices in 8 bytes each, and smooth.vert reads them. A vertex of two meshlets gets the same from both.
+// 3c. Replaces meshlet_smooth.mesh on devices without mesh shaders. One work group per meshlet writes the frames of its
+// vertices, 8 bytes each, which smooth.vert reads. Two meshlets write the same frame to a vertex that they share.
 #include "common.glsl"
 #include "ring.glsl"
 layout(local_size_x = 64) in;

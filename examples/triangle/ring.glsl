@@ -1,5 +1,5 @@
-// The frame `smooth` of a meshlet's vertex, from all triangles around it: those of the meshlet and the ring around
-// that. meshlet_smooth.mesh and ring.comp share it. Include common.glsl first.
+// The frame `smooth` of a meshlet's vertex, from all triangles around the vertex: those of the meshlet and of its ring.
+// Used by meshlet_smooth.mesh and ring.comp. Include common.glsl first.
 #include "cotan/corner.h"
 
 struct RingMeshlet {
@@ -11,11 +11,11 @@ RingMeshlet meshletAt(uint i)
         draw.meshlets.at[4u * i + 3u]);
 }
 
-// place: in draw.meshletVertices. n: the vertex's normal.
-cotan_covectors ringFrame(uint place, vec3 n)
+// slot: index into draw.meshletVertices. n: normal of the vertex.
+cotan_covectors ringFrame(uint slot, vec3 n)
 {
     cotan_covectors sum = cotan_covectors(vec3(0.0), vec3(0.0));
-    for (uint i = draw.ringBegin.at[place]; i < draw.ringBegin.at[place + 1u]; ++i) {
+    for (uint i = draw.ringBegin.at[slot]; i < draw.ringBegin.at[slot + 1u]; ++i) {
         uint c = draw.ring.at[i], k = c % 3u, first = c - k;
         uint v0 = draw.corners.at[c];
         uint v1 = draw.corners.at[first + (k == 2u ? 0u : k + 1u)];

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// 2b. `smooth` was made when the mesh was loaded: 8 bytes a vertex, interpolated. Here the four SNORM16
-// are read from a buffer; as a vertex attribute of that format they cost nothing to unpack.
+// 2b. Interpolates the frame `smooth`, computed when the mesh was loaded, 8 bytes per vertex. This example reads the
+// four SNORM16 from a buffer; as a vertex attribute of that format they are unpacked for free.
 #include "common.glsl"
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// 4. Resolves the visibility buffer: the triangle is known, so nothing has to be differenced, and there
-// are no quads. Where the ray of the pixel meets the plane of the triangle gives the barycentrics.
-// U and V are made of the edges at hand; with READ, they are read: three words a triangle, made when the mesh was loaded.
+// 4. Resolves the visibility buffer. The triangle is known, so no screen derivatives are needed. The intersection of
+// the pixel's ray with the triangle's plane gives the barycentric coordinates. U and V are computed from the edges or,
+// with READ, read: three words per triangle, computed when the mesh was loaded.
 #include "common.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 

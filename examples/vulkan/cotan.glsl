@@ -6,8 +6,8 @@
 // Needs from the caller:
 //   normal     interpolated surface normal; any space, the same for all vectors
 //   position   camera-relative (world axes, origin at the eye), interpolated, NOT normalised;
-//              normalising it first is wrong by 11 degrees at 45 degrees of grazing
-//   uv         as the normal map is sampled with
+//              normalising it first gives an error of 11 degrees at a grazing angle of 45 degrees
+//   uv         those of the normal map
 //   derivatives of position and uv: taken here by dFdx and dFdy
 //
 // Call:
@@ -17,12 +17,13 @@
 // Limits:
 //   No NaN for constant uv, zero differences, footprints without area or empty texels: the
 //   result is then the interpolated normal, or as the function says. Undefined for
-//   non-finite input and normals shorter than 0.01. The frame to 0.01 degrees for (longest
+//   non-finite input and normals shorter than 0.01. Matches the frame to 0.01 degrees for (longest
 //   position difference) * (longest uv difference) within 1e-12 .. 1e5, each within
-//   1e-9 .. 1e6, and footprints that are no slivers (area a tenth of the longest squared).
+//   1e-9 .. 1e6, and footprints that are not slivers (area a tenth of the longest squared).
 //   Right for y-up and y-down targets, both handednesses, mirrored uv and transforms, and back
 //   faces, with no uniform and no front-face flag.
-//   In float, footprints of 1e-3 of the distance to the eye keep 0.002 degrees, of 1e-5 0.12.
+//   In float, the error is 0.002 degrees for footprints of 1e-3 of the distance to the eye, and
+//   0.12 degrees for 1e-5.
 //   On flat-shaded uv the frame is constant per triangle: on coarse curved meshes it steps at
 //   edges (a sphere of 32 segments: 1.1 degrees in the mean).
 //
@@ -30,13 +31,13 @@
 //   [2006] C. Schueler, Normal Mapping without Precomputed Tangents, ShaderX5, 2006
 //   [2013] C. Schueler, Followup: Normal Mapping Without Precomputed Tangents, 2013
 
-// x with the sign bit of s. x: not negative. s: any; -0 counts as negative.
+// Returns x with the sign bit of s. x: not negative. s: any value; -0 counts as negative.
 float cotan_copy_sign(float x, float s)
 {
     return uintBitsToFloat((floatBitsToUint(s) & 0x80000000u) | floatBitsToUint(x));
 }
 
-// The signed number that a stored component stands for, in [-1,1].
+// The signed value of a stored component, in [-1,1].
 float cotan_expand(float c)
 {
     float x = c * (255.0 / 127.0) - (128.0 / 127.0);
@@ -54,10 +55,10 @@ vec3 cotan_decode(vec3 texel)
     return vec3(m.x, -m.y, m.z);
 }
 
-// `cotangent`, fused. uv along one line, or a footprint without area: as the frame (t parallel to
-// b), but for the sign, which is then rounding.
-// How: with t' and b' from the n as it is, t = t'/|n|; multiplied by |n|, the sum is
-// t' m.x |n|/L + b' m.y |n|/L + n m.z, where L is the longer of t' and b'.
+// `cotangent`, fused. Where uv vary along one line only, or for a footprint without area: like the frame (t parallel to
+// b), except for the sign, which depends on rounding.
+// Method: with t' and b' computed from the unnormalised n, t = t'/|n|. Multiplied by |n|, the sum is
+// t' m.x |n|/L + b' m.y |n|/L + n m.z, where L is the length of the longer of t' and b'.
 vec3 cotan_perturb_cotangent(vec3 n, vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2 duvdy, vec3 m)
 {
     vec3 dpdy_perp = cross(dpdy, n);

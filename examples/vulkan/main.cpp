@@ -1,5 +1,5 @@
-// Normal mapping without tangents in Vulkan 1.3: vulkan_example picture.ppm [normals.pfm]
-// The frame is made in sheet.frag; here is only what any program needs to draw 24 vertices into an image.
+// Normal mapping without tangents in Vulkan 1.3: vulkan_example picture.ppm [normals.pfm] sheet.frag computes the
+// frame. This file has only what any program needs to draw 24 vertices into an image.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -17,7 +17,7 @@ constexpr uint32_t kWidth = 480, kHeight = 240;
 constexpr VkFormat kFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 
 struct Vertex {
-    float position[3]; // relative to the eye, not normalised: its differences matter
+    float position[3]; // relative to the eye; not normalised, since the shader takes its derivatives
     float normal[3];
     float uv[2];
 };
@@ -30,7 +30,7 @@ void check(VkResult result, const char* what)
     std::exit(3);
 }
 
-// Two by two units around (middle, 0, -4), turned about y; sheared uv, mirrored on the left half, v down.
+// A sheet of two by two units around (middle, 0, -4), rotated about y; uv sheared, left half mirrored, v down.
 void addSheet(std::vector<Vertex>& vertices, float middle, float angle)
 {
     const float c = std::cos(angle), s = std::sin(angle);
@@ -57,7 +57,7 @@ uint32_t memoryType(VkPhysicalDevice gpu, uint32_t allowed, VkMemoryPropertyFlag
 struct Buffer {
     VkBuffer buffer;
     VkDeviceMemory memory;
-    void* data; // mapped as long as it lives
+    void* data; // mapped for the lifetime of the buffer
 };
 
 Buffer makeBuffer(VkPhysicalDevice gpu, VkDevice device, VkDeviceSize size, VkBufferUsageFlags usage)
@@ -145,7 +145,7 @@ VkPipeline makePipeline(VkDevice device, VkPipelineLayout layout, VkShaderModule
     return pipeline;
 }
 
-// Waits for what wrote the image, and turns it round for what comes.
+// Waits for earlier writes to the image and changes its layout.
 void barrier(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to)
 {
     const VkImageMemoryBarrier b{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
@@ -170,7 +170,7 @@ bool write(const char* file, const float* pixels, bool picture)
     for (uint32_t row = 0; row < kHeight; ++row)
         for (uint32_t column = 0; column < kWidth; ++column) {
             const float* n =
-                pixels + 4 * ((picture ? row : kHeight - 1 - row) * kWidth + column); // PFM begins at the bottom
+                pixels + 4 * ((picture ? row : kHeight - 1 - row) * kWidth + column); // PFM stores rows from the bottom
             const float light = std::max(0.0f, -0.4264f * n[0] + 0.6396f * n[1] + 0.6396f * n[2]);
             const unsigned char grey =
                 static_cast<unsigned char>(n[3] > 0 ? 255 * std::pow(0.1f + 0.9f * light, 1 / 2.2f) : 34);
@@ -195,9 +195,9 @@ int main(int count, char** words)
     check(vkCreateInstance(&instanceInfo, nullptr, &instance), "vkCreateInstance");
     VkPhysicalDevice gpu = VK_NULL_HANDLE;
     uint32_t one = 1;
-    vkEnumeratePhysicalDevices(instance, &one, &gpu); // the first
+    vkEnumeratePhysicalDevices(instance, &one, &gpu); // uses the first device
     check(one == 1 ? VK_SUCCESS : VK_ERROR_INCOMPATIBLE_DRIVER, "no device");
-    const float priority = 1; // queue family 0 draws on every desktop driver
+    const float priority = 1; // queue family 0 supports graphics on every desktop driver
     const VkDeviceQueueCreateInfo queueInfo{
         .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, .queueCount = 1, .pQueuePriorities = &priority};
     const VkPhysicalDeviceVulkan13Features features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,

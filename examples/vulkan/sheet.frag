@@ -7,7 +7,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 0) out vec4 result;
 
-// The texel of a map with four domes, as a glTF map stores it: red along +u, green up the image.
+// A texel of a glTF normal map of four domes: red along +u, green up the image.
 vec3 sample_domes(vec2 at)
 {
     vec2 p = mod(at * 4.0, 2.0) - 1.0;
@@ -19,6 +19,6 @@ vec3 sample_domes(vec2 at)
 void main()
 {
     vec3 n = cotan_perturb_normal(normal, position, uv, sample_domes(uv));
-    // A thin sheet: a bump in front is a dent behind.
+    // For a thin sheet a bump in front is a dent behind.
     result = vec4(dot(normal, position) > 0.0 ? -n : n, 1.0);
 }

@@ -14,6 +14,6 @@ void main()
     position = vertex_position;
     normal = vertex_normal;
     uv = vertex_uv;
-    // Vulkan's y runs down. The frame does not mind: it carries its own sign.
+    // Vulkan's y runs down. The frame does not depend on that, since it computes its own sign.
     gl_Position = vec4(position.x * zoom / aspect, -position.y * zoom, -0.5 * position.z, -position.z);
 }

@@ -1,9 +1,9 @@
-"""The pictures of docs/how-to/blender.md, from a window on a display without a graphics card:
+"""Makes the images of docs/how-to/blender.md from a window on a display without a GPU:
 
     xvfb-run -a -s "-screen 0 1280x800x24" blender --factory-startup -p 0 0 1280 800 \\
         --python integrations/blender/screenshots.py -- FOLDER
 
-Needs the add-on's parts where Blender's Python finds them, as tests/blender/run.py does, or the installed add-on.
+Needs the add-on on the path of Blender's Python, as in tests/blender/run.py, or the installed add-on.
 Writes blender-bake.png, blender-progress.png and blender-check.png.
 """
 
@@ -27,14 +27,14 @@ def area_of(kind):
 
 
 def within(kind):
-    """The context of an area, for operators."""
+    """A context override for operators in an area of this type."""
     window, area = bpy.context.window_manager.windows[0], area_of(kind)
     region = next(r for r in area.regions if r.type == "WINDOW")
     return bpy.context.temp_override(window=window, screen=window.screen, area=area, region=region)
 
 
 def arrange():
-    """A view and a picture side by side, and the properties from top to bottom."""
+    """Places a 3D view and an image editor side by side, and the properties at full height."""
     for kind in ("OUTLINER", "DOPESHEET_EDITOR"):
         with within(kind):
             bpy.ops.screen.area_close()
@@ -49,7 +49,7 @@ def arrange():
 
 
 def stone():
-    """A worn stone and a coarse hull of it, one behind the other's back."""
+    """A worn stone and a coarse hull of it at the same position."""
     for other in list(bpy.data.objects):
         bpy.data.objects.remove(other)
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=7)
@@ -84,7 +84,7 @@ def shoot(name):
 
 
 def steps():
-    """Each yield lets the window be drawn; it says for how long."""
+    """Yields the seconds to wait while the window is redrawn."""
     manager, settings = bpy.context.window_manager, bpy.context.scene.cotan
     arrange()
     with within("VIEW_3D"):

@@ -1,4 +1,4 @@
-// What the stages of `cotan cost` read: how to draw, and the mesh in buffers.
+// Inputs of the stages of `cotan cost`: transforms, and the mesh in buffers.
 
 layout(std140, set = 0, binding = 0) uniform Draw {
     mat4 projection;   // camera-relative to clip
@@ -9,7 +9,7 @@ layout(std430, set = 0, binding = 2) readonly buffer Positions { float positions
 layout(std430, set = 0, binding = 3) readonly buffer Texcoords { float texcoords[]; };
 layout(std430, set = 0, binding = 4) readonly buffer Indices { uint indices[]; };
 layout(std430, set = 0, binding = 5) readonly buffer Normals { float normals[]; };
-layout(std430, set = 0, binding = 6) readonly buffer Extra { float extra[]; }; // of the row
+layout(std430, set = 0, binding = 6) readonly buffer Extra { float extra[]; }; // per-row data
 
 vec3 positionOf(uint v) { return vec3(positions[3u * v], positions[3u * v + 1u], positions[3u * v + 2u]); }
 vec3 normalOf(uint v) { return vec3(normals[3u * v], normals[3u * v + 1u], normals[3u * v + 2u]); }

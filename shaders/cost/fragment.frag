@@ -6,8 +6,8 @@
 #else
 #define COST_FLAT flat
 #endif
-// The fragment shader that `cotan cost` prices: differences, one texel, one row of rows.h (named by
-// COST_ROW), a colour. Interpolated inputs that the row does not use are not declared.
+// The fragment shader that `cotan cost` measures: differences, one texel, one row of rows.h (named by COST_ROW), a
+// colour. Interpolated inputs that the row does not use are not declared.
 #define COTAN_LANG_GLSL
 #include "cotan/lang.h"
 #include "cotan/normal.h"
@@ -46,7 +46,7 @@ layout(set = 0, binding = 1) uniform sampler2D normalMap;
 layout(location = 0) out vec4 color;
 
 #ifdef COST_VARYINGS
-// For pricing the vertex stage: everything that is handed on is used, position included.
+// Measures the vertex stage: uses all its outputs, including the position.
 void main()
 {
     color = vec4(position + normal, 1.0) + uv.xyxy;
@@ -106,7 +106,7 @@ void main()
     i.triangle_u = cotan_unpack_triangle_u(packed);
     i.triangle_v = cotan_unpack_triangle_v(packed);
 #endif
-    // The shortest decoding; how a map is stored is not the frame's price.
+    // The cheapest decoding; the map's encoding is not part of the frame's cost.
     i.m = texture(normalMap, uv).xyz * 2.0 - 1.0;
 #ifdef COST_FACING
     if (!gl_FrontFacing)

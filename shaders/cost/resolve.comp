@@ -1,11 +1,10 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// The pass of `cotan cost` that resolves a visibility buffer: the triangle of the pixel is known. Its three
-// vertices are read, barycentrics and their change to the next pixels follow from the rays, and the map is
-// sampled with the gradients of uv. Then one row of rows.h (named by COST_ROW). The mesh is relative to the
-// camera. With COST_TANGENT a stored tangent is read from the three vertices, with COST_COTANGENTS two
-// cotangents; with COST_TRIANGLE U and V are made from the edges at hand, with COST_TRIANGLE_READ read; with
-// COST_EDGES the edges stand for the differences.
+// The pass of `cotan cost` that resolves a visibility buffer, which stores the triangle of each pixel. It reads the
+// three vertices, derives the barycentrics and their change to the next pixels from the rays, and samples the map with
+// the gradients of uv. Then it evaluates one row of rows.h (named by COST_ROW). The mesh is relative to the camera.
+// COST_TANGENT reads a stored tangent from the three vertices, COST_COTANGENTS two cotangents. COST_TRIANGLE computes U
+// and V from the edges, COST_TRIANGLE_READ reads them. COST_EDGES uses the edges instead of the differences.
 #define COTAN_LANG_GLSL
 #include "cotan/lang.h"
 #include "cotan/normal.h"
@@ -18,11 +17,11 @@
 #include "cost/draw.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 1) uniform sampler2D normalMap;
-layout(std430, set = 0, binding = 7) buffer Pixels { uvec2 pixels[]; }; // in: the triangle plus one; out: four halfs
+layout(std430, set = 0, binding = 7) buffer Pixels { uvec2 pixels[]; }; // in: triangle index plus 1; out: four halfs
 
 const uint kWidth = 1024u;
 
-// b1 and b2 where the ray meets the plane of the triangle, from three vectors of Cramer's rule.
+// Barycentrics b1 and b2 where the ray meets the triangle's plane, by Cramer's rule.
 vec2 barycentrics(vec3 ray, vec3 face, vec3 c1, vec3 c2)
 {
     return vec2(dot(ray, c1), dot(ray, c2)) / dot(ray, face);

@@ -1,12 +1,11 @@
-// What `cotan cost` counts, as portable text: each function is the whole of perturbing a normal, from
-// interpolated inputs and differences to the unit result. Include cotan/lang.h, frame.h, history.h and fused.h
-// first. The fragment shaders (fragment.frag) and the operation counter (apps/lab/cost/scalar_count.cpp)
-// call the same text. The table of frames makes cost_frame_WORD of each frame, and cost_fused_WORD where there is a
-// fused form.
+// The variants that `cotan cost` measures, as portable text: each function does all the work of perturbing a normal,
+// from interpolated inputs and differences to the unit result. Include cotan/lang.h, frame.h, history.h and fused.h
+// first. The fragment shaders (fragment.frag) and the operation counter (apps/lab/cost/scalar_count.cpp) call the same
+// text. The table of frames defines cost_frame_WORD for each frame, and cost_fused_WORD for each one with a fused form.
 //
-// Inputs: n interpolated normal, not unit; the differences of a frame; m decoded texel; tangent as
-// interpolated, w the sign with which cross(n, t) points along +v; cotangent_u and cotangent_v as
-// interpolated; triangle_u and triangle_v the same at every pixel of a triangle.
+// Inputs: n: interpolated normal, not unit; the differences of a frame; m: decoded texel; tangent: as interpolated, w:
+// the sign with which cross(n, t) points along +v; cotangent_u and cotangent_v: as interpolated; triangle_u and
+// triangle_v: constant over a triangle.
 
 #ifndef COTAN_COST_ROWS_H
 #define COTAN_COST_ROWS_H
@@ -32,20 +31,20 @@ COTAN_FUNCTION cotan_vec3 cost_sum(cotan_frame f, cotan_vec3 m)
     return cost_unit(f.t * m.x + f.b * m.y + f.n * m.z);
 }
 
-// The floor: no frame (t = b = 0). The interpolated normal is normalised, as for any frame, and the
-// texel applied; what every row pays.
+// The baseline: no frame (t = b = 0). The interpolated normal is normalised, as for any frame, and the texel applied.
+// Every row has at least this cost.
 COTAN_FUNCTION cotan_vec3 cost_floor(cost_inputs i) { return cost_unit(cost_unit(i.n) * i.m.z); }
 
 // ---- the frames, and their fused forms --------------------------------------------------------
 
-// By who makes the normal unit. Where that is nobody, the texel is applied to the normal as it is.
+// By who normalises the normal. For `nobody` the texel is applied to the unnormalised normal.
 #define COST_NORMAL_frame(n) n
 #define COST_NORMAL_caller(n) cost_unit(n)
 #define COST_NORMAL_nobody(n) n
 #define COST_APPLY_frame cotan_apply
 #define COST_APPLY_caller cost_sum
 #define COST_APPLY_nobody cost_sum
-// By what the frame is made from. A frame from the triangle that has a fused form is made from u and v.
+// By the source of the frame. A frame from the triangle that has a fused form is built from u and v.
 #define COST_FROM_differences(word, fused, n) cotan_frame_##word(n, i.dpdx, i.dpdy, i.duvdx, i.duvdy)
 #define COST_FROM_cotangents(word, fused, n) cotan_frame_##word(n, i.cotangent_u, i.cotangent_v)
 #define COST_FROM_tangents(word, fused, n) \
@@ -68,7 +67,7 @@ COTAN_FUNCTION cotan_vec3 cost_floor(cost_inputs i) { return cost_unit(cost_unit
     COST_FUSED_ROW_##fused(word, source)
 #include "cotan/frames.inc"
 
-// ---- fused forms beside them ------------------------------------------------------------------
+// ---- other fused forms ------------------------------------------------------------------------
 
 COTAN_FUNCTION cotan_vec3 cost_triangle_scaled(cost_inputs i)
 {
@@ -84,9 +83,9 @@ COTAN_FUNCTION cotan_vec3 cost_cotangent_seen(cost_inputs i)
         i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy, i.m, cotan_real(-1.0));
 }
 
-// ---- plain forms of the formulas, without totality ----------------------------------------
+// ---- plain forms of the formulas, without guards for all inputs ---------------------------
 
-// [2013] with the sign of n . (dpdx x dpdy) and a guard under the root: what a careful reader types.
+// [2013] with the sign of n . (dpdx x dpdy) and a guard for the root, as a careful reader would implement it.
 COTAN_FUNCTION cotan_vec3 cost_cotangent_plain(cost_inputs i)
 {
     cotan_vec3 n = cost_unit(i.n);
@@ -104,8 +103,8 @@ COTAN_FUNCTION cotan_vec3 cost_cotangent_plain(cost_inputs i)
     return cost_sum(f, i.m);
 }
 
-// The same without the sign: the fragment shader negates m.x and m.y on back faces (gl_FrontFacing),
-// as engines do that leave it to the rasteriser's winding.
+// The same without the sign: the fragment shader negates m.x and m.y on back faces (gl_FrontFacing), as in engines that
+// rely on the rasteriser's winding.
 COTAN_FUNCTION cotan_vec3 cost_cotangent_facing(cost_inputs i)
 {
     cotan_vec3 n = cost_unit(i.n);
@@ -136,7 +135,7 @@ COTAN_FUNCTION cotan_vec3 cost_gradient_plain(cost_inputs i)
     return cost_sum(f, i.m);
 }
 
-// The orthonormal basis of [2020], guarded against uv without area only.
+// The orthonormal basis of [2020], guarded only against uv without area.
 COTAN_FUNCTION cotan_vec3 cost_orthonormal_plain(cost_inputs i)
 {
     cotan_vec3 n = cost_unit(i.n);

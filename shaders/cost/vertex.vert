@@ -1,10 +1,10 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// The vertex stage of `cotan cost`: position, normal and uv; with COST_TANGENT also a stored tangent,
-// with COST_COTANGENTS two derived cotangents. Each is fetched, taken to the space of the frame
-// and handed on to be interpolated. COST_PACKED8, 4, 2: fetched in so many bytes.
-// With COST_TRIANGLE or COST_TRIANGLE_HALFS the vertex is the provoking one of the triangle of its own
-// number: it reads that triangle's vertices and hands on U and V.
+// The vertex stage of `cotan cost`: position, normal and uv; with COST_TANGENT also a stored tangent, with
+// COST_COTANGENTS two stored cotangents. Each is fetched, transformed to the space of the frame and output for
+// interpolation. COST_PACKED8, COST_PACKED4, COST_PACKED2: fetched in 8, 4 or 2 bytes.
+// With COST_TRIANGLE or COST_TRIANGLE_HALFS vertex i is the provoking vertex of triangle i: it reads the triangle's
+// vertices and outputs U and V.
 #define COTAN_LANG_GLSL
 #include "cotan/lang.h"
 #include "cotan/frame.h"
@@ -49,7 +49,7 @@ layout(location = 3) flat out uvec3 triangleHalfs;
 #include "cost/draw.glsl"
 
 #if defined(COST_TRIANGLE) || defined(COST_TRIANGLE_HALFS)
-// U and V of the triangle that this vertex provokes, from its edges in the space of the frame.
+// U and V of the triangle whose provoking vertex this is, from its edges in the space of the frame.
 cotan_triangle triangleOfVertex()
 {
     uint first = 3u * uint(gl_VertexIndex);

@@ -1,10 +1,10 @@
-// Cotan portable text: what is behind a scene, and the plane beneath it. Include lang.h and light.h first.
+// Cotan portable text: the backdrop of a scene, and the ground plane. Include lang.h and light.h first.
 
 #ifndef COTAN_BACKDROP_H
 #define COTAN_BACKDROP_H
 
-// A photographer's seamless paper: bright where it lies, darker where it hangs, and no edge between. As it is to be
-// shown, whatever the exposure. direction: unit, y up.
+// Returns the colour of a seamless paper backdrop: bright on the ground, darker where it hangs, without an edge
+// between. A displayed colour, which exposure does not change. direction: unit, y up.
 COTAN_FUNCTION cotan_vec3 cotan_paper(cotan_vec3 direction)
 {
     cotan_vec3 lying = cotan_vec3(cotan_real(0.68), cotan_real(0.675), cotan_real(0.665));
@@ -12,13 +12,13 @@ COTAN_FUNCTION cotan_vec3 cotan_paper(cotan_vec3 direction)
     return cotan_mix(lying, hanging, cotan_smooth(cotan_real(-0.6), cotan_real(0.45), direction.y));
 }
 
-// Where a view ray meets the level plane y = height: its x and z. origin, direction: of the ray. Far away for rays that
-// do not.
-COTAN_FUNCTION cotan_vec2 cotan_ground_place(cotan_vec3 origin, cotan_vec3 direction, cotan_real height)
+// Returns x and z of the point where a view ray meets the level plane y = height. Rays that miss the plane give a point
+// far away. origin, direction: of the ray.
+COTAN_FUNCTION cotan_vec2 cotan_ground_point(cotan_vec3 origin, cotan_vec3 direction, cotan_real height)
 {
-    cotan_real way = (height - origin.y) / min(direction.y, cotan_real(-1e-6));
-    way = origin.y > height && direction.y < cotan_real(0.0) ? way : cotan_real(1e15);
-    return cotan_vec2(origin.x + direction.x * way, origin.z + direction.z * way);
+    cotan_real ray_length = (height - origin.y) / min(direction.y, cotan_real(-1e-6));
+    ray_length = origin.y > height && direction.y < cotan_real(0.0) ? ray_length : cotan_real(1e15);
+    return cotan_vec2(origin.x + direction.x * ray_length, origin.z + direction.z * ray_length);
 }
 
 #endif

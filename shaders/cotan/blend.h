@@ -1,16 +1,15 @@
 // Cotan portable text: blending two texels of the same uv. Include lang.h and frame.h first.
 //
-// base and detail are decoded, unit, above the horizon (z > 0) where a function does not say
-// otherwise; results are unit. Maps over different uv sets are not blended like this: add their
-// gradients (gradient.h).
+// base and detail are decoded, unit and above the horizon (z > 0) unless a function says otherwise; results are unit.
+// Do not blend maps over different uv sets this way; add their gradients instead (gradient.h).
 //
 // Sources: C. Barre-Brisebois, S. Hill, Blending in Detail, 2012, cited as [2012].
 
 #ifndef COTAN_BLEND_H
 #define COTAN_BLEND_H
 
-// Reoriented: the detail turned by the shortest rotation that takes (0,0,1) to the base. Keeps the
-// full slope of both. base.z must be above -0.999 (it is clamped there).
+// Reoriented: rotates the detail by the shortest rotation that takes (0,0,1) to the base. Keeps the full slope of both.
+// base.z is clamped to at least -0.999.
 // Source: [2012] 'Reoriented Normal Mapping'.
 COTAN_FUNCTION cotan_vec3 cotan_blend_reoriented(cotan_vec3 base, cotan_vec3 detail)
 {
@@ -19,21 +18,21 @@ COTAN_FUNCTION cotan_vec3 cotan_blend_reoriented(cotan_vec3 base, cotan_vec3 det
     return cotan_normalize_or(t * (dot(t, u) / t.z) - u, base);
 }
 
-// Whiteout: tilts added, heights multiplied. Source: [2012].
+// Whiteout: adds x and y, multiplies z. Source: [2012].
 COTAN_FUNCTION cotan_vec3 cotan_blend_whiteout(cotan_vec3 base, cotan_vec3 detail)
 {
     return cotan_normalize_or(
         cotan_vec3(base.x + detail.x, base.y + detail.y, base.z * detail.z), base);
 }
 
-// UDN: tilts added, the base's height kept; flattens detail on steep bases. Source: [2012].
+// UDN: adds x and y, keeps the base's z; flattens the detail on steep bases. Source: [2012].
 COTAN_FUNCTION cotan_vec3 cotan_blend_udn(cotan_vec3 base, cotan_vec3 detail)
 {
     return cotan_normalize_or(cotan_vec3(base.x + detail.x, base.y + detail.y, base.z), base);
 }
 
-// Slopes added, each with a weight: what heights do when they are added. Weights of 1 give the
-// partial-derivative blend; weights that sum to 1 a cross-fade. z <= 0 leans towards the horizon.
+// Adds the slopes, each with a weight, as if the heights were added. Weights of 1 give the partial-derivative blend;
+// weights that sum to 1 cross-fade. A texel with z = 0 gives a horizontal result.
 // Source: [2012] 'Partial Derivative'.
 COTAN_FUNCTION cotan_vec3 cotan_blend_slopes(
     cotan_vec3 base, cotan_vec3 detail, cotan_real base_weight, cotan_real detail_weight)
@@ -44,7 +43,7 @@ COTAN_FUNCTION cotan_vec3 cotan_blend_slopes(
         cotan_vec3(base.x * b + detail.x * d, base.y * b + detail.y * d, base.z * detail.z), base);
 }
 
-// Linear: the sum. For comparison: it flattens both. Opposite texels give the base.
+// Linear: the normalised sum, for comparison; it flattens both. Opposite texels give the base.
 COTAN_FUNCTION cotan_vec3 cotan_blend_linear(cotan_vec3 base, cotan_vec3 detail)
 {
     return cotan_normalize_or(base + detail, base);

@@ -1,12 +1,13 @@
-// Portable text: what one corner of a triangle adds to the frame `smooth` of its vertex, for shaders that derive it
-// (cotan/tangents.hpp has the same for arrays). Include lang.h, frame.h and pack.h first; the joined text of
-// `cotan shader` does without this.
+// Portable text: the contribution of one corner of a triangle to the frame `smooth` of its vertex, for shaders that
+// derive the frame (cotan/tangents.hpp does the same for arrays). Include lang.h, frame.h and pack.h first. Not part of
+// the text that `cotan shader` prints.
 
 #ifndef COTAN_CORNER_H
 #define COTAN_CORNER_H
 
-// The angle between two edges from one point as seen along the unit normal n, in radians; a right one where an edge
-// vanishes. The arc cosine of a shading language may be coarse; this is Abramowitz and Stegun 4.4.46, off by 2e-8.
+// Returns the angle between two edges from one point, projected along the unit normal n, in radians; a right angle if
+// an edge vanishes. Abramowitz and Stegun 4.4.46, with an error of 2e-8, because the arc cosine of a shading language
+// may be inaccurate.
 COTAN_FUNCTION cotan_real cotan_corner_angle(cotan_vec3 n, cotan_vec3 e1, cotan_vec3 e2)
 {
     cotan_vec3 a = e1 - n * dot(n, e1);
@@ -26,8 +27,8 @@ COTAN_FUNCTION cotan_real cotan_corner_angle(cotan_vec3 n, cotan_vec3 e1, cotan_
     return x < cotan_real(0.0) ? cotan_real(3.14159265) - angle : angle;
 }
 
-// The gradients of u and v of a triangle, weighted by its angle at the corner. Add them up over all triangles at a
-// vertex, on one side of a mirrored seam; the length of the sum does not matter.
+// Returns the gradients of u and v of a triangle, weighted by its angle at the corner. Add them up over all triangles
+// at a vertex that are on one side of a mirrored seam; the length of the sum does not matter.
 //   n           the vertex normal, unit
 //   dp1, dp2    from the corner to the next and to the previous vertex of the triangle; duv1, duv2 likewise
 // A triangle without area in space or uv gives zero.
@@ -43,7 +44,8 @@ COTAN_FUNCTION cotan_covectors cotan_smooth_corner(
     return c;
 }
 
-// The sum as cotan_perturb_smooth wants it at a vertex: the longer one 1 long. Zero stays zero.
+// Scales the sum so that the longer covector has length 1, as cotan_perturb_smooth requires at a vertex. Zero stays
+// zero.
 COTAN_FUNCTION cotan_covectors cotan_smooth_of_sum(cotan_covectors sum)
 {
     cotan_real scale = cotan_power_of_two_scale(max(cotan_max_abs(sum.t), cotan_max_abs(sum.b)));

@@ -1,25 +1,24 @@
 // Cotan portable text: the frame. Include lang.h first.
 //
-// A frame is three covectors t, b, n. Applied to a decoded texel m of a normal map it gives the
-// perturbed normal  normalize(t*m.x + b*m.y + n*m.z).
+// A frame is three covectors t, b, n. With a decoded texel m of a normal map it gives the perturbed normal
+// normalize(t*m.x + b*m.y + n*m.z).
 //
 // Every function cotan_frame_NAME takes the same arguments:
-//   n             interpolated surface normal. Unit length, except where a function says that it
-//                 normalises. Any space, the same as dpdx and dpdy; the frame comes out in it.
-//   dpdx, dpdy    differences of position along two directions, in that space. In a pixel shader
-//                 the screen derivatives of a camera-relative position. The position must not
-//                 be normalised first: that is wrong by 11 degrees at 45 degrees of grazing
-//                 (docs/explanation/theory.md). eye - position, which is its negative, reverses t and b.
-//   duvdx, duvdy  differences of texture coordinates along the same two directions.
-// The differences may come from anywhere: screen derivatives, the edges of a triangle, the rows and
-// columns of a raster in uv space.
+//   n             interpolated surface normal, of unit length unless the function says that it normalises. Any space,
+//                 but the same as dpdx and dpdy; the frame is in this space too
+//   dpdx, dpdy    differences of position along two directions. In a pixel shader these are the screen derivatives of a
+//                 camera-relative position. Do not normalise the position first: that gives an error of 11 degrees at a
+//                 grazing angle of 45 degrees (docs/explanation/theory.md). Pass position - eye: the negative,
+//                 eye - position, reverses t and b
+//   duvdx, duvdy  differences of texture coordinates along the same two directions
+// The differences may come from screen derivatives, the edges of a triangle, or the rows and columns of a raster in uv
+// space.
 //
-// t points along increasing u, b along increasing v (not "up"). Which way green points is settled
-// before, when the texel is decoded: see normal.h.
+// t points along increasing u, b along increasing v (not "up"). The direction of the green channel is resolved earlier,
+// when the texel is decoded: see normal.h.
 //
-// Sources: C. Schueler, Normal Mapping without Precomputed Tangents, ShaderX5 (2006), cited as
-// [2006]; its follow-up of 2013, cited as [2013]; M. Mikkelsen, Surface Gradient Based Bump
-// Mapping Framework, JCGT 9(3) 2020, cited as [2020].
+// Sources: C. Schueler, Normal Mapping without Precomputed Tangents, ShaderX5 (2006), cited as [2006]; its follow-up of
+// 2013, cited as [2013]; M. Mikkelsen, Surface Gradient Based Bump Mapping Framework, JCGT 9(3) 2020, cited as [2020].
 
 #ifndef COTAN_FRAME_H
 #define COTAN_FRAME_H
@@ -38,31 +37,30 @@ COTAN_FUNCTION cotan_real cotan_max_abs(cotan_vec3 a)
     return max(abs(a.x), max(abs(a.y), abs(a.z)));
 }
 
-// -1 for x < 0, otherwise +1 (also for -0 and NaN).
+// Returns -1 for x < 0, otherwise +1 (also for -0 and NaN).
 COTAN_FUNCTION cotan_real cotan_sign(cotan_real x)
 {
     return x < cotan_real(0.0) ? cotan_real(-1.0) : cotan_real(1.0);
 }
 
-// The four differences, made safe: either all finite and scaled by powers of two so that the
-// largest position component and the largest uv component lie in [1,2), or all zero.
+// The four differences after checking: either all finite and scaled by powers of two so that the largest position
+// component and the largest uv component lie in [1,2), or all zero.
 struct cotan_differences {
     cotan_vec3 dpdx;
     cotan_vec3 dpdy;
     cotan_vec2 duvdx;
     cotan_vec2 duvdy;
-    cotan_real p_scale;  // what dpdx and dpdy were multiplied by
-    cotan_real uv_scale; // what duvdx and duvdy were multiplied by
+    cotan_real p_scale;  // the factor applied to dpdx and dpdy
+    cotan_real uv_scale; // the factor applied to duvdx and duvdy
 };
 
-// Scales the differences (exact, see cotan_power_of_two_scale) and zeroes what is unusable:
-// if a component of dpdx or dpdy is not finite or exceeds 1e37, all four; if a component of
-// duvdx or duvdy is, those two. Frames that ignore the common scale of positions and of uv are
-// unchanged by it, bit for bit.
+// Scales the differences (exactly, see cotan_power_of_two_scale) and zeroes unusable ones: all four if a component of
+// dpdx or dpdy is not finite or exceeds 1e37; only duvdx and duvdy if a component of these does. Frames that do not
+// depend on the common scale of positions or of uv are unchanged, bit for bit.
 COTAN_FUNCTION cotan_differences cotan_scale_differences(
     cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
 {
-    // A sum of magnitudes stays NaN or infinite if one term is; max() would drop a NaN.
+    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN.
     bool p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) <= COTAN_HUGE;
     bool uv_usable =
         p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x) + abs(duvdy.y) <= COTAN_HUGE;
@@ -81,8 +79,8 @@ COTAN_FUNCTION cotan_differences cotan_scale_differences(
     return d;
 }
 
-// A unit vector along v, or `otherwise` where v is zero, shorter than 1e-6 of the clamp range of
-// cotan_power_of_two_scale, or not finite. `otherwise` is returned as it is.
+// Returns the unit vector along v. Returns `otherwise`, unchanged, if v is zero, shorter than about 1e-43 (1e-6 times
+// the lower clamp of cotan_power_of_two_scale), or not finite.
 COTAN_FUNCTION cotan_vec3 cotan_normalize_or(cotan_vec3 v, cotan_vec3 otherwise)
 {
     bool usable = cotan_sum_abs(v) <= COTAN_HUGE;
@@ -93,9 +91,9 @@ COTAN_FUNCTION cotan_vec3 cotan_normalize_or(cotan_vec3 v, cotan_vec3 otherwise)
     return length2 > cotan_real(1e-12) ? unit : otherwise;
 }
 
-// The interpolated normal as a unit vector. Where it has cancelled out (zero length) or is not
-// finite: the normal of the plane of dpdx and dpdy; where that is degenerate too: (0,0,1).
-// The plane normal's sign follows dpdx x dpdy; nothing better is known at such a pixel.
+// Returns the interpolated normal as a unit vector. If it is zero (normals cancelled out) or not finite: the normal of
+// the plane of dpdx and dpdy, and (0,0,1) if that is degenerate too. The sign of the plane normal is that of dpdx x
+// dpdy; such a pixel has no better information.
 // n: any length. dpdx, dpdy: finite, as cotan_scale_differences returns them.
 COTAN_FUNCTION cotan_vec3 cotan_safe_normal(cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy)
 {
@@ -105,9 +103,9 @@ COTAN_FUNCTION cotan_vec3 cotan_safe_normal(cotan_vec3 n, cotan_vec3 dpdx, cotan
 
 // ---- applying a frame -----------------------------------------------------------------------
 
-// The perturbed normal: normalize(t*m.x + b*m.y + n*m.z). Where that sum is shorter than 1e-6 or
-// not finite (an unfilled texel, m = 0; a horizontal m where the frame has no t and b): n as it
-// stands in the frame, so unit or what the caller gave.
+// Returns the perturbed normal normalize(t*m.x + b*m.y + n*m.z). If that sum is shorter than 1e-6 or not finite (an
+// unfilled texel, m = 0; a horizontal m where t = b = 0), returns f.n unchanged: unit, or as long as the caller passed
+// it.
 // m: decoded texel, along (+u, +v, outwards); any length.
 COTAN_FUNCTION cotan_vec3 cotan_apply(cotan_frame f, cotan_vec3 m)
 {
@@ -118,12 +116,11 @@ COTAN_FUNCTION cotan_vec3 cotan_apply(cotan_frame f, cotan_vec3 m)
     return usable ? unit : f.n;
 }
 
-// The inverse of cotan_apply, for baking: the m, unit length, that cotan_apply(f, m) turns into
-// `target`. Exact for any independent t, b, n; the transpose would do only for an orthonormal
-// frame. m.z <= 0 means that the target lies below the horizon of the frame; it is returned as
-// it is, for the caller to count or clamp.
-// Degenerate: a frame whose three covectors are dependent (or zero) gives (0,0,1).
-// Source: the adjugate of [t b n]; cf. the decode and encode remarks in MikkTSpace.
+// The inverse of cotan_apply, for baking: the unit m for which cotan_apply(f, m) gives `target`. Exact for any
+// independent t, b, n; the transpose would be exact only for orthonormal frames. m.z <= 0 means that the target is
+// below the horizon of the frame; it is returned as is, and the caller counts or clamps it.
+// Degenerate input: three dependent (or zero) covectors give (0,0,1).
+// Source: the adjugate of [t b n]; compare the remarks on decoding and encoding in MikkTSpace.
 COTAN_FUNCTION cotan_vec3 cotan_encode(cotan_frame f, cotan_vec3 target)
 {
     cotan_vec3 bn = cross(f.b, f.n);
@@ -140,18 +137,16 @@ COTAN_FUNCTION cotan_vec3 cotan_encode(cotan_frame f, cotan_vec3 target)
 
 // ---- the frames -----------------------------------------------------------------------------
 
-// `cotangent`, the default. The cotangent frame of [2013] with two departures:
-// - it carries the sign of n . (dpdx x dpdy), so it is right for y-up and y-down targets, both
-//   world handednesses, mirrored transforms, back faces and uv-space rasters alike ([2013] is
-//   right only where that sign is positive);
-// - it is total: no input gives a NaN or an infinity.
-// t and b keep their relative lengths and skew; the longer of the two has length one, so bumps
-// do not depend on the scale of the object (truth S of docs/explanation/theory.md). View independent. t and b
-// are perpendicular to n.
-// n need not be unit; f.n is.
-// Degenerate input: constant uv, zero or non-finite differences give t = b = 0, so that
-// cotan_apply returns n; so do uv that vary less than about 1e-6 of the footprint's length (the
-// frame fades to the plain normal there). uv along one line give t parallel to b.
+// `cotangent`, the default. The cotangent frame of [2013] with two differences:
+// - It carries the sign of n . (dpdx x dpdy), so it is correct for y-up and y-down targets, both world handednesses,
+//   mirrored transforms, back faces and uv-space rasters alike. [2013] is correct only where that sign is positive.
+// - It is total: no input gives a NaN or an infinity.
+// t and b keep their relative lengths and skew. The longer of the two has length one, so bumps do not depend on the
+// scale of the object (truth S of docs/explanation/theory.md). View independent. t and b are perpendicular to n. n need
+// not be unit; f.n is.
+// Degenerate input: constant uv, zero or non-finite differences give t = b = 0, so that cotan_apply returns n. The same
+// holds where uv vary by less than about 1e-6 of the footprint's length: the frame fades to the plain normal there.
+// Where uv vary along one line only, t is parallel to b.
 // Source: [2013] 'cotangent_frame'; the sign and the guards are ours.
 COTAN_FUNCTION cotan_frame cotan_frame_cotangent(
     cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
@@ -171,11 +166,10 @@ COTAN_FUNCTION cotan_frame cotan_frame_cotangent(
     return f;
 }
 
-// `orthonormal`: tangent first, t along dP/du in the plane of n, b = +-n x t; the best tangent-free
-// reading of maps that were baked for MikkTSpace. Right on conformal uv, wrong by a fixed amount
-// on anisotropic ones. Total, like `cotangent`; n need not be unit, f.n is.
-// Degenerate input: uv without area (constant, or along one line), zero or non-finite differences
-// give t = b = 0.
+// `orthonormal`: t along dP/du in the plane of n, b = +-n x t. The best frame without stored tangents for maps that
+// were baked for MikkTSpace. Exact where uv are conformal; a constant error where they are anisotropic. Total, like
+// `cotangent`; n need not be unit, f.n is.
+// Degenerate input: uv without area (constant, or along one line), zero or non-finite differences give t = b = 0.
 // Source: [2020], the basis built from derivatives.
 COTAN_FUNCTION cotan_frame cotan_frame_orthonormal(
     cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
@@ -195,13 +189,12 @@ COTAN_FUNCTION cotan_frame cotan_frame_orthonormal(
     return f;
 }
 
-// `gradient`: the true surface gradients of u and v, metric: |t| is the change of u per unit of
-// length. A map applied with it means bumps of a fixed height in world units, so bumps fade as
-// the object grows (truth E of docs/explanation/theory.md). t/|t| as in `cotangent`; only the scale differs:
-// 1 / (n . (dpdx x dpdy)). Total; n need not be unit, f.n is.
-// Degenerate input: zero area, n in the face plane (where the division would overflow), constant
-// uv or non-finite differences give t = b = 0.
-// Source: [2020] section 3, after Blinn 1978; with the sign of the determinant kept.
+// `gradient`: the true, metric surface gradients of u and v: |t| is the change of u per unit of length. Bumps have a
+// fixed height in world units, so they fade as the object grows (truth E of docs/explanation/theory.md). t/|t| is that
+// of `cotangent`; only the scale differs: 1 / (n . (dpdx x dpdy)). Total; n need not be unit, f.n is.
+// Degenerate input: zero area, n in the plane of the face (where the division would overflow), constant uv or
+// non-finite differences give t = b = 0.
+// Source: [2020] section 3, after Blinn 1978, keeping the sign of the determinant.
 COTAN_FUNCTION cotan_frame cotan_frame_gradient(
     cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
 {
@@ -212,7 +205,7 @@ COTAN_FUNCTION cotan_frame cotan_frame_gradient(
     cotan_vec3 dpdx_perp = cross(f.n, d.dpdx);
     cotan_real determinant = dot(d.dpdx, dpdy_perp);
     bool usable = abs(determinant) > cotan_real(1e-12);
-    // Undo the two scales in one factor: gradients go with uv / position.
+    // Undoes both scales with one factor: gradients scale with uv / position.
     cotan_real scale = d.p_scale / (usable ? determinant : cotan_real(1.0)) / d.uv_scale;
     usable = usable && abs(scale) <= COTAN_HUGE;
     scale = usable ? scale : cotan_real(0.0);
@@ -221,15 +214,16 @@ COTAN_FUNCTION cotan_frame cotan_frame_gradient(
     return f;
 }
 
-// `exact`: gradients of u and v over a whole triangle, from its edges instead of screen
-// derivatives, projected orthogonally onto the plane of n; the longer has length one. Where
-// vertex data can be fetched this is simply better than differences of a tiny pixel: 2.7e-6
-// degrees in float at every distance and footprint. Total; n need not be unit, f.n is.
+// `exact`: gradients of u and v over a whole triangle, from its edges instead of screen derivatives, projected
+// orthogonally onto the plane of n; the longer of t and b has length one. More accurate than differences over a small
+// pixel wherever vertex data can be fetched: 2.7e-6 degrees in float at every distance and footprint. Total; n need not
+// be unit, f.n is.
 //   n             interpolated normal at the shaded point
 //   dpdx, dpdy    edges p1 - p0 and p2 - p0
 //   duvdx, duvdy  uv1 - uv0 and uv2 - uv0
 // Degenerate input: a triangle without area, constant uv, non-finite input give t = b = 0.
-// Source: [2006] equation of the tangent frame, without the pixel; the projection is ours.
+// Source: [2006], the equation of the tangent frame applied to the triangle instead of the pixel; the projection is
+// ours.
 COTAN_FUNCTION cotan_frame cotan_frame_exact(
     cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
 {
@@ -258,8 +252,8 @@ COTAN_FUNCTION cotan_frame cotan_frame_exact(
 
 // ---- frames from vertex attributes ----------------------------------------------------------
 
-// `smooth`: from cotangents that were averaged at the vertices and interpolated. They are
-// projected onto the plane of n; the longer has length one. Total; n need not be unit, f.n is.
+// `smooth`: from cotangents averaged at the vertices and interpolated, then projected onto the plane of n; the longer
+// of t and b has length one. Total; n need not be unit, f.n is.
 //   t, b   interpolated covectors, any common scale, same space as n
 // Degenerate input: t = b = 0 where both vanish.
 COTAN_FUNCTION cotan_frame cotan_frame_smooth(cotan_vec3 n, cotan_vec3 t, cotan_vec3 b)
@@ -282,12 +276,12 @@ COTAN_FUNCTION cotan_frame cotan_frame_smooth(cotan_vec3 n, cotan_vec3 t, cotan_
     return f;
 }
 
-// `vertex`: the classic way. Per-vertex tangent and normal, interpolated, made orthonormal again per
-// pixel; the bitangent is alongV * n x t. Total; n need not be unit, f.n is.
+// `vertex`: classic tangent space. The per-vertex tangent and normal are interpolated and made orthonormal again in
+// every pixel; the bitangent is alongV * n x t. Total; n need not be unit, f.n is.
 //   t        interpolated tangent, any length
-//   alongV   +1 or -1, such that alongV * n x t points along +v. For a glTF TANGENT pass -w: there
-//            w * n x t points up the image, and v runs down
-// Degenerate input: a tangent that vanishes or is parallel to n gives t = b = 0.
+//   alongV   +1 or -1, chosen so that alongV * n x t points along +v. For a glTF TANGENT pass -w: there w * n x t
+//            points up the image, and v runs down
+// Degenerate input: a tangent that is zero or parallel to n gives t = b = 0.
 COTAN_FUNCTION cotan_frame cotan_frame_vertex(cotan_vec3 n, cotan_vec3 t, cotan_real alongV)
 {
     cotan_vec3 zero = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
@@ -299,11 +293,11 @@ COTAN_FUNCTION cotan_frame cotan_frame_vertex(cotan_vec3 n, cotan_vec3 t, cotan_
     return f;
 }
 
-// `mikktspace`: as MikkTSpace wants its tangents used: interpolated n and t not renormalised, the
-// bitangent alongV * n x t per pixel. cotan_apply normalises the result.
+// `mikktspace`: uses tangents as MikkTSpace specifies: interpolated n and t are not renormalised, and the bitangent is
+// alongV * n x t in every pixel. cotan_apply normalises the result.
 //   n, t     interpolated, not normalised
-//   alongV   as of cotan_frame_vertex: for a glTF TANGENT it is -w
-// Degenerate input: zero in, zero out; cotan_apply then returns n as given.
+//   alongV   as in cotan_frame_vertex: -w of a glTF TANGENT
+// Degenerate input: zero tangents give t = b = 0; cotan_apply then returns n as given.
 // Source: M. Mikkelsen, mikktspace.h.
 COTAN_FUNCTION cotan_frame cotan_frame_mikktspace(cotan_vec3 n, cotan_vec3 t, cotan_real alongV)
 {

@@ -1,14 +1,14 @@
-// Cotan portable text: the frames of the papers, and of ports of them, for comparison. Include lang.h
-// and frame.h first; arguments, result and sources are those of frame.h.
+// Cotan portable text: the frames of the papers and of ports of them, for comparison. Include lang.h and frame.h first.
+// Arguments, results and sources are those of frame.h.
 //
-// None of them is total: degenerate input gives NaN. None but paper-full and cotangent-2013 is exact on
-// stretched texture coordinates, and cotangent-2013 only where n . (dpdx x dpdy) > 0.
+// None of these frames is total: degenerate input gives NaN. Only paper-full and cotangent-2013 are exact for
+// anisotropic uv, and cotangent-2013 only where n . (dpdx x dpdy) > 0.
 
 #ifndef COTAN_HISTORY_H
 #define COTAN_HISTORY_H
 
-// `cotangent-2013`: as printed in 2013, for comparison. Right only where n . (dpdx x dpdy) > 0;
-// elsewhere t and b are both reversed. n unit. Constant uv, zero area give NaN or infinities.
+// `cotangent-2013`: as printed in 2013. Correct only where n . (dpdx x dpdy) > 0; elsewhere t and b are both reversed.
+// n must be unit. Constant uv or zero area give NaN or infinities.
 // Source: [2013] 'cotangent_frame'.
 COTAN_FUNCTION cotan_frame cotan_frame_cotangent_2013(
     cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
@@ -25,10 +25,9 @@ COTAN_FUNCTION cotan_frame cotan_frame_cotangent_2013(
     return f;
 }
 
-// `nonperspective`: the shortcut of [2013] that takes the edge perpendiculars to be the edges.
-// Exact only where the surface faces the camera: foreshortening, with or without perspective,
-// breaks it (45 degrees of tilt: 9.8 degrees mean). View dependent, so nothing can be baked for
-// it. n unit. Constant uv give NaN.
+// `nonperspective`: the shortcut of [2013] that uses the edges themselves as the edge perpendiculars. Exact only where
+// the surface faces the camera; foreshortening, with or without perspective, breaks it (9.8 degrees in the mean at 45
+// degrees of tilt). View dependent, so no map can be baked for it. n must be unit. Constant uv give NaN.
 // Source: [2013] 'Non-perspective optimization'.
 COTAN_FUNCTION cotan_frame cotan_frame_nonperspective(
     cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
@@ -43,8 +42,8 @@ COTAN_FUNCTION cotan_frame cotan_frame_nonperspective(
     return f;
 }
 
-// The inverse of the matrix with rows r0, r1, r2, without the division by the determinant, times
-// the column (x, y, 0): the linear system that [2006] solves. Its matrix form, in rows and dots.
+// Returns the adjugate of the matrix with rows r0, r1, r2 times the column (x, y, 0). Divided by the determinant, this
+// is the solution of the linear system of [2006].
 COTAN_FUNCTION cotan_vec3 cotan_adjugate_times(
     cotan_vec3 r0, cotan_vec3 r1, cotan_vec3 r2, cotan_vec2 column)
 {
@@ -58,8 +57,8 @@ COTAN_FUNCTION cotan_vec3 cotan_adjugate_times(
         c.x * column.x + c.y * column.y);
 }
 
-// `paper-full`: the general solution of [2006], a full 3x3 inverse; t and b lie in the plane of
-// dpdx and dpdy and are divided by the longer of the two. n unit. Degenerate input gives NaN.
+// `paper-full`: the general solution of [2006], a full 3x3 inverse. t and b lie in the plane of dpdx and dpdy and are
+// divided by the longer length. n must be unit. Degenerate input gives NaN.
 // Source: [2006] 'compute_tangent_frame'.
 COTAN_FUNCTION cotan_frame cotan_frame_paper_full(
     cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
@@ -78,9 +77,9 @@ COTAN_FUNCTION cotan_frame cotan_frame_paper_full(
     return f;
 }
 
-// `paper-nodet`: [2006] without the determinant, t and b each of unit length, which is wrong on
-// stretched uv by as much as an orthonormal frame (2:1: 9.5 degrees mean) and on sheared uv by
-// less. n unit. Degenerate input gives NaN.
+// `paper-nodet`: [2006] without the determinant; t and b each have unit length. Anisotropic uv give the error of an
+// orthonormal frame (2:1: 9.5 degrees in the mean), sheared uv a smaller one. n must be unit. Degenerate input gives
+// NaN.
 // Source: [2006] 'compute_tangent_frame_01'.
 COTAN_FUNCTION cotan_frame cotan_frame_paper_nodet(
     cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
@@ -95,8 +94,8 @@ COTAN_FUNCTION cotan_frame cotan_frame_paper_nodet(
     return f;
 }
 
-// `paper-transpose`: paper-nodet with the inverse transpose written out as two cross products.
-// The same values. n unit. Degenerate input gives NaN.
+// `paper-transpose`: paper-nodet with the inverse transpose written out as two cross products; the values are the same.
+// n must be unit. Degenerate input gives NaN.
 // Source: [2006] 'compute_tangent_frame_02'.
 COTAN_FUNCTION cotan_frame cotan_frame_paper_transpose(
     cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
@@ -113,8 +112,8 @@ COTAN_FUNCTION cotan_frame cotan_frame_paper_transpose(
     return f;
 }
 
-// `paper-orthogonal`: paper-transpose with dpdx and dpdy taken as orthogonal and equally long.
-// Fails on foreshortening like `nonperspective`. n unit. Degenerate input gives NaN.
+// `paper-orthogonal`: paper-transpose under the assumption that dpdx and dpdy are orthogonal and equally long. Fails
+// under foreshortening like `nonperspective`. n must be unit. Degenerate input gives NaN.
 // Source: [2006] 'compute_tangent_frame_03'.
 COTAN_FUNCTION cotan_frame cotan_frame_paper_orthogonal(
     cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
@@ -128,9 +127,9 @@ COTAN_FUNCTION cotan_frame cotan_frame_paper_orthogonal(
     return f;
 }
 
-// `unit`: cotangents, each divided by its own length, as ports of [2013] do. Wrong on stretched
-// uv (2:1: 9.5 degrees mean, 17.9 at most). Departs from those ports in that it carries the sign
-// of n . (dpdx x dpdy) instead of a platform switch. n unit. Constant u or v gives NaN.
+// `unit`: cotangents, each divided by its own length, as ports of [2013] do. Wrong for anisotropic uv (2:1: 9.5 degrees
+// in the mean, 17.9 at most). Unlike those ports it carries the sign of n . (dpdx x dpdy) instead of a platform switch.
+// n must be unit. Constant u or v gives NaN.
 COTAN_FUNCTION cotan_frame cotan_frame_unit(
     cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
 {

@@ -1,22 +1,20 @@
 // Cotan portable text: the language.
 //
-// The same files compile as GLSL 4.50, GLSL ES 3.00, HLSL and C++20. The includer says which by
-// defining exactly one of the macros below; nothing is guessed from what a compiler predefines.
-// No file of the portable text includes another, so that it also works where shader sources are
-// simply joined. Order: lang.h first, then normal.h, frame.h (or fused.h alone), history.h, gradient.h, blend.h,
-// light.h, sheen.h as needed.
+// The same files compile as GLSL 4.50, GLSL ES 3.00, HLSL and C++20. The including file selects one language by
+// defining exactly one of the macros below; predefined compiler macros are not consulted. No file of the portable text
+// includes another, so the files also work where shader sources are simply concatenated. Order: lang.h first, then
+// normal.h, frame.h (or fused.h alone), history.h, gradient.h, blend.h, light.h, sheen.h as needed.
 //
 //   COTAN_LANG_GLSL   GLSL 4.50 and GLSL ES 3.00
 //   COTAN_LANG_HLSL   HLSL, shader model 5 and later
-//   COTAN_LANG_CPP    C++20 over GLM; COTAN_CPP_REAL names the scalar type. Included through
-//                     <cotan/portable.hpp>, once per scalar type, inside a namespace. It asks for
-//                     cotan_inverse_power_of_two of that type, cotan_pack_half and
-//                     cotan_unpack_half, as portable.hpp has them.
-//   COTAN_LANG_GODOT  for `cotan shader` alone, which has Godot's words: floats without access to their bits
+//   COTAN_LANG_CPP    C++20 with GLM; COTAN_CPP_REAL names the scalar type. <cotan/portable.hpp> includes the text once
+//                     per scalar type, each time inside a namespace. It needs cotan_inverse_power_of_two of that type,
+//                     cotan_pack_half and cotan_unpack_half; portable.hpp defines them
+//   COTAN_LANG_GODOT  only for `cotan shader`, which supplies Godot's names: no access to the bits of floats
 //
-// What the text may use: scalars and vectors of two to four components, structs, functions,
-// selects. What it may not: matrices (row and column order differ between the languages),
-// derivatives and texture reads (they belong to the caller), swizzles, loops over data.
+// The text uses scalars, vectors of two to four components, structs, functions and selects. It must not use matrices
+// (row and column order differ between the languages), derivatives and texture reads (they belong to the caller),
+// swizzles, or loops over data.
 
 #ifndef COTAN_LANG_H
 #define COTAN_LANG_H
@@ -80,13 +78,12 @@ inline cotan_real cotan_real_of(cotan_uint x) { return cotan_real(x); }
 #error "cotan: define COTAN_LANG_GLSL, COTAN_LANG_HLSL or COTAN_LANG_CPP before including lang.h"
 #endif
 
-// The largest magnitude that counts as finite, in every precision. Anything above, an infinity
-// or a NaN fails the comparison  abs(x) <= COTAN_HUGE.
+// The largest magnitude that counts as finite, in every precision. Larger values, infinities and NaN fail the
+// comparison  abs(x) <= COTAN_HUGE.
 #define COTAN_HUGE cotan_real(1e37)
 
-// A power of two s such that m*s lies in [1,2), for m in [1e-37, 1e37]; m outside that range is
-// clamped into it first. Multiplying by s is exact, so a formula of products gives the same bits
-// before and after, except that it no longer under- or overflows.
+// Returns the power of two s for which m*s lies in [1,2), after clamping m to [1e-37, 1e37]. Multiplying by s is exact,
+// so formulas made of products give the same bits with scaled values, but no longer underflow or overflow.
 // m: any magnitude (zero gives the largest scale), not NaN.
 #if defined(COTAN_LANG_CPP)
 inline cotan_real cotan_power_of_two_scale(cotan_real m)
@@ -95,7 +92,7 @@ inline cotan_real cotan_power_of_two_scale(cotan_real m)
     return cotan_inverse_power_of_two(m);
 }
 #elif defined(COTAN_LANG_GODOT)
-// Without access to bits: as near to a power of two as exp2 is.
+// Without access to the bits, the result is a power of two only to the precision of exp2.
 COTAN_FUNCTION cotan_real cotan_power_of_two_scale(cotan_real m)
 {
     return exp2(-floor(log2(min(max(m, cotan_real(1e-37)), COTAN_HUGE))));
@@ -109,11 +106,11 @@ COTAN_FUNCTION cotan_real cotan_power_of_two_scale(cotan_real m)
 }
 #endif
 
-// x with the sign bit of s. x: not negative. s: any; -0 counts as negative.
+// Returns x with the sign bit of s. x: not negative. s: any value; -0 counts as negative.
 #if defined(COTAN_LANG_CPP)
 inline cotan_real cotan_copy_sign(cotan_real x, cotan_real s) { return copysign(x, s); }
 #elif defined(COTAN_LANG_GODOT)
-// Without access to bits: -0 counts as positive.
+// Without access to the bits, -0 counts as positive.
 COTAN_FUNCTION cotan_real cotan_copy_sign(cotan_real x, cotan_real s)
 {
     return s < cotan_real(0.0) ? -x : x;

@@ -1,10 +1,9 @@
 // Cotan portable text: lighting. Include lang.h and frame.h first.
 //
-// Small, standard and the same on the GPU and in the reference renderer: ambient + diffuse +
-// Blinn-Phong, and GGX metallic-roughness, with a soft procedural environment; highlights that are
-// stretched or have another strength and colour, light that passes through thin sheets, and over all
-// a clear coat, as extensions of glTF have them. All colours are linear. n, l, v are unit vectors in
-// one space (world, y up, for the environment): normal, to the light, to the eye.
+// The GPU and the reference renderer share these small, standard models: ambient + diffuse + Blinn-Phong, and GGX
+// metallic-roughness with a soft procedural environment. As in extensions of glTF: anisotropic highlights, other
+// specular strengths and colours, transmission through thin sheets, and a clear coat over everything. All colours are
+// linear. n, l, v are unit vectors in one space (world, y up, for the environment): normal, to the light, to the eye.
 
 #ifndef COTAN_LIGHT_H
 #define COTAN_LIGHT_H
@@ -32,60 +31,60 @@ COTAN_FUNCTION cotan_real cotan_smooth(cotan_real edge0, cotan_real edge1, cotan
     return k * k * (cotan_real(3.0) - cotan_real(2.0) * k);
 }
 
-// ---- highlights that are smaller than a pixel ----
+// ---- specular antialiasing: highlights that are smaller than a pixel ----
 
-// The perceptual roughness of a surface whose normals spread within what is seen at once: squares of
-// slopes add up. roughness: its own, [0,1]. spread: variance of the slopes, of both directions
-// together, >= 0.
-COTAN_FUNCTION cotan_real cotan_roughness_of_spread(cotan_real roughness, cotan_real spread)
+// Returns the perceptual roughness that includes the variance of normals within the visible footprint; the squares of
+// slopes add up. roughness: of the surface itself, [0,1]. spread: variance of the slopes, summed over both directions,
+// not negative.
+COTAN_FUNCTION cotan_real cotan_roughness_of_variance(cotan_real roughness, cotan_real spread)
 {
     cotan_real alpha = roughness * roughness;
     return sqrt(sqrt(min(alpha * alpha + spread, cotan_real(1.0))));
 }
 
-// The spread of normals by the turn of the surface within a pixel: the variance over a square of its
-// width. dndx, dndy: differences of the unit normal without a map to the next pixels. Over 0.18, where
-// differences say little, it stays at that (Y. Tokuyoshi, A. Kaplanyan, Improved Geometric Specular
-// Antialiasing, 2019; their pixel is a Gaussian and gives four times as much, which measures worse).
-COTAN_FUNCTION cotan_real cotan_spread_of_turn(cotan_vec3 dndx, cotan_vec3 dndy)
+// Returns the variance of normals within a pixel that is due to the curvature of the surface, over a square filter of
+// one pixel's width. dndx, dndy: differences of the unit normal without the map to the next pixels. Clamped to 0.18,
+// above which the differences say little (Y. Tokuyoshi, A. Kaplanyan, Improved Geometric Specular Antialiasing, 2019;
+// their Gaussian pixel filter gives four times as much, with larger measured errors).
+COTAN_FUNCTION cotan_real cotan_variance_of_curvature(cotan_vec3 dndx, cotan_vec3 dndy)
 {
     return min((dot(dndx, dndx) + dot(dndy, dndy)) / cotan_real(12.0), cotan_real(0.18));
 }
 
-// The spread of unit normals whose mean is that long, [0,1]: what the levels of a normal map lose, to be
-// kept in a channel of theirs. They lie as exp(kappa cos), kappa by J. Banerjee and others (2005). A
-// step of 8 bits is taken as rounding.
-COTAN_FUNCTION cotan_real cotan_spread_of_length(cotan_real length_of_mean)
+// Returns the variance of unit normals whose mean has the given length, [0,1]. The mips of a normal map lose this
+// variance, so it is stored in a channel of its own. Assumes a von Mises-Fisher distribution, exp(kappa cos), with
+// kappa after A. Banerjee et al. (2005). A difference of one 8-bit step from length 1 counts as rounding.
+COTAN_FUNCTION cotan_real cotan_variance_of_length(cotan_real length_of_mean)
 {
     cotan_real r = min(max(length_of_mean, cotan_real(0.05)) + cotan_real(1.0 / 255.0), cotan_real(1.0));
     return cotan_real(2.0) * (cotan_real(1.0) - r * r) / (r * (cotan_real(3.0) - r * r));
 }
 
-// How many places along each side of a pixel are lit one by one, 4 to 16, to be rounded down, so that a highlight does
-// not lie between them: the sharper it is, the more. roughness: the surface's own, [0,1].
-COTAN_FUNCTION cotan_real cotan_places_of_roughness(cotan_real roughness)
+// Returns the number of samples along each side of a pixel that are lit separately, 4 to 16, to be rounded down.
+// Sharper highlights need more, or they fall between the samples. roughness: of the surface itself, [0,1].
+COTAN_FUNCTION cotan_real cotan_samples_of_roughness(cotan_real roughness)
 {
-    cotan_real places = cotan_real(1.5) / max(roughness, cotan_real(0.01)) + cotan_real(0.5);
-    return min(max(places, cotan_real(4.0)), cotan_real(16.0));
+    cotan_real samples = cotan_real(1.5) / max(roughness, cotan_real(0.01)) + cotan_real(0.5);
+    return min(max(samples, cotan_real(4.0)), cotan_real(16.0));
 }
 
-// A half vector that is zero when l = -v.
+// Returns the unit half vector; zero if l = -v.
 COTAN_FUNCTION cotan_vec3 cotan_half_vector(cotan_vec3 l, cotan_vec3 v)
 {
     cotan_vec3 h = l + v;
     return h * cotan_inversesqrt(max(dot(h, h), cotan_real(1e-12)));
 }
 
-// What is left of Schlick's Fresnel term: (1 - cosine)^5. cosine: [0,1].
+// The factor (1 - cosine)^5 of Schlick's Fresnel term. cosine: [0,1].
 COTAN_FUNCTION cotan_real cotan_grazing(cotan_real cosine)
 {
     cotan_real grazing = cotan_real(1.0) - cosine;
     return grazing * grazing * grazing * grazing * grazing;
 }
 
-// A GGX highlight without its Fresnel term: distribution times Smith-correlated visibility.
-// roughness: perceptual. n.v counts by its magnitude, as 1e-4 at least. Float keeps 1e-3 of the
-// value at every roughness and angle.
+// Returns a GGX highlight without its Fresnel term: distribution times Smith-correlated visibility. roughness:
+// perceptual. n.v is replaced by its magnitude, at least 1e-4. The relative error in float is at most 1e-3 at every
+// roughness and angle.
 COTAN_FUNCTION cotan_real cotan_ggx(
     cotan_vec3 n, cotan_vec3 v, cotan_vec3 l, cotan_real roughness)
 {
@@ -95,8 +94,8 @@ COTAN_FUNCTION cotan_real cotan_ggx(
     cotan_real nh = cotan_saturate(dot(n, h));
     cotan_real rough = max(roughness, cotan_real(0.045));
     cotan_real alpha2 = rough * rough * rough * rough;
-    // 1 - nh^2 + nh^2 alpha2. The difference is the squared sine: from the cross product it keeps
-    // its digits in a highlight, where the two terms meet and floats would lose a fifth of a mirror's.
+    // 1 - nh^2 + nh^2 alpha2. The difference is the squared sine. In a highlight its terms nearly cancel, and floats
+    // would lose a fifth of a mirror's highlight; the cross product keeps the digits.
     cotan_vec3 nxh = cross(n, h);
     cotan_real sine2 = nh > cotan_real(0.0) ? dot(nxh, nxh) : cotan_real(1.0);
     cotan_real d = sine2 + nh * nh * alpha2;
@@ -107,10 +106,9 @@ COTAN_FUNCTION cotan_real cotan_ggx(
     return distribution * visibility;
 }
 
-// As cotan_ggx, but rougher along t than across it (KHR_materials_anisotropy): alpha is the square
-// of roughness across, and alpha + (1 - alpha) strength^2 along. t: unit, perpendicular to n; its
-// sign does not matter. strength: [0,1].
-COTAN_FUNCTION cotan_real cotan_ggx_stretched(cotan_vec3 n, cotan_vec3 v, cotan_vec3 l,
+// Like cotan_ggx, but rougher along t than across it (KHR_materials_anisotropy): alpha is roughness^2 across, and
+// alpha + (1 - alpha) strength^2 along. t: unit, perpendicular to n; its sign does not matter. strength: [0,1].
+COTAN_FUNCTION cotan_real cotan_ggx_anisotropic(cotan_vec3 n, cotan_vec3 v, cotan_vec3 l,
     cotan_real roughness, cotan_real strength, cotan_vec3 t)
 {
     cotan_vec3 b = cross(n, t);
@@ -125,23 +123,23 @@ COTAN_FUNCTION cotan_real cotan_ggx_stretched(cotan_vec3 n, cotan_vec3 v, cotan_
     cotan_real w = (along * across) / max(dot(slope, slope), cotan_real(1e-30));
     cotan_real distribution =
         nh > cotan_real(0.0) ? along * across * w * w / COTAN_PI : cotan_real(0.0);
-    cotan_vec3 seen = cotan_vec3(dot(t, v) * along, dot(b, v) * across, nv);
-    cotan_vec3 reached = cotan_vec3(dot(t, l) * along, dot(b, l) * across, nl);
-    cotan_real smith = nl * sqrt(dot(seen, seen)) + nv * sqrt(dot(reached, reached));
+    cotan_vec3 scaled_v = cotan_vec3(dot(t, v) * along, dot(b, v) * across, nv);
+    cotan_vec3 scaled_l = cotan_vec3(dot(t, l) * along, dot(b, l) * across, nl);
+    cotan_real smith = nl * sqrt(dot(scaled_v, scaled_v)) + nv * sqrt(dot(scaled_l, scaled_l));
     return distribution * (cotan_real(0.5) / max(smith, cotan_real(1e-12)));
 }
 
-// What a material says of its reflections beyond metallic-roughness.
+// The reflections of a material beyond metallic-roughness.
 struct cotan_gloss {
-    cotan_vec3 f0;         // of a dielectric, facing: 0.04 for an index of refraction of 1.5
-    cotan_real f90;        // of a dielectric, grazing
-    cotan_real transmission; // [0,1]: of what a dielectric does not reflect, the share that passes
-    cotan_real anisotropy; // [0,1]; 0: as round as ever
-    cotan_vec3 t;          // along it the highlight is stretched: unit, perpendicular to n
+    cotan_vec3 f0;         // of a dielectric at normal incidence: 0.04 for an index of refraction of 1.5
+    cotan_real f90;        // of a dielectric at grazing incidence
+    cotan_real transmission; // [0,1]: fraction of the light not reflected by a dielectric that passes through
+    cotan_real anisotropy; // [0,1]; 0: isotropic
+    cotan_vec3 t;          // direction along which the highlight is stretched: unit, perpendicular to n
 };
 
-// f0 and f90 of KHR_materials_ior and KHR_materials_specular; nothing passes, nothing is stretched.
-// ior 0: reflects all.
+// Returns f0 and f90 of KHR_materials_ior and KHR_materials_specular, without transmission and anisotropy. ior 0:
+// reflects all light.
 COTAN_FUNCTION cotan_gloss cotan_gloss_of(cotan_real ior, cotan_real strength, cotan_vec3 color)
 {
     cotan_real ratio = (ior - cotan_real(1.0)) / (ior + cotan_real(1.0));
@@ -156,7 +154,7 @@ COTAN_FUNCTION cotan_gloss cotan_gloss_of(cotan_real ior, cotan_real strength, c
     return g;
 }
 
-// What metallic-roughness says by itself: an index of refraction of 1.5.
+// The dielectric of plain metallic-roughness: an index of refraction of 1.5.
 COTAN_FUNCTION cotan_gloss cotan_plain_gloss()
 {
     cotan_real one = cotan_real(1.0);
@@ -165,23 +163,22 @@ COTAN_FUNCTION cotan_gloss cotan_plain_gloss()
     return g;
 }
 
-// The unit direction on a surface that a frame and a direction in its texture coordinates say:
-// along u where they say (1, 0), whether t and b are tangents or gradients, which are perpendicular
-// to the other one's tangent; along v, at right angles to u, for (0, 1). Zero where the frame is
-// degenerate.
-// smooth_n: the frame's normal. n: the perturbed one, to which the result is perpendicular.
+// Returns the unit direction on a surface that corresponds to a direction in texture coordinates. (1, 0) gives dP/du,
+// whether t and b are tangents or gradients, because a gradient of v is perpendicular to dP/du. (0, 1) gives the
+// direction perpendicular to dP/du, on the side of increasing v. Zero if the frame is degenerate.
+// smooth_n: the frame's normal. n: the perturbed normal, to which the result is perpendicular.
 COTAN_FUNCTION cotan_vec3 cotan_direction_on_surface(
     cotan_vec3 smooth_n, cotan_vec3 t, cotan_vec3 b, cotan_vec2 direction, cotan_vec3 n)
 {
     cotan_vec3 zero = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
     cotan_vec3 u = cotan_normalize_or(cross(b, smooth_n), zero);
-    cotan_vec3 across = cross(smooth_n, u); // on b's side
+    cotan_vec3 across = cross(smooth_n, u); // on the side of b
     cotan_real along = dot(u, t) < cotan_real(0.0) ? -direction.x : direction.x; // mirrored uv
     cotan_vec3 d = u * along + across * direction.y;
     return cotan_normalize_or(d - n * dot(n, d), zero);
 }
 
-// Lambert diffuse and one highlight, as the glTF 2.0 appendix B mixes them, for unit irradiance
+// Returns Lambert diffuse light and one highlight, combined as in appendix B of glTF 2.0, for unit irradiance
 // perpendicular to l. highlight: without its Fresnel term.
 COTAN_FUNCTION cotan_vec3 cotan_reflect_highlight(
     cotan_surface s, cotan_gloss g, cotan_vec3 l, cotan_real highlight)
@@ -197,40 +194,40 @@ COTAN_FUNCTION cotan_vec3 cotan_reflect_highlight(
     return (diffuse + fresnel * highlight) * nl;
 }
 
-// Reflected and specular light of one light, for unit irradiance perpendicular to l.
-// Lambert diffuse; Smith-correlated GGX with Schlick's Fresnel term, as the glTF 2.0 appendix B
-// defines metallic-roughness. Precision: see cotan_ggx.
+// Returns the diffuse and specular reflection of one light, for unit irradiance perpendicular to l. Lambert diffuse;
+// Smith-correlated GGX with Schlick's Fresnel term, as appendix B of glTF 2.0 defines metallic-roughness. Precision:
+// see cotan_ggx.
 COTAN_FUNCTION cotan_vec3 cotan_reflect_pbr(cotan_surface s, cotan_vec3 l)
 {
     return cotan_reflect_highlight(s, cotan_plain_gloss(), l, cotan_ggx(s.n, s.v, l, s.roughness));
 }
 
-// As cotan_reflect_pbr, with reflections of its own.
+// Like cotan_reflect_pbr, with the reflections of g.
 COTAN_FUNCTION cotan_vec3 cotan_reflect_glossy(cotan_surface s, cotan_gloss g, cotan_vec3 l)
 {
     cotan_real even = cotan_ggx(s.n, s.v, l, s.roughness);
-    cotan_real stretched = cotan_ggx_stretched(s.n, s.v, l, s.roughness, g.anisotropy, g.t);
+    cotan_real stretched = cotan_ggx_anisotropic(s.n, s.v, l, s.roughness, g.anisotropy, g.t);
     return cotan_reflect_highlight(s, g, l, g.anisotropy > cotan_real(0.0) ? stretched : even);
 }
 
-// A clear layer over the surface (KHR_materials_clearcoat), of index of refraction 1.5: it reflects
-// as cotan_reflect_coat and cotan_reflect_coat_environment say, and of all that comes from beneath,
-// emission too, it shows 1 - cotan_coat_share.
+// A clear layer over the surface (KHR_materials_clearcoat) with an index of refraction of 1.5. It reflects
+// cotan_reflect_coat and cotan_reflect_coat_environment, and it transmits 1 - cotan_coat_fraction of all light from
+// beneath, including emission.
 struct cotan_coat {
-    cotan_real strength;  // [0,1]: how much of the surface it covers
+    cotan_real strength;  // [0,1]: the fraction of the surface that it covers
     cotan_real roughness; // perceptual, [0,1]
-    cotan_vec3 n;         // its own normal, unit
+    cotan_vec3 n;         // the coat's own normal, unit
 };
 
-// Schlick's Fresnel term at n.v, as the extension has it.
-COTAN_FUNCTION cotan_real cotan_coat_share(cotan_coat c, cotan_vec3 v)
+// Returns the fraction of light that the coat reflects: Schlick's Fresnel term at n.v, as in the extension.
+COTAN_FUNCTION cotan_real cotan_coat_fraction(cotan_coat c, cotan_vec3 v)
 {
     cotan_real grazing5 = cotan_grazing(cotan_saturate(abs(dot(c.n, v))));
     return c.strength * (cotan_real(0.04) + cotan_real(0.96) * grazing5);
 }
 
-// The coat's highlight of one light, of unit irradiance perpendicular to l. Its Fresnel term is that
-// of the half vector, so that light and eye may change places.
+// Returns the coat's highlight of one light, for unit irradiance perpendicular to l. The Fresnel term uses the half
+// vector, so light and eye can be exchanged.
 COTAN_FUNCTION cotan_real cotan_reflect_coat(cotan_coat c, cotan_vec3 v, cotan_vec3 l)
 {
     cotan_real nl = cotan_saturate(dot(c.n, l));
@@ -239,9 +236,9 @@ COTAN_FUNCTION cotan_real cotan_reflect_coat(cotan_coat c, cotan_vec3 v, cotan_v
     return c.strength * (fresnel * cotan_ggx(c.n, v, l, c.roughness) * nl);
 }
 
-// Lambert diffuse and Blinn-Phong specular, for unit irradiance. The exponent is derived from
-// roughness: 2/alpha^2 - 2; the specular colour is 0.04 or, for metals, the base colour.
-// The normalisation (exponent + 8)/8pi is the usual approximation.
+// Lambert diffuse and Blinn-Phong specular, for unit irradiance. The exponent is derived from the roughness:
+// 2/alpha^2 - 2. The specular colour is 0.04 or, for metals, the base colour. The normalisation (exponent + 8)/8pi is
+// the usual approximation.
 COTAN_FUNCTION cotan_vec3 cotan_reflect_blinn_phong(cotan_surface s, cotan_vec3 l)
 {
     cotan_real nl = cotan_saturate(dot(s.n, l));
@@ -258,8 +255,8 @@ COTAN_FUNCTION cotan_vec3 cotan_reflect_blinn_phong(cotan_surface s, cotan_vec3 
     return (diffuse + f0 * specular) * nl;
 }
 
-// Radiance of the procedural environment: a bright sky over a warm ground with one large soft
-// box. blur 0 is a mirror's view, 1 is what a diffuse surface sees.
+// Radiance of the procedural environment: a bright sky over a warm ground with one large softbox. blur: 0 as a mirror
+// reflects it, 1 as a diffuse surface receives it.
 COTAN_FUNCTION cotan_vec3 cotan_environment(cotan_vec3 direction, cotan_real blur)
 {
     cotan_vec3 ground = cotan_vec3(cotan_real(0.16), cotan_real(0.14), cotan_real(0.12));
@@ -278,8 +275,8 @@ COTAN_FUNCTION cotan_vec3 cotan_environment(cotan_vec3 direction, cotan_real blu
     return radiance + cotan_vec3(strength, strength, strength) * lit;
 }
 
-// What a highlight reflects of an even environment: x times f0, plus y times f90. Lazarov's
-// analytic fit (B. Karis, Physically Based Shading on Mobile, 2014).
+// Specular reflection of a uniform environment: x times f0, plus y times f90. Lazarov's analytic fit (B. Karis,
+// Physically Based Shading on Mobile, 2014).
 COTAN_FUNCTION cotan_vec2 cotan_split_sum(cotan_real nv, cotan_real roughness)
 {
     cotan_real a = cotan_real(1.0) - roughness;
@@ -292,14 +289,14 @@ COTAN_FUNCTION cotan_vec2 cotan_split_sum(cotan_real nv, cotan_real roughness)
     return cotan_vec2(scale, bias);
 }
 
-// Where a mirror with normal n shows v what is. Both unit.
+// Returns v mirrored at n: the direction that a mirror reflects towards v. Both are unit.
 COTAN_FUNCTION cotan_vec3 cotan_mirrored(cotan_vec3 n, cotan_vec3 v)
 {
     return n * (cotan_real(2.0) * dot(n, v)) - v;
 }
 
-// The normal that a stretched highlight reflects the environment with: n bent towards the eye, in
-// the plane across t that holds what the stretched lobe gathers (KHR_materials_anisotropy).
+// Returns the normal with which an anisotropic highlight reflects the environment: n bent towards the eye, in the plane
+// across t (KHR_materials_anisotropy).
 COTAN_FUNCTION cotan_vec3 cotan_bent_normal(
     cotan_vec3 n, cotan_vec3 v, cotan_real roughness, cotan_real strength, cotan_vec3 t)
 {
@@ -310,20 +307,20 @@ COTAN_FUNCTION cotan_vec3 cotan_bent_normal(
     return cotan_normalize_or(cotan_mix(bent, n, keep2 * keep2), n);
 }
 
-// The normal that a surface mirrors the environment with: its own, unless the highlight is stretched.
+// Returns the normal with which a surface reflects the environment: its own, unless the highlight is anisotropic.
 COTAN_FUNCTION cotan_vec3 cotan_reflecting_normal(cotan_surface s, cotan_gloss g)
 {
     cotan_vec3 bent = cotan_bent_normal(s.n, s.v, s.roughness, g.anisotropy, g.t);
     return g.anisotropy > cotan_real(0.0) ? bent : s.n;
 }
 
-// Ambient light and reflections from the environment, with reflections of its own.
+// Returns ambient light and reflections from the environment, with the reflections of g.
 COTAN_FUNCTION cotan_vec3 cotan_reflect_environment_glossy(cotan_surface s, cotan_gloss g)
 {
-    cotan_vec2 share = cotan_split_sum(cotan_saturate(dot(s.n, s.v)), s.roughness);
+    cotan_vec2 scale_bias = cotan_split_sum(cotan_saturate(dot(s.n, s.v)), s.roughness);
     cotan_vec3 f0 = cotan_mix(g.f0, s.base_color, s.metallic);
-    cotan_real bias = share.y * cotan_mix(g.f90, cotan_real(1.0), s.metallic);
-    cotan_vec3 specular = f0 * share.x + cotan_vec3(bias, bias, bias);
+    cotan_real bias = scale_bias.y * cotan_mix(g.f90, cotan_real(1.0), s.metallic);
+    cotan_vec3 specular = f0 * scale_bias.x + cotan_vec3(bias, bias, bias);
     cotan_real scattered = (cotan_real(1.0) - s.metallic) * (cotan_real(1.0) - g.transmission);
     cotan_vec3 r = cotan_mirrored(cotan_reflecting_normal(s, g), s.v);
     cotan_vec3 ambient = cotan_environment(s.n, cotan_real(1.0)) * (s.base_color * scattered)
@@ -331,34 +328,34 @@ COTAN_FUNCTION cotan_vec3 cotan_reflect_environment_glossy(cotan_surface s, cota
     return ambient * s.occlusion;
 }
 
-// Ambient light and reflections from the environment.
+// Returns ambient light and reflections from the environment.
 COTAN_FUNCTION cotan_vec3 cotan_reflect_environment(cotan_surface s)
 {
     return cotan_reflect_environment_glossy(s, cotan_plain_gloss());
 }
 
-// The light from behind that reaches the eye through a thin sheet, straight on: factors
+// Returns the factors for light from behind that reaches the eye straight through a thin sheet
 // (KHR_materials_transmission without a volume). Roughness does not blur it.
 COTAN_FUNCTION cotan_vec3 cotan_transmittance(cotan_surface s, cotan_gloss g)
 {
-    cotan_vec2 share = cotan_split_sum(cotan_saturate(abs(dot(s.n, s.v))), s.roughness);
+    cotan_vec2 scale_bias = cotan_split_sum(cotan_saturate(abs(dot(s.n, s.v))), s.roughness);
     cotan_vec3 one = cotan_vec3(cotan_real(1.0), cotan_real(1.0), cotan_real(1.0));
-    cotan_vec3 enters = one - (g.f0 * share.x + one * (g.f90 * share.y));
+    cotan_vec3 transmitted = one - (g.f0 * scale_bias.x + one * (g.f90 * scale_bias.y));
     cotan_real passes = (cotan_real(1.0) - s.metallic) * g.transmission;
     return s.base_color * passes
-        * cotan_vec3(cotan_saturate(enters.x), cotan_saturate(enters.y), cotan_saturate(enters.z));
+        * cotan_vec3(cotan_saturate(transmitted.x), cotan_saturate(transmitted.y), cotan_saturate(transmitted.z));
 }
 
-// What the coat reflects of the environment.
+// Returns the coat's reflection of the environment.
 COTAN_FUNCTION cotan_vec3 cotan_reflect_coat_environment(cotan_coat c, cotan_vec3 v)
 {
-    cotan_vec2 share = cotan_split_sum(cotan_saturate(dot(c.n, v)), c.roughness);
+    cotan_vec2 scale_bias = cotan_split_sum(cotan_saturate(dot(c.n, v)), c.roughness);
     return cotan_environment(cotan_mirrored(c.n, v), c.roughness)
-        * (c.strength * (cotan_real(0.04) * share.x + share.y));
+        * (c.strength * (cotan_real(0.04) * scale_bias.x + scale_bias.y));
 }
 
-// Falloff of a point or spot light at distance d: 1/d^2, windowed to reach zero at `range`
-// (KHR_lights_punctual). range <= 0 means infinite. Nearer than 0.01 the light is as at 0.01.
+// Falloff of a point or spot light at distance d: 1/d^2, windowed to reach zero at `range` (KHR_lights_punctual).
+// range <= 0 means infinite. Distances below 0.01 count as 0.01.
 COTAN_FUNCTION cotan_real cotan_light_falloff(cotan_real d, cotan_real range)
 {
     cotan_real q = range > cotan_real(0.0) ? d / range : cotan_real(0.0);
@@ -366,8 +363,8 @@ COTAN_FUNCTION cotan_real cotan_light_falloff(cotan_real d, cotan_real range)
     return window / max(d * d, cotan_real(1e-4));
 }
 
-// Tone curve: S. Hill's fit is not used; this is the short rational curve of K. Narkowicz (2015),
-// applied per channel. x: linear, >= 0; result linear in [0,1].
+// Tone curve: the short rational fit of ACES by K. Narkowicz (2015), not S. Hill's, applied per channel. x: linear,
+// not negative; the result is linear in [0,1].
 COTAN_FUNCTION cotan_real cotan_tone(cotan_real x)
 {
     cotan_real y = x * (cotan_real(2.51) * x + cotan_real(0.03))
@@ -379,7 +376,7 @@ COTAN_FUNCTION cotan_vec3 cotan_tone_map(cotan_vec3 c)
     return cotan_vec3(cotan_tone(c.x), cotan_tone(c.y), cotan_tone(c.z));
 }
 
-// sRGB transfer function (IEC 61966-2-1), both ways; x in [0,1].
+// The sRGB transfer function (IEC 61966-2-1) and its inverse; x in [0,1].
 COTAN_FUNCTION cotan_real cotan_linear_to_srgb(cotan_real x)
 {
     cotan_real curve = cotan_real(1.055) * pow(max(x, cotan_real(1e-8)), cotan_real(1.0 / 2.4))

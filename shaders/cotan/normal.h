@@ -1,24 +1,24 @@
 // Cotan portable text: normal-map texels. Include lang.h first.
 //
-// Turns a texel into m, the normal in the frame's coordinates (along +u, +v, outwards), and back.
-// How a map is stored is a value, cotan_normal_format, never a global.
+// Converts a texel into m, the normal in the coordinates of the frame (along +u, +v, outwards), and back. How a map is
+// stored is passed as a value, cotan_normal_format; there is no global state.
 
 #ifndef COTAN_NORMAL_H
 #define COTAN_NORMAL_H
 
-// How a stored component c becomes a signed number.
-// Zero is the middle code: 128 of 8 bits, 32768 of 16. A sampled float does not tell its bits, so
-// there are two exact forms; with the wrong one a flat texel leans 0.32 degrees.
+// How a stored component c is expanded to a signed number. Zero is the middle code: 128 in 8 bits, 32768 in 16. A
+// sampled float does not reveal its number of bits, so there are two exact expansions; the wrong one tilts a flat texel
+// by 0.32 degrees.
 #define COTAN_EXPAND_EXACT 0   // 8 bits, (255c - 128)/127: 0 -> -1 (clamped), 128/255 -> 0, 1 -> 1
-#define COTAN_EXPAND_BIASED 1  // 2c - 1: no 8-bit value is zero; a flat texel leans 0.32 degrees
-#define COTAN_EXPAND_SIGNED 2  // c is signed already; -128/127 is clamped to -1
+#define COTAN_EXPAND_BIASED 1  // 2c - 1: no 8-bit value is zero; a flat texel is tilted by 0.32 degrees
+#define COTAN_EXPAND_SIGNED 2  // c is already signed; -128/127 is clamped to -1
 #define COTAN_EXPAND_EXACT16 3 // 16 bits, (65535c - 32768)/32767: 32768/65535 -> 0, 1 -> 1
 
 // What the channels hold.
 #define COTAN_CHANNELS_XYZ 0           // three components of the normal
-#define COTAN_CHANNELS_ORTHOGRAPHIC 1  // two; z = sqrt(1 - x^2 - y^2)
-#define COTAN_CHANNELS_STEREOGRAPHIC 2 // two; (x, y)/(1 + z)
-#define COTAN_CHANNELS_SLOPE 3         // two; (dh/du, dh/dv)
+#define COTAN_CHANNELS_ORTHOGRAPHIC 1  // two channels; z = sqrt(1 - x^2 - y^2)
+#define COTAN_CHANNELS_STEREOGRAPHIC 2 // two channels; (x, y)/(1 + z)
+#define COTAN_CHANNELS_SLOPE 3         // two channels; (dh/du, dh/dv)
 
 struct cotan_normal_format {
     int expansion;       // COTAN_EXPAND_...
@@ -27,9 +27,9 @@ struct cotan_normal_format {
     cotan_real strength; // factor on the slopes; 1 changes nothing, 0 flattens
 };
 
-// The signed number that a stored component stands for, in [-1,1].
-// c: as sampled, [0,1] for unsigned formats, [-1,1] for signed ones.
-// Source: [2013] 'Sign expansion' for the exact form.
+// Returns the signed number, in [-1,1], that a stored component represents.
+// c: as sampled, in [0,1] for unsigned formats and in [-1,1] for signed ones.
+// Source: [2013] 'Sign expansion' for the exact expansion.
 COTAN_FUNCTION cotan_real cotan_expand(cotan_real c, int expansion)
 {
     cotan_real exact = c * cotan_real(255.0 / 127.0) - cotan_real(128.0 / 127.0);
@@ -41,7 +41,7 @@ COTAN_FUNCTION cotan_real cotan_expand(cotan_real c, int expansion)
     return max(x, cotan_real(-1.0));
 }
 
-// The inverse of cotan_expand. x: [-1,1]; clamped into it.
+// The inverse of cotan_expand. x is clamped to [-1,1].
 COTAN_FUNCTION cotan_real cotan_compress(cotan_real x, int expansion)
 {
     x = min(max(x, cotan_real(-1.0)), cotan_real(1.0));
@@ -53,29 +53,29 @@ COTAN_FUNCTION cotan_real cotan_compress(cotan_real x, int expansion)
         : (expansion == COTAN_EXPAND_EXACT16 ? exact16 : (expansion == COTAN_EXPAND_BIASED ? biased : x));
 }
 
-// z of a unit vector from x and y; 0 where x^2 + y^2 > 1 (6.9 % of 8-bit texels tilted by 60 to
-// 90 degrees: without the clamp each is a NaN).
+// Returns z of a unit vector from x and y; 0 where x^2 + y^2 > 1. Without this clamp, 6.9 % of 8-bit texels tilted by
+// 60 to 90 degrees would give NaN.
 COTAN_FUNCTION cotan_real cotan_orthographic_z(cotan_vec2 xy)
 {
     return sqrt(max(cotan_real(1.0) - dot(xy, xy), cotan_real(0.0)));
 }
 
-// Unit vector from stereographic coordinates p = (x, y)/(1 + z). Any finite p.
+// Returns the unit vector with the stereographic coordinates p = (x, y)/(1 + z). p: any finite value.
 COTAN_FUNCTION cotan_vec3 cotan_from_stereographic(cotan_vec2 p)
 {
     cotan_real d = cotan_real(2.0) / (cotan_real(1.0) + dot(p, p));
     return cotan_vec3(d * p.x, d * p.y, d - cotan_real(1.0));
 }
 
-// The inverse: p from a unit vector m with m.z > -1; z is taken as at least -0.999.
+// The inverse of cotan_from_stereographic: p of a unit vector m with m.z > -1; smaller m.z are clamped to -0.999.
 COTAN_FUNCTION cotan_vec2 cotan_to_stereographic(cotan_vec3 m)
 {
     cotan_real s = cotan_real(1.0) / (cotan_real(1.0) + max(m.z, cotan_real(-0.999)));
     return cotan_vec2(m.x * s, m.y * s);
 }
 
-// The decoded texel m for cotan_apply. Not unit in general (a filtered XYZ texel keeps its
-// length; cotan_apply normalises). strength scales the slopes m.xy / m.z.
+// Returns the decoded texel m for cotan_apply. m is not unit in general: a filtered XYZ texel keeps its length, and
+// cotan_apply normalises. format.strength scales the slopes m.xy / m.z.
 // texel: as sampled; two-channel maps use x and y only.
 COTAN_FUNCTION cotan_vec3 cotan_decode(cotan_vec3 texel, cotan_normal_format format)
 {
@@ -93,10 +93,10 @@ COTAN_FUNCTION cotan_vec3 cotan_decode(cotan_vec3 texel, cotan_normal_format for
     return cotan_vec3(m.x * format.strength, m.y * format.strength * format.green, m.z);
 }
 
-// The inverse of cotan_decode: stored components, each in the range of the expansion, z = the
-// value of zero for two-channel maps. strength must not be 0. A slope beyond 1 is clamped to
-// 45 degrees (choose strength accordingly); orthographic and slope maps cannot hold m.z <= 0:
-// m is moved to the horizon first.
+// The inverse of cotan_decode: the stored components, each in the range of the expansion; z of two-channel maps is the
+// code of zero. format.strength must not be 0. Components of slope maps are clamped to slope 1, which is 45 degrees;
+// choose the strength accordingly. Orthographic and slope maps cannot store m.z <= 0, so such an m is first moved to
+// the horizon.
 // m: unit vector, as cotan_encode returns it.
 COTAN_FUNCTION cotan_vec3 cotan_encode_texel(cotan_vec3 m, cotan_normal_format format)
 {

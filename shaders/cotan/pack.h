@@ -1,19 +1,19 @@
-// Cotan portable text: small forms of what frames are made from. Include lang.h first; normal maps are
-// not its business (see normal.h).
+// Cotan portable text: compact encodings of the vectors that frames are made from. Include lang.h first. For normal
+// maps see normal.h.
 //
 //   cotan_pack_triangle      U and V of a triangle as six halfs, 12 bytes
 //   cotan_pack_smooth8       t and b of a vertex, 8 bytes: four numbers, as a SNORM16x4 attribute
 //   cotan_pack_smooth4       t and b of a vertex, 4 bytes
 //   cotan_pack_tangent2      a MikkTSpace tangent and its sign, 2 bytes
 //
-// The last three are seen in a basis that follows from the normal. So unpacking must get the normal bit
-// for bit as packing did: as it is stored, before it is transformed.
-// Errors are of the directions that come out, in float (docs/explanation/triangle.md has the table).
+// The last three use a basis that is derived from the normal. Unpacking therefore needs the same normal as packing, bit
+// for bit: as stored, before it is transformed. Errors are angles of the unpacked directions, in float
+// (docs/explanation/triangle.md has a table).
 
 #ifndef COTAN_PACK_H
 #define COTAN_PACK_H
 
-// Two unit vectors that are perpendicular to the unit normal n and to one another; cross(x, y) = n.
+// Two unit vectors that are perpendicular to each other and to the unit normal n; cross(x, y) = n.
 // Source: T. Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017.
 struct cotan_basis {
     cotan_vec3 x;
@@ -33,8 +33,8 @@ COTAN_FUNCTION cotan_basis cotan_basis_of_normal(cotan_vec3 n)
 
 // ---- a triangle in 12 bytes -------------------------------------------------------------------
 
-// U and V of triangle.h as three words: two halfs each, the first in the low bits. In WGSL, MSL and
-// HLSL as in GLSL's packHalf2x16. Rounding turns a normal by 0.03 degrees at most.
+// U and V of triangle.h in three words of two halfs each, the first in the low bits, as GLSL's packHalf2x16 stores
+// them; the same in WGSL, MSL and HLSL. Rounding changes a normal by at most 0.03 degrees.
 struct cotan_packed_triangle {
     cotan_uint a;
     cotan_uint b;
@@ -70,7 +70,7 @@ struct cotan_covectors {
     cotan_vec3 b;
 };
 
-// t and b, the longer made 1 long; in the basis of n. Zero stays zero, and what is not finite is zero.
+// Returns t and b in the basis of n, scaled so that the longer has length 1. Zero and non-finite input give zero.
 COTAN_FUNCTION cotan_vec4 cotan_covectors_in_basis(cotan_vec3 n, cotan_vec3 t, cotan_vec3 b)
 {
     cotan_basis basis = cotan_basis_of_normal(n);
@@ -85,7 +85,7 @@ COTAN_FUNCTION cotan_vec4 cotan_covectors_in_basis(cotan_vec3 n, cotan_vec3 t, c
     return q * cotan_inversesqrt(max(longest2, cotan_real(1e-12)));
 }
 
-// Back from there, the longer made 1 long again.
+// The inverse of cotan_covectors_in_basis; scales the longer covector to length 1 again.
 COTAN_FUNCTION cotan_covectors cotan_covectors_of_basis(cotan_vec3 n, cotan_vec4 q)
 {
     cotan_basis basis = cotan_basis_of_normal(n);
@@ -97,17 +97,17 @@ COTAN_FUNCTION cotan_covectors cotan_covectors_of_basis(cotan_vec3 n, cotan_vec4
     return c;
 }
 
-// x in [-1, 1] as a whole number from 0 to 2 * zero; `zero` stands for 0. Rounded to the nearest.
+// Maps x in [-1, 1] to an integer from 0 to 2 * zero, rounding to the nearest; `zero` is the code of 0.
 COTAN_FUNCTION cotan_uint cotan_quantize(cotan_real x, cotan_real zero)
 {
     x = min(max(x, cotan_real(-1.0)), cotan_real(1.0));
     return cotan_uint(x * zero + zero + cotan_real(0.5));
 }
 
-// 8 bytes: four numbers in [-1, 1]. Store them as SNORM16x4; a vertex attribute of that format comes
-// out of the fetch as it went in, to 1/32767.
+// Packs t and b into 8 bytes: four numbers in [-1, 1], to be stored as SNORM16x4. A vertex attribute of that format
+// returns them to 1/32767.
 //   n      the vertex normal, unit
-//   t, b   perpendicular to n, of any common scale
+//   t, b   perpendicular to n, with any common scale
 COTAN_FUNCTION cotan_vec4 cotan_pack_smooth8(cotan_vec3 n, cotan_vec3 t, cotan_vec3 b)
 {
     return cotan_covectors_in_basis(n, t, b);
@@ -118,10 +118,10 @@ COTAN_FUNCTION cotan_covectors cotan_unpack_smooth8(cotan_vec3 n, cotan_vec4 q)
     return cotan_covectors_of_basis(n, q);
 }
 
-// 4 bytes. t and b up to one scale are three numbers: the largest of the four is left out, after all
-// have been divided by it. Bits 0 to 9, 10 to 19, 20 to 28: the others in their order, as
-// cotan_quantize gives them around 511, 511 and 255; bit 29: the largest is negative; bits 30
-// and 31: which one it is. t = b = 0 has no place among these and is stored as 0xffffffff.
+// Packs t and b into 4 bytes. Up to a common scale they are three numbers: all four components are divided by the
+// largest, which is then omitted. Bits 0 to 9, 10 to 19 and 20 to 28: the other components in order, as cotan_quantize
+// returns them with the zeros 511, 511 and 255. Bit 29: the largest is negative. Bits 30 and 31: its index. t = b = 0
+// cannot be encoded this way and is stored as 0xffffffff.
 COTAN_FUNCTION cotan_uint cotan_pack_smooth4(cotan_vec3 n, cotan_vec3 t, cotan_vec3 b)
 {
     cotan_vec4 q = cotan_covectors_in_basis(n, t, b);
@@ -172,13 +172,12 @@ COTAN_FUNCTION cotan_covectors cotan_unpack_smooth4(cotan_vec3 n, cotan_uint wor
 
 // ---- a MikkTSpace tangent in 2 bytes a vertex -------------------------------------------------
 
-// Bits 0 to 14: where the tangent points in the basis of n; bit 15: the handedness is negative. The
-// direction is a place on the square |x| + |y| = 1, counted in 32768 steps, so that no sine is
-// needed. At most 0.007 degrees off. For assets that must stay MikkTSpace.
+// Packs a tangent into 2 bytes. Bits 0 to 14: its direction in the basis of n; bit 15: the handedness is negative. The
+// direction is a position on the square |x| + |y| = 1 in 32768 steps, so no sine is needed. The maximum error is 0.007
+// degrees. For assets that must stay MikkTSpace.
 //   n            the vertex normal, unit
-//   t            the tangent, perpendicular to n, of any length. Zero, or what is not finite, is stored
-//                as basis.x
-//   handedness   its sign is kept
+//   t            the tangent, perpendicular to n, of any length. Zero or non-finite tangents are stored as basis.x
+//   handedness   only its sign is kept
 COTAN_FUNCTION cotan_uint cotan_pack_tangent2(cotan_vec3 n, cotan_vec3 t, cotan_real handedness)
 {
     cotan_basis basis = cotan_basis_of_normal(n);
@@ -186,20 +185,20 @@ COTAN_FUNCTION cotan_uint cotan_pack_tangent2(cotan_vec3 n, cotan_vec3 t, cotan_
     cotan_real y = dot(t, basis.y);
     cotan_real sum = abs(x) + abs(y);
     x = sum > cotan_real(0.0) && sum <= COTAN_HUGE ? x / sum : cotan_real(1.0);
-    // From 0 to 2 over the half with y >= 0, from 2 to 4 over the other.
-    cotan_real place = y < cotan_real(0.0) ? cotan_real(3.0) + x : cotan_real(1.0) - x;
-    cotan_uint steps = cotan_uint(place * cotan_real(8192.0) + cotan_real(0.5)) & 0x7fffu;
+    // From 0 to 2 over the half with y >= 0, from 2 to 4 over the other half.
+    cotan_real position = y < cotan_real(0.0) ? cotan_real(3.0) + x : cotan_real(1.0) - x;
+    cotan_uint steps = cotan_uint(position * cotan_real(8192.0) + cotan_real(0.5)) & 0x7fffu;
     return steps | (handedness < cotan_real(0.0) ? 0x8000u : 0u);
 }
 
-// The tangent, unit, in xyz and the handedness, +1 or -1, in w.
+// Returns the unit tangent in xyz and the handedness, +1 or -1, in w.
 COTAN_FUNCTION cotan_vec4 cotan_unpack_tangent2(cotan_vec3 n, cotan_uint word)
 {
     cotan_basis basis = cotan_basis_of_normal(n);
-    cotan_real place = cotan_real_of(word & 0x7fffu) / cotan_real(8192.0);
-    cotan_real x = place > cotan_real(2.0) ? place - cotan_real(3.0) : cotan_real(1.0) - place;
+    cotan_real position = cotan_real_of(word & 0x7fffu) / cotan_real(8192.0);
+    cotan_real x = position > cotan_real(2.0) ? position - cotan_real(3.0) : cotan_real(1.0) - position;
     cotan_real y = cotan_real(1.0) - abs(x);
-    y = place > cotan_real(2.0) ? -y : y;
+    y = position > cotan_real(2.0) ? -y : y;
     cotan_vec3 t = basis.x * x + basis.y * y;
     t = t * cotan_inversesqrt(dot(t, t));
     return cotan_vec4(t.x, t.y, t.z, (word & 0x8000u) != 0u ? cotan_real(-1.0) : cotan_real(1.0));

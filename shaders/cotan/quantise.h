@@ -1,12 +1,12 @@
-// Cotan portable text: even patterns, a picture's colours in 8 bits, and thresholds of translucent shadows. Include
-// lang.h and light.h first.
+// Cotan portable text: dither patterns, the colours of an image in 8 bits, and thresholds of translucent shadows.
+// Include lang.h and light.h first.
 
 #ifndef COTAN_QUANTISE_H
 #define COTAN_QUANTISE_H
 
-// A number in [0, 1) for a texel, the same everywhere: those of neighbours, in any direction, fill the range evenly
-// (M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018: multiples of the powers of the plastic
-// number's inverse). kind: 0 to 3; patterns of different kinds are independent of one another.
+// Returns a number in [0, 1) that depends only on the texel. The numbers of neighbouring texels, in any direction, are
+// evenly distributed (M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018: multiples of powers of
+// the inverse of the plastic number). kind: 0 to 3; patterns of different kinds are independent.
 COTAN_FUNCTION cotan_real cotan_even_pattern(cotan_uint x, cotan_uint y, cotan_uint kind)
 {
     cotan_uint across = (kind < 2u ? x : y) * 3242174889u;
@@ -15,8 +15,9 @@ COTAN_FUNCTION cotan_real cotan_even_pattern(cotan_uint x, cotan_uint y, cotan_u
     return cotan_real_of(sum >> 8u) * cotan_real(0.000000059604644775390625); // 2^-24
 }
 
-// A component in [0, 1] as one of 256 levels, 0 to 255. pattern: in [0, 1); the mean over all is the component. What is
-// a level already, within a sixteenth, stays: flat colours of 8 bits are not made noise.
+// Returns a component in [0, 1] as one of 256 levels, 0 to 255. pattern: dither value in [0, 1); the mean over all
+// patterns is the component. Components within 1/16 of a level are rounded to it, so that flat 8-bit colours get no
+// noise.
 COTAN_FUNCTION cotan_real cotan_level_of(cotan_real component, cotan_real pattern)
 {
     cotan_real scaled = min(max(component, cotan_real(0.0)), cotan_real(1.0)) * cotan_real(255.0);
@@ -24,26 +25,27 @@ COTAN_FUNCTION cotan_real cotan_level_of(cotan_real component, cotan_real patter
     return abs(scaled - nearest) < cotan_real(0.0625) ? nearest : floor(scaled + pattern);
 }
 
-// The levels of a pixel of a picture, colours encoded as sRGB and, as image files want them, not multiplied by alpha.
-// color: linear, times alpha. dither: false rounds to the nearest level.
+// Returns the 8-bit levels of a pixel: sRGB-encoded colours that are not multiplied by alpha, as image files store
+// them.
+// color: linear, multiplied by alpha. dither: false rounds to the nearest level.
 COTAN_FUNCTION cotan_vec4 cotan_levels_of_pixel(cotan_vec4 color, cotan_uint x, cotan_uint y, bool dither)
 {
-    cotan_real share =
+    cotan_real inverse_alpha =
         color.w > cotan_real(0.0) && color.w < cotan_real(1.0) ? cotan_real(1.0) / color.w : cotan_real(1.0);
     cotan_real middle = cotan_real(0.5);
-    cotan_real r = cotan_linear_to_srgb(cotan_saturate(color.x * share));
-    cotan_real g = cotan_linear_to_srgb(cotan_saturate(color.y * share));
-    cotan_real b = cotan_linear_to_srgb(cotan_saturate(color.z * share));
+    cotan_real r = cotan_linear_to_srgb(cotan_saturate(color.x * inverse_alpha));
+    cotan_real g = cotan_linear_to_srgb(cotan_saturate(color.y * inverse_alpha));
+    cotan_real b = cotan_linear_to_srgb(cotan_saturate(color.z * inverse_alpha));
     return cotan_vec4(cotan_level_of(r, dither ? cotan_even_pattern(x, y, 0u) : middle),
         cotan_level_of(g, dither ? cotan_even_pattern(x, y, 1u) : middle),
         cotan_level_of(b, dither ? cotan_even_pattern(x, y, 2u) : middle),
         cotan_level_of(color.w, dither ? cotan_even_pattern(x, y, 3u) : middle));
 }
 
-// The threshold of a texel of a shadow map, in [0, 1): a translucent surface covers the texel where its alpha is
-// greater, so that the mean over some texels is its coverage. Of any 3 x 3 texels each ninth of the range has one
-// threshold: their mean is off by a ninth at most. layer: 0 to 3; surfaces of different layers, one behind the
-// other, stop what is left, as their thirds and what is finer than ninths are independent.
+// Returns the threshold of a shadow-map texel, in [0, 1). A translucent surface covers the texel if its alpha is
+// greater, so that the mean over several texels is its coverage. In any 3 x 3 texels, each ninth of the range contains
+// one threshold; their mean differs from the coverage by at most 1/9. layer: 0 to 3. Surfaces in different layers, one
+// behind the other, attenuate the light independently: thirds and digits below 1/9 of their thresholds are independent.
 COTAN_FUNCTION cotan_real cotan_shadow_threshold(cotan_uint x, cotan_uint y, cotan_uint layer)
 {
     cotan_uint sum = (x + y) % 3u;

@@ -1,9 +1,10 @@
-// Cotan portable text: soft shadows from a map of depths, by percentage-closer filtering (R. Fernando,
-// Percentage-Closer Soft Shadows, 2005). Include lang.h first. The map's reads are the caller's:
-//   1. COTAN_SHADOW_SEARCH reads around the point, as far as the light's disc can reach it, for the mean depth of
-//      what is before it; nothing there: all light arrives;
-//   2. COTAN_SHADOW_TAPS comparisons in the disc of cotan_penumbra around it: their mean is what arrives.
-// Both compare with the plane through the point, not its depth alone, or wide discs would shade slopes by themselves.
+// Cotan portable text: soft shadows from a shadow map by percentage-closer filtering (R. Fernando, Percentage-Closer
+// Soft Shadows, 2005). Include lang.h first. The caller reads the map, in two steps:
+//   1. COTAN_SHADOW_SEARCH reads around the point, as far as the light's disc can reach, give the mean depth of the
+//      blockers. Without blockers the point is fully lit;
+//   2. COTAN_SHADOW_TAPS comparisons in a disc of radius cotan_penumbra: their mean is the light that arrives.
+// Both steps compare with the plane of the surface at the point, not with its depth alone; otherwise wide discs would
+// shadow slopes by themselves.
 
 #ifndef COTAN_SHADOW_H
 #define COTAN_SHADOW_H
@@ -11,7 +12,8 @@
 #define COTAN_SHADOW_SEARCH 8
 #define COTAN_SHADOW_TAPS 24
 
-// Directions that fill a disc evenly, with cotan_tap_radius: each is the last one turned by the golden angle.
+// Returns the direction of the next tap: the last one rotated by the golden angle. With cotan_tap_radius the taps fill
+// a disc evenly.
 COTAN_FUNCTION cotan_vec2 cotan_next_tap(cotan_vec2 direction)
 {
     cotan_real cosine = cotan_real(-0.737368878);
@@ -20,18 +22,19 @@ COTAN_FUNCTION cotan_vec2 cotan_next_tap(cotan_vec2 direction)
         direction.x * cosine - direction.y * sine, direction.x * sine + direction.y * cosine);
 }
 
-// The distance of tap i of `count` from the middle of a disc of radius 1.
+// Returns the distance of tap i of `count` from the centre of a disc of radius 1.
 COTAN_FUNCTION cotan_real cotan_tap_radius(int i, int count)
 {
     return sqrt((cotan_real(i) + cotan_real(0.5)) / cotan_real(count));
 }
 
-// Half the width of the half-shadow that a blocker throws which is `distance` nearer to the light. softness: tangent of
-// half the angle that the light covers. least: what the map can show. most: beyond it there are too few taps.
+// Returns half the width of the penumbra of a blocker that is `distance` closer to the light. softness: tangent of half
+// the angle that the light subtends. minimum: width that the map can resolve. maximum: width above which the taps are
+// too sparse.
 COTAN_FUNCTION cotan_real cotan_penumbra(
-    cotan_real distance, cotan_real softness, cotan_real least, cotan_real most)
+    cotan_real distance, cotan_real softness, cotan_real minimum, cotan_real maximum)
 {
-    return min(max(distance * softness, least), most);
+    return min(max(distance * softness, minimum), maximum);
 }
 
 #endif

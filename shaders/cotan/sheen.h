@@ -1,17 +1,17 @@
 // Cotan portable text: the sheen of cloth (KHR_materials_sheen). Include lang.h and light.h first.
 //
-// Charlie's distribution of fibres. Source: A. Estevez, C. Kulla, Production Friendly Microfacet Sheen
-// BRDF, 2017. n, v, l as in light.h.
+// The Charlie distribution of fibres. Source: A. Estevez, C. Kulla, Production Friendly Microfacet Sheen BRDF, 2017. n,
+// v, l as in light.h.
 
 #ifndef COTAN_SHEEN_H
 #define COTAN_SHEEN_H
 
-// The fibres of cloth on the surface (KHR_materials_sheen): they reflect as cotan_reflect_sheen and
-// cotan_reflect_sheen_around say, and of what the surface reflects and lets through, not of emission,
-// they leave 1 - cotan_sheen_share.
+// The layer of fibres on a surface (KHR_materials_sheen). It reflects cotan_reflect_sheen and
+// cotan_reflect_sheen_around, and it leaves 1 - cotan_sheen_fraction of the light that the surface reflects and
+// transmits, but all of the emission.
 struct cotan_sheen {
     cotan_vec3 color;     // linear, [0,1]
-    cotan_real roughness; // perceptual, [0,1], at least 0.15: below, the lobe gives more than it gets
+    cotan_real roughness; // perceptual, [0,1], at least 0.15: below that, the lobe would reflect more than it receives
 };
 
 // The natural logarithm of Charlie's masking term for a cosine in [0,0.5]. k: (1 - alpha)^2.
@@ -34,9 +34,8 @@ COTAN_FUNCTION cotan_real cotan_charlie_masking(cotan_real cosine, cotan_real al
     return exp2((cosine < cotan_real(0.5) ? low : high) * cotan_real(1.4426950408889634));
 }
 
-// A highlight of fibres that stand on the surface: distribution times visibility, which is at most 1.
-// n.v counts by its magnitude; both cosines as 1e-4 at least. The limit is that of Khronos' sample
-// renderer.
+// Returns the highlight of fibres that stand on the surface: distribution times visibility, which is limited to 1 as in
+// Khronos' sample renderer. n.v is replaced by its magnitude; both cosines are at least 1e-4.
 COTAN_FUNCTION cotan_real cotan_charlie(
     cotan_vec3 n, cotan_vec3 v, cotan_vec3 l, cotan_real roughness)
 {
@@ -54,9 +53,8 @@ COTAN_FUNCTION cotan_real cotan_charlie(
     return distribution * min(cotan_real(0.25) / (masking * nv * nl), cotan_real(1.0));
 }
 
-// What white fibres reflect of white light from all around, by the cosine of the eye or the light: a
-// fit of ours to the integral of cotan_charlie, 0.005 off in the mean and 0.025 at most above a cosine
-// of 0.03.
+// Returns the albedo of white fibres under uniform light, by the cosine of the eye or of the light. Our fit to the
+// integral of cotan_charlie; its error is 0.005 in the mean, and at most 0.025 for cosines above 0.03.
 COTAN_FUNCTION cotan_real cotan_sheen_albedo(cotan_real cosine, cotan_real roughness)
 {
     cotan_real x = cotan_saturate(cosine);
@@ -70,31 +68,31 @@ COTAN_FUNCTION cotan_real cotan_sheen_albedo(cotan_real cosine, cotan_real rough
     return min(exp2(edge + x * (slope + x * bend)), cotan_real(1.0));
 }
 
-// What the fibres take from what lies beneath, by the smaller of the cosines of light and eye: so they
-// may change places.
-COTAN_FUNCTION cotan_real cotan_sheen_share(cotan_sheen c, cotan_real cosine)
+// Returns the fraction of light that the fibres take from the surface beneath. cosine: the smaller one of light and
+// eye, so that these can be exchanged.
+COTAN_FUNCTION cotan_real cotan_sheen_fraction(cotan_sheen c, cotan_real cosine)
 {
     return max(max(c.color.x, c.color.y), c.color.z) * cotan_sheen_albedo(cosine, c.roughness);
 }
 
-// What the fibres and the surface beneath reflect of one light, of unit irradiance perpendicular to l.
-// beneath: the surface alone.
+// Returns the light of one light source that the fibres and the surface beneath reflect, for unit irradiance
+// perpendicular to l. beneath: the light from the surface alone.
 COTAN_FUNCTION cotan_vec3 cotan_reflect_sheen(
     cotan_sheen c, cotan_vec3 n, cotan_vec3 v, cotan_vec3 l, cotan_vec3 beneath)
 {
     cotan_real nl = cotan_saturate(dot(n, l));
-    cotan_real share = cotan_sheen_share(c, min(nl, abs(dot(n, v))));
-    return beneath * (cotan_real(1.0) - share)
+    cotan_real fraction = cotan_sheen_fraction(c, min(nl, abs(dot(n, v))));
+    return beneath * (cotan_real(1.0) - fraction)
         + c.color * (cotan_charlie(n, v, l, c.roughness) * nl);
 }
 
-// The same of the environment. The lobe is so wide that it sees what the surface does.
-// irradiance: divided by pi.
+// Like cotan_reflect_sheen, for the light of the environment. The lobe is so wide that the irradiance of the surface is
+// used. irradiance: divided by pi.
 COTAN_FUNCTION cotan_vec3 cotan_reflect_sheen_around(
     cotan_sheen c, cotan_vec3 n, cotan_vec3 v, cotan_vec3 irradiance, cotan_vec3 beneath)
 {
     cotan_real nv = abs(dot(n, v));
-    return beneath * (cotan_real(1.0) - cotan_sheen_share(c, nv))
+    return beneath * (cotan_real(1.0) - cotan_sheen_fraction(c, nv))
         + irradiance * c.color * cotan_sheen_albedo(nv, c.roughness);
 }
 

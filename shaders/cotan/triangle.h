@@ -1,29 +1,28 @@
 // Cotan portable text: the frame of a triangle. Include lang.h and frame.h first.
 //
-// Texture coordinates are linear on a triangle, so what the screen differences of `cotangent` find is
-// the same at every pixel of it. With the edges e1 = p1 - p0, e2 = p2 - p0 and d1 = uv1 - uv0,
-// d2 = uv2 - uv0, the two vectors
+// Texture coordinates are linear on a triangle, so the gradients that `cotangent` derives from screen differences are
+// the same at every pixel of it. With the edges e1 = p1 - p0, e2 = p2 - p0 and d1 = uv1 - uv0, d2 = uv2 - uv0, the two
+// vectors
 //     U = e1 d2.u - e2 d1.u        V = e1 d2.v - e2 d1.v
-// give  t = n x U  and  b = n x V:  exactly the t and b of `cotangent`, up to one sign and one scale
-// that both share. Both are put into U and V. They are made once for each triangle, in the vertex,
-// mesh or compute stage or when the mesh is loaded, and handed to its pixels without interpolation.
-// The pixel's part is cotan_perturb_triangle of fused.h.
+// give  t = n x U  and  b = n x V:  exactly the t and b of `cotangent`, up to a common sign and a common scale, which
+// are both included in U and V. U and V are computed once per triangle, in the vertex, mesh or compute stage or when
+// the mesh is loaded, and passed to the pixels without interpolation. The pixel stage calls cotan_perturb_triangle of
+// fused.h.
 //
-// Source: [2013], whose dp2perp and dp1perp are cross products with n of differences; here the sum
-// over the differences is taken before the product. Sign, scale and guards are ours.
+// Source: [2013], whose dp2perp and dp1perp are cross products of the differences with n; here the differences are
+// summed before the cross product. Sign, scale and guards are ours.
 
 #ifndef COTAN_TRIANGLE_H
 #define COTAN_TRIANGLE_H
 
-// U and V of one triangle: vectors in its plane. The longer one has length 1. U = V = 0 where there
-// is no frame.
+// U and V of one triangle: vectors in its plane. The longer one has length 1. U = V = 0 if there is no frame.
 struct cotan_triangle {
     cotan_vec3 u;
     cotan_vec3 v;
 };
 
-// u and v scaled by one factor, so that the longer has length 1, and by `sign`: +1, -1, or 0 for U = V = 0.
-// u, v: finite. Both zero, or shorter than 1e-6 of the clamp range of cotan_power_of_two_scale, gives 0.
+// Scales u and v by one factor, so that the longer has length 1, and by `sign`: +1, -1, or 0 for U = V = 0.
+// u, v: finite. If both are shorter than about 1e-43, U = V = 0.
 COTAN_FUNCTION cotan_triangle cotan_triangle_unit(cotan_vec3 u, cotan_vec3 v, cotan_real sign)
 {
     cotan_real rescale = cotan_power_of_two_scale(max(cotan_max_abs(u), cotan_max_abs(v)));
@@ -39,15 +38,15 @@ COTAN_FUNCTION cotan_triangle cotan_triangle_unit(cotan_vec3 u, cotan_vec3 v, co
     return result;
 }
 
-// U and V from edges.
+// Returns U and V from edges, including the sign: n x U  points along increasing u for every n on the side of
+// `normals`.
 //   dp1, dp2      p1 - p0 and p2 - p0, in the space of the frame
 //   duv1, duv2    uv1 - uv0 and uv2 - uv0
-//   normals       the sum of the three vertex normals, of any length, in the same space. It says which
-//                 side of the triangle is outside, so that meshes wound against their normals come
-//                 out right. Zero or not finite: the winding decides, counterclockwise is outside
-// The sign is folded in. So  n x U  points along increasing u wherever n is on the side of `normals`.
-// Total: a triangle without area, constant uv, non-finite input give U = V = 0. uv along one line
-// give U parallel to V.
+//   normals       the sum of the three vertex normals, of any length, in the same space. It determines the outer side
+//                 of the triangle, so that meshes wound against their normals are handled. If it is zero or not finite,
+//                 the winding decides: the triangle is counterclockwise as seen from outside
+// Total: a triangle without area, constant uv and non-finite input give U = V = 0. Where uv vary along one line only, U
+// is parallel to V.
 COTAN_FUNCTION cotan_triangle cotan_triangle_of_edges(
     cotan_vec3 dp1, cotan_vec3 dp2, cotan_vec2 duv1, cotan_vec2 duv2, cotan_vec3 normals)
 {
@@ -59,10 +58,10 @@ COTAN_FUNCTION cotan_triangle cotan_triangle_of_edges(
     return cotan_triangle_unit(u, v, dot(face, face) > cotan_real(0.0) ? side : cotan_real(0.0));
 }
 
-// The same for sound input, for stages that run for every vertex of every picture. Equal to the function
-// above to rounding, where
-// - the input is finite; the longest edge and the longest uv difference lie between 1e-9 and 1e6, and
-//   their product between 1e-12 and 1e5;
+// A faster cotan_triangle_of_edges for well-conditioned input, for stages that run for every vertex of every frame.
+// Equal up to rounding if
+// - the input is finite; the longest edge and the longest uv difference lie between 1e-9 and 1e6, and their product
+//   between 1e-12 and 1e5;
 // - the triangle is no sliver: its area is at least a tenth of its longest edge squared.
 // Zero edges and constant uv give U = V = 0. A triangle without area can give U parallel to V, but no NaN.
 COTAN_FUNCTION cotan_triangle cotan_triangle_of_sound_edges(
@@ -80,8 +79,8 @@ COTAN_FUNCTION cotan_triangle cotan_triangle_of_sound_edges(
     return result;
 }
 
-// U and V from the three vertices: positions, texture coordinates and normals in the order of the
-// index buffer. Which of the three comes first does not matter, except for rounding.
+// Returns U and V from three vertices: positions, texture coordinates and normals in the order of the index buffer. The
+// choice of the first vertex does not matter, except for rounding.
 COTAN_FUNCTION cotan_triangle cotan_triangle_of_vertices(
     cotan_vec3 p0, cotan_vec3 p1, cotan_vec3 p2, cotan_vec2 uv0, cotan_vec2 uv1, cotan_vec2 uv2,
     cotan_vec3 n0, cotan_vec3 n1, cotan_vec3 n2)
@@ -89,14 +88,13 @@ COTAN_FUNCTION cotan_triangle cotan_triangle_of_vertices(
     return cotan_triangle_of_edges(p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0, n0 + n1 + n2);
 }
 
-// U and V that were made in model space, taken to another space by the 3x3 matrix M of a model
-// transform, given by its rows. Exact for every M that can be inverted: directions are edges, and
-// edges go with M; the scale is made new, as for a stretched triangle. The side is that of model space: the
-// frame made anew from moved edges would differ only where a normal leans from its triangle by more
-// than 90 degrees before or after, but not both.
-//   side   +1, or -1 where M mirrors (its determinant is negative). The normal that goes with it is
-//          the one of the inverse transpose, not turned
-// Total: what is not finite, or too small, gives U = V = 0.
+// Transforms U and V from model space to another space by the 3x3 matrix M of a model transform, given by its rows.
+// Exact for every invertible M: U and V transform like edges, by M, and the scale is recomputed as for the transformed
+// triangle. The outer side is that of model space. A frame made from the transformed edges differs only where a normal
+// is more than 90 degrees from its triangle's normal either before or after the transform, but not both.
+//   side   +1, or -1 if M mirrors (negative determinant). Use it with the normal transformed by the inverse transpose,
+//          not flipped
+// Total: non-finite or too small vectors give U = V = 0.
 COTAN_FUNCTION cotan_triangle cotan_triangle_transformed(
     cotan_triangle object, cotan_vec3 row0, cotan_vec3 row1, cotan_vec3 row2, cotan_real side)
 {
@@ -109,15 +107,14 @@ COTAN_FUNCTION cotan_triangle cotan_triangle_transformed(
     return cotan_triangle_unit(finite ? u : zero, finite ? v : zero, side);
 }
 
-// `triangle`: the frame of U and V at a pixel. The same directions as `cotangent`; the scale is that of
-// the triangle, not of the pixel. So where n leans from the triangle's own normal by an angle a, slopes
-// are those of `cotangent` times a factor between cos(a) and 1. View independent.
-//   n      interpolated normal, any length, on the side that U and V were made for; f.n is unit.
-//          On back faces give the normal as interpolated and turn the result, or negate m.z instead:
-//          with a turned n, t and b come out reversed
+// `triangle`: the frame of U and V at a pixel. t and b have the directions of `cotangent`, but the scale of the
+// triangle, not of the pixel: where n is at an angle a to the triangle's own normal, slopes are those of `cotangent`
+// times a factor between cos(a) and 1. View independent.
+//   n      interpolated normal, any length, on the side that U and V were made for; f.n is unit. On back faces pass the
+//          normal as interpolated and negate the result, or negate m.z instead: a flipped n reverses t and b
 //   u, v   U and V in the space of n
 // Total: non-finite U and V give t = b = 0.
-// Source: [2013], with the sum taken before the product; see the head of this file.
+// Source: [2013], summing before the cross product; see the head of this file.
 COTAN_FUNCTION cotan_frame cotan_frame_of_triangle(cotan_vec3 n, cotan_vec3 u, cotan_vec3 v)
 {
     cotan_vec3 zero = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
@@ -129,13 +126,12 @@ COTAN_FUNCTION cotan_frame cotan_frame_of_triangle(cotan_vec3 n, cotan_vec3 u, c
     return f;
 }
 
-// The same in one step, from the edges of the triangle. n also says which side is outside, so it may be
-// turned on back faces. Equal to U and V of the vertices wherever n leans by less than 90 degrees from
-// the triangle's own normal.
+// `triangle` in one step, from the edges of the triangle. n also determines the outer side, so it may be flipped on
+// back faces. Equal to the frame from the vertices wherever n is less than 90 degrees from the triangle's own normal.
 //   n             interpolated normal at the shaded point, any length; f.n is unit
 //   dpdx, dpdy    edges p1 - p0 and p2 - p0
 //   duvdx, duvdy  uv1 - uv0 and uv2 - uv0
-// Total: a triangle without area, constant uv, non-finite input give t = b = 0.
+// Total: a triangle without area, constant uv and non-finite input give t = b = 0.
 COTAN_FUNCTION cotan_frame cotan_frame_triangle(
     cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy, cotan_vec2 duvdx, cotan_vec2 duvdy)
 {

@@ -17,11 +17,11 @@ namespace cotan {
 
 namespace {
 
-constexpr int kLargestSide = 65535; // texels: the number of a texel has 32 bits
+constexpr int kLargestSide = 65535; // texels: texel indices have 32 bits
 constexpr int kMaxOcclusionRays = 1 << 16;
-constexpr float kFarthest = 1e17f; // model units: Embree ends the program for rays that start beyond 1.8e18
+constexpr float kFarthest = 1e17f; // model units: Embree terminates the program for rays that start beyond 1.8e18
 
-// An option that is out of range.
+// The error for an option that is out of range.
 template<class... Found> Error wrong(const char* option, fmt::format_string<Found...> text, Found&&... found)
 {
     return about(option, usageError(fmt::format(text, std::forward<Found>(found)...)));
@@ -34,7 +34,7 @@ Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptio
         return wrong("options.bake.width", "expected a width and a height from 1 to {}; found {}x{}", kLargestSide,
                      b.width, b.height);
     if (b.samples != 1 && b.samples != 2 && b.samples != 4)
-        return wrong("options.bake.samples", "expected 1, 2 or 4 samples a texel and axis; found {}", b.samples);
+        return wrong("options.bake.samples", "expected 1, 2 or 4 samples per texel and axis; found {}", b.samples);
     for (const auto& [frame, what] :
          {std::pair(b.frame, "options.bake.frame"), {options.highFrame, "options.highFrame"}})
         if (!isFrame(int(frame)))
@@ -51,9 +51,9 @@ Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptio
             return wrong(what, "expected 0 to {:g}; found {:g}", kFarthest, distance);
     if (options.cage && (b.search == BakeSearch::nearest || b.extrusion > 0))
         return wrong(b.extrusion > 0 ? "options.extrusion" : "options.search",
-                     "a cage says already where rays start, and the first surface counts");
+                     "a cage already defines where rays start, and the first surface that they hit counts");
     if (b.search == BakeSearch::nearest && b.extrusion > 0)
-        return wrong("options.extrusion", "the search nearest looks both ways from the low surface");
+        return wrong("options.extrusion", "the search nearest already looks to both sides of the low surface");
     if (options.material >= int(low.materials.size()))
         return wrong("options.material", "expected 0 to {}; found {}", int(low.materials.size()) - 1, options.material);
     if (high.maps.size() > 1 && high.maps.size() != high.scenes.size())
@@ -62,7 +62,7 @@ Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptio
     return Done{};
 }
 
-// Whether all of them hold together.
+// Whether all scenes are consistent.
 Status checkScenes(const Scene& low, const HighModel& high, const BakeModelOptions& options)
 {
     constexpr SceneRules rules{.pixels = false};
@@ -75,7 +75,7 @@ Status checkScenes(const Scene& low, const HighModel& high, const BakeModelOptio
     return sound;
 }
 
-// The cage's corner positions, brought to the vertices of the low surface; none without a cage.
+// Positions of the cage's corners, assigned to the vertices of the low surface; empty without a cage.
 Result<std::vector<glm::vec3>> cagePositions(const Scene* cage, const LowSurface& low)
 {
     std::vector<glm::vec3> corners, positions;
@@ -96,8 +96,8 @@ Result<std::vector<glm::vec3>> cagePositions(const Scene* cage, const LowSurface
     return positions;
 }
 
-// Whether rays can start at these points.
-Status checkPlaces(const std::vector<glm::vec3>& points, const char* what)
+// Whether rays can start at all of these points.
+Status checkPositions(const std::vector<glm::vec3>& points, const char* what)
 {
     for (const glm::vec3& p : points)
         for (const float x : {p.x, p.y, p.z})
@@ -108,17 +108,17 @@ Status checkPlaces(const std::vector<glm::vec3>& points, const char* what)
     return Done{};
 }
 
-// A transform of zero, for one, leaves none.
+// Refuses a surface without area, for example under a transform of zero.
 Status checkArea(const LowSurface& low)
 {
     for (std::size_t f = 0; f < low.triangleCount(); ++f)
         if (const TriangleEdges edges = edgesOf(low, f); glm::cross(edges.p1, edges.p2) != glm::dvec3(0))
             return Done{};
     return inputError(
-        fmt::format("low: expected a triangle with an area; all {} have none as they are placed", low.triangleCount()));
+        fmt::format("low: expected a triangle with an area; all {} have none in world space", low.triangleCount()));
 }
 
-// Refuses a high surface of which rays meet thousands of triangles one behind the other: each ray of a bake would.
+// Refuses a high surface of which a typical ray crosses thousands of triangles, since every ray of a bake would.
 Status checkCrowded(const LowSurface& low, const HighSurface& high)
 {
     constexpr std::size_t kTried = 256, kCrowded = 2000;
@@ -129,26 +129,26 @@ Status checkCrowded(const LowSurface& low, const HighSurface& high)
         const glm::vec3 n = low.normals[c[0]];
         const glm::vec3 point = (low.positions[c[0]] + low.positions[c[1]] + low.positions[c[2]]) / 3.0f;
         if (glm::dot(n, n) > 0)
-            met.push_back(high.met({point + n * diagonal, -n, 0, 2 * diagonal}));
+            met.push_back(high.countHits({point + n * diagonal, -n, 0, 2 * diagonal}));
     }
     if (met.empty())
         return Done{};
     const auto middle = met.begin() + std::ptrdiff_t(met.size() / 2);
     std::nth_element(met.begin(), middle, met.end());
     if (*middle > kCrowded)
-        return inputError(fmt::format("high: rays meet about {} of its triangles one behind the other, expected at "
-                                      "most {}: leave out those that nobody sees",
+        return inputError(fmt::format("high: a ray crosses about {} of its triangles; expected at most {}: remove "
+                                      "hidden triangles",
                                       *middle, kCrowded));
     return Done{};
 }
 
-// Makes the materials say what HighModel::maps and highFormat say.
+// Applies HighModel::maps and highFormat to the materials.
 void applyMaps(HighModel& high, const std::optional<Convention>& format)
 {
     for (std::size_t i = 0; i < high.scenes.size() && !high.maps.empty(); ++i) {
         Scene& scene = high.scenes[i];
         for (Material& material : scene.materials)
-            material.normalMap = {}; // the image is read by uv set 0 as it is
+            material.normalMap = {}; // the image is read as it is, with uv set 0
         putNormalMap(scene, high.maps.size() > 1 ? std::move(high.maps[i]) : high.maps.front(), {});
     }
     if (format)
@@ -159,7 +159,7 @@ void applyMaps(HighModel& high, const std::optional<Convention>& format)
         }
 }
 
-// The normal maps of the detailed scenes, whose images are moved out.
+// Builds setup's normal maps from those of the detailed scenes, whose images are moved out.
 Status readOwnMaps(HighModel& high, BakeSetup& setup)
 {
     applyMaps(high, setup.options.highFormat);
@@ -168,13 +168,13 @@ Status readOwnMaps(HighModel& high, BakeSetup& setup)
         return maps.error();
     if (const std::size_t bare = maps->instanceCount() - maps->mappedCount(); bare > 0)
         setup.warnings.push_back(fmt::format(
-            "{} of {} high meshes have no normal map or no texture coordinates for it: smooth normals there", bare,
-            maps->instanceCount()));
+            "{} of {} high meshes have no normal map or no texture coordinates for it: their smooth normals are used",
+            bare, maps->instanceCount()));
     setup.options.bake.highMaps = std::make_shared<const HighNormalMaps>(std::move(*maps));
     return Done{};
 }
 
-// An instance's triangles, in the world.
+// Appends an instance's triangles in world space.
 void add(LowRest& rest, const Scene& scene, const Instance& instance, std::uint32_t number)
 {
     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
@@ -189,8 +189,7 @@ void add(LowRest& rest, const Scene& scene, const Instance& instance, std::uint3
     rest.triangleInstance.insert(rest.triangleInstance.end(), mesh.triangleCount(), number);
 }
 
-// The triangles of the other materials, and those of options.others. By name a mesh sees its own detail alone: then
-// those do not matter.
+// The triangles of other materials and, unless matchByName limits each mesh to its own detail, of options.others.
 LowRest restOf(const Scene& low, const BakeModelOptions& options)
 {
     LowRest rest;
@@ -203,12 +202,12 @@ LowRest restOf(const Scene& low, const BakeModelOptions& options)
     return rest;
 }
 
-// "door_low" and "door_high" are of one name: what stands before the last low or high.
+// The lower-case name before its last "low" or "high", so that "door_low" and "door_high" match.
 std::string stem(std::string name)
 {
     name = lowerCase(std::move(name));
-    const std::size_t behind = std::max(name.rfind("low") + 1, name.rfind("high") + 1); // 0: neither
-    return name.substr(0, behind - 1);
+    const std::size_t end = std::max(name.rfind("low") + 1, name.rfind("high") + 1); // 0: neither
+    return name.substr(0, end - 1);
 }
 
 Result<std::vector<std::int64_t>> matches(const Scene& low, const HighSurface& high)
@@ -219,7 +218,7 @@ Result<std::vector<std::int64_t>> matches(const Scene& low, const HighSurface& h
         const auto found = std::ranges::find(high.names(), stem(name), stem);
         if (found == high.names().end())
             return about("options.matchByName",
-                         inputError(fmt::format("no high mesh is named like the low mesh '{}'", name)));
+                         inputError(fmt::format("no high mesh matches the name of the low mesh '{}'", name)));
         result.push_back(found - high.names().begin());
     }
     return result;
@@ -243,17 +242,17 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
     if (!cage)
         return cage.error();
     for (Scene& scene : high.scenes)
-        if (!options.matchByName) // nobody asks for a part of it
+        if (!options.matchByName) // with matching, rays need single instances
             joinParts(scene);
     auto highSurface = HighSurface::make(high.scenes, options.bake.threads, options.matchByName);
     if (!highSurface)
         return highSurface.error();
     for (const Status& placed :
-         {checkPlaces(lowSurface->positions, "low"), checkArea(*lowSurface), checkPlaces(*cage, "options.cage"),
-          checkPlaces({highSurface->box().low, highSurface->box().high}, "high")})
+         {checkPositions(lowSurface->positions, "low"), checkArea(*lowSurface), checkPositions(*cage, "options.cage"),
+          checkPositions({highSurface->box().low, highSurface->box().high}, "high")})
         if (!placed)
             return placed.error();
-    if (Status fits = checkCrowded(*lowSurface, *highSurface); !fits) // by rays, which must be able to start there
+    if (Status fits = checkCrowded(*lowSurface, *highSurface); !fits) // shoots rays, so the positions must be valid
         return fits.error();
     BakeSetup setup{std::move(*lowSurface), std::move(*highSurface), options, {}};
     BakeOptions& bake = setup.options.bake;
@@ -281,10 +280,10 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
 Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& progress)
 {
     if (tile < kFirstUdim)
-        return wrong("options.tiles", "expected numbers from {} on; found {}", kFirstUdim, tile);
+        return wrong("options.tiles", "expected numbers of at least {}; found {}", kFirstUdim, tile);
     BakeOptions options = setup.options.bake;
     const int n = tile - kFirstUdim;
-    options.tile = {n % kUdimColumns, -(n / kUdimColumns)}; // our v runs down from the top of the first tile
+    options.tile = {n % kUdimColumns, -(n / kUdimColumns)}; // here v runs down from the top of the first tile
     auto baked = bake(setup.low, setup.high, options, progress);
     if (!baked)
         return baked.error();

@@ -23,9 +23,9 @@ namespace cotan {
 
 namespace {
 
-constexpr double kMaxRows = 4e7; // of texels under all triangles, and two a texel
+constexpr double kMaxRows = 4e7; // of texels under all triangles, besides two per texel
 
-// Bakes the texels of blocks of rows. One for each thread: keeps its memory.
+// Bakes the texels of blocks of rows. Use one per thread; it reuses its memory.
 class BlockBaker {
 public:
     BlockBaker(const LowSurface& low, const Baker& baker, const UvRaster& raster, const BakeOptions& options,
@@ -34,8 +34,7 @@ public:
     {
     }
 
-    // Bakes rows from `first` to before `last`, whose samples are a block of the raster, and counts its texels and
-    // rays.
+    // Bakes the rows [first, last), whose samples are one block of the raster, and counts their texels and rays.
     void bake(int block, int first, int last)
     {
         raster_.firsts(block, samples_);
@@ -45,20 +44,20 @@ public:
         found_.assign(texels, 0);
         packet_ = 0;
         suspicious_ = false;
-        for (std::size_t i = 0; i < samples_.places.size(); i += kLanes) {
-            const std::size_t count = std::min(kLanes, samples_.places.size() - i);
-            bakePacket({&samples_.texels[i], count}, {&samples_.places[i], count});
+        for (std::size_t i = 0; i < samples_.samples.size(); i += kLanes) {
+            const std::size_t count = std::min(kLanes, samples_.samples.size() - i);
+            bakePacket({&samples_.texels[i], count}, {&samples_.samples[i], count});
         }
-        for (const glm::ivec2& sample : samples_.again)
-            mark(texelOf(sample), texelTwice);
+        for (const glm::ivec2& rasterTexel : samples_.coveredTwice)
+            mark(texelOf(rasterTexel), texelOverlapped);
         for (std::size_t i = 0; i < texels; ++i) {
             if (found_[i] > 0)
-                out_.values[base_ + i] = finished(sums_[i], found_[i]);
+                out_.values[base_ + i] = texelValue(sums_[i], found_[i]);
             ++states_[out_.states[base_ + i]];
         }
     }
 
-    // Adds the counts of all its blocks.
+    // Adds the counts of all blocks that were baked.
     void addTo(BakeStatistics& s) const
     {
         s.rays += rays_;
@@ -71,41 +70,41 @@ public:
             s.further += (state & texelFurther) != 0 && (state & texelCovered) != 0 ? texels : 0;
             s.nearer += (state & texelNearer) != 0 && (state & texelCovered) != 0 ? texels : 0;
             s.negative += (state & texelNegative) != 0 ? texels : 0;
-            s.twice += (state & texelTwice) != 0 ? texels : 0;
+            s.twice += (state & texelOverlapped) != 0 ? texels : 0;
         }
     }
 
 private:
-    struct Traced { // what a packet found
+    struct Traced { // the result of a packet
         Probes probes;
         Hits hits;
-        std::span<const glm::ivec2> samples;
+        std::span<const glm::ivec2> rasterTexels;
     };
 
-    // Of the texel that a sample belongs to.
-    std::size_t texelOf(glm::ivec2 sample) const
+    // Index of the map's texel that a texel of the raster belongs to.
+    std::size_t texelOf(glm::ivec2 rasterTexel) const
     {
-        const glm::ivec2 texel = options_.samples > 1 ? sample / options_.samples : sample;
+        const glm::ivec2 texel = options_.samples > 1 ? rasterTexel / options_.samples : rasterTexel;
         return std::size_t(texel.y) * std::size_t(out_.width) + std::size_t(texel.x);
     }
     void mark(std::size_t texel, int flag) { out_.states[texel] = std::uint8_t(out_.states[texel] | flag); }
 
-    void bakePacket(std::span<const glm::ivec2> samples, std::span<const UvSample> places)
+    void bakePacket(std::span<const glm::ivec2> rasterTexels, std::span<const UvSample> samples)
     {
         Traced& traced = traced_[packet_ % traced_.size()];
         Probes& probes = traced.probes;
         Hits& hits = traced.hits;
-        traced.samples = samples;
-        pointsOf(low_, places, points_);
-        baker_.aim(points_, places, probes);
-        rays_ += baker_.find(places, probes, hits);
-        rays_ += baker_.valuesOf(points_, probes, hits, samples, values_);
+        traced.rasterTexels = rasterTexels;
+        pointsOf(low_, samples, points_);
+        baker_.aim(points_, samples, probes);
+        rays_ += baker_.find(samples, probes, hits);
+        rays_ += baker_.valuesOf(points_, probes, hits, rasterTexels, values_);
         Lanes<int> further{};
-        rays_ += baker_.somethingFurther(probes, hits, further);
-        askForNearer();
+        rays_ += baker_.findFurther(probes, hits, further);
+        checkForNearer();
         for (std::size_t i = 0; i < samples.size(); ++i) {
-            const std::size_t texel = texelOf(samples[i]);
-            int flags = places[i].covers ? texelCovered : texelTouched;
+            const std::size_t texel = texelOf(rasterTexels[i]);
+            int flags = samples[i].covers ? texelCovered : texelTouched;
             if (hits.found(i)) {
                 const glm::vec3 value = values_.at(i);
                 sums_[texel - base_] += value;
@@ -119,12 +118,13 @@ private:
         }
     }
 
-    // Marks texels on which another surface lies nearer. That costs a ray: asked are packets that found something far
-    // off; of the others every fourth, the three before one that says yes, and all after it until one says no.
-    void askForNearer()
+    // Marks texels for which another surface is nearer. A check costs a ray, so only some packets are checked: those
+    // with a distant hit, every fourth of the others, the three before a positive one, and those after it until a
+    // negative one.
+    void checkForNearer()
     {
         const std::size_t every = traced_.size(), now = packet_++;
-        if (!suspicious_ && now % every != 0 && !baker_.standsOff(traced_[now % every].hits))
+        if (!suspicious_ && now % every != 0 && !baker_.anyFarInFront(traced_[now % every].hits))
             return;
         const bool before = suspicious_;
         suspicious_ = markNearer(traced_[now % every]);
@@ -134,18 +134,18 @@ private:
     bool markNearer(const Traced& traced)
     {
         Lanes<int> nearer{};
-        rays_ += baker_.somethingNearer(traced.probes, traced.hits, nearer);
+        rays_ += baker_.findNearer(traced.probes, traced.hits, nearer);
         bool any = false;
-        for (std::size_t i = 0; i < traced.samples.size(); ++i)
+        for (std::size_t i = 0; i < traced.rasterTexels.size(); ++i)
             if (nearer[i]) {
                 any = true;
-                mark(texelOf(traced.samples[i]), texelNearer);
+                mark(texelOf(traced.rasterTexels[i]), texelNearer);
             }
         return any;
     }
 
-    // From the sum over samples that found something.
-    glm::vec3 finished(glm::vec3 sum, int count) const
+    // The texel's value from the sum over its samples that hit something.
+    glm::vec3 texelValue(glm::vec3 sum, int count) const
     {
         if (count == 1 && options_.kind != BakeKind::objectNormal)
             return sum;
@@ -163,19 +163,19 @@ private:
     Baked& out_;
     UvFirsts samples_;
     std::size_t base_ = 0;            // the block's first texel
-    std::vector<glm::vec3> sums_;     // over samples
-    std::vector<std::uint8_t> found_; // how many samples of each texel found something
+    std::vector<glm::vec3> sums_;     // per texel: sum over its samples
+    std::vector<std::uint8_t> found_; // per texel: number of samples that hit something
     LowPoints points_;
-    std::array<Traced, 4> traced_; // the last packets
-    std::size_t packet_ = 0;       // how many of the block came before
-    bool suspicious_ = false;      // the last one that was asked has something nearer
+    std::array<Traced, 4> traced_; // the most recent packets
+    std::size_t packet_ = 0;       // number of packets of the block so far
+    bool suspicious_ = false;      // the last check was positive
     Lanes3 values_;
     std::size_t rays_ = 0;
-    std::array<std::size_t, 256> states_{}; // how many texels are in each combination of TexelState
+    std::array<std::size_t, 256> states_{}; // number of texels for each combination of TexelState
 };
 
-// The low surface's triangles without those that have the same uv as two earlier ones: the first of them is baked, the
-// second says that a texel is claimed twice.
+// The low surface's indices without triangles that have the same uv as two earlier ones: the first is baked, the second
+// marks its texels as covered twice.
 std::vector<std::uint32_t> withoutRepeated(const LowSurface& low)
 {
     std::vector<std::uint32_t> indices = low.indices;
@@ -186,11 +186,12 @@ std::vector<std::uint32_t> withoutRepeated(const LowSurface& low)
     });
     for (std::size_t f = 0; f < repeated.size(); ++f)
         if (repeated[f] > 1)
-            std::fill_n(indices.begin() + std::ptrdiff_t(3 * f), 3, low.indices[3 * f]); // without area: not drawn
+            std::fill_n(indices.begin() + std::ptrdiff_t(3 * f), 3, low.indices[3 * f]); // no area: not drawn
     return indices;
 }
 
-// Rows of texels that the triangles are in, each for itself: those of one layer are in few more than there are texels.
+// The number of rows of texels that each triangle touches, summed over the triangles. Without overlap the sum is not
+// much larger than the number of texels.
 double rowsOf(const UvTriangles& triangles, double height)
 {
     double rows = 0;
@@ -207,7 +208,7 @@ void countTriangles(const LowSurface& low, BakeStatistics& statistics)
 {
     for (std::size_t f = 0; f < low.triangleCount(); ++f) {
         const double area = edgesOf(low, f).uvArea2();
-        statistics.mirroredTriangles += area > 0; // v runs down: charts that are not mirrored turn the other way
+        statistics.mirroredTriangles += area > 0; // v runs down, so unmirrored charts have negative area
         statistics.degenerateTriangles += !(std::abs(area) > 0);
     }
 }
@@ -217,11 +218,11 @@ void countTriangles(const LowSurface& low, BakeStatistics& statistics)
 Result<std::vector<std::uint32_t>> indicesToDraw(const LowSurface& low, glm::ivec2 size)
 {
     std::vector<std::uint32_t> indices = withoutRepeated(low);
-    const double rows = rowsOf({low.texcoords, indices}, size.y), most = kMaxRows + 2 * double(size.x) * double(size.y);
-    if (rows > most)
-        return inputError(fmt::format("its triangles lie over one another in {:.3g} rows of texels; expected at most "
-                                      "{:.3g}: fewer, or a smaller map",
-                                      rows, most));
+    const double rows = rowsOf({low.texcoords, indices}, size.y), max = kMaxRows + 2 * double(size.x) * double(size.y);
+    if (rows > max)
+        return inputError(fmt::format("its triangles overlap in {:.3g} rows of texels; expected at most {:.3g}: use "
+                                      "fewer triangles or a smaller map",
+                                      rows, max));
     return indices;
 }
 
@@ -249,9 +250,9 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
     const UvRaster raster({low.texcoords, *indices}, size.x, size.y, options.tile);
     const Baker baker(low, high, options);
     std::mutex counting;
-    CountedSteps done(progress, std::size_t(options.height)); // rows
+    CountedSteps done(progress, std::size_t(options.height)); // counts rows
     withThreads(options.threads, [&] {
-        const int rows = UvRaster::kBlockRows / options.samples; // of texels in a block of samples
+        const int rows = UvRaster::kBlockRows / options.samples; // rows of texels per block of samples
         parallelRanges(0, raster.blocks(), 1, [&](int begin, int end) {
             BlockBaker baking(low, baker, raster, options, out);
             for (int block = begin; block != end && !done.stopped(); ++block) {
@@ -274,11 +275,11 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
     return out;
 }
 
-// ---- how it is stored -------------------------------------------------------------------------
+// ---- storing a map ----------------------------------------------------------------------------
 
 namespace {
 
-// An 8x8 ordered pattern (B. Bayer 1973) in [0,1): the same for the same place.
+// An 8x8 ordered dither pattern (B. Bayer 1973) in [0,1), fixed to the image.
 float bayer(int x, int y)
 {
     unsigned v = 0;
@@ -319,7 +320,7 @@ void padCharts(Baked& baked, int radius)
     for (std::size_t i = 0; i < owner.size(); ++i)
         if ((baked.states[i] & (texelCovered | texelTouched)) != 0 && baked.values[i] != glm::vec3(0))
             owner[i] = std::uint32_t(i);
-    spreadNearest(owner, baked.width, baked.height, AskFirst::above);
+    propagateNearest(owner, baked.width, baked.height, TieBreak::above);
     const std::int64_t limit = radius > 0 ? std::int64_t(radius) * radius : std::numeric_limits<std::int64_t>::max();
     for (std::size_t i = 0; i < owner.size(); ++i) {
         if (owner[i] == kNoTexel || owner[i] == i || distance2(owner[i], std::uint32_t(i), baked.width) > limit)
@@ -331,7 +332,7 @@ void padCharts(Baked& baked, int radius)
 
 Convention storedFormat(BakeKind kind, Convention format)
 {
-    if (kind == BakeKind::objectNormal) // three axes of a mesh, as they are
+    if (kind == BakeKind::objectNormal) // the mesh's three axes, unchanged
         format = {MapKind::objectSpace, format.expansion, Channels::xyz, true, VDirection::up};
     return format;
 }
@@ -342,14 +343,14 @@ Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as)
     const bool direction = showsNormals(kind);
     float low = 0, scale = 1;
     if (kind == BakeKind::height && as.type != PixelType::float32) {
-        float least = 1e30f, most = -1e30f;
+        float lowest = 1e30f, highest = -1e30f;
         for (std::size_t i = 0; i < baked.values.size(); ++i)
             if (baked.values[i].z != 0) {
-                least = std::min(least, baked.values[i].x);
-                most = std::max(most, baked.values[i].x);
+                lowest = std::min(lowest, baked.values[i].x);
+                highest = std::max(highest, baked.values[i].x);
             }
-        low = least;
-        scale = most > least ? 1 / (most - least) : 0;
+        low = lowest;
+        scale = highest > lowest ? 1 / (highest - lowest) : 0;
     }
     const f32::cotan_normal_format portableFormat =
         toFormat<f32::cotan_normal_format>(storedFormat(kind, as.format), as.type);
@@ -374,12 +375,12 @@ Image maskOf(const Baked& baked)
     for (std::size_t i = 0; i < baked.states.size(); ++i) {
         const std::uint8_t s = baked.states[i];
         writer.put(i,
-                   s & texelMissed         ? glm::vec3(1, 0, 0)
-                       : s & texelNegative ? glm::vec3(0, 0.3f, 1)
-                       : s & texelTwice    ? glm::vec3(1, 1, 0)
-                       : s & texelCovered  ? glm::vec3(0, 0.7f, 0)
-                       : s & texelTouched  ? glm::vec3(0, 0.35f, 0)
-                                           : glm::vec3(0));
+                   s & texelMissed           ? glm::vec3(1, 0, 0)
+                       : s & texelNegative   ? glm::vec3(0, 0.3f, 1)
+                       : s & texelOverlapped ? glm::vec3(1, 1, 0)
+                       : s & texelCovered    ? glm::vec3(0, 0.7f, 0)
+                       : s & texelTouched    ? glm::vec3(0, 0.35f, 0)
+                                             : glm::vec3(0));
     }
     return std::move(writer.image);
 }

@@ -13,7 +13,7 @@ namespace cotan {
 namespace {
 
 constexpr float kNearestDistance = 0.05f; // of the diagonal of the high surface
-constexpr float kLift = 1e-5f;            // of the same
+constexpr float kLift = 1e-5f;            // of the same diagonal
 
 float diagonalOf(const HighSurface& high) { return glm::length(high.box().high - high.box().low); }
 
@@ -29,8 +29,8 @@ void copyHit(const Hits& from, std::size_t i, Hits& to)
     to.away[i] = from.away[i];
 }
 
-// Where anything lies on the lines, up to farthest(i) away from their points either way; negative: not asked. Returns
-// how many rays that took.
+// Marks the lines on which any surface lies within farthest(i) of the point, on either side; lines with a negative
+// farthest(i) are skipped. Returns the number of rays.
 template<class Farthest>
 std::size_t anyAround(const HighSurface& high, const Probes& probes, Lanes<int>& any, const Farthest& farthest)
 {
@@ -72,51 +72,51 @@ Baker::Baker(const LowSurface& low, const HighSurface& high, const BakeOptions& 
     lift_ = kLift * diagonal;
 }
 
-void Baker::aim(const LowPoints& points, std::span<const UvSample> places, Probes& probes) const
+void Baker::aim(const LowPoints& points, std::span<const UvSample> samples, Probes& probes) const
 {
-    probes.count = places.size();
+    probes.count = samples.size();
     probes.point = points.position;
     probes.direction = probes.normal = points.normal;
     probes.before.fill(0);
     probes.reach.fill(distance_);
     probes.only.fill(Probes::kAny);
     if (!options_.matched.empty())
-        for (std::size_t i = 0; i < places.size(); ++i) // -1 becomes kAny
-            probes.only[i] = std::uint32_t(options_.matched[low_.triangleInstance[places[i].triangle]]);
+        for (std::size_t i = 0; i < samples.size(); ++i) // -1 becomes Probes::kAny
+            probes.only[i] = std::uint32_t(options_.matched[low_.triangleInstance[samples[i].triangle]]);
     if (!options_.cage.empty())
-        for (std::size_t i = 0; i < places.size(); ++i)
-            aimFromCage(places[i], i, probes);
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            aimFromCage(samples[i], i, probes);
     else if (measured())
-        for (std::size_t i = 0; i < places.size(); ++i)
-            aimFromStart(points, places[i], i, probes);
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            aimFromStart(points, samples[i], i, probes);
 }
 
-void Baker::aimFromCage(const UvSample& place, std::size_t i, Probes& probes) const
+void Baker::aimFromCage(const UvSample& sample, std::size_t i, Probes& probes) const
 {
-    const std::uint32_t* v = &low_.indices[3 * std::size_t(place.triangle)];
-    const glm::vec3 way = atVertices(options_.cage, v, place.b1, place.b2) - probes.point.at(i);
-    const float before = glm::length(way);
+    const std::uint32_t* v = &low_.indices[3 * std::size_t(sample.triangle)];
+    const glm::vec3 toCage = atVertices(options_.cage, v, sample.b1, sample.b2) - probes.point.at(i);
+    const float before = glm::length(toCage);
     probes.before[i] = before;
     probes.reach[i] = options_.cageReach > 0 && before > 0 ? options_.cageReach - before : before;
-    probes.direction.set(i, before > 0 ? way / before : glm::vec3(0));
+    probes.direction.set(i, before > 0 ? toCage / before : glm::vec3(0));
 }
 
-void Baker::aimFromStart(const LowPoints& points, const UvSample& place, std::size_t i, Probes& probes) const
+void Baker::aimFromStart(const LowPoints& points, const UvSample& sample, std::size_t i, Probes& probes) const
 {
     const RayStarts& starts = *options_.starts;
-    const std::uint32_t* v = &low_.indices[3 * std::size_t(place.triangle)];
-    const glm::vec3 sum =
-        starts.bent ? atVertices(starts.directions, v, place.b1, place.b2) : points.from.raw.at(i); // of the normals
+    const std::uint32_t* v = &low_.indices[3 * std::size_t(sample.triangle)];
+    const glm::vec3 sum = starts.directionsDiffer ? atVertices(starts.directions, v, sample.b1, sample.b2)
+                                                  : points.from.raw.at(i); // of normals
     const float length = std::sqrt(glm::dot(sum, sum));
-    if (starts.bent && length > 0)
+    if (starts.directionsDiffer && length > 0)
         probes.direction.set(i, sum / length);
-    probes.before[i] = length * atVertices(starts.distances, v, place.b1, place.b2);
-    if (starts.crossed[place.triangle])
-        probes.before[i] = openDistance(*starts.tree, place.triangle, probes.point.at(i), probes.direction.at(i),
+    probes.before[i] = length * atVertices(starts.distances, v, sample.b1, sample.b2);
+    if (starts.obstructed[sample.triangle])
+        probes.before[i] = openDistance(*starts.tree, sample.triangle, probes.point.at(i), probes.direction.at(i),
                                         starts.skip, probes.before[i]);
 }
 
-std::size_t Baker::find(std::span<const UvSample> places, const Probes& probes, Hits& hits) const
+std::size_t Baker::find(std::span<const UvSample> samples, const Probes& probes, Hits& hits) const
 {
     std::size_t rays = probes.count;
     if (options_.cage.empty() && options_.search == BakeSearch::nearest) {
@@ -125,7 +125,7 @@ std::size_t Baker::find(std::span<const UvSample> places, const Probes& probes, 
     } else {
         high_.outermost(probes, options_.highNormals, hits);
         if (measured())
-            rays += findFromFurtherOut(places, probes, hits);
+            rays += findFromFurtherOut(samples, probes, hits);
     }
     if (options_.highMaps && showsNormals(options_.kind))
         for (std::size_t i = 0; i < probes.count; ++i)
@@ -136,8 +136,8 @@ std::size_t Baker::find(std::span<const UvSample> places, const Probes& probes, 
     return rays;
 }
 
-// Lanes that found nothing, or only what faces away, look again from as far out as surfaces count.
-std::size_t Baker::findFromFurtherOut(std::span<const UvSample> places, const Probes& probes, Hits& hits) const
+// Probes that hit nothing, or only surfaces that face away, are traced again from the full search distance.
+std::size_t Baker::findFromFurtherOut(std::span<const UvSample> samples, const Probes& probes, Hits& hits) const
 {
     Probes further;
     std::size_t rays = 0;
@@ -150,7 +150,7 @@ std::size_t Baker::findFromFurtherOut(std::span<const UvSample> places, const Pr
         }
         further.direction.set(i, probes.direction.at(i));
         further.before[i] = options_.starts->tree
-            ? openDistance(*options_.starts->tree, places[i].triangle, probes.point.at(i), probes.direction.at(i),
+            ? openDistance(*options_.starts->tree, samples[i].triangle, probes.point.at(i), probes.direction.at(i),
                            options_.starts->skip, distance_)
             : distance_;
     }
@@ -164,20 +164,20 @@ std::size_t Baker::findFromFurtherOut(std::span<const UvSample> places, const Pr
     return rays;
 }
 
-std::size_t Baker::somethingNearer(const Probes& probes, const Hits& hits, Lanes<int>& nearer) const
+std::size_t Baker::findNearer(const Probes& probes, const Hits& hits, Lanes<int>& nearer) const
 {
     if (!measured()) {
         nearer.fill(0);
         return 0;
     }
-    // What was found behind the low surface has had nothing before it on the ray, which came from further out.
+    // A hit behind the low surface needs no check: its ray started further out and met nothing before.
     return anyAround(high_, probes, nearer, [&](std::size_t i) {
         const float off = hits.distance[i], skip = std::max(4 * lift_, 1e-3f * off);
         return hits.found(i) && off > 2 * skip ? off - skip : -1;
     });
 }
 
-bool Baker::standsOff(const Hits& hits) const
+bool Baker::anyFarInFront(const Hits& hits) const
 {
     bool any = false;
     for (std::size_t i = 0; measured() && i < kLanes; ++i)
@@ -185,7 +185,7 @@ bool Baker::standsOff(const Hits& hits) const
     return any;
 }
 
-std::size_t Baker::somethingFurther(const Probes& probes, const Hits& hits, Lanes<int>& further) const
+std::size_t Baker::findFurther(const Probes& probes, const Hits& hits, Lanes<int>& further) const
 {
     const glm::vec3 middle = high_.box().centre();
     return anyAround(high_, probes, further, [&](std::size_t i) {
@@ -194,14 +194,14 @@ std::size_t Baker::somethingFurther(const Probes& probes, const Hits& hits, Lane
 }
 
 std::size_t Baker::valuesOf(const LowPoints& points, const Probes& probes, const Hits& hits,
-                            std::span<const glm::ivec2> samples, Lanes3& values) const
+                            std::span<const glm::ivec2> rasterTexels, Lanes3& values) const
 {
     switch (options_.kind) {
     case BakeKind::normal: encode(points, hits.normal, values); return 0;
     case BakeKind::objectNormal: values = hits.normal; return 0;
     case BakeKind::height:
         for (std::size_t i = 0; i < kLanes; ++i) {
-            const bool leans = measured() && options_.starts->bent;
+            const bool leans = measured() && options_.starts->directionsDiffer;
             const float slope = leans ? glm::dot(probes.direction.at(i), points.normal.at(i)) : 1;
             values.set(i, {hits.distance[i] * slope, 0, 1});
         }
@@ -209,11 +209,12 @@ std::size_t Baker::valuesOf(const LowPoints& points, const Probes& probes, const
     case BakeKind::occlusion: break;
     }
     std::size_t rays = 0;
-    for (std::size_t i = 0; i < samples.size(); ++i)
+    for (std::size_t i = 0; i < rasterTexels.size(); ++i)
         if (hits.found(i)) {
             const glm::vec3 where = probes.point.at(i) + probes.direction.at(i) * hits.distance[i];
-            const std::uint32_t pattern = std::uint32_t(samples[i].x) * 7919u + std::uint32_t(samples[i].y) * 104729u;
-            // The side that the ray came from is the one that is open or not.
+            const std::uint32_t pattern =
+                std::uint32_t(rasterTexels[i].x) * 7919u + std::uint32_t(rasterTexels[i].y) * 104729u;
+            // Occlusion is measured on the side that the ray came from.
             const glm::vec3 out = probes.direction.at(i), face = hits.face.at(i), n = hits.normal.at(i);
             values.set(i,
                        {openness(where, glm::dot(face, out) < 0 ? -face : face, glm::dot(n, out) < 0 ? -n : n, pattern),
@@ -223,16 +224,16 @@ std::size_t Baker::valuesOf(const LowPoints& points, const Probes& probes, const
     return rays;
 }
 
-// Cosine-weighted directions of a golden-ratio spiral around n, turned by the texel's own angle.
+// Cosine-weighted directions on a golden-ratio spiral around n, rotated by an angle that depends on the texel.
 float Baker::openness(glm::vec3 where, glm::vec3 face, glm::vec3 n, std::uint32_t pattern) const
 {
     const glm::vec3 t = glm::normalize(glm::cross(otherAxis(n), n)), b = glm::cross(n, t);
     const float length = glm::length(face);
     const glm::vec3 origin = where + (length > 0 ? face / length : n) * lift_;
-    const double turn = double(pattern * 2654435769u) / 4294967296.0 * 2 * std::numbers::pi;
+    const double rotation = double(pattern * 2654435769u) / 4294967296.0 * 2 * std::numbers::pi;
     int open = 0;
     for (int i = 0; i < options_.occlusionRays; ++i) {
-        const double r2 = (i + 0.5) / options_.occlusionRays, a = turn + i * 2.399963229728653;
+        const double r2 = (i + 0.5) / options_.occlusionRays, a = rotation + i * 2.399963229728653;
         const float x = float(std::sqrt(r2) * std::cos(a)), y = float(std::sqrt(r2) * std::sin(a));
         const glm::vec3 d = t * x + b * y + n * float(std::sqrt(1 - r2));
         open += !high_.blocked({origin, d, 0, 1e30f});

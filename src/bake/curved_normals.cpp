@@ -30,9 +30,9 @@ struct Fit {
         }
     }
 
-    // By Cholesky. `pull` towards zero: of second derivatives, in units of the largest diagonal term; 100 times as hard
-    // for third ones, 10,000 times for fourth ones.
-    std::array<double, kUnknowns> solve(double pull)
+    // Solves by Cholesky. Tikhonov regularisation: `regularisation` is the weight for second derivatives, relative to
+    // the largest diagonal term; third derivatives have 100 times and fourth derivatives 10,000 times that weight.
+    std::array<double, kUnknowns> solve(double regularisation)
     {
         double largest = 0;
         for (int i = 0; i < kUnknowns; ++i)
@@ -40,7 +40,7 @@ struct Fit {
         if (!(largest > 0))
             return {};
         for (int i = 0; i < kUnknowns; ++i)
-            a[i][i] += largest * pull * (i < 3 ? 1 : i < 7 ? 100 : 10000);
+            a[i][i] += largest * regularisation * (i < 3 ? 1 : i < 7 ? 100 : 10000);
         for (int i = 0; i < kUnknowns; ++i)
             for (int j = 0; j <= i; ++j) {
                 double sum = a[i][j];
@@ -69,7 +69,7 @@ ShapeOperator fitted(std::span<const glm::vec3> positions, std::span<const glm::
     if (!(glm::dot(n, n) > 0.5))
         return {};
     const glm::dvec3 e1 = glm::normalize(glm::cross(otherAxis(n), n)), e2 = glm::cross(n, e1);
-    double size2 = 0; // lengths are measured in it
+    double size2 = 0; // squared unit of length
     for (const std::uint32_t j : neighbours)
         size2 = std::max(size2, glm::dot(glm::dvec3(positions[j]) - p, glm::dvec3(positions[j]) - p));
     if (!(size2 > 0))
@@ -100,7 +100,7 @@ glm::vec3 times(const ShapeOperator& w, glm::vec3 d)
             w[2] * d.x + w[4] * d.y + w[5] * d.z};
 }
 
-// The step along a surface with normal n that lies above the step d of the face's plane.
+// The step along a surface with normal n that lies above the step d in the face's plane.
 glm::vec3 above(glm::vec3 d, glm::vec3 n, glm::vec3 face) { return d - face * (glm::dot(n, d) / glm::dot(n, face)); }
 
 } // namespace
@@ -108,8 +108,7 @@ glm::vec3 above(glm::vec3 d, glm::vec3 n, glm::vec3 face) { return d - face * (g
 std::vector<ShapeOperator> shapeOperators(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
                                           std::span<const std::uint32_t> indices, int threads)
 {
-    // The other corners of each vertex's triangles, one after the other, most of them twice: as far as the fit goes,
-    // edges with a triangle on both sides count double.
+    // The other corners of the triangles at each vertex. Edges with a triangle on both sides count twice in the fit.
     const auto eachNeighbour = [&](const auto& add) {
         for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
             for (std::size_t k = 0; k < 3; ++k) {
@@ -136,7 +135,7 @@ glm::vec3 curvedNormal(const CurvedTriangle& t, float b1, float b2, glm::vec3 di
     const float area2 = glm::dot(area, area);
     if (!(area2 > 0))
         return glm::vec3(0);
-    // Whichever way the corners run: on the side that the normals are on.
+    // Orients the face normal to the side of the vertex normals, whatever the order of the corners.
     const glm::vec3 face = area / std::copysign(std::sqrt(area2), glm::dot(area, t.normals[0]));
     const float along = glm::dot(direction, face);
     const glm::vec3 sidewards = direction - face * along;
@@ -148,7 +147,7 @@ glm::vec3 curvedNormal(const CurvedTriangle& t, float b1, float b2, glm::vec3 di
         if (!(glm::dot(n, face) > 0.1f))
             return glm::vec3(0);
 
-    // Control points of the normals: corner i, towards corner j.
+    // Control points of the normals, from corner i towards corner j.
     const glm::vec3 edges[3] = {edge1, edge2 - edge1, -edge2}; // from corner i to the next
     glm::vec3 forth[3], back[3], middle(0);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -160,7 +159,7 @@ glm::vec3 curvedNormal(const CurvedTriangle& t, float b1, float b2, glm::vec3 di
 
     const glm::vec3 flat = edge1 * b1 + edge2 * b2;
     glm::vec3 y = flat;
-    const int kSteps = 2; // the second moves y by the square of the first
+    const int kSteps = 2; // the second step moves y by the square of what the first does
     for (int step = 0;; ++step) {
         const float c1 = glm::dot(glm::cross(y, edge2), area) / area2,
                     c2 = glm::dot(glm::cross(edge1, y), area) / area2;

@@ -30,27 +30,27 @@ Result<HighNormalMaps> HighNormalMaps::make(std::vector<Scene>& scenes, Frame fr
         for (const Instance& instance : scene.instances) {
             const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
             if (mesh.indices.empty())
-                continue; // as HighSurface counts
+                continue; // as HighSurface does
             Part& part = maps.parts_.emplace_back();
             const Material& material = scene.materials[std::size_t(mesh.material)];
             const Texture& map = material.normalMap;
             anyMap = anyMap || map.present();
             if (!map.present() || mesh.texcoords[std::size_t(map.texcoord)].empty())
                 continue;
-            const auto [image, isNew] = kept.try_emplace(map.image, nullptr);
+            const auto [entry, isNew] = kept.try_emplace(map.image, nullptr);
             if (isNew) {
                 maps.images_.push_back(std::move(scene.images[std::size_t(map.image)]));
-                image->second = &maps.images_.back();
+                entry->second = &maps.images_.back();
             }
-            const Image& picture = *image->second;
-            if (!hasPixels(picture))
+            const Image& image = *entry->second;
+            if (!hasPixels(image))
                 continue;
             auto surface = makeLowSurface(scene, -1, frame, TangentOrigin::stored, {&instance, 1});
             if (!surface)
                 return surface.error();
             part = {
-                std::move(*surface), &picture, map.sampler,
-                toFormat<f64::cotan_normal_format>(material.normalFormat, picture.type, double(material.normalScale))};
+                std::move(*surface), &image, map.sampler,
+                toFormat<f64::cotan_normal_format>(material.normalFormat, image.type, double(material.normalScale))};
             ++maps.mapped_;
         }
     }
@@ -77,7 +77,7 @@ glm::vec3 HighNormalMaps::normalAt(std::uint32_t instance, std::uint32_t triangl
         return smooth;
     const glm::dvec3 m = f64::cotan_decode(glm::dvec3(texelAt(*part.image, part.sampler, uv)), part.format);
     const LowPoint point = pointOf(s, triangle, b1, b2);
-    const glm::dvec3 n = perturb(point.frame, m).raw(); // the frame's own n for a texel without direction
+    const glm::dvec3 n = perturb(point.frame, m).raw(); // n of the frame for a texel without direction
     return glm::vec3(unitOr(n, glm::dvec3(smooth)));
 }
 

@@ -20,18 +20,18 @@
 
 namespace cotan {
 
-struct Part { // one instance, in world space
+struct Part { // an instance in world space
     std::vector<glm::vec3> positions, normals;
     std::vector<std::uint32_t> indices;
-    std::vector<std::uint8_t> repeated; // one a triangle: not 0 where it lies on an earlier one; empty: none does
-    std::vector<std::uint32_t> seen;    // indices as rays see them, where some are left out
-    std::vector<ShapeOperator> shapes;  // of the vertices; empty: not prepared
+    std::vector<std::uint8_t> repeated; // per triangle: not 0 if it coincides with an earlier one; empty: none does
+    std::vector<std::uint32_t> embreeIndices; // for Embree, if some triangles are left out
+    std::vector<ShapeOperator> shapes;        // per vertex; empty: not prepared
 };
 
 namespace {
 
-// Files with normals may wind their triangles either way: the normals say where the outside is.
-float frontOf(const Part& part)
+// 1, or -1 if most triangles are wound against their normals. Files use either winding; the normals mark the outside.
+float frontSign(const Part& part)
 {
     double agreement = 0;
     for (std::size_t i = 0; i + 2 < part.indices.size(); i += 3) {
@@ -43,7 +43,7 @@ float frontOf(const Part& part)
     return agreement < 0 ? -1.0f : 1.0f;
 }
 
-Part placed(const Mesh& mesh, const glm::mat4& toWorld)
+Part inWorld(const Mesh& mesh, const glm::mat4& toWorld)
 {
     Part part;
     const glm::mat3 linear(toWorld);
@@ -62,10 +62,10 @@ Part placed(const Mesh& mesh, const glm::mat4& toWorld)
     return part;
 }
 
-// Which triangles lie on earlier ones, of any instance.
+// Finds triangles that coincide with earlier ones, of any instance.
 void findRepeated(std::vector<Part>& parts)
 {
-    std::vector<std::size_t> first; // triangle of each part
+    std::vector<std::size_t> first; // number of the first triangle of each part
     std::size_t count = 0;
     for (const Part& part : parts) {
         first.push_back(count);
@@ -87,14 +87,14 @@ void findRepeated(std::vector<Part>& parts)
 
 struct HighSurface::State {
     std::vector<Part> parts;
-    std::vector<float> fronts; // of the parts: -1 where most triangles are wound against their vertices' normals
+    std::vector<float> fronts; // of the parts: -1 if most triangles are wound against their vertex normals
     std::vector<std::string> names;
     std::size_t triangles = 0;
     Bounds box;
-    EmbreeScene embree; // shares arrays of the parts
+    EmbreeScene embree; // shares the arrays of the parts
 
-    // The interpolated normals of hits, of any length. Where the corners are is asked for all before the first is used,
-    // so that the waits for memory overlap.
+    // Interpolates the normals of hits; the results have any length. Prefetches the corners of all hits before the
+    // first is used, so that the memory latencies overlap.
     void interpolateNormals(std::size_t count, Hits& hits) const
     {
         Lanes<const std::uint32_t*> corners;
@@ -108,7 +108,7 @@ struct HighSurface::State {
         for (std::size_t i = 0; i < count; ++i)
             hits.normal.set(i, atVertices(normals[i], corners[i], hits.b1[i], hits.b2[i]));
     }
-    // Zero where there is none.
+    // Returns zero if there is none.
     glm::vec3 curvedNormal(std::uint32_t instance, std::uint32_t triangle, float b1, float b2,
                            glm::vec3 direction) const
     {
@@ -120,14 +120,14 @@ struct HighSurface::State {
         return cotan::curvedNormal({ofCorners(part.positions), ofCorners(part.normals), ofCorners(part.shapes)}, b1, b2,
                                    direction);
     }
-    // The normals of hits that are complete otherwise.
+    // Sets the normals of hits whose other fields are set.
     void findNormals(const Probes& probes, HighNormals normals, Hits& hits) const
     {
         if (normals != HighNormals::face)
             interpolateNormals(probes.count, hits);
-        // Longer than this, the interpolated normal counts.
+        // Minimum length of an interpolated normal that counts.
         const float least = normals == HighNormals::face ? std::numeric_limits<float>::infinity() : 1e-6f;
-        // All lanes, so that they go side by side: nobody reads those where nothing was found.
+        // All lanes, so that the loop vectorises; the results of lanes without a hit are never read.
         for (std::size_t i = 0; i < kLanes; ++i) {
             const glm::vec3 n = hits.normal.at(i), face = glm::normalize(hits.face.at(i));
             const float length = glm::length(n);
@@ -154,8 +154,8 @@ Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int thre
             const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
             if (mesh.indices.empty())
                 continue;
-            state->parts.push_back(placed(mesh, instance.toWorld));
-            state->fronts.push_back(frontOf(state->parts.back()));
+            state->parts.push_back(inWorld(mesh, instance.toWorld));
+            state->fronts.push_back(frontSign(state->parts.back()));
             state->names.push_back(objectName(scene, instance));
             state->triangles += mesh.triangleCount();
             for (const glm::vec3& p : state->parts.back().positions) {
@@ -165,21 +165,21 @@ Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int thre
         }
     if (state->triangles == 0)
         return inputError(fmt::format("{}: expected triangles; found none", scenes.empty() ? "" : scenes[0].name));
-    // Robust: rays along edges find one of the two triangles. Filters: packets.hpp.
+    // Robust: rays along an edge hit one of its two triangles. Filters: packets.hpp.
     if (Status opened = state->embree.open(threads, RTC_SCENE_FLAG_ROBUST | kFiltersInQueries); !opened)
         return opened.error();
-    if (!byInstance) // else each is asked for its own
+    if (!byInstance) // otherwise every instance needs its triangles
         findRepeated(state->parts);
     for (Part& part : state->parts)
-        state->embree.add(part.positions, part.indices, part.repeated, part.seen);
-    if (Status held = state->embree.commit(state->triangles); !held)
-        return held.error();
+        state->embree.add(part.positions, part.indices, part.repeated, part.embreeIndices);
+    if (Status committed = state->embree.commit(state->triangles); !committed)
+        return committed.error();
     return HighSurface(std::move(state));
 }
 
 void HighSurface::curve(int threads)
 {
-    for (Part& part : state_->parts) // behind the positions is one more, for Embree
+    for (Part& part : state_->parts) // positions have an extra element for Embree
         part.shapes = shapeOperators({part.positions.data(), part.normals.size()}, part.normals, part.indices, threads);
 }
 
@@ -223,7 +223,7 @@ Hit HighSurface::trace(const Ray& ray) const
 
 void HighSurface::nearest(const Probes& probes, float lift, HighNormals normals, Hits& hits) const
 {
-    const Asked context = asked(probes, state_->fronts);
+    const FilterContext context = filterContextFor(probes, state_->fronts);
     Lanes<float> lifts, farthest;
     for (std::size_t i = 0; i < kLanes; ++i) {
         lifts[i] = lift;
@@ -231,7 +231,7 @@ void HighSurface::nearest(const Probes& probes, float lift, HighNormals normals,
     }
     Packet outwards(probes, lifts, 1, farthest);
     outwards.trace(state_->embree.scene, context);
-    for (std::size_t i = 0; i < kLanes; ++i) { // nothing further away than what is found already
+    for (std::size_t i = 0; i < kLanes; ++i) { // search no further than the hit so far
         const float found = std::abs(outwards.rays.ray.tfar[i] - lift) + lift;
         farthest[i] = outwards.found(i) ? found : farthest[i];
     }
@@ -255,13 +255,13 @@ void HighSurface::nearest(const Probes& probes, float lift, HighNormals normals,
 
 void HighSurface::outermost(const Probes& probes, HighNormals normals, Hits& hits) const
 {
-    const Asked context = asked(probes, state_->fronts);
+    const FilterContext context = filterContextFor(probes, state_->fronts);
     Lanes<float> farthest;
     for (std::size_t i = 0; i < kLanes; ++i)
         farthest[i] = probes.before[i] + probes.reach[i];
     Packet packet(probes, probes.before, -1, farthest);
     packet.trace(state_->embree.scene, context);
-    for (std::size_t i = 0; i < probes.count; ++i) // nothing that is there is lost, whatever the neighbours do
+    for (std::size_t i = 0; i < probes.count; ++i) // a packet may lose a hit because of its other rays
         if (packet.valid[i] && !packet.found(i))
             packet.traceAlone(i, state_->embree.scene, context);
     for (std::size_t i = 0; i < probes.count; ++i) {
@@ -269,8 +269,8 @@ void HighSurface::outermost(const Probes& probes, HighNormals normals, Hits& hit
         hits.away[i] = packet.foundAway(i, state_->fronts, normal) ? 1 : 0;
         if (!hits.away[i])
             continue;
-        // What faces the low surface counts where there is any.
-        const Asked facing{RayQuery(Coherence::coherent, keepFacing), state_->fronts.data(), normal};
+        // Surfaces that face the low surface are preferred.
+        const FilterContext facing{RayQuery(Coherence::coherent, keepFacing), state_->fronts.data(), normal};
         packet.traceAlone(i, state_->embree.scene, facing);
         hits.away[i] = packet.foundAway(i, state_->fronts, normal) ? 1 : 0;
     }
@@ -286,23 +286,23 @@ void HighSurface::anyBetween(const Probes& probes, Lanes<int>& any) const
     for (std::size_t i = 0; i < kLanes; ++i)
         farthest[i] = probes.before[i] + probes.reach[i];
     Packet packet(probes, probes.before, -1, farthest);
-    Asked context = asked(probes, state_->fronts);
+    FilterContext context = filterContextFor(probes, state_->fronts);
     occluded(packet.valid.data(), state_->embree.scene, context.query, packet.rays.ray);
     for (std::size_t i = 0; i < kLanes; ++i)
         any[i] = packet.valid[i] != 0 && packet.rays.ray.tfar[i] < 0; // Embree's mark for an occluded ray
 }
 
-std::size_t HighSurface::met(const Ray& ray) const
+std::size_t HighSurface::countHits(const Ray& ray) const
 {
     struct Counting {
-        RayQuery query; // first, as Embree hands it to filters
+        RayQuery query; // must be first: Embree passes its address to filters
         std::size_t count = 0;
     } counting{RayQuery(Coherence::incoherent,
                         [](const RTCFilterFunctionNArguments* a) {
                             for (unsigned i = 0; i < a->N; ++i)
                                 if (a->valid[i]) {
                                     ++reinterpret_cast<Counting*>(a->context)->count;
-                                    a->valid[i] = 0; // and on
+                                    a->valid[i] = 0; // rejects the hit, so that the ray goes on
                                 }
                         }),
                0};

@@ -1,5 +1,5 @@
-// Numbers of sixteen texels beside one another, so that the compiler computes several at a time and Embree takes them
-// as one packet. Loops over lanes go over all, also those that hold nothing: theirs are numbers that nobody reads.
+// Values of sixteen texels side by side, so that the compiler vectorises loops over them and Embree takes them as one
+// packet. Loops run over all lanes; the results of unused lanes are never read.
 #pragma once
 
 #include <array>

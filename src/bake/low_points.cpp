@@ -8,13 +8,13 @@ namespace cotan {
 
 namespace {
 
-using Ingredients = LowPoints::Ingredients;
+using FrameInputs = LowPoints::FrameInputs;
 
-struct Run { // of lanes on one triangle
+struct Run { // lanes on one triangle
     std::size_t from, to;
 };
 
-template<class Vec> void blend(const Vec& a, const Vec& b, const Vec& c, const Ingredients& in, Run run, Lanes3& out)
+template<class Vec> void blend(const Vec& a, const Vec& b, const Vec& c, const FrameInputs& in, Run run, Lanes3& out)
 {
     const glm::vec3 p(a), q(b), r(c);
     for (std::size_t i = run.from; i < run.to; ++i) {
@@ -23,7 +23,7 @@ template<class Vec> void blend(const Vec& a, const Vec& b, const Vec& c, const I
     }
 }
 
-void gather(const LowSurface& s, std::uint32_t triangle, Run run, Ingredients& in, LowPoints& points)
+void gather(const LowSurface& s, std::uint32_t triangle, Run run, FrameInputs& in, LowPoints& points)
 {
     const std::size_t first = 3 * std::size_t(triangle);
     const std::uint32_t *v = &s.indices[first], a = v[0], b = v[1], c = v[2];
@@ -51,7 +51,7 @@ void gather(const LowSurface& s, std::uint32_t triangle, Run run, Ingredients& i
     }
 }
 
-// Everything that is called becomes part of the loop: only so the compiler takes several lanes at a time.
+// Inlines all calls into the loop, which the compiler otherwise does not vectorise.
 template<class Make> [[gnu::flatten]] void makeEach(LowPoints& points, const Make& make)
 {
     for (std::size_t i = 0; i < kLanes; ++i) {
@@ -63,7 +63,7 @@ template<class Make> [[gnu::flatten]] void makeEach(LowPoints& points, const Mak
 }
 
 template<class Make>
-[[gnu::flatten]] void makeFromDifferences(const Ingredients& in, LowPoints& points, const Make& make)
+[[gnu::flatten]] void makeFromDifferences(const FrameInputs& in, LowPoints& points, const Make& make)
 {
     makeEach(points, [&](std::size_t i) {
         return make(points.normal.at(i), in.dpdx.at(i), in.dpdy.at(i), glm::vec2(in.ux[i], in.vx[i]),
@@ -71,8 +71,8 @@ template<class Make>
     });
 }
 
-// A loop for every row of the table of frames, with the portable text in it.
-void makeFrames(Frame frame, const Ingredients& in, LowPoints& points)
+// One loop for each row of the table of frames, with the portable text inlined.
+void makeFrames(Frame frame, const FrameInputs& in, LowPoints& points)
 {
     switch (frame) {
 #define COTAN_MAKE_differences(word)                                                                                   \
@@ -93,7 +93,7 @@ void makeFrames(Frame frame, const Ingredients& in, LowPoints& points)
     }
 }
 
-// Zero stays zero.
+// Normalises each vector; zero stays zero.
 [[gnu::flatten, gnu::noinline]] void normalise(const Lanes3& raw, Lanes3& unit)
 {
     for (std::size_t i = 0; i < kLanes; ++i) {
@@ -105,16 +105,16 @@ void makeFrames(Frame frame, const Ingredients& in, LowPoints& points)
 
 } // namespace
 
-void pointsOf(const LowSurface& surface, std::span<const UvSample> places, LowPoints& points)
+void pointsOf(const LowSurface& surface, std::span<const UvSample> samples, LowPoints& points)
 {
-    Ingredients& in = points.from;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        in.b1[i] = places[i].b1;
-        in.b2[i] = places[i].b2;
+    FrameInputs& in = points.from;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        in.b1[i] = samples[i].b1;
+        in.b2[i] = samples[i].b2;
     }
-    for (Run run{0, 0}; run.from < places.size(); run.from = run.to) {
-        const std::uint32_t triangle = places[run.from].triangle;
-        while (run.to < places.size() && places[run.to].triangle == triangle)
+    for (Run run{0, 0}; run.from < samples.size(); run.from = run.to) {
+        const std::uint32_t triangle = samples[run.from].triangle;
+        while (run.to < samples.size() && samples[run.to].triangle == triangle)
             ++run.to;
         gather(surface, triangle, run, in, points);
     }

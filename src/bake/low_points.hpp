@@ -1,4 +1,4 @@
-// Many points of the low surface at once, in float: what the baker spends its time on beside the rays.
+// Points of the low surface for a whole packet, in float: apart from the rays the most expensive part of a bake.
 #pragma once
 
 #include <span>
@@ -11,23 +11,23 @@ namespace cotan {
 
 struct LowPoints {
     Lanes3 position, normal; // world; the normal unit as interpolated, or zero where unknown
-    Lanes3 t, b, n;          // the frame
+    Lanes3 t, b, n;          // frame at the point
 
-    // What the frame is made from.
-    struct Ingredients {
+    // Inputs of the frame.
+    struct FrameInputs {
         Lanes<float> b1{}, b2{}; // barycentric coordinates
-        Lanes3 raw;              // normal, not normalised
-        Lanes3 u, v;             // of frames from cotangents; u of those from a tangent: the tangent
+        Lanes3 raw;              // interpolated normal, not normalised
+        Lanes3 u, v;             // for frames from cotangents; u is the tangent for frames from tangents
         Lanes<float> handedness{};
-        Lanes3 dpdx, dpdy;                   // of the others: differences
+        Lanes3 dpdx, dpdy;                   // differences, for all other frames
         Lanes<float> ux{}, uy{}, vx{}, vy{}; // duvdx.x, duvdy.x, duvdx.y, duvdy.y
     } from;
 };
 
-// The points at up to kLanes places. The same as pointOf in double, to rounding.
-void pointsOf(const LowSurface& surface, std::span<const UvSample> places, LowPoints& points);
+// Computes the points at up to kLanes samples. Equal to pointOf in double, except for rounding.
+void pointsOf(const LowSurface& surface, std::span<const UvSample> samples, LowPoints& points);
 
-// Unit texels of these frames, as encode has them.
+// Encodes target normals as unit texels of these frames, by cotan_encode.
 void encode(const LowPoints& points, const Lanes3& targets, Lanes3& texels);
 
 } // namespace cotan

@@ -11,9 +11,9 @@ namespace cotan {
 
 struct LowTree::State {
     std::vector<glm::vec3> positions;
-    std::vector<std::uint32_t> indices, seen; // seen: as Embree has them, where some triangles are left out
+    std::vector<std::uint32_t> indices, embreeIndices; // embreeIndices: if some triangles are left out
     std::vector<glm::vec3> faces;
-    std::vector<std::int64_t> shown;
+    std::vector<std::int64_t> highInstances;
     EmbreeScene embree; // shares these arrays
 };
 
@@ -23,8 +23,8 @@ struct Coordinates {
     float b1, b2;
 };
 
-// Of the point of a triangle nearest to p: by the regions of its plane (C. Ericson, Real-Time Collision Detection,
-// 2005, 5.1.5).
+// Barycentric coordinates of the point of a triangle nearest to p, by Voronoi regions (C. Ericson, Real-Time Collision
+// Detection, 2005, 5.1.5).
 Coordinates nearestOn(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 p)
 {
     const glm::vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
@@ -55,10 +55,10 @@ Coordinates nearestOn(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 p)
 } // namespace
 
 Result<LowTree> LowTree::make(std::vector<glm::vec3> positions, std::vector<std::uint32_t> indices,
-                              std::vector<std::int64_t> shown, int threads)
+                              std::vector<std::int64_t> highInstances, int threads)
 {
     auto state = std::make_shared<State>();
-    state->shown = std::move(shown);
+    state->highInstances = std::move(highInstances);
     state->positions = std::move(positions);
     state->indices = std::move(indices);
     for (std::size_t i = 0; i + 2 < state->indices.size(); i += 3) {
@@ -68,30 +68,31 @@ Result<LowTree> LowTree::make(std::vector<glm::vec3> positions, std::vector<std:
         const float length = glm::length(area);
         state->faces.push_back(length > 0 ? area / length : glm::vec3(0));
     }
-    // Of equally near triangles the first counts, so that those on earlier ones that show the same can be left out.
+    // Of equally near triangles the first counts, so triangles on earlier ones that show the same can be left out.
     const std::vector<std::uint8_t> repeated = repeatedTriangles(state->faces.size(), [&](std::size_t f) {
         const std::uint32_t* const c = &state->indices[3 * f];
         const std::vector<glm::vec3>& p = state->positions;
-        return CornersOfTriangle{{p[c[0]], p[c[1]], p[c[2]]}, state->shown.empty() ? 0 : state->shown[f]};
+        return CornersOfTriangle{{p[c[0]], p[c[1]], p[c[2]]},
+                                 state->highInstances.empty() ? 0 : state->highInstances[f]};
     });
     if (Status opened = state->embree.open(threads, RTC_SCENE_FLAG_ROBUST); !opened)
         return opened.error();
-    state->embree.add(state->positions, state->indices, repeated, state->seen);
-    if (Status held = state->embree.commit(state->faces.size()); !held)
-        return held.error();
+    state->embree.add(state->positions, state->indices, repeated, state->embreeIndices);
+    if (Status committed = state->embree.commit(state->faces.size()); !committed)
+        return committed.error();
     return LowTree(std::move(state));
 }
 
 LowTree::Nearest LowTree::nearest(glm::vec3 to, float radius,
                                   const std::function<bool(std::uint32_t triangle)>& accepts) const
 {
-    struct Question {
+    struct NearestQuery {
         const State& state;
         const std::function<bool(std::uint32_t)>& accepts;
         glm::vec3 to;
         Nearest best;
-    } question{*state_, accepts, to, {}};
-    question.best.distance = radius;
+    } nearestQuery{*state_, accepts, to, {}};
+    nearestQuery.best.distance = radius;
     RTCPointQuery query{};
     query.x = to.x;
     query.y = to.y;
@@ -102,8 +103,8 @@ LowTree::Nearest LowTree::nearest(glm::vec3 to, float radius,
     rtcPointQuery(
         state_->embree.scene, &query, &context,
         [](RTCPointQueryFunctionArguments* a) {
-            Question& q = *static_cast<Question*>(a->userPtr);
-            ++q.best.asked;
+            NearestQuery& q = *static_cast<NearestQuery*>(a->userPtr);
+            ++q.best.visited;
             if (!q.accepts(a->primID))
                 return false;
             const std::uint32_t* const c = &q.state.indices[3 * std::size_t(a->primID)];
@@ -115,16 +116,16 @@ LowTree::Nearest LowTree::nearest(glm::vec3 to, float radius,
             Nearest& best = q.best;
             if (distance > best.distance || (best.found && distance == best.distance && a->primID > best.triangle))
                 return false;
-            best = {{true, a->primID, on.b1, on.b2, distance}, point, best.asked};
-            // A little more than the distance, so that all that are equally near are asked about.
+            best = {{true, a->primID, on.b1, on.b2, distance}, point, best.visited};
+            // A little larger than the distance, so that all equally near triangles are visited.
             a->query->radius = distance * 1.00001f;
             return true;
         },
-        &question);
-    return question.best;
+        &nearestQuery);
+    return nearestQuery.best;
 }
 
-LowTree::Met LowTree::first(const Ray& ray) const
+LowTree::TreeHit LowTree::first(const Ray& ray) const
 {
     RayQuery query(Coherence::incoherent);
     RTCRayHit r = toEmbree(ray);
@@ -134,16 +135,16 @@ LowTree::Met LowTree::first(const Ray& ray) const
     return {true, r.hit.primID, r.hit.u, r.hit.v, r.ray.tfar};
 }
 
-LowTree::Met LowTree::firstBeside(std::uint32_t triangle, Ray ray) const
+LowTree::TreeHit LowTree::firstBeside(std::uint32_t triangle, Ray ray) const
 {
-    const std::vector<std::int64_t>& shown = state_->shown;
-    Met met = first(ray);
-    while (met.found && met.distance < ray.farthest && !shown.empty() && shown[triangle] >= 0
-           && shown[met.triangle] >= 0 && shown[triangle] != shown[met.triangle]) {
-        ray.nearest = std::nextafter(met.distance, ray.farthest);
-        met = first(ray);
+    const std::vector<std::int64_t>& highInstances = state_->highInstances;
+    TreeHit hit = first(ray);
+    while (hit.found && hit.distance < ray.farthest && !highInstances.empty() && highInstances[triangle] >= 0
+           && highInstances[hit.triangle] >= 0 && highInstances[triangle] != highInstances[hit.triangle]) {
+        ray.nearest = std::nextafter(hit.distance, ray.farthest);
+        hit = first(ray);
     }
-    return met;
+    return hit;
 }
 
 glm::vec3 LowTree::face(std::uint32_t triangle) const { return state_->faces[triangle]; }

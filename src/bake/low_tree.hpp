@@ -1,4 +1,4 @@
-// The simple surface as points and rays find it.
+// The simple surface for nearest-point and ray queries.
 #pragma once
 
 #include <cstdint>
@@ -13,35 +13,35 @@
 
 namespace cotan {
 
-// Triangles in Embree's acceleration structure, for single questions from several threads. Copies share them.
+// Triangles in Embree's acceleration structure, for single queries from several threads. Copies share them.
 class LowTree {
 public:
-    // positions, indices: of the triangles, copied. shown: one a triangle: the part of the high surface that it shows,
-    // -1 for all of it; empty: all triangles show all of it. threads: 0 for all. Errors: ErrorKind::unavailable where
+    // positions, indices: of the triangles, copied. highInstances: for each triangle the instance of the high surface
+    // that it shows, -1 for all; empty: all triangles show all. threads: 0 for all. Errors: ErrorKind::unavailable if
     // memory does not suffice, or without Embree.
     static Result<LowTree> make(std::vector<glm::vec3> positions, std::vector<std::uint32_t> indices,
-                                std::vector<std::int64_t> shown, int threads);
+                                std::vector<std::int64_t> highInstances, int threads);
 
-    struct Met {
+    struct TreeHit {
         bool found = false;
         std::uint32_t triangle = 0;
         float b1 = 0, b2 = 0; // barycentric coordinates of its corners 1 and 2
         float distance = 0;
     };
-    struct Nearest : Met {
+    struct Nearest : TreeHit {
         glm::vec3 point{0};
-        std::size_t asked = 0; // triangles that were looked at
+        std::size_t visited = 0; // number of triangles visited
     };
-    // The nearest point, at most `radius` away, of the triangles that `accepts` takes; of equally near ones that of the
-    // first triangle.
+    // The nearest point within `radius` on the triangles that `accepts` takes; of equally near ones that of the first
+    // triangle.
     Nearest nearest(glm::vec3 to, float radius, const std::function<bool(std::uint32_t triangle)>& accepts) const;
 
-    // The first triangle on a ray.
-    Met first(const Ray& ray) const;
-    // The same, of those that show something that `triangle` shows too.
-    Met firstBeside(std::uint32_t triangle, Ray ray) const;
+    // The first triangle that a ray hits.
+    TreeHit first(const Ray& ray) const;
+    // The same among triangles that show something that `triangle` shows too.
+    TreeHit firstBeside(std::uint32_t triangle, Ray ray) const;
 
-    // Unit, by the order of the corners; zero without area.
+    // The unit normal by the order of the corners; zero without area.
     glm::vec3 face(std::uint32_t triangle) const;
 
 private:

@@ -1,4 +1,4 @@
-// The detailed surface where there is no Embree to find it: nobody can make one.
+// HighSurface and LowTree for builds without Embree: neither can be made.
 #include "bake/high_surface.hpp"
 #include "bake/low_tree.hpp"
 #include "core/not_built.hpp"
@@ -20,7 +20,7 @@ void HighSurface::nearest(const Probes&, float, HighNormals, Hits&) const {}
 void HighSurface::outermost(const Probes&, HighNormals, Hits&) const {}
 void HighSurface::anyBetween(const Probes&, Lanes<int>&) const {}
 bool HighSurface::blocked(const Ray&) const { return false; }
-std::size_t HighSurface::met(const Ray&) const { return 0; }
+std::size_t HighSurface::countHits(const Ray&) const { return 0; }
 HighSurface::Triangles HighSurface::triangles(std::size_t) const { return {}; }
 const std::vector<std::string>& HighSurface::names() const { return state_->names; }
 std::size_t HighSurface::triangleCount() const { return 0; }
@@ -33,8 +33,8 @@ Result<LowTree> LowTree::make(std::vector<glm::vec3>, std::vector<std::uint32_t>
     return *HighSurface::unavailable();
 }
 LowTree::Nearest LowTree::nearest(glm::vec3, float, const std::function<bool(std::uint32_t)>&) const { return {}; }
-LowTree::Met LowTree::first(const Ray&) const { return {}; }
-LowTree::Met LowTree::firstBeside(std::uint32_t, Ray) const { return {}; }
+LowTree::TreeHit LowTree::first(const Ray&) const { return {}; }
+LowTree::TreeHit LowTree::firstBeside(std::uint32_t, Ray) const { return {}; }
 glm::vec3 LowTree::face(std::uint32_t) const { return glm::vec3(0); }
 
 } // namespace cotan

@@ -18,17 +18,17 @@
 
 namespace cotan {
 
-// ---- Embree 3 or 4: all in which the two differ -----------------------------------------------
+// ---- differences between Embree 3 and 4 -------------------------------------------------------
 
 enum class Coherence { incoherent, coherent };
 
 #if COTAN_EMBREE_MAJOR == 3
 
-// Lets scenes take filters from a query.
+// Lets queries pass filters to the scene.
 inline constexpr RTCSceneFlags kFiltersInQueries = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 
-// What a trace is given beside its rays: how they lie to one another, and a filter or null. Filters find the context at
-// the start of it.
+// Arguments of a trace: the coherence of its rays, and a filter or null. `context` must be first: filters get its
+// address.
 struct RayQuery {
     RTCIntersectContext context;
 
@@ -46,7 +46,7 @@ inline void intersect(const int* valid, RTCScene scene, RayQuery& query, RTCRayH
 {
     rtcIntersect16(valid, scene, &query.context, &rays);
 }
-// Rays that meet something have a negative tfar then.
+// Rays that hit something get a negative tfar.
 inline void occluded(RTCScene scene, RayQuery& query, RTCRay& ray) { rtcOccluded1(scene, &query.context, &ray); }
 inline void occluded(const int* valid, RTCScene scene, RayQuery& query, RTCRay16& rays)
 {
@@ -69,7 +69,7 @@ struct RayQuery {
             coherence == Coherence::coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
         flags = RTCRayQueryFlags(order | (filter ? RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER : 0));
     }
-    // RTCIntersectArguments or RTCOccludedArguments, of which init sets the rest.
+    // RTCIntersectArguments or RTCOccludedArguments; init sets the remaining fields.
     template<class Arguments> Arguments arguments(void (*init)(Arguments*))
     {
         Arguments a;
@@ -106,7 +106,7 @@ inline void occluded(const int* valid, RTCScene scene, RayQuery& query, RTCRay16
 
 // ---- triangles and rays -----------------------------------------------------------------------
 
-// A scene of Embree's, on a device of its own. The arrays that are added must outlive it.
+// An Embree scene on a device of its own. The arrays that are added must outlive it.
 struct EmbreeScene {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
@@ -133,21 +133,21 @@ struct EmbreeScene {
         return Done{};
     }
 
-    // Triangles; their ids count up from 0. Repeated ones (repeatedTriangles) get corners that are not finite, which
-    // Embree leaves out, so that the others keep their numbers: `seen` holds the indices then. Behind the positions
-    // comes what that needs, and one more, as Embree reads 16 bytes at every vertex.
+    // Adds triangles; geometry ids count up from 0. Repeated triangles (repeatedTriangles) get NaN corners, which
+    // Embree ignores, so that the others keep their numbers; embreeIndices then has the indices. Appends such a corner
+    // to the positions, and one more element, because Embree reads 16 bytes at every vertex.
     void add(std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& indices,
-             const std::vector<std::uint8_t>& repeated, std::vector<std::uint32_t>& seen)
+             const std::vector<std::uint8_t>& repeated, std::vector<std::uint32_t>& embreeIndices)
     {
         if (!repeated.empty()) {
-            seen = indices;
+            embreeIndices = indices;
             for (std::size_t f = 0; f < repeated.size(); ++f)
                 if (repeated[f])
-                    std::fill_n(seen.begin() + std::ptrdiff_t(3 * f), 3, std::uint32_t(positions.size()));
+                    std::fill_n(embreeIndices.begin() + std::ptrdiff_t(3 * f), 3, std::uint32_t(positions.size()));
             positions.emplace_back(std::numeric_limits<float>::quiet_NaN());
         }
         positions.emplace_back(0.0f);
-        const std::vector<std::uint32_t>& shared = repeated.empty() ? indices : seen;
+        const std::vector<std::uint32_t>& shared = repeated.empty() ? indices : embreeIndices;
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions.data(), 0,
                                    sizeof(glm::vec3), positions.size() - 1);
@@ -167,9 +167,9 @@ struct EmbreeScene {
     }
 };
 
-// Embree clamps reciprocals of components below 1e-18, all to the positive side, while it sorts the rays of a coherent
-// packet by the signs as they were: a lane with -1e-18 beside lanes with +0.2 loses the hits of all of them. Components
-// that are this small against a unit vector move no hit by a unit in the last place.
+// Embree clamps reciprocals of components below 1e-18 to the positive side, but sorts the rays of a coherent packet by
+// their original signs: one lane with -1e-18 among lanes with +0.2 makes all of them lose their hits. Components of a
+// unit vector that are this small do not move a hit by one unit in the last place.
 inline float flushed(float component) { return std::abs(component) < 1e-12f ? 0.0f : component; }
 
 inline RTCRayHit toEmbree(const Ray& ray)
@@ -189,14 +189,14 @@ inline RTCRayHit toEmbree(const Ray& ray)
     return r;
 }
 
-// What the filters of a trace read.
-struct Asked {
-    RayQuery query;      // first, as Embree hands it to filters
-    const float* fronts; // of the instances: 1, or -1 where triangles are wound against their normals
-    glm::vec3 normal{0}; // for keepFacing: of the low surface
+// Data for the filters of a trace.
+struct FilterContext {
+    RayQuery query;      // must be first: Embree passes its address to filters
+    const float* fronts; // of the instances: 1, or -1 if triangles are wound against their normals
+    glm::vec3 normal{0}; // of the low surface, for keepFacing
 };
 
-// Rays carry the instance that they look for as their id.
+// Rejects hits on instances other than the one that a ray looks for, which its id holds.
 inline void keepOnly(const RTCFilterFunctionNArguments* a)
 {
     for (unsigned i = 0; i < a->N; ++i) {
@@ -206,36 +206,36 @@ inline void keepOnly(const RTCFilterFunctionNArguments* a)
     }
 }
 
-// Whether the front of a triangle is turned away from the origin of a ray, or from the low surface's normal. Sides of
-// parts that stand upright are neither: they are perpendicular to the normal but for rounding.
+// Whether the front of a triangle faces away from the origin of a ray or from the low surface's normal. Sides of
+// upright parts do neither: they are perpendicular to the normal except for rounding.
 inline bool facesAway(glm::vec3 front, glm::vec3 direction, glm::vec3 normal)
 {
-    constexpr float kUprightCosine = 1e-3f; // cosine
+    constexpr float kUprightCosine = 1e-3f;
     const float off = glm::dot(front, normal);
     return glm::dot(front, direction) >= 0
         || (off < 0 && off * off > kUprightCosine * kUprightCosine * glm::dot(front, front));
 }
 
-// The same, and only triangles that face the ray. For single rays.
+// Rejects the same hits, and those of triangles that face away. For single rays.
 inline void keepFacing(const RTCFilterFunctionNArguments* a)
 {
     keepOnly(a);
-    const Asked& asked = *reinterpret_cast<const Asked*>(a->context);
+    const FilterContext& context = *reinterpret_cast<const FilterContext*>(a->context);
     for (unsigned i = 0; i < a->N; ++i) {
         if (!a->valid[i])
             continue;
         const glm::vec3 front =
             glm::vec3(RTCHitN_Ng_x(a->hit, a->N, i), RTCHitN_Ng_y(a->hit, a->N, i), RTCHitN_Ng_z(a->hit, a->N, i))
-            * asked.fronts[RTCHitN_geomID(a->hit, a->N, i)];
+            * context.fronts[RTCHitN_geomID(a->hit, a->N, i)];
         const glm::vec3 direction(RTCRayN_dir_x(a->ray, a->N, i), RTCRayN_dir_y(a->ray, a->N, i),
                                   RTCRayN_dir_z(a->ray, a->N, i));
-        if (facesAway(front, direction, asked.normal))
+        if (facesAway(front, direction, context.normal))
             a->valid[i] = 0;
     }
 }
 
-// A filter costs a call for each candidate; most scenes need none.
-inline Asked asked(const Probes& probes, const std::vector<float>& fronts)
+// Sets a filter only if a probe is limited to an instance: a filter costs a call for each candidate.
+inline FilterContext filterContextFor(const Probes& probes, const std::vector<float>& fronts)
 {
     const bool filtered = std::any_of(probes.only.begin(), probes.only.begin() + std::ptrdiff_t(probes.count),
                                       [](std::uint32_t only) { return only != Probes::kAny; });
@@ -249,14 +249,14 @@ struct Packet {
     Lanes<float> length;
     RTCRayHit16 rays;
 
-    // The rays from `offset` before each probe's point along direction * way, `farthest` long.
-    Packet(const Probes& probes, const Lanes<float>& offset, float way, const Lanes<float>& farthest)
+    // Rays of length `farthest` that start `offset` before each probe's point, along direction * sign.
+    Packet(const Probes& probes, const Lanes<float>& offset, float sign, const Lanes<float>& farthest)
     {
         RTCRay16& r = rays.ray;
         const int count = int(probes.count);
         for (int lane = 0; lane < int(kLanes); ++lane) {
             const auto i = std::size_t(lane);
-            const glm::vec3 direction = probes.direction.at(i) * way,
+            const glm::vec3 direction = probes.direction.at(i) * sign,
                             origin = probes.point.at(i) - direction * offset[i];
             r.org_x[i] = origin.x;
             r.org_y[i] = origin.y;
@@ -272,28 +272,28 @@ struct Packet {
             r.flags[i] = 0;
             rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
             rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-            const bool looks = glm::dot(direction, direction) > 0 && farthest[i] > 0 && lane < count;
-            valid[i] = looks ? -1 : 0;
+            const bool active = glm::dot(direction, direction) > 0 && farthest[i] > 0 && lane < count;
+            valid[i] = active ? -1 : 0;
         }
     }
-    bool found(std::size_t i) const { return rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID; } // never where not valid
+    bool found(std::size_t i) const { return rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID; } // false for invalid lanes
 
-    void trace(RTCScene scene, Asked asked) { intersect(valid.data(), scene, asked.query, rays); }
+    void trace(RTCScene scene, FilterContext context) { intersect(valid.data(), scene, context.query, rays); }
 
-    // One lane, by Embree's way for single rays. Keeps what the lane has where that finds nothing.
-    void traceAlone(std::size_t i, RTCScene scene, Asked asked)
+    // Traces one lane as a single ray. Keeps the lane's previous hit if that finds nothing.
+    void traceAlone(std::size_t i, RTCScene scene, FilterContext context)
     {
         const RTCRay16& r = rays.ray;
         RTCRayHit one =
             toEmbree({{r.org_x[i], r.org_y[i], r.org_z[i]}, {r.dir_x[i], r.dir_y[i], r.dir_z[i]}, 0, length[i]});
         one.ray.id = r.id[i];
-        intersect(scene, asked.query, one);
+        intersect(scene, context.query, one);
         if (one.hit.geomID == RTC_INVALID_GEOMETRY_ID)
             return;
         rays.ray.tfar[i] = one.ray.tfar;
         rtcCopyHitToHitN(reinterpret_cast<RTCHitN*>(&rays.hit), &one.hit, kLanes, unsigned(i));
     }
-    // Something was found that faces away.
+    // Whether the lane hit a triangle that faces away.
     bool foundAway(std::size_t i, const std::vector<float>& fronts, glm::vec3 normal) const
     {
         const glm::vec3 face(rays.hit.Ng_x[i], rays.hit.Ng_y[i], rays.hit.Ng_z[i]);
@@ -303,8 +303,7 @@ struct Packet {
     }
 };
 
-// Of each lane `second` where all bits of the mask are set, `first` where none is. By bits, so that the compiler makes
-// no branch of it.
+// Selects for each lane `second` if all bits of the mask are set, `first` if none is. Bit operations prevent branches.
 template<class T> void pick(const Lanes<std::uint32_t>& masks, const T* first, const T* second, T* picked)
 {
     for (std::size_t i = 0; i < kLanes; ++i) {

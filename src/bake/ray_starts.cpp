@@ -23,22 +23,22 @@ namespace {
 
 constexpr float kLimit = 0.1f;               // of the diagonal
 constexpr float kMargin = 0.002f;            // of the diagonal
-constexpr float kMore = 1.05f;               // of the measured distance
-constexpr float kMinLean = 0.2f;             // cosine between a vertex's normal and its direction
-constexpr float kMinSlope = 0.3f;            // cosine by which distances are divided at least: no cage leaves the model
-constexpr float kFaces = 0.1f;               // cosine from which two surfaces count as facing the same way
-constexpr float kAside = 0.35f;              // cosine below which the nearest point lies aside
-constexpr std::size_t kMaxVertices = 400000; // that are measured: of more every second, third and so on
-constexpr double kMaxAsked = 2e7;            // triangles that all points together may look at
-constexpr std::size_t kTried = 256;          // triangles that say how many a point looks at
-constexpr std::size_t kCrowded = 2000;       // triangles that half of all points look at least at: too many
-constexpr float kSpacing = 1.0f / 256;       // of the diagonal, between points of large triangles
+constexpr float kDistanceFactor = 1.05f;     // on measured distances
+constexpr float kMinDirectionCosine = 0.2f;  // between a vertex's normal and its direction
+constexpr float kMinSlope = 0.3f;            // minimum cosine that distances are divided by, which bounds the cage
+constexpr float kMinFacing = 0.1f;           // minimum cosine between surfaces that face the same way
+constexpr float kAside = 0.35f;              // cosine below which the nearest point lies sideways
+constexpr std::size_t kMaxVertices = 400000; // that are measured; of more, every second, third and so on
+constexpr double kMaxVisits = 2e7;           // triangles that all points together may visit
+constexpr std::size_t kTried = 256;          // triangles that the visits of a point are estimated from
+constexpr std::size_t kCrowded = 2000;       // maximum number of visits by the median point
+constexpr float kSpacing = 1.0f / 256;       // of the diagonal: distance between points of large triangles
 constexpr int kMaxCuts = 64;                 // of an edge of a large triangle
 constexpr float kSkip = 1e-4f;               // of the diagonal
 
-// Numbers for vertices: equal for those of one instance at one position.
+// Group numbers of vertices, equal for vertices of one instance at one position.
 struct Groups {
-    std::vector<std::uint32_t> of; // one a vertex
+    std::vector<std::uint32_t> of; // per vertex
     std::uint32_t count = 0;
 };
 
@@ -89,19 +89,19 @@ void findDirections(const LowSurface& low, const Groups& groups, RayStarts& star
     for (std::size_t v = 0; v < low.normals.size(); ++v) {
         const std::uint32_t g = groups.of[v];
         const float length = glm::length(sums[g]);
-        if (seen[g] < 2 || !(length > 0) || glm::dot(sums[g], low.normals[v]) < kMinLean * length)
+        if (seen[g] < 2 || !(length > 0) || glm::dot(sums[g], low.normals[v]) < kMinDirectionCosine * length)
             continue;
         starts.directions[v] = sums[g] / length;
-        starts.bent = starts.bent || starts.directions[v] != low.normals[v];
+        starts.directionsDiffer = starts.directionsDiffer || starts.directions[v] != low.normals[v];
     }
 }
 
-// The low surface and the rest as one tree, and how large they are.
+// The low surface and the rest as one tree, and their dimensions.
 struct Body {
     std::optional<LowTree> tree;
-    std::vector<glm::vec3> outsides; // of its triangles: unit, to the side of the vertices' normals
-    std::vector<std::int64_t> shown; // of the same: the instance of the high surface, -1 for all; empty for all
-    float diagonal = 0, edge = 0;    // of the box; about that of a triangle
+    std::vector<glm::vec3> outwardNormals;   // per triangle: unit, on the side of the vertices' normals
+    std::vector<std::int64_t> highInstances; // per triangle: instance of the high surface, -1 for all; empty for all
+    float diagonal = 0, edge = 0;            // of the bounding box; typical one of a triangle
 };
 
 Result<Body> bodyOf(const LowSurface& low, const LowRest& rest, const BakeOptions& options)
@@ -116,7 +116,7 @@ Result<Body> bodyOf(const LowSurface& low, const LowRest& rest, const BakeOption
     for (const std::uint32_t i : rest.indices)
         indices.push_back(base + i);
     instances.insert(instances.end(), rest.triangleInstance.begin(), rest.triangleInstance.end());
-    body.shown = shownBy(instances, options.matched);
+    body.highInstances = highInstances(instances, options.matched);
     glm::vec3 from(1e30f), to(-1e30f);
     for (const std::uint32_t i : indices) {
         from = glm::min(from, positions[i]);
@@ -130,18 +130,18 @@ Result<Body> bodyOf(const LowSurface& low, const LowRest& rest, const BakeOption
         const float length = glm::length(n);
         area += double(length) / 2;
         const glm::vec3 side = normals[indices[i]] + normals[indices[i + 1]] + normals[indices[i + 2]];
-        body.outsides.push_back(length > 0 ? n / (glm::dot(n, side) < 0 ? -length : length) : glm::vec3(0));
+        body.outwardNormals.push_back(length > 0 ? n / (glm::dot(n, side) < 0 ? -length : length) : glm::vec3(0));
     }
-    body.edge = float(1.5 * std::sqrt(area / double(body.outsides.size())));
-    auto tree = LowTree::make(std::move(positions), std::move(indices), body.shown, options.threads);
+    body.edge = float(1.5 * std::sqrt(area / double(body.outwardNormals.size())));
+    auto tree = LowTree::make(std::move(positions), std::move(indices), body.highInstances, options.threads);
     if (!tree)
         return tree.error();
     body.tree = std::move(*tree);
     return body;
 }
 
-// Of one thread: where the last point belonged, from which the next one is often not far.
-struct Last {
+// The nearest point found for a thread's previous point; that for the next point is often close to it.
+struct LastNearest {
     bool known = false;
     std::uint32_t triangle = 0;
     glm::vec3 point{0};
@@ -156,28 +156,28 @@ public:
     {
     }
 
-    // Whether a triangle faces the way that a point of the high surface does, and shows it.
+    // Whether a triangle faces the same way as a point of the high surface with this normal, and shows this instance.
     auto accepting(glm::vec3 normal, std::uint32_t instance) const
     {
         return [this, normal, instance](std::uint32_t triangle) {
-            return glm::dot(body_.outsides[triangle], normal) > kFaces && sees(triangle, instance);
+            return glm::dot(body_.outwardNormals[triangle], normal) > kMinFacing && shows(triangle, instance);
         };
     }
 
-    // How many triangles a point looks at.
-    std::size_t asked(glm::vec3 point, glm::vec3 normal, std::uint32_t instance) const
+    // The number of triangles that the search for a point visits.
+    std::size_t trianglesVisited(glm::vec3 point, glm::vec3 normal, std::uint32_t instance) const
     {
-        return body_.tree->nearest(point, starts_.limit, accepting(normal, instance)).asked;
+        return body_.tree->nearest(point, starts_.limit, accepting(normal, instance)).visited;
     }
 
-    // One point of the high surface with its normal.
-    void add(glm::vec3 point, glm::vec3 normal, std::uint32_t instance, Last& last)
+    // Adds one point of the high surface with its normal.
+    void add(glm::vec3 point, glm::vec3 normal, std::uint32_t instance, LastNearest& last)
     {
         if (!(glm::dot(normal, normal) > 0))
             return;
         const auto accepts = accepting(normal, instance);
         float radius = starts_.limit;
-        if (last.known && accepts(last.triangle)) // nothing that is further away than that can be the nearest
+        if (last.known && accepts(last.triangle)) // the nearest point is not further than the last one
             radius = std::min(radius, glm::length(point - last.point) * 1.0001f + 1e-7f * body_.diagonal);
         const LowTree::Nearest nearest = body_.tree->nearest(point, radius, std::cref(accepts));
         if (!nearest.found)
@@ -187,23 +187,23 @@ public:
             return;
         const glm::vec3 off = point - nearest.point;
         const std::uint32_t* const v = &low_.indices[3 * std::size_t(nearest.triangle)];
-        const glm::vec3 sum = atVertices(starts_.directions, v, nearest.b1, nearest.b2), way = unitOr(sum, sum);
-        const float along = glm::dot(off, way);
+        const glm::vec3 sum = atVertices(starts_.directions, v, nearest.b1, nearest.b2), direction = unitOr(sum, sum);
+        const float along = glm::dot(off, direction);
         if (nearest.distance <= 1e-6f * body_.diagonal || along <= 0)
-            return raise(nearest.triangle, nearest.b1, nearest.b2, 0, way);
+            return raise(nearest.triangle, nearest.b1, nearest.b2, 0, direction);
         if (along >= kAside * nearest.distance)
             return raise(nearest.triangle, nearest.b1, nearest.b2, nearest.distance, off / nearest.distance);
-        const LowTree::Met below = body_.tree->first({point, -normal, 0, starts_.limit});
+        const LowTree::TreeHit below = body_.tree->first({point, -normal, 0, starts_.limit});
         if (below.found && below.triangle < low_.triangleCount() && accepts(below.triangle))
             raise(below.triangle, below.b1, below.b2, below.distance, normal);
     }
 
-    // Vertices that nothing belongs to, and those whose edges are all shorter than twice the distance between the
-    // points of large triangles, as in any evenly cut mesh: a surface underneath may belong to them, while no point of
-    // the one above does. Of all, or of every second, third and so on.
+    // Shoots rays from vertices that nothing belongs to, and from vertices whose edges are all shorter than twice the
+    // spacing of points on large triangles, as in any evenly tessellated mesh: a surface underneath may belong to them
+    // while no point of the one above does. Uses every `every`-th of these vertices.
     void addRays(float spacing, std::size_t every)
     {
-        std::vector<float> longest(groups_.count, 0); // edge at the vertex, squared
+        std::vector<float> longest(groups_.count, 0); // per group: longest edge at the vertex, squared
         for (std::size_t i = 0; i < low_.indices.size(); ++i) {
             const std::uint32_t a = low_.indices[i], b = low_.indices[i % 3 == 2 ? i - 2 : i + 1];
             const glm::vec3 edge = low_.positions[b] - low_.positions[a];
@@ -211,11 +211,11 @@ public:
                 longest[g] = std::max(longest[g], glm::dot(edge, edge));
         }
         std::vector<std::uint32_t> open;
-        std::vector<std::uint8_t> asked(groups_.count, 0);
+        std::vector<std::uint8_t> queued(groups_.count, 0);
         const auto isOpen = [&](std::uint32_t g) { return !reached_[g] || longest[g] < 4 * spacing * spacing; };
         for (std::size_t i = 0; i < low_.indices.size(); ++i)
-            if (const std::uint32_t g = groups_.of[low_.indices[i]]; !asked[g] && isOpen(g)) {
-                asked[g] = 1;
+            if (const std::uint32_t g = groups_.of[low_.indices[i]]; !queued[g] && isOpen(g)) {
+                queued[g] = 1;
                 open.push_back(std::uint32_t(i));
             }
         parallelRanges<std::size_t>(0, (open.size() + every - 1) / every, 64, [&](std::size_t begin, std::size_t end) {
@@ -224,38 +224,39 @@ public:
         });
     }
 
-    // One a vertex of the low surface.
+    // The distance of each vertex of the low surface.
     std::vector<float> distances() const
     {
         std::vector<float> all(low_.positions.size());
         for (std::size_t v = 0; v < all.size(); ++v) {
-            all[v] = std::bit_cast<float>(distances_[groups_.of[v]]) * kMore + kMargin * body_.diagonal;
+            all[v] = std::bit_cast<float>(distances_[groups_.of[v]]) * kDistanceFactor + kMargin * body_.diagonal;
             all[v] = options_.maxDistance > 0 ? std::min(all[v], options_.maxDistance) : all[v];
         }
         return all;
     }
 
 private:
-    bool sees(std::uint32_t triangle, std::uint32_t instance) const
+    bool shows(std::uint32_t triangle, std::uint32_t instance) const
     {
-        return body_.shown.empty() || body_.shown[triangle] < 0 || body_.shown[triangle] == std::int64_t(instance);
+        return body_.highInstances.empty() || body_.highInstances[triangle] < 0
+            || body_.highInstances[triangle] == std::int64_t(instance);
     }
-    // Distances at the corners that reach `distance` off the triangle's plane, or whatever stands across `way`.
-    void raise(std::uint32_t triangle, float b1, float b2, float distance, glm::vec3 way)
+    // Raises the distances at the corners until they enclose the plane across `direction` at `distance`.
+    void raise(std::uint32_t triangle, float b1, float b2, float distance, glm::vec3 direction)
     {
         const float weights[3] = {1 - b1 - b2, b1, b2};
         for (std::size_t i = 0; i < 3; ++i) {
             if (weights[i] < 1e-6f)
                 continue;
             const std::uint32_t v = low_.indices[3 * std::size_t(triangle) + i];
-            raiseVertex(v, distance / std::max(kMinSlope, glm::dot(starts_.directions[v], way)));
+            raiseVertex(v, distance / std::max(kMinSlope, glm::dot(starts_.directions[v], direction)));
         }
     }
     void raiseVertex(std::uint32_t v, float distance)
     {
         const std::uint32_t group = groups_.of[v];
         std::atomic_ref<std::uint8_t>(reached_[group]).store(1, std::memory_order_relaxed);
-        // Numbers from zero on are ordered as their bits are.
+        // Non-negative floats are ordered like their bits.
         std::atomic_ref<std::uint32_t> kept(distances_[group]);
         const auto wanted = std::bit_cast<std::uint32_t>(distance);
         std::uint32_t now = kept.load(std::memory_order_relaxed);
@@ -266,18 +267,18 @@ private:
     {
         constexpr int kMaxLayers = 16;
         const std::uint32_t v = low_.indices[index], triangle = index / 3;
-        const glm::vec3 way = starts_.directions[v], point = low_.positions[v];
+        const glm::vec3 direction = starts_.directions[v], point = low_.positions[v];
         const float lift = 1e-5f * body_.diagonal;
-        if (!(glm::dot(way, way) > 0))
+        if (!(glm::dot(direction, direction) > 0))
             return;
-        const float from = openDistance(*body_.tree, triangle, point, way, starts_.skip, starts_.limit);
+        const float from = openDistance(*body_.tree, triangle, point, direction, starts_.skip, starts_.limit);
         float passed = 0;
         for (int layer = 0; layer < kMaxLayers && passed < from; ++layer) {
-            const Hit hit = high_.trace({point + way * (from - passed), -way, 0, from - passed});
+            const Hit hit = high_.trace({point + direction * (from - passed), -direction, 0, from - passed});
             if (!hit.found)
                 return;
             passed += hit.distance + lift;
-            if (sees(triangle, hit.instance) && glm::dot(hit.front, way) > kFaces)
+            if (shows(triangle, hit.instance) && glm::dot(hit.front, direction) > kMinFacing)
                 return raiseVertex(v, std::max(0.0f, from - passed));
         }
     }
@@ -288,19 +289,18 @@ private:
     const Body& body_;
     const Groups& groups_;
     const RayStarts& starts_;
-    std::vector<std::uint32_t> distances_; // bits of floats, one a group
+    std::vector<std::uint32_t> distances_; // bits of floats, per group
     std::vector<std::uint8_t> reached_;    // something belongs to the group
 };
 
-// Of a triangle; v: the numbers of its corners' vertices.
+// The longest edge of a triangle. v: the indices of its vertices.
 template<class Positions> float longestEdge(const Positions& positions, const std::uint32_t* v)
 {
     const glm::vec3 a = positions[v[0]], b = positions[v[1]], c = positions[v[2]];
     return std::sqrt(std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)}));
 }
 
-// Into how many parts the edges of a triangle are cut for points about `spacing` apart; 0 of a small one, and of one
-// that nothing sees.
+// The number of pieces of a triangle's edges for points about `spacing` apart; 0 if it is small, or rays skip it.
 int cutsOf(const HighSurface::Triangles& part, std::size_t triangle, float spacing)
 {
     if (!part.repeated.empty() && part.repeated[triangle])
@@ -327,8 +327,8 @@ void pointsBetween(const HighSurface::Triangles& part, std::size_t triangle, flo
         }
 }
 
-// Of which triangles and vertices (so many) the points are taken: 1 of all, 2 of every second. Where many triangles lie
-// over one another each point looks at many, and fewer points have to do. An error where far too many do.
+// The step through triangles and vertices: 1 uses all, 2 every second. Where many triangles overlap, a point visits
+// many of them and fewer points are used. An error if the median point visits far too many. vertices: their number.
 Result<std::size_t> stepFor(const HighSurface& high, std::size_t vertices, float spacing, const Measuring& measuring)
 {
     std::size_t between = 0;
@@ -339,31 +339,31 @@ Result<std::size_t> stepFor(const HighSurface& high, std::size_t vertices, float
                 between += (cuts + 1) * (cuts + 2) / 2;
     }
     const std::size_t every = 1 + high.triangleCount() / kTried;
-    std::vector<std::size_t> asked;
-    std::size_t next = 0; // of the instance's triangles
+    std::vector<std::size_t> visited;
+    std::size_t next = 0; // index in the instance's triangles
     for (std::uint32_t instance = 0; instance < high.names().size(); ++instance) {
         const HighSurface::Triangles part = high.triangles(instance);
         for (; next < part.indices.size() / 3; next += every) {
             const std::uint32_t* const c = &part.indices[3 * next];
             glm::vec3 point = part.positions[c[0]];
-            if (asked.size() % 2 == 1)
+            if (visited.size() % 2 == 1)
                 point = (point + part.positions[c[1]] + part.positions[c[2]]) / 3.0f;
-            asked.push_back(measuring.asked(point, part.normals[c[0]], instance));
+            visited.push_back(measuring.trianglesVisited(point, part.normals[c[0]], instance));
         }
         next -= part.indices.size() / 3;
     }
-    const auto middle = asked.begin() + std::ptrdiff_t(asked.size() / 2);
-    std::nth_element(asked.begin(), middle, asked.end());
+    const auto middle = visited.begin() + std::ptrdiff_t(visited.size() / 2);
+    std::nth_element(visited.begin(), middle, visited.end());
     if (*middle > kCrowded)
-        return inputError(fmt::format("low: about {} of its triangles lie over one another at each place, expected at "
-                                      "most {}: leave out those that nobody sees",
+        return inputError(fmt::format("low: about {} of its triangles overlap at each point; expected at most {}: "
+                                      "remove hidden triangles",
                                       *middle, kCrowded));
-    const double mean = double(std::reduce(asked.begin(), asked.end())) / double(asked.size());
+    const double mean = double(std::reduce(visited.begin(), visited.end())) / double(visited.size());
     const double work = double(std::min(vertices, kMaxVertices) + between) * mean;
-    return 1 + std::size_t(work / kMaxAsked);
+    return 1 + std::size_t(work / kMaxVisits);
 }
 
-// The result: which part of the points had to do, as by stepFor.
+// Adds all points to `measuring`. Returns the step of stepFor.
 Result<std::size_t> measure(const HighSurface& high, float spacing, Measuring& measuring)
 {
     std::size_t vertices = 0;
@@ -373,18 +373,18 @@ Result<std::size_t> measure(const HighSurface& high, float spacing, Measuring& m
     if (!fitting)
         return fitting.error();
     const std::size_t every = *fitting, step = std::max(1 + vertices / kMaxVertices, every);
-    std::size_t before = 0; // triangles
+    std::size_t before = 0; // triangles of earlier instances
     for (std::uint32_t instance = 0; instance < high.names().size(); ++instance) {
         const HighSurface::Triangles part = high.triangles(instance);
         parallelRanges<std::size_t>(0, (part.positions.size() + step - 1) / step, 4096,
                                     [&](std::size_t begin, std::size_t end) {
-                                        Last last;
+                                        LastNearest last;
                                         for (std::size_t i = begin * step; i < end * step; i += step)
                                             if (i < part.positions.size())
                                                 measuring.add(part.positions[i], part.normals[i], instance, last);
                                     });
         parallelRanges<std::size_t>(0, part.indices.size() / 3, 1024, [&](std::size_t begin, std::size_t end) {
-            Last last;
+            LastNearest last;
             for (std::size_t f = begin; f != end; ++f)
                 if ((before + f) % every == 0)
                     pointsBetween(part, f, spacing,
@@ -396,8 +396,8 @@ Result<std::size_t> measure(const HighSurface& high, float spacing, Measuring& m
     return every;
 }
 
-// Whether some of the rays of a triangle would start behind another one.
-bool isCrossed(const LowSurface& low, const RayStarts& starts, std::size_t triangle, float diagonal)
+// Whether some rays of a triangle would start behind another triangle.
+bool isObstructed(const LowSurface& low, const RayStarts& starts, std::size_t triangle, float diagonal)
 {
     constexpr int kMinSteps = 3, kMaxSteps = 12;
     const std::uint32_t* v = &low.indices[3 * triangle];
@@ -405,7 +405,7 @@ bool isCrossed(const LowSurface& low, const RayStarts& starts, std::size_t trian
     const int steps = std::max(kMinSteps, int(std::min(wantedSteps, float(kMaxSteps))));
     for (int i = 0; i <= steps; ++i)
         for (int j = 0; j <= steps - i; ++j) {
-            // A little inside the edges.
+            // Slightly inside the edges.
             const float b1 = (float(i) + 0.1f) / (float(steps) + 0.3f), b2 = (float(j) + 0.1f) / (float(steps) + 0.3f);
             const glm::vec3 sum = atVertices(starts.directions, v, b1, b2);
             const float length = glm::length(sum), wanted = length * atVertices(starts.distances, v, b1, b2);
@@ -420,14 +420,14 @@ bool isCrossed(const LowSurface& low, const RayStarts& starts, std::size_t trian
 
 } // namespace
 
-std::vector<std::int64_t> shownBy(std::span<const std::uint32_t> triangleInstance,
-                                  std::span<const std::int64_t> matched)
+std::vector<std::int64_t> highInstances(std::span<const std::uint32_t> triangleInstance,
+                                        std::span<const std::int64_t> matched)
 {
-    std::vector<std::int64_t> shown;
+    std::vector<std::int64_t> highInstances;
     if (!matched.empty())
         for (const std::uint32_t instance : triangleInstance)
-            shown.push_back(matched[instance]);
-    return shown;
+            highInstances.push_back(matched[instance]);
+    return highInstances;
 }
 
 float openDistance(const LowTree& tree, std::uint32_t triangle, glm::vec3 point, glm::vec3 direction, float skip,
@@ -435,10 +435,10 @@ float openDistance(const LowTree& tree, std::uint32_t triangle, glm::vec3 point,
 {
     if (!(wanted > skip))
         return wanted;
-    const LowTree::Met met = tree.firstBeside(triangle, {point, direction, skip, wanted});
-    if (!met.found)
+    const LowTree::TreeHit hit = tree.firstBeside(triangle, {point, direction, skip, wanted});
+    if (!hit.found)
         return wanted;
-    return glm::dot(tree.face(met.triangle), direction) > 0 ? met.distance / 2 : met.distance;
+    return glm::dot(tree.face(hit.triangle), direction) > 0 ? hit.distance / 2 : hit.distance;
 }
 
 Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
@@ -454,7 +454,7 @@ Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, 
     starts.limit = options.maxDistance > 0 ? options.maxDistance : kLimit * body->diagonal;
     if (options.extrusion > 0) {
         starts.distances.assign(low.positions.size(), options.extrusion);
-        starts.crossed.assign(low.triangleCount(), 0);
+        starts.obstructed.assign(low.triangleCount(), 0);
         starts.farthest = options.extrusion;
         return starts;
     }
@@ -465,10 +465,11 @@ Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, 
         if (!every)
             return every.error();
         starts.distances = measuring.distances();
-        starts.crossed.assign(low.triangleCount(), 1);
-        if (*every == 1) // else so crowded that the rays of all triangles are looked at as they are shot
-            parallelFor(std::size_t(0), low.triangleCount(),
-                        [&](std::size_t f) { starts.crossed[f] = isCrossed(low, starts, f, body->diagonal) ? 1 : 0; });
+        starts.obstructed.assign(low.triangleCount(), 1);
+        if (*every == 1) // otherwise so crowded that the bake tests the rays of all triangles
+            parallelFor(std::size_t(0), low.triangleCount(), [&](std::size_t f) {
+                starts.obstructed[f] = isObstructed(low, starts, f, body->diagonal) ? 1 : 0;
+            });
         return Done{};
     });
     if (!measured)

@@ -1,4 +1,4 @@
-// Where the rays of a bake start: a cage that is measured.
+// Measures where the rays of a bake start, as an automatic cage.
 #pragma once
 
 #include <cstdint>
@@ -14,51 +14,51 @@
 
 namespace cotan {
 
-// Rays run along `directions`, interpolated over the triangle, from `distances`, interpolated as well, in front of the
-// low surface inwards. At a point with the sum S of weighted directions and D of weighted distances a ray starts D |S|
-// in front of it: the vertices moved by their distances enclose whatever they were measured from.
+// Rays start in front of the low surface and run inwards along `directions`, interpolated over the triangle. At a point
+// with the weighted sum S of directions and D of `distances`, a ray starts D |S| in front of the surface, so that the
+// vertices moved by their distances enclose the points that they were measured from.
 struct RayStarts {
-    std::vector<glm::vec3> directions; // one a vertex: the mean of the normals at its position, weighted by the angles
-                                       // of the corners. So rays turn steadily around hard edges, without gaps. The
-                                       // vertex's own normal where the mean leans from it by more than 78 degrees
-    bool bent = false;                 // some differ from the normals
-    std::vector<float> distances;      // one a vertex, model units; equal at equal positions
-    std::vector<std::uint8_t> crossed; // one a triangle: other triangles may stand before where its rays start
-    std::optional<LowTree> tree;       // of the low surface and LowRest; none: rays start wherever they are told
-    float farthest = 0;                // the largest distance
-    float skip = 0;                    // parts of the low surface nearer than this to a point are the point itself
-    float limit = 0;                   // surfaces further than this off, in front or behind, do not count
+    std::vector<glm::vec3> directions;    // per vertex: mean of the normals at its position, weighted by the corners'
+                                          // angles. So rays turn continuously around hard edges, without gaps. The
+                                          // vertex's own normal if it differs from the mean by more than 78 degrees
+    bool directionsDiffer = false;        // some directions differ from the normals
+    std::vector<float> distances;         // per vertex, model units; equal at equal positions of an instance
+    std::vector<std::uint8_t> obstructed; // per triangle: other triangles may lie between it and where its rays start
+    std::optional<LowTree> tree;          // of the low surface and LowRest; none: rays start at the full distance
+    float farthest = 0;                   // maximum of `distances`
+    float skip = 0;                       // parts of the low surface nearer than this to a point are ignored
+    float limit = 0;                      // surfaces further away than this, in front or behind, do not count
 };
 
-// Triangles that no map is baked for now, but that detail may belong to: the model's other materials.
+// Triangles that are not baked now but that detail may belong to: other materials and other meshes of the model.
 struct LowRest {
     std::vector<glm::vec3> positions, normals; // world
     std::vector<std::uint32_t> indices;
     std::vector<std::uint32_t> triangleInstance; // of the scene, as in LowSurface
 };
 
-// Measures how far the high surface stands off. Each of its vertices (of more than 400,000 every second, third and so
-// on; and points between, where its triangles are large) belongs to the nearest point of the low surface whose front it
-// faces, at most the limit away; where that lies aside, to the point below it. The vertices of the triangle there get a
-// distance that encloses it, and 5 % and 0.002 of the diagonal more. Where nothing belongs to a vertex, or its
-// edges are shorter than twice the distance between those points, the outermost front within the limit on its own ray
-// counts, too. Rays start no further out than another part of the low surface that shows the same detail: measured
-// ones, not those with a given extrusion. The result does not depend on the number of threads. Errors: those of
-// LowTree::make; ErrorKind::input where thousands of triangles of the low surface lie over one another at most points.
-// options: extrusion is the distance of all vertices, 0 measures; maxDistance the limit, 0 for 10 % of the diagonal of
-// the low surface's box, LowRest included; matched and threads.
+// Measures how far the high surface stands off. Each of its vertices (above 400,000 every second, third and so on), and
+// points between them on large triangles, belong to the nearest point of the low surface whose front they face, at most
+// the limit away; if that point lies sideways, to the point below. The vertices of the low triangle there get a
+// distance that encloses the high point, plus 5 % and 0.002 of the diagonal. If nothing belongs to a vertex, or its
+// edges are shorter than twice the spacing of the points, the outermost front within the limit on its own ray counts
+// too. Measured rays start no further out than another part of the low surface that shows the same detail; rays with a
+// given extrusion may. The result does not depend on the number of threads. Errors: those of LowTree::make;
+// ErrorKind::input if thousands of triangles of the low surface overlap at most points. options: extrusion is the
+// distance of all vertices, 0: measure; maxDistance is the limit, 0: 10 % of the diagonal of the bounding box of the
+// low surface and LowRest; matched and threads.
 Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
                                 const LowRest& rest = {});
 
-// How far a ray may start in front of a point of `triangle`: `wanted`, or where another part of the low surface that
-// shows the same detail stands in between, the distance to it; half of that, if one sees it from behind. `skip`: parts
+// The distance in front of a point of `triangle` at which a ray may start: `wanted`, or the distance to another part of
+// the low surface in between that shows the same detail; half of that if the point sees the part's back. `skip`: parts
 // nearer than this are the surface itself.
 float openDistance(const LowTree& tree, std::uint32_t triangle, glm::vec3 point, glm::vec3 direction, float skip,
                    float wanted);
 
-// The instance of the high surface that each triangle shows, -1 for all: as LowTree::make asks for it. Empty where no
+// For each triangle the instance of the high surface that it shows, -1 for all, as LowTree::make takes it. Empty if no
 // instances are matched. matched: as in BakeOptions.
-std::vector<std::int64_t> shownBy(std::span<const std::uint32_t> triangleInstance,
-                                  std::span<const std::int64_t> matched);
+std::vector<std::int64_t> highInstances(std::span<const std::uint32_t> triangleInstance,
+                                        std::span<const std::int64_t> matched);
 
 } // namespace cotan

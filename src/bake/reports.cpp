@@ -57,7 +57,7 @@ Json toJson(const PrimitiveLint& p)
                        {"orthonormal", toJson(p.steps.orthonormal)}};
     if (p.stored.present)
         j["stored_tangents"] = {{"reversed_w", p.stored.reversedW},
-                                {"turned", p.stored.turned},
+                                {"turned", p.stored.rotated},
                                 {"degrees_from_dpdu", toJson(p.stored.angle)}};
     for (const Reading& r : p.readings)
         j["read_with"][r.name] = toJson(r.error);
@@ -94,9 +94,8 @@ Json toJson(const MapFit& f)
 std::string greenVerdict(const GreenEvidence& g)
 {
     if (!g.decided())
-        return "cannot be told from the map (" + (g.verdict.reason.empty() ? "it was not read" : g.verdict.reason)
-            + ")";
-    return fmt::format("{} ({})", g.asDeclared() ? "as declared" : "the other way than declared",
+        return "undecidable from the map (" + (g.verdict.reason.empty() ? "it was not read" : g.verdict.reason) + ")";
+    return fmt::format("{} ({})", g.asDeclared() ? "as declared" : "opposite to the declaration",
                        name(g.verdict.confidence));
 }
 
@@ -142,7 +141,7 @@ Json listsOf(const LintReport& report)
 
 // ---- convert --------------------------------------------------------------------------------
 
-// Of a map that stays, no texel was looked at: those figures are missing.
+// A kept map has no fields about converted texels, since none was looked at.
 Json toJson(const ConvertedMap& map)
 {
     const ReencodeFigures& r = map.figures;
@@ -185,12 +184,12 @@ Json tangentsJson(const ConvertModelReport& report)
                  {"bytes_per_vertex", d.vertices > 0 ? double(d.bytes) / double(d.vertices) : 0},
                  {"vertices", d.vertices},
                  {"bytes", d.bytes}};
-    for (const TurnedDirection& turned : d.directions)
-        json["anisotropy"].push_back({{"mesh", turned.mesh},
-                                      {"primitive", turned.primitive},
-                                      {"material", turned.material},
-                                      {"turned_degrees", toJson(turned.degrees)},
-                                      {"tangents_stay", turned.stays}});
+    for (const RotatedDirection& direction : d.directions)
+        json["anisotropy"].push_back({{"mesh", direction.mesh},
+                                      {"primitive", direction.primitive},
+                                      {"material", direction.material},
+                                      {"turned_degrees", toJson(direction.degrees)},
+                                      {"tangents_stay", direction.stays}});
     return json;
 }
 

@@ -1,4 +1,4 @@
-// What lint and convert report, as JSON.
+// Reports of lint and convert as JSON.
 #pragma once
 
 #include <string>
@@ -11,33 +11,33 @@
 
 namespace cotan {
 
-// The figures of an empty set are null when it is written.
+// The values of an empty set are written as null.
 Json toJson(const ValueSummary& summary);
 
-// What a scene has, and the warnings of loading it.
+// Counts of a scene's parts, and its warnings.
 Json countsOf(const Scene& scene);
 
 // ---- lint -----------------------------------------------------------------------------------
 
-// Whether green is as declared, and how sure that is; or why it cannot be told.
+// Whether green is as declared, with the confidence; or why the map cannot tell.
 std::string greenVerdict(const GreenEvidence& g);
 
-// {"passed", "limit", "limit_area", "frame", "failures": [{"kind", "where", "value", "limit", "text"}]}; null where no
-// limit was set, limits that were not set are null.
+// {"passed", "limit", "limit_area", "frame", "failures": [{"kind", "where", "value", "limit", "text"}]}; null if no
+// limit was set. A limit that was not set is null.
 Json toJson(const LintCheck& check);
 
-// Those of the file as it was read, then lintWarnings.
+// The warnings of the file, then lintWarnings.
 std::vector<std::string> warningsOf(const LintReport& report, std::vector<std::string> ofFile);
 
-// The figures of every primitive, map and fit: an object of three lists.
+// The values of every primitive, map and fit: an object of three lists.
 Json listsOf(const LintReport& report);
 
 // ---- convert --------------------------------------------------------------------------------
 
-// What became of a map.
+// The result for a map.
 Json toJson(const ConvertedMap& map);
 
-// What became of the tangents, and of highlights that are stretched along them.
+// The results for tangents and for anisotropic highlights.
 Json tangentsJson(const ConvertModelReport& report);
 
 } // namespace cotan

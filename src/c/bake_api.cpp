@@ -26,7 +26,7 @@ constexpr Named<HighNormals> kHighNormals[] = {{"smooth", HighNormals::smooth},
                                                {"face", HighNormals::face},
                                                {"map", HighNormals::smooth}};
 
-// How normals of the detailed side are found.
+// Sets how the normals of the detailed models are found.
 void readHigh(const cotan_bake_options& o, BakeModelOptions& options, HighModel& high)
 {
     const std::string_view wanted = o.high_normals ? o.high_normals : "smooth";
@@ -83,7 +83,7 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture&
     return options;
 }
 
-// An error of bakeModel, about the field of C that this is: of its own structs the message begins with another.
+// Returns an error of bakeModel with its field, also in the message, renamed to the field of cotan.h.
 Error aboutFieldOfC(Error error)
 {
     constexpr Named<std::string_view> kFields[] = {
@@ -105,7 +105,7 @@ Error aboutFieldOfC(Error error)
     return error;
 }
 
-// Bakes and gives what came of it.
+// Bakes a map and writes the results.
 void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given, cotan_picture* map,
               cotan_bake_result* result, cotan_bytes** warnings)
 {
@@ -135,7 +135,7 @@ void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given,
         const std::size_t size = result->size;
         const cotan_bake_result all{size,   s.texels,      s.covered, s.missed, s.negative, s.twice,
                                     s.rays, s.rayDistance, s.further, s.nearer, s.rayStart};
-        std::memcpy(result, &all, std::min(size, sizeof all)); // older callers have a shorter one
+        std::memcpy(result, &all, std::min(size, sizeof all)); // older callers have a shorter struct
     }
 }
 
@@ -158,7 +158,7 @@ cotan_status cotan_bake_models(const cotan_model* low, size_t high_count, const 
 {
     return call(message, message_size, [&] {
         Scene simple = sceneOf(low, "low");
-        restoreDeclaredGreen(simple); // the new map is for the tangents as they are stored
+        restoreDeclaredGreen(simple); // the new map is used with the stored tangents
         require(high || high_count == 0, "high: expected models, found null");
         HighModel model;
         for (std::size_t i = 0; i < high_count; ++i)

@@ -1,4 +1,4 @@
-// What all functions of cotan.h share: checks of arguments, errors as codes, no exception over the border.
+// Shared code of the functions of cotan.h: checks of arguments, errors as codes, no exceptions across the C interface.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct cotan_bytes {
 
 namespace cotan::c {
 
-// Throws an Error. parts: of the message, texts and whole numbers.
+// Throws an Error. parts: texts and integers of the message.
 template<class... Parts> [[noreturn]] void fail(ErrorKind kind, const Parts&... parts)
 {
     std::string message;
@@ -44,7 +44,7 @@ inline void require(bool holds, const char* expectation)
         fail(ErrorKind::usage, expectation);
 }
 
-// The caller's progress function as the library takes it: empty for null.
+// Converts the caller's progress function for the library; empty for null. Calls are serialised.
 inline Progress progressOf(cotan_progress progress, void* user)
 {
     if (!progress)
@@ -66,7 +66,7 @@ inline void requireSize(std::size_t size, std::size_t least, const char* name)
         fail(ErrorKind::usage, name, ".size: expected ", least, " or more, found ", size);
 }
 
-// Structs of newer callers are longer; of this version they have to be whole.
+// Structs of newer callers may be longer than T, but not shorter.
 template<class T> const T& checked(const T* argument, const char* name)
 {
     if (!argument)
@@ -75,14 +75,14 @@ template<class T> const T& checked(const T* argument, const char* name)
     return *argument;
 }
 
-// The least size of options: what they had in the version that brought them.
+// The minimum size of an options struct: its size in the version that introduced it.
 template<class T> inline constexpr std::size_t kFirstSize = sizeof(T);
 template<> inline constexpr std::size_t kFirstSize<cotan_bake_options> = offsetof(cotan_bake_options, cage);
 template<> inline constexpr std::size_t kFirstSize<cotan_convert_options> = offsetof(cotan_convert_options, expansion);
 template<> inline constexpr std::size_t kFirstSize<cotan_lint_options> = offsetof(cotan_lint_options, limit);
 template<> inline constexpr std::size_t kFirstSize<cotan_model_files> = offsetof(cotan_model_files, name);
 
-// Options; 0 what an older caller does not know of, and all where they are left out.
+// Returns the caller's options; members unknown to an older caller are 0, and all are if `given` is null.
 template<class T> T optionsOf(const T* given, const char* name)
 {
     T options{};
@@ -107,7 +107,7 @@ template<class T> T valueOf(Result<T> result, const char* name)
     return *std::move(result);
 }
 
-// The same where the message says by itself what it is about.
+// Like valueOf above, for errors whose message names its subject.
 template<class T> T valueOf(Result<T> result)
 {
     if (!result)
@@ -115,7 +115,7 @@ template<class T> T valueOf(Result<T> result)
     return *std::move(result);
 }
 
-// What a word stands for; another one is refused: "options.kind: expected normal or height, found 'x'".
+// Returns the value of a word. Errors: "options.kind: expected normal or height, found 'x'" for an unknown word.
 template<class Value, std::size_t count>
 Value valueOf(const Named<Value> (&all)[count], std::string_view wanted, const char* name)
 {
@@ -124,7 +124,7 @@ Value valueOf(const Named<Value> (&all)[count], std::string_view wanted, const c
     fail(ErrorKind::usage, name, ": expected ", eitherOf(wordsOf(all)), ", found '", wanted, "'");
 }
 
-// Cut to the place that there is, with a zero at its end.
+// Copies the text, cut to `size` bytes including the terminating zero.
 inline void copyText(std::string_view text, char* to, std::size_t size)
 {
     if (!to || size == 0)
@@ -145,7 +145,7 @@ inline cotan_status refused(const Error& error, char* message, std::size_t size)
     return refused(error.kind, error.message, message, size);
 }
 
-// Text as bytes, where somebody wants it.
+// Returns a text as bytes, unless `to` is null.
 inline void giveText(std::string_view text, cotan_bytes** to)
 {
     if (!to)
@@ -154,7 +154,7 @@ inline void giveText(std::string_view text, cotan_bytes** to)
     *to = new cotan_bytes{{bytes.begin(), bytes.end()}};
 }
 
-// Lines as one text.
+// Joins lines to one text.
 inline std::string joined(const std::vector<std::string>& lines)
 {
     std::string text;
@@ -163,10 +163,10 @@ inline std::string joined(const std::vector<std::string>& lines)
     return text;
 }
 
-// Runs run(work), and turns what it throws into a code.
+// Calls run(work), and converts exceptions to error codes.
 cotan_status callCaught(char* message, std::size_t size, void (*run)(void* work), void* work);
 
-// Runs the work of one function.
+// Runs the work of one API function.
 template<class Work> cotan_status call(char* message, std::size_t size, Work work)
 {
     return callCaught(

@@ -1,4 +1,4 @@
-// cotan.h: a model's maps made for another frame, in memory, in one step or in two.
+// cotan.h: conversion of a model's maps for another frame, in memory, in one step or in two.
 #include <algorithm>
 
 #include "bake/reports.hpp"
@@ -13,7 +13,7 @@ using namespace cotan::c;
 struct cotan_conversion {
     struct Picture {
         Image image;
-        Bytes placeholder; // in the document until the PNG file is there
+        Bytes placeholder; // in the document until the PNG file is given
         bool given = false;
     };
     GltfDocument document;
@@ -43,15 +43,15 @@ void fill(const ConvertModelReport& report, cotan_convert_result& r)
     r = {};
     r.size = size;
     r.worst_degrees_before = r.worst_degrees_after = -1;
-    const auto take = [](double& worst, const ValueSummary& map) {
+    const auto updateWorst = [](double& worst, const ValueSummary& map) {
         if (map.count > 0)
             worst = std::max(worst, map.mean);
     };
     for (const ConvertedMap& map : report.maps) {
         const ValueSummary &before = map.figures.unconverted, &after = map.kept ? before : map.figures.error;
         ++(map.kept ? r.maps_kept : r.maps_converted);
-        take(r.worst_degrees_before, before);
-        take(r.worst_degrees_after, after);
+        updateWorst(r.worst_degrees_before, before);
+        updateWorst(r.worst_degrees_after, after);
     }
     r.primitives_given = report.primitivesGiven;
     r.tangent_bytes_dropped = report.dropped.bytes;
@@ -82,7 +82,7 @@ ConvertModelOptions optionsFor(const cotan_convert_options& o, const ModelFiles&
     return convert;
 }
 
-// The document of a model; it says what frame it is in where the caller names none.
+// Opens the document of a model. If the caller names no frame, `from` is the one that the document names, if any.
 GltfDocument opened(const ModelFiles& source, const cotan_convert_options& o, ConvertModelOptions& convert)
 {
     GltfDocument document = valueOf(openGltfDocument(source.name(), convert.limits));
@@ -91,10 +91,10 @@ GltfDocument opened(const ModelFiles& source, const cotan_convert_options& o, Co
     return document;
 }
 
-// Bytes that no file has twice.
+// Returns bytes that occur in no other file.
 Bytes placeholderOf(std::size_t number)
 {
-    const std::string text = "a picture that cotan_conversion_set gives: " + std::to_string(number);
+    const std::string text = "image of cotan_conversion_set: " + std::to_string(number);
     return copied(text.data(), text.size());
 }
 
@@ -106,7 +106,7 @@ cotan_conversion::Picture& pictureAt(cotan_conversion* conversion, std::size_t n
     return conversion->pictures[number];
 }
 
-// The same document with all that it needs inside, so that the caller's functions are asked no more.
+// Returns the same document with all its files inside, so that the caller's functions are no longer needed.
 GltfDocument closedDocument(const GltfDocument& document, const LoadLimits& limits)
 {
     LoadLimits inside = limits;
@@ -125,7 +125,7 @@ cotan_status cotan_convert_gltf(const void* model, size_t model_size, const cota
 {
     return call(message, message_size, [&] {
         const cotan_convert_options o = optionsOf(options, "options");
-        require(glb, "glb: expected a place, found null");
+        require(glb, "glb: expected a pointer, found null");
         if (result)
             checked(result, "result");
         const ModelFiles source(model, model_size, files);
@@ -146,7 +146,7 @@ cotan_status cotan_convert_begin(const void* model, size_t model_size, const cot
 {
     return call(message, message_size, [&] {
         const cotan_convert_options o = optionsOf(options, "options");
-        require(conversion, "conversion: expected a place, found null");
+        require(conversion, "conversion: expected a pointer, found null");
         if (result)
             checked(result, "result");
         const ModelFiles source(model, model_size, files);
@@ -185,12 +185,12 @@ cotan_status cotan_conversion_set(cotan_conversion* conversion, size_t number, c
     return call(message, message_size, [&] {
         cotan_conversion::Picture& picture = pictureAt(conversion, number);
         require(png && png_size > 0, "png: expected bytes, found none");
-        require(!picture.given, "number: expected a picture that has no PNG file yet");
+        require(!picture.given, "number: expected an image that has no PNG file yet");
         GltfDocument& document = conversion->document;
         for (std::size_t i = 0; i < countOf(rootOf(document), "images"); ++i)
             if (const auto bytes = gltfImageBytes(document, i); bytes && *bytes == picture.placeholder)
                 replaceGltfImage(document, i, copied(png, png_size), "image/png");
-        std::size_t converted = 0; // maps so far: each has one of the pictures, in their order
+        std::size_t converted = 0; // maps so far; their images are in the same order
         for (ConvertedMap& map : conversion->report.maps)
             if (!map.kept && converted++ == number)
                 map.bytesAfter = png_size;
@@ -204,7 +204,7 @@ cotan_status cotan_convert_end(cotan_conversion* conversion, cotan_bytes** glb, 
     return call(message, message_size, [&] {
         require(conversion && glb, "conversion and glb: expected both, found null");
         require(std::ranges::all_of(conversion->pictures, &cotan_conversion::Picture::given),
-                "conversion: expected the PNG files of all pictures");
+                "conversion: expected the PNG files of all images");
         auto made = std::make_unique<cotan_bytes>(cotan_bytes{valueOf(glbBytes(conversion->document))});
         giveText("cotan-convert-result", convertJson(conversion->report), json);
         *glb = made.release();

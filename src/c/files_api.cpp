@@ -1,4 +1,4 @@
-// cotan.h: models and pictures in files.
+// cotan.h: model and image files.
 #include "cotan/image.hpp"
 #include "cotan/model.hpp"
 #include "cotan/picture.hpp"
@@ -22,7 +22,7 @@ cotan_status cotan_model_open(const char* file, int pictures, int memory, cotan_
                               size_t message_size)
 {
     return call(message, message_size, [&] {
-        require(model, "model: expected a place, found null");
+        require(model, "model: expected a pointer, found null");
         const LoadLimits limits = limitsFor(memoryOf(memory), pictures != 0 ? Pixels::whereReadable : Pixels::none);
         Scene scene = valueOf(loadScene(word(file, "file"), limits));
         std::string warnings = joined(scene.warnings);
@@ -51,7 +51,7 @@ int cotan_reader_process(void) { return runReaderProcess(); }
 cotan_status cotan_image_read(const char* file, int memory, cotan_image** image, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
-        require(image, "image: expected a place, found null");
+        require(image, "image: expected a pointer, found null");
         *image = new cotan_image{valueOf(readImage(word(file, "file"), limitsFor(memoryOf(memory))))};
     });
 }

@@ -1,4 +1,4 @@
-// cotan.h: what is made at vertices and triangles in the forms in which it is stored.
+// cotan.h: storage forms of what is made at vertices and triangles.
 #include "call.hpp"
 #include "cotan/gpu_meshes.hpp"
 #include "cotan/triangle.hpp"
@@ -20,7 +20,7 @@ template<class T> std::vector<T> copied(std::span<const T> values) { return {val
 
 void putSplit(const VertexSplit& split, uint32_t* indices, uint32_t* sources, size_t* count)
 {
-    require(count, "split_count: expected a place, found null");
+    require(count, "split_count: expected a pointer, found null");
     put(split.indices, indices, "split_indices");
     put(split.sources, sources, "sources");
     *count = split.sources.size();
@@ -108,7 +108,7 @@ cotan_status cotan_provoking(size_t vertex_count, size_t index_count, const uint
 {
     return call(message, message_size, [&] {
         checkIndices("", vertex_count, index_count, indices);
-        require(made_count, "made_count: expected a place, found null");
+        require(made_count, "made_count: expected a pointer, found null");
         const ProvokingMesh made = provokingMesh({indices, index_count}, vertex_count,
                                                  last != 0 ? ProvokingVertex::last : ProvokingVertex::first);
         put(made.indices, made_indices, "made_indices");

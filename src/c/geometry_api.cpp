@@ -14,12 +14,12 @@ void store(float* array, std::size_t i, const glm::vec3& v)
     array[3 * i] = v.x, array[3 * i + 1] = v.y, array[3 * i + 2] = v.z;
 }
 
-// Calls work(i, frame there) for every place.
-void forEachPlace(const char* frame, const cotan_places* given, const auto& work)
+// Calls work(i, frame) for every surface point.
+void forEachPoint(const char* frame, const cotan_places* given, const auto& work)
 {
     const auto kind = frameFromName(word(frame, "frame"));
     if (!kind || readsVertices(*kind))
-        fail(ErrorKind::usage, "frame: expected one that is made from differences, found '", frame, "'");
+        fail(ErrorKind::usage, "frame: expected one made from differences, found '", frame, "'");
     const cotan_places& p = checked(given, "places");
     require(p.count == 0 || (p.normals && p.dpdx && p.dpdy && p.duvdx && p.duvdy),
             "places: expected five arrays, found null");
@@ -30,12 +30,12 @@ void forEachPlace(const char* frame, const cotan_places* given, const auto& work
                       uv(p.duvdy, i)));
 }
 
-void forEachPlace(const char* frame, const cotan_vertex_places* given, const auto& work)
+void forEachPoint(const char* frame, const cotan_vertex_places* given, const auto& work)
 {
     const cotan_vertex_places& p = checked(given, "places");
     const auto kind = frameFromName(word(frame, "frame"));
     if (!kind || !readsVertices(*kind))
-        fail(ErrorKind::usage, "frame: expected one that is made at the vertices, found '", frame, "'");
+        fail(ErrorKind::usage, "frame: expected one made at the vertices, found '", frame, "'");
     const bool smooth = readsCotangents(*kind);
     require(p.count == 0 || (p.normals && (smooth ? p.cotangents_u && p.cotangents_v : p.tangents != nullptr)),
             smooth ? "places: expected normals and two arrays of cotangents, found null"
@@ -52,16 +52,16 @@ void forEachPlace(const char* frame, const cotan_vertex_places* given, const aut
     }
 }
 
-// turn: texels to normals, or the other way.
-void turnByFrames(const char* frame, const auto* places, const float* from, float* to, const auto& turn)
+// Maps texels to normals, or normals to texels, by the frames.
+void mapByFrames(const char* frame, const auto* places, const float* from, float* to, const auto& map)
 {
     require(from && to, "texels and normals: expected arrays, found null");
-    forEachPlace(frame, places,
-                 [&](std::size_t i, const f32::cotan_frame& f) { store(to, i, turn(f, vec3At(from, i))); });
+    forEachPoint(frame, places,
+                 [&](std::size_t i, const f32::cotan_frame& f) { store(to, i, map(f, vec3At(from, i))); });
 }
 
-// The kind of tangents, after checks. The words of the kinds are not asked of the table of frames, which cotan/tangents
-// would have to carry.
+// Checks the arguments and returns the kind of tangents. The words are not looked up in the table of frames, so that
+// the npm package cotan/tangents need not contain the table.
 Frame checkedTangents(const char* kind, int threads, const float* tangents)
 {
     const std::string_view which = word(kind, "kind");
@@ -78,7 +78,7 @@ void storeCotangents(const Cotangents& made, float* u, float* v)
     put(made.v, v, "v");
 }
 
-// Tells of their begin and their end only.
+// Reports only the begin and the end.
 Result<std::vector<glm::vec4>> vertexTangentsWithProgress(const MeshView& mesh, const Progress& progress)
 {
     if (progress && !progress(0))
@@ -95,31 +95,31 @@ int cotan_frame_count(void) { return kFrameCount; }
 
 const char* cotan_frame_name(int frame)
 {
-    return isFrame(frame) ? name(Frame(frame)).data() : nullptr; // literals: they end with a zero
+    return isFrame(frame) ? name(Frame(frame)).data() : nullptr; // a literal, which ends with a zero
 }
 
 cotan_status cotan_frame_apply(const char* frame, const cotan_places* places, const float* texels, float* normals,
                                char* message, size_t message_size)
 {
-    return call(message, message_size, [&] { turnByFrames(frame, places, texels, normals, f32::cotan_apply); });
+    return call(message, message_size, [&] { mapByFrames(frame, places, texels, normals, f32::cotan_apply); });
 }
 
 cotan_status cotan_frame_encode(const char* frame, const cotan_places* places, const float* normals, float* texels,
                                 char* message, size_t message_size)
 {
-    return call(message, message_size, [&] { turnByFrames(frame, places, normals, texels, f32::cotan_encode); });
+    return call(message, message_size, [&] { mapByFrames(frame, places, normals, texels, f32::cotan_encode); });
 }
 
 cotan_status cotan_vertex_frame_apply(const char* frame, const cotan_vertex_places* places, const float* texels,
                                       float* normals, char* message, size_t message_size)
 {
-    return call(message, message_size, [&] { turnByFrames(frame, places, texels, normals, f32::cotan_apply); });
+    return call(message, message_size, [&] { mapByFrames(frame, places, texels, normals, f32::cotan_apply); });
 }
 
 cotan_status cotan_vertex_frame_encode(const char* frame, const cotan_vertex_places* places, const float* normals,
                                        float* texels, char* message, size_t message_size)
 {
-    return call(message, message_size, [&] { turnByFrames(frame, places, normals, texels, f32::cotan_encode); });
+    return call(message, message_size, [&] { mapByFrames(frame, places, normals, texels, f32::cotan_encode); });
 }
 
 cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int threads, float* tangents, char* message,
@@ -138,9 +138,9 @@ cotan_status cotan_tangents_with_progress(const char* kind, const cotan_mesh* me
     return call(message, message_size, [&] {
         const Frame frame = checkedTangents(kind, threads, tangents);
         const MeshView view = viewOf(mesh);
-        const Progress told = progressOf(progress, user);
-        put(valueOf(frame == Frame::vertex ? vertexTangentsWithProgress(view, told)
-                                           : mikktspaceTangents(view, threads, told)),
+        const Progress reported = progressOf(progress, user);
+        put(valueOf(frame == Frame::vertex ? vertexTangentsWithProgress(view, reported)
+                                           : mikktspaceTangents(view, threads, reported)),
             tangents, "tangents");
     });
 }

@@ -1,4 +1,4 @@
-// cotan.h: what to expect of a model in memory, and its pictures.
+// cotan.h: lint of models in memory, and their images.
 #include <algorithm>
 #include <set>
 

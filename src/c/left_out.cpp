@@ -1,4 +1,4 @@
-// cotan.h: the functions whose part is not there (CMakeLists.txt), which say so.
+// cotan.h: replacements for functions whose part is not built (CMakeLists.txt), which return an error.
 #include "call.hpp"
 #include "core/not_built.hpp"
 

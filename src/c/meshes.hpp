@@ -1,4 +1,4 @@
-// Meshes and models of cotan.h, looked at before they are used.
+// Meshes and models of cotan.h, checked and converted.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@
 
 struct cotan_model {
     cotan::Scene scene;
-    std::string warnings; // of it, as cotan_model_warnings gives them
+    std::string warnings; // as returned by cotan_model_warnings
 };
 
 namespace cotan::c {
@@ -54,7 +54,7 @@ inline void checkFinite(const std::string& name, const float* numbers, std::size
                                         : "-inf");
 }
 
-// The arrays of a checked mesh; those that are left out are empty.
+// Returns the arrays of a checked mesh; missing ones are empty.
 inline MeshView arraysOf(const cotan_mesh& m)
 {
     return {{reinterpret_cast<const glm::vec3*>(m.positions), m.vertex_count},
@@ -63,7 +63,7 @@ inline MeshView arraysOf(const cotan_mesh& m)
             {m.indices, m.index_count}};
 }
 
-// A mesh with uv as the library takes it.
+// Checks a mesh with uv and returns its arrays.
 inline MeshView viewOf(const cotan_mesh* given)
 {
     const cotan_mesh& m = checkedMesh(given, "mesh", /*needsUv*/ true);
@@ -73,17 +73,17 @@ inline MeshView viewOf(const cotan_mesh* given)
     return arraysOf(m);
 }
 
-// What was made, into the array of the caller. name: for messages.
+// Copies results into the caller's array. name: for messages.
 template<class Value, class Out> void put(const std::vector<Value>& values, Out* out, const char* name)
 {
-    static_assert(sizeof(Value) % sizeof(Out) == 0); // a value is one of the caller's elements, or several
+    static_assert(sizeof(Value) % sizeof(Out) == 0); // a value is one or several of the caller's elements
     if (!out && !values.empty())
         fail(ErrorKind::usage, name, ": expected an array, found null");
     if (!values.empty())
         std::memcpy(out, values.data(), values.size() * sizeof(Value));
 }
 
-// One mesh, checked, as the library has it; its material is the first.
+// Converts a checked mesh; its material is the first.
 inline Mesh meshOf(const cotan_mesh& m)
 {
     const MeshView view = arraysOf(m);
@@ -95,7 +95,7 @@ inline Mesh meshOf(const cotan_mesh& m)
     return mesh;
 }
 
-// A scene of such meshes, each placed once. name: for messages.
+// Returns a scene of the meshes, with one instance of each. name: for messages.
 inline Scene sceneOf(std::vector<Mesh> meshes, const std::string& name)
 {
     Scene scene;

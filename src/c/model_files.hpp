@@ -1,4 +1,4 @@
-// The caller's files and pictures of cotan.h as the library takes them, and reports on models as text.
+// Conversion of the caller's file functions and images, and of reports on models to text.
 #pragma once
 
 #include <cstring>
@@ -20,7 +20,7 @@ inline Bytes copied(const void* bytes, std::size_t size)
     return size > 0 ? Bytes(first, first + size) : Bytes();
 }
 
-// The caller's functions as the library takes them.
+// The file functions of the caller, as the library takes them.
 class ModelFiles {
 public:
     ModelFiles(const void* model, std::size_t size, const cotan_model_files* given)
@@ -29,20 +29,20 @@ public:
         require(model || size == 0, "model: expected bytes, found null");
     }
 
-    // As the caller calls it, or by its first bytes.
+    // The caller's name, or a default chosen by the first bytes.
     const char* name() const
     {
         return f_.name ? f_.name : size_ >= 4 && std::memcmp(model_, "glTF", 4) == 0 ? "model.glb" : "model.gltf";
     }
 
-    // What the library reads it with; lives no longer than this.
+    // The limits and functions for loading; they must not outlive this object.
     LoadLimits limits() const
     {
         LoadLimits limits;
         limits.pixels = Pixels::whereReadable;
         limits.sandbox = {};
         limits.readFile = [this, opened = false](const std::string& file) mutable -> Result<Bytes> {
-            if (!std::exchange(opened, true)) // the model comes first
+            if (!std::exchange(opened, true)) // the first file is the model
                 return copied(model_, size_);
             return read(file);
         };
@@ -60,12 +60,12 @@ public:
         return [this](const Image& image) -> Result<Bytes> {
             const cotan_picture picture = pictureOf(image);
             return given([&](auto... bytes) { return f_.encode(f_.user, &picture, bytes...); },
-                         outputError(image.name + ": the caller did not encode the picture"));
+                         outputError(image.name + ": the caller did not encode the image"));
         };
     }
 
 private:
-    // A copy of the bytes that a function of the caller's sets; the error where it sets none.
+    // Returns a copy of the bytes that a function of the caller sets; `error` if it sets none.
     Result<Bytes> given(const auto& function, Error error) const
     {
         const void* bytes = nullptr;
@@ -90,7 +90,7 @@ private:
         picture.size = sizeof picture;
         if (f_.decode(f_.user, name.c_str(), bytes.data(), bytes.size(), &picture) != 0) {
             done();
-            return inputError(name + ": the caller did not decode the picture");
+            return inputError(name + ": the caller did not decode the image");
         }
         Image image = imageOf(&picture, name.c_str());
         image.name = name;
@@ -112,7 +112,7 @@ private:
     cotan_model_files f_;
 };
 
-// format: of files/report/json.hpp.
+// format: as in files/report/json.hpp.
 inline void giveText(std::string_view format, const Json& json, cotan_bytes** to)
 {
     if (to)

@@ -1,4 +1,4 @@
-// cotan.h: models and pictures as such.
+// cotan.h: models and images in memory.
 #include "meshes.hpp"
 
 #include "pictures.hpp"
@@ -15,9 +15,9 @@ cotan_status cotan_model_up(cotan_model* model, const char* up, char* message, s
 {
     return call(message, message_size, [&] {
         require(model, "model: expected one, found null");
-        constexpr Named<bool> kTurned[] = {{"y", false}, {"z", true}};
-        if (valueOf(kTurned, word(up, "up"), "up"))
-            turnZUp(model->scene);
+        constexpr Named<bool> kIsZUp[] = {{"y", false}, {"z", true}};
+        if (valueOf(kIsZUp, word(up, "up"), "up"))
+            rotateZUpToYUp(model->scene);
     });
 }
 

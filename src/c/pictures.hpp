@@ -1,4 +1,4 @@
-// Pictures, frames and conventions of cotan.h as the library has them.
+// Images, frames and conventions of cotan.h, converted for the library.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct cotan_image {
 namespace cotan::c {
 
 inline constexpr int kMaxSide = 65536;
-// Work on a pixel takes up to 64 bytes; their number must fit where addresses have 32 bits.
+// Processing a pixel takes up to 64 bytes, and the total must fit into 32-bit addresses.
 inline constexpr std::uint64_t kMaxPixels = SIZE_MAX / 64;
 
 inline PixelType typeOf(const cotan_picture& p, const char* name)
@@ -32,7 +32,7 @@ inline const cotan_picture& checkedPicture(const cotan_picture* given, const cha
     const cotan_picture& p = checked(given, name);
     typeOf(p, name);
     if (p.width < 1 || p.height < 1 || p.width > kMaxSide || p.height > kMaxSide)
-        fail(ErrorKind::usage, name, ": expected 1 to 65536 pixels a side, found ", p.width, " x ", p.height);
+        fail(ErrorKind::usage, name, ": expected 1 to 65536 pixels per side, found ", p.width, " x ", p.height);
     if (std::uint64_t(p.width) * std::uint64_t(p.height) > kMaxPixels)
         fail(ErrorKind::unavailable, name, ": expected at most ", kMaxPixels, " pixels in all, found ", p.width, " x ",
              p.height);
@@ -49,7 +49,7 @@ inline Image imageOf(const cotan_picture* given, const char* name)
     return image;
 }
 
-// The picture that gets a result of that size.
+// Checks an output image for a result of that size.
 inline const cotan_picture& output(const cotan_picture* given, const char* name, const Image& like)
 {
     const cotan_picture& p = checkedPicture(given, name);
@@ -64,7 +64,7 @@ inline void put(const Image& image, const cotan_picture& p)
     std::memcpy(p.pixels, image.data.data(), image.pixelCount() * image.bytesPerPixel());
 }
 
-// A frame by its name; where no name is given, the other.
+// Returns the frame with the given name; `otherwise` if no name is given.
 inline Frame frameOr(const char* given, Frame otherwise, const char* name)
 {
     if (const auto frame = given ? frameFromName(given) : otherwise)
@@ -80,12 +80,12 @@ inline Convention conventionOf(const char* words, const char* name)
     return valueOf(parseConvention(word(words, name)), name);
 }
 
-// Of a result with such components.
+// Returns a convention that components of `type` can store.
 inline Convention storableAs(const char* words, const char* name, PixelType type)
 {
     const Convention convention = conventionOf(words, name);
     if (convention.expansion == Expansion::signedValues && type != PixelType::float32)
-        fail(ErrorKind::usage, name, ": signed values need a picture of 32 bits");
+        fail(ErrorKind::usage, name, ": signed values need an image of 32 bits");
     return convention;
 }
 

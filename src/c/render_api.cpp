@@ -1,4 +1,4 @@
-// cotan.h: the picture that `cotan render` draws.
+// cotan.h: the image that `cotan render` makes.
 #include "bake/reports.hpp"
 #include "core/loops.hpp"
 #include "cotan/picture.hpp"
@@ -17,7 +17,7 @@ struct Wanted {
     std::string frame{kAutoFrame};
 };
 
-// What the words ask for, checked as the command line checks it.
+// Parses the words, with the same checks as on the command line.
 Wanted readWords(const cotan_render_options& o)
 {
     Wanted wanted;
@@ -32,7 +32,7 @@ Wanted readWords(const cotan_render_options& o)
     return wanted;
 }
 
-// The model's bytes in place of a file.
+// Makes the options read the model's bytes instead of a file.
 void readFrom(const ModelFiles& source, PictureOptions& options)
 {
     if (!options.model.empty() || !options.shape.empty())
@@ -73,7 +73,7 @@ cotan_status cotan_render(const void* model, size_t model_size, const cotan_mode
                           size_t message_size)
 {
     return call(message, message_size, [&] {
-        require(image, "image: expected a place, found null");
+        require(image, "image: expected a pointer, found null");
         const cotan_render_options o = optionsOf(options, "options");
         require(o.threads >= 0, "options.threads: expected 0 or more");
         Wanted wanted = readWords(o);

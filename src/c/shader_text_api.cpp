@@ -11,7 +11,7 @@ cotan_status cotan_shader_text(const char* language, const char* frame, const ch
                                size_t* text_size, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
-        require(text_size, "text_size: expected a place, found null");
+        require(text_size, "text_size: expected a pointer, found null");
         shader_text::Choice choice;
         const auto known = shader_text::languageFromName(word(language, "language"));
         if (!known)
@@ -19,7 +19,7 @@ cotan_status cotan_shader_text(const char* language, const char* frame, const ch
         const std::string_view words = word(frame, "frame"), name = words.substr(0, words.find(','));
         const auto which = frameFromName(name);
         if (!which)
-            fail(ErrorKind::usage, "frame: there is none named '", name, "'");
+            fail(ErrorKind::usage, "frame: expected a frame, found '", name, "'");
         choice.language = *known;
         choice.frame = *which;
         if (name.size() < words.size()) { // "triangle,vertex": a comma, then the stage

@@ -11,36 +11,36 @@ namespace {
 
 using enum MapKind;
 
-// Zero is the middle code in all of them: where every baker puts a flat texel, whatever engines expand with.
-// Three channels: every importer is given blue, also where it drops it.
+// Zero is the middle code in all presets: every baker stores a flat texel there, however engines expand it. All presets
+// have three channels: every importer accepts blue, even if it drops it.
 constexpr Convention tangent(bool greenUp, VDirection v)
 {
     return {tangentSpace, Expansion::exact, Channels::xyz, greenUp, v};
 }
 
-// What a person gives to each importer, by the documents and sources of the engines:
+// The files that each importer expects, according to documentation and source of the engines:
 // glTF: specification 2.0, 3.9.3: "+X is right and +Y is up"; uv begin at the top left.
 // Unity: manual, "Normal map": "Unity uses Y+ normal maps, sometimes known as OpenGL format"; the texture type Normal
 //   map makes two channels of the file (DXT5nm: x in alpha, y in green; or BC5).
-// Unreal: its exporter of glTF, whose maps are Y+, flips green (GLTFExportOptions.adjust_normalmaps); TC_Normalmap is
-//   BC5. NormalMapIdentification.cpp tells a normal map by texels near (0, 0, 1), blue included: without blue it is
-//   taken for a picture of colours.
+// Unreal: its glTF exporter, whose maps are Y+, flips green (GLTFExportOptions.adjust_normalmaps); TC_Normalmap is BC5.
+//   NormalMapIdentification.cpp detects a normal map by texels near (0, 0, 1), including blue; without blue it imports
+//   the file as a colour texture.
 // Godot: "Godot requires the normal map to use the X+, Y+ and Z+ coordinates, which is known as an OpenGL-style normal
 //   map"; "only the red and green channels of normal maps are used for better compression";
-//   resource_importer_texture.cpp compresses it so (COMPRESS_SOURCE_NORMAL) where compress/normal_map says or detects
-//   it.
+//   resource_importer_texture.cpp compresses that way (COMPRESS_SOURCE_NORMAL) if compress/normal_map is set or detects
+//   a normal map.
 // Blender: manual, Normal Map node: OpenGL by default, green up.
-// Maya: green up, by the table of conventions of Verge3D, an exporter for it; Autodesk's own pages do not say.
+// Maya: green up, according to the table of conventions of Verge3D, an exporter for it; Autodesk's pages do not say.
 // 3ds Max: help, Normal Bump Map: "green indicates down (larger values) versus up".
 // Source: Valve Developer Community, Bump map: "vector directions X+ Y- Z+".
 constexpr std::array kPresets = {
     ConventionPreset{"gltf", tangent(true, VDirection::down), false, "glTF 2.0: green up, v down"},
     ConventionPreset{"opengl", tangent(true, VDirection::up), false, "green up, v up"},
     ConventionPreset{"directx", tangent(false, VDirection::down), false, "green down, v down"},
-    ConventionPreset{"unity", tangent(true, VDirection::up), true, "green up, v up; two channels on the card"},
-    ConventionPreset{"unreal", tangent(false, VDirection::down), true, "green down, v down; two channels on the card"},
+    ConventionPreset{"unity", tangent(true, VDirection::up), true, "green up, v up; two channels on the GPU"},
+    ConventionPreset{"unreal", tangent(false, VDirection::down), true, "green down, v down; two channels on the GPU"},
     ConventionPreset{"blender", tangent(true, VDirection::up), false, "green up, v up"},
-    ConventionPreset{"godot", tangent(true, VDirection::down), true, "green up, v down; two channels on the card"},
+    ConventionPreset{"godot", tangent(true, VDirection::down), true, "green up, v down; two channels on the GPU"},
     ConventionPreset{"maya", tangent(true, VDirection::up), false, "green up, v up"},
     ConventionPreset{"3dsmax", tangent(false, VDirection::up), false, "green down, v up"},
     ConventionPreset{"source", tangent(false, VDirection::down), false, "green down, v down"},
@@ -53,80 +53,80 @@ constexpr std::string_view kChannelTexts[] = {"xyz", "two channels (orthographic
 constexpr std::string_view kExpansionTexts[] = {"exact expansion", "biased expansion", "signed",
                                                 "exact expansion of 16 bits"};
 
-// What is said after a preset's name, or without one.
-using Said = Named<void (*)(StatedConvention&)>;
+// The words that may follow a preset's name, or be used without one.
+using ConventionWord = Named<void (*)(StatedConvention&)>;
 
-template<Channels channels> void say(StatedConvention& s)
+template<Channels channels> void setChannels(StatedConvention& s)
 {
     s.convention.channels = channels;
     s.channels = true;
 }
 
-constexpr Said kWords[] = {
+constexpr ConventionWord kWords[] = {
     {"green-up", [](StatedConvention& s) { s.convention.greenUp = true; }},
     {"green-down", [](StatedConvention& s) { s.convention.greenUp = false; }},
     {"exact", [](StatedConvention& s) { s.convention.expansion = Expansion::exact; }},
     {"biased", [](StatedConvention& s) { s.convention.expansion = Expansion::biased; }},
     {"signed", [](StatedConvention& s) { s.convention.expansion = Expansion::signedValues; }},
-    {"xyz", say<Channels::xyz>},
-    {"xy", say<Channels::orthographic>},
-    {"orthographic", say<Channels::orthographic>}, // the same
-    {"stereographic", say<Channels::stereographic>},
-    {"slope", say<Channels::slope>},
-    // Axes of a mesh: all three are needed, and green has no picture to be turned against.
+    {"xyz", setChannels<Channels::xyz>},
+    {"xy", setChannels<Channels::orthographic>},
+    {"orthographic", setChannels<Channels::orthographic>}, // the same
+    {"stereographic", setChannels<Channels::stereographic>},
+    {"slope", setChannels<Channels::slope>},
+    // Object space needs all three axes, and green has no image direction that could be flipped.
     {"object",
      [](StatedConvention& s) {
-         say<Channels::xyz>(s);
+         setChannels<Channels::xyz>(s);
          s.convention.kind = objectSpace;
          s.convention.greenUp = true;
      }},
 };
 
-constexpr Said kDamageWords[] = {
+constexpr ConventionWord kDamageWords[] = {
     {"srgb", [](StatedConvention& s) { s.damage.curve = Damage::Curve::srgb; }},
     {"linearised", [](StatedConvention& s) { s.damage.curve = Damage::Curve::linearised; }},
     {"bgr", [](StatedConvention& s) { s.damage.order = Damage::Order::bgr; }},
     {"grb", [](StatedConvention& s) { s.damage.order = Damage::Order::grb; }},
 };
 
-Error unknownWord(std::string_view word, bool damages)
+Error unknownWord(std::string_view word, bool withDamage)
 {
     const std::string found = word.empty() ? "nothing" : "'" + std::string(word) + "'";
     std::string message = "expected ";
-    message += conventionWords(); // gcc 12 warns wrongly where a string is put before one that is moved
-    if (damages)
-        for (const Said& w : kDamageWords)
+    message += conventionWords(); // false warning of gcc 12 for a string inserted before a moved one
+    if (withDamage)
+        for (const ConventionWord& w : kDamageWords)
             message.append(" ").append(w.word);
     return {ErrorKind::usage, message + "; found " + found};
 }
 
-Result<StatedConvention> parsed(std::string_view text, bool damages)
+Result<StatedConvention> parsed(std::string_view text, bool withDamage)
 {
     if (text.empty())
-        return unknownWord(text, damages);
+        return unknownWord(text, withDamage);
     StatedConvention stated;
     for (bool first = true; !text.empty(); first = false) {
         const std::string_view word = text.substr(0, text.find(','));
         if (const auto preset = first ? conventionFromName(word) : std::nullopt)
             stated.convention = *preset;
-        else if (const auto say = valueOf(kWords, word))
-            (*say)(stated);
+        else if (const auto apply = valueOf(kWords, word))
+            (*apply)(stated);
         else if (const auto damage = valueOf(kDamageWords, word))
             (*damage)(stated);
         else
-            return unknownWord(word, damages);
+            return unknownWord(word, withDamage);
         text.remove_prefix(std::min(word.size() + 1, text.size()));
     }
     return stated;
 }
 
-// For what is to be written, or read by a shader.
+// For conventions of output, and of maps that shaders read.
 Result<StatedConvention> undamaged(std::string_view text)
 {
     auto stated = parsed(text, false);
     if (stated && stated->damage.any())
-        return usageError("srgb, linearised, bgr and grb say how a broken map is stored; expected a convention without "
-                          "them, found '"
+        return usageError("srgb, linearised, bgr and grb describe broken maps; expected a convention without them, "
+                          "found '"
                           + std::string(text) + "'");
     return stated;
 }
@@ -141,10 +141,10 @@ std::optional<Convention> conventionFromName(std::string_view name)
     return found != kPresets.end() ? std::optional(found->convention) : std::nullopt;
 }
 
-Convention onCard(const ConventionPreset& preset)
+Convention onGpu(const ConventionPreset& preset)
 {
     Convention c = preset.convention;
-    if (preset.twoOnCard)
+    if (preset.twoOnGpu)
         c.channels = Channels::orthographic;
     return c;
 }
@@ -165,7 +165,7 @@ std::string conventionWords()
     for (const ConventionPreset& p : kPresets)
         words += (words.empty() ? "" : " ") + std::string(p.name);
     words += "; then, after commas,";
-    for (const Said& w : kWords)
+    for (const ConventionWord& w : kWords)
         words.append(" ").append(w.word);
     return words;
 }
@@ -175,7 +175,7 @@ std::vector<std::string> conventionWordList()
     std::vector<std::string> words;
     for (const ConventionPreset& p : kPresets)
         words.emplace_back(p.name);
-    for (const Said& w : kWords)
+    for (const ConventionWord& w : kWords)
         words.emplace_back(w.word);
     return words;
 }
@@ -196,7 +196,7 @@ Result<Convention> parseSampledConvention(std::string_view text)
     Convention convention = stated->convention;
     for (const ConventionPreset& p : kPresets)
         if (!stated->channels && p.name == text.substr(0, text.find(',')))
-            convention.channels = onCard(p).channels;
+            convention.channels = onGpu(p).channels;
     return convention;
 }
 

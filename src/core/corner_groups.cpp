@@ -23,7 +23,7 @@ Side sideAt(const Edges& e, glm::vec3 normal)
 {
     const glm::dvec3 face = glm::cross(e.dp1, e.dp2);
     const glm::dvec3 n(normal);
-    // A vertex without a normal takes the triangle's.
+    // A vertex without a normal uses the triangle's normal.
     const double facing = n == glm::dvec3(0) ? glm::dot(face, face) : glm::dot(face, n);
     const double side = e.uvArea() * facing;
     if (!std::isfinite(side) || side == 0)
@@ -31,8 +31,8 @@ Side sideAt(const Edges& e, glm::vec3 normal)
     return side > 0 ? Side::mirrored : Side::unmirrored;
 }
 
-// How much a triangle has to say about which side a vertex is on: |cosine| of its plane to the vertex's. One that is
-// seen edge-on can take half a turn as seen along the normal, and folds over to the other side by rounding.
+// The weight of a triangle when the side of a vertex is decided: |cosine| of the angle between the two normals. Seen
+// edge-on along the vertex normal, a corner can have an angle of 180 degrees, and rounding can flip its side.
 static float openness(const Edges& e, glm::vec3 normal)
 {
     const glm::dvec3 face = glm::cross(e.dp1, e.dp2);
@@ -52,10 +52,10 @@ std::vector<Side> cornerSides(const MeshView& mesh, std::size_t threads)
 
 namespace {
 
-// Lists of the vertices that are equal, and of the corners at each; both in rising order, ended by kNone.
+// Linked lists of equal vertices and of the corners at each vertex, in ascending order; kNone ends them.
 struct Chains {
-    LargeArray<std::uint32_t> equalVertex; // the next one; a list begins at its first vertex
-    // Empty where corner k is the only one of vertex k.
+    LargeArray<std::uint32_t> equalVertex; // the next equal vertex; a list begins at its first vertex
+    // Empty if corner k is the only one of vertex k.
     LargeArray<std::uint32_t> firstOfVertex, nextOfCorner;
 
     bool cornersAreVertices() const { return !nextOfCorner; }
@@ -65,7 +65,7 @@ struct Chains {
 
 bool eachCornerHasItsVertex(const MeshView& mesh)
 {
-    std::uint32_t other = 0; // without a branch, so that compilers compare several at once
+    std::uint32_t other = 0; // branch-free, so that compilers vectorise the loop
     for (std::uint32_t c = 0; c < mesh.indices.size(); ++c)
         other |= mesh.indices[c] ^ c;
     return other == 0 && mesh.indices.size() == mesh.positions.size();
@@ -91,7 +91,7 @@ Chains chainsOf(const MeshView& mesh, const LargeArray<std::uint32_t>& first)
     return chains;
 }
 
-// Of the triangles on one side.
+// The sum over the triangles on one side.
 struct Sum {
     glm::vec3 u{0}, v{0};
     float weight = 0;
@@ -110,7 +110,7 @@ struct Sum {
     }
 };
 
-// Adds the gradients of a corner's triangle; returns the weight that they got.
+// Adds the gradients of a corner's triangle; returns their weight.
 float addCorner(const Edges& e, glm::vec3 n, Sum& sum)
 {
     const glm::vec3 dp1(e.dp1), dp2(e.dp2);
@@ -124,7 +124,7 @@ float addCorner(const Edges& e, glm::vec3 n, Sum& sum)
     return weight;
 }
 
-// What vertices that are equal share.
+// The attributes that equal vertices share.
 struct Shared {
     glm::vec3 position, normal, unit; // unit: the normal at length 1
     glm::vec2 texcoord;
@@ -136,12 +136,12 @@ struct Shared {
     }
 };
 
-// Of corner c. kIsVertex: corner k is the only one of vertex k, so that no index has to be read.
+// Returns the edges at corner c. kIsVertex: corner k is the only one of vertex k, so no index has to be read.
 template<bool kIsVertex>
 [[gnu::always_inline]] inline CornerEdges edgesIn(const MeshView& mesh, std::size_t c, const Shared& at)
 {
     const std::size_t k = c % 3;
-    // Without branches, which no processor could predict.
+    // Without branches, which would be unpredictable.
     const std::size_t nextCorner = c + 1 - 3 * std::size_t(k == 2), previousCorner = c - 1 + 3 * std::size_t(k == 0);
     const std::size_t next = kIsVertex ? nextCorner : mesh.indices[nextCorner],
                       previous = kIsVertex ? previousCorner : mesh.indices[previousCorner];
@@ -150,8 +150,8 @@ template<bool kIsVertex>
     return {dp1, dp2, duv1, duv2, at.normal, at.unit};
 }
 
-// The averages of vertices that are equal. Corners of several vertices are derived side by side; in WebAssembly one by
-// one, where that is faster and smaller.
+// Averages over equal vertices. Corners of several vertices are derived side by side, except in WebAssembly, where
+// deriving them one by one is faster and smaller.
 #ifdef __EMSCRIPTEN__
 constexpr bool kSideBySide = false;
 #else
@@ -166,7 +166,7 @@ public:
     {
     }
 
-    // Those of `first` and its equals, at the latest when finish() is called.
+    // Averages `first` and the vertices that equal it, at the latest when finish() is called.
     void add(std::uint32_t first)
     {
         if constexpr (!kSideBySide) {
@@ -193,7 +193,7 @@ public:
     }
 
 private:
-    // Puts all corners into lanes, where they wait, or none where they do not fit.
+    // Puts all corners of `first` into lanes, where they wait; returns false and adds none if they do not fit.
     bool gathered(std::uint32_t first)
     {
         return chains_.cornersAreVertices() ? gatheredAs<true>(first) : gatheredAs<false>(first);
@@ -218,7 +218,7 @@ private:
     void addOneByOne(std::uint32_t first)
     {
         const Shared at(mesh_, first);
-        Sum sums[2]; // by side
+        Sum sums[2]; // indexed by Side
         for (std::uint32_t v = first; v != kNone; v = chains_.equalVertex[v])
             sides_[v] = addVertex(v, sums, [&](std::uint32_t c) { return gradientsOf(edgesIn<false>(mesh_, c, at)); });
         storeAll(first, sums);
@@ -227,7 +227,7 @@ private:
     void addLanes(std::uint32_t first, std::size_t lane, std::size_t end)
     {
         Sum sums[2];
-        if (const Side side = lanes_->sideOf(lane, end); side != Side::none) { // of all corners, which are usual ones
+        if (const Side side = lanes_->sideOf(lane, end); side != Side::none) { // all corners are usual and on one side
             Sum sum;
             for (; lane < end; ++lane)
                 sum.add(lanes_->gradients(lane));
@@ -265,7 +265,7 @@ private:
         averages_.cotangents->v[vertex] = average.v;
     }
 
-    // gradients(c): those of the vertex's corners, asked in their order. Returns the side whose average it takes.
+    // Adds the corners of a vertex; calls gradients(c) for them in order. Returns the side whose average it takes.
     template<class Gradients> Side addVertex(std::uint32_t vertex, Sum (&sums)[2], const Gradients& gradients)
     {
         const glm::vec3 n = mesh_.normals[vertex];
@@ -286,7 +286,7 @@ private:
         return weights[0] > 0 ? Side::unmirrored : weights[1] > 0 ? Side::mirrored : Side::none;
     }
 
-    // Where triangles of both sides index a vertex: that of the larger sum of angle times openness.
+    // Returns the side with the larger sum of angle times openness, for a vertex that triangles of both sides use.
     Side largerSide(std::uint32_t vertex, glm::vec3 n) const
     {
         float shares[2] = {0, 0};
@@ -304,7 +304,7 @@ private:
     std::vector<Side>& sides_;
     const Averages& averages_;
     std::unique_ptr<CornerLanes> lanes_;
-    // Vertices whose corners are in the lanes, and where these end.
+    // A vertex whose corners are in the lanes, and the end of its lanes.
     struct Waiting {
         std::uint32_t first;
         std::size_t end;
@@ -315,11 +315,11 @@ private:
 } // namespace
 
 CornerGroups groupCorners(const MeshView& mesh, std::size_t threads, const Averages& averages, const Listener& listener,
-                          const Task& beside)
+                          const Task& sideTask)
 {
-    constexpr double kWelded = 0.3, kChained = 0.4; // of the time
+    constexpr double kWelded = 0.3, kChained = 0.4; // fractions of the time
     const std::size_t count = mesh.positions.size();
-    CornerGroups groups{weld(mesh, threads, beside), std::vector<Side>(count)};
+    CornerGroups groups{weld(mesh, threads, sideTask), std::vector<Side>(count)};
     if (!listener(kWelded))
         return {};
     const Chains chains = chainsOf(mesh, groups.first);

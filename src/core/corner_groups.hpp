@@ -1,4 +1,4 @@
-// The corners that are averaged together: those of equal vertices, mirrored and unmirrored charts apart.
+// Groups of corners that are averaged together: those of equal vertices, mirrored and unmirrored charts separately.
 #pragma once
 
 #include <cstdint>
@@ -23,20 +23,20 @@ struct Edges {
     double uvArea() const { return duv1.x * duv2.y - duv1.y * duv2.x; }
 };
 
-// From corner k of triangle f to the next and to the previous one.
+// Returns the edges from corner k of triangle f to the next and to the previous corner.
 Edges edgesAt(const MeshView& mesh, std::size_t f, std::size_t k);
 
-// On which side of its vertices' tangent plane a triangle's image reads: unmirrored where (dP/du,
-// dP/dv, normal) is left-handed, as it is for an image that is seen from outside with v downwards.
+// Whether a triangle's texture is mirrored with respect to the vertex normal. Unmirrored: (dP/du, dP/dv, normal) is
+// left-handed, as for an image seen from outside with v downwards.
 enum class Side : std::uint8_t { unmirrored = 0, mirrored = 1, none = 2 };
 
-// `none` where the triangle has no area in space, none in uv, or none seen along the normal.
+// Returns `none` if the triangle has no area in space, in uv, or as seen along the normal.
 Side sideAt(const Edges& e, glm::vec3 normal);
 std::vector<Side> cornerSides(const MeshView& mesh, std::size_t threads = 1);
 
 inline std::size_t slot(std::uint32_t vertex, Side side) { return 2 * std::size_t(vertex) + std::size_t(side); }
 
-// What a corner without a side of its own takes: that of the vertex, where it has any.
+// Returns `side`, or for a corner without a side that of the vertex, if it has any.
 Side sideOrNearest(Side side, std::uint32_t vertex, const auto& isEmpty)
 {
     if (side != Side::none)
@@ -46,25 +46,26 @@ Side sideOrNearest(Side side, std::uint32_t vertex, const auto& isEmpty)
 }
 
 struct CornerGroups {
-    LargeArray<std::uint32_t> first; // per vertex the first that equals it
-    std::vector<Side> sides;         // per vertex: of which corners of the equal ones it takes the cotangents
+    LargeArray<std::uint32_t> first; // per vertex: the first vertex that equals it
+    std::vector<Side> sides;         // per vertex: the side whose corners its cotangents are averaged from
 };
 
-// Where averages go.
+// The output of groupCorners.
 struct Averages {
-    Cotangents* cotangents = nullptr; // of all vertices, copies included; null: nowhere
-    // Where vertices that both sides index have a copy for one of them, per vertex: the side that keeps it, and the
-    // copy or kNone. Empty: such a vertex takes the side with more to say.
+    Cotangents* cotangents = nullptr; // of all vertices, including copies; null: none
+    // For vertices that both sides use and that have a copy, per vertex: the side that keeps the vertex, and the copy
+    // or kNone. Empty: such a vertex takes the side with the larger weight.
     std::span<const Side> keepers;
     std::span<const std::uint32_t> copies;
 };
 
-// mesh: usable. The result does not depend on the number of threads. Without `first` where the listener has said to
-// stop. beside: something that has to be done before averages are stored, once; one thread may do it meanwhile.
+// Groups the corners of a usable mesh and averages their cotangents. The result does not depend on the number of
+// threads. If the listener stops it, `first` is empty. sideTask: runs once before averages are stored, perhaps
+// concurrently.
 CornerGroups groupCorners(const MeshView& mesh, std::size_t threads = 1, const Averages& averages = {},
-                          const Listener& listener = {}, const Task& beside = {});
+                          const Listener& listener = {}, const Task& sideTask = {});
 
-// smoothCotangents of a usable mesh, into `made`. Returns false where the listener has said to stop.
+// Computes the smoothCotangents of a usable mesh in `made`. Returns false if the listener stops it.
 bool averageCotangents(const MeshView& mesh, int threads, const Listener& listener, Cotangents& made);
 
 } // namespace cotan::tangents

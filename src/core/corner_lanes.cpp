@@ -6,7 +6,7 @@ namespace {
 
 [[gnu::always_inline]] inline void deriveAll(CornerLanes& c)
 {
-    constexpr std::size_t kTogether = 16; // so many are derived whether in use or not: a fixed number is faster
+    constexpr std::size_t kTogether = 16; // derived whether in use or not: a constant count is faster
     static_assert(CornerLanes::kLanes % kTogether == 0);
     for (std::size_t begin = 0; begin < c.count; begin += kTogether)
         for (std::size_t lane = begin; lane < begin + kTogether; ++lane)
@@ -14,7 +14,7 @@ namespace {
 }
 
 #if defined(__x86_64__) && defined(__GNUC__)
-// Eight lanes at a time where the processor can. Without fused multiplication: the values stay the same.
+// Eight lanes at a time if the CPU supports it. Without fused multiply-add, so that the values are the same.
 [[gnu::target("avx2")]] void deriveEight(CornerLanes& lanes) { deriveAll(lanes); }
 #endif
 

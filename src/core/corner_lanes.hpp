@@ -1,4 +1,4 @@
-// What the corners of triangles give to the cotangents of their vertices, several corners side by side.
+// The contributions of triangle corners to the cotangents of their vertices, for several corners at a time.
 #pragma once
 
 #include <algorithm>
@@ -15,34 +15,33 @@
 
 namespace cotan::tangents {
 
-// A corner of a triangle, and its vertex's normal.
+// The edges at a corner of a triangle, and the normal of its vertex.
 struct CornerEdges {
     glm::vec3 dp1, dp2; // to the next corner and to the previous one
     glm::vec2 duv1, duv2;
-    glm::vec3 normal, unit; // as given, and at length 1
+    glm::vec3 normal, unit; // as given, and normalised
 };
 
 struct CornerGradients {
-    glm::vec3 u, v; // of the triangle, times `weight`
-    float weight;   // the angle seen along the normal
+    glm::vec3 u, v; // of the triangle, multiplied by `weight`
+    float weight;   // the corner's angle as seen along the normal
     bool mirrored;
-    bool usual; // else nothing of this holds
+    bool usual; // false: the other members are invalid
 };
 
 inline int isUsual(float squared) { return int(squared > 1e-12f) & int(squared < 1e12f); }
 
-// The same as sideAt and addCorner for a corner of a triangle that is neither thin nor tiny nor huge, in space or uv:
-// to the bit, since what is left out here scales by powers of two and changes no sign. Without branches, so that
-// compilers do it for several corners at once.
+// Equals sideAt and addCorner, to the bit, for corners of triangles that are neither thin nor tiny nor huge in space or
+// uv: it omits only scaling by powers of two, which changes no sign. Branch-free, so that compilers vectorise it.
 [[gnu::always_inline]] inline CornerGradients gradientsOf(const CornerEdges& e)
 {
-    constexpr float kThin = 1e-6f; // of a squared sine; floats are sure of the sign of one from 1e-12
+    constexpr float kThin = 1e-6f; // of a squared sine; its sign is reliable in floats from 1e-12
     const float p1 = glm::dot(e.dp1, e.dp1), p2 = glm::dot(e.dp2, e.dp2);
     const float uv1 = glm::dot(e.duv1, e.duv1), uv2 = glm::dot(e.duv2, e.duv2);
     const glm::vec3 acrossNext = glm::cross(e.dp2, e.unit), acrossPrevious = glm::cross(e.unit, e.dp1);
     const float facing = glm::dot(e.dp1, acrossNext), uvArea = e.duv1.x * e.duv2.y - e.duv1.y * e.duv2.x;
     const float longer = std::max(p1, p2);
-    // projectedAngle, but for lengths that would have to be taken in double
+    // Like projectedAngle, without the branch for lengths that need double precision.
     const glm::vec3 a = e.dp1 - e.normal * glm::dot(e.normal, e.dp1), b = e.dp2 - e.normal * glm::dot(e.normal, e.dp2);
     const float aa = glm::dot(a, a), bb = glm::dot(b, b);
     const int usual = isUsual(p1) & isUsual(p2) & isUsual(uv1) & isUsual(uv2) & int(aa > 1e-15f) & int(aa < 1e15f)
@@ -54,7 +53,7 @@ inline int isUsual(float squared) { return int(squared > 1e-12f) & int(squared <
             usual != 0};
 }
 
-// Corners side by side, one a lane.
+// Corners side by side, one per lane.
 struct CornerLanes {
     static constexpr std::size_t kLanes = 256;
     using Lane = float[kLanes];
@@ -89,17 +88,17 @@ struct CornerLanes {
         mirrored[lane] = g.mirrored;
         usual[lane] = g.usual;
     }
-    // The side of all corners from `begin` to `end` where they have one side and are usual; else none.
+    // Returns the common side of the corners from `begin` to `end` if all of them are usual; otherwise none.
     Side sideOf(std::size_t begin, std::size_t end) const
     {
-        std::int32_t all = 1, turned = 0;
+        std::int32_t all = 1, flipped = 0;
         for (std::size_t lane = begin; lane < end; ++lane) {
             all &= usual[lane];
-            turned += mirrored[lane];
+            flipped += mirrored[lane];
         }
         if (all == 0 || begin == end)
             return Side::none;
-        return turned == 0 ? Side::unmirrored : std::size_t(turned) == end - begin ? Side::mirrored : Side::none;
+        return flipped == 0 ? Side::unmirrored : std::size_t(flipped) == end - begin ? Side::mirrored : Side::none;
     }
     CornerGradients gradients(std::size_t lane) const
     {
@@ -107,7 +106,7 @@ struct CornerLanes {
     }
 };
 
-// gradientsOf, for all lanes in use.
+// Applies gradientsOf to all lanes in use.
 void deriveGradients(CornerLanes& lanes);
 
 } // namespace cotan::tangents

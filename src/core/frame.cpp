@@ -29,8 +29,8 @@ constexpr bool isWordWithDashes(const FrameInfo& f)
 }
 static_assert(std::ranges::all_of(kFrames, isWordWithDashes), "cotan/frames.inc: a name is its word with '-' for '_'");
 
-// A row of the table is one case, which calls the row's function where the row has one of these sources: the arguments
-// are theirs, and of the precision that is wanted. For other frames there is the normal alone.
+// Each row of the table makes one case. The case calls the row's function if the row has one of these sources, with the
+// arguments of that source and the caller's precision. Other frames return the normal with t = b = 0.
 template<FrameSource... kSources, class Vec3, class... Rest> auto evaluated(Frame frame, Vec3 n, Rest... rest)
 {
     using namespace f32;

@@ -17,13 +17,13 @@ namespace {
 using tangents::kNone;
 using tangents::Side;
 
-// slots: per vertex the slot that it belongs to; slotOf(corner): the one that it adds to, or kNoSlot. Slots are a
-// vertex and a side, as tangents::slot has them.
+// Builds the adjacency. slots: per vertex its slot, a vertex and a side as in tangents::slot. slotOf(corner): the slot
+// that the corner contributes to, or kNoSlot.
 constexpr std::size_t kNoSlot = ~std::size_t(0);
 
 Adjacency adjacencyOf(const MeshView& mesh, const std::vector<std::size_t>& slots, const auto& slotOf)
 {
-    std::vector<std::uint32_t> groupOf(2 * mesh.positions.size(), kNone); // by slot
+    std::vector<std::uint32_t> groupOf(2 * mesh.positions.size(), kNone); // indexed by slot
     Adjacency a;
     std::uint32_t groups = 0;
     for (const Side side : {Side::unmirrored, Side::mirrored}) {
@@ -72,10 +72,10 @@ Adjacency makeNormalAdjacency(const MeshView& mesh)
     const std::vector<glm::vec2> none(count, glm::vec2(0));
     const LargeArray<std::uint32_t> first = tangents::weld({mesh.positions, mesh.normals, none, mesh.indices});
     std::vector<std::size_t> slotOf(mesh.indices.size(), kNoSlot);
-    std::vector<std::uint32_t> corners(2 * count); // by slot
+    std::vector<std::uint32_t> corners(2 * count); // indexed by slot
     for (std::uint32_t c = 0; c < slotOf.size(); ++c) {
         tangents::Edges e = tangents::edgesAt(mesh, c / 3, c % 3);
-        e.duv1 = {1, 0}; // as if u and v ran along the edges: the side is then that of the winding
+        e.duv1 = {1, 0}; // u and v along the edges make the side that of the winding
         e.duv2 = {0, -1};
         const Side side = tangents::sideAt(e, mesh.normals[mesh.indices[c]]);
         if (side != Side::none)
@@ -92,21 +92,21 @@ Adjacency makeNormalAdjacency(const MeshView& mesh)
 
 namespace {
 
-// Takes triangles until a limit is met. places: per vertex of the mesh its place in the meshlet, or kNone.
-class Cutter {
+// Collects triangles until a limit is reached. indices_: per vertex of the mesh its index in the meshlet, or kNone.
+class MeshletBuilder {
 public:
-    Cutter(RingMeshlets& out, std::size_t vertexCount, std::uint32_t maxVertices, std::uint32_t maxTriangles)
-        : out_(out), places_(vertexCount, kNone), maxVertices_(maxVertices), maxTriangles_(maxTriangles)
+    MeshletBuilder(RingMeshlets& out, std::size_t vertexCount, std::uint32_t maxVertices, std::uint32_t maxTriangles)
+        : out_(out), indices_(vertexCount, kNone), maxVertices_(maxVertices), maxTriangles_(maxTriangles)
     {
     }
 
     void add(std::uint32_t a, std::uint32_t b, std::uint32_t c)
     {
-        const std::uint32_t fresh = std::uint32_t(places_[a] == kNone) + std::uint32_t(places_[b] == kNone && b != a)
-            + std::uint32_t(places_[c] == kNone && c != a && c != b);
+        const std::uint32_t fresh = std::uint32_t(indices_[a] == kNone) + std::uint32_t(indices_[b] == kNone && b != a)
+            + std::uint32_t(indices_[c] == kNone && c != a && c != b);
         if (open_.vertexCount + fresh > maxVertices_ || open_.triangleCount == maxTriangles_)
             close();
-        const std::uint32_t packed = place(a) | place(b) << 8 | place(c) << 16;
+        const std::uint32_t packed = localIndex(a) | localIndex(b) << 8 | localIndex(c) << 16;
         out_.triangles.push_back(packed);
         ++open_.triangleCount;
     }
@@ -116,27 +116,27 @@ public:
         if (open_.triangleCount > 0)
             out_.meshlets.push_back(open_);
         for (std::uint32_t i = 0; i < open_.vertexCount; ++i)
-            places_[out_.vertices[open_.firstVertex + i]] = kNone;
+            indices_[out_.vertices[open_.firstVertex + i]] = kNone;
         open_ = {std::uint32_t(out_.vertices.size()), 0, std::uint32_t(out_.triangles.size()), 0};
     }
 
 private:
-    std::uint32_t place(std::uint32_t vertex)
+    std::uint32_t localIndex(std::uint32_t vertex)
     {
-        if (places_[vertex] == kNone) {
-            places_[vertex] = open_.vertexCount++;
+        if (indices_[vertex] == kNone) {
+            indices_[vertex] = open_.vertexCount++;
             out_.vertices.push_back(vertex);
         }
-        return places_[vertex];
+        return indices_[vertex];
     }
 
     RingMeshlets& out_;
-    std::vector<std::uint32_t> places_;
+    std::vector<std::uint32_t> indices_;
     std::uint32_t maxVertices_, maxTriangles_;
     RingMeshlet open_;
 };
 
-// Gives each vertex of the meshlets the corners of its group.
+// Appends the corners of its group for each vertex of the meshlets.
 void addRings(RingMeshlets& out, const Adjacency& adjacency, std::size_t vertexCount)
 {
     std::vector<std::uint32_t> groupOf(vertexCount);
@@ -162,10 +162,10 @@ RingMeshlets ringMeshlets(const MeshView& mesh, std::uint32_t maxVertices, std::
         return {};
     RingMeshlets out;
     out.triangles.reserve(mesh.indices.size() / 3);
-    Cutter cutter(out, mesh.positions.size(), maxVertices, maxTriangles);
+    MeshletBuilder builder(out, mesh.positions.size(), maxVertices, maxTriangles);
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-        cutter.add(mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]);
-    cutter.close();
+        builder.add(mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]);
+    builder.close();
     addRings(out, adjacency, mesh.positions.size());
     return out;
 }
@@ -174,11 +174,11 @@ RingMeshlets ringMeshlets(const MeshView& mesh, std::uint32_t maxVertices, std::
 
 namespace {
 
-// For each triangle the corner that provokes it. A vertex that provokes nothing yet goes first, and of
-// several such the one that has the fewest triangles left to provoke.
+// Returns the provoking corner of each triangle: a vertex that provokes no triangle yet, and among several such
+// vertices the one with the fewest triangles left.
 std::vector<std::uint8_t> chooseCorners(std::span<const std::uint32_t> indices, std::size_t vertexCount)
 {
-    std::vector<std::uint32_t> left(vertexCount, 0); // triangles that have not chosen, per vertex
+    std::vector<std::uint32_t> left(vertexCount, 0); // per vertex: its triangles that have no provoking corner yet
     for (const std::uint32_t v : indices)
         ++left[v];
     std::vector<bool> provokes(vertexCount, false);
@@ -214,7 +214,7 @@ ProvokingMesh provokingMesh(std::span<const std::uint32_t> indices, std::size_t 
             mesh.corners.push_back(indices[3 * f + (chosen[f] + k) % 3]);
     }
 
-    // The copy of each vertex that was used last: near in the list, so that it is still in the cache.
+    // The most recently used copy of each vertex: its index is near, so it is likely to be in the vertex cache.
     std::vector<std::uint32_t> copies(vertexCount, kNone);
     for (std::size_t f = chosen.size(); f-- > 0;)
         copies[mesh.sources[f]] = static_cast<std::uint32_t>(f);
@@ -239,8 +239,8 @@ ProvokingMesh provokingMesh(std::span<const std::uint32_t> indices, std::size_t 
 
 namespace {
 
-// The triangles of the runs of indices between restarts: each corner from the third on, with two before it, whose
-// places in the run pair(corner) gives.
+// Returns the triangles of the runs of indices between restarts: each index from the third on, together with the two
+// earlier ones of the run whose positions pair(i) returns.
 std::vector<std::uint32_t> trianglesOf(std::span<const std::uint32_t> indices, std::uint32_t restart, const auto& pair)
 {
     std::vector<std::uint32_t> out;

@@ -1,4 +1,4 @@
-// Numbers that are joined to groups, and items listed by their group.
+// Disjoint sets of numbers, and lists of items by group.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace cotan {
 
-// Numbers from 0 on in groups that grow by joining (union-find). A group is known by its lowest number.
+// Numbers from 0 on in groups that are joined (union-find). The lowest number of a group identifies it.
 class JoinedGroups {
 public:
     explicit JoinedGroups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
@@ -30,12 +30,12 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
-// Lists items by group: those of group g are items[begin[g]] to items[begin[g + 1] - 1], in the order in which they
-// come. each(add) calls add(group, item) for all of them; it is called twice.
+// Lists items by group: those of group g are items[begin[g]] to items[begin[g + 1] - 1], in the order in which they are
+// added. each(add) calls add(group, item) for every item; it is called twice.
 template<class Index, class Item>
 void listByGroup(std::size_t groups, const auto& each, std::vector<Index>& begin, std::vector<Item>& items)
 {
-    begin.assign(groups + 2, 0); // one behind, so that every end, counted up, becomes the next one's beginning
+    begin.assign(groups + 2, 0); // shifted by one: while items are added, each begin advances to the next
     each([&](std::size_t group, const Item&) { ++begin[group + 2]; });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     items.resize(begin.back());

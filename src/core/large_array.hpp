@@ -1,4 +1,4 @@
-// Arrays that are written before they are read, so large that fetching their memory is a good part of the work.
+// Large arrays that are written before they are read, for which page faults would take a large fraction of the time.
 #pragma once
 
 #include <cstddef>
@@ -9,16 +9,16 @@
 #include <type_traits>
 #include <vector>
 
-#if __has_include(<sys/mman.h>) && !defined(__EMSCRIPTEN__) // where malloc is all there is, and zeros are written out
+#if __has_include(<sys/mman.h>) && !defined(__EMSCRIPTEN__) // elsewhere malloc is used, and zeros are written
 #include <sys/mman.h>
 #endif
 
 namespace cotan {
 
-inline constexpr std::size_t kLarge = 8u << 20; // bytes: four large pages; most of what is smaller malloc has at hand
+inline constexpr std::size_t kLarge = 8u << 20; // bytes, four large pages; malloc often has smaller blocks ready
 
-// Wishes for large pages there: the first touch of fresh memory takes a fraction of the time then.
-inline void wishLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes)
+// Requests large pages for the memory, which makes the first access several times faster.
+inline void requestLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes)
 {
 #ifdef MADV_HUGEPAGE
     constexpr std::size_t kPage = 4096;
@@ -29,7 +29,7 @@ inline void wishLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::
 }
 
 struct FreeLargeArray {
-    std::size_t mapped = 0; // bytes from the system itself; 0: from malloc
+    std::size_t mapped = 0; // bytes mapped from the system; 0: from malloc
 
     void operator()(void* memory) const
     {
@@ -45,7 +45,8 @@ struct FreeLargeArray {
 
 template<class T> using LargeArray = std::unique_ptr<T[], FreeLargeArray>;
 
-// Not initialised. From the system itself: malloc keeps what other threads free.
+// Returns an uninitialised array. Large ones are mapped from the system, because malloc keeps memory that other threads
+// free.
 template<class T> LargeArray<T> makeLargeArray(std::size_t size)
 {
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -55,7 +56,7 @@ template<class T> LargeArray<T> makeLargeArray(std::size_t size)
         void* const memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
         if (memory == MAP_FAILED)
             throw std::bad_alloc();
-        wishLargePages(memory, bytes);
+        requestLargePages(memory, bytes);
         return LargeArray<T>(static_cast<T*>(memory), {bytes});
     }
 #endif
@@ -65,12 +66,12 @@ template<class T> LargeArray<T> makeLargeArray(std::size_t size)
     return LargeArray<T>(static_cast<T*>(memory), {});
 }
 
-// A vector of zeros in large pages.
+// Returns a vector of zeros in large pages.
 template<class T> std::vector<T> zeros(std::size_t size)
 {
     std::vector<T> out;
     out.reserve(size);
-    wishLargePages(out.data(), size * sizeof(T));
+    requestLargePages(out.data(), size * sizeof(T));
     out.resize(size);
     return out;
 }

@@ -1,5 +1,5 @@
-// Loops that may run on several threads: by oneTBB where the library is built with it, by core/parallel.hpp where not.
-// Which thread does what never shows in a result. How many they use, withThreads says, for all that is called inside.
+// Loops on several threads: by oneTBB if the library is built with it, otherwise by core/parallel.hpp. Results do not
+// depend on the assignment of work to threads. withThreads limits their number, for all nested calls too.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@
 
 namespace cotan {
 
-// Calls work(begin, end) for parts of [first, last), each of at least `grain` items but for the last. Throws what a
-// call has thrown, after all have ended.
+// Calls work(begin, end) for parts of [first, last), each of at least `grain` items except the last. Rethrows an
+// exception of a call after all calls have ended.
 template<class Index, class Work> void parallelRanges(Index first, Index last, Index grain, const Work& work)
 {
 #ifdef COTAN_WITH_TBB
@@ -30,7 +30,7 @@ template<class Index, class Work> void parallelRanges(Index first, Index last, I
         return;
     const auto count = std::size_t(last - first);
     const std::size_t threads = threadsFor(SIZE_MAX, 1);
-    // Some parts a thread, so that one that is held up does not keep the others waiting.
+    // Several parts per thread, so that a delayed thread does not keep the others waiting.
     const std::size_t parts = threads == 1 ? 1 : std::clamp<std::size_t>(count / std::size_t(grain), 1, 8 * threads);
     runTasks(parts, threads, [&](std::size_t i) {
         work(Index(first + Index(partBegin(count, i, parts))), Index(first + Index(partBegin(count, i + 1, parts))));
@@ -47,12 +47,12 @@ template<class Index, class Work> void parallelFor(Index first, Index last, cons
     });
 }
 
-// What work() returns, its loops run on at most that many threads; 0: as many as the caller may use, else all cores.
+// Returns work(); its loops use at most `threads` threads. 0: the caller's limit, otherwise all cores.
 template<class Work> auto withThreads(int threads, const Work& work)
 {
     const ThreadLimit limit(threads > 0 ? threads : threadLimit);
 #ifdef COTAN_WITH_TBB
-    if (threads > 0) // oneTBB runs no more than there are processors, and warns on standard error where it is asked to
+    if (threads > 0) // oneTBB uses at most one thread per CPU, and prints a warning if more are requested
         return oneapi::tbb::task_arena(std::min(threads, oneapi::tbb::info::default_concurrency())).execute(work);
 #endif
     return work();

@@ -1,6 +1,6 @@
-// MikkTSpace, written from its description. The steps: weld equal vertices; a tangent direction
-// and an orientation for every triangle; neighbours across shared edges; groups of triangles of
-// one orientation that hang together around a vertex; an angle-weighted average per group.
+// MikkTSpace, implemented from its description. The steps: weld equal vertices; derive a tangent direction and an
+// orientation for every triangle; find neighbours across shared edges; form groups of triangles of one orientation that
+// are connected around a vertex; average each group, weighted by angle.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -23,14 +23,14 @@ using namespace mikktspace;
 using tangents::normalizeOrZero;
 using tangents::projectedUnit;
 
-// ---- corners: which meet at a vertex, and which of those are neighbours ---------------------
+// ---- corners at a vertex, and which of them are neighbours ----------------------------------
 
 // The corners at each welded vertex, in order; those of degenerate triangles are left out.
 struct CornersAt {
-    LargeArray<std::uint32_t> first; // per vertex; kNone: it has none
-    LargeArray<std::uint32_t> next;  // per corner; kNone: it is its vertex's last
+    LargeArray<std::uint32_t> first; // per vertex; kNone: no corners
+    LargeArray<std::uint32_t> next;  // per corner; kNone: the last of its vertex
 
-    // Into `corners`, as far as they fit. Returns the first that does not fit, or kNone.
+    // Lists the corners in `corners` as far as they fit. Returns the first one that does not fit, or kNone.
     std::uint32_t list(std::size_t vertex, std::span<std::uint32_t> corners, std::uint32_t& count) const
     {
         std::uint32_t c = first[vertex];
@@ -39,7 +39,7 @@ struct CornersAt {
         return c;
     }
 
-    // All of them.
+    // Lists all corners.
     void list(std::size_t vertex, std::vector<std::uint32_t>& corners) const
     {
         corners.clear();
@@ -48,17 +48,17 @@ struct CornersAt {
     }
 };
 
-// at: without corners yet.
+// Fills `at`, which has no corners yet.
 void addCorners(const Triangles& t, std::size_t threads, CornersAt& at)
 {
     const std::size_t vertices = t.mesh.positions.size();
-    // Each thread writes the corners of its own vertices, from the last, and reads the blocks that have such.
+    // Each thread adds the corners of its own vertices, in descending order, and skips blocks without such vertices.
     runTasks(threads, threads, [&](std::size_t part) {
         const std::size_t begin = partBegin(vertices, part, threads);
         const std::size_t size = partBegin(vertices, part + 1, threads) - begin;
         for (std::size_t block = t.ranges.size(); block-- > 0;) {
             const VertexRange range = t.ranges[block];
-            if (range.least >= begin + size || range.most < begin)
+            if (range.minimum >= begin + size || range.maximum < begin)
                 continue;
             for (std::size_t f = std::min((block + 1) * kBlock, t.count); f-- > block * kBlock;)
                 if (!t.has(f, kDegenerate))
@@ -69,23 +69,23 @@ void addCorners(const Triangles& t, std::size_t threads, CornersAt& at)
     });
 }
 
-// Which of the corners at one vertex are neighbours: across the edge that leaves the vertex at corner i,
-// and across the one that comes back to it, is the corner left[i], right[i]; kNone where there is none.
-// As indices into the list of corners, in lists as long as the longest needed so far. Of the edges between the same two
-// vertices the k-th that runs one way meets the k-th that runs the other way.
+// Neighbours among the corners at one vertex: left[i] is the corner across the edge that leaves the vertex at corner i,
+// right[i] the one across the edge that returns to it; kNone if there is none. Values are indices into the list of
+// corners. The arrays keep the size of the longest list so far. Of several edges between the same two vertices, the
+// k-th in one direction is paired with the k-th in the other.
 struct Ring {
     std::vector<std::uint32_t> left, right;
 
-    // In time n log n.
+    // Takes O(n log n) time.
     void make(const Triangles& t, std::span<const std::uint32_t> corners)
     {
         const auto count = static_cast<std::uint32_t>(corners.size());
         if (left.size() < count)
-            for (auto* list : {&leaving, &coming, &left, &right})
+            for (auto* list : {&outgoing, &incoming, &left, &right})
                 list->resize(count);
         for (std::uint32_t i = 0; i < count; ++i) {
-            leaving[i] = t.vertices[nextCorner(corners[i])];
-            coming[i] = t.vertices[previousCorner(corners[i])];
+            outgoing[i] = t.vertices[nextCorner(corners[i])];
+            incoming[i] = t.vertices[previousCorner(corners[i])];
             left[i] = right[i] = kNone;
         }
         const auto sorted = [&](const std::vector<std::uint32_t>& others, std::vector<std::uint32_t>& order) {
@@ -96,13 +96,13 @@ struct Ring {
             std::ranges::sort(keys);
             std::ranges::transform(keys, order.begin(), [](std::uint64_t key) { return std::uint32_t(key); });
         };
-        sorted(leaving, byLeaving);
-        sorted(coming, byComing);
-        for (std::size_t i = 0, j = 0; i < byLeaving.size() && j < byComing.size();) {
-            const std::uint32_t a = leaving[byLeaving[i]], b = coming[byComing[j]];
+        sorted(outgoing, byOutgoing);
+        sorted(incoming, byIncoming);
+        for (std::size_t i = 0, j = 0; i < byOutgoing.size() && j < byIncoming.size();) {
+            const std::uint32_t a = outgoing[byOutgoing[i]], b = incoming[byIncoming[j]];
             if (a == b) {
-                left[byLeaving[i]] = byComing[j];
-                right[byComing[j]] = byLeaving[i];
+                left[byOutgoing[i]] = byIncoming[j];
+                right[byIncoming[j]] = byOutgoing[i];
             }
             i += a <= b;
             j += b <= a;
@@ -110,13 +110,13 @@ struct Ring {
     }
 
 private:
-    std::vector<std::uint32_t> leaving, coming; // the edges' other vertices
-    std::vector<std::uint32_t> byLeaving, byComing;
-    std::vector<std::uint64_t> keys; // another vertex, and the corner below it
+    std::vector<std::uint32_t> outgoing, incoming; // the other vertex of each edge
+    std::vector<std::uint32_t> byOutgoing, byIncoming;
+    std::vector<std::uint64_t> keys; // the other vertex in the high bits, the corner in the low ones
 };
 
-// The corners that hang together with `seed`, as far as take(corner) says yes: it is asked for each in
-// order, to the left first, and says no to a neighbour that is none.
+// Visits the corners connected to `seed`, to the left first, then to the right, until take(corner) returns false, as it
+// must where there is no neighbour.
 template<class List, class Take> void walk(std::uint32_t seed, const List& left, const List& right, const Take& take)
 {
     for (std::uint32_t i = seed; take(i);)
@@ -127,15 +127,15 @@ template<class List, class Take> void walk(std::uint32_t seed, const List& left,
 
 // ---- averages -------------------------------------------------------------------------------
 
-// With the threshold of 180 degrees two triangles are still kept apart where their directions are
-// exactly opposite: member by member then. Large groups, which only a mesh made for the purpose
-// has, are averaged whole, so that the time stays linear.
+// Even with the threshold of 180 degrees, two triangles with exactly opposite directions are not averaged together.
+// Groups that contain such directions are averaged separately for each member. Large groups, which occur only in meshes
+// made for this purpose, are averaged as a whole, so that the time stays linear.
 constexpr std::size_t kLargeGroup = 256;
 
 glm::vec3 projected(glm::vec3 v, glm::vec3 n) { return v - n * glm::dot(n, v); }
 
-// The whole group's weighted sum, and whether no two directions in it can be opposite: all within
-// 90 degrees of the first, less a little for rounding. That is the usual case, and then every member has this sum.
+// Computes the weighted sum of the group. Returns whether no two directions in it can be opposite: all are within 90
+// degrees of the first, with a margin for rounding. In this usual case the sum applies to every member.
 bool sumInOneHalf(const Triangles& t, std::span<const std::uint32_t> group, std::span<const glm::vec4> contributions,
                   glm::vec3 n, glm::vec3& sum)
 {
@@ -147,16 +147,16 @@ bool sumInOneHalf(const Triangles& t, std::span<const std::uint32_t> group, std:
     for (const std::uint32_t c : group) {
         const glm::vec3 u(contributions[c]);
         inOneHalf &= glm::dot(firstU, u) > minU;
-        inOneHalf &= glm::dot(firstV, t.alongV[c / 3]) > kCosine; // along n there is nothing of the first
+        inOneHalf &= glm::dot(firstV, t.alongV[c / 3]) > kCosine; // the first direction has no part along n
         sum += u;
     }
     return inOneHalf;
 }
 
-// What a corner has that no group reaches, as mikktspace.c has it.
+// The tangent of corners that no group reaches, as in mikktspace.c.
 constexpr glm::vec4 kNoGroup{1, 0, 0, 1};
 
-// A sum that cancels out stays zero; one that is not finite, which mikktspace.c hands on, is dropped.
+// Zero sums stay zero. Non-finite sums, which mikktspace.c passes on, give kNoGroup.
 glm::vec4 storedTangent(glm::vec3 sum, bool preserving)
 {
     const glm::vec3 unit = normalizeOrZero(sum);
@@ -165,9 +165,9 @@ glm::vec4 storedTangent(glm::vec3 sum, bool preserving)
     return {unit, preserving ? -1.0f : 1.0f}; // v runs down, glTF's bitangent up
 }
 
-// One group while it is averaged member by member.
+// A group that is averaged separately for each member.
 struct Members {
-    std::vector<glm::vec3> alongU, alongV; // of the triangles, in the vertex's plane
+    std::vector<glm::vec3> alongU, alongV; // of the triangles, in the tangent plane of the vertex
     std::vector<glm::vec3> contributions;
 
     void project(const Triangles& t, std::span<const std::uint32_t> group, std::span<const glm::vec4> all, glm::vec3 n)
@@ -184,17 +184,17 @@ struct Members {
 
     glm::vec3 sumFor(const Triangles& t, std::span<const std::uint32_t> group, std::size_t member) const
     {
-        const auto any = [&](std::size_t i) { return t.has(group[i] / 3, kJoinsAny); };
+        const auto joinsAny = [&](std::size_t i) { return t.has(group[i] / 3, kJoinsAny); };
         glm::vec3 sum(0);
         for (std::size_t i = 0; i < group.size(); ++i)
-            if (i == member || any(i) || any(member)
+            if (i == member || joinsAny(i) || joinsAny(member)
                 || (glm::dot(alongU[member], alongU[i]) > -1 && glm::dot(alongV[member], alongV[i]) > -1))
                 sum += contributions[i];
         return sum;
     }
 };
 
-// out: the contributions of the corners; those of the group become tangents.
+// Averages a group. out: the contributions of the corners; those of the group are replaced by tangents.
 void averageGroup(const Triangles& t, std::span<const std::uint32_t> group, Members& members, std::span<glm::vec4> out)
 {
     const glm::vec3 n = t.normal(group[0]);
@@ -213,11 +213,11 @@ void averageGroup(const Triangles& t, std::span<const std::uint32_t> group, Memb
 
 // ---- groups ---------------------------------------------------------------------------------
 
-// The set of the positions in a list where `value` stands, as bits.
+// Returns the positions of `value` in a list, as a bit set.
 template<std::size_t kSize> std::uint32_t positionsOf(std::uint32_t value, const std::array<std::uint32_t, kSize>& list)
 {
     std::uint32_t positions = 0;
-#ifdef __SSE2__ // compilers do not find that
+#ifdef __SSE2__ // compilers do not vectorise the loop this way
     const __m128i wanted = _mm_set1_epi32(static_cast<int>(value));
     const auto equal = [&](std::size_t i) {
         return _mm_cmpeq_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(&list[i])), wanted);
@@ -233,32 +233,32 @@ template<std::size_t kSize> std::uint32_t positionsOf(std::uint32_t value, const
     return positions;
 }
 
-// The groups at a vertex with at most kMax corners: sets of corners are the bits of a word, and neighbours are
-// found by comparing all with all.
+// Averages the groups at a vertex with at most kMax corners. Sets of corners are the bits of a word, and comparing all
+// pairs finds the neighbours.
 template<std::size_t kMax>
 void averageFew(const Triangles& t, std::span<const std::uint32_t> corners, Members& members, std::span<glm::vec4> out)
 {
-    constexpr std::uint32_t kNobody = 31; // no corner has that bit
+    constexpr std::uint32_t kNoNeighbour = 31; // not the bit of any corner
     const auto count = static_cast<std::uint32_t>(corners.size());
-    std::array<std::uint32_t, kMax> leaving, coming, left, right; // as in Ring
+    std::array<std::uint32_t, kMax> outgoing, incoming, left, right; // as in Ring
     std::uint32_t preserving = 0;
-    coming.fill(kNone);
-    right.fill(kNobody);
+    incoming.fill(kNone);
+    right.fill(kNoNeighbour);
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t f = corners[i] / 3, k = corners[i] - 3 * f;
-        leaving[i] = t.vertices[k == 2 ? 3 * f : corners[i] + 1];
-        coming[i] = t.vertices[k == 0 ? 3 * f + 2 : corners[i] - 1];
+        outgoing[i] = t.vertices[k == 2 ? 3 * f : corners[i] + 1];
+        incoming[i] = t.vertices[k == 0 ? 3 * f + 2 : corners[i] - 1];
         preserving |= std::uint32_t(t.flags[f] & kPreserving) << i;
     }
-    for (std::uint32_t i = 0, rest = ~0u; i < count; ++i) { // rest: nobody's right neighbour
-        left[i] = kNobody;
-        if (const std::uint32_t those = positionsOf(leaving[i], coming) & rest; those != 0) {
-            left[i] = std::uint32_t(std::countr_zero(those));
+    for (std::uint32_t i = 0, candidates = ~0u; i < count; ++i) { // corners that are not a right neighbour yet
+        left[i] = kNoNeighbour;
+        if (const std::uint32_t matches = positionsOf(outgoing[i], incoming) & candidates; matches != 0) {
+            left[i] = std::uint32_t(std::countr_zero(matches));
             right[left[i]] = i;
-            rest &= ~(1u << left[i]);
+            candidates &= ~(1u << left[i]);
         }
     }
-    std::uint32_t free = (1u << count) - 1; // in no group yet
+    std::uint32_t free = (1u << count) - 1; // corners that are in no group yet
     while (free != 0) {
         const auto seed = std::uint32_t(std::countr_zero(free));
         const std::uint32_t alike = (preserving >> seed & 1) != 0 ? preserving : ~preserving;
@@ -275,7 +275,7 @@ void averageFew(const Triangles& t, std::span<const std::uint32_t> corners, Memb
     }
 }
 
-// The same for any number of corners.
+// Averages the groups at a vertex with any number of corners.
 struct ManyCorners {
     Ring ring;
     std::vector<std::uint32_t> group;
@@ -302,10 +302,10 @@ struct ManyCorners {
     }
 };
 
-// Shares of the time after which each step is done.
+// Fractions of the time at the end of each step.
 constexpr double kWelded = 0.2, kDerived = 0.5, kListed = 0.6;
 
-// Where every triangle has a direction, the groups of a vertex are nobody else's business.
+// Averages the vertices independently, which is possible if every triangle has a direction.
 bool averageByVertex(const Triangles& t, const CornersAt& at, std::size_t threads, const Listener& listener,
                      std::span<glm::vec4> out)
 {
@@ -321,14 +321,14 @@ bool averageByVertex(const Triangles& t, const CornersAt& at, std::size_t thread
                 many.average(t, all, members, out);
             } else if (count > 8) {
                 averageFew<16>(t, std::span(few).first(count), members, out);
-            } else if (count > 0) { // not welded to another
+            } else if (count > 0) { // 0: welded to another vertex, or unused
                 averageFew<8>(t, std::span(few).first(count), members, out);
             }
     };
     return runPartsWithProgress(t.mesh.positions.size(), threads, listener, kListed, average);
 }
 
-// left and right by corner: Ring for all vertices. left takes the place of at.next; returns right.
+// Finds the neighbours of all corners, as Ring does. Stores left in at.next and returns right.
 LargeArray<std::uint32_t> makeRings(const Triangles& t, CornersAt& at)
 {
     LargeArray<std::uint32_t> right = makeLargeArray<std::uint32_t>(t.corners());
@@ -347,13 +347,13 @@ LargeArray<std::uint32_t> makeRings(const Triangles& t, CornersAt& at)
 
 std::uint8_t takenFlag(std::size_t corner) { return static_cast<std::uint8_t>(kTaken << corner % 3); }
 
-// Marks the corner as taken and says so, if its triangle may join a group of that orientation.
+// Marks the corner as taken and returns true if it is free and its triangle may join a group of that orientation.
 bool join(Triangles& t, std::size_t corner, bool preserving)
 {
     std::uint8_t& flags = t.flags[corner / 3];
     if ((flags & takenFlag(corner)) != 0)
         return false;
-    // The first group to reach a triangle without a direction decides its orientation.
+    // The first group that reaches a triangle without a direction decides its orientation.
     if ((flags & kJoinsAny) != 0 && flags < kTaken)
         flags = static_cast<std::uint8_t>((flags & ~kPreserving) | (preserving ? kPreserving : 0));
     if (((flags & kPreserving) != 0) != preserving)
@@ -362,8 +362,8 @@ bool join(Triangles& t, std::size_t corner, bool preserving)
     return true;
 }
 
-// Which group a triangle without a direction joins depends on the order of the corners: one after the
-// other. What no group reaches gets kNoGroup.
+// Averages the groups in the order of the corners, which decides the group that a triangle without a direction joins.
+// Corners that no group reaches get kNoGroup.
 bool averageInOrder(Triangles& t, CornersAt& at, const Listener& listener, std::span<glm::vec4> out)
 {
     const LargeArray<std::uint32_t> right = makeRings(t, at);
@@ -391,7 +391,7 @@ bool averageInOrder(Triangles& t, CornersAt& at, const Listener& listener, std::
     return true;
 }
 
-// A triangle with two equal positions takes over what the first sound triangle at each vertex has.
+// Corners of triangles with two equal positions copy the tangent of the first valid triangle at the vertex.
 void inheritAtDegenerate(const Triangles& t, const CornersAt& at, std::span<glm::vec4> out)
 {
     for (std::size_t c = 0; c < out.size(); ++c)
@@ -400,7 +400,7 @@ void inheritAtDegenerate(const Triangles& t, const CornersAt& at, std::span<glm:
                 out[c] = out[sound];
 }
 
-// Starting a thread takes as long as some thousands of triangles.
+// Starting a thread takes as long as several thousand triangles.
 constexpr std::size_t kTrianglesPerThread = 8192;
 
 } // namespace
@@ -409,13 +409,13 @@ bool mikktspace::makeTangents(const MeshView& mesh, int threads, const Listener&
 {
     const std::size_t used = threadsFor(mesh.indices.size() / 3, kTrianglesPerThread, threads);
     CornersAt at;
-    auto makeRoom = [&] { // fresh memory takes half as long
+    auto allocate = [&] { // takes half as long as the welding, so it runs concurrently
         out = zeros<glm::vec4>(mesh.indices.size());
         at = {makeLargeArray<std::uint32_t>(mesh.positions.size()), makeLargeArray<std::uint32_t>(mesh.indices.size())};
         std::fill_n(at.first.get(), mesh.positions.size(), kNone);
     };
-    const tangents::Task beside{[](void* room) { (*static_cast<decltype(makeRoom)*>(room))(); }, &makeRoom};
-    LargeArray<std::uint32_t> firstVertex = tangents::weld(mesh, used, beside);
+    const tangents::Task sideTask{[](void* function) { (*static_cast<decltype(allocate)*>(function))(); }, &allocate};
+    LargeArray<std::uint32_t> firstVertex = tangents::weld(mesh, used, sideTask);
     if (!listener(kWelded))
         return false;
     Triangles t = makeTriangles(mesh, std::move(firstVertex), used, out);

@@ -1,4 +1,4 @@
-// MikkTSpace, and the first of its steps, which has a file of its own: mikktspace_triangles.cpp.
+// MikkTSpace, and its first step, which is implemented in mikktspace_triangles.cpp.
 #pragma once
 
 #include <cstdint>
@@ -12,31 +12,31 @@ namespace cotan::mikktspace {
 
 using tangents::kNone;
 
-// mikktspaceTangents of a usable mesh, into `out`. Returns false where the listener has said to stop.
+// Computes the mikktspaceTangents of a usable mesh in `out`. Returns false if the listener stops it.
 bool makeTangents(const MeshView& mesh, int threads, const Listener& listener, std::vector<glm::vec4>& out);
 
-// ---- first step: what every triangle gives by itself to the tangents at its corners ----------
+// ---- first step: the contribution of every triangle to the tangents at its corners -----------
 
-// One byte of state a triangle.
+// The state of a triangle, one byte.
 enum Flag : std::uint8_t {
     kPreserving = 1, // positive signed area in uv (v upwards or downwards, as given)
-    kJoinsAny = 2,   // no usable direction: joins the first group that reaches it
-    kDegenerate = 4, // two equal positions: takes part in nothing
+    kJoinsAny = 2,   // no valid direction: joins the first group that reaches it
+    kDegenerate = 4, // two equal positions: takes no part in averages
     kTaken = 8,      // its first corner is in a group; 16: its second, 32: its third
 };
 
-// The vertices of a block of triangles.
+// The range of the vertices that a block of triangles uses.
 struct VertexRange {
-    std::uint32_t least = 0, most = 0;
+    std::uint32_t minimum = 0, maximum = 0;
 };
-constexpr std::size_t kBlock = 1024; // triangles: their corners stay in the first cache
+constexpr std::size_t kBlock = 1024; // triangles: their corners fit into the L1 cache
 
 struct Triangles {
     const MeshView& mesh;
     std::size_t count = 0;
-    const std::uint32_t* vertices = nullptr; // three a triangle, welded: the mesh's where none are equal
+    const std::uint32_t* vertices = nullptr; // three per triangle, welded; the mesh's own if no vertices are equal
     LargeArray<std::uint32_t> welded;
-    LargeArray<std::uint8_t> flags;  // of Flag, one a triangle
+    LargeArray<std::uint8_t> flags;  // Flag bits, per triangle
     LargeArray<glm::vec3> alongV;    // per triangle: unit dP/dv, or zero
     std::vector<VertexRange> ranges; // per block
 
@@ -50,12 +50,12 @@ struct Triangles {
 constexpr std::size_t nextCorner(std::size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 constexpr std::size_t previousCorner(std::size_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
-// firstVertex: of every vertex the first one that equals it. contributions gets for every corner dP/du in the
-// plane of its normal, unit, times the angle with which the triangle counts there.
+// Derives all triangles. firstVertex: per vertex the first vertex that equals it. contributions: set for every corner
+// to the unit dP/du in the plane of its normal, times the angle that weights the triangle there.
 Triangles makeTriangles(const MeshView& mesh, LargeArray<std::uint32_t> firstVertex, std::size_t threads,
                         std::span<glm::vec4> contributions);
 
-// Unit dP/du of a triangle, or zero.
+// Returns the unit dP/du of a triangle, or zero.
 glm::vec3 alongU(const Triangles& t, std::size_t triangle);
 
 } // namespace cotan::mikktspace

@@ -12,7 +12,7 @@ using tangents::projectedUnit;
 using tangents::put;
 using tangents::vectorAt;
 
-// What follows is written without branches, so that compilers do it for several triangles at once.
+// The following functions are branch-free, so that compilers vectorise them over triangles.
 
 struct Directions {
     glm::vec3 u, v; // unit dP/du, dP/dv, or zero
@@ -26,7 +26,7 @@ inline glm::vec3 select(bool condition, glm::vec3 v)
     return {condition ? v.x : 0.0f, condition ? v.y : 0.0f, condition ? v.z : 0.0f};
 }
 
-// dP/du and dP/dv up to length, and whether uv keep the orientation. c0, c1, c2: uv of the corners.
+// Returns the directions of dP/du and dP/dv, and whether uv preserve the orientation. c0, c1, c2: uv of the corners.
 inline Directions directionsOf(glm::vec3 p0, glm::vec3 p1, glm::vec3 p2, glm::vec2 c0, glm::vec2 c1, glm::vec2 c2)
 {
     const bool equal01 = equal(p0, p1), equal02 = equal(p0, p2), equal12 = equal(p1, p2);
@@ -43,10 +43,10 @@ inline Directions directionsOf(glm::vec3 p0, glm::vec3 p1, glm::vec3 p2, glm::ve
             select(usable & (lengthV > FLT_MIN), v * (sign / lengthV)), area > 0 && !degenerate, !directed, degenerate};
 }
 
-// tangents::projectedUnit(u, n) * tangents::projectedAngle(p, previous, next, n), if `sound`.
+// tangents::projectedUnit(u, n) * tangents::projectedAngle(p, previous, next, n), valid if `sound`.
 struct Contribution {
     glm::vec3 value;
-    bool sound; // no length that would have to be taken in double
+    bool sound; // no length needs double precision
 };
 
 inline Contribution contributionOf(glm::vec3 u, glm::vec3 n, glm::vec3 p, glm::vec3 previous, glm::vec3 next)
@@ -60,12 +60,12 @@ inline Contribution contributionOf(glm::vec3 u, glm::vec3 n, glm::vec3 p, glm::v
     return {t * (1 / std::sqrt(tt)) * fastArcCosine(glm::dot(a, b) / std::sqrt(aa * bb)), sound};
 }
 
-// Triangles side by side, one a lane.
+// Triangles side by side, one per lane.
 constexpr std::size_t kLanes = 16;
 using Lane = float[kLanes];
 
 struct Batch {
-    Lane position[3][3], normal[3][3], texcoord[3][2]; // corner, axis
+    Lane position[3][3], normal[3][3], texcoord[3][2]; // indexed by corner, then axis
     Lane u[3], v[3];
     Lane contribution[3][3];
     std::int32_t flags[kLanes], sound[kLanes];
@@ -106,7 +106,7 @@ private:
 };
 
 #if defined(__x86_64__) && defined(__GNUC__)
-// Eight lanes at a time where the processor can. Without fused multiplication: the values stay the same.
+// Eight lanes at a time if the CPU supports it. Without fused multiply-add, so that the values are the same.
 [[gnu::target("avx2")]] void deriveEight(Batch& batch) { batch.derive(); }
 
 void derive(Batch& batch)
@@ -131,7 +131,7 @@ void gather(const Triangles& t, std::size_t first, std::size_t lanes, Batch& bat
         }
 }
 
-// The angle with which a corner's triangle counts; 0 for one without a direction.
+// Returns the angle that weights a corner's triangle; 0 for a triangle without a direction.
 float weightOf(const Triangles& t, std::size_t c)
 {
     if (t.has(c / 3, kJoinsAny))
@@ -153,13 +153,13 @@ void scatter(const Batch& batch, std::size_t first, std::size_t lanes, Triangles
     }
 }
 
-// Without a branch, so that compilers compare several at once.
+// Branch-free, so that compilers vectorise it.
 VertexRange rangeOf(std::span<const std::uint32_t> vertices)
 {
     VertexRange range{vertices[0], vertices[0]};
     for (const std::uint32_t v : vertices) {
-        range.least = std::min(range.least, v);
-        range.most = std::max(range.most, v);
+        range.minimum = std::min(range.minimum, v);
+        range.maximum = std::max(range.maximum, v);
     }
     return range;
 }
@@ -186,7 +186,7 @@ Triangles makeTriangles(const MeshView& mesh, LargeArray<std::uint32_t> firstVer
             if (t.welded)
                 for (std::size_t c = 3 * begin; c < 3 * end; ++c)
                     t.welded[c] = firstVertex[mesh.indices[c]];
-            if (threads > 1) // one thread takes all corners as they come
+            if (threads > 1) // a single thread reads all blocks anyway
                 t.ranges[block] = rangeOf({t.vertices + 3 * begin, 3 * (end - begin)});
             for (std::size_t first = begin; first < end; first += kLanes) {
                 const std::size_t lanes = std::min(kLanes, end - first);

@@ -1,4 +1,4 @@
-// Words, and those that stand for values: constant arrays of both, each word once.
+// Words, and tables of words that stand for values; each word occurs once.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ template<class Value, std::size_t count> std::vector<std::string> wordsOf(const 
     return words;
 }
 
-// Empty for what has no word, such as an empty optional.
+// Returns an empty string for a value without a word, such as an empty optional.
 template<class Value, std::size_t count> std::string wordOf(const Named<Value> (&all)[count], const auto& value)
 {
     for (const Named<Value>& one : all)
@@ -33,7 +33,7 @@ template<class Value, std::size_t count> std::string wordOf(const Named<Value> (
     return {};
 }
 
-// Nothing for another word.
+// Returns nothing for an unknown word.
 template<class Value, std::size_t count>
 std::optional<Value> valueOf(const Named<Value> (&all)[count], std::string_view word)
 {
@@ -43,21 +43,21 @@ std::optional<Value> valueOf(const Named<Value> (&all)[count], std::string_view 
     return std::nullopt;
 }
 
-// The text of an enumerator; of a number that is none, the one at `otherwise`.
+// Returns the text of an enumerator; texts[otherwise] if the number is out of range.
 template<class Text, std::size_t count>
 constexpr Text textAt(const Text (&texts)[count], auto enumerator, std::size_t otherwise = count - 1)
 {
     return texts[std::size_t(enumerator) < count ? std::size_t(enumerator) : otherwise];
 }
 
-// Letters beyond ASCII stay as they are.
+// Converts ASCII letters only.
 inline std::string lowerCase(std::string text)
 {
     std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
     return text;
 }
 
-// "a, b or c".
+// Returns "a, b or c".
 inline std::string eitherOf(const std::vector<std::string>& words)
 {
     std::string text;

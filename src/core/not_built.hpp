@@ -1,4 +1,4 @@
-// What is said where this build of the library lacks something.
+// The error for features that this build of the library lacks.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace cotan {
 
-// "not built with Embree: install libembree-dev and build Cotan again". packages: what Debian 12 calls them.
+// Returns "not built with Embree: install libembree-dev and build Cotan again". packages: their names in Debian 12.
 inline Error notBuiltWith(const std::string& library, const std::string& packages)
 {
     return unavailableError("not built with " + library + ": install " + packages + " and build Cotan again");

@@ -1,11 +1,11 @@
-// A direction that is not along another one, as crossing and projecting need it.
+// An axis that is not parallel to a given vector, for cross products and projections.
 #pragma once
 
 #include <cmath>
 
 namespace cotan {
 
-// x or y, whichever is 44 degrees or more from n, a unit vector of float or double.
+// Returns the x or the y axis, at an angle of at least 44 degrees to n, a unit vector of float or double.
 template<class Vector> Vector otherAxis(const Vector& n)
 {
     using Number = typename Vector::value_type;

@@ -1,8 +1,7 @@
-// Loops over several threads, by std::thread. Which thread does what never shows in a result.
+// Loops on several threads, by std::thread. Results do not depend on the assignment of work to threads.
 //
-// This is all that there is where the library is built without oneTBB, and the core is: its packages need GLM and
-// nothing else. Other parts include core/loops.hpp, whose loops are oneTBB's where it is there, because they lie inside
-// one another and are many: its threads are started once and help each other.
+// The core uses these loops because its packages need only GLM, and so do builds without oneTBB. Other parts include
+// core/loops.hpp, which prefers oneTBB: their many nested loops share its threads, which are started once.
 #pragma once
 
 #include <algorithm>
@@ -23,10 +22,10 @@ inline constexpr bool kHasThreads = false;
 inline constexpr bool kHasThreads = true;
 #endif
 
-// How many threads a loop that is started on this thread may use; 0: as many as there are cores.
+// The maximum number of threads for loops started on this thread; 0: one per core.
 inline thread_local int threadLimit = 0;
 
-// Another limit while it lives.
+// Sets threadLimit for its lifetime.
 class ThreadLimit {
 public:
     explicit ThreadLimit(int threads) : before_(std::exchange(threadLimit, threads)) {}
@@ -38,21 +37,21 @@ private:
     int before_;
 };
 
-// How many threads are worth starting for `count` items, of which one thread should get at least
-// `least`. wanted 0: as many as this thread may use.
-inline std::size_t threadsFor(std::size_t count, std::size_t least, int wanted = 0)
+// Returns the number of threads worth starting for `count` items if each should get at least `minimum`. wanted: the
+// maximum; 0: the limit of this thread.
+inline std::size_t threadsFor(std::size_t count, std::size_t minimum, int wanted = 0)
 {
     if (!kHasThreads)
         return 1;
-    const std::size_t most = wanted > 0 ? std::size_t(wanted)
-        : threadLimit > 0               ? std::size_t(threadLimit)
-                                        : std::max(1u, std::thread::hardware_concurrency());
-    return std::clamp<std::size_t>(count / least, 1, most);
+    const std::size_t maximum = wanted > 0 ? std::size_t(wanted)
+        : threadLimit > 0                  ? std::size_t(threadLimit)
+                                           : std::max(1u, std::thread::hardware_concurrency());
+    return std::clamp<std::size_t>(count / minimum, 1, maximum);
 }
 
-// Calls run(i) for all i < tasks, on `threads` threads, this one among them. Where a thread cannot
-// be started the others do its work. Loops inside of tasks share the threads that are left over.
-// Throws what a task has thrown, after all threads have ended.
+// Calls run(i) for all i < tasks on `threads` threads, including this one. If a thread cannot be started, the others do
+// its work. Loops inside tasks share the remaining threads. Rethrows an exception of a task after all threads have
+// ended.
 template<class Run> void runTasks(std::size_t tasks, std::size_t threads, const Run& run)
 {
     if constexpr (!kHasThreads) {
@@ -61,35 +60,35 @@ template<class Run> void runTasks(std::size_t tasks, std::size_t threads, const 
         return;
     }
     std::atomic<std::size_t> next{0};
-    std::exception_ptr problem;
-    std::mutex guard;
-    const std::size_t used = std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(tasks, 1));
+    std::exception_ptr error;
+    std::mutex mutex;
+    const std::size_t started = std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(tasks, 1));
     const auto work = [&] {
-        const ThreadLimit inside(int(std::max<std::size_t>(threads / used, 1)));
+        const ThreadLimit inside(int(std::max<std::size_t>(threads / started, 1)));
         try {
             for (std::size_t i; (i = next.fetch_add(1)) < tasks;)
                 run(i);
         } catch (...) {
-            const std::lock_guard lock(guard);
-            problem = std::current_exception();
+            const std::lock_guard lock(mutex);
+            error = std::current_exception();
         }
     };
     std::vector<std::thread> others;
-    others.reserve(used);
+    others.reserve(started);
     try {
-        for (std::size_t i = 1; i < used; ++i)
+        for (std::size_t i = 1; i < started; ++i)
             others.emplace_back(work);
     } catch (const std::exception&) {
-        // no more threads to be had, or no memory for one
+        // No more threads are available, or no memory for one.
     }
     work();
     for (std::thread& t : others)
         t.join();
-    if (problem)
-        std::rethrow_exception(problem);
+    if (error)
+        std::rethrow_exception(error);
 }
 
-// Where part i of [0, count) begins; i = parts: its end. The product needs 64 bits everywhere.
+// Returns the begin of part i of [0, count); i = parts: the end. The product needs 64 bits on every platform.
 inline std::size_t partBegin(std::size_t count, std::size_t i, std::size_t parts)
 {
     return static_cast<std::size_t>(std::uint64_t(count) * i / parts);
@@ -98,27 +97,27 @@ inline std::size_t partBegin(std::size_t count, std::size_t i, std::size_t parts
 // Calls run(begin, end) for consecutive parts of [0, count).
 template<class Run> void runParts(std::size_t count, std::size_t threads, const Run& run)
 {
-    // Some parts a thread, so that one that is held up does not keep the others waiting.
+    // Several parts per thread, so that a delayed thread does not keep the others waiting.
     const std::size_t parts = threads == 1 ? 1 : std::min(count, threads * 8);
     runTasks(parts, threads, [&](std::size_t i) { run(partBegin(count, i, parts), partBegin(count, i + 1, parts)); });
 }
 
-// Whom to tell the share that is done, if anyone; they return whether to go on. A plain pointer, since std::function
-// weighs more than what it is for here.
+// An optional callback for the fraction done; it returns whether to continue. A plain pointer, because std::function is
+// too heavy here.
 struct Listener {
-    bool (*hear)(const void* who, double share) = nullptr;
-    const void* who = nullptr;
+    bool (*notify)(const void* context, double fraction) = nullptr;
+    const void* context = nullptr;
 
-    bool operator()(double share) const { return !hear || hear(who, share); }
+    bool operator()(double fraction) const { return !notify || notify(context, fraction); }
 };
 
-// As runParts, and tells the shares from `from` to 1 after each of at most 65536 items, from any thread. Returns
-// false where the listener has said to stop; the rest is not done then.
+// Like runParts; reports fractions from `from` to 1 after each part of at most about 65536 items, from any thread.
+// Returns false if the listener stops it; the remaining parts are then not run.
 template<class Run>
 bool runPartsWithProgress(std::size_t count, std::size_t threads, const Listener& listener, double from, const Run& run)
 {
     const std::size_t usual = threads == 1 ? 1 : std::min(count, threads * 8);
-    const std::size_t parts = listener.hear ? std::max(usual, count / 65536) : usual;
+    const std::size_t parts = listener.notify ? std::max(usual, count / 65536) : usual;
     std::atomic<std::size_t> done{0};
     std::atomic<bool> stopped{false};
     runTasks(parts, threads, [&](std::size_t i) {

@@ -1,4 +1,4 @@
-// A number as text.
+// Parsing of numbers.
 #pragma once
 
 #include <charconv>
@@ -7,8 +7,8 @@
 
 namespace cotan {
 
-// Reads a number that fills the whole text: no space, no '+'. False, and `value` is of no use, where the text is not
-// one or does not fit the type. Reads "nan" and "inf" where Number is a floating-point type.
+// Parses a number that fills the whole text: no spaces, no '+'. Returns false, with `value` unspecified, if the text is
+// no number or does not fit the type. Accepts "nan" and "inf" if Number is a floating-point type.
 template<class Number> bool parseNumber(std::string_view text, Number& value)
 {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

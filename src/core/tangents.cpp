@@ -23,18 +23,18 @@ using tangents::edgesAt;
 using tangents::Side;
 using tangents::slot;
 
-constexpr std::size_t kMinCorners = 100000; // of a thread
+constexpr std::size_t kMinCorners = 100000; // per thread
 
-// The unit direction of dP/du, or zero.
+// Returns the unit direction of dP/du, or zero.
 glm::vec3 alongU(const Edges& e)
 {
     return unitOrZero((e.dp1 * e.duv2.y - e.dp2 * e.duv1.y) * (e.uvArea() < 0 ? -1.0 : 1.0));
 }
 
-// A unit vector perpendicular to n; n may be zero or not finite.
+// Returns a unit vector perpendicular to n; n may be zero or not finite.
 glm::vec3 anyPerpendicular(glm::vec3 n)
 {
-    // Crossed with the axis that n is farthest from.
+    // Projects the axis that is farthest from n.
     const glm::vec3 a = glm::abs(n);
     const glm::vec3 axis = a.x <= a.y && a.x <= a.z ? glm::vec3(1, 0, 0)
         : a.y <= a.z                                ? glm::vec3(0, 1, 0)
@@ -72,10 +72,10 @@ std::vector<glm::vec4> vertexTangents(const MeshView& mesh)
 bool tangents::averageCotangents(const MeshView& mesh, int threads, const Listener& listener, Cotangents& made)
 {
     const std::size_t count = mesh.positions.size();
-    auto makeRoom = [&] { made = {zeros<glm::vec3>(count), zeros<glm::vec3>(count)}; };
-    const Task beside{[](void* room) { (*static_cast<decltype(makeRoom)*>(room))(); }, &makeRoom};
+    auto allocate = [&] { made = {zeros<glm::vec3>(count), zeros<glm::vec3>(count)}; };
+    const Task sideTask{[](void* function) { (*static_cast<decltype(allocate)*>(function))(); }, &allocate};
     const std::size_t all = threadsFor(mesh.indices.size(), kMinCorners, threads);
-    return count == 0 || groupCorners(mesh, all, {&made, {}, {}}, listener, beside).first;
+    return count == 0 || groupCorners(mesh, all, {&made, {}, {}}, listener, sideTask).first;
 }
 
 Cotangents smoothCotangents(const MeshView& mesh, int threads)
@@ -107,7 +107,7 @@ VertexSplit splitVertices(std::size_t vertexCount, std::span<const std::uint32_t
     });
     VertexSplit split{std::vector<std::uint32_t>(vertexCount), {indices.begin(), indices.end()}};
     std::iota(split.sources.begin(), split.sources.end(), 0u);
-    std::vector<bool> claimed(vertexCount); // by the first value met, which stays where it is
+    std::vector<bool> claimed(vertexCount); // by the first value, which keeps the vertex
     for (std::uint32_t c = 0; c < indices.size(); ++c) {
         if (first[c] != c) {
             split.indices[c] = split.indices[first[c]];
@@ -122,12 +122,12 @@ VertexSplit splitVertices(std::size_t vertexCount, std::span<const std::uint32_t
 
 namespace {
 
-// Which vertices mirrored and unmirrored triangles share.
+// Vertices that mirrored and unmirrored triangles share.
 struct Shared {
-    std::vector<Side> sides;            // per corner; none has become one of the others
-    std::vector<Side> keepers;          // per vertex: the side that is met first and keeps it
-    std::vector<std::uint32_t> copies;  // per vertex, that of the other side, or kNone; empty: there are none
-    std::vector<std::uint32_t> sources; // of the copies
+    std::vector<Side> sides;            // per corner; corners without a side get one
+    std::vector<Side> keepers;          // per vertex: the first side, which keeps the vertex
+    std::vector<std::uint32_t> copies;  // per vertex: the copy for the other side, or kNone; empty: no copies
+    std::vector<std::uint32_t> sources; // per copy: the vertex that it copies
 };
 
 Shared sharedVertices(const MeshView& mesh, std::size_t threads)
@@ -193,7 +193,7 @@ SplitCotangents splitSmoothCotangents(const MeshView& mesh, int threads)
     const std::size_t count = mesh.positions.size() + shared.sources.size();
     SplitCotangents made{{}, {std::vector<glm::vec3>(count), std::vector<glm::vec3>(count)}};
     tangents::groupCorners(mesh, all, {&made.cotangents, shared.keepers, shared.copies});
-    made.split = splitOf(mesh, shared); // now that the memory of the groups is free
+    made.split = splitOf(mesh, shared); // after the memory of the groups is freed
     return made;
 }
 
@@ -206,11 +206,11 @@ Error expected(const std::string& array, const std::string& what, std::size_t fo
     return usageError(array + ": expected " + what + ", found " + std::to_string(found));
 }
 
-// Why a mesh is not usable; none where it is.
+// Returns why a mesh is not usable; nothing if it is.
 std::optional<Error> problemOf(const MeshView& mesh)
 {
     const std::size_t count = mesh.positions.size(), indices = mesh.indices.size();
-    const std::string oneEach = "one a position (" + std::to_string(count) + ")";
+    const std::string oneEach = "one per position (" + std::to_string(count) + ")";
     if (count >= tangents::kNone)
         return expected("positions", "less than 4294967295", count);
     if (mesh.normals.size() != count)
@@ -218,7 +218,7 @@ std::optional<Error> problemOf(const MeshView& mesh)
     if (mesh.texcoords.size() != count)
         return expected("texcoords", oneEach, mesh.texcoords.size());
     if (indices % 3 != 0 || indices >= tangents::kNone)
-        return expected("indices", "three a triangle, less than 4294967295", indices);
+        return expected("indices", "three per triangle, less than 4294967295", indices);
     const auto outside = std::find_if(mesh.indices.begin(), mesh.indices.end(), [&](auto i) { return i >= count; });
     if (outside != mesh.indices.end())
         return expected("indices[" + std::to_string(outside - mesh.indices.begin()) + "]",
@@ -234,7 +234,7 @@ Result<Made> made(bool (*make)(const MeshView&, int, const Listener&, Made&), co
         return *problem;
     Listener listener;
     if (progress)
-        listener = {[](const void* who, double done) { return (*static_cast<const Progress*>(who))(done); }, &progress};
+        listener = {[](const void* p, double done) { return (*static_cast<const Progress*>(p))(done); }, &progress};
     Made all;
     if (!make(mesh, threads, listener, all))
         return stoppedError();
@@ -271,13 +271,13 @@ double share(std::size_t part, std::size_t whole) { return whole == 0 ? 0 : doub
 
 } // namespace
 
-double turnedShare(const TangentDifference& d)
+double reversedFraction(const TangentDifference& d)
 {
     const auto turned = std::count_if(d.degrees.begin(), d.degrees.end(), [](float degrees) { return degrees > 90; });
     return share(std::size_t(turned), d.degrees.size());
 }
 
-double invertedShare(const TangentDifference& d) { return share(d.handedness, d.degrees.size()); }
+double invertedFraction(const TangentDifference& d) { return share(d.handedness, d.degrees.size()); }
 
 TangentDifference tangentDifference(const MeshView& mesh, std::span<const glm::vec4> stored,
                                     std::span<const glm::vec4> generated)
@@ -311,9 +311,9 @@ TangentVerdict verdictOf(const TangentDifference& d)
         return TangentVerdict::nothing;
     if (d.handedness == 0 && *std::max_element(d.degrees.begin(), d.degrees.end()) <= kEqualTangents)
         return TangentVerdict::equal;
-    if (invertedShare(d) >= 0.9)
+    if (invertedFraction(d) >= 0.9)
         return TangentVerdict::inverted;
-    const double turned = turnedShare(d);
+    const double turned = reversedFraction(d);
     return turned >= 0.4 && turned <= 0.6 ? TangentVerdict::turned : TangentVerdict::off;
 }
 

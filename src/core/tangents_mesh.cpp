@@ -21,7 +21,7 @@ bool usable(const MeshView& mesh, std::size_t threads)
     return inRange;
 }
 
-LargeArray<std::uint32_t> weld(const MeshView& mesh, std::size_t threads, const Task& beside)
+LargeArray<std::uint32_t> weld(const MeshView& mesh, std::size_t threads, const Task& sideTask)
 {
     const auto key = [&](std::uint32_t i) {
         const glm::vec3 p = mesh.positions[i], n = mesh.normals[i];
@@ -29,7 +29,7 @@ LargeArray<std::uint32_t> weld(const MeshView& mesh, std::size_t threads, const 
         return std::array{bitsOf(p.x), bitsOf(p.y), bitsOf(p.z), bitsOf(n.x),
                           bitsOf(n.y), bitsOf(n.z), bitsOf(t.x), bitsOf(t.y)};
     };
-    return firstEqual(static_cast<std::uint32_t>(mesh.positions.size()), key, threads, beside);
+    return firstEqual(static_cast<std::uint32_t>(mesh.positions.size()), key, threads, sideTask);
 }
 
 } // namespace cotan::tangents

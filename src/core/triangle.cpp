@@ -27,13 +27,13 @@ std::vector<TriangleVectors> triangleVectors(const MeshView& mesh, int threads)
 
 namespace {
 
-bool fit(std::span<const glm::vec3> normals, const Cotangents& c)
+bool sizesMatch(std::span<const glm::vec3> normals, const Cotangents& c)
 {
     return c.u.size() == normals.size() && c.v.size() == normals.size();
 }
 
-// What pack(i) gives for all i < count.
-template<class Pack> auto packedAll(std::size_t count, const Pack& pack)
+// Returns pack(i) for all i < count.
+template<class Pack> auto packAll(std::size_t count, const Pack& pack)
 {
     std::vector<decltype(pack(count))> out;
     out.reserve(count);
@@ -46,7 +46,7 @@ template<class Pack> auto packedAll(std::size_t count, const Pack& pack)
 
 std::vector<std::array<std::uint32_t, 3>> packTriangles(std::span<const TriangleVectors> triangles)
 {
-    return packedAll(triangles.size(), [&](std::size_t i) {
+    return packAll(triangles.size(), [&](std::size_t i) {
         const f32::cotan_packed_triangle p = f32::cotan_pack_triangle(triangles[i].u, triangles[i].v);
         return std::array{p.a, p.b, p.c};
     });
@@ -68,7 +68,7 @@ std::vector<std::array<std::int16_t, 4>> packSmooth8(std::span<const glm::vec3> 
     const auto number = [](float x) {
         return static_cast<std::int16_t>(std::lround(std::clamp(x, -1.0f, 1.0f) * 32767));
     };
-    return packedAll(fit(normals, cotangents) ? normals.size() : 0, [&](std::size_t i) {
+    return packAll(sizesMatch(normals, cotangents) ? normals.size() : 0, [&](std::size_t i) {
         const glm::vec4 q = f32::cotan_pack_smooth8(normals[i], cotangents.u[i], cotangents.v[i]);
         return std::array{number(q.x), number(q.y), number(q.z), number(q.w)};
     });
@@ -76,14 +76,14 @@ std::vector<std::array<std::int16_t, 4>> packSmooth8(std::span<const glm::vec3> 
 
 std::vector<std::uint32_t> packSmooth4(std::span<const glm::vec3> normals, const Cotangents& cotangents)
 {
-    return packedAll(fit(normals, cotangents) ? normals.size() : 0, [&](std::size_t i) -> std::uint32_t {
+    return packAll(sizesMatch(normals, cotangents) ? normals.size() : 0, [&](std::size_t i) -> std::uint32_t {
         return f32::cotan_pack_smooth4(normals[i], cotangents.u[i], cotangents.v[i]);
     });
 }
 
 std::vector<std::uint16_t> packTangents2(std::span<const glm::vec3> normals, std::span<const glm::vec4> tangents)
 {
-    return packedAll(normals.size() == tangents.size() ? normals.size() : 0, [&](std::size_t i) {
+    return packAll(normals.size() == tangents.size() ? normals.size() : 0, [&](std::size_t i) {
         return static_cast<std::uint16_t>(f32::cotan_pack_tangent2(normals[i], glm::vec3(tangents[i]), tangents[i].w));
     });
 }

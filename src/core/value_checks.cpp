@@ -10,8 +10,9 @@ namespace cotan {
 
 namespace {
 
-// expected: "a whole number from 0 to 8". read: as std::strtod. CLI11's own range checks let NaN pass.
-template<class Read, class IsGood> ValueCheck numberThat(const std::string& expected, Read read, IsGood isGood)
+// Returns a check for numbers. expected: such as "a whole number from 0 to 8". read: like std::strtod. CLI11's own
+// range checks accept NaN.
+template<class Read, class IsGood> ValueCheck numberCheck(const std::string& expected, Read read, IsGood isGood)
 {
     return [=](const std::string& text) -> std::string {
         char* end = nullptr;
@@ -27,7 +28,7 @@ long long readWhole(const char* text, char** end) { return std::strtoll(text, en
 
 ValueCheck numberAbove0()
 {
-    return numberThat("a number above 0 and at most 1e6", std::strtof, [](float x) { return x > 0 && x <= 1e6f; });
+    return numberCheck("a number above 0 and at most 1e6", std::strtof, [](float x) { return x > 0 && x <= 1e6f; });
 }
 
 ValueCheck numberAbove0Or(const std::string& word)
@@ -38,16 +39,16 @@ ValueCheck numberAbove0Or(const std::string& word)
     };
 }
 
-ValueCheck numberWithin(double least, double most)
+ValueCheck numberWithin(double minimum, double maximum)
 {
-    return numberThat((std::ostringstream() << "a number from " << least << " to " << most).str(), std::strtod,
-                      [=](double value) { return value >= least && value <= most; });
+    return numberCheck((std::ostringstream() << "a number from " << minimum << " to " << maximum).str(), std::strtod,
+                       [=](double value) { return value >= minimum && value <= maximum; });
 }
 
-ValueCheck wholeNumberWithin(long long least, long long most)
+ValueCheck wholeNumberWithin(long long minimum, long long maximum)
 {
-    return numberThat("a whole number from " + std::to_string(least) + " to " + std::to_string(most), readWhole,
-                      [=](long long value) { return value >= least && value <= most; });
+    return numberCheck("a whole number from " + std::to_string(minimum) + " to " + std::to_string(maximum), readWhole,
+                       [=](long long value) { return value >= minimum && value <= maximum; });
 }
 
 ValueCheck wholeNumberOf(const std::vector<long long>& numbers)
@@ -55,8 +56,8 @@ ValueCheck wholeNumberOf(const std::vector<long long>& numbers)
     std::vector<std::string> words;
     for (const long long number : numbers)
         words.push_back(std::to_string(number));
-    return numberThat(eitherOf(words), readWhole,
-                      [numbers](long long value) { return std::ranges::find(numbers, value) != numbers.end(); });
+    return numberCheck(eitherOf(words), readWhole,
+                       [numbers](long long value) { return std::ranges::find(numbers, value) != numbers.end(); });
 }
 
 ValueCheck wordOf(const std::vector<std::string>& words)

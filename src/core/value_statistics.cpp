@@ -10,12 +10,12 @@ namespace cotan {
 
 namespace {
 
-// Bins by the exponent and the first 12 bits of the fraction of a float: positive floats sort as their bits do.
+// Bins by the exponent and the first 12 bits of the fraction of a float: positive floats are ordered like their bits.
 constexpr int kDropped = 23 - 12;
-constexpr std::size_t kOctaves = 256, kBins = 1 << 12; // bins of an octave
+constexpr std::size_t kOctaves = 256, kBins = 1 << 12; // bins per octave
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-// The first bin is that of zero, and of what is below 1e-41.
+// The first bin contains zero and values below 1e-41.
 double upperEnd(std::size_t bin)
 {
     return bin == 0 ? 0 : double(std::bit_cast<float>(std::uint32_t((bin + 1) << kDropped)));
@@ -54,20 +54,20 @@ double ValueStatistics::mean() const { return count_ > 0 ? sum_ / total_ : kNoth
 
 double ValueStatistics::maximum() const { return count_ > 0 ? maximum_ : kNothing; }
 
-double ValueStatistics::percentile(double part)
+double ValueStatistics::percentile(double fraction)
 {
     if (count_ == 0)
         return kNothing;
     std::sort(exact_.begin(), exact_.end());
     double reached = 0;
     for (const auto& [value, weight] : exact_)
-        if (reached += weight; reached >= part * total_)
+        if (reached += weight; reached >= fraction * total_)
             return value;
     for (std::size_t octave = 0; octave < octaves_.size(); ++octave)
         for (std::size_t i = 0; i < octaves_[octave].size(); ++i)
-            if (reached += octaves_[octave][i]; reached >= part * total_)
+            if (reached += octaves_[octave][i]; reached >= fraction * total_)
                 return std::min(upperEnd(octave * kBins + i), maximum_);
-    return maximum_; // the sum in this order is less than the total, by rounding
+    return maximum_; // rounding made the sum in this order smaller than total_
 }
 
 } // namespace cotan

@@ -67,7 +67,7 @@ std::optional<fs::path> findInFolder(const fs::path& folder, std::string request
     if (request.empty() || request.find('\0') != std::string::npos)
         return std::nullopt;
 
-    // An absolute path replaces the folder here; it is fine only if it leads back into it.
+    // An absolute path replaces the folder here; it is accepted only if it leads back into it.
     std::error_code error;
     const fs::path wanted = fs::weakly_canonical(folder / request, error);
     if (error)

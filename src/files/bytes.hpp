@@ -1,5 +1,4 @@
-// Files that are read: their kind by their name, their bytes with checks before memory is taken, and the only folder
-// that a model may open files from.
+// Reading files: type by extension, bytes with checks before memory is allocated, and lookup confined to a folder.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +14,10 @@
 
 namespace cotan {
 
-// ".png" of "A.PNG".
+// The lower-case extension: ".png" for "A.PNG".
 inline std::string lowerExtension(const std::filesystem::path& file) { return lowerCase(file.extension().string()); }
 
-// The folder that a file is in; "." of a bare name.
+// The folder of a file; "." for a bare name.
 inline std::filesystem::path folderOf(const std::filesystem::path& file)
 {
     return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
@@ -29,18 +28,17 @@ struct CloseFile {
 };
 using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
 
-// The size in bytes of a regular file that may be read.
-// isInput: false for an older output that the new one replaces: noteInput does not hear of it.
-// Errors (ErrorKind::input): missing, not a regular file, empty, over `limit` bytes; those of noteInput.
+// Returns the size in bytes of a regular file.
+// isInput: false for an old output that will be replaced; it is not reported to noteInput.
+// Errors: ErrorKind::input for a missing, not regular or empty file, or one over `limit` bytes; those of noteInput.
 Result<std::size_t> usableFileSize(const std::filesystem::path& file, std::size_t limit, bool isInput = true);
 
-// All bytes of a regular file of at most `limit` bytes. isInput: as for usableFileSize.
-// Errors (ErrorKind::input): missing, not a regular file, empty, too large, not readable; those of noteInput.
+// Returns all bytes of a regular file of at most `limit` bytes. isInput: as for usableFileSize.
+// Errors: those of usableFileSize; ErrorKind::input if the file cannot be read.
 Result<std::vector<std::byte>> readFileBytes(const std::filesystem::path& file, std::size_t limit, bool isInput = true);
 
-// The file that `request`, as a model writes it, stands for: relative to `folder` (canonical), with
-// either slash. Nothing where it is missing or leads out of the folder, by an absolute path, by
-// ".." or by a symbolic link; `outside` is set in the latter case.
+// Resolves a file name from a model, with either kind of slash, relative to `folder` (canonical). Returns nothing if
+// the file is missing or leads out of the folder by an absolute path, ".." or a symbolic link, which sets `outside`.
 std::optional<std::filesystem::path> findInFolder(const std::filesystem::path& folder, std::string request,
                                                   bool& outside);
 

@@ -14,20 +14,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A file by any name.
+// Identifies a file independently of its name.
 struct Identity {
-    fs::path place; // canonical as far as it exists
+    fs::path path; // canonical as far as it exists
     bool exists = false;
-    dev_t device = 0; // where it exists
+    dev_t device = 0; // if it exists
     ino_t number = 0;
 
     bool operator==(const Identity& other) const
     {
-        return place == other.place || (exists && other.exists && device == other.device && number == other.number);
+        return path == other.path || (exists && other.exists && device == other.device && number == other.number);
     }
 };
 
-// Nothing for pipes and devices, which are written to and not replaced.
+// Returns nothing for pipes and devices, which are written to and not replaced.
 std::optional<Identity> identityOf(const fs::path& file)
 {
     struct stat status {};
@@ -38,9 +38,9 @@ std::optional<Identity> identityOf(const fs::path& file)
     identity.device = status.st_dev;
     identity.number = status.st_ino;
     std::error_code error;
-    identity.place = fs::weakly_canonical(fs::absolute(file, error), error);
-    if (error || identity.place.empty()) // the working folder lies deeper than names may be long
-        identity.place = file.lexically_normal();
+    identity.path = fs::weakly_canonical(fs::absolute(file, error), error);
+    if (error || identity.path.empty()) // the working folder lies deeper than names may be long
+        identity.path = file.lexically_normal();
     return identity;
 }
 
@@ -53,9 +53,9 @@ struct Input {
 
 struct Output {
     Identity identity;
-    std::string name; // behind the option that asks for it
+    std::string name; // preceded by the option that requests it
     State state = State::planned;
-    bool refused = false; // a reader was told so, and may have gone on without what he could not read
+    bool refused = false; // a read of this file was refused; the reader may have continued without it
 };
 
 struct FileRegistry {
@@ -83,10 +83,10 @@ FileRegistry& registry()
 
 Error replaces(FileRegistry& all, const Output& output, const std::string& input)
 {
-    return all.refuse(fmt::format("{} would replace {}, which is read", output.name, input));
+    return all.refuse(fmt::format("{} would overwrite {}, which is an input", output.name, input));
 }
 
-// A new output against everything that is known.
+// Checks a new output against everything registered, and registers it.
 Status add(FileRegistry& all, Output output)
 {
     for (const Input& input : all.inputs)
@@ -94,7 +94,7 @@ Status add(FileRegistry& all, Output output)
             return replaces(all, output, input.name);
     for (const Output& other : all.outputs)
         if (other.identity == output.identity)
-            return all.refuse(fmt::format("{} and {} are one file", other.name, output.name));
+            return all.refuse(fmt::format("{} and {} are the same file", other.name, output.name));
     all.outputs.push_back(std::move(output));
     return Done{};
 }
@@ -153,7 +153,7 @@ Status beginOutput(const fs::path& file)
     if (!identity)
         return Done{};
     for (Output& output : all.outputs)
-        if (output.identity.place == identity->place && output.state == State::planned) {
+        if (output.identity.path == identity->path && output.state == State::planned) {
             if (output.refused)
                 return *all.refusal;
             output.state = State::begun;
@@ -170,13 +170,13 @@ void endOutput(const fs::path& file)
     const std::lock_guard lock(all.mutex);
     const auto identity = all.on ? identityOf(file) : std::nullopt;
     for (Output& output : all.outputs)
-        if (identity && output.identity.place == identity->place) {
-            output.identity = *identity; // a new file has taken the place
+        if (identity && output.identity.path == identity->path) {
+            output.identity = *identity; // a new file has replaced the old one
             output.state = State::done;
         }
 }
 
-std::optional<Error> refusal()
+std::optional<Error> firstRefusal()
 {
     FileRegistry& all = registry();
     const std::lock_guard lock(all.mutex);

@@ -1,12 +1,13 @@
-// What this process reads and what it writes, so that no file is replaced that it reads and no two outputs go to one
-// place. Off until a program turns it on; the command line does, a library's user may read and write as he likes.
+// Registry of the files that this process reads and writes, so that no input is overwritten and no two outputs are the
+// same file. It is off until a program turns it on: the command line does; users of the library may read and write as
+// they like.
 //
 //     guardInputs(/*overwrite*/ false);
-//     planOutput("-o", "a.png");      // before work: fails where -o is one file with another output, or with an input
+//     planOutput("-o", "a.png");      // before work: fails if -o is the same file as another output or an input
 //     readImage("./a.png");           // fails: -o would replace it
-//     writeImage("b.png", image);     // fails where b.png was read or written before
+//     writeImage("b.png", image);     // fails if b.png was read or written before
 //
-// One file is one file by any name: links, "..", symbolic links of folders. Pipes and devices are never counted.
+// Files are identified across names: links, "..", symbolic links of folders. Pipes and devices are not registered.
 #pragma once
 
 #include <filesystem>
@@ -18,31 +19,30 @@
 
 namespace cotan {
 
-// Starts the registry, empty. overwrite: everything is allowed, and the registry only forgets.
+// Starts an empty registry. overwrite: everything is allowed and nothing is registered.
 void guardInputs(bool overwrite);
 
-// Says what will be written. `option` names it in messages. Errors: ErrorKind::usage where it is a file that was read
-// or that another planned output is.
+// Announces an output, which messages call `option`. Errors: ErrorKind::usage if it was read or is already planned.
 Status planOutput(const std::string& option, const std::filesystem::path& file);
 
-// To be called by all that read files, before they do. Errors: ErrorKind::usage where an output that is planned or
-// being written would replace the file. Outputs that are finished may be read again.
+// Every reader calls this before it opens a file. Errors: ErrorKind::usage if an output that is planned or being
+// written would replace the file. Finished outputs may be read.
 Status noteInput(const std::filesystem::path& file);
 
-// Tells the watcher of every input, whether the registry is on or not: how a process that reads for another one can
-// tell that one. Set it while there is one thread.
+// Sets a function that is called with every input, even while the registry is off: a reader process uses it to report
+// inputs to its parent. Set it while there is only one thread.
 void watchInputs(std::function<void(const std::filesystem::path&)> watcher);
 
-// The same for every output that is in its place.
+// Likewise for every output once it is complete.
 void watchOutputs(std::function<void(const std::filesystem::path&)> watcher);
 
-// Called when writing begins and when the file is in its place; OutputFile does it. Errors of the first: as planOutput,
-// for a file that was not planned; ErrorKind::usage where it was written before.
+// Called by OutputFile when writing begins and when the file is complete. Errors of beginOutput: as planOutput for a
+// file that was not planned; ErrorKind::usage if it was written before.
 Status beginOutput(const std::filesystem::path& file);
 void endOutput(const std::filesystem::path& file);
 
-// The first refusal. Readers wrap errors in their own words, or read on without a file: the caller asks here what was
-// the matter.
-std::optional<Error> refusal();
+// The first read or output that was refused, if any. Readers may replace its error message or continue without the
+// file; callers get the original here.
+std::optional<Error> firstRefusal();
 
 } // namespace cotan

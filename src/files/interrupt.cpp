@@ -15,16 +15,16 @@ constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU};
 
 enum SlotState : int { slotFree, slotTaken, slotArmed };
 
-// Fixed, since a signal's handler may neither lock nor allocate. Pages that are never used take no memory.
+// Fixed size, since a signal handler may neither lock nor allocate. Pages that are never touched take no memory.
 struct Slot {
     std::atomic<int> state;
     char name[4096];
 };
 Slot slots[kMaxParts];
 
-std::atomic<int> holds = 0;
-std::atomic<int> waiting = 0;     // the signal that came while it was held; 0: none
-std::atomic<bool> ending = false; // the program is about to end by a signal: no more parts are begun
+std::atomic<int> holdCount = 0;
+std::atomic<int> pendingSignal = 0; // the signal that arrived while held; 0: none
+std::atomic<bool> ending = false;   // the program is ending by a signal: no more unfinished files are created
 
 static_assert(std::atomic<int>::is_always_lock_free);
 
@@ -35,8 +35,8 @@ void unlinkParts()
             ::unlink(slot.name);
 }
 
-// Only what a signal's handler may do. Another thread may be about to open a part that it has begun: what it made in
-// between goes, too.
+// Uses only what is allowed in a signal handler. Another thread may be about to open its unfinished file, hence the
+// wait and the second removal.
 void end(int signal)
 {
     constexpr timespec kOpening{0, 5'000'000};
@@ -56,14 +56,14 @@ void end(int signal)
 
 void onSignal(int signal)
 {
-    waiting = signal;
-    if (holds == 0)
+    pendingSignal = signal;
+    if (holdCount == 0)
         end(signal);
 }
 
 } // namespace
 
-void stayWhereEnding()
+void blockWhileEnding()
 {
     while (ending)
         ::pause();
@@ -85,18 +85,18 @@ void removePartsOnInterrupt()
     ::signal(SIGXFSZ, SIG_IGN);
 }
 
-InterruptsHeld::InterruptsHeld() { ++holds; }
+InterruptsHeld::InterruptsHeld() { ++holdCount; }
 
 InterruptsHeld::~InterruptsHeld()
 {
-    if (--holds == 0)
-        if (const int signal = waiting)
+    if (--holdCount == 0)
+        if (const int signal = pendingSignal)
             end(signal);
 }
 
 GuardedPart::GuardedPart(const std::filesystem::path& file) : slot_(-1)
 {
-    stayWhereEnding();
+    blockWhileEnding();
     if (file.empty() || file.native().size() >= sizeof Slot::name)
         return;
     for (std::size_t i = 0; i < kMaxParts && slot_ < 0; ++i) {

@@ -1,4 +1,4 @@
-// Ctrl-C and its kin remove what is half written.
+// Removes unfinished files when a signal ends the program.
 #pragma once
 
 #include <cstddef>
@@ -6,13 +6,12 @@
 
 namespace cotan {
 
-// SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGXCPU remove the unfinished files of all OutputFiles and then end the program
-// as they would have done anyway, so that a shell sees why. A signal that is ignored (nohup) stays so. For programs;
-// a library installs no handlers. A closed pipe and a file over the shell's limit become errors of writing. May be
-// called again.
+// Makes SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGXCPU remove the unfinished files of all OutputFiles and then end the
+// program by that signal, so that a shell sees the cause. Ignored signals (nohup) stay ignored. A closed pipe and a
+// file over the shell's limit become write errors. For programs: a library installs no handlers. May be called again.
 void removePartsOnInterrupt();
 
-// While one lives, such signals wait: for steps that belong together. Any number may live at a time, on any thread.
+// Delays these signals while an object exists, for steps that belong together. Any number may exist, on any thread.
 class InterruptsHeld {
 public:
     InterruptsHeld();
@@ -21,8 +20,7 @@ public:
     InterruptsHeld& operator=(const InterruptsHeld&) = delete;
 };
 
-// A file that a signal has to remove; up to kMaxParts at a time and with names of up to 4095 bytes, others are left
-// alone. The name counts for as long as this lives.
+// A file that a signal removes while the object exists: at most kMaxParts, with names of up to 4095 bytes.
 inline constexpr std::size_t kMaxParts = 1024;
 class GuardedPart {
 public:
@@ -35,8 +33,8 @@ private:
     int slot_; // -1: none
 };
 
-// Does not return where a signal on another thread is about to end the program: its parts are gone, and what would be
-// said of that is not the user's concern.
-void stayWhereEnding();
+// Blocks forever if a signal on another thread is ending the program: its unfinished files are already removed, and an
+// error message about that would only mislead.
+void blockWhileEnding();
 
 } // namespace cotan

@@ -14,34 +14,34 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<fs::path> foldersOf(const ModulePlaces& places)
+std::vector<fs::path> foldersOf(const ModuleLocations& locations)
 {
     std::vector<fs::path> folders;
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
     if (!error)
-        folders.push_back(program.parent_path().parent_path() / places.subfolder);
+        folders.push_back(program.parent_path().parent_path() / locations.subfolder);
     if (Dl_info us; ::dladdr(reinterpret_cast<const void*>(&loadModule), &us) != 0) {
         const fs::path beside = fs::path(us.dli_fname).parent_path();
-        if (beside.is_absolute()) { // not what lies in the current folder: a program is called by any name
+        if (beside.is_absolute()) { // not relative to the current folder, if a program is called by a bare name
             folders.push_back(beside);
             folders.push_back(beside / "cotan");
         }
     }
-    folders.emplace_back(places.installed);
-    if (*places.built != '\0')
-        folders.emplace_back(places.built);
+    folders.emplace_back(locations.installed);
+    if (*locations.built != '\0')
+        folders.emplace_back(locations.built);
     return folders;
 }
 
 } // namespace
 
-Result<const void*> loadModule(const ModulePlaces& places, const char* entry,
+Result<const void*> loadModule(const ModuleLocations& locations, const char* entry,
                                const std::function<bool(const void*)>& fits, const char* what)
 {
     std::string problem = "not found";
-    for (const fs::path& folder : foldersOf(places)) {
-        const fs::path file = folder / places.name;
+    for (const fs::path& folder : foldersOf(locations)) {
+        const fs::path file = folder / locations.name;
         std::error_code error;
         if (!fs::exists(file, error))
             continue;
@@ -54,9 +54,9 @@ Result<const void*> loadModule(const ModulePlaces& places, const char* entry,
         const void* offered = enter ? enter() : nullptr;
         if (offered && fits(offered))
             return offered;
-        problem = fmt::format("{} is not of this version", file.string());
+        problem = fmt::format("{} has a different version", file.string());
     }
-    return unavailableError(fmt::format("{} needs the module {}: {}", what, places.name, problem));
+    return unavailableError(fmt::format("{} needs the module {}: {}", what, locations.name, problem));
 }
 
 } // namespace cotan

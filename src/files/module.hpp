@@ -1,4 +1,4 @@
-// Parts of a program that are loaded when they are first needed, since what they link is large or may be missing.
+// Loads parts of the program on demand, because their dependencies are large or may be missing.
 #pragma once
 
 #include <functional>
@@ -7,19 +7,19 @@
 
 namespace cotan {
 
-// Where a module may be: beside an installed program; beside the library that this code is in, or in its subfolder
-// `cotan`; where it was installed, where it was built.
-struct ModulePlaces {
-    const char* name;      // of the file
-    const char* subfolder; // of the folder above the program's
+// Where a module is searched: relative to the installed program; beside this library or in its subfolder `cotan`; where
+// it was installed; where it was built.
+struct ModuleLocations {
+    const char* name;      // file name
+    const char* subfolder; // subfolder of the parent of the program's folder
     const char* installed; // folder
     const char* built;     // folder
 };
 
-// What the entry point of a module returns: a function without arguments by the name of `entry`. The first module
-// counts that `fits` says yes to; it stays loaded until the program ends. `what` begins the message.
+// Returns what the module's entry point returns: a function named `entry` without arguments. Uses the first module
+// whose result `fits` accepts; the module stays loaded until the program ends. `what` begins the error message.
 // Errors: ErrorKind::unavailable.
-Result<const void*> loadModule(const ModulePlaces& places, const char* entry,
+Result<const void*> loadModule(const ModuleLocations& locations, const char* entry,
                                const std::function<bool(const void*)>& fits, const char* what);
 
 } // namespace cotan

@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::string_view kPartStart = ".cotan-", kPartMark = ".part";
 
-// Eight digits for what numbers its processes by itself: a machine, or a container. Several may share a folder.
+// Eight hex digits that identify a PID namespace: a machine or a container. Several may share a folder.
 const std::string& machine()
 {
     static const std::string digits = [] {
@@ -44,8 +44,8 @@ const std::string& machine()
     return digits;
 }
 
-// Unique among the machines that share the folder, their processes and the threads of this one. Short, so that it fits
-// where the file's own name does.
+// A temporary name, unique among the machines that share the folder, their processes, and this process's threads.
+// Short, so that it fits wherever the file's own name does.
 fs::path partBeside(const fs::path& file)
 {
     static std::atomic<unsigned> counter{0};
@@ -55,7 +55,7 @@ fs::path partBeside(const fs::path& file)
                       extension.size() <= 16 ? extension : "");
 }
 
-// The process of this machine that a part's name tells; 0 for other names.
+// The process of this machine in a temporary file's name; 0 for other names.
 pid_t processOf(const std::string& name)
 {
     if (!name.starts_with(kPartStart) || name.find("-" + machine() + std::string(kPartMark)) == std::string::npos)
@@ -65,7 +65,7 @@ pid_t processOf(const std::string& name)
     return error == std::errc() && *end == '-' && process > 0 ? process : 0;
 }
 
-// The parts in a folder, each with its process of this machine.
+// The temporary files of this machine's processes in a folder, with their processes.
 std::vector<std::pair<fs::path, pid_t>> partsIn(const fs::path& folder)
 {
     std::vector<std::pair<fs::path, pid_t>> parts;
@@ -76,7 +76,7 @@ std::vector<std::pair<fs::path, pid_t>> partsIn(const fs::path& folder)
     return parts;
 }
 
-// /dev/stdout and others of its kind stand for something open, whatever that is.
+// /dev/stdout and the like are links to open files of any kind.
 bool isSpecial(const fs::path& file)
 {
     std::error_code ignored;
@@ -86,16 +86,16 @@ bool isSpecial(const fs::path& file)
     return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
-// What a symbolic link leads to, whether that is there or not; other files are themselves.
-fs::path followed(fs::path file)
+// Follows symbolic links, even to a missing target; other files are returned unchanged.
+fs::path linkTarget(fs::path file)
 {
-    constexpr int kMaxLinks = 40; // as Linux has it
+    constexpr int kMaxLinks = 40; // as in Linux
     std::error_code error;
     for (int i = 0; i < kMaxLinks && fs::is_symlink(fs::symlink_status(file, error)); ++i) {
         const fs::path target = fs::read_symlink(file, error);
         if (error)
             break;
-        file = folderOf(file) / target; // an absolute one takes the place of the folder
+        file = folderOf(file) / target; // an absolute target replaces the folder
     }
     return file;
 }
@@ -111,7 +111,7 @@ void replaceAll(std::string& text, const std::string& from, const std::string& t
         text.replace(at, from.size(), to);
 }
 
-// All bytes to a descriptor; 0 or the errno.
+// Writes all bytes to a descriptor. Returns 0 or the errno.
 int writeAll(int file, const std::byte* bytes, std::size_t count)
 {
     while (count > 0) {
@@ -126,8 +126,8 @@ int writeAll(int file, const std::byte* bytes, std::size_t count)
     return 0;
 }
 
-// Why nothing more can be written to a part: 0 if something can.
-int trial(const fs::path& part)
+// Returns the errno of appending to a temporary file; 0 if it succeeds.
+int appendErrno(const fs::path& part)
 {
     const int file = ::open(part.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
     if (file < 0)
@@ -145,7 +145,7 @@ std::string reasonOf(int number)
     if (number == ENOSPC || number == EDQUOT)
         return "no space left on the device";
     if (number == EFBIG)
-        return "no space left: files may not grow beyond a limit here (ulimit -f)";
+        return "no space left: the file would exceed the file size limit (ulimit -f)";
     std::string text = std::generic_category().message(number);
     if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z')
         text[0] = char(text[0] + 'a' - 'A');
@@ -172,7 +172,7 @@ OutputFile::~OutputFile()
 Result<OutputFile> OutputFile::begin(const fs::path& name)
 {
     std::error_code ignored;
-    const fs::path file = isSpecial(name) ? name : followed(name);
+    const fs::path file = isSpecial(name) ? name : linkTarget(name);
     if (!fs::is_directory(folderOf(file), ignored))
         return outputError(fmt::format("{}: the folder {} does not exist", file.string(), folderOf(file).string()));
     if (fs::is_directory(file, ignored))
@@ -187,7 +187,7 @@ Status OutputFile::commit()
 {
     if (!special_ && ::rename(part_.c_str(), file_.c_str()) != 0) {
         const int number = errno;
-        stayWhereEnding();
+        blockWhileEnding();
         return cannotWrite(file_, number);
     }
     gone_ = true;
@@ -197,32 +197,32 @@ Status OutputFile::commit()
 
 Error OutputFile::failed(const Error& error) const
 {
-    stayWhereEnding();
+    blockWhileEnding();
     if (error.kind != ErrorKind::output)
         return error;
     if (!special_)
-        if (const int number = trial(part_))
+        if (const int number = appendErrno(part_))
             return cannotWrite(file_, number);
-    Error told = error;
-    replaceAll(told.message, part_.string(), file_.string());
-    replaceAll(told.message, part_.filename().string(), file_.filename().string());
-    return told;
+    Error forUser = error;
+    replaceAll(forUser.message, part_.string(), file_.string());
+    replaceAll(forUser.message, part_.filename().string(), file_.filename().string());
+    return forUser;
 }
 
 Status commitTogether(std::span<OutputFile> files)
 {
     const InterruptsHeld held;
-    std::vector<fs::path> made; // where no file was before
+    std::vector<fs::path> made; // destinations where no file existed
     for (OutputFile& file : files) {
         std::error_code ignored;
-        const bool isNew = !fs::exists(fs::symlink_status(file.place(), ignored));
+        const bool isNew = !fs::exists(fs::symlink_status(file.destination(), ignored));
         if (Status done = file.commit(); !done) {
             for (const fs::path& path : made)
                 ::unlink(path.c_str());
             return done;
         }
         if (isNew)
-            made.push_back(file.place());
+            made.push_back(file.destination());
     }
     return Done{};
 }
@@ -260,7 +260,7 @@ Status checkWritable(const fs::path& file, bool makesFolder)
         folder = folderOf(folder);
     if (!fs::is_directory(folder, ignored))
         return outputError(makesFolder
-                               ? fmt::format("{}: cannot make the folder: {} is a file", file.string(), folder.string())
+                               ? fmt::format("{}: cannot create a folder: {} is a file", file.string(), folder.string())
                                : fmt::format("{}: the folder {} does not exist", file.string(), folder.string()));
     if (::access(folder.c_str(), W_OK | X_OK) != 0)
         return outputError(
@@ -290,8 +290,8 @@ Status makeFolder(const fs::path& folder)
     std::error_code error;
     fs::create_directories(folder, error);
     if (!fs::is_directory(folder))
-        return outputError(fmt::format("{}: cannot make this folder: {}", folder.string(),
-                                       error ? error.message() : "a file is in the way"));
+        return outputError(fmt::format("{}: cannot create this folder: {}", folder.string(),
+                                       error ? error.message() : "a file has this name"));
     return Done{};
 }
 

@@ -1,5 +1,5 @@
-// Files that appear whole or not at all: written beside their place first, then renamed. The one way in which files are
-// written here. Whatever fails or interrupts, nothing is left behind and an older file stays as it was; only SIGKILL
+// Atomic output files: written to a temporary file (a part) beside their destination, then renamed. All files are
+// written in this way. On failure or interruption nothing is left behind and an older file is unchanged; only SIGKILL
 // leaves a part, which leftParts() finds.
 #pragma once
 
@@ -17,24 +17,23 @@
 
 namespace cotan {
 
-// A fresh name beside a file, to be written to and then committed. What is not committed is removed. Pipes and devices
-// have no name beside them: they are written to.
+// A temporary name beside a file: write to it, then commit. The temporary file is removed unless it is committed. Pipes
+// and devices are written to directly.
 class OutputFile {
 public:
-    // A symbolic link stays, and what it leads to is written. Errors: ErrorKind::output where the folder is missing or
-    // `file` is a folder; those of beginOutput.
+    // Follows symbolic links. Errors: ErrorKind::output for a missing folder or if `file` is one; those of beginOutput.
     static Result<OutputFile> begin(const std::filesystem::path& file);
 
     OutputFile(OutputFile&& other) noexcept;
     OutputFile& operator=(OutputFile&&) = delete;
     ~OutputFile();
 
-    const std::filesystem::path& path() const { return part_; }  // keeps the file's extension
-    const std::filesystem::path& place() const { return file_; } // where it will be
-    // Puts it in its place. Errors: ErrorKind::output.
+    const std::filesystem::path& path() const { return part_; } // the temporary name; it keeps the file's extension
+    const std::filesystem::path& destination() const { return file_; }
+    // Renames the temporary file to its destination. Errors: ErrorKind::output.
     Status commit();
-    // A writer's error in the user's words: the name that he gave for that of the part, and the system's reason, such
-    // as a full disk, where a trial finds it.
+    // Rewords a writer's error for the user: the destination replaces the temporary name, and a test write adds the
+    // system's reason, such as a full disk.
     Error failed(const Error& error) const;
 
 private:
@@ -46,30 +45,31 @@ private:
     GuardedPart guard_;
 };
 
-// All of them or none; the last is put in its place last. Interrupts wait. Where one cannot be renamed, those before it
-// that were new are removed; those that replaced a file stay. Errors: ErrorKind::output.
+// Commits all files or, as far as possible, none; the last one last. Interrupts are delayed. If a file cannot be
+// renamed, those committed before it are removed if they were new; those that replaced a file stay. Errors:
+// ErrorKind::output.
 Status commitTogether(std::span<OutputFile> files);
 
-// Writes bytes to a name as it is, in place. Errors: ErrorKind::output with the system's reason.
+// Writes bytes directly to a file. Errors: ErrorKind::output with the system's reason.
 Status writeBytes(const std::filesystem::path& file, std::span<const std::byte> bytes);
 
-// The same whole or not at all.
+// Writes text through an OutputFile.
 Status writeFileWhole(const std::filesystem::path& file, std::string_view text);
 
-// Whether a file can come to be there: no folder in the way, the folder there and open to writing; for a look before
-// long work. makesFolder: the folder will be made where it is missing. Errors: ErrorKind::output.
+// Checks before long work whether a file can be created: it is not a folder, and its folder exists and is writable.
+// makesFolder: a missing folder will be created. Errors: ErrorKind::output.
 Status checkWritable(const std::filesystem::path& file, bool makesFolder = false);
 
-// Parts in a folder whose processes are no more: what SIGKILL or a crash left.
+// Temporary files in a folder whose processes no longer exist, after SIGKILL or a crash.
 std::vector<std::filesystem::path> leftParts(const std::filesystem::path& folder);
 
-// Removes the parts of one process of this machine, which has ended.
+// Removes the temporary files of a process of this machine that has ended.
 void removeParts(const std::filesystem::path& folder, pid_t process);
 
-// "no space left on the device", "permission denied": the system's reason for an errno.
+// The system's reason for an errno: "no space left on the device", "permission denied".
 std::string reasonOf(int number);
 
-// Makes a folder and those above it. Errors: ErrorKind::output.
+// Creates a folder and its parents. Errors: ErrorKind::output.
 Status makeFolder(const std::filesystem::path& folder);
 
 } // namespace cotan

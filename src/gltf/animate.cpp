@@ -1,4 +1,4 @@
-// Models at a moment of an animation, and where animations get to.
+// Poses a model at a time of an animation, and bounds the motion of animations.
 #include "gltf_model.hpp"
 
 #include <algorithm>
@@ -19,15 +19,15 @@ namespace {
 
 using gltf::Accessor, gltf::Choice, gltf::ElementType, gltf::Json;
 
-// Where a time lies among the keys of a channel.
+// A time relative to the keys of a channel.
 struct Moment {
-    std::size_t key = 0, next = 0; // the same one at the ends
-    double part = 0;               // 0 to 1 between them
+    std::size_t key = 0, next = 0; // equal before the first and after the last key
+    double fraction = 0;           // 0 to 1 between the keys
     double seconds = 0;            // from key to next
 };
 
-// The values that a channel has at a moment, `width` numbers: of one key, of the next, and their tangents.
-struct Around {
+// The values of a channel around a time, each `width` numbers: two keys and the tangents between them.
+struct KeyValues {
     std::vector<double> value, next, outTangent, inTangent;
 };
 
@@ -62,7 +62,7 @@ private:
         }
         const bool rotation = path == "rotation";
         if (!rotation && path != "translation" && path != "scale") {
-            model_.warnings.add(field_, fmt::format("the path \"{}\" is not animated here", oneLine(path)));
+            model_.warnings.add(field_, fmt::format("animation of the path \"{}\" is not supported", oneLine(path)));
             return;
         }
         if (node.matrix)
@@ -94,11 +94,11 @@ private:
     {
         const Accessor& a = model_.accessors[std::size_t(input)].accessor;
         if (a.type != ElementType::scalar || a.componentType != gltf::kFloat || a.count == 0)
-            failGltf("{}: expected floats in accessors[{}], the times of its keys", field_, input);
+            failGltf("{}: expected floats in accessors[{}] for the key times", field_, input);
         const std::vector<float> times = read(input, a.count, 1);
         for (std::size_t i = 1; i < times.size(); ++i)
             if (!(times[i] > times[i - 1]))
-                failGltf("{}: expected rising times in accessors[{}], found {} behind {}", field_, input, times[i],
+                failGltf("{}: expected ascending times in accessors[{}], found {} after {}", field_, input, times[i],
                          times[i - 1]);
         const double now = model_.limits.pose.seconds;
         const auto after = std::upper_bound(times.begin(), times.end(), now);
@@ -111,20 +111,21 @@ private:
         return {key, key + 1, (now - double(times[key])) / seconds, seconds};
     }
 
-    // each: elements of a key.
-    Around around(int output, const Moment& at, std::size_t keys, std::size_t each, ElementType type, bool cubic)
+    // perKey: number of elements per key.
+    KeyValues readKeys(int output, const Moment& at, std::size_t keys, std::size_t perKey, ElementType type, bool cubic)
     {
         const Accessor& a = model_.accessors[std::size_t(output)].accessor;
         const std::size_t parts = cubic ? 3 : 1, width = gltf::componentCount(type);
-        gltf::expectElements(a, type, std::uint64_t(keys) * each * parts, {output, field_});
+        gltf::expectElements(a, type, std::uint64_t(keys) * perKey * parts, {output, field_});
         if (a.componentType == gltf::kUnsignedInt || (a.componentType != gltf::kFloat && !a.normalized))
             failGltf("{}: expected floats or normalized integers in accessors[{}], found {}", field_, output,
                      gltf::nameOfComponent(a.componentType));
-        // In-tangent, value and out-tangent of one key, then of the next.
+        // Cubic keys store in-tangent, value and out-tangent; the tangents used are the first key's out and the next
+        // one's in.
         const auto elements = [&](std::size_t key, std::size_t part) {
-            std::vector<std::uint32_t> chosen(each);
-            for (std::size_t i = 0; i < each; ++i)
-                chosen[i] = std::uint32_t((key * parts + part) * each + i);
+            std::vector<std::uint32_t> chosen(perKey);
+            for (std::size_t i = 0; i < perKey; ++i)
+                chosen[i] = std::uint32_t((key * parts + part) * perKey + i);
             const std::vector<float> read4 = read(output, Choice(a.count, chosen), width);
             return std::vector<double>(read4.begin(), read4.end());
         };
@@ -133,38 +134,38 @@ private:
         return {elements(at.key, 1), elements(at.next, 1), elements(at.key, 2), elements(at.next, 0)};
     }
 
-    std::vector<double> values(const Json& sampler, ElementType type, std::size_t each, bool rotation)
+    std::vector<double> values(const Json& sampler, ElementType type, std::size_t perKey, bool rotation)
     {
-        const std::string way = gltf::valueOr(sampler, "interpolation", std::string("LINEAR"));
-        const bool cubic = way == "CUBICSPLINE";
+        const std::string interpolation = gltf::valueOr(sampler, "interpolation", std::string("LINEAR"));
+        const bool cubic = interpolation == "CUBICSPLINE";
         const int input = sampler["input"].get<int>();
         const Moment at = momentOf(input);
-        const Around v = around(sampler["output"].get<int>(), at, model_.accessors[std::size_t(input)].accessor.count,
-                                each, type, cubic);
-        if (at.key == at.next || way == "STEP")
+        const KeyValues v = readKeys(sampler["output"].get<int>(), at,
+                                     model_.accessors[std::size_t(input)].accessor.count, perKey, type, cubic);
+        if (at.key == at.next || interpolation == "STEP")
             return v.value;
         if (rotation && !cubic)
-            return turned(v.value, v.next, at.part);
+            return slerped(v.value, v.next, at.fraction);
         std::vector<double> now(v.value.size());
-        const double t = at.part, t2 = t * t, t3 = t2 * t;
+        const double t = at.fraction, t2 = t * t, t3 = t2 * t;
         for (std::size_t i = 0; i < now.size(); ++i)
             if (cubic)
                 now[i] = (2 * t3 - 3 * t2 + 1) * v.value[i] + (t3 - 2 * t2 + t) * at.seconds * v.outTangent[i]
                     + (3 * t2 - 2 * t3) * v.next[i] + (t3 - t2) * at.seconds * v.inTangent[i];
             else
                 now[i] = v.value[i] + (v.next[i] - v.value[i]) * t;
-        if (rotation) // a spline leaves the unit sphere between its keys, and is brought back to it (appendix C)
+        if (rotation) // a spline leaves the unit sphere between its keys (appendix C)
             if (const double length = glm::length(glm::dvec4(now[0], now[1], now[2], now[3])); length > 0)
                 for (double& x : now)
                     x /= length;
         return now;
     }
 
-    static std::vector<double> turned(const std::vector<double>& from, const std::vector<double>& to, double part)
+    static std::vector<double> slerped(const std::vector<double>& from, const std::vector<double>& to, double fraction)
     {
         const glm::dquat a = glm::normalize(glm::dquat(from[3], from[0], from[1], from[2]));
         const glm::dquat b = glm::normalize(glm::dquat(to[3], to[0], to[1], to[2]));
-        const glm::dquat q = glm::slerp(a, b, part); // the short way
+        const glm::dquat q = glm::slerp(a, b, fraction); // along the shorter arc
         return {q.x, q.y, q.z, q.w};
     }
 
@@ -173,7 +174,7 @@ private:
     std::string field_;
 };
 
-// As the file has them, which is not checked yet; empty for what is no text.
+// The names as in the file, which are not checked yet; empty if a name is not a string.
 std::vector<std::string> animationNames(const Json& root)
 {
     return gltf::readAll(&root, "animations", [](const Json& a) {
@@ -182,7 +183,7 @@ std::vector<std::string> animationNames(const Json& root)
     });
 }
 
-// Seconds; 0 where the accessor does not hold times.
+// Time of the last key in seconds; 0 if the accessor does not hold times.
 double lastKey(const GltfModel& model, int input)
 {
     const gltf::Elements& times = model.accessors[std::size_t(input)];
@@ -195,15 +196,16 @@ double lastKey(const GltfModel& model, int input)
     return std::max(double(last), 0.0);
 }
 
-// ---- where an animation gets to -------------------------------------------------------------
+// ---- bounds of an animation -----------------------------------------------------------------
 
 constexpr double kMomentsASecond = 30;
-constexpr std::size_t kMaxMoments = 256, kFewestMoments = 9;
-constexpr std::size_t kMaxPosed = 8'000'000; // vertices of all moments
+constexpr std::size_t kMaxMoments = 256, kMinMoments = 9;
+constexpr std::size_t kMaxPosed = 8'000'000; // vertices over all moments
 constexpr std::size_t kMaxKept = 300'000;    // points
 constexpr std::size_t kDirections = 64;
 
-// Evenly over the sphere, with their opposites (R. Swinbank, R. J. Purser, Fibonacci grids, 2006).
+// Unit vectors evenly over a half sphere; their opposites complete it (R. Swinbank, R. J. Purser, Fibonacci grids,
+// 2006).
 std::array<glm::vec3, kDirections> directions()
 {
     std::array<glm::vec3, kDirections> all;
@@ -221,7 +223,7 @@ void addAll(const Scene& scene, std::vector<glm::vec3>& points)
         scene, [&](const glm::mat4& toWorld, const glm::vec3& p) { points.emplace_back(toWorld * glm::vec4(p, 1)); });
 }
 
-// The points that lie furthest to both sides along each direction.
+// Appends the extreme points in both senses of each direction.
 void addFurthest(const Scene& scene, std::vector<glm::vec3>& points)
 {
     static const std::array<glm::vec3, kDirections> kAlong = directions();
@@ -298,14 +300,14 @@ Result<std::vector<glm::vec3>> pointsReached(AnimatedGltf& model, const std::str
     std::vector<glm::vec3> points;
     std::size_t moments = 1, vertices = 0;
     for (std::size_t i = 0; i < moments; ++i) {
-        const double part = moments > 1 ? double(i) / double(moments - 1) : 0;
-        const auto scene = model.at({animation, seconds * part});
+        const double fraction = moments > 1 ? double(i) / double(moments - 1) : 0;
+        const auto scene = model.at({animation, seconds * fraction});
         if (!scene)
             return scene.error();
         if (i == 0 && seconds > 0) {
             vertices = std::max<std::size_t>(verticesPlaced(*scene), 1);
-            const std::size_t payable = std::clamp(kMaxPosed / vertices, kFewestMoments, kMaxMoments);
-            moments = std::min(payable, std::size_t(std::min(seconds * kMomentsASecond, 1e6)) + 2);
+            const std::size_t affordable = std::clamp(kMaxPosed / vertices, kMinMoments, kMaxMoments);
+            moments = std::min(affordable, std::size_t(std::min(seconds * kMomentsASecond, 1e6)) + 2);
         }
         if (vertices * moments <= kMaxKept)
             addAll(*scene, points);

@@ -1,4 +1,4 @@
-// Compares the JSON with the tables of schema.hpp.
+// Checks the JSON against the tables of schema.hpp.
 #include <algorithm>
 #include <cstdint>
 #include <map>
@@ -19,23 +19,23 @@ namespace {
 using namespace gltf_schema;
 using gltf::member;
 
-// ---- the walk -------------------------------------------------------------------------------
+// ---- traversal ------------------------------------------------------------------------------
 
-// A place in the JSON, written out only for a message.
-struct Place {
-    const Place* parent = nullptr;
+// A location in the JSON, formatted only for a message.
+struct Location {
+    const Location* parent = nullptr;
     std::string_view name;
     std::size_t index = 0; // used where name is empty
 };
 
-std::string describe(const Place& place)
+std::string describe(const Location& location)
 {
-    if (!place.parent)
-        return std::string(place.name);
-    const std::string before = describe(*place.parent);
-    if (place.name.empty())
-        return fmt::format("{}[{}]", before, place.index);
-    return before.empty() ? oneLine(place.name) : fmt::format("{}.{}", before, oneLine(place.name));
+    if (!location.parent)
+        return std::string(location.name);
+    const std::string before = describe(*location.parent);
+    if (location.name.empty())
+        return fmt::format("{}[{}]", before, location.index);
+    return before.empty() ? oneLine(location.name) : fmt::format("{}.{}", before, oneLine(location.name));
 }
 
 std::string found(const Json& value)
@@ -46,21 +46,21 @@ std::string found(const Json& value)
     return text.size() > 60 ? text.substr(0, 60) + "..." : text;
 }
 
-[[noreturn]] void wrong(const Place& place, const std::string& expected, const Json& value)
+[[noreturn]] void wrong(const Location& location, const std::string& expected, const Json& value)
 {
-    failGltf("{}: expected {}, found {}", describe(place), expected, found(value));
+    failGltf("{}: expected {}, found {}", describe(location), expected, found(value));
 }
 
 class Checker {
 public:
     explicit Checker(const Json& root) : root_(root) {}
 
-    void fields(const Json& value, Fields expected, const Place& place) const
+    void fields(const Json& value, Fields expected, const Location& location) const
     {
         if (!value.is_object())
-            wrong(place, "an object", value);
+            wrong(location, "an object", value);
         for (const Field& field : expected) {
-            const Place inner{&place, field.name};
+            const Location inner{&location, field.name};
             if (const Json* const there = member(value, field.name))
                 check(*there, field, inner);
             else if (field.required)
@@ -69,7 +69,7 @@ public:
     }
 
 private:
-    // How many items a collection has.
+    // The number of items of a collection; 0 if it is missing.
     std::size_t sizeOf(std::string_view collection) const
     {
         const auto known = sizes_.find(collection);
@@ -80,84 +80,84 @@ private:
         return sizes_[collection] = list && list->is_array() ? list->size() : 0;
     }
 
-    void checkNumber(const Json& value, const Field& field, const Place& place) const
+    void checkNumber(const Json& value, const Field& field, const Location& location) const
     {
         if (!value.is_number())
-            wrong(place, "a number", value);
+            wrong(location, "a number", value);
         if (const auto x = value.get<double>(); !(x >= field.low && x <= field.high))
-            wrong(place, fmt::format("a number from {:g} to {:g}", field.low, field.high), value);
+            wrong(location, fmt::format("a number from {:g} to {:g}", field.low, field.high), value);
     }
 
-    void checkInteger(const Json& value, const Field& field, const Place& place) const
+    void checkInteger(const Json& value, const Field& field, const Location& location) const
     {
         if (!value.is_number_integer())
-            wrong(place, "an integer", value);
+            wrong(location, "an integer", value);
         const auto x = value.get<double>();
         if (!(x >= field.low && x <= field.high))
-            wrong(place, fmt::format("an integer from {:.0f} to {:.0f}", field.low, field.high), value);
+            wrong(location, fmt::format("an integer from {:.0f} to {:.0f}", field.low, field.high), value);
         if (!field.integers.empty() && std::ranges::find(field.integers, x) == field.integers.end())
-            wrong(place, fmt::format("one of {}", fmt::join(field.integers, ", ")), value);
+            wrong(location, fmt::format("one of {}", fmt::join(field.integers, ", ")), value);
         if (value.get<std::uint64_t>() % field.multipleOf != 0)
-            wrong(place, fmt::format("a multiple of {}", field.multipleOf), value);
+            wrong(location, fmt::format("a multiple of {}", field.multipleOf), value);
     }
 
-    void checkText(const Json& value, const Field& field, const Place& place) const
+    void checkText(const Json& value, const Field& field, const Location& location) const
     {
         if (!value.is_string())
-            wrong(place, "a string", value);
+            wrong(location, "a string", value);
         if (!field.texts.empty()
             && std::ranges::find(field.texts, value.get_ref<const std::string&>()) == field.texts.end())
-            wrong(place, fmt::format("one of {}", fmt::join(field.texts, ", ")), value);
+            wrong(location, fmt::format("one of {}", fmt::join(field.texts, ", ")), value);
     }
 
-    void checkIndex(const Json& value, std::string_view refers, const Place& place) const
+    void checkIndex(const Json& value, std::string_view refers, const Location& location) const
     {
         const std::size_t count = sizeOf(refers);
         if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= count)
-            wrong(place, fmt::format("an index below {}, the number of {}", count, refers), value);
+            wrong(location, fmt::format("an index below {}, the number of {}", count, refers), value);
     }
 
-    // What is no list, or an item of one.
-    void checkOne(const Json& value, const Field& field, const Place& place) const
+    // Checks a value that is no list, or one item of a list.
+    void checkOne(const Json& value, const Field& field, const Location& location) const
     {
         switch (field.shape) {
         case Shape::boolean:
             if (!value.is_boolean())
-                wrong(place, "true or false", value);
+                wrong(location, "true or false", value);
             break;
-        case Shape::integer: checkInteger(value, field, place); break;
-        case Shape::number: checkNumber(value, field, place); break;
-        case Shape::text: checkText(value, field, place); break;
-        case Shape::index: checkIndex(value, field.refers, place); break;
-        case Shape::object: fields(value, field.inner, place); break;
+        case Shape::integer: checkInteger(value, field, location); break;
+        case Shape::number: checkNumber(value, field, location); break;
+        case Shape::text: checkText(value, field, location); break;
+        case Shape::index: checkIndex(value, field.refers, location); break;
+        case Shape::object: fields(value, field.inner, location); break;
         case Shape::indexMap:
             if (!value.is_object())
-                wrong(place, "an object", value);
+                wrong(location, "an object", value);
             for (const auto& [key, item] : value.items())
-                checkIndex(item, field.refers, Place{&place, key});
+                checkIndex(item, field.refers, Location{&location, key});
             break;
         }
     }
 
-    void check(const Json& value, const Field& field, const Place& place) const
+    void check(const Json& value, const Field& field, const Location& location) const
     {
         if (!field.list)
-            return checkOne(value, field, place);
+            return checkOne(value, field, location);
         if (!value.is_array())
-            wrong(place, "an array", value);
+            wrong(location, "an array", value);
         if (field.length > 0 && value.size() != field.length)
-            failGltf("{}: expected {} numbers, found {}", describe(place), field.length, value.size());
+            failGltf("{}: expected {} numbers, found {}", describe(location), field.length, value.size());
         for (std::size_t i = 0; i < value.size(); ++i)
-            checkOne(value[i], field, Place{&place, {}, i});
+            checkOne(value[i], field, Location{&location, {}, i});
     }
 
     const Json& root_;
-    mutable std::map<std::string_view, std::size_t> sizes_; // of collections, as they are asked for
+    mutable std::map<std::string_view, std::size_t> sizes_; // of collections, filled on demand
 };
 
 // ---- version and extensions -----------------------------------------------------------------
 
-// Before anything about structure: in version 1 the collections are objects, and the asset may be missing.
+// Runs before the structure checks: in version 1 the collections are objects, and the asset may be missing.
 void refuseVersion1(const Json& root)
 {
     if (const Json* const version = member(member(root, "asset"), "version")) {
@@ -176,9 +176,9 @@ void checkVersion(const Json& asset)
     const std::string version = asset["version"];
     if (!version.starts_with("2."))
         failGltf("asset.version: expected 2.x, found \"{}\"", oneLine(version));
-    const std::string least = asset.value("minVersion", std::string("2.0"));
-    if (least != "2.0")
-        failGltf("asset.minVersion: expected 2.0, found \"{}\"", oneLine(least));
+    const std::string minVersion = asset.value("minVersion", std::string("2.0"));
+    if (minVersion != "2.0")
+        failGltf("asset.minVersion: expected 2.0, found \"{}\"", oneLine(minVersion));
 }
 
 constexpr std::string_view kSupported[] = {
@@ -189,8 +189,8 @@ constexpr std::string_view kSupported[] = {
     "KHR_materials_specular",          "KHR_materials_sheen",      "KHR_materials_transmission",
     "KHR_materials_variants"};
 
-// KHR_materials_... refine how a surface looks and leave shape and normal map alone: such a model can be drawn without
-// them, if that is said. Any other unknown extension may change what the data mean.
+// KHR_materials_... extensions change the look of a surface but not its shape and normal map, so the model can be drawn
+// without them, with a warning. Any other unknown extension may change the meaning of the data.
 void checkExtensions(const Json& root, Pixels pixels, GltfWarnings& warnings)
 {
     std::vector<std::string> ignored;
@@ -202,7 +202,7 @@ void checkExtensions(const Json& root, Pixels pixels, GltfWarnings& warnings)
             const auto& name = item.get_ref<const std::string&>();
             const auto in = [&](const auto& all) { return std::ranges::find(all, name) != std::end(all); };
             const bool known = in(kSupported) || in(gltf::kReadImageExtensions);
-            const bool image = name == "EXT_texture_avif"; // is not read, which matters to who needs the pixels
+            const bool image = name == "EXT_texture_avif"; // not read; matters only to callers who need pixels
             const bool harmless = name.starts_with("KHR_materials_") || (image && pixels != Pixels::all);
             if (!known && !harmless && list == std::string_view("extensionsRequired"))
                 failGltf("extensionsRequired: \"{}\" is not supported", oneLine(name));
@@ -221,13 +221,13 @@ void checkGltfShape(const Json& root, const LoadLimits& limits, GltfWarnings& wa
     if (!root.is_object())
         failGltf("JSON: expected an object, found {}", found(root));
     refuseVersion1(root);
-    Checker(root).fields(root, kRoot, Place());
+    Checker(root).fields(root, kRoot, Location());
     checkVersion(root["asset"]);
     checkExtensions(root, limits.pixels, warnings);
     if (const Json* const nodes = member(root, "nodes"); nodes && nodes->size() > limits.nodes)
         failGltf("nodes: the limit is {}, found {}", limits.nodes, nodes->size());
 }
 
-void checkGltfAnimations(const Json& root) { Checker(root).fields(root, kAnimated, Place()); }
+void checkGltfAnimations(const Json& root) { Checker(root).fields(root, kAnimated, Location()); }
 
 } // namespace cotan

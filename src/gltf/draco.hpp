@@ -1,5 +1,5 @@
-// Meshes compressed with Draco, decoded in this process or, where LoadLimits::sandbox names a program, in its own: the
-// decoder takes memory by numbers of the stream that nothing in front of it can check.
+// Decodes Draco meshes in this process or, if LoadLimits::sandbox names a program, in a child process: the decoder
+// allocates memory by numbers of the stream that cannot be checked beforehand.
 #pragma once
 
 #include <cstddef>
@@ -11,32 +11,32 @@
 
 namespace cotan {
 
-// One attribute as it is wanted.
+// One requested attribute.
 struct DracoAttribute {
     std::uint32_t id = 0;           // the unique id in the stream
-    std::int32_t componentType = 0; // glTF's number of what the values shall be
+    std::int32_t componentType = 0; // glTF component type of the output
     std::uint32_t components = 0;   // 1 to 16
 };
 
-// A stream, and what it has to hold.
+// A stream with its expected content.
 struct DracoJob {
     std::string field; // for messages
     std::vector<std::byte> bytes;
     std::uint64_t vertices = 0, indices = 0;
-    std::int32_t indexType = 0; // glTF's number
+    std::int32_t indexType = 0; // glTF component type
     std::vector<DracoAttribute> attributes;
 };
 
 struct DracoGeometry {
     std::vector<std::byte> indices;
-    std::vector<std::vector<std::byte>> attributes; // packed, in the order of the job
+    std::vector<std::vector<std::byte>> attributes; // tightly packed, in the order of the job
 };
 
-// In this process. Errors: ErrorKind::input for streams that are damaged or hold something else; ErrorKind::unavailable
-// where this build lacks Draco.
+// Decodes in this process. Errors: ErrorKind::input for streams that are damaged or have other content;
+// ErrorKind::unavailable if this build lacks Draco.
 Result<std::vector<DracoGeometry>> decodeDracoHere(const std::vector<DracoJob>& jobs);
 
-// What the two processes say to each other.
+// The wire format between the two processes.
 template<class W, class T> void exchangeDracoJobs(W& w, T& jobs)
 {
     w.list(jobs, [](auto& wire, auto& job) {

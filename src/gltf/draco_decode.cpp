@@ -1,5 +1,5 @@
-// Draco's bitstream 2.2 to the arrays that glTF wants. Source: the Draco Bitstream Specification, version 2.2, sections
-// 4 (header) and 5 (connectivity).
+// Decodes Draco bitstream 2.2 to the arrays of glTF. Source: the Draco Bitstream Specification, version 2.2, sections 4
+// (header) and 5 (connectivity).
 #include <cstring>
 #include <new>
 #include <string_view>
@@ -16,7 +16,7 @@ namespace cotan {
 
 namespace {
 
-// Refuses a stream whose header promises something else than the model does: the decoder takes memory by it.
+// Throws GltfProblem if the header disagrees with the model: the decoder allocates memory by it.
 void checkStreamHeader(const DracoJob& job)
 {
     constexpr std::string_view kMagic = "DRACO";
@@ -37,8 +37,8 @@ void checkStreamHeader(const DracoJob& job)
     if (kind != kMesh || (method != kSequential && method != kEdgebreaker))
         failGltf("{}: expected a mesh of triangles, found another kind of Draco stream", job.field);
     if (flags & kMetadata)
-        failGltf("{}: the Draco stream has metadata, which is not read here", job.field);
-    std::uint64_t faces = 0, vertices = 0; // Edgebreaker's vertices are positions: attributes may split them
+        failGltf("{}: the Draco stream has metadata, which is not supported", job.field);
+    std::uint64_t faces = 0, vertices = 0; // Edgebreaker counts positions; attributes may split them
     if (method == kEdgebreaker)
         whole = whole && header.Decode(&traversal) && draco::DecodeVarint(&vertices, &header)
             && draco::DecodeVarint(&faces, &header);
@@ -58,21 +58,21 @@ std::vector<std::byte> valuesOf(const draco::Mesh& mesh, const DracoAttribute& w
 {
     const draco::PointAttribute* const attribute = mesh.GetAttributeByUniqueId(wanted.id);
     if (!attribute)
-        failGltf("{}: the Draco stream has no attribute of the id {}", job.field, wanted.id);
+        failGltf("{}: the Draco stream has no attribute with the id {}", job.field, wanted.id);
     if (std::uint32_t(attribute->num_components()) != wanted.components)
-        failGltf("{}: expected {} components in the Draco attribute of the id {}, found {}", job.field,
+        failGltf("{}: expected {} components in the Draco attribute with the id {}, found {}", job.field,
                  wanted.components, wanted.id, attribute->num_components());
-    const std::size_t each = wanted.components * gltf::componentSize(wanted.componentType);
-    std::vector<std::byte> values(job.vertices * each);
+    const std::size_t elementBytes = wanted.components * gltf::componentSize(wanted.componentType);
+    std::vector<std::byte> values(job.vertices * elementBytes);
     gltf::withType(wanted.componentType, [&]<class T>(T) {
         std::vector<T> element(wanted.components);
         for (std::uint32_t p = 0; p < mesh.num_points(); ++p) {
             const draco::AttributeValueIndex at = attribute->mapped_index(draco::PointIndex(p));
             if (at.value() >= attribute->size()
                 || !attribute->ConvertValue(at, static_cast<std::int8_t>(wanted.components), element.data()))
-                failGltf("{}: vertex {} of the Draco attribute of the id {} is no {}", job.field, p, wanted.id,
-                         gltf::nameOfComponent(wanted.componentType));
-            std::memcpy(values.data() + p * each, element.data(), each);
+                failGltf("{}: vertex {} of the Draco attribute with the id {} cannot be converted to {}", job.field, p,
+                         wanted.id, gltf::nameOfComponent(wanted.componentType));
+            std::memcpy(values.data() + p * elementBytes, element.data(), elementBytes);
         }
     });
     return values;
@@ -80,15 +80,15 @@ std::vector<std::byte> valuesOf(const draco::Mesh& mesh, const DracoAttribute& w
 
 std::vector<std::byte> indicesOf(const draco::Mesh& mesh, const DracoJob& job)
 {
-    const std::size_t each = gltf::componentSize(job.indexType);
-    std::vector<std::byte> indices(job.indices * each);
+    const std::size_t elementBytes = gltf::componentSize(job.indexType);
+    std::vector<std::byte> indices(job.indices * elementBytes);
     for (std::uint32_t f = 0; f < mesh.num_faces(); ++f)
         for (std::uint32_t k = 0; k < 3; ++k) {
             const std::uint32_t index = mesh.face(draco::FaceIndex(f))[k].value();
-            if (index >= job.vertices || (each < 4 && index >> (8 * each) != 0))
-                failGltf("{}: index {} of the Draco stream is {}, but there are {} vertices and {} bytes for it",
-                         job.field, 3 * f + k, index, job.vertices, each);
-            std::memcpy(indices.data() + (3 * f + k) * each, &index, each); // little-endian, as the file
+            if (index >= job.vertices || (elementBytes < 4 && index >> (8 * elementBytes) != 0))
+                failGltf("{}: index {} of the Draco stream is {}, but there are {} vertices and an index has {} bytes",
+                         job.field, 3 * f + k, index, job.vertices, elementBytes);
+            std::memcpy(indices.data() + (3 * f + k) * elementBytes, &index, elementBytes); // little-endian
         }
     return indices;
 }

@@ -1,4 +1,4 @@
-// Opening a glTF file for changes; its geometry; images, textures and materials.
+// Opens a glTF file for editing; reads its geometry; edits images, textures and materials.
 #include <numeric>
 
 #include "cotan/vector.hpp"
@@ -58,7 +58,7 @@ using namespace gltf_edit;
 
 namespace {
 
-// The reader has no use for attributes that it does not know; copying vertices needs their counts.
+// The reader ignores unknown attributes, but copying vertices relies on their counts.
 void checkCounts(const GltfModel& model)
 {
     const auto countOf = [&](int accessor) { return model.accessors[std::size_t(accessor)].accessor.count; };
@@ -86,7 +86,7 @@ GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
 {
     GltfModel model;
     readGltfModel(model, path, limits);
-    // What the reader would find wrong with the nodes and the geometry.
+    // Finds all errors that loading would find in nodes and geometry.
     readGltfNodes(model);
     for (std::size_t m = 0; m < model.structure.meshes.size(); ++m)
         for (std::size_t p = 0; p < model.structure.meshes[m].primitives.size(); ++p)
@@ -98,7 +98,7 @@ GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
     source->views = std::move(model.views);
     GltfDocument document;
     rootOf(document) = source->file.json;
-    if (!rootOf(document).contains("bufferViews")) // a member that is added later would leave no reference in place
+    if (!rootOf(document).contains("bufferViews")) // adding the member later would invalidate references
         rootOf(document)["bufferViews"] = Json::array();
     document.source = std::move(source);
     return document;
@@ -123,7 +123,7 @@ GltfGeometry readGeometry(const GltfDocument& document, const Json& source, cons
         : normalMapOf(rootOf(document), std::size_t(primitive.material), slot);
     const int positions = gltf::accessorOf(primitive.attributes, "POSITION");
     GltfGeometry out;
-    if (positions < 0) // what it may hold else has not been checked
+    if (positions < 0) // other attributes have not been checked
         return out;
     out.indices = readTriangles(document, primitive);
     const auto count = rootOf(document)["accessors"][std::size_t(positions)]["count"].get<std::size_t>();

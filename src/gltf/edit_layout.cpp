@@ -1,4 +1,4 @@
-// From a changed document to one JSON and one buffer. Compressed geometry that nobody changed is written as it came.
+// Converts an edited document to one JSON and one buffer. Unchanged compressed geometry keeps its compressed bytes.
 #include <algorithm>
 #include <cstring>
 #include <map>
@@ -11,11 +11,11 @@ namespace cotan::gltf_edit {
 
 namespace {
 
-// ---- what is compressed: KHR_draco_mesh_compression, EXT_ and KHR_meshopt_compression --------
+// ---- compressed data: KHR_draco_mesh_compression, EXT_ and KHR_meshopt_compression -----------
 
-// What of a stream the primitive still has, as the extension names it: ids by attribute. Empty where the positions or
-// the triangles are others than in the file.
-Json attributesLeft(const Json& primitive, const GltfPacked::Primitive& packed)
+// The attributes of a stream that the primitive still has, with their ids as in the extension. Empty if its positions
+// or triangles have changed.
+Json remainingAttributes(const Json& primitive, const GltfPacked::Primitive& packed)
 {
     if (gltf::valueOr(primitive, "indices", -1) != packed.indices
         || gltf::valueOr(primitive, "mode", gltf::kTriangles) != gltf::kTriangles)
@@ -29,7 +29,7 @@ Json attributesLeft(const Json& primitive, const GltfPacked::Primitive& packed)
     return left.contains("POSITION") ? left : Json::object();
 }
 
-// Lists an extension, which unpacking took off the lists, as used, and as required where the file requires it.
+// Lists an extension as used, and as required if the file requires it; unpacking removed it from both lists.
 void addExtension(Json& root, const GltfPacked& packed, const std::string& name)
 {
     root["extensionsUsed"].push_back(name);
@@ -37,59 +37,60 @@ void addExtension(Json& root, const GltfPacked& packed, const std::string& name)
         root["extensionsRequired"].push_back(name);
 }
 
-// The extension by which a view is compressed with meshoptimizer.
+// The name of the meshoptimizer extension that compresses a view.
 std::string meshoptName(const Json& view)
 {
     return kMeshoptExtensions[view["extensions"].contains(kMeshoptExtensions[0]) ? 0 : 1];
 }
 
-// Gives primitives their Draco stream back where their vertices and indices are those of the file. Attributes that were
-// dropped since are in it still, and nothing names them. Notes what is written plain.
+// Restores the Draco streams of primitives whose vertices and indices are unchanged. Removed attributes stay in the
+// stream without a reference. Adds notes about streams with such attributes and about primitives that are written
+// uncompressed.
 void restoreDraco(GltfDocument& document)
 {
     const GltfPacked& packed = document.source->file.packed;
     if (packed.primitives.empty())
         return;
     Json& root = rootOf(document);
-    // How often each accessor is referred to, and how often by primitives that have their stream back.
+    // References to each accessor: all, and those from primitives whose stream is restored.
     std::vector<std::size_t> uses(countOf(root, "accessors")), packedUses(uses.size());
     forEachReference(root, kAccessors, [&](Json& index) {
-        if (const auto i = index.get<std::size_t>(); i < uses.size()) // extensions may say anything
+        if (const auto i = index.get<std::size_t>(); i < uses.size()) // extensions may have any value
             ++uses[i];
     });
-    std::size_t restored = 0, withMore = 0;
+    std::size_t restored = 0, withRemoved = 0;
     for (const GltfPacked::Primitive& p : packed.primitives) {
         Json& primitive = root["meshes"][p.mesh]["primitives"][p.primitive];
-        Json left = attributesLeft(primitive, p);
+        Json left = remainingAttributes(primitive, p);
         if (left.empty())
             continue;
         for (const auto& [name, id] : left.items())
             ++packedUses[primitive["attributes"][name].get<std::size_t>()];
         ++packedUses[std::size_t(p.indices)];
         ++restored;
-        withMore += left.size() < p.draco["attributes"].size();
+        withRemoved += left.size() < p.draco["attributes"].size();
         Json& extension = primitive["extensions"][kDracoExtension] = p.draco;
         extension["attributes"] = std::move(left);
     }
     if (restored > 0) {
-        for (const auto& [index, json] : packed.accessors) // those that only streams fill need no bytes of their own
+        for (const auto& [index, json] : packed.accessors) // accessors filled only by streams need no bytes
             if (const auto i = std::size_t(index); packedUses[i] > 0 && uses[i] == packedUses[i])
                 root["accessors"][i] = json;
         addExtension(root, packed, kDracoExtension);
     }
-    if (withMore > 0)
+    if (withRemoved > 0)
         document.notes.push_back(
-            fmt::format("{}: {} of {} streams are kept as they are, with the tangents inside, which "
-                        "nothing reads now; \"gltf-transform draco\" packs them without",
-                        kDracoExtension, withMore, packed.primitives.size()));
+            fmt::format("{}: {} of {} streams are unchanged and still contain the removed tangents, which "
+                        "are unused; \"gltf-transform draco\" compresses them without",
+                        kDracoExtension, withRemoved, packed.primitives.size()));
     if (restored < packed.primitives.size())
-        document.notes.push_back(fmt::format("{}: {} of {} primitives have other vertices now and are written plain; "
-                                             "\"gltf-transform draco\" packs them again",
+        document.notes.push_back(fmt::format("{}: {} of {} primitives changed and are written uncompressed; "
+                                             "\"gltf-transform draco\" compresses them again",
                                              kDracoExtension, packed.primitives.size() - restored,
                                              packed.primitives.size()));
 }
 
-// The JSON of a view that meshoptimizer compressed as the file has it; null for others.
+// The JSON of a view as compressed by meshoptimizer in the file; null for other views.
 const Json* packedView(const GltfDocument& document, std::size_t view)
 {
     const std::map<std::size_t, Json>& views = document.source->file.packed.views;
@@ -97,7 +98,7 @@ const Json* packedView(const GltfDocument& document, std::size_t view)
     return found == views.end() ? nullptr : &found->second;
 }
 
-// Notes the bytes of views that were compressed and are written plain: those that are used and not packedView().
+// Adds a note with the number of compressed views that are unused now, if uncompressed views replace them.
 void notePlainViews(GltfDocument& document)
 {
     const std::map<std::size_t, Json>& views = document.source->file.packed.views;
@@ -109,23 +110,23 @@ void notePlainViews(GltfDocument& document)
             return gltf::valueOr(accessor, "bufferView", std::size_t(0)) >= document.source->views.size();
         });
     if (gone > 0 && replaced)
-        document.notes.push_back(fmt::format("{} of {} compressed buffer views are replaced by plain ones; "
-                                             "\"gltf-transform meshopt\" packs them again",
+        document.notes.push_back(fmt::format("{} of {} compressed buffer views are replaced by uncompressed ones; "
+                                             "\"gltf-transform meshopt\" compresses them again",
                                              gone, views.size()));
 }
 
-// ---- bytes that nothing uses any more, in views that others still use -----------------------
+// ---- unused bytes in views that others still use --------------------------------------------
 
 // The bytes of an accessor inside its view.
 struct Range {
     std::size_t accessor = 0;
     std::size_t begin = 0, end = 0;
-    std::size_t size = 0; // of one element
+    std::size_t size = 0; // of one element, in bytes
 };
 
 struct Cluster {
-    std::size_t start = 0, end = 0; // from a multiple of four
-    std::vector<Range> ranges;      // that overlap, by `begin`
+    std::size_t start = 0, end = 0; // start: a multiple of four
+    std::vector<Range> ranges;      // overlapping, sorted by `begin`
 };
 
 std::vector<Cluster> clusters(std::vector<Range> ranges)
@@ -141,7 +142,7 @@ std::vector<Cluster> clusters(std::vector<Range> ranges)
     return out;
 }
 
-// Which words of four bytes of a row the cluster uses; empty if it is not a block of rows.
+// For each four-byte word of a row, whether the cluster uses it; empty if the cluster is not a block of rows.
 std::vector<bool> usedWords(const Cluster& cluster, std::size_t stride)
 {
     if (stride == 0 || stride % 4 != 0)
@@ -157,7 +158,7 @@ std::vector<bool> usedWords(const Cluster& cluster, std::size_t stride)
     return used;
 }
 
-// Adds a view that is else like `view`, with these bytes; returns its index.
+// Adds a view with these bytes and otherwise the members of `view`; returns its index.
 std::size_t addLike(GltfDocument& document, Json view, std::vector<std::byte> bytes)
 {
     view["buffer"] = 0;
@@ -167,7 +168,7 @@ std::size_t addLike(GltfDocument& document, Json view, std::vector<std::byte> by
     return addItem(document, "bufferViews", std::move(view));
 }
 
-// Interleaved attributes without the words that nobody uses, as a view of their own.
+// Moves interleaved attributes to a view of their own, without the unused words.
 void squeeze(GltfDocument& document, std::size_t view, const Cluster& cluster, const std::vector<bool>& used)
 {
     const std::span<const std::byte> from = viewBytes(document, view);
@@ -197,7 +198,7 @@ void squeeze(GltfDocument& document, std::size_t view, const Cluster& cluster, c
     }
 }
 
-// The ranges that are left, moved together; what they were modulo four they stay.
+// Moves the remaining ranges together; offsets modulo four are kept.
 void closeGaps(GltfDocument& document, std::size_t view, const std::vector<Cluster>& kept)
 {
     const std::span<const std::byte> from = viewBytes(document, view);
@@ -216,8 +217,8 @@ void closeGaps(GltfDocument& document, std::size_t view, const std::vector<Clust
     addLike(document, rootOf(document)["bufferViews"][view], std::move(bytes));
 }
 
-// Takes the bytes of accessors marked as removed out of views that others still use: ranges are cut out, columns of
-// interleaved views too. Such views are replaced by added ones.
+// Removes the bytes of removed accessors from views that others still use: whole ranges, and columns of interleaved
+// views. Added views replace these views.
 void repackViews(GltfDocument& document, const std::vector<bool>& removed)
 {
     const std::size_t views = countOf(rootOf(document), "bufferViews");
@@ -242,10 +243,10 @@ void repackViews(GltfDocument& document, const std::vector<bool>& removed)
         const std::size_t end = accessor.count == 0 ? begin : begin + (accessor.count - 1) * stride + size;
         kept[view].push_back({a, begin, end, size});
     }
-    // Views that something else than the dense part of an accessor uses.
+    // Views used by anything but the dense part of an accessor.
     const std::vector<bool> other = usedItems(rootOf(document), kBufferViews, "accessors/*/bufferView");
     for (std::size_t view = 0; view < views; ++view) {
-        if (!lost[view] || kept[view].empty() || other[view] || packedView(document, view)) // the last: as it came
+        if (!lost[view] || kept[view].empty() || other[view] || packedView(document, view)) // compressed views are kept
             continue;
         const std::size_t stride = strideOf(view);
         std::vector<Cluster> whole;
@@ -263,11 +264,11 @@ void repackViews(GltfDocument& document, const std::vector<bool>& removed)
 
 // ---- layout ---------------------------------------------------------------------------------
 
-// Items that the file used, or that were added, and that nothing uses now.
+// Marks items that the file used or that were added, and that nothing uses now.
 std::vector<bool> released(const GltfDocument& document, const Collection& collection)
 {
     std::vector<bool> before = usedItems(document.source->file.json, collection);
-    if (&collection == &kBufferViews) // decoded, nothing refers to them
+    if (&collection == &kBufferViews) // nothing refers to a view once its stream is decoded
         for (const GltfPacked::Primitive& packed : document.source->file.packed.primitives)
             before[packed.draco["bufferView"].get<std::size_t>()] = true;
     std::vector<bool> removed = usedItems(rootOf(document), collection);
@@ -278,13 +279,13 @@ std::vector<bool> released(const GltfDocument& document, const Collection& colle
 
 bool any(const std::vector<bool>& flags) { return std::find(flags.begin(), flags.end(), true) != flags.end(); }
 
-// A buffer view with its bytes and where in the file they are.
+// A buffer view with its bytes and their location in the file.
 struct Part {
     std::size_t view = 0; // in the final JSON
     std::span<const std::byte> bytes;
     bool fromFile = false;
     std::size_t buffer = 0, offset = 0;
-    const Json* packed = nullptr; // in the file it is compressed, and says this: the bytes are those
+    const Json* packed = nullptr; // the view's JSON in the file if it is compressed there; `bytes` are compressed then
 };
 
 std::vector<Part> partsOf(const GltfDocument& document)
@@ -323,7 +324,7 @@ void place(Layout& out, const Part& part, std::size_t offset)
         view["buffer"] = 1;
         view["byteOffset"] = out.decoded;
         out.decoded += gltf::aligned(view["byteLength"].get<std::size_t>());
-        out.packers.insert(name);
+        out.compressionExtensions.insert(name);
         Json& extension = view["extensions"][name];
         extension["buffer"] = 0;
         extension["byteOffset"] = offset;
@@ -334,7 +335,8 @@ void place(Layout& out, const Part& part, std::size_t offset)
         view["byteOffset"] = offset;
 }
 
-// The file's views in the order of their bytes. Where views share bytes they go on doing so; bytes between views go.
+// Appends the file's views in the order of their bytes. Views that share bytes still do; bytes between views are
+// dropped.
 void appendFileParts(const GltfDocument& document, std::vector<Part> parts, Layout& out)
 {
     std::erase_if(parts, [](const Part& p) { return !p.fromFile; });
@@ -355,7 +357,7 @@ void appendFileParts(const GltfDocument& document, std::vector<Part> parts, Layo
     }
 }
 
-// The file's buffer as it is, gaps and all.
+// Appends the file's buffer unchanged, with gaps.
 void appendWhole(const GltfDocument& document, const std::vector<Part>& parts, Layout& out)
 {
     for (const auto& bytes : document.source->file.buffers)
@@ -370,7 +372,7 @@ void describeBuffer(GltfDocument& document, Layout& out)
     Json first = Json::object();
     if (const std::size_t count = countOf(out.root, "buffers"); count > 0) {
         first = out.root["buffers"][0];
-        if (count > 1 && document.source->file.unpackedBytes.empty()) // else that is how they were decoded
+        if (count > 1 && document.source->file.unpackedBytes.empty()) // else decoding added the other buffers
             document.notes.push_back(
                 fmt::format("buffers: {} were joined into one; names and extras of the first are kept", count));
     }
@@ -382,8 +384,8 @@ void describeBuffer(GltfDocument& document, Layout& out)
         out.root["buffers"] = Json::array({std::move(first)});
     if (out.decoded == 0)
         return;
-    Json fallback = {{"byteLength", out.decoded}}; // where the decoded numbers go: no bytes of the file
-    for (const std::string& name : out.packers) {
+    Json fallback = {{"byteLength", out.decoded}}; // where decoders put the data; it has no bytes in the file
+    for (const std::string& name : out.compressionExtensions) {
         fallback["extensions"][name] = {{"fallback", true}};
         addExtension(out.root, document.source->file.packed, name);
     }
@@ -398,7 +400,7 @@ Layout layOut(GltfDocument& document)
     const std::vector<std::string> unknown = unknownExtensions(rootOf(document));
     const bool removes = unknown.empty();
     if (!removes && document.source->file.buffers.size() > 1)
-        failGltf("buffers: expected one where an unknown extension ({}) may refer to them, found {}",
+        failGltf("buffers: expected one, since an unknown extension ({}) may refer to them, found {}",
                  oneLine(unknown.front()), document.source->file.buffers.size());
 
     if (removes) {
@@ -409,7 +411,7 @@ Layout layOut(GltfDocument& document)
             removeItems(rootOf(document), kAccessors, accessors);
         }
     } else {
-        document.notes.push_back(fmt::format("nothing is removed: unknown extensions may refer to any data ({})",
+        document.notes.push_back(fmt::format("unused data is kept, because unknown extensions may refer to it ({})",
                                              oneLine(fmt::format("{}", fmt::join(unknown, ", ")))));
     }
 

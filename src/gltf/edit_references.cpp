@@ -1,4 +1,4 @@
-// Who refers to accessors, buffer views and images, in the core of glTF and in known extensions.
+// References to accessors, buffer views and images, in the glTF core and in known extensions.
 #include <algorithm>
 #include <set>
 
@@ -22,7 +22,7 @@ constexpr std::string_view kToViews[] = {"accessors/*/bufferView", "accessors/*/
                                          "meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/bufferView"};
 constexpr std::string_view kToImages[] = {"textures/*/source", "textures/*/extensions/*/source"};
 
-// What is missing or something else is passed over: animations and extensions are not checked when the file is read.
+// Skips missing members and other values: animations and extensions are not checked when the file is read.
 void visitPath(Json& value, std::string_view path, const Visit& visit)
 {
     if (path.empty()) {
@@ -41,8 +41,8 @@ void visitPath(Json& value, std::string_view path, const Visit& visit)
     }
 }
 
-// Extensions, by their names or what those begin with, that are known to refer to no accessor, view, buffer or image
-// but in the places that are visited above.
+// Extensions, by name or prefix, that are known to refer to accessors, views, buffers and images only from the paths
+// above.
 constexpr std::string_view kKnown[] = {"KHR_lights_punctual",
                                        "KHR_mesh_quantization",
                                        "KHR_draco_mesh_compression",
@@ -82,7 +82,7 @@ void forEachReference(Json& root, const Collection& collection, const Visit& vis
         visitPath(root, path, visit);
 }
 
-std::vector<bool> usedItems(const Json& root, const Collection& collection, std::string_view besides)
+std::vector<bool> usedItems(const Json& root, const Collection& collection, std::string_view excluded)
 {
     std::vector<bool> used(countOf(root, collection.name), false);
     const Visit mark = [&](const Json& index) {
@@ -90,8 +90,8 @@ std::vector<bool> usedItems(const Json& root, const Collection& collection, std:
             used[i] = true;
     };
     for (const std::string_view path : collection.paths)
-        if (path != besides)
-            visitPath(const_cast<Json&>(root), path, mark); // only read through
+        if (path != excluded)
+            visitPath(const_cast<Json&>(root), path, mark); // not modified
     return used;
 }
 

@@ -1,4 +1,4 @@
-// What the parts of the glTF editor share.
+// Declarations shared by the files of the glTF editor.
 #pragma once
 
 #include <cstdint>
@@ -28,44 +28,44 @@ namespace gltf_edit {
 
 // ---- edit_references.cpp ----------------------------------------------------------------------
 
-// What indices point into, and where those are: names of members with slashes between, "*" for each item or member.
+// A root collection and the paths of all indices into it: member names with slashes, "*" for each item or member.
 struct Collection {
     const char* name;
     std::span<const std::string_view> paths;
 };
 extern const Collection kAccessors, kBufferViews, kImages;
 
-// Calls `visit` for every place known to us that holds an index into the collection, be it in the
-// core of glTF or in an extension. Values that are no index are passed over.
+// Calls `visit` for every known location of an index into the collection, in the glTF core or in an extension. Values
+// that are no index are skipped.
 void forEachReference(Json& root, const Collection& collection, const std::function<void(Json&)>& visit);
 
-// For each item of the collection whether something refers to it. besides: references that do not count, as their path.
-std::vector<bool> usedItems(const Json& root, const Collection& collection, std::string_view besides = {});
+// For each item of the collection, whether something refers to it. excluded: a path whose references do not count.
+std::vector<bool> usedItems(const Json& root, const Collection& collection, std::string_view excluded = {});
 
-// The names of extensions in it, in the order in which they are met.
+// The names of all extensions within `object`, in order of first appearance.
 std::vector<std::string> extensionsIn(const Json& object);
 
-// Those in the file, sorted, that are not known to leave accessors, buffer views and buffers alone.
+// The extensions of the file, sorted, that may refer to accessors, buffer views or buffers in unknown ways.
 std::vector<std::string> unknownExtensions(const Json& root);
 
-// Removes the items marked and lets all references follow; an empty collection goes as a whole.
+// Removes the marked items and adjusts all references. An empty collection is removed as a whole.
 void removeItems(Json& root, const Collection& collection, const std::vector<bool>& removed);
 
 // ---- edit.cpp ---------------------------------------------------------------------------------
 
-// The bytes of a buffer view, of the file or added.
+// The bytes of a buffer view, from the file or added.
 std::span<const std::byte> viewBytes(const GltfDocument& document, std::size_t view);
 
 // An accessor of the document with its bytes.
 gltf::Elements elementsOf(const GltfDocument& document, const Json& accessor);
 
-// The primitive's triangles; none for points and lines.
+// The corners of the primitive's triangles; empty for points and lines.
 std::vector<std::uint32_t> readTriangles(const GltfDocument& document, const gltf::Primitive& primitive);
 
-// Adds a buffer view; stride and target 0: left out. Returns its index.
+// Adds a buffer view; a stride or target of 0 is omitted. Returns its index.
 std::size_t addView(GltfDocument& document, std::vector<std::byte> bytes, std::size_t stride = 0, int target = 0);
 
-// Adds an accessor with a view of its own; stride 0: packed. Returns its index.
+// Adds an accessor with a buffer view of its own; stride 0: tightly packed. Returns its index.
 template<class T>
 std::size_t addElements(GltfDocument& document, const std::vector<T>& elements, const char* type,
                         std::size_t stride = 0, int componentType = gltf::kFloat, int target = gltf::kArrayBuffer)
@@ -81,12 +81,12 @@ std::size_t addElements(GltfDocument& document, const std::vector<T>& elements, 
 
 struct Layout {
     Json root;
-    std::vector<std::byte> buffer; // the only one with bytes; empty: none
-    std::size_t decoded = 0;       // bytes of the views that stay compressed, once somebody decodes them
-    std::set<std::string> packers; // the extensions of these
+    std::vector<std::byte> buffer;               // content of the only buffer that has bytes; empty: none
+    std::size_t decoded = 0;                     // decoded size of the views that stay compressed
+    std::set<std::string> compressionExtensions; // extensions that compress these views
 };
 
-// Removes what has fallen out of use and joins all bytes. `document` is used up; notes go there.
+// Removes unused items and joins all bytes into one buffer. Consumes `document` except for its notes, which it adds to.
 Layout layOut(GltfDocument& document);
 
 } // namespace gltf_edit

@@ -1,5 +1,5 @@
-// Other vertices and other triangles for primitives: TANGENT set, with as few vertices copied as possible, or dropped;
-// vertices numbered so that every triangle owns its provoking vertex.
+// Replaces vertices and triangles of primitives: sets TANGENT with as few copied vertices as possible, or removes it;
+// numbers vertices so that every triangle has its own provoking vertex.
 #include <algorithm>
 #include <cstring>
 #include <map>
@@ -16,7 +16,7 @@ namespace {
 
 using Sources = std::span<const std::uint32_t>;
 
-// A view of vertex data, each element on a multiple of four bytes.
+// Adds a view with copies of vertex elements, each at a multiple of four bytes.
 std::size_t addVertexView(GltfDocument& document, const gltf::Run& elements, std::size_t size, Sources sources)
 {
     const std::size_t stride = gltf::aligned(size);
@@ -26,8 +26,8 @@ std::size_t addVertexView(GltfDocument& document, const gltf::Run& elements, std
     return addView(document, std::move(bytes), stride, gltf::kArrayBuffer);
 }
 
-// Indices in the smallest type, but not bytes where `bytesToo` is false; the largest value of a
-// type restarts primitives and is not used.
+// Encodes indices below `count` in the smallest type, but not in bytes if `bytesToo` is false. The largest value of a
+// type is the primitive restart value and is not used.
 std::pair<int, std::vector<std::byte>> smallestIndices(std::span<const std::uint32_t> values, std::size_t count,
                                                        bool bytesToo)
 {
@@ -44,27 +44,27 @@ std::pair<int, std::vector<std::byte>> smallestIndices(std::span<const std::uint
     return {type, std::move(bytes)};
 }
 
-// Puts the sparse part for the new vertices into the accessor: copies of a replaced element are replaced as well.
+// Replaces the accessor's sparse part by that of the new vertices: copies of a sparse element are sparse too.
 void renewSparse(GltfDocument& document, const gltf::Elements& old, Json& accessor, Sources sources)
 {
     const std::size_t size = gltf::elementSize(old.accessor);
-    std::vector<std::uint32_t> places;
+    std::vector<std::uint32_t> newIndices;
     std::vector<std::byte> values;
     for (std::uint32_t i = 0; i < sources.size(); ++i) {
-        const std::size_t found = old.sparsePlace(sources[i]);
+        const std::size_t found = old.sparseLowerBound(sources[i]);
         if (found == old.sparseIndices.count || old.sparseIndex(found) != sources[i])
             continue;
-        places.push_back(i);
+        newIndices.push_back(i);
         const std::byte* const from = old.sparseValues.at(found);
         values.insert(values.end(), from, from + size);
     }
-    if (places.empty()) { // glTF wants one at least
+    if (newIndices.empty()) { // glTF requires at least one
         accessor.erase("sparse");
         return;
     }
     Json& sparse = accessor["sparse"];
-    auto [type, bytes] = smallestIndices(places, sources.size(), true);
-    sparse["count"] = places.size();
+    auto [type, bytes] = smallestIndices(newIndices, sources.size(), true);
+    sparse["count"] = newIndices.size();
     sparse["indices"]["bufferView"] = addView(document, std::move(bytes));
     sparse["indices"]["componentType"] = type;
     sparse["values"]["bufferView"] = addView(document, std::move(values));
@@ -82,7 +82,7 @@ bool allAmong(std::size_t count, Sources sources)
 
 std::size_t renewAccessor(GltfDocument& document, std::size_t index, Sources sources)
 {
-    Json accessor = rootOf(document)["accessors"][index]; // a copy: adding moves the original
+    Json accessor = rootOf(document)["accessors"][index]; // a copy: adding items moves the original
     const gltf::Elements old = elementsOf(document, accessor);
     if (old.accessor.sparse)
         renewSparse(document, old, accessor, sources);
@@ -96,12 +96,12 @@ std::size_t renewAccessor(GltfDocument& document, std::size_t index, Sources sou
     return addItem(document, "accessors", std::move(accessor));
 }
 
-// Accessors that were made for new vertices: by the index of the old one that of the new one.
+// Accessors made for new vertices: from the index of the old accessor to that of the new one.
 using Renewed = std::map<std::size_t, std::size_t>;
 
-// Gives a primitive new vertices, copies of old ones with all attributes and morph targets, to the bit. Notes its
-// extensions that might hold something for each vertex. sources: per new vertex the old one. renewed: those that
-// primitives share are made once.
+// Gives a primitive new vertices, bit-exact copies of old ones with all attributes and morph targets. Adds notes about
+// unknown extensions that may hold per-vertex data. sources: the old vertex of each new one. renewed: accessors shared
+// by several primitives are made once.
 void renewVertices(GltfDocument& document, Json& primitive, const std::string& field, Sources sources, Renewed& renewed)
 {
     const auto renewAll = [&](Json& attributes) {
@@ -118,17 +118,17 @@ void renewVertices(GltfDocument& document, Json& primitive, const std::string& f
             renewAll(target);
     for (const std::string& name : unknownExtensions(primitive))
         document.notes.push_back(
-            fmt::format("{}: vertices were copied; its extension {} is kept as it is", field, oneLine(name)));
+            fmt::format("{}: vertices were copied; its extension {} is unchanged", field, oneLine(name)));
 }
 
-// Makes the primitive a list of triangles; all indices are below vertexCount.
+// Makes the primitive a triangle list with these indices, which are below vertexCount.
 void setTriangles(GltfDocument& document, Json& primitive, std::span<const std::uint32_t> indices,
                   std::size_t vertexCount)
 {
     Json accessor = Json::object();
     if (primitive.contains("indices"))
         accessor = rootOf(document)["accessors"][primitive["indices"].get<std::size_t>()];
-    // Bytes only where the file had them: some hardware is slow with them.
+    // Byte indices only if the file had them: they are slow on some hardware.
     const bool hadBytes = gltf::valueOr(accessor, "componentType", 0) == gltf::kUnsignedByte;
     auto [type, bytes] = smallestIndices(indices, vertexCount, hadBytes);
     for (const char* const gone : {"byteOffset", "sparse", "min", "max"})
@@ -139,15 +139,15 @@ void setTriangles(GltfDocument& document, Json& primitive, std::span<const std::
     accessor["type"] = "SCALAR";
     primitive["indices"] = addItem(document, "accessors", std::move(accessor));
     if (gltf::valueOr(primitive, "mode", gltf::kTriangles) != gltf::kTriangles)
-        primitive.erase("mode"); // a list now
+        primitive.erase("mode"); // lists are the default
 }
 
 // ---- tangents -------------------------------------------------------------------------------
 
-// Primitives that share all attributes, and so their vertices.
+// Primitives that share all attributes other than TANGENT, and therefore their vertices.
 struct Group {
     std::vector<const GltfCornerTangents*> members;
-    std::vector<std::vector<std::uint32_t>> triangles; // of each member
+    std::vector<std::vector<std::uint32_t>> triangles; // one list per member
     std::size_t vertexCount = 0;
 };
 
@@ -156,7 +156,7 @@ Json& primitiveOf(GltfDocument& document, const GltfCornerTangents& t)
     return rootOf(document)["meshes"][t.mesh]["primitives"][t.primitive];
 }
 
-// What two primitives have in common if they share vertices, as text.
+// Attributes other than TANGENT and morph targets, as text; equal for primitives that share vertices.
 std::string sharedKey(const Json& primitive)
 {
     Json attributes = primitive["attributes"];
@@ -175,18 +175,17 @@ std::vector<Group> makeGroups(GltfDocument& document, std::span<const GltfCorner
         const Json& attributes = primitive["attributes"];
         for (const char* const needed : {"POSITION", "NORMAL"})
             if (!attributes.contains(needed))
-                failGltf("{}: expected {}, without which glTF gives TANGENT no meaning", field, needed);
-        const auto [place, isNew] = known.emplace(sharedKey(primitive), groups.size());
+                failGltf("{}: expected {}, without which glTF does not define TANGENT", field, needed);
+        const auto [entry, isNew] = known.emplace(sharedKey(primitive), groups.size());
         if (isNew)
             groups.emplace_back().vertexCount =
                 rootOf(document)["accessors"][attributes["POSITION"].get<std::size_t>()]["count"];
-        Group& group = groups[place->second];
+        Group& group = groups[entry->second];
         group.members.push_back(&t);
         group.triangles.push_back(readTriangles(document, gltf::readPrimitive(primitive)));
         if (group.triangles.back().size() != t.corners.size())
-            throw Error{ErrorKind::usage,
-                        fmt::format("{}: expected {} corner tangents, found {}", field, group.triangles.back().size(),
-                                    t.corners.size())};
+            throw GltfProblem{usageError(fmt::format("{}: expected {} corner tangents, found {}", field,
+                                                     group.triangles.back().size(), t.corners.size()))};
     }
     return groups;
 }
@@ -199,7 +198,7 @@ bool sameOrder(const GltfDocument& document, const Json& primitive, std::span<co
     return std::equal(before.begin(), before.end(), indices.begin(), indices.end());
 }
 
-// Returns how many vertices were added.
+// Returns the number of added vertices.
 std::size_t setGroup(GltfDocument& document, const Group& group)
 {
     std::vector<std::uint32_t> indices;
@@ -212,13 +211,13 @@ std::size_t setGroup(GltfDocument& document, const Group& group)
     const VertexSplit split = splitVertices(group.vertexCount, indices, corners);
     const std::size_t count = split.sources.size();
     const bool copied = count > group.vertexCount;
-    // A vertex that no triangle uses gets a unit vector, as glTF asks for.
+    // Vertices without triangles get a unit vector, as glTF requires.
     std::vector<glm::vec4> values(count, glm::vec4(1, 0, 0, 1));
     for (std::size_t i = 0; i < corners.size(); ++i)
         values[split.indices[i]] = corners[i];
     const std::size_t tangents = addElements(document, values, "VEC4", sizeof(glm::vec4));
 
-    Renewed renewed{{tangents, tangents}}; // those are for the new vertices already
+    Renewed renewed{{tangents, tangents}}; // made for the new vertices already
     std::size_t first = 0;
     for (std::size_t m = 0; m < group.members.size(); ++m) {
         Json& primitive = primitiveOf(document, *group.members[m]);
@@ -237,7 +236,7 @@ std::size_t setGroup(GltfDocument& document, const Group& group)
 
 // ---- provoking vertices ---------------------------------------------------------------------
 
-// What a primitive draws, as text: those that draw the same go on sharing it.
+// Everything that determines a primitive's shape, as text. Primitives with equal text keep sharing it.
 std::string drawnBy(const Json& primitive)
 {
     Json drawn = Json::object();
@@ -246,7 +245,7 @@ std::string drawnBy(const Json& primitive)
     return nlohmann::json(drawn).dump();
 }
 
-// The primitive with the vertices and triangles of `like`.
+// Gives the primitive the vertices and triangles of `like`.
 void drawAs(Json& primitive, const Json& like)
 {
     for (const char* const part : {"attributes", "indices", "targets"})
@@ -255,7 +254,7 @@ void drawAs(Json& primitive, const Json& like)
     primitive.erase("mode");
 }
 
-// Nothing is changed, and the counts are 0, where there are no triangles.
+// Returns zero counts, without a change, if the primitive has no triangles.
 GltfProvoked provoke(GltfDocument& document, std::size_t m, std::size_t p, ProvokingVertex provoking)
 {
     Json& primitive = rootOf(document)["meshes"][m]["primitives"][p];
@@ -271,7 +270,7 @@ GltfProvoked provoke(GltfDocument& document, std::size_t m, std::size_t p, Provo
     for (std::uint32_t& source : own.sources)
         source = used[source];
     setTriangles(document, primitive, own.indices, own.sources.size());
-    Renewed renewed; // of this primitive: vertex k belongs to its triangle k
+    Renewed renewed; // not shared: vertex k belongs to this primitive's triangle k
     renewVertices(document, primitive, primitiveField(m, p), own.sources, renewed);
     return {m, p, corners.size() / 3, used.size(), own.sources.size()};
 }
@@ -279,15 +278,13 @@ GltfProvoked provoke(GltfDocument& document, std::size_t m, std::size_t p, Provo
 } // namespace
 
 Result<std::size_t> setGltfTangents(GltfDocument& document, std::span<const GltfCornerTangents> tangents)
-try {
-    std::size_t added = 0;
-    for (const Group& group : makeGroups(document, tangents))
-        added += setGroup(document, group);
-    return added;
-} catch (const GltfProblem& problem) {
-    return inputError(fileOf(document) + problem.error.message);
-} catch (const Error& error) {
-    return error;
+{
+    return caughtGltf(document.source->path, [&] {
+        std::size_t added = 0;
+        for (const Group& group : makeGroups(document, tangents))
+            added += setGroup(document, group);
+        return added;
+    });
 }
 
 bool dropGltfTangents(GltfDocument& document, std::size_t mesh, std::size_t primitive)
@@ -304,7 +301,7 @@ bool dropGltfTangents(GltfDocument& document, std::size_t mesh, std::size_t prim
         target.erase("TANGENT");
         if (!target.empty())
             continue;
-        // glTF wants a target to have some attribute: one without any becomes an explicit "no change".
+        // glTF requires an attribute in every target: an empty target becomes explicit zero offsets.
         const Json zero = {0, 0, 0};
         target["POSITION"] = addItem(
             document, "accessors",
@@ -317,7 +314,7 @@ Result<std::vector<GltfProvoked>> setGltfProvoking(GltfDocument& document, Provo
 {
     return caughtGltf(document.source->path, [&] {
         std::vector<GltfProvoked> all;
-        std::map<std::string, Json> done; // by what a primitive drew what it draws now
+        std::map<std::string, Json> done; // from the old shape of a primitive (drawnBy) to the edited primitive
         (void)forEachPrimitive(rootOf(document), [&](std::size_t m, std::size_t p) -> Status {
             Json& primitive = rootOf(document)["meshes"][m]["primitives"][p];
             const std::string drawn = drawnBy(primitive);

@@ -1,4 +1,4 @@
-// A document to files: .glb with everything inside, or .gltf with .bin and images beside it.
+// Writes a document as .glb with everything inside, or as .gltf with .bin and images beside it.
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -28,7 +28,7 @@ bool isExternal(const Json& image)
     return image.contains("uri") && !image["uri"].get_ref<const std::string&>().starts_with("data:");
 }
 
-// The image files that the JSON names, by image; those that are missing are left out.
+// The image files that the JSON names, by image index; missing files are left out.
 std::map<std::size_t, fs::path> imageFiles(const GltfSource& source, const Json& root)
 {
     std::map<std::size_t, fs::path> files;
@@ -73,16 +73,16 @@ std::vector<std::byte> readOrFail(const GltfSource& source, const fs::path& file
     return std::move(*bytes);
 }
 
-// An image file used twice is embedded once.
+// An image file that is used twice is embedded once.
 void embedImages(GltfDocument& document, const LoadLimits& limits)
 {
-    std::map<fs::path, Json> embedded; // what the image gets in place of its uri
+    std::map<fs::path, Json> embedded; // the members that replace the image's uri
     for (const auto& [i, file] : imageFiles(*document.source, rootOf(document))) {
         if (!embedded.contains(file)) {
             std::vector<std::byte> bytes = readOrFail(*document.source, file, limits);
             const ImageFormat* const format = imageFormatOf(bytes);
             embedded[file] = nullptr;
-            if (format && !format->mime.empty()) // else no picture that glTF knows
+            if (format && !format->mime.empty()) // else no image format of glTF
                 embedded[file] = {{"mimeType", format->mime}, {"bufferView", addView(document, std::move(bytes))}};
         }
         if (embedded[file].is_null())
@@ -92,7 +92,7 @@ void embedImages(GltfDocument& document, const LoadLimits& limits)
     }
     for (std::size_t i = 0; i < countOf(rootOf(document), "images"); ++i)
         if (isExternal(rootOf(document)["images"][i]))
-            document.notes.push_back(fmt::format("images[{}]: \"{}\" is missing or no picture and stays a reference", i,
+            document.notes.push_back(fmt::format("images[{}]: \"{}\" is missing or not an image; its URI is kept", i,
                                                  oneLine(rootOf(document)["images"][i]["uri"].get<std::string>())));
 }
 
@@ -131,7 +131,7 @@ std::vector<std::byte> makeGlb(const Layout& layout)
     return bytes;
 }
 
-// ---- glTF with files beside -----------------------------------------------------------------
+// ---- glTF with separate files ---------------------------------------------------------------
 
 std::string encodePercent(const std::string& name)
 {
@@ -145,7 +145,7 @@ std::string encodePercent(const std::string& name)
     return uri;
 }
 
-// NAME.bin, unless that is a buffer of the file that was read and is not about to be replaced.
+// NAME.bin, or NAME_data.bin if NAME.bin is a buffer of the source file and that file is not replaced.
 fs::path binaryBeside(const GltfSource& source, const fs::path& file)
 {
     fs::path binary = file;
@@ -157,9 +157,9 @@ fs::path binaryBeside(const GltfSource& source, const fs::path& file)
     return binary;
 }
 
-// ---- images that are new --------------------------------------------------------------------
+// ---- new images -----------------------------------------------------------------------------
 
-// What an image is called: by its name, or by the file that it was in.
+// The name of an image, else of the file it was in, else its number, as part of a file name.
 std::string nameOfImage(const GltfSource& source, const Json& root, std::size_t i)
 {
     std::string name = root["images"][i].value("name", std::string());
@@ -175,14 +175,14 @@ std::string nameOfImage(const GltfSource& source, const Json& root, std::size_t 
     return name;
 }
 
-// The image files that a model of that name, about to be replaced, calls its own.
+// The image URIs of an existing model of this name, which is about to be replaced.
 std::vector<std::string> ownImages(const fs::path& file, const LoadLimits& limits)
 {
     std::vector<std::string> uris;
     std::error_code error;
     if (!fs::is_regular_file(file, error))
         return uris;
-    Json root; // whatever is wrong with it, it goes
+    Json root; // an invalid model is replaced too
     if (const auto bytes = readFileBytes(file, limits.fileBytes, /*isInput*/ false))
         try {
             root = parseGltfJson(*bytes);
@@ -196,8 +196,8 @@ std::vector<std::string> ownImages(const fs::path& file, const LoadLimits& limit
     return uris;
 }
 
-// Images that were put into the document become files beside the model, MODEL-IMAGE.png. A name that a file has
-// already is taken only if that file belongs to the model that is replaced; else it gets a number.
+// Makes images that were added to the document files beside the model, MODEL-IMAGE.png. An existing file is overwritten
+// only if it belongs to the model that is replaced; otherwise the name gets a number.
 void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLimits& limits,
                      std::vector<WrittenFile>& outputs)
 {
@@ -219,8 +219,8 @@ void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLim
             std::error_code error;
             const bool here = std::ranges::find(outputs, target, &WrittenFile::file) != outputs.end();
             const bool input = std::ranges::find(read, fs::weakly_canonical(target, error)) != read.end();
-            const bool ours = std::ranges::find(own, encodePercent(target.filename().string())) != own.end();
-            return here || input || (fs::exists(target, error) && !ours);
+            const bool replaced = std::ranges::find(own, encodePercent(target.filename().string())) != own.end();
+            return here || input || (fs::exists(target, error) && !replaced);
         };
         fs::path target = folderOf(file) / (stem + ending);
         for (int n = 2; taken(target); ++n)
@@ -232,7 +232,7 @@ void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLim
     }
 }
 
-// Image files go to the same place relative to the new folder; what is there already has to be the same.
+// Copies image files to the same relative path in the new folder. An existing file there must be identical.
 void copyImages(const GltfSource& source, const Json& root, const fs::path& folder, const LoadLimits& limits,
                 std::vector<WrittenFile>& outputs)
 {
@@ -248,15 +248,15 @@ void copyImages(const GltfSource& source, const Json& root, const fs::path& fold
             const auto there = readFileBytes(target, limits.fileBytes);
             if (!there || *there != bytes)
                 throw outputError(
-                    fmt::format("{}: a different file is in the way of an image to be copied", target.string()));
+                    fmt::format("{}: a different file exists where an image would be copied", target.string()));
             continue;
         }
         outputs.push_back({target, std::move(bytes)});
     }
 }
 
-// All or none: each file is written beside its place, and none is put there before the last is written. The first, the
-// model, comes last.
+// Writes all files or none: each is written under a temporary name, and renamed only after the last is complete. The
+// first, the model, is renamed last.
 Status writeTogether(std::span<const WrittenFile> outputs)
 {
     std::vector<OutputFile> files;
@@ -319,7 +319,7 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
     return written;
 }
 
-// What a failure of `write` is to the caller.
+// Runs `write` and converts its exceptions to errors for the caller.
 template<class Write>
 auto caughtWriting(const GltfDocument& document, const std::string& name, const Write& write)
     -> Result<decltype(write())>

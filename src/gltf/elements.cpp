@@ -13,8 +13,8 @@ namespace cotan::gltf {
 
 namespace {
 
-// Checks that `count` elements lie in the view. All numbers come from the JSON and are below 2^53,
-// strides at most 252, so nothing here overflows 64 bits.
+// Returns the run after checking that `count` elements lie in the view. All numbers come from the JSON and are below
+// 2^53, and strides are at most 252, so nothing here overflows 64 bits.
 Run runIn(const ViewBytes& from, int view, std::size_t offset, std::size_t stride, std::size_t size, std::size_t count,
           const std::string& field)
 {
@@ -42,11 +42,11 @@ template<class Out, class Stored> Out convert(Stored value, bool normalized)
 std::uint32_t Elements::sparseIndex(std::size_t i) const
 {
     std::uint32_t value = 0;
-    std::memcpy(&value, sparseIndices.at(i), componentSize(accessor.sparse->indicesType)); // little-endian, as the file
+    std::memcpy(&value, sparseIndices.at(i), componentSize(accessor.sparse->indicesType)); // little-endian like glTF
     return value;
 }
 
-std::size_t Elements::sparsePlace(std::uint32_t element, std::size_t first) const
+std::size_t Elements::sparseLowerBound(std::uint32_t element, std::size_t first) const
 {
     std::size_t last = sparseIndices.count;
     while (first < last) {
@@ -90,7 +90,7 @@ void checkSparse(const Elements& elements, const std::string& field)
             failGltf("{}.sparse.indices[{}]: expected an index below {}, found {}", field, i, elements.accessor.count,
                      at);
         if (i > 0 && at <= before)
-            failGltf("{}.sparse.indices[{}]: expected an index above {}, the one before, found {}", field, i, before,
+            failGltf("{}.sparse.indices[{}]: expected an index above {}, the previous one, found {}", field, i, before,
                      at);
         before = at;
     }
@@ -140,26 +140,26 @@ void expectIndices(const Accessor& a, const Role& role)
                  nameOfComponent(a.componentType));
 }
 
-template<class Out> void readNumbers(const Elements& elements, const Choice& choice, std::size_t room, Out* out)
+template<class Out> void readNumbers(const Elements& elements, const Choice& choice, std::size_t outStride, Out* out)
 {
     const Accessor& a = elements.accessor;
     const std::size_t components = componentCount(a.type), count = choice.size(), sparse = elements.sparseIndices.count;
     const bool normalized = a.normalized;
     withType(a.componentType, [&]<class Stored>(Stored) {
-        std::size_t place = 0; // of the next sparse value: both rise
+        std::size_t next = 0; // next sparse value; both lists ascend
         for (std::size_t i = 0; i < count; ++i) {
             const std::size_t element = choice.all ? i : choice.chosen[i];
             const std::byte* from = elements.dense.first ? elements.dense.at(element) : nullptr;
-            if (place < sparse && elements.sparseIndex(place) < element)
-                place = elements.sparsePlace(std::uint32_t(element), place);
-            if (place < sparse && elements.sparseIndex(place) == element)
-                from = elements.sparseValues.at(place++);
+            if (next < sparse && elements.sparseIndex(next) < element)
+                next = elements.sparseLowerBound(std::uint32_t(element), next);
+            if (next < sparse && elements.sparseIndex(next) == element)
+                from = elements.sparseValues.at(next++);
             if (!from)
                 continue;
             for (std::size_t c = 0; c < components; ++c) {
                 Stored stored;
                 std::memcpy(&stored, from + c * sizeof stored, sizeof stored);
-                out[i * room + c] = convert<Out>(stored, normalized);
+                out[i * outStride + c] = convert<Out>(stored, normalized);
             }
         }
     });
@@ -194,7 +194,7 @@ void renewBounds(Json& accessor, Elements elements)
     Accessor& a = elements.accessor;
     if (a.type > ElementType::vec4 || a.componentType == kUnsignedInt || a.count == 0)
         return;
-    a.normalized = false; // bounds are of the numbers that are stored
+    a.normalized = false; // bounds refer to the stored numbers
     const std::size_t width = componentCount(a.type);
     std::vector<float> values(a.count * width);
     readNumbers(elements, a.count, width, values.data());

@@ -1,4 +1,4 @@
-// The elements of accessors: where they lie, and their numbers.
+// The elements of accessors: their bytes and their values.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@
 
 namespace cotan::gltf {
 
-// The bytes of a buffer view as accessors see them. Where an extension packs them, they are those after unpacking.
+// The bytes of a buffer view as accessors see them: decompressed if an extension compresses the view.
 struct ViewBytes {
     std::span<const std::byte> bytes;
     std::size_t stride = 0; // as in BufferView
 };
 using ViewBytesOf = std::function<ViewBytes(std::size_t view)>;
 
-// Up to a multiple of four, where attributes of vertices, views and chunks begin.
+// Rounds up to a multiple of four, the alignment of vertex attributes, buffer views and GLB chunks.
 constexpr std::size_t aligned(std::size_t bytes) { return (bytes + 3) / 4 * 4; }
 
 // A run of equally spaced elements.
@@ -32,46 +32,46 @@ struct Run {
     const std::byte* at(std::size_t i) const { return first + i * stride; }
 };
 
-// An accessor with its bytes: the elements without sparse values, and the indices and values of those.
+// An accessor with its bytes: the elements without the sparse values, and the sparse indices and values.
 struct Elements {
     Accessor accessor;
     Run dense;
-    Run sparseIndices, sparseValues; // equally many; the indices rise once checkSparse has looked at them
+    Run sparseIndices, sparseValues; // of equal count; the indices ascend once checkSparse has passed
 
     std::uint32_t sparseIndex(std::size_t i) const;
 
-    // The place of the sparse value of an element, from `first` on, or of the next one; their number where none
-    // follows.
-    std::size_t sparsePlace(std::uint32_t element, std::size_t first = 0) const;
+    // The number of the first sparse value, from `first` on, whose element is not less than `element`; the count of
+    // sparse values if there is none.
+    std::size_t sparseLowerBound(std::uint32_t element, std::size_t first = 0) const;
 };
 
-// Throws GltfProblem where something lies outside its view. field: for the message.
+// Throws GltfProblem if elements lie outside their view. field: for the message.
 Elements findElements(const Accessor& accessor, const ViewBytesOf& viewBytes, const std::string& field);
 
-// Throws GltfProblem where the indices of sparse values do not rise or are not below the count.
+// Throws GltfProblem if the sparse indices do not ascend or are not below the count.
 void checkSparse(const Elements& elements, const std::string& field);
 
-// Throws GltfProblem where a float is not finite.
+// Throws GltfProblem if a float is not finite.
 void checkFinite(const Elements& elements, const std::string& field);
 
-// Makes min and max of an accessor's JSON anew, where it has them, from the elements that it has now; takes them out
-// where those are no floats or small integers.
+// Recomputes min and max in an accessor's JSON, if present, from its current elements. Removes them if the accessor is
+// empty or has matrices or 32-bit integers.
 void renewBounds(Json& accessor, Elements elements);
 
 // ---- reading --------------------------------------------------------------------------------
 
-// Which elements are read.
+// The elements to be read.
 struct Choice {
-    std::size_t count = 0;                   // how many the accessor must have
-    bool all = true;                         // they are all read
-    std::span<const std::uint32_t> chosen{}; // otherwise these, rising
+    std::size_t count = 0;                   // required number of elements of the accessor
+    bool all = true;                         // read all of them
+    std::span<const std::uint32_t> chosen{}; // otherwise only these, ascending
 
-    Choice(std::size_t of) : count(of) {}
-    Choice(std::size_t of, std::span<const std::uint32_t> some) : count(of), all(false), chosen(some) {}
+    Choice(std::size_t total) : count(total) {}
+    Choice(std::size_t total, std::span<const std::uint32_t> some) : count(total), all(false), chosen(some) {}
     std::size_t size() const { return all ? count : chosen.size(); }
 };
 
-// An accessor that serves as something: what messages call it.
+// The use of an accessor, as messages name it.
 struct Role {
     int accessor = -1;
     std::string field; // "meshes[0].primitives[1].NORMAL"
@@ -80,7 +80,7 @@ struct Role {
 std::string_view nameOf(ElementType type);
 const char* nameOfComponent(int componentType);
 
-// Calls use(T()) with the type of a component.
+// Calls use(T()), where T is the C++ type of a component.
 template<class Use> void withType(int componentType, const Use& use)
 {
     switch (componentType) {
@@ -93,17 +93,17 @@ template<class Use> void withType(int componentType, const Use& use)
     }
 }
 
-// Throws GltfProblem for another type or number of elements.
+// Throws GltfProblem for another element type or another number of elements.
 void expectElements(const Accessor& accessor, ElementType type, std::uint64_t count, const Role& role);
 
-// Throws GltfProblem for scalars that cannot be indices.
+// Throws GltfProblem if the elements are not unsigned integer scalars.
 void expectIndices(const Accessor& accessor, const Role& role);
 
-// The numbers of the chosen elements, sparse values put in: integers that are normalised become [0,1]
-// or [-1,1], others their value. Out: float or std::uint32_t. out: zeros; an element has room for `room` numbers there.
-template<class Out> void readNumbers(const Elements& elements, const Choice& choice, std::size_t room, Out* out);
+// Reads the chosen elements, with sparse values applied. Normalised integers become [0,1] or [-1,1], other integers
+// keep their value. Out: float or std::uint32_t. out: zeros on entry; outStride: numbers from element to element there.
+template<class Out> void readNumbers(const Elements& elements, const Choice& choice, std::size_t outStride, Out* out);
 
-// The same as vectors. Throws GltfProblem where the elements are none, and for unsigned integers.
+// The same as vectors. Throws GltfProblem if the element type or count differs, and for 32-bit integers.
 template<class Vector>
 std::vector<Vector> readVectors(const Elements& elements, const Choice& choice, const Role& role);
 

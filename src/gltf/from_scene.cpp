@@ -1,4 +1,4 @@
-// A scene as a glTF document, so that what came from another format can be written as glTF.
+// Converts a scene to a glTF document, for writing other formats as glTF.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -30,7 +30,7 @@ std::size_t addPositions(GltfDocument& document, const std::vector<glm::vec3>& p
     return added;
 }
 
-// As the file has them that they were read from (followStoredTangents).
+// The tangents as in the file that they were read from, with the sign change of reconcileGreenWithTangents undone.
 std::vector<glm::vec4> storedTangents(const Mesh& mesh, const Material& material)
 {
     std::vector<glm::vec4> tangents = mesh.tangents;
@@ -64,8 +64,8 @@ std::size_t addTexture(GltfDocument& document, const Texture& texture)
     return addItem(document, "textures", {{"source", std::size_t(texture.image)}, {"sampler", sampler}});
 }
 
-// KHR_texture_transform knows a turn and two scales: uRow = (c sx, s sy, ox), vRow = (-s sx, c sy, oy).
-// A shear has no place in it.
+// KHR_texture_transform has one rotation and two scales: uRow = (c sx, s sy, ox), vRow = (-s sx, c sy, oy). It cannot
+// represent a shear.
 Json transformOf(const Texture& t, bool& sheared)
 {
     const double scaleU = std::hypot(double(t.uRow.x), double(t.vRow.x));
@@ -75,7 +75,7 @@ Json transformOf(const Texture& t, bool& sheared)
     return {{"offset", {t.uRow.z, t.vRow.z}}, {"rotation", std::atan2(s, c)}, {"scale", {scaleU, scaleV}}};
 }
 
-// Adds the use of a texture to an object of a material; nothing where there is none.
+// Adds a texture info to `owner`, an object of a material, if the texture is present.
 void putTexture(GltfDocument& document, const Texture& texture, Json& owner, const char* slot)
 {
     if (!texture.present())
@@ -143,8 +143,8 @@ Json nodeOf(const Instance& instance)
 
 Result<GltfDocument> gltfDocumentOf(const Scene& scene)
 {
-    if (const Status sound = checkScene(scene, "scene", {.pixels = false}); !sound)
-        return sound.error();
+    if (const Status valid = checkScene(scene, "scene", {.pixels = false}); !valid)
+        return valid.error();
     GltfDocument document;
     auto source = std::make_shared<GltfSource>();
     source->file.json = Json::object();

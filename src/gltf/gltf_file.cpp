@@ -35,10 +35,10 @@ void checkHeader(std::span<const std::byte> bytes)
     if (readWord(bytes, 4) != 2)
         failGltf("GLB header: expected version 2, found {}", readWord(bytes, 4));
     if (readWord(bytes, 8) != bytes.size())
-        failGltf("GLB header: it says that the file has {} bytes, found {}", readWord(bytes, 8), bytes.size());
+        failGltf("GLB header: expected a file of {} bytes, found {}", readWord(bytes, 8), bytes.size());
 }
 
-// Walks the chunks and returns the JSON; unknown ones are passed over, as the specification asks.
+// Walks the chunks and returns the JSON text. Unknown chunks are skipped, as the specification requires.
 std::span<const std::byte> splitChunks(GltfFile& file, GltfWarnings& warnings)
 {
     std::span<const std::byte> text;
@@ -52,7 +52,7 @@ std::span<const std::byte> splitChunks(GltfFile& file, GltfWarnings& warnings)
         const std::size_t length = readWord(bytes, at);
         const std::uint32_t type = readWord(bytes, at + 4);
         if (length > left - 8)
-            failGltf("GLB chunk {}: it says that it has {} bytes, but {} are left", chunk, length, left - 8);
+            failGltf("GLB chunk {}: expected {} bytes, but only {} are left", chunk, length, left - 8);
         if (length % 4 != 0)
             warnings.add(fmt::format("GLB chunk {}", chunk), "its length is not a multiple of 4");
         if ((chunk == 0) != (type == kGlbJson))
@@ -69,8 +69,8 @@ std::span<const std::byte> splitChunks(GltfFile& file, GltfWarnings& warnings)
 
 // ---- JSON -----------------------------------------------------------------------------------
 
-// Builds the document from the events of the parser. The library's own builder looks for each new member among all
-// that its object has already, so that an object of a million members would take hours.
+// Builds the document from parser events. The library's own builder searches all existing members of an object for each
+// new member, so that an object of a million members would take hours.
 class Builder : public nlohmann::json_sax<Json> {
 public:
     explicit Builder(std::string_view text) : text_(text) {}
@@ -92,11 +92,11 @@ public:
     bool key(string_t& name) override
     {
         isExtra_ = levels_.back().isExtra || name == "extras";
-        member_ = &levels_.back().place(name);
+        member_ = &levels_.back().memberNamed(name);
         return true;
     }
 
-    // position: of the last byte that was read, from 1. The parser's own sentences are for programmers.
+    // position: of the last byte read, counted from 1. The parser's own messages are written for programmers.
     bool parse_error(std::size_t position, const std::string& last, const nlohmann::detail::exception& problem) override
     {
         const std::string_view before = text_.substr(0, std::min(std::max<std::size_t>(position, 1) - 1, text_.size()));
@@ -105,7 +105,7 @@ public:
         constexpr int kNumberTooLarge = 406;
         const bool ended = position > text_.size();
         failGltf("JSON: line {}, column {}: expected {}; found {}", line, column,
-                 problem.id == kNumberTooLarge ? "a number that a double holds"
+                 problem.id == kNumberTooLarge ? "a number in the range of double"
                      : ended                   ? "more"
                                                : "valid JSON",
                  ended ? "the end of the file" : quotedTail(last));
@@ -114,32 +114,32 @@ public:
 private:
     struct Level {
         Json* value = nullptr;
-        bool isExtra = false;                        // part of extras
-        std::map<std::string, std::size_t> places{}; // of the members of an object, once there are many
+        bool isExtra = false;                         // part of extras
+        std::map<std::string, std::size_t> indices{}; // of the members; built once there are kFew
 
-        // The member of that name; a new one where there is none.
-        Json& place(string_t& name)
+        // The member with this name; created if it is missing.
+        Json& memberNamed(string_t& name)
         {
-            constexpr std::size_t kFew = 16, kMost = 4096;
+            constexpr std::size_t kFew = 16, kMaxMembers = 4096;
             auto& members = value->get_ref<Json::object_t&>();
             if (members.size() < kFew) {
                 for (auto& [known, member] : members)
                     if (known == name)
                         return member;
             } else {
-                if (places.empty())
+                if (indices.empty())
                     for (const auto& [known, member] : members)
-                        places.emplace(known, places.size());
-                if (const auto [known, isNew] = places.emplace(name, members.size()); !isNew)
+                        indices.emplace(known, indices.size());
+                if (const auto [known, isNew] = indices.emplace(name, members.size()); !isNew)
                     return (members.begin() + std::ptrdiff_t(known->second))->second;
             }
-            if (members.size() >= kMost && !isExtra) // readers look for names one by one
-                failGltf("JSON: expected at most {} members in an object outside extras, found more", kMost);
+            if (members.size() >= kMaxMembers && !isExtra) // readers search members linearly
+                failGltf("JSON: expected at most {} members in an object outside extras, found more", kMaxMembers);
             return members.emplace_back(std::move(name), nullptr).second;
         }
     };
 
-    // The end of what was read, on one line.
+    // The end of `read`, quoted on one line.
     static std::string quotedTail(std::string_view read)
     {
         constexpr std::size_t kMax = 24;
@@ -150,7 +150,7 @@ private:
         return "'" + tail + "'";
     }
 
-    // Where the next value goes: the root, a member, or the end of an array.
+    // Stores the next value as the root, a member, or the end of an array, and returns it there.
     Json& put(Json&& value)
     {
         if (levels_.empty())
@@ -171,9 +171,9 @@ private:
 
     bool open(Json&& value)
     {
-        constexpr std::size_t kDeepest = 128; // what walks through a document recurses once a level
-        if (levels_.size() >= kDeepest)
-            failGltf("JSON: nested deeper than {} levels", kDeepest);
+        constexpr std::size_t kMaxDepth = 128; // code that walks the document recurses once per level
+        if (levels_.size() >= kMaxDepth)
+            failGltf("JSON: nested deeper than {} levels", kMaxDepth);
         levels_.push_back({&put(std::move(value)), isExtra_});
         return true;
     }
@@ -186,14 +186,14 @@ private:
     }
 
     std::string_view text_;
-    std::vector<Level> levels_; // the objects and arrays that are open
-    Json* member_ = nullptr;    // of the innermost, named last
-    bool isExtra_ = false;      // the next value
+    std::vector<Level> levels_; // open objects and arrays
+    Json* member_ = nullptr;    // the innermost object's member named last
+    bool isExtra_ = false;      // whether the next value is part of extras
 };
 
 // ---- URIs -----------------------------------------------------------------------------------
 
-// The value of each base64 character, -1 for all others.
+// The value of each base64 digit; -1 for all other characters.
 constexpr std::array<signed char, 256> kBase64 = [] {
     std::array<signed char, 256> values{};
     values.fill(-1);
@@ -203,7 +203,7 @@ constexpr std::array<signed char, 256> kBase64 = [] {
     return values;
 }();
 
-// RFC 4648, padding optional. Nothing if there is any other character or a dangling digit.
+// Decodes RFC 4648 base64; padding is optional. Nothing for any other character or an incomplete last group.
 std::optional<std::vector<std::byte>> decodeBase64(std::string_view text)
 {
     for (int i = 0; i < 2 && text.ends_with('='); ++i)
@@ -228,8 +228,8 @@ std::optional<std::vector<std::byte>> decodeBase64(std::string_view text)
     return bytes;
 }
 
-// "data:TYPE/SUBTYPE;base64,..." as RFC 2397 has it; the media type may be left out and may have
-// parameters, each of which needs a name.
+// Decodes "data:TYPE/SUBTYPE;base64,..." of RFC 2397. The media type may be missing and may have parameters, each of
+// which needs a name.
 std::vector<std::byte> decodeDataUri(std::string_view uri, const std::string& field)
 {
     const std::size_t comma = uri.find(',');
@@ -292,12 +292,12 @@ Result<std::vector<std::byte>> readGltfResource(const GltfFile& file, const fs::
     return bytes;
 }
 
-void takeBytes(std::uint64_t& taken, std::uint64_t bytes, std::uint64_t most, const char* what, std::size_t fileBytes,
+void takeBytes(std::uint64_t& taken, std::uint64_t bytes, std::uint64_t limit, const char* what, std::size_t fileBytes,
                const std::string& field)
 {
-    most = std::min<std::uint64_t>(most, std::numeric_limits<std::size_t>::max());
-    if (bytes > most - std::min(taken, most))
-        failGltf("{}: {} {} bytes with it, the limit is {} for a file of {}", field, what, taken + bytes, most,
+    limit = std::min<std::uint64_t>(limit, std::numeric_limits<std::size_t>::max());
+    if (bytes > limit - std::min(taken, limit))
+        failGltf("{}: {} {} bytes in total, the limit is {} for a file of {} bytes", field, what, taken + bytes, limit,
                  fileBytes);
     taken += bytes;
 }
@@ -315,7 +315,7 @@ GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& 
         failGltf("GLB header: expected the file to begin with \"glTF\"");
     file.json = parseGltfJson(file.isBinary ? splitChunks(file, warnings) : file.bytes);
     if (!file.isBinary)
-        file.bytes = {}; // large where buffers are embedded as text
+        file.bytes = {}; // can be large if buffers are embedded as text
     return file;
 }
 
@@ -323,7 +323,7 @@ GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const st
 {
     if (uri.starts_with("data:"))
         return {{}, decodeDataUri(uri, field)};
-    if (const std::size_t end = uri.find_first_of(":/?#"); end != uri.npos && uri[end] == ':') // a scheme
+    if (const std::size_t end = uri.find_first_of(":/?#"); end != uri.npos && uri[end] == ':') // a URI scheme
         failGltf("{}: expected a file in the model's folder, found \"{}\"", field, oneLine(uri));
     if (file.readFile)
         return {decodePercent(uri), {}};
@@ -369,10 +369,10 @@ void loadGltfBuffers(GltfFile& file, const LoadLimits& limits)
         } else if (i == 0 && file.isBinary) {
             bytes = file.binary;
         } else {
-            failGltf("{}.uri: missing; only the first buffer of a GLB may go without", field);
+            failGltf("{}.uri: missing; only the first buffer of a GLB may omit it", field);
         }
         if (length > bytes.size())
-            failGltf("{}.byteLength: {} bytes are promised, found {}", field, length, bytes.size());
+            failGltf("{}.byteLength: expected {} bytes, found {}", field, length, bytes.size());
         file.buffers.push_back(bytes.first(length));
     }
 }

@@ -1,5 +1,4 @@
-// A glTF file up to the point where its JSON is known to have the right shape and its buffers are
-// in memory. Nothing here interprets the model.
+// A glTF file with checked JSON structure and buffers in memory. Nothing here interprets the model.
 #pragma once
 
 #include <cstddef>
@@ -18,107 +17,108 @@
 
 namespace cotan {
 
-// Where the bytes of a resource come from: a file in the model's folder, or decoded bytes.
+// A resource of the model: a file in the model's folder, or decoded bytes.
 struct GltfResource {
-    std::filesystem::path file; // canonical; empty if the bytes are here
+    std::filesystem::path file; // canonical; empty if `bytes` holds the resource
     std::vector<std::byte> bytes;
 };
 
-// Words of a GLB: its first, "glTF", and the types of its chunks.
+// Four-byte codes of GLB: the magic "glTF" and the chunk types.
 inline constexpr std::uint32_t kGlbMagic = 0x46546C67, kGlbJson = 0x4E4F534A, kGlbBinary = 0x004E4942;
 
 inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
 inline constexpr const char* kMeshoptExtensions[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 
-// Compressed geometry as the file has it, for who writes the file again: nobody has to compress what nobody changed.
+// Compressed geometry as stored in the file. Writing restores the parts that were not changed without compressing
+// again.
 struct GltfPacked {
     struct Primitive {
         std::size_t mesh = 0, primitive = 0;
-        gltf::Json draco;      // what KHR_draco_mesh_compression says
-        int indices = 0;       // the accessor
-        gltf::Json attributes; // by name the accessors
+        gltf::Json draco;      // the object of KHR_draco_mesh_compression
+        int indices = 0;       // accessor
+        gltf::Json attributes; // accessors by name
     };
     std::vector<Primitive> primitives;
-    std::map<int, gltf::Json> accessors;     // those that the streams fill, as the file has them
-    std::map<std::size_t, gltf::Json> views; // those of meshoptimizer, likewise
-    std::vector<std::string> required;       // which of the extensions the file requires
+    std::map<int, gltf::Json> accessors;     // accessors that Draco fills, as stored in the file
+    std::map<std::size_t, gltf::Json> views; // views compressed by meshoptimizer, as stored in the file
+    std::vector<std::string> required;       // the compression extensions that the file requires
 };
 
 struct GltfFile {
-    std::function<Result<std::vector<std::byte>>(const std::string&)> readFile; // in place of the disk; LoadLimits
-    std::filesystem::path folder;                                               // canonical; nothing outside is opened
-    std::vector<std::byte> bytes;                                               // the whole file, where it is a GLB
+    std::function<Result<std::vector<std::byte>>(const std::string&)> readFile; // LoadLimits::readFile, or none
+    std::filesystem::path folder;                                               // canonical; no file outside is opened
+    std::vector<std::byte> bytes;                                               // the whole file if it is a GLB
     std::span<const std::byte> binary; // the BIN chunk of a GLB; empty if there is none
     bool isBinary = false;
-    std::size_t modelBytes = 0; // of the model itself
-    std::size_t size = 0;       // the same and, once they are loaded, the bytes of its buffer files
+    std::size_t modelBytes = 0; // size of the model file
+    std::size_t size = 0;       // modelBytes and, once loaded, the size of its buffer files
     gltf::Json json;
     std::vector<std::span<const std::byte>> buffers;                     // one for each buffer, exactly byteLength long
     std::map<std::filesystem::path, std::vector<std::byte>> bufferFiles; // each is read once
     std::vector<std::vector<std::byte>> bufferBytes;                     // decoded data URIs
     std::vector<std::vector<std::byte>> unpackedBytes;                   // of buffers that unpackGltf has made
-    std::uint64_t unpacked = 0;                                          // how many bytes those are
-    GltfPacked packed;                                                   // what they were made of
+    std::uint64_t unpacked = 0;                                          // total size of unpackedBytes
+    GltfPacked packed;                                                   // the compressed source of unpackedBytes
 };
 
-// In time that grows with the length of the text alone. Of members of the same name the last counts. Throws
-// GltfProblem where it is no JSON, and where it is nested too deep.
+// Parses JSON in time linear in the length of the text. If a name repeats in an object, the last member wins. Throws
+// GltfProblem for invalid JSON, too deep nesting, and too many members in an object.
 gltf::Json parseGltfJson(std::span<const std::byte> text);
 
-// Reads the file, splits a GLB into chunks and parses the JSON. Every length is checked against the file.
+// Reads the file, splits a GLB into chunks and parses the JSON. Every length is checked against the file size.
 GltfFile openGltf(const std::filesystem::path& path, const LoadLimits& limits, GltfWarnings& warnings);
 
-// The bytes of a resource that is a file, be it on the disk or not.
+// The bytes of a resource that is a file, from LoadLimits::readFile or the disk.
 Result<std::vector<std::byte>> readGltfResource(const GltfFile& file, const std::filesystem::path& resource,
                                                 const LoadLimits& limits);
 
-// Whether a buffer has no bytes because all its views are compressed: EXT_meshopt_compression's fallback.
+// Whether a buffer is a fallback of EXT_meshopt_compression: it has no bytes because all its views are compressed.
 bool isGltfFallback(const gltf::Json& buffer);
 
-// Fills GltfFile::buffers; those of isGltfFallback stay empty. The JSON must have passed checkGltfShape.
+// Fills GltfFile::buffers; fallback buffers stay empty. The JSON must have passed checkGltfShape.
 void loadGltfBuffers(GltfFile& file, const LoadLimits& limits);
 
-// The bytes of a buffer view. field: for the message. Throws GltfProblem where it ends behind its buffer.
+// The bytes of a buffer view. field: for the message. Throws GltfProblem if the view ends beyond its buffer.
 std::span<const std::byte> gltfViewBytes(const GltfFile& file, const gltf::BufferView& view, const std::string& field);
 
-// The name of a file as a URI has it: "%20" becomes a space. A percent sign that starts no code stands for itself:
-// files named so exist, written by exporters that do not encode.
+// Decodes percent-encoding in a file name of a URI: "%20" becomes a space. A percent sign that starts no valid code is
+// kept, because some exporters do not encode it.
 std::string decodePercent(std::string_view uri);
 
-// What a URI of the model stands for. Data URIs are decoded. Files are looked up in the model's folder; schemes,
-// absolute paths and anything that leads out of the folder, be it by ".." or by a symbolic link, are refused. field:
-// where the URI stands, for messages. mayMiss: a file that does not exist gives an empty resource instead of a failure.
+// Resolves a URI of the model. Data URIs are decoded. Files are looked up in the model's folder; schemes, absolute
+// paths and paths out of the folder, by ".." or a symbolic link, throw GltfProblem. field: the URI's location, for
+// messages. mayMiss: a missing file gives an empty resource instead of an error.
 GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const std::string& field, bool mayMiss = false);
 
-// Checks that every member the reader uses has the type, range and length that the glTF 2.0 specification asks for, and
-// that every index points at something. Also the version and the required extensions.
+// Checks type, range and length of every member that the reader uses against the glTF 2.0 specification, all indices,
+// the version and the required extensions. Throws GltfProblem.
 void checkGltfShape(const gltf::Json& root, const LoadLimits& limits, GltfWarnings& warnings);
 
-// The same for what poseGltf reads.
+// The same for the members that poseGltf reads.
 void checkGltfAnimations(const gltf::Json& root);
 
 // ---- compressed geometry: KHR_draco_mesh_compression, EXT_ and KHR_meshopt_compression ------
 
-// Decodes what the extensions hold into new buffers, points views and accessors there, and takes the extensions out of
-// the JSON: nothing behind this has to know of them. Where the plain numbers are in the file too, those are taken. The
-// buffers must be loaded. Decoded bytes count in GltfFile::unpacked; over limits.geometryBytes and 64 times the size of
-// the file they are refused before they are decoded.
-// Throws GltfProblem: damaged streams; ErrorKind::unavailable where this build lacks the decoder.
+// Decodes compressed geometry into new buffers, redirects views and accessors to them, and removes the extensions from
+// the JSON, so that later code does not see any compression. If uncompressed data exist too, they are used instead. The
+// buffers must be loaded. Decoded bytes count in GltfFile::unpacked; more than limits.geometryBytes plus 64 times the
+// size of the file are refused before they are decoded.
+// Throws GltfProblem: damaged streams; ErrorKind::unavailable if this build lacks the decoder.
 void unpackGltf(GltfFile& file, const LoadLimits& limits);
 
-// Adds bytes to those that are taken already. Throws GltfProblem where they are more than `most`, or than std::size_t
-// holds, with it. what: the message's subject and verb; fileBytes: the size of the file, for the message too.
-void takeBytes(std::uint64_t& taken, std::uint64_t bytes, std::uint64_t most, const char* what, std::size_t fileBytes,
+// Adds `bytes` to `taken`. Throws GltfProblem if the sum exceeds `limit` or std::size_t. what: subject and verb of the
+// message; fileBytes: the size of the file, for the message.
+void takeBytes(std::uint64_t& taken, std::uint64_t bytes, std::uint64_t limit, const char* what, std::size_t fileBytes,
                const std::string& field);
 
-// A buffer view as EXT_meshopt_compression has it.
+// A buffer view compressed with EXT_meshopt_compression.
 struct MeshoptView {
     std::span<const std::byte> bytes;
     std::size_t count = 0, stride = 0; // of the elements
-    std::string mode, filter;          // the extension's words
+    std::string mode, filter;          // names as in the extension
 };
 
-// count * stride bytes. field: for messages. Throws GltfProblem.
+// Returns count * stride decoded bytes. field: for messages. Throws GltfProblem.
 std::vector<std::byte> decodeMeshopt(const MeshoptView& view, const std::string& field);
 
 } // namespace cotan

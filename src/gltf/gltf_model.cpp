@@ -1,5 +1,5 @@
-// What a file holds: materials and collections as plain values, and its accessors, checked: every offset, stride and
-// count is looked at once, then read without doubt.
+// Reads materials and collections as plain values, and checks the accessors: every offset, stride and count is checked
+// once, and reads then rely on it.
 #include "gltf_model.hpp"
 
 #include <algorithm>
@@ -25,20 +25,20 @@ float numberOf(const Json& object, std::string_view name, double otherwise)
 
 float unitRange(double x) { return float(std::clamp(x, 0.0, 1.0)); }
 
-// Not negative, and no brighter than what lamps and products with it can bear.
-glm::vec3 colorOf(const Json& object, std::string_view name, const glm::vec3& otherwise, double most)
+// A colour clamped to [0,maximum], so that products with it stay finite in float.
+glm::vec3 colorOf(const Json& object, std::string_view name, const glm::vec3& otherwise, double maximum)
 {
-    return glm::vec3(glm::clamp(vectorOr(object, name, glm::dvec3(otherwise)), 0.0, most));
+    return glm::vec3(glm::clamp(vectorOr(object, name, glm::dvec3(otherwise)), 0.0, maximum));
 }
 
-// 0 stands for infinity; between 0 and 1 there is nothing that the extension allows.
+// 0 stands for infinity; the extension allows no values between 0 and 1.
 float readIor(const Json& ior)
 {
     const float index = numberOf(ior, "ior", 1.5);
     return index == 0 ? 0.0f : std::max(index, 1.0f);
 }
 
-// An object; where it is missing, one without members.
+// The object, or an empty one if it is missing.
 const Json& orNone(const Json* object)
 {
     static const Json none = Json::object();
@@ -48,7 +48,7 @@ const Json& orNone(const Json* object)
 // The scale of a normal map.
 float scaleOf(const Json& owner, const char* slot) { return float(readTextureUse(member(owner, slot)).scale); }
 
-// What extensions say of light on the surface. One that is missing has the defaults of one without members.
+// Reads the layers that extensions add. A missing extension has the defaults of an empty one.
 void readLayers(const Json& source, const TextureOf& texture, Material& m)
 {
     const Json& coat = orNone(extension(source, "KHR_materials_clearcoat"));
@@ -91,12 +91,12 @@ void readLayers(const Json& source, const TextureOf& texture, Material& m)
         m.transmission.map = texture(transmission, "transmissionTexture");
 }
 
-// What a camera or light says under the name of its kind.
+// The object of a camera or light that is named like its type.
 const Json& described(const Json& object, const std::string& kind, const std::string& field)
 {
     const Json* const description = member(object, kind);
     if (!description)
-        failGltf("{}.{}: missing; its type is \"{}\"", field, kind, kind);
+        failGltf("{}.{}: missing, although the type is \"{}\"", field, kind, kind);
     return *description;
 }
 
@@ -107,7 +107,7 @@ Camera readCamera(const Json& source, const std::string& field)
     Camera camera;
     camera.name = valueOr(source, "name", std::string());
     camera.orthographic = kind == "orthographic";
-    // Sizes that show nothing, or more than half a sphere, are brought to the nearest usable one.
+    // Sizes that show nothing, or more than half a sphere, are clamped to the nearest usable size.
     if (camera.orthographic)
         camera.verticalExtent = float(std::max(2 * std::abs(description["ymag"].get<double>()), 1e-6));
     else
@@ -170,7 +170,7 @@ Material readMaterial(const Json& source, const TextureOf& texture)
 Structure readStructure(const Json& root)
 {
     Structure s;
-    std::size_t at = 0; // for messages
+    std::size_t at = 0; // the field's index in its collection, for messages
     s.scenes = readAll(&root, "scenes", [](const Json& scene) { return valueOr(scene, "nodes", std::vector<int>()); });
     s.defaultScene = valueOr(root, "scene", -1);
     s.nodes = readAll(&root, "nodes", readNode);
@@ -202,7 +202,7 @@ namespace {
 
 constexpr const char* kVariants = "KHR_materials_variants";
 
-// By number or by name, of several the first. Of an extension nothing has been checked.
+// By name (the first that matches) or number. Extensions have not been checked.
 std::size_t findVariant(const Json& root, const std::string& wanted)
 {
     std::vector<std::string> names;
@@ -215,8 +215,8 @@ std::size_t findVariant(const Json& root, const std::string& wanted)
     return findNamed(names, wanted, "variants");
 }
 
-// Gives every primitive that has one for limits.variant its material there (KHR_materials_variants); the others keep
-// theirs. Throws GltfProblem: ErrorKind::usage where the model has no such variant; damaged mappings.
+// Sets the material of limits.variant on each primitive that has one (KHR_materials_variants); the others keep theirs.
+// Throws GltfProblem: ErrorKind::usage if there is no such variant; ErrorKind::input for damaged mappings.
 void chooseGltfVariant(GltfModel& model)
 {
     Json& root = model.file.json;
@@ -239,8 +239,8 @@ void chooseGltfVariant(GltfModel& model)
                 continue;
             const Json material = found->value("material", Json());
             if (!material.is_number_unsigned() || material.get<std::uint64_t>() >= materials)
-                failGltf("{}.extensions.{}: expected the number of one of {} materials, found {}", primitiveField(m, p),
-                         kVariants, materials, oneLine(material.dump()));
+                failGltf("{}.extensions.{}: expected an index below {}, the number of materials, found {}",
+                         primitiveField(m, p), kVariants, materials, oneLine(material.dump()));
             primitives[p]["material"] = material;
         }
     }
@@ -248,7 +248,7 @@ void chooseGltfVariant(GltfModel& model)
 
 // ---- accessors ------------------------------------------------------------------------------
 
-// Accessors that serve as nothing but texture coordinates: there a NaN is replaced, not refused.
+// Accessors used only as texture coordinates: NaN in them is replaced instead of refused.
 std::set<int> texcoordAccessors(const gltf::Structure& structure)
 {
     std::set<int> texcoords, others;
@@ -261,20 +261,21 @@ std::set<int> texcoordAccessors(const gltf::Structure& structure)
     return texcoords;
 }
 
-// Fills GltfModel::views and ::accessors. Checks all buffer views, and all accessors with their sparse parts, against
-// the buffers and against the allowance, and refuses NaN and infinity in float accessors other than texture
-// coordinates. The readers below rely on it.
+// Fills GltfModel::views and GltfModel::accessors. Checks all buffer views and accessors, sparse values included,
+// against the buffers and the allowance. Throws GltfProblem for NaN and infinity in float accessors other than texture
+// coordinates. All readers of accessors rely on these checks.
 void findAccessors(GltfModel& model)
 {
-    std::size_t at = 0; // for messages
+    std::size_t at = 0; // index of the view, for messages
     model.views = gltf::readAll(&model.file.json, "bufferViews", [&](const Json& json) {
         const gltf::BufferView view = gltf::readBufferView(json);
         return gltf::ViewBytes{gltfViewBytes(model.file, view, fmt::format("bufferViews[{}]", at++)), view.stride};
     });
     const std::set<int> texcoords = texcoordAccessors(model.structure);
-    // Accessors without a view are zeros that cost the file nothing, and many may share one view: what they add up to
-    // bounds memory and time. Counts are below 2^53 and elements at most 64 bytes, so one of them overflows nothing.
-    const std::uint64_t most = gltfAllowance(model);
+    // Accessors without a view are zeros that cost the file nothing, and many accessors may share one view, so their
+    // total size bounds memory and time. Counts are below 2^53 and elements at most 64 bytes, so a single product
+    // cannot overflow.
+    const std::uint64_t limit = gltfAllowance(model);
     std::uint64_t total = 0;
     std::size_t i = 0;
     model.accessors = gltf::readAll(&model.file.json, "accessors", [&](const Json& json) {
@@ -282,7 +283,7 @@ void findAccessors(GltfModel& model)
         const Accessor a = gltf::readAccessor(json);
         Elements elements = gltf::findElements(
             a, [&](std::size_t view) { return model.views[view]; }, field);
-        takeBytes(total, std::uint64_t(a.count) * gltf::elementSize(a), most, "the accessors take", model.file.size,
+        takeBytes(total, std::uint64_t(a.count) * gltf::elementSize(a), limit, "the accessors take", model.file.size,
                   field);
         gltf::checkSparse(elements, field);
         if (!texcoords.contains(int(i++)))
@@ -301,7 +302,7 @@ std::size_t findNamed(const std::vector<std::string>& names, const std::string& 
     if (parseNumber(std::string_view(wanted), number) && number < names.size())
         return number;
     throw GltfProblem{usageError(
-        names.empty() ? fmt::format("expected a model with {} for \"{}\", it has none", what, wanted)
+        names.empty() ? fmt::format("expected a model with {} for \"{}\", found none", what, wanted)
                       : fmt::format("expected one of its {} {} by number or name ({}), found \"{}\"", names.size(),
                                     what, oneLine(fmt::format("{}", fmt::join(names, ", "))), wanted))};
 }

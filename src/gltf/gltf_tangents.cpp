@@ -32,7 +32,7 @@ Result<GltfPrimitiveGeometry> readPrimitive(const GltfDocument& document, std::s
     GltfPrimitiveGeometry read{m, p, mesh.value("name", fmt::format("mesh {}", m)), std::move(*geometry), {}};
     if (mesh["primitives"].size() > 1)
         read.name += fmt::format("/{}", p);
-    read.cannot = whyNoTangents(read.geometry);
+    read.reason = whyNoTangents(read.geometry);
     makeUnit(read.geometry.normals);
     return read;
 }
@@ -46,8 +46,8 @@ bool hasNormalMap(const Json& root, std::size_t m, std::size_t p)
     });
 }
 
-// Calls visit(geometry, row), with the row filled as far as the file alone fills it, for each primitive that the
-// options ask for; keeps the rows.
+// Calls visit(geometry, row) for each primitive that the options select and returns all rows. `row` then has the
+// members that the file alone determines.
 template<class Visit>
 Result<std::vector<PrimitiveTangents>> rowsOf(const GltfDocument& document, const TangentsOptions& options,
                                               const Visit& visit)
@@ -66,7 +66,7 @@ Result<std::vector<PrimitiveTangents>> rowsOf(const GltfDocument& document, cons
                 return read.error();
             PrimitiveTangents& row =
                 rows.emplace_back(PrimitiveTangents{m, p, read->name, read->geometry.indices.size() / 3,
-                                                    !read->geometry.tangents.empty(), false, read->cannot});
+                                                    !read->geometry.tangents.empty(), false, read->reason});
             visit(*read, row);
         }
         if (options.progress && !options.progress(double(++done) / double(all)))
@@ -78,7 +78,7 @@ Result<std::vector<PrimitiveTangents>> rowsOf(const GltfDocument& document, cons
     return rows;
 }
 
-// glTF asks for unit tangents: where MikkTSpace has zero, since directions cancel out, any will do.
+// glTF requires unit tangents: any will do where MikkTSpace gives zero because directions cancel.
 std::vector<glm::vec4> unitForFile(std::vector<glm::vec4> tangents)
 {
     for (glm::vec4& t : tangents)
@@ -104,12 +104,12 @@ Result<std::vector<GltfPrimitiveGeometry>> gltfPrimitives(const GltfDocument& do
     return all;
 }
 
-Result<TangentsGiven> giveTangents(GltfDocument& document, const TangentsOptions& options)
+Result<GiveTangentsResult> giveTangents(GltfDocument& document, const TangentsOptions& options)
 {
-    TangentsGiven given;
+    GiveTangentsResult given;
     std::vector<GltfCornerTangents> tangents;
     auto rows = rowsOf(document, options, [&](const GltfPrimitiveGeometry& read, PrimitiveTangents& row) {
-        if (!row.cannot.empty()) {
+        if (!row.reason.empty()) {
             ++given.skipped;
         } else if (row.stored && !options.replace) {
             ++given.kept;
@@ -130,11 +130,11 @@ Result<TangentsGiven> giveTangents(GltfDocument& document, const TangentsOptions
     return given;
 }
 
-Result<TangentsCompared> compareTangents(const GltfDocument& document, const TangentsOptions& options)
+Result<CompareTangentsResult> compareTangents(const GltfDocument& document, const TangentsOptions& options)
 {
-    TangentsCompared compared;
+    CompareTangentsResult compared;
     auto rows = rowsOf(document, options, [&](const GltfPrimitiveGeometry& read, PrimitiveTangents& row) {
-        if (!row.cannot.empty())
+        if (!row.reason.empty())
             return;
         if (!row.stored) {
             ++compared.without;

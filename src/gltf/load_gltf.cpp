@@ -1,4 +1,4 @@
-// glTF 2.0 and GLB files to Scene.
+// Converts glTF 2.0 and GLB files to a Scene.
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -11,7 +11,7 @@ namespace cotan {
 
 namespace {
 
-// A mesh of the file as one node needs it: primitives depend on the node where there are morph weights or a skin.
+// A mesh of the file as used by a node: morph weights and skin make its primitives depend on the node.
 struct MeshUse {
     int mesh = -1;
     int skin = -1;
@@ -22,7 +22,7 @@ struct MeshUse {
     }
 };
 
-// The first `count` float matrices; there may be more.
+// Returns the first `count` matrices of a MAT4 float accessor, which may have more.
 std::vector<glm::mat4> readMatrices(GltfModel& model, int accessor, std::size_t count, const std::string& field)
 {
     const gltf::Elements& elements = model.accessors[std::size_t(accessor)];
@@ -46,7 +46,7 @@ public:
     {
     }
 
-    // images: in the place of those that would be decoded; null: decode them.
+    // images: replace those that would be decoded; null: decode them.
     void build(const std::vector<Image>* images)
     {
         readSkins();
@@ -64,7 +64,7 @@ public:
     }
 
 private:
-    // For each joint its world matrix times its inverse bind matrix.
+    // Computes for each joint its world matrix times its inverse bind matrix.
     void readSkins()
     {
         for (std::size_t i = 0; i < model_.structure.skins.size(); ++i) {
@@ -89,7 +89,7 @@ private:
 
     const gltf::Mesh& sourceMesh(int mesh) const { return model_.structure.meshes[std::size_t(mesh)]; }
 
-    // The scene's meshes for a use, made when it is met first.
+    // The scene's meshes for a use, created on first use.
     const std::vector<int>& meshesFor(const MeshUse& use)
     {
         const auto [entry, isNew] = made_.emplace(use, std::vector<int>());
@@ -121,7 +121,7 @@ private:
         return use;
     }
 
-    // A skin puts vertices into world space by itself: the node's transform does not count.
+    // Skinned vertices are in world space already, so the transform of their node is not applied.
     void placeMeshes()
     {
         for (const int node : nodes_.visible) {
@@ -133,7 +133,7 @@ private:
             const std::vector<glm::mat4> placements =
                 use.skin >= 0 ? std::vector<glm::mat4>{glm::mat4(1)} : gltfPlacements(model_, nodes_, node);
             if (meshes.size() * placements.size() > model_.limits.nodes - scene_.instances.size())
-                failGltf("nodes[{}]: the limit is {} instances in all", node, model_.limits.nodes);
+                failGltf("nodes[{}]: the limit is {} instances in total", node, model_.limits.nodes);
             for (const glm::mat4& placement : placements)
                 for (const int mesh : meshes)
                     scene_.instances.push_back(
@@ -141,7 +141,7 @@ private:
         }
     }
 
-    // Meshes that no node shows are read and dropped: damage in them is damage in the file.
+    // Meshes that no node shows are read and discarded, so that damage in them is reported too.
     void checkUnusedMeshes()
     {
         std::vector<bool> used(model_.structure.meshes.size(), false);
@@ -167,7 +167,7 @@ Scene build(GltfModel& model, const std::filesystem::path& path, const std::vect
     scene.name = path.stem().string();
     SceneBuilder(model, scene).build(images);
     scene.warnings = model.warnings.lines();
-    for (std::string& line : followStoredTangents(scene))
+    for (std::string& line : reconcileGreenWithTangents(scene))
         scene.warnings.push_back(std::move(line));
     return scene;
 }
@@ -176,7 +176,7 @@ Scene load(const std::filesystem::path& path, const LoadLimits& limits)
 {
     GltfModel model;
     readGltfModel(model, path, limits);
-    // Materials and the URIs of images are all that is still read from the JSON. They stay where they are: URIs are
+    // From here on only materials and image URIs are read from the JSON. They must not move, because URIs are string
     // views.
     for (auto& [collection, items] : model.file.json.get_ref<gltf::Json::object_t&>())
         if (collection != "materials" && collection != "images")
@@ -194,7 +194,7 @@ Result<Scene> loadGltf(const std::filesystem::path& file, const LoadLimits& limi
 struct AnimatedGltf::Work {
     std::filesystem::path path;
     GltfModel model;
-    // As they were when it was opened: a pose changes them.
+    // State after opening, restored before each pose.
     std::vector<gltf::Node> nodes;
     GltfWarnings warnings;
     std::uint64_t bytesTaken = 0;

@@ -22,25 +22,25 @@ GltfRoot::~GltfRoot() = default;
 
 namespace {
 
-// besides: a slot that is left out.
-void collectTextures(const Json& object, const std::vector<const Json*>& besides, std::set<std::size_t>& textures)
+// excluded: slots that are skipped.
+void collectTextures(const Json& object, const std::vector<const Json*>& excluded, std::set<std::size_t>& textures)
 {
     if (object.is_array())
         for (const Json& item : object)
-            collectTextures(item, besides, textures);
+            collectTextures(item, excluded, textures);
     if (!object.is_object())
         return;
     for (const auto& [key, value] : object.items()) {
-        if (std::ranges::find(besides, &value) != besides.end())
+        if (std::ranges::find(excluded, &value) != excluded.end())
             continue;
         const Json* const index = key.size() >= 7 && key.ends_with("exture") ? gltf::member(value, "index") : nullptr;
         if (index && index->is_number_unsigned())
             textures.insert(index->get<std::size_t>());
-        collectTextures(value, besides, textures);
+        collectTextures(value, excluded, textures);
     }
 }
 
-// Where a material has a normal map; null where it has none.
+// The texture info of a material's normal map; null if it has none.
 const Json* slotOf(const Json& material, NormalSlot slot)
 {
     return slot == NormalSlot::surface
@@ -68,7 +68,7 @@ std::vector<std::size_t> materialsOf(const Json& root, const Json& primitive)
     };
     add(primitive);
     const Json* const mappings = gltf::member(gltf::extension(primitive, "KHR_materials_variants"), "mappings");
-    if (mappings && mappings->is_structured()) // of an extension nothing has been checked
+    if (mappings && mappings->is_structured()) // extensions have not been checked
         for (const Json& mapping : *mappings)
             add(mapping);
     return materials;
@@ -152,9 +152,9 @@ void takeOffExtension(Json& root, const std::string& name)
     }
 }
 
-// ---- as it stands in the world --------------------------------------------------------------
+// ---- the geometry in world space ------------------------------------------------------------
 
-std::vector<std::vector<glm::dmat3>> gltfPlacings(const Json& root)
+std::vector<std::vector<glm::dmat3>> gltfMeshTransforms(const Json& root)
 {
     std::vector<std::vector<glm::dmat3>> result(countOf(root, "meshes"));
     const std::vector<gltf::Node> nodes = gltf::readAll(&root, "nodes", gltf::readNode);
@@ -166,17 +166,17 @@ std::vector<std::vector<glm::dmat3>> gltfPlacings(const Json& root)
     for (std::size_t n = 0; n < nodes.size(); ++n)
         if (!child[n])
             open.emplace_back(n, glm::dmat3(1));
-    while (!open.empty()) { // a forest: openGltfDocument has checked it
+    while (!open.empty()) { // a forest, as openGltfDocument has checked
         const auto [n, above] = open.back();
         open.pop_back();
         const gltf::Node& node = nodes[n];
         const glm::dmat3 here = above * glm::dmat3(gltf::localMatrix(node));
         for (const int c : node.children)
             open.emplace_back(std::size_t(c), here);
-        if (node.mesh >= 0) // a skin replaces the node
-            addPlacing(result[std::size_t(node.mesh)], node.skin >= 0 ? glm::dmat3(1) : here);
+        if (node.mesh >= 0) // a skin replaces the node's transform
+            addDistinctLinearMap(result[std::size_t(node.mesh)], node.skin >= 0 ? glm::dmat3(1) : here);
     }
-    placeUnshown(result);
+    addIdentityWhereEmpty(result);
     return result;
 }
 

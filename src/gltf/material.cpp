@@ -46,20 +46,20 @@ ImageSource findImage(const GltfModel& model, int image, bool mayMiss = false)
     return source;
 }
 
-// What glTF and its extensions allow; the many other formats that the image library can read are kept
-// away from data that come with a model. foreign: set to the format of an image that stays without pixels.
+// Decodes an image in one of the formats that glTF and its extensions allow; models cannot make the image library's
+// many other decoders run. foreign: set to the format of an image that is left without pixels.
 Image decode(const GltfFile& model, ImageSource source, const LoadLimits& limits, std::string& foreign)
 {
     if (!source.resource.file.empty())
         source.bytes = source.resource.bytes = valueOrFail(readGltfResource(model, source.resource.file, limits));
     if (limits.pixels == Pixels::whereReadable)
-        foreign = foreignFormat(source.bytes);
+        foreign = unreadableFormat(source.bytes);
     if (!foreign.empty()) {
         Image image;
         image.name = fmt::format("{} ({})", source.name, foreign);
         return image;
     }
-    if (pictureFormat(source.bytes).empty())
+    if (imageFormatName(source.bytes).empty())
         failGltf("expected PNG or JPEG data in {}", source.name);
     Result<Image> image = decodeImage(source.bytes, source.name, limits);
     if (!image)
@@ -67,8 +67,8 @@ Image decode(const GltfFile& model, ImageSource source, const LoadLimits& limits
     return std::move(*image);
 }
 
-// Takes the bytes of an image from what is left of `all`, which those of one model may take together. Images that are
-// decoded at the same time saw the same rest, so they may be over it by one image a thread until this notices.
+// Subtracts the bytes of an image from `left`, the rest of the budget `all` for the images of one model. Images decoded
+// at the same time see the same rest, so memory may exceed the budget by one image per thread before this throws.
 void takeFrom(std::atomic<std::size_t>& left, std::size_t bytes, std::size_t all)
 {
     std::size_t rest = left.load();
@@ -79,15 +79,15 @@ void takeFrom(std::atomic<std::size_t>& left, std::size_t bytes, std::size_t all
     } while (!left.compare_exchange_weak(rest, rest - bytes));
 }
 
-// What is wrong with an image as far as that shows without decoding it. Throws GltfProblem.
-void lookAt(const GltfModel& model, int image, bool used)
+// Checks an image as far as possible without decoding it. Throws GltfProblem.
+void checkUndecodedImage(const GltfModel& model, int image, bool used)
 {
-    // Signature, length and type, IHDR's 13 bytes, checksum.
+    // Signature, chunk length and type, 13 bytes of IHDR, checksum.
     constexpr std::size_t kPngHeader = 33;
     ImageSource source = findImage(model, image, /*mayMiss*/ true);
     if (!source.resource.file.empty()) {
         if (model.file.readFile)
-            return; // nothing is fetched only to be looked at
+            return; // nothing is fetched only for a check
         std::error_code error;
         const std::uintmax_t size = fs::file_size(source.resource.file, error);
         if (error || size == 0 || size >= kPngHeader)
@@ -96,8 +96,8 @@ void lookAt(const GltfModel& model, int image, bool used)
             valueOrFail(readGltfResource(model.file, source.resource.file, model.limits));
     }
     if (isPng(source.bytes) && source.bytes.size() < kPngHeader)
-        failGltf("{}: the PNG {} ends in its header", imageField(image), source.name);
-    if (used && !source.bytes.empty() && pictureFormat(source.bytes).empty())
+        failGltf("{}: the PNG {} ends within its header", imageField(image), source.name);
+    if (used && !source.bytes.empty() && imageFormatName(source.bytes).empty())
         failGltf("{}: expected PNG or JPEG data in {}", imageField(image), source.name);
 }
 
@@ -109,17 +109,17 @@ Texture GltfMaterials::texture(const gltf::TextureUse& use, const Mesh& mesh, co
     if (use.texture < 0)
         return texture;
     const gltf::Texture& source = model_.structure.textures[std::size_t(use.texture)];
-    // Its own, or the one that an extension gives it in another format.
+    // the texture's own image, or an extension's image in a format that is not read here
     const int image = source.image >= 0 || model_.limits.pixels == Pixels::all ? source.image : source.foreign;
     if (image < 0) {
-        model_.warnings.add(fmt::format("textures[{}]", use.texture), "no PNG or JPEG image, the texture is left out");
+        model_.warnings.add(fmt::format("textures[{}]", use.texture), "no PNG or JPEG image; the texture is ignored");
         return texture;
     }
     const int set = use.texcoord;
     if (set < 0 || set > 1 || mesh.texcoords[std::size_t(set)].empty()) {
         model_.warnings.add(
             field,
-            fmt::format("it asks for TEXCOORD_{}, which is missing from a mesh that uses it; left out there", set));
+            fmt::format("requires TEXCOORD_{}, which a mesh with this material lacks; it is ignored there", set));
         return texture;
     }
     texture.texcoord = set;
@@ -144,7 +144,7 @@ Material GltfMaterials::make(int index, const Mesh& mesh)
         frame = frameFromName(named);
         if (!frame)
             model_.warnings.add(fmt::format("materials[{}].extras.{}", index, gltf::kFrameExtra),
-                                fmt::format("expected the name of a frame, found '{}'; left out", oneLine(named)));
+                                fmt::format("expected the name of a frame, found '{}'; ignored", oneLine(named)));
     }
     Material material = gltf::readMaterial(source, [&](const gltf::Json& owner, const char* slot) {
         return texture(gltf::readTextureUse(gltf::member(owner, slot)), mesh,
@@ -165,7 +165,7 @@ int GltfMaterials::use(int material, const Mesh& mesh)
 
 // ---- images ---------------------------------------------------------------------------------
 
-// Of the model with its buffers, and of the images beside it.
+// Size of the model, its buffers and the image files beside it.
 std::uint64_t GltfMaterials::bytesOfFiles() const
 {
     std::uint64_t bytes = model_.file.size;
@@ -182,7 +182,7 @@ std::uint64_t GltfMaterials::bytesOfFiles() const
     return bytes;
 }
 
-// The first image of the file that has the same bytes in a view; those with a URI stand for themselves.
+// The first image whose view has the same bytes. Images with a URI are not compared.
 int GltfMaterials::firstEqual(int image)
 {
     const gltf::Image& entry = imageAt(model_, image);
@@ -217,10 +217,10 @@ void GltfMaterials::decodeImages()
             problems[i] = {reworded(problem.error, imageField(image) + ": " + problem.error.message)};
         }
     };
-    // What is not ours may not like threads.
-    const bool ours = !model_.limits.decode && !model_.file.readFile;
-    withThreads(ours ? 0 : 1, [&] { parallelFor(std::size_t(0), jobs.size(), decodeOne); });
-    for (const GltfProblem& problem : problems) // the first in the file, whichever came first
+    // Callbacks may not be thread-safe.
+    const bool noCallbacks = !model_.limits.decode && !model_.file.readFile;
+    withThreads(noCallbacks ? 0 : 1, [&] { parallelFor(std::size_t(0), jobs.size(), decodeOne); });
+    for (const GltfProblem& problem : problems) // the first in the file, whichever failed first
         if (!problem.error.message.empty())
             throw problem;
     for (const Material& material : scene_.materials)
@@ -228,7 +228,7 @@ void GltfMaterials::decodeImages()
             completeNormals(scene_.images[std::size_t(material.normalMap.image)]);
     for (std::size_t i = 0; i < jobs.size(); ++i)
         if (!foreign[i].empty())
-            model_.warnings.add(imageField(jobs[i].first), fmt::format("{} is not read here", foreign[i]));
+            model_.warnings.add(imageField(jobs[i].first), fmt::format("{} is not supported", foreign[i]));
 }
 
 void GltfMaterials::checkUnusedImages() const
@@ -236,13 +236,13 @@ void GltfMaterials::checkUnusedImages() const
     for (int i = 0; i < int(model_.structure.images.size()); ++i) {
         const bool used = slots_.contains(i);
         if (used && model_.limits.pixels != Pixels::none)
-            continue; // it was decoded
+            continue; // already decoded
         try {
-            lookAt(model_, i, used);
+            checkUndecodedImage(model_, i, used);
         } catch (const GltfProblem& problem) {
-            if (used || scene_.instances.empty()) // or the images are all that there is
+            if (used || scene_.instances.empty()) // or the model consists of images only
                 throw;
-            model_.warnings.add(problem.error.message, "nothing uses this image, it is left out");
+            model_.warnings.add(problem.error.message, "this unused image is ignored");
         }
     }
 }

@@ -1,4 +1,4 @@
-// A primitive moved by its skin; its normals and tangents, checked and made fit for use.
+// Skins a primitive; checks and repairs its normals and tangents.
 #include "gltf_model.hpp"
 
 #include <algorithm>
@@ -17,13 +17,13 @@ namespace cotan {
 
 namespace {
 
-// Lengths within this of one are taken as unit: the corners of a signed 8-bit grid are off by up
-// to sqrt(3)/2/127 = 0.0069.
+// Lengths within this distance of 1 count as unit: on a signed 8-bit grid, rounding changes a vector by up to
+// sqrt(3)/2/127 = 0.0069.
 constexpr float kUnitTolerance = 0.01f;
 
 // ---- normals --------------------------------------------------------------------------------
 
-// glTF asks for flat normals where a primitive has none. Triangles without area get a zero normal.
+// glTF requires flat normals if a primitive has none. Triangles without area get a zero normal.
 void makeFlat(Mesh& mesh)
 {
     separateCorners(mesh);
@@ -44,8 +44,8 @@ void normalizeNormals(Mesh& mesh, const std::string& field, GltfWarnings& warnin
         odd += length > 0 && std::abs(length - 1) > kUnitTolerance;
         n = unitNormal(n);
     }
-    warnings.add(field + ".NORMAL", "zero length, no direction known", zero, "vertices");
-    warnings.add(field + ".NORMAL", "not of unit length, normalised", odd, "vertices");
+    warnings.add(field + ".NORMAL", "zero length, so the direction is unknown", zero, "vertices");
+    warnings.add(field + ".NORMAL", "not of unit length; normalised", odd, "vertices");
 }
 
 // ---- tangents -------------------------------------------------------------------------------
@@ -65,11 +65,11 @@ void normalizeTangents(Mesh& mesh, const std::string& field, GltfWarnings& warni
         t.w = t.w < 0 ? -1.0f : 1.0f;
     }
     warnings.add(field + ".TANGENT", "zero length", zero, "vertices");
-    warnings.add(field + ".TANGENT", "not of unit length, normalised", odd, "vertices");
-    warnings.add(field + ".TANGENT", "w is not +-1, its sign is taken", signs, "vertices");
+    warnings.add(field + ".TANGENT", "not of unit length; normalised", odd, "vertices");
+    warnings.add(field + ".TANGENT", "w is not +-1; only its sign is used", signs, "vertices");
 }
 
-// Twice the signed area of a triangle in uv.
+// Twice the signed area of a triangle in uv space.
 float uvArea(const Mesh& mesh, const std::vector<glm::vec2>& uv, std::size_t first)
 {
     const glm::vec2 a = uv[mesh.indices[first]];
@@ -78,9 +78,9 @@ float uvArea(const Mesh& mesh, const std::vector<glm::vec2>& uv, std::size_t fir
     return p.x * q.y - p.y * q.x;
 }
 
-// The handedness that the uv of a triangle ask for, seen from the side its normals are on: glTF's
-// bitangent points against +v (v runs down), so a triangle that is not mirrored, whose area in
-// (u, v) is negative, has w = +1. 0: unknown, because uv or triangle have no area.
+// The handedness implied by a triangle's uv, seen from the side that its normals point to. glTF's bitangent points
+// against +v (v points down), so a triangle that is not mirrored, whose area in (u, v) is negative, has w = +1. 0:
+// unknown, because the triangle has no area in uv or in space.
 int handednessFromUv(const Mesh& mesh, const std::vector<glm::vec2>& uv, std::size_t first)
 {
     const auto corner = [&](std::size_t k) { return mesh.indices[first + k]; };
@@ -121,7 +121,7 @@ void checkUvArea(const Mesh& mesh, int set, const std::string& field, GltfWarnin
     std::size_t flat = 0;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
         flat += uvArea(mesh, uv, i) == 0;
-    warnings.add(field, "no area in the texture coordinates of the normal map: no frame there", flat, "triangles");
+    warnings.add(field, "no area in the texture coordinates of the normal map: undefined frame", flat, "triangles");
 }
 
 // ---- skins ----------------------------------------------------------------------------------
@@ -141,8 +141,8 @@ Blend blend(const GltfPrimitive& primitive, std::size_t vertex, const std::vecto
                 continue;
             const std::size_t joint = primitive.joints[set][vertex][k];
             if (joint >= joints.size())
-                failGltf("{}.JOINTS_{}: vertex {} names joint {}, but the skin has {}", primitive.field, set, vertex,
-                         joint, joints.size());
+                failGltf("{}.JOINTS_{}: vertex {} refers to joint {}, but the skin has {}", primitive.field, set,
+                         vertex, joint, joints.size());
             sum.matrix += joints[joint] * weight;
             sum.weight += weight;
         }
@@ -153,7 +153,7 @@ Blend blend(const GltfPrimitive& primitive, std::size_t vertex, const std::vecto
 
 glm::vec3 unitNormal(const glm::vec3& normal)
 {
-    constexpr double kRounding = 2e-6; // as far as floats and six decimals go; quantised normals are up to 0.007 off
+    constexpr double kRounding = 2e-6; // above float and six-decimal rounding; quantised normals differ by up to 0.007
     return std::abs(glm::length(glm::dvec3(normal)) - 1) > kRounding ? unitOrZero(normal) : normal;
 }
 
@@ -174,9 +174,9 @@ Mesh finishGltfMesh(GltfPrimitive&& source, int normalMapSet, GltfWarnings& warn
     Mesh mesh = std::move(source.mesh);
     for (const glm::vec3& p : mesh.positions)
         if (!isFinite(p))
-            failGltf("{}: a position is beyond the range of float once it is morphed and skinned", source.field);
+            failGltf("{}: a position is beyond the range of float after morphing and skinning", source.field);
     if (mesh.normals.empty()) {
-        warnings.add(source.field, "no NORMAL, flat normals are made");
+        warnings.add(source.field, "no NORMAL; flat normals are generated");
         makeFlat(mesh);
     } else {
         normalizeNormals(mesh, source.field, warnings);
@@ -184,7 +184,7 @@ Mesh finishGltfMesh(GltfPrimitive&& source, int normalMapSet, GltfWarnings& warn
     normalizeTangents(mesh, source.field, warnings);
     if (normalMapSet == 0 || normalMapSet == 1)
         checkUvArea(mesh, normalMapSet, source.field, warnings);
-    else // where there is a normal map, followStoredTangents judges all that read it together
+    else // with a normal map, reconcileGreenWithTangents judges all its meshes together
         checkHandedness(mesh, source.field, warnings);
     return mesh;
 }
@@ -195,7 +195,7 @@ void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& 
     std::size_t mirrored = 0, loose = 0;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const Blend sum = blend(primitive, i, joints);
-        if (!(std::abs(sum.weight) > 1e-6)) { // weights are parts of one: less is nothing
+        if (!(std::abs(sum.weight) > 1e-6)) { // weights are fractions of one; smaller sums are zero
             ++loose;
             continue;
         }
@@ -215,7 +215,7 @@ void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& 
     if (mirrored == mesh.positions.size())
         for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
             std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
-    warnings.add(primitive.field, "skinned without weights, left in place", loose, "vertices");
+    warnings.add(primitive.field, "skinned without weights; not moved", loose, "vertices");
 }
 
 } // namespace cotan

@@ -1,5 +1,5 @@
-// The codecs and filters of EXT_meshopt_compression. libmeshoptimizer's decoders take untrusted bytes; what they assert
-// about sizes is checked here.
+// The codecs and filters of EXT_meshopt_compression. libmeshoptimizer's decoders accept untrusted bytes but assert
+// their size arguments, which are checked here.
 #include <meshoptimizer.h>
 
 #include "gltf_file.hpp"
@@ -8,7 +8,7 @@ namespace cotan {
 
 namespace {
 
-// What the specification of the extension allows; that the stride is from 1 to 256 the JSON's tables hold.
+// Checks the rules of the extension's specification; the tables of the JSON ensure a stride from 1 to 256.
 void checkSizes(const MeshoptView& view, const std::string& field)
 {
     const bool attributes = view.mode == "ATTRIBUTES";
@@ -23,8 +23,8 @@ void checkSizes(const MeshoptView& view, const std::string& field)
         failGltf("{}.byteStride: expected 4 or 8 for filter OCTAHEDRAL, found {}", field, view.stride);
     if (view.filter == "QUATERNION" && view.stride != 8)
         failGltf("{}.byteStride: expected 8 for filter QUATERNION, found {}", field, view.stride);
-    if (view.filter == "COLOR") // of the extension's later form
-        failGltf("{}.filter: COLOR is not read here; expected NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL", field);
+    if (view.filter == "COLOR") // KHR_meshopt_compression only
+        failGltf("{}.filter: COLOR is not supported; expected NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL", field);
 }
 
 int decodeStream(const MeshoptView& view, std::vector<std::byte>& out)

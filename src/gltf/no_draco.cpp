@@ -1,4 +1,4 @@
-// KHR_draco_mesh_compression where there is no Draco.
+// KHR_draco_mesh_compression in builds without Draco.
 #include "core/not_built.hpp"
 #include "gltf/draco.hpp"
 

@@ -1,4 +1,4 @@
-// EXT_meshopt_compression where there is no libmeshoptimizer.
+// EXT_meshopt_compression in builds without libmeshoptimizer.
 #include "core/not_built.hpp"
 #include "gltf_file.hpp"
 

@@ -1,4 +1,4 @@
-// The node hierarchy, and what hangs on it besides meshes.
+// The node hierarchy, instances, lights and cameras.
 #include "gltf_model.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ const gltf::Node& nodeAt(const GltfModel& model, int node) { return model.struct
 
 std::string nodeField(int node) { return fmt::format("nodes[{}]", node); }
 
-// The last row is made exact: exporters that compose in float leave rounding there.
+// Sets the last row to its exact value: exporters that multiply in float leave rounding errors there.
 glm::dmat4 affine(glm::dmat4 m, const std::string& field)
 {
     constexpr double kRounding = 1e-4;
@@ -33,11 +33,11 @@ glm::dmat4 localOf(GltfModel& model, int node)
 {
     const gltf::Node& n = nodeAt(model, node);
     if (!n.matrix && std::abs(glm::length(n.rotation) - 1) > 0.01)
-        model.warnings.add(nodeField(node) + ".rotation", "not a unit quaternion, normalised");
+        model.warnings.add(nodeField(node) + ".rotation", "not a unit quaternion; normalised");
     return affine(gltf::localMatrix(n), nodeField(node));
 }
 
-// Parents of all nodes, -1 for roots.
+// The parent of each node; -1 for roots.
 std::vector<int> findParents(const GltfModel& model)
 {
     std::vector<int> parents(model.structure.nodes.size(), -1);
@@ -51,8 +51,8 @@ std::vector<int> findParents(const GltfModel& model)
     return parents;
 }
 
-// The nodes below the given ones and themselves, parents first, in the order of the file. A list
-// instead of recursion: a chain of a million nodes is a valid file.
+// The given nodes and all their descendants, parents first, in file order. Uses an explicit stack instead of recursion:
+// a chain of a million nodes is a valid file.
 std::vector<int> withDescendants(const GltfModel& model, const std::vector<int>& roots)
 {
     std::vector<int> found;
@@ -92,10 +92,10 @@ std::vector<glm::dmat4> worldMatrices(GltfModel& model, const std::vector<int>& 
         if (!isFinite(glm::mat4(world[i])))
             failGltf("nodes[{}]: its transform is beyond the range of float", node);
     }
-    // With one parent each, what no root leads to can only be a ring.
-    const auto ring = std::find(reached.begin(), reached.end(), false);
-    if (ring != reached.end())
-        failGltf("nodes[{}]: it is its own descendant", ring - reached.begin());
+    // Every node has at most one parent, so a node that no root reaches is on a cycle.
+    const auto cycle = std::find(reached.begin(), reached.end(), false);
+    if (cycle != reached.end())
+        failGltf("nodes[{}]: it is its own descendant", cycle - reached.begin());
     return world;
 }
 
@@ -113,7 +113,7 @@ std::vector<int> shownRoots(GltfModel& model, const std::vector<int>& parents)
 
 void warnIfFlat(GltfModel& model, const glm::dmat4& world, int node)
 {
-    // Relative to the lengths of the axes: small objects are not flat ones.
+    // Relative to the axis lengths, since small objects are not flat.
     constexpr double kFlat = 1e-9;
     const glm::dmat3 m(world);
     const double axes = glm::length(m[0]) * glm::length(m[1]) * glm::length(m[2]);
@@ -146,7 +146,7 @@ std::vector<glm::dmat4> instanceMatrices(GltfModel& model, const gltf::Attribute
     return matrices;
 }
 
-// A unit vector along an axis of a transform, or `otherwise` where its scale is zero.
+// The unit vector along an axis of a transform, or `otherwise` if its scale is zero.
 glm::vec3 axis(const glm::dvec4& column, const glm::vec3& otherwise)
 {
     const double length = glm::length(glm::dvec3(column));
@@ -182,7 +182,7 @@ void addGltfLightsAndCameras(const GltfModel& model, const GltfNodes& nodes, Sce
     for (const int node : nodes.visible) {
         const gltf::Node& n = nodeAt(model, node);
         const glm::dmat4& world = nodes.world[std::size_t(node)];
-        const glm::vec3 position(world[3]), ahead = -axis(world[2], {0, 0, 1}); // both look along -z
+        const glm::vec3 position(world[3]), ahead = -axis(world[2], {0, 0, 1}); // lights and cameras look along -z
         if (n.light >= 0) {
             Light& light = scene.lights.emplace_back(model.structure.lights[std::size_t(n.light)]);
             light.position = position;

@@ -1,4 +1,4 @@
-// Reads one primitive: attributes, morph targets, and any topology made into triangles.
+// Reads one primitive: attributes, morph targets, and any topology as triangles.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -17,12 +17,12 @@ namespace {
 void take(std::size_t& taken, std::size_t limit, std::size_t count, const char* what, const std::string& field)
 {
     if (count > limit - taken)
-        failGltf("{}: the limit is {} {} in all, this one brings {}", field, limit, what, count);
+        failGltf("{}: the limit is {} {} in total, this one adds {}", field, limit, what, count);
     taken += count;
 }
 
-// Vertices are counted before memory and time are taken for them; so are morph targets and sets of
-// joints, because a few bytes of JSON can ask for any number of them.
+// Vertices are counted before memory and time are spent on them; so are morph targets and sets of joints, because a few
+// bytes of JSON can request any number of them.
 void takeVertices(GltfModel& model, std::size_t count, const std::string& field)
 {
     take(model.verticesTaken, model.limits.vertices, count, "vertices", field);
@@ -47,7 +47,7 @@ std::vector<T> makeArray(GltfModel& model, std::size_t count, const T& value, co
     return std::vector<T>(count, value);
 }
 
-// VEC3 (w = 1) or VEC4.
+// Reads VEC3 (with w = 1) or VEC4 colours.
 std::vector<glm::vec4> readColors(GltfModel& model, int accessor, const Choice& choice, const std::string& field)
 {
     if (accessorAt(model, accessor).type != ElementType::vec3)
@@ -72,7 +72,7 @@ std::vector<glm::uvec4> readJointSet(GltfModel& model, int accessor, const Choic
     return joints;
 }
 
-// Vertex indices, each below vertexCount and none the primitive restart value.
+// Returns vertex indices. Throws GltfProblem if one is not below vertexCount or is the primitive restart value.
 std::vector<std::uint32_t> readIndices(GltfModel& model, int accessor, std::size_t vertexCount,
                                        const std::string& field)
 {
@@ -103,7 +103,7 @@ void readTexcoords(GltfModel& model, const gltf::Primitive& source, const Choice
             continue;
         const std::string field = out.field + "." + name;
         if (name != "TEXCOORD_0" && name != "TEXCOORD_1") {
-            model.warnings.add(out.field, oneLine(name) + " is ignored: two uv sets are read");
+            model.warnings.add(out.field, oneLine(name) + " is ignored: only two uv sets are supported");
             continue;
         }
         std::vector<glm::vec2>& set = out.mesh.texcoords[name == "TEXCOORD_0" ? 0 : 1];
@@ -114,7 +114,7 @@ void readTexcoords(GltfModel& model, const gltf::Primitive& source, const Choice
                 uv = glm::vec2(0);
                 ++bad;
             }
-        model.warnings.add(field, "not a finite number, replaced by 0", bad, "vertices");
+        model.warnings.add(field, "not a finite number; replaced by 0", bad, "vertices");
     }
 }
 
@@ -164,7 +164,7 @@ template<class Vector> void addScaled(std::vector<Vector>& to, const std::vector
     }
 }
 
-// Targets of weight zero are read all the same, so that damage in them is found.
+// Targets of weight zero are read too, so that damage in them is found.
 void morph(GltfModel& model, const gltf::Primitive& source, const std::vector<double>& weights, const Choice& choice,
            GltfPrimitive& out)
 {
@@ -180,7 +180,7 @@ void morph(GltfModel& model, const gltf::Primitive& source, const std::vector<do
         add("POSITION", out.mesh.positions);
         add("NORMAL", out.mesh.normals);
         add("TANGENT", out.mesh.tangents);
-        model.bytesTaken = kept; // the differences are not held
+        model.bytesTaken = kept; // the differences are freed
     }
 }
 
@@ -191,7 +191,7 @@ std::vector<std::uint32_t> unroll(int mode, const std::vector<std::uint32_t>& or
     std::vector<std::uint32_t> triangles;
     triangles.reserve(order.size() * 3);
     for (std::size_t i = 0; i + 2 < order.size(); ++i) {
-        // With the winding that the specification gives to a strip or fan.
+        // Winding as the specification defines it for strips and fans.
         const auto [a, b, c] = mode == gltf::kTriangleStrip ? std::array{i, i + 1 + i % 2, i + 2 - i % 2}
                                                             : std::array{i + 1, i + 2, std::size_t(0)};
         if (order[a] == order[b] || order[b] == order[c] || order[c] == order[a])
@@ -201,20 +201,20 @@ std::vector<std::uint32_t> unroll(int mode, const std::vector<std::uint32_t>& or
     return triangles;
 }
 
-// A table of all vertices: for primitives that use a good part of them.
+// Uses a table of all vertices, for primitives that use a large fraction of them.
 std::vector<std::uint32_t> byTable(std::vector<std::uint32_t>& corners, std::size_t count)
 {
-    std::vector<std::uint32_t> place(count, 0);
+    std::vector<std::uint32_t> newIndex(count, 0);
     for (const std::uint32_t corner : corners)
-        place[corner] = 1;
+        newIndex[corner] = 1;
     std::vector<std::uint32_t> used;
     for (std::uint32_t vertex = 0; vertex < count; ++vertex)
-        if (place[vertex]) {
-            place[vertex] = std::uint32_t(used.size());
+        if (newIndex[vertex]) {
+            newIndex[vertex] = std::uint32_t(used.size());
             used.push_back(vertex);
         }
     for (std::uint32_t& corner : corners)
-        corner = place[corner];
+        corner = newIndex[corner];
     return used;
 }
 
@@ -241,9 +241,9 @@ std::vector<std::uint32_t> readTriangles(GltfModel& model, const gltf::Primitive
     if (source.mode == gltf::kTriangles) {
         if (order.size() % 3 != 0)
             model.warnings.add(out.field,
-                               "the number of corners is not a multiple of 3; the last triangle is left out");
+                               "the number of corners is not a multiple of 3; the incomplete triangle is ignored");
     } else if (source.mode == gltf::kTriangleStrip || source.mode == gltf::kTriangleFan) {
-        takeTriangles(model, order.size(), out.field); // before the array grows by three
+        takeTriangles(model, order.size(), out.field); // before the array grows to three times its size
         model.trianglesTaken -= order.size();
         takeGltfBytes(model, 3 * std::uint64_t(order.size()) * sizeof order[0], out.field);
     } else {
@@ -266,7 +266,7 @@ std::vector<std::uint32_t> gltfTriangles(int mode, std::vector<std::uint32_t> or
 
 std::vector<std::uint32_t> takeUsedVertices(std::vector<std::uint32_t>& corners, std::size_t count)
 {
-    constexpr std::size_t kFewUsed = 8; // vertices a corner: about where the search is as fast
+    constexpr std::size_t kFewUsed = 8; // vertices per corner, about where both methods are equally fast
     return count / kFewUsed < corners.size() ? byTable(corners, count) : bySearch(corners);
 }
 
@@ -297,9 +297,9 @@ std::optional<GltfPrimitive> readGltfPrimitive(GltfModel& model, int mesh, std::
     morph(model, source, morphWeights, choice, out);
     if (out.mesh.indices.empty())
         return std::nullopt;
-    if (out.mesh.normals.empty()) { // flat normals need a vertex a corner
+    if (out.mesh.normals.empty()) { // flat normals need a vertex per corner
         takeVertices(model, out.mesh.indices.size(), out.field);
-        // What a corner holds at most: position and normal, two sets of uv, a colour.
+        // Maximum size of a corner: position and normal, two sets of uv, a colour.
         constexpr std::size_t kCornerBytes = 2 * sizeof(glm::vec3) + 2 * sizeof(glm::vec2) + sizeof(glm::vec4);
         takeGltfBytes(model, std::uint64_t(out.mesh.indices.size()) * kCornerBytes, out.field);
     }

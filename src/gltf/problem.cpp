@@ -16,7 +16,7 @@ void GltfWarnings::add(const std::string& where, const std::string& what, std::s
     if (count == 0 && !unit.empty())
         return;
     auto same = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.what == what; });
-    // Names from the file may make every line different; nobody reads thousands.
+    // Names from the file may make every line different, so the number of lines is limited.
     constexpr std::size_t kMax = 100;
     if (same == entries_.end() && entries_.size() >= kMax) {
         ++leftOut_;
@@ -47,14 +47,14 @@ std::vector<std::string> GltfWarnings::lines() const
 
 std::string oneLine(std::string_view text)
 {
-    constexpr std::size_t kLongest = 500;
-    std::string line(text.substr(0, kLongest));
+    constexpr std::size_t kMaxLength = 500;
+    std::string line(text.substr(0, kMaxLength));
     for (char& c : line)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
             c = ' ';
     while (!line.empty() && line.back() == ' ')
         line.pop_back();
-    return text.size() > kLongest ? line + "..." : line;
+    return text.size() > kMaxLength ? line + "..." : line;
 }
 
 } // namespace cotan

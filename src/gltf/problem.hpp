@@ -1,4 +1,4 @@
-// How the parts of the glTF reader report trouble to loadGltf and openGltfDocument.
+// Error and warning reporting of the glTF reader.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@
 
 namespace cotan {
 
-// Thrown by the parts of the glTF reader, caught by caughtGltf alone, which turns it into an Error.
-// The message says field, expected, found; caughtGltf puts the file in front.
+// Thrown by the parts of the glTF reader; only caughtGltf catches it and turns it into an Error. The message names
+// field, expected and found; caughtGltf prepends the file.
 struct GltfProblem {
     Error error;
 };
@@ -27,7 +27,7 @@ template<class... Args> [[noreturn]] void failGltf(fmt::format_string<Args...> t
     throw GltfProblem{inputError(fmt::format(text, std::forward<Args>(args)...))};
 }
 
-// The value of a result. Throws GltfProblem with its error, which is then one of the file.
+// Returns the value of `result`. Throws GltfProblem with its error as ErrorKind::input.
 template<class T> T valueOrFail(Result<T> result)
 {
     if (!result)
@@ -35,15 +35,15 @@ template<class T> T valueOrFail(Result<T> result)
     return *std::move(result);
 }
 
-// For files of glTF 1.0, whose structure is another one. field: where that shows.
+// Reports a file of glTF 1.0, whose structure differs. field: the field that shows it.
 [[noreturn]] void failGltfVersion1(const std::string& field);
 
-// Collects what was odd but usable. The same complaint about many places becomes one line that
-// names the first place and counts the rest: a model of 44 parts should not print 44 lines.
+// Collects warnings about unusual but usable content. Equal warnings are merged into one line that names the first
+// location and counts the others: a model of 44 parts should not print 44 lines.
 class GltfWarnings {
 public:
-    // count and unit: how often it happened at that place, for example 12 "vertices"; they are summed over the places.
-    // Nothing is said of 0 of them.
+    // count and unit: number of occurrences at this location, such as 12 "vertices"; they are summed over all
+    // locations. A count of 0 with a unit adds nothing.
     void add(const std::string& where, const std::string& what, std::size_t count = 0, const std::string& unit = {});
 
     std::vector<std::string> lines() const;
@@ -57,10 +57,10 @@ private:
     std::size_t leftOut_ = 0;
 };
 
-// Text from a file made fit for a one-line message: control characters replaced, length capped.
+// Makes text from a file fit for a one-line message: replaces control characters and limits the length.
 std::string oneLine(std::string_view text);
 
-// What load() returns, and what it throws as an error: one line with the file's name in front, once.
+// Returns load(), or its exception as an error: one line that starts with the file name.
 template<class Load> auto caughtGltf(const std::filesystem::path& file, Load load) -> Result<decltype(load())>
 {
     const auto failed = [&](const Error& error) {
@@ -72,7 +72,7 @@ template<class Load> auto caughtGltf(const std::filesystem::path& file, Load loa
     } catch (const GltfProblem& problem) {
         return failed(problem.error);
     } catch (const std::bad_alloc&) {
-        return failed(inputError("not enough memory for what the file asks for"));
+        return failed(inputError("not enough memory for the data of the file"));
     } catch (const std::exception& problem) {
         return failed(inputError(problem.what()));
     }

@@ -1,5 +1,5 @@
-// What glTF's JSON has to look like, as tables: only the members that the reader uses. Source: the
-// JSON schemas of the glTF 2.0 specification and of the supported extensions.
+// Tables of the glTF JSON, limited to the members that the reader uses. Source: the JSON schemas of the glTF 2.0
+// specification and of the supported extensions.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ enum class Shape {
     integer, // low to high
     number,  // low to high
     text,
-    index,    // into the collection `refers`
+    index,    // index into the collection `refers`
     object,   // with the fields `inner`
     indexMap, // an object whose values are indices into `refers`
 };
@@ -26,10 +26,10 @@ struct Field;
 using Fields = std::span<const Field>;
 
 inline constexpr double kMaxInt = 2147483647.0;
-// Offsets, lengths and counts up to here can be added and multiplied by a stride (at most 252) in 64 bits: 2^53, or
-// what std::size_t holds.
+// Offsets, lengths and counts up to this limit can be added and multiplied by a stride (at most 252) in 64 bits: 2^53,
+// or the maximum of a 32-bit std::size_t.
 inline constexpr double kMaxSize = sizeof(std::size_t) < 8 ? 4294967295.0 : 9007199254740992.0;
-// No lamp or map is beyond these, and products with them stay finite in float.
+// Real lights and maps stay below these, and products with them stay finite in float.
 inline constexpr double kBrightest = 1e12;
 inline constexpr double kSteepest = 1e6;
 
@@ -90,7 +90,7 @@ constexpr Field required(Field field)
     return field;
 }
 
-// ---- the tables, leaves first ---------------------------------------------------------------
+// ---- the tables, innermost first ------------------------------------------------------------
 
 inline constexpr std::array kComponentTypes{gltf::kByte,          gltf::kUnsignedByte, gltf::kShort,
                                             gltf::kUnsignedShort, gltf::kUnsignedInt,  gltf::kFloat};
@@ -227,7 +227,7 @@ inline constexpr std::array kLight{text("name"),        required(text("type", kL
 inline constexpr std::array kLights{required(objects("lights", kLight))};
 inline constexpr std::array kRootExtensions{object("KHR_lights_punctual", kLights)};
 
-// Animations are looked at where one is asked for.
+// Animations are checked only when one is requested.
 inline constexpr std::string_view kInterpolations[] = {"LINEAR", "STEP", "CUBICSPLINE"};
 inline constexpr std::array kAnimationSampler{required(index("input", "accessors")),
                                               required(index("output", "accessors")),

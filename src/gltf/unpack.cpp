@@ -1,4 +1,4 @@
-// Compressed geometry of a glTF file, made plain: Draco streams where LoadLimits says in a process of their own.
+// Decompresses the geometry of a glTF file. Draco streams are decoded in a child process if LoadLimits requests it.
 #include <algorithm>
 #include <optional>
 #include <set>
@@ -15,16 +15,16 @@ using gltf::Json;
 
 namespace {
 
-// Elements of `each` bytes, each at a multiple of four.
-std::vector<std::byte> spaced(const std::vector<std::byte>& packed, std::size_t each)
+// Copies elements of `elementBytes` bytes so that each starts at a multiple of four.
+std::vector<std::byte> padElements(const std::vector<std::byte>& packed, std::size_t elementBytes)
 {
-    std::vector<std::byte> out(packed.size() / each * gltf::aligned(each));
-    for (std::size_t from = 0, to = 0; from < packed.size(); from += each, to += gltf::aligned(each))
-        std::copy_n(packed.begin() + std::ptrdiff_t(from), each, out.begin() + std::ptrdiff_t(to));
+    std::vector<std::byte> out(packed.size() / elementBytes * gltf::aligned(elementBytes));
+    for (std::size_t from = 0, to = 0; from < packed.size(); from += elementBytes, to += gltf::aligned(elementBytes))
+        std::copy_n(packed.begin() + std::ptrdiff_t(from), elementBytes, out.begin() + std::ptrdiff_t(to));
     return out;
 }
 
-// Whether an answer has the sizes that were asked for.
+// Whether the decoded arrays have the requested sizes.
 bool fits(const std::vector<DracoGeometry>& meshes, const std::vector<DracoJob>& jobs)
 {
     return std::ranges::equal(meshes, jobs, [](const DracoGeometry& mesh, const DracoJob& job) {
@@ -36,7 +36,7 @@ bool fits(const std::vector<DracoGeometry>& meshes, const std::vector<DracoJob>&
     });
 }
 
-// In this process or, where the limits name a program, in its own.
+// Decodes in this process or, if the limits name a program, in a child process.
 Result<std::vector<DracoGeometry>> decodeDraco(const std::vector<DracoJob>& jobs, const LoadLimits& limits)
 {
     if (limits.sandbox.program.empty())
@@ -77,14 +77,14 @@ public:
     }
 
 private:
-    // Counts bytes before they are decoded. Numbers are below 2^60.
+    // Counts bytes before they are decoded. Values are below 2^60.
     void take(std::uint64_t bytes, const std::string& field)
     {
         takeBytes(file_.unpacked, bytes, limits_.geometryBytes + 64 * std::uint64_t(file_.size),
                   "decoded geometry takes", file_.size, field);
     }
 
-    // A new buffer and a view of all of it; returns what the JSON of the view has to say.
+    // Adds a buffer with these bytes; returns the JSON of a view of all of it.
     Json viewOf(std::vector<std::byte> bytes)
     {
         Json& buffers = file_.json["buffers"];
@@ -114,7 +114,7 @@ private:
     void unpackView(std::size_t index, const Json& packed, const std::string& field)
     {
         Json& view = file_.json["bufferViews"][index];
-        const gltf::BufferView stored = gltf::readBufferView(packed); // has the same members
+        const gltf::BufferView stored = gltf::readBufferView(packed); // has the same members as a view
         MeshoptView from{gltfViewBytes(file_, stored, field), packed["count"].get<std::size_t>(), stored.stride,
                          packed["mode"].get<std::string>(), gltf::valueOr(packed, "filter", std::string("NONE"))};
         const std::uint64_t decoded = std::uint64_t(from.count) * from.stride;
@@ -132,7 +132,7 @@ private:
 
     Json& accessor(int index) { return file_.json["accessors"][std::size_t(index)]; }
 
-    // The stream of a primitive as it is wanted; nothing where all of it is there as plain numbers.
+    // The decoding job of a primitive; nothing if the file has all its data uncompressed too.
     std::optional<DracoJob> jobOf(const Json& primitive, const Json& draco, const std::string& field)
     {
         DracoJob job{field + ".extensions." + kDracoExtension, {}, 0, 0, 0, {}};
@@ -143,7 +143,7 @@ private:
         const auto add = [&](int target) {
             const gltf::Accessor a = gltf::readAccessor(accessor(target));
             if (a.sparse)
-                failGltf("{}: accessors[{}] has sparse values, which a compressed one must not", job.field, target);
+                failGltf("{}: accessors[{}] has sparse values, which compression forbids", job.field, target);
             plain = plain && a.view >= 0;
             targets.push_back(target);
             take(std::uint64_t(a.count) * gltf::elementSize(a), job.field);
@@ -155,7 +155,7 @@ private:
                 failGltf("{}.attributes.{}: expected the id of an attribute that the primitive has, found {}",
                          job.field, oneLine(name), oneLine(id.dump()));
             if (std::find(targets.begin(), targets.end(), target) != targets.end())
-                continue; // several names of one accessor: the first says which numbers they are
+                continue; // several names for one accessor: the first determines the values
             const gltf::Accessor a = add(target);
             if (job.attributes.empty())
                 job.vertices = a.count;
@@ -169,7 +169,7 @@ private:
             failGltf("{}.attributes: expected at least one, with vertices", job.field);
         const int indices = gltf::valueOr(primitive, "indices", -1);
         if (indices < 0)
-            failGltf("{}.indices: missing; compressed triangles have them", field);
+            failGltf("{}.indices: missing; required for compressed triangles", field);
         const gltf::Accessor a = add(indices);
         gltf::expectIndices(a, {indices, field + ".indices"});
         job.indices = a.count;
@@ -218,18 +218,18 @@ private:
             arrays.push_back(std::move((*meshes)[i].indices));
             for (std::size_t k = 0; k < arrays.size(); ++k) {
                 if (!filled.insert(targets_[i][k]).second)
-                    failGltf("{}: accessors[{}] belongs to another compressed primitive too", jobs_[i].field,
+                    failGltf("{}: accessors[{}] also belongs to another compressed primitive", jobs_[i].field,
                              targets_[i][k]);
                 Json& target = accessor(targets_[i][k]);
                 file_.packed.accessors.emplace(targets_[i][k], target);
                 target["bufferView"] = file_.json["bufferViews"].size();
                 target.erase("byteOffset");
-                const std::size_t each = k + 1 < arrays.size() ? arrays[k].size() / jobs_[i].vertices : 4;
-                Json view = viewOf(each % 4 == 0 ? std::move(arrays[k]) : spaced(arrays[k], each));
-                if (each % 4 != 0)
-                    view["byteStride"] = gltf::aligned(each);
+                const std::size_t elementBytes = k + 1 < arrays.size() ? arrays[k].size() / jobs_[i].vertices : 4;
+                Json view = viewOf(elementBytes % 4 == 0 ? std::move(arrays[k]) : padElements(arrays[k], elementBytes));
+                if (elementBytes % 4 != 0)
+                    view["byteStride"] = gltf::aligned(elementBytes);
                 file_.json["bufferViews"].push_back(std::move(view));
-                // Quantised numbers have other bounds than those that were compressed.
+                // Quantisation changes the bounds.
                 const gltf::Accessor a = gltf::readAccessor(target);
                 const std::vector<std::byte>& bytes = file_.unpackedBytes.back();
                 if (a.count > 0)
@@ -241,8 +241,8 @@ private:
     GltfFile& file_;
     const LoadLimits& limits_;
     std::vector<DracoJob> jobs_;
-    std::vector<std::vector<int>> targets_; // the accessors of each job: attributes, then indices
-    std::set<std::vector<int>> made_;       // those that have a job
+    std::vector<std::vector<int>> targets_; // accessors of each job: attributes, then indices
+    std::set<std::vector<int>> made_;       // accessor lists that have a job
 };
 
 } // namespace

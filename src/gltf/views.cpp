@@ -41,14 +41,14 @@ Sparse readSparse(const Json& sparse)
             .indicesType = indices["componentType"].get<int>()};
 }
 
-// KHR_texture_transform: scale, then turn, then shift. The turn is counter-clockwise as seen in the image, whose v runs
-// down; so its sine stands in the first row, not in the second. (The extension's example, offset (0,1), a quarter turn,
-// scale 1/2, has to select the lower left quadrant.) The extension may name another uv set than the texture itself.
+// KHR_texture_transform: scale, rotate, then translate. The rotation is counter-clockwise as seen in the image, whose v
+// points down, so its sine is positive in the first row. (The extension's example, offset (0,1), a quarter turn, scale
+// 1/2, has to select the lower left quadrant.) The extension may name a uv set that overrides that of the texture.
 void applyTransform(const Json& transform, TextureUse& use)
 {
     const auto offset = vectorOr(transform, "offset", glm::dvec2(0)),
                scale = vectorOr(transform, "scale", glm::dvec2(1));
-    const double turn = valueOr(transform, "rotation", 0.0), c = std::cos(turn), s = std::sin(turn);
+    const double angle = valueOr(transform, "rotation", 0.0), c = std::cos(angle), s = std::sin(angle);
     use.uRow = {c * scale.x, s * scale.y, offset.x};
     use.vRow = {-s * scale.x, c * scale.y, offset.y};
     use.texcoord = valueOr(transform, "texCoord", use.texcoord);
@@ -84,8 +84,8 @@ const Json* member(const Json& object, std::string_view name)
 
 Expansion expansionOf(const Json& material)
 {
-    const Json* const said = member(member(material, "extras"), kUnsignedKey);
-    return said && *said == "biased" ? Expansion::biased : Expansion::exact;
+    const Json* const stored = member(member(material, "extras"), kUnsignedKey);
+    return stored && *stored == "biased" ? Expansion::biased : Expansion::exact;
 }
 
 const Json* extension(const Json& object, std::string_view name)
@@ -253,7 +253,7 @@ Image readImage(const Json& image)
     return read;
 }
 
-// What the file leaves open becomes linear with mipmaps.
+// Filters that the file leaves open become linear with mipmaps.
 Sampler readSampler(const Json& sampler)
 {
     Sampler read;

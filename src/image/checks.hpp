@@ -1,4 +1,4 @@
-// What an image file says of itself, checked: its size, before anything is allocated for it, and its frame.
+// Checks of what an image file's header states: its size, before anything is allocated for it, and its frame.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ inline std::optional<Error> checkImageSize(std::int64_t width, std::int64_t heig
     if (width <= 0 || height <= 0)
         return inputError(fmt::format("{}: the image size is {} x {}", name, width, height));
     if (width > limits.imageSide || height > limits.imageSide)
-        return inputError(fmt::format("{}: the image size is {} x {}, the limit is {} a side", name, width, height,
+        return inputError(fmt::format("{}: the image size is {} x {}, the limit is {} per side", name, width, height,
                                       limits.imageSide));
     const std::uint64_t bytes = std::uint64_t(width) * std::uint64_t(height) * 4 * bytesPerComponent(type);
     if (bytes > limits.imageBytes)
@@ -33,13 +33,13 @@ inline std::optional<Error> checkImageSize(std::int64_t width, std::int64_t heig
     return std::nullopt;
 }
 
-// The key under which picture files say for which frame a normal map was made: text of PNG, an attribute of OpenEXR, a
-// key of KTX2.
+// The key under which image files store for which frame a normal map was made: a PNG text, an OpenEXR attribute, a KTX2
+// key.
 inline constexpr std::string_view kFrameKey = "cotanFrame";
 inline constexpr std::size_t kMaxFrameText = 64;
 
-// A value of that key as it may go into messages: up to 64 printable characters of ASCII, no spaces around. Others are
-// empty: nothing is said.
+// The value of kFrameKey, safe for messages: up to 64 printable ASCII characters without spaces. Empty for any other
+// value.
 inline std::string_view frameText(std::string_view value)
 {
     const bool printable = std::ranges::all_of(value, [](char c) { return c > ' ' && c < 0x7f; });

@@ -1,4 +1,4 @@
-// Between component types.
+// Conversion between component types, and generic access to components.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace cotan {
 
-// f(components, middle, one): the image's components as they are stored, and the middle and the end of their range.
+// Calls f(components, middle, one): the stored components of the image, and the middle and the maximum of their range.
 template<class F> void withComponents(Image& image, const F& f)
 {
     switch (image.type) {
@@ -17,11 +17,12 @@ template<class F> void withComponents(Image& image, const F& f)
     }
 }
 
-// The same picture at 8 bits: floats are clamped to [0,1] (NaN is 0), 16 bits rounded.
+// Converts to 8 bits: floats are clamped to [0,1] and NaN becomes 0; 16-bit values are rounded.
 Image toUnorm8(const Image& image);
 
-// Gives normals of two channels their third. Where blue is the middle and alpha 1 everywhere, as readers of BC5 and
-// other two-channel pictures leave them, blue becomes what the length 1 leaves; other pictures stay.
+// Reconstructs the z of two-channel normal maps. If blue is the middle value and alpha is 1 everywhere, as readers of
+// BC5 and other two-channel formats leave them, blue is set so that the normals have length 1; other images are
+// unchanged.
 void completeNormals(Image& image);
 
 } // namespace cotan

@@ -1,4 +1,4 @@
-// Whether an OpenEXR file holds the attributes and blocks that its header promises.
+// Checks that an OpenEXR file holds the attributes and blocks that its header describes.
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -12,7 +12,7 @@ namespace cotan::oiio {
 
 namespace {
 
-// Text up to its zero, at most 256 bytes: a name of that length has no end. `at` moves behind it.
+// A null-terminated string; `at` moves past its terminator. Stops at 256 bytes: such a name is unterminated.
 constexpr std::size_t kNoEnd = 256;
 
 std::string nameAt(Numbers& numbers, std::uint64_t& at)
@@ -26,8 +26,8 @@ std::string nameAt(Numbers& numbers, std::uint64_t& at)
     return name;
 }
 
-// Bytes from `at` that OpenEXR takes for a value of this type. It keeps to `size` for unknown types and text only;
-// where the two differ, the next attribute is not where the size says.
+// The number of bytes from `at` that OpenEXR reads for a value of this type. It honours `size` for unknown types and
+// text only. If the two differ, OpenEXR looks for the next attribute at another offset than `size` gives.
 std::uint64_t exrValueBytes(Numbers& numbers, std::uint64_t at, std::string_view type, std::uint64_t size)
 {
     constexpr Named<std::uint64_t> kFixed[] = {
@@ -39,7 +39,7 @@ std::uint64_t exrValueBytes(Numbers& numbers, std::uint64_t at, std::string_view
     if (type == "chlist") {
         std::uint64_t end = at;
         while (!nameAt(numbers, end).empty() && !numbers.past)
-            end += 16; // pixel type, linearity, two samplings
+            end += 16; // pixel type, linearity, two sampling rates
         return end - at;
     }
     if (type == "stringvector") {
@@ -57,7 +57,7 @@ std::uint64_t exrValueBytes(Numbers& numbers, std::uint64_t at, std::string_view
     return valueOf(kFixed, type).value_or(size);
 }
 
-// One attribute behind its name; `at` moves behind it.
+// Checks the attribute whose name ends at `at`, and moves `at` past it.
 Problem checkExrAttribute(Numbers& numbers, std::uint64_t& at)
 {
     const std::string type = nameAt(numbers, at);
@@ -68,23 +68,23 @@ Problem checkExrAttribute(Numbers& numbers, std::uint64_t& at)
                                       numbers.size() - std::min(at, numbers.size())));
     const std::uint64_t taken = exrValueBytes(numbers, at, type, size);
     if (numbers.past || taken != size)
-        return inputError(fmt::format("an attribute of its header has {} bytes, which its type does not take", size));
+        return inputError(fmt::format("an attribute of its header has {} bytes, which do not fit its type", size));
     at += size;
     return std::nullopt;
 }
 
-// What a header says about its blocks of rows or tiles. OpenEXR takes memory for one as soon as it opens a file.
+// What a header states about its blocks of rows or tiles. OpenEXR allocates a block as soon as it opens a file.
 struct ExrBlocks {
     std::int64_t width = 0, height = 0; // 0: not stated
-    std::uint64_t rows = 0;             // in a block; 0: not stated
+    std::uint64_t rows = 0;             // per block; 0: not stated
     std::uint64_t channels = 0;
-    std::uint64_t pixelBytes = 0; // not known, 0, where a channel leaves pixels out
+    std::uint64_t pixelBytes = 0; // 0: unknown, since a channel is subsampled
     std::uint64_t tileWidth = 0, tileHeight = 0;
     bool compressed = true;
-    bool deep = false; // lists of samples, which OpenImageIO refuses
+    bool deep = false; // lists of samples per pixel, which OpenImageIO refuses
 };
 
-// An attribute whose value ends at `end`.
+// Records the attribute `name`, whose value is [start,end), in `blocks`.
 void readExrBlocks(Numbers& numbers, std::string_view name, std::uint64_t start, std::uint64_t end, ExrBlocks& blocks)
 {
     const auto number = [&](std::uint64_t at) { return std::int64_t(std::int32_t(numbers.at(at, 4))); };
@@ -119,19 +119,19 @@ Problem checkExrBlocks(const ExrBlocks& blocks, const LoadLimits& limits)
 {
     if (blocks.width > limits.imageSide || blocks.height > limits.imageSide)
         return memoryError(
-            fmt::format("{} x {} pixels, the limit is {} a side", blocks.width, blocks.height, limits.imageSide));
+            fmt::format("{} x {} pixels, the limit is {} per side", blocks.width, blocks.height, limits.imageSide));
     const std::uint64_t row =
         std::uint64_t(std::max<std::int64_t>(blocks.width, 1)) * std::max<std::uint64_t>(blocks.rows, 1);
-    const std::uint64_t tile = blocks.tileWidth * blocks.tileHeight;                  // of 32 bits each
-    const std::uint64_t bytes = 4 * std::min<std::uint64_t>(blocks.channels, 0xffff); // of a pixel
+    const std::uint64_t tile = blocks.tileWidth * blocks.tileHeight;                  // of two 32-bit factors
+    const std::uint64_t bytes = 4 * std::min<std::uint64_t>(blocks.channels, 0xffff); // per pixel
     if (std::max(row, tile) > limits.imageBytes / std::max<std::uint64_t>(bytes, 1))
         return memoryError(fmt::format("its blocks have {} pixels of {} bytes, the limit is {} bytes",
                                        std::max(row, tile), bytes, limits.imageBytes));
     return std::nullopt;
 }
 
-// The blocks of the first part, level 0 of its tiles: from the table at `table`, each one with its pixels. OpenEXR
-// hands out what its memory held where one is shorter.
+// Checks the blocks of the first part, of level 0 if it is tiled: `table` is the offset of its offset table, and each
+// block must hold its pixels. OpenEXR returns uninitialised memory for shorter blocks.
 Problem checkExrTable(Numbers& numbers, std::uint64_t table, bool several, const ExrBlocks& blocks)
 {
     if (blocks.deep)
@@ -142,7 +142,7 @@ Problem checkExrTable(Numbers& numbers, std::uint64_t table, bool several, const
     const auto width = std::uint64_t(blocks.width), height = std::uint64_t(blocks.height);
     const std::uint64_t wide = tiled ? blocks.tileWidth : width, high = tiled ? blocks.tileHeight : blocks.rows;
     const std::uint64_t across = (width + wide - 1) / wide, count = across * ((height + high - 1) / high);
-    const std::uint64_t before = (several ? 4 : 0) + (tiled ? 16 : 4); // part, and place
+    const std::uint64_t before = (several ? 4 : 0) + (tiled ? 16 : 4); // part number, and block coordinates
     for (std::uint64_t i = 0; i < count; ++i) {
         const std::uint64_t at = numbers.at(table + 8 * i, 8);
         if (at == 0 || at > numbers.size() || numbers.past)
@@ -162,8 +162,8 @@ Problem checkExrTable(Numbers& numbers, std::uint64_t table, bool several, const
 
 } // namespace
 
-// "OpenEXR File Layout": attributes are name, type, size, bytes; an empty name ends a header, an
-// empty header the headers of several parts.
+// "OpenEXR File Layout": an attribute is name, type, size, bytes; an empty name ends a header, and an empty header ends
+// the headers of a multi-part file.
 Problem checkExr(File& file, const LoadLimits& limits)
 {
     constexpr std::uint64_t kSeveralParts = 0x1000;
@@ -181,13 +181,13 @@ Problem checkExr(File& file, const LoadLimits& limits)
             std::uint64_t value = start;
             if (const Problem problem = checkExrAttribute(numbers, at))
                 return problem;
-            nameAt(numbers, value); // its type
+            nameAt(numbers, value); // skips its type
             readExrBlocks(numbers, name, value + 4, at, blocks);
         }
         if (const Problem problem = checkExrBlocks(blocks, limits))
             return problem;
         if (numbers.past)
-            return inputError("its header goes on behind the end of the file");
+            return inputError("its header extends past the end of the file");
         if (begins)
             first = blocks;
         more = several && !empty;

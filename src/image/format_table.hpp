@@ -1,4 +1,4 @@
-// The formats of image files: one table that readers, writers, commands, the viewer, batch and the help ask.
+// The image formats: one table for readers, writers, commands, the viewer, batch and the help.
 #pragma once
 
 #include <array>
@@ -14,28 +14,28 @@
 
 namespace cotan {
 
-// One format. What a build lacks the library for is in the table all the same.
+// One format. Formats whose library a build lacks are in the table, too.
 struct ImageFormat {
     std::string_view name; // in messages
-    // Of file names, in lower case, the usual one first; the second may be empty.
+    // File extensions in lower case, the usual one first; the second may be empty.
     std::array<std::string_view, 2> endings;
-    std::string_view mime;        // in glTF, of its own or of an extension; empty: glTF has no such images
-    std::string_view openImageIo; // name of OpenImageIO's reader and writer; empty: it is not asked
+    std::string_view mime;        // MIME type in glTF or its extensions; empty: not allowed in glTF
+    std::string_view openImageIo; // name of OpenImageIO's reader and writer; empty: not used
 
-    bool reads = false;     // readImage
-    bool readsRows = false; // by openRows without the whole image in memory, most files at least
-    bool writes = false;    // writeImage and createRows
-    bool texture = false;   // written as a texture with its levels and blocks: `map convert` and `map mips`
-    bool animation = false; // createAnimation
+    bool reads = false;     // by readImage
+    bool readsRows = false; // by openRows without decoding the whole image, at least for most files
+    bool writes = false;    // by writeImage and createRows
+    bool texture = false;   // written as a texture with mip levels and blocks by `map convert` and `map mips`
+    bool animation = false; // written by createAnimation
 
-    // What a written file holds. A format without alpha drops it.
+    // What a written file can hold. A format without alpha drops it.
     bool bits8 = false, bits16 = false, halfs = false, floats = false;
-    bool negative = false; // floats below zero
+    bool negative = false; // floats may be negative
     bool alpha = false;
-    bool lossy = false; // changes the values
-    bool frame = false; // Image::frame
+    bool lossy = false; // values change
+    bool frame = false; // stores Image::frame
 
-    // has: what of these holds.
+    // has: the members to set.
     constexpr ImageFormat(std::string_view name_, std::array<std::string_view, 2> endings_, std::string_view mime_,
                           std::string_view openImageIo_, std::initializer_list<bool ImageFormat::*> has)
         : name(name_), endings(endings_), mime(mime_), openImageIo(openImageIo_)
@@ -45,12 +45,12 @@ struct ImageFormat {
     }
 };
 
-// How files begin, `at` bytes from the start. A format may have several, or none (TGA).
+// The magic number of a format, `at` bytes from the start. A format may have several, or none (TGA).
 struct ImageStart {
     std::string_view format; // ImageFormat::name
     std::string_view bytes;
     std::size_t at = 0;
-    std::string_view before = {}; // from the start on
+    std::string_view before = {}; // the file must start with these bytes, too
 };
 
 inline constexpr std::array<ImageFormat, 12> kImageFormats = [] {
@@ -96,39 +96,39 @@ inline constexpr std::array<ImageStart, 16> kImageStarts = [] {
                                        {"GIF", "GIF87a"sv},
                                        {"GIF", "GIF89a"sv},
                                        {"BMP", "BM"sv},
-                                       {"AVIF", "ftypavif"sv, 4, "\0\0"sv}, // its first box is shorter than 64 KiB
+                                       {"AVIF", "ftypavif"sv, 4, "\0\0"sv}, // the size of the first box is below 64 KiB
                                        {"AVIF", "ftypavis"sv, 4, "\0\0"sv}}};
 }();
 
-// The format that a file's name ends in, compared without regard to case. Null: none of the table.
+// The format by a file's extension, case-insensitive. Null: not in the table.
 const ImageFormat* imageFormatOf(const std::filesystem::path& file);
 
-// The format that a file's first bytes say; 16 do. Null: none of the table, or TGA, which begins in no way of its own.
+// The format by a file's first bytes; 16 suffice. Null: not in the table, or TGA, which has no magic number.
 const ImageFormat* imageFormatOf(std::span<const std::byte> bytes);
 
-// Whether a file of that name can be written by writeImage, keeps floats, and so on: imageFormatHas(file,
-// &ImageFormat::writes). False for names that the table does not know.
+// Whether the file's extension is that of a format with this property: imageFormatHas(file, &ImageFormat::writes).
+// False for extensions that are not in the table.
 inline bool imageFormatHas(const std::filesystem::path& file, bool ImageFormat::*what)
 {
     const ImageFormat* const format = imageFormatOf(file);
     return format && format->*what;
 }
 
-// Errors (ErrorKind::usage): a name that writeImage and createRows do not write.
+// Errors (ErrorKind::usage): an extension that writeImage and createRows cannot write.
 Status checkImageName(const std::filesystem::path& file);
 
-// Whether a rendered image in a file of that name keeps light linear and unlimited: floats can be written.
+// Whether a render written to this file stays linear and unclamped: the format can store floats.
 inline bool keepsFloats(const std::filesystem::path& file)
 {
     return imageFormatHas(file, &ImageFormat::writes) && imageFormatHas(file, &ImageFormat::floats);
 }
 
-// The usual endings of the formats for which `wanted` holds, in the order of the table: ".png, .exr or .tif" with
-// `last` " or ". Empty `last`: `between`.
+// The usual extensions of the formats for which `wanted` holds, in table order, joined by `between`, the last two by
+// `last` unless it is empty: ".png, .exr or .tif".
 std::string imageEndings(const std::function<bool(const ImageFormat&)>& wanted, std::string_view between = " ",
                          std::string_view last = {});
 
-// The names of the formats that can be read: "PNG, EXR, ...".
+// The names of all readable formats: "PNG, EXR, ...".
 std::string readableFormatNames();
 
 } // namespace cotan

@@ -1,6 +1,5 @@
-// Every image format beyond reading and writing PNG and reading JPEG. OpenImageIO does them; it
-// lives in a module of its own that is loaded on first use, because its libraries (250 of them on
-// Debian) take half a second and 130 MB to load, and most runs meet nothing but PNG and JPEG.
+// All image formats that need OpenImageIO. It is in a module of its own that is loaded on first use, because its
+// libraries (250 on Debian) take half a second and 130 MB to load, and most runs use PNG and JPEG only.
 #pragma once
 
 #include <cstddef>
@@ -17,26 +16,26 @@
 
 namespace cotan {
 
-// What the module offers.
+// The functions of the module.
 struct ImageFormats {
-    const char* version; // of the build; must be ours, as C++ types are passed
+    const char* version; // of the build; must equal ours, since C++ types cross the boundary
 
-    // As decodeImage, for JPEG, TIFF, OpenEXR, Radiance HDR, BMP, DDS (by their first bytes) and
-    // TGA (which has none, by the extension of `name`).
+    // As decodeImage, for JPEG, TIFF, OpenEXR, Radiance HDR, BMP and DDS (by their first bytes) and TGA (all other
+    // data; it has no magic number).
     Result<Image> (*read)(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
 
-    // As writeImage, for formats with a name of OpenImageIO. `name` is for messages.
+    // As writeImage, for formats with ImageFormat::openImageIo. `name` is for messages and gives the format.
     Status (*write)(const std::filesystem::path& file, const Image& image, const std::string& name);
 
-    // As openRows, for files of a format that readsRows; `head` is how this one starts.
+    // As openRows, for formats with ImageFormat::readsRows; `head` is the start of the file.
     Result<std::unique_ptr<RowReader>> (*openRows)(const std::filesystem::path& file, std::span<const std::byte> head,
                                                    const LoadLimits& limits);
 
-    // As createRows, for the extension of `name`; `file` is where to write and appears at once.
+    // As createRows, for the extension of `name`; `file` is the path to write, visible at once.
     Result<std::unique_ptr<RowWriter>> (*createRows)(const std::filesystem::path& file, const RowFormat& format,
                                                      int threads, const std::string& name);
 
-    // As createAnimation, for GIF and pictures of unorm8; `file` is where to write and appears at once.
+    // As createAnimation, for GIF and images of unorm8; `file` is the path to write, visible at once.
     Result<std::unique_ptr<AnimationWriter>> (*createGif)(const std::filesystem::path& file,
                                                           const AnimationFormat& format, const std::string& name);
 };
@@ -44,19 +43,19 @@ struct ImageFormats {
 // Whether this build has the module.
 bool readsOtherFormats();
 
-// The module, for a file of that name. Errors: ErrorKind::unavailable where it is missing or does not load.
+// The module. name: of the file, for messages. Errors: ErrorKind::unavailable if it is missing or cannot be loaded.
 Result<const ImageFormats*> imageFormats(const std::string& name);
 
-// ImageFormats::read of the module.
+// Calls ImageFormats::read of the module.
 Result<Image> readOther(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
 
-// OpenImageIO's name of the format whose files begin in no way of their own: the name of the file says it.
-inline constexpr std::string_view kNoStart = "targa";
+// OpenImageIO's name of the format without a magic number, which is recognised by the file extension.
+inline constexpr std::string_view kFormatWithoutMagic = "targa";
 
-// Whether writeImage and createRows write files of that name without the module: PNG.
+// Whether writeImage and createRows write this file type without the module: PNG only.
 bool writesItself(const std::filesystem::path& file);
 
 } // namespace cotan
 
-// The module's only symbol: its ImageFormats, of the type that loadModule calls.
+// The module's only exported symbol: its ImageFormats, with the signature that loadModule expects.
 extern "C" const void* cotanImageFormats();

@@ -18,19 +18,19 @@
 
 namespace cotan {
 
-std::string pictureFormat(std::span<const std::byte> bytes)
+std::string imageFormatName(std::span<const std::byte> bytes)
 {
     const ImageFormat* const format = imageFormatOf(bytes);
     return format && !format->mime.empty() ? std::string(format->name) : "";
 }
 
-bool isPng(std::span<const std::byte> bytes) { return pictureFormat(bytes) == "PNG"; }
+bool isPng(std::span<const std::byte> bytes) { return imageFormatName(bytes) == "PNG"; }
 
-bool isJpeg(std::span<const std::byte> bytes) { return pictureFormat(bytes) == "JPEG"; }
+bool isJpeg(std::span<const std::byte> bytes) { return imageFormatName(bytes) == "JPEG"; }
 
-std::string foreignFormat(std::span<const std::byte> bytes)
+std::string unreadableFormat(std::span<const std::byte> bytes)
 {
-    const std::string format = pictureFormat(bytes);
+    const std::string format = imageFormatName(bytes);
     if (format == "KTX2" && !foreignKtx2(bytes).empty())
         return "KTX2 with " + foreignKtx2(bytes);
     const bool foreign =
@@ -40,14 +40,14 @@ std::string foreignFormat(std::span<const std::byte> bytes)
 
 namespace {
 
-// Whether the bytes, or the extension of `name`, are of a format that the module reads. What is unknown is refused
-// without loading it.
+// Whether the bytes, or the extension of `name`, are of a format that the module reads. Unknown data is refused without
+// loading the module.
 bool knownImage(std::span<const std::byte> bytes, const std::string& name)
 {
     if (const ImageFormat* const format = imageFormatOf(bytes))
         return !format->openImageIo.empty();
     const ImageFormat* const named = imageFormatOf(std::filesystem::path(name));
-    return named && named->openImageIo == kNoStart && !bytes.empty();
+    return named && named->openImageIo == kFormatWithoutMagic && !bytes.empty();
 }
 
 Status checkPicture(const Image& image, const std::string& file, const LoadLimits& limits)
@@ -62,10 +62,10 @@ Status checkPicture(const Image& image, const std::string& file, const LoadLimit
     return Done{};
 }
 
-// In a child process: limits.sandbox.program.
+// Decodes in a child process: limits.sandbox.program.
 Result<Image> decodeSandboxed(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {
-    auto process = ReaderProcess::start({.kind = ReaderKind::picture,
+    auto process = ReaderProcess::start({.kind = ReaderKind::image,
                                          .name = name,
                                          .bytes = {bytes.begin(), bytes.end()},
                                          .fileBytes = bytes.size(),
@@ -84,21 +84,21 @@ Result<Image> decodeSandboxed(std::span<const std::byte> bytes, const std::strin
 
 Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {
-    const std::string format = pictureFormat(bytes);
+    const std::string format = imageFormatName(bytes);
     if (format == "PNG")
         return readPng(bytes, name, limits);
     if (format == "JPEG")
         if (auto image = readJpeg(bytes, name, limits))
             return *std::move(image);
     if (format == "AVIF")
-        return unavailableError(fmt::format("{}: AVIF pictures are not read here", name));
+        return unavailableError(fmt::format("{}: AVIF images are not supported", name));
     if (const std::string payload = format == "KTX2" ? foreignKtx2(bytes) : ""; !payload.empty())
-        return unavailableError(fmt::format(
-            "{}: {} is not decoded here{}", name, payload,
-            payload.starts_with("BasisU")
-                ? "; \"ktx transcode --target rgba8 IN.ktx2 OUT.ktx2\" makes a file that is, and \"gltf-transform "
-                  "ktxdecompress IN.glb OUT.glb\" such a model"
-                : ""));
+        return unavailableError(
+            fmt::format("{}: {} is not supported{}", name, payload,
+                        payload.starts_with("BasisU")
+                            ? "; \"ktx transcode --target rgba8 IN.ktx2 OUT.ktx2\" converts a file, \"gltf-transform "
+                              "ktxdecompress IN.glb OUT.glb\" a model"
+                            : ""));
     if (format.empty() && !knownImage(bytes, name))
         return inputError(fmt::format("{}: expected an image ({}), found other data", name, readableFormatNames()));
     if (!limits.sandbox.program.empty())
@@ -118,12 +118,12 @@ Status write(const std::filesystem::path& file, const Image& image, const std::s
     return formats ? (*formats)->write(file, image, name) : formats.error();
 }
 
-Result<EncodedLike> asPng(const Image& image, std::string whyNot)
+Result<EncodedLike> asPng(const Image& image, std::string reason)
 {
     auto png = encodePng(image);
     if (!png)
         return png.error();
-    return EncodedLike{*std::move(png), "PNG", "image/png", 0, std::move(whyNot)};
+    return EncodedLike{*std::move(png), "PNG", "image/png", 0, std::move(reason)};
 }
 
 } // namespace
@@ -177,16 +177,16 @@ Result<EncodedLike> encodeLike(const Image& image, std::span<const std::byte> ol
         return asPng(image, {});
     const std::string name(format->name);
     if (name != "JPEG" && name != "WebP")
-        return asPng(image, fmt::format("{} is not written here", name));
+        return asPng(image, fmt::format("{} cannot be written", name));
     if (image.type != PixelType::unorm8)
-        return asPng(image, fmt::format("{} has 8 bits, and 16 are wanted", name));
+        return asPng(image, fmt::format("{} has 8 bits, but 16 are required", name));
     if (name == "JPEG" && !isOpaque(image))
         return asPng(image, "JPEG has no alpha");
     int quality = 0;
     auto bytes = name == "JPEG" ? writeJpegLike(image, old, quality) : writeWebpLike(image, old, quality);
     if (!bytes)
         return asPng(image,
-                     name == "JPEG" ? "a grey JPEG has no directions, or this build has no libjpeg"
+                     name == "JPEG" ? "a grey JPEG holds no normals, or this build has no libjpeg"
                                     : "this build has no libwebp");
     if (!*bytes)
         return bytes->error();

@@ -1,4 +1,4 @@
-// Pictures a part at a time: rows, and the pictures of animations.
+// Images in parts: by rows, and as frames of animations.
 #include "cotan/image.hpp"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Floats, too, which isOpaque does not look at.
+// Whether any alpha is not 1, also for floats, which isOpaque ignores.
 bool usesAlpha(const Image& image)
 {
     if (image.type != PixelType::float32)
@@ -85,7 +85,7 @@ private:
     std::unique_ptr<ReaderProcess> process_;
 };
 
-// In a child process: limits.sandbox.program.
+// Opens rows in a child process: limits.sandbox.program.
 Result<std::unique_ptr<RowReader>> openRowsSandboxed(const std::filesystem::path& file, const LoadLimits& limits)
 {
     auto process = ReaderProcess::start({.kind = ReaderKind::rows, .name = file.string(), .limits = limits});
@@ -104,42 +104,43 @@ Result<std::unique_ptr<RowReader>> openRowsSandboxed(const std::filesystem::path
     return std::unique_ptr<RowReader>(std::move(rows));
 }
 
-// What is written to the path of an output, which comes to its place when it is complete.
-template<class Writer> class Placed : public Writer {
+// Forwards to a writer of the temporary file of `output`, and commits the file when it is complete.
+template<class Writer> class OutputWriter : public Writer {
 public:
-    Placed(OutputFile output, std::unique_ptr<Writer> writer) : output_(std::move(output)), writer_(std::move(writer))
+    OutputWriter(OutputFile output, std::unique_ptr<Writer> writer)
+        : output_(std::move(output)), writer_(std::move(writer))
     {
     }
 
     Status finish() override
     {
-        Status done = told(writer_->finish());
+        Status done = checked(writer_->finish());
         return done ? output_.commit() : done;
     }
 
 protected:
-    Status told(Status status) const { return status ? status : Status(output_.failed(status.error())); }
+    Status checked(Status status) const { return status ? status : Status(output_.failed(status.error())); }
 
-    OutputFile output_; // removed last
+    OutputFile output_; // destroyed last
     std::unique_ptr<Writer> writer_;
 };
 
-class PlacedRows : public Placed<RowWriter> {
+class OutputRows : public OutputWriter<RowWriter> {
 public:
-    using Placed::Placed;
+    using OutputWriter::OutputWriter;
 
-    Status write(const Image& strip) override { return told(writer_->write(strip)); }
+    Status write(const Image& strip) override { return checked(writer_->write(strip)); }
 };
 
-// What may be read row by row of a file of so many bytes, in bytes of pixels: each takes its time.
+// Checks the decoded size against a limit that grows with the file size: every row takes time to decode.
 Status checkRows(const RowReader& rows, std::size_t fileBytes, const LoadLimits& limits)
 {
-    const double most = double(limits.imageBytes) + 128 * double(fileBytes);
+    const double maximum = double(limits.imageBytes) + 128 * double(fileBytes);
     const double bytes = 4.0 * double(bytesPerComponent(rows.type)) * rows.width * rows.height;
-    if (bytes > most)
+    if (bytes > maximum)
         return memoryError(
             fmt::format("{}: {} x {} pixels take {:.0f} bytes, the limit is {:.0f} for a file of {} bytes", rows.name,
-                        rows.width, rows.height, bytes, most, fileBytes));
+                        rows.width, rows.height, bytes, maximum, fileBytes));
     return Done{};
 }
 
@@ -169,7 +170,7 @@ Result<std::unique_ptr<RowReader>> openAnyRows(const fs::path& file, const LoadL
 
 Result<std::unique_ptr<RowReader>> openRows(const fs::path& file, const LoadLimits& limits)
 {
-    const auto size = usableFileSize(file, SIZE_MAX); // no more than a strip is held
+    const auto size = usableFileSize(file, SIZE_MAX); // any size: only a strip is held in memory
     if (!size)
         return size.error();
     auto rows = openAnyRows(file, limits);
@@ -198,7 +199,7 @@ Result<std::unique_ptr<RowWriter>> createRows(const fs::path& file, const RowFor
     auto writer = create();
     if (!writer)
         return output->failed(writer.error());
-    return std::unique_ptr<RowWriter>(std::make_unique<PlacedRows>(*std::move(output), *std::move(writer)));
+    return std::unique_ptr<RowWriter>(std::make_unique<OutputRows>(*std::move(output), *std::move(writer)));
 }
 
 // ---- animations ----------------------------------------------------------------------------
@@ -211,20 +212,20 @@ bool isGif(const fs::path& file)
     return format && format->name == "GIF";
 }
 
-// Of 8 bits, whatever comes.
-class EightBits : public Placed<AnimationWriter> {
+// Converts images to 8 bits.
+class EightBits : public OutputWriter<AnimationWriter> {
 public:
     EightBits(OutputFile output, std::unique_ptr<AnimationWriter> writer, AnimationFormat format, std::string name)
-        : Placed(std::move(output), std::move(writer)), format_(format), name_(std::move(name))
+        : OutputWriter(std::move(output), std::move(writer)), format_(format), name_(std::move(name))
     {
     }
 
-    Status add(const Image& picture) override
+    Status add(const Image& image) override
     {
-        if (picture.width != format_.width || picture.height != format_.height)
-            return outputError(fmt::format("{}: expected pictures of {} x {}; found {} x {}", name_, format_.width,
-                                           format_.height, picture.width, picture.height));
-        return told(picture.type == PixelType::unorm8 ? writer_->add(picture) : writer_->add(toUnorm8(picture)));
+        if (image.width != format_.width || image.height != format_.height)
+            return outputError(fmt::format("{}: expected images of {} x {}; found {} x {}", name_, format_.width,
+                                           format_.height, image.width, image.height));
+        return checked(image.type == PixelType::unorm8 ? writer_->add(image) : writer_->add(toUnorm8(image)));
     }
 
 private:
@@ -234,13 +235,13 @@ private:
 
 Status checkFormat(const fs::path& file, const AnimationFormat& format)
 {
-    const int most = isGif(file) ? 65535 : 16383;
-    if (format.width < 1 || format.height < 1 || format.width > most || format.height > most)
-        return usageError(fmt::format("{}: expected a picture of 1 to {} pixels a side; found {} x {}", file.string(),
-                                      most, format.width, format.height));
+    const int maximum = isGif(file) ? 65535 : 16383;
+    if (format.width < 1 || format.height < 1 || format.width > maximum || format.height > maximum)
+        return usageError(fmt::format("{}: expected an image of 1 to {} pixels per side; found {} x {}", file.string(),
+                                      maximum, format.width, format.height));
     const double fastest = isGif(file) ? 50 : 1000;
     if (!(format.rate > 0) || format.rate > fastest)
-        return usageError(fmt::format("{}: expected at most {:.0f} pictures a second in such a file; found {:g}",
+        return usageError(fmt::format("{}: expected at most {:.0f} images per second in such a file; found {:g}",
                                       file.string(), fastest, format.rate));
     return Done{};
 }

@@ -18,13 +18,13 @@ namespace cotan {
 
 namespace {
 
-// A progressive file may repeat the whole picture in any number of scans; real ones have about ten.
-// Each costs about a nanosecond a pixel, even if it is empty.
+// A progressive file may cover the whole image in any number of scans; real files have about ten. Each scan costs about
+// a nanosecond per pixel, even if it is empty.
 constexpr std::size_t kMaxScans = 100;
 constexpr std::size_t kMaxScannedPixels = 4'000'000'000;
 
-// libjpeg reports errors by calling back and must be left by longjmp, so the functions that call
-// it hold nothing with a destructor.
+// libjpeg reports errors by a callback, which must leave by longjmp, so the functions that call it have no local
+// objects with destructors.
 struct Decoder {
     jpeg_decompress_struct jpeg{};
     jpeg_error_mgr errors{};
@@ -44,8 +44,8 @@ void onError(j_common_ptr common)
     std::longjmp(decoder->escape, 1);
 }
 
-// libjpeg paints over damage and goes on; where it says that picture data is missing or wrong, we do not. Of bits that
-// are no code it says so in progressive files only, and at the end of others.
+// libjpeg conceals damage and continues; warnings about missing or wrong image data are errors here. It reports invalid
+// Huffman codes in progressive files only, and at the end of others.
 void onMessage(j_common_ptr common, int level)
 {
     const int code = common->err->msg_code;
@@ -86,7 +86,7 @@ bool readPixels(Decoder& decoder, unsigned char* pixels, std::size_t rowBytes)
     return true;
 }
 
-// The scans that the markers of a file begin: of data between them an 0xff is followed by 0 or is a restart marker.
+// Counts the scans by their markers. In entropy-coded data 0xff is followed by 0 or is a restart marker.
 std::size_t countScans(std::span<const std::byte> bytes)
 {
     const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
@@ -100,14 +100,14 @@ std::size_t countScans(std::span<const std::byte> bytes)
         if (marker == 0xda)
             ++scans;
         const bool bare = marker == 0 || marker == 0xff || marker == 1 || (marker >= 0xd0 && marker <= 0xd9);
-        if (!bare && at + 2 < bytes.size()) // its length counts itself
+        if (!bare && at + 2 < bytes.size()) // the length counts its own two bytes
             at += 1 + (std::size_t(data[at + 1]) << 8 | data[at + 2]);
     }
     return scans;
 }
 
-// What a file asks for beyond its pixels: time for every scan, and, of a progressive one, all its
-// coefficients, of two bytes each. jpeg: after its header.
+// Checks costs beyond those of the pixels: time for every scan and, for files of several scans, memory for all
+// coefficients, 2 bytes each. jpeg: its header has been read.
 std::optional<Error> checkScans(const jpeg_decompress_struct& jpeg, std::span<const std::byte> bytes,
                                 const std::string& name, const LoadLimits& limits)
 {
@@ -115,8 +115,8 @@ std::optional<Error> checkScans(const jpeg_decompress_struct& jpeg, std::span<co
     const std::size_t scans = countScans(bytes);
     if (scans > kMaxScans || scans * pixels > kMaxScannedPixels)
         return inputError(
-            fmt::format("{}: expected at most {} scans and {} pixels in all of them, found {} scans of {} x {} pixels",
-                        name, kMaxScans, kMaxScannedPixels, scans, jpeg.image_width, jpeg.image_height));
+            fmt::format("{}: expected at most {} scans and {} pixels in all, found {} scans of {} x {} pixels", name,
+                        kMaxScans, kMaxScannedPixels, scans, jpeg.image_width, jpeg.image_height));
     std::size_t coefficients = 0;
     for (int c = 0; c < jpeg.num_components; ++c)
         coefficients += std::size_t(jpeg.comp_info[c].width_in_blocks) * jpeg.comp_info[c].height_in_blocks * DCTSIZE2;
@@ -176,7 +176,7 @@ struct Encoder {
 
 void onEncoderError(j_common_ptr common) { std::longjmp(static_cast<Encoder*>(common->client_data)->escape, 1); }
 
-// like: after its header. Returns false where there is no memory.
+// like: its header has been read. Returns false if there is not enough memory.
 bool writePixels(Encoder& encoder, const jpeg_decompress_struct& like, const Image& image)
 {
     jpeg_compress_struct& jpeg = encoder.jpeg;
@@ -218,7 +218,7 @@ bool writePixels(Encoder& encoder, const jpeg_decompress_struct& like, const Ima
     return true;
 }
 
-// The number that libjpeg's encoder is given for a table: its steps against those of the standard, which are 50.
+// The quality setting of libjpeg's encoder that gives this table. Quality 50 gives the steps of the standard.
 int qualityOf(const JQUANT_TBL& table)
 {
     constexpr int kStandard = 3688; // sum of the luminance steps: ITU-T T.81, table K.1

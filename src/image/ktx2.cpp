@@ -1,4 +1,4 @@
-// KTX 2.0: the container of textures as graphics processors take them (Khronos' specification, version 2.0.4).
+// KTX 2.0, a container for GPU textures (Khronos specification, version 2.0.4).
 #include "codecs.hpp"
 
 #include <algorithm>
@@ -19,30 +19,30 @@ namespace cotan {
 
 namespace {
 
-// How pixels are stored, of the numbers of VkFormat that are read here.
+// How the pixels of a supported VkFormat are stored.
 struct Ktx2Format {
     std::uint32_t linear = 0; // VkFormat
-    std::uint32_t srgb = 0;   // the same in sRGB; linear where there is none
-    int channels = 0;         // of what comes out
-    int bytes = 0;            // of one component; 0: blocks of 4 x 4 pixels
+    std::uint32_t srgb = 0;   // its sRGB variant; `linear` if there is none
+    int channels = 0;         // of the decoded image
+    int bytes = 0;            // per component; 0: blocks of 4 x 4 pixels
     bool floats = false;      // components are floats of 2 or 4 bytes
-    bool blueFirst = false;   // blue, green, red
-    DdsCode blocks = {};      // how DDS stores them
+    bool blueFirst = false;   // BGR order
+    DdsCode blocks = {};      // the DDS code of the blocks
 };
 
-// What is read of a file: its largest level.
-struct Ktx2Picture {
+// The largest level of a file, and the keys that apply to it.
+struct Ktx2Image {
     Ktx2Format format;
     int width = 0, height = 0;
     std::uint32_t packing = 0;         // 0 none, 2 Zstandard, 3 zlib
-    std::span<const std::byte> stored; // of the file
-    std::size_t bytes = 0;             // once unpacked
-    std::string swizzle;               // four of "rgba01"; empty: none is stated
-    bool bottomUp = false;             // the first row is the lowest
+    std::span<const std::byte> stored; // part of the file
+    std::size_t bytes = 0;             // after decompression
+    std::string swizzle;               // four of "rgba01"; empty: not stated
+    bool bottomUp = false;             // the first row is the bottom one
     std::string frame;                 // Image::frame
 };
 
-// VkFormat of Vulkan 1.3, sRGB beside linear: values stay as they are stored.
+// VkFormat of Vulkan 1.3, linear and sRGB: values are not converted.
 constexpr Ktx2Format kVulkanFormats[] = {{9, 15, 1, 1},
                                          {16, 22, 2, 1},
                                          {23, 29, 3, 1},
@@ -79,8 +79,8 @@ std::uint64_t storedBytes(const Ktx2Format& format, std::uint64_t width, std::ui
     return width * height * std::uint64_t(format.channels * format.bytes);
 }
 
-// Keys and values, each a length, a text with its zero, a value, and zeros up to a multiple of four.
-Status readKeys(Numbers& file, std::span<const std::byte> bytes, Ktx2Picture& picture)
+// Reads key/value entries: each is a length, a null-terminated key, a value, and padding to a multiple of 4 bytes.
+Status readKeys(Numbers& file, std::span<const std::byte> bytes, Ktx2Image& picture)
 {
     const std::uint64_t start = file.at(56, 4), length = file.at(60, 4);
     if (length > 0 && (start > file.size() || length > file.size() - start))
@@ -110,12 +110,12 @@ Status readKeys(Numbers& file, std::span<const std::byte> bytes, Ktx2Picture& pi
     return Done{};
 }
 
-// Every size, offset and count of the header checked against each other and the file.
+// Checks every size, offset and count of the header against each other and the file.
 // Errors: ErrorKind::input, without the file's name.
-Result<Ktx2Picture> checkKtx2(std::span<const std::byte> bytes)
+Result<Ktx2Image> checkKtx2(std::span<const std::byte> bytes)
 {
     Numbers file(bytes);
-    if (!file.says(0, "\xabKTX 20\xbb\r\n\x1a\n") || bytes.size() < kHeader)
+    if (!file.matches(0, "\xabKTX 20\xbb\r\n\x1a\n") || bytes.size() < kHeader)
         return inputError(fmt::format("its header takes {} bytes, the file has {}", kHeader, bytes.size()));
     const std::uint64_t format = file.at(12, 4), width = file.at(20, 4), height = file.at(24, 4),
                         depth = file.at(28, 4), layers = file.at(32, 4), faces = file.at(36, 4),
@@ -123,32 +123,32 @@ Result<Ktx2Picture> checkKtx2(std::span<const std::byte> bytes)
     const auto* const known = std::ranges::find_if(
         kVulkanFormats, [&](const Ktx2Format& f) { return f.linear == format || f.srgb == format; });
     if (known == std::end(kVulkanFormats))
-        return inputError(fmt::format("its format {} (VkFormat) is not read here", format));
+        return inputError(fmt::format("its format {} (VkFormat) is not supported", format));
     if (width == 0 || height == 0 || depth > 1 || layers > 1 || faces != 1)
-        return inputError(fmt::format("expected one flat picture, found {} x {} x {}, {} layers, {} faces", width,
-                                      height, depth, layers, faces));
+        return inputError(fmt::format("expected one flat image, found {} x {} x {}, {} layers, {} faces", width, height,
+                                      depth, layers, faces));
     constexpr std::uint64_t kMaxSide = 1 << 24;
     if (width > kMaxSide || height > kMaxSide)
         return inputError(fmt::format("its size is {} x {}", width, height));
     if (levels > std::uint64_t(std::bit_width(std::max(width, height))))
         return inputError(fmt::format("it has {} levels, {} x {} pixels have {}", levels, width, height,
                                       std::bit_width(std::max(width, height))));
-    Ktx2Picture picture{*known, int(width), int(height), std::uint32_t(file.at(44, 4)), {}, 0, {}, false, {}};
+    Ktx2Image picture{*known, int(width), int(height), std::uint32_t(file.at(44, 4)), {}, 0, {}, false, {}};
     if (picture.packing == 1 || picture.packing > 3)
         return inputError(
-            fmt::format("its supercompression {} is not that of its format, or not known", picture.packing));
+            fmt::format("its supercompression {} does not match its format or is unknown", picture.packing));
     for (std::uint64_t level = 0; level < std::max<std::uint64_t>(levels, 1); ++level) {
         const std::uint64_t entry = kHeader + level * kLevelEntry, offset = file.at(entry, 8),
                             stored = file.at(entry + 8, 8), plain = file.at(entry + 16, 8);
         const std::uint64_t expected = storedBytes(*known, std::max<std::uint64_t>(width >> level, 1),
                                                    std::max<std::uint64_t>(height >> level, 1));
         if (file.past)
-            return inputError("the list of its levels lies behind the end of the file");
+            return inputError("the list of its levels extends past the end of the file");
         if (offset > file.size() || stored > file.size() - offset)
             return inputError(
                 fmt::format("level {} takes {} bytes from {}, the file has {}", level, stored, offset, file.size()));
         if (plain != expected || (picture.packing == 0 && stored != expected))
-            return inputError(fmt::format("level {} has {} bytes, {} as stored; its size asks for {}", level, plain,
+            return inputError(fmt::format("level {} has {} bytes, {} as stored; its size requires {}", level, plain,
                                           stored, expected));
         if (level == 0) {
             picture.stored = bytes.subspan(std::size_t(offset), std::size_t(stored));
@@ -160,8 +160,8 @@ Result<Ktx2Picture> checkKtx2(std::span<const std::byte> bytes)
     return picture;
 }
 
-// A DDS of one level, in memory.
-std::vector<std::byte> asDds(const Ktx2Picture& picture, std::span<const std::byte> blocks)
+// A DDS file with one level.
+std::vector<std::byte> asDds(const Ktx2Image& picture, std::span<const std::byte> blocks)
 {
     std::vector<std::byte> dds = ddsHeader(picture.format.blocks, picture.width, picture.height, 1);
     dds.insert(dds.end(), blocks.begin(), blocks.end());
@@ -176,9 +176,9 @@ template<class T, class Stored> T component(Stored stored)
         return T(stored);
 }
 
-// What is not stored: of one channel all colours are it, of two blue is the middle of normals.
+// Expands to RGBA: one channel becomes grey, of two channels blue is the middle value (0 for normals), and alpha is 1.
 template<class T, class Stored>
-void spread(const Ktx2Format& format, std::span<const std::byte> from, std::size_t pixels, T middle, T one, T* to)
+void expandToRgba(const Ktx2Format& format, std::span<const std::byte> from, std::size_t pixels, T middle, T one, T* to)
 {
     const std::size_t channels = std::size_t(format.channels);
     for (std::size_t i = 0; i < pixels; ++i, to += 4) {
@@ -197,20 +197,21 @@ void spread(const Ktx2Format& format, std::span<const std::byte> from, std::size
     }
 }
 
-Image plainPixels(const Ktx2Picture& picture, PixelType type, std::span<const std::byte> bytes, const std::string& name)
+Image plainPixels(const Ktx2Image& picture, PixelType type, std::span<const std::byte> bytes, const std::string& name)
 {
     Image image = makeImage(picture.width, picture.height, type, name);
     withComponents(image, [&, pixels = image.pixelCount()]<class T>(T* to, T middle, T one) {
         if constexpr (std::is_same_v<T, float>)
             if (picture.format.bytes == 2)
-                return spread<T, std::uint16_t>(picture.format, bytes, pixels, middle, one, to);
-        spread<T, T>(picture.format, bytes, pixels, middle, one, to);
+                return expandToRgba<T, std::uint16_t>(picture.format, bytes, pixels, middle, one, to);
+        expandToRgba<T, T>(picture.format, bytes, pixels, middle, one, to);
     });
     return image;
 }
 
-// Of two channels "rg" and constants is what comes out anyway, with blue as other two-channel files have it.
-void arrange(const Ktx2Picture& picture, Image& image)
+// Applies swizzle and orientation. A swizzle "rg.." of two channels changes nothing: blue is already set as for
+// normals.
+void arrange(const Ktx2Image& picture, Image& image)
 {
     const bool asRead = picture.swizzle.empty() || picture.swizzle == "rgba"
         || (picture.format.channels == 2 && picture.swizzle.starts_with("rg"));
@@ -228,8 +229,8 @@ void arrange(const Ktx2Picture& picture, Image& image)
                          image.data.begin() + (image.height - 1 - y) * row);
 }
 
-// Image::channels: of more than two that a swizzle leaves without blue it is two.
-int channelsOf(const Ktx2Picture& picture)
+// Image::channels: at most 2 if the swizzle sets blue and alpha to constants.
+int channelsOf(const Ktx2Image& picture)
 {
     const std::string& s = picture.swizzle;
     const bool noBlue = s.size() == 4 && (s[2] == '0' || s[2] == '1') && (s[3] == '0' || s[3] == '1');
@@ -242,9 +243,9 @@ std::string foreignKtx2(std::span<const std::byte> bytes)
 {
     Numbers file(bytes);
     const std::uint64_t format = file.at(12, 4);
-    if (!file.says(0, "\xabKTX 20\xbb\r\n\x1a\n") || bytes.size() < kHeader)
+    if (!file.matches(0, "\xabKTX 20\xbb\r\n\x1a\n") || bytes.size() < kHeader)
         return "";
-    if (format == 0) // the model of the colours in the data format descriptor: 163 is ETC1S, 166 UASTC
+    if (format == 0) // colour model in the data format descriptor: 163 is ETC1S, 166 UASTC
         return file.at(file.at(48, 4) + 12, 1) == 166 ? "BasisU (UASTC)" : "BasisU (ETC1S)";
     if (format >= 147 && format <= 156)
         return "ETC2";
@@ -270,7 +271,7 @@ Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name
     std::vector<std::byte> unpacked;
     std::span<const std::byte> plain = picture->stored;
     if (picture->packing != 0) {
-        unpacked.resize(picture->bytes); // no more than the pixels take
+        unpacked.resize(picture->bytes); // checkKtx2 and checkImageSize have limited this size
         const Status done =
             picture->packing == 2 ? unpackZstd(picture->stored, unpacked) : unpackZlib(picture->stored, unpacked);
         if (!done)

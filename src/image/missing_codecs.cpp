@@ -1,4 +1,4 @@
-// What codecs.hpp declares where the library of a format is not there (CMakeLists.txt).
+// Replaces functions of codecs.hpp whose library is missing (CMakeLists.txt).
 #include "codecs.hpp"
 #include "core/not_built.hpp"
 
@@ -34,7 +34,7 @@ Result<std::unique_ptr<RowWriter>> createPngRows(const std::filesystem::path&, c
 }
 #endif
 
-#ifdef COTAN_WITHOUT_JPEG // what reads all other formats may read it, too
+#ifdef COTAN_WITHOUT_JPEG // OpenImageIO may read it
 std::optional<Result<Image>> readJpeg(std::span<const std::byte>, const std::string&, const LoadLimits&)
 {
     return std::nullopt;

@@ -1,4 +1,4 @@
-// Numbers at places in a file, in memory or not.
+// Random access to integers and text in a file or in memory.
 #pragma once
 
 #include <array>
@@ -15,10 +15,10 @@ namespace cotan {
 
 class Numbers {
 public:
-    // Reads bytes at a place within the file; false where it cannot.
+    // Reads `bytes` bytes at `offset`, which lie within the file; false on failure.
     using Read = std::function<bool(std::uint64_t offset, void* to, std::size_t bytes)>;
 
-    // bytes: are the caller's.
+    // bytes: must outlive the object. Little-endian.
     explicit Numbers(std::span<const std::byte> bytes)
         : read_([bytes](std::uint64_t offset, void* to, std::size_t count) {
               std::memcpy(to, bytes.data() + offset, count);
@@ -32,7 +32,7 @@ public:
     {
     }
 
-    // 0 to 8 bytes. What lies behind the end is 0, and `past` is set.
+    // An unsigned integer of 0 to 8 bytes. Past the end of the file it is 0, and `past` is set.
     std::uint64_t at(std::uint64_t offset, std::size_t bytes)
     {
         std::array<unsigned char, 8> raw{};
@@ -46,8 +46,8 @@ public:
         return value;
     }
 
-    // Whether the bytes from there are these letters.
-    bool says(std::uint64_t offset, std::string_view letters) const
+    // Whether the bytes at `offset` are `letters`.
+    bool matches(std::uint64_t offset, std::string_view letters) const
     {
         std::string there(letters.size(), '\0');
         return offset <= size_ && letters.size() <= size_ - offset && read_(offset, there.data(), there.size())

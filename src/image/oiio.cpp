@@ -1,4 +1,4 @@
-// The module of image formats: OpenImageIO behind the functions of formats.hpp. Reading; oiio_write.cpp writes.
+// The module of image formats: the functions of formats.hpp by OpenImageIO. This file reads, oiio_write.cpp writes.
 #include "oiio.hpp"
 
 #include <algorithm>
@@ -44,18 +44,18 @@ Error broken(const std::string& name, const std::string& format, const std::stri
     return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
 }
 
-// The library's words within a sentence of ours.
+// Wraps an OpenImageIO message in a sentence.
 Error brokenToOiio(const std::string& name, const std::string& format, const std::string& words)
 {
     return broken(name, format, "expected data that OpenImageIO can read, it found: " + words);
 }
 
-// OpenImageIO's name of the format of something that knownImage() accepted. The contents decide,
-// as extensions are often wrong.
+// OpenImageIO's name of the format of data that knownImage() accepted. The contents decide, as extensions are often
+// wrong.
 std::string formatOf(std::span<const std::byte> bytes)
 {
     const ImageFormat* const known = imageFormatOf(bytes);
-    return std::string(known ? known->openImageIo : kNoStart);
+    return std::string(known ? known->openImageIo : kFormatWithoutMagic);
 }
 
 PixelType pixelType(OIIO::TypeDesc format)
@@ -65,7 +65,7 @@ PixelType pixelType(OIIO::TypeDesc format)
     return format == OIIO::TypeDesc::UINT16 ? PixelType::unorm16 : PixelType::float32;
 }
 
-// Spreads the first `channels` components of every pixel over red, green, blue and alpha.
+// Expands grey, grey and alpha, or RGB in the first `channels` components of every pixel to RGBA.
 void completeChannels(Image& image, int channels)
 {
     withComponents(image, [count = image.pixelCount(), channels]<class T>(T* pixel, T, T one) {
@@ -80,7 +80,7 @@ void completeChannels(Image& image, int channels)
     });
 }
 
-// Image::frame of a file.
+// Image::frame of a file: the attribute kFrameKey of OpenEXR.
 std::string frameOf(const OIIO::ImageSpec& spec, const std::string& format)
 {
     if (format != "openexr")
@@ -89,20 +89,20 @@ std::string frameOf(const OIIO::ImageSpec& spec, const std::string& format)
     return std::string(frameText(value));
 }
 
-// How values are to be read: as they are stored.
+// Settings that make OpenImageIO return values as they are stored.
 OIIO::ImageSpec readConfig()
 {
     OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1); // as stored: not multiplied by alpha
+    config.attribute("oiio:UnassociatedAlpha", 1); // do not premultiply
     config.attribute("oiio:reorient", 0);
     return config;
 }
 
 // ---- checks --------------------------------------------------------------------------------
 
-// Compares what the headers of TIFF, OpenEXR, DDS and BMP files promise with the size of the file: every
-// strip, tile, attribute and level that will be read, and blocks of OpenEXR with the limits. Their readers take memory
-// by those numbers, or hand out what it held. format: of formatOf().
+// Compares what the headers of TIFF, OpenEXR, DDS and BMP files state with the size of the file: every strip, tile,
+// attribute and level that will be read, and the blocks of OpenEXR with the limits. Their readers allocate by these
+// numbers, or return uninitialised memory. format: as formatOf() returns it.
 std::optional<Error> checkFileLayout(File& file, const std::string& name, const std::string& format,
                                      const LoadLimits& limits)
 {
@@ -116,18 +116,17 @@ std::optional<Error> checkFileLayout(File& file, const std::string& name, const 
     return problem;
 }
 
-// What a header may claim beside its size.
+// Checks what a header states besides its size.
 std::optional<Error> checkLayers(const OIIO::ImageSpec& spec, const std::string& name)
 {
     if (spec.depth > 1 || spec.deep)
-        return inputError(fmt::format("{}: expected a flat picture, found a volume", name));
+        return inputError(fmt::format("{}: expected a flat image, found a volume", name));
     if (spec.nchannels < 1)
         return inputError(fmt::format("{}: the image has no channels", name));
     return std::nullopt;
 }
 
-// What a header may claim beyond the size of the picture: channels that we do not use and the
-// blocks that a reader allocates.
+// Checks the size of the image and of what the reader allocates for it, including unused channels and tiles.
 std::optional<Error> checkSpec(const OIIO::ImageSpec& spec, const std::string& name, const LoadLimits& limits)
 {
     if (auto error = checkImageSize(spec.width, spec.height, pixelType(spec.format), name, limits))
@@ -143,7 +142,7 @@ std::optional<Error> checkSpec(const OIIO::ImageSpec& spec, const std::string& n
     return std::nullopt;
 }
 
-// What one row, or one row of tiles, may take.
+// Checks the memory for one row, or one row of tiles.
 std::optional<Error> checkRows(const OIIO::ImageSpec& spec, const std::string& name, const LoadLimits& limits)
 {
     if (spec.width <= 0 || spec.height <= 0)
@@ -155,7 +154,7 @@ std::optional<Error> checkRows(const OIIO::ImageSpec& spec, const std::string& n
         * std::max(double(spec.pixel_bytes(/*native=*/true)), 16.0);
     if (spec.width > limits.imageSide || spec.height > limits.imageSide || stored > double(limits.imageBytes))
         return memoryError(
-            fmt::format("{}: {} x {} pixels in rows of {:.0f} bytes, the limit is {} a side and {} bytes", name,
+            fmt::format("{}: {} x {} pixels in rows of {:.0f} bytes, the limit is {} per side and {} bytes", name,
                         spec.width, spec.height, stored, limits.imageSide, limits.imageBytes));
     if (limits.expect)
         limits.expect(std::size_t(stored));
@@ -164,8 +163,8 @@ std::optional<Error> checkRows(const OIIO::ImageSpec& spec, const std::string& n
 
 // ---- whole images --------------------------------------------------------------------------
 
-// Two channels of a DDS (BC5) are red and green, not grey and alpha. They are 8 bits.
-void spreadTwo(Image& image)
+// Blue and alpha of an 8-bit DDS with two channels (BC5): these are red and green, not grey and alpha.
+void fillBlueAndAlpha(Image& image)
 {
     for (std::size_t i = 0; i < image.pixelCount() && image.type == PixelType::unorm8; ++i) {
         image.bytes8()[4 * i + 2] = 128;
@@ -173,8 +172,8 @@ void spreadTwo(Image& image)
     }
 }
 
-// A file in memory. OpenImageIO's own copies what lies in front of the bytes where a reader asks for a place behind
-// them.
+// A file in memory. OpenImageIO's own class copies bytes from before the buffer if a reader asks for an offset past its
+// end.
 class MemoryFile : public OIIO::Filesystem::IOProxy {
 public:
     explicit MemoryFile(std::span<const std::byte> bytes) : IOProxy("", Read), bytes_(bytes) {}
@@ -203,10 +202,9 @@ private:
     std::span<const std::byte> bytes_;
 };
 
-// Rows of a file without tiles, from `first` on: those of `to`, the first `channels` components of each pixel. False:
-// input says why.
-// TIFF row by row: of a whole strip OpenImageIO does not notice what libtiff or zlib cannot decode, and hands out what
-// its memory held.
+// Reads to.height rows of an untiled file from row `first` on: the first `channels` components of each pixel. If it
+// returns false, input.geterror() says why. TIFF files are read row by row: in whole strips OpenImageIO does not notice
+// errors of libtiff or zlib and returns uninitialised memory.
 bool readScanlines(OIIO::ImageInput& input, int first, int channels, Image& to)
 {
     const OIIO::ImageSpec& spec = input.spec();
@@ -252,7 +250,7 @@ try {
     if (!done)
         return brokenToOiio(name, format, input->geterror());
     if (format == "dds" && channels == 2)
-        spreadTwo(image);
+        fillBlueAndAlpha(image);
     else
         completeChannels(image, channels);
     image.frame = frameOf(spec, format);
@@ -293,7 +291,7 @@ public:
     }
 
 private:
-    // Files of tiles: a row of tiles is kept, and rows are taken from it.
+    // Reads from a tiled file; the current row of tiles is cached.
     bool fromTiles(Image& strip)
     {
         const std::size_t rowBytes = std::size_t(width) * strip.bytesPerPixel();

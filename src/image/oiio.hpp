@@ -1,5 +1,4 @@
-// What the files of the module share: checks of the formats whose readers believe the headers of their files, and
-// writing.
+// Shared by the files of the OpenImageIO module: checks for formats whose readers trust the file headers, and writing.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +20,7 @@ namespace cotan::oiio {
 
 // ---- checks --------------------------------------------------------------------------------
 
-// What is wrong, without the file's name.
+// What is wrong; the message lacks the file's name.
 using Problem = std::optional<Error>;
 
 using File = OIIO::Filesystem::IOProxy;
@@ -34,15 +33,15 @@ inline Numbers numbersOf(File& file, bool bigEndian = false)
     return {read, file.size(), bigEndian};
 }
 
-// limits: on what a reader takes for one row, strip or tile.
+// limits: on the memory that a reader allocates for a row, strip or tile.
 Problem checkTiff(File& file, const LoadLimits& limits);
 Problem checkExr(File& file, const LoadLimits& limits);
 Problem checkDds(File& file, const LoadLimits& limits);
 Problem checkBmp(File& file, const LoadLimits& limits);
 
-// ---- both ways -----------------------------------------------------------------------------
+// ---- shared --------------------------------------------------------------------------------
 
-// The library's words without trailing spaces and line breaks.
+// An OpenImageIO message without trailing white space and with spaces for line breaks.
 std::string oneLine(std::string text);
 
 OIIO::TypeDesc typeDesc(PixelType type);

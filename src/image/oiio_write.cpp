@@ -23,23 +23,23 @@ namespace cotan::oiio {
 
 namespace {
 
-// The library's words within a sentence of ours.
+// Wraps an OpenImageIO message in a sentence.
 Error notWritten(const std::string& name, const std::string& words)
 {
-    return outputError(name + ": expected to write the picture, OpenImageIO found: " + oneLine(words));
+    return outputError(name + ": expected to write the image, OpenImageIO found: " + oneLine(words));
 }
 
-// A file that OpenImageIO writes to, and that knows whether all of it arrived. The writers of OpenImageIO do not: on a
-// full disk that of Targa says that it is done, and that of JPEG ends the process.
+// A file for OpenImageIO's writers that records write errors. The writers do not: on a full disk Targa's reports
+// success, and JPEG's ends the process.
 class CheckedFile final : public OIIO::Filesystem::IOProxy {
 public:
-    // Replaces the file. Whether it could be made, finish() says, too.
+    // Replaces the file. finish() reports if it could not be created.
     explicit CheckedFile(const std::filesystem::path& file)
         : IOProxy(file.string(), Write), file_(std::fopen(file.c_str(), "w+be")), error_(file_ ? 0 : errno)
     {
     }
 
-    // Closes the file. Errors: ErrorKind::output with the system's reason where a byte is missing. name: for the
+    // Closes the file. Errors: ErrorKind::output with the system's reason if any byte was not written. name: for the
     // message.
     Status finish(const std::string& name)
     {
@@ -48,7 +48,7 @@ public:
         return error_ == 0 ? Status(Done{}) : notWritten(name, std::generic_category().message(error_));
     }
 
-    const char* proxytype() const override { return "checked"; } // with another than "file", JPEG is coded in memory
+    const char* proxytype() const override { return "checked"; } // any name but "file" makes JPEG encode in memory
 
     std::size_t read(void* to, std::size_t count) override
     {
@@ -71,7 +71,7 @@ public:
 
     std::size_t pwrite(const void* from, std::size_t count, std::int64_t offset) override
     {
-        if (count == 0 || !moveTo(offset, Use::writing)) // Targa asks for nothing of a null pointer
+        if (count == 0 || !moveTo(offset, Use::writing)) // Targa writes 0 bytes from a null pointer
             return 0;
         const std::size_t done = std::fwrite(from, 1, count, file_.get());
         at_ += std::int64_t(done);
@@ -84,7 +84,7 @@ public:
     {
         if (!file_ || ::fseeko(file_.get(), 0, SEEK_END) != 0)
             return 0;
-        at_ = -1; // the next use looks for its place
+        at_ = -1; // so that the next use seeks
         return std::size_t(::ftello(file_.get()));
     }
 
@@ -103,8 +103,8 @@ private:
             error_ = errno != 0 ? errno : EIO;
     }
 
-    // A FILE wants a seek between reading and writing. Without one that is not needed its buffer is kept, and pipes,
-    // which have no places, can be written to.
+    // A FILE needs a seek between reading and writing. Unnecessary seeks are avoided: they would flush its buffer, and
+    // fail for pipes.
     bool moveTo(std::int64_t offset, Use use)
     {
         if (!file_)
@@ -120,12 +120,12 @@ private:
     }
 
     OpenFile file_;
-    mutable int error_; // the errno of the first failure
+    mutable int error_; // errno of the first failure
     Use use_ = Use::nothing;
-    mutable std::int64_t at_ = 0; // where the next byte would be written; -1: not known
+    mutable std::int64_t at_ = 0; // offset of the next write; -1: unknown
 };
 
-// How components of `type` are stored.
+// The type in which components of `type` are stored.
 OIIO::TypeDesc typeToWrite(const ImageFormat& format, PixelType type)
 {
     if (!format.bits16 && !format.floats)
@@ -133,13 +133,13 @@ OIIO::TypeDesc typeToWrite(const ImageFormat& format, PixelType type)
     return format.bits8 ? typeDesc(type) : OIIO::TypeDesc::FLOAT;
 }
 
-// channels: no more than the format has. frame: Image::frame, for the formats that hold it.
+// channels: at most those of the format. frame: Image::frame, for the formats that store it.
 OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc type, const ImageFormat& format,
                            const std::string& frame)
 {
     OIIO::ImageSpec spec(width, height, channels, type);
-    spec.attribute("oiio:UnassociatedAlpha", 1); // the values are written as they are
-    // The same picture gives the same bytes: no time of writing.
+    spec.attribute("oiio:UnassociatedAlpha", 1); // values are written unchanged
+    // A constant date: the same image gives the same bytes.
     spec.attribute("DateTime", "1970:01:01 00:00:00");
     if (format.openImageIo == "openexr" || format.openImageIo == "tiff")
         spec.attribute("compression", "zip");
@@ -185,7 +185,7 @@ private:
         return notWritten(name_, e.what());
     }
 
-    std::unique_ptr<CheckedFile> file_; // the output writes to it until it ends
+    std::unique_ptr<CheckedFile> file_; // outlives output_, which writes to it
     std::unique_ptr<OIIO::ImageOutput> output_;
     RowFormat format_;
     std::string name_;
@@ -196,12 +196,12 @@ private:
 
 Status write(const std::filesystem::path& file, const Image& image, const std::string& name)
 {
-    const ImageFormat& format = *imageFormatOf(name); // which checkImageName accepted
+    const ImageFormat& format = *imageFormatOf(name); // checkImageName has accepted `name`
     const OIIO::TypeDesc type = typeToWrite(format, image.type);
     if (type == OIIO::TypeDesc::UINT8 && image.type != PixelType::unorm8)
         return write(file, toUnorm8(image), name);
     try {
-        CheckedFile checked(file); // the output writes to it until it ends
+        CheckedFile checked(file); // outlives `output`, which writes to it
         const auto output = OIIO::ImageOutput::create(std::string(format.openImageIo));
         if (!output)
             return notWritten(name, OIIO::geterror());
@@ -225,8 +225,8 @@ Status write(const std::filesystem::path& file, const Image& image, const std::s
 Result<std::unique_ptr<RowWriter>> createRows(const std::filesystem::path& file, const RowFormat& format, int threads,
                                               const std::string& name)
 try {
-    const ImageFormat& stored = *imageFormatOf(name);   // which checkImageName accepted
-    auto checked = std::make_unique<CheckedFile>(file); // the output writes to it until it ends
+    const ImageFormat& stored = *imageFormatOf(name);   // checkImageName has accepted `name`
+    auto checked = std::make_unique<CheckedFile>(file); // outlives `output`, which writes to it
     auto output = OIIO::ImageOutput::create(std::string(stored.openImageIo));
     if (!output)
         return notWritten(name, OIIO::geterror());
@@ -241,14 +241,14 @@ try {
     return notWritten(name, e.what());
 }
 
-// ---- animated GIF: one subimage a picture ---------------------------------------------------
+// ---- animated GIF: one subimage per image ---------------------------------------------------
 
 namespace {
 
-// Where in a whole GIF the delays of its pictures are: two bytes each, in hundredths of a second, the low one first.
+// Offsets of the delays of a GIF's images: 2 bytes each, little-endian, in hundredths of a second.
 std::vector<std::streamoff> delaysOf(std::istream& gif)
 {
-    constexpr int kHead = 13, kImage = 9; // bytes: of the file, and of a picture behind its mark
+    constexpr int kHead = 13, kImage = 9; // bytes: of the file header, and of an image descriptor
     const auto skipTable = [&](int flags) { gif.ignore((flags & 0x80) != 0 ? 3 << ((flags & 7) + 1) : 0); };
     const auto skipBlocks = [&] {
         for (int size = gif.get(); size > 0; size = gif.get())
@@ -260,24 +260,24 @@ std::vector<std::streamoff> delaysOf(std::istream& gif)
     skipTable(head[10]);
     for (int mark = gif.get(); mark == '!' || mark == ','; mark = gif.get()) {
         if (mark == '!') {
-            if (gif.get() == 0xf9) // its block: size, flags, delay, transparent colour
+            if (gif.get() == 0xf9) // the block: size, flags, delay, transparent colour
                 delays.push_back(std::streamoff(gif.tellg()) + 2);
         } else {
             gif.read(head.data(), kImage);
             skipTable(head[8]);
-            gif.ignore(1); // bits of a code
+            gif.ignore(1); // LZW minimum code size
         }
         skipBlocks();
     }
     return delays;
 }
 
-// OpenImageIO 2.5 gives every picture a second, whatever FramesPerSecond says.
+// Sets the delays. OpenImageIO 2.5 writes one second for every image, whatever FramesPerSecond is.
 bool setDelays(const std::filesystem::path& file, double rate)
 {
     std::fstream gif(file, std::ios::in | std::ios::out | std::ios::binary);
     const std::vector<std::streamoff> delays = delaysOf(gif);
-    gif.clear(); // that the end was reached
+    gif.clear(); // clears the end-of-file state
     const auto delay = unsigned(std::lround(100 / rate));
     for (const std::streamoff at : delays) {
         gif.seekp(at);
@@ -291,15 +291,15 @@ class Gif : public AnimationWriter {
 public:
     Gif(std::filesystem::path file, const AnimationFormat& format, std::string name)
         : file_(std::move(file)), name_(std::move(name)), spec_(format.width, format.height, 4, OIIO::TypeDesc::UINT8),
-          rate_(format.rate), left_(format.pictures), checked_(file_)
+          rate_(format.rate), left_(format.images), checked_(file_)
     {
         spec_.attribute("FramesPerSecond", float(format.rate));
     }
 
-    Status add(const Image& picture) override
+    Status add(const Image& image) override
     try {
         if (left_ == 0)
-            return outputError(name_ + ": there are more pictures than were announced");
+            return outputError(name_ + ": expected no more images than announced");
         if (!output_) {
             output_ = OIIO::ImageOutput::create("gif");
             const std::vector<OIIO::ImageSpec> all(left_, spec_);
@@ -309,7 +309,7 @@ public:
             return failed();
         }
         --left_;
-        return output_->write_image(OIIO::TypeDesc::UINT8, picture.data.data()) ? Status(Done{}) : failed();
+        return output_->write_image(OIIO::TypeDesc::UINT8, image.data.data()) ? Status(Done{}) : failed();
     } catch (const std::exception& e) {
         return outputError(fmt::format("{}: {}", name_, oneLine(e.what())));
     }
@@ -333,10 +333,10 @@ private:
     std::filesystem::path file_;
     std::string name_;
     OIIO::ImageSpec spec_;
-    double rate_; // pictures a second
+    double rate_; // images per second
     std::size_t left_;
     CheckedFile checked_;
-    std::unique_ptr<OIIO::ImageOutput> output_; // writes to it until it ends
+    std::unique_ptr<OIIO::ImageOutput> output_; // writes to checked_
 };
 
 } // namespace

@@ -1,4 +1,4 @@
-// Images that are written beside their places, to appear later.
+// Images written to a temporary file beside their final path.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace cotan {
 
-// As writeImage, but the file appears when the caller commits it (commitTogether). Errors: as writeImage.
+// As writeImage, but the file appears only when the caller commits it (commitTogether). Errors: as writeImage.
 Result<OutputFile> writePending(const std::filesystem::path& file, const Image& image);
 
 } // namespace cotan

@@ -18,10 +18,10 @@ namespace cotan {
 
 namespace {
 
-// libpng says what is wrong by calling back and leaves by longjmp, so the functions that call it hold nothing with a
-// destructor.
+// libpng reports errors by a callback, which must leave by longjmp, so the functions that call it have no local objects
+// with destructors.
 
-constexpr std::size_t kPngMessage = 128; // bytes where the error pointer of a session points to
+constexpr std::size_t kPngMessage = 128; // bytes of the message buffer at png_get_error_ptr
 
 void onPngError(png_structp png, png_const_charp message)
 {
@@ -34,10 +34,10 @@ void onPngWarning(png_structp, png_const_charp) {}
 // ---- reading -------------------------------------------------------------------------------
 
 struct PngReader {
-    std::span<const std::byte> left;    // of a PNG in memory: the bytes not yet consumed
-    std::FILE* file = nullptr;          // or its file, which stays open
-    char message[kPngMessage] = "";     // the error of what returned false
-    char frame[kMaxFrameText + 1] = ""; // Image::frame, of chunks met so far
+    std::span<const std::byte> left;    // of a PNG in memory: bytes not yet consumed
+    std::FILE* file = nullptr;          // or the open file, which the caller closes
+    char message[kPngMessage] = "";     // set when a function returns false
+    char frame[kMaxFrameText + 1] = ""; // Image::frame, from the chunks read so far
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, message, onPngError, onPngWarning);
     png_infop info = png ? png_create_info_struct(png) : nullptr; // null: out of memory
 
@@ -62,7 +62,7 @@ void onRead(png_structp png, png_bytep target, std::size_t size)
     reader->left = reader->left.subspan(size);
 }
 
-// The value of a text chunk whose key is kFrameKey; empty for others, and where it is compressed.
+// The value of an uncompressed text chunk whose key is kFrameKey; empty for all other chunks.
 std::string_view frameOfChunk(std::string_view type, std::string_view data)
 {
     const std::size_t zero = data.find('\0');
@@ -71,7 +71,7 @@ std::string_view frameOfChunk(std::string_view type, std::string_view data)
     data.remove_prefix(zero + 1);
     if (type == "tEXt")
         return data;
-    // iTXt: compressed or not, the method, a language, the key in that language.
+    // iTXt: compression flag, compression method, language, translated key.
     if (data.size() < 2 || data[0] != 0)
         return {};
     data.remove_prefix(2);
@@ -84,7 +84,7 @@ std::string_view frameOfChunk(std::string_view type, std::string_view data)
     return data;
 }
 
-// Every chunk that is not about pixels, one at a time. 1: nothing else is to be done with it.
+// Called for every chunk that does not hold pixels. Returns 1: the chunk is handled.
 int onChunk(png_structp png, png_unknown_chunkp chunk)
 {
     auto* reader = static_cast<PngReader*>(png_get_user_chunk_ptr(png));
@@ -102,19 +102,19 @@ struct PngHeader {
     png_uint_32 width = 0;
     png_uint_32 height = 0;
     PixelType type = PixelType::unorm8;
-    int passes = 1;     // more: interlaced
-    bool alpha = false; // of its own, or a transparent colour
+    int passes = 1;     // more than 1: interlaced
+    bool alpha = false; // an alpha channel, or a transparent colour
     int channels = 4;   // Image::channels
 };
 
-// Reads up to the pixel data and asks for RGBA.
+// Reads up to the pixel data and requests RGBA.
 bool readPngHeader(PngReader& reader, PngHeader& header)
 {
     png_structp png = reader.png;
     if (setjmp(png_jmpbuf(png)))
         return false;
     png_set_read_fn(png, &reader, onRead);
-    // The size is checked by us; the chunks that are not about pixels are skipped.
+    // readPng checks the size; chunks that do not hold pixels are skipped.
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_set_read_user_chunk_fn(png, &reader, onChunk);
@@ -138,7 +138,7 @@ bool readPngHeader(PngReader& reader, PngHeader& header)
     return true;
 }
 
-// Begins with the pixels: their rows have rowBytes.
+// Starts on the pixels. Fails unless their rows have rowBytes.
 bool startPngPixels(PngReader& reader, std::size_t rowBytes)
 {
     png_structp png = reader.png;
@@ -239,7 +239,7 @@ std::optional<Result<std::unique_ptr<RowReader>>> openPngRows(const std::filesys
     if (header.passes > 1)
         return std::nullopt;
     if (header.width > png_uint_32(limits.imageSide) || header.height > png_uint_32(limits.imageSide))
-        return inputError(fmt::format("{}: the image size is {} x {}, the limit is {} a side", file.string(),
+        return inputError(fmt::format("{}: the image size is {} x {}, the limit is {} per side", file.string(),
                                       header.width, header.height, limits.imageSide));
     rows->name = file.string();
     rows->width = int(header.width);
@@ -255,7 +255,7 @@ std::optional<Result<std::unique_ptr<RowReader>>> openPngRows(const std::filesys
 
 namespace {
 
-// Measured on 2048 x 2048 maps: a third larger than with libpng's defaults, in a fifth of the time (180 ms).
+// kQuickPng, on 2048 x 2048 maps: files a third larger than with libpng's defaults, in a fifth of the time (180 ms).
 struct PngEffort {
     int level, filters;
 };
@@ -263,8 +263,8 @@ constexpr PngEffort kQuickPng{2, PNG_FILTER_UP};
 constexpr PngEffort kSmallPng{6, PNG_ALL_FILTERS}; // libpng's defaults
 
 struct PngWriter {
-    std::FILE* file;                // stays open
-    char message[kPngMessage] = ""; // the error of what returned false
+    std::FILE* file;                // closed by the caller
+    char message[kPngMessage] = ""; // set when a function returns false
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, message, onPngError, onPngWarning);
     png_infop info = png ? png_create_info_struct(png) : nullptr; // null: out of memory
 
@@ -282,7 +282,7 @@ void onWrite(png_structp png, png_bytep source, std::size_t size)
 
 void onFlush(png_structp) {}
 
-// Begins with the pixels, of unorm8 or unorm16; without alpha that of the rows is dropped.
+// Writes the header, for unorm8 or unorm16. Without format.alpha, the alpha of the rows is dropped.
 bool startPng(PngWriter& writer, const RowFormat& format, PngEffort effort)
 {
     png_structp png = writer.png;
@@ -290,7 +290,7 @@ bool startPng(PngWriter& writer, const RowFormat& format, PngEffort effort)
         return false;
     const bool wide = format.type == PixelType::unorm16;
     png_set_write_fn(png, writer.file, onWrite, onFlush);
-    // libpng's own limit is 1,000,000 a side.
+    // libpng's default limit is 1,000,000 pixels per side.
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_compression_level(png, effort.level);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, effort.filters);
@@ -300,7 +300,7 @@ bool startPng(PngWriter& writer, const RowFormat& format, PngEffort effort)
     if (format.frame.c_str()[0] != '\0') {
         png_text text = {};
         text.compression = PNG_TEXT_COMPRESSION_NONE;
-        text.key = const_cast<png_charp>(kFrameKey.data()); // libpng copies both
+        text.key = const_cast<png_charp>(kFrameKey.data()); // libpng copies key and text
         text.text = const_cast<png_charp>(format.frame.c_str());
         text.text_length = std::strlen(format.frame.c_str());
         png_set_text(png, writer.info, &text, 1);
@@ -331,7 +331,7 @@ bool endPng(PngWriter& writer)
     return true;
 }
 
-// Closes the stream whatever happens.
+// Closes `out`, also on errors.
 Status writeTo(std::FILE* out, const Image& image, const std::string& name, PngEffort effort)
 {
     bool written = false;
@@ -385,7 +385,7 @@ private:
     {
         if (!fine)
             return outputError(
-                fmt::format("{}: expected to write the picture, libpng found: {}", name_, writer_.message));
+                fmt::format("{}: expected to write the image, libpng found: {}", name_, writer_.message));
         return Done{};
     }
 

@@ -1,4 +1,4 @@
-// What packs the levels of KTX2 files, each where its library is there (CMakeLists.txt).
+// Decompression of the levels of KTX2 files, by libraries that may be missing (CMakeLists.txt).
 #include <fmt/format.h>
 #ifndef COTAN_WITHOUT_ZLIB
 #include <zlib.h>
@@ -15,7 +15,7 @@ namespace cotan {
 #ifdef COTAN_WITHOUT_ZLIB
 Status unpackZlib(std::span<const std::byte>, std::span<std::byte>)
 {
-    return notBuiltWith("zlib, which unpacks this picture", "zlib1g-dev");
+    return notBuiltWith("zlib, which unpacks this image", "zlib1g-dev");
 }
 #else
 Status unpackZlib(std::span<const std::byte> packed, std::span<std::byte> out)
@@ -24,7 +24,7 @@ Status unpackZlib(std::span<const std::byte> packed, std::span<std::byte> out)
     const int done = uncompress(reinterpret_cast<Bytef*>(out.data()), &got,
                                 reinterpret_cast<const Bytef*>(packed.data()), uLong(packed.size()));
     if (done != Z_OK)
-        return inputError(done == Z_BUF_ERROR ? "zlib: the data end too soon, or go on too long"
+        return inputError(done == Z_BUF_ERROR ? "zlib: the data are too short or too long"
                                               : "zlib: the data are damaged");
     if (got != out.size())
         return inputError(fmt::format("zlib: expected {} bytes, found {}", out.size(), got));
@@ -35,7 +35,7 @@ Status unpackZlib(std::span<const std::byte> packed, std::span<std::byte> out)
 #ifdef COTAN_WITHOUT_ZSTD
 Status unpackZstd(std::span<const std::byte>, std::span<std::byte>)
 {
-    return notBuiltWith("libzstd, which unpacks this picture", "libzstd-dev");
+    return notBuiltWith("libzstd, which unpacks this image", "libzstd-dev");
 }
 #else
 Status unpackZstd(std::span<const std::byte> packed, std::span<std::byte> out)

@@ -1,4 +1,4 @@
-// Whether a TIFF file holds the strips and tiles that its directory promises.
+// Checks that a TIFF file holds the strips and tiles that its directory lists.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -12,13 +12,13 @@ namespace cotan::oiio {
 
 namespace {
 
-// Values of one tag of the directory: `count` of `size` bytes from `offset`. count 0: not there.
+// Values of one tag of the directory: `count` values of `size` bytes from `offset` on. count 0: absent.
 struct Tag {
     std::uint64_t count = 0, offset = 0;
     std::size_t size = 0;
 };
 
-// Bytes of the whole numbers of TIFF 6.0, section 2, and of BigTIFF, with and without sign; 0: another type.
+// Bytes of an integer type, signed or unsigned, of TIFF 6.0, section 2, and of BigTIFF; 0: another type.
 std::size_t wholeNumberBytes(std::uint64_t type)
 {
     constexpr std::array<std::size_t, 18> kBytes = {0, 1, 0, 2, 4, 0, 1, 0, 2, 4, 0, 0, 0, 0, 0, 0, 8, 8}; // by type
@@ -37,7 +37,7 @@ public:
             const std::uint64_t entry = start + (large ? 8 : 2) + i * (large ? 20 : 12);
             Tag tag{numbers_.at(entry + 4, word), entry + 4 + word, wholeNumberBytes(numbers_.at(entry + 2, 2))};
             if (tag.size == 0)
-                tag = {}; // still the one that counts: the library passes over a second tag of the same number
+                tag = {}; // kept, since libtiff ignores a second tag of the same number
             else if (tag.count > word / tag.size)
                 tag.offset = numbers_.at(tag.offset, word);
             tags_.emplace_back(numbers_.at(entry, 2), tag);
@@ -72,7 +72,7 @@ private:
     std::vector<std::pair<std::uint64_t, Tag>> tags_;
 };
 
-// Bytes that the rows of a strip, or a tile, take where they are not compressed; 0: unknown.
+// Bytes of an uncompressed row of a strip or tile; 0: unknown.
 std::uint64_t plainRowBytes(TiffDirectory& tiff, bool tiled, bool planes)
 {
     const std::uint64_t width = tiled ? tiff.valueOr(322, 0) : tiff.valueOr(256, 0);
@@ -83,7 +83,7 @@ std::uint64_t plainRowBytes(TiffDirectory& tiff, bool tiled, bool planes)
     return (width * std::min<std::uint64_t>(bits, 0xffffff) + 7) / 8;
 }
 
-// Parts of `each` that cover `whole`, at least 1.
+// The number of parts of size `each` that cover `whole`, at least 1.
 std::uint64_t partsOf(std::uint64_t whole, std::uint64_t each)
 {
     constexpr std::uint64_t kMax = 0xffffffff;
@@ -93,7 +93,7 @@ std::uint64_t partsOf(std::uint64_t whole, std::uint64_t each)
 
 } // namespace
 
-// TIFF 6.0, sections 3, 7 and 15. The first picture only: it is the only one that is read.
+// TIFF 6.0, sections 3, 7 and 15. Checks the first image only, since no other is read.
 Problem checkTiff(File& file, const LoadLimits& limits)
 {
     TiffDirectory tiff(file);
@@ -109,18 +109,18 @@ Problem checkTiff(File& file, const LoadLimits& limits)
     const std::uint64_t rowBytes = plainRowBytes(tiff, tiled, planes);
     const char* const part = tiled ? "tile" : "strip";
     if (tiff.past())
-        return inputError("its directory lies behind the end of the file");
-    if (tiff.find(258).count == 0) // 1 by the format; OpenImageIO takes it for 8
+        return inputError("its directory extends past the end of the file");
+    if (tiff.find(258).count == 0) // 1 by the format; OpenImageIO assumes 8
         return inputError("its directory does not state the bits per sample");
-    // What libtiff decodes. Of a picture compressed otherwise OpenImageIO hands out what the memory held.
+    // The methods that libtiff decodes. For others OpenImageIO returns uninitialised memory.
     constexpr std::array<std::uint64_t, 12> kKnown = {1, 2, 3, 4, 5, 7, 8, 32773, 32946, 34925, 50000, 50001};
     if (const std::uint64_t method = tiff.valueOr(259, 1); std::ranges::find(kKnown, method) == kKnown.end())
-        return inputError(fmt::format("its compression {} is not read here", method));
-    // OpenImageIO takes memory for all rows of a strip, 4 channels each. The largest number means: all in one strip.
+        return inputError(fmt::format("its compression {} is not supported", method));
+    // OpenImageIO allocates all rows of a strip, 4 channels each. 0xffffffff means a single strip.
     const std::uint64_t sampleBytes = 4 * std::clamp<std::uint64_t>(tiff.valueOr(258, 1) / 8, 1, 16);
     const std::uint64_t width = std::clamp<std::uint64_t>(tiff.valueOr(256, 0), 1, 0xffffffff);
     if (!tiled && rows > height && rows != 0xffffffff && rows > limits.imageBytes / sampleBytes / width)
-        return inputError(fmt::format("its strips have {} rows, the picture {}", rows, height));
+        return inputError(fmt::format("its strips have {} rows, the image {}", rows, height));
     if (offsets.count < expected)
         return inputError(fmt::format("its directory lists {} {}s, expected {}", offsets.count, part, expected));
     for (std::uint64_t i = 0; i < offsets.count; ++i) {
@@ -128,8 +128,8 @@ Problem checkTiff(File& file, const LoadLimits& limits)
         const std::uint64_t rowsHere = tiled ? rows : std::min(rows, height - std::min(height, i % strips * rows));
         const std::uint64_t plain = std::min(rowBytes * rowsHere, std::uint64_t(1) << 62);
         if (tiff.past())
-            return inputError("the list of its strips or tiles lies behind the end of the file");
-        if (counts.count > 0 && stored == 0) // without any list the sizes follow from the picture's
+            return inputError("the list of its strips or tiles extends past the end of the file");
+        if (counts.count > 0 && stored == 0) // without this list the sizes follow from the image size
             return inputError(fmt::format("{} {} has no bytes", part, i));
         if (stored > 0 && stored < plain)
             return inputError(fmt::format("{} {} has {} bytes, expected {}", part, i, stored, plain));

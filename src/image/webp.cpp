@@ -28,7 +28,7 @@ struct Chunk {
     std::uint64_t data = 0, size = 0; // bytes
 };
 
-// VP8's frame header: 3 bytes of tag, of which the lowest bit is 0 in a key frame, a mark, two sizes of 14 bits.
+// VP8's frame header: a 3-byte tag, whose lowest bit is 0 for key frames, a start code, and two sizes of 14 bits.
 Result<WebpSize> lossySize(Numbers& file, const Chunk& chunk)
 {
     if (chunk.size < 10)
@@ -37,56 +37,55 @@ Result<WebpSize> lossySize(Numbers& file, const Chunk& chunk)
     if ((tag & 1) != 0 || file.at(chunk.data + 3, 3) != 0x2a019d)
         return inputError("its VP8 chunk does not begin with a key frame");
     if (firstPart > chunk.size - 10)
-        return inputError(
-            fmt::format("the first part of its picture takes {} bytes, its chunk has {} behind the header", firstPart,
-                        chunk.size - 10));
+        return inputError(fmt::format("the first part of its image takes {} bytes, its chunk has {} after the header",
+                                      firstPart, chunk.size - 10));
     return WebpSize{std::int64_t(file.at(chunk.data + 6, 2) & 0x3fff),
                     std::int64_t(file.at(chunk.data + 8, 2) & 0x3fff)};
 }
 
-// VP8L's header: a mark, two sizes of 14 bits less one, whether there is alpha, 3 bits of version.
+// VP8L's header: a signature byte, two sizes of 14 bits minus one, a bit for alpha, and 3 bits of version.
 Result<WebpSize> losslessSize(Numbers& file, const Chunk& chunk)
 {
     if (chunk.size < 5)
         return inputError(fmt::format("its VP8L chunk has {} bytes, expected at least 5", chunk.size));
     const std::uint64_t bits = file.at(chunk.data + 1, 4);
     if (file.at(chunk.data, 1) != 0x2f || bits >> 29 != 0)
-        return inputError("its VP8L chunk begins with another mark or version");
+        return inputError("its VP8L chunk has an unknown signature or version");
     return WebpSize{std::int64_t(bits & 0x3fff) + 1, std::int64_t(bits >> 14 & 0x3fff) + 1};
 }
 
-// The size of the picture, once its parts have been found to lie within the file, as its header says (RFC 9649).
+// Checks that the chunks lie within the file (RFC 9649), and returns the size of the image.
 // Errors: ErrorKind::input, without the file's name.
 Result<WebpSize> checkWebp(std::span<const std::byte> bytes)
 {
     Numbers file(bytes);
     const std::uint64_t end = 8 + file.at(4, 4);
     if (end > file.size())
-        return inputError(fmt::format("its header promises {} bytes, the file has {}", end, file.size()));
+        return inputError(fmt::format("its header announces {} bytes, the file has {}", end, file.size()));
     WebpSize canvas;
     for (std::uint64_t at = 12; at + 8 <= end;) {
         const Chunk chunk{at + 8, file.at(at + 4, 4)};
         if (chunk.size > end - chunk.data)
             return inputError(
                 fmt::format("a chunk takes {} bytes from {}, the file has {}", chunk.size, chunk.data, end));
-        const bool lossy = file.says(at, "VP8 ");
-        if (lossy || file.says(at, "VP8L")) {
+        const bool lossy = file.matches(at, "VP8 ");
+        if (lossy || file.matches(at, "VP8L")) {
             auto size = lossy ? lossySize(file, chunk) : losslessSize(file, chunk);
             if (size && canvas.width > 0 && (size->width != canvas.width || size->height != canvas.height))
-                return inputError(fmt::format("its canvas is {} x {}, its picture {} x {}", canvas.width, canvas.height,
+                return inputError(fmt::format("its canvas is {} x {}, its image {} x {}", canvas.width, canvas.height,
                                               size->width, size->height));
             return size;
         }
-        if (file.says(at, "VP8X")) {
+        if (file.matches(at, "VP8X")) {
             if (chunk.size < 10)
                 return inputError(fmt::format("its VP8X chunk has {} bytes, expected 10", chunk.size));
             if ((file.at(chunk.data, 1) & 0x2) != 0)
-                return inputError("expected one picture, found an animation");
+                return inputError("expected one image, found an animation");
             canvas = {std::int64_t(file.at(chunk.data + 4, 3)) + 1, std::int64_t(file.at(chunk.data + 7, 3)) + 1};
         }
         at = chunk.data + chunk.size + chunk.size % 2;
     }
-    return inputError("it has no picture");
+    return inputError("it has no image");
 }
 
 const char* reason(VP8StatusCode status)
@@ -115,9 +114,9 @@ Result<Image> readWebp(std::span<const std::byte> bytes, const std::string& name
         return *error;
     WebPDecoderConfig config;
     if (!WebPInitDecoderConfig(&config))
-        return unavailableError(fmt::format("{}: libwebp is of another version than it was built with", name));
+        return unavailableError(fmt::format("{}: libwebp has a different version than at build time", name));
     Image image = makeImage(int(size->width), int(size->height), PixelType::unorm8, name);
-    config.output.colorspace = MODE_RGBA; // not multiplied by alpha
+    config.output.colorspace = MODE_RGBA; // not premultiplied
     config.output.is_external_memory = 1;
     config.output.u.RGBA.rgba = image.bytes8();
     config.output.u.RGBA.stride = image.width * 4;
@@ -138,7 +137,7 @@ struct Deleter {
     void operator()(WebPAnimEncoder* encoder) const { WebPAnimEncoderDelete(encoder); }
 };
 
-// libwebp's encoder keeps what is packed of the pictures in memory.
+// Encodes with libwebp, which keeps the compressed images in memory.
 class WebpAnimation : public AnimationWriter {
 public:
     WebpAnimation(std::filesystem::path file, const AnimationFormat& format, std::string name)
@@ -146,20 +145,20 @@ public:
     {
         WebPAnimEncoderOptions options;
         WebPAnimEncoderOptionsInit(&options);
-        options.allow_mixed = 1; // flat pictures are smaller and better without loss
+        options.allow_mixed = 1; // lossless is smaller and better for flat images
         encoder_.reset(WebPAnimEncoderNew(format.width, format.height, &options));
     }
 
-    Status add(const Image& picture) override
+    Status add(const Image& image) override
     {
         WebPConfig config;
         WebPPicture pixels;
         if (!encoder_ || !WebPConfigPreset(&config, WEBP_PRESET_PICTURE, kQuality) || !WebPPictureInit(&pixels))
             return failed("not enough memory");
         pixels.use_argb = 1;
-        pixels.width = picture.width;
-        pixels.height = picture.height;
-        const bool added = WebPPictureImportRGBA(&pixels, picture.bytes8(), picture.width * 4)
+        pixels.width = image.width;
+        pixels.height = image.height;
+        const bool added = WebPPictureImportRGBA(&pixels, image.bytes8(), image.width * 4)
             && WebPAnimEncoderAdd(encoder_.get(), &pixels, timeOf(count_), &config);
         WebPPictureFree(&pixels);
         if (!added)
@@ -181,8 +180,8 @@ public:
     }
 
 private:
-    // Milliseconds at which a picture comes; what is rounded does not add up.
-    int timeOf(std::size_t picture) const { return int(std::lround(1000 * double(picture) / format_.rate)); }
+    // Start of an image in milliseconds; rounding errors do not accumulate.
+    int timeOf(std::size_t index) const { return int(std::lround(1000 * double(index) / format_.rate)); }
 
     Status failed(const char* why) const
     {
@@ -204,11 +203,11 @@ Result<std::unique_ptr<AnimationWriter>> createWebpAnimation(const std::filesyst
     return std::unique_ptr<AnimationWriter>(new WebpAnimation(file, format, name));
 }
 
-// ---- pictures as another one is ------------------------------------------------------------
+// ---- encoding like another file ------------------------------------------------------------
 
 namespace {
 
-// The boolean decoder of RFC 6386, 7.3, over the bytes at the beginning of a frame; past their end it reads zeros.
+// The boolean decoder of RFC 6386, 7.3, over the first bytes of a frame; past their end it reads zeros.
 class Bits {
 public:
     explicit Bits(std::span<const std::byte> bytes) : bytes_(bytes)
@@ -219,7 +218,7 @@ public:
 
     bool flag()
     {
-        constexpr unsigned kEven = 128; // of 256
+        constexpr unsigned kEven = 128; // probability of 0, of 256
         const unsigned split = 1 + (((range_ - 1) * kEven) >> 8), whole = split << 8;
         const bool one = value_ >= whole;
         if (one)
@@ -264,13 +263,13 @@ private:
     unsigned value_ = 0, range_ = 255, shifted_ = 0;
 };
 
-// The quantiser index of a key frame, 0 to 127, as its header has it (RFC 6386, 9.2 to 9.6): where its segments have
-// their own, their mean.
+// The quantiser index of a key frame, 0 to 127, from its header (RFC 6386, 9.2 to 9.6); the mean if its segments have
+// indices of their own.
 double quantiserOf(std::span<const std::byte> frame)
 {
-    constexpr std::size_t kBeforeBits = 10; // tag, start code, size
+    constexpr std::size_t kBeforeBits = 10; // tag, start code and size
     Bits bits(frame.size() > kBeforeBits ? frame.subspan(kBeforeBits) : std::span<const std::byte>());
-    bits.number(2); // colours, clamping
+    bits.number(2); // colour space, clamping
     std::array<int, 4> segments{};
     bool absolute = false, segmented = false;
     if (bits.flag()) {
@@ -280,7 +279,7 @@ double quantiserOf(std::span<const std::byte> frame)
             absolute = bits.flag();
             for (int& segment : segments)
                 segment = bits.flag() ? bits.signedNumber(7) : 0;
-            bits.skipOptional(4, 6, true); // of the loop filter
+            bits.skipOptional(4, 6, true); // of loop filter levels
         }
         if (map)
             bits.skipOptional(3, 8, false);
@@ -294,20 +293,20 @@ double quantiserOf(std::span<const std::byte> frame)
     return !segmented ? base : absolute ? mean : base + mean;
 }
 
-// The quality that libwebp's encoder takes for that quantiser; the other way round than its own curve, a cube root.
+// The quality setting of libwebp's encoder that gives this quantiser: the inverse of libwebp's curve, a cube root.
 int qualityFor(double quantiser)
 {
     const double linear = std::pow(1 - quantiser / 127, 3);
     return int(std::lround(100 * (linear < 0.5 ? 1.5 * linear : (linear + 1) / 2)));
 }
 
-// The content of a chunk of a file that was found sound; empty where there is none.
+// The content of a chunk of a valid file; empty if absent.
 std::span<const std::byte> chunkOf(std::span<const std::byte> file, const char* name)
 {
     Numbers numbers(file);
     for (std::size_t at = 12; at + 8 <= file.size();) {
         const std::size_t length = std::min<std::size_t>(numbers.at(at + 4, 4), file.size() - at - 8);
-        if (numbers.says(at, name))
+        if (numbers.matches(at, name))
             return file.subspan(at + 8, length);
         at += 8 + length + length % 2;
     }
@@ -341,9 +340,9 @@ std::optional<Result<std::vector<std::byte>>> writeWebpLike(const Image& image, 
     if (!WebPConfigInit(&config) || !WebPPictureInit(&written.picture))
         return failed;
     config.lossless = lossy.empty();
-    config.exact = 1; // red, green and blue stay where alpha is 0
+    config.exact = 1; // keep the colours where alpha is 0
     config.quality = lossy.empty() ? 75 : float(quality);
-    config.use_sharp_yuv = 1; // halved colours lose less of the directions
+    config.use_sharp_yuv = 1; // halved chroma loses less of the normals' directions
     written.picture.use_argb = 1;
     written.picture.width = image.width;
     written.picture.height = image.height;

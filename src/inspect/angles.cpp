@@ -51,7 +51,7 @@ void setPixel(Image& image, std::size_t pixel, glm::vec3 color255)
     p[3] = 255;
 }
 
-// A picture where every covered pixel of `source` is coloured by a function of its value.
+// An image with the colour of each covered pixel computed from its value in `source`.
 template<class Color> Image colored(const Image& source, Color color)
 {
     Image image = makeImage(source.width, source.height, PixelType::unorm8, source.name);
@@ -116,7 +116,7 @@ double shareOpposed(const std::vector<float>& degrees)
 {
     const auto compared = std::ranges::count_if(degrees, [](float d) { return d >= 0; });
     const auto opposed = std::ranges::count_if(degrees, [](float d) { return d > 90; });
-    return compared > 0 ? double(opposed) / double(compared) : kOfNothing;
+    return compared > 0 ? double(opposed) / double(compared) : kEmptyStatistics;
 }
 
 Image heatMap(const std::vector<float>& degrees, int width, int height)

@@ -1,4 +1,4 @@
-// Angles: how far two pictures of directions are apart, and numbers about a set of them.
+// Angles between images of directions, and their statistics.
 #pragma once
 
 #include <cstddef>
@@ -10,34 +10,32 @@
 
 namespace cotan {
 
-// Per pixel the angle in degrees between two float32 pictures of directions of the same size, or -1
-// where one of the two has no surface (alpha 0) or no direction (zero length).
+// Returns for each pixel the angle in degrees between two float32 images of directions of the same size, or -1 if
+// either has no surface (alpha 0) or no direction (zero length).
 std::vector<float> anglesBetween(const Image& a, const Image& b);
 
-// Sets to -1 all pixels that touch, among their eight neighbours, one that is -1 already: what
-// remains is interior, where coverage rules play no part. Keeps width*height entries.
+// Sets all pixels to -1 that have a -1 among their eight neighbours or are at the border of the image. The remaining
+// pixels are interior, so that coverage rules do not affect them. `degrees` has width*height entries.
 void keepInterior(std::vector<float>& degrees, int width, int height);
 
-// anglesBetween of the pixels that keepInterior leaves: for shapes that cover a little more or less.
+// anglesBetween of interior pixels only (keepInterior), for shapes with slightly different coverage.
 std::vector<float> interiorAngles(const Image& a, const Image& b);
 
-// Share of compared pixels where the two directions point away from each other (over 90 degrees); NaN
-// where nothing was compared.
+// The fraction of compared pixels whose directions differ by more than 90 degrees; NaN if nothing was compared.
 double shareOpposed(const std::vector<float>& degrees);
 
-// A picture of the angles: black 0, blue 0.5, green 2, yellow 5, red 15, white 45 and more; grey
-// where nothing was compared. unorm8.
+// Colours the angles: black 0, blue 0.5, green 2, yellow 5, red 15, white 45 and more; grey: not compared. unorm8.
 Image heatMap(const std::vector<float>& degrees, int width, int height);
 
-// A float picture of that kind as one of unorm8. Directions are n * 0.5 + 0.5 where there is surface, transparent
-// elsewhere; of uv the fractional parts are red and green; of depths near is white, far is dark, over the range that
-// occurs.
+// Converts a float image of `output` to unorm8. Directions become n * 0.5 + 0.5 on surfaces and are transparent
+// elsewhere. uv become their fractional parts in red and green. Depths become white (nearest) to dark grey (farthest)
+// over the range of the image.
 Image asColor(Output output, const Image& image);
 
-// Counts angles one by one. Percentiles are those of core/value_statistics.hpp: exact up to 65,536 angles.
+// Accumulates angles. Percentiles as in core/value_statistics.hpp: exact up to 65,536 angles.
 class AngleCounter {
 public:
-    void add(float degrees); // left out where it is negative or not finite
+    void add(float degrees); // ignores negative and non-finite values
     AngleStatistics statistics();
 
 private:
@@ -47,7 +45,7 @@ private:
 
 AngleStatistics angleStatistics(const std::vector<float>& degrees);
 
-// "pixels" is the count; the figures of an empty set are null when it is written.
+// "pixels" is the count; the statistics of an empty set are written as null.
 Json toJson(const AngleStatistics& s);
 
 } // namespace cotan

@@ -15,7 +15,7 @@ namespace cotan {
 
 namespace {
 
-// The angles as they are where a normal map is drawn; otherwise none, as no frame has a part in the normals.
+// The angles if a normal map is drawn; otherwise none, because frames do not affect the normals.
 std::vector<float> mappedAngles(std::vector<float> degrees, bool mapped)
 {
     if (!mapped)
@@ -28,7 +28,7 @@ std::vector<Camera> camerasAround(const Scene& scene, int side)
     const Camera fit = fitCamera(bounds(scene), side, side);
     std::vector<Camera> cameras = {fit};
     for (int k = 1; k < kConversionViews - 1; ++k)
-        cameras.push_back(turnedAbout(fit, float(std::numbers::pi) / 2 * float(k)));
+        cameras.push_back(orbitedCamera(fit, float(std::numbers::pi) / 2 * float(k)));
     Camera above = fit;
     above.eye = fit.target + glm::vec3(0, glm::length(glm::dvec3(fit.eye - fit.target)), 0);
     above.up = {0, 0, -1};
@@ -52,11 +52,11 @@ Result<DrawnSides> drawSides(Renderer& renderer, ModelInFrame model, std::vector
     view.output = Output::normal;
     for (const Camera& camera : sides.cameras) {
         view.camera = camera;
-        if (Status fits = settleCovered(model.scene, view); !fits)
+        if (Status fits = limitCoverage(model.scene, view); !fits)
             return fits.error();
     }
-    const auto forget = [](Renderer* drawing) { drawing->forget(); }; // the scene ends here
-    const std::unique_ptr<Renderer, decltype(forget)> shown(&renderer, forget);
+    const auto forget = [](Renderer* drawing) { drawing->forget(); }; // the scene is destroyed on return
+    const std::unique_ptr<Renderer, decltype(forget)> guard(&renderer, forget);
     if (Status loaded = renderer.load(model.scene); !loaded)
         return loaded.error();
     for (const Camera& camera : sides.cameras) {
@@ -72,7 +72,7 @@ Result<DrawnSides> drawSides(Renderer& renderer, ModelInFrame model, std::vector
 Result<ComparedViews> compareSides(const DrawnSides& before, const DrawnSides& after)
 {
     if (before.normals.size() != after.normals.size())
-        return usageError(fmt::format("verify: expected as many pictures after as before, {}; found {}",
+        return usageError(fmt::format("verify: expected as many images after as before, {}; found {}",
                                       before.normals.size(), after.normals.size()));
     ComparedViews compared;
     compared.mapped = before.mapped || after.mapped;
@@ -80,7 +80,7 @@ Result<ComparedViews> compareSides(const DrawnSides& before, const DrawnSides& a
     for (std::size_t k = 0; k < before.normals.size(); ++k) {
         const Image &a = before.normals[k], &b = after.normals[k];
         if (a.width != b.width || a.height != b.height)
-            return usageError(fmt::format("verify: expected pictures of one size, {} x {}; found {} x {}", a.width,
+            return usageError(fmt::format("verify: expected images of the same size, {} x {}; found {} x {}", a.width,
                                           a.height, b.width, b.height));
         const std::vector<float> degrees = mappedAngles(interiorAngles(a, b), compared.mapped);
         compared.views.push_back({angleStatistics(degrees), asColor(Output::normal, a), asColor(Output::normal, b),
@@ -138,10 +138,10 @@ Result<ComparedFrames> compareFrames(Renderer& renderer, const Scene& scene, Vie
                                       {Output::normal, &normal},
                                       {Output::tangent, &tangent},
                                       {Output::bitangent, &bitangent}}) {
-            auto picture = drawn(renderer, view, frames[k], output);
-            if (!picture)
-                return picture.error();
-            (*images)[k] = std::move(*picture);
+            auto image = drawn(renderer, view, frames[k], output);
+            if (!image)
+                return image.error();
+            (*images)[k] = std::move(*image);
         }
     ComparedFrames compared;
     compared.mapped = showsNormalMaps(scene, view);

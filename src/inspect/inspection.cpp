@@ -12,7 +12,7 @@
 #include "image/component_types.hpp"
 #include "inspect/angles.hpp"
 #include "scene/normal_maps.hpp"
-#include "scene/picture_text.hpp"
+#include "scene/render_text.hpp"
 
 namespace cotan {
 
@@ -26,14 +26,14 @@ constexpr std::array<std::string_view, 17> kNames = {
 constexpr glm::vec3 kBlue{0.20f, 0.45f, 0.85f}, kOrange{0.95f, 0.55f, 0.15f}, kRed{0.85f, 0.15f, 0.15f},
     kGrey{0.5f}; // sRGB
 
-glm::vec3 linear(glm::vec3 shown)
+glm::vec3 linear(glm::vec3 srgb)
 {
     for (int i = 0; i < 3; ++i)
-        shown[i] = f32::cotan_srgb_to_linear(shown[i]);
-    return shown;
+        srgb[i] = f32::cotan_srgb_to_linear(srgb[i]);
+    return srgb;
 }
 
-// Black to white by way of blue, green, yellow and red; the colours of degrees.
+// The colours of a heat map: black, blue, green, yellow, red, white.
 std::vector<glm::vec3> heatColors(const std::vector<float>& degrees)
 {
     const Image heat = heatMap(degrees, int(degrees.size()), 1);
@@ -45,15 +45,15 @@ std::vector<glm::vec3> heatColors(const std::vector<float>& degrees)
     return colors;
 }
 
-// Piecewise between places that have the degrees' colours.
-float asDegrees(double value, const std::array<double, 6>& places)
+// Maps a value to the degrees of equal heat colour, linearly between the values at its six colour stops.
+float asDegrees(double value, const std::array<double, 6>& stops)
 {
     constexpr std::array<double, 6> kDegrees = {0, 0.5, 2, 5, 15, 45};
-    for (std::size_t i = 1; i < places.size(); ++i)
-        if (value < places[i])
+    for (std::size_t i = 1; i < stops.size(); ++i)
+        if (value < stops[i])
             return float(kDegrees[i - 1]
-                         + (kDegrees[i] - kDegrees[i - 1]) * std::max(0.0, value - places[i - 1])
-                             / (places[i] - places[i - 1]));
+                         + (kDegrees[i] - kDegrees[i - 1]) * std::max(0.0, value - stops[i - 1])
+                             / (stops[i] - stops[i - 1]));
     return 45;
 }
 
@@ -68,11 +68,11 @@ Material unlit(const Material& from)
     return m;
 }
 
-// Brighter above than below, so that an even colour still has a shape.
+// Brighter above than below, to give uniform colours some shading.
 float shapeOf(const glm::vec3& normal) { return 0.7f + 0.3f * normal.y; }
 
-// Corners of its own for every triangle, each with the triangle's colour.
-void paintTriangles(Mesh& mesh, const std::vector<glm::vec3>& shown, bool shaped)
+// Gives every triangle its own corners in the triangle's colour.
+void paintTriangles(Mesh& mesh, const std::vector<glm::vec3>& colors, bool shaped)
 {
     Mesh flat;
     flat.name = mesh.name;
@@ -81,13 +81,13 @@ void paintTriangles(Mesh& mesh, const std::vector<glm::vec3>& shown, bool shaped
         const std::size_t v = mesh.indices[i];
         flat.positions.push_back(mesh.positions[v]);
         flat.normals.push_back(mesh.normals[v]);
-        flat.colors.emplace_back(linear(shown[i / 3]) * (shaped ? shapeOf(mesh.normals[v]) : 1.0f), 1.0f);
+        flat.colors.emplace_back(linear(colors[i / 3]) * (shaped ? shapeOf(mesh.normals[v]) : 1.0f), 1.0f);
         flat.indices.push_back(std::uint32_t(i));
     }
     mesh = std::move(flat);
 }
 
-// The map whose texels count: the normal map, else the colours.
+// The map that determines texel density and uv set: the normal map, else the base colour map.
 const Texture& mapOf(const Material& m) { return m.normalMap.present() ? m.normalMap : m.baseColorMap; }
 
 double texelsOf(const Scene& scene, const Material& m)
@@ -98,11 +98,11 @@ double texelsOf(const Scene& scene, const Material& m)
     return std::sqrt(double(std::max(image.width, 1)) * std::max(image.height, 1));
 }
 
-using Values = std::vector<std::vector<float>>; // a mesh, a triangle
+using Values = std::vector<std::vector<float>>; // by mesh and triangle
 
 Values degreesOf(const Scene& scene, Inspection inspection)
 {
-    const float none = inspection == Inspection::mirrored ? 0.0f : -1.0f; // where the uv have no area
+    const float none = inspection == Inspection::mirrored ? 0.0f : -1.0f; // value of triangles without area in uv
     std::vector<glm::mat3> toWorld(scene.meshes.size(), glm::mat3(1));    // of the first instance of each mesh
     for (auto instance = scene.instances.rbegin(); instance != scene.instances.rend(); ++instance)
         toWorld[std::size_t(instance->mesh)] = glm::mat3(instance->toWorld);
@@ -158,7 +158,7 @@ void showTriangles(Scene& scene, Inspection inspection)
     scene.images.clear();
 }
 
-// Each surface twice: as it is, and inside out in another colour; backs are culled.
+// Draws each surface twice: as it is, and flipped in another colour; back faces are culled.
 void showFacing(Scene& scene)
 {
     const std::size_t meshes = scene.meshes.size(), instances = scene.instances.size();
@@ -174,16 +174,16 @@ void showFacing(Scene& scene)
         mesh.colors.clear();
         for (const glm::vec3& normal : mesh.normals)
             mesh.colors.emplace_back(glm::vec3(shapeOf(normal)), 1.0f);
-        Mesh turned = mesh;
-        turned.material = 1;
-        for (std::size_t i = 0; i + 2 < turned.indices.size(); i += 3)
-            std::swap(turned.indices[i + 1], turned.indices[i + 2]);
-        scene.meshes.push_back(std::move(turned));
+        Mesh flipped = mesh;
+        flipped.material = 1;
+        for (std::size_t i = 0; i + 2 < flipped.indices.size(); i += 3)
+            std::swap(flipped.indices[i + 1], flipped.indices[i + 2]);
+        scene.meshes.push_back(std::move(flipped));
     }
     for (std::size_t i = 0; i < instances; ++i) {
-        Instance turned = scene.instances[i];
-        turned.mesh += int(meshes);
-        scene.instances.push_back(std::move(turned));
+        Instance flipped = scene.instances[i];
+        flipped.mesh += int(meshes);
+        scene.instances.push_back(std::move(flipped));
     }
 }
 
@@ -210,26 +210,26 @@ MapOf mapFor(Inspection inspection)
     }
 }
 
-// What stands where there is no map, and multiplies one that is there: as a colour that is shown.
+// The sRGB colour of a material without the map, and the factor of the map otherwise.
 glm::vec3 factorOf(const Material& m, Inspection inspection)
 {
-    const auto shown = [](glm::vec3 c) {
+    const auto toSrgb = [](glm::vec3 c) {
         for (int i = 0; i < 3; ++i)
             c[i] = f32::cotan_linear_to_srgb(glm::clamp(c[i], 0.0f, 1.0f));
         return c;
     };
     switch (inspection) {
-    case Inspection::baseColor: return shown(glm::vec3(m.baseColor));
+    case Inspection::baseColor: return toSrgb(glm::vec3(m.baseColor));
     case Inspection::alpha: return glm::vec3(m.alphaMode == AlphaMode::opaque ? 1 : m.baseColor.w);
     case Inspection::roughness: return glm::vec3(m.roughness);
     case Inspection::metallic: return glm::vec3(m.metallic);
-    case Inspection::emissive: return shown(m.emissive);
+    case Inspection::emissive: return toSrgb(m.emissive);
     case Inspection::normalMap: return m.normalMap.present() ? glm::vec3(1) : glm::vec3(0.5f, 0.5f, 1);
     default: return glm::vec3(1);
     }
 }
 
-// Its codes as they are, red, green and blue or one of the four in grey.
+// The stored values of an image: red, green and blue, or one of the four channels in grey.
 Image codesOf(const Image& image, int channel)
 {
     Image codes = toUnorm8(image);
@@ -263,7 +263,7 @@ void showMap(Scene& scene, Inspection inspection)
         mesh.colors.clear();
 }
 
-// 8 by 8 squares, the hue by the column and the brightness by the row, so that turns and mirrors are seen.
+// 8 by 8 squares with the hue by column and the saturation by row, to make rotations and mirroring visible.
 Image checkerImage()
 {
     constexpr int kSide = 512, kSquare = kSide / 8;
@@ -337,7 +337,7 @@ View inspectionView(View view)
     view.ground.reset();
     view.background = false;
     view.linearOutput = false;
-    view.dither = false; // colours tell numbers
+    view.dither = false; // colours represent exact values
     view.toneMapping = ToneMapping::none;
     view.exposure = 1;
     view.normalMaps = false;

@@ -19,17 +19,17 @@ namespace cotan {
 
 namespace {
 
-// One thing that can be wrong with triangles of a mesh: the largest of them counts among the worst.
+// One kind of problem of a mesh, with its worst triangle: the largest value, weighted by the square root of the area.
 struct Worst {
-    double value = 0, area = 0; // of the worst triangle; of all that are wrong
+    double value = 0, area = 0; // value of the worst triangle; area of all triangles with the problem
     double weight = 0;
     std::size_t triangle = 0;
 
-    void take(double found, double itsArea, std::size_t i)
+    void take(double found, double triangleArea, std::size_t i)
     {
-        area += itsArea;
-        const double w = found * std::sqrt(itsArea);
-        if (w > weight || area == itsArea) {
+        area += triangleArea;
+        const double w = found * std::sqrt(triangleArea);
+        if (w > weight || area == triangleArea) {
             weight = w;
             value = found;
             triangle = i;
@@ -50,8 +50,8 @@ float longestEdge(const std::array<glm::vec3, 3>& p)
     return std::max({glm::length(p[1] - p[0]), glm::length(p[2] - p[0]), glm::length(p[2] - p[1])});
 }
 
-// Pictures of this camera are 0.83 of its distance high: the triangle is a third of that at most, and an eighth of the
-// model is seen around a small one. whole: the diagonal of the scene.
+// A camera whose image is 0.83 of its distance high: the triangle fills at most a third of that, and the image height
+// is at least 1/7 of `whole`, the diagonal of the scene.
 Camera lookingAt(float whole, const Instance& instance, const std::array<glm::vec3, 3>& p)
 {
     const glm::vec3 middle = (p[0] + p[1] + p[2]) / 3.0f;
@@ -69,33 +69,33 @@ Camera lookingAt(float whole, const Instance& instance, const std::array<glm::ve
     return camera;
 }
 
-// Goes nearer until nothing stands between the eye and the target; not at all where the triangle would not fit into the
-// picture from there.
-void getPastOthers(const Scene& scene, const std::array<glm::vec3, 3>& corners, Camera& camera)
+// Moves the camera closer until nothing hides its target. Leaves it unchanged if the triangle would not fit into the
+// image then.
+void avoidOccluders(const Scene& scene, const std::array<glm::vec3, 3>& corners, Camera& camera)
 {
     constexpr glm::ivec2 kSize{2, 2};
-    const float least = 2 * longestEdge(corners);
+    const float minDistance = 2 * longestEdge(corners);
     Camera nearer = camera;
     for (int tries = 0; tries < 4; ++tries) {
         const glm::vec3 back = nearer.eye - nearer.target;
         const float distance = glm::length(back);
-        const auto hit = pick(scene, nearer, kSize, {1, 1}); // its middle
+        const auto hit = pick(scene, nearer, kSize, {1, 1}); // the centre of the image
         if (!hit || hit->depth > 0.99f * distance) {
             camera = nearer;
             return;
         }
         const float next = 0.9f * (distance - hit->depth);
-        if (next < least)
+        if (next < minDistance)
             return;
         nearer.eye = nearer.target + back * (next / distance);
     }
 }
 
-// What lint counts, in its words.
+// A kind of problem that lint measures.
 struct Kind {
     std::string words;
-    const char* here; // the value at the worst triangle; empty: it has none
-    double bad = 0;   // of a value of one
+    const char* here;  // format of the value at the worst triangle; empty: no value
+    double weight = 0; // severity of a value of one
     std::string_view view;
     bool storedTangents = false;
 };
@@ -104,17 +104,17 @@ const std::array<Kind, 5>& kinds()
 {
     static const std::array<Kind, 5> all = {
         {{"uv without area", "", 3, "mirrored"},
-         {fmt::format("stretched over {:.1f}", kStretched), ", here {:.3g}", 0.5, "stretch"},
-         {fmt::format("sheared over {:.0f} degrees", kSheared), ", here {:.0f}", 1 / 45.0, "shear"},
-         {"stored w against the uv", "", 3, "w"},
-         {fmt::format("stored tangents turned over {:.0f} degrees", kTurned), ", here {:.0f}", 1 / 45.0, "tangent",
-          true}}};
+         {fmt::format("stretched by more than {:.1f}", kStretched), ", here {:.3g}", 0.5, "stretch"},
+         {fmt::format("sheared by more than {:.0f} degrees", kSheared), ", here {:.0f}", 1 / 45.0, "shear"},
+         {"stored w contradicts the uv", "", 3, "w"},
+         {fmt::format("stored tangents rotated by more than {:.0f} degrees", kMaxTangentAngle), ", here {:.0f}",
+          1 / 45.0, "tangent", true}}};
     return all;
 }
 
 struct Found {
     std::array<Worst, 5> worst;
-    double area = 0, compared = 0; // of all triangles; of those whose stored tangents were compared
+    double area = 0, compared = 0; // area of all triangles; area with stored tangents that could be compared
 
     double shareOf(std::size_t kind) const
     {
@@ -145,7 +145,7 @@ Found findOn(const MappedSurface& surface)
             found.compared += corner.compared ? area / 3 : 0;
             if (corner.compared && corner.reversed)
                 found.worst[3].take(1, area / 3, i);
-            if (corner.compared && corner.degrees > kTurned)
+            if (corner.compared && corner.degrees > kMaxTangentAngle)
                 found.worst[4].take(corner.degrees, area / 3, i);
         }
     }
@@ -154,12 +154,12 @@ Found findOn(const MappedSurface& surface)
 
 } // namespace
 
-std::vector<ProblemArea> problemAreas(const Scene& scene, std::size_t most)
+std::vector<ProblemArea> problemAreas(const Scene& scene, std::size_t maxCount)
 {
     std::vector<ProblemArea> areas;
     const Bounds box = bounds(scene);
     const float whole = glm::length(box.high - box.low);
-    std::vector<const Instance*> firstOf(scene.meshes.size()); // instances
+    std::vector<const Instance*> firstOf(scene.meshes.size()); // first instance of each mesh
     for (const Instance& instance : scene.instances)
         if (const Instance*& first = firstOf[std::size_t(instance.mesh)]; !first)
             first = &instance;
@@ -185,14 +185,14 @@ std::vector<ProblemArea> problemAreas(const Scene& scene, std::size_t most)
             const std::string text = fmt::format("{}: {:.1f} % of {}", kind.words, share * 100, name)
                 + fmt::format(fmt::runtime(kind.here), worst.value);
             const auto corners = cornersOf(*instance, mesh, worst.triangle);
-            areas.push_back({text, m, share, kind.bad * worst.value * share, lookingAt(whole, *instance, corners),
+            areas.push_back({text, m, share, kind.weight * worst.value * share, lookingAt(whole, *instance, corners),
                              corners, kind.view, kind.storedTangents});
         }
     }
     std::ranges::stable_sort(areas, std::greater(), &ProblemArea::severity);
-    areas.resize(std::min(areas.size(), most));
+    areas.resize(std::min(areas.size(), maxCount));
     for (ProblemArea& area : areas)
-        getPastOthers(scene, area.corners, area.camera);
+        avoidOccluders(scene, area.corners, area.camera);
     return areas;
 }
 
@@ -208,7 +208,7 @@ std::vector<std::string> mapFaults(const Scene& scene)
         if (!hasPixels(map))
             continue;
         const maps::GreenVerdict verdict = maps::greenOf(map);
-        const bool readUp = m.normalFormat.greenUp && !m.greenReversed; // else it is read as its tangents mean it
+        const bool readUp = m.normalFormat.greenUp && !m.greenReversed; // else read according to its tangents
         const auto faults = maps::faultsOf(verdict.statistics, readUp ? &verdict : nullptr);
         if (!faults.empty())
             sentences.push_back(maps::sentenceOf(map.name.empty() ? fmt::format("Image {}", image) : map.name, faults,

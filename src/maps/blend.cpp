@@ -16,21 +16,22 @@ namespace {
 
 int repeated(std::int64_t i, int size) { return int((i % size + size) % size); }
 
-// Which texels of a repeating line of `size` one texel of `count` covers, and how much of each.
+// A texel of a repeating line, and its weight in a footprint.
 struct Tap {
     int texel;
     float weight;
 };
 
-// Magnified: two taps, linear. Minified: all texels under the footprint, by their share of it.
+// The taps of texel i of `count` over `tiles` repetitions of a line of `size` texels. Magnified: two, linear. Minified:
+// all texels in the footprint, weighted by coverage.
 std::vector<Tap> tapsOf(int i, int count, int size, int tiles)
 {
     const double step = double(size) * tiles / count; // texels of the detail per texel of the base
     if (step <= 1) {
         const double at = (i + 0.5) * step - 0.5;
         const auto first = std::int64_t(std::floor(at));
-        const float part = float(at - double(first));
-        return {{repeated(first, size), 1 - part}, {repeated(first + 1, size), part}};
+        const float fraction = float(at - double(first));
+        return {{repeated(first, size), 1 - fraction}, {repeated(first + 1, size), fraction}};
     }
     std::vector<Tap> taps;
     const double from = i * step, to = from + step;
@@ -42,10 +43,10 @@ std::vector<Tap> tapsOf(int i, int count, int size, int tiles)
     return taps;
 }
 
-// Zero where there is next to none, or too much for floats.
+// The unit vector; zero if v is shorter than 1e-3 or its length overflows.
 glm::vec3 direction(const glm::vec3& v) { return unitOr(v, glm::vec3(0), 1e-3f); }
 
-// Rows of the detail at the base's resolution, unit; zero where it has no direction.
+// Rows of the detail at the base's resolution, as unit vectors; zero where it has no direction.
 class DetailRows {
 public:
     DetailRows(const Image& detail, const Convention& convention, int width, int height, int tilesX, int tilesY)
@@ -78,11 +79,11 @@ private:
     int height_, tilesY_;
 };
 
-// The mask's red at the nearest texel, [0,1]; not a number is 0.
+// The mask's red at the nearest texel, [0,1]; NaN gives 0.
 float maskAt(const Image& mask, int x, int y, int width, int height)
 {
     const float value = atTexel(mask, int(double(x) * mask.width / width), int(double(y) * mask.height / height),
-                                [](const auto* c, int most) { return float(c[0]) / float(most); });
+                                [](const auto* c, int maximum) { return float(c[0]) / float(maximum); });
     return value > 0 ? std::min(value, 1.0f) : 0.0f;
 }
 
@@ -103,7 +104,7 @@ glm::vec3 blendTexels(const glm::vec3& base, const glm::vec3& detail, BlendMode 
 Image blend(const Image& base, const Image& detail, const BlendSettings& s, std::size_t& invalid)
 {
     Image out = makeImage(base.width, base.height, s.type, base.name);
-    const int height = s.pictureHeight > 0 ? s.pictureHeight : base.height;
+    const int height = s.imageHeight > 0 ? s.imageHeight : base.height;
     const DetailRows details(detail, s.detail, base.width, height, s.tilesX, s.tilesY);
     std::atomic<std::size_t> bad = 0;
     forRowBands(base.height, [&](int first, int last) {
@@ -121,7 +122,7 @@ Image blend(const Image& base, const Image& detail, const BlendSettings& s, std:
                 badHere += b == glm::vec3(0) || d == glm::vec3(0);
                 d = direction({d.x * s.strength * mask, d.y * s.strength * mask, d.z});
                 glm::vec3 n = b == glm::vec3(0) ? d : b;
-                // A detail of no strength is no detail, also for the modes that flatten the base with it.
+                // Zero strength leaves the base unchanged, even in the modes that flatten it.
                 if (b != glm::vec3(0) && d != glm::vec3(0) && mask * s.strength != 0)
                     n = blendTexels(b, d, s.mode);
                 texels[x] = encodeTexel(n, s.to, s.type);

@@ -11,7 +11,7 @@ namespace cotan::maps {
 
 namespace {
 
-// Means of lengths. Filtering and 8 bits leave over 0.95 on all maps that were looked at (docs/reference/maps.md).
+// Limits on the mean length. Filtering and 8 bits leave over 0.95 on all maps examined (docs/reference/maps.md).
 constexpr double kShort = 0.9, kLong = 1.05;
 
 bool has(const std::vector<Fault>& faults, Fault::Kind kind)
@@ -19,7 +19,7 @@ bool has(const std::vector<Fault>& faults, Fault::Kind kind)
     return std::ranges::any_of(faults, [&](const Fault& f) { return f.kind == kind; });
 }
 
-// "0.85 long on average, not 1". This part has no {fmt}: it is built where there is none.
+// Formats a length as "0.85 long on average, not 1", without {fmt}, which src/maps does not depend on.
 std::string longOnAverage(double length)
 {
     const long hundredths = std::lround(100 * length);
@@ -48,14 +48,14 @@ std::vector<Fault> faultsOf(const NormalStatistics& s, const GreenVerdict* green
     add(normals && s.transfer == Transfer::srgb, Kind::srgb,
         "it was saved as a colour, through the sRGB curve: flat is near 188 instead of 128");
     add(normals && s.transfer == Transfer::linearised, Kind::linearised,
-        "the sRGB curve was undone on values that never had it: flat is near 55 instead of 128");
+        "the sRGB curve was removed from values that never had it: flat is near 55 instead of 128");
     add(normals && s.redIsZ, Kind::redAndBlue,
         "red and blue are exchanged: red points outwards everywhere, blue does not");
     const bool tangentSpace = s.content == Content::tangentSpace && s.transfer == Transfer::linear && !s.redIsZ;
     add(tangentSpace && s.meanLength < kShort, Kind::tooShort,
         "washed out: vectors are " + longOnAverage(s.meanLength));
     add(tangentSpace && s.meanLength > kLong, Kind::tooLong, "too strong: vectors are " + longOnAverage(s.meanLength));
-    add(s.eightBits, Kind::eightBitsIn16, "its 16 bits hold steps of 8 bits only");
+    add(s.eightBits, Kind::eightBitsIn16, "its 16-bit values are all multiples of an 8-bit step");
     add(green && green->swapped == Swapped::yes, Kind::redAndGreen, "red and green are exchanged");
     add(green && green->green == Green::down, Kind::greenDown,
         "green points down (DirectX), which glTF and OpenGL read as dents");

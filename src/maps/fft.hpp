@@ -1,5 +1,5 @@
-// Fourier and cosine transforms of any length. Our own: FFTW is GPL; KissFFT is, in Debian,
-// single precision only, and takes time quadratic in large prime factors.
+// Fourier and cosine transforms of any length. Written here because FFTW is GPL and Debian's KissFFT has single
+// precision only and takes quadratic time for large prime factors.
 #pragma once
 
 #include <bit>
@@ -14,10 +14,10 @@ namespace cotan::maps {
 
 using Complex = std::complex<double>;
 
-inline Complex turn(double part) { return std::polar(1.0, 2 * std::numbers::pi * part); }
+inline Complex rootOfUnity(double fraction) { return std::polar(1.0, 2 * std::numbers::pi * fraction); }
 
-// Transforms of one length. forward: sum x[n] exp(-2 pi i k n / N), no factor; inverse: its inverse,
-// with 1/N. Powers of two by radix 2, others by L. Bluestein's chirp. Const, so shared by threads.
+// Transforms of one length. forward: sum x[n] exp(-2 pi i k n / N), unscaled; inverse: its inverse, scaled by 1/N.
+// Powers of two use radix 2, other lengths L. Bluestein's chirp. Its methods are const: threads may share one.
 class Fft {
 public:
     explicit Fft(std::size_t size) : size_(size)
@@ -26,13 +26,13 @@ public:
         padded_ = plain ? size : std::bit_ceil(2 * size - 1);
         for (std::size_t half = 1; half < padded_; half *= 2)
             for (std::size_t k = 0; k < half; ++k)
-                twiddle_.push_back(turn(-double(k) / double(2 * half)));
+                twiddle_.push_back(rootOfUnity(-double(k) / double(2 * half)));
         if (plain)
             return;
         chirp_.resize(size);
         response_.assign(padded_, 0);
         for (std::size_t n = 0; n < size; ++n) {
-            chirp_[n] = turn(-double(n * n % (2 * size)) / double(2 * size));
+            chirp_[n] = rootOfUnity(-double(n * n % (2 * size)) / double(2 * size));
             response_[n] = std::conj(chirp_[n]);
             if (n > 0)
                 response_[padded_ - n] = std::conj(chirp_[n]);
@@ -51,7 +51,7 @@ public:
             work[n] = x[n] * chirp_[n];
         radix2(work.data());
         for (std::size_t k = 0; k < padded_; ++k)
-            work[k] = std::conj(work[k] * response_[k]); // inverse by conjugates
+            work[k] = std::conj(work[k] * response_[k]); // inverse transform by conjugation
         radix2(work.data());
         for (std::size_t k = 0; k < size_; ++k)
             x[k] = std::conj(work[k]) * chirp_[k] / double(padded_);
@@ -67,7 +67,7 @@ public:
     }
 
 private:
-    void radix2(Complex* x) const // of padded_ entries
+    void radix2(Complex* x) const // x: padded_ entries
     {
         for (std::size_t i = 1, j = 0; i < padded_; ++i) {
             std::size_t bit = padded_ >> 1;
@@ -82,7 +82,7 @@ private:
             for (std::size_t start = 0; start < padded_; start += 2 * half)
                 for (std::size_t k = 0; k < half; ++k) {
                     const Complex a = x[start + k], b = x[start + k + half], w = twiddle[k];
-                    // Written out: operator* of std::complex checks for infinities.
+                    // Multiplied by hand because operator* of std::complex checks for infinities.
                     const Complex t(b.real() * w.real() - b.imag() * w.imag(),
                                     b.real() * w.imag() + b.imag() * w.real());
                     x[start + k] = a + t;
@@ -91,8 +91,8 @@ private:
         }
     }
 
-    std::size_t size_, padded_; // padded_: a power of two; size_ itself where that is one
-    // Stage after stage in the order they are read: exp(-2 pi i k / 2h), k < h = 1, 2, 4 ...
+    std::size_t size_, padded_; // padded_: a power of two, equal to size_ if that is one
+    // Factors of all stages, in the order of use: exp(-2 pi i k / 2h), k < h = 1, 2, 4 ...
     std::vector<Complex> twiddle_;
     std::vector<Complex> chirp_;    // exp(-pi i n^2 / size_); empty for powers of two
     std::vector<Complex> response_; // transform of the conjugate chirp
@@ -107,7 +107,7 @@ inline void cosineForward(const Fft& fft, std::span<double> x)
         v[i % 2 == 0 ? i / 2 : n - 1 - i / 2] = x[i];
     fft.forward(v);
     for (std::size_t k = 0; k < n; ++k)
-        x[k] = 2 * (v[k] * turn(-double(k) / double(4 * n))).real();
+        x[k] = 2 * (v[k] * rootOfUnity(-double(k) / double(4 * n))).real();
 }
 
 inline void cosineInverse(const Fft& fft, std::span<double> x)
@@ -115,7 +115,7 @@ inline void cosineInverse(const Fft& fft, std::span<double> x)
     const std::size_t n = fft.size();
     std::vector<Complex> v(n);
     for (std::size_t k = 0; k < n; ++k)
-        v[k] = 0.5 * turn(double(k) / double(4 * n)) * Complex(x[k], k == 0 ? 0.0 : -x[n - k]);
+        v[k] = 0.5 * rootOfUnity(double(k) / double(4 * n)) * Complex(x[k], k == 0 ? 0.0 : -x[n - k]);
     fft.inverse(v);
     for (std::size_t i = 0; i < n; ++i)
         x[i] = v[i % 2 == 0 ? i / 2 : n - 1 - i / 2].real();

@@ -19,22 +19,22 @@ namespace cotan::maps {
 
 namespace {
 
-// Texels tilted by more than about 80 degrees say little (slopes explode); beside them a cell is skipped.
+// Slopes explode at grazing normals: cells with a texel tilted by more than about 80 degrees are skipped.
 constexpr float kLowestZ = 0.17f;
-constexpr double kLikely = 0.12, kCertain = 0.5; // |agreement|
+constexpr double kLikely = 0.12, kCertain = 0.5; // limits on |agreement|
 constexpr double kLikelyDeviations = 5;
-constexpr int kFewestTexels = 100; // of a picture: noise agrees by chance in smaller ones
-constexpr double kFewest = 4;      // patches; fewer do not tell their own spread
-constexpr int kRun = 8;            // texels alike side by side, for the colour between charts
-constexpr double kBetween = 0.02;  // of all texels in such runs of the commonest colour
+constexpr int kMinTexels = 100;           // of an image; in smaller ones noise agrees by chance
+constexpr double kMinPatches = 4;         // patches; fewer give no standard error
+constexpr int kRun = 8;                   // equal adjacent texels that count as fill between charts
+constexpr double kMinFillFraction = 0.02; // minimum fraction of all texels in runs of the most common colour
 
-// Products of the cross derivatives over the cells of a patch.
+// Sums of products of cross derivatives over the cells of a patch.
 struct Products {
     double ay2 = 0, bx2 = 0, ayBx = 0; // red and green in their places
     double by2 = 0, ax2 = 0, byAx = 0; // exchanged
-    double cells = 0;                  // looked at
-    double active = 0;                 // with a relief that is not constant: where rounding noise can be
-    double cross = 0, along = 0;       // sums of ay^2 + bx^2 and of ax^2 + by^2 as they are, for noise
+    double cells = 0;                  // cells with four usable texels
+    double active = 0;                 // cells whose relief is not constant and can show rounding noise
+    double cross = 0, along = 0;       // unweighted sums of ay^2 + bx^2 and of ax^2 + by^2, for noise
 
     void add(const Products& o, double sign = 1)
     {
@@ -48,7 +48,7 @@ struct Products {
 };
 
 struct Slope {
-    float a = 0, b = 0, weight = 0; // dh/dx, dh/dy upwards; weight 0: skip
+    float a = 0, b = 0, weight = 0; // dh/dx, dh/dy with y up; weight 0: skip
 };
 
 struct Derivatives {
@@ -66,7 +66,7 @@ Slope slopeOf(const glm::vec3& n, bool xyz)
     return {-n.x / n.z, -n.y / n.z, z * z};
 }
 
-// The stored bytes of the colour that fills what lies between charts: the one in the most runs. Empty if there is none.
+// The stored bytes of one texel.
 using Colour = std::string_view;
 
 Colour at(const Image& image, std::size_t i)
@@ -74,7 +74,8 @@ Colour at(const Image& image, std::size_t i)
     return {reinterpret_cast<const char*>(image.data.data()) + i * image.bytesPerPixel(), image.bytesPerPixel()};
 }
 
-std::string colourBetween(const std::vector<Patch>& patches)
+// The colour that fills the space between charts: the one with the most texels in runs; empty if there is none.
+std::string fillColour(const std::vector<Patch>& patches)
 {
     std::map<Colour, std::size_t> inRuns;
     std::size_t all = 0;
@@ -89,22 +90,22 @@ std::string colourBetween(const std::vector<Patch>& patches)
         }
     }
     const auto most = std::ranges::max_element(inRuns, {}, [](const auto& c) { return std::pair(c.second, c.first); });
-    return most != inRuns.end() && double(most->second) > kBetween * double(all) ? std::string(most->first)
-                                                                                 : std::string();
+    return most != inRuns.end() && double(most->second) > kMinFillFraction * double(all) ? std::string(most->first)
+                                                                                         : std::string();
 }
 
 std::vector<Slope> slopesOf(const Patch& patch, const Convention& convention, Swizzle swizzle,
                             const std::string& between)
 {
-    Image moved = patch.texels;
-    unswizzle(moved, swizzle);
-    const std::size_t width = std::size_t(moved.width);
+    Image unswizzled = patch.texels;
+    unswizzle(unswizzled, swizzle);
+    const std::size_t width = std::size_t(unswizzled.width);
     std::vector<glm::vec3> normals(width);
     std::vector<glm::vec4> texels(width);
-    std::vector<Slope> slopes(moved.pixelCount());
-    for (int y = 0; y < moved.height; ++y) {
+    std::vector<Slope> slopes(unswizzled.pixelCount());
+    for (int y = 0; y < unswizzled.height; ++y) {
         loadRow(patch.texels, y, texels);
-        decodeRow(moved, y, convention, normals);
+        decodeRow(unswizzled, y, convention, normals);
         for (std::size_t x = 0; x < width; ++x) {
             const std::size_t i = std::size_t(y) * width + x;
             if (!outsideCharts(texels[x]) && at(patch.texels, i) != between)
@@ -114,15 +115,15 @@ std::vector<Slope> slopesOf(const Patch& patch, const Convention& convention, Sw
     return slopes;
 }
 
-// Rounding moves a slope by a twelfth of a squared step; four of them, halved, are in a derivative.
-double noiseOf(PixelType type)
+// Variance of a slope by rounding: a twelfth of the squared step. It equals that of half a sum of four slopes.
+double roundingVariance(PixelType type)
 {
     const double step = type == PixelType::unorm8 ? 1.0 / 127 : type == PixelType::unorm16 ? 1.0 / 32767 : 1e-6;
     return step * step / 12;
 }
 
-// Where charts meet, and at folds of the frame that a map was baked for, slopes jump and fit to no relief.
-// A cell's share is held at 1: its energy over itself and the patch's median.
+// Slopes jump where charts meet and at folds of the frame that the map was baked for, and fit no relief there. Each
+// cell's contribution is bounded by 1: its energy over the sum of itself and the patch's median.
 Products productsOf(const std::vector<Slope>& slopes, std::size_t width, double noise)
 {
     std::vector<Derivatives> cells;
@@ -147,18 +148,18 @@ Products productsOf(const std::vector<Slope>& slopes, std::size_t width, double 
     std::ranges::transform(cells, energies.begin(), &Derivatives::energy);
     const auto middle = energies.begin() + std::ptrdiff_t(energies.size() / 2);
     std::ranges::nth_element(energies, middle);
-    const double typical = double(*middle) + 16 * noise;
+    const double regularisation = double(*middle) + 16 * noise;
     for (const Derivatives& d : cells) {
         const double ax = double(d.ax), ay = double(d.ay), bx = double(d.bx), by = double(d.by);
-        const double share = 1 / (double(d.energy()) + typical);
-        sums.ay2 += share * ay * ay, sums.bx2 += share * bx * bx, sums.ayBx += share * ay * bx;
-        sums.by2 += share * by * by, sums.ax2 += share * ax * ax, sums.byAx += share * by * ax;
+        const double weight = 1 / (double(d.energy()) + regularisation);
+        sums.ay2 += weight * ay * ay, sums.bx2 += weight * bx * bx, sums.ayBx += weight * ay * bx;
+        sums.by2 += weight * by * by, sums.ax2 += weight * ax * ax, sums.byAx += weight * by * ax;
         sums.cross += ay * ay + bx * bx, sums.along += ax * ax + by * by;
     }
     return sums;
 }
 
-// Spread of a figure of the sum when single patches are left out (the jackknife).
+// Standard error of a figure of the sum, by the jackknife: each patch is left out in turn.
 template<class Figure> double uncertainty(const std::vector<Products>& patches, const Products& all, Figure figure)
 {
     double sum = 0, sum2 = 0, n = 0;
@@ -169,7 +170,7 @@ template<class Figure> double uncertainty(const std::vector<Products>& patches, 
             const double f = figure(rest);
             sum += f, sum2 += f * f, n += 1;
         }
-    if (n < kFewest)
+    if (n < kMinPatches)
         return 1;
     return std::sqrt(std::max(0.0, (n - 1) / n * (sum2 - sum * sum / n)));
 }
@@ -185,17 +186,17 @@ double votesFor(const std::vector<Products>& patches, double sign, bool exchange
     return all > 0 ? with / all : 0;
 }
 
-std::string unreadable(int width, int height, const NormalStatistics& s)
+std::string whyUndecidable(int width, int height, const NormalStatistics& s)
 {
-    if (width < 3 || height < 3 || width * std::int64_t(height) < kFewestTexels)
-        return "the picture is too small to have a relief";
+    if (width < 3 || height < 3 || width * std::int64_t(height) < kMinTexels)
+        return "the image is too small to show a relief";
     switch (s.content) {
-    case Content::flat: return "every texel has the same value: there is no relief to judge by";
-    case Content::grey: return "the picture is grey: a height map has no green direction";
+    case Content::flat: return "every texel has the same value: there is no relief to analyse";
+    case Content::grey: return "the image is grey: a height map has no green direction";
     case Content::objectSpace:
         if (s.redIsZ)
-            return "red and blue are exchanged: no relief can be read before they are put right";
-        return "the map is in object space: its directions follow a mesh, and no relief can be read from it alone";
+            return "red and blue are exchanged: the relief cannot be analysed until they are exchanged back";
+        return "the map is in object space: its directions follow a mesh, and the map alone shows no relief";
     case Content::other: return "the lengths are not those of a normal map";
     default: return {};
     }
@@ -218,16 +219,16 @@ NormalStatistics statisticsOf(const std::vector<Patch>& patches)
 {
     MapSurvey survey;
     for (const Patch& patch : patches)
-        survey.first(patch.texels);
+        survey.addFirstPass(patch.texels);
     for (const Patch& patch : patches)
-        survey.second(patch.texels);
+        survey.addSecondPass(patch.texels);
     return survey.finish();
 }
 
 std::vector<Products> productsOf(const std::vector<Patch>& patches, const NormalStatistics& statistics, double noise)
 {
     const Convention convention = reading(statistics);
-    const std::string between = colourBetween(patches);
+    const std::string between = fillColour(patches);
     std::vector<Products> products(patches.size());
     parallelFor(std::size_t(0), patches.size(), [&](std::size_t i) {
         products[i] = productsOf(slopesOf(patches[i], convention, statistics.swizzle, between),
@@ -245,21 +246,21 @@ void decide(GreenVerdict& v, const std::vector<Products>& patches, double noise)
     v.exchanged = all.exchanged();
     noise *= std::max(all.active, 1.0);
     if (all.cross + all.along < 6 * noise) {
-        v.reason = "the relief is so weak that it drowns in rounding";
+        v.reason = "the relief is weaker than the rounding noise";
         return;
     }
-    // Exchanged channels are believed only when they explain clearly more.
+    // Exchanged channels must explain clearly more.
     const bool exchanged = std::abs(v.exchanged) > 0.7 && std::abs(v.exchanged) > std::abs(v.agreement) + 0.25;
     const double best = exchanged ? v.exchanged : v.agreement;
-    const double spread =
+    const double standardError =
         uncertainty(patches, all, [&](const Products& p) { return exchanged ? p.exchanged() : p.agreement(); });
-    v.deviations = std::min(std::abs(best) / std::max(spread, 1e-6), 1e3);
+    v.deviations = std::min(std::abs(best) / std::max(standardError, 1e-6), 1e3);
     v.residualRatio = (1 + std::abs(best)) / std::max(1 - std::abs(best), 1e-4);
     const double sign = best < 0 ? -1 : 1;
     v.votes = votesFor(patches, sign, exchanged);
     const double cross = exchanged ? all.along : all.cross;
     if (cross < 4 * noise || cross < 0.002 * (all.cross + all.along)) {
-        v.reason = "the relief runs along the rows and columns only: either way of green explains it";
+        v.reason = "the relief runs along the rows and columns only: both directions of green explain it";
         return;
     }
     if (std::abs(best) < kLikely || v.deviations < kLikelyDeviations) {
@@ -287,19 +288,19 @@ GreenVerdict greenOf(const PatchSampler& sampler)
 {
     const std::vector<Patch>& patches = sampler.patches();
     GreenVerdict v;
-    v.sampled = sampler.share();
+    v.sampled = sampler.coveredFraction();
     v.statistics = statisticsOf(patches);
-    v.reason = unreadable(sampler.width(), sampler.height(), v.statistics);
+    v.reason = whyUndecidable(sampler.width(), sampler.height(), v.statistics);
     if (!v.reason.empty())
         return v;
-    const double noise = noiseOf(sampler.type());
+    const double noise = roundingVariance(sampler.type());
     const std::vector<Products> products = productsOf(patches, v.statistics, noise);
-    double looked = 0, cells = 0;
+    double usableCells = 0, cells = 0;
     for (std::size_t i = 0; i < patches.size(); ++i) {
-        looked += products[i].cells;
+        usableCells += products[i].cells;
         cells += double(patches[i].texels.width - 1) * double(patches[i].texels.height - 1);
     }
-    v.used = cells > 0 ? looked / cells : 0;
+    v.used = cells > 0 ? usableCells / cells : 0;
     decide(v, products, noise);
     return v;
 }
@@ -316,8 +317,8 @@ GreenVerdict greenOf(const Image& image)
 namespace {
 
 constexpr int kMaxASide = 16;
-constexpr int kMinSide = 3, kLargestSide = 128;  // texels
-constexpr int kWhole = kMaxASide * kLargestSide; // pictures of that side and below are looked at whole
+constexpr int kMinSide = 3, kLargestSide = 128;           // texels
+constexpr int kMaxCoveredSide = kMaxASide * kLargestSide; // images up to this side are covered entirely
 
 } // namespace
 
@@ -325,7 +326,7 @@ PatchSampler::PatchSampler(int width, int height, PixelType type) : width_(width
 {
     const int longer = std::max(width, height);
     square_ = std::max(kMinSide, (longer + kMaxASide - 1) / kMaxASide);
-    side_ = longer <= kWhole ? square_ : kLargestSide;
+    side_ = longer <= kMaxCoveredSide ? square_ : kLargestSide;
     const int margin = (square_ - side_) / 2;
     for (int y = 0; y < height; y += square_)
         for (int x = 0; x < width; x += square_) {
@@ -350,7 +351,7 @@ void PatchSampler::add(const Image& strip, int firstRow)
     }
 }
 
-double PatchSampler::share() const
+double PatchSampler::coveredFraction() const
 {
     double texels = 0;
     for (const Patch& patch : patches_)

@@ -19,8 +19,8 @@ namespace cotan::maps {
 
 namespace {
 
-// The share of the neighbours on one side, in the middle and on the other, that a kernel takes across its derivative.
-constexpr std::array<float, 3> sharesAcross(Kernel kernel)
+// Weights of a kernel across its derivative: of the neighbours on one side, the middle, the other side.
+constexpr std::array<float, 3> weightsAcross(Kernel kernel)
 {
     if (kernel == Kernel::sobel)
         return {0.25f, 0.5f, 0.25f};
@@ -31,7 +31,7 @@ constexpr std::array<float, 3> sharesAcross(Kernel kernel)
 
 // ---- from heights ------------------------------------------------------------------------------
 
-// i: at most one beyond either end, where a mirror repeats the edge row.
+// i: from -1 to size. Mirroring repeats the edge texel there.
 int wrapped(int i, int size, Wrap wrap)
 {
     return wrapTexel(i, size,
@@ -40,7 +40,7 @@ int wrapped(int i, int size, Wrap wrap)
                                                 : cotan::Wrap::mirror);
 }
 
-// A row of heights with one more texel at either end.
+// Loads a row of heights, padded by one texel at either end.
 void loadHeights(const Image& image, int row, Wrap wrap, std::vector<float>& heights)
 {
     const int y = wrapped(row, image.height, wrap);
@@ -51,16 +51,16 @@ void loadHeights(const Image& image, int row, Wrap wrap, std::vector<float>& hei
     heights.back() = heights[std::size_t(wrapped(image.width, image.width, wrap)) + 1];
 }
 
-// Differences of height per texel: rightwards and up the picture. x counts within the padded rows.
+// Differences of height per texel, to the right and up the image. x indexes the padded rows.
 glm::vec2 difference(const std::vector<float>& above, const std::vector<float>& here, const std::vector<float>& below,
                      std::size_t x, Kernel kernel)
 {
     if (kernel == Kernel::forward)
         return {here[x + 1] - here[x], above[x] - here[x]};
-    if (kernel == Kernel::central) // not with weights of 0: a corner that is not a number would count
+    if (kernel == Kernel::central) // no weights of 0, which would let a NaN corner through
         return 0.5f * glm::vec2(here[x + 1] - here[x - 1], above[x] - below[x]);
-    const std::array<float, 3> shares = sharesAcross(kernel == Kernel::sobel ? kernel : Kernel::scharr);
-    const float side = shares[0], middle = shares[1];
+    const std::array<float, 3> weights = weightsAcross(kernel == Kernel::sobel ? kernel : Kernel::scharr);
+    const float side = weights[0], middle = weights[1];
     const float right = side * (above[x + 1] + below[x + 1]) + middle * here[x + 1];
     const float left = side * (above[x - 1] + below[x - 1]) + middle * here[x - 1];
     const float up = side * (above[x - 1] + above[x + 1]) + middle * above[x];
@@ -70,10 +70,11 @@ glm::vec2 difference(const std::vector<float>& above, const std::vector<float>& 
 
 // ---- to heights --------------------------------------------------------------------------------
 
-// A frequency of which a kernel has left less than this share of the slope's power is not rebuilt.
+// Frequencies at which the kernel keeps less than this fraction of the slope's power are not reconstructed.
 constexpr double kLeast = 0.02;
 
-// Slopes of one row per texel of width: rightwards and DOWN the picture; heights in texel widths.
+// Loads the slopes of a row, per texel width, to the right and DOWN the image. Heights are in texel widths. Returns the
+// number of texels without a direction.
 std::size_t loadSlopes(const Image& map, int row, const ToHeightSettings& s, std::vector<glm::vec3>& normals,
                        std::vector<glm::vec2>& slopes)
 {
@@ -88,7 +89,7 @@ std::size_t loadSlopes(const Image& map, int row, const ToHeightSettings& s, std
     return invalid;
 }
 
-// The response of a kernel to the frequency (x, y), radians per texel: of its x part, then its y part.
+// Frequency response of a kernel at (x, y), in radians per texel: of its x derivative and of its y derivative.
 std::array<Complex, 2> response(Kernel kernel, double x, double y)
 {
     const Complex i(0, 1);
@@ -100,7 +101,7 @@ std::array<Complex, 2> response(Kernel kernel, double x, double y)
     };
     if (kernel == Kernel::spectral)
         return {i * spectral(x), i * spectral(y)};
-    if (kernel == Kernel::forward) // downwards: this minus the one above would look up; see difference()
+    if (kernel == Kernel::forward) // in y: this row minus the one above, as in difference()
         return {std::polar(1.0, x) - 1.0, 1.0 - std::polar(1.0, -y)};
     return {i * std::sin(x) * across(y), i * std::sin(y) * across(x)};
 }
@@ -113,7 +114,7 @@ double frequency(std::size_t k, std::size_t n)
 
 using Grid = std::vector<std::complex<float>>; // stored in single precision, transformed in double
 
-// Calls work(row) for every row of a grid, as numbers of double precision.
+// Calls work(row) for every row of a grid, converted to Number.
 template<class Number, class Stored, class Work>
 void eachRow(std::vector<Stored>& grid, int width, int height, const Work& work)
 {
@@ -128,7 +129,7 @@ void eachRow(std::vector<Stored>& grid, int width, int height, const Work& work)
     });
 }
 
-// The same for every column, several at a time for the cache's sake.
+// Calls work(column) for every column; copies several columns at a time for cache locality.
 template<class Number, class Stored, class Work>
 void eachColumn(std::vector<Stored>& grid, int width, int height, const Work& work)
 {
@@ -146,10 +147,10 @@ void eachColumn(std::vector<Stored>& grid, int width, int height, const Work& wo
     });
 }
 
-// Of the slopes of a row: their squares and what no height explains of these, summed.
+// Sums over a row of slopes: their squares, and the squares of the residual that no height explains.
 struct Power {
     double slope = 0, residual = 0;
-    glm::dvec2 slopes{0}; // the sum of themselves
+    glm::dvec2 slopes{0}; // the sum of the slopes themselves
 };
 
 Power total(const std::vector<Power>& rows)
@@ -160,15 +161,15 @@ Power total(const std::vector<Power>& rows)
     return all;
 }
 
-// In place: the transform of p + i q becomes that of the height; k and -k together, as both are
-// needed to part P from Q.
+// Replaces, in place, the transform of p + i q by that of the height. Handles frequencies k and -k together, because
+// separating P from Q needs both.
 Power solve(Grid& grid, std::size_t width, std::size_t height, Kernel kernel)
 {
     std::vector<Power> rows(height / 2 + 1);
     forRowBands(int(rows.size()), [&](int first, int last) {
         for (std::size_t y = std::size_t(first); y < std::size_t(last); ++y) {
             const std::size_t minusY = (height - y) % height;
-            // A row that is its own mirror: half of it is done with the other half.
+            // Row y is its own mirror: the other half of it is handled together with the first.
             const std::size_t end = y == minusY ? width / 2 + 1 : width;
             for (std::size_t x = 0; x < end; ++x) {
                 const std::size_t minusX = (width - x) % width;
@@ -220,9 +221,8 @@ void solvePeriodic(const Image& map, const ToHeightSettings& s, Heights& result)
     std::ranges::transform(grid, result.texels.begin(), [](std::complex<float> c) { return c.real(); });
 }
 
-// Calls work(x, y, slopes of the row above, of this row, of the row below). Bands of rows run side by
-// side, so work may write to what belongs to row y only. The difference that a map asks for between
-// neighbours is the mean of their slopes.
+// Calls work(x, y, slopes of the row above, of this row, of the row below). Bands of rows run concurrently: work may
+// only write data of row y. Returns the number of texels without a direction.
 template<class Work> std::size_t eachSlope(const Image& map, const ToHeightSettings& s, Work work)
 {
     std::atomic<std::size_t> invalid = 0;
@@ -249,28 +249,28 @@ template<class Work> std::size_t eachSlope(const Image& map, const ToHeightSetti
 
 using Row = std::vector<glm::vec2>;
 
-// The transpose of what makes slopes of heights: minus the divergence, as the kernel has it.
+// The adjoint of the slope operator: the kernel's negative divergence.
 float transposed(Kernel kernel, const Row* const rows[3], int x, int width, bool top, bool bottom)
 {
-    // Slopes beyond the border, where heights go on as the border's own. Along a slope's direction its mirror image
-    // has the other sign.
+    // Slopes beyond the border, where heights repeat the border's own. The slope component across the border is
+    // mirrored with opposite sign.
     const auto at = [&](int dx, int dy) -> glm::vec2 {
         const bool outsideY = (dy < 0 && top) || (dy > 0 && bottom), outsideX = x + dx < 0 || x + dx >= width;
         const glm::vec2 s = (*rows[outsideY ? 1 : 1 + dy])[std::size_t(std::clamp(x + dx, 0, width - 1))];
         return {outsideX ? -s.x : s.x, outsideY ? -s.y : s.y};
     };
-    if (kernel == Kernel::forward) { // no slope leaves the last column, none enters the first row from above
+    if (kernel == Kernel::forward) { // the last column and the first row have no slope
         const float right = x + 1 < width ? at(0, 0).x : 0, left = x > 0 ? at(-1, 0).x : 0;
         return left - right + (top ? 0 : at(0, 0).y) - (bottom ? 0 : at(0, 1).y);
     }
-    const auto shares = sharesAcross(kernel);
+    const auto weights = weightsAcross(kernel);
     float sum = 0;
     for (int k = -1; k <= 1; ++k)
-        sum += 0.5f * shares[std::size_t(k + 1)] * (at(-1, k).x - at(1, k).x + at(k, -1).y - at(k, 1).y);
+        sum += 0.5f * weights[std::size_t(k + 1)] * (at(-1, k).x - at(1, k).x + at(k, -1).y - at(k, 1).y);
     return sum;
 }
 
-// The slope that a kernel makes of heights, to the right and down the picture; clamped at the borders.
+// The kernel's slope of the heights, to the right and down the image; clamped at the borders.
 glm::vec2 slopeOf(Kernel kernel, const std::vector<float>& heights, int x, int y, int width, int height)
 {
     const auto at = [&](int dx, int dy) {
@@ -279,15 +279,15 @@ glm::vec2 slopeOf(Kernel kernel, const std::vector<float>& heights, int x, int y
     };
     if (kernel == Kernel::forward)
         return {at(1, 0) - at(0, 0), at(0, 0) - at(0, -1)};
-    const auto shares = sharesAcross(kernel);
+    const auto weights = weightsAcross(kernel);
     glm::vec2 sum(0);
     for (int k = -1; k <= 1; ++k)
-        sum += 0.5f * shares[std::size_t(k + 1)] * glm::vec2(at(1, k) - at(-1, k), at(k, 1) - at(k, -1));
+        sum += 0.5f * weights[std::size_t(k + 1)] * glm::vec2(at(1, k) - at(-1, k), at(k, 1) - at(k, -1));
     return sum;
 }
 
-// In place: from the right side of the normal equations to the heights. power(x, y): what the slopes keep of a
-// cosine of that frequency; not above 0: nothing.
+// Replaces, in place, the right-hand side of the normal equations by the heights. power(x, y): squared response of the
+// slopes to a cosine of that frequency; if it is not positive, the frequency is set to 0.
 template<class PowerOf> void divide(std::vector<float>& h, int width, int height, PowerOf power)
 {
     const Fft across{std::size_t(width)}, down{std::size_t(height)};
@@ -303,8 +303,8 @@ template<class PowerOf> void divide(std::vector<float>& h, int width, int height
     eachColumn<double>(h, width, height, [&](std::span<double> column) { cosineInverse(down, column); });
 }
 
-// The wanted differences between neighbours are the means of their slopes; none across the border. Minus their
-// divergence, and what a height leaves of the two that begin at a texel.
+// The target difference between neighbours is the mean of their slopes; there is none across the border. Solves
+// Poisson's equation with the negative divergence of these differences.
 void solveFreeSpectral(const Image& map, const ToHeightSettings& s, Heights& result)
 {
     const std::size_t width = std::size_t(map.width), height = std::size_t(map.height);
@@ -357,7 +357,7 @@ void solveFree(const Image& map, const ToHeightSettings& s, Heights& result)
             power.residual += off;
         } else {
             const glm::dvec2 off = here[x] - slopeOf(s.kernel, h, int(x), y, map.width, map.height);
-            const bool forward = s.kernel == Kernel::forward; // whose last column and first row have no slope
+            const bool forward = s.kernel == Kernel::forward; // has no slope in the last column and first row
             power.residual += forward && x + 1 == width ? 0 : off.x * off.x;
             power.residual += forward && y == 0 ? 0 : off.y * off.y;
         }

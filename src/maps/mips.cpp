@@ -11,16 +11,16 @@ namespace cotan::maps {
 
 namespace {
 
-// Means over a footprint. `share`: how much of it holds directions.
+// Means over a footprint. `coverage`: fraction of the footprint that has a direction.
 struct Moments {
     glm::vec3 normal{0};
-    float share = 0;
+    float coverage = 0;
     float bx = 0, by = 0, bb = 0; // slopes and the sum of their squares
 
     void add(const Moments& o, float weight)
     {
         normal += o.normal * weight;
-        share += o.share * weight;
+        coverage += o.coverage * weight;
         bx += o.bx * weight, by += o.by * weight, bb += o.bb * weight;
     }
 };
@@ -30,7 +30,7 @@ struct Level {
     std::vector<Moments> texels;
 };
 
-// The rows of a level, as smaller() and encoded() ask for them.
+// Copies rows of a level, for smaller() and encoded().
 auto rowsOf(const Level& level)
 {
     return [&level](int y, std::vector<Moments>& row) {
@@ -49,7 +49,7 @@ Moments momentsOf(const glm::vec3& decoded)
     return {n, 1, bx, by, bx * bx + by * by};
 }
 
-// One line of a smaller level: [first, last] of the larger one, the ends by their share.
+// The texels [first, last] of a larger line that one texel of a smaller line covers, the ends partially.
 struct Footprint {
     int first = 0, last = 0;
     double from = 0, to = 0;
@@ -66,7 +66,7 @@ Footprint footprint(int i, int size, int larger)
     return f;
 }
 
-// rowOf(y, row): moments of a row of the larger level.
+// rowOf(y, row): fills `row` with the moments of row y of the larger level.
 template<class RowOf> Level smaller(int width, int height, RowOf rowOf)
 {
     Level level{std::max(1, width / 2), std::max(1, height / 2), {}};
@@ -91,11 +91,11 @@ template<class RowOf> Level smaller(int width, int height, RowOf rowOf)
 
 double roughnessOf(const Moments& m, const MipSettings& s)
 {
-    if (!(m.share > 0))
+    if (!(m.coverage > 0))
         return s.roughness;
     if (s.model != VarianceModel::lean)
-        return roughnessFromLength(s.roughness, std::min(1.0, double(glm::length(m.normal)) / m.share), s.model);
-    const double bx = double(m.bx / m.share), by = double(m.by / m.share), bb = double(m.bb / m.share);
+        return roughnessFromLength(s.roughness, std::min(1.0, double(glm::length(m.normal)) / m.coverage), s.model);
+    const double bx = double(m.bx / m.coverage), by = double(m.by / m.coverage), bb = double(m.bb / m.coverage);
     return roughnessFromVariance(s.roughness, std::max(0.0, bb - bx * bx - by * by));
 }
 
@@ -111,12 +111,12 @@ template<class RowOf> MipLevel encoded(int width, int height, const MipSettings&
             rowOf(y, row);
             for (std::size_t x = 0; x < row.size(); ++x) {
                 const Moments& m = row[x];
-                const glm::vec3 mean = m.share > 0 ? m.normal / m.share : glm::vec3(0);
+                const glm::vec3 mean = m.coverage > 0 ? m.normal / m.coverage : glm::vec3(0);
                 normals[x] = encodeTexel(mean, s.to, s.type, s.keepLengths);
                 const double r = roughnessOf(m, s);
                 rough[x] = glm::vec4(float(r), float(r), float(r), 1);
                 roughness[std::size_t(y)] += r;
-                if (m.share > 0)
+                if (m.coverage > 0)
                     lengths[std::size_t(y)] += double(glm::length(mean)), counts[std::size_t(y)] += 1;
             }
             storeRow(out.normals, y, normals);
@@ -138,11 +138,11 @@ double roughnessFromLength(double roughness, double length, VarianceModel model)
     const double alpha2 = std::pow(roughness, 4), r = std::clamp(length, 1e-6, 1.0);
     double result = alpha2;
     if (model == VarianceModel::toksvig) {
-        const double exponent = 2 / std::max(alpha2, 1e-9) - 2; // Blinn-Phong's of the same width
-        const double spread = (1 - r) / r;
-        result = 2 / (exponent / (1 + exponent * spread) + 2);
+        const double exponent = 2 / std::max(alpha2, 1e-9) - 2; // Blinn-Phong exponent of the same width
+        const double variance = (1 - r) / r;
+        result = 2 / (exponent / (1 + exponent * variance) + 2);
     } else if (r < 1) {
-        // A lobe exp(kappa (cos - 1)) is as wide as alpha^2 = 2/kappa; widths of lobes add.
+        // A lobe exp(kappa (cos - 1)) has alpha^2 = 2/kappa; the squared widths of convolved lobes add.
         result = alpha2 + 2 * (1 - r * r) / (3 * r - r * r * r);
     }
     return std::pow(std::clamp(result, alpha2, 1.0), 0.25);
@@ -150,7 +150,7 @@ double roughnessFromLength(double roughness, double length, VarianceModel model)
 
 double roughnessFromVariance(double roughness, double variance)
 {
-    // Beckmann's alpha^2 is twice the variance along one axis: the sum of both.
+    // Beckmann's alpha^2 is twice the slope variance along one axis, which is the sum over both axes.
     return std::pow(std::min(1.0, std::pow(roughness, 4) + variance), 0.25);
 }
 

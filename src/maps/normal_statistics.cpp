@@ -18,7 +18,7 @@ namespace cotan::maps {
 
 bool outsideCharts(const glm::vec4& t)
 {
-    constexpr float kDark = 8.0f / 255, kBright = 247.0f / 255; // what JPEG leaves of black and white
+    constexpr float kDark = 8.0f / 255, kBright = 247.0f / 255; // range of black and white after JPEG compression
     const bool black = std::abs(t.x) <= kDark && std::abs(t.y) <= kDark && std::abs(t.z) <= kDark;
     return t.w == 0 || black || (t.x >= kBright && t.y >= kBright && t.z >= kBright);
 }
@@ -28,23 +28,23 @@ bool usableLength(float length) { return length > 0.5f && length < 1.45f; }
 namespace {
 
 constexpr float kShortest = 0.1f;
-constexpr double kConstant = 3.0 / 255; // a channel whose range is less is constant
+constexpr double kConstant = 3.0 / 255; // a channel with a smaller range is constant
 
-// Sums over a band of rows; bands are added in their order, so that threads do not matter.
+// Sums over a band of rows. Bands are added in order, so that results do not depend on threads.
 struct Sums {
     std::size_t all = 0, allGrey = 0;
-    std::size_t finite = 0, grey = 0; // of what is not background
-    std::size_t strange = 0;          // of those: no normal under any reading
+    std::size_t finite = 0, grey = 0; // of texels that are not background
+    std::size_t strange = 0;          // finite texels that are no normal under any reading
     std::array<double, 4> lowest{1e30, 1e30, 1e30, 1e30}, highest{-1e30, -1e30, -1e30, -1e30};
-    std::array<double, 4> error2{}; // of lengths: exact, biased, decoded from sRGB, encoded to sRGB
-    std::array<double, 4> length{}; // sums
+    std::array<double, 4> error2{}; // squared errors of lengths: exact, biased, decoded from sRGB, encoded to sRGB
+    std::array<double, 4> length{}; // sums, same order
     std::array<std::size_t, 4> counted{};
-    std::size_t signedUnit = 0;         // length within 0.1 of 1 as stored
-    std::array<std::size_t, 3> above{}; // the middle
-    std::size_t between = 0;            // not a step of 8 bits
+    std::size_t signedUnit = 0;         // texels whose stored length is within 0.1 of 1
+    std::array<std::size_t, 3> above{}; // 0.5
+    std::size_t between = 0;            // texels that are no multiple of an 8-bit step
     ChannelRange range;
 
-    // times: so many equal ones.
+    // times: adds that many copies of `o`.
     void add(const Sums& o, std::size_t times = 1)
     {
         range.add(o.range);
@@ -66,7 +66,7 @@ struct Sums {
     }
 };
 
-// A function of stored values through a table: exact for 8 bits, enough for a decision otherwise.
+// A function of stored values by table lookup: exact for 8 bits, accurate enough to decide otherwise.
 struct Curve {
     std::array<float, 256> table{};
     explicit Curve(float (*f)(float))
@@ -77,17 +77,17 @@ struct Curve {
     float operator()(float c) const { return table[std::size_t(std::clamp(c, 0.0f, 1.0f) * 255 + 0.5f)]; }
 };
 
-bool allAlike(const Image& image)
+bool allEqual(const Image& image)
 {
     const std::size_t pixel = image.bytesPerPixel(), bytes = image.pixelCount() * pixel;
     return bytes > pixel && std::memcmp(image.data.data(), image.data.data() + pixel, bytes - pixel) == 0;
 }
 
-// work(sums, texel, the one to its left). Strips of one colour, which files of some bytes have by the
-// million, cost one texel.
+// Calls work(sums, texel, its left neighbour) for every texel. A strip of one colour costs a single texel: files of a
+// few bytes can hold millions of them.
 template<class Band, class Work> void sumBands(const Image& image, Band& all, Work work)
 {
-    if (allAlike(image)) {
+    if (allEqual(image)) {
         std::vector<glm::vec4> row(std::size_t(image.width));
         loadRow(image, 0, row);
         Band band;
@@ -113,14 +113,14 @@ void addStoredValues(const Image& image, Sums& sums)
 {
     static const Curve decoded(f32::cotan_srgb_to_linear), encoded(f32::cotan_linear_to_srgb);
     const int bits = bitsPerComponent(image.type);
-    const float top = bits == 32 ? 2.0f : std::exp2(float(bits)), middle = top / 2; // of floats: 2c - 1 either way
+    const float top = bits == 32 ? 2.0f : std::exp2(float(bits)), middle = top / 2; // floats: 2c - 1 for both centres
     sumBands(image, sums, [=](Sums& s, const glm::vec4& t, const glm::vec4& left) {
         const bool grey = std::abs(t.x - t.y) < 0.012f && std::abs(t.x - t.z) < 0.012f;
         ++s.all;
         s.allGrey += grey;
         const glm::vec3 v(t);
         const glm::vec3 exact = bits == 32 ? v * 2.0f - 1.0f : (v * (top - 1) - middle) / (middle - 1);
-        // What is alike and no normal is a field of one colour; but floats may be signed.
+        // Equal neighbours that are no normals are uniform fill. Floats may be signed, so their lengths prove nothing.
         if (outsideCharts(t) || (t == left && bits != 32 && !usableLength(glm::length(exact))))
             return;
         s.range.add(t);
@@ -159,11 +159,11 @@ double rms(const Sums& s, std::size_t reading)
     return s.counted[reading] ? std::sqrt(s.error2[reading] / double(s.counted[reading])) : 0;
 }
 
-// Of the lengths, whatever their mean.
+// Standard deviation of the lengths, from the mean square of (length - 1).
 double deviation(double error2, double mean) { return std::sqrt(std::max(error2 - (mean - 1) * (mean - 1), 0.0)); }
 
-// sRGB bends every length; the reading that makes vectors unit is the true one. Vectors that are all as long as each
-// other were scaled, and not bent.
+// The sRGB curve changes every length; the reading with unit vectors is the right one. Vectors of one common length
+// were scaled, not passed through a curve.
 Transfer transferOf(const Sums& s)
 {
     const double stored = std::min(rms(s, 0), rms(s, 1));
@@ -176,8 +176,8 @@ Transfer transferOf(const Sums& s)
     return rms(s, 3) < 0.4 * stored ? Transfer::linearised : Transfer::linear;
 }
 
-// Rounding alone leaves 0.0023 to 0.004 at 8 bits under the right centre; the wrong one adds up to 0.004.
-// Maps whose lengths vary for other reasons do not tell.
+// At the right centre 8-bit rounding alone gives an error of 0.0023 to 0.004; the wrong centre adds up to 0.004. Maps
+// whose lengths vary for other reasons are undecidable.
 Centre centreOf(const Sums& s)
 {
     const double exact = rms(s, 0), biased = rms(s, 1);
@@ -222,7 +222,7 @@ void addDirections(const Image& image, const Convention& convention, Transfer tr
         }
         const glm::vec3 n = decodeTexel(t, convention, image.type);
         const float length = glm::length(n);
-        if (alike && (xyz ? !usableLength(length) : n.x * n.x + n.y * n.y > 1.2f)) { // a field of one colour
+        if (alike && (xyz ? !usableLength(length) : n.x * n.x + n.y * n.y > 1.2f)) { // uniform fill
             ++d.background;
             return;
         }
@@ -242,7 +242,7 @@ void addDirections(const Image& image, const Convention& convention, Transfer tr
     });
 }
 
-double share(std::size_t part, std::size_t whole) { return whole ? double(part) / double(whole) : 0; }
+double fraction(std::size_t part, std::size_t whole) { return whole ? double(part) / double(whole) : 0; }
 
 Content twoChannelContent(const NormalStatistics& s)
 {
@@ -253,8 +253,8 @@ Content contentOf(const NormalStatistics& s, const Sums& sums, bool constantBlue
 {
     if (s.swizzle != Swizzle::rg)
         return twoChannelContent(s);
-    // Black and white belong to a grey picture; around charts they do not make one.
-    if (share(sums.allGrey, sums.all) > 0.97 && (sums.finite == 0 || share(sums.grey, sums.finite) > 0.97))
+    // Black and white texels count as grey in a grey image; around charts they do not make it one.
+    if (fraction(sums.allGrey, sums.all) > 0.97 && (sums.finite == 0 || fraction(sums.grey, sums.finite) > 0.97))
         return Content::grey;
     if (sums.finite == 0)
         return s.background == 1 ? Content::flat : Content::other;
@@ -262,11 +262,11 @@ Content contentOf(const NormalStatistics& s, const Sums& sums, bool constantBlue
         return Content::flat;
     if (constantBlue)
         return twoChannelContent(s);
-    if (share(sums.strange, sums.finite) > 0.1)
+    if (fraction(sums.strange, sums.finite) > 0.1)
         return Content::other;
-    const bool upwards = share(sums.above[2], sums.finite) > 0.99;
+    const bool upwards = fraction(sums.above[2], sums.finite) > 0.99;
     if (upwards && deviation(s.lengthDeviation * s.lengthDeviation, s.meanLength) < 0.1)
-        return Content::tangentSpace; // shorter or longer than 1, but all alike
+        return Content::tangentSpace; // lengths other than 1, but uniform
     if (s.belowHorizon > 0.1)
         return s.lengthDeviation < 0.2 ? Content::objectSpace : Content::other;
     return s.lengthDeviation < 0.25 ? Content::tangentSpace : Content::other;
@@ -280,10 +280,10 @@ struct MapSurvey::State {
     Directions d;
     PixelType type = PixelType::unorm8;
     Convention read;
-    Image texel; // the first one, while all are alike; no data afterwards
+    Image texel; // the first one, while all are equal; cleared afterwards
     bool two = false, constantAll = false, between = false;
 
-    // What the first pass has told, for the second to read by.
+    // Derives from the first pass how the second pass reads the texels.
     void afterFirst()
     {
         between = true;
@@ -297,12 +297,12 @@ struct MapSurvey::State {
         }
         s.eightBits = type == PixelType::unorm16 && sums.finite > 0 && sums.between == 0;
         // z points outwards nearly everywhere, x to both sides.
-        s.redIsZ = share(sums.above[0], sums.finite) > 0.99 && share(sums.above[2], sums.finite) < 0.9;
+        s.redIsZ = fraction(sums.above[0], sums.finite) > 0.99 && fraction(sums.above[2], sums.finite) < 0.9;
         two = s.swizzle != Swizzle::rg || range[2] <= kConstant;
         constantAll = range[0] <= kConstant && range[1] <= kConstant && range[2] <= kConstant && range[3] <= kConstant;
         s.signedStored = type == PixelType::float32 && sums.finite
             && (std::min(s.lowest[0], s.lowest[1]) < -0.01
-                || (!two && share(sums.signedUnit, sums.finite) > 0.9 && rms(sums, 1) > 0.2));
+                || (!two && fraction(sums.signedUnit, sums.finite) > 0.9 && rms(sums, 1) > 0.2));
         if (!two && !s.signedStored && !constantAll) {
             s.rmsExact = rms(sums, 0);
             s.rmsBiased = rms(sums, 1);
@@ -322,7 +322,7 @@ struct MapSurvey::State {
 MapSurvey::MapSurvey() : state_(std::make_unique<State>()) {}
 MapSurvey::~MapSurvey() = default;
 
-void MapSurvey::first(const Image& strip)
+void MapSurvey::addFirstPass(const Image& strip)
 {
     State& s = *state_;
     s.type = strip.type;
@@ -331,7 +331,7 @@ void MapSurvey::first(const Image& strip)
         s.texel = makeImage(1, 1, strip.type);
         std::memcpy(s.texel.data.data(), strip.data.data(), pixel);
     }
-    const bool alike = strip.pixelCount() == 1 || allAlike(strip);
+    const bool alike = strip.pixelCount() == 1 || allEqual(strip);
     if (!s.texel.data.empty() && !(alike && std::memcmp(s.texel.data.data(), strip.data.data(), pixel) == 0))
         s.texel.data.clear();
     s.s.texels += strip.pixelCount();
@@ -340,32 +340,32 @@ void MapSurvey::first(const Image& strip)
 
 bool MapSurvey::oneColour() const { return !state_->texel.data.empty(); }
 
-void MapSurvey::second(const Image& strip)
+void MapSurvey::addSecondPass(const Image& strip)
 {
     if (!state_->between)
         state_->afterFirst();
-    Image moved;
+    Image unswizzled;
     if (state_->s.swizzle != Swizzle::rg) {
-        moved = strip;
-        unswizzle(moved, state_->s.swizzle);
+        unswizzled = strip;
+        unswizzle(unswizzled, state_->s.swizzle);
     }
-    addDirections(moved.width > 0 ? moved : strip, state_->read, state_->s.transfer, state_->d);
+    addDirections(unswizzled.width > 0 ? unswizzled : strip, state_->read, state_->s.transfer, state_->d);
 }
 
 NormalStatistics MapSurvey::finish()
 {
-    if (!state_->between && oneColour()) { // the second pass would tell what this texel tells
-        second(state_->texel);
+    if (!state_->between && oneColour()) { // the second pass needs only this texel
+        addSecondPass(state_->texel);
         const Directions one = std::exchange(state_->d, {});
         state_->d.add(one, state_->s.texels);
     }
     NormalStatistics& s = state_->s;
     const Directions& d = state_->d;
-    s.background = share(d.background, s.texels);
-    s.invalid = share(s.texels - d.background - d.valid, s.texels);
-    s.belowHorizon = share(d.below, d.valid);
-    s.outsideDisc = share(d.outside, d.valid);
-    s.shortened = share(d.shortened, d.valid);
+    s.background = fraction(d.background, s.texels);
+    s.invalid = fraction(s.texels - d.background - d.valid, s.texels);
+    s.belowHorizon = fraction(d.below, d.valid);
+    s.outsideDisc = fraction(d.outside, d.valid);
+    s.shortened = fraction(d.shortened, d.valid);
     if (d.valid) {
         const double n = double(d.valid);
         s.meanLength = d.length / n;
@@ -374,7 +374,7 @@ NormalStatistics MapSurvey::finish()
         for (std::size_t i = 0; i < 3; ++i)
             s.mean[i] = d.sum[i] / n;
         for (std::size_t i = 0; i < 9; ++i)
-            s.tilt[i] = share(d.histogram[i], d.valid);
+            s.tilt[i] = fraction(d.histogram[i], d.valid);
     }
     s.content = oneColour() ? Content::flat : contentOf(s, state_->sums, state_->two, state_->constantAll);
     if (s.signedStored && s.content == Content::tangentSpace)
@@ -385,8 +385,8 @@ NormalStatistics MapSurvey::finish()
 NormalStatistics statisticsOfMap(const Image& image)
 {
     MapSurvey survey;
-    survey.first(image);
-    survey.second(image);
+    survey.addFirstPass(image);
+    survey.addSecondPass(image);
     return survey.finish();
 }
 
@@ -394,7 +394,7 @@ std::string describe(Content content)
 {
     constexpr const char* kTexts[] = {"tangent space",
                                       "object space (directions on both sides)",
-                                      "two channels (x and y; z is to be rebuilt)",
+                                      "two channels (x and y; z is reconstructed)",
                                       "two channels outside the unit disc: a slope map",
                                       "tangent space, stored signed",
                                       "one value everywhere",

@@ -1,4 +1,4 @@
-// Patches of a picture, spread evenly: figures that need not look at every texel are taken from them.
+// Evenly spaced patches of an image, for statistics that do not need every texel.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,14 @@
 namespace cotan::maps {
 
 struct Patch {
-    int x = 0, y = 0; // its first texel in the picture
+    int x = 0, y = 0; // its first texel in the image
     Image texels;
 };
 
-// Takes the strips of a picture, which follow one another from the top, and keeps its patches: one for each square of a
-// grid of at most 16 x 16 over the picture. Up to 2048 texels a side they are whole squares and hold the whole picture;
-// above, each is the middle of its square, 128 x 128 texels. Each patch has the row below and the column to the right
-// of it too, where the picture has them. The result does not depend on how the picture was cut into strips.
+// Takes the strips of an image from the top and keeps its patches, one for each square of a grid of at most 16 x 16
+// squares over the image. Up to 2048 texels a side the patches are whole squares and cover the image; above, each is
+// the central 128 x 128 texels of its square. Each patch also has the row below and the column to its right, if the
+// image has them. The result does not depend on the heights of the strips.
 class PatchSampler {
 public:
     PatchSampler(int width, int height, PixelType type);
@@ -25,12 +25,12 @@ public:
     int height() const { return height_; }
     PixelType type() const { return type_; }
     const std::vector<Patch>& patches() const { return patches_; }
-    double share() const; // of the picture's texels that are in the patches, (0,1]
+    double coveredFraction() const; // fraction of the image's texels that are in the patches, (0,1]
 
 private:
     int width_, height_;
     PixelType type_;
-    int square_, side_; // of the grid and of the patches
+    int square_, side_; // sides in texels: of a grid square, of a patch
     std::vector<Patch> patches_;
 };
 

@@ -26,7 +26,7 @@ bool holds(const glm::vec3& n, Channels channels)
     return true;
 }
 
-// Where nothing but single components changes, 8 bits to 8 bits.
+// Per-component lookup tables, for conversions between 8-bit maps that treat each component independently.
 struct Tables {
     std::array<std::array<std::uint8_t, 256>, 3> stored{};
     std::array<std::array<float, 256>, 3> square{}; // of the decoded component
@@ -38,7 +38,7 @@ bool byComponent(const Image& map, const RecodeSettings& s)
         && s.to.channels == Channels::xyz && s.strength == 1.0f && !s.normalise && !s.dither;
 }
 
-// By the functions that do whole texels; the other components keep the lengths from 0.
+// Fills the tables with decodeTexel and encodeTexel. The other components keep the vector's length from 0.
 Tables tablesOf(const RecodeSettings& s)
 {
     Tables t;
@@ -89,7 +89,7 @@ Image recodeByComponent(const Image& map, const RecodeSettings& s, RecodeCounts&
     return out;
 }
 
-// In [-0.5,0.5) for a component of a texel, the same on every run.
+// Noise in [-0.5,0.5) for a component of a texel, the same in every run.
 float ditherNoise(std::uint32_t x, std::uint32_t y, std::uint32_t component)
 {
     std::uint32_t h = x * 0x9e3779b1u ^ y * 0x85ebca77u ^ component * 0xc2b2ae3du;
@@ -105,7 +105,7 @@ void ditherRow(std::span<glm::vec4> texels, PixelType type, int y)
 {
     if (type != PixelType::unorm8 && type != PixelType::unorm16)
         return;
-    const float steps = type == PixelType::unorm8 ? 255.0f : 65535.0f; // per unit of a stored component
+    const float steps = type == PixelType::unorm8 ? 255.0f : 65535.0f; // steps per unit of a stored component
     for (std::size_t x = 0; x < texels.size(); ++x)
         for (int c = 0; c < 3; ++c) {
             const float scaled = texels[x][c] * steps;
@@ -135,7 +135,7 @@ Image recode(const Image& map, const RecodeSettings& s, RecodeCounts& counts)
                 n.y *= s.strength;
                 badHere += n == glm::vec3(0);
                 clampedHere += !holds(n, s.to.channels);
-                // A change of strength changes the length too; what was unit is unit again.
+                // A changed strength also changes the length, so the result is normalised.
                 const bool keepLength = !s.normalise && s.strength == 1.0f && s.from.channels == Channels::xyz;
                 const float alpha = keepAlpha ? texels[x].w : 1.0f;
                 texels[x] = encodeTexel(n, s.to, s.type, keepLength);
@@ -161,11 +161,10 @@ Result<Convention> conventionOf(const StatedConvention& stated, const std::strin
     if (channels != 2 || convention.channels != Channels::xyz)
         return convention;
     if (stated.channels)
-        return about(
-            option,
-            usageError(file + " stores two channels; found "
-                       + (convention.kind == MapKind::objectSpace ? "object, which needs three"
-                                                                  : "xyz, which are three; leave the word out")));
+        return about(option,
+                     usageError(file + " stores two channels; found "
+                                + (convention.kind == MapKind::objectSpace ? "object, which needs three"
+                                                                           : "xyz, which needs three; leave it out")));
     convention.channels = Channels::orthographic;
     return convention;
 }

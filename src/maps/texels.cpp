@@ -15,12 +15,12 @@ namespace cotan::maps {
 
 namespace {
 
-// Any of these is enough to tell a shape apart; three codes of 8 bits.
-constexpr float kSame = 3.0f / 255;
+// A channel whose range is at most three 8-bit codes counts as constant.
+constexpr float kMaxConstantRange = 3.0f / 255;
 constexpr float kShortestTexel = 1e-3f;
 
-// cotan_decode with "along v" read as "up the picture".
-f32::cotan_normal_format pictureFormat(const Convention& c, PixelType type)
+// A format for cotan_decode whose second axis is up the image instead of along v.
+f32::cotan_normal_format imageFormat(const Convention& c, PixelType type)
 {
     f32::cotan_normal_format format = toFormat<f32::cotan_normal_format>(c, 1, bitsPerComponent(type));
     format.green = c.greenUp ? 1.0f : -1.0f;
@@ -34,11 +34,11 @@ glm::vec3 decode(const glm::vec4& t, const f32::cotan_normal_format& format)
     if (!isFinite(stored))
         return glm::vec3(0);
     const glm::vec3 m = f32::cotan_decode(stored, format);
-    const float length2 = glm::dot(m, m); // neither lost nor so long that its square is lost
+    const float length2 = glm::dot(m, m); // must neither underflow nor overflow
     return length2 >= kShortestTexel * kShortestTexel && length2 < 1e30f ? m : glm::vec3(0);
 }
 
-// The stored components from a texel on, row by row.
+// Loads the stored components of consecutive texels, starting with texel `first`.
 void loadTexels(const Image& image, std::size_t first, std::span<glm::vec4> texels)
 {
     const std::size_t start = first * 4, count = texels.size() * 4;
@@ -83,11 +83,11 @@ void ChannelRange::add(const Image& image)
 Swizzle ChannelRange::swizzle() const
 {
     const glm::vec4 range = highest - lowest;
-    if (!(range.w > kSame))
+    if (!(range.w > kMaxConstantRange))
         return Swizzle::rg;
     if (grey)
         return Swizzle::greyAlpha;
-    return range.x <= kSame && range.y > kSame ? Swizzle::alphaGreen : Swizzle::rg;
+    return range.x <= kMaxConstantRange && range.y > kMaxConstantRange ? Swizzle::alphaGreen : Swizzle::rg;
 }
 
 Swizzle swizzleOf(const Image& image)
@@ -115,8 +115,9 @@ void storeRow(Image& image, int row, std::span<const glm::vec4> texels)
 {
     const std::size_t start = std::size_t(row) * std::size_t(image.width) * 4;
     const std::span<const float> in(&texels[0].x, texels.size() * 4);
-    const auto store = [&]<class T>(T* to, float most) {
-        std::ranges::transform(in, to, [most](float x) { return x > 0 ? T(std::min(x, 1.0f) * most + 0.5f) : T(0); });
+    const auto store = [&]<class T>(T* to, float maximum) {
+        std::ranges::transform(in, to,
+                               [maximum](float x) { return x > 0 ? T(std::min(x, 1.0f) * maximum + 0.5f) : T(0); });
     };
     if (image.type == PixelType::unorm8)
         store(image.bytes8() + start, 255);
@@ -128,13 +129,13 @@ void storeRow(Image& image, int row, std::span<const glm::vec4> texels)
 
 glm::vec3 decodeTexel(const glm::vec4& texel, const Convention& convention, PixelType type)
 {
-    return decode(texel, pictureFormat(convention, type));
+    return decode(texel, imageFormat(convention, type));
 }
 
 void decodeRow(const Image& image, int row, const Convention& convention, std::span<glm::vec3> normals)
 {
     std::array<glm::vec4, 64> texels;
-    const auto format = pictureFormat(convention, image.type);
+    const auto format = imageFormat(convention, image.type);
     const std::size_t start = std::size_t(row) * std::size_t(image.width);
     for (std::size_t x = 0; x < normals.size(); x += texels.size()) {
         const std::size_t count = std::min(texels.size(), normals.size() - x);
@@ -148,7 +149,7 @@ glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, PixelType 
 {
     if (!isFinite(normal) || glm::dot(normal, normal) < kShortestTexel * kShortestTexel)
         normal = glm::vec3(0, 0, 1);
-    const auto format = pictureFormat(convention, type);
+    const auto format = imageFormat(convention, type);
     if (keepLength && convention.channels == Channels::xyz) {
         const int e = format.expansion;
         return {f32::cotan_compress(normal.x, e), f32::cotan_compress(normal.y * format.green, e),

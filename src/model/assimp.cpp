@@ -1,4 +1,4 @@
-// Models through Assimp: checked before, watched during, checked after.
+// Reads models through Assimp, with checks before, during and after.
 #include <algorithm>
 #include <exception>
 #include <optional>
@@ -23,8 +23,8 @@
 #include "scene/scene_check.hpp"
 #include "source_material.hpp"
 
-// Assimp's build in Debian keeps its assertions, and a failed one ends the process. This takes the
-// place of the library's function, so that a file that trips over one is refused like any other.
+// Debian's build of Assimp keeps its assertions, and a failed one ends the process. This replaces the library's
+// function, so that a file that fails an assertion is refused like any other invalid file.
 namespace Assimp {
 
 ASSIMP_API void aiAssertViolation(const char* expression, const char* file, int line);
@@ -42,7 +42,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The model on its way through the reader.
+// A model while it is read.
 struct Job {
     fs::path file; // as passed
     const LoadLimits& limits;
@@ -50,8 +50,8 @@ struct Job {
     fs::path folder{};       // canonical
     std::string extension{}; // lower case, with the dot
     std::vector<std::byte> bytes{};
-    std::vector<std::string> outside{};  // files that were asked for and refused: out of the model's folder
-    std::vector<std::string> tooLarge{}; // the same: over the limit
+    std::vector<std::string> outside{}; // requested files that were refused because they are outside the model's folder
+    std::vector<std::string> tooLarge{}; // requested files that were refused because they exceed the size limit
     Scene scene{};
 };
 
@@ -74,8 +74,8 @@ void addOnce(std::vector<std::string>& list, const std::string& text)
         list.push_back(text);
 }
 
-// Serves the model itself from memory (as checked, not as it may have become on disk) and other
-// files from the model's folder only. Read-only.
+// Serves the model itself from the checked bytes in memory, since the file may have changed on disk, and other files
+// from the model's folder only. Read-only.
 class ModelFiles : public Assimp::IOSystem {
 public:
     explicit ModelFiles(Job& job) : job_(job) {} // the job outlives this
@@ -128,14 +128,14 @@ Status openModel(Job& job)
     job.canonical = fs::canonical(job.file, error);
     if (error)
         failModel("{}", error.message());
-    // A link to a model elsewhere: its textures lie beside the model. The name decides the format.
+    // Textures are beside the target of a link, but the name of the link determines the format.
     job.folder = job.canonical.parent_path();
     job.extension = lowerExtension(job.file);
     job.scene.name = job.file.filename().string();
     return Done{};
 }
 
-// Bytes that converting takes, in round figures: an array of each kind, twice.
+// Approximate number of bytes that the conversion allocates: two copies of each array.
 std::size_t bytesToConvert(const aiScene& source)
 {
     std::size_t bytes = 0;
@@ -144,7 +144,7 @@ std::size_t bytesToConvert(const aiScene& source)
     return bytes;
 }
 
-// Leaves only the reader of this extension: no guessing by contents.
+// Removes all readers but the one for this extension, so that Assimp does not guess the format by content.
 bool keepOneReader(Assimp::Importer& importer, const std::string& extension)
 {
     bool found = false;
@@ -170,11 +170,11 @@ const aiScene* import(Job& job, Assimp::Importer& importer)
     return importer.ReadFile(job.canonical.string(), 0);
 }
 
-// Assimp's own steps trust the indices, and that what is counted is there.
+// Assimp's own steps trust the indices and assume that all counted arrays exist.
 void checkIndices(const aiScene& source)
 {
-    constexpr double kMostClipped = 5e9; // of one polygon with 70,000 corners, which take Assimp a second or two
-    double clipped = 0; // corners of polygons, each polygon's squared: so long it takes to cut off their ears
+    constexpr double kMaxClippingCost = 5e9; // one polygon with 70,000 corners, one or two seconds in Assimp
+    double clippingCost = 0;                 // sum of squared corner counts, proportional to the time of ear clipping
     for (unsigned m = 0; m < source.mNumMeshes; ++m) {
         const aiMesh& mesh = *source.mMeshes[m];
         const char* const name = mesh.mName.C_Str();
@@ -184,8 +184,8 @@ void checkIndices(const aiScene& source)
             const aiFace& face = mesh.mFaces[f];
             if (face.mNumIndices > 0 && !face.mIndices)
                 failModel("mesh {}: face {}: expected {} indices, found none", name, f, face.mNumIndices);
-            clipped += face.mNumIndices > 4 ? double(face.mNumIndices) * face.mNumIndices : 0;
-            if (clipped > kMostClipped)
+            clippingCost += face.mNumIndices > 4 ? double(face.mNumIndices) * face.mNumIndices : 0;
+            if (clippingCost > kMaxClippingCost)
                 failModel("mesh {}: face {}: expected triangles, found {} corners", name, f, face.mNumIndices);
             for (unsigned i = 0; i < face.mNumIndices; ++i)
                 if (face.mIndices[i] >= mesh.mNumVertices)
@@ -195,7 +195,7 @@ void checkIndices(const aiScene& source)
     }
 }
 
-// Assimp takes a face without corners for a polygon, and counts it in front of its table where there are other kinds.
+// Assimp treats a face without corners as a polygon, and counts it out of bounds if the mesh has other primitive types.
 void removeEmptyFaces(const aiScene& source, Job& job)
 {
     for (unsigned m = 0; m < source.mNumMeshes; ++m) {
@@ -220,7 +220,7 @@ void checkCounts(const aiScene& source, const LoadLimits& limits)
         vertices += source.mMeshes[i]->mNumVertices;
         triangles += source.mMeshes[i]->mNumFaces;
     }
-    // Before equal vertices are merged every corner has its own: three times the limit.
+    // Each corner has a vertex of its own until equal vertices are merged, hence three times the limit.
     if (vertices / 3 > limits.vertices)
         failModel("over the limit of {} vertices", limits.vertices);
     if (triangles > limits.triangles)
@@ -234,7 +234,7 @@ std::optional<Result<std::span<const std::byte>>> embeddedImage(const aiScene& s
         return std::nullopt;
     if (!texture->pcData || texture->mWidth == 0)
         return inputError("the embedded texture is empty");
-    if (texture->mHeight != 0) // 0: a whole image file of mWidth bytes, as all formats that are read here have it
+    if (texture->mHeight != 0) // 0: a whole image file of mWidth bytes, as in all formats read here
         return inputError("expected an embedded image file, found plain texels");
     return std::as_bytes(std::span(reinterpret_cast<const char*>(texture->pcData), texture->mWidth));
 }
@@ -247,7 +247,7 @@ void convertMaterials(const aiScene& source, Job& job)
         job.scene.materials.push_back(convertMaterial(*source.mMaterials[i], textures, job.scene));
 }
 
-// The material for meshes that name none.
+// The material of meshes that name none.
 int defaultMaterial(Scene& scene, int& cached)
 {
     if (cached < 0) {
@@ -288,7 +288,7 @@ void warnAboutSource(const aiScene& source, Job& job)
     for (const std::string& file : job.tooLarge)
         warnings.push_back(fmt::format("{} is over the limit of {} bytes; not opened", file, job.limits.fileBytes));
     if (source.mNumLights > 0)
-        warnings.push_back(fmt::format("{} lights are left out: this format gives them no unit", source.mNumLights));
+        warnings.push_back(fmt::format("{} lights are ignored: this format defines no unit", source.mNumLights));
 }
 
 } // namespace
@@ -298,7 +298,7 @@ try {
     Job job{.file = file, .limits = limits};
     if (Status ok = openModel(job); !ok)
         return ok.error();
-    // What can be checked in the bytes before Assimp trusts them.
+    // Checks of the bytes that Assimp would trust.
     if (job.extension == ".ply")
         checkPly(job.bytes, job.limits);
     if (job.extension == ".dae")
@@ -309,7 +309,7 @@ try {
         failModel("no reader for the extension \"{}\"", job.extension);
     const aiScene* source = import(job, importer);
     if (!source || !source->mRootNode)
-        failModel("expected a model that Assimp can read, it found: {}", withoutBreaks(importer.GetErrorString()));
+        failModel("expected a model that Assimp can read; it reports: {}", withoutBreaks(importer.GetErrorString()));
     checkIndices(*source);
     removeEmptyFaces(*source, job);
     if (job.limits.expect)
@@ -324,8 +324,8 @@ try {
     convertNodes(*source, convertMeshes(*source, job), job.limits, job.scene);
     if (job.scene.instances.empty())
         failModel("expected triangles, found none");
-    if (Status sound = checkScene(job.scene, file.string()); !sound)
-        return sound.error();
+    if (Status valid = checkScene(job.scene, file.string()); !valid)
+        return valid.error();
     return std::move(job.scene);
 } catch (const Error& problem) {
     return inputError(fmt::format("{}: {}", file.string(), problem.message));

@@ -1,4 +1,4 @@
-// PLY and COLLADA, before they are given to a parser that trusts them.
+// Checks PLY and COLLADA files before a parser that trusts them.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -25,7 +25,7 @@ constexpr Named<std::size_t> kTypeSizes[] = {{"char", 1},  {"uchar", 1},   {"int
                                              {"int", 4},   {"uint", 4},    {"int32", 4},  {"uint32", 4},
                                              {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
 
-// In bytes; 0 for what is no type.
+// Size in bytes; 0 for an unknown type.
 std::size_t typeSize(std::string_view name) { return valueOf(kTypeSizes, name).value_or(0); }
 
 std::vector<std::string_view> split(std::string_view line)
@@ -51,7 +51,7 @@ struct Element {
     std::vector<Property> properties;
 };
 
-// The header as far as it has been read.
+// The header lines read so far.
 struct Header {
     bool ascii = false;
     bool bigEndian = false;
@@ -64,8 +64,8 @@ struct Header {
 void checkElement(Header& header, std::string_view name, std::string_view word, std::size_t fileBytes,
                   const LoadLimits& limits)
 {
-    // Assimp reads the count of an element that it does not know from the name: as 0 where the name has letters, so
-    // that what comes behind is read in the wrong place.
+    // Assimp reads the count of an unknown element from its name. For a name with letters that gives 0, and the rows
+    // are not skipped, so that the following elements are read at wrong offsets.
     if (name.front() >= '0' && name.front() <= '9')
         failModel("expected a name that starts with a letter, found \"{}\"", name.substr(0, 40));
     const bool geometry = name == "vertex" || name == "face" || name == "tristrips";
@@ -75,7 +75,7 @@ void checkElement(Header& header, std::string_view name, std::string_view word, 
     if (!parseNumber(word, count))
         failModel("expected a count at the end");
     if (count > fileBytes || count > limits.vertices)
-        failModel("it counts {} elements, more than the file can hold or the limit allows", count);
+        failModel("{} elements exceed the file size or the limit", count);
     constexpr std::array<std::string_view, 5> kRead = {"vertex", "face", "tristrips", "edge", "material"};
     if (count > 0 && header.unknownRows.empty() && std::ranges::find(kRead, name) == kRead.end())
         header.unknownRows = name.substr(0, 40);
@@ -88,9 +88,9 @@ void checkProperty(Header& header, const std::vector<std::string_view>& words)
     const bool known =
         list ? typeSize(words[2]) > 0 && typeSize(words[3]) > 0 : words.size() == 3 && typeSize(words[1]) > 0;
     if (!known || header.elements.empty())
-        failModel("expected a type and a name, behind an element");
+        failModel("expected a type and a name, after an element");
     if (list && (words[2].starts_with("float") || words[2].starts_with("double")))
-        failModel("expected a whole number as the count of a list");
+        failModel("expected an integer type for the count of a list");
     header.elements.back().properties.push_back(list ? Property{words[2], words[3]} : Property{{}, words[1]});
 }
 
@@ -121,14 +121,14 @@ void checkLine(Header& header, std::string_view line, std::size_t fileBytes, con
         header.ended = true;
         return;
     }
-    // Old exporters forget the word "comment" in front of their name.
+    // Old exporters omit the word "comment" before their name.
     if (!header.elements.empty() || keyword.starts_with("e"))
         failModel("expected element, property, comment or end_header");
 }
 
-// ---- PLY: behind the header ------------------------------------------------------------------
+// ---- PLY: after the header -------------------------------------------------------------------
 
-// The whole number of a list's count. A negative one comes out as more than any file holds.
+// Reads the count of a list. A negative count gives a value larger than any file.
 std::uint64_t readCount(std::string_view bytes, std::string_view type, bool bigEndian)
 {
     const std::size_t size = typeSize(type);
@@ -139,7 +139,7 @@ std::uint64_t readCount(std::string_view bytes, std::string_view type, bool bigE
     return isSigned && value >> (8 * size - 1) ? ~std::uint64_t(0) : value;
 }
 
-// Walks over an element's rows; `rest` is what is left of the file.
+// Skips an element's rows; `rest` is the remainder of the file.
 void walkBinary(const Element& element, bool bigEndian, std::string_view& rest)
 {
     for (std::uint64_t row = 0; row < element.count; ++row) {
@@ -154,7 +154,7 @@ void walkBinary(const Element& element, bool bigEndian, std::string_view& rest)
             }
             const std::size_t size = typeSize(property.type);
             if (values > rest.size() / size)
-                failModel("{} values are promised, the file has {} bytes left", values, rest.size());
+                failModel("expected {} values, but the file has only {} bytes left", values, rest.size());
             rest.remove_prefix(values * size);
         }
         if (element.properties.empty())
@@ -162,7 +162,7 @@ void walkBinary(const Element& element, bool bigEndian, std::string_view& rest)
     }
 }
 
-// In text every row has a line.
+// Skips rows of text, one per line.
 void walkText(const Element& element, std::string_view& rest)
 {
     for (std::uint64_t row = 0; row < element.count && !element.properties.empty(); ++row) {
@@ -183,13 +183,13 @@ void walkText(const Element& element, std::string_view& rest)
                     failModel("expected the count of a list, found \"{}\"", word.substr(0, 40));
             }
             if (values > words.size() - at)
-                failModel("{} values are promised, their line has {}", values, words.size() - at);
+                failModel("expected {} values, found {} on their line", values, words.size() - at);
             at += values;
         }
     }
 }
 
-// Calls check(); what it finds wrong, it finds in the part of that number.
+// Calls check() and prefixes its errors with the part and its number.
 void checkPart(const char* part, std::size_t number, const auto& check)
 try {
     check();
@@ -216,13 +216,13 @@ void checkAttribute(std::string_view text, std::string_view attribute)
     }
 }
 
-// The value of an attribute in the text of a tag; empty if it is not there.
+// The value of an attribute in the text of a tag; empty if it is missing.
 std::string_view attributeOf(std::string_view tag, std::string_view attribute)
 {
     for (std::size_t at = tag.find(attribute); at != tag.npos; at = tag.find(attribute, at + 1)) {
         const std::size_t equals = tag.find_first_not_of(" \t\r\n", at + attribute.size());
         if (at == 0 || !space(tag[at - 1]) || equals == tag.npos || tag[equals] != '=')
-            continue; // a part of another one
+            continue; // part of another attribute
         const std::size_t quote = tag.find_first_of("\"'", equals);
         if (quote != tag.npos)
             return tag.substr(quote + 1, tag.find(tag[quote], quote + 1) - quote - 1);
@@ -233,13 +233,13 @@ std::string_view attributeOf(std::string_view tag, std::string_view attribute)
 std::uint64_t numberOf(std::string_view tag, std::string_view attribute, std::uint64_t fallback)
 {
     const std::string_view digits = attributeOf(tag, attribute);
-    std::uint64_t number = fallback; // checkAttribute has refused what does not fit
+    std::uint64_t number = fallback; // checkAttribute has refused values that do not fit
     std::from_chars(digits.data(), digits.data() + digits.size(), number);
     return number;
 }
 
-// Calls f with the text of every tag of that name, from behind the name, and with where the tag ends. Tags without an
-// end are no XML: the parser says so.
+// Calls f for every tag with this name, with the text from the name to the end of the tag and the offset of its end.
+// Tags without an end are left to the parser, which reports them.
 template<class F> void eachTag(std::string_view text, std::string_view name, F f)
 {
     const std::string open = fmt::format("<{}", name);
@@ -251,7 +251,7 @@ template<class F> void eachTag(std::string_view text, std::string_view name, F f
         if (end == text.npos)
             return;
         f(text.substr(at, end - at), end);
-        at = end; // each part of the text is looked at once
+        at = end; // keeps the scan linear
     }
 }
 
@@ -260,11 +260,11 @@ void checkNumbers(std::string_view text, std::string_view element)
     eachTag(text, element, [&](std::string_view, std::size_t close) {
         const std::size_t end = text.find_first_not_of("0123456789+- \t\r\n", close + 1);
         if (text[close - 1] != '/' && (end == text.npos || !text.substr(end).starts_with("</")))
-            failModel("expected nothing but whole numbers in <{}>", element);
+            failModel("expected only integers in <{}>", element);
     });
 }
 
-// Accessors read from arrays of numbers; no further than these reach.
+// Checks that accessors stay within the float arrays that they read.
 void checkAccessors(std::string_view text)
 {
     std::map<std::string_view, std::uint64_t> counts;
@@ -288,7 +288,7 @@ void checkAccessors(std::string_view text)
         const std::uint64_t needed =
             numberOf(tag, "offset", 0) + (count - 1) * numberOf(tag, "stride", 1) + std::max<std::uint64_t>(params, 1);
         if (needed > array->second)
-            failModel("accessor of {}: expected an array of {} numbers or more, found {}",
+            failModel("accessor of {}: expected an array of at least {} numbers, found {}",
                       withoutBreaks(std::string(source)), needed, array->second);
     });
 }
@@ -297,7 +297,8 @@ void checkAccessors(std::string_view text)
 
 std::string withoutBreaks(std::string text)
 {
-    std::ranges::replace(text, '\n', ' ');
+    std::ranges::replace_if(
+        text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
     return text;
 }
 
@@ -320,9 +321,9 @@ void checkPly(std::span<const std::byte> bytes, const LoadLimits& limits)
             checkPart("header line", number, [&] { checkLine(header, line, bytes.size(), limits); });
     }
     std::string_view rest = text.substr(at);
-    // Assimp takes a 0 for the end of the file, and leaves the faces behind it as memory was.
+    // Assimp takes a zero byte as the end of the file, and leaves the remaining faces uninitialised.
     if (header.ascii && rest.find('\0') != std::string_view::npos)
-        failModel("expected text, found a byte of value 0 at {}", at + rest.find('\0'));
+        failModel("expected text, found a zero byte at {}", at + rest.find('\0'));
     for (std::size_t e = 0; e < header.elements.size(); ++e)
         checkPart("element", e, [&] {
             header.ascii ? walkText(header.elements[e], rest) : walkBinary(header.elements[e], header.bigEndian, rest);

@@ -26,7 +26,7 @@ namespace {
 
 glm::vec3 toGlm(const aiVector3D& v) { return {v.x, v.y, v.z}; }
 
-// Assimp's matrices are stored by rows, glm's by columns.
+// Assimp's matrices are row-major, glm's are column-major.
 glm::mat4 toGlm(const aiMatrix4x4& m)
 {
     return {m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2, m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4, m.d4};
@@ -41,13 +41,13 @@ Wrap wrapFrom(aiTextureMapMode mode)
     return mode == aiTextureMapMode_Wrap ? Wrap::repeat : Wrap::clamp;
 }
 
-// Assimp scales, turns about the centre and moves with v up; ours has v down.
+// Assimp scales, rotates about the centre and translates with v up; here v is down.
 void setTransform(Texture& texture, const aiUVTransform& t)
 {
     const float c = std::cos(t.mRotation), s = std::sin(t.mRotation);
     const glm::vec3 u(c * t.mScaling.x, -s * t.mScaling.y, 0.5f - 0.5f * c + 0.5f * s + t.mTranslation.x);
     const glm::vec3 v(s * t.mScaling.x, c * t.mScaling.y, 0.5f - 0.5f * s - 0.5f * c + t.mTranslation.y);
-    // With v_up = 1 - v_down on both sides.
+    // Substitutes v_up = 1 - v_down on both sides.
     texture.uRow = {u.x, -u.y, u.y + u.z};
     texture.vRow = {-v.x, v.y, 1.0f - v.y - v.z};
 }
@@ -68,7 +68,7 @@ glm::vec3 color(const aiMaterial& source, const char* key, glm::vec3 fallback)
     return found && isFinite(stored) ? glm::max(stored, glm::vec3(0)) : fallback;
 }
 
-// The first texture of the first type that has one.
+// The first texture of the first of these types that the material has.
 SourceMap findMap(const aiMaterial& source, std::initializer_list<aiTextureType> types)
 {
     for (const aiTextureType type : types) {
@@ -92,7 +92,7 @@ SourceMap findMap(const aiMaterial& source, std::initializer_list<aiTextureType>
 
 // ---- meshes ----------------------------------------------------------------------------------
 
-// Whatever is not over 0, NaN too, is black.
+// Negative values and NaN become black.
 float linearFromSrgb(float c) { return f32::cotan_srgb_to_linear(c > 0 ? std::min(c, 1.0f) : 0.0f); }
 
 void copyPositions(const aiMesh& source, Mesh& mesh)
@@ -133,7 +133,7 @@ void copyTexcoords(const aiMesh& source, Mesh& mesh, Scene& scene)
             const aiVector3D& t = source.mTextureCoords[set][i];
             const bool good = std::isfinite(t.x) && std::isfinite(t.y);
             broken += good ? 0 : 1;
-            // These formats have v = 0 at the bottom row of the picture; here it is the top.
+            // These formats have v = 0 at the bottom row of the image; here it is the top row.
             mesh.texcoords[set].push_back(good ? glm::vec2(t.x, 1.0f - t.y) : glm::vec2(0));
         }
         if (broken > 0)
@@ -142,7 +142,7 @@ void copyTexcoords(const aiMesh& source, Mesh& mesh, Scene& scene)
     }
 }
 
-// Files hold vertex colours as they are seen: sRGB.
+// Files store vertex colours in sRGB.
 void copyColors(const aiMesh& source, Mesh& mesh)
 {
     if (!source.mColors[0])
@@ -177,7 +177,7 @@ void addCamera(const aiCamera& source, const glm::mat4& toWorld, Scene& scene)
     if (usable)
         scene.cameras.push_back(camera);
     else
-        scene.warnings.push_back(fmt::format("camera {}: is degenerate; left out", camera.name));
+        scene.warnings.push_back(fmt::format("camera {}: degenerate; left out", camera.name));
 }
 
 struct Visit {
@@ -232,7 +232,7 @@ Mesh convertMesh(const aiMesh& source, bool regenerateNormals, Scene& scene)
 
 void convertNodes(const aiScene& source, const std::vector<int>& meshes, const LoadLimits& limits, Scene& scene)
 {
-    std::map<std::string, const aiCamera*> cameras; // by the name of their node
+    std::map<std::string, const aiCamera*> cameras; // by node name
     for (unsigned i = 0; i < source.mNumCameras; ++i)
         cameras.emplace(source.mCameras[i]->mName.C_Str(), source.mCameras[i]);
 
@@ -250,7 +250,7 @@ void convertNodes(const aiScene& source, const std::vector<int>& meshes, const L
                 scene.instances.push_back({visit.node->mName.C_Str(), meshes[mesh], visit.toWorld});
         if (const auto camera = cameras.find(visit.node->mName.C_Str()); camera != cameras.end())
             addCamera(*camera->second, visit.toWorld, scene);
-        for (unsigned i = visit.node->mNumChildren; i-- > 0;) // the first child is next
+        for (unsigned i = visit.node->mNumChildren; i-- > 0;) // so that the first child is visited next
             open.push_back({visit.node->mChildren[i], visit.toWorld});
     }
 }

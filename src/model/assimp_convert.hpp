@@ -1,4 +1,4 @@
-// From Assimp's structures to ours; and files that Assimp trusts, before they are given to it.
+// Converts Assimp's structures to a Scene, and checks files before Assimp reads them.
 #pragma once
 
 #include <cstddef>
@@ -21,28 +21,26 @@ namespace cotan {
 
 Material convertMaterial(const aiMaterial& source, TextureReader& textures, Scene& scene);
 
-// Checks every index, count and position before it is used. A mesh without triangles comes back
-// empty. regenerateNormals: the format's normals are those of faces only.
-// Throws (failModel): what a broken or hostile file can make Assimp deliver.
+// Checks every index and position before use. A mesh without triangles gives an empty one. regenerateNormals: the
+// format stores face normals only. Throws (failModel) for broken or malicious data.
 Mesh convertMesh(const aiMesh& source, bool regenerateNormals, Scene& scene);
 
-// Instances and cameras from the tree of nodes. meshes: for every mesh of the source its index in the scene, or -1.
-// Throws likewise.
+// Adds instances and cameras from the node tree. meshes: for every mesh of the source its index in the scene, or -1.
+// Throws (failModel) for too many nodes and transforms that are not finite.
 void convertNodes(const aiScene& source, const std::vector<int>& meshes, const LoadLimits& limits, Scene& scene);
 
-// ---- checks, which throw likewise ------------------------------------------------------------
+// ---- checks, which throw (failModel) ---------------------------------------------------------
 
-// Spaces for line breaks: for messages of one line.
+// Replaces line breaks by spaces, for one-line messages.
 std::string withoutBreaks(std::string text);
 
-// Checks the header of a PLY file line by line, and walks over what it counts: every row of every
-// element, and every value of every list, has to be there, as memory is taken by those counts.
-// Source: the PLY description of G. Turk (1994), with the sized type names that are common now.
+// Checks each line of a PLY header, then that every counted row and list value exists, because Assimp allocates memory
+// by these counts. Source: the PLY description of G. Turk (1994), with the sized type names that are common now.
 void checkPly(std::span<const std::byte> bytes, const LoadLimits& limits);
 
-// Checks three things of COLLADA that Assimp 5.2 does not: counts, offsets and strides, by which memory is taken, are
-// no larger than the file; lists of indices hold nothing but whole numbers (at anything else the parser repeats the
-// last number until memory ends); and accessors reach no further than the array of numbers that they read.
+// Checks three properties of COLLADA that Assimp 5.2 does not check. Counts, offsets and strides, which determine
+// allocations, must not exceed the file size. Index lists must contain only integers: at anything else the parser
+// repeats the last number until memory is exhausted. Accessors must stay within their array of numbers.
 void checkCollada(std::span<const std::byte> bytes);
 
 } // namespace cotan

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kAssimpExtensions = {".ply", ".stl", ".dae", ".fbx", ".3ds"};
 
-// Over a limit that the child should have held.
+// Enforces limits that the child process should have enforced.
 Status checkLimits(const Scene& scene, const std::string& file, const LoadLimits& limits)
 {
     std::size_t vertices = 0, triangles = 0;
@@ -39,7 +39,7 @@ Status checkLimits(const Scene& scene, const std::string& file, const LoadLimits
     return Done{};
 }
 
-// In a child process: limits.sandbox.program.
+// Reads in a child process, limits.sandbox.program.
 Result<Scene> loadSandboxed(const fs::path& file, std::size_t fileBytes, const LoadLimits& limits)
 try {
     auto process = ReaderProcess::start(
@@ -50,8 +50,8 @@ try {
     exchangeScene((*process)->answer(), scene);
     if (!(*process)->answer().good())
         return (*process)->failure();
-    if (Status sound = checkScene(scene, file.string()); !sound)
-        return sound.error();
+    if (Status valid = checkScene(scene, file.string()); !valid)
+        return valid.error();
     if (Status within = checkLimits(scene, file.string(), limits); !within)
         return within.error();
     return scene;
@@ -70,7 +70,7 @@ Result<Scene> loadAny(const fs::path& file, const LoadLimits& limits)
     if (extension == ".gltf" || extension == ".glb")
         return loadGltf(file, limits);
     if (!limits.pose.animation.empty())
-        return usageError(fmt::format("{}: animations are read from glTF alone", file.string()));
+        return usageError(fmt::format("{}: only glTF animations are supported", file.string()));
     const bool assimp = std::ranges::find(kAssimpExtensions, extension) != kAssimpExtensions.end();
     if (assimp || extension == ".obj") {
         if (!limits.sandbox.program.empty())
@@ -87,11 +87,11 @@ Result<Scene> loadAny(const fs::path& file, const LoadLimits& limits)
 Result<Scene> loadScene(const fs::path& file, const LoadLimits& limits)
 {
     auto scene = loadAny(file, limits);
-    // A model is read on without a texture that must not be read, with a warning; that is not enough here.
-    if (const auto refused = refusal())
+    // Readers continue with a warning if a texture must not be read, but here that is an error.
+    if (const auto refused = firstRefusal())
         return *refused;
     if (scene && limits.up == Up::z)
-        turnZUp(*scene);
+        rotateZUpToYUp(*scene);
     return scene;
 }
 

@@ -1,4 +1,4 @@
-// What is read by Assimp, where there is none.
+// The Assimp reader in builds without Assimp.
 #include "core/not_built.hpp"
 #include "cotan/model.hpp"
 

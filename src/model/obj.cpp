@@ -1,4 +1,4 @@
-// Wavefront OBJ files, with their material libraries, to Scene.
+// Reads Wavefront OBJ files and their material libraries into a Scene.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -33,7 +33,7 @@ Result<std::string> readText(const fs::path& file, const LoadLimits& limits)
 
 // ---- material libraries ---------------------------------------------------------------------
 
-// How many numbers stand behind an option of a map at most, of which only the first has to be there; 0: one word.
+// Maximum count of numbers after a map option, of which only the first is required; 0: one word instead.
 constexpr Named<std::size_t> kMapOptions[] = {
     {"-blendu", 0}, {"-blendv", 0}, {"-cc", 0}, {"-clamp", 0}, {"-imfchan", 0}, {"-type", 0}, {"-colorspace", 0},
     {"-texres", 0}, {"-boost", 1},  {"-bm", 1}, {"-mm", 2},    {"-o", 3},       {"-s", 3},    {"-t", 3}};
@@ -44,19 +44,19 @@ constexpr Named<SourceMap SourceMaterial::*> kMaps[] = {
     {"map_pr", &SourceMaterial::roughnessMap},      {"map_pm", &SourceMaterial::metalnessMap},
     {"norm", &SourceMaterial::normalMap},           {"map_kn", &SourceMaterial::normalMap}};
 
-// Options, then a file name, which may hold spaces.
+// Parses options and then a file name, which may contain spaces.
 SourceMap readMap(Words words)
 {
     SourceMap map;
     glm::vec2 scale(1), offset(0);
     for (std::string_view word = words.peek(); word.starts_with('-'); word = words.peek()) {
-        const auto most = valueOf(kMapOptions, word);
-        if (!most)
-            break; // a file name that begins so
+        const auto maxNumbers = valueOf(kMapOptions, word);
+        if (!maxNumbers)
+            break; // a file name that begins with '-'
         words.next();
         std::array<float, 3> numbers{};
         std::size_t count = 0;
-        while (count < *most)
+        while (count < *maxNumbers)
             if (const auto number = finiteNumber(words.peek())) {
                 numbers[count++] = *number;
                 words.next();
@@ -69,17 +69,17 @@ SourceMap readMap(Words words)
             scale = {numbers[0], count > 1 ? numbers[1] : 1.0f};
         if (word == "-o" && count > 0)
             offset = {numbers[0], numbers[1]};
-        if (*most == 0 && words.next() == "on" && word == "-clamp")
+        if (*maxNumbers == 0 && words.next() == "on" && word == "-clamp")
             map.use.sampler.wrapU = map.use.sampler.wrapV = Wrap::clamp;
     }
-    // u and v of the file, whose v runs up, are scaled and shifted; ours has v down.
+    // Scale and offset apply to the file's u and v, whose v points up; here v points down.
     map.use.uRow = {scale.x, 0, offset.x};
     map.use.vRow = {0, scale.y, 1 - scale.y - offset.y};
     map.path = words.all();
     return map;
 }
 
-// value: a float, or an optional one.
+// value: a float or an optional float.
 template<class Value> bool readNumber(Words words, Value& value)
 {
     while (words.peek().starts_with("-halo"))
@@ -90,7 +90,7 @@ template<class Value> bool readNumber(Words words, Value& value)
     return number.has_value();
 }
 
-// A single number is a grey.
+// A single number means grey.
 bool readColor(Words words, glm::vec3& value)
 {
     glm::vec3 color;
@@ -105,7 +105,7 @@ bool readColor(Words words, glm::vec3& value)
     return true;
 }
 
-// False: the numbers cannot be read.
+// Returns false for unreadable numbers.
 bool readStatement(const std::string& keyword, Words words, SourceMaterial& m)
 {
     if (keyword == "kd")
@@ -130,18 +130,17 @@ bool readStatement(const std::string& keyword, Words words, SourceMaterial& m)
     return true;
 }
 
-// Reads newmtl, Kd, Ke, Ns, d, Tr, Pr, Pm and the maps map_Kd, map_Ke, map_d, map_Pr, map_Pm,
-// bump (map_Bump) and norm (map_Kn), upper or lower case, with the options -bm, -clamp, -o and -s.
-// All other statements are passed over; those before the first newmtl, and those whose numbers
-// cannot be read, are left out with a warning. Nothing in a library is an error.
-// Source: the MTL specification of the Advanced Visualizer manual; Pr, Pm, norm as in the PBR
-// extension of exocortex.com.
+// Reads newmtl, Kd, Ke, Ns, d, Tr, Pr, Pm and the maps map_Kd, map_Ke, map_d, map_Pr, map_Pm, bump (map_Bump) and norm
+// (map_Kn), in upper or lower case, with the options -bm, -clamp, -o and -s. Other statements are ignored; statements
+// before the first newmtl or with unreadable numbers are left out with a warning. Nothing in a library is an error.
+// Source: the MTL specification of the Advanced Visualizer manual; Pr, Pm, norm as in the PBR extension of
+// exocortex.com.
 std::vector<SourceMaterial> parseMtl(std::string source, const std::string& name, Scene& scene)
 {
     const TextLines lines(std::move(source));
     const std::string& text = lines.text();
-    std::vector<SourceMaterial> materials; // in the order of the file
-    std::vector<SourceMap> bumps;          // of each material: a map under "norm" goes before it
+    std::vector<SourceMaterial> materials; // in file order
+    std::vector<SourceMap> bumps;          // one per material; a map of "norm" takes precedence
     std::size_t early = 0, broken = 0, brokenLine = 0;
     for (std::size_t offset = 0; offset < text.size();) {
         const std::size_t end = std::min(text.find('\n', offset), text.size());
@@ -153,7 +152,7 @@ std::vector<SourceMaterial> parseMtl(std::string source, const std::string& name
         if (keyword == "newmtl") {
             SourceMaterial& material = materials.emplace_back();
             material.name = words.all();
-            material.color = glm::vec3(0.6f); // where there is no Kd
+            material.color = glm::vec3(0.6f); // the default without Kd
             bumps.emplace_back();
         } else if (materials.empty()) {
             ++early;
@@ -176,7 +175,7 @@ std::vector<SourceMaterial> parseMtl(std::string source, const std::string& name
     return materials;
 }
 
-// The materials of the libraries that the model names; the first of a name counts.
+// The materials of the libraries that the model names; the first material of a name is used.
 class Library {
 public:
     Library(const fs::path& folder, const LoadLimits& limits, Scene& scene)
@@ -184,9 +183,8 @@ public:
     {
     }
 
-    // line: of one mtllib, a name with spaces or several names. otherwise: the library that is
-    // taken where that is missing.
-    void add(const std::string& line, const std::string& otherwise)
+    // line: the names of one mtllib, one with spaces or several. fallback: the library to read if none of them exists.
+    void add(const std::string& line, const std::string& fallback)
     {
         bool outside = false;
         if (const auto file = findInFolder(folder_, line, outside))
@@ -203,12 +201,12 @@ public:
         if (any)
             return;
         bool ignored = false;
-        const auto beside = findInFolder(folder_, otherwise, ignored);
+        const auto beside = findInFolder(folder_, fallback, ignored);
         scene_.warnings.push_back(fmt::format("material library {} {}{}", line,
                                               outside ? "is outside the model's folder; not opened" : "was not found",
-                                              beside ? fmt::format("; {} is read in its place", otherwise) : ""));
+                                              beside ? fmt::format("; {} is read instead", fallback) : ""));
         if (beside)
-            read(*beside, otherwise);
+            read(*beside, fallback);
     }
 
     bool any() const { return any_; }
@@ -239,7 +237,7 @@ private:
     std::map<std::string, SourceMaterial> materials_;
 };
 
-// For every part its index in Scene::materials.
+// Makes the materials; returns the index in Scene::materials of each part.
 std::vector<int> makeMaterials(const ObjText& obj, const Library& library, TextureReader& textures, Scene& scene)
 {
     SourceMaterial plain;
@@ -260,14 +258,14 @@ std::vector<int> makeMaterials(const ObjText& obj, const Library& library, Textu
     }
     if (missing > 0 && library.any())
         scene.warnings.push_back(fmt::format("{} parts name materials that no library has, the first is \"{}\"; "
-                                             "they are grey",
+                                             "these parts are grey",
                                              missing, firstMissing));
     return indices;
 }
 
 // ---- meshes ---------------------------------------------------------------------------------
 
-// Files hold vertex colours as they are seen: sRGB.
+// Files store vertex colours in sRGB.
 glm::vec4 linearColor(glm::vec4 stored)
 {
     const glm::vec4 c = glm::clamp(stored, 0.0f, 1.0f);
@@ -290,7 +288,7 @@ Mesh makeMesh(const ObjText& obj, const ObjPart& part, Scene& scene)
         if (!uv)
             continue;
         const glm::vec2 stored = corner.texcoord == kObjNone ? glm::vec2(0) : obj.texcoords[corner.texcoord];
-        mesh.texcoords[0].emplace_back(stored.x, 1.0f - stored.y); // v = 0 is the bottom row of the picture there
+        mesh.texcoords[0].emplace_back(stored.x, 1.0f - stored.y); // OBJ has v = 0 at the bottom row of the image
     }
     finishMesh(mesh, "missing", scene);
     return mesh;
@@ -313,7 +311,7 @@ try {
 
     Scene scene;
     scene.name = file.filename().string();
-    // A link to a model elsewhere: its textures lie beside the model.
+    // Textures are beside the target of a link.
     const fs::path folder = canonical.parent_path();
     Library library(folder, limits, scene);
     for (const std::string& line : obj->libraries)
@@ -321,7 +319,7 @@ try {
     TextureReader textures(scene, folder, limits);
     const std::vector<int> materials = makeMaterials(*obj, library, textures, scene);
     if (!obj->texcoords.empty() && obj->polygonsWithoutUv > 0)
-        scene.warnings.push_back(fmt::format("{} of {} faces have no texture coordinates; theirs are 0",
+        scene.warnings.push_back(fmt::format("{} of {} faces have no texture coordinates; 0 is used",
                                              obj->polygonsWithoutUv, obj->polygons));
     for (std::size_t i = 0; i < obj->parts.size(); ++i) {
         Mesh mesh = makeMesh(*obj, obj->parts[i], scene);

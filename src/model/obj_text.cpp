@@ -17,7 +17,7 @@ namespace cotan {
 
 namespace {
 
-// How many bytes at `i` are a line end that a backslash before it would undo: 0, 1 or 2.
+// The length of a line end at `i` that a preceding backslash would continue: 0, 1 or 2 bytes.
 std::size_t lineEndAt(const std::string& text, std::size_t i)
 {
     if (i < text.size() && text[i] == '\n')
@@ -27,23 +27,23 @@ std::size_t lineEndAt(const std::string& text, std::size_t i)
     return 0;
 }
 
-// Part of a file in quotes for a message: short, no control characters.
+// Quotes text from a file for a message: at most 40 characters, without control characters.
 std::string quotedWord(std::string_view word)
 {
-    std::string shown(word.substr(0, 40));
+    std::string printable(word.substr(0, 40));
     std::ranges::replace_if(
-        shown, [](unsigned char c) { return c < 32 || c > 126; }, '?');
-    return fmt::format("\"{}\"", shown);
+        printable, [](unsigned char c) { return c < 32 || c > 126; }, '?');
+    return fmt::format("\"{}\"", printable);
 }
 
 constexpr std::array<std::string_view, 3> kAttributeName = {"position", "texture coordinate", "normal"};
 
-// Comparisons while polygons are cut: one or two seconds. A star, a comb or a spiral of 20,000 corners
-// takes up to 30 million.
+// Budget of tests while polygons are cut, one or two seconds. A star, a comb or a spiral of 20,000 corners takes up to
+// 30 million.
 constexpr std::size_t kCuttingSteps = 100'000'000;
 
-// The largest index of each attribute that a face names, and where, to be compared with the totals
-// at the end: a face may stand before what it refers to.
+// The largest index of an attribute in faces and its location. It is compared with the totals at the end, because a
+// face may precede the elements it refers to.
 struct HighestIndex {
     std::int64_t value = 0;
     std::size_t offset = 0;
@@ -58,18 +58,18 @@ struct Polygon {
 struct Parser {
     const LoadLimits& limits;
     ObjText out;
-    std::array<std::int64_t, 3> counts{}; // positions, texture coordinates, normals so far
+    std::array<std::int64_t, 3> counts{}; // numbers of positions, texture coordinates and normals so far
     std::array<HighestIndex, 3> highest{};
-    std::string name, material; // that the next face belongs to
+    std::string name, material; // of the next face
     std::optional<std::size_t> part;
     std::map<std::pair<std::string, std::string>, std::size_t> parts;
     std::vector<Polygon> polygons;
-    std::vector<ObjCorner> corners; // of the polygons, one after the other
+    std::vector<ObjCorner> corners; // of all polygons, concatenated
     std::size_t triangles = 0;
-    std::size_t offset = 0; // of the line that is looked at
+    std::size_t offset = 0; // of the current line
 };
 
-// x y z, with a weight, with a colour, or with a colour and alpha.
+// Adds x y z, optionally with a weight, with a colour, or with a colour and alpha.
 void addPosition(ObjText& out, const std::array<float, 7>& n, std::size_t count)
 {
     if (count != 3 && count != 4 && count != 6 && count != 7)
@@ -116,13 +116,13 @@ void readAttribute(Parser& parser, std::size_t attribute, Words words)
         failModel("over the limit of {} vertices", parser.limits.vertices);
 }
 
-// The place in the array. What is above the totals is refused at the end, before it is used.
+// Returns the array index. Indices above the totals are refused at the end, before use.
 std::uint32_t readIndex(Parser& parser, std::size_t attribute, std::int64_t index)
 {
     if (index == 0)
-        failModel("expected an index from 1 or a negative one, found 0");
+        failModel("expected a positive or negative index, found 0");
     if (index < 0 && index + parser.counts[attribute] < 0)
-        failModel("expected a {} index down to -{}, found {}", kAttributeName[attribute], parser.counts[attribute],
+        failModel("expected a {} index of at least -{}, found {}", kAttributeName[attribute], parser.counts[attribute],
                   index);
     if (index < 0)
         index += parser.counts[attribute] + 1;
@@ -132,11 +132,11 @@ std::uint32_t readIndex(Parser& parser, std::size_t attribute, std::int64_t inde
     return std::uint32_t(index - 1);
 }
 
-// A corner is v, v/vt, v//vn or v/vt/vn.
+// Parses v, v/vt, v//vn or v/vt/vn.
 ObjCorner readCorner(Parser& parser, std::string_view text)
 {
     ObjCorner corner;
-    const std::array<std::uint32_t*, 3> places = {&corner.position, &corner.texcoord, &corner.normal};
+    const std::array<std::uint32_t*, 3> indices = {&corner.position, &corner.texcoord, &corner.normal};
     const char* at = text.data();
     const char* const end = at + text.size();
     for (std::size_t attribute = 0; at != end; ++attribute) {
@@ -149,10 +149,10 @@ ObjCorner readCorner(Parser& parser, std::string_view text)
             const auto [after, error] = std::from_chars(at, end, index);
             if (error != std::errc{} || (after != end && *after != '/'))
                 failModel("expected a corner v/vt/vn, found {}", quotedWord(text));
-            *places[attribute] = readIndex(parser, attribute, index);
+            *indices[attribute] = readIndex(parser, attribute, index);
             at = after;
         }
-        if (at != end) // the slash
+        if (at != end) // skips the slash
             ++at;
     }
     if (corner.position == kObjNone)
@@ -179,7 +179,7 @@ void readFace(Parser& parser, Words words)
         const ObjCorner& first = parser.corners.size() > before ? parser.corners[before] : corner;
         if ((corner.texcoord == kObjNone) != (first.texcoord == kObjNone)
             || (corner.normal == kObjNone) != (first.normal == kObjNone))
-            failModel("expected every corner of a face to name the same attributes, found a mixture");
+            failModel("expected all corners of a face to have the same attributes, found a mixture");
         parser.corners.push_back(corner);
     }
     const std::size_t corners = parser.corners.size() - before;
@@ -196,7 +196,7 @@ void readFace(Parser& parser, Words words)
         failModel("over the limit of {} triangles", parser.limits.triangles);
     parser.polygons.push_back({currentPart(parser), corners, parser.offset});
     if (parser.out.parts.size() > parser.limits.nodes)
-        failModel("over the limit of {} nodes: groups with a material each", parser.limits.nodes);
+        failModel("over the limit of {} nodes, one per group and material", parser.limits.nodes);
 }
 
 void readLine(Parser& parser, std::string_view line)
@@ -210,7 +210,7 @@ void readLine(Parser& parser, std::string_view line)
         return readAttribute(parser, 1, data);
     if (keyword == "vn")
         return readAttribute(parser, 2, data);
-    if (keyword == "f" || keyword == "fo") // the older name
+    if (keyword == "f" || keyword == "fo") // "fo" is obsolete
         return readFace(parser, data);
     if (keyword == "mtllib" && !words.all().empty())
         parser.out.libraries.emplace_back(words.all());
@@ -257,8 +257,8 @@ void cutPolygons(Parser& parser)
             positions.push_back(parser.out.positions[corners[i].position]);
         if (!cutPolygon(positions, triangles, stepsLeft)) {
             parser.offset = polygon.offset;
-            failModel("over the limit of {} steps to cut polygons into triangles, here one of {} corners",
-                      kCuttingSteps, polygon.corners);
+            failModel("over the limit of {} triangulation steps, at a polygon of {} corners", kCuttingSteps,
+                      polygon.corners);
         }
         for (const std::uint32_t corner : triangles)
             parser.out.parts[polygon.part].corners.push_back(corners[corner]);
@@ -270,7 +270,7 @@ void cutPolygons(Parser& parser)
 TextLines::TextLines(std::string source) : text_(std::move(source))
 {
     std::size_t out = 0;
-    std::size_t in = text_.starts_with("\xef\xbb\xbf") ? 3 : 0; // a byte order mark
+    std::size_t in = text_.starts_with("\xef\xbb\xbf") ? 3 : 0; // byte order mark
     const auto put = [&](char c) {
         if (c == '\n')
             while (out > 0 && text_[out - 1] == ' ')
@@ -283,10 +283,10 @@ TextLines::TextLines(std::string source) : text_(std::move(source))
         if (const std::size_t end = lineEndAt(text_, in)) {
             put('\n');
             in += end;
-        } else if (const std::size_t undone = c == '\\' ? lineEndAt(text_, in + 1) : 0) {
+        } else if (const std::size_t skipped = c == '\\' ? lineEndAt(text_, in + 1) : 0) {
             put(' ');
             joined_.push_back(out);
-            in += 1 + undone;
+            in += 1 + skipped;
         } else {
             put(c == '\t' || c == '\v' || c == '\f' ? ' ' : c);
             ++in;
@@ -325,7 +325,7 @@ std::optional<float> finiteNumber(std::string_view word)
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (end != word.data() + word.size() || word.empty() || word.starts_with('+'))
         return std::nullopt;
-    if (error == std::errc::result_out_of_range) // too large, or so small that it is zero
+    if (error == std::errc::result_out_of_range) // overflow or underflow
         value = std::strtod(std::string(word).c_str(), nullptr);
     else if (error != std::errc{})
         return std::nullopt;

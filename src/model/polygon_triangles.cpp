@@ -11,8 +11,8 @@ namespace {
 
 using Index = std::uint32_t;
 
-// The corners seen along the axis that the mean normal (Newell's) is nearest to, from the side from
-// which they run counter-clockwise. Empty: the polygon has no area.
+// Projects the corners along the coordinate axis nearest to the polygon's mean normal (Newell's method), such that they
+// run counter-clockwise. Returns nothing if the polygon has no area.
 std::vector<glm::dvec2> flatten(std::span<const glm::vec3> corners)
 {
     const glm::dvec3 origin(corners[0]);
@@ -35,18 +35,18 @@ std::vector<glm::dvec2> flatten(std::span<const glm::vec3> corners)
     return flat;
 }
 
-// Twice the area of a triangle, positive where it runs counter-clockwise.
-double turn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+// Twice the signed area of a triangle, positive if counter-clockwise.
+double area2(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
-// How much may lie in an ear. Each is tried when there is none under the one before, which happens
-// only where the polygon crosses or touches itself.
+// What an ear may contain. Each rule is tried only if the previous one finds no ear, which happens only if the polygon
+// crosses or touches itself.
 enum class Ear { empty, emptyInside, convex, any };
 
 class Clipper {
 public:
     Clipper(std::vector<glm::dvec2> flat, std::size_t& stepsLeft)
-        : flat_(std::move(flat)), next_(flat_.size()), before_(flat_.size()), gone_(flat_.size()),
-          place_(flat_.size(), kNone), stepsLeft_(stepsLeft)
+        : flat_(std::move(flat)), next_(flat_.size()), before_(flat_.size()), removed_(flat_.size()),
+          earIndex_(flat_.size(), kNone), stepsLeft_(stepsLeft)
     {
         const auto n = Index(flat_.size());
         for (Index i = 0; i < n; ++i) {
@@ -54,31 +54,31 @@ public:
             before_[i] = (i + n - 1) % n;
         }
         for (Index i = 0; i < n; ++i)
-            if (!(turnAt(i) > 0))
+            if (!(area2At(i) > 0))
                 notConvex_.push_back(i);
         std::ranges::sort(notConvex_, {}, [&](Index i) { return flat_[i].x; });
     }
 
     bool isConvex() const { return notConvex_.empty(); }
 
-    // An ear stays one until it or a neighbour goes, and others become ears only where a neighbour
-    // went; so each corner is looked at once, and two for each that goes.
+    // Appends the triangles. An ear stays an ear until it or a neighbour is clipped, and other corners become ears only
+    // when a neighbour is clipped. So each corner is tested once, and two more per clipped corner.
     bool cut(std::vector<Index>& triangles)
     {
         std::size_t corners = flat_.size(), first = 0;
-        Index last = 0; // any that is left
+        Index last = 0; // any remaining corner
         while (corners > 3) {
             if (first == ears_.size() && !findEars(last, corners))
                 return false;
             const Index at = ears_[first];
-            if (place_[at] != first++)
-                continue; // a neighbour went, and it was looked at again
+            if (earIndex_[at] != first++)
+                continue; // tested again after a neighbour was clipped
             triangles.insert(triangles.end(), {before_[at], at, next_[at]});
             clip(at);
             --corners;
             last = next_[at];
             for (const Index beside : {before_[at], next_[at]})
-                lookAt(beside, Ear::empty);
+                testEar(beside, Ear::empty);
             if (stepsLeft_ == 0)
                 return false;
         }
@@ -89,28 +89,28 @@ public:
 private:
     static constexpr std::size_t kNone = ~std::size_t(0);
 
-    double turnAt(Index i) const { return turn(flat_[before_[i]], flat_[i], flat_[next_[i]]); }
+    double area2At(Index i) const { return area2(flat_[before_[i]], flat_[i], flat_[next_[i]]); }
 
-    // Puts the corner behind the others if it is an ear.
-    bool lookAt(Index i, Ear ear)
+    // Appends the corner to the list of ears if it is one.
+    bool testEar(Index i, Ear ear)
     {
         const bool found = isEar(i, ear);
-        place_[i] = found ? ears_.size() : kNone;
+        earIndex_[i] = found ? ears_.size() : kNone;
         if (found)
             ears_.push_back(i);
         return found;
     }
 
-    // Looks at all corners that are left, under the first rule that gives an ear.
+    // Tests all remaining corners, with the first rule that finds an ear.
     bool findEars(Index start, std::size_t corners)
     {
         for (Ear ear = Ear::empty; stepsLeft_ > 0; ear = Ear(int(ear) + 1)) {
             bool found = false;
             Index at = start;
             for (std::size_t i = 0; i < corners && stepsLeft_ > 0; ++i, at = next_[at]) {
-                found = lookAt(at, ear) || found;
+                found = testEar(at, ear) || found;
                 if (found && ear != Ear::empty)
-                    break; // others may not be ears any more once it has gone
+                    break; // after clipping it, the others may be no ears any more
             }
             if (found)
                 return true;
@@ -120,11 +120,11 @@ private:
 
     void clip(Index i)
     {
-        gone_[i] = true;
+        removed_[i] = true;
         next_[before_[i]] = next_[i];
         before_[next_[i]] = before_[i];
         if (++clipped_ * 4 > notConvex_.size()) {
-            std::erase_if(notConvex_, [&](Index k) { return gone_[k] || turnAt(k) > 0; });
+            std::erase_if(notConvex_, [&](Index k) { return removed_[k] || area2At(k) > 0; });
             clipped_ = 0;
         }
     }
@@ -134,13 +134,13 @@ private:
         stepsLeft_ -= std::min<std::size_t>(stepsLeft_, 1);
         if (ear == Ear::any)
             return true;
-        if (!(turnAt(i) > 0))
+        if (!(area2At(i) > 0))
             return false;
         return ear == Ear::convex || !anyInside(i, /*rimToo*/ ear == Ear::empty);
     }
 
-    // Whether a corner that does not turn outwards lies in the ear at i. If any corner does, one of
-    // those does. Corners at the same place as one of the ear's do not count.
+    // Whether a reflex or straight corner lies in the ear at i. If any corner lies in it, one of these does. Corners
+    // that coincide with one of the ear's are ignored.
     bool anyInside(Index i, bool rimToo)
     {
         const glm::dvec2 a = flat_[before_[i]], b = flat_[i], c = flat_[next_[i]];
@@ -152,9 +152,9 @@ private:
                 return false;
             if (p.y < low.y || p.y > high.y || p == a || p == b || p == c)
                 continue;
-            const double nearest = std::min({turn(a, b, p), turn(b, c, p), turn(c, a, p)});
-            // As the polygon shrinks, corners become convex or go.
-            if ((nearest > 0 || (rimToo && nearest == 0)) && !gone_[*at] && !(turnAt(*at) > 0))
+            const double nearest = std::min({area2(a, b, p), area2(b, c, p), area2(c, a, p)});
+            // As the polygon shrinks, corners become convex or are removed.
+            if ((nearest > 0 || (rimToo && nearest == 0)) && !removed_[*at] && !(area2At(*at) > 0))
                 return true;
         }
         return false;
@@ -162,11 +162,11 @@ private:
 
     std::vector<glm::dvec2> flat_;
     std::vector<Index> next_, before_;
-    std::vector<bool> gone_;
-    std::vector<Index> notConvex_;   // by x; with some that have become convex, or are gone
-    std::vector<Index> ears_;        // to be clipped, in order
-    std::vector<std::size_t> place_; // of a corner in ears_; kNone: it is no ear
-    std::size_t clipped_ = 0;        // since notConvex_ was put in order
+    std::vector<bool> removed_;
+    std::vector<Index> notConvex_;      // by x; some may have become convex or been removed
+    std::vector<Index> ears_;           // to be clipped, in this order
+    std::vector<std::size_t> earIndex_; // index in ears_ of each corner; kNone: no ear
+    std::size_t clipped_ = 0;           // since notConvex_ was last cleaned
     std::size_t& stepsLeft_;
 };
 

@@ -1,4 +1,4 @@
-// What the child of a sandboxed reader does.
+// The child process of the sandboxed reader.
 #include <algorithm>
 #include <cstdio>
 #include <mutex>
@@ -42,30 +42,30 @@ public:
     {
     }
 
-    // False: no sensible request came.
-    bool listen()
+    // Receives the request. Returns false if it is not valid.
+    bool receiveRequest()
     {
         exchangeRequest(question_, request_);
         return question_.good() && request_.version == kReaderVersion;
     }
 
-    void confineUs()
+    void confineProcess()
     {
         dieWith(request_.parent);
         confine();
         setBudget();
         request_.limits.expect = [this](std::size_t bytes) { expect(bytes); };
-        watchInputs([this](const std::filesystem::path& file) { tell(file); });
+        watchInputs([this](const std::filesystem::path& file) { reportInput(file); });
         std::set_new_handler([] { ::_exit(kNoMemoryCode); });
     }
 
     void read()
     {
         if (request_.kind == ReaderKind::model)
-            say(loadScene(request_.name, request_.limits), [&](const Scene& scene) { exchangeScene(answer_, scene); });
-        else if (request_.kind == ReaderKind::picture)
-            say(decodeImage(request_.bytes, request_.name, request_.limits),
-                [&](const Image& image) { exchangeImage(answer_, image); });
+            send(loadScene(request_.name, request_.limits), [&](const Scene& scene) { exchangeScene(answer_, scene); });
+        else if (request_.kind == ReaderKind::image)
+            send(decodeImage(request_.bytes, request_.name, request_.limits),
+                 [&](const Image& image) { exchangeImage(answer_, image); });
         else if (request_.kind == ReaderKind::draco)
             readDraco();
         else
@@ -74,7 +74,7 @@ public:
     }
 
 private:
-    // More room and time, before so many bytes are decoded. Pictures may be decoded side by side.
+    // Raises the memory and time limits before `bytes` bytes are decoded. Images may be decoded on several threads.
     void expect(std::size_t bytes)
     {
         const std::lock_guard lock(mutex_);
@@ -85,8 +85,8 @@ private:
         answer_.flush();
     }
 
-    // The parent must not replace what we read.
-    void tell(const std::filesystem::path& file)
+    // Reports a file that is read, so that the parent does not overwrite it.
+    void reportInput(const std::filesystem::path& file)
     {
         const std::lock_guard lock(mutex_);
         answer_.choice(ReaderFrame::input, ReaderFrame::error);
@@ -102,7 +102,7 @@ private:
         limitTo(budget, budgetFor(limits, SIZE_MAX, SIZE_MAX));
     }
 
-    template<class T, class F> void say(const Result<T>& result, F exchangeValue)
+    template<class T, class F> void send(const Result<T>& result, F exchangeValue)
     {
         answer_.choice(result ? ReaderFrame::value : ReaderFrame::error, ReaderFrame::error);
         if (result)
@@ -117,21 +117,21 @@ private:
         std::vector<DracoJob> jobs;
         exchangeDracoJobs(question_, jobs);
         if (question_.good())
-            say(decodeDracoHere(jobs),
-                [&](const std::vector<DracoGeometry>& meshes) { exchangeDracoGeometry(answer_, meshes); });
+            send(decodeDracoHere(jobs),
+                 [&](const std::vector<DracoGeometry>& meshes) { exchangeDracoGeometry(answer_, meshes); });
     }
 
-    // Strips as long as somebody asks for them.
+    // Sends strips of the requested heights until the parent stops.
     void readRows()
     {
         const auto rows = openRows(request_.name, request_.limits);
-        say(rows, [&](const std::unique_ptr<RowReader>& open) { exchangeRowFacts(answer_, *open); });
+        send(rows, [&](const std::unique_ptr<RowReader>& open) { exchangeRowFacts(answer_, *open); });
         std::int32_t height = 0;
         for (question_.number(height); rows && question_.good() && height > 0; question_.number(height)) {
             Image strip = makeImage((*rows)->width, height, (*rows)->type);
             rowBytes_ += strip.data.size();
             setBudget();
-            say((*rows)->read(strip), [&](Done) { answer_.array(strip.data); });
+            send((*rows)->read(strip), [&](Done) { answer_.array(strip.data); });
         }
     }
 
@@ -153,18 +153,18 @@ int runReaderProcess()
 {
     struct stat status {};
     if (::fstat(0, &status) != 0 || !S_ISSOCK(status.st_mode)) {
-        fmt::print(stderr, "{} is for programs that read through this one; nobody asks for anything here\n",
+        fmt::print(stderr, "{} is internal: it is started by another process, which sends requests on standard input\n",
                    kReaderWord);
         return 1;
     }
-    // Whatever a library may read or print, it is not this.
+    // Moves the socket away from stdin, so that libraries do not read it.
     Reader reader(::fcntl(0, F_DUPFD_CLOEXEC, 3));
     ::dup2(2, 0);
-    if (!reader.listen())
+    if (!reader.receiveRequest())
         return 1;
-    reader.confineUs();
+    reader.confineProcess();
     reader.read();
-    ::_exit(0); // the parent waits: what is held is given back at once
+    ::_exit(0); // exits at once, since the parent waits: the system frees all memory
 }
 
 } // namespace cotan

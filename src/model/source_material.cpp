@@ -23,8 +23,8 @@ namespace {
 
 // ---- images ----------------------------------------------------------------------------------
 
-// Whether the picture is grey, as a height map is and a normal map is not: red and blue differ by
-// less than 3 % on average (compression leaves some colour in grey pictures).
+// Whether the image is grey, like a height map but unlike a normal map: red and blue differ by less than 3 % on
+// average, a tolerance for colour from compression.
 bool looksLikeHeight(const Image& image)
 {
     double difference = 0;
@@ -38,12 +38,12 @@ bool looksLikeHeight(const Image& image)
     return difference < 0.03 * double(image.pixelCount());
 }
 
-// The normal map of a height map by central differences, wrapping at the borders: xyz, exact
-// expansion, green against +v (glTF's form). White is 1 % of the picture's width above black,
-// times `strength`; material files give no unit. 8 bit for 8-bit heights, otherwise 16.
+// Converts a height map to a normal map by central differences with wrapping borders: xyz, exact expansion, green
+// against +v as in glTF. White is 1 % of the image width above black, times `strength`, because material files give no
+// unit. 8 bit for 8-bit heights, otherwise 16 bit.
 Image normalMapFromHeight(const Image& height, float strength)
 {
-    constexpr double kDepth = 0.01; // of white over black, in widths of the picture
+    constexpr double kDepth = 0.01; // height of white above black, in image widths
     maps::FromHeightSettings settings;
     settings.scaleX = settings.scaleY = kDepth * height.width * double(strength);
     settings.type = height.type == PixelType::unorm8 ? PixelType::unorm8 : PixelType::unorm16;
@@ -53,7 +53,7 @@ Image normalMapFromHeight(const Image& height, float strength)
     return map;
 }
 
-// The red component at the texel of `image` nearest to (x, y) of a picture of w x h.
+// The red value of `image` at the texel nearest to (x, y) of an image of size w x h.
 std::uint8_t redNearest(const Image& image, int x, int y, int w, int h)
 {
     const auto sx = std::int64_t(x) * image.width / w;
@@ -75,7 +75,7 @@ Texture read(const SourceMap& map, TextureReader& textures, const std::string& m
     return map.path.empty() ? Texture{} : use(map, textures.image(map.path, material));
 }
 
-// Blinn-Phong's exponent e is about as wide as GGX with alpha^2 = 2/(e + 2), alpha = roughness^2.
+// A Blinn-Phong lobe with exponent e is about as wide as GGX with alpha^2 = 2/(e + 2), alpha = roughness^2.
 float roughnessFromShininess(float shininess)
 {
     constexpr float kUnknown = 0.7f;
@@ -90,7 +90,7 @@ void setSurface(const SourceMaterial& source, TextureReader& textures, Material&
     const float roughness = roughImage >= 0 ? 1 : roughnessFromShininess(source.shininess);
     material.roughness = std::clamp(source.roughness.value_or(roughness), 0.0f, 1.0f);
     material.metallic = std::clamp(source.metallic.value_or(metalImage >= 0 ? 1.0f : 0.0f), 0.0f, 1.0f);
-    // Without a map of its own the other factor must not be scaled by a white channel's neighbour.
+    // With only one map the other channel is white, so its factor stays in effect.
     material.metallicRoughnessMap =
         use(roughImage >= 0 ? rough : metal, textures.metallicRoughness(roughImage, metalImage));
 }
@@ -100,11 +100,11 @@ void setBaseColor(const SourceMaterial& source, TextureReader& textures, Scene& 
     material.baseColorMap = read(source.colorMap, textures, material.name);
     glm::vec3 base = source.color;
     if (base == glm::vec3(0) && material.baseColorMap.present())
-        base = glm::vec3(1); // exporters that leave the factor at black mean the map alone
+        base = glm::vec3(1); // some exporters leave the factor black although only the map counts
 
     float opacity = source.opacity;
     if (opacity <= 0) {
-        scene.warnings.push_back(fmt::format("material {}: its opacity is 0; taken as opaque", material.name));
+        scene.warnings.push_back(fmt::format("material {}: its opacity is 0; treated as opaque", material.name));
         opacity = 1;
     }
     material.baseColor = glm::vec4(base, std::min(opacity, 1.0f));
@@ -121,7 +121,7 @@ void setBaseColor(const SourceMaterial& source, TextureReader& textures, Scene& 
                         source.opacityMap.path));
 }
 
-// Names that say that green points down: "directx", or "dx" standing alone or after "normal".
+// Whether the file name says that green points down: it contains "directx", or "dx" as a word or after "normal".
 bool namesDirectX(const std::string& path)
 {
     const std::string name = lowerCase(path.substr(path.find_last_of("/\\") + 1));
@@ -146,12 +146,12 @@ void setNormalMap(const SourceMaterial& source, TextureReader& textures, Scene& 
     bool converted = false;
     material.normalMap = use(map, textures.normalMap(map.path, material.name, map.strength, converted));
     if (!material.normalMap.present() || converted)
-        return; // the strength is in the conversion
+        return; // the conversion has applied the strength
     material.normalScale = map.strength;
     if (namesDirectX(map.path)) {
         material.normalFormat.greenUp = false;
         scene.warnings.push_back(fmt::format(
-            "material {}: normal map {} is taken as green down (DirectX), as its name says", material.name, map.path));
+            "material {}: normal map {} is read as green down (DirectX), as its name says", material.name, map.path));
     }
 }
 
@@ -203,7 +203,7 @@ int TextureReader::load(const std::string& path, const std::string& material)
     }
     if (!file)
         return leaveOut(path, material, outside ? "outside the model's folder, not opened" : "no such file");
-    const auto [entry, isNew] = known_.try_emplace(file->string(), -1); // another name for it
+    const auto [entry, isNew] = known_.try_emplace(file->string(), -1); // another path to the same file
     if (!isNew)
         return entry->second;
     std::error_code error;
@@ -211,7 +211,7 @@ int TextureReader::load(const std::string& path, const std::string& material)
     return entry->second = take(error ? 0 : size, [&](const LoadLimits& limits) { return readImage(*file, limits); });
 }
 
-// The limits for an image of so many bytes: what is left for all of them together.
+// Limits for an image whose file has `bytes` bytes, within the remaining budget for all images.
 LoadLimits TextureReader::withinBudget(std::uint64_t bytes)
 {
     fileBytes_ += bytes;
@@ -240,7 +240,7 @@ int TextureReader::normalMap(const std::string& path, const std::string& materia
     if (isNew) {
         entry->second = add(normalMapFromHeight(heights, strength));
         scene_.warnings.push_back(fmt::format(
-            "material {}: texture {} is grey: taken as a height map and converted to a normal map", material, path));
+            "material {}: texture {} is grey: treated as a height map and converted to a normal map", material, path));
     }
     return entry->second;
 }
@@ -276,7 +276,7 @@ Material makeMaterial(const SourceMaterial& source, TextureReader& textures, Sce
 {
     Material material;
     material.name = source.name;
-    material.doubleSided = true; // these formats do not say
+    material.doubleSided = true; // unknown in these formats
     setBaseColor(source, textures, scene, material);
     setSurface(source, textures, material);
     setNormalMap(source, textures, scene, material);
@@ -300,7 +300,7 @@ void finishMesh(Mesh& mesh, std::string_view unusable, Scene& scene)
     if (!usable) {
         if (!mesh.normals.empty())
             scene.warnings.push_back(
-                fmt::format("mesh {}: some normals are zero or {}; all are made anew", mesh.name, unusable));
+                fmt::format("mesh {}: some normals are zero or {}; all are regenerated", mesh.name, unusable));
         mesh.normals.clear();
         generateNormals(mesh, /*creaseDegrees*/ 60);
     }
@@ -315,8 +315,8 @@ void warnAboutTexcoords(const Mesh& mesh, Scene& scene)
     for (const Texture* texture : all)
         if (texture->present() && mesh.texcoords[std::size_t(texture->texcoord)].empty()) {
             scene.warnings.push_back(
-                fmt::format("mesh {}: it has no texture coordinates {}, which material {} needs; textures and "
-                            "normal map cannot show",
+                fmt::format("mesh {}: it has no texture coordinates {}, which material {} needs; its textures "
+                            "are not drawn",
                             mesh.name, texture->texcoord, material.name));
             return;
         }

@@ -16,19 +16,18 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-bool surrounded(const PictureOptions& o) { return o.environment != "none"; }
+bool hasEnvironment(const PictureOptions& o) { return o.environment != "none"; }
 
 Background backgroundOf(const PictureOptions& o)
 {
     return o.background             ? *o.background
-        : !surrounded(o)            ? Background::gradient
+        : !hasEnvironment(o)        ? Background::gradient
         : o.environment == "studio" ? Background::paper
                                     : Background::blurred;
 }
 
-// What lights models in a built-in environment beside the environment itself, turned with it: in the studio a lamp in
-// front of the large box on the left, in the evening the sun. An overcast sky casts no shadow, nor is anything known of
-// the lamps in a file.
+// Lights of the built-in environments, rotated with them: in the studio a light in front of the large box on the left,
+// in the evening the sun. An overcast sky casts no shadow, and the lights in an environment file are unknown.
 std::vector<Light> lampsOf(const PictureOptions& o)
 {
     struct Lamp {
@@ -54,37 +53,37 @@ std::vector<Light> lightsOf(const PictureOptions& o, const Scene& scene)
 {
     if (!scene.lights.empty())
         return scene.lights;
-    return surrounded(o) ? lampsOf(o) : defaultLights();
+    return hasEnvironment(o) ? lampsOf(o) : defaultLights();
 }
 
 std::shared_ptr<const GroundMap> groundOf(const PictureOptions& options, const Scene& scene, const View& view)
 {
     if (options.use == PictureUse::data || !options.ground)
         return nullptr;
-    GroundOptions under;
+    GroundOptions groundOptions;
     if (view.ground) // the model moves, not the ground
-        under.height = view.ground->height;
+        groundOptions.height = view.ground->height;
     else if (!scene.reach.empty())
-        under.height = framedBounds(scene).low.y;
-    auto map = makeGround(scene, view, under);
+        groundOptions.height = framedBounds(scene).low.y;
+    auto map = makeGround(scene, view, groundOptions);
     return map ? std::make_shared<const GroundMap>(std::move(*map)) : nullptr;
 }
 
 Result<std::shared_ptr<const EnvironmentMap>> openEnvironmentMap(const PictureOptions& o)
 {
-    if (!surrounded(o) || o.use == PictureUse::data)
+    if (!hasEnvironment(o) || o.use == PictureUse::data)
         return std::shared_ptr<const EnvironmentMap>();
-    const EnvironmentOptions made{.rotation = float(o.environmentRotation * kRadians),
-                                  .intensity = o.environmentIntensity};
-    if (auto map = builtinEnvironment(o.environment, made))
+    const EnvironmentOptions environmentOptions{.rotation = float(o.environmentRotation * kRadians),
+                                                .intensity = o.environmentIntensity};
+    if (auto map = builtinEnvironment(o.environment, environmentOptions))
         return std::make_shared<const EnvironmentMap>(std::move(*map));
     if (std::filesystem::path(o.environment).extension().empty())
         return usageError(fmt::format("--environment: expected {}, none, or a .hdr or .exr file; found '{}'",
                                       fmt::join(environmentNames(), ", "), o.environment));
-    const auto picture = readImage(o.environment, limitsFor(o.memory));
-    if (!picture)
-        return picture.error();
-    auto map = environmentOfPicture(*picture, made);
+    const auto image = readImage(o.environment, limitsFor(o.memory));
+    if (!image)
+        return image.error();
+    auto map = environmentOfImage(*image, environmentOptions);
     if (!map)
         return map.error();
     return std::make_shared<const EnvironmentMap>(std::move(*map));
@@ -99,10 +98,10 @@ Status lightPicture(const PictureOptions& options, View& view)
 {
     view.exposure = options.exposure.value_or(1.0f);
     const Background background = backgroundOf(options);
-    const bool seen = background == Background::sharp || background == Background::blurred;
-    if (!surrounded(options) && (seen || options.environmentRotation != 0 || options.environmentIntensity != 1))
+    const bool showsMap = background == Background::sharp || background == Background::blurred;
+    if (!hasEnvironment(options) && (showsMap || options.environmentRotation != 0 || options.environmentIntensity != 1))
         return usageError(fmt::format("--{}: expected an --environment other than none with it; found none",
-                                      seen ? "background " + wordOf(kBackgrounds, background)
+                                      showsMap ? "background " + wordOf(kBackgrounds, background)
                                           : options.environmentRotation != 0 ? "environment-rotation"
                                                                              : "environment-intensity"));
     view.toneMapping = options.toneMapping;

@@ -20,9 +20,9 @@ LoadLimits limitsFor(int memory, Pixels pixels)
     LoadLimits limits;
     limits.imageBytes = std::size_t(memory) << 20;
     limits.allImageBytes = std::max(limits.allImageBytes, limits.imageBytes);
-    if (memory > kDefaultMemory) // the user knows what he has
+    if (memory > kDefaultMemory) // the user has raised the limit
         limits.imageBytesBeyond = limits.imageBytes;
-    limits.imageSide = 1 << 20; // the memory limit decides
+    limits.imageSide = 1 << 20; // only the memory limit applies
     limits.pixels = pixels;
     return limits;
 }
@@ -45,14 +45,14 @@ Status checkSize(const PictureSize& size)
 
 Status checkModelOptions(const PictureOptions& options)
 {
-    const bool none = options.model.empty();
-    if (!none && !options.shape.empty())
+    const bool noModel = options.model.empty();
+    if (!noModel && !options.shape.empty())
         return usageError("--shape: expected no model with it; found " + options.model);
-    if (!options.variant.empty() && none)
+    if (!options.variant.empty() && noModel)
         return usageError("--variant: expected a model; found the built-in scene");
-    if (options.up != Up::y && none)
+    if (options.up != Up::y && noModel)
         return usageError("--up: expected a model; found the built-in scene");
-    if (options.animation.empty() ? options.time > 0 : none)
+    if (options.animation.empty() ? options.time > 0 : noModel)
         return usageError(options.animation.empty() ? "--time: expected --animation with it; found none"
                                                     : "--animation: expected a model; found the built-in scene");
     return Done{};
@@ -69,7 +69,7 @@ LoadLimits limitsOf(const PictureOptions& options)
     return limits;
 }
 
-// What loadScene does besides, for a scene that was read without it.
+// Applies what loadScene also does, for a scene that was read without it.
 Status complete(AnimatedGltf& model, const PictureOptions& options, Scene& scene)
 {
     if (!options.animation.empty()) {
@@ -79,14 +79,14 @@ Status complete(AnimatedGltf& model, const PictureOptions& options, Scene& scene
         scene.reach = std::move(*points);
     }
     if (options.up == Up::z)
-        turnZUp(scene);
+        rotateZUpToYUp(scene);
     return Done{};
 }
 
 Result<Scene> checkedScene(Result<Scene> scene)
 {
     if (scene)
-        if (const Status ok = checkTrianglesDrawn(*scene); !ok) // before anything is said of the rest
+        if (const Status ok = checkTrianglesDrawn(*scene); !ok) // before other errors are reported
             return ok.error();
     return scene;
 }
@@ -158,7 +158,7 @@ Result<MovingModel> openMovingModel(const PictureOptions& options)
         return scene.error();
     if (Status whole = complete(**opened, options, *scene); !whole)
         return whole.error();
-    if (const auto refused = refusal())
+    if (const auto refused = firstRefusal())
         return *refused;
     if ((*opened)->animations().empty())
         opened->reset();
@@ -205,13 +205,13 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
     if (const Status fits = checkSize(options.size); !fits) // before a large model is loaded
         return fits.error();
     Picture picture;
-    // What takes its time while the model is read.
+    // Slow work that runs while the model is read.
     picture.device =
         std::async(std::launch::async, [name = deviceOf(options), threads] { return openRenderer(name, threads); });
     std::future<Result<std::shared_ptr<const EnvironmentMap>>> environment;
     if (!like)
         environment = std::async(std::launch::async, openEnvironmentMap, options);
-    // The first picture of a sequence has the camera of all.
+    // The first image of a sequence determines the camera of all.
     const bool moves = !like && !options.animation.empty();
     auto scene = moves ? sceneOf(openMovingModel(options)) : openModel(options);
     if (!scene)
@@ -238,7 +238,7 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
     }
     picture.meter = !like && meters(options);
     picture.view.lights = lightsOf(options, picture.scene);
-    if (Status fits = settleCovered(picture.scene, picture.view); !fits)
+    if (Status fits = limitCoverage(picture.scene, picture.view); !fits)
         return fits.error();
     return picture;
 }
@@ -262,7 +262,7 @@ Result<std::unique_ptr<Renderer>> openPictureRenderer(const PictureOptions& opti
     std::optional<Result<float>> exposure;
     if (picture.meter)
         exposure = meterExposure(**renderer, picture.view);
-    picture.view.ground = ground.get(); // not needed before, and read by nobody else now
+    picture.view.ground = ground.get(); // not needed before, and no other thread reads it now
     if (exposure && !*exposure)
         return exposure->error();
     picture.view.exposure = exposure ? **exposure : picture.view.exposure;
@@ -273,8 +273,8 @@ Status checkLighting(const PictureOptions& options, FrameChoice frame)
 {
     if (options.lighting == Lighting::tangentVertex && !(frame && readsTangents(*frame)))
         return usageError(
-            fmt::format("--lighting tangent-vertex: expected a frame with tangents at the vertices, vertex or "
-                        "mikktspace; found '{}'",
+            fmt::format("--lighting tangent-vertex: expected a frame with tangents at the vertices (vertex or "
+                        "mikktspace); found '{}'",
                         frame ? name(*frame) : kAutoFrame));
     if (options.normalMapping != NormalMapping::shading
         && (options.shading != Shading::pbr || options.lighting != Lighting::world))
@@ -285,7 +285,7 @@ Status checkLighting(const PictureOptions& options, FrameChoice frame)
     return Done{};
 }
 
-// ---- what of a model a picture shows: light, a vector, an inspection, an error --------------
+// ---- outputs: light, a vector, an inspection, an error --------------------------------------
 
 const std::vector<std::string>& showNames()
 {
@@ -321,15 +321,15 @@ Result<Image> drawShow(Renderer& renderer, const Scene& scene, View view, const 
 }
 
 Status layEdges(Renderer& renderer, View view, const PictureOptions& options, std::span<const SurfaceEdge> edges,
-                Image& picture)
+                Image& image)
 {
-    if (options.edges == Edges::none || picture.type != PixelType::unorm8)
+    if (options.edges == Edges::none || image.type != PixelType::unorm8)
         return Done{};
     view.output = Output::depth;
     const auto depth = renderer.draw(view);
     if (!depth)
         return depth.error();
-    drawEdges(picture, *depth, view.camera, edges, {options.edges != Edges::seams, options.edges != Edges::triangles});
+    drawEdges(image, *depth, view.camera, edges, {options.edges != Edges::seams, options.edges != Edges::triangles});
     return Done{};
 }
 

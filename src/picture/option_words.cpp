@@ -32,7 +32,7 @@ constexpr Named<PictureSize> kSizePresets[] = {{"thumbnail", {320, 180}}, {"720p
                                                {"1080p", {1920, 1080}},   {"1440p", {2560, 1440}},
                                                {"2160p", {3840, 2160}},   {"square", {1024, 1024}}};
 
-// An option by its name. `take` sets it to a word; a flag takes none.
+// An option. `take` sets it from a word; a flag takes none.
 struct Option {
     std::string_view name;
     std::function<Status(const std::string& word)> take;
@@ -82,7 +82,7 @@ Option whole(std::string_view name, int& value, int least, int most)
 
 Option flag(std::string_view name, bool& value) { return {name, {}, &value}; }
 
-ValueCheck within(const Bounded& bounds) { return numberWithin(bounds.least, bounds.most); }
+ValueCheck within(const Bounded& bounds) { return numberWithin(bounds.minimum, bounds.maximum); }
 
 std::vector<Option> optionsOf(PictureOptions& o, std::string& frame)
 {
@@ -203,7 +203,7 @@ Status readPictureWords(std::span<const std::string> words, PictureOptions& opti
             continue;
         }
         if (std::exchange(option->given, true))
-            return wrong(name + " is given 2 times; expected once");
+            return wrong(name + " is given twice; expected once");
         if (equals == std::string::npos && ++i == words.size())
             return wrong(name + " needs a value");
         if (Status taken = option->take(equals == std::string::npos ? words[i] : word.substr(equals + 1)); !taken)

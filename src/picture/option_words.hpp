@@ -1,5 +1,5 @@
-// The words and bounds of the options of a picture, each once: for the command line, the settings of the viewer and
-// what is said of them. What a picture is told in code has types: PictureOptions.
+// The names and ranges of picture options, each defined once: for the command line, the viewer's settings and messages.
+// In code the options are typed: PictureOptions.
 #pragma once
 
 #include <span>
@@ -44,39 +44,39 @@ inline constexpr Named<std::string_view> kShapes[] = {
     {"plane", "plane"}, {"sphere", "sphere"}, {"torus", "torus"}, {"teapot", "teapot"}};
 
 struct Bounded {
-    double least, most;
+    double minimum, maximum;
 };
 inline constexpr Bounded kRotations = {-360, 360}; // degrees
 inline constexpr Bounded kSoftnesses = {0, 60};    // degrees
 inline constexpr Bounded kMoments = {0, 1e6};      // seconds
-inline constexpr int kMaxMemory = 1 << 16;         // MiB, at least 1
-inline constexpr int kMaxMaterial = 100000;        // at least -1: all
+inline constexpr int kMaxMemory = 1 << 16;         // MiB; the minimum is 1
+inline constexpr int kMaxMaterial = 100000;        // the minimum is -1: all
 
 inline constexpr const char* kAutoExposure = "auto"; // or a factor above 0
 
 std::string sizeWord(const PictureSize& size); // "640x480"
 
-// "WxH", or one number for both, each 1..16384.
+// Parses "WxH", or one number for both, each 1..16384.
 Result<PictureSize> parseSize(const std::string& text);
 
-// The same of a picture, which may also have the size of a preset: "1080p", "square" and others.
+// Likewise, also accepting the presets: "1080p", "square" and others.
 Result<PictureSize> parsePictureSize(const std::string& text);
 std::vector<std::string> sizePresetWords();
 
-// All frame names; the same, separated by commas.
+// All frame names, as a list and separated by commas.
 std::vector<std::string> frameWords();
 std::string frameNames();
 
-// What the frame that the normal maps mean is called, where pictures are drawn.
+// Name of the frame choice that stands for the frame that the normal maps are for.
 inline constexpr std::string_view kAutoFrame = "auto";
 
-// A frame's name, or kAutoFrame for none; the error lists all of them, and begins with the option or the field that it
-// was given for.
+// Parses a frame's name, or kAutoFrame for none. The error lists all names and begins with `field`, the option or field
+// that the text was given for.
 Result<FrameChoice> parseFrameChoice(const std::string& text, std::string_view field = "frame");
 
-// Sets what the words of the command line of `cotan render` ask for: "--size", "640x480", "--edges=all", and a model
-// behind "--" or by itself. The options for files and the terminal are not among them. Errors: ErrorKind::usage, with
-// the option, what was expected and found.
+// Sets options from words of the command line of `cotan render`: "--size", "640x480", "--edges=all", and a model after
+// "--" or by itself. Options for files and the terminal are not accepted. Errors: ErrorKind::usage, with the option,
+// what was expected and what was found.
 Status readPictureWords(std::span<const std::string> words, PictureOptions& options, std::string& frame);
 
 } // namespace cotan

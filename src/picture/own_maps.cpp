@@ -19,12 +19,12 @@ namespace {
 Result<Image> readFor(const OwnMaps& maps, const std::string& file, Texture Material::*slot, int memory,
                       const Scene& scene)
 {
-    // Whether a mesh with one of the chosen materials has the uv set that the picture is read with.
-    const bool shown = std::ranges::any_of(scene.meshes, [&](const Mesh& mesh) {
+    // Whether any mesh with a chosen material has the uv set that the image is sampled with.
+    const bool hasUv = std::ranges::any_of(scene.meshes, [&](const Mesh& mesh) {
         const Texture& map = scene.materials[std::size_t(mesh.material)].*slot;
         return (maps.material < 0 || mesh.material == maps.material) && !mesh.texcoords[uvSetOf(map)].empty();
     });
-    if (!shown)
+    if (!hasUv)
         return inputError(
             fmt::format("{}: expected a mesh with texture coordinates to show {} on; found none", scene.name, file));
     return readImage(file, limitsFor(memory));
@@ -36,12 +36,12 @@ Result<StatedConvention> conventionOf(const OwnMaps& maps)
     if (!convention)
         return usageError("--convention: " + convention.error().message);
     if (convention->convention.kind != MapKind::tangentSpace)
-        return usageError(fmt::format("--convention: expected a map in tangent space; found '{}'", maps.convention));
+        return usageError(fmt::format("--convention: expected a tangent-space map; found '{}'", maps.convention));
     return convention;
 }
 
-// The maps that the model has, read in another way.
-Status readOtherwise(const OwnMaps& maps, Scene& scene)
+// Reads the model's own normal maps with another convention.
+Status reinterpretNormalMaps(const OwnMaps& maps, Scene& scene)
 {
     const auto convention = conventionOf(maps);
     if (!convention)
@@ -71,7 +71,7 @@ Status applyNormalMap(const OwnMaps& maps, int memory, Scene& scene)
     const auto convention = maps::conventionOf(*stated, maps.normal, image->channels, "--convention");
     if (!convention)
         return convention.error();
-    if (!stated->channels) // x and y in a file of three channels, blue the middle everywhere: no such directions exist
+    if (!stated->channels) // x and y in three channels with constant blue: no such normals exist
         completeNormals(*image);
     if (convention->channels != Channels::xyz)
         maps::unswizzle(*image, maps::swizzleOf(*image));
@@ -86,14 +86,14 @@ Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene)
 {
     const bool any =
         !(maps.normal.empty() && maps.baseColor.empty() && maps.metallicRoughness.empty() && maps.occlusion.empty());
-    const bool otherwise = maps.normal.empty() && !maps.convention.empty();
-    if (!any && !otherwise && maps.material != -1)
+    const bool reinterprets = maps.normal.empty() && !maps.convention.empty();
+    if (!any && !reinterprets && maps.material != -1)
         return usageError("--material: expected --normal-map FILE or another map with it; found none");
-    if ((any || otherwise) && maps.material >= int(scene.materials.size()))
+    if ((any || reinterprets) && maps.material >= int(scene.materials.size()))
         return usageError(
             fmt::format("--material: expected 0 to {}; found {}", scene.materials.size() - 1, maps.material));
-    if (otherwise)
-        if (Status read = readOtherwise(maps, scene); !read)
+    if (reinterprets)
+        if (Status read = reinterpretNormalMaps(maps, scene); !read)
             return read;
     if (!maps.normal.empty())
         if (Status applied = applyNormalMap(maps, memory, scene); !applied)
@@ -113,7 +113,7 @@ Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene)
         auto image = readFor(maps, file, slot, memory, scene);
         if (!image)
             return image.error();
-        putPicture(scene, std::move(*image), slot, maps.material, change);
+        assignImage(scene, std::move(*image), slot, maps.material, change);
     }
     return Done{};
 }

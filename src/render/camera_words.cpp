@@ -30,7 +30,7 @@ std::vector<std::string_view> splitAtCommas(std::string_view text)
 
 bool finite(std::string_view text, float& value) { return parseNumber(text, value) && std::isfinite(value); }
 
-// The seventh part. Degrees are read as double: a lens in float radians comes back as it was.
+// Parses the seventh part. Degrees are double, so that a formatted lens in float radians is restored exactly.
 bool lensOf(std::string_view text, Camera& camera)
 {
     camera.orthographic = text.starts_with('h');
@@ -46,14 +46,14 @@ bool lensOf(std::string_view text, Camera& camera)
 Result<Camera> lookingFromTo(const std::string& text)
 {
     const std::vector<std::string_view> parts = splitAtCommas(text);
-    std::array<float, 10> v{}; // but for the seventh, a lens
+    std::array<float, 10> v{}; // the seventh goes to `camera` instead
     Camera camera;
     bool good = parts.size() == 6 || parts.size() == 7 || parts.size() == 10;
     for (std::size_t i = 0; good && i < parts.size(); ++i)
         good = i == 6 ? lensOf(parts[i], camera) : finite(parts[i], v[i]);
     if (!good)
         return usageError("expected front, left, right, top, bottom, back, fit, orbit:AZ,EL, the number of a camera, "
-                          "or six numbers ex,ey,ez,tx,ty,tz and perhaps a lens and a direction up; found '"
+                          "or ex,ey,ez,tx,ty,tz, optionally followed by a field of view and an up direction; found '"
                           + text + "'");
     camera.eye = {v[0], v[1], v[2]};
     camera.target = {v[3], v[4], v[5]};
@@ -65,7 +65,7 @@ Result<Camera> lookingFromTo(const std::string& text)
     const bool vertical =
         glm::length(glm::cross(forward, camera.up)) <= 1e-4f * glm::length(forward) * glm::length(camera.up);
     if (vertical && parts.size() > 7)
-        return usageError("the direction up is that of the view, or none");
+        return usageError("the up direction is parallel to the view direction, or zero");
     if (vertical)
         camera.up = {0, 0, -1};
     return camera;
@@ -104,7 +104,7 @@ Result<Camera> parseCamera(const std::string& text, const Scene& scene, int widt
     if (!parseNumber(std::string_view(text), number))
         return lookingFromTo(text);
     if (number < 0 || std::size_t(number) >= scene.cameras.size())
-        return usageError("expected a camera of the model, it has " + std::to_string(scene.cameras.size()) + "; found "
+        return usageError("expected a camera number below " + std::to_string(scene.cameras.size()) + "; found "
                           + std::to_string(number));
     return scene.cameras[std::size_t(number)];
 }
@@ -114,7 +114,7 @@ std::string formatCamera(const Camera& camera)
     std::string text;
     const auto add = [&](auto value) {
         std::array<char, 64> digits{};
-        const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr; // as few as tell it
+        const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr; // shortest exact form
         text += (text.empty() || text.back() == 'h' ? "" : ",") + std::string(digits.data(), end);
     };
     for (const glm::vec3& point : {camera.eye, camera.target})

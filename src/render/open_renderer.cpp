@@ -96,7 +96,7 @@ Result<Image> drawView(Scene scene, const View& view, const std::string& device,
         return renderer.error();
     if (const Status sound = checkScene(scene, "scene", {.finite = false, .pixels = false}); !sound)
         return sound.error();
-    if (isFrame(int(view.frame))) // others are for the renderer to refuse
+    if (isFrame(int(view.frame))) // the renderer rejects others
         deriveVertexFrames(scene, view.frame, TangentOrigin::stored);
     if (const Status loaded = (*renderer)->load(scene); !loaded)
         return loaded.error();

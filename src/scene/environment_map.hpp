@@ -1,5 +1,4 @@
-// An environment as a renderer reads it, the atlas that shaders/cotan/environment.h describes, and the shadow on the
-// ground.
+// Sampling an environment's atlas, whose layout shaders/cotan/environment.h describes, and the shadow on the ground.
 #pragma once
 
 #include <algorithm>
@@ -12,15 +11,15 @@
 #include "cotan/packed_only.hpp"
 #include "cotan/scene.hpp"
 #include "cotan/view.hpp"
-#include "scene/picture_text.hpp"
+#include "scene/render_text.hpp"
 
 namespace cotan {
 
 inline constexpr float kBackdropRoughness = 0.6f; // of Backdrop::blurred
-// Half the width of the widest half-shadow on a scene, as a share of the shadow map's side.
-inline constexpr float kWidestPenumbra = 0.02f;
+// Maximum half-width of a penumbra, as a fraction of the shadow map's side.
+inline constexpr float kMaxPenumbra = 0.02f;
 
-// What at(x, y) gives of four texels around a place in texels, filtered as a GPU filters.
+// Bilinear interpolation of at(x, y) at a position in texels, as GPUs filter.
 template<class At> glm::vec3 bilinear(glm::vec2 texel, const At& at)
 {
     const float fx = std::floor(texel.x - 0.5f), fy = std::floor(texel.y - 0.5f);
@@ -31,18 +30,18 @@ template<class At> glm::vec3 bilinear(glm::vec2 texel, const At& at)
     return top * (1 - ky) + bottom * ky;
 }
 
-// A picture of floats there.
-inline glm::vec3 readBilinear(const Image& picture, glm::vec2 texel)
+// Bilinear interpolation of a float32 image.
+inline glm::vec3 readBilinear(const Image& image, glm::vec2 texel)
 {
     return bilinear(texel, [&](int x, int y) {
-        x = std::clamp(x, 0, picture.width - 1);
-        y = std::clamp(y, 0, picture.height - 1);
-        const float* p = picture.floats() + 4 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x));
+        x = std::clamp(x, 0, image.width - 1);
+        y = std::clamp(y, 0, image.height - 1);
+        const float* p = image.floats() + 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
         return glm::vec3(p[0], p[1], p[2]);
     });
 }
 
-// Radiance along a direction of any length, as a mirror of that roughness sees it.
+// Radiance along a direction of any length, filtered for a mirror of the given roughness.
 inline glm::vec3 radianceAlong(const EnvironmentMap& map, glm::vec3 direction, float roughness)
 {
     const float level = f32::cotan_saturate(roughness) * COTAN_ENVIRONMENT_STEPS;
@@ -52,13 +51,13 @@ inline glm::vec3 radianceAlong(const EnvironmentMap& map, glm::vec3 direction, f
     return a + (b - a) * (level - lower);
 }
 
-// Irradiance of a surface with that normal, divided by pi.
+// Irradiance of a surface with the given normal, divided by pi.
 inline glm::vec3 irradianceAlong(const EnvironmentMap& map, glm::vec3 normal)
 {
     return readBilinear(map.atlas, f32::cotan_environment_texel(normal, COTAN_ENVIRONMENT_IRRADIANCE));
 }
 
-// The factors of what GGX reflects of white light.
+// The albedo factors of GGX under white light, see environment::albedoFactors.
 inline glm::vec2 albedoOf(const EnvironmentMap& map, glm::vec3 n, glm::vec3 v, float roughness)
 {
     const float nv = f32::cotan_saturate(glm::dot(n, v));
@@ -66,7 +65,7 @@ inline glm::vec2 albedoOf(const EnvironmentMap& map, glm::vec3 n, glm::vec3 v, f
     return {albedo.x, albedo.y};
 }
 
-// What a surface reflects of its environment.
+// Light of the environment that a surface reflects.
 inline glm::vec3 reflectedGlossy(const EnvironmentMap& map, const f32::cotan_surface& s, const f32::cotan_gloss& g)
 {
     const glm::vec3 mirrored = f32::cotan_mirrored(f32::cotan_reflecting_normal(s, g), s.v);
@@ -80,13 +79,13 @@ inline glm::vec3 reflectedOfCoat(const EnvironmentMap& map, const f32::cotan_coa
                                          albedoOf(map, c.n, v, c.roughness));
 }
 
-// The share of light at a place of the ground, x and z in the world; 1 beyond the map.
-inline float groundShareAt(const GroundMap& map, glm::vec2 place)
+// The fraction of light that arrives at a point of the ground (world x and z); 1 outside the map.
+inline float groundVisibilityAt(const GroundMap& map, glm::vec2 point)
 {
-    const glm::vec2 uv = (place - map.low) / map.extent;
+    const glm::vec2 uv = (point - map.low) / map.extent;
     if (!(uv.x > 0 && uv.y > 0 && uv.x < 1 && uv.y < 1))
         return 1;
-    return readBilinear(map.shares, uv * glm::vec2(float(map.shares.width), float(map.shares.height))).x;
+    return readBilinear(map.visibility, uv * glm::vec2(float(map.visibility.width), float(map.visibility.height))).x;
 }
 
 } // namespace cotan

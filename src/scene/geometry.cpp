@@ -1,4 +1,4 @@
-// Cameras that show a scene, the lights of one that brings none, and what is drawn.
+// Cameras that frame a scene, default lights, and checks of what is drawn.
 #include "scene/geometry.hpp"
 
 #include <algorithm>
@@ -20,17 +20,16 @@ using glm::dvec3;
 
 // ---- cameras: axes ---------------------------------------------------------------------------
 
-constexpr double kShortest = 1e-30; // of a vector that has a direction
-constexpr double kParallel = 1e-6;  // sine of an angle below which `up` is along forward
+constexpr double kShortest = 1e-30; // minimum length of a vector that has a direction
+constexpr double kParallel = 1e-6;  // sine of the angle below which `up` counts as parallel to forward
 
 // ---- cameras: from the right and above -------------------------------------------------------
 
-constexpr float kMargin = 0.94f;   // of the half picture that the box may fill
-constexpr float kFlatness = 0.05f; // depth over width or height below which a box is a picture
+constexpr float kMargin = 0.94f;   // fraction of the half image that the box may fill
+constexpr float kFlatness = 0.05f; // ratio of depth to width or height below which a box is flat
 const glm::vec3 kFrontRightAbove{0.40f, 0.35f, 1.0f};
 
-// The smallest distance along `back` from the centre at which every corner of the box is inside
-// the picture with the margin.
+// The minimum distance along `back` from the centre at which the image, less the margin, shows all corners of the box.
 float distanceToSee(glm::vec3 halfSize, glm::vec3 back, float tanX, float tanY)
 {
     const CameraAxes axes = axesAlong(-glm::dvec3(back), glm::dvec3(0, 1, 0));
@@ -44,52 +43,53 @@ float distanceToSee(glm::vec3 halfSize, glm::vec3 back, float tanX, float tanY)
     return distance;
 }
 
-// ---- cameras: as near as all of it shows -----------------------------------------------------
+// ---- cameras: as close as the framed points allow --------------------------------------------
 
 constexpr double kFieldOfView = 0.523599; // 30 degrees
 constexpr double kRadians = std::numbers::pi / 180;
-constexpr double kFilled = 0.92; // of the picture, so that 4 % stay free on each side
+constexpr double kFilledFraction = 0.92; // fraction of the image: leaves a margin of 4 % on each side
 
-// A point as it is seen along one axis: its place, and how far before the eye it is.
-struct Seen {
-    double place = 0, before = 1;
+// A point seen along one image axis: its offset from the view axis, and its depth from the eye.
+struct Extreme {
+    double offset = 0, depth = 1;
 };
 
-// Moves the eye sideways until what is seen furthest to both sides is equally far from the middle, and likewise up and
-// down. What was inside the picture stays there. stand: the axes of the camera at what it looks at.
-void centre(const Scene& scene, const CameraAxes& stand, double distance, double& x, double& y)
+// Moves the eye sideways until the outermost points on both sides are equally far from the image's middle, and likewise
+// up and down. What was inside the image stays inside. axes: of the camera, with its target as their eye.
+void centreCamera(const Scene& scene, const CameraAxes& axes, double distance, double& x, double& y)
 {
     for (int round = 0; round < 4; ++round) {
-        std::array<Seen, 4> furthest; // east, west, north, south
+        std::array<Extreme, 4> furthest; // east, west, north, south
         std::array<double, 4> slope;
         slope.fill(-std::numeric_limits<double>::infinity());
         forEachFramedPoint(scene, [&](const glm::mat4& toWorld, const glm::vec3& point) {
-            const dvec3 p = dvec3(glm::dmat4(toWorld) * glm::dvec4(dvec3(point), 1)) - stand.eye;
-            const double before = distance + glm::dot(p, stand.forward);
-            const double right = glm::dot(p, stand.right), up = glm::dot(p, stand.up);
-            if (!(before > 0) || !std::isfinite(right) || !std::isfinite(up))
+            const dvec3 p = dvec3(glm::dmat4(toWorld) * glm::dvec4(dvec3(point), 1)) - axes.eye;
+            const double depth = distance + glm::dot(p, axes.forward);
+            const double right = glm::dot(p, axes.right), up = glm::dot(p, axes.up);
+            if (!(depth > 0) || !std::isfinite(right) || !std::isfinite(up))
                 return;
-            const std::array<double, 4> here{(right - x) / before, (x - right) / before, (up - y) / before,
-                                             (y - up) / before};
+            const std::array<double, 4> slopes{(right - x) / depth, (x - right) / depth, (up - y) / depth,
+                                               (y - up) / depth};
             for (std::size_t i = 0; i < 4; ++i)
-                if (here[i] > slope[i]) {
-                    slope[i] = here[i];
-                    furthest[i] = {i < 2 ? right : up, before};
+                if (slopes[i] > slope[i]) {
+                    slope[i] = slopes[i];
+                    furthest[i] = {i < 2 ? right : up, depth};
                 }
         });
         if (!std::isfinite(slope[0]))
             return;
-        const auto between = [](const Seen& a, const Seen& b) {
-            return (a.place * b.before + b.place * a.before) / (a.before + b.before);
+        const auto between = [](const Extreme& a, const Extreme& b) {
+            return (a.offset * b.depth + b.offset * a.depth) / (a.depth + b.depth);
         };
         x = between(furthest[0], furthest[1]);
         y = between(furthest[2], furthest[3]);
     }
 }
 
-// From where `back` points to, with that direction up. A scene without finite points: where a camera stands by itself.
-Camera filledFrom(const char* name, const Scene& scene, const Bounds& box, const dvec3& back, const glm::vec3& upward,
-                  int width, int height)
+// Returns the closest camera that looks against `back` and frames the whole scene. A scene without finite points gives
+// the default eye and target.
+Camera framedCamera(const char* name, const Scene& scene, const Bounds& box, const dvec3& back, const glm::vec3& upward,
+                    int width, int height)
 {
     Camera camera;
     camera.name = name;
@@ -101,8 +101,9 @@ Camera filledFrom(const char* name, const Scene& scene, const Bounds& box, const
     axes.eye = dvec3(box.low) * 0.5 + dvec3(box.high) * 0.5;
     const dvec3 right = axes.right, up = axes.up, middle = axes.eye;
 
-    // A point at x, y, z of these axes is inside while |x - eye.x| <= tanX (eye.z - z): each point moves four planes.
-    const double tanY = std::tan(kFieldOfView / 2) * kFilled;
+    // A point (x, y, z) along these axes is inside while |x - eye.x| <= tanX (eye.z - z), and likewise for y: four
+    // planes.
+    const double tanY = std::tan(kFieldOfView / 2) * kFilledFraction;
     const double tanX = tanY * (width > 0 && height > 0 ? double(width) / height : 1.0);
     const double least = -std::numeric_limits<double>::infinity();
     double east = least, west = least, north = least, south = least, nearest = least;
@@ -119,10 +120,10 @@ Camera filledFrom(const char* name, const Scene& scene, const Bounds& box, const
     });
     double distance = std::max((east + west) / (2 * tanX), (north + south) / (2 * tanY));
     const double magnitude = std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z)});
-    if (!(distance - nearest > 1e-3 * magnitude)) // a point, or nearly: a distance that rounding does not swallow
+    if (!(distance - nearest > 1e-3 * magnitude)) // nearly a point: keep a distance significant
         distance = nearest + std::max(1e-3 * magnitude, distance > nearest ? distance - nearest : 1.0);
     double x = (east - west) / 2, y = (north - south) / 2;
-    centre(scene, axes, distance, x, y);
+    centreCamera(scene, axes, distance, x, y);
     const dvec3 aim = middle + right * x + up * y;
     const glm::vec3 eye(aim + back * distance);
     if (!std::isfinite(distance) || !std::isfinite(eye.x + eye.y + eye.z))
@@ -132,7 +133,7 @@ Camera filledFrom(const char* name, const Scene& scene, const Bounds& box, const
     return camera;
 }
 
-// Without rounding at multiples of 90 degrees: sides are seen straight on.
+// Exact at multiples of 90 degrees, so that sides are viewed straight on.
 double sineOf(double degrees)
 {
     const double quarters = degrees / 90;
@@ -141,9 +142,10 @@ double sineOf(double degrees)
     return std::sin(degrees * kRadians);
 }
 
-// ---- what is drawn, and where it stands ------------------------------------------------------
+// ---- what is drawn, and where ----------------------------------------------------------------
 
-// Whether two linear maps differ by what all frames go along with, so that one surface stands for both.
+// Whether two linear maps differ only by a rotation, mirroring and uniform scale: their Gram matrices are proportional.
+// All frames give the same result for both.
 bool alikeForFrames(const glm::dmat3& a, const glm::dmat3& b)
 {
     const glm::dmat3 ga = glm::transpose(a) * a, gb = glm::transpose(b) * b;
@@ -155,7 +157,7 @@ bool alikeForFrames(const glm::dmat3& a, const glm::dmat3& b)
     return true;
 }
 
-glm::vec3 turned(const glm::vec3& v) { return {v.x, v.z, -v.y}; }
+glm::vec3 zUpToYUp(const glm::vec3& v) { return {v.x, v.z, -v.y}; }
 
 } // namespace
 
@@ -187,7 +189,7 @@ Camera fitCamera(const Bounds& box, int width, int height)
     if (box.empty() || !isFinite(box.low) || !isFinite(box.high))
         return camera;
 
-    // Halved before they are subtracted, so that the largest floats do not overflow.
+    // Halves before subtracting, so that the largest floats do not overflow.
     const glm::vec3 centre = box.low * 0.5f + box.high * 0.5f;
     const glm::vec3 halfSize = box.high * 0.5f - box.low * 0.5f;
     const bool flat = halfSize.z < kFlatness * std::max(halfSize.x, halfSize.y);
@@ -196,7 +198,7 @@ Camera fitCamera(const Bounds& box, int width, int height)
     const float aspect = width > 0 && height > 0 ? float(width) / float(height) : 1.0f;
     const float tanY = std::tan(camera.verticalFieldOfView / 2);
     float distance = distanceToSee(halfSize, back, tanY * aspect, tanY);
-    if (!(distance > 0)) { // a single point: any distance that rounding does not swallow shows it
+    if (!(distance > 0)) { // a single point: any distance that is significant beside the coordinates
         const glm::vec3 size = glm::abs(centre);
         distance = std::max(1.0f, std::max({size.x, size.y, size.z}) * 1e-3f);
     }
@@ -208,7 +210,7 @@ Camera fitCamera(const Bounds& box, int width, int height)
     return camera;
 }
 
-Camera turnedAbout(Camera camera, double angle)
+Camera orbitedCamera(Camera camera, double angle)
 {
     const glm::vec3 d = camera.eye - camera.target;
     const float c = float(std::cos(angle)), s = float(std::sin(angle));
@@ -227,7 +229,7 @@ Camera frontCamera(const Scene& scene, int width, int height)
     const glm::vec3 size = box.high - box.low;
     const bool flat = size.z < kFlatness * std::max(size.x, size.y);
     const dvec3 back = flat ? dvec3(0, 0, 1) : glm::normalize(dvec3(0.36, 0.24, 1));
-    return filledFrom("front", scene, box, back, {0, 1, 0}, width, height);
+    return framedCamera("front", scene, box, back, {0, 1, 0}, width, height);
 }
 
 Camera orbitCamera(const Scene& scene, double azimuth, double elevation, int width, int height)
@@ -235,7 +237,7 @@ Camera orbitCamera(const Scene& scene, double azimuth, double elevation, int wid
     const double sinA = sineOf(azimuth), cosA = sineOf(azimuth + 90);
     const double sinE = sineOf(elevation), cosE = sineOf(elevation + 90);
     const glm::vec3 up = cosE == 0 ? glm::vec3(dvec3(-sinA, 0, -cosA) * sinE) : glm::vec3(0, 1, 0);
-    return filledFrom("orbit", scene, framedBounds(scene), {sinA * cosE, sinE, cosA * cosE}, up, width, height);
+    return framedCamera("orbit", scene, framedBounds(scene), {sinA * cosE, sinE, cosA * cosE}, up, width, height);
 }
 
 Status checkVertexAttributes(const Scene& scene, Frame frame)
@@ -256,7 +258,7 @@ Status checkVertexAttributes(const Scene& scene, Frame frame)
         if (vertices > 0 && hasUv && !has)
             return usageError((scene.name.empty() ? "scene" : scene.name) + ": mesh '" + mesh->name + "': expected "
                               + (readsTangents(frame) ? "tangents" : "cotangents") + " for the frame "
-                              + std::string(name(frame)) + "; found none (deriveVertexFrames makes them)");
+                              + std::string(name(frame)) + "; found none (call deriveVertexFrames)");
     }
     return Done{};
 }
@@ -272,35 +274,35 @@ bool drawsNormalMaps(const Scene& scene)
     });
 }
 
-void addPlacing(std::vector<glm::dmat3>& known, const glm::dmat3& linear)
+void addDistinctLinearMap(std::vector<glm::dmat3>& known, const glm::dmat3& linear)
 {
     if (std::ranges::none_of(known, [&](const glm::dmat3& k) { return alikeForFrames(k, linear); }))
         known.push_back(linear);
 }
 
-void placeUnshown(std::vector<std::vector<glm::dmat3>>& placings)
+void addIdentityWhereEmpty(std::vector<std::vector<glm::dmat3>>& placings)
 {
     for (auto& known : placings)
         if (known.empty())
             known.push_back(glm::dmat3(1));
 }
 
-void turnZUp(Scene& scene)
+void rotateZUpToYUp(Scene& scene)
 {
-    const glm::mat4 kTurn(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1);
+    const glm::mat4 kZUpToYUp(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1);
     for (Instance& instance : scene.instances)
-        instance.toWorld = kTurn * instance.toWorld;
+        instance.toWorld = kZUpToYUp * instance.toWorld;
     for (Light& light : scene.lights) {
-        light.position = turned(light.position);
-        light.direction = turned(light.direction);
+        light.position = zUpToYUp(light.position);
+        light.direction = zUpToYUp(light.direction);
     }
     for (Camera& camera : scene.cameras) {
-        camera.eye = turned(camera.eye);
-        camera.target = turned(camera.target);
-        camera.up = turned(camera.up);
+        camera.eye = zUpToYUp(camera.eye);
+        camera.target = zUpToYUp(camera.target);
+        camera.up = zUpToYUp(camera.up);
     }
     for (glm::vec3& point : scene.reach)
-        point = turned(point);
+        point = zUpToYUp(point);
 }
 
 } // namespace cotan

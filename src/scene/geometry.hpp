@@ -1,4 +1,4 @@
-// Small questions about Scene and Mesh: vertices, cameras, where things stand, what is drawn.
+// Helpers for Scene and Mesh: vertex attributes, cameras, bounds, and what is drawn.
 #pragma once
 
 #include <algorithm>
@@ -21,25 +21,25 @@ namespace cotan {
 
 // ---- vertices --------------------------------------------------------------------------------
 
-// The arrays of a mesh, const or not, with an entry a vertex or none at all.
+// The per-vertex arrays of a mesh, const or not; each is empty or has an entry per vertex.
 template<class M> auto attributesOf(M& mesh)
 {
     return std::tie(mesh.positions, mesh.normals, mesh.tangents, mesh.texcoords[0], mesh.texcoords[1], mesh.colors,
                     mesh.cotangentsU, mesh.cotangentsV);
 }
 
-// Replaces the mesh's normals by angle-weighted averages over corners that share a position, separated where faces meet
-// at more than `creaseDegrees` (180: everything is smoothed). Vertices are split where needed, all attributes with
-// them. Degenerate triangles add nothing; a vertex with no usable triangle gets (0,0,1).
+// Replaces the mesh's normals by angle-weighted averages over corners that share a position. Faces that meet at more
+// than `creaseDegrees` are kept separate (180: everything is smoothed). Vertices are split where needed, with all
+// attributes. Degenerate triangles contribute nothing; a vertex without a usable triangle gets (0,0,1).
 void generateNormals(Mesh& mesh, float creaseDegrees = 180);
 
-// Merges vertices whose attributes are equal bit for bit; drops those that no triangle uses.
-// The triangles keep their order, the vertices the order of their first use.
+// Merges vertices with bitwise equal attributes and drops unused ones. Triangles keep their order; vertices are ordered
+// by first use.
 void weldVertices(Mesh& mesh);
 
 // ---- cameras ---------------------------------------------------------------------------------
 
-// right, up and forward: unit and perpendicular to one another, right = cross(forward, up).
+// right, up and forward are orthonormal, with right = cross(forward, up).
 struct CameraAxes {
     glm::dvec3 eye{0};
     glm::dvec3 right{1, 0, 0};
@@ -47,40 +47,40 @@ struct CameraAxes {
     glm::dvec3 forward{0, 0, -1};
 };
 
-// forward: unit. `up` is as near to the given one as it can be; where that is zero, not finite, or along forward, y
-// takes its place, and -z where forward is nearly vertical. The eye is the origin.
+// Returns camera axes along the unit vector `forward`, with the eye at the origin. axes.up is as close to `up` as
+// possible. If `up` is zero, not finite, or along forward, y is used instead, or -z if forward is nearly vertical.
 CameraAxes axesAlong(const glm::dvec3& forward, const glm::dvec3& up);
 
-// A camera whose eye is not finite stands at the origin; one that looks nowhere (eye = target) looks along -z.
+// Returns the axes of a camera. A non-finite eye is replaced by the origin; with eye = target, the camera looks along
+// -z.
 CameraAxes cameraAxes(const Camera& camera);
 
-// A camera that shows the whole box from the front, a little from the right and above.
-// An empty box gives the default camera.
+// Returns a camera that shows the whole box from the front, right and above. An empty box gives the default camera.
 Camera fitCamera(const Bounds& box, int width, int height);
 
-// The camera carried about the vertical (y) through its target by `angle` radians, counterclockwise as seen
-// from above. It keeps its height and its distance, up to rounding.
-Camera turnedAbout(Camera camera, double angle);
+// Returns the camera rotated by `angle` radians about the vertical (y) axis through its target, counterclockwise as
+// seen from above. Height and distance stay the same, up to rounding.
+Camera orbitedCamera(Camera camera, double angle);
 
-// ---- where it stands -------------------------------------------------------------------------
+// ---- placement and bounds --------------------------------------------------------------------
 
-// Instances times vertices up to which the box is the smallest one: a tenth of a second.
-inline constexpr std::size_t kMaxPlacedVertices = std::size_t(1) << 24;
+// Maximum number of instanced vertices for which exact bounds are computed, which takes a tenth of a second.
+inline constexpr std::size_t kMaxExactBoundsVertices = std::size_t(1) << 24;
 
-// The mesh that an instance places; null where it has none.
+// Returns the mesh of an instance; null if its index is out of range.
 inline const Mesh* meshPlacedBy(const Scene& scene, const Instance& instance)
 {
     const bool known = instance.mesh >= 0 && std::size_t(instance.mesh) < scene.meshes.size();
     return known ? &scene.meshes[std::size_t(instance.mesh)] : nullptr;
 }
 
-// A box that holds nothing, and every float is outside of it on both sides.
+// Returns an empty box: extending it by any point makes it exactly that point.
 inline Bounds emptyBounds()
 {
     return {glm::vec3(std::numeric_limits<float>::max()), glm::vec3(std::numeric_limits<float>::lowest())};
 }
 
-// Makes the box hold the point as the matrix moves it, unless that is not finite.
+// Extends the box to include toWorld * p, unless that is not finite.
 inline void extend(Bounds& box, const glm::mat4& toWorld, const glm::vec3& p)
 {
     const glm::vec3 world(toWorld * glm::vec4(p, 1));
@@ -90,7 +90,7 @@ inline void extend(Bounds& box, const glm::mat4& toWorld, const glm::vec3& p)
     box.high = glm::max(box.high, world);
 }
 
-// The box around the finite vertices of a mesh, in its own space.
+// Returns the bounding box of a mesh's finite vertices in object space.
 inline Bounds bounds(const Mesh& mesh)
 {
     Bounds box = emptyBounds();
@@ -99,8 +99,8 @@ inline Bounds bounds(const Mesh& mesh)
     return box;
 }
 
-// Calls work(toWorld, point) for the points in whose box a scene lies: every vertex of every instance up to
-// kMaxPlacedVertices; beyond, the corners of each instance's mesh's box.
+// Calls work(toWorld, point) for points that bound the scene: all vertices of all instances up to
+// kMaxExactBoundsVertices; beyond that, the corners of each instance's object-space bounding box.
 template<class Work> void forEachPlacedPoint(const Scene& scene, const Work& work)
 {
     std::size_t placed = 0;
@@ -113,7 +113,7 @@ template<class Work> void forEachPlacedPoint(const Scene& scene, const Work& wor
         const Mesh* mesh = meshPlacedBy(scene, instance);
         if (!mesh)
             continue;
-        if (placed <= kMaxPlacedVertices) {
+        if (placed <= kMaxExactBoundsVertices) {
             for (const glm::vec3& p : mesh->positions)
                 work(instance.toWorld, p);
             continue;
@@ -126,8 +126,8 @@ template<class Work> void forEachPlacedPoint(const Scene& scene, const Work& wor
     }
 }
 
-// The box around all instances in world space; positions that are not finite count for nothing. Beyond
-// kMaxPlacedVertices, a matrix that turns makes it larger than the smallest one: by sqrt(3) along an axis at most.
+// Returns the world-space bounding box of all instances; non-finite positions are ignored. Beyond
+// kMaxExactBoundsVertices the box is too large for rotated instances, by a factor of up to sqrt(3) along an axis.
 inline Bounds bounds(const Scene& scene)
 {
     Bounds box = emptyBounds();
@@ -135,7 +135,7 @@ inline Bounds bounds(const Scene& scene)
     return box;
 }
 
-// The same for the points that a camera frames: those of Scene::reach where it has some.
+// Like forEachPlacedPoint, but for the points that a camera frames: Scene::reach if it is not empty.
 template<class Work> void forEachFramedPoint(const Scene& scene, const Work& work)
 {
     for (const glm::vec3& p : scene.reach)
@@ -153,44 +153,44 @@ inline Bounds framedBounds(const Scene& scene)
 
 // ---- what is drawn ---------------------------------------------------------------------------
 
-// The light that casts the shadow, where the view asks for one: the first directional one. Null where there is none.
+// Returns the shadow-casting light, the first directional one; null if there is none. Ignores View::shadows.
 inline const Light* shadowLight(const View& view)
 {
     const auto found = std::ranges::find(view.lights, LightKind::directional, &Light::kind);
     return found == view.lights.end() ? nullptr : &*found;
 }
 
-// Whether anything that is drawn reads a normal map: some instance of a mesh with triangles and the uv set that
-// its material's map asks for. Else normals do not differ between frames, and a comparison of them says nothing.
+// Whether any drawn mesh reads a normal map: it has triangles, and the uv set that its material's map uses. Otherwise
+// normals are the same in all frames and comparing them is meaningless.
 bool drawsNormalMaps(const Scene& scene);
 
-// Whether the scene can be drawn with the frame: every mesh that is drawn and has the uv of its normal map also has
-// what the frame reads at its vertices. A renderer would show it without a frame otherwise. Errors: ErrorKind::usage,
-// with the mesh, where deriveVertexFrames (cotan/view.hpp) was left out.
+// Checks that every drawn mesh with the uv of its normal map also has the vertex attributes that the frame reads;
+// without them a renderer would have no frame for the mesh. Errors: ErrorKind::usage, naming the mesh, if
+// deriveVertexFrames (cotan/view.hpp) was not called.
 Status checkVertexAttributes(const Scene& scene, Frame frame);
 
-// The name of an instance, or where it has none of its mesh; may be empty.
+// Returns the name of an instance, or of its mesh if the instance has none; may be empty.
 inline const std::string& objectName(const Scene& scene, const Instance& instance)
 {
     return !instance.name.empty() ? instance.name : scene.meshes[std::size_t(instance.mesh)].name;
 }
 
-// Adds a linear map to the different ways in which a mesh stands, as far as frames can tell: unless it and one of them
-// differ by a rotation, a mirroring and a uniform scale only, which all frames go along with.
-void addPlacing(std::vector<glm::dmat3>& known, const glm::dmat3& linear);
+// Adds the linear part of an instance transform to `known`, unless a known one differs from it only by a rotation,
+// mirroring and uniform scale, under which all frames are equivariant.
+void addDistinctLinearMap(std::vector<glm::dmat3>& known, const glm::dmat3& linear);
 
-// Gives each mesh that nothing shows the identity: it is looked at as it stands.
-void placeUnshown(std::vector<std::vector<glm::dmat3>>& placings);
+// Adds the identity for meshes without instances, which are examined in object space.
+void addIdentityWhereEmpty(std::vector<std::vector<glm::dmat3>>& placings);
 
-// Turns all of a scene whose up is z, as in the files of many programs, by 90 degrees about x, so that what was along
-// +z is along +y (and +y along -z): instances, lights, cameras and reach. Meshes stay as they are.
-void turnZUp(Scene& scene);
+// Rotates a z-up scene by 90 degrees about x, so that +z becomes +y (and +y becomes -z): instances, lights, cameras and
+// reach. Meshes are not changed.
+void rotateZUpToYUp(Scene& scene);
 
-// What a picture may draw, instances multiplied: minutes on a processor, and the memory of the
-// reference renderer, which takes about 150 bytes a triangle.
+// Maximum number of triangles per image, counting instances. More would take minutes on a CPU; the reference renderer
+// needs about 150 bytes per triangle.
 inline constexpr std::size_t kMaxTrianglesDrawn = 100'000'000;
 
-// Triangles of all instances together.
+// Total number of triangles of all instances.
 inline std::size_t trianglesDrawn(const Scene& scene)
 {
     std::size_t count = 0;
@@ -200,7 +200,7 @@ inline std::size_t trianglesDrawn(const Scene& scene)
     return count;
 }
 
-// Refuses a scene that no renderer here draws in reasonable time, before memory is taken.
+// Refuses a scene that no renderer here can draw in reasonable time, before memory is allocated.
 inline Status checkTrianglesDrawn(const Scene& scene)
 {
     const std::size_t count = trianglesDrawn(scene);

@@ -1,4 +1,4 @@
-// What meshes have at their vertices: normals made of triangles, equal vertices merged, frames derived.
+// Vertex attributes of meshes: generating normals, welding vertices, deriving frames.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -27,7 +27,7 @@ namespace {
 using Index = std::uint32_t;
 constexpr Index kNone = ~Index(0);
 
-// Calls work with each array of the mesh that has an entry a vertex.
+// Calls work with each non-empty per-vertex array of the mesh.
 template<class M, class Work> void eachAttribute(M& mesh, const Work& work)
 {
     const auto call = [&](auto& attribute) {
@@ -37,7 +37,7 @@ template<class M, class Work> void eachAttribute(M& mesh, const Work& work)
     std::apply([&](auto&... attributes) { (call(attributes), ...); }, attributesOf(mesh));
 }
 
-// Makes vertex i what vertex split.sources[i] was.
+// Replaces vertex i by the old vertex split.sources[i].
 void takeVertices(Mesh& mesh, const VertexSplit& split)
 {
     eachAttribute(mesh, [&](auto& attribute) { attribute = gathered(std::span(std::as_const(attribute)), split); });
@@ -45,11 +45,10 @@ void takeVertices(Mesh& mesh, const VertexSplit& split)
 
 // ---- normals --------------------------------------------------------------------------------
 
-// A point of space each: vertices at equal positions get equal numbers. Sorted, which no choice of positions makes
-// slow.
+// Numbers the distinct positions: vertices at equal positions get equal numbers. Sorting keeps it fast for any input.
 std::vector<Index> positionNumbers(const std::vector<glm::vec3>& positions)
 {
-    // By bit pattern, which orders every float; adding zero makes -0 and 0 one.
+    // Bit patterns order all floats, even NaN; adding zero turns -0 into 0.
     const auto key = [&](Index i) { return std::bit_cast<std::array<std::uint32_t, 3>>(positions[i] + 0.0f); };
     std::vector<Index> order(positions.size());
     std::iota(order.begin(), order.end(), Index(0));
@@ -88,7 +87,7 @@ std::vector<Face> measureFaces(const Mesh& mesh)
     return faces;
 }
 
-// An edge of a triangle between two points, and the triangle's corners at the lower and the higher.
+// A triangle's edge between two points (by number), and the triangle's corners at the lower and the higher one.
 struct Edge {
     Index low, high;
     Index cornerAtLow, cornerAtHigh;
@@ -145,8 +144,8 @@ void joinAtPoints(JoinedGroups& groups, const std::vector<Index>& pointOfCorner,
     }
 }
 
-// One normal a group, at the group's first corner. A corner of a degenerate triangle, which has
-// no group but its own, takes over that of another corner at the same point.
+// Returns one normal per group, stored at the group's first corner. Corners of degenerate triangles, which are groups
+// of their own, take the normal of another corner at the same point.
 std::vector<glm::vec3> groupNormals(JoinedGroups& groups, const std::vector<Index>& pointOfCorner, std::size_t points,
                                     const std::vector<Face>& faces)
 {
@@ -160,7 +159,7 @@ std::vector<glm::vec3> groupNormals(JoinedGroups& groups, const std::vector<Inde
         const Face& face = faces[corner / 3];
         if (groups.find(corner) != corner || !face.usable())
             continue;
-        // Sheets back to back cancel out: one of them decides.
+        // Back-to-back faces cancel out: use the normal of one of them.
         const double length = glm::length(sums[corner]);
         normals[corner] = glm::vec3(length > 1e-9 ? sums[corner] / length : face.normal);
         any[pointOfCorner[corner]] = normals[corner];
@@ -171,7 +170,7 @@ std::vector<glm::vec3> groupNormals(JoinedGroups& groups, const std::vector<Inde
     return normals;
 }
 
-// Gives every corner a vertex that carries its normal.
+// Gives every corner a vertex with the corner's normal, splitting vertices as needed.
 void assignNormals(Mesh& mesh, JoinedGroups& groups, const std::vector<glm::vec3>& normals)
 {
     std::vector<Index> groupOfVertex(mesh.vertexCount(), kNone);
@@ -197,7 +196,7 @@ void assignNormals(Mesh& mesh, JoinedGroups& groups, const std::vector<glm::vec3
 
 // ---- equal vertices --------------------------------------------------------------------------
 
-// All of a vertex; zeros behind it where the mesh lacks arrays.
+// The bits of all attributes of a vertex; zeros at the end if the mesh lacks arrays.
 std::array<std::uint32_t, 24> bitsOf(const Mesh& mesh, Index vertex)
 {
     std::array<std::uint32_t, 24> bits{};
@@ -245,7 +244,7 @@ void generateNormals(Mesh& mesh, float creaseDegrees)
     JoinedGroups groups(mesh.indices.size());
     if (creaseDegrees >= 180)
         joinAtPoints(groups, pointOfCorner, mesh.vertexCount(), faces);
-    else // a hair more than asked, so that faces at exactly the angle count as smooth
+    else // slightly wider, so that faces at exactly this angle are smoothed
         joinAcrossEdges(groups, pointOfCorner, faces,
                         std::cos(double(creaseDegrees) * 3.14159265358979323846 / 180) - 1e-6);
 
@@ -256,7 +255,7 @@ void generateNormals(Mesh& mesh, float creaseDegrees)
 void weldVertices(Mesh& mesh)
 {
     const auto first = tangents::firstEqual(Index(mesh.vertexCount()), [&](Index i) { return bitsOf(mesh, i); });
-    std::vector<Index> newIndex(mesh.vertexCount(), kNone); // of the first of equal vertices
+    std::vector<Index> newIndex(mesh.vertexCount(), kNone); // indexed by the first of equal vertices
     VertexSplit kept;
     for (Index& index : mesh.indices) {
         Index& number = newIndex[first[index]];

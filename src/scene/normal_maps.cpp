@@ -24,7 +24,7 @@ struct Area {
     double compared = 0, contradicting = 0;
 };
 
-// Degenerate triangles, and corners without a tangent or a normal, add nothing.
+// Adds a triangle's area. Degenerate triangles, and corners without a tangent or a normal, add nothing.
 void addTriangle(const Mesh& mesh, const std::vector<glm::vec2>& uv, std::size_t first, Area& area)
 {
     const std::uint32_t* const at = &mesh.indices[first];
@@ -43,12 +43,12 @@ void addTriangle(const Mesh& mesh, const std::vector<glm::vec2>& uv, std::size_t
         if (tangent == glm::dvec3(0) || up == glm::dvec3(0))
             continue;
         area.compared += third;
-        if (glm::dot(tangent, alongU) > 0 && glm::dot(up, alongV) > 0) // it should point against increasing v
+        if (glm::dot(tangent, alongU) > 0 && glm::dot(up, alongV) > 0) // `up` should point against increasing v
             area.contradicting += third;
     }
 }
 
-// The materials that share a normal map, by however many steps.
+// Groups materials that share a normal map, directly or through other materials.
 JoinedGroups groupsByMap(const Scene& scene)
 {
     JoinedGroups groups(scene.materials.size());
@@ -85,11 +85,11 @@ void reverse(Scene& scene, const std::vector<bool>& chosen)
 
 // ---- the frame -------------------------------------------------------------------------------
 
-constexpr float kOneCopy = 1.01f; // a little over: uv of a chart that fills the map are rounded
+constexpr float kOneCopy = 1.01f; // slightly above 1: uv of a chart that fills the map are rounded
 
 bool hasNormalMap(const Material& m) { return mapOf(m).present(); }
 
-// What the material says, or else its map.
+// The frame that the material names, or otherwise its map.
 std::optional<Frame> namedBy(const Scene& scene, const Material& m)
 {
     if (m.normalFrame || !hasNormalMap(m))
@@ -98,7 +98,7 @@ std::optional<Frame> namedBy(const Scene& scene, const Material& m)
     return image < scene.images.size() ? frameFromName(scene.images[image].frame) : std::nullopt;
 }
 
-// In the world, of each material.
+// World-space area of each material.
 std::vector<double> areasOf(const Scene& scene)
 {
     std::vector<double> areas(scene.materials.size());
@@ -114,7 +114,7 @@ std::vector<double> areasOf(const Scene& scene)
     return areas;
 }
 
-// Whether the texture coordinates of some mesh that shows a normal map reach over more than one copy of it.
+// Whether the texture coordinates of any mesh with a normal map extend over more than one copy of the map.
 bool repeatsNormalMaps(const Scene& scene)
 {
     return std::ranges::any_of(scene.meshes, [&](const Mesh& mesh) {
@@ -133,7 +133,7 @@ bool repeatsNormalMaps(const Scene& scene)
 
 } // namespace
 
-std::vector<std::string> followStoredTangents(Scene& scene)
+std::vector<std::string> reconcileGreenWithTangents(Scene& scene)
 {
     JoinedGroups groups = groupsByMap(scene);
     std::vector<Area> areas(scene.materials.size());
@@ -146,23 +146,23 @@ std::vector<std::string> followStoredTangents(Scene& scene)
         for (std::size_t i = 0; !uv.empty() && i + 2 < mesh.indices.size(); i += 3)
             addTriangle(mesh, uv, i, area);
     }
-    std::vector<bool> stays(scene.materials.size()), chosen(scene.materials.size());
+    std::vector<bool> keepsDeclaration(scene.materials.size()), chosen(scene.materials.size());
     for (std::uint32_t i = 0; i < scene.materials.size(); ++i)
         if (scene.materials[i].anisotropy.map.present())
-            stays[groups.find(i)] = true;
+            keepsDeclaration[groups.find(i)] = true;
     std::vector<std::string> lines;
     for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
         const std::uint32_t group = groups.find(i);
         const Area& area = areas[group];
         const double fraction = area.compared > 0 ? area.contradicting / area.compared : 0;
-        chosen[i] = mapOf(scene.materials[i]).present() && fraction >= kGreenReversedFrom && !stays[group];
+        chosen[i] = mapOf(scene.materials[i]).present() && fraction >= kGreenReversedFrom && !keepsDeclaration[group];
         if (group != i || fraction < kGreenMentionedFrom)
             continue;
         lines.push_back("TANGENT.w contradicts the texture coordinates on "
                         + std::to_string(std::lround(100 * fraction)) + " % of the area of normal map "
                         + nameOf(scene, scene.materials[i])
-                        + (chosen[i] ? ": without stored tangents its green is read the other way (--convention gltf: "
-                                       "as declared)"
+                        + (chosen[i] ? ": without stored tangents its green is flipped (--convention gltf: as "
+                                       "declared)"
                                      : ": its green is read as declared"));
     }
     reverse(scene, chosen);
@@ -217,8 +217,8 @@ std::string frameNote(const Scene& scene, Frame frame)
     if (named->frame != frame)
         return maps + ", as the file says, and are read with " + std::string(name(frame));
     return named->others == 0 ? ""
-                              : maps + " in the largest part of the model; those of " + std::to_string(named->others)
-            + " other material(s) are not, and are read with it all the same";
+                              : maps + ", the named frame with the largest area; " + std::to_string(named->others)
+            + " other material(s) name another frame or none, and are read with it as well";
 }
 
 } // namespace cotan

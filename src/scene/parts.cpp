@@ -27,7 +27,7 @@ namespace cotan {
 
 namespace {
 
-constexpr std::size_t kSmall = 256;         // triangles of a mesh that is put together with others
+constexpr std::size_t kSmall = 256;         // maximum number of triangles of a mesh that is joined with others
 constexpr std::size_t kMaxJoined = 4 << 20; // triangles
 
 bool isOpaque(const Scene& scene, const Mesh& mesh)
@@ -38,15 +38,15 @@ bool isOpaque(const Scene& scene, const Mesh& mesh)
 
 // ---- parts ----------------------------------------------------------------------------------
 
-// Meshes with the same key have the same arrays.
+// Meshes with the same key have the same material and kinds of arrays.
 auto keyOf(const Mesh& mesh)
 {
     return std::tuple(mesh.material, mesh.normals.empty(), mesh.tangents.empty(), mesh.texcoords[0].empty(),
                       mesh.texcoords[1].empty(), mesh.colors.empty());
 }
 
-// Adds a mesh as an instance places it: tangents along with positions, normals as covectors. A mirroring matrix turns
-// the order of corners round, and the sign of tangents.
+// Appends a transformed mesh: tangents transform like positions, normals as covectors. A mirroring matrix reverses the
+// order of corners and the sign of tangents.
 void append(Mesh& whole, const Mesh& part, const glm::mat4& toWorld)
 {
     const LinearMap<double> map{glm::dmat3(toWorld)};
@@ -67,7 +67,7 @@ void append(Mesh& whole, const Mesh& part, const glm::mat4& toWorld)
             whole.indices.push_back(base + part.indices[i + k]);
 }
 
-// All that says how a mesh looks, but for its material.
+// All data of a mesh, except its material and name.
 auto arraysOf(const Mesh& m) { return std::tuple_cat(std::tie(m.indices), attributesOf(m)); }
 
 template<class T> std::string_view bytesOf(const std::vector<T>& array)
@@ -75,7 +75,7 @@ template<class T> std::string_view bytesOf(const std::vector<T>& array)
     return {reinterpret_cast<const char*>(array.data()), array.size() * sizeof(T)};
 }
 
-// For each mesh the first that is the same. By their bytes, which have an order: no choice of meshes makes that slow.
+// For each mesh, the index of the first equal one. Ordering by bytes keeps it fast for any input.
 std::vector<int> firstSame(const std::vector<Mesh>& meshes)
 {
     const auto key = [](const Mesh& mesh) {
@@ -92,7 +92,7 @@ std::vector<int> firstSame(const std::vector<Mesh>& meshes)
 void joinSmall(Scene& scene)
 {
     const std::vector<int> first = firstSame(scene.meshes);
-    std::set<std::pair<std::array<std::uint32_t, 16>, int>> placed; // opaque: a second in the first's place is not seen
+    std::set<std::pair<std::array<std::uint32_t, 16>, int>> placed; // opaque: a duplicate is invisible
     std::map<decltype(keyOf(Mesh{})), Mesh> joined;
     std::vector<Instance> kept;
     std::size_t triangles = 0;
@@ -134,10 +134,10 @@ void joinSmall(Scene& scene)
 
 // ---- triangles ------------------------------------------------------------------------------
 
-constexpr std::size_t kAsked = 4096; // triangles of the sample
-constexpr std::size_t kMany = 40;    // of these that repeat others of them
+constexpr std::size_t kSampleSize = 4096; // triangles in the sample
+constexpr std::size_t kMinRepeats = 40;   // minimum number of repeats in the sample
 
-// Equal for equal corners, of which -0 is 0, and equal keys.
+// Equal for equal corners, where -0 equals 0, and equal keys.
 std::array<std::uint32_t, 12> bitsOf(const CornersOfTriangle& triangle)
 {
     std::array<std::uint32_t, 12> bits{std::uint32_t(triangle.key), std::uint32_t(triangle.key >> 32)};
@@ -147,7 +147,7 @@ std::array<std::uint32_t, 12> bitsOf(const CornersOfTriangle& triangle)
     return bits;
 }
 
-// The corners of a triangle from the least on, in their order round.
+// The corners of a triangle in cyclic order, starting with the smallest one.
 CornersOfTriangle cornersOf(const Mesh& mesh, std::size_t first)
 {
     CornersOfTriangle t;
@@ -190,51 +190,50 @@ void dropRepeated(Scene& scene)
 std::vector<std::uint8_t> repeatedTriangles(std::size_t count,
                                             const std::function<CornersOfTriangle(std::size_t)>& triangle)
 {
-    const auto asked = std::uint32_t(std::min(count, kAsked));
-    const auto sample = tangents::firstEqual(asked, [&](std::uint32_t k) {
-        return bitsOf(triangle(std::size_t(double(k) * double(count) / double(asked))));
+    const auto sampled = std::uint32_t(std::min(count, kSampleSize));
+    const auto sample = tangents::firstEqual(sampled, [&](std::uint32_t k) {
+        return bitsOf(triangle(std::size_t(double(k) * double(count) / double(sampled))));
     });
-    std::size_t many = 0;
-    for (std::uint32_t k = 0; k < asked; ++k)
-        many += sample[k] != k ? 1 : 0;
-    if (many < kMany || count >= tangents::kNone) // more have no numbers
+    std::size_t repeats = 0;
+    for (std::uint32_t k = 0; k < sampled; ++k)
+        repeats += sample[k] != k ? 1 : 0;
+    if (repeats < kMinRepeats || count >= tangents::kNone) // larger counts have no indices
         return {};
     const auto first = tangents::firstEqual(std::uint32_t(count), [&](std::uint32_t i) { return bitsOf(triangle(i)); });
-    std::vector<std::uint8_t> repeated(count), seen(count); // seen: how often the first of equal ones was, at most 2
+    std::vector<std::uint8_t> repeated(count), occurrences(count); // occurrences of each first triangle, at most 2
     for (std::size_t i = 0; i < count; ++i) {
-        repeated[i] = seen[first[i]];
-        seen[first[i]] = std::uint8_t(std::min(repeated[i] + 1, 2));
+        repeated[i] = occurrences[first[i]];
+        occurrences[first[i]] = std::uint8_t(std::min(repeated[i] + 1, 2));
     }
     return repeated;
 }
 
-// ---- how much work the pixels of a picture are -----------------------------------------------
+// ---- cost of the pixels of an image ----------------------------------------------------------
 
 namespace {
 
-// All in times the picture. On Mesa's driver for the CPU, 1280 x 720 pixels at one of these limits take about 10 s of
-// processor.
-constexpr double kDroppedFrom = 20;   // from which on it is worth looking for triangles that repeat
-constexpr double kMaxCovered = 64;    // by what hides what is behind
-constexpr double kMaxLayers = 16;     // by what is translucent: each is shaded, and put in order
-constexpr double kPlainLayer = 0.5;   // of such a one without a coat and the like; with one of these it is 1
-constexpr double kFurtherLobe = 0.8;  // for each more: coat, sheen, other highlights
-constexpr double kMaxLights = 200;    // times what is covered, at most once
-constexpr double kMaxEdges = 2;       // by pixels along long edges, of which each is shaded and shows little
-constexpr double kLongEdge = 16;      // pixels: shorter ones are what many small triangles have
-constexpr double kFewPoints = 30'000; // models of n times as many places of vertices may take n times as long
+// In units of the image's pixels. At one of these limits, Mesa's CPU driver takes about 10 s for 1280 x 720 pixels.
+constexpr double kDroppedFrom = 20;   // opaque coverage above which repeated triangles are dropped
+constexpr double kMaxCovered = 64;    // by opaque triangles
+constexpr double kMaxLayers = 16;     // by translucent triangles: every layer is shaded and sorted
+constexpr double kPlainLayer = 0.5;   // weight of a translucent layer without coat and the like; otherwise 1
+constexpr double kFurtherLobe = 0.8;  // for each further lobe: coat, sheen, other highlights
+constexpr double kMaxLights = 200;    // lights times coverage, which counts as at most 1
+constexpr double kMaxEdges = 2;       // by pixels along long edges, each of which is shaded but covers little
+constexpr double kLongEdge = 16;      // pixels; shorter edges are those of many small triangles
+constexpr double kFewPoints = 30'000; // scenes of n times as many distinct positions may take n times as long
 
 // A camera's axes and scale.
-struct Seeing {
+struct CameraProjection {
     CameraAxes axes;
     double scale;
     bool orthographic;
 
-    explicit Seeing(const Camera& camera) : axes(cameraAxes(camera)), orthographic(camera.orthographic)
+    explicit CameraProjection(const Camera& camera) : axes(cameraAxes(camera)), orthographic(camera.orthographic)
     {
         scale = orthographic ? 2 / double(camera.verticalExtent) : 1 / std::tan(double(camera.verticalFieldOfView) / 2);
     }
-    // Beside the middle and above it, in halves of the picture's height times the distance; and the distance.
+    // Returns x and y relative to the image's centre, in half image heights times the depth; and the depth.
     glm::dvec3 operator()(const glm::dvec3& p) const
     {
         const glm::dvec3 from = p - axes.eye;
@@ -244,20 +243,20 @@ struct Seeing {
     }
 };
 
-// Of a triangle on the picture.
+// Pixels of a projected triangle.
 struct Pixels {
     double area = 0, edges = 0;
 };
 
-// The area is at most that of its box; half the picture where it reaches behind the eye. side: 1 or -1 where only
-// triangles are drawn whose corners turn so, counter-clockwise or clockwise; 0: all are.
-Pixels pixelsOf(const std::array<glm::dvec3, 3>& seen, double width, double height, int side)
+// The area is clamped to that of the bounding box; it is half the image if the triangle reaches behind the eye. side: 1
+// or -1 if only triangles with counter-clockwise or clockwise corners are drawn; 0: all are.
+Pixels pixelsOf(const std::array<glm::dvec3, 3>& projected, double width, double height, int side)
 {
-    if (seen[0].z <= 0 || seen[1].z <= 0 || seen[2].z <= 0)
-        return {seen[0].z <= 0 && seen[1].z <= 0 && seen[2].z <= 0 ? 0 : width * height / 2, 0};
+    if (projected[0].z <= 0 || projected[1].z <= 0 || projected[2].z <= 0)
+        return {projected[0].z <= 0 && projected[1].z <= 0 && projected[2].z <= 0 ? 0 : width * height / 2, 0};
     std::array<glm::dvec2, 3> p;
     for (std::size_t k = 0; k < 3; ++k)
-        p[k] = glm::dvec2(seen[k]) / seen[k].z * (height / 2);
+        p[k] = glm::dvec2(projected[k]) / projected[k].z * (height / 2);
     const glm::dvec2 half(width / 2, height / 2);
     const glm::dvec2 low = glm::max(glm::min(p[0], glm::min(p[1], p[2])), -half);
     const glm::dvec2 high = glm::min(glm::max(p[0], glm::max(p[1], p[2])), half);
@@ -282,7 +281,7 @@ double weightOfLayer(const Material& material)
 
 Covered coveredBy(const Scene& scene, const View& view)
 {
-    const Seeing see(view.camera);
+    const CameraProjection project(view.camera);
     Covered all;
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
@@ -292,10 +291,10 @@ Covered coveredBy(const Scene& scene, const View& view)
         double& area = material.translucent() ? all.translucent : all.opaque;
         const int side = material.doubleSided ? 0 : glm::determinant(glm::dmat3(toWorld)) < 0 ? -1 : 1;
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-            std::array<glm::dvec3, 3> seen;
+            std::array<glm::dvec3, 3> p;
             for (std::size_t k = 0; k < 3; ++k)
-                seen[k] = see(glm::dvec3(toWorld * glm::dvec4(glm::dvec3(mesh.positions[mesh.indices[i + k]]), 1)));
-            const Pixels covered = pixelsOf(seen, view.width, view.height, side);
+                p[k] = project(glm::dvec3(toWorld * glm::dvec4(glm::dvec3(mesh.positions[mesh.indices[i + k]]), 1)));
+            const Pixels covered = pixelsOf(p, view.width, view.height, side);
             if (std::isfinite(covered.area) && std::isfinite(covered.edges)) {
                 area += weight * covered.area;
                 all.edges += covered.edges;
@@ -305,13 +304,13 @@ Covered coveredBy(const Scene& scene, const View& view)
     return all;
 }
 
-// The number of different positions among the vertices of all meshes. Not how many vertices there are: a loader may
-// have made them, three for each triangle, of a few positions.
+// Number of distinct positions among the vertices of all meshes. Unlike the number of vertices, a loader that makes
+// three vertices per triangle does not increase it.
 std::size_t distinctPositions(const Scene& scene)
 {
     std::size_t count = 0;
     for (const Mesh& mesh : scene.meshes) {
-        // Sorted, which no choice of positions makes slow: by their bits, which have an order.
+        // Sorting by bits keeps it fast for any input.
         std::vector<std::array<std::uint32_t, 3>> own(mesh.positions.size());
         std::ranges::transform(mesh.positions, own.begin(),
                                [](glm::vec3 p) { return std::bit_cast<std::array<std::uint32_t, 3>>(p); });
@@ -321,11 +320,11 @@ std::size_t distinctPositions(const Scene& scene)
     return count;
 }
 
-Error tooMuch(const Scene& scene, const std::string& what, double found, double most, const std::string& advice)
+Error coverageError(const Scene& scene, const std::string& what, double found, double limit, const std::string& advice)
 {
     std::ostringstream text;
     text << scene.name << ": " << what << " " << std::setprecision(found < 10 ? 2 : 17)
-         << (found < 10 ? found : std::round(found)) << " times over, expected at most " << most << ": " << advice;
+         << (found < 10 ? found : std::round(found)) << " times, expected at most " << limit << ": " << advice;
     return inputError(text.str());
 }
 
@@ -337,30 +336,30 @@ double pixelsCovered(const Scene& scene, const View& view)
     return covered.opaque + covered.translucent;
 }
 
-Status settleCovered(Scene& scene, const View& view, std::size_t pictures)
+Status limitCoverage(Scene& scene, const View& view, std::size_t images)
 {
-    double picture = double(view.width) * view.height / double(pictures);
+    double imagePixels = double(view.width) * view.height / double(images);
     Covered covered = coveredBy(scene, view);
-    if (covered.opaque > kDroppedFrom * picture) {
+    if (covered.opaque > kDroppedFrom * imagePixels) {
         dropRepeated(scene);
         covered = coveredBy(scene, view);
     }
     const struct {
         const char* what;
-        double pixels, most;
-    } limits[] = {{"its triangles cover the picture", covered.opaque, kMaxCovered},
-                  {"its translucent triangles cover the picture", covered.translucent, kMaxLayers},
-                  {"the long edges of its triangles fill the picture", covered.edges, kMaxEdges}};
-    const auto isOver = [&](const auto& limit) { return limit.pixels > limit.most * picture; };
-    if (std::ranges::any_of(limits, isOver)) // only then: it takes time
-        picture *= std::max(1.0, double(distinctPositions(scene)) / kFewPoints);
+        double pixels, maximum;
+    } limits[] = {{"its triangles cover the image", covered.opaque, kMaxCovered},
+                  {"its translucent triangles cover the image", covered.translucent, kMaxLayers},
+                  {"the long edges of its triangles cover the image", covered.edges, kMaxEdges}};
+    const auto isOver = [&](const auto& limit) { return limit.pixels > limit.maximum * imagePixels; };
+    if (std::ranges::any_of(limits, isOver)) // costly, so only if a limit is exceeded
+        imagePixels *= std::max(1.0, double(distinctPositions(scene)) / kFewPoints);
     for (const auto& limit : limits)
         if (isOver(limit))
-            return tooMuch(scene, limit.what, limit.pixels / picture, limit.most,
-                           "look from further away, or leave some out");
-    const double lit = double(view.lights.size()) * std::min(1.0, (covered.opaque + covered.translucent) / picture);
+            return coverageError(scene, limit.what, limit.pixels / imagePixels, limit.maximum,
+                                 "move the camera away, or remove some triangles");
+    const double lit = double(view.lights.size()) * std::min(1.0, (covered.opaque + covered.translucent) / imagePixels);
     if (view.output == Output::shaded && lit > kMaxLights)
-        return tooMuch(scene, "its lights shine on the picture", lit, kMaxLights, "leave some out");
+        return coverageError(scene, "its lights illuminate the image", lit, kMaxLights, "remove some lights");
     return Done{};
 }
 

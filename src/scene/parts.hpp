@@ -1,4 +1,4 @@
-// Scenes of very many small parts, and of triangles that lie exactly on one another, made cheaper to draw.
+// Makes scenes cheaper to draw that have very many small parts, or triangles that lie exactly on one another.
 #pragma once
 
 #include <array>
@@ -15,36 +15,37 @@
 
 namespace cotan {
 
-// Puts parts of one material together where there are over maxParts: meshes of up to 256 triangles, placed by their
-// instances in float; larger ones stay, and so does what would be more than 4 million triangles. Instances with
-// matrices that are not finite go; so do the names of parts that are put together, and an opaque part that lies in the
-// place of one that is the same. Parts with cotangents stay.
+// If the scene has more than maxParts instances, joins parts of the same material: meshes of up to 256 triangles, with
+// their vertices placed by the instances in float. Larger meshes, meshes with cotangents, and parts beyond 4 million
+// joined triangles stay as they are. Instances with non-finite matrices are dropped, as are opaque duplicates (same
+// mesh data, same matrix). Joined parts lose their names.
 void joinParts(Scene& scene, std::size_t maxParts = 1000);
 
-// Leaves out triangles of opaque meshes that have the corners of an earlier one of their mesh, in the same order round:
-// the first is what a picture shows.
+// Drops triangles of opaque meshes that have the same corners, in the same cyclic order, as an earlier triangle of
+// their mesh; only the first is visible.
 void dropRepeated(Scene& scene);
 
-// How many pixels of a picture the triangles cover that face the eye or are drawn from both sides, all that lie behind
-// one another; half of those of translucent ones without a coat or the like.
+// Number of pixels covered by triangles that face the eye or are double-sided, counting all layers of depth. Plain
+// translucent layers count half, translucent ones with further lobes (a coat or the like) more.
 double pixelsCovered(const Scene& scene, const View& view);
 
-// Makes the scene fit to be drawn so many times in this view: dropRepeated where triangles cover the pictures over 20
-// times. Errors (ErrorKind::input), all before anything is drawn: after that opaque ones cover them over 64 times, or
-// translucent ones 16 times; the edges of long triangles fill them twice, in a scene of few places; or 200 lights
-// shine on all of them.
-Status settleCovered(Scene& scene, const View& view, std::size_t pictures = 1);
+// Prepares the scene for drawing `images` images of this view: applies dropRepeated if triangles cover the image more
+// than 20 times, then checks limits before anything is drawn. The limits apply to all images together. Errors:
+// ErrorKind::input if opaque triangles cover the image more than 64 times or translucent ones 16 times; if long edges
+// of triangles fill it twice; or if lights times coverage exceeds 200. Scenes of many distinct positions may exceed the
+// first three in proportion.
+Status limitCoverage(Scene& scene, const View& view, std::size_t images = 1);
 
 // ---- triangles that lie on others ------------------------------------------------------------
 
 struct CornersOfTriangle {
     std::array<glm::vec3, 3> at{};
-    std::int64_t key = 0; // what else has to be equal
+    std::int64_t key = 0; // further criterion for equality
 };
 
-// How many earlier ones have the corners of each of so many triangles, in the same order: 0, 1, or 2 for more. Empty
-// where few repeat, by a sample of them: then nobody waits for an answer about all. Whatever looks at all triangles of
-// a place takes a thousand times as long where a thousand lie on one another.
+// For each of `count` triangles: the number of earlier triangles with the same corners in the same order; 2 means 2 or
+// more. Empty if a sample shows that few repeat, which saves the search. Queries that visit all triangles at a point
+// take a thousand times as long where a thousand coincide.
 std::vector<std::uint8_t> repeatedTriangles(std::size_t count,
                                             const std::function<CornersOfTriangle(std::size_t)>& triangle);
 

@@ -18,10 +18,10 @@ namespace cotan {
 
 namespace {
 
-// One line, or nothing.
+// One line that describes the problem; nothing if there is none.
 using Problem = std::optional<std::string>;
 
-// Words and numbers, one after the other.
+// Concatenates texts and numbers.
 template<class... Parts> std::string joined(const Parts&... parts)
 {
     std::string text;
@@ -61,7 +61,7 @@ public:
     }
 
 private:
-    // "mesh 3: ..." for the first of the list with a problem.
+    // Returns "mesh 3: ..." for the first item of the list with a problem.
     template<class T>
     Problem first(const std::vector<T>& list, std::string_view what, Problem (Checker::*check)(const T&) const) const
     {
@@ -71,7 +71,7 @@ private:
         return std::nullopt;
     }
 
-    // Nothing where the numbers are finite, or may be others.
+    // Returns `expected` as the problem if the numbers must be finite and are not.
     template<class... Values> Problem checkNumbers(std::string_view expected, const Values&... values) const
     {
         return rules_.finite && !(finite(values) && ...) ? Problem(expected) : std::nullopt;
@@ -129,7 +129,7 @@ private:
             return problem;
         const int expansion = int(m.normalFormat.expansion), channels = int(m.normalFormat.channels);
         if (!below(expansion, COTAN_EXPAND_EXACT16 + 1) || !below(channels, COTAN_CHANNELS_SLOPE + 1))
-            return joined("expected a way to store normals, found ", expansion, " ", channels);
+            return joined("expected a normal encoding, found ", expansion, " ", channels);
         return std::nullopt;
     }
 
@@ -137,7 +137,7 @@ private:
     Problem checkArray(const std::vector<T>& values, std::size_t vertices, std::string_view name) const
     {
         if (!values.empty() && values.size() != vertices)
-            return joined(name, ": expected ", vertices, " entries, one a vertex, found ", values.size());
+            return joined(name, ": expected ", vertices, " entries, one per vertex, found ", values.size());
         const auto bad = std::ranges::find_if(values, [](const T& value) { return !finite(value); });
         if (rules_.finite && bad != values.end())
             return joined(name, " ", bad - values.begin(), ": expected finite numbers");
@@ -147,7 +147,7 @@ private:
     static Problem checkIndices(const Mesh& mesh)
     {
         if (mesh.indices.size() % 3 != 0)
-            return joined("expected three indices a triangle, found ", mesh.indices.size(), " together");
+            return joined("expected three indices per triangle, found ", mesh.indices.size(), " in total");
         const std::size_t vertices = mesh.vertexCount();
         const auto bad = std::ranges::find_if(mesh.indices, [&](std::uint32_t i) { return i >= vertices; });
         if (bad != mesh.indices.end())
@@ -162,7 +162,7 @@ private:
         if (!below(mesh.material, scene_.materials.size()))
             return joined("expected a material below ", scene_.materials.size(), ", found ", mesh.material);
         if (mesh.normals.size() != n)
-            return joined("normals: expected ", n, " entries, one a vertex, found ", mesh.normals.size());
+            return joined("normals: expected ", n, " entries, one per vertex, found ", mesh.normals.size());
         for (Problem problem : {checkArray(mesh.positions, n, "position"), checkArray(mesh.normals, n, "normal"),
                                 checkArray(mesh.tangents, n, "tangent"), checkArray(mesh.texcoords[0], n, "uv set 0"),
                                 checkArray(mesh.texcoords[1], n, "uv set 1"), checkArray(mesh.colors, n, "colour"),
@@ -203,7 +203,7 @@ constexpr float kHalfTurn = 3.14159274f; // radians
 Problem problemOfView(const View& view)
 {
     if (view.width < 1 || view.height < 1)
-        return joined("view: expected a width and a height from 1 on; found ", view.width, "x", view.height);
+        return joined("view: expected a width and a height of at least 1; found ", view.width, "x", view.height);
     if (!isFrame(int(view.frame)))
         return joined("view.frame: expected 0 to ", kFrameCount - 1, "; found ", int(view.frame));
     if (view.samples != 1 && view.samples != 4 && view.samples != 16)
@@ -211,7 +211,7 @@ Problem problemOfView(const View& view)
     if (!std::isfinite(view.exposure))
         return joined("view.exposure: expected a finite number; found ", view.exposure);
     if (!(view.shadowSoftness >= 0) || !std::isfinite(view.shadowSoftness))
-        return joined("view.shadowSoftness: expected a number from 0 on; found ", view.shadowSoftness);
+        return joined("view.shadowSoftness: expected a number of at least 0; found ", view.shadowSoftness);
     const Camera& c = view.camera;
     if (!isFinite(c.eye) || !isFinite(c.target) || !isFinite(c.up))
         return "view.camera: expected finite numbers";
@@ -219,12 +219,12 @@ Problem problemOfView(const View& view)
     if (along == glm::dvec3(0))
         return "view.camera: the eye and the target are the same point";
     if (glm::cross(along, up) == glm::dvec3(0))
-        return "view.camera: expected a direction up across the line of sight; found one along it, or zero";
+        return "view.camera: expected an up direction across the line of sight; found one along it, or zero";
     const float lens = c.orthographic ? c.verticalExtent : c.verticalFieldOfView;
     if (!(lens > 0) || !std::isfinite(lens) || (!c.orthographic && lens >= kHalfTurn))
         return joined("view.camera: expected a ",
-                      c.orthographic ? "verticalExtent over 0" : "verticalFieldOfView over 0 and below pi", "; found ",
-                      lens);
+                      c.orthographic ? "verticalExtent above 0" : "verticalFieldOfView above 0 and below pi",
+                      "; found ", lens);
     return std::nullopt;
 }
 

@@ -1,4 +1,4 @@
-// How a texture is read: with which uv, which texels it meets, what they give together, and how they store a normal.
+// Texture sampling: which uv are used, which texels are read, how they are filtered, and how they encode a normal.
 #pragma once
 
 #include <algorithm>
@@ -17,23 +17,23 @@ namespace cotan {
 
 // ---- uv --------------------------------------------------------------------------------------
 
-// uv moved by the rows of an affine map, reckoned in the type of the rows.
+// Returns uv transformed by the rows of an affine map, computed in the type of the rows.
 template<class T> glm::vec2 moveUv(const glm::vec<3, T>& uRow, const glm::vec<3, T>& vRow, const glm::vec2& uv)
 {
     const glm::vec<2, T> p(uv);
     return glm::vec2(uRow.x * p.x + uRow.y * p.y + uRow.z, vRow.x * p.x + vRow.y * p.y + vRow.z);
 }
 
-// uv of the mesh, moved as the texture says (KHR_texture_transform). A texture without an image moves nothing.
+// Returns the mesh's uv with the texture's transform applied (KHR_texture_transform); unchanged if there is no image.
 inline glm::vec2 textureUv(const Texture& texture, glm::vec2 uv)
 {
     return texture.present() ? moveUv(texture.uRow, texture.vRow, uv) : uv;
 }
 
-// The uv set that a texture asks for; 0 for one without an image.
+// The uv set that a texture uses; 0 if it has no image.
 inline std::size_t uvSetOf(const Texture& texture) { return texture.present() && texture.texcoord == 1 ? 1 : 0; }
 
-// The uv that a mesh's texture is read with, a vertex each. Empty if the mesh has none.
+// The transformed uv of a texture at each vertex of a mesh. Empty if the mesh has none.
 inline std::vector<glm::vec2> textureUv(const Texture& texture, const Mesh& mesh)
 {
     std::vector<glm::vec2> uv = mesh.texcoords[uvSetOf(texture)];
@@ -44,10 +44,10 @@ inline std::vector<glm::vec2> textureUv(const Texture& texture, const Mesh& mesh
 
 // ---- texels ----------------------------------------------------------------------------------
 
-// Coordinates further out have no fraction left in float, and as numbers of texels would overflow.
+// Maximum magnitude of uv. Larger values have no fraction in float, and would overflow as texel numbers.
 inline constexpr float kFarthestUv = 1e8f;
 
-// Calls use(components, most) with the four numbers at column x, row y, inside the image, and the number that means 1.
+// Calls use(components, one) with the four components at column x, row y, inside the image, and the number encoding 1.
 template<class Use> auto atTexel(const Image& image, int x, int y, const Use& use)
 {
     const std::size_t at = 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
@@ -56,18 +56,18 @@ template<class Use> auto atTexel(const Image& image, int x, int y, const Use& us
     return image.type == PixelType::unorm16 ? use(image.words() + at, 65535) : use(image.floats() + at, 1);
 }
 
-// The components at column x, row y, inside the image, as a sampler gives them: unorm as [0,1].
+// The components at column x, row y, inside the image, as a sampler returns them: unorm as [0,1].
 inline glm::vec4 storedComponents(const Image& image, int x, int y)
 {
     return atTexel(image, x, y,
-                   [](const auto* c, int most) { return glm::vec4(c[0], c[1], c[2], c[3]) * (1.0f / float(most)); });
+                   [](const auto* c, int one) { return glm::vec4(c[0], c[1], c[2], c[3]) * (1.0f / float(one)); });
 }
 
-// The column or row that texel i of an endless axis is, of `size` that the image has.
+// Maps texel i of the infinitely repeated or extended axis to a column or row of an image with `size` of them.
 inline int wrapTexel(std::int64_t i, int size, Wrap mode)
 {
     if (i >= 0 && i < size)
-        return int(i); // all modes, and most reads
+        return int(i); // same in all modes; the common case
     if (mode == Wrap::clamp)
         return int(std::clamp<std::int64_t>(i, 0, size - 1));
     const std::int64_t period = mode == Wrap::mirror ? 2 * std::int64_t(size) : size;
@@ -76,14 +76,14 @@ inline int wrapTexel(std::int64_t i, int size, Wrap mode)
     return int(k < size ? k : 2 * std::int64_t(size) - 1 - k);
 }
 
-// The texel that uv falls into, of `width` x `height`. texel(x, y): a glm::vec4. uv: at most kFarthestUv from zero.
+// The texel at uv in an image of `width` x `height`. texel(x, y): a glm::vec4. uv: at most kFarthestUv from zero.
 template<class Texel> glm::vec4 nearestTexel(int width, int height, const Sampler& s, glm::dvec2 uv, Texel texel)
 {
     const auto x = std::int64_t(std::floor(uv.x * width)), y = std::int64_t(std::floor(uv.y * height));
     return texel(wrapTexel(x, width, s.wrapU), wrapTexel(y, height, s.wrapV));
 }
 
-// The four texels around uv, by their distance. Their centres lie at half-integers.
+// Bilinear interpolation of the four texels around uv. Texel centres are at half-integers.
 template<class Texel> glm::vec4 bilinearTexel(int width, int height, const Sampler& s, glm::dvec2 uv, Texel texel)
 {
     const double u = uv.x * width - 0.5, v = uv.y * height - 0.5;
@@ -99,14 +99,14 @@ template<class Texel> glm::vec4 bilinearTexel(int width, int height, const Sampl
 
 // ---- normals ---------------------------------------------------------------------------------
 
-// Format: f32:: or f64::cotan_normal_format. type: of the components that are read or written; zero lies at
-// the middle of its range. strength: factor on the slopes.
+// Format: f32:: or f64::cotan_normal_format. type: of the components that are read or written; zero is at the middle of
+// its range. strength: factor on the slopes.
 template<class Format> Format toFormat(const Convention& c, PixelType type, double strength = 1)
 {
     return toFormat<Format>(c, strength, bitsPerComponent(type));
 }
 
-// The convention of a map that is used in a scene, where v runs down: green up and down are those of the picture.
+// Converts a map's convention to that of a scene, where v runs down: green up or down then refers to the image.
 constexpr Convention inScene(Convention c)
 {
     c.v = VDirection::down;

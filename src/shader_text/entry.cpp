@@ -4,7 +4,7 @@ namespace cotan::shader_text {
 
 namespace {
 
-// The normal as the frame wants it.
+// Returns the expression for the normal that the frame requires.
 std::string normalFor(Frame frame)
 {
     return info(frame).normal == FrameNormal::caller ? "normal * cotan_inversesqrt(dot(normal, normal))" : "normal";
@@ -37,22 +37,22 @@ std::string fromVertices(Frame frame, Form form)
                 head, info(frame).word, attributes);
 }
 
-// What makes U and V of a triangle, for another stage than the pixel's.
+// Computes U and V of a triangle, in a stage before the pixel stage.
 const char* const kTriangleMaker =
-    "// U and V of a triangle as three words of two halfs, 12 bytes.\n"
+    "// U and V of a triangle as three words of two half floats each, 12 bytes.\n"
     "// p0 p1 p2: the triangle's corners in the space of the frame. Their order does not matter.\n"
-    "// uv0 uv1 uv2: as the normal map is sampled with. n0 n1 n2: normals, which say what is outside.\n"
+    "// uv0 uv1 uv2: the uv of the normal map. n0 n1 n2: vertex normals, which define the outside.\n"
     "COTAN_FUNCTION cotan_packed_triangle cotan_make_triangle(cotan_vec3 p0, cotan_vec3 p1, cotan_vec3 p2, "
     "cotan_vec2 uv0, cotan_vec2 uv1, cotan_vec2 uv2, cotan_vec3 n0, cotan_vec3 n1, cotan_vec3 n2)\n{\n"
     "    cotan_triangle vectors = cotan_triangle_of_sound_edges(p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0, n0 + n1 + "
     "n2);\n"
     "    return cotan_pack_triangle(vectors.u, vectors.v);\n}\n";
 
-// The pixel's part, of the frame {}.
+// The pixel stage, for the frame {}.
 const char* const kTrianglePixel =
     "// The perturbed normal, unit.\n"
-    "// normal: interpolated. On back faces leave it as it is and turn the result.\n"
-    "// words: as cotan_make_triangle gave them, the same at every pixel of the triangle.\n"
+    "// normal: interpolated. On back faces leave it as it is and negate the result.\n"
+    "// words: the result of cotan_make_triangle, the same at every pixel of the triangle.\n"
     "// texel: the normal map as sampled.\n"
     "COTAN_FUNCTION cotan_vec3 cotan_perturb_normal_on_triangle(cotan_vec3 normal, cotan_packed_triangle words, "
     "cotan_vec3 texel)\n{{\n"
@@ -61,24 +61,23 @@ const char* const kTrianglePixel =
     "    cotan_vec3 v = cotan_unpack_triangle_v(words);\n"
     "    return cotan_perturb_{}(normal, u, v, m);\n}}\n";
 
-// The same where the language cannot unpack.
+// The pixel stage for languages that cannot unpack halfs.
 const char* const kTriangleVectorsPixel =
     "// The perturbed normal, unit.\n"
-    "// normal: interpolated. On back faces leave it as it is and turn the result.\n"
+    "// normal: interpolated. On back faces leave it as it is and negate the result.\n"
     "// u, v: the vectors of the triangle, the same at every pixel of it, in normal's space.\n"
     "// texel: the normal map as sampled.\n"
     "COTAN_FUNCTION cotan_vec3 cotan_perturb_normal_on_triangle(cotan_vec3 normal, cotan_vec3 u, cotan_vec3 v, "
     "cotan_vec3 texel)\n{{\n"
     "    return cotan_perturb_{}(normal, u, v, cotan_decode(texel));\n}}\n";
 
-// What the form `seen` asks for beside the others.
+// The additional parameter of the form `seen`.
 const char* const kSideParameter = ", cotan_real side";
 const char* const kSide =
-    "// normal also: on the side that is seen, so turned on back faces.\n"
-    "// side: +1 or -1, one constant for all that is drawn: whether cross(dpdx, dpdy) of what is seen points towards\n"
-    "// the viewer. In right-handed spaces -1 where rows of pixels run down (Vulkan, Direct3D, Metal, WebGPU), +1 "
-    "where\n"
-    "// they run up (OpenGL, WebGL). In left-handed spaces, and where the picture is flipped, the other one.\n";
+    "// normal must be on the visible side: flipped on back faces.\n"
+    "// side: +1 if cross(dpdx, dpdy) of visible surfaces points towards the viewer, otherwise -1; one constant for\n"
+    "// everything drawn. In right-handed spaces -1 where rows of pixels run down (Vulkan, Direct3D, Metal, WebGPU),\n"
+    "// +1 where they run up (OpenGL, WebGL). The opposite in left-handed spaces, and where the image is flipped.\n";
 
 std::string fromDifferences(Frame frame, Form form)
 {
@@ -131,7 +130,7 @@ std::string ofTriangle(const Choice& choice)
     return std::string(kTriangleMaker) + "\n" + pixel + "\n" + fromEdges;
 }
 
-// What follows for every uv set, {0} being its number.
+// Returns the pattern once for every uv set, with the number of the set for {0}.
 std::string perSet(int sets, std::string_view pattern)
 {
     std::string text;
@@ -140,7 +139,7 @@ std::string perSet(int sets, std::string_view pattern)
     return text;
 }
 
-// "slope0 + slope1" of the word slope.
+// Returns "slope0 + slope1" for the word slope.
 std::string sumOfSets(int sets, std::string_view word) { return perSet(sets, fill(" + {}{{0}}", word)).substr(3); }
 
 std::string fromSeveralSets(Frame frame, Form form, int sets)
@@ -186,7 +185,7 @@ std::string fromScreen(int sets, Form form)
                 seen ? ", side" : "");
 }
 
-// What Godot's ANISOTROPY asks for.
+// The direction that Godot's ANISOTROPY requires.
 const char* const kDirectionOfU =
     "\n// The direction along increasing u on the surface, unit, perpendicular to n; zero for constant uv. For "
     "ANISOTROPY.\n"

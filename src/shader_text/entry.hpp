@@ -1,5 +1,5 @@
-// What is put around the portable text: the function that a caller uses, the comment at the top, and a spatial shader
-// of Godot; and what they are written with.
+// The text around the portable text: the function that callers use, the introductory comment, and a spatial shader for
+// Godot; and the string formatting for these.
 #pragma once
 
 #include <algorithm>
@@ -17,47 +17,48 @@ inline constexpr const char* kVertexEntry = "cotan_perturb_normal_from_vertices"
 inline constexpr const char* kTangentEntry = "cotan_perturb_normal_from_gltf_tangent";
 inline constexpr const char* kScreenEntry = "cotan_perturb_normal";
 
-// The entry's name for a frame.
+// Returns the name of the entry function for a frame.
 std::string entryOf(Frame frame);
-// And for a choice, which may leave that one out.
+// Returns the name of the entry function for a choice; some choices replace the entry of the frame.
 std::string entryOf(const Choice& choice);
 
-// The entry, and with screen derivatives where the choice and the language have them the short function over it.
+// Returns the entry function and, if the choice and the language have screen derivatives, the short function that calls
+// it.
 std::string entryText(const Choice& choice, Form form);
 
-// Whether the choice has the function that takes derivatives itself.
+// Whether the text includes the function that takes derivatives itself.
 bool hasScreenEntry(const Choice& choice);
 
-// The comment at the top: what it is, what it needs, how it is called, its limits, whom to thank.
+// Returns the introductory comment: what the text is, what it needs, how to call it, its limits, and credits.
 std::string introduction(const Choice& choice, Form form);
 
 inline bool hasSet(const Choice& choice, Set set) { return std::ranges::find(choice.sets, set) != choice.sets.end(); }
 
 // ---- Godot ----------------------------------------------------------------------------------
 
-// Whether the choice is the whole shader, not its functions alone.
+// Whether the choice is a whole shader, not only its functions.
 bool isGodotShader(const Choice& choice);
 
-// Errors (usage): what Godot's shaders cannot see.
+// Errors (usage): features that are impossible in Godot's shaders.
 Status checkGodot(const Choice& choice, Form form);
 
-// What light() calls.
+// Returns the functions that light() calls.
 std::vector<std::string> functionsOfLight();
 
-// The part "Needs" of the comment at the top.
+// Returns the part "Needs" of the introductory comment.
 std::string godotNeeds(const Choice& choice);
 
-// The functions with what is before and after them.
+// Returns the whole shader around the functions.
 std::string godotShader(const Choice& choice, const std::string& functions);
 
-// ---- text with gaps -------------------------------------------------------------------------
+// ---- text with placeholders -----------------------------------------------------------------
 
-// Not fmt: this part builds with a compiler and GLM.
+// Used instead of fmt, because this part is built with only a compiler and GLM.
 inline std::string textOf(std::string_view text) { return std::string(text); }
 inline std::string textOf(int number) { return std::to_string(number); }
 
-// The pattern with its gaps filled: each "{}" by the next value, each "{N}" by value N below 10. "{{" and "}}" are
-// braces.
+// Returns the pattern with its placeholders replaced: each "{}" by the next value, each "{N}" by value N below 10. "{{"
+// and "}}" give braces.
 template<class... Values> std::string fill(std::string_view pattern, const Values&... values)
 {
     const std::vector<std::string> texts{textOf(values)...};

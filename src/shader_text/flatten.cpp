@@ -24,13 +24,13 @@ public:
     {
         variables_.clear();
         names_.clear();
-        given_ = givenBack(f);
+        resultName_ = resultNameOf(f);
         std::vector<Variable> parameters;
         for (const Variable& p : f.parameters)
             for (const Variable& part : partsOf(p.type, p.name))
                 parameters.push_back(part);
         if (fields_.contains(f.type)) {
-            for (Variable part : partsOf(f.type, given_)) {
+            for (Variable part : partsOf(f.type, resultName_)) {
                 part.out = true;
                 parameters.push_back(part);
             }
@@ -42,9 +42,9 @@ public:
     }
 
 private:
-    // What the parts of the result are named for: the one local variable that is returned, or "result". Empty where
-    // the result is no struct.
-    std::string givenBack(const Function& f) const
+    // Returns the name prefix of the variables for the result: the one local variable that is returned, or "result".
+    // Empty if the result is not a struct.
+    std::string resultNameOf(const Function& f) const
     {
         if (!fields_.contains(f.type))
             return "";
@@ -56,7 +56,7 @@ private:
         return last.kind == Kind::name && last.text == only ? only : "result";
     }
 
-    // One variable of each field; of another type the variable itself.
+    // Returns one variable for each field of a struct; for another type the variable itself.
     std::vector<Variable> partsOf(const std::string& type, const std::string& name)
     {
         std::vector<Variable> parts;
@@ -68,12 +68,12 @@ private:
             parts.push_back({type, name, {}});
         }
         for (const Variable& part : parts)
-            take(part.name, fields_.contains(type));
+            reserveName(part.name, fields_.contains(type));
         return parts;
     }
 
-    // Two scopes may use a name for plain variables, but none of them for a part.
-    void take(const std::string& name, bool part)
+    // Plain variables in two scopes may share a name; the name of a part must be unique.
+    void reserveName(const std::string& name, bool part)
     {
         const auto [known, fresh] = names_.insert({name, part});
         if (!fresh && (part || known->second))
@@ -92,7 +92,7 @@ private:
             into.push_back({.type = part.type, .name = part.name, .hasValue = false});
     }
 
-    // name = value, of structs.
+    // Assigns a struct: name = value.
     void assign(Body& into, const std::string& name, const Expression& value)
     {
         if (!isStruct(value))
@@ -100,7 +100,7 @@ private:
         const std::vector<Variable>& fields = fields_.at(variables_.at(name));
         Statement s;
         if (value.kind == Kind::call) {
-            s.kind = Statement::Kind::run;
+            s.kind = Statement::Kind::callOnly;
             s.value = call(into, value);
             for (const Variable& field : fields)
                 s.value.children.push_back({Kind::name, name + "_" + field.name, {}});
@@ -115,7 +115,7 @@ private:
         }
     }
 
-    // The name of a variable with the value; a call gets a variable, which is made in `into`.
+    // Returns the name of a variable with the value. For a call, a variable is declared in `into`.
     std::string named(Body& into, const Expression& value)
     {
         if (value.kind == Kind::name)
@@ -160,19 +160,19 @@ private:
     {
         using S = Statement::Kind;
         if (s.kind == S::declare && fields_.contains(s.type)) {
-            if (s.name != given_)
+            if (s.name != resultName_)
                 declare(into, s.type, s.name);
             if (s.hasValue)
                 assign(into, s.name, s.value);
             return;
         }
         if (s.kind == S::declare)
-            take(s.name, false);
+            reserveName(s.name, false);
         if (s.kind == S::assign && isStruct(s.target))
             return assign(into, s.target.text, s.value);
-        if (s.kind == S::giveBack && !given_.empty()) {
-            if (s.value.kind != Kind::name || s.value.text != given_)
-                assign(into, given_, s.value);
+        if (s.kind == S::returnValue && !resultName_.empty()) {
+            if (s.value.kind != Kind::name || s.value.text != resultName_)
+                assign(into, resultName_, s.value);
             s.hasValue = false;
             if (!last)
                 into.push_back(s);
@@ -201,11 +201,11 @@ private:
         return result;
     }
 
-    std::map<std::string, std::vector<Variable>> fields_; // of each struct
-    std::map<std::string, std::string> types_;            // of each function
-    std::map<std::string, std::string> variables_;        // of structs, with their types
-    std::map<std::string, bool> names_;                   // of variables; whether of a part
-    std::string given_;
+    std::map<std::string, std::vector<Variable>> fields_; // of each struct, by name
+    std::map<std::string, std::string> types_;            // of each function, by name
+    std::map<std::string, std::string> variables_;        // struct variables and their types
+    std::map<std::string, bool> names_;                   // all variables; true: a part of a struct
+    std::string resultName_;
 };
 
 } // namespace

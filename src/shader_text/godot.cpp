@@ -6,10 +6,10 @@ namespace {
 
 bool hasLight(const Choice& choice) { return hasSet(choice, Set::light); }
 
-// Whether two vectors come with the mesh: U and V of its triangles, or cotangents.
+// Whether the mesh supplies two vectors: U and V of its triangles, or cotangents.
 bool hasVectors(const Choice& choice) { return readsTriangleVectors(choice.frame) || readsCotangents(choice.frame); }
 
-// What fragment() calls.
+// Returns the call in fragment() that perturbs the normal.
 std::string perturbed(const Choice& choice, const std::string& normal)
 {
     const std::string texel = "texture(normal_map, UV).xyz";
@@ -28,7 +28,7 @@ std::string perturbed(const Choice& choice, const std::string& normal)
 bool hasDerivatives(const Choice& choice) { return info(choice.frame).source == FrameSource::differences; }
 
 bool readsNormal(const Choice& choice) { return hasLight(choice) || choice.twoSided; }
-// Whether it must be known that the transform mirrors.
+// Whether the shader must know if the transform mirrors.
 bool readsSide(const Choice& choice)
 {
     return readsTriangleVectors(choice.frame) || (choice.twoSided && !hasDerivatives(choice));
@@ -70,7 +70,7 @@ std::string vertex(const Choice& choice)
         text += "    cotan_side = side;\n";
     if (hasVectors(choice)) {
         const std::string_view factor = readsTriangleVectors(choice.frame) ? " * side" : "";
-        text += fill("    // In Godot 4: CUSTOM0.xyz and CUSTOM1.xyz. For transforms that scale evenly.\n"
+        text += fill("    // In Godot 4: CUSTOM0.xyz and CUSTOM1.xyz. For transforms with uniform scale.\n"
                      "    cotan_u = (MODELVIEW_MATRIX * vec4(TANGENT, 0.0)).xyz{0};\n"
                      "    cotan_v = (MODELVIEW_MATRIX * vec4(COLOR.rgb, 0.0)).xyz{0};\n",
                      factor);
@@ -83,14 +83,14 @@ std::string fragment(const Choice& choice)
     const std::string normal = choice.twoSided ? "cotan_normal" : "NORMAL";
     std::string text = "\nvoid fragment()\n{\n";
     if (hasLight(choice))
-        text += "    METALLIC = metallic; // Godot 3 does not hand it on to light()\n";
+        text += "    METALLIC = metallic; // Godot 3 does not pass it to light()\n";
     if (choice.twoSided && hasDerivatives(choice))
-        text += "    // Seen from behind? FRONT_FACING says the opposite in Godot 3 where the transform mirrors.\n"
+        text += "    // Seen from behind? FRONT_FACING is inverted in Godot 3 where the transform mirrors.\n"
                 "    vec3 seen = cross(dFdx(VERTEX), dFdy(VERTEX));\n"
                 "    vec3 away = mix(VERTEX, vec3(0.0, 0.0, -1.0), PROJECTION_MATRIX[3][3]); // from the eye\n"
                 "    float side = dot(cotan_normal, seen) * dot(seen, away) > 0.0 ? -1.0 : 1.0;\n";
     else if (choice.twoSided)
-        text += "    // FRONT_FACING says the opposite where the transform mirrors.\n"
+        text += "    // FRONT_FACING is inverted where the transform mirrors.\n"
                 "    float side = FRONT_FACING ? cotan_side : -cotan_side;\n";
     if (readsTangents(choice.frame))
         text += fill("    // BINORMAL points up the image, as glTF's bitangent does.\n"
@@ -99,15 +99,15 @@ std::string fragment(const Choice& choice)
     return fill("{}    NORMAL = {}{};\n}}\n", text, perturbed(choice, normal), choice.twoSided ? " * side" : "");
 }
 
-// A coat with the normal of the surface without the map. All of the light goes to SPECULAR_LIGHT, which Godot 3 and 4
-// both add as it is; LIGHT_COLOR is pi times the light's in both.
+// A coat over the surface, with the normal without the map. All light is added to SPECULAR_LIGHT, which Godot 3 and 4
+// add unchanged; LIGHT_COLOR is pi times the light's colour in both.
 constexpr std::string_view kLight = R"(
 void light()
 {
     vec3 coat_n = normalize(cotan_normal);
     coat_n = dot(coat_n, VIEW) < 0.0 ? -coat_n : coat_n;
     vec3 beneath = cotan_reflect_pbr(ALBEDO, metallic, ROUGHNESS, 1.0, vec3(0.0), NORMAL, VIEW, LIGHT);
-    float share = cotan_coat_share(coat, coat_roughness, coat_n, VIEW);
+    float share = cotan_coat_fraction(coat, coat_roughness, coat_n, VIEW);
     float above = cotan_reflect_coat(coat, coat_roughness, coat_n, VIEW, LIGHT);
     SPECULAR_LIGHT += (beneath * (1.0 - share) + vec3(above)) * LIGHT_COLOR * ATTENUATION;
 }
@@ -123,13 +123,13 @@ bool isGodotShader(const Choice& choice)
 Status checkGodot(const Choice& choice, Form form)
 {
     if (choice.stage != Stage::all && choice.stage != Stage::fragment)
-        return usageError("a stage: Godot's vertices do not see each other; expected fragment, the vectors come with "
-                          "the mesh");
+        return usageError("a stage: Godot's vertex shaders cannot read other vertices; expected fragment, with the "
+                          "vectors in the mesh");
     if (!isGodotShader(choice))
         return Done{};
     if (info(choice.frame).source == FrameSource::triangle
         && (!readsTriangleVectors(choice.frame) || form != Form::fused))
-        return usageError(fill("the frame {}: Godot's shaders do not see a triangle's edges; expected triangle in its "
+        return usageError(fill("the frame {}: Godot's shaders cannot read a triangle's edges; expected triangle in its "
                                "fused form, or the functions alone",
                                name(choice.frame)));
     if (choice.uvSets > 2)
@@ -138,40 +138,41 @@ Status checkGodot(const Choice& choice, Form form)
     return Done{};
 }
 
-std::vector<std::string> functionsOfLight() { return {"cotan_reflect_pbr", "cotan_coat_share", "cotan_reflect_coat"}; }
+std::vector<std::string> functionsOfLight()
+{
+    return {"cotan_reflect_pbr", "cotan_coat_fraction", "cotan_reflect_coat"};
+}
 
 std::string godotNeeds(const Choice& choice)
 {
     const bool whole = isGodotShader(choice);
     std::string text = whole
-        ? "// A whole shader of a material; in one of yours, take what is between shader_type and\n"
-          "// fragment() and the lines of fragment(). In Godot 4 take the functions alone (option\n"
+        ? "// A complete material shader. To use it in your own, copy what is between shader_type and\n"
+          "// fragment() and the lines of fragment(). In Godot 4 use the functions alone (option\n"
           "// --functions) as a .gdshaderinc.\n//\n"
         : "// To paste above fragment() of any spatial shader, or in Godot 4 to #include as a\n"
           "// .gdshaderinc. All vectors are in view space.\n//\n";
     text += "// Needs:\n"
-            "//   normal_map an image as it is in the file: imported without sRGB. Green up, as Godot has it\n";
+            "//   normal_map the values of the file: imported without sRGB. Green up, as Godot expects\n";
     if (hasVectors(choice))
         return text
             + (readsTriangleVectors(choice.frame)
                    ? "//   u, v       two vectors of each triangle (triangleVectors of cotan/triangle.hpp), at all "
                      "three\n"
-                     "//              of its vertices, which it shares with none\n"
+                     "//              of its vertices, which belong to it alone\n"
                    : "//   u, v       cotangents at the vertices (deriveVertexFrames of cotan/core)\n")
             + "//              as six floats with the mesh, not compressed: in Godot 3 the arrays of tangents and of\n"
               "//              colours, in Godot 4 those of CUSTOM0 and CUSTOM1. No stored tangents otherwise\n";
     if (readsVertices(choice.frame))
-        return text
-            + "//   tangents   in the mesh; TANGENT is unit, so that it is not MikkTSpace's to the last digit\n";
+        return text + "//   tangents   in the mesh; TANGENT is normalised, so it is not exactly MikkTSpace's\n";
     if (info(choice.frame).source == FrameSource::triangle)
-        return text
-            + "//   p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0  the triangle's edges, which a shader does not see\n";
+        return text + "//   p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0  the triangle's edges, which a shader cannot read\n";
     return text
         + "//   VERTEX     the position in view space, as it is in fragment(); not normalised\n"
           "//   dFdx, dFdy In Godot 3 the driver GLES3: GLES2 has none. The frames triangle and smooth need none\n"
-          "//   No tangents: switch them off where the mesh is imported. Do not write NORMALMAP (NORMAL_MAP in\n"
-          "//   Godot 4), which is the way through stored tangents.\n"
-          "//   For ANISOTROPY, behind NORMAL = ...:  TANGENT = cotan_direction_of_u(NORMAL, VERTEX, UV);\n"
+          "//   No tangents: disable them in the import of the mesh. Do not write NORMALMAP (NORMAL_MAP in\n"
+          "//   Godot 4), which uses stored tangents.\n"
+          "//   For ANISOTROPY, after NORMAL = ...:   TANGENT = cotan_direction_of_u(NORMAL, VERTEX, UV);\n"
           "//                                         BINORMAL = cross(NORMAL, TANGENT);\n";
 }
 

@@ -11,7 +11,7 @@ constexpr std::string_view kChannelTexts[] = {"three channels", "two channels, z
                                               "two channels, (x, y)/(1 + z)", "two channels, slopes"};
 constexpr std::string_view kExpansionTexts[] = {"(255c - 128)/127", "2c - 1", "signed values as sampled",
                                                 "(65535c - 32768)/32767"};
-constexpr std::string_view kFormTexts[] = {"fused", "total form", "fused, normal on the side that is seen",
+constexpr std::string_view kFormTexts[] = {"fused", "total form", "fused, normal facing the viewer",
                                            "fused, for square texels", ""};
 
 std::string call(const Choice& choice, Form form)
@@ -19,7 +19,7 @@ std::string call(const Choice& choice, Form form)
     const LanguageInfo& language = infoOf(choice.language);
     const std::string type =
         language.grammar.typesAfterNames ? "let" : std::string(language.scope) + wordOf(choice.language, "cotan_vec3");
-    // arguments: what stands before the sampled texel.
+    // arguments: those before the sampled texel.
     const auto calling = [&](std::string_view function, std::string_view arguments, std::string_view behind = "") {
         return fill("{} n = {}{}({}, {}{});", type, language.scope, function, arguments, language.sample, behind);
     };
@@ -59,13 +59,13 @@ std::string needs(const Choice& choice)
         return text
             + fill("//   the corners of the triangle that this vertex provokes: its own position, uv and normal, "
                    "and those\n"
-                   "//   of the other two, read from {}. Hand the three words on without interpolation (flat).\n"
+                   "//   of the other two, read from {}. Pass the three words on without interpolation (flat).\n"
                    "//   An index buffer in which every triangle owns its provoking vertex, the first (in OpenGL and "
                    "WebGL\n"
                    "//   the last): cotan convert --provoking, or provokingMesh of cotan/gpu_meshes.hpp.\n",
                    infoOf(choice.language).cornersIn);
     if (choice.stage == Stage::mesh)
-        return text + "//   the corners of the primitive. Hand the three words on for each primitive.\n";
+        return text + "//   the corners of the primitive. Pass the three words on per primitive.\n";
     if (choice.stage == Stage::fragment)
         return text
             + "//   normal     interpolated surface normal, in the space that the triangle was made in\n"
@@ -81,14 +81,14 @@ std::string needs(const Choice& choice)
     if (info(choice.frame).source == FrameSource::triangle)
         return text + "//   p0 p1 p2, uv0 uv1 uv2  the triangle's corners; no screen derivatives\n";
     text += "//   position   camera-relative (world axes, origin at the eye), interpolated, NOT normalised;\n"
-            "//              normalising it first is wrong by 11 degrees at 45 degrees of grazing\n"
-            "//   uv         as the normal map is sampled with\n";
+            "//              normalising it first gives an error of 11 degrees at a grazing angle of 45 degrees\n"
+            "//   uv         those of the normal map\n";
     if (hasScreenEntry(choice))
         return text
             + fill("//   derivatives of position and uv: taken here by {} and {}\n",
                    wordOf(choice.language, "cotan_ddx"), wordOf(choice.language, "cotan_ddy"));
     return text
-        + "//   derivatives of position and uv: yours, along any two directions, the same for both\n"
+        + "//   derivatives of position and uv: passed in, along any two directions, the same for both\n"
           "//              (screen derivatives, ray differentials, neighbours in a raster)\n";
 }
 
@@ -107,33 +107,33 @@ std::string limits(const Choice& choice, Form form)
     if (form == Form::fused && readsTriangleVectors(choice.frame))
         text +=
             "//   No NaN for constant uv, zero edges or empty texels: the result is then the interpolated normal.\n"
-            "//   Undefined for non-finite input and normals shorter than 0.01. The frame to 0.03 degrees, the error\n"
-            "//   of halfs, for (longest edge) * (longest uv difference) within 1e-12 .. 1e5, each within 1e-9 .. "
-            "1e6,\n"
-            "//   and triangles that are no slivers (area a tenth of the longest edge squared).\n"
-            "//   Slopes are those of `cotangent` times a factor between cos(a) and 1, where the normal leans by a\n"
-            "//   from the triangle's own.\n";
+            "//   Undefined for non-finite input and normals shorter than 0.01. Matches the frame to 0.03 degrees,\n"
+            "//   the error of half floats, for (longest edge) * (longest uv difference) within 1e-12 .. 1e5, each\n"
+            "//   within 1e-9 .. 1e6, and triangles that are not slivers (area a tenth of the longest edge squared).\n"
+            "//   Slopes are those of `cotangent` times a factor between cos(a) and 1, where the normal is at an\n"
+            "//   angle a to the triangle's own.\n";
     else if (form == Form::fused && readsVertices(choice.frame))
         text += "//   No NaN for empty texels or covectors of zero: the result is then the interpolated normal.\n"
                 "//   Undefined for non-finite input and normals shorter than 0.01.\n";
     else if (form == Form::seen)
         text +=
-            "//   The frame to 0.01 degrees, with the scale of `triangle`: slopes are those of `cotangent` times a\n"
-            "//   factor between cos(a) and 1, where the normal leans by a from the surface. No NaN for constant uv,\n"
-            "//   zero differences or empty texels. Undefined for non-finite input and normals shorter than 0.01.\n"
-            "//   Right for mirrored uv and transforms. The caller turns the normal on back faces, and says `side`.\n";
+            "//   Matches the frame to 0.01 degrees, with the scale of `triangle`: slopes are those of `cotangent`\n"
+            "//   times a factor between cos(a) and 1, where the normal is at an angle a to the surface's. No NaN for\n"
+            "//   constant uv, zero differences or empty texels. Undefined for non-finite input and normals shorter\n"
+            "//   than 0.01. Right for mirrored uv and transforms. The caller flips the normal on back faces and\n"
+            "//   passes `side`.\n";
     else if (form == Form::area)
         text += "//   As `cotangent` where texels are square on the surface. On uv stretched a:1 slopes are sqrt(a)\n"
-                "//   times as steep, where they are sheared by s 1/cos(s) times. Undefined for non-finite input and\n"
+                "//   times as steep, on uv sheared by an angle s 1/cos(s) times. Undefined for non-finite input and\n"
                 "//   normals shorter than 0.01.\n";
     else if (form == Form::fused)
         text += "//   No NaN for constant uv, zero differences, footprints without area or empty texels: the\n"
                 "//   result is then the interpolated normal, or as the function says. Undefined for\n"
-                "//   non-finite input and normals shorter than 0.01. The frame to 0.01 degrees for (longest\n"
+                "//   non-finite input and normals shorter than 0.01. Matches the frame to 0.01 degrees for (longest\n"
                 "//   position difference) * (longest uv difference) within 1e-12 .. 1e5, each within\n"
-                "//   1e-9 .. 1e6, and footprints that are no slivers (area a tenth of the longest squared).\n";
+                "//   1e-9 .. 1e6, and footprints that are not slivers (area a tenth of the longest squared).\n";
     else if (info(choice.frame).normal == FrameNormal::nobody)
-        text += "//   Zero vectors give the interpolated normal as it is, and so does one that is not finite.\n";
+        text += "//   Zero vectors and non-finite ones give the interpolated normal unchanged.\n";
     else if (info(choice.frame).total)
         text += "//   Total: no input gives NaN; where there is no frame (constant uv, no area, non-finite\n"
                 "//   differences) the result is the unit interpolated normal.\n";
@@ -142,7 +142,8 @@ std::string limits(const Choice& choice, Form form)
     if (form != Form::seen)
         text += sidesOf(choice.frame);
     if (info(choice.frame).source == FrameSource::differences)
-        text += "//   In float, footprints of 1e-3 of the distance to the eye keep 0.002 degrees, of 1e-5 0.12.\n"
+        text += "//   In float, the error is 0.002 degrees for footprints of 1e-3 of the distance to the eye, and\n"
+                "//   0.12 degrees for 1e-5.\n"
                 "//   On flat-shaded uv the frame is constant per triangle: on coarse curved meshes it steps at\n"
                 "//   edges"
             + std::string(choice.frame == Frame::cotangent ? " (a sphere of 32 segments: 1.1 degrees in the mean).\n"
@@ -150,23 +151,23 @@ std::string limits(const Choice& choice, Form form)
     return text + std::string(infoOf(choice.language).limits);
 }
 
-// What the sets leave to the caller.
+// Returns the remarks on the parts of the sets that the caller implements.
 std::string ofSets(const Choice& choice)
 {
     std::string text;
     if (hasSet(choice, Set::environment))
         text +=
-            "//   environment  one picture of square tiles, 970 x 524 texels of linear light, read by the caller with\n"
-            "//              bilinear filtering and no mips where cotan_environment_texel says. Tiles 0 to 8 hold\n"
-            "//              radiance filtered for roughness 0, 1/8, ... 1; 9 irradiance over pi; 10 what GGX\n"
-            "//              reflects of white light (x times f0, plus y). World space, y up\n";
+            "//   environment  one image of square tiles, 970 x 524 texels of linear light, read by the caller with\n"
+            "//              bilinear filtering and no mips at cotan_environment_texel. Tiles 0 to 8 hold\n"
+            "//              radiance filtered for roughness 0, 1/8, ... 1; 9 irradiance over pi; 10 how much white\n"
+            "//              light GGX reflects (x times f0, plus y). World space, y up\n";
     if (hasSet(choice, Set::tone))
         text += "//   tone       linear colours with the primaries of sRGB, not negative, to linear in [0,1]; curve 0 "
                 "cuts\n"
                 "//              off, 1 is ACES, 2 Khronos PBR Neutral, 3 AgX\n";
     if (hasSet(choice, Set::shadow))
-        text += "//   shadow     reads of the map of depths are yours: 8 or so around the point for the mean depth of\n"
-                "//              what is before it, then 24 or so comparisons in the disc of cotan_penumbra\n";
+        text += "//   shadow     you read the shadow map: about 8 reads around the point for the mean depth of the\n"
+                "//              blockers, then about 24 comparisons in the disc of cotan_penumbra\n";
     return text.empty() ? text : "// Sets:\n" + text + "//\n";
 }
 

@@ -71,7 +71,7 @@ inline double cotan_inverse_power_of_two(double m)
 
 )";
 
-// Two halfs in a word, for the languages that have no function of that kind.
+// Two halfs in a word, for languages without such a function.
 constexpr std::string_view kHlslHalfs = R"(uint cotan_pack_half(float2 v)
 {
     return f32tof16(v.x) | (f32tof16(v.y) << 16u);
@@ -173,7 +173,7 @@ constexpr LanguageInfo kInfos[] = {
      .title = "WGSL",
      .sample = "textureSample(normal_map, map_sampler, uv).xyz",
      .limits = "//   WGSL lets an implementation assume that no number is NaN or infinite: the guards against\n"
-               "//   non-finite input are then not sure to hold. Those against zeros and empty areas do.\n",
+               "//   non-finite input may then not hold. Those against zeros and empty areas do.\n",
      .grammar = {.words = &Word::wgsl, .typesAfterNames = true}},
     {.name = "msl",
      .title = "Metal shading language",
@@ -193,8 +193,8 @@ constexpr LanguageInfo kInfos[] = {
      .halfs = kCppHalfs,
      .postlude = "\n} // namespace cotan_shader\n",
      .grammar = {.functionPrefix = "inline ", .realCalls = true, .braces = true}},
-    // What Godot 3 and 4 share: GLSL's words, but no structs; and in OpenGL ES 2 no bits of floats, which lang.h sees
-    // to.
+    // The common part of Godot 3 and 4: the words of GLSL, but no structs. OpenGL ES 2 has no access to the bits of
+    // floats; lang.h handles that.
     {.name = "godot",
      .title = "Godot 3.2 and later and Godot 4",
      .branch = "COTAN_LANG_GODOT",

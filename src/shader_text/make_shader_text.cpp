@@ -10,7 +10,7 @@ namespace cotan::shader_text {
 
 namespace {
 
-// All of the portable text, and `extra` after it.
+// Parses the whole portable text, followed by `extra`.
 Module parseAll(Language language, std::string_view extra)
 {
     Module module;
@@ -22,7 +22,7 @@ Module parseAll(Language language, std::string_view extra)
     return module;
 }
 
-// cotan_decode for one way of storing a map.
+// Specialises cotan_decode for one convention.
 void bindConvention(Module& module, const Convention& c)
 {
     bindArgument(module, "cotan_decode", "format", "expansion", std::to_string(int(c.expansion)));
@@ -32,11 +32,11 @@ void bindConvention(Module& module, const Convention& c)
     bindArgument(module, "cotan_expand", "expansion", "", std::to_string(int(c.expansion)));
     for (Function& f : module.functions) {
         if (f.name == "cotan_expand") {
-            f.comments = {"// The signed number that a stored component stands for, in [-1,1]."};
+            f.comments = {"// The signed value of a stored component, in [-1,1]."};
         } else if (f.name == "cotan_decode") {
             f.comments = {"// The decoded texel: normal along (+u, +v, outwards). Not unit in general.",
                           "// texel: as sampled; two-channel maps use x and y only."};
-            std::erase_if(f.parameters, [](const Variable& p) { return p.name == "format"; }); // all of it is bound
+            std::erase_if(f.parameters, [](const Variable& p) { return p.name == "format"; }); // all fields are bound
         } else {
             continue;
         }

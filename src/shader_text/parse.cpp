@@ -8,8 +8,8 @@ namespace cotan::shader_text {
 
 namespace {
 
-// The macro asked for in "#if defined(NAME)", "#elif defined(NAME)".
-std::string askedFor(const std::string& line)
+// Returns the macro in "#if defined(NAME)" or "#elif defined(NAME)".
+std::string macroIn(const std::string& line)
 {
     const std::size_t open = line.find('('), close = line.find(')');
     return open == std::string::npos || close == std::string::npos ? std::string()
@@ -17,20 +17,20 @@ std::string askedFor(const std::string& line)
 }
 
 struct Branch {
-    bool active = false; // this branch is read
-    bool taken = false;  // one branch of the chain was
+    bool active = false; // the text of this branch is used
+    bool taken = false;  // a branch of this chain was used
 };
 
 struct Token {
     std::string text; // empty at the end
     int line = 0;
-    std::vector<std::string> comments; // the lines right above it
-    std::string trailing;              // comment after it, on its line
+    std::vector<std::string> comments; // the lines directly above it
+    std::string trailing;              // the comment after it, on the same line
 };
 
 bool wordCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
-// A number may hold a point, and a sign after its exponent's e.
+// Numbers may contain a point, and a sign after the e of the exponent.
 std::size_t endOfWord(std::string_view text, std::size_t at)
 {
     const bool number = std::isdigit(static_cast<unsigned char>(text[at]));
@@ -51,12 +51,12 @@ std::vector<Token> tokenise(std::string_view text)
     std::vector<Token> tokens;
     std::vector<std::string> comments;
     int line = 1;
-    bool freshLine = true; // nothing on this line yet
+    bool freshLine = true; // no token on this line yet
     for (std::size_t at = 0; at < text.size();) {
         const char c = text[at];
         if (c == '\n') {
             if (freshLine)
-                comments.clear(); // a blank line parts a comment from what follows
+                comments.clear(); // a blank line separates a comment from the next token
             freshLine = true;
             ++line;
             ++at;
@@ -69,7 +69,7 @@ std::vector<Token> tokenise(std::string_view text)
                 comments.push_back(comment);
             else
                 tokens.back().trailing = comment;
-            // The end of a comment's line is not a blank line.
+            // The line of a comment is not a blank line.
             at = end + 1;
             ++line;
             freshLine = true;
@@ -92,7 +92,7 @@ std::vector<Token> tokenise(std::string_view text)
 
 using Constants = std::map<std::string, Expression>;
 
-// Binary operators by how loosely they bind; the loosest first.
+// Binary operators by precedence, the lowest first.
 const std::vector<std::vector<std::string>> kOperators = {
     {"||"}, {"&&"}, {"|"}, {"&"}, {"==", "!="}, {"<", ">", "<=", ">="}, {"<<", ">>"}, {"+", "-"}, {"*", "/"}};
 
@@ -106,7 +106,7 @@ public:
     void parse(Module& module)
     {
         while (!peek().text.empty()) {
-            if (peek().text == "using") { // C++ only: print.cpp has its own
+            if (peek().text == "using") { // C++ only: languages.cpp has its own
                 while (take() != ";") {
                 }
             } else if (peek().text == "struct") {
@@ -201,7 +201,7 @@ private:
         Statement s;
         s.comments = peek().comments;
         if (accept("return")) {
-            s.kind = Statement::Kind::giveBack;
+            s.kind = Statement::Kind::returnValue;
             s.value = expression();
         } else if (accept("if")) {
             s.kind = Statement::Kind::branch;
@@ -314,7 +314,7 @@ Preprocessed preprocess(std::string_view text, std::string_view language)
             if (line.starts_with("#if "))
                 branches.push_back({});
             Branch& branch = branches.back();
-            branch.active = !branch.taken && askedFor(line) == language;
+            branch.active = !branch.taken && macroIn(line) == language;
             branch.taken |= branch.active;
         } else if (line.starts_with("#else")) {
             branches.back().active = !branches.back().taken;
@@ -325,7 +325,7 @@ Preprocessed preprocess(std::string_view text, std::string_view language)
         } else if (line.starts_with("#define ")) {
             const std::string words = line.substr(8, line.find("//") - 8), name = words.substr(0, words.find(' '));
             const std::size_t value = words.find_first_not_of(' ', name.size());
-            // The others (cotan_vec3 and so on) are the language's names for things: print.cpp's affair.
+            // languages.cpp defines the others (cotan_vec3 and so on), which stand for names of the language.
             if (name.starts_with("COTAN_") && value != std::string::npos && name != "COTAN_FUNCTION")
                 result.constants[name] = words.substr(value);
             result.text += '\n';

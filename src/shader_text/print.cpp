@@ -9,8 +9,8 @@ namespace {
 using Kind = Expression::Kind;
 constexpr std::size_t kWidth = 100;
 
-// Breaks a line that is too long where the fewest brackets are open, behind a comma or before an
-// operator; what follows is indented by four more.
+// Breaks long lines after a comma or before an operator where the fewest brackets are open; continuation lines are
+// indented by four more.
 std::string wrapped(std::string line, std::size_t indent)
 {
     std::string result;
@@ -59,7 +59,7 @@ public:
         std::string parameters, copies;
         for (const Variable& p : f.parameters) {
             const std::string own = word(p.name);
-            // Parameters cannot be assigned to there.
+            // Parameters cannot be assigned to in such languages.
             const bool copy = grammar_.typesAfterNames && changed_.count(p.name) > 0;
             const std::string outer = copy ? own + "_in" : own;
             parameters += (parameters.empty() ? "" : ", ")
@@ -113,9 +113,9 @@ private:
         case Statement::Kind::declare: return wrapped(space + declaration(s) + ";", indent) + '\n';
         case Statement::Kind::assign:
             return wrapped(space + expression(s.target) + " = " + expression(s.value) + ";", indent) + '\n';
-        case Statement::Kind::giveBack:
+        case Statement::Kind::returnValue:
             return wrapped(space + (s.hasValue ? "return " + expression(s.value) : "return") + ";", indent) + '\n';
-        case Statement::Kind::run: return wrapped(space + expression(s.value) + ";", indent) + '\n';
+        case Statement::Kind::callOnly: return wrapped(space + expression(s.value) + ";", indent) + '\n';
         case Statement::Kind::branch: break;
         }
         return wrapped(space + "if (" + expression(s.value) + ") {", indent) + '\n' + body(s.body, indent + 4) + space
@@ -144,7 +144,7 @@ private:
     {
         if (e.text == "cotan_real") {
             const Expression& inside = e.children[0];
-            bool variable = false; // converted; what is left is a literal
+            bool variable = false; // a variable is converted; otherwise a literal remains
             visitAll(inside, [&](const Expression& x) { variable |= x.kind == Kind::name; });
             if (grammar_.realCalls || variable)
                 return word(e.text) + "(" + expression(inside) + ")";
@@ -187,7 +187,7 @@ private:
 
     Language language_;
     const Grammar& grammar_;
-    std::set<std::string> changed_; // variables that are assigned to after their declaration
+    std::set<std::string> changed_; // variables that are assigned after their declaration
 };
 
 } // namespace

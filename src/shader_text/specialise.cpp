@@ -19,7 +19,7 @@ bool isMinusOne(const Expression& e)
     return e.kind == Kind::unary && e.text == "-" && isNumber(e.children[0], "1.0");
 }
 
-// One step, children first.
+// Simplifies an expression by one step, children first.
 void fold(Expression& e)
 {
     for (Expression& child : e.children)
@@ -121,7 +121,7 @@ void simplify(Function& function)
         if (body[i].kind == Statement::Kind::declare && !reads(std::span(body).subspan(i + 1), body[i].name))
             body.erase(body.begin() + static_cast<std::ptrdiff_t>(i));
     }
-    // A variable that only the next declaration reads, and only as it is, is that declaration.
+    // Replaces a variable that only the next declaration reads, unchanged, by that declaration.
     for (std::size_t i = 0; i + 1 < body.size(); ++i) {
         const std::span<const Statement> statements(body);
         const Statement& next = body[i + 1];
@@ -137,7 +137,7 @@ void simplify(Function& function)
 Module neededBy(const Module& module, const std::vector<std::string>& roots)
 {
     std::set<std::string> wanted(roots.begin(), roots.end());
-    // Uses come after definitions, so one walk backwards finds all.
+    // Uses follow definitions, so one backward pass finds everything.
     for (auto function = module.functions.rbegin(); function != module.functions.rend(); ++function) {
         const Function& f = *function;
         if (!wanted.contains(f.name))

@@ -1,5 +1,5 @@
-// The portable text as a tree: what that is, how text becomes one, and what is done to it before it is printed. It is a
-// small language: structs, functions, declarations, assignments, if, return, and expressions without side effects.
+// The syntax tree of the portable text, its parser, and transformations before printing. The text is in a small
+// language: structs, functions, declarations, assignments, if, return, and expressions without side effects.
 #pragma once
 
 #include <map>
@@ -30,14 +30,14 @@ struct Expression {
 
 struct Statement {
     enum class Kind {
-        declare,  // type name = value, or without a value
-        assign,   // target = value
-        branch,   // if (value) body
-        giveBack, // return value, or only return
-        run,      // value, a call that gives nothing back
+        declare,     // type name = value, or without a value
+        assign,      // target = value
+        branch,      // if (value) body
+        returnValue, // return value, or only return
+        callOnly,    // value, a call without a result
     };
     Kind kind = Kind::declare;
-    std::vector<std::string> comments{}; // the lines above it, with their slashes
+    std::vector<std::string> comments{}; // the lines above it, including their slashes
     std::string type{}, name{};
     Expression target{}, value{};
     bool hasValue = true;
@@ -46,8 +46,8 @@ struct Statement {
 
 struct Variable {
     std::string type, name;
-    std::string comment; // of a field, on its line
-    bool out = false;    // a parameter that takes what the function gives back
+    std::string comment; // after a field, on the same line
+    bool out = false;    // an output parameter
 };
 
 struct Struct {
@@ -58,7 +58,7 @@ struct Struct {
 
 struct Function {
     std::vector<std::string> comments;
-    std::string part; // file it is from, without ".h"
+    std::string part; // the source file, without ".h"
     std::string type, name;
     std::vector<Variable> parameters;
     std::vector<Statement> body;
@@ -66,10 +66,10 @@ struct Function {
 
 struct Module {
     std::vector<Struct> structs;
-    std::vector<Function> functions; // before use
+    std::vector<Function> functions; // definitions precede uses
 };
 
-// Calls visit(expression) for the expression and all below it.
+// Calls visit(expression) for an expression and all its descendants.
 template<class Node, class Visit> void visitAll(Node& e, const Visit& visit)
 {
     visit(e);
@@ -77,7 +77,7 @@ template<class Node, class Visit> void visitAll(Node& e, const Visit& visit)
         visitAll(child, visit);
 }
 
-// The same for all expressions of statements, targets included.
+// Calls visit for all expressions of statements, including assignment targets.
 template<class Body, class Visit> void visitBody(Body& body, const Visit& visit)
 {
     for (auto& s : body) {
@@ -96,41 +96,41 @@ struct PortablePart {
     std::string_view text;
 };
 
-// The files of shaders/cotan/, embedded, in the order in which they are joined.
+// Returns the files of shaders/cotan/, embedded, in the order in which they are joined.
 std::span<const PortablePart> portableParts();
 
-// What is left of a text when its #if branches are chosen. A comment above a directive stays
-// above what follows it, except for a #define, which takes its comment with it.
+// A text after its #if branches are selected. A comment above a directive remains above the line after it, except for a
+// #define, which is removed together with its comment.
 struct Preprocessed {
     std::string text;
-    std::map<std::string, std::string> constants; // COTAN_NAME to its value
+    std::map<std::string, std::string> constants; // value of each COTAN_NAME
 };
 
-// language: COTAN_LANG_GLSL or COTAN_LANG_CPP, the one macro that is defined.
+// language: the one macro that is defined, such as COTAN_LANG_GLSL or COTAN_LANG_CPP.
 Preprocessed preprocess(std::string_view text, std::string_view language);
 
-// Appends what `text` defines. Constants are put in the place of their names; `constants` holds those of earlier texts
-// and receives the new ones. Throws std::runtime_error with the line where the text leaves the small language.
+// Appends the definitions of `text` to the module, and substitutes constants. `constants` contains those of earlier
+// texts; new ones are added. Throws std::runtime_error with the line if the text is not in the small language.
 void parsePart(Module& module, std::map<std::string, Expression>& constants, std::string_view part,
                std::string_view text, std::string_view language);
 
-// ---- to what a language prints -------------------------------------------------------------
+// ---- specialising and printing -------------------------------------------------------------
 
-// Puts `value` in the place of parameter `name` of `function` (of its field `field` unless that is
-// empty). A parameter without a field goes from the function and from all calls.
+// Replaces parameter `name` of `function`, or its field `field` unless that is empty, by `value`. A parameter without a
+// field is removed from the function and from all calls.
 void bindArgument(Module& module, const std::string& function, const std::string& name, const std::string& field,
                   const std::string& value);
 
-// Decides comparisons of numbers, selects and ifs that hang on them, factors of 1 and -1; joins a
-// declaration with the assignment that follows; drops variables that nothing reads.
+// Evaluates comparisons of numbers, selects and ifs with constant conditions, and factors of 1 and -1; joins a
+// declaration with the assignment that follows it; removes unread variables.
 void simplify(Function& function);
 
-// What the functions named in `roots` need, in the module's order; structs too.
+// Returns the functions and structs that the functions named in `roots` need, in the module's order.
 Module neededBy(const Module& module, const std::vector<std::string>& roots);
 
-// Each variable of a struct becomes one variable for each field, NAME_FIELD; parameters too. A function that returns a
-// struct returns nothing and has `out` parameters behind its others.
-// Throws std::runtime_error where a struct hangs on ?: or a name is taken.
+// Replaces each struct variable and parameter by one variable per field, NAME_FIELD. A function that returns a struct
+// returns void and gets additional `out` parameters at the end.
+// Throws std::runtime_error if a struct is an operand of ?: or a name is taken.
 Module withoutStructs(const Module& module);
 
 } // namespace cotan::shader_text

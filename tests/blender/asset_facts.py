@@ -1,4 +1,4 @@
-"""What becomes of a baked map: pairs by name, the nodes that read it, the .blend and the files that keep it."""
+"""Uses of a baked map: pairs by name, the nodes that read it, the .blend and the files that store it."""
 
 import os
 
@@ -6,11 +6,11 @@ import bpy
 import cotan
 import facts
 import numpy as np
-from facts import baked, ball, directions, expect_sphere, moved, places, select, settings, square, torus
+from facts import baked, ball, directions, expect_sphere, moved, select, settings, square, texel_centres, torus
 
 
 def pairsAreFoundByName():
-    x, y = places()
+    x, y = texel_centres()
     names = (("door_low", "door_high"), ("bolt.lo", "Bolt.HI.001"), ("Wall_low", "wall_high_a"))
     for number, (low, high) in enumerate(names):
         square(low, matrix=moved(4 * number))
@@ -24,7 +24,7 @@ def pairsAreFoundByName():
         found = directions(bpy.data.images[f"{low}_normal"])
         expect_sphere(found, x - 0.1 * number, y)
     expect_sphere(found, x + 0.8, y - 0.8, 0.15, least=50)
-    # Only those that are selected, and one without its counterpart does not stop the others.
+    # Only selected objects count, and one without a counterpart does not stop the others.
     for image in list(bpy.data.images):
         bpy.data.images.remove(image)
     square("alone_low")
@@ -32,7 +32,7 @@ def pairsAreFoundByName():
     assert bpy.ops.object.cotan_bake(which="NAMES") == {"FINISHED"}
     assert [i.name for i in bpy.data.images] == ["door_low_normal"]
     select(bpy.data.objects["alone_low"])
-    found = facts.said(bpy.ops.object.cotan_bake, which="NAMES")
+    found = facts.error_of(bpy.ops.object.cotan_bake, which="NAMES")
     assert found.startswith("There is no visible object named like 'alone_low'"), found
 
 
@@ -53,9 +53,9 @@ def theNormalNodeReadsTheMap():
     assert texture.image.colorspace_settings.name == "Non-Color" and texture.image.packed_file
     assert (texture.image.is_float, tuple(texture.image.size)) == (True, (64, 64))
     count = len(nodes)
-    baked(low, high, distance=2, bits="8")  # again: the same nodes, the new picture, and no other one
+    baked(low, high, distance=2, bits="8")  # again: the same nodes with the new image, and no other image
     assert len(nodes) == count and chain()[1].image.is_float is False and len(bpy.data.images) == 1
-    # With a Bump node between, the map goes before it.
+    # With a Bump node in between, the map goes before it.
     bump = nodes.new("ShaderNodeBump")
     for link in list(nodes["Principled BSDF"].inputs["Normal"].links):
         material.node_tree.links.remove(link)
@@ -83,14 +83,14 @@ def mapsAreSavedAsFiles():
         assert again.dtype == (np.uint8 if bits == "8" else np.uint16) and image.depth == depth, image.depth
         stored = (again[..., :3].astype(float) - 2 ** (int(bits) - 1)) / (2 ** (int(bits) - 1) - 1)
         assert np.abs(stored - found).max() < 1e-4
-    # A file that no image stands for is not replaced unasked.
+    # A file that belongs to no image is not replaced without permission.
     bpy.data.images.remove(bpy.data.images["low_normal"])
-    assert "is there already" in facts.said(bpy.ops.object.cotan_bake)
+    assert "already exists" in facts.error_of(bpy.ops.object.cotan_bake)
     bpy.context.scene.cotan.overwrite = True
     assert bpy.ops.object.cotan_bake() == {"FINISHED"}
 
 
-def mapsAreThereAfterSavingAndOpening():
+def mapsSurviveSavingAndOpening():
     folder = os.path.join(facts.FOLDER, "project")
     os.mkdir(folder)
     blend, elsewhere = os.path.join(folder, "scene.blend"), os.path.join(facts.FOLDER, "moved")

@@ -1,4 +1,4 @@
-"""Maps against what mathematics says: a square below spheres and tori, in all the ways that Blender makes meshes."""
+"""Maps compared with exact results: a square below spheres and tori, in all the ways that Blender makes meshes."""
 
 import math
 import os
@@ -7,13 +7,13 @@ import bpy
 import cotan
 import facts
 import numpy as np
-from facts import NEAR, baked, ball, degrees, directions, expect_sphere, moved, of_sphere, places, select, settings
-from facts import square, thing, torus
+from facts import NEAR, baked, ball, degrees, directions, expect_sphere, make_mesh, moved, of_sphere, select, settings
+from facts import square, texel_centres, torus
 from mathutils import Euler, Matrix
 
 
 def aSphereHasItsOwnNormals():
-    x, y = places()
+    x, y = texel_centres()
     for frame in ("mikktspace", "smooth", "cotangent", "orthonormal", "triangle", "vertex"):
         expect_sphere(baked(square(), ball(), frame=frame, distance=2), x, y)
         bpy.data.objects.remove(bpy.data.objects["low"])
@@ -21,8 +21,8 @@ def aSphereHasItsOwnNormals():
 
 
 def aTorusHasItsOwnNormals():
-    x, y = places()
-    bpy.context.scene.render.bake.cage_extrusion = 1  # nearest would be as well the lower half
+    x, y = texel_centres()
+    bpy.context.scene.render.bake.cage_extrusion = 1  # the nearest surface could also be the lower half
     found = baked(square(), torus(), cage="BLENDER")
     r = np.hypot(x, y)
     side = (r - 0.6) / 0.3
@@ -31,27 +31,27 @@ def aTorusHasItsOwnNormals():
     assert on.sum() > 1000 and degrees(found[on], truth[on]).max() < 0.1, degrees(found[on], truth[on]).max()
 
 
-def placesInTheWorldDoNotMatter():
-    x, y = places()
+def objectTransformsAreApplied():
+    x, y = texel_centres()
     turned = moved(3, -2, 5) @ Euler((0.7, -1.1, 2.3)).to_matrix().to_4x4() @ Matrix.Scale(2.5, 4)
-    # The detailed mesh has a place of its own, the simple one another; together they are the square and the sphere.
+    # Both meshes have their own transforms; together they are the square and the sphere.
     high = ball(centre=(0, 0, -3), matrix=turned @ moved(0, 0, 3))
     low = square(matrix=turned)
     expect_sphere(baked(low, high, distance=5), x, y)
 
 
 def mirroredObjectsKeepTheirBumps():
-    x, y = places()
+    x, y = texel_centres()
     mirrored = Matrix.Diagonal((-1, 1, 1, 1))
     expect_sphere(baked(square(matrix=mirrored), ball(centre=(0.25, 0.1, 0)), distance=2), x + 0.25, y - 0.1, least=500)
-    # The other way round, too: a mirrored detailed mesh below.
+    # The reverse, too: a mirrored detailed mesh.
     bpy.data.objects.remove(bpy.data.objects["high"])
     high = ball("mirror", centre=(0.25, 0.1, 0), matrix=mirrored)
     expect_sphere(baked(square("other"), high, distance=2), x + 0.25, y - 0.1, least=500)
 
 
 def stretchedDetailHasTheNormalsOfTheEllipsoid():
-    x, y = places()
+    x, y = texel_centres()
     found = baked(square(), ball(matrix=Matrix.Diagonal((1, 0.5, 1, 1))), distance=2)
     truth, inside = of_sphere(x, 2 * y)
     truth = truth * (1, 2, 1)
@@ -59,7 +59,7 @@ def stretchedDetailHasTheNormalsOfTheEllipsoid():
 
 
 def instancesOfACollectionCount():
-    x, y = places()
+    x, y = texel_centres()
     high = ball()
     hidden = bpy.data.collections.new("parts")
     bpy.context.collection.objects.unlink(high)
@@ -72,9 +72,9 @@ def instancesOfACollectionCount():
 
 
 def instancesOnVerticesCount():
-    x, y = places()
+    x, y = texel_centres()
     high = ball(radius=0.4, cells=64)
-    parent = thing("points", [(-0.5, 0, 0), (0.5, 0, 0)], [])
+    parent = make_mesh("points", [(-0.5, 0, 0), (0.5, 0, 0)], [])
     parent.instance_type = "VERTS"
     high.parent = parent
     found = baked(square(), parent, distance=2)
@@ -84,9 +84,9 @@ def instancesOnVerticesCount():
 
 
 def instancesOfGeometryNodesCount():
-    x, y = places()
+    x, y = texel_centres()
     high = ball(radius=0.5, centre=(0, 0, 0), matrix=moved(9))
-    placer = thing("placer", [(0, 0, 0)], [], matrix=moved(0.2, -0.3))
+    placer = make_mesh("placer", [(0, 0, 0)], [], matrix=moved(0.2, -0.3))
     tree = bpy.data.node_groups.new("place", "GeometryNodeTree")
     tree.outputs.new("NodeSocketGeometry", "Geometry")
     info, out = tree.nodes.new("GeometryNodeObjectInfo"), tree.nodes.new("NodeGroupOutput")
@@ -111,12 +111,12 @@ def textAndCurvesCount():
 
 
 def modifiersAreApplied():
-    x, y = places()
+    x, y = texel_centres()
     high = ball(centre=(-0.5, 0, 0), radius=0.45)
     array = high.modifiers.new("twice", "ARRAY")
     array.use_relative_offset, array.use_constant_offset, array.constant_offset_displace = False, True, (1, 0, 0)
     half = [(-1, -1, 0), (1, -1, 0), (1, 0, 0), (-1, 0, 0)]
-    low = thing("low", half, [(0, 1, 2, 3)], [(0, 0), (1, 0), (1, 0.5), (0, 0.5)])
+    low = make_mesh("low", half, [(0, 1, 2, 3)], [(0, 0), (1, 0), (1, 0.5), (0, 0.5)])
     mirror = low.modifiers.new("both halves", "MIRROR")
     mirror.use_axis = (False, True, False)
     mirror.use_mirror_v = True
@@ -126,8 +126,8 @@ def modifiersAreApplied():
         assert inside.sum() > 400 and degrees(found[inside], truth[inside]).max() < NEAR
 
 
-def subdivisionIsThatOfARenderAndIsPutBack():
-    high = thing("high", [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], [(0, 1, 2, 3)])
+def subdivisionUsesRenderLevelsAndIsRestored():
+    high = make_mesh("high", [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], [(0, 1, 2, 3)])
     subdivided = high.modifiers.new("fine", "SUBSURF")
     subdivided.levels, subdivided.render_levels, subdivided.show_viewport = 0, 4, False
     from cotan_blender import meshes
@@ -140,7 +140,7 @@ def subdivisionIsThatOfARenderAndIsPutBack():
 
 
 def shapeKeysAreMixedIn():
-    x, y = places()
+    x, y = texel_centres()
     high = ball()
     high.shape_key_add(name="Basis")
     key = high.shape_key_add(name="aside")
@@ -151,15 +151,15 @@ def shapeKeysAreMixedIn():
 
 
 def theChosenUvMapCounts():
-    x, y = places()
+    x, y = texel_centres()
     low, high = square(), ball(centre=(0.3, 0.1, 0))
-    turned = low.data.uv_layers.new(name="turned")  # by a quarter: u along y, v against x
+    turned = low.data.uv_layers.new(name="turned")  # rotated by 90 degrees: u along y, v against x
     for loop in low.data.loops:
         co = low.data.vertices[loop.vertex_index].co
         turned.data[loop.index].uv = ((co.y + 1) / 2, (1 - co.x) / 2)
     expect_sphere(baked(low, high, distance=2), x - 0.3, y - 0.1)
     found = baked(low, high, distance=2, uv_map="turned")
-    # Along the picture's x is the world's y, along its y the world's -x: so are the normals.
+    # The image's x is the world's y and its y the world's -x, and normals follow.
     truth, inside = of_sphere(-y - 0.3, x - 0.1)
     truth = np.stack([truth[..., 1], -truth[..., 0], truth[..., 2]], -1)
     assert degrees(found[inside], truth[inside]).max() < NEAR
@@ -175,11 +175,11 @@ def customNormalsCount():
     leaning = (math.sin(0.3), 0, math.cos(0.3))
     high.data.normals_split_custom_set([leaning] * 4)
     found = baked(square(), high, distance=1)
-    assert degrees(found, leaning).max() < 0.02  # Blender keeps them in 16 bits
+    assert degrees(found, leaning).max() < 0.02  # Blender stores them in 16 bits
 
 
 def customNormalsOfTheSimpleMeshCount():
-    # The surface leans by 0.2 against what the normals say: the flat detail does, too, the other way.
+    # The surface is tilted by 0.2 from its normals, so the flat detail is tilted the opposite way.
     low = square()
     low.data.use_auto_smooth = True
     low.data.normals_split_custom_set([(math.sin(0.2), 0, math.cos(0.2))] * 4)
@@ -188,18 +188,18 @@ def customNormalsOfTheSimpleMeshCount():
 
 
 def flatFacesStayFlat():
-    # A roof over the y axis: smooth it would have one normal on the ridge.
+    # A roof over the y axis: if smooth, it would have one normal on the ridge.
     corners = [(-1, -1, 0), (0, -1, 0.5), (1, -1, 0), (1, 1, 0), (0, 1, 0.5), (-1, 1, 0)]
-    roof = thing("high", corners, [(0, 1, 4, 5), (1, 2, 3, 4)], smooth=False)
+    roof = make_mesh("high", corners, [(0, 1, 4, 5), (1, 2, 3, 4)], smooth=False)
     found = baked(square(), roof, distance=1)
     assert degrees(found[:, :32], (-0.5, 0, 1)).max() < 0.01 and degrees(found[:, 32:], (0.5, 0, 1)).max() < 0.01
 
 
-def nGonsAreCutAsBlenderCutsThem():
-    # A hollow pentagon: a fan from its first corner would leave it.
+def nGonsAreTriangulatedLikeInBlender():
+    # A concave pentagon: a fan from its first corner would leave it.
     outline = [(-1, -1), (1, -1), (1, 1), (0, -0.5), (-1, 1)]
     uv = [((x + 1) / 2, (y + 1) / 2) for x, y in outline]
-    low = thing("low", [(x, y, 0) for x, y in outline], [(0, 1, 2, 3, 4)], uv)
+    low = make_mesh("low", [(x, y, 0) for x, y in outline], [(0, 1, 2, 3, 4)], uv)
     found = baked(low, square("high", half=3, z=0.1), distance=1, width=128, height=128, bits="8")
     image = bpy.data.images["low_normal"]
     from cotan_blender import meshes
@@ -212,10 +212,10 @@ def nGonsAreCutAsBlenderCutsThem():
     assert tuple(image.size) == (128, 128) and degrees(found, (0, 0, 1)).max() < 0.01
 
 
-def eachMaterialHasItsMapWhereAsked():
-    # Two faces side by side in space, both over the whole uv square; each has a hill of its own.
+def eachMaterialCanHaveItsOwnMap():
+    # Two adjacent faces that both cover the whole uv square; each has a hill of its own.
     outline = [(-2, -1), (0, -1), (0, 1), (-2, 1), (2, -1), (2, 1)]
-    low = thing("low", [(x, y, 0) for x, y in outline], [(0, 1, 2, 3), (1, 4, 5, 2)], [(0, 0)] * 6)
+    low = make_mesh("low", [(x, y, 0) for x, y in outline], [(0, 1, 2, 3), (1, 4, 5, 2)], [(0, 0)] * 6)
     for polygon in low.data.polygons:
         for loop, uv in zip(polygon.loop_indices, [(0, 0), (1, 0), (1, 1), (0, 1)]):
             low.data.uv_layers[0].data[loop].uv = uv
@@ -225,13 +225,13 @@ def eachMaterialHasItsMapWhereAsked():
     settings(each_material=True, distance=2)
     select(ball("a", (-1.2, 0, 0)), ball("b", (1.3, 0.2, 0)), low)
     assert bpy.ops.object.cotan_bake() == {"FINISHED"}
-    x, y = places()
+    x, y = texel_centres()
     expect_sphere(directions(bpy.data.images["low_left_normal"]), x + 0.2, y)
     expect_sphere(directions(bpy.data.images["low_right_normal"]), x - 0.3, y - 0.2)
     for name in ("left", "right"):
         used = [n.image.name for n in bpy.data.materials[name].node_tree.nodes if n.type == "TEX_IMAGE"]
         assert used == [f"low_{name}_normal"], used
-    # One map for both, and both read it.
+    # One map for both materials, which both use.
     settings(each_material=False, distance=2)
     assert bpy.ops.object.cotan_bake() == {"FINISHED"}
     for name in ("left", "right"):
@@ -240,27 +240,27 @@ def eachMaterialHasItsMapWhereAsked():
 
 
 def two_hills():
-    """A flat square high above, and one that leans along x below it, behind the simple one."""
+    """A flat square above, and one tilted along x below, behind the simple mesh."""
     near = square("near", half=2, z=0.5)
-    far = thing("far", [(-2, -2, -0.8), (2, -2, -0.4), (2, 2, -0.4), (-2, 2, -0.8)], [(0, 1, 2, 3)])
+    far = make_mesh("far", [(-2, -2, -0.8), (2, -2, -0.4), (2, 2, -0.4), (-2, 2, -0.8)], [(0, 1, 2, 3)])
     return near, far, (-0.1, 0, 1)
 
 
 def blendersOwnCageCounts():
     near, far, leaning = two_hills()
     low, bake = square(), bpy.context.scene.render.bake
-    # The nearer one is above by 0.5, the leaning one 0.4 to 0.8 below.
+    # The nearer one is 0.5 above, the tilted one 0.4 to 0.8 below.
     flat = (0, 0, 1)
     for extrusion, distance, truth in ((0.6, 0, flat), (0.3, 0, leaning), (0.3, 1.3, leaning), (0.6, 0.2, flat)):
         for use_cage in (False, True):
             bake.cage_extrusion, bake.max_ray_distance, bake.use_cage = extrusion, distance, use_cage
             found = baked(low, near, far, cage="BLENDER")
             assert degrees(found, truth).max() < 0.01, (extrusion, distance, use_cage)
-    # A ray of 0.9 from 0.3 above ends before the left half of what is below: those texels are flat.
+    # A ray of 0.9 from 0.3 above ends before the left half of the lower square: those texels are flat.
     bake.cage_extrusion, bake.max_ray_distance = 0.3, 0.9
     found = baked(low, near, far, cage="BLENDER")
     assert degrees(found[:, 40:], leaning).max() < 0.01 and degrees(found[:, :24], (0, 0, 1)).max() < 0.01
-    # Extrusion is in the space of the simple mesh, as it is in Blender: twice as far in one of twice the size.
+    # Extrusion is in the space of the simple mesh, as in Blender: twice the distance at twice the size.
     big = square("big", matrix=Matrix.Scale(2, 4))
     bake.cage_extrusion, bake.max_ray_distance = 0.29, 0
     assert degrees(baked(big, near, cage="BLENDER"), (0, 0, 1)).max() < 0.01
@@ -275,20 +275,20 @@ def aMeshIsACage():
     near, far, leaning = two_hills()
     low = square()
     assert degrees(baked(low, near, far, cage="MESH", cage_object=square("cage", z=1)), (0, 0, 1)).max() < 0.01
-    bpy.data.objects["cage"].location.z = -0.4  # from 0.6 above to as far below: the right half of what leans
+    bpy.data.objects["cage"].location.z = -0.4  # from 0.6 above to 0.6 below: the right half of the tilted square
     bpy.context.view_layer.update()
     found = baked(low, far, cage="MESH")
     assert degrees(found[:, 40:], leaning).max() < 0.01 and degrees(found[:, :24], (0, 0, 1)).max() < 0.01
     bpy.data.objects.remove(bpy.data.objects["cage"])
-    one = thing("cage", [(0, 0, 1), (1, 0, 1), (0, 1, 1)], [(0, 1, 2)])
+    one = make_mesh("cage", [(0, 0, 1), (1, 0, 1), (0, 1, 1)], [(0, 1, 2)])
     settings(cage="MESH", cage_object=one)
     select(near, low)
-    text = facts.said(bpy.ops.object.cotan_bake)
-    assert text.startswith("The cage 'cage' has 3 vertices where 'low' has 4"), text
+    text = facts.error_of(bpy.ops.object.cotan_bake)
+    assert text.startswith("The cage 'cage' has 3 vertices, 'low' has 4"), text
 
 
-def theMapIsThatOfTheCommandLine():
-    # A hull of few faces around a bumpy ball, leaning in the world, its uv a mess of charts.
+def theMapEqualsThatOfTheCommandLine():
+    # A hull of few faces around a bumpy ball, tilted in the world, whose uv have many charts.
     bpy.ops.mesh.primitive_uv_sphere_add(segments=20, ring_count=12, radius=1.02)
     low = bpy.context.object
     low.name = "low"
@@ -311,7 +311,7 @@ def theMapIsThatOfTheCommandLine():
         theirs = (cotan.read_picture(out)[..., :3].astype(float) - 32768) / 32767
         off = degrees(ours, theirs)
         assert off.mean() < 0.01, (frame, off.mean(), off.max())
-        assert degrees(ours, (0, 0, 1)).mean() > 1  # there is something to compare
+        assert degrees(ours, (0, 0, 1)).mean() > 1  # so that the comparison means something
 
 
 def baked_by_cycles(low, high, size=128):
@@ -330,7 +330,7 @@ def baked_by_cycles(low, high, size=128):
     return values.reshape(size, size, 4)[::-1, :, :3].astype(float) * 2 - 1
 
 
-def theMapIsThatOfCycles():
+def theMapMatchesThatOfCycles():
     bpy.ops.mesh.primitive_uv_sphere_add(segments=20, ring_count=12)
     low = bpy.context.object
     bpy.ops.object.shade_smooth()
@@ -349,7 +349,7 @@ def theMapIsThatOfCycles():
         theirs = baked_by_cycles(low, high)
         both = np.abs(np.linalg.norm(theirs, axis=-1) - 1) < 0.01
         off = degrees(ours[both], theirs[both])
-        # The rims of charts are filled differently; everywhere else rays and tangents are the same, to 16 bits.
+        # The rims of charts are filled differently; everywhere else rays and tangents are equal to 16 bits.
         assert both.mean() > 0.8 and np.median(off) < 0.01 and np.quantile(off, 0.95) < 0.1, np.median(off)
 
 

@@ -1,4 +1,4 @@
-"""What the check says and selects, and what the export writes and warns of."""
+"""What the check reports and selects, and what the export writes and warns of."""
 
 import json
 import math
@@ -10,7 +10,7 @@ import cotan
 import facts
 import numpy as np
 from cotan_blender import gltf
-from facts import baked, ball, degrees, moved, select, square, thing
+from facts import baked, ball, degrees, make_mesh, moved, select, square
 from mathutils import Matrix
 
 
@@ -19,7 +19,7 @@ def said_lines():
 
 
 def selected(mesh):
-    """Numbers of the polygons that are selected in Edit Mode."""
+    """Indices of the polygons selected in Edit Mode."""
     assert bpy.context.mode == "EDIT_MESH", bpy.context.mode
     bpy.ops.object.mode_set(mode="OBJECT")
     return [p.index for p in mesh.polygons if p.select]
@@ -32,10 +32,10 @@ def checked(each, kind="ALL"):
 
 
 def strip(uv_of, count=5):
-    """Unit squares in a row; uv_of(number): the four uv of each."""
+    """Unit squares in a row; uv_of(index): the four uv of each."""
     vertices = [(x, y, 0) for x in range(count + 1) for y in (0, 1)]
     faces = [(2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1) for k in range(count)]
-    made = thing("strip", vertices, faces, [(0, 0)] * len(vertices))
+    made = make_mesh("strip", vertices, faces, [(0, 0)] * len(vertices))
     for polygon in made.data.polygons:
         for loop, uv in zip(polygon.loop_indices, uv_of(polygon.index)):
             made.data.uv_layers[0].data[loop].uv = uv
@@ -46,31 +46,31 @@ def corners(width=1.0, height=1.0, shear=0.0):
     return [(0, 0), (width, 0), (width + shear, height), (shear, height)]
 
 
-def soundFacesAreNotInQuestion():
+def soundFacesAreNotReported():
     made = strip(lambda k: corners())
-    said = checked(made)
-    assert said[0] == ("", "'strip' has no material") or ("", "No face is in question") in said, said
+    messages = checked(made)
+    assert messages[0] == ("", "'strip' has no material") or ("", "No face has a problem") in messages, messages
     assert bpy.context.mode == "OBJECT"
 
 
 def facesWithoutAreaInUvAreSelected():
     made = strip(lambda k: corners(0 if k in (1, 4) else 1))
-    said = checked(made)
-    assert said[0][0] == "UV" and said[0][1].startswith("2 faces have no area in uv"), said
+    messages = checked(made)
+    assert messages[0][0] == "UV" and messages[0][1].startswith("2 faces have no area in uv"), messages
     assert selected(made.data) == [1, 4]
 
 
-def stretchedFacesAreSelectedFromTheirDegreesOn():
-    # Stretched by s, a slope of 35 degrees along u is read as tan 35 * s: the angle between is known.
+def stretchedFacesAreSelectedFromTheGivenAngle():
+    # Stretched by s, a slope of 35 degrees along u is read as tan 35 * s: the angle between the two is known.
     stretch = 1.5
     off = math.degrees(math.atan(stretch * math.tan(math.radians(35)))) - 35
     made = strip(lambda k: corners(stretch if k == 2 else 1))
     for limit, expected in ((0.5, [2]), (20, [])):
         bpy.context.scene.cotan.degrees = limit
-        said = checked(made)
+        messages = checked(made)
         found = selected(made.data) if expected else []
-        assert found == expected and (said[0][0] == "STRETCH") == bool(expected), (limit, said, off)
-    # The frame that keeps lengths reads both axes by their mean: each is off by less than all of it, over a third.
+        assert found == expected and (messages[0][0] == "STRETCH") == bool(expected), (limit, messages, off)
+    # The frame that keeps lengths scales both axes by their mean: the error is less than `off` but over a third of it.
     from cotan_blender import check
 
     uv = np.array([[(0, 1), (stretch, 1), (stretch, 0)]], np.float32)
@@ -81,45 +81,45 @@ def stretchedFacesAreSelectedFromTheirDegreesOn():
 def nGonsAndFacesWithoutAreaAreSelected():
     outline = [(math.cos(a), math.sin(a), 0) for a in np.arange(6)]
     line, uv = [(3, 0, 0), (4, 0, 0), (5, 0, 0)], [(x, y) for x, y, _ in outline] + [(0, 0), (1, 0), (0, 1)]
-    made = thing("mixed", outline + line, [(0, 1, 2, 3, 4, 5), (6, 7, 8)], uv)
-    said = checked(made)
-    assert {kind for kind, _ in said if kind} == {"NGON", "AREA"}, said
+    made = make_mesh("mixed", outline + line, [(0, 1, 2, 3, 4, 5), (6, 7, 8)], uv)
+    messages = checked(made)
+    assert {kind for kind, _ in messages if kind} == {"NGON", "AREA"}, messages
     assert selected(made.data) == [0, 1]
     checked(made, kind="NGON")
     assert selected(made.data) == [0]
-    # From Edit Mode, too: what is selected by hand goes.
+    # The same from Edit Mode: a previous selection is replaced.
     bpy.ops.object.mode_set(mode="EDIT")
     checked(made, kind="AREA")
     assert selected(made.data) == [1]
 
 
 def wavy_high(cells=96):
-    """Waves across each other, over more than the square."""
+    """Crossing waves that extend beyond the square."""
     along = np.linspace(-1.2, 1.2, cells + 1)
     x, y = (a.ravel() for a in np.meshgrid(along, along))
     z = 0.04 * np.sin(9 * x + 4 * y) + 0.03 * np.sin(7 * y - 6 * x) + 0.02 * np.sin(13 * x + 2) * np.sin(11 * y)
     first = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).ravel()
     faces = np.stack([first, first + 1, first + cells + 2, first + cells + 1], -1)
-    return thing("high", np.stack([x, y, z], -1), faces)
+    return make_mesh("high", np.stack([x, y, z], -1), faces)
 
 
-def aMapIsJudgedInPlainWords():
+def mapProblemsAreReported():
     low, high = square(), wavy_high()
     baked(low, high, distance=2, width=128, height=128, bits="8")
-    said = [text for _, text in checked(low)]
-    assert any(t.startswith("'low_normal': green points up") for t in said), said
-    assert any("MikkTSpace" in t for t in said), said
+    messages = [text for _, text in checked(low)]
+    assert any(t.startswith("'low_normal': green points up") for t in messages), messages
+    assert any("MikkTSpace" in t for t in messages), messages
     image = bpy.data.images["low_normal"]
     image.colorspace_settings.name = "sRGB"
     assert any("is read as a colour (sRGB)" in text for _, text in checked(low))
     image.colorspace_settings.name = "Non-Color"
-    # The same upside down: green the other way.
+    # Upside down: green is reversed.
     pixels = np.empty(128 * 128 * 4, np.float32)
     image.pixels.foreach_get(pixels)
     pixels[1::4] = 256 / 255 - pixels[1::4]
     image.pixels.foreach_set(pixels)
     image.update()
-    assert any("green points down" in text and "Turn it" in text for _, text in checked(low)), said_lines()
+    assert any("green points down" in text and "Reverse it" in text for _, text in checked(low)), said_lines()
     baked(low, high, distance=2, frame="smooth")
     assert any("'low_normal' was baked for smooth" in text for _, text in checked(low)), said_lines()
 
@@ -155,12 +155,12 @@ def curved_hull():
     return low, high
 
 
-def theExportedMapIsTheOneBakedForThatFrame():
+def theExportedMapEqualsABakeForItsFrame():
     low, high = curved_hull()
     directions = {}
     for frame in ("mikktspace", "smooth"):
         directions[frame] = baked(low, high, frame=frame, width=256, height=256, padding=0)
-    # Baked for MikkTSpace, exported for smooth: the texels are those of a bake for smooth, where they show something.
+    # Baked for MikkTSpace and exported for smooth: covered texels equal those of a bake for smooth.
     baked(low, high, frame="mikktspace", width=256, height=256, padding=0)
     select(low)
     path = export("converted.glb")
@@ -176,14 +176,14 @@ def theExportedMapIsTheOneBakedForThatFrame():
     found = (pixels[..., :3].astype(float) - half) / (half - 1)
     before, after = degrees(directions["mikktspace"], directions["smooth"]), degrees(found, directions["smooth"])
     assert np.median(before) > 0.5 and np.median(after) < 0.1, (np.median(before), np.median(after))
-    # A map that was baked for the frame stays as it is.
+    # A map that was baked for the frame is kept.
     baked(low, high, frame="smooth", width=64, height=64)
     select(low)
     assert cotan.convert(gltf.exported(bpy.context, [low]), from_frame="smooth", to_frame="smooth").maps_converted == 0
     export("kept.glb")
 
 
-def theSelectionIsAsItWasAfterTheExport():
+def theExportRestoresTheSelection():
     low, high = curved_hull()
     select(high, low)
     export("both.glb")
@@ -192,7 +192,7 @@ def theSelectionIsAsItWasAfterTheExport():
     select(low)
     export("one.glb")
     assert len(parts_of(os.path.join(facts.FOLDER, "one.glb"))[0]["meshes"]) == 1
-    # What lint sees has no tangents either, whatever the converter would do with them.
+    # The input of lint has no tangents either, whatever the converter would do with them.
     with open(os.path.join(facts.FOLDER, "seen.glb"), "wb") as file:
         file.write(gltf.exported(bpy.context, [low]))
     attributes = parts_of(file.name)[0]["meshes"][0]["primitives"][0]["attributes"]
@@ -212,23 +212,23 @@ def mapped(each, uv=""):
 
 
 def warned(each, *wanted, **arguments):
-    said = gltf.warnings(bpy.context, [each], **arguments)
-    assert len(said) == len(wanted) and all(text in line for text, line in zip(wanted, said)), said
+    messages = gltf.warnings(bpy.context, [each], **arguments)
+    assert len(messages) == len(wanted) and all(text in line for text, line in zip(wanted, messages)), messages
 
 
-def silenceIsBroken():
+def exportWarnsWhereBlenderIsSilent():
     warned(square("sound"))
     pentagon = [(math.cos(a), math.sin(a), 0) for a in np.arange(5)]
-    ngon = thing("ngon", pentagon, [(0, 1, 2, 3, 4)])
-    warned(ngon, "1 faces of more than four corners: Blender writes no tangents")
+    ngon = make_mesh("ngon", pentagon, [(0, 1, 2, 3, 4)])
+    warned(ngon, "1 faces of more than four corners: Blender silently writes no tangents")
     ngon.modifiers.new("cut", "TRIANGULATE")
     warned(ngon)
     warned(ngon, "more than four corners", "without its modifiers", apply_modifiers=False)
-    bare = thing("bare", pentagon[:3], [(0, 1, 2)])
+    bare = make_mesh("bare", pentagon[:3], [(0, 1, 2)])
     mapped(bare)
     warned(bare, "'bare' has no uv map: no program can show the normal map of 'mapped'")
     wide = square("wide", matrix=Matrix.Diagonal((1, 2, 1, 1)))
-    warned(wide, "scaled by different factors")
+    warned(wide, "has a non-uniform scale")
     leaning = square("leaning")
     leaning.data.use_auto_smooth = True
     leaning.data.normals_split_custom_set([(0.6, 0, 0.8)] * 4)
@@ -246,7 +246,7 @@ def severalUvMapsAreNamed():
     low = square()
     low.data.uv_layers.new(name="second")
     material = mapped(low, "second")
-    warned(low, "2 uv maps: its normal map is read with 'second', and programs that know only the first read 'UVMap'")
+    warned(low, "2 uv maps: its normal map is read with 'second', and programs that support only the first use 'UVMap'")
     reader = next(n for n in material.node_tree.nodes if n.type == "NORMAL_MAP")
     reader.uv_map = "UVMap"
     warned(low, "reads its normal map with uv 'second' and its tangents with 'UVMap'")
@@ -260,7 +260,7 @@ def mapsForTwoFramesAreNotMixed():
     baked(other, high, frame="mikktspace", distance=2)
     select(one, other)
     path = os.path.join(facts.FOLDER, "mixed.glb")
-    found = facts.said(bpy.ops.export_scene.cotan_gltf, filepath=path)
+    found = facts.error_of(bpy.ops.export_scene.cotan_gltf, filepath=path)
     assert found.startswith("'one_normal' was baked for smooth and 'other_normal' for mikktspace"), found
     assert not os.path.exists(path)
 

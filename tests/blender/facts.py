@@ -1,4 +1,4 @@
-"""Facts inside Blender: each is a function that asserts, on an empty scene."""
+"""Tests inside Blender: each is a function that asserts a fact, on an empty scene."""
 
 import inspect
 import os
@@ -13,12 +13,12 @@ import numpy as np
 from mathutils import Matrix
 
 TOOL = os.environ["COTAN_TOOL"]
-FOLDER = tempfile.mkdtemp()  # Blender's own folder for temporary files goes with each file that is read
+FOLDER = tempfile.mkdtemp()  # Blender deletes its own folder for temporary files whenever a file is opened
 
 
 def hold_all(module):
-    """Runs the module's functions without arguments, each on an empty scene. Names with an underscore are helpers.
-    Leaves Blender with exit code 1 where one does not hold."""
+    """Runs the module's functions without arguments, each on an empty scene. Names with an underscore are helpers. Ends
+    Blender with exit code 1 if one fails."""
     functions = filter(inspect.isfunction, vars(sys.modules[module]).values())
     own = [function for function in functions if function.__module__ == module]
     facts = [fact for fact in own if not inspect.signature(fact).parameters and "_" not in fact.__name__]
@@ -38,8 +38,8 @@ def hold_all(module):
         sys.exit(1)
 
 
-def said(call, **arguments):
-    """The error that an operator reports: one sentence without a traceback; "" where it ends well."""
+def error_of(call, **arguments):
+    """The error that an operator reports: one sentence without a traceback; "" if it succeeds."""
     try:
         call(**arguments)
         return ""
@@ -49,7 +49,7 @@ def said(call, **arguments):
         return text[len("Error: ") :]
 
 
-def thing(name, vertices, faces, uv=None, matrix=None, smooth=True):
+def make_mesh(name, vertices, faces, uv=None, matrix=None, smooth=True):
     """A mesh object. uv: (u, v) of each vertex, v up."""
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata([tuple(map(float, v)) for v in vertices], [], [tuple(map(int, f)) for f in faces])
@@ -67,25 +67,25 @@ def thing(name, vertices, faces, uv=None, matrix=None, smooth=True):
 
 
 def square(name="low", half=1.0, z=0.0, matrix=None):
-    """A square in the plane z, whose uv fill the unit square: u along x, v along y."""
+    """A square in the plane z; its uv fill the unit square: u along x, v along y."""
     corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
     uv = [((x + 1) / 2, (y + 1) / 2) for x, y in corners]
-    return thing(name, [(half * x, half * y, z) for x, y in corners], [(0, 1, 2, 3)], uv, matrix)
+    return make_mesh(name, [(half * x, half * y, z) for x, y in corners], [(0, 1, 2, 3)], uv, matrix)
 
 
 def ball(name="high", centre=(0, 0, 0), radius=1.0, cells=128, matrix=None):
-    """The upper part of a sphere, to 71 degrees from the top, smooth: a grid of squares on it, without a pole."""
+    """The upper part of a sphere, to 71 degrees from the top, smooth: a grid of quads without a pole."""
     along = np.tan(np.linspace(-1, 1, cells + 1) * np.radians(71))
     x, y = (a.ravel() for a in np.meshgrid(along, along))
     ways = np.stack([x, y, np.ones(len(x))], -1)
     vertices = np.array(centre) + radius * ways / np.linalg.norm(ways, axis=1, keepdims=True)
     first = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).ravel()
     faces = np.stack([first, first + 1, first + cells + 2, first + cells + 1], -1)
-    return thing(name, vertices, faces, matrix=matrix)
+    return make_mesh(name, vertices, faces, matrix=matrix)
 
 
 def torus(name="high", major=0.6, minor=0.3, segments=256):
-    """A torus around z, smooth."""
+    """A smooth torus around z."""
     bpy.ops.mesh.primitive_torus_add(
         major_segments=segments, minor_segments=segments // 2, major_radius=major, minor_radius=minor
     )
@@ -96,7 +96,7 @@ def torus(name="high", major=0.6, minor=0.3, segments=256):
 
 
 def select(*things):
-    """Selects these and no others, the last one active."""
+    """Selects only these objects and makes the last one active."""
     for other in bpy.context.selected_objects:
         other.select_set(False)
     for each in things:
@@ -105,7 +105,7 @@ def select(*things):
 
 
 def settings(**wanted):
-    """The panel's settings; small maps of 16 bits, without padding."""
+    """Sets the panel's settings; by default small 16-bit maps without padding."""
     s = bpy.context.scene.cotan
     for name, value in {"width": 64, "height": 64, "bits": "16", "padding": -1, **wanted}.items():
         setattr(s, name, value)
@@ -113,7 +113,7 @@ def settings(**wanted):
 
 
 def baked(low, *highs, **wanted):
-    """Bakes by the operator, and gives the map as directions: (height, width, 3), rows from the top."""
+    """Bakes with the operator and returns the map as directions: (height, width, 3), rows from the top."""
     settings(**wanted)
     select(*highs, low)
     assert bpy.ops.object.cotan_bake(which="ACTIVE") == {"FINISHED"}
@@ -121,7 +121,7 @@ def baked(low, *highs, **wanted):
 
 
 def directions(image):
-    """What the texels say, x to the right, y up the picture."""
+    """Decodes texels, x to the right, y up the image."""
     width, height = image.size
     values = np.empty(width * height * 4, np.float32)
     image.pixels.foreach_get(values)
@@ -130,27 +130,27 @@ def directions(image):
 
 
 def degrees(one, other):
-    """Between directions of any length."""
+    """Angle between directions of any length."""
     one, other = np.asarray(one, float), np.asarray(other, float)
     cosine = (one * other).sum(-1) / (np.linalg.norm(one, axis=-1) * np.linalg.norm(other, axis=-1))
     return np.degrees(np.arccos(np.clip(cosine, -1, 1)))
 
 
-def places(size=64, half=1.0):
+def texel_centres(size=64, half=1.0):
     """x and y of the centres of a map's texels on square(): (size, size) each, rows from the top."""
     along = ((np.arange(size) + 0.5) / size * 2 - 1) * half
     return np.meshgrid(along, -along)
 
 
 def command(*arguments):
-    """Runs the command line."""
+    """Runs the command-line tool."""
     done = subprocess.run([TOOL, *map(str, arguments)], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return done.stdout
 
 
 def exported(name, *things):
-    """A .glb of these objects by Blender's exporter."""
+    """Writes a .glb of these objects with Blender's exporter."""
     select(*things)
     path = os.path.join(FOLDER, f"{name}.glb")
     bpy.ops.export_scene.gltf(filepath=path, export_format="GLB", use_selection=True, export_apply=True)
@@ -161,12 +161,12 @@ def moved(x=0.0, y=0.0, z=0.0):
     return Matrix.Translation((x, y, z))
 
 
-# A sphere of 128 cells leaves normals between vertices some 0.01 degrees off, and 16 bits 0.002.
+# A sphere of 128 cells has normals about 0.01 degrees off between vertices, and 16 bits add 0.002.
 NEAR = 0.03
 
 
 def of_sphere(x, y, radius=1.0):
-    """Unit normals of a sphere in the middle, seen from above, and where it is well inside of its rim."""
+    """Unit normals of a centred sphere seen from above, and whether each point is well inside its rim."""
     inside = x * x + y * y < (0.9 * radius) ** 2
     z = np.sqrt(np.maximum(radius * radius - x * x - y * y, 0))
     return np.stack([x, y, z], -1) / radius, inside

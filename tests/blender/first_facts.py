@@ -1,9 +1,9 @@
-"""Where detail lies in front of other detail, the add-on's maps are those of Blender's own baker."""
+"""Where detail is in front of other detail, the add-on's maps equal those of Blender's own baker."""
 
 import bpy
 import facts
 import numpy as np
-from facts import ball, baked, degrees, directions, moved, select, square, thing
+from facts import ball, baked, degrees, directions, make_mesh, moved, select, square
 
 SIZE = 128
 
@@ -18,7 +18,7 @@ def _joined(*parts):
 def _cube(name, half):
     corners = [(x, y, z) for x in (-half, half) for y in (-half, half) for z in (-half, half)]
     faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    return thing(name, corners, faces, smooth=False)
+    return make_mesh(name, corners, faces, smooth=False)
 
 
 def _by_cycles(low, high, extrusion):
@@ -48,15 +48,15 @@ def _expect_the_same(low, high, extrusion, least):
     found = baked(low, high, width=SIZE, height=SIZE, bits="8", assign=False)
     theirs = _by_cycles(low, high, extrusion)
     known = np.linalg.norm(theirs, axis=-1) > 0.5
-    known &= np.abs(theirs + 1).max(axis=-1) > 0.05  # black: nothing
+    known &= np.abs(theirs + 1).max(axis=-1) > 0.05  # black: no surface
     apart = degrees(found[known], theirs[known])
-    # A texel on the rim of a part falls to either side.
+    # A texel on the rim of a part may fall on either side.
     assert known.sum() > 0.5 * SIZE * SIZE and (apart > 1).mean() < 0.01, ((apart > 1).mean(), known.sum())
     leaning = degrees(found[known], (0, 0, 1)) > 5
     assert leaning.mean() > least, leaning.mean()
 
 
-def partsThatStandOffAreInBothMaps():
+def detachedPartsAreInBothMaps():
     parts = [square("ground", half=2)]
     for x in (-0.5, 0.5):
         for y in (-0.5, 0.5):
@@ -64,7 +64,7 @@ def partsThatStandOffAreInBothMaps():
     _expect_the_same(square(), _joined(*parts), 0.4, 0.1)
 
 
-def partsThatStandOffACubeAreInBothMaps():
+def partsDetachedFromACubeAreInBothMaps():
     parts = [_cube("block", 1)]
     for x in (-0.5, 0.5):
         parts.append(ball("part", centre=(0, 0, 0), radius=0.3, cells=48, matrix=moved(x, 0, 0.95)))
@@ -77,7 +77,7 @@ def partsThatStandOffACubeAreInBothMaps():
     _expect_the_same(low, _joined(*parts), 0.5, 0.01)
 
 
-def aPlateUnderItsOwnMiddleIsSeenFromAbove():
+def aPlateShowsItsUpperSide():
     plate = _cube("high", 1)
     plate.scale = (1, 1, 0.01)
     bpy.context.view_layer.update()
@@ -85,7 +85,7 @@ def aPlateUnderItsOwnMiddleIsSeenFromAbove():
     found = baked(low, plate, width=SIZE, height=SIZE)
     assert degrees(found, (0, 0, 1)).max() < 0.01
     found = baked(low, plate, cage="NEAREST", width=SIZE, height=SIZE)
-    assert degrees(found, (0, 0, -1)).max() < 0.01  # what it was
+    assert degrees(found, (0, 0, -1)).max() < 0.01  # the lower side, as in older versions
 
 
 facts.hold_all(__name__)

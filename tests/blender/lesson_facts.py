@@ -1,5 +1,5 @@
-"""What docs/tutorials/blender-to-godot.md has its reader do in Blender, with the files that it starts with. Where a folder is
-named, the model and its map are left there for Godot."""
+"""The steps of docs/tutorials/blender-to-godot.md in Blender, with its example files. If a folder is given, the model
+and its map are left there for Godot."""
 
 import os
 import pathlib
@@ -22,7 +22,7 @@ def _imported(name):
     return bpy.context.selected_objects[0]
 
 
-def theStoneOfTheLessonIsBakedAsTheCommandLineDoesAndLeavesWithoutTangents():
+def tutorialStoneBakesLikeTheCommandLineAndIsExportedWithoutTangents():
     subprocess.run([sys.executable, LESSON / "make-files", FILES], check=True)
     high, low = _imported("stone_high"), _imported("stone_low")
     scene = bpy.context.scene

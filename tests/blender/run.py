@@ -1,10 +1,9 @@
-"""One script of facts inside Blender, in the background and with settings of its own:
+"""Runs one test script inside Blender, in the background and with separate settings:
 
     run.py [--window] [--installed] LIBRARY TOOL SCRIPT [ARGUMENT ...]
 
-LIBRARY: libcotan; TOOL: cotan. --window: with a window, on a display of Xvfb. --installed: nothing of ours can be
-imported, but there is a zip to install. Exit code 77 where something is missing.
-"""
+LIBRARY: libcotan; TOOL: cotan. --window: with a window, on a display of Xvfb. --installed: nothing of Cotan can be
+imported, but there is a zip to install. Exit code 77 if something is missing."""
 import argparse
 import os
 import pathlib
@@ -29,7 +28,7 @@ for program in ["blender"] + ["xvfb-run"] * given.window:
 with tempfile.TemporaryDirectory() as folder:
     environment = dict(os.environ, BLENDER_USER_RESOURCES=f"{folder}/user", LIBGL_ALWAYS_SOFTWARE="1")
     environment.pop("COTAN_LIBRARY", None)
-    # Debian's Blender takes the Python that PATH names first, and needs the system's, which has numpy.
+    # Debian's Blender uses the first Python in PATH, and needs the system's, which has numpy.
     environment["PATH"] = os.pathsep.join(("/usr/bin", environment["PATH"]))
     paths = []
     if given.installed:

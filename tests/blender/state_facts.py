@@ -1,17 +1,17 @@
-"""Scenes that cannot be baked, checked or exported: each is one plain sentence, and nothing is changed."""
+"""Scenes that cannot be baked, checked or exported: each gives one plain sentence and changes nothing."""
 
 import os
 
 import bpy
 import facts
-from facts import ball, moved, said, select, settings, square, thing
+from facts import ball, error_of, make_mesh, moved, select, settings, square
 
 OUT = os.path.join(facts.FOLDER, "out.glb")
 
 
 def expect(text, call, **arguments):
     before = (len(bpy.data.images), len(bpy.data.materials), bpy.context.mode)
-    found = said(call, **arguments)
+    found = error_of(call, **arguments)
     assert found.startswith(text), f"expected '{text}', found '{found}'"
     assert before == (len(bpy.data.images), len(bpy.data.materials), bpy.context.mode)
 
@@ -29,9 +29,9 @@ def export(**arguments):
 
 
 def anEmptyScene():
-    expect("Nothing is active", bake)
+    expect("No object is active", bake)
     expect("No visible mesh is named like 'door_low'", bake, which="NAMES")
-    expect("Nothing is active", check)
+    expect("No object is active", check)
     expect("No mesh is selected", export, filepath=OUT)
     assert not os.path.exists(OUT)
 
@@ -39,7 +39,7 @@ def anEmptyScene():
 def nothingIsSelected():
     square()
     select()
-    expect("Nothing is active", bake)
+    expect("No object is active", bake)
     select(bpy.data.objects["low"])
     expect("No detailed mesh is selected", bake)
 
@@ -59,9 +59,9 @@ def theDetailedObjectHasNoFaces():
     bpy.context.collection.objects.link(empty)
     settings()
     select(empty, square())
-    expect("No faces are left of 'Empty'", bake)
-    select(thing("points", [(0, 0, 0)], []), bpy.data.objects["low"])
-    expect("No faces are left of 'points'", bake)
+    expect("No faces remain of 'Empty'", bake)
+    select(make_mesh("points", [(0, 0, 0)], []), bpy.data.objects["low"])
+    expect("No faces remain of 'points'", bake)
 
 
 def editMode():
@@ -93,14 +93,14 @@ def uvWithoutArea():
     expect("The uv map 'UVMap' of 'low' has no area", bake)
     for k, loop in enumerate(low.data.uv_layers[0].data):
         loop.uv = (5 + k % 2, 5 + k // 2 % 2)
-    expect("The uv map 'UVMap' of 'low' lies outside of the square from 0 to 1", bake)
+    expect("The uv map 'UVMap' of 'low' lies outside the square from 0 to 1", bake)
     low.data.uv_layers[0].data[0].uv = (float("nan"), 0)
-    expect("The uv map 'UVMap' of 'low' has places that are not finite", bake)
+    expect("The uv map 'UVMap' of 'low' has coordinates that are not finite", bake)
 
 
 def noFaces():
     settings()
-    low = thing("low", [(0, 0, 0), (1, 0, 0)], [])
+    low = make_mesh("low", [(0, 0, 0), (1, 0, 0)], [])
     select(ball(), low)
     expect("'low' has no faces", bake)
     expect("'low' has no faces", check)
@@ -112,29 +112,30 @@ def aModifierThatLeavesNothing():
     mask = low.modifiers.new("all", "MASK")
     mask.vertex_group = low.vertex_groups.new(name="none").name
     select(ball(), low)
-    expect("'low' has no faces, or none are left after its modifiers", bake)
+    expect("'low' has no faces, or none remain after its modifiers", bake)
     low.modifiers.clear()
     high = bpy.data.objects["high"]
     mask = high.modifiers.new("all", "MASK")
     mask.vertex_group = high.vertex_groups.new(name="none").name
-    expect("No faces are left of 'high' after modifiers", bake)
+    expect("No faces remain of 'high' after modifiers", bake)
 
 
-def placesThatAreNoNumbers():
+def nonFinitePositions():
     settings()
     low, high = square(), ball()
     select(high, low)
     low.data.vertices[2].co.x = float("nan")
-    expect("'low': 1 of its vertices have no place (NaN, infinite or too far away), the first is number 2", bake)
-    expect("'low' has vertices without a position", export, filepath=OUT)
+    expect("'low': 1 of its vertices have invalid positions (NaN, infinite or too far away), the first is number 2",
+           bake)
+    expect("'low' has vertices with invalid positions", export, filepath=OUT)
     assert bpy.ops.object.cotan_check() == {"FINISHED"}
     assert bpy.context.window_manager.cotan_lines[0].kind == "PLACE" and low.data.total_face_sel == 1
     bpy.ops.object.mode_set(mode="OBJECT")
     low.data.vertices[2].co = (1, 1, 0)
     high.data.vertices[7].co.y = float("nan")
-    expect("'high': 1 of its vertices have no place", bake)
-    high.data.vertices[7].co.y = float("inf")  # which Blender makes the largest float of
-    expect("'high': 1 of its vertices have no place", bake)
+    expect("'high': 1 of its vertices have invalid positions", bake)
+    high.data.vertices[7].co.y = float("inf")  # Blender turns it into the largest float
+    expect("'high': 1 of its vertices have invalid positions", bake)
 
 
 def anObjectScaledToNothing():
@@ -143,7 +144,7 @@ def anObjectScaledToNothing():
     low.scale.z = 0
     bpy.context.view_layer.update()
     select(high, low)
-    expect("'low' is scaled to nothing along an axis", bake)
+    expect("'low' has a scale of zero along an axis", bake)
 
 
 def aLinkedLibrary():
@@ -162,10 +163,10 @@ def aLinkedLibrary():
     select(high, low)
     expect("The material 'theirs' comes from a library file", bake)
     settings(assign=False)
-    assert bpy.ops.object.cotan_bake() == {"FINISHED"}  # only the map
+    assert bpy.ops.object.cotan_bake() == {"FINISHED"}  # only makes the map
     assert bpy.ops.object.cotan_check() == {"FINISHED"}
     select(low, high)
-    assert said(bake).startswith("'high' has no uv map")  # a linked detailed mesh is fine, the rest is as ever
+    assert error_of(bake).startswith("'high' has no uv map")  # a linked detailed mesh is fine; the next error follows
 
 
 def noMaterialIsNoProblem():
@@ -198,8 +199,8 @@ def filesThatCannotBeWritten():
     select(bpy.data.objects["low"])
     expect("", export, filepath=OUT)
     assert os.path.exists(OUT)
-    found = said(export, filepath=os.path.join(facts.FOLDER, "missing", "out.glb"))
-    assert "missing" in found and "there is no folder" in found, found
+    found = error_of(export, filepath=os.path.join(facts.FOLDER, "missing", "out.glb"))
+    assert "missing" in found and "does not exist" in found, found
 
 
 def oneFailureDoesNotStopTheOthers():
@@ -224,7 +225,7 @@ def aMapTooLargeForMemory():
         used = int(file.read().split()[0]) * resource.getpagesize()
     resource.setrlimit(resource.RLIMIT_AS, (used + (256 << 20), limits[1]))
     try:
-        found = said(bake)
+        found = error_of(bake)
     finally:
         resource.setrlimit(resource.RLIMIT_AS, limits)
     assert "memory" in found, found

@@ -1,10 +1,10 @@
-"""docs/tutorials/blender-to-godot.md from end to end: Blender bakes and exports the stone, Godot 3 imports and draws it.
+"""Runs docs/tutorials/blender-to-godot.md from start to end: Blender bakes and exports the stone, Godot 3 imports and
+draws it.
 
     to_godot.py LIBRARY TOOL [IMAGE]
 
-LIBRARY: libcotan; TOOL: cotan; IMAGE: where Godot's image is kept, such as docs/pictures/tutorial-stone-godot.png. Exit code
-77 where a program is missing.
-"""
+LIBRARY: libcotan; TOOL: cotan; IMAGE: where Godot's image is saved, such as docs/pictures/tutorial-stone-godot.png.
+Exit code 77 if a program is missing."""
 
 import os
 import pathlib
@@ -30,7 +30,7 @@ import numpy as np  # noqa: E402
 
 
 def godot(folder, *words):
-    """Godot on a display of its own, in a group of processes that can be ended together."""
+    """Starts Godot on its own display, in a process group that can be ended as a whole."""
     screen = ["xvfb-run", "-a", "-s", "-screen 0 640x480x24"]
     environment = dict(os.environ, HOME=str(folder), LIBGL_ALWAYS_SOFTWARE="1")
     return subprocess.Popen([*screen, "godot3", "--path", str(folder), *words], env=environment, start_new_session=True,
@@ -38,13 +38,13 @@ def godot(folder, *words):
 
 
 def imported(folder):
-    """Godot's editor imports what is in the folder. It does not leave by itself when it has."""
+    """Lets Godot's editor import the files of the folder, and ends the editor, which does not exit by itself."""
     editor = godot(folder, "--editor")
     wanted = [".import/stone.glb-*.scn", ".import/stone_normal.png-*.stex"]
     try:
         for _ in range(240):
             if all(list(folder.glob(pattern)) for pattern in wanted):
-                time.sleep(1)  # what it writes beside them
+                time.sleep(1)  # for the files written beside them
                 return
             if editor.poll() is not None:
                 break

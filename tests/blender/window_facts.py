@@ -1,4 +1,4 @@
-"""With a window: the panel is drawn, a bake shows how far it is, Esc stops it, and the window goes on meanwhile.
+"""With a window: the panel is drawn, a bake shows its progress, Esc stops it, and the window stays responsive.
 
     window_facts.py"""
 
@@ -40,7 +40,7 @@ def context():
 
 
 def steps():
-    """Each yield lets the window go on; it says for how many seconds at most, and what is waited for."""
+    """Each yield returns to the window; it gives the maximum time in seconds, and a condition to wait for."""
     manager = bpy.context.window_manager
     high, low = facts.ball(cells=64), facts.square()
     facts.select(high, low)
@@ -52,7 +52,7 @@ def steps():
     yield 20, lambda: not manager.cotan_running
     image = bpy.data.images["low_normal"]
     assert tuple(image.size) == (256, 256) and low.data.materials[0].node_tree
-    # One that would take minutes is stopped by Esc at once, and leaves nothing behind.
+    # Esc stops a bake that would take minutes at once, and nothing of it remains.
     low.data.materials.clear()
     bpy.data.images.remove(image)
     facts.settings(width=8192, height=8192, samples="16", distance=2)
@@ -68,7 +68,7 @@ def steps():
     yield 20, lambda: not manager.cotan_running
     assert time.monotonic() - start < 10, "Esc takes too long"
     assert not bpy.data.images.get("low_normal") and not low.data.materials
-    # And once more, to the end: nothing of the stopped one is in the way.
+    # Another bake runs to the end after the stopped one.
     facts.settings(width=64, height=64, samples="1", distance=2)
     with bpy.context.temp_override(**context()):
         bpy.ops.object.cotan_bake("INVOKE_DEFAULT")

@@ -1,4 +1,4 @@
-// What a program's own vectors are beside Cotan's headers, and that both agree on the arrays between them.
+// Cotan's headers must leave a program's own GLM vectors unchanged, and both must agree on arrays between them.
 #include <cstdint>
 #include <cstdio>
 #include <vector>
@@ -22,9 +22,9 @@ int main()
     glm::vec3 colour(0.25f, 0.5f, 1);
     colour.r = colour.g + colour.b;
 #ifdef GLM_FORCE_SWIZZLE
-    const glm::vec3 turned = colour.bgr();
+    const glm::vec3 reordered = colour.bgr();
 #else
-    const glm::vec3 turned(colour.b, colour.g, colour.r);
+    const glm::vec3 reordered(colour.b, colour.g, colour.r);
 #endif
     const std::vector<cotan::packed::vec3> positions{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}, normals(3, {0, 0, 1});
     const std::vector<cotan::packed::vec2> texcoords{{0, 0}, {-1, 0}, {0, 1}};
@@ -41,7 +41,7 @@ int main()
     const cotan::Covector3f normal = perturb(frame, glm::vec3(0.6f, 0, 0.8f));
 
     const bool good = tangents.size() == 3 && tangents[0].x == -1 && tangents[2].x == -1 && normal.x < -0.5f
-        && turned.r == 1 && colour.r == 1.5f;
+        && reordered.r == 1 && colour.r == 1.5f;
     std::printf("cotan %s: tangent %g %g %g, normal %g %g %g\n", COTAN_VERSION_TEXT, tangents[0].x, tangents[0].y,
                 tangents[0].z, normal.x, normal.y, normal.z);
     return good ? 0 : 1;

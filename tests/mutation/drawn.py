@@ -1,4 +1,4 @@
-"""Mistakes drawn at random over all code: what `scripts/mutants --random N --seed S` does."""
+"""Mistakes drawn at random over all code: the work of `scripts/mutants --random N --seed S`."""
 import collections
 import concurrent.futures
 import hashlib
@@ -15,7 +15,7 @@ import mistakes
 import plant
 from plant import HOME, WORK
 
-# Which tests could notice a mistake in a folder, the nearest first; `python:` and `c_api` run over the C library.
+# Tests that may notice a mistake in a folder, the most likely first; `python:` and `c_api` run over the C library.
 TESTS = {
     "apps/cotan": "words_test help_test cli_test command_line help_files:man help_files:words help_files:bash help_files:zsh help_files:fish output_bytes:maps output_bytes:meshes output_bytes:pictures map_command_test bake_command_test tangents_command_test judgement_command_test files_test batch_test batch_command_test",
     "apps/viewer": "viewer_test view_window_test",
@@ -38,10 +38,10 @@ TESTS = {
     "src/shader_text": "shader_text_test frame_table_test",
 }
 ENDINGS = (".cpp", ".hpp", ".h", ".py", ".js")
-BROKEN = WORK / "not_compiling.txt"  # so that another run over the same sources does not try them again
+BROKEN = WORK / "not_compiling.txt"  # so that later runs over the same sources skip them
 EQUIVALENT = HOME / "tests/mutation/equivalent.txt"
 BAR = 0.85
-# What else of the suite comes to many places: tried after those above, the quickest first.
+# Tests that reach many folders: tried after those above, the fastest first.
 OTHERS = """defaults_test accuracy_test geometry_test assimp_test obj_test bake_test batch_test c_buffers_test cli_test convert_test core_test cost_test draw_test
 environment_test figures_test files_test frame_table_test gltf_bad_test gltf_edit_test gltf_models_test gltf_test help_test image_test
 judgement_command_test judgement_test auto_frame_test lighting_test lint_test map_command_test map_test models_test reference_test
@@ -52,7 +52,7 @@ python:dask python:json python:maps python:models python:options python:package 
 option_effects:map option_effects:render option_effects:compare
 option_effects:bake option_effects:convert option_effects:others two_renderers
 file_fields:0 file_fields:1 file_fields:2 file_fields:3""".split()
-MOST_OF_A_FILE = 6  # mistakes, so that none of them hides in another's text
+MOST_OF_A_FILE = 6  # mistakes per file, so that none hides in the text of another
 
 
 class Drawn:
@@ -84,8 +84,8 @@ class Drawn:
 
 
 def draw(count, seed, parts):
-    """Mistakes at lines drawn evenly from the code of `parts`, and of the kinds at a line one drawn evenly; none inside another."""
-    unbuilt = re.compile(r"/no_\w+\.cpp$")  # in the place of a library that is missing; scripts/try-optional builds them
+    """Draws lines uniformly from the code of `parts`, and for each a kind of mistake uniformly; none overlap."""
+    unbuilt = re.compile(r"/no_\w+\.cpp$")  # used if a library is missing; scripts/try-optional builds them
     names = subprocess.run(["git", "-C", HOME, "ls-files", "src", "apps", "shaders/cotan", "bindings"], check=True,
                            capture_output=True, text=True).stdout.split()
     texts = {n: (HOME / n).read_text() for n in sorted(names) if n.endswith(ENDINGS) and not unbuilt.search(n) and "/".join(n.split("/")[:2]) in parts}
@@ -111,7 +111,7 @@ def draw(count, seed, parts):
 
 
 def planted_texts(drawn, texts):
-    """By file: the text with its mistakes, and the lines of each mistake in it."""
+    """For each changed file: the text with its mistakes, and the lines of each mistake in it."""
     changed, by_file = {}, collections.defaultdict(list)
     for d in drawn:
         if not d.script:
@@ -132,7 +132,7 @@ COMPLAINT = re.compile(r"/(source|portable)/([^\s:]+):(\d+):\d+:\s+([^\n]*)")
 
 
 def those_that_do_not_compile(output, changed):
-    """The mistakes on the lines that the compiler complains of; where it names none, all of the files that it names."""
+    """Mistakes on lines that the compiler rejects; if it names none of them, all in the files that it names."""
     bad, files = set(), set()
     for block in re.split(r"\nFAILED: ", "\n" + output)[1:]:
         errors, mentioned, named = set(), set(), set()
@@ -147,16 +147,16 @@ def those_that_do_not_compile(output, changed):
             if "error" in what:
                 errors |= here
         bad |= errors or mentioned
-        for name in set(re.findall(r"in function `.*?(\w+)\(", block)):  # what uses a template of types that has no instance
+        for name in set(re.findall(r"in function `.*?(\w+)\(", block)):  # uses a template without an instance
             errors |= within_function(name, changed)
         bad |= errors
-        if not mentioned and not errors:  # an error in a header of fmt names the file only where it says what included it
+        if not mentioned and not errors:  # errors in a header of fmt name the file only as the includer
             files |= named or {name for name in changed if f"/source/{name}" in block}
     return bad | {n for file in files for n in changed[file][1]}
 
 
 def within_function(name, changed):
-    """The mistakes in the functions of that name, which begin and end at the left border."""
+    """Mistakes in functions called `name`, which begin and end at column 0."""
     bad = set()
     for text, spans in changed.values():
         inside = False
@@ -167,7 +167,7 @@ def within_function(name, changed):
 
 
 def check_headers(changed, jobs):
-    """What the compiler says of the headers that are changed, each alone: else what includes them is compiled many times."""
+    """Compiler output for each changed header on its own, before all files that include it are compiled."""
     commands = {}
     for entry in json.loads((plant.BUILD / "compile_commands.json").read_text()):
         part = re.search(r"/(src|apps)/(\w+)/", entry["output"] if "output" in entry else entry["file"])
@@ -192,7 +192,7 @@ def check_headers(changed, jobs):
 
 
 def build_what_compiles(drawn, texts, targets, jobs):
-    """Builds, leaving out what does not compile; gives the mistakes that are in, and those that are not."""
+    """Builds without the mistakes that do not compile; returns those that are built in, and the others."""
     known = set(BROKEN.read_text().split("\n")) if BROKEN.exists() else set()
     outside = [d for d in drawn if d.key in known]
     inside, headers_checked = [d for d in drawn if d.key not in known], bool(outside)
@@ -218,7 +218,7 @@ def build_what_compiles(drawn, texts, targets, jobs):
 
 
 class Web:
-    """The npm package, put together anew for each mistake; its modules are built once."""
+    """The npm package, assembled anew for each mistake; its modules are built once."""
 
     CASES = ("package_test.mjs", "gltf_transform_test.mjs", "three_test.mjs")
 
@@ -264,13 +264,13 @@ def try_python(drawn, texts, programs, limit):
 
 
 class Reach:
-    """Which tests come to which mistakes, by a run of each program without a mistake: only those can notice."""
+    """The tests that reach each mistake, by running each program without a mistake: only those tests can notice it."""
 
     def __init__(self, programs, jobs):
         self.tests, self.seconds, self.failing, longest = {}, {}, set(), 60
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
             for program, (tests, took, outcome) in zip(programs, pool.map(lambda p: plant.reach(p, longest), programs)):
-                # Of each the share of the processor's seconds: on a busy machine the clock says more.
+                # Scales the tests' times to the CPU time of the program: on a busy machine the clock runs longer.
                 clock = sum(s for _, s, _ in tests)
                 scale = min(1, took / clock) if clock > 0 else 1
                 self.tests[program], self.seconds[program] = [(name, s * scale, here) for name, s, here in tests], took
@@ -280,8 +280,8 @@ class Reach:
                 print(f"{program}: {passed}{f', without a mistake: {outcome}' if outcome else ''}", flush=True)
 
     def programs(self, part, number, seconds):
-        """Each program with the tests that come to a mistake, the quickest first as far as a third of the time goes, and
-        its limit; of scripts (number None) the part's."""
+        """Each program with the tests that reach a mistake, and its limit. The fastest tests come first, up to a third
+        of the time. For scripts (number None) the programs of the part."""
         near, found = TESTS[part].split(), []
         for program in self.tests:
             here = [t for t in self.tests[program] if number in t[2]] if number else self.tests[program]
@@ -301,7 +301,7 @@ class Reach:
 
 
 def equivalents():
-    """By place: the reason why a mistake changes nothing that anyone could see."""
+    """For each place: the reason why a mistake there has no visible effect."""
     if not EQUIVALENT.exists():
         return {}
     pairs = [line.rsplit(" -- ", 1) for line in EQUIVALENT.read_text().splitlines() if line.strip() and not line.startswith("#")]

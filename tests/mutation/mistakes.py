@@ -1,4 +1,4 @@
-"""Mistakes by a fixed set of operators, found in the tokens of a file: what `scripts/mutants --random` plants.
+"""Mistakes that a fixed set of operators finds in the tokens of a file, as planted by `scripts/mutants --random`.
 
 Works on text as scripts/format leaves it: binary operators have a space on both sides, template brackets have none.
 """
@@ -23,7 +23,7 @@ SCRIPT_TOKEN = re.compile(
 )
 PRECEDENCE = {"*": 5, "/": 5, "%": 5, "+": 6, "-": 6, "<<": 7, ">>": 7, "<=>": 8, "<": 9, "<=": 9, ">": 9, ">=": 9,
               "==": 10, "!=": 10, "&": 11, "^": 12, "|": 13, "&&": 14, "||": 15}
-# What a programmer mistypes for what.
+# Typical mistyped replacements.
 OPERATORS = {"<": ("<=", ">"), "<=": ("<", ">="), ">": (">=", "<"), ">=": (">", "<="), "==": ("!=",), "!=": ("==",),
              "+": ("-",), "-": ("+",), "*": ("/",), "/": ("*",), "&&": ("||",), "||": ("&&",),
              "===": ("!==",), "!==": ("===",)}
@@ -37,7 +37,7 @@ struct class enum namespace template public private protected friend throw delet
 operator new sizeof co_return explicit virtual override requires typename union let var function import export from def
 with raise assert pass lambda yield elif except finally global nonlocal in is not async await""".split())
 
-# The order of what these are given does not matter.
+# Functions whose arguments may be exchanged without effect.
 EITHER_WAY = frozenset("dot min max cotan_dot cotan_min cotan_max distance ASSERT EXPECT swap".split())
 
 
@@ -49,7 +49,7 @@ class Token:
 
 
 class Mistake:
-    """text[start:end] becomes `wrong`; statement: not an expression but a statement, `right` is then kept or not."""
+    """text[start:end] becomes `wrong`. statement: replaces a statement, whose `right` is then run or not."""
 
     def __init__(self, kind, start, end, wrong, statement=False):
         self.kind, self.start, self.end, self.wrong, self.statement = kind, start, end, wrong, statement
@@ -61,7 +61,7 @@ def tokens_of(text, script):
 
 
 def partners_of(tokens):
-    """Of each bracket the index of the one that belongs to it."""
+    """For each bracket the index of its partner."""
     partners, open_ones = {}, []
     for i, t in enumerate(tokens):
         if t.kind == "operator" and t.text in "([{":
@@ -82,7 +82,7 @@ class File:
         return self.text[self.tokens[i].start:self.tokens[j].end]
 
     def is_binary(self, i):
-        """Whether it joins two values: spaces on both sides, and a value before."""
+        """Whether token i joins two values: it has spaces on both sides and a value before."""
         t = self.tokens[i]
         if t.kind != "operator" or i == 0 or i + 1 >= len(self.tokens):
             return False
@@ -101,7 +101,7 @@ class File:
         return self.is_binary(i) and PRECEDENCE.get(t.text, 99) > weakest
 
     def operands(self, i):
-        """First and last token of what a binary operator joins, or None."""
+        """First and last token of the operands of binary operator i, or None."""
         strength = PRECEDENCE[self.tokens[i].text]
         first, j = None, i - 1
         while j >= 0:
@@ -126,7 +126,7 @@ class File:
         return None if first is None or last is None else (first, last)
 
     def chain_start(self, i):
-        """The first token of a.b(c)[d] whose last one is i."""
+        """The first token of a.b(c)[d] whose last token is i."""
         while i > 0:
             t, before = self.tokens[i], self.tokens[i - 1]
             if t.text in (")", "]"):
@@ -142,7 +142,7 @@ class File:
         return i
 
     def chain_end(self, i):
-        """The last token of a.b(c)[d] whose first one is i."""
+        """The last token of a.b(c)[d] whose first token is i."""
         if self.tokens[i].text == "(":
             i = self.partners.get(i, i)
         while i + 1 < len(self.tokens):
@@ -179,7 +179,7 @@ def _binary(f, i, found):
         return
     ends = f.operands(i)
     if t.text in ("+", "-") and any(n.kind == "string" for n in f.tokens[max(0, i - 1):i + 2]):
-        return  # of text, which has no other operators
+        return  # string concatenation, which has no other operators
     if ends:
         start, end = f.tokens[ends[0]].start, f.tokens[ends[1]].end
         for wrong in OPERATORS[t.text]:
@@ -225,12 +225,12 @@ PARAMETER = re.compile(r"(?:const )?[A-Za-z_][\w:]*(?:<.*>)?(?:[&*]+ ?\w*| \w+(?
 
 
 def looks_like(argument):
-    """What it is as far as one sees: arguments that look different are of different types."""
+    """Syntactic kind of an argument: arguments of different kinds have different types."""
     return next((c for c in ('"', "'", "[", "{", "&", "nullptr") if argument.startswith(c)), "")
 
 
 def _arguments(f, i, found):
-    """A call whose neighbouring arguments are exchanged."""
+    """Calls with neighbouring arguments exchanged."""
     if f.tokens[i].text != "(" or i < 1 or f.tokens[i - 1].kind != "name" or f.tokens[i - 1].text in KEYWORDS | EITHER_WAY:
         return
     first = f.chain_start(i - 1)
@@ -264,7 +264,7 @@ EXPRESSION = re.compile(r"(?:\+\+|--|\(?\*)?[A-Za-z_][\w:]*(?:\.|->|\(|\[|\s*(?:
 
 
 def early_return(text, line):
-    """What ends the function that the line belongs to, or None in a lambda, whose result is not written down."""
+    """The return statement for the function around `line`, or None in a lambda, whose result type is not written."""
     lines = text[:line].split("\n")[:-1]
     indent = len(text) - line - len(text[line:].lstrip(" "))
     while lines:
@@ -287,7 +287,7 @@ def early_return(text, line):
 
 
 def _statement(f, i, found):
-    """A statement left out, a guard left out, an early return."""
+    """An omitted statement, an omitted guard, an early return."""
     t = f.tokens[i]
     before = f.tokens[i - 1].text if i else ";"
     line = f.text.rfind("\n", 0, t.start) + 1
@@ -319,7 +319,7 @@ def _statement(f, i, found):
 
 
 def constants(f):
-    """Where values are that the compiler works out, as (start, end): no variable can choose there when a program runs."""
+    """Compile-time constants as (start, end): a mistake cannot be chosen there at run time."""
     spans = []
     for i, t in enumerate(f.tokens):
         if t.kind != "name" or t.text not in ("constexpr", "static_assert", "enum"):
@@ -340,7 +340,7 @@ FIXED = re.compile(r"^\s*(?:inline |static |export )*constexpr [^(]*(?:=|\{)|^\s
 
 
 def mistakes_in(text, script=False):
-    """All mistakes that the operators find in a text."""
+    """All mistakes that the operators produce in a text."""
     f = File(text, script)
     found = []
     for i, t in enumerate(f.tokens):

@@ -1,4 +1,4 @@
-"""One build that holds many mistakes beside what is right; the variable COTAN_MUTANT chooses one when a program runs."""
+"""One build that holds the correct code and many mistakes; COTAN_MUTANT chooses one at run time."""
 import os
 import pathlib
 import re
@@ -10,7 +10,7 @@ import threading
 
 HOME = pathlib.Path(__file__).resolve().parents[2]
 WORK = HOME / "build" / "mutants"
-SIZE = 4096  # more than there are mistakes: a byte for each tells whether a test program reaches it
+SIZE = 4096  # maximum number of mistakes, with a byte each that tells whether a test program reaches it
 SOURCE, BUILD, PORTABLE = WORK / "source", WORK / "build", WORK / "portable"
 
 HEADER = """#pragma once
@@ -43,7 +43,7 @@ def write_if_changed(path, data):
 
 
 def copy_sources(texts):
-    """The tree below SOURCE; the files of `texts` (name: text with its mistakes) in their place."""
+    """Copies the tree to SOURCE; the files of `texts` (name: text with its mistakes) replace the originals."""
     listed = subprocess.run(["git", "-C", HOME, "ls-files", "-co", "--exclude-standard"], check=True, capture_output=True, text=True)
     for name in listed.stdout.splitlines():
         data = (HOME / name).read_bytes() if (HOME / name).is_file() else None
@@ -59,7 +59,7 @@ def copy_sources(texts):
         elif name.endswith((".cpp", ".hpp")) and b'"cotan/portable_text.inc"' in data:
             data = b'#include "cotan_mutant.hpp"\n' + data
         elif name.startswith("tests/") and name.endswith(".cmake"):
-            # The tool is built for the parts that ask for it.
+            # The tool is built only for parts that need it.
             data = re.sub(rb"add_dependencies\((\w+)((?: \w+)*) cotan\)", lambda m: b"add_dependencies(" + m[1] + m[2] + b")" if m[2] else b"", data)
         if name == "tests/CMakeLists.txt":
             data = data.replace(b"add_executable(${name} ${TEST_SOURCES})", b"add_executable(${name} ${TEST_SOURCES} mutation/reached.cpp)")
@@ -79,14 +79,14 @@ def configure():
 
 
 def build(targets, jobs, go_on=False):
-    """Exit code and output of the build; go_on: past what does not compile."""
+    """Exit code and output of the build; go_on: continues after compile errors."""
     command = ["cmake", "--build", BUILD, "-j", str(jobs), "--target", *sorted(targets)] + (["--", "-k", "0"] if go_on else [])
     done = subprocess.run(command, stdout=subprocess.PIPE if go_on else None, stderr=subprocess.STDOUT if go_on else None, text=True)
     return done.returncode, done.stdout or ""
 
 
 def command_of(program):
-    """How a word of a list of tests is run: PROGRAM[:FILTER], python:FILE of tests/python, c_api, or what compares the tool's outputs."""
+    """Command for an entry of a test list: PROGRAM[:FILTER], python:FILE of tests/python, c_api, or an output check."""
     name, _, chosen = program.partition(":")
     if name == "python":
         return ["/usr/bin/python3", "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", HOME / f"tests/python/test_{chosen}.py"]
@@ -124,8 +124,8 @@ def targets_of(program):
 
 
 def run(program, number, seconds, python=None, command=None, reached=None):
-    """What became of a test program, None where it passed, otherwise a word; and the processor's seconds. reached: a file
-    of SIZE bytes, whose byte of a mistake becomes 1 where the program comes to it; beside it a line for each test."""
+    """Outcome of a test program (None if it passed, otherwise a word) and its CPU seconds. reached: a file of SIZE
+    bytes; the byte of each mistake that the program reaches becomes 1. A file beside it gets a line per test."""
     limit = max(1, round(seconds))
     environment = dict(os.environ, COTAN_MUTANT=str(number), COTAN_LIBRARY=str(library()), COTAN_TOOL=str(BUILD / "bin/cotan"),
                        COTAN_SHARED_DATA=str(HOME.parent / "shared/data"), PYTHONDONTWRITEBYTECODE="1",
@@ -138,13 +138,13 @@ def run(program, number, seconds, python=None, command=None, reached=None):
                                    env=environment, start_new_session=True,
                                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 1)))
         waited = []
-        hangs = threading.Timer(max(10 * limit, 180), lambda: (waited.append(True), process.kill()))  # it uses no processor
+        hangs = threading.Timer(max(10 * limit, 180), lambda: (waited.append(True), process.kill()))  # waits use no CPU
         hangs.start()
         _, status, usage = os.wait4(process.pid, 0)
         hangs.cancel()
         process.returncode = os.waitstatus_to_exitcode(status)
         try:
-            os.killpg(process.pid, signal.SIGKILL)  # what it started and left running
+            os.killpg(process.pid, signal.SIGKILL)  # children that are still running
         except ProcessLookupError:
             pass
         output.seek(0)
@@ -161,8 +161,8 @@ def run(program, number, seconds, python=None, command=None, reached=None):
 
 
 def reach(program, seconds):
-    """Runs a program without a mistake. Of each of its tests that pass: name, seconds, numbers of the mistakes that it
-    comes to; a script is one test, named \"\". And the seconds of all."""
+    """Runs a program without a mistake. Returns name, seconds and numbers of reached mistakes for each test that passes
+    (a script is one test named \"\"), the total seconds, and the outcome."""
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "reached"
         file.write_bytes(bytes(SIZE))
@@ -182,14 +182,14 @@ def reach(program, seconds):
 
 
 def try_mistake(number, programs, limit, python=None):
-    """The word of the first program that notices, or None; and the seconds that all took. programs: each with its limit."""
+    """The outcome of the first program that notices, or None, and the total seconds. programs: each with its limit."""
     spent = 0.0
     for program, most in programs:
         if spent >= limit:
             break
         outcome, took = run(program, number, min(most, limit - spent), python)
         if outcome == "does not end" and limit - spent < most:
-            outcome = None  # not its own limit
+            outcome = None  # stopped by the shared limit, not by its own
         spent += took
         if outcome:
             return outcome, spent

@@ -1,4 +1,4 @@
-// In each test program that scripts/mutants builds: writes down which planted mistakes each test comes to.
+// Linked into each test program that scripts/mutants builds: records the planted mistakes that each test reaches.
 #include <gtest/gtest.h>
 
 #include <fcntl.h>
@@ -17,7 +17,7 @@ class ReachedMutants : public ::testing::EmptyTestEventListener {
 public:
     ReachedMutants(unsigned char* bytes, std::string name) : bytes_(bytes), lines_(name + ".tests") {}
 
-    // What was reached before a test belongs to its whole suite: by what sets it up.
+    // Mistakes reached before a test belong to the whole suite, whose setup reached them.
     void OnTestStart(const ::testing::TestInfo& test) override
     {
         write(std::string(test.test_suite_name()) + ".*", true, 0);

@@ -1,4 +1,4 @@
-"""What a line of tests/mutants.txt should say now that its place has changed."""
+"""Updates lines of tests/mutants.txt whose place in the sources has changed."""
 import difflib
 import re
 
@@ -10,7 +10,7 @@ def tokens(text):
 
 
 def nearest(text, wanted):
-    """The part of the text, a row of tokens, that is most like the wanted one: (start, end) among the text's tokens."""
+    """The range of tokens in `text` most similar to `wanted`: (start, end)."""
     best, length = (0.0, 0, 0), len(wanted)
     matcher = difflib.SequenceMatcher(autojunk=False)
     matcher.set_seq2(wanted)
@@ -26,8 +26,8 @@ def nearest(text, wanted):
 
 
 def repaired(line, source):
-    """The line with the text that stands in the source today, or nothing where none is like it. The mistake itself, what
-    comes behind =>, is taken over: look at it."""
+    """The line with today's source text, or None if nothing there is similar. The mistake itself, after =>, is kept
+    unchanged and needs a look."""
     text, _, wrong = line.partition("=>")
     before, _, rest = text.partition("@{")
     right, _, after = rest.partition("}@")
@@ -37,7 +37,7 @@ def repaired(line, source):
     ratio, start, end = nearest([m.group() for m in found], wanted)
     if ratio < 0.7:
         return None
-    # Where the right part begins and ends in what was found, by the tokens that both have.
+    # Start and end of the right part in the match, by the tokens that both share.
     window = [m.group() for m in found[start:end]]
     at = {}
     for a, b, size in difflib.SequenceMatcher(None, wanted, window, autojunk=False).get_matching_blocks():

@@ -1,4 +1,4 @@
-"""A line of tests/mutants.txt follows its place when words are renamed, and is left alone where nothing is like it."""
+"""A line of tests/mutants.txt follows its place when names change, and is left alone if nothing is similar."""
 import pathlib
 import sys
 import unittest
@@ -11,15 +11,15 @@ SOURCE = "int f(int wide)\n{\n    if (wide > kMost &&\n        wide < 9)\n      
 
 
 class Repair(unittest.TestCase):
-    def test_a_renamed_word_is_followed_inside_and_outside_of_the_braces(self):
+    def test_renamed_identifiers_are_followed_inside_and_outside_braces(self):
         self.assertEqual(repair.repaired("if (@{width > kMost}@ && width < 9) => false", SOURCE),
                          "if ( @{wide > kMost}@ && wide < 9) => false")
         self.assertEqual(repair.repaired("return @{sum}@ / width; => 0", SOURCE), "return @{sum}@ / wide; => 0")
 
-    def test_where_nothing_is_like_it_there_is_no_line(self):
+    def test_no_line_is_suggested_without_a_similar_one(self):
         self.assertIsNone(repair.repaired("weights[k] = @{std::exp(-x)}@ * gain; => 1", SOURCE))
 
-    def test_a_patch_has_the_line_s_number_and_both_texts(self):
+    def test_a_patch_has_the_line_number_and_both_texts(self):
         line = "return @{sum}@ / width; => 0"
         lines = repair.patch([(line, "a.cpp")], {"a.cpp": SOURCE, "tests/mutants.txt": f"# first\n{line}\n"})
         self.assertEqual(lines[2:], ["@@ -2 +2 @@", f"-{line}", "+return @{sum}@ / wide; => 0"])

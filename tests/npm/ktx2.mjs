@@ -1,5 +1,5 @@
-// What another reader finds in a KTX2 file (ktx-parse, in the npm package three): node ktx2.mjs NODE_MODULES FILE
-// Writes FILE.json, and the levels behind one another, the largest first, as FILE.levels.
+// A KTX2 file as ktx-parse of the npm package three reads it: node ktx2.mjs NODE_MODULES FILE
+// Writes FILE.json, and the concatenated levels, the largest first, as FILE.levels.
 import fs from 'node:fs';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';

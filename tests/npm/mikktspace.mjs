@@ -1,6 +1,7 @@
-// MikkTSpace of three.js and of npm's mikktspace: node mikktspace.mjs NODE_MODULES MESHES OUT
-// MESHES: for each mesh the number of corners as uint32, then by corner positions, normals and texcoords as float32.
-// OUT: for each mesh the tangents of three.js, then those of mikktspace, four float32 a corner; zeros where it gives up.
+// MikkTSpace by three.js and by npm's mikktspace: node mikktspace.mjs NODE_MODULES MESHES OUT
+// MESHES: for each mesh the number of corners as uint32, then positions, normals and texcoords of all corners as
+// float32.
+// OUT: for each mesh the tangents of three.js, then those of mikktspace, four float32 per corner; zeros if it throws.
 import fs from 'node:fs';
 import path from 'node:path';
 import { createRequire } from 'node:module';

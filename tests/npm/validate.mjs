@@ -1,5 +1,5 @@
 // Validates glTF files with Khronos' validator: node validate.mjs NODE_MODULES FILE...
-// Prints one line a message; exit code 1 if there is an error in any file, 0 otherwise.
+// Prints one line per message; exit code 1 if any file has an error, 0 otherwise.
 import fs from 'node:fs';
 import path from 'node:path';
 import { createRequire } from 'node:module';

@@ -1,5 +1,5 @@
-"""What the tests of the Python package share. They are run by CTest (tests/python.cmake), which says in variables where the
-library, the command line and the folder of models are."""
+"""Shared fixtures of the Python tests. CTest runs them (tests/python.cmake) and passes the paths of the library, the
+command line and the folder of models in environment variables."""
 
 import os
 import pathlib
@@ -10,13 +10,13 @@ import pytest
 
 @pytest.fixture(scope="session")
 def source():
-    """The repository."""
+    """Path of the repository."""
     return pathlib.Path(__file__).resolve().parents[2]
 
 
 @pytest.fixture(scope="session")
 def command():
-    """Runs the command line: command("map", "detect", file). Returns what it prints."""
+    """Runs the command line: command("map", "detect", file). Returns its standard output."""
     tool = os.environ.get("COTAN_TOOL")
     if not tool or not os.path.exists(tool):
         pytest.skip("skipped: COTAN_TOOL names no cotan")
@@ -39,7 +39,7 @@ def data():
 
 
 def pytest_unconfigure(config):
-    """As CTest has it: exit code 77 and the reason as the last line where everything was skipped."""
+    """For CTest: exits with 77 and the reason as the last line if all tests were skipped."""
     reporter = config.pluginmanager.get_plugin("terminalreporter")
     skipped = reporter.stats.get("skipped", []) if reporter else []
     if skipped and not any(reporter.stats.get(kind) for kind in ("passed", "failed", "error")):

@@ -1,4 +1,4 @@
-"""Meshes and models that the tests know everything about."""
+"""Meshes and models whose properties the tests know exactly."""
 
 import json
 import struct
@@ -19,7 +19,7 @@ def square(name=""):
 
 
 def slope(rise, name=""):
-    """A larger square about it that rises by `rise` towards +x, at height 0 in the middle; without texcoords."""
+    """A square of side 3 around `square` with slope `rise` along x and height 0 at the centre; without texcoords."""
     xy = 3 * CORNERS - 1
     positions = np.c_[xy, rise * (xy[:, 0] - 0.5)]
     normal = np.array([-rise, 0, 1]) / np.hypot(rise, 1)
@@ -27,7 +27,7 @@ def slope(rise, name=""):
 
 
 def bumps(count=24):
-    """A grid of count x count squares over the unit square, with waves; texcoords as of `square`."""
+    """A grid of count x count squares over the unit square, with waves; texcoords as in `square`."""
     x, y = np.meshgrid(np.linspace(0, 1, count + 1), np.linspace(0, 1, count + 1))
     x, y = x.ravel(), y.ravel()
     z = 0.03 * np.sin(7 * x) * np.cos(5 * y)
@@ -40,7 +40,7 @@ def bumps(count=24):
 
 
 def write_obj(file, mesh):
-    """The mesh as an OBJ file, whose v runs up; every float comes back as it was."""
+    """Writes the mesh as an OBJ file, where v runs up; every float is read back exactly."""
     texcoords = np.zeros((len(mesh.positions), 2)) if mesh.texcoords is None else mesh.texcoords.astype(float)
     with open(file, "w", encoding="ascii") as out:
         if mesh.name:
@@ -53,14 +53,14 @@ def write_obj(file, mesh):
     return file
 
 
-# A texel that leans by 0.3 and 0.2, in 8 bits.
+# A texel tilted by 0.3 and 0.2, in 8 bits.
 FIRST = np.array([0.3, 0.2, np.sqrt(1 - 0.3**2 - 0.2**2)])
 CODES = np.round(128 + 127 * FIRST).astype(np.uint8)
 
 
 def stretched_gltf(side=8):
-    """A rectangle of 2 x 1 under a square of uv, all of whose map is one texel for MikkTSpace: the .gltf, and what it
-    names. Frames from differences see u half as steep as v."""
+    """A rectangle of 2 x 1 with uv over the unit square and a one-texel map for MikkTSpace: returns the .gltf, its
+    buffer and its texels. Frames from differences halve slopes along u."""
     texel = np.empty((side, side, 4), np.uint8)
     texel[:] = [*CODES, 255]
     floats = np.concatenate([
@@ -90,7 +90,7 @@ def stretched_gltf(side=8):
 
 
 def write_stretched(folder):
-    """The same in files; the .gltf."""
+    """Writes stretched_gltf as files; returns the path of the .gltf."""
     model, buffer, texel = stretched_gltf()
     (folder / "plane.gltf").write_bytes(model)
     (folder / "plane.bin").write_bytes(buffer)
@@ -99,6 +99,6 @@ def write_stretched(folder):
 
 
 def degrees(a, b):
-    """The angle between two vectors."""
+    """The angle between two vectors in degrees."""
     a, b = np.asarray(a, float), np.asarray(b, float)
     return np.degrees(np.arccos(min(1, a @ b / np.linalg.norm(a) / np.linalg.norm(b))))

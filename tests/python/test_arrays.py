@@ -1,4 +1,4 @@
-"""Arrays in and out: what is copied, what is not, and what is refused."""
+"""Arrays in and out: which are copied, which are not, and which are refused."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,7 @@ import cotan
 from shapes import bumps, slope, square
 
 
-def test_arrays_that_fit_are_the_meshs_own():
+def test_fitting_arrays_are_not_copied():
     positions = np.zeros((5, 3), np.float32)
     indices = np.array([0, 1, 2], np.uint32)
     texcoords = np.zeros((5, 2), np.float32)
@@ -24,7 +24,7 @@ def test_triangles_of_three_rows_are_not_copied():
     assert np.shares_memory(mesh.indices, rows) and mesh.indices.shape == (6,)
 
 
-def test_pictures_that_fit_are_given_to_the_library_as_they_are():
+def test_fitting_images_are_passed_without_a_copy():
     from cotan import _arrays
 
     for dtype in (np.uint8, np.uint16, np.float32):
@@ -57,13 +57,13 @@ def test_results_are_written_into_out():
         [0],
     ],
 )
-def test_an_out_that_does_not_fit_is_refused(out):
+def test_unsuitable_out_is_refused(out):
     with pytest.raises(cotan.UsageError, match="^out: expected a contiguous, writeable array") as caught:
         cotan.bake(square(), slope(0), size=8, out=out)
     assert caught.value.field == "out" and caught.value.found
 
 
-def test_arrays_with_gaps_and_other_numbers_give_the_same():
+def test_strided_arrays_and_other_dtypes_give_the_same():
     mesh = bumps()
     expected = cotan.tangents(mesh)
     wide = np.zeros((len(mesh.positions), 6), np.float32)
@@ -80,7 +80,7 @@ def test_arrays_with_gaps_and_other_numbers_give_the_same():
     assert (turned == cotan.map_convert(picture.transpose(1, 0, 2).copy(), "gltf", "directx")).all()
 
 
-def test_three_channels_and_one_are_taken_with_full_alpha():
+def test_three_channels_and_one_get_full_alpha():
     rgb = np.full((4, 4, 3), 128, np.uint8)
     rgb[..., 2] = 255
     assert (cotan.map_convert(rgb, "gltf", "gltf") == [128, 128, 255, 255]).all()
@@ -99,7 +99,7 @@ def refused(kind, field, call):
 P, N, UV, I = np.zeros((4, 3), np.float32), np.ones((4, 3), np.float32), np.zeros((4, 2), np.float32), np.zeros(6, np.uint32)
 
 
-def test_wrong_shapes_and_dtypes_name_the_argument_the_expected_and_the_found():
+def test_wrong_shapes_and_dtypes_name_argument_expected_and_found():
     error = refused(cotan.UsageError, "positions", lambda: cotan.Mesh(P[:, :2], I))
     assert (error.expected, error.found) == ("shape (n, 3)", "(4, 2)")
     error = refused(cotan.UsageError, "normals", lambda: cotan.Mesh(P, I, N[:3]))
@@ -120,7 +120,7 @@ def test_wrong_shapes_and_dtypes_name_the_argument_the_expected_and_the_found():
     refused(cotan.UsageError, "high", lambda: cotan.bake(square(), [square(), None]))
 
 
-def test_what_the_library_refuses_has_the_same_parts():
+def test_errors_of_the_library_have_the_same_parts():
     error = refused(cotan.InputError, "mesh.indices[5]", lambda: cotan.tangents(cotan.Mesh(P, [0, 1, 2, 0, 1, 4], N, UV)))
     assert (error.expected, error.found) == ("less than 4", "4")
     refused(cotan.UsageError, "mesh.index_count", lambda: cotan.tangents(cotan.Mesh(P, [0, 1], N, UV)))
@@ -138,7 +138,7 @@ def test_what_the_library_refuses_has_the_same_parts():
 
 @pytest.mark.parametrize("value", [-2, 2**32, 2**70, 0.5, "8", None, float("nan")])
 @pytest.mark.parametrize("field", ["threads", "padding", "ao_rays", "material", "udim", "memory"])
-def test_integers_are_never_cut(field, value):
+def test_out_of_range_integers_are_refused(field, value):
     files = ("missing.obj", "missing.obj") if field == "memory" else (square(), slope(0))
     refused(cotan.UsageError, field, lambda: cotan.bake(*files, size=8, **{field: value}))
 
@@ -151,7 +151,7 @@ def test_floats_are_finite_numbers():
         refused(cotan.UsageError, "scale_x", lambda: cotan.map_from_height(np.zeros((4, 4)), value))
 
 
-def test_numbers_that_are_none_are_refused_where_they_would_spread():
+def test_non_finite_numbers_are_refused():
     broken = square()
     broken.positions = broken.positions.copy()
     broken.positions[2, 1] = np.nan
@@ -161,7 +161,7 @@ def test_numbers_that_are_none_are_refused_where_they_would_spread():
         cotan.bake(square(), broken, size=8)
 
 
-def test_frames_are_total():
+def test_frames_accept_any_numbers():
     nan = np.full((3, 3), np.nan, np.float32)
     up = np.tile(np.float32([0, 0, 1]), (3, 1))
     zero3, zero2 = np.zeros((3, 3)), np.zeros((3, 2))
@@ -169,7 +169,7 @@ def test_frames_are_total():
     assert cotan.frame_apply("cotangent", up, up, nan, nan, zero2, zero2).shape == (3, 3)
 
 
-def test_nothing_at_all_is_no_error():
+def test_empty_meshes_are_accepted():
     empty = cotan.Mesh(np.zeros((0, 3)), [], np.zeros((0, 3)), np.zeros((0, 2)))
     assert cotan.tangents(empty).shape == (0, 4)
     assert [a.shape for a in cotan.smooth_cotangents(empty)] == [(0, 3), (0, 3)]
@@ -194,7 +194,7 @@ def test_results_print_in_a_line_and_meshes_compare_by_identity():
     assert len(repr(cotan.bake(mesh, slope(0), size=64))) < 300
 
 
-def test_rows_of_different_lengths_are_told_in_our_words():
+def test_rows_of_different_lengths_are_reported():
     ragged = [[0, 0, 0], [1, 2]]
     for call in (
         lambda: cotan.Mesh(ragged, [0, 1, 2]),

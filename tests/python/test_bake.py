@@ -1,4 +1,4 @@
-"""Baking from arrays and files, against mathematics and against the command line to the bit."""
+"""Baking from arrays and files, against mathematics and, to the bit, against the command line."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,7 @@ import cotan
 from shapes import bumps, slope, square, write_obj
 
 
-def test_a_slope_of_one_in_ten_leans_by_a_tenth():
+def test_a_slope_of_one_in_ten_tilts_by_a_tenth():
     rise = 0.1
     baked = cotan.bake(square(), slope(rise), size=16, max_distance=0.5)
     normal = np.array([-rise, 0, 1]) / np.hypot(rise, 1)
@@ -17,10 +17,10 @@ def test_a_slope_of_one_in_ten_leans_by_a_tenth():
     assert abs(baked.ray_distance - 0.5) < 1e-6 and baked.warnings == [] and baked.mask is None
 
 
-def test_green_points_up_or_down_as_the_conventions_name_says():
+def test_green_direction_follows_the_convention():
     tilted = slope(0.2)
     tilted.positions = tilted.positions[:, [1, 0, 2]] * np.float32([1, 1, 1])
-    tilted.normals = np.ascontiguousarray(tilted.normals[:, [1, 0, 2]])  # rises towards +y, up in the picture
+    tilted.normals = np.ascontiguousarray(tilted.normals[:, [1, 0, 2]])  # rises towards +y, up in the image
     tilted.indices = tilted.indices.reshape(-1, 3)[:, ::-1].ravel()
     leaning = 127 * 0.2 / np.hypot(0.2, 1)
     for convention, code in (("gltf", 128 - leaning), ("opengl", 128 - leaning), ("directx", 128 + leaning),
@@ -52,7 +52,7 @@ OPTIONS = [
 
 
 @pytest.mark.parametrize("options", OPTIONS, ids=lambda o: " ".join(map(str, o.values())) or "defaults")
-def test_arrays_and_files_bake_what_the_command_line_bakes_to_the_bit(options, command, tmp_path):
+def test_arrays_and_files_bake_the_bytes_of_the_command_line(options, command, tmp_path):
     low, high = bumps(4), bumps(40)
     files = write_obj(tmp_path / "low.obj", low), write_obj(tmp_path / "high.obj", high)
     words = []
@@ -68,12 +68,12 @@ def test_arrays_and_files_bake_what_the_command_line_bakes_to_the_bit(options, c
 
 
 def lying(mesh):
-    """The mesh as a program stores it whose z is up: what was along y is along z."""
+    """The mesh as a z-up program stores it: y becomes z."""
     turned = [np.c_[v[:, 0], -v[:, 2], v[:, 1]].astype(np.float32) for v in (mesh.positions, mesh.normals)]
     return cotan.Mesh(turned[0], mesh.indices, turned[1], mesh.texcoords)
 
 
-def test_meshes_whose_z_is_up_bake_what_they_bake_when_they_stand(command, tmp_path):
+def test_meshes_with_z_up_bake_the_same_map(command, tmp_path):
     low, high = square(), bumps()
     options = {"size": 32, "kind": "object-normal"}
     standing = cotan.bake(low, high, **options).map
@@ -83,7 +83,7 @@ def test_meshes_whose_z_is_up_bake_what_they_bake_when_they_stand(command, tmp_p
     one = cotan.bake(tmp_path / "low.obj", high, up="z", high_up="y", **options).map
     loaded = cotan.bake(cotan.load(tmp_path / "low.obj", up="z"), cotan.Model(lying(high), up="z"), **options).map
     for turned in (both, one, loaded):
-        assert np.abs(turned.astype(int) - standing).max() <= 1  # a quarter turn rounds
+        assert np.abs(turned.astype(int) - standing).max() <= 1  # rotating by 90 degrees rounds
     with pytest.raises(cotan.UsageError, match="up: expected y or z, found 'x'"):
         cotan.load(tmp_path / "low.obj", up="x")
     command("bake", "--low", tmp_path / "low.obj", "--high", tmp_path / "high.obj", "-o", tmp_path / "map.png", "--up",
@@ -91,8 +91,8 @@ def test_meshes_whose_z_is_up_bake_what_they_bake_when_they_stand(command, tmp_p
     assert (cotan.read_picture(tmp_path / "map.png") == one).all()
 
 
-def test_a_cage_and_names_do_what_they_do_on_the_command_line(command, tmp_path):
-    # Two squares side by side in uv, one over the other in space: without names both see the nearer surface.
+def test_cage_and_names_work_as_on_the_command_line(command, tmp_path):
+    # Two squares side by side in uv, one above the other in space: without names both hit the nearer surface.
     def half(name, z, offset):
         mesh = square(name)
         mesh.positions = mesh.positions + np.float32([0, 0, z])
@@ -102,7 +102,7 @@ def test_a_cage_and_names_do_what_they_do_on_the_command_line(command, tmp_path)
     low = [half("a_low", 0, 0), half("b_low", 0.05, 0.5)]
     high = [slope(0.1, "a_high"), slope(-0.1, "b_high")]
     apart = cotan.bake(low, high, size=32, frame="smooth", match_by_name=True).map
-    # u grows half as fast as v, the longer gradient, which has length one: the texel is twice as steep along it.
+    # u is half as dense as v, the longer gradient, whose length is one: slopes along u double.
     lean = 127 * 0.2 / np.hypot(0.2, 1)
     assert np.abs(apart[..., 0] - np.repeat([128 - lean, 128 + lean], 16)).max() <= 0.5
     with pytest.raises(cotan.InputError, match="b_low"):
@@ -115,7 +115,7 @@ def test_a_cage_and_names_do_what_they_do_on_the_command_line(command, tmp_path)
     expected = cotan.read_picture(tmp_path / "out.png")
     for caged in (cage, files[2]):
         assert (cotan.bake(bumps(4), bumps(40), cage=caged, size=64).map == expected).all()
-    # From 2 above: to as far below, or as far as the rays are told to run.
+    # Rays from 2 above reach equally far below, or as far as cage_reach says.
     above, flat, below = square(), square(), square()
     above.positions = above.positions + np.float32((0, 0, 2))
     below.positions = below.positions - np.float32((0, 0, 1))
@@ -126,7 +126,7 @@ def test_a_cage_and_names_do_what_they_do_on_the_command_line(command, tmp_path)
     assert caught.value.field == "cage"
 
 
-def test_the_detailed_meshes_own_map_is_baked_with_them(command, tmp_path):
+def test_normal_map_of_the_detailed_mesh_is_baked(command, tmp_path):
     tilt = np.zeros((8, 8, 4), np.uint8)
     tilt[:] = [128 + 38, 128, 249, 255]  # 0.3, 0, 0.95
     cotan.write_picture(tmp_path / "tilt.png", tilt)
@@ -143,7 +143,7 @@ def test_the_detailed_meshes_own_map_is_baked_with_them(command, tmp_path):
     assert caught.value.field == "high_normals"
 
 
-def test_a_material_is_baked_by_its_number(command, tmp_path):
+def test_material_number_selects_triangles(command, tmp_path):
     low = write_obj(tmp_path / "low.obj", square())
     lines = low.read_text().splitlines()
     (tmp_path / "low.mtl").write_text("newmtl a\nnewmtl b\n")
@@ -158,17 +158,17 @@ def test_a_material_is_baked_by_its_number(command, tmp_path):
     assert covered[0] == 256 and covered[1] + covered[2] == 256 and min(covered) > 100
 
 
-def test_normals_that_are_left_out_are_smooth_ones():
+def test_missing_normals_are_smooth():
     bare = bumps(40)
     bare.normals = None
     with_normals = cotan.bake(bumps(4), bumps(40), size=64, bits=32).map
     without = cotan.bake(bumps(4), bare, size=64, bits=32).map
     a, b = with_normals[..., :3] * 2 - 1, without[..., :3] * 2 - 1
     apart = np.degrees(np.arccos(np.clip((a * b).sum(2) / np.linalg.norm(a, axis=2) / np.linalg.norm(b, axis=2), -1, 1)))
-    assert 0 < np.mean(apart) < 0.5  # of facets 1/40 wide on waves of slopes up to 0.21
+    assert 0 < np.mean(apart) < 0.5  # facets 1/40 wide on waves with slopes up to 0.21
 
 
-def test_what_is_wrong_in_files_names_them(tmp_path):
+def test_errors_in_files_name_the_file(tmp_path):
     (tmp_path / "broken.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n")
     with pytest.raises(cotan.InputError) as caught:
         cotan.bake(tmp_path / "broken.obj", square(), size=8)
@@ -182,7 +182,7 @@ def test_what_is_wrong_in_files_names_them(tmp_path):
     assert caught.value.field == "udim"
 
 
-def test_the_examples_map_is_the_command_lines(source, command, tmp_path):
+def test_example_bakes_the_map_of_the_command_line(source, command, tmp_path):
     import runpy
     import sys
 
@@ -196,7 +196,7 @@ def test_the_examples_map_is_the_command_lines(source, command, tmp_path):
     assert (cotan.read_picture(tmp_path / "example.png") == cotan.read_picture(tmp_path / "out.png")).all()
 
 
-def test_what_is_wrong_in_meshes_names_the_keyword_or_the_mesh():
+def test_errors_in_meshes_name_keyword_or_mesh():
     bare, flat = square("panel_low"), np.full((4, 4, 3), 128, np.uint8)
     bare.texcoords = None
     for call, field in (

@@ -1,4 +1,4 @@
-"""Jobs on a cluster, by a client and a tool that write down what they are asked: no cluster is started."""
+"""Jobs on a cluster, with a fake client and a fake tool that record their calls: no cluster is started."""
 
 import json
 import sys
@@ -9,8 +9,8 @@ import pytest
 import cotan
 import cotan.dask
 
-# Writes its words down. A merge prints a report with as many jobs as the file has lines; a shard ends as its number's line
-# in "codes" says.
+# Records its arguments. A merge prints a report with as many jobs as the file has lines; a shard exits with the code in
+# "codes" for its number.
 TOOL = """#!{python} -IS
 import json, os, pathlib, signal, sys
 words, folder = sys.argv[1:], pathlib.Path(sys.argv[0]).parent
@@ -48,7 +48,7 @@ class Client:
         return self.threads
 
     def submit(self, work, words, pure, key):
-        assert pure is False  # the same words are run again
+        assert pure is False  # the same arguments run again
         self.keys.append(key)
         self.tasks.append(Task(work, words))
         return self.tasks[-1]
@@ -59,7 +59,7 @@ class Client:
 
 @pytest.fixture
 def farm(tmp_path, monkeypatch):
-    """run(jobs, ...) with a client of three threads in two workers, which is the present one."""
+    """run(jobs, ...) with a client of three threads in two workers, which is the current client."""
     tool = tmp_path / "tool"
     tool.write_text(TOOL.format(python=sys.executable))
     tool.chmod(0o755)
@@ -84,7 +84,7 @@ def farm(tmp_path, monkeypatch):
     return Farm()
 
 
-def test_each_part_is_one_task_and_the_report_is_of_all(farm):
+def test_each_part_is_one_task_and_the_report_covers_all(farm):
     folder = farm.folder
     shares = []
     report = farm.run(7, report=folder / "r.html", store=None, progress=shares.append, options=["--retries", "2"])
@@ -104,29 +104,29 @@ def test_each_part_is_one_task_and_the_report_is_of_all(farm):
 @pytest.mark.parametrize(
     "count, threads, more, parts",
     [
-        (20, {"a": 2, "b": 1}, {}, 12),  # four a thread
+        (20, {"a": 2, "b": 1}, {}, 12),  # four per thread
         (12, {"a": 2, "b": 1}, {}, 12),
-        (3, {"a": 2, "b": 1}, {}, 3),  # no more than jobs
+        (3, {"a": 2, "b": 1}, {}, 3),  # at most one per job
         (0, {"a": 2}, {}, 1),
-        (20, {}, {}, 4),  # nobody is there yet
+        (20, {}, {}, 4),  # no worker has connected yet
         (20, {"a": 2}, {"shards": 5}, 5),
         (2, {"a": 2}, {"shards": 5}, 5),
     ],
 )
-def test_parts_are_as_many_as_the_threads_can_take(farm, count, threads, more, parts):
+def test_number_of_parts_follows_the_threads(farm, count, threads, more, parts):
     client = Client(**threads)
     assert farm.run(count, client=client, **more)["page"] is None
     assert [task.words[-1] for task in client.tasks] == [f"{k}/{parts}" for k in range(1, parts + 1)]
     assert not farm.client.tasks
 
 
-def test_jobs_at_a_time_may_be_said(farm):
+def test_concurrent_jobs_may_be_given(farm):
     farm.run(1, options=["--jobs", "3"])
     assert farm.asked()[1][5:] == ["--jobs", "3", "--shard", "1/1"]
 
 
 @pytest.mark.parametrize("answer, calls", [(False, 1), (True, 3), (None, 3), (0, 3)])
-def test_only_false_stops_it(farm, answer, calls):
+def test_only_false_from_progress_stops_the_run(farm, answer, calls):
     shares = []
 
     def progress(share):
@@ -143,7 +143,7 @@ def test_only_false_stops_it(farm, answer, calls):
 
 
 @pytest.mark.parametrize("code", [2, 5])
-def test_jobs_that_are_not_done_are_rows_of_the_report(farm, code):
+def test_unfinished_jobs_are_rows_of_the_report(farm, code):
     assert len(farm.run(2, codes={"1": code, "2": code})["jobs"]) == 2
 
 
@@ -157,18 +157,18 @@ def test_jobs_that_are_not_done_are_rows_of_the_report(farm, code):
         (-9, cotan.UnavailableError, "cotan ended with -9"),
     ],
 )
-def test_what_ends_a_whole_part_is_raised(farm, code, error, text):
+def test_failure_of_a_whole_part_is_raised(farm, code, error, text):
     with pytest.raises(error) as raised:
         farm.run(2, codes={"2": code})
     assert str(raised.value) == text
     assert farm.client.cancelled == farm.client.tasks
 
 
-def test_what_is_missing_is_said(farm):
+def test_missing_arguments_and_tools_are_named(farm):
     with pytest.raises(cotan.UsageError, match="report, store: expected one of them; found none"):
         farm.run(2, store=None)
     (farm.folder / "file").write_text("")
-    with pytest.raises(cotan.OutputError, match="cannot make this folder"):
+    with pytest.raises(cotan.OutputError, match="cannot create this folder"):
         farm.run(2, store=farm.folder / "file")
     with pytest.raises(cotan.UnavailableError, match="gone: cannot be started: No such file or directory"):
         farm.run(2, tool=str(farm.folder / "gone"))

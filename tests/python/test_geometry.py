@@ -1,4 +1,4 @@
-"""Frames and tangents against what mathematics says of planes."""
+"""Frames and tangents against analytic results for planes."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from shapes import bumps, degrees, square
 
 UP = np.float32([[0, 0, 1]])
 TEXEL = np.float32([[0.6, 0.48, 0.64]])
-# Of a plane whose u runs along -x and v along y.
+# A plane whose u runs along -x and v along y.
 DIFFERENCES = {
     "normals": UP,
     "dpdx": np.float32([[2, 0, 0]]),
@@ -18,28 +18,28 @@ DIFFERENCES = {
 }
 
 
-def test_frames_are_named():
+def test_frames_lists_the_names():
     assert {"cotangent", "orthonormal", "smooth", "mikktspace", "triangle"} <= set(cotan.frames())
 
 
 @pytest.mark.parametrize("frame", ["cotangent", "orthonormal", "unit", "exact"])
-def test_a_texels_x_goes_along_u_and_its_y_along_v(frame):
+def test_x_of_a_texel_is_along_u_and_y_along_v(frame):
     normal = cotan.frame_apply(frame, TEXEL, **DIFFERENCES)
     np.testing.assert_allclose(normal, [[-0.6, 0.48, 0.64]], atol=1e-5)
     np.testing.assert_allclose(cotan.frame_encode(frame, normal, **DIFFERENCES), TEXEL, atol=1e-5)
 
 
-def test_the_cotangent_frame_keeps_slopes_where_texels_are_stretched():
-    # Texels twice as long along u: the slope along it is half as steep.
+def test_cotangent_frame_scales_slopes_of_stretched_texels():
+    # Texels twice as long along u: the slope along u halves.
     stretched = dict(DIFFERENCES, dpdx=np.float32([[4, 0, 0]]))
     normal = cotan.frame_apply("cotangent", TEXEL, **stretched)
     assert degrees(normal[0], [-0.3, 0.48, 0.64]) < 1e-3
 
 
-def test_frames_at_vertices_read_what_the_library_makes():
+def test_vertex_frames_read_the_attributes_of_the_library():
     tangents = np.float32([[-1, 0, 0, 1]])
     normal = cotan.vertex_frame_apply("mikktspace", TEXEL, UP, tangents=tangents)
-    # w = 1: cross(n, t) = -y points up in the image, against v, so that v runs along y.
+    # w = 1: cross(n, t) = -y points up in the image, against v, so v runs along y.
     np.testing.assert_allclose(normal, [[-0.6, 0.48, 0.64]], atol=1e-6)
     np.testing.assert_allclose(cotan.vertex_frame_encode("mikktspace", normal, UP, tangents=tangents), TEXEL, atol=1e-6)
     mesh = square()
@@ -50,7 +50,7 @@ def test_frames_at_vertices_read_what_the_library_makes():
         cotan.vertex_frame_apply("smooth", TEXEL, UP, tangents=tangents)
 
 
-def test_tangents_run_along_u_and_w_says_which_side():
+def test_tangents_follow_u_and_w_the_mirroring():
     assert (cotan.tangents(square()) == [1, 0, 0, 1]).all()
     mirrored = square()
     mirrored.texcoords = mirrored.texcoords * np.float32([-1, 1])
@@ -79,7 +79,7 @@ def test_vertex_k_provokes_triangle_k(last, corner):
     assert (np.sort(sources[indices].reshape(-1, 3)) == np.sort(square().indices.reshape(-1, 3))).all()
 
 
-def test_triangle_vectors_have_one_pair_for_each_triangle_and_pack_as_halves():
+def test_triangle_vectors_are_per_triangle_and_pack_as_halves():
     u, v = cotan.triangle_vectors(square())
     assert u.shape == v.shape == (2, 3)
     assert degrees(np.cross([0, 0, 1], u[0]), [1, 0, 0]) < 1e-3  # t = cross(n, U) runs along +u
@@ -89,7 +89,7 @@ def test_triangle_vectors_have_one_pair_for_each_triangle_and_pack_as_halves():
     np.testing.assert_allclose(halves, np.c_[u, v], atol=2e-3)
 
 
-def test_packed_forms_have_a_shape_for_each():
+def test_packed_forms_have_their_shapes():
     mesh = square()
     u, v = cotan.smooth_cotangents(mesh)
     eight = cotan.pack_smooth8(mesh.normals, u, v)
@@ -101,7 +101,7 @@ def test_packed_forms_have_a_shape_for_each():
     assert (eight[0] == eight[3]).all() and eight.any() and four[0] == four[3] != 0 and two[0] == two[3]
 
 
-def test_shader_text_is_the_command_lines(command, tmp_path):
+def test_shader_text_is_that_of_the_command_line(command, tmp_path):
     for lang in ("glsl", "wgsl", "hlsl"):
         command("shader", "--lang", lang, "--frame", "cotangent", "-o", tmp_path / lang)
         assert cotan.shader(lang) == (tmp_path / lang).read_text()

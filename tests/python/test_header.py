@@ -1,4 +1,4 @@
-"""What ctypes is told against what cotan.h says: a wrong offset is still a number."""
+"""Declarations for ctypes against those of cotan.h: a wrong offset would still read a number."""
 
 import ctypes
 import re
@@ -16,7 +16,7 @@ def header(source):
     return (source / "src/c/include/cotan.h").read_text()
 
 
-def test_every_struct_has_the_size_and_offsets_that_a_c_compiler_gives_it(source, header, tmp_path):
+def test_every_struct_has_the_layout_of_a_c_compiler(source, header, tmp_path):
     named = set(re.findall(r"^typedef struct (cotan_\w+) \{", header, re.M))
     assert named == set(_structs.STRUCTS)
     lines = []
@@ -53,7 +53,7 @@ def _members(declaration):
 
 
 def _kind_of(parameter):
-    """What ctypes calls a parameter of the header: its size and whether it is a number, a text or a pointer."""
+    """The ctypes kind of a parameter in the header: its size, and whether it is a number, a text or a pointer."""
     parameter = parameter.strip()
     if "char*" in parameter and "char* const*" not in parameter:
         return "text"
@@ -67,24 +67,24 @@ def _kind_in_python(kind):
     return names.get(kind, "pointer")
 
 
-def test_every_function_takes_what_the_header_says(header):
+def test_every_function_has_the_parameters_of_the_header(header):
     plain = re.sub(r"/\*.*?\*/", "", header, flags=re.S)
     found = dict(re.findall(r"^[a-z_]+(?: [a-z_]+)?\*? (cotan_\w+)\(([^;]*)\);", plain, re.M))
     assert set(found) == set(_structs.FUNCTIONS)
     for name, parameters in found.items():
         expected = [] if parameters == "void" else [_kind_of(p) for p in parameters.split(",")]
         declared = [_kind_in_python(kind) for kind in _structs.FUNCTIONS[name][1:]]
-        # Text that is written is passed as the address of a buffer.
+        # Text outputs are passed as the address of a buffer.
         declared = ["text" if e == "text" and d == "pointer" else d for e, d in zip(expected, declared)] + declared[len(expected) :]
         assert declared == expected, name
 
 
-def test_the_versions_are_the_librarys(header, source):
+def test_versions_equal_those_of_the_library(header, source):
     assert cotan.__version__ == cotan.library_version()
     written = int(re.search(r"#define COTAN_API_VERSION (\d+)", header)[1])
     assert API_VERSION == written == library().cotan_api_version()
 
 
-def test_every_status_has_an_exception_of_its_own(header):
+def test_every_status_has_its_own_exception(header):
     numbers = {int(n) for n in re.findall(r"^    COTAN_\w+ = (\d+)", header, re.M)} - {0}
     assert numbers == set(errors._OF_STATUS) and len(numbers) == len(set(errors._OF_STATUS.values()))

@@ -1,4 +1,4 @@
-"""The package installed without the network: as a wheel that carries the library, and from its sources."""
+"""The package installed without the network: as a wheel that contains the library, and from its sources."""
 
 import os
 import pathlib
@@ -14,12 +14,12 @@ LIBRARY = os.environ.get("COTAN_LIBRARY", "")
 
 
 def without(*names):
-    """The variables of this process but those."""
+    """The environment variables of this process except `names`."""
     return {name: value for name, value in os.environ.items() if name not in names}
 
 
 def installed(place, *words):
-    """A Python of its own that sees numpy, with the package in it."""
+    """A virtual environment that sees numpy, with the package installed; returns its Python."""
     subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", "--without-pip", place], check=True)
     subprocess.run(
         [sys.executable, "-m", "pip", "--python", place / "bin/python", "install", "--quiet", "--no-index", "--no-deps",
@@ -44,7 +44,7 @@ print(cotan.read_picture("a.exr").dtype)
 """
 
 
-def test_a_wheel_that_carries_the_library_works_where_it_is_installed(source, tmp_path):
+def test_wheel_with_the_library_works_after_installation(source, tmp_path):
     needs("setuptools", "wheel", "pip")
     build = pathlib.Path(LIBRARY).resolve().parents[2]
     made = subprocess.run([source / "scripts/python-wheel", tmp_path, build], check=True, capture_output=True, text=True)
@@ -59,7 +59,7 @@ def test_a_wheel_that_carries_the_library_works_where_it_is_installed(source, tm
     assert " ".join(rest) == "[128 128 255 255] float32"
 
 
-def test_pip_installs_the_sources_for_a_library_that_is_elsewhere(source, tmp_path):
+def test_pip_installs_the_sources_for_a_separate_library(source, tmp_path):
     needs("setuptools", "wheel", "pip")
     shutil.copytree(source / "bindings/python", tmp_path / "sources", ignore=shutil.ignore_patterns("build", "*.egg-info"))
     python = installed(tmp_path / "environment", tmp_path / "sources")

@@ -1,4 +1,4 @@
-"""docs/reference/json.md against the reports that the library gives, as tests/json_fields_test.py does for the tool."""
+"""docs/reference/json.md against the library's reports, as tests/json_fields_test.py does for the tool."""
 
 import importlib.util
 import sys
@@ -33,7 +33,7 @@ def check(fields, page, name, reports):
     assert fields.differences(name, page, reports) == []
 
 
-def test_every_field_of_lint_is_on_the_page_and_the_other_way_round(fields, page, tmp_path):
+def test_fields_of_lint_equal_those_on_the_page(fields, page, tmp_path):
     model = write_stretched(tmp_path)
     reports = [cotan.lint(model).report, cotan.lint(model, limit=0.001, limit_area=1).report, cotan.lint(model, limit=180).report]
     check(fields, page, "cotan-lint-result", reports)

@@ -10,7 +10,7 @@ import cotan
 
 
 def relief(side=96):
-    """Heights of smooth bumps that repeat over the borders, and their slopes per texel."""
+    """Heights of smooth, periodic bumps, and their slopes per texel."""
     x, y = np.meshgrid(np.arange(side), np.arange(side))
     a, b = 2 * np.pi / side * 3, 2 * np.pi / side * 2
     height = 2 * np.sin(a * x + 0.3) * np.cos(b * y) + np.cos(2 * b * y + a * x)
@@ -30,14 +30,14 @@ def normal_map(green_up=True, dtype=np.uint8):
 
 @pytest.fixture
 def files(tmp_path):
-    """A map and a detail as PNG files, and as the arrays that they hold."""
+    """A map and a detail as PNG files, and as the arrays that these contain."""
     base, detail = normal_map(), normal_map(dtype=np.uint16)[::2, ::2]
     cotan.write_picture(tmp_path / "base.png", base)
     cotan.write_picture(tmp_path / "detail.png", detail)
     return tmp_path, cotan.read_picture(tmp_path / "base.png"), cotan.read_picture(tmp_path / "detail.png")
 
 
-def test_pictures_come_back_from_files_as_they_were(tmp_path):
+def test_images_round_trip_through_files(tmp_path):
     for dtype, name in ((np.uint8, "a.png"), (np.uint16, "b.png"), (np.float32, "c.exr")):
         given = normal_map(dtype=dtype)
         cotan.write_picture(tmp_path / name, given)
@@ -66,13 +66,13 @@ def test_green_is_detected_from_the_relief(green_up, word, tmp_path, command):
     assert cotan.detect(tmp_path / "map.png") == found
 
 
-def test_what_cannot_be_told_is_none():
+def test_undecidable_values_are_none():
     flat = cotan.detect(np.full((32, 32, 3), 128, np.uint8))
     assert (flat.green, flat.swapped, flat.confidence) == ("undecidable", None, "none")
     assert cotan.describe(np.full((32, 32, 3), 128, np.uint8)).zero is None
 
 
-def test_a_map_is_described_by_its_numbers():
+def test_describe_reports_the_statistics_of_a_map():
     info = cotan.describe(normal_map())
     assert (info.content, info.zero, info.transfer, info.invalid) == ("tangent space", 128, "linear", 0)
     _, along_x, along_y = relief()
@@ -81,7 +81,7 @@ def test_a_map_is_described_by_its_numbers():
     assert abs(info.mean_length - 1) < 0.01 and info.mean[2] > 0.5
 
 
-def test_conversion_is_the_command_lines_to_the_bit(files, command):
+def test_conversion_equals_the_command_line(files, command):
     folder, base, _ = files
     for source, to, bits in (("gltf", "directx", 8), ("opengl", "unity,xy", 16), ("gltf", "directx,biased", 8)):
         out = folder / "out.png"
@@ -89,7 +89,7 @@ def test_conversion_is_the_command_lines_to_the_bit(files, command):
         assert (cotan.map_convert(base, source, to, bits) == cotan.read_picture(out)).all(), (source, to)
 
 
-def test_green_turns_between_gltf_and_directx(files):
+def test_green_is_reversed_between_gltf_and_directx(files):
     _, base, _ = files
     turned = cotan.map_convert(base, "gltf", "directx")
     assert (turned[..., 1] == 256 - base[..., 1].astype(int)).all()
@@ -101,13 +101,13 @@ def test_heights_become_the_normals_of_their_slopes():
     normals = np.dstack([-along_x, along_y, np.ones_like(along_x)])  # rows run down, green up
     normals /= np.linalg.norm(normals, axis=2)[..., None]
     made = cotan.map_from_height(height.astype(np.float32), 1.0, bits=32)[..., :3] * 2 - 1
-    assert np.abs(made - normals).max() < 2e-3  # what differences of neighbours leave of a wave of 64 texels
+    assert np.abs(made - normals).max() < 2e-3  # error of central differences for a wave of 64 texels
     back = cotan.map_to_height(cotan.map_from_height(height.astype(np.float32), 1.0, bits=32))
     assert np.abs(back - (height - height.mean())).max() < 0.05
     assert abs(back.mean()) < 1e-4
 
 
-def test_heights_from_files_are_the_command_lines_to_the_bit(tmp_path, command):
+def test_heights_from_files_equal_the_command_line(tmp_path, command):
     height = relief()[0]
     grey = np.round((height - height.min()) / np.ptp(height) * 65535).astype(np.uint16)
     cotan.write_picture(tmp_path / "height.png", grey)
@@ -117,7 +117,7 @@ def test_heights_from_files_are_the_command_lines_to_the_bit(tmp_path, command):
     assert (made == cotan.read_picture(tmp_path / "map.png")).all()
 
 
-def test_blending_is_the_command_lines_to_the_bit(files, command):
+def test_blending_equals_the_command_line(files, command):
     folder, base, _ = files
     cotan.write_picture(folder / "over.png", base[::-1])
     for mode in ("reoriented", "whiteout", "udn", "slopes", "linear"):
@@ -126,17 +126,17 @@ def test_blending_is_the_command_lines_to_the_bit(files, command):
         assert (made == cotan.read_picture(folder / "out.png")).all(), mode
 
 
-def test_levels_halve_to_one_texel_and_keep_their_length():
+def test_levels_halve_to_one_texel_and_stay_unit():
     levels = cotan.map_mips(normal_map(dtype=np.uint16))
     assert [level.map.shape[0] for level in levels] == [96, 48, 24, 12, 6, 3, 1]
     first = levels[0].map[..., :3].astype(int) - normal_map(dtype=np.uint16)
-    assert np.abs(first).max() <= 1  # made unit again
+    assert np.abs(first).max() <= 1  # normalised again
     last = (levels[-1].map[0, 0, :3].astype(float) - 32768) / 32767
-    assert abs(np.linalg.norm(last) - 1) < 1e-3 and last[2] > 0.99  # a relief that repeats has no tilt
+    assert abs(np.linalg.norm(last) - 1) < 1e-3 and last[2] > 0.99  # a periodic relief has no mean tilt
     assert levels[-1].roughness[0, 0, 0] > levels[0].roughness[0, 0, 0]
 
 
-def test_half_stands_for_zero_in_floats_and_not_128_of_255():
+def test_zero_in_floats_is_one_half_not_128_of_255():
     flat = np.full((2, 2, 3), 128, np.uint8)
     floats = cotan.map_convert(flat, "gltf", "gltf", bits=32)
     assert (floats[..., :2] == 0.5).all()
@@ -145,7 +145,7 @@ def test_half_stands_for_zero_in_floats_and_not_128_of_255():
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -0.1, 1.5, 255.0])
-def test_floats_that_no_map_holds_are_refused_with_their_place(value, files):
+def test_floats_out_of_range_are_refused_with_row_and_column(value, files):
     _, base, _ = files
     bad = np.full((4, 6, 3), 0.5, np.float32)
     bad[2, 3, 1] = value
@@ -164,7 +164,7 @@ def test_floats_that_no_map_holds_are_refused_with_their_place(value, files):
             cotan.map_from_height(bad, 1.0)
 
 
-def test_floats_that_a_convention_holds_are_taken():
+def test_floats_in_the_range_of_the_convention_are_accepted():
     signed = np.zeros((4, 4, 3), np.float32)
     signed[..., 0], signed[..., 2] = -0.6, 0.8
     made = cotan.map_convert(signed, "gltf,signed", "gltf", bits=8)
@@ -173,7 +173,7 @@ def test_floats_that_a_convention_holds_are_taken():
     cotan.map_convert(slopes, "unity,slope", "gltf", bits=8)
 
 
-def test_a_missing_file_is_pythons_error_too_and_so_is_what_cannot_be_written(tmp_path):
+def test_missing_and_unwritable_files_raise_errors_of_python_too(tmp_path):
     for call in (
         lambda: cotan.read_picture(tmp_path / "gone.png"),
         lambda: cotan.load(tmp_path / "gone.obj"),

@@ -1,4 +1,4 @@
-"""glTF models: judged and converted, against mathematics and against the command line to the bit."""
+"""glTF models: judged and converted, against mathematics and, to the bit, against the command line."""
 
 import json
 import os
@@ -17,12 +17,12 @@ def model(tmp_path):
     return write_stretched(tmp_path)
 
 
-# What 8 bits hold of the map's one texel, and what the frame `cotangent` makes of it: u is half as steep.
+# The map's one texel after rounding to 8 bits, and its error in the frame `cotangent`, which halves slopes along u.
 STORED = (CODES.astype(float) - 128) / 127
 OFF = degrees(STORED, STORED * [0.5, 1, 1])
 
 
-def test_lint_says_by_how_many_degrees_frames_are_off(model):
+def test_lint_states_the_error_of_each_frame(model):
     found = cotan.lint(model)
     assert abs(found.cotangent_degrees - OFF) < 0.01 and abs(found.orthonormal_degrees) < 0.01
     assert (found.primitives, found.maps, found.distrust_stored) == (1, 1, False)
@@ -30,7 +30,7 @@ def test_lint_says_by_how_many_degrees_frames_are_off(model):
     assert found.recommendation == found.report["recommendation"]
 
 
-def test_lint_says_what_the_command_line_says(model, command):
+def test_lint_equals_the_command_line(model, command):
     said = json.loads(command("lint", model, "--json", "-", "--quiet"))
     found = cotan.lint(model)
     for name in ("recommendation", "distance", "primitives", "maps", "fits", "warnings"):
@@ -45,10 +45,10 @@ def test_a_limit_makes_lint_a_check(model):
     found = cotan.lint(model, limit=OFF - 1, frame="cotangent")
     assert found.passed is False
     assert [f["kind"] for f in found.report["check"]["failures"]] == ["reading"]
-    assert cotan.lint(model, limit=OFF - 1).passed is True  # of orthonormal
+    assert cotan.lint(model, limit=OFF - 1).passed is True  # for the frame orthonormal
 
 
-def test_lint_judges_files_bytes_and_loaded_models_alike(model, tmp_path):
+def test_lint_is_equal_for_files_bytes_and_loaded_models(model, tmp_path):
     texel = (tmp_path / "the map.png").read_bytes()
     beside = {"plane.bin": (tmp_path / "plane.bin").read_bytes(), "the map.png": texel}
     expected = cotan.lint(model)
@@ -58,7 +58,7 @@ def test_lint_judges_files_bytes_and_loaded_models_alike(model, tmp_path):
     assert cotan.lint(str(model)) == expected
 
 
-def test_without_a_map_nothing_is_judged_which_is_not_0_degrees(model):
+def test_without_a_map_degrees_are_none_not_0(model):
     plain = json.loads(model.read_text())
     del plain["materials"][0]["normalTexture"]
     model.write_text(json.dumps(plain))
@@ -93,7 +93,7 @@ def test_convert_makes_the_texel_twice_as_steep_and_drops_tangents(model, tmp_pa
      {"to_frame": "cotangent", "keep_tangents": True}, {"keep_maps": True}],
     ids=lambda o: " ".join(map(str, o.values())),
 )  # fmt: skip
-def test_convert_writes_what_the_command_line_writes_to_the_bit(options, model, command, tmp_path):
+def test_convert_writes_the_bytes_of_the_command_line(options, model, command, tmp_path):
     words = []
     for name, value in options.items():
         words += [f"--{name.replace('_', '-')}"] + ([] if value is True else [value])
@@ -103,7 +103,7 @@ def test_convert_writes_what_the_command_line_writes_to_the_bit(options, model, 
     assert cotan.convert(model, **options).glb == (tmp_path / "expected.glb").read_bytes()
 
 
-def test_maps_that_are_kept_cost_nothing_and_need_a_frame_without_tangents(model):
+def test_keep_maps_requires_a_frame_without_tangents(model):
     converted = cotan.convert(model, keep_maps=True)
     assert (converted.maps_converted, converted.maps_kept) == (0, 1)
     assert converted.tangent_bytes_dropped > 0
@@ -116,7 +116,7 @@ def test_maps_that_are_kept_cost_nothing_and_need_a_frame_without_tangents(model
             cotan.convert(model, keep_maps=True, **wrong)
 
 
-def test_nothing_is_replaced_that_is_read_unless_it_is_said(model, tmp_path):
+def test_inputs_are_replaced_only_with_overwrite(model, tmp_path):
     cotan.convert(model, tmp_path / "out.glb")
     before = (tmp_path / "out.glb").read_bytes()
     os.link(tmp_path / "out.glb", tmp_path / "link.glb")
@@ -127,7 +127,7 @@ def test_nothing_is_replaced_that_is_read_unless_it_is_said(model, tmp_path):
     assert (tmp_path / "out.glb").read_bytes() != before
 
 
-def test_a_failed_conversion_leaves_nothing_behind(model, tmp_path):
+def test_failed_conversion_leaves_no_file(model, tmp_path):
     (tmp_path / "out.glb").write_bytes(b"older")
     (tmp_path / "the map.png").write_bytes(b"broken")
     names = sorted(os.listdir(tmp_path))
@@ -141,7 +141,7 @@ def test_a_failed_conversion_leaves_nothing_behind(model, tmp_path):
     assert sorted(os.listdir(tmp_path)) == names and (tmp_path / "out.glb").read_bytes() == b"older"
 
 
-def test_what_is_broken_names_the_file_the_field_the_expected_and_the_found(model, tmp_path):
+def test_errors_name_file_field_expected_and_found(model, tmp_path):
     document = json.loads(model.read_text())
     document["accessors"][3]["count"] = 3
     model.write_text(json.dumps(document))
@@ -154,7 +154,7 @@ def test_what_is_broken_names_the_file_the_field_the_expected_and_the_found(mode
 
 
 @pytest.mark.parametrize("content", [b"", b"{", b"glTF", b"glTF\x02\0\0\0\xff\xff\xff\xff", b"\0" * 100, b"[]"])
-def test_broken_files_and_bytes_are_one_line(content, tmp_path):
+def test_errors_of_broken_files_and_bytes_are_one_line(content, tmp_path):
     for name in ("a.glb", "a.gltf"):
         (tmp_path / name).write_bytes(content)
         for call in (cotan.lint, cotan.convert, cotan.load, cotan.render):
@@ -177,7 +177,7 @@ def test_missing_files_and_folders_are_named(tmp_path):
             call(3)
 
 
-def test_only_files_in_the_models_folder_are_read(model, tmp_path):
+def test_only_files_in_the_folder_of_the_model_are_read(model, tmp_path):
     (tmp_path / "inside").mkdir()
     (tmp_path / "outside.bin").write_bytes((tmp_path / "plane.bin").read_bytes())
     for name in ("plane.bin", "the map.png"):
@@ -195,7 +195,7 @@ def test_only_files_in_the_models_folder_are_read(model, tmp_path):
                 call(tmp_path / "inside/plane.gltf")
 
 
-def test_an_error_of_the_callers_files_comes_through(model):
+def test_exceptions_of_the_callers_files_are_raised(model):
     class Broken(dict):
         def __contains__(self, key):
             raise ZeroDivisionError(key)
@@ -207,7 +207,7 @@ def test_an_error_of_the_callers_files_comes_through(model):
             call(model.read_bytes())
 
 
-def test_real_models_are_converted_as_on_the_command_line(data, command, tmp_path):
+def test_real_models_convert_as_on_the_command_line(data, command, tmp_path):
     for name in ("NormalTangentMirrorTest/NormalTangentMirrorTest.glb",):
         command("convert", data / "models" / name, "--to-frame", "smooth", "-o", tmp_path / "expected.glb")
         assert cotan.convert(data / "models" / name, to_frame="smooth").glb == (tmp_path / "expected.glb").read_bytes()
@@ -222,7 +222,7 @@ def test_models_keep_their_warnings(model):
     assert isinstance(np.array(loaded.warnings), np.ndarray)
 
 
-def test_the_callers_own_readers_and_writers_are_asked(model, tmp_path):
+def test_decoders_and_encoders_of_the_caller_are_called(model, tmp_path):
     expected = cotan.convert(model).glb
     asked = []
 
@@ -252,7 +252,7 @@ def test_the_callers_own_readers_and_writers_are_asked(model, tmp_path):
         cotan.convert(model, decode=lambda name, content: np.zeros(3, np.uint8))
 
 
-def test_conversion_in_two_steps_is_that_in_one(model, tmp_path):
+def test_conversion_in_two_steps_equals_one_call(model, tmp_path):
     def png(picture):
         cotan.write_picture(tmp_path / "step.png", picture)
         return (tmp_path / "step.png").read_bytes()
@@ -269,14 +269,14 @@ def test_conversion_in_two_steps_is_that_in_one(model, tmp_path):
     assert steps.report["maps"] == whole.report["maps"]
 
 
-def test_the_pictures_of_a_model_are_listed_as_they_are_stored(model, tmp_path):
+def test_images_of_a_model_are_listed_as_stored(model, tmp_path):
     stored = (tmp_path / "the map.png").read_bytes()
     for maps_only in (False, True):
         assert [content for _, content in cotan.model_pictures(model, maps_only)] == [stored]
 
 
 def run(program):
-    """What a Python of its own prints; it must come to its end."""
+    """Output of the program in a separate Python process, which must succeed."""
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return done.stdout
@@ -294,7 +294,7 @@ except cotan.Error as error:
 """
 
 
-def test_a_reader_that_ends_costs_one_line(tmp_path):
+def test_failing_reader_process_is_one_line_error(tmp_path):
     (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     file = str(tmp_path / "a.obj")
     assert run(LOAD.format(before="", file=file)) == "read\n"

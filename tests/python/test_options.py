@@ -1,4 +1,4 @@
-"""Every parameter of the functions that the command line has, too, does what its option does there, to the byte."""
+"""Every parameter that is also an option of the command line has the same effect as the option, to the byte."""
 
 import inspect
 import json
@@ -15,8 +15,8 @@ import cotan
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from output_inputs import make_inputs, png  # noqa: E402
 
-# Of each parameter the values tried, alone or with others that it needs. What only says how the work is done, or what
-# comes from and goes to memory, has tests of its own in the files beside this one.
+# Values tried for each parameter, alone or with others that it needs. Parameters that only affect how the work is done,
+# or that pass data in memory, are tested in other files of this folder.
 ELSEWHERE = {"threads", "memory", "progress", "report", "beside", "out", "decode", "encode", "overwrite", "device", "floats", "mask", "cage_reach"}
 
 RENDER = [
@@ -87,7 +87,7 @@ def names(options):
 
 
 @pytest.mark.parametrize("options", RENDER, ids=names)
-def test_render_draws_what_the_command_line_draws(options, command, tmp_path):
+def test_render_equals_the_command_line(options, command, tmp_path):
     all_options = {"size": (48, 30), "device": "reference", "model": "room.gltf", **options}
     model = all_options.pop("model")
     command("render", *([model] if model else []), "-o", tmp_path / "out.png", *words_of(all_options))
@@ -95,7 +95,7 @@ def test_render_draws_what_the_command_line_draws(options, command, tmp_path):
 
 
 @pytest.mark.parametrize("options", BAKE, ids=names)
-def test_bake_makes_what_the_command_line_makes(options, command, tmp_path):
+def test_bake_equals_the_command_line(options, command, tmp_path):
     options = {"low": "low.obj", "high": "high.obj", "size": 24, **options}
     command("bake", "-o", tmp_path / "out.png", "--mask", tmp_path / "mask.png", "--json", tmp_path / "report.json", *words_of(options))
     baked = cotan.bake(options.pop("low"), options.pop("high"), mask=True, **options)
@@ -109,7 +109,7 @@ def test_bake_makes_what_the_command_line_makes(options, command, tmp_path):
 
 
 @pytest.mark.parametrize("options", CONVERT, ids=names)
-def test_convert_writes_what_the_command_line_writes(options, command, tmp_path):
+def test_convert_equals_the_command_line(options, command, tmp_path):
     words = {k: v for k, v in options.items() if k != "bits"}
     command("convert", "panel.gltf", "-o", tmp_path / "a.glb", *words_of(words), *(["--bits", options["bits"]] if "bits" in options else []))
     cotan.convert("panel.gltf", tmp_path / "b.glb", **options)
@@ -117,7 +117,7 @@ def test_convert_writes_what_the_command_line_writes(options, command, tmp_path)
 
 
 @pytest.mark.parametrize("options", LINT, ids=names)
-def test_lint_says_what_the_command_line_says(options, tmp_path):
+def test_lint_equals_the_command_line(options, tmp_path):
     tool = os.environ.get("COTAN_TOOL")
     if not tool or not os.path.exists(tool):
         pytest.skip("skipped: COTAN_TOOL names no cotan")
@@ -132,20 +132,20 @@ def test_lint_says_what_the_command_line_says(options, tmp_path):
 
 @pytest.mark.parametrize("function, tried", [(cotan.render, RENDER), (cotan.bake, BAKE), (cotan.convert, CONVERT), (cotan.lint, LINT)],
                          ids=["render", "bake", "convert", "lint"])  # fmt: skip
-def test_every_parameter_is_tried(function, tried):
+def test_every_parameter_is_tested(function, tried):
     named = {name for options in tried for name in options} | {"model", "low", "high"} | ELSEWHERE
     missing = set(inspect.signature(function).parameters) - named
     assert missing == set()
 
 
-def test_without_options_the_results_are_those_of_the_command_line(command, tmp_path):
+def test_defaults_equal_those_of_the_command_line(command, tmp_path):
     command("bake", "--low", "low.obj", "--high", "high.obj", "-o", tmp_path / "out.png")
     np.testing.assert_array_equal(cotan.bake("low.obj", "high.obj").map, cotan.read_picture(tmp_path / "out.png"))
     command("render", "panel.gltf", "-o", tmp_path / "drawn.png")
     np.testing.assert_array_equal(cotan.render("panel.gltf"), cotan.read_picture(tmp_path / "drawn.png"))
 
 
-def test_memory_bounds_the_images_of_a_picture():
+def test_memory_limits_the_images_of_a_render():
     png(pathlib.Path("large.png"), 1024, 512, 3, 8, lambda x, y, c: 255 if c == 2 else 128)  # 2 MiB of four bytes
     for memory, fits in ((1, False), (2, True)):
         draw = lambda: cotan.render("plain.gltf", size=16, device="reference", normal_map="large.png", memory=memory)  # noqa: B023
@@ -156,7 +156,7 @@ def test_memory_bounds_the_images_of_a_picture():
                 draw()
 
 
-def test_a_map_that_is_no_square_keeps_its_sides():
+def test_non_square_map_keeps_its_size():
     png(pathlib.Path("wide.png"), 48, 24, 3, 8, lambda x, y, c: 255 if c == 2 else 100 + 3 * x if c == 0 else 128)
     pathlib.Path("wide.gltf").write_text(pathlib.Path("panel.gltf").read_text().replace("rocks.png", "wide.png"))
     done = cotan.convert("wide.gltf", from_frame="mikktspace", to_frame="smooth")

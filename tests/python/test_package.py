@@ -1,4 +1,4 @@
-"""The package itself: where it looks for the library, how it installs, what it says of itself."""
+"""The package itself: its search for the library, its installation, its docstrings and types."""
 
 import inspect
 import os
@@ -17,12 +17,12 @@ LIBRARY = os.environ.get("COTAN_LIBRARY", "")
 
 
 def without(*names):
-    """The variables of this process but those."""
+    """The environment variables of this process except `names`."""
     return {name: value for name, value in os.environ.items() if name not in names}
 
 
 def run(program, package, **environment):
-    """What a Python that has the package in `package` prints."""
+    """Output of a Python process that has the package in `package`."""
     variables = dict(without("COTAN_LIBRARY"), PYTHONPATH=str(package), **environment)
     done = subprocess.run([sys.executable, "-c", program], env=variables, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
@@ -40,7 +40,7 @@ except cotan.UnavailableError as error:
 
 @pytest.fixture
 def copy(source, tmp_path):
-    """The package in a folder of its own."""
+    """A copy of the package in a separate folder."""
     shutil.copytree(source / "bindings/python/cotan", tmp_path / "cotan", ignore=shutil.ignore_patterns("*.so*"))
     return tmp_path
 
@@ -51,16 +51,16 @@ def test_a_library_inside_the_package_comes_first(copy):
     assert run(SAY, copy, COTAN_LIBRARY="/nowhere/libcotan.so") == f"{inside} {cotan.__version__}"
 
 
-def test_then_the_one_that_the_variable_names(copy):
+def test_environment_variable_comes_second(copy):
     assert run(SAY, copy, COTAN_LIBRARY=LIBRARY) == f"{LIBRARY} {cotan.__version__}"
 
 
-def test_then_the_systems(copy, tmp_path):
+def test_system_library_comes_third(copy, tmp_path):
     (tmp_path / "libcotan.so.0").symlink_to(pathlib.Path(LIBRARY).resolve())
     assert run(SAY, copy, LD_LIBRARY_PATH=str(tmp_path)) == f"libcotan.so.0 {cotan.__version__}"
 
 
-def test_a_missing_library_is_said_when_it_is_needed_with_what_to_do(copy):
+def test_missing_library_error_says_how_to_install(copy):
     said = run(SAY, copy, COTAN_LIBRARY="/nowhere/libcotan.so", LD_LIBRARY_PATH="")
     if said.startswith("libcotan.so.0 "):
         pytest.skip("skipped: this system has a libcotan")
@@ -68,7 +68,7 @@ def test_a_missing_library_is_said_when_it_is_needed_with_what_to_do(copy):
     assert "/nowhere/libcotan.so" in said and "\n" not in said
 
 
-def test_the_first_library_that_is_new_enough_is_taken_and_the_others_are_said(monkeypatch):
+def test_first_sufficient_library_is_loaded_and_others_are_named(monkeypatch):
     from cotan import _library
 
     least = _library.API_VERSION
@@ -95,25 +95,25 @@ def test_the_first_library_that_is_new_enough_is_taken_and_the_others_are_said(m
     assert taken("missing", "older", "ancient", "newer", "least") == "newer"
     with pytest.raises(cotan.UnavailableError) as refused:
         taken("missing", "older", "ancient")
-    expected = f"expected version {least} of its interface or later, found"
+    expected = f"expected interface version {least} or later, found"
     assert str(refused.value).endswith(f"(missing: no such library; older: {expected} {least - 1}; ancient: {expected} 0)")
 
 
-def test_what_is_no_libcotan_is_said(copy, tmp_path):
+def test_other_libraries_are_refused_by_name(copy, tmp_path):
     (tmp_path / "text.so").write_text("this is no library")
     assert "text.so" in run(SAY, copy, COTAN_LIBRARY=str(tmp_path / "text.so"), LD_LIBRARY_PATH="")
     program = tmp_path / "old.c"
     program.write_text("int cotan_api_version(void) { return 2; }\n")
     subprocess.run(["cc", "-shared", "-fPIC", program, "-o", tmp_path / "old.so"], check=True)
     said = run(SAY, copy, COTAN_LIBRARY=str(tmp_path / "old.so"), LD_LIBRARY_PATH="")
-    assert "expected version 6 of its interface or later, found 2" in said
+    assert "expected interface version 6 or later, found 2" in said
 
 
 def public():
     return [getattr(cotan, name) for name in cotan.__all__ if not inspect.ismodule(getattr(cotan, name))]
 
 
-def test_everything_public_says_what_it_does():
+def test_everything_public_has_a_docstring():
     assert len(public()) > 35
     for thing in public():
         if callable(thing):
@@ -121,7 +121,7 @@ def test_everything_public_says_what_it_does():
 
 
 def test_everything_imported_is_listed_for_type_checkers():
-    """They read the list, and take what is not in it for private."""
+    """Type checkers read __all__ and treat everything else as private."""
     imported = {name for name, thing in vars(cotan).items() if not name.startswith("_") and not inspect.ismodule(thing)}
     assert imported | {"__version__"} == set(cotan.__all__)
 
@@ -134,16 +134,16 @@ def test_everything_public_is_typed():
             assert set(hints) == {*inspect.signature(thing).parameters, "return"}, thing.__name__
 
 
-def test_every_function_of_the_c_api_is_reached(source):
+def test_every_function_of_the_c_api_is_used(source):
     from cotan import _structs
 
     text = "".join(file.read_text() for file in (source / "bindings/python/cotan").glob("*.py") if file.name != "_structs.py")
     left_out = {name for name in _structs.FUNCTIONS if f'"{name}"' not in text and f".{name}" not in text}
-    # cotan_bake_models does it, and the same with progress
+    # cotan_bake_models and the variants with progress cover these
     assert left_out == {"cotan_bake", "cotan_tangents", "cotan_smooth_cotangents"}
 
 
-def test_the_pages_examples_run(source, tmp_path, monkeypatch):
+def test_examples_of_the_page_run(source, tmp_path, monkeypatch):
     import re
 
     import numpy as np

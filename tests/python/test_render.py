@@ -1,4 +1,4 @@
-"""Pictures as arrays: those of `cotan render`, to the byte."""
+"""Images as arrays: equal to those of `cotan render`, to the byte."""
 
 import inspect
 
@@ -36,16 +36,16 @@ OPTIONS = [
 
 
 @pytest.mark.parametrize("options", OPTIONS, ids=lambda o: " ".join(map(str, o.values())))
-def test_the_picture_is_the_command_lines_to_the_byte(options, model, command, tmp_path):
+def test_image_has_the_bytes_of_the_command_line(options, model, command, tmp_path):
     out = tmp_path / "out.png"
     command("render", model, "--size", "48x32", "--device", "reference", "-o", out, *words_of(options))
     picture = cotan.render(model, size=(48, 32), device="reference", **options)
     expected = cotan.read_picture(out)
     assert picture.dtype == np.uint8 and (picture == expected).all()
-    assert len(np.unique(picture.reshape(-1, 4), axis=0)) > 1  # there is something to see
+    assert len(np.unique(picture.reshape(-1, 4), axis=0)) > 1  # the image is not empty
 
 
-def test_floats_are_those_of_an_exr_file(model, command, tmp_path):
+def test_floats_equal_those_of_an_exr_file(model, command, tmp_path):
     command("render", model, "--size", "48x32", "--device", "reference", "-o", tmp_path / "out.exr")
     picture = cotan.render(model, size="48x32", device="reference", floats=True)
     assert picture.dtype == np.float32 and (picture == cotan.read_picture(tmp_path / "out.exr")).all()
@@ -56,7 +56,7 @@ def test_the_default_device_draws_as_the_command_line_does(model, command, tmp_p
     assert (cotan.render(model, size=(48, 32)) == cotan.read_picture(tmp_path / "out.png")).all()
 
 
-def test_bytes_are_drawn_as_files_are(model, tmp_path):
+def test_bytes_and_files_render_equally(model, tmp_path):
     expected = cotan.render(model, size=(48, 32), device="reference")
     beside = {"plane.bin": (tmp_path / "plane.bin").read_bytes(), "the map.png": (tmp_path / "the map.png").read_bytes()}
     assert (cotan.render(model.read_bytes(), size=(48, 32), device="reference", beside=beside) == expected).all()
@@ -65,7 +65,7 @@ def test_bytes_are_drawn_as_files_are(model, tmp_path):
     assert np.abs(drawn.astype(int) - expected).max() <= 3  # made for generated tangents: half a code apart
 
 
-def test_own_maps_take_the_place_of_the_models(model, command, tmp_path):
+def test_own_maps_replace_those_of_the_model(model, command, tmp_path):
     flat = np.full((4, 4, 3), 128, np.uint8)
     flat[..., 2] = 255
     cotan.write_picture(tmp_path / "flat.png", flat)
@@ -74,21 +74,21 @@ def test_own_maps_take_the_place_of_the_models(model, command, tmp_path):
     assert (picture == plain).all() and (picture != cotan.render(model, size=(48, 32), device="reference", view="normal")).any()
 
 
-def test_a_plane_that_is_looked_at_shows_its_normal_and_uv():
+def test_normal_view_encodes_the_normal():
     eye = (0, 0, 3, 0, 0, 0, "h1")
     normals = cotan.render(shape="sphere", size=(33, 33), camera=eye, view="normal", device="reference", no_normal_maps=True)
-    assert np.abs(normals[16, 16, :3].astype(int) - [128, 128, 255]).max() <= 1  # the middle of a sphere faces the eye
+    assert np.abs(normals[16, 16, :3].astype(int) - [128, 128, 255]).max() <= 1  # its centre faces the camera
 
 
-def test_the_report_says_what_was_drawn(model):
+def test_report_describes_the_render(model):
     report = {}
     cotan.render(model, size=(16, 16), device="reference", view="error", frame="orthonormal", report=report)
     assert report["device"] == "reference" and report["triangles"] == 2 and report["warnings"] == []
-    # The map is read by frames of which one sees u half as steep.
+    # One of the frames that read the map halves slopes along u.
     assert report["error_against_exact"]["mean_degrees"] > 5
 
 
-def test_words_that_are_wrong_name_the_keyword():
+def test_wrong_values_name_the_keyword():
     for options, field in (
         ({"samples": 3}, "samples"),
         ({"size": (0, 16)}, "size"),
@@ -110,7 +110,7 @@ def test_words_that_are_wrong_name_the_keyword():
         cotan.render(shape="plane", size=(8, 8), device="no such device")
 
 
-def test_words_cannot_smuggle_options(tmp_path, monkeypatch):
+def test_values_cannot_inject_options(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for model in ("--help", "-o", "--size=8x8"):
         with pytest.raises(cotan.InputError, match="no such file"):
@@ -125,7 +125,7 @@ def test_every_option_of_the_command_is_a_keyword(command):
     import re
 
     listed = set(re.findall(r"^  (?:-\w, )?--([a-z-]+)", command("render", "--help"), re.M))
-    # About files and the terminal.
+    # Options for files and the terminal.
     elsewhere = {"help", "output", "json", "quiet", "overwrite", "frames", "rate", "turntable",
                  "list-frames"}
     keywords = {name.replace("_", "-") for name in inspect.signature(cotan.render).parameters}

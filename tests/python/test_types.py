@@ -1,4 +1,4 @@
-"""What a type checker says of programs that call the package: nothing under `mypy --strict`, and where it should."""
+"""Type checks of programs that call the package: none fails `mypy --strict`, except those with mistakes."""
 
 import os
 import pathlib
@@ -16,7 +16,7 @@ from cotan import words
 
 @pytest.fixture(scope="module")
 def check(source, tmp_path_factory):
-    """Lines that mypy --strict prints about programs: a list for each of them."""
+    """Lines that mypy --strict prints: one list for each program."""
     found = shutil.which("mypy") or (os.access("/usr/bin/mypy", os.X_OK) and "/usr/bin/mypy")
     if not found:
         pytest.skip("skipped: no mypy here (Debian's package mypy)")
@@ -26,7 +26,7 @@ def check(source, tmp_path_factory):
         files = [folder / f"program{number}.py" for number in range(len(programs))]
         for file, program in zip(files, programs):
             file.write_text(program)
-        # Silent: of what is inside of an installed package it says nothing.
+        # Silent: nothing is reported about the inside of an installed package.
         done = subprocess.run(
             [found, "--strict", "--follow-imports=silent", "--python-executable", sys.executable]
             + ["--cache-dir", folder / "cache", *files],
@@ -43,7 +43,7 @@ def check(source, tmp_path_factory):
     return run
 
 
-def test_the_pages_examples_are_clean(source, check):
+def test_examples_of_the_page_pass_type_checks(source, check):
     prelude = "import numpy as np\nimport cotan\nlow: cotan.Mesh\nhigh: cotan.Mesh\n"
     blocks, programs = [], []
     for page in ("docs/reference/python.md", "bindings/python/README.md"):
@@ -56,7 +56,7 @@ def test_the_pages_examples_are_clean(source, check):
         assert said == [], block
 
 
-def test_a_misspelt_word_is_an_error_and_a_right_one_is_not(check):
+def test_misspelt_values_fail_type_checks(check):
     right = """
 import cotan
 from cotan.words import Frame
@@ -89,14 +89,14 @@ except cotan.Error as error:
 
 
 def taken(command, option):
-    """The words that the program says it takes, in the place of one that it does not."""
+    """The words that the program lists as valid when it gets an invalid one."""
     run = subprocess.run([os.environ["COTAN_TOOL"], command, option, "zzz"], capture_output=True, text=True)
     said = re.search(r"expected ([a-z, -]+); found 'zzz'", run.stderr)
     assert said, run.stderr
     return re.split(", | or ", said[1])
 
 
-def test_the_words_are_those_of_the_program(command):
+def test_typed_values_equal_those_of_the_program(command):
     assert list(typing.get_args(words.Frame)) == cotan.frames()
     bake, convert = command("bake", "--help"), command("map", "convert", "--help")
     for kind in typing.get_args(words.BakeKind):

@@ -1,4 +1,4 @@
-"""Long calls: progress, ends by the caller and by Ctrl-C, threads, memory."""
+"""Long calls: progress, interruption by the caller and by Ctrl-C, threads, memory."""
 
 import os
 import signal
@@ -14,7 +14,7 @@ import cotan
 from shapes import bumps, slope, square, write_stretched
 
 
-def test_progress_rises_to_one_on_the_thread_that_called():
+def test_progress_rises_to_one_on_the_calling_thread():
     shares, threads = [], set()
 
     def progress(done):
@@ -27,7 +27,7 @@ def test_progress_rises_to_one_on_the_thread_that_called():
     assert len(shares) > 1, "the work was too short to be told of"
 
 
-def test_numbers_that_arrive_out_of_order_never_fall():
+def test_progress_never_falls_if_reported_out_of_order():
     from cotan._work import long_call
 
     def work(told):
@@ -60,7 +60,7 @@ def test_false_stops(name, tmp_path):
 
 
 @pytest.mark.parametrize("name", ["bake", "render", "tangents", "smooth_cotangents"])
-def test_what_progress_raises_comes_through(name, tmp_path):
+def test_exceptions_of_progress_are_raised(name, tmp_path):
     def progress(done):
         raise ZeroDivisionError
 
@@ -69,20 +69,20 @@ def test_what_progress_raises_comes_through(name, tmp_path):
 
 
 @pytest.mark.parametrize("name", ["lint", "convert"])
-def test_short_work_tells_of_its_end(name, tmp_path):
+def test_short_work_reports_one_at_its_end(name, tmp_path):
     shares = []
     calls(tmp_path)[name](shares.append)
     assert shares[-1] == 1
 
 
-def test_a_stopped_bake_leaves_out_as_it_was():
+def test_stopped_bake_keeps_out_unchanged():
     out = np.full((2048, 2048, 4), 7, np.uint8)
     with pytest.raises(cotan.StoppedError):
         cotan.bake(bumps(8), bumps(60), size=2048, samples=16, out=out, progress=lambda done: False)
     assert (out == 7).all()
 
 
-def test_stopped_tangents_leave_out_as_it_was():
+def test_stopped_tangents_keep_out_unchanged():
     mesh = bumps(1000)
     out = np.full((len(mesh.indices), 4), 7, np.float32)
     with pytest.raises(cotan.StoppedError):
@@ -123,7 +123,7 @@ def test_ctrl_c_ends_long_calls(call, source):
     process.send_signal(signal.SIGINT)
     start = time.time()
     rest = process.communicate(timeout=60)[0]
-    assert rest == "interrupted\n" and time.time() - start < 10  # the whole takes longer; two busy cores are slow
+    assert rest == "interrupted\n" and time.time() - start < 10  # the whole call takes longer; two busy cores are slow
 
 
 def test_other_threads_run_while_the_library_works():
@@ -142,10 +142,10 @@ def test_other_threads_run_while_the_library_works():
     meanwhile, seconds = counted - before, time.time() - start
     ended.set()
     thread.join()
-    assert meanwhile > max(2, 20 * seconds)  # a thousand a second where the machine is idle; one in all with the GIL
+    assert meanwhile > max(2, 20 * seconds)  # a thousand per second on an idle machine; one in total if the GIL is held
 
 
-def test_many_threads_at_once_get_what_one_gets():
+def test_concurrent_threads_get_the_results_of_one():
     low, high = bumps(6), bumps(30)
     expected = cotan.bake(low, high, size=64).map
     results, failures = [], []
@@ -188,10 +188,10 @@ def test_memory_is_flat_in_a_loop(tmp_path):
             with pytest.raises(cotan.Error):
                 wrong()
         used.append(resident())
-    assert used[-1] - used[7] < 60, used  # 32 turns of 2 MiB and more; heaps of threads fill by up to 50 and stay
+    assert used[-1] - used[7] < 60, used  # 32 turns of at least 2 MiB; thread heaps grow by up to 50 and stay
 
 
-def test_views_of_pictures_outlive_what_they_were_made_of(tmp_path):
+def test_views_of_images_outlive_their_owner(tmp_path):
     gradient = np.arange(64 * 64 * 4, dtype=np.uint32).astype(np.uint8).reshape(64, 64, 4)
     cotan.write_picture(tmp_path / "a.png", gradient)
     row = cotan.read_picture(tmp_path / "a.png")[3]

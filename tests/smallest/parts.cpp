@@ -1,4 +1,4 @@
-// The parts that need nothing but GLM, used together. Returns the number of facts that do not hold.
+// Uses the parts that need only GLM together. Returns the number of facts that do not hold.
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -33,21 +33,21 @@ int main()
     maps::RecodeSettings settings;
     settings.to.greenUp = false;
     maps::RecodeCounts counts;
-    expect(maps::greenOf(maps::recode(map, settings, counts)).green == maps::Green::down, "turned, it points down");
+    expect(maps::greenOf(maps::recode(map, settings, counts)).green == maps::Green::down, "reversed, it points down");
 
     const Scene scene = builtinScene();
     View view;
     view.width = view.height = 32;
     view.camera = frontCamera(scene, view.width, view.height);
     view.output = Output::normal;
-    const auto picture = drawView(scene, view, "auto");
-    bool unit = bool(picture), seen = false;
-    for (std::size_t i = 0; unit && i < picture->pixelCount(); ++i) {
-        const float* p = picture->floats() + 4 * i;
+    const auto image = drawView(scene, view, "auto");
+    bool unit = bool(image), seen = false;
+    for (std::size_t i = 0; unit && i < image->pixelCount(); ++i) {
+        const float* p = image->floats() + 4 * i;
         seen |= p[3] == 1;
-        unit = p[3] != 1 || std::abs(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - 1) < 1e-4f; // unit, rounded in float
+        unit = p[3] != 1 || std::abs(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - 1) < 1e-4f; // up to rounding in float
     }
-    expect(unit && seen, "a picture of unit normals");
+    expect(unit && seen, "an image of unit normals");
 
     const auto device = drawView(scene, view, "llvmpipe");
     expect(!device && device.error().kind == ErrorKind::unavailable

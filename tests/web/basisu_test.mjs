@@ -1,7 +1,7 @@
-// A model whose textures are BasisU in KTX2, which the tool refuses, drawn by the tool: Binomial's transcoder of npm's
-// three gives it PNG textures, in a copy in a temporary folder.
+// The tool refuses a model with BasisU textures in KTX2, and draws a copy of it with PNG textures. The transcoder of
+// Binomial in npm's three converts them; the copy is in a temporary folder.
 //   node basisu_test.mjs NODE_MODULES COTAN DATA [PICTURES]
-// PICTURES: a folder that gets the pictures that were compared. Exit code 77: skipped.
+// PICTURES: a folder that receives the compared images. Exit code 77: skipped.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -35,7 +35,7 @@ function pngOfKtx2({ KTX2File }, bytes) {
   return made;
 }
 
-// The model with its images in PNG after all else that it has.
+// Returns the model with its images as PNG, appended to its binary chunk.
 async function withPngTextures(file) {
   const glb = parseGlb(fs.readFileSync(file)), { json } = glb, basisu = 'KHR_texture_basisu', parts = [glb.bin], made = await transcoder();
   let length = glb.bin.length;
@@ -62,21 +62,21 @@ async function withPngTextures(file) {
 
 const run = words => spawnSync(path.resolve(cotan), words, { cwd: folder, encoding: 'utf8' });
 
-// Refused as it is, with the command that helps.
+// The original is refused, with the command that helps.
 const refused = run(['render', model, '-o', 'no.png']);
 if (/libdraco/.test(refused.stderr)) skip(refused.stderr);
 assert.equal(refused.status, 3, refused.stderr);
 assert.match(refused.stderr, /BasisU.*gltf-transform ktxdecompress/);
 
-// Its normal map stays, with the tangents that it needs: there is one, though it cannot be read.
+// Its normal map is kept, and so are the tangents that it needs: a map exists, although it cannot be read.
 const kept = run(['convert', model, '--to-frame', 'orthonormal', '-o', 'kept.glb']);
 assert.equal(kept.status, 0, kept.stderr);
-assert.match(kept.stderr, /a normal map in KTX2 with BasisU .* stays as it is, and so do the tangents/);
+assert.match(kept.stderr, /a normal map in KTX2 with BasisU .* is not supported; it and its tangents are unchanged/);
 assert.doesNotMatch(kept.stderr, /no primitive has a normal map/);
 
-// Its stored tangents say that green is the other way than declared. Drawn without them it shows what they mean: one degree
-// is what MikkTSpace and `orthonormal` differ by on coarse models. Its map is flat nearly everywhere: with green as declared,
-// which turns its bumps into dents, the mean is 0.7 degrees, drawn as meant 0.01.
+// The stored tangents imply the opposite of the declared direction of green. Drawn without them as they imply, the
+// model differs by below one degree, as MikkTSpace and `orthonormal` do on coarse models. The map is flat nearly
+// everywhere: the mean is 0.01 degrees, and 0.7 with green as declared, which turns bumps into dents.
 fs.writeFileSync(path.join(folder, 'jet.glb'), await withPngTextures(model));
 const compare = more => {
   const done = run(['compare', 'jet.glb', '-o', 'out', '--overwrite', '--size', '640x480', '--json', 'out.json', ...more]);
@@ -88,7 +88,7 @@ const compare = more => {
 const drawn = compare([]);
 if (pictures) fs.cpSync(path.join(folder, 'out'), pictures, { recursive: true });
 assert.deepEqual(drawn.frames, ['orthonormal', 'mikktspace']);
-assert.match(drawn.said, /green is read the other way/);
+assert.match(drawn.said, /green is flipped/);
 assert.ok(drawn.mean < 1, `${drawn.mean} degrees`);
 const declared = compare(['--convention', 'gltf']);
 assert.ok(declared.mean > 20 * drawn.mean, `${declared.mean} degrees with green as declared`);

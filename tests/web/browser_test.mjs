@@ -1,5 +1,5 @@
-// The package through esbuild, in headless Chromium, in the page and in a worker; and the wasm beside it, served:
-// node browser_test.mjs TARBALL NODE_MODULES
+// The package, bundled by esbuild, in a page and a worker of headless Chromium; and the entry with a separate wasm:
+//   node browser_test.mjs TARBALL NODE_MODULES
 import assert from 'node:assert/strict';
 import { execFile, execFileSync } from 'node:child_process';
 import fs from 'node:fs';

@@ -1,6 +1,6 @@
-// The package through the programs that bundle it, without a setting of their own and without sharp:
+// The package in bundlers, without special settings and without sharp:
 //   node bundlers_test.mjs TARBALL NODE_MODULES [CASE]
-// What each makes is opened in Chromium or run by node. Exit code 77: skipped.
+// The bundles are opened in Chromium or run by node. Exit code 77: skipped.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -22,7 +22,7 @@ const load = async (name) => {
 };
 const vites = { 'vite 8': 'vite/dist/node/index.js', 'vite 6': 'vite6/dist/node/index.js' };
 
-/** A program that says what it found: `found`, awaited. */
+/** A program whose function `found` returns tangents and the version as text. */
 const program = (entry, more = '') => `
 import { ready, tangents, version } from '${entry}';
 ${more}
@@ -34,7 +34,7 @@ const kExpected = /^1 0 0 1 1 0 0 1 1 0 0 1 \d+\.\d+\.\d+$/;
 const kDecode = `import { decodePicture } from 'cotan';
 export const jpeg = () => decodePicture(Uint8Array.of(0xff, 0xd8, 0xff), 'a.jpg').catch((error) => error.message);`;
 
-/** A folder with the package installed, as its user has it, and a page. */
+/** Creates a folder with the package installed as users install it, a program and a page. */
 function project(entry) {
   const folder = installed(tarball);
   const put = (name, text) => fs.writeFileSync(path.join(folder, name), text);
@@ -66,7 +66,7 @@ async function titleOf(folder) {
 
 const kEntries = ['cotan', 'cotan/beside', 'cotan/tangents', 'cotan/tangents/beside'];
 const cases = {
-  async viteServesIt() {
+  async viteServesThePackage() {
     for (const [name, file] of Object.entries(vites))
       for (const entry of kEntries) {
         const root = project(entry), server = await (await load(file)).createServer({ root, configFile: false, logLevel: 'error', server: { port: 0, host: '127.0.0.1' }, cacheDir: path.join(root, '.vite') });
@@ -77,7 +77,7 @@ const cases = {
       }
   },
 
-  async viteBuildsIt() {
+  async viteBundlesForTheBrowser() {
     for (const [name, file] of Object.entries(vites))
       for (const entry of kEntries) {
         const root = project(entry), said = [];
@@ -88,7 +88,7 @@ const cases = {
       }
   },
 
-  async viteBuildsItForNode() {
+  async viteBundlesForNode() {
     for (const [name, file] of Object.entries(vites)) {
       const root = project('cotan');
       await (await load(file)).build({ root, configFile: false, logLevel: 'error', ssr: { noExternal: true }, build: { ssr: 'work.js', outDir: 'out' } });
@@ -96,7 +96,7 @@ const cases = {
     }
   },
 
-  async webpackBuildsIt() {
+  async webpackBundlesForTheBrowser() {
     for (const mode of ['development', 'production'])
       for (const entry of kEntries) {
         const root = project(entry), stats = await packed({ mode, context: root, entry: './main.js', output: { path: path.join(root, 'out'), publicPath: 'auto' }, performance: { hints: false } });
@@ -106,20 +106,20 @@ const cases = {
       }
   },
 
-  async webpackBuildsItForNode() {
+  async webpackBundlesForNode() {
     const root = project('cotan');
     assert.deepEqual(await packed({ mode: 'production', target: 'node20', context: root, entry: './work.js', experiments: { outputModule: true },
       output: { path: path.join(root, 'out'), module: true, library: { type: 'module' }, filename: 'work.mjs' }, performance: { hints: false } }), []);
     await runs(path.join(root, 'out/work.mjs'), 'webpack');
   },
 
-  async esbuildBuildsIt() {
+  async esbuildBundlesForTheBrowser() {
     const { build } = await load('esbuild/lib/main.js');
     for (const entry of kEntries) {
       const root = project(entry), { warnings } = await build({ absWorkingDir: root, entryPoints: ['main.js'], bundle: true, format: 'esm', outdir: path.join(root, 'out'), logLevel: 'silent' });
       assert.deepEqual(warnings, []);
       fs.writeFileSync(path.join(root, 'out/index.html'), '<!doctype html><title>waiting</title><script type="module" src="main.js"></script>');
-      // It copies no file: that is said, and done by hand.
+      // esbuild copies no files: the error says so, and the file is copied by hand.
       if (entry.endsWith('beside')) assert.match(await titleOf(path.join(root, 'out')), /^failed: .*\.wasm: expected the package's wasm file, found 404/, entry);
       const file = entry.includes('tangents') ? 'tangents.wasm' : 'cotan.wasm';
       fs.copyFileSync(path.join(root, 'node_modules/cotan/wasm', file), path.join(root, 'out', file));
@@ -127,7 +127,7 @@ const cases = {
     }
   },
 
-  async esbuildBuildsItForNode() {
+  async esbuildBundlesForNode() {
     const { build } = await load('esbuild/lib/main.js');
     for (const format of ['esm', 'cjs']) {
       const root = project('cotan'), outfile = path.join(root, format === 'esm' ? 'out.mjs' : 'out.cjs');
@@ -136,8 +136,8 @@ const cases = {
     }
   },
 
-  // Without a bundler: what unpkg and jsdelivr give.
-  async aBrowserLoadsTheFileOfUnpkg() {
+  // Without a bundler: the file that unpkg and jsdelivr serve.
+  async browsersLoadTheFileOfUnpkg() {
     const root = project('cotan'), folder = path.join(root, 'node_modules/cotan'), { unpkg, jsdelivr } = JSON.parse(fs.readFileSync(path.join(folder, 'package.json'), 'utf8'));
     assert.equal(unpkg, jsdelivr);
     fs.writeFileSync(path.join(root, 'index.html'), `<!doctype html><title>waiting</title><script type="module">${program(`./${path.join('node_modules/cotan', unpkg)}`)}
@@ -152,7 +152,7 @@ async function packed(config) {
   return [...errors, ...warnings].map(({ message }) => message);
 }
 
-/** Run where neither the package nor sharp is installed, and where sharp is. */
+/** Runs a bundle where neither the package nor sharp is installed, and where sharp is. */
 async function runs(file, name) {
   for (const sharp of [false, true]) {
     const folder = emptyFolder(), target = path.join(folder, path.basename(file));
@@ -165,7 +165,7 @@ async function runs(file, name) {
       { cwd: folder, encoding: 'utf8' }).trim().split('|');
     assert.match(said[0], kExpected, `${name}, node`);
     if (sharp) assert.doesNotMatch(said[1], /need the package sharp/, `${name}, node, with sharp`);
-    else assert.equal(said[1], 'a.jpg: pictures other than PNG need the package sharp, or options.decode', `${name}, node`);
+    else assert.equal(said[1], 'a.jpg: images other than PNG need the package sharp, or options.decode', `${name}, node`);
   }
 }
 

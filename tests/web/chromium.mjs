@@ -1,4 +1,4 @@
-// Chromium without a window, on SwiftShader; and folders as a web server shows them.
+// Headless Chromium on SwiftShader, and a web server for folders.
 import { createServer } from 'node:http';
 import { existsSync, readFileSync, statSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -6,7 +6,7 @@ import { extname, join } from 'node:path';
 
 const kTypes = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm', '.png': 'image/png', '.svg': 'image/svg+xml' };
 
-// folders: by the first part of the address. Returns where it is, and what ends it.
+// folders: keys are the first component of a path. Returns the server's address, and a function that stops it.
 export async function serve(folders) {
   const server = createServer((request, response) => {
     const [, first, ...rest] = decodeURIComponent(request.url.split('?')[0]).split('/');

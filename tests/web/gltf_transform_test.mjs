@@ -1,4 +1,4 @@
-// cotan/gltf-transform from the tarball: node gltf_transform_test.mjs TARBALL NODE_MODULES SHARED_DATA [CASE]
+// Tests cotan/gltf-transform from the tarball: node gltf_transform_test.mjs TARBALL NODE_MODULES SHARED_DATA [CASE]
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -11,14 +11,14 @@ const [tarball, modules, data, only] = process.argv.slice(2);
 if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
 if (!fs.existsSync(path.join(modules, '@gltf-transform'))) skip('the npm packages are not installed');
 const folder = installed(tarball, modules, ['@gltf-transform', 'draco3dgltf', 'meshoptimizer', 'property-graph', 'ktx-parse', 'sharp']);
-// One copy of glTF-Transform: as the package finds it.
+// Imports from the installed folder, so that there is only the one copy of glTF-Transform that the package finds.
 fs.writeFileSync(path.join(folder, 'from.js'), 'export const from = (name) => import(name);\n');
 const { from } = await import(pathToFileURL(path.join(folder, 'from.js')));
 const { Document, NodeIO } = await from('@gltf-transform/core');
 const cotan = await load(folder), transforms = await load(folder, 'gltf-transform/index');
 await cotan.ready;
 
-/** A hilly mesh whose normal map is one slanted texel. */
+/** A hilly mesh whose normal map has the same tilted texel everywhere. */
 async function hillsDocument(mirrored = false) {
   const document = new Document(), buffer = document.createBuffer(), mesh = hills(6);
   if (mirrored) for (let i = 0; i < mesh.uvs.length; i += 2) mesh.uvs[i] = Math.abs(mesh.uvs[i] - 0.5);
@@ -34,7 +34,7 @@ async function hillsDocument(mirrored = false) {
   return { document, mesh, primitive, texture };
 }
 
-/** Domes as a normal map; green up the picture or down. */
+/** Domes as a normal map, with green up or down in the image. */
 function domes(size, up) {
   const picture = { width: size, height: size, bits: 8, data: new Uint8Array(4 * size * size) };
   for (let y = 0; y < size; ++y)
@@ -64,7 +64,7 @@ const cases = {
     }
   },
 
-  async untangentDoesWhatConvertDoes() {
+  async untangentMatchesConvert() {
     const { document, primitive, texture } = await hillsDocument();
     await document.transform(transforms.tangents());
     const { glb, report } = await cotan.convert(await new NodeIO().writeBinary(document), { mode: 'convert' });
@@ -87,7 +87,7 @@ const cases = {
     assert.ok(found.recommendation.length > 20);
   },
 
-  // Domes in the relief, green down: bumps look like dents.
+  // Domes with green down: bumps look like dents.
   async aModelWithGreenReversedFailsTheCheck() {
     for (const up of [true, false]) {
       const { document, texture } = await hillsDocument();
@@ -95,11 +95,11 @@ const cases = {
       let found;
       const checked = document.transform(transforms.lintNormals({ limit: 180, report: (report) => { found = report; } }));
       if (up) await checked;
-      else await assert.rejects(checked, (error) => error instanceof cotan.CotanError && error.code === 'limit' && /normal map normal.png: green points the other way than the file says/.test(error.message));
+      else await assert.rejects(checked, (error) => error instanceof cotan.CotanError && error.code === 'limit' && /normal map normal.png: green points opposite to what the file says/.test(error.message));
       assert.equal(found.over_limit.length, up ? 0 : 1);
       assert.equal(found.check.passed, up);
       assert.deepEqual(found.check.failures.map(({ kind, text }) => [kind, text]), found.over_limit.map(({ kind, text }) => [kind, text]));
-      assert.equal(found.warnings.some((line) => /normal map normal.png: green points the other way than the file says/.test(line)), !up, found.warnings.join());
+      assert.equal(found.warnings.some((line) => /normal map normal.png: green points opposite to what the file says/.test(line)), !up, found.warnings.join());
       assert.deepEqual(cotan.overLimits(found), []); // without a limit nothing is over it
       assert.ok(cotan.overLimits(found, { limit: 0, frame: 'cotangent' }).length > found.over_limit.length);
     }
@@ -108,8 +108,8 @@ const cases = {
       await assert.rejects(document.transform(transforms.lintNormals(options)), (error) => error.code === 'usage' && error.field === field);
   },
 
-  // 2c - 1 makes 127.5 of zero, the exact expansion 128: half a step apart where a map is read as it was written.
-  async newMapsAreForEnginesThatTake2cMinus1() {
+  // 2c - 1 decodes 127.5 as zero, the exact expansion 128: maps for the two differ by half a step.
+  async newMapsAreEncodedFor2cMinus1() {
     const found = {};
     for (const unsigned of [undefined, 'biased', 'exact']) {
       const { document, texture } = await hillsDocument();
@@ -133,20 +133,20 @@ const cases = {
     assert.deepEqual(material.getExtras(), { kept: [1, 2], cotanFrame: 'smooth', cotanUnsigned: 'biased' });
     const again = await new NodeIO().readBinary(await new NodeIO().writeBinary(document)); // through a file
     assert.equal(again.getRoot().listMaterials()[0].getExtras().cotanFrame, 'smooth');
-    await again.transform(transforms.untangent({ to: 'mikktspace' })); // from what it names
+    await again.transform(transforms.untangent({ to: 'mikktspace' })); // from the frame that it names
     assert.deepEqual(again.getRoot().listMaterials()[0].getExtras(), { kept: [1, 2], cotanUnsigned: 'biased' });
     const back = await decodePng(again.getRoot().listTextures()[0].getImage());
     const steps = back.data.reduce((most, x, k) => Math.max(most, Math.abs(x - original.data[k])), 0);
     assert.ok(steps <= 3, `${steps} steps of 8 bits there and back`);
   },
 
-  async provokingGivesEachTriangleAVertex() {
+  async provokingGivesEachTriangleItsOwnVertex() {
     for (const [vertex, offset] of [['first', 0], ['last', 2]]) {
       const { document, primitive } = await hillsDocument();
       const before = cornersOf(primitive, 'POSITION', 3);
       await document.transform(transforms.provoking({ vertex }));
       primitive.getIndices().getArray().forEach((index, i) => { if (i % 3 === offset) assert.equal(index, (i - offset) / 3); });
-      const after = cornersOf(primitive, 'POSITION', 3); // each triangle perhaps turned
+      const after = cornersOf(primitive, 'POSITION', 3); // triangles may start with another vertex
       for (let f = 0; f < before.length; f += 9) {
         const key = (array) => [0, 3, 6].map((k) => array.subarray(f + k, f + k + 3).join()).sort().join(' ');
         assert.equal(key(after), key(before));
@@ -154,7 +154,7 @@ const cases = {
     }
   },
 
-  async compressedModelsComeThroughItsOwnDecoders() {
+  async compressedModelsAreReadByTheDecodersOfGltfTransform() {
     if (!fs.existsSync(data)) skip(`${data} is not here`);
     const { ALL_EXTENSIONS } = await from('@gltf-transform/extensions');
     const draco = (await from('draco3dgltf')).default;
@@ -176,11 +176,11 @@ const cases = {
           for (const primitive of mesh.listPrimitives()) assert.ok(!primitive.getAttribute('TANGENT'), file);
       assert.deepEqual(document.getRoot().listExtensionsUsed().map((extension) => extension.extensionName).sort(), used);
       assert.ok((await io.writeBinary(document)).length > 1000);
-      console.log(`${path.basename(file)}: ${used.join(' ')}: ${report.maps.filter((map) => !map.kept).length} of ${report.maps.length} maps made anew`);
+      console.log(`${path.basename(file)}: ${used.join(' ')}: ${report.maps.filter((map) => !map.kept).length} of ${report.maps.length} maps remade`);
     }
   },
 
-  async mapsInKtx2AreNamedWithWhatToDo() {
+  async ktx2MapsAreReportedWithAdvice() {
     const file = path.join(data, 'compressed/jet_fighter_draco_basisu.glb');
     if (!fs.existsSync(file)) skip(`${file} is not here`);
     const { ALL_EXTENSIONS } = await from('@gltf-transform/extensions');
@@ -203,13 +203,14 @@ const cases = {
     assert.deepEqual([...normalMaps].map((texture) => texture.getImage()), before);
   },
 
-  // 1.79 MB became 8.7 MB: maps as PNG, for a frame that nobody asked for.
+  // A model of 1.79 MB once became 8.7 MB, with maps as PNG for a frame that nobody requested.
   async untangentDropsTangentsAndNoFileGrows() {
     if (!fs.existsSync(data)) skip(`${data} is not here`);
     const { ALL_EXTENSIONS } = await from('@gltf-transform/extensions');
     const draco = (await from('draco3dgltf')).default;
     const io = new NodeIO().registerExtensions(ALL_EXTENSIONS).registerDependencies({ 'draco3d.decoder': await draco.createDecoderModule(), 'draco3d.encoder': await draco.createEncoderModule() });
-    // Green of the second and third is reversed by their tangents and cannot be told from the map: new maps in JPEG; and in KTX2, which stays.
+    // Tangents of the second and third reverse green, which their maps do not show: new JPEG maps, and KTX2 maps that
+    // stay.
     for (const [file, mode] of [['models/ClearCoatTest/ClearCoatTest.glb', 'drop'], ['compressed/chess_board_draco.glb', 'convert'], ['compressed/jet_fighter_draco_basisu.glb', 'keep']]) {
       const document = await io.read(path.join(data, file)), plain = (await io.writeBinary(document)).length;
       document.setLogger({ debug() {}, info() {}, warn() {}, error() {} });
@@ -223,7 +224,7 @@ const cases = {
       assert.equal(has, mode === 'keep', file);
       assert.deepEqual(document.getRoot().listTextures().map((texture) => texture.getMimeType()), types, file);
       if (mode !== 'convert') assert.deepEqual(document.getRoot().listTextures().map((texture) => texture.getImage()), images, file);
-      if (mode === 'keep') assert.ok(report.notes.some((line) => /tangents stay: they reverse green of .*bumps would be dents/.test(line)), report.notes.join());
+      if (mode === 'keep') assert.ok(report.notes.some((line) => /tangents are kept: they reverse green of .*bumps would look like dents/.test(line)), report.notes.join());
       assert.ok(report.bytes.after <= report.bytes.before, file);
     }
   },
@@ -234,7 +235,7 @@ const cases = {
       assert.throws(work, (error) => error instanceof cotan.CotanError && error.code === 'usage' && error.field === field);
   },
 
-  async itsCommandLineRunsOurCommands() {
+  async gltfTransformRunsOurCommands() {
     const program = path.join(modules, '@gltf-transform/cli/bin/cli.js');
     if (!fs.existsSync(program)) skip('@gltf-transform/cli is not installed');
     const io = new NodeIO(), file = (name) => path.join(folder, name), { document, mesh } = await hillsDocument();
@@ -265,7 +266,7 @@ const cases = {
     assert.match(run('--help'), /untangent/);
   },
 
-  async itsCheckHasAThresholdAReportAndAnExitCode() {
+  async checkCommandHasALimitAReportAndAnExitCode() {
     const program = path.join(modules, '@gltf-transform/cli/bin/cli.js');
     if (!fs.existsSync(program)) skip('@gltf-transform/cli is not installed');
     const file = (name) => path.join(folder, name), { document, texture } = await hillsDocument();
@@ -281,17 +282,17 @@ const cases = {
     assert.equal(run('down.glb').status, 0); // no limit, no check
     const tight = run('right.glb', '--limit', '0', '--frame', 'cotangent', '--json', 'report.json');
     assert.equal(tight.status, 5, tight.stdout + tight.stderr);
-    assert.match(tight.stderr, /lint-normals: hills.*: 95 % of the error of reading with cotangent .* degrees, limit 0/);
+    assert.match(tight.stderr, /lint-normals: hills.*: 95th percentile of the error with cotangent .* degrees, limit 0/);
     const report = JSON.parse(fs.readFileSync(file('report.json')));
     assert.deepEqual(report.over_limit, (await cotan.lint(fs.readFileSync(file('right.glb')), { limit: 0, frame: 'cotangent' })).over_limit);
     assert.equal(report.command, 'lint-normals');
     const down = run('down.glb', '--limit', '90');
     assert.equal(down.status, 5);
-    assert.match(down.stderr, /green points the other way than the file says/);
+    assert.match(down.stderr, /green points opposite to what the file says/);
     assert.equal(run('right.glb', '--limit', '200').status, 1);
   },
 
-  async newMapsAreInTheFormatOfTheOldOnes() {
+  async newMapsKeepTheFormatOfTheOldOnes() {
     let sharp;
     try {
       sharp = (await from('sharp')).default;
@@ -307,7 +308,7 @@ const cases = {
     await document.transform(transforms.untangent({ mode: 'convert' }));
     const other = await hillsDocument();
     await other.document.transform(transforms.untangent({ mode: 'convert' }));
-    assert.equal(texture.getMimeType(), 'image/webp'); // without loss, as it was
+    assert.equal(texture.getMimeType(), 'image/webp'); // lossless like the original
     const texels = await cotan.decodePicture(texture.getImage()), expected = await cotan.decodePng(other.texture.getImage());
     assert.deepEqual([...texels.data], [...expected.data]);
     const jpeg = await hillsDocument();

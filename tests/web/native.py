@@ -1,7 +1,7 @@
-"""What the native library makes of the same input, for tests/web: native.py LIBRARY tangents|model FOLDER
+"""Writes the results of the native library for the input of tests/web: native.py LIBRARY tangents|model FOLDER
 
-tangents: FOLDER/mesh.bin (vertices, corners, positions, normals, uvs, indices) to FOLDER/native.bin.
-model: FOLDER/model.glb to FOLDER/lint.json, converted.json and converted.glb.
+tangents: from FOLDER/mesh.bin (vertices, corners, positions, normals, uvs, indices) to FOLDER/native.bin.
+model: from FOLDER/model.glb to FOLDER/lint.json, converted.json and converted.glb.
 """
 import ctypes as c
 import pathlib

@@ -1,5 +1,5 @@
-// The package from its tarball, in an empty folder, by node:
-// node package_test.mjs TARBALL LIBRARY SHARED_DATA [CASE]
+// The npm package from its tarball, installed in an empty folder and run by node:
+//   node package_test.mjs TARBALL LIBRARY SHARED_DATA [CASE]
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -17,7 +17,7 @@ const native = (what, place) => execFileSync('python3', [path.join(here, 'native
 const needsData = () => { if (!fs.existsSync(data)) skip(`${data} is not here`); };
 
 const cases = {
-  async bothWaysOfLoadingWork() {
+  async bothEntryPointsLoad() {
     for (const name of ['cotan_beside', 'tangents_beside']) {
       const beside = await load(folder, name);
       await beside.ready;
@@ -26,11 +26,11 @@ const cases = {
     const program = "import { ready, tangents } from 'cotan/tangents'; import * as all from 'cotan'; await ready; await all.ready;"
       + ' console.log(tangents({ positions: [0,0,0, 1,0,0, 0,1,0], normals: [0,0,1, 0,0,1, 0,0,1], uvs: [0,1, 1,1, 0,0] }).join(" "))';
     fs.writeFileSync(path.join(folder, 'use.js'), program);
-    // u along x; v against y: w is 1, since cross(n, t) = y is up in the picture.
+    // u runs along x and v against y: w is 1, because cross(n, t) = y points up in the image.
     assert.equal(execFileSync('node', ['use.js'], { cwd: folder, encoding: 'utf8' }).trim(), '1 0 0 1 1 0 0 1 1 0 0 1');
   },
 
-  async tangentsAreTheNativeOnesToTheBit() {
+  async tangentsEqualTheNativeOnes() {
     const place = emptyFolder(), mesh = hills(60);
     fs.writeFileSync(path.join(place, 'mesh.bin'), Buffer.concat([Uint32Array.of(mesh.positions.length / 3, mesh.indices.length),
       mesh.positions, mesh.normals, mesh.uvs, mesh.indices].map((array) => Buffer.from(array.buffer))));
@@ -48,7 +48,7 @@ const cases = {
     }
   },
 
-  async lintAndConvertAreTheNativeOnes() {
+  async lintAndConvertMatchTheNativeOnes() {
     needsData();
     const close = (a, b, where) => {
       if (typeof a === 'number' && typeof b === 'number')
@@ -68,10 +68,10 @@ const cases = {
         await cotan.lint(model);
       } catch (error) {
         assert.match(error.message, /need the package sharp/);
-        continue; // a map in JPEG, which each library rounds in its own way
+        continue; // a JPEG map, which each library rounds differently
       }
       ++compared;
-      const { over_limit: over, ...found } = await cotan.lint(model); // the lines are ours
+      const { over_limit: over, ...found } = await cotan.lint(model); // only the package adds over_limit
       assert.deepEqual(over, []);
       close(found, json('lint.json'), 'lint');
       const made = await cotan.convert(model, { mode: 'convert' }), { mode, bytes, ...report } = made.report;
@@ -85,7 +85,7 @@ const cases = {
           continue;
         }
         const [a, b] = [imageOf(ours, i), imageOf(theirs, i)];
-        if (Buffer.from(a).equals(Buffer.from(b))) continue; // as it was
+        if (Buffer.from(a).equals(Buffer.from(b))) continue; // unchanged
         const [x, y] = [await cotan.decodePng(a), await cotan.decodePng(b)];
         assert.deepEqual([x.width, x.height, x.bits], [y.width, y.height, y.bits]);
         assert.ok(Buffer.from(x.data.buffer).equals(Buffer.from(y.data.buffer)), `${file}: image ${i}`);
@@ -94,7 +94,7 @@ const cases = {
     assert.ok(compared > 1, `${compared} models`);
   },
 
-  // 258 KB became 618: maps as PNG, for a frame that nobody asked for.
+  // A model of 258 KB once became 618 KB, with maps as PNG for a frame that nobody requested.
   async droppingTangentsNeverMakesAFileLarger() {
     needsData();
     const { default: validator } = await import(path.join(modules, 'gltf-validator/index.js')).catch(() => ({}));
@@ -104,7 +104,7 @@ const cases = {
       const place = path.join(data, file), model = fs.readFileSync(place), files = {};
       const original = file.endsWith('.glb') ? parseGlb(model).json : JSON.parse(model);
       for (const { uri } of [...original.buffers, ...original.images ?? []]) if (uri) files[decodeURIComponent(uri)] = fs.readFileSync(path.join(path.dirname(place), decodeURIComponent(uri)));
-      const sharpless = async (bytes, name) => { // what node has without sharp: PNG
+      const sharpless = async (bytes, name) => { // what node can decode without sharp: PNG
         if (bytes[0] === 0x89) return cotan.decodePng(bytes);
         throw new cotan.CotanError('unavailable', `${name}: no decoder`);
       };
@@ -124,15 +124,15 @@ const cases = {
         const faults = async (bytes) => (await validator.validateBytes(bytes, { maxIssues: 10000, externalResourceFunction: async (uri) => new Uint8Array(files[decodeURIComponent(uri)]) })).issues.messages
           .filter(({ severity }) => severity === 0).map(({ code }) => code);
         const known = new Set(await faults(new Uint8Array(model)));
-        // A coat with a map over a surface without one: glTF says nothing of its frame, every reader derives it.
+        // A coat with a map over a surface without one: glTF does not define its frame, and every reader derives it.
         assert.deepEqual((await faults(glb)).filter((code) => !known.has(code) && code !== 'MESH_PRIMITIVE_NO_TANGENT_SPACE'), [], file);
       }
     }
     assert.ok(dropped >= 8, `${dropped} with their maps as they are`);
   },
 
-  // By themselves its maps' green is wrong, with its tangents right: nothing is to be turned twice.
-  async greenThatTangentsMeanIsNotFixed() {
+  // Green of its maps is reversed by itself, and right together with its tangents. It must not be inverted twice.
+  async greenThatTangentsReverseIsNotFixed() {
     needsData();
     const place = path.join(data, 'models/SketchfabCat'), model = fs.readFileSync(path.join(place, 'scene.gltf')), files = {};
     for (const { uri } of [...JSON.parse(model).buffers, ...JSON.parse(model).images]) files[decodeURIComponent(uri)] = fs.readFileSync(path.join(place, decodeURIComponent(uri)));
@@ -149,7 +149,7 @@ const cases = {
       await assert.rejects(cotan.convert(model, options), (error) => error instanceof cotan.CotanError && error.code === 'usage');
   },
 
-  async pngFilesLoseNothing() {
+  async pngFilesRoundTrip() {
     for (const [bits, Type] of [[8, Uint8Array], [16, Uint16Array]])
       for (const alpha of [false, true]) {
         const picture = { width: 37, height: 11, bits, data: Type.from({ length: 37 * 11 * 4 }, (_, i) => (i % 4 === 3 && !alpha ? -1 : i * i * 257 + 7 * i)) };
@@ -158,7 +158,7 @@ const cases = {
       }
   },
 
-  async mapsConvertAndTellTheirGreen() {
+  async mapsConvertAndTheirGreenIsDetected() {
     const side = 64, waves = { width: side, height: side, data: new Float32Array(side * side * 4) };
     const height = (x, y) => Math.sin(2 * Math.PI * x / side) * Math.cos(4 * Math.PI * y / side);
     for (let y = 0; y < side; ++y)
@@ -168,7 +168,7 @@ const cases = {
     const turned = cotan.convertMap(map, { to: 'directx' });
     assert.equal(cotan.detect(turned).green, 'down');
     const back = cotan.toHeight(turned, { from: 'directx' });
-    // Central differences shrink a wave of 32 texels by 0.6 %.
+    // Central differences attenuate a wave of 32 texels by 0.6 %.
     back.data.forEach((h, i) => assert.ok(Math.abs(h - 2 * height(i % side, Math.floor(i / side))) < 0.04));
     assert.deepEqual(cotan.mips(map).map((level) => level.normals.width), [64, 32, 16, 8, 4, 2, 1]);
     assert.equal(cotan.info(map).content, 'tangent space');
@@ -188,7 +188,7 @@ const cases = {
     cotan.encode('cotangent', places, out).forEach((value, i) => assert.ok(Math.abs(value - [0.6, 0.48, 0.64][i]) < 1e-5));
   },
 
-  async errorsSayWhatAndWhere() {
+  async errorsNameTheFieldAndTheFault() {
     const fails = (work, expected) => assert.throws(work, (error) => {
       assert.ok(error instanceof cotan.CotanError || error instanceof small.CotanError, String(error));
       for (const [name, value] of Object.entries(expected)) assert.equal(error[name], value, error.message);
@@ -212,20 +212,20 @@ const cases = {
     await assert.rejects(cotan.convert(new TextEncoder().encode('{}')), { code: 'input' });
   },
 
-  // A billion rows of 4 bytes were encoded without end, 3000 x 30000 of 4 bytes to a picture of nothing.
-  async encodePngLooksAtThePictureBeforeItBegins() {
+  // A height of 1e9 with 4 bytes of data once encoded endlessly, and 3000 x 30000 with 4 bytes gave an empty image.
+  async encodePngValidatesItsImageFirst() {
     const data = new Uint8Array(4);
     for (const [picture, field] of [[{ width: 1, height: 1e9, data }, 'picture.height'], [{ width: 3000, height: 30000, data }, 'picture.data'],
       [{ width: 1, height: 1, data: [0, 0, 0, 0] }, 'picture.data'], [{ width: 1, height: 1, data: new Float32Array(4) }, 'picture.data'],
       [{ width: 1, height: 1, bits: 16, data }, 'picture.bits'], [undefined, 'picture']])
       await assert.rejects(cotan.encodePng(picture), (error) => error instanceof cotan.CotanError && error.code === 'usage' && error.field === field);
     await assert.rejects(cotan.encodePng({ width: 65536, height: 2048, data: { length: 4 } }), cotan.CotanError);
-    const png = await cotan.encodePng({ width: 1, height: 1, data: Uint8ClampedArray.of(1, 2, 3, 255) }); // as a canvas has it, without bits
+    const png = await cotan.encodePng({ width: 1, height: 1, data: Uint8ClampedArray.of(1, 2, 3, 255) }); // without bits, as from a canvas
     assert.deepEqual([...(await cotan.decodePng(png)).data], [1, 2, 3, 255]);
   },
 
-  // Sizes of 32 bits: 357,913,942 elements of 12 bytes end at byte 8 of 2^32, and 2^32 + 12 bytes are not 12.
-  async sizesThatOverflowThoseOfTheWebAreRefused() {
+  // Sizes of 32 bits wrap: 357,913,942 elements of 12 bytes are 2^32 + 8 bytes, not 8, and 2^32 + 12 bytes are not 12.
+  async sizesThatOverflow32BitsAreRefused() {
     const model = (accessor, view) => new TextEncoder().encode(JSON.stringify({
       asset: { version: '2.0' }, buffers: [{ byteLength: 36, uri: `data:;base64,${Buffer.alloc(36).toString('base64')}` }],
       bufferViews: [{ buffer: 0, byteLength: 36, ...view }],
@@ -240,7 +240,7 @@ const cases = {
           && error.code === 'input' && !/stopped/.test(error.message), JSON.stringify([accessor, view]));
   },
 
-  async everyFunctionAnswersNonsenseWithACotanError() {
+  async everyFunctionRefusesNonsenseWithACotanError() {
     const nonsense = [undefined, null, 0, -1, NaN, 1e9, 'text', true, [], [1], ['a'], [1n], {}, () => 1, new Uint8Array(3), new Float64Array(9), new BigInt64Array(3), new DataView(new ArrayBuffer(8)),
       { width: 1, height: 1, data: new Uint8Array(4) }, { positions: [0, 0, 0], normals: [0], uvs: {} }, { from: 7 }, { maps: [], primitives: [7] }, { files: null }, { decode: 1 }];
     let calls = 0, refused = 0;
@@ -255,7 +255,7 @@ const cases = {
             } catch (error) {
               ++refused;
               assert.ok(error instanceof cotan.CotanError, `${name}(${[first, second, third].map(String)}): ${error.stack}`);
-              // A thousand million vertices fill the memory, where the library may stop and a new one takes its place.
+              // A billion vertices exhaust the memory: the library may stop, and a new instance replaces it.
               const full = [first, second, third].includes(1e9) ? /undefined is not|Cannot read/ : /undefined is not|Cannot read|the library stopped/;
               assert.doesNotMatch(error.message, full, `${name}: ${error.message}`);
             }
@@ -264,8 +264,8 @@ const cases = {
     assert.ok(calls > 10000 && refused > 0.8 * calls, `${refused} of ${calls} refused`);
   },
 
-  // "Install libdraco-dev and build Cotan again" is nothing that a user of npm can do.
-  async whatNpmLacksIsSaidForUsersOfNpm() {
+  // "Install libdraco-dev and build Cotan again" does not help users of npm.
+  async missingDecodersAreExplainedForNpmUsers() {
     needsData();
     for (const [file, word] of [['heart_draco.glb', 'Draco'], ['pirate_meshopt.glb', 'meshoptimizer']])
       for (const work of [cotan.lint, cotan.convert])
@@ -326,7 +326,7 @@ const cases = {
     assert.ok(read > 10 && refused > 10, `${read} read, ${refused} refused`);
   },
 
-  async itIsSmall() {
+  async packageIsSmall() {
     const place = path.join(folder, 'node_modules/cotan');
     const packed = (...names) => gzipSync(Buffer.concat(names.map((name) => fs.readFileSync(path.join(place, name)))), { level: 9 }).length;
     const script = (name) => fs.readFileSync(path.join(place, name), 'utf8');
@@ -336,10 +336,10 @@ const cases = {
       for (const [, to] of script(name).matchAll(/from '(\.[^']+)'/g)) reached(path.join(path.dirname(name), to), seen);
       return seen;
     };
-    // The module in a file beside the scripts. As a text inside them it takes 2.4 % and 0.5 % more. 32,800: meshes are
-    // looked at for numbers that are not finite, and usual corners of smooth cotangents take half the time, which took 2 KB
-    // over the 30,000 of before; large arrays of zeros and meshes with a vertex for every corner take 500 bytes more. 425,000:
-    // 453,000 with std::locale, which {fmt} brings where Findfmt.cmake does not say otherwise.
+    // Limits with the wasm in a separate file; inside the scripts, as text, it takes 2.4 % and 0.5 % more. 32,800: 30,000,
+    // 2 KB for the search of meshes for numbers that are not finite and a shortcut that halves the time of smooth
+    // cotangents, and 500 bytes for large arrays of zeros and meshes with a vertex for every corner. 425,000: it was
+    // 453,000 with std::locale, which {fmt} uses unless Findfmt.cmake turns it off.
     for (const [name, most] of [['tangents', 32800], ['cotan', 425000]]) {
       const beside = packed(...reached(`${name}_beside.js`), `wasm/${name}.wasm`), inside = packed(...reached(`${name}.js`));
       console.log(`${name}: ${beside} bytes gzipped, ${inside} with the wasm inside`);

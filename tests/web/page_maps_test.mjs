@@ -1,5 +1,5 @@
-// What the page says of normal maps, how it fixes and draws them, its shader and its patch: in headless Chromium, as a visitor
-// would try it (page_visit.mjs says how this is called).
+// Normal maps on the web page: its verdicts, fixes and renders, its shader and its patch, in headless Chromium, used as
+// a visitor uses it (page_visit.mjs documents the arguments).
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { address, decode, drawn, drop, encode, end, fact, needsData, open, problem, run, saved, scratch, settled,
@@ -12,7 +12,7 @@ await fact('aMapWithReversedGreenIsFoundAndFixed', async () => {
   const words = await page.textContent('.verdict');
   if (!/wrong way for glTF/.test(words)) return `says: ${words} ${await problem(page)}`;
   if (await drawn(page, '.view canvas') < 0.05) return 'the picture is blank';
-  // docs/pictures/web-page.jpg
+  // For docs/pictures/web-page.jpg.
   await page.locator('.result').screenshot({ path: join(scratch, 'web-page.jpg'), type: 'jpeg', quality: 88 });
   const { name, bytes } = await saved(page, () => page.click('text=Download the fixed map'));
   await drop(page, [join(scratch, writeFileSync(join(scratch, name), bytes) ?? name)]);
@@ -21,7 +21,7 @@ await fact('aMapWithReversedGreenIsFoundAndFixed', async () => {
   return /Green points up/.test(again) ? '' : `the fixed map is said to be: ${again}`;
 });
 
-await fact('verdictsOnPublishedMapsAreTheirs', async () => {
+await fact('publishedMapsGetTheirVerdicts', async () => {
   const page = await open(), wrong = [];
   for (const line of readFileSync(texture('CONVENTIONS.tsv'), 'utf8').trim().split('\n').slice(1)) {
     const [file, way] = line.split('\t');
@@ -34,7 +34,7 @@ await fact('verdictsOnPublishedMapsAreTheirs', async () => {
   return wrong.join('\n');
 }, needsData);
 
-await fact('aFixedMapHasTheTexelsThatTheCommandLineWrites', async () => {
+await fact('fixedMapsEqualThoseOfTheCommandLine', async () => {
   const page = await open(), wrong = [];
   for (const file of ['scratched_gold_normal_dx.png', 'noise16_normal_gl.png']) {
     await drop(page, [texture(file)]);
@@ -48,7 +48,7 @@ await fact('aFixedMapHasTheTexelsThatTheCommandLineWrites', async () => {
   return wrong.join('\n');
 }, needsData);
 
-await fact('theShaderIsTheCommandLinesAndTheAddressKeepsTheChoice', async () => {
+await fact('shadersEqualTheCommandLinesAndTheAddressKeepsTheChoice', async () => {
   const page = await open({ permissions: ['clipboard-read', 'clipboard-write'] }, '#shader?lang=wgsl&frame=orthonormal&map=directx');
   await page.waitForFunction(() => document.querySelector('#shader-panel pre code')?.textContent.length > 500);
   const text = await page.textContent('#shader-panel pre code'), tools = run('shader', '--lang', 'wgsl', '--frame', 'orthonormal', '--preset', 'directx');
@@ -64,7 +64,7 @@ await fact('theShaderIsTheCommandLinesAndTheAddressKeepsTheChoice', async () => 
   return copied === shown ? '' : 'what was copied is not what is shown';
 });
 
-await fact('theShaderOfTheFrameTriangleIsGivenByStage', async () => {
+await fact('shadersOfTheFrameTriangleAreGivenByStage', async () => {
   for (const stage of ['fragment', 'mesh']) {
     const page = await open({}, `#shader?lang=wgsl&frame=triangle&map=gltf&stage=${stage}`);
     await page.waitForFunction(() => document.querySelector('#shader-panel pre code')?.textContent.length > 500 || document.querySelector('#shader-panel [role=status]')?.textContent);
@@ -74,10 +74,10 @@ await fact('theShaderOfTheFrameTriangleIsGivenByStage', async () => {
   }
 });
 
-// One thing drawn both ways. SwiftShader rasterises and samples for both, so what differs is how numbers are rounded: by one step of
-// 8 bits. A map that is larger than the canvas is seen through its levels, whose texels are rounded too: there a step of a texel is up to
-// 0.45 degrees, which the highlight, a power of 40, makes five steps of.
-await fact('webGpuAndWebGlDrawTheSamePictures', async () => {
+// The same content drawn by both APIs. SwiftShader rasterises and samples for both, so that only rounding differs, by an
+// 8-bit step. A map larger than the canvas is read through mip levels with rounded texels: a step of a texel is up to
+// 0.45 degrees there, which the highlight, with an exponent of 40, amplifies to five steps.
+await fact('webGpuAndWebGlDrawTheSameImages', async () => {
   const large = { width: 1536, height: 1100, depth: 8, channels: 3, data: new Uint8Array(1536 * 1100 * 3) };
   for (let k = 0; k < 1536 * 1100; ++k) {
     const [x, y] = [0.6 * Math.sin((k % 1536) / 40), 0.6 * Math.cos(Math.floor(k / 1536) / 25)];
@@ -122,7 +122,7 @@ await fact('webGpuAndWebGlDrawTheSamePictures', async () => {
   return wrong.join('\n');
 });
 
-await fact('aLostDeviceLeavesThePicturesToWebGl', async () => {
+await fact('webGlReplacesALostDevice', async () => {
   const page = await open();
   await page.addInitScript(() => {
     const ask = GPUAdapter.prototype.requestDevice;
@@ -147,7 +147,7 @@ await fact('aLostDeviceLeavesThePicturesToWebGl', async () => {
   return Buffer.compare(Buffer.from(moved.data), Buffer.from(after.data)) === 0 ? 'the light stays where it was' : '';
 });
 
-await fact('thePatchAnswersKeysAndPointerWithRightDegrees', async () => {
+await fact('thePatchFollowsKeysAndPointerWithRightDegrees', async () => {
   const page = await open(), figure = k => page.locator('.patches b').nth(k).textContent();
   await page.locator('#why-stretch').focus();
   await page.keyboard.press('Home'); // 0.5 : 1

@@ -1,16 +1,16 @@
-// What the page says of models, how it draws, checks and fixes them: in headless Chromium, as a visitor would try it
-// (page_visit.mjs says how this is called).
+// Models on the web page: its verdicts, renders, checks and fixes, in headless Chromium, used as a visitor uses it
+// (page_visit.mjs documents the arguments).
 import { existsSync, readFileSync, readdirSync, statSync, writeFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
 import { data, decode, domed, drawn, drop, end, fact, hasData, model, needsData, open, partsOfGlb, problem, run, same,
   saved, scratch, settled, texelsEqual, texture } from './page_visit.mjs';
 
-await fact('aModelIsDrawnTwiceAndTheAngleBetweenIsSaid', async () => {
+await fact('modelsAreDrawnTwiceWithTheAngleBetween', async () => {
   const page = await open();
   await page.click('#sample-model');
   await settled(page);
-  await page.waitForFunction(() => /apart by [\d.]+°/.test(document.querySelector('.view')?.textContent ?? ''));
-  const apartNow = async () => Number(/apart by ([\d.]+)°/.exec(await page.textContent('.view'))[1]);
+  await page.waitForFunction(() => /differ by [\d.]+°/.test(document.querySelector('.view')?.textContent ?? ''));
+  const apartNow = async () => Number(/differ by ([\d.]+)°/.exec(await page.textContent('.view'))[1]);
   if (!(await apartNow() < 0.5)) return `stored tangents and what the page advises are said to be apart by ${await apartNow()} degrees`;
   await page.locator('.view select').nth(1).selectOption('cotangent');
   await page.waitForFunction(() => document.querySelector('.view').dataset.shows === 'tangents cotangent');
@@ -23,49 +23,49 @@ await fact('aModelIsDrawnTwiceAndTheAngleBetweenIsSaid', async () => {
   await page.waitForFunction(() => /Under the pointer: [\d.]+°/.test(document.querySelector('.view').textContent));
   await page.screenshot({ path: join(scratch, 'page-angle.png') });
   await page.locator('.view select').nth(0).selectOption('cotangent');
-  await page.waitForFunction(() => /apart by 0\.0\d°/.test(document.querySelector('.view').textContent));
+  await page.waitForFunction(() => /differ by 0\.0\d°/.test(document.querySelector('.view').textContent));
   for (const frame of ['triangle', 'orthonormal', 'smooth']) {
     await page.locator('.view select').nth(1).selectOption(frame);
     const at = await page.waitForFunction(frame => document.querySelector('.view').dataset.shows === `cotangent ${frame}`, frame).then(() => page.textContent('.view'));
-    const apart = Number(/apart by ([\d.]+)°/.exec(at)[1]), [least, most] = { triangle: [0, 1], orthonormal: [1, 30], smooth: [0, 1] }[frame];
+    const apart = Number(/differ by ([\d.]+)°/.exec(at)[1]), [least, most] = { triangle: [0, 1], orthonormal: [1, 30], smooth: [0, 1] }[frame];
     if (!(apart >= least && apart <= most)) return `cotangent and ${frame} are said to be apart by ${apart} degrees, ${least} to ${most} were expected`;
   }
   await page.context().close();
 });
 
-// "As they are" above "convert" is what the page said of its own sample.
-await fact('whatThePageAdvisesIsWhatItShowsAndSaysOnce', async () => {
+// The page once said "as they are" above "convert" about its own sample.
+await fact('theViewShowsTheAdvisedConversion', async () => {
   const page = await open(), wrong = [];
   const cat = join(data, 'models/SketchfabCat'), beside = folder => readdirSync(folder).map(name => join(folder, name)).filter(path => statSync(path).isFile());
-  const cases = [['the sample', null, /read as they are, with the frame orthonormal|made again for the frame/, 0.5]];
+  const cases = [['the sample', null, /read as they are, with the frame orthonormal|remade for the frame/, 0.5]];
   if (hasData) cases.push(
     ['BoomBox', beside(join(data, 'models/BoomBox')), /read as they are, with the frame orthonormal/, 0.3],
-    ['the cat', [...beside(cat), ...beside(join(cat, 'textures'))], /Green and the stored tangents are both reversed: together they are right/, 1],
+    ['the cat', [...beside(cat), ...beside(join(cat, 'textures'))], /Green and the stored tangents are both reversed: together they cancel out/, 1],
     ['the chess set', [join(data, 'compressed/chess_board_draco.glb')], /./, 1],
   );
   for (const [name, files, words, most] of cases) {
     if (files) await drop(page, files);
     else await page.click('#sample-model').then(() => settled(page));
     if (await problem(page)) { wrong.push(`${name}: ${await problem(page)}`); continue; }
-    await page.waitForFunction(() => /apart by [\d.]+°/.test(document.querySelector('.view')?.textContent ?? ''), undefined, { timeout: 120000 });
+    await page.waitForFunction(() => /differ by [\d.]+°/.test(document.querySelector('.view')?.textContent ?? ''), undefined, { timeout: 120000 });
     const verdict = await page.textContent('.verdict'), advice = await page.textContent('.verdict + p'), shows = await page.getAttribute('.view', 'data-shows');
-    const apart = Number(/apart by ([\d.]+)°/.exec(await page.textContent('.view'))[1]);
+    const apart = Number(/differ by ([\d.]+)°/.exec(await page.textContent('.view'))[1]);
     if (process.env.VERBOSE) console.log(`${name}: ${apart} degrees; ${verdict} ${advice}`);
     if (!words.test(verdict)) wrong.push(`${name}: says ${verdict}`);
-    const table = Number(/read by orthonormal: off by([\d.]+)°/.exec(await page.textContent('#result'))?.[1]); // 15.7 for the cat, whose green its tangents reverse
+    const table = Number(/unchanged maps with orthonormal([\d.]+)°/.exec(await page.textContent('#result'))?.[1]); // 15.7 for the cat, whose green its tangents reverse
     if (['the cat', 'BoomBox'].includes(name) && !(table < 2)) wrong.push(`${name}: the table says ${table} degrees with orthonormal`);
     if (/as they are/.test(verdict) === /Convert /.test(advice) && !/reversed|contradict/.test(verdict)) wrong.push(`${name}: says "${verdict}" and "${advice}"`);
     if (shows !== 'tangents auto') wrong.push(`${name}: shows ${shows}`);
     if (!(apart < most)) wrong.push(`${name}: what is advised and what has tangents are apart by ${apart} degrees`);
-    if (/SketchfabCat|the cat/.test(name) && !/TANGENT\.w contradicts .* green is read the other way/.test(await page.textContent('.view'))) wrong.push(`${name}: does not say that green is read the other way`);
-    if (name === 'BoomBox' && !/MikkTSpace tangents, made here/.test(await page.textContent('.view .labels'))) wrong.push(`${name}: is compared with ${await page.textContent('.view .labels')}`);
+    if (/SketchfabCat|the cat/.test(name) && !/TANGENT\.w contradicts .* green is flipped/.test(await page.textContent('.view'))) wrong.push(`${name}: does not say that green is flipped`);
+    if (name === 'BoomBox' && !/MikkTSpace tangents, generated here/.test(await page.textContent('.view .labels'))) wrong.push(`${name}: is compared with ${await page.textContent('.view .labels')}`);
     await page.screenshot({ path: join(scratch, `page-advised-${name.replace(/\W/g, '')}.png`) });
   }
   await page.context().close();
   return wrong.join('\n');
 });
 
-await fact('theCheckIsTheCommandLinesWithItsReportAsAFile', async () => {
+await fact('theCheckAndItsReportMatchTheCommandLine', async () => {
   const page = await open(), wrong = [];
   let shown;
   for (const [file, limit] of [[model('NormalTangentMirrorTest'), 0.001], [model('NormalTangentMirrorTest'), 90], [model('TwoSidedPlane'), 2]]) {
@@ -91,28 +91,28 @@ await fact('theCheckIsTheCommandLinesWithItsReportAsAFile', async () => {
   return wrong.join('\n');
 }, needsData);
 
-// It was diagnosed and saved as it was.
+// Such a model was once diagnosed and then saved unchanged.
 await fact('aModelWithReversedGreenIsFixed', async () => {
   const page = await open();
   await drop(page, [await domed('green_down.glb', false, [0.3, 0.5, 0.7])]);
   const words = await page.textContent('.verdict'), lines = await page.textContent('[data-paste]');
-  if (!/points the other way than the model says/.test(words)) return `says: ${words} ${await problem(page)}`;
+  if (!/points opposite to what the model says/.test(words)) return `says: ${words} ${await problem(page)}`;
   if (!/untangle\(gltf, \{ convention: 'directx' \}\);[^]*material\.normalScale\.y \*= -1;/.test(lines)) return `is to be pasted: ${lines}`;
   const { name, bytes } = await saved(page, () => page.click('text=Fix green and download'));
-  await page.waitForFunction(() => /Green of domes is reversed/.test(document.querySelector('.result').textContent));
+  await page.waitForFunction(() => /Green of domes was reversed/.test(document.querySelector('.result').textContent));
   writeFileSync(join(scratch, name), bytes);
   await drop(page, [join(scratch, name)]);
   const again = await page.textContent('.verdict'), plain = await page.textContent('[data-paste]');
   await page.context().close();
-  if (/the other way/.test(again)) return `of the fixed model: ${again}`;
+  if (/opposite/.test(again)) return `of the fixed model: ${again}`;
   return /^import .*\nuntangle\(gltf\);$/.test(plain) ? '' : `of the fixed model is to be pasted: ${plain}`;
 });
 
-// Pure white was 250 of 255 nearly everywhere.
-await fact('whiteKeepsItsBumps', async () => {
+// Pure white was once 250 of 255 nearly everywhere.
+await fact('whiteSurfacesShowTheirBumps', async () => {
   const page = await open();
   await drop(page, [await domed('white.glb', true, [1, 1, 1])]);
-  await page.waitForFunction(() => /apart by [\d.]+°/.test(document.querySelector('.view')?.textContent ?? ''));
+  await page.waitForFunction(() => /differ by [\d.]+°/.test(document.querySelector('.view')?.textContent ?? ''));
   const png = decode(await page.locator('.view canvas').screenshot({ path: join(scratch, 'page-white.png') })), seen = [];
   for (let k = 0; k < png.data.length; k += png.channels) if (Math.abs(png.data[k] - png.data[k + 2]) < 8 && png.data[k] > 60) seen.push(png.data[k]);
   await page.context().close();
@@ -135,7 +135,7 @@ await fact('realModelsAreJudgedAndDrawn', async () => {
   return wrong.join('\n');
 }, needsData);
 
-await fact('aConvertedModelIsTheOneThatTheCommandLineWrites', async () => {
+await fact('convertedModelsEqualThoseOfTheCommandLine', async () => {
   const page = await open(), file = model('NormalTangentMirrorTest');
   await drop(page, [file]);
   await page.locator('.result select').first().selectOption('cotangent');
@@ -145,7 +145,7 @@ await fact('aConvertedModelIsTheOneThatTheCommandLineWrites', async () => {
   await page.context().close();
   const shape = ({ json }) => JSON.stringify({ ...json, buffers: undefined, bufferViews: undefined, asset: { ...json.asset, generator: undefined } });
   if (shape(ours) !== shape(tools)) return `another model: ${shape(ours).slice(0, 600)}\n${shape(tools).slice(0, 600)}`;
-  // Pictures by their texels, since the browser packs PNGs another way; all else by its bytes.
+  // Images are compared by texels, because the browser compresses PNG differently, and everything else by bytes.
   for (const [k, view] of ours.json.bufferViews.entries()) {
     const [a, b] = [[ours, view], [tools, tools.json.bufferViews[k]]].map(([{ binary }, { byteOffset = 0, byteLength }]) => binary.subarray(byteOffset, byteOffset + byteLength));
     if (same(a, b)) continue;
@@ -153,7 +153,7 @@ await fact('aConvertedModelIsTheOneThatTheCommandLineWrites', async () => {
   }
 }, needsData);
 
-await fact('mapsInKtx2AreNamedWithWhatToDo', async () => {
+await fact('ktx2MapsAreReportedWithAdvice', async () => {
   const page = await open();
   await drop(page, [join(data, 'compressed/jet_fighter_draco_basisu.glb')]);
   await page.locator('.result select').first().selectOption('cotangent');
@@ -161,7 +161,7 @@ await fact('mapsInKtx2AreNamedWithWhatToDo', async () => {
   await page.waitForFunction(() => /bytes|KB|MB/.test(document.querySelector('.result').textContent) && !/Converting/.test(document.querySelector('.result').textContent));
   const words = await page.textContent('.result');
   await page.context().close();
-  return / is in KTX2 with BasisU.*, which is not read here.*gltf-transform ktxdecompress/.test(words) ? '' : `says: ${words.slice(0, 1500)}`;
+  return / is in KTX2 with BasisU.*, which is not supported.*gltf-transform ktxdecompress/.test(words) ? '' : `says: ${words.slice(0, 1500)}`;
 }, needsData);
 
 await end();

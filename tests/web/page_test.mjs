@@ -1,5 +1,5 @@
-// The page as such: what it loads, what it answers to bad files, how it can be read, and where: in headless Chromium, as a
-// visitor would try it (page_visit.mjs says how this is called).
+// The web page itself: what it loads, answers to bad files, accessibility, small screens and offline use, in headless
+// Chromium, used as a visitor uses it (page_visit.mjs documents the arguments).
 import { readFileSync, readdirSync, statSync, writeFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
 import { address, browser, data, drawn, drop, dropOnly, end, errors, fact, hasData, needsData, open, problem, require,
@@ -15,7 +15,7 @@ await fact('firstViewIsBelow200KBWithoutTheLibrary', async () => {
   return sum < 20000 ? `only ${sum} bytes came` : sum > 200000 ? `${sum} bytes` : '';
 });
 
-await fact('anOldVerdictGoesWhenANewFileFails', async () => {
+await fact('aFailedFileClearsTheOldVerdict', async () => {
   const page = await open();
   await page.click('#sample-map');
   await settled(page);
@@ -27,8 +27,8 @@ await fact('anOldVerdictGoesWhenANewFileFails', async () => {
   return left === '' ? '' : `still there: ${left.slice(0, 200)}`;
 });
 
-// The policy that the page states, sent by a server for every file, threads among them.
-await fact('itWorksUnderTheContentSecurityPolicyThatItStates', async () => {
+// The policy that the page declares, sent by a server with every file, workers included.
+await fact('thePageWorksUnderItsContentSecurityPolicy', async () => {
   const page = await open(), policy = await page.getAttribute('meta[http-equiv="Content-Security-Policy"]', 'content');
   if (!/script-src 'self' 'wasm-unsafe-eval';/.test(policy) || /unsafe-inline|'unsafe-eval'|https?:/.test(policy)) return `states: ${policy}`;
   await page.route('**/*', async route => {
@@ -50,7 +50,7 @@ await fact('itWorksUnderTheContentSecurityPolicyThatItStates', async () => {
   await page.context().close();
 });
 
-await fact('aLibraryThatDoesNotLoadIsSaidEachTime', async () => {
+await fact('libraryLoadFailuresAreReportedEachTime', async () => {
   const page = await open(), before = errors.length;
   await page.route('**/worker.js', route => route.abort());
   await page.reload();
@@ -64,7 +64,7 @@ await fact('aLibraryThatDoesNotLoadIsSaidEachTime', async () => {
   await page.context().close();
 });
 
-await fact('whatTakesLongSaysSo', async () => {
+await fact('longWorkShowsItsDuration', async () => {
   const page = await open();
   await page.route('**/*.wasm', () => {}); // never answered
   await page.reload();
@@ -73,20 +73,20 @@ await fact('whatTakesLongSaysSo', async () => {
   await page.context().close();
 });
 
-await fact('facetsAreAnswered', async () => {
+await fact('facetsAreExplained', async () => {
   const page = await open(), text = await page.textContent('main');
   await page.context().close();
   return /faceted/.test(text) && /facets/.test(text) && /frame: 'smooth'/.test(text) ? '' : 'neither "faceted" nor "facets" is answered';
 });
 
-await fact('badFilesAreAnsweredInOneLineEach', async () => {
+await fact('badFilesGiveOneLineEach', async () => {
   const page = await open(), wrong = [], walk = folder => readdirSync(folder).flatMap(name => {
     const path = join(folder, name);
     return statSync(path).isDirectory() ? walk(path) : [path];
   });
   const files = walk(join(data, 'bad')).filter(path => /\.(glb|gltf|png)$/.test(path) && statSync(path).size < 1e6), before = errors.length;
   if (files.length < 10) return `only ${files.length} bad files are there`;
-  for (const file of files.filter((_, k) => k % Math.ceil(files.length / 12) === 0)) { // all of them take minutes
+  for (const file of files.filter((_, k) => k % Math.ceil(files.length / 12) === 0)) { // all of them would take minutes
     await drop(page, [file]).catch(() => wrong.push(`${basename(file)}: no answer`));
     const words = await problem(page);
     if (/\n/.test(words.trim()) || words.length > 400) wrong.push(`${basename(file)}: ${words.slice(0, 200)}`);
@@ -96,7 +96,7 @@ await fact('badFilesAreAnsweredInOneLineEach', async () => {
   return wrong.slice(0, 10).join('\n');
 }, needsData);
 
-await fact('documentsShowTheirPicturesAndTheirLinksLead', async () => {
+await fact('documentsShowTheirImagesAndTheirLinksWork', async () => {
   const wrong = [], rules = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
   const page = await open();
   const names = await page.evaluate(() => [...document.querySelectorAll('a[href$=".html"]')].map(link => new URL(link.href).pathname.slice(1)));
@@ -148,7 +148,7 @@ await fact('accessibilityRulesHoldInLightAndDark', async () => {
   return wrong.join('\n');
 });
 
-await fact('aPhoneShowsAllWithoutScrollingSideways', async () => {
+await fact('phonesNeedNoSidewaysScrolling', async () => {
   const page = await open({ viewport: { width: 360, height: 740 } });
   await page.click('#sample-map');
   await settled(page);
@@ -160,7 +160,7 @@ await fact('aPhoneShowsAllWithoutScrollingSideways', async () => {
   return width > 360 ? `${width} pixels wide` : '';
 });
 
-await fact('itWorksWithoutANetworkOnceItWasSeen', async () => {
+await fact('thePageWorksOfflineAfterTheFirstVisit', async () => {
   const page = await open({ serviceWorkers: 'allow' });
   await page.evaluate(() => navigator.serviceWorker.ready);
   await page.waitForFunction(() => navigator.serviceWorker.controller !== null);

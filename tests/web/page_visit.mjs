@@ -1,7 +1,7 @@
-// What the tests of the page in web/ share, in headless Chromium: node page_..._test.mjs PAGE NODE_MODULES TOOL DATA [FACT]
-// PAGE: the folder of the built page. NODE_MODULES: with playwright-core, axe-core, fast-png. TOOL: cotan. DATA: shared
-// data, may be missing. Without a FACT all are tried. Pictures of what is shown are left beside PAGE. Exit code 77 where
-// the fact needs what is missing.
+// Shared by the tests of the page in web/, which run in headless Chromium:
+//   node page_..._test.mjs PAGE NODE_MODULES TOOL DATA [FACT]
+// PAGE: folder of the built page. NODE_MODULES: has playwright-core, axe-core, fast-png. TOOL: cotan. DATA: optional
+// shared data. FACT: the only one to run. Screenshots are written beside PAGE. Exit code 77: what a fact needs is missing.
 import { execFileSync } from 'node:child_process';
 import { createServer } from 'node:http';
 import { existsSync, mkdirSync, readFileSync, readdirSync, statSync, writeFileSync } from 'node:fs';
@@ -35,7 +35,7 @@ export const browser = await chromium.launch({
     '--disable-component-update', '--disable-sync'],
 });
 
-// A dome with domes on it, as a GLB: green up the picture or down, base colour.
+// Writes a GLB of a dome with smaller domes in its normal map. up: green points up in the image. Returns the path.
 export async function domed(name, up, colour) {
   const { Document, NodeIO } = await import(join(modules, '@gltf-transform/core/dist/index.js'));
   const document = new Document(), buffer = document.createBuffer(), side = 64, map = { width: side, height: side, depth: 8, channels: 3, data: new Uint8Array(3 * side * side) };
@@ -73,7 +73,7 @@ export async function open(options = {}, hash = '') {
   return page;
 }
 
-// Files dropped onto the page, as bytes by name; waits until the page has said something.
+// Drops files onto the page and waits for its answer.
 export async function drop(page, files) {
   await dropOnly(page, files);
   await settled(page);
@@ -103,7 +103,7 @@ export function run(...words) {
 }
 
 export const same = (a, b) => a.length === b.length && Buffer.compare(Buffer.from(a.buffer, a.byteOffset, a.byteLength), Buffer.from(b.buffer, b.byteOffset, b.byteLength)) === 0;
-// Alpha that says nothing may be left out.
+// A missing alpha channel equals an opaque one.
 export function texelsEqual(a, b) {
   if (a.width !== b.width || a.height !== b.height || a.depth !== b.depth) return false;
   const most = 2 ** a.depth - 1, at = ({ data, channels }, k, c) => c < channels ? data[k * channels + c] : most;
@@ -117,7 +117,7 @@ export function partsOfGlb(bytes) {
   return { json: JSON.parse(bytes.subarray(20, 20 + length)), binary: bytes.subarray(28 + length) };
 }
 
-// How many pixels of an element's picture differ from its first.
+// Returns the fraction of pixels in an element's screenshot that differ from the first pixel.
 export async function drawn(page, selector) {
   const png = decode(await page.locator(selector).screenshot());
   let count = 0;
@@ -148,7 +148,7 @@ export async function fact(name, check, { needsData = false } = {}) {
 export const needsData = { needsData: true };
 export const texture = name => join(data, 'textures', name), model = name => join(data, 'models', name, `${name}.glb`);
 
-// To be called at the end.
+// Every test file calls this at its end.
 export async function end() {
   await browser.close();
   server.close();

@@ -1,6 +1,6 @@
-// What the package's README tells web developers to type, typed in an empty folder: node readme_test.mjs TARBALL NODE_MODULES
-// MODEL [IMAGE]. MODEL: a GLB with a normal map. IMAGE: a .png of the page at the end, such as
-// docs/pictures/tutorial-web-page.png of vase-lost-sign.glb.
+// Follows the package's README in an empty folder: node readme_test.mjs TARBALL NODE_MODULES MODEL [IMAGE]
+// MODEL: a GLB with a normal map. IMAGE: a .png for a screenshot of the page at the end, such as
+// docs/pictures/tutorial-web-page.png for vase-lost-sign.glb.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -62,5 +62,5 @@ await browser.close();
 server.close();
 assert.deepEqual(errors, []);
 assert.ok(lit >= 0.03, `${100 * lit} % of the picture shows something`);
-console.log('holds: theReadmeBringsAModelWithoutTangentsOnScreen');
+console.log('holds: theReadmeShowsAModelWithoutTangents');
 process.exit(0);

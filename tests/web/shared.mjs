@@ -1,4 +1,4 @@
-// What the tests of the npm package share. Exit code 77: skipped, with a line that says why.
+// Shared by the tests of the npm package. Exit code 77: skipped, with a line that says why.
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import os from 'node:os';
@@ -21,7 +21,7 @@ export function emptyFolder() {
   return folder;
 }
 
-/** An empty folder in which the tarball has been installed, as a user does it; other packages by links. */
+/** Creates an empty folder and installs the tarball in it as a user does; other packages are linked. */
 export function installed(tarball, modules = null, others = []) {
   const folder = emptyFolder();
   fs.writeFileSync(path.join(folder, 'package.json'), '{"private": true, "type": "module"}');
@@ -61,7 +61,7 @@ export function filesUnder(folder) {
     entry.isDirectory() ? filesUnder(path.join(folder, entry.name)) : [path.join(folder, entry.name)]);
 }
 
-/** The JSON of a .glb and its binary chunk. */
+/** Returns the JSON of a .glb and its binary chunk. */
 export function parseGlb(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength), length = view.getUint32(12, true);
   return {

@@ -1,7 +1,7 @@
-// What cotan/three draws without options, judged by stock three.js with tangents:
+// Renders of cotan/three without options, compared with stock three.js with tangents:
 //   node three_defaults_test.mjs SOURCES NODE_MODULES DATA [CASE]
-// SOURCES: bindings/js. With FILES="models/A.glb ..." in the environment degrees of all frames are printed for these, and
-// nothing is tested. Exit code 77: skipped.
+// SOURCES: bindings/js. With FILES="models/A.glb ..." in the environment, only prints the degrees of all frames for
+// these files. Exit code 77: skipped.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
@@ -15,7 +15,7 @@ if (!fs.existsSync(path.join(data, 'models'))) skip(`${data} is not here`);
 const { address, close } = await serve({ package: sources, modules, data, tests: here });
 const browser = await launch(modules);
 
-// A page with that version of three, by the name of its package.
+// Opens a page with a version of three, given by the name of its package.
 async function pageWith(three) {
   const made = await browser.newPage();
   await made.route(address, route => route.fulfill({ contentType: 'text/html', body: `<!doctype html><script type="importmap">${JSON.stringify({ imports: {
@@ -33,8 +33,8 @@ function show(file, found) {
       console.log(`${file}, ${Object.entries(found.tangents).filter(([, count]) => count).map(([name]) => name)}: ${way}${kind === 'normal' ? '' : ', coat'}: ${mean.toFixed(3)} in the mean, ${most.toFixed(2)} on 95 % (${frames})`);
 }
 
-// Degrees of untangle(gltf) from the original with its tangents, or with three's own MikkTSpace tangents; at least as good as
-// what three derives by itself.
+// Expects a mean below `mean` degrees between untangle(gltf) and the original with its tangents, or with three's own
+// MikkTSpace tangents, and at most that of the frame that three derives by itself.
 async function holds(file, mean, { note } = {}) {
   const found = await measure(file, { 'three alone': null, default: {}, cotangent: { frame: 'cotangent' } });
   show(file, found);
@@ -50,30 +50,30 @@ async function holds(file, mean, { note } = {}) {
   }
 }
 
-const kTurned = /^TANGENT\.w contradicts the texture coordinates on (9\d|100) % of the area of .*: without stored tangents its green is read the other way/;
+const kTurned = /^TANGENT\.w contradicts the texture coordinates on (9\d|100) % of the area of .*: without stored tangents its green is flipped/;
 const cases = {
-  // Stored w contradict the uv on all of their maps, which makes green point down: drawn by the declaration, pockets are dents
-  // and the cat is 9.8 degrees off.
-  async greenIsReadAsReversedTangentsMeanIt() {
+  // Stored w contradicts the uv on all of these maps, so that green points down: drawn as declared, pockets are dents,
+  // and the cat is wrong by 9.8 degrees.
+  async reversedTangentsReverseGreen() {
     for (const file of ['models/SketchfabCat/scene.gltf', 'animated/lumberjack.glb', 'compressed/chess_board_draco.glb', 'compressed/jet_fighter_draco_basisu.glb',
       'models/TwoSidedPlane/TwoSidedPlane.glb']) await holds(file, 1, { note: kTurned });
   },
 
-  // What is left is what a pixel's frame differs from one that is interpolated.
-  async modelsWithTangentsAreDrawnAsWithThem() {
+  // The remaining difference is that between a frame per pixel and an interpolated frame.
+  async modelsLookTheSameWithoutTheirTangents() {
     for (const name of ['NormalTangentMirrorTest', 'ClearCoatTest']) await holds(`models/${name}/${name}.glb`, 0.5);
     await holds('models/FlightHelmet/FlightHelmet.gltf', 1);
   },
 
-  // three alone reads them by cotangent: 0.425 degrees on BoomBox where orthonormal has 0.056.
+  // three alone reads them in cotangent: 0.425 degrees on BoomBox, where orthonormal has 0.056.
   async modelsWithoutTangentsAreReadAsMikkTSpace() {
     for (const file of ['NormalTangentTest/NormalTangentTest.glb', 'BoomBox/BoomBox.gltf', 'GlamVelvetSofa/GlamVelvetSofa.glb']) await holds(`models/${file}`, 0.15);
   },
 
-  // 179.7 and 153 degrees from the truth: three takes every instance of a mirrored matrix for its back, and turns the normal.
-  // Of that, the bumps are right with our frame, to what a pixel's frame differs from one that is interpolated; with stored
-  // tangents they are off by as much as on a mirrored mesh, whose bitangent three makes of a mirrored tangent and a normal that is not.
-  async mirroredInstancesAreInsideOutWithRightBumps() {
+  // Mirrored instances are 179.7 and 153 degrees from the truth: three takes them for back faces and negates normals.
+  // Otherwise bumps are right with our frame, except for the difference to interpolated ones. With stored tangents they
+  // are as wrong as on a mirrored mesh: three makes bitangents from a mirrored tangent and an unmirrored normal.
+  async mirroredInstancesKeepTheirBumps() {
     const { upright, mirrored } = await page.evaluate(async () => (await import('/tests/three_instances.js')).measure());
     console.log(JSON.stringify({ upright, mirrored }));
     assert.ok(upright.stock.truth < 0.01 && upright.orthonormal.truth < 0.5);
@@ -83,7 +83,7 @@ const cases = {
       assert.ok(Math.abs(mirrored[frame].inside - upright[frame].truth) < 0.5, `${frame}: ${mirrored[frame].inside} and ${upright[frame].truth} degrees`);
   },
 
-  // The old geometry stayed on the device for ever, and the new one after the caller had disposed of his.
+  // The old geometry once stayed on the device for ever, and the new one after the caller had disposed of the original.
   async replacedGeometriesAreFreed() {
     for (const frame of ['orthonormal', 'smooth', 'triangle'])
       assert.deepEqual(await page.evaluate(async (frame) => (await import('/tests/three_instances.js')).heldGeometries(frame), frame), [1, 1, 0], frame);

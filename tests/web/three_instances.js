@@ -1,5 +1,5 @@
-// A ring with bumps and a matrix, drawn as an instance by stock three.js and by cotan/three, and as a mesh whose vertices
-// the matrix has moved, which is the truth. For three_defaults_test.mjs.
+// A bumpy ring with a matrix, drawn as an instance by stock three.js and by cotan/three, and as a mesh with transformed
+// vertices, which is the truth. For three_defaults_test.mjs.
 import * as THREE from 'three';
 import { untangle } from '/package/three/index.js';
 
@@ -25,7 +25,7 @@ function ring() {
   return geometry;
 }
 
-// The ring with the matrix in its vertices, tangents and winding.
+// The ring with the matrix applied to its vertices, tangents and winding.
 function moved(matrix) {
   const geometry = ring(), { position, normal, tangent } = geometry.attributes, { index } = geometry, side = Math.sign(matrix.determinant()), t = new THREE.Vector3();
   position.applyMatrix4(matrix);
@@ -42,7 +42,7 @@ function moved(matrix) {
   return geometry;
 }
 
-// Degrees from the truth, and from the truth turned inside out, in the mean, by what is drawn.
+// Returns, for each frame, the mean angle in degrees to the truth, and to the truth turned inside out.
 export function measure() {
   const renderer = new THREE.WebGLRenderer(), target = new THREE.WebGLRenderTarget(kSize, kSize, { type: THREE.FloatType }), map = bumps(128);
   const camera = new THREE.PerspectiveCamera(40, 1, 0.1, 100);
@@ -88,7 +88,8 @@ export function measure() {
   return found;
 }
 
-// How many geometries the renderer holds: drawn with tangents, drawn after untangle(), and once what the caller made is disposed of.
+// Numbers of geometries that the renderer holds: with tangents, after untangle(), and after the caller's geometry is
+// disposed of.
 export function heldGeometries(frame) {
   const renderer = new THREE.WebGLRenderer(), camera = new THREE.PerspectiveCamera(40, 1, 0.1, 100), geometry = ring();
   const mesh = new THREE.Mesh(geometry, new THREE.MeshStandardMaterial({ normalMap: bumps(16) })), scene = new THREE.Scene().add(mesh), held = [];

@@ -1,5 +1,5 @@
-// Stock three.js as judge, in a page: degrees between the normals that it draws of a model with its tangents, and those
-// without. Where a mesh has a normal map and no tangents, the judge has those of three's own computeMikkTSpaceTangents.
+// Stock three.js as the reference: degrees between the normals that it draws of a model with its tangents and without.
+// For meshes with a normal map and no tangents, the reference uses three's own computeMikkTSpaceTangents.
 import * as THREE from 'three';
 import { DRACOLoader } from 'three/addons/loaders/DRACOLoader.js';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
@@ -10,7 +10,7 @@ import { computeMikkTSpaceTangents } from 'three/addons/utils/BufferGeometryUtil
 import { untangle } from '/package/three/index.js';
 
 const kSize = 320;
-// From the front, from behind, from both sides and from above and below, none along an axis.
+// In front, behind, on both sides, above and below; none along an axis.
 const kViews = [[0.1, 0.15, 1], [-0.2, 0.25, -1], [1, 0.1, 0.2], [-1, 0.3, -0.1], [0.15, 1, 0.3], [0.2, -1, 0.1]];
 
 const renderer = new THREE.WebGLRenderer(), target = new THREE.WebGLRenderTarget(kSize, kSize, { type: THREE.FloatType });
@@ -27,8 +27,8 @@ const meshesOf = gltf => {
 const materialsOf = meshes => new Set(meshes.flatMap(({ material }) => material));
 const mapped = material => material.normalMap ?? material.clearcoatNormalMap;
 
-// three makes bitangents of a tangent and a normal that are both mirrored, which points them the other way: judged is what
-// the file means, whose node mirrors all of a mesh.
+// three makes bitangents from a tangent and a normal that are both mirrored, which inverts them. The reference follows
+// the file, whose node mirrors the whole mesh.
 function forMirroredNode(mesh) {
   if (mesh.matrixWorld.determinant() > 0) return;
   mesh.geometry = mesh.geometry.clone();
@@ -36,7 +36,8 @@ function forMirroredNode(mesh) {
   for (let k = 0; k < tangent.count; ++k) tangent.setW(k, -tangent.getW(k));
 }
 
-// Tangents as the file has them; MikkTSpace's where it has none. Returns how many meshes have the one and the other.
+// Prepares the reference: stored tangents, or MikkTSpace tangents where there are none. Returns the number of meshes
+// with each.
 async function judged(gltf) {
   await MikkTSpace.ready;
   const counts = { stored: 0, generated: 0 }, turned = new Map();
@@ -53,7 +54,7 @@ async function judged(gltf) {
     if (!turned.has(mesh.geometry)) turned.set(mesh.geometry, withTangents(mesh.geometry, mapped(mesh.material)));
     mesh.geometry = turned.get(mesh.geometry);
     forMirroredNode(mesh);
-    if (!turned.has(mesh.material)) { // the loader turned green for want of tangents
+    if (!turned.has(mesh.material)) { // without tangents the loader has inverted green
       turned.set(mesh.material, mesh.material.clone());
       for (const name of ['normalScale', 'clearcoatNormalScale']) if (mesh.material[name]) turned.get(mesh.material)[name].y *= -1;
     }
@@ -62,7 +63,7 @@ async function judged(gltf) {
   return counts;
 }
 
-// Over the texture coordinates as the map has them: of its matrix three's own function knows nothing.
+// Uses texture coordinates transformed by the map's matrix, which three's own function ignores.
 function withTangents(geometry, map) {
   const made = geometry.index ? geometry.toNonIndexed() : geometry.clone(), { uv } = made.attributes, place = new THREE.Vector2();
   map.updateMatrix();
@@ -71,14 +72,15 @@ function withTangents(geometry, map) {
   return made.setAttribute('uv', uv);
 }
 
-// three uses tangents for a clear coat only where there is a map of bumps, too; and counts on them in the coat's scale anyway.
+// three uses tangents for a clear coat only if there is a normal map too, and assumes them in the coat's scale in any
+// case.
 function withFlatBumps(material) {
   if (material.normalMap || !material.clearcoatNormalMap) return;
   material.normalMap = new THREE.DataTexture(Uint8Array.of(128, 128, 255, 255), 1, 1);
   material.normalMap.needsUpdate = true;
 }
 
-// Lets a material write a normal; nothing where it has no such map.
+// Makes a material write a normal, or zeros if it has no such map.
 function write(material, what) {
   const { onBeforeCompile: before, customProgramCacheKey: key } = material, own = Object.hasOwn(material, 'customProgramCacheKey');
   const has = what === 'normal' ? material.normalMap : material.clearcoatNormalMap;
@@ -121,8 +123,8 @@ function degreesBetween(views, others) {
   return { count: found.length, finite: found.every(Number.isFinite), mean: found.reduce((sum, x) => sum + x, 0) / found.length, most: found[Math.floor(0.95 * (found.length - 1))] };
 }
 
-// url: of a model; ways: options of untangle() by name, null for a model as the loader gives it. Degrees of each, for the
-// normals and, where there are some, the clear coat's, over the pixels of materials with such a map; and what was said.
+// url: a model. ways: options of untangle() by name; null for the model as loaded. Returns the degrees for each, of the
+// normals and the clear coat's, if any, over the pixels of materials with such a map; and the notes.
 export async function measure(url, ways) {
   const bytes = await (await fetch(url)).arrayBuffer(), base = url.replace(/[^/]*$/, ''), found = {};
   const load = () => loader.parseAsync(bytes.slice(0), base);
@@ -140,7 +142,7 @@ export async function measure(url, ways) {
       } else if (options) {
         untangle(gltf, { ...options, note: line => notes.push(line) });
       }
-      meshesOf(gltf).forEach((mesh, k) => { mesh.renderOrder = k; }); // else three sorts by numbers that loading gives
+      meshesOf(gltf).forEach((mesh, k) => { mesh.renderOrder = k; }); // instead of ids that loading assigns
       const materials = materialsOf(meshesOf(gltf));
       if (way === 'judge' && what !== 'normal') for (const material of materials) withFlatBumps(material);
       for (const material of materials) write(material, what);

@@ -1,4 +1,4 @@
-// cotan/three from the tarball, where nothing is drawn: node three_test.mjs TARBALL NODE_MODULES DATA [CASE]
+// Tests cotan/three from the tarball without drawing: node three_test.mjs TARBALL NODE_MODULES DATA [CASE]
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
@@ -16,7 +16,7 @@ const THREE = await from('three'), { untangle, replaceFrame, CotanError } = awai
 const library = await load(folder, 'tangents');
 await library.ready;
 
-/** A map as GLTFLoader makes it. */
+/** A map as GLTFLoader creates it. */
 function mapOf(name = 'bumps') {
   const map = new THREE.DataTexture(Uint8Array.of(128, 128, 255, 255), 1, 1);
   map.name = name;
@@ -24,7 +24,7 @@ function mapOf(name = 'bumps') {
   return map;
 }
 
-/** A square of two triangles of glTF; w: 1 as its format means it, -1 reversed, 0: no tangents; area: of the square. */
+/** A glTF square of two triangles. w: 1 as glTF defines it, -1 reversed, 0 for no tangents; area: of the square. */
 function square(map, w, { area = 1, material = new THREE.MeshStandardMaterial({ normalMap: map, name: 'cloth' }), mirrored = false } = {}) {
   const geometry = new THREE.BufferGeometry(), side = Math.sqrt(area), u = mirrored ? [1, 0, 1, 0] : [0, 1, 0, 1], along = mirrored ? -1 : 1;
   const set = (name, values, width) => geometry.setAttribute(name, new THREE.Float32BufferAttribute(values, width));
@@ -37,7 +37,7 @@ function square(map, w, { area = 1, material = new THREE.MeshStandardMaterial({ 
   return new THREE.Mesh(geometry, material);
 }
 
-/** What is said, and which sign each mesh's scale has in the end: -1 for green up the picture, as glTF declares it. */
+/** Returns the notes, and the sign of each mesh's scale after untangle(): -1 for green up in the image, as in glTF. */
 function untangledSigns(meshes, options = {}) {
   const scene = new THREE.Scene(), notes = [];
   scene.add(...meshes);
@@ -48,16 +48,16 @@ function untangledSigns(meshes, options = {}) {
 const frameOf = (mesh) => /cotan,(\w+)/.exec(mesh.material.customProgramCacheKey())[1];
 
 const cases = {
-  greenFollowsReversedTangentsOnNineTenthsOfAMapsArea() {
+  greenFollowsTangentsReversedOn90PercentOfTheArea() {
     const shared = mapOf(), other = mapOf('other');
     const meshes = [square(shared, -1, { area: 9.2 }), square(shared, 1, { area: 0.8 }), square(shared, 0), square(other, 1), square(shared, -1, { mirrored: true })];
     const { signs, notes } = untangledSigns(meshes);
     assert.deepEqual(signs, [1, 1, 1, -1, 1]); // also where a mesh of that map has no tangents
     assert.deepEqual(notes, ["TANGENT.w contradicts the texture coordinates on 93 % of the area of normal map 'bumps': "
-      + 'without stored tangents its green is read the other way (the option convention overrides this)']);
+      + 'without stored tangents its green is flipped (the option convention overrides this)']);
   },
 
-  mixedTangentsLeaveGreenAsDeclaredAndAreNamed() {
+  mixedTangentsLeaveGreenAsDeclaredAndAreReported() {
     const map = mapOf();
     const { signs, notes } = untangledSigns([square(map, -1), square(map, 1), square(map, 0)]);
     assert.deepEqual(signs, [-1, -1, -1]);
@@ -69,7 +69,7 @@ const cases = {
 
   tangentsThatPointElsewhereDoNotReverseGreen() {
     const map = mapOf(), mesh = square(map, -1), { tangent } = mesh.geometry.attributes;
-    for (let k = 0; k < tangent.count; ++k) tangent.setX(k, -1); // away from dP/du: turned by half a turn, w is right
+    for (let k = 0; k < tangent.count; ++k) tangent.setX(k, -1); // opposite to dP/du; w is right
     assert.deepEqual(untangledSigns([mesh]), { signs: [-1], notes: [] });
     const without = square(mapOf(), -1), { uv } = without.geometry.attributes;
     for (let k = 0; k < uv.count; ++k) uv.setXY(k, 0.5, 0.5); // no area: nothing is compared
@@ -79,7 +79,7 @@ const cases = {
   clearCoatsFollowTheSameRule() {
     const material = new THREE.MeshPhysicalMaterial({ normalMap: mapOf('base'), clearcoatNormalMap: mapOf('coat') });
     const coated = square(null, -1, { material }), scene = new THREE.Scene(), notes = [];
-    scene.add(coated, square(material.normalMap, 1, { area: 100 })); // the base's is right on nearly all of its area
+    scene.add(coated, square(material.normalMap, 1, { area: 100 })); // right on nearly all of the base's area
     untangle({ scenes: [scene] }, { note: (line) => notes.push(line) });
     assert.deepEqual([coated.material.normalScale.y, coated.material.clearcoatNormalScale.y], [-1, 1]);
     assert.equal(notes.length, 1);
@@ -91,7 +91,7 @@ const cases = {
       for (const w of [1, -1, 0]) assert.deepEqual(untangledSigns([square(mapOf(), w)], { convention }), { signs: [sign], notes: [] });
   },
 
-  aSecondCallChangesNothingAndALaterMeshIsReadAsTheFirst() {
+  repeatedCallsAndLaterMeshesAgree() {
     const map = mapOf(), material = new THREE.MeshStandardMaterial({ normalMap: map });
     const meshes = [square(map, -1, { material }), square(map, -1, { material })];
     assert.deepEqual(untangledSigns([meshes[0]]).signs, [1]);
@@ -99,7 +99,7 @@ const cases = {
     assert.deepEqual(untangledSigns([meshes[1]]).signs, [1]);
   },
 
-  autoIsTheFrameThatTheMaterialNamesElseWhatMapsOfModelsMean() {
+  autoIsTheFrameOfTheMaterialOrOrthonormal() {
     const drawn = (userData, options, mesh = square(mapOf(), 0)) => {
       Object.assign(mesh.material.userData, userData);
       return [untangledSigns([mesh], options).notes, frameOf(mesh)];
@@ -110,7 +110,7 @@ const cases = {
     assert.deepEqual(drawn({ cotanFrame: 'smooth' }, { frame: 'auto' }), [[], 'smooth']);
     assert.deepEqual(drawn({ cotanFrame: 'mikktspace' }), [[], 'orthonormal']);
     assert.deepEqual(drawn({ cotanFrame: 'smooth' }, { frame: 'cotangent' }),
-      [['material "cloth": its maps are for the frame smooth (cotanFrame), and read with cotangent'], 'cotangent']);
+      [['material "cloth": its maps are for the frame smooth (cotanFrame), but are read with cotangent'], 'cotangent']);
     const { warn } = console, said = [];
     console.warn = (line) => said.push(line);
     try {
@@ -124,7 +124,7 @@ const cases = {
     assert.equal(frameOf({ material: replaceFrame(material) }), 'cotangent');
   },
 
-  mapsThatAreRepeatedOnShapesOfOnesOwnAreReadAsTheyStretch() {
+  repeatedMapsOnOwnShapesUseCotangent() {
     const map = new THREE.DataTexture(Uint8Array.of(128, 128, 255, 255), 1, 1), frames = [];
     for (const [repeat, geometry] of [[1, new THREE.BufferGeometry().copy(new THREE.PlaneGeometry())], [4, new THREE.BufferGeometry().copy(new THREE.PlaneGeometry())], [1, new THREE.SphereGeometry()]]) {
       map.repeat.set(repeat, 1);
@@ -135,7 +135,7 @@ const cases = {
     assert.deepEqual(frames, ['orthonormal', 'cotangent', 'cotangent']);
   },
 
-  smoothHasTheCotangentsOfTheLibrary() {
+  smoothUsesTheCotangentsOfTheLibrary() {
     for (const mirrored of [false, true]) {
       const mesh = hills(6);
       if (mirrored) for (let i = 0; i < mesh.uvs.length; i += 2) mesh.uvs[i] = Math.abs(mesh.uvs[i] - 0.5);
@@ -152,7 +152,7 @@ const cases = {
       assert.equal(attributes.position.count, made.sources.length);
       assert.equal(made.sources.length > 49, mirrored); // copies only where sides meet
       for (const [name, values] of [['cotanU', expected.u], ['cotanV', expected.v]])
-        for (let c = 0; c < made.indices.length; ++c) { // the library has floats on the way
+        for (let c = 0; c < made.indices.length; ++c) { // the library computes in float
           const ours = [0, 1, 2].map((i) => attributes[name].getComponent(index.getX(c), i)), theirs = values.subarray(3 * made.indices[c], 3 * made.indices[c] + 3);
           const apart = Math.hypot(...ours.map((x, i) => x - theirs[i]));
           assert.ok(apart < 2e-5 * Math.hypot(...theirs), `corner ${c}: ${ours} and ${theirs}`);
@@ -160,8 +160,8 @@ const cases = {
     }
   },
 
-  // Each was blue: the key of the program was that of the hook which untangle() found.
-  hooksThatComeLaterAreInTheKeyAndKeepTheFrame() {
+  // Both materials were once blue: the key of the program was that of the hook which untangle() found.
+  laterHooksAreInTheKeyAndKeepTheFrame() {
     const shader = () => ({ vertexShader: '#include <common>', fragmentShader: `#include <normalmap_pars_fragment>\n#include <normal_fragment_maps>\n` });
     const [red, blue] = [0, 1].map(() => square(mapOf(), 0)), calls = [];
     untangle({ scenes: [new THREE.Group().add(red, blue)] });
@@ -177,7 +177,7 @@ const cases = {
       assert.match(given.fragmentShader, /cotan_frame_orthonormal/);
     }
     assert.deepEqual(calls, ['red', 'blue']);
-    // One that calls what was there, as three's examples do: everything once.
+    // A hook that calls the previous one, as in three's examples: everything runs once.
     const { material } = red, before = material.onBeforeCompile;
     material.onBeforeCompile = (given, renderer) => { before(given, renderer); calls.push('after'); };
     const given = shader();
@@ -195,23 +195,23 @@ const cases = {
       const clone = mesh.material.clone(), again = clone.clone();
       for (const material of [clone, again]) {
         assert.equal(frameOf({ material }), frame);
-        assert.equal(material.normalScale.y, 1); // as the original reads its green
+        assert.equal(material.normalScale.y, 1); // green is read as in the original
         const given = { vertexShader: '#include <common>\n#include <defaultnormal_vertex>', fragmentShader: '#include <normalmap_pars_fragment>\n#include <normal_fragment_maps>' };
         material.onBeforeCompile(given, null);
         assert.match(given.fragmentShader, new RegExp(`cotan_frame_${frame}\\( n`));
       }
       mesh.material = clone;
-      assert.deepEqual(untangledSigns([mesh]).signs, [1]); // and it is known: nothing is turned twice
+      assert.deepEqual(untangledSigns([mesh]).signs, [1]); // the clone is recognized: green is not inverted twice
     }
     const material = new THREE.MeshStandardMaterial({ normalMap: mapOf() });
     replaceFrame(material, { frame: 'cotangent' });
     assert.equal(frameOf({ material: material.clone() }), 'cotangent');
-    const copy = new THREE.MeshStandardMaterial().copy(material); // copy() asks nobody: the frame is taken from the other
+    const copy = new THREE.MeshStandardMaterial().copy(material); // copy() calls no hook: `from` gives the frame
     assert.equal(frameOf({ material: replaceFrame(copy, { from: material }) }), 'cotangent');
   },
 
-  // WebGLRenderer frees what it holds of a geometry or material on its event `dispose`.
-  whatTookThePlaceOfAGeometryIsFreedWithIt() {
+  // WebGLRenderer frees the resources of a geometry or material on its event `dispose`.
+  replacementsAreFreedWithTheOriginal() {
     for (const frame of ['smooth', 'triangle', 'orthonormal']) {
       const mesh = square(mapOf(), 1), old = mesh.geometry, freed = [];
       const watch = (geometry, name) => geometry.addEventListener('dispose', () => freed.push(name));
@@ -227,7 +227,7 @@ const cases = {
     meshes[1].geometry.attributes.tangent.array.fill(-1);
     material.userData.cotanFrame = 'smooth';
     const other = square(map, 1, { material });
-    other.geometry.morphAttributes.position = [other.geometry.attributes.position]; // cannot have that frame
+    other.geometry.morphAttributes.position = [other.geometry.attributes.position]; // smooth cannot be used then
     const { warn } = console;
     console.warn = () => {};
     untangledSigns([...meshes, other]);
@@ -240,7 +240,7 @@ const cases = {
     assert.equal(gone, 1);
   },
 
-  async olderVersionsOfThreeAreTakenAndTooOldOnesNamed() {
+  async olderVersionsOfThreeWorkAndTooOldOnesAreRefused() {
     if (!fs.existsSync(path.join(modules, 'three180'))) skip('three180 is not installed (see the test npm_packages)');
     const place = installed(tarball);
     fs.symlinkSync(path.join(path.resolve(modules), 'three180'), path.join(place, 'node_modules/three'));
@@ -252,11 +252,11 @@ const cases = {
     (await older('cotan/three')).untangle(new old.Mesh(new old.PlaneGeometry(), material));
     assert.match(material.customProgramCacheKey(), /cotan,cotangent/);
     await assert.rejects(older('cotan/three/tsl'), (error) => error.code === 'unavailable' && error.message === 'three: expected version 0.185 or later for cotan/three/tsl, found 180');
-    // What npm is asked for: no more than that.
+    // The peer dependency requires no more than that.
     assert.equal(JSON.parse(fs.readFileSync(path.join(place, 'node_modules/cotan/package.json'), 'utf8')).peerDependencies.three, '>=0.160.0');
   },
 
-  whatIsUnknownIsRefused() {
+  unknownArgumentsAreRefused() {
     for (const [work, field] of [[() => untangle(), 'target'], [() => untangle(new THREE.Scene(), { frame: 'mikktspace' }), 'options.frame'],
       [() => untangle(new THREE.Scene(), { fraem: 'smooth' }), 'options.fraem'], [() => untangle(new THREE.Scene(), { note: 'loud' }), 'options.note'],
       [() => untangle(new THREE.Scene(), { convention: 'unity' }), 'options.convention'], [() => replaceFrame(), 'material'], [() => replaceFrame(new THREE.Mesh()), 'material'],

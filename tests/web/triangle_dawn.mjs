@@ -1,8 +1,8 @@
-// The page examples/triangle-web/webgpu.html in Dawn without a browser, by npm's webgpu: with a driver that has it, the
-// number of the primitive (@builtin(primitive_index)) is tried too, which Chromium has not on the processor.
+// Runs examples/triangle-web/webgpu.html in Dawn without a browser, by npm's webgpu. If the driver supports it, this
+// also tests the index of the primitive (@builtin(primitive_index)), which Chromium lacks on CPU devices.
 //   node triangle_dawn.mjs NODE_MODULES FOLDER
-// FOLDER has map.bytes and what else tests/examples_triangle_web.js fetches, and names.json: { modelNames, oddCount }.
-// Prints what was found as JSON. Exit code 77 and a line: skipped.
+// FOLDER: map.bytes, the files that tests/examples_triangle_web.js fetches, and names.json: { modelNames, oddCount }.
+// Prints the findings as JSON. Exit code 77 and a line with the reason: skipped.
 import fs from 'node:fs';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';

@@ -1,4 +1,4 @@
-// The typings of the package, by the compiler of TypeScript: node types_test.mjs TARBALL NODE_MODULES [CASE]
+// Checks the typings of the package with the TypeScript compiler: node types_test.mjs TARBALL NODE_MODULES [CASE]
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -13,7 +13,7 @@ const compiler = path.join(modules, 'typescript/lib/tsc.js');
 if (!fs.existsSync(compiler) || !fs.existsSync(path.join(modules, '@types/three'))) skip('typescript and @types/three are not installed');
 const folder = installed(tarball, modules, ['@gltf-transform', 'property-graph', 'three', '@types']);
 
-/** What the compiler says of a program, typings of the package and of what they name included. */
+/** Returns the compiler's errors for a program and for the typings of the package. */
 function compiled(name, text) {
   fs.writeFileSync(path.join(folder, name), text);
   fs.writeFileSync(path.join(folder, 'tsconfig.json'), JSON.stringify({ files: [name], compilerOptions: {
@@ -21,17 +21,17 @@ function compiled(name, text) {
   } }));
   const { stdout, stderr, error } = spawnSync(process.execPath, [compiler, '--pretty', 'false'], { cwd: folder, encoding: 'utf8' });
   if (error || stderr) throw error ?? new Error(stderr);
-  // Those of other packages are not ours to fix; theirs are checked because ours have to be.
+  // Errors in other packages are ignored. Their typings are checked because skipLibCheck would exclude ours as well.
   return stdout.split('\n').filter((line) => /error TS/.test(line) && !/^node_modules\/(?!cotan\/)|^\.\.\//.test(line));
 }
 const program = (name) => fs.readFileSync(path.join(here, 'types', name), 'utf8');
 
 const cases = {
-  typingsTakeEveryExportInStrictMode() {
+  typingsAcceptEveryExportInStrictMode() {
     assert.deepEqual(compiled('right.ts', program('right.ts')), []);
   },
 
-  async typingsNameWhatThereIsAndNothingElse() {
+  async typingsMatchTheExports() {
     fs.writeFileSync(path.join(folder, 'from.js'), 'export const from = (name) => import(name);\n');
     const { from } = await import(pathToFileURL(path.join(folder, 'from.js')));
     let text = '';
@@ -44,7 +44,7 @@ const cases = {
     assert.deepEqual(compiled('names.ts', text), []);
   },
 
-  wrongCallsAreRefusedLineByLine() {
+  everyWrongCallIsATypeError() {
     const text = program('wrong.ts'), errors = compiled('wrong.ts', text);
     const refused = new Set(errors.map((line) => Number(/^wrong\.ts\((\d+),/.exec(line)?.[1])));
     const wrong = text.split('\n').flatMap((line, k) => (line === '' || /^(\/\/|import )/.test(line) ? [] : [k + 1]));

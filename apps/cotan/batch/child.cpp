@@ -23,11 +23,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kJobWord = "run-for-batch"; // its first argument
+constexpr const char* kJobWord = "run-for-batch"; // first argument of a job process
 constexpr std::size_t kFixedWords = 6;
 constexpr std::size_t kMaxAnswerBytes = 256 << 20;
 
-// Files that the command names, each once, in order; from any thread.
+// Collects file names without duplicates, in order; thread-safe.
 class Names {
 public:
     void add(const std::filesystem::path& file)
@@ -55,9 +55,9 @@ bool hasExtension(const std::string& file, std::initializer_list<const char*> kn
     return std::ranges::any_of(known, [&](const char* one) { return extension == one; });
 }
 
-// A picture to make the thumbnail of; empty where there is none.
-std::filesystem::path pictureOf(const ChildRequest& request, const ChildAnswer& answer,
-                                const std::function<int(const std::vector<std::string>&)>& command)
+// An image to make the thumbnail from; empty: none.
+std::filesystem::path thumbnailSource(const ChildRequest& request, const ChildAnswer& answer,
+                                      const std::function<int(const std::vector<std::string>&)>& command)
 {
     for (const std::string& file : answer.outputs)
         if (imageFormatHas(file, &ImageFormat::reads))
@@ -109,7 +109,7 @@ int runJobProcess(int argc, const char* const* argv, const std::function<int(con
     request.thumbnails = Thumbnails(numberIn(argv[5]));
     request.processorSeconds = numberIn(argv[6]);
     request.words = {argv + kFixedWords + 1, argv + argc};
-    dieWith(request.parent, SIGTERM); // at which unfinished files are removed
+    dieWith(request.parent, SIGTERM); // the handler of SIGTERM removes unfinished files
     leaveNoCore();
     if (!kSanitized && request.megabytes > 0)
         setLimit(RLIMIT_DATA, request.megabytes << 20, request.megabytes << 20);
@@ -124,8 +124,8 @@ int runJobProcess(int argc, const char* const* argv, const std::function<int(con
     ChildAnswer answer{inputs.close(), outputs.close(), {}};
     ordered_json j = {{"inputs", answer.inputs}, {"outputs", answer.outputs}};
     if (request.thumbnails != Thumbnails::none && (code == 0 || code == int(ErrorKind::limit)))
-        if (const std::filesystem::path picture = pictureOf(request, answer, command); !picture.empty())
-            if (const auto thumbnail = thumbnailOf(picture))
+        if (const std::filesystem::path image = thumbnailSource(request, answer, command); !image.empty())
+            if (const auto thumbnail = thumbnailOf(image))
                 j["thumbnail"] = {
                     {"width", thumbnail->width}, {"height", thumbnail->height}, {"jpeg", thumbnail->jpeg}};
     watchInputs({});

@@ -1,4 +1,4 @@
-// The process that one job runs in: the same program, told by its first word.
+// The process that runs one job: the same program with a special first argument.
 #pragma once
 
 #include <cstddef>
@@ -12,40 +12,40 @@
 
 namespace cotan {
 
-// Of which pictures thumbnails are made.
+// Which files get thumbnails: none, images, or also models, which are rendered.
 enum class Thumbnails { none, pictures, models };
 
-// What the process is told.
+// What the process is asked to do.
 struct ChildRequest {
-    std::filesystem::path work;       // an empty folder, absolute: for its answer, and for the command's report
-    std::int64_t parent = 0;          // the process that asks
-    std::size_t megabytes = 0;        // MiB that it may take; 0: no limit
-    std::size_t processorSeconds = 0; // that it may take; then it gets SIGXCPU. 0: no limit
+    std::filesystem::path work;       // an empty folder, absolute, for its answer and the command's report
+    std::int64_t parent = 0;          // id of the parent process
+    std::size_t megabytes = 0;        // memory limit in MiB; 0: none
+    std::size_t processorSeconds = 0; // limit of processor time, which raises SIGXCPU; 0: none
     Thumbnails thumbnails = Thumbnails::pictures;
     std::vector<std::string> words; // of the command line
 };
 
-// The words for a program that is to be such a process, without its name, and back.
+// Converts a request to the arguments of a job process, without the program name. isJobProcess recognises them.
 std::vector<std::string> toWords(const ChildRequest& request);
 bool isJobProcess(int argc, const char* const* argv);
 
-// What a job process's main() returns: runs the command, notes what it reads and writes, makes the thumbnail. command:
-// runs the words of a command line and returns the exit code.
+// The main() of a job process: runs the command, records its inputs and outputs, makes the thumbnail, and returns the
+// exit code. command: runs the words of a command line and returns the exit code.
 int runJobProcess(int argc, const char* const* argv,
                   const std::function<int(const std::vector<std::string>&)>& command);
 
-// What the process leaves in its work folder.
-inline constexpr const char* kReportName = "report.json"; // of the command, where its words do not say another place
+// Files of a job process in its work folder.
+inline constexpr const char* kReportName = "report.json"; // of the command, unless its words choose another path
 inline constexpr const char* kAnswerName = "answer.json";
 inline constexpr const char* kThumbnailName = "thumbnail.png";
 
-// What the answer says. Files are as the command named them, relative to the folder that it ran in.
+// The answer of a job process. Files are named as in the command, relative to the folder in which it ran.
 struct ChildAnswer {
     std::vector<std::string> inputs, outputs;
     Thumbnail thumbnail;
 };
 
-// An empty one where there is none.
+// Reads the answer; empty if there is none or it is damaged.
 ChildAnswer readAnswer(const std::filesystem::path& work);
 
 } // namespace cotan

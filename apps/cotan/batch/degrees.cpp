@@ -12,14 +12,14 @@ namespace {
 
 using nlohmann::json;
 
-// Where a command's report has its degrees. "*" is every item of a list, of which the worst counts; names between bars
-// are alternatives, of which the best counts.
-struct Place {
+// Where the JSON report of a command has its degrees. "*" is every item of a list, and the worst counts; names between
+// bars are alternatives, and the best counts.
+struct DegreesPath {
     const char *command, *path, *of;
 };
 
-// The first that a report has counts.
-constexpr Place kPlaces[] = {
+// The first entry with a number in the report counts.
+constexpr DegreesPath kDegreesPaths[] = {
     {"lint", "fits/*/orthonormal|cotangent|smooth/mean", "read without tangents"},
     {"bake", "verify/all/mean_degrees", "against the detailed mesh"},
     {"bake", "objects/*/verify/all/mean_degrees", "against the detailed mesh"},
@@ -30,7 +30,7 @@ constexpr Place kPlaces[] = {
     {"tangents", "whole/directions/mean_degrees", "stored tangents"},
 };
 
-// NaN: nothing there.
+// The number at `path`; NaN: none.
 double valueAt(const json& j, std::string_view path)
 {
     if (path.empty())
@@ -41,7 +41,7 @@ double valueAt(const json& j, std::string_view path)
     double found = NAN;
     if (names == "*") {
         for (const json& item : j.is_array() ? j : json::array())
-            found = std::fmax(found, valueAt(item, rest)); // which prefers numbers to NaN
+            found = std::fmax(found, valueAt(item, rest)); // fmax prefers numbers to NaN
         return found;
     }
     while (!names.empty()) {
@@ -62,10 +62,10 @@ std::optional<Degrees> degreesIn(std::string_view report)
     if (!j.is_object() || !j.contains("command") || !j["command"].is_string())
         return std::nullopt;
     const std::string command = j["command"];
-    for (const Place& place : kPlaces)
-        if (command == place.command)
-            if (const double degrees = valueAt(j, place.path); std::isfinite(degrees))
-                return Degrees{degrees, place.of};
+    for (const DegreesPath& entry : kDegreesPaths)
+        if (command == entry.command)
+            if (const double degrees = valueAt(j, entry.path); std::isfinite(degrees))
+                return Degrees{degrees, entry.of};
     return std::nullopt;
 }
 

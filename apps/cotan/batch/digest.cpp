@@ -17,7 +17,7 @@ namespace cotan {
 
 namespace {
 
-constexpr std::int64_t kCoarse = 2'000'000'000; // nanoseconds: the steps of the coarsest file systems' clocks
+constexpr std::int64_t kCoarse = 2'000'000'000; // nanoseconds: time resolution of the coarsest file systems
 constexpr std::size_t kChunk = 1 << 20;
 
 std::string digits(XXH128_hash_t hash) { return fmt::format("{:016x}{:016x}", hash.high64, hash.low64); }
@@ -29,16 +29,16 @@ bool sameFile(const FileState& a, const FileState& b)
     return a.bytes == b.bytes && a.modified == b.modified && a.changed == b.changed && a.number == b.number;
 }
 
-// All but the contents.
-FileState statusOf(const std::filesystem::path& place, const std::string& file)
+// Everything but the digest of the contents.
+FileState statusOf(const std::filesystem::path& path, const std::string& file)
 {
     FileState state{.file = file, .digest = {}};
     struct stat status {};
-    if (::stat(place.c_str(), &status) != 0) {
+    if (::stat(path.c_str(), &status) != 0) {
         state.digest = "missing";
         return state;
     }
-    if (S_ISDIR(status.st_mode)) { // what is in it has states of its own
+    if (S_ISDIR(status.st_mode)) { // the files within have states of their own
         state.digest = "folder";
         return state;
     }
@@ -53,9 +53,9 @@ FileState statusOf(const std::filesystem::path& place, const std::string& file)
     return state;
 }
 
-std::string contentsOf(const std::filesystem::path& place)
+std::string contentsOf(const std::filesystem::path& path)
 {
-    const Descriptor file(::open(place.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK));
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK));
     if (file.get() < 0)
         return "unreadable";
     const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(), XXH3_freeState);
@@ -90,15 +90,15 @@ std::int64_t fileClockNanoseconds()
 
 FileState FileStates::of(const std::string& file)
 {
-    const std::filesystem::path place = folder_ / file;
-    FileState now = statusOf(place, file);
+    const std::filesystem::path path = folder_ / file;
+    FileState now = statusOf(path, file);
     if (!now.digest.empty())
         return now;
     const auto known = known_.find(file);
     if (known != known_.end() && sameFile(known->second.state, now) && now.changed + kCoarse < known->second.at)
         return known->second.state;
     const std::int64_t at = nowNanoseconds();
-    now.digest = contentsOf(place);
+    now.digest = contentsOf(path);
     known_[file] = {now, at};
     return now;
 }

@@ -1,4 +1,4 @@
-// What files hold, as short texts.
+// Digests of file contents, and detection of changed files.
 #pragma once
 
 #include <cstdint>
@@ -9,36 +9,36 @@
 
 namespace cotan {
 
-// 32 hexadecimal digits: XXH3 of 128 bits, as fast as memory. Two contents meet by chance with a probability of 3e-39;
-// somebody who wants them to meet can do so.
+// The 128-bit XXH3 hash as 32 hexadecimal digits; as fast as memory. Two contents collide by chance with a probability
+// of 3e-39, but collisions can be constructed on purpose.
 std::string digestOf(std::string_view text);
 
-// What a file was found to be.
+// The state of a file at some time.
 struct FileState {
-    std::string file;   // relative to the folder of the jobs where it is within
-    std::string digest; // of its contents; "missing", "folder", "special" or "unreadable" for what has none
+    std::string file;   // relative to the folder of the jobs if it is inside
+    std::string digest; // of the contents; else "missing", "folder", "special" or "unreadable"
     std::uint64_t bytes = 0;
-    // How a change is noticed without reading: nanoseconds since 1970, the number of the file in its file system.
+    // These reveal a change without reading: nanoseconds since 1970, and the inode number.
     std::int64_t modified = 0, changed = 0;
     std::uint64_t number = 0;
 };
 
-// Nanoseconds since 1970, now.
+// The present time in nanoseconds since 1970.
 std::int64_t nowNanoseconds();
 
-// The same by the clock of file systems, which goes in steps of some milliseconds: a file that is written later is
-// never changed earlier than that, but it can be changed earlier than nowNanoseconds().
+// The same by the clock of file systems, which advances in steps of a few milliseconds: files written later never have
+// an earlier time of change, while they may have one before nowNanoseconds().
 std::int64_t fileClockNanoseconds();
 
-// The states of files in a folder. A file is read once, and again only where the system says that it was touched.
+// Caches the states of files in a folder. A file is read once, and again only if its metadata has changed.
 class FileStates {
 public:
     explicit FileStates(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
     FileState of(const std::string& file);
 
-    // Whether a file still holds what it held at `at`, when `recorded` was taken. Reads it only where the system's
-    // times leave room for doubt: what changed less than two seconds before it was looked at may change unnoticed.
+    // Whether a file has the same contents as when `recorded` was taken, at `at`. Reads the file only if its times are
+    // inconclusive: within two seconds of a change, another may leave the times as they are.
     bool holds(const FileState& recorded, std::int64_t at);
 
 private:

@@ -1,4 +1,4 @@
-// The jobs of a batch: command lines of ours, one in each line of a file.
+// The jobs of a batch: a file with one cotan command line per line.
 //
 //     {"name": "rock 7", "command": ["bake", "--high", "rock7.obj", "--low", "rock7_low.obj", "-o", "rock7.png"]}
 //     {"command": ["lint", "city.glb"], "limit-memory": 8000, "limit-time": 600, "priority": 1, "retries": 2}
@@ -16,41 +16,41 @@
 
 namespace cotan {
 
-// What one job asks for, in place of what the batch has for all.
+// Options of one job, which override those of the batch.
 struct JobOptions {
-    std::optional<std::size_t> megabytes;           // MiB that a process of it may take; 0: no limit
-    std::optional<double> seconds;                  // on the clock
-    std::optional<double> processorSeconds;         // of its process, all threads together; 0: no limit
-    std::optional<int> retries;                     // how often it runs again where that may help
-    int priority = 0;                               // of jobs that could begin, the one with the largest does
-    std::map<std::string, std::string> environment; // variables that it gets besides ours
+    std::optional<std::size_t> megabytes;           // memory limit of its process in MiB; 0: none
+    std::optional<double> seconds;                  // wall-clock limit
+    std::optional<double> processorSeconds;         // processor time limit of all threads together; 0: none
+    std::optional<int> retries;                     // maximum number of further runs, if they may help
+    int priority = 0;                               // of the jobs that are ready, the one with the highest starts first
+    std::map<std::string, std::string> environment; // added to the environment
 };
 
 struct Job {
-    std::string name;               // unique; the command line where none was given
+    std::string name;               // unique; defaults to the command line
     std::vector<std::string> words; // of the command line, without the program
-    // What is known before it runs: files by its words and as stated, as they are written, relative to the folder of
-    // the jobs. Outputs may be folders.
+    // Files known before the job runs, from its words and from the job file, as written there: relative to the folder
+    // of the jobs. Outputs may be folders.
     std::vector<std::string> inputs, outputs;
-    std::string json;     // where its words send the command's report; empty: nowhere
-    bool threads = false; // its words say how many
-    std::size_t line = 0; // in the file, from 1
+    std::string json;     // where its words send the JSON report; empty: nowhere
+    bool threads = false; // its words set the number of threads
+    std::size_t line = 0; // in the job file, from 1
     JobOptions options;
 
-    // What its result is kept under: its words, behind its variables as in a shell, "NAME=VALUE" each.
+    // The key of its result in a store: its environment variables as "NAME=VALUE", then its words.
     std::vector<std::string> key() const;
 };
 
 struct JobList {
-    std::filesystem::path folder; // absolute: where the jobs run, and what their files are relative to
+    std::filesystem::path folder; // absolute: where the jobs run; their files are relative to it
     std::vector<Job> jobs;
 };
 
-// Checks the words of a job and fills in its files. Errors: what is wrong with them.
+// Checks the words of a job and sets its files. Errors: what is wrong with the words.
 using CheckWords = std::function<Status(Job&)>;
 
-// Reads a file of jobs; empty lines count as lines only. Errors (ErrorKind::input): lines that are no job, with the
-// number of the first and how many more there are; two jobs of one name; no job at all.
+// Reads a job file; empty lines are skipped but counted. Errors (ErrorKind::input): lines that are not jobs, with the
+// first line number and how many more there are; two jobs with the same name; no job at all.
 Result<JobList> readJobs(const std::filesystem::path& file, const CheckWords& check);
 
 } // namespace cotan

@@ -27,7 +27,7 @@ constexpr double kMaxMegabytes = 1 << 24;
 constexpr double kMinSeconds = 0.001, kMaxSeconds = 1e6;
 constexpr double kMaxRetries = 100, kMaxPriority = 1000000;
 
-// Lists and objects are named only: writing one out takes stack for each level that it is deep.
+// Lists and objects are not printed, since dumping them recurses once per nesting level.
 Error expected(const std::string& member, const std::string& what, const json& found)
 {
     const std::string text = found.is_array() ? "a list"
@@ -36,7 +36,7 @@ Error expected(const std::string& member, const std::string& what, const json& f
     return inputError(fmt::format("\"{}\": expected {}; found {}", member, what, printable(text, 60)));
 }
 
-// The words of a member that is a list of texts.
+// The strings of an array member; empty if the member is absent.
 Result<std::vector<std::string>> texts(const json& job, const char* member)
 {
     std::vector<std::string> all;
@@ -44,13 +44,13 @@ Result<std::vector<std::string>> texts(const json& job, const char* member)
         return all;
     const json& list = job[member];
     if (!list.is_array())
-        return expected(member, "a list of texts such as [\"lint\", \"model.glb\"]", list);
+        return expected(member, "a list of strings such as [\"lint\", \"model.glb\"]", list);
     for (const json& item : list) {
         if (!item.is_string())
-            return expected(member, "texts only (numbers in quotes, too)", item);
+            return expected(member, "strings only (quote numbers, too)", item);
         all.push_back(item.get<std::string>());
         if (all.back().find('\0') != std::string::npos)
-            return expected(member, "texts without the character 0", item);
+            return expected(member, "strings without the character 0", item);
     }
     return all;
 }
@@ -66,7 +66,7 @@ constexpr std::string_view kMembers[] = {
     "name",     "command", "inputs", "outputs", "limit-memory", "limit-time", "limit-processor-time",
     "priority", "retries", "env"};
 
-// A member that is a number, where it is there.
+// Reads a number member, if present.
 template<class Number>
 Status readNumber(const json& job, const char* member, double least, double most, std::optional<Number>& number)
 {
@@ -90,10 +90,10 @@ Status readEnvironment(const json& job, std::map<std::string, std::string>& envi
         return Done{};
     const json& value = job["env"];
     if (!value.is_object())
-        return expected("env", "an object of texts such as {\"NAME\": \"VALUE\"}", value);
+        return expected("env", "an object of strings such as {\"NAME\": \"VALUE\"}", value);
     for (const auto& [name, text] : value.items()) {
         if (!text.is_string() || text.get<std::string>().find('\0') != std::string::npos)
-            return expected("env", "texts without the character 0 (numbers in quotes, too)", text);
+            return expected("env", "strings without the character 0 (quote numbers, too)", text);
         if (name.empty() || name.find_first_of(std::string_view("=\0", 2)) != std::string::npos)
             return expected("env", "names of variables", name);
         environment[name] = text.get<std::string>();
@@ -121,7 +121,7 @@ Result<Job> readJob(std::string_view line, const CheckWords& check)
 {
     const json parsed = json::parse(line, nullptr, /*allow_exceptions*/ false);
     if (parsed.is_discarded())
-        return inputError("expected a JSON object on one line; found text that is no JSON");
+        return inputError("expected a JSON object on one line; found text that is not JSON");
     if (!parsed.is_object())
         return inputError("expected a JSON object; found another JSON value");
     for (const auto& [member, value] : parsed.items())
@@ -133,13 +133,13 @@ Result<Job> readJob(std::string_view line, const CheckWords& check)
         if (!*list)
             return list->error();
     if (command->empty())
-        return inputError("\"command\": expected a list of words such as [\"lint\", \"model.glb\"]; found none");
+        return inputError("\"command\": expected a list of strings such as [\"lint\", \"model.glb\"]; found none");
     Job job;
     job.words = *command;
     if (parsed.contains("name")) {
         const json& name = parsed["name"];
         if (!name.is_string() || name.get<std::string>().empty() || name.get<std::string>().size() > kMaxNameBytes)
-            return expected("name", fmt::format("a text of 1 to {} bytes", kMaxNameBytes), name);
+            return expected("name", fmt::format("a string of 1 to {} bytes", kMaxNameBytes), name);
         job.name = printable(name.get<std::string>(), kMaxNameBytes);
     } else {
         job.name = commandLine(job.words);
@@ -153,8 +153,8 @@ Result<Job> readJob(std::string_view line, const CheckWords& check)
     return job;
 }
 
-// The errors of many lines as one.
-class Complaints {
+// Combines the errors of many lines into one.
+class LineErrors {
 public:
     void add(const std::string& place, std::size_t line, const std::string& what)
     {
@@ -190,12 +190,12 @@ Result<JobList> readJobs(const std::filesystem::path& file, const CheckWords& ch
     if (!bytes)
         return bytes.error();
     std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-    if (text.starts_with("\xef\xbb\xbf")) // what some editors put before UTF-8
+    if (text.starts_with("\xef\xbb\xbf")) // byte order mark of UTF-8
         text.remove_prefix(3);
     JobList list;
     list.folder = std::filesystem::absolute(file).lexically_normal().parent_path();
-    std::map<std::string, std::size_t> lines; // by name
-    Complaints complaints;
+    std::map<std::string, std::size_t> lines; // by job name
+    LineErrors errors;
     for (std::size_t line = 1; !text.empty(); ++line) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         const std::string_view one = text.substr(0, end);
@@ -204,7 +204,7 @@ Result<JobList> readJobs(const std::filesystem::path& file, const CheckWords& ch
             continue;
         auto job = readJob(one, check);
         if (!job) {
-            complaints.add(file.string(), line, job.error().message);
+            errors.add(file.string(), line, job.error().message);
             continue;
         }
         job->line = line;
@@ -212,11 +212,11 @@ Result<JobList> readJobs(const std::filesystem::path& file, const CheckWords& ch
         if (isNew)
             list.jobs.push_back(std::move(*job));
         else
-            complaints.add(file.string(), line,
-                           fmt::format("'{}' is the name of line {}, too; expected another name for each job",
-                                       printable(job->name, 120), known->second));
+            errors.add(file.string(), line,
+                       fmt::format("'{}' is also the name of line {}; expected a different name for each job",
+                                   printable(job->name, 120), known->second));
     }
-    if (const auto error = complaints.error())
+    if (const auto error = errors.error())
         return *error;
     if (list.jobs.empty())
         return inputError(file.string() + ": expected a job in each line; found none");

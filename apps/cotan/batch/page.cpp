@@ -58,7 +58,7 @@ footer { padding: .3rem 1rem; font-size: .8em; opacity: .75; }
 @media (max-width: 46rem) { .row { grid-template-columns: 68px minmax(6rem, 1fr) 7rem 6rem; } .wide { display: none; } }
 )";
 
-// Rows are numbers and texts in the order of kColumns; whatever they hold is shown as text and never as HTML.
+// Each row is an array indexed by NAME to KEPT. All its contents are displayed as text, never as HTML.
 constexpr std::string_view kScript = R"(
 const { states, bad, warn, rows } = JSON.parse(document.getElementById('data').textContent);
 const NAME = 0, STATE = 1, DEGREES = 2, OF = 3, SECONDS = 4, MEGABYTES = 5, COMMAND = 6, REASON = 7, SAID = 8,
@@ -99,7 +99,7 @@ function rowOf(i, place) {
   const angle = make('div', 'number', degrees(r[DEGREES]));
   if (r[DEGREES] !== null) angle.append(make('span', 'of', r[OF]));
   const how = make('div', levelOf(r), states[r[STATE]]);
-  if (r[KEPT]) how.append(make('span', 'of', 'kept from before'));
+  if (r[KEPT]) how.append(make('span', 'of', 'from an earlier run'));
   const cells = [picture, name, how, angle,
     make('div', 'number wide', seconds(r[SECONDS])),
     make('div', 'number wide', Math.round(r[MEGABYTES]).toLocaleString('en'))];
@@ -162,7 +162,7 @@ function open(i) {
   const how = states[r[STATE]] + (r[REASON] ? ': ' + r[REASON] : '');
   dialog.replaceChildren(make('h2', '', r[NAME]), make('p', levelOf(r), how),
     make('pre', '', 'cotan ' + r[COMMAND]));
-  if (r[SAID]) dialog.append(make('h3', '', 'What it printed'), make('pre', '', r[SAID]));
+  if (r[SAID]) dialog.append(make('h3', '', 'Printed output'), make('pre', '', r[SAID]));
   dialog.append(files('Outputs', r[OUTPUTS], true), files('Inputs', r[INPUTS].map(n => [n]), false), close);
   dialog.showModal();
 }
@@ -193,9 +193,9 @@ new ResizeObserver(() => draw(true)).observe(list);
 choose();
 )";
 
-constexpr std::size_t kMaxSaid = 1500; // bytes on the page of what a good job printed; of a bad one all that is kept
+constexpr std::size_t kMaxOutput = 1500; // bytes of output shown for a successful job; others show all that was kept
 
-// A path as the reference of a link.
+// A path as the URL of a link.
 std::string link(const std::string& path)
 {
     std::string text;
@@ -214,9 +214,9 @@ ordered_json rowOf(const JobList& list, const JobResult& result, const fs::path&
     const bool bad = r.state > JobState::limit;
     auto outputs = ordered_json::array(), inputs = ordered_json::array();
     for (const FileState& output : r.outputs) {
-        const fs::path place = (list.folder / output.file).lexically_normal();
-        const fs::path relative = place.lexically_relative(folder);
-        outputs.push_back({output.file, link((relative.empty() ? place : relative).string())});
+        const fs::path path = (list.folder / output.file).lexically_normal();
+        const fs::path relative = path.lexically_relative(folder);
+        outputs.push_back({output.file, link((relative.empty() ? path : relative).string())});
     }
     for (const FileState& input : r.inputs)
         inputs.push_back(input.file);
@@ -228,7 +228,7 @@ ordered_json rowOf(const JobList& list, const JobResult& result, const fs::path&
                         std::round(r.megabytes),
                         commandLine(job.words),
                         r.reason,
-                        bad || r.said.size() <= kMaxSaid ? r.said : r.said.substr(0, kMaxSaid) + "...",
+                        bad || r.output.size() <= kMaxOutput ? r.output : r.output.substr(0, kMaxOutput) + "...",
                         outputs,
                         inputs,
                         nullptr,
@@ -240,8 +240,8 @@ ordered_json rowOf(const JobList& list, const JobResult& result, const fs::path&
     return row;
 }
 
-// JSON inside an element of a page: no text in it may end the element.
-std::string inPage(const ordered_json& data)
+// Escapes JSON for a script element: no text in it may end the element.
+std::string scriptJson(const ordered_json& data)
 {
     const std::string text = data.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
     std::string safe;
@@ -297,12 +297,12 @@ std::string batchPage(const JobList& list, const std::vector<JobResult>& results
         + safeTitle + "</h1>\n<div class=\"tools\">" + buttons
         + "<input id=\"find\" type=\"search\" placeholder=\"find in names, commands, reasons\" aria-label=\"find\">"
           "<span id=\"count\" aria-live=\"polite\"></span></div>\n</header>\n"
-          "<noscript><p>This page needs JavaScript; <code>--json</code> writes the same without.</p></noscript>\n"
+          "<noscript><p>This page needs JavaScript; <code>--json</code> writes the same data.</p></noscript>\n"
           "<div class=\"row head\" role=\"row\"><div></div>"
         + head(0, "Job", "") + head(1, "State", "") + head(2, "Degrees", "number") + head(4, "Seconds", "number wide")
         + head(5, "MiB", "number wide") + "</div>\n<div id=\"list\" role=\"table\" aria-label=\"jobs, worst first\">"
         + "<div id=\"space\" role=\"rowgroup\"></div></div>\n<footer>" + escapeHtml(more + footer) + "</footer>\n"
-        + "<dialog></dialog>\n<script type=\"application/json\" id=\"data\">" + inPage(data) + "</script>\n<script>"
+        + "<dialog></dialog>\n<script type=\"application/json\" id=\"data\">" + scriptJson(data) + "</script>\n<script>"
         + std::string(kScript) + "</script>\n</body>\n</html>\n";
 }
 

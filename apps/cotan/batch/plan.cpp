@@ -14,26 +14,26 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string placeOf(const JobList& list, const std::string& file)
+std::string pathOf(const JobList& list, const std::string& file)
 {
-    fs::path place = (list.folder / file).lexically_normal();
-    return place.has_filename() ? place.string() : place.parent_path().string(); // folders with a slash at the end
+    fs::path path = (list.folder / file).lexically_normal();
+    return path.has_filename() ? path.string() : path.parent_path().string(); // strips a slash at the end
 }
 
-// Who writes a file: itself, or a folder that it is in.
-const std::size_t* writerOf(const std::unordered_map<std::string, std::size_t>& writers, fs::path place)
+// The job that writes a file or a folder that contains it; null: none.
+const std::size_t* writerOf(const std::unordered_map<std::string, std::size_t>& writers, fs::path path)
 {
     for (;;) {
-        if (const auto found = writers.find(place.string()); found != writers.end())
+        if (const auto found = writers.find(path.string()); found != writers.end())
             return &found->second;
-        if (!place.has_relative_path())
+        if (!path.has_relative_path())
             return nullptr;
-        place = place.parent_path();
+        path = path.parent_path();
     }
 }
 
-// A line of jobs that ends where it began, empty where there is none. Depth first, without recursion.
-std::vector<std::size_t> findCircle(const std::vector<std::vector<std::size_t>>& needs)
+// The jobs of a dependency cycle; empty: none. A depth-first search without recursion.
+std::vector<std::size_t> findCycle(const std::vector<std::vector<std::size_t>>& needs)
 {
     enum class Mark { fresh, open, done };
     std::vector<Mark> marks(needs.size(), Mark::fresh);
@@ -53,18 +53,18 @@ std::vector<std::size_t> findCircle(const std::vector<std::vector<std::size_t>>&
             if (marks[need] == Mark::fresh) {
                 path.emplace_back(need, 0);
             } else if (marks[need] == Mark::open) {
-                std::vector<std::size_t> circle;
+                std::vector<std::size_t> cycle;
                 for (auto at = std::ranges::find(path, need, &std::pair<std::size_t, std::size_t>::first);
                      at != path.end(); ++at)
-                    circle.push_back(at->first);
-                return circle;
+                    cycle.push_back(at->first);
+                return cycle;
             }
         }
     }
     return {};
 }
 
-// Numbers for what hangs together, in the order of the first job of each.
+// The connected component of each job, numbered in the order of their first jobs.
 std::vector<std::size_t> groupsOf(const std::vector<std::vector<std::size_t>>& needs)
 {
     JoinedGroups joined(needs.size());
@@ -87,32 +87,32 @@ Result<Plan> planJobs(const JobList& list)
     std::unordered_map<std::string, std::size_t> writers;
     for (std::size_t i = 0; i < list.jobs.size(); ++i)
         for (const std::string& output : list.jobs[i].outputs) {
-            const auto [known, isNew] = writers.emplace(placeOf(list, output), i);
+            const auto [known, isNew] = writers.emplace(pathOf(list, output), i);
             if (!isNew && known->second != i)
-                return inputError(fmt::format("line {}: writes {}, which line {} writes, too", list.jobs[i].line,
+                return inputError(fmt::format("line {}: writes {}, which line {} also writes", list.jobs[i].line,
                                               output, list.jobs[known->second].line));
         }
     Plan plan;
     plan.needs.resize(list.jobs.size());
     for (std::size_t i = 0; i < list.jobs.size(); ++i)
         for (const std::string& input : list.jobs[i].inputs) {
-            const fs::path place = placeOf(list, input);
-            const std::size_t* writer = writerOf(writers, place);
+            const fs::path path = pathOf(list, input);
+            const std::size_t* writer = writerOf(writers, path);
             if (!writer)
                 continue;
-            if (*writer == i && writers.contains(place.string()))
-                return inputError(fmt::format("line {}: writes {}, which it reads: a second run would begin from what "
-                                              "the first one left; expected another name",
+            if (*writer == i && writers.contains(path.string()))
+                return inputError(fmt::format("line {}: writes {}, which it also reads: a second run would start from "
+                                              "the first one's result; expected another name",
                                               list.jobs[i].line, input));
             if (*writer != i && std::ranges::find(plan.needs[i], *writer) == plan.needs[i].end())
                 plan.needs[i].push_back(*writer);
         }
-    if (const auto circle = findCircle(plan.needs); !circle.empty()) {
+    if (const auto cycle = findCycle(plan.needs); !cycle.empty()) {
         std::string lines;
-        for (const std::size_t job : circle)
+        for (const std::size_t job : cycle)
             lines += fmt::format("line {} waits for ", list.jobs[job].line);
         return inputError(
-            fmt::format("{}line {}: each reads what the next one writes", lines, list.jobs[circle.front()].line));
+            fmt::format("{}line {}: each reads what the next one writes", lines, list.jobs[cycle.front()].line));
     }
     plan.group = groupsOf(plan.needs);
     return plan;

@@ -1,4 +1,4 @@
-// Which job waits for which: a job that reads what another one writes comes after it.
+// Dependencies: a job that reads what another one writes runs after it.
 #pragma once
 
 #include <cstddef>
@@ -12,23 +12,23 @@
 namespace cotan {
 
 struct Plan {
-    std::vector<std::vector<std::size_t>> needs; // for each job those before it
-    std::vector<std::size_t> group;              // for each job: a number that all that hang together share, from 0
+    std::vector<std::vector<std::size_t>> needs; // for each job: the jobs it depends on
+    std::vector<std::size_t> group;              // for each job: its connected component, from 0
 };
 
-// By the files that are known before jobs run. Errors (ErrorKind::input): two jobs that write one file, jobs that wait
-// for each other, a job that writes what it reads.
+// Plans by the files that are known before jobs run. Errors (ErrorKind::input): two jobs that write the same file, jobs
+// that wait for each other, a job that writes a file it reads.
 Result<Plan> planJobs(const JobList& list);
 
-// Part K of N of a batch.
+// Part `number` of `of` parts of a batch.
 struct Shard {
     std::size_t number = 1, of = 1;
 };
 
-// "3/8". Errors: ErrorKind::usage.
+// Parses "3/8". Errors: ErrorKind::usage.
 Result<Shard> parseShard(const std::string& text);
 
-// The jobs of a shard, in their order. Groups are dealt out whole, one after the other: every job is in one shard.
+// The jobs of a shard, in order. Shards get whole connected components in turn; every job is in exactly one shard.
 std::vector<std::size_t> jobsOf(const Plan& plan, const Shard& shard);
 
 } // namespace cotan

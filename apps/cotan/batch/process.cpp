@@ -19,9 +19,9 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr double kGrace = 2;                      // seconds to end in once asked
-constexpr std::size_t kHead = 4096, kTail = 8192; // bytes that are kept of what it prints
-constexpr int kMaxReads = 64;                     // at a time: others want to be heard, too
+constexpr double kGrace = 2;                      // seconds between SIGTERM and SIGKILL
+constexpr std::size_t kHead = 4096, kTail = 8192; // bytes of output kept, of the beginning and of the end
+constexpr int kMaxReads = 64;                     // per call, so that other processes get their turn
 
 double secondsOf(const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); }
 
@@ -35,7 +35,7 @@ JobProcess::JobProcess(pid_t process, Descriptor messages, double limitSeconds)
 
 JobProcess::JobProcess(JobProcess&& other) noexcept
     : process_(std::exchange(other.process_, -1)), messages_(std::move(other.messages_)), began_(other.began_),
-      deadline_(other.deadline_), asked_(other.asked_), made_(other.made_), head_(std::move(other.head_)),
+      deadline_(other.deadline_), terminated_(other.terminated_), killed_(other.killed_), head_(std::move(other.head_)),
       tail_(std::move(other.tail_)), cut_(other.cut_)
 {
 }
@@ -94,21 +94,21 @@ std::optional<Ending> JobProcess::look()
     const pid_t found = ::wait4(process_, &ending.status, WNOHANG, &usage);
     const auto now = Clock::now();
     if (found == 0 || (found < 0 && errno == EINTR)) {
-        if (!asked_ && now >= deadline_) {
+        if (!terminated_ && now >= deadline_) {
             ::kill(-process_, SIGTERM);
-            asked_ = true;
+            terminated_ = true;
         }
-        if (!made_ && now >= deadline_ + std::chrono::duration_cast<Clock::duration>(Seconds(kGrace))) {
+        if (!killed_ && now >= deadline_ + std::chrono::duration_cast<Clock::duration>(Seconds(kGrace))) {
             ::kill(-process_, SIGKILL);
-            made_ = true;
+            killed_ = true;
         }
         return std::nullopt;
     }
-    ::kill(-process_, SIGKILL); // what it has left running
+    ::kill(-process_, SIGKILL); // kills processes that it left running
     process_ = -1;
-    listen(); // its last words
-    ending.late = asked_;
-    ending.said = cut_ ? head_ + "\n...\n" + tail_ : head_ + tail_;
+    listen(); // reads the remaining output
+    ending.late = terminated_;
+    ending.output = cut_ ? head_ + "\n...\n" + tail_ : head_ + tail_;
     ending.seconds = Seconds(now - began_).count();
     ending.processorSeconds = secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime);
     ending.megabytes = double(usage.ru_maxrss) / 1024;

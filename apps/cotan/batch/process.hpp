@@ -1,4 +1,4 @@
-// The parent's side of a job's process.
+// The parent's side of a job process.
 #pragma once
 
 #include <chrono>
@@ -14,31 +14,31 @@
 
 namespace cotan {
 
-// How it ended.
+// How a process ended. megabytes: maximum resident memory in MiB. late: the time limit was exceeded.
 struct Ending {
-    int status = 0; // as wait gives it
+    int status = 0; // as waitpid gives it
     bool late = false;
-    std::string said; // the beginning and the end of what it printed
+    std::string output; // beginning and end of its output
     double seconds = 0, processorSeconds = 0;
     double megabytes = 0;
 };
 
 class JobProcess {
 public:
-    // Starts `program` in a folder, with these variables besides ours; after `limitSeconds` on the wall it is asked to
-    // end, and two seconds later it is made to. Errors: ErrorKind::unavailable.
+    // Starts `program` in a folder, with additional environment variables. After `limitSeconds` of wall-clock time it
+    // gets SIGTERM, and two seconds later SIGKILL. Errors: ErrorKind::unavailable.
     static Result<JobProcess> start(const std::string& program, const std::filesystem::path& folder,
                                     const ChildRequest& request, const std::map<std::string, std::string>& environment,
                                     double limitSeconds);
 
     JobProcess(JobProcess&& other) noexcept;
     JobProcess& operator=(JobProcess&&) = delete;
-    ~JobProcess(); // kills it, with all that it started
+    ~JobProcess(); // kills the process and all that it started
 
     pid_t number() const { return process_; }
-    // What becomes readable when it prints or ends; -1: nothing any more.
+    // Becomes readable when the process prints or ends; -1: its output is closed.
     int descriptor() const { return messages_.get(); }
-    // Looks whether it has ended, and takes what it printed. To be called when it may have, and now and then.
+    // Reads new output, and returns how the process ended, if it has. Call this when it may have ended, and regularly.
     std::optional<Ending> look();
 
 private:
@@ -47,12 +47,12 @@ private:
     JobProcess(pid_t process, Descriptor messages, double limitSeconds);
     void listen();
 
-    pid_t process_ = -1; // -1: none, or waited for
+    pid_t process_ = -1; // -1: none, or reaped
     Descriptor messages_;
     Clock::time_point began_ = Clock::now(), deadline_;
-    bool asked_ = false, made_ = false; // to end
+    bool terminated_ = false, killed_ = false; // SIGTERM, SIGKILL were sent
     std::string head_, tail_;
-    bool cut_ = false; // between the two
+    bool cut_ = false; // output between the two was dropped
 };
 
 } // namespace cotan

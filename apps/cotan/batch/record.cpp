@@ -65,7 +65,7 @@ std::string toText(const JobRecord& r, const std::vector<std::string>& words, co
                       {"signal", orNull(r.signal)},
                       {"runs", r.runs},
                       {"reason", r.reason},
-                      {"said", r.said},
+                      {"said", r.output},
                       {"seconds", r.seconds},
                       {"processor_seconds", r.processorSeconds},
                       {"megabytes", r.megabytes},
@@ -92,7 +92,7 @@ std::optional<JobRecord> parseRecord(std::string_view text)
         r.signal = numberIn(j.at("signal"));
         r.runs = j.at("runs");
         r.reason = j.at("reason");
-        r.said = j.at("said");
+        r.output = j.at("said");
         r.seconds = j.at("seconds");
         r.processorSeconds = j.at("processor_seconds");
         r.megabytes = j.at("megabytes");
@@ -104,7 +104,7 @@ std::optional<JobRecord> parseRecord(std::string_view text)
         if (j.contains("thumbnail"))
             r.thumbnail = {j["thumbnail"].at("width"), j["thumbnail"].at("height"), j["thumbnail"].at("jpeg")};
         return r;
-    } catch (const json::exception&) { // half a file, or somebody else's
+    } catch (const json::exception&) { // a truncated or foreign file
         return std::nullopt;
     }
 }

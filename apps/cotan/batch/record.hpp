@@ -1,4 +1,4 @@
-// What became of a job, and how that is kept.
+// The result of a job, and its storage format.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,16 @@
 
 namespace cotan {
 
-// The better ones first.
+// Ordered from good to bad.
 enum class JobState {
     done,
-    limit,   // done, and over a limit that its words ask for: exit code 5
-    notRun,  // nobody has run it yet, or not with these inputs
-    skipped, // a job that it waits for failed
-    failed,  // ended with another exit code
-    late,    // took longer than its limit
-    memory,  // wanted more memory than its limit
-    crashed, // ended by a signal
+    limit,   // done, but a limit of its command was exceeded: exit code 5
+    notRun,  // no run yet, or none with the present inputs
+    skipped, // a job it depends on failed
+    failed,  // any other exit code
+    late,    // exceeded its time limit
+    memory,  // needed more memory than its limit
+    crashed, // killed by a signal
 };
 
 // "done", "over limit", "not run", "skipped", "failed", "too slow", "out of memory", "crashed".
@@ -34,34 +34,34 @@ struct Degrees {
 
 struct Thumbnail {
     int width = 0, height = 0; // pixels
-    std::string jpeg;          // its file in base64; empty: none
+    std::string jpeg;          // the file in base64; empty: none
 };
 
 struct JobRecord {
     JobState state = JobState::notRun;
-    std::optional<int> code;   // exit code; none where it did not run, or was ended by a signal
-    std::optional<int> signal; // that ended it
-    int runs = 0;              // how often it was started until then
-    std::string reason;        // one line, why it is not done
-    std::string said;          // what it printed, the beginning and the end of it
+    std::optional<int> code;   // exit code; none if it did not run or a signal ended it
+    std::optional<int> signal; // the signal that ended it
+    int runs = 0;              // number of runs so far
+    std::string reason;        // one line: why it is not done
+    std::string output;        // beginning and end of its output
     double seconds = 0, processorSeconds = 0;
-    double megabytes = 0; // most memory at a time
+    double megabytes = 0; // maximum memory in use, in MiB
     std::optional<Degrees> degrees;
     Thumbnail thumbnail;
     std::vector<FileState> inputs, outputs;
-    std::int64_t at = 0; // when the files' states were taken: nanoseconds since 1970
+    std::int64_t at = 0; // when the states of the files were taken: nanoseconds since 1970
 };
 
-// Whether a run that ended so ends so again with the same inputs: what limits, signals and the machine ended may not.
+// Whether a repeated run with the same inputs would end the same way; not if a limit, a signal or the machine ended it.
 bool repeatable(const JobRecord& record);
 
-// One line of JSON with the words and the version beside it, for people who look into a store.
+// One line of JSON, with the words and the version for people who inspect a store.
 std::string toText(const JobRecord& record, const std::vector<std::string>& words, const std::string& version);
 
-// Nothing for what is no whole record of this format.
+// Returns nullopt for damaged records and other formats.
 std::optional<JobRecord> parseRecord(std::string_view text);
 
-// The degrees in the JSON report of a command; nothing where it has none.
+// The degrees in a command's JSON report; nullopt if it has none.
 std::optional<Degrees> degreesIn(std::string_view report);
 
 } // namespace cotan

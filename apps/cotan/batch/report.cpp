@@ -22,7 +22,7 @@ std::string commandLine(const std::vector<std::string>& words)
 
 namespace {
 
-// What was measured and found bad before what was refused and says nothing of the model.
+// Rank in badness. Jobs that exceed a measured limit are worse than failed ones, which say nothing about the model.
 int rankOf(JobState state)
 {
     constexpr JobState kGoodFirst[] = {JobState::done,  JobState::notRun, JobState::skipped, JobState::failed,
@@ -63,7 +63,7 @@ std::string summaryOf(const std::vector<JobResult>& results)
             text += fmt::format("{}{} {}", before, counts[state], name(JobState(state)));
             before = ", ";
         }
-    return text + (kept > 0 ? fmt::format("; {} kept from before", kept) : "");
+    return text + (kept > 0 ? fmt::format("; {} from an earlier run", kept) : "");
 }
 
 Json batchJson(const JobList& list, const std::vector<JobResult>& results)

@@ -1,4 +1,4 @@
-// What became of a batch: a page for people, JSON for programs.
+// The report of a batch: a page for people, JSON for programs.
 #pragma once
 
 #include <array>
@@ -12,19 +12,19 @@
 
 namespace cotan {
 
-// The numbers of results, worst first: what crashed, took too much memory or time, what is over its limit, what was
-// refused, what did not run; then by degrees; the order of the jobs decides the rest.
+// Indices of results, worst first: crashed, out of memory, too slow, over limit, failed, skipped, not run, done; then
+// by degrees; ties keep the order of the jobs.
 std::vector<std::size_t> worstFirst(const std::vector<JobResult>& results);
 
-// How many jobs are in each state.
+// Number of jobs in each state.
 using StateCounts = std::array<std::size_t, std::size_t(JobState::crashed) + 1>;
 StateCounts countsOf(const std::vector<JobResult>& results);
 
-// "9 jobs: 7 done (5 kept), 1 over limit, 1 crashed".
+// "9 jobs: 7 done, 1 over limit, 1 crashed; 5 kept from before".
 std::string summaryOf(const std::vector<JobResult>& results);
 
-// One HTML file that needs no other and no network: rows that are in view only, a filter, sorting, thumbnails. Links to
-// outputs are relative to `folder`, where the page will be. Of more than `maxRows` jobs it has the worst.
+// One self-contained HTML file that needs no network, with virtual scrolling, a filter, sorting and thumbnails. Links
+// to outputs are relative to `folder`, where the page will be. Only the worst `maxRows` jobs are included.
 std::string batchPage(const JobList& list, const std::vector<JobResult>& results, const std::string& title,
                       const std::string& footer, const std::filesystem::path& folder, std::size_t maxRows);
 

@@ -26,9 +26,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kTick = 50;                                  // milliseconds between two looks at deadlines
-constexpr int kSoon = 1;                                   // where a process has closed its output and is about to end
-constexpr auto kTryAgain = std::chrono::milliseconds(200); // where all that is left runs elsewhere
+constexpr int kTick = 50;                                    // milliseconds between two checks of the deadlines
+constexpr int kClosingTick = 1;                              // the same once a process has closed its output
+constexpr auto kRetryDelay = std::chrono::milliseconds(200); // while all remaining jobs run in other processes
 constexpr auto kFileClockStep = std::chrono::milliseconds(1);
 constexpr std::size_t kMaxReportBytes = std::size_t(256) << 20;
 
@@ -38,28 +38,28 @@ struct Running {
     fs::path work;
     JobProcess process;
     Claim claim;
-    std::int64_t began; // by the clock of files
+    std::int64_t began; // by fileClockNanoseconds()
 };
 
-// As the record names it: relative to the folder of the jobs where it is within.
+// The file name for records: relative to the folder of the jobs if it is inside.
 std::string nameOf(const fs::path& folder, const std::string& file)
 {
-    const fs::path place = (folder / file).lexically_normal();
-    const fs::path relative = place.lexically_relative(folder);
-    return !relative.empty() && *relative.begin() != ".." ? relative.string() : place.string();
+    const fs::path path = (folder / file).lexically_normal();
+    const fs::path relative = path.lexically_relative(folder);
+    return !relative.empty() && *relative.begin() != ".." ? relative.string() : path.string();
 }
 
-// The last line in which a command says why it failed, or its last line.
-std::string lastWords(const std::string& said)
+// The last error message of a command, or its last line.
+std::string lastMessage(const std::string& output)
 {
     constexpr std::string_view kError = "cotan: error: ";
-    if (const std::size_t at = said.rfind(kError); at != std::string::npos)
-        return printable(said.substr(at + kError.size(), said.find('\n', at) - at - kError.size()), 400);
-    const std::size_t end = said.find_last_not_of(" \n\r\t");
+    if (const std::size_t at = output.rfind(kError); at != std::string::npos)
+        return printable(output.substr(at + kError.size(), output.find('\n', at) - at - kError.size()), 400);
+    const std::size_t end = output.find_last_not_of(" \n\r\t");
     if (end == std::string::npos)
         return "it printed nothing";
-    const std::size_t begin = said.rfind('\n', end);
-    return printable(said.substr(begin == std::string::npos ? 0 : begin + 1, end - begin), 400);
+    const std::size_t begin = output.rfind('\n', end);
+    return printable(output.substr(begin == std::string::npos ? 0 : begin + 1, end - begin), 400);
 }
 
 bool isGood(const JobRecord& record) { return record.state == JobState::done || record.state == JobState::limit; }
@@ -86,7 +86,7 @@ Limits limitsOf(const RunOptions& all, const JobOptions& own)
 
 void judge(const Ending& ending, const Limits& limits, JobRecord& record)
 {
-    const std::string words = lastWords(ending.said);
+    const std::string words = lastMessage(ending.output);
     const auto is = [&](JobState state, std::string reason) {
         record.state = state;
         record.reason = std::move(reason);
@@ -98,20 +98,19 @@ void judge(const Ending& ending, const Limits& limits, JobRecord& record)
         record.signal = signal;
     else
         record.code = code;
-    const bool noMemory = code == kNoMemoryCode || (signalled && ending.said.find("bad_alloc") != std::string::npos);
+    const bool noMemory = code == kNoMemoryCode || (signalled && ending.output.find("bad_alloc") != std::string::npos);
     if (ending.late)
-        return is(JobState::late, fmt::format("took longer than {:.4g} s and was ended", limits.seconds));
+        return is(JobState::late, fmt::format("took longer than {:.4g} s and was terminated", limits.seconds));
     if (signal == SIGXCPU)
         return is(JobState::late,
-                  fmt::format("took more than {:.4g} s of processor time and was ended", limits.processorSeconds));
+                  fmt::format("took more than {:.4g} s of processor time and was terminated", limits.processorSeconds));
     if (noMemory && limits.megabytes > 0)
-        return is(JobState::memory, fmt::format("wanted more memory than {} MiB", limits.megabytes));
+        return is(JobState::memory, fmt::format("needed more memory than {} MiB", limits.megabytes));
     if (noMemory)
-        return is(JobState::memory, "wanted more memory than there is");
+        return is(JobState::memory, "needed more memory than is available");
     if (signal == SIGKILL)
-        return is(
-            JobState::crashed,
-            fmt::format("was killed (signal 9) with {:.0f} MiB in use, perhaps for want of memory", ending.megabytes));
+        return is(JobState::crashed,
+                  fmt::format("was killed (signal 9) with {:.0f} MiB in use, perhaps out of memory", ending.megabytes));
     if (signalled)
         return is(JobState::crashed,
                   fmt::format("crashed (signal {}, {}) with {:.0f} MiB in use: {}", signal, ::strsignal(signal),
@@ -121,7 +120,7 @@ void judge(const Ending& ending, const Limits& limits, JobRecord& record)
     is(code == int(ErrorKind::limit) ? JobState::limit : JobState::failed, words);
 }
 
-// The run of a batch: one thread, which starts processes, waits for what they say, and keeps their results.
+// Runs a batch in one thread, which starts processes, waits for them, and stores their results.
 class Run {
 public:
     Run(const JobList& list, const Plan& plan, std::span<const std::size_t> chosen, Store& store,
@@ -158,7 +157,7 @@ public:
     }
 
 private:
-    // Of each job the largest one of its own and of those that wait for it.
+    // Priority of each job: the maximum of its own and those of the jobs that wait for it.
     static std::vector<int> prioritiesOf(const JobList& list, const Plan& plan)
     {
         std::vector<int> priorities;
@@ -181,28 +180,28 @@ private:
 
     void addReady(std::size_t job) { ready_[priorities_[job]].push_back(job); }
 
-    // The first of those with the largest priority.
+    // Takes the first job with the highest priority.
     std::size_t takeReady()
     {
-        const auto most = ready_.begin();
-        const std::size_t job = most->second.front();
-        most->second.pop_front();
-        if (most->second.empty())
-            ready_.erase(most);
+        const auto highest = ready_.begin();
+        const std::size_t job = highest->second.front();
+        highest->second.pop_front();
+        if (highest->second.empty())
+            ready_.erase(highest);
         return job;
     }
 
-    // As many as there is room for.
+    // Starts as many jobs as there are free slots.
     Status start()
     {
-        std::deque<std::size_t> elsewhere; // run by other processes
+        std::deque<std::size_t> elsewhere; // claimed by other processes
         Status status = Done{};
         while (status && !slots_.empty() && !ready_.empty() && !steps_.stopped()) {
             const std::size_t job = takeReady();
             if (auto kept = keptOf(job)) {
                 finish(job, std::move(*kept), /*kept*/ true);
             } else if (auto claim = store_.claim(list_.jobs[job].key())) {
-                // It may have been finished elsewhere since.
+                // Another process may have finished the job meanwhile.
                 if (auto done = keptOf(job))
                     finish(job, std::move(*done), true);
                 else
@@ -230,7 +229,7 @@ private:
 
     Status begin(std::size_t job, Claim claim)
     {
-        const Job& asked = list_.jobs[job];
+        const Job& requested = list_.jobs[job];
         auto folder = store_.workFolder();
         if (!folder)
             return folder.error();
@@ -241,24 +240,24 @@ private:
         fs::remove_all(request.work, ignored);
         if (Status made = makeFolder(request.work); !made)
             return made;
-        for (const std::string& output : asked.outputs)
-            fs::create_directories((list_.folder / output).parent_path(), ignored); // else the command says why
+        for (const std::string& output : requested.outputs)
+            fs::create_directories((list_.folder / output).parent_path(), ignored); // else the command reports it
         request.parent = ::getpid();
-        const Limits limits = limitsOf(options_, asked.options);
+        const Limits limits = limitsOf(options_, requested.options);
         request.megabytes = limits.megabytes;
         request.processorSeconds = std::size_t(limits.processorSeconds);
         request.thumbnails = options_.thumbnails;
-        request.words = asked.words;
-        if (!asked.threads)
+        request.words = requested.words;
+        if (!requested.threads)
             request.words.insert(request.words.end(), {"--threads", std::to_string(options_.threads)});
-        if (asked.json.empty())
+        if (requested.json.empty())
             request.words.insert(request.words.end(), {"--json", (request.work / kReportName).string()});
-        // What was written before has an earlier time, what is written from now on has not.
+        // Waits until the file clock has passed written_: earlier writes then have earlier times, later ones do not.
         while (fileClockNanoseconds() <= written_)
             std::this_thread::sleep_for(kFileClockStep);
         const std::int64_t began = fileClockNanoseconds();
         auto process =
-            JobProcess::start(options_.program, list_.folder, request, asked.options.environment, limits.seconds);
+            JobProcess::start(options_.program, list_.folder, request, requested.options.environment, limits.seconds);
         ++runs_[job];
         if (!process) {
             JobRecord record;
@@ -273,12 +272,12 @@ private:
         return Done{};
     }
 
-    // For something to happen, a little while at most.
+    // Waits briefly for processes to print or end, and handles those that ended.
     Status wait()
     {
         if (running_.empty()) {
             if (!ready_.empty() && finished_ < chosen_.size())
-                std::this_thread::sleep_for(kTryAgain);
+                std::this_thread::sleep_for(kRetryDelay);
             return Done{};
         }
         std::vector<pollfd> descriptors;
@@ -286,7 +285,7 @@ private:
         for (const Running& r : running_) {
             descriptors.push_back({r.process.descriptor(), POLLIN, 0});
             if (r.process.descriptor() < 0)
-                tick = kSoon;
+                tick = kClosingTick;
         }
         ::poll(descriptors.data(), descriptors.size(), tick);
         for (auto at = running_.begin(); at != running_.end();) {
@@ -299,13 +298,13 @@ private:
             const std::size_t job = at->job;
             JobRecord record = recordOf(*at, number, *ending);
             slots_.push_back(at->slot);
-            if (mayHelp(job, record)) {
+            if (shouldRetry(job, record)) {
                 running_.erase(at++);
                 addReady(job);
                 continue;
             }
             Status kept = store_.keep(list_.jobs[job].key(), record);
-            running_.erase(at++); // with its claim
+            running_.erase(at++); // also releases its claim
             finish(job, std::move(record), false);
             if (!kept)
                 return kept;
@@ -313,8 +312,8 @@ private:
         return Done{};
     }
 
-    // Whether a job is to run once more.
-    bool mayHelp(std::size_t job, const JobRecord& record) const
+    // Whether to run the job once more.
+    bool shouldRetry(std::size_t job, const JobRecord& record) const
     {
         return !repeatable(record) && runs_[job] <= list_.jobs[job].options.retries.value_or(options_.retries);
     }
@@ -323,7 +322,7 @@ private:
     {
         const Job& job = list_.jobs[r.job];
         JobRecord record;
-        record.said = ending.said;
+        record.output = ending.output;
         record.seconds = ending.seconds;
         record.processorSeconds = ending.processorSeconds;
         record.megabytes = ending.megabytes;
@@ -342,7 +341,7 @@ private:
         record.outputs = statesOf(answer.outputs, r.work);
         answer.inputs.insert(answer.inputs.end(), job.inputs.begin(), job.inputs.end());
         record.inputs = statesOf(answer.inputs, r.work);
-        // What it also writes, it made itself; what changed under its eyes belongs to the next run.
+        // Files that it also writes are no inputs. An input that changed during the run leads to another run next time.
         std::erase_if(record.inputs, [&](const FileState& input) {
             return std::ranges::find(record.outputs, input.file, &FileState::file) != record.outputs.end();
         });
@@ -379,7 +378,7 @@ private:
             for (const std::size_t next : waiting_[job])
                 if (--waitsFor_[next] == 0)
                     addReady(next);
-        while (!failed.empty()) { // and all that wait for those
+        while (!failed.empty()) { // skips all jobs that wait for them
             const std::size_t bad = failed.back();
             failed.pop_back();
             for (const std::size_t next : waiting_[bad])
@@ -397,20 +396,20 @@ private:
     Store& store_;
     const RunOptions& options_;
     FileStates states_;
-    std::vector<JobResult> results_;                // of all jobs, by number
-    std::vector<std::size_t> waitsFor_;             // how many jobs it still waits for
-    std::vector<std::vector<std::size_t>> waiting_; // jobs that wait for it
-    std::vector<int> runs_;                         // how often it has been started here
+    std::vector<JobResult> results_;                // of all jobs, by index
+    std::vector<std::size_t> waitsFor_;             // per job: number of unfinished jobs it waits for
+    std::vector<std::vector<std::size_t>> waiting_; // per job: jobs that wait for it
+    std::vector<int> runs_;                         // per job: number of starts by this process
     std::vector<int> priorities_;
     std::map<int, std::deque<std::size_t>, std::greater<>> ready_; // by priority
-    std::vector<std::size_t> slots_;                               // that are free
+    std::vector<std::size_t> slots_;                               // free slots
     std::list<Running> running_;
-    std::int64_t written_ = nowNanoseconds(); // when files may last have been written that jobs read
+    std::int64_t written_ = nowNanoseconds(); // latest possible write time of files that jobs read
     std::size_t finished_ = 0;
     CountedSteps steps_;
 };
 
-// Jobs that nobody has run since they wait for one that is not done.
+// Marks jobs without a result as skipped if a job they wait for is not done.
 void skipWaiting(const JobList& list, const Plan& plan, std::vector<JobResult>& results)
 {
     for (bool more = true; more;) {
@@ -439,7 +438,7 @@ std::vector<JobResult> collect(const JobList& list, const Plan& plan, std::span<
     std::vector<JobResult> results;
     for (std::size_t job = 0; job < list.jobs.size(); ++job) {
         JobResult result{job, {}, /*kept*/ false};
-        result.record.reason = "no store has a result of it with these inputs";
+        result.record.reason = "no store has a result for these inputs";
         for (const Store& store : stores) {
             auto record = store.find(list.jobs[job].key());
             const auto holds = [&](const FileState& state) { return states.holds(state, record->at); };

@@ -1,4 +1,4 @@
-// Runs jobs, each in a process of its own, and keeps what becomes of them.
+// Runs jobs, each in a process of its own, and stores their results.
 #pragma once
 
 #include <cstddef>
@@ -13,36 +13,35 @@
 
 namespace cotan {
 
-// For all jobs; JobOptions of a job come before them.
+// Defaults for all jobs; the JobOptions of a job override them.
 struct RunOptions {
-    std::size_t processes = 1;   // at a time
-    int threads = 1;             // of each, where its words do not say how many
-    double seconds = 3600;       // on the clock, of each
-    double processorSeconds = 0; // of each, its threads together; whole seconds count, rounded up. 0: no limit
-    std::size_t megabytes = 0;   // MiB of each; 0: no limit
-    int retries = 0;             // how often each runs again that ended by a limit, a signal or what is missing here
-    bool again = false;          // also what is kept
+    std::size_t processes = 1;   // maximum number at a time
+    int threads = 1;             // per job, unless its words set the number
+    double seconds = 3600;       // wall-clock limit per job
+    double processorSeconds = 0; // limit per job of all threads together, rounded up to whole seconds; 0: none
+    std::size_t megabytes = 0;   // memory limit per job in MiB; 0: none
+    int retries = 0;             // further runs of a job ended by a limit, a signal or a missing resource
+    bool again = false;          // also run jobs with a stored result
     Thumbnails thumbnails = Thumbnails::pictures;
-    std::string program = "/proc/self/exe"; // one that begins with isJobProcess
+    std::string program = "/proc/self/exe"; // a program that begins with isJobProcess
 };
 
-// A job and what became of it.
+// A job and its result.
 struct JobResult {
-    std::size_t job = 0; // its number in the list
+    std::size_t job = 0; // index in the list
     JobRecord record;
-    bool kept = false; // it did not have to run
+    bool kept = false; // taken from the store without a run
 };
 
-// Runs those of the jobs whose results are not kept, or not with these inputs; the others wait for nothing. A job that
-// fails is a result like another one; those that wait for it are skipped. `chosen`: numbers of jobs, all that hang
-// together or none. Jobs that another process runs on the same store are waited for. The results are in the order of
-// `chosen`.
-// Errors: stoppedError; ErrorKind::output where the store takes nothing any more: what was kept until then stays.
+// Runs the chosen jobs that have no stored result for their present inputs. A job that fails has a result like any
+// other; jobs that wait for it are skipped. `chosen`: indices of jobs, whole connected components only. Jobs that
+// another process runs on the same store are waited for. The results are in the order of `chosen`.
+// Errors: stoppedError; ErrorKind::output if the store cannot be written; earlier results stay stored.
 Result<std::vector<JobResult>> runJobs(const JobList& list, const Plan& plan, std::span<const std::size_t> chosen,
                                        Store& store, const RunOptions& options, const Progress& progress);
 
-// What stores hold of all jobs, running nothing: the newest record of each that is still good, by its inputs and
-// outputs. Jobs without one are JobState::notRun.
+// Collects results from stores without running anything: for each job the newest record whose inputs and outputs are
+// unchanged. Jobs without one are JobState::notRun.
 std::vector<JobResult> collect(const JobList& list, const Plan& plan, std::span<const Store> stores);
 
 } // namespace cotan

@@ -26,7 +26,7 @@ constexpr const char* kResults = "results";
 constexpr const char* kWork = "work";
 constexpr const char* kLock = "lock";
 
-// What a record is found by. Only what every machine sees alike: neither folders nor times.
+// The hash under which a record is stored. It is the same on all machines: it depends on neither folders nor times.
 std::string keyOf(const std::vector<std::string>& words, const std::string& version)
 {
     std::string text = version;
@@ -39,8 +39,8 @@ std::string keyOf(const std::vector<std::string>& words, const std::string& vers
 
 bool lockWhole(const Descriptor& file) { return ::flock(file.get(), LOCK_EX | LOCK_NB) == 0; }
 
-// Work folders whose processes are no more: nobody holds their locks, or they had no time to make one.
-void removeLeft(const fs::path& work)
+// Removes work folders of ended processes: their lock is free, or they have no lock file after a minute.
+void removeStale(const fs::path& work)
 {
     constexpr auto kTimeForALock = std::chrono::minutes(1);
     std::error_code ignored;
@@ -77,7 +77,7 @@ Result<Store> Store::open(const fs::path& folder, std::string version)
         if (Status writable = checkWritable(store.folder_ / name / kLock); !writable)
             return writable.error();
     }
-    removeLeft(store.folder_ / kWork);
+    removeStale(store.folder_ / kWork);
     return store;
 }
 
@@ -118,7 +118,7 @@ Status Store::keep(const std::vector<std::string>& words, const JobRecord& recor
 
 std::optional<Claim> Store::claim(const std::vector<std::string>& words) const
 {
-    // One byte of one file for each job, far beyond its end: nothing is made, so nothing is left behind.
+    // Locks one byte of a shared file per job, far past its end: no file is created that could be left behind.
     Descriptor file(::open((folder_ / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
     struct flock range {};
     range.l_type = F_WRLCK;
@@ -137,7 +137,7 @@ Result<fs::path> Store::workFolder()
     std::string pattern = (folder_ / kWork / "XXXXXX").string();
     if (!::mkdtemp(pattern.data()))
         return outputError(
-            fmt::format("{}: cannot make a folder there: {}", (folder_ / kWork).string(), reasonOf(errno)));
+            fmt::format("{}: cannot create a folder there: {}", (folder_ / kWork).string(), reasonOf(errno)));
     work_ = pattern;
     workLock_ = Descriptor(::open((work_ / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
     if (workLock_.get() >= 0)

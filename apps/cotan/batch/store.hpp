@@ -1,5 +1,5 @@
-// A folder that keeps what became of jobs, a file for each. Files appear whole or not at all, so a store is good after
-// any interruption, and any number of processes, on any number of machines, may use one at a time.
+// A folder that stores job results, one file each. Files appear complete or not at all, so a store stays valid after
+// any interruption, and any number of processes on any number of machines may share one.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace cotan {
 
-// The right to run one job, which one process has at a time; gone with this, and with the process.
+// The exclusive right to run one job. It ends with this object, and with the process.
 class Claim {
 public:
     explicit Claim(Descriptor file) : file_(std::move(file)) {}
@@ -24,23 +24,23 @@ private:
 
 class Store {
 public:
-    // Opens a folder, or makes it; what killed processes left in it goes. Errors: ErrorKind::output where nothing can
-    // be written there.
+    // Opens or creates a folder, and removes leftovers of killed processes. Errors: ErrorKind::output if it cannot be
+    // written.
     static Result<Store> open(const std::filesystem::path& folder, std::string version);
 
-    // One that is only read. Errors: ErrorKind::input where there is none.
+    // Opens a store for reading. Errors: ErrorKind::input if there is none.
     static Result<Store> openToRead(const std::filesystem::path& folder, std::string version);
 
-    // The record of a job: of these words, run by this version. Nothing where there is none, or only a broken one.
+    // The record of the job with these words, run by this version; nullopt if there is none or it is damaged.
     std::optional<JobRecord> find(const std::vector<std::string>& words) const;
 
-    // Errors: ErrorKind::output.
+    // Stores a record. Errors: ErrorKind::output.
     Status keep(const std::vector<std::string>& words, const JobRecord& record) const;
 
-    // Nothing while another process has it. On file systems without locks everybody gets it.
+    // Returns nullopt while another process holds the claim. Without file locks, every process gets it.
     std::optional<Claim> claim(const std::vector<std::string>& words) const;
 
-    // A folder for this process alone, made on the first call.
+    // A folder for this process alone, created by the first call.
     Result<std::filesystem::path> workFolder();
 
     const std::filesystem::path& folder() const { return folder_; }

@@ -18,8 +18,8 @@ namespace cotan {
 
 namespace {
 
-constexpr int kSide = 64, kQuality = 80; // pixels, percent
-constexpr double kGround = 0.5;          // grey behind what is transparent
+constexpr int kSide = 64, kQuality = 80; // pixels; JPEG quality in percent
+constexpr double kBackgroundGrey = 0.5;  // grey behind transparent pixels
 
 double valueOf(const Image& strip, std::size_t pixel, int channel)
 {
@@ -33,7 +33,7 @@ double valueOf(const Image& strip, std::size_t pixel, int channel)
     }
 }
 
-// The mean colour of what falls on each pixel.
+// The mean colour of the input pixels that fall on each pixel.
 struct Means {
     int width, height;
     std::vector<std::array<double, 4>> sums; // red, green, blue, count
@@ -45,7 +45,7 @@ struct Means {
             auto& sum = sums[std::size_t(y) * std::size_t(width) + std::size_t(std::int64_t(x) * width / fromWidth)];
             const double a = alpha ? valueOf(strip, std::size_t(x), 3) : 1;
             for (int c = 0; c < 3; ++c)
-                sum[std::size_t(c)] += a * valueOf(strip, std::size_t(x), c) + (1 - a) * kGround;
+                sum[std::size_t(c)] += a * valueOf(strip, std::size_t(x), c) + (1 - a) * kBackgroundGrey;
             sum[3] += 1;
         }
     }
@@ -60,7 +60,7 @@ struct Means {
     }
 };
 
-// libjpeg ends the program where it fails, but for this.
+// Makes libjpeg return on errors; by default it ends the program.
 struct Errors {
     jpeg_error_mgr manager{};
     std::jmp_buf escape{};
@@ -69,7 +69,7 @@ struct Errors {
 void onError(j_common_ptr common) { std::longjmp(reinterpret_cast<Errors*>(common->err)->escape, 1); }
 void onMessage(j_common_ptr) {}
 
-// Nothing with a destructor lives here: errors leave it by longjmp.
+// Has no local objects with destructors, since errors leave the function by longjmp.
 bool encode(const unsigned char* pixels, int width, int height, unsigned char** bytes, unsigned long* size)
 {
     jpeg_compress_struct jpeg{};
@@ -102,9 +102,9 @@ bool encode(const unsigned char* pixels, int width, int height, unsigned char** 
 
 } // namespace
 
-std::optional<Thumbnail> thumbnailOf(const std::filesystem::path& picture)
+std::optional<Thumbnail> thumbnailOf(const std::filesystem::path& image)
 {
-    auto rows = openRows(picture);
+    auto rows = openRows(image);
     if (!rows || (*rows)->width < 1 || (*rows)->height < 1)
         return std::nullopt;
     RowReader& reader = **rows;

@@ -1,4 +1,4 @@
-// A small picture of a large one.
+// Thumbnails of images.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace cotan {
 
-// At most 64 pixels wide and high, as a JPEG of some two kilobytes; transparent pixels over grey. Of a picture of any
-// size a few rows are in memory. Nothing for what is no picture.
-std::optional<Thumbnail> thumbnailOf(const std::filesystem::path& picture);
+// A JPEG of at most 64 x 64 pixels and about two kilobytes, with transparent pixels over grey. Only a few rows of the
+// image are in memory at a time. Returns nullopt for files that are not images.
+std::optional<Thumbnail> thumbnailOf(const std::filesystem::path& image);
 
 } // namespace cotan

@@ -1,4 +1,4 @@
-// A command line as people read it.
+// A command line for display.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace cotan {
 
-// The words as a shell takes them, on one line.
+// The words quoted for a shell, on one line.
 std::string commandLine(const std::vector<std::string>& words);
 
 } // namespace cotan

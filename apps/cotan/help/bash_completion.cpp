@@ -1,4 +1,4 @@
-// Completion for bash, without the functions of the package bash-completion, which only finds the file.
+// Completion for bash. The package bash-completion finds the file, but none of its functions are used.
 #include "help/help_files.hpp"
 
 #include "terminal/command_walk.hpp"
@@ -58,7 +58,7 @@ constexpr const char* kBashEnd = R"(    esac
 complete -F _TOOL TOOL
 )";
 
-// What stands behind each option of a command that takes a value.
+// Cases that set how to complete the value of each option of a command.
 std::string valueCases(const std::string& path, const CommandHelp& command)
 {
     std::string text;
@@ -85,7 +85,7 @@ std::string valueCases(const std::string& path, const CommandHelp& command)
 std::string bashCompletion(const CommandHelp& tool)
 {
     std::vector<std::string> commands;
-    std::string values, places;
+    std::string values, paths;
     walk(tool, [&](const std::string& path, const CommandHelp& command) {
         values += valueCases(path, command);
         std::vector<std::string> options, inner;
@@ -100,11 +100,11 @@ std::string bashCompletion(const CommandHelp& tool)
             inner.push_back(one.name);
             commands.push_back("\"" + path + "/" + one.name + "\"");
         }
-        places += "        \"" + path + "\") options=\"" + joined(options, " ") + "\"" + operand;
-        places += (inner.empty() ? std::string() : " commands=\"" + joined(inner, " ") + "\"") + " ;;\n";
+        paths += "        \"" + path + "\") options=\"" + joined(options, " ") + "\"" + operand;
+        paths += (inner.empty() ? std::string() : " commands=\"" + joined(inner, " ") + "\"") + " ;;\n";
     });
     std::string text =
-        replaced(kBashBegin, "COMMANDS", joined(commands, " | ")) + values + kBashPlaces + places + kBashEnd;
+        replaced(kBashBegin, "COMMANDS", joined(commands, " | ")) + values + kBashPlaces + paths + kBashEnd;
     return replaced(text, "TOOL", tool.name);
 }
 

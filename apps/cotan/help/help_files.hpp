@@ -1,4 +1,4 @@
-// The help of a tool as the files that an installed one comes with: the manual's pages, and what shells complete.
+// Generates the help files of an installed tool: manual pages and shell completions.
 #pragma once
 
 #include <string>
@@ -13,11 +13,11 @@ struct HelpFile {
     std::string text;
 };
 
-// All of them: man/man1/TOOL.1 and a page for each command, TOOL-COMMAND.1, and the completion of bash, zsh and fish.
+// All files: man/man1/TOOL.1, a page TOOL-COMMAND.1 for each command, completions for bash, zsh and fish.
 // version: "1.2.3".
 std::vector<HelpFile> helpFiles(const CommandHelp& tool, const std::string& version);
 
-// The manual's page for a command. path: the commands from the tool to it; the first is the tool.
+// The manual page of a command. path: the commands from the tool to this command; the first is the tool.
 std::string manPage(const std::vector<const CommandHelp*>& path, const std::string& version);
 
 std::string bashCompletion(const CommandHelp& tool);

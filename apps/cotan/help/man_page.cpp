@@ -1,4 +1,4 @@
-// Pages of the manual, in the macros of man(7).
+// Manual pages, in the macros of man(7).
 #include "help/help_files.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace cotan {
 
 namespace {
 
-// Every hyphen of it is a minus that can be copied.
+// Escapes text to be copied literally: every hyphen becomes a minus sign.
 std::string literal(const std::string& text)
 {
     std::string page;
@@ -28,7 +28,7 @@ std::string literal(const std::string& text)
     return page.starts_with('.') ? "\\&" + page : page;
 }
 
-// Prose: only words that begin with a hyphen, options and numbers, are taken literally.
+// Escapes prose: only words that begin with a hyphen, options and numbers, become literal.
 std::string prose(const std::string& text)
 {
     std::istringstream words(text);
@@ -47,7 +47,7 @@ std::string sentence(std::string text)
 {
     if (text.empty())
         return text;
-    // A name keeps its letters: "glTF".
+    // A name keeps its case: "glTF".
     const std::size_t end = std::min(text.find_first_of(" :,"), text.size());
     if (std::all_of(text.begin(), text.begin() + std::ptrdiff_t(end),
                     [](unsigned char c) { return std::islower(c) || c == '-'; }))
@@ -55,7 +55,7 @@ std::string sentence(std::string text)
     return text + (text.ends_with('.') || text.ends_with("...") ? "" : ".");
 }
 
-// "Bake a map." as what a line of apropos says: "bake a map".
+// Turns "Bake a map." into the style of apropos: "bake a map".
 std::string withoutStop(std::string text)
 {
     if (text.size() > 1 && std::islower(static_cast<unsigned char>(text[1])))
@@ -70,12 +70,12 @@ std::string italic(const std::string& text) { return "\\fI" + literal(text) + "\
 
 std::string heading(const std::string& text) { return ".SH " + text + "\n"; }
 
-// Words to choose from that the help does not name itself.
+// The allowed words, unless the help text names them all.
 std::string choices(const OptionHelp& option)
 {
-    const auto told = [&](const std::string& word) { return option.help.find(word) != std::string::npos; };
-    return !option.closed || std::ranges::all_of(option.words, told) ? ""
-                                                                     : " Words: " + joined(option.words, ", ") + ".";
+    const auto named = [&](const std::string& word) { return option.help.find(word) != std::string::npos; };
+    return !option.closed || std::ranges::all_of(option.words, named) ? ""
+                                                                      : " Words: " + joined(option.words, ", ") + ".";
 }
 
 std::string entry(const OptionHelp& option)
@@ -86,8 +86,8 @@ std::string entry(const OptionHelp& option)
     if (!option.positional && !option.value.empty())
         names += " " + italic(option.value);
     std::string text = sentence(option.help) + choices(option);
-    if (!option.least.empty())
-        text += " From " + option.least + " to " + option.most + ".";
+    if (!option.minimum.empty())
+        text += " From " + option.minimum + " to " + option.maximum + ".";
     if (!option.usual.empty())
         text += " Default: " + option.usual + ".";
     if (option.required && !option.positional)

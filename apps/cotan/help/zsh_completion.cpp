@@ -14,7 +14,7 @@ constexpr const char* kZshBegin = R"(#compdef TOOL
 
 std::string quotedForZsh(const std::string& text) { return inQuotes(text, "'\\''"); }
 
-// Where a colon or a bracket would end it.
+// Escapes characters that would end a part of an _arguments spec.
 std::string escaped(std::string text)
 {
     for (const char* c : {"\\", ":", "[", "]"})
@@ -40,7 +40,7 @@ std::string action(const OptionHelp& option)
     return "";
 }
 
-// One line of _arguments for each name; a name excludes the others.
+// One spec of _arguments for each name; a name excludes the others.
 std::string specs(const OptionHelp& option)
 {
     const std::string help = "[" + escaped(shortHelp(option.help)) + "]";
@@ -63,20 +63,20 @@ std::string operandSpec(const OptionHelp& option)
     return " \\\n        " + quotedForZsh(first + escaped(option.names[0]) + ":" + what);
 }
 
-// A command that has commands: it offers them, or goes on in the one that is there.
+// The function of a command with subcommands: completes their names, or calls the function of the one given.
 std::string holder(const std::string& path, const CommandHelp& command, const std::string& arguments)
 {
-    std::string offered, goOn;
+    std::string names, calls;
     for (const CommandHelp& inner : command.commands) {
-        offered += "                " + quotedForZsh(escaped(inner.name) + ":" + shortHelp(inner.summary)) + "\n";
-        goOn += "                " + inner.name + ") " + functionOf(path + (path.empty() ? "" : " ") + inner.name)
+        names += "                " + quotedForZsh(escaped(inner.name) + ":" + shortHelp(inner.summary)) + "\n";
+        calls += "                " + inner.name + ") " + functionOf(path + (path.empty() ? "" : " ") + inner.name)
             + " ;;\n";
     }
     return functionOf(path)
         + "() {\n    local curcontext=\"$curcontext\" state line\n    local -a commands\n    _arguments -C" + arguments
         + " \\\n        ': :->command' '*:: :->words'\n    case $state in\n        command)\n            commands=(\n"
-        + offered + "            )\n            _describe -t commands command commands ;;\n        words)\n"
-        + "            case $line[1] in\n" + goOn + "            esac ;;\n    esac\n}\n\n";
+        + names + "            )\n            _describe -t commands command commands ;;\n        words)\n"
+        + "            case $line[1] in\n" + calls + "            esac ;;\n    esac\n}\n\n";
 }
 
 } // namespace

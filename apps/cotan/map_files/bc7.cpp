@@ -1,5 +1,6 @@
-// BC7 of normal maps, in its mode 6: red, green, blue and alpha on one line in each block, between two ends of 7 bits
-// and one that the channels share, at 16 places. Microsoft, BC7 Format; Khronos Data Format 1.3, section 20.
+// BC7 encoder for normal maps that uses only mode 6: the RGBA values of a block lie on one line, at 16 positions
+// between two ends, each stored as 7 bits per channel and one bit that its channels share. Microsoft, BC7 Format;
+// Khronos Data Format 1.3, section 20.
 #include "block.hpp"
 
 #include <algorithm>
@@ -14,13 +15,13 @@ namespace bc7 {
 
 namespace {
 
-// Codes of 0 to 255; and unit normals, or zero where lengths count.
+// The texels of a block: codes of 0 to 255, and unit normals, or zero if lengths count.
 struct Texels {
     std::array<Values, 4> codes;
     std::array<Values, 3> n;
     float zero = 128;       // the code of 0
-    bool opaque = true;     // alpha is 255 in all
-    bool directions = true; // lengths do not count
+    bool opaque = true;     // alpha is 255 in all texels
+    bool directions = true; // only directions count, not lengths
 };
 
 Texels texelsOf(const Image& map, int left, int top, const CodeScale& scale, bool lengths)
@@ -48,7 +49,7 @@ Texels texelsOf(const Image& map, int left, int top, const CodeScale& scale, boo
 
 using Color = std::array<float, 4>;
 
-// Two ends as they are stored: 7 bits of each channel, and the lowest bit of all four.
+// The two ends as stored: 7 bits per channel, and the lowest bit that all four channels share.
 struct Ends {
     std::array<std::array<int, 4>, 2> high{};
     std::array<int, 2> low{};
@@ -56,12 +57,12 @@ struct Ends {
     float code(std::size_t end, std::size_t c) const { return float(high[end][c] * 2 + low[end]); }
 };
 
-// The texels of four, seen from the first end: where on the line, from 0 to 1, is the nearest to each.
-Four nearestPlace(const Texels& t, std::size_t i, const Color& from, const Color& step, float length)
+// The positions on the line, from 0 at the first end to 1, that are nearest to four texels.
+Four nearestPosition(const Texels& t, std::size_t i, const Color& from, const Color& step, float length)
 {
-    if (t.directions && t.opaque) { // the smallest angle: of n and a + place * d
+    if (t.directions && t.opaque) { // minimises the angle between n and a + position * d
         float aa = 0, ad = 0, dd = 1e-9f;
-        Four na = kNone, nd = kNone;
+        Four na = kZero, nd = kZero;
         for (std::size_t c = 0; c < 3; ++c) {
             const float a = from[c] - t.zero;
             aa += a * a;
@@ -71,17 +72,17 @@ Four nearestPlace(const Texels& t, std::size_t i, const Color& from, const Color
             nd += t.n[c][i] * step[c];
         }
         const Four below = na * dd - nd * ad;
-        return below > 1e-6f ? (nd * aa - na * ad) / below : kNone;
+        return below > 1e-6f ? (nd * aa - na * ad) / below : kZero;
     }
-    Four along = kNone;
+    Four along = kZero;
     for (std::size_t c = 0; c < 4; ++c)
         along += (t.codes[c][i] - from[c]) * step[c];
     return along * (1 / length);
 }
 
-// The sum of squares in codes: of alpha, and of vectors or, where only these count, directions. Sets places, of 0 to
-// 15, to the nearest along the line.
-float errorOf(const Ends& ends, const Texels& t, Values& places)
+// Sum of squared errors in codes: of alpha, and of vectors or, if only these count, directions. Sets positions, 0 to
+// 15, to the nearest on the line.
+float errorOf(const Ends& ends, const Texels& t, Values& positions)
 {
     Color from{}, step{};
     float length = 1e-9f; // squared
@@ -92,28 +93,28 @@ float errorOf(const Ends& ends, const Texels& t, Values& places)
     }
     Four sum{};
     for (std::size_t i = 0; i < 4; ++i) {
-        places[i] = rounded(least(most(nearestPlace(t, i, from, step, length), kNone), kNone + 1) * 15);
-        // As they are read: of 64ths, each channel to a whole code.
-        const Four weight = rounded(places[i] * (64.0f / 15)) * (1.0f / 64);
+        positions[i] = rounded(minOf(maxOf(nearestPosition(t, i, from, step, length), kZero), kZero + 1) * 15);
+        // As a decoder interpolates: with weights in 64ths, rounded to whole codes.
+        const Four weight = rounded(positions[i] * (64.0f / 15)) * (1.0f / 64);
         std::array<Four, 4> read;
         for (std::size_t c = 0; c < 4; ++c)
             read[c] = rounded(from[c] + step[c] * weight);
         const Four alpha = read[3] - t.codes[3][i];
         sum += alpha * alpha;
-        Four off = kNone, square = kNone, along = kNone;
+        Four vectorError = kZero, square = kZero, along = kZero;
         for (std::size_t c = 0; c < 3; ++c) {
-            const Four v = read[c] - t.zero, apart = read[c] - t.codes[c][i];
-            off += apart * apart;
+            const Four v = read[c] - t.zero, difference = read[c] - t.codes[c][i];
+            vectorError += difference * difference;
             square += v * v;
             along += t.n[c][i] * v;
         }
         if (!t.directions) {
-            sum += off;
+            sum += vectorError;
             continue;
         }
-        // The square of the distance between unit vectors, of which one is 127 codes.
+        // Squared distance of unit vectors, in codes: length 1 is 127 codes.
         constexpr float kUnit = 127 * 127;
-        sum += 2 * kUnit * (1 - along / rootOf(most(square, kNone + 1)));
+        sum += 2 * kUnit * (1 - along / rootOf(maxOf(square, kZero + 1)));
     }
     return sumOf(sum);
 }
@@ -122,14 +123,14 @@ struct Line {
     std::array<Color, 2> ends{};
 };
 
-// Through the mean, along the way in which the texels differ most.
+// The line through the mean along the principal axis, clipped to the range of the texels.
 Line principal(const Texels& t)
 {
-    Color mean{}, way{};
+    Color mean{}, axis{};
     for (std::size_t c = 0; c < 4; ++c) {
         const Values& v = t.codes[c];
         mean[c] = sumOf(v[0] + v[1] + v[2] + v[3]) / 16;
-        way[c] = most(v) - least(v);
+        axis[c] = maxOf(v) - minOf(v);
     }
     std::array<Color, 4> covariance{};
     for (std::size_t a = 0; a < 4; ++a)
@@ -139,52 +140,52 @@ Line principal(const Texels& t)
                 sum += (t.codes[a][i] - mean[a]) * (t.codes[b][i] - mean[b]);
             covariance[a][b] = covariance[b][a] = sumOf(sum);
         }
-    std::size_t widest = 0; // the box's diagonal may be across: signs are those beside what varies most
+    std::size_t widest = 0; // its covariances give the signs, since the box's diagonal may be perpendicular to the axis
     for (std::size_t c = 1; c < 4; ++c)
         widest = covariance[c][c] > covariance[widest][widest] ? c : widest;
     for (std::size_t c = 1; c < 4; ++c)
-        way[c] = std::signbit(covariance[widest][c]) != std::signbit(covariance[widest][0]) ? -way[c] : way[c];
+        axis[c] = std::signbit(covariance[widest][c]) != std::signbit(covariance[widest][0]) ? -axis[c] : axis[c];
     for (int round = 0; round < 6; ++round) {
         Color next{};
         float largest = 0;
         for (std::size_t a = 0; a < 4; ++a) {
             for (std::size_t b = 0; b < 4; ++b)
-                next[a] += covariance[a][b] * way[b];
+                next[a] += covariance[a][b] * axis[b];
             largest = std::max(largest, std::abs(next[a]));
         }
         if (!(largest > 1e-6f))
             break;
         for (std::size_t c = 0; c < 4; ++c)
-            way[c] = next[c] / largest;
+            axis[c] = next[c] / largest;
     }
     float square = 0;
-    for (const float w : way)
+    for (const float w : axis)
         square += w * w;
     Line line{{mean, mean}};
     if (!(square > 0))
         return line;
-    Four first = kNone + 1e9f, last = kNone - 1e9f;
+    Four first = kZero + 1e9f, last = kZero - 1e9f;
     for (std::size_t i = 0; i < 4; ++i) {
-        Four place = kNone;
+        Four position = kZero;
         for (std::size_t c = 0; c < 4; ++c)
-            place += (t.codes[c][i] - mean[c]) * (way[c] / square);
-        first = least(first, place);
-        last = most(last, place);
+            position += (t.codes[c][i] - mean[c]) * (axis[c] / square);
+        first = minOf(first, position);
+        last = maxOf(last, position);
     }
     for (std::size_t c = 0; c < 4; ++c) {
-        line.ends[0][c] += way[c] * least(first);
-        line.ends[1][c] += way[c] * most(last);
+        line.ends[0][c] += axis[c] * minOf(first);
+        line.ends[1][c] += axis[c] * maxOf(last);
     }
     return line;
 }
 
-// The ends that fit best with every texel at its place.
-Line leastSquares(const Line& from, const Texels& t, const Values& places)
+// The ends that fit best if every texel keeps its position.
+Line leastSquares(const Line& from, const Texels& t, const Values& positions)
 {
     Four aa4{}, ab4{}, bb4{};
     Values weights{};
     for (std::size_t i = 0; i < 4; ++i) {
-        const Four b = places[i] * (1.0f / 15), a = 1 - b;
+        const Four b = positions[i] * (1.0f / 15), a = 1 - b;
         weights[i] = b;
         aa4 += a * a;
         ab4 += a * b;
@@ -219,7 +220,7 @@ Ends stored(const Line& line, int low0, int low1)
 
 struct Fit {
     Ends ends;
-    Values places{};
+    Values positions{};
     float error = 1e30f;
 
     void offer(const Ends& to, const Texels& t)
@@ -227,13 +228,13 @@ struct Fit {
         Values there{};
         if (const float e = errorOf(to, t, there); e < error) {
             ends = to;
-            places = there;
+            positions = there;
             error = e;
         }
     }
 };
 
-// Moves each number by one as long as that helps, a few times at most.
+// Coordinate descent: changes each value by one while that reduces the error, in at most kRounds rounds.
 void descend(Fit& fit, const Texels& t)
 {
     constexpr int kRounds = 3;
@@ -258,9 +259,9 @@ Fit fitted(const Texels& t)
     Fit fit;
     for (int round = 0; round < 3; ++round) {
         Fit here;
-        for (int k = t.opaque ? 3 : 0; k < 4; ++k) // 255 has the lowest bit
+        for (int k = t.opaque ? 3 : 0; k < 4; ++k) // 255 has the lowest bit set
             here.offer(stored(line, k & 1, k >> 1), t);
-        line = leastSquares(line, t, here.places);
+        line = leastSquares(line, t, here.positions);
         if (here.error < fit.error)
             fit = here;
     }
@@ -268,7 +269,7 @@ Fit fitted(const Texels& t)
     return fit;
 }
 
-// Where directions count: from the vectors that fit best on, which are no bad place to begin.
+// Fits vectors and, if only directions count, refines this fit for directions.
 Fit fittedFrom(Texels t)
 {
     const bool directions = t.directions;
@@ -277,12 +278,12 @@ Fit fittedFrom(Texels t)
     if (!directions)
         return fit;
     t.directions = true;
-    fit.error = errorOf(fit.ends, t, fit.places);
+    fit.error = errorOf(fit.ends, t, fit.positions);
     descend(fit, t);
     return fit;
 }
 
-// Bits from the lowest on.
+// Writes bits, lowest first.
 class Bits {
 public:
     explicit Bits(std::byte* to) : to_(to) { std::fill(to, to + 16, std::byte(0)); }
@@ -299,10 +300,10 @@ private:
 
 void write(const Fit& fit, std::byte* to)
 {
-    Values places = fit.places;
-    // The first place is stored without its highest bit.
-    const bool turned = at(places, 0) > 7;
-    const std::size_t first = turned ? 1 : 0;
+    Values positions = fit.positions;
+    // The highest bit of the first index is not stored. If it is set, the ends are swapped.
+    const bool swapped = at(positions, 0) > 7;
+    const std::size_t first = swapped ? 1 : 0;
     Bits bits(to);
     bits.put(0x40, 7); // mode 6
     for (std::size_t c = 0; c < 4; ++c)
@@ -311,8 +312,8 @@ void write(const Fit& fit, std::byte* to)
     for (const std::size_t e : {first, 1 - first})
         bits.put(unsigned(fit.ends.low[e]), 1);
     for (std::size_t i = 0; i < 16; ++i) {
-        const int place = int(at(places, i));
-        bits.put(unsigned(turned ? 15 - place : place), i == 0 ? 3 : 4);
+        const int position = int(at(positions, i));
+        bits.put(unsigned(swapped ? 15 - position : position), i == 0 ? 3 : 4);
     }
 }
 

@@ -34,7 +34,7 @@ Result<BlendedFile> blendFiles(const std::filesystem::path& base, const std::fil
                                  .mask = o.mask.empty() ? nullptr : &*mask,
                                  .type = bits->type,
                                  .dither = o.dither,
-                                 .pictureHeight = in.height};
+                                 .imageHeight = in.height};
     std::atomic<std::size_t> invalid = 0;
     const Status streamed = streamToFile(in, {}, out, {in.width, in.height, bits->type, false, bits->half, in.frame},
                                          files.threads, files.progress, [&](Image& strip, int firstRow) {

@@ -1,4 +1,4 @@
-// Combines a base map and a detail map.
+// Blends a base map and a detail map.
 #pragma once
 
 #include <optional>
@@ -10,25 +10,24 @@ namespace cotan::maps {
 
 struct BlendFileOptions {
     StatedConvention base{}, detail{};
-    std::optional<Convention> to{}; // not given: as the base is read
+    std::optional<Convention> to{}; // empty: that of the base
     BlendMode mode = BlendMode::reoriented;
     float strength = 1;           // factor on the detail's slopes
-    int tilesX = 1, tilesY = 1;   // how often the detail repeats over the base; at least 1
-    std::filesystem::path mask{}; // picture whose red multiplies the strength; empty: everywhere
-    std::string bits = "auto";    // as bitsFor
+    int tilesX = 1, tilesY = 1;   // number of repeats of the detail over the base; at least 1
+    std::filesystem::path mask{}; // image whose red multiplies the strength; empty: 1 everywhere
+    std::string bits = "auto";    // as for bitsFor
     bool dither = false;
 };
 
 struct BlendedFile {
-    int width = 0, height = 0; // the base's
+    int width = 0, height = 0; // those of the base
     Bits bits;
-    std::size_t invalid = 0; // texels that are no direction in one of the maps; the other counts alone there
-    Convention to{};         // how it is stored
+    std::size_t invalid = 0; // texels without a direction in one of the maps; only the other one counts there
+    Convention to{};         // of the result
 };
 
-// Blends two files; the detail and the mask are held whole. Errors: as openRows, readImage and createRows;
-// ErrorKind::usage: "options.bits: ", "options.from: ",
-// "options.detailFrom: ", "options.to: "; ErrorKind::stopped.
+// Blends two files; the detail and the mask are held in memory. Errors: as openRows, readImage and createRows;
+// ErrorKind::usage: "options.bits: ", "options.from: ", "options.detailFrom: ", "options.to: "; ErrorKind::stopped.
 Result<BlendedFile> blendFiles(const std::filesystem::path& base, const std::filesystem::path& detail,
                                const std::filesystem::path& out, const BlendFileOptions& options,
                                const FileOptions& files = {});

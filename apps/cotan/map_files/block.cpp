@@ -11,26 +11,25 @@ namespace cotan::maps {
 
 namespace {
 
-// One channel of a block: two ends, the first the larger, and at which seventh between them each texel lies, from 0 at
-// the second end.
+// One channel of a block: two ends, the first of which is larger. A texel's position between them is 0 (at `low`) to 7.
 struct Ends {
     int high = 1, low = 0;
 };
 
 constexpr Four kAll{7, 7, 7, 7};
 
-Four placeOf(Four value, float low, float inverseStep)
+Four positionOf(Four value, float low, float inverseStep)
 {
-    return rounded(least(most((value - low) * inverseStep, kNone), kAll));
+    return rounded(minOf(maxOf((value - low) * inverseStep, kZero), kAll));
 }
 
-// The sum of squares, weighted.
+// Weighted sum of squared errors.
 float errorOf(const Ends& ends, const Values& values, const Values& weights)
 {
     const float low = float(ends.low), step = float(ends.high - ends.low) / 7, inverse = 1 / step;
     Four sum{};
     for (std::size_t i = 0; i < 4; ++i) {
-        const Four off = values[i] - low - placeOf(values[i], low, inverse) * step;
+        const Four off = values[i] - low - positionOf(values[i], low, inverse) * step;
         sum += weights[i] * off * off;
     }
     return sumOf(sum);
@@ -38,7 +37,7 @@ float errorOf(const Ends& ends, const Values& values, const Values& weights)
 
 bool valid(const Ends& ends) { return ends.low >= 0 && ends.high <= 255 && ends.high > ends.low; }
 
-// Ends that are one apart: the two codes around a value.
+// The two adjacent codes around a value.
 Ends aroundOne(float value)
 {
     const int low = std::clamp(int(value), 0, 254);
@@ -47,17 +46,17 @@ Ends aroundOne(float value)
 
 int codeOf(float value) { return int(std::min(std::max(value, 0.0f), 255.0f) + 0.5f); }
 
-// The ends that fit best with every texel at its nearest place.
+// The ends that fit best if every texel keeps its position.
 Ends leastSquares(const Ends& from, const Values& values, const Values& weights)
 {
     const float low = float(from.low), inverse = 7 / float(from.high - from.low);
-    Four aa4{}, ab4{}, bb4{}, av4{}, bv4{}; // of low and high
+    Four aa4{}, ab4{}, bb4{}, av4{}, bv4{}; // normal equations of low and high
     for (std::size_t i = 0; i < 4; ++i) {
-        const Four place = placeOf(values[i], low, inverse) * (1.0f / 7), rest = 1 - place;
-        const Four a = weights[i] * rest, b = weights[i] * place;
+        const Four position = positionOf(values[i], low, inverse) * (1.0f / 7), rest = 1 - position;
+        const Four a = weights[i] * rest, b = weights[i] * position;
         aa4 += a * rest;
-        ab4 += a * place;
-        bb4 += b * place;
+        ab4 += a * position;
+        bb4 += b * position;
         av4 += a * values[i];
         bv4 += b * values[i];
     }
@@ -71,7 +70,7 @@ Ends leastSquares(const Ends& from, const Values& values, const Values& weights)
 
 constexpr std::array<Ends, 6> kMoves{{{-1, 1}, {0, 1}, {-1, 0}, {1, 0}, {0, -1}, {1, -1}}};
 
-// Moves ends by one as long as that helps, a few times at most.
+// Changes the ends by one while that reduces the error, in at most kRounds rounds.
 void descend(Ends& best, float& error, const Values& values, const Values& weights)
 {
     constexpr int kRounds = 3;
@@ -92,7 +91,7 @@ void descend(Ends& best, float& error, const Values& values, const Values& weigh
 
 Ends fit(const Values& values, const Values& weights)
 {
-    const float low = least(values), high = most(values);
+    const float low = minOf(values), high = maxOf(values);
     if (high - low < 1e-3f)
         return aroundOne(low);
     Ends best{codeOf(high), codeOf(low)};
@@ -104,15 +103,15 @@ Ends fit(const Values& values, const Values& weights)
     return best;
 }
 
-using Places = std::array<int, 16>;
+using Positions = std::array<int, 16>;
 
-// A block of BC4: the ends, then for each texel 3 bits: 0 the first end, 1 the second, 2 to 7 from the first to it.
-void put(const Ends& ends, const Places& places, std::byte* to)
+// Writes a BC4 block: the ends, then a 3-bit index per texel: 0 is the first end, 1 the second, 2 to 7 between them.
+void put(const Ends& ends, const Positions& positions, std::byte* to)
 {
     std::uint64_t bits = 0;
     for (std::size_t i = 0; i < 16; ++i) {
-        const int place = 7 - places[i];
-        const std::uint64_t code = place == 0 ? 0u : place == 7 ? 1u : std::uint64_t(place + 1);
+        const int position = 7 - positions[i];
+        const std::uint64_t code = position == 0 ? 0u : position == 7 ? 1u : std::uint64_t(position + 1);
         bits |= code << 3 * i;
     }
     to[0] = std::byte(ends.high);
@@ -121,17 +120,17 @@ void put(const Ends& ends, const Places& places, std::byte* to)
         to[2 + i] = std::byte(bits >> 8 * i & 0xff);
 }
 
-// What a small step of a unit vector's x and y turns it by: the square of the angle is dx^2 + dy^2 + (u dx + v dy)^2,
-// with u = x / z and v = y / z. Codes, and squares of angles in codes.
+// Angular error of a unit vector after a small change of x and y: the squared angle is dx^2 + dy^2 + (u dx + v dy)^2
+// with u = x / z and v = y / z. Values are in codes, squared angles in squared codes.
 struct Texels {
     Values x, y, u, v, weightX, weightY;
 };
 
-// Of vectors that lie flat the angle grows with the root of the step; this is where that begins.
+// Lower bound of z: near the horizon the angle grows with the square root of the change.
 constexpr float kMinZ = 0.08f;
 
-// Codes of a block's red and green: what a component of 0 is, and how many more one of 1.
-void takeCodes(const Image& map, int left, int top, float none, float one, Values& x, Values& y)
+// Red and green of a block as codes. none: the code of a stored 0. one: the difference to that of a stored 1.
+void loadCodes(const Image& map, int left, int top, float none, float one, Values& x, Values& y)
 {
     for (int i = 0; i < 16; ++i) {
         const float* const texel = texelAt(map, left, top, i);
@@ -139,19 +138,19 @@ void takeCodes(const Image& map, int left, int top, float none, float one, Value
         at(y, std::size_t(i)) = none + texel[1] * one;
     }
     for (std::size_t i = 0; i < 4; ++i) {
-        x[i] = least(most(x[i], kNone), kNone + 255);
-        y[i] = least(most(y[i], kNone), kNone + 255);
+        x[i] = minOf(maxOf(x[i], kZero), kZero + 255);
+        y[i] = minOf(maxOf(y[i], kZero), kZero + 255);
     }
 }
 
 Texels texelsOf(const Image& map, int left, int top, const CodeScale& scale)
 {
     Texels t{};
-    takeCodes(map, left, top, scale.zero - scale.unit, 2 * scale.unit, t.x, t.y);
+    loadCodes(map, left, top, scale.zero - scale.unit, 2 * scale.unit, t.x, t.y);
     const float inverse = 1 / scale.unit;
     for (std::size_t i = 0; i < 4; ++i) {
         const Four nx = (t.x[i] - scale.zero) * inverse, ny = (t.y[i] - scale.zero) * inverse;
-        const Four square = most(1 - nx * nx - ny * ny, kNone + kMinZ * kMinZ);
+        const Four square = maxOf(1 - nx * nx - ny * ny, kZero + kMinZ * kMinZ);
         const Four z = rootOf(square);
         t.u[i] = nx / z;
         t.v[i] = ny / z;
@@ -161,20 +160,21 @@ Texels texelsOf(const Image& map, int left, int top, const CodeScale& scale)
     return t;
 }
 
-// Of the four pairs of places around each texel that with the smallest angle. Returns the sum of their squares.
-float pairUp(const Texels& t, const Ends& x, const Ends& y, Places& placesX, Places& placesY)
+// Chooses for each texel, of the four pairs of positions around it, the one with the smallest angle. Returns the sum of
+// squared angles.
+float choosePositions(const Texels& t, const Ends& x, const Ends& y, Positions& positionsX, Positions& positionsY)
 {
     const float stepX = float(x.high - x.low) / 7, stepY = float(y.high - y.low) / 7;
     const float inverseX = 1 / stepX, inverseY = 1 / stepY;
     Four sum{};
     const auto below = [](Four value, float low, float inverse) {
-        return __builtin_convertvector(least(most((value - low) * inverse, kNone), kNone + 6), FourInts);
+        return __builtin_convertvector(minOf(maxOf((value - low) * inverse, kZero), kZero + 6), FourInts);
     };
     for (std::size_t i = 0; i < 4; ++i) {
         const FourInts px = below(t.x[i], float(x.low), inverseX), py = below(t.y[i], float(y.low), inverseY);
         const Four dx = float(x.low) + __builtin_convertvector(px, Four) * stepX - t.x[i];
         const Four dy = float(y.low) + __builtin_convertvector(py, Four) * stepY - t.y[i];
-        Four smallest = kNone + 1e30f;
+        Four smallest = kZero + 1e30f;
         FourInts rightX{}, rightY{};
         for (int k = 0; k < 4; ++k) {
             const Four ex = dx + (k & 1 ? stepX : 0), ey = dy + (k & 2 ? stepY : 0);
@@ -186,36 +186,36 @@ float pairUp(const Texels& t, const Ends& x, const Ends& y, Places& placesX, Pla
         }
         sum += smallest;
         const FourInts atX = px + rightX, atY = py + rightY;
-        std::memcpy(placesX.data() + 4 * i, &atX, sizeof atX);
-        std::memcpy(placesY.data() + 4 * i, &atY, sizeof atY);
+        std::memcpy(positionsX.data() + 4 * i, &atX, sizeof atX);
+        std::memcpy(positionsY.data() + 4 * i, &atY, sizeof atY);
     }
     return sumOf(sum);
 }
 
-// Whether the error of x counts for y: from tilts of some 30 degrees.
+// Whether errors of x and y interact noticeably: for tilts of about 30 degrees and more.
 bool steep(const Texels& t)
 {
     constexpr float kFrom = 0.3f;
     Four square{};
     for (std::size_t i = 0; i < 4; ++i)
-        square = most(square, t.u[i] * t.u[i] + t.v[i] * t.v[i]);
-    return most(square) > kFrom;
+        square = maxOf(square, t.u[i] * t.u[i] + t.v[i] * t.v[i]);
+    return maxOf(square) > kFrom;
 }
 
-// Moves each end of both channels by one where that makes the angles smaller.
-void settleTogether(const Texels& t, Ends& x, Ends& y, Places& placesX, Places& placesY)
+// Changes each end of both channels by one if that reduces the angles.
+void refineTogether(const Texels& t, Ends& x, Ends& y, Positions& positionsX, Positions& positionsY)
 {
-    float error = pairUp(t, x, y, placesX, placesY);
+    float error = choosePositions(t, x, y, positionsX, positionsY);
     for (Ends* const ends : {&x, &y})
         for (const Ends& by : kMoves) {
             const Ends before = *ends;
             *ends = {before.high + by.high, before.low + by.low};
-            Places tryX, tryY;
-            const float there = valid(*ends) ? pairUp(t, x, y, tryX, tryY) : error;
+            Positions tryX, tryY;
+            const float there = valid(*ends) ? choosePositions(t, x, y, tryX, tryY) : error;
             if (there < error) {
                 error = there;
-                placesX = tryX;
-                placesY = tryY;
+                positionsX = tryX;
+                positionsY = tryY;
             } else {
                 *ends = before;
             }
@@ -225,13 +225,13 @@ void settleTogether(const Texels& t, Ends& x, Ends& y, Places& placesX, Places& 
 void encodeNormals(const Texels& t, std::byte* to)
 {
     Ends x = fit(t.x, t.weightX), y = fit(t.y, t.weightY);
-    Places placesX{}, placesY{};
+    Positions positionsX{}, positionsY{};
     if (steep(t))
-        settleTogether(t, x, y, placesX, placesY);
+        refineTogether(t, x, y, positionsX, positionsY);
     else
-        pairUp(t, x, y, placesX, placesY);
-    put(x, placesX, to);
-    put(y, placesY, to + 8);
+        choosePositions(t, x, y, positionsX, positionsY);
+    put(x, positionsX, to);
+    put(y, positionsY, to + 8);
 }
 
 } // namespace
@@ -242,18 +242,18 @@ std::vector<std::byte> encodeBc5(const Image& map, const CodeScale& scale)
                         [&](int left, int top, std::byte* to) { encodeNormals(texelsOf(map, left, top, scale), to); });
 }
 
-std::vector<std::byte> encodeBc4(const Image& picture)
+std::vector<std::byte> encodeBc4(const Image& image)
 {
-    return encodeBlocks(picture, 8, [&](int left, int top, std::byte* to) {
+    return encodeBlocks(image, 8, [&](int left, int top, std::byte* to) {
         Values values, unused;
-        takeCodes(picture, left, top, 0, 255, values, unused);
+        loadCodes(image, left, top, 0, 255, values, unused);
         Values ones;
-        ones.fill(kNone + 1);
+        ones.fill(kZero + 1);
         const Ends ends = fit(values, ones);
-        Places places{};
+        Positions positions{};
         for (std::size_t i = 0; i < 16; ++i)
-            places[i] = int(placeOf(kNone + at(values, i), float(ends.low), 7 / float(ends.high - ends.low))[0]);
-        put(ends, places, to);
+            positions[i] = int(positionOf(kZero + at(values, i), float(ends.low), 7 / float(ends.high - ends.low))[0]);
+        put(ends, positions, to);
     });
 }
 

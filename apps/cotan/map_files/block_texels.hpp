@@ -1,4 +1,4 @@
-// What encoders of blocks of 4 x 4 texels share.
+// Shared by the block encoders.
 #pragma once
 
 #include <algorithm>
@@ -11,27 +11,27 @@
 #include "core/loops.hpp"
 #include "cotan/scene.hpp"
 
-// Processors without such registers pass these vectors in another way; nobody outside this file is passed one.
+// GCC notes that passing these vectors depends on the target's registers. They are never passed between object files.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
 
 namespace cotan::maps {
 
-// Sixteen texels, four at a time: strict sums of floats are not made side by side by compilers. The order of the sums
-// is fixed, so the bytes are the same everywhere.
+// Sixteen texels as four vectors, since compilers do not vectorise strict float sums. The order of the sums is fixed,
+// so the bytes are the same on all machines.
 using Four = float __attribute__((vector_size(16)));
 using FourInts = std::int32_t __attribute__((vector_size(16)));
 using Values = std::array<Four, 4>;
 
 inline float& at(Values& values, std::size_t i) { return reinterpret_cast<float*>(values.data())[i]; }
 
-inline Four most(Four a, Four b) { return a > b ? a : b; }
-inline Four least(Four a, Four b) { return a < b ? a : b; }
-inline float most(Four f) { return std::max(std::max(f[0], f[1]), std::max(f[2], f[3])); }
-inline float least(Four f) { return std::min(std::min(f[0], f[1]), std::min(f[2], f[3])); }
-inline float most(const Values& v) { return most(most(most(v[0], v[1]), most(v[2], v[3]))); }
-inline float least(const Values& v) { return least(least(least(v[0], v[1]), least(v[2], v[3]))); }
+inline Four maxOf(Four a, Four b) { return a > b ? a : b; }
+inline Four minOf(Four a, Four b) { return a < b ? a : b; }
+inline float maxOf(Four f) { return std::max(std::max(f[0], f[1]), std::max(f[2], f[3])); }
+inline float minOf(Four f) { return std::min(std::min(f[0], f[1]), std::min(f[2], f[3])); }
+inline float maxOf(const Values& v) { return maxOf(maxOf(maxOf(v[0], v[1]), maxOf(v[2], v[3]))); }
+inline float minOf(const Values& v) { return minOf(minOf(minOf(v[0], v[1]), minOf(v[2], v[3]))); }
 inline float sumOf(Four f) { return (f[0] + f[1]) + (f[2] + f[3]); }
 
 inline Four rootOf(Four f)
@@ -40,23 +40,23 @@ inline Four rootOf(Four f)
     return root;
 }
 
-// To the next whole number, of numbers below 2^22: what is added has no room for fractions.
+// Rounds to the nearest integer; values must be below 2^22, where the added constant leaves no bits for fractions.
 inline Four rounded(Four f)
 {
     constexpr float kNoFractions = 12582912;
     return f + kNoFractions - kNoFractions;
 }
 
-inline constexpr Four kNone{};
+inline constexpr Four kZero{};
 
-// Texel number i of a block; beyond the edges of the map those on it.
+// Texel i of a block; outside the map, the nearest texel of its edge.
 inline const float* texelAt(const Image& map, int left, int top, int i)
 {
     const int column = std::min(left + i % 4, map.width - 1), row = std::min(top + i / 4, map.height - 1);
     return map.floats() + 4 * (std::size_t(row) * std::size_t(map.width) + std::size_t(column));
 }
 
-// Rows of blocks from the top. encode(left, top, to): writes the block of those texels.
+// Encodes all blocks, in rows from the top. encode(left, top, to): writes the block whose first texel is (left, top).
 template<class Encode> std::vector<std::byte> encodeBlocks(const Image& map, std::size_t bytes, const Encode& encode)
 {
     const std::size_t across = std::size_t(map.width + 3) / 4, down = std::size_t(map.height + 3) / 4;

@@ -18,17 +18,17 @@ namespace cotan::maps {
 
 namespace {
 
-// A direction of picture space and a frame's coefficients differ by the way of green: v runs down the picture.
-glm::dvec3 upsideDown(const glm::dvec3& v) { return {v.x, -v.y, v.z}; }
+// Converts between image space, where v runs down, and frame coefficients, where green runs up.
+glm::dvec3 flipY(const glm::dvec3& v) { return {v.x, -v.y, v.z}; }
 
-glm::vec3 turned(const glm::vec3& n, const CotangentFrame<double>& frame, bool fromObject)
+glm::vec3 transformed(const glm::vec3& n, const CotangentFrame<double>& frame, bool fromObject)
 {
     const glm::dvec3 unit = glm::normalize(glm::dvec3(n));
-    return fromObject ? glm::vec3(upsideDown(encode(frame, Covector3d(unit))))
-                      : glm::vec3(perturb(frame, upsideDown(unit)).raw());
+    return fromObject ? glm::vec3(flipY(encode(frame, Covector3d(unit))))
+                      : glm::vec3(perturb(frame, flipY(unit)).raw());
 }
 
-// Every component by its convention, dithered if asked for.
+// Stores every component by the convention, dithered if requested.
 Image stored(const Baked& values, const RecodeSettings& s, std::size_t& clamped)
 {
     Image out = makeImage(values.width, values.height, s.type);
@@ -49,8 +49,8 @@ Image stored(const Baked& values, const RecodeSettings& s, std::size_t& clamped)
 
 } // namespace
 
-Result<Image> throughMesh(const Image& map, const RecodeSettings& s, const MeshOfMap& mesh, const Progress& progress,
-                          RecodeCounts& counts, std::size_t& shown)
+Result<Image> recodeByMesh(const Image& map, const RecodeSettings& s, const MeshOfMap& mesh, const Progress& progress,
+                           RecodeCounts& counts, std::size_t& covered)
 {
     LoadLimits limits;
     limits.pixels = Pixels::none;
@@ -82,17 +82,17 @@ Result<Image> throughMesh(const Image& map, const RecodeSettings& s, const MeshO
             const int top = block * UvRaster::kBlockRows, bottom = std::min(top + UvRaster::kBlockRows, map.height);
             for (int y = top; y < bottom; ++y)
                 decodeRow(map, y, s.from, std::span(normals).subspan(std::size_t(y - top) * width, width));
-            found += firsts.places.size();
-            for (std::size_t i = 0; i < firsts.places.size(); ++i) {
-                const UvSample& place = firsts.places[i];
+            found += firsts.samples.size();
+            for (std::size_t i = 0; i < firsts.samples.size(); ++i) {
+                const UvSample& sample = firsts.samples[i];
                 const std::size_t at = std::size_t(firsts.texels[i].y) * width + std::size_t(firsts.texels[i].x);
                 const glm::vec3& normal = normals[at - std::size_t(top) * width];
-                const LowPoint p = pointOf(*surface, place.triangle, double(place.b1), double(place.b2));
-                if (normal == glm::vec3(0)) { // no direction: that of the surface
+                const LowPoint p = pointOf(*surface, sample.triangle, double(sample.b1), double(sample.b2));
+                if (normal == glm::vec3(0)) { // no direction: use the surface normal
                     ++invalid;
                     values.values[at] = fromObject ? glm::vec3(0, 0, 1) : glm::vec3(p.normal);
                 } else {
-                    values.values[at] = turned(normal, p.frame, fromObject);
+                    values.values[at] = transformed(normal, p.frame, fromObject);
                 }
                 values.states[at] = texelCovered;
             }
@@ -101,7 +101,7 @@ Result<Image> throughMesh(const Image& map, const RecodeSettings& s, const MeshO
     });
     if (blocks.stopped())
         return stoppedError();
-    shown = found;
+    covered = found;
     counts = {invalid, 0};
     padCharts(values, 0);
     return stored(values, s, counts.clamped);

@@ -1,4 +1,4 @@
-// Between tangent and object space, which takes the mesh that the map belongs to.
+// Conversion between tangent and object space, which needs the mesh of the map.
 #pragma once
 
 #include "cotan/maps.hpp"
@@ -6,12 +6,12 @@
 
 namespace cotan::maps {
 
-// The map in the other space: one of settings.from and settings.to is of object space, whose axes are those of the
-// file as its nodes place the mesh. Every texel that the mesh shows is turned by the frame at its place; the rest
-// gets the value of the nearest chart. Lengths become 1; strength, normalise and firstRow are not looked at. shown:
-// texels that the mesh shows.
+// Converts a map between tangent and object space: one of settings.from and settings.to is object space, whose axes are
+// those of the file after node transforms. Texels that the mesh covers are transformed by the frame there; the others
+// get the value of the nearest chart. Lengths become 1; strength, normalise and firstRow are ignored. covered: receives
+// the number of texels that the mesh covers.
 // Errors: as loadScene and makeLowSurface; ErrorKind::stopped.
-Result<Image> throughMesh(const Image& map, const RecodeSettings& settings, const MeshOfMap& mesh,
-                          const Progress& progress, RecodeCounts& counts, std::size_t& shown);
+Result<Image> recodeByMesh(const Image& map, const RecodeSettings& settings, const MeshOfMap& mesh,
+                           const Progress& progress, RecodeCounts& counts, std::size_t& covered);
 
 } // namespace cotan::maps

@@ -14,35 +14,36 @@ namespace {
 
 Status checkOptions(const ConvertFileOptions& o)
 {
-    const bool turns = o.from.convention.kind != o.to.kind;
-    if (turns != o.mesh.has_value())
+    const bool changesSpace = o.from.convention.kind != o.to.kind;
+    if (changesSpace != o.mesh.has_value())
         return about("options.mesh",
-                     usageError(turns ? "between tangent and object space the mesh is needed; found none"
-                                      : "is for maps between tangent and object space; found both in one"));
-    if (turns && o.strength != 1)
-        return about("options.strength",
-                     usageError("expected 1 between tangent and object space; convert within tangent space for it"));
+                     usageError(changesSpace ? "expected a mesh between tangent and object space; found none"
+                                             : "expected no mesh within one space; found one"));
+    if (changesSpace && o.strength != 1)
+        return about(
+            "options.strength",
+            usageError("expected 1 between tangent and object space; other factors need both in tangent space"));
     if (o.strength == 0)
         return about("options.strength", usageError("expected a factor other than 0; found 0"));
     return Done{};
 }
 
-// Reads and turns a whole picture.
-Result<Image> byMesh(const std::filesystem::path& file, const MeshOfMap& mesh, const RecodeSettings& settings,
-                     const FileOptions& files, ConvertedFile& done)
+// Converts a whole image by a mesh.
+Result<Image> convertByMesh(const std::filesystem::path& file, const MeshOfMap& mesh, const RecodeSettings& settings,
+                            const FileOptions& files, ConvertedFile& done)
 {
     const auto map = readMap(file, settings.from, "options.from", files.limits);
     if (!map)
         return map.error();
-    auto turned = throughMesh(map->image, settings, mesh, files.progress, done.counts, done.shown);
-    if (turned && done.shown == 0)
+    auto converted = recodeByMesh(map->image, settings, mesh, files.progress, done.counts, done.covered);
+    if (converted && done.covered == 0)
         return inputError(
-            fmt::format("{}: no texel of the map is shown by the mesh (uv outside 0 to 1?)", mesh.file.string()));
-    return turned;
+            fmt::format("{}: the mesh uses no texel of the map (uv outside 0 to 1?)", mesh.file.string()));
+    return converted;
 }
 
-Result<Image> whole(const std::filesystem::path& file, const RecodeSettings& settings, const FileOptions& files,
-                    ConvertedFile& done)
+Result<Image> convertWhole(const std::filesystem::path& file, const RecodeSettings& settings, const FileOptions& files,
+                           ConvertedFile& done)
 {
     const auto map = readMap(file, settings.from, "options.from", files.limits);
     if (!map)
@@ -50,29 +51,29 @@ Result<Image> whole(const std::filesystem::path& file, const RecodeSettings& set
     CountedSteps steps(files.progress, 2);
     if (!steps.step())
         return stoppedError();
-    Image turned = recode(map->image, settings, done.counts);
+    Image converted = recode(map->image, settings, done.counts);
     if (!steps.step())
         return stoppedError();
-    return turned;
+    return converted;
 }
 
-// A texture of one level.
+// Writes a texture with one level.
 Status writeTexture(const std::filesystem::path& out, const Image& map, TexelCode code, const Convention& to)
 {
     return writeTextureFile(out, code, {levelOf(map, code, to)}, map.frame);
 }
 
-// The frame of the result: in tangent space what the map says, or what the mesh was read with; in object space none.
-std::string frameAfter(const std::string& said, const ConvertFileOptions& o)
+// Image::frame of the result: in tangent space that of the mesh, else that of the map; in object space none.
+std::string frameAfter(const std::string& stored, const ConvertFileOptions& o)
 {
     if (o.to.kind != MapKind::tangentSpace)
         return {};
-    return o.mesh ? std::string(name(o.mesh->frame)) : said;
+    return o.mesh ? std::string(name(o.mesh->frame)) : stored;
 }
 
-// Streams a picture through.
-Status byRows(const OpenMap& map, const std::filesystem::path& out, const RecodeSettings& settings,
-              const FileOptions& files, ConvertedFile& done)
+// Converts an image strip by strip.
+Status convertByRows(const OpenMap& map, const std::filesystem::path& out, const RecodeSettings& settings,
+                     const FileOptions& files, ConvertedFile& done)
 {
     RowReader& in = *map.rows;
     const bool alpha = in.alpha && settings.from.channels == Channels::xyz && settings.to.channels == Channels::xyz;
@@ -118,15 +119,16 @@ Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::f
                                   .dither = o.dither};
     ConvertedFile done{in.width, in.height, *bits, {}, 0, frameAfter(in.frame, o), opened->convention};
     if (!o.mesh && !isTextureFile(out)) {
-        const Status streamed = byRows(*opened, out, settings, files, done);
+        const Status streamed = convertByRows(*opened, out, settings, files, done);
         return streamed ? Result<ConvertedFile>(done) : streamed.error();
     }
-    auto turned = o.mesh ? byMesh(map, *o.mesh, settings, files, done) : whole(map, settings, files, done);
-    if (!turned)
-        return turned.error();
-    turned->frame = done.frame;
+    auto converted =
+        o.mesh ? convertByMesh(map, *o.mesh, settings, files, done) : convertWhole(map, settings, files, done);
+    if (!converted)
+        return converted.error();
+    converted->frame = done.frame;
     const Status written =
-        isTextureFile(out) ? writeTexture(out, *turned, *code, o.to) : writeMap(out, *turned, done.bits);
+        isTextureFile(out) ? writeTexture(out, *converted, *code, o.to) : writeMap(out, *converted, done.bits);
     return written ? Result<ConvertedFile>(done) : written.error();
 }
 

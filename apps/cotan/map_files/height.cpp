@@ -16,7 +16,7 @@ double heightOf(const Metres& metres, int width, int height)
     return metres.height > 0 ? metres.height : metres.width * height / width;
 }
 
-// Slope per unit of stored height and texel, across and along.
+// Slope per unit of stored height and texel, in x and y.
 std::pair<double, double> slopesOf(const FromHeightFileOptions& o, int width, int height)
 {
     if (!o.metres) {
@@ -26,16 +26,16 @@ std::pair<double, double> slopesOf(const FromHeightFileOptions& o, int width, in
     return {o.range * width / o.metres->width, o.range * height / heightOf(*o.metres, width, height)};
 }
 
-// Heights as a picture: floats in their unit, others stretched from lowest to highest.
-Image picture(const Heights& heights, const Image& map, PixelType type, double unit)
+// Heights as an image: floats in units of `unit`, integers scaled from lowest to highest.
+Image heightImage(const Heights& heights, const Image& map, PixelType type, double unit)
 {
     Image image = makeImage(map.width, map.height, type, map.name);
     const double range = heights.highest - heights.lowest;
     for (std::size_t i = 0; i < heights.texels.size(); ++i) {
         const double h = double(heights.texels[i]);
-        const double part = range > 0 ? (h - heights.lowest) / range : 0.5;
+        const double fraction = range > 0 ? (h - heights.lowest) / range : 0.5;
         for (std::size_t c = 0; c < 4; ++c) {
-            const double value = c == 3 ? 1 : type == PixelType::float32 ? h * unit : part;
+            const double value = c == 3 ? 1 : type == PixelType::float32 ? h * unit : fraction;
             if (type == PixelType::unorm8)
                 image.bytes8()[4 * i + c] = std::uint8_t(value * 255 + 0.5);
             else if (type == PixelType::unorm16)
@@ -47,7 +47,7 @@ Image picture(const Heights& heights, const Image& map, PixelType type, double u
     return image;
 }
 
-// auto: 16 bits, or what the file holds instead.
+// auto: 16 bits, or the nearest type that the file can hold.
 Result<Bits> bitsOfHeights(const std::string& wanted, PixelType input, const std::filesystem::path& out)
 {
     if (wanted != "auto")
@@ -68,7 +68,7 @@ Result<FromHeightFile> normalsFromHeightFile(const std::filesystem::path& height
     const auto bits = bitsFor(o.bits, in.type, o.to, out);
     if (!bits)
         return bits.error();
-    // What repeats needs its last row first.
+    // A repeating image needs its last row first.
     const auto lastRow = o.wrap == Wrap::repeat ? lastRowOf(heights, files.limits) : Result<Image>(Image{});
     if (!lastRow)
         return lastRow.error();
@@ -117,14 +117,14 @@ Result<ToHeightFile> heightFromNormalsFile(const std::filesystem::path& file, co
         unit = o.metres->width / map->width;
         aspect = heightOf(*o.metres, map->width, map->height) / map->height / unit;
     }
-    CountedSteps steps(files.progress, 3); // read, solved, written
+    CountedSteps steps(files.progress, 3); // read, solve, write
     if (!steps.step())
         return stoppedError();
     Heights h = heightFromNormals(
         *map, {.from = read->convention, .boundary = o.boundary, .kernel = o.kernel, .aspect = aspect});
     if (!steps.step())
         return stoppedError();
-    if (Status written = writeMap(out, picture(h, *map, bits->type, unit), *bits); !written)
+    if (Status written = writeMap(out, heightImage(h, *map, bits->type, unit), *bits); !written)
         return written.error();
     steps.step();
     return ToHeightFile{map->width, map->height, *bits, std::move(h), unit, read->convention};

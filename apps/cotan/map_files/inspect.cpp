@@ -15,14 +15,14 @@ Result<SurveyedFile> surveyFile(const std::filesystem::path& map, const FileOpti
 {
     MapSurvey survey;
     SurveyedFile found;
-    for (const auto pass : {&MapSurvey::first, &MapSurvey::second}) {
+    for (const auto pass : {&MapSurvey::addFirstPass, &MapSurvey::addSecondPass}) {
         const auto reader = openRows(map, files.limits);
         if (!reader)
             return reader.error();
         RowReader& in = **reader;
         found.width = in.width, found.height = in.height, found.type = in.type, found.frame = in.frame,
         found.channels = in.channels;
-        const bool second = pass == &MapSurvey::second;
+        const bool second = pass == &MapSurvey::addSecondPass;
         const Status read =
             inOrder(in, partOf(files.progress, second, 2), [&](const Image& strip, int) { (survey.*pass)(strip); });
         if (!read)
@@ -62,29 +62,29 @@ Result<ComparedFiles> compareFiles(const std::filesystem::path& fileA, const Sta
     if (width != readers[1]->width || height != readers[1]->height)
         return inputError(fmt::format("{}: expected {} x {} as {} has, found {} x {}", fileB.string(), width, height,
                                       fileA.string(), readers[1]->width, readers[1]->height));
-    std::unique_ptr<RowWriter> picture;
+    std::unique_ptr<RowWriter> heatWriter;
     if (!heat.empty()) {
         auto writer = createRows(heat, {width, height, PixelType::unorm8, false, false}, files.threads);
         if (!writer)
             return writer.error();
-        picture = *std::move(writer);
+        heatWriter = *std::move(writer);
     }
     AngleCounter angles;
     const auto work = [&](std::span<Image> strips, int) -> std::function<Status()> {
         a->put(strips[0]);
         b->put(strips[1]);
         auto degrees = anglesBetween(strips[0], a->convention, strips[1], b->convention);
-        Image rows = picture ? heatMap(degrees, width, strips[0].height) : Image{};
+        Image rows = heatWriter ? heatMap(degrees, width, strips[0].height) : Image{};
         return [&, degrees = std::move(degrees), rows = std::move(rows)]() -> Status {
             for (float d : degrees)
                 angles.add(d);
-            return picture ? picture->write(rows) : Status(Done{});
+            return heatWriter ? heatWriter->write(rows) : Status(Done{});
         };
     };
     if (Status done = streamStrips(readers, {}, files.progress, work); !done)
         return done.error();
-    if (picture)
-        if (Status written = picture->finish(); !written)
+    if (heatWriter)
+        if (Status written = heatWriter->finish(); !written)
             return written.error();
     const AngleStatistics s = angles.statistics();
     return ComparedFiles{s, std::size_t(width) * std::size_t(height) - s.count, a->convention, b->convention};

@@ -1,4 +1,4 @@
-// Properties of map files, and the angles between two of them. Nothing is changed.
+// Properties of map files, and the angles between two maps.
 #pragma once
 
 #include <string>
@@ -19,34 +19,34 @@ struct SurveyedFile {
     int channels = 4;       // as Image::channels
 };
 
-// Reads a file through, once or twice. Errors: as openRows; ErrorKind::stopped.
+// Reads a file once or twice and collects its statistics. Errors: as openRows; ErrorKind::stopped.
 Result<SurveyedFile> surveyFile(const std::filesystem::path& map, const FileOptions& files = {});
 
-// The same in sentences and for a report; file: its name.
+// The survey as sentences and for a report; file: its name.
 std::vector<std::string> linesOf(const SurveyedFile& survey, const std::string& file);
 Json toJson(const SurveyedFile& survey);
 
 struct GreenOfFile {
     GreenVerdict verdict;
-    std::size_t patches = 0; // that were judged
+    std::size_t patches = 0; // evaluated patches
 };
 
-// Which way green points. Errors: as openRows; ErrorKind::stopped.
+// Determines the direction of green. Errors: as openRows; ErrorKind::stopped.
 Result<GreenOfFile> greenOfFile(const std::filesystem::path& map, const FileOptions& files = {});
 
-// The same in sentences and for a report; file: its name.
+// The verdict as sentences and for a report; file: its name.
 std::vector<std::string> linesOf(const GreenOfFile& found, const std::string& file);
 Json toJson(const GreenOfFile& found);
 
 struct ComparedFiles {
-    AngleStatistics angles;  // degrees between the two, over the texels that are directions in both
+    AngleStatistics angles;  // degrees between the two, over the texels with a direction in both
     std::size_t skipped = 0; // other texels
-    Convention a{}, b{};     // how the two were read
+    Convention a{}, b{};     // how the maps were read
 };
 
-// Compares two maps of one size, each read with its own convention. heat: a picture of the angles as heatMap gives it;
-// empty: none. Errors: as openRows and createRows; ErrorKind::usage: "options.from: " (of a), "options.to: " (of b);
-// ErrorKind::input: two sizes; ErrorKind::stopped.
+// Compares two maps of the same size, each with its own convention. heat: an image of the angles in the colours of
+// heatMap; empty: none. Errors: as openRows and createRows; ErrorKind::usage: "options.from: " (of a), "options.to: "
+// (of b); ErrorKind::input: different sizes; ErrorKind::stopped.
 Result<ComparedFiles> compareFiles(const std::filesystem::path& a, const StatedConvention& statedA,
                                    const std::filesystem::path& b, const StatedConvention& statedB,
                                    const std::filesystem::path& heat = {}, const FileOptions& files = {});

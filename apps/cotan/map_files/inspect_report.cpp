@@ -23,12 +23,12 @@ const char* name(Swizzle s) { return s == Swizzle::rg ? "rg" : s == Swizzle::gre
 std::string centreText(const NormalStatistics& s)
 {
     if (s.centre == Centre::exact)
-        return fmt::format("128 is zero (exact expansion): lengths err by {:.4f}, with 127.5 by {:.4f}", s.rmsExact,
+        return fmt::format("128 is zero (exact expansion): length error {:.4f}, with 127.5 {:.4f}", s.rmsExact,
                            s.rmsBiased);
     if (s.centre == Centre::biased)
-        return fmt::format("127.5 is zero (biased expansion, 2c-1): lengths err by {:.4f}, with 128 by {:.4f}",
-                           s.rmsBiased, s.rmsExact);
-    return "128 or 127.5: cannot be told from the lengths";
+        return fmt::format("127.5 is zero (biased expansion, 2c-1): length error {:.4f}, with 128 {:.4f}", s.rmsBiased,
+                           s.rmsExact);
+    return "128 or 127.5: undecidable from the lengths";
 }
 
 std::string fixCommand(const std::vector<Fault>& faults, const NormalStatistics& s, const std::filesystem::path& file)
@@ -45,10 +45,10 @@ Json faultsJson(const std::vector<Fault>& faults)
     return list;
 }
 
-// Whether any texel has a direction: else means and shares are of nothing.
+// Whether any texel has a direction; otherwise means and fractions are undefined.
 bool measured(const NormalStatistics& s)
 {
-    return std::any_of(s.tilt.begin(), s.tilt.end(), [](double share) { return share > 0; });
+    return std::any_of(s.tilt.begin(), s.tilt.end(), [](double fraction) { return fraction > 0; });
 }
 
 std::string verdictText(const GreenVerdict& v)
@@ -59,9 +59,9 @@ std::string verdictText(const GreenVerdict& v)
     std::string text = fmt::format("green: {} ({}), {}", up ? "up" : "down", up ? "+Y, OpenGL, glTF" : "-Y, Direct3D",
                                    name(v.confidence));
     if (v.swapped == Swapped::yes)
-        text += "; red and green are exchanged (the answer is for the map with them put right)";
+        text += "; red and green are exchanged (the answer is for the map with them exchanged back)";
     if (v.swapped == Swapped::undecidable)
-        text += "; whether red and green are exchanged cannot be told from this relief";
+        text += "; this relief does not show whether red and green are exchanged";
     return text;
 }
 
@@ -80,7 +80,7 @@ std::vector<std::string> linesOf(const SurveyedFile& image, const std::string& f
         line("made for the frame: " + image.frame);
     if (s.background > 0)
         line(fmt::format(
-            "background (alpha 0, black, white, or fields of a colour that is no normal): {:.2f} %; left out below",
+            "background (alpha 0, black, white, or areas of a colour that is not a normal): {:.2f} %; left out below",
             s.background * 100));
     if (s.swizzle != Swizzle::rg)
         line(s.swizzle == Swizzle::greyAlpha ? "channels: two (x as grey, y as alpha)"
@@ -98,15 +98,15 @@ std::vector<std::string> linesOf(const SurveyedFile& image, const std::string& f
         "invalid (not finite, or no length): {:.2f} %; below the horizon: {:.2f} %; x^2+y^2 over 1: {:.2f} %",
         s.invalid * 100, s.belowHorizon * 100, s.outsideDisc * 100));
     if (!measured(s)) {
-        line("no direction is left to measure");
+        line("no texel has a direction to measure");
         return lines;
     }
-    line(fmt::format("length: mean {:.4f}, spread {:.4f}; under 0.9: {:.2f} %", s.meanLength, s.lengthDeviation,
-                     s.shortened * 100));
+    line(fmt::format("length: mean {:.4f}, standard deviation {:.4f}; under 0.9: {:.2f} %", s.meanLength,
+                     s.lengthDeviation, s.shortened * 100));
     std::string tilt;
     for (std::size_t i = 0; i < s.tilt.size(); ++i)
         tilt += fmt::format("  {}{} {:.1f} %", i * 10, i == 8 ? "+" : "", s.tilt[i] * 100);
-    line(fmt::format("tilt from flat: mean {:.2f} degrees; share from", s.meanTilt) + tilt);
+    line(fmt::format("tilt from flat: mean {:.2f} degrees; fraction from", s.meanTilt) + tilt);
     line(fmt::format("mean direction: {:.4f} {:.4f} {:.4f}", s.mean[0], s.mean[1], s.mean[2]));
     return lines;
 }
@@ -140,7 +140,7 @@ Json toJson(const SurveyedFile& image)
     j["fix"] = faults.empty() ? Json(nullptr) : Json(fixOptions(faults, s));
     if (!image.frame.empty())
         j["frame"] = image.frame;
-    if (!measured(s)) // figures of nothing
+    if (!measured(s)) // undefined figures
         for (const char* figure :
              {"mean_length", "length_spread", "shortened", "mean", "mean_tilt_degrees", "tilt_by_10_degrees"})
             j[figure] = nullptr;
@@ -158,16 +158,17 @@ std::vector<std::string> linesOf(const GreenOfFile& found, const std::string& fi
     if (!faults.empty())
         lines.push_back("to fix it: " + fixCommand(faults, v.statistics, file));
     if (v.sampled < 1)
-        lines.push_back(fmt::format("judged by {} patches of 128 x 128 texels, spread evenly: {:.2g} % of the picture",
+        lines.push_back(fmt::format("judged by {} patches of 128 x 128 texels, evenly distributed: {:.2g} % of the "
+                                    "image",
                                     found.patches, 100 * v.sampled));
     if (v.used > 0)
         lines.push_back(
             fmt::format("agreement {:+.2f} ({:.0f} times its uncertainty; exchanged {:+.2f}); the other way "
-                        "leaves {:.3g} times as much unexplained; {:.0f} % of the picture votes so",
+                        "leaves {:.3g} times as much unexplained; {:.0f} % of the image agrees",
                         v.agreement, v.deviations, v.exchanged, v.residualRatio, v.votes * 100));
     if (v.green != Green::undecidable)
         lines.push_back(
-            "bump or dent cannot be told from a normal map: this takes red to point right, as every convention does");
+            "bumps and dents look alike in a normal map: this assumes that red points right, as every convention does");
     return lines;
 }
 

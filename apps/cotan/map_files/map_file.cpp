@@ -123,7 +123,7 @@ Result<OpenMap> openMap(const std::filesystem::path& file, const StatedConventio
     if (Status read = inOrder(*map.rows, {}, [&](const Image& strip, int) { range.add(strip); }); !read)
         return read.error();
     map.swizzle = range.swizzle();
-    map.rows.reset(); // what it holds goes first
+    map.rows.reset(); // frees its memory first
     auto again = openRows(file, limits);
     if (!again)
         return again.error();

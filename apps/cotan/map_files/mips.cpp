@@ -13,7 +13,7 @@ namespace cotan::maps {
 
 namespace {
 
-// The normals with their roughness in alpha.
+// The normals of a level with its roughness in alpha.
 TextureLevel levelWithRoughness(const MipLevel& level, TexelCode code, const MipFileOptions& o)
 {
     Image both = level.normals;
@@ -30,7 +30,7 @@ std::filesystem::path marked(const std::filesystem::path& file, const std::strin
     return file.parent_path() / (file.stem().string() + mark + file.extension().string());
 }
 
-// One file, or with bc5, which has no room for a third channel, two.
+// Writes one file, or two with bc5, which has no channel for the roughness.
 Status writeTextures(const std::filesystem::path& out, const std::vector<MipLevel>& chain, TexelCode code,
                      const MipFileOptions& o)
 {
@@ -66,7 +66,7 @@ Status writeChain(const std::filesystem::path& out, const std::vector<MipLevel>&
             if (Status may = o.mayWrite(numbered(out, mark, i)); !may)
                 return may;
     std::optional<InterruptsHeld> held;
-    if (bits.half) // written by rows, one file after the other
+    if (bits.half) // written by rows, one file after another
         held.emplace();
     std::vector<PlacedImage> images;
     for (std::size_t i = 0; i < chain.size(); ++i)
@@ -83,7 +83,7 @@ Status writeChain(const std::filesystem::path& out, const std::vector<MipLevel>&
     return writeTogether(images);
 }
 
-// Of blocks floats, of which they are made.
+// Blocks are made from floats.
 Result<Bits> bitsOfMips(TexelCode code, PixelType input, const std::filesystem::path& out, const MipFileOptions& o)
 {
     if (code != TexelCode::rgba8)
@@ -99,12 +99,12 @@ std::filesystem::path firstMipFile(const std::filesystem::path& out)
 }
 
 Result<MippedFile> writeMips(const std::filesystem::path& file, const std::filesystem::path& out,
-                             const MipFileOptions& asked, const FileOptions& files)
+                             const MipFileOptions& requested, const FileOptions& files)
 {
-    MipFileOptions o = asked;
+    MipFileOptions o = requested;
     if (o.compress == "bc5" && o.keepLengths)
         return about("options.keepLengths", usageError("bc5 has no channel for lengths"));
-    if (o.to) // before the work
+    if (o.to) // fails before the work
         if (const auto code = codeFor(o.compress, o.bits, *o.to, out); !code)
             return code.error();
     const auto read = readMap(file, o.from, "options.from", files.limits);
@@ -119,14 +119,14 @@ Result<MippedFile> writeMips(const std::filesystem::path& file, const std::files
     const auto bits = bitsOfMips(*code, map->type, out, o);
     if (!bits)
         return bits.error();
-    // 32 bytes of moments for a quarter of the texels, and both pictures of all levels.
+    // 32 bytes of moments for a quarter of the texels, and normals and roughness of all levels.
     const std::size_t work = map->pixelCount() * (8 + 11 * bytesPerComponent(bits->type));
-    const std::size_t most = 3 * workBudget(file, files.limits);
-    if (work > most)
+    const std::size_t limit = 3 * workBudget(file, files.limits);
+    if (work > limit)
         return memoryError(
             fmt::format("{}: the chain takes {} MiB for {} x {}, the limit is {} MiB for a file of this size",
-                        file.string(), work >> 20, map->width, map->height, most >> 20));
-    CountedSteps steps(files.progress, 3); // read, filtered, written
+                        file.string(), work >> 20, map->width, map->height, limit >> 20));
+    CountedSteps steps(files.progress, 3); // read, filter, write
     if (!steps.step())
         return stoppedError();
     auto chain = mipChain(*map,

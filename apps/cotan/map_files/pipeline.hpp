@@ -1,4 +1,4 @@
-// What is read, worked on by several threads, and written in order: by oneTBB where Cotan is built with it.
+// A pipeline that reads in order, works in parallel and writes in order: by oneTBB in builds that have it.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace cotan {
 
-// How many threads a loop that is started here may use.
+// The number of threads that a loop started here may use.
 inline int loopThreads()
 {
 #ifdef COTAN_WITH_TBB
@@ -25,10 +25,10 @@ inline int loopThreads()
 #endif
 }
 
-// What is made in order, worked on in any order, and taken in order: items are pointers. read() gives the next one,
-// null at the end; work(item) changes it; give(item) takes it. At most `most` items are under way.
+// Runs a pipeline of pointers: read() returns the next item, null at the end; work(item) changes it, in any order and
+// in parallel; give(item) takes the items in order. At most `maxItems` items are in flight.
 template<class Read, class Work, class Give>
-void pipeline(std::size_t most, const Read& read, const Work& work, const Give& give)
+void pipeline(std::size_t maxItems, const Read& read, const Work& work, const Give& give)
 {
     using Item = decltype(read());
 #ifdef COTAN_WITH_TBB
@@ -44,14 +44,14 @@ void pipeline(std::size_t most, const Read& read, const Work& work, const Give& 
         return item;
     };
     const auto sink = [&](Item item) -> void { give(item); };
-    tbb::parallel_pipeline(std::max<std::size_t>(most, 1),
+    tbb::parallel_pipeline(std::max<std::size_t>(maxItems, 1),
                            tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order, source)
                                & tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, stage)
                                & tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, sink));
 #else
     for (bool more = true; more;) {
         std::vector<Item> items;
-        while (items.size() < std::max<std::size_t>(most, 1) && more) {
+        while (items.size() < std::max<std::size_t>(maxItems, 1) && more) {
             Item item = read();
             more = bool(item);
             if (more)

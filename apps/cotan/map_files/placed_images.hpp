@@ -15,11 +15,11 @@ struct PlacedImage {
     const Image* image = nullptr;
 };
 
-// Writes them beside their places; they appear when the caller commits them (commitTogether). Errors: those of the
-// first that cannot be written (writeImage), and then there is none.
+// Writes the images to temporary files beside their final paths; they appear when the caller commits them
+// (commitTogether). Errors: those of writeImage for the first image that fails; then no file is left.
 Result<std::vector<OutputFile>> writePending(std::span<const PlacedImage> images);
 
-// Writes all of them or none. Errors: as writeImage; one of commitTogether.
+// Writes all images or none. Errors: as writeImage; those of commitTogether.
 Status writeTogether(std::span<const PlacedImage> images);
 
 } // namespace cotan

@@ -13,10 +13,10 @@ namespace cotan::maps {
 
 namespace {
 
-constexpr std::size_t kStripBytes = 16 << 20;     // of texels, as floats
-constexpr std::size_t kAllStripBytes = 192 << 20; // of the strips under way
+constexpr std::size_t kStripBytes = 16 << 20;     // per strip, of texels as floats
+constexpr std::size_t kAllStripBytes = 192 << 20; // of all strips in flight
 
-// A multiple of 16 where it can be, as MapSurvey wants, and of 64 for blocks of compression.
+// Rows per strip: a multiple of 16, as MapSurvey requires, and if possible of 64, for blocks of compression.
 int rowsOfStrip(int width)
 {
     const std::size_t rows = kStripBytes / (std::size_t(width) * 16);
@@ -31,18 +31,18 @@ void copyRow(const Image& from, int row, Image& to, int toRow)
     std::memcpy(to.data.data() + std::size_t(toRow) * bytes, from.data.data() + std::size_t(row) * bytes, bytes);
 }
 
-// Cuts one picture into strips, with the rows beside them.
-class Cutter {
+// Reads an image in strips, with the rows beside them.
+class StripReader {
 public:
-    Cutter(RowReader& reader, const StreamPlan& plan) : reader_(reader), plan_(plan) {}
+    StripReader(RowReader& reader, const StreamPlan& plan) : reader_(reader), plan_(plan) {}
 
-    // The rows [first, last) and their border.
+    // Reads the rows [first, last) and their border.
     Result<Image> next(int first, int last)
     {
         const int border = plan_.bordered ? 1 : 0;
-        const int end = std::min(last + border, reader_.height); // what has to be read
+        const int end = std::min(last + border, reader_.height); // end of the rows to read
         Image strip = makeImage(reader_.width, last - first + 2 * border, reader_.type, reader_.name);
-        int at = 0; // of the strip
+        int at = 0; // row of the strip
         for (int row = first - border; row < read_; ++row, ++at)
             if (row >= 0)
                 copyRow(kept_, row - keptFirst_, strip, at);
@@ -80,7 +80,7 @@ private:
         }
     }
 
-    // The rows from `from` to the last one read, which the next strip begins with.
+    // Keeps the rows from `from` to the last one read, with which the next strip begins.
     void keep(const Image& strip, int from, int stripFirst)
     {
         Image kept = makeImage(strip.width, read_ - from, strip.type);
@@ -109,21 +109,21 @@ Status streamStrips(std::span<RowReader* const> readers, const StreamPlan& plan,
                     const StripWork& work)
 {
     const int width = readers[0]->width, height = readers[0]->height, rows = rowsOfStrip(width);
-    std::vector<Cutter> cutters;
+    std::vector<StripReader> stripReaders;
     for (RowReader* reader : readers)
-        cutters.emplace_back(*reader, plan);
+        stripReaders.emplace_back(*reader, plan);
     CountedSteps steps(progress, std::size_t((height + rows - 1) / rows));
-    Status readState = Done{}, takeState = Done{}; // each touched by one stage only
+    Status readState = Done{}, takeState = Done{}; // each is used by one stage only
     std::atomic<bool> stop = false;
     int next = 0;
     const auto read = [&]() -> std::shared_ptr<Part> {
         auto part = std::make_shared<Part>();
         part->first = next;
         const int last = std::min(next + rows, height);
-        for (Cutter& cutter : cutters) {
+        for (StripReader& stripReader : stripReaders) {
             if (next >= height || stop)
                 break;
-            auto strip = cutter.next(next, last);
+            auto strip = stripReader.next(next, last);
             if (!strip) {
                 readState = strip.error();
                 stop = true;
@@ -132,7 +132,7 @@ Status streamStrips(std::span<RowReader* const> readers, const StreamPlan& plan,
             part->strips.push_back(*std::move(strip));
         }
         next = last;
-        return part->strips.size() == cutters.size() ? part : nullptr;
+        return part->strips.size() == stripReaders.size() ? part : nullptr;
     };
     const auto run = [&](const std::shared_ptr<Part>& part) {
         part->take = work(part->strips, part->first);
@@ -147,8 +147,8 @@ Status streamStrips(std::span<RowReader* const> readers, const StreamPlan& plan,
         if (!steps.step())
             stop = true;
     };
-    const std::size_t most = kAllStripBytes / (std::size_t(rows) * std::size_t(width) * 16 * readers.size());
-    pipeline(std::clamp(most, std::size_t(1), std::size_t(loopThreads()) + 2), read, run, give);
+    const std::size_t maxStrips = kAllStripBytes / (std::size_t(rows) * std::size_t(width) * 16 * readers.size());
+    pipeline(std::clamp(maxStrips, std::size_t(1), std::size_t(loopThreads()) + 2), read, run, give);
     if (readState && takeState && steps.stopped())
         return stoppedError();
     return readState ? takeState : readState;

@@ -18,11 +18,11 @@ namespace cotan::maps {
 
 namespace {
 
-// What the two containers say of a format.
+// Codes of a format in the two containers.
 struct CodeFacts {
     std::uint32_t dxgi, vulkan; // DXGI_FORMAT, VkFormat
-    std::uint32_t bytes;        // of a pixel or block
-    std::uint32_t model;        // of the Khronos data format: KHR_DF_MODEL_...
+    std::uint32_t bytes;        // per pixel or block
+    std::uint32_t model;        // of the Khronos Data Format: KHR_DF_MODEL_...
     std::vector<std::uint32_t> channels;
 };
 
@@ -59,73 +59,73 @@ std::string ddsBytes(TexelCode code, const std::vector<TextureLevel>& levels)
     return bytes;
 }
 
-// The basic descriptor of the Khronos Data Format, 1.3: linear values, one sample a channel.
+// The basic data format descriptor of the Khronos Data Format 1.3: linear values, one sample per channel.
 std::string descriptor(TexelCode code, const CodeFacts& facts)
 {
     const bool blocks = code != TexelCode::rgba8;
     const std::size_t size = 24 + 16 * facts.channels.size();
     std::string d;
     appendNumber(d, size + 4, 4);
-    appendNumber(d, 0, 4); // Khronos, basic
+    appendNumber(d, 0, 4); // vendor Khronos, type basic
     appendNumber(d, 2, 2); // version 1.3
     appendNumber(d, size, 2);
     appendNumber(d, facts.model, 1);
-    appendNumber(d, 1, 1); // primaries of BT.709
-    appendNumber(d, 1, 1); // linear
+    appendNumber(d, 1, 1); // BT.709 primaries
+    appendNumber(d, 1, 1); // linear transfer function
     appendNumber(d, 0, 1);
-    appendNumber(d, blocks ? 0x0303 : 0, 4); // 4 x 4, less one
-    appendNumber(d, facts.bytes, 8);         // in the first plane
+    appendNumber(d, blocks ? 0x0303 : 0, 4); // block size minus one: 4 x 4 or 1 x 1
+    appendNumber(d, facts.bytes, 8);         // bytes of the first plane
     const std::size_t bits = facts.bytes * 8 / facts.channels.size();
     for (std::size_t i = 0; i < facts.channels.size(); ++i) {
         appendNumber(d, i * bits, 2);
         appendNumber(d, bits - 1, 1);
         appendNumber(d, facts.channels[i], 1);
-        appendNumber(d, 0, 8); // position, lowest value
+        appendNumber(d, 0, 8); // sample position, lowest value
         appendNumber(d, blocks ? 0xffffffff : 255, 4);
     }
     return d;
 }
 
-// Header, where each level is, descriptor, keys, levels from the smallest.
+// Header, level index, descriptor, keys, and the levels, smallest first.
 std::string ktx2Bytes(TexelCode code, const std::vector<TextureLevel>& levels, const std::string& frame)
 {
     const CodeFacts facts = factsOf(code);
-    std::string described = descriptor(code, facts), keys;
+    std::string dataFormat = descriptor(code, facts), keys;
     std::vector<std::string> entries = {std::string("KTXorientation\0rd", 18), std::string("KTXwriter\0cotan", 16)};
-    if (!frame.empty()) // sorted by key; like the others, text with its zero
+    if (!frame.empty()) // last, since keys are sorted; null-terminated like the others
         entries.push_back(std::string(kFrameKey) + '\0' + frame + '\0');
     for (const std::string& entry : entries) {
         appendNumber(keys, entry.size(), 4);
         keys += entry + std::string((4 - entry.size() % 4) % 4, '\0');
     }
-    const std::size_t descriptorAt = 80 + 24 * levels.size(), keysAt = descriptorAt + described.size();
-    std::string data(keysAt + keys.size(), '\0'); // in front of the levels; filled at the end
-    std::vector<std::size_t> places(levels.size());
+    const std::size_t descriptorAt = 80 + 24 * levels.size(), keysAt = descriptorAt + dataFormat.size();
+    std::string data(keysAt + keys.size(), '\0'); // precedes the levels; filled at the end
+    std::vector<std::size_t> offsets(levels.size());
     for (std::size_t i = levels.size(); i-- > 0;) {
         data.resize((data.size() + facts.bytes - 1) / facts.bytes * facts.bytes, '\0');
-        places[i] = data.size();
+        offsets[i] = data.size();
         append(data, levels[i].texels);
     }
     std::string head = "\xabKTX 20\xbb\r\n\x1a\n";
     for (const std::uint64_t number :
          {std::uint64_t(facts.vulkan), std::uint64_t(1), std::uint64_t(levels[0].width),
           std::uint64_t(levels[0].height), std::uint64_t(0), std::uint64_t(0), std::uint64_t(1),
-          std::uint64_t(levels.size()), std::uint64_t(0), std::uint64_t(descriptorAt), std::uint64_t(described.size()),
+          std::uint64_t(levels.size()), std::uint64_t(0), std::uint64_t(descriptorAt), std::uint64_t(dataFormat.size()),
           std::uint64_t(keysAt), std::uint64_t(keys.size())})
         appendNumber(head, number, 4);
     appendNumber(head, 0, 8);
     appendNumber(head, 0, 8);
     for (std::size_t i = 0; i < levels.size(); ++i) {
-        appendNumber(head, places[i], 8);
+        appendNumber(head, offsets[i], 8);
         appendNumber(head, levels[i].texels.size(), 8);
         appendNumber(head, levels[i].texels.size(), 8);
     }
-    head += described + keys;
+    head += dataFormat + keys;
     std::ranges::copy(head, data.begin());
     return data;
 }
 
-// What a shader makes of a code: see Expansion.
+// The scale by which a shader decodes codes: see Expansion.
 CodeScale scaleOf(Expansion expansion)
 {
     if (expansion == Expansion::biased)

@@ -1,4 +1,4 @@
-// Textures as graphics processors take them, with all their levels, in DDS and KTX 2.0.
+// GPU textures with all their levels, in DDS and KTX 2.0.
 #pragma once
 
 #include <filesystem>
@@ -18,27 +18,27 @@ struct TextureLevel {
     std::vector<std::byte> texels; // rows of pixels, or of blocks
 };
 
-// Whether a file of that name is one of them.
+// Whether the file's extension is that of a texture format.
 bool isTextureFile(const std::filesystem::path& file);
 
-// levels: each half as large as the one before, the largest first. frame: Image::frame, which KTX2 holds and DDS does
-// not. Errors: as writeFileWhole.
+// Writes a texture. levels: the largest first, each half as large as the one before. frame: Image::frame, which only
+// KTX2 stores. Errors: as writeFileWhole.
 Status writeTextureFile(const std::filesystem::path& file, TexelCode code, const std::vector<TextureLevel>& levels,
                         const std::string& frame = {});
 
-// Normals as a level of a texture that is read as `to`. image: unorm8 for rgba8, else float32 as codeConvention has it.
-// lengths: of bc7, are kept.
+// Normals as a level of a texture that is read as `to`. image: in codeConvention; unorm8 for rgba8, else float32.
+// lengths: for bc7, keeps the lengths of vectors.
 TextureLevel levelOf(const Image& image, TexelCode code, const Convention& to, bool lengths = false);
 
-// Red as BC4. image: float32.
+// Red as a BC4 level. image: float32.
 TextureLevel bc4Level(const Image& image);
 
-// "none", "bc5" or "bc7" for a file of that name. Errors (ErrorKind::usage): "options.compress: ", "options.to: " and
+// Parses "none", "bc5" or "bc7" for a file. Errors (ErrorKind::usage): "options.compress: ", "options.to: " and
 // "options.bits: ".
 Result<TexelCode> codeFor(const std::string& compress, const std::string& bits, const Convention& to,
                           const std::filesystem::path& file);
 
-// How levelOf takes the normals that are to be read as `to`: for blocks 2c - 1, for bc5 two channels.
+// The convention in which levelOf expects normals that are read as `to`: blocks need 2c - 1, bc5 also two channels.
 Convention codeConvention(TexelCode code, const Convention& to);
 
 } // namespace cotan::maps

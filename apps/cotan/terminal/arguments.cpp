@@ -42,13 +42,13 @@ OptionHelp helpOf(const CLI::Option& option, const Argument::Facts& facts)
         help.names.push_back("-" + name);
     for (const std::string& name : option.get_lnames())
         help.names.push_back("--" + name);
-    // CLI11 has "N:INT in [1 - 5]" for a value of the word N with a range.
+    // For a value "N:INT in [1 - 5]" CLI11's type name has the value word N and the range.
     const std::string type = option.get_items_expected_max() > 0 ? option.get_type_name() : "";
     help.value = help.positional ? help.names[0] : type.substr(0, type.find(':'));
     help.kind = help.positional ? ValueKind::file : valueKind(help.value);
     if (const std::size_t range = type.find(" in ["), to = type.find(" - "); range != std::string::npos) {
-        help.least = type.substr(range + 5, to - range - 5);
-        help.most = type.substr(to + 3, type.find(']', to) - to - 3);
+        help.minimum = type.substr(range + 5, to - range - 5);
+        help.maximum = type.substr(to + 3, type.find(']', to) - to - 3);
     }
     help.usual = option.get_default_str();
     help.required = option.get_required() || facts.needed;
@@ -183,11 +183,11 @@ struct Arguments::Tool {
         std::string heading;
         std::vector<std::string> examples;
         std::string closing;
-        HelpGroup group = HelpGroup::general; // of the options that are declared next
-        std::string nextHeading;              // of the commands that are added next
+        HelpGroup group = HelpGroup::general; // of the options declared next
+        std::string nextHeading;              // of the commands added next
     };
     std::map<const CLI::App*, Words> words;
-    Status taken = Done{}; // or the first text that is no value
+    Status taken = Done{}; // or the first error of a custom value parser
 
     CommandHelp describe(const CLI::App& command)
     {
@@ -198,7 +198,7 @@ struct Arguments::Tool {
             if (!option->get_group().empty())
                 help.options.push_back(helpOf(*option, facts[option]));
         std::ranges::stable_sort(help.options, {}, [](const OptionHelp& option) {
-            return std::pair(option.group, !option.positional); // what stands right behind the command comes first
+            return std::pair(option.group, !option.positional); // positional arguments come first
         });
         for (const CLI::App* inner : commandsOf(command))
             help.commands.push_back(describe(*inner));
@@ -227,8 +227,7 @@ Arguments Arguments::command(const std::string& name, const std::string& summary
     return command;
 }
 
-// Values are looked at, and answers given, before anyone says that another option is missing: CLI11 does so up to 2.4,
-// and later where it is asked to.
+// Makes CLI11 check values and answer --help before it reports missing options, as versions up to 2.4 always do.
 static void beforeRequirements(auto& option)
 {
     if constexpr (requires { option.get_callback_priority(); })
@@ -267,7 +266,7 @@ template Argument Arguments::option(const std::string&, std::vector<std::string>
 Argument Arguments::option(const std::string& names, const std::string& usual,
                            std::function<Status(const std::string&)> take, const std::string& help)
 {
-    Tool* const tool = tool_.get(); // which holds the option
+    Tool* const tool = tool_.get(); // which owns the option
     const auto read = [tool, take = std::move(take)](const std::string& text) {
         if (Status taken = take(text); !taken && tool->taken)
             tool->taken = std::move(taken);
@@ -284,7 +283,7 @@ Argument Arguments::flag(const std::string& name, bool& value, const std::string
 
 void Arguments::answers(const std::string& name, const std::string& help, std::function<std::string()> text)
 {
-    // As --version does it.
+    // As --version does.
     added(*app_->add_flag_callback(
         name, [text = std::move(text)] { throw CLI::CallForVersion(text(), 0); }, help));
 }
@@ -316,7 +315,7 @@ CommandHelp Arguments::describe() const { return tool_->describe(*app_); }
 std::vector<const CLI::App*> Arguments::given() const
 {
     std::vector<const CLI::App*> path{app_};
-    while (!path.back()->get_subcommands().empty()) // those that were given
+    while (!path.back()->get_subcommands().empty()) // the parsed ones
         path.push_back(path.back()->get_subcommands().front());
     return path;
 }
@@ -331,7 +330,7 @@ std::string Arguments::help(HelpLength length) const
     return helpText(path, length, helpWidth());
 }
 
-// answer: the text of --help, --version and their like, where that is asked for.
+// answer: receives the text of --help, --version and similar options, if given.
 Status Arguments::read(std::vector<std::string> words, std::string& answer) const
 {
     words = withoutEquals(std::move(words));
@@ -340,7 +339,7 @@ Status Arguments::read(std::vector<std::string> words, std::string& answer) cons
         words.erase(words.begin());
         words.emplace_back("--help");
     }
-    const bool brief = std::ranges::find(words, "--help") == words.end(); // but -h
+    const bool brief = std::ranges::find(words, "--help") == words.end(); // -h instead
     if (Status checked = checkCommandWords(known, words); !checked)
         return checked;
     tool_->taken = Done{};

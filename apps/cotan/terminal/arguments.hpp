@@ -1,5 +1,5 @@
-// Commands and what they take on the command line: each option is declared once, with its name, help, unit, range and
-// default. CLI11 reads them; only arguments.cpp and parse_errors.cpp see it.
+// Declares commands and their command line options, each with its name, help, unit, range and default. CLI11 parses
+// them; only arguments.cpp and parse_errors.cpp use it directly.
 #pragma once
 
 #include <functional>
@@ -20,10 +20,10 @@ class Option;
 
 namespace cotan {
 
-// What a command does with the files that an option names.
+// What a command does with the files named by an option.
 enum class FileUse { none, reads, writes };
 
-// An option of a command line that was read, and its values.
+// An option of a parsed command line, with its values.
 struct GivenOption {
     std::string name; // "output", "MODEL"
     std::vector<std::string> values;
@@ -35,65 +35,65 @@ struct GivenCommand {
     std::vector<GivenOption> options;
 };
 
-// One option, flag or positional argument. Its default is what its variable holds when it is declared; the help shows
+// One option, flag or positional argument. Its default is the value of its variable when it is declared; the help shows
 // it unless it is an empty text.
 class Argument {
 public:
-    // What CLI11 does not keep of it.
+    // Facts about the option that CLI11 does not store.
     struct Facts {
         FileUse use = FileUse::none;
-        std::vector<std::string> words; // that it offers
-        bool closed = false;            // and takes no other
+        std::vector<std::string> words; // suggested or allowed values
+        bool closed = false;            // only `words` are allowed
         HelpGroup group = HelpGroup::general;
         bool needed = false;
     };
     Argument(CLI::Option& option, Facts& facts) : option_(&option), facts_(&facts) {}
 
-    Argument& in(const std::string& unit); // the word for its value in the help: "FILE", "WxH"; see valueKind
+    Argument& in(const std::string& unit); // names the value in the help: "FILE", "WxH"; see valueKind
     Argument& from(std::initializer_list<std::string> words);
     Argument& from(const std::vector<std::string>& words);
     Argument& from(std::initializer_list<int> numbers);
-    // Words that a shell offers for it; what else it takes is the command's affair.
+    // Words for shell completion. Other values are possible; the command checks them.
     Argument& offers(std::vector<std::string> words);
     Argument& within(int least, int most);
     Argument& within(double least, double most);
-    Argument& above0(); // and at most 1e6
+    Argument& above0(); // at most 1e6
     Argument& above0Or(const std::string& word);
-    Argument& reads();                // names files that are read, or words that stand for one
+    Argument& reads();                // names files that are read, or words that stand for a file
     Argument& writes();               // names files or folders that are written
-    Argument& under(HelpGroup group); // in the help, whatever group it is declared in
-    Argument& main();                 // stands first there
+    Argument& under(HelpGroup group); // for this option only, instead of the current group
+    Argument& main();                 // in the first group of the help
     Argument& required();
-    Argument& needed(); // required, but it is the command that refuses to go on without it
+    Argument& needed(); // required, but checked by the command itself
     Argument& separatedByCommas();
-    Argument& withoutDefault(); // what the variable holds means that nothing was given
-    Argument& unlisted();       // works, but the help leaves it out
-    // With this option given the command line is wrong where `why` returns a message.
+    Argument& withoutDefault(); // the variable's value means "not given"
+    Argument& unlisted();       // works, but is not in the help
+    // If the option is given and `why` returns a message, the command line is refused with this message.
     Argument& refused(std::function<std::string()> why);
-    int count() const; // how often it was given
+    int count() const; // number of times the option was given
 
 private:
     CLI::Option* option_;
     Facts* facts_;
 };
 
-// A command, or the tool as a whole.
+// A command, or the whole tool.
 class Arguments {
 public:
     // The tool; --version prints `version`.
     Arguments(const std::string& name, const std::string& summary, const std::string& version);
 
-    // A command of this one, which then needs one of its commands.
+    // Adds a subcommand. This command then requires one of its subcommands.
     Arguments command(const std::string& name, const std::string& summary);
 
-    // "-o,--output" are names of one option; "MODEL" is a positional argument. A value is a std::string, a
-    // std::filesystem::path, an int, float or double, an optional double, or several strings in a vector.
+    // "-o,--output" are names of one option; "MODEL" is a positional argument. Value: std::string,
+    // std::filesystem::path, int, float, double, std::optional<double> or std::vector<std::string>.
     template<class Value> Argument option(const std::string& names, Value& value, const std::string& help);
-    // One whose text `take` makes a value of. What that refuses is what `run` returns in place of the command's work.
+    // An option whose text is parsed by `take`. If it fails, `run` returns its error instead of running the command.
     // usual: the text of the default; empty: none.
     Argument option(const std::string& names, const std::string& usual,
                     std::function<Status(const std::string& text)> take, const std::string& help);
-    // One whose words, and no others, stand for values.
+    // An option whose value is one of `words`.
     template<class Value, std::size_t count>
     Argument choice(const std::string& names, auto& value, const Named<Value> (&words)[count], const std::string& help)
     {
@@ -104,40 +104,40 @@ public:
         return option(names, wordOf(words, value), take, help).from(wordsOf(words)).in("NAME");
     }
     Argument flag(const std::string& name, bool& value, const std::string& help);
-    // An option that prints a text and does nothing else, such as a list.
+    // An option that prints a text, such as a list, and does nothing else.
     void answers(const std::string& name, const std::string& help, std::function<std::string()> text);
-    // The group of the options that are declared next; at first general.
+    // Sets the group of the options declared next; initially general.
     void group(HelpGroup group);
-    // The heading of the commands that are added next.
+    // Sets the heading of the commands added next.
     void heading(const std::string& heading);
     Argument find(const std::string& name);
 
-    // Words that nobody declared are no error.
+    // Allows words that are not declared.
     void takesAnything();
 
-    // Ends the help with command lines that work, and a sentence.
+    // Ends the help with example command lines and a sentence.
     void examples(std::vector<std::string> lines, const std::string& closing);
-    // What the command does; called by run.
+    // Sets the function that run() calls for this command.
     void does(std::function<Status()> work);
 
     std::string name() const;
-    // All that the help says, of this command and those that it has.
+    // The contents of the help of this command and its subcommands.
     CommandHelp describe() const;
 
-    // Reads the words (without the program's name) and does what they ask for: runs a command, or hands the text of
-    // --help (-h: the main options alone), --version and what answers() added to `print`. "help map convert" is
-    // "map convert --help". Errors: ErrorKind::usage, those of the command.
+    // Parses the words (without the program's name) and runs their command, or passes the text of --help (-h: main
+    // options only), --version and options added by answers() to `print`. "help map convert" is "map convert --help".
+    // Errors: ErrorKind::usage, those of the command.
     Status run(std::vector<std::string> words, const std::function<void(const std::string&)>& print);
 
-    // Reads the words and runs nothing. Errors: ErrorKind::usage, for --help and --version, too.
+    // Parses the words and runs nothing. Errors: ErrorKind::usage, also for --help and --version.
     Result<GivenCommand> parse(std::vector<std::string> words) const;
 
 private:
     struct Tool;
     Argument added(CLI::Option& option);
     Status read(std::vector<std::string> words, std::string& answer) const;
-    std::vector<const CLI::App*> given() const; // the tool and the commands that the words named
-    std::string help(HelpLength length) const;  // of the last of those
+    std::vector<const CLI::App*> given() const; // the tool and the parsed commands
+    std::string help(HelpLength length) const;  // of the last parsed command
     Arguments(std::shared_ptr<Tool> tool, CLI::App& app) : tool_(std::move(tool)), app_(&app) {}
 
     std::shared_ptr<Tool> tool_;

@@ -1,4 +1,4 @@
-// What a command's help says, as values: the help, the manual's pages and the completion of shells are made of it.
+// The contents of a command's help, from which the help, manual pages and shell completions are generated.
 #pragma once
 
 #include <string>
@@ -7,37 +7,37 @@
 
 namespace cotan {
 
-// What stands behind an option, by the word that its help has for it.
+// The kind of value of an option, by the value's word in the help.
 enum class ValueKind {
     none,   // a flag
     word,   // a word or a number
     list,   // words separated by commas: A,B, WORDS, NAMES
-    file,   // PATH, or FILE, also among others: NAME|FILE
+    file,   // PATH, or FILE, also as an alternative: NAME|FILE
     folder, // FOLDER, DIR
 };
 ValueKind valueKind(std::string_view valueWord);
 
-// The heading that an option stands under, in the order of the help. The main ones are the few that matter first.
+// The heading of an option, in the order of the help. `main` holds the few options that matter most.
 enum class HelpGroup { main, input, output, rays, camera, light, frame, look, jobs, diagnostics, general };
 std::string_view headingOf(HelpGroup group);
 
 struct OptionHelp {
     HelpGroup group = HelpGroup::general;
-    std::vector<std::string> names; // with their hyphens, short ones first; of a positional argument its word
-    std::string value;              // the word for its value: "FILE"; empty: a flag
+    std::vector<std::string> names; // with hyphens, short ones first; for a positional argument its word
+    std::string value;              // word for the value: "FILE"; empty: a flag
     ValueKind kind = ValueKind::none;
     std::string help;
-    std::string usual;              // what it is if it is not given; empty: not told
-    std::string least, most;        // of a number with a range
-    std::vector<std::string> words; // to choose from, or to begin with; may be empty
-    bool closed = false;            // it takes none but these words
+    std::string usual;              // default; empty: not shown
+    std::string minimum, maximum;   // range of a number; empty: none
+    std::vector<std::string> words; // suggested or allowed values; may be empty
+    bool closed = false;            // only `words` are allowed
     bool positional = false, required = false, repeated = false;
 };
 
 struct CommandHelp {
     std::string name, summary;
-    std::string heading;             // of the list of commands that it stands in; may be empty
-    std::vector<OptionHelp> options; // by their groups; positional arguments among them, in their order
+    std::string heading;             // of the list that the command is in; may be empty
+    std::vector<OptionHelp> options; // ordered by group; positional arguments in declaration order
     std::vector<CommandHelp> commands;
     std::vector<std::string> examples; // command lines
     std::string closing;               // a sentence on exit codes

@@ -34,7 +34,7 @@ void walk(const CommandHelp& tool, const std::function<void(const std::string&, 
 
 std::string shortHelp(std::string_view help)
 {
-    constexpr std::size_t kMin = 20, kMax = 70; // characters: enough to know it by, and a line
+    constexpr std::size_t kMin = 20, kMax = 70; // characters: enough to tell options apart, and a line
     std::size_t end = help.size();
     for (const std::string_view pause : {"; ", ": ", " (", ". "})
         end = std::min(end, help.find(pause, kMin));

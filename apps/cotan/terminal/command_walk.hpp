@@ -1,4 +1,4 @@
-// What the writers of completion share: a tool's commands one by one, and short forms of what their help says.
+// Helpers shared by the completion generators: iteration over all commands, and short forms of help texts.
 #pragma once
 
 #include <functional>
@@ -10,16 +10,16 @@
 
 namespace cotan {
 
-// Calls `visit` for the tool, with "", and for each command with its words behind the tool's name: "map convert".
+// Calls `visit` for the tool with "", and for each command with its words after the tool's name: "map convert".
 void walk(const CommandHelp& tool, const std::function<void(const std::string&, const CommandHelp&)>& visit);
 
-// The beginning of a help text that fits beside a word in a list.
+// The beginning of a help text, short enough for a completion list.
 std::string shortHelp(std::string_view help);
 
 std::string joined(const std::vector<std::string>& words, std::string_view between);
-// With all of `from` replaced by `to`.
+// Replaces all occurrences of `from` by `to`.
 std::string replaced(std::string text, std::string_view from, std::string_view to);
-// In single quotes of a shell; escaped: what stands for a single quote among them.
+// Puts single quotes of a shell around `text`; single quotes within become `escaped`.
 std::string inQuotes(const std::string& text, std::string_view escaped);
 
 } // namespace cotan

@@ -12,7 +12,7 @@ namespace {
 
 Error unknown(const std::string& before, const std::string& word, const std::vector<CommandNames>& commands)
 {
-    // The beginning of a name counts as one letter left out.
+    // A prefix of a name counts as distance 1.
     const auto distance = [&](const CommandNames& command) {
         return word.size() > 1 && command.name.starts_with(word) ? 1 : editDistance(word, command.name);
     };
@@ -30,7 +30,7 @@ Error unknown(const std::string& before, const std::string& word, const std::vec
 
 std::size_t editDistance(std::string_view a, std::string_view b)
 {
-    // Rows of the table of distances between beginnings (Damerau, Levenshtein; neighbours exchanged once).
+    // Optimal string alignment: the Damerau-Levenshtein distance in which no substring is edited twice.
     std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
     for (std::size_t i = 0; i <= a.size(); ++i)
         for (std::size_t j = 0; j <= b.size(); ++j) {

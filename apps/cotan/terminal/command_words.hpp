@@ -1,4 +1,4 @@
-// Words of a command line: those that name a command, looked at before anything else, and paths.
+// Words of a command line: those that name a command, checked before all others, and paths.
 #pragma once
 
 #include <span>
@@ -10,26 +10,26 @@
 
 namespace cotan {
 
-// A command and those that it has.
+// A command and its subcommands.
 struct CommandNames {
     std::string name;
     std::vector<CommandNames> commands;
 };
 
-// Whether the words at the beginning, such as `map convert`, name a command, as far as they are there. words: those of
-// the command line, without the program. Errors: ErrorKind::usage with the word and the nearest that there is.
+// Checks that the first words, such as `map convert`, name a command. words: of the command line, without the program.
+// Errors: ErrorKind::usage with the unknown word and the nearest command.
 Status checkCommandWords(const CommandNames& tool, std::span<const std::string> words);
 
-// "help", "help render" of a tool with that command; but "help --help" is about the command help.
+// Whether the words are "help" or "help render", if the tool has a command help; "help --help" asks about that one.
 bool asksForHelp(const CommandNames& tool, std::span<const std::string> words);
 
-// "-o=a.png" as "-o" and "a.png", which CLI11 takes for the beginning of a name.
+// Splits "-o=a.png" into "-o" and "a.png". CLI11 would take "=a.png" for the value.
 std::vector<std::string> withoutEquals(std::vector<std::string> words);
 
-// Letters to insert, leave out, exchange with another or with their neighbour until one word is the other.
+// Edit distance: letters to insert, delete, replace, or swap with a neighbour.
 std::size_t editDistance(std::string_view a, std::string_view b);
 
-// A path as a word of a shell's command line.
+// A path quoted as a word for a shell.
 std::string quoted(const std::string& path);
 
 } // namespace cotan

@@ -17,9 +17,9 @@ namespace {
 
 constexpr std::size_t kMinWidth = 40, kMaxWidth = 120, kUsualWidth = 80;
 constexpr std::size_t kIndent = 2, kColumn = 26,
-                      kNarrowColumn = 8; // where help begins, and where the terminal is narrow
+                      kNarrowColumn = 8; // columns of the help text; the second for narrow terminals
 
-// Words one after the other, in lines from `column` to `width`. at: the column that the first line has reached.
+// Wraps words into lines from `column` to `width`. at: the column where the first line starts.
 std::string wrapped(const std::string& text, std::size_t at, std::size_t column, std::size_t width)
 {
     std::istringstream words(text);
@@ -40,7 +40,7 @@ std::string wrapped(const std::string& text, std::size_t at, std::size_t column,
     return lines;
 }
 
-// A name, and what is said of it in a column of its own.
+// A name, with its description in a column of its own.
 std::string entry(const std::string& names, const std::string& text, std::size_t width)
 {
     const std::size_t column = width < 60 ? kNarrowColumn : kColumn;
@@ -59,15 +59,15 @@ std::string namesOf(const OptionHelp& option)
     return joined(option.names, ", ") + (option.positional || option.value.empty() ? "" : " " + option.value);
 }
 
-// What it may be and what it is if it is not given, in parentheses behind the help.
+// Allowed values and default in parentheses, appended to the help of an option.
 std::string limitsOf(const OptionHelp& option)
 {
     std::vector<std::string> limits;
     const auto named = [&](const std::string& word) { return option.help.find(word) != std::string::npos; };
     if (option.closed && !std::ranges::all_of(option.words, named))
         limits.push_back(joined(option.words, ", "));
-    if (!option.least.empty())
-        limits.push_back(option.least + " to " + option.most);
+    if (!option.minimum.empty())
+        limits.push_back(option.minimum + " to " + option.maximum);
     if (!option.usual.empty())
         limits.push_back("default: " + option.usual);
     if (option.required && !option.positional)
@@ -80,7 +80,7 @@ std::string optionEntry(const OptionHelp& option, std::size_t width)
     return entry(namesOf(option), option.help + limitsOf(option), width);
 }
 
-// "cotan bake --high FILE --low FILE -o PATH [OPTIONS]": what has to be given, and what may be.
+// "cotan bake --high FILE --low FILE -o PATH [OPTIONS]": required options by name, others as [OPTIONS].
 std::string usage(const std::vector<const CommandHelp*>& path, std::size_t width)
 {
     const CommandHelp& command = *path.back();
@@ -128,7 +128,7 @@ std::string optionLists(const CommandHelp& command, HelpLength length, std::size
     return text;
 }
 
-std::string whatElseThereIs(const std::vector<const CommandHelp*>& path, HelpLength length, std::size_t width)
+std::string moreHelpHint(const std::vector<const CommandHelp*>& path, HelpLength length, std::size_t width)
 {
     const CommandHelp& command = *path.back();
     std::string words;
@@ -174,10 +174,10 @@ std::string helpText(const std::vector<const CommandHelp*>& path, HelpLength len
     const CommandHelp& command = *path.back();
     std::string text = wrapped(command.summary, 0, 0, width) + "\n\n" + usage(path, width);
     text += commandLists(command, width) + optionLists(command, length, width);
-    text += whatElseThereIs(path, length, width);
+    text += moreHelpHint(path, length, width);
     if (!command.examples.empty())
         text += "\nExamples:\n";
-    for (const std::string& line : command.examples) // to be copied: not wrapped
+    for (const std::string& line : command.examples) // for copying, so not wrapped
         text += std::string(kIndent, ' ') + line + "\n";
     if (!command.closing.empty())
         text += "\n" + wrapped(command.closing, 0, 0, width) + "\n";

@@ -14,12 +14,12 @@ enum class HelpLength {
     full,
 };
 
-// path: the commands from the tool to the one that is asked about; the first is the tool. width: columns that no line
-// exceeds, unless one word does; at least 40 are used.
+// path: the commands from the tool to the requested one; the first is the tool. width: the maximum number of columns,
+// at least 40; only longer words exceed it.
 std::string helpText(const std::vector<const CommandHelp*>& path, HelpLength length, std::size_t width);
 
-// Columns of the terminal that standard output is, else those of the variable COLUMNS, else 80; from 40 to 120, since
-// longer lines are hard to read.
+// Columns of the terminal on standard output, else of the variable COLUMNS, else 80; clamped to 40 to 120, since longer
+// lines are hard to read.
 std::size_t helpWidth();
 
 } // namespace cotan

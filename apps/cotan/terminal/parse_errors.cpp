@@ -20,7 +20,7 @@ std::string pathOf(const CLI::App& command)
     return (parent ? pathOf(*parent) + " " : "") + command.get_name();
 }
 
-// "map convert"; the tool itself by its name.
+// "map convert"; the tool itself gives its name.
 std::string wordsOf(const CLI::App& command)
 {
     const std::string path = pathOf(command);
@@ -32,7 +32,7 @@ const CLI::Option* optionOf(const CLI::App& command, const std::string& name)
     return command.get_option_no_throw(name);
 }
 
-// "--high FILE", or the word of a positional argument.
+// "--high FILE", or only the name of a flag or positional argument.
 std::string withValue(const CLI::App& command, const std::string& name)
 {
     const CLI::Option* option = optionOf(command, name);
@@ -42,7 +42,7 @@ std::string withValue(const CLI::App& command, const std::string& name)
     return name + " " + type.substr(0, type.find_first_of(":{["));
 }
 
-// The option whose name is the nearest to a word that is none; empty: none is near.
+// The option whose name is nearest to an unknown word; empty: none is near.
 std::string nearestOption(const CLI::App& command, const std::string& word)
 {
     std::string nearest;
@@ -50,7 +50,7 @@ std::string nearestOption(const CLI::App& command, const std::string& word)
     for (const CLI::Option* option : command.get_options())
         for (const std::string& name : option->get_lnames()) {
             const std::string full = "--" + name;
-            // The beginning of a name counts as one letter left out.
+            // A prefix of a name counts as distance 1.
             const std::size_t distance = word.size() > 4 && full.starts_with(word) ? 1 : editDistance(word, full);
             if (!option->get_group().empty() && distance <= 1 + name.size() / 4
                 && (nearest.empty() || distance < least)) {
@@ -78,7 +78,7 @@ std::string unexpected(const CLI::App& command)
     return "unknown option " + name + (nearest.empty() ? "" : "; did you mean " + nearest + "?");
 }
 
-// CLI11 begins with the option's name.
+// The option name at the start of a CLI11 message.
 std::string nameIn(const std::string& message, std::string_view end)
 {
     return message.substr(0, std::min(message.find(end), message.size()));
@@ -94,7 +94,7 @@ std::string missing(const CLI::App& command, const std::string& message)
     return wordsOf(command) + " needs a command: " + eitherOf(names);
 }
 
-// CLI11: "--up: 1 required NAME missing", "--up: At Most 1 required but received 2", since 2.5 "At most".
+// CLI11 says "--up: 1 required NAME missing", "--up: At Most 1 required but received 2", since 2.5 "At most".
 std::string wrongNumber(const CLI::App& command, const std::string& message)
 {
     const std::string name = nameIn(message, ":");
@@ -103,10 +103,10 @@ std::string wrongNumber(const CLI::App& command, const std::string& message)
     constexpr std::string_view kTooOften = "ost 1 required but received ";
     if (const std::size_t at = message.find(kTooOften); at != std::string::npos)
         return name + " is given " + message.substr(at + kTooOften.size()) + " times; expected once";
-    return message; // one of the command's own
+    return message; // of Argument::refused
 }
 
-// CLI11: "Could not convert: --quiet = maybe".
+// CLI11 says "Could not convert: --quiet = maybe".
 std::string noNumber(const CLI::App& command, const std::string& message)
 {
     constexpr std::string_view kConversion = "Could not convert: ", kIs = " = ";

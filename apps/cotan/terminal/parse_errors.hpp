@@ -1,4 +1,4 @@
-// What CLI11 has against a command line, in the order in which people read: what is wrong, then with what.
+// Rewords CLI11's errors in reading order: what is wrong, then with which option.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ class ParseError;
 
 namespace cotan {
 
-// One line. command: the one that was being read.
+// Returns a message of one line. command: the one being parsed.
 std::string messageOf(const CLI::ParseError& error, const CLI::App& command);
 
 } // namespace cotan

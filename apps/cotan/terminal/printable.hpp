@@ -1,4 +1,4 @@
-// Text for a terminal, which file names and what files say must not drive.
+// Makes text from file names and files safe to print on a terminal.
 #pragma once
 
 #include <string>
@@ -8,8 +8,7 @@
 
 namespace cotan {
 
-// Control characters as they are escaped in C, such as \x1b and \n; those of C1, two bytes in UTF-8, too. All else as
-// it is.
+// Escapes control characters as in C, such as \x1b and \n, including those of C1, which are two bytes in UTF-8.
 inline std::string printable(std::string_view text)
 {
     std::string result;

@@ -18,11 +18,11 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMaxColumns = 79; // a full line of 80 would wrap on some terminals
 constexpr auto kBetween = std::chrono::milliseconds(100);
-constexpr double kSettle = 2;         // seconds, and
-constexpr double kSettleShare = 0.03; // of the work, before a time is told
-constexpr double kFollow = 0.1;       // of a new estimate goes into what is shown
+constexpr double kSettle = 2;            // seconds, and
+constexpr double kSettleFraction = 0.03; // fraction of the work, before the remaining time is shown
+constexpr double kFollow = 0.1;          // weight of a new estimate in the remaining time shown
 
-std::atomic<bool> shown = false;
+std::atomic<bool> lineVisible = false;
 
 double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
@@ -33,18 +33,18 @@ std::size_t columns()
     return known ? std::min<std::size_t>(size.ws_col - 1u, kMaxColumns) : kMaxColumns;
 }
 
-// Names may hold anything: no control characters, and no more than `room` characters of UTF-8, the end left out.
-std::string fitted(const std::string& text, std::size_t room)
+// Replaces control characters and cuts the text to `width` UTF-8 characters, ending with "..." if it was cut.
+std::string fitted(const std::string& text, std::size_t width)
 {
     std::string clean;
     std::size_t count = 0;
     for (const char c : text) {
         const bool starts = (static_cast<unsigned char>(c) & 0xc0) != 0x80;
-        if (starts && ++count > room)
+        if (starts && ++count > width)
             break;
         clean += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
     }
-    if (count > room && room >= 3) {
+    if (count > width && width >= 3) {
         for (int dropped = 0; dropped < 3; ++dropped) {
             while (!clean.empty() && (static_cast<unsigned char>(clean.back()) & 0xc0) == 0x80)
                 clean.pop_back();
@@ -77,12 +77,12 @@ ProgressLine::~ProgressLine() { wipeProgress(); }
 
 Progress ProgressLine::within()
 {
-    return [this](double share) {
+    return [this](double fraction) {
         const std::lock_guard lock(mutex_);
-        if (share <= 0 && begun_)
+        if (fraction <= 0 && begun_)
             base_ += 1;
         begun_ = true;
-        at(base_ + std::clamp(share, 0.0, 1.0));
+        at(base_ + std::clamp(fraction, 0.0, 1.0));
         return true;
     };
 }
@@ -94,7 +94,7 @@ void ProgressLine::add(double steps)
     at(base_);
 }
 
-// With the lock held.
+// The caller holds the lock.
 void ProgressLine::at(double done)
 {
     if (!visible_)
@@ -107,12 +107,12 @@ void ProgressLine::at(double done)
 
 void ProgressLine::draw(Clock::time_point now)
 {
-    const double spent = seconds(now - start_), share = total_ > 0 ? done_ / total_ : 0;
+    const double spent = seconds(now - start_), fraction = total_ > 0 ? done_ / total_ : 0;
     std::string tail;
     if (total_ > 0)
-        tail = fmt::format(": {:.0f} %", std::min(99.0, std::floor(share * 100)));
-    if (spent >= kSettle && share >= kSettleShare) {
-        const double estimate = spent * (1 - share) / share;
+        tail = fmt::format(": {:.0f} %", std::min(99.0, std::floor(fraction * 100)));
+    if (spent >= kSettle && fraction >= kSettleFraction) {
+        const double estimate = spent * (1 - fraction) / fraction;
         left_ = left_ < 0 ? estimate : left_ - seconds(now - drawn_) + kFollow * (estimate - left_);
         left_ = std::max(left_, 0.0);
         tail += ", " + timeText(left_);
@@ -120,15 +120,16 @@ void ProgressLine::draw(Clock::time_point now)
         tail = " ...";
     }
     drawn_ = now;
-    const std::size_t room = columns();
-    const std::string line = tail.size() < room ? fitted(what_, room - tail.size()) + tail : fitted(what_ + tail, room);
-    shown = true;
+    const std::size_t width = columns();
+    const std::string line =
+        tail.size() < width ? fitted(what_, width - tail.size()) + tail : fitted(what_ + tail, width);
+    lineVisible = true;
     std::fputs(("\r\033[K" + line).c_str(), stderr);
 }
 
 void wipeProgress()
 {
-    if (shown.exchange(false))
+    if (lineVisible.exchange(false))
         std::fputs("\r\033[K", stderr);
 }
 

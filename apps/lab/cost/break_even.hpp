@@ -1,4 +1,4 @@
-// When does a frame without stored tangents cost less than stored ones?
+// Break-even points: when does a frame without stored tangents cost less than one with them?
 #pragma once
 
 #include <algorithm>
@@ -7,10 +7,9 @@
 
 namespace cotan::cost {
 
-// Stored tangents cost `perVertex` more at every vertex than none; the frame without them
-// `perPixel` more at every pixel. The frame without them wins while there are fewer pixels per
-// vertex than the number returned: infinity where it costs nothing at the pixels, 0 where the
-// vertices save nothing. Any unit, the same for both.
+// Returns the number of pixels per vertex below which the frame without stored tangents is cheaper. Stored tangents
+// cost `perVertex` more per vertex; the frame without them costs `perPixel` more per pixel. Infinity if it costs
+// nothing per pixel, 0 if it saves nothing per vertex. Both arguments are in the same, arbitrary unit.
 inline double pixelsPerVertex(double perVertex, double perPixel)
 {
     if (perPixel <= 0)
@@ -18,28 +17,28 @@ inline double pixelsPerVertex(double perVertex, double perPixel)
     return perVertex <= 0 ? 0 : perVertex / perPixel;
 }
 
-// Pixels that are shaded for a triangle that covers so many, in the mean over where it lies. Pixels are shaded in
-// quads of 2 x 2, all four where one is covered. The triangle is right-angled with two equal legs along the axes, as
-// the timing grid has them. A quad is touched where one of its four centres is inside. So the mean number of quads is a
-// quarter of the area that four copies of the triangle cover together, moved by 0 or 1 both ways. pixels >= 0. From
-// two pixels on it is pixels + 2 sqrt(2 pixels); a triangle below half a pixel shades four for each that it hits.
+// Returns the mean number of pixels shaded for a triangle that covers `pixels` >= 0 pixels, averaged over its position.
+// The triangle is right-angled with two equal legs along the axes, as in the timing grid. GPUs shade whole quads of 2 x
+// 2 pixels, so a quad is shaded if one of its four centres is inside: the mean number of quads is a quarter of the area
+// covered by four copies of the triangle, shifted by 0 or 1 along x and y. From two pixels on the result is pixels + 2
+// sqrt(2 pixels); a triangle below half a pixel shades four pixels for each one it hits.
 inline double shadedPixels(double pixels)
 {
     const double leg = std::sqrt(2 * pixels);
-    // What copies share are smaller triangles of the same shape.
+    // The intersections of the copies are smaller triangles of the same shape.
     const auto area = [&](double less) { return std::pow(std::max(leg - less, 0.0), 2) / 2; };
     return 4 * area(0) - 4 * area(1) + area(2);
 }
 
-// What a way to draw costs for each triangle and for each pixel that is shaded, in any unit.
+// Cost of a drawing method per triangle and per shaded pixel, in any unit.
 struct TrianglePrice {
     double fixed = 0;
     double perPixel = 0;
     double of(double pixels) const { return fixed + perPixel * shadedPixels(pixels); }
 };
 
-// Where a costs less than b, by the pixels a triangle covers: between the two numbers. (0, infinity): everywhere; two
-// zeros: nowhere.
+// The triangle sizes, in covered pixels, at which `a` costs less than `b`: between the two numbers. (0, infinity) means
+// always, (0, 0) never.
 struct PixelRange {
     double above = 0;
     double below = 0;

@@ -13,7 +13,7 @@ constexpr std::string_view kHeader = "maker,card,device,driver,date,stage,row,in
                                      "bytes,inverse throughput,latency,failure";
 constexpr std::size_t kColumns = 14, kFirstNumber = 7, kFailure = 13;
 
-// The numbers of a stage in the order of the columns.
+// The numbers of a stage, in column order.
 constexpr std::optional<double> StageCode::*kNumbers[] = {&StageCode::instructions,      &StageCode::arithmetic,
                                                           &StageCode::registers,         &StageCode::bytes,
                                                           &StageCode::inverseThroughput, &StageCode::latency};
@@ -31,20 +31,20 @@ std::string quoted(std::string_view text)
 std::vector<std::string> cellsOf(std::string_view line)
 {
     std::vector<std::string> cells(1);
-    bool inside = false; // of quotes
+    bool inQuotes = false;
     for (std::size_t i = 0; i < line.size(); ++i)
-        if (line[i] == '"' && inside && i + 1 < line.size() && line[i + 1] == '"')
+        if (line[i] == '"' && inQuotes && i + 1 < line.size() && line[i + 1] == '"')
             cells.back() += line[i++];
         else if (line[i] == '"')
-            inside = !inside;
-        else if (line[i] == ',' && !inside)
+            inQuotes = !inQuotes;
+        else if (line[i] == ',' && !inQuotes)
             cells.emplace_back();
         else
             cells.back() += line[i];
     return cells;
 }
 
-// False for what is neither empty nor a finite number.
+// Returns false if the cell is neither empty nor a finite number >= 0.
 bool readNumber(const std::string& cell, std::optional<double>& number)
 {
     if (cell.empty())
@@ -55,10 +55,10 @@ bool readNumber(const std::string& cell, std::optional<double>& number)
     return error == std::errc() && end == cell.data() + cell.size() && value >= 0 && value < 1e15;
 }
 
-StageCode* placeOf(DeviceCode& card, std::string_view stage, std::string_view row)
+StageCode* findStage(DeviceCode& gpu, std::string_view stage, std::string_view row)
 {
     StageCode* found = nullptr;
-    eachStage(card, [&](std::string_view kind, std::string_view name, StageCode& code) {
+    eachStage(gpu, [&](std::string_view kind, std::string_view name, StageCode& code) {
         if (!found && stage == kind && row == name)
             found = &code;
     });
@@ -67,12 +67,12 @@ StageCode* placeOf(DeviceCode& card, std::string_view stage, std::string_view ro
 
 } // namespace
 
-std::string cardsToCsv(const std::vector<DeviceCode>& cards)
+std::string gpusToCsv(const std::vector<DeviceCode>& gpus)
 {
     std::string text = std::string(kHeader) + '\n';
-    for (const DeviceCode& card : cards) {
-        const std::string head = quoted(card.maker) + ',' + quoted(card.family.empty() ? card.name : card.family) + ','
-            + quoted(card.name) + ',' + quoted(card.driver) + ',' + card.date + ',';
+    for (const DeviceCode& gpu : gpus) {
+        const std::string head = quoted(gpu.maker) + ',' + quoted(gpu.family.empty() ? gpu.name : gpu.family) + ','
+            + quoted(gpu.name) + ',' + quoted(gpu.driver) + ',' + gpu.date + ',';
         const auto line = [&](std::string_view stage, std::string_view row, const StageCode& code) {
             text += head + std::string(stage) + ',' + quoted(row);
             for (const auto number : kNumbers) {
@@ -83,23 +83,23 @@ std::string cardsToCsv(const std::vector<DeviceCode>& cards)
             }
             text += ',' + quoted(code.failure) + '\n';
         };
-        if (!card.silence.empty()) {
+        if (!gpu.silence.empty()) {
             StageCode none;
-            none.failure = card.silence;
+            none.failure = gpu.silence;
             line("silence", "", none);
             continue;
         }
-        eachStage(card, line);
+        eachStage(gpu, line);
     }
     return text;
 }
 
-Result<std::vector<DeviceCode>> cardsFromCsv(std::string_view text)
+Result<std::vector<DeviceCode>> gpusFromCsv(std::string_view text)
 {
     std::vector<const Row*> all;
     for (const Row& row : rows())
         all.push_back(&row);
-    std::vector<DeviceCode> cards;
+    std::vector<DeviceCode> gpus;
     int number = 0;
     while (!text.empty()) {
         const std::size_t end = std::min(text.find('\n'), text.size());
@@ -116,21 +116,21 @@ Result<std::vector<DeviceCode>> cardsFromCsv(std::string_view text)
         if (cells.size() != kColumns)
             return inputError(where + "expected " + std::to_string(kColumns) + " cells, found "
                               + std::to_string(cells.size()));
-        if (cards.empty() || cards.back().family != cells[1] || cards.back().maker != cells[0]) {
-            cards.push_back({cells[2], cells[0], cells[3], cells[1], "", cells[4], {}, {}, {}});
-            prepareStages(cards.back(), all);
+        if (gpus.empty() || gpus.back().family != cells[1] || gpus.back().maker != cells[0]) {
+            gpus.push_back({cells[2], cells[0], cells[3], cells[1], "", cells[4], {}, {}, {}});
+            prepareStages(gpus.back(), all);
         }
         if (cells[5] == "silence")
-            cards.back().silence = cells[kFailure];
+            gpus.back().silence = cells[kFailure];
         StageCode unknown;
-        StageCode* stage = placeOf(cards.back(), cells[5], cells[6]);
+        StageCode* stage = findStage(gpus.back(), cells[5], cells[6]);
         StageCode& code = stage ? *stage : unknown;
         code.failure = cells[kFailure];
         for (std::size_t i = 0; i < std::size(kNumbers); ++i)
             if (!readNumber(cells[kFirstNumber + i], code.*kNumbers[i]))
                 return inputError(where + "expected a number, found '" + cells[kFirstNumber + i] + "'");
     }
-    return cards;
+    return gpus;
 }
 
 } // namespace cotan::cost

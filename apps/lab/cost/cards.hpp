@@ -1,4 +1,4 @@
-// Machine code of cards as a table in a file: what one machine asked, another makes documents of.
+// GPU machine code statistics as CSV: collected on one machine, turned into documents on another.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace cotan::cost {
 
-// A line for each stage of each card: maker,card,device,driver,date,stage,row, then instructions, arithmetic,
-// registers, code bytes, inverse throughput and latency, empty where the driver gives none, then why it did not
-// compile. A card that gave nothing has one line, stage `silence`.
-std::string cardsToCsv(const std::vector<DeviceCode>& cards);
+// Returns one line per stage of each GPU: maker,card,device,driver,date,stage,row, then instructions, arithmetic,
+// registers, code bytes, inverse throughput and latency, each empty if the driver does not report it, then why
+// compilation failed. A GPU without any numbers has one line, with the stage `silence`.
+std::string gpusToCsv(const std::vector<DeviceCode>& gpus);
 
-// Reads that again. Lines of one card stand together; rows and stages that this program does not know are left out,
-// those that are missing are empty. Files may stand one behind the other, each with its header. Errors:
-// ErrorKind::input: "line N: ...".
-Result<std::vector<DeviceCode>> cardsFromCsv(std::string_view text);
+// Parses the output of gpusToCsv. The lines of one GPU must be consecutive. Unknown rows and stages are ignored;
+// missing ones stay empty. Several such files may be concatenated, each with its header. Errors: ErrorKind::input:
+// "line N: ...".
+Result<std::vector<DeviceCode>> gpusFromCsv(std::string_view text);
 
 } // namespace cotan::cost

@@ -8,7 +8,7 @@ const std::vector<Choice>& choices()
         {"mikktspace, stored", "mikktspace", Stored::tangent, kVerticesPerTriangle},
         {"triangle, provoking vertex", "triangle-halfs", Stored::triangleHalfs, kProvokingVerticesPerTriangle},
         {"triangle, read", "triangle-read", Stored::nothing, kVerticesPerTriangle},
-        {"smooth, 8 bytes a vertex", "smooth-fused", Stored::cotangents8, kVerticesPerTriangle},
+        {"smooth, 8 bytes per vertex", "smooth-fused", Stored::cotangents8, kVerticesPerTriangle},
         {"cotangent, derivatives", "cotangent-fused", Stored::nothing, kVerticesPerTriangle},
         {"cotangent, n as seen", "cotangent-seen", Stored::nothing, kVerticesPerTriangle},
     };

@@ -1,4 +1,4 @@
-// Ways to perturb a normal that an application chooses between, each with the stages it needs.
+// The normal-mapping methods that an application chooses between, each with the stages it needs.
 #pragma once
 
 #include <optional>
@@ -10,21 +10,21 @@
 
 namespace cotan::cost {
 
-// Of a closed mesh with seams: BoomBox 0.60, the teapot 0.60. Where every triangle owns its provoking vertex: 1.01.
+// Vertices per triangle of closed meshes with seams (BoomBox, teapot: 0.60), and with a provoking vertex per triangle.
 inline constexpr double kVerticesPerTriangle = 0.6, kProvokingVerticesPerTriangle = 1.01;
 
 struct Choice {
     std::string_view name;
-    std::string_view row; // of the fragment stage
-    Stored vertex;        // what the vertex stage fetches or makes
+    std::string_view row; // row of the fragment stage
+    Stored vertex;        // what the vertex stage fetches or derives
     double verticesPerTriangle;
 };
 
-// Stored MikkTSpace tangents come first.
+// All methods; stored MikkTSpace tangents come first.
 const std::vector<Choice>& choices();
 
-// By the driver's estimate of inverse throughput, whole stages. Nothing where it has none, or the row was not asked
-// for.
+// Cost of whole stages by the driver's estimate of inverse throughput. Empty if the driver reports none or the row was
+// not requested.
 std::optional<TrianglePrice> trianglePrice(const DeviceCode& device, const Choice& choice);
 
 } // namespace cotan::cost

@@ -27,7 +27,7 @@ StageCode readStage(const Device& device, const vk::raii::Pipeline& pipeline, Fl
             continue;
         for (const auto& s : device.device.getPipelineExecutableStatisticsKHR({*pipeline, i}))
             code.all.emplace_back(s.name.data(), number(s));
-        break; // some drivers compile a stage for several widths; the first is named first
+        break; // some drivers compile a stage for several widths and list the first one first
     }
     return code;
 }

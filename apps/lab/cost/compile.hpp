@@ -1,4 +1,4 @@
-// Compiles one stage after another on one device.
+// Compiles one shader stage at a time on a device.
 #pragma once
 
 #include <vector>
@@ -8,16 +8,16 @@
 
 namespace cotan::cost {
 
-// All stages that a device is asked for, in one order: rows, then vertex stages, then the others.
+// Number of stages compiled for a device. Stage indices run through the rows, then the vertex stages, then the others.
 std::size_t stageCount(const std::vector<const Row*>& rows);
 
-// The place of stage k in `code`, whose vectors are as long as they will be.
+// Returns stage k of `code`, which prepareStages has filled.
 StageCode& stageAt(DeviceCode& code, std::size_t k);
 
-// Empty vectors of all stages, named.
+// Appends an empty, named entry for each stage.
 void prepareStages(DeviceCode& code, const std::vector<const Row*>& rows);
 
-// Compiles stage k and asks for its numbers, by the driver's names. Throws what Vulkan throws.
+// Compiles stage k and returns its statistics under the driver's names. Throws Vulkan's exceptions.
 StageCode compileStage(const Device& device, const Layout& layout, const std::vector<const Row*>& rows, std::size_t k);
 
 } // namespace cotan::cost

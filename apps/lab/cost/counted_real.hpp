@@ -1,4 +1,4 @@
-// A number that counts what is done with it. For the portable text as C++.
+// A number type that counts its operations, for compiling the portable text as C++.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace cotan::cost {
 
-// The operations of the running count; one at a time.
+// Receives the counts while a count is running; there is only one at a time.
 inline Operations* counting = nullptr;
 
 struct CountedReal {
@@ -17,7 +17,7 @@ struct CountedReal {
     bool product; // the result of a multiplication
     bool rooted;  // the result of a square root
 
-    CountedReal() = default; // trivial, which GLM's vectors ask for; uninitialised like a double
+    CountedReal() = default; // trivial, as GLM's vectors require; uninitialised like a double
     CountedReal(double v) : value(v), product(false), rooted(false) {}
     CountedReal(int v) : CountedReal(double(v)) {}
     CountedReal(std::uint32_t v) : CountedReal(double(v)) {}
@@ -58,7 +58,7 @@ struct CountedReal {
     }
     friend CountedReal operator/(CountedReal a, CountedReal b)
     {
-        if (counting && b.rooted && a.value == 1) { // how lang.h spells an inverse root in C++
+        if (counting && b.rooted && a.value == 1) { // how lang.h writes an inverse square root in C++
             --counting->root;
             return counted(&Operations::inverseRoot, a.value / b.value);
         }
@@ -78,7 +78,7 @@ struct CountedReal {
     {
         return counted(&Operations::maximum, std::fmin(a.value, b.value));
     }
-    friend CountedReal abs(CountedReal a) // a sign change
+    friend CountedReal abs(CountedReal a) // costs only a sign change
     {
         a.value = std::fabs(a.value);
         return a;
@@ -111,6 +111,6 @@ private:
 
 } // namespace cotan::cost
 
-// GLM asks whether its scalar is a floating-point number.
+// GLM requires its scalar type to be a floating-point number.
 template<> struct std::numeric_limits<cotan::cost::CountedReal> : std::numeric_limits<double> {
 };

@@ -18,7 +18,7 @@ bool hasExtension(const vk::raii::PhysicalDevice& physical, const char* name)
     return false;
 }
 
-// By the number of the maker, or, for drivers that give Mesa's own, by the driver.
+// Returns the vendor's name by its PCI number, or by the driver's name for drivers that report Mesa's own number.
 std::string makerOf(std::uint32_t vendor, std::string_view driver)
 {
     constexpr std::pair<std::uint32_t, const char*> kMakers[] = {
@@ -88,16 +88,16 @@ void open(Device& d)
     vk::PhysicalDeviceVulkan13Features use13;
     use13.dynamicRendering = VK_TRUE;
     use13.synchronization2 = VK_TRUE;
-    use13.shaderDemoteToHelperInvocation = VK_TRUE; // what newer glslang makes of discard
-    use13.maintenance4 = VK_TRUE;                   // sizes of work groups, as SPIR-V for 1.3 states them
+    use13.shaderDemoteToHelperInvocation = VK_TRUE; // newer glslang compiles discard to this
+    use13.maintenance4 = VK_TRUE;                   // work group sizes as SPIR-V for 1.3 states them
     vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR report(VK_TRUE);
     vk::PhysicalDeviceMeshShaderFeaturesEXT mesh(VK_FALSE, VK_TRUE);
     vk::PhysicalDeviceVulkan12Features use12;
-    use12.bufferDeviceAddress = VK_TRUE; // every device of Vulkan 1.3 has it
+    use12.bufferDeviceAddress = VK_TRUE; // every Vulkan 1.3 device has it
     use12.pNext = &use13;
     vk::PhysicalDeviceFeatures2 use;
-    use.features.geometryShader = has.geometryShader; // what reading gl_PrimitiveID asks for
-    if (d.dynamicRendering)                           // older drivers refuse structures that they do not know
+    use.features.geometryShader = has.geometryShader; // needed to read gl_PrimitiveID
+    if (d.dynamicRendering)                           // older drivers refuse unknown structures
         use.pNext = &use12;
     std::vector<const char*> extensions;
     if (d.reports) {

@@ -1,4 +1,4 @@
-// Vulkan devices, for pricing: anything that compiles, whether it can draw or not.
+// Vulkan devices for the cost measurements: every device that compiles, whether it can draw or not.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ struct Instance {
     vk::raii::Instance instance{nullptr};
 };
 
-// Throws vk::SystemError and others; `reason` makes a line of them.
+// Throws vk::SystemError and others; `reason` formats them as one line.
 Instance openInstance();
 
 struct Device {
@@ -23,25 +23,25 @@ struct Device {
     vk::raii::Device device{nullptr};
     std::uint32_t queueFamily = 0;
     std::string name;
-    std::string maker; // AMD, NVIDIA, ...; empty where it is not known
+    std::string maker; // AMD, NVIDIA, ...; empty if unknown
     std::string driver;
     bool cpu = false;
     bool radv = false;
-    bool reports = false;          // machine code
+    bool reports = false;          // reports machine code statistics
     bool meshShaders = false;      // VK_EXT_mesh_shader
     bool dynamicRendering = false; // Vulkan 1.3; older devices only compile
     bool compiles = false;         // has a graphics queue
-    std::string missing;           // empty: it can draw
-    double nanoseconds = 0;        // per tick of its timestamps; 0: it has none
+    std::string missing;           // why it cannot draw; empty if it can
+    double nanoseconds = 0;        // per timestamp tick; 0 if it has no timestamps
 };
 
-// All devices, not opened; those that draw on the processor last.
+// Returns all devices, unopened; CPU devices come last.
 std::vector<Device> listDevices(const Instance& instance);
 
-// Makes the logical device. Throws.
+// Creates the logical device. Throws.
 void open(Device& device);
 
-// True where `names` is empty or `name` contains one of them, any case.
+// Whether `names` is empty or `name` contains one of them, ignoring case.
 bool wanted(const std::string& name, const std::vector<std::string>& names);
 
 std::string reason(const std::exception& e);

@@ -68,7 +68,7 @@ std::string inChild(int seconds, const std::function<void(const LineWriter&)>& w
         runChild(ends[1], seconds, work);
     }
     ::close(ends[1]);
-    std::string kept; // the beginning of a line whose end has not come
+    std::string kept; // start of a line that is not complete yet
     std::array<char, 4096> buffer{};
     while (child > 0) {
         const ssize_t n = ::read(ends[0], buffer.data(), buffer.size());

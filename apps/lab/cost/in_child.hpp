@@ -1,4 +1,4 @@
-// Work in a process of its own, so that a driver that crashes takes nothing with it.
+// Runs work in a child process, so that a crashing driver does not take the program with it.
 #pragma once
 
 #include <functional>
@@ -7,12 +7,12 @@
 
 namespace cotan::cost {
 
-// One line to the parent, at once. Line breaks in it become blanks.
+// Sends one line to the parent immediately. Line breaks in it become spaces.
 using LineWriter = std::function<void(std::string_view)>;
 
-// Runs `work` in a child and hands each line that it writes to `line`. What the child prints to standard error is
-// dropped: drivers speak there. Returns how the child ended: empty where it ended well, else words that follow a name,
-// such as "crashed (signal 11)". A child that writes no line for `seconds` is ended.
+// Runs `work` in a child process and passes each line it writes to `line`. The child's standard error, where drivers
+// print messages, is discarded. Returns "" if the child succeeded, else a phrase that follows a name, such as "crashed
+// (signal 11)". A child that writes no line for `seconds` is ended.
 std::string inChild(int seconds, const std::function<void(const LineWriter&)>& work,
                     const std::function<void(std::string_view)>& line);
 

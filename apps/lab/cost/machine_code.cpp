@@ -13,34 +13,34 @@ namespace cotan::cost {
 
 namespace {
 
-constexpr int kSeconds = 300; // for one stage; emulated drivers are slow
-constexpr int kCrashes = 5;   // after so many a device is asked no more
+constexpr int kSeconds = 300;  // timeout for one stage; emulated drivers are slow
+constexpr int kMaxCrashes = 5; // maximum crashes before a device is given up
 
-// Sets an environment variable while it lives.
-class Environment {
+// Sets an environment variable for the lifetime of the object.
+class EnvironmentVariable {
 public:
-    Environment(const char* name, const std::string& value) : name_(name)
+    EnvironmentVariable(const char* name, const std::string& value) : name_(name)
     {
         if (const char* old = std::getenv(name))
             old_ = old;
         ::setenv(name, value.c_str(), 1);
     }
-    ~Environment()
+    ~EnvironmentVariable()
     {
         if (old_)
             ::setenv(name_, old_->c_str(), 1);
         else
             ::unsetenv(name_);
     }
-    Environment(const Environment&) = delete;
-    Environment& operator=(const Environment&) = delete;
+    EnvironmentVariable(const EnvironmentVariable&) = delete;
+    EnvironmentVariable& operator=(const EnvironmentVariable&) = delete;
 
 private:
     const char* name_;
     std::optional<std::string> old_;
 };
 
-// Lines between a child and its parent: a word, and what belongs to it, separated by tabs.
+// Splits a line of the child-to-parent protocol: a keyword and its values, separated by tabs.
 std::vector<std::string> cells(std::string_view line)
 {
     std::vector<std::string> list(1);
@@ -125,7 +125,7 @@ struct Listed {
     bool radv = false;
 };
 
-// Errors: why Vulkan cannot be used; "crashed" for a driver that takes the whole list with it.
+// Errors: why Vulkan cannot be used; "crashed" if a driver crashes while devices are listed.
 Result<std::vector<Listed>> listInChild()
 {
     std::vector<Listed> list;
@@ -139,17 +139,17 @@ Result<std::vector<Listed>> listInChild()
             list.push_back({{c[1], c[2], c[3], "", c[5], today(), {}, {}, {}}, c[4] == "radv"});
     });
     if (!end.empty())
-        return unavailableError("a driver " + end + " when it was asked for its devices");
+        return unavailableError("a driver " + end + " while listing its devices");
     if (!silence.empty())
         return unavailableError(silence);
     return list;
 }
 
-// Compiles all stages of the device, in as many children as crashes make necessary.
+// Compiles all stages of the device, starting a new child after each crash.
 void compileAll(DeviceCode& code, std::size_t device, const std::vector<const Row*>& rows)
 {
     prepareStages(code, rows);
-    std::size_t next = 0; // the first stage that was not begun
+    std::size_t next = 0; // the first stage that was not started
     for (int crashes = 0; next < stageCount(rows);) {
         const std::size_t from = next;
         const std::string end = inChild(
@@ -169,15 +169,15 @@ void compileAll(DeviceCode& code, std::size_t device, const std::vector<const Ro
         if (end.empty())
             break;
         if (next == from) {
-            code.silence = "the driver " + end + " before it compiled";
+            code.silence = "the driver " + end + " before compiling";
             break;
         }
         StageCode& lost = stageAt(code, next - 1);
         lost.all.clear();
         lost.failure = "the driver " + end;
-        if (++crashes == kCrashes)
+        if (++crashes == kMaxCrashes)
             for (; next < stageCount(rows); ++next)
-                stageAt(code, next).failure = "not asked: the driver crashed too often";
+                stageAt(code, next).failure = "skipped, the driver crashed too often";
     }
     bool any = false;
     for (std::size_t k = 0; k < stageCount(rows); ++k) {
@@ -201,8 +201,8 @@ const std::vector<std::string>& usualFamilies()
 Result<std::vector<DeviceCode>> machineCodeOfDevices(const std::vector<const Row*>& rows,
                                                      const std::vector<std::string>& devices)
 {
-    // A shader from Mesa's cache would come without its statistics.
-    const Environment noCache("MESA_SHADER_CACHE_DISABLE", "true");
+    // Mesa reports no statistics for a shader that comes from its cache.
+    const EnvironmentVariable noCache("MESA_SHADER_CACHE_DISABLE", "true");
     auto listed = listInChild();
     if (!listed)
         return unavailableError("Vulkan cannot be used: " + listed.error().message);
@@ -220,17 +220,17 @@ Result<std::vector<DeviceCode>> machineCodeOfDevices(const std::vector<const Row
 
 DeviceCode machineCodeOfFamily(const std::vector<const Row*>& rows, const std::string& family)
 {
-    const Environment noCache("MESA_SHADER_CACHE_DISABLE", "true");
-    const Environment forced("RADV_FORCE_FAMILY", family);
+    const EnvironmentVariable noCache("MESA_SHADER_CACHE_DISABLE", "true");
+    const EnvironmentVariable forced("RADV_FORCE_FAMILY", family);
     DeviceCode result;
     auto listed = listInChild();
     if (!listed) {
-        // Before Mesa 26 the driver aborts where it does not know the family.
+        // Before Mesa 26 the driver aborts if it does not know the family.
         result.silence = listed.error().message + ": does Mesa's Radeon driver know this family?";
     } else if (const auto radv = std::ranges::find_if(*listed, &Listed::radv); radv == listed->end()) {
         result.silence =
-            "Mesa's Radeon driver does not answer: it is not installed, or it is of Mesa 26 or later, which no "
-            "longer takes a family without the card; Mesa's null devices do (bench/cards asks them)";
+            "Mesa's Radeon driver is not available: it is not installed, or it is of Mesa 26 or later, which needs the "
+            "GPU for a family; Mesa's null devices do not (bench/cards uses them)";
     } else {
         result = std::move(radv->code);
         if (result.silence.empty())

@@ -1,4 +1,4 @@
-// What drivers say about the machine code they make (VK_KHR_pipeline_executable_properties).
+// What drivers report about their machine code (VK_KHR_pipeline_executable_properties).
 #pragma once
 
 #include <optional>
@@ -12,15 +12,15 @@
 
 namespace cotan::cost {
 
-// One compiled stage. Names differ between drivers; what a driver does not report is empty.
+// Statistics of one compiled stage. Drivers name them differently; a value that a driver does not report is empty.
 struct StageCode {
     std::optional<double> instructions;
-    std::optional<double> arithmetic;                // instructions that compute, where the driver tells them apart
-    std::optional<double> registers;                 // per thread (vector registers where there are two kinds)
-    std::optional<double> bytes;                     // of code
-    std::optional<double> inverseThroughput;         // the driver's bound in cycles, its unit
-    std::optional<double> latency;                   // the driver's estimate, its unit
-    std::vector<std::pair<std::string, double>> all; // every number, by the driver's name; empty where it was read
+    std::optional<double> arithmetic;                // instructions that compute, if the driver reports them separately
+    std::optional<double> registers;                 // per thread (vector registers if there are two kinds)
+    std::optional<double> bytes;                     // code size
+    std::optional<double> inverseThroughput;         // the driver's bound in cycles, in its unit
+    std::optional<double> latency;                   // the driver's estimate, in its unit
+    std::vector<std::pair<std::string, double>> all; // every number, by the driver's name; empty if read from a file
     std::string failure;                             // why the driver did not compile it
 };
 
@@ -36,43 +36,43 @@ struct VertexCode {
 
 struct OtherCode {
     const Stage* stage;
-    StageCode code; // empty for mesh stages where the device has none
+    StageCode code; // empty for mesh stages if the device does not support them
 };
 
 struct DeviceCode {
     std::string name;
-    std::string maker;   // AMD, NVIDIA, ...; empty where it is not known
+    std::string maker;   // AMD, NVIDIA, ...; empty if unknown
     std::string driver;  // name and version
-    std::string family;  // what tables call it instead of its name, such as a family that was asked for
-    std::string silence; // why there are no numbers; empty where there are
-    std::string date;    // when it was asked, YYYY-MM-DD
+    std::string family;  // shown in tables instead of the name, such as a requested GPU family
+    std::string silence; // why there are no numbers; empty if there are
+    std::string date;    // date of the query, YYYY-MM-DD
     std::vector<RowCode> rows;
-    std::vector<VertexCode> vertices; // each with a fragment stage that uses all it hands on
+    std::vector<VertexCode> vertices; // each with a fragment stage that uses all of its outputs
     std::vector<OtherCode> others;    // all of otherStages()
 };
 
-// The families that are asked for when nothing else is said.
+// The GPU families that are compiled for by default.
 const std::vector<std::string>& usualFamilies();
 
-// Compiles the rows on every Vulkan device of this machine whose name contains one of `devices` (any case; empty: all
-// of them). Drivers run in child processes: one that crashes loses the stage that it compiled, or its device, and no
-// more. Not for programs with other threads. Errors: ErrorKind::unavailable where Vulkan cannot be used at all.
+// Compiles the rows on every Vulkan device of this machine whose name contains one of `devices` (ignoring case; all
+// devices if empty). Drivers run in child processes: a crash loses only the stage being compiled, or the device. Not
+// for programs with other threads. Errors: ErrorKind::unavailable if Vulkan cannot be used at all.
 Result<std::vector<DeviceCode>> machineCodeOfDevices(const std::vector<const Row*>& rows,
                                                      const std::vector<std::string>& devices);
 
-// The same by Mesa's Radeon driver for a family of cards (RADV_FORCE_FAMILY), none of which is needed. Mesa 26 no
-// longer takes it. Sets the environment variable for the duration.
+// Compiles the rows with Mesa's Radeon driver for a GPU family (RADV_FORCE_FAMILY); no such GPU is needed. Mesa 26 no
+// longer supports this. Sets the environment variable for the duration of the call.
 DeviceCode machineCodeOfFamily(const std::vector<const Row*>& rows, const std::string& family);
 
-// The stage of a device, or an empty one.
+// Return the code of a stage, or an empty one if the device has none.
 const StageCode& fragmentCode(const DeviceCode& device, std::string_view row);
 const StageCode& vertexCode(const DeviceCode& device, Stored stored);
 const StageCode& otherCode(const DeviceCode& device, const Stage& stage);
-// Of otherStages(), the resolve of that name, which there has to be.
+// Returns the code of the stage in otherStages() that resolves `name`, which must exist.
 const StageCode& resolveCode(const DeviceCode& device, std::string_view name);
 
-// Calls use(kind, name, code) for each of a device's stages, which it may change where the device is no constant:
-// "fragment" by the row, "vertex" by what vertices have, then otherStages() by their kinds.
+// Calls use(kind, name, code) for each stage of a device; `code` is mutable unless the device is const. The kind is
+// "fragment" (named by row), "vertex" (named by what is stored), or the kind of the entry of otherStages().
 template<class Device, class Use> void eachStage(Device& device, const Use& use)
 {
     for (auto& r : device.rows)

@@ -31,7 +31,7 @@ std::vector<vk::VertexInputAttributeDescription> attributesOf(Stored stored)
     return list;
 }
 
-// What dynamic rendering says in one structure, for devices older than Vulkan 1.3.
+// Describes for devices older than Vulkan 1.3 what dynamic rendering describes in one structure.
 vk::raii::RenderPass makeRenderPass(const Device& device)
 {
     vk::AttachmentDescription attachment;
@@ -67,7 +67,7 @@ Layout makeLayout(const Device& device)
 
 namespace {
 
-// first: the vertex stage, with what it is fed, or the mesh stage.
+// `first` is either the vertex stage, which reads `input`, or the mesh stage.
 vk::raii::Pipeline makeGraphics(const Device& device, const Layout& layout, vk::ShaderStageFlagBits first,
                                 const vk::PipelineVertexInputStateCreateInfo& input,
                                 std::span<const std::uint32_t> words, std::span<const std::uint32_t> fragment,

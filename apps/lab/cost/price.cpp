@@ -45,14 +45,14 @@ Result<std::vector<const Row*>> chosenRows(const std::vector<std::string>& names
     std::vector<const Row*> chosen;
     for (const Row& row : rows()) {
         const bool named = std::find(names.begin(), names.end(), row.name) != names.end();
-        // What the others are compared with is always there.
+        // The rows that the others are compared with are always included.
         if (names.empty() || named || row.name == "floor" || row.name == "mikktspace")
             chosen.push_back(&row);
     }
     return chosen;
 }
 
-// Machine code and times. Errors: why Vulkan cannot be used at all, or that it was stopped; the rest is kept.
+// Fills in machine code and times. Errors: why Vulkan cannot be used at all, or stopped; earlier results are kept.
 Status measure(const PriceOptions& o, CostReport& report)
 {
     Status usable = Done{};
@@ -72,7 +72,7 @@ Status measure(const PriceOptions& o, CostReport& report)
     if (!o.name.empty() && report.code.size() > 1)
         return about("options.name",
                      usageError("names one device; found " + std::to_string(report.code.size())
-                                + ": say which by options.devices"));
+                                + ": select one with options.devices"));
     if (!o.name.empty() && !report.code.empty())
         report.code.front().family = o.name;
     if (!steps.step())
@@ -87,7 +87,7 @@ Status measure(const PriceOptions& o, CostReport& report)
         return usable;
     }
     if (!o.families.empty() && o.devices.empty())
-        return usable; // only cards that are not here were asked for
+        return usable; // only GPUs that are not in this machine were requested
     auto timing = timeRows(report.rows, {o.devices, o.timeCpuDevices, o.repeats, usualCases()});
     if (timing)
         report.timing = std::move(*timing);
@@ -110,20 +110,19 @@ Result<CostReport> price(const PriceOptions& options)
     if (options.cards.empty()) {
         measured = measure(options, report);
     } else {
-        auto cards = cardsFromCsv(options.cards);
-        if (!cards)
-            return about("options.cards", inputError(cards.error().message));
-        report.code = std::move(*cards);
-        report.cardsRead = true;
-        report.timingSilence = "the figures of these cards were read from a file";
+        auto gpus = gpusFromCsv(options.cards);
+        if (!gpus)
+            return about("options.cards", inputError(gpus.error().message));
+        report.code = std::move(*gpus);
+        report.gpusRead = true;
+        report.timingSilence = "the figures of these GPUs were read from a file";
     }
     if (!measured && measured.error().kind != ErrorKind::unavailable)
         return measured.error();
     if (std::ranges::none_of(report.code, [](const DeviceCode& d) { return d.silence.empty(); }))
-        report.codeSilence = measured
-            ? "no driver that was asked reports machine code; operations and SPIR-V were counted. "
-              "Mesa's Radeon driver reports without a card (Debian: mesa-vulkan-drivers)"
-            : measured.error().message + "; operations and SPIR-V were counted";
+        report.codeSilence = measured ? "no queried driver reports machine code; operations and SPIR-V were counted. "
+                                        "Mesa's Radeon driver reports it without a GPU (Debian: mesa-vulkan-drivers)"
+                                      : measured.error().message + "; operations and SPIR-V were counted";
     return report;
 }
 

@@ -1,4 +1,4 @@
-// All prices in one call.
+// All costs in one call.
 #pragma once
 
 #include <string>
@@ -12,29 +12,29 @@ namespace cotan::cost {
 
 struct PriceOptions {
     std::vector<std::string> frames;   // rows besides floor and mikktspace; empty: all
-    std::vector<std::string> devices;  // those with one of these in their name; empty: all
-    std::vector<std::string> families; // cards that Mesa's Radeon driver compiles for without the card; empty: the
-                                       // usual ones, where `devices` is empty too
-    std::string cards;                 // text that cardsToCsv wrote; not empty: no driver is asked, nothing is timed
-    std::string name;                  // what tables call a device, where there is one: empty: by its own name
+    std::vector<std::string> devices;  // devices whose name contains one of these; empty: all
+    std::vector<std::string> families; // GPU families that Mesa's Radeon driver compiles for without the GPU; empty:
+                                       // the usual ones, if `devices` is empty too
+    std::string cards;                 // output of gpusToCsv; if not empty, no driver is queried and nothing is timed
+    std::string name;                  // name of the device in tables; empty: its own name
     bool timing = true;
-    bool timeCpuDevices = false; // take times also where a driver draws on the processor
-    int repeats = 15;            // draws of which the median is taken
+    bool timeCpuDevices = false; // also time drivers that render on the CPU
+    int repeats = 15;            // number of draws, whose median is taken
     Progress progress{};
 };
 
 struct CostReport {
-    std::string machine;          // the system and its processor
+    std::string machine;          // the operating system and its processor architecture
     std::vector<const Row*> rows; // the floor first
     std::vector<DeviceCode> code;
-    bool cardsRead = false; // `code` was read, not asked for here
+    bool gpusRead = false; // `code` was read from a file, not queried here
     std::vector<DeviceTiming> timing;
-    std::string timingSilence; // why there is none at all
-    std::string codeSilence;   // why no driver said anything of machine code; empty where one did
+    std::string timingSilence; // why there are no times at all
+    std::string codeSilence;   // why no driver reported machine code; empty if one did
 };
 
-// Errors: ErrorKind::usage: "options.frames: ..." for a name that is no row's; ErrorKind::input: "options.cards: line
-// N: ..."; ErrorKind::stopped. A driver that cannot be asked is no error.
+// Errors: ErrorKind::usage: "options.frames: ..." for an unknown row name; ErrorKind::input: "options.cards: line N:
+// ..."; ErrorKind::stopped. A driver that cannot be queried is no error.
 Result<CostReport> price(const PriceOptions& options);
 
 } // namespace cotan::cost

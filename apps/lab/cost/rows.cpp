@@ -31,7 +31,7 @@ namespace cotan::cost {
 
 namespace {
 
-// What the vertex stage hands on for a frame.
+// What the vertex stage outputs for a frame, beside position, normal and uv.
 Stored storedFor(Frame frame)
 {
     return readsTangents(frame)       ? Stored::tangent
@@ -40,13 +40,13 @@ Stored storedFor(Frame frame)
                                       : Stored::nothing;
 }
 
-// What a fragment reads for a frame from the whole triangle: three indices, three positions, three uv.
+// Bytes that the fragment stage reads of the whole triangle for a frame: three indices, three positions, three uv.
 int bytesReadFor(Frame frame)
 {
     return info(frame).source == FrameSource::triangle && !readsTriangleVectors(frame) ? 3 * 4 + 3 * 12 + 3 * 8 : 0;
 }
 
-// As the chapter of 2006 counted its four.
+// The instruction counts that the chapter of 2006 gives for its four frames.
 int instructionsOf2006(Frame frame)
 {
     switch (frame) {
@@ -58,7 +58,7 @@ int instructionsOf2006(Frame frame)
     }
 }
 
-// What all are compared with comes first, then what the vertices hand something on for; frames of the papers are last.
+// Order: the baselines, then rows with additional vertex outputs, then the others; frames of the papers come last.
 std::vector<Row> makeRows()
 {
     using S = Stored;
@@ -77,10 +77,10 @@ std::vector<Row> makeRows()
     std::vector<Row> list = {
         {"floor", S::nothing, 0, "the interpolated normal and the texel, no frame", frag_floor},
 #include "cotan/frames.inc"
-        {"triangle-halfs", S::triangleHalfs, 0, "U and V of the triangle as six halfs", frag_triangle_halfs},
-        {"triangle-read", S::nothing, 12, "six halfs of the triangle, read per pixel", frag_triangle_read},
+        {"triangle-halfs", S::triangleHalfs, 0, "U and V of the triangle as six half floats", frag_triangle_halfs},
+        {"triangle-read", S::nothing, 12, "six half floats of the triangle, read per pixel", frag_triangle_read},
         {"triangle-scaled", S::triangle, 0, "with the scale of cotangent", frag_triangle_scaled},
-        {"cotangent-seen", S::nothing, 0, "n on the side that is seen", frag_cotangent_seen},
+        {"cotangent-seen", S::nothing, 0, "n faces the viewer", frag_cotangent_seen},
         {"cotangent-area-fused", S::nothing, 0, "area-normalised scale", frag_cotangent_area_fused},
         {"cotangent-plain", S::nothing, 0, "the formula with sign and guard", frag_cotangent_plain},
         {"cotangent-facing", S::nothing, 0, "the sign left to gl_FrontFacing", frag_cotangent_facing},

@@ -10,7 +10,7 @@
 
 namespace cotan::cost {
 
-// The text that the shaders compile, over numbers that count.
+// The shaders' source, compiled with a number type that counts operations.
 namespace counted {
 #define COTAN_LANG_CPP
 #define COTAN_CPP_REAL CountedReal
@@ -58,7 +58,7 @@ struct FrameFunction {
     counted::cotan_frame (*run)(cotan_vec3, cotan_vec3, cotan_vec3, cotan_vec2, cotan_vec2);
 };
 
-// Of the frames that are built from differences.
+// The frames that are built from differences.
 constexpr FrameFunction kFrames[] = {
 #define COTAN_ROW_differences(name, word) {name, counted::cotan_frame_##word},
 #define COTAN_ROW_triangle(name, word) {name, counted::cotan_frame_##word},
@@ -69,7 +69,7 @@ constexpr FrameFunction kFrames[] = {
 #include "cotan/frames.inc"
 };
 
-// A sound fragment. The text has no branches that skip work, so any other counts the same.
+// A well-conditioned fragment. No branch of the code skips work, so every other fragment gives the same counts.
 counted::cost_inputs exampleInputs()
 {
     counted::cost_inputs i;

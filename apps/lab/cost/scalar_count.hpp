@@ -1,16 +1,16 @@
-// Scalar operations of the portable text, counted by running it on numbers that count.
+// Scalar operations of the portable text, counted by running it with a counting number type.
 #pragma once
 
 #include <string_view>
 
 namespace cotan::cost {
 
-// Additions include subtractions; sign changes and constants are free. The ten differences of a
-// tangent-free frame are made before the count begins.
+// Additions include subtractions; sign changes and constants are free. Computing the ten differences of a tangent-free
+// frame is not counted.
 struct Operations {
     int multiply = 0;
     int add = 0;
-    int merged = 0; // of `add`: those that take a product, which a fused multiply-add does for free
+    int merged = 0; // the part of `add` that takes a product: free with a fused multiply-add
     int divide = 0;
     int root = 0; // sqrt
     int inverseRoot = 0;
@@ -21,19 +21,19 @@ struct Operations {
     int totalFused() const { return total() - merged; }
 };
 
-// Everything of that row of shaders/cost/rows.h: from interpolated inputs to the unit normal. All
-// zero for a name that is no row.
+// Operations of a row of shaders/cost/rows.h, from interpolated inputs to the unit normal. All zero for an unknown
+// name.
 Operations operationsOfRow(std::string_view row);
 
-// Building the frame alone, from a unit normal: the functions cotan_frame_NAME, those of cotangent,
-// gradient, orthonormal and exact with their guards. All zero for other names.
+// Operations of building the frame alone from a unit normal: the functions cotan_frame_NAME, including the guards of
+// cotangent, gradient, orthonormal and exact. All zero for other names.
 Operations operationsOfFrame(std::string_view frame);
 
-// U and V of a triangle from its edges, for the vertex, mesh or compute stage: cotan_triangle_of_edges, or
-// cotan_triangle_of_sound_edges.
+// Operations of deriving U and V of a triangle from its edges in a vertex, mesh or compute stage:
+// cotan_triangle_of_edges if `total`, else cotan_triangle_of_sound_edges.
 Operations operationsOfTriangleVectors(bool total);
 
-// cotan_safe_normal, which the total frames contain.
+// Operations of cotan_safe_normal, which the total frames contain.
 Operations operationsOfSafeNormal();
 
 } // namespace cotan::cost

@@ -4,7 +4,7 @@ namespace cotan::cost {
 
 int spirvInstructions(std::span<const std::uint32_t> words)
 {
-    // Numbers of the SPIR-V specification, section 3.49.
+    // Opcodes of the SPIR-V specification, section 3.49.
     constexpr std::uint32_t kMagic = 0x07230203, kNop = 0, kLine = 8, kFunction = 54, kFunctionEnd = 56, kVariable = 59,
                             kLabel = 248, kNoLine = 317;
     constexpr std::size_t kHeaderWords = 5;

@@ -27,12 +27,12 @@ const std::vector<Stage>& otherStages()
     using K = StageKind;
     constexpr int kPosition = 12, kNormal = 12, kUv = 8, kIndices = 3 * 4, kHalfs = 12;
     constexpr int kVertex = kPosition + kNormal + kUv;
-    // Triangles: a vertex is shared by two.
+    // Triangles: two triangles share a vertex.
     constexpr int kDerived = kIndices + kVertex / 2 + kHalfs;
-    // Vertices: two triangles, six corners, and where the corners and the vertices of a group begin.
+    // Vertices: two triangles, six corners, and the offsets of the corners and of the vertices of a group.
     constexpr int kAdjacency = 2 * kIndices + 6 * 4 + 4 + 4 + 4;
     constexpr int kSmoothBytes = kAdjacency + kVertex + 8, kNormalBytes = kAdjacency + kPosition + kNormal;
-    // A pixel: its triangle, and three vertices.
+    // Pixels: the triangle's index and three vertices.
     constexpr int kPixel = 4 + kIndices + 3 * kVertex;
     static const std::vector<Stage> list = {
         {K::mesh, "no tangent", 0, 0, 0, mesh_plain, mesh_varyings_plain},

@@ -1,4 +1,4 @@
-// Stages besides the vertex and the fragment stage that make what a frame needs, or use it.
+// Stages other than vertex and fragment that derive or use the data of a frame.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 namespace cotan::cost {
 
 enum class StageKind {
-    mesh,    // in place of the vertex stage: each invocation makes a vertex and a triangle of a meshlet at most
-    pass,    // compute, per picture or at load: derives from the positions of the mesh
-    resolve, // compute, per pixel of a visibility buffer: the whole of shading with one row's frame
+    mesh,    // replaces the vertex stage: each invocation outputs at most one vertex and one triangle of a meshlet
+    pass,    // compute, per frame or at load time: derives data from the positions of the mesh
+    resolve, // compute, per pixel of a visibility buffer: all of the shading with one row's frame
 };
 
 constexpr std::string_view kindName(StageKind kind)
@@ -22,17 +22,16 @@ constexpr std::string_view kindName(StageKind kind)
 struct Stage {
     StageKind kind;
     std::string_view name;
-    // Bytes that are moved for it, each array counted once, in a closed mesh of two triangles a vertex. Mesh: what is
-    // stored of the frame a vertex, and handed on a triangle. Passes: all that is read and written. Resolve: all that
-    // is read a pixel.
+    // Bytes moved, each array counted once, in a closed mesh with two triangles per vertex. Mesh: frame data stored per
+    // vertex and output per triangle. Pass: everything read and written. Resolve: everything read per pixel.
     int perVertex;
     int perTriangle;
     int perPixel;
     std::span<const std::uint32_t> words;    // SPIR-V
-    std::span<const std::uint32_t> consumer; // mesh: a fragment stage that uses all it hands on
+    std::span<const std::uint32_t> consumer; // mesh: a fragment stage that uses all of its outputs
 };
 
-// Those of one kind stand together; of mesh and resolve the first has no frame.
+// Stages of one kind are consecutive; the first mesh and the first resolve stage have no frame.
 const std::vector<Stage>& otherStages();
 
 } // namespace cotan::cost

@@ -17,7 +17,7 @@ std::optional<double> find(const StageCode& code, Names names)
     return std::nullopt;
 }
 
-// Nothing where one of them is missing: half a sum would look like a cheap shader.
+// Returns nothing if a value is missing, because a partial sum would look like a cheap shader.
 std::optional<double> sum(const StageCode& code, Names names)
 {
     double total = 0;
@@ -30,14 +30,14 @@ std::optional<double> sum(const StageCode& code, Names names)
     return total;
 }
 
-// The slowest unit decides: all of them work at the same time.
+// Returns the maximum: the units work in parallel, so the slowest determines the time.
 std::optional<double> slowest(const StageCode& code, Names names)
 {
-    std::optional<double> most;
+    std::optional<double> maximum;
     for (const std::string_view name : names)
         if (const auto value = find(code, {name}))
-            most = std::max(most.value_or(*value), *value);
-    return most;
+            maximum = std::max(maximum.value_or(*value), *value);
+    return maximum;
 }
 
 } // namespace
@@ -46,7 +46,7 @@ void nameStatistics(StageCode& code)
 {
     // RADV, Honeykrisp, PanVK; ANV, Turnip, V3DV, NVIDIA's own; NVK.
     code.instructions = find(code, {"Instructions", "Instruction Count", "Instruction count"});
-    // Turnip fills waiting times with instructions that do nothing. Its categories 2, 3 and 4 compute.
+    // Turnip pads waiting times with instructions that do nothing. Its categories 2, 3 and 4 compute.
     code.arithmetic = sum(code, {"cat2 instructions", "cat3 instructions", "cat4 instructions"});
     if (!code.arithmetic && find(code, {"VMEM"})) // RADV; Honeykrisp's "ALU" counts cycles
         code.arithmetic = find(code, {"VALU"});
@@ -54,7 +54,7 @@ void nameStatistics(StageCode& code)
         find(code, {"VGPRs", "Register Count", "Max live registers", "Number of GPRs", "Registers used", "GPRs"});
     code.bytes = find(code, {"Code size", "Code Size", "Binary Size"});
     code.inverseThroughput = find(code, {"Inverse Throughput"}); // RADV
-    if (!code.inverseThroughput && find(code, {"Varying"}))      // PanVK: the slowest of its pipes
+    if (!code.inverseThroughput && find(code, {"Varying"}))      // PanVK reports the slowest of its pipes
         code.inverseThroughput = find(code, {"Cycles"});
     if (!code.inverseThroughput && find(code, {"FSCIB"})) // Honeykrisp
         code.inverseThroughput = slowest(code, {"ALU", "FSCIB", "IC"});

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kMapSize = 64;
 
-struct Uniforms { // vertex.vert's Draw
+struct Uniforms { // the struct Draw of vertex.vert
     float projection[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     float model[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     float covectors[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
@@ -33,7 +33,7 @@ public:
         queries_ = vk::raii::QueryPool(device.device, {{}, vk::QueryType::eTimestamp, 2});
         layout_ = makeLayout(device);
         using U = vk::ImageUsageFlagBits;
-        map_ = makePicture(device, vk::Format::eR8G8B8A8Unorm, kMapSize, U::eSampled | U::eTransferDst);
+        map_ = makeGpuImage(device, vk::Format::eR8G8B8A8Unorm, kMapSize, U::eSampled | U::eTransferDst);
         sampler_ =
             vk::raii::Sampler(device.device, vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear));
         const Uniforms uniforms;
@@ -42,16 +42,16 @@ public:
         prepareImages();
     }
 
-    // What draw() draws from here on. Throws where the device has no such target.
+    // Selects what draw() draws. Throws if the device has no render target with the requested samples.
     void use(const TimingCase& what, const std::vector<const Row*>& rows, const Grid& grid)
     {
         if (!(device_.physical.getProperties().limits.framebufferColorSampleCounts
               & vk::SampleCountFlagBits(what.samples)))
-            throw std::runtime_error("the device has no targets of so many samples a pixel");
+            throw std::runtime_error("the device has no render targets with this sample count");
         what_ = what;
         target_ = {};
-        target_ = makePicture(device_, kColorFormat, std::uint32_t(what.side), vk::ImageUsageFlagBits::eColorAttachment,
-                              what.samples);
+        target_ = makeGpuImage(device_, kColorFormat, std::uint32_t(what.side),
+                               vk::ImageUsageFlagBits::eColorAttachment, what.samples);
         commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
         transition(commands_, *target_.image, vk::ImageLayout::eUndefined, vk::ImageLayout::eColorAttachmentOptimal);
         submit();
@@ -73,7 +73,7 @@ public:
         device_.device.updateDescriptorSets(writes, nullptr);
     }
 
-    // Nanoseconds of one draw.
+    // Draws once and returns the time in nanoseconds.
     double draw(std::size_t pipeline, Stored stored, const Grid& grid)
     {
         commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
@@ -109,7 +109,7 @@ private:
                                vk::DescriptorPoolSize(T::eCombinedImageSampler, 1),
                                vk::DescriptorPoolSize(T::eStorageBuffer, kBuffers)};
         descriptors_ = vk::raii::DescriptorPool(device_.device, vk::DescriptorPoolCreateInfo({}, 1, sizes));
-        // The plain handle: the pool gives it back.
+        // A plain handle: the pool frees the set.
         const vk::DescriptorSetAllocateInfo info(*descriptors_, *layout_.set);
         set_ = (*device_.device).allocateDescriptorSets(info, *device_.device.getDispatcher())[0];
     }
@@ -149,13 +149,13 @@ private:
     vk::raii::Fence fence_{nullptr};
     vk::raii::QueryPool queries_{nullptr};
     Layout layout_;
-    Picture target_, map_;
+    GpuImage target_, map_;
     vk::raii::Sampler sampler_{nullptr};
     Buffer uniforms_;
     vk::raii::DescriptorPool descriptors_{nullptr};
     vk::DescriptorSet set_;
     TimingCase what_;
-    std::map<int, std::vector<vk::raii::Pipeline>> pipelines_; // by samples a pixel
+    std::map<int, std::vector<vk::raii::Pipeline>> pipelines_; // by samples per pixel
 };
 
 double median(std::vector<double> values)
@@ -165,14 +165,14 @@ double median(std::vector<double> values)
     return *middle;
 }
 
-constexpr char kLate[] = "no time was left";
+constexpr char kLate[] = "the time ran out";
 
 double secondsSince(std::chrono::steady_clock::time_point start)
 {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Throws where all repetitions would take longer than these seconds, going by the first, which warms up.
+// Throws if all repetitions would take longer than `seconds`, estimated from the first one, which is a warm-up.
 void timeCase(Timer& timer, const std::vector<const Row*>& rows, const TimingCase& what, const Grid& grid, int repeats,
               double seconds, DeviceTiming& result)
 {
@@ -249,7 +249,7 @@ Result<std::vector<DeviceTiming>> timeRows(const std::vector<const Row*>& rows, 
         const Instance instance = openInstance();
         std::vector<DeviceTiming> result;
         for (Device& device : listDevices(instance)) {
-            if (!wanted(device.name, options.devices) || result.size() >= options.most)
+            if (!wanted(device.name, options.devices) || result.size() >= options.maxDevices)
                 continue;
             DeviceTiming timing;
             timing.name = device.name;
@@ -260,7 +260,7 @@ Result<std::vector<DeviceTiming>> timeRows(const std::vector<const Row*>& rows, 
             else if (device.nanoseconds <= 0)
                 timing.silence = "the device has no timestamps";
             else if (device.cpu && !options.cpuDevices)
-                timing.silence = "draws on the processor; --time-cpu-devices times it too";
+                timing.silence = "renders on the CPU; --time-cpu-devices times it too";
             else
                 try {
                     timeAll(device, rows, options, timing);

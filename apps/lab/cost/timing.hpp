@@ -1,4 +1,4 @@
-// How long the rows take, on devices with timestamps.
+// Measures the draw time of the rows on devices with timestamps.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,19 @@
 
 namespace cotan::cost {
 
-// A square of pixels, drawn in one draw.
+// A square of pixels, covered by one draw call.
 struct TimingCase {
-    int leg = 16;    // pixels: of right-angled triangles, two to a square
-    int samples = 1; // a pixel: 1, 2, 4, 8
-    int layers = 1;  // how often every pixel is shaded: nothing hides what is beneath
+    int leg = 16;    // pixels: legs of right-angled triangles, two of which form a square
+    int samples = 1; // per pixel: 1, 2, 4, 8
+    int layers = 1;  // how many times each pixel is shaded; there is no depth test
     int side = 1024; // pixels, a multiple of leg
 };
 
 struct TimedRow {
     std::string_view row;
     std::vector<double> nanosecondsPerMillionPixels; // medians, one per case; a pixel counts once per layer
-    std::vector<std::vector<double>> repeats;        // per case what the median is of: entry r of all rows is one turn
-    // One per case: of the mesh that is drawn. More where triangles own their provoking vertices
-    // (cotan/gpu_meshes.hpp).
+    std::vector<std::vector<double>> repeats;        // all measurements per case; entry r of all rows is from one round
+    // Vertices of the mesh drawn, per case; more if triangles own their provoking vertices (cotan/gpu_meshes.hpp).
     std::vector<std::uint32_t> vertices;
 };
 
@@ -36,29 +35,29 @@ struct SkippedCase {
 struct DeviceTiming {
     std::string name;
     std::string driver;
-    bool cpu = false;    // draws on the processor: says little about a GPU
-    std::string silence; // why there are no numbers; empty where there are
+    bool cpu = false;    // draws on the CPU: says little about a GPU
+    std::string silence; // why there are no numbers; empty if there are
     std::vector<TimingCase> cases;
     std::vector<SkippedCase> skipped;
     std::vector<TimedRow> rows;
 };
 
-// Right-angled triangles with legs of these many pixels, two to a square.
+// Legs, in pixels, of right-angled triangles of which two form a square.
 const std::vector<int>& triangleLegs();
-// One case for each.
+// One case per triangle size.
 std::vector<TimingCase> usualCases();
 
 struct TimingOptions {
     std::vector<std::string> devices; // as for machineCodeOfDevices
-    bool cpuDevices = false;          // time those too
-    int repeats = 15;                 // of which the median is taken
+    bool cpuDevices = false;          // time CPU devices too
+    int repeats = 15;                 // number of measurements, whose median is taken
     std::vector<TimingCase> cases = usualCases();
-    double seconds = std::numeric_limits<double>::infinity();   // cases that would end later are skipped
-    std::size_t most = std::numeric_limits<std::size_t>::max(); // devices: the first ones
+    double seconds = std::numeric_limits<double>::infinity();         // cases that would end later are skipped
+    std::size_t maxDevices = std::numeric_limits<std::size_t>::max(); // only the first ones are timed
 };
 
-// Draws each case with every row, all rows once per repeat, so that a drift of the clock meets all alike.
-// Errors: ErrorKind::unavailable where Vulkan cannot be used.
+// Draws each case with every row. Each repeat draws all rows once, so that clock drift affects all rows equally.
+// Errors: ErrorKind::unavailable if Vulkan cannot be used.
 Result<std::vector<DeviceTiming>> timeRows(const std::vector<const Row*>& rows, const TimingOptions& options);
 
 } // namespace cotan::cost

@@ -18,7 +18,7 @@ std::uint32_t memoryType(const Device& device, std::uint32_t allowed, vk::Memory
     for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
         if ((allowed >> i & 1u) && (memory.memoryTypes[i].propertyFlags & needed) == needed)
             return i;
-    throw std::runtime_error("the device has no memory of the kind that is needed");
+    throw std::runtime_error("the device has no memory of the required type");
 }
 
 } // namespace
@@ -59,9 +59,10 @@ Buffer makeDeviceBuffer(const Device& device, vk::BufferUsageFlags usage, const 
     return b;
 }
 
-Picture makePicture(const Device& device, vk::Format format, std::uint32_t size, vk::ImageUsageFlags usage, int samples)
+GpuImage makeGpuImage(const Device& device, vk::Format format, std::uint32_t size, vk::ImageUsageFlags usage,
+                      int samples)
 {
-    Picture p;
+    GpuImage p;
     vk::ImageCreateInfo info({}, vk::ImageType::e2D, format, {size, size, 1}, 1, 1, vk::SampleCountFlagBits(samples),
                              vk::ImageTiling::eOptimal, usage);
     p.image = vk::raii::Image(device.device, info);
@@ -98,7 +99,7 @@ Grid makeGrid(const Device& device, int leg, int side)
             indices.insert(indices.end(), {a, a + 1, b, b, a + 1, b + 1});
         }
     ProvokingMesh own = provokingMesh(indices, positions.size(), ProvokingVertex::first);
-    own.corners.resize(3 * std::max(own.sources.size(), own.indices.size() / 3)); // what those read that provoke none
+    own.corners.resize(3 * std::max(own.sources.size(), own.indices.size() / 3)); // for those that provoke none
     std::vector<std::uint32_t> all(positions.size());
     std::iota(all.begin(), all.end(), 0u);
     const auto triangles = packTriangles(triangleVectors({positions, normals, texcoords, indices}));

@@ -1,5 +1,5 @@
-// vulkan.hpp in the form used here: objects own themselves, no linked loader. It compiles slowly;
-// only the files that talk to the device include it.
+// Includes vulkan.hpp as used here: RAII objects, loader opened at run time. It compiles slowly, so only files that
+// talk to the device include it.
 #pragma once
 
 #define VK_NO_PROTOTYPES

@@ -1,4 +1,4 @@
-// Decoding: what zero is, two channels, and which way green points.
+// Decoding of normal maps: the encoding of zero, two channels, and the direction of green.
 #include <algorithm>
 #include <array>
 
@@ -24,7 +24,7 @@ Image flatMap()
     return image;
 }
 
-// An upright mirror of two charts side by side; the right one's texcoords run up, the left one's down.
+// An upright mirror of two charts side by side; v runs down on the left one and up on the right one.
 Scene mirrorScene(Expansion expansion)
 {
     Scene scene = sceneOf(makePatch(1, 0, false, 1), flatMap(), metal({0.9f, 0.9f, 0.9f}, 0));
@@ -37,7 +37,7 @@ Scene mirrorScene(Expansion expansion)
     return scene;
 }
 
-// Straight into the mirror, which shows the horizon of the environment. Nothing else gives light.
+// Looks straight into the mirror, which reflects the horizon of the environment. There are no other lights.
 View mirrorView(const FigureRenderer& studio)
 {
     Camera camera;
@@ -65,20 +65,20 @@ void addMirrors(FigureRenderer& studio, Figure& figure)
     const View view = mirrorView(studio);
     const Scene biased = mirrorScene(Expansion::biased), exact = mirrorScene(Expansion::exact);
     studio.show(exact);
-    Image exactPicture = studio.shaded(view, Frame::cotangent);
+    Image exactImage = studio.shaded(view, Frame::cotangent);
     const Image exactNormals = studio.normals(view, Frame::cotangent);
-    Image plain = exactNormals; // (0,0,1) wherever the mirror is
+    Image plain = exactNormals; // (0,0,1) on the whole mirror
     for (std::size_t i = 0; i < plain.pixelCount(); ++i)
         std::copy_n(kUpright.begin(), 3, plain.floats() + 4 * i);
     studio.show(biased);
-    Image biasedPicture = studio.shaded(view, Frame::cotangent);
+    Image biasedImage = studio.shaded(view, Frame::cotangent);
     figure.measures.push_back(
         {"flat texel 128, biased", compareNormals(studio.normals(view, Frame::cotangent), plain).degrees});
     figure.measures.push_back({"flat texel 128, exact", compareNormals(exactNormals, plain).degrees});
-    Image difference = differenceOf(biasedPicture, exactPicture, 8);
+    Image difference = differenceOf(biasedImage, exactImage, 8);
     figure.panels.push_back(
-        {"a-biased", "2c - 1", "Each half leans its own way: the horizon breaks.", std::move(biasedPicture)});
-    figure.panels.push_back({"b-exact", "(255c - 128)/127", "128 is zero: flat is flat.", std::move(exactPicture)});
+        {"a-biased", "2c - 1", "Each half tilts its own way: the horizon breaks.", std::move(biasedImage)});
+    figure.panels.push_back({"b-exact", "(255c - 128)/127", "128 is zero: flat is flat.", std::move(exactImage)});
     figure.panels.push_back({"c-difference", "difference of the two, 8 times", "", std::move(difference)});
 }
 
@@ -91,7 +91,7 @@ void addDomes(FigureRenderer& studio, Figure& figure)
         bool greenUp;
         const char *file, *label, *caption;
     } rows[] = {
-        {Channels::xyz, true, "d-three-channels", "three channels, green up", "As the map is meant."},
+        {Channels::xyz, true, "d-three-channels", "three channels, green up", "As the map was made."},
         {Channels::orthographic, true, "e-two-channels", "two channels", "Blue is not read; z comes from x and y."},
         {Channels::xyz, false, "f-green-wrong", "green the wrong way",
          "The same map read as green down: lit from the lower left, or dents."}};
@@ -116,12 +116,12 @@ Figure makeDecodeFigure(FigureRenderer& studio)
     figure.text = {
         "A flat mirror whose normal map is the flat texel (128, 128, 255) everywhere. Read as 2c - 1 no byte is zero: "
         "the mirror "
-        "leans by 0.32 degrees, the reflection by twice that. The right half's texture coordinates are mirrored, so "
-        "that it leans "
+        "tilts by 0.32 degrees, the reflection by twice that. The right half's texture coordinates are mirrored, so "
+        "it tilts "
         "the other way, and the horizon in the mirror breaks in the middle. Read as (255c - 128)/127, 128 is zero.",
-        "Below, an 8-bit map of domes: all three channels; x and y alone, z from their lengths; and with green read "
-        "the wrong "
-        "way, which turns the light round on every slope across."};
+        "Below, an 8-bit map of domes: with all three channels; with x and y only, z from unit length; and with green "
+        "read the wrong "
+        "way, which reverses the light on slopes that face up or down."};
     figure.measured = "Angles to the analytic normals; domes where they tilt by at least 5 degrees, 8-bit map.";
     addMirrors(studio, figure);
     addDomes(studio, figure);

@@ -1,4 +1,4 @@
-// Coarse meshes: frames that are constant in a triangle against frames averaged at the vertices.
+// Coarse meshes: frames that are constant per triangle compared with frames averaged at the vertices.
 #include <fmt/format.h>
 
 #include "figure.hpp"
@@ -22,7 +22,7 @@ Figure makeFacetingFigure(FigureRenderer& studio)
         "A sphere of {} by {} segments. The gradients of u and v are constant in a triangle, so the frame "
         "cotangent jumps at edges: facets. So does triangle, which has the same directions without screen "
         "derivatives. Cotangents averaged at the vertices (smooth) do not, and keep stretch and skew. MikkTSpace is "
-        "smooth too, but orthonormal: wrong wherever the latitudes shrink the texture. The facets halve with each "
+        "smooth too, but orthonormal: wrong wherever the texture shrinks with latitude. The facets halve with each "
         "doubling of the mesh; the orthonormal error stays.",
         kSegments, kSegments / 2)};
     figure.measured =

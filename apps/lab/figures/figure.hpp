@@ -1,4 +1,4 @@
-// The figures: each a function that draws and measures, in a table by name.
+// The figures, each made by a function that draws and measures.
 #pragma once
 
 #include <string>
@@ -13,19 +13,19 @@ namespace cotan::figures {
 class FigureRenderer;
 
 struct Panel {
-    std::string file; // the PNG's name without the figure's, as in "a-square"
+    std::string file; // name of the PNG without the figure's name, such as "a-square"
     std::string label;
     std::string caption;
     Image image; // unorm8
 };
 
-// A set of angles, in degrees. What they are between is said once in the figure.
+// Statistics of a set of angles in degrees; Figure::measured says between which directions.
 struct Measure {
     std::string name;
     AngleStatistics degrees;
 };
 
-// Another number, whose name says what it counts.
+// Another number; the name says what it counts.
 struct Number {
     std::string name;
     double value = 0;
@@ -33,13 +33,13 @@ struct Number {
 
 struct Figure {
     std::string title;
-    std::vector<std::string> text; // what it shows, in paragraphs
+    std::vector<std::string> text; // description, in paragraphs
     std::vector<Panel> panels;
-    std::vector<std::pair<std::size_t, std::size_t>> sliders; // panels: before, after
+    std::vector<std::pair<std::size_t, std::size_t>> sliders; // pairs of panels: before, after
     std::string measured;                                     // what the angles are between
     std::vector<Measure> measures;
     std::vector<Number> numbers;
-    std::pair<std::size_t, std::size_t> overview{0, 1}; // the two panels that stand for it
+    std::pair<std::size_t, std::size_t> overview{0, 1}; // the two panels of the overview sheet
 };
 
 Figure makeTeapotFigure(FigureRenderer& studio);

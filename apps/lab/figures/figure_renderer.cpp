@@ -13,7 +13,7 @@ void FigureRenderer::show(const Scene& scene)
         error_ = loaded.error();
 }
 
-Image FigureRenderer::kept(Result<Image> result, const View& view)
+Image FigureRenderer::orPlaceholder(Result<Image> result, const View& view)
 {
     if (result)
         return std::move(*result);
@@ -24,12 +24,12 @@ Image FigureRenderer::kept(Result<Image> result, const View& view)
 
 Image FigureRenderer::draw(const View& view)
 {
-    return kept(error_ ? Result<Image>(*error_) : renderer_.draw(view), view);
+    return orPlaceholder(error_ ? Result<Image>(*error_) : renderer_.draw(view), view);
 }
 
 Image FigureRenderer::drawReference(const View& view)
 {
-    return kept(error_ ? Result<Image>(*error_) : renderReference(*scene_, view, threads_), view);
+    return orPlaceholder(error_ ? Result<Image>(*error_) : renderReference(*scene_, view, threads_), view);
 }
 
 Image FigureRenderer::shaded(View view, Frame frame)

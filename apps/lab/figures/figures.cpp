@@ -19,7 +19,7 @@ namespace cotan::figures {
 namespace {
 
 struct FigureInfo {
-    std::string_view name; // as FiguresOptions::only has it, and the first word of its files
+    std::string_view name; // as in FiguresOptions::only; also the prefix of its file names
     Figure (*make)(FigureRenderer& studio);
 };
 
@@ -37,8 +37,8 @@ constexpr FigureInfo kFigures[] = {
     {"sparkle", makeSparkleFigure},
 };
 
-// The figures of these names, in the order of the table; all if there are none.
-Result<std::vector<FigureInfo>> chosen(const std::vector<std::string>& only)
+// Returns the figures with these names in the order of the table; all of them if `only` is empty.
+Result<std::vector<FigureInfo>> chosenFigures(const std::vector<std::string>& only)
 {
     std::vector<FigureInfo> figures;
     for (const std::string& word : only)
@@ -82,9 +82,9 @@ Json reportOf(std::string_view name, const Figure& figure)
     return json;
 }
 
-// Writes a figure's pictures and describes it for the page.
-Result<PageFigure> written(const std::filesystem::path& folder, const FiguresOptions& o, std::string_view name,
-                           const Figure& figure)
+// Writes a figure's images and describes the figure for the page.
+Result<PageFigure> writeFigure(const std::filesystem::path& folder, const FiguresOptions& o, std::string_view name,
+                               const Figure& figure)
 {
     PageFigure page;
     page.name = name;
@@ -110,14 +110,14 @@ Page emptyPage(const std::string& device)
     page.title = "Normal mapping without precomputed tangents: the figures";
     page.text = {
         "Figures 2.6.3 to 2.6.5 of C. Schueler's chapter of 2006 and others that its follow-up of 2013 and common "
-        "tutorials ask for, drawn anew and measured: every picture has beside it, in degrees, how far its normals are "
-        "from "
-        "what is right. Drag a slider to compare."};
+        "tutorials suggest, redrawn and measured: every image is captioned with the error of its normals, in "
+        "degrees. "
+        "Drag a slider to compare."};
     page.footer = fmt::format("Drawn on {}.", device);
     return page;
 }
 
-// Two panels of each figure, on one sheet.
+// A contact sheet with two panels of each figure.
 Image overviewOf(const std::vector<Figure>& figures, const FiguresOptions& o)
 {
     std::vector<const Image*> panels;
@@ -140,7 +140,7 @@ std::vector<std::string_view> figureNames()
 
 Result<Json> drawFigures(Renderer& renderer, const std::filesystem::path& folder, const FiguresOptions& o)
 {
-    const auto figures = chosen(o.only);
+    const auto figures = chosenFigures(o.only);
     if (!figures)
         return figures.error();
     FigureRenderer studio(renderer, o.threads, o.width, o.height);
@@ -152,7 +152,7 @@ Result<Json> drawFigures(Renderer& renderer, const std::filesystem::path& folder
         made.push_back(info.make(studio));
         if (studio.error())
             return *studio.error();
-        auto onPage = written(folder, o, info.name, made.back());
+        auto onPage = writeFigure(folder, o, info.name, made.back());
         if (!onPage)
             return onPage.error();
         page.figures.push_back(std::move(*onPage));

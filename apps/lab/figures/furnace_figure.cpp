@@ -1,4 +1,4 @@
-// What turned normals lose of light, and the two facets that lose none.
+// The light that perturbed normals lose, and the two-facet model that loses none.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -14,8 +14,8 @@ namespace cotan::figures {
 
 namespace {
 
-constexpr float kGrey = 0.5f;   // how bright the furnace is shown
-constexpr int kMaxPixels = 360; // a side: 64 walks each take their time
+constexpr float kGrey = 0.5f;   // linear brightness at which the furnace is displayed
+constexpr int kMaxPixels = 360; // maximum image side: each pixel takes 64 slow random walks
 
 Scene ballScene(Material material)
 {
@@ -37,19 +37,19 @@ View ballView(const FigureRenderer& studio, NormalMapping mapping)
     return view;
 }
 
-// As a screen shows it, not tone mapped.
-Image shown(const Image& linear)
+// Encodes linear values as sRGB without tone mapping.
+Image toDisplay(const Image& linear)
 {
-    Image picture = makeImage(linear.width, linear.height, PixelType::unorm8);
-    for (std::size_t i = 0; i < picture.data.size(); ++i) {
+    Image image = makeImage(linear.width, linear.height, PixelType::unorm8);
+    for (std::size_t i = 0; i < image.data.size(); ++i) {
         const float x = f32::cotan_saturate(linear.floats()[i]);
-        picture.bytes8()[i] = std::uint8_t(std::lround(255 * (i % 4 == 3 ? x : f32::cotan_linear_to_srgb(x))));
+        image.bytes8()[i] = std::uint8_t(std::lround(255 * (i % 4 == 3 ? x : f32::cotan_linear_to_srgb(x))));
     }
-    return picture;
+    return image;
 }
 
-// The share of the furnace's light that does not come back from where `normals` has a surface.
-double lost(const Image& linear, const Image& normals)
+// Fraction of the furnace's light that is lost where `normals` has a surface.
+double lostFraction(const Image& linear, const Image& normals)
 {
     double sum = 0, count = 0;
     for (std::size_t i = 0; i < linear.pixelCount(); ++i)
@@ -64,8 +64,8 @@ constexpr struct {
     NormalMapping mapping;
     const char *file, *label, *caption;
 } kModes[] = {
-    {NormalMapping::rays, "rays", "classic, by rays", "Rays that leave below the surface are lost."},
-    {NormalMapping::shadowed, "shadowed", "classic, shadowed", "Less of what grazes, so that no edge shows."},
+    {NormalMapping::rays, "rays", "classic, with rays", "Rays that leave below the surface are lost."},
+    {NormalMapping::shadowed, "shadowed", "classic, shadowed", "Less grazing light, so that no edge shows."},
     {NormalMapping::mirrorFacet, "mirror-facet", "two facets, the second a mirror", "The paper's own choice."},
     {NormalMapping::facets, "facets", "two facets of one material", "All bounces between them."}};
 
@@ -84,10 +84,10 @@ void addFurnace(FigureRenderer& studio, Figure& figure)
         view.exposure = kGrey;
         const Image linear = studio.drawReference(view);
         view.output = Output::normal;
-        const double share = lost(linear, studio.drawReference(view));
+        const double fraction = lostFraction(linear, studio.drawReference(view));
         figure.panels.push_back({std::string("furnace-") + mode.file, std::string(mode.label) + ", white furnace",
-                                 fmt::format("{} Lost: {:.1f} %.", mode.caption, 100 * share), shown(linear)});
-        figure.numbers.push_back({std::string(mode.file) + ", light lost in a white furnace, %", 100 * share});
+                                 fmt::format("{} Lost: {:.1f} %.", mode.caption, 100 * fraction), toDisplay(linear)});
+        figure.numbers.push_back({std::string(mode.file) + ", light lost in a white furnace, %", 100 * fraction});
     }
 }
 
@@ -95,7 +95,7 @@ void addLit(FigureRenderer& studio, Figure& figure)
 {
     const Scene scene = ballScene(metal({0.95f, 0.72f, 0.45f}, 0.35f));
     studio.show(scene);
-    figure.panels.push_back({"lit-shading", "classic, as it is shaded", "Lights and the environment meet the normal.",
+    figure.panels.push_back({"lit-shading", "classic, as shaded", "Lights and the environment meet the normal.",
                              studio.drawReference(ballView(studio, NormalMapping::shading))});
     for (const auto& mode : kModes)
         figure.panels.push_back({std::string("lit-") + mode.file, mode.label, mode.caption,
@@ -107,15 +107,15 @@ void addLit(FigureRenderer& studio, Figure& figure)
 Figure makeFurnaceFigure(FigureRenderer& studio)
 {
     Figure figure;
-    figure.title = "What turned normals lose of light";
+    figure.title = "Light lost by perturbed normals";
     figure.text = {
-        "A white ball in light that comes from all around alike: what loses nothing cannot be seen. A turned normal "
-        "mirrors some rays to below the surface, where there is no light, and most of all at the rim. V. Schuessler "
+        "A white ball in uniform light: where no light is lost, the ball is invisible. A perturbed normal "
+        "reflects some rays below the surface, where there is no light, most of all at the rim. V. Schuessler "
         "and "
-        "others (2017) put two facets in its place: one as the map says, one upright that makes up for it, so that "
-        "both together are as level as the surface. A ray goes from one to the other until it leaves.",
-        "Below, a rough metal under a lamp and a sky. Facets are a surface, not a turned normal: they look softer at "
-        "the rim. All by the reference renderer."};
+        "others (2017) replace it by two facets: one along the map's normal and one upright that compensates, so that "
+        "their mean is the normal of the surface. A ray bounces between them until it leaves.",
+        "Below, a rough metal under a lamp and a sky. Facets are a surface, not a perturbed normal: they look softer "
+        "at the rim. All by the reference renderer."};
     addFurnace(studio, figure);
     addLit(studio, figure);
     figure.sliders = {{0, 3}, {4, 8}};

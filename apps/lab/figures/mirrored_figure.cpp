@@ -1,4 +1,4 @@
-// Mirrored texture coordinates, and the sign that a stored tangent needs for them.
+// Mirrored texture coordinates, and the sign that stored tangents need for them.
 #include <algorithm>
 #include <iterator>
 
@@ -26,7 +26,7 @@ Scene sphereScene(bool mirrored, const Image& map)
     return sceneOf(std::move(mesh), map, dielectric({0.30f, 0.13f, 0.02f}, 0.4f));
 }
 
-// The relief over the sphere's own, unmirrored texcoords: the right half is the left one's image.
+// The relief in the sphere's unmirrored texcoords: the right half mirrors the left half.
 HeightSample mirroredDomes(double u, double v)
 {
     if (u <= kMirrorRepeatU / 2)
@@ -45,7 +45,7 @@ Figure makeMirroredFigure(FigureRenderer& studio)
     figure.text = {
         "The right half of the sphere shows the left half's image mirrored, as artists do to save texture space. The "
         "frame made in the pixel sees it in the derivatives; nothing is stored and no vertex is split. Tangents stored "
-        "at the vertices need a sign beside them: without it, the mirrored half is lit from below."};
+        "at the vertices also need a sign: without it, the mirrored half is lit from below."};
     figure.measured = "Angles to the analytic normals, within 75 degrees of the equator.";
     Camera camera = frontal(2.1f);
     const View view = squareView(studio, camera);
@@ -59,7 +59,7 @@ Figure makeMirroredFigure(FigureRenderer& studio)
     const Scene mirrored = sphereScene(true, map);
     Scene signless = withVertexFrames(mirrored, Frame::vertex);
     const Scene signedTangents = signless;
-    // The left half is not mirrored; its sign is what a program without one has built in.
+    // The left half is not mirrored; its sign is what a program without signs would assume everywhere.
     const float sign = signless.meshes[0].tangents[0].w;
     for (glm::vec4& tangent : signless.meshes[0].tangents)
         tangent.w = sign;

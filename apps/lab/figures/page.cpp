@@ -34,7 +34,7 @@ td + td { text-align: right; }
 .ends span + span { text-align: right; }
 )";
 
-// A slider is an empty element until this fills it from the two pictures that it names.
+// Sliders are empty elements that this script fills with the two images they name.
 constexpr std::string_view kScript = R"(
 for (const slider of document.querySelectorAll('.slider')) {
   const pictures = [slider.dataset.before, slider.dataset.after].map(id => document.getElementById(id));

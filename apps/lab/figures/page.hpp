@@ -1,4 +1,4 @@
-// A page of pictures: one HTML file that needs no other and no network.
+// A page of images as one HTML file, which needs no other file and no network.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace cotan {
 
 struct PagePanel {
     std::string file;    // name of the PNG beside the page
-    std::string label;   // a few words, also for those who cannot see the picture
+    std::string label;   // a few words; also the alternative text of the image
     std::string caption; // one or two sentences; may be empty
     std::string png;     // the bytes of the PNG
     int width = 0;       // pixels
@@ -28,9 +28,9 @@ struct PageFigure {
     std::string name; // unique in the page
     std::string title;
     std::vector<std::string> text; // paragraphs
-    std::string command;           // the command line that makes it
+    std::string command;           // the command line that makes the figure
     std::vector<PagePanel> panels;
-    std::vector<std::pair<std::size_t, std::size_t>> sliders; // panels of one size: before, after
+    std::vector<std::pair<std::size_t, std::size_t>> sliders; // pairs of panels of one size: before, after
     std::vector<PageTable> tables;
 };
 
@@ -41,8 +41,8 @@ struct Page {
     std::string footer;
 };
 
-// The page. Every picture is inside it once, as a data URI; before and after are compared with a
-// slider, which a few lines of script make from two of the pictures: without script they stand side by side.
+// Returns the page. It contains each image once, as a data URI. A short script makes a before-and-after slider from
+// pairs of images; without scripts the images are shown side by side.
 std::string toHtml(const Page& page);
 
 } // namespace cotan

@@ -1,4 +1,4 @@
-// Figure 2.6.4 of the 2006 chapter: embossed dots on square, stretched and sheared texture.
+// Figure 2.6.4 of the 2006 chapter: embossed dots with square, stretched and sheared texture.
 #include <fmt/format.h>
 
 #include "figure.hpp"
@@ -9,10 +9,10 @@ namespace cotan::figures {
 
 namespace {
 
-// With stretches by whole numbers and shears by 0 or 1 every layout shows whole dots only, or parts
-// that complete one another: the means over the picture are those over one dot.
+// With integer stretches and shears of 0 or 1, every layout shows only whole dots or parts that complete one another,
+// so that means over the image equal those over one dot.
 constexpr double kRepeat = 1.5;
-constexpr double kMinTilt = 5; // degrees: the flat ground between the dots would dilute the mean
+constexpr double kMinTilt = 5; // degrees: the flat ground between the dots would lower the mean
 
 struct PatchLayout {
     const char* name;
@@ -27,7 +27,7 @@ Scene patchScene(const PatchLayout& layout, const Image& map)
     return sceneOf(std::move(mesh), map, dielectric({0.045f, 0.09f, 0.17f}, 0.36f));
 }
 
-// Angles between what each frame draws and the analytic normals, for one layout.
+// Measures the angles between the normals that each frame draws and the analytic ones, for one layout.
 void measureLayout(FigureRenderer& studio, const PatchLayout& layout, const View& view, Figure& figure)
 {
     const Image uv = studio.vectors(view, Frame::exact, Output::uv);
@@ -50,7 +50,7 @@ Figure makePatchFigure(FigureRenderer& studio)
         "square on the patch every frame is right. Stretched 2:1 and sheared by 45 degrees in texture coordinates, "
         "an orthonormal frame still tilts each normal as if the dots were round: highlights leave the light's "
         "side of the dots. The general frame follows the gradients of u and v. With t and b each at unit length "
-        "the shear is followed and the stretch is not: a little off, as the chapter says, where it is sheared; "
+        "the frame follows the shear but not the stretch: slightly wrong where sheared, as the chapter says; "
         "on pure stretch as wrong as the orthonormal frame."};
     figure.measured = "Angles to the analytic normals, over pixels tilted by at least 5 degrees. Flat, orthographic, "
                       "16-bit map.";

@@ -1,4 +1,4 @@
-// Figure 2.6.5 of the 2006 chapter: what leaving out the inverse transpose costs, and why.
+// Figure 2.6.5 of the 2006 chapter: the error of leaving out the inverse transpose, and its cause.
 #include <cmath>
 #include <numbers>
 
@@ -18,11 +18,11 @@ namespace cotan::figures {
 
 namespace {
 
-constexpr float kTurn = 30; // degrees by which the texture is turned on the plane
-constexpr float kTilt = 60; // of the orthographic plane, degrees
+constexpr float kRotation = 30; // rotation of the texture on the plane, degrees
+constexpr float kTilt = 60;     // tilt of the orthographic plane, degrees
 
-// Turns the texture on the surface.
-void turnTexture(Texture& texture, float degrees)
+// Rotates the texture on the surface.
+void rotateTexture(Texture& texture, float degrees)
 {
     const float c = std::cos(glm::radians(degrees)), s = std::sin(glm::radians(degrees));
     texture.uRow = {c, -s, 0};
@@ -32,13 +32,13 @@ void turnTexture(Texture& texture, float degrees)
 Scene planeScene(Mesh mesh, const glm::mat4& toWorld)
 {
     Scene scene = sceneOf(std::move(mesh), makeReliefMap(Relief::domes, 512), dielectric({0.045f, 0.09f, 0.17f}, 0.4f));
-    turnTexture(scene.materials[0].normalMap, kTurn);
+    rotateTexture(scene.materials[0].normalMap, kRotation);
     scene.materials[0].normalMap.sampler.mip = MipFilter::linear; // the plane runs to the horizon
     scene.instances[0].toWorld = toWorld;
     return scene;
 }
 
-// One unit above the floor, half downwards: from right below to close to the horizon.
+// One unit above the floor, looking 45 degrees down: the view reaches from nearly straight down to near the horizon.
 Camera lowCamera()
 {
     Camera camera;
@@ -51,7 +51,7 @@ Camera lowCamera()
 View planeView(const FigureRenderer& studio, const Camera& camera)
 {
     View view = wideView(studio, camera);
-    view.environment = false; // the sky in the floor would drown the dots
+    view.environment = false; // the sky reflected in the floor would hide the dots
     Light fill;
     fill.intensity = 0.9f;
     view.lights = {behindLeft(), fill};
@@ -59,7 +59,7 @@ View planeView(const FigureRenderer& studio, const Camera& camera)
     return view;
 }
 
-// The part of a picture of angles where the depth lies in a range.
+// Statistics of the angles at pixels with nearest <= depth < farthest.
 AngleStatistics withinDepth(std::vector<float> degrees, const Image& depth, float nearest, float farthest)
 {
     for (std::size_t i = 0; i < degrees.size(); ++i) {
@@ -70,8 +70,8 @@ AngleStatistics withinDepth(std::vector<float> degrees, const Image& depth, floa
     return angleStatistics(degrees);
 }
 
-// Both frames on a plane tilted about the x axis under an orthographic camera, for a texel tilted by
-// 35 degrees: over its azimuths and the turns of the texture. No picture; the formulas alone.
+// Angles between both frames on a plane tilted about the x axis under an orthographic camera, for a texel tilted by 35
+// degrees, over its azimuths and the rotations of the texture. Evaluates the formulas alone, without drawing.
 AngleStatistics sweep(double tilt)
 {
     using Vec3 = glm::dvec3;
@@ -79,10 +79,10 @@ AngleStatistics sweep(double tilt)
     constexpr double kDegree = std::numbers::pi / 180, kMapTilt = 35 * kDegree;
     const Vec3 along(1, 0, 0), up(0, std::cos(tilt * kDegree), std::sin(tilt * kDegree));
     const Vec3 n = glm::cross(along, up);
-    const Vec3 dpdx = along, dpdy = up / up.y; // one pixel to the right, one up
+    const Vec3 dpdx = along, dpdy = up / up.y; // one pixel to the right, one pixel up
     std::vector<float> degrees;
-    for (int turn = 0; turn < kSteps; ++turn) {
-        const double a = (turn + 0.5) * 2 * std::numbers::pi / kSteps;
+    for (int rotation = 0; rotation < kSteps; ++rotation) {
+        const double a = (rotation + 0.5) * 2 * std::numbers::pi / kSteps;
         const Vec3 u = along * std::cos(a) + up * std::sin(a), v = up * std::cos(a) - along * std::sin(a);
         const glm::dvec2 duvdx(glm::dot(u, dpdx), glm::dot(v, dpdx)), duvdy(glm::dot(u, dpdy), glm::dot(v, dpdy));
         const auto right = evaluate(Frame::paperTranspose, n, dpdx, dpdy, duvdx, duvdy);
@@ -97,14 +97,14 @@ AngleStatistics sweep(double tilt)
     return angleStatistics(degrees);
 }
 
-// Draws both frames and the angle between them.
+// Draws both frames and the angles between them; returns the angles.
 std::vector<float> addTriple(FigureRenderer& studio, const View& view, const std::string& file, const std::string& what,
                              Figure& figure)
 {
     figure.panels.push_back({file + "-transpose", what + ", (A) paper-transpose", "Two crosses: the inverse transpose.",
                              studio.shaded(view, Frame::paperTranspose)});
     figure.panels.push_back({file + "-orthogonal", what + ", (B) paper-orthogonal",
-                             "Edges in place of their perpendiculars.", studio.shaded(view, Frame::paperOrthogonal)});
+                             "Edges instead of their perpendiculars.", studio.shaded(view, Frame::paperOrthogonal)});
     std::vector<float> degrees =
         anglesBetween(studio.normals(view, Frame::paperTranspose), studio.normals(view, Frame::paperOrthogonal));
     figure.panels.push_back({file + "-angle", what + ", angle between (A) and (B)",
@@ -120,18 +120,18 @@ Figure makePlaneFigure(FigureRenderer& studio)
     Figure figure;
     figure.title = "2.6.5: foreshortening, not perspective";
     figure.text = {
-        "The last optimisation of the chapter takes the matrix of the edges to be orthogonal and leaves out the "
+        "The last optimisation of the chapter assumes that the matrix of the edges is orthogonal and omits the "
         "inverse transpose. On a plane in perspective the two agree in part of the foreground and part towards the "
         "horizon: highlights slide off the dots and their relief flattens. (Far away the angles shrink again, because "
         "there "
         "the filtered map is flat.)",
-        "The chapter puts it down to perspective. The second plane is drawn without any: an orthographic camera, the "
+        "The chapter attributes this to perspective. The second plane is drawn without: an orthographic camera, the "
         "plane "
-        "tilted by 60 degrees. The error is the same on every dot, and as large. What breaks the short cut is "
+        "tilted by 60 degrees. The error is the same on every dot, and as large. What breaks the shortcut is "
         "foreshortening; it is exact only where the surface faces the camera."};
     figure.measured =
-        "Angles between paper-transpose, which is right here, and paper-orthogonal. The texture is turned by "
-        "30 degrees. Rows by tilt: the formulas alone, a texel tilted by 35 degrees, over all azimuths and turns "
+        "Angles between paper-transpose, which is right here, and paper-orthogonal. The texture is rotated by "
+        "30 degrees. Rows by tilt: the formulas alone, a texel tilted by 35 degrees, over all azimuths and rotations "
         "of the texture.";
 
     const Scene floor = planeScene(makePlane(80, 40, 80), glm::mat4(1));
@@ -151,11 +151,11 @@ Figure makePlaneFigure(FigureRenderer& studio)
     studio.show(plane);
     const View orthographic = planeView(studio, frontal(1.3f));
     const auto tiltDegrees = addTriple(studio, orthographic, "orthographic", "Orthographic, tilted 60 degrees", figure);
-    figure.measures.push_back({"orthographic, 60 degrees, the dots of the picture", angleStatistics(tiltDegrees)});
+    figure.measures.push_back({"orthographic, 60 degrees, as drawn", angleStatistics(tiltDegrees)});
     for (int tilt : {0, 10, 20, 30, 45, 60, 70, 80})
         figure.measures.push_back({fmt::format("orthographic, {} degrees, formula", tilt), sweep(tilt)});
-    addError(figure, 1, "perspective, 1.2 to 3", "At depths of 1.2 to 3 eye heights it is off");
-    addError(figure, 4, "orthographic, 60 degrees, the dots of the picture", "It is off");
+    addError(figure, 1, "perspective, 1.2 to 3", "Error at depths of 1.2 to 3 eye heights");
+    addError(figure, 4, "orthographic, 60 degrees, as drawn", "Error");
     figure.sliders = {{0, 1}, {3, 4}};
     return figure;
 }

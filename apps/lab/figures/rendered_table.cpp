@@ -10,9 +10,9 @@ namespace cotan::figures {
 
 namespace {
 
-constexpr int kSide = 384; // pixels
+constexpr int kSide = 384; // image side in pixels
 
-// What is drawn: flat patches of two cells, curved surfaces of three densities.
+// A surface and its tessellations: flat patches of two cells, curved surfaces in three densities.
 struct Subject {
     Surface surface;
     std::vector<int> segments;
@@ -29,24 +29,24 @@ std::vector<Subject> subjects(const AccuracySelection& selection)
     return list;
 }
 
-// Frames that one upload serves: `vertex` and `mikktspace` use the same attribute, and `gradient`
-// another strength of the map.
+// Frames drawn with one upload of the scene. `vertex` and `mikktspace` use the same attribute, so they are in different
+// groups; `gradient` needs another strength of the map.
 using FrameGroup = std::vector<Frame>;
 
 std::vector<FrameGroup> frameGroups(const AccuracySelection& selection)
 {
-    FrameGroup most, vertex, gradient;
+    FrameGroup others, vertex, gradient;
     for (const FrameInfo& f : frames())
         if (selection.wants(f.frame))
-            (f.frame == Frame::vertex ? vertex : f.frame == Frame::gradient ? gradient : most).push_back(f.frame);
+            (f.frame == Frame::vertex ? vertex : f.frame == Frame::gradient ? gradient : others).push_back(f.frame);
     std::vector<FrameGroup> groups;
-    for (FrameGroup* group : {&most, &vertex, &gradient})
+    for (FrameGroup* group : {&others, &vertex, &gradient})
         if (!group->empty())
             groups.push_back(std::move(*group));
     return groups;
 }
 
-// One frame over all cameras.
+// Angles of one frame over all cameras.
 Result<Measurement> drawn(Renderer& renderer, const PaintedScene& painted, Frame frame, Measurement names)
 {
     AngleCollector angles;

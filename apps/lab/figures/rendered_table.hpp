@@ -1,4 +1,4 @@
-// The table `rendered` of `cotan accuracy`: the curved surfaces drawn by a device.
+// The table `rendered` of `cotan accuracy`: curved surfaces drawn by a device.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,8 @@
 
 namespace cotan::figures {
 
-// Draws every surface at some tessellations with every frame, reads normals and uv back, and
-// compares with the analytic truth. The rows' arithmetic is "vulkan" or "reference".
-// Errors: those of the renderer; ErrorKind::stopped.
+// Draws every surface in some tessellations with every frame, reads back normals and uv, and compares them with the
+// analytic truth. The rows' arithmetic is "vulkan" or "reference". Errors: those of the renderer; ErrorKind::stopped.
 Result<std::vector<Measurement>> measureRendered(Renderer& renderer, const AccuracySelection& selection,
                                                  const Progress& progress = {});
 

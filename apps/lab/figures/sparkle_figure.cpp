@@ -1,4 +1,4 @@
-// Highlights smaller than a pixel: one sample a pixel, with and without antialiasing, beside 256 samples.
+// Highlights smaller than a pixel: one sample per pixel with and without antialiasing, compared with 256 samples.
 #include <algorithm>
 #include <cmath>
 
@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "figure.hpp"
-#include "scene/picture_text.hpp"
+#include "scene/render_text.hpp"
 #include "stage.hpp"
 #include "truth/grain.hpp"
 
@@ -14,9 +14,9 @@ namespace cotan::figures {
 
 namespace {
 
-constexpr int kFiner = 16;     // samples along a side of a pixel, in the truth
-constexpr int kEnlarged = 3;   // pixels of a panel along a side of one that was drawn
-constexpr int kMaxDrawn = 160; // pixels that are drawn, a side: the truth takes 256 times as much memory
+constexpr int kSamplesPerSide = 16; // samples along a side of a pixel in the ground truth
+constexpr int kMagnification = 3;   // panel pixels along a side of a drawn pixel
+constexpr int kMaxDrawn = 160;      // maximum side of a drawn image: the ground truth takes 256 times its memory
 
 Scene sparkling(Image map)
 {
@@ -43,12 +43,12 @@ View sparklingView(int side)
 
 Image averaged(const Image& fine)
 {
-    Image out = makeImage(fine.width / kFiner, fine.height / kFiner, PixelType::float32);
-    for (int y = 0; y < out.height * kFiner; ++y)
-        for (int x = 0; x < out.width * kFiner; ++x)
+    Image out = makeImage(fine.width / kSamplesPerSide, fine.height / kSamplesPerSide, PixelType::float32);
+    for (int y = 0; y < out.height * kSamplesPerSide; ++y)
+        for (int x = 0; x < out.width * kSamplesPerSide; ++x)
             for (int c = 0; c < 4; ++c)
-                out.floats()[(y / kFiner * out.width + x / kFiner) * 4 + c] +=
-                    fine.floats()[(y * fine.width + x) * 4 + c] / float(kFiner * kFiner);
+                out.floats()[(y / kSamplesPerSide * out.width + x / kSamplesPerSide) * 4 + c] +=
+                    fine.floats()[(y * fine.width + x) * 4 + c] / float(kSamplesPerSide * kSamplesPerSide);
     return out;
 }
 
@@ -60,10 +60,10 @@ glm::vec3 colorOf(const Image& linear, std::size_t pixel)
 
 Image enlarged(const Image& linear)
 {
-    Image out = makeImage(linear.width * kEnlarged, linear.height * kEnlarged, PixelType::unorm8);
+    Image out = makeImage(linear.width * kMagnification, linear.height * kMagnification, PixelType::unorm8);
     for (int y = 0; y < out.height; ++y)
         for (int x = 0; x < out.width; ++x) {
-            const glm::vec3 c = colorOf(linear, std::size_t(y / kEnlarged * linear.width + x / kEnlarged));
+            const glm::vec3 c = colorOf(linear, std::size_t(y / kMagnification * linear.width + x / kMagnification));
             std::uint8_t* const p = out.bytes8() + 4 * (y * out.width + x);
             for (int k = 0; k < 3; ++k)
                 p[k] = std::uint8_t(std::lround(255 * f32::cotan_linear_to_srgb(c[k])));
@@ -72,7 +72,7 @@ Image enlarged(const Image& linear)
     return out;
 }
 
-// Root mean square of what is shown.
+// Root mean square difference of the displayed colours.
 double error(const Image& a, const Image& b)
 {
     double sum = 0;
@@ -86,11 +86,11 @@ double error(const Image& a, const Image& b)
 void addRow(FigureRenderer& studio, Figure& figure, const std::string& name, Image map)
 {
     const Scene scene = sparkling(std::move(map));
-    Scene finest = scene; // smaller levels of the map would have lost what is looked for
+    Scene finest = scene; // smaller levels of the map would have lost the detail in question
     finest.materials[0].normalMap.sampler.mip = MipFilter::none;
     studio.show(finest);
-    const int side = std::clamp(studio.height() / kEnlarged, 8, kMaxDrawn);
-    const Image truth = averaged(studio.drawReference(sparklingView(side * kFiner)));
+    const int side = std::clamp(studio.height() / kMagnification, 8, kMaxDrawn);
+    const Image truth = averaged(studio.drawReference(sparklingView(side * kSamplesPerSide)));
     studio.show(scene);
     View view = sparklingView(side);
     const Image without = studio.drawReference(view);
@@ -98,10 +98,10 @@ void addRow(FigureRenderer& studio, Figure& figure, const std::string& name, Ima
     const Image with = studio.drawReference(view);
     const double before = error(without, truth), after = error(with, truth);
     figure.panels.push_back(
-        {name + "-none", name + ", one sample a pixel", fmt::format("Error {:.3f}.", before), enlarged(without)});
+        {name + "-none", name + ", one sample per pixel", fmt::format("Error {:.3f}.", before), enlarged(without)});
     figure.panels.push_back({name + "-antialiased", name + ", with --specular-antialiasing",
-                             fmt::format("Error {:.3f}: {:.2f} of the other.", after, after / before), enlarged(with)});
-    figure.panels.push_back({name + "-truth", name + ", 256 samples a pixel", "", enlarged(truth)});
+                             fmt::format("Error {:.3f}: {:.2f} times that.", after, after / before), enlarged(with)});
+    figure.panels.push_back({name + "-truth", name + ", 256 samples per pixel", "", enlarged(truth)});
     figure.numbers.push_back({name + ", error without", before});
     figure.numbers.push_back({name + ", error with", after});
 }
@@ -112,11 +112,11 @@ Figure makeSparkleFigure(FigureRenderer& studio)
 {
     Figure figure;
     figure.title = "Highlights smaller than a pixel";
-    figure.text = {"A metal ring with a normal map of grain, and one with domes, many texels in a pixel; each pixel "
-                   "enlarged. Averaged normals have too few highlights and these too bright. With specular "
-                   "antialiasing 16 to 256 places in the pixel are lit, the more the sharper the highlight, each as "
-                   "rough as the lost length of its normal says. Errors are root mean squares of what is shown. All by "
-                   "the reference renderer."};
+    figure.text = {"A metal ring with a normal map of grain, and one with domes, many texels per pixel; pixels are "
+                   "enlarged. Averaged normals give too few highlights, which are too bright. Specular antialiasing "
+                   "lights 16 to 256 points of each pixel, more for sharper highlights, each with the roughness that "
+                   "follows from the lost length of its normal. Errors are root mean squares of displayed colours. All "
+                   "by the reference renderer."};
     addRow(studio, figure, "grain", makeGrain(0.135));
     addRow(studio, figure, "domes", makeReliefMap(Relief::domes, 256));
     figure.sliders = {{0, 1}, {3, 4}};

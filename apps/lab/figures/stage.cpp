@@ -96,18 +96,18 @@ View squareView(const FigureRenderer& studio, const Camera& camera)
     return view;
 }
 
-void pasteInset(Image& picture, const Image& inset)
+void pasteInset(Image& image, const Image& inset)
 {
-    const int border = std::max(picture.height / 160, 1);
-    const int x0 = picture.width - inset.width - border;
-    const int y0 = picture.height - inset.height - border;
+    const int border = std::max(image.height / 160, 1);
+    const int x0 = image.width - inset.width - border;
+    const int y0 = image.height - inset.height - border;
     for (int y = -border; y < inset.height + border; ++y)
         for (int x = -border; x < inset.width + border; ++x) {
             const int px = x0 + x, py = y0 + y;
-            if (px < 0 || py < 0 || px >= picture.width || py >= picture.height)
+            if (px < 0 || py < 0 || px >= image.width || py >= image.height)
                 continue;
             const bool inside = x >= 0 && y >= 0 && x < inset.width && y < inset.height;
-            std::uint8_t* to = picture.bytes8() + 4 * (std::ptrdiff_t(py) * picture.width + px);
+            std::uint8_t* to = image.bytes8() + 4 * (std::ptrdiff_t(py) * image.width + px);
             for (int c = 0; c < 4; ++c)
                 to[c] = inside ? inset.bytes8()[4 * (std::ptrdiff_t(y) * inset.width + x) + c] : 255;
         }
@@ -139,7 +139,7 @@ Levels levelsBetween(const Image& a, const Image& b)
 
 namespace {
 
-// The mean of a box of pixels, in [0,255].
+// Mean of a box of pixels, in [0,255].
 glm::vec4 boxMean(const Image& image, glm::dvec2 low, glm::dvec2 high)
 {
     const int x0 = int(low.x), y0 = int(low.y);
@@ -153,15 +153,15 @@ glm::vec4 boxMean(const Image& image, glm::dvec2 low, glm::dvec2 high)
     return sum / float((x1 - x0) * (y1 - y0));
 }
 
-// Shrinks a picture into a rectangle of the sheet, centred, its shape kept.
-void place(Image& sheet, const Image& picture, int x0, int y0, int width, int height)
+// Shrinks an image into a rectangle of the sheet, centred, keeping its aspect ratio.
+void pasteScaled(Image& sheet, const Image& image, int x0, int y0, int width, int height)
 {
-    const double scale = std::max(double(picture.width) / width, double(picture.height) / height);
-    const int w = std::clamp(int(picture.width / scale), 1, width);
-    const int h = std::clamp(int(picture.height / scale), 1, height);
+    const double scale = std::max(double(image.width) / width, double(image.height) / height);
+    const int w = std::clamp(int(image.width / scale), 1, width);
+    const int h = std::clamp(int(image.height / scale), 1, height);
     for (int y = 0; y < h; ++y)
         for (int x = 0; x < w; ++x) {
-            const glm::vec4 mean = boxMean(picture, glm::dvec2(x, y) * scale, glm::dvec2(x + 1, y + 1) * scale);
+            const glm::vec4 mean = boxMean(image, glm::dvec2(x, y) * scale, glm::dvec2(x + 1, y + 1) * scale);
             const int px = x0 + (width - w) / 2 + x, py = y0 + (height - h) / 2 + y;
             std::uint8_t* to = sheet.bytes8() + 4 * (std::ptrdiff_t(py) * sheet.width + px);
             for (int c = 0; c < 3; ++c)
@@ -171,10 +171,10 @@ void place(Image& sheet, const Image& picture, int x0, int y0, int width, int he
 
 } // namespace
 
-Image contactSheet(const std::vector<const Image*>& pictures, int columns, int cellWidth, int cellHeight)
+Image contactSheet(const std::vector<const Image*>& images, int columns, int cellWidth, int cellHeight)
 {
     constexpr int kGap = 6;
-    const int count = int(pictures.size());
+    const int count = int(images.size());
     const int rows = (count + columns - 1) / columns;
     Image sheet = makeImage(columns * (cellWidth + kGap) + kGap, rows * (cellHeight + kGap) + kGap, PixelType::unorm8,
                             "overview");
@@ -182,8 +182,8 @@ Image contactSheet(const std::vector<const Image*>& pictures, int columns, int c
     for (std::size_t i = 0; i < sheet.pixelCount(); ++i)
         sheet.bytes8()[4 * i + 3] = 255;
     for (int i = 0; i < count; ++i)
-        place(sheet, *pictures[std::size_t(i)], kGap + i % columns * (cellWidth + kGap),
-              kGap + i / columns * (cellHeight + kGap), cellWidth, cellHeight);
+        pasteScaled(sheet, *images[std::size_t(i)], kGap + i % columns * (cellWidth + kGap),
+                    kGap + i / columns * (cellHeight + kGap), cellWidth, cellHeight);
     return sheet;
 }
 

@@ -1,4 +1,4 @@
-// Scenes, lights and cameras that the figures share, and pictures made of pictures.
+// Scenes, lights and cameras shared by the figures, and functions that combine images.
 #pragma once
 
 #include <vector>
@@ -8,44 +8,44 @@
 
 namespace cotan::figures {
 
-// One mesh with one material, whose normal map is `map`. Level 0 only and no averaging, so that what
-// is drawn can be compared with the map's mathematics at each pixel.
+// A scene of one mesh with one material, whose normal map is `map`. Without mips and averaging, so that each pixel can
+// be compared with the mathematical surface.
 Scene sceneOf(Mesh mesh, Image map, Material material);
 
-// A rough dielectric, or a metal, of that colour.
+// A rough dielectric or metal of the given colour.
 Material dielectric(glm::vec3 linearColor, float roughness);
 Material metal(glm::vec3 linearColor, float roughness);
 
-// The scene with the vertex attributes that the frame reads.
+// Returns the scene with the vertex attributes that the frame reads.
 Scene withVertexFrames(Scene scene, Frame frame);
 
 void scaleTexcoords(Mesh& mesh, float u, float v);
 
-// From the upper left, in front; and from behind, as is natural over a floor.
+// Lights from the upper left in front, and from the upper left behind, as is natural over a floor.
 Light upperLeft();
 Light behindLeft();
 
-// Looks along -z at the origin, orthographic; extent: world units from bottom to top.
+// An orthographic camera that looks along -z at the origin. extent: world units from bottom to top.
 Camera frontal(float extent);
 
-// A panel's view: Blinn-Phong, upperLeft(), no shadows.
+// Views of a panel: Blinn-Phong, upperLeft(), no shadows.
 View squareView(const FigureRenderer& studio, const Camera& camera);
 View wideView(const FigureRenderer& studio, const Camera& camera);
 
-// Draws `inset` into the lower right corner of `picture`, with a frame around it. Both unorm8.
-void pasteInset(Image& picture, const Image& inset);
+// Draws `inset` with a frame around it into the lower right corner of `image`. Both are unorm8.
+void pasteInset(Image& image, const Image& inset);
 
-// |a - b| * factor per channel, opaque. Both unorm8, of one size.
+// |a - b| * factor per channel, opaque. Both images are unorm8 and have the same size.
 Image differenceOf(const Image& a, const Image& b, int factor);
 
-// The mean over pixels of the largest channel's |a - b|, in levels of 255, and the largest of all.
+// Differences in levels of 255, each the largest of the channels: the mean over all pixels, and the maximum.
 struct Levels {
     double mean = 0;
     int maximum = 0;
 };
 Levels levelsBetween(const Image& a, const Image& b);
 
-// All pictures in a grid with so many columns, each shrunk to fit a cell, on grey.
-Image contactSheet(const std::vector<const Image*>& pictures, int columns, int cellWidth, int cellHeight);
+// All images in a grid with `columns` columns on grey, each shrunk to fit a cell.
+Image contactSheet(const std::vector<const Image*>& images, int columns, int cellWidth, int cellHeight);
 
 } // namespace cotan::figures

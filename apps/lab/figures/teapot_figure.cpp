@@ -1,4 +1,4 @@
-// Figure 2.6.3 of the 2006 chapter: the teapot, and its nozzle magnified.
+// Figure 2.6.3 of the 2006 chapter: the teapot, with its nozzle magnified.
 #include <cmath>
 #include <numbers>
 
@@ -14,18 +14,18 @@ namespace cotan::figures {
 
 namespace {
 
-constexpr int kPatchSegments = 24; // a patch, of the teapot that is drawn
-constexpr int kTruthSegments = 64; // of the one that says what is right
+constexpr int kPatchSegments = 24; // per patch, of the teapot that is drawn
+constexpr int kTruthSegments = 64; // per patch, of the teapot that gives the true normals
 
-// Stripes and circular spots, as on the chapter's teapot: ridges that run down in the upper half of
-// the map, rows of domes in the lower, which is the one at the nozzle.
+// Stripes and circular spots, as on the chapter's teapot: vertical ridges in the upper half of the map, rows of domes
+// in the lower half, which is at the nozzle.
 HeightSample spotsAndStripes(double u, double v)
 {
     v -= std::floor(v);
     if (v >= 0.5)
         return relief(Relief::domes, u, v);
     constexpr double kStripes = 8, kAmplitude = 0.012;
-    // Fades in and out over a sixteenth, so that neither half ends in a step.
+    // Fades in and out over a sixteenth of the map, so that there is no step at the edges of the half.
     const double k = 2 * std::numbers::pi * kStripes, t = v * 2;
     const double edge = std::min(t, 1 - t) * 8, s = std::min(edge, 1.0);
     const double fade = s * s * (3 - 2 * s);
@@ -73,12 +73,12 @@ Pair viewsOf(const FigureRenderer& studio)
     return views;
 }
 
-// The teapot with the nozzle in the corner.
+// The teapot with the magnified nozzle in the corner.
 Image withInset(FigureRenderer& studio, const Pair& views, Frame frame)
 {
-    Image picture = studio.shaded(views.whole, frame);
-    pasteInset(picture, studio.shaded(views.nozzle, frame));
-    return picture;
+    Image image = studio.shaded(views.whole, frame);
+    pasteInset(image, studio.shaded(views.nozzle, frame));
+    return image;
 }
 
 } // namespace
@@ -90,11 +90,11 @@ Figure makeTeapotFigure(FigureRenderer& studio)
     figure.text = {
         "The same teapot, map and light. (A) takes orthonormal frames from tangents stored at the vertices, (B) "
         "makes the frame in the pixel. On the belly the texture is nearly square and the two look alike. At the "
-        "nozzle, in the inset, it is squashed and sheared: in (A) the light falls on the spots from a wrong side; in "
+        "nozzle, in the inset, it is squashed and sheared: in (A) the spots are lit from a wrong side; in "
         "(B) "
-        "every spot is lit from where the light is.",
-        fmt::format("Both are drawn with {} segments a patch. What is right is the normal on the same teapot with "
-                    "{} segments a patch and the gradients of each triangle (frame exact).",
+        "every spot is lit from the side of the light.",
+        fmt::format("Both are drawn with {} segments per patch. The ground truth is the normal on the same teapot with "
+                    "{} segments per patch and the gradients of each triangle (frame exact).",
                     kPatchSegments, kTruthSegments)};
     figure.measured = "Angles to the normals of the fine teapot, away from its outline. The largest are where one part "
                       "hides another.";
@@ -123,8 +123,8 @@ Figure makeTeapotFigure(FigureRenderer& studio)
     }
     figure.panels.insert(figure.panels.end(), heats.begin(), heats.end());
     for (const auto& [panel, frame] : {std::pair<std::size_t, Frame>(0, Frame::vertex), {1, Frame::cotangent}}) {
-        addError(figure, panel, fmt::format("{}, whole teapot", name(frame)), "The whole is off");
-        addError(figure, panel, fmt::format("{}, inset at the nozzle", name(frame)), "The inset is off");
+        addError(figure, panel, fmt::format("{}, whole teapot", name(frame)), "Error of the whole");
+        addError(figure, panel, fmt::format("{}, inset at the nozzle", name(frame)), "Error of the inset");
     }
     figure.sliders = {{0, 1}, {2, 3}};
     return figure;

@@ -32,7 +32,7 @@ Compared compared(std::vector<float> degrees, int width, int height)
 Chart patchChart(double stretch, double shear, bool mirrored, double repeat)
 {
     const double sign = mirrored ? -1 : 1;
-    // u = (x - shear y) / stretch with y downwards, so that the world's y counts the other way.
+    // u = (x - shear y) / stretch with y downwards, so the world's y has the opposite sign.
     const SurfaceGradients g{
         {0, 0, 1}, glm::dvec3(1, shear, 0) * (sign * repeat / stretch), glm::dvec3(0, -1, 0) * repeat};
     return [g](glm::dvec2) { return g; };
@@ -48,7 +48,7 @@ Chart sphereChart(glm::dvec2 repeat)
             return std::nullopt;
         SurfaceGradients g;
         g.normal = {ring * std::sin(longitude), std::cos(colatitude), ring * std::cos(longitude)};
-        // On the unit sphere; a common factor does not matter.
+        // Positions are on the unit sphere; a common factor does not matter.
         g.u = glm::dvec3(std::cos(longitude), 0, -std::sin(longitude)) * (repeat.x / (2 * std::numbers::pi * ring));
         g.v = glm::dvec3(std::cos(colatitude) * std::sin(longitude), -ring, std::cos(colatitude) * std::cos(longitude))
             * (repeat.y / std::numbers::pi);
@@ -59,7 +59,7 @@ Chart sphereChart(glm::dvec2 repeat)
 Image truthNormals(const Image& uv, const Height& height, const Chart& chart, double minTilt)
 {
     Image truth = makeImage(uv.width, uv.height, PixelType::float32, "truth");
-    const double mostUpright = std::cos(minTilt * kRadians);
+    const double maxCosine = std::cos(minTilt * kRadians);
     for (std::size_t i = 0; i < uv.pixelCount(); ++i) {
         const float* at = uv.floats() + 4 * i;
         const glm::dvec2 c(at[0], at[1]);
@@ -67,7 +67,7 @@ Image truthNormals(const Image& uv, const Height& height, const Chart& chart, do
         if (!surface)
             continue;
         const glm::dvec3 n = perturbed(*surface, height(c.x, c.y));
-        if (minTilt > 0 && glm::dot(n, surface->normal) > mostUpright)
+        if (minTilt > 0 && glm::dot(n, surface->normal) > maxCosine)
             continue;
         float* out = truth.floats() + 4 * i;
         for (int k = 0; k < 3; ++k)
@@ -102,8 +102,8 @@ void addError(Figure& figure, std::size_t panel, std::string_view measure, std::
     for (const Measure& m : figure.measures)
         if (m.name == measure) {
             std::string& caption = figure.panels[panel].caption;
-            caption += fmt::format("{}{} by {:.2f} degrees on average, {:.1f} at 95 %.", caption.empty() ? "" : " ",
-                                   what, m.degrees.mean, m.degrees.percentile95);
+            caption += fmt::format("{}{}: {:.2f} degrees on average, {:.1f} at 95 %.", caption.empty() ? "" : " ", what,
+                                   m.degrees.mean, m.degrees.percentile95);
         }
 }
 

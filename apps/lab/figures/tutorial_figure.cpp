@@ -1,4 +1,4 @@
-// The classic tutorial scene: a normal-mapped floor, step by step, and two places to light it in.
+// The classic tutorial scene: a normal-mapped floor, step by step, and the two spaces to compute lighting in.
 #include <fmt/format.h>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
@@ -11,17 +11,17 @@ namespace cotan::figures {
 
 namespace {
 
-void addShape(Scene& scene, Mesh mesh, Material material, glm::vec3 place, bool mapped)
+void addShape(Scene& scene, Mesh mesh, Material material, glm::vec3 position, bool mapped)
 {
     if (mapped)
         material.normalMap.image = 0;
     mesh.material = int(scene.materials.size());
-    scene.instances.push_back({mesh.name, int(scene.meshes.size()), glm::translate(glm::mat4(1), place)});
+    scene.instances.push_back({mesh.name, int(scene.meshes.size()), glm::translate(glm::mat4(1), position)});
     scene.materials.push_back(std::move(material));
     scene.meshes.push_back(std::move(mesh));
 }
 
-// A brick floor with a few shapes on it; the ball is mapped too, and coarse.
+// A brick floor with a few shapes on it; the coarse ball has a normal map too.
 Scene tutorialScene()
 {
     Scene scene;
@@ -70,20 +70,20 @@ Figure makeTutorialFigure(FigureRenderer& studio)
 {
     Figure figure;
     figure.title = "The tutorial scene: map, shadows, and where to light";
-    figure.text = {"A floor of one normal map, and what it adds: first the interpolated normals, then the map, then "
+    figure.text = {"A floor with one normal map: first with interpolated normals, then with the map, then with "
                    "shadows. The sun "
-                   "comes from the left, a lamp stands at the lower right.",
-                   "Tutorials take light and view vectors to tangent space by t, b and n at each vertex and light the "
-                   "map's normal "
-                   "there; the frame in the pixel takes the normal to the world instead. On the floor, flat and "
+                   "comes from the left, a lamp is at the lower right.",
+                   "Tutorials transform light and view vectors to tangent space by t, b and n at each vertex and light "
+                   "the map's normal "
+                   "there; the frame per pixel transforms the normal to world space instead. On the floor, flat and "
                    "square, both are the "
-                   "same to rounding. On the coarse ball the interpolated vectors are off. Carried in each pixel by "
-                   "the inverse of an "
+                   "same up to rounding. On the coarse ball the interpolated vectors are wrong. Transformed in each "
+                   "pixel by the inverse of an "
                    "orthonormal frame they agree with world space everywhere; with the frame cotangent they do not on "
                    "the ball, whose "
-                   "texture is not square: such a frame leads out of tangent space, and angles inside it are not those "
-                   "of the world.",
-                   "The pictures in tangent space come from the reference renderer, and are compared with its picture "
+                   "texture is not square: that frame does not preserve angles, so those in tangent space are not "
+                   "those of the world.",
+                   "The images in tangent space come from the reference renderer, and are compared with its image "
                    "in world space."};
     const Scene scene = withVertexFrames(tutorialScene(), Frame::vertex);
     studio.show(scene);
@@ -113,11 +113,11 @@ Figure makeTutorialFigure(FigureRenderer& studio)
         view.lighting = Lighting::world;
         const Image world = studio.drawReference(view);
         view.lighting = row.lighting;
-        Image picture = studio.drawReference(view);
-        const Levels levels = levelsBetween(world, picture);
+        Image image = studio.drawReference(view);
+        const Levels levels = levelsBetween(world, image);
         differences.push_back({std::string(row.file) + "-difference", std::string(row.label) + ": difference, 16 times",
-                               levelsText(levels), differenceOf(world, picture, 16)});
-        figure.panels.push_back({row.file, row.label, fmt::format("Frame {}.", name(row.frame)), std::move(picture)});
+                               levelsText(levels), differenceOf(world, image, 16)});
+        figure.panels.push_back({row.file, row.label, fmt::format("Frame {}.", name(row.frame)), std::move(image)});
         figure.numbers.push_back({std::string(row.label) + ", mean levels of 255", levels.mean});
         figure.numbers.push_back({std::string(row.label) + ", most levels of 255", double(levels.maximum)});
     }

@@ -12,12 +12,12 @@ namespace {
 
 struct Against {
     int cheaper = 0, equal = 0;
-    double least = 0, most = 0; // more than stored tangents; negative: less
+    double minExtra = 0, maxExtra = 0; // range of cost differences to stored tangents; negative: cheaper
     std::vector<std::string> dearer;
     int cards() const { return cheaper + equal + int(dearer.size()); }
 };
 
-// `read` gives the number of a row of a card, and nothing where there is none.
+// `read` returns the value of a row on a GPU, or nothing if there is none.
 template<class Read> Against against(const CostReport& report, std::string_view form, const Read& read)
 {
     Against result;
@@ -27,8 +27,8 @@ template<class Read> Against against(const CostReport& report, std::string_view 
             continue;
         const double more = *mine - *stored;
         const bool first = result.cards() == 0;
-        result.least = first ? more : std::min(result.least, more);
-        result.most = first ? more : std::max(result.most, more);
+        result.minExtra = first ? more : std::min(result.minExtra, more);
+        result.maxExtra = first ? more : std::max(result.maxExtra, more);
         if (more > 0)
             result.dearer.push_back(title(d));
         else
@@ -45,8 +45,8 @@ void addLine(Table& table, std::string stage, std::string_view form, const Again
     for (const std::string& card : a.dearer)
         dearer += (dearer.empty() ? "" : ", ") + card;
     if (a.dearer.size() > 6)
-        dearer = fmt::format("{} cards", a.dearer.size());
-    table.push_back({std::move(stage), std::string(form), fmt::format("{:+.4g} to {:+.4g}", a.least, a.most),
+        dearer = fmt::format("{} GPUs", a.dearer.size());
+    table.push_back({std::move(stage), std::string(form), fmt::format("{:+.4g} to {:+.4g}", a.minExtra, a.maxExtra),
                      fmt::format("{}", a.cards()), fmt::format("{}", a.cheaper), fmt::format("{}", a.equal),
                      dearer.empty() ? "none" : dearer});
 }
@@ -55,7 +55,7 @@ void addLine(Table& table, std::string stage, std::string_view form, const Again
 
 std::string againstStored(const CostReport& report)
 {
-    Table table = {{"stage", "form", "more than `mikktspace`", "cards", "less on", "equal on", "more on"}};
+    Table table = {{"stage", "form", "more than `mikktspace`", "GPUs", "less on", "equal on", "more on"}};
     for (const std::string_view form :
          {"smooth-fused", "triangle-halfs", "triangle-fused", "triangle-read", "cotangent-seen", "cotangent-fused"})
         addLine(table, "forward, instructions", form,
@@ -70,7 +70,7 @@ std::string againstStored(const CostReport& report)
         addLine(table, "visibility buffer, instructions", form,
                 against(report, form,
                         [](const DeviceCode& d, std::string_view row) { return resolveCode(d, row).instructions; }));
-    return table.size() < 2 ? "" : "### Against stored tangents, over all cards\n\n" + aligned(table);
+    return table.size() < 2 ? "" : "### Against stored tangents, over all GPUs\n\n" + aligned(table);
 }
 
 } // namespace cotan

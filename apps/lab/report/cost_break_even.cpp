@@ -17,7 +17,7 @@ std::string ratio(double pixels)
     return std::isinf(pixels) ? "always" : pixels <= 0 ? "never" : fmt::format("{:.2f}", pixels);
 }
 
-// Extra instructions of the vertex stage with a stored tangent.
+// Extra instructions of the vertex stage for a stored tangent.
 std::optional<double> tangentAtVertex(const DeviceCode& d)
 {
     const auto with = vertexCode(d, Stored::tangent).instructions;
@@ -28,7 +28,7 @@ std::optional<double> tangentAtVertex(const DeviceCode& d)
 std::string byVertex(const CostReport& report)
 {
     const auto devices = devicesWith(report, &StageCode::instructions);
-    Table table = tableOf({"wins below ... pixels a vertex", "in bytes"}, devices);
+    Table table = tableOf({"wins below ... pixels per vertex", "in bytes"}, devices);
     const int tangentBytes = vertexStage(Stored::tangent).bytes;
     for (const Row* row : report.rows) {
         if (row->stored != Stored::nothing || row->name == "floor" || isHistorical(*row))
@@ -42,7 +42,7 @@ std::string byVertex(const CostReport& report)
         }
         table.push_back(std::move(line));
     }
-    return "### Pixels a vertex below which tangent-free costs less than `mikktspace`\n\n" + aligned(table);
+    return "### Pixels per vertex below which tangent-free costs less than `mikktspace`\n\n" + aligned(table);
 }
 
 std::string range(const PixelRange& r)
@@ -57,7 +57,7 @@ std::string range(const PixelRange& r)
 std::string byTriangle(const CostReport& report)
 {
     const auto devices = devicesWith(report, &StageCode::inverseThroughput);
-    Table table = tableOf({"wins where triangles cover ... pixels", "vertices a triangle"}, devices);
+    Table table = tableOf({"wins where triangles cover ... pixels", "vertices per triangle"}, devices);
     for (const Choice& choice : choices()) {
         if (&choice == &choices().front())
             continue;
@@ -68,7 +68,7 @@ std::string byTriangle(const CostReport& report)
         }
         table.push_back(std::move(line));
     }
-    return "### Pixels a triangle where it costs less than `mikktspace`, in inverse throughput\n\n" + aligned(table);
+    return "### Pixels per triangle where it costs less than `mikktspace`, in inverse throughput\n\n" + aligned(table);
 }
 
 } // namespace

@@ -13,21 +13,21 @@ using namespace cost;
 
 namespace {
 
-// In units of the picture.
+// Lengths are in SVG user units.
 constexpr double kWidth = 860, kHeight = 496, kLeft = 64, kRight = 620, kTop = 76, kBottom = 400;
-constexpr double kMin = 0.5, kMax = 1024; // pixels a triangle
+constexpr double kMin = 0.5, kMax = 1024; // pixels per triangle
 constexpr double kLabelHeight = 17, kStripTop = 446, kStripHeight = 22;
-constexpr int kSteps = 220; // of a curve
+constexpr int kSteps = 220; // per curve
 
 struct Curve {
     std::string_view name;
     TrianglePrice price;
 };
 
-// The first is what the others are compared with.
+// The other curves are compared with the first.
 struct Chart {
     std::vector<Curve> curves;
-    double low, high; // of the ratios that are shown
+    double low, high; // range of the ratios shown
 
     double x(double pixels) const { return kLeft + (kRight - kLeft) * std::log(pixels / kMin) / std::log(kMax / kMin); }
     double y(double ratio) const { return kBottom - (kBottom - kTop) * std::log(ratio / low) / std::log(high / low); }
@@ -69,7 +69,7 @@ std::string axes(const Chart& c)
         svg += fmt::format("<path class=\"grid\" d=\"M{:.1f} {}V{}\"/>\n", x, kTop, kBottom);
         svg += text(x, kBottom + 18, "tick middle", fmt::format("{:g}", pixels));
     }
-    // Equal steps of the logarithm lie closer to one another at the top.
+    // Equal steps of the ratio are closer together at the top of the logarithmic axis.
     double last = kBottom + kLabelHeight;
     for (int tenth = int(std::lround(c.low * 10)); tenth <= int(std::lround(c.high * 10)); ++tenth) {
         const double y = c.y(tenth / 10.0);
@@ -95,7 +95,7 @@ std::string curves(const Chart& c)
     return svg;
 }
 
-// Names at the right ends, moved apart where they would overlap, with lines to where they belong.
+// Labels at the right ends of the curves, moved apart where they would overlap, with leader lines.
 std::string names(const Chart& c)
 {
     std::vector<std::size_t> order;
@@ -103,23 +103,23 @@ std::string names(const Chart& c)
         order.push_back(i);
     const auto end = [&](std::size_t i) { return c.y(c.ratio(i, kMax)); };
     std::ranges::sort(order, {}, end);
-    std::vector<double> places;
+    std::vector<double> labelY;
     for (const std::size_t i : order)
-        places.push_back(std::max(end(i), places.empty() ? 0.0 : places.back() + kLabelHeight));
-    double most = kBottom + kLabelHeight; // the lowest may stand a little below the axis
-    for (std::size_t k = places.size(); k-- > 0; most -= kLabelHeight)
-        places[k] = std::min(places[k], most);
+        labelY.push_back(std::max(end(i), labelY.empty() ? 0.0 : labelY.back() + kLabelHeight));
+    double maxY = kBottom + kLabelHeight; // the lowest label may be a little below the axis
+    for (std::size_t k = labelY.size(); k-- > 0; maxY -= kLabelHeight)
+        labelY[k] = std::min(labelY[k], maxY);
     std::string svg;
     for (std::size_t k = 0; k < order.size(); ++k) {
         const std::size_t i = order[k];
         svg += fmt::format("<path class=\"leader c{}\" d=\"M{} {:.1f}L{} {:.1f}\"/>\n", i, kRight + 2, end(i),
-                           kRight + 20, places[k]);
-        svg += text(kRight + 24, places[k] + 4, fmt::format("name n{}", i), c.curves[i].name);
+                           kRight + 20, labelY[k]);
+        svg += text(kRight + 24, labelY[k] + 4, fmt::format("name n{}", i), c.curves[i].name);
     }
     return svg;
 }
 
-// Where a choice begins or ends to cost less than the first: a ring, and how many pixels that is.
+// A ring where a choice becomes cheaper or dearer than the first, labelled with the pixels per triangle.
 std::string crossings(const Chart& c)
 {
     std::vector<std::pair<double, std::size_t>> found;
@@ -131,18 +131,18 @@ std::string crossings(const Chart& c)
     }
     std::ranges::sort(found);
     std::string svg;
-    double free = kLeft; // above the line, from here on
+    double freeX = kLeft; // from this x on, a label fits above the line
     for (const auto& [pixels, i] : found) {
         const double x = c.x(pixels), y = c.y(1);
-        const bool above = x >= free;
+        const bool above = x >= freeX;
         svg += fmt::format("<circle class=\"ring c{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\"/>\n", i, x, y);
         svg += text(x + 7, above ? y - 7 : y + kLabelHeight, fmt::format("name n{}", i), pixelsText(pixels));
-        free = above ? x + 44 : free;
+        freeX = above ? x + 44 : freeX;
     }
     return svg;
 }
 
-// Which choice costs least, along the axis.
+// A strip along the axis that shows the cheapest choice.
 std::string cheapest(const Chart& c)
 {
     std::string svg = text(kLeft, kStripTop + kStripHeight + 16, "tick", "cheapest");
@@ -160,9 +160,9 @@ std::string cheapest(const Chart& c)
         const double x0 = c.x(Chart::pixelsAt(from)), x1 = c.x(Chart::pixelsAt(to));
         svg += fmt::format("<rect class=\"strip s{}\" x=\"{:.1f}\" y=\"{}\" width=\"{:.1f}\" height=\"{}\"/>\n",
                            best(from), x0, kStripTop, x1 - x0, kStripHeight);
-        if (x1 - x0 > 7.5 * double(c.curves[best(from)].name.size())) // where its name has room
+        if (x1 - x0 > 7.5 * double(c.curves[best(from)].name.size())) // if the name fits
             svg += text((x0 + x1) / 2, kStripTop + 15, "on middle", c.curves[best(from)].name);
-        if (to < kSteps && x1 > kLeft + 80) // not into the word
+        if (to < kSteps && x1 > kLeft + 80) // do not overlap the word "cheapest"
             svg += text(x1, kStripTop + kStripHeight + 16, "tick middle", pixelsText(Chart::pixelsAt(to)));
         from = to;
     }

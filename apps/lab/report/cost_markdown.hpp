@@ -1,4 +1,4 @@
-// What the texts of `cotan cost` share.
+// Functions shared by the reports of `cotan cost`.
 #pragma once
 
 #include <string>
@@ -10,26 +10,26 @@ namespace cotan {
 
 using Table = std::vector<std::vector<std::string>>; // the first row is the header
 
-// As markdown, in columns of even width; the first to the left, the others to the right.
+// Formats a markdown table with aligned columns: the first left-aligned, the others right-aligned.
 std::string aligned(const Table& table);
 
-// What tables call it: the family, or the name of the device.
+// The name of a device in tables: its family, or else its own name.
 std::string title(const cost::DeviceCode& device);
 
-// Devices whose driver gives this number of fragment shaders.
+// Devices whose driver reports this value for fragment shaders.
 using Measure = std::optional<double> cost::StageCode::*;
 std::vector<const cost::DeviceCode*> devicesWith(const cost::CostReport& report, Measure measure);
 
-// `header`, and a column for each of the devices: two lines, their makers over their names.
+// A table with `header` and a column for each device, headed by two lines: maker and name.
 Table tableOf(std::vector<std::string> header, const std::vector<const cost::DeviceCode*>& devices);
 
-// A number of pixels, in three digits or so.
+// Formats a number of pixels with up to about three digits.
 std::string pixelsText(double pixels);
 
-// How each form stands against stored tangents, over all cards. Empty where no driver said anything.
+// Compares each form with stored tangents over all GPUs. Empty if no driver reported anything.
 std::string againstStored(const cost::CostReport& report);
 
-// Where frames pay: by pixels a vertex, and by pixels a triangle. Empty where no driver said anything.
+// Tables of the pixels per vertex and per triangle at which frames are cheaper. Empty if no driver reported anything.
 std::string breakEven(const cost::CostReport& report);
 
 } // namespace cotan

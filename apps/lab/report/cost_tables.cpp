@@ -59,13 +59,13 @@ Table tableOf(std::vector<std::string> header, const std::vector<const DeviceCod
 
 namespace {
 
-// Cycles of some drivers are below 1 a pixel.
+// Some drivers report less than one cycle per pixel.
 std::string plain(std::optional<double> value)
 {
     return !value ? "-" : *value < 100 ? fmt::format("{:.4g}", *value) : fmt::format("{:.0f}", *value);
 }
 
-// The floor as it is; other rows as what they add to it.
+// Formats the floor as it is, and other rows as the difference to the floor.
 std::string over(std::optional<double> value, std::optional<double> floor, bool isFloor)
 {
     if (!value || !floor)
@@ -97,7 +97,7 @@ std::string overview(const CostReport& report)
     return "### What perturbing the normal adds, in instructions\n\n" + aligned(table);
 }
 
-// Of the cards whose driver gives it, over the floor or whole. Empty where none does.
+// A table of one measure by device, for whole shaders or relative to the floor. Empty if no driver reports it.
 std::string fragmentsBy(const CostReport& report, const std::string& heading, Measure measure, bool overFloor)
 {
     const auto devices = devicesWith(report, measure);
@@ -135,7 +135,7 @@ std::string otherBounds(const CostReport& report)
 std::string vertexStages(const CostReport& report)
 {
     const auto devices = devicesWith(report, &StageCode::instructions);
-    Table table = tableOf({"vertex stage", "bytes a vertex"}, devices);
+    Table table = tableOf({"vertex stage", "bytes per vertex"}, devices);
     for (const VertexStage& v : cost::vertexStages()) {
         std::vector<std::string> line = {std::string(v.name), v.bytes ? fmt::format("{:+}", v.bytes) : "0"};
         for (const DeviceCode* d : devices)
@@ -146,18 +146,19 @@ std::string vertexStages(const CostReport& report)
     return "### What stored tangents add at every vertex, in instructions\n\n" + aligned(table);
 }
 
-// Mesh stages and resolves over the first of their kind, passes whole.
+// Mesh and resolve stages are shown relative to the first of their kind, passes as a whole.
 std::string otherStagesOf(StageKind kind, const CostReport& report)
 {
     auto devices = devicesWith(report, &StageCode::instructions);
     const bool mesh = kind == StageKind::mesh, pass = kind == StageKind::pass;
     const Stage& first = *std::ranges::find(otherStages(), kind, &Stage::kind);
-    if (mesh) // few have that stage
+    if (mesh) // few devices have this stage
         std::erase_if(devices, [&](const DeviceCode* d) { return !otherCode(*d, first).instructions; });
-    Table table = tableOf(
-        mesh || pass ? std::vector<std::string>{std::string(kindName(kind)), "bytes a vertex", "a triangle", "SPIR-V"}
-                     : std::vector<std::string>{std::string(kindName(kind)), "bytes read a pixel", "SPIR-V"},
-        devices);
+    Table table =
+        tableOf(mesh || pass ? std::vector<std::string>{std::string(kindName(kind)), "bytes per vertex", "per triangle",
+                                                        "SPIR-V"}
+                             : std::vector<std::string>{std::string(kindName(kind)), "bytes read per pixel", "SPIR-V"},
+                devices);
     for (const Stage& s : otherStages()) {
         if (s.kind != kind)
             continue;
@@ -204,7 +205,7 @@ std::string frameOperations()
 std::string timings(const DeviceTiming& d)
 {
     std::string text = fmt::format("### {}: nanoseconds per million pixels, medians{}\n\n{}\n\n", d.name,
-                                   d.cpu ? " (draws on the processor)" : "", d.driver);
+                                   d.cpu ? " (renders on the CPU)" : "", d.driver);
     Table table = {{"legs of the triangles"}};
     for (const TimingCase& c : d.cases) {
         table[0].push_back(fmt::format("{} px", c.leg));
@@ -248,10 +249,10 @@ Json operationsJson(const Operations& o)
 
 namespace {
 
-// Who was asked, and which stages it did not compile.
+// Describes the device and the stages it did not compile.
 std::string askedOf(const DeviceCode& d)
 {
-    const std::string date = d.date.empty() ? "" : ", asked on " + d.date;
+    const std::string date = d.date.empty() ? "" : ", queried on " + d.date;
     std::string text = d.silence.empty() ? fmt::format("- {}: {}, {}{}.\n", title(d), d.name, d.driver, date)
                                          : fmt::format("- {}: no machine code: {}.\n", title(d), d.silence);
     eachStage(d, [&](std::string_view kind, std::string_view name, const StageCode& code) {
@@ -265,20 +266,20 @@ std::string askedOf(const DeviceCode& d)
 
 std::string toMarkdown(const CostReport& report, const std::string& chart)
 {
-    std::string text = report.cardsRead ? "" : fmt::format("Machine: {}. ", report.machine);
+    std::string text = report.gpusRead ? "" : fmt::format("Machine: {}. ", report.machine);
     text += fmt::format("SPIR-V: {}.\n\n", spirvCompiler());
     for (const DeviceCode& d : report.code)
         text += askedOf(d);
     text += '\n' + againstStored(report) + overview(report);
     const auto devices = devicesWith(report, &StageCode::instructions);
-    text += fragmentsBy(report, "The same in instructions that compute, where drivers tell them apart",
+    text += fragmentsBy(report, "The same in instructions that compute, where drivers distinguish them",
                         &StageCode::arithmetic, true);
     text += fragmentsBy(report, "Whole fragment shaders, bound in cycles (inverse throughput), each driver's unit",
                         &StageCode::inverseThroughput, false);
     text += fragmentsBy(report, "Whole fragment shaders, latency in cycles, each driver's estimate",
                         &StageCode::latency, false);
     text += fragmentsBy(report, "The same in bytes of code", &StageCode::bytes, true);
-    text += fragmentsBy(report, "Whole fragment shaders, registers a thread", &StageCode::registers, false);
+    text += fragmentsBy(report, "Whole fragment shaders, registers per thread", &StageCode::registers, false);
     if (!devices.empty())
         text += vertexStages(report) + breakEven(report);
     if (!chart.empty())

@@ -1,4 +1,4 @@
-// The tables of `cotan cost`: markdown, which reads well as it is, JSON and CSV.
+// The results of `cotan cost` as readable markdown tables, JSON and CSV.
 #pragma once
 
 #include <filesystem>
@@ -10,21 +10,20 @@
 
 namespace cotan {
 
-// chart: name of the picture that costChart makes, as the text shall link it; empty: none.
+// chart: file name of the chart from costChart, for a link in the text; empty: no link.
 std::string toMarkdown(const cost::CostReport& report, const std::string& chart = {});
 Json toJson(const cost::CostReport& report);
 
-// One number a line: row,source,device,driver,measure,value. Values are absolute, not over the
-// floor.
+// One number per line: row,source,device,driver,measure,value. Values are absolute, not relative to the floor.
 std::string toCsv(const cost::CostReport& report);
 
-// Cost of a triangle by the pixels it covers, for each of cost::choices() against stored tangents, as a whole SVG file
-// that reads well on light and on dark. Of NAVI21, or else of the first device that says what it needs; nothing where
-// none does.
+// An SVG file, readable on light and dark backgrounds: cost of a triangle by the pixels it covers, for each of
+// cost::choices(), relative to stored tangents. Shows NAVI21, or else the first device with the necessary numbers;
+// nothing if there is none.
 std::optional<std::string> costChart(const cost::CostReport& report);
 
-// Writes the tables. Where the file is there and has two marks, only what is between them is replaced. Errors: as
-// writeFileWhole.
+// Writes the tables. If the file exists and contains the two marks, replaces only the text between them. Errors: those
+// of writeFileWhole.
 Status writeTables(const std::filesystem::path& file, const std::string& tables);
 
 } // namespace cotan

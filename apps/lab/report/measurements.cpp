@@ -29,7 +29,7 @@ std::string quoted(const std::string& field)
     return s + '"';
 }
 
-// The fields of the line that starts at `position`, which moves behind it.
+// Parses the fields of the line at `position` and moves `position` to the next line.
 std::vector<std::string> readLine(std::string_view text, std::size_t& position)
 {
     std::vector<std::string> fields(1);
@@ -63,7 +63,7 @@ std::string cell(const Measurement& m)
     return m.invalid > 0 ? fmt::format("{}, NaN {:.1f} %", degrees, 100 * m.invalid) : degrees;
 }
 
-// The distinct values of one member over some rows, in the order of appearance.
+// Distinct values of one member of the rows, in order of appearance.
 std::vector<std::string> distinct(const std::vector<const Measurement*>& rows, std::string Measurement::*member)
 {
     std::vector<std::string> values;
@@ -73,7 +73,7 @@ std::vector<std::string> distinct(const std::vector<const Measurement*>& rows, s
     return values;
 }
 
-// One Markdown table of some settings: frames downwards.
+// A Markdown table with a row per frame and a column per setting.
 std::string block(const std::vector<const Measurement*>& rows, const std::vector<std::string>& settings)
 {
     std::string text = "| frame |", rule = "| --- |";
@@ -95,7 +95,7 @@ std::string block(const std::vector<const Measurement*>& rows, const std::vector
     return text;
 }
 
-// Rounding that may differ between compilers and machines, degrees.
+// Degrees by which rounding may differ between compilers and machines.
 double slack(const std::string& arithmetic)
 {
     return arithmetic == "double" ? 1e-9 : arithmetic == "float" ? 1e-5 : arithmetic == "half" ? 1e-3 : 0.02;
@@ -156,7 +156,7 @@ Json toJson(const std::vector<Measurement>& rows)
 {
     auto list = Json::array();
     for (const Measurement& m : rows) {
-        const bool any = m.samples > 0 && m.invalid < 1; // finite results
+        const bool any = m.samples > 0 && m.invalid < 1; // whether any result is finite
         const auto figure = [&](double degrees) { return any ? Json(degrees) : Json(); };
         list.push_back({{"table", m.table},
                         {"scene", m.scene},

@@ -1,4 +1,4 @@
-// A painted relief on curved surfaces, by the number of segments of their tessellation.
+// A relief in a normal map on curved surfaces, by the number of segments of their tessellation.
 #include "rows.hpp"
 #include "tables.hpp"
 #include "truth/tessellation.hpp"
@@ -12,7 +12,7 @@ namespace {
 constexpr int kCurvedSamples = 12000;
 constexpr int kSegments[] = {8, 16, 32, 64, 128, 256};
 
-// 1800 pixels of focal length, 4 units away, not more grazing than 84 degrees.
+// A camera with a focal length of 1800 pixels, 4 units away, at most 84 degrees from the normal.
 PixelCamera randomCamera(Random& random, glm::dvec3 target, glm::dvec3 normal)
 {
     glm::dvec3 direction;
@@ -22,8 +22,8 @@ PixelCamera randomCamera(Random& random, glm::dvec3 target, glm::dvec3 normal)
     return PixelCamera::lookAt(target + direction * 4.0, target + random.direction() * 0.5, {0.1, 0.2, 1}, 1800);
 }
 
-// Frames against the truth that each claims and against the other, and what no frame can be better or should be worse
-// than.
+// Rows of each frame against the truth that it claims and against the other, and control rows: what remains without a
+// map, and what exact normals or gradients would give.
 struct CurvedRows {
     FrameRows frames;
     AngleCollector none, normal, gradients, blinn, fusedSmooth;
@@ -36,7 +36,7 @@ struct CurvedRows {
             Measurement row = names;
             row.truth = metric ? "E" : "S";
             frames.add(selection, f.frame, row);
-            row.truth = metric ? "S" : "E"; // what the other truth makes of it
+            row.truth = metric ? "S" : "E"; // the frame measured by the other truth
             frames.addOne(selection, f.frame, false, row);
         }
     }
@@ -57,10 +57,10 @@ struct CurvedRows {
         fusedSmooth.add(degreesBetween(f64::cotan_perturb_smooth(x.n, x.unitU, x.unitV, texel), s));
         normal.add(degreesBetween(n, p.normal));
         none.add(degreesBetween(n, s));
-        SurfacePoint interpolated = p; // the true gradients on the interpolated normal
+        SurfacePoint interpolated = p; // the true gradients with the interpolated normal
         interpolated.normal = n;
         gradients.add(degreesBetween(truthS(interpolated, texel), s));
-        // J. Blinn's perturbed normal, 1978: it leaves out the height times the curvature.
+        // J. Blinn's perturbed normal, 1978, which ignores the product of height and curvature.
         const glm::dvec3 slope = p.gradU * relief.hu + p.gradV * relief.hv;
         blinn.add(degreesBetween(p.normal - slope * unitsPerUv, e));
     }

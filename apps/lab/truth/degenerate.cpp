@@ -112,7 +112,7 @@ const std::vector<DegenerateCase>& degenerateCases()
 PixelInput makeInput(Random& random, const DegenerateCase& c)
 {
     PixelInput input = goodInput(random, c.leanDegrees, c.mirrored);
-    c.spoil(random, input);
+    c.modify(random, input);
     return input;
 }
 

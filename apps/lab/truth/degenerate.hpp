@@ -1,4 +1,4 @@
-// Nineteen kinds of pixel, most of them degenerate, for asking what a frame does with them.
+// Nineteen kinds of pixel, most of them degenerate, as test input for frames.
 #pragma once
 
 #include <functional>
@@ -9,28 +9,28 @@
 
 namespace cotan {
 
-// What a fragment shader has at one pixel.
+// The inputs of a fragment shader at one pixel.
 struct PixelInput {
-    glm::vec3 n; // as interpolated, not unit
+    glm::vec3 n; // interpolated, not normalised
     Differences<float> d;
-    glm::vec3 m; // decoded texel
+    glm::vec3 m; // the decoded texel
 };
 
 struct DegenerateCase {
     const char* name;
-    std::function<void(Random&, PixelInput&)> spoil; // turns a good pixel into this case
-    bool plainNormal = false;                        // the right answer is the plain normal, to rounding
-    double leanDegrees = 10;                         // of n from the face
+    std::function<void(Random&, PixelInput&)> modify; // turns a well-conditioned pixel into this case
+    bool plainNormal = false;                         // the correct result is the plain normal, to rounding
+    double leanDegrees = 10;                          // angle between n and the face normal
     bool mirrored = false;
 };
 
 const std::vector<DegenerateCase>& degenerateCases();
 
-// A random pixel of that case.
+// Returns a random pixel of that case.
 PixelInput makeInput(Random& random, const DegenerateCase& c);
 
-// Treats denormals as zero while it lives, in arguments and results, as GPUs may. Does nothing on
-// processors other than x86.
+// Treats denormal arguments and results as zero during its lifetime, as GPUs may. Does nothing on processors other than
+// x86.
 class FlushDenormals {
 public:
     FlushDenormals();

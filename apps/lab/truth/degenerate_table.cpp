@@ -1,5 +1,5 @@
-// What every frame does with nineteen kinds of pixel, in float with denormals flushed. The column
-// that counts is the share of results that are not finite.
+// Results of every frame for nineteen kinds of pixel, in float with denormals flushed to zero. The important column is
+// the fraction of results that are not finite.
 #include "rows.hpp"
 #include "tables.hpp"
 #include "truth/degenerate.hpp"
@@ -8,7 +8,7 @@ namespace cotan {
 
 namespace {
 
-// normalize(t m.x + b m.y + n m.z) without a guard, as shaders in circulation have it.
+// normalize(t m.x + b m.y + n m.z) without a guard, as in widely used shaders.
 glm::dvec3 applyUnguarded(const CotangentFrame<float>& f, glm::vec3 m)
 {
     const glm::vec3 v = f.t.raw() * m.x + f.b.raw() * m.y + f.n.raw() * m.z;
@@ -40,7 +40,7 @@ std::vector<Measurement> measureDegenerate(const AccuracySelection& selection)
                     const glm::vec3 unit = x.n * (1 / std::sqrt(glm::dot(x.n, x.n)));
                     r = applyUnguarded(makeFrame(frame, Covector3f(unit), x.d), x.m);
                 }
-                // Where the normal vanished there is nothing to compare with: count only validity.
+                // Without a normal there is nothing to compare with, so only validity counts.
                 angles.add(glm::dot(n, n) > 0 ? degreesBetween(r, n) : degreesBetween(r, r));
             }
             result.push_back(angles.finish({"degenerate", c.name, "tilt from the plain normal",

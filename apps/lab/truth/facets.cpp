@@ -1,5 +1,5 @@
-// Facets: the step of the perturbed normal across the edge between two triangles, and its error
-// inside them, for a map of constant tilt.
+// Facets: the step of the perturbed normal across the edge between two triangles, and its error inside the triangles,
+// for a map of constant tilt.
 #include "rows.hpp"
 #include "tables.hpp"
 #include "truth/tessellation.hpp"
@@ -16,7 +16,7 @@ constexpr int kFacetSamples = 6000;
 constexpr Frame kFrames[] = {Frame::paperFull, Frame::cotangent, Frame::exact,  Frame::triangle,  Frame::orthonormal,
                              Frame::gradient,  Frame::smooth,    Frame::vertex, Frame::mikktspace};
 
-// An edge that two triangles share: for each, its number and which of its corners the ends are.
+// An edge shared by two triangles: the index of each, and which of its corners are the ends of the edge.
 struct Edge {
     std::size_t triangles[2];
     int corners[2][2];
@@ -26,7 +26,7 @@ std::vector<Edge> interiorEdges(const Tessellation& mesh)
 {
     struct Side {
         std::size_t triangle;
-        int corners[2]; // of the lower and of the higher vertex
+        int corners[2]; // at the lower and at the higher vertex index
     };
     std::map<std::pair<std::uint32_t, std::uint32_t>, Side> open;
     std::vector<Edge> edges;
@@ -36,8 +36,8 @@ std::vector<Edge> interiorEdges(const Tessellation& mesh)
             if (mesh.indices[3 * f + std::size_t(a)] > mesh.indices[3 * f + std::size_t(b)])
                 std::swap(a, b);
             const std::pair key(mesh.indices[3 * f + std::size_t(a)], mesh.indices[3 * f + std::size_t(b)]);
-            const auto [found, fresh] = open.try_emplace(key, Side{f, {a, b}});
-            if (fresh)
+            const auto [found, inserted] = open.try_emplace(key, Side{f, {a, b}});
+            if (inserted)
                 continue;
             const Side& other = found->second;
             edges.push_back({{other.triangle, f}, {{other.corners[0], other.corners[1]}, {a, b}}});
@@ -55,7 +55,7 @@ Interpolated onEdge(const Tessellation& mesh, const Edge& edge, int side, double
     return interpolate(mesh, p);
 }
 
-// Any two differences do: the frames here do not depend on the view.
+// Any two differences will do, because these frames do not depend on the view.
 glm::dvec3 shadeByEdges(const FrameRows::Row& row, const Interpolated& x, glm::dvec3 texel)
 {
     return shade(row.frame, row.single, x, x.edges, texel);
@@ -70,7 +70,7 @@ void measure(const AccuracySelection& selection, const Surface& surface, int seg
     FrameRows steps, inside;
     for (Frame frame : kFrames) {
         steps.add(selection, frame, {"facets", surface.name, setting, "", "across the edge", ""});
-        if (frame != Frame::gradient) // its truth has no scale in common with a constant tilt
+        if (frame != Frame::gradient) // a constant tilt and truth E have no common scale
             inside.add(selection, frame, {"facets", surface.name, setting, "", "S", ""});
     }
     const double unitsPerUv = surface.unitsPerUv();

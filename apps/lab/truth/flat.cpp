@@ -1,4 +1,4 @@
-// Flat patches under seven layouts of uv: Figure 2.6.4 of the 2006 chapter in numbers.
+// Flat patches with seven layouts of uv: Figure 2.6.4 of the 2006 chapter in numbers.
 #include "rows.hpp"
 #include "tables.hpp"
 
@@ -8,9 +8,9 @@ namespace cotan {
 
 namespace {
 
-// What the generators of per-vertex frames give on a patch: the same at every vertex.
+// Results of the per-vertex frame generators on a patch, which are the same at every vertex.
 struct VertexFrames {
-    std::array<glm::dvec4, kFrameCount> tangents; // of the frames that read them, as tangentAlongV
+    std::array<glm::dvec4, kFrameCount> tangents; // for the frames that read tangents, as tangentAlongV
     glm::dvec3 cotangentU, cotangentV;
 };
 
@@ -22,7 +22,7 @@ VertexFrames vertexFrames(const Layout& l)
         positions.emplace_back(float(l.a * uv.x + l.b * uv.y), float(l.c * uv.x + l.d * uv.y), 0.0f);
         texcoords.emplace_back(uv);
     }
-    // Triangles run counter-clockwise seen from +z, also where the layout mirrors.
+    // Triangles are counter-clockwise seen from +z, even if the layout mirrors.
     const std::vector<std::uint32_t> indices = l.a * l.d - l.b * l.c > 0 ? std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}
                                                                          : std::vector<std::uint32_t>{0, 2, 1, 0, 3, 2};
     const MeshView mesh{positions, normals, texcoords, indices};
@@ -50,7 +50,7 @@ glm::dvec3 shadeVertexFrame(bool single, Frame frame, const VertexFrames& v, glm
     return f64::cotan_apply(f, m);
 }
 
-// The rows of one layout and view, ready to be added to.
+// The rows of one layout and view, to which samples are added.
 struct PatchRows {
     FrameRows s, e;
 
@@ -63,7 +63,7 @@ struct PatchRows {
         }
     }
 
-    // Pixels whose true normal is tilted by less than `minTilt` degrees are left out.
+    // Skips pixels whose true normal is tilted by less than `minTilt` degrees.
     void add(const AffinePatch& patch, const VertexFrames& vertices, const Differences<double>& d, glm::dvec3 m,
              double minTilt)
     {
@@ -80,7 +80,7 @@ struct PatchRows {
     }
 };
 
-// Embossed domes seen by a parallel camera from that direction.
+// Embossed domes seen by an orthographic camera in direction `from`.
 void measureDomes(PatchRows& rows, const Layout& layout, glm::dvec3 from, glm::dvec3 up)
 {
     const AffinePatch patch = patchOf(layout);
@@ -95,7 +95,7 @@ void measureDomes(PatchRows& rows, const Layout& layout, glm::dvec3 from, glm::d
         }
 }
 
-// Tilts of 0 to 80 degrees, parallel and perspective cameras, texels tilted by 35 degrees.
+// Views tilted by 0 to 80 degrees, orthographic and perspective, with texels tilted by 35 degrees.
 void measureAllViews(PatchRows& rows, const Layout& layout)
 {
     Random random(4);
@@ -114,8 +114,8 @@ void measureAllViews(PatchRows& rows, const Layout& layout)
 std::vector<Measurement> measureFlat(const AccuracySelection& selection)
 {
     std::vector<Measurement> result;
-    const double tilt = 60 * kDegree, turn = 30 * kDegree;
-    const glm::dvec3 tilted{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)};
+    const double tilt = 60 * kDegree, azimuth = 30 * kDegree;
+    const glm::dvec3 tilted{std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt)};
     for (const Layout& layout : kLayouts) {
         if (!selection.wantsScene(layout.name))
             continue;

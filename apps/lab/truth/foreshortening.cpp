@@ -1,5 +1,5 @@
-// A square patch tilted away from the camera, without and with perspective: Figure 2.6.5 of the 2006
-// chapter in numbers. All frames but the shortcuts are exact here.
+// A square patch tilted away from the camera, without and with perspective: Figure 2.6.5 of the 2006 chapter in
+// numbers. All frames except the shortcuts are exact here.
 #include "rows.hpp"
 #include "tables.hpp"
 
@@ -9,13 +9,13 @@ namespace cotan {
 
 namespace {
 
-// A patch with uv of unit length at right angles, turned by `turn` radians: axes e and h.
-AffinePatch squarePatch(glm::dvec3 e, glm::dvec3 h, double turn)
+// A patch with orthonormal gradients of u and v in the plane of e and h, rotated by `rotation` radians.
+AffinePatch squarePatch(glm::dvec3 e, glm::dvec3 h, double rotation)
 {
     AffinePatch p;
     p.normal = glm::cross(e, h);
-    p.gradU = e * std::cos(turn) + h * std::sin(turn);
-    p.gradV = h * std::cos(turn) - e * std::sin(turn);
+    p.gradU = e * std::cos(rotation) + h * std::sin(rotation);
+    p.gradV = h * std::cos(rotation) - e * std::sin(rotation);
     return p;
 }
 
@@ -49,18 +49,18 @@ std::vector<Measurement> measureForeshortening(const AccuracySelection& selectio
     return result;
 }
 
-// A ground plane, the eye one unit above it, looking at the horizon; field of view 90 degrees,
-// 1000 pixels wide; depth in eye heights.
+// A ground plane with the eye one unit above it, looking at the horizon; field of view 90 degrees, 1000 pixels wide;
+// depths in eye heights.
 std::vector<Measurement> measurePerspective(const AccuracySelection& selection)
 {
     std::vector<Measurement> result;
     const PixelCamera camera = PixelCamera::lookAt({0, 1, 0}, {0, 1, 1}, {0, 1, 0}, 500);
-    for (int turn : {0, 30, 45}) {
-        const std::string scene = fmt::format("ground plane, uv turned {}", turn);
+    for (int rotation : {0, 30, 45}) {
+        const std::string scene = fmt::format("ground plane, uv turned {}", rotation);
         if (!selection.wantsScene(scene))
             continue;
         // e x h = +y
-        const AffinePatch patch = squarePatch({0, 0, 1}, {1, 0, 0}, turn * kDegree);
+        const AffinePatch patch = squarePatch({0, 0, 1}, {1, 0, 0}, rotation * kDegree);
         for (double depth : {0.5, 1.0, 2.0, 3.0, 5.0, 10.0, 50.0, 300.0}) {
             const Measurement names{"perspective", scene, fmt::format("depth {:g}", depth), "", "S", ""};
             FrameRows rows, normalized;

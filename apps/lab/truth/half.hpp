@@ -1,4 +1,4 @@
-// Arithmetic in half precision, and the portable text over it.
+// Half-precision arithmetic, and the portable text compiled with it.
 #pragma once
 
 #include <cmath>
@@ -13,12 +13,12 @@
 
 namespace cotan {
 
-// An IEEE binary16 number, held in a float. Every operation rounds to nearest even; subnormals are
-// kept, overflow gives an infinity.
+// An IEEE binary16 number, stored as a float. Every operation rounds to nearest even; subnormals are kept, overflow
+// gives infinity.
 class Half {
 public:
     Half() = default;
-    Half(double x) : value_(round(x)) {} // implicit: constants of the text are doubles
+    Half(double x) : value_(round(x)) {} // implicit, because constants of the portable text are doubles
     operator float() const { return value_; }
 
     Half& operator+=(Half b) { return *this = Half(double(value_) + b.value_); }
@@ -43,13 +43,13 @@ public:
             return float(x);
         int exponent;
         std::frexp(x, &exponent);
-        const int unit = exponent - 11 > -24 ? exponent - 11 : -24; // of the last place
+        const int unit = exponent - 11 > -24 ? exponent - 11 : -24; // exponent of the last place
         const double r = std::ldexp(std::nearbyint(std::ldexp(x, -unit)), unit);
         return std::fabs(r) >= 65520 ? std::copysign(std::numeric_limits<float>::infinity(), float(x)) : float(r);
     }
 
 private:
-    float value_; // uninitialised by Half(), as a float is: a member of GLM's unions must be trivial
+    float value_; // uninitialised by Half(), like a float: members of GLM's unions must be trivial
 };
 
 inline Half abs(Half x) { return Half(std::fabs(double(float(x)))); }

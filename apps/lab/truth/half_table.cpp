@@ -1,5 +1,5 @@
-// The frame in half precision, as mobile shaders would like to have it. Attributes are float and
-// camera-relative; what is done in half is named by the scene.
+// The frame in half precision, as mobile shaders would like to have it. Attributes are float and camera-relative; the
+// scene says which part is computed in half.
 #include "half.hpp"
 
 #include "rows.hpp"
@@ -23,8 +23,8 @@ struct HalfInput {
     f16::cotan_vec2 duvdx, duvdy;
 };
 
-// The differences as they are, or first scaled by powers of two in float: their largest components
-// then lie in [1,2).
+// Rounds the inputs to half. If `scaled`, first scales the differences in float by powers of two, so that their largest
+// components are in [1,2).
 HalfInput input(const PrecisionTrial& t, const Differences<float>& d, bool scaled)
 {
     f32::cotan_differences s{d.dpdx.raw(), d.dpdy.raw(), d.duvdx, d.duvdy, 1, 1};
@@ -47,7 +47,7 @@ void measure(const AccuracySelection& selection, const char* scene, Frame frame,
         const auto f = frame == Frame::cotangent ? f16::cotan_frame_cotangent(x.n, x.dpdx, x.dpdy, x.duvdx, x.duvdy)
             : frame == Frame::orthonormal        ? f16::cotan_frame_orthonormal(x.n, x.dpdx, x.dpdy, x.duvdx, x.duvdy)
                                           : f16::cotan_frame_cotangent_2013(x.n, x.dpdx, x.dpdy, x.duvdx, x.duvdy);
-        // Not cotan_apply: its guard would hide that the sum is not finite.
+        // cotan_apply is not used, because its guard would hide sums that are not finite.
         const glm::dvec3 v = toDouble(f.t * x.m.x + f.b * x.m.y + f.n * x.m.z);
         angles.add(degreesBetween(v, shade(frame, t.normal, t.exact, t.texel)));
     }
@@ -55,7 +55,7 @@ void measure(const AccuracySelection& selection, const char* scene, Frame frame,
                                     "exact arithmetic", "half"}));
 }
 
-// Positions and uv themselves in half, differenced, and the frame in float.
+// Rounds positions and uv themselves to half before they are differenced; the frame is in float.
 void measureAttributes(const AccuracySelection& selection, double footprint, std::vector<Measurement>& result)
 {
     const char* scene = "attributes in half, frame in float";

@@ -1,4 +1,4 @@
-// Numbers that carry their first and second derivatives by two parameters.
+// Numbers that carry their first and second derivatives with respect to two parameters.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ struct Jet {
     double f = 0, s = 0, t = 0, ss = 0, st = 0, tt = 0;
 
     Jet() = default;
-    Jet(double constant) : f(constant) {} // implicit: constants are written as numbers
+    Jet(double constant) : f(constant) {} // implicit, so that constants can be written as numbers
     Jet(double f_, double s_, double t_, double ss_, double st_, double tt_)
         : f(f_), s(s_), t(t_), ss(ss_), st(st_), tt(tt_)
     {
@@ -39,7 +39,7 @@ inline Jet operator*(const Jet& a, const Jet& b)
             a.tt * b.f + 2 * a.t * b.t + a.f * b.tt};
 }
 
-// g(a) where g, g' and g'' at a.f are given: the chain rule.
+// Chain rule: g(a), with the values of g, g' and g'' at a.f.
 inline Jet chain(const Jet& a, double g, double g1, double g2)
 {
     return {g, g1 * a.s, g1 * a.t, g2 * a.s * a.s + g1 * a.ss, g2 * a.s * a.t + g1 * a.st, g2 * a.t * a.t + g1 * a.tt};

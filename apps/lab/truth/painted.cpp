@@ -62,7 +62,7 @@ PaintedScene paintedScene(const Surface& surface, int segments, int texelsPerUni
         low = glm::min(low, glm::dvec2(uv));
         high = glm::max(high, glm::dvec2(uv));
     }
-    // One scale for u and v: the frame is made from the map's coordinates and must not be stretched.
+    // u and v need the same scale: the frame is built from the map's coordinates, which must not be stretched.
     const double margin = 4.0 / texelsPerUnit;
     painted.mapOrigin = low - margin;
     painted.mapSide = std::max(high.x - low.x, high.y - low.y) + 2 * margin;
@@ -93,7 +93,7 @@ PaintedScene paintedScene(const Surface& surface, int segments, int texelsPerUni
 
 void setStrengthFor(PaintedScene& painted, Frame frame)
 {
-    // Gradients of the map's coordinates are those of uv divided by mapSide.
+    // The gradients of the map coordinates are those of uv divided by mapSide.
     const double metric = painted.unitsPerUv * painted.mapSide;
     painted.scene.materials.front().normalScale = frame == Frame::gradient ? float(metric) : 1.0f;
 }

@@ -1,5 +1,4 @@
-// The relief of the table `curved` as a scene that a renderer can draw, and the errors of the
-// pictures that it gives back.
+// The relief of the table `curved` as a scene that a renderer can draw, and the errors of the images drawn.
 #pragma once
 
 #include <vector>
@@ -10,7 +9,7 @@
 
 namespace cotan {
 
-// A tessellated surface whose material has the relief as a 16-bit normal map.
+// A tessellated surface with the relief as a 16-bit normal map in its material.
 struct PaintedScene {
     Scene scene;
     Surface surface;
@@ -20,17 +19,16 @@ struct PaintedScene {
     std::vector<Camera> cameras;
 };
 
-// The map has `texelsPerUnit` texels per uv unit; at 2048 its bilinear filtering is off by at most
-// 0.05 degrees, 0.01 mean.
+// The map has `texelsPerUnit` texels per uv unit. At 2048 the error of bilinear filtering is at most 0.05 degrees, 0.01
+// on average.
 PaintedScene paintedScene(const Surface& surface, int segments, int texelsPerUnit = 2048);
 
-// Sets the strength of the map for a frame: slopes as they are for scale-invariant frames, of
-// metric height for `gradient`.
+// Sets the strength of the map for a frame: unscaled slopes for scale-invariant frames, slopes of metric height for
+// `gradient`.
 void setStrengthFor(PaintedScene& painted, Frame frame);
 
-// Adds the angle between each pixel's normal and the truth for that frame (S; E for `gradient`).
-// normals, uv: float32 pictures of Output::normal and Output::uv of one view. Pixels without
-// surface (alpha 0) are skipped.
+// Adds the angle between each pixel's normal and the truth for `frame` (S; E for `gradient`). normals, uv: float32
+// images of Output::normal and Output::uv of the same view. Pixels without surface (alpha 0) are skipped.
 void addPaintedAngles(const PaintedScene& painted, Frame frame, const Image& normals, const Image& uv,
                       AngleCollector& angles);
 

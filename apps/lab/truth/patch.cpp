@@ -37,7 +37,7 @@ glm::dvec3 domeTexel(double u, double v)
 {
     constexpr double radius = 0.1, height = 0.6 * radius;
     const double x = u - (std::floor(u * 4) + 0.5) / 4, y = v - (std::floor(v * 4) + 0.5) / 4;
-    const double w = 1 - (x * x + y * y) / (radius * radius); // height w^2
+    const double w = 1 - (x * x + y * y) / (radius * radius); // the dome is height * w^2
     if (w <= 0)
         return {0, 0, 1};
     const double slope = -4 * height * w / (radius * radius);

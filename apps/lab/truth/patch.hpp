@@ -1,4 +1,4 @@
-// Flat patches with known gradients, views of them and texels on them, and their true normals.
+// Flat patches with known gradients, views and texels of them, and their true normals.
 #pragma once
 
 #include <array>
@@ -27,31 +27,30 @@ inline constexpr std::array<Layout, 7> kLayouts = {{
     {"scale 3", 3, 0, 0, 3},
 }};
 
-// The patch z = 0 with that layout; its gradients are the rows of the layout's inverse.
+// The patch z = 0 with the given layout. Its gradients are the rows of the layout's inverse.
 AffinePatch patchOf(const Layout& layout);
 
-// A random plane with stretched and skewed uv.
+// Returns a random plane with stretched and skewed uv.
 AffinePatch randomPatch(Random& random, bool mirrored);
 
-// A unit texel tilted by `degrees` towards a random direction.
+// Returns a unit texel tilted by `degrees` towards a random direction.
 glm::dvec3 tiltedTexel(Random& random, double degrees);
 
-// The texel, unit, of domes of radius 0.1 on a 0.25 grid of uv (Figure 2.6.4 of the 2006
-// chapter); the steepest slope is 0.92.
+// The unit texel at (u,v) of domes of radius 0.1 on a 0.25 grid (Figure 2.6.4 of the 2006 chapter). The steepest slope
+// is 0.92.
 glm::dvec3 domeTexel(double u, double v);
 
-// Truth S, scale invariant: the gradients, scaled together so that the longer has length one, give
-// normalize(s gradU m.x + s gradV m.y + n m.z).
+// Truth S, scale invariant: normalize(s gradU m.x + s gradV m.y + n m.z), where s scales the longer gradient to length
+// one.
 glm::dvec3 truthS(const AffinePatch& patch, glm::dvec3 texel);
 
-// Truth E, metric: the same with s = 1. Bumps have the height that the map says.
+// Truth E, metric: the same formula with s = 1, so that bumps have the height given by the map.
 glm::dvec3 truthE(const AffinePatch& patch, glm::dvec3 texel);
 
-// A camera 5 units from the patch's origin at that tilt, a random way round.
+// A camera 5 units from the patch's origin at the given tilt and a random azimuth.
 PixelCamera viewAt(Random& random, double tiltDegrees, bool orthographic);
 
-// The perturbed normal of a frame made from differences, in double, and in float from differences
-// rounded to float.
+// The perturbed normal by a frame made from differences: in double, or in float from differences rounded to float.
 glm::dvec3 shade(Frame frame, glm::dvec3 n, const Differences<double>& d, glm::dvec3 texel);
 glm::dvec3 shadeFloat(Frame frame, glm::dvec3 n, const Differences<double>& d, glm::dvec3 texel);
 glm::dvec3 shadeFloat(Frame frame, glm::dvec3 n, const Differences<float>& d, glm::dvec3 texel);

@@ -39,13 +39,14 @@ PrecisionTrial makeTrial(Random& random, const PrecisionSetting& setting)
 {
     PrecisionTrial t;
     const glm::dvec3 origin = random.direction() * setting.offset;
-    AffinePatch q; // stretched by up to two, a little skewed
+    AffinePatch q; // stretched by up to two, slightly skewed
     q.normal = random.direction();
     const glm::dvec3 e = glm::normalize(glm::cross(q.normal, random.direction()));
     const glm::dvec3 h = glm::cross(q.normal, e);
-    const double turn = random.azimuth();
-    q.gradU = e * std::cos(turn) + h * std::sin(turn);
-    q.gradV = (h * std::cos(turn) - e * std::sin(turn)) / random.range(1, 2) + q.gradU * random.range(-0.3, 0.3);
+    const double rotation = random.azimuth();
+    q.gradU = e * std::cos(rotation) + h * std::sin(rotation);
+    q.gradV =
+        (h * std::cos(rotation) - e * std::sin(rotation)) / random.range(1, 2) + q.gradU * random.range(-0.3, 0.3);
     const glm::dvec2 base = glm::dvec2{random.unit(), random.unit()} * setting.texcoords;
     for (int k = 0; k < 3; ++k) {
         const double z = 2 * std::numbers::pi * k / 3 + random.range(-0.3, 0.3);

@@ -1,5 +1,5 @@
-// One pixel of a triangle somewhere in a large world, as exact numbers and as float attributes
-// that hardware interpolates: what is left of the differences.
+// One pixel of a triangle anywhere in a large world, with exact values and with interpolated float attributes: the
+// precision that remains in its differences.
 #pragma once
 
 #include "cotan/packed_only.hpp"
@@ -7,35 +7,35 @@
 
 namespace cotan {
 
-// Positions, uv and the eye are floats, held in double: that is the mesh whose picture is asked for.
+// Positions, uv and eye are float values held in double: the mesh itself is exact, only its rendering is rounded.
 struct PrecisionTrial {
     glm::dvec3 positions[3], eye, normal, texel;
     glm::dvec2 texcoords[3];
-    glm::dvec2 barycentrics[3]; // of the pixel, its right and its upper neighbour
+    glm::dvec2 barycentrics[3]; // of the pixel, and of its right and upper neighbours
     Differences<double> exact;
 };
 
 struct PrecisionSetting {
-    double offset = 0;       // of the triangle from the origin of the world, units
+    double offset = 0;       // distance of the triangle from the world's origin, units
     double footprint = 1e-3; // size of a pixel on the triangle, units
-    double texcoords = 1;    // uv lie between 0 and this, plus the triangle's own extent
-    double side = 1;         // of the triangle, units; uv density about one per unit
+    double texcoords = 1;    // uv are between 0 and this, plus the extent of the triangle
+    double side = 1;         // size of the triangle, units; uv density is about one per unit
 };
 
 PrecisionTrial makeTrial(Random& random, const PrecisionSetting& setting);
 
-// Where the positions that are differentiated come from.
+// How the positions that are differentiated are computed.
 enum class PositionSource {
     world,              // interpolated world positions
-    eyeOffsetPerVertex, // position minus eye, subtracted in float at the vertices ([2013]'s -V)
-    eyeOffsetPerPixel,  // interpolated world position, minus eye in float at the pixel
-    cameraRelative,     // position minus eye, subtracted exactly before it is rounded to float
+    eyeOffsetPerVertex, // position minus eye, subtracted in float per vertex ([2013]'s -V)
+    eyeOffsetPerPixel,  // interpolated world position, minus eye in float per pixel
+    cameraRelative,     // position minus eye, subtracted exactly before rounding to float
 };
 
-// The differences that hardware measures: float barycentrics, two fused adds from corner 0.
+// The differences as hardware computes them: float barycentrics, two fused multiply-adds from corner 0.
 Differences<float> measuredDifferences(const PrecisionTrial& trial, PositionSource source);
 
-// The edges of the triangle from its float attributes, and exactly.
+// The edges of the triangle, from float attributes or exactly.
 Differences<float> floatEdges(const PrecisionTrial& trial);
 Differences<double> exactEdges(const PrecisionTrial& trial);
 

@@ -1,4 +1,4 @@
-// What float attributes leave of the frame, by distance from the origin, pixel size and uv.
+// The accuracy of frames from float attributes, by distance from the origin, pixel size and uv.
 #include "rows.hpp"
 #include "tables.hpp"
 #include "truth/precision.hpp"
@@ -26,7 +26,7 @@ void measure(const AccuracySelection& selection, const std::string& scene, const
         AngleCollector angles;
         for (int i = 0; i < kFloatTrials; ++i) {
             const PrecisionTrial t = makeTrial(random, setting);
-            const bool edges = info(frame).source == FrameSource::triangle; // its differences span the triangle
+            const bool edges = info(frame).source == FrameSource::triangle; // built from the edges of the triangle
             const glm::dvec3 truth = shade(frame, t.normal, edges ? exactEdges(t) : t.exact, t.texel);
             const auto d = edges ? floatEdges(t) : measuredDifferences(t, source);
             angles.add(degreesBetween(shadeFloat(frame, t.normal, d, t.texel), truth));

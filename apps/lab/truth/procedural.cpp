@@ -1,5 +1,5 @@
-// uv that are computed in the shader and not affine: a plane tilted by 45 degrees whose uv are warped
-// by sines of wavelength one and amplitude a tenth.
+// Non-affine uv computed in the shader: a plane, seen at 45 degrees, whose uv are warped by sines of wavelength one and
+// amplitude 0.1.
 #include "rows.hpp"
 #include "tables.hpp"
 
@@ -26,7 +26,7 @@ AffinePatch tangentPatch(glm::dvec3 p) // its gradients are those of the warped 
 
 struct Pixel {
     const PixelCamera& camera;
-    glm::dvec2 quad; // of its first lane
+    glm::dvec2 quad; // position of the quad's first pixel
     int lane[2];
 
     glm::dvec3 at(int x, int y) const { return camera.meet(quad + glm::dvec2(x, y), {0, 0, 0}, {0, 0, 1}); }
@@ -42,7 +42,7 @@ struct Pixel {
         return differences({lane[0] - 1, lane[1]}, {lane[0] + 1, lane[1]}, {lane[0], lane[1] - 1},
                            {lane[0], lane[1] + 1});
     }
-    // Positions differenced, uv by the analytic Jacobian along the same displacement.
+    // Differenced positions; uv differences by the analytic Jacobian along the same displacement.
     Differences<double> analytic() const
     {
         Differences<double> d = fine();

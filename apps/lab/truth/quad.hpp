@@ -1,5 +1,5 @@
-// Cameras and flat pieces of surface in double precision, and the differences that a 2x2 quad of
-// pixels would measure on them. The source of truth for tests and tables of accuracy.
+// Cameras and flat patches in double precision, and the differences that a 2x2 quad of pixels would measure on them.
+// The ground truth for tests and tables of accuracy.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -11,16 +11,16 @@
 
 namespace cotan {
 
-// A flat piece of surface with affine texture coordinates.
+// A flat patch with affine texture coordinates.
 struct AffinePatch {
     glm::dvec3 origin{0};
     glm::dvec3 normal{0, 0, 1}; // unit
-    glm::dvec3 gradU{1, 0, 0};  // of u, in the plane
+    glm::dvec3 gradU{1, 0, 0};  // gradient of u, in the plane
     glm::dvec3 gradV{0, 1, 0};
     glm::dvec2 uvAt(glm::dvec3 p) const { return {glm::dot(gradU, p - origin), glm::dot(gradV, p - origin)}; }
 };
 
-// A pinhole or a parallel camera that measures the screen in pixels.
+// A perspective or orthographic camera with screen coordinates in pixels.
 struct PixelCamera {
     glm::dvec3 eye{0};
     glm::dvec3 right{1, 0, 0}; // orthonormal, right-handed: right x up = -forward
@@ -28,29 +28,29 @@ struct PixelCamera {
     glm::dvec3 forward{0, 0, -1};
     double focal = 1000; // pixels; orthographic: pixels per world unit
     bool orthographic = false;
-    bool rowsDown = false; // the screen's y axis points down the picture
+    bool rowsDown = false; // the screen's y axis points down
 
     static PixelCamera lookAt(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up, double focal,
                               bool orthographic = false);
-    // Pixel position of a world point.
+    // Projects a world point to pixel coordinates.
     glm::dvec2 project(glm::dvec3 p) const;
-    // Where the ray through a pixel position meets a plane. The plane must not be seen edge-on.
+    // Intersects the ray through a pixel position with a plane, which must not be seen edge-on.
     glm::dvec3 meet(glm::dvec2 pixel, glm::dvec3 pointOfPlane, glm::dvec3 normal) const;
 };
 
-// What the screen derivatives are at a point of the patch: one-pixel (or `step`-pixel) forward
-// differences of position and uv. With `normalizedView`, positions are replaced by directions
-// from the eye of unit length: the mistake of feeding a normalised view vector.
+// The screen derivatives at a point of the patch, as forward differences of position and uv over `step` pixels. With
+// `normalizedView`, positions are replaced by unit vectors from the eye, which models the mistake of passing a
+// normalised view vector.
 Differences<double> screenDifferences(const PixelCamera& camera, const AffinePatch& patch, glm::dvec3 point,
                                       double step = 1, bool normalizedView = false);
 
-// The same rounded to float.
+// Rounds the differences to float.
 Differences<float> toFloat(const Differences<double>& d);
 
-// The factor of truth S: 1 over the longer gradient.
+// The factor s of truth S: 1 over the length of the longer gradient.
 double commonScale(glm::dvec3 gradU, glm::dvec3 gradV);
 
-// Angle in degrees between two directions, accurate near 0 and 180; NaN if one is not finite.
+// Angle in degrees between two directions, accurate near 0 and 180; NaN if either is not finite.
 double degreesBetween(glm::dvec3 a, glm::dvec3 b);
 
 } // namespace cotan

@@ -1,4 +1,4 @@
-// The same random numbers on every machine: splitmix64 (S. Vigna's constants).
+// Random numbers that are the same on every machine: splitmix64 (S. Vigna's constants).
 #pragma once
 
 #include <cmath>

@@ -9,7 +9,7 @@ namespace cotan {
 
 ReliefSample Waves::at(double u, double v) const
 {
-    constexpr double kDiagonal = 0.7; // of the wave number, at half the amplitude
+    constexpr double kDiagonal = 0.7; // relative wave number of the diagonal waves, whose amplitude is halved
     const double k = 2 * std::numbers::pi * perUnit, d = kDiagonal * k;
     const double amplitude = slope / (1.25 * k);
     const double sinU = std::sin(k * u + 1), cosU = std::cos(k * u + 1);

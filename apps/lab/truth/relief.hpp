@@ -1,4 +1,4 @@
-// A smooth relief over texture coordinates whose derivatives are known.
+// A smooth relief over texture coordinates with known derivatives.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -7,7 +7,7 @@
 
 namespace cotan {
 
-// Height and slopes in uv units: h_u is the change of height per unit of u.
+// Height and slopes in uv units; hu is the change of height per unit of u.
 struct ReliefSample {
     double h = 0, hu = 0, hv = 0;
 };
@@ -20,7 +20,7 @@ struct Waves {
     ReliefSample at(double u, double v) const;
 };
 
-// The texel, unit, of slopes multiplied by `scale`: proportional to (-h_u, -h_v, 1/scale).
+// The unit texel of slopes multiplied by `scale`: proportional to (-hu, -hv, 1/scale).
 glm::dvec3 texelOf(const ReliefSample& sample, double scale = 1);
 
 } // namespace cotan

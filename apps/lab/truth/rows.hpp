@@ -1,4 +1,4 @@
-// Rows of a table while they are being measured.
+// Rows of a table that collect measurements.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 
 namespace cotan {
 
-// One row per frame, each in double and in float.
+// One row for each frame in double and one in float.
 struct FrameRows {
     struct Row {
         Frame frame;
@@ -21,14 +21,14 @@ struct FrameRows {
     };
     std::vector<Row> rows;
 
-    // Adds both rows of a frame if it was selected. `names` without frame and arithmetic.
+    // Adds both rows of a frame if it is selected. `names` lacks frame and arithmetic.
     void add(const AccuracySelection& selection, Frame frame, const Measurement& names)
     {
         for (bool single : {false, true})
             addOne(selection, frame, single, names);
     }
 
-    // Adds one of them.
+    // Adds the row of one arithmetic.
     void addOne(const AccuracySelection& selection, Frame frame, bool single, Measurement names)
     {
         if (!selection.wants(frame))
@@ -50,7 +50,7 @@ inline glm::dvec3 shadeAs(bool single, Frame frame, glm::dvec3 n, const Differen
     return single ? shadeFloat(frame, n, d, m) : shade(frame, n, d, m);
 }
 
-// Frames that are made from differences, `exact` included: it takes any two.
+// Frames that are built from differences, including `exact`, which accepts any two.
 inline std::vector<Frame> differenceFrames()
 {
     std::vector<Frame> list;

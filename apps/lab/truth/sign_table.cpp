@@ -1,5 +1,5 @@
-// The direction of t and b in all 24 ways of seeing a surface, and of green in the four ways of
-// storing it.
+// The directions of t and b in all 24 configurations of viewing a surface, and of green in the four storage
+// conventions.
 #include "rows.hpp"
 #include "tables.hpp"
 #include "truth/signs.hpp"
@@ -8,7 +8,7 @@ namespace cotan {
 
 namespace {
 
-// Square uv seen face on, so that every frame is exact if its signs are right.
+// Square uv seen face on: every frame is exact if its signs are right.
 SignTrial faceOn(Random& random, const SignCase& c)
 {
     SignTrial t;
@@ -20,7 +20,7 @@ SignTrial faceOn(Random& random, const SignCase& c)
     PixelCamera camera = PixelCamera::lookAt(side * 3.0, {0, 0, 0}, random.direction(), 800, true);
     camera.rowsDown = c.rowsDown;
     t.d = screenDifferences(camera, p, {0, 0, 0});
-    if (c.leftHanded) { // the same picture in coordinates with z negated
+    if (c.leftHanded) { // the same view in coordinates with negated z
         for (glm::dvec3* v : {&p.normal, &p.gradU, &p.gradV})
             v->z = -v->z;
         t.d.dpdx.z = -t.d.dpdx.z;
@@ -51,8 +51,8 @@ void measureCase(const AccuracySelection& selection, const SignCase& c, std::vec
     rows.finish(result);
 }
 
-// A dome drawn upright in an image on a plane that is seen upright. Which way v runs and which way
-// green points are independent; the flag to store is whether green points along +v.
+// A dome drawn upright in an image on an upright plane. The directions of v and of green are independent; the flag to
+// store is whether green points along +v.
 void measureGreen(const AccuracySelection& selection, bool vDown, bool greenUp, std::vector<Measurement>& result)
 {
     const std::string scene = std::string(vDown ? "v down" : "v up") + (greenUp ? ", green up" : ", green down");

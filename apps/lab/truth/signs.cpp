@@ -36,7 +36,7 @@ SignTrial makeSignTrial(Random& random, const SignCase& c)
     t.n = glm::normalize(t.patch.normal + random.direction() * 0.1);
     if (c.flippedNormal)
         t.n = -t.n;
-    if (c.leftHanded) { // the same picture in coordinates with z negated
+    if (c.leftHanded) { // the same view in coordinates with negated z
         for (glm::dvec3* v : {&t.n, &t.patch.gradU, &t.patch.gradV})
             v->z = -v->z;
         t.d.dpdx.z = -t.d.dpdx.z;

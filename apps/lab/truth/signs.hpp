@@ -1,5 +1,5 @@
-// Every way round that a surface can be seen: world handedness, direction of the raster's rows,
-// facing, which way the normal was turned, mirrored uv.
+// All orientations in which a surface can be seen: handedness of the world, direction of the raster rows, facing,
+// flipped normals, mirrored uv.
 #pragma once
 
 #include <string>
@@ -13,19 +13,19 @@ namespace cotan {
 struct SignCase {
     bool leftHanded, rowsDown, back, flippedNormal, mirrored;
 
-    // The sign of n . (dpdx x dpdy), the cross product taken by its formula: the frame of 2013 as
-    // printed is right exactly where it is positive.
+    // Whether n . (dpdx x dpdy) is positive, with the cross product by its formula. The frame of 2013 as printed is
+    // right exactly if it is.
     bool positive() const { return (leftHanded + rowsDown + (back && !flippedNormal)) % 2 == 0; }
     std::string name() const;
 };
 
-// All 24: a front face's normal is never turned.
+// All 24 cases: the normal of a front face is never flipped.
 std::vector<SignCase> signCases();
 
-// A random plane seen that way.
+// A random plane seen in one of these orientations.
 struct SignTrial {
     AffinePatch patch;
-    glm::dvec3 n; // leaning a little from the plane's normal, perhaps turned round
+    glm::dvec3 n; // near the plane's normal, possibly flipped
     Differences<double> d;
 };
 SignTrial makeSignTrial(Random& random, const SignCase& c);

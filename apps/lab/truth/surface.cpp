@@ -40,7 +40,7 @@ std::array<Jet, 4> bernstein(Jet x)
     return {y * y * y, x * y * y * 3.0, x * x * y * 3.0, x * x * x};
 }
 
-// A bicubic patch: along t a spine that bends upwards, around s a half tube that tapers.
+// A bicubic patch: a spine along t that bends upwards, with a tapering half tube around s.
 JetVector spout(Jet s, Jet t)
 {
     constexpr double spineX[] = {0, 0.8, 1.2, 1.8}, spineZ[] = {0, 0.1, 0.9, 1.1};
@@ -92,7 +92,7 @@ SurfacePoint Surface::at(glm::dvec2 parameters) const
 
 glm::dvec3 Surface::displacedNormal(const SurfacePoint& p, const ReliefSample& r, double scale) const
 {
-    const glm::dvec2 slope = glm::dvec2(r.hu, r.hv) * uvOfParameters * scale; // by s and t
+    const glm::dvec2 slope = glm::dvec2(r.hu, r.hv) * uvOfParameters * scale; // with respect to s and t
     const glm::dvec3 s = p.ps + p.normal * slope.x + p.ns * (r.h * scale);
     const glm::dvec3 t = p.pt + p.normal * slope.y + p.nt * (r.h * scale);
     return glm::normalize(glm::cross(s, t)) * (inward ? -1.0 : 1.0);

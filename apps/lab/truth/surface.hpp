@@ -1,5 +1,4 @@
-// Curved surfaces that are known analytically: positions, gradients of uv, normals, and the normals
-// of a relief on them.
+// Analytic curved surfaces: positions, gradients of uv, normals, and the normals of a relief on them.
 #pragma once
 
 #include <functional>
@@ -17,7 +16,7 @@
 
 namespace cotan {
 
-// Everything about one point of a surface. Subscripts s and t: derivatives by the parameters.
+// The differential geometry of a surface point. Suffixes s and t denote derivatives by the parameters.
 struct SurfacePoint {
     glm::dvec2 parameters, uv;
     glm::dvec3 position, normal; // unit, outwards
@@ -26,7 +25,7 @@ struct SurfacePoint {
     glm::dvec3 ps, pt, ns, nt;
 };
 
-// A surface over the unit square of parameters (s,t); uv are linear in them.
+// A surface over parameters (s,t) in the unit square; uv is a linear function of them.
 struct Surface {
     std::string name;
     glm::dmat2 uvOfParameters; // uv = M (s,t)
@@ -37,24 +36,24 @@ struct Surface {
     glm::dvec2 parameters(glm::dvec2 uv) const;
     SurfacePoint at(glm::dvec2 parameters) const;
 
-    // The exact unit normal of the surface displaced by the relief along its normal, heights
-    // multiplied by `scale`: truth E.
+    // Truth E: the exact unit normal of the surface displaced along its normal by the relief, heights multiplied by
+    // `scale`.
     glm::dvec3 displacedNormal(const SurfacePoint& p, const ReliefSample& relief, double scale) const;
 
-    // The mean over the surface of 1 over the longer gradient: world units per uv unit, to make
-    // reliefs of metric height comparable with those of truth S.
+    // World units per uv unit: the mean over the surface of 1 over the longer gradient. Makes reliefs of metric height
+    // comparable with those of truth S.
     double unitsPerUv() const;
 };
 
-// sphere: latitude and longitude within 75 degrees; mercator: the same sphere with conformal uv;
-// torus: radii 1 and 0.4; spout: bent and tapering like a teapot's, uv sheared and stretched.
+// sphere: longitude and latitude, up to latitudes of 75 degrees; mercator: a sphere with conformal uv; torus: radii 1
+// and 0.4; spout: bent and tapering like a teapot's, uv sheared and stretched.
 const std::vector<Surface>& surfaces();
 
 // A flat patch in the plane z = 0, facing +z: position = [a b; c d] uv.
 Surface patchSurface(const Layout& layout);
 
-// Truth S on a curved surface: normalize(n - s (h_u gradU + h_v gradV)), s = 1 over the longer
-// gradient. For a texel m = (-h_u, -h_v, 1).
+// Truth S on a curved surface: normalize(n - s (hu gradU + hv gradV)), s = 1 over the longer gradient, for a texel
+// proportional to (-hu, -hv, 1).
 glm::dvec3 truthS(const SurfacePoint& p, glm::dvec3 texel);
 
 } // namespace cotan

@@ -12,7 +12,7 @@ const std::vector<AccuracyTable>& accuracyTables()
         {"flat", "flat patches: seven layouts of uv, stretched, sheared, mirrored, scaled", measureFlat},
         {"foreshortening", "a square patch tilted by 0 to 85 degrees, no perspective", measureForeshortening},
         {"perspective", "a ground plane up to the horizon", measurePerspective},
-        {"views", "does the frame depend on where its differences come from?", measureViews},
+        {"views", "whether the frame depends on the source of its differences", measureViews},
         {"signs", "handedness, rows up and down, facing, mirroring; green and v", measureSigns},
         {"curved", "a relief on sphere, Mercator sphere, torus and spout; 8 to 256 segments", measureCurved},
         {"facets", "steps across the edges of triangles, errors inside", measureFacets},

@@ -1,4 +1,4 @@
-// The tables of `cotan accuracy`, each in a file of its own.
+// The functions that measure the tables of `cotan accuracy`, each in a file of its own.
 #pragma once
 
 #include "truth/measurement.hpp"

@@ -13,7 +13,7 @@ glm::dvec3 corner(const std::vector<glm::vec3>& values, std::size_t i)
     return i < values.size() ? glm::dvec3(values[i]) : glm::dvec3(0);
 }
 
-// Gradients of u and v in the plane of the edges; zero where uv have no area there.
+// Gradients of u and v in the plane of the edges. `outwards` selects the side of the normal.
 AffinePatch planeOf(glm::dvec3 origin, const Differences<double>& edges, glm::dvec3 outwards)
 {
     AffinePatch p;
@@ -125,7 +125,7 @@ Interpolated interpolate(const Tessellation& mesh, const TrianglePoint& at)
         x.unitV += corner(mesh.unitCotangents.v, v) * w;
         x.cotangentV += corner(mesh.cotangentsV, v) * w;
         for (std::size_t f = 0; f < mesh.tangents.size(); ++f)
-            if (!mesh.tangents[f].empty()) // the sign is that of the first corner
+            if (!mesh.tangents[f].empty()) // the first corner gives the sign
                 x.tangents[f] += glm::dvec4(glm::dvec3(mesh.tangents[f][first + k]) * w,
                                             k == 0 ? double(tangentAlongV(mesh.tangents[f][first]).w) : 0);
     }

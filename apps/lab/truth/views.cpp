@@ -1,5 +1,5 @@
-// Whether a frame depends on where its differences come from: each source against the edges of a
-// triangle on the same patch.
+// Whether a frame depends on the source of its differences: compares each source with the edges of a triangle on the
+// same patch.
 #include "rows.hpp"
 #include "tables.hpp"
 
@@ -20,7 +20,7 @@ PixelCamera randomView(Random& random, const AffinePatch& patch)
     return PixelCamera::lookAt(eye * 4.0, {0, 0, 0}, random.direction(), 1800);
 }
 
-// Rows and columns of a map drawn over the surface: one texel along +u, one along -v.
+// Differences for a map rasterised in uv: one texel along +u and one along -v.
 Differences<double> rasterDifferences(const AffinePatch& patch)
 {
     const glm::dvec3 area = glm::cross(patch.gradU, patch.gradV);
@@ -42,7 +42,7 @@ Sources makeSources(Random& random, const AffinePatch& patch)
     s.screen = screenDifferences(camera, patch, p);
     s.wide = screenDifferences(camera, patch, p, 64);
     s.normalizedView = screenDifferences(camera, patch, p, 1, true);
-    // What the pixel diagonally across the quad is given where the hardware takes one pair for all.
+    // Hardware that computes one pair per quad gives a pixel the differences of the diagonally opposite pixel.
     const glm::dvec2 pixel = camera.project(p);
     const glm::dvec3 across = camera.meet(pixel - glm::dvec2(1, 1), patch.origin, patch.normal);
     s.coarse = screenDifferences(camera, patch, across);
@@ -55,12 +55,12 @@ Sources makeSources(Random& random, const AffinePatch& patch)
 
 std::vector<Measurement> measureViews(const AccuracySelection& selection)
 {
-    struct Shown {
+    struct SourcePair {
         const char* name;
         Differences<double> Sources::*first;
         Differences<double> Sources::*second;
     };
-    const Shown scenes[] = {
+    const SourcePair scenes[] = {
         {"screen quad", &Sources::edges, &Sources::screen},
         {"screen quad of 64 pixels", &Sources::edges, &Sources::wide},
         {"coarse against fine derivatives", &Sources::screen, &Sources::coarse},
@@ -69,7 +69,7 @@ std::vector<Measurement> measureViews(const AccuracySelection& selection)
         {"normalised view vector", &Sources::edges, &Sources::normalizedView},
     };
     std::vector<Measurement> result;
-    for (const Shown& scene : scenes) {
+    for (const SourcePair& scene : scenes) {
         if (!selection.wantsScene(scene.name))
             continue;
         FrameRows rows;

@@ -27,13 +27,13 @@ void drawMenus(const Interface& interface, Commands& chosen)
 {
     if (!ImGui::BeginMainMenuBar())
         return;
-    // What is still too long for a small window scrolls under its title instead of lying over it.
-    const float most = ImGui::GetIO().DisplaySize.y - 2 * ImGui::GetFrameHeight();
+    // Menus too long for a small window scroll instead of covering their title.
+    const float maxHeight = ImGui::GetIO().DisplaySize.y - 2 * ImGui::GetFrameHeight();
     for (const Menu& menu : interface.menus) {
-        ImGui::SetNextWindowSizeConstraints({0, 0}, {FLT_MAX, most});
+        ImGui::SetNextWindowSizeConstraints({0, 0}, {FLT_MAX, maxHeight});
         if (!ImGui::BeginMenu(menu.title.c_str()))
             continue;
-        bool open = true; // the submenu that the items are in
+        bool open = true; // whether the submenu of the items is open
         std::string submenu;
         for (const MenuItem& item : menu.items) {
             if (item.submenu != submenu) {
@@ -41,7 +41,7 @@ void drawMenus(const Interface& interface, Commands& chosen)
                     ImGui::EndMenu();
                 submenu = item.submenu;
                 if (!submenu.empty())
-                    ImGui::SetNextWindowSizeConstraints({0, 0}, {FLT_MAX, most});
+                    ImGui::SetNextWindowSizeConstraints({0, 0}, {FLT_MAX, maxHeight});
                 open = submenu.empty() || ImGui::BeginMenu(submenu.c_str());
             }
             if (!open)
@@ -121,7 +121,7 @@ void drawCard(const Interface& interface)
     ImGui::End();
 }
 
-// Text on the picture, readable on light and dark.
+// Draws text that is readable on light and dark images.
 void label(ImDrawList& list, ImVec2 at, const std::string& text, ImU32 color)
 {
     for (const ImVec2 d : {ImVec2(1, 1), ImVec2(-1, 1), ImVec2(1, -1), ImVec2(-1, -1)})

@@ -8,12 +8,12 @@
 
 namespace cotan::viewer {
 
-// Colours and sizes.
+// Sets colours and sizes.
 void setLook(bool dark, float scale);
-// The font for a scale; throws the one of before away.
+// Sets the font for a scale and discards the previous one.
 void setFont(float scale);
 
-// Returns the commands that were chosen.
+// Returns the chosen commands.
 std::vector<std::string> drawInterface(const Interface& interface, float scale);
 
 } // namespace cotan::viewer

@@ -1,4 +1,4 @@
-// The window by GLFW; Dear ImGui gets the same events that the viewer gets, played ones among them.
+// The window by GLFW. Dear ImGui gets the same events as the viewer, including played ones.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -51,7 +51,7 @@ constexpr std::array<KeyName, 17> kKeys = {{{GLFW_KEY_SPACE, "space"},
 
 constexpr std::array<const char*, 3> kButtons = {"left", "right", "middle"};
 
-// Empty for keys that have no name here.
+// Returns an empty string for keys without a name here.
 std::string nameOfKey(int key, int scancode)
 {
     for (const KeyName& known : kKeys)
@@ -61,7 +61,7 @@ std::string nameOfKey(int key, int scancode)
         return "f" + std::to_string(key - GLFW_KEY_F1 + 1);
     if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_9)
         return "kp" + std::to_string(key - GLFW_KEY_KP_0);
-    const char* printed = glfwGetKeyName(key, scancode); // as the keyboard's layout has it
+    const char* printed = glfwGetKeyName(key, scancode); // according to the keyboard layout
     std::string name = printed ? printed : "";
     if (name.size() == 1)
         name[0] = char(std::tolower(static_cast<unsigned char>(name[0])));
@@ -124,14 +124,14 @@ public:
     Status open(const WindowOptions& options)
     {
         glfwSetErrorCallback(nullptr);
-#ifdef GLFW_PLATFORM // 3.4: without this it prefers Wayland, with which the window was not tried
+#ifdef GLFW_PLATFORM // 3.4: prevents the default Wayland, on which the window is not tested
         if (!std::getenv("WAYLAND_DISPLAY") || std::getenv("DISPLAY"))
             glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
 #endif
         if (!glfwInit())
             return unavailableError("view: no display: " + lastProblem());
         if (!glfwVulkanSupported())
-            return unavailableError("view: no Vulkan that can present in a window: " + lastProblem());
+            return unavailableError("view: Vulkan cannot present in a window: " + lastProblem());
         played_ = options.played;
         glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
         glfwWindowHint(GLFW_FOCUS_ON_SHOW, GLFW_TRUE);
@@ -152,7 +152,7 @@ public:
         IMGUI_CHECKVERSION();
         ImGui::CreateContext();
         imgui_ = true;
-        ImGui::GetIO().IniFilename = nullptr; // the viewer keeps its state itself
+        ImGui::GetIO().IniFilename = nullptr; // the viewer saves its state itself
         ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
         ImGui_ImplGlfw_InitForVulkan(window_, false);
         return Done{};
@@ -178,7 +178,7 @@ public:
             switch (event.kind) {
             case EventKind::move:
                 pointer_ = {event.x, event.y};
-                take(); // what is under the pointer is known from here on
+                take(); // updates what is under the pointer
                 break;
             case EventKind::press:
             case EventKind::release: {
@@ -227,10 +227,10 @@ public:
     Result<Image> read() override
     {
         try {
-            Image picture = presenter_->read();
-            if (picture.width == 0)
+            Image image = presenter_->read();
+            if (image.width == 0)
                 return unavailableError("view: the window shows nothing");
-            return picture;
+            return image;
         } catch (const std::exception& e) {
             return unavailableError(std::string("view: ") + e.what());
         }
@@ -315,7 +315,7 @@ private:
                      holds(event, "shift"), holds(event, "alt"));
     }
 
-    // Dear ImGui's frame, up to its triangles.
+    // Builds a frame of Dear ImGui, up to its triangles.
     std::vector<std::string> layOut(const Interface& interface)
     {
         float scale = interface.scale;
@@ -334,7 +334,7 @@ private:
         dark_ = interface.dark;
         ImGui_ImplGlfw_NewFrame();
         ImGuiIO& io = ImGui::GetIO();
-        io.DisplaySize = {float(size().x), float(size().y)}; // pixels are the units throughout
+        io.DisplaySize = {float(size().x), float(size().y)}; // all units are pixels
         io.DisplayFramebufferScale = {1, 1};
         tellImGuiPointer(pointer_, buttons_, std::exchange(wheel_, glm::vec2(0)));
         if (played_)

@@ -1,4 +1,4 @@
-// Keys and the pointer for Dear ImGui. Since 1.87 it takes them as events; before 1.89 as the state of each.
+// Keys and the pointer for Dear ImGui: as events from 1.89 on, as plain states in older versions.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 namespace cotan::viewer {
 
 #if IMGUI_VERSION_NUM >= 18900
-// ImGuiKey_None for keys that the interface has no use for.
+// Returns ImGuiKey_None for keys that the interface does not use.
 inline ImGuiKey imGuiKeyOf(int glfwKey)
 {
     if (glfwKey >= GLFW_KEY_A && glfwKey <= GLFW_KEY_Z)
@@ -41,12 +41,12 @@ inline ImGuiKey imGuiKeyOf(int glfwKey)
 }
 #endif
 
-// A key that goes down or up, by GLFW's number, and what is held with it.
+// Reports a pressed or released key, by its GLFW number, with the modifiers held.
 inline void tellImGuiKey(int glfwKey, bool down, bool ctrl, bool shift, bool alt)
 {
     ImGuiIO& io = ImGui::GetIO();
 #if IMGUI_VERSION_NUM >= 18900
-    io.ConfigInputTrickleEventQueue = false; // a frame sees all that was before it
+    io.ConfigInputTrickleEventQueue = false; // a frame handles all earlier events
     io.AddKeyEvent(ImGuiMod_Ctrl, ctrl);
     io.AddKeyEvent(ImGuiMod_Shift, shift);
     io.AddKeyEvent(ImGuiMod_Alt, alt);
@@ -61,8 +61,8 @@ inline void tellImGuiKey(int glfwKey, bool down, bool ctrl, bool shift, bool alt
 #endif
 }
 
-// Where the pointer is in pixels, which of its buttons are down, and how far the wheel went since the last frame. Call
-// it behind the backend's new frame, which has a pointer of its own.
+// Reports the pointer position in pixels, the buttons that are down, and the wheel motion since the last frame. Call it
+// after the backend's NewFrame, which sets its own pointer.
 inline void tellImGuiPointer(glm::vec2 position, const std::array<bool, 3>& buttons, glm::vec2 wheel)
 {
     ImGuiIO& io = ImGui::GetIO();

@@ -1,4 +1,4 @@
-// What differs between versions of Dear ImGui's backend for Vulkan, from Debian 12's 1.86 on.
+// Differences between versions of Dear ImGui's Vulkan backend, from Debian 12's 1.86 on.
 #pragma once
 
 #include <backends/imgui_impl_vulkan.h>
@@ -6,7 +6,7 @@
 
 namespace cotan::viewer {
 
-// Starts the backend with a render pass, of one sample, that `info` may have no field for.
+// Starts the backend with a single-sampled render pass. Some versions of `info` have no field for it.
 template<class Info> bool startImGuiBackend(Info info, VkRenderPass pass)
 {
     if constexpr (requires { info.PipelineInfoMain.RenderPass; }) { // 1.92.4
@@ -24,8 +24,8 @@ template<class Info> bool startImGuiBackend(Info info, VkRenderPass pass)
     }
 }
 
-// Makes the fonts ready for the next frame. From 1.92 on the backend makes their textures as glyphs are needed; the
-// flag says so already before the backend starts.
+// Builds the fonts for the next frame. From 1.92 on the backend creates font textures on demand; the flag announces
+// that before the backend starts.
 inline void buildImGuiFonts()
 {
     ImGuiIO& io = ImGui::GetIO();
@@ -36,8 +36,8 @@ inline void buildImGuiFonts()
 #endif
 }
 
-// Uploads the fonts. submit: before 1.90, called with a function that records into a command buffer, which it is to run
-// and wait for. Since then the backend submits by itself; from 1.92 on there is nothing to upload here.
+// Uploads the fonts. submit: before 1.90, called with a function that records into a command buffer; it must run the
+// buffer and wait. From 1.90 on the backend submits by itself; from 1.92 on there is nothing to upload here.
 template<class Submit> void uploadImGuiFonts([[maybe_unused]] const Submit& submit)
 {
 #if IMGUI_VERSION_NUM < 19000
@@ -48,8 +48,8 @@ template<class Submit> void uploadImGuiFonts([[maybe_unused]] const Submit& subm
 #endif
 }
 
-// What was laid out before the backend started names no texture, which since 1.87 is bound as it is: gives it the
-// fonts'.
+// Draw lists built before the backend started name no texture, but from 1.87 on the backend binds what they name. Sets
+// the font texture.
 inline void nameImGuiTexture([[maybe_unused]] ImDrawData& data)
 {
 #if IMGUI_VERSION_NUM < 19200

@@ -13,7 +13,7 @@ namespace cotan::viewer {
 namespace {
 
 constexpr const char* kName = "org.freedesktop.portal.Desktop";
-constexpr std::uint64_t kPatience = 5'000'000; // microseconds until the portal, which may have to start, has answered
+constexpr std::uint64_t kPatience = 5'000'000; // timeout in microseconds; the portal may have to start first
 
 } // namespace
 
@@ -23,7 +23,7 @@ struct Portal::Work {
 
     ~Work() { sd_bus_close_unref(bus); }
 
-    // The call's own reply: the dialog opens, or there is no portal.
+    // The reply to the call itself: the dialog opens, or there is no portal.
     static int replied(sd_bus_message* message, void* work, sd_bus_error*)
     {
         if (sd_bus_message_is_method_error(message, nullptr))
@@ -31,7 +31,7 @@ struct Portal::Work {
         return 0;
     }
 
-    // uint32 response, 0 where something was chosen; a{sv} with "uris".
+    // The Response signal: uint32 response, 0 if a file was chosen; a{sv} with "uris".
     static int responded(sd_bus_message* message, void* work, sd_bus_error*)
     {
         FileAnswer& now = static_cast<Work*>(work)->now;
@@ -74,7 +74,7 @@ struct Portal::Work {
         if (code >= 0)
             code = sd_bus_message_open_container(message, 'v', "ay");
         if (code >= 0)
-            code = sd_bus_message_append_array(message, 'y', folder.c_str(), folder.size() + 1); // with its end
+            code = sd_bus_message_append_array(message, 'y', folder.c_str(), folder.size() + 1); // with the final 0
         for (int i = 0; i < 3 && code >= 0; ++i)
             code = sd_bus_message_close_container(message);
         if (code >= 0)
@@ -111,7 +111,7 @@ FileAnswer Portal::answer()
     int code = 0;
     while ((code = sd_bus_process(work_->bus, nullptr)) > 0) {
     }
-    if (code < 0) { // the bus has gone
+    if (code < 0) { // the bus is gone
         work_ = std::make_unique<Work>();
         return {FileAnswer::refused, {}};
     }

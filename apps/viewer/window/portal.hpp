@@ -1,5 +1,5 @@
-// The desktop's own dialog for a file, as programs in and out of sandboxes get it: org.freedesktop.portal.FileChooser
-// on the session's bus. Source: XDG Desktop Portal, interfaces FileChooser and Request.
+// The desktop's file dialog, available in and out of sandboxes: org.freedesktop.portal.FileChooser on the session bus.
+// Source: XDG Desktop Portal, interfaces FileChooser and Request.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ public:
     Portal();
     ~Portal();
 
-    // Asks for a dialog; what became of it comes from answer(). folder: to begin in.
+    // Requests a dialog that starts in `folder`; answer() returns its state.
     void ask(const std::string& folder);
     // Never waits.
     FileAnswer answer();

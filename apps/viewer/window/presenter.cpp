@@ -63,9 +63,9 @@ void Presenter::makeRenderPass()
     const auto formats = listOf<VkSurfaceFormatKHR>(
         [&](auto* count, auto* list) { vkGetPhysicalDeviceSurfaceFormatsKHR(physical_, surface_, count, list); });
     if (formats.empty())
-        throw std::runtime_error("the window's surface has no format of pixels");
+        throw std::runtime_error("the window's surface offers no pixel format");
     format_ = formats[0];
-    for (const VkSurfaceFormatKHR& f : formats) // not sRGB: the picture's bytes are shown as they are
+    for (const VkSurfaceFormatKHR& f : formats) // not sRGB: the image bytes are shown unchanged
         if (f.format == VK_FORMAT_B8G8R8A8_UNORM || f.format == VK_FORMAT_R8G8B8A8_UNORM) {
             format_ = f;
             break;
@@ -73,7 +73,7 @@ void Presenter::makeRenderPass()
     VkAttachmentDescription color{};
     color.format = format_.format;
     color.samples = VK_SAMPLE_COUNT_1_BIT;
-    color.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD; // the picture is there
+    color.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD; // the image is already there
     color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     color.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     color.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
@@ -208,7 +208,7 @@ void Presenter::startInterface()
     });
 }
 
-// The backend never frees a font's texture before its own end.
+// Restarts the backend, because it frees a font texture only when it ends.
 void Presenter::useFont()
 {
     if (!interface_started_)
@@ -252,12 +252,12 @@ bool Presenter::show(const Shown& shown, ImDrawData* interface, int width, int h
     if (interface)
         nameImGuiTexture(*interface);
     record(index, shown, interface);
-    const VkPipelineStageFlags cachedScene =
+    const VkPipelineStageFlags waitStages =
         VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
     auto submit = made<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
     submit.waitSemaphoreCount = 1;
     submit.pWaitSemaphores = &acquired_;
-    submit.pWaitDstStageMask = &cachedScene;
+    submit.pWaitDstStageMask = &waitStages;
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &commands_;
     submit.signalSemaphoreCount = 1;
@@ -282,22 +282,22 @@ bool Presenter::show(const Shown& shown, ImDrawData* interface, int width, int h
 
 Image Presenter::read()
 {
-    Image picture;
+    Image image;
     if (!has_read_)
-        return picture;
-    picture = makeImage(int(extent_.width), int(extent_.height), PixelType::unorm8, "window");
+        return image;
+    image = makeImage(int(extent_.width), int(extent_.height), PixelType::unorm8, "window");
     void* bytes = nullptr;
     COTAN_CHECK(vkMapMemory(device_, read_memory_, 0, VK_WHOLE_SIZE, 0, &bytes));
-    std::memcpy(picture.data.data(), bytes, picture.data.size());
+    std::memcpy(image.data.data(), bytes, image.data.size());
     vkUnmapMemory(device_, read_memory_);
     const bool blueFirst = format_.format == VK_FORMAT_B8G8R8A8_UNORM || format_.format == VK_FORMAT_B8G8R8A8_SRGB;
-    for (std::size_t i = 0; i < picture.pixelCount(); ++i) {
-        std::uint8_t* pixel = picture.bytes8() + 4 * i;
+    for (std::size_t i = 0; i < image.pixelCount(); ++i) {
+        std::uint8_t* pixel = image.bytes8() + 4 * i;
         if (blueFirst)
             std::swap(pixel[0], pixel[2]);
         pixel[3] = 255;
     }
-    return picture;
+    return image;
 }
 
 } // namespace cotan::viewer

@@ -1,4 +1,4 @@
-// Pictures and Dear ImGui's triangles into the images of a window's surface, by Vulkan.
+// Draws images and Dear ImGui's triangles into the images of a window surface, with Vulkan.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ struct ImDrawData;
 
 namespace cotan::viewer {
 
-// A call that did not succeed.
+// A Vulkan call that failed.
 class VulkanFailed : public std::runtime_error {
 public:
     VulkanFailed(const char* call, VkResult code);
@@ -24,7 +24,7 @@ public:
 void check(VkResult code, const char* call);
 #define COTAN_CHECK(call) ::cotan::viewer::check(call, #call)
 
-// A struct of Vulkan with all else zero.
+// A Vulkan struct with sType set and everything else zero.
 template<class T> T made(VkStructureType type)
 {
     T value{};
@@ -32,7 +32,7 @@ template<class T> T made(VkStructureType type)
     return value;
 }
 
-// What a function of Vulkan lists when it is called twice: get(&count, nullptr), then with room for them.
+// Calls a Vulkan enumeration twice: get(&count, nullptr), then get(&count, list) with enough space.
 template<class T, class Get> std::vector<T> listOf(Get get)
 {
     std::uint32_t count = 0;
@@ -43,22 +43,21 @@ template<class T, class Get> std::vector<T> listOf(Get get)
     return list;
 }
 
-// Owns all that it makes. One thread. Errors are thrown as VulkanFailed, and as std::runtime_error where nothing can
-// present.
+// Owns everything it creates. For one thread. Throws VulkanFailed, or std::runtime_error if nothing can present.
 class Presenter {
 public:
-    // makeSurface: called again where the surface is lost. extensions: of the instance, that surfaces need.
+    // makeSurface: called again if the surface is lost. extensions: instance extensions that surfaces need.
     Presenter(const std::vector<const char*>& extensions, const WindowOptions& options,
               std::function<VkSurfaceKHR(VkInstance)> makeSurface);
     ~Presenter();
     Presenter(const Presenter&) = delete;
     Presenter& operator=(const Presenter&) = delete;
 
-    // Whether there was something to draw into. width, height: of the window; 0 draws nothing.
+    // Returns whether there was a surface to draw into. width, height: of the window; 0 draws nothing.
     bool show(const Shown& shown, ImDrawData* interface, int width, int height);
-    Image read(); // what the last show() drew
+    Image read(); // reads back what the last show() drew
     void loseSurface() { lost_ = true; }
-    void useFont(); // the one of Dear ImGui as it is now
+    void useFont(); // switches to Dear ImGui's current font
     const std::string& device() const { return device_name_; }
 
     std::vector<std::string> messages;
@@ -69,7 +68,7 @@ private:
         VkDeviceMemory memory = VK_NULL_HANDLE, staging_memory = VK_NULL_HANDLE;
         VkBuffer staging = VK_NULL_HANDLE;
         int width = 0, height = 0;
-        bool fresh = false; // the staging buffer has what the image has not
+        bool fresh = false; // the staging buffer has not been copied to the image yet
     };
 
     void openInstance(const std::vector<const char*>& extensions, bool validation);
@@ -81,7 +80,7 @@ private:
     void startInterface();
     bool acquire(int width, int height, std::uint32_t& index);
     void record(std::uint32_t index, const Shown& shown, ImDrawData* interface);
-    void keep(HostImage& into, const Image& picture);
+    void keep(HostImage& into, const Image& image);
     void drop(HostImage& image);
     void blit(HostImage& from, std::uint32_t index, float left, float right);
     void barrier(VkImage image, VkImageLayout from, VkImageLayout to);
@@ -109,7 +108,7 @@ private:
     std::vector<VkImage> images_;
     std::vector<VkImageView> views_;
     std::vector<VkFramebuffer> framebuffers_;
-    std::vector<VkSemaphore> drawn_; // one an image, so that none waits that a present still uses
+    std::vector<VkSemaphore> drawn_; // one per image, so that none is reused while a present still waits on it
     VkBuffer read_ = VK_NULL_HANDLE;
     VkDeviceMemory read_memory_ = VK_NULL_HANDLE;
     HostImage picture_, other_;

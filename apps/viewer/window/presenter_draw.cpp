@@ -1,4 +1,4 @@
-// What one frame of the window does: the pictures go up, are laid into the window, and the interface over them.
+// One frame of the window: uploads the images, draws them into the window, and the interface over them.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -24,7 +24,7 @@ std::uint32_t Presenter::memoryType(std::uint32_t bits, VkMemoryPropertyFlags fl
     for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
         if ((bits & (1u << i)) && (memory.memoryTypes[i].propertyFlags & flags) == flags)
             return i;
-    throw std::runtime_error("the device has no memory of the kind that is needed");
+    throw std::runtime_error("the device has no memory of the required type");
 }
 
 VkBuffer Presenter::makeBuffer(VkDeviceSize bytes, VkBufferUsageFlags usage, VkDeviceMemory& memory)
@@ -54,14 +54,14 @@ void Presenter::drop(HostImage& image)
     image = {};
 }
 
-void Presenter::keep(HostImage& into, const Image& picture)
+void Presenter::keep(HostImage& into, const Image& image)
 {
-    if (into.width != picture.width || into.height != picture.height) {
+    if (into.width != image.width || into.height != image.height) {
         drop(into);
         auto info = made<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
         info.imageType = VK_IMAGE_TYPE_2D;
         info.format = VK_FORMAT_R8G8B8A8_UNORM;
-        info.extent = {std::uint32_t(picture.width), std::uint32_t(picture.height), 1};
+        info.extent = {std::uint32_t(image.width), std::uint32_t(image.height), 1};
         info.mipLevels = 1;
         info.arrayLayers = 1;
         info.samples = VK_SAMPLE_COUNT_1_BIT;
@@ -74,18 +74,18 @@ void Presenter::keep(HostImage& into, const Image& picture)
         allocate.memoryTypeIndex = memoryType(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
         check(vkAllocateMemory(device_, &allocate, nullptr, &into.memory), "vkAllocateMemory");
         check(vkBindImageMemory(device_, into.image, into.memory, 0), "vkBindImageMemory");
-        into.staging = makeBuffer(picture.data.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, into.staging_memory);
-        into.width = picture.width;
-        into.height = picture.height;
+        into.staging = makeBuffer(image.data.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, into.staging_memory);
+        into.width = image.width;
+        into.height = image.height;
     }
     void* bytes = nullptr;
     check(vkMapMemory(device_, into.staging_memory, 0, VK_WHOLE_SIZE, 0, &bytes), "vkMapMemory");
-    std::memcpy(bytes, picture.data.data(), picture.data.size());
+    std::memcpy(bytes, image.data.data(), image.data.size());
     vkUnmapMemory(device_, into.staging_memory);
     into.fresh = true;
 }
 
-// From one layout to another, with all before it waited for: a frame has few, and none is long.
+// Changes the layout of an image and waits for all earlier commands, which is fast enough for the few of a frame.
 void Presenter::barrier(VkImage image, VkImageLayout from, VkImageLayout to)
 {
     auto info = made<VkImageMemoryBarrier>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER);
@@ -101,7 +101,7 @@ void Presenter::barrier(VkImage image, VkImageLayout from, VkImageLayout to)
                          nullptr, 0, nullptr, 1, &info);
 }
 
-// Lays the columns from `left` to `right`, shares of the width, of a picture into the window.
+// Copies the columns from `left` to `right`, as fractions of the width, of an image into the window.
 void Presenter::blit(HostImage& from, std::uint32_t index, float left, float right)
 {
     if (from.fresh) {
@@ -113,7 +113,7 @@ void Presenter::blit(HostImage& from, std::uint32_t index, float left, float rig
         barrier(from.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         from.fresh = false;
     }
-    const auto column = [&](float share, int width) { return int(std::lround(share * float(width))); };
+    const auto column = [&](float fraction, int width) { return int(std::lround(fraction * float(width))); };
     VkImageBlit region{};
     region.srcSubresource = kLayers;
     region.srcOffsets[0] = {column(left, from.width), 0, 0};

@@ -1,4 +1,4 @@
-// What a presenter has from its beginning to its end: an instance, a device that can present, buffers of commands.
+// Creates what lives as long as the presenter: the instance, a device that can present, the command buffer.
 #include <algorithm>
 #include <cctype>
 #include <cstring>
@@ -12,7 +12,7 @@ namespace {
 VKAPI_ATTR VkBool32 VKAPI_CALL collect(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                        const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages)
 {
-    try { // called from inside Vulkan, through which no exception may pass
+    try { // called by Vulkan, which exceptions must not pass through
         static_cast<std::vector<std::string>*>(messages)->emplace_back(data->pMessage);
     } catch (...) {
     }
@@ -66,7 +66,7 @@ void Presenter::openInstance(const std::vector<const char*>& needed, bool valida
     COTAN_CHECK(make(instance_, &messenger, nullptr, &messenger_));
 }
 
-// The device that the renderer draws on where it can present; else a real one, else any.
+// Chooses the renderer's device if it can present, else a discrete GPU, else any device.
 void Presenter::openDevice(const std::string& wanted)
 {
     const auto devices =
@@ -88,12 +88,12 @@ void Presenter::openDevice(const std::string& wanted)
                 || !(families[f].queueFlags & VK_QUEUE_GRAPHICS_BIT))
                 continue;
             const bool named = !wanted.empty() && lower(properties.deviceName).find(lower(wanted)) != std::string::npos;
-            const int worth = named                                             ? 3
+            const int score = named                                             ? 3
                 : properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU ? 2
                 : properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU          ? 0
                                                                                 : 1;
-            if (worth > best) {
-                best = worth;
+            if (score > best) {
+                best = score;
                 physical_ = candidate;
                 family_ = f;
                 device_name_ = properties.deviceName;

@@ -1,16 +1,17 @@
 import type { Transform } from '@gltf-transform/core';
 import type { ConvertReport, Limits, LintReport, Picture } from '../cotan.js';
 
-/** Gives every primitive tangents, indexed ones too: vertices are copied where the corners that share one differ.
- * Primitives that have some keep them, unless overwrite is true. What cannot have any is left, with a warning. */
+/** Generates tangents for every primitive, indexed or not. A vertex is duplicated where the tangents of its corners
+ * differ. Existing tangents are kept unless `overwrite` is true. Primitives without triangles, normals or uv get a
+ * warning instead. */
 export function tangents(options?: { kind?: 'mikktspace' | 'vertex'; overwrite?: boolean }): Transform;
 
-/** Drops TANGENT: see convert of the package cotan for `mode`, whose default is what lint advises: the maps byte for byte as they
- * are, for readers that take `orthonormal` or MikkTSpace; or new ones. Compressed geometry and maps in KTX2 are dropped from
- * without being decoded. New maps are in the format of the old ones, JPEG and WebP where their encoder is there, else PNG. With
- * them materials name the frame in their extras, as `cotanFrame`; `from` is by default the frame that they name. Gives new
- * tangents where `to` reads some. New maps cannot be made from KTX2: such a map stays as it is, and so do the tangents that it
- * needs; the report has it as unread_maps. */
+/** Drops TANGENT. `mode` is as in `convert` of the package cotan. By default the mode is what lint advises: either maps
+ * stay byte for byte, for readers that use `orthonormal` or MikkTSpace, or new maps are made. Compressed geometry and
+ * KTX2 maps need no decoding to drop tangents. New maps keep the format of the old ones; JPEG and WebP become PNG if
+ * their encoder is missing. Materials with new maps name the frame in their extras, as `cotanFrame`, which is also the
+ * default of `from`. Generates tangents if the frame `to` reads them. New maps cannot be made from KTX2: such a map
+ * stays as it is with the tangents that it needs, and is listed in the report as unread_maps. */
 export function untangent(options?: {
   mode?: 'auto' | 'drop' | 'convert';
   from?: string;
@@ -20,22 +21,21 @@ export function untangent(options?: {
   generateTangents?: boolean;
   unsigned?: 'biased' | 'exact';
   decode?: (bytes: Uint8Array, name: string) => Promise<Picture & { bits: number }>;
-  /** Gets the report of the conversion; `bytes` of it are of normal maps and tangents, uncompressed. Its notes are warnings of the
-   * document's logger too. */
+  /** Receives the report of the conversion. Its `bytes` count normal maps and uncompressed tangents only. Its notes are
+   * also logged as warnings by the document's logger. */
   report?: (report: ConvertReport) => void;
 }): Transform;
 
-/** Says what to expect of the model when its maps are read without stored tangents; changes nothing. With a limit it is a
- * check: what is over it rejects with a CotanError whose code is `limit`, after `report` was called; see lint of the package
- * cotan. */
+/** Reports what to expect of the model when its maps are read without stored tangents; changes nothing. If a limit is
+ * exceeded, rejects with a CotanError with code `limit`, after calling `report`. See `lint` of the package cotan. */
 export function lintNormals(options?: Limits & {
   distance?: number;
   decode?: (bytes: Uint8Array, name: string) => Promise<Picture & { bits: number }>;
   report?: (report: LintReport) => void;
 }): Transform;
 
-/** Numbers the vertices so that vertex k provokes triangle k: see provoking of the package cotan. */
+/** Renumbers vertices so that vertex k is the provoking vertex of triangle k: see `provoking` of the package cotan. */
 export function provoking(options?: { vertex?: 'first' | 'last' }): Transform;
 
-/** The names that `from` and `to` know. */
+/** The frame names that `from` and `to` accept. */
 export function frames(): string[];

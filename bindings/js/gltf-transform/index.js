@@ -1,4 +1,4 @@
-// Transforms for glTF-Transform 4: see index.d.ts.
+// Transforms for glTF-Transform 4, documented in index.d.ts.
 import { Primitive, WebIO } from '@gltf-transform/core';
 import { convert, CotanError, decodePicture, encodePng, frames, lint, provoking as provokingOf, ready, split, tangents as tangentsOf } from '../cotan.js';
 import { choice, options as checked } from '../src/arrays.js';
@@ -14,14 +14,14 @@ function* primitivesOf(document) {
       yield { primitive, name: `${mesh.getName() || 'mesh'}/${number}` };
 }
 
-/** All elements as floats, whatever they are stored as. */
+/** The first `size` components of all elements, decoded to floats from any component type. */
 function floatsOf(accessor, size) {
   const out = new Float32Array(accessor.getCount() * size), element = [];
   for (let i = 0; i < accessor.getCount(); ++i) out.set(accessor.getElement(i, element).slice(0, size), i * size);
   return out;
 }
 
-/** The uv that the normal map of a primitive reads: its set, transformed. */
+/** The uv that a primitive's normal map is sampled at, with KHR_texture_transform applied. Null if missing. */
 function uvsOf(primitive) {
   const info = primitive.getMaterial()?.getNormalTexture() ? primitive.getMaterial().getNormalTextureInfo() : null;
   const transform = info?.getExtension('KHR_texture_transform');
@@ -44,11 +44,11 @@ const indicesOf = (primitive) => {
   return indices ? Uint32Array.from(indices.getArray()) : Uint32Array.from({ length: primitive.getAttribute('POSITION').getCount() }, (_, i) => i);
 };
 
-const letGo = (property) => {
+const disposeIfUnused = (property) => {
   if (property && property.listParents().every((parent) => parent.propertyType === 'Root')) property.dispose();
 };
 
-/** The primitive's vertices anew: copies of the old ones. */
+/** Replaces the primitive's vertices by copies: new vertex k is a copy of old vertex sources[k]. */
 function renumber(document, primitive, { sources, indices }) {
   const gathered = (accessor) => {
     const old = accessor.getArray(), size = accessor.getElementSize(), array = new old.constructor(sources.length * size);
@@ -60,13 +60,13 @@ function renumber(document, primitive, { sources, indices }) {
     for (const semantic of holder.listSemantics()) {
       const old = holder.getAttribute(semantic);
       holder.setAttribute(semantic, gathered(old));
-      letGo(old);
+      disposeIfUnused(old);
     }
   const old = primitive.getIndices();
   const Type = sources.length <= 65535 ? Uint16Array : Uint32Array;
   primitive.setIndices(document.createAccessor().setType('SCALAR').setArray(Type.from(indices))
     .setBuffer(primitive.getAttribute('POSITION').getBuffer()));
-  letGo(old);
+  disposeIfUnused(old);
 }
 
 function dropTangents(primitive) {
@@ -74,13 +74,13 @@ function dropTangents(primitive) {
     const old = holder.getAttribute('TANGENT');
     if (!old) continue;
     holder.setAttribute('TANGENT', null);
-    letGo(old);
+    disposeIfUnused(old);
   }
 }
 
-/** Why a primitive cannot have tangents, or null. */
-function lacks(primitive, uvs) {
-  if (primitive.getMode() !== Primitive.Mode.TRIANGLES) return 'is no list of triangles';
+/** The reason why a primitive cannot have tangents, or null if it can. */
+function whyNoTangents(primitive, uvs) {
+  if (primitive.getMode() !== Primitive.Mode.TRIANGLES) return 'is not a triangle list';
   for (const semantic of ['POSITION', 'NORMAL']) if (!primitive.getAttribute(semantic)) return `has no ${semantic}`;
   return uvs ? null : 'has no uv';
 }
@@ -89,13 +89,13 @@ function giveTangents(document, primitive, uvs, kind) {
   const position = primitive.getAttribute('POSITION'), indices = indicesOf(primitive), mesh = {
     positions: floatsOf(position, 3), normals: floatsOf(primitive.getAttribute('NORMAL'), 3), uvs, indices,
   };
-  const corners = tangentsOf(mesh, { kind }), apart = split(position.getCount(), indices, corners);
+  const corners = tangentsOf(mesh, { kind }), splitMesh = split(position.getCount(), indices, corners);
   dropTangents(primitive);
-  renumber(document, primitive, apart);
-  const values = new Float32Array(apart.sources.length * 4).fill(0);
+  renumber(document, primitive, splitMesh);
+  const values = new Float32Array(splitMesh.sources.length * 4).fill(0);
   for (let i = 3; i < values.length; i += 4) values[i] = 1;
-  for (let i = 0; i < values.length; i += 4) values[i] = 1; // vertices without triangles
-  apart.indices.forEach((vertex, i) => values.set(corners.subarray(4 * i, 4 * i + 4), 4 * vertex));
+  for (let i = 0; i < values.length; i += 4) values[i] = 1; // for vertices that no triangle uses
+  splitMesh.indices.forEach((vertex, i) => values.set(corners.subarray(4 * i, 4 * i + 4), 4 * vertex));
   primitive.setAttribute('TANGENT', document.createAccessor().setType('VEC4').setArray(values)
     .setBuffer(primitive.getAttribute('POSITION').getBuffer()));
 }
@@ -106,18 +106,18 @@ export function tangents(given) {
   return named('tangents', async (document) => {
     await ready;
     const logger = document.getLogger();
-    let given = 0;
+    let count = 0;
     for (const { primitive, name } of primitivesOf(document)) {
       if (primitive.getAttribute('TANGENT') && !overwrite) continue;
-      const uvs = uvsOf(primitive), why = lacks(primitive, uvs);
+      const uvs = uvsOf(primitive), why = whyNoTangents(primitive, uvs);
       if (why) {
         logger.warn(`tangents: ${name} ${why}`);
         continue;
       }
       giveTangents(document, primitive, uvs, kind);
-      ++given;
+      ++count;
     }
-    logger.debug(`tangents: ${given} primitives`);
+    logger.debug(`tangents: ${count} primitives`);
   });
 }
 
@@ -128,7 +128,7 @@ export function provoking(given) {
     await ready;
     for (const { primitive, name } of primitivesOf(document)) {
       if (primitive.getMode() !== Primitive.Mode.TRIANGLES) {
-        document.getLogger().warn(`provoking: ${name} is no list of triangles`);
+        document.getLogger().warn(`provoking: ${name} is not a triangle list`);
         continue;
       }
       renumber(document, primitive, provokingOf(primitive.getAttribute('POSITION').getCount(), indicesOf(primitive), { vertex }));
@@ -137,11 +137,11 @@ export function provoking(given) {
 }
 
 const kCompressions = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression', 'KHR_meshopt_compression'];
-const kDecoded = ['image/webp', 'image/avif']; // by the platform, to PNG
+const kDecoded = ['image/webp', 'image/avif']; // formats that the platform decodes; written as PNG
 
-/** The document as plain glTF in memory. decode: null leaves maps in WebP and AVIF as they are. Compressions of geometry are set aside while it is written: they would need
- * encoders. Normal maps in WebP and AVIF are written as PNG. */
-async function written(document, decode) {
+/** The document as plain glTF in memory. Geometry compression extensions are removed meanwhile, since they would need
+ * encoders. WebP and AVIF normal maps are written as PNG, unless decode is null. */
+async function asPlainGltf(document, decode) {
   const aside = document.getRoot().listExtensionsUsed().filter((extension) => kCompressions.includes(extension.extensionName))
     .map((extension) => ({ Type: extension.constructor, required: extension.isRequired(), options: extension._encoderOptions }));
   const pictures = new Map();
@@ -181,13 +181,13 @@ function replaceMap(document, map, { bytes, mimeType }) {
   texture.setImage(bytes).setMimeType(mimeType).setURI(uri && `${uri.replace(/\.[^./]*$/, '')}${elsewhere ? '-normal' : ''}.${ending}`);
 }
 
-/** What readers of a material's maps must know, cotanFrame and cotanUnsigned, as the conversion has it. */
+/** Replaces the material's extras that begin with "cotan" (cotanFrame, cotanUnsigned) by those of the conversion. */
 function takeExtras(material, extras = {}) {
   const ours = (entries, yes) => Object.fromEntries(Object.entries(entries).filter(([name]) => name.startsWith('cotan') === yes));
   material.setExtras({ ...ours(material.getExtras(), false), ...ours(extras, true) });
 }
 
-// Of a document: its normal maps, and what tangents take uncompressed.
+// The textures of a document that materials use as normal maps.
 const normalMapsOf = (document) => [...new Set(document.getRoot().listMaterials().flatMap((material) =>
   [material.getNormalTexture(), material.getExtension('KHR_materials_clearcoat')?.getClearcoatNormalTexture()]).filter(Boolean))];
 const imageBytes = (texture) => texture.getImage()?.byteLength ?? 0;
@@ -205,12 +205,12 @@ function tangentsOfDocument(document) {
   return { dropped_primitives: primitives, bytes_per_vertex: vertices ? bytes / vertices : 0, vertices, bytes };
 }
 
-const kUnpacked = 0.2; // of what geometry takes in memory, in a file that compresses it
+const kPackedFraction = 0.2; // file size of compressed geometry as a fraction of its size in memory
 
-/** What the document takes in a file, about. */
-function sizeAbout(document) {
+/** Estimated file size of the document, and the factor from bytes of geometry in memory to bytes in the file. */
+function estimatedSize(document) {
   const root = document.getRoot(), packed = root.listExtensionsUsed().some((extension) => kCompressions.includes(extension.extensionName));
-  const weight = packed ? kUnpacked : 1;
+  const weight = packed ? kPackedFraction : 1;
   return { whole: root.listTextures().reduce((sum, texture) => sum + imageBytes(texture), 0) + weight * arrayBytes(root.listAccessors()), weight };
 }
 
@@ -224,7 +224,7 @@ function dropAll(document, keepTangents) {
   };
 }
 
-/** The new maps, made and not yet put in: { report, images, glb }. images: { bytes, mimeType } of those that are not kept. */
+/** Makes the new maps, without changing the document: { report, images, glb }. images: { bytes, mimeType } of each. */
 async function newMaps(document, { model, files }, o) {
   const made = [], pictures = [], textures = document.getRoot().listTextures();
   const { glb, report } = await convert(model, { ...o, mode: 'convert', files, encode: async (picture) => {
@@ -237,7 +237,7 @@ async function newMaps(document, { model, files }, o) {
     const old = textures[map.image], format = old?.getImage() && pictures[k].bits === 8 ? lossyFormat(old.getImage()) : null;
     const lossy = format && await encodeLossy(pictures[k], format);
     images.push(lossy && lossy.length < made[k].length ? { bytes: lossy, mimeType: format.mimeType } : { bytes: made[k], mimeType: 'image/png' });
-    if (format && !lossy) notes.push(`${map.name}: becomes PNG: there is no encoder for ${format.mimeType} here (in node the package sharp)`);
+    if (format && !lossy) notes.push(`${map.name}: no encoder for ${format.mimeType} is available (in Node.js: the package sharp), so the new map is PNG`);
     Object.assign(map, { bytes_before: imageBytes(old), bytes_after: images.at(-1).bytes.length });
     if (images.at(-1).bytes === lossy) Object.assign(map, { format: format.mimeType === 'image/webp' ? 'WebP' : 'JPEG', quality: format.quality ?? null });
   }
@@ -245,42 +245,42 @@ async function newMaps(document, { model, files }, o) {
   return { glb, images, report: { ...report, maps, notes, mode: 'convert' } };
 }
 
-function putIn(document, { glb, images, report }, to) {
+function applyMaps(document, { glb, images, report }, to) {
   report.maps.filter((map) => !map.kept).forEach((map, k) => replaceMap(document, map, images[k]));
   const view = new DataView(glb.buffer, glb.byteOffset), json = JSON.parse(new TextDecoder().decode(glb.subarray(20, 20 + view.getUint32(12, true))));
   document.getRoot().listMeshes().forEach((mesh, m) => mesh.listPrimitives().forEach((primitive, p) => {
     const has = 'TANGENT' in (json.meshes?.[m]?.primitives[p]?.attributes ?? {});
     if (!has) dropTangents(primitive);
-    else if (kTangentFrames.includes(to) && !lacks(primitive, uvsOf(primitive))) giveTangents(document, primitive, uvsOf(primitive), to);
+    else if (kTangentFrames.includes(to) && !whyNoTangents(primitive, uvsOf(primitive))) giveTangents(document, primitive, uvsOf(primitive), to);
   }));
   document.getRoot().listMaterials().forEach((material, m) => takeExtras(material, json.materials?.[m]?.extras));
   return report;
 }
 
-/** What lint advises, unless new maps cost more than they gain. */
+/** Does what lint advises, unless new maps would enlarge the file by more than kGrowth allows. */
 async function asAdvised(document, decode) {
   const noted = (report, line) => ({ ...report, notes: [line, ...report.notes] });
   let model, plan, unread = '';
   try {
-    model = await written(document, decode);
+    model = await asPlainGltf(document, decode);
     plan = advised(await lint(model.model, { files: model.files, decode }));
-  } catch (error) { // maps that cannot be decoded here: tangents tell what they mean without them
+  } catch (error) { // maps cannot be decoded here: judge green by the stored tangents alone
     if (error.code !== 'unavailable') throw error;
     unread = error.message;
-    model = await written(document, null);
+    model = await asPlainGltf(document, null);
     plan = advised({ ...await lint(model.model, { files: model.files, decode: async () => ({ width: 1, height: 1, data: Uint8Array.of(128, 128, 255, 255) }) }), maps_converted: 0, maps: [] });
   }
   if (plan.mode === 'drop') return unread ? noted(dropAll(document), unread) : dropAll(document);
   if (unread) return noted(dropAll(document, true), needsTangents(plan.green, unread));
-  const { whole, weight } = sizeAbout(document), made = await newMaps(document, model, { to: plan.to, decode });
+  const { whole, weight } = estimatedSize(document), made = await newMaps(document, model, { to: plan.to, decode });
   const unreadMaps = made.report.unread_maps;
   if (made.report.maps.every((map) => map.kept) && plan.green.length > 0)
-    return { ...noted(dropAll(document, true), needsTangents(plan.green, unreadMaps.map(({ name, format, advice }) => `${name} is in ${format}: ${advice}`).join('; ') || 'no map can be made anew')), unread_maps: unreadMaps };
+    return { ...noted(dropAll(document, true), needsTangents(plan.green, unreadMaps.map(({ name, format, advice }) => `${name} is in ${format}: ${advice}`).join('; ') || 'no map can be remade')), unread_maps: unreadMaps };
   const grown = made.report.maps.reduce((sum, map) => sum + map.bytes_after - map.bytes_before, 0) - weight * made.report.tangents.bytes;
-  if (grown <= (kGrowth - 1) * whole) return putIn(document, made, plan.to);
+  if (grown <= (kGrowth - 1) * whole) return applyMaps(document, made, plan.to);
   const after = Math.round(whole + grown), before = Math.round(whole);
-  return plan.green.length > 0 ? noted(dropAll(document, true), needsTangents(plan.green, `new maps would make it ${after} bytes of ${before}: mode 'convert' makes them`))
-    : noted(dropAll(document), notWorthIt(plan.to, plan.off, before, after));
+  return plan.green.length > 0 ? noted(dropAll(document, true), needsTangents(plan.green, `new maps would change the file from ${before} to ${after} bytes: mode 'convert' makes them`))
+    : noted(dropAll(document), notWorthIt(plan.to, plan.degrees, before, after));
 }
 
 const kUntangent = { mode: undefined, from: undefined, to: undefined, bits: undefined, keepTangents: undefined, generateTangents: undefined, unsigned: undefined, decode: decodePicture, report: undefined };
@@ -290,13 +290,13 @@ export function untangent(given) {
   return named('untangent', async (document) => {
     await ready;
     const before = normalMapsOf(document).reduce((sum, texture) => sum + imageBytes(texture), 0) + tangentsOfDocument(document).bytes;
-    const wished = Object.fromEntries(Object.entries({ ...o, to: o.to ?? 'cotangent', decode }).filter(([, value]) => value !== undefined));
-    const found = mode === 'drop' ? dropAll(document) : mode === 'convert' ? putIn(document, await newMaps(document, await written(document, decode), wished), wished.to)
+    const requested = Object.fromEntries(Object.entries({ ...o, to: o.to ?? 'cotangent', decode }).filter(([, value]) => value !== undefined));
+    const found = mode === 'drop' ? dropAll(document) : mode === 'convert' ? applyMaps(document, await newMaps(document, await asPlainGltf(document, decode), requested), requested.to)
       : await asAdvised(document, decode);
     found.bytes = { before, after: normalMapsOf(document).reduce((sum, texture) => sum + imageBytes(texture), 0) + tangentsOfDocument(document).bytes };
     const remade = found.maps.filter((map) => !map.kept).length;
     for (const note of found.notes) document.getLogger().warn(`untangent: ${note}`);
-    document.getLogger().info(`untangent: ${found.mode}: ${remade} maps made anew, ${found.maps.length - remade} kept; normal maps and tangents ${found.bytes.before} bytes before, ${found.bytes.after} after`);
+    document.getLogger().info(`untangent: ${found.mode}: ${remade} maps remade, ${found.maps.length - remade} kept; normal maps and tangents ${found.bytes.before} bytes before, ${found.bytes.after} after`);
     report?.(found);
   });
 }
@@ -305,7 +305,7 @@ export function lintNormals(given) {
   const { distance, limit, limitArea, frame, decode, report } = checked(given, { distance: 0, limit: undefined, limitArea: undefined, frame: 'orthonormal', decode: decodePicture, report: undefined });
   return named('lintNormals', async (document) => {
     await ready;
-    const { model, files } = await written(document, decode);
+    const { model, files } = await asPlainGltf(document, decode);
     const found = await lint(model, { files, distance, limit, limitArea, frame, decode });
     document.getLogger().info(`lintNormals: ${found.recommendation}`);
     for (const warning of found.warnings) document.getLogger().warn(`lintNormals: ${warning}`);

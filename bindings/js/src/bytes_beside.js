@@ -1,9 +1,9 @@
-// The module's bytes from a file beside it, in a browser, a worker or node.
+// Loads the WebAssembly module from the file beside it, in a browser, a worker or node.
 import { CotanError } from './errors.js';
 import { builtin } from './node.js';
 
 export async function bytesAt(url) {
-  const wrong = (found) => new CotanError('unavailable', `${url}: expected the package's wasm file, found ${found}. The entry without /beside has it inside`);
+  const wrong = (found) => new CotanError('unavailable', `${url}: expected the package's wasm file, found ${found}. The entry point without /beside embeds it`);
   const files = url.protocol === 'file:' && builtin('fs');
   if (files) return files.promises.readFile(url).catch((error) => { throw wrong(error.code); });
   const answer = await fetch(url).catch((error) => { throw wrong(error.message); });

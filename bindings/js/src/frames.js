@@ -1,25 +1,25 @@
-// Frames at places on a surface, and shader text.
+// Frames at surface points, and shader text.
 import { choice, floats, options } from './arrays.js';
 import { usage } from './instance.js';
 
 export function frameFunctions(library) {
-  const perPlace = (ways) => (frame, places, values) => library.run((s) => {
+  const atPlaces = (functions) => (frame, places, values) => library.run((s) => {
     if (places === null || typeof places !== 'object') throw usage('places: expected an object of arrays');
     const normals = floats(places.normals, 'places.normals', 3), count = normals.length / 3;
     const array = (name, size) => s.put(floats(places[name], `places.${name}`, size, count));
-    const given = s.put(floats(values, 'values', 3, count)), out = s.room(12 * count);
+    const given = s.put(floats(values, 'values', 3, count)), out = s.allocate(12 * count);
     const name = s.text(frame, 'frame');
     if ('dpdx' in places)
-      s.call(ways[0], name, s.struct(count, s.put(normals), array('dpdx', 3), array('dpdy', 3), array('duvdx', 2), array('duvdy', 2)), given, out);
+      s.call(functions[0], name, s.struct(count, s.put(normals), array('dpdx', 3), array('dpdy', 3), array('duvdx', 2), array('duvdy', 2)), given, out);
     else
-      s.call(ways[1], name, s.struct(count, s.put(normals), 'tangents' in places ? array('tangents', 4) : 0,
+      s.call(functions[1], name, s.struct(count, s.put(normals), 'tangents' in places ? array('tangents', 4) : 0,
         'u' in places ? array('u', 3) : 0, 'v' in places ? array('v', 3) : 0), given, out);
     return s.take(Float32Array, out, 3 * count);
   });
 
   return {
-    apply: perPlace(['cotan_frame_apply', 'cotan_vertex_frame_apply']),
-    encode: perPlace(['cotan_frame_encode', 'cotan_vertex_frame_encode']),
+    apply: atPlaces(['cotan_frame_apply', 'cotan_vertex_frame_apply']),
+    encode: atPlaces(['cotan_frame_encode', 'cotan_vertex_frame_encode']),
     frames: () => library.run((s) =>
       Array.from({ length: s.wasm.cotan_frame_count() }, (_, i) => s.textAt(s.wasm.cotan_frame_name(i)))),
     shader: (given) => library.run((s) => {
@@ -29,7 +29,7 @@ export function frameFunctions(library) {
       const words = [s.text(o.language, 'options.language'), frame, s.text(o.convention, 'options.convention')];
       const size = s.put(new Uint32Array(1));
       s.call('cotan_shader_text', ...words, 0, size);
-      const text = s.room(s.view(Uint32Array, size, 1)[0]);
+      const text = s.allocate(s.view(Uint32Array, size, 1)[0]);
       s.call('cotan_shader_text', ...words, text, size);
       return s.textAt(text);
     }),

@@ -1,6 +1,6 @@
-// glTF files as JSON and what is beside it.
+// glTF files as JSON and their binary chunk.
 const kMagic = 0x46546c67, kJson = 0x4e4f534a;
-/** { json, rest }: rest is what follows the JSON in a GLB, null in a .gltf. Null where it is neither. */
+/** { json, rest }: rest is what follows the JSON in a GLB, null for a .gltf. Returns null if bytes are neither. */
 export function parsedModel(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength), isGlb = bytes.length >= 20 && view.getUint32(0, true) === kMagic;
   const length = isGlb ? view.getUint32(12, true) : bytes.length;
@@ -13,7 +13,7 @@ export function parsedModel(bytes) {
   }
 }
 
-/** The bytes of a file that parsedModel() has taken apart. */
+/** The file contents of what parsedModel() returns. */
 export function modelBytes({ json, rest }) {
   const text = new TextEncoder().encode(JSON.stringify(json));
   if (!rest) return text;
@@ -36,13 +36,13 @@ function decoded(uri) {
   }
 }
 
-/** Bytes of a model with the files that it names. */
+/** Total size in bytes of a model and the external files that it references. */
 export function sizeOf(bytes, json, files) {
   const uris = new Set([...list(json.buffers), ...list(json.images)].map((one) => one?.uri).filter(named));
   return [...uris].reduce((sum, uri) => sum + (found(files, uri)?.byteLength ?? 0), bytes.length);
 }
 
-/** Bytes of an image's file. */
+/** Size in bytes of an image's encoded file. */
 export function imageSize({ bufferView, uri } = {}, json, files) {
   if (bufferView !== undefined) return list(json.bufferViews)[bufferView]?.byteLength ?? 0;
   if (named(uri)) return found(files, uri)?.byteLength ?? 0;
@@ -50,7 +50,7 @@ export function imageSize({ bufferView, uri } = {}, json, files) {
   return text ? Math.floor(text.replace(/=+$/, '').length * 3 / 4) : 0;
 }
 
-/** The file of an image, in the model or beside it; empty where it is neither. */
+/** The encoded file of an image, from the GLB or from `files`; empty if found in neither. */
 export function imageFile({ json, rest }, image, files) {
   const { bufferView, uri } = json.images?.[image] ?? {};
   if (bufferView !== undefined && rest && (list(json.bufferViews)[bufferView]?.buffer ?? 0) === 0 && !json.buffers?.[0]?.uri) return imageIn({ json, rest }, image);
@@ -58,7 +58,7 @@ export function imageFile({ json, rest }, image, files) {
   return bytes ? new Uint8Array(bytes.buffer ?? bytes, bytes.byteOffset ?? 0, bytes.byteLength) : new Uint8Array(0);
 }
 
-/** Images that materials read as normal maps, by their index. */
+/** Sorted indices of the images that materials use as normal maps. */
 export function normalImages(json) {
   const textures = list(json.textures), images = new Set();
   for (const material of list(json.materials))
@@ -70,13 +70,13 @@ export function normalImages(json) {
   return [...images].sort((a, b) => a - b);
 }
 
-/** The bytes of an image that lies in a GLB. */
+/** The encoded file of an image that is embedded in a GLB. */
 export function imageIn({ json, rest }, image) {
   const { byteOffset = 0, byteLength } = json.bufferViews[json.images[image].bufferView];
   return rest.subarray(8 + byteOffset, 8 + byteOffset + byteLength);
 }
 
-/** A GLB, as the library writes it with everything inside, with other files for some of its images: by index { bytes, mimeType }. */
+/** A self-contained GLB with some of its images replaced. files: Map from image index to { bytes, mimeType }. */
 export function withImages({ json, rest }, files) {
   const owners = new Map([...files].map(([image, file]) => [json.images[image].bufferView, file]));
   const pieces = [], at = { length: 0 }, views = (json.bufferViews ?? []).map((view, k) => {

@@ -1,9 +1,9 @@
-// What the library calls while it works: the imports of host.cpp. One call of the library at a time.
+// The callbacks that host.cpp imports. Only one call of the library may run at a time.
 
 export const kFunction = { read: 0, decode: 1, done: 2, progress: 3, takeLevel: 4, takeFile: 5 };
 
-/** The imports, and the object whose functions they call: { read(uri), decode(name, bytes), progress(done), takeLevel,
- * takeFile, scratch, error }. What they throw ends the call, and is thrown there. */
+/** { imports, now }. The imports call the functions of `now`, which the caller sets: { read(uri), decode(name, bytes),
+ * progress(done), takeLevel, takeFile, scratch }. The first exception ends the call and is kept in now.error. */
 export function hostImports() {
   const host = { now: null };
   let held = [];

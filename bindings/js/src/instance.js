@@ -1,4 +1,4 @@
-// The library as WebAssembly: its memory, calls of include/cotan.h, errors.
+// The WebAssembly library: its memory, calls of the functions of include/cotan.h, errors.
 
 import { CotanError, usage, wordsFor } from './errors.js';
 
@@ -6,9 +6,9 @@ export { CotanError, usage, wordsFor };
 
 const kCodes = ['ok', 'usage', 'input', 'unavailable', 'output', 'limit', 'stopped'];
 const kMessageBytes = 1024;
-const kNoSystem = 52; // ENOSYS of WASI; of other calls any number but 0 is a failure
+const kNoSystem = 52; // ENOSYS of WASI; for functions outside WASI any number but 0 means failure
 
-/** Memory of one call, given back when it ends. */
+/** Memory that is allocated for one call and freed when it ends. */
 class Scratch {
   #owned = [];
 
@@ -17,32 +17,32 @@ class Scratch {
   }
 
   get buffer() {
-    return this.wasm.memory.buffer; // another one whenever it grows
+    return this.wasm.memory.buffer; // replaced whenever the memory grows
   }
 
-  room(bytes) {
+  allocate(bytes) {
     const at = bytes < 0xffff0000 ? this.wasm.malloc(Math.max(bytes, 16)) >>> 0 : 0;
     if (at === 0) throw new CotanError('unavailable', `not enough memory: ${bytes} bytes more are needed`);
     this.#owned.push(at);
     return at;
   }
 
-  /** A copy of a typed array. */
+  /** Copies a typed array to library memory and returns its address. */
   put(array) {
-    const at = this.room(array.byteLength);
+    const at = this.allocate(array.byteLength);
     new Uint8Array(this.buffer, at, array.byteLength)
       .set(new Uint8Array(array.buffer, array.byteOffset, array.byteLength));
     return at;
   }
 
-  /** A text with a zero at its end; undefined and null are a null pointer. */
+  /** Copies a string as zero-terminated UTF-8 and returns its address; 0 for undefined and null. */
   text(value, name) {
     if (value === undefined || value === null) return 0;
-    if (typeof value !== 'string') throw usage(`${name}: expected a text, found ${wordsFor(value)}`);
+    if (typeof value !== 'string') throw usage(`${name}: expected a string, found ${wordsFor(value)}`);
     return this.put(new TextEncoder().encode(value + '\0'));
   }
 
-  /** A struct of numbers of 32 bits that begins with its size. */
+  /** Address of a new struct of 32-bit members, which begins with its size in bytes. */
   struct(...members) {
     return this.put(Uint32Array.of(4 * (members.length + 1), ...members));
   }
@@ -51,7 +51,7 @@ class Scratch {
     return new Type(this.buffer, at, count);
   }
 
-  /** A copy of what is there now. */
+  /** Copies count elements out of library memory. */
   take(Type, at, count) {
     return this.view(Type, at, count).slice();
   }
@@ -63,9 +63,9 @@ class Scratch {
     return new TextDecoder().decode(bytes.subarray(0, end));
   }
 
-  /** Calls a function that returns a cotan_status. */
+  /** Calls a function that returns a cotan_status; throws its message unless the status is 0. */
   call(name, ...args) {
-    const message = this.room(kMessageBytes);
+    const message = this.allocate(kMessageBytes);
     const status = this.wasm[name](...args, message, kMessageBytes);
     if (status !== 0) throw new CotanError(kCodes[status] ?? 'unavailable', this.textAt(message, kMessageBytes));
   }
@@ -75,19 +75,19 @@ class Scratch {
   }
 }
 
-/** The library, once its bytes are there. */
+/** The library; usable after load(). */
 export class Library {
   #module;
   #imports;
   #instance;
-  generation = 0; // what is held over calls is gone when it changes
+  generation = 0; // incremented when a new instance replaces the old one, whose addresses become invalid
 
   async load(bytes, imports = {}) {
-    const found = await bytes; // an answer of a server is compiled while it arrives
+    const found = await bytes; // a Response is compiled while it downloads
     this.#module = await WebAssembly[found.headers ? 'compileStreaming' : 'compile'](found);
     this.#imports = { ...imports };
-    for (const { module, name } of WebAssembly.Module.imports(this.#module)) // of the system: there is none
-      (this.#imports[module] ??= {})[name] ??= name === 'proc_exit' ? () => { throw new Error('the library ended'); }
+    for (const { module, name } of WebAssembly.Module.imports(this.#module)) // stubs for system calls
+      (this.#imports[module] ??= {})[name] ??= name === 'proc_exit' ? () => { throw new Error('the library exited'); }
         : name === 'emscripten_notify_memory_growth' ? () => {} : () => kNoSystem;
     await this.#start();
   }
@@ -97,7 +97,7 @@ export class Library {
     this.#instance.exports._initialize();
   }
 
-  /** Runs work(scratch). After a trap, such as the end of the memory, there is a new instance. */
+  /** Runs work(scratch). A trap, for example on exhausted memory, replaces the instance and throws. */
   run(work) {
     if (!this.#instance) throw usage('ready: await it before the first call');
     const scratch = new Scratch(this.#instance.exports);

@@ -1,4 +1,4 @@
-// Normal maps as pictures: { width, height, data }, four components a pixel, bytes, 16 bits or floats.
+// Functions on normal maps: images { width, height, data } with four components per pixel, bytes, 16 bits or floats.
 import { choice, options } from './arrays.js';
 import { usage, wordsFor } from './instance.js';
 import { kFunction } from './host.js';
@@ -18,7 +18,7 @@ export function mapFunctions(library, host) {
   };
   const output = (s, like, bits) => {
     choice(bits, 'options.bits', [8, 16, 32]);
-    const count = 4 * like.width * like.height, pixels = s.room(count * bits / 8);
+    const count = 4 * like.width * like.height, pixels = s.allocate(count * bits / 8);
     return {
       at: s.struct(like.width, like.height, bits, pixels),
       take: () => ({ width: like.width, height: like.height, bits, data: s.take(kTypes[bits], pixels, count) }),
@@ -29,7 +29,7 @@ export function mapFunctions(library, host) {
     return { width, height, bits, data: s.take(kTypes[bits], pixels, 4 * width * height) };
   };
   const zeroed = (s, bytes) => {
-    const at = s.room(bytes);
+    const at = s.allocate(bytes);
     s.view(Uint8Array, at, bytes).fill(0);
     s.view(Uint32Array, at, 1)[0] = bytes;
     return at;
@@ -86,7 +86,7 @@ export function mapFunctions(library, host) {
 
     toHeight: (map, given) => library.run((s) => {
       const o = options(given, { from: 'gltf' });
-      const from = input(s, map, 'map'), count = from.width * from.height, heights = s.room(4 * count);
+      const from = input(s, map, 'map'), count = from.width * from.height, heights = s.allocate(4 * count);
       s.call('cotan_map_to_height', from.at, s.text(o.from, 'options.from'), heights);
       return { width: from.width, height: from.height, data: s.take(Float32Array, heights, count) };
     }),

@@ -1,4 +1,4 @@
-// glTF in memory: what to expect, and maps made for another frame.
+// lint and convert for glTF models in memory.
 import { options } from './arrays.js';
 import { CotanError, usage, wordsFor } from './instance.js';
 import { kFunction } from './host.js';
@@ -6,30 +6,30 @@ import { bytesOf, checkedPicture } from './picture.js';
 import { decodePicture, encodeLossy, lossyFormat } from './pictures.js';
 import { encodePng } from './png.js';
 import { imageIn, parsedModel, sizeOf, withImages } from './glb.js';
-import { advised, dropped, inOldFormats, kGrowth, modeOf, needsTangents, notWorthIt, reversedImages } from './modes.js';
+import { advised, dropped, inOriginalFormats, kGrowth, modeOf, needsTangents, notWorthIt, reversedImages } from './modes.js';
 import { kLimits, limitsOf, overLimits } from './verdict.js';
 
 const same = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[i]);
-// In the place of pictures that are no normal maps: nobody looks at their pixels.
+// Placeholder for images that are not normal maps, whose pixels are never read.
 const kUnread = { width: 1, height: 1, bits: 8, data: Uint8Array.of(255, 255, 255, 255) };
 const kCommon = { files: {}, decode: decodePicture, progress: undefined };
 const kConvert = {
   ...kCommon, mode: undefined, from: undefined, to: undefined, bits: 0, keepTangents: false, generateTangents: false, encode: encodePng, unsigned: 'biased', fixGreen: false,
 };
 
-// The library's advice is for those who build it.
-function inNpm(error) {
+// Replaces an error whose advice is to rebuild the library by one with advice for users of the npm package.
+function withNpmAdvice(error) {
   const lacks = /^(.*?: )?not built with (Draco|meshoptimizer): /.exec(error.message);
-  return lacks ? new CotanError('unavailable', `${lacks[1] ?? ''}expected plain geometry, found what ${lacks[2]} has compressed: take lintNormals and untangent `
-    + "of cotan/gltf-transform, which unpack it with glTF-Transform's decoders") : error;
+  return lacks ? new CotanError('unavailable', `${lacks[1] ?? ''}expected uncompressed geometry, found ${lacks[2]} compression: use lintNormals and untangent `
+    + "of cotan/gltf-transform, which decompress it with glTF-Transform's decoders") : error;
 }
 
-// Options, each of its kind.
+// Options with defaults filled in and types checked.
 function modelOptions(given, known) {
   const o = options(given, known), defaults = Object.entries(known).filter(([name, value]) => o[name] === undefined && value !== undefined);
   for (const [name, value] of defaults) o[name] = value;
   const refuse = (name, expected) => { throw usage(`options.${name}: expected ${expected}, found ${wordsFor(o[name])}`); };
-  if (o.files === null || typeof o.files !== 'object') refuse('files', 'an object of bytes by URI');
+  if (o.files === null || typeof o.files !== 'object') refuse('files', 'an object that maps URIs to bytes');
   for (const name of ['decode', 'encode', 'progress'])
     if (o[name] !== undefined && typeof o[name] !== 'function') refuse(name, 'a function');
   for (const name of ['keepTangents', 'generateTangents', 'fixGreen'])
@@ -39,8 +39,8 @@ function modelOptions(given, known) {
   return o;
 }
 
-export function modelFunctions(library, host, turnGreen) {
-  /** Runs work(scratch, address of the bytes, of their functions) with what the library may ask for. */
+export function modelFunctions(library, host, flipGreen) {
+  /** Sets up `host` for the callbacks and runs work(scratch, address of the model's bytes, address of the callbacks). */
   const withModel = (model, files, known, progress, work) => library.run((s) => {
     host.now = {
       scratch: s,
@@ -56,11 +56,11 @@ export function modelFunctions(library, host, turnGreen) {
     try {
       return work(s, s.put(model), s.struct(0, f(kFunction.read), f(kFunction.decode), 0, f(kFunction.done)));
     } catch (error) {
-      throw host.now.error ?? inNpm(error);
+      throw host.now.error ?? withNpmAdvice(error);
     }
   });
 
-  /** The normal maps of a model, decoded by the caller's function; what fails is told where it is needed. */
+  /** The normal maps of a model, decoded by options.decode. A failure is thrown only when the library needs the map. */
   async function decoded(model, o) {
     const known = [];
     withModel(model, o.files, known, undefined, (s, at, files) => {
@@ -77,8 +77,8 @@ export function modelFunctions(library, host, turnGreen) {
     return known;
   }
 
-  const takeBytes = (s, place) => {
-    const at = s.view(Uint32Array, place, 1)[0];
+  const takeBytes = (s, slot) => {
+    const at = s.view(Uint32Array, slot, 1)[0];
     if (at === 0) return null;
     const bytes = s.take(Uint8Array, s.wasm.cotan_bytes_data(at) >>> 0, s.wasm.cotan_bytes_size(at) >>> 0);
     s.wasm.cotan_bytes_free(at);
@@ -87,7 +87,7 @@ export function modelFunctions(library, host, turnGreen) {
   const json = (bytes) => JSON.parse(new TextDecoder().decode(bytes));
   const progressOf = (s, progress) => (progress ? s.wasm.cotan_js_function(kFunction.progress) : 0);
 
-  // 0 is none to the library, and what allows nothing is a little more.
+  // The library takes 0 for no limit, so a limit of 0 becomes a tiny positive one.
   const limitOf = (limit) => (limit === undefined ? 0 : Math.max(limit, 1e-9));
 
   async function lint(given, more) {
@@ -96,7 +96,7 @@ export function modelFunctions(library, host, turnGreen) {
     const limits = limitsOf(o);
     const known = await decoded(model, o);
     return withModel(model, o.files, known, o.progress, (s, at, files) => {
-      const report = s.put(new Uint32Array(1)), settings = s.room(48), frame = s.text(limits.frame, 'options.frame');
+      const report = s.put(new Uint32Array(1)), settings = s.allocate(48), frame = s.text(limits.frame, 'options.frame');
       s.view(Uint32Array, settings, 12).set([48, 0, 0, 0, progressOf(s, o.progress), 0, 0, 0, 0, 0, frame, 0]);
       s.view(Float64Array, settings + 8, 1)[0] = o.distance;
       s.view(Float64Array, settings + 24, 2).set([limits.limit, limits.limitArea].map(limitOf));
@@ -108,58 +108,58 @@ export function modelFunctions(library, host, turnGreen) {
 
   async function convert(given, more) {
     const model = bytesOf(given, 'model'), o = modelOptions(more, kConvert), mode = modeOf(more), parsed = parsedModel(model);
-    if (!parsed) return madeAnew(model, o); // which says what is wrong
+    if (!parsed) return convertMaps(model, o); // throws an error that says what is wrong
     if (o.fixGreen) return withFixedGreen(model, parsed, o, { ...more, fixGreen: undefined });
-    const before = sizeOf(model, parsed.json, o.files), anew = (to) => madeAnew(model, { ...o, to }).then((made) => inOldFormats(parsed, o.files, made));
-    const plain = (keepTangents) => dropped(parsed, o.files, (bytes, more) => madeAnew(bytes, { ...o, ...more }), keepTangents);
-    const found = mode === 'convert' ? await anew(o.to ?? 'cotangent') : mode === 'drop' ? await plain() : await asAdvised(model, o, before, anew, plain);
+    const before = sizeOf(model, parsed.json, o.files), convertTo = (to) => convertMaps(model, { ...o, to }).then((made) => inOriginalFormats(parsed, o.files, made));
+    const keepMaps = (keepTangents) => dropped(parsed, o.files, (bytes, more) => convertMaps(bytes, { ...o, ...more }), keepTangents);
+    const found = mode === 'convert' ? await convertTo(o.to ?? 'cotangent') : mode === 'drop' ? await keepMaps() : await asAdvised(model, o, before, convertTo, keepMaps);
     return { glb: found.glb, report: { ...found.report, mode: found.mode, bytes: { before, after: found.glb.length } } };
   }
 
-  // With the maps turned whose green points the other way than the model says, by the maps themselves; then as without this option.
+  // Flips green of the maps in which, by their own evidence, it points the other way than the model says; then converts.
   async function withFixedGreen(model, parsed, o, more) {
-    const report = await lint(model, { files: o.files, decode: o.decode }), meant = reversedImages(report); // with their tangents those are right
+    const report = await lint(model, { files: o.files, decode: o.decode }), meant = reversedImages(report); // maps that are right with their tangents
     const wrong = report.maps.filter((map) => map.decided && !map.as_declared && !meant.includes(map.image));
     if (wrong.length === 0) return convert(model, more);
-    const { glb: whole } = await dropped(parsed, o.files, (bytes, given) => madeAnew(bytes, { ...o, ...given }), true), inside = parsedModel(whole), turned = new Map();
+    const { glb: whole } = await dropped(parsed, o.files, (bytes, given) => convertMaps(bytes, { ...o, ...given }), true), inside = parsedModel(whole), flipped = new Map();
     for (const { image, name } of wrong) {
       const file = imageIn(inside, image), picture = checkedPicture(await o.decode(file, name), 'options.decode', [8, 16]);
-      const right = turnGreen(picture), format = picture.bits === 8 ? lossyFormat(file) : null, lossy = format && await encodeLossy(right, format);
-      turned.set(image, lossy ? { bytes: lossy, mimeType: format.mimeType } : { bytes: bytesOf(await o.encode(right), 'options.encode'), mimeType: 'image/png' });
+      const right = flipGreen(picture), format = picture.bits === 8 ? lossyFormat(file) : null, lossy = format && await encodeLossy(right, format);
+      flipped.set(image, lossy ? { bytes: lossy, mimeType: format.mimeType } : { bytes: bytesOf(await o.encode(right), 'options.encode'), mimeType: 'image/png' });
     }
-    const made = await convert(withImages(inside, turned), { ...more, files: undefined }), { glb } = made;
+    const made = await convert(withImages(inside, flipped), { ...more, files: undefined }), { glb } = made;
     return { glb, report: { ...made.report, bytes: { before: sizeOf(model, parsed.json, o.files), after: glb.length }, green_fixed: wrong.map(({ name }) => name),
-      notes: [...wrong.map(({ name }) => `${name}: its green pointed the other way than the model says, and is turned`), ...made.report.notes] } };
+      notes: [...wrong.map(({ name }) => `${name}: its green pointed opposite to what the model says and was reversed`), ...made.report.notes] } };
   }
 
-  // What lint advises, unless new maps cost more than they gain.
-  async function asAdvised(model, o, before, anew, plain) {
+  // Does what lint advises, unless new maps would enlarge the file by more than kGrowth allows.
+  async function asAdvised(model, o, before, convertTo, keepMaps) {
     const { files, decode } = o, notes = [];
     let report = await lint(model, { files, decode }).catch((error) => { if (error.code !== 'unavailable') throw error; notes.push(error.message); });
-    const unread = !report; // tangents tell what they mean without the maps
+    const unread = !report; // the maps cannot be decoded: judge green by the stored tangents alone
     report ??= await lint(model, { files, decode: async () => kUnread });
     const plan = advised(unread ? { ...report, maps_converted: 0, maps: [] } : report), noted = (found, line) => ({ ...found, report: { ...found.report, notes: [...notes, line, ...found.report.notes].filter(Boolean) } });
-    if (plan.mode === 'drop') return noted(await plain());
-    if (unread) return noted(await plain(true), needsTangents(plan.green, 'new maps cannot be made here'));
-    const made = await anew(plan.to), after = made.glb.length, unreadMaps = made.report.unread_maps;
+    if (plan.mode === 'drop') return noted(await keepMaps());
+    if (unread) return noted(await keepMaps(true), needsTangents(plan.green, 'new maps cannot be made here'));
+    const made = await convertTo(plan.to), after = made.glb.length, unreadMaps = made.report.unread_maps;
     if (made.report.maps.every((map) => map.kept) && plan.green.length > 0) {
-      const kept = noted(await plain(true), needsTangents(plan.green, unreadMaps.map(({ name, format, advice }) => `${name} is in ${format}: ${advice}`).join('; ') || 'no map can be made anew'));
+      const kept = noted(await keepMaps(true), needsTangents(plan.green, unreadMaps.map(({ name, format, advice }) => `${name} is in ${format}: ${advice}`).join('; ') || 'no map can be remade'));
       return { ...kept, report: { ...kept.report, unread_maps: unreadMaps } };
     }
     if (after <= kGrowth * before) return made;
-    return plan.green.length > 0 ? noted(await plain(true), needsTangents(plan.green, `new maps would make the file ${after} bytes of ${before}: mode 'convert' makes them`))
-      : noted(await plain(), notWorthIt(plan.to, plan.off, before, after));
+    return plan.green.length > 0 ? noted(await keepMaps(true), needsTangents(plan.green, `new maps would change the file from ${before} to ${after} bytes: mode 'convert' makes them`))
+      : noted(await keepMaps(), notWorthIt(plan.to, plan.degrees, before, after));
   }
 
-  async function madeAnew(model, o) {
+  async function convertMaps(model, o) {
     const known = await decoded(model, o);
     let conversion = 0;
     const pictures = withModel(model, o.files, known, o.progress, (s, at, files) => {
       const settings = s.struct(s.text(o.from, 'options.from'), s.text(o.to, 'options.to'), o.bits, o.keepTangents ? 1 : 0,
         o.generateTangents ? 1 : 0, 1, progressOf(s, o.progress), 0, s.text(o.unsigned, 'options.unsigned'));
-      const place = s.put(new Uint32Array(1));
-      s.call('cotan_convert_begin', at, model.length, files, settings, 0, place);
-      conversion = s.view(Uint32Array, place, 1)[0];
+      const slot = s.put(new Uint32Array(1));
+      s.call('cotan_convert_begin', at, model.length, files, settings, 0, slot);
+      conversion = s.view(Uint32Array, slot, 1)[0];
       return Array.from({ length: s.wasm.cotan_conversion_count(conversion) }, (_, i) => {
         const picture = s.struct(0, 0, 0, 0);
         s.call('cotan_conversion_picture', conversion, i, picture);
@@ -172,7 +172,7 @@ export function modelFunctions(library, host, turnGreen) {
       const files = [];
       for (const picture of pictures) files.push(bytesOf(await o.encode(picture), 'options.encode'));
       return library.run((s) => {
-        if (library.generation !== generation) throw new CotanError('unavailable', 'the library stopped meanwhile; convert again');
+        if (library.generation !== generation) throw new CotanError('unavailable', 'the library was restarted during the conversion; convert again');
         files.forEach((png, i) => s.call('cotan_conversion_set', conversion, i, s.put(png), png.length));
         const glb = s.put(new Uint32Array(1)), report = s.put(new Uint32Array(1));
         s.call('cotan_convert_end', conversion, glb, report);

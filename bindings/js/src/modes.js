@@ -1,13 +1,13 @@
-// Dropping tangents: with the maps as they are, or with new ones.
+// The modes of dropping tangents: with the maps as they are, or with new ones.
 import { choice } from './arrays.js';
 import { usage, wordsFor } from './errors.js';
 import { imageFile, imageSize, modelBytes, normalImages, parsedModel, withImages } from './glb.js';
 import { encodeLossy, lossyFormat } from './pictures.js';
 
-export const kGrowth = 1.02; // of the file: what new maps may cost where nobody asked for them
-const kReversed = 0.9; // of a map's area: as the library has it
+export const kGrowth = 1.02; // file size after over before: the maximum in mode auto
+const kReversed = 0.9; // fraction of a map's area; the library has the same threshold
 
-/** The mode that a caller has chosen, by itself or by what only new maps have; undefined: the model decides. */
+/** The mode that the caller chose, by `mode` or by an option that implies new maps; undefined for auto. */
 export function modeOf(given) {
   const more = ['from', 'to', 'bits', 'keepTangents', 'generateTangents', 'unsigned'].find((name) => given?.[name] !== undefined);
   const mode = choice(given?.mode ?? 'auto', 'options.mode', ['auto', 'drop', 'convert']);
@@ -15,9 +15,9 @@ export function modeOf(given) {
   return mode === 'auto' ? (more ? 'convert' : undefined) : mode;
 }
 
-/** Images whose stored tangents contradict the uv on nine tenths of their area, by a report of lint. */
+/** Indices of the images whose stored tangents contradict the uv on at least 90 % of their area, from a lint report. */
 export function reversedImages({ primitives }) {
-  const areas = new Map(); // all with tangents, and reversed
+  const areas = new Map(); // by image: [area with tangents, area with reversed tangents]
   for (const { normal_map: image, stored_tangents: stored, uv } of primitives) {
     if (!stored || !(uv?.area > 0)) continue;
     const [all, reversed] = areas.get(image) ?? [0, 0];
@@ -26,13 +26,13 @@ export function reversedImages({ primitives }) {
   return [...areas].filter(([, [all, reversed]]) => reversed >= kReversed * all).map(([image]) => image);
 }
 
-/** What a report of lint asks for: { mode, to, green }. green: names of maps that mean the other green than the file says, by
- * tangents that contradict the uv on nine tenths of their area: without them they show dents. */
+/** What a lint report advises: { mode, to, green, degrees }. green: names of maps that show dents without the stored
+ * tangents, which contradict the uv on at least 90 % of the area. degrees: maximum mean error of `orthonormal`. */
 export function advised(report) {
   const { maps, maps_converted: toConvert, advice, fits } = report, mapOf = (image) => maps.find((one) => one.image === image);
   const green = reversedImages(report).filter((image) => !(mapOf(image)?.decided && mapOf(image).as_declared)).map((image) => mapOf(image)?.name ?? `image ${image}`);
-  const off = fits.map((fit) => fit.orthonormal?.mean).filter((mean) => typeof mean === 'number');
-  return { mode: toConvert > 0 || green.length > 0 ? 'convert' : 'drop', to: toConvert > 0 ? advice : 'orthonormal', green, off: Math.max(0, ...off) };
+  const degrees = fits.map((fit) => fit.orthonormal?.mean).filter((mean) => typeof mean === 'number');
+  return { mode: toConvert > 0 || green.length > 0 ? 'convert' : 'drop', to: toConvert > 0 ? advice : 'orthonormal', green, degrees: Math.max(0, ...degrees) };
 }
 
 const withoutMaps = ({ normalTexture, extensions, ...rest }) => {
@@ -40,26 +40,26 @@ const withoutMaps = ({ normalTexture, extensions, ...rest }) => {
   return { ...rest, ...(extensions && { extensions: { ...others, ...(coat && { KHR_materials_clearcoat: coatRest }) } }) };
 };
 
-/** The model without tangents, or with them, all else as it is. convert: of the library, which is shown a model without normal
- * maps, so that it decodes none. */
+/** The model with its maps unchanged, without tangents unless keepTangents is set. convert: the library's conversion,
+ * which gets the model without normal maps, so that it decodes none. */
 export async function dropped(parsed, files, convert, keepTangents = false) {
   const { json } = parsed, { materials } = json;
   const plain = Array.isArray(materials) ? { ...parsed, json: { ...json, materials: materials.map((one) => (one && typeof one === 'object' ? withoutMaps(one) : one)) } } : parsed;
   const { glb, report } = await convert(modelBytes(plain), { files, from: 'orthonormal', to: 'orthonormal', keepTangents });
   const made = parsedModel(glb);
   if (materials) made.json.materials = materials;
-  const notes = report.notes.filter((line) => !/^(no primitive has a normal map|TANGENT stays)/.test(line));
+  const notes = report.notes.filter((line) => !/^(no primitive has a normal map|TANGENT is kept)/.test(line));
   return { mode: keepTangents ? 'keep' : 'drop', glb: modelBytes(made), report: { ...report, notes, maps: keptMaps(json, files) } };
 }
 
-/** What convert made, with maps in the format that they had where that is smaller: JPEG and WebP with their quality. */
-export async function inOldFormats(parsed, files, { glb, report, pictures }) {
+/** The conversion's result with new maps in the format of the old ones, JPEG or WebP, if that is smaller than PNG. */
+export async function inOriginalFormats(parsed, files, { glb, report, pictures }) {
   const made = parsedModel(glb), other = new Map(), notes = [], maps = report.maps.map((map) => ({ ...map })), remade = maps.filter((map) => !map.kept);
   for (const [k, map] of remade.entries()) {
     const format = pictures[k].bits === 8 ? lossyFormat(imageFile(parsed, map.image, files)) : null;
     if (!format || map.kept_elsewhere) continue;
     const bytes = await encodeLossy(pictures[k], format);
-    if (!bytes) notes.push(`${map.name}: stays PNG, ${map.bytes_after} bytes for ${map.bytes_before}: there is no encoder for ${format.mimeType} here (in node the package sharp)`);
+    if (!bytes) notes.push(`${map.name}: no encoder for ${format.mimeType} is available (in Node.js: the package sharp), so the new map is PNG: ${map.bytes_after} bytes, before ${map.bytes_before}`);
     if (!bytes || bytes.length >= map.bytes_after) continue;
     other.set(map.image, { bytes, mimeType: format.mimeType });
     Object.assign(map, { bytes_after: bytes.length, format: format.mimeType === 'image/webp' ? 'WebP' : 'JPEG', quality: format.quality ?? null });
@@ -75,9 +75,9 @@ const keptMaps = (json, files) => normalImages(json).map((image) => {
 
 const amount = (bytes) => `${bytes} bytes`;
 
-/** Said where new maps would cost more than they gain. */
-export const notWorthIt = (to, off, before, after) =>
-  `maps made anew for the frame ${to} would gain ${off.toFixed(1)} degrees and make the file ${amount(after)} of ${amount(before)}: they stay as they are, read with orthonormal; mode 'convert' makes them`;
-/** Said where tangents stay. */
+/** The note for new maps that would enlarge the file too much. */
+export const notWorthIt = (to, degrees, before, after) =>
+  `maps remade for the frame ${to} would reduce the error by ${degrees.toFixed(1)} degrees and change the file from ${amount(before)} to ${amount(after)}: the maps are kept and read with orthonormal; mode 'convert' remakes them`;
+/** The note for tangents that stay. */
 export const needsTangents = (green, why) =>
-  `tangents stay: they reverse green of ${green.join(', ')}, and without them bumps would be dents; ${why}`;
+  `tangents are kept: they reverse green of ${green.join(', ')}, and without them bumps would look like dents; ${why}`;

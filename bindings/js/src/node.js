@@ -1,2 +1,2 @@
-// What only node has; undefined elsewhere. Nothing here is a name that a bundler could look for.
+// A built-in module of node; undefined elsewhere. There is no import that a bundler could try to resolve.
 export const builtin = (name) => globalThis.process?.getBuiltinModule?.(name);

@@ -1,17 +1,17 @@
-// Pictures as callers give them, looked at before they are used.
+// Checks the images and bytes that callers pass.
 import { usage, wordsFor } from './errors.js';
 
 const kTypes = [[8, Uint8Array], [16, Uint16Array], [32, Float32Array]];
 
-/** { width, height, bits, data } with four components a pixel. known: which bits are taken. */
+/** { width, height, bits, data } with four components per pixel. known: the accepted bit depths. */
 export function checkedPicture(picture, name, known = [8, 16, 32]) {
-  if (picture === null || typeof picture !== 'object') throw usage(`${name}: expected a picture, found ${wordsFor(picture)}`);
+  if (picture === null || typeof picture !== 'object') throw usage(`${name}: expected an image, found ${wordsFor(picture)}`);
   const { width, height } = picture;
   let { data } = picture;
   if (data instanceof Uint8ClampedArray) data = new Uint8Array(data.buffer, data.byteOffset, data.length);
   const bits = kTypes.find(([, Type]) => data instanceof Type)?.[0];
   if (!known.includes(bits)) throw usage(`${name}.data: expected numbers of ${known.join(' or ')} bits, found ${wordsFor(data)}`);
-  if (picture.bits !== undefined && picture.bits !== bits) throw usage(`${name}.bits: expected ${bits}, as its data has; found ${wordsFor(picture.bits)}`);
+  if (picture.bits !== undefined && picture.bits !== bits) throw usage(`${name}.bits: expected ${bits}, the bit depth of its data; found ${wordsFor(picture.bits)}`);
   for (const [side, value] of [['width', width], ['height', height]])
     if (!(Number.isInteger(value) && value >= 1 && value <= 65536))
       throw usage(`${name}.${side}: expected 1 to 65536 pixels, found ${wordsFor(value)}`);
@@ -20,7 +20,7 @@ export function checkedPicture(picture, name, known = [8, 16, 32]) {
   return { width, height, bits, data };
 }
 
-/** The bytes of a file. */
+/** The bytes of an ArrayBuffer or a view of one. */
 export function bytesOf(value, name) {
   if (value instanceof ArrayBuffer) return new Uint8Array(value);
   if (ArrayBuffer.isView(value)) return new Uint8Array(value.buffer, value.byteOffset, value.byteLength);

@@ -1,29 +1,29 @@
-// Pictures as files: PNG here, others by the browser or by sharp where it is installed.
+// Decodes and encodes image files: PNG here, other formats by the browser, or by sharp if it is installed.
 import { CotanError } from './errors.js';
 import { builtin } from './node.js';
 import { bytesOf } from './picture.js';
 import { decodePng, isPng } from './png.js';
 
-/** A package of the user's, beside this file or where the program was started; undefined where there is none. */
+/** A package that the user may have installed, found from this file or the working directory; else undefined. */
 function optionalPackage(name) {
   const from = builtin('module')?.createRequire;
-  for (const place of from ? [import.meta.url, `${globalThis.process.cwd()}/`] : []) {
+  for (const base of from ? [import.meta.url, `${globalThis.process.cwd()}/`] : []) {
     try {
-      return from(place)(name);
+      return from(base)(name);
     } catch {
-      // the next place
+      // try the next base
     }
   }
   return undefined;
 }
 
-/** { width, height, bits, data }, four components a pixel; the default of options.decode. */
-export async function decodePicture(file, name = 'picture') {
+/** Decodes to { width, height, bits, data } with four components per pixel; the default of options.decode. */
+export async function decodePicture(file, name = 'image') {
   const bytes = bytesOf(file, 'bytes');
   if (isPng(bytes)) return decodePng(bytes);
   if (typeof createImageBitmap === 'function' && typeof OffscreenCanvas === 'function') {
     const bitmap = await createImageBitmap(new Blob([bytes]), { colorSpaceConversion: 'none', premultiplyAlpha: 'none' })
-      .catch(() => { throw new CotanError('input', `${name}: the browser does not decode it`); });
+      .catch(() => { throw new CotanError('input', `${name}: the browser cannot decode it`); });
     const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d', { willReadFrequently: true });
     context.drawImage(bitmap, 0, 0);
     const { width, height, data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
@@ -31,14 +31,14 @@ export async function decodePicture(file, name = 'picture') {
     return { width, height, bits: 8, data: new Uint8Array(data.buffer) };
   }
   const sharp = optionalPackage('sharp');
-  if (!sharp) throw new CotanError('unavailable', `${name}: pictures other than PNG need the package sharp, or options.decode`);
+  if (!sharp) throw new CotanError('unavailable', `${name}: images other than PNG need the package sharp, or options.decode`);
   const { data, info } = await sharp(bytes, { limitInputPixels: 2 ** 26 }).ensureAlpha().raw().toBuffer({ resolveWithObject: true })
     .catch((error) => { throw new CotanError('input', `${name}: ${error.message}`); });
   return { width: info.width, height: info.height, bits: 8, data: new Uint8Array(data.buffer, data.byteOffset, data.byteLength) };
 }
 
-/** { mimeType, quality, halved } of a JPEG or WebP file, quality 1 to 100 or, without loss, undefined; null for others. halved: colours
- * are stored at half the size. */
+/** { mimeType, quality, halved } of a JPEG or WebP file, else null. quality: 1 to 100, undefined if lossless.
+ * halved: whether chroma is subsampled. */
 export function lossyFormat(bytes) {
   if (bytes[0] === 0xff && bytes[1] === 0xd8) return { mimeType: 'image/jpeg', ...jpegFormat(bytes) };
   const word = (at) => String.fromCharCode(...bytes.subarray(at, at + 4));
@@ -46,8 +46,8 @@ export function lossyFormat(bytes) {
   return null;
 }
 
-const kWebpQuality = 90; // such a file does not say its own
-const kQuantized = 3688; // sum of the table of brightness at quality 50, annex K of the standard
+const kWebpQuality = 90; // assumed, since a WebP file does not store its quality
+const kQuantized = 3688; // sum of the luminance quantization table at quality 50, annex K of the JPEG standard
 
 function jpegFormat(bytes) {
   const found = { quality: kWebpQuality, halved: false };
@@ -62,10 +62,10 @@ function jpegFormat(bytes) {
   return found;
 }
 
-/** A picture of 8 bits in a format of lossyFormat(), by the browser or by sharp; null where neither is there. */
+/** Encodes an 8-bit image in a format of lossyFormat(), by the browser or by sharp; null if neither can. */
 export async function encodeLossy({ width, height, data }, { mimeType, quality, halved }) {
   if (typeof OffscreenCanvas === 'function') {
-    if (mimeType === 'image/jpeg' && !halved) return null; // browsers halve colours, which normals are
+    if (mimeType === 'image/jpeg' && !halved) return null; // browsers subsample chroma, which would damage normals
     const canvas = new OffscreenCanvas(width, height);
     canvas.getContext('2d').putImageData(new ImageData(new Uint8ClampedArray(data), width, height), 0, 0);
     const blob = await canvas.convertToBlob({ type: mimeType, quality: (quality ?? 100) / 100 });

@@ -1,4 +1,4 @@
-// PNG files of 8 and 16 bits, without loss, with the deflate of the platform: node, browsers, workers.
+// Lossless PNG files of 8 and 16 bits, by the platform's deflate in node, browsers and workers.
 import { CotanError, usage } from './errors.js';
 import { bytesOf, checkedPicture } from './picture.js';
 import { through } from './streams.js';
@@ -19,7 +19,7 @@ function checksum(bytes) {
 
 export const isPng = (bytes) => kSignature.every((byte, i) => bytes[i] === byte);
 
-/** One pass of rows without their filters. stride: bytes a row; unit: bytes from pixel to pixel. */
+/** Undoes the row filters of one pass in place. stride: bytes per row; unit: bytes per pixel, at least 1. */
 function unfilter(data, from, rows, stride, unit) {
   for (let y = 0; y < rows; ++y) {
     const row = from + y * (stride + 1) + 1;
@@ -30,19 +30,19 @@ function unfilter(data, from, rows, stride, unit) {
       const a = x >= unit ? data[row + x - unit] : 0;
       const b = above < 0 ? 0 : data[above + x];
       const c = above < 0 || x < unit ? 0 : data[above + x - unit];
-      let guess = filter === 1 ? a : filter === 2 ? b : (a + b) >> 1;
+      let predicted = filter === 1 ? a : filter === 2 ? b : (a + b) >> 1;
       if (filter === 4) {
         const p = a + b - c, pa = Math.abs(p - a), pb = Math.abs(p - b), pc = Math.abs(p - c);
-        guess = pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
+        predicted = pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
       }
-      data[row + x] += guess;
+      data[row + x] += predicted;
     }
   }
 }
 
 const kPasses = [[0, 0, 8, 8], [4, 0, 8, 8], [0, 4, 4, 8], [2, 0, 4, 4], [0, 2, 2, 4], [1, 0, 2, 2], [0, 1, 1, 2]];
 
-/** { width, height, bits: 8 or 16, data } with four components a pixel. */
+/** { width, height, bits: 8 or 16, data } with four components per pixel. */
 export async function decodePng(file) {
   const bytes = bytesOf(file, 'bytes');
   if (!isPng(bytes)) throw bad('expected its signature, found other data');
@@ -62,15 +62,15 @@ export async function decodePng(file) {
     else if (kind === 'IEND') break;
     at = end + 4;
   }
-  if (!head || parts.length === 0) throw bad('expected a header and pixels');
+  if (!head || parts.length === 0) throw bad('expected a header and pixel data');
   const width = head.getUint32(0), height = head.getUint32(4), depth = head.getUint8(8), type = head.getUint8(9);
   const interlaced = head.getUint8(12) !== 0;
   const channels = { 0: 1, 2: 3, 3: 1, 4: 2, 6: 4 }[type];
   if (!channels || ![1, 2, 4, 8, 16].includes(depth) || (depth < 8 && channels > 1) || (type === 3 && depth > 8))
-    throw bad(`expected a known kind of pixel, found type ${type} of ${depth} bits`);
+    throw bad(`expected a valid colour type and bit depth, found type ${type} with ${depth} bits`);
   if (type === 3 && !palette) throw bad('expected a palette');
   if (width < 1 || height < 1 || width > 65536 || height > 65536 || width * height > kMaxPixels)
-    throw bad(`expected 1 to 65536 pixels a side and 67 million in all, found ${width} x ${height}`);
+    throw bad(`expected 1 to 65536 pixels per side and at most 67 million in total, found ${width} x ${height}`);
 
   const passes = (interlaced ? kPasses : [[0, 0, 1, 1]]).map(([x, y, dx, dy]) => ({
     x, y, dx, dy, columns: Math.max(0, Math.ceil((width - x) / dx)), rows: Math.max(0, Math.ceil((height - y) / dy)),
@@ -82,11 +82,11 @@ export async function decodePng(file) {
     const packed = parts.length === 1 ? parts[0] : new Uint8Array(await new Blob(parts).arrayBuffer());
     data = await through(new DecompressionStream('deflate'), packed, expected);
   } catch {
-    throw bad('its pixels cannot be unpacked');
+    throw bad('its pixel data cannot be decompressed');
   }
-  if (data.length < expected) throw bad(`expected ${expected} bytes of pixels, found ${data.length}`);
+  if (data.length < expected) throw bad(`expected ${expected} bytes of pixel data, found ${data.length}`);
 
-  const bits = depth === 16 ? 16 : 8, most = bits === 16 ? 65535 : 255;
+  const bits = depth === 16 ? 16 : 8, maxValue = bits === 16 ? 65535 : 255;
   const out = bits === 16 ? new Uint16Array(width * height * 4) : new Uint8Array(width * height * 4);
   const scale = type === 3 ? 1 : depth < 8 ? 255 / (2 ** depth - 1) : 1;
   const keys = clear && type !== 3 ? Array.from({ length: clear.length >> 1 }, (_, i) => clear[2 * i] << 8 | clear[2 * i + 1]) : null;
@@ -115,7 +115,7 @@ export async function decodePng(file) {
         const grey = channels < 3;
         for (let k = 0; k < 3; ++k) out[to + k] = sample[grey ? 0 : k] * scale;
         const isClear = keys && keys.every((key, k) => key === sample[k]);
-        out[to + 3] = channels === 2 || channels === 4 ? sample[channels - 1] : isClear ? 0 : most;
+        out[to + 3] = channels === 2 || channels === 4 ? sample[channels - 1] : isClear ? 0 : maxValue;
       }
     }
     from += pass.rows * (stride + 1);
@@ -123,17 +123,17 @@ export async function decodePng(file) {
   return { width, height, bits, data: out };
 }
 
-/** A PNG file of a picture of 8 or 16 bits; RGB where its alpha is all there. */
+/** Encodes an image of 8 or 16 bits as a PNG file; RGB if every pixel is opaque, else RGBA. */
 export async function encodePng(picture) {
   const { width, height, bits, data } = checkedPicture(picture, 'picture', [8, 16]);
-  if (width * height > kMaxPixels) throw usage(`picture: expected 67 million pixels at most, found ${width} x ${height}`);
-  const most = bits === 16 ? 65535 : 255;
+  if (width * height > kMaxPixels) throw usage(`picture: expected at most 67 million pixels, found ${width} x ${height}`);
+  const maxValue = bits === 16 ? 65535 : 255;
   let channels = 3;
-  for (let i = 3; i < data.length && channels === 3; i += 4) if (data[i] !== most) channels = 4;
+  for (let i = 3; i < data.length && channels === 3; i += 4) if (data[i] !== maxValue) channels = 4;
   const unit = channels * bits / 8, stride = width * unit;
   const rows = new Uint8Array(height * (stride + 1));
   let above = new Uint8Array(stride), line = new Uint8Array(stride);
-  const tries = Array.from({ length: 5 }, () => new Uint8Array(stride));
+  const filtered = Array.from({ length: 5 }, () => new Uint8Array(stride));
   for (let y = 0; y < height; ++y) {
     for (let x = 0, at = 0; x < width; ++x)
       for (let k = 0; k < channels; ++k) {
@@ -146,16 +146,16 @@ export async function encodePng(picture) {
     for (let x = 0; x < stride; ++x) {
       const a = x >= unit ? line[x - unit] : 0, b = above[x], c = x >= unit ? above[x - unit] : 0;
       const p = a + b - c, pa = Math.abs(p - a), pb = Math.abs(p - b), pc = Math.abs(p - c);
-      const guesses = [0, a, b, (a + b) >> 1, pa <= pb && pa <= pc ? a : pb <= pc ? b : c];
+      const predictions = [0, a, b, (a + b) >> 1, pa <= pb && pa <= pc ? a : pb <= pc ? b : c];
       for (let f = 0; f < 5; ++f) {
-        const rest = tries[f][x] = line[x] - guesses[f];
+        const rest = filtered[f][x] = line[x] - predictions[f];
         const byte = rest & 255;
         sums[f] += byte < 128 ? byte : 256 - byte;
       }
     }
     for (let f = 0; f < 5; ++f) if (sums[f] < least) [best, least] = [f, sums[f]];
     rows[y * (stride + 1)] = best;
-    rows.set(tries[best], y * (stride + 1) + 1);
+    rows.set(filtered[best], y * (stride + 1) + 1);
     [above, line] = [line, above];
   }
   const header = new Uint8Array(13), view = new DataView(header.buffer);

@@ -1,10 +1,10 @@
-// Bytes through the streams of the platform.
+// Compression and decompression by the platform's streams.
 
-/** Bytes through a stream, at most `most` of them. */
-export async function through(stream, bytes, most = Infinity) {
+/** Passes bytes through a transform stream. Stops after the chunk with which the output reaches `limit` bytes. */
+export async function through(stream, bytes, limit = Infinity) {
   const writer = stream.writable.getWriter();
   const written = writer.write(bytes).then(() => writer.close());
-  written.catch(() => {}); // the reader sees it too
+  written.catch(() => {}); // the reader throws the same error
   const parts = [];
   let size = 0;
   for (const reader = stream.readable.getReader();;) {
@@ -12,7 +12,7 @@ export async function through(stream, bytes, most = Infinity) {
     if (done) break;
     size += value.length;
     parts.push(value);
-    if (size >= most) {
+    if (size >= limit) {
       await reader.cancel();
       break;
     }

@@ -1,15 +1,15 @@
-// Tangents and what takes their place, from arrays.
-import { choice, floats, options, words } from './arrays.js';
+// Tangents, and the vectors of other frames, from arrays.
+import { choice, floats, options, unsignedIntegers } from './arrays.js';
 import { usage, wordsFor } from './instance.js';
 
 function arraysOf(mesh) {
   if (mesh === null || typeof mesh !== 'object') throw usage(`mesh: expected an object, found ${wordsFor(mesh)}`);
   const positions = floats(mesh.positions, 'mesh.positions', 3);
   const vertices = positions.length / 3;
-  const indices = mesh.indices === undefined || mesh.indices === null ? null : words(mesh.indices, 'mesh.indices');
+  const indices = mesh.indices === undefined || mesh.indices === null ? null : unsignedIntegers(mesh.indices, 'mesh.indices');
   const corners = indices ? indices.length : vertices;
   if (corners % 3 !== 0)
-    throw usage(`mesh.${indices ? 'indices' : 'positions'}: expected three corners a triangle, found ${corners}`);
+    throw usage(`mesh.${indices ? 'indices' : 'positions'}: expected a multiple of 3, found ${corners}`);
   return {
     positions, vertices, corners,
     indices: indices ?? Uint32Array.from({ length: vertices }, (_, i) => i),
@@ -18,9 +18,9 @@ function arraysOf(mesh) {
   };
 }
 
-/** Vertices of which some are copied: work(indices, sources, count) writes them. */
+/** Calls work(indices, sources, count) with output buffers for a vertex split, and returns { indices, sources }. */
 export const splitBy = (s, vertices, corners, work) => {
-  const indices = s.room(4 * corners), sources = s.room(4 * (vertices + corners)), count = s.room(4);
+  const indices = s.allocate(4 * corners), sources = s.allocate(4 * (vertices + corners)), count = s.allocate(4);
   work(indices, sources, count);
   return {
     indices: s.take(Uint32Array, indices, corners),
@@ -28,14 +28,14 @@ export const splitBy = (s, vertices, corners, work) => {
   };
 };
 
-/** A number of vertices. */
+/** Returns vertexCount if it is a valid number of vertices. */
 export function counted(vertexCount) {
   if (!(Number.isInteger(vertexCount) && vertexCount >= 0 && vertexCount < 2 ** 32))
-    throw usage(`vertexCount: expected a whole number, found ${wordsFor(vertexCount)}`);
+    throw usage(`vertexCount: expected a 32-bit unsigned integer, found ${wordsFor(vertexCount)}`);
   return vertexCount;
 }
 
-/** The functions over a library. */
+/** The public functions on a loaded library. */
 export function tangentFunctions(library) {
   const withMesh = (mesh, work) => library.run((s) => {
     const m = arraysOf(mesh);
@@ -43,13 +43,13 @@ export function tangentFunctions(library) {
     return work(s, m, at);
   });
   const vectorPairs = (s, count, work) => {
-    const u = s.room(12 * count), v = s.room(12 * count);
+    const u = s.allocate(12 * count), v = s.allocate(12 * count);
     work(u, v);
     return { u: s.take(Float32Array, u, 3 * count), v: s.take(Float32Array, v, 3 * count) };
   };
   const pack = (given, name, size, counted, Type, width) => library.run((s) => {
     const count = counted.length / size;
-    const out = s.room(Type.BYTES_PER_ELEMENT * width * count);
+    const out = s.allocate(Type.BYTES_PER_ELEMENT * width * count);
     s.call(name, count, ...given.map((array) => s.put(array)), out);
     return s.take(Type, out, width * count);
   });
@@ -59,7 +59,7 @@ export function tangentFunctions(library) {
       const { kind } = options(given, { kind: 'mikktspace' });
       choice(kind, 'options.kind', ['mikktspace', 'vertex']);
       return withMesh(mesh, (s, m, at) => {
-        const out = s.room(16 * m.corners);
+        const out = s.allocate(16 * m.corners);
         s.call('cotan_tangents', s.text(kind), at, 1, out);
         return s.take(Float32Array, out, 4 * m.corners);
       });
@@ -76,7 +76,7 @@ export function tangentFunctions(library) {
     },
 
     split(vertexCount, indices, corners) {
-      const list = words(indices, 'indices');
+      const list = unsignedIntegers(indices, 'indices');
       const values = floats(corners, 'corners', 4, list.length);
       counted(vertexCount);
       return library.run((s) => splitBy(s, vertexCount, list.length, (...out) =>

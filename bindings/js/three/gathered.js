@@ -1,7 +1,7 @@
-// Attributes of vertices that are copies of others.
+// Vertex attributes for split vertices.
 import { BufferAttribute } from 'three';
 
-// sources: for each new vertex the old one. Instanced attributes stay.
+// A copy of the attribute: new vertex k has the value of old vertex sources[k]. Instanced attributes are just cloned.
 export function gathered(attribute, sources) {
   if (attribute.isInstancedBufferAttribute) return attribute.clone();
   const { itemSize, normalized, gpuType } = attribute;

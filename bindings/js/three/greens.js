@@ -1,20 +1,21 @@
-// Which way green of a normal map runs, where stored tangents say so.
-import { cornersOf, numbersOf, readingOf, turnedUv, turnOf, uvNameOf } from './mesh_data.js';
+// Which way green of a normal map points according to stored tangents.
+import { cornersOf, numbersOf, readingOf, transformedUv, uvMatrixOf, uvNameOf } from './mesh_data.js';
 
-// Of the area that was compared: from the first on stored tangents decide, from the second on they are mentioned.
+// Fractions of the compared area on which tangents contradict the uv: from kDecided on tangents decide the direction of
+// green, from kMentioned on there is a note.
 const kDecided = 0.9, kMentioned = 0.1;
 
-// Whether three's loader for glTF made this texture: v runs down, green is declared to run against v, and materials of
-// meshes without tangents have had the sign of their scale turned.
+// Whether GLTFLoader made this texture. Then v runs down the image, green is declared to point against v, and the
+// loader has flipped the sign of normalScale.y in materials of meshes without tangents.
 export const ofGltf = map => map?.userData?.mimeType !== undefined;
 
-// Areas of a geometry by where cross(normal, tangent) * tangent.w points, a third of each triangle for its corners: against
-// increasing v; along it; and of that `aligned`, where the tangent lies within 90 degrees of dP/du. Corners of triangles
-// without area in space or in uv, and without a tangent, do not count.
+// Areas of a geometry by the direction of the bitangent cross(normal, tangent) * tangent.w: `against` or `along`
+// increasing v. `aligned` is the part of `along` where the tangent is within 90 degrees of dP/du. Each corner counts a
+// third of its triangle. Triangles without area in space or in uv and corners without a tangent are left out.
 function bitangentAreas(geometry, map) {
   const { position, normal, [uvNameOf(map)]: coordinates, tangent } = geometry.attributes, areas = { against: 0, along: 0, aligned: 0 };
   if (!position || !normal || !coordinates || !tangent) return areas;
-  const corners = cornersOf(geometry), p = numbersOf(position, 3), n = numbersOf(normal, 3), t = numbersOf(tangent, 4), uv = turnedUv(coordinates, turnOf(map));
+  const corners = cornersOf(geometry), p = numbersOf(position, 3), n = numbersOf(normal, 3), t = numbersOf(tangent, 4), uv = transformedUv(coordinates, uvMatrixOf(map));
   const e1 = [0, 0, 0], e2 = [0, 0, 0];
   for (let k = 0; k + 2 < corners.length; k += 3) {
     const [a, b, c] = corners.subarray(k, k + 3);
@@ -34,19 +35,19 @@ function bitangentAreas(geometry, map) {
         alongU += (e1[i] * v2 - e2[i] * v1) * side * t[corner * 4 + i];
         length += t[corner * 4 + i] ** 2;
       }
-      const way = Math.sign(side * facing * t[corner * 4 + 3]);
-      if (!way || !(length > 0)) continue;
-      areas[way > 0 ? 'along' : 'against'] += third;
-      if (way > 0 && alongU > 0) areas.aligned += third;
+      const direction = Math.sign(side * facing * t[corner * 4 + 3]);
+      if (!direction || !(length > 0)) continue;
+      areas[direction > 0 ? 'along' : 'against'] += third;
+      if (direction > 0 && alongU > 0) areas.aligned += third;
     }
   }
   return areas;
 }
 
-// What stored tangents say of the normal maps of some meshes. Call it before tangents are removed.
+// Collects what the stored tangents of meshes say about their normal maps. To be used before the tangents are removed.
 export class StoredGreens {
-  #areas = new Map();  // by geometry, then by how the map reads it
-  #shares = new Map(); // by image: { compared, contradicting, name, used }
+  #areas = new Map();  // by geometry, then by readingOf(map)
+  #votes = new Map(); // by image: { compared, contradicting, name, used }, the first two are areas
 
   areas(geometry, map) {
     if (!this.#areas.has(geometry)) this.#areas.set(geometry, new Map());
@@ -55,33 +56,33 @@ export class StoredGreens {
     return known.get(reading);
   }
 
-  // A geometry with tangents whose material reads the map.
+  // Counts a geometry with tangents whose material reads the map.
   add(geometry, map, material) {
     if (!ofGltf(map)) return;
-    if (!this.#shares.has(map.source)) this.#shares.set(map.source, { compared: 0, contradicting: 0, used: new Set(),
+    if (!this.#votes.has(map.source)) this.#votes.set(map.source, { compared: 0, contradicting: 0, used: new Set(),
       name: map.name ? `normal map '${map.name}'` : `the normal map of material '${material.name}'` });
-    const share = this.#shares.get(map.source), use = `${geometry.uuid} ${readingOf(map)}`;
-    if (share.used.has(use)) return;
-    share.used.add(use);
+    const vote = this.#votes.get(map.source), use = `${geometry.uuid} ${readingOf(map)}`;
+    if (vote.used.has(use)) return;
+    vote.used.add(use);
     const { along, against, aligned } = this.areas(geometry, map);
-    share.compared += along + against;
-    share.contradicting += aligned;
+    vote.compared += along + against;
+    vote.contradicting += aligned;
   }
 
-  // Of what was compared, 0 where nothing was.
+  // The contradicting fraction of the compared area; 0 if nothing was compared.
   #contradiction({ compared, contradicting }) { return compared > 0 ? contradicting / compared : 0; }
 
-  // Whether green of a map of glTF is read the other way than declared; undefined where no mesh with tangents reads it.
+  // Whether green of a glTF map is to be read reversed; undefined if no mesh with tangents reads the map.
   reversed(map) {
-    const share = this.#shares.get(map.source);
-    return share && share.compared > 0 ? this.#contradiction(share) >= kDecided : undefined;
+    const vote = this.#votes.get(map.source);
+    return vote && vote.compared > 0 ? this.#contradiction(vote) >= kDecided : undefined;
   }
 
-  // One line for each map whose tangents contradict the texture coordinates.
+  // One line for each map on which tangents contradict the texture coordinates.
   notes() {
-    return [...this.#shares.values()].map(share => [this.#contradiction(share), share.name]).filter(([part]) => part >= kMentioned).map(([part, name]) => {
-      const begin = `TANGENT.w contradicts the texture coordinates on ${Math.round(100 * part)} % of the area of ${name}`;
-      return part >= kDecided ? `${begin}: without stored tangents its green is read the other way (the option convention overrides this)`
+    return [...this.#votes.values()].map(vote => [this.#contradiction(vote), vote.name]).filter(([fraction]) => fraction >= kMentioned).map(([fraction, name]) => {
+      const begin = `TANGENT.w contradicts the texture coordinates on ${Math.round(100 * fraction)} % of the area of ${name}`;
+      return fraction >= kDecided ? `${begin}: without stored tangents its green is flipped (the option convention overrides this)`
         : `${begin}: its green is read as declared (the option convention overrides this)`;
     });
   }

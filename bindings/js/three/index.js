@@ -8,34 +8,34 @@ import { kTriangleAttribute } from './triangles.js';
 
 export { CotanError };
 
-// Removes the tangents of `target` and lets its materials take their frame from Cotan. See index.d.ts.
+// Removes the tangents of `target` and makes its materials use frames of Cotan. See index.d.ts.
 export function untangle(target, options) {
   return untangleMeshes(target, untangleOptions(options), { provoking: 'last' }, replaceFrame);
 }
 
-// The same as a plugin: loader.register(untangled()).
+// untangle() as a plugin: loader.register(untangled()).
 export const untangled = options => {
   untangleOptions(options);
   return () => ({ name: 'COTAN_untangled', async afterRoot(gltf) { untangle(gltf, options); } });
 };
 
-// By material: { frame, against, hook, key }. hook, key: what stands in the material's onBeforeCompile and
-// customProgramCacheKey besides us, whenever it was put there; undefined where that is the class's own.
+// By material: { frame, against, hook, key }. hook, key: the user's onBeforeCompile and customProgramCacheKey of the
+// material, set before or after our own; undefined if the user has set none.
 const patched = new WeakMap();
 
-// Replaces the frame of one material, and nothing else: no tangents are removed and no scale is turned. Hooks of the
-// user's own stay, those that come later too, and clone() keeps the frame.
-// from: the material whose hooks and, without another wish, whose frame this one gets.
+// Replaces the frame of one material and nothing else: removes no tangents and flips no scale. The user's hooks stay,
+// even if set later, and clone() keeps the frame.
+// from: the material whose hooks are taken over, and whose frame if none is requested.
 export function replaceFrame(material, options) {
   checkThree();
-  const { frame: wished, against, from } = replaceOptions(material, options, { from: material });
+  const { frame: requested, against, from } = replaceOptions(material, options, { from: material });
   const source = patched.get(from) ?? hooksOf(from);
-  const frame = wished === undefined && from !== material && source.frame ? source.frame : frameFor(material, wished);
+  const frame = requested === undefined && from !== material && source.frame ? source.frame : frameFor(material, requested);
   const { hook, key } = source;
-  const begun = patched.has(material);
+  const hooked = patched.has(material);
   patched.set(material, { frame, against, hook, key });
   material.needsUpdate = true;
-  if (!begun) takeHooks(material);
+  if (!hooked) installHooks(material);
   return keepInClones(material, (clone, source) => replaceFrame(clone, { frame: patched.get(source).frame, against: patched.get(source).against }));
 }
 
@@ -44,28 +44,28 @@ const hooksOf = material => ({
   key: Object.hasOwn(material, 'customProgramCacheKey') ? material.customProgramCacheKey : undefined,
 });
 
-const written = new WeakSet(); // shaders that have the frame
+const written = new WeakSet(); // shaders that already have the frame
 
-// What is put into the material from now on is called by us, and part of the program's key.
-function takeHooks(material) {
+// Makes our hooks of the material call those that the user sets later, which also become part of the cache key.
+function installHooks(material) {
   const proto = Object.getPrototypeOf(material);
-  const ofUser = (name, member, ours) => Object.defineProperty(material, name, {
+  const wrapHook = (name, member, ours) => Object.defineProperty(material, name, {
     configurable: true, enumerable: true,
     get: () => ours(patched.get(material)[member]),
     set: value => { patched.get(material)[member] = value; },
   });
-  // A new function for each hook: one that calls what was there before is followed by us once.
-  ofUser('onBeforeCompile', 'hook', hook => Object.assign(function onBeforeCompile(shader, renderer) {
+  // A new function for each hook. If the user's hook calls our earlier one, the frame is still written only once.
+  wrapHook('onBeforeCompile', 'hook', hook => Object.assign(function onBeforeCompile(shader, renderer) {
     hook?.call(material, shader, renderer);
     if (written.has(shader)) return;
     written.add(shader);
     writeFrame(shader, material, patched.get(material));
   }, { toString: () => keyOf(material, hook) }));
-  ofUser('customProgramCacheKey', 'key', key => () =>
+  wrapHook('customProgramCacheKey', 'key', key => () =>
     [keyOf(material, patched.get(material).hook), key ? key.call(material) : proto.customProgramCacheKey === kKeyOfThree ? '' : proto.customProgramCacheKey.call(material)].join());
 }
 
-const kKeyOfThree = Material.prototype.customProgramCacheKey; // the text of onBeforeCompile
+const kKeyOfThree = Material.prototype.customProgramCacheKey; // returns the source text of onBeforeCompile
 const keyOf = (material, hook) => ['cotan', patched.get(material).frame, patched.get(material).against, hook ?? ''].join();
 
 function writeFrame(shader, material, { frame, against }) {
@@ -73,16 +73,16 @@ function writeFrame(shader, material, { frame, against }) {
     console.warn(`Cotan: a mesh with the material "${material.name || material.type}" has tangents, so three does not use Cotan's `
       + 'frame: call untangle() on it');
   patchFragment(shader, material, { frame, against });
-  if (kCarried[frame]) patchVertex(shader, material, kCarried[frame]);
+  if (kStoredFrames[frame]) patchVertex(shader, material, kStoredFrames[frame]);
 }
 
-// Whether this three has the function that is replaced; said before anything is drawn.
+// Throws if this version of three lacks the function to replace, so that the error comes before anything is drawn.
 function checkThree() {
   if (!kFunction.test(ShaderChunk.normalmap_pars_fragment ?? ''))
     throw new CotanError('unavailable', `three: expected version 0.160 or later with getTangentFrame in its shaders, found ${REVISION}`);
 }
 
-// Puts `text` in the place of what `pattern` finds, or says that it is not there.
+// Replaces the match of `pattern` by `text`; throws if there is none.
 function put(shader, stage, pattern, text, material) {
   if (!shader[stage].match(pattern))
     throw new CotanError('unavailable', `the shader of ${material.type}: expected ${pattern}, as three 0.160 to 0.187 have it; found none in ${REVISION}`);
@@ -92,10 +92,10 @@ function put(shader, stage, pattern, text, material) {
 const kInclude = '#include <normalmap_pars_fragment>', kFunction = /mat3 getTangentFrame\([^{]*\{[^}]*\}/;
 
 function patchFragment(shader, material, { frame, against }) {
-  const chunk = { text: ShaderChunk.normalmap_pars_fragment }, carried = kCarried[frame];
-  put(chunk, 'text', kFunction, `${essl[frame]}\n${carried ? carried.frame : frameOf(frame)}`, material);
-  put(shader, 'fragmentShader', kInclude, (carried ? carried.varyings('in') : '') + chunk.text + kAnisotropyFrame, material);
-  // From here on three needs its frame for anisotropy only.
+  const chunk = { text: ShaderChunk.normalmap_pars_fragment }, stored = kStoredFrames[frame];
+  put(chunk, 'text', kFunction, `${essl[frame]}\n${stored ? stored.frame : frameOf(frame)}`, material);
+  put(shader, 'fragmentShader', kInclude, (stored ? stored.varyings('in') : '') + chunk.text + kAnisotropyFrame, material);
+  // After this chunk three uses its frame only for anisotropy.
   const maps = '#include <normal_fragment_maps>';
   put(shader, 'fragmentShader', maps, `${maps}
 #if defined( USE_ANISOTROPY ) && ! defined( USE_TANGENT )
@@ -104,13 +104,13 @@ tbn = cotanAnisotropyFrame( tbn, nonPerturbedNormal, ${against ? '-1.0' : '1.0'}
 `, material);
 }
 
-// three passes -vViewPosition, which points from the eye.
+// three passes -vViewPosition, the position relative to the eye.
 const frameOf = name => `mat3 getTangentFrame( vec3 position, vec3 n, vec2 uv ) {
 	cotan_frame f = cotan_frame_${name}( n, dFdx( position ), dFdy( position ), dFdx( uv ), dFdy( uv ) );
 	return mat3( f.t, f.b, f.n );
 }`;
 
-// t and b come out reversed where n is turned to the eye; three turns them itself where it means that.
+// cotan_frame_of_triangle reverses t and b where n was flipped towards the eye. `side` undoes it: three does so later.
 const kTriangleFrame = `mat3 getTangentFrame( vec3 position, vec3 n, vec2 uv ) {
 	cotan_frame f = cotan_frame_of_triangle( n, vCotanU, vCotanV );
 	#ifdef FLIP_SIDED
@@ -121,11 +121,11 @@ const kTriangleFrame = `mat3 getTangentFrame( vec3 position, vec3 n, vec2 uv ) {
 	return mat3( f.t * side, f.b * side, f.n );
 }`;
 
-// Anisotropy means directions on the surface, at right angles and of unit length, not how bumps lean.
+// Anisotropy needs orthonormal directions in the surface instead of cotangents.
 const kAnisotropyFrame = `
 #if defined( USE_ANISOTROPY ) && ! defined( USE_TANGENT )
 mat3 cotanAnisotropyFrame( mat3 f, vec3 n, float side ) {
-	vec3 t = cross( f[ 1 ], n );  // along increasing u, at right angles to the gradient of v
+	vec3 t = cross( f[ 1 ], n );  // along increasing u, perpendicular to the gradient of v
 	t = dot( t, f[ 0 ] ) < 0.0 ? - t : t;
 	t = cotan_normalize_or( t, cotan_normalize_or( f[ 0 ], vec3( 0.0 ) ) );
 	vec3 b = cross( n, t );
@@ -139,8 +139,8 @@ const kSmoothFrame = `mat3 getTangentFrame( vec3 position, vec3 n, vec2 uv ) {
 	return mat3( f.t, f.b, f.n );
 }`;
 
-// Frames that geometries carry: what the vertex shader reads and hands on.
-const kCarried = {
+// Frames stored in the geometry: shader text for the vertex attributes, the varyings and the fragment's frame.
+const kStoredFrames = {
   triangle: {
     frame: kTriangleFrame,
     varyings: way => `\nflat ${way} vec3 vCotanU;\nflat ${way} vec3 vCotanV;\n`,
@@ -160,7 +160,7 @@ const kCarried = {
     frame: kSmoothFrame,
     varyings: way => `\n${way} vec3 vCotanU;\n${way} vec3 vCotanV;\n`,
     attributes: 'attribute vec3 cotanU;\nattribute vec3 cotanV;',
-    // Covectors move as three moves normals.
+    // Covectors are transformed in the same way as three transforms normals.
     moved: `{
 	mat2x3 moved = mat2x3( cotanU, cotanV );
 	#ifdef USE_SKINNING

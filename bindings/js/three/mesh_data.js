@@ -1,6 +1,6 @@
-// A geometry of three.js as plain numbers.
+// Geometries of three.js as plain numbers.
 
-// All components, whatever the attribute is stored as.
+// The first `width` components of all elements of an attribute of any type.
 export function numbersOf(attribute, width) {
   const values = new Float64Array(attribute.count * width);
   for (let k = 0; k < attribute.count; ++k)
@@ -8,14 +8,14 @@ export function numbersOf(attribute, width) {
   return values;
 }
 
-// Three vertices for each triangle.
+// The vertex indices of all triangles, three for each; the index buffer's or 0, 1, 2, ...
 export function cornersOf({ index, attributes: { position } }) {
   const count = index ? index.count : position.count;
   return Uint32Array.from({ length: count - count % 3 }, index ? (_, k) => index.getX(k) : (_, k) => k);
 }
 
-// [m00, m01, m10, m11] of a texture's matrix: how it turns differences of uv. The identity without a texture.
-export function turnOf(map) {
+// [m00, m01, m10, m11], the linear part of a texture's matrix; the identity without a texture.
+export function uvMatrixOf(map) {
   if (map?.matrixAutoUpdate) map.updateMatrix();
   const [a, b, , c, d] = map?.matrix.elements ?? [1, 0, 0, 0, 1];
   return [a, c, b, d];
@@ -23,11 +23,11 @@ export function turnOf(map) {
 
 export const uvNameOf = map => (map?.channel ? `uv${map.channel}` : 'uv');
 
-// What is the same for two maps that read a geometry the same way.
-export const readingOf = map => [map?.channel ?? 0, ...turnOf(map)].join();
+// A key that is equal for two maps that transform the same uv set by the same matrix, up to an offset.
+export const readingOf = map => [map?.channel ?? 0, ...uvMatrixOf(map)].join();
 
-// uv as the map reads them, up to an offset.
-export function turnedUv(attribute, [m00, m01, m10, m11]) {
+// The uv at which a map with this matrix is sampled, up to an offset.
+export function transformedUv(attribute, [m00, m01, m10, m11]) {
   const uv = numbersOf(attribute, 2);
   for (let k = 0; k < uv.length; k += 2) {
     const u = uv[k], v = uv[k + 1];

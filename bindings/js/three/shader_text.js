@@ -8,8 +8,8 @@ cotangent: `// Normal mapping, frame \`cotangent\` (total form), for GLSL ES 3.0
 // Needs from the caller:
 //   normal     interpolated surface normal; any space, the same for all vectors
 //   position   camera-relative (world axes, origin at the eye), interpolated, NOT normalised;
-//              normalising it first is wrong by 11 degrees at 45 degrees of grazing
-//   uv         as the normal map is sampled with
+//              normalising it first gives an error of 11 degrees at a grazing angle of 45 degrees
+//   uv         those of the normal map
 //   derivatives of position and uv: taken here by dFdx and dFdy
 //
 // Call:
@@ -21,7 +21,8 @@ cotangent: `// Normal mapping, frame \`cotangent\` (total form), for GLSL ES 3.0
 //   differences) the result is the unit interpolated normal.
 //   Right for y-up and y-down targets, both handednesses, mirrored uv and transforms, and back
 //   faces, with no uniform and no front-face flag.
-//   In float, footprints of 1e-3 of the distance to the eye keep 0.002 degrees, of 1e-5 0.12.
+//   In float, the error is 0.002 degrees for footprints of 1e-3 of the distance to the eye, and
+//   0.12 degrees for 1e-5.
 //   On flat-shaded uv the frame is constant per triangle: on coarse curved meshes it steps at
 //   edges (a sphere of 32 segments: 1.1 degrees in the mean).
 //   The shader must say: precision highp float; precision highp int;
@@ -37,21 +38,20 @@ struct cotan_frame
     vec3 n; // normal
 };
 
-// The four differences, made safe: either all finite and scaled by powers of two so that the
-// largest position component and the largest uv component lie in [1,2), or all zero.
+// The four differences after checking: either all finite and scaled by powers of two so that the largest position
+// component and the largest uv component lie in [1,2), or all zero.
 struct cotan_differences
 {
     vec3 dpdx;
     vec3 dpdy;
     vec2 duvdx;
     vec2 duvdy;
-    float p_scale; // what dpdx and dpdy were multiplied by
-    float uv_scale; // what duvdx and duvdy were multiplied by
+    float p_scale; // the factor applied to dpdx and dpdy
+    float uv_scale; // the factor applied to duvdx and duvdy
 };
 
-// A power of two s such that m*s lies in [1,2), for m in [1e-37, 1e37]; m outside that range is
-// clamped into it first. Multiplying by s is exact, so a formula of products gives the same bits
-// before and after, except that it no longer under- or overflows.
+// Returns the power of two s for which m*s lies in [1,2), after clamping m to [1e-37, 1e37]. Multiplying by s is exact,
+// so formulas made of products give the same bits with scaled values, but no longer underflow or overflow.
 // m: any magnitude (zero gives the largest scale), not NaN.
 float cotan_power_of_two_scale(float m)
 {
@@ -60,7 +60,7 @@ float cotan_power_of_two_scale(float m)
     return uintBitsToFloat((254u << 23) - exponent);
 }
 
-// The signed number that a stored component stands for, in [-1,1].
+// The signed value of a stored component, in [-1,1].
 float cotan_expand(float c)
 {
     float x = c * (255.0 / 127.0) - (128.0 / 127.0);
@@ -88,19 +88,18 @@ float cotan_max_abs(vec3 a)
     return max(abs(a.x), max(abs(a.y), abs(a.z)));
 }
 
-// -1 for x < 0, otherwise +1 (also for -0 and NaN).
+// Returns -1 for x < 0, otherwise +1 (also for -0 and NaN).
 float cotan_sign(float x)
 {
     return x < 0.0 ? -1.0 : 1.0;
 }
 
-// Scales the differences (exact, see cotan_power_of_two_scale) and zeroes what is unusable:
-// if a component of dpdx or dpdy is not finite or exceeds 1e37, all four; if a component of
-// duvdx or duvdy is, those two. Frames that ignore the common scale of positions and of uv are
-// unchanged by it, bit for bit.
+// Scales the differences (exactly, see cotan_power_of_two_scale) and zeroes unusable ones: all four if a component of
+// dpdx or dpdy is not finite or exceeds 1e37; only duvdx and duvdy if a component of these does. Frames that do not
+// depend on the common scale of positions or of uv are unchanged, bit for bit.
 cotan_differences cotan_scale_differences(vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2 duvdy)
 {
-    // A sum of magnitudes stays NaN or infinite if one term is; max() would drop a NaN.
+    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN.
     bool p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) <= 1e37;
     bool uv_usable = p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x) + abs(duvdy.y) <= 1e37;
     cotan_differences d;
@@ -118,8 +117,8 @@ cotan_differences cotan_scale_differences(vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2
     return d;
 }
 
-// A unit vector along v, or \`otherwise\` where v is zero, shorter than 1e-6 of the clamp range of
-// cotan_power_of_two_scale, or not finite. \`otherwise\` is returned as it is.
+// Returns the unit vector along v. Returns \`otherwise\`, unchanged, if v is zero, shorter than about 1e-43 (1e-6 times
+// the lower clamp of cotan_power_of_two_scale), or not finite.
 vec3 cotan_normalize_or(vec3 v, vec3 otherwise)
 {
     bool usable = cotan_sum_abs(v) <= 1e37;
@@ -130,9 +129,9 @@ vec3 cotan_normalize_or(vec3 v, vec3 otherwise)
     return length2 > 1e-12 ? unit : otherwise;
 }
 
-// The interpolated normal as a unit vector. Where it has cancelled out (zero length) or is not
-// finite: the normal of the plane of dpdx and dpdy; where that is degenerate too: (0,0,1).
-// The plane normal's sign follows dpdx x dpdy; nothing better is known at such a pixel.
+// Returns the interpolated normal as a unit vector. If it is zero (normals cancelled out) or not finite: the normal of
+// the plane of dpdx and dpdy, and (0,0,1) if that is degenerate too. The sign of the plane normal is that of dpdx x
+// dpdy; such a pixel has no better information.
 // n: any length. dpdx, dpdy: finite, as cotan_scale_differences returns them.
 vec3 cotan_safe_normal(vec3 n, vec3 dpdx, vec3 dpdy)
 {
@@ -140,9 +139,9 @@ vec3 cotan_safe_normal(vec3 n, vec3 dpdx, vec3 dpdy)
     return cotan_normalize_or(n, cotan_normalize_or(cross(dpdx, dpdy), z));
 }
 
-// The perturbed normal: normalize(t*m.x + b*m.y + n*m.z). Where that sum is shorter than 1e-6 or
-// not finite (an unfilled texel, m = 0; a horizontal m where the frame has no t and b): n as it
-// stands in the frame, so unit or what the caller gave.
+// Returns the perturbed normal normalize(t*m.x + b*m.y + n*m.z). If that sum is shorter than 1e-6 or not finite (an
+// unfilled texel, m = 0; a horizontal m where t = b = 0), returns f.n unchanged: unit, or as long as the caller passed
+// it.
 // m: decoded texel, along (+u, +v, outwards); any length.
 vec3 cotan_apply(cotan_frame f, vec3 m)
 {
@@ -153,18 +152,16 @@ vec3 cotan_apply(cotan_frame f, vec3 m)
     return usable ? unit : f.n;
 }
 
-// \`cotangent\`, the default. The cotangent frame of [2013] with two departures:
-// - it carries the sign of n . (dpdx x dpdy), so it is right for y-up and y-down targets, both
-//   world handednesses, mirrored transforms, back faces and uv-space rasters alike ([2013] is
-//   right only where that sign is positive);
-// - it is total: no input gives a NaN or an infinity.
-// t and b keep their relative lengths and skew; the longer of the two has length one, so bumps
-// do not depend on the scale of the object (truth S of docs/explanation/theory.md). View independent. t and b
-// are perpendicular to n.
-// n need not be unit; f.n is.
-// Degenerate input: constant uv, zero or non-finite differences give t = b = 0, so that
-// cotan_apply returns n; so do uv that vary less than about 1e-6 of the footprint's length (the
-// frame fades to the plain normal there). uv along one line give t parallel to b.
+// \`cotangent\`, the default. The cotangent frame of [2013] with two differences:
+// - It carries the sign of n . (dpdx x dpdy), so it is correct for y-up and y-down targets, both world handednesses,
+//   mirrored transforms, back faces and uv-space rasters alike. [2013] is correct only where that sign is positive.
+// - It is total: no input gives a NaN or an infinity.
+// t and b keep their relative lengths and skew. The longer of the two has length one, so bumps do not depend on the
+// scale of the object (truth S of docs/explanation/theory.md). View independent. t and b are perpendicular to n. n need
+// not be unit; f.n is.
+// Degenerate input: constant uv, zero or non-finite differences give t = b = 0, so that cotan_apply returns n. The same
+// holds where uv vary by less than about 1e-6 of the footprint's length: the frame fades to the plain normal there.
+// Where uv vary along one line only, t is parallel to b.
 // Source: [2013] 'cotangent_frame'; the sign and the guards are ours.
 cotan_frame cotan_frame_cotangent(vec3 n, vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2 duvdy)
 {
@@ -213,8 +210,8 @@ orthonormal: `// Normal mapping, frame \`orthonormal\` (total form), for GLSL ES
 // Needs from the caller:
 //   normal     interpolated surface normal; any space, the same for all vectors
 //   position   camera-relative (world axes, origin at the eye), interpolated, NOT normalised;
-//              normalising it first is wrong by 11 degrees at 45 degrees of grazing
-//   uv         as the normal map is sampled with
+//              normalising it first gives an error of 11 degrees at a grazing angle of 45 degrees
+//   uv         those of the normal map
 //   derivatives of position and uv: taken here by dFdx and dFdy
 //
 // Call:
@@ -226,7 +223,8 @@ orthonormal: `// Normal mapping, frame \`orthonormal\` (total form), for GLSL ES
 //   differences) the result is the unit interpolated normal.
 //   Right for y-up and y-down targets, both handednesses, mirrored uv and transforms, and back
 //   faces, with no uniform and no front-face flag.
-//   In float, footprints of 1e-3 of the distance to the eye keep 0.002 degrees, of 1e-5 0.12.
+//   In float, the error is 0.002 degrees for footprints of 1e-3 of the distance to the eye, and
+//   0.12 degrees for 1e-5.
 //   On flat-shaded uv the frame is constant per triangle: on coarse curved meshes it steps at
 //   edges.
 //   The shader must say: precision highp float; precision highp int;
@@ -243,21 +241,20 @@ struct cotan_frame
     vec3 n; // normal
 };
 
-// The four differences, made safe: either all finite and scaled by powers of two so that the
-// largest position component and the largest uv component lie in [1,2), or all zero.
+// The four differences after checking: either all finite and scaled by powers of two so that the largest position
+// component and the largest uv component lie in [1,2), or all zero.
 struct cotan_differences
 {
     vec3 dpdx;
     vec3 dpdy;
     vec2 duvdx;
     vec2 duvdy;
-    float p_scale; // what dpdx and dpdy were multiplied by
-    float uv_scale; // what duvdx and duvdy were multiplied by
+    float p_scale; // the factor applied to dpdx and dpdy
+    float uv_scale; // the factor applied to duvdx and duvdy
 };
 
-// A power of two s such that m*s lies in [1,2), for m in [1e-37, 1e37]; m outside that range is
-// clamped into it first. Multiplying by s is exact, so a formula of products gives the same bits
-// before and after, except that it no longer under- or overflows.
+// Returns the power of two s for which m*s lies in [1,2), after clamping m to [1e-37, 1e37]. Multiplying by s is exact,
+// so formulas made of products give the same bits with scaled values, but no longer underflow or overflow.
 // m: any magnitude (zero gives the largest scale), not NaN.
 float cotan_power_of_two_scale(float m)
 {
@@ -266,7 +263,7 @@ float cotan_power_of_two_scale(float m)
     return uintBitsToFloat((254u << 23) - exponent);
 }
 
-// The signed number that a stored component stands for, in [-1,1].
+// The signed value of a stored component, in [-1,1].
 float cotan_expand(float c)
 {
     float x = c * (255.0 / 127.0) - (128.0 / 127.0);
@@ -294,19 +291,18 @@ float cotan_max_abs(vec3 a)
     return max(abs(a.x), max(abs(a.y), abs(a.z)));
 }
 
-// -1 for x < 0, otherwise +1 (also for -0 and NaN).
+// Returns -1 for x < 0, otherwise +1 (also for -0 and NaN).
 float cotan_sign(float x)
 {
     return x < 0.0 ? -1.0 : 1.0;
 }
 
-// Scales the differences (exact, see cotan_power_of_two_scale) and zeroes what is unusable:
-// if a component of dpdx or dpdy is not finite or exceeds 1e37, all four; if a component of
-// duvdx or duvdy is, those two. Frames that ignore the common scale of positions and of uv are
-// unchanged by it, bit for bit.
+// Scales the differences (exactly, see cotan_power_of_two_scale) and zeroes unusable ones: all four if a component of
+// dpdx or dpdy is not finite or exceeds 1e37; only duvdx and duvdy if a component of these does. Frames that do not
+// depend on the common scale of positions or of uv are unchanged, bit for bit.
 cotan_differences cotan_scale_differences(vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2 duvdy)
 {
-    // A sum of magnitudes stays NaN or infinite if one term is; max() would drop a NaN.
+    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN.
     bool p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) <= 1e37;
     bool uv_usable = p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x) + abs(duvdy.y) <= 1e37;
     cotan_differences d;
@@ -324,8 +320,8 @@ cotan_differences cotan_scale_differences(vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2
     return d;
 }
 
-// A unit vector along v, or \`otherwise\` where v is zero, shorter than 1e-6 of the clamp range of
-// cotan_power_of_two_scale, or not finite. \`otherwise\` is returned as it is.
+// Returns the unit vector along v. Returns \`otherwise\`, unchanged, if v is zero, shorter than about 1e-43 (1e-6 times
+// the lower clamp of cotan_power_of_two_scale), or not finite.
 vec3 cotan_normalize_or(vec3 v, vec3 otherwise)
 {
     bool usable = cotan_sum_abs(v) <= 1e37;
@@ -336,9 +332,9 @@ vec3 cotan_normalize_or(vec3 v, vec3 otherwise)
     return length2 > 1e-12 ? unit : otherwise;
 }
 
-// The interpolated normal as a unit vector. Where it has cancelled out (zero length) or is not
-// finite: the normal of the plane of dpdx and dpdy; where that is degenerate too: (0,0,1).
-// The plane normal's sign follows dpdx x dpdy; nothing better is known at such a pixel.
+// Returns the interpolated normal as a unit vector. If it is zero (normals cancelled out) or not finite: the normal of
+// the plane of dpdx and dpdy, and (0,0,1) if that is degenerate too. The sign of the plane normal is that of dpdx x
+// dpdy; such a pixel has no better information.
 // n: any length. dpdx, dpdy: finite, as cotan_scale_differences returns them.
 vec3 cotan_safe_normal(vec3 n, vec3 dpdx, vec3 dpdy)
 {
@@ -346,9 +342,9 @@ vec3 cotan_safe_normal(vec3 n, vec3 dpdx, vec3 dpdy)
     return cotan_normalize_or(n, cotan_normalize_or(cross(dpdx, dpdy), z));
 }
 
-// The perturbed normal: normalize(t*m.x + b*m.y + n*m.z). Where that sum is shorter than 1e-6 or
-// not finite (an unfilled texel, m = 0; a horizontal m where the frame has no t and b): n as it
-// stands in the frame, so unit or what the caller gave.
+// Returns the perturbed normal normalize(t*m.x + b*m.y + n*m.z). If that sum is shorter than 1e-6 or not finite (an
+// unfilled texel, m = 0; a horizontal m where t = b = 0), returns f.n unchanged: unit, or as long as the caller passed
+// it.
 // m: decoded texel, along (+u, +v, outwards); any length.
 vec3 cotan_apply(cotan_frame f, vec3 m)
 {
@@ -359,11 +355,10 @@ vec3 cotan_apply(cotan_frame f, vec3 m)
     return usable ? unit : f.n;
 }
 
-// \`orthonormal\`: tangent first, t along dP/du in the plane of n, b = +-n x t; the best tangent-free
-// reading of maps that were baked for MikkTSpace. Right on conformal uv, wrong by a fixed amount
-// on anisotropic ones. Total, like \`cotangent\`; n need not be unit, f.n is.
-// Degenerate input: uv without area (constant, or along one line), zero or non-finite differences
-// give t = b = 0.
+// \`orthonormal\`: t along dP/du in the plane of n, b = +-n x t. The best frame without stored tangents for maps that
+// were baked for MikkTSpace. Exact where uv are conformal; a constant error where they are anisotropic. Total, like
+// \`cotangent\`; n need not be unit, f.n is.
+// Degenerate input: uv without area (constant, or along one line), zero or non-finite differences give t = b = 0.
 // Source: [2020], the basis built from derivatives.
 cotan_frame cotan_frame_orthonormal(vec3 n, vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2 duvdy)
 {
@@ -433,9 +428,8 @@ struct cotan_frame
     vec3 n; // normal
 };
 
-// A power of two s such that m*s lies in [1,2), for m in [1e-37, 1e37]; m outside that range is
-// clamped into it first. Multiplying by s is exact, so a formula of products gives the same bits
-// before and after, except that it no longer under- or overflows.
+// Returns the power of two s for which m*s lies in [1,2), after clamping m to [1e-37, 1e37]. Multiplying by s is exact,
+// so formulas made of products give the same bits with scaled values, but no longer underflow or overflow.
 // m: any magnitude (zero gives the largest scale), not NaN.
 float cotan_power_of_two_scale(float m)
 {
@@ -444,7 +438,7 @@ float cotan_power_of_two_scale(float m)
     return uintBitsToFloat((254u << 23) - exponent);
 }
 
-// The signed number that a stored component stands for, in [-1,1].
+// The signed value of a stored component, in [-1,1].
 float cotan_expand(float c)
 {
     float x = c * (255.0 / 127.0) - (128.0 / 127.0);
@@ -472,8 +466,8 @@ float cotan_max_abs(vec3 a)
     return max(abs(a.x), max(abs(a.y), abs(a.z)));
 }
 
-// A unit vector along v, or \`otherwise\` where v is zero, shorter than 1e-6 of the clamp range of
-// cotan_power_of_two_scale, or not finite. \`otherwise\` is returned as it is.
+// Returns the unit vector along v. Returns \`otherwise\`, unchanged, if v is zero, shorter than about 1e-43 (1e-6 times
+// the lower clamp of cotan_power_of_two_scale), or not finite.
 vec3 cotan_normalize_or(vec3 v, vec3 otherwise)
 {
     bool usable = cotan_sum_abs(v) <= 1e37;
@@ -484,9 +478,9 @@ vec3 cotan_normalize_or(vec3 v, vec3 otherwise)
     return length2 > 1e-12 ? unit : otherwise;
 }
 
-// The interpolated normal as a unit vector. Where it has cancelled out (zero length) or is not
-// finite: the normal of the plane of dpdx and dpdy; where that is degenerate too: (0,0,1).
-// The plane normal's sign follows dpdx x dpdy; nothing better is known at such a pixel.
+// Returns the interpolated normal as a unit vector. If it is zero (normals cancelled out) or not finite: the normal of
+// the plane of dpdx and dpdy, and (0,0,1) if that is degenerate too. The sign of the plane normal is that of dpdx x
+// dpdy; such a pixel has no better information.
 // n: any length. dpdx, dpdy: finite, as cotan_scale_differences returns them.
 vec3 cotan_safe_normal(vec3 n, vec3 dpdx, vec3 dpdy)
 {
@@ -494,9 +488,9 @@ vec3 cotan_safe_normal(vec3 n, vec3 dpdx, vec3 dpdy)
     return cotan_normalize_or(n, cotan_normalize_or(cross(dpdx, dpdy), z));
 }
 
-// The perturbed normal: normalize(t*m.x + b*m.y + n*m.z). Where that sum is shorter than 1e-6 or
-// not finite (an unfilled texel, m = 0; a horizontal m where the frame has no t and b): n as it
-// stands in the frame, so unit or what the caller gave.
+// Returns the perturbed normal normalize(t*m.x + b*m.y + n*m.z). If that sum is shorter than 1e-6 or not finite (an
+// unfilled texel, m = 0; a horizontal m where t = b = 0), returns f.n unchanged: unit, or as long as the caller passed
+// it.
 // m: decoded texel, along (+u, +v, outwards); any length.
 vec3 cotan_apply(cotan_frame f, vec3 m)
 {
@@ -507,8 +501,8 @@ vec3 cotan_apply(cotan_frame f, vec3 m)
     return usable ? unit : f.n;
 }
 
-// \`smooth\`: from cotangents that were averaged at the vertices and interpolated. They are
-// projected onto the plane of n; the longer has length one. Total; n need not be unit, f.n is.
+// \`smooth\`: from cotangents averaged at the vertices and interpolated, then projected onto the plane of n; the longer
+// of t and b has length one. Total; n need not be unit, f.n is.
 //   t, b   interpolated covectors, any common scale, same space as n
 // Degenerate input: t = b = 0 where both vanish.
 cotan_frame cotan_frame_smooth(vec3 n, vec3 t, vec3 b)
@@ -572,29 +566,27 @@ struct cotan_frame
     vec3 n; // normal
 };
 
-// The four differences, made safe: either all finite and scaled by powers of two so that the
-// largest position component and the largest uv component lie in [1,2), or all zero.
+// The four differences after checking: either all finite and scaled by powers of two so that the largest position
+// component and the largest uv component lie in [1,2), or all zero.
 struct cotan_differences
 {
     vec3 dpdx;
     vec3 dpdy;
     vec2 duvdx;
     vec2 duvdy;
-    float p_scale; // what dpdx and dpdy were multiplied by
-    float uv_scale; // what duvdx and duvdy were multiplied by
+    float p_scale; // the factor applied to dpdx and dpdy
+    float uv_scale; // the factor applied to duvdx and duvdy
 };
 
-// U and V of one triangle: vectors in its plane. The longer one has length 1. U = V = 0 where there
-// is no frame.
+// U and V of one triangle: vectors in its plane. The longer one has length 1. U = V = 0 if there is no frame.
 struct cotan_triangle
 {
     vec3 u;
     vec3 v;
 };
 
-// A power of two s such that m*s lies in [1,2), for m in [1e-37, 1e37]; m outside that range is
-// clamped into it first. Multiplying by s is exact, so a formula of products gives the same bits
-// before and after, except that it no longer under- or overflows.
+// Returns the power of two s for which m*s lies in [1,2), after clamping m to [1e-37, 1e37]. Multiplying by s is exact,
+// so formulas made of products give the same bits with scaled values, but no longer underflow or overflow.
 // m: any magnitude (zero gives the largest scale), not NaN.
 float cotan_power_of_two_scale(float m)
 {
@@ -603,7 +595,7 @@ float cotan_power_of_two_scale(float m)
     return uintBitsToFloat((254u << 23) - exponent);
 }
 
-// The signed number that a stored component stands for, in [-1,1].
+// The signed value of a stored component, in [-1,1].
 float cotan_expand(float c)
 {
     float x = c * (255.0 / 127.0) - (128.0 / 127.0);
@@ -631,19 +623,18 @@ float cotan_max_abs(vec3 a)
     return max(abs(a.x), max(abs(a.y), abs(a.z)));
 }
 
-// -1 for x < 0, otherwise +1 (also for -0 and NaN).
+// Returns -1 for x < 0, otherwise +1 (also for -0 and NaN).
 float cotan_sign(float x)
 {
     return x < 0.0 ? -1.0 : 1.0;
 }
 
-// Scales the differences (exact, see cotan_power_of_two_scale) and zeroes what is unusable:
-// if a component of dpdx or dpdy is not finite or exceeds 1e37, all four; if a component of
-// duvdx or duvdy is, those two. Frames that ignore the common scale of positions and of uv are
-// unchanged by it, bit for bit.
+// Scales the differences (exactly, see cotan_power_of_two_scale) and zeroes unusable ones: all four if a component of
+// dpdx or dpdy is not finite or exceeds 1e37; only duvdx and duvdy if a component of these does. Frames that do not
+// depend on the common scale of positions or of uv are unchanged, bit for bit.
 cotan_differences cotan_scale_differences(vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2 duvdy)
 {
-    // A sum of magnitudes stays NaN or infinite if one term is; max() would drop a NaN.
+    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN.
     bool p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) <= 1e37;
     bool uv_usable = p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x) + abs(duvdy.y) <= 1e37;
     cotan_differences d;
@@ -661,8 +652,8 @@ cotan_differences cotan_scale_differences(vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2
     return d;
 }
 
-// A unit vector along v, or \`otherwise\` where v is zero, shorter than 1e-6 of the clamp range of
-// cotan_power_of_two_scale, or not finite. \`otherwise\` is returned as it is.
+// Returns the unit vector along v. Returns \`otherwise\`, unchanged, if v is zero, shorter than about 1e-43 (1e-6 times
+// the lower clamp of cotan_power_of_two_scale), or not finite.
 vec3 cotan_normalize_or(vec3 v, vec3 otherwise)
 {
     bool usable = cotan_sum_abs(v) <= 1e37;
@@ -673,9 +664,9 @@ vec3 cotan_normalize_or(vec3 v, vec3 otherwise)
     return length2 > 1e-12 ? unit : otherwise;
 }
 
-// The interpolated normal as a unit vector. Where it has cancelled out (zero length) or is not
-// finite: the normal of the plane of dpdx and dpdy; where that is degenerate too: (0,0,1).
-// The plane normal's sign follows dpdx x dpdy; nothing better is known at such a pixel.
+// Returns the interpolated normal as a unit vector. If it is zero (normals cancelled out) or not finite: the normal of
+// the plane of dpdx and dpdy, and (0,0,1) if that is degenerate too. The sign of the plane normal is that of dpdx x
+// dpdy; such a pixel has no better information.
 // n: any length. dpdx, dpdy: finite, as cotan_scale_differences returns them.
 vec3 cotan_safe_normal(vec3 n, vec3 dpdx, vec3 dpdy)
 {
@@ -683,9 +674,9 @@ vec3 cotan_safe_normal(vec3 n, vec3 dpdx, vec3 dpdy)
     return cotan_normalize_or(n, cotan_normalize_or(cross(dpdx, dpdy), z));
 }
 
-// The perturbed normal: normalize(t*m.x + b*m.y + n*m.z). Where that sum is shorter than 1e-6 or
-// not finite (an unfilled texel, m = 0; a horizontal m where the frame has no t and b): n as it
-// stands in the frame, so unit or what the caller gave.
+// Returns the perturbed normal normalize(t*m.x + b*m.y + n*m.z). If that sum is shorter than 1e-6 or not finite (an
+// unfilled texel, m = 0; a horizontal m where t = b = 0), returns f.n unchanged: unit, or as long as the caller passed
+// it.
 // m: decoded texel, along (+u, +v, outwards); any length.
 vec3 cotan_apply(cotan_frame f, vec3 m)
 {
@@ -696,8 +687,8 @@ vec3 cotan_apply(cotan_frame f, vec3 m)
     return usable ? unit : f.n;
 }
 
-// u and v scaled by one factor, so that the longer has length 1, and by \`sign\`: +1, -1, or 0 for U = V = 0.
-// u, v: finite. Both zero, or shorter than 1e-6 of the clamp range of cotan_power_of_two_scale, gives 0.
+// Scales u and v by one factor, so that the longer has length 1, and by \`sign\`: +1, -1, or 0 for U = V = 0.
+// u, v: finite. If both are shorter than about 1e-43, U = V = 0.
 cotan_triangle cotan_triangle_unit(vec3 u, vec3 v, float sign)
 {
     float rescale = cotan_power_of_two_scale(max(cotan_max_abs(u), cotan_max_abs(v)));
@@ -713,15 +704,15 @@ cotan_triangle cotan_triangle_unit(vec3 u, vec3 v, float sign)
     return result;
 }
 
-// U and V from edges.
+// Returns U and V from edges, including the sign: n x U  points along increasing u for every n on the side of
+// \`normals\`.
 //   dp1, dp2      p1 - p0 and p2 - p0, in the space of the frame
 //   duv1, duv2    uv1 - uv0 and uv2 - uv0
-//   normals       the sum of the three vertex normals, of any length, in the same space. It says which
-//                 side of the triangle is outside, so that meshes wound against their normals come
-//                 out right. Zero or not finite: the winding decides, counterclockwise is outside
-// The sign is folded in. So  n x U  points along increasing u wherever n is on the side of \`normals\`.
-// Total: a triangle without area, constant uv, non-finite input give U = V = 0. uv along one line
-// give U parallel to V.
+//   normals       the sum of the three vertex normals, of any length, in the same space. It determines the outer side
+//                 of the triangle, so that meshes wound against their normals are handled. If it is zero or not finite,
+//                 the winding decides: the triangle is counterclockwise as seen from outside
+// Total: a triangle without area, constant uv and non-finite input give U = V = 0. Where uv vary along one line only, U
+// is parallel to V.
 cotan_triangle cotan_triangle_of_edges(vec3 dp1, vec3 dp2, vec2 duv1, vec2 duv2, vec3 normals)
 {
     cotan_differences d = cotan_scale_differences(dp1, dp2, duv1, duv2);
@@ -732,15 +723,14 @@ cotan_triangle cotan_triangle_of_edges(vec3 dp1, vec3 dp2, vec2 duv1, vec2 duv2,
     return cotan_triangle_unit(u, v, dot(face, face) > 0.0 ? side : 0.0);
 }
 
-// \`triangle\`: the frame of U and V at a pixel. The same directions as \`cotangent\`; the scale is that of
-// the triangle, not of the pixel. So where n leans from the triangle's own normal by an angle a, slopes
-// are those of \`cotangent\` times a factor between cos(a) and 1. View independent.
-//   n      interpolated normal, any length, on the side that U and V were made for; f.n is unit.
-//          On back faces give the normal as interpolated and turn the result, or negate m.z instead:
-//          with a turned n, t and b come out reversed
+// \`triangle\`: the frame of U and V at a pixel. t and b have the directions of \`cotangent\`, but the scale of the
+// triangle, not of the pixel: where n is at an angle a to the triangle's own normal, slopes are those of \`cotangent\`
+// times a factor between cos(a) and 1. View independent.
+//   n      interpolated normal, any length, on the side that U and V were made for; f.n is unit. On back faces pass the
+//          normal as interpolated and negate the result, or negate m.z instead: a flipped n reverses t and b
 //   u, v   U and V in the space of n
 // Total: non-finite U and V give t = b = 0.
-// Source: [2013], with the sum taken before the product; see the head of this file.
+// Source: [2013], summing before the cross product; see the head of this file.
 cotan_frame cotan_frame_of_triangle(vec3 n, vec3 u, vec3 v)
 {
     vec3 zero = vec3(0.0, 0.0, 0.0);
@@ -752,13 +742,12 @@ cotan_frame cotan_frame_of_triangle(vec3 n, vec3 u, vec3 v)
     return f;
 }
 
-// The same in one step, from the edges of the triangle. n also says which side is outside, so it may be
-// turned on back faces. Equal to U and V of the vertices wherever n leans by less than 90 degrees from
-// the triangle's own normal.
+// \`triangle\` in one step, from the edges of the triangle. n also determines the outer side, so it may be flipped on
+// back faces. Equal to the frame from the vertices wherever n is less than 90 degrees from the triangle's own normal.
 //   n             interpolated normal at the shaded point, any length; f.n is unit
 //   dpdx, dpdy    edges p1 - p0 and p2 - p0
 //   duvdx, duvdy  uv1 - uv0 and uv2 - uv0
-// Total: a triangle without area, constant uv, non-finite input give t = b = 0.
+// Total: a triangle without area, constant uv and non-finite input give t = b = 0.
 cotan_frame cotan_frame_triangle(vec3 n, vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2 duvdy)
 {
     cotan_differences d = cotan_scale_differences(dpdx, dpdy, duvdx, duvdy);
@@ -790,8 +779,8 @@ cotangent: `// Normal mapping, frame \`cotangent\` (total form), for WGSL.
 // Needs from the caller:
 //   normal     interpolated surface normal; any space, the same for all vectors
 //   position   camera-relative (world axes, origin at the eye), interpolated, NOT normalised;
-//              normalising it first is wrong by 11 degrees at 45 degrees of grazing
-//   uv         as the normal map is sampled with
+//              normalising it first gives an error of 11 degrees at a grazing angle of 45 degrees
+//   uv         those of the normal map
 //   derivatives of position and uv: taken here by dpdxFine and dpdyFine
 //
 // Call:
@@ -803,11 +792,12 @@ cotangent: `// Normal mapping, frame \`cotangent\` (total form), for WGSL.
 //   differences) the result is the unit interpolated normal.
 //   Right for y-up and y-down targets, both handednesses, mirrored uv and transforms, and back
 //   faces, with no uniform and no front-face flag.
-//   In float, footprints of 1e-3 of the distance to the eye keep 0.002 degrees, of 1e-5 0.12.
+//   In float, the error is 0.002 degrees for footprints of 1e-3 of the distance to the eye, and
+//   0.12 degrees for 1e-5.
 //   On flat-shaded uv the frame is constant per triangle: on coarse curved meshes it steps at
 //   edges (a sphere of 32 segments: 1.1 degrees in the mean).
 //   WGSL lets an implementation assume that no number is NaN or infinite: the guards against
-//   non-finite input are then not sure to hold. Those against zeros and empty areas do.
+//   non-finite input may then not hold. Those against zeros and empty areas do.
 //
 // After:
 //   [2006] C. Schueler, Normal Mapping without Precomputed Tangents, ShaderX5, 2006
@@ -819,20 +809,19 @@ struct cotan_frame {
     n: vec3f, // normal
 }
 
-// The four differences, made safe: either all finite and scaled by powers of two so that the
-// largest position component and the largest uv component lie in [1,2), or all zero.
+// The four differences after checking: either all finite and scaled by powers of two so that the largest position
+// component and the largest uv component lie in [1,2), or all zero.
 struct cotan_differences {
     dpdx: vec3f,
     dpdy: vec3f,
     duvdx: vec2f,
     duvdy: vec2f,
-    p_scale: f32, // what dpdx and dpdy were multiplied by
-    uv_scale: f32, // what duvdx and duvdy were multiplied by
+    p_scale: f32, // the factor applied to dpdx and dpdy
+    uv_scale: f32, // the factor applied to duvdx and duvdy
 }
 
-// A power of two s such that m*s lies in [1,2), for m in [1e-37, 1e37]; m outside that range is
-// clamped into it first. Multiplying by s is exact, so a formula of products gives the same bits
-// before and after, except that it no longer under- or overflows.
+// Returns the power of two s for which m*s lies in [1,2), after clamping m to [1e-37, 1e37]. Multiplying by s is exact,
+// so formulas made of products give the same bits with scaled values, but no longer underflow or overflow.
 // m: any magnitude (zero gives the largest scale), not NaN.
 fn cotan_power_of_two_scale(m_in: f32) -> f32 {
     var m = m_in;
@@ -841,7 +830,7 @@ fn cotan_power_of_two_scale(m_in: f32) -> f32 {
     return bitcast<f32>((254u << 23) - exponent);
 }
 
-// The signed number that a stored component stands for, in [-1,1].
+// The signed value of a stored component, in [-1,1].
 fn cotan_expand(c: f32) -> f32 {
     let x = c * (255.0 / 127.0) - (128.0 / 127.0);
     return max(x, -1.0);
@@ -865,18 +854,17 @@ fn cotan_max_abs(a: vec3f) -> f32 {
     return max(abs(a.x), max(abs(a.y), abs(a.z)));
 }
 
-// -1 for x < 0, otherwise +1 (also for -0 and NaN).
+// Returns -1 for x < 0, otherwise +1 (also for -0 and NaN).
 fn cotan_sign(x: f32) -> f32 {
     return select(1.0, -1.0, x < 0.0);
 }
 
-// Scales the differences (exact, see cotan_power_of_two_scale) and zeroes what is unusable:
-// if a component of dpdx or dpdy is not finite or exceeds 1e37, all four; if a component of
-// duvdx or duvdy is, those two. Frames that ignore the common scale of positions and of uv are
-// unchanged by it, bit for bit.
+// Scales the differences (exactly, see cotan_power_of_two_scale) and zeroes unusable ones: all four if a component of
+// dpdx or dpdy is not finite or exceeds 1e37; only duvdx and duvdy if a component of these does. Frames that do not
+// depend on the common scale of positions or of uv are unchanged, bit for bit.
 fn cotan_scale_differences(dpdx: vec3f, dpdy: vec3f, duvdx: vec2f, duvdy: vec2f)
     -> cotan_differences {
-    // A sum of magnitudes stays NaN or infinite if one term is; max() would drop a NaN.
+    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN.
     let p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) <= 1e37;
     let uv_usable = p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x) + abs(duvdy.y) <= 1e37;
     var d: cotan_differences;
@@ -894,8 +882,8 @@ fn cotan_scale_differences(dpdx: vec3f, dpdy: vec3f, duvdx: vec2f, duvdy: vec2f)
     return d;
 }
 
-// A unit vector along v, or \`otherwise\` where v is zero, shorter than 1e-6 of the clamp range of
-// cotan_power_of_two_scale, or not finite. \`otherwise\` is returned as it is.
+// Returns the unit vector along v. Returns \`otherwise\`, unchanged, if v is zero, shorter than about 1e-43 (1e-6 times
+// the lower clamp of cotan_power_of_two_scale), or not finite.
 fn cotan_normalize_or(v_in: vec3f, otherwise: vec3f) -> vec3f {
     var v = v_in;
     let usable = cotan_sum_abs(v) <= 1e37;
@@ -906,18 +894,18 @@ fn cotan_normalize_or(v_in: vec3f, otherwise: vec3f) -> vec3f {
     return select(otherwise, unit, length2 > 1e-12);
 }
 
-// The interpolated normal as a unit vector. Where it has cancelled out (zero length) or is not
-// finite: the normal of the plane of dpdx and dpdy; where that is degenerate too: (0,0,1).
-// The plane normal's sign follows dpdx x dpdy; nothing better is known at such a pixel.
+// Returns the interpolated normal as a unit vector. If it is zero (normals cancelled out) or not finite: the normal of
+// the plane of dpdx and dpdy, and (0,0,1) if that is degenerate too. The sign of the plane normal is that of dpdx x
+// dpdy; such a pixel has no better information.
 // n: any length. dpdx, dpdy: finite, as cotan_scale_differences returns them.
 fn cotan_safe_normal(n: vec3f, dpdx: vec3f, dpdy: vec3f) -> vec3f {
     let z = vec3f(0.0, 0.0, 1.0);
     return cotan_normalize_or(n, cotan_normalize_or(cross(dpdx, dpdy), z));
 }
 
-// The perturbed normal: normalize(t*m.x + b*m.y + n*m.z). Where that sum is shorter than 1e-6 or
-// not finite (an unfilled texel, m = 0; a horizontal m where the frame has no t and b): n as it
-// stands in the frame, so unit or what the caller gave.
+// Returns the perturbed normal normalize(t*m.x + b*m.y + n*m.z). If that sum is shorter than 1e-6 or not finite (an
+// unfilled texel, m = 0; a horizontal m where t = b = 0), returns f.n unchanged: unit, or as long as the caller passed
+// it.
 // m: decoded texel, along (+u, +v, outwards); any length.
 fn cotan_apply(f: cotan_frame, m: vec3f) -> vec3f {
     let v = f.t * m.x + f.b * m.y + f.n * m.z;
@@ -927,18 +915,16 @@ fn cotan_apply(f: cotan_frame, m: vec3f) -> vec3f {
     return select(f.n, unit, usable);
 }
 
-// \`cotangent\`, the default. The cotangent frame of [2013] with two departures:
-// - it carries the sign of n . (dpdx x dpdy), so it is right for y-up and y-down targets, both
-//   world handednesses, mirrored transforms, back faces and uv-space rasters alike ([2013] is
-//   right only where that sign is positive);
-// - it is total: no input gives a NaN or an infinity.
-// t and b keep their relative lengths and skew; the longer of the two has length one, so bumps
-// do not depend on the scale of the object (truth S of docs/explanation/theory.md). View independent. t and b
-// are perpendicular to n.
-// n need not be unit; f.n is.
-// Degenerate input: constant uv, zero or non-finite differences give t = b = 0, so that
-// cotan_apply returns n; so do uv that vary less than about 1e-6 of the footprint's length (the
-// frame fades to the plain normal there). uv along one line give t parallel to b.
+// \`cotangent\`, the default. The cotangent frame of [2013] with two differences:
+// - It carries the sign of n . (dpdx x dpdy), so it is correct for y-up and y-down targets, both world handednesses,
+//   mirrored transforms, back faces and uv-space rasters alike. [2013] is correct only where that sign is positive.
+// - It is total: no input gives a NaN or an infinity.
+// t and b keep their relative lengths and skew. The longer of the two has length one, so bumps do not depend on the
+// scale of the object (truth S of docs/explanation/theory.md). View independent. t and b are perpendicular to n. n need
+// not be unit; f.n is.
+// Degenerate input: constant uv, zero or non-finite differences give t = b = 0, so that cotan_apply returns n. The same
+// holds where uv vary by less than about 1e-6 of the footprint's length: the frame fades to the plain normal there.
+// Where uv vary along one line only, t is parallel to b.
 // Source: [2013] 'cotangent_frame'; the sign and the guards are ours.
 fn cotan_frame_cotangent(n: vec3f, dpdx: vec3f, dpdy: vec3f, duvdx: vec2f, duvdy: vec2f)
     -> cotan_frame {
@@ -985,8 +971,8 @@ orthonormal: `// Normal mapping, frame \`orthonormal\` (total form), for WGSL.
 // Needs from the caller:
 //   normal     interpolated surface normal; any space, the same for all vectors
 //   position   camera-relative (world axes, origin at the eye), interpolated, NOT normalised;
-//              normalising it first is wrong by 11 degrees at 45 degrees of grazing
-//   uv         as the normal map is sampled with
+//              normalising it first gives an error of 11 degrees at a grazing angle of 45 degrees
+//   uv         those of the normal map
 //   derivatives of position and uv: taken here by dpdxFine and dpdyFine
 //
 // Call:
@@ -998,11 +984,12 @@ orthonormal: `// Normal mapping, frame \`orthonormal\` (total form), for WGSL.
 //   differences) the result is the unit interpolated normal.
 //   Right for y-up and y-down targets, both handednesses, mirrored uv and transforms, and back
 //   faces, with no uniform and no front-face flag.
-//   In float, footprints of 1e-3 of the distance to the eye keep 0.002 degrees, of 1e-5 0.12.
+//   In float, the error is 0.002 degrees for footprints of 1e-3 of the distance to the eye, and
+//   0.12 degrees for 1e-5.
 //   On flat-shaded uv the frame is constant per triangle: on coarse curved meshes it steps at
 //   edges.
 //   WGSL lets an implementation assume that no number is NaN or infinite: the guards against
-//   non-finite input are then not sure to hold. Those against zeros and empty areas do.
+//   non-finite input may then not hold. Those against zeros and empty areas do.
 //
 // After:
 //   [2006] C. Schueler, Normal Mapping without Precomputed Tangents, ShaderX5, 2006
@@ -1015,20 +1002,19 @@ struct cotan_frame {
     n: vec3f, // normal
 }
 
-// The four differences, made safe: either all finite and scaled by powers of two so that the
-// largest position component and the largest uv component lie in [1,2), or all zero.
+// The four differences after checking: either all finite and scaled by powers of two so that the largest position
+// component and the largest uv component lie in [1,2), or all zero.
 struct cotan_differences {
     dpdx: vec3f,
     dpdy: vec3f,
     duvdx: vec2f,
     duvdy: vec2f,
-    p_scale: f32, // what dpdx and dpdy were multiplied by
-    uv_scale: f32, // what duvdx and duvdy were multiplied by
+    p_scale: f32, // the factor applied to dpdx and dpdy
+    uv_scale: f32, // the factor applied to duvdx and duvdy
 }
 
-// A power of two s such that m*s lies in [1,2), for m in [1e-37, 1e37]; m outside that range is
-// clamped into it first. Multiplying by s is exact, so a formula of products gives the same bits
-// before and after, except that it no longer under- or overflows.
+// Returns the power of two s for which m*s lies in [1,2), after clamping m to [1e-37, 1e37]. Multiplying by s is exact,
+// so formulas made of products give the same bits with scaled values, but no longer underflow or overflow.
 // m: any magnitude (zero gives the largest scale), not NaN.
 fn cotan_power_of_two_scale(m_in: f32) -> f32 {
     var m = m_in;
@@ -1037,7 +1023,7 @@ fn cotan_power_of_two_scale(m_in: f32) -> f32 {
     return bitcast<f32>((254u << 23) - exponent);
 }
 
-// The signed number that a stored component stands for, in [-1,1].
+// The signed value of a stored component, in [-1,1].
 fn cotan_expand(c: f32) -> f32 {
     let x = c * (255.0 / 127.0) - (128.0 / 127.0);
     return max(x, -1.0);
@@ -1061,18 +1047,17 @@ fn cotan_max_abs(a: vec3f) -> f32 {
     return max(abs(a.x), max(abs(a.y), abs(a.z)));
 }
 
-// -1 for x < 0, otherwise +1 (also for -0 and NaN).
+// Returns -1 for x < 0, otherwise +1 (also for -0 and NaN).
 fn cotan_sign(x: f32) -> f32 {
     return select(1.0, -1.0, x < 0.0);
 }
 
-// Scales the differences (exact, see cotan_power_of_two_scale) and zeroes what is unusable:
-// if a component of dpdx or dpdy is not finite or exceeds 1e37, all four; if a component of
-// duvdx or duvdy is, those two. Frames that ignore the common scale of positions and of uv are
-// unchanged by it, bit for bit.
+// Scales the differences (exactly, see cotan_power_of_two_scale) and zeroes unusable ones: all four if a component of
+// dpdx or dpdy is not finite or exceeds 1e37; only duvdx and duvdy if a component of these does. Frames that do not
+// depend on the common scale of positions or of uv are unchanged, bit for bit.
 fn cotan_scale_differences(dpdx: vec3f, dpdy: vec3f, duvdx: vec2f, duvdy: vec2f)
     -> cotan_differences {
-    // A sum of magnitudes stays NaN or infinite if one term is; max() would drop a NaN.
+    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN.
     let p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) <= 1e37;
     let uv_usable = p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x) + abs(duvdy.y) <= 1e37;
     var d: cotan_differences;
@@ -1090,8 +1075,8 @@ fn cotan_scale_differences(dpdx: vec3f, dpdy: vec3f, duvdx: vec2f, duvdy: vec2f)
     return d;
 }
 
-// A unit vector along v, or \`otherwise\` where v is zero, shorter than 1e-6 of the clamp range of
-// cotan_power_of_two_scale, or not finite. \`otherwise\` is returned as it is.
+// Returns the unit vector along v. Returns \`otherwise\`, unchanged, if v is zero, shorter than about 1e-43 (1e-6 times
+// the lower clamp of cotan_power_of_two_scale), or not finite.
 fn cotan_normalize_or(v_in: vec3f, otherwise: vec3f) -> vec3f {
     var v = v_in;
     let usable = cotan_sum_abs(v) <= 1e37;
@@ -1102,18 +1087,18 @@ fn cotan_normalize_or(v_in: vec3f, otherwise: vec3f) -> vec3f {
     return select(otherwise, unit, length2 > 1e-12);
 }
 
-// The interpolated normal as a unit vector. Where it has cancelled out (zero length) or is not
-// finite: the normal of the plane of dpdx and dpdy; where that is degenerate too: (0,0,1).
-// The plane normal's sign follows dpdx x dpdy; nothing better is known at such a pixel.
+// Returns the interpolated normal as a unit vector. If it is zero (normals cancelled out) or not finite: the normal of
+// the plane of dpdx and dpdy, and (0,0,1) if that is degenerate too. The sign of the plane normal is that of dpdx x
+// dpdy; such a pixel has no better information.
 // n: any length. dpdx, dpdy: finite, as cotan_scale_differences returns them.
 fn cotan_safe_normal(n: vec3f, dpdx: vec3f, dpdy: vec3f) -> vec3f {
     let z = vec3f(0.0, 0.0, 1.0);
     return cotan_normalize_or(n, cotan_normalize_or(cross(dpdx, dpdy), z));
 }
 
-// The perturbed normal: normalize(t*m.x + b*m.y + n*m.z). Where that sum is shorter than 1e-6 or
-// not finite (an unfilled texel, m = 0; a horizontal m where the frame has no t and b): n as it
-// stands in the frame, so unit or what the caller gave.
+// Returns the perturbed normal normalize(t*m.x + b*m.y + n*m.z). If that sum is shorter than 1e-6 or not finite (an
+// unfilled texel, m = 0; a horizontal m where t = b = 0), returns f.n unchanged: unit, or as long as the caller passed
+// it.
 // m: decoded texel, along (+u, +v, outwards); any length.
 fn cotan_apply(f: cotan_frame, m: vec3f) -> vec3f {
     let v = f.t * m.x + f.b * m.y + f.n * m.z;
@@ -1123,11 +1108,10 @@ fn cotan_apply(f: cotan_frame, m: vec3f) -> vec3f {
     return select(f.n, unit, usable);
 }
 
-// \`orthonormal\`: tangent first, t along dP/du in the plane of n, b = +-n x t; the best tangent-free
-// reading of maps that were baked for MikkTSpace. Right on conformal uv, wrong by a fixed amount
-// on anisotropic ones. Total, like \`cotangent\`; n need not be unit, f.n is.
-// Degenerate input: uv without area (constant, or along one line), zero or non-finite differences
-// give t = b = 0.
+// \`orthonormal\`: t along dP/du in the plane of n, b = +-n x t. The best frame without stored tangents for maps that
+// were baked for MikkTSpace. Exact where uv are conformal; a constant error where they are anisotropic. Total, like
+// \`cotangent\`; n need not be unit, f.n is.
+// Degenerate input: uv without area (constant, or along one line), zero or non-finite differences give t = b = 0.
 // Source: [2020], the basis built from derivatives.
 fn cotan_frame_orthonormal(n: vec3f, dpdx: vec3f, dpdy: vec3f, duvdx: vec2f, duvdy: vec2f)
     -> cotan_frame {
@@ -1183,7 +1167,7 @@ smooth: `// Normal mapping, frame \`smooth\` (total form), for WGSL.
 //   Total: no input gives NaN; where there is no frame (constant uv, no area, non-finite
 //   differences) the result is the unit interpolated normal.
 //   WGSL lets an implementation assume that no number is NaN or infinite: the guards against
-//   non-finite input are then not sure to hold. Those against zeros and empty areas do.
+//   non-finite input may then not hold. Those against zeros and empty areas do.
 //
 // After:
 //   [2006] C. Schueler, Normal Mapping without Precomputed Tangents, ShaderX5, 2006
@@ -1195,9 +1179,8 @@ struct cotan_frame {
     n: vec3f, // normal
 }
 
-// A power of two s such that m*s lies in [1,2), for m in [1e-37, 1e37]; m outside that range is
-// clamped into it first. Multiplying by s is exact, so a formula of products gives the same bits
-// before and after, except that it no longer under- or overflows.
+// Returns the power of two s for which m*s lies in [1,2), after clamping m to [1e-37, 1e37]. Multiplying by s is exact,
+// so formulas made of products give the same bits with scaled values, but no longer underflow or overflow.
 // m: any magnitude (zero gives the largest scale), not NaN.
 fn cotan_power_of_two_scale(m_in: f32) -> f32 {
     var m = m_in;
@@ -1206,7 +1189,7 @@ fn cotan_power_of_two_scale(m_in: f32) -> f32 {
     return bitcast<f32>((254u << 23) - exponent);
 }
 
-// The signed number that a stored component stands for, in [-1,1].
+// The signed value of a stored component, in [-1,1].
 fn cotan_expand(c: f32) -> f32 {
     let x = c * (255.0 / 127.0) - (128.0 / 127.0);
     return max(x, -1.0);
@@ -1230,8 +1213,8 @@ fn cotan_max_abs(a: vec3f) -> f32 {
     return max(abs(a.x), max(abs(a.y), abs(a.z)));
 }
 
-// A unit vector along v, or \`otherwise\` where v is zero, shorter than 1e-6 of the clamp range of
-// cotan_power_of_two_scale, or not finite. \`otherwise\` is returned as it is.
+// Returns the unit vector along v. Returns \`otherwise\`, unchanged, if v is zero, shorter than about 1e-43 (1e-6 times
+// the lower clamp of cotan_power_of_two_scale), or not finite.
 fn cotan_normalize_or(v_in: vec3f, otherwise: vec3f) -> vec3f {
     var v = v_in;
     let usable = cotan_sum_abs(v) <= 1e37;
@@ -1242,18 +1225,18 @@ fn cotan_normalize_or(v_in: vec3f, otherwise: vec3f) -> vec3f {
     return select(otherwise, unit, length2 > 1e-12);
 }
 
-// The interpolated normal as a unit vector. Where it has cancelled out (zero length) or is not
-// finite: the normal of the plane of dpdx and dpdy; where that is degenerate too: (0,0,1).
-// The plane normal's sign follows dpdx x dpdy; nothing better is known at such a pixel.
+// Returns the interpolated normal as a unit vector. If it is zero (normals cancelled out) or not finite: the normal of
+// the plane of dpdx and dpdy, and (0,0,1) if that is degenerate too. The sign of the plane normal is that of dpdx x
+// dpdy; such a pixel has no better information.
 // n: any length. dpdx, dpdy: finite, as cotan_scale_differences returns them.
 fn cotan_safe_normal(n: vec3f, dpdx: vec3f, dpdy: vec3f) -> vec3f {
     let z = vec3f(0.0, 0.0, 1.0);
     return cotan_normalize_or(n, cotan_normalize_or(cross(dpdx, dpdy), z));
 }
 
-// The perturbed normal: normalize(t*m.x + b*m.y + n*m.z). Where that sum is shorter than 1e-6 or
-// not finite (an unfilled texel, m = 0; a horizontal m where the frame has no t and b): n as it
-// stands in the frame, so unit or what the caller gave.
+// Returns the perturbed normal normalize(t*m.x + b*m.y + n*m.z). If that sum is shorter than 1e-6 or not finite (an
+// unfilled texel, m = 0; a horizontal m where t = b = 0), returns f.n unchanged: unit, or as long as the caller passed
+// it.
 // m: decoded texel, along (+u, +v, outwards); any length.
 fn cotan_apply(f: cotan_frame, m: vec3f) -> vec3f {
     let v = f.t * m.x + f.b * m.y + f.n * m.z;
@@ -1263,8 +1246,8 @@ fn cotan_apply(f: cotan_frame, m: vec3f) -> vec3f {
     return select(f.n, unit, usable);
 }
 
-// \`smooth\`: from cotangents that were averaged at the vertices and interpolated. They are
-// projected onto the plane of n; the longer has length one. Total; n need not be unit, f.n is.
+// \`smooth\`: from cotangents averaged at the vertices and interpolated, then projected onto the plane of n; the longer
+// of t and b has length one. Total; n need not be unit, f.n is.
 //   t, b   interpolated covectors, any common scale, same space as n
 // Degenerate input: t = b = 0 where both vanish.
 fn cotan_frame_smooth(n: vec3f, t_in: vec3f, b_in: vec3f) -> cotan_frame {
@@ -1317,7 +1300,7 @@ triangle: `// Normal mapping, frame \`triangle\` (total form), for WGSL.
 //   Total: no input gives NaN; where there is no frame (constant uv, no area, non-finite
 //   differences) the result is the unit interpolated normal.
 //   WGSL lets an implementation assume that no number is NaN or infinite: the guards against
-//   non-finite input are then not sure to hold. Those against zeros and empty areas do.
+//   non-finite input may then not hold. Those against zeros and empty areas do.
 //
 // After:
 //   [2006] C. Schueler, Normal Mapping without Precomputed Tangents, ShaderX5, 2006
@@ -1329,27 +1312,25 @@ struct cotan_frame {
     n: vec3f, // normal
 }
 
-// The four differences, made safe: either all finite and scaled by powers of two so that the
-// largest position component and the largest uv component lie in [1,2), or all zero.
+// The four differences after checking: either all finite and scaled by powers of two so that the largest position
+// component and the largest uv component lie in [1,2), or all zero.
 struct cotan_differences {
     dpdx: vec3f,
     dpdy: vec3f,
     duvdx: vec2f,
     duvdy: vec2f,
-    p_scale: f32, // what dpdx and dpdy were multiplied by
-    uv_scale: f32, // what duvdx and duvdy were multiplied by
+    p_scale: f32, // the factor applied to dpdx and dpdy
+    uv_scale: f32, // the factor applied to duvdx and duvdy
 }
 
-// U and V of one triangle: vectors in its plane. The longer one has length 1. U = V = 0 where there
-// is no frame.
+// U and V of one triangle: vectors in its plane. The longer one has length 1. U = V = 0 if there is no frame.
 struct cotan_triangle {
     u: vec3f,
     v: vec3f,
 }
 
-// A power of two s such that m*s lies in [1,2), for m in [1e-37, 1e37]; m outside that range is
-// clamped into it first. Multiplying by s is exact, so a formula of products gives the same bits
-// before and after, except that it no longer under- or overflows.
+// Returns the power of two s for which m*s lies in [1,2), after clamping m to [1e-37, 1e37]. Multiplying by s is exact,
+// so formulas made of products give the same bits with scaled values, but no longer underflow or overflow.
 // m: any magnitude (zero gives the largest scale), not NaN.
 fn cotan_power_of_two_scale(m_in: f32) -> f32 {
     var m = m_in;
@@ -1358,7 +1339,7 @@ fn cotan_power_of_two_scale(m_in: f32) -> f32 {
     return bitcast<f32>((254u << 23) - exponent);
 }
 
-// The signed number that a stored component stands for, in [-1,1].
+// The signed value of a stored component, in [-1,1].
 fn cotan_expand(c: f32) -> f32 {
     let x = c * (255.0 / 127.0) - (128.0 / 127.0);
     return max(x, -1.0);
@@ -1382,18 +1363,17 @@ fn cotan_max_abs(a: vec3f) -> f32 {
     return max(abs(a.x), max(abs(a.y), abs(a.z)));
 }
 
-// -1 for x < 0, otherwise +1 (also for -0 and NaN).
+// Returns -1 for x < 0, otherwise +1 (also for -0 and NaN).
 fn cotan_sign(x: f32) -> f32 {
     return select(1.0, -1.0, x < 0.0);
 }
 
-// Scales the differences (exact, see cotan_power_of_two_scale) and zeroes what is unusable:
-// if a component of dpdx or dpdy is not finite or exceeds 1e37, all four; if a component of
-// duvdx or duvdy is, those two. Frames that ignore the common scale of positions and of uv are
-// unchanged by it, bit for bit.
+// Scales the differences (exactly, see cotan_power_of_two_scale) and zeroes unusable ones: all four if a component of
+// dpdx or dpdy is not finite or exceeds 1e37; only duvdx and duvdy if a component of these does. Frames that do not
+// depend on the common scale of positions or of uv are unchanged, bit for bit.
 fn cotan_scale_differences(dpdx: vec3f, dpdy: vec3f, duvdx: vec2f, duvdy: vec2f)
     -> cotan_differences {
-    // A sum of magnitudes stays NaN or infinite if one term is; max() would drop a NaN.
+    // A sum of magnitudes is NaN or infinite if one term is; max() would drop a NaN.
     let p_usable = cotan_sum_abs(dpdx) + cotan_sum_abs(dpdy) <= 1e37;
     let uv_usable = p_usable && abs(duvdx.x) + abs(duvdx.y) + abs(duvdy.x) + abs(duvdy.y) <= 1e37;
     var d: cotan_differences;
@@ -1411,8 +1391,8 @@ fn cotan_scale_differences(dpdx: vec3f, dpdy: vec3f, duvdx: vec2f, duvdy: vec2f)
     return d;
 }
 
-// A unit vector along v, or \`otherwise\` where v is zero, shorter than 1e-6 of the clamp range of
-// cotan_power_of_two_scale, or not finite. \`otherwise\` is returned as it is.
+// Returns the unit vector along v. Returns \`otherwise\`, unchanged, if v is zero, shorter than about 1e-43 (1e-6 times
+// the lower clamp of cotan_power_of_two_scale), or not finite.
 fn cotan_normalize_or(v_in: vec3f, otherwise: vec3f) -> vec3f {
     var v = v_in;
     let usable = cotan_sum_abs(v) <= 1e37;
@@ -1423,18 +1403,18 @@ fn cotan_normalize_or(v_in: vec3f, otherwise: vec3f) -> vec3f {
     return select(otherwise, unit, length2 > 1e-12);
 }
 
-// The interpolated normal as a unit vector. Where it has cancelled out (zero length) or is not
-// finite: the normal of the plane of dpdx and dpdy; where that is degenerate too: (0,0,1).
-// The plane normal's sign follows dpdx x dpdy; nothing better is known at such a pixel.
+// Returns the interpolated normal as a unit vector. If it is zero (normals cancelled out) or not finite: the normal of
+// the plane of dpdx and dpdy, and (0,0,1) if that is degenerate too. The sign of the plane normal is that of dpdx x
+// dpdy; such a pixel has no better information.
 // n: any length. dpdx, dpdy: finite, as cotan_scale_differences returns them.
 fn cotan_safe_normal(n: vec3f, dpdx: vec3f, dpdy: vec3f) -> vec3f {
     let z = vec3f(0.0, 0.0, 1.0);
     return cotan_normalize_or(n, cotan_normalize_or(cross(dpdx, dpdy), z));
 }
 
-// The perturbed normal: normalize(t*m.x + b*m.y + n*m.z). Where that sum is shorter than 1e-6 or
-// not finite (an unfilled texel, m = 0; a horizontal m where the frame has no t and b): n as it
-// stands in the frame, so unit or what the caller gave.
+// Returns the perturbed normal normalize(t*m.x + b*m.y + n*m.z). If that sum is shorter than 1e-6 or not finite (an
+// unfilled texel, m = 0; a horizontal m where t = b = 0), returns f.n unchanged: unit, or as long as the caller passed
+// it.
 // m: decoded texel, along (+u, +v, outwards); any length.
 fn cotan_apply(f: cotan_frame, m: vec3f) -> vec3f {
     let v = f.t * m.x + f.b * m.y + f.n * m.z;
@@ -1444,8 +1424,8 @@ fn cotan_apply(f: cotan_frame, m: vec3f) -> vec3f {
     return select(f.n, unit, usable);
 }
 
-// u and v scaled by one factor, so that the longer has length 1, and by \`sign\`: +1, -1, or 0 for U = V = 0.
-// u, v: finite. Both zero, or shorter than 1e-6 of the clamp range of cotan_power_of_two_scale, gives 0.
+// Scales u and v by one factor, so that the longer has length 1, and by \`sign\`: +1, -1, or 0 for U = V = 0.
+// u, v: finite. If both are shorter than about 1e-43, U = V = 0.
 fn cotan_triangle_unit(u_in: vec3f, v_in: vec3f, sign: f32) -> cotan_triangle {
     var u = u_in;
     var v = v_in;
@@ -1462,15 +1442,15 @@ fn cotan_triangle_unit(u_in: vec3f, v_in: vec3f, sign: f32) -> cotan_triangle {
     return result;
 }
 
-// U and V from edges.
+// Returns U and V from edges, including the sign: n x U  points along increasing u for every n on the side of
+// \`normals\`.
 //   dp1, dp2      p1 - p0 and p2 - p0, in the space of the frame
 //   duv1, duv2    uv1 - uv0 and uv2 - uv0
-//   normals       the sum of the three vertex normals, of any length, in the same space. It says which
-//                 side of the triangle is outside, so that meshes wound against their normals come
-//                 out right. Zero or not finite: the winding decides, counterclockwise is outside
-// The sign is folded in. So  n x U  points along increasing u wherever n is on the side of \`normals\`.
-// Total: a triangle without area, constant uv, non-finite input give U = V = 0. uv along one line
-// give U parallel to V.
+//   normals       the sum of the three vertex normals, of any length, in the same space. It determines the outer side
+//                 of the triangle, so that meshes wound against their normals are handled. If it is zero or not finite,
+//                 the winding decides: the triangle is counterclockwise as seen from outside
+// Total: a triangle without area, constant uv and non-finite input give U = V = 0. Where uv vary along one line only, U
+// is parallel to V.
 fn cotan_triangle_of_edges(dp1: vec3f, dp2: vec3f, duv1: vec2f, duv2: vec2f, normals: vec3f)
     -> cotan_triangle {
     let d = cotan_scale_differences(dp1, dp2, duv1, duv2);
@@ -1481,15 +1461,14 @@ fn cotan_triangle_of_edges(dp1: vec3f, dp2: vec3f, duv1: vec2f, duv2: vec2f, nor
     return cotan_triangle_unit(u, v, select(0.0, side, dot(face, face) > 0.0));
 }
 
-// \`triangle\`: the frame of U and V at a pixel. The same directions as \`cotangent\`; the scale is that of
-// the triangle, not of the pixel. So where n leans from the triangle's own normal by an angle a, slopes
-// are those of \`cotangent\` times a factor between cos(a) and 1. View independent.
-//   n      interpolated normal, any length, on the side that U and V were made for; f.n is unit.
-//          On back faces give the normal as interpolated and turn the result, or negate m.z instead:
-//          with a turned n, t and b come out reversed
+// \`triangle\`: the frame of U and V at a pixel. t and b have the directions of \`cotangent\`, but the scale of the
+// triangle, not of the pixel: where n is at an angle a to the triangle's own normal, slopes are those of \`cotangent\`
+// times a factor between cos(a) and 1. View independent.
+//   n      interpolated normal, any length, on the side that U and V were made for; f.n is unit. On back faces pass the
+//          normal as interpolated and negate the result, or negate m.z instead: a flipped n reverses t and b
 //   u, v   U and V in the space of n
 // Total: non-finite U and V give t = b = 0.
-// Source: [2013], with the sum taken before the product; see the head of this file.
+// Source: [2013], summing before the cross product; see the head of this file.
 fn cotan_frame_of_triangle(n: vec3f, u: vec3f, v: vec3f) -> cotan_frame {
     let zero = vec3f(0.0, 0.0, 0.0);
     let finite = cotan_sum_abs(u) + cotan_sum_abs(v) <= 1e37;
@@ -1500,13 +1479,12 @@ fn cotan_frame_of_triangle(n: vec3f, u: vec3f, v: vec3f) -> cotan_frame {
     return f;
 }
 
-// The same in one step, from the edges of the triangle. n also says which side is outside, so it may be
-// turned on back faces. Equal to U and V of the vertices wherever n leans by less than 90 degrees from
-// the triangle's own normal.
+// \`triangle\` in one step, from the edges of the triangle. n also determines the outer side, so it may be flipped on
+// back faces. Equal to the frame from the vertices wherever n is less than 90 degrees from the triangle's own normal.
 //   n             interpolated normal at the shaded point, any length; f.n is unit
 //   dpdx, dpdy    edges p1 - p0 and p2 - p0
 //   duvdx, duvdy  uv1 - uv0 and uv2 - uv0
-// Total: a triangle without area, constant uv, non-finite input give t = b = 0.
+// Total: a triangle without area, constant uv and non-finite input give t = b = 0.
 fn cotan_frame_triangle(n: vec3f, dpdx: vec3f, dpdy: vec3f, duvdx: vec2f, duvdy: vec2f)
     -> cotan_frame {
     let d = cotan_scale_differences(dpdx, dpdy, duvdx, duvdy);

@@ -1,16 +1,16 @@
-// The frame `smooth`: gradients of u and v averaged at the vertices, as src/core/tangents.cpp has them.
+// The frame `smooth`: gradients of u and v averaged at the vertices, as in src/core/tangents.cpp.
 import { BufferAttribute, BufferGeometry } from 'three';
-import { cornersOf, numbersOf, turnedUv, turnOf, uvNameOf } from './mesh_data.js';
+import { cornersOf, numbersOf, transformedUv, uvMatrixOf, uvNameOf } from './mesh_data.js';
 import { gathered } from './gathered.js';
 
 export const kSmoothAttributes = ['cotanU', 'cotanV'];
 
-// The geometry with the gradients of u and v, per unit of length, at its vertices. Vertices that mirrored and unmirrored
-// triangles share are split. Attributes are copied where that happens, else shared.
-// map: the normal map, whose uv set and matrix count. The geometry has positions, normals and these uv.
+// A copy of the geometry with the gradients of u and v, per unit of length, at its vertices. Splits vertices shared by
+// mirrored and unmirrored triangles. Attributes are copied if vertices were split, else shared.
+// map: the normal map, whose uv set and matrix are used. The geometry must have positions, normals and this uv set.
 export function withSmooth(geometry, map) {
   const { position, normal, [uvNameOf(map)]: uv } = geometry.attributes;
-  const mesh = { corners: cornersOf(geometry), position: numbersOf(position, 3), normal: numbersOf(normal, 3), uv: turnedUv(uv, turnOf(map)) };
+  const mesh = { corners: cornersOf(geometry), position: numbersOf(position, 3), normal: numbersOf(normal, 3), uv: transformedUv(uv, uvMatrixOf(map)) };
   const sides = sidesOf(mesh), { corners, sources } = splitMirrored(mesh.corners, sides, position.count);
   const { u, v } = averaged(mesh, corners, sides, sources);
   const split = sources.length > position.count, made = new BufferGeometry().copy(geometry);
@@ -24,7 +24,7 @@ export function withSmooth(geometry, map) {
   return made;
 }
 
-// For each corner the edges to the next and the previous one, taken with work(corner, vertex): edges are in kEdges.
+// Calls work(corner, vertex) for each corner, with the edges to the next and to the previous corner in kEdges.
 const kEdges = new Float64Array(10); // e1, e2, then u and v along each
 
 function eachCorner({ corners, position, uv }, work) {
@@ -42,20 +42,20 @@ function eachCorner({ corners, position, uv }, work) {
   }
 }
 
-// 1 where (dP/du, dP/dv, normal) of a corner is right-handed, -1 where left-handed, 0 where it is neither.
+// For each corner: 1 if (dP/du, dP/dv, normal) is right-handed, -1 if left-handed, 0 if degenerate.
 function sidesOf(mesh) {
   const sides = new Int8Array(mesh.corners.length), { normal } = mesh;
   eachCorner(mesh, (c, vertex) => {
     const [px, py, pz, qx, qy, qz, u1, v1, u2, v2] = kEdges, x = py * qz - pz * qy, y = pz * qx - px * qz, z = px * qy - py * qx;
     const nx = normal[3 * vertex], ny = normal[3 * vertex + 1], nz = normal[3 * vertex + 2];
-    const facing = nx || ny || nz ? x * nx + y * ny + z * nz : 1; // a vertex without a normal takes the triangle's
+    const facing = nx || ny || nz ? x * nx + y * ny + z * nz : 1; // a zero normal is replaced by the triangle's
     const side = (u1 * v2 - v1 * u2) * facing;
     sides[c] = Number.isFinite(side) ? Math.sign(side) : 0;
   });
   return sides;
 }
 
-// Copies of the vertices that triangles of both sides share; corners without a side go with the left-handed ones.
+// Splits the vertices that triangles of both sides share. Right-handed corners get the copy, all others the original.
 function splitMirrored(corners, sides, count) {
   const used = new Uint8Array(count), right = new Map(), made = corners.slice();
   const sources = Array.from({ length: count }, (_, k) => k);
@@ -68,13 +68,13 @@ function splitMirrored(corners, sides, count) {
   return { corners: made, sources };
 }
 
-// For every vertex the first that equals it in position, normal and uv.
+// For each vertex: the first vertex that has the same position, normal and uv.
 function welded({ position, normal, uv }) {
   const count = position.length / 3, first = new Uint32Array(count), size = 2 ** Math.ceil(Math.log2(2 * count + 2)), table = new Int32Array(size).fill(-1);
   const values = new Float32Array(8), bits = new Uint32Array(values.buffer), keys = new Float32Array(8 * count);
   for (let k = 0; k < count; ++k) {
     for (let i = 0; i < 3; ++i) {
-      values[i] = position[3 * k + i] + 0; // -0 is 0
+      values[i] = position[3 * k + i] + 0; // -0 becomes 0
       values[3 + i] = normal[3 * k + i] + 0;
       if (i < 2) values[6 + i] = uv[2 * k + i] + 0;
     }
@@ -88,11 +88,11 @@ function welded({ position, normal, uv }) {
   return first;
 }
 
-// Gradients of equal vertices, weighted by the angles of their corners as seen along the normal; both sides apart.
+// Averages the gradients of equal vertices, separately for both sides, weighted by corner angles in the tangent plane.
 function averaged(mesh, corners, sides, sources) {
   const { corners: old, normal } = mesh, known = welded(mesh), slots = new Uint32Array(sources.length);
   corners.forEach((vertex, c) => { if (sides[c]) slots[vertex] = 2 * known[old[c]] + (sides[c] > 0 ? 1 : 0) + 1; });
-  const sums = new Float64Array(14 * known.length); // of u, v and the weight, by welded vertex and side
+  const sums = new Float64Array(14 * known.length); // u, v and the weight, by welded vertex and side
   eachCorner(mesh, (c, vertex) => {
     if (!sides[c]) return;
     const [px, py, pz, qx, qy, qz, u1, v1, u2, v2] = kEdges;
@@ -102,7 +102,7 @@ function averaged(mesh, corners, sides, sources) {
     y /= length;
     z /= length;
     const ax = qy * z - qz * y, ay = qz * x - qx * z, az = qx * y - qy * x, bx = y * pz - z * py, by = z * px - x * pz, bz = x * py - y * px;
-    const determinant = px * ax + py * ay + pz * az; // of the projected edges
+    const determinant = px * ax + py * ay + pz * az; // twice the signed area of the projected edges
     if (!(Math.abs(determinant) > 0)) return;
     const along = px * x + py * y + pz * z, other = qx * x + qy * y + qz * z;
     const weight = Math.atan2(Math.abs(determinant), px * qx + py * qy + pz * qz - along * other), slot = 7 * (2 * known[vertex] + (sides[c] > 0 ? 1 : 0));

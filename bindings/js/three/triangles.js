@@ -1,27 +1,27 @@
-// The frame `triangle`: two vectors in the plane of each triangle, at the vertex that its flat values are taken from.
+// The frame `triangle`: two vectors in the plane of each triangle, stored at its provoking vertex.
 import { BufferAttribute, BufferGeometry, DataUtils, IntType } from 'three';
 import { gathered } from './gathered.js';
-import { cornersOf, numbersOf, turnOf, uvNameOf } from './mesh_data.js';
+import { cornersOf, numbersOf, uvMatrixOf, uvNameOf } from './mesh_data.js';
 
 export const kTriangleAttribute = 'cotanTriangle';
 
-// The geometry with U = e1 d2.u - e2 d1.u and V likewise as three words of halfs (docs/explanation/triangle.md) at the
-// vertices that provoke; vertices that provoke two triangles are split, about as many as triangles remain. Attributes are copied.
-// map: the normal map, whose uv set and matrix count; provoking: 'last' (WebGL) or 'first' (WebGPU).
+// A copy of the geometry with U = e1 d2.u - e2 d1.u and V likewise, six halfs in three words, at the provoking vertex
+// of each triangle (docs/explanation/triangle.md). Splits vertices that provoke two triangles.
+// map: the normal map, whose uv set and matrix are used; provoking: 'last' (WebGL) or 'first' (WebGPU).
 export function withTriangles(geometry, map, provoking) {
   const { position, normal, [uvNameOf(map)]: uv } = geometry.attributes, corners = cornersOf(geometry);
-  const words = wordsOf(corners, numbersOf(position, 3), normal && numbersOf(normal, 3), numbersOf(uv, 2), turnOf(map));
-  const sources = Array.from({ length: position.count }, (_, k) => k);  // of each new vertex
-  const provoked = [];  // by each new vertex, the triangle
+  const words = wordsOf(corners, numbersOf(position, 3), normal && numbersOf(normal, 3), numbersOf(uv, 2), uvMatrixOf(map));
+  const sources = Array.from({ length: position.count }, (_, k) => k);  // by new vertex: the old one
+  const provoked = [];  // by new vertex: the triangle that it provokes
   for (let k = 0; k < corners.length; k += 3) {
-    let turns = 0;
-    while (turns < 3 && provoked[corners[k + turns]] !== undefined) ++turns;
-    if (turns === 3) {  // all three provoke others
-      turns = 0;
+    let rotation = 0;
+    while (rotation < 3 && provoked[corners[k + rotation]] !== undefined) ++rotation;
+    if (rotation === 3) {  // all three already provoke other triangles
+      rotation = 0;
       sources.push(corners[k]);
       corners[k] = sources.length - 1;
     }
-    const p = corners[k + turns], q = corners[k + (turns + 1) % 3], r = corners[k + (turns + 2) % 3];
+    const p = corners[k + rotation], q = corners[k + (rotation + 1) % 3], r = corners[k + (rotation + 2) % 3];
     provoked[p] = k / 3;
     const first = provoking === 'first';
     corners[k] = first ? p : q;
@@ -40,7 +40,7 @@ export function withTriangles(geometry, map, provoking) {
   return made;
 }
 
-// Three words of two halfs for each triangle, whose longer vector has length one. Zeros where there is no frame.
+// U and V of each triangle as three words of two halfs, the longer vector with length one. Zeros if degenerate.
 function wordsOf(corners, position, normal, uv, [m00, m01, m10, m11]) {
   const words = new Uint32Array(corners.length), e1 = [0, 0, 0], e2 = [0, 0, 0], u = [0, 0, 0], v = [0, 0, 0];
   for (let k = 0; k < corners.length; k += 3) {
@@ -50,7 +50,7 @@ function wordsOf(corners, position, normal, uv, [m00, m01, m10, m11]) {
       e2[i] = position[c * 3 + i] - position[a * 3 + i];
     }
     const u1 = uv[b * 2] - uv[a * 2], u2 = uv[c * 2] - uv[a * 2], v1 = uv[b * 2 + 1] - uv[a * 2 + 1], v2 = uv[c * 2 + 1] - uv[a * 2 + 1];
-    let facing = normal ? 0 : 1;  // the side that the normals point to is the outside; the winding's, where there are none
+    let facing = normal ? 0 : 1;  // positive if the normals agree with the winding; without normals the winding counts
     for (let i = 0; normal && i < 3; ++i) {
       const j = (i + 1) % 3, l = (i + 2) % 3;
       facing += (e1[j] * e2[l] - e1[l] * e2[j]) * (normal[a * 3 + i] + normal[b * 3 + i] + normal[c * 3 + i]);

@@ -1,27 +1,28 @@
-// cotan/three/tsl: normal mapping without tangents for three.js and its WebGPURenderer, on WebGPU and WebGL 2. three 0.185 and
-// later; with an older one the import rejects with a CotanError, code `unavailable`.
+// cotan/three/tsl: normal mapping without tangents for three.js and its WebGPURenderer, on WebGPU and WebGL 2. Needs
+// three 0.185 or later; with an older version the import rejects with a CotanError, code `unavailable`.
 import type { Material, Object3D, Texture } from 'three';
 import type { Node, Renderer } from 'three/webgpu';
 export { CotanError } from '../tangents.js';
 import type { Frame, LoadedModel, UntangleOptions } from './index.js';
 
 export interface UntangleNodesOptions extends UntangleOptions {
-  /** Needed for the frame `triangle`, after `await renderer.init()`: WebGPU takes flat values from the first vertex, WebGL from
-   * the last. Instanced meshes get `cotangent` here instead of `triangle` and `smooth`, skins instead of `smooth`. */
+  /** The renderer, after `await renderer.init()`. Required for the frame `triangle`, since WebGPU takes flat values
+   * from the first vertex and WebGL from the last. Instanced meshes get `cotangent` instead of `triangle` or `smooth`;
+   * skinned meshes also instead of `smooth`. */
   renderer?: Renderer;
 }
 
-/** As `untangle` of cotan/three; sets `normalNode` and `clearcoatNormalNode`, unless they are yours, and how directions of
- * anisotropy are made. Maps are read when this is called: call it again if they are replaced. */
+/** Like `untangle` of cotan/three. Sets `normalNode` and `clearcoatNormalNode`, unless you have set them, and how the
+ * directions of anisotropy are computed. Maps are bound by this call: call it again after replacing them. */
 export function untangle<T extends Object3D | LoadedModel>(target: T, options?: UntangleNodesOptions): T;
 
-/** The same as a plugin: `new GLTFLoader().register(untangled())`. */
+/** untangle() as a plugin of GLTFLoader: `new GLTFLoader().register(untangled())`. */
 export function untangled(options?: UntangleNodesOptions): (parser: unknown) => { name: string; afterRoot(model: LoadedModel): Promise<void> };
 
-/** Replaces the frame of one material and nothing else. */
+/** Replaces the frame of one material and changes nothing else. */
 export function replaceFrame<T extends Material>(material: T, options?: { frame?: Frame; against?: boolean }): T;
 
-/** The normal of a tangent-space map over its own texture coordinates, set and matrix, for node materials of your own:
- * `material.normalNode = perturbedNormal(map)`. View space, unit. scale: a node of two numbers; green along v after it. Default of frame:
- * `cotangent`. */
+/** The perturbed unit normal in view space, for your own node materials: `material.normalNode = perturbedNormal(map)`.
+ * The tangent-space map is sampled with its own texture coordinates and matrix. scale: a vec2 node; after scaling,
+ * green must point along v. Default of frame: `cotangent`. */
 export function perturbedNormal(map: Texture, scale?: Node, frame?: Exclude<Frame, 'auto'>): Node;

@@ -1,16 +1,16 @@
-// Cotan for three.js and its WebGPURenderer, on WebGPU and on WebGL 2: normal mapping without tangents, in its node language.
+// Normal mapping without tangents for three.js and its WebGPURenderer, on WebGPU and WebGL 2, in the node language.
 import * as tsl from 'three/tsl';
 import * as three from 'three/webgpu';
 import { choice } from '../src/arrays.js';
 import { CotanError, usage, wordsFor } from '../src/errors.js';
-import { frameFor, kDrawn } from './frames.js';
+import { frameFor, kSupported } from './frames.js';
 import { keepInClones, replaceOptions, untangleMeshes, untangleOptions } from './meshes.js';
 import { essl, wgsl } from './shader_text.js';
 import { kTriangleAttribute } from './triangles.js';
 
 export { CotanError };
 
-// By name, so that an older three is named and not the import that it lacks.
+// Destructured instead of imported by name, so that an older three gives the error below instead of a missing import.
 const {
   Fn, anisotropyB, anisotropyT, attribute, cameraViewMatrix, code, glslFn, materialAnisotropy, materialReference, modelNormalMatrix, modelViewMatrix, negateOnBackSide,
   normalViewGeometry, positionView, texture, uv, varying, vec2, vec4, wgslFn,
@@ -19,28 +19,27 @@ const { InterpolationSamplingMode, InterpolationSamplingType, ObjectSpaceNormalM
 if (![negateOnBackSide, normalViewGeometry, anisotropyT, wgslFn, InterpolationSamplingMode, RG11_EAC_Format].every(name => name !== undefined))
   throw new CotanError('unavailable', `three: expected version 0.185 or later for cotan/three/tsl, found ${three.REVISION}`);
 
-// Removes the tangents of `target` and lets its materials take their frame from Cotan. See tsl.d.ts.
+// Removes the tangents of `target` and makes its materials use frames of Cotan. See tsl.d.ts.
 export function untangle(target, options) {
   const { renderer, ...o } = untangleOptions(options, { renderer: undefined });
   if (o.frame === 'triangle' && !renderer?.backend)
-    throw usage('options.renderer: expected a renderer, after `await renderer.init()`, since the frame triangle needs it; found none');
+    throw usage('options.renderer: expected a renderer, after `await renderer.init()`, for the frame triangle; found none');
   const provoking = renderer?.backend?.isWebGPUBackend ? 'first' : 'last';
   return untangleMeshes(target, o, { provoking, instances: false, deformed: false, triangles: !!renderer?.backend }, replaceFrame);
 }
 
-// The same as a plugin: loader.register(untangled()).
+// untangle() as a plugin: loader.register(untangled()).
 export const untangled = options => {
   untangleOptions(options, { renderer: undefined });
   return () => ({ name: 'COTAN_untangled', async afterRoot(gltf) { untangle(gltf, options); } });
 };
 
-const ours = new WeakSet();  // nodes
-const chosen = new WeakMap();  // frame and direction of the materials that have one
+const ours = new WeakSet();  // nodes that replaceFrame() made
+const chosen = new WeakMap();  // by material: { frame, against }
 
-// Replaces the frame of one material, and nothing else: no tangents are removed and no scale is turned. Nodes of the user's
-// own in its place stay.
+// Replaces the frame of one material and nothing else: removes no tangents, flips no scale, keeps nodes of the user.
 export function replaceFrame(material, options) {
-  const { frame: wished, against } = replaceOptions(material, options, { from: undefined }), frame = frameFor(material, wished);
+  const { frame: requested, against } = replaceOptions(material, options, { from: undefined }), frame = frameFor(material, requested);
   const { normalMap, clearcoatNormalMap } = material;
   const put = (name, map, scale) => {
     if (material[name] && !ours.has(material[name])) return;
@@ -55,11 +54,11 @@ export function replaceFrame(material, options) {
   return keepInClones(material, (clone, source) => replaceFrame(clone, chosen.get(source)));
 }
 
-// The normal of a tangent-space map over its own texture coordinates, set and matrix; in view space, unit.
-// map: a Texture. scale: a node of two numbers; green along v after it.
+// The perturbed unit normal in view space. The tangent-space map is sampled with its own uv set and matrix.
+// map: a Texture. scale: a vec2 node; after scaling, green must point along v.
 export function perturbedNormal(map, scale = vec2(1), frame = 'cotangent') {
   if (!map?.isTexture) throw usage(`map: expected a Texture, found ${wordsFor(map)}`);
-  choice(frame, 'frame', kDrawn);
+  choice(frame, 'frame', kSupported);
   const sample = texture(map);
   return Fn((_, builder) => {
     const c = sample.mul(2).sub(1).xyz.toVar();
@@ -70,7 +69,7 @@ export function perturbedNormal(map, scale = vec2(1), frame = 'cotangent') {
   })();
 }
 
-// t and b as three means them: on back faces a sheet's normal is that of its front, negated.
+// The frame in three's convention: on back faces t, b and n are those of the front, negated.
 function frameOf(frame, map, sample, builder) {
   const flat = builder.isFlatShading();
   const n = (flat ? normalViewGeometry : negateOnBackSide(normalViewGeometry)).toVar();
@@ -81,11 +80,11 @@ function frameOf(frame, map, sample, builder) {
     const words = attribute(kTriangleAttribute, 'uvec3');
     const moved = native.moved;
     const u = flatly(moved({ words, matrix: modelViewMatrix, second: false })), v = flatly(moved({ words, matrix: modelViewMatrix, second: true }));
-    // t and b come out reversed where n is turned to the eye.
+    // cotan_frame_of_triangle already negates t and b where n was flipped towards the eye.
     f = native.triangle({ n, u, v }).toVar();
     return { t: f[0], b: f[1], n };
   }
-  if (frame === 'smooth') { // covectors move as normals do
+  if (frame === 'smooth') { // covectors are transformed like normals
     const moved = name => varying(cameraViewMatrix.mul(vec4(modelNormalMatrix.mul(attribute(name, 'vec3')), 0)).xyz);
     f = native.smooth({ n, u: moved('cotanU'), v: moved('cotanV') }).toVar();
     return { t: negateOnBackSide(f[0]), b: negateOnBackSide(f[1]), n };
@@ -95,8 +94,7 @@ function frameOf(frame, map, sample, builder) {
   return { t: negateOnBackSide(f[0]), b: negateOnBackSide(f[1]), n };
 }
 
-// setupVariants of MeshPhysicalNodeMaterial, which writes the directions of anisotropy: they lie on the surface, at right
-// angles and of unit length, whatever the bumps.
+// A setupVariants for MeshPhysicalNodeMaterial that sets orthonormal directions of anisotropy in the surface.
 function variantsWith(frame, map, against) {
   const sample = map ? texture(map) : null;
   return function setupVariants(builder) {
@@ -113,7 +111,7 @@ function variantsWith(frame, map, against) {
   };
 }
 
-// The text of `cotan shader`, and functions of one result around it, which is all that the node language can call.
+// The text of `cotan shader`, wrapped in functions with a single result, the only kind that the node language can call.
 const kParameters = { wgsl: 'n: vec3f, dpdx: vec3f, dpdy: vec3f, duvdx: vec2f, duvdy: vec2f', glsl: 'vec3 n, vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2 duvdy' };
 const inWgsl = Object.fromEntries(['cotangent', 'orthonormal'].map(frame => [frame, wgslFn(`
 fn cotanFrame_${frame}(${kParameters.wgsl}) -> mat3x3f {
@@ -145,7 +143,7 @@ mat3 cotanFrame_triangle(vec3 n, vec3 u, vec3 v) {
   cotan_frame f = cotan_frame_of_triangle(n, u, v);
   return mat3(f.t, f.b, f.n);
 }`, [code(essl.triangle, [], 'glsl')]);
-// U or V, moved into view space.
+// Unpacks U or V and transforms it to view space.
 inWgsl.moved = wgslFn(`
 fn cotanMoved(words: vec3u, matrix: mat4x4f, second: bool) -> vec3f {
   let a = unpack2x16float(words.x);

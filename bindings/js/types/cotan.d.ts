@@ -1,7 +1,7 @@
 import type { Split } from './tangents.js';
 export * from './tangents.js';
 
-/** Four components a pixel, rows from the top. 8, 16 or 32 (floats) bits by the type of data. */
+/** An image with four components per pixel, rows from the top. Bit depth by the type of data: 8, 16 or 32 (floats). */
 export interface Picture {
   width: number;
   height: number;
@@ -15,18 +15,18 @@ export type Bits = 8 | 16 | 32;
 
 // ---- normal maps
 
-/** Which way green points, from the map alone. */
+/** Detects which way green points, from the map alone. */
 export function detect(map: Picture): {
   green: 'up' | 'down' | 'unknown';
-  /** Whether red and green are exchanged; null: unknown. */
+  /** Whether red and green are swapped; null: unknown. */
   swapped: boolean | null;
   confidence: 'none' | 'likely' | 'certain';
-  /** The correlation that the verdict rests on, -1 to 1. */
+  /** The correlation on which the verdict is based, -1 to 1. */
   agreement: number;
   reason: string;
 };
 
-/** Statistics of an image as a normal map. Fractions are 0 to 1, tilt is in degrees. */
+/** Statistics of an image, read as a normal map. Fractions are 0 to 1, tilt is in degrees. */
 export function info(map: Picture): {
   content: string;
   /** The code of 255 that stands for zero: 128; 127 for 127.5; null: unknown. */
@@ -40,7 +40,7 @@ export function info(map: Picture): {
   mean: [number, number, number];
 };
 
-/** The map stored another way; bits are the map's own where left out. */
+/** Converts a map from one convention to another. Default of bits: those of the map. */
 export function convertMap(map: Picture, options?: { from?: Convention; to?: Convention; bits?: Bits }): Picture;
 
 export function blend(base: Picture, detail: Picture, options?: {
@@ -51,90 +51,94 @@ export function blend(base: Picture, detail: Picture, options?: {
   bits?: Bits;
 }): Picture;
 
-/** The normal map of a height, whose red is read. scale: slope per unit of height and texel, one or [x, y]. */
+/** Makes a normal map from red of a height map. scale: slope per unit of height and texel, one or [x, y]. */
 export function fromHeight(height: Picture, options?: { scale?: number | [number, number]; to?: Convention; bits?: Bits }): Picture;
 
-/** The height whose slopes are nearest to the map's, in widths of a texel, mean 0. */
+/** The height map, in texel widths and with mean 0, whose slopes are nearest to those of the normal map. */
 export function toHeight(map: Picture, options?: { from?: Convention }): { width: number; height: number; data: Float32Array };
 
-/** Levels of half the size each, filtered as vectors, with the roughness that makes up for it. */
+/** Mip levels, filtered as vectors, with the roughness that compensates for the lost variance of normals. */
 export function mips(map: Picture, options?: { convention?: Convention; roughness?: number }): { normals: Picture; roughness: Picture }[];
 
 // ---- frames
 
 export interface Places {
-  /** 3 each, unit. */
+  /** Unit normals, 3 numbers each. */
   normals: ArrayLike<number>;
-  /** Differences of position (3) and uv (2) along any two directions. */
+  /** Differences of position (3 numbers each) and uv (2 each) along any two directions. */
   dpdx: ArrayLike<number>;
   dpdy: ArrayLike<number>;
   duvdx: ArrayLike<number>;
   duvdy: ArrayLike<number>;
 }
-/** For "mikktspace" and "vertex" tangents (4 each), for "smooth" u and v (3 each), interpolated. */
+/** Interpolated attributes: tangents (4 numbers each) for "mikktspace" and "vertex", u and v (3 each) for "smooth". */
 export interface VertexPlaces {
   normals: ArrayLike<number>;
   tangents?: ArrayLike<number>;
   u?: ArrayLike<number>;
   v?: ArrayLike<number>;
 }
-/** Perturbed unit normals from decoded texels, 3 each; and the texels that a frame turns into these normals. */
+/** apply: perturbed unit normals from decoded texels. encode, its inverse: texels from normals. 3 numbers each. */
 export function apply(frame: string, places: Places | VertexPlaces, texels: ArrayLike<number>): Float32Array;
 export function encode(frame: string, places: Places | VertexPlaces, normals: ArrayLike<number>): Float32Array;
 export function frames(): string[];
 
-/** The function that perturbs the normal with that frame, self-contained; for Godot a whole spatial shader. */
+/** Self-contained source of the function that perturbs the normal with the given frame; for Godot a whole spatial
+ * shader. */
 export function shader(options?: {
   language?: 'glsl' | 'essl' | 'hlsl' | 'wgsl' | 'msl' | 'cpp' | 'godot';
   frame?: string;
   convention?: Convention;
-  /** Of the frame "triangle" only: the part for one stage; left out: all of them. */
+  /** For the frame "triangle" only: emits the part for one stage. Default: all stages. */
   stage?: 'fragment' | 'vertex' | 'mesh' | 'compute';
 }): string;
 
-/** Vertices numbered so that vertex k provokes triangle k; corners: of the old vertices, the provoking one first. */
+/** Renumbers vertices so that vertex k is the provoking vertex of triangle k. corners: for each triangle its three old
+ * vertices, the provoking one first. */
 export function provoking(vertexCount: number, indices: ArrayLike<number>, options?: { vertex?: 'first' | 'last' }): Split & { corners: Uint32Array };
 
 // ---- glTF
 
 type Bytes = ArrayBuffer | ArrayBufferView;
 export interface ModelOptions {
-  /** Files beside a .gltf by their URI, as the model writes them but with %20 and the like undone. */
+  /** External files of a .gltf by URI: as the model writes it, or percent-decoded. */
   files?: Record<string, Bytes>;
   /** Default: decodePicture. */
   decode?: (bytes: Uint8Array, name: string) => Promise<Picture & { bits: number }>;
-  /** Gets 0 to 1; false stops (code "stopped"). */
+  /** Called with the fraction done, 0 to 1. Returning false stops the work (code "stopped"). */
   progress?: (done: number) => boolean | void;
 }
 
 /** The report of `cotan lint --json`. */
 export interface LintReport {
   recommendation: string;
-  /** The frame to read the maps with, once they are converted where `maps_converted` is not 0; empty: nothing was judged. */
+  /** The frame to read the maps with, after conversion if `maps_converted` is not 0; empty: nothing was judged. */
   advice: string;
   warnings: string[];
   primitives: any[];
-  /** The verdict on `limit` and `limitArea`; null where neither was set. A limit of 0 is 1e-9 here. */
+  /** The verdict on `limit` and `limitArea`; null if neither was set. A limit of 0 appears as 1e-9. */
   check: LintCheck | null;
-  /** What failed: what is over `limit` or `limitArea`; with either also each map whose green points the other way than
-   * the file says, and with `limit` maps that could not be judged. Empty: it passes, or no limit was set. */
+  /** The failures: findings over `limit` or `limitArea`; with either limit also each map whose green points the other
+   * way than the file says; with `limit` also maps that could not be judged. Empty if the check passes or no limit was
+   * set. */
   over_limit: OverLimit[];
   [more: string]: any;
 }
 
 export interface OverLimit {
   kind: 'reading' | 'rounding' | 'degenerate_uv' | 'mirrored_overlap' | 'reversed_w' | 'turned_tangents' | 'reversed_green' | 'not_judged';
-  /** Names; null: none, or it is about no mesh. */
+  /** Names of the mesh and its material; null: unnamed, or the finding concerns no mesh. */
   mesh: string | null;
   material: string | null;
-  /** Of `reversed_green`. */
+  /** The map of `reversed_green`; else null. */
   map: string | null;
-  /** What was found: one of them; both null where no limit would allow it. Degrees: exceeded on 5 % of the primitive's area. */
+  /** The value found: one of the two, or both null for findings that no limit allows. degrees: exceeded on 5 % of the
+   * primitive's area. */
   degrees: number | null;
   percent: number | null;
-  /** In the same unit. */
+  /** The exceeded limit, in the same unit. */
   limit: number | null;
-  /** All of it in one line. */
+  /** The finding in one line. */
   text: string;
 }
 
@@ -144,9 +148,9 @@ export interface LintCheck {
   limit_area: number | null;
   frame: LimitFrame;
   failures: {
-    /** The last two have no value and no limit. */
+    /** `reversed_green` and `not_judged` have no value and no limit. */
     kind: OverLimit['kind'];
-    /** A primitive or a map; empty: the whole model. */
+    /** The primitive or map concerned; empty: the whole model. */
     where: string;
     value: number | null;
     limit: number | null;
@@ -155,31 +159,32 @@ export interface LintCheck {
 }
 
 export interface Limits {
-  /** Degrees, 0 to 180, that the error with `frame` may exceed on 5 % of the area. */
+  /** Maximum error with `frame` in degrees, 0 to 180, on 95 % of the area. */
   limit?: number;
-  /** % of a primitive's area, 0 to 100: degenerate uv, uv overlapping mirrored, stored tangents against the uv. */
+  /** Maximum percent of a primitive's area, 0 to 100, with degenerate uv, mirrored overlapping uv, or stored tangents
+   * that contradict the uv. */
   limitArea?: number;
-  /** That `limit` judges; default: "orthonormal". */
+  /** The frame that `limit` judges; default: "orthonormal". */
   frame?: LimitFrame;
 }
 export type LimitFrame = 'cotangent' | 'orthonormal' | 'smooth' | 'exact' | 'triangle' | 'stored';
 
-/** What to expect of a model (.glb or .gltf) whose normal maps are read without stored tangents. */
+/** Reports what to expect of a model (.glb or .gltf) whose normal maps are read without stored tangents. */
 export function lint(model: Bytes, options?: ModelOptions & Limits & {
-  /** From eye to surface, units of the model; 0, the default: where the whole model fills the image. */
+  /** Distance from eye to surface in units of the model; 0, the default: where the whole model fills the image. */
   distance?: number;
 }): Promise<LintReport>;
 
-/** over_limit of a report for other limits. */
+/** `over_limit` of a report, evaluated for other limits. */
 export function overLimits(report: LintReport, limits?: Limits): OverLimit[];
 
-/** A normal map that stays as it is, with the tangents that it needs, because its format is not read here. */
+/** A normal map that stays as it is, with the tangents that it needs, because its format cannot be read here. */
 export interface UnreadMap {
   image: number;
   name: string;
-  /** "KTX2 with BasisU (ETC1S)". */
+  /** For example "KTX2 with BasisU (ETC1S)". */
   format: string;
-  /** What to do. */
+  /** What the user can do. */
   advice: string;
 }
 
@@ -189,53 +194,56 @@ export interface ConvertReport {
     image: number;
     name: string;
     size: [number, number];
-    /** It stays, because the new frame reads it as well as a new one. */
+    /** The map stays, because the new frame reads it as well as a new map. */
     kept: boolean;
     bytes_before: number;
     bytes_after: number;
     [more: string]: any;
   }[];
   unread_maps: UnreadMap[];
-  /** What was done. keep: tangents stay, because they say how a map's green is read, and no new map could be made. */
+  /** The mode that was used. keep: tangents stay, because a map's green needs them and no new map could be made. */
   mode: 'drop' | 'convert' | 'keep';
-  /** Of the model with the files that it names. */
+  /** Size of the model with the files that it references. */
   bytes: { before: number; after: number };
-  /** Names of the maps whose green `fixGreen` has reversed. */
+  /** Names of the maps whose green `fixGreen` reversed. */
   green_fixed?: string[];
   tangents: { kept?: true; given_primitives?: number; dropped_primitives?: number; vertices?: number; bytes?: number; [more: string]: any };
-  /** What the user should know, one line each; unread maps are among it. */
+  /** Notes for the user, one line each, including one for each unread map. */
   notes: string[];
 }
 
-/** The model without stored tangents. mode:
- * - `auto`, the default: what lint advises. Maps stay byte for byte, read with the frame `orthonormal` or MikkTSpace, where
- *   that is near enough, and where new ones would make the file larger by more than 2 %; else new ones, for the frame
- *   that it advises. Tangents stay only where a map's green is to be read the other way, as they say, and no new map can be made.
- * - `drop`: maps as they are, not even decoded. Nobody asks what the tangents mean: see `lint`.
- * - `convert`: as `cotan convert` does; the default with one of the options after `mode`. New maps are in the format of the old
- *   ones: JPEG and WebP with their quality where sharp, or in browsers the canvas, encodes them; else PNG, and a note says so. */
+/** Removes stored tangents from a model. mode:
+ * - `auto`, the default: does what `lint` advises. Maps stay byte for byte, to be read with the frame `orthonormal` or
+ *   MikkTSpace, if that is accurate enough, or if new maps would enlarge the file by more than 2 %. Otherwise new maps
+ *   are made for the frame that `lint` advises. Tangents stay only if they reverse green of a map and no new one can be
+ *   made.
+ * - `drop`: leaves maps as they are, not even decoded, and ignores what the tangents say about green: see `lint`.
+ * - `convert`: makes new maps as `cotan convert` does; the default if an option that concerns new maps is set. These
+ *   keep the format of the old ones: JPEG and WebP at the same quality if sharp, or the canvas in browsers, encodes
+ *   them; else PNG, with a note. */
 export function convert(model: Bytes, options?: ModelOptions & {
   mode?: 'auto' | 'drop' | 'convert';
   /** Default: the frame that the materials name in their extras (`cotanFrame`), else "mikktspace". */
   from?: string;
-  /** With mode `convert` by default "cotangent". */
+  /** The frame to convert to; default with mode `convert`: "cotangent". */
   to?: string;
-  /** Of the new maps, 8 or 16; 0: as the old ones, which stay where they fit. */
+  /** Bit depth of the new maps, 8 or 16. 0: that of the old maps, which are kept if they fit. */
   bits?: 0 | 8 | 16;
   keepTangents?: boolean;
   generateTangents?: boolean;
-  /** First reverses green of maps in which it points the other way than the model says, by the map itself (`lint`). */
+  /** First reverses green of maps in which it points the other way than the model says, judged by the map itself
+   * (`lint`). */
   fixGreen?: boolean;
-  /** How engines take the numbers of the maps: "biased" (2c - 1, as stock engines do; the default) or "exact". */
+  /** How engines decode the maps: "biased" (2c - 1, as stock engines do; the default) or "exact", where 128 is zero. */
   unsigned?: 'biased' | 'exact';
-  /** The PNG file of an image; default: encodePng. */
+  /** Encodes an image as a PNG file; default: encodePng. */
   encode?: (picture: Picture) => Promise<Bytes>;
 }): Promise<{ glb: Uint8Array; report: ConvertReport }>;
 
 // ---- images
 
-/** A PNG file of 8 or 16 bits, without loss. */
+/** Lossless PNG files of 8 or 16 bits. */
 export function decodePng(bytes: Uint8Array): Promise<Picture & { bits: 8 | 16 }>;
 export function encodePng(picture: Picture & { bits: number }): Promise<Uint8Array>;
-/** Any image that is read here: PNG; others by the browser, or by the package sharp in node. */
+/** Decodes PNG; other formats by the browser, or by the package sharp in node. */
 export function decodePicture(bytes: Uint8Array, name?: string): Promise<Picture & { bits: number }>;

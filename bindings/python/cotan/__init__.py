@@ -7,8 +7,8 @@
     picture = cotan.render("model.glb", size=(640, 360), frame="smooth")
     green = cotan.detect(map).green                              # "up", "down" or "undecidable"
 
-Arrays go in and out without copies where dtype and layout fit (float32, uint32, C order). Long calls release the GIL,
-call `progress` on the thread that called them, and end at Ctrl-C. Everything that Cotan refuses is a `cotan.Error`.
+Arrays are passed without copies if dtype and layout fit (float32, uint32, C order). Long calls release the GIL, call
+`progress` on the calling thread, and end at Ctrl-C. All errors are of type `cotan.Error`.
 """
 
 from ._library import library_path, library_version

@@ -1,4 +1,4 @@
-"""What callers give as the arrays that the library reads: no copy where dtype and layout fit already."""
+"""Checks arguments and converts them to arrays that the library reads, without a copy if dtype and layout fit."""
 
 import math
 import operator
@@ -14,7 +14,7 @@ DTYPES = {bits: dtype for dtype, bits in BITS.items()}
 
 
 def wrong(field, expected, found, kind=UsageError):
-    """The exception for an argument."""
+    """The exception for a bad argument."""
     return kind(f"{field}: expected {expected}, found {found}", field=field, expected=expected, found=str(found))
 
 
@@ -25,28 +25,28 @@ def _shape_text(shape):
 def _array(given, field, expected):
     try:
         return np.asarray(given)
-    except ValueError:  # whose text is numpy's
+    except ValueError:  # replaces numpy's message
         raise wrong(field, expected, "rows of different lengths") from None
 
 
 def floats(given, field, width, count=None):
-    """(count, width) of float32, C order; width None: (count,). Numbers of other types are converted."""
+    """Array of float32 in C order of shape (count, width), or (count,) if width is None. Converts other types."""
     shape = (count,) if width is None else (count, width)
     array = _array(given, field, f"numbers of shape {_shape_text(shape)}")
     if array.dtype.kind not in "fiub":
-        raise wrong(field, "numbers, best of dtype float32", f"dtype {array.dtype}")
+        raise wrong(field, "numbers, preferably of dtype float32", f"dtype {array.dtype}")
     if array.ndim != len(shape) or any(s not in (None, a) for s, a in zip(shape, array.shape)):
         raise wrong(field, f"shape {_shape_text(shape)}", _shape_text(array.shape))
     return np.ascontiguousarray(array, dtype=np.float32)
 
 
 def triangles(given, field="indices"):
-    """(3 n,) of uint32 from (3 n,) or (n, 3) of any integers."""
+    """Array (3 n,) of uint32 from an array (3 n,) or (n, 3) of any integers."""
     array = _array(given, field, "integers of shape (n,) or (n, 3)")
-    if array.size == 0 and array.dtype.kind == "f":  # what an empty list becomes
+    if array.size == 0 and array.dtype.kind == "f":  # an empty list
         array = array.astype(np.uint32)
     if array.dtype.kind not in "iu":
-        raise wrong(field, "integers, best of dtype uint32", f"dtype {array.dtype}")
+        raise wrong(field, "integers, preferably of dtype uint32", f"dtype {array.dtype}")
     if not (array.ndim == 1 or (array.ndim == 2 and array.shape[1] == 3)):
         raise wrong(field, "shape (n,) or (n, 3)", _shape_text(array.shape))
     if array.dtype != np.uint32 and array.size:
@@ -57,27 +57,27 @@ def triangles(given, field="indices"):
 
 
 def made(out, field, shape, dtype):
-    """The array for a result: `out` where it is given, or a new one."""
+    """The array for a result: `out` if given, after checks, or a new one."""
     if out is None:
         return np.empty(shape, dtype)
     good = isinstance(out, np.ndarray) and out.shape == tuple(shape) and out.dtype == dtype
     if not (good and out.flags.c_contiguous and out.flags.writeable):
         found = type(out).__name__ if not isinstance(out, np.ndarray) else f"{_shape_text(out.shape)} of {out.dtype}"
         if good:
-            found = "gaps between elements" if out.flags.writeable else "a read-only one"
+            found = "gaps between elements" if out.flags.writeable else "a read-only array"
         raise wrong(field, f"a contiguous, writeable array {_shape_text(tuple(shape))} of {np.dtype(dtype)}", found)
     return out
 
 
 def at(array):
-    """Where an array begins; None where there is none."""
+    """The address of an array's data; None for None."""
     return None if array is None else array.ctypes.data
 
 
 def pixels(given, field="map"):
-    """(height, width, 4) of uint8, uint16 or float32, C order. One or three channels become four by a copy: grey is
-    repeated, alpha is full. Other floats become float32."""
-    array = _array(given, field, "a picture")
+    """An image as array (height, width, 4) of uint8, uint16 or float32 in C order. Arrays of one or three channels are
+    copied to four: grey is repeated, alpha is opaque. Other float types become float32."""
+    array = _array(given, field, "an image")
     if array.dtype.kind == "f" and array.dtype != np.float32:
         array = array.astype(np.float32)
     if array.dtype not in BITS:
@@ -95,7 +95,7 @@ def pixels(given, field="map"):
 
 
 def finite(array, field):
-    """Refuses floats that are no number or infinite, with the place of the first."""
+    """Refuses NaN and infinite floats; the error names the first one's row and column."""
     if array.dtype != np.float32:
         return
     wrong_at = ~np.isfinite(array[..., :3])
@@ -105,12 +105,11 @@ def finite(array, field):
         raise wrong(field, "finite numbers", found, InputError)
 
 
-_SLACK = 1e-3  # what filters and half floats leave
+_SLACK = 1e-3  # allowed excess over the range, from filters and half floats
 
 
 def stored(array, words, field):
-    """Refuses floats that no map of that convention holds: outside of 0 to 1, or of -1 to 1 where it is signed. Slopes
-    have no range."""
+    """Refuses floats outside the range of a convention: 0 to 1, or -1 to 1 if signed. Slopes have no limits."""
     finite(array, field)
     words = os.fsdecode(words).split(",") if isinstance(words, (str, bytes)) else []
     if array.dtype != np.float32 or "slope" in words:
@@ -122,19 +121,19 @@ def stored(array, words, field):
 
 
 def picture(array):
-    """A cotan_picture over an array of `pixels` or of `made`, which must outlive it."""
+    """A cotan_picture that refers to an array from `pixels` or `made`, which must outlive the struct."""
     return structs.Picture(width=array.shape[1], height=array.shape[0], bits=BITS[array.dtype], pixels=at(array))
 
 
 def dtype_of(bits, field="bits"):
-    """The dtype of components of that many bits."""
+    """The dtype of components with `bits` bits."""
     if bits not in DTYPES:
         raise wrong(field, "8, 16 or 32", bits)
     return DTYPES[bits]
 
 
 def integer(value, field, least, most):
-    """An int from `least` to `most`: ctypes would cut larger ones."""
+    """Checks an int from `least` to `most`, since ctypes would truncate larger ones."""
     try:
         number = operator.index(value)
     except TypeError:
@@ -145,7 +144,7 @@ def integer(value, field, least, most):
 
 
 def number(value, field):
-    """A finite float."""
+    """Checks a finite float."""
     try:
         given = float(value)
     except (TypeError, ValueError):
@@ -164,7 +163,7 @@ def memory_of(memory):
 
 
 def size_of(size):
-    """(width, height) of 1024, (1024, 512) or "1024x512"."""
+    """(width, height) from 1024, (1024, 512) or "1024x512"."""
     if isinstance(size, str):
         size = size.split("x")
     try:
@@ -173,15 +172,15 @@ def size_of(size):
     except (TypeError, ValueError):
         raise wrong("size", "a number, (width, height) or 'WxH'", repr(size)) from None
     if not (1 <= width <= 16384 and 1 <= height <= 16384):
-        raise wrong("size", "1 to 16384 a side", f"{width} x {height}")
+        raise wrong("size", "1 to 16384 per side", f"{width} x {height}")
     return width, height
 
 
 def encoded(word, field):
-    """A word for the library."""
+    """A string or path as bytes for the library."""
     if not isinstance(word, (str, bytes, os.PathLike)):
-        raise wrong(field, "a text", type(word).__name__)
+        raise wrong(field, "a string", type(word).__name__)
     data = os.fsencode(word)
     if b"\0" in data:
-        raise wrong(field, "a text without zero bytes", repr(word))
+        raise wrong(field, "a string without zero bytes", repr(word))
     return data

@@ -1,4 +1,4 @@
-"""What the library has made and Python holds."""
+"""Images that the library owns, as arrays."""
 
 import ctypes
 import os
@@ -12,7 +12,7 @@ from ._library import call, library
 
 
 def array_of(image):
-    """A picture of the library, a handle, as an array over its own pixels; freed with the last view of them."""
+    """An array over the pixels of an image handle of the library, which is freed with the last view of the array."""
     picture = structs.Picture()
     call("cotan_image_picture", image, picture)
     pixels = _memory_of(picture)
@@ -21,7 +21,7 @@ def array_of(image):
 
 
 def array_of_picture(picture):
-    """A copy of a cotan_picture that the library lends."""
+    """A copied array of a cotan_picture that the library owns."""
     return _shaped(_memory_of(picture), picture).copy()
 
 

@@ -1,4 +1,4 @@
-"""libcotan found, loaded and called."""
+"""Finds, loads and calls libcotan."""
 
 import ctypes
 import os
@@ -9,7 +9,7 @@ import threading
 from . import _structs as structs
 from .errors import UnavailableError, error_of
 
-API_VERSION = 6  # of cotan.h, the least that the library must have
+API_VERSION = 6  # minimum version of the interface of cotan.h
 
 if sys.platform == "win32":
     _NAMES = ("cotan.dll", "libcotan.dll")
@@ -23,7 +23,7 @@ _loaded = None  # (the library, its path)
 
 
 def _candidates():
-    """Where the library may be, best first: beside this file, where COTAN_LIBRARY says, where the system looks."""
+    """Paths of the library in order of preference: beside this file, COTAN_LIBRARY, the system's search path."""
     here = pathlib.Path(__file__).resolve().parent
     for name in _NAMES:
         if (here / name).exists():
@@ -41,7 +41,7 @@ def _declare(library):
 
 
 def _python():
-    """A Python to run beside this one; None where this one is inside of another program and has none."""
+    """A Python executable for child processes; None if this Python is embedded in a program without one."""
     beside = pathlib.Path(sys.base_exec_prefix, "bin", f"python3.{sys.version_info.minor}")
     for program in (sys.executable, str(beside)):
         if program and "python" in os.path.basename(program).lower() and os.access(program, os.X_OK):
@@ -50,7 +50,7 @@ def _python():
 
 
 def _read_elsewhere(library, candidate):
-    """Has files that readers of other people's make read, such as FBX, read by a child process, which they may crash."""
+    """Makes the library use a child process for formats whose third-party readers may crash, such as FBX."""
     reader, python = pathlib.Path(__file__).resolve().parent / "_reader.py", _python()
     if not sys.platform.startswith("linux") or python is None or not reader.exists():
         return
@@ -65,7 +65,7 @@ def _open():
             library = ctypes.CDLL(candidate)
             version = int(library.cotan_api_version())
             if version < API_VERSION:
-                tried.append(f"{candidate}: expected version {API_VERSION} of its interface or later, found {version}")
+                tried.append(f"{candidate}: expected interface version {API_VERSION} or later, found {version}")
                 continue
             _declare(library)
             _read_elsewhere(library, candidate)
@@ -74,15 +74,15 @@ def _open():
             continue
         return library, candidate
     raise UnavailableError(
-        "libcotan is missing: it was looked for inside the package, at COTAN_LIBRARY and where the system keeps "
-        "libraries. Install libcotan0 or a wheel that carries it, or set COTAN_LIBRARY to its path. "
+        "libcotan is missing: it was found neither in the package nor at COTAN_LIBRARY nor in the system's library "
+        "folders. Install libcotan0 or a wheel that contains it, or set COTAN_LIBRARY to its path. "
         f"({'; '.join(tried)})",
         file=_NAMES[0],
     )
 
 
 def library():
-    """libcotan, loaded when it is first needed. Raises UnavailableError where it is missing or too old."""
+    """libcotan, loaded on first use. Raises UnavailableError if it is missing or too old."""
     global _loaded
     if _loaded is None:
         with _lock:
@@ -92,18 +92,18 @@ def library():
 
 
 def library_path() -> str:
-    """The path or name by which libcotan was loaded. Raises UnavailableError where it is missing or too old."""
+    """The path or name by which libcotan was loaded. Raises UnavailableError if it is missing or too old."""
     library()
     return _loaded[1]
 
 
 def library_version() -> str:
-    """The version of libcotan: "0.2.0". Raises UnavailableError where it is missing or too old."""
+    """The version of libcotan, such as "0.2.0". Raises UnavailableError if it is missing or too old."""
     return library().cotan_version().decode()
 
 
 def call(name, *arguments, files=()):
-    """Calls a function that returns a cotan_status, without the GIL. Raises what the status says."""
+    """Calls a function that returns a cotan_status, without the GIL. Raises the exception for a status other than 0."""
     message = ctypes.create_string_buffer(4096)
     status = getattr(library(), name)(*arguments, message, len(message))
     if status != 0:
@@ -111,7 +111,7 @@ def call(name, *arguments, files=()):
 
 
 def taken(data):
-    """Bytes that the library has made, which it then frees. data: a handle, as a ctypes.c_void_p."""
+    """Copies the bytes of a cotan_bytes handle and frees it. data: the handle, as a ctypes.c_void_p."""
     made = library()
     try:
         return ctypes.string_at(made.cotan_bytes_data(data), made.cotan_bytes_size(data))

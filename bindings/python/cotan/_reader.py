@@ -1,5 +1,5 @@
-"""A child process that reads files for its parent, which may be broken: see cotan_set_reader in cotan.h. Started by the
-library with the path of libcotan, not imported."""
+"""A child process that reads untrusted files for its parent: see cotan_set_reader in cotan.h. The library starts it,
+with the path of libcotan; it is not imported."""
 
 import ctypes
 import sys

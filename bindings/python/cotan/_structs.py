@@ -1,9 +1,9 @@
-"""src/c/include/cotan.h as ctypes has it: structs and functions. Tests compare them with the header."""
+"""The structs and functions of src/c/include/cotan.h for ctypes. Tests compare them with the header."""
 
 import ctypes as c
 
 size_t, text, pointer, integer, double = c.c_size_t, c.c_char_p, c.c_void_p, c.c_int, c.c_double
-handle = c.c_void_p  # of something that the library made
+handle = c.c_void_p  # a pointer to an object of the library
 
 Progress = c.CFUNCTYPE(integer, pointer, double)
 
@@ -120,7 +120,7 @@ class LintResult(Struct):
 
 
 class ConvertOptions(Struct):
-    # `from` is a word of Python's, so that it is set by setattr.
+    # `from` is a keyword of Python and must be set by setattr.
     _fields_ = _fields(
         (text, "from to"),
         (integer, "bits keep_tangents generate_tangents threads"),
@@ -165,7 +165,7 @@ STRUCTS = {
     "cotan_render_options": RenderOptions,
 }
 
-# What a function takes before `message` and `message_size`; it returns a cotan_status.
+# Argument types of functions that return a cotan_status, without the final `message` and `message_size`.
 _STATUS = {
     "cotan_frame_apply": (text, Places, pointer, pointer),
     "cotan_frame_encode": (text, Places, pointer, pointer),
@@ -215,7 +215,7 @@ _STATUS = {
     "cotan_convert_end": (handle, c.POINTER(handle), c.POINTER(handle)),
 }  # fmt: skip
 
-# What the others return and take.
+# Result and argument types of all other functions.
 _OTHERS = {
     "cotan_version": (text,),
     "cotan_api_version": (integer,),

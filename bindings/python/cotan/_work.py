@@ -6,16 +6,16 @@ from typing import Any
 
 from . import _structs as structs
 
-Progress = Callable[[float], Any]  # of the caller: gets the share that is done; False stops
-_SECONDS = 0.05  # between two calls of the caller's progress function
+Progress = Callable[[float], Any]  # the caller's function: gets the fraction done; returning False stops
+_SECONDS = 0.05  # interval between calls of the caller's progress function
 
 
 def long_call(work, progress=None):
-    """What work(told) returns; `told` is for the library's `progress`.
+    """Returns work(told); `told` is the callback to pass to the library as `progress`.
 
-    The work runs on a thread of its own, so that the caller's can hear Ctrl-C meanwhile and call `progress`. When
-    either wants an end, the library is told so, and this returns once it has ended: nothing that it was given is in
-    use any more. On other threads than the main one, without a progress function, nobody can ask for an end.
+    The work runs on its own thread, so that the calling thread can receive Ctrl-C and call `progress`. If either stops
+    the work, this function waits until the library has returned and no longer uses its arguments. Without a progress
+    function, calls from threads other than the main one cannot be stopped and run directly.
     """
     share, stop = 0.0, False
 
@@ -60,7 +60,7 @@ def long_call(work, progress=None):
 
 
 def _wait(ended):
-    """Until the work has ended, whatever is pressed: it writes into memory of ours."""
+    """Waits until the work has ended, even on Ctrl-C, since it writes into our memory."""
     while not ended.is_set():
         try:
             ended.wait()

@@ -1,4 +1,4 @@
-"""Baking: the map of detailed meshes for a simple one."""
+"""Baking of maps from detailed meshes for a simple one."""
 
 import ctypes
 import dataclasses
@@ -24,20 +24,20 @@ Geometry = Union[Mesh, Path, Model]
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Baked:
-    """A map, and what became of its texels.
+    """A baked map with statistics of its texels.
 
     Attributes:
         map: (height, width, 4) of uint8, uint16 or float32, rows from the top.
-        mask: (height, width, 4) uint8, a picture of what became of each texel; None unless asked for.
-        texels, covered: all of them, and those whose centre lies in a triangle.
-        missed: covered ones whose ray found nothing.
-        further: of these the ones where a detailed surface is further away than rays look.
-        nearer: covered ones that show the first surface from outside where another is nearer.
-        negative: covered ones whose normal lies below the frame's horizon.
-        twice: covered by several triangles.
-        rays: shot.
+        mask: (height, width, 4) uint8, an image of the result for each texel; None unless requested.
+        texels, covered: the number of all texels, and of those whose centre lies in a triangle.
+        missed: covered texels whose ray found nothing.
+        further: missed texels with a detailed surface beyond the search distance.
+        nearer: covered texels that show the first surface from outside although another is nearer.
+        negative: covered texels whose normal lies below the frame's horizon.
+        twice: texels covered by several triangles.
+        rays: number of rays traced.
         ray_distance: the search distance used, in units of the positions.
-        ray_start: the largest distance before the simple mesh from which rays start.
+        ray_start: the largest distance in front of the simple mesh at which rays start.
         warnings: one line each.
     """
 
@@ -57,7 +57,7 @@ class Baked:
 
 
 def _model(given, field, up, pictures=False, memory=640):
-    """One model of a mesh, a file, a model or several meshes."""
+    """A Model from a mesh, several meshes, a file, or a Model."""
     if isinstance(given, Model):
         return given
     if is_path(given):
@@ -70,7 +70,7 @@ def _model(given, field, up, pictures=False, memory=640):
 
 
 def _several(given):
-    """What may be one or a sequence, as a list."""
+    """A list of the items of a list or tuple, or of a single item."""
     return list(given) if isinstance(given, (list, tuple)) else [given]
 
 
@@ -108,48 +108,47 @@ def bake(
     up: Up = "y",
     high_up: Optional[Up] = None,
 ) -> Baked:
-    """The map of detailed meshes for a simple one. Words and defaults are those of `cotan bake`.
+    """Bakes a map from detailed meshes for a simple one. Words and defaults are those of `cotan bake`.
 
     Args:
         low: a Mesh with texcoords, several of them, a path to a model file, or a Model.
-        high: the same, or a list of such things, which all count.
+        high: the same, or a list of such items, which are all used.
         size: (width, height) in texels, one number for both, or "WxH".
-        frame: that the shader will use: "smooth", "cotangent", "mikktspace", ...: see `frames`.
+        frame: the frame that the shader will use: "smooth", "cotangent", "mikktspace", ...: see `frames`.
         kind: "normal", "object-normal", "height" (units of the positions) or "ao".
         convention: how the map is stored: "opengl" (green up), "directx", "opengl,biased", ...
-        bits: of the map: 8, 16 or 32 (float).
-        samples: per texel: 1, 4 or 16.
+        bits: bit depth of the map: 8, 16 or 32 (float).
+        samples: samples per texel: 1, 4 or 16.
         padding: texels around charts that are filled from the nearest chart; 0: all, -1: none.
-        dither: with 8 bits: round by a fixed pattern, so that slopes show no steps.
+        dither: with 8 bits: dithers with a fixed pattern, so that slopes show no steps.
         ao_rays: rays per sample for "ao", 1 to 65536.
-        search: "first", what a ray from outside inwards meets, or "nearest" to the low mesh along its normal, either
-            way, which loses what stands off over a surface.
-        extrusion: how far in front of the low mesh rays start, in units of the positions; 0: measured, as the high
-            mesh stands off.
-        max_distance: high surfaces further from the low mesh do not count, in units of the positions; 0: 10 % of the
-            diagonal of the low mesh, for the search "nearest" 5 % of that of the high one.
-        cage: the triangles of the low mesh in their order, moved out around both; rays run from it inwards.
-        cage_reach: how far those rays run; 0: as far behind the low mesh as the cage is before it.
+        search: "first": the first surface that a ray from outside inwards hits; "nearest": the surface nearest to the
+            low mesh along its normal in either direction, which misses parts that float above another surface.
+        extrusion: distance in front of the low mesh at which rays start, in units of the positions; 0: measured from
+            the distance between the meshes.
+        max_distance: maximum distance of high surfaces from the low mesh, in units of the positions; 0: 10 % of the
+            diagonal of the low mesh, for the search "nearest" 5 % of that of the high mesh.
+        cage: a mesh with the triangles of the low mesh in their order, which encloses both meshes. Rays start there.
+        cage_reach: length of rays from the cage; 0: as far behind the low mesh as the cage is in front of it.
         match_by_name: a low mesh named NAME_low sees only the high mesh NAME_high.
-        material: number of the low model's material to bake; -1: all.
+        material: index of the low model's material to bake; -1: all.
         udim: tile of the texture coordinates to bake, 1001 to 1999.
         tangents: for the frames "vertex" and "mikktspace": "stored" (generated where missing) or "generated".
         high_normals: "smooth", "curved", "face" or "map": the high meshes' own normal maps.
-        high_frame: that those were made for; None: "mikktspace".
-        high_map: a picture that takes the place of the high meshes' own maps, or one for each of `high`; in float32 0.5
-            stands for zero, which is not 128 / 255.
-        high_convention: how their maps are stored; None: as the materials say, "opengl" for high_map.
-        mask: also gives the picture of what became of each texel.
-        memory: of the largest picture that is read, in MiB.
+        high_frame: the frame that those maps were made for; None: "mikktspace".
+        high_map: an image that replaces the high meshes' own maps, or one for each of `high`; in float32 0.5 stands for
+            zero, which is not 128 / 255.
+        high_convention: how the high maps are stored; None: as the materials say, "opengl" for high_map.
+        mask: whether to return the image of the result for each texel.
+        memory: maximum size of an image that is read, in MiB.
         threads: 0 for all cores; the result does not depend on it.
-        out: (height, width, 4) of the dtype of `bits`, to write into.
-        progress: called on this thread, about twenty times a second, with the share that is done, 0 to 1; False
-            stops. Ctrl-C stops, too.
-        up: which axis of meshes and files is up, "y" or "z"; a Model stands as it was loaded. high_up: of the high ones,
-            where it is another.
+        out: array (height, width, 4) of the dtype of `bits` to write into.
+        progress: called on this thread, about twenty times per second, with the fraction done, 0 to 1. Returning False
+            stops the bake, and so does Ctrl-C.
+        up: the up axis of meshes and files, "y" or "z"; ignored for a Model. high_up: that of `high`, if different.
 
-    Raises UsageError for words, numbers, shapes; InputError for what is wrong in meshes and files; UnavailableError
-    where the library was built without Embree; StoppedError where `progress` stopped it, which leaves `out` as it was.
+    Raises UsageError for bad words, numbers and shapes; InputError for bad meshes and files; UnavailableError if the
+    library was built without Embree; StoppedError if `progress` stopped the bake, which leaves `out` unchanged.
     """
     for field, value, known in (("samples", samples, (1, 4, 16)), ("bits", bits, (8, 16, 32))):
         if value not in known:

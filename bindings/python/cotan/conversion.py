@@ -1,5 +1,5 @@
-"""Conversion in two steps, for those who encode pictures by a way of their own, later or side by side; and the
-pictures of a model as they are stored."""
+"""Conversion in two steps, for callers that encode images themselves, later or in parallel; and the encoded images of a
+model."""
 
 import ctypes
 import json
@@ -30,9 +30,10 @@ from .words import Expansion, Frame, TangentOrigin
 def model_pictures(
     model: Union[Path, Bytes], maps_only: bool = False, beside: Optional[Mapping[str, bytes]] = None
 ) -> list[tuple[str, bytes]]:
-    """The names and files (PNG, JPEG, ...) of the pictures in a glTF model that are decoded to lint it.
+    """Names and encoded files (PNG, JPEG, ...) of the images in a glTF model that are decoded to lint it.
 
-    model: a path or bytes. maps_only: those that are decoded to convert it. beside: files that a model in bytes names.
+    model: a path or bytes. maps_only: only images that are decoded to convert it. beside: files that a model in bytes
+    references.
     """
     source, found = Source(model, beside), []
 
@@ -45,7 +46,7 @@ def model_pictures(
 
 
 class Conversion:
-    """What `convert` does in one step: first all but the PNG files of the new maps, then the model.
+    """`convert` in two steps: the first makes the new maps; after they are encoded as PNG, the second makes the model.
 
         conversion = cotan.Conversion("model.glb", to_frame="smooth")
         for number, picture in enumerate(conversion.pictures):
@@ -53,7 +54,7 @@ class Conversion:
         converted = conversion.end()
 
     Attributes:
-        pictures: (height, width, 4) of uint8 or uint16 each, to be encoded.
+        pictures: the images to encode, (height, width, 4) of uint8 or uint16 each.
     """
 
     def __init__(
@@ -91,14 +92,14 @@ class Conversion:
             self.pictures.append(array_of_picture(picture))
 
     def set(self, number: int, png: bytes) -> None:
-        """Gives the PNG file of picture `number`, once."""
+        """Sets the PNG file of picture `number`, once."""
         if not 0 <= number < len(self.pictures):
             raise arrays.wrong("number", f"0 to {len(self.pictures) - 1}", number)
         array = np.frombuffer(png, np.uint8)
         call("cotan_conversion_set", self._handle, number, arrays.at(array), array.nbytes)
 
     def end(self) -> Converted:
-        """The model as bytes. Raises UsageError where a PNG file is missing."""
+        """Returns the model as bytes. Raises UsageError if a PNG file is missing."""
         glb, text = structs.handle(), structs.handle()
         call("cotan_convert_end", self._handle, glb, text)
         return converted_of(self._result, taken(glb), json.loads(taken(text)))

@@ -1,13 +1,13 @@
-"""A file of jobs on a Dask cluster.
+"""Runs a file of jobs on a Dask cluster.
 
     import cotan.dask, distributed
     client = distributed.Client("scheduler:8786")
     report = cotan.dask.run("/farm/jobs.jsonl", "/farm/report.html", client=client)
     print(report["counts"], report["jobs"][0]["name"])         # the worst job comes first
 
-Each task of the cluster is `cotan batch --shard K/N`. The results are in one store, a folder that every worker sees by
-the same path, as it sees the jobs and their files. A worker that dies loses the job that it ran and no other: Dask gives
-its task to another one, which finds in the store what was done. docs/how-to/batch.md has the rest.
+Each task of the cluster is `cotan batch --shard K/N`. The store of results, the jobs and their files must have the same
+paths on all workers. A worker that dies loses only its current job: Dask gives its task to another worker, which finds
+the finished jobs in the store. See docs/how-to/batch.md.
 """
 
 from __future__ import annotations
@@ -39,20 +39,20 @@ def run(
     options: Sequence[str] = (),
     progress: Optional[Callable[[float], bool]] = None,
 ) -> dict[str, Any]:
-    """Runs the jobs of a file on the workers of a Dask cluster, and returns the report of all of them.
+    """Runs the jobs of a file on the workers of a Dask cluster and returns the report of all jobs.
 
-    jobs: the file, a job in each line. report: the page to write; None: none. store: the folder that keeps results;
-    None: beside the report. client: a distributed.Client; None: the present one. tool: the program cotan, on the
-    workers, too. shards: parts that the jobs are dealt to; 0: four for each thread of the cluster, at most one for each
-    job. options: more words for `cotan batch`, such as ["--limit-time", "600"]. progress: called with the share that
-    is done, from 0 to 1, after each shard; False stops.
+    jobs: the file, one job per line. report: the page to write; None: none. store: the folder of results; None: beside
+    the report. client: a distributed.Client; None: the current one. tool: the program cotan, here and on the workers.
+    shards: number of parts that the jobs are split into; 0: four for each thread of the cluster, at most one per job.
+    options: more arguments of `cotan batch`, such as ["--limit-time", "600"]. progress: called with the fraction done,
+    0 to 1, after each shard; returning False stops.
 
-    Returns what `cotan batch --json` writes: "counts" by state, "jobs" with the worst first. A job that fails is a row
-    and no exception.
+    Returns the report of `cotan batch --json`: "counts" by state, "jobs" with the worst first. A failed job is a row of
+    the report and raises no exception.
 
-    Raises InputError for a file that is no file of jobs, OutputError where the store takes nothing, UnavailableError
-    where the tool cannot be started here or on a worker, StoppedError where progress said so; what Dask raises where
-    tasks were lost with four workers (distributed.KilledWorker).
+    Raises InputError for an invalid file of jobs, OutputError if the store is not writable, UnavailableError if the
+    tool cannot be started here or on a worker, StoppedError if `progress` stopped the run, and distributed.KilledWorker
+    if a task was lost with four workers.
     """
     import distributed
 
@@ -65,7 +65,7 @@ def run(
     try:
         (folder / "results").mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise OutputError(f"{folder}: cannot make this folder: {error.strerror}") from error
+        raise OutputError(f"{folder}: cannot create this folder: {error.strerror}") from error
     before = _merge(tool, jobs, folder, None)
     threads = sum(client.nthreads().values()) or 1
     count = shards or max(1, min(len(before["jobs"]), _SHARDS_PER_THREAD * threads))
@@ -94,13 +94,13 @@ def _start(words: Sequence[str]) -> "subprocess.CompletedProcess[str]":
 
 
 def _error(done: "subprocess.CompletedProcess[str]", jobs: str) -> Exception:
-    lines = done.stderr.strip().splitlines() or [f"cotan ended with {done.returncode}"]
+    lines = done.stderr.strip().splitlines() or [f"cotan ended with exit code {done.returncode}"]
     status = done.returncode if done.returncode in range(1, 6) else UnavailableError.status  # else a signal
     return error_of(status, lines[-1].removeprefix("cotan: error: "), [jobs])
 
 
 def _shard(words: Sequence[str]) -> int:
-    """On a worker. Jobs that are not done are rows of the report; only what ends the whole shard is an error."""
+    """Runs a shard on a worker. Failed jobs are rows of the report; only errors that end the whole shard are raised."""
     done = _start(words)
     if done.returncode != 0 and done.returncode not in _NOT_DONE:
         raise _error(done, words[2])

@@ -1,13 +1,13 @@
-"""What can go wrong, as exceptions. Each carries the one line that the library said, and the parts of it."""
+"""The exceptions. Each has the library's message, which is one line, and its parts."""
 
 import errno
 import os
 import re
 from typing import Any, Optional
 
-# The library says "WHERE: expected THIS, found THAT"; WHERE is a file, a field, or a file and a field.
+# Messages of the library: "WHERE: expected THIS, found THAT"; WHERE is a file, a field, or a file and a field.
 _SAYING = re.compile(r"(?:(?P<where>.*?): )?expected (?P<expected>.+?)[,;] found (?P<found>.+)", re.DOTALL)
-# Options of the C API that keywords here have other names for.
+# Keywords here that differ from the names of the C API's options.
 _KEYWORDS = {
     "occlusion_rays": "ao_rays",
     "tile": "udim",
@@ -17,12 +17,12 @@ _KEYWORDS = {
 
 
 class Error(Exception):
-    """Anything that Cotan refuses. Its text is one line that says what is wrong.
+    """The base class of all errors. Its text is a message of one line.
 
     Attributes:
-        file: name of the file that it is about, or None.
-        field: what in the file or in the call it is about ("accessors[3].count", "options.samples"), or None.
-        expected, found: what should have been there and what was, or None where the line has no such parts.
+        file: name of the file concerned, or None.
+        field: part of the file or argument of the call concerned ("accessors[3].count", "options.samples"), or None.
+        expected, found: what was expected and what was found, or None if the message does not say.
     """
 
     status = 0
@@ -38,27 +38,27 @@ class Error(Exception):
         super().__init__(message)
         self.file, self.field, self.expected, self.found = file, field, expected, found
 
-    def __str__(self) -> str:  # not that of OSError, which some are too
+    def __str__(self) -> str:  # overrides OSError.__str__ in subclasses
         return str(self.args[0])
 
-    def __reduce__(self) -> Any:  # all of it survives pickle, so that it comes whole from another process
+    def __reduce__(self) -> Any:  # keeps all attributes when pickled for another process
         return type(self), (self.args[0], self.file, self.field, self.expected, self.found)
 
 
 class UsageError(Error, ValueError):
-    """The call itself is wrong: a shape, a dtype, a word, a number out of range."""
+    """The call is wrong: a shape, a dtype, a word, a number out of range."""
 
     status = 1
 
 
 class InputError(Error, ValueError):
-    """A file or an array that was given is bad."""
+    """The content of a file or an array is invalid."""
 
     status = 2
 
 
 class MissingFileError(InputError, FileNotFoundError):
-    """A file that was to be read is not there. `errno` and `filename` are those of a FileNotFoundError."""
+    """A file to read does not exist. Has `errno` and `filename` like FileNotFoundError."""
 
     def __init__(
         self,
@@ -73,25 +73,25 @@ class MissingFileError(InputError, FileNotFoundError):
 
 
 class UnavailableError(Error, RuntimeError):
-    """Not here: the library is missing or was built without what this needs, or there is no memory."""
+    """The library is missing or was built without a required part, or memory is exhausted."""
 
     status = 3
 
 
 class OutputError(Error, RuntimeError, OSError):
-    """A file could not be written. `filename` is its name; `errno` is None, for the line says why."""
+    """A file could not be written. `filename` is its name; `errno` is None, the message has the reason."""
 
     status = 4
 
 
 class LimitError(Error, RuntimeError):
-    """Over a limit."""
+    """A limit is exceeded."""
 
     status = 5
 
 
 class StoppedError(Error, RuntimeError):
-    """The progress function said False."""
+    """The progress function returned False."""
 
     status = 6
 
@@ -105,8 +105,7 @@ def _keyword(match):
 
 
 def _in_keywords(status, message):
-    """A line about options in the names that they have here: --max-distance and options.max_distance are
-    max_distance."""
+    """Replaces names of options by keywords: --max-distance and options.max_distance become max_distance."""
     message = re.sub(r"^options\.(\w+)", _keyword, message)
     if status != UsageError.status:
         return message
@@ -114,7 +113,7 @@ def _in_keywords(status, message):
 
 
 def error_of(status, message, files=()):
-    """The exception for a status and a line of the library. files: names that the line may begin with."""
+    """The exception for a status and a message of the library. files: names with which the message may begin."""
     message = _in_keywords(status, message)
     rest, file = message, None
     for name in files:

@@ -19,16 +19,16 @@ Words = NDArray[np.uint32]
 
 @dataclasses.dataclass(eq=False, init=False, repr=False)
 class Mesh:
-    """A mesh of triangles. Arrays of the right dtype in C order are kept as they are, others are converted once.
+    """A triangle mesh. Arrays of the right dtype in C order are kept without a copy, others are converted once.
 
     Attributes:
         positions: (n, 3) float32, in any unit.
-        indices: (3 t,) uint32, three for each triangle, each below n; given as (3 t,) or (t, 3) of any integers.
-        normals: (n, 3) float32, of length one; None: `bake` makes smooth ones, all else needs them.
-        texcoords: (n, 2) float32, v down as in glTF (OBJ and Blender: 1 - v); None where the mesh has none.
-        name: for messages, and for `bake` with match_by_name.
+        indices: (3 t,) uint32, three per triangle, each below n; passed as (3 t,) or (t, 3) of any integers.
+        normals: (n, 3) float32, of length one; None: `bake` computes smooth normals, all other functions need them.
+        texcoords: (n, 2) float32, v down as in glTF (OBJ and Blender: 1 - v); None if the mesh has none.
+        name: used in messages, and by `bake` with match_by_name.
 
-    Raises UsageError for another shape or a dtype that is no number.
+    Raises UsageError for other shapes and for dtypes that are not numbers.
     """
 
     positions: Floats
@@ -56,7 +56,7 @@ class Mesh:
         return f"Mesh(name={self.name!r}, vertices={len(self.positions)}, triangles={len(self.indices) // 3})"
 
     def _c(self):
-        """The struct over these arrays, which must outlive it."""
+        """The C struct, which refers to the arrays of this mesh."""
         return structs.CMesh(
             vertex_count=len(self.positions),
             positions=arrays.at(self.positions),
@@ -99,17 +99,17 @@ def frame_apply(
     duvdy: ArrayLike,
     out: Optional[Floats] = None,
 ) -> Floats:
-    """Unit normals (n, 3) that a frame made from differences turns texels into.
+    """Perturbs normals with a frame that is computed from differences. Returns unit normals (n, 3).
 
     Args:
         frame: "cotangent", "orthonormal", ...: see `frames`.
-        texels: (n, 3) decoded: x along +u, y along +v, z outwards.
+        texels: (n, 3) decoded texels: x along +u, y along +v, z outwards.
         normals: (n, 3) unit normals of the surface.
         dpdx, dpdy: (n, 3) differences of position along any two directions, such as pixels or edges.
         duvdx, duvdy: (n, 2) differences of uv along the same two.
-        out: (n, 3) float32 to write into.
+        out: array (n, 3) of float32 to write into.
 
-    Degenerate differences give the normal as it is. Raises UsageError for shapes and frames.
+    Degenerate differences give the unperturbed normal. Raises UsageError for bad shapes and frames.
     """
     return _places("cotan_frame_apply", frame, texels, normals, dpdx, dpdy, duvdx, duvdy, out)
 
@@ -124,7 +124,7 @@ def frame_encode(
     duvdy: ArrayLike,
     out: Optional[Floats] = None,
 ) -> Floats:
-    """The unit texels (n, 3) that `frame_apply` turns into normals_wanted (n, 3); arguments as there.
+    """The inverse of `frame_apply`: unit texels (n, 3) for normals_wanted (n, 3). The other arguments are the same.
 
     Degenerate differences give (0, 0, 1).
     """
@@ -156,14 +156,14 @@ def vertex_frame_apply(
     cotangents_v: Optional[ArrayLike] = None,
     out: Optional[Floats] = None,
 ) -> Floats:
-    """As `frame_apply`, for the frames that are made at the vertices and interpolated to the places.
+    """Like `frame_apply`, for frames that are stored at the vertices and interpolated.
 
     Args:
         frame: "mikktspace" or "vertex", which read tangents; "smooth", which reads cotangents.
-        texels: (n, 3) decoded.
-        normals: (n, 3) interpolated, of any length.
-        tangents: (n, 4), w as glTF's TANGENT, as of `tangents`.
-        cotangents_u, cotangents_v: (n, 3) each, as of `smooth_cotangents`.
+        texels: (n, 3) decoded texels.
+        normals: (n, 3) interpolated normals of any length.
+        tangents: (n, 4), w as in glTF's TANGENT, from `tangents`.
+        cotangents_u, cotangents_v: (n, 3) each, from `smooth_cotangents`.
     """
     return _vertex_places(
         "cotan_vertex_frame_apply", frame, texels, normals, tangents, cotangents_u, cotangents_v, out
@@ -179,7 +179,7 @@ def vertex_frame_encode(
     cotangents_v: Optional[ArrayLike] = None,
     out: Optional[Floats] = None,
 ) -> Floats:
-    """The unit texels (n, 3) that `vertex_frame_apply` turns into normals_wanted (n, 3); arguments as there."""
+    """The inverse of `vertex_frame_apply`: unit texels (n, 3) for normals_wanted (n, 3)."""
     return _vertex_places(
         "cotan_vertex_frame_encode", frame, normals_wanted, normals, tangents, cotangents_u, cotangents_v, out
     )
@@ -192,11 +192,11 @@ def tangents(
     out: Optional[Floats] = None,
     progress: Optional[Progress] = None,
 ) -> Floats:
-    """One tangent for each index: (3 t, 4) float32; x, y, z along increasing u, w as glTF's TANGENT.
+    """One tangent for each index: (3 t, 4) float32; x, y, z along increasing u, w as in glTF's TANGENT.
 
     kind: "mikktspace" or "vertex". threads: 0 for all cores; the result does not depend on it. The mesh needs
-    texcoords. progress: as of `bake`; "vertex" only hears of it at its begin and end. Raises UsageError, InputError for
-    an index that is out of range, and StoppedError, which leaves `out` as it was.
+    texcoords. progress: as in `bake`; for "vertex" it is only called at the start and at the end. Raises UsageError,
+    InputError for an index that is out of range, and StoppedError, which leaves `out` unchanged.
     """
     out = arrays.made(out, "out", (len(mesh.indices), 4), np.float32)
     given = arrays.encoded(kind, "kind"), mesh._c(), arrays.threads_of(threads)
@@ -207,7 +207,7 @@ def tangents(
 def smooth_cotangents(mesh: Mesh, threads: int = 0, progress: Optional[Progress] = None) -> tuple[Floats, Floats]:
     """The cotangents of the frame "smooth": u and v, (n, 3) float32 each, one pair for each vertex.
 
-    threads: 0 for all cores; the result does not depend on it. progress: as of `bake`.
+    threads: 0 for all cores; the result does not depend on it. progress: as in `bake`.
     """
     u, v = np.empty_like(mesh.positions), np.empty_like(mesh.positions)
     given, to = (mesh._c(), arrays.threads_of(threads)), (arrays.at(u), arrays.at(v))
@@ -232,10 +232,10 @@ def _split(function, vertex_count, index_count, *first):
 
 
 def split_vertices(vertex_count: int, indices: ArrayLike, corners: ArrayLike) -> tuple[Words, Words]:
-    """The same triangles over more vertices, so that what is made for corners can be stored at vertices.
+    """Duplicates vertices so that values per corner can be stored per vertex.
 
-    A vertex is copied where the corners that share it have different values. corners: (3 t, 4), as of `tangents`.
-    Returns the new indices (3 t,) and for each new vertex the old one that it is a copy of, the old ones first:
+    A vertex is duplicated if its corners have different values. corners: (3 t, 4), from `tangents`. Returns the new
+    indices (3 t,) and sources, for each new vertex the old one that it copies, the old vertices first:
     `positions[sources]` are the new positions.
     """
     indices, vertex_count = arrays.triangles(indices), arrays.integer(vertex_count, "vertex_count", 0, 2**32 - 1)
@@ -245,16 +245,16 @@ def split_vertices(vertex_count: int, indices: ArrayLike, corners: ArrayLike) ->
 
 
 def split_mirrored(mesh: Mesh) -> tuple[Words, Words]:
-    """As `split_vertices`, where mirrored and unmirrored triangles share a vertex, as `smooth_cotangents` wants it."""
+    """Duplicates vertices that mirrored and unmirrored triangles share, as `smooth_cotangents` needs it."""
     return _split("cotan_split_mirrored", len(mesh.positions), len(mesh.indices), mesh._c())
 
 
 def provoking(vertex_count: int, indices: ArrayLike, last: bool = False) -> tuple[Words, Words, Words]:
-    """The triangles over vertices numbered so that vertex k provokes triangle k.
+    """Renumbers vertices so that vertex k is the provoking vertex of triangle k.
 
-    last: whether the last of the three vertices provokes (OpenGL, WebGL) or the first (Vulkan, Direct3D, Metal,
+    last: whether the provoking vertex is the last of the three (OpenGL, WebGL) or the first (Vulkan, Direct3D, Metal,
     WebGPU). Returns the new indices (3 t,), the old vertex of each new one, and corners (3 t,): the old indices with
-    each triangle turned so that the provoking one comes first.
+    each triangle rotated so that its provoking vertex comes first.
     """
     indices, vertex_count = arrays.triangles(indices), arrays.integer(vertex_count, "vertex_count", 0, 2**32 - 1)
     made, corners = np.empty_like(indices), np.empty_like(indices)
@@ -268,7 +268,7 @@ def provoking(vertex_count: int, indices: ArrayLike, last: bool = False) -> tupl
 
 
 def pack_triangles(u: ArrayLike, v: ArrayLike) -> Words:
-    """Small forms of `triangle_vectors`: (t, 3) uint32, which shaders/cotan/triangle.h unpacks."""
+    """Packs `triangle_vectors` in (t, 3) uint32, which shaders/cotan/triangle.h unpacks."""
     u = arrays.floats(u, "u", 3)
     v = arrays.floats(v, "v", 3, len(u))
     words = np.empty((len(u), 3), np.uint32)
@@ -285,7 +285,7 @@ def _pack_smooth(function, normals, u, v, shape, dtype):
 
 
 def pack_smooth8(normals: ArrayLike, u: ArrayLike, v: ArrayLike) -> NDArray[np.int16]:
-    """Small forms of `smooth_cotangents`: (n, 4) int16 (SNORM16), which shaders/cotan/pack.h unpacks.
+    """Packs `smooth_cotangents` in (n, 4) int16 (SNORM16), which shaders/cotan/pack.h unpacks.
 
     normals: (n, 3), the unit normals that unpacking will see.
     """
@@ -293,12 +293,12 @@ def pack_smooth8(normals: ArrayLike, u: ArrayLike, v: ArrayLike) -> NDArray[np.i
 
 
 def pack_smooth4(normals: ArrayLike, u: ArrayLike, v: ArrayLike) -> Words:
-    """As `pack_smooth8` in one word each: (n,) uint32."""
+    """Like `pack_smooth8`, in one word per vertex: (n,) uint32."""
     return _pack_smooth("cotan_pack_smooth4", normals, u, v, (), np.uint32)
 
 
 def pack_tangents(normals: ArrayLike, tangents: ArrayLike) -> NDArray[np.uint16]:
-    """Tangents (n, 4) in one short each: (n,) uint16. normals: (n, 3), the unit normals that unpacking will see."""
+    """Packs tangents (n, 4) in (n,) uint16. normals: (n, 3), the unit normals that unpacking will see."""
     normals = arrays.floats(normals, "normals", 3)
     tangents = arrays.floats(tangents, "tangents", 4, len(normals))
     packed = np.empty(len(normals), np.uint16)

@@ -1,14 +1,13 @@
 """Normal maps as arrays.
 
-A picture is (height, width, 4) of uint8, uint16 or float32: red, green, blue, alpha, rows from the top. Pictures of
-three channels or one are taken too, and copied to four; so are paths of picture files. A convention is words: "gltf",
-"directx", "unity,xy".
+An image is an array (height, width, 4) of uint8, uint16 or float32: red, green, blue, alpha, rows from the top. Images
+with three channels or one are also accepted and copied to four channels, and so are paths of image files. A convention
+is a list of words: "gltf", "directx", "unity,xy".
 
-Which number stands for zero depends on the dtype: 128 in uint8, 32768 in uint16, and **0.5 in float32**, where 0 and 1
-stand for -1 and 1 (with "signed" in the convention -1, 0 and 1 for themselves; "biased" moves the first two to 127.5
-and 32767.5). So a map of 8 bits divided by 255 is not the same map in floats: its zero is 128 / 255 = 0.50196. Make
-floats with `map_convert(map, source, to, bits=32)`. Floats outside of that range, and such as are no numbers, are
-refused.
+The number that stands for zero depends on the dtype: 128 in uint8, 32768 in uint16, and **0.5 in float32**, where 0 and
+1 stand for -1 and 1. With "signed" in the convention, floats stand for themselves; with "biased", zero is 127.5 and
+32767.5 in integers. So an 8-bit map divided by 255 is not the same map in floats: its zero is 128 / 255 = 0.50196. Make
+floats with `map_convert(map, source, to, bits=32)`. Floats outside the range and NaN are refused.
 """
 
 import dataclasses
@@ -30,13 +29,13 @@ Map = Union[ArrayLike, Path]
 
 @dataclasses.dataclass(frozen=True)
 class Green:
-    """Which way green of a normal map points, from the map alone.
+    """Which way green of a normal map points, judged by the map alone.
 
     Attributes:
         green: "up" (OpenGL, glTF), "down" (DirectX) or "undecidable".
-        swapped: whether red and green are exchanged; None where it cannot be told.
+        swapped: whether red and green are swapped; None if unknown.
         confidence: "none", "likely" or "certain".
-        agreement: the correlation that the verdict rests on, -1 to 1.
+        agreement: the correlation on which the verdict is based, -1 to 1.
         reason: one sentence.
     """
 
@@ -49,19 +48,18 @@ class Green:
 
 @dataclasses.dataclass(frozen=True)
 class MapInfo:
-    """What the numbers of a picture say about it as a normal map. Shares are 0 to 1.
+    """Statistics of an image, read as a normal map. Fractions are 0 to 1.
 
     Attributes:
         content: a few words, such as "tangent space" or "one value everywhere".
-        zero: the code of 255 that stands for zero: 128, 127 (for 127.5), or None where it cannot be told.
-        transfer: "linear"; "srgb": stored as if it were a colour; "linearised": as if it had been taken for one when
-            it was read.
-        background: share outside the charts, which the rest leaves out.
-        invalid: share that is no direction.
-        below_horizon: share with z below 0.
-        mean_length: of the decoded vectors.
-        mean_tilt: degrees from flat.
-        mean: x, y, z, green up.
+        zero: the code of 255 that stands for zero: 128, 127 (for 127.5), or None if unknown.
+        transfer: "linear"; "srgb": encoded like a colour; "linearised": decoded like a colour when it was read.
+        background: fraction outside the charts, which all other statistics exclude.
+        invalid: fraction of texels that are not a direction.
+        below_horizon: fraction of texels with z below 0.
+        mean_length: mean length of the decoded vectors.
+        mean_tilt: mean angle to (0, 0, 1) in degrees.
+        mean: mean vector x, y, z, green up.
     """
 
     content: str
@@ -76,14 +74,14 @@ class MapInfo:
 
 
 class Level(NamedTuple):
-    """A level of `map_mips`: the map, and the roughness (grey) that makes up for what averaging took."""
+    """A level of `map_mips`: the map, and the roughness (grey) that compensates for the averaging of normals."""
 
     map: Pixels
     roughness: Pixels
 
 
 def detect(map: Map) -> Green:
-    """Which way green of a tangent-space normal map points. map: a picture."""
+    """Detects which way green of a tangent-space normal map points. map: an image."""
     pixels, green = pixels_of(map), structs.CGreen()
     call("cotan_map_green", arrays.picture(pixels), green)
     return Green(
@@ -96,7 +94,7 @@ def detect(map: Map) -> Green:
 
 
 def describe(map: Map) -> MapInfo:
-    """What the numbers of a picture say about it as a normal map."""
+    """Statistics of an image, read as a normal map."""
     pixels, info = pixels_of(map), structs.CMapInfo()
     call("cotan_map_describe", arrays.picture(pixels), info)
     return MapInfo(
@@ -113,7 +111,7 @@ def describe(map: Map) -> MapInfo:
 
 
 def _like(pixels, bits, out):
-    """The array for a result of that picture's size."""
+    """The array for a result of the same size as `pixels`."""
     dtype = pixels.dtype if bits is None else arrays.dtype_of(bits)
     if out is not None and bits is None and isinstance(out, np.ndarray) and out.dtype in arrays.BITS:
         dtype = out.dtype
@@ -123,15 +121,15 @@ def _like(pixels, bits, out):
 def map_convert(
     map: Map, source: Convention, to: Convention, bits: Optional[int] = None, out: Optional[Pixels] = None
 ) -> Pixels:
-    """The map stored another way.
+    """Converts a map from one convention to another.
 
     Args:
-        map: a picture; in float32 0.5 stands for zero, which is not 128 / 255.
+        map: an image; in float32 0.5 stands for zero, which is not 128 / 255.
         source, to: conventions: "directx", "gltf", ...; both in tangent space or both in object space.
-        bits: of the result: 8, 16 or 32; as the map where it is left out.
-        out: a picture of the map's size to write into.
+        bits: bit depth of the result: 8, 16 or 32. Default: that of the map.
+        out: an image of the map's size to write into.
 
-    Raises InputError for floats that are no numbers, or that no map of `source` holds.
+    Raises InputError for NaN and for floats outside the range of `source`.
     """
     pixels = pixels_of(map)
     arrays.stored(pixels, source, "map")
@@ -151,13 +149,13 @@ def map_from_height(
     bits: int = 8,
     out: Optional[Pixels] = None,
 ) -> Pixels:
-    """The normal map of heights (height, width), or of a picture's red. Heights repeat over the borders.
+    """Makes a normal map from heights (height, width) or from red of an image. Heights repeat at the borders.
 
     Args:
         scale_x, scale_y: slope per unit of stored height and texel: for w metres across `width` texels and r metres
-            from 0 to 1 (of 8 and 16 bits: the full range), r * width / w. scale_y: as scale_x where it is left out.
+            from 0 to 1 (of 8 and 16 bits: the full range), r * width / w. Default of scale_y: scale_x.
         to: the convention of the map.
-        bits: of the map: 8, 16 or 32.
+        bits: bit depth of the map: 8, 16 or 32.
     """
     pixels = pixels_of(height, "height")
     arrays.finite(pixels, "height")
@@ -170,7 +168,7 @@ def map_from_height(
 
 
 def map_to_height(map: Map, source: Convention = "gltf") -> NDArray[np.float32]:
-    """The height (height, width) float32 whose slopes are nearest to the map's, in widths of a texel, mean 0."""
+    """Heights (height, width) float32, in texel widths, mean 0, whose slopes are nearest to those of the map."""
     pixels = pixels_of(map)
     arrays.stored(pixels, source, "map")
     heights = np.empty(pixels.shape[:2], np.float32)
@@ -187,7 +185,7 @@ def map_blend(
     bits: Optional[int] = None,
     out: Optional[Pixels] = None,
 ) -> Pixels:
-    """A base map with a detail map over it; all of the base's size, and stored as `convention` says.
+    """Blends a detail map over a base map. All maps have the size of the base and the same convention.
 
     mode: "reoriented", "whiteout", "udn", "slopes" or "linear". strength: factor on the detail's slopes.
     """
@@ -203,9 +201,9 @@ def map_blend(
 
 
 def map_mips(map: Map, convention: Convention = "gltf", roughness: float = 0.5) -> list[Level]:
-    """Levels of half the size each, filtered as vectors: the map's own size first, 1 x 1 last.
+    """Mip levels, filtered as vectors: the map's own size first, 1 x 1 last.
 
-    roughness: of the material, 0 to 1.
+    roughness: roughness of the material, 0 to 1.
     """
     levels: list[Level] = []
     failures: list[BaseException] = []
@@ -216,7 +214,7 @@ def map_mips(map: Map, convention: Convention = "gltf", roughness: float = 0.5) 
         try:
             levels.append(Level(array_of_picture(level[0]), array_of_picture(rough[0])))
             return 0
-        except BaseException as error:  # must not cross the library
+        except BaseException as error:  # exceptions must not pass through the library
             failures.append(error)
             return 1
 

@@ -1,4 +1,4 @@
-"""Models: read, judged, and their maps made for another frame."""
+"""Reads, lints and converts models."""
 
 import ctypes
 import dataclasses
@@ -27,12 +27,12 @@ Encode = Callable[[np.ndarray], bytes]
 
 
 class Model:
-    """A model in the library's memory: what `load` returns, or a copy of meshes. For reading once and using often.
+    """A model in the library's memory, from `load` or copied from meshes, to be used several times.
 
     Attributes:
-        warnings: what was odd about it, one line each.
+        warnings: warnings about the model, one line each.
 
-    up: which axis of the meshes is up, "y" or "z"; a model whose z is up is turned by 90 degrees about x.
+    up: the up axis of the meshes, "y" or "z"; a model with z up is rotated by 90 degrees about x.
     """
 
     def __init__(self, meshes: Union[Mesh, Sequence[Mesh]], up: Up = "y") -> None:
@@ -55,11 +55,11 @@ class Model:
 
 
 def load(file: Path, pictures: bool = True, memory: int = 640, up: Up = "y") -> Model:
-    """Reads a model file: .glb, .gltf, .obj, .ply, .stl, .dae, .fbx or .3ds. Missing normals are made.
+    """Reads a model file: .glb, .gltf, .obj, .ply, .stl, .dae, .fbx or .3ds. Missing normals are computed.
 
-    pictures: False leaves those of its materials out, which is enough to bake by its shape. memory: of the largest
-    picture, in MiB. up: "z" turns the model by 90 degrees about x, for PLY and STL of Blender and CAD. Formats other than glTF are read by a child process.
-    Raises InputError for a missing or broken file or one over a limit.
+    pictures: False skips the images of materials, which a bake of the shape does not need. memory: maximum size of an
+    image, in MiB. up: "z" rotates the model by 90 degrees about x, for PLY and STL of Blender and CAD. A child process
+    reads formats other than glTF. Raises InputError for a missing or broken file or one over a limit.
     """
     made = structs.handle()
     call("cotan_model_open", arrays.encoded(file, "file"), int(pictures), arrays.memory_of(memory), made, files=(file,))
@@ -73,16 +73,16 @@ class Lint:
     """What to expect of a model whose normal maps are read without stored tangents.
 
     Attributes:
-        primitives, maps: how many there are.
-        advice: the frame to read or make the maps for; None where nothing has to be changed.
-        maps_to_convert: how many maps that asks for.
+        primitives, maps: number of primitives and of normal maps.
+        advice: the frame to read or convert the maps with; None if nothing has to be changed.
+        maps_to_convert: number of maps to convert for that frame.
         distrust_stored: whether stored tangents contradict the uv.
-        green_against: maps whose green points the other way than the model says.
-        orthonormal_degrees, cotangent_degrees, smooth_degrees: how far maps for MikkTSpace are off when they are read
-            with that frame: the mean over the surface, of the worst of the maps; None where nothing was judged.
-        recommendation: in sentences.
-        report: the figures of every primitive and map, `warnings`, and `check`, as `cotan lint --json` has them.
-        passed: whether the check passed; None where neither `limit` nor `limit_area` was given. What failed is in
+        green_against: number of maps whose green points the other way than the model says.
+        orthonormal_degrees, cotangent_degrees, smooth_degrees: error of maps for MikkTSpace that are read with this
+            frame: mean over the surface, maximum over the maps; None if nothing was judged.
+        recommendation: the advice in sentences.
+        report: the data of all primitives and maps, `warnings` and `check`, as in `cotan lint --json`.
+        passed: whether the check passed; None if neither `limit` nor `limit_area` was given. The failures are in
             `report["check"]["failures"]`.
     """
 
@@ -102,16 +102,16 @@ class Lint:
 
 @dataclasses.dataclass(frozen=True)
 class Converted:
-    """What became of a model.
+    """The result of a conversion.
 
     Attributes:
-        glb: the new model as bytes, with all files of the old one inside; None where it was written to a file.
-        maps_converted, maps_kept: how many.
-        primitives_given: how many have new tangents.
-        tangent_bytes_dropped: of the old model.
-        worst_degrees_before, worst_degrees_after: how far the normals are off with the new frame: the mean over the
-            surface of a map, of the worst of the maps; None where nothing was judged.
-        report: all of it, map by map.
+        glb: the new model as bytes, self-contained; None if it was written to a file.
+        maps_converted, maps_kept: number of maps.
+        primitives_given: number of primitives with new tangents.
+        tangent_bytes_dropped: size of the dropped tangents.
+        worst_degrees_before, worst_degrees_after: error of the normals with the new frame: mean over the surface of a
+            map, maximum over the maps; None if nothing was judged.
+        report: details for each map.
     """
 
     glb: Optional[bytes] = dataclasses.field(repr=False)
@@ -125,7 +125,7 @@ class Converted:
 
 
 class Source:
-    """A glTF model's bytes, and what its URIs name, as the library asks for them."""
+    """The bytes of a glTF model, and callbacks by which the library reads the files that its URIs reference."""
 
     def __init__(self, model, beside=None, decode=None, encode=None):
         self.path = None
@@ -166,7 +166,7 @@ class Source:
         return file.read_bytes() if folder in file.parents and file.is_file() else None
 
     def _safely(self, work):
-        """What the library is told of work that gives an array or nothing: no exception may cross it."""
+        """The array that work() returns, or None. Catches exceptions, which must not pass through the library."""
         try:
             array = work()
             if array is not None:
@@ -216,7 +216,7 @@ def _degrees(value):
     return None if value < 0 else value
 
 
-# 0 is none to the library, and what allows nothing is a little more.
+# The library takes 0 for no limit, so a limit of 0 becomes a tiny positive one.
 def _limit(value, name):
     return 0.0 if value is None else max(arrays.number(value, name), 1e-9)
 
@@ -231,20 +231,20 @@ def lint(
     limit_area: Optional[float] = None,
     frame: Reading = "orthonormal",
 ) -> Lint:
-    """What to expect of a model whose normal maps are read without stored tangents, before anything is drawn.
+    """Reports what to expect of a model whose normal maps are read without stored tangents, without a render.
 
     Args:
         model: a path to a model of any format, the bytes of a glTF one, or a Model.
-        distance: from eye to surface, in units of the model; 0: where the whole model fills the picture.
-        memory: of the largest picture, in MiB, for a path.
-        progress: called on this thread with the share that is done, 0 to 1; False stops. Ctrl-C stops, too.
-        beside: files that a model in bytes names, by their URIs.
-        limit, limit_area: make it a check, whose verdict is `passed`: degrees that the error with `frame` may exceed
-            on 5 % of the area, and % of a primitive's area with wrong uv or tangents. Green that points the other way
-            fails it; maps that could not be judged fail `limit`.
-        frame: that `limit` judges: cotangent, orthonormal, smooth, exact, triangle or stored.
+        distance: distance from eye to surface in units of the model; 0: where the whole model fills the image.
+        memory: maximum size of an image, in MiB, for a path.
+        progress: called on this thread with the fraction done, 0 to 1. Returning False stops, and so does Ctrl-C.
+        beside: files that a model in bytes references, by URI.
+        limit, limit_area: request a check, whose verdict is `passed`. limit: maximum error in degrees with `frame` on
+            95 % of the area. limit_area: maximum percent of a primitive's area with bad uv or tangents. Reversed green
+            fails the check; maps that could not be judged fail `limit`.
+        frame: the frame that `limit` judges: cotangent, orthonormal, smooth, exact, triangle or stored.
 
-    Raises InputError for a broken or missing file, StoppedError where `progress` stopped it.
+    Raises InputError for a broken or missing file, StoppedError if `progress` stopped the work.
     """
     result, text = structs.LintResult(), structs.handle()
     source = None if is_path(model) or isinstance(model, Model) else Source(model, beside)
@@ -303,27 +303,27 @@ def convert(
     unsigned: Expansion = "biased",
     keep_maps: bool = False,
 ) -> Converted:
-    """A glTF model's normal maps made for another frame, and its tangents dropped.
+    """Converts the normal maps of a glTF model to another frame and drops its tangents.
 
     Args:
         model: a path to .glb or .gltf, or the bytes of one.
-        out: .glb to write, whole or not at all; None: the bytes are in the result.
+        out: .glb file to write atomically; None: returns the bytes in the result.
         to_frame, from_frame: names of frames. "mikktspace" and "vertex" write TANGENT, all others drop it.
             to_frame None: "cotangent", with keep_maps "orthonormal". from_frame None: the frame that the file names
             for its maps, else "mikktspace".
         tangents: "stored" (generated where missing) or "generated", for from_frame.
-        keep_tangents: TANGENT stays where the new frame does not read it.
-        bits: of the new maps, 8 or 16, and all are written anew; 0: as the old ones, which stay where they fit.
+        keep_tangents: keeps TANGENT even if the new frame does not read it.
+        bits: bit depth of the new maps, 8 or 16; all maps are rewritten. 0: that of the old maps, which stay if valid.
         threads: 0 for all cores; the result does not depend on it.
-        overwrite: lets `out` be the model itself.
-        progress: called on this thread with the share that is done, 0 to 1; False stops. Ctrl-C stops, too.
-        beside: files that a model in bytes names, by their URIs.
-        decode: decode(name, bytes) gives a picture for a PNG or JPEG file, in place of the library's own readers.
-        encode: encode(picture) gives the PNG file of a picture of uint8 or uint16, in place of its own writer.
-        unsigned: how engines take the numbers of the maps: "biased" (2c - 1, as stock engines do) or "exact".
-        keep_maps: leaves all maps byte for byte as they are, to be read with to_frame, and drops tangents only.
+        overwrite: allows `out` to be the model itself.
+        progress: called on this thread with the fraction done, 0 to 1. Returning False stops, and so does Ctrl-C.
+        beside: files that a model in bytes references, by URI.
+        decode: decode(name, bytes) returns the image of a PNG or JPEG file; replaces the library's own readers.
+        encode: encode(picture) returns the PNG file of an image of uint8 or uint16; replaces the library's own writer.
+        unsigned: how engines decode the maps: "biased" (2c - 1, as stock engines do) or "exact".
+        keep_maps: only drops tangents and leaves all maps byte for byte as they are, to be read with to_frame.
 
-    Raises UsageError, InputError for a broken or missing file, OutputError, StoppedError; nothing is written then.
+    Raises UsageError, InputError for a broken or missing file, OutputError, StoppedError. Nothing is written then.
     """
     check_tangents(tangents)
     source = Source(model, beside, decode, encode)
@@ -343,7 +343,7 @@ def convert(
 
 
 def convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned, keep_maps):
-    """The struct of the C API."""
+    """The cotan_convert_options for these arguments."""
     options = structs.ConvertOptions(
         to=None if to_frame is None else arrays.encoded(to_frame, "to_frame"),
         bits=arrays.integer(bits, "bits", 0, 16),
@@ -360,7 +360,7 @@ def convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads
 
 
 def converted_of(result, glb, report):
-    """The dataclass of a struct of the C API."""
+    """The dataclass for a cotan_convert_result."""
     return Converted(
         glb=glb,
         maps_converted=result.maps_converted,
@@ -374,19 +374,19 @@ def converted_of(result, glb, report):
 
 
 def _output(out, model, overwrite):
-    """The file to write, looked at before the work."""
+    """The path to write to, checked before the work starts."""
     out = pathlib.Path(out)
     if out.suffix.lower() != ".glb":
         raise arrays.wrong("out", "a file that ends in .glb", f"'{out}'")
     if model is not None and not overwrite and out.exists() and out.samefile(model):
         raise UsageError(f"out: {out} is the model itself; overwrite=True replaces it", file=str(out), field="out")
     if not out.parent.is_dir():
-        raise OutputError(f"{out}: there is no folder {out.parent}", file=str(out))
+        raise OutputError(f"{out}: the folder {out.parent} does not exist", file=str(out))
     return out
 
 
 def _write_whole(path, data):
-    """Writes a file that appears whole or not at all. Raises OutputError."""
+    """Writes a file atomically. Raises OutputError."""
     temporary = None
     try:
         with tempfile.NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}.", delete=False) as file:

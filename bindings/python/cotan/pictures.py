@@ -1,4 +1,4 @@
-"""Pictures in files."""
+"""Reads and writes image files."""
 
 import os
 from typing import Union
@@ -15,11 +15,11 @@ Path = Union[str, os.PathLike[str]]
 
 
 def read_picture(file: Path, memory: int = 640) -> NDArray[np.generic]:
-    """A picture file as it is stored: (height, width, 4) of uint8, uint16 or float32, rows from the top.
+    """Reads an image file as array (height, width, 4) of uint8, uint16 or float32, rows from the top.
 
-    No colours are converted; grey is repeated, a missing alpha is full. memory: that it may take, in MiB.
-    Raises InputError for a missing or broken file or one over the limit, UnavailableError for a format that is not read
-    here.
+    Colours are not converted; grey is repeated, missing alpha is opaque. memory: maximum size, in MiB. Raises
+    InputError for a missing or broken file or one over the limit, UnavailableError for a format that this build cannot
+    read.
     """
     image = structs.handle()
     call("cotan_image_read", arrays.encoded(file, "file"), arrays.memory_of(memory), image, files=(file,))
@@ -27,15 +27,15 @@ def read_picture(file: Path, memory: int = 640) -> NDArray[np.generic]:
 
 
 def write_picture(file: Path, picture: ArrayLike) -> None:
-    """Writes .png, and with OpenImageIO .exr, .tif, .tga, .jpg and .hdr; whole or not at all.
+    """Writes .png, and with OpenImageIO .exr, .tif, .tga, .jpg and .hdr, atomically.
 
-    picture: (height, width, 4), (height, width, 3) or (height, width) of uint8, uint16 or float32. PNG takes floats
-    clamped to 0 to 1, with 8 bits. Raises OutputError, UsageError for an extension that nothing writes.
+    picture: (height, width, 4), (height, width, 3) or (height, width) of uint8, uint16 or float32. PNG stores floats
+    with 8 bits, clamped to 0 to 1. Raises OutputError, UsageError for an unknown extension.
     """
     pixels = arrays.pixels(picture, "picture")
     call("cotan_image_write", arrays.encoded(file, "file"), arrays.picture(pixels), files=(file,))
 
 
 def pixels_of(given, field="map"):
-    """An array as `_arrays.pixels` makes it, or the picture file of that name."""
+    """The image of an array, by `_arrays.pixels`, or of an image file."""
     return read_picture(given) if is_path(given) else arrays.pixels(given, field)

@@ -1,4 +1,4 @@
-"""Pictures of models."""
+"""Renders models."""
 
 import ctypes
 import json
@@ -18,7 +18,7 @@ from .words import Convention, DrawnFrame, TangentOrigin, Up
 
 
 def _word(name, value):
-    """A keyword as a word of the command line; None for what it leaves out."""
+    """A keyword argument as a command line option; None if it is not set."""
     option = b"--" + name.replace("_", "-").encode()
     if value is None or value is False:
         return None
@@ -75,29 +75,29 @@ def render(
     progress: Optional[Progress] = None,
     beside: Optional[Mapping[str, bytes]] = None,
 ) -> NDArray[np.generic]:
-    """A picture of a model: (height, width, 4), red, green, blue, alpha, rows from the top.
+    """Renders a model. Returns (height, width, 4): red, green, blue, alpha, rows from the top.
 
-    The pixels are those that `cotan render` writes for the same options, whose names these are, with dashes there:
-    `cotan render --help` says what each does. None is the default of the command.
+    The arguments are the options of `cotan render`, with underscores for dashes, and give the same pixels. `cotan
+    render --help` documents them. None means the default of the command.
 
     Args:
         model: a path to a model file, the bytes of a glTF one, or None for the built-in scene or `shape`.
         size: (width, height), one number for both, or "WxH".
-        frame: to apply normal maps with: see `frames`.
+        frame: the frame to apply normal maps with: see `frames`.
         view: "shaded", "normal", "uv", "depth", "error", "checker", "stretch", "base-color", ...
-        camera: "front", "fit", the number of a camera of the file, or six numbers in world units: eye and target.
-        up: "y", or "z" for a model whose file has z up, as PLY and STL of Blender and CAD.
-        floats: True: float32, with light linear and unlimited, as in an .exr file; False: uint8 as in a .png.
+        camera: "front", "fit", the index of a camera of the file, or six numbers in world units: eye and target.
+        up: "y", or "z" for files with z up, such as PLY and STL of Blender and CAD.
+        floats: True: float32 with linear, unclamped light, as in an .exr file; False: uint8 as in a .png.
         device: "auto", "reference", or a part of a Vulkan device's name.
-        report: a dict that gets what was drawn: the device, counts, `warnings`, and for the view "error" the degrees
-            in `error_against_exact`.
-        threads: 0 for all cores; the picture does not depend on it.
-        progress: called on this thread with the share that is done, 0 to 1 (only by the device "reference"); False
-            stops. Ctrl-C stops, too.
-        beside: files that a model in bytes names, by their URIs.
+        report: a dict to fill with the device, counts, `warnings`, and for the view "error" the degrees in
+            `error_against_exact`.
+        threads: 0 for all cores; the image does not depend on it.
+        progress: called on this thread with the fraction done, 0 to 1 (only by the device "reference"). Returning False
+            stops, and so does Ctrl-C.
+        beside: files that a model in bytes references, by URI.
 
-    Raises UsageError for words and numbers, InputError for a broken or missing file, UnavailableError for a device that
-    is not there, StoppedError where `progress` stopped it.
+    Raises UsageError for bad words and numbers, InputError for a broken or missing file, UnavailableError for a missing
+    device, StoppedError if `progress` stopped the render.
     """
     options = dict(locals())
     for name in ("model", "floats", "threads", "report", "progress", "beside"):

@@ -1,4 +1,4 @@
-"""The portable text printed for a language."""
+"""Prints the portable shader text for a language."""
 
 import ctypes
 from typing import Union
@@ -9,7 +9,7 @@ from .words import Convention, Frame, ShaderLanguage
 
 
 def shader(lang: ShaderLanguage, frame: Union[Frame, str] = "cotangent", convention: Convention = "gltf") -> str:
-    """The function that perturbs the normal with that frame, as self-contained text to paste into a shader.
+    """Self-contained source, to paste into a shader, of the function that perturbs the normal with the given frame.
 
     Args:
         lang: "glsl", "essl", "hlsl", "wgsl", "msl", "cpp" or "godot" (a whole spatial shader).

@@ -1,4 +1,4 @@
-"""The words that functions take, as types: an editor completes them, and a type checker finds the misspelt one.
+"""The words that functions accept, as types for completion in editors and for type checkers.
 
     from cotan.words import Frame
     frame: Frame = "smooth"
@@ -6,7 +6,7 @@
 
 from typing import Literal, Union
 
-# What normals are perturbed with: `cotan.frames()`.
+# The frames: `cotan.frames()`.
 Frame = Literal[
     "cotangent",
     "cotangent-2013",
@@ -24,14 +24,14 @@ Frame = Literal[
     "mikktspace",
     "triangle",
 ]
-# "auto": the one that the maps mean.
+# "auto": the frame that the maps were made for.
 DrawnFrame = Union[Frame, Literal["auto"]]
-# Those that are made at the vertices.
+# Frames that are stored at the vertices.
 VertexFrame = Literal["smooth", "vertex", "mikktspace"]
-# What `lint` judges.
+# Frames that `lint` judges.
 Reading = Literal["cotangent", "orthonormal", "smooth", "exact", "triangle", "stored"]
 
-# How a map is stored, by the name of who reads it. After a comma words may say what differs: "unity,xy".
+# How a map is stored, by the program that reads it. Words after a comma name differences: "unity,xy".
 Preset = Literal["gltf", "opengl", "directx", "unity", "unreal", "blender", "godot", "maya", "3dsmax", "source"]
 Convention = Union[Preset, str]
 

@@ -1,10 +1,10 @@
-// The frame `triangle` in HLSL, by Direct3D's rules: the first vertex of a triangle provokes, rows of pixels run down.
-// Four ways to hand U and V to the pixel:
-//   provokingVertex and shadeFlat   made by the vertex shader at the provoking vertex of each triangle
-//   meshlet and shadeFlat           made by the mesh shader, for each primitive (shader model 6.5; -D MESH)
-//   pack, then shadeRead            made once, 12 bytes a triangle, read by SV_PrimitiveID
-//   pack, then resolve              the same, where a visibility buffer is shaded
-// Compiled by glslangValidator in a test, but for the mesh shader, which it does not know.
+// The frame `triangle` in HLSL for Direct3D, where a triangle's first vertex is the provoking one and rows run down.
+// Four methods to provide U and V to the pixel shader:
+//   provokingVertex and shadeFlat   computed by the vertex shader at the provoking vertex of each triangle
+//   meshlet and shadeFlat           computed by the mesh shader for each primitive (shader model 6.5; -D MESH)
+//   pack, then shadeRead            computed once, 12 bytes per triangle, read by SV_PrimitiveID
+//   pack, then resolve              computed once, read when a visibility buffer is resolved
+// A test compiles all but the mesh shader by glslangValidator, which does not support mesh shaders in HLSL.
 #define COTAN_LANG_HLSL
 #include "cotan/lang.h"
 #include "cotan/normal.h"
@@ -17,26 +17,26 @@ StructuredBuffer<float3> positions : register(t0); // relative to the eye, which
 StructuredBuffer<float3> normals : register(t1);
 StructuredBuffer<float2> texcoords : register(t2); // v runs down
 StructuredBuffer<uint> corners : register(t3);     // the index buffer
-StructuredBuffer<uint3> packed : register(t4);     // of `pack`
+StructuredBuffer<uint3> packed : register(t4);     // U and V, written by `pack`
 Texture2D<float4> normalMap : register(t5);
-Texture2D<uint> numbers : register(t6);            // of the triangle at each pixel, plus one
+Texture2D<uint> numbers : register(t6);            // visibility buffer: triangle index plus one; 0: none
 SamplerState mapSampler : register(s0);
 RWStructuredBuffer<uint3> packedOut : register(u0);
 RWTexture2D<float4> picture : register(u1);
 cbuffer View : register(b0)
 {
     float4x4 projection;
-    float2 tangents; // of half the angle of view, across and up
+    float2 tangents; // of half the field of view, horizontal and vertical
     uint triangleCount;
 }
 
-// three channels, exact, green against increasing v: a normal map as glTF has it
+// The format of glTF normal maps: three channels, exact, green against increasing v.
 static const cotan_normal_format kFormat = { COTAN_EXPAND_EXACT, COTAN_CHANNELS_XYZ, -1.0, 1.0 };
 
 cotan_packed_triangle made(uint k)
 {
     uint a = corners[3 * k], b = corners[3 * k + 1], c = corners[3 * k + 2];
-    // A skinned mesh moves the three positions and normals here.
+    // For a skinned mesh, transform the three positions and normals here.
     float3 p0 = positions[a];
     float2 uv0 = texcoords[a];
     cotan_triangle t = cotan_triangle_of_sound_edges(positions[b] - p0, positions[c] - p0, texcoords[b] - uv0,
@@ -55,7 +55,7 @@ cotan_packed_triangle unpacked(uint3 words)
 
 uint3 words(cotan_packed_triangle p) { return uint3(p.a, p.b, p.c); }
 
-// The model is a thin sheet: n stays as interpolated, and the result is turned on back faces.
+// For a thin sheet: n stays as interpolated, and the result is negated on back faces.
 float3 perturbed(float3 n, float3 position, cotan_packed_triangle p, float3 texel)
 {
     float3 r = cotan_perturb_triangle(n, cotan_unpack_triangle_u(p), cotan_unpack_triangle_v(p),
@@ -68,7 +68,7 @@ struct Handed {
     float3 position : POSITION;
     float3 normal : NORMAL;
     float2 uv : TEXCOORD0;
-    nointerpolation uint3 words : TEXCOORD1; // of the provoking vertex
+    nointerpolation uint3 words : TEXCOORD1; // U and V, from the provoking vertex
 };
 
 Handed placed(uint v)
@@ -83,7 +83,7 @@ Handed placed(uint v)
 }
 
 // ---- at the provoking vertex ------------------------------------------------------------------------
-// `cotan convert --provoking first`, or provokingMesh, numbers vertices so that vertex k provokes triangle k.
+// Requires that vertex k is the provoking vertex of triangle k: see `cotan convert --provoking first` or provokingMesh.
 Handed provokingVertex(uint v : SV_VertexID)
 {
     Handed o = placed(v);
@@ -100,7 +100,7 @@ float4 shadeFlat(Handed i) : SV_Target
 // ---- in a mesh shader -----------------------------------------------------------------------------------
 #ifdef MESH
 struct OfPrimitive {
-    uint3 words : TEXCOORD1; // as shadeFlat reads it
+    uint3 words : TEXCOORD1; // U and V, read by shadeFlat
 };
 struct OfVertex {
     float4 at : SV_Position;
@@ -109,7 +109,7 @@ struct OfVertex {
     float2 uv : TEXCOORD0;
 };
 
-// 32 triangles a group, each with three vertices of its own: a meshlet in its simplest form.
+// The simplest meshlets: 32 triangles per group, each with three vertices of its own.
 [outputtopology("triangle")]
 [numthreads(32, 1, 1)]
 void meshlet(uint thread : SV_GroupIndex, uint group : SV_GroupID, out vertices OfVertex vertex[96],
@@ -147,7 +147,7 @@ float4 shadeRead(Handed i, uint k : SV_PrimitiveID) : SV_Target
 }
 
 // ---- where a visibility buffer is shaded --------------------------------------------------------------
-// x and y of p0 + x e1 + y e2 = depth * ray, by Cramer's rule.
+// Solves p0 + x e1 + y e2 = depth * ray for x and y by Cramer's rule.
 float2 barycentrics(float3 ray, float3 p0, float3 e1, float3 e2)
 {
     return float2(dot(ray, cross(e2, p0)), dot(ray, cross(p0, e1))) / dot(ray, cross(e1, e2));

@@ -1,5 +1,5 @@
-"""Cotan inside Blender: bakes normal maps for the frame that will read them, says what is wrong with a mesh, exports
-glTF without tangents. Blender 3.4 and later."""
+"""Cotan for Blender: bakes normal maps for the frame that will read them, checks meshes, exports glTF without tangents.
+Needs Blender 3.4 or later."""
 
 import bpy
 

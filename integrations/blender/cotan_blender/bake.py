@@ -1,4 +1,4 @@
-"""From a pair of meshes to maps in their materials, in steps that a window can be drawn between."""
+"""Bakes maps for pairs of meshes into their materials, in steps between which Blender can redraw its window."""
 
 import dataclasses
 import os
@@ -17,20 +17,20 @@ class Map:
     """One map to bake."""
 
     name: str
-    slots: list  # material slots of the simple object that will read it; empty: it has none yet
+    slots: list  # material slots of the simple object that will use the map; empty: the object has none yet
     arguments: dict  # for cotan.bake, without the progress function
-    path: str = ""  # file; "": packed
+    path: str = ""  # file to write; "": packed into the .blend
 
 
 @dataclasses.dataclass
 class Outcome:
     made: list = dataclasses.field(default_factory=list)  # images
-    notes: list = dataclasses.field(default_factory=list)  # sentences: what to know of what was made
-    failures: list = dataclasses.field(default_factory=list)  # sentences: what was not made, and why
+    notes: list = dataclasses.field(default_factory=list)  # sentences about the images that were made
+    failures: list = dataclasses.field(default_factory=list)  # sentences: why images could not be made
 
 
 def _slots_of(low, surface, each):
-    """Lists of slots, one for each map, and which triangles each shows."""
+    """For each map: (list of material slots, selection of the triangles with these slots)."""
     used = np.unique(np.clip(surface.slots, 0, max(len(low.material_slots) - 1, 0)))
     if not each or len(used) < 2:
         return [([int(s) for s in used] if len(low.material_slots) else [], slice(None))]
@@ -40,18 +40,18 @@ def _slots_of(low, surface, each):
 def _check_uv(low, texcoords, triangles, uv_map):
     corners = texcoords[triangles]
     if not np.isfinite(corners).all():
-        raise Refused(f"The uv map '{uv_map}' of '{low.name}' has places that are not finite numbers")
+        raise Refused(f"The uv map '{uv_map}' of '{low.name}' has coordinates that are not finite numbers")
     u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     flat = u[:, 0] * v[:, 1] == u[:, 1] * v[:, 0]
     if flat.all():
         raise Refused(f"The uv map '{uv_map}' of '{low.name}' has no area: unwrap it again")
     inside = ((corners.max(axis=1) > 0) & (corners.min(axis=1) < 1)).all(axis=1)
     if not (inside & ~flat).any():
-        raise Refused(f"The uv map '{uv_map}' of '{low.name}' lies outside of the square from 0 to 1")
+        raise Refused(f"The uv map '{uv_map}' of '{low.name}' lies outside the square from 0 to 1")
 
 
 def check_low(low, settings):
-    """Raises Refused where the simple object cannot have a map. Before anything is evaluated."""
+    """Raises Refused if the simple object cannot have a map. Needs no evaluated objects."""
     if low.mode != "OBJECT":
         raise Refused(f"'{low.name}' is being edited: go back to Object Mode first")
     if settings.assign:
@@ -64,11 +64,11 @@ def check_low(low, settings):
 
 
 def prepare(context, settings, pair):
-    """The maps of one pair, and sentences about it. Raises Refused."""
+    """The maps of a pair, the name of their uv map, and notes in sentences. Raises Refused."""
     low = pair.low
     check_low(low, settings)
     if not pair.highs:
-        raise Refused(f"There is no visible object named like '{low.name}' with high or hi in place of low")
+        raise Refused(f"There is no visible object named like '{low.name}' with 'high' or 'hi' instead of 'low'")
     others = [o for o in (pair.cage, settings.cage_object, context.scene.render.bake.cage_object) if o is not None]
     with meshes.as_rendered(context, [low, *pair.highs, *others], settings.as_rendered) as depsgraph:
         surface = meshes.low_surface(low, depsgraph, settings.uv_map)
@@ -105,12 +105,12 @@ def prepare(context, settings, pair):
 def _notes_on(low, matrix):
     sizes = matrix.to_scale()
     if max(map(abs, sizes)) > 1.001 * min(map(abs, sizes)):
-        return [f"'{low.name}' is scaled by different factors along its axes: apply the scale, or programs differ"]
+        return [f"'{low.name}' has a non-uniform scale, which programs treat differently: apply the scale"]
     return []
 
 
 class Work(threading.Thread):
-    """A bake into a PNG file, on a thread of its own."""
+    """A bake into a PNG file on its own thread."""
 
     def __init__(self, arguments, file):
         super().__init__(name="cotan bake")
@@ -126,7 +126,7 @@ class Work(threading.Thread):
         try:
             self.baked = packages().bake(progress=self._told, **self.arguments)
             packages().write_picture(self.file, self.baked.map)
-        except BaseException as error:  # for the thread that waits
+        except BaseException as error:  # raised by the waiting thread
             self.error = error
 
 
@@ -139,7 +139,7 @@ def _put(low, made, image, uv_map, outcome):
     for material_slot in [low.material_slots[s] for s in made.slots]:
         if material_slot.material is None:
             material_slot.material = bpy.data.materials.new(low.name)
-            outcome.notes.append(f"'{low.name}' had no material: '{material_slot.material.name}' was made")
+            outcome.notes.append(f"'{low.name}' had no material: '{material_slot.material.name}' was created")
         problem = nodes.assign(material_slot.material, image, "" if shown_anyway else uv_map)
         if problem:
             outcome.notes.append(problem)
@@ -149,7 +149,7 @@ def _notes_of(baked, name):
     notes = []
     if baked.covered and baked.missed > 0.001 * baked.covered:
         share = f"{100 * baked.missed / baked.covered:.1f} %"
-        notes.append(f"{name}: {share} of the texels found no detailed surface: let rays run further, or use a cage")
+        notes.append(f"{name}: {share} of the texels found no detailed surface: raise the distance, or use a cage")
     if baked.covered and baked.twice > 0.01 * baked.covered:
         share = f"{100 * baked.twice / baked.covered:.1f} %"
         notes.append(f"{name}: {share} of the texels belong to several faces: the uv map overlaps itself")
@@ -157,7 +157,7 @@ def _notes_of(baked, name):
 
 
 def run(context, settings, pairs, outcome):
-    """A generator: bakes all pairs, and yields how much is done, 0 to 1. To stop, close it: what is finished stays."""
+    """A generator that bakes all pairs and yields the fraction done, 0 to 1. Closing it stops; finished maps stay."""
     for number, pair in enumerate(pairs):
         yield number / len(pairs)
         try:

@@ -1,4 +1,4 @@
-"""Where rays start: the words of Blender's own baker, or a mesh."""
+"""The start of rays for a bake: by Blender's own bake settings or by a cage mesh."""
 
 import dataclasses
 
@@ -8,26 +8,26 @@ from .meshes import mesh_of, got, placed
 from .refused import Refused
 
 
-FOREVER = 1e17  # the largest reach that the library takes: none that a mesh could need is over it
+FOREVER = 1e17  # the largest reach that the library accepts, more than any mesh needs
 
 
 def _around(surface, cage, depsgraph, low):
-    """Positions of a cage's vertices, in its own space, for each vertex of the surface."""
+    """World positions of the cage's vertex for each vertex of the surface."""
     with mesh_of(cage.evaluated_get(depsgraph), depsgraph) as mesh:
         positions = got(mesh.vertices, "co", 3)
     if len(positions) != surface.vertex_count:
         raise Refused(
-            f"The cage '{cage.name}' has {len(positions)} vertices where '{low.name}' has {surface.vertex_count}: "
-            "make it from a copy of it"
+            f"The cage '{cage.name}' has {len(positions)} vertices, '{low.name}' has {surface.vertex_count}: "
+            f"make the cage from a copy of '{low.name}'"
         )
     moved = dataclasses.replace(surface, positions=positions[surface.vertices])
     return placed(moved, cage.matrix_world, cage.name).positions
 
 
 def cage_for(settings, bake, surface, low, named, depsgraph):
-    """Arguments for cotan.bake: where rays start and how far they look.
+    """Arguments for cotan.bake: the start and the reach of rays.
 
-    surface: of the object `low`, in its own space. bake: Blender's own settings. named: a cage found by name, or None.
+    surface: the object `low` in its own space. bake: Blender's own settings. named: a cage found by name, or None.
     """
     if settings.cage == "FIRST":
         return {"extrusion": settings.extrusion, "max_distance": settings.distance}
@@ -36,9 +36,11 @@ def cage_for(settings, bake, surface, low, named, depsgraph):
     if settings.cage == "MESH":
         cage = named or settings.cage_object
         if cage is None or cage.type != "MESH":
-            raise Refused(f"There is no cage for '{low.name}': choose a mesh, or name one like it")
+            raise Refused(
+                f"There is no cage for '{low.name}': choose a mesh, or name one like it with 'cage' instead of 'low'"
+            )
         return {"cage": _around(surface, cage, depsgraph, low)}
-    # Blender's: extrusion in the space of the simple mesh, the distance in the world; 0 is without limit.
+    # Blender's settings: extrusion in the space of the simple mesh, distance in world space; 0 means no limit.
     reach = bake.max_ray_distance or FOREVER
     if bake.use_cage and bake.cage_object is not None:
         return {"cage": _around(surface, bake.cage_object, depsgraph, low), "cage_reach": reach}

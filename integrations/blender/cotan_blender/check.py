@@ -1,4 +1,4 @@
-"""What is wrong with a mesh: a verdict in sentences, and the faces in question."""
+"""Checks a mesh: a verdict in sentences, and the faces in question."""
 
 import dataclasses
 
@@ -8,28 +8,28 @@ import numpy as np
 from . import gltf, meshes
 from .refused import Refused, packages
 
-_TILT = np.radians(35)  # of the texel that the frames are compared with, as `cotan lint` does
+_TILT = np.radians(35)  # tilt of the texels with which frames are compared, as in `cotan lint`
 
 
 @dataclasses.dataclass
 class Question:
     kind: str
-    text: str  # a sentence without the number of faces
-    faces: np.ndarray  # numbers of polygons
+    text: str  # the end of a sentence that starts with the number of faces
+    faces: np.ndarray  # indices of polygons
 
 
 KINDS = [
-    ("ALL", "All", "All faces in question"),
-    ("PLACE", "No place", "A corner is not a finite number"),
+    ("ALL", "All", "All faces with problems"),
+    ("PLACE", "No position", "Faces with a corner that is not finite"),
     ("AREA", "No area", "Faces without area"),
-    ("UV", "No area in uv", "Faces whose uv are a line or a point"),
+    ("UV", "No area in uv", "Faces whose uv form a line or a point"),
     ("STRETCH", "Stretched uv", "Faces on which frames differ"),
     ("NGON", "N-gons", "Faces of more than four corners"),
 ]
 
 
 def _differences(positions, texcoords):
-    """Degrees by which MikkTSpace's kind of frame and the cotangent frame differ at most, for each triangle."""
+    """For each triangle: the maximum angle in degrees between normals of an orthonormal and of the cotangent frame."""
     cotan = packages()
     count = len(positions)
     e1, e2 = positions[:, 1] - positions[:, 0], positions[:, 2] - positions[:, 0]
@@ -47,7 +47,7 @@ def _differences(positions, texcoords):
 
 
 def questions(mesh, degrees):
-    """The faces in question of a mesh in Object Mode. degrees: by which frames may differ."""
+    """The faces in question of a mesh in Object Mode. degrees: the allowed difference between frames."""
     mesh.calc_loop_triangles()
     polygon = meshes.got(mesh.loop_triangles, "polygon_index", dtype=np.int32)
     positions = meshes.got(mesh.vertices, "co", 3)[meshes.got(mesh.loop_triangles, "vertices", 3, np.int32)]
@@ -64,11 +64,11 @@ def questions(mesh, degrees):
         uv[..., 1] = 1 - uv[..., 1]
         u, v = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
         spread = np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) > 0
-        text = "have no area in uv: no frame has a direction there"
+        text = "have no area in uv: no frame has a direction on them"
         found.append(Question("UV", text, _all_of(polygon, solid & ~spread)))
         judged = np.flatnonzero(solid & spread)
         off = judged[_differences(positions[judged], uv[judged]) > degrees] if len(judged) else judged
-        text = f"have stretched uv: a map for MikkTSpace, read with cotangent, is off by over {degrees:g} degrees"
+        text = f"have stretched uv: a map for MikkTSpace, read with cotangent, has an error of over {degrees:g} degrees"
         found.append(Question("STRETCH", text, polygon[off]))
     corners = meshes.got(mesh.polygons, "loop_total", dtype=np.int32)
     text = "have more than four corners: no tangents are exported for such a mesh"
@@ -79,20 +79,20 @@ def questions(mesh, degrees):
 
 
 def _all_of(polygon, bad):
-    """Polygons whose triangles are all bad: a corner on a straight edge makes one of them flat, which is no harm."""
+    """Polygons whose triangles are all bad. A single flat triangle, from a corner on a straight edge, is harmless."""
     return np.setdiff1d(polygon[bad], polygon[~bad])
 
 
 def _on_maps(context, thing):
-    """Sentences on the normal maps, by lint and by detect."""
+    """Sentences about the normal maps, from lint and detect."""
     maps = gltf.normal_images([thing])
     if not maps:
-        return ["No material of it reads a normal map"]
+        return ["None of its materials reads a normal map"]
     said = []
     foreign = [image for image in maps if gltf.frame_of(image) != "mikktspace"]
     for image in foreign:
         frame = gltf.frame_of(image)
-        said.append(f"'{image.name}' was baked for {frame}: read it with that; Blender's own node reads MikkTSpace")
+        said.append(f"'{image.name}' was baked for {frame}: read it with that; Blender's own node uses MikkTSpace")
     report = packages().lint(gltf.exported(context, [thing]))
     if len(foreign) < len(maps) and report.recommendation:
         said.append(report.recommendation)
@@ -105,9 +105,9 @@ def _on_maps(context, thing):
 
 
 def verdict(context, thing, degrees):
-    """Sentences on a mesh object, and its faces in question. Raises Refused where nothing can be said."""
+    """Sentences about a mesh object, and its faces in question. Raises Refused if it cannot be checked."""
     if thing is None or thing.type != "MESH":
-        raise Refused(f"'{thing.name}' is not a mesh" if thing else "Nothing is active: make a mesh the active object")
+        raise Refused(f"'{thing.name}' is not a mesh" if thing else "No object is active: make a mesh the active one")
     if len(thing.data.polygons) == 0:
         raise Refused(f"'{thing.name}' has no faces")
     asked = questions(thing.data, degrees)
@@ -124,7 +124,7 @@ def verdict(context, thing, degrees):
 
 
 def select(context, thing, faces):
-    """Edit mode, with these polygons selected and no others."""
+    """Enters Edit Mode with only these polygons selected."""
     mesh = thing.data
     chosen = np.zeros(len(mesh.polygons), bool)
     chosen[faces] = True

@@ -1,4 +1,4 @@
-"""Models on their way through Blender's own glTF exporter."""
+"""Export by Blender's own glTF exporter, and warnings about it."""
 
 import os
 import tempfile
@@ -13,7 +13,7 @@ from .refused import Refused, packages
 def exported(context, things, apply_modifiers=True):
     """The bytes of a .glb of these objects, without tangents, as Blender's exporter writes it. Raises Refused."""
     if "gltf" not in dir(bpy.ops.export_scene):
-        raise Refused("Blender's glTF exporter is switched off: enable 'glTF 2.0 format' in Preferences > Add-ons")
+        raise Refused("Blender's glTF exporter is disabled: enable 'glTF 2.0 format' in Preferences > Add-ons")
     active, selected = context.view_layer.objects.active, context.selected_objects
     try:
         for thing in selected:
@@ -47,7 +47,7 @@ def _last_line(error):
 
 
 def normal_images(things):
-    """The images that the materials of these objects read as normal maps, each once."""
+    """The distinct images that the materials of these objects use as normal maps."""
     found = []
     for slot in [slot for thing in things for slot in thing.material_slots]:
         _, texture = nodes.map_of(slot.material)
@@ -57,23 +57,23 @@ def normal_images(things):
 
 
 def frame_of(image):
-    """The frame that the image was baked for: as we have noted it, else what everybody else bakes for."""
+    """The frame that the image was baked for: the stored one, else MikkTSpace as in other programs."""
     return image.get("cotan_frame", "mikktspace")
 
 
 def frame_of_all(things):
-    """The one frame that all maps of these objects were made for. Raises Refused where there are several."""
+    """The frame that all maps of these objects were made for. Raises Refused if there are several frames."""
     frames = {}
     for image in normal_images(things):
         frames.setdefault(frame_of(image), image)
     if len(frames) > 1:
         (a, first), (b, second) = list(frames.items())[:2]
-        raise Refused(f"'{first.name}' was baked for {a} and '{second.name}' for {b}: bake them for one frame")
+        raise Refused(f"'{first.name}' was baked for {a} and '{second.name}' for {b}: bake them for the same frame")
     return next(iter(frames), "mikktspace")
 
 
 def _uv_of_texture(thing, texture):
-    """Name of the uv map that the image is read with; None: it cannot be told."""
+    """Name of the uv map that the image is read with; None: unknown."""
     socket = texture.inputs["Vector"]
     if not socket.is_linked:
         return next((layer.name for layer in thing.data.uv_layers if layer.active_render), None)
@@ -82,7 +82,7 @@ def _uv_of_texture(thing, texture):
 
 
 def _on_uv(thing):
-    """Sentences on the uv maps of a mesh object."""
+    """Warnings about the uv maps of a mesh object."""
     said, layers = [], thing.data.uv_layers
     for slot in thing.material_slots:
         reader, texture = nodes.map_of(slot.material)
@@ -96,36 +96,36 @@ def _on_uv(thing):
         if of_texture and of_texture != of_tangents:
             said.append(
                 f"'{slot.material.name}' reads its normal map with uv '{of_texture}' and its tangents with "
-                f"'{of_tangents}': glTF knows one for both"
+                f"'{of_tangents}': glTF supports only one for both"
             )
         elif len(layers) > 1:
             said.append(
                 f"'{thing.name}' has {len(layers)} uv maps: its normal map is read with '{of_tangents}', and programs "
-                f"that know only the first read '{layers[0].name}'"
+                f"that support only the first use '{layers[0].name}'"
             )
     return said
 
 
 def _on_mesh(thing, mesh, apply_modifiers):
-    """Sentences on the faces and normals. mesh: as it is exported."""
+    """Warnings about faces and normals. mesh: the mesh that is exported."""
     said, own = [], thing.data
     corners = meshes.got(mesh.polygons, "loop_total", dtype=np.int32)
     if (corners > 4).any():
         said.append(
-            f"'{thing.name}' has {int((corners > 4).sum())} faces of more than four corners: Blender writes no "
-            "tangents for such a mesh, without a word, and each program cuts them in its own way. Add a Triangulate "
+            f"'{thing.name}' has {int((corners > 4).sum())} faces of more than four corners: Blender silently "
+            "writes no tangents for such a mesh, and each program triangulates them in its own way. Add a Triangulate "
             "modifier before you bake and export"
         )
     if not np.isfinite(meshes.got(mesh.vertices, "co", 3)).all():
-        raise Refused(f"'{thing.name}' has vertices without a position (NaN or infinite)")
+        raise Refused(f"'{thing.name}' has vertices with invalid positions (NaN or infinite)")
     if own.has_custom_normals and hasattr(own, "use_auto_smooth") and not own.use_auto_smooth:
         said.append(f"'{thing.name}' has custom normals, but its Auto Smooth is off, so they are not exported")
     elif own.has_custom_normals and not mesh.has_custom_normals:
         said.append(f"'{thing.name}' loses its custom normals to a modifier")
     if apply_modifiers and own.shape_keys and len(own.shape_keys.key_blocks) > 1:
         said.append(
-            f"'{thing.name}' has shape keys: they are exported as they stand and cannot be moved any more, since "
-            "modifiers are applied"
+            f"'{thing.name}' has shape keys: their current values are exported and cannot be changed any more, "
+            "because modifiers are applied"
         )
     if not apply_modifiers and any(m.show_viewport and m.type != "ARMATURE" for m in thing.modifiers):
         said.append(f"'{thing.name}' is exported without its modifiers")
@@ -133,16 +133,16 @@ def _on_mesh(thing, mesh, apply_modifiers):
 
 
 def warnings(context, things, apply_modifiers=True):
-    """Sentences on what other programs will show differently, where exporters say nothing. Raises Refused for what
-    cannot be exported."""
+    """Warnings about what other programs will show differently, on which exporters are silent. Raises Refused for
+    objects that cannot be exported."""
     said, depsgraph = [], context.evaluated_depsgraph_get()
     for thing in [t for t in things if t.type == "MESH"]:
         said += _on_uv(thing)
         sizes = [abs(s) for s in thing.matrix_world.to_scale()]
         if max(sizes) > 1.001 * min(sizes):
             said.append(
-                f"'{thing.name}' is scaled by different factors along its axes: programs differ in what they do to "
-                "tangents then. Apply the scale"
+                f"'{thing.name}' has a non-uniform scale: programs transform its tangents differently. "
+                "Apply the scale"
             )
         if apply_modifiers:
             with meshes.mesh_of(thing.evaluated_get(depsgraph), depsgraph) as mesh:
@@ -153,7 +153,7 @@ def warnings(context, things, apply_modifiers=True):
 
 
 def detected(image):
-    """One sentence: which way green of a normal map points, judged by the map alone. In Blender it has to point up."""
+    """A sentence on which way green of a normal map points, judged by the map alone. Blender needs it to point up."""
     in_file = image.source == "FILE" and not image.has_data and not image.packed_file
     if in_file and not os.path.exists(bpy.path.abspath(image.filepath)):
         return f"'{image.name}': its file is missing"
@@ -161,7 +161,7 @@ def detected(image):
         return f"'{image.name}' has no pixels"
     green = packages().detect(images.pixels_of(image))
     if green.green == "undecidable":
-        return f"'{image.name}': which way green points cannot be told ({green.reason})"
-    turned = " Turn it: Blender shows every bump as a dent along v" if green.green == "down" else ""
+        return f"'{image.name}': which way green points is undecidable ({green.reason})"
+    turned = " Reverse it: Blender shows every bump as a dent along v" if green.green == "down" else ""
     swapped = " Red and green are exchanged." if green.swapped else ""
     return f"'{image.name}': green points {green.green}, {green.confidence}.{swapped}{turned}"

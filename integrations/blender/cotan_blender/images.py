@@ -1,4 +1,4 @@
-"""Baked maps as images of Blender: packed into the .blend, or files beside it."""
+"""Baked maps as Blender images: packed into the .blend or in files beside it."""
 
 import os
 
@@ -9,7 +9,7 @@ from .refused import Refused
 
 
 def pixels_of(image):
-    """(height, width, 4) of an image, rows from the top: uint8, or float32 where the image has more than 8 bits."""
+    """The pixels of an image, (height, width, 4), rows from the top: uint8, or float32 for more than 8 bits."""
     width, height = image.size
     values = np.empty(width * height * 4, np.float32)
     image.pixels.foreach_get(values)
@@ -18,11 +18,11 @@ def pixels_of(image):
 
 
 def file_for(settings, name):
-    """Where the map of that name is saved, "" for a packed one. Raises Refused where it cannot be."""
+    """The path for the map of this name, "" if it is packed. Raises Refused if the map cannot be saved there."""
     if settings.store != "FILE":
         return ""
     if settings.folder.startswith("//") and not bpy.data.filepath:
-        raise Refused("The maps' folder is beside the .blend file, which is not saved yet: save it, or choose another")
+        raise Refused("The maps' folder is beside the .blend file, which is not saved yet: save it, or choose a folder")
     folder = bpy.path.abspath(settings.folder)
     if not os.path.isdir(folder):
         raise Refused(f"There is no folder '{folder}' for the maps")
@@ -30,13 +30,13 @@ def file_for(settings, name):
     ours = bpy.data.images.get(name)
     known = ours is not None and bpy.path.abspath(ours.filepath) == path
     if os.path.exists(path) and not known and not settings.overwrite:
-        raise Refused(f"'{path}' is there already: choose another folder, or let files be replaced")
+        raise Refused(f"'{path}' already exists: choose another folder, or enable Replace Files")
     return path
 
 
 def stored(name, file, packed, frame):
-    """The image of a map in a file, in the place of one with that name for all who use it. packed: the file goes away,
-    and its bytes into the .blend. Raises Refused where Blender cannot read it."""
+    """Loads a map as an image and replaces all uses of an image of the same name. packed: packs the file into the
+    .blend, so that it may be deleted. Raises Refused if Blender cannot read the file."""
     old = bpy.data.images.get(name)
     try:
         image = bpy.data.images.load(file)
@@ -45,7 +45,7 @@ def stored(name, file, packed, frame):
             image.pack()
             image.filepath_raw = f"//{bpy.path.clean_name(name)}.png"
         elif bpy.data.filepath and file.startswith(os.path.dirname(bpy.data.filepath) + os.sep):
-            image.filepath_raw = bpy.path.relpath(file)  # goes where the .blend goes
+            image.filepath_raw = bpy.path.relpath(file)  # moves with the .blend
     except RuntimeError as error:
         raise Refused(f"Blender cannot read the map of '{name}': {str(error).strip()}") from None
     if old is not None and old.library is None:

@@ -13,21 +13,21 @@ SOLID = {"MESH", "CURVE", "SURFACE", "META", "FONT"}  # objects that have faces
 
 @dataclasses.dataclass
 class Surface:
-    """Triangles. Vertices are Blender's, or one for each corner of its faces."""
+    """A triangle mesh. Its vertices are those of Blender's mesh, or one for each corner of its faces."""
 
     positions: np.ndarray  # (n, 3) float32
     normals: np.ndarray  # (n, 3) float32, unit
     triangles: np.ndarray  # (t, 3) uint32
     slots: np.ndarray  # (t,) int32: material slot
-    vertices: np.ndarray  # (n,) int32: Blender's vertex that each is
-    vertex_count: int  # of Blender's mesh
-    smooth: np.ndarray  # (n, 3) float32: the normal of Blender's vertex, whatever is sharp
+    vertices: np.ndarray  # (n,) int32: index of Blender's vertex
+    vertex_count: int  # vertices of Blender's mesh
+    smooth: np.ndarray  # (n, 3) float32: normal of Blender's vertex, smooth even at sharp edges
     texcoords: Optional[np.ndarray] = None  # (n, 2) float32, v down
     uv_map: str = ""
 
 
 def got(items, attribute, width=1, dtype=np.float32):
-    """One attribute of all items of a collection: (n,), or (n, width)."""
+    """An attribute of all items of a collection: (n,), or (n, width)."""
     values = np.empty(len(items) * width, dtype)
     items.foreach_get(attribute, values)
     return values.reshape(-1, width) if width > 1 else values
@@ -57,10 +57,10 @@ def _uv_of(mesh, name, wanted):
 
 
 def surface_of(mesh, name, with_uv=False, uv_map=""):
-    """The Surface of a mesh, in its own space. Raises Refused where it has no faces or no such uv map."""
+    """The Surface of a mesh in object space. Raises Refused if the mesh has no faces or lacks the uv map."""
     mesh.calc_loop_triangles()
     if len(mesh.loop_triangles) == 0:
-        raise Refused(f"'{name}' has no faces, or none are left after its modifiers")
+        raise Refused(f"'{name}' has no faces, or none remain after its modifiers")
     positions = got(mesh.vertices, "co", 3)
     smooth = got(mesh.vertex_normals, "vector", 3)
     slots = got(mesh.loop_triangles, "material_index", dtype=np.int32)
@@ -68,7 +68,7 @@ def surface_of(mesh, name, with_uv=False, uv_map=""):
         triangles = got(mesh.loop_triangles, "vertices", 3, np.int32).astype(np.uint32)
         vertex = np.arange(len(positions), dtype=np.int32)
         return Surface(positions, smooth, triangles, slots, vertex, len(positions), smooth)
-    # One vertex for each corner: Cotan finds those that are equal where its frames are averaged.
+    # One vertex per corner: Cotan welds equal vertices when it averages frames.
     triangles = got(mesh.loop_triangles, "loops", 3, np.int32).astype(np.uint32)
     vertex = got(mesh.loops, "vertex_index", dtype=np.int32)
     made = Surface(positions[vertex], _corner_normals(mesh), triangles, slots, vertex, len(positions), smooth[vertex])
@@ -80,17 +80,17 @@ def surface_of(mesh, name, with_uv=False, uv_map=""):
 
 
 def placed(surface, matrix, name):
-    """The Surface in the world. Raises Refused where the matrix flattens it or rays could not start at a position."""
+    """The Surface in world space. Raises Refused if the matrix flattens it or positions are not finite or too far."""
     m = np.array(matrix, np.float64)
     turn, size = m[:3, :3], abs(np.linalg.det(m[:3, :3]))
     if not size > 1e-12 * np.linalg.norm(turn) ** 3:
-        raise Refused(f"'{name}' is scaled to nothing along an axis")
+        raise Refused(f"'{name}' has a scale of zero along an axis")
     positions = surface.positions @ turn.T.astype(np.float32) + m[:3, 3].astype(np.float32)
     bad = np.unique(surface.vertices[~(np.abs(positions) <= 1e17).all(axis=1)])
     if len(bad):
         raise Refused(
-            f"'{name}': {len(bad)} of its vertices have no place (NaN, infinite or too far away), the first is number "
-            f"{bad[0]}"
+            f"'{name}': {len(bad)} of its vertices have invalid positions (NaN, infinite or too far away), the first "
+            f"is number {bad[0]}"
         )
     triangles = surface.triangles if np.linalg.det(turn) > 0 else np.ascontiguousarray(surface.triangles[:, ::-1])
     inverse = np.linalg.inv(turn).astype(np.float32)
@@ -109,7 +109,7 @@ def _unit(vectors):
 
 
 def joined(surfaces):
-    """Positions, normals and triangles of all of them."""
+    """Concatenated positions, normals and triangles of all surfaces."""
     starts = np.cumsum([0] + [len(s.positions) for s in surfaces[:-1]]).astype(np.uint32)
     return (
         np.concatenate([s.positions for s in surfaces]),
@@ -120,25 +120,25 @@ def joined(surfaces):
 
 @contextlib.contextmanager
 def mesh_of(evaluated, depsgraph, layers=False):
-    """The mesh of an evaluated object, for a while. layers: with all uv maps."""
+    """A temporary mesh of an evaluated object. layers: whether to preserve all uv maps."""
     mesh = evaluated.to_mesh(preserve_all_data_layers=True, depsgraph=depsgraph) if layers else evaluated.to_mesh()
     try:
         if mesh is None:
-            raise Refused(f"'{evaluated.name}' has no faces, or none are left after its modifiers")
+            raise Refused(f"'{evaluated.name}' has no faces, or none remain after its modifiers")
         yield mesh
     finally:
         evaluated.to_mesh_clear()
 
 
 def low_surface(thing, depsgraph, uv_map=""):
-    """The simple mesh in its own space, with uv."""
+    """The simple mesh in object space, with uv."""
     evaluated = thing.evaluated_get(depsgraph)
     with mesh_of(evaluated, depsgraph, layers=True) as mesh:
         return surface_of(mesh, thing.name, with_uv=True, uv_map=uv_map)
 
 
 def high_surfaces(things, depsgraph):
-    """The detailed objects, and all that they instance, in the world. Raises Refused where there are no faces."""
+    """The detailed objects and their instances in world space. Raises Refused if there are no faces."""
     wanted, local, found = set(things), {}, []
     for instance in depsgraph.object_instances:
         owner = instance.parent if instance.is_instance else instance.object
@@ -151,19 +151,19 @@ def high_surfaces(things, depsgraph):
                 with mesh_of(evaluated, depsgraph) as mesh:
                     local[key] = surface_of(mesh, evaluated.name)
             except Refused:
-                local[key] = None  # others may have faces
+                local[key] = None  # other objects may have faces
         if local[key] is not None:
             found.append(placed(local[key], instance.matrix_world, evaluated.name))
     if not found:
         names = ", ".join(f"'{thing.name}'" for thing in things)
-        raise Refused(f"No faces are left of {names} after modifiers, or it is hidden")
+        raise Refused(f"No faces remain of {names} after modifiers, or it is hidden")
     return found
 
 
 @contextlib.contextmanager
 def as_rendered(context, things, wanted=True):
-    """A depsgraph in which these objects are as a render would show them: modifiers that are on for renders, and their
-    levels of subdivision. What was changed for that is put back. Linked objects stay as the viewport shows them."""
+    """A depsgraph with these objects as in a render: modifiers enabled for renders, with their subdivision levels for
+    renders. Restores the settings afterwards. Linked objects stay as in the viewport."""
     changed = []
     for modifier in [m for thing in things if wanted and thing.library is None for m in thing.modifiers]:
         pairs = [("show_viewport", "show_render")]

@@ -1,4 +1,4 @@
-"""Materials: where a normal map is read, and how one is put there."""
+"""Materials: finds and assigns normal maps in their nodes."""
 
 from .refused import Refused
 
@@ -7,7 +7,7 @@ FIX = "make it local first, or do not assign the map"
 
 
 def _principled(material):
-    """The Principled BSDF that the material shows, or any; None."""
+    """The material's Principled BSDF, preferably the one that is displayed; None if there is none."""
     nodes = material.node_tree.nodes if material.use_nodes and material.node_tree else []
     shaders = [n for n in nodes if n.type == "BSDF_PRINCIPLED"]
     shown = [n for n in shaders if n.outputs[0].is_linked]
@@ -15,34 +15,34 @@ def _principled(material):
 
 
 def _source(socket, kind):
-    """The node of that type that the socket is linked from, or None."""
+    """The node that the socket is linked from, if it is of this type; else None."""
     node = socket.links[0].from_node if socket.is_linked else None
     return node if node is not None and node.type == kind else None
 
 
 def _normal_socket(shader):
-    """Where the normal comes in: at the shader, or before a Bump node that is in between."""
+    """The normal input of the shader, or of a Bump node in front of it."""
     socket = shader.inputs["Normal"]
     bump = _source(socket, "BUMP")
     return bump.inputs["Normal"] if bump else socket
 
 
 def map_of(material):
-    """(Normal Map node, Image Texture node) that the material's normal comes from; None for what there is not."""
+    """The Normal Map node and the Image Texture node of the material's normal; None for each that is missing."""
     shader = _principled(material) if material is not None else None
     reader = _source(_normal_socket(shader), "NORMAL_MAP") if shader else None
     return reader, _source(reader.inputs["Color"], "TEX_IMAGE") if reader else None
 
 
 def writable(material):
-    """Raises Refused where the material cannot be changed."""
+    """Raises Refused if the material cannot be changed."""
     if material is not None and material.library is not None:
         raise Refused(f"The material '{material.name}' comes from a library file: {FIX}")
 
 
 def assign(material, image, uv_map):
-    """Lets the material's normal be read from the image. uv_map: name, "" for the one that renders use anyway.
-    Returns a sentence for what could not be done, or ""."""
+    """Makes the material read its normal from the image. uv_map: name of the uv map, "" for the default of renders.
+    Returns a sentence on what could not be done, or ""."""
     material.use_nodes = True
     tree = material.node_tree
     shader = _principled(material)

@@ -1,4 +1,4 @@
-"""What the buttons do."""
+"""The operators of the panel's buttons."""
 
 import bpy
 import numpy as np
@@ -10,7 +10,7 @@ from .refused import Refused, packages
 
 
 def say(operator, outcome):
-    """Everything in Blender's report. What was made counts: only where nothing was is it an error."""
+    """Reports the outcome in Blender. Failures are errors only if no image was made."""
     for note in outcome.notes:
         operator.report({"WARNING"}, note)
     for failure in outcome.failures:
@@ -33,7 +33,7 @@ class CotanBake(bpy.types.Operator):
         name="Which",
         items=[
             ("ACTIVE", "Selected to Active", "The selected objects onto the active mesh"),
-            ("NAMES", "Pairs by Name", "Each selected mesh x_low, or each there is, from what is named x_high"),
+            ("NAMES", "Pairs by Name", "Each selected mesh x_low, or all if none is selected, from the objects x_high"),
         ],
         default="ACTIVE",
     )
@@ -56,7 +56,7 @@ class CotanBake(bpy.types.Operator):
         return say(self, self._outcome)
 
     def invoke(self, context, event):
-        """The same while the window goes on being drawn. Esc stops; other keys wait until it is done."""
+        """Bakes as a modal operator, while the window is redrawn. Esc stops; other keys are ignored until the end."""
         if bpy.app.background:
             return self.execute(context)
         try:
@@ -73,7 +73,7 @@ class CotanBake(bpy.types.Operator):
         if event.type == "ESC":
             self._steps.close()
             self._end(context)
-            self._outcome.notes.append("Stopped: what was not finished is as it was")
+            self._outcome.notes.append("Stopped: unfinished maps are unchanged")
             say(self, self._outcome)
             return {"FINISHED"} if self._outcome.made else {"CANCELLED"}
         if event.type != "TIMER":
@@ -87,7 +87,7 @@ class CotanBake(bpy.types.Operator):
             self._end(context)
             raise
         context.window_manager.cotan_progress = 100 * share
-        context.workspace.status_text_set(f"Cotan bakes: {100 * share:.0f} %. Esc stops")
+        context.workspace.status_text_set(f"Cotan is baking: {100 * share:.0f} %. Esc stops")
         _redraw(context)
         return {"RUNNING_MODAL"}
 
@@ -109,7 +109,7 @@ def _redraw(context):
 
 
 class CotanCheck(bpy.types.Operator):
-    """Say what is wrong with the active mesh and its normal maps, and select the faces in question"""
+    """List problems of the active mesh and its normal maps, and select the faces that have them"""
 
     bl_idname = "object.cotan_check"
     bl_label = "Check Mesh"
@@ -133,7 +133,7 @@ class CotanCheck(bpy.types.Operator):
         for text in said:
             self._add(lines, text, "")
         if not asked:
-            self._add(lines, "No face is in question", "")
+            self._add(lines, "No face has a problem", "")
         chosen = [q.faces for q in asked if self.kind in ("ALL", q.kind)]
         if chosen and thing.data.library is not None:
             self._add(lines, f"The mesh of '{thing.name}' comes from a library file: its faces cannot be selected", "")
@@ -148,14 +148,14 @@ class CotanCheck(bpy.types.Operator):
 
 
 class CotanExport(bpy.types.Operator, ExportHelper):
-    """Export the selected objects as glTF without tangents, with their normal maps made for a frame that needs none"""
+    """Export the selected objects as glTF without tangents, with normal maps for a frame that needs none"""
 
     bl_idname = "export_scene.cotan_gltf"
     bl_label = "Export glTF without Tangents"
     filename_ext = ".glb"
 
     apply_modifiers: BoolProperty(
-        name="Apply Modifiers", default=True, description="Shape keys stay as they stand then"
+        name="Apply Modifiers", default=True, description="Shape keys then keep their current values"
     )
 
     def execute(self, context):
@@ -165,7 +165,7 @@ class CotanExport(bpy.types.Operator, ExportHelper):
                 raise Refused("Go back to Object Mode first")
             things = context.selected_objects
             if not any(t.type == "MESH" for t in things):
-                raise Refused("No mesh is selected: select what is to be exported")
+                raise Refused("No mesh is selected: select the objects to export")
             notes = gltf.warnings(context, things, self.apply_modifiers)
             made_for = gltf.frame_of_all(things)
             model = gltf.exported(context, things, self.apply_modifiers)
@@ -175,6 +175,6 @@ class CotanExport(bpy.types.Operator, ExportHelper):
             return {"CANCELLED"}
         for note in notes:
             self.report({"WARNING"}, note)
-        maps = f"{done.maps_converted} maps converted, {done.maps_kept} kept as they are"
+        maps = f"{done.maps_converted} maps converted, {done.maps_kept} kept"
         self.report({"INFO"}, f"Exported for the frame {frame}: {maps}")
         return {"FINISHED"}

@@ -1,12 +1,12 @@
-"""What ends an operator with one plain sentence."""
+"""The exception that ends an operator with a message."""
 
 
 class Refused(Exception):
-    """Its text goes to the user as it is: what is wrong, and what to do about it."""
+    """Its text is shown to the user: what is wrong and what to do about it."""
 
 
 def packages():
-    """The Python package cotan: the copy inside the add-on, or one that Blender's Python finds."""
+    """The Python package cotan: the copy inside the add-on, or one on the path of Blender's Python."""
     try:
         from . import cotan
     except ImportError:

@@ -1,4 +1,4 @@
-"""What the panel asks."""
+"""The settings in the panel."""
 
 import bpy
 from bpy.props import (
@@ -13,11 +13,11 @@ from bpy.props import (
 
 FRAMES = [
     ("mikktspace", "MikkTSpace", "Blender's own Normal Map node and most engines. With stored or generated tangents"),
-    ("smooth", "smooth", "Cotan's, without steps between triangles: two vectors a vertex, made at load"),
-    ("cotangent", "cotangent", "Cotan's, made in the pixel shader from nothing stored"),
-    ("triangle", "triangle", "cotangent from two vectors a triangle: fewest instructions"),
-    ("orthonormal", "orthonormal", "The tangent-free reading nearest to MikkTSpace"),
-    ("vertex", "vertex", "Tangents at the vertices, not made orthogonal"),
+    ("smooth", "smooth", "Cotan's, without steps between triangles: two vectors per vertex, computed at load"),
+    ("cotangent", "cotangent", "Cotan's, computed in the pixel shader without stored data"),
+    ("triangle", "triangle", "cotangent from two vectors per triangle: fewest instructions"),
+    ("orthonormal", "orthonormal", "The tangent-free frame nearest to MikkTSpace"),
+    ("vertex", "vertex", "Tangents per vertex, not orthogonalised"),
 ]
 
 
@@ -28,49 +28,52 @@ class CotanSettings(bpy.types.PropertyGroup):
     )
     width: IntProperty(
         name="Width", default=2048, min=1, max=16384, subtype="PIXEL",
-        description="Of the map, in texels",
+        description="Width of the map in texels",
     )
     height: IntProperty(
         name="Height", default=2048, min=1, max=16384, subtype="PIXEL",
-        description="Of the map, in texels",
+        description="Height of the map in texels",
     )
-    bits: EnumProperty(name="Bits", items=[("8", "8", ""), ("16", "16", "")], default="8", description="Per component")
+    bits: EnumProperty(
+        name="Bits", items=[("8", "8", ""), ("16", "16", "")], default="8", description="Bits per component"
+    )
     samples: EnumProperty(
-        name="Samples", items=[("1", "1", ""), ("4", "4", ""), ("16", "16", "")], default="1", description="Per texel"
+        name="Samples", items=[("1", "1", ""), ("4", "4", ""), ("16", "16", "")], default="1",
+        description="Samples per texel",
     )
     padding: IntProperty(
         name="Padding", default=0, min=-1, max=65536,
         description="Texels around charts that are filled from the nearest chart. 0: all, -1: none",
     )
-    uv_map: StringProperty(name="UV Map", description="Of the simple mesh. Empty: its active one")
+    uv_map: StringProperty(name="UV Map", description="UV map of the simple mesh. Empty: its active one")
     cage: EnumProperty(
         name="Rays",
         items=[
-            ("FIRST", "Measured", "From outside inwards, the first surface counts; from as far as the detail stands off"),
-            ("NEAREST", "Nearest", "Both ways along the normal: the nearer surface counts"),
+            ("FIRST", "Measured", "Rays from outside hit the first surface; their start is measured from the detail"),
+            ("NEAREST", "Nearest", "Rays run both ways along the normal; the nearer surface counts"),
             ("BLENDER", "As Blender's", "Extrusion, ray distance and cage of Blender's own baker"),
-            ("MESH", "Cage", "From a mesh with the vertices of the simple one; pairs by name: from x_cage"),
+            ("MESH", "Cage", "Rays start at a mesh with the vertices of the simple one; pairs by name: at x_cage"),
         ],
         default="FIRST",
-        description="Where the detailed surface is looked for",
+        description="How rays search for the detailed surface",
     )
     distance: FloatProperty(
         name="Distance", default=0, min=0, subtype="DISTANCE",
-        description="Detail further from the simple mesh does not count. 0: 10 % of the simple mesh's box, for Nearest "
-        "5 % of the detailed one's",
+        description="Maximum distance of detail from the simple mesh. 0: 10 % of the diagonal of the simple mesh, for "
+        "Nearest 5 % of that of the detailed one",
     )
     extrusion: FloatProperty(
         name="Extrusion", default=0, min=0, subtype="DISTANCE",
-        description="How far in front of the simple mesh rays start. 0: measured",
+        description="Distance in front of the simple mesh at which rays start. 0: measured",
     )
     cage_object: PointerProperty(name="Cage", type=bpy.types.Object, poll=lambda _, o: o.type == "MESH")
     as_rendered: BoolProperty(
         name="As Rendered", default=True,
-        description="Modifiers and levels of subdivision as in a render, not as in the viewport",
+        description="Use the modifiers and subdivision levels of renders, not those of the viewport",
     )
     each_material: BoolProperty(
         name="Per Material", default=False,
-        description="A map for each material, of its faces only; else one for the whole mesh",
+        description="Bake one map per material, of its faces only; otherwise one for the whole mesh",
     )
     assign: BoolProperty(
         name="Assign", default=True,
@@ -82,24 +85,24 @@ class CotanSettings(bpy.types.PropertyGroup):
         default="PACK",
         description="Where the map is kept",
     )
-    folder: StringProperty(name="Folder", default="//", subtype="DIR_PATH", description="For the maps")
+    folder: StringProperty(name="Folder", default="//", subtype="DIR_PATH", description="Folder for the maps")
     overwrite: BoolProperty(
         name="Replace Files", default=False,
-        description="Of the same name that no image of this file stands for",
+        description="Replace files of the same name that belong to no image of this .blend file",
     )
     degrees: FloatProperty(
         name="Degrees", default=15, min=0.1, max=90,
-        description="Faces on which MikkTSpace and cotangent differ by more are in question",
+        description="Report faces on which MikkTSpace and cotangent differ by more than this",
     )
     to_frame: EnumProperty(
         name="Frame", items=[f for f in FRAMES if f[0] not in ("mikktspace", "vertex")], default="orthonormal",
-        description="Frame that the exported maps are for",
+        description="Frame of the exported maps",
     )
 
 
 class CotanLine(bpy.types.PropertyGroup):
     text: StringProperty()
-    kind: StringProperty()  # of faces in question; "": it is not about faces
+    kind: StringProperty()  # kind of the faces in question; "": the line is not about faces
 
 
 def register():

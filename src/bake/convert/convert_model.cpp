@@ -14,7 +14,7 @@ namespace cotan {
 
 namespace {
 
-constexpr double kSeen = 0.5;    // degrees on average over a map: below, nobody sees a difference
+constexpr double kVisible = 0.5; // degrees on average over a map: smaller errors are invisible
 constexpr double kMaxRows = 4e7; // of texels under all triangles together
 
 class ModelConverter {
@@ -39,36 +39,35 @@ public:
             return jobs.error();
         report_.unread = unreadNormalMaps(document_);
         for (const UnreadMap& map : report_.unread)
-            report_.notes.push_back(fmt::format(
-                "{}: a normal map in {} is not read here; it stays as it is, and so do the tangents that it "
-                "needs: {}",
-                map.name, map.format, map.advice));
+            report_.notes.push_back(
+                fmt::format("{}: a normal map in {} is not supported; it and its tangents are unchanged: {}", map.name,
+                            map.format, map.advice));
         if (Status fits = checkMemory(*jobs); !fits)
             return fits.error();
         for (const MapJob& job : *jobs)
             surfaces_ += surfacesOf(job);
-        if (jobs->empty() && report_.unread.empty()) // else their notes say why
+        if (jobs->empty() && report_.unread.empty()) // otherwise their notes say why
             report_.notes.push_back("no primitive has a normal map and uv: nothing to convert");
         for (std::size_t k = 0; k < jobs->size(); ++k) {
-            const Progress share = partOf(options_.progress, k, jobs->size());
-            auto map = convertMap((*jobs)[k], share);
+            const Progress mapProgress = partOf(options_.progress, k, jobs->size());
+            auto map = convertMap((*jobs)[k], mapProgress);
             if (!map)
                 return map.error();
-            if (share && !share(1))
+            if (mapProgress && !mapProgress(1))
                 return stoppedError();
             if (options_.mapDone)
                 options_.mapDone(*map);
             report_.maps.push_back(std::move(*map));
         }
         for (const MapJob& job : *jobs)
-            for (const MapSlot& place : options_.keepMaps ? std::vector<MapSlot>{} : job.places)
-                nameFrame(document_, place.material, options_.frames.to);
-        if (Status settled = settleTangents(); !settled)
+            for (const MapSlot& slot : options_.keepMaps ? std::vector<MapSlot>{} : job.slots)
+                nameFrame(document_, slot.material, options_.frames.to);
+        if (Status settled = updateTangents(); !settled)
             return settled.error();
         if (!std::ranges::all_of(report_.maps, &ConvertedMap::kept) && options_.frames.to != Frame::mikktspace)
             report_.notes.push_back(
-                fmt::format("the maps are now for the frame {}; readers that make MikkTSpace tangents where TANGENT is "
-                            "missing, as glTF asks, will show them wrongly",
+                fmt::format("the maps are now for the frame {}; readers that generate MikkTSpace tangents where "
+                            "TANGENT is missing, as glTF specifies, will shade them incorrectly",
                             name(options_.frames.to)));
         given_ = std::move(document_);
         return std::move(report_);
@@ -81,7 +80,7 @@ private:
     {
         for (const MapJob& job : jobs)
             if (const std::size_t bytes = bytesOf(job, options_.frames); options_.memory > 0 && bytes > options_.memory)
-                return memoryError(fmt::format("{}: the triangles that read it take {} MiB, the limit is {} MiB",
+                return memoryError(fmt::format("{}: the triangles that use it take {} MiB, the limit is {} MiB",
                                                fieldOf(job), bytes >> 20, options_.memory >> 20));
         return Done{};
     }
@@ -90,20 +89,20 @@ private:
         Expansion read, written;
     };
 
-    // How the uses of a map read it, as the engines do that are converted for, and how it is to be written.
+    // How the engines that the file is converted for read the map, and how the new one is written.
     Expansions expansionsOf(const MapJob& job) const
     {
         const bool ofCoat =
-            std::ranges::any_of(job.places, [](const MapSlot& place) { return place.slot == NormalSlot::coat; });
+            std::ranges::any_of(job.slots, [](const MapSlot& slot) { return slot.kind == NormalSlot::coat; });
         const Expansion written = ofCoat ? Expansion::exact : options_.expansion;
-        const bool said = std::ranges::any_of(job.places, [&](const MapSlot& place) {
-            return gltf::expansionOf(rootOf(document_)["materials"][place.material]) == Expansion::biased;
+        const bool declaredBiased = std::ranges::any_of(job.slots, [&](const MapSlot& slot) {
+            return gltf::expansionOf(rootOf(document_)["materials"][slot.material]) == Expansion::biased;
         });
-        return {said ? Expansion::biased : written, written};
+        return {declaredBiased ? Expansion::biased : written, written};
     }
 
-    // Converts one image and puts it back.
-    Result<ConvertedMap> convertMap(const MapJob& job, const Progress& share)
+    // Converts one image and replaces it in the document.
+    Result<ConvertedMap> convertMap(const MapJob& job, const Progress& mapProgress)
     {
         const std::string field = fieldOf(job);
         const auto bytes = gltfImageBytes(document_, job.image, options_.limits);
@@ -112,7 +111,7 @@ private:
         auto map = decodeImage(*bytes, field, options_.limits);
         if (!map)
             return map.error();
-        // The materials have been asked; an image says it where they say nothing.
+        // The frame that an image names counts only if the materials name none.
         if (const auto named = frameFromName(map->frame); named && !named_ && *named != options_.frames.from)
             return inputError(
                 fmt::format("{}: the image says that it is for the frame {}; expected that as the frame to "
@@ -128,24 +127,25 @@ private:
             use.stored.expansion = expansions.read;
         done.alsoElsewhere = job.alsoElsewhere;
         done.bytesBefore = done.bytesAfter = bytes->size();
-        done.format = pictureFormat(*bytes);
-        // Where the old map serves as well as a rounded new one, it stays, byte for byte.
+        done.format = imageFormatName(*bytes);
+        // The old map stays, byte for byte, if it serves as well as a rounded new one.
         done.figures.unconverted =
             mapErrors(*map, *map, *uses, {&options_.frames, 1}, {}, pointsOfEach(surfaces_)).front();
         done.kept = options_.keepMaps || done.figures.unconverted.count == 0
             || (options_.bits == 0 && fitsAsItIs(done.figures.unconverted));
-        if (options_.keepMaps && done.figures.unconverted.mean > kSeen)
-            report_.notes.push_back(fmt::format("{}: as it is, read with {}, it is off by {:.1f} degrees on average",
-                                                job.name, name(options_.frames.to), done.figures.unconverted.mean));
+        if (options_.keepMaps && done.figures.unconverted.mean > kVisible)
+            report_.notes.push_back(
+                fmt::format("{}: unchanged and read with {}, its error is {:.1f} degrees on average", job.name,
+                            name(options_.frames.to), done.figures.unconverted.mean));
         if (done.kept)
             return done;
         if (const double rows = rowsOf(*uses, map->height); !(rows <= kMaxRows))
             return inputError(
-                fmt::format("{}: its triangles are in {:.3g} rows of its texels, each in its own; expected at "
-                            "most {:.3g}: fewer triangles that repeat the map, or a smaller map",
+                fmt::format("{}: its triangles cover {:.3g} rows of its texels in total; expected at most "
+                            "{:.3g}: use fewer triangles that repeat the map, or a smaller map",
                             field, rows, kMaxRows));
         done.bits = options_.bits != 0 ? options_.bits : map->type == PixelType::unorm8 ? 8 : 16;
-        CountedSteps rows(share, std::size_t(map->height));
+        CountedSteps rows(mapProgress, std::size_t(map->height));
         Reencoded r = reencode(*map, *uses, options_.frames, done.bits, options_.threads, &rows, expansions.written);
         if (rows.stopped())
             return stoppedError();
@@ -160,37 +160,37 @@ private:
             if (!stored)
                 return stored.error();
             const ValueSummary lossy = mapError(*map, *stored, *uses, options_.frames, expansions.written);
-            if (lossy.mean <= std::max(kSeen, 0.5 * unconverted.mean)) {
+            if (lossy.mean <= std::max(kVisible, 0.5 * unconverted.mean)) {
                 done.figures.error = lossy;
-            } else { // else converting would be for nothing
+            } else { // its losses would undo the conversion
                 auto png = encodePng(r.image);
                 if (!png)
                     return png.error();
                 *file = {*std::move(png), "PNG", "image/png", 0,
-                         fmt::format("{} of quality {} would be off by {:.2f} degrees on average, PNG is by {:.2f}",
+                         fmt::format("{} of quality {} would have an error of {:.2f} degrees on average, PNG {:.2f}",
                                      file->format, file->quality, lossy.mean, r.error.mean)};
             }
         }
         done.bytesAfter = file->bytes.size();
         done.format = file->format;
         done.quality = file->quality;
-        if (!file->whyNot.empty())
+        if (!file->reason.empty())
             report_.notes.push_back(fmt::format("{}: {}, so the new map is PNG: {} bytes, before {}", job.name,
-                                                file->whyNot, done.bytesAfter, done.bytesBefore));
+                                                file->reason, done.bytesAfter, done.bytesBefore));
         replaceMap(document_, job, std::move(file->bytes), file->mime, report_.notes);
-        for (const MapSlot& place : job.places) // readers of the new map must know
-            if (place.slot == NormalSlot::surface)
-                setExpansion(rootOf(document_)["materials"][place.material], expansions.written);
-        noteWhatStaysOff(done);
+        for (const MapSlot& slot : job.slots) // readers of the new map need this
+            if (slot.kind == NormalSlot::surface)
+                setExpansion(rootOf(document_)["materials"][slot.material], expansions.written);
+        noteRemainingError(done);
         return done;
     }
 
-    // As the old file is, or as the caller encodes.
+    // Encodes in the format of the old file, or by options_.encode.
     Result<EncodedLike> encoded(const Image& image, std::span<const std::byte> old) const
     {
-        // WebP that may be left out has a picture beside it for readers without; the new one has to do for all.
+        // A WebP image that is not required has a fallback for other readers; the new image must serve all readers.
         const auto* const required = gltf::member(rootOf(document_), "extensionsRequired");
-        const bool webp = pictureFormat(old) == "WebP";
+        const bool webp = imageFormatName(old) == "WebP";
         const bool fallsBack =
             webp && (!required || std::ranges::find(*required, "EXT_texture_webp") == required->end());
         if (!options_.encode && !fallsBack)
@@ -199,10 +199,10 @@ private:
         if (!png)
             return png.error();
         return EncodedLike{*std::move(png), "PNG", "image/png", 0,
-                           fallsBack ? "the model does not require that its readers know WebP" : ""};
+                           fallsBack ? "the model does not require its readers to support WebP" : ""};
     }
 
-    // Rows of texels under all triangles, those of a surface once.
+    // Rows of texels under all triangles; those of a surface with several placings count once.
     static double rowsOf(const std::vector<MapUse>& uses, int height)
     {
         double rows = 0;
@@ -212,23 +212,23 @@ private:
         return rows;
     }
 
-    void noteWhatStaysOff(const ConvertedMap& map)
+    void noteRemainingError(const ConvertedMap& map)
     {
         const ReencodeFigures& r = map.figures;
-        const double share = double(r.disagreeing) / double(std::max<std::size_t>(r.covered, 1));
-        if (share * r.disagreement.mean > kSeen)
+        const double fraction = double(r.disagreeing) / double(std::max<std::size_t>(r.covered, 1));
+        if (fraction * r.disagreement.mean > kVisible)
             report_.notes.push_back(fmt::format(
-                "{}: on {:.0f} % of it several places share a texel and want it different, {:.1f} degrees off "
-                "on average at the worst of them: no one map fits; give such parts texels of their own",
-                map.name, 100 * share, r.disagreement.mean));
-        else if (r.error.mean > kSeen)
+                "{}: on {:.0f} % of it several surface points share a texel but need different values; the error is "
+                "{:.1f} degrees on average at the worst of them. No single map fits; give these parts their own texels",
+                map.name, 100 * fraction, r.disagreement.mean));
+        else if (r.error.mean > kVisible)
             report_.notes.push_back(
-                fmt::format("{}: converted, it is still off by {:.1f} degrees on average: its texels are too large for "
-                            "how the surface changes under them",
+                fmt::format("{}: after conversion the error is still {:.1f} degrees on average: its texels are too "
+                            "coarse for the surface",
                             map.name, r.error.mean));
     }
 
-    Status settleTangents()
+    Status updateTangents()
     {
         if (readsTangents(options_.frames.to)) {
             report_.tangents = TangentsAfter::given;
@@ -242,7 +242,7 @@ private:
         }
         if (options_.keepTangents) {
             report_.tangents = TangentsAfter::kept;
-            report_.notes.push_back("TANGENT stays, and a reader that follows it will show the converted maps wrongly");
+            report_.notes.push_back("TANGENT is kept; a reader that uses it will shade the converted maps incorrectly");
             return Done{};
         }
         auto dropped = dropTangents(document_, options_.frames, report_.notes);
@@ -254,10 +254,10 @@ private:
 
     const ConvertModelOptions& options_;
     GltfDocument& given_;
-    GltfDocument document_; // a copy, so that an error leaves the given one as it was
+    GltfDocument document_; // a copy, so that the given document is unchanged on error
     ConvertModelReport report_;
-    std::size_t surfaces_ = 0; // of all maps
-    bool named_ = false;       // the materials say for which frame their maps are
+    std::size_t surfaces_ = 0; // number over all maps
+    bool named_ = false;       // the materials name the frame of their maps
 };
 
 } // namespace
@@ -273,7 +273,7 @@ Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertMod
             fmt::format("convert: expected 8 or 16 bits, or 0 for those of the old maps; found {}", options.bits));
     if (options.keepMaps && (options.keepTangents || readsTangents(options.frames.to)))
         return usageError(
-            fmt::format("convert: where maps stay tangents go; expected a frame that reads none, found {}",
+            fmt::format("convert: with keepMaps the tangents are dropped; expected a frame that reads none, found {}",
                         options.keepTangents ? "keepTangents" : name(options.frames.to)));
     return ModelConverter(document, options).run();
 }

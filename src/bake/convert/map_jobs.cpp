@@ -16,7 +16,7 @@ using gltf::Json;
 
 namespace {
 
-// The images that materials read in other slots than those of normal maps.
+// The images that materials read in slots other than those of normal maps.
 std::set<int> imagesReadElsewhere(const Json& root)
 {
     std::set<std::size_t> textures;
@@ -29,7 +29,7 @@ std::set<int> imagesReadElsewhere(const Json& root)
     return images;
 }
 
-// Makes the image, which is a PNG now, a texture's own, and takes those that extensions name in its place.
+// Makes the image the texture's own, and removes the images that extensions name instead.
 void dropOtherForms(Json& root, std::size_t index, std::size_t image, std::vector<std::string>& notes)
 {
     Json& texture = root["textures"][index];
@@ -44,7 +44,7 @@ void dropOtherForms(Json& root, std::size_t index, std::size_t image, std::vecto
         } else {
             dropped.push_back(name);
             if (value["source"] != image)
-                notes.push_back(fmt::format("textures[{}]: {} taken out, its image is not converted", index, name));
+                notes.push_back(fmt::format("textures[{}]: {} removed: its image is not converted", index, name));
         }
     if (kept.empty())
         texture.erase("extensions");
@@ -55,7 +55,7 @@ void dropOtherForms(Json& root, std::size_t index, std::size_t image, std::vecto
             takeOffExtension(root, name);
 }
 
-// A texture whose image is WebP, which readers without EXT_texture_webp cannot read. The document uses and requires it.
+// Makes a texture's image WebP, and the document require EXT_texture_webp, without which readers cannot read it.
 void nameWebp(Json& root, std::size_t texture, std::size_t image)
 {
     constexpr const char* kName = "EXT_texture_webp";
@@ -66,7 +66,7 @@ void nameWebp(Json& root, std::size_t texture, std::size_t image)
             root[list].push_back(kName);
 }
 
-// The factor on the slopes; 0 of a coat that is not there.
+// The factor on the slopes; 0 for a coat whose factor is 0.
 double strengthOf(const Json& material, const gltf::TextureUse& map, NormalSlot slot)
 {
     const Json* const coat = gltf::extension(material, "KHR_materials_clearcoat");
@@ -81,49 +81,49 @@ std::string imageName(const Json& root, std::size_t image)
 
 const char* whatOf(NormalSlot slot) { return slot == NormalSlot::coat ? "its coat's normal map" : "its normal map"; }
 
-// The primitive's mesh with the uv of its own normal map as set 0 and those of a coat's, where asked for, as set 1.
-// Without triangles or the uv of the map: no mesh, and `why`.
-Result<Mesh> meshFor(const GltfDocument& document, std::size_t m, std::size_t p, MapSlot place, std::string& why)
+// The primitive's mesh with the uv of its own normal map as set 0 and, for a coat, those of the coat's map as set 1.
+// Sets `why` if there are no triangles or no uv for the map.
+Result<Mesh> meshFor(const GltfDocument& document, std::size_t m, std::size_t p, MapSlot slot, std::string& why)
 {
-    const NormalSlot slot = place.slot;
-    auto geometry = gltfGeometry(document, m, p, NormalSlot::surface, place.material);
+    const NormalSlot kind = slot.kind;
+    auto geometry = gltfGeometry(document, m, p, NormalSlot::surface, slot.material);
     if (!geometry)
         return geometry.error();
     Mesh mesh = gltfMesh(std::move(*geometry));
-    if (slot == NormalSlot::coat) {
-        auto coat = gltfGeometry(document, m, p, slot, place.material);
+    if (kind == NormalSlot::coat) {
+        auto coat = gltfGeometry(document, m, p, kind, slot.material);
         if (!coat)
             return coat.error();
         mesh.texcoords[1] = std::move(gltfMesh(std::move(*coat)).texcoords[0]);
     }
     if (mesh.indices.empty())
         why = "no triangles";
-    else if (mesh.texcoords[slot == NormalSlot::coat ? 1 : 0].empty())
-        why = std::string("no uv for ") + whatOf(slot);
+    else if (mesh.texcoords[kind == NormalSlot::coat ? 1 : 0].empty())
+        why = std::string("no uv for ") + whatOf(kind);
     return mesh;
 }
 
-// One primitive with one of its materials, added to the job of a normal map of that material.
-Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapSlot place, bool foreign,
-              const std::vector<glm::dmat3>& placed, std::map<std::size_t, MapJob>& jobs,
+// Adds one primitive with one of its materials to the job of a normal map of that material.
+Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapSlot slot, bool foreign,
+              const std::vector<glm::dmat3>& transforms, std::map<std::size_t, MapJob>& jobs,
               std::vector<std::string>& notes)
 {
     const Json& root = rootOf(document);
-    const gltf::TextureUse map = normalMapOf(root, place.material, place.slot);
+    const gltf::TextureUse map = normalMapOf(root, slot.material, slot.kind);
     if (map.texture < 0)
         return Done{};
     if (foreign) {
-        notes.push_back(fmt::format("{}: {} is in a format that is not read here; left as it is", primitiveField(m, p),
-                                    whatOf(place.slot)));
+        notes.push_back(
+            fmt::format("{}: {} is in an unsupported format; left unchanged", primitiveField(m, p), whatOf(slot.kind)));
         return Done{};
     }
     std::string why;
-    const auto mesh = meshFor(document, m, p, place, why);
+    const auto mesh = meshFor(document, m, p, slot, why);
     if (!mesh)
         return mesh.error();
     if (!why.empty()) {
         notes.push_back(
-            fmt::format("{}: {}; {} is not converted for it", primitiveField(m, p), why, whatOf(place.slot)));
+            fmt::format("{}: {}; {} is not converted for it", primitiveField(m, p), why, whatOf(slot.kind)));
         return Done{};
     }
     const gltf::Texture texture = textureAt(root, map.texture);
@@ -132,22 +132,22 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapSlo
     MapJob& job = jobs[image];
     job.image = image;
     job.name = imageName(root, image);
-    if (std::ranges::find(job.places, place) == job.places.end())
-        job.places.push_back(place);
+    if (std::ranges::find(job.slots, slot) == job.slots.end())
+        job.slots.push_back(slot);
     job.readers.push_back({.mesh = m,
                            .primitive = p,
-                           .place = place,
-                           .strength = strengthOf(root["materials"][place.material], map, place.slot),
+                           .slot = slot,
+                           .strength = strengthOf(root["materials"][slot.material], map, slot.kind),
                            .wrapU = sampler.wrapU,
                            .wrapV = sampler.wrapV,
-                           .placed = placed,
+                           .transforms = transforms,
                            .vertices = mesh->vertexCount(),
                            .triangles = mesh->triangleCount(),
                            .stored = !mesh->tangents.empty()});
     return Done{};
 }
 
-// The image that stands in a texture, or that an extension names which is not read; -1 where there is none.
+// The image of a texture, or the one that an unknown extension names; -1 if there is none.
 int anyImage(const Json& root, int texture)
 {
     if (const int image = textureAt(root, texture).image; image >= 0)
@@ -176,7 +176,7 @@ std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document)
             const int image = textureAt(root, map.texture).image;
             if (!images.contains(image)) {
                 const auto bytes = gltfImageBytes(document, std::size_t(image));
-                images[image] = bytes && !foreignFormat(*bytes).empty();
+                images[image] = bytes && !unreadableFormat(*bytes).empty();
             }
             if (images[image])
                 foreign.push_back({m, slot});
@@ -188,19 +188,19 @@ std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document)
 {
     const Json& root = rootOf(document);
     std::set<int> images;
-    for (const MapSlot& place : foreignNormalMaps(document))
-        images.insert(anyImage(root, normalMapOf(root, place.material, place.slot).texture));
+    for (const MapSlot& slot : foreignNormalMaps(document))
+        images.insert(anyImage(root, normalMapOf(root, slot.material, slot.kind).texture));
     std::vector<UnreadMap> unread;
     for (const int image : images)
         if (image >= 0)
             if (const auto bytes = gltfImageBytes(document, std::size_t(image))) {
-                const std::string format = foreignFormat(*bytes);
+                const std::string format = unreadableFormat(*bytes);
                 unread.push_back(
                     {std::size_t(image), imageName(root, std::size_t(image)),
                      format.empty() ? "an unknown format" : format,
                      format.starts_with("KTX2")
                          ? "make it PNG with \"gltf-transform ktxdecompress IN.glb OUT.glb\", convert, and "
-                           "pack it again"
+                           "compress it again"
                          : "make it PNG or JPEG, and convert again"});
             }
     return unread;
@@ -209,15 +209,15 @@ std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document)
 Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes)
 {
     const Json& root = rootOf(document);
-    const auto placed = gltfPlacings(root);
+    const auto transforms = gltfMeshTransforms(root);
     const std::vector<MapSlot> foreign = foreignNormalMaps(document);
     std::map<std::size_t, MapJob> jobs;
     const Status status = forEachPrimitive(root, [&](std::size_t m, std::size_t p) -> Status {
         for (const std::size_t material : materialsOf(root, root["meshes"][m]["primitives"][p]))
-            for (const NormalSlot slot : kNormalSlots) {
-                const MapSlot place{material, slot};
-                const bool unread = std::binary_search(foreign.begin(), foreign.end(), place);
-                if (Status added = addUse(document, m, p, place, unread, placed[m], jobs, notes); !added)
+            for (const NormalSlot kind : kNormalSlots) {
+                const MapSlot slot{material, kind};
+                const bool unread = std::binary_search(foreign.begin(), foreign.end(), slot);
+                if (Status added = addUse(document, m, p, slot, unread, transforms[m], jobs, notes); !added)
                     return added;
             }
         return Done{};
@@ -240,7 +240,7 @@ std::size_t surfacesOf(const MapJob& job)
 {
     std::size_t count = 0;
     for (const MapReader& reader : job.readers)
-        count += reader.placed.size();
+        count += reader.transforms.size();
     return count;
 }
 
@@ -249,15 +249,15 @@ Result<std::vector<MapUse>> usesOf(const GltfDocument& document, const MapJob& j
     std::vector<MapUse> uses;
     for (const MapReader& r : job.readers) {
         std::string why;
-        auto mesh = meshFor(document, r.mesh, r.primitive, r.place, why);
+        auto mesh = meshFor(document, r.mesh, r.primitive, r.slot, why);
         if (!mesh)
             return mesh.error();
         const auto held = std::make_shared<const Mesh>(*std::move(mesh));
         const FrameSet read = framesRead(frames, r.stored);
-        const MappedSurface surface = r.place.slot == NormalSlot::coat
+        const MappedSurface surface = r.slot.kind == NormalSlot::coat
             ? makeCoatSurface(held, Texture{}, Texture{.image = 0, .texcoord = 1, .sampler = {}}, read)
             : makeSurface(held, Texture{}, glm::dmat3(1), read);
-        for (const glm::dmat3& linear : r.placed)
+        for (const glm::dmat3& linear : r.transforms)
             uses.push_back({placedBy(surface, linear), Convention{}, r.strength, r.wrapU, r.wrapV});
     }
     return uses;
@@ -266,7 +266,7 @@ Result<std::vector<MapUse>> usesOf(const GltfDocument& document, const MapJob& j
 std::size_t bytesOf(const MapJob& job, const FramePair& frames)
 {
     constexpr std::size_t kVertex = sizeof(glm::vec3) * 2 + sizeof(glm::vec2);
-    std::size_t kept = 0, most = 0, rasters = 0; // rasters: once all surfaces are made
+    std::size_t kept = 0, most = 0, rasters = 0; // rasters: after all surfaces are made
     for (const MapReader& r : job.readers) {
         const SurfaceBytes bytes = surfaceBytes(r.vertices, r.triangles, framesRead(frames, r.stored));
         const std::size_t indices = 3 * sizeof(std::uint32_t) * r.triangles;
@@ -292,8 +292,8 @@ void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte
     }
     const std::size_t image = addGltfImage(document, std::move(bytes), mime, job.name);
     std::map<std::size_t, std::size_t> copies;
-    for (const MapSlot place : job.places) {
-        Json& index = normalSlotOf(rootOf(document), place.material, place.slot)["index"];
+    for (const MapSlot slot : job.slots) {
+        Json& index = normalSlotOf(rootOf(document), slot.material, slot.kind)["index"];
         const std::size_t texture = index.get<std::size_t>();
         if (!copies.contains(texture))
             copies[texture] = copyGltfTexture(document, texture, image);
@@ -308,9 +308,9 @@ void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte
 
 namespace {
 
-// How far the direction of a primitive's highlights turns with its worst placing.
+// How far the direction of a primitive's highlights rotates, for its worst placing.
 Result<ValueSummary> turnOf(const GltfDocument& document, std::size_t m, std::size_t p,
-                            const std::vector<glm::dmat3>& placed, const FramePair& frames)
+                            const std::vector<glm::dmat3>& transforms, const FramePair& frames)
 {
     auto geometry = gltfGeometry(document, m, p);
     if (!geometry)
@@ -319,7 +319,7 @@ Result<ValueSummary> turnOf(const GltfDocument& document, std::size_t m, std::si
     const MappedSurface surface =
         makeSurface(mesh, Texture{}, glm::dmat3(1), framesRead(frames, !mesh->tangents.empty()));
     ValueSummary worst;
-    for (const glm::dmat3& linear : placed) {
+    for (const glm::dmat3& linear : transforms) {
         const MappedSurface moved = placedBy(surface, linear);
         const ValueSummary turn = directionTurn(moved, pointsOver(moved, kPointsOfSurface), frames);
         if (turn.count == 0)
@@ -330,12 +330,12 @@ Result<ValueSummary> turnOf(const GltfDocument& document, std::size_t m, std::si
     return worst;
 }
 
-// What to say of a direction that does not stay where TANGENT goes.
-std::string whyDirectionNeedsTangents(const TurnedDirection& d, Frame to)
+// Why a material keeps TANGENT for its direction.
+std::string whyDirectionNeedsTangents(const RotatedDirection& d, Frame to)
 {
     if (d.degrees.count == 0)
-        return "the direction of its anisotropy is that of TANGENT alone, without uv to derive it from";
-    return fmt::format("the direction of its anisotropy would turn by {:.1f} degrees with {} (95 % of {})",
+        return "the direction of its anisotropy is defined by TANGENT alone: there is no uv to derive it from";
+    return fmt::format("the direction of its anisotropy would rotate by {:.1f} degrees with {} (95 % of {})",
                        d.degrees.percentile95, name(to), primitiveField(d.mesh, d.primitive));
 }
 
@@ -344,9 +344,9 @@ std::string whyDirectionNeedsTangents(const TurnedDirection& d, Frame to)
 Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frames, std::vector<std::string>& notes)
 {
     TangentBytes dropped;
-    std::set<std::size_t> seen, told;
+    std::set<std::size_t> seen, reported;
     const std::vector<MapSlot> foreign = foreignNormalMaps(document);
-    const auto placed = gltfPlacings(rootOf(document));
+    const auto transforms = gltfMeshTransforms(rootOf(document));
     const Status status = forEachPrimitive(rootOf(document), [&](std::size_t m, std::size_t p) -> Status {
         const Json& root = rootOf(document);
         const Json& primitive = root["meshes"][m]["primitives"][p];
@@ -355,19 +355,19 @@ Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frame
         bool stays = false;
         const auto keepFor = [&](std::size_t material, const std::string& reason) {
             stays = true;
-            if (told.insert(material).second)
-                notes.push_back(fmt::format("materials[{}]: {}; TANGENT stays", material, reason));
+            if (reported.insert(material).second)
+                notes.push_back(fmt::format("materials[{}]: {}; TANGENT is kept", material, reason));
         };
         for (const std::size_t material : materialsOf(root, primitive)) {
-            for (const MapSlot& place : foreign)
-                if (place.material == material)
-                    keepFor(material, "its normal map, in a format that is not read here, is not converted");
+            for (const MapSlot& slot : foreign)
+                if (slot.material == material)
+                    keepFor(material, "its normal map is in an unsupported format and is not converted");
             if (gltf::tangentReader(root["materials"][material]).empty())
                 continue;
-            const auto turn = turnOf(document, m, p, placed[m], frames);
+            const auto turn = turnOf(document, m, p, transforms[m], frames);
             if (!turn)
                 return turn.error();
-            TurnedDirection& d = dropped.directions.emplace_back(TurnedDirection{m, p, material, *turn, false});
+            RotatedDirection& d = dropped.directions.emplace_back(RotatedDirection{m, p, material, *turn, false});
             d.stays = !directionStays(d.degrees);
             if (d.stays)
                 keepFor(material, whyDirectionNeedsTangents(d, frames.to));

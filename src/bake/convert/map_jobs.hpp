@@ -1,5 +1,5 @@
-// Between a glTF file and the conversion of its normal maps: which primitives read which image, how what comes out goes
-// back in, and which tangents are dropped then.
+// Connects a glTF file with the conversion of its normal maps: which primitives read which image, how new images are
+// put into the file, and which tangents are then dropped.
 #pragma once
 
 #include <compare>
@@ -13,66 +13,65 @@
 
 namespace cotan {
 
-// A normal map's place in a material.
+// A normal map's slot in a material.
 struct MapSlot {
     std::size_t material = 0;
-    NormalSlot slot = NormalSlot::surface;
+    NormalSlot kind = NormalSlot::surface;
 
     auto operator<=>(const MapSlot&) const = default;
 };
 
-// A primitive that reads a map, with one of its materials.
+// A primitive that reads a map through one of its materials.
 struct MapReader {
     std::size_t mesh = 0, primitive = 0;
-    MapSlot place;
+    MapSlot slot;
     double strength = 1; // the material's factor on the slopes
     Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
-    std::vector<glm::dmat3> placed; // each is a surface
+    std::vector<glm::dmat3> transforms; // node transforms; each makes a surface
     std::size_t vertices = 0, triangles = 0;
-    bool stored = false; // it has TANGENT
+    bool stored = false; // has TANGENT
 };
 
-// An image and everything that reads it as its normal map.
+// An image and everything that reads it as a normal map.
 struct MapJob {
     std::size_t image = 0; // index into the file's images
     std::string name;
     std::vector<MapReader> readers;
-    std::vector<MapSlot> places;       // where it is read so
-    std::vector<std::size_t> textures; // of the file, that show the image
-    bool alsoElsewhere = false;        // another slot of a material reads it too: it has to stay as it is
+    std::vector<MapSlot> slots;        // slots that read it as a normal map
+    std::vector<std::size_t> textures; // textures of the file that show the image
+    bool alsoElsewhere = false;        // another kind of slot reads it too, so it must stay unchanged
 };
 
-// The jobs of a file, in the order of its images. A mesh that nodes show under several maps that are not
-// rotations and uniform scales of one another is several surfaces; so is one that KHR_materials_variants
-// gives several materials. A coat's map is read on a surface of its own (makeCoatSurface). What is left out goes to
-// `notes`. Errors (ErrorKind::input): compressed geometry.
+// The jobs of a file, in the order of its images. A mesh is several surfaces if nodes place it by linear maps that are
+// not rotations and uniform scales of one another, or if KHR_materials_variants gives it several materials. A coat's
+// map is read on a surface of its own (makeCoatSurface). `notes` lists the maps that are left out. Errors
+// (ErrorKind::input): compressed geometry.
 Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes);
 
-// How many surfaces read the job's image.
+// The number of surfaces that read the job's image.
 std::size_t surfacesOf(const MapJob& job);
 
-// The surfaces, with what frames.from and frames.to read at their vertices. Errors: as mapJobs.
+// The surfaces, with the vertex data that frames.from and frames.to read. Errors: those of mapJobs.
 Result<std::vector<MapUse>> usesOf(const GltfDocument& document, const MapJob& job, const FramePair& frames);
 
-// About how many bytes the job takes at most besides the document, the image apart.
+// About the maximum number of bytes that the job takes besides the document and the image.
 std::size_t bytesOf(const MapJob& job, const FramePair& frames);
 
-// Puts a job's new image in place of the old one where normal maps read it; mime: "image/png", "image/jpeg", or
-// "image/webp", which is then named by EXT_texture_webp. Other forms of the old one (EXT_texture_webp,
-// KHR_texture_basisu) go, and `notes` says so: readers would prefer them.
+// Replaces a job's image where normal maps read it. mime: "image/png", "image/jpeg", or "image/webp", which
+// EXT_texture_webp then names. Drops other forms of the old image (EXT_texture_webp, KHR_texture_basisu), which readers
+// would prefer; `notes` says so.
 void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte> bytes, const std::string& mime,
                 std::vector<std::string>& notes);
 
-// The places of normal maps in a format that is not read here, named by an extension or, against the specification, by
-// the texture itself.
+// The slots of normal maps in a format that is not read here, named by an extension or, against glTF, by the texture.
 std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document);
 
-// In the order of the file's images.
+// The images of these slots, in the order of the file's images.
 std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document);
 
-// Takes TANGENT from all primitives but those whose materials need it: for a normal map in a format that is not read
-// here, or for a direction that frames.to turns (`notes` says so, one line each).
-// Errors (ErrorKind::input): compressed geometry.
+// Drops TANGENT from all primitives except those whose materials need it: for a normal map in a format that is not read
+// here, or for a direction that frames.to rotates (`notes` says so, one line each). Errors (ErrorKind::input):
+// compressed geometry.
 Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frames, std::vector<std::string>& notes);
 
 } // namespace cotan

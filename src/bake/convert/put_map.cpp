@@ -25,12 +25,12 @@ Result<std::size_t> materialNamed(const Json& root, const std::string& name)
             found.push_back(m);
     if (found.size() != 1)
         return about("document",
-                     inputError(fmt::format("expected one material of the name '{}' to put the map in; found {}", name,
+                     inputError(fmt::format("expected one material named '{}' to put the map in; found {}", name,
                                             found.size())));
     return found.front();
 }
 
-// The materials of all primitives; those that had none get one.
+// The materials of all primitives; primitives without one get a new one.
 std::set<std::size_t> allMaterials(GltfDocument& document)
 {
     std::set<std::size_t> materials;
@@ -41,7 +41,7 @@ std::set<std::size_t> allMaterials(GltfDocument& document)
     };
     bool lacking = false;
     eachPrimitive([&](const Json& primitive) { lacking = lacking || !primitive.contains("material"); });
-    // Before they are walked through again: materials that are the file's first move the other collections.
+    // Added before the second loop: the first material of a file moves the other collections.
     const std::size_t added = lacking ? addItem(document, "materials", Json{{"name", "baked"}}) : 0;
     eachPrimitive([&](Json& primitive) {
         if (!primitive.contains("material"))
@@ -51,7 +51,7 @@ std::set<std::size_t> allMaterials(GltfDocument& document)
     return materials;
 }
 
-// Makes the materials read the image; the uv set and transform of a map that was there stay, since the bake read them.
+// Makes the materials read the image; the uv set and transform of a previous map stay, since the bake read them.
 void putMap(GltfDocument& document, const std::set<std::size_t>& materials, std::vector<std::byte> png)
 {
     Json& root = rootOf(document);
@@ -66,13 +66,13 @@ void putMap(GltfDocument& document, const std::set<std::size_t>& materials, std:
         slot.erase("scale");
     }
     const std::set<std::size_t> used = texturesReadBy(root["materials"]);
-    for (const std::size_t t : old) // textures cannot go, but what nobody reads need not keep its picture in the file
+    for (const std::size_t t : old) // textures stay, but unused ones need not keep their images
         if (!used.contains(t))
             root["textures"][t] = Json{{"source", image}};
 }
 
-// TANGENT as readers of the frame need it.
-Status settleTangents(GltfDocument& document, const PutMapOptions& options, std::vector<std::string>& notes)
+// Gives, keeps or drops TANGENT, as readers of the frame need it.
+Status updateTangents(GltfDocument& document, const PutMapOptions& options, std::vector<std::string>& notes)
 {
     if (!readsTangents(options.frame)) {
         const auto dropped = dropTangents(document, {.to = options.frame}, notes);
@@ -97,7 +97,7 @@ Result<std::optional<Frame>> namedFrame(const GltfDocument& document)
         if (!frame || std::ranges::none_of(kNormalSlots, hasMap))
             continue;
         if (named && *named != *frame)
-            return inputError(fmt::format("{}materials[{}].extras.{}: expected {}, as materials[{}] has it; found {}",
+            return inputError(fmt::format("{}materials[{}].extras.{}: expected {}, as in materials[{}]; found {}",
                                           fileOf(document), m, gltf::kFrameExtra, name(*named), first, name(*frame)));
         if (!named)
             first = m;
@@ -129,12 +129,12 @@ Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const Pu
         nameFrame(document, material, options.frame);
         setExpansion(rootOf(document)["materials"][material], options.expansion);
     }
-    if (Status settled = settleTangents(document, options, notes); !settled)
+    if (Status settled = updateTangents(document, options, notes); !settled)
         return settled;
     if (options.frame != Frame::mikktspace)
         notes.push_back(fmt::format(
-            "the map is for the frame {}; readers that make MikkTSpace tangents where TANGENT is missing, as "
-            "glTF asks, will show it wrongly",
+            "the map is for the frame {}; readers that generate MikkTSpace tangents where TANGENT is missing, "
+            "as glTF specifies, will shade it incorrectly",
             name(options.frame)));
     return Done{};
 }

@@ -11,25 +11,25 @@
 #include "bake/surface/nearest_texels.hpp"
 #include "core/loops.hpp"
 #include "cotan/vector.hpp"
-#include "place_finder.hpp"
+#include "point_finder.hpp"
 #include "scene/texture_sample.hpp"
 
 namespace cotan {
 
-// ---- the one texel that several places share --------------------------------------------------
+// ---- one texel for several surface points -----------------------------------------------------
 
 namespace {
 
-constexpr int kSteps = 12;          // quadratic convergence: four or five do
-constexpr double kStill = 1e-10;    // a step this short ends it
-constexpr double kShortest = 1e-12; // a vector that has a direction
+constexpr int kMaxIterations = 12;   // quadratic convergence: four or five suffice
+constexpr double kMinStep = 1e-10;   // a shorter step ends the iteration
+constexpr double kMinLength = 1e-12; // of a vector that has a direction
 
 double costOf(std::span<const Demand> demands, glm::dvec3 texel)
 {
     double cost = 0;
     for (const Demand& d : demands)
         if (invertible(d.frame)) {
-            const glm::dvec3 r = unitOr(d.frame * texel, glm::dvec3(0), kShortest) - d.target;
+            const glm::dvec3 r = unitOr(d.frame * texel, glm::dvec3(0), kMinLength) - d.target;
             cost += glm::dot(r, r);
         }
     return cost;
@@ -50,7 +50,7 @@ glm::dvec3 stepFrom(std::span<const Demand> demands, glm::dvec3 texel)
         normal += glm::transpose(jacobian) * jacobian;
         gradient += glm::transpose(jacobian) * (u - d.target);
     }
-    // The length of the texel is free: fixed by a term along it.
+    // The length of the texel is free; a term along the texel fixes it.
     const double trace = normal[0][0] + normal[1][1] + normal[2][2];
     normal += glm::outerProduct(texel, texel) * trace;
     const double determinant = glm::determinant(normal);
@@ -74,7 +74,7 @@ glm::dvec3 solveTexel(std::span<const Demand> demands, glm::dvec3 otherwise)
     std::size_t count = 0;
     for (const Demand& d : demands)
         if (invertible(d.frame)) {
-            const glm::dvec3 own = unitOr(glm::inverse(d.frame) * d.target, glm::dvec3(0, 0, 1), kShortest);
+            const glm::dvec3 own = unitOr(glm::inverse(d.frame) * d.target, glm::dvec3(0, 0, 1), kMinLength);
             first = count == 0 ? own : first;
             sum += own;
             ++count;
@@ -83,15 +83,15 @@ glm::dvec3 solveTexel(std::span<const Demand> demands, glm::dvec3 otherwise)
         return otherwise;
     if (count == 1)
         return first;
-    glm::dvec3 texel = unitOr(sum, first, kShortest);
+    glm::dvec3 texel = unitOr(sum, first, kMinLength);
     double cost = costOf(demands, texel);
-    for (int i = 0; i < kSteps && cost > 1e-18; ++i) {
+    for (int i = 0; i < kMaxIterations && cost > 1e-18; ++i) {
         glm::dvec3 step = stepFrom(demands, texel);
-        if (!(glm::length(step) > kStill))
+        if (!(glm::length(step) > kMinStep))
             break;
         bool better = false;
         for (int halving = 0; halving < 6 && !better; ++halving, step *= 0.5) {
-            const glm::dvec3 tried = unitOr(texel + step, texel, kShortest);
+            const glm::dvec3 tried = unitOr(texel + step, texel, kMinLength);
             const double triedCost = costOf(demands, tried);
             better = triedCost < cost;
             if (better) {
@@ -111,16 +111,16 @@ double degreesOff(const Demand& d, glm::dvec3 texel) { return glm::degrees(angle
 
 namespace {
 
-using convert::Place, convert::PlaceFinder;
+using convert::SurfacePoint, convert::PointFinder;
 
 struct RowCounts {
     std::size_t covered = 0, padded = 0, several = 0, disagreeing = 0, belowHorizon = 0;
-    std::vector<float> moved, disagreement; // degrees, until the row is counted
+    std::vector<float> moved, disagreement; // degrees, until countAngles
 };
 
-// Rows whose angles wait in memory until they are counted.
+// Rows whose angles are held in memory until they are counted.
 constexpr int kRowsAtATime = 128;
-// Texels whose places a thread holds, 4 rows of them at the most.
+// Texels whose surface points a thread holds, at most 4 rows of them.
 constexpr int kTexelsAtATime = 1 << 14;
 
 class Reencoder {
@@ -131,10 +131,10 @@ public:
           owner_(map.pixelCount(), kNoTexel), nearest_(std::size_t(map.height))
     {
         Convention stored = uses.empty() ? Convention{} : uses.front().stored;
-        plain_ = toFormat<f64::cotan_normal_format>(stored, map.type);
+        read_ = toFormat<f64::cotan_normal_format>(stored, map.type);
         expansion_ = stored.expansion = expansion.value_or(stored.expansion);
         written_ = toFormat<f64::cotan_normal_format>(stored, 1, bits);
-        plain_.green = written_.green = 1;
+        read_.green = written_.green = 1;
         result_.image = makeImage(map.width, map.height, bits == 16 ? PixelType::unorm16 : PixelType::unorm8, map.name);
     }
 
@@ -145,7 +145,7 @@ public:
             eachBlock(first, last, [&](int top, int bottom) {
                 if (rows && rows->stopped())
                     return;
-                finder_.rows(top, bottom, [&](int y, const PlacesOfRow<Place>& row) {
+                finder_.rows(top, bottom, [&](int y, const SamplesOfRow<SurfacePoint>& row) {
                     solveRow(y, row);
                     if (rows)
                         rows->step();
@@ -155,15 +155,15 @@ public:
         }
         if (rows && rows->stopped())
             return std::move(result_);
-        spreadNearest(owner_, map_.width, map_.height, AskFirst::beside);
-        markNeeded();
+        propagateNearest(owner_, map_.width, map_.height, TieBreak::beside);
+        collectSources();
         eachBlock(0, map_.height, [&](int top, int bottom) {
             if (std::all_of(&nearest_[std::size_t(top)], &nearest_[std::size_t(bottom)] + 1,
-                            [](const std::vector<Lent>& lent) { return lent.empty(); }))
+                            [](const std::vector<PaddingSource>& source) { return source.empty(); }))
                 return;
-            finder_.rows(top, bottom, [&](int y, const PlacesOfRow<Place>& row) {
-                for (Lent& lent : nearest_[std::size_t(y)])
-                    lent.place = row.of(std::size_t(lent.x)).front();
+            finder_.rows(top, bottom, [&](int y, const SamplesOfRow<SurfacePoint>& row) {
+                for (PaddingSource& source : nearest_[std::size_t(y)])
+                    source.point = row.of(std::size_t(source.x)).front();
             });
         });
         parallelFor(0, map_.height, [&](int y) { padRow(y); });
@@ -182,10 +182,10 @@ public:
     }
 
 private:
-    // The stored direction, along (red, green, blue), whatever green means.
-    glm::dvec3 oldTexel(int x, int y) const { return f64::cotan_decode(storedTexel(map_, x, y), plain_); }
+    // The stored direction along (red, green, blue), regardless of the direction of green.
+    glm::dvec3 oldTexel(int x, int y) const { return f64::cotan_decode(storedTexel(map_, x, y), read_); }
 
-    Demand demandAt(const Place& p, glm::dvec3 old) const
+    Demand demandAt(const SurfacePoint& p, glm::dvec3 old) const
     {
         const MapUse& use = uses_[p.use];
         const f64::cotan_frame from =
@@ -193,17 +193,17 @@ private:
         const f64::cotan_frame to = frameAt(use.surface, frames_.to, frames_.toTangents, p.triangle, p.barycentric);
         // Factors on the texel's components along t, b and n.
         const glm::dvec3 factors(use.strength, greenAlongV(use.stored) ? use.strength : -use.strength, 1);
-        // `mikktspace` hands back its n, not unit, where the sum vanishes.
+        // If the sum vanishes, `mikktspace` returns its n, which is not unit.
         return {{to.t * factors.x, to.b * factors.y, to.n},
                 f64::cotan_normalize_or(f64::cotan_apply(from, old * factors), to.n)};
     }
 
     std::size_t indexOf(int x, int y) const { return std::size_t(y) * std::size_t(map_.width) + std::size_t(x); }
 
-    // With the alpha of the map.
+    // Keeps the alpha of the map.
     void put(int x, int y, glm::dvec3 stored)
     {
-        const double alpha = atTexel(map_, x, y, [](const auto* c, int most) { return double(c[3]) / most; });
+        const double alpha = atTexel(map_, x, y, [](const auto* c, int scale) { return double(c[3]) / scale; });
         const glm::dvec4 values(stored, alpha);
         for (int k = 0; k < 4; ++k) {
             const std::size_t at = 4 * indexOf(x, y) + std::size_t(k);
@@ -220,12 +220,12 @@ private:
     void keep(int x, int y)
     {
         glm::dvec3 stored = storedTexel(map_, x, y);
-        for (int k = 0; k < 3 && plain_.expansion != written_.expansion; ++k)
-            stored[k] = f64::cotan_compress(f64::cotan_expand(stored[k], plain_.expansion), written_.expansion);
+        for (int k = 0; k < 3 && read_.expansion != written_.expansion; ++k)
+            stored[k] = f64::cotan_compress(f64::cotan_expand(stored[k], read_.expansion), written_.expansion);
         put(x, y, stored);
     }
 
-    // Calls work(top, bottom) for blocks of the rows from first to last - 1, on all threads.
+    // Calls work(top, bottom) for blocks of the rows [first, last), on all threads.
     template<class Work> void eachBlock(int first, int last, const Work& work) const
     {
         const int rows = std::clamp(kTexelsAtATime / map_.width, 1, UvRaster::kBlockRows / 2);
@@ -233,26 +233,26 @@ private:
                     [&](int i) { work(first + i * rows, std::min(first + (i + 1) * rows, last) - 1); });
     }
 
-    void solveRow(int y, const PlacesOfRow<Place>& row)
+    void solveRow(int y, const SamplesOfRow<SurfacePoint>& row)
     {
         RowCounts& counts = rows_[std::size_t(y)];
         std::vector<Demand> demands;
         for (int x = 0; x < map_.width; ++x) {
-            const std::span<const Place> places = row.of(std::size_t(x));
-            if (places.empty())
+            const std::span<const SurfacePoint> points = row.of(std::size_t(x));
+            if (points.empty())
                 continue;
             const glm::dvec3 old = oldTexel(x, y);
             demands.clear();
-            for (const Place& p : places)
+            for (const SurfacePoint& p : points)
                 demands.push_back(demandAt(p, old));
             if (std::ranges::none_of(demands, invertible, &Demand::frame)) {
                 keep(x, y);
-                continue; // and nothing to spread from
+                continue; // not a source of padding
             }
             const glm::dvec3 texel = solveTexel(demands, old);
             write(x, y, texel);
             owner_[indexOf(x, y)] = std::uint32_t(indexOf(x, y));
-            if (places.front().covers)
+            if (points.front().covers)
                 count(counts, demands, old, texel);
             else
                 ++counts.padded;
@@ -264,7 +264,7 @@ private:
         ++c.covered;
         c.several += demands.size() > 1;
         c.belowHorizon += texel.z <= 0;
-        double conflict = 0; // degrees of the worst place
+        double conflict = 0; // degrees at the worst point
         for (const Demand& d : demands)
             conflict = std::max(conflict, invertible(d.frame) ? degreesOff(d, texel) : 0);
         if (conflict > kDisagree) {
@@ -274,7 +274,7 @@ private:
         c.moved.push_back(float(degreesOff({glm::dmat3(1), glm::normalize(old)}, texel)));
     }
 
-    // In the order of rows, so that sums are the same however many threads there are.
+    // In the order of rows, so that sums do not depend on the number of threads.
     void countAngles(int first, int last)
     {
         for (int y = first; y < last; ++y) {
@@ -286,8 +286,8 @@ private:
         }
     }
 
-    // Which texels lend their place to others; only their places are kept.
-    void markNeeded()
+    // Lists the texels that other texels are padded from; only their surface points are kept.
+    void collectSources()
     {
         std::vector<bool> needed(owner_.size());
         for (std::size_t i = 0; i < owner_.size(); ++i)
@@ -310,29 +310,29 @@ private:
                 continue;
             }
             const int column = int(owner_[i] % std::size_t(map_.width));
-            const auto lent =
-                std::ranges::lower_bound(nearest_[owner_[i] / std::size_t(map_.width)], column, {}, &Lent::x);
-            const Demand demand = demandAt(lent->place, old);
+            const auto source =
+                std::ranges::lower_bound(nearest_[owner_[i] / std::size_t(map_.width)], column, {}, &PaddingSource::x);
+            const Demand demand = demandAt(source->point, old);
             write(x, y, solveTexel({&demand, 1}, old));
             ++rows_[std::size_t(y)].padded;
         }
     }
 
-    struct Lent {
+    struct PaddingSource {
         int x = 0;
-        Place place;
+        SurfacePoint point;
     };
 
     const Image& map_;
     std::span<const MapUse> uses_;
     FramePair frames_;
-    f64::cotan_normal_format plain_{}, written_{}; // of the map and the result, without what differs between the uses
-    Expansion expansion_ = Expansion::exact;       // of the result
-    PlaceFinder finder_;
+    f64::cotan_normal_format read_{}, written_{}; // of the map and the result, without what differs between uses
+    Expansion expansion_ = Expansion::exact;      // of the result
+    PointFinder finder_;
     std::vector<RowCounts> rows_;
     ValueStatistics moved_, disagreement_; // degrees
     std::vector<std::uint32_t> owner_;
-    std::vector<std::vector<Lent>> nearest_; // per row, by column
+    std::vector<std::vector<PaddingSource>> nearest_; // per row, by column
     Reencoded result_;
 };
 

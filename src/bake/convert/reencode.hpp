@@ -1,5 +1,5 @@
-// Makes a normal map for another frame than the one it was made for: decodes each texel with the old
-// frame at its place on the surface, and encodes the normal with the new one.
+// Converts a normal map to another frame: decodes each texel with the old frame at its surface point, and encodes the
+// normal with the new one.
 #pragma once
 
 #include <cstddef>
@@ -15,40 +15,40 @@
 
 namespace cotan {
 
-inline constexpr std::size_t kMaxPlaces = 16; // of one texel; of more, some that are spread over all count
-// Of a map; larger ones have fewer of a texel, 4 at least.
-inline constexpr std::size_t kMaxAllPlaces = std::size_t(1) << 24;
+inline constexpr std::size_t kMaxPointsPerTexel = 16; // of more, evenly chosen ones count
+// Per map; larger maps have fewer per texel, at least 4.
+inline constexpr std::size_t kMaxPointsPerMap = std::size_t(1) << 24;
 
 struct Reencoded : ReencodeFigures {
     Image image; // as large as the old one
 };
 
-// map: with all its data. bits: 8 or 16 a component of the result. expansion: of the result; none: as the map's.
-// threads: 0 for all cores. rows: gets a step for each row; once it is stopped, the result is not to be used. Alpha is
-// kept; texels that stand for nothing (decoded z <= 0 where no triangle is, or a map that no use covers) are kept as
-// they are. Mip levels are not part of an image here: viewers make them from the result. The same result whatever the
-// number of threads. `unconverted` and `error` are measured on the surface: a map may be shown without any triangle
-// covering the centre of a texel.
+// map: with all its data. bits: 8 or 16 per component of the result. expansion: of the result; none: the map's.
+// threads: 0 for all cores. rows: counts a step for each row; once it is stopped, the result must not be used. Alpha is
+// kept. Texels without meaning (decoded z <= 0 outside all triangles, or on a map that no use covers) stay as they are.
+// Images have no mip levels here: viewers make them from the result. The result does not depend on the number of
+// threads. `unconverted` and `error` are measured on the surface, since triangles may show a map without covering the
+// centre of a texel.
 Reencoded reencode(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits, int threads = 0,
                    CountedSteps* rows = nullptr, std::optional<Expansion> expansion = {});
 
-// ---- the one texel that several places of a surface share -------------------------------------
+// ---- one texel for several surface points -----------------------------------------------------
 
-// What a place wants: normalize(frame * texel) = target.
+// The requirement of a surface point: normalize(frame * texel) = target.
 struct Demand {
     glm::dmat3 frame{1}; // columns: t and b times the factor on the slopes, n
     glm::dvec3 target{0, 0, 1};
 };
 
-// Whether the frame turns different texels into different normals.
+// Whether the frame maps different texels to different normals.
 bool invertible(const glm::dmat3& frame);
 
-// The unit texel that minimises the sum of |normalize(frame_i * texel) - target_i|^2: exact for one
-// place, Gauss-Newton on the sphere of directions from the sum of the places' own texels for more.
-// Demands whose frame is not invertible are left out; `otherwise` where there is no other.
+// The unit texel that minimises the sum of |normalize(frame_i * texel) - target_i|^2: exact for one demand, for more by
+// Gauss-Newton on the sphere of directions, from the sum of the demands' own texels. Ignores demands whose frame is not
+// invertible; returns `otherwise` if no demand remains.
 glm::dvec3 solveTexel(std::span<const Demand> demands, glm::dvec3 otherwise);
 
-// Degrees between what the place wants and what it gets.
+// Degrees between the target and the normal that the texel gives.
 double degreesOff(const Demand& demand, glm::dvec3 texel);
 
 } // namespace cotan

@@ -15,14 +15,14 @@ std::string nameOf(const GreenEvidence& map)
     return map.name.empty() ? fmt::format("image {}", map.image) : map.name;
 }
 
-// "normal map bumps: green points the other way than the file says (certain)"
-std::string otherGreen(const GreenEvidence& map)
+// "normal map bumps: green points opposite to what the file says (certain)"
+std::string reversedGreenText(const GreenEvidence& map)
 {
-    return fmt::format("normal map {}: green points the other way than the file says ({})", nameOf(map),
+    return fmt::format("normal map {}: green points opposite to what the file says ({})", nameOf(map),
                        maps::name(map.verdict.confidence));
 }
 
-// modelMean: in degrees, with the frame of the limits; NaN where nothing was judged.
+// modelMean: in degrees, with the frame of the limits; NaN if nothing was judged.
 void checkPrimitive(const PrimitiveLint& p, const std::string& where, double modelMean, LintCheck& check)
 {
     const char* const percent = "% of the area";
@@ -49,16 +49,16 @@ void checkPrimitive(const PrimitiveLint& p, const std::string& where, double mod
                                   .material = p.material});
     for (const Reading& r : p.readings)
         if (r.name == check.limits.frame
-            && over("reading", r.error.percentile95, degrees, "95 % of the error of reading with " + r.name, "degrees"))
-            check.failures.back().beside = fmt::format(
-                "each primitive is held to it by itself; the mean of this one is {:.3g}, of the model {:.3g}",
-                r.error.mean, std::isnan(modelMean) ? r.error.mean : modelMean);
+            && over("reading", r.error.percentile95, degrees, "95th percentile of the error with " + r.name, "degrees"))
+            check.failures.back().beside =
+                fmt::format("the limit applies to each primitive; the mean of this one is {:.3g}, of the model {:.3g}",
+                            r.error.mean, std::isnan(modelMean) ? r.error.mean : modelMean);
     if (p.image >= 0)
         over("rounding", p.precision, degrees, "rounding", "degrees");
     over("degenerate_uv", 100 * p.uv.degenerate, area, "degenerate uv on", percent);
     over("mirrored_overlap", 100 * p.uv.overlappingMirrored, area, "uv overlapping in both orientations on", percent);
-    over("reversed_w", 100 * p.stored.reversedW, area, "TANGENT.w against the uv on", percent);
-    over("turned_tangents", 100 * p.stored.turned, area, "stored tangents turned on", percent);
+    over("reversed_w", 100 * p.stored.reversedW, area, "TANGENT.w contradicting the uv on", percent);
+    over("turned_tangents", 100 * p.stored.rotated, area, "stored tangents rotated on", percent);
 }
 
 } // namespace
@@ -79,7 +79,7 @@ LintCheck checkLimits(const LintReport& report, const LintLimits& limits)
     for (const GreenEvidence& map : report.maps)
         if (!map.asDeclared())
             check.failures.push_back(
-                {.kind = "reversed_green", .where = nameOf(map), .text = otherGreen(map), .map = nameOf(map)});
+                {.kind = "reversed_green", .where = nameOf(map), .text = reversedGreenText(map), .map = nameOf(map)});
     if (limits.degrees >= 0 && anyMap && !anyJudged && check.passed())
         check.failures.push_back({.kind = "not_judged", .where = "", .text = "no normal map could be judged"});
     return check;
@@ -96,7 +96,7 @@ std::vector<std::string> lintWarnings(const LintReport& report)
     std::vector<std::string> lines;
     for (const GreenEvidence& map : report.maps)
         if (!map.asDeclared())
-            lines.push_back(otherGreen(map));
+            lines.push_back(reversedGreenText(map));
     return lines;
 }
 
@@ -104,9 +104,7 @@ std::string nameOf(const PrimitiveLint& p, std::size_t index)
 {
     const std::string mesh = p.mesh.empty() ? fmt::format("primitive {}", index) : p.mesh;
     const std::string name = p.material.empty() ? mesh : fmt::format("{}, material {}", mesh, p.material);
-    return p.placings == 1
-        ? name
-        : fmt::format("{}, stretched by its nodes in {} ways, number {}", name, p.placings, p.placing + 1);
+    return p.placings == 1 ? name : fmt::format("{}, node scaling {} of {}", name, p.placing + 1, p.placings);
 }
 
 } // namespace cotan

@@ -22,20 +22,20 @@ namespace cotan {
 namespace {
 
 constexpr double kFieldOfView = 45; // degrees, vertical
-constexpr double kLines = 1080;     // of the picture
+constexpr double kImageRows = 1080; // of the image
 constexpr double kHalfDegree = 0.5;
 
-// How instances move a mesh, alike ones once; as it stands if there is none.
+// The distinct linear maps by which instances place each mesh; the identity for a mesh without instances.
 std::vector<std::vector<glm::dmat3>> placings(const Scene& scene)
 {
     std::vector<std::vector<glm::dmat3>> result(scene.meshes.size());
     for (const Instance& i : scene.instances)
-        addPlacing(result[std::size_t(i.mesh)], glm::dmat3(glm::dmat4(i.toWorld)));
-    placeUnshown(result);
+        addDistinctLinearMap(result[std::size_t(i.mesh)], glm::dmat3(glm::dmat4(i.toWorld)));
+    addIdentityWhereEmpty(result);
     return result;
 }
 
-// Where a sphere around everything just fits into the picture.
+// The distance from which a sphere around the scene just fits into the image.
 double fittingDistance(const Scene& scene)
 {
     const Bounds box = bounds(scene);
@@ -45,11 +45,11 @@ double fittingDistance(const Scene& scene)
     return radius > 0 ? radius / std::sin(glm::radians(kFieldOfView / 2)) : 1;
 }
 
-// What float derivatives of uv cost: about 1 degree times uv * 1e-6 / footprint, the footprint in
-// uv (docs/explanation/theory.md, "Rounding"). Both are proportional to 1 / distance.
+// Sets the error from float derivatives of uv: about 1 degree times uv * 1e-6 / footprint, with the footprint in uv
+// (docs/explanation/theory.md, "Rounding"). It is proportional to 1 / distance.
 void addPrecision(PrimitiveLint& p, double distance)
 {
-    const double footprintPerDistance = 2 * std::tan(glm::radians(kFieldOfView / 2)) / kLines * p.uv.gradient;
+    const double footprintPerDistance = 2 * std::tan(glm::radians(kFieldOfView / 2)) / kImageRows * p.uv.gradient;
     if (!(footprintPerDistance > 0))
         return;
     const double error = std::max(p.uv.largestUv, 1.0) * 1e-6 / footprintPerDistance;
@@ -63,13 +63,13 @@ std::string whyNotJudged(const PrimitiveLint& p, const Image& map)
         return map.name.empty() ? "its pixels were not read" : map.name + " was not read";
     if (!p.hasUv)
         return "no uv";
-    return p.readings.front().error.count == 0 ? "no triangle has area, also in uv" : "";
+    return p.readings.front().error.count == 0 ? "no triangle has an area both in space and in uv" : "";
 }
 
-// The frame that a material's maps are for: the one that the file names, or else glTF's.
+// The frame of a material's maps: the one that the file names, otherwise glTF's.
 Frame madeFor(const Material& material) { return material.normalFrame.value_or(Frame::mikktspace); }
 
-// What lint reads at vertices: the maps' own frame, and the one of those that may be advised that needs it.
+// The frames that lint reads at vertices: MikkTSpace, the maps' own, and `smooth`, which may be advised.
 FrameSet framesOfLint(const Material& material)
 {
     FrameSet frames;
@@ -78,7 +78,7 @@ FrameSet framesOfLint(const Material& material)
     return frames;
 }
 
-// Tells how much is done, in triangles, and remembers a wish to stop.
+// Reports progress in triangles, and remembers a request to stop.
 struct TriangleProgress {
     const Progress& progress;
     double all = 1, done = 0;
@@ -93,15 +93,14 @@ struct TriangleProgress {
     }
 };
 
-// Shares of the time of one mesh: its surface, each of three looks at one of its placings, and what is done for all
-// meshes together in three steps.
+// Fractions of the time of one mesh: its surface, each of three steps for placings, and each of three for all meshes.
 constexpr double kOfSurface = 0.4, kOfLook = 0.15, kOfWhole = 0.05;
 
-// Not whole where `counted` has said to stop; tells three looks of that many triangles. surfaces: of the whole scene.
+// Incomplete if `counted` is stopped. Counts three steps of that many triangles. surfaces: of the whole scene.
 PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSurface& surface, double distance,
                             std::size_t surfaces, TriangleProgress& counted, double triangles)
 {
-    // What lint::seen may draw: fewer of each of many surfaces, so that they end too.
+    // Limit of lint::visibility, lower if there are many surfaces, so that the total time is limited.
     const double maxPixels =
         std::min(lint::kMaxPixels, 10 * lint::kMaxPixels / double(std::max<std::size_t>(surfaces, 1)));
     const Material& material = scene.materials[std::size_t(mesh.material)];
@@ -110,13 +109,15 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
     p.material = material.name;
     p.tangentsFor = material.tangentsFor;
     const std::vector<MeshPoint> points = pointsOver(surface, pointsOfEach(surfaces));
-    const auto turned = [&](Frame to) { return directionTurn(surface, points, {.from = Frame::mikktspace, .to = to}); };
+    const auto rotationWith = [&](Frame to) {
+        return directionTurn(surface, points, {.from = Frame::mikktspace, .to = to});
+    };
     if (!p.tangentsFor.empty())
-        p.turned = {turned(Frame::orthonormal), turned(Frame::cotangent), turned(Frame::smooth)};
+        p.rotation = {rotationWith(Frame::orthonormal), rotationWith(Frame::cotangent), rotationWith(Frame::smooth)};
     const Texture& coat = material.coat.normalMap;
-    if (coat.present() && !hasPixels(scene.images[std::size_t(coat.image)])) { // it is not converted
+    if (coat.present() && !hasPixels(scene.images[std::size_t(coat.image)])) { // not converted
         p.tangentsFor = "KHR_materials_clearcoat";
-        p.turned = {};
+        p.rotation = {};
     }
     p.madeFor = madeFor(material);
     p.triangles = mesh.triangleCount();
@@ -143,8 +144,7 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
     return p;
 }
 
-// Primitives that read the same normal map share its texels; one without a map stands alone. A mesh that
-// is placed several times counts once.
+// Primitives with the same normal map share its texels; one without a map is measured alone. Placings count once.
 void addOverlaps(LintReport& report, const std::vector<MapUse>& uses)
 {
     std::map<int, std::pair<std::vector<const MappedSurface*>, std::vector<UvQuality*>>> groups;
@@ -156,10 +156,10 @@ void addOverlaps(LintReport& report, const std::vector<MapUse>& uses)
         groups[key].first.push_back(&uses[i].surface);
         groups[key].second.push_back(&primitives[i].uv);
     }
-    // Of very many groups each gets a coarser raster: all together take no more than 64 fine ones.
-    const double part = std::sqrt(64 / std::max(double(groups.size()), 64.0));
+    // Very many groups get coarser rasters: all together have no more texels than 64 fine ones.
+    const double scale = std::sqrt(64 / std::max(double(groups.size()), 64.0));
     for (const auto& [key, group] : groups)
-        lint::countOverlaps(group.first, group.second, int(512 * part));
+        lint::countOverlaps(group.first, group.second, int(512 * scale));
     for (std::size_t i = 0; i < uses.size(); ++i)
         if (primitives[i].placing > 0) {
             primitives[i].uv.overlapping = primitives[i - 1].uv.overlapping;
@@ -183,7 +183,7 @@ void addMaps(LintReport& report, const Scene& scene)
 // A clear coat's image, and how a primitive reads it.
 using CoatUse = std::pair<int, MapUse>;
 
-// How each map would do as it is with the frames that may be advised.
+// Measures each map as it is with the frames that may be advised.
 void addFits(LintReport& report, const Scene& scene, std::vector<MapUse> uses, std::vector<CoatUse> coats)
 {
     std::map<int, std::vector<MapUse>> readers;
@@ -193,19 +193,19 @@ void addFits(LintReport& report, const Scene& scene, std::vector<MapUse> uses, s
     for (auto& [image, use] : coats)
         readers[image].push_back(std::move(use));
     const TangentOrigin from = lint::distrustStored(report) ? TangentOrigin::generated : TangentOrigin::stored;
-    std::map<int, Frame> frames; // of the images: that of the first material with each
+    std::map<int, Frame> frames; // of each image: that of the first material with it
     for (const Material& m : scene.materials)
         for (const Texture* const texture : {&m.normalMap, &m.coat.normalMap})
             frames.emplace(texture->image, madeFor(m));
-    for (auto& [image, shown] : readers) {
+    for (auto& [image, mapUses] : readers) {
         const Image& map = scene.images[std::size_t(image)];
         MapFit fit{{}, image, map.name};
-        std::erase_if(shown, [](const MapUse& use) { return !use.surface.hasUv(); });
+        std::erase_if(mapUses, [](const MapUse& use) { return !use.surface.hasUv(); });
         if (hasPixels(map)) {
             std::vector<FramePair> pairs;
             for (const Frame frame : {Frame::orthonormal, Frame::cotangent, Frame::smooth})
                 pairs.push_back({frames.at(image), frame, from, TangentOrigin::generated});
-            const std::vector<ValueSummary> errors = mapErrors(map, map, shown, pairs, {}, pointsOfEach(uses.size()));
+            const std::vector<ValueSummary> errors = mapErrors(map, map, mapUses, pairs, {}, pointsOfEach(uses.size()));
             fit.orthonormal = errors[0];
             fit.cotangent = errors[1];
             fit.smooth = errors[2];
@@ -237,7 +237,7 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
 {
     LintReport report;
     if (const Status sound = checkScene(scene, "scene", {.finite = false, .pixels = false}); !sound) {
-        report.recommendation = report.defects = "Nothing was looked at: " + sound.error().message + ".";
+        report.recommendation = report.defects = "Nothing was checked: " + sound.error().message + ".";
         return report;
     }
     if (const std::size_t bytes = lintBytes(scene); options.memory > 0 && bytes > options.memory)
@@ -252,8 +252,8 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
         triangles += mesh.triangleCount();
     TriangleProgress counted{progress, double(std::max<std::size_t>(triangles, 1))};
     std::size_t surfaces = 0;
-    for (const auto& ways : placed)
-        surfaces += std::min(ways.size(), kMaxPlacings);
+    for (const auto& transforms : placed)
+        surfaces += std::min(transforms.size(), kMaxPlacings);
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         const Mesh& mesh = scene.meshes[i];
         const Material& material = scene.materials[std::size_t(mesh.material)];
@@ -264,18 +264,18 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
         if (material.coat.normalMap.present())
             ofCoat = makeCoatSurface(held, material.normalMap, material.coat.normalMap, frames);
         const std::size_t count = std::min(placed[i].size(), kMaxPlacings);
-        const double share = double(mesh.triangleCount()) / double(count);
+        const double perPlacing = double(mesh.triangleCount()) / double(count);
         if (!counted.add(kOfSurface * double(mesh.triangleCount())))
             return stoppedError();
         for (std::size_t k = 0; k < count; ++k) {
-            const auto useOf = [&](const MappedSurface& surface, const auto& reader) { // the material or its coat
+            const auto useOf = [&](const MappedSurface& surface, const auto& reader) { // reader: material or coat
                 const Sampler& sampler = reader.normalMap.sampler;
                 return MapUse{placedBy(surface, placed[i][k]), reader.normalFormat, double(reader.normalScale),
                               sampler.wrapU, sampler.wrapV};
             };
             uses.push_back(useOf(own, material));
             PrimitiveLint p =
-                lintPrimitive(scene, mesh, uses.back().surface, report.distance, surfaces, counted, share);
+                lintPrimitive(scene, mesh, uses.back().surface, report.distance, surfaces, counted, perPlacing);
             if (counted.stopped)
                 return stoppedError();
             p.placing = k;
@@ -292,7 +292,7 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
     if (!counted.add(kOfWhole * counted.all))
         return stoppedError();
     addFits(report, scene, std::move(uses), std::move(coats));
-    counted.done = counted.all; // also where there are no triangles
+    counted.done = counted.all; // also without triangles
     if (!counted.add(0))
         return stoppedError();
     if (const auto named = namedFrame(scene))

@@ -13,11 +13,11 @@ namespace cotan {
 
 namespace {
 
-constexpr std::size_t kMaxPoints = 65536; // over all uses of a map, while each has kLeast
-constexpr std::size_t kLeast = 64;
-constexpr std::size_t kMaxUses = kMaxPoints / kLeast; // of more, evenly chosen ones are measured
+constexpr std::size_t kMaxPoints = 65536; // over all uses of a map, but kMinEach for each
+constexpr std::size_t kMinEach = 64;
+constexpr std::size_t kMaxUses = kMaxPoints / kMinEach; // of more, evenly chosen ones are measured
 
-// The normal that a frame makes of a map at a place.
+// The normal that a frame makes of a map at a point.
 glm::dvec3 normalOf(const Image& map, const MapUse& use, const Convention& stored, Frame frame, TangentOrigin tangents,
                     const MeshPoint& p)
 {
@@ -33,12 +33,12 @@ double mappedArea(const MappedSurface& s, std::size_t triangle)
     return orientationOf(s, triangle, edges) != 0 ? areaOf(edges) : 0;
 }
 
-constexpr double kSameWay = 0.7071; // cosine of kTurned
+constexpr double kMinAlignment = 0.7071; // cosine of kMaxTangentAngle
 
-// What engines show with tangents: MikkTSpace, but of unit vectors. mikktspace.h wants them as interpolated; three.js
-// and others normalise them, which on coarse meshes is a third of what is predicted here. With the directions of stored
-// tangents where they are within 45 degrees: on a mesh that is bent by its bones these were made before it was bent.
-f64::cotan_frame meantFrame(const MappedSurface& s, const MeshPoint& p)
+// The frame that engines show with tangents: MikkTSpace of unit vectors. mikktspace.h requires interpolated vectors,
+// but three.js and others normalise them; on coarse meshes that is a third of the error predicted here. Stored tangents
+// within 45 degrees give the directions: on a mesh posed by bones they were made before it was posed.
+f64::cotan_frame referenceFrame(const MappedSurface& s, const MeshPoint& p)
 {
     f64::cotan_frame frame = frameAt(s, Frame::mikktspace, TangentOrigin::generated, p.triangle, p.barycentric);
     if (!s.hasStored() || !s.hasGenerated(Frame::mikktspace))
@@ -47,7 +47,7 @@ f64::cotan_frame meantFrame(const MappedSurface& s, const MeshPoint& p)
     for (std::size_t k = 0; k < 3; ++k) {
         const glm::dvec4 own = s.stored(3 * p.triangle + k), made = s.generated(Frame::mikktspace, 3 * p.triangle + k);
         const bool along = glm::dot(glm::dvec3(own), glm::dvec3(made))
-            > kSameWay * glm::length(glm::dvec3(own)) * glm::length(glm::dvec3(made));
+            > kMinAlignment * glm::length(glm::dvec3(own)) * glm::length(glm::dvec3(made));
         t += p.barycentric[int(k)] * (along ? glm::dvec4(glm::dvec3(own), made.w) : made);
     }
     return f64::cotan_frame_mikktspace(f64::cotan_normalize_or(frame.n, frame.n),
@@ -56,7 +56,7 @@ f64::cotan_frame meantFrame(const MappedSurface& s, const MeshPoint& p)
 
 } // namespace
 
-// In the triangles by the sequence of the plastic number (R2).
+// Points in the triangles follow the sequence of the plastic number (R2).
 std::vector<MeshPoint> pointsOver(const MappedSurface& s, std::size_t count, double* area)
 {
     double total = 0;
@@ -68,7 +68,7 @@ std::vector<MeshPoint> pointsOver(const MappedSurface& s, std::size_t count, dou
     if (!(total > 0))
         return points;
     std::size_t triangle = 0;
-    double upTo = mappedArea(s, 0); // of this triangle and all before it
+    double upTo = mappedArea(s, 0); // area of this triangle and all before it
     for (std::size_t k = 0; k < count; ++k) {
         const double at = (double(k) + 0.5) / double(count) * total;
         while (triangle + 1 < s.triangleCount() && upTo <= at)
@@ -86,10 +86,10 @@ std::vector<MeshPoint> pointsOver(const MappedSurface& s, std::size_t count, dou
 
 std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, std::span<const MapUse> uses,
                                     std::span<const FramePair> frames, std::optional<Expansion> expansionAfter,
-                                    std::size_t most)
+                                    std::size_t maxPoints)
 {
-    const std::size_t each = std::clamp(kMaxPoints / std::max<std::size_t>(uses.size(), 1), kLeast, kPointsOfSurface);
-    const std::size_t count = std::min(each, most);
+    const std::size_t each = std::clamp(kMaxPoints / std::max<std::size_t>(uses.size(), 1), kMinEach, kPointsOfSurface);
+    const std::size_t count = std::min(each, maxPoints);
     std::vector<ValueStatistics> errors(frames.size());
     const std::size_t step = (uses.size() + kMaxUses - 1) / kMaxUses;
     for (std::size_t k = 0; k < uses.size(); k += step) {
@@ -115,8 +115,8 @@ std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, std
 
 std::size_t pointsOfEach(std::size_t surfaces)
 {
-    constexpr std::size_t kAll = 128 * kPointsOfSurface, kFewest = 16;
-    return std::clamp(kAll / std::max<std::size_t>(surfaces, 1), kFewest, kPointsOfSurface);
+    constexpr std::size_t kTotalPoints = 128 * kPointsOfSurface, kMinOfSurface = 16;
+    return std::clamp(kTotalPoints / std::max<std::size_t>(surfaces, 1), kMinOfSurface, kPointsOfSurface);
 }
 
 ValueSummary mapError(const Image& before, const Image& after, std::span<const MapUse> uses, const FramePair& frames,
@@ -129,12 +129,12 @@ ValueSummary directionTurn(const MappedSurface& surface, const std::vector<MeshP
 {
     ValueStatistics turns;
     for (const MeshPoint& p : points) {
-        const auto way = [&](Frame frame, TangentOrigin tangents) {
+        const auto axisOf = [&](Frame frame, TangentOrigin tangents) {
             const f64::cotan_frame f = frameAt(surface, frame, tangents, p.triangle, p.barycentric);
             const glm::dvec3 n = f64::cotan_normalize_or(f.n, glm::dvec3(0));
             return f64::cotan_direction_on_surface(n, f.t, f.b, {1, 0}, n);
         };
-        const glm::dvec3 from = way(frames.from, frames.fromTangents), to = way(frames.to, frames.toTangents);
+        const glm::dvec3 from = axisOf(frames.from, frames.fromTangents), to = axisOf(frames.to, frames.toTangents);
         if (from == glm::dvec3(0) || to == glm::dvec3(0))
             return {};
         turns.add(lint::degreesBetween(from, glm::dot(from, to) < 0 ? -to : to));
@@ -147,7 +147,7 @@ FrameSet framesRead(const FramePair& frames, bool stored)
     FrameSet set;
     for (const auto& [frame, tangents] :
          {std::pair(frames.from, frames.fromTangents), {frames.to, frames.toTangents}}) {
-        // A generated frame that is read at the vertices.
+        // Stored tangents need no preparation, unlike everything that is generated at the vertices.
         const bool ofFile = readsTangents(frame) && tangents == TangentOrigin::stored && stored;
         if (readsVertices(frame) && !ofFile)
             set.set(std::size_t(frame));
@@ -173,7 +173,7 @@ std::vector<Reading> lint::readings(const MappedSurface& s, const std::vector<Me
     const auto format =
         toFormat<f64::cotan_normal_format>(material.normalFormat, map.type, double(material.normalScale));
     const Sampler& sampler = material.normalMap.sampler;
-    const std::vector<double> weights = seen(s, points, material.doubleSided, maxPixels);
+    const std::vector<double> weights = visibility(s, points, material.doubleSided, maxPixels);
     for (std::size_t k = 0; k < points.size(); ++k) {
         const MeshPoint& p = points[k];
         const glm::dvec3 m = decodedAt(map, sampler.wrapU, sampler.wrapV, format, uvAt(s, p.triangle, p.barycentric));
@@ -181,11 +181,12 @@ std::vector<Reading> lint::readings(const MappedSurface& s, const std::vector<Me
             return f64::cotan_apply(frameAt(s, frame, tangents, p.triangle, p.barycentric), m);
         };
         const glm::dvec3 generated = readBy(madeFor, TangentOrigin::generated);
-        const glm::dvec3 meant = madeFor == Frame::mikktspace ? f64::cotan_apply(meantFrame(s, p), m) : generated;
+        const glm::dvec3 reference =
+            madeFor == Frame::mikktspace ? f64::cotan_apply(referenceFrame(s, p), m) : generated;
         for (Reader& r : readers)
-            r.errors.add(
-                degreesBetween(readBy(r.frame, r.tangents), r.tangents == TangentOrigin::stored ? generated : meant),
-                weights[k]);
+            r.errors.add(degreesBetween(readBy(r.frame, r.tangents),
+                                        r.tangents == TangentOrigin::stored ? generated : reference),
+                         weights[k]);
     }
     std::vector<Reading> result;
     for (Reader& r : readers)

@@ -20,26 +20,25 @@ namespace lint {
 
 namespace {
 
-// Below this nobody sees a difference, above it moving highlights show one.
+// Degrees: differences below are invisible, those above show in moving highlights.
 constexpr double kUnseenMean = 0.5, kUnseen95 = 2;
-// From this mean on the light seems to come from elsewhere, without anything moving.
+// Degrees: from this mean on the light seems to come from elsewhere, even without motion.
 constexpr double kWrongMean = 5;
-// Degrees on average: what converted maps stay off by in other engines. On real models read by three.js it was 0.1 to
-// 1.7, mostly over what the untouched map was off by when it was read with orthonormal
-// (docs/how-to/remove-tangents.md).
-constexpr double kConvertedStaysOff = 1;
-// Steps at edges over this, and a map for `cotangent` shows creases there.
+// Degrees on average: the error that converted maps keep in other engines. On real models in three.js it was 0.1 to
+// 1.7, mostly above the error of the untouched map read with orthonormal (docs/how-to/remove-tangents.md).
+constexpr double kConvertedError = 1;
+// If steps at edges exceed this, a map for `cotangent` shows creases there.
 constexpr double kCreases95 = 2;
-constexpr std::size_t kMaxNames = 3; // in one sentence
+constexpr std::size_t kMaxNames = 3; // per sentence
 
-// Of all primitives that were judged, weighted by area; of the 95 % too it is the mean.
-struct Whole {
+// Means over all judged primitives, weighted by area; percentile95 is the mean of their percentiles.
+struct AreaMean {
     double area = 0, mean = 0, percentile95 = 0;
 
     bool unseen() const { return mean < kUnseenMean && percentile95 < kUnseen95; }
 };
 
-// The error of that reading; null where there is none.
+// The error of that reading; null if there is none.
 const ValueSummary* errorOf(const PrimitiveLint& p, const std::string& reading)
 {
     const auto found = std::ranges::find(p.readings, reading, &Reading::name);
@@ -48,32 +47,32 @@ const ValueSummary* errorOf(const PrimitiveLint& p, const std::string& reading)
 
 bool judged(const PrimitiveLint& p) { return errorOf(p, "orthonormal") != nullptr; }
 
-// summaryOf(primitive): null for one that does not count.
-Whole wholeOf(const LintReport& report, const auto& summaryOf)
+// summaryOf(primitive): null if it does not count.
+AreaMean areaMeanOf(const LintReport& report, const auto& summaryOf)
 {
-    Whole w;
+    AreaMean w;
     for (const PrimitiveLint& p : report.primitives)
         if (const ValueSummary* const s = summaryOf(p); s && s->count > 0) {
             w.area += p.uv.area;
             w.mean += p.uv.area * s->mean;
             w.percentile95 += p.uv.area * s->percentile95;
         }
-    w.mean /= w.area; // of nothing: NaN, which is below no limit
+    w.mean /= w.area; // NaN if empty, which is below no limit
     w.percentile95 /= w.area;
     return w;
 }
 
-Whole wholeReading(const LintReport& report, const std::string& name)
+AreaMean meanReading(const LintReport& report, const std::string& name)
 {
-    return wholeOf(report, [&](const PrimitiveLint& p) { return errorOf(p, name); });
+    return areaMeanOf(report, [&](const PrimitiveLint& p) { return errorOf(p, name); });
 }
 
-// Shares of the area with a map and stored tangents; NaN, which is above no limit, where there are none.
+// Fractions of the area with a map and stored tangents; NaN, which is above no limit, if there is none.
 struct Stored {
-    double reversedW = 0, turned = 0;
+    double reversedW = 0, rotated = 0;
 };
 
-Stored storedShares(const LintReport& report)
+Stored storedFractions(const LintReport& report)
 {
     Stored s;
     double area = 0;
@@ -81,10 +80,10 @@ Stored storedShares(const LintReport& report)
         if (p.stored.present && p.stored.angle.count > 0 && p.image >= 0) {
             area += p.uv.area;
             s.reversedW += p.uv.area * p.stored.reversedW;
-            s.turned += p.uv.area * p.stored.turned;
+            s.rotated += p.uv.area * p.stored.rotated;
         }
     s.reversedW /= area;
-    s.turned /= area;
+    s.rotated /= area;
     return s;
 }
 
@@ -109,8 +108,8 @@ void addOnce(std::vector<std::string>& names, const std::string& name)
         names.push_back(name);
 }
 
-// The maps whose green points the other way than declared, by name; empty if there are none.
-std::string otherGreen(const LintReport& report)
+// The names of the maps whose green points the other way than declared; empty if there are none.
+std::string reversedGreen(const LintReport& report)
 {
     std::vector<std::string> names;
     for (const GreenEvidence& g : report.maps)
@@ -119,8 +118,8 @@ std::string otherGreen(const LintReport& report)
     return listed(names);
 }
 
-// What turns them; about 127.5 where that is zero in all of them.
-std::string turningOptions(const LintReport& report)
+// The options that flip these maps; biased ones if all of them have zero at about 127.5.
+std::string flipOptions(const LintReport& report)
 {
     bool biased = true;
     for (const GreenEvidence& g : report.maps)
@@ -128,7 +127,7 @@ std::string turningOptions(const LintReport& report)
     return biased ? "--from directx,biased --to gltf,biased" : "--from directx --to gltf";
 }
 
-// What is wrong with the maps as files, and how each is fixed; empty if nothing.
+// The defects of the maps as files, and how each is fixed; empty if there are none.
 std::string brokenMaps(const LintReport& report)
 {
     std::string text;
@@ -139,53 +138,52 @@ std::string brokenMaps(const LintReport& report)
     return text;
 }
 
-constexpr double kMostly = 0.5;      // of the area reversed: the whole model is
-constexpr double kContradicts = 0.1; // of the area: the stored tangents are not what the uv say
+constexpr double kMostly = 0.5;      // of the area reversed: then the whole model is
+constexpr double kContradicts = 0.1; // of the area: then the stored tangents contradict the uv
 
-bool contradicts(const Stored& s) { return s.reversedW > kContradicts || s.turned > kContradicts; }
+bool contradicts(const Stored& s) { return s.reversedW > kContradicts || s.rotated > kContradicts; }
 
-// What is wrong with the model as it is.
+// The defects of the model's tangents and of green; empty if there are none.
 std::string defectsOfFrames(const LintReport& report)
 {
-    const Stored s = storedShares(report);
-    const std::string green = otherGreen(report);
+    const Stored s = storedFractions(report);
+    const std::string green = reversedGreen(report);
     const bool reversed = s.reversedW > kMostly;
     if (reversed && !green.empty())
-        return fmt::format(
-            "The stored TANGENT.w is reversed on {:.0f} % of the area and green points the other way in {}: "
-            "together they are right, each alone is not.",
-            100 * s.reversedW, green);
+        return fmt::format("The stored TANGENT.w is reversed on {:.0f} % of the area and green is flipped in {}: "
+                           "together they cancel out, each alone is wrong.",
+                           100 * s.reversedW, green);
     std::string text;
     if (reversed)
         text = fmt::format("The stored TANGENT.w is reversed on {:.0f} % of the area.", 100 * s.reversedW);
     else if (contradicts(s))
         text = fmt::format(
-            "The stored tangents contradict the uv: w is reversed on {:.0f} % of the area, the tangent turned by over "
-            "{:.0f} degrees on {:.0f} %.",
-            100 * s.reversedW, kTurned, 100 * s.turned);
+            "The stored tangents contradict the uv: w is reversed on {:.0f} % of the area, the tangent is rotated by "
+            "more than {:.0f} degrees on {:.0f} %.",
+            100 * s.reversedW, kMaxTangentAngle, 100 * s.rotated);
     if (!text.empty() && green.empty() && !distrustStored(report))
-        text += " Whether green is right cannot be told from the maps, so the tangents are followed.";
+        text += " The maps do not show whether green is right, so the tangents are trusted.";
     if (!green.empty())
         addSentence(text,
-                    fmt::format("Green seems to point the other way in {} (cotan map convert {} turns it).", green,
-                                turningOptions(report)));
+                    fmt::format("Green seems to be flipped in {} (cotan map convert {} flips it back).", green,
+                                flipOptions(report)));
     return text;
 }
 
-const ValueSummary& of(const FrameSummaries& summaries, Advice advice)
+const ValueSummary& summaryFor(const FrameSummaries& summaries, Advice advice)
 {
     return advice == Advice::convertToCotangent ? summaries.cotangent
         : advice == Advice::convertToSmooth     ? summaries.smooth
                                                 : summaries.orthonormal;
 }
 
-// Whether something else than a normal map that is converted needs the tangents of a primitive.
+// Whether something other than a converted normal map needs the tangents of a primitive.
 bool neededElsewhere(const PrimitiveLint& p, Advice advice)
 {
-    return !p.tangentsFor.empty() && !directionStays(of(p.turned, advice));
+    return !p.tangentsFor.empty() && !directionStays(summaryFor(p.rotation, advice));
 }
 
-// Which extension needs tangents in which material, as a sentence; empty if none.
+// A sentence on the extensions that need tangents, with their materials; empty if there are none.
 std::string otherReaders(const LintReport& report)
 {
     std::vector<std::string> names;
@@ -194,7 +192,7 @@ std::string otherReaders(const LintReport& report)
             addOnce(names, fmt::format("{} ({})", p.material.empty() ? "a material" : p.material, p.tangentsFor));
     return names.empty()
         ? ""
-        : fmt::format("Tangents are also read by what is not converted and stay for it: {}.", listed(names));
+        : fmt::format("Tangents are also read by unconverted extensions and are kept for them: {}.", listed(names));
 }
 
 std::string nameOf(const PrimitiveLint& p)
@@ -202,7 +200,7 @@ std::string nameOf(const PrimitiveLint& p)
     return p.mesh.empty() ? p.material.empty() ? "a primitive" : p.material : p.mesh;
 }
 
-// Normal maps that are there and could not be judged, as a sentence; empty if none.
+// A sentence on the normal maps that could not be judged; empty if there are none.
 std::string notJudged(const LintReport& report)
 {
     std::vector<std::string> names;
@@ -212,8 +210,7 @@ std::string notJudged(const LintReport& report)
     return names.empty() ? "" : fmt::format("The normal map could not be judged in {}.", listed(names));
 }
 
-// A sentence on the primitive with the largest mean error of reading with orthonormal among those where somebody might
-// see it; empty if there is none.
+// A sentence on the primitive with the largest visible mean error of reading with orthonormal; empty if there is none.
 std::string worstReading(const LintReport& report)
 {
     std::string text;
@@ -228,23 +225,23 @@ std::string worstReading(const LintReport& report)
     return text;
 }
 
-std::string seen(const Whole& orthonormal, const Whole& cotangent)
+std::string visibleErrorText(const AreaMean& orthonormal, const AreaMean& cotangent)
 {
-    const char* how = orthonormal.unseen() ? "nobody sees a difference"
+    const char* how = orthonormal.unseen() ? "the difference is invisible"
         : orthonormal.mean < kWrongMean    ? "moving highlights show a difference"
                                            : "the light seems to come from elsewhere";
-    return fmt::format("If the maps were made for MikkTSpace and are read without tangents, {}: {:.2f} degrees off on "
-                       "average with the "
+    return fmt::format("If the maps were made for MikkTSpace and are read without tangents, {}: the error is {:.2f} "
+                       "degrees on average with the "
                        "frame orthonormal ({:.2f} with cotangent).",
                        how, orthonormal.mean, cotangent.mean);
 }
 
-// Counts what the command would do; dropTangents (bake/convert/map_jobs.cpp) says which tangents go. Maps that are to
-// be read as they are stay: with the frame orthonormal by --keep-maps, with one that the file names without a command.
-void foresee(LintReport& report)
+// Predicts what the command would do; dropTangents (bake/convert/map_jobs.cpp) decides which tangents are dropped. Maps
+// to be read as they are stay: for orthonormal by --keep-maps, for the frame that the file names without a command.
+void predictConversion(LintReport& report)
 {
     for (const MapFit& fit : report.fits)
-        ++(fitsAsItIs(of(fit, report.advice)) ? report.mapsKept : report.mapsConverted);
+        ++(fitsAsItIs(summaryFor(fit, report.advice)) ? report.mapsKept : report.mapsConverted);
     if (report.advice == Advice::readNamed || report.advice == Advice::readOrthonormal) {
         report.mapsConverted = 0;
         report.mapsKept = report.fits.size();
@@ -256,17 +253,17 @@ void foresee(LintReport& report)
             report.dropsTangents || (p.stored.present && !neededElsewhere(p, report.advice) && !p.unread);
 }
 
-// What to do, given what the command would do.
-std::string advised(const LintReport& report, const Whole& steps)
+// The advice, given what the command would do.
+std::string adviceText(const LintReport& report, const AreaMean& steps)
 {
     const std::string frame(name(frameOf(report)));
     const std::string why = report.advice != Advice::convertToSmooth
         ? ""
-        : fmt::format(" (cotangent steps by up to {:.0f} degrees at edges, 95 %)", steps.percentile95);
+        : fmt::format(" (cotangent has steps of {:.0f} degrees at edges, 95th percentile)", steps.percentile95);
     const std::string tangents = report.dropsTangents ? " The command drops the tangents." : "";
     if (report.mapsConverted == 0 && report.dropsTangents)
         return fmt::format("Read the maps with the frame {} as they are; the command drops the tangents.", frame);
-    if (report.mapsConverted == 0 && (!brokenMaps(report).empty() || !otherGreen(report).empty()))
+    if (report.mapsConverted == 0 && (!brokenMaps(report).empty() || !reversedGreen(report).empty()))
         return fmt::format("Fix the maps; then they can be read with the frame {}.", frame);
     if (report.mapsConverted == 0)
         return fmt::format("Nothing has to be changed: read the maps with the frame {} as they are.", frame);
@@ -289,54 +286,53 @@ void adviseWithoutMaps(LintReport& report)
         report.advised = "No primitive has a normal map and uv to read it with: no normal map uses tangents.";
 }
 
-// What is seen of maps that name their frame, where another reads them.
-std::string seenOfNamed(const LintReport& report, const Whole& orthonormal)
+// A sentence on the visible error of maps that name their frame, if another frame reads them.
+std::string namedErrorText(const LintReport& report, const AreaMean& orthonormal)
 {
     const std::string_view frame = name(*report.named);
     return *report.named == Frame::orthonormal
         ? fmt::format("The file says that its maps are for the frame {}.", frame)
-        : fmt::format("The file says that its maps are for the frame {}; read with orthonormal they are off by {:.2f} "
+        : fmt::format("The file says that its maps are for the frame {}; read with orthonormal, their error is {:.2f} "
                       "degrees on average.",
                       frame, orthonormal.mean);
 }
 
-// Whether reading the maps with orthonormal leaves less than converting them does, for every map, against what the
-// stored tangents show.
-bool readsAsItIs(const LintReport& report, const Whole& orthonormal)
+// Whether every map read with orthonormal errs less than converted maps do, compared with the stored tangents.
+bool readsAsItIs(const LintReport& report, const AreaMean& orthonormal)
 {
-    return orthonormal.mean < kConvertedStaysOff
-        && std::ranges::none_of(report.fits, [](const MapFit& f) { return f.orthonormal.mean >= kConvertedStaysOff; });
+    return orthonormal.mean < kConvertedError
+        && std::ranges::none_of(report.fits, [](const MapFit& f) { return f.orthonormal.mean >= kConvertedError; });
 }
 
 void adviseForMaps(LintReport& report)
 {
-    const Whole orthonormal = wholeReading(report, "orthonormal");
-    const Whole steps =
-        wholeOf(report, [](const PrimitiveLint& p) { return judged(p) ? &p.steps.cotangent : nullptr; });
-    report.seen =
-        report.named ? seenOfNamed(report, orthonormal) : seen(orthonormal, wholeReading(report, "cotangent"));
+    const AreaMean orthonormal = meanReading(report, "orthonormal");
+    const AreaMean steps =
+        areaMeanOf(report, [](const PrimitiveLint& p) { return judged(p) ? &p.steps.cotangent : nullptr; });
+    report.seen = report.named ? namedErrorText(report, orthonormal)
+                               : visibleErrorText(orthonormal, meanReading(report, "cotangent"));
     report.worst = report.named ? std::string() : worstReading(report);
     report.advice = report.named           ? Advice::readNamed
         : readsAsItIs(report, orthonormal) ? Advice::readOrthonormal
         : orthonormal.unseen()             ? Advice::convertToOrthonormal
         : steps.percentile95 > kCreases95  ? Advice::convertToSmooth
                                            : Advice::convertToCotangent;
-    foresee(report);
-    report.advised = advised(report, steps);
+    predictConversion(report);
+    report.advised = adviceText(report, steps);
 }
 
 } // namespace
 
-double meanOfReading(const LintReport& report, const std::string& frame) { return wholeReading(report, frame).mean; }
+double meanOfReading(const LintReport& report, const std::string& frame) { return meanReading(report, frame).mean; }
 
 bool distrustStored(const LintReport& report)
 {
-    const Stored s = storedShares(report);
-    if (s.reversedW > kMostly && !otherGreen(report).empty())
+    const Stored s = storedFractions(report);
+    if (s.reversedW > kMostly && !reversedGreen(report).empty())
         return false;
-    const bool told =
+    const bool greenConfirmed =
         std::ranges::any_of(report.maps, [](const GreenEvidence& g) { return g.decided() && g.asDeclared(); });
-    return told && contradicts(s);
+    return greenConfirmed && contradicts(s);
 }
 
 void recommend(LintReport& report)

@@ -17,15 +17,15 @@ namespace cotan {
 
 namespace {
 
-// The ratio of the two singular values of the gradients of u and v, at least 1; 0 where the smaller is below 1e-4 of
-// the larger: uv along a line, or one point.
+// The ratio of the singular values of the gradients of u and v, at least 1; 0 if the smaller is below 1e-4 of the
+// larger: uv along a line, or at one point.
 double stretchOf(glm::dvec3 u, glm::dvec3 v)
 {
     const double uu = glm::dot(u, u), vv = glm::dot(v, v), uv = glm::dot(u, v);
     const double mean = (uu + vv) / 2;
     const double radius = std::sqrt((uu - vv) * (uu - vv) / 4 + uv * uv);
     const double large = mean + radius;
-    // The smaller eigenvalue from the determinant: the difference would cancel out.
+    // The smaller eigenvalue is taken from the determinant, since a difference would cancel.
     const glm::dvec3 crossed = glm::cross(u, v);
     const double small = large > 0 ? glm::dot(crossed, crossed) / large : 0;
     return small > 1e-8 * large ? std::sqrt(large / small) : 0;
@@ -63,7 +63,7 @@ std::array<StoredCorner, 3> storedCorners(const MappedSurface& s, std::size_t tr
     for (std::size_t k = 0; k < 3; ++k) {
         StoredCorner& result = corners[k];
         const std::size_t corner = 3 * triangle + k;
-        // Tangent first: t along dP/du, b on the side of +v.
+        // The frame's t is along dP/du, its b on the side of +v.
         const f64::cotan_frame f = frameOf(spotOf(edges, s.normal(corner)), Frame::orthonormal);
         if (f.t == glm::dvec3(0))
             continue;
@@ -129,12 +129,12 @@ StoredTangents lint::storedTangents(const MappedSurface& s)
                 continue;
             compared += third;
             result.reversedW += corner.reversed ? third : 0;
-            result.turned += corner.degrees > kTurned ? third : 0;
+            result.rotated += corner.degrees > kMaxTangentAngle ? third : 0;
             angles.add(corner.degrees, third);
         }
     }
-    result.reversedW /= compared; // of nothing: NaN
-    result.turned /= compared;
+    result.reversedW /= compared; // NaN if nothing was compared
+    result.rotated /= compared;
     result.angle = summaryOf(std::move(angles));
     return result;
 }
@@ -145,20 +145,19 @@ namespace {
 
 // One triangle's side of an edge between welded vertices.
 struct Side {
-    std::uint32_t high = 0;   // the edge's vertex with the larger number
+    std::uint32_t high = 0;   // the edge's vertex with the larger index
     std::uint32_t corner = 0; // the edge's first corner in its triangle
     std::size_t triangle() const { return corner / 3; }
 };
 
-// Calls use(a, b) for every edge that exactly two triangles share, its sides listed by its vertex with the smaller
-// number.
+// Calls use(a, b) for every edge that exactly two triangles share, in the order of the edges' smaller vertex indices.
 template<class Use> void eachSharedEdge(const MappedSurface& s, const Use& use)
 {
     const Mesh& mesh = *s.shared->mesh;
     const auto first = firstEqualVertices({mesh.positions, mesh.normals, s.shared->uv, mesh.indices});
     if (first.empty())
         return;
-    const auto endsOf = [&](std::uint32_t corner) { // of the edge that begins there: smaller, larger
+    const auto endsOf = [&](std::uint32_t corner) { // vertices of the edge that begins there: smaller, larger
         return std::minmax(first[mesh.indices[corner]], first[mesh.indices[corner / 3 * 3 + (corner + 1) % 3]]);
     };
     const auto eachSide = [&](const auto& add) {
@@ -185,7 +184,7 @@ template<class Use> void eachSharedEdge(const MappedSurface& s, const Use& use)
     }
 }
 
-// The middle of an edge in its triangle.
+// The middle of an edge in barycentric coordinates of its triangle.
 glm::dvec3 middle(const Side& side)
 {
     glm::dvec3 weights(0);
@@ -196,7 +195,7 @@ glm::dvec3 middle(const Side& side)
 
 constexpr int kDirections = 8;
 
-// Texels tilted by kTestTilt.
+// Texels tilted by kTestTilt in kDirections directions.
 std::array<glm::dvec3, kDirections> tilted()
 {
     std::array<glm::dvec3, kDirections> texels;
@@ -209,8 +208,8 @@ std::array<glm::dvec3, kDirections> tilted()
     return texels;
 }
 
-// The arc sine of x from 0 to 0.5, as exact as a double: a rational function instead of a call, since an edge takes
-// sixteen. Source: fdlibm, e_asin.c.
+// Arc sine of x in [0,0.5], to double precision: a rational function instead of a call, since an edge takes sixteen.
+// Source: fdlibm, e_asin.c.
 double arcSine(double x)
 {
     const double t = x * x;
@@ -230,14 +229,13 @@ double arcSine(double x)
     return x + x * (p / q);
 }
 
-// Degrees between two vectors, by the chord between them at length one; exact near zero, too.
+// Degrees between two vectors, from the chord between their unit vectors; accurate near zero.
 double degreesByChord(glm::dvec3 a, glm::dvec3 b)
 {
     const double aa = glm::dot(a, a), bb = glm::dot(b, b);
     const glm::dvec3 difference = a * (1 / std::sqrt(aa)) - b * (1 / std::sqrt(bb));
     const double half = std::sqrt(glm::dot(difference, difference)) / 2;
-    return half <= 0.5 ? glm::degrees(2 * arcSine(half))
-                       : lint::degreesBetween(a, b); // also where one has no direction
+    return half <= 0.5 ? glm::degrees(2 * arcSine(half)) : lint::degreesBetween(a, b); // also if one has no direction
 }
 
 void addSteps(const std::array<glm::dvec3, kDirections>& texels, const f64::cotan_frame& a, const f64::cotan_frame& b,
@@ -259,7 +257,7 @@ EdgeSteps lint::edgeSteps(const MappedSurface& s, std::size_t maxEdges)
     std::vector<std::int8_t> orientations(s.triangleCount());
     for (std::size_t i = 0; i < orientations.size(); ++i)
         orientations[i] = std::int8_t(orientationOf(s, i));
-    const std::size_t edges = s.triangleCount() * 3 / 2; // of a closed mesh; others have fewer pairs
+    const std::size_t edges = s.triangleCount() * 3 / 2; // of a closed mesh; others have fewer
     const std::size_t every = std::max<std::size_t>((edges + maxEdges - 1) / maxEdges, 1);
     const std::array<glm::dvec3, kDirections> texels = tilted();
     ValueStatistics cotangent, orthonormal;
@@ -283,12 +281,12 @@ EdgeSteps lint::edgeSteps(const MappedSurface& s, std::size_t maxEdges)
 
 namespace {
 
-constexpr double kMaxRows = 1e7; // of texels under all triangles; where there are more the raster is coarser
+constexpr double kMaxRows = 1e7; // of texels under all triangles; with more the raster is coarser
 constexpr int kCoarsest = 16;
 
-// How many of the texels before each in its row have a centre that is covered more than once, and by both orientations:
-// sums, so that a triangle asks once in each of its rows. begins: how many more triangles cover a texel than the one
-// before it in its row: plain, mirrored; `width` a row.
+// For each texel: the number of texels before it in its row that are covered more than once, and in both orientations.
+// With such prefix sums a triangle needs two lookups in each of its rows. begins: for each texel, how many more
+// triangles cover it than the texel before it in its row: plain, mirrored; `width` per row.
 std::vector<glm::uvec2> coversBefore(const std::vector<glm::ivec2>& begins, std::size_t width)
 {
     std::vector<glm::uvec2> covers(begins.size());
@@ -304,7 +302,7 @@ std::vector<glm::uvec2> coversBefore(const std::vector<glm::ivec2>& begins, std:
 
 struct Covered {
     std::uint32_t texels = 0;
-    glm::uvec2 again{0}; // of those: covered more than once, and by both orientations
+    glm::uvec2 again{0}; // of those: covered more than once, and in both orientations
 };
 
 void addOverlaps(const MappedSurface& s, const std::vector<Covered>& triangles, UvQuality& q)
@@ -339,7 +337,7 @@ void lint::countOverlaps(const std::vector<const MappedSurface*>& surfaces, cons
         return;
     }
     std::vector<UvRaster> rasters;
-    const std::size_t width = std::size_t(side) + 1; // of a row of begins, one behind the last texel
+    const std::size_t width = std::size_t(side) + 1; // of a row of begins: one more than the texels
     std::vector<glm::ivec2> begins(width * std::size_t(side));
     for (const MappedSurface* s : surfaces) {
         std::vector<bool> mirrored(s->triangleCount());

@@ -21,7 +21,7 @@ glm::vec3 normalizedOrZero(glm::vec3 v)
     return length > 0 ? v / length : v;
 }
 
-// Appends one mesh as an instance places it.
+// Appends one mesh, transformed by an instance.
 void append(LowSurface& surface, const Mesh& mesh, const Texture& map, const glm::mat4& toWorld, std::uint32_t instance,
             bool storedTangents)
 {
@@ -30,7 +30,7 @@ void append(LowSurface& surface, const Mesh& mesh, const Texture& map, const glm
     const LinearMap<float> placing(linear);
     const float determinant = placing.determinant();
     const glm::mat3 covectors = placing.planeMatrix();
-    // Where lengths do not change, neither do the numbers: what is baked is what the shader reads.
+    // If lengths do not change, normals are not renormalised: the bake uses the shader's exact numbers.
     const bool rigid = covectors == linear;
     for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
         surface.positions.push_back(glm::vec3(toWorld * glm::vec4(mesh.positions[v], 1)));
@@ -40,14 +40,14 @@ void append(LowSurface& surface, const Mesh& mesh, const Texture& map, const glm
     surface.texcoords.insert(surface.texcoords.end(), uv.begin(), uv.end());
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         std::uint32_t corner[3] = {mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
-        if (determinant < 0) // a mirrored instance turns its triangles round
+        if (determinant < 0) // a mirrored instance reverses the winding
             std::swap(corner[1], corner[2]);
         for (std::uint32_t c : corner) {
             surface.indices.push_back(base + c);
             if (storedTangents) {
                 const glm::vec4 t = tangentAlongV(mesh.tangents[c]);
-                const glm::vec3 turned = rigid ? linear * glm::vec3(t) : normalizedOrZero(linear * glm::vec3(t));
-                surface.tangents.push_back(glm::vec4(turned, determinant < 0 ? -t.w : t.w));
+                const glm::vec3 tangent = rigid ? linear * glm::vec3(t) : normalizedOrZero(linear * glm::vec3(t));
+                surface.tangents.push_back(glm::vec4(tangent, determinant < 0 ? -t.w : t.w));
             }
         }
         surface.triangleInstance.push_back(instance);

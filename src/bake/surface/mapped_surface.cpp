@@ -25,7 +25,7 @@ std::vector<glm::vec2> uvOfMap(const Mesh& mesh, const Texture& map)
     return uv;
 }
 
-// A tangent as glTF has it, moved, and as frames take it. Mirroring turns cross products round.
+// A glTF tangent after the linear map, as frames take it. Mirroring flips cross products.
 glm::dvec4 moved(const LinearMap<double>& m, glm::vec4 gltf)
 {
     const glm::vec4 t = tangentAlongV(gltf);
@@ -33,8 +33,8 @@ glm::dvec4 moved(const LinearMap<double>& m, glm::vec4 gltf)
     return {direction, double(t.w) * (m.determinant() < 0 ? -1 : 1)};
 }
 
-// The values of corners, once for the corners of a vertex that have the same bits, as far as these are among the first
-// kMaxCompared of the vertex. Further values of a vertex come after the first values of all vertices.
+// Stores the values of corners once for the corners of a vertex with equal bits, as far as these are among the first
+// kMaxCompared of the vertex. Further values of a vertex follow the first values of all vertices.
 CornerTangents gathered(std::size_t vertices, const std::vector<std::uint32_t>& indices,
                         const std::vector<glm::vec4>& corners)
 {
@@ -47,45 +47,45 @@ CornerTangents gathered(std::size_t vertices, const std::vector<std::uint32_t>& 
     std::vector<glm::vec4>& values = result.values;
     values.resize(vertices);
     std::vector<bool> has(vertices);
-    std::vector<std::uint32_t> next; // of the same vertex, by place
+    std::vector<std::uint32_t> next; // of the same vertex, by index
     for (std::size_t c = 0; c < indices.size(); ++c) {
-        std::uint32_t place = indices[c];
-        if (!has[place]) {
-            has[place] = true;
-            values[place] = corners[c];
+        std::uint32_t slot = indices[c];
+        if (!has[slot]) {
+            has[slot] = true;
+            values[slot] = corners[c];
             continue;
         }
-        for (int compared = 1; !same(values[place], corners[c]); ++compared) {
+        for (int compared = 1; !same(values[slot], corners[c]); ++compared) {
             if (next.empty())
                 next.assign(vertices, kNone);
             if (compared > kMaxCompared) {
-                place = std::uint32_t(values.size());
+                slot = std::uint32_t(values.size());
                 values.push_back(corners[c]);
                 next.push_back(kNone);
                 break;
             }
-            if (next[place] == kNone) {
-                next[place] = std::uint32_t(values.size());
+            if (next[slot] == kNone) {
+                next[slot] = std::uint32_t(values.size());
                 values.push_back(corners[c]);
                 next.push_back(kNone);
             }
-            place = next[place];
+            slot = next[slot];
         }
-        if (place != indices[c])
-            result.places.add(c, indices[c], place, vertices);
+        if (slot != indices[c])
+            result.slots.add(c, indices[c], slot, vertices);
     }
     values.shrink_to_fit();
     return result;
 }
 
-// Cotangents, mirrored and unmirrored triangles apart.
+// Cotangents, separate for mirrored and unmirrored triangles.
 CornerCotangents cotangentsOf(const MeshView& mesh)
 {
     SplitCotangents made = splitSmoothCotangents(mesh);
     CornerCotangents result{std::move(made.cotangents), {}};
     for (std::size_t c = 0; c < made.split.indices.size(); ++c)
         if (made.split.indices[c] != mesh.indices[c])
-            result.places.add(c, mesh.indices[c], made.split.indices[c], mesh.positions.size());
+            result.slots.add(c, mesh.indices[c], made.split.indices[c], mesh.positions.size());
     return result;
 }
 
@@ -96,7 +96,7 @@ template<class ValueOf> auto blended(std::size_t triangle, glm::dvec3 weights, c
         + valueOf(3 * triangle + 2) * weights.z;
 }
 
-// xyz along +u, w as tangentAlongV; (0, 0, 0, 1) where there are none.
+// xyz along +u, w as tangentAlongV; (0, 0, 0, 1) without tangents.
 glm::dvec4 tangentAt(const MappedSurface& s, Frame frame, TangentOrigin source, std::size_t triangle,
                      glm::dvec3 barycentric)
 {
@@ -119,7 +119,7 @@ f64::cotan_frame frameOfVertices(const MappedSurface& s, Frame frame, TangentOri
         return evaluateCotangents(frame, n, glm::dvec3(0), glm::dvec3(0));
     const auto gradient = [&](const std::vector<glm::vec3>& values) {
         return blended(triangle, barycentric, [&](std::size_t corner) {
-            const glm::dvec3 own(values[made.places.of(corner, s.vertexOf(corner))]);
+            const glm::dvec3 own(values[made.slots.of(corner, s.vertexOf(corner))]);
             return s.linear.planeImage(Covector3d(own)).raw();
         });
     };
@@ -135,7 +135,7 @@ std::shared_ptr<SurfaceMesh> shareMesh(std::shared_ptr<const Mesh> mesh, const T
     if (shared->uv.empty() || m.indices.empty())
         return shared;
     const MeshView view{m.positions, m.normals, shared->uv, m.indices};
-    for (const FrameInfo& f : frames()) // first what takes most memory while it is made
+    for (const FrameInfo& f : frames()) // first those that take most memory while they are made
         if (wanted[std::size_t(f.frame)] && readsTangents(f.frame))
             shared->generated[std::size_t(f.frame)] =
                 gathered(m.vertexCount(), m.indices, generateTangents(f.frame, view));
@@ -144,7 +144,7 @@ std::shared_ptr<SurfaceMesh> shareMesh(std::shared_ptr<const Mesh> mesh, const T
     return shared;
 }
 
-// What a surface reads of a mesh.
+// Copies the attributes that a surface reads.
 std::shared_ptr<const Mesh> copied(const Mesh& mesh)
 {
     auto copy = std::make_shared<Mesh>();
@@ -158,20 +158,20 @@ std::shared_ptr<const Mesh> copied(const Mesh& mesh)
 
 } // namespace
 
-void CornerPlaces::add(std::size_t corner, std::uint32_t vertex, std::uint32_t place, std::size_t vertices)
+void CornerSlots::add(std::size_t corner, std::uint32_t vertex, std::uint32_t slot, std::size_t vertices)
 {
-    if (several_.empty())
-        several_.resize(vertices);
-    several_[vertex] = true;
-    elsewhere_.push_back({std::uint32_t(corner), place});
+    if (split_.empty())
+        split_.resize(vertices);
+    split_[vertex] = true;
+    exceptions_.push_back({std::uint32_t(corner), slot});
 }
 
-std::size_t CornerPlaces::of(std::size_t corner, std::uint32_t vertex) const
+std::size_t CornerSlots::of(std::size_t corner, std::uint32_t vertex) const
 {
-    if (several_.empty() || !several_[vertex])
+    if (split_.empty() || !split_[vertex])
         return vertex;
-    const auto found = std::ranges::lower_bound(elsewhere_, corner, {}, &Elsewhere::corner);
-    return found != elsewhere_.end() && found->corner == corner ? found->place : vertex;
+    const auto found = std::ranges::lower_bound(exceptions_, corner, {}, &Exception::corner);
+    return found != exceptions_.end() && found->corner == corner ? found->slot : vertex;
 }
 
 bool MappedSurface::hasStored() const
@@ -187,7 +187,7 @@ glm::dvec4 MappedSurface::stored(std::size_t corner) const
 glm::dvec4 MappedSurface::generated(Frame frame, std::size_t corner) const
 {
     const CornerTangents& made = shared->generated[std::size_t(frame)];
-    return moved(linear, made.values[made.places.of(corner, vertexOf(corner))]);
+    return moved(linear, made.values[made.slots.of(corner, vertexOf(corner))]);
 }
 
 MappedSurface makeSurface(std::shared_ptr<const Mesh> mesh, const Texture& map, const glm::dmat3& linear,
@@ -201,7 +201,7 @@ MappedSurface makeSurface(const Mesh& mesh, const Texture& map, const glm::dmat3
     return makeSurface(copied(mesh), map, linear, wanted);
 }
 
-// As generateTangents and splitSmoothCotangents take it, which docs/explanation/speed.md has measured.
+// The memory of generateTangents and splitSmoothCotangents, as measured in docs/explanation/speed.md.
 SurfaceBytes surfaceBytes(std::size_t vertices, std::size_t triangles, const FrameSet& wanted)
 {
     SurfaceBytes bytes{sizeof(glm::vec2) * vertices, 0};
@@ -242,7 +242,7 @@ f64::cotan_frame frameAt(const MappedSurface& s, Frame frame, TangentOrigin tang
     const SurfaceSpot spot = spotAt(s, triangle, barycentric);
     if (!s.hasUv())
         return {glm::dvec3(0), glm::dvec3(0), spot.normal};
-    // `mikktspace` wants its normal as interpolated.
+    // `mikktspace` takes the normal as interpolated, not unit.
     if (readsCotangents(frame) && s.shared->ofCoat)
         return frameOf(spot, Frame::cotangent);
     if (readsVertices(frame))
@@ -327,13 +327,13 @@ int orientationOf(const MappedSurface& s, std::size_t triangle, const TriangleEd
     const double area = -e.uvArea2(); // v runs down
     if (!s.hasUv() || !(area != 0))
         return 0;
-    // The corners' order is judged from the side that the normals point to.
+    // The winding is judged from the side that the normals point to.
     const glm::dvec3 face = glm::cross(e.p1, e.p2);
     const std::size_t a = 3 * triangle;
     const double da = glm::dot(face, s.movedNormal(a)), db = glm::dot(face, s.movedNormal(a + 1)),
                  dc = glm::dot(face, s.movedNormal(a + 2));
     bool inside = da < 0 && db < 0 && dc < 0;
-    if (!inside && !(da > 0 && db > 0 && dc > 0)) // they do not agree
+    if (!inside && !(da > 0 && db > 0 && dc > 0)) // they disagree
         inside = glm::dot(face, s.normal(a) + s.normal(a + 1) + s.normal(a + 2)) < 0;
     return (area > 0) != inside ? 1 : -1;
 }

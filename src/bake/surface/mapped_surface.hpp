@@ -1,5 +1,5 @@
-// A mesh as its normal map sees it: with the uv that the map is read with, and every frame at every point. In double;
-// made once, asked often. For one frame in the world, as it is baked, see low_surface.hpp.
+// A mesh as its normal map sees it: the uv that the map is read with, and every frame at every point. In double; made
+// once, queried often. For one frame in world space, as it is baked, see low_surface.hpp.
 #pragma once
 
 #include <array>
@@ -21,43 +21,43 @@
 
 namespace cotan {
 
-// Frames, by number.
+// A set of frames, by number.
 using FrameSet = std::bitset<kFrameCount>;
 inline const FrameSet kAllFrames = FrameSet().set();
 
-// Where corners have their value: at the number of their vertex, but for some.
-class CornerPlaces {
+// Where corners have their value: at the index of their vertex, with exceptions.
+class CornerSlots {
 public:
-    // corners in rising order; vertices: of the mesh.
-    void add(std::size_t corner, std::uint32_t vertex, std::uint32_t place, std::size_t vertices);
+    // Adds an exception. Corners must come in rising order; vertices: their number in the mesh.
+    void add(std::size_t corner, std::uint32_t vertex, std::uint32_t slot, std::size_t vertices);
     std::size_t of(std::size_t corner, std::uint32_t vertex) const;
 
 private:
-    struct Elsewhere {
-        std::uint32_t corner, place;
+    struct Exception {
+        std::uint32_t corner, slot;
     };
-    std::vector<bool> several_; // by vertex: not all of its corners have theirs there; empty: of none
-    std::vector<Elsewhere> elsewhere_;
+    std::vector<bool> split_; // vertices of corners with an exception; empty: none
+    std::vector<Exception> exceptions_;
 };
 
-// What was derived for the corners of a mesh, once for those of a vertex that have the same.
+// Values derived for the corners of a mesh, stored once for the corners of a vertex that share them.
 template<class Values> struct OfCorners {
     Values values;
-    CornerPlaces places;
+    CornerSlots slots;
 };
-using CornerTangents = OfCorners<std::vector<glm::vec4>>; // as glTF has them
+using CornerTangents = OfCorners<std::vector<glm::vec4>>; // as in glTF
 using CornerCotangents = OfCorners<Cotangents>;           // gradients of u and v
 
-// What all placings of a mesh share, in the mesh's own space.
+// Data that all placings of a mesh share, in the mesh's own space.
 struct SurfaceMesh {
     std::shared_ptr<const Mesh> mesh;
-    std::vector<glm::vec2> uv; // of the map, transformed, one a vertex; empty if the mesh has none
-    std::array<CornerTangents, kFrameCount> generated; // of the frames that read tangents; empty where not asked for
+    std::vector<glm::vec2> uv; // of the map, transformed, per vertex; empty if the mesh has none
+    std::array<CornerTangents, kFrameCount> generated; // of the frames that read tangents; empty if not requested
     CornerCotangents cotangents;                       // likewise
-    bool ofCoat = false; // uv of another map than the vertices' frames: `smooth` is `cotangent` here
+    bool ofCoat = false; // uv of another map than the vertices' frames: `smooth` is `cotangent`
 };
 
-// The mesh moved by a linear map. Corners are numbered three a triangle. It holds what it needs, and copies share it.
+// The mesh moved by a linear map. Triangle i has the corners 3 i, 3 i + 1 and 3 i + 2. Copies share the mesh.
 struct MappedSurface {
     std::shared_ptr<const SurfaceMesh> shared; // null: no triangles
     LinearMap<double> linear{glm::dmat3(1)};
@@ -65,96 +65,95 @@ struct MappedSurface {
 
     std::size_t triangleCount() const { return shared ? shared->mesh->triangleCount() : 0; }
     bool hasUv() const { return shared && !shared->uv.empty(); }
-    bool hasStored() const; // a tangent for every vertex, in the file
+    bool hasStored() const; // every vertex has a tangent in the file
 
     std::uint32_t vertexOf(std::size_t corner) const { return shared->mesh->indices[corner]; }
     glm::dvec3 position(std::size_t corner) const
     {
         return linear(Vector3d(glm::dvec3(shared->mesh->positions[vertexOf(corner)]))).raw();
     }
-    glm::dvec3 normal(std::size_t corner) const // unit, or zero where unknown
+    glm::dvec3 normal(std::size_t corner) const // unit, or zero if unknown
     {
         return f64::cotan_normalize_or(movedNormal(corner), glm::dvec3(0));
     }
-    glm::dvec3 movedNormal(std::size_t corner) const // the same of any length
+    glm::dvec3 movedNormal(std::size_t corner) const // the same, of any length
     {
         const std::vector<glm::vec3>& normals = shared->mesh->normals;
         const std::uint32_t vertex = vertexOf(corner);
         return vertex < normals.size() ? planes * glm::dvec3(normals[vertex]) : glm::dvec3(0);
     }
-    glm::dvec2 uv(std::size_t corner) const { return glm::dvec2(shared->uv[vertexOf(corner)]); } // where there are any
-    // Of the file, as tangentAlongV: xyz along +u; w * cross(n, xyz) along +v. Where there are any.
+    glm::dvec2 uv(std::size_t corner) const { return glm::dvec2(shared->uv[vertexOf(corner)]); } // only if hasUv()
+    // The file's tangent, as tangentAlongV: xyz along +u; w * cross(n, xyz) along +v. Only if hasStored().
     glm::dvec4 stored(std::size_t corner) const;
-    // Of a frame that reads tangents, likewise.
+    // The generated tangent of a frame that reads tangents, in the same form.
     bool hasGenerated(Frame frame) const { return shared && !shared->generated[std::size_t(frame)].values.empty(); }
     glm::dvec4 generated(Frame frame, std::size_t corner) const;
 };
 
-// map: whose uv set and transform are used; with no image the first uv set as it is. linear: moves
-// positions and vectors, covectors by its inverse transpose; singular maps leave normals zero.
-// Tangents and cotangents are generated in the mesh's own space and moved, as viewers do. frames: which of those that
-// read vertices are wanted: others have t = b = 0, but for tangents of the file.
-// Degenerate input: a mesh without triangles or uv gives a surface without them; uv that are not
-// finite are taken as 0, and tangents and cotangents stay as their generators say.
+// map: its uv set and transform are used; without an image the first uv set as it is. linear: moves positions and
+// vectors, and covectors by its inverse transpose; a singular map leaves normals zero. Tangents and cotangents are
+// generated in the mesh's own space and moved, as in viewers. frames: which frames that read vertices are prepared;
+// others have t = b = 0, except with tangents of the file. Degenerate input: a mesh without triangles or uv gives a
+// surface without them; uv that are not finite become 0; tangents and cotangents are what their generators return.
 MappedSurface makeSurface(const Mesh& mesh, const Texture& map, const glm::dmat3& linear = glm::dmat3(1),
                           const FrameSet& frames = kAllFrames);
 
-// The same without a copy of the mesh.
+// The same without copying the mesh.
 MappedSurface makeSurface(std::shared_ptr<const Mesh> mesh, const Texture& map, const glm::dmat3& linear,
                           const FrameSet& frames);
 
-// About how many bytes a surface takes besides its mesh, and how many more for a moment while it is made.
+// About the number of bytes that a surface takes besides its mesh, and the additional number while it is made.
 struct SurfaceBytes {
     std::size_t kept = 0, making = 0;
 };
 SurfaceBytes surfaceBytes(std::size_t vertices, std::size_t triangles, const FrameSet& frames);
 
-// The same as the normal map of a clear coat over it sees it, as both renderers do: tangents are those of the surface's
-// own map, and where the uv are others `smooth` is `cotangent`.
+// The same as the normal map of a clear coat sees it, as in both renderers: tangents are those of the surface's own
+// map, and if the uv differ, `smooth` is `cotangent`.
 MappedSurface makeCoatSurface(std::shared_ptr<const Mesh> mesh, const Texture& surfaceMap, const Texture& coatMap,
                               const FrameSet& frames);
 
-// The surface moved by another linear map instead; takes no memory.
+// The surface moved by another linear map instead; copies nothing.
 MappedSurface placedBy(const MappedSurface& surface, const glm::dmat3& linear);
 
-// The frame at a point of a triangle. barycentric: weights of its three corners. Frames that are
-// made of differences take the triangle's edges, which gives the same as a pixel's differences.
-// Degenerate input: as for the functions cotan_frame_NAME; no uv, or no tangents, give t = b = 0.
+// The frame at a point of a triangle. barycentric: weights of its three corners. Frames that are made from differences
+// use the triangle's edges, which give the same as a pixel's differences. Degenerate input: as for the functions
+// cotan_frame_NAME; without uv or tangents t = b = 0.
 f64::cotan_frame frameAt(const MappedSurface& surface, Frame frame, TangentOrigin tangents, std::size_t triangle,
                          glm::dvec3 barycentric);
 
-// What frames that read no vertices are made of, at a point of a triangle: for several frames there.
+// Input of frames that read no vertices, at a point of a triangle; several frames can share it.
 struct SurfaceSpot {
     TriangleEdges edges;
-    glm::dvec3 interpolated{0}, normal{0}; // the same, unit; the triangle's where there is none
+    glm::dvec3 interpolated{0}, normal{0}; // unit; the triangle's if `interpolated` has no direction
 };
 SurfaceSpot spotAt(const MappedSurface& surface, std::size_t triangle, glm::dvec3 barycentric);
-SurfaceSpot spotOf(const TriangleEdges& edges, glm::dvec3 interpolated); // the normal there, of any length
+SurfaceSpot spotOf(const TriangleEdges& edges, glm::dvec3 interpolated); // interpolated: of any length
 f64::cotan_frame frameOf(const SurfaceSpot& spot, Frame frame);
 
-// What lies at a point of a triangle, of its three corners. normal: as interpolated, not unit.
+// Values interpolated at a point of a triangle from its three corners. The normal is not unit.
 glm::dvec3 normalAt(const MappedSurface& surface, std::size_t triangle, glm::dvec3 barycentric);
 glm::dvec2 uvAt(const MappedSurface& surface, std::size_t triangle, glm::dvec3 barycentric);
 glm::dvec4 storedAt(const MappedSurface& surface, std::size_t triangle, glm::dvec3 barycentric);
 
 TriangleEdges edgesOf(const MappedSurface& surface, std::size_t triangle);
 
-// Which triangles the texels of its image show, the image repeated, at that size. The surface's mesh must outlive it.
+// The triangles in the texels of an image of that size, which repeats. The surface's mesh must outlive the raster.
 UvRaster repeatedRaster(const MappedSurface& surface, int width, int height);
 
-// About how many bytes a triangle such a raster takes where triangles are as large as texels.
+// About the bytes per triangle of such a raster if triangles are as large as texels.
 inline constexpr std::size_t kRasterBytes = 20;
 
-// rowsUnder of such a raster of so many texels.
+// rowsUnder of such a raster, `height` texels high.
 double rowsUnder(const MappedSurface& surface, int height);
 
-// Half the length of the cross product of two edges; 0 where that is not finite.
+// Half the length of the cross product of two edges; 0 if that is not finite.
 double areaOf(const TriangleEdges& edges);
 double areaOf(const MappedSurface& surface, std::size_t triangle);
 
-// The sign of a triangle's uv: +1 where increasing u turned towards increasing v (which runs down
-// the image) goes clockwise seen from outside, as on an unmirrored chart; -1 mirrored; 0 without area.
+// Orientation of a triangle's uv: +1 if the rotation from increasing u to increasing v (which runs down the image) is
+// clockwise seen from outside, as on an unmirrored chart; -1 if mirrored; 0 without area.
 int orientationOf(const MappedSurface& surface, std::size_t triangle);
-int orientationOf(const MappedSurface& surface, std::size_t triangle, const TriangleEdges& edges); // edgesOf it
+int orientationOf(const MappedSurface& surface, std::size_t triangle, const TriangleEdges& edges); // edges: edgesOf it
 
 } // namespace cotan

@@ -1,4 +1,4 @@
-// Finds, for each texel that shows nothing, the nearest one that shows something.
+// Finds the nearest texel with a value for each texel without one.
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@ namespace cotan {
 
 inline constexpr std::uint32_t kNoTexel = 0xffffffffu;
 
-// Which of several texels that are equally near counts: that of the neighbour which is asked first.
-enum class AskFirst {
+// Which of several equally near texels is taken: that of the neighbour which is asked first.
+enum class TieBreak {
     above,  // above, then the corners, then beside
     beside, // beside, then the corner, above, the other corner
 };
 
-// The square of the distance of two texels of a picture, in texels.
+// The squared distance between two texels of an image, in texels.
 inline std::int64_t distance2(std::uint32_t a, std::uint32_t b, int width)
 {
     const auto w = std::uint32_t(width);
@@ -26,15 +26,15 @@ inline std::int64_t distance2(std::uint32_t a, std::uint32_t b, int width)
     return dx * dx + dy * dy;
 }
 
-// owner: row by row, width * height of them, fewer than kNoTexel: its own number for a texel that shows something,
-// kNoTexel for others. Afterwards every texel has the number of one nearby that shows something. Two sweeps, down and
-// up, pass the nearest on to the eight neighbours (P.-E. Danielsson, Euclidean distance mapping, 1980); `first` is for
-// the sweep down, the other asks the opposite neighbours in that order. Off by a fraction of a texel at times. The
-// image's borders do not join. All stay kNoTexel where nothing is shown.
-inline void spreadNearest(std::span<std::uint32_t> owner, int width, int height, AskFirst first)
+// owner: width * height entries, row by row, fewer than kNoTexel: the texel's own index if it has a value, otherwise
+// kNoTexel. Afterwards every entry is the index of a nearby texel with a value. Two sweeps, down and up, propagate the
+// nearest texel to the eight neighbours (P.-E. Danielsson, Euclidean distance mapping, 1980); `first` applies to the
+// sweep down, the other asks the opposite neighbours in that order. Sometimes errs by a fraction of a texel. The image
+// does not wrap around. If no texel has a value, all entries stay kNoTexel.
+inline void propagateNearest(std::span<std::uint32_t> owner, int width, int height, TieBreak first)
 {
-    using Neighbours = std::array<glm::ivec2, 4>; // those that the sweep down has been at
-    const Neighbours neighbours = first == AskFirst::above ? Neighbours{{{0, -1}, {-1, -1}, {1, -1}, {-1, 0}}}
+    using Neighbours = std::array<glm::ivec2, 4>; // that the sweep down has visited
+    const Neighbours neighbours = first == TieBreak::above ? Neighbours{{{0, -1}, {-1, -1}, {1, -1}, {-1, 0}}}
                                                            : Neighbours{{{-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
     const auto index = [&](int x, int y) { return std::size_t(y) * std::size_t(width) + std::size_t(x); };
     const auto ask = [&](int x, int y, int fromX, int fromY) {
@@ -47,7 +47,7 @@ inline void spreadNearest(std::span<std::uint32_t> owner, int width, int height,
         if (mine == kNoTexel || distance2(offered, self, width) < distance2(mine, self, width))
             mine = offered;
     };
-    // What the row y learns from its neighbours, and from itself the other way. step: 1 down and right, -1 up and left.
+    // Updates row y from its neighbours, then in the opposite direction. step: 1 down and right, -1 up and left.
     const auto row = [&](int y, int step) {
         const int from = step > 0 ? 0 : width - 1, to = step > 0 ? width : -1;
         for (int x = from; x != to; x += step)

@@ -10,7 +10,7 @@ namespace cotan {
 
 namespace {
 
-// The name and the value of an item that can be a member of an object; null if it cannot.
+// Returns the item's [name, value] pair if it can be a member of an object; otherwise null.
 const Json::Array* asMember(const Json& item)
 {
     const auto* pair = std::get_if<Json::Array>(&item.value());
@@ -38,7 +38,7 @@ nlohmann::ordered_json converted(const Json& json)
         json.value());
 }
 
-// What reports are called; the last three are of the library, in C, Python and JavaScript.
+// Names of all report formats. The last three are those of the library in C, Python and JavaScript.
 constexpr std::string_view kFormats[] = {
     "cotan-accuracy",        "cotan-bake",        "cotan-batch",        "cotan-compare",
     "cotan-convert",         "cotan-cost",        "cotan-figures",      "cotan-lint",
@@ -47,8 +47,8 @@ constexpr std::string_view kFormats[] = {
     "cotan-render",          "cotan-shader",      "cotan-tangents",     "cotan-view",
     "cotan-convert-result",  "cotan-lint-result", "cotan-render-result"};
 
-// Of each of them so far. A field may be added within a version. One that goes, is renamed, or changes its type or
-// meaning, raises that of its report alone: the first that rises gets a number beside its name.
+// Version of all formats so far. Adding a field keeps the version. Removing or renaming a field, or changing its type
+// or meaning, raises that report's version alone: the first such report gets its own number beside its name.
 constexpr int kVersion = 1;
 
 } // namespace

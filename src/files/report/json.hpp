@@ -1,4 +1,4 @@
-// A JSON value for reports: objects keep the order in which their members were added.
+// A JSON value for reports. Objects keep the order in which members were added.
 //
 //     Json report = {{"command", "lint"}, {"size", {640, 480}}};
 //     report["angles"].push_back(1.5);
@@ -39,17 +39,17 @@ public:
     template<class T, std::size_t n> Json(const std::array<T, n>& values) : value_(Array(values.begin(), values.end()))
     {
     }
-    // An object where every item is a pair of a name and a value; otherwise an array.
+    // An object if every item is a pair of a name and a value; otherwise an array.
     Json(std::initializer_list<Json> items);
 
     static Json array() { return Json(Value(Array())); }
     static Json object() { return Json(Value(Object())); }
 
-    // The member of that name, null at first. Nothing but null and objects has members.
+    // Returns the named member, which is added as null if missing. The value must be an object or null.
     Json& operator[](std::string_view name);
-    // Adds an item to an array; null becomes one.
+    // Appends an item to an array; null becomes an array.
     void push_back(Json item);
-    // Takes over the members of another object; those that are there already get its values.
+    // Copies the members of another object, replacing existing values.
     void update(const Json& object);
     void erase(std::string_view name);
 
@@ -61,16 +61,15 @@ private:
     Value value_ = nullptr;
 };
 
-// Indented by two columns, with a newline at the end. Numbers that are not finite are null; bytes that are no UTF-8 are
-// replaced.
+// Serialises indented by two columns, with a final newline. Non-finite numbers become null; bad UTF-8 is replaced.
 std::string toText(const Json& json);
 
-// The report with "format" and "version" before its own members: what it is called, and which version of its fields
-// this program writes. format: a name of the list in json.cpp. docs/reference/json.md lists the fields;
-// tests/json_fields_test.py holds it against what commands write.
+// Returns the report with "format" and "version" before its own members: its name, and the version of its fields that
+// this program writes. format: a name in the list in json.cpp. docs/reference/json.md lists the fields;
+// tests/json_fields_test.py compares it with the output of commands.
 Json versioned(std::string_view format, const Json& report);
 
-// The same for a command's, by its own member "command".
+// Likewise for a command's report, whose format follows from its member "command".
 Json versioned(const Json& report);
 
 } // namespace cotan

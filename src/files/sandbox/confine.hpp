@@ -1,4 +1,4 @@
-// The child's side of a sandboxed reader: what it may take and do. Linux.
+// Confines the child process of a sandboxed reader. Linux.
 #pragma once
 
 #include <csignal>
@@ -8,7 +8,7 @@
 
 namespace cotan {
 
-// The address and thread sanitizers reserve terabytes and bring threads and signal handlers of their own.
+// The address and thread sanitizers reserve terabytes, and have threads and signal handlers of their own.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define COTAN_SANITIZED true
 #elif defined(__has_feature)
@@ -21,21 +21,21 @@ namespace cotan {
 #endif
 inline constexpr bool kSanitized = COTAN_SANITIZED;
 
-// Ends this process by `signal` when `parent`, or the thread of it that started us, ends.
+// Makes the kernel send this process `signal` when `parent`, or the thread of it that started us, ends.
 void dieWith(std::int64_t parent, int signal = SIGKILL);
 
-// No core file, whoever would write it; other processes cannot look into this one.
+// Disables core files, including those piped to a program, and prevents other processes from attaching to this one.
 void leaveNoCore();
 
-// Limits a resource of this process, such as RLIMIT_DATA, to `now`, which may be raised to `most`; no limit is raised.
-void setLimit(int what, std::uint64_t now, std::uint64_t most);
+// Sets the soft and hard limits of a resource of this process, such as RLIMIT_DATA. Never raises the hard limit.
+void setLimit(int resource, std::uint64_t soft, std::uint64_t hard);
 
-// Stack, core files, files written: fixed for good. Where the kernel can, also: no change to any file, no new process,
-// no program, no signal to others, no socket.
+// Limits the stack and forbids core files and file writes for good. Where the kernel supports it, also forbids changes
+// to the file system, new processes, programs, signals to others, and sockets.
 void confine();
 
-// Sets the limits on memory and processor time; they can be raised, never above `most`. With sanitizers memory has no
-// limit, time is twenty times as long, and no call is forbidden.
-void limitTo(const ReaderBudget& budget, const ReaderBudget& most);
+// Limits memory and processor time to `budget`; may be raised later up to `maximum`. With sanitizers memory is
+// unlimited, times are 20 times as long, and no system call is forbidden.
+void limitTo(const ReaderBudget& budget, const ReaderBudget& maximum);
 
 } // namespace cotan

@@ -1,25 +1,25 @@
-// Where there are neither processes nor modules.
+// Stubs for platforms without processes and modules.
 #include "files/module.hpp"
 #include "files/sandbox/confine.hpp"
 #include "files/sandbox/process.hpp"
 
 namespace cotan {
 
-Result<const void*> loadModule(const ModulePlaces& places, const char*, const std::function<bool(const void*)>&,
+Result<const void*> loadModule(const ModuleLocations& locations, const char*, const std::function<bool(const void*)>&,
                                const char* what)
 {
-    return unavailableError(std::string(what) + " needs the module " + places.name + ", which is not loaded here");
+    return unavailableError(std::string(what) + " needs the module " + locations.name + ", which cannot be loaded");
 }
 
 Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest request, const std::function<void(WireOut&)>&)
 {
-    return unavailableError(request.name + ": there are no processes here that could read it");
+    return unavailableError(request.name + ": this platform cannot start a process to read it");
 }
 
 ReaderProcess::~ReaderProcess() = default;
 Status ReaderProcess::await() { return failure(); }
 void ReaderProcess::restartClock() {}
-Error ReaderProcess::failure() { return unavailableError("there are no processes here"); }
+Error ReaderProcess::failure() { return unavailableError("this platform has no processes"); }
 
 void Descriptor::close() {}
 

@@ -23,8 +23,8 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr double kWallPerProcessor = 15; // other programs want the processor, too
-constexpr std::size_t kSaid = 4096;      // bytes of standard error that are kept
+constexpr double kWallPerProcessor = 15; // allows for other load on the processor
+constexpr std::size_t kMaxStderr = 4096; // bytes of standard error that are kept
 
 std::string readerName(const ReaderRequest& request)
 {
@@ -34,10 +34,10 @@ std::string readerName(const ReaderRequest& request)
     const std::string format = known ? extension.substr(1) + " " : "";
     if (request.kind == ReaderKind::draco)
         return "the decoder of Draco streams";
-    return fmt::format("the reader of {}{}", format, request.kind == ReaderKind::model ? "files" : "pictures");
+    return fmt::format("the reader of {}{}", format, request.kind == ReaderKind::model ? "files" : "images");
 }
 
-// Above the standard three, which the child gets anew.
+// Moves a descriptor above the standard three, which are replaced in the child.
 Descriptor above(int number)
 {
     const Descriptor original(number);
@@ -68,10 +68,10 @@ void Descriptor::close()
     number_ = -1;
 }
 
-std::string printable(std::string text, std::size_t most)
+std::string printable(std::string text, std::size_t maxBytes)
 {
-    if (text.size() > most)
-        text.replace(most, text.size() - most, "...");
+    if (text.size() > maxBytes)
+        text.replace(maxBytes, text.size() - maxBytes, "...");
     std::ranges::replace_if(
         text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
     return text;
@@ -100,7 +100,7 @@ int spawn(const SpawnRequest& request, pid_t& process)
     ::posix_spawnattr_setpgroup(&attributes, 0);
     ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
     std::vector<std::string> texts{request.program};
-    texts.insert(texts.end(), request.words.begin(), request.words.end());
+    texts.insert(texts.end(), request.arguments.begin(), request.arguments.end());
     std::vector<char*> words;
     for (std::string& text : texts)
         words.push_back(text.data());
@@ -140,7 +140,7 @@ Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest reques
 {
     std::unique_ptr<ReaderProcess> started(new ReaderProcess(request));
     const auto failed = [&](int problem) {
-        return unavailableError(fmt::format("{}: cannot start a process to read it in, {}: {}", request.name,
+        return unavailableError(fmt::format("{}: cannot start the reader process {}: {}", request.name,
                                             request.limits.sandbox.program.string(), std::strerror(problem)));
     };
     Descriptor socket[2], messages[2];
@@ -151,13 +151,13 @@ Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest reques
     const SpawnRequest child{request.limits.sandbox.program.string(), words, socket[1].get(), messages[1].get()};
     if (const int problem = spawn(child, started->process_))
         return failed(problem);
-    socket[1].close(); // while one of the child's ends is ours, it never hangs up
+    socket[1].close(); // otherwise no end of file is seen when the child ends
     messages[1].close();
     started->socket_ = std::move(socket[0]);
     started->messages_ = std::move(messages[0]);
     request.parent = ::getpid();
     exchangeRequest(started->question_, request);
-    request.bytes = std::vector<std::byte>(); // not held while the child has them; {} would keep the memory
+    request.bytes = std::vector<std::byte>(); // free the bytes while the child reads; {} would keep their memory
     if (more)
         more(started->question_);
     if (Status found = started->await(); !found)
@@ -167,7 +167,7 @@ Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest reques
 
 Status ReaderProcess::await()
 {
-    question_.flush(); // where nobody listens, nobody answers
+    question_.flush(); // a write error shows as a missing answer
     for (;;) {
         ReaderFrame frame = ReaderFrame::error;
         answer_.choice(frame, ReaderFrame::error);
@@ -182,8 +182,9 @@ Status ReaderProcess::await()
             answer_.array(input);
         if (!answer_.good())
             return failure();
-        if (Status free = noteInput(input); !input.empty() && !free)
-            return free;
+        if (frame == ReaderFrame::input)
+            if (Status free = noteInput(input); !free)
+                return free;
         if (frame == ReaderFrame::value)
             return Done{};
         if (frame == ReaderFrame::error) {
@@ -210,30 +211,30 @@ void ReaderProcess::setDeadline()
     deadline_ = began_ + std::chrono::duration_cast<Clock::duration>(Seconds(seconds));
 }
 
-void ReaderProcess::listen()
+void ReaderProcess::readStderr()
 {
     std::array<char, 4096> bytes;
     const ssize_t got = ::read(messages_.get(), bytes.data(), bytes.size());
     if (got > 0)
-        said_.append(bytes.data(), std::min(std::size_t(got), kSaid - std::min(kSaid, said_.size())));
+        log_.append(bytes.data(), std::min(std::size_t(got), kMaxStderr - std::min(kMaxStderr, log_.size())));
     else if (got == 0 || (errno != EINTR && errno != EAGAIN))
         messages_.close();
 }
 
-// Waits until the socket can be used, or the time is over.
+// Waits until the socket is ready or the deadline has passed.
 bool ReaderProcess::ready(short events)
 {
     for (;;) {
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline_ - Clock::now());
-        late_ = left.count() <= 0;
-        if (late_)
+        timedOut_ = left.count() <= 0;
+        if (timedOut_)
             return false;
         pollfd waiting[2] = {{socket_.get(), events, 0}, {messages_.get(), POLLIN, 0}};
         const int found = ::poll(waiting, 2, int(std::min<std::int64_t>(left.count(), 1'000'000)));
         if (found < 0 && errno != EINTR)
             return false;
         if (found > 0 && waiting[1].revents != 0)
-            listen();
+            readStderr();
         if (found > 0 && waiting[0].revents != 0)
             return true;
     }
@@ -264,21 +265,21 @@ std::size_t ReaderProcess::receive(std::span<std::byte> bytes)
 
 bool ReaderProcess::ended(int& status)
 {
-    const auto listenOn = [&] {
+    const auto drainStderr = [&] {
         pollfd waiting{messages_.get(), POLLIN, 0};
-        while (messages_.get() >= 0 && said_.size() < kSaid && ::poll(&waiting, 1, 0) > 0)
-            listen();
+        while (messages_.get() >= 0 && log_.size() < kMaxStderr && ::poll(&waiting, 1, 0) > 0)
+            readStderr();
     };
     for (;;) {
-        listenOn();
+        drainStderr();
         const pid_t found = ::waitpid(process_, &status, WNOHANG);
         if (found != 0 && !(found < 0 && errno == EINTR)) {
-            listenOn(); // its last words
+            drainStderr(); // messages written just before the end
             process_ = -1;
             return found > 0; // else somebody else waits for our children
         }
-        late_ = Clock::now() >= deadline_;
-        if (late_)
+        timedOut_ = Clock::now() >= deadline_;
+        if (timedOut_)
             return false;
         ::usleep(500);
     }
@@ -298,22 +299,22 @@ Error ReaderProcess::failure()
 {
     const ReaderBudget budget = budgetFor(limits_, fileBytes_, decodedBytes_);
     const auto line = [&](const std::string& what) {
-        const std::string first = printable(said_.substr(0, said_.find('\n')), 160);
+        const std::string first = printable(log_.substr(0, log_.find('\n')), 160);
         return inputError(fmt::format("{}: {} {}{}", name_, reader_, what, first.empty() ? "" : ": " + first));
     };
     int status = 0;
-    const bool dead = !late_ && answer_.ended() && ended(status);
+    const bool dead = !timedOut_ && answer_.ended() && ended(status);
     kill();
-    if (late_ || (dead && WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU))
+    if (timedOut_ || (dead && WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU))
         return line(fmt::format("took too long; the limit is {:.0f} seconds", budget.seconds));
     if (!answer_.ended())
-        return line("gave an answer that makes no sense");
+        return line("returned invalid data");
     if (dead && WIFEXITED(status) && WEXITSTATUS(status) == kNoMemoryCode)
         return line(fmt::format("takes too much memory; the limit is {:.0f} MiB", budget.megabytes));
     if (dead && WIFSIGNALED(status))
         return line(fmt::format("{} (signal {}, {})", WTERMSIG(status) == SIGKILL ? "was killed" : "crashed",
                                 WTERMSIG(status), ::strsignal(WTERMSIG(status))));
-    return line("ended without an answer");
+    return line("ended without a result");
 }
 
 } // namespace cotan

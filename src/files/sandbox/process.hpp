@@ -1,5 +1,4 @@
-// Child processes: any program's, and the parent's side of a sandboxed reader, which is started, asked, timed and
-// ended.
+// Child processes in general, and the parent's side of a sandboxed reader: start, data exchange, time limit and end.
 #pragma once
 
 #include <chrono>
@@ -19,7 +18,7 @@
 
 namespace cotan {
 
-// An open file of the system.
+// Owns a file descriptor.
 class Descriptor {
 public:
     Descriptor() = default;
@@ -38,24 +37,24 @@ private:
     int number_ = -1;
 };
 
-// A program to be started as a child process.
+// A program to start as a child process.
 struct SpawnRequest {
     std::string program;
-    std::vector<std::string> words;                   // behind the program's name
-    int input = -1;                                   // standard input; -1: nothing is there
+    std::vector<std::string> arguments;               // arguments after the program's name
+    int input = -1;                                   // standard input; -1: /dev/null
     int output = -1;                                  // standard output and error
-    std::filesystem::path folder{};                   // it runs in; empty: ours
-    std::map<std::string, std::string> environment{}; // variables besides ours, or in their place
+    std::filesystem::path folder{};                   // working folder; empty: ours
+    std::map<std::string, std::string> environment{}; // variables that are added to ours or replace them
 };
 
-// Starts it with these descriptors and no others, in a process group of its own, with no signal blocked or ignored:
-// Ctrl-C is for us. Returns 0 or the errno.
+// Starts the program with only these descriptors, in its own process group (so that Ctrl-C reaches only us), with no
+// signal blocked or ignored. Returns 0 or the errno.
 int spawn(const SpawnRequest& request, pid_t& process);
 
 class ReaderProcess {
 public:
-    // Starts limits.sandbox.program, sends it the request and what `more` says, and awaits the first result.
-    // Errors: ErrorKind::unavailable where it cannot be started; those of await().
+    // Starts limits.sandbox.program, sends it the request and what `more` writes, and awaits the first result.
+    // Errors: ErrorKind::unavailable if it cannot be started; those of await().
     static Result<std::unique_ptr<ReaderProcess>> start(ReaderRequest request,
                                                         const std::function<void(WireOut&)>& more = {});
 
@@ -64,16 +63,16 @@ public:
     ReaderProcess& operator=(const ReaderProcess&) = delete;
 
     WireIn& answer() { return answer_; }
-    WireOut& question() { return question_; } // where nobody listens, await() says why
+    WireOut& question() { return question_; } // write errors are reported by await()
 
-    // Sends what is still held of the question, and waits for a result. Done: what follows in answer() is the value.
+    // Sends what is still buffered of the question, and waits for a result. On success the value follows in answer().
     // Errors: the reader's own; failure().
     Status await();
 
-    // Gives it as much time again, from now.
+    // Restarts the time limit.
     void restartClock();
 
-    // Why answer() is not good. Ends the process.
+    // Returns why answer() is not good. Ends the process.
     Error failure();
 
 private:
@@ -85,23 +84,23 @@ private:
     bool ready(short events);
     bool send(std::span<const std::byte> bytes);
     std::size_t receive(std::span<std::byte> bytes);
-    void listen();           // takes what it says on standard error
-    bool ended(int& status); // waits for the process within its time
+    void readStderr();       // reads from the child's standard error
+    bool ended(int& status); // waits for the process until the deadline
     void kill();
 
     LoadLimits limits_;
     std::string name_, reader_; // the file, and "the reader of FBX files"
     std::size_t fileBytes_, decodedBytes_ = 0;
-    pid_t process_ = -1; // -1: none, or waited for
+    pid_t process_ = -1; // -1: none, or already reaped
     Descriptor socket_, messages_;
-    std::string said_;
+    std::string log_;
     Clock::time_point began_ = Clock::now(), deadline_;
-    bool late_ = false;
+    bool timedOut_ = false;
     WireIn answer_;
     WireOut question_;
 };
 
-// A message of the other process, fit to be printed: one line, no control characters, not endless.
-std::string printable(std::string text, std::size_t most);
+// Makes a message of another process printable: one line, no control characters, at most `maxBytes` and "...".
+std::string printable(std::string text, std::size_t maxBytes);
 
 } // namespace cotan

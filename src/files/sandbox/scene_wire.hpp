@@ -1,4 +1,4 @@
-// What the plain structs of a scene are on the wire.
+// Serialisation of the plain structs of a scene.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ template<class W, class T> void exchangeImage(W& w, T& image)
     exchangeAll(w, image.data, image.frame, image.channels);
 }
 
-// What is known of a picture before its rows.
+// Properties of an image that are known before its rows are read.
 template<class W, class T> void exchangeRowFacts(W& w, T& rows)
 {
     exchangeAll(w, rows.width, rows.height);
@@ -46,7 +46,7 @@ template<class W, class T> void exchangeConvention(W& w, T& c)
     w.choice(c.v, VDirection::up);
 }
 
-// What extensions add to a material.
+// Material properties of extensions.
 template<class W, class T> void exchangeLayers(W& w, T& m)
 {
     exchangeAll(w, m.coat.strength, m.coat.roughness, m.coat.normalScale);

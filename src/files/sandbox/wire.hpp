@@ -1,7 +1,7 @@
-// Values as bytes between two processes of the same program, each described once for both ways:
+// Serialises values between two processes of the same program. Each type is described once for both directions:
 //     template<class Wire, class T> void exchange(Wire& wire, T& value) { exchangeAll(wire, value.a, value.b); }
-// WireOut takes the value apart; WireIn makes one from bytes that it does not trust: flags are 0 or 1, choices in
-// their range, and memory is taken as bytes arrive, not as a count claims.
+// WireOut writes a value; WireIn reads one from untrusted bytes: it checks that flags are 0 or 1 and choices in range,
+// and allocates memory as bytes arrive, not as a count claims.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace cotan {
 
 class WireOut {
 public:
-    using Send = std::function<bool(std::span<const std::byte>)>; // all of them; false: nobody listens
+    using Send = std::function<bool(std::span<const std::byte>)>; // sends all bytes; false if the receiver is gone
 
     explicit WireOut(Send send) : send_(std::move(send)) {}
 
@@ -28,7 +28,7 @@ public:
     }
     void flag(const bool& value) { number(std::uint8_t(value)); }
     template<class E> void choice(const E& value, E) { number(std::uint8_t(value)); }
-    template<class Values> void array(const Values& values) // of plain values, or a text
+    template<class Values> void array(const Values& values) // plain values or a text
     {
         static_assert(std::is_trivially_copyable_v<typename Values::value_type>);
         number(std::uint64_t(values.size()));
@@ -41,42 +41,42 @@ public:
             each(*this, value);
     }
 
-    // Sends what is still held. False: not everything arrived.
+    // Sends the buffered bytes. Returns false if not everything was sent.
     bool flush()
     {
-        good_ = good_ && (held_.empty() || send_(held_));
-        held_.clear();
+        good_ = good_ && (buffer_.empty() || send_(buffer_));
+        buffer_.clear();
         return good_;
     }
 
 private:
-    static constexpr std::size_t kHold = 1 << 16; // small values go together
+    static constexpr std::size_t kChunk = 1 << 16; // small values are sent together
 
     void bytes(std::span<const std::byte> data)
     {
-        if (held_.size() + data.size() > kHold)
+        if (buffer_.size() + data.size() > kChunk)
             flush();
-        if (data.size() > kHold)
+        if (data.size() > kChunk)
             good_ = good_ && send_(data);
         else
-            held_.insert(held_.end(), data.begin(), data.end());
+            buffer_.insert(buffer_.end(), data.begin(), data.end());
     }
 
     Send send_;
-    std::vector<std::byte> held_;
+    std::vector<std::byte> buffer_;
     bool good_ = true;
 };
 
 class WireIn {
 public:
-    using Receive = std::function<std::size_t(std::span<std::byte>)>; // some of them; 0: no more will come
+    using Receive = std::function<std::size_t(std::span<std::byte>)>; // receives some bytes; 0: end of data
 
-    // limit: bytes that all values may take together.
-    WireIn(Receive receive, std::uint64_t limit) : receive_(std::move(receive)), left_(limit), held_(kHold) {}
+    // limit: maximum number of bytes of all values together.
+    WireIn(Receive receive, std::uint64_t limit) : receive_(std::move(receive)), remaining_(limit), buffer_(kChunk) {}
 
-    bool good() const { return !ended_ && !senseless_; }
-    bool ended() const { return ended_; } // before the value was complete
-    void refuse() { senseless_ = true; }  // what came makes no sense
+    bool good() const { return !ended_ && !invalid_; }
+    bool ended() const { return ended_; } // the data ended before the value was complete
+    void refuse() { invalid_ = true; }    // marks the data as invalid
 
     template<class T> void number(T& value)
     {
@@ -106,7 +106,7 @@ public:
         constexpr std::size_t each = sizeof(typename Values::value_type);
         std::uint64_t count = 0;
         number(count);
-        if (count > left_ / each)
+        if (count > remaining_ / each)
             refuse();
         values.clear();
         while (good() && values.size() < count) {
@@ -126,17 +126,17 @@ public:
     }
 
 private:
-    static constexpr std::size_t kHold = 1 << 16;
-    static constexpr std::size_t kStep = 16 << 20; // bytes taken before any has arrived
+    static constexpr std::size_t kChunk = 1 << 16;
+    static constexpr std::size_t kStep = 16 << 20; // bytes that are allocated before any has arrived
 
     void bytes(std::span<std::byte> data)
     {
-        if (data.size() > left_)
+        if (data.size() > remaining_)
             refuse();
         if (good())
-            left_ -= data.size();
+            remaining_ -= data.size();
         while (!data.empty() && good()) {
-            if (next_ == end_ && data.size() >= kHold) {
+            if (next_ == end_ && data.size() >= kChunk) {
                 const std::size_t got = receive_(data);
                 ended_ = got == 0;
                 data = data.subspan(got);
@@ -144,24 +144,24 @@ private:
             }
             if (next_ == end_) {
                 next_ = 0;
-                end_ = receive_(held_);
+                end_ = receive_(buffer_);
                 ended_ = end_ == 0;
             }
             const std::size_t part = std::min(data.size(), end_ - next_);
-            std::memcpy(data.data(), held_.data() + next_, part);
+            std::memcpy(data.data(), buffer_.data() + next_, part);
             next_ += part;
             data = data.subspan(part);
         }
     }
 
     Receive receive_;
-    std::uint64_t left_;
-    std::vector<std::byte> held_; // from next_ to end_: received, not yet used
+    std::uint64_t remaining_;
+    std::vector<std::byte> buffer_; // from next_ to end_: received but unused
     std::size_t next_ = 0, end_ = 0;
-    bool ended_ = false, senseless_ = false;
+    bool ended_ = false, invalid_ = false;
 };
 
-// Flags, texts, arrays and numbers, each as its type says, in this order. What is one of few has a choice().
+// Exchanges flags, texts, arrays and numbers in this order, each by its type. Enumerations use choice().
 template<class Wire, class... T> void exchangeAll(Wire& wire, T&... values)
 {
     const auto one = [&]<class V>(V& value) {

@@ -1,8 +1,7 @@
-// What the JSON of a glTF file says, as plain values: one reading for loading, editing and converting.
+// Typed views of the JSON of a glTF file, shared by loading, editing and converting.
 //
-// All functions want an object of a root whose structure openGltfDocument has checked. What is left out has
-// the default of the specification. Numbers of accessors, nodes and so on are indices into the root's
-// collections; -1: there is none.
+// All functions require objects of a root that openGltfDocument has checked. Missing members have the default of the
+// specification. References to accessors, nodes and so on are indices into the root's collections; -1: none.
 #pragma once
 
 #include <array>
@@ -24,7 +23,7 @@ namespace cotan::gltf {
 
 using Json = nlohmann::ordered_json; // members stay in the order of the file
 
-// ---- the numbers that stand for types and modes, from OpenGL --------------------------------
+// ---- OpenGL constants for types and modes ---------------------------------------------------
 
 inline constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123, kUnsignedInt = 5125,
                      kFloat = 5126;
@@ -41,7 +40,7 @@ inline constexpr int kRepeat = 10497, kClampToEdge = 33071, kMirroredRepeat = 33
 
 // ---- JSON -----------------------------------------------------------------------------------
 
-// A member of an object; null where it is missing, and where `object` is none or null.
+// A member of an object; null if it is missing, or if `object` is null or no object.
 const Json* member(const Json& object, std::string_view name);
 inline const Json* member(const Json* object, std::string_view name)
 {
@@ -49,12 +48,12 @@ inline const Json* member(const Json* object, std::string_view name)
 }
 
 // A key of a material's extras: how its normal map stores signed numbers in unsigned ones. "biased": 2c - 1; any other
-// value, and none, is Cotan's default, whose zero is the middle code (docs/reference/conventions.md). A clear coat's
-// map has the default always.
+// value, or none, is Cotan's default, whose zero is the middle code (docs/reference/conventions.md). The map of a clear
+// coat always has the default.
 inline constexpr const char* kUnsignedKey = "cotanUnsigned";
 Expansion expansionOf(const Json& material);
 
-// What an object says under the name of an extension; null where it says nothing, or no object.
+// The object of an extension; null if the extension is missing or is no object.
 const Json* extension(const Json& object, std::string_view name);
 
 template<class T> T valueOr(const Json& object, std::string_view name, T otherwise)
@@ -63,7 +62,7 @@ template<class T> T valueOr(const Json& object, std::string_view name, T otherwi
     return found ? found->get<T>() : otherwise;
 }
 
-// The numbers of an array as a vector. T: as which they are read.
+// The numbers of an array as a vector. T: the type that they are read as.
 template<glm::length_t N, class T>
 glm::vec<N, T> vectorOr(const Json& object, std::string_view name, glm::vec<N, T> otherwise)
 {
@@ -79,7 +78,7 @@ enum class ElementType { scalar, vec2, vec3, vec4, mat2, mat3, mat4 };
 
 struct BufferView {
     std::size_t buffer = 0, offset = 0, length = 0;
-    std::size_t stride = 0; // bytes from element to element; 0: they are packed
+    std::size_t stride = 0; // bytes between the starts of two elements; 0: tightly packed
 };
 
 struct Sparse {
@@ -99,8 +98,8 @@ struct Accessor {
     std::optional<Sparse> sparse;
 };
 
-// Bytes of a component; components of an element; bytes of an element, columns of matrices of bytes
-// and shorts padded to four.
+// Size of a component in bytes; number of components of an element; size of an element in bytes, where the columns of
+// matrices of bytes and shorts are padded to four bytes.
 std::size_t componentSize(int componentType);
 std::size_t componentCount(ElementType type);
 std::size_t elementSize(const Accessor& accessor);
@@ -112,14 +111,14 @@ Accessor readAccessor(const Json& accessor);
 
 using Attributes = std::map<std::string, int, std::less<>>; // name to accessor
 
-// The accessor of an attribute.
+// The accessor of an attribute; -1 if it is missing.
 int accessorOf(const Attributes& attributes, std::string_view name);
 
 struct Primitive {
     Attributes attributes;
     std::vector<Attributes> targets; // morph targets
     int indices = -1, material = -1;
-    int mode = 4; // 4: triangles, 5: a strip, 6: a fan; below: points and lines
+    int mode = 4; // 4: triangles, 5: strip, 6: fan; below: points and lines
 };
 
 struct Mesh {
@@ -134,13 +133,13 @@ struct Node {
     int light = -1; // KHR_lights_punctual
     std::vector<int> children;
     std::vector<double> weights;      // empty: those of the mesh
-    std::optional<glm::dmat4> matrix; // in place of the next three
+    std::optional<glm::dmat4> matrix; // replaces the next three members
     glm::dvec3 translation{0}, scale{1};
     glm::dvec4 rotation{0, 0, 0, 1}; // x y z w
-    Attributes instances;            // EXT_mesh_gpu_instancing; empty: one
+    Attributes instances;            // EXT_mesh_gpu_instancing; empty: one instance
 };
 
-// Joints are nodes.
+// Joints are node indices.
 struct Skin {
     int inverseBindMatrices = -1;
     std::vector<int> joints;
@@ -151,15 +150,15 @@ Mesh readMesh(const Json& mesh);
 Node readNode(const Json& node);
 Skin readSkin(const Json& skin);
 
-// rotation: x y z w, of any length; none where it has no length.
+// rotation: quaternion x y z w of any length; a zero quaternion means no rotation.
 glm::dmat4 composed(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale);
 
-// Where a node stands in its parent.
+// The transform from the node to its parent.
 glm::dmat4 localMatrix(const Node& node);
 
 // ---- textures -------------------------------------------------------------------------------
 
-// A texture as a material uses it, KHR_texture_transform applied to uv set and rows (see moveUv).
+// A texture as used by a material, with KHR_texture_transform applied to uv set and rows (see moveUv).
 struct TextureUse {
     int texture = -1;
     int texcoord = 0; // TEXCOORD_n
@@ -172,11 +171,11 @@ struct TextureUse {
 
 struct Texture {
     int sampler = -1;
-    int image = -1;   // its own; where it has none, that of the first of kReadImageExtensions
-    int foreign = -1; // where that is none: an image that another extension names, the first by the extension's name
+    int image = -1;   // its own; else that of the first of kReadImageExtensions that it has
+    int foreign = -1; // replaces an `image` of -1: that of the first other extension, in order of names
 };
 
-// Extensions that put an image of another format in the place of a texture's, which is read.
+// Extensions that supply a texture's image in another format, which is read here.
 inline constexpr std::array<std::string_view, 3> kReadImageExtensions{"EXT_texture_webp", "MSFT_texture_dds",
                                                                       "KHR_texture_basisu"};
 
@@ -186,24 +185,24 @@ struct Image {
     int view = -1;
 };
 
-// info: what a material says of a "normalTexture" and so on; null: nothing.
+// info: a material's "normalTexture" or other texture info; null: none.
 TextureUse readTextureUse(const Json* info);
 
-// images: how many there are.
+// images: the number of images.
 Texture readTexture(const Json& texture, std::size_t images);
 Image readImage(const Json& image);
 
 Sampler readSampler(const Json& sampler);
 Json writeSampler(const Sampler& sampler);
 
-// The member of a material's extras that names the frame its normal maps were made for, a string: three.js, Blender and
+// The string member of a material's extras that names the frame its normal maps were made for. three.js, Blender and
 // glTF-Transform keep the extras of materials.
 inline constexpr const char* kFrameExtra = "cotanFrame";
 
-// What it says; empty where there is none. Another value than a string is printed as JSON.
+// The value of kFrameExtra; empty if missing. A value that is no string is printed as JSON.
 std::string frameText(const Json& material);
 
-// The extension, of those that are not drawn here, with which a material reads tangents; empty: none.
+// The extension that makes a material read tangents, among those not drawn here; empty: none.
 std::string tangentReader(const Json& material);
 
 } // namespace cotan::gltf

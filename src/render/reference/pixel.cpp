@@ -12,9 +12,9 @@ namespace cotan::reference {
 
 namespace {
 
-constexpr float kBrightest = 65504; // what a half-float target holds
+constexpr float kMaxHalf = 65504; // largest value of a half-float target
 
-// How blurred the gradient is as a backdrop.
+// Roughness of the gradient environment as a backdrop.
 constexpr float kBackgroundBlur = 0.35f;
 
 glm::vec3 finite(glm::vec3 v)
@@ -24,10 +24,10 @@ glm::vec3 finite(glm::vec3 v)
     return v;
 }
 
-// What is written of a radiance.
+// The value to write for a radiance: exposed, finite, and tone mapped unless the view is linear.
 glm::vec3 displayed(const View& view, glm::vec3 radiance)
 {
-    const glm::vec3 c = glm::clamp(finite(radiance * view.exposure), 0.0f, kBrightest);
+    const glm::vec3 c = glm::clamp(finite(radiance * view.exposure), 0.0f, kMaxHalf);
     return view.linearOutput ? c : f32::cotan_tone_of(int(view.toneMapping), c);
 }
 
@@ -51,20 +51,20 @@ f32::cotan_surface surfaceOf(const PixelInputs& all, const SurfaceInputs& in, gl
     return s;
 }
 
-// The direction that a highlight is stretched in and how much, from the factors and the map.
-void stretch(f32::cotan_gloss& gloss, const SurfaceInputs& in, int lane, const SurfaceNormal& normal)
+// Sets direction and strength of the anisotropy from the factors and the map.
+void setAnisotropy(f32::cotan_gloss& gloss, const SurfaceInputs& in, int lane, const SurfaceNormal& normal)
 {
     const Anisotropy& a = in.draw->material->anisotropy;
     glm::vec2 direction(std::cos(a.rotation), -std::sin(a.rotation)); // along +u and +v
     gloss.anisotropy = a.strength;
     if (in.draw->maps->anisotropy) {
         const glm::vec4 texel = mapTexel(in, in.draw->maps->anisotropy, a.map, lane);
-        const glm::vec2 turned = glm::vec2(texel.x, -texel.y) * 2.0f + glm::vec2(-1, 1);
-        direction = {turned.x * direction.x - turned.y * direction.y, turned.x * direction.y + turned.y * direction.x};
+        const glm::vec2 turn = glm::vec2(texel.x, -texel.y) * 2.0f + glm::vec2(-1, 1);
+        direction = {turn.x * direction.x - turn.y * direction.y, turn.x * direction.y + turn.y * direction.x};
         gloss.anisotropy *= texel.z;
     }
     const f32::cotan_frame& frame = normal.frame;
-    gloss.t = f32::cotan_direction_on_surface(normal.interpolated, frame.t, frame.b, direction, normal.finished);
+    gloss.t = f32::cotan_direction_on_surface(normal.interpolated, frame.t, frame.b, direction, normal.perturbed);
     if (gloss.t == glm::vec3(0))
         gloss.anisotropy = 0;
 }
@@ -83,7 +83,7 @@ Layers layersOf(const PixelInputs& all, const SurfaceInputs& in, int lane, const
         layers.gloss->transmission = f32::cotan_saturate(
             m.transmission.strength * mapTexel(in, in.draw->maps->transmission, m.transmission.map, lane).x);
         if (m.anisotropy.strength > 0)
-            stretch(*layers.gloss, in, lane, normal);
+            setAnisotropy(*layers.gloss, in, lane, normal);
     }
     if (m.sheen.present()) {
         const glm::vec4 color = mapTexel(in, in.draw->maps->sheenColor, m.sheen.colorMap, lane);
@@ -99,20 +99,20 @@ Layers layersOf(const PixelInputs& all, const SurfaceInputs& in, int lane, const
         const CoatNormal own = coatNormalOf(in, lane, normal);
         coat.n = own.n;
         if (all.view.specularAntialiasing)
-            coat.roughness = f32::cotan_roughness_of_spread(coat.roughness, own.spread);
+            coat.roughness = f32::cotan_roughness_of_variance(coat.roughness, own.variance);
         layers.coat = coat;
     }
     return layers;
 }
 
-// The radiance that leaves the surface, and the factors of what is behind it.
+// Returns the radiance that leaves the surface, and its transmittance.
 std::pair<glm::vec3, glm::vec3> shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseColor,
                                             int lane)
 {
     if (in.draw->material->unlit)
         return {baseColor, glm::vec3(0)};
     SurfaceNormal normal = normalOf(in, lane);
-    f32::cotan_surface surface = surfaceOf(all, in, baseColor, lane, normal.finished);
+    f32::cotan_surface surface = surfaceOf(all, in, baseColor, lane, normal.perturbed);
     LitPoint point{
         in.points->position[std::size_t(lane)], in.triangle->front ? normal.interpolated : -normal.interpolated, {}};
     std::vector<LitTap> taps;
@@ -120,7 +120,7 @@ std::pair<glm::vec3, glm::vec3> shadedColor(const PixelInputs& all, const Surfac
         if (normal.mapped)
             taps = tapsOf(in, lane, normal, surface.roughness);
         point.taps = taps;
-        surface.roughness = f32::cotan_roughness_of_spread(surface.roughness, normal.spread);
+        surface.roughness = f32::cotan_roughness_of_variance(surface.roughness, normal.variance);
     }
     const auto tangent = tangentSpaceOf(in, lane, normal, surface, all.projection.orthographic);
     const Layers layers = layersOf(all, in, lane, normal);
@@ -138,7 +138,7 @@ glm::vec3 dataOutput(const PixelInputs& all, const SurfaceInputs& in, int lane)
     case Output::tangent: return normal.t;
     case Output::bitangent: return normal.b;
     case Output::uv: return {normal.uv, 0};
-    default: return normal.finished;
+    default: return normal.perturbed;
     }
 }
 
@@ -161,9 +161,9 @@ std::optional<Fragment> shade(const PixelInputs& all, const SurfaceInputs& in, i
         return std::nullopt;
     if (!shaded)
         return Fragment{.value = glm::vec4(finite(dataOutput(all, in, lane)), 1)};
-    const auto [radiance, through] = shadedColor(all, in, glm::vec3(base), lane);
+    const auto [radiance, transmittance] = shadedColor(all, in, glm::vec3(base), lane);
     const float alpha = blend ? f32::cotan_saturate(base.w) : 1;
-    return Fragment{glm::vec4(displayed(all.view, radiance), alpha), (1 - alpha) + finite(through) * alpha};
+    return Fragment{glm::vec4(displayed(all.view, radiance), alpha), (1 - alpha) + finite(transmittance) * alpha};
 }
 
 glm::vec4 background(const PixelInputs& all, int x, int y)
@@ -172,15 +172,16 @@ glm::vec4 background(const PixelInputs& all, int x, int y)
     if (view.output != Output::shaded || !(view.background || view.ground))
         return glm::vec4(0);
     const glm::vec3 ray = rayDirection(all.projection, x + 0.5, y + 0.5);
-    float share = 1;
+    float visibility = 1;
     if (view.ground) {
-        const glm::dvec3 start = rayOrigin(all.projection, x + 0.5, y + 0.5); // relative to the eye, as all there is
+        const glm::dvec3 start = rayOrigin(all.projection, x + 0.5, y + 0.5); // relative to the eye
         const double height = view.ground->height - all.projection.eye.y;
-        const glm::dvec2 place = f64::cotan_ground_place(start, glm::dvec3(ray), height);
-        share = groundShareAt(*view.ground, glm::vec2(place + glm::dvec2(all.projection.eye.x, all.projection.eye.z)));
+        const glm::dvec2 point = f64::cotan_ground_point(start, glm::dvec3(ray), height);
+        visibility =
+            groundVisibilityAt(*view.ground, glm::vec2(point + glm::dvec2(all.projection.eye.x, all.projection.eye.z)));
     }
-    return view.background ? glm::vec4(displayed(view, backdropAlong(view, ray) * share), 1)
-                           : glm::vec4(0, 0, 0, 1 - share);
+    return view.background ? glm::vec4(displayed(view, backdropAlong(view, ray) * visibility), 1)
+                           : glm::vec4(0, 0, 0, 1 - visibility);
 }
 
 } // namespace cotan::reference

@@ -1,4 +1,4 @@
-// What a pixel sees: the surface of a triangle, lights, the shadow of one of them, rays, and what is behind it all.
+// Shading of a pixel: the surface of a triangle, lights, shadows, light by random walks, and the background.
 #pragma once
 
 #include <array>
@@ -18,71 +18,71 @@ namespace cotan::reference {
 
 // ---- the surface: normal, frame, material ---------------------------------------------------
 
-// `src/bake/surface` answers the same question for bakers and checkers. This is a second answer on purpose: what they
-// make is judged by pictures that are drawn here, so nothing is shared but Scene and the portable text.
+// `src/bake/surface` computes the same for bakers and checkers. This is a separate implementation on purpose: their
+// results are judged by images drawn here, so only Scene and the portable text are shared.
 
-// Interpolated values in the four pixels of a quad, covered or not: helper lanes extrapolate the
-// triangle's plane. Order: as in Quad.
+// Interpolated values in the four pixels of a quad, covered or not: helper lanes extrapolate the triangle's plane.
+// Lanes are ordered as in Quad.
 struct QuadPoints {
     std::array<std::array<double, 3>, 4> weights{};     // of the three vertices, perspective-correct
     std::array<glm::vec3, 4> position{};                // relative to the eye
-    std::array<std::array<glm::vec2, 4>, 2> uv{};       // both sets; 0 where the mesh has none
-    std::array<std::array<glm::vec2, 4>, 2> cornerUv{}; // minus that of the triangle's first corner
+    std::array<std::array<glm::vec2, 4>, 2> uv{};       // both sets; 0 if the mesh has none
+    std::array<std::array<glm::vec2, 4>, 2> cornerUv{}; // minus the uv of the triangle's first corner
 };
 
 QuadPoints interpolate(const Draw& draw, const RasterTriangle& triangle, int x, int y);
 
-// Everything that shading one triangle needs to look up.
+// The inputs for shading one triangle.
 struct SurfaceInputs {
     const View* view = nullptr;
-    const Draw* draw = nullptr; // and its material, with its maps
+    const Draw* draw = nullptr; // with its material and maps
     const RasterTriangle* triangle = nullptr;
     const QuadPoints* points = nullptr;
 };
 
-// What a map of the material has in one lane; 1 where there is no chain.
+// Samples a map of the material in one lane; returns 1 if `chain` is null.
 glm::vec4 mapTexel(const SurfaceInputs& in, const MipChain* chain, const Texture& texture, int lane);
 
-// The base colour and alpha: factor, map and vertex colour, whatever the material does with alpha.
+// Base colour and alpha: factor times map times vertex colour, for every alpha mode.
 glm::vec4 baseColorOf(const SurfaceInputs& in, int lane);
 
-// The samples of a pixel that a masked material covers: where alpha, taken as a plane over the pixel, is not below the
+// The samples of a pixel that a masked material covers: those where alpha, as a plane over the pixel, reaches the
 // cutoff. alphas: of the quad's lanes.
 unsigned samplesOfMask(const std::array<float, 4>& alphas, int lane, float cutoff, const SamplePattern& pattern);
 
 struct SurfaceNormal {
-    glm::vec3 interpolated{0}; // unit, as the mesh has it
-    glm::vec3 finished{0};     // unit, perturbed, turned towards the camera's side
+    glm::vec3 interpolated{0}; // unit, without the map
+    glm::vec3 perturbed{0};    // unit, on the camera's side
     glm::vec3 t{0};
     glm::vec3 b{0};
-    glm::vec2 uv{0};              // of the normal map
-    f32::cotan_frame frame{};     // that `finished` was made with
-    glm::vec3 turnX{0}, turnY{0}; // differences of `interpolated` to the next pixels, where the view asks for them
-    float turn = 0;               // the spread that they are
-    float spread = 0;             // the same of `finished`
-    bool mapped = false;          // there is a normal map, and what follows is set
-    glm::vec3 texel{0, 0, 1};     // decoded, unit, in the frame; turned towards the camera's side
+    glm::vec2 uv{0};            // of the normal map
+    f32::cotan_frame frame{};   // frame of `perturbed`
+    glm::vec3 dndx{0}, dndy{0}; // differences of `interpolated` to the next pixels, for specular antialiasing
+    float smoothVariance = 0;   // variance of `interpolated` in the pixel
+    float variance = 0;         // variance of `perturbed` in the pixel
+    bool mapped = false;        // has a normal map; only then is `texel` set
+    glm::vec3 texel{0, 0, 1};   // decoded, unit, in the frame; on the camera's side
 };
 
-// As the material's normal map has it.
+// The normal, perturbed by the material's normal map.
 SurfaceNormal normalOf(const SurfaceInputs& in, int lane);
 
-// One of several normals of a pixel that are lit one by one.
+// One of several normals of a pixel that are lit individually.
 struct LitTap {
     glm::vec3 n{0};
     float roughness = 0;
 };
 
-// The normals of even places in the pixel, to be lit one by one for specular antialiasing: as many as the surface's
-// roughness asks for, each rougher by what is smaller than its part of the pixel. normal: mapped, of the same lane.
+// Normals at evenly spaced points of the pixel, to be lit individually for specular antialiasing. `roughness`
+// determines their number; the variance in each one's part of the pixel is added to it. normal: mapped, of this lane.
 std::vector<LitTap> tapsOf(const SurfaceInputs& in, int lane, const SurfaceNormal& normal, float roughness);
 
 struct CoatNormal {
-    glm::vec3 n{0}; // unit, turned towards the camera's side
-    float spread = 0;
+    glm::vec3 n{0}; // unit, on the camera's side
+    float variance = 0;
 };
 
-// The coat's normal, from its own map and a frame of the same name. base: of the surface beneath.
+// The coat's normal, from its own map and the view's frame. base: of the surface below.
 CoatNormal coatNormalOf(const SurfaceInputs& in, int lane, const SurfaceNormal& base);
 
 // ---- the shadow of the first directional light ----------------------------------------------
@@ -90,43 +90,43 @@ CoatNormal coatNormalOf(const SurfaceInputs& in, int lane, const SurfaceNormal& 
 struct ShadowMap {
     Projection projection;
     int size = 0;                     // texels a side; 0: no map, everything is lit
-    std::vector<float> reversedDepth; // of what the light meets first; rows first
-    float texel = 0;                  // world units a texel
-    float depthUnit = 0;              // reversed depth of one world unit along the light
+    std::vector<float> reversedDepth; // of the first surface that the light meets; row by row
+    float texel = 0;                  // world units per texel
+    float depthUnit = 0;              // reversed depth per world unit along the light
 
     float at(int x, int y) const { return reversedDepth[std::size_t(y) * std::size_t(size) + std::size_t(x)]; }
 };
 
-// Draws the scene as the light sees it, 2048 texels a side, fitted to the ball. Masked materials
-// cast the shadow of what their mask leaves; blended ones cover as many texels as their alpha says, by
-// cotan_shadow_threshold; what transmits casts none.
+// Draws the scene from the light, 2048 texels a side, fitted to the ball. Masked materials cast the shadow of what the
+// mask keeps. Blended ones cover a fraction of texels equal to their alpha, by cotan_shadow_threshold. Transmissive
+// ones cast none.
 ShadowMap makeShadowMap(const View& view, const std::vector<Draw>& draws, glm::vec3 direction, const Ball& ball,
                         glm::dvec3 eye);
 
-// The share of light that arrives, 0..1, of a light that covers a disc, whose tangent of half the angle is `softness`
-// (shaders/cotan/shadow.h); 0: nine bilinear comparisons around the point. The point is first moved off its surface
-// along n, and compared with a bias that grows with the slope, both in proportion to a texel.
-// position: relative to the eye of the projection. n: unit, on the side that is seen. toLight: unit.
-float lightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::vec3 toLight, float softness);
+// Fraction of light that arrives, in [0,1]. softness: tangent of half the angle of the light's disc
+// (shaders/cotan/shadow.h); 0: nine bilinear comparisons around the point. The point is first offset along n and
+// compared with a bias that grows with the slope, both in proportion to a texel. position: relative to the eye of the
+// projection. n: unit, on the visible side. toLight: unit.
+float lightVisibility(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::vec3 toLight, float softness);
 
 // ---- light ----------------------------------------------------------------------------------
 
-// A light, ready for shading.
+// A light, prepared for shading.
 struct PreparedLight {
     LightKind kind = LightKind::directional;
     glm::vec3 radiance{0};      // colour times intensity
     glm::vec3 position{0};      // relative to the eye
-    glm::vec3 toLight{0, 1, 0}; // unit, against the way the light travels
+    glm::vec3 toLight{0, 1, 0}; // unit, against the light's travel
     float range = 0;
     float cosInner = 1;
     float cosOuter = 0;
     bool castsShadow = false;
 };
 
-// The view's lights; the first directional one casts the shadow, if the view has shadows.
+// The view's lights. The first directional one casts the shadow if the view has shadows.
 std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye);
 
-// What all pixels of a picture share.
+// Inputs that all pixels of an image share.
 struct PixelInputs {
     const View& view;
     Projection projection;
@@ -134,71 +134,71 @@ struct PixelInputs {
     ShadowMap shadow;
 };
 
-// Lighting in tangent space, as tutorials do it: vectors come to the map's normal, not it to them. Vectors along t, b,
-// n of a pixel.
+// Lighting in tangent space as in common tutorials: vectors are transformed to the map's normal instead of the reverse.
+// Vectors have components along t, b, n of a pixel.
 struct TangentSpace {
-    f32::cotan_surface surface; // n: the texel; v: carried to tangent space
-    f32::cotan_frame pixel{};   // in the pixel
-    bool perVertex = false;     // carry at the corners, and interpolate
+    f32::cotan_surface surface; // n: the texel; v: transformed to tangent space
+    f32::cotan_frame pixel{};   // of the pixel
+    bool perVertex = false;     // transform at the corners and interpolate
     std::array<f32::cotan_frame, 3> corners{};
     std::array<glm::vec3, 3> positions{}; // of the corners, relative to the eye
     std::array<double, 3> weights{};
 };
 
-// Nothing where the view lights in the world, where there is no normal map, and where what is asked for is missing:
-// tangents at the vertices, or a frame that can be inverted. surface: in the world.
+// Empty if the view lights in world space, if there is no normal map, and if the requested method lacks its input:
+// tangents at the vertices, or an invertible frame. surface: in world space.
 std::optional<TangentSpace> tangentSpaceOf(const SurfaceInputs& in, int lane, const SurfaceNormal& normal,
                                            const f32::cotan_surface& surface, bool orthographic);
 
-// A shaded point, beyond what the portable text's surface holds.
+// A shaded point: what the surface of the portable text does not contain.
 struct LitPoint {
     glm::vec3 position{0};        // relative to the eye
-    glm::vec3 normal{0};          // unit, not perturbed, on the camera's side: for the shadow
-    std::span<const LitTap> taps; // what is reflected is their mean; none: as the surface says
+    glm::vec3 normal{0};          // unit, unperturbed, on the camera's side: for the shadow
+    std::span<const LitTap> taps; // reflections are averaged over these; empty: uses the surface's normal
 };
 
-// What extensions add to a surface, in the world. Blinn-Phong has none of it.
+// What material extensions add to a surface, in world space. None with Blinn-Phong.
 struct Layers {
-    std::optional<f32::cotan_gloss> gloss; // in place of metallic-roughness' own reflections
+    std::optional<f32::cotan_gloss> gloss; // replaces plain metallic-roughness reflections
     std::optional<f32::cotan_sheen> sheen;
     std::optional<f32::cotan_coat> coat;
 };
 
-// Linear radiance towards the eye: lights, environment, emission. Not yet exposed. tangent: where there is one, lights
-// are taken there and meet its surface in place of `surface`; highlights are not stretched.
+// Linear radiance towards the eye, before exposure: lights, environment, emission. tangent: if set, lights are
+// evaluated in tangent space with its surface instead of `surface`, without anisotropy.
 glm::vec3 radianceOf(const PixelInputs& all, const f32::cotan_surface& surface, const Layers& layers,
                      const LitPoint& point, const std::optional<TangentSpace>& tangent);
 
-// The factors, by colour, of what is behind a surface that transmits.
+// Transmittance for the colours behind the surface.
 glm::vec3 transmittanceOf(const f32::cotan_surface& surface, const Layers& layers);
 
-// ---- light on rays: classic normal mapping, and two facets that make a surface of a turned normal -----------
+// ---- light by random walks: classic normal mapping, or two facets with a perturbed and a vertical normal ----
 
-// Light from one direction, of that irradiance perpendicular to it.
+// Light from one direction; the irradiance is on a plane perpendicular to it.
 struct ArrivingLight {
     glm::vec3 toLight{0};
     glm::vec3 irradiance{0};
 };
 
-// Linear radiance towards the eye of what lights and, where the view has one, the environment give, by one of
-// View::normalMapping's ways but `shading`: the mean of 64 walks. Emission is not in it.
-// A direction to the eye below the surface counts as one along it. surface: its n is the turned normal. gloss: its
-// anisotropy counts as 0. point: its place is where random numbers come from.
+// Linear radiance towards the eye from lights and, if the view has one, the environment, by one of the methods of
+// View::normalMapping other than `shading`: the mean of 64 random walks. Emission is not included. An eye direction
+// below the surface is clamped to the surface. surface: n is the perturbed normal. gloss: its anisotropy is taken as 0.
+// point: its position seeds the random numbers.
 glm::vec3 radianceByRays(const f32::cotan_surface& surface, const f32::cotan_gloss& gloss, const LitPoint& point,
                          const View& view, const std::vector<ArrivingLight>& lights);
 
 // ---- pixels ---------------------------------------------------------------------------------
 
 struct Fragment {
-    glm::vec4 value{0};   // shaded: linear colour and alpha; otherwise the output's x y z, and 1
-    glm::vec3 through{0}; // factors of what is behind, where the material is translucent
+    glm::vec4 value{0};         // shaded: linear colour and alpha; otherwise x, y, z of the output, and 1
+    glm::vec3 transmittance{0}; // factors of the colours behind translucent materials
 };
 
-// Always finite. Shaded colours are exposed and, unless the view wants them linear, tone mapped. Nothing where the
-// surface is invisible.
+// Shades a lane; the result is finite. Shaded colours are exposed and, unless the view is linear, tone mapped. Empty if
+// the surface is invisible.
 std::optional<Fragment> shade(const PixelInputs& all, const SurfaceInputs& in, int lane);
 
-// The background in a pixel of the raster: the environment where the view wants it, otherwise 0.
+// The background in a pixel of the raster: the environment if the view shows it, otherwise 0.
 glm::vec4 background(const PixelInputs& all, int x, int y);
 
 } // namespace cotan::reference

@@ -10,8 +10,8 @@ namespace cotan::reference {
 
 namespace {
 
-// The corner on the edge, computed from the inside to the outside whichever way round the edge is
-// walked: so neighbours agree.
+// The point where an edge crosses the plane. It is always computed from the inside to the outside, so that triangles
+// that share the edge get the same point.
 glm::dvec4 crossing(glm::dvec4 inside, double insideDistance, glm::dvec4 outside, double outsideDistance)
 {
     double k = insideDistance / (insideDistance - outsideDistance);
@@ -22,7 +22,7 @@ Polygon cut(const Polygon& polygon, glm::dvec4 plane)
 {
     Polygon result;
     const auto add = [&](glm::dvec4 corner) {
-        if (result.count < int(result.corner.size())) // else rounding made it concave: the sliver is below a sub-pixel
+        if (result.count < int(result.corner.size())) // full only if rounding made it concave, by less than a sub-pixel
             result.corner[std::size_t(result.count++)] = corner;
     };
     for (int i = 0; i < polygon.count; ++i) {
@@ -89,7 +89,7 @@ Rectangle boundsOf(const RasterTriangle& triangle, Rectangle area)
 bool mayCover(const std::array<Edge, 3>& edges, Rectangle area)
 {
     return std::all_of(edges.begin(), edges.end(), [&](const Edge& e) {
-        // The corner of the area that is best for the edge.
+        // The corner of the area farthest inside the edge.
         const std::int64_t x = e.x > 0 ? area.x1 : area.x0, y = e.y > 0 ? area.y1 : area.y0;
         return e.at(x * kSubPixels, y * kSubPixels) >= 0;
     });
@@ -99,14 +99,14 @@ Rectangle narrowed(const std::array<Edge, 3>& edges, Rectangle bounds, int y)
 {
     const std::int64_t top = std::int64_t(y) * kSubPixels, bottom = top + 2 * kSubPixels;
     for (const Edge& e : edges) {
-        // At its best in these rows the edge keeps e.x * px + best >= 0.
+        // At most, in these rows, the edge function is e.x * px + best.
         const std::int64_t best = std::max(e.y * top, e.y * bottom) + e.constant;
         if (e.x == 0) {
             if (best < 0)
                 bounds.x1 = bounds.x0;
             continue;
         }
-        const std::int64_t crossing = -best / e.x / kSubPixels; // pixels, within one
+        const std::int64_t crossing = -best / e.x / kSubPixels; // pixels, to within one
         if (e.x > 0)
             bounds.x0 = int(std::clamp<std::int64_t>(crossing - 1, bounds.x0, bounds.x1));
         else
@@ -141,21 +141,21 @@ std::size_t Tile::at(int x, int y) const
     return pixel * samples_;
 }
 
-// Nearness at a sample. Rounded to float as a depth buffer is, so that equal surfaces tie and the first one drawn
-// stays.
+// Reversed depth at a sample, rounded to float as in a depth buffer, so that coincident surfaces tie and the first one
+// drawn stays.
 float Tile::reversedDepthAt(const Plane& z, int x, int y, std::size_t sample) const
 {
     const glm::ivec2 offset = pattern_.offset[sample];
     return float(z.at(x + offset.x / double(kSubPixels), y + offset.y / double(kSubPixels)));
 }
 
-void Tile::expect(int x, int y, unsigned covered, const Plane& z)
+void Tile::announce(int x, int y, unsigned covered, const Plane& z)
 {
-    if (expected_.empty())
-        expected_.assign(reversedDepth_.size(), -1.0f);
+    if (announced_.empty())
+        announced_.assign(reversedDepth_.size(), -1.0f);
     for (std::size_t s = 0; s < samples_; ++s)
         if (covered >> s & 1) {
-            float& nearest = expected_[at(x, y) + s];
+            float& nearest = announced_[at(x, y) + s];
             nearest = std::max(nearest, reversedDepthAt(z, x, y, s));
         }
 }
@@ -168,7 +168,7 @@ unsigned Tile::nearer(int x, int y, unsigned covered, const Plane& z) const
         if (!(covered >> s & 1))
             continue;
         const float depth = reversedDepthAt(z, x, y, s);
-        if (depth > reversedDepth_[first + s] && (expected_.empty() || depth >= expected_[first + s]))
+        if (depth > reversedDepth_[first + s] && (announced_.empty() || depth >= announced_[first + s]))
             passed |= 1u << s;
     }
     return passed;
@@ -185,14 +185,14 @@ void Tile::write(int x, int y, unsigned samples, glm::vec4 value, const Plane& z
     }
 }
 
-void Tile::blend(int x, int y, unsigned samples, glm::vec4 value, glm::vec3 through, const Plane& z)
+void Tile::blend(int x, int y, unsigned samples, glm::vec4 value, glm::vec3 transmittance, const Plane& z)
 {
     if (layers_.size() == kMaxLayers)
         throw TooManyLayers{};
     if (newest_.empty())
         newest_.assign(value_.size() / samples_, kNone);
     std::uint32_t& newest = newest_[at(x, y) / samples_];
-    Layer layer{glm::vec3(value) * value.w, through, {}, samples, newest};
+    Layer layer{glm::vec3(value) * value.w, transmittance, {}, samples, newest};
     for (std::size_t s = 0; s < samples_; ++s)
         layer.reversedDepth[s] = reversedDepthAt(z, x, y, s);
     newest = std::uint32_t(layers_.size());
@@ -209,22 +209,22 @@ glm::vec4 Tile::resolve(int x, int y) const
 {
     glm::vec4 sum(0);
     std::vector<const Layer*> layers;
-    for (auto i = newest_.empty() ? kNone : newest_[at(x, y) / samples_]; i != kNone; i = layers_[i].before)
+    for (auto i = newest_.empty() ? kNone : newest_[at(x, y) / samples_]; i != kNone; i = layers_[i].previous)
         layers.push_back(&layers_[i]);
     for (std::size_t s = 0; s < samples_; ++s) {
-        // Their addresses are in the order in which they were added.
+        // Layers are stored in the order in which they were added, so pointers compare by it.
         std::sort(layers.begin(), layers.end(), [&](const Layer* a, const Layer* b) {
             return a->reversedDepth[s] != b->reversedDepth[s] ? a->reversedDepth[s] < b->reversedDepth[s] : a < b;
         });
-        glm::vec3 light(value_[at(x, y) + s]), through(1);
-        for (const Layer* layer : layers) // farthest first
+        glm::vec3 light(value_[at(x, y) + s]), transmittance(1);
+        for (const Layer* layer : layers) // far to near
             if (layer->samples >> s & 1) {
-                light = layer->light + light * layer->through;
-                through *= layer->through;
+                light = layer->light + light * layer->transmittance;
+                transmittance *= layer->transmittance;
             }
-        // Alpha has no colour: it counts what passes of white light.
-        const float passing = (through.x + through.y + through.z) / 3;
-        sum += glm::vec4(light, 1 - passing * (1 - value_[at(x, y) + s].w));
+        // Alpha has a single channel: the transmittance is averaged over the colours.
+        const float meanTransmittance = (transmittance.x + transmittance.y + transmittance.z) / 3;
+        sum += glm::vec4(light, 1 - meanTransmittance * (1 - value_[at(x, y) + s].w));
     }
     return sum / float(samples_);
 }

@@ -1,5 +1,5 @@
-// Triangles to pixels: clipping in homogeneous raster coordinates, coverage in exact integers, interpolation from the
-// triangle's own planes; and the tile of the picture that they are drawn into.
+// Triangles to pixels: clipping in homogeneous raster coordinates, exact coverage in integers, interpolation by the
+// triangle's planes, and the tile of the image to draw into.
 #pragma once
 
 #include <array>
@@ -12,22 +12,21 @@
 
 namespace cotan::reference {
 
-// A convex polygon; a triangle cut by five planes has at most eight corners.
+// A convex polygon. A triangle cut by five planes has at most eight corners.
 struct Polygon {
     std::array<glm::dvec4, 8> corner;
     int count = 0;
 };
 
-// How far beyond the picture coordinates may reach, in pixels. Keeps the integers of the rasteriser
-// small; what lies further out is cut.
+// Maximum distance of coordinates from the image, in pixels. Clipping to it keeps the rasteriser's integers small.
 inline constexpr double kGuardBand = 16384;
 
-// The part of the triangle in front of the near plane (z <= w) and inside the guard band around
-// a picture of width x height pixels. Two triangles that share an edge get the same corners on
-// it, bit for bit. Nothing is left (count 0) of a triangle with a non-finite corner.
+// The part of the triangle in front of the near plane (z <= w) and inside the guard band around an image of width x
+// height pixels. Triangles that share an edge get identical corners on it, bit for bit. Returns an empty polygon for a
+// triangle with a non-finite corner.
 Polygon clip(const std::array<glm::dvec4, 3>& triangle, int width, int height);
 
-// Corners are snapped to 1/256 pixel, as GPUs do, so that both decide alike which pixels a triangle covers.
+// Corners are snapped to 1/256 pixel, as on GPUs, so that coverage agrees with theirs.
 inline constexpr int kSubPixels = 256;
 
 // A linear function over the raster, in pixels.
@@ -36,25 +35,24 @@ struct Plane {
     double at(double px, double py) const { return x * px + y * py + constant; }
 };
 
-// A triangle ready to be rasterised. The planes belong to the whole triangle of the mesh even when
-// the corners are those of a piece that clipping left, and they are made from corners that are
-// not snapped; so interpolation knows nothing of either.
+// A triangle ready to be rasterised. The planes are those of the whole mesh triangle, from unsnapped corners, even if
+// the corners are those of a clipped piece: neither clipping nor snapping changes interpolation.
 struct RasterTriangle {
     std::array<glm::ivec2, 3> corner; // 1/256 pixel; clockwise in a raster whose y points down
     std::array<Plane, 3> weight;      // weight of each vertex, times 1/w
     Plane z;                          // reversed depth
-    std::uint32_t draw = 0;           // what it belongs to: an index of the caller's
+    std::uint32_t draw = 0;           // index of the caller's draw
     std::array<std::uint32_t, 3> vertex{};
-    bool front = true; // the side that faces the camera
+    bool front = true; // the front side faces the camera
 };
 
-// Where the samples of a pixel lie, in 1/256 pixel from its first corner.
+// Sample positions in 1/256 pixel from the pixel's first corner.
 struct SamplePattern {
     int count = 1;
     std::array<glm::ivec2, 4> offset{{{128, 128}, {}, {}, {}}};
 };
 
-// One sample in the middle, or the four of a standard Vulkan 4x target.
+// One sample in the centre, or the four standard samples of Vulkan.
 inline SamplePattern samplePattern(int samples)
 {
     if (samples < 4)
@@ -70,11 +68,11 @@ struct Rectangle {
 // Four pixels that share differences: (x, y), (x+1, y), (x, y+1), (x+1, y+1); x and y even.
 struct Quad {
     int x = 0, y = 0;
-    std::array<unsigned, 4> covered{}; // a bit per sample, per pixel; 0: helper lane
+    std::array<unsigned, 4> covered{}; // a bit per sample for each pixel; 0: helper lane
 };
 
-// An edge as a function of a raster position in 1/256 pixel: at least zero for what it keeps. A position exactly on an
-// edge belongs to the triangle whose top or left edge it is, which is worked into the constant.
+// An edge as a function of a raster position in 1/256 pixel: at least zero inside. A position exactly on an edge
+// belongs to the triangle whose top or left edge it is; the constant accounts for it.
 struct Edge {
     std::int64_t x = 0, y = 0, constant = 0;
     std::int64_t at(std::int64_t px, std::int64_t py) const { return x * px + y * py + constant; }
@@ -82,21 +80,21 @@ struct Edge {
 
 std::array<Edge, 3> edgesOf(const RasterTriangle& triangle);
 
-// The pixels whose samples the triangle may cover, inside the area.
+// The pixels inside the area whose samples the triangle may cover.
 Rectangle boundsOf(const RasterTriangle& triangle, Rectangle area);
 
-// Whether the edges may keep a sample of the area: false for most tiles in the box of a sliver.
+// Whether the edges may cover a sample in the area: false for most tiles in the bounding box of a sliver.
 bool mayCover(const std::array<Edge, 3>& edges, Rectangle area);
 
-// Narrows x0 and x1 of the bounds to the columns that the edges can keep in the rows y and y + 1,
-// give or take a pixel: a sliver costs what it covers, not what its bounds cover.
+// Narrows x0 and x1 of the bounds to the columns that the edges can cover in rows y and y + 1, within a pixel. The cost
+// of a sliver is then proportional to the pixels it covers, not to its bounds.
 Rectangle narrowed(const std::array<Edge, 3>& edges, Rectangle bounds, int y);
 
-// Which samples of the pixel the edges keep.
+// The samples of a pixel inside all edges.
 unsigned coverage(const std::array<Edge, 3>& edges, int x, int y, const SamplePattern& pattern);
 
-// Calls visit(quad) for every quad of the area with a covered sample, rows first. Samples outside
-// the area are not covered.
+// Calls visit(quad) for every quad with a covered sample in the area, row by row. Samples outside the area are not
+// covered.
 template<class Visit>
 void forEachQuad(const RasterTriangle& triangle, Rectangle area, const SamplePattern& pattern, Visit visit)
 {
@@ -119,47 +117,48 @@ void forEachQuad(const RasterTriangle& triangle, Rectangle area, const SamplePat
     }
 }
 
-// Of a tile: 1024 for each pixel, 48 MiB.
+// Per tile: 1024 for each pixel, 48 MiB in total.
 inline constexpr std::size_t kMaxLayers = std::size_t(1) << 20;
 
 struct TooManyLayers {};
 
-// Colour and reversed depth of every sample of an area. Values are linear; alpha is coverage, and
-// colours are premultiplied by it, as they are in a render target after blending.
+// Colour and reversed depth of every sample of an area. Colours are linear and premultiplied; alpha is coverage, as in
+// a render target after blending.
 class Tile {
 public:
     Tile(Rectangle area, const SamplePattern& pattern);
 
-    // Says that an opaque surface will be drawn there: what lies behind it does not pass from now on.
-    void expect(int x, int y, unsigned covered, const Plane& z);
+    // Announces an opaque surface that will be drawn. From now on samples behind it fail the depth test.
+    void announce(int x, int y, unsigned covered, const Plane& z);
 
-    // The samples of `covered` for which z passes: nearer than what is there, and not behind what is expected.
+    // The samples of `covered` that pass the depth test: nearer than the stored depth, and not behind an announced
+    // surface.
     unsigned nearer(int x, int y, unsigned covered, const Plane& z) const;
 
-    // Replaces the samples and their reversed depth.
+    // Replaces the values and reversed depths of samples.
     void write(int x, int y, unsigned samples, glm::vec4 value, const Plane& z);
 
-    // Adds a translucent layer to the samples: nothing that is written later may be behind it. Layers are composed in
-    // `resolve`, by reversed depth; of equally near ones the later is in front. through: factors of what is behind, by
-    // colour. Throws TooManyLayers over kMaxLayers.
-    void blend(int x, int y, unsigned samples, glm::vec4 value, glm::vec3 through, const Plane& z);
+    // Adds a translucent layer to samples; nothing that is written later may be behind it. `resolve` composes layers by
+    // reversed depth; of equally near ones the later one is in front. transmittance: per colour. Throws
+    // TooManyLayers over kMaxLayers.
+    void blend(int x, int y, unsigned samples, glm::vec4 value, glm::vec3 transmittance, const Plane& z);
 
-    // How many pixels were written, each as often as it was.
+    // Number of pixel writes, counting repeated ones.
     std::size_t written() const { return written_; }
 
-    // Fills all samples of a pixel, behind everything.
+    // Sets all samples of a pixel to a background.
     void clear(int x, int y, glm::vec4 value);
 
-    // The mean of a pixel's samples, each with its layers over what was written.
+    // The mean of a pixel's samples, each with its layers composed over the written value.
     glm::vec4 resolve(int x, int y) const;
 
 private:
     struct Layer {
-        glm::vec3 light{0}; // times what it covers
-        glm::vec3 through{0};
-        std::array<float, 4> reversedDepth{}; // of each sample
+        glm::vec3 light{0}; // premultiplied
+        glm::vec3 transmittance{0};
+        std::array<float, 4> reversedDepth{}; // per sample
         unsigned samples = 0;
-        std::uint32_t before = 0; // the pixel's layer that was added before, kNone if none
+        std::uint32_t previous = 0; // the pixel's previously added layer, or kNone
     };
     static constexpr std::uint32_t kNone = 0xffffffff;
 
@@ -168,13 +167,13 @@ private:
 
     Rectangle area_;
     SamplePattern pattern_;
-    std::size_t samples_; // of a pixel
+    std::size_t samples_; // per pixel
     std::vector<glm::vec4> value_;
     std::vector<float> reversedDepth_;
-    std::vector<float> expected_; // reversed depth of the nearest surface that will be drawn; empty before the first
+    std::vector<float> announced_; // reversed depth of the nearest announced surface; empty before the first
     std::size_t written_ = 0;
     std::vector<Layer> layers_;
-    std::vector<std::uint32_t> newest_; // of each pixel; empty before the first layer
+    std::vector<std::uint32_t> newest_; // per pixel; empty before the first layer
 };
 
 } // namespace cotan::reference

@@ -11,7 +11,7 @@ namespace cotan::reference {
 
 namespace {
 
-// Nothing of a light that does not reach the point.
+// Empty if no light reaches the point.
 std::optional<ArrivingLight> arrivalOf(const PreparedLight& light, const LitPoint& point, const PixelInputs& all)
 {
     glm::vec3 toLight = light.toLight;
@@ -24,14 +24,14 @@ std::optional<ArrivingLight> arrivalOf(const PreparedLight& light, const LitPoin
         if (light.kind == LightKind::spot)
             strength *= f32::cotan_smooth(light.cosOuter, light.cosInner, glm::dot(toLight, light.toLight));
     } else if (light.castsShadow) {
-        strength = lightReaching(all.shadow, point.position, point.normal, toLight, all.view.shadowSoftness);
+        strength = lightVisibility(all.shadow, point.position, point.normal, toLight, all.view.shadowSoftness);
     }
     if (!(strength > 0))
         return std::nullopt;
     return ArrivingLight{toLight, light.radiance * strength};
 }
 
-// By a surface, or by what a tangent-space renderer makes of it.
+// The light reflected by a surface, in world or tangent space.
 glm::vec3 reflected(const f32::cotan_surface& surface, const Layers& layers, glm::vec3 toLight, Shading shading)
 {
     if (shading == Shading::blinnPhong)
@@ -53,7 +53,7 @@ glm::vec3 environmentLight(const f32::cotan_surface& surface, const Layers& laye
     return f32::cotan_reflect_sheen_around(*layers.sheen, surface.n, surface.v, irradiance * surface.occlusion, light);
 }
 
-// The mean over the point's normals of what a surface with each reflects.
+// The mean of what the surface reflects with each of the point's normals.
 template<class Reflect> glm::vec3 meanOfTaps(f32::cotan_surface surface, const LitPoint& point, const Reflect& reflect)
 {
     if (point.taps.empty())
@@ -67,8 +67,8 @@ template<class Reflect> glm::vec3 meanOfTaps(f32::cotan_surface surface, const L
     return sum / float(point.taps.size());
 }
 
-// Interpolates what `vectorAt` gives at the corners, carried by the transpose of their frames, as at a vertex: the
-// inverse only if the frame is orthonormal.
+// Interpolates the vectors of `vectorAt` at the corners, transformed by the transpose of the corners' frames as in a
+// vertex shader. The transpose is the inverse only for orthonormal frames.
 template<class VectorAt> glm::vec3 interpolated(const TangentSpace& space, VectorAt vectorAt)
 {
     glm::dvec3 sum(0);
@@ -86,7 +86,7 @@ bool invertible(const f32::cotan_frame& f)
     return determinant != 0 && f32::cotan_sum_abs(f.t) + f32::cotan_sum_abs(f.b) <= 1e37f;
 }
 
-// The frames of the triangle's corners from stored tangents.
+// Sets the corners' frames from stored tangents.
 void setCorners(TangentSpace& space, const Draw& draw, const RasterTriangle& triangle)
 {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -99,8 +99,8 @@ void setCorners(TangentSpace& space, const Draw& draw, const RasterTriangle& tri
     }
 }
 
-// The unit vector to the light in tangent space. toLight: in the pixel, unit, in the world.
-glm::vec3 carried(const TangentSpace& space, const PreparedLight& light, glm::vec3 toLight)
+// Unit vector to the light in tangent space. toLight: from the pixel, unit, in world space.
+glm::vec3 toLightInTangentSpace(const TangentSpace& space, const PreparedLight& light, glm::vec3 toLight)
 {
     if (!space.perVertex)
         return f32::cotan_encode(space.pixel, toLight);
@@ -113,7 +113,7 @@ glm::vec3 carried(const TangentSpace& space, const PreparedLight& light, glm::ve
 std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye)
 {
     std::vector<PreparedLight> prepared;
-    bool shadowGiven = !view.shadows;
+    bool shadowAssigned = !view.shadows;
     for (const Light& light : view.lights) {
         PreparedLight p;
         p.kind = light.kind;
@@ -122,10 +122,10 @@ std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye)
         p.toLight = f32::cotan_normalize_or(-light.direction, glm::vec3(0, 1, 0));
         p.range = light.range;
         p.cosOuter = std::cos(light.outerCone);
-        // The cosines are kept apart, so that a cone without a soft rim has no 0/0 in it.
+        // The minimum difference of the cosines prevents 0/0 for a cone without a soft rim.
         p.cosInner = std::max(std::cos(light.innerCone), p.cosOuter + 1e-4f);
-        p.castsShadow = !shadowGiven && light.kind == LightKind::directional;
-        shadowGiven = shadowGiven || p.castsShadow;
+        p.castsShadow = !shadowAssigned && light.kind == LightKind::directional;
+        shadowAssigned = shadowAssigned || p.castsShadow;
         prepared.push_back(p);
     }
     return prepared;
@@ -147,7 +147,7 @@ std::optional<TangentSpace> tangentSpaceOf(const SurfaceInputs& in, int lane, co
         if (draw.tangents.empty() || draw.normals.empty())
             return std::nullopt;
         setCorners(space, draw, *in.triangle);
-        // Not normalised at the corners: then it is exact on a flat triangle.
+        // Not normalised at the corners, which makes the interpolation exact on a flat triangle.
         space.surface.v = interpolated(space, [&](glm::vec3 p) { return orthographic ? surface.v : -p; });
         return space;
     }
@@ -162,11 +162,11 @@ glm::vec3 radianceOf(const PixelInputs& all, const f32::cotan_surface& surface, 
 {
     const View& view = all.view;
     glm::vec3 radiance = surface.emissive, fromCoat(0);
-    Layers even = layers; // in tangent space highlights are not stretched
-    if (even.gloss)
-        even.gloss->anisotropy = 0;
+    Layers isotropic = layers; // tangent space has no anisotropy
+    if (isotropic.gloss)
+        isotropic.gloss->anisotropy = 0;
     const bool rays = view.normalMapping != NormalMapping::shading && view.shading == Shading::pbr && !tangent;
-    std::vector<ArrivingLight> arrivals; // of rays
+    std::vector<ArrivingLight> arrivals; // for the random walks
     for (const PreparedLight& light : all.lights) {
         const std::optional<ArrivingLight> arrival = arrivalOf(light, point, all);
         if (!arrival)
@@ -176,7 +176,8 @@ glm::vec3 radianceOf(const PixelInputs& all, const f32::cotan_surface& surface, 
             arrivals.push_back(*arrival);
         else
             radiance += arrival->irradiance
-                * (tangent ? reflected(tangent->surface, even, carried(*tangent, light, toLight), view.shading)
+                * (tangent ? reflected(tangent->surface, isotropic, toLightInTangentSpace(*tangent, light, toLight),
+                                       view.shading)
                            : meanOfTaps(surface, point, [&](const f32::cotan_surface& s) {
                                  return reflected(s, layers, toLight, view.shading);
                              }));
@@ -196,19 +197,19 @@ glm::vec3 radianceOf(const PixelInputs& all, const f32::cotan_surface& surface, 
     }
     if (!layers.coat)
         return radiance;
-    return radiance * (1 - f32::cotan_coat_share(*layers.coat, surface.v)) + fromCoat;
+    return radiance * (1 - f32::cotan_coat_fraction(*layers.coat, surface.v)) + fromCoat;
 }
 
 glm::vec3 transmittanceOf(const f32::cotan_surface& surface, const Layers& layers)
 {
     if (!layers.gloss)
         return glm::vec3(0);
-    glm::vec3 through = f32::cotan_transmittance(surface, *layers.gloss);
+    glm::vec3 transmittance = f32::cotan_transmittance(surface, *layers.gloss);
     if (layers.sheen)
-        through *= 1 - f32::cotan_sheen_share(*layers.sheen, std::abs(glm::dot(surface.n, surface.v)));
+        transmittance *= 1 - f32::cotan_sheen_fraction(*layers.sheen, std::abs(glm::dot(surface.n, surface.v)));
     if (layers.coat)
-        through *= 1 - f32::cotan_coat_share(*layers.coat, surface.v);
-    return through;
+        transmittance *= 1 - f32::cotan_coat_fraction(*layers.coat, surface.v);
+    return transmittance;
 }
 
 } // namespace cotan::reference

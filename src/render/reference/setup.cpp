@@ -17,25 +17,26 @@ namespace cotan::reference {
 
 namespace {
 
-constexpr double kShortest = 1e-30; // a vector that has a direction
+constexpr double kShortest = 1e-30; // minimum length of a vector with a direction
 
-// A row is dotted with (x, y, z, 1).
+// Each row is multiplied by (x, y, z, 1).
 glm::dmat4 fromRows(glm::dvec4 x, glm::dvec4 y, glm::dvec4 z, glm::dvec4 w)
 {
     return glm::transpose(glm::dmat4(x, y, z, w));
 }
 
-// From the middle of the raster, at distance 1 or in a plane across the view.
-glm::dvec3 sideways(const Projection& p, double x, double y)
+// Offset of a raster position from the raster's centre: in the plane at distance 1, or across an orthographic view.
+glm::dvec3 offsetFromCentre(const Projection& p, double x, double y)
 {
-    // The first two rows are (axis * pixels + forward * half), so their parts along the axes give the slopes back.
+    // The first two rows are axis * pixels + forward * half, so their dot products with the axes give the scales.
     glm::dmat4 rows = glm::transpose(p.toRaster);
     double pixelsX = glm::dot(glm::dvec3(rows[0]), p.right);
     double pixelsY = glm::dot(glm::dvec3(rows[1]), p.up);
-    return p.right * ((x + p.moved.x - 0.5 * p.width) / pixelsX) + p.up * ((y + p.moved.y - 0.5 * p.height) / pixelsY);
+    return p.right * ((x + p.sampleOffset.x - 0.5 * p.width) / pixelsX)
+        + p.up * ((y + p.sampleOffset.y - 0.5 * p.height) / pixelsY);
 }
 
-// The inverse transpose, up to a positive factor: how an instance moves covectors.
+// The inverse transpose up to a positive factor, which transforms covectors.
 glm::dmat3 covectorMatrix(const LinearMap<double>& map)
 {
     const glm::dmat3 covectors = map.planeMatrix();
@@ -48,10 +49,9 @@ glm::dmat3 covectorMatrix(const LinearMap<double>& map)
 
 glm::vec3 unitOrZero(glm::vec3 v) { return f32::cotan_normalize_or(v, glm::vec3(0)); }
 
-// The one place where stored tangents meet our frames here: a judge does not take the sign from whom it judges
-// (tangentAlongV). glTF has bitangent = cross(n, t) * w, along the map's green direction, which is up the image:
-// against +v, since v runs down. Our b points along +v, hence the minus. A mirroring matrix reverses cross products
-// once more.
+// Converts stored tangents to our frames. Written separately from tangentAlongV, so that the reference does not share
+// its sign. glTF has bitangent = cross(n, t) * w along the map's green, which points up the image, against +v, since v
+// increases downwards. Our b points along +v, hence the minus. A mirroring matrix reverses cross products.
 glm::vec4 storedTangent(const Draw& draw, glm::vec4 tangent)
 {
     float handedness = -tangent.w * (draw.mirrored ? -1.0f : 1.0f);
@@ -70,7 +70,7 @@ void transformAll(const std::vector<In>& in, std::size_t count, std::vector<Out>
     });
 }
 
-// Without its material.
+// Sets everything except the material and its maps.
 Draw makeDraw(const Mesh& mesh, const glm::mat4& toWorld, glm::dvec3 eye, Frame frame)
 {
     const LinearMap<double> map{glm::dmat3(toWorld)};
@@ -95,7 +95,7 @@ Draw makeDraw(const Mesh& mesh, const glm::mat4& toWorld, glm::dvec3 eye, Frame 
 
 constexpr std::size_t kChunkTriangles = 2048;
 
-// A run of triangles of one draw, set up by one task.
+// A range of triangles of one draw, set up by one task.
 struct Chunk {
     std::uint32_t draw = 0;
     std::size_t first = 0, last = 0;
@@ -113,9 +113,9 @@ std::vector<Chunk> chunksOf(const std::vector<Draw>& draws)
     return chunks;
 }
 
-// Rows of the inverse of the matrix whose columns are (x, y, w) of the corners: the weight of each vertex divided by w,
-// as functions linear over the raster (Olano and Greer, Triangle Scan Conversion using 2D Homogeneous Coordinates,
-// 1997). They exist also where corners lie behind the eye. False for a triangle that is seen edge-on.
+// Computes the weight of each vertex divided by w as linear functions over the raster: the rows of the inverse of the
+// matrix whose columns are (x, y, w) of the corners (Olano and Greer, Triangle Scan Conversion using 2D Homogeneous
+// Coordinates, 1997). They exist even if corners lie behind the eye. Returns false for an edge-on triangle.
 bool makePlanes(const std::array<glm::dvec4, 3>& corner, RasterTriangle& triangle, double& orientation)
 {
     std::array<glm::dvec3, 3> p;
@@ -145,11 +145,11 @@ std::int64_t doubledArea(const std::array<glm::ivec2, 3>& c)
     return std::int64_t(c[1].x - c[0].x) * (c[2].y - c[0].y) - std::int64_t(c[1].y - c[0].y) * (c[2].x - c[0].x);
 }
 
-// The pieces of a triangle as a fan. Their inner edges are shared exactly, so no sample is covered twice.
+// Adds a clipped triangle as a fan. Inner edges are shared exactly, so no sample is covered twice.
 void addPieces(const Polygon& polygon, RasterTriangle triangle, const Projection& projection,
                std::vector<RasterTriangle>& result)
 {
-    Rectangle picture{0, 0, projection.width, projection.height};
+    Rectangle image{0, 0, projection.width, projection.height};
     for (int i = 1; i + 1 < polygon.count; ++i) {
         triangle.corner = {snap(polygon.corner[0]), snap(polygon.corner[std::size_t(i)]),
                            snap(polygon.corner[std::size_t(i + 1)])};
@@ -158,7 +158,7 @@ void addPieces(const Polygon& polygon, RasterTriangle triangle, const Projection
             continue;
         if (area < 0)
             std::swap(triangle.corner[1], triangle.corner[2]);
-        Rectangle bounds = boundsOf(triangle, picture);
+        Rectangle bounds = boundsOf(triangle, image);
         if (bounds.x0 < bounds.x1 && bounds.y0 < bounds.y1)
             result.push_back(triangle);
     }
@@ -181,8 +181,8 @@ void setUp(const std::vector<Draw>& draws, const Projection& projection, Cull cu
         double orientation = 0;
         if (!makePlanes(corner, triangle, orientation))
             continue;
-        // Front faces run counterclockwise in an upright picture; that is a positive orientation
-        // where rows run upward. A mirroring instance does not turn a front into a back.
+        // Front faces are counterclockwise in an upright image, which is a positive orientation if rows run upward. A
+        // mirroring instance does not exchange front and back.
         triangle.front = ((orientation > 0) == projection.rowsUpward) != draw.mirrored;
         if (culling && !triangle.front)
             continue;
@@ -195,9 +195,9 @@ void sortIntoTiles(TiledTriangles& tiled, const Projection& projection)
     tiled.columns = (projection.width + kTileSize - 1) / kTileSize;
     const int rows = (projection.height + kTileSize - 1) / kTileSize;
     tiled.tiles.resize(std::size_t(tiled.columns) * std::size_t(rows));
-    Rectangle picture{0, 0, projection.width, projection.height};
+    Rectangle image{0, 0, projection.width, projection.height};
     for (std::size_t i = 0; i < tiled.triangles.size(); ++i) {
-        const Rectangle b = boundsOf(tiled.triangles[i], picture);
+        const Rectangle b = boundsOf(tiled.triangles[i], image);
         const std::array<Edge, 3> edges = edgesOf(tiled.triangles[i]);
         for (int row = b.y0 / kTileSize; row <= (b.y1 - 1) / kTileSize; ++row)
             for (int column = b.x0 / kTileSize; column <= (b.x1 - 1) / kTileSize; ++column) {
@@ -231,7 +231,7 @@ Projection cameraProjection(const View& view, const Ball& ball)
 
     double reach = glm::length(ball.centre - p.eye) + ball.radius;
     double halfWidth = 0.5 * view.width, halfHeight = 0.5 * view.height;
-    double pixels; // per unit of slope, or of length
+    double pixels; // per unit of slope or length
     glm::dvec4 z, w;
     if (camera.orthographic) {
         pixels = view.height / double(camera.verticalExtent);
@@ -249,13 +249,13 @@ Projection cameraProjection(const View& view, const Ball& ball)
     return p;
 }
 
-Projection movedBy(Projection p, glm::dvec2 place)
+Projection movedBy(Projection p, glm::dvec2 offset)
 {
     glm::dmat4 rows = glm::transpose(p.toRaster);
-    rows[0] -= rows[3] * place.x;
-    rows[1] -= rows[3] * place.y;
+    rows[0] -= rows[3] * offset.x;
+    rows[1] -= rows[3] * offset.y;
     p.toRaster = glm::transpose(rows);
-    p.moved = place;
+    p.sampleOffset = offset;
     return p;
 }
 
@@ -265,7 +265,7 @@ Projection shadowProjection(glm::dvec3 direction, const Ball& ball, glm::dvec3 e
     p.eye = eye;
     p.width = p.height = texels;
     p.orthographic = true;
-    // One texel of margin, so that the filter finds no edge at the border of the map.
+    // One texel of margin keeps the filter inside the map.
     double pixels = 0.5 * (texels - 2) / ball.radius;
     double depth = 0.5 / (ball.radius * 1.01);
     glm::dvec3 c = ball.centre - eye;
@@ -278,12 +278,12 @@ Projection shadowProjection(glm::dvec3 direction, const Ball& ball, glm::dvec3 e
 
 glm::vec3 rayDirection(const Projection& p, double x, double y)
 {
-    return glm::vec3(p.orthographic ? p.forward : unitOr(p.forward + sideways(p, x, y), p.forward, kShortest));
+    return glm::vec3(p.orthographic ? p.forward : unitOr(p.forward + offsetFromCentre(p, x, y), p.forward, kShortest));
 }
 
 glm::dvec3 rayOrigin(const Projection& p, double x, double y)
 {
-    return p.orthographic ? sideways(p, x, y) : glm::dvec3(0);
+    return p.orthographic ? offsetFromCentre(p, x, y) : glm::dvec3(0);
 }
 
 std::vector<Draw> makeDraws(const Scene& scene, const TextureLibrary& textures, glm::dvec3 eye, Frame frame,

@@ -17,11 +17,11 @@ namespace cotan::reference {
 namespace {
 
 constexpr int kShadowTexels = 2048;
-constexpr std::size_t kManyInTile = 64; // triangles from which on a tile is drawn block by block
-constexpr int kBlock = 8;               // texels: side of a block
-constexpr int kDrawnUntilAsked = 8;     // triangles after which the farthest texel of a block is looked for again
+constexpr std::size_t kBlockedTileTriangles = 64; // triangles above which a tile is drawn in blocks
+constexpr int kBlock = 8;                         // texels: side of a block
+constexpr int kTrianglesPerSearch = 8;            // triangles drawn between searches for a block's farthest texel
 
-// The nearest that the plane of a triangle comes in the area.
+// Maximum reversed depth of the triangle's plane in the area.
 double nearestIn(const Plane& z, Rectangle area)
 {
     return z.at(z.x > 0 ? area.x1 : area.x0, z.y > 0 ? area.y1 : area.y0);
@@ -31,11 +31,11 @@ struct ShadowPass {
     const View& view;
     const std::vector<Draw>& draws;
     ShadowMap& map;
-    std::size_t firstTranslucent; // of the draws
+    std::size_t firstTranslucent; // index in draws
     const TiledTriangles& tiled;
 
-    // Which pattern of cotan_shadow_threshold a translucent surface takes: the front and the back of a thing, and of
-    // two things that follow one another, are told apart.
+    // The pattern of cotan_shadow_threshold for a translucent surface: it differs between front and back of an object,
+    // and between consecutive objects.
     std::uint32_t layerOf(const RasterTriangle& triangle) const
     {
         return (triangle.front ? 0u : 1u) + 2 * (std::uint32_t(triangle.draw - firstTranslucent) & 1u);
@@ -71,8 +71,8 @@ struct ShadowPass {
         forEachQuad(triangle, area, samplePattern(1), [&](const Quad& quad) { drawQuad(triangle, quad); });
     }
 
-    // The same texels from the nearest triangle on, whichever comes first in the scene: most of those behind are behind
-    // all that is there, and are left out.
+    // Draws triangles into a block from near to far, regardless of their order in the scene. Triangles behind all
+    // texels of the block are skipped.
     void drawBlock(std::span<const std::uint32_t> triangles, Rectangle block) const
     {
         std::vector<std::pair<double, std::uint32_t>> order;
@@ -81,50 +81,50 @@ struct ShadowPass {
                 order.emplace_back(nearestIn(tiled.triangles[index].z, block), index);
         std::sort(order.begin(), order.end(), std::greater<>());
         const auto farthest = [&] {
-            float least = map.reversedDepth[std::size_t(block.y0) * std::size_t(map.size) + std::size_t(block.x0)];
+            float lowest = map.reversedDepth[std::size_t(block.y0) * std::size_t(map.size) + std::size_t(block.x0)];
             for (int y = block.y0; y < block.y1; ++y)
                 for (int x = block.x0; x < block.x1; ++x)
-                    least = std::min(least, map.at(x, y));
-            return least;
+                    lowest = std::min(lowest, map.at(x, y));
+            return lowest;
         };
-        float least = 0;
+        float lowest = 0;
         int drawn = 0;
         for (const auto& [nearest, index] : order) {
-            if (!(float(nearest) > least))
-                return; // nor do those that follow
+            if (!(float(nearest) > lowest))
+                return; // nor do the following ones pass
             drawTriangle(tiled.triangles[index], block);
-            if (++drawn % kDrawnUntilAsked == 0)
-                least = farthest();
+            if (++drawn % kTrianglesPerSearch == 0)
+                lowest = farthest();
         }
     }
 
     void drawTile(std::size_t tile) const
     {
         const Rectangle area = tiled.area(tile, map.size, map.size);
-        std::vector<std::uint32_t> casting;
+        std::vector<std::uint32_t> casters;
         for (const std::uint32_t index : tiled.tiles[tile])
-            if (draws[tiled.triangles[index].draw].material->throwsShadow())
-                casting.push_back(index);
-        if (casting.size() < kManyInTile) {
-            for (const std::uint32_t index : casting)
+            if (draws[tiled.triangles[index].draw].material->castsShadow())
+                casters.push_back(index);
+        if (casters.size() < kBlockedTileTriangles) {
+            for (const std::uint32_t index : casters)
                 drawTriangle(tiled.triangles[index], area);
             return;
         }
         for (int y = area.y0; y < area.y1; y += kBlock)
             for (int x = area.x0; x < area.x1; x += kBlock)
-                drawBlock(casting, {x, y, std::min(x + kBlock, area.x1), std::min(y + kBlock, area.y1)});
+                drawBlock(casters, {x, y, std::min(x + kBlock, area.x1), std::min(y + kBlock, area.y1)});
     }
 };
 
-// What four texels in a row weigh when three bilinear reads side by side are averaged.
+// Weights of four adjacent texels in the mean of three adjacent bilinear reads.
 std::array<float, 4> filterWeights(float fraction) { return {(1 - fraction) / 3, 1.0f / 3, 1.0f / 3, fraction / 3}; }
 
 float hardLightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::vec3 toLight)
 {
     float cosine = glm::dot(n, toLight);
     float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
-    glm::vec3 moved = position + n * (map.texel * (0.5f + 2.0f * sine));
-    glm::dvec4 p = map.projection.toRaster * glm::dvec4(moved, 1);
+    glm::vec3 offsetPosition = position + n * (map.texel * (0.5f + 2.0f * sine));
+    glm::dvec4 p = map.projection.toRaster * glm::dvec4(offsetPosition, 1);
     float slope = std::min(sine / std::max(std::abs(cosine), 0.05f), 4.0f);
     float receiver = float(p.z) + map.texel * map.depthUnit * (0.5f + 0.5f * slope);
 
@@ -141,28 +141,28 @@ float hardLightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, g
                 blocked += kx[std::size_t(i)] * ky[std::size_t(j)];
                 ++blockedTexels;
             }
-    // Full light and full shadow are exact, whatever the weights round to.
+    // Full light and full shadow are exact, regardless of the rounding of the weights.
     return blockedTexels == 16 ? 0.0f : std::max(0.0f, 1 - blocked);
 }
 
 float softLightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::vec3 toLight, float softness)
 {
     const float cosine = glm::dot(n, toLight), sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
-    const glm::dvec4 moved(position + n * (map.texel * (0.5f + 1.5f * sine)), 1);
-    const glm::dvec4 p = map.projection.toRaster * moved;
+    const glm::dvec4 offsetPosition(position + n * (map.texel * (0.5f + 1.5f * sine)), 1);
+    const glm::dvec4 p = map.projection.toRaster * offsetPosition;
     const float edge = float(map.size);
     if (!(p.x > 0 && p.y > 0 && p.x < edge && p.y < edge))
         return 1;
-    // All in texels. How reversed depth on the plane through the point changes from texel to texel.
+    // Lengths are in texels. slope: change of reversed depth per texel in the plane through the point.
     const float nearer = map.texel * map.depthUnit / std::max(cosine, 0.2f);
     const glm::vec2 slope =
         glm::vec2(glm::dot(n, glm::vec3(map.projection.right)), -glm::dot(n, glm::vec3(map.projection.up))) * -nearer;
     const float tangent = std::min(sine / std::max(cosine, 0.2f), 4.0f);
     const float receiver = float(p.z) + map.texel * map.depthUnit * (0.5f + 0.5f * tangent);
-    const float widening = softness / (map.depthUnit * map.texel), most = kWidestPenumbra * edge;
+    const float penumbraGrowth = softness / (map.depthUnit * map.texel), maxRadius = kMaxPenumbra * edge;
     const glm::vec2 middle(float(p.x), float(p.y));
-    const auto visit = [&](glm::vec2 place, const auto& use) {
-        const glm::vec2 corner = glm::floor(place - 0.5f), k = place - 0.5f - corner;
+    const auto visit = [&](glm::vec2 point, const auto& use) {
+        const glm::vec2 corner = glm::floor(point - 0.5f), k = point - 0.5f - corner;
         for (int i = 0; i < 4; ++i) {
             const int dx = i & 1, dy = i >> 1;
             const int x = std::clamp(int(corner.x) + dx, 0, map.size - 1);
@@ -173,9 +173,9 @@ float softLightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, g
 
     glm::vec2 direction(1, 0);
     float sum = 0, count = 0;
-    const float reach = f32::cotan_penumbra(1 - float(p.z), widening, 2, most);
+    const float searchRadius = f32::cotan_penumbra(1 - float(p.z), penumbraGrowth, 2, maxRadius);
     for (int i = 0; i < COTAN_SHADOW_SEARCH; ++i) {
-        const glm::vec2 offset = direction * (reach * f32::cotan_tap_radius(i, COTAN_SHADOW_SEARCH));
+        const glm::vec2 offset = direction * (searchRadius * f32::cotan_tap_radius(i, COTAN_SHADOW_SEARCH));
         visit(middle + offset, [&](float reversedDepth, float) {
             if (reversedDepth > receiver + glm::dot(slope, offset))
                 sum += reversedDepth, ++count;
@@ -184,16 +184,16 @@ float softLightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, g
     }
     if (count == 0)
         return 1;
-    const float radius = f32::cotan_penumbra(sum / count - float(p.z), widening, 1.5f, most);
-    float arriving = 0;
+    const float radius = f32::cotan_penumbra(sum / count - float(p.z), penumbraGrowth, 1.5f, maxRadius);
+    float visible = 0;
     for (int i = 0; i < COTAN_SHADOW_TAPS; ++i) {
         const glm::vec2 offset = direction * (radius * f32::cotan_tap_radius(i, COTAN_SHADOW_TAPS));
         visit(middle + offset, [&](float reversedDepth, float weight) {
-            arriving += reversedDepth > receiver + glm::dot(slope, offset) ? 0 : weight;
+            visible += reversedDepth > receiver + glm::dot(slope, offset) ? 0 : weight;
         });
         direction = f32::cotan_next_tap(direction);
     }
-    return arriving / COTAN_SHADOW_TAPS;
+    return visible / COTAN_SHADOW_TAPS;
 }
 
 } // namespace
@@ -214,7 +214,7 @@ ShadowMap makeShadowMap(const View& view, const std::vector<Draw>& draws, glm::v
     return map;
 }
 
-float lightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::vec3 toLight, float softness)
+float lightVisibility(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::vec3 toLight, float softness)
 {
     if (map.size == 0)
         return 1;

@@ -11,8 +11,8 @@ namespace {
 
 bool hasUv(const Draw& draw, std::size_t set) { return draw.mesh->texcoords[set].size() >= draw.positions.size(); }
 
-// In double, rounded once: what is left in a difference of neighbours is the rounding of the two
-// values, as on a GPU at its best.
+// Interpolates in double and rounds once: a difference of neighbours then has only the rounding errors of its two
+// values, as on a GPU at best.
 template<glm::length_t N>
 glm::vec<N, float> interpolated(const std::vector<glm::vec<N, float>>& values, const RasterTriangle& triangle,
                                 const std::array<double, 3>& weights)
@@ -25,8 +25,8 @@ glm::vec<N, float> interpolated(const std::vector<glm::vec<N, float>>& values, c
 
 std::size_t setOf(const Texture& texture) { return texture.texcoord == 1 ? 1 : 0; }
 
-// The differences that a lane takes of what lanes have. Fine: along the lane's own row or column. Coarse: along the
-// first row or column for all four.
+// Screen-space differences of a lane. Fine: along the lane's own row or column. Coarse: along the first row or column
+// for all four lanes.
 template<class ValueAt> auto alongX(const ValueAt& valueAt, int lane, Derivatives d)
 {
     const int first = d == Derivatives::fine ? lane & 2 : 0;
@@ -38,14 +38,14 @@ template<class ValueAt> auto alongY(const ValueAt& valueAt, int lane, Derivative
     return valueAt(first | 2) - valueAt(first);
 }
 
-// The part of a texture's transform that moves differences.
+// Transforms differences of texture coordinates: the linear part of the transform.
 glm::vec2 transformedEdge(const Texture& texture, glm::vec2 edge)
 {
     return {glm::dot(glm::vec2(texture.uRow), edge), glm::dot(glm::vec2(texture.vRow), edge)};
 }
 
-// The frames of a whole triangle: its edges in place of the pixel's differences. The edges are taken
-// in the mesh and moved afterwards, so they lose nothing far from the eye.
+// The frame of a whole triangle, from its edges instead of screen-space differences. The edges are computed in the mesh
+// and then transformed, so that they keep precision far from the eye.
 f32::cotan_frame frameOfTriangle(const SurfaceInputs& in, const Texture& texture, glm::vec3 n)
 {
     std::size_t set = setOf(texture);
@@ -58,7 +58,7 @@ f32::cotan_frame frameOfTriangle(const SurfaceInputs& in, const Texture& texture
                     transformedEdge(texture, uv[v[1]] - uv[v[0]]), transformedEdge(texture, uv[v[2]] - uv[v[0]]));
 }
 
-// The normal without a map, and what frames are made from besides it.
+// The normal without a map, and the differences of position that frames are made from.
 struct Smooth {
     glm::vec3 raw{0}; // as interpolated
     glm::vec3 n{0};   // unit
@@ -66,7 +66,7 @@ struct Smooth {
     glm::vec3 dpdy{0};
 };
 
-// The frames that are made at the vertices. t = b = 0 where the mesh has no uv to make them from.
+// Frames from vertex attributes. t = b = 0 if the mesh lacks them.
 f32::cotan_frame frameOfVertices(const SurfaceInputs& in, const Smooth& smooth, int lane)
 {
     const Frame frame = in.view->frame;
@@ -79,14 +79,14 @@ f32::cotan_frame frameOfVertices(const SurfaceInputs& in, const Smooth& smooth, 
     if (readsCotangents(frame) || draw.tangents.empty())
         return {glm::vec3(0), glm::vec3(0), smooth.n};
     glm::vec4 tangent = interpolated(draw.tangents, triangle, weights);
-    // `mikktspace` wants its normal as interpolated.
+    // `mikktspace` requires the unnormalised interpolated normal.
     return evaluateTangents(frame, frame == Frame::mikktspace ? smooth.raw : smooth.n, glm::vec3(tangent), tangent.w);
 }
 
 glm::vec3 finiteOrZero(glm::vec3 v) { return f32::cotan_sum_abs(v) <= 1e37f ? v : glm::vec3(0); }
 
-// Texture coordinates of a map in one lane, transformed as it asks, with their differences. These are of uv relative to
-// the triangle's corner: near zero floats are dense, so close steps of uv far from zero are not lost to rounding.
+// Texture coordinates of a map in one lane, transformed, with their differences. These are taken relative to the
+// triangle's corner: near zero floats are dense, so small differences of uv far from zero are not lost to rounding.
 UvDifferences uvOf(const SurfaceInputs& in, const Texture& texture, int lane)
 {
     const std::size_t set = setOf(texture);
@@ -96,7 +96,7 @@ UvDifferences uvOf(const SurfaceInputs& in, const Texture& texture, int lane)
             transformedEdge(texture, alongY(cornerUv, lane, in.view->derivatives))};
 }
 
-// Interpolates a uv set in one lane, as it is and relative to the triangle's first corner.
+// Interpolates a uv set in one lane, both absolute and relative to the triangle's first corner.
 void interpolateUv(QuadPoints& quad, std::size_t set, std::size_t lane, const Draw& draw,
                    const RasterTriangle& triangle)
 {
@@ -122,24 +122,24 @@ Smooth smoothOf(const SurfaceInputs& in, int lane, const UvDifferences& uv)
     return smooth;
 }
 
-// The turn of the surface's own normals in the pixel; none where the view does not ask for it.
-void addTurn(SurfaceNormal& result, const SurfaceInputs& in, int lane)
+// Sets the differences of the interpolated normals in the pixel, if the view needs them.
+void addNormalDifferences(SurfaceNormal& result, const SurfaceInputs& in, int lane)
 {
     if (!in.view->specularAntialiasing)
         return;
     const auto normal = [&](int at) { return smoothOf(in, at, {}).n; };
-    result.turnX = alongX(normal, lane, in.view->derivatives);
-    result.turnY = alongY(normal, lane, in.view->derivatives);
-    result.turn = result.spread = f32::cotan_spread_of_turn(result.turnX, result.turnY);
+    result.dndx = alongX(normal, lane, in.view->derivatives);
+    result.dndy = alongY(normal, lane, in.view->derivatives);
+    result.smoothVariance = result.variance = f32::cotan_variance_of_curvature(result.dndx, result.dndy);
 }
 
-// What a texel of a normal map adds: mips keep the length of their means in the fourth channel.
-float summaryOf(const View& view, glm::vec4 texel)
+// The variance that a normal map texel encodes: mips store the length of their mean in the fourth channel.
+float lostVariance(const View& view, glm::vec4 texel)
 {
-    return view.specularAntialiasing ? f32::cotan_spread_of_length(texel.w) : 0;
+    return view.specularAntialiasing ? f32::cotan_variance_of_length(texel.w) : 0;
 }
 
-// The view's frame over the uv of a map.
+// The view's frame for the uv of a map.
 f32::cotan_frame frameOver(const SurfaceInputs& in, const Texture& map, const Smooth& smooth, const UvDifferences& uv,
                            int lane)
 {
@@ -153,7 +153,7 @@ f32::cotan_frame frameOver(const SurfaceInputs& in, const Texture& map, const Sm
 
 bool sameUv(const Texture& a, const Texture& b) { return setOf(a) == setOf(b) && a.uRow == b.uRow && a.vRow == b.vRow; }
 
-// What turns a texel of the material's normal map into numbers.
+// How the material's normal map is decoded.
 f32::cotan_normal_format formatOf(const SurfaceInputs& in)
 {
     return toFormat<f32::cotan_normal_format>(in.draw->material->normalFormat, in.draw->maps->normal->image->type,
@@ -202,8 +202,8 @@ unsigned samplesOfMask(const std::array<float, 4>& alphas, int lane, float cutof
     const float slopeY = alphas[std::size_t(lane | 2)] - alphas[std::size_t(lane & 1)];
     unsigned samples = 0;
     for (int s = 0; s < pattern.count; ++s) {
-        const glm::vec2 place = glm::vec2(pattern.offset[std::size_t(s)]) / float(kSubPixels) - 0.5f;
-        if (!(alpha + slopeX * place.x + slopeY * place.y < cutoff))
+        const glm::vec2 offset = glm::vec2(pattern.offset[std::size_t(s)]) / float(kSubPixels) - 0.5f;
+        if (!(alpha + slopeX * offset.x + slopeY * offset.y < cutoff))
             samples |= 1u << s;
     }
     return samples;
@@ -219,25 +219,25 @@ SurfaceNormal normalOf(const SurfaceInputs& in, int lane)
     const f32::cotan_frame frame = frameOver(in, material.normalMap, smooth, uv, lane);
 
     SurfaceNormal result;
-    result.interpolated = result.finished = n;
+    result.interpolated = result.perturbed = n;
     result.t = finiteOrZero(frame.t);
     result.b = finiteOrZero(frame.b);
     result.uv = uv.uv;
     result.frame = frame;
-    addTurn(result, in, lane);
+    addNormalDifferences(result, in, lane);
     result.mapped = in.draw->maps->normal && view.normalMaps && hasUv(*in.draw, setOf(material.normalMap));
     if (result.mapped) {
         glm::vec4 texel = sample(*in.draw->maps->normal, material.normalMap.sampler, uv, view.pointSampled);
         const glm::vec3 m = f32::cotan_decode(glm::vec3(texel), formatOf(in));
-        result.spread += summaryOf(view, texel);
-        // `mikktspace` hands back its interpolated normal where the texel is empty: not unit.
-        result.finished = f32::cotan_normalize_or(f32::cotan_apply(frame, m), n);
+        result.variance += lostVariance(view, texel);
+        // `mikktspace` returns its interpolated normal, not unit, if the texel is empty.
+        result.perturbed = f32::cotan_normalize_or(f32::cotan_apply(frame, m), n);
         result.texel = f32::cotan_normalize_or(m, glm::vec3(0, 0, 1));
     }
-    // Behind a two-sided material lies the back of the same thin sheet: a bump seen from behind
-    // is a dent, so it is the finished normal that turns. t and b stay.
+    // The back of a two-sided material is the other side of the same thin sheet: a bump seen from behind is a dent, so
+    // the perturbed normal is negated. t and b stay.
     if (!in.triangle->front) {
-        result.finished = -result.finished;
+        result.perturbed = -result.perturbed;
         result.texel = -result.texel;
     }
     return result;
@@ -247,20 +247,20 @@ std::vector<LitTap> tapsOf(const SurfaceInputs& in, int lane, const SurfaceNorma
 {
     const Texture& map = in.draw->material->normalMap;
     const UvDifferences uv = uvOf(in, map, lane);
-    const int side = int(f32::cotan_places_of_roughness(roughness));
-    std::vector<LitTap> taps(std::size_t(side * side));
-    const float share = 1 / float(side), turn = normal.turn * share * share;
+    const int perSide = int(f32::cotan_samples_of_roughness(roughness));
+    std::vector<LitTap> taps(std::size_t(perSide * perSide));
+    const float fraction = 1 / float(perSide), base = normal.smoothVariance * fraction * fraction;
     const f32::cotan_normal_format format = formatOf(in);
-    for (int i = 0; i < side * side; ++i) {
-        // From the middle of the pixel, in pixels.
-        const glm::vec2 at = (glm::vec2(float(i % side), float(i / side)) + 0.5f) / float(side) - 0.5f;
-        const UvDifferences part{uv.uv + uv.dx * at.x + uv.dy * at.y, uv.dx * share, uv.dy * share};
-        const glm::vec4 texel = sample(*in.draw->maps->normal, map.sampler, part, in.view->pointSampled);
+    for (int i = 0; i < perSide * perSide; ++i) {
+        // Offset from the pixel's centre, in pixels.
+        const glm::vec2 at = (glm::vec2(float(i % perSide), float(i / perSide)) + 0.5f) / float(perSide) - 0.5f;
+        const UvDifferences tapUv{uv.uv + uv.dx * at.x + uv.dy * at.y, uv.dx * fraction, uv.dy * fraction};
+        const glm::vec4 texel = sample(*in.draw->maps->normal, map.sampler, tapUv, in.view->pointSampled);
         const glm::vec3 m = f32::cotan_decode(glm::vec3(texel), format);
         glm::vec3 n = f32::cotan_normalize_or(f32::cotan_apply(normal.frame, m), normal.interpolated);
-        n = f32::cotan_normalize_or(n + normal.turnX * at.x + normal.turnY * at.y, n);
+        n = f32::cotan_normalize_or(n + normal.dndx * at.x + normal.dndy * at.y, n);
         taps[std::size_t(i)] = {in.triangle->front ? n : -n,
-                                f32::cotan_roughness_of_spread(roughness, turn + summaryOf(*in.view, texel))};
+                                f32::cotan_roughness_of_variance(roughness, base + lostVariance(*in.view, texel))};
     }
     return taps;
 }
@@ -269,13 +269,13 @@ CoatNormal coatNormalOf(const SurfaceInputs& in, int lane, const SurfaceNormal& 
 {
     const Texture& map = in.draw->material->coat.normalMap;
     const MipChain* const chain = in.draw->maps->coatNormal;
-    CoatNormal coat{base.interpolated, base.turn};
+    CoatNormal coat{base.interpolated, base.smoothVariance};
     if (chain && hasUv(*in.draw, setOf(map))) {
         const UvDifferences uv = uvOf(in, map, lane);
         f32::cotan_frame frame = base.frame;
         if (!sameUv(map, in.draw->material->normalMap)) {
             const Smooth smooth = smoothOf(in, lane, uv);
-            // What the vertices hold belongs to the uv of the surface beneath.
+            // Vertex attributes are made for the uv of the surface below.
             frame = readsCotangents(in.view->frame)
                 ? evaluate(Frame::cotangent, smooth.n, smooth.dpdx, smooth.dpdy, uv.dx, uv.dy)
                 : frameOver(in, map, smooth, uv, lane);
@@ -284,7 +284,7 @@ CoatNormal coatNormalOf(const SurfaceInputs& in, int lane, const SurfaceNormal& 
         const auto format = toFormat<f32::cotan_normal_format>(in.draw->material->coat.normalFormat, chain->image->type,
                                                                double(in.draw->material->coat.normalScale));
         coat.n = f32::cotan_normalize_or(f32::cotan_apply(frame, f32::cotan_decode(glm::vec3(texel), format)), coat.n);
-        coat.spread += summaryOf(*in.view, texel);
+        coat.variance += lostVariance(*in.view, texel);
     }
     if (!in.triangle->front)
         coat.n = -coat.n;

@@ -11,7 +11,7 @@
 
 #include "core/loops.hpp"
 #include "cotan/portable.hpp"
-#include "scene/sample_places.hpp"
+#include "scene/sample_positions.hpp"
 #include "scene/texture_sample.hpp"
 
 namespace cotan::reference {
@@ -22,7 +22,7 @@ template<class Word> glm::vec4 srgbTexel(const Word* w)
 {
     constexpr std::size_t kCount = std::size_t(1) << (8 * sizeof(Word));
     constexpr float kScale = 1.0f / float(kCount - 1);
-    static const std::array<float, kCount> linear = [] { // of every stored value
+    static const std::array<float, kCount> linear = [] { // for every stored value
         std::array<float, kCount> t{};
         for (std::size_t i = 0; i < kCount; ++i)
             t[i] = f32::cotan_srgb_to_linear(float(i) / float(kCount - 1));
@@ -55,21 +55,21 @@ bool isSrgb(const MipChain& chain)
     return chain.content == Content::color && chain.image->type != PixelType::float32;
 }
 
-// A texel, with colours made linear. Normal maps come as stored, with 1 in the fourth channel of level 0. x, y: inside
-// the level.
+// The linear texel of a level. Normals stay encoded; the fourth channel is 1 in level 0. x, y: inside the level.
 glm::vec4 texel(const MipChain& chain, int level, int x, int y)
 {
     const Image& image = chain.level(level);
     if (!isSrgb(chain)) {
         const glm::vec4 stored = storedComponents(image, x, y);
-        // A texel of the file is one direction, whatever its alpha says.
+        // Each texel of the file is one direction, regardless of its alpha.
         return level == 0 && chain.content == Content::normal ? glm::vec4(glm::vec3(stored), 1) : stored;
     }
     const std::size_t at = 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
     return image.type == PixelType::unorm8 ? srgbTexel(image.bytes8() + at) : srgbTexel(image.words() + at);
 }
 
-// What is averaged: for normal maps the unit vector and 1, or zeros where there is none, otherwise the linear texel.
+// The value to average: for normal maps the unit vector and 1, or zeros without a direction; otherwise the linear
+// texel.
 glm::vec4 toAverage(glm::vec4 value, Content content, const f32::cotan_normal_format& format)
 {
     if (content != Content::normal)
@@ -91,11 +91,10 @@ glm::vec4 toStored(glm::vec4 value, const MipChain& chain, const f32::cotan_norm
             value.w};
 }
 
-// The source texels that one target texel covers along an axis, and how much of each. Halving an
-// odd size covers parts of up to three.
+// The source texels that one target texel covers along an axis, with their fractions: at most three, for odd sizes.
 struct Taps {
     int first = 0, count = 0;
-    std::array<float, 3> share{};
+    std::array<float, 3> weight{};
 };
 
 Taps tapsOf(int target, int targetSize, int sourceSize)
@@ -105,13 +104,13 @@ Taps tapsOf(int target, int targetSize, int sourceSize)
     Taps taps;
     taps.first = int(low);
     for (int i = taps.first; i < sourceSize && i < high && taps.count < 3; ++i) {
-        double part = std::min(high, i + 1.0) - std::max(low, double(i));
-        taps.share[std::size_t(taps.count++)] = float(part / (high - low));
+        double fraction = std::min(high, i + 1.0) - std::max(low, double(i));
+        taps.weight[std::size_t(taps.count++)] = float(fraction / (high - low));
     }
     return taps;
 }
 
-// One level from the one before. `source(x, y)` gives what is averaged.
+// Makes a level from the one before. source(x, y): returns the value to average.
 template<class Source>
 void halve(const MipChain& chain, const f32::cotan_normal_format& format, int width, int height, Source source,
            Image& target, std::vector<glm::vec4>& averages)
@@ -125,7 +124,7 @@ void halve(const MipChain& chain, const f32::cotan_normal_format& format, int wi
             for (int j = 0; j < rows.count; ++j)
                 for (int i = 0; i < columns.count; ++i)
                     sum += source(columns.first + i, rows.first + j)
-                        * (columns.share[std::size_t(i)] * rows.share[std::size_t(j)]);
+                        * (columns.weight[std::size_t(i)] * rows.weight[std::size_t(j)]);
             std::size_t at = std::size_t(y) * std::size_t(target.width) + std::size_t(x);
             averages[at] = sum;
             store(target, at, toStored(sum, chain, format));
@@ -133,17 +132,17 @@ void halve(const MipChain& chain, const f32::cotan_normal_format& format, int wi
     });
 }
 
-// Builds the chain of a usable image. Colours are averaged as linear light; normal maps as decoded vectors, which are
-// normalised before they are stored again, with their length in the fourth channel: 1 where all agree; everything else
-// as numbers. Every texel of a level is the average of the area that it covers in the one before, also where a size is
-// odd. withLevels: false keeps level 0 only.
+// Builds the mip chain of a usable image. Colours are averaged as linear light, normals as decoded vectors, other data
+// as numbers. Averaged normals are normalised and encoded again, with the length of the average in the fourth channel:
+// 1 if all agree. Each texel is the average over the area that it covers in the level before, also for odd sizes.
+// withLevels: false keeps only level 0.
 MipChain makeMipChain(const Image& image, Content content, Convention stored, bool withLevels)
 {
     MipChain chain{&image, content, {}};
     if (!withLevels)
         return chain;
     auto format = toFormat<f32::cotan_normal_format>(stored, image.type);
-    format.green = 1; // as it is stored
+    format.green = 1; // as stored
     std::vector<glm::vec4> before, averages;
     int width = image.width, height = image.height;
     while (width > 1 || height > 1) {
@@ -194,24 +193,24 @@ glm::vec4 atLod(const MipChain& chain, const Sampler& s, glm::vec2 uv, float lod
     return glm::mix(a, inLevel(chain, finer + 1, s, s.minify, uv), k);
 }
 
-// How a pixel's footprint is read: that many probes along its longer axis, at that level.
+// How to read a pixel's footprint: the number of probes along its longer axis, and their level.
 struct Footprint {
     int probes = 1;
-    glm::vec2 axis{0}; // uv, along the whole footprint
+    glm::vec2 axis{0}; // in uv, along the whole footprint
     float lod = 0;
 };
 
 Footprint footprintOf(const MipChain& chain, const Sampler& s, const UvDifferences& at)
 {
     glm::vec2 size(chain.image->width, chain.image->height);
-    glm::vec2 dx = usable(at.dx) * chain.apart, dy = usable(at.dy) * chain.apart;
+    glm::vec2 dx = usable(at.dx) * chain.footprintScale, dy = usable(at.dy) * chain.footprintScale;
     float alongX = glm::length(dx * size), alongY = glm::length(dy * size);
     float longer = std::max(alongX, alongY), shorter = std::min(alongX, alongY);
     Footprint f;
     if (!(longer > 0))
         return f;
     bool stretched = longer > 1 && s.mip != MipFilter::none && s.minify == Filter::linear;
-    // Less a little, so that rounding does not make two probes of a square.
+    // The small margin keeps rounding from splitting a square footprint into two probes.
     if (stretched)
         f.probes = std::clamp(int(std::ceil(longer / std::max(shorter, 1e-3f * longer) - 1e-3f)), 1, kMaxProbes);
     f.axis = alongX >= alongY ? dx : dy;
@@ -239,7 +238,7 @@ TextureLibrary makeTextures(const Scene& scene, const View& view)
 {
     TextureLibrary library;
     const bool shaded = view.output == Output::shaded;
-    const float apart = shaded && view.samples > kMaxSharedSamples ? kPlacesApart : 1;
+    const float footprintScale = shaded && view.samples > kMaxSharedSamples ? kSampleSpacing : 1;
     std::map<std::tuple<int, Content, Expansion, Channels>, const MipChain*> made;
     const auto get = [&](const Texture& texture, Content content, Convention format = {}) -> const MipChain* {
         if (!texture.present() || std::size_t(texture.image) >= scene.images.size())
@@ -250,7 +249,7 @@ TextureLibrary makeTextures(const Scene& scene, const View& view)
         const MipChain*& known = made[{texture.image, content, format.expansion, format.channels}];
         if (!known) {
             library.chains.push_back(makeMipChain(image, content, format, /*withLevels*/ !view.pointSampled));
-            library.chains.back().apart = apart;
+            library.chains.back().footprintScale = footprintScale;
             known = &library.chains.back();
         }
         return known;

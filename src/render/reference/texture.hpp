@@ -1,4 +1,4 @@
-// Texture reads as a GPU does them, of images with their smaller versions.
+// Texture reads as on a GPU, with mip chains.
 #pragma once
 
 #include <deque>
@@ -12,36 +12,36 @@
 namespace cotan::reference {
 
 enum class Content {
-    color,  // sRGB (float images: linear already), alpha linear
+    color,  // sRGB (float images are already linear), linear alpha
     linear, // numbers
-    normal, // as the format says
+    normal, // encoded as the normal format states
 };
 
-// Level 0 is the scene's image itself, every further level is half the size, rounded down, to 1x1.
-// The levels are stored as the image is, so 8-bit maps stay small.
+// Level 0 is the scene's image itself; each further level has half the size, rounded down, to 1x1. Levels have the
+// pixel type of the image, so that 8-bit maps stay small.
 struct MipChain {
     const Image* image = nullptr;
     Content content = Content::linear;
     std::vector<Image> smaller;
-    float apart = 1; // pixels from one sample to the next: what is read for one is as large
+    float footprintScale = 1; // distance between samples in pixels; scales the footprint
 
     int levels() const { return 1 + int(smaller.size()); }
     const Image& level(int i) const { return i == 0 ? *image : smaller[std::size_t(i - 1)]; }
 };
 
-// Texture coordinates at a pixel and their differences along its row and column.
+// Texture coordinates in a pixel, and their differences to the next pixel in x and y.
 struct UvDifferences {
     glm::vec2 uv{0};
     glm::vec2 dx{0};
     glm::vec2 dy{0};
 };
 
-// The texel value there: wrapped, filtered, from the level that the differences ask for (OpenGL 4.6, section 8.14);
-// stretched footprints are read with up to eight probes along their longer axis. Coordinates that are not finite are
-// taken as 0. pointSampled: the nearest texel of level 0 instead, whatever the sampler says.
+// Samples a texture: wrapped, filtered, from the level that the differences determine (OpenGL 4.6, section 8.14).
+// Elongated footprints are read by up to eight probes along their longer axis. Coordinates that are not finite are
+// taken as 0. pointSampled: the nearest texel of level 0, regardless of the sampler's filters.
 glm::vec4 sample(const MipChain& chain, const Sampler& sampler, const UvDifferences& at, bool pointSampled);
 
-// The chains of one material; null where the material has no such map or its image is unusable.
+// The mip chains of one material; null if the material has no such map or its image is unusable.
 struct MaterialMaps {
     const MipChain* baseColor = nullptr;
     const MipChain* metallicRoughness = nullptr;
@@ -59,14 +59,14 @@ struct MaterialMaps {
     const MipChain* transmission = nullptr;
 };
 
-// The maps of all materials. An image that is used in two ways has two chains.
+// The maps of all materials. An image with two kinds of use has two chains.
 struct TextureLibrary {
     std::vector<MaterialMaps> materials;
-    std::deque<MipChain> chains; // a deque, since the materials point into it
+    std::deque<MipChain> chains; // a deque, because the materials point to its elements
 };
 
-// Makes the chains that the view reads: all for shaded pictures, otherwise normal maps and the
-// alpha of materials that are not opaque.
+// Builds the chains that the view reads: all for shaded images, otherwise normal maps and the alpha of materials that
+// are not opaque.
 TextureLibrary makeTextures(const Scene& scene, const View& view);
 
 } // namespace cotan::reference

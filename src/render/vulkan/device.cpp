@@ -17,7 +17,7 @@ constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 VKAPI_ATTR VkBool32 VKAPI_CALL collectMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                               const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages)
 {
-    // The layer calls from inside Vulkan, through which no exception may pass.
+    // The layer calls this from inside Vulkan, which exceptions must not cross.
     try {
         static_cast<std::vector<std::string>*>(messages)->emplace_back(data->pMessage);
     } catch (...) {
@@ -27,7 +27,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL collectMessage(VkDebugUtilsMessageSeverityFlagBit
 
 vk::DebugUtilsMessengerCreateInfoEXT messengerInfo(std::vector<std::string>& messages)
 {
-    // As C has it: of which type a callback is changed between versions of the C++ header.
+    // The C struct, because the callback's type differs between versions of the C++ header.
     VkDebugUtilsMessengerCreateInfoEXT info{};
     info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
     info.messageSeverity =
@@ -60,15 +60,15 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate,
 
 // ---- choosing -------------------------------------------------------------------------------
 
-// 0 is the best.
+// Order of preference of device types; 0 is best.
 std::ptrdiff_t rank(const vk::raii::PhysicalDevice& physical)
 {
     using T = vk::PhysicalDeviceType;
-    constexpr std::array kOrder{T::eDiscreteGpu, T::eIntegratedGpu, T::eVirtualGpu, T::eCpu}; // others come last
+    constexpr std::array kOrder{T::eDiscreteGpu, T::eIntegratedGpu, T::eVirtualGpu, T::eCpu}; // other types come last
     return std::ranges::find(kOrder, physical.getProperties().deviceType) - kOrder.begin();
 }
 
-// The family with graphics; -1 if there is none.
+// Index of the first queue family with graphics, or -1.
 int graphicsFamily(const vk::raii::PhysicalDevice& physical)
 {
     const std::vector<vk::QueueFamilyProperties> families = physical.getQueueFamilyProperties();
@@ -83,7 +83,7 @@ std::string nameOf(const vk::raii::PhysicalDevice& physical)
     return std::string(physical.getProperties().deviceName.data());
 }
 
-// Why it cannot run the renderer; empty: it can.
+// Why the device cannot run the renderer; empty if it can.
 std::string missingFeature(const vk::raii::PhysicalDevice& physical)
 {
     const vk::PhysicalDeviceProperties properties = physical.getProperties();
@@ -98,16 +98,16 @@ std::string missingFeature(const vk::raii::PhysicalDevice& physical)
         return "lacks dynamicRendering or synchronization2";
     if (!features.get<vk::PhysicalDeviceFeatures2>().features.fragmentStoresAndAtomics)
         return "lacks fragmentStoresAndAtomics";
-    const vk::PhysicalDeviceLimits& limits = properties.limits; // Vulkan promises 16 of each
+    const vk::PhysicalDeviceLimits& limits = properties.limits; // Vulkan guarantees 16 of each
     const std::uint32_t images =
         std::min(limits.maxPerStageDescriptorSamplers, limits.maxPerStageDescriptorSampledImages);
-    if (images < kImagesOfPicture + COTAN_MAP_COUNT)
-        return "reads at most " + std::to_string(images) + " images in a shader, needs "
-            + std::to_string(kImagesOfPicture + COTAN_MAP_COUNT);
+    if (images < kImagesInViewSet + COTAN_MAP_COUNT)
+        return "reads at most " + std::to_string(images) + " images per shader, needs "
+            + std::to_string(kImagesInViewSet + COTAN_MAP_COUNT);
     return {};
 }
 
-// All of them, in order of preference.
+// All devices, in order of preference.
 std::vector<vk::raii::PhysicalDevice> devicesOf(const vk::raii::Instance& instance)
 {
     vk::raii::PhysicalDevices found(instance);
@@ -125,7 +125,7 @@ std::string listed(const std::vector<vk::raii::PhysicalDevice>& devices)
     return text.empty() ? "none" : text;
 }
 
-// The first usable one whose name contains `wanted`.
+// The first usable device whose name contains `wanted`.
 Result<vk::raii::PhysicalDevice> choose(std::vector<vk::raii::PhysicalDevice> devices, const std::string& wanted)
 {
     for (vk::raii::PhysicalDevice& d : devices)
@@ -163,7 +163,7 @@ void openLogicalDevice(Device& d)
     const auto has = d.physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
     const auto& core = has.get<vk::PhysicalDeviceFeatures2>().features;
     const auto& v12 = has.get<vk::PhysicalDeviceVulkan12Features>();
-    // Mesa's CPU driver (22.3) draws dots along magnified texel edges with it, and takes long.
+    // Mesa's CPU driver (22.3) draws dots along edges of magnified texels with anisotropic filtering, and is slow.
     d.anisotropy = core.samplerAnisotropy && !d.cpu;
     d.exact = core.geometryShader && v12.bufferDeviceAddress;
     d.dualSource = core.dualSrcBlend;
@@ -171,15 +171,15 @@ void openLogicalDevice(Device& d)
     vk::PhysicalDeviceVulkan13Features use13;
     use13.dynamicRendering = VK_TRUE;
     use13.synchronization2 = VK_TRUE;
-    use13.shaderDemoteToHelperInvocation = VK_TRUE; // what newer glslang makes of discard; each device of 1.3 has it
+    use13.shaderDemoteToHelperInvocation = VK_TRUE; // for discard as newer glslang compiles it; part of Vulkan 1.3
     vk::PhysicalDeviceVulkan12Features use12;
     use12.bufferDeviceAddress = d.exact;
     use12.pNext = &use13;
     vk::PhysicalDeviceFeatures2 use;
     use.features.fragmentStoresAndAtomics = VK_TRUE; // lists of translucent fragments
     use.features.samplerAnisotropy = d.anisotropy;
-    use.features.dualSrcBlend = d.dualSource; // layers that let colours through
-    use.features.geometryShader = d.exact;    // what SPIR-V asks for reading gl_PrimitiveID
+    use.features.dualSrcBlend = d.dualSource; // for layers that transmit coloured light
+    use.features.geometryShader = d.exact;    // SPIR-V requires it for gl_PrimitiveID
     use.pNext = &use12;
 
     const float priority = 1;
@@ -206,7 +206,7 @@ std::string reason(const std::exception& e)
     if (failed && failed->code() == vk::Result::eErrorIncompatibleDriver)
         return "no driver is installed (the loader found no usable ICD)";
     if (failed && failed->code() == vk::Result::eErrorOutOfDeviceMemory)
-        return "the device has not enough memory";
+        return "the device does not have enough memory";
     std::string text = e.what();
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
@@ -222,7 +222,7 @@ Result<std::unique_ptr<Device>> openDevice(const VulkanRendererOptions& options)
             return chosen.error();
         d->physical = std::move(*chosen);
         d->name = nameOf(d->physical);
-        d->queueFamily = std::uint32_t(graphicsFamily(d->physical)); // chosen for having one
+        d->queueFamily = std::uint32_t(graphicsFamily(d->physical)); // not -1: missingFeature has checked it
         describe(*d);
         openLogicalDevice(*d);
         return d;

@@ -11,10 +11,10 @@
 
 namespace cotan {
 
-// A device that is open. Everything made from it must be destroyed before it.
+// An open device. Everything made from it must be destroyed before it.
 struct Device {
     vk::raii::Context context;
-    // Of the validation layer; their address is kept.
+    // Messages of the validation layer, which keeps their address.
     std::unique_ptr<std::vector<std::string>> messages = std::make_unique<std::vector<std::string>>();
     vk::raii::Instance instance{nullptr};
     vk::raii::DebugUtilsMessengerEXT messenger{nullptr};
@@ -25,19 +25,19 @@ struct Device {
 
     std::string name;
     std::string driver;
-    bool cpu = false; // a driver that draws on the processor
+    bool cpu = false; // the driver renders on the CPU
     vk::PhysicalDeviceLimits limits;
     vk::PhysicalDeviceMemoryProperties memory;
-    bool anisotropy = false;   // textures can be filtered anisotropically
+    bool anisotropy = false;   // textures support anisotropic filtering
     bool exact = false;        // fragments can read their triangle's vertices
-    bool dualSource = false;   // blending can have a factor for each channel
-    bool filterable16 = false; // 16-bit unorm textures can be filtered
-    bool filterable32 = false; // 32-bit float textures can be filtered
+    bool dualSource = false;   // blending supports a factor per channel
+    bool filterable16 = false; // 16-bit unorm textures support linear filtering
+    bool filterable32 = false; // 32-bit float textures support linear filtering
 };
 
 Result<std::unique_ptr<Device>> openDevice(const VulkanRendererOptions& options);
 
-// One line for what went wrong, from any exception of the Vulkan bindings.
+// One line that describes the error in any exception of the Vulkan bindings.
 std::string reason(const std::exception& e);
 
 } // namespace cotan

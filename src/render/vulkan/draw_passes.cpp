@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "cotan/vector.hpp"
-#include "scene/sample_places.hpp"
+#include "scene/sample_positions.hpp"
 
 namespace cotan {
 
@@ -17,24 +17,24 @@ glm::uvec2 split(vk::DeviceAddress address)
     return {static_cast<glm::uint>(address), static_cast<glm::uint>(address >> 32)};
 }
 
-// Addresses and flags of CotanDraw. base: of the buffer that the mesh lies in; 0: nobody asks for it.
+// Sets addresses and flags of CotanDraw. base: address of the mesh's buffer; 0 if shaders do not read it.
 void addMesh(gpu::CotanDraw& constants, vk::DeviceAddress base, const GpuMesh& mesh)
 {
     if (base != 0) {
         constants.positions = split(base + mesh.offsets[kPosition]);
         constants.indices = split(base + mesh.indices);
     }
-    // Streams follow one another in a buffer; an absent one is not looked at.
-    const auto floatsOn = [&](Stream stream) {
+    // Streams follow the positions in the same buffer; the offset of an absent one is not read.
+    const auto floatOffset = [&](Stream stream) {
         return mesh.has(stream) ? static_cast<glm::uint>((mesh.offsets[stream] - mesh.offsets[kPosition]) / 4) : 0u;
     };
-    constants.texcoords = {floatsOn(kTexcoord0), floatsOn(kTexcoord1)};
+    constants.texcoords = {floatOffset(kTexcoord0), floatOffset(kTexcoord1)};
     constants.flags = (mesh.has(kTexcoord0) ? COTAN_DRAW_HAS_TEXCOORDS0 : 0u)
         | (mesh.has(kTexcoord1) ? COTAN_DRAW_HAS_TEXCOORDS1 : 0u) | (mesh.has(kTangent) ? COTAN_DRAW_HAS_TANGENTS : 0u)
         | (mesh.has(kCotangentU) && mesh.has(kCotangentV) ? COTAN_DRAW_HAS_COTANGENTS : 0u);
 }
 
-// The maps that a pipeline reads, of those that a material has.
+// The maps that a pipeline reads, if the material has them.
 std::uint32_t mapsNeeded(const PipelineKey& key)
 {
     if (key.output == Output::shaded)
@@ -55,11 +55,11 @@ int backdropOf(const View& view)
 
 } // namespace
 
-PictureKeys keysOf(const View& view, const Targets& targets)
+PassKeys keysOf(const View& view, const Targets& targets)
 {
     const Targets::Kind& kind = targets.kind();
-    const bool levels = kind.shown == vk::Format::eR8G8B8A8Unorm;
-    PictureKeys keys;
+    const bool levels = kind.output == vk::Format::eR8G8B8A8Unorm;
+    PassKeys keys;
     PipelineKey& forward = keys.forward;
     forward = {.frame = view.frame,
                .output = view.output,
@@ -93,9 +93,9 @@ PictureKeys keysOf(const View& view, const Targets& targets)
     keys.surround.pass = Pass::surround;
     keys.surround.levels = levels;
     keys.surround.samples = vk::SampleCountFlagBits::e1;
-    keys.surround.format = kind.shown;
+    keys.surround.format = kind.output;
     keys.resolve = {
-        .pass = Pass::resolve, .levels = levels, .multisampledSource = targets.multisampled(), .format = kind.shown};
+        .pass = Pass::resolve, .levels = levels, .multisampledSource = targets.multisampled(), .format = kind.output};
     return keys;
 }
 
@@ -107,8 +107,8 @@ CommandRecorder::CommandRecorder(const Device& device, const Layouts& layouts)
     vk::SamplerCreateInfo sampler;
     sampler.magFilter = sampler.minFilter = vk::Filter::eLinear;
     sampler.addressModeU = sampler.addressModeV = vk::SamplerAddressMode::eClampToEdge;
-    pictureSampler_ = vk::raii::Sampler(device.device, sampler);
-    sampler.compareEnable = VK_TRUE; // filters what comparisons give
+    linearSampler_ = vk::raii::Sampler(device.device, sampler);
+    sampler.compareEnable = VK_TRUE; // filters the results of comparisons
     sampler.compareOp = vk::CompareOp::eLessOrEqual;
     shadowSampler_ = vk::raii::Sampler(device.device, sampler);
     constexpr std::uint32_t kSets = 2;
@@ -116,8 +116,8 @@ CommandRecorder::CommandRecorder(const Device& device, const Layouts& layouts)
                            vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, kSets * 3),
                            vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, kSets * 4)};
     pool_ = vk::raii::DescriptorPool(device.device, vk::DescriptorPoolCreateInfo({}, kSets, sizes));
-    pictureSet_ = allocateSet(device, pool_, layouts.picture);
-    composeSet_ = allocateSet(device, pool_, layouts.picture);
+    viewSet_ = allocateSet(device, pool_, layouts.viewSet);
+    composeSet_ = allocateSet(device, pool_, layouts.viewSet);
 }
 
 CommandRecorder::DrawLists CommandRecorder::makeLists(const GpuScene& scene, const View& view, const CameraAxes& axes,
@@ -134,7 +134,7 @@ CommandRecorder::DrawLists CommandRecorder::makeLists(const GpuScene& scene, con
         const Buffer& buffer = scene.buffers[item.mesh->buffer];
         item.buffer = *buffer.buffer;
         addMesh(item.constants, buffer.address, *item.mesh);
-        // A mirroring matrix and a raster whose rows run upward each turn the winding round.
+        // A mirroring matrix reverses the winding, and so does a raster whose rows run upward.
         item.clockwise = (item.constants.normalX.w < 0) != view.rowsUpward;
         const Bounds& box = item.mesh->box;
         const glm::dvec4 centre(box.empty() ? glm::vec3(0) : box.centre(), 1);
@@ -146,8 +146,8 @@ CommandRecorder::DrawLists CommandRecorder::makeLists(const GpuScene& scene, con
             lists.translucentArea = around(lists.translucentArea, area);
             item.constants.order = static_cast<std::uint32_t>(lists.translucent.size());
             lists.translucent.push_back(item);
-            if (item.material->throwsShadow)
-                lists.veils.push_back(item);
+            if (item.material->castsShadow)
+                lists.translucentCasters.push_back(item);
         } else {
             (item.material->alphaMode == AlphaMode::mask ? lists.mask : lists.opaque).push_back(item);
         }
@@ -173,18 +173,17 @@ void CommandRecorder::prepare(const View& view, const CameraAxes& axes, const gp
     if (view.environmentMap)
         environment_.hold(*device_, view.environmentMap, view.environmentMap->atlas);
     if (view.ground)
-        ground_.hold(*device_, view.ground, view.ground->shares);
+        ground_.hold(*device_, view.ground, view.ground->visibility);
     const std::uint32_t width = targets_->kind().width;
     if (layered && !(layers_ && layers_->width == width)) {
-        layers_.reset(); // its memory may be needed for the new ones
+        layers_.reset(); // frees its memory first
         layers_ = std::make_unique<LayerLists>(*device_, width);
     }
-    writePictureSet(layered);
+    writeViewSet(layered);
 }
 
-// Every descriptor names something, also where the picture has no layers and no shader looks: Mesa's CPU
-// driver (22.3) does.
-void CommandRecorder::writePictureSet(bool layered)
+// Sets every descriptor, even for images without layers, which no shader reads: Mesa's CPU driver (22.3) reads them.
+void CommandRecorder::writeViewSet(bool layered)
 {
     constexpr auto kReadOnly = vk::ImageLayout::eShaderReadOnlyOptimal;
     const auto whole = [](const Buffer& buffer) { return vk::DescriptorBufferInfo(*buffer.buffer, 0, VK_WHOLE_SIZE); };
@@ -192,31 +191,31 @@ void CommandRecorder::writePictureSet(bool layered)
     const vk::DescriptorBufferInfo lists = layered ? whole(layers_->lists) : lights;
     const vk::DescriptorBufferInfo layers = layered ? whole(layers_->layers) : lights;
     const vk::DescriptorImageInfo shadow(*shadowSampler_, *shadowMap_.view, kReadOnly);
-    const vk::DescriptorImageInfo found(*depthSampler_, *shadowMap_.view, kReadOnly);
+    const vk::DescriptorImageInfo shadowDepth(*depthSampler_, *shadowMap_.view, kReadOnly);
     const vk::DescriptorImageInfo depth(*depthSampler_, targets_->depthView(),
                                         vk::ImageLayout::eDepthStencilReadOnlyOptimal);
     const vk::DescriptorImageInfo samples(*depthSampler_, targets_->colorView(), kReadOnly);
-    const auto held = [&](const HeldPicture& picture) {
-        return picture.owner ? vk::DescriptorImageInfo(*pictureSampler_, *picture.texture.view, kReadOnly) : shadow;
+    const auto imageInfo = [&](const HeldTexture& held) {
+        return held.owner ? vk::DescriptorImageInfo(*linearSampler_, *held.texture.view, kReadOnly) : shadow;
     };
-    const vk::DescriptorImageInfo environment = held(environment_), ground = held(ground_);
+    const vk::DescriptorImageInfo environment = imageInfo(environment_), ground = imageInfo(ground_);
     const auto write = [&](vk::DescriptorSet set, const vk::DescriptorImageInfo& depths,
-                           const vk::DescriptorImageInfo& around) {
+                           const vk::DescriptorImageInfo& environmentOrSamples) {
         using W = vk::WriteDescriptorSet;
         using T = vk::DescriptorType;
         device_->device.updateDescriptorSets(
             {W(set, 0, 0, T::eUniformBuffer, {}, view), W(set, 1, 0, T::eStorageBuffer, {}, lights),
              W(set, 2, 0, T::eCombinedImageSampler, depths), W(set, 3, 0, T::eStorageBuffer, {}, lists),
-             W(set, 4, 0, T::eStorageBuffer, {}, layers), W(set, 5, 0, T::eCombinedImageSampler, around),
-             W(set, 6, 0, T::eCombinedImageSampler, found), W(set, 7, 0, T::eCombinedImageSampler, ground)},
+             W(set, 4, 0, T::eStorageBuffer, {}, layers), W(set, 5, 0, T::eCombinedImageSampler, environmentOrSamples),
+             W(set, 6, 0, T::eCombinedImageSampler, shadowDepth), W(set, 7, 0, T::eCombinedImageSampler, ground)},
             {});
     };
-    write(pictureSet_, shadow, environment);
+    write(viewSet_, shadow, environment);
     write(composeSet_, layered && targets_->multisampled() ? depth : shadow,
           targets_->resolves() ? samples : environment);
 }
 
-// What draws that one in the pass of the key.
+// The pipeline that draws the item in the pass of the key.
 PipelineKey CommandRecorder::keyOf(PipelineKey key, const Item& item)
 {
     key.extended = key.pass != Pass::shadow && item.material->extended();
@@ -227,7 +226,7 @@ PipelineKey CommandRecorder::keyOf(PipelineKey key, const Item& item)
     return key;
 }
 
-// All that the picture will be drawn with, so that none waits for another.
+// Starts building all pipelines of the image, so that they are compiled in parallel.
 void CommandRecorder::beginPipelines(const DrawLists& lists, const View& view, bool layered)
 {
     std::vector<PipelineKey> keys;
@@ -271,7 +270,7 @@ void CommandRecorder::drawItems(const vk::raii::CommandBuffer& commands, const s
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 1, item.material->set, {});
         std::array<vk::Buffer, kStreamCount> buffers;
         buffers.fill(item.buffer);
-        // Every range ends with its buffer; the sizes are only stated to be allowed to give strides.
+        // Without sizes every range extends to the end of its buffer.
         commands.bindVertexBuffers2(0, buffers, mesh.offsets, {}, mesh.strides);
         commands.bindIndexBuffer(item.buffer, mesh.indices, vk::IndexType::eUint32);
         commands.pushConstants<gpu::CotanDraw>(layout, kBothStages, 0, item.constants);
@@ -279,8 +278,8 @@ void CommandRecorder::drawItems(const vk::raii::CommandBuffer& commands, const s
     }
 }
 
-// Draws the triangle that covers the picture.
-void CommandRecorder::drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey& key)
+// Draws a triangle that covers the image.
+void CommandRecorder::drawFullScreen(const vk::raii::CommandBuffer& commands, const PipelineKey& key)
 {
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.get(key));
     commands.setCullMode(vk::CullModeFlagBits::eNone);
@@ -288,7 +287,7 @@ void CommandRecorder::drawOver(const vk::raii::CommandBuffer& commands, const Pi
     commands.draw(3, 1, 0, 0);
 }
 
-// A single texel where no shadow is wanted: the descriptor must exist all the same.
+// Makes a single texel if no shadow is needed, because the descriptor must be valid.
 void CommandRecorder::prepareShadowMap(bool needed)
 {
     const std::uint32_t side = needed ? kShadowSize : 1;
@@ -305,15 +304,15 @@ void CommandRecorder::prepareShadowMap(bool needed)
                      .aspect = vk::ImageAspectFlagBits::eDepth});
 }
 
-// Kept from one picture to the next, as long as it shows the same.
+// Redraws the shadow map if it has changed since the previous image.
 void CommandRecorder::recordShadow(const vk::raii::CommandBuffer& commands, const DrawLists& lists,
-                                   const ShadowView& shown)
+                                   const ShadowView& shadowView)
 {
-    if (shadowDrawn_ == shown)
+    if (shadowDrawn_ == shadowView)
         return;
     constexpr auto kDepth = vk::ImageAspectFlagBits::eDepth;
     const bool draws = shadowMap_.extent.width > 1;
-    shadowDrawn_ = draws ? std::optional(shown) : std::nullopt;
+    shadowDrawn_ = draws ? std::optional(shadowView) : std::nullopt;
     transition(commands, *shadowMap_.image, kDepth, {vk::ImageLayout::eUndefined, Stage::eFragmentShader, {}},
                kDepthDrawn);
     if (draws) {
@@ -326,20 +325,20 @@ void CommandRecorder::recordShadow(const vk::raii::CommandBuffer& commands, cons
         commands.setScissor(0, area);
         drawItems(commands, lists.opaque, {.pass = Pass::shadow});
         drawItems(commands, lists.mask, {.pass = Pass::shadowMask});
-        drawItems(commands, lists.veils, {.pass = Pass::shadowMask});
+        drawItems(commands, lists.translucentCasters, {.pass = Pass::shadowMask});
         commands.endRendering();
     }
     transition(commands, *shadowMap_.image, kDepth, kDepthDrawn, kSampled);
 }
 
-// Everything that writes depth, and the background.
-void CommandRecorder::recordPicture(const vk::raii::CommandBuffer& commands, const DrawLists& lists, const View& view)
+// Records everything that writes depth, and the background.
+void CommandRecorder::recordMain(const vk::raii::CommandBuffer& commands, const DrawLists& lists, const View& view)
 {
     const bool shaded = view.output == Output::shaded;
     drawItems(commands, lists.opaque, keys_.forward);
     drawItems(commands, lists.mask, keys_.forward);
     if (shaded && (view.background || view.ground))
-        drawOver(commands, keys_.background);
+        drawFullScreen(commands, keys_.background);
     if (!shaded)
         drawItems(commands, lists.translucent, keys_.forward);
 }
@@ -347,7 +346,7 @@ void CommandRecorder::recordPicture(const vk::raii::CommandBuffer& commands, con
 const vk::raii::CommandBuffer& CommandRecorder::begin()
 {
     const vk::raii::CommandBuffer& commands = commands_.begin();
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0, pictureSet_, {});
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0, viewSet_, {});
     return commands;
 }
 

@@ -11,51 +11,50 @@
 
 namespace cotan {
 
-// ---- what is drawn into, and how it comes back ---------------------------------------------
+// ---- render targets and read-back ----------------------------------------------------------
 
-// Colour, depth and the buffer for reading back, of one size and kind. Pictures of 8 bits are drawn as halfs, and
-// become levels when their samples are resolved.
+// Colour, depth and read-back buffer of one size and kind. 8-bit images are drawn as halfs and quantised when their
+// samples are resolved.
 class Targets {
 public:
     struct Kind {
         std::uint32_t width = 0;
         std::uint32_t height = 0;
-        vk::Format format = vk::Format::eUndefined; // of what is drawn into
-        vk::Format shown = vk::Format::eUndefined;  // of what is read back
+        vk::Format format = vk::Format::eUndefined; // of the drawn samples
+        vk::Format output = vk::Format::eUndefined; // of the image that is read back
         vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
         bool operator==(const Kind&) const = default;
     };
 
-    // Bytes of device memory that targets of that kind take.
+    // Bytes of device memory for targets of this kind.
     static vk::DeviceSize bytes(const Kind& kind);
 
     Targets(const Device& device, const Kind& kind);
 
     const Kind& kind() const { return kind_; }
     bool multisampled() const { return kind_.samples != vk::SampleCountFlagBits::e1; }
-    // The picture is a target of its own, that the samples are resolved into.
-    bool resolves() const { return multisampled() || kind_.shown != kind_.format; }
+    // Whether the samples are resolved into a separate image.
+    bool resolves() const { return multisampled() || kind_.output != kind_.format; }
 
-    // Starts drawing into the resolved picture, cleared to 0, without depths; ends with endRendering. Where it
-    // resolves only.
+    // Starts drawing into the resolved image, cleared to 0, without depth; ends with endRendering. Requires resolves().
     void beginSurround(const vk::raii::CommandBuffer& commands);
-    // Starts drawing in the area: cleared to 0 (depth is reversed, so 0 is far away); ends with endOpaque where
-    // translucent layers follow, else with endRendering.
+    // Starts drawing in the area, cleared to 0 (far away in reversed depth); ends with endOpaque if translucent layers
+    // follow, else with endRendering.
     void begin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area, bool layersFollow);
-    // Ends drawing that began with layersFollow: the depth can be read from here on.
+    // Ends drawing that began with layersFollow; afterwards the depth can be read.
     void endOpaque(const vk::raii::CommandBuffer& commands);
-    // Starts fragments that write no target and are tested against the depth; ends with endRendering.
+    // Starts drawing fragments that write no target and are depth tested; ends with endRendering.
     void beginLayers(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area);
     // Starts drawing over the colours of the area; ends with endRendering.
     void beginCompose(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area);
-    // Starts drawing into the area of the resolved picture, after beginSurround, which has what is outside of it: the
-    // samples can be read from here on; ends with endRendering. Where it resolves only.
+    // Starts drawing into the area of the resolved image, whose remainder beginSurround has covered. The samples can be
+    // read from here on. Ends with endRendering. Requires resolves().
     void beginResolve(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area);
-    // Copies into the read-back buffer.
+    // Copies the image into the read-back buffer.
     void copy(const vk::raii::CommandBuffer& commands);
     vk::ImageView depthView() const { return *depth_.view; }
     vk::ImageView colorView() const { return *color_.view; }
-    // The picture, upright. Only after the commands have been waited for.
+    // The image, first row at the top. Requires that the commands have completed.
     Image image(bool flipRows) const;
 
 private:
@@ -71,36 +70,36 @@ private:
     Buffer readBack_;
 };
 
-// The kind of targets for a view: what its output asks for and the device can do. Over 4 samples a pixel are drawn one
-// after the other, as floats.
+// The kind of targets that the view needs and the device supports. More than 4 samples per pixel are drawn one at a
+// time, as floats.
 Targets::Kind targetKind(const Device& device, const View& view);
 
 // ---- drawing -------------------------------------------------------------------------------
 
-// The pipelines that a picture may be drawn with: those of surfaces without the maps, which keyOf adds.
-struct PictureKeys {
+// Pipelines for the passes of an image. Those that draw surfaces lack the material's maps, which keyOf adds.
+struct PassKeys {
     PipelineKey forward, layers, compose, background, surround, resolve;
 };
 
-PictureKeys keysOf(const View& view, const Targets& targets);
+PassKeys keysOf(const View& view, const Targets& targets);
 
-// Where translucent fragments are kept until they are composed: lists for a band of the picture's rows.
+// Stores translucent fragments until they are composed: lists for a band of image rows.
 struct LayerLists {
-    // pictureWidth: in pixels.
-    LayerLists(const Device& device, std::uint32_t pictureWidth);
+    // imageWidth: in pixels.
+    LayerLists(const Device& device, std::uint32_t imageWidth);
 
-    // Empties the lists, for the band of `rows` that starts at `top`.
+    // Clears the lists for the band of `rows` rows from `top`.
     void clear(const vk::raii::CommandBuffer& commands, std::uint32_t top, std::uint32_t rows) const;
-    // Makes what was drawn readable for fragments to come, and the count for the host.
+    // Makes the lists readable for later fragments, and the count for the host.
     void finish(const vk::raii::CommandBuffer& commands) const;
 
     Memory memory;
     std::uint32_t width;
     Buffer lists, layers;
-    Buffer hostCount; // of the layers that were drawn: over the capacity, some were not kept
+    Buffer hostCount; // number of layers drawn; those over the capacity were not stored
 };
 
-// What pictures share: constants, shadow map, targets; kept from one picture to the next.
+// Draws images. Keeps constants, shadow map and targets from one image to the next.
 class CommandRecorder {
     // What a shadow map depends on, besides the scene.
     struct ShadowView {
@@ -113,46 +112,46 @@ public:
     CommandRecorder(const Device& device, const Layouts& layouts);
 
     Result<Image> draw(GpuScene& scene, const View& view, RenderTimings& timings);
-    // What is kept of the scene before is of no use for the next one.
+    // Discards what was kept for the previous scene.
     void forgetScene() { shadowDrawn_.reset(); }
 
 private:
-    // One instance, ready to be drawn.
+    // An instance to draw.
     struct Item {
         gpu::CotanDraw constants{};
         const GpuMesh* mesh = nullptr;
-        vk::Buffer buffer; // that the mesh lies in
+        vk::Buffer buffer; // contains the mesh
         const GpuMaterial* material = nullptr;
-        bool clockwise = false; // front faces run clockwise over the raster
-        double distance = 0;    // of the centre from the eye; 0 where that is not finite
+        bool clockwise = false; // front faces are clockwise in the raster
+        double distance = 0;    // from the eye to the box's centre; 0 if not finite
     };
-    // All of them, in the order in which they are drawn.
+    // All instances, in drawing order.
     struct DrawLists {
-        std::vector<Item> opaque;      // near to far
-        std::vector<Item> mask;        // near to far
-        std::vector<Item> translucent; // as in the scene
-        std::vector<Item> veils;       // of these what throws a shadow
-        PixelArea area;                // of the picture, that all may cover
+        std::vector<Item> opaque;             // near to far
+        std::vector<Item> mask;               // near to far
+        std::vector<Item> translucent;        // as in the scene
+        std::vector<Item> translucentCasters; // translucent instances that cast a shadow
+        PixelArea area;                       // of the image, covered by all instances at most
         PixelArea translucentArea;
     };
 
-    // sample: the one of kPlaces that is drawn as the only one.
+    // sample: the only one of the kSampleCount samples to draw; if empty, all.
     Result<Image> drawOnce(GpuScene& scene, const View& view, std::optional<int> sample, RenderTimings& timings);
     static DrawLists makeLists(const GpuScene& scene, const View& view, const CameraAxes& axes,
                                const gpu::CotanView& constants);
     void beginPipelines(const DrawLists& lists, const View& view, bool layered);
     void prepare(const View& view, const CameraAxes& axes, const gpu::CotanView& constants, bool layered);
     void prepareShadowMap(bool needed);
-    void writePictureSet(bool layered);
-    void recordShadow(const vk::raii::CommandBuffer& commands, const DrawLists& lists, const ShadowView& shown);
-    void recordPicture(const vk::raii::CommandBuffer& commands, const DrawLists& lists, const View& view);
+    void writeViewSet(bool layered);
+    void recordShadow(const vk::raii::CommandBuffer& commands, const DrawLists& lists, const ShadowView& shadowView);
+    void recordMain(const vk::raii::CommandBuffer& commands, const DrawLists& lists, const View& view);
     static PipelineKey keyOf(PipelineKey key, const Item& item);
     void recordSurround(const vk::raii::CommandBuffer& commands, const View& view, const PixelArea& a);
     void finish(const vk::raii::CommandBuffer& commands, const PixelArea& area);
-    void drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey& key);
+    void drawFullScreen(const vk::raii::CommandBuffer& commands, const PipelineKey& key);
     const vk::raii::CommandBuffer& begin();
     Status drawLayers(const DrawLists& lists);
-    std::uint32_t keepLayers(const DrawLists& lists, const vk::Rect2D& band);
+    std::uint32_t storeLayers(const DrawLists& lists, const vk::Rect2D& band);
     void composeLayers(const vk::Rect2D& band);
     void drawItems(const vk::raii::CommandBuffer& commands, const std::vector<Item>& items, PipelineKey key);
 
@@ -162,20 +161,20 @@ private:
     Commands commands_;
     Memory memory_;
     Buffer viewBuffer_;
-    std::unique_ptr<Memory> lightMemory_; // grows with the number of lights
+    std::unique_ptr<Memory> lightMemory_; // replaced when the number of lights grows
     Buffer lightBuffer_;
     std::unique_ptr<Memory> shadowMemory_;
     Texture2D shadowMap_;
-    std::optional<ShadowView> shadowDrawn_; // what the map shows
+    std::optional<ShadowView> shadowDrawn_; // contents of the shadow map
     vk::raii::Sampler shadowSampler_{nullptr};
-    HeldPicture environment_;
-    HeldPicture ground_;
-    vk::raii::Sampler pictureSampler_{nullptr};
+    HeldTexture environment_;
+    HeldTexture ground_;
+    vk::raii::Sampler linearSampler_{nullptr};
     vk::raii::DescriptorPool pool_{nullptr};
-    vk::DescriptorSet pictureSet_, composeSet_; // owned by the pool; the second reads the targets
+    vk::DescriptorSet viewSet_, composeSet_; // owned by the pool; the second one reads the targets
     std::unique_ptr<Targets> targets_;
-    PictureKeys keys_;
-    std::unique_ptr<LayerLists> layers_; // once there is something translucent
+    PassKeys keys_;
+    std::unique_ptr<LayerLists> layers_; // created for the first translucent instance
     vk::raii::Sampler depthSampler_{nullptr};
 };
 

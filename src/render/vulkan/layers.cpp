@@ -1,4 +1,4 @@
-// Translucent fragments: kept in lists, a list for each pixel, and composed in the order of their distance.
+// Translucent fragments: stored in a list for each pixel and composed in depth order.
 #include <algorithm>
 #include <cstring>
 #include <string>
@@ -11,7 +11,7 @@ namespace {
 
 using Usage = vk::BufferUsageFlagBits;
 
-constexpr vk::DeviceSize kLayerBytes = vk::DeviceSize(128) << 20; // what every device can bind
+constexpr vk::DeviceSize kLayerBytes = vk::DeviceSize(128) << 20; // every device can bind 128 MiB
 constexpr vk::DeviceSize kListBytes = vk::DeviceSize(16) << 20;
 constexpr auto kCapacity = std::uint32_t(kLayerBytes / sizeof(gpu::CotanLayer));
 
@@ -24,7 +24,7 @@ void barrier(const vk::raii::CommandBuffer& commands, vk::PipelineStageFlags2 be
 
 } // namespace
 
-LayerLists::LayerLists(const Device& device, std::uint32_t pictureWidth) : memory(device), width(pictureWidth)
+LayerLists::LayerLists(const Device& device, std::uint32_t imageWidth) : memory(device), width(imageWidth)
 {
     lists = makeDeviceBuffer(memory, kListBytes, Usage::eStorageBuffer | Usage::eTransferDst | Usage::eTransferSrc);
     layers = makeDeviceBuffer(memory, kLayerBytes, Usage::eStorageBuffer);
@@ -50,8 +50,8 @@ void LayerLists::finish(const vk::raii::CommandBuffer& commands) const
     barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
 }
 
-// Draws the translucent fragments of a band into their lists; returns how many there are.
-std::uint32_t CommandRecorder::keepLayers(const DrawLists& lists, const vk::Rect2D& band)
+// Draws the translucent fragments of a band into their lists; returns the number of fragments.
+std::uint32_t CommandRecorder::storeLayers(const DrawLists& lists, const vk::Rect2D& band)
 {
     const vk::raii::CommandBuffer& commands = begin();
     layers_->clear(commands, static_cast<std::uint32_t>(band.offset.y), band.extent.height);
@@ -65,8 +65,7 @@ std::uint32_t CommandRecorder::keepLayers(const DrawLists& lists, const vk::Rect
     return count;
 }
 
-// Lays the lists of a band over the picture, one sample after the other: so they need no device that
-// shades each sample.
+// Composes the lists of a band over the image, one sample after the other, which needs no sample shading.
 void CommandRecorder::composeLayers(const vk::Rect2D& band)
 {
     const vk::raii::CommandBuffer& commands = begin();
@@ -74,23 +73,23 @@ void CommandRecorder::composeLayers(const vk::Rect2D& band)
     targets_->beginCompose(commands, band);
     for (std::uint32_t sample = 0; sample < static_cast<std::uint32_t>(keys_.compose.samples); ++sample) {
         commands.pushConstants<std::uint32_t>(*layouts_->pipeline, kBothStages, 0, sample);
-        drawOver(commands, keys_.compose);
+        drawFullScreen(commands, keys_.compose);
     }
     commands.endRendering();
     commands_.submitAndWait();
 }
 
-// The picture in bands of rows that are low enough for their layers to find room.
+// Draws the image in bands of rows that are low enough for their layers to fit.
 Status CommandRecorder::drawLayers(const DrawLists& lists)
 {
     const PixelArea& area = lists.translucentArea;
     const auto width = static_cast<std::uint32_t>(area.x1 - area.x0), end = static_cast<std::uint32_t>(area.y1);
     constexpr vk::DeviceSize pixels = (kListBytes - sizeof(gpu::CotanLayerLists)) / sizeof(std::uint32_t);
-    auto rows = static_cast<std::uint32_t>(std::max<vk::DeviceSize>(pixels / layers_->width, 1)); // of a band
+    auto rows = static_cast<std::uint32_t>(std::max<vk::DeviceSize>(pixels / layers_->width, 1)); // per band
     for (auto top = static_cast<std::uint32_t>(area.y0); top < end && width > 0;) {
         const std::uint32_t height = std::min(rows, end - top);
         const vk::Rect2D band({area.x0, std::int32_t(top)}, {width, height});
-        const std::uint32_t count = keepLayers(lists, band);
+        const std::uint32_t count = storeLayers(lists, band);
         if (count <= kCapacity) {
             composeLayers(band);
             top += height;
@@ -98,7 +97,7 @@ Status CommandRecorder::drawLayers(const DrawLists& lists)
             rows = height / 2;
         } else {
             return unavailableError(std::to_string(count) + " translucent fragments in one row of pixels: at most "
-                                    + std::to_string(kCapacity) + " can be put in order");
+                                    + std::to_string(kCapacity) + " can be sorted");
         }
     }
     return Done{};

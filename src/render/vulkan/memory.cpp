@@ -35,7 +35,7 @@ std::uint32_t Memory::chooseType(std::uint32_t allowed, vk::MemoryPropertyFlags 
         for (std::uint32_t i = 0; i < p.memoryTypeCount; ++i)
             if ((allowed >> i & 1) && (p.memoryTypes[i].propertyFlags & flags) == flags)
                 return i;
-    throw vk::FeatureNotPresentError("the device has no memory of the needed type");
+    throw vk::FeatureNotPresentError("the device has no memory of the required type");
 }
 
 Memory::Block& Memory::addBlock(std::uint32_t type, vk::DeviceSize size)
@@ -55,7 +55,7 @@ Memory::Piece Memory::allocate(const vk::MemoryRequirements& requirements, vk::M
                                vk::MemoryPropertyFlags wanted)
 {
     const std::uint32_t type = chooseType(requirements.memoryTypeBits, needed, wanted);
-    // Buffers and images may share a block, so both keep the distance that they need.
+    // Buffers and images may share a block, so all keep bufferImageGranularity.
     const vk::DeviceSize alignment = std::max(requirements.alignment, device_->limits.bufferImageGranularity);
     Block* block = nullptr;
     for (Block& b : blocks_)
@@ -131,8 +131,8 @@ void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::Im
 
 Uploader::Uploader(const Device& device, vk::DeviceSize capacity) : memory_(device), commands_(device)
 {
-    const vk::DeviceSize widest = vk::DeviceSize(device.limits.maxImageDimension2D) * 16;
-    staging_ = makeHostBuffer(memory_, std::max(capacity, widest), vk::BufferUsageFlagBits::eTransferSrc);
+    const vk::DeviceSize widestRow = vk::DeviceSize(device.limits.maxImageDimension2D) * 16;
+    staging_ = makeHostBuffer(memory_, std::max(capacity, widestRow), vk::BufferUsageFlagBits::eTransferSrc);
 }
 
 const vk::raii::CommandBuffer& Uploader::recording()
@@ -150,10 +150,10 @@ void Uploader::finish()
     used_ = 0;
 }
 
-vk::DeviceSize Uploader::room(vk::DeviceSize size, vk::DeviceSize least)
+vk::DeviceSize Uploader::reserve(vk::DeviceSize size, vk::DeviceSize minimum)
 {
     used_ = aligned(used_, 16);
-    if (used_ + std::min(size, least) > staging_.size)
+    if (used_ + std::min(size, minimum) > staging_.size)
         finish();
     return std::min(size, staging_.size - used_);
 }
@@ -161,12 +161,12 @@ vk::DeviceSize Uploader::room(vk::DeviceSize size, vk::DeviceSize least)
 void Uploader::buffer(const Buffer& target, vk::DeviceSize offset, std::span<const std::byte> data)
 {
     while (!data.empty()) {
-        const vk::DeviceSize part = room(data.size(), 4096);
-        std::memcpy(staging_.mapped + used_, data.data(), part);
-        recording().copyBuffer(*staging_.buffer, *target.buffer, vk::BufferCopy(used_, offset, part));
-        used_ += part;
-        offset += part;
-        data = data.subspan(part);
+        const vk::DeviceSize count = reserve(data.size(), 4096);
+        std::memcpy(staging_.mapped + used_, data.data(), count);
+        recording().copyBuffer(*staging_.buffer, *target.buffer, vk::BufferCopy(used_, offset, count));
+        used_ += count;
+        offset += count;
+        data = data.subspan(count);
     }
 }
 
@@ -177,8 +177,8 @@ void Uploader::level(const Texture2D& target, std::uint32_t index, std::span<con
     const std::uint32_t height = std::max(target.extent.height >> index, 1u);
     const vk::DeviceSize row = vk::DeviceSize(width) * bytesPerTexel;
     for (std::uint32_t y = 0; y < height;) {
-        const vk::DeviceSize most = room(row * (height - y), row);
-        const auto rows = static_cast<std::uint32_t>(most / row);
+        const vk::DeviceSize available = reserve(row * (height - y), row);
+        const auto rows = static_cast<std::uint32_t>(available / row);
         std::memcpy(staging_.mapped + used_, data.data() + y * row, rows * row);
         const vk::BufferImageCopy copy(used_, 0, 0, {vk::ImageAspectFlagBits::eColor, index, 0, 1},
                                        {0, std::int32_t(y), 0}, {width, rows, 1});

@@ -1,4 +1,4 @@
-// Device memory, buffers, images, and the way from the CPU into them.
+// Device memory, buffers, images, and uploads to them.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +12,13 @@ namespace cotan {
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 
-// The next multiple.
+// Rounds up to a multiple of `alignment`.
 inline vk::DeviceSize aligned(vk::DeviceSize value, vk::DeviceSize alignment)
 {
     return (value + alignment - 1) / alignment * alignment;
 }
 
-// Memory in blocks, handed out from front to back and given back all at once.
+// Memory in blocks, allocated from front to back and freed all at once.
 class Memory {
 public:
     explicit Memory(const Device& device) : device_(&device) {}
@@ -28,10 +28,10 @@ public:
     struct Piece {
         vk::DeviceMemory memory;
         vk::DeviceSize offset = 0;
-        std::byte* mapped = nullptr; // where the memory is host visible
+        std::byte* mapped = nullptr; // if the memory is host visible
     };
 
-    // Throws vk::SystemError where there is no memory left. wanted: tried first; needed: must be there.
+    // Throws vk::SystemError if memory runs out. wanted: preferred properties; needed: required ones.
     Piece allocate(const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags needed,
                    vk::MemoryPropertyFlags wanted = {});
 
@@ -54,7 +54,7 @@ private:
 struct Buffer {
     vk::raii::Buffer buffer{nullptr};
     vk::DeviceSize size = 0;
-    vk::DeviceAddress address = 0; // where the usage asks for one
+    vk::DeviceAddress address = 0; // if the usage includes one
     std::byte* mapped = nullptr;   // host buffers only
 };
 
@@ -66,7 +66,7 @@ struct Texture2D {
 };
 
 Buffer makeDeviceBuffer(Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage);
-// Host visible and coherent, mapped. readBack: prefer cached memory.
+// Host visible, coherent and mapped. readBack: prefers cached memory.
 Buffer makeHostBuffer(Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage, bool readBack = false);
 
 struct TextureInfo {
@@ -79,7 +79,7 @@ struct TextureInfo {
 };
 Texture2D makeTexture(Memory& memory, const TextureInfo& info);
 
-// A command buffer that is recorded, submitted and waited for; then it can be recorded again.
+// A command buffer that is recorded, submitted and waited for, after which it can be recorded again.
 class Commands {
 public:
     explicit Commands(const Device& device);
@@ -93,7 +93,7 @@ private:
     vk::raii::Fence fence_{nullptr};
 };
 
-// How an image is used: in which layout, where, and what is done with it.
+// How an image is used: its layout, pipeline stages and accesses.
 struct ImageUse {
     vk::ImageLayout layout;
     vk::PipelineStageFlags2 stages;
@@ -108,11 +108,11 @@ inline constexpr ImageUse kDepthDrawn{vk::ImageLayout::eDepthAttachmentOptimal, 
 void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageAspectFlags aspect,
                 const ImageUse& before, const ImageUse& after);
 
-// Copies data into device buffers and images through one staging buffer, which is emptied when
-// full. finish() must be called before what was uploaded is used.
+// Copies data into device buffers and images through one staging buffer, which is flushed when full. Call finish()
+// before the data is used.
 class Uploader {
 public:
-    // capacity: bytes of the staging buffer; at least one row of the widest image is made sure of.
+    // capacity: bytes of the staging buffer, which is enlarged to one row of the widest image.
     Uploader(const Device& device, vk::DeviceSize capacity);
 
     void buffer(const Buffer& target, vk::DeviceSize offset, std::span<const std::byte> data);
@@ -122,8 +122,8 @@ public:
 
 private:
     const vk::raii::CommandBuffer& recording();
-    // Room for `size` bytes, at most what is left; empties the buffer when nothing useful is.
-    vk::DeviceSize room(vk::DeviceSize size, vk::DeviceSize least);
+    // Returns the number of bytes that can be staged now, at most `size`. Flushes if fewer than `minimum` are free.
+    vk::DeviceSize reserve(vk::DeviceSize size, vk::DeviceSize minimum);
     void level(const Texture2D& target, std::uint32_t index, std::span<const std::byte> data,
                std::size_t bytesPerTexel);
 

@@ -8,7 +8,7 @@
 #include "core/parallel.hpp"
 #include "cotan_shaders.h"
 #include "gpu_structs.hpp"
-#include "scene/sample_places.hpp"
+#include "scene/sample_positions.hpp"
 #include "scene_upload.hpp"
 
 namespace cotan {
@@ -23,7 +23,7 @@ vk::raii::DescriptorSetLayout makeSetLayout(const Device& device, std::span<cons
     return vk::raii::DescriptorSetLayout(device.device, vk::DescriptorSetLayoutCreateInfo({}, bindings));
 }
 
-// The values of shaders/constants.glsl, in the order of their numbers.
+// The values of shaders/constants.glsl, ordered by constant_id.
 struct Specialization {
     std::array<std::uint32_t, 19> values;
     std::array<vk::SpecializationMapEntry, 19> entries;
@@ -48,13 +48,13 @@ struct Specialization {
                  key.samples != vk::SampleCountFlagBits::e1,
                  key.specularAntialiasing,
                  key.levels,
-                 std::bit_cast<std::uint32_t>(key.separateSamples ? kPlacesApart : 1.0f)}
+                 std::bit_cast<std::uint32_t>(key.separateSamples ? kSampleSpacing : 1.0f)}
     {
         for (std::uint32_t i = 0; i < entries.size(); ++i)
             entries[i] = vk::SpecializationMapEntry(i, i * 4, 4);
         info = vk::SpecializationInfo(std::uint32_t(entries.size()), entries.data(), sizeof values, values.data());
     }
-    Specialization(const Specialization&) = delete; // info points into this
+    Specialization(const Specialization&) = delete; // info refers to the other members
 };
 
 using Spirv = std::span<const std::uint32_t>; // words of a compiled shader
@@ -64,9 +64,9 @@ struct StageShaders {
     Spirv fragment; // empty: none
 };
 
-// The shader of a surface, for opaque materials, masked ones and translucent layers; of these for materials without and
-// with what extensions add; of these without and with the frame `exact` (needs the features geometryShader, for
-// gl_PrimitiveID, and buffer addresses). exact: fragments are told their triangle.
+// The fragment shader of surfaces: for opaque materials, masked ones and translucent layers; for each of these without
+// and with material extensions; for each of these without and with the frame `exact` (which needs the features
+// geometryShader, for gl_PrimitiveID, and bufferDeviceAddress). exact: fragments can read gl_PrimitiveID.
 Spirv forwardShader(const PipelineKey& key, bool exact)
 {
     static constexpr Spirv kShaders[3][2][2] = {
@@ -80,7 +80,7 @@ Spirv forwardShader(const PipelineKey& key, bool exact)
     return kShaders[kind][key.extended ? 1 : 0][exact ? 1 : 0];
 }
 
-// exact: the device can tell fragments their triangle.
+// exact: the device provides gl_PrimitiveID to fragments.
 StageShaders shadersOf(const PipelineKey& key, bool exact)
 {
     switch (key.pass) {
@@ -103,10 +103,10 @@ StageShaders shadersOf(const PipelineKey& key, bool exact)
 
 bool hasDepth(Pass pass) { return pass != Pass::compose && pass != Pass::surround && pass != Pass::resolve; }
 
-// One triangle, made by the vertex stage, over everything.
-bool coversPicture(Pass pass) { return pass == Pass::background || !hasDepth(pass); }
+// Whether the pass draws a single triangle, made by the vertex stage, that covers the image.
+bool coversImage(Pass pass) { return pass == Pass::background || !hasDepth(pass); }
 
-// One binding an attribute. The strides are set while drawing: 0 makes a constant of it.
+// One binding per attribute. The strides are set while drawing; stride 0 makes the attribute constant.
 struct VertexInput {
     std::array<vk::VertexInputBindingDescription, kStreamCount> bindings;
     std::array<vk::VertexInputAttributeDescription, kStreamCount> attributes;
@@ -123,7 +123,7 @@ struct VertexInput {
         for (std::uint32_t i = 0; i < kStreamCount; ++i) {
             const bool forShadow =
                 i == kPosition || i == kTexcoord0 || i == kTexcoord1 || i == kColor || i == kTexcoordOrigin;
-            if (coversPicture(pass) || (isShadow(pass) && !forShadow))
+            if (coversImage(pass) || (isShadow(pass) && !forShadow))
                 continue;
             bindings[count] = vk::VertexInputBindingDescription(i, 0);
             attributes[count++] = vk::VertexInputAttributeDescription(i, i, formats[i], 0);
@@ -133,8 +133,8 @@ struct VertexInput {
     VertexInput(const VertexInput&) = delete;
 };
 
-// Of colours that are multiplied by their alpha. What is there counts by a factor of its own for each channel, or,
-// where the device cannot, by the mean of the three.
+// Blending of premultiplied colours. The destination has a factor per channel or, if the device does not support it,
+// their mean.
 vk::PipelineColorBlendAttachmentState blending(bool blend, bool dualSource)
 {
     using C = vk::ColorComponentFlagBits;
@@ -167,18 +167,18 @@ Layouts::Layouts(const Device& device)
 {
     using T = vk::DescriptorType;
     constexpr T kImage = T::eCombinedImageSampler;
-    constexpr std::array ofPicture{
+    constexpr std::array viewSetTypes{
         T::eUniformBuffer, T::eStorageBuffer, kImage, T::eStorageBuffer, T::eStorageBuffer, kImage, kImage, kImage};
-    static_assert(std::count(ofPicture.begin(), ofPicture.end(), kImage) == kImagesOfPicture);
-    picture = makeSetLayout(device, ofPicture);
-    std::vector<T> ofMaterial(1 + COTAN_MAP_COUNT, kImage);
-    ofMaterial[0] = T::eUniformBuffer;
-    extendedMaterial = makeSetLayout(device, ofMaterial);
-    ofMaterial.resize(1 + COTAN_MAP_COUNT_PLAIN);
-    material = makeSetLayout(device, ofMaterial);
+    static_assert(std::count(viewSetTypes.begin(), viewSetTypes.end(), kImage) == kImagesInViewSet);
+    viewSet = makeSetLayout(device, viewSetTypes);
+    std::vector<T> materialTypes(1 + COTAN_MAP_COUNT, kImage);
+    materialTypes[0] = T::eUniformBuffer;
+    extendedMaterial = makeSetLayout(device, materialTypes);
+    materialTypes.resize(1 + COTAN_MAP_COUNT_PLAIN);
+    material = makeSetLayout(device, materialTypes);
     const vk::PushConstantRange constants(kBothStages, 0, sizeof(gpu::CotanDraw));
     const auto pipelineWith = [&](const vk::raii::DescriptorSetLayout& layout) {
-        const std::array sets{*picture, *layout};
+        const std::array sets{*viewSet, *layout};
         return vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, sets, constants));
     };
     pipeline = pipelineWith(material);
@@ -188,7 +188,7 @@ Layouts::Layouts(const Device& device)
 vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPool& pool,
                               const vk::raii::DescriptorSetLayout& layout)
 {
-    // The bindings' own sets give themselves back, which would order their destruction.
+    // vk::raii sets free themselves and would have to be destroyed before the pool; these are freed with the pool.
     const vk::DescriptorSetAllocateInfo info(*pool, *layout);
     return (*device.device).allocateDescriptorSets(info, *device.device.getDispatcher())[0];
 }
@@ -199,7 +199,7 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key) const
     const std::uint32_t colors = shadow || key.pass == Pass::layers ? 0 : 1;
     const Specialization specialization(key);
     std::vector<vk::PipelineShaderStageCreateInfo> stages;
-    std::vector<vk::raii::ShaderModule> modules; // until the pipeline is made
+    std::vector<vk::raii::ShaderModule> modules; // must live until the pipeline is made
     const auto add = [&](vk::ShaderStageFlagBits stage, Spirv code, const vk::SpecializationInfo* constants) {
         const vk::ShaderModuleCreateInfo info({}, code.size_bytes(), code.data());
         const vk::ShaderModule module = *modules.emplace_back(device_->device, info);
@@ -223,7 +223,7 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key) const
     const vk::PipelineColorBlendStateCreateInfo color({}, VK_FALSE, {}, colors, &attachment);
     std::vector<vk::DynamicState> dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor,
                                           vk::DynamicState::eCullMode, vk::DynamicState::eFrontFace};
-    if (!coversPicture(key.pass))
+    if (!coversImage(key.pass))
         dynamic.push_back(vk::DynamicState::eVertexInputBindingStride);
     const vk::PipelineDynamicStateCreateInfo dynamicState({}, dynamic);
     const vk::PipelineRenderingCreateInfo rendering(

@@ -1,5 +1,4 @@
-// Layouts and pipelines. Pipelines are made when first needed: on a CPU driver each costs a compilation of the whole
-// fragment shader.
+// Layouts and pipelines. Pipelines are made on demand: on CPU drivers each compiles the whole fragment shader.
 #pragma once
 
 #include <compare>
@@ -14,16 +13,16 @@ namespace cotan {
 
 inline constexpr auto kBothStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 
-// Of Layouts::picture.
-inline constexpr std::uint32_t kImagesOfPicture = 4;
+// Number of images in set 0.
+inline constexpr std::uint32_t kImagesInViewSet = 4;
 
 struct Layouts {
     explicit Layouts(const Device& device);
 
-    // Set 0: view, lights, shadow map (or, where layers are composed, opaque depth), lists, layers, environment, shadow
+    // Set 0: view, lights, shadow map (or opaque depth while layers are composed), lists, layers, environment, shadow
     // map as depth, ground.
-    vk::raii::DescriptorSetLayout picture{nullptr};
-    // Set 1 of materials without extensions and with them, and the pipelines that draw them.
+    vk::raii::DescriptorSetLayout viewSet{nullptr};
+    // Set 1 of materials without and with extensions, and the layouts of the pipelines that draw them.
     vk::raii::DescriptorSetLayout material{nullptr}, extendedMaterial{nullptr};
     vk::raii::PipelineLayout pipeline{nullptr}, extendedPipeline{nullptr};
 
@@ -34,19 +33,19 @@ struct Layouts {
     vk::PipelineLayout pipelineOf(bool extended) const { return extended ? *extendedPipeline : *pipeline; }
 };
 
-// A set that lives as long as its pool.
+// Allocates a set that lives as long as its pool.
 vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPool& pool,
                               const vk::raii::DescriptorSetLayout& layout);
 
-// shadowMask: of what covers texels of the shadow map by its alpha. layers: translucent fragments into their lists;
-// compose: these lists over the picture. surround: the background in one sample, without depths; resolve: the samples
+// shadowMask: surfaces that cover texels of the shadow map by alpha. layers: translucent fragments into their lists;
+// compose: these lists over the image. surround: the background with one sample and without depth; resolve: the samples
 // of a pixel into one.
 enum class Pass { shadow, shadowMask, forward, background, surround, layers, compose, resolve };
 
 constexpr bool isShadow(Pass pass) { return pass == Pass::shadow || pass == Pass::shadowMask; }
 
-// Everything that a pipeline is specialised for. Fields that a pass ignores stay at their
-// defaults, so that equal pipelines have equal keys.
+// All specialisations of a pipeline. Fields that a pass ignores keep their defaults, so that equal pipelines have equal
+// keys.
 struct PipelineKey {
     Pass pass = Pass::forward;
     AlphaMode alphaMode = AlphaMode::opaque;
@@ -56,18 +55,18 @@ struct PipelineKey {
     bool coarse = false;
     bool normalMaps = true;
     bool environment = true;
-    bool environmentMap = false; // a picture in place of the formula
+    bool environmentMap = false; // environment map instead of the formula
     bool shadows = true;
     bool specularAntialiasing = false;
-    bool separateSamples = false; // each lit at a place of its own: scene/sample_places.hpp
+    bool separateSamples = false; // each sample is shaded at its own position: scene/sample_positions.hpp
     bool softShadows = false;
     bool toneMap = true; // false: linear output
     ToneMapping tone = ToneMapping::aces;
     int backdrop = 0; // BACKDROP_... of background.frag
     bool ground = false;
-    std::uint32_t maps = 0;          // COTAN_MAP_..., COTAN_LAYER_...: what the materials drawn with it may have
-    bool extended = false;           // of materials with extensions
-    bool levels = false;             // writes a picture of 8 bits
+    std::uint32_t maps = 0;          // COTAN_MAP_..., COTAN_LAYER_...: what the drawn materials may have
+    bool extended = false;           // draws materials with extensions
+    bool levels = false;             // writes an 8-bit image
     bool multisampledSource = false; // of Pass::resolve
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
     vk::Format format = vk::Format::eUndefined;
@@ -78,11 +77,11 @@ struct PipelineKey {
 class Pipelines {
 public:
     Pipelines(const Device& device, const Layouts& layouts) : device_(&device), layouts_(&layouts) {}
-    Pipelines(const Pipelines&) = delete; // its threads know where it is
+    Pipelines(const Pipelines&) = delete; // its threads refer to it
 
-    // Begins to make those that are not there yet, side by side, while the caller does something else.
+    // Starts to make missing pipelines concurrently, and returns.
     void begin(const std::vector<PipelineKey>& keys);
-    // Makes it where it was not begun, else waits for it.
+    // Returns the pipeline, waiting for it if it was begun, else making it.
     vk::Pipeline get(const PipelineKey& key);
 
 private:
@@ -91,7 +90,7 @@ private:
     const Device* device_;
     const Layouts* layouts_;
     std::map<PipelineKey, std::shared_future<vk::raii::Pipeline>> made_;
-    std::vector<std::future<void>> workers_; // the last member: they use the others
+    std::vector<std::future<void>> workers_; // the last member, because they use the others
 };
 
 } // namespace cotan

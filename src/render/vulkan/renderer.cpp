@@ -1,5 +1,4 @@
-// The Vulkan renderer, and one picture from what is recorded: the samples of its pixels drawn at once, or one after the
-// other.
+// The Vulkan renderer. It draws all samples of a pixel at once or, above kMaxSharedSamples, one after the other.
 #include "cotan/render.hpp"
 
 #include <algorithm>
@@ -8,12 +7,12 @@
 
 #include "draw_passes.hpp"
 #include "scene/geometry.hpp"
-#include "scene/sample_places.hpp"
+#include "scene/sample_positions.hpp"
 #include "scene/scene_check.hpp"
 
 namespace cotan {
 
-// In the order of dependence: what is below is destroyed first.
+// In the order of dependence: later members are destroyed first.
 struct VulkanRenderer::State {
     std::unique_ptr<Device> device;
     std::unique_ptr<Layouts> layouts;
@@ -24,7 +23,7 @@ struct VulkanRenderer::State {
 
 namespace {
 
-// Runs `work`; whatever it throws becomes an Error.
+// Runs `work` and converts exceptions to an Error.
 template<class T, class Work> Result<T> guarded(const char* doing, Work work)
 {
     try {
@@ -46,24 +45,24 @@ Status checkLimits(const Device& device, const View& view)
     if (Status sound = checkView(view); !sound)
         return sound;
     if (view.lighting != Lighting::world)
-        return unavailableError("lighting in tangent space: only the reference renderer does it "
+        return unavailableError("lighting in tangent space: only the reference renderer supports it "
                                 "(--device reference)");
     if (view.normalMapping != NormalMapping::shading)
-        return unavailableError("normal mapping by rays: only the reference renderer does it (--device reference)");
+        return unavailableError("normal mapping by rays: only the reference renderer supports it (--device reference)");
     const std::uint32_t largest = std::min({device.limits.maxFramebufferWidth, device.limits.maxFramebufferHeight,
                                             device.limits.maxImageDimension2D, device.limits.maxViewportDimensions[0],
                                             device.limits.maxViewportDimensions[1]});
     const std::string size = std::to_string(view.width) + "x" + std::to_string(view.height);
     if (std::uint32_t(view.width) > largest || std::uint32_t(view.height) > largest)
         return usageError("size " + size + ": " + device.name + " draws 1 to " + std::to_string(largest)
-                          + " pixels a side");
-    vk::DeviceSize room = 0;
+                          + " pixels per side");
+    vk::DeviceSize largestHeap = 0;
     for (std::uint32_t i = 0; i < device.memory.memoryHeapCount; ++i)
-        room = std::max(room, device.memory.memoryHeaps[i].size);
+        largestHeap = std::max(largestHeap, device.memory.memoryHeaps[i].size);
     const vk::DeviceSize needed = Targets::bytes(targetKind(device, view));
-    if (needed > room / 10 * 9)
+    if (needed > largestHeap / 10 * 9)
         return usageError("size " + size + " needs " + std::to_string(needed >> 20) + " MiB: " + device.name + " has "
-                          + std::to_string(room >> 20));
+                          + std::to_string(largestHeap >> 20) + " MiB");
     if (info(view.frame).source == FrameSource::triangle && !device.exact)
         return unavailableError("the frame " + std::string(name(view.frame))
                                 + " needs the features geometryShader and "
@@ -72,7 +71,7 @@ Status checkLimits(const Device& device, const View& view)
     return Done{};
 }
 
-// What the view asks for, of the sums of all samples.
+// The image that the view requests, from the sum of all samples.
 Image meanOf(const Image& sum, const View& view)
 {
     Image image =
@@ -80,7 +79,7 @@ Image meanOf(const Image& sum, const View& view)
     for (int y = 0; y < sum.height; ++y)
         for (int x = 0; x < sum.width; ++x) {
             const float* p = sum.floats() + 4 * (std::size_t(y) * std::size_t(sum.width) + std::size_t(x));
-            storePixel(image, x, y, glm::vec4(p[0], p[1], p[2], p[3]) / float(kPlaces), view.dither);
+            storePixel(image, x, y, glm::vec4(p[0], p[1], p[2], p[3]) / float(kSampleCount), view.dither);
         }
     return image;
 }
@@ -92,7 +91,7 @@ vk::Rect2D rectangle(const PixelArea& a)
 
 } // namespace
 
-// The background around an area, straight into the resolved picture: there all samples of a pixel are the same.
+// Draws the background around an area directly into the resolved image, where all samples of a pixel are equal.
 void CommandRecorder::recordSurround(const vk::raii::CommandBuffer& commands, const View& view, const PixelArea& a)
 {
     targets_->beginSurround(commands);
@@ -102,19 +101,19 @@ void CommandRecorder::recordSurround(const vk::raii::CommandBuffer& commands, co
               PixelArea{a.x1, a.y0, view.width, a.y1}, PixelArea{0, a.y1, view.width, view.height}})
             if (!part.empty()) {
                 commands.setScissor(0, rectangle(part));
-                drawOver(commands, keys_.surround);
+                drawFullScreen(commands, keys_.surround);
             }
     }
     commands.endRendering();
 }
 
-// Resolves what was drawn in the area, and copies the picture.
+// Resolves the samples of the area and copies the image to the read-back buffer.
 void CommandRecorder::finish(const vk::raii::CommandBuffer& commands, const PixelArea& area)
 {
     if (targets_->resolves()) {
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0, composeSet_, {});
         targets_->beginResolve(commands, rectangle(area));
-        drawOver(commands, keys_.resolve);
+        drawFullScreen(commands, keys_.resolve);
         commands.endRendering();
     }
     targets_->copy(commands);
@@ -126,7 +125,7 @@ Result<Image> CommandRecorder::drawOnce(GpuScene& scene, const View& view, std::
     const CameraAxes axes = cameraAxes(view.camera);
     scene.setPointSampled(view.pointSampled);
     const gpu::CotanView constants =
-        viewConstants(view, axes, scene.bounds, sample ? samplePlace(*sample) : glm::dvec2(0));
+        viewConstants(view, axes, scene.bounds, sample ? samplePosition(*sample) : glm::dvec2(0));
     const DrawLists lists = makeLists(scene, view, axes, constants);
     const bool layered = view.output == Output::shaded && !lists.translucent.empty();
     keys_ = keysOf(view, *targets_);
@@ -142,7 +141,7 @@ Result<Image> CommandRecorder::drawOnce(GpuScene& scene, const View& view, std::
     if (targets_->resolves())
         recordSurround(commands, view, area);
     targets_->begin(commands, rectangle(area), layered);
-    recordPicture(commands, lists, view);
+    recordMain(commands, lists, view);
     if (layered) {
         targets_->endOpaque(commands);
         commands_.submitAndWait();
@@ -169,18 +168,18 @@ Result<Image> CommandRecorder::draw(GpuScene& scene, const View& view, RenderTim
         return ok.error();
     const Targets::Kind kind = targetKind(*device_, view);
     if (!targets_ || !(targets_->kind() == kind)) {
-        targets_.reset(); // its memory may be needed for the new ones
+        targets_.reset(); // frees its memory first
         targets_ = std::make_unique<Targets>(*device_, kind);
     }
     timings.draw = timings.readBack = 0;
     if (view.output != Output::shaded || view.samples <= kMaxSharedSamples)
         return drawOnce(scene, view, std::nullopt, timings);
     Image sum = makeImage(view.width, view.height, PixelType::float32, "render");
-    for (int sample = 0; sample < kPlaces; ++sample) {
-        const Result<Image> picture = drawOnce(scene, view, sample, timings);
-        if (!picture)
-            return picture;
-        const float* values = picture->floats();
+    for (int sample = 0; sample < kSampleCount; ++sample) {
+        const Result<Image> image = drawOnce(scene, view, sample, timings);
+        if (!image)
+            return image;
+        const float* values = image->floats();
         for (std::size_t i = 0; i < 4 * sum.pixelCount(); ++i)
             sum.floats()[i] += values[i];
     }
@@ -214,7 +213,7 @@ Status VulkanRenderer::load(const Scene& scene, bool sameImages)
         const auto start = std::chrono::steady_clock::now();
         state_->drawer->forgetScene();
         Textures textures = sameImages && state_->scene ? state_->scene->takeTextures() : Textures(*state_->device);
-        state_->scene.reset(); // its memory may be needed for the new one
+        state_->scene.reset(); // frees its memory first
         state_->scene = std::make_unique<GpuScene>(*state_->device, *state_->layouts, scene, std::move(textures));
         state_->timings.upload = secondsSince(start);
         return Done{};

@@ -14,7 +14,7 @@ namespace {
 constexpr vk::DeviceSize kBufferSize = vk::DeviceSize(64) << 20;
 constexpr vk::DeviceSize kStaging = vk::DeviceSize(16) << 20;
 
-// What absent attributes read: white, then zeros. At the start of every buffer.
+// Values of absent attributes: white, then zeros. At the start of every buffer.
 constexpr std::array<float, 8> kConstants{1, 1, 1, 1, 0, 0, 0, 0};
 constexpr vk::DeviceSize kZeroOffset = 16;
 
@@ -32,8 +32,8 @@ template<class T> StreamData streamOf(const std::vector<T>& values, std::size_t 
     return {bytesOf(values), sizeof(T)};
 }
 
-// A value that can be subtracted from each of these without rounding and that makes them smaller:
-// their middle, if all are within a factor of two of each other, else 0 (Sterbenz' lemma).
+// A value that can be subtracted from all values in [low, high] exactly and makes them smaller: the midpoint if they
+// are within a factor of two of each other (Sterbenz' lemma), else 0.
 float originOf(float low, float high)
 {
     const bool exact = (low > 0 && high <= 2 * low) || (high < 0 && low >= 2 * high);
@@ -54,11 +54,11 @@ glm::vec2 originOf(const std::vector<glm::vec2>& uv)
 
 bool drawable(const glm::vec3& p) { return std::abs(p.x) + std::abs(p.y) + std::abs(p.z) <= 1e37f; }
 
-// What of a mesh goes to the device.
+// The data of a mesh that is uploaded.
 struct MeshSource {
     const Mesh* mesh;
-    // The uv near zero: values minus origin (xy set 0, zw set 1). Differences of uv far from zero would lose their
-    // digits in the rasteriser.
+    // uv minus their origin (xy: set 0, zw: set 1). Differences of uv far from zero would lose precision in the
+    // rasteriser.
     std::array<std::vector<glm::vec2>, 2> texcoords;
     glm::vec4 texcoordOrigin{};
     std::vector<std::uint32_t> indices; // of the triangles that can be drawn
@@ -82,7 +82,7 @@ struct MeshSource {
         }
     }
 
-    std::array<StreamData, kStreamCount> streams() const // refer to this
+    std::array<StreamData, kStreamCount> streams() const // the streams refer to this object
     {
         const std::size_t n = mesh->vertexCount();
         return {streamOf(mesh->positions, n),
@@ -97,15 +97,15 @@ struct MeshSource {
     }
 };
 
-// What the shaders' floats can take the square of.
+// Clamps a box to coordinates whose squares the shaders' floats can represent.
 Bounds withinReach(const Bounds& box)
 {
     constexpr float kFarthest = 1e18f;
     return {glm::clamp(box.low, -kFarthest, kFarthest), glm::clamp(box.high, -kFarthest, kFarthest)};
 }
 
-// Gives every stream and the indices of the mesh their place from `offset` on; returns the end.
-vk::DeviceSize place(GpuMesh& gpu, const MeshSource& source, vk::DeviceSize offset)
+// Assigns offsets, from `offset` on, to all streams and the indices of the mesh; returns the end.
+vk::DeviceSize assignOffsets(GpuMesh& gpu, const MeshSource& source, vk::DeviceSize offset)
 {
     const std::array<StreamData, kStreamCount> streams = source.streams();
     for (std::size_t s = 0; s < kStreamCount; ++s) {
@@ -134,7 +134,7 @@ bool sameUse(const Texture& a, const Texture& b)
         && s.minify == t.minify && s.mip == t.mip;
 }
 
-// The maps and layers that are there.
+// COTAN_MAP_... and COTAN_LAYER_... bits of the material's maps and layers.
 std::uint32_t mapsOf(const Material& m, const Textures& textures)
 {
     std::uint32_t maps = 0, bit = 1;
@@ -155,7 +155,7 @@ std::uint32_t mapsOf(const Material& m, const Textures& textures)
     return maps;
 }
 
-// How a normal map is stored; w: 0.
+// Encoding of a normal map; w: 0.
 gpu::ivec4 normalConstants(const Scene& scene, const Texture& map, const Convention& format)
 {
     const bool mapped = map.present() && std::size_t(map.image) < scene.images.size();
@@ -181,7 +181,7 @@ gpu::CotanMaterial materialConstants(const Scene& scene, const Material& m, cons
     g.sheen = gpu::vec4(m.sheen.color, m.sheen.roughness);
     for (const MapUse& use : mapUses(m))
         g.*use.constants = useConstants(*use.texture, textures.present(use));
-    // Without a normal map the frame is that of uv set 0 as it is.
+    // Without a normal map the frame uses uv set 0 untransformed.
     if (!m.normalMap.present())
         g.normalMapUse = useConstants(Texture{}, /*present*/ false);
     return g;
@@ -224,14 +224,14 @@ void GpuScene::loadMeshes(const Scene& scene, Uploader& uploader)
             instances.push_back({instance.toWorld, at});
     }
 
-    // Many meshes share a buffer; one larger than a buffer has its own.
+    // Several meshes share a buffer; a mesh that exceeds the buffer size has its own.
     std::vector<vk::DeviceSize> sizes;
     for (std::size_t i = 0; i < meshes.size(); ++i) {
-        const vk::DeviceSize alone = place(meshes[i], sources[i], 0);
+        const vk::DeviceSize alone = assignOffsets(meshes[i], sources[i], 0);
         if (sizes.empty() || sizes.back() + alone > kBufferSize)
             sizes.push_back(sizeof kConstants);
         meshes[i].buffer = sizes.size() - 1;
-        sizes.back() = place(meshes[i], sources[i], sizes.back());
+        sizes.back() = assignOffsets(meshes[i], sources[i], sizes.back());
     }
     vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eVertexBuffer | vk::BufferUsageFlagBits::eIndexBuffer
         | vk::BufferUsageFlagBits::eTransferDst;
@@ -276,7 +276,7 @@ void GpuScene::loadMaterials(const Scene& scene, const Layouts& layouts, Uploade
             maps_[i][k++] = {use.texture->sampler, textures_.view(use)};
 
         GpuMaterial& gpu = materials[i];
-        gpu = {m.alphaMode, m.doubleSided, m.translucent(), m.throwsShadow(), mapsOf(m, textures_), {}};
+        gpu = {m.alphaMode, m.doubleSided, m.translucent(), m.castsShadow(), mapsOf(m, textures_), {}};
         gpu.set = allocateSet(*device_, pool_, layouts.materialOf(gpu.extended()));
         const vk::DescriptorBufferInfo buffer(*materialBuffer_.buffer, i * stride, sizeof(gpu::CotanMaterial));
         device_->device.updateDescriptorSets(
@@ -286,8 +286,8 @@ void GpuScene::loadMaterials(const Scene& scene, const Layouts& layouts, Uploade
     limitPipelines();
 }
 
-// Every set of maps is a pipeline to compile. Where there are many, all materials take one that
-// does everything and asks at run time; those with extensions one of their own.
+// Each distinct set of maps needs a pipeline. If there are many, all materials share one pipeline that reads all maps
+// and tests for them at run time; materials with extensions share another.
 void GpuScene::limitPipelines()
 {
     constexpr std::size_t kMax = 4;

@@ -1,4 +1,4 @@
-// A scene on the device.
+// A scene in device memory.
 #pragma once
 
 #include <array>
@@ -18,12 +18,12 @@ namespace cotan {
 
 // ---- textures: what materials use, each with its mip chain ---------------------------------
 
-// Samplers made on demand and shared.
+// Samplers, created on demand and shared.
 class Samplers {
 public:
     explicit Samplers(const Device& device) : device_(&device) {}
 
-    // pointSampled: nearest texel of the finest level whatever the sampler says; wrap is kept.
+    // pointSampled: nearest texel of the finest level regardless of the sampler's filters; its wrap modes are kept.
     vk::Sampler get(const Sampler& sampler, bool pointSampled);
 
 private:
@@ -32,41 +32,41 @@ private:
     std::map<Key, vk::raii::Sampler> made_;
 };
 
-// A picture of floats on the device, as halfs; kept from one picture to the next as long as it is the same one.
-struct HeldPicture {
-    std::shared_ptr<const void> owner; // what the texture holds; null: nothing
+// A float image on the device, as halfs. It is kept for later images while its owner stays the same.
+struct HeldTexture {
+    std::shared_ptr<const void> owner; // of the uploaded image; null: none
     std::unique_ptr<Memory> memory;
     Texture2D texture;
 
-    void hold(const Device& device, std::shared_ptr<const void> newOwner, const Image& picture);
+    void hold(const Device& device, std::shared_ptr<const void> newOwner, const Image& image);
 };
 
 // How a material uses an image.
 struct MapUse {
     const Texture* texture = nullptr;
     TextureKind kind = TextureKind::data;
-    Convention format; // of normals
+    Convention format; // of normal maps
     gpu::CotanTextureUse gpu::CotanMaterial::*constants = nullptr;
 };
 
-// All uses of a material, in the order of the bits COTAN_MAP_... and of the bindings.
+// All uses by a material, in the order of the bits COTAN_MAP_... and of the bindings.
 std::array<MapUse, COTAN_MAP_COUNT> mapUses(const Material& material);
 
 class Textures {
 public:
     explicit Textures(const Device& device) : device_(&device), memory_(device) {}
 
-    // Uploads every image that the scene's materials use, once for each way of use. Mips are
-    // built by all cores. Images without size or data count as absent. A second scene must have the
-    // images of the first: only ways of use that are new are uploaded.
+    // Uploads every image that the scene's materials use, once per kind of use. All cores build mips. Images without
+    // size or data count as absent. A second scene must have the same images as the first: only new kinds of use are
+    // uploaded.
     void load(const Scene& scene, Uploader& uploader);
 
-    // The view of a use of an image; a white texel where there is none.
+    // The view of a used image; a white texel if it is absent.
     vk::ImageView view(const MapUse& use) const;
     bool present(const MapUse& use) const;
 
 private:
-    // Image, kind, and for normal maps the coding that they are averaged in.
+    // Image, kind, and for normal maps the encoding, which determines the average.
     using Key = std::tuple<int, TextureKind, Expansion, Channels>;
     static Key keyOf(const MapUse& use);
     void request(const Scene& scene, const MapUse& use, std::vector<MipRequest>& missing);
@@ -74,9 +74,9 @@ private:
 
     const Device* device_;
     Memory memory_;
-    std::map<Key, std::size_t> made_;  // on the device
-    std::map<Key, std::size_t> index_; // that the scene uses
-    std::vector<Texture2D> textures_;  // the first one is white
+    std::map<Key, std::size_t> made_;  // all textures on the device
+    std::map<Key, std::size_t> index_; // those that the scene uses
+    std::vector<Texture2D> textures_;  // [0] is white
 };
 
 // ---- the scene -----------------------------------------------------------------------------
@@ -91,16 +91,16 @@ enum Stream {
     kTangent,
     kCotangentU,
     kCotangentV,
-    kTexcoordOrigin, // of both uv sets, one for all vertices; the uv streams are relative to it
+    kTexcoordOrigin, // origin of both uv sets, constant over the mesh; the uv streams are relative to it
     kStreamCount
 };
 
 struct GpuMesh {
     std::size_t buffer = 0; // index into GpuScene::buffers
-    // Where each stream starts. An absent one has stride 0: all vertices read one constant.
+    // Start of each stream. An absent one has stride 0: all vertices read the same constant.
     std::array<vk::DeviceSize, kStreamCount> offsets{};
     std::array<vk::DeviceSize, kStreamCount> strides{};
-    vk::DeviceSize indices = 0; // offset
+    vk::DeviceSize indices = 0; // offset in the buffer
     std::uint32_t indexCount = 0;
     int material = 0;
     Bounds box; // in the mesh's space
@@ -112,9 +112,9 @@ struct GpuMaterial {
     AlphaMode alphaMode = AlphaMode::opaque;
     bool doubleSided = false;
     bool translucent = false;
-    bool throwsShadow = true;
+    bool castsShadow = true;
     std::uint32_t maps = 0; // COTAN_MAP_..., COTAN_LAYER_...
-    vk::DescriptorSet set;  // owned by the scene's pool; as Layouts::materialOf(extended())
+    vk::DescriptorSet set;  // owned by the scene's pool; layout: Layouts::materialOf(extended())
 
     bool extended() const { return (maps & ~COTAN_MAPS_PLAIN) != 0; }
 };
@@ -124,14 +124,14 @@ struct GpuInstance {
     std::size_t mesh = 0; // index into GpuScene::meshes
 };
 
-// What cannot be drawn is left out: instances of no mesh, triangles with an index out of range or
-// a corner that is not finite, attributes with a wrong count.
+// Omits what cannot be drawn: instances without a mesh, triangles with an index out of range or a corner that is not
+// finite, and attributes of the wrong length.
 class GpuScene {
 public:
     // textures: empty, or those of a scene with the same images.
     GpuScene(const Device& device, const Layouts& layouts, const Scene& scene, Textures textures);
 
-    // For the next scene; this one cannot be drawn any more.
+    // Moves the textures out for the next scene; afterwards this one cannot be drawn.
     Textures takeTextures() { return std::move(textures_); }
 
     // Switches the textures of all materials between the samplers' filters and nearest texels.
@@ -139,10 +139,10 @@ public:
 
     std::vector<Buffer> buffers;
     std::vector<GpuMesh> meshes;
-    std::vector<GpuMaterial> materials; // as in the scene
+    std::vector<GpuMaterial> materials; // same indices as in the scene
     std::vector<GpuInstance> instances;
-    Bounds bounds;                 // world
-    std::vector<Status> withFrame; // whether it has what each frame reads at the vertices
+    Bounds bounds;                 // world space
+    std::vector<Status> withFrame; // for each frame: whether the scene has the vertex attributes that it reads
 
 private:
     void loadMeshes(const Scene& scene, Uploader& uploader);
@@ -160,7 +160,7 @@ private:
     Samplers samplers_;
     Textures textures_;
     Buffer materialBuffer_;
-    std::vector<std::array<BoundMap, COTAN_MAP_COUNT>> maps_; // of each material, in the order of the bindings
+    std::vector<std::array<BoundMap, COTAN_MAP_COUNT>> maps_; // for each material, in binding order
     vk::raii::DescriptorPool pool_{nullptr};
     bool pointSampled_ = false;
 };

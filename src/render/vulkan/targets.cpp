@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "scene/sample_places.hpp"
+#include "scene/sample_positions.hpp"
 
 namespace cotan {
 
@@ -22,9 +22,9 @@ vk::DeviceSize bytesPerPixel(vk::Format format)
 
 vk::DeviceSize Targets::bytes(const Kind& kind)
 {
-    const vk::DeviceSize color = bytesPerPixel(kind.format), shown = bytesPerPixel(kind.shown);
+    const vk::DeviceSize color = bytesPerPixel(kind.format), output = bytesPerPixel(kind.output);
     const auto samples = static_cast<vk::DeviceSize>(kind.samples);
-    return vk::DeviceSize(kind.width) * kind.height * ((color + 4) * samples + 2 * shown);
+    return vk::DeviceSize(kind.width) * kind.height * ((color + 4) * samples + 2 * output);
 }
 
 Targets::Targets(const Device& device, const Kind& kind) : memory_(device), kind_(kind)
@@ -38,11 +38,12 @@ Targets::Targets(const Device& device, const Kind& kind) : memory_(device), kind
          .samples = kind.samples,
          .usage = ImageUsage::eColorAttachment | (resolves() ? ImageUsage::eSampled : ImageUsage::eTransferSrc)});
     if (resolves())
-        resolved_ = makeTexture(
-            memory_,
-            {.format = kind.shown, .extent = extent, .usage = ImageUsage::eColorAttachment | ImageUsage::eTransferSrc});
+        resolved_ = makeTexture(memory_,
+                                {.format = kind.output,
+                                 .extent = extent,
+                                 .usage = ImageUsage::eColorAttachment | ImageUsage::eTransferSrc});
     vk::ImageUsageFlags depthUsage = ImageUsage::eDepthStencilAttachment;
-    if (multisampled()) // then the hidden samples of translucent layers are found by it
+    if (multisampled()) // then they hide samples of translucent layers
         depthUsage |= ImageUsage::eSampled;
     depth_ = makeTexture(memory_,
                          {.format = vk::Format::eD32Sfloat,
@@ -50,11 +51,11 @@ Targets::Targets(const Device& device, const Kind& kind) : memory_(device), kind
                           .samples = kind.samples,
                           .usage = depthUsage,
                           .aspect = vk::ImageAspectFlagBits::eDepth});
-    readBack_ = makeHostBuffer(memory_, vk::DeviceSize(kind.width) * kind.height * bytesPerPixel(kind.shown),
+    readBack_ = makeHostBuffer(memory_, vk::DeviceSize(kind.width) * kind.height * bytesPerPixel(kind.output),
                                vk::BufferUsageFlagBits::eTransferDst, /*readBack*/ true);
 }
 
-// The viewport is the whole picture, whatever part of it is drawn.
+// The viewport is the whole image, even if only a part of it is drawn.
 void Targets::setArea(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area) const
 {
     commands.setViewport(0, vk::Viewport(0, 0, float(kind_.width), float(kind_.height), 0.0f, 1.0f));
@@ -140,7 +141,7 @@ void Targets::copy(const vk::raii::CommandBuffer& commands)
 
 Image Targets::image(bool flipRows) const
 {
-    const bool floats = kind_.shown == vk::Format::eR32G32B32A32Sfloat;
+    const bool floats = kind_.output == vk::Format::eR32G32B32A32Sfloat;
     Image image =
         makeImage(int(kind_.width), int(kind_.height), floats ? PixelType::float32 : PixelType::unorm8, "render");
     const std::size_t row = kind_.width * image.bytesPerPixel();
@@ -159,7 +160,7 @@ Targets::Kind targetKind(const Device& device, const View& view)
     const bool shaded = view.output == Output::shaded;
     const bool levels = shaded && !view.linearOutput && view.samples <= kMaxSharedSamples;
     kind.format = levels ? vk::Format::eR16G16B16A16Sfloat : vk::Format::eR32G32B32A32Sfloat;
-    kind.shown = levels ? vk::Format::eR8G8B8A8Unorm : kind.format;
+    kind.output = levels ? vk::Format::eR8G8B8A8Unorm : kind.format;
     if (shaded && view.samples > 1 && view.samples <= kMaxSharedSamples) {
         const vk::SampleCountFlags can =
             device.physical

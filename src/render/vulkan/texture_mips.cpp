@@ -18,7 +18,7 @@ namespace {
 
 using glm::vec4;
 
-// A level while it is worked on: what is averaged.
+// A level of decoded texels.
 struct FloatLevel {
     int width = 0;
     int height = 0;
@@ -27,7 +27,7 @@ struct FloatLevel {
     vec4* row(int y) { return texels.data() + std::size_t(y) * std::size_t(width); }
 };
 
-// Green as it is stored: levels are made in the map's own terms.
+// Green as stored: mips do not depend on its direction.
 f32::cotan_normal_format portableFormat(const MipRequest& request)
 {
     auto format = toFormat<f32::cotan_normal_format>(request.normalFormat, request.image->type);
@@ -35,7 +35,7 @@ f32::cotan_normal_format portableFormat(const MipRequest& request)
     return format;
 }
 
-// Unit and 1; zeros where there is no direction.
+// The unit direction and w = 1; all zeros if the texel has no direction.
 vec4 decodedNormal(const vec4& texel, const f32::cotan_normal_format& format)
 {
     const glm::vec3 unit = f32::cotan_normalize_or(f32::cotan_decode(glm::vec3(texel), format), glm::vec3(0));
@@ -49,7 +49,7 @@ vec4 encodedNormal(const vec4& average, const f32::cotan_normal_format& format)
     return vec4(f32::cotan_encode_texel(unit, format), length);
 }
 
-// By a table over the square root: there 4096 steps are at most 0.16 of a byte's step.
+// sRGB encoding by a table over the square root, whose 4096 steps are at most 0.16 of an 8-bit step there.
 std::uint8_t srgbByte(float linear)
 {
     constexpr std::size_t kSteps = 4096;
@@ -67,7 +67,7 @@ std::uint8_t srgbByte(float linear)
 
 // ---- reading the image ----------------------------------------------------------------------
 
-// One row of the image as linear numbers, still in the normal map's coding.
+// Reads an image row: colours become linear, normals stay encoded.
 void readRow(const Image& image, int y, TextureKind kind, vec4* out)
 {
     static const std::array<float, 256> linearOfByte = [] {
@@ -98,7 +98,7 @@ void readRow(const Image& image, int y, TextureKind kind, vec4* out)
     case PixelType::float32:
         return read(image.floats(), [](const float* p) {
             vec4 t(0);
-            for (int c = 0; c < 4; ++c) // a texel that is not a number would spread over all levels
+            for (int c = 0; c < 4; ++c) // NaN would spread to all levels
                 t[c] = std::abs(p[c]) <= 1e30f ? p[c] : 0.0f;
             return t;
         });
@@ -107,11 +107,11 @@ void readRow(const Image& image, int y, TextureKind kind, vec4* out)
 
 // ---- averaging ------------------------------------------------------------------------------
 
-// The source texels under one target texel along one axis, and their shares of its area.
+// The source texels that one target texel covers along one axis, and their fractions of its extent.
 struct Taps {
     int first = 0;
     int count = 0;
-    std::array<float, 3> share{};
+    std::array<float, 3> weight{};
 };
 
 std::vector<Taps> makeTaps(int source, int target)
@@ -127,13 +127,13 @@ std::vector<Taps> makeTaps(int source, int target)
             const double covered = std::min(high, s + 1.0) - std::max(low, double(s));
             if (covered <= 1e-9)
                 break;
-            t.share[std::size_t(t.count++)] = float(covered / ratio);
+            t.weight[std::size_t(t.count++)] = float(covered / ratio);
         }
     }
     return taps;
 }
 
-// rowOf(y) gives a source row in what is averaged; rows are asked for in increasing order.
+// rowOf(y) returns a row of decoded source texels; y never decreases between calls.
 template<class RowOf> FloatLevel halved(int width, int height, RowOf rowOf)
 {
     FloatLevel level{std::max(width / 2, 1), std::max(height / 2, 1), {}};
@@ -145,11 +145,11 @@ template<class RowOf> FloatLevel halved(int width, int height, RowOf rowOf)
         vec4* out = level.row(y);
         for (int j = 0; j < r.count; ++j) {
             const vec4* in = rowOf(r.first + j);
-            const float share = r.share[std::size_t(j)];
+            const float weight = r.weight[std::size_t(j)];
             for (int x = 0; x < level.width; ++x) {
                 const Taps& c = columns[std::size_t(x)];
                 for (int i = 0; i < c.count; ++i)
-                    out[x] += in[c.first + i] * (c.share[std::size_t(i)] * share);
+                    out[x] += in[c.first + i] * (c.weight[std::size_t(i)] * weight);
             }
         }
     }
@@ -180,11 +180,11 @@ void storeTexel(const vec4& t, TexelFormat format, std::byte* out)
     }
 }
 
-bool storedAsItIs(const MipRequest& request)
+bool storedUnchanged(const MipRequest& request)
 {
     const PixelType type = request.image->type;
     if (request.kind == TextureKind::normal && !isOpaque(*request.image))
-        return false; // a texel of the file is one direction, whatever its alpha says
+        return false; // each texel of the file is one direction, regardless of its alpha
     return (type == PixelType::unorm8
             && (request.format == TexelFormat::srgb8 || request.format == TexelFormat::unorm8))
         || (type == PixelType::unorm16 && request.format == TexelFormat::unorm16 && request.kind != TextureKind::color);
@@ -193,7 +193,7 @@ bool storedAsItIs(const MipRequest& request)
 void addFinestLevel(MipChain& chain, const MipRequest& request)
 {
     const Image& image = *request.image;
-    if (storedAsItIs(request)) {
+    if (storedUnchanged(request)) {
         const std::size_t size = image.pixelCount() * image.bytesPerPixel();
         chain.levels.push_back({image.width, image.height, std::span(image.data).first(size)});
         return;
@@ -218,7 +218,7 @@ FloatLevel firstHalf(const MipRequest& request)
     const Image& image = *request.image;
     const f32::cotan_normal_format format = portableFormat(request);
     std::vector<vec4> row(static_cast<std::size_t>(image.width));
-    int loaded = -1; // an odd height asks for its middle rows twice in a row
+    int loaded = -1; // for odd heights two target rows share a source row
     return halved(image.width, image.height, [&](int y) {
         if (y != loaded) {
             readRow(image, y, request.kind, row.data());

@@ -11,13 +11,13 @@ namespace cotan {
 
 namespace {
 
-// Of the chains that are built before they are uploaded: bounds the memory for it.
+// Limit for the chains that are built before an upload; bounds host memory.
 constexpr std::size_t kBatchBytes = std::size_t(256) << 20;
 
-// Normal maps that take no more are kept in 16 bits where 8 would be filtered too roughly.
-constexpr std::size_t kMaxWidened = std::size_t(128) << 20;
+// Size limit for normal maps that are widened to 16 bits if 8-bit filtering is too coarse.
+constexpr std::size_t kMaxWidenedBytes = std::size_t(128) << 20;
 
-// In the order of TexelFormat and Wrap.
+// In the order of TexelFormat and of Wrap.
 constexpr vk::Format kFormats[] = {vk::Format::eR8G8B8A8Srgb, vk::Format::eR8G8B8A8Unorm,
                                    vk::Format::eR16G16B16A16Unorm, vk::Format::eR16G16B16A16Sfloat,
                                    vk::Format::eR32G32B32A32Sfloat};
@@ -26,7 +26,7 @@ constexpr vk::SamplerAddressMode kAddressModes[] = {
 
 vk::Filter filterOf(Filter filter) { return filter == Filter::nearest ? vk::Filter::eNearest : vk::Filter::eLinear; }
 
-// Of all levels of a chain, as the device holds them.
+// Bytes of all levels of a chain on the device.
 std::size_t chainBytes(const MipRequest& r) { return r.image->pixelCount() * bytesPerTexel(r.format) / 3 * 4; }
 
 } // namespace
@@ -46,20 +46,20 @@ vk::Sampler Samplers::get(const Sampler& s, bool pointSampled)
         s.mip == MipFilter::linear && !pointSampled ? vk::SamplerMipmapMode::eLinear : vk::SamplerMipmapMode::eNearest;
     // 0.25 keeps the choice between magnification and minification, but not a second level.
     info.maxLod = pointSampled ? 0.0f : s.mip == MipFilter::none ? 0.25f : VK_LOD_CLAMP_NONE;
-    const bool stretch = device_->anisotropy && !pointSampled && s.mip != MipFilter::none && s.minify == Filter::linear
-        && s.magnify == Filter::linear;
-    info.anisotropyEnable = stretch;
-    info.maxAnisotropy = stretch ? std::min(8.0f, device_->limits.maxSamplerAnisotropy) : 1.0f;
+    const bool anisotropic = device_->anisotropy && !pointSampled && s.mip != MipFilter::none
+        && s.minify == Filter::linear && s.magnify == Filter::linear;
+    info.anisotropyEnable = anisotropic;
+    info.maxAnisotropy = anisotropic ? std::min(8.0f, device_->limits.maxSamplerAnisotropy) : 1.0f;
     return *made_.emplace(key, vk::raii::Sampler(device_->device, info)).first->second;
 }
 
-void HeldPicture::hold(const Device& device, std::shared_ptr<const void> newOwner, const Image& picture)
+void HeldTexture::hold(const Device& device, std::shared_ptr<const void> newOwner, const Image& image)
 {
     if (newOwner == owner)
         return;
-    std::vector<glm::uint64> halves(picture.pixelCount());
+    std::vector<glm::uint64> halves(image.pixelCount());
     for (std::size_t i = 0; i < halves.size(); ++i) {
-        const float* p = picture.floats() + 4 * i;
+        const float* p = image.floats() + 4 * i;
         halves[i] = glm::packHalf4x16(glm::vec4(p[0], p[1], p[2], p[3]));
     }
     owner.reset();
@@ -67,7 +67,7 @@ void HeldPicture::hold(const Device& device, std::shared_ptr<const void> newOwne
     memory = std::make_unique<Memory>(device);
     texture = makeTexture(*memory,
                           {.format = vk::Format::eR16G16B16A16Sfloat,
-                           .extent = {std::uint32_t(picture.width), std::uint32_t(picture.height)},
+                           .extent = {std::uint32_t(image.width), std::uint32_t(image.height)},
                            .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
     const std::array levels{std::as_bytes(std::span(halves))};
     Uploader uploader(device, halves.size() * sizeof(glm::uint64));
@@ -113,9 +113,9 @@ void Textures::request(const Scene& scene, const MapUse& use, std::vector<MipReq
     if (!isNew)
         return;
     TexelFormat format = texelFormat(image.type, use.kind, device_->filterable16, device_->filterable32);
-    // Mesa's CPU driver rounds what it filters from 8 bits to 8 bits: 0.2 degrees of a normal. With 16 bits a map of
-    // 8192 x 8192 would take 1.7 GiB.
-    if (use.kind == TextureKind::normal && image.data.size() <= kMaxWidened && format == TexelFormat::unorm8
+    // Mesa's CPU driver rounds filtered 8-bit texels to 8 bits, which is 0.2 degrees of a normal. With 16 bits, a map
+    // of 8192 x 8192 would take 1.7 GiB.
+    if (use.kind == TextureKind::normal && image.data.size() <= kMaxWidenedBytes && format == TexelFormat::unorm8
         && device_->cpu && device_->filterable16)
         format = TexelFormat::unorm16;
     missing.push_back({&image, use.kind, use.format, format, int(device_->limits.maxImageDimension2D)});

@@ -16,7 +16,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double kShortest = 1e-30; // a vector that has a direction
+constexpr double kShortest = 1e-30; // minimum length of a vector with a direction
 
 gpu::vec4 row(const dvec3& v, double w) { return gpu::vec4(float(v.x), float(v.y), float(v.z), float(w)); }
 
@@ -48,7 +48,7 @@ Range extent(const Bounds& bounds, const dvec3& axis, const dvec3& origin)
 }
 
 // Distance from the eye to the far side of the scene.
-double reach(const CameraAxes& axes, const Bounds& bounds)
+double farDistance(const CameraAxes& axes, const Bounds& bounds)
 {
     if (bounds.empty())
         return 1;
@@ -56,30 +56,30 @@ double reach(const CameraAxes& axes, const Bounds& bounds)
     return std::max(glm::length(dvec3(bounds.centre()) - axes.eye) + radius, 1e-30);
 }
 
-// Depth is reversed (1 near, 0 far): float has its precision at 0, where perspective needs it.
+// Depth is reversed (1 near, 0 far): floats are densest at 0, and so is perspective depth.
 void cameraRows(gpu::CotanView& g, const View& view, const CameraAxes& axes, const Bounds& bounds)
 {
-    const bool flat = view.camera.orthographic;
-    // Of the picture: a length, or the tangent of an angle.
-    const double halfY = flat ? double(view.camera.verticalExtent) / 2
-                              : std::tan(std::min(double(view.camera.verticalFieldOfView), 3.1) / 2);
+    const bool orthographic = view.camera.orthographic;
+    // Half the image height: a length, or the tangent of an angle.
+    const double halfY = orthographic ? double(view.camera.verticalExtent) / 2
+                                      : std::tan(std::min(double(view.camera.verticalFieldOfView), 3.1) / 2);
     const double halfX = halfY * view.width / view.height;
     const double down = view.rowsUpward ? 1 : -1; // Vulkan's clip y points down the raster
     g.clipX = row(axes.right / halfX, 0);
     g.clipY = row(axes.up * (down / halfY), 0);
-    g.forward = row(axes.forward, flat ? 0 : 1);
-    if (flat) { // from the eye's plane to behind the scene; right and up stay 0
-        g.clipZ = row(axes.forward * (-1 / (reach(axes, bounds) * 1.01)), 1);
+    g.forward = row(axes.forward, orthographic ? 0 : 1);
+    if (orthographic) { // from the eye's plane to behind the scene; right and up stay 0
+        g.clipZ = row(axes.forward * (-1 / (farDistance(axes, bounds) * 1.01)), 1);
         g.clipW = row(dvec3(0), 1);
-    } else { // no far plane, and a near plane that cuts models seen from inside as late as possible
-        g.clipZ = row(dvec3(0), 1e-4 * reach(axes, bounds));
+    } else { // no far plane; the near plane is close enough not to cut most models seen from inside
+        g.clipZ = row(dvec3(0), 1e-4 * farDistance(axes, bounds));
         g.clipW = row(axes.forward, 0);
         g.right = row(axes.right * halfX, 0);
         g.up = row(axes.up * (down * halfY), 0);
     }
 }
 
-// An orthographic view along the light, square, just around the scene.
+// An orthographic square view along the light that just contains the scene.
 void shadowRows(gpu::CotanView& g, const Light& light, float softness, const CameraAxes& axes, const Bounds& bounds)
 {
     const CameraAxes along = axesAlong(unitOr(dvec3(light.direction), dvec3(0, -1, 0), kShortest), dvec3(0, 1, 0));
@@ -97,9 +97,9 @@ void shadowRows(gpu::CotanView& g, const Light& light, float softness, const Cam
     g.shadowY = unitRow(along.up, y, size);
     g.shadowZ = unitRow(along.forward, z, deep);
     const double texel = size / kShadowSize;
-    // Half a texel of depth, for what the offset along the normal leaves.
+    // Half a texel of depth bias, in addition to the offset along the normal.
     g.shadow = gpu::vec4(float(texel), float(kShadowSize), float(0.5 * texel / deep), 0);
-    g.soft = gpu::vec4(float(softness * deep / size), kWidestPenumbra, float(size / deep), 0);
+    g.soft = gpu::vec4(float(softness * deep / size), kMaxPenumbra, float(size / deep), 0);
 }
 
 void groundRows(gpu::CotanView& g, const GroundMap& map, const CameraAxes& axes)
@@ -110,18 +110,18 @@ void groundRows(gpu::CotanView& g, const GroundMap& map, const CameraAxes& axes)
     g.tone.z = float(map.height - axes.eye.y);
 }
 
-// Moves the picture so that the middle of a pixel sees what lies `place` pixels from it in the raster.
-void moveSample(gpu::CotanView& g, const View& view, glm::dvec2 place)
+// Shifts the view so that a pixel's centre shows what is `offset` raster pixels from it.
+void moveSample(gpu::CotanView& g, const View& view, glm::dvec2 offset)
 {
-    const float x = float(2 * place.x / view.width), y = float(2 * place.y / view.height);
+    const float x = float(2 * offset.x / view.width), y = float(2 * offset.y / view.height);
     g.clipX -= g.clipW * x;
     g.clipY -= g.clipW * y;
-    g.forward += g.right * x + g.up * y; // both without w
+    g.forward += g.right * x + g.up * y; // w of both is 0
 }
 
 } // namespace
 
-gpu::CotanView viewConstants(const View& view, const CameraAxes& axes, const Bounds& bounds, glm::dvec2 place)
+gpu::CotanView viewConstants(const View& view, const CameraAxes& axes, const Bounds& bounds, glm::dvec2 offset)
 {
     gpu::CotanView g{};
     cameraRows(g, view, axes, bounds);
@@ -130,7 +130,7 @@ gpu::CotanView viewConstants(const View& view, const CameraAxes& axes, const Bou
     g.tone = gpu::vec4(view.exposure, view.backdrop == Backdrop::sharp ? 0 : kBackdropRoughness, 0, 0);
     if (view.ground)
         groundRows(g, *view.ground, axes);
-    moveSample(g, view, place);
+    moveSample(g, view, offset);
     g.counts = gpu::uvec4(static_cast<gpu::uint>(view.lights.size()), view.dither ? 1 : 0,
                           view.rowsUpward ? static_cast<gpu::uint>(view.height) : 0, 0);
     return g;
@@ -145,7 +145,7 @@ PixelArea areaOf(const gpu::CotanView& view, const gpu::CotanDraw& draw, const B
         const gpu::vec4 p(corner, 1);
         const gpu::vec4 seen(glm::dot(draw.rowX, p), glm::dot(draw.rowY, p), glm::dot(draw.rowZ, p), 1);
         const float w = glm::dot(view.clipW, seen);
-        if (!(w > glm::dot(view.clipZ, seen) && w > 0)) // before the near plane, or not finite
+        if (!(w > glm::dot(view.clipZ, seen) && w > 0)) // in front of the near plane, or not finite
             return {0, 0, width, height};
         const float x = (glm::dot(view.clipX, seen) / w * 0.5f + 0.5f) * float(width);
         const float y = (glm::dot(view.clipY, seen) / w * 0.5f + 0.5f) * float(height);
@@ -176,7 +176,7 @@ std::vector<gpu::CotanLight> lightConstants(const View& view, const CameraAxes& 
         g.direction = row(unitOr(dvec3(light.direction), dvec3(0, -1, 0), kShortest), light.range);
         g.color = row(dvec3(light.color) * double(light.intensity), &light == caster ? 1 : 0);
         const float outer = std::cos(light.outerCone);
-        // Equal cones would divide zero by zero.
+        // The minimum difference of the cones prevents a division by zero.
         g.cone = gpu::vec4(outer, std::max(std::cos(light.innerCone), outer + 1e-4f), 0, 0);
         result.push_back(g);
     }
@@ -194,7 +194,7 @@ gpu::CotanDraw drawConstants(const glm::mat4& toWorld, const glm::dvec3& eye)
     g.rowY = row({x.y, y.y, z.y}, origin.y);
     g.rowZ = row({x.z, y.z, z.z}, origin.z);
 
-    // Only directions matter, so the size is brought near one.
+    // Only directions matter, so the matrix is normalised in size.
     const LinearMap<double> map{glm::dmat3(toWorld)};
     glm::dmat3 c = map.planeMatrix();
     const double size = std::max({glm::length(c[0]), glm::length(c[1]), glm::length(c[2])});

@@ -1,5 +1,5 @@
-// What a picture needs besides the scene on the device: matrices, lights, the numbers for each
-// instance. Computed in double, relative to the eye, and only then rounded. No Vulkan here.
+// Per-image data besides the scene on the device: matrices, lights, constants per instance. Computed in double relative
+// to the eye, then rounded to float. Independent of Vulkan.
 #pragma once
 
 #include <vector>
@@ -14,30 +14,30 @@ namespace cotan {
 
 inline constexpr int kShadowSize = 2048; // texels a side
 
-// View, shadow map and background constants. view: checkView has passed it. bounds: of the whole scene, world space;
-// may be empty. place: what the middle of a pixel sees, from there in pixels of the raster.
-gpu::CotanView viewConstants(const View& view, const CameraAxes& axes, const Bounds& bounds, glm::dvec2 place);
+// View, shadow map and background constants. view: valid by checkView. bounds: of the whole scene in world space; may
+// be empty. offset: in raster pixels, from a pixel's centre to the point that it shows.
+gpu::CotanView viewConstants(const View& view, const CameraAxes& axes, const Bounds& bounds, glm::dvec2 offset);
 
-// Pixels of the raster, from the first to before the last.
+// Raster pixels in [x0,x1) x [y0,y1).
 struct PixelArea {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
     bool empty() const { return x0 >= x1 || y0 >= y1; }
 };
 
-// What an instance whose mesh lies in the box may cover of the picture, two pixels more on each side; all of it for one
-// that reaches behind the eye.
+// Bounds on the pixels that an instance may cover, from its mesh's box, with a margin of two pixels; the whole image
+// for an instance that reaches behind the near plane.
 PixelArea areaOf(const gpu::CotanView& view, const gpu::CotanDraw& draw, const Bounds& box, int width, int height);
 
-// Around both.
+// The smallest area that contains both.
 PixelArea around(const PixelArea& a, const PixelArea& b);
 
-// Lights in the order of the view; at least one entry, so that a buffer can be made of it.
-// The first directional light is marked as the one that casts the shadow.
+// Lights in the order of the view, of which the first directional one casts the shadow. Has at least one entry, so that
+// its buffer is not empty.
 std::vector<gpu::CotanLight> lightConstants(const View& view, const CameraAxes& axes);
 
 bool castsShadow(const View& view);
 
-// The rows of CotanDraw that follow from an instance's matrix; addresses and flags are left zero.
+// The rows of CotanDraw that depend on an instance's matrix; addresses and flags are zero.
 gpu::CotanDraw drawConstants(const glm::mat4& toWorld, const glm::dvec3& eye);
 
 } // namespace cotan

@@ -5,7 +5,7 @@
 #include "core/loops.hpp"
 #include "prefilter.hpp"
 
-// The file is taken in by the assembler: as numbers in a source file it would take the compiler seconds.
+// The assembler embeds the file; as an array in a source file it would take seconds to compile.
 __asm__(".section .rodata\n"
         ".balign 2\n"
         ".hidden cotanStudioHalfs\n"

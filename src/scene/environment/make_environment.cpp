@@ -1,4 +1,4 @@
-// Environments as atlases: maps of all directions, their light as lamps, and what GGX reflects.
+// Builds environment atlases: octahedral maps of radiance, and their GGX-filtered levels.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +17,7 @@
 #include "prefilter.hpp"
 #include "scene/environment_map.hpp"
 
-// Processors without such registers pass these vectors in another way; nobody outside this file is passed one.
+// How these vectors are passed depends on the target's instruction set, but only functions of this file pass them.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
@@ -30,22 +30,22 @@ using namespace environment;
 
 // ---- all directions --------------------------------------------------------------------------
 
-// A function of direction in texels: an octahedral map that can be read without edges.
-// Texels have four floats, the last one 0, since processors add four at once.
+// A function of direction: an octahedral map with a border, so that it can be filtered without seams. Texels have four
+// floats, the last one 0, so that SIMD adds a texel at once.
 class Octahedral {
 public:
-    // side: texels, even.
+    // side: in texels, even.
     explicit Octahedral(int side) : size_(side), texels_(std::size_t(side + 2) * std::size_t(side + 2), glm::vec4(0)) {}
 
     int size() const { return size_; }
 
-    // x, y: -1 to size(): there is a border of one texel around the map.
+    // x, y: -1 to size(), including a border of one texel.
     glm::vec4& at(int x, int y) { return texels_[index(x, y)]; }
     const glm::vec4& at(int x, int y) const { return texels_[index(x, y)]; }
 
-    // Fills the border with what is beside it on the sphere: over an edge the map goes on with itself, turned round.
-    // Due after writing, before reading.
-    void fold()
+    // Fills the border with the adjacent texels on the sphere: across an edge the map continues with the same edge
+    // reversed. Call after writing and before filtering.
+    void fillBorder()
     {
         const int last = size_ - 1;
         for (int i = 0; i < size_; ++i) {
@@ -59,7 +59,7 @@ public:
                 at(x, y) = at(x < 0 ? last : 0, y < 0 ? last : 0);
     }
 
-    // The unit direction of a place inside a texel, (0,0) to (1,1).
+    // The unit direction of a point inside a texel, from (0,0) to (1,1).
     glm::vec3 direction(int x, int y, glm::vec2 inside = glm::vec2(0.5f)) const
     {
         const glm::vec2 place((float(x) + inside.x) / float(size_), (float(y) + inside.y) / float(size_));
@@ -75,68 +75,68 @@ private:
 
 // ---- lamps -----------------------------------------------------------------------------------
 
-constexpr int kCoarsest = 4;     // blocks a side
-constexpr float kWidest = 0.15f; // radians of a texel: beside the horizon, where lobes end
-constexpr float kNarrow = 0.35f; // a texel is beside the lobe and its distance from the lobe's middle
+constexpr int kCoarsest = 4;     // blocks per side
+constexpr float kWidest = 0.15f; // maximum texel width in radians: near the horizon, where lobes end
+constexpr float kNarrow = 0.35f; // maximum texel width relative to the lobe's width or the distance from the lobe
 
-// Four numbers that are counted with at once; compilers take glm's apart.
+// Four floats for SIMD; compilers split glm's vectors.
 using Four = float __attribute__((vector_size(16)));
 
 Four four(const glm::vec4& v) { return Four{v.x, v.y, v.z, v.w}; }
 float sumOf(Four v) { return (v[0] + v[1]) + (v[2] + v[3]); }
 
-// What a texel holds, and sums of texels hold.
-struct Held {
+// Light of a texel, or of several texels.
+struct LightSum {
     glm::vec3 light{0};  // radiance times solid angle
-    glm::vec3 where{0};  // directions, weighed by light
-    glm::vec3 middle{0}; // the same by solid angle
+    glm::vec3 axis{0};   // sum of directions, weighted by light
+    glm::vec3 middle{0}; // sum of directions, weighted by solid angle
     float solidAngle = 0;
 };
 
-// Solid angle of a square of side 1 in the map, around a unit direction.
-// The map is the octahedron seen from above, unfolded: a square of side 2 there. On the octahedron a direction d ends
-// at d / (|x|+|y|+|z|), whose distance r sets the angle: 1/r^3 times the area seen from above.
-float solidAngleOfPlace(glm::vec3 d)
+// Solid angle per unit of the map's area, around a unit direction. The map is the octahedron seen from above, unfolded
+// to a square of side 2. On the octahedron, direction d ends at d / (|x|+|y|+|z|); its distance r gives the solid
+// angle, 1/r^3 times the area seen from above.
+float solidAngleDensity(glm::vec3 d)
 {
     const float size = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
     return 4 * size * size * size;
 }
 
-// All light around, as a tree of lamps: close to a lobe's middle it is seen finely, far from it coarsely.
+// All incident light as a hierarchy of lamps: fine near a lobe's centre, coarse far from it.
 class LampTree {
 public:
-    // finest: radiance; a power of two of texels a side, at least 8.
+    // finest: radiance; its side is a power of two, at least 8.
     explicit LampTree(const Octahedral& finest)
     {
         int texels = finest.size();
-        std::vector<Held> held(std::size_t(texels) * std::size_t(texels));
+        std::vector<LightSum> texelSums(std::size_t(texels) * std::size_t(texels));
         for (int y = 0; y < texels; ++y)
             for (int x = 0; x < texels; ++x) {
                 const glm::vec3 d = finest.direction(x, y);
-                Held& h = held[std::size_t(y) * std::size_t(texels) + std::size_t(x)];
-                h.solidAngle = solidAngleOfPlace(d) / (float(texels) * float(texels));
+                LightSum& h = texelSums[std::size_t(y) * std::size_t(texels) + std::size_t(x)];
+                h.solidAngle = solidAngleDensity(d) / (float(texels) * float(texels));
                 h.light = glm::vec3(finest.at(x, y)) * h.solidAngle;
                 h.middle = d * h.solidAngle;
-                h.where = d * (h.light.x + h.light.y + h.light.z);
+                h.axis = d * (h.light.x + h.light.y + h.light.z);
             }
         while (texels >= 2 * kCoarsest) {
             const int size = texels / 2;
             Level level{size, std::vector<Block>(std::size_t(size) * std::size_t(size))};
-            std::vector<Held> sums(level.blocks.size());
+            std::vector<LightSum> sums(level.blocks.size());
             for (int y = 0; y < size; ++y)
                 for (int x = 0; x < size; ++x) {
                     const std::size_t place = std::size_t(y) * std::size_t(size) + std::size_t(x);
                     Block& b = level.blocks[place];
-                    Held& sum = sums[place];
+                    LightSum& sum = sums[place];
                     for (int i = 0; i < 4; ++i) {
-                        const Held& h =
-                            held[std::size_t(2 * y + i / 2) * std::size_t(texels) + std::size_t(2 * x + i % 2)];
-                        const glm::vec3 d = glm::normalize(glm::dot(h.where, h.where) > 0 ? h.where : h.middle);
+                        const LightSum& h =
+                            texelSums[std::size_t(2 * y + i / 2) * std::size_t(texels) + std::size_t(2 * x + i % 2)];
+                        const glm::vec3 d = glm::normalize(glm::dot(h.axis, h.axis) > 0 ? h.axis : h.middle);
                         b.x[i] = d.x, b.y[i] = d.y, b.z[i] = d.z;
                         b.solidAngle[i] = h.solidAngle;
                         for (int c = 0; c < 3; ++c)
                             b.light[std::size_t(c)][i] = h.light[c];
-                        sum.light += h.light, sum.where += h.where, sum.middle += h.middle;
+                        sum.light += h.light, sum.axis += h.axis, sum.middle += h.middle;
                         sum.solidAngle += h.solidAngle;
                     }
                     b.middle = glm::normalize(sum.middle);
@@ -144,19 +144,19 @@ public:
                     b.radius = 2 * b.width; // texels are up to 1.7 times as long as wide
                 }
             levels_.push_back(std::move(level));
-            held = std::move(sums);
+            texelSums = std::move(sums);
             texels = size;
         }
         std::reverse(levels_.begin(), levels_.end());
     }
 
-    // What mirrors with GGX's microfacets reflect, seen straight on: the means of all radiance around each normal,
-    // weighed by the distribution at the half vector times n.l. alpha2: squared alpha, over 0; at 1 that is the
-    // cosine's mean. Normals that are close together take less time: they share what is found of the tree.
-    // Every texel counts in one lamp. So no dots, however bright a small light is, and a white sphere gives 1.
+    // For each normal: the mean radiance that GGX microfacets reflect, viewed along the normal, weighted by the
+    // distribution at the half vector times n.l. alpha2: squared alpha, above 0; 1 gives the cosine-weighted mean.
+    // Normals that are close together are faster: they share one traversal of the tree. Every texel contributes to
+    // exactly one lamp; so even small bright lights give no dots, and a white environment gives 1.
     void lobes(std::span<const glm::vec3> normals, float alpha2, std::span<glm::vec3> means) const
     {
-        const float lobeWidth = 1.3f * std::sqrt(alpha2); // from its middle to half its height
+        const float lobeWidth = 1.3f * std::sqrt(alpha2); // half width at half maximum
         glm::vec3 sum(0);
         for (const glm::vec3& n : normals)
             sum += n;
@@ -165,7 +165,7 @@ public:
         for (const glm::vec3& n : normals)
             apart = std::max(apart, glm::distance(n, middle));
 
-        std::vector<const Block*> lamps; // that all of them see
+        std::vector<const Block*> lamps; // lamps for all of the normals
         const auto visit = [&](const auto& self, std::size_t level, int x, int y) -> void {
             const Level& l = levels_[level];
             const Block& b = l.blocks[std::size_t(y) * std::size_t(l.size) + std::size_t(x)];
@@ -200,28 +200,28 @@ public:
     }
 
 private:
-    // Four texels that meet at a corner, side by side, since processors count with four numbers at once.
+    // Four texels that meet at a corner, as a structure of arrays for SIMD.
     struct Block {
-        glm::vec4 x, y, z; // where the middles of their lights are; unit
+        glm::vec4 x, y, z; // unit directions to the centres of their light
         glm::vec4 solidAngle;
         std::array<glm::vec4, 3> light; // radiance times solid angle
         glm::vec3 middle;
-        float radius; // of all four around the middle, along the chord
-        float width;  // of one
+        float radius; // of all four around `middle`, as a chord length
+        float width;  // of one texel
     };
     struct Level {
-        int size; // blocks a side
+        int size; // blocks per side
         std::vector<Block> blocks;
     };
 
-    std::vector<Level> levels_; // coarsest first; a block's texels are the four blocks of the next
+    std::vector<Level> levels_; // coarsest first; each texel of a block is a block of the next level
 };
 
 // ---- what GGX reflects -----------------------------------------------------------------------
 
 constexpr unsigned kSamples = 64;
 
-// A microfacet normal as often as it is seen along v; n = z.
+// Samples a microfacet normal from the distribution visible along v; n = z.
 glm::dvec3 visibleNormal(glm::dvec3 v, double alpha, glm::dvec2 u)
 {
     const glm::dvec3 stretched = glm::normalize(glm::dvec3(alpha * v.x, alpha * v.y, v.z));
@@ -237,7 +237,7 @@ glm::dvec3 visibleNormal(glm::dvec3 v, double alpha, glm::dvec2 u)
     return glm::normalize(glm::dvec3(alpha * h.x, alpha * h.y, std::max(h.z, 1e-9)));
 }
 
-// The point of a low-discrepancy set (Hammersley).
+// A point of the Hammersley set.
 glm::dvec2 hammersley(unsigned index, unsigned count)
 {
     return {(index + 0.5) / count, glm::bitfieldReverse(index) * 0x1p-32 + 0x1p-33};
@@ -245,10 +245,10 @@ glm::dvec2 hammersley(unsigned index, unsigned count)
 
 // ---- the atlas -------------------------------------------------------------------------------
 
-constexpr float kBrightest = 65504; // what a half holds
+constexpr float kBrightest = 65504; // maximum of a half
 constexpr float kPi = std::numbers::pi_v<float>;
 
-glm::vec3 sound(glm::vec3 c)
+glm::vec3 clampedRadiance(glm::vec3 c)
 {
     for (int i = 0; i < 3; ++i)
         c[i] = c[i] > 0 ? std::min(c[i], kBrightest) : 0; // NaN becomes 0
@@ -268,16 +268,16 @@ Octahedral sampled(const Radiance& radiance, int size, int samples, const Enviro
                 const glm::vec2 inside((float(i % samples) + 0.5f) / float(samples),
                                        (float(i / samples) + 0.5f) / float(samples));
                 const glm::vec3 d = map.direction(x, y, inside);
-                sum += sound(radiance({c * d.x - s * d.z, d.y, s * d.x + c * d.z})); // turned back
+                sum += clampedRadiance(radiance({c * d.x - s * d.z, d.y, s * d.x + c * d.z})); // inverse rotation
             }
-            map.at(x, y) = glm::vec4(sound(sum * (options.intensity / float(samples * samples))), 0);
+            map.at(x, y) = glm::vec4(clampedRadiance(sum * (options.intensity / float(samples * samples))), 0);
         }
     });
-    map.fold();
+    map.fillBorder();
     return map;
 }
 
-// The lobe of that alpha along every direction of a map, in patches. size: a multiple of 8.
+// Filters the lamps with the given alpha^2 for every direction of a map, in patches. size: a multiple of 8.
 Octahedral filtered(const LampTree& lamps, int size, float alpha2)
 {
     constexpr int kPatch = 4;
@@ -292,7 +292,7 @@ Octahedral filtered(const LampTree& lamps, int size, float alpha2)
                 map.at(kPatch * column + i % kPatch, kPatch * row + i / kPatch) = glm::vec4(means[std::size_t(i)], 0);
         }
     });
-    map.fold();
+    map.fillBorder();
     return map;
 }
 
@@ -303,7 +303,7 @@ void put(Image& atlas, int x, int y, glm::vec3 value)
         p[c] = glm::unpackHalf2x16(glm::packHalf2x16(glm::vec2(std::min(value[c], kBrightest), 0))).x;
 }
 
-// With its border.
+// Copies a tile with its border.
 void putTile(Image& atlas, int tile, const Octahedral& map)
 {
     const glm::vec3 place = f32::cotan_environment_tile(float(tile));
@@ -339,7 +339,7 @@ glm::dvec2 environment::albedoFactors(double nv, double roughness)
         const double nl = 2 * vh * h.z - v.z;
         if (nl <= 0)
             continue;
-        // Smith's term for both directions over the one for the eye, which the sampling has in it.
+        // Smith's term for both directions, divided by the eye's term, which visible-normal sampling already contains.
         const double rootL = std::sqrt(alpha2 + (1 - alpha2) * nl * nl);
         const double share = nl * (nv + rootV) / (nl * rootV + nv * rootL);
         const double fresnel = f64::cotan_grazing(std::min(vh, 1.0));
@@ -365,10 +365,10 @@ EnvironmentMap makeEnvironment(const Radiance& radiance, int samples, const Envi
     return map;
 }
 
-Result<EnvironmentMap> environmentOfPicture(const Image& picture, const EnvironmentOptions& options)
+Result<EnvironmentMap> environmentOfImage(const Image& picture, const EnvironmentOptions& options)
 {
     if (picture.type != PixelType::float32)
-        return inputError(fmt::format("{}: expected a picture of floats (.hdr, .exr); found {} bits a channel",
+        return inputError(fmt::format("{}: expected a floating-point image (.hdr, .exr); found {} bits per channel",
                                       picture.name, bitsPerComponent(picture.type)));
     if (!hasPixels(picture) || picture.width != 2 * picture.height)
         return inputError(
@@ -379,14 +379,14 @@ Result<EnvironmentMap> environmentOfPicture(const Image& picture, const Environm
         x = (x % width + width) % width;
         y = std::clamp(y, 0, height - 1);
         const float* p = picture.floats() + 4 * (std::size_t(y) * std::size_t(width) + std::size_t(x));
-        return sound({p[0], p[1], p[2]});
+        return clampedRadiance({p[0], p[1], p[2]});
     };
     const Radiance radiance = [&](glm::vec3 d) {
         return bilinear({(std::atan2(d.z, d.x) / (2 * kPi) + 0.5f) * float(width),
                          std::acos(std::clamp(d.y, -1.0f, 1.0f)) / kPi * float(height)},
                         at);
     };
-    // The widest texels of the finest tile are 0.009 radians wide.
+    // Texels of the finest tile are at most 0.009 radians wide.
     const int samples = std::clamp(int(std::ceil(0.009f * float(width) / (2 * kPi))), 1, 24);
     EnvironmentMap map = makeEnvironment(radiance, samples, options);
     map.name = picture.name;

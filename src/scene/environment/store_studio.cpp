@@ -1,4 +1,4 @@
-// Part of the build: writes the studio's atlas into the file that builtin_environment.cpp takes in.
+// Part of the build: writes the studio's atlas to the file that builtin_environment.cpp embeds.
 #include <cstdio>
 #include <fstream>
 #include <vector>

@@ -15,7 +15,7 @@ namespace {
 // 0 below `low`, 1 above `high`, smooth between.
 float smooth(float low, float high, float x) { return f32::cotan_smooth(low, high, x); }
 
-// A rectangular light at distance 1 along `axis`, upright; half sizes and soft rim in the same unit. 0 to 1.
+// A rectangular light at distance 1 along `axis`, upright; half sizes and soft rim in the same unit. Emits 0 to 1.
 struct SoftBox {
     glm::vec3 axis, right, up; // unit
     float halfWidth, halfHeight, rim;
@@ -38,8 +38,8 @@ struct SoftBox {
     }
 };
 
-// Grey walls that darken upwards, a floor that the lights brighten, a large box on the left in front, a lower one on
-// the right, a ceiling light and two strips at the sides, a little behind, for edges. Models look along +z.
+// Grey walls that darken upwards, a floor brightened by the lights, a large box on the front left, a lower one on the
+// right, a ceiling light, and two strips at the sides, slightly behind, for rim light. Models face +z.
 glm::vec3 studio(glm::vec3 d)
 {
     static const SoftBox key{glm::vec3(-0.75f, 0.62f, 0.75f), 0.55f, 0.5f, 0.05f};
@@ -57,8 +57,8 @@ glm::vec3 studio(glm::vec3 d)
     return c;
 }
 
-// The CIE's standard overcast sky: three times as bright above as at the horizon. Half of what falls on the ground
-// comes back.
+// The CIE standard overcast sky: three times as bright at the zenith as at the horizon. The ground reflects about half
+// of the light that falls on it.
 glm::vec3 overcast(glm::vec3 d)
 {
     const glm::vec3 zenith(1.9f, 2.0f, 2.1f);
@@ -67,8 +67,8 @@ glm::vec3 overcast(glm::vec3 d)
     return glm::mix(ground, sky, smooth(-0.04f, 0.04f, d.y));
 }
 
-// The glow of a low sun in front on the right, along the horizon and around it, and a dark blue sky. The sun itself is
-// a lamp, which casts shadows.
+// The glow of a low sun on the front right, along the horizon and around the sun, with a dark blue sky. The sun itself
+// is a separate light, which casts shadows.
 glm::vec3 evening(glm::vec3 d)
 {
     static const glm::vec3 sun = glm::normalize(glm::vec3(0.8f, 0.28f, 0.6f));

@@ -11,7 +11,7 @@ namespace cotan {
 
 namespace {
 
-// x moved by a whole multiple of `period` into [-period/2, period/2].
+// Returns x shifted by a multiple of `period` into [-period/2, period/2].
 double centred(double x, double period) { return x - period * std::round(x / period); }
 
 // Domes (1 - r^2)^2, steepest slope 0.92, on a square grid.
@@ -29,17 +29,17 @@ struct Ramp {
     double value, slope;
 };
 
-// 0 in the mortar joint, 1 on the brick, C1 in between; `x` from the middle of the brick.
+// 0 in the mortar joint, 1 on the brick, with a C1 transition; x is measured from the middle of the brick.
 Ramp brickProfile(double x, double brickLength)
 {
-    constexpr double kJoint = 0.006, kEdge = 0.014; // half a joint; the rounded edge
+    constexpr double kJoint = 0.006, kEdge = 0.014; // half the joint's width; the width of the rounded edge
     const double t = (brickLength / 2 - std::abs(x) - kJoint) / kEdge;
     const double s = std::clamp(t, 0.0, 1.0);
     const double outwards = x < 0 ? -1 : 1;
     return {s * s * (3 - 2 * s), -outwards * 6 * s * (1 - s) / kEdge};
 }
 
-// Eight courses of four bricks in running bond: every other course is moved by half a brick.
+// Eight courses of four bricks in running bond: every other course is shifted by half a brick.
 HeightSample bricks(double u, double v)
 {
     constexpr double kLength = 0.25, kHeight = 0.125, kAmplitude = 0.009;
@@ -50,7 +50,7 @@ HeightSample bricks(double u, double v)
     return {kAmplitude * x.value * y.value, kAmplitude * x.slope * y.value, kAmplitude * x.value * y.slope};
 }
 
-// A sum of sines that repeat with the unit square.
+// A sum of sines, each periodic over the unit square.
 HeightSample waves(double u, double v)
 {
     const struct {

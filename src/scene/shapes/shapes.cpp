@@ -1,4 +1,4 @@
-// The built-in shapes, and the scenes that show them.
+// The built-in shapes, and scenes made of them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,8 +25,8 @@ struct ShapePoint {
     glm::dvec3 normal{0, 0, 1}; // unit, outwards
 };
 
-// A point of the surface at (u,v) in the unit square. Seen from outside u runs to the right and v
-// downwards, so that triangles come out counter-clockwise and images unmirrored.
+// A point of the surface at (u,v) in the unit square. Seen from outside, u runs to the right and v down, so that
+// triangles are counter-clockwise and images are not mirrored.
 using Surface = std::function<ShapePoint(double u, double v)>;
 
 struct Grid {
@@ -36,7 +36,7 @@ struct Grid {
     bool poleBottom = false; // the edge v = 1 is one point
 };
 
-// Adds one row of vertices and returns the index of its first.
+// Appends a row of vertices and returns the index of the first.
 std::uint32_t appendRow(Mesh& mesh, const Grid& grid, const Surface& surface, int row, bool pole)
 {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -52,8 +52,8 @@ std::uint32_t appendRow(Mesh& mesh, const Grid& grid, const Surface& surface, in
     return first;
 }
 
-// Adds the tessellated surface to a mesh, with texcoords set 0 = (u,v). Vertices are shared between the cells. At a
-// pole each column of cells gets one triangle and a vertex of its own, whose u is the middle of the column.
+// Appends the tessellated surface to a mesh, with texcoords set 0 = (u,v). Cells share vertices. At a pole, each column
+// of cells has one triangle with its own pole vertex, whose u is the middle of the column.
 void appendGrid(Mesh& mesh, const Grid& grid, const Surface& surface)
 {
     std::uint32_t above = appendRow(mesh, grid, surface, 0, grid.poleTop);
@@ -89,20 +89,19 @@ void scaleTexcoords(Mesh& mesh, float u, float v)
         uv = {uv.x * u, uv.y * v};
 }
 
-// x turns as an angle in radians in [0, 2 pi). Whole turns are removed exactly, so that the two
-// ends of a closed surface come out as the same bits.
-double turns(double x) { return 2 * std::numbers::pi * (x - std::floor(x)); }
+// Converts x turns to radians in [0, 2 pi). Whole turns are removed exactly: ends of closed surfaces are bitwise equal.
+double turnsToRadians(double x) { return 2 * std::numbers::pi * (x - std::floor(x)); }
 
-// A flat square: `corner` is its top left, `right` and `down` its sides, seen from outside.
+// A flat parallelogram: `corner` is its top left, `right` and `down` are its sides, seen from outside.
 Surface flatSurface(glm::dvec3 corner, glm::dvec3 right, glm::dvec3 down)
 {
     const glm::dvec3 normal = glm::normalize(glm::cross(down, right));
     return [=](double u, double v) { return ShapePoint{corner + right * u + down * v, normal}; };
 }
 
-// A planar curve with a radius, and their derivatives.
+// A point of a planar curve with a radius, and their derivatives.
 struct TubePoint {
-    glm::dvec2 centre, centre1, centre2; // by v
+    glm::dvec2 centre, centre1, centre2; // derivatives by v
     double radius, radius1;
 };
 
@@ -138,7 +137,7 @@ ShapePoint spoutPoint(double u, double v)
     const glm::dvec2 along1 = (c.centre2 - along * glm::dot(along, c.centre2)) / speed;
     const glm::dvec3 side1{-along1.y, along1.x, 0};
 
-    const double angle = turns(u);
+    const double angle = turnsToRadians(u);
     const glm::dvec3 radial = side * std::cos(angle) + glm::dvec3(0, 0, std::sin(angle));
     const glm::dvec3 around = side * -std::sin(angle) + glm::dvec3(0, 0, std::cos(angle));
     const glm::dvec3 down = glm::dvec3(c.centre1, 0) + radial * c.radius1 + side1 * (c.radius * std::cos(angle));
@@ -178,9 +177,9 @@ Mesh makeSphere(float radius, int segments)
     segments = std::max(segments, 3);
     const Grid grid{segments, std::max(segments / 2, 2), /*poleTop*/ true, /*poleBottom*/ true};
     return gridMesh("sphere", grid, [radius](double u, double v) {
-        const double longitude = turns(u + 0.5); // u = 1/2 faces +z
+        const double longitude = turnsToRadians(u + 0.5); // u = 1/2 faces +z
         const double colatitude = std::numbers::pi * v;
-        // sin by the nearer pole, so that both poles are exactly on the axis
+        // sin from the nearer pole, so that both poles are exactly on the axis
         const double ring = std::sin(std::numbers::pi * std::min(v, 1 - v));
         const glm::dvec3 n{ring * std::sin(longitude), std::cos(colatitude), ring * std::cos(longitude)};
         return ShapePoint{n * double(radius), n};
@@ -192,8 +191,8 @@ Mesh makeTorus(float majorRadius, float minorRadius, int segments, float repeatU
     segments = std::max(segments, 3);
     const Grid grid{segments, std::max(segments / 2, 3)};
     Mesh mesh = gridMesh("torus", grid, [=](double u, double v) {
-        const double around = turns(u + 0.5);
-        const double section = turns(0.25 - v); // v = 0 on top, 1/4 outermost
+        const double around = turnsToRadians(u + 0.5);
+        const double section = turnsToRadians(0.25 - v); // v = 0 on top, 1/4 outermost
         const glm::dvec3 out{std::sin(around), 0, std::cos(around)};
         const glm::dvec3 n = out * std::cos(section) + glm::dvec3(0, std::sin(section), 0);
         return ShapePoint{out * double(majorRadius) + n * double(minorRadius), n};
@@ -224,8 +223,8 @@ Mesh makePatch(float stretch, float shear, bool mirrored, int segments)
 
 namespace {
 
-// Its control points: Martin Newell, University of Utah, 1975; public domain, in the arrangement with lid gap and
-// bottom that has circulated since 1991. z up, resting on z = 0.
+// Control points: Martin Newell, University of Utah, 1975; public domain, in the version with lid gap and bottom that
+// has circulated since 1991. z is up; the pot rests on z = 0.
 
 constexpr double kOriginalHeight = 3.15;
 
@@ -248,7 +247,7 @@ constexpr std::array<Rings, 2> kLid = {{
 }};
 constexpr Rings kBottom = {{{0, 0, 0}, {1.425, 0.798, 0}, {1.5, 0.84, 0.075}, {1.5, 0.84, 0.15}}};
 
-// A row of control points on half of a bow that is symmetric about y = 0: from (x0, z0) to (x1, z1), and -width in y.
+// A row of control points on half of an arc that is symmetric about y = 0: from (x0, z0) to (x1, z1), to y = -width.
 struct Bow {
     double x0, z0, x1, z1, width;
 };
@@ -275,7 +274,7 @@ constexpr std::array<std::array<Bow, 4>, 4> kHandleAndSpout = {{
 
 using Patch = std::array<std::array<glm::dvec3, 4>, 4>;
 
-// The rings turned by quarters: clockwise as seen from above, or counter-clockwise.
+// Returns a quarter of the surface of revolution, rotated by quarter turns about z. clockwise: as seen from above.
 Patch quarterOf(const Rings& rings, int quarters, bool clockwise)
 {
     Patch patch;
@@ -292,7 +291,7 @@ Patch quarterOf(const Rings& rings, int quarters, bool clockwise)
     return patch;
 }
 
-// Each half goes around in the same direction.
+// Returns one half of the handle or spout. Both halves run around in the same direction.
 Patch halfOf(const std::array<Bow, 4>& bows, bool mirrored)
 {
     Patch patch;
@@ -317,14 +316,13 @@ Cubic cubic(double t)
             {-3 * s * s, 3 * s * s - 6 * s * t, 6 * s * t - 3 * t * t, 3 * t * t}};
 }
 
-// Whether the control points of the first row are one: there the pole of a surface of revolution lies on the edge.
-// No patch ends in one.
+// Whether all control points of the first row coincide: the pole of a surface of revolution. No patch ends in a pole.
 bool collapsed(const Patch& patch)
 {
     return std::ranges::all_of(patch[0], [&](const glm::dvec3& p) { return p == patch[0][0]; });
 }
 
-// u runs against the columns and v along the rows: u rightwards and v downwards seen from outside.
+// u runs against the columns and v along the rows: right and down seen from outside.
 ShapePoint patchPoint(const Patch& patch, double u, double v)
 {
     const Cubic across = cubic(1 - u), along = cubic(v);
@@ -337,12 +335,12 @@ ShapePoint patchPoint(const Patch& patch, double u, double v)
             byRow += c * (across.value[column] * along.slope[row]);
             byBoth += c * (across.slope[column] * along.slope[row]);
         }
-    // At a collapsed edge the derivative along it vanishes, and next to the edge it is
-    // proportional to the mixed derivative: that gives the limit of the normal.
+    // At a collapsed edge the derivative along the edge vanishes; near it, that derivative is proportional to the mixed
+    // one, which therefore gives the limit of the normal.
     if (v == 0 && collapsed(patch))
         byColumn = byBoth;
     const glm::dvec3 n = glm::normalize(glm::cross(byColumn, byRow));
-    // z up to y up
+    // z-up to y-up
     return {glm::dvec3(p.x, p.z, -p.y) / kOriginalHeight, glm::dvec3(n.x, n.z, -n.y)};
 }
 
@@ -357,22 +355,22 @@ Mesh makeTeapot(int segmentsPerPatch)
         const Grid grid{segments, segments, collapsed(patch)};
         appendGrid(mesh, grid, [&patch](double u, double v) { return patchPoint(patch, u, v); });
     };
-    const auto addTurned = [&](const Rings& rings, bool clockwise) {
+    const auto addRotated = [&](const Rings& rings, bool clockwise) {
         for (int quarters = 0; quarters < 4; ++quarters)
             add(quarterOf(rings, quarters, clockwise));
     };
     for (const Rings& rings : kPot)
-        addTurned(rings, true);
+        addRotated(rings, true);
     for (const auto& bows : kHandleAndSpout)
         for (const bool mirrored : {false, true})
             add(halfOf(bows, mirrored));
     for (const Rings& rings : kLid)
-        addTurned(rings, true);
-    addTurned(kBottom, false); // its rows run outwards
+        addRotated(rings, true);
+    addRotated(kBottom, false); // its rows run outwards
     return mesh;
 }
 
-// ---- scenes of them --------------------------------------------------------------------------
+// ---- built-in scenes -------------------------------------------------------------------------
 
 namespace {
 
@@ -385,8 +383,8 @@ struct Look {
     float metallic, roughness;
 };
 
-// Adds a mesh with its material and its one instance: turned about the vertical, scaled, moved to `place`.
-void addShape(Scene& scene, Mesh mesh, const Look& look, glm::vec3 place, float degrees = 0, float scale = 1)
+// Adds a mesh with its own material and one instance: scaled, rotated by `degrees` about the vertical, then moved.
+void addShape(Scene& scene, Mesh mesh, const Look& look, glm::vec3 position, float degrees = 0, float scale = 1)
 {
     mesh.material = static_cast<int>(scene.materials.size());
     Material& material = scene.materials.emplace_back();
@@ -396,14 +394,14 @@ void addShape(Scene& scene, Mesh mesh, const Look& look, glm::vec3 place, float 
     material.roughness = look.roughness;
     if (look.relief)
         material.normalMap.image = static_cast<int>(*look.relief); // images are in the order of Relief
-    glm::mat4 toWorld = glm::translate(glm::mat4(1), place);
+    glm::mat4 toWorld = glm::translate(glm::mat4(1), position);
     toWorld = glm::rotate(toWorld, glm::radians(degrees), glm::vec3(0, 1, 0));
     toWorld = glm::scale(toWorld, glm::vec3(scale));
     scene.instances.push_back({mesh.name, static_cast<int>(scene.meshes.size()), toWorld});
     scene.meshes.push_back(std::move(mesh));
 }
 
-// A sphere whose right half (seen with u = 1/2 in front) shows the left half's image mirrored, as artists do to save
+// A sphere whose right half (seen with u = 1/2 in front) shows the left half's texture mirrored, as artists do to save
 // texture space. `segments` must be even, so that a column of vertices lies on the mirror line.
 Mesh makeMirroredSphere(float radius, int segments, float repeatU, float repeatV)
 {
@@ -414,8 +412,7 @@ Mesh makeMirroredSphere(float radius, int segments, float repeatU, float repeatV
     return mesh;
 }
 
-// A still life on a table that is not there: what it stands on, and what is behind it, are the ground and the backdrop
-// of whoever draws it.
+// A still life without a table: the renderer's ground and backdrop take its place.
 void addShapes(Scene& scene)
 {
     Mesh teapot = makeTeapot(16);
@@ -428,7 +425,7 @@ void addShapes(Scene& scene)
     scaleTexcoords(panel, 2, 2);
     addShape(scene, std::move(panel), {"teal tile", Relief::domes, {0.02f, 0.15f, 0.16f}, 0, 0.38f},
              {-1.35f, 0.95f, -1.35f}, 16, 1.9f);
-    scene.materials.back().doubleSided = true; // a sheet without a back
+    scene.materials.back().doubleSided = true; // an open sheet
     addShape(scene, makeCube(0.9f, 1), {"slate", Relief::bricks, {0.10f, 0.105f, 0.115f}, 0, 0.5f},
              {1.72f, 0.45f, -0.85f}, -30);
     addShape(scene, makeMirroredSphere(0.48f, 96, 4, 2), {"gold", Relief::domes, {1.0f, 0.76f, 0.33f}, 1, 0.40f},
@@ -472,7 +469,7 @@ Scene shapeScene(const std::string& shape)
     }
     const float scale = shape == "sphere" || shape == "torus" ? 1 : 2;
     addShape(scene, std::move(mesh), {"white plastic", {}, glm::vec3(0.6f), 0, 0.4f}, glm::vec3(0), 0, scale);
-    scene.materials.back().doubleSided = true; // a sheet has a back, a spout is open
+    scene.materials.back().doubleSided = true; // plane and spout are open
     scene.instances.back().name = shape;
     return scene;
 }

@@ -1,1 +1,1 @@
-// Included by what SPIRV-Cross prints; all that is used of it is in metal_stdlib.
+// Included by the output of SPIRV-Cross; everything that it uses is in metal_stdlib.

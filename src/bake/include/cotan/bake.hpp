@@ -2,16 +2,16 @@
 //
 //     auto low = cotan::loadScene("low.glb"), high = cotan::loadScene("high.glb");
 //     cotan::BakeModelOptions options;
-//     options.bake.frame = cotan::Frame::smooth; // that the shader will use
+//     options.bake.frame = cotan::Frame::smooth; // the frame that the shader uses
 //     options.bake.width = options.bake.height = 2048;
 //     auto baked = cotan::bakeModel(*low, {.scenes = {*std::move(high)}, .maps = {}}, options);
 //     if (!baked)
 //         return fail(baked.error().message);
 //     cotan::writeImage("map.png", baked->maps[0].image); // baked->maps[0].format: how it is stored
 //
-// Scenes are as loadScene gives them or as the built-in shapes are: every mesh has normals, and its material, instances
-// and indices are valid. Nothing is read from files, written or printed. Without Embree bakeModel says that it is
-// missing. cotan/lint.hpp and cotan/convert.hpp are the other two thirds of this part.
+// Scenes must be like those of loadScene or the built-in shapes: every mesh has normals, and valid materials, instances
+// and indices. Nothing is read from files, written or printed. Without Embree bakeModel returns an error that says so.
+// The other two headers of this part are cotan/lint.hpp and cotan/convert.hpp.
 #pragma once
 
 #include <cstdint>
@@ -34,51 +34,51 @@ namespace cotan {
 // ---- what to bake ---------------------------------------------------------------------------
 
 enum class BakeKind {
-    normal,       // texels of the named frame
+    normal,       // normals in BakeOptions::frame
     objectNormal, // world-space normals
     height,       // distance from the low to the high surface along the low normal, model units
-    occlusion,    // share of the hemisphere above the high surface that is open, cosine weighted
+    occlusion,    // fraction of the hemisphere above the high surface that is open, cosine weighted
 };
 
-// Whether a map of the kind holds directions.
+// Whether a map of this kind holds directions.
 inline bool showsNormals(BakeKind kind) { return kind == BakeKind::normal || kind == BakeKind::objectNormal; }
 
 // Which of the surfaces on a line counts.
 enum class BakeSearch {
-    first,   // the first that a ray from outside inwards meets; it starts where RayStarts says
-    nearest, // the one nearest to the low surface along its normal, either way. Loses what stands off over a surface
+    first,   // the first that an inward ray meets; RayStarts says where rays start
+    nearest, // the one nearest to the low surface along its normal, on either side; misses detail that floats above it
 };
 
 // Which normals of the high surface count.
 enum class HighNormals {
-    smooth, // interpolated between vertices; those of the faces where they cancel out
-    curved, // of the curved surface through the vertices and their normals, where the ray meets it: for meshes whose
-            // triangles are larger than texels. After curve(); smooth without, and where a triangle is not nearly flat
+    smooth, // interpolated between vertices; the face's where they cancel out
+    curved, // of the curved surface through the vertices and their normals: for meshes with triangles larger than
+            // texels. Needs HighSurface::curve(); smooth without, and where a triangle is not nearly flat
     face,
 };
 
-class HighNormalMaps; // inside
-struct RayStarts;     // inside
+class HighNormalMaps; // internal
+struct RayStarts;     // internal
 
 struct BakeOptions {
     BakeKind kind = BakeKind::normal;
     Frame frame = Frame::cotangent;
     int width = 1024, height = 1024;
     int samples = 1;       // per texel and axis: 1, 2 or 4
-    glm::ivec2 tile{0, 0}; // unit square of uv
+    glm::ivec2 tile{0, 0}; // unit square of uv that the map covers
     BakeSearch search = BakeSearch::first;
     float extrusion = 0;         // model units: how far in front of the low surface rays start; 0: measured
     float maxDistance = 0;       // model units, in front of and behind the low surface; 0: 10 % of the diagonal of its
-                                 // box, or for BakeSearch::nearest 5 % of that of the high surface
-    std::vector<glm::vec3> cage; // one a vertex of the low surface; empty: none. Rays run from the cage through the
-                                 // low surface, and the first surface counts
+                                 // bounding box, for BakeSearch::nearest 5 % of the high surface's
+    std::vector<glm::vec3> cage; // a position for each vertex of the low surface; empty: no cage. Rays run from the
+                                 // cage through the low surface, and the first surface that they meet counts
     float cageReach = 0;         // model units from the cage; 0: as far behind the low surface as the cage is before it
-    std::shared_ptr<const RayStarts> starts; // of this pair; null: bake() measures. Unused with a cage and by `nearest`
+    std::shared_ptr<const RayStarts> starts; // null: measured by bake(); not used with a cage and by `nearest`
     HighNormals highNormals = HighNormals::smooth;
-    std::shared_ptr<const HighNormalMaps> highMaps; // of the high surface: their normals instead; heights and
-                                                    // occlusion take no notice. Null: none
+    std::shared_ptr<const HighNormalMaps> highMaps; // normal maps of the high surface, which replace its normals; not
+                                                    // read for heights and occlusion. Null: none
     int occlusionRays = 64;
-    std::vector<std::int64_t> matched; // per instance of the low scene: the high instance that counts, -1: all;
+    std::vector<std::int64_t> matched; // per instance of the low scene: the high instance that rays can hit, -1: all;
                                        // empty: all
     int threads = 0;
 };
@@ -87,72 +87,71 @@ struct BakeOptions {
 struct StoredAs {
     Convention format;
     PixelType type = PixelType::unorm8;
-    bool dither = false; // 8 bit: rounds by a fixed pattern so that gradients do not band
+    bool dither = false; // 8 bit only: ordered dithering, against banding in gradients
 };
 
 // ---- the models -----------------------------------------------------------------------------
 
 // The detailed side of a bake.
 struct HighModel {
-    std::vector<Scene> scenes; // all instances of all of them count
-    std::vector<Image> maps;   // normal maps in place of those in the scenes' materials, read by uv set 0 without a
+    std::vector<Scene> scenes; // all instances of all scenes count
+    std::vector<Image> maps;   // normal maps that replace those of the scenes' materials, read with uv set 0 and no
                                // transform: none, one for all scenes, or one for each
 };
 
 struct BakeModelOptions {
-    BakeOptions bake;             // its tile, cage, starts, highMaps and matched are made from what follows
-    std::vector<int> tiles{1001}; // UDIM numbers: 1001 + u + 10 v, u below 10, v upwards. One map each
+    BakeOptions bake;             // tile, cage, starts, highMaps and matched are derived from the options below
+    std::vector<int> tiles{1001}; // UDIM numbers, one map each: 1001 + u + 10 v, u below 10, v upwards
     int material = -1;            // of the simple scene; -1: all
     TangentOrigin tangents = TangentOrigin::stored; // for the frames `vertex` and `mikktspace`
-    const Scene* cage = nullptr; // the triangles of the simple scene in their order, moved out around both sides; rays
-                                 // run from it inwards. Null: none. Read by prepareBake only
-    const Scene* others = nullptr; // other simple meshes: no map is made for them now, and detail that is nearer to
-                                   // them is theirs. Null: none. Read by prepareBake only
-    bool matchByName = false;      // a simple mesh NAME_low sees only the detailed mesh NAME_high, any case. Instances
-                                   // without a name have that of their mesh
-    bool ownMaps = false; // normals of the detailed scenes' own normal maps, or of HighModel::maps. Heights and
-                          // occlusion take no notice
-    Frame highFrame = Frame::mikktspace;  // that those maps were made for
-    std::optional<Convention> highFormat; // how they are stored; none: as the materials say, the default one for
-                                          // HighModel::maps
-    int padding = 0; // texels around charts that are filled from the nearest chart; 0: all, -1: none
+    const Scene* cage = nullptr;   // the triangles of the simple scene in the same order, moved out to enclose both
+                                   // models; rays run from it inwards. Null: none. Read by prepareBake only
+    const Scene* others = nullptr; // other simple meshes, not baked now: detail that is nearer to them than to the
+                                   // simple scene is theirs. Null: none. Read by prepareBake only
+    bool matchByName = false;      // a simple mesh NAME_low is baked from the detailed mesh NAME_high only,
+                                   // case-insensitively. Instances without a name use that of their mesh
+    bool ownMaps = false; // bakes the detailed scenes' own normal maps, or HighModel::maps, instead of their normals.
+                          // No effect on heights and occlusion
+    Frame highFrame = Frame::mikktspace;  // frame that those maps were made for
+    std::optional<Convention> highFormat; // how they are stored; none: as the materials say, HighModel::maps by default
+    int padding = 0; // texels around charts that are filled from the nearest chart; 0: no limit, -1: none
     StoredAs stored;
-    bool mask = false; // also gives BakedMap::mask
+    bool mask = false; // also makes BakedMap::mask
 };
 
-// ---- what comes of it -----------------------------------------------------------------------
+// ---- results --------------------------------------------------------------------------------
 
-// What became of each texel: flags.
+// Flags of a texel.
 enum TexelState : std::uint8_t {
-    texelCovered = 1,   // a triangle covers the centre (or a sample)
-    texelTouched = 2,   // a triangle only comes near: filled for filtering
-    texelMissed = 4,    // some ray found nothing
-    texelNegative = 8,  // the normal lies below the frame's horizon
-    texelTwice = 16,    // several triangles cover it
-    texelPadded = 32,   // filled from the nearest chart
-    texelNearer = 64,   // another surface lies nearer to the low one than the first hit: BakeSearch::nearest differs
-    texelFurther = 128, // missed, but there is a surface on the line, further away than rays look
+    texelCovered = 1,     // a triangle covers the centre (or a sample)
+    texelTouched = 2,     // a triangle only comes near; filled for filtering
+    texelMissed = 4,      // a ray hit nothing
+    texelNegative = 8,    // the normal lies below the frame's horizon
+    texelOverlapped = 16, // several triangles cover it
+    texelPadded = 32,     // filled from the nearest chart
+    texelNearer = 64,     // another surface is nearer to the low one than the first hit: BakeSearch::nearest differs
+    texelFurther = 128,   // missed, but a surface lies on the line beyond the search distance
 };
 
 struct BakeStatistics {
     std::size_t texels = 0, covered = 0, touched = 0, missed = 0, negative = 0, twice = 0;
-    std::size_t further = 0; // of the missed ones those with texelFurther
-    // Covered ones with texelNearer. Some are left out of parts that are smaller than 16 samples across and less than
-    // 1.5 % of the low surface's diagonal off.
+    std::size_t further = 0; // missed texels with texelFurther
+    // Covered texels with texelNearer. Parts smaller than 16 samples across that stand off by less than 15 % of the
+    // search distance (by default 1.5 % of the low surface's diagonal) are counted in part only.
     std::size_t nearer = 0;
     std::size_t rays = 0;
     std::size_t mirroredTriangles = 0, degenerateTriangles = 0; // in uv
-    double rayDistance = 0;                                     // the search distance used
-    double rayStart = 0;   // the largest distance from which rays start in front; 0 with a cage and for `nearest`
-    double seconds = 0;    // of the rays and frames
-    double padSeconds = 0; // of filling around charts, where bakeTile did so
+    double rayDistance = 0;                                     // search distance used; meaningless with a cage
+    double rayStart = 0;   // maximum distance in front from which rays start; 0 with a cage and for `nearest`
+    double seconds = 0;    // for rays and frames
+    double padSeconds = 0; // for filling around charts, if bakeTile did so
 };
 
 struct BakedMap {
     int tile = 1001; // UDIM number
     Image image;
-    Convention format; // of `image` where it holds normals
-    Image mask;        // what became of each texel, as maskOf; empty unless asked for
+    Convention format; // how `image` is stored, if it holds normals
+    Image mask;        // states of the texels as colours, see maskOf; empty unless requested
     BakeStatistics statistics;
 };
 
@@ -161,7 +160,7 @@ struct BakedModel {
     std::vector<std::string> warnings; // one line each
 };
 
-// All of it: prepares, and bakes every tile. Errors: those of prepareBake and bakeTile.
+// Prepares, then bakes every tile. Errors: those of prepareBake and bakeTile.
 Result<BakedModel> bakeModel(const Scene& low, HighModel high, const BakeModelOptions& options = {},
                              const Progress& progress = {});
 

@@ -1,4 +1,4 @@
-// Says how far off a model's normal maps will be without stored tangents, before anything is drawn:
+// Predicts the error of a model's normal maps without stored tangents, before anything is drawn:
 //
 //     auto scene = cotan::loadScene("model.glb");
 //     if (!scene)
@@ -9,7 +9,7 @@
 //     for (const cotan::LintFailure& failure : check.failures)
 //         std::printf("%s\n", failure.text.c_str());
 //
-// All angles in degrees, areas of the world, shares of the primitive's area in [0,1]. Part of the library cotan::bake.
+// Angles are in degrees, areas in world units, fractions of area in [0,1]. Part of the library cotan::bake.
 #pragma once
 
 #include <cstddef>
@@ -28,181 +28,180 @@ namespace cotan {
 
 // ---- statistics of a weighted set ----------------------------------------------------------
 
-// Of an empty set, or one without weight, the count is 0 and the rest NaN: no comparison with a limit holds.
+// For an empty set, or one without weight, the count is 0 and the rest NaN, so that no comparison with a limit holds.
 struct ValueSummary {
-    std::size_t count = 0; // of the values that count
+    std::size_t count = 0; // of the values with weight
     double mean = std::numeric_limits<double>::quiet_NaN();
     double percentile95 =
-        std::numeric_limits<double>::quiet_NaN(); // the smallest that 95 % of the weight do not exceed
+        std::numeric_limits<double>::quiet_NaN(); // smallest value that 95 % of the weight do not exceed
     double maximum = std::numeric_limits<double>::quiet_NaN();
 };
 
 // ---- the report ----------------------------------------------------------------------------
 
-inline constexpr double kStretched = 1.2; // the longer gradient over the shorter: an orthonormal frame is 2 degrees off
-inline constexpr double kSheared = 10;    // degrees between the gradients of u and v and a right angle
-inline constexpr double kTurned = 45;     // degrees between a stored tangent and dP/du
-inline constexpr std::size_t kMaxPlacings = 8; // of one mesh
-inline constexpr double kTestTilt = 35;        // degrees: the texel whose step across edges is measured
+inline constexpr double kStretched = 1.2; // longer gradient over shorter: an orthonormal frame errs by 2 degrees
+inline constexpr double kSheared = 10;    // degrees by which the angle between the gradients of u and v differs from 90
+inline constexpr double kMaxTangentAngle = 45; // degrees between a stored tangent and dP/du
+inline constexpr std::size_t kMaxPlacings = 8; // per mesh
+inline constexpr double kTestTilt = 35;        // degrees: tilt of the texel whose step across edges is measured
 
-// Shares are NaN where there is no area to take them of.
+// Fractions are NaN if the primitive has no area.
 struct UvQuality {
     double area = 0;
     double degenerate = 0; // uv without area: points and lines
     double mirrored = 0;
-    double overlapping = 0;         // on texels that this or another primitive of the same image uses again
-    double overlappingMirrored = 0; // of those: texels that are used in both orientations
-    double stretched = 0;           // over kStretched
-    double sheared = 0;             // over kSheared
-    ValueSummary stretch;           // ratio, at least 1; degenerate triangles left out
+    double overlapping = 0;         // on texels that this or another primitive with the same image uses again
+    double overlappingMirrored = 0; // of those: on texels that are used in both orientations
+    double stretched = 0;           // stretch over kStretched
+    double sheared = 0;             // shear over kSheared
+    ValueSummary stretch;           // ratio, at least 1; without degenerate triangles
     ValueSummary shear;             // degrees
-    double gradient = 0;            // the longer uv gradient per unit of length, median; 0: there is none
-    double largestUv = 0;           // magnitude
+    double gradient = 0;            // median of the longer uv gradient per unit of length; 0: none
+    double largestUv = 0;           // maximum of |u| and |v|
 };
 
-inline constexpr std::size_t kMaxEdges = 1 << 20; // whose steps are measured
+inline constexpr std::size_t kMaxEdges = 1 << 20; // maximum number whose steps are measured
 
-// Of more than kMaxEdges, every second, third and so on is measured; `edges` counts all.
+// If there are more than kMaxEdges, only every second, third and so on is measured; `edges` counts all.
 struct EdgeSteps {
-    std::size_t edges = 0;  // interior: position, normal and uv agree on both sides, and the orientation
-    ValueSummary cotangent; // of a texel tilted by kTestTilt, over eight directions, weighted by area
+    std::size_t edges = 0;  // interior: both sides have the same position, normal, uv and orientation
+    ValueSummary cotangent; // of a texel tilted by kTestTilt in eight directions, weighted by area
     ValueSummary orthonormal;
 };
 
 struct StoredTangents {
     bool present = false;
-    double reversedW = 0; // share of area where the bitangent points against the uv
-    double turned = 0;    // share of area where the tangent is over kTurned from dP/du
-    ValueSummary angle;   // degrees from dP/du in the plane of the normal; of nothing, the shares say nothing
+    double reversedW = 0; // fraction of the area where the bitangent points against the uv
+    double rotated = 0;   // fraction of the area where the tangent is over kMaxTangentAngle from dP/du
+    ValueSummary angle;   // degrees from dP/du in the plane of the normal; if empty, the fractions mean nothing
 };
 
-// How another frame reads the map, which was made for PrimitiveLint::madeFor.
+// Error of reading the map, which was made for PrimitiveLint::madeFor, with another frame.
 struct Reading {
-    std::string name; // of the frame; "stored" for mikktspace with the tangents of the file
+    std::string name; // of the frame; "stored" for mikktspace with the file's tangents
     ValueSummary error;
 };
 
-// For each of the frames that may be advised.
+// A summary for each frame that may be advised.
 struct FrameSummaries {
     ValueSummary orthonormal, cotangent, smooth;
 };
 
 struct PrimitiveLint {
     std::string mesh, material;
-    // Instances of one mesh that stretch it differently are reported apart: this is number `placing`, from
-    // 0, of `placings`; of those only the first kMaxPlacings.
+    // Instances that stretch a mesh differently are reported separately: this is number `placing`, from 0, of
+    // `placings`, of which only the first kMaxPlacings are reported.
     std::size_t placing = 0, placings = 1;
-    // An extension of the material that reads tangents without a map of its own that could be converted; and how far
-    // what it reads turns with the frames that may be advised (directionTurn), empty where that is not known.
+    // Extension of the material that reads tangents and has no map of its own that could be converted. `rotation`: how
+    // far the direction that it reads rotates with each frame that may be advised (directionTurn); empty if unknown.
     std::string tangentsFor;
-    FrameSummaries turned;
+    FrameSummaries rotation;
     int image = -1;        // of the normal map; -1: none
-    bool unread = false;   // there is one, in a format that is not read: nothing is known of its pixels
-    std::string notJudged; // why a normal map that there is was not judged; empty if it was
+    bool unread = false;   // the map has a format that is not read: its pixels are unknown
+    std::string notJudged; // why an existing normal map was not judged; empty if it was
     std::size_t triangles = 0;
     bool hasUv = false;
     UvQuality uv;
     EdgeSteps steps;
     StoredTangents stored;
-    Frame madeFor = Frame::mikktspace; // what the map is for: the frame that the file names, or else glTF's
-    // cotangent, orthonormal, smooth, exact, triangle and, if present and what the map is for, stored; empty without a
-    // map
+    Frame madeFor = Frame::mikktspace; // frame of the map: the one that the file names, otherwise glTF's
+    // cotangent, orthonormal, smooth, exact, triangle and, with tangents in the file and a map for mikktspace, stored;
+    // empty without a map
     std::vector<Reading> readings;
-    double precision = 0; // degrees by rounding of float derivatives at LintOptions::distance
-    double closest = 0;   // the distance at which that is half a degree; both 0 where uv have no gradient
+    double precision = 0; // degrees of error by rounding of float derivatives at LintOptions::distance
+    double closest = 0;   // distance at which that is half a degree; both are 0 if uv have no gradient
 };
 
-// Which way green points, from the map alone, and which way the material reads it. `cotan map detect` gives
-// the same verdict.
+// Which way green points by the map alone, and which way the material reads it, as in `cotan map detect`.
 struct GreenEvidence {
     int image = -1;
     std::string name;
-    bool declaredUp = true; // green up the picture, as the material reads it
+    bool declaredUp = true; // green points up the image, as the material reads it
     maps::GreenVerdict verdict;
 
     bool decided() const { return verdict.green != maps::Green::undecidable; }
     bool asDeclared() const { return !decided() || (verdict.green == maps::Green::up) == declaredUp; }
 };
 
-// One normal map read as it is with the frames that may be advised, against MikkTSpace with the stored tangents,
-// where these are to be trusted: what `convert` decides by (mapError, fitsAsItIs).
-struct MapFit : FrameSummaries { // empty where nothing was judged: no pixels, or nothing shows the map
+// Errors of one normal map read unchanged with each frame that may be advised, against the frame that it is for with
+// the stored tangents, if these are trusted. `convert` decides by the same errors (mapError, fitsAsItIs).
+struct MapFit : FrameSummaries { // empty if nothing was judged: no pixels, or no surface shows the map
     int image = -1;
     std::string name;
 };
 
-// Reading the maps as they are comes first: readNamed with the frame that the file names, readOrthonormal as MikkTSpace
-// without tangents. Maps are to be converted only where that leaves more than a converted map does in other engines.
+// Reading the maps unchanged comes first: readNamed with the frame that the file names, readOrthonormal as MikkTSpace
+// without tangents. Converting is advised only if that leaves a larger error than converted maps have in other engines.
 enum class Advice { nothing, readNamed, readOrthonormal, convertToOrthonormal, convertToCotangent, convertToSmooth };
 
 struct LintReport {
     std::vector<PrimitiveLint> primitives;
     std::vector<GreenEvidence> maps;
     std::vector<MapFit> fits;
-    double distance = 0;        // the viewing distance used, world units
-    std::optional<Frame> named; // what the file says that its maps are for (namedFrame)
+    double distance = 0;        // viewing distance used, world units
+    std::optional<Frame> named; // frame that the file names for its maps (namedFrame)
     Advice advice = Advice::nothing;
-    // Stored tangents contradict the uv on more than a tenth of the area, and a map shows that they are wrong: its
-    // green is as declared. Where no map can tell, the model stays what its tangents show.
+    // Stored tangents contradict the uv on more than a tenth of the area, and a map proves them wrong: its green is as
+    // declared. If no map can tell, the stored tangents are trusted.
     bool distrustStored = false;
-    // What `convert` to the advised frame would do: how many maps it would make anew, how many it would leave, and
-    // whether it would drop tangents. With neither it has nothing to do.
+    // What `convert` to the advised frame would do: the numbers of maps that it would convert and keep, and whether it
+    // would drop tangents. If it would neither convert nor drop, there is nothing to do.
     std::size_t mapsConverted = 0, mapsKept = 0;
     bool dropsTangents = false;
-    // In sentences, each empty where there is nothing to say: what is wrong with the model as it is, what is seen
-    // without tangents, where most, what to do, which maps were not judged, what else reads tangents.
+    // Sentences, empty if there is nothing to say: defects of the model as it is, the visible error without tangents,
+    // the worst primitive, the advice, maps that were not judged, other readers of tangents.
     std::string defects, seen, worst, advised, notJudged, otherReaders;
-    std::string recommendation; // all of these
+    std::string recommendation; // all of these, joined
 };
 
-// The frame that the report's advice names; orthonormal where it advises nothing.
+// The frame that the report advises; orthonormal if it advises nothing.
 Frame frameOf(const LintReport& report);
 
 struct LintOptions {
-    double distance = 0;    // world units from eye to surface; 0: where the whole model fills the picture
-    std::size_t memory = 0; // bytes that may be taken besides the scene; 0: any number
+    double distance = 0;    // world units from eye to surface; 0: where the whole model just fits the image
+    std::size_t memory = 0; // bytes that lint may take besides the scene; 0: no limit
 };
 
-// About how many bytes the triangles take at most in lintScene, besides the scene. What it takes for any scene, less
-// than 32 MiB, is not counted.
+// About the maximum number of bytes that the triangles take in lintScene, besides the scene. The memory that every
+// scene takes, less than 32 MiB, is not counted.
 std::size_t lintBytes(const Scene& scene);
 
-// Looks at every primitive (mesh) of the scene as its instances move it: those that differ by rotations,
-// mirroring and uniform scales count as one. Never fails: primitives without triangles or uv are listed with what is
-// known; of a scene that does not hold together (checkScene) only `defects` says so. options.memory is not asked.
+// Checks every primitive (mesh) of the scene as its instances transform it: transforms that differ by rotation,
+// mirroring and uniform scale count as one. Never fails: primitives without triangles or uv are listed with what is
+// known; for an inconsistent scene (checkScene) only `defects` and `recommendation` are set. Ignores options.memory.
 LintReport lintScene(const Scene& scene, const LintOptions& options = {});
-// The same with progress, on the thread of the caller: four times for each mesh, and at the end. Errors:
-// ErrorKind::stopped; ErrorKind::input, before anything is done, where lintBytes are more than options.memory.
+// The same with progress, on the caller's thread: once for each mesh, three times for each of its placings, and at the
+// end. Errors: ErrorKind::stopped; ErrorKind::input, before anything is done, if lintBytes exceeds options.memory.
 Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, const Progress& progress);
 
 // ---- limits --------------------------------------------------------------------------------
 
-// What of a report is over the limits that a caller sets: the verdict of a check.
+// Compares a report with limits that the caller sets.
 
 struct LintLimits {
-    double degrees = -1; // that the error with `frame` may exceed on 5 % of the area; -1: no limit
-    double area = -1; // % of a primitive's area: degenerate uv, uv overlapping mirrored, stored tangents against the uv
+    double degrees = -1; // maximum error with `frame` on 95 % of the area; -1: no limit
+    double area = -1;    // maximum % of a primitive's area: degenerate uv, mirrored overlap, wrong stored tangents
     std::string frame = "orthonormal"; // a Reading::name
 
-    // Whether anything is to be checked.
+    // Whether any limit is set.
     bool any() const { return degrees >= 0 || area >= 0; }
 };
 
 // One reason why a model fails.
 struct LintFailure {
     // reading, rounding, degenerate_uv, mirrored_overlap, reversed_w, turned_tangents: a value over its limit.
-    // reversed_green, not_judged: there is no limit that would allow them.
+    // reversed_green, not_judged: no limit allows them.
     std::string kind;
     std::string where;            // nameOf(primitive), or the name of the map; empty: the whole model
-    double value = 0, limit = -1; // in degrees or % of the area; limit -1: it has none
+    double value = 0, limit = -1; // in degrees or % of the area; limit -1: none
     std::string text;             // one sentence, names included
-    // What it is about, as the file names it; empty where it is about something else, or the file gives no name.
+    // What fails, as the file names it; empty if it is something else, or unnamed.
     std::string mesh = {}, material = {}, map = {};
     bool percent = false;    // value and limit are % of the primitive's area, not degrees
-    std::string beside = {}; // what else helps to read the value: the means beside it; empty if nothing does
+    std::string beside = {}; // context of the value: the means; empty if there is none
 };
 
-// A check passes where nothing fails. Without any limit nothing is checked, and it passes.
+// A check passes if nothing fails. Without any limit nothing is checked, and it passes.
 struct LintCheck {
     LintLimits limits;
     std::vector<LintFailure> failures;
@@ -210,19 +209,18 @@ struct LintCheck {
     bool passed() const { return failures.empty(); }
 };
 
-// Each primitive is held to the limits by itself, not the model as a whole.
-// Every check, whichever limit it has, fails for a map whose green points the other way than the file says. One in
-// degrees fails also for a map whose pixels were not read, and where there are maps and none was judged. A primitive's
-// area in % is compared with limits.area, its degrees with limits.degrees.
+// Compares each primitive by itself, not the whole model: areas in % with limits.area, angles with limits.degrees.
+// Under any limit, a map whose green points against the file's declaration fails. Under a limit in degrees, a map whose
+// pixels were not read fails too, and so does a model with maps of which none was judged.
 LintCheck checkLimits(const LintReport& report, const LintLimits& limits);
 
 // The names that LintLimits::frame may have: those of all readings.
 const std::vector<std::string>& readingNames();
 
-// What is wrong with the file as it is, one line each: maps whose green points the other way than it says.
+// Defects of the file, one line each: maps whose green points the other way than declared.
 std::vector<std::string> lintWarnings(const LintReport& report);
 
-// "mesh, material NAME", with the placing where there are several.
+// "mesh, material NAME", with the placing if there are several.
 std::string nameOf(const PrimitiveLint& primitive, std::size_t index);
 
 } // namespace cotan

@@ -8,7 +8,7 @@
 //     const Differences<float> d = {{1, 0, 0}, {0, 1, 0}, {1, 0}, {0, 1}};
 //     const Covector3<float> normal = perturb(makeFrame(Frame::cotangent, n, d), texel);
 //
-// This header is the core as a whole. Its topics, in the order in which one needs them, can be included one by one.
+// This header includes the whole core. The headers of its topics, in reading order, can also be included one by one.
 #pragma once
 
 // clang-format off: in the order in which one needs them
@@ -17,9 +17,9 @@
 #include "cotan/frame.hpp"      // frames by name
 #include "cotan/gpu_meshes.hpp" // meshes for vertex, mesh and compute shaders
 #include "cotan/portable.hpp"   // the text of the shaders as C++
-#include "cotan/result.hpp"     // what can fail, and what takes long
+#include "cotan/result.hpp"     // results of functions that can fail, and progress
 #include "cotan/tangents.hpp"   // tangents and cotangents of a mesh
 #include "cotan/triangle.hpp"   // the frame `triangle` from arrays
 #include "cotan/vector.hpp"     // vectors that may be zero or not finite
-#include "cotan/version.hpp"    // of the library
+#include "cotan/version.hpp"    // the version of the library
 // clang-format on

@@ -1,9 +1,9 @@
 // Vectors and covectors as different types.
 //
-// A vector is a displacement: edges, dP/du, light directions. A covector is the coefficients of a
-// plane or a gradient: normals, grad u, the t, b and n of a cotangent frame. Under a linear map M
-// vectors go by M, covectors by its inverse transpose. Adding one to the other is meaningless, and
-// here it does not compile: the error that the 2013 follow-up asks for.
+// A vector is a displacement: edges, dP/du, light directions. A covector holds the coefficients of a plane or a
+// gradient: normals, grad u, the t, b and n of a cotangent frame. A linear map M transforms vectors by M and covectors
+// by its inverse transpose. Adding a vector to a covector is meaningless, and here it does not compile: the error
+// checking that the 2013 follow-up asks for.
 //
 //   Vector3d tangent; Covector3d normal;
 //   tangent + normal;          // does not compile
@@ -31,7 +31,7 @@ template<class Real, class Kind> struct Triple {
 
     constexpr Triple() = default;
     constexpr Triple(Real x_, Real y_, Real z_) : x(x_), y(y_), z(z_) {}
-    // From and to GLM only where it is written out: GLM does not know the kind.
+    // Conversions from and to GLM are explicit: GLM does not know the kind.
     constexpr explicit Triple(const Raw& r) : x(r.x), y(r.y), z(r.z) {}
     constexpr Raw raw() const { return Raw(x, y, z); }
 
@@ -53,8 +53,8 @@ using Vector3d = Vector3<double>;
 using Covector3f = Covector3<float>;
 using Covector3d = Covector3<double>;
 
-// The pairing of a covector with a vector; for grad u and an edge it is the change of u along the
-// edge. It is the same number in every space, whatever the map between them.
+// The pairing of a covector with a vector; for grad u and an edge it is the change of u along the edge. It is invariant
+// under linear maps between spaces.
 template<class Real> constexpr Real dot(Covector3<Real> c, Vector3<Real> v)
 {
     return c.x * v.x + c.y * v.y + c.z * v.z;
@@ -72,33 +72,33 @@ template<class Real> constexpr Vector3<Real> cross(Covector3<Real> a, Covector3<
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// The Euclidean length. Lengths and angles are a property of the space (of its metric), not of
-// the kind; a non-uniform map changes them.
+// The Euclidean length. Lengths and angles are properties of the space (of its metric), not of the kind; a non-uniform
+// map changes them.
 template<class Real, class Kind> Real length(Triple<Real, Kind> a)
 {
     return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z);
 }
 
-// a at length one; `otherwise` where a is zero or not finite.
+// Returns a with length 1; `otherwise` if a is zero or not finite.
 template<class Real, class Kind> Triple<Real, Kind> normalizeOr(Triple<Real, Kind> a, Triple<Real, Kind> otherwise)
 {
     const Real l = length(a);
     return l > 0 && std::isfinite(l) ? a * (1 / l) : otherwise;
 }
 
-// Angle between two of a kind in radians, accurate near 0 and pi. 0 if one of them is zero.
+// Returns the angle between two triples of one kind in radians, accurate near 0 and pi. 0 if one of them is zero.
 template<class Real, class Kind> Real angle(Triple<Real, Kind> a, Triple<Real, Kind> b)
 {
     return std::atan2(glm::length(glm::cross(a.raw(), b.raw())), glm::dot(a.raw(), b.raw()));
 }
 
-// A vector and a covector with the same components: turning one kind into the other uses the
-// metric of the space they are in, so it is written out.
+// Conversions between vectors and covectors with the same components. They depend on the metric of the space, so they
+// are explicit.
 template<class Real> constexpr Covector3<Real> lower(Vector3<Real> v) { return {v.x, v.y, v.z}; }
 template<class Real> constexpr Vector3<Real> raise(Covector3<Real> c) { return {c.x, c.y, c.z}; }
 
-// A linear map between spaces (the upper left 3x3 of an affine matrix; columns are the images of
-// the axes), with what covectors need beside it.
+// A linear map between spaces (the upper left 3x3 of an affine matrix; columns are the images of the axes), with the
+// cofactor matrix that covectors need.
 template<class Real> class LinearMap {
 public:
     using Matrix = packed::mat<3, Real>;
@@ -111,11 +111,11 @@ public:
 
     Real determinant() const { return determinant_; }
 
-    // M v.
+    // Returns M v.
     Vector3<Real> operator()(Vector3<Real> v) const { return Vector3<Real>(matrix_ * v.raw()); }
 
-    // The inverse transpose times c. A singular map (determinant 0) has none: zero then. For
-    // directions only, planeImage() goes without the division.
+    // Returns the inverse transpose times c; zero for a singular map (determinant 0). If only the direction matters,
+    // planeImage() avoids the division.
     Covector3<Real> operator()(Covector3<Real> c) const
     {
         if (determinant_ == 0)
@@ -123,10 +123,10 @@ public:
         return Covector3<Real>(cofactor_ * c.raw() * (1 / determinant_));
     }
 
-    // The cofactor matrix times c, with the determinant's sign: the direction of operator(), but
-    // finite for a flattened object too, where it is the normal of what remains.
+    // Returns the cofactor matrix times c, with the sign of the determinant: the direction of operator(), but valid for
+    // flattened objects too, where it is the normal of the remaining plane.
     Covector3<Real> planeImage(Covector3<Real> c) const { return Covector3<Real>(planeMatrix() * c.raw()); }
-    // The matrix of planeImage(), for many covectors: the inverse transpose up to a factor above 0.
+    // The matrix of planeImage(), for many covectors: the inverse transpose up to a positive factor.
     Matrix planeMatrix() const { return cofactor_ * Real(determinant_ < 0 ? -1 : 1); }
 
 private:
@@ -137,25 +137,25 @@ private:
 
 // ---- three ways to carry a normal to world space ---------------------------------------------
 //
-// For M = R S (rotation after scale along the axes), the only kind of matrix for which all three are the same:
+// All three agree only for M = R S, a rotation after a scale along the axes, and a uniform S:
 //
-//   way               formula        right for                         wrong for
+//   method            formula        correct for                       wrong for
 //   undoScale         R S^-1 n       rotation x axis-aligned scale     shear, a scale in a rotated
-//                                    (mirroring included)              parent; a zero scale
-//   rotationOnly      R n            rotation x uniform scale          any non-uniform scale: a
-//                                                                      sphere scaled 1:1:4 is off by
-//                                                                      up to 36.9 degrees, where
+//                                    (including mirroring)             parent; a zero scale
+//   rotationOnly      R n            rotation x uniform scale          any non-uniform scale: error
+//                                                                      up to 36.9 degrees for a
+//                                                                      sphere scaled 1:1:4, where
 //                                                                      tan = (k-1)/(2 sqrt k)
 //   inverseTranspose  M^-T n         every invertible M                a singular M (use
 //                                                                      LinearMap::planeImage)
 //
-// Source: the three are those of the port of 2017; it prints the first as S^-1 M n, which for
-// M = R S undoes nothing; what is meant is R S^-1 n.
+// Source: the port of 2017, which uses all three; it prints the first as S^-1 M n, which for M = R S undoes nothing,
+// and means R S^-1 n.
 enum class NormalTransform { undoScale, rotationOnly, inverseTranspose };
 
-// Carries a normal by one of the three ways; unit length. For the first two, R and S are taken
-// from M's columns: S their lengths (negative in x if M mirrors), R the columns divided by them.
-// Degenerate: a column of length zero, or a result of length zero, gives `n` normalised.
+// Transforms a normal by one of the three methods; unit length. The first two take R and S from the columns of M: S is
+// their lengths (negative in x if M mirrors), R the columns divided by them.
+// Degenerate input: a column of length zero, or a result of length zero, gives `n` normalised.
 template<class Real>
 Covector3<Real> transformNormal(NormalTransform way, const std::type_identity_t<packed::mat<3, Real>>& m,
                                 Covector3<Real> n)
@@ -170,7 +170,7 @@ Covector3<Real> transformNormal(NormalTransform way, const std::type_identity_t<
     if (scale.x == 0 || scale.y == 0 || scale.z == 0)
         return fallback;
     const packed::mat<3, Real> rotation(m[0] / scale.x, m[1] / scale.y, m[2] / scale.z);
-    // A mirroring stays in the rotation-only way's sign of x: it is part of S, and S is dropped.
+    // The sign of x in S contains the mirroring, which rotationOnly drops together with S.
     const auto local = way == NormalTransform::undoScale ? n.raw() / scale : n.raw();
     return normalizeOr(Covector3<Real>(rotation * local), fallback);
 }

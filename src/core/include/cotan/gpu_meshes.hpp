@@ -1,5 +1,5 @@
-// Meshes as GPUs read them: every triangle with a vertex of its own, meshlets with the triangles around them, and which
-// triangles meet at which vertices. For frames that are made in vertex, mesh and compute shaders.
+// Meshes laid out for GPUs: a provoking vertex of its own for every triangle, meshlets with the surrounding triangles,
+// and the triangles at each vertex. For frames that are made in vertex, mesh and compute shaders.
 #pragma once
 
 #include <cstddef>
@@ -13,25 +13,24 @@ namespace cotan {
 
 // ---- adjacency -----------------------------------------------------------------------------
 
-// Which triangles meet at which vertices, for meshes whose positions change: made once, when the mesh is
-// loaded, it lets a compute shader derive vertex frames anew for every picture. One invocation a group
-// gathers from the group's corners and writes to the group's vertices, without atomics.
-// examples/deforming has the shaders.
+// The triangles at each vertex, for meshes whose positions change. Made once, when the mesh is loaded, it lets a
+// compute shader derive vertex frames again for every rendered image. One invocation per group reads the group's
+// corners and writes to the group's vertices, without atomics. examples/deforming has the shaders.
 
-// Vertices that share a frame, and the corners that it is averaged from: the groups of smoothCotangents.
-// Plain arrays, to be copied to buffers as they are. With T triangles, V vertices and G groups (at most V)
-// 12 T + 4 V + 8 G + 8 bytes, besides the indices of the mesh.
+// Groups of vertices that share a frame, and the corners that it is averaged from, as in smoothCotangents. Plain
+// arrays, ready to be copied to buffers. With T triangles, V vertices and G groups (at most V): 12 T + 4 V + 8 G + 8
+// bytes, besides the indices of the mesh.
 struct Adjacency {
-    // The group's vertices: vertices[vertexBegin[g]] up to and without vertices[vertexBegin[g + 1]]. Every
-    // vertex is in one group; several are in one where position, normal and texcoord are equal.
+    // The vertices of group g are vertices[vertexBegin[g]] up to, but excluding, vertices[vertexBegin[g + 1]]. Every
+    // vertex is in exactly one group; vertices with equal position, normal and texcoord can share a group.
     std::vector<std::uint32_t> vertexBegin;
     std::vector<std::uint32_t> vertices;
-    // Its corners alike, as places in the mesh's indices: c is a corner of triangle c / 3. All are on one
-    // side, mirrored or not. Triangles that have no area in space or uv are in no group; a group of
-    // vertices that only these or none use has no corners, and its frame is zero.
+    // The corners of each group, likewise, as indices into the mesh's indices: c is a corner of triangle c / 3. All are
+    // on one side, mirrored or not. Triangles without area in space or uv are in no group. A group whose vertices are
+    // used by no other triangles has no corners, and its frame is zero.
     std::vector<std::uint32_t> cornerBegin;
     std::vector<std::uint32_t> corners;
-    // Groups from this one on are mirrored: the sign w of glTF's TANGENT is -1 there.
+    // Groups from this one on are mirrored: w of glTF's TANGENT is -1 there.
     std::uint32_t firstMirrored = 0;
 
     std::uint32_t groups() const
@@ -40,25 +39,24 @@ struct Adjacency {
     }
 };
 
-// From the mesh as it is loaded, in its rest pose. Linear in time and memory.
-// What is decided here holds for all poses:
+// Makes the adjacency of a mesh in its rest pose. Linear in time and memory. It is valid for all poses if
 // - vertices that are equal at rest move together;
-// - a triangle keeps its side. It changes sides only where it turns over against its normals;
-// - a triangle without area at rest adds nothing later.
-// A vertex that triangles of both sides index goes with the larger angle: split such vertices first
+// - a triangle keeps its side, which it changes only by turning over against its normals.
+// A triangle without area at rest adds nothing later.
+// A vertex that triangles of both sides use goes to the side with the larger angle: split such vertices first
 // (splitMirrored), and make the adjacency of the result.
-// Arrays of other sizes, or an index out of range, give an empty result.
+// Array sizes that do not match, or an index out of range, give an empty result.
 Adjacency makeAdjacency(const MeshView& mesh);
 
-// The same for normals, which do not stop at the seams of texcoords: groups of equal position and normal, with
-// the corners of all their triangles that have area at rest; texcoords play no part. Groups from
-// firstMirrored on have triangles wound against their normals: turn the sum of the face normals there.
+// Makes the adjacency for normals, which are continuous across uv seams: groups have equal position and normal, with
+// the corners of all their triangles that have area at rest; texcoords are ignored. In groups from firstMirrored on,
+// triangles are wound against their normals: negate the sum of the face normals there.
 Adjacency makeNormalAdjacency(const MeshView& mesh);
 
 // ---- meshlets ------------------------------------------------------------------------------
 
-// Meshlets with the ring of triangles around them: what a mesh shader needs to make the frame `smooth` itself, with no
-// frame stored and from positions that change in every picture. examples/triangle has the shader.
+// Meshlets with the ring of triangles around them, from which a mesh shader can make the frame `smooth` by itself,
+// without stored frames and for positions that change in every rendered image. examples/triangle has the shader.
 
 // A part of a mesh that one work group draws.
 struct RingMeshlet {
@@ -66,66 +64,65 @@ struct RingMeshlet {
     std::uint32_t firstTriangle = 0, triangleCount = 0; // in RingMeshlets::triangles
 };
 
-// Plain arrays, to be copied to buffers as they are.
+// Plain arrays, ready to be copied to buffers.
 struct RingMeshlets {
     std::vector<RingMeshlet> meshlets;
-    std::vector<std::uint32_t> vertices; // of the mesh, by meshlet
-    // Three places among the meshlet's vertices a triangle, the first in the low 8 bits. In the order of the indices,
-    // all meshlets together; with their winding.
+    std::vector<std::uint32_t> vertices; // vertices of the mesh, by meshlet
+    // Three 8-bit indices per triangle into the vertices of its meshlet, the first in the low bits. The triangles of
+    // all meshlets keep the order of the mesh's indices, and the winding.
     std::vector<std::uint32_t> triangles;
-    // The corners that the frame of vertices[i] is averaged from: corners[ringBegin[i]] up to and without
-    // corners[ringBegin[i + 1]], as places in the mesh's indices; c is a corner of triangle c / 3. They are those of
-    // Adjacency: of this meshlet's triangles and of the ring around them.
+    // The frame of vertices[i] is averaged from the corners corners[ringBegin[i]] up to, but excluding,
+    // corners[ringBegin[i + 1]]: indices into the mesh's indices, as in Adjacency; c is a corner of triangle c / 3.
+    // They belong to triangles of this meshlet and of the ring around it.
     std::vector<std::uint32_t> ringBegin;
     std::vector<std::uint32_t> corners;
 };
 
-// Cuts the triangles in their order: reorder them for the vertex cache first. What Adjacency says of poses, sides and
-// triangles without area holds here, too: split vertices that mirrored and unmirrored triangles share (splitMirrored).
-//   maxVertices   of a meshlet, 3 to 256
-//   maxTriangles  of a meshlet, at least 1
-// Linear in time and memory. Arrays of other sizes, an index or a limit out of range give an empty result.
+// Cuts the triangles into meshlets in their order: first reorder them for the vertex cache. The remarks on poses, sides
+// and triangles without area at makeAdjacency apply here, too: first split vertices that mirrored and unmirrored
+// triangles share (splitMirrored).
+//   maxVertices   per meshlet, 3 to 256
+//   maxTriangles  per meshlet, at least 1
+// Linear in time and memory. Array sizes that do not match, and indices or limits out of range, give an empty result.
 RingMeshlets ringMeshlets(const MeshView& mesh, std::uint32_t maxVertices = 64, std::uint32_t maxTriangles = 124);
 
 // ---- provoking vertices --------------------------------------------------------------------
 
-// An index buffer in which every triangle owns a vertex, so that the vertex shader can hand something on
-// that belongs to the triangle: U and V of the frame `triangle`.
+// An index buffer in which every triangle owns a vertex, so that the vertex shader can pass on values of the triangle:
+// U and V of the frame `triangle`.
 //
-// A graphics API takes values that are not interpolated from one vertex of a triangle, its provoking vertex. In an
-// ordinary mesh several triangles share it. Here vertices are numbered so that triangle f has vertex number f as its
-// provoking vertex and shares it with no triangle that would need it for the same. A vertex shader that is given the
-// number k < triangles reads the three corners 3k, 3k + 1 and 3k + 2 of `corners`, the mesh's own vertices, from
-// storage buffers. Nothing else is stored, and it follows every deformation.
-// The idea is that of meshopt_generateProvokingIndexBuffer (meshoptimizer, A. Kapoulkine), which
-// does not number by triangle.
+// Graphics APIs take flat, not interpolated values from one vertex of a triangle, its provoking vertex. In an ordinary
+// mesh several triangles share it. Here the provoking vertex of triangle f is vertex f, and no other triangle has the
+// same one. A vertex shader with vertex number k < triangles reads the three corners 3k, 3k + 1 and 3k + 2 of
+// `corners`, the mesh's own vertices, from storage buffers. Nothing else is stored, and deformation is followed.
+// The idea is that of meshopt_generateProvokingIndexBuffer (meshoptimizer, A. Kapoulkine), which does not number
+// vertices by triangle.
 
-// Which of the three provokes: the first in Vulkan, Direct3D, Metal and WebGPU; the last in OpenGL and
-// WebGL, where glProvokingVertex does not say otherwise.
+// Which of the three vertices provokes: the first in Vulkan, Direct3D, Metal and WebGPU; the last in OpenGL and WebGL,
+// unless glProvokingVertex changes it.
 enum class ProvokingVertex { first, last };
 
 struct ProvokingMesh {
-    // Per new vertex the mesh's vertex that it is a copy of. The first `triangles` of them provoke the
-    // triangle of their number; behind them stand those that provoke none.
+    // Per new vertex: the vertex of the mesh that it is a copy of. The first `triangles` new vertices provoke the
+    // triangle of the same number; the vertices after these provoke none.
     std::vector<std::uint32_t> sources;
-    // Three a triangle, of new vertices. The triangles stay in their order, and so does the winding.
+    // Three new vertices per triangle. The triangles keep their order and winding.
     std::vector<std::uint32_t> indices;
-    // Three a triangle, of the mesh's vertices, turned so that the provoking one comes first.
+    // Three vertices of the mesh per triangle, rotated so that the provoking one comes first.
     std::vector<std::uint32_t> corners;
 };
 
-// Numbers anew. Each vertex of the mesh provokes at least one triangle where that can be had, so that
-// few are left over: a closed mesh, which has twice as many triangles as vertices, comes out with about
-// as many vertices as triangles.
-//   indices       three a triangle; triangles that repeat a vertex are kept as they are
-//   vertexCount   all indices are below it. A vertex that no triangle uses is left out
-// An index out of range, a number of indices that is not a multiple of three, or 2^31 indices and more
-// give an empty result. Linear in time and memory.
+// Renumbers the vertices. If possible, each vertex of the mesh provokes at least one triangle, so that few extra copies
+// are needed: a closed mesh, which has twice as many triangles as vertices, gets about as many vertices as triangles.
+//   indices       three per triangle; triangles that repeat a vertex are kept as they are
+//   vertexCount   all indices are below it. Vertices that no triangle uses are left out
+// An index out of range, a number of indices that is not a multiple of three, or 2^31 or more indices give an empty
+// result. Linear in time and memory.
 ProvokingMesh provokingMesh(std::span<const std::uint32_t> indices, std::size_t vertexCount, ProvokingVertex provoking);
 
-// Triangles from a strip or a fan, wound alike, for the function above. restart: the index that ends a
-// strip or fan and begins the next (0xff, 0xffff or 0xffffffff by the width of the indices). Left over
-// corners make no triangle. Triangles that repeat a vertex, as strips use to turn a corner, are dropped.
+// Return the triangles of a strip or a fan, with its winding, for provokingMesh. restart: the index that ends a strip
+// or fan and begins the next (0xff, 0xffff or 0xffffffff, depending on the index type). Incomplete triangles, and those
+// that repeat a vertex (strips use them to turn corners), are dropped.
 std::vector<std::uint32_t> trianglesOfStrip(std::span<const std::uint32_t> indices,
                                             std::uint32_t restart = 0xffffffffu);
 std::vector<std::uint32_t> trianglesOfFan(std::span<const std::uint32_t> indices, std::uint32_t restart = 0xffffffffu);

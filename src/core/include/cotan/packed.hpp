@@ -1,6 +1,6 @@
-// GLM's packed vectors and matrices, by the names of the usual ones: 3 floats are 12 bytes, whatever
-// GLM_FORCE_DEFAULT_ALIGNED_GENTYPES makes of glm::vec3 in a program. Where that is not defined they are the usual
-// ones. Interfaces of the core have these, so that a program and the library agree on them.
+// GLM's packed vectors and matrices, by the names of the usual ones: 3 floats are 12 bytes, even if a program defines
+// GLM_FORCE_DEFAULT_ALIGNED_GENTYPES, which changes glm::vec3. Otherwise they are the usual types. The core's
+// interfaces use them, so that program and library agree on the layout.
 #pragma once
 
 #include <glm/mat3x3.hpp>

@@ -1,4 +1,4 @@
-// For interfaces that have GLM's usual vectors, which their library was compiled with as packed ones.
+// Rejects aligned default vectors of GLM for interfaces whose library was compiled with packed ones.
 #pragma once
 
 #include <type_traits>
@@ -7,4 +7,4 @@
 
 static_assert(std::is_same_v<glm::vec3, cotan::packed::vec3>,
               "This part of Cotan takes GLM's packed vectors: include it in files that do not define "
-              "GLM_FORCE_DEFAULT_ALIGNED_GENTYPES. GLM's aligned types (glm::aligned_vec3) go beside it");
+              "GLM_FORCE_DEFAULT_ALIGNED_GENTYPES. GLM's aligned types (glm::aligned_vec3) can be used beside it");

@@ -1,4 +1,4 @@
-// What can fail returns Result<T>, and what takes long takes a Progress.
+// The results of functions that can fail, and the progress of long work.
 #pragma once
 
 #include <atomic>
@@ -12,23 +12,23 @@ namespace cotan {
 
 // ---- results -------------------------------------------------------------------------------
 
-// What can fail returns Result<T>: a value, or one line that says what, where, expected, found.
+// Functions that can fail return Result<T>: a value, or an error of one line: what failed, where, expected, found.
 
-// The numbers are the exit codes of the command line, which has none for `stopped`.
+// The numbers are the exit codes of the command line, which does not use `stopped`.
 enum class ErrorKind {
     usage = 1,       // the call itself is wrong
-    input = 2,       // a file or value given to us is bad
-    unavailable = 3, // not here: no device, part not built
-    output = 4,      // cannot write
-    limit = 5,       // checked, and over the limit that was asked for
-    stopped = 6,     // the caller's Progress said so
+    input = 2,       // a given file or value is bad
+    unavailable = 3, // missing: no device, or a part that is not built
+    output = 4,      // output cannot be written
+    limit = 5,       // a check found values over a requested limit
+    stopped = 6,     // the caller's Progress stopped the work
 };
 
 struct Error {
     ErrorKind kind = ErrorKind::input;
     std::string message; // one line, no newline
-    bool memory = false; // a limit of memory that the caller gave stopped it: it may go on with more
-    std::string field{}; // of what the caller gave, where the message begins with it: "options.maxDistance"
+    bool memory = false; // the caller's memory limit was exceeded; a larger limit may succeed
+    std::string field{}; // the caller's field that the message begins with, such as "options.maxDistance"
 };
 
 // A value or an Error. Check with `if (!result)` before `*result`.
@@ -49,7 +49,7 @@ private:
     std::variant<T, Error> state_;
 };
 
-// A Result without a value: `return Done{};` on success.
+// The result of functions that return no value: `return Done{};` on success.
 struct Done {};
 using Status = Result<Done>;
 
@@ -59,7 +59,7 @@ inline Error unavailableError(std::string message) { return {ErrorKind::unavaila
 inline Error outputError(std::string message) { return {ErrorKind::output, std::move(message)}; }
 inline Error memoryError(std::string message) { return {ErrorKind::input, std::move(message), true}; }
 
-// The error about that field, which its message then begins with: "options.maxDistance: expected ...".
+// Returns the error about a field, whose name is prepended to the message: "options.maxDistance: expected ...".
 inline Error about(std::string field, Error error)
 {
     error.message = field + ": " + error.message;
@@ -67,7 +67,7 @@ inline Error about(std::string field, Error error)
     return error;
 }
 
-// The same error in other words, which begin with no field.
+// Returns the error with another message, which begins with no field.
 inline Error reworded(Error error, std::string message)
 {
     error.message = std::move(message);
@@ -77,20 +77,20 @@ inline Error reworded(Error error, std::string message)
 
 // ---- progress ------------------------------------------------------------------------------
 
-// How far long work is, told to the caller, who may stop it.
+// Reports of the progress of long work to the caller, who may stop it.
 
-// Gets the share that is done, from 0 to 1, and returns whether to go on. May be empty. Work that is
-// told to stop ends soon with stoppedError, writes no file and changes nothing that it was given.
+// Called with the fraction done, 0 to 1; returns whether to continue. May be empty. Work that is stopped returns
+// stoppedError soon, writes no file and leaves its arguments unchanged.
 using Progress = std::function<bool(double share)>;
 
 inline Error stoppedError() { return {ErrorKind::stopped, "stopped by the caller"}; }
 
-// Steps of one work, counted from any number of threads and told as a share of `total`.
+// Counts the steps of one task, from any number of threads, and reports them as a fraction of `total`.
 class CountedSteps {
 public:
     CountedSteps(const Progress& progress, std::size_t total) : progress_(progress), total_(total) {}
 
-    // A step is done. Returns whether to go on.
+    // Counts a step. Returns whether to continue.
     bool step()
     {
         if (progress_ && !progress_(double(++done_) / double(total_)))
@@ -106,7 +106,7 @@ private:
     std::atomic<bool> stopped_ = false;
 };
 
-// The progress of part number `part` of `parts` equal ones, as one of the whole.
+// Returns the progress for part `part` of `parts` equal parts of a whole.
 inline Progress partOf(const Progress& progress, std::size_t part, std::size_t parts)
 {
     if (!progress)

@@ -1,12 +1,12 @@
 // Tangents and cotangents from a mesh: the frames `mikktspace`, `vertex` and `smooth`.
 //
 //     const cotan::MeshView mesh = {positions, normals, texcoords, indices};
-//     const std::vector<cotan::packed::vec4> tangents = cotan::mikktspaceTangents(mesh); // one a corner
-//     const cotan::Cotangents cotangents = cotan::smoothCotangents(mesh);                // two a vertex
+//     const std::vector<cotan::packed::vec4> tangents = cotan::mikktspaceTangents(mesh); // one per corner
+//     const cotan::Cotangents cotangents = cotan::smoothCotangents(mesh);                // two per vertex
 //
-// Common to all functions here: texcoords follow glTF, v downwards in the image. Vertices count as
-// one where position, normal and texcoord are equal (-0 equals +0), whether or not they share an
-// index; so the result does not depend on how the mesh is indexed. Time and memory grow linearly.
+// For all functions here: texcoords follow glTF, v downwards in the image. Vertices with equal position, normal and
+// texcoord (-0 equals +0) count as one, whether or not they share an index, so results do not depend on the indexing.
+// Time and memory grow linearly.
 #pragma once
 
 #include <cstddef>
@@ -22,9 +22,9 @@ namespace cotan {
 
 // ---- from a mesh ---------------------------------------------------------------------------
 
-// A mesh as plain arrays. positions, normals and texcoords have one entry a vertex; normals are unit, or zero where
-// unknown; indices are three a triangle, each smaller than the number of vertices. An array of another size or an index
-// out of range makes every function here return an empty result.
+// A mesh as plain arrays. positions, normals and texcoords have one entry per vertex; normals are unit, or zero where
+// unknown; there are three indices per triangle, each smaller than the number of vertices. An array of another size or
+// an index out of range makes every function here return an empty result.
 struct MeshView {
     std::span<const packed::vec3> positions;
     std::span<const packed::vec3> normals;
@@ -32,74 +32,74 @@ struct MeshView {
     std::span<const std::uint32_t> indices;
 };
 
-// MikkTSpace tangents, one per corner, in index order: xyz along increasing u, w = +-1 as glTF's
-// TANGENT has it: cross(n, xyz) * w points up in the image, against increasing v.
-// Corners that share a vertex may differ (mirrored texcoords): see splitVertices.
-// xyz is perpendicular to the normal of the vertex, and unit as far as floats are; to be used as
-// cotan_frame_mikktspace says, not normalised between the vertices.
-// Degenerate input, as the source has it: a triangle with two equal positions takes its corners' tangents from
-// the first sound triangle at the vertex. One with no area in uv takes part in its neighbours'; where there are
-// none the tangent is (1,0,0), whatever the normal, and w = +1 (the source's -1; its v runs up). Where tangents
-// cancel out, xyz is zero. Input that is not finite: as without neighbours.
-// Source: M. Mikkelsen, Simulation of Wrinkled Surfaces Revisited (2008), and the behaviour of
-// mikktspace.h with its default angular threshold of 180 degrees, fixed as in three.js 0.187: every shared
-// edge joins its triangles, where mikktspace.c leaves the edges of the last vertex unsorted (BuildNeighborsFast)
-// and so takes some for borders; corners at that vertex of few meshes differ.
-// threads: how many to use for large meshes, 0: all cores; the result does not depend on it.
+// Returns MikkTSpace tangents, one per corner, in the order of the indices: xyz along increasing u, w = +-1 as in
+// glTF's TANGENT: cross(n, xyz) * w points up in the image, against increasing v. Corners that share a vertex may
+// differ (mirrored texcoords): see splitVertices.
+// xyz is perpendicular to the normal of the vertex, and unit to float precision. Use it as cotan_frame_mikktspace
+// describes; do not normalise it after interpolation.
+// Degenerate input is handled as in the source. The corners of a triangle with two equal positions get the tangents of
+// the first valid triangle at their vertex. A triangle without area in uv shares the tangents of its neighbours;
+// without neighbours the tangent is (1,0,0), whatever the normal, and w = +1 (-1 in the source, whose v runs up). Where
+// tangents cancel out, xyz is zero. Non-finite tangents become those of a triangle without neighbours.
+// Source: M. Mikkelsen, Simulation of Wrinkled Surfaces Revisited (2008), and the behaviour of mikktspace.h with its
+// default angular threshold of 180 degrees, fixed as in three.js 0.187: every shared edge connects its triangles.
+// mikktspace.c leaves the edges of the last vertex unsorted (BuildNeighborsFast) and treats some as borders; corners at
+// that vertex differ in a few meshes.
+// threads: the number to use for large meshes, 0: all cores; the result does not depend on it.
 std::vector<packed::vec4> mikktspaceTangents(const MeshView& mesh, int threads = 0);
 
-// The classic procedure: dP/du of every triangle from its edges, normalised, summed per vertex
-// without weights, made perpendicular to the normal. Mirrored and unmirrored charts are kept apart.
-// The result is laid out as for mikktspaceTangents.
-// Degenerate input: triangles without area in space or uv add nothing; their corners get the
-// tangent of the vertex. Where there is none: some unit vector perpendicular to the normal, w = +1.
+// The classic method: dP/du of every triangle, from its edges, is normalised, summed per vertex without weights, and
+// made perpendicular to the normal. Mirrored and unmirrored charts are kept apart. The result is laid out as for
+// mikktspaceTangents.
+// Degenerate input: triangles without area in space or uv add nothing; their corners get the tangent of the vertex. If
+// there is none: some unit vector perpendicular to the normal, w = +1.
 std::vector<packed::vec4> vertexTangents(const MeshView& mesh);
 
-// The tangents that a frame reads, which readsTangents(frame): one of the two above. Empty for other frames.
+// Returns the tangents for a frame with readsTangents(frame): one of the two above. Empty for other frames.
 std::vector<packed::vec4> generateTangents(Frame frame, const MeshView& mesh, int threads = 0);
 
-// A tangent as frames take it: w * cross(n, xyz) along increasing v. glTF's TANGENT, and what the functions above make,
-// has it against increasing v. Its own inverse.
+// Converts a tangent of glTF, or of the functions above, to the form that frames take: w * cross(n, xyz) along
+// increasing v instead of against it. Its own inverse.
 inline packed::vec4 tangentAlongV(packed::vec4 gltf) { return {gltf.x, gltf.y, gltf.z, -gltf.w}; }
 
-// Gradients of u and v, per length unit of position. Covectors: transform them like normals.
+// Gradients of u and v, per unit of position. They are covectors: transform them like normals.
 struct Cotangents {
     std::vector<packed::vec3> u; // one per vertex of the given arrays
     std::vector<packed::vec3> v;
 };
 
-// Cotangents averaged at the vertices, for the frame `smooth`: the frame `gradient` of each
-// triangle with the vertex's normal, weighted by the corner's angle seen along that normal.
-// Neither unit nor perpendicular to each other: stretch and shear of the texcoords are kept.
-// Continuous inside a chart. Mirrored and unmirrored charts are kept apart, except at a vertex that triangles of both
-// kinds index: it gets the side with the larger angle, so split such vertices first (splitMirrored).
-// Degenerate input: triangles without area in space or uv add nothing; a vertex with no other
-// triangle gets zero, which the frame turns into the plain normal.
-// threads: how many to use for large meshes, 0: all cores; the result does not depend on it.
+// Returns cotangents averaged at the vertices, for the frame `smooth`: the frame `gradient` of each triangle with the
+// vertex's normal, weighted by the corner's angle as seen along that normal. Neither unit nor perpendicular to each
+// other: stretch and shear of the texcoords are kept. Continuous inside a chart. Mirrored and unmirrored charts are
+// kept apart, except at a vertex that triangles of both kinds use: it gets the side with the larger angle, so split
+// such vertices first (splitMirrored).
+// Degenerate input: triangles without area in space or uv add nothing; a vertex without other triangles gets zero,
+// which gives the plain normal.
+// threads: the number to use for large meshes, 0: all cores; the result does not depend on it.
 Cotangents smoothCotangents(const MeshView& mesh, int threads = 0);
 
-// For every vertex the first one that counts as the same. Arrays of other sizes, or an index out of range, give an
-// empty result.
+// Returns for every vertex the first vertex that counts as equal. Array sizes that do not match, or an index out of
+// range, give an empty result.
 std::vector<std::uint32_t> firstEqualVertices(const MeshView& mesh);
 
-// The same triangles over more vertices: the old ones in their order, then copies.
+// The same triangles with more vertices: the old ones in their order, then copies.
 struct VertexSplit {
     std::vector<std::uint32_t> sources; // per new vertex: the old vertex whose attributes it copies
-    std::vector<std::uint32_t> indices; // as many as before, into the new vertices
+    std::vector<std::uint32_t> indices; // as many as before; indices of new vertices
 };
 
-// Copies vertices until all corners that share one have the same value, so that per-corner
-// tangents can be stored per vertex: tangents[split.indices[i]] = corners[i].
-// corners: one per index; vertexCount: over all indices. Sizes that do not match or an index out
-// of range give an empty split.
+// Copies vertices until all corners that share one have the same value, so that per-corner tangents can be stored per
+// vertex: tangents[split.indices[i]] = corners[i].
+// corners: one per index. vertexCount: greater than all indices. Sizes that do not match or an index out of range give
+// an empty split.
 VertexSplit splitVertices(std::size_t vertexCount, std::span<const std::uint32_t> indices,
                           std::span<const packed::vec4> corners);
 
-// Copies the vertices that mirrored and unmirrored triangles share. Triangles without area in space
-// or uv go with the unmirrored ones where there are both.
+// Copies the vertices that mirrored and unmirrored triangles share. There, triangles without area in space or uv are
+// assigned to the unmirrored ones.
 VertexSplit splitMirrored(const MeshView& mesh);
 
-// An attribute of the old vertices, given to the new ones. Empty stays empty.
+// Returns an attribute of the old vertices for the new ones. Empty attributes stay empty.
 template<class T> std::vector<T> gathered(std::span<const T> values, const VertexSplit& split)
 {
     std::vector<T> result;
@@ -111,7 +111,7 @@ template<class T> std::vector<T> gathered(std::span<const T> values, const Verte
     return result;
 }
 
-// Both steps to the frame `smooth`: the mesh with mirrored and unmirrored triangles apart, and its cotangents.
+// Both steps of the frame `smooth`: the mesh with mirrored and unmirrored triangles apart, and its cotangents.
 struct SplitCotangents {
     VertexSplit split;
     Cotangents cotangents; // one per new vertex
@@ -120,51 +120,51 @@ SplitCotangents splitSmoothCotangents(const MeshView& mesh, int threads = 0);
 
 // ---- with progress -------------------------------------------------------------------------
 
-// Tangents and cotangents of large meshes, with progress, a way to stop, and the reason where there are none.
+// Tangents and cotangents of large meshes, with progress, cancellation and error messages.
 
-// What mikktspaceTangents(mesh, threads) and smoothCotangents(mesh, threads) return, to the bit. progress is told from
-// any of the threads, at least after each step (a hundred milliseconds for a million triangles) and after each 65536
-// vertices of the last one.
-// Errors: ErrorKind::usage with the array of MeshView, what was expected of it and what was found;
-// ErrorKind::stopped where `progress` said so.
+// Return the results of mikktspaceTangents(mesh, threads) and smoothCotangents(mesh, threads), to the bit. `progress`
+// is called from any of the threads, at least after each step (100 ms for a million triangles) and, in the last step,
+// after each 65536 vertices.
+// Errors: ErrorKind::usage with the array of MeshView, what was expected and what was found; ErrorKind::stopped if
+// `progress` stops the work.
 Result<std::vector<packed::vec4>> mikktspaceTangents(const MeshView& mesh, int threads, const Progress& progress);
 Result<Cotangents> smoothCotangents(const MeshView& mesh, int threads, const Progress& progress);
 
 // ---- compared ------------------------------------------------------------------------------
 
-// Stored tangents against generated ones, corner by corner, and what the difference means.
+// Comparison of stored tangents with generated ones, corner by corner, and its interpretation.
 
-// What was found at the corners of one or several meshes. Degenerate corners, of triangles without
-// area in uv or with two equal positions, or where one of the two tangents has no length, are
-// counted and not compared: there any tangent is as good as another.
+// The differences at the corners of one or several meshes. Degenerate corners (of triangles without area in uv or with
+// two equal positions, or with a tangent of zero length) are counted but not compared: any tangent is equally good
+// there.
 struct TangentDifference {
-    std::vector<float> degrees; // between the directions, one per compared corner
-    std::size_t corners = 0;    // all
+    std::vector<float> degrees; // between the directions, per compared corner
+    std::size_t corners = 0;    // including degenerate ones
     std::size_t degenerate = 0;
     std::size_t handedness = 0; // compared corners whose w differs in sign
 };
 
-// Directions up to this many degrees apart are equal: another implementation's rounding moves a tangent by some
-// thousandths of a degree.
+// Directions up to this many degrees apart count as equal: the rounding of another implementation changes tangents by
+// some thousandths of a degree.
 inline constexpr float kEqualTangents = 0.05f;
 
-// stored: one per vertex; generated: one per corner, as mikktspaceTangents gives them. Indices that point outside the
-// arrays are the caller's to avoid.
+// stored: one per vertex; generated: one per corner, as mikktspaceTangents returns them. The caller must ensure that
+// all indices are inside the arrays.
 TangentDifference tangentDifference(const MeshView& mesh, std::span<const packed::vec4> stored,
                                     std::span<const packed::vec4> generated);
 
-// Adds the corners of another mesh.
+// Appends the corners of another mesh.
 void append(TangentDifference& to, const TangentDifference& more);
 
-// Shares of the compared corners, in [0,1]; 0 where none was compared.
-double turnedShare(const TangentDifference& difference);   // directions over 90 degrees apart
-double invertedShare(const TangentDifference& difference); // w of the other sign
+// Fractions of the compared corners, in [0,1]; 0 if none was compared.
+double reversedFraction(const TangentDifference& difference); // directions over 90 degrees apart
+double invertedFraction(const TangentDifference& difference); // w has the other sign
 
 enum class TangentVerdict {
     nothing,  // no corner could be compared
     equal,    // directions within kEqualTangents, all w equal
     inverted, // w differs on at least 90 % of the corners
-    turned,   // 40 to 60 % of the directions point the other way (over 90 degrees)
+    turned,   // 40 to 60 % of the directions are reversed (over 90 degrees apart)
     off,      // anything else
 };
 

@@ -1,4 +1,4 @@
-// What GLM lacks: vectors and matrices that may be zero or not finite, and the angle between two vectors.
+// Supplements to GLM: vectors and matrices that may be zero or not finite, and the angle between two vectors.
 #pragma once
 
 #include <cmath>
@@ -28,7 +28,7 @@ template<glm::length_t C, glm::length_t R, class Real, glm::qualifier Q> bool is
     return true;
 }
 
-// v with length 1; `otherwise` where its length is not finite or not over `least`.
+// Returns v with length 1; `otherwise` if its length is not finite or not greater than `least`.
 template<class Real, glm::qualifier Q>
 glm::vec<3, Real, Q> unitOr(const glm::vec<3, Real, Q>& v, const glm::vec<3, Real, Q>& otherwise, Real least = 0)
 {
@@ -36,11 +36,11 @@ glm::vec<3, Real, Q> unitOr(const glm::vec<3, Real, Q>& v, const glm::vec<3, Rea
     return length > least && std::isfinite(length) ? v / length : otherwise;
 }
 
-// The same with zero for otherwise, computed in double and rounded once.
+// Like unitOr with zero for `otherwise`; computed in double and rounded once.
 inline glm::vec3 unitOrZero(const glm::dvec3& v) { return glm::vec3(unitOr(v, glm::dvec3(0))); }
 
-// Radians, 0 to pi. Lengths do not count. From sine and cosine: the cosine alone cannot tell 0.02 degrees from
-// 0 in float. 0 where a vector is zero; NaN where one is not finite.
+// Returns the angle between two vectors of any length in radians, 0 to pi. Uses sine and cosine: in float, the cosine
+// alone cannot distinguish 0.02 degrees from 0. 0 if a vector is zero; NaN if one is not finite.
 template<class Real, glm::qualifier Q> Real angleBetween(const glm::vec<3, Real, Q>& a, const glm::vec<3, Real, Q>& b)
 {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));

@@ -1,4 +1,4 @@
-// Reads glTF files to a scene, and changes them while leaving alone what is not meant.
+// Reads glTF files to a scene, and edits glTF files while keeping all content that an edit does not concern.
 //
 //     auto scene = cotan::loadGltf("model.glb");
 //
@@ -34,25 +34,25 @@ namespace cotan {
 
 // ---- to a scene ----------------------------------------------------------------------------
 
-// Reads .gltf and .glb. What was odd but usable is said in Scene::warnings. Missing normals are flat ones, as
-// glTF asks. Only files inside the model's own folder are opened.
+// Reads .gltf and .glb. Unusual but usable content is reported in Scene::warnings. Missing normals become flat normals,
+// as glTF requires. Only files inside the model's own folder are opened.
 // Errors: ErrorKind::input with one line: file, field, expected, found. Never throws for bad input.
 Result<Scene> loadGltf(const std::filesystem::path& file, const LoadLimits& limits = {});
 
-// ---- to be changed -------------------------------------------------------------------------
+// ---- editing -------------------------------------------------------------------------------
 
-// Changing a glTF file and leaving alone what is not meant: names, extras, extensions that we do not
-// know, attributes of any type, images, animations.
+// Edits to a glTF file keep everything else in it: names, extras, unknown extensions, attributes of any type, images,
+// animations.
 //
-// Indices of materials, textures, images, meshes and nodes are the file's, and stay as they are while the
-// document is open. Only writing removes what has fallen out of use, and works on a copy.
+// Indices of materials, textures, images, meshes and nodes are those of the file, and stay valid while the document is
+// open. Only writing removes unused items, and does so on a copy.
 
-struct GltfSource; // the file as it was read; never changes
+struct GltfSource; // the file as read; immutable
 
-struct GltfJson; // what it says, as changed since
+struct GltfJson; // the JSON of a document, with its edits
 
-// The JSON of a document, which only Cotan's own parts look into: no JSON library is needed to use these functions. A
-// copy is a whole one. What was moved from may be assigned to and destroyed.
+// The JSON of a document, opaque to users: these functions need no JSON library. Copies are deep. A moved-from object
+// may only be assigned to or destroyed.
 struct GltfRoot {
     GltfRoot();
     GltfRoot(const GltfRoot& other);
@@ -66,47 +66,46 @@ struct GltfRoot {
 
 struct GltfDocument {
     GltfRoot root;
-    // Of the buffer views that are new: those after the ones in `source`.
+    // Bytes of the new buffer views, which follow those of `source`.
     std::vector<std::vector<std::byte>> added;
-    std::vector<std::string> notes; // what the user should know about the changes; one line each
+    std::vector<std::string> notes; // what the user should know about the edits; one line each
     std::shared_ptr<const GltfSource> source;
 };
 
-// Reads a .gltf or .glb with its buffers, with the checks and limits of loadGltf except that images
-// are not opened. Compressed geometry is decoded, and is plain in the document; writing puts the file's own streams in
-// the place of what nobody changed. Errors: those of loadGltf.
+// Reads a .gltf or .glb with its buffers, with the checks and limits of loadGltf except that images are not opened.
+// Compressed geometry is decoded, and is uncompressed in the document; writing restores the file's own streams for
+// geometry that was not changed. Errors: those of loadGltf.
 Result<GltfDocument> openGltfDocument(const std::filesystem::path& file, const LoadLimits& limits = {});
 
-// The file that a document was read from, for messages; empty for one that was made from a scene.
+// The file that a document was read from, for messages; empty for a document made by gltfDocumentOf.
 const std::filesystem::path& gltfPath(const GltfDocument& document);
 
-// A scene as a new document: one mesh with one primitive for each of its meshes, materials of metallic-roughness,
-// images as PNG inside. Lights, cameras and derived cotangents are left out. Meshes without vertices are not for glTF:
-// the caller keeps to scenes that were loaded or made with triangles. Errors: ErrorKind::output where there is no
-// memory for a PNG; images of floats cannot be stored (ErrorKind::input).
+// Converts a scene to a new document: one mesh with one primitive for each mesh, metallic-roughness materials, embedded
+// PNG images. Lights, cameras and derived cotangents are left out. glTF does not allow meshes without vertices, so the
+// scene must be a loaded one or have triangles in every mesh. Errors: ErrorKind::input for float images, which glTF
+// cannot store; ErrorKind::output if there is no memory for a PNG.
 Result<GltfDocument> gltfDocumentOf(const Scene& scene);
 
 // ---- geometry -------------------------------------------------------------------------------
 
-// One primitive as a triangle list. Attributes are as the file has them, dequantised but not
-// normalised; arrays are empty or have one entry a vertex. Vertices that no triangle uses are left
-// out. Morph targets and skins are not applied.
+// One primitive as a triangle list. Attributes are dequantised but not normalised; arrays are empty or have one entry
+// per vertex. Vertices that no triangle uses are left out. Morph targets and skins are not applied.
 struct GltfGeometry {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec4> tangents;
     std::vector<glm::vec2> texcoords;   // as the normal map reads them: its uv set, transformed
     std::vector<std::uint32_t> indices; // three a triangle; strips and fans are unrolled
-    int texcoordSet = 0;                // which uv set that is
+    int texcoordSet = 0;                // the uv set that texcoords are from
 };
 
-// Where a material has normal maps: its own and that of its clear coat (KHR_materials_clearcoat).
+// The normal maps of a material: its own and that of its clear coat (KHR_materials_clearcoat).
 enum class NormalSlot { surface, coat };
 inline constexpr NormalSlot kNormalSlots[] = {NormalSlot::surface, NormalSlot::coat};
 
-// mesh, primitive: indices into the file's. slot: the map whose uv are read; uv set 0 where there is none. material: in
-// the place of the primitive's own. Points and lines, and primitives without POSITION, give an empty geometry. Errors
-// (ErrorKind::input): indices out of range.
+// Returns the geometry of a primitive. mesh, primitive: indices in the file, in range. slot: the normal map whose uv
+// are read; uv set 0 if there is none. material: replaces the primitive's own. Points and lines, and primitives without
+// POSITION, give an empty geometry. Errors (ErrorKind::input): an attribute of the wrong type.
 Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh, std::size_t primitive,
                                   NormalSlot slot = NormalSlot::surface,
                                   std::optional<std::size_t> material = std::nullopt);
@@ -120,163 +119,161 @@ struct GltfCornerTangents {
     std::vector<glm::vec4> corners;
 };
 
-// Gives primitives TANGENT, in place of what they had. A vertex is copied, with all its attributes and morph targets,
-// only where corners that share it differ; primitives that share their attributes go on sharing them if all of them are
-// given in one call. Strips and fans become lists. Returns how many vertices were added.
-// Errors (ErrorKind::input): no NORMAL; ErrorKind::usage: corners of the wrong
-// number. On error the document is unchanged.
+// Sets TANGENT of primitives, replacing any they had. A vertex is copied, with all its attributes and morph targets,
+// only if corners that share it differ; primitives that share their attributes still share them if all of them are
+// given in one call. Strips and fans become lists. Returns the number of added vertices.
+// Errors: ErrorKind::input if NORMAL is missing; ErrorKind::usage for a wrong number of corners; both leave the
+// document unchanged. ErrorKind::input without memory for the copies; the document must not be used afterwards.
 Result<std::size_t> setGltfTangents(GltfDocument& document, std::span<const GltfCornerTangents> tangents);
 
-// Takes TANGENT from a primitive and from its morph targets. Returns whether there was one.
+// Removes TANGENT from a primitive and from its morph targets. Returns whether the primitive had it.
 bool dropGltfTangents(GltfDocument& document, std::size_t mesh, std::size_t primitive);
 
 // ---- provoking vertices ---------------------------------------------------------------------
 
-// What became of one primitive. Vertices: before, those that its triangles used.
+// Result for one primitive. verticesBefore: the vertices that its triangles used.
 struct GltfProvoked {
     std::size_t mesh = 0;
     std::size_t primitive = 0;
     std::size_t triangles = 0, verticesBefore = 0, verticesAfter = 0;
 };
 
-// Numbers every primitive anew, so that its vertex k < triangles provokes its triangle k (see provokingMesh). Its
-// indices then say which vertices those of triangle k are, so that a vertex shader that reads them, and the positions,
-// uv and normals, makes U and V of the frame `triangle`. Vertices are copied with all attributes and morph targets, to
-// the bit. Triangles stay in their order; strips, fans and primitives without indices become lists. Vertices that no
-// triangle uses are left out, and primitives that shared vertices get their own. Points and lines stay as they are.
-// Returns what has triangles; primitives that draw the same arrays go on sharing them, and only the first is returned.
-// Errors (ErrorKind::input): no memory for the copies; the document is then not to be used.
+// Renumbers the vertices of every primitive so that vertex k < triangles provokes triangle k (see provokingMesh). The
+// index buffer then lists the vertices of triangle k, so that a vertex shader that reads it, and the positions, uv and
+// normals, can compute U and V of the frame `triangle`. Vertices are copied bit for bit with all attributes and morph
+// targets. Triangles keep their order; strips, fans and primitives without indices become lists. Unused vertices are
+// left out, and primitives that shared vertices get their own. Points and lines are unchanged. Returns the primitives
+// with triangles; of primitives that draw the same arrays, which still share them, only the first is returned. Errors
+// (ErrorKind::input): no memory for the copies; the document must not be used afterwards.
 Result<std::vector<GltfProvoked>> setGltfProvoking(GltfDocument& document, ProvokingVertex provoking);
 
 // ---- images ---------------------------------------------------------------------------------
 
-// The encoded bytes of an image, wherever they are. Errors: ErrorKind::input.
+// The encoded bytes of an image, from a buffer view, a data URI or a file. Errors: ErrorKind::input.
 Result<std::vector<std::byte>> gltfImageBytes(const GltfDocument& document, std::size_t image,
                                               const LoadLimits& limits = {});
 
-// New content for an image: all textures that use it follow. mimeType: "image/png" or "image/jpeg". Whatever the image
-// was before, the bytes go into the .glb, or into a file beside the .gltf; its name and extras are kept.
+// Replaces the content of an image; all textures that use it follow. mimeType: "image/png" or "image/jpeg". The bytes
+// are written into the .glb, or to a file beside the .gltf, wherever the old ones were; name and extras are kept.
 void replaceGltfImage(GltfDocument& document, std::size_t image, std::vector<std::byte> bytes,
                       const std::string& mimeType);
 
-// A new image; returns its index.
+// Adds an image; returns its index.
 std::size_t addGltfImage(GltfDocument& document, std::vector<std::byte> bytes, const std::string& mimeType,
                          const std::string& name);
 
-// A texture that reads `image` and is else like `texture` (sampler, name, extras); returns its
-// index. Extensions that name another source (KHR_texture_basisu, EXT_texture_webp, ...) are left out.
+// Adds a copy of `texture` (sampler, name, extras) that reads `image`; returns its index. Extensions are left out,
+// since they may name another source (KHR_texture_basisu, EXT_texture_webp, ...).
 std::size_t copyGltfTexture(GltfDocument& document, std::size_t texture, std::size_t image);
 
-// A copy of a material; returns its index.
+// Adds a copy of a material; returns its index.
 std::size_t copyGltfMaterial(GltfDocument& document, std::size_t material);
 
 // ---- writing --------------------------------------------------------------------------------
 
 struct GltfWritten {
     std::vector<std::filesystem::path> files; // the model first
-    std::size_t bytesBefore = 0;              // model, buffers and image files that it used; embedded or beside
+    std::size_t bytesBefore = 0;              // model, buffers and the image files it used, embedded or beside it
     std::size_t bytesAfter = 0;
-    std::vector<std::string> notes; // the document's and those of writing
+    std::vector<std::string> notes; // those of the document, then those of writing
 };
 
-// Writes NAME.glb (one file: image files are embedded) or NAME.gltf with NAME.bin; then images keep
-// their relative URIs and are copied if the folder is another one, and new ones become files NAME-IMAGE.png or .jpg,
-// with a number where another file has that name. All buffers become one.
-// Accessors, views, images and bytes that the file used and now nothing uses are removed, and all
-// indices follow; where an extension that we do not know might refer to them, they are kept, and a
-// note says so. Whatever fails, nothing is left behind.
-// Errors: ErrorKind::usage for another extension than .glb and .gltf; ErrorKind::output where a file cannot be written
-// or an image to be copied would replace a different file; ErrorKind::input where an image file cannot be read.
+// Writes NAME.glb, one file with all image files embedded, or NAME.gltf with NAME.bin. With the latter, images keep
+// their relative URIs and are copied if the folder differs; new images become files NAME-IMAGE.png or .jpg, with a
+// number if the name is taken. All buffers become one. Accessors, views, images and bytes that the file used and that
+// are now unused are removed, and all indices are adjusted; if an unknown extension may refer to them they are kept,
+// and a note says so. On failure no file is left behind.
+// Errors: ErrorKind::usage for a file extension other than .glb and .gltf; ErrorKind::output if a file cannot be
+// written or a copied image would replace a different file; ErrorKind::input if an image file cannot be read.
 Result<GltfWritten> writeGltf(const GltfDocument& document, const std::filesystem::path& file,
                               const LoadLimits& limits = {});
 
-// The same as the bytes of a .glb, nothing written: what is beside the model is put inside. limits.readFile is not
-// asked; the document remembers where it came from.
+// Returns the bytes of a .glb without writing files; image files are embedded. limits.readFile is ignored: the document
+// keeps the readFile that it was opened with.
 Result<std::vector<std::byte>> glbBytes(GltfDocument document, const LoadLimits& limits = {});
 
 // ---- tangents of a whole file --------------------------------------------------------------
 
-// A primitive with what its tangents are made from.
+// A primitive with the input of tangent generation.
 struct GltfPrimitiveGeometry {
     std::size_t mesh = 0, primitive = 0; // indices into the file's
-    std::string name;      // of the mesh; where it has several primitives with "/" and the primitive's number
+    std::string name;      // mesh name; "/" and the primitive's number are appended if the mesh has several
     GltfGeometry geometry; // with unit normals
-    std::string cannot;    // why there are no tangents to be had: "no NORMAL"; empty if there are
+    std::string reason;    // why tangents cannot be generated: "no NORMAL"; empty if they can
 
     MeshView view() const { return {geometry.positions, geometry.normals, geometry.texcoords, geometry.indices}; }
 };
 
-// All primitives of a file, in its order. Errors (ErrorKind::input): compressed geometry (KHR_draco_mesh_compression).
+// All primitives of a file, in file order. Errors: those of gltfGeometry.
 Result<std::vector<GltfPrimitiveGeometry>> gltfPrimitives(const GltfDocument& document);
 
 struct TangentsOptions {
     Frame frame = Frame::mikktspace; // or vertex
-    bool replace = false;            // giveTangents: also where there is TANGENT; else only where it is missing
-    bool mappedOnly = false;         // only primitives that some material shows with a normal map
+    bool replace = false;            // giveTangents: also replace existing TANGENT
+    bool mappedOnly = false;         // only primitives with a normal map in some material
     int threads = 0;                 // 0: all cores; the result does not depend on it
-    Progress progress{};             // on the thread of the caller
+    Progress progress{};             // called on the caller's thread
 };
 
-// What became of one primitive.
+// Result for one primitive.
 struct PrimitiveTangents {
     std::size_t mesh = 0, primitive = 0;
     std::string name{}; // as in GltfPrimitiveGeometry
     std::size_t triangles = 0;
     bool stored = false;                           // the file had TANGENT
-    bool generated = false;                        // giveTangents: it has new ones
-    std::string cannot{};                          // why there are none to be had; empty if there are
-    std::optional<TangentDifference> difference{}; // compareTangents: of the stored ones, where there are any
+    bool generated = false;                        // giveTangents: the primitive has new tangents
+    std::string reason{};                          // why tangents cannot be generated; empty if they can
+    std::optional<TangentDifference> difference{}; // compareTangents: of the stored tangents, if any
 };
 
-struct TangentsGiven {
+struct GiveTangentsResult {
     std::vector<PrimitiveTangents> primitives;
     std::size_t generated = 0, kept = 0,
-                skipped = 0;       // primitives: with new tangents, with their own, with none to be had
-    std::size_t verticesAdded = 0; // copies, where corners that shared a vertex differ
+                skipped = 0;       // primitives with new tangents, with their own, without any
+    std::size_t verticesAdded = 0; // copies, made where corners that shared a vertex differ
 };
 
-// Generates tangents and puts them into the file as TANGENT (see setGltfTangents).
-// Errors: ErrorKind::usage for another frame than mikktspace and vertex; ErrorKind::input for compressed geometry;
-// ErrorKind::stopped. On error the document is unchanged.
-Result<TangentsGiven> giveTangents(GltfDocument& document, const TangentsOptions& options);
+// Generates tangents and stores them in the document as TANGENT (see setGltfTangents).
+// Errors: ErrorKind::usage for a frame other than mikktspace and vertex; ErrorKind::stopped; those of gltfGeometry. On
+// error the document is unchanged.
+Result<GiveTangentsResult> giveTangents(GltfDocument& document, const TangentsOptions& options);
 
-struct TangentsCompared {
+struct CompareTangentsResult {
     std::vector<PrimitiveTangents> primitives;
-    TangentDifference whole; // of all that could be compared
-    std::size_t without = 0; // primitives that could have TANGENT and have none
+    TangentDifference whole; // over all primitives that could be compared
+    std::size_t without = 0; // primitives that could have TANGENT but have none
 };
 
-// Says how far the stored tangents are from those of the frame. Errors: as giveTangents.
-Result<TangentsCompared> compareTangents(const GltfDocument& document, const TangentsOptions& options);
+// Measures how much the stored tangents differ from those of the frame. Errors: as giveTangents.
+Result<CompareTangentsResult> compareTangents(const GltfDocument& document, const TangentsOptions& options);
 
-// ---- a model that moves --------------------------------------------------------------------
+// ---- animated models -----------------------------------------------------------------------
 
-// A glTF model that moves: read once, and then at one moment after another.
+// An animated glTF model: read once, then posed at any number of times.
 
 struct GltfAnimation {
-    std::string name;   // empty where the file gives none
-    double seconds = 0; // to the last of its keys; 0 where none can be read
+    std::string name;   // empty if the file has none
+    double seconds = 0; // time of the last key; 0 if no key can be read
 };
 
-// Keeps the bytes of the file, and gives scenes of it. One thread at a time.
+// Holds the bytes of the file and makes scenes from them. Not thread-safe.
 class AnimatedGltf {
 public:
-    // limits: also of each scene; its pose is not used. Errors: as loadGltf.
+    // limits: apply to each scene too; limits.pose is ignored. Errors: as loadGltf.
     static Result<std::unique_ptr<AnimatedGltf>> open(const std::filesystem::path& file, const LoadLimits& limits);
     ~AnimatedGltf();
 
-    // In the order of the file; empty where it has none.
+    // In file order; empty if there are none.
     const std::vector<GltfAnimation>& animations() const;
 
-    // As loadGltf with that pose. images: those of a scene that was made here before, which are copied; null: they are
-    // decoded. Errors: as loadGltf; ErrorKind::usage where there is no such animation.
+    // Like loadGltf with `pose`. images: those of an earlier scene of this object, which are copied; null: images are
+    // decoded. Errors: as loadGltf; ErrorKind::usage if there is no such animation.
     Result<Scene> at(const Pose& pose, const std::vector<Image>* images = nullptr);
 
-    // Points, in the world, that the animation of that name or number reaches: of moments a thirtieth of a second
-    // apart, from its start to its end; at most 256 of them, and of large models as many as pose 8 million vertices,
-    // but 9 at least. Up to 300,000 points they are all vertices; beyond, those of each moment that lie furthest along
-    // 64 directions, so that the box around them may be too small by 2 % of the model. Kept for the next call. Errors:
-    // as at().
+    // World-space points that bound the animation with this name or number over its whole duration. It is sampled every
+    // 1/30 s, at most 256 times and, for large models, only as often as 8 million posed vertices allow, but at least 9
+    // times. Up to 300,000 points all vertices are returned; beyond that the extreme points of each sample along 64
+    // directions, whose bounding box may be too small by 2 % of the model. The result is cached. Errors: as at().
     Result<std::vector<glm::vec3>> reach(const std::string& animation);
 
 private:

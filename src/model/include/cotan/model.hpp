@@ -1,4 +1,4 @@
-// Reads any model file to a scene.
+// Reads a model file of any supported format into a scene.
 //
 //     auto scene = cotan::loadScene("model.glb"); // or .gltf .obj .ply .stl .dae .fbx .3ds
 //     if (!scene)
@@ -20,25 +20,24 @@ namespace cotan {
 
 // ---- to a scene ----------------------------------------------------------------------------
 
-// Reads a model: .gltf and .glb, .obj, everything else (.ply .stl .dae .fbx .3ds) through Assimp; all but glTF in a
-// process of its own where limits.sandbox says so. What comes from limits.readFile is glTF. What was odd but usable is
-// said in Scene::warnings. Missing normals are generated. limits.up says whether it is turned. Only files inside the
-// model's own folder are opened.
-// Errors: ErrorKind::input with one line: file, field, expected, found; a reader's process that crashed, or was stopped
-// at a limit, is one, too. ErrorKind::unavailable: it could not be started; not built with Assimp. Never throws for bad
-// input.
+// Reads a model: .gltf and .glb, .obj, all others (.ply .stl .dae .fbx .3ds) through Assimp. If limits.sandbox names a
+// program, all formats but glTF are read in a child process. Data from limits.readFile must be glTF. Unusual but usable
+// content is reported in Scene::warnings. Missing normals are generated. limits.up selects a rotation to y up. Only
+// files inside the model's own folder are opened.
+// Errors: ErrorKind::input with one line: file, field, expected, found; also if the child process crashes or exceeds a
+// limit. ErrorKind::unavailable: the child process cannot be started; built without Assimp. Never throws for bad input.
 Result<Scene> loadScene(const std::filesystem::path& file, const LoadLimits& limits = {});
 
-// The readers behind loadScene, with loadGltf of cotan/gltf.hpp.
+// The readers that loadScene uses besides loadGltf of cotan/gltf.hpp.
 Result<Scene> loadObj(const std::filesystem::path& file, const LoadLimits& limits = {});
 Result<Scene> loadWithAssimp(const std::filesystem::path& file, const LoadLimits& limits = {});
 
 // ---- the reader in a child process, see cotan/files.hpp ------------------------------------
 
-// Whether this process was started to read for another one.
+// Whether this process was started as a reader for another process.
 bool isReaderProcess(int argc, const char* const* argv);
 
-// Reads what the parent asks for, and answers. Returns the exit code where there is no parent; else it does not return.
+// Serves the parent's request. Returns an exit code only if there is no parent or no valid request; otherwise exits.
 int runReaderProcess();
 
 } // namespace cotan

@@ -10,7 +10,7 @@
 //     cotan::Status loaded = (*renderer)->load(scene);
 //     auto normals = (*renderer)->draw(view);
 //
-// The reference renderer is always there. What is said of Vulkan needs a library that was built with it.
+// The reference renderer is always available. The Vulkan renderer needs a library that was built with Vulkan.
 #pragma once
 
 #include <memory>
@@ -25,51 +25,49 @@ namespace cotan {
 
 // ---- one image -----------------------------------------------------------------------------
 
-// Draws the view of the scene on the device of that name, as openRenderer takes it.
-// Tangents or cotangents that view.frame reads at the vertices are made where the scene has none; pass a
-// scene that is no longer needed by std::move. The picture is as view.output says, in View's size.
-// threads: of the reference renderer; 0 means all cores. For several pictures, or to know which device
-// "auto" has found, open a Renderer.
+// Draws a view of the scene, with the output and size that `view` states. If the scene lacks the tangents or cotangents
+// that view.frame reads at vertices, they are generated; use std::move for a scene that is no longer needed.
+// device: as for openRenderer. threads: of the reference renderer; 0 means all cores. To draw several images, or to
+// know which device "auto" has found, open a Renderer.
 // Errors: those of openRenderer, Renderer::load and Renderer::draw.
 Result<Image> drawView(Scene scene, const View& view, const std::string& device = "auto", int threads = 0);
 
 // ---- several images ------------------------------------------------------------------------
 
-// A device that is open, or the reference renderer. Made by openRenderer; for one picture there is drawView. One thread
-// at a time.
+// An open device or the reference renderer, made by openRenderer. Use it from one thread at a time. drawView draws a
+// single image.
 class Renderer {
 public:
     virtual ~Renderer() = default;
 
-    // Takes a scene in the place of the one before. It must live until the next load, forget or the
-    // renderer's end. Frames from vertices read what deriveVertexFrames (cotan/view.hpp)
-    // has put into it; without that draw() refuses them.
-    // Errors: ErrorKind::input for a scene that does not hold together (checkScene), and over 100 million
-    // drawn triangles of a Vulkan device; the reference renderer says that in draw. ErrorKind::unavailable
-    // when the device has not enough memory.
-    // sameImages: all images are those of the scene that was loaded before, in its order (another moment of an
-    // animation, say); what was made of them is kept. Where that load failed, everything is made again.
+    // Replaces the loaded scene. `scene` must live until the next load, forget, or the renderer's end. Frames that read
+    // vertex attributes need those that deriveVertexFrames (cotan/view.hpp) adds; without them draw() fails.
+    // Errors: ErrorKind::input for an inconsistent scene (checkScene), and on a Vulkan device for more than 100 million
+    // drawn triangles, which the reference renderer reports in draw; ErrorKind::unavailable if the device has not
+    // enough memory.
+    // sameImages: all images are those of the previous scene, in the same order (in another frame of an animation, for
+    // example), and their textures are kept. If the previous load failed, all are uploaded again.
     Status load(const Scene& scene, bool sameImages = false);
 
-    // The renderer has no scene from here on.
+    // Unloads the scene.
     void forget() { loaded_ = false; }
 
-    // A picture of the loaded scene. Errors: ErrorKind::usage without a scene, for a size that cannot be drawn (the
-    // reference renderer: 1 to 16384 pixels a side), an unknown frame, or one that reads what the scene lacks at its
-    // vertices; ErrorKind::unavailable without the memory; those of VulkanRenderer::render and renderReference.
+    // Draws the loaded scene. Errors: ErrorKind::usage without a scene, for a size that cannot be drawn (the reference
+    // renderer: 1 to 16384 pixels a side), an unknown frame, or one whose vertex attributes the scene lacks;
+    // ErrorKind::unavailable if memory runs out; those of VulkanRenderer::render and renderReference.
     Result<Image> draw(const View& view);
 
     // "reference", or the Vulkan device's name.
     virtual std::string device() const = 0;
-    // What the last load took to copy to the device, in seconds; 0 for the reference renderer.
+    // Seconds that the last load spent uploading to the device; 0 for the reference renderer.
     virtual double uploadSeconds() const { return 0; }
-    // What Vulkan's validation layer has said so far, where openRenderer was asked for it.
+    // All messages of Vulkan's validation layer, if openRenderer enabled it.
     virtual std::vector<std::string> messages() const { return {}; }
 
-    // Gets 0 before each picture and then, from the reference renderer, the share of it that is drawn, up to
-    // 1 and from several threads. Where it says to stop, draw returns ErrorKind::stopped.
+    // Called with 0 before each image and then, by the reference renderer, with the fraction drawn so far, from several
+    // threads. If it returns false, draw fails with ErrorKind::stopped.
     Progress progress;
-    // Why the reference renderer draws although "auto" was asked for, one line; empty otherwise.
+    // Why "auto" chose the reference renderer, in one line; otherwise empty.
     std::string note;
 
 private:
@@ -77,64 +75,65 @@ private:
     virtual Result<Image> drawLoaded(const View& view) = 0;
 
     bool loaded_ = false;
-    bool holds_ = false; // the last load has worked
+    bool holds_ = false; // the last load succeeded
 };
 
-// Opens a device. `device`: "reference"; "auto" is the best Vulkan device, and the reference renderer where
-// there is none (`note` then says why); anything else is a part of a Vulkan device's name, in any case.
-// threads: of the reference renderer; 0 means all cores. No picture depends on it. validation: ask for Vulkan's
-// validation layer; that it is not installed is the first of the messages then.
+// Opens a device. `device`: "reference"; "auto" for the best Vulkan device, or the reference renderer if there is none
+// (`note` then says why); anything else is matched case-insensitively with part of a Vulkan device's name.
+// threads: of the reference renderer; 0 means all cores; the images do not depend on it. validation: enables Vulkan's
+// validation layer; if it is not installed, the first message says so.
 // Errors: ErrorKind::unavailable, never for "auto" and "reference".
 Result<std::unique_ptr<Renderer>> openRenderer(const std::string& device = "auto", int threads = 0,
                                                bool validation = false);
 
 // ---- exposure ------------------------------------------------------------------------------
 
-// The exposure for a view of the renderer's scene, by what a small picture of it shows without what is behind: the
-// logarithms' mean of the brightness of the scene's pixels goes part of the way to a middle grey, so that white stays
-// bright and black dark, and the brightest fiftieth stays below what tone curves burn out. Rounded to 1/32 of a stop,
-// so that renderers that differ by a rounding agree. 1 where nothing is seen. view.exposure, ground and background are
-// not read; drawn with the same curve of tones, so that a device needs no other shaders. Errors: those of
-// Renderer::draw.
+// The exposure for a view of the renderer's scene, metered from a small render without background. The geometric mean
+// of the brightness of covered pixels moves part of the way to middle grey, so that white stays bright and black dark,
+// and the brightest 2 % stay below the values that tone curves clip. The result is rounded to 1/32 of a stop, so that
+// renderers which differ by rounding agree. It is 1 if nothing is visible. view.exposure, ground and background are
+// ignored. The tone curve is that of the view, so that a device compiles no additional shaders.
+// Errors: those of Renderer::draw.
 Result<float> meterExposure(Renderer& renderer, View view);
 
 // ---- cameras as text -----------------------------------------------------------------------
 
-// "fit": the whole scene from the front, a little from above; "front": the same, as near as its vertices allow; both
-// frame all of an animation (Scene::reach);
-// "left", "right", "top", "bottom", "back": the same from that side, straight on; "orbit:AZIMUTH,ELEVATION": from
-// any, in degrees as orbitCamera (cotan/view.hpp) has them, at most 360 around and 90 up or down;
-// "0", "1", ...: a camera of the scene; or
-// "ex,ey,ez,tx,ty,tz": from the eye e to the target t, in world units, y up (-z where it looks straight up or down),
-// with a lens of 45 degrees from bottom to top; a seventh number is another lens in degrees, "h" and a number an
-// orthographic camera that is so many world units high; three more are the direction up.
-// width, height: of the picture, pixels.
-// Errors: ErrorKind::usage, with what was expected and found.
+// Parses a camera:
+//   "fit": the whole scene from the front, slightly from above; "front": the same, as close as its vertices permit;
+//   both
+//     frame the whole animation (Scene::reach);
+//   "left", "right", "top", "bottom", "back": straight from that side; "orbit:AZIMUTH,ELEVATION": from any direction,
+//   in
+//     degrees as for orbitCamera (cotan/view.hpp), at most 360 around and 90 up or down; "0", "1", ...: a scene camera;
+//   "ex,ey,ez,tx,ty,tz": from the eye e to the target t, in world units, with y up (-z for a vertical view) and a
+//   vertical
+//     field of view of 45 degrees. A seventh number is another field of view in degrees, or "h" and a number for an
+//     orthographic camera with that height in world units. Three more numbers are the up direction.
+// width, height: of the image, in pixels. Errors: ErrorKind::usage, with what was expected and found.
 Result<Camera> parseCamera(const std::string& text, const Scene& scene, int width, int height);
 
-// The words of a camera: parseCamera makes the same camera of them, to the bit, but for its name.
+// Formats a camera so that parseCamera returns the same camera, to the bit, except for its name.
 std::string formatCamera(const Camera& camera);
 
 // ---- the reference renderer ----------------------------------------------------------------
 
-// Slow and obvious, the judge: draws the scene on the CPU as a GPU would, pixels in 2x2 quads whose helper lanes
-// extrapolate the triangle, derivatives as differences inside the quad, clipping against the near plane, the portable
-// text in float. The picture is the same, byte for byte, for any number of threads.
-// threads: 0 means all cores. progress is called from several threads.
-// Translucent materials are composed per sample in the order of their distance, whatever their number
-// of layers; of equally far ones the one drawn later is in front.
-// Errors: ErrorKind::usage for a view that does not hold together, and for a size over 16384 a side;
-// ErrorKind::input over 100 million triangles, instances counted; ErrorKind::unavailable without the memory, or
-// where more than 1024 translucent layers a pixel meet in a tile of 32 x 32 pixels.
+// Draws a scene on the CPU as a GPU would. Written to be simple, not fast, as the reference for other renderers: pixels
+// in 2x2 quads whose helper lanes extrapolate the triangle, derivatives as differences inside the quad, clipping at the
+// near plane, the portable text in float. The image is the same, byte for byte, for any number of threads.
+// threads: 0 means all cores. progress is called from several threads. Any number of translucent layers is composed per
+// sample in depth order; of equally distant ones the one drawn later is in front.
+// Errors: ErrorKind::usage for an inconsistent view, or more than 16384 pixels a side; ErrorKind::input over 100
+// million triangles, instances counted; ErrorKind::unavailable if memory runs out, or for more than 1024 translucent
+// layers per pixel on average in a tile of 32 x 32 pixels.
 Result<Image> renderReference(const Scene& scene, const View& view, int threads = 0, const Progress& progress = {});
 
 // ---- the Vulkan renderer -------------------------------------------------------------------
 
-// The Vulkan renderer. Needs the Vulkan loader and GLM, nothing else at run time.
+// The Vulkan renderer. At run time it needs only the Vulkan loader.
 
 struct VulkanRendererOptions {
-    std::string device;      // part of the device's name, any case; empty: the fastest kind found
-    bool validation = false; // ask for the validation layer; its messages land in messages()
+    std::string device;      // part of the device's name, in any case; empty: best type of device
+    bool validation = false; // enables the validation layer; see messages()
 };
 
 struct RenderTimings { // seconds
@@ -144,7 +143,7 @@ struct RenderTimings { // seconds
 };
 
 // The names of all devices that can run the renderer, in order of preference.
-// Errors: ErrorKind::unavailable says why there is none.
+// Errors: ErrorKind::unavailable, with the reason if there is none.
 Result<std::vector<std::string>> renderDevices();
 
 class VulkanRenderer {
@@ -157,16 +156,15 @@ public:
     VulkanRenderer& operator=(VulkanRenderer&&) noexcept;
     ~VulkanRenderer();
 
-    // Uploads a scene; it replaces the one before. Errors: ErrorKind::unavailable when the device
-    // has not enough memory; ErrorKind::input over 100 million triangles, instances counted.
-    // sameImages: all images are those of the scene before, in its order; their textures stay on the device.
+    // Uploads a scene and replaces the previous one. sameImages: all images are those of the previous scene, in the
+    // same order; their textures stay on the device. Errors: ErrorKind::unavailable if the device has not enough
+    // memory; ErrorKind::input over 100 million triangles, instances counted.
     Status load(const Scene& scene, bool sameImages = false);
 
-    // Draws the loaded scene. Translucent materials are composed per sample in the order of their distance,
-    // whatever their number of layers; of equally far ones the one later in the scene is in front. Lists of
-    // their fragments take 144 MiB of device memory.
-    // Errors: ErrorKind::usage for a size the device cannot draw; ErrorKind::unavailable without the memory,
-    // or for more than 2.8 million translucent fragments in one row of pixels.
+    // Draws the loaded scene. Any number of translucent layers is composed per sample in depth order; of equally
+    // distant ones the one later in the scene is in front. The fragment lists take 144 MiB of device memory.
+    // Errors: ErrorKind::usage for a size that the device cannot draw; ErrorKind::unavailable if memory runs out, or
+    // for more than 2.8 million translucent fragments in one row of pixels.
     Result<Image> render(const View& view);
 
     const std::string& deviceName() const;

@@ -1,4 +1,4 @@
-// What there is to draw: images, materials, meshes, instances, lights and cameras as plain structs. No files, no GPU.
+// Scenes to draw: images, materials, meshes, instances, lights and cameras as plain structs. No files, no GPU.
 //
 //     cotan::Scene scene;
 //     scene.images.push_back(cotan::makeReliefMap(cotan::Relief::waves, 512));
@@ -9,7 +9,7 @@
 //     scene.instances.push_back({.name = "torus", .mesh = 0});
 //     auto image = cotan::drawView(scene, view); // cotan/render.hpp; cotan/view.hpp has View
 //
-// World space is right-handed, y up, metres. Scenes also come from files: loadScene of cotan/model.hpp.
+// World space is right-handed, with y up, in metres. loadScene of cotan/model.hpp reads scenes from files.
 #pragma once
 
 #include <array>
@@ -41,20 +41,19 @@ constexpr std::size_t bytesPerComponent(PixelType type)
 
 constexpr int bitsPerComponent(PixelType type) { return int(8 * bytesPerComponent(type)); }
 
-// Always four components a pixel, red green blue alpha, rows from the top, no padding.
-// Grey files become r = g = b; a missing alpha becomes 1. The values are those of the file:
-// whether they are sRGB or linear is decided by what they are used for.
+// Four components per pixel (red, green, blue, alpha), rows from the top, no padding. Grey files are expanded to RGB; a
+// missing alpha is 1. Values are as stored in the file: how they are used decides whether they are sRGB or linear.
 struct Image {
-    std::string name; // for messages: file name, or what it was made from
+    std::string name; // for messages: the file name, or how the image was made
     int width = 0;    // pixels
     int height = 0;   // pixels
     PixelType type = PixelType::unorm8;
     std::vector<std::byte> data; // width * height * 4 * bytesPerComponent(type)
-    // Name of the frame that a normal map was made for, as the file says it (key cotanFrame of PNG, EXR and KTX2): any
-    // word of up to 64 characters, not only names that frameFromName knows. Empty: it is not said.
+    // Name of the frame that a normal map was made for, from the file's metadata (key cotanFrame of PNG, EXR and KTX2):
+    // any word of up to 64 characters, not only names that frameFromName accepts. Empty if the file does not name one.
     std::string frame = {};
-    // How many channels the file stores: 1 grey, 2 (red and green of KTX2 and DDS, others grey and alpha), 3, 4. 4 also
-    // where nothing is known.
+    // Number of channels in the file: 1 grey, 2 (KTX2 and DDS: red and green; others: grey and alpha), 3 or 4. 4 if
+    // unknown.
     int channels = 4;
 
     std::size_t pixelCount() const { return std::size_t(width) * std::size_t(height); }
@@ -74,7 +73,7 @@ inline bool hasPixels(const Image& image)
     return image.width > 0 && image.height > 0 && image.data.size() >= image.pixelCount() * image.bytesPerPixel();
 }
 
-// Whether every texel of an image of whole numbers has the largest alpha; false for floats. The image hasPixels.
+// Whether every texel of an integer image has the maximum alpha; false for floats. Requires hasPixels(image).
 inline bool isOpaque(const Image& image)
 {
     const auto all = [&](const auto* components, auto largest) {
@@ -88,7 +87,7 @@ inline bool isOpaque(const Image& image)
                                            : false;
 }
 
-// An image of that size with every byte zero.
+// Returns an image of the given size with all bytes zero.
 inline Image makeImage(int width, int height, PixelType type, std::string name = {})
 {
     Image image;
@@ -114,12 +113,11 @@ struct Sampler {
     MipFilter mip = MipFilter::linear;
 };
 
-// A use of an image by a material. (u,v) of the mesh becomes
-// (dot(uRow.xy, uv) + uRow.z, dot(vRow.xy, uv) + vRow.z): KHR_texture_transform, flattened.
-// v = 0 is the top row of the image.
+// How a material samples an image. The mesh's (u,v) becomes (dot(uRow.xy, uv) + uRow.z, dot(vRow.xy, uv) + vRow.z):
+// KHR_texture_transform as a matrix. v = 0 is the top row of the image.
 struct Texture {
     int image = -1;   // index into Scene::images; -1: none
-    int texcoord = 0; // 0 or 1: which uv set
+    int texcoord = 0; // uv set, 0 or 1
     Sampler sampler;
     glm::vec3 uRow{1, 0, 0};
     glm::vec3 vRow{0, 1, 0};
@@ -129,7 +127,7 @@ struct Texture {
 
 enum class AlphaMode { opaque, mask, blend };
 
-// A clear layer over the whole (KHR_materials_clearcoat).
+// A clear layer over the material (KHR_materials_clearcoat).
 struct Coat {
     float strength = 0; // 0 to 1
     float roughness = 0;
@@ -140,23 +138,23 @@ struct Coat {
     Texture normalMap;       // linear
 };
 
-// Highlights that are stretched along the surface (KHR_materials_anisotropy).
+// Anisotropic highlights (KHR_materials_anisotropy).
 struct Anisotropy {
     float strength = 0; // 0 to 1
     float rotation = 0; // radians, from +u towards -v
-    Texture map;        // linear: r and g the direction, 2c - 1, along +u and -v; b, times strength
+    Texture map;        // linear: r and g direction, 2c - 1, along +u and -v; b times strength
 };
 
-// What a dielectric reflects (KHR_materials_ior, KHR_materials_specular).
+// Reflection of dielectrics (KHR_materials_ior, KHR_materials_specular).
 struct Specular {
-    float ior = 1.5f;         // index of refraction, at least 1; 0: as if infinite
+    float ior = 1.5f;         // index of refraction, at least 1; 0: infinite
     float strength = 1;       // 0 to 1
-    glm::vec3 color{1, 1, 1}; // linear, of light from the front
+    glm::vec3 color{1, 1, 1}; // linear, reflection at normal incidence
     Texture map;              // linear: a, times strength
     Texture colorMap;         // sRGB
 };
 
-// The fibres of cloth (KHR_materials_sheen).
+// Reflection of cloth fibres (KHR_materials_sheen).
 struct Sheen {
     glm::vec3 color{0, 0, 0}; // linear, 0 to 1; black: none
     float roughness = 0;      // 0 to 1
@@ -166,7 +164,7 @@ struct Sheen {
     bool present() const { return color != glm::vec3(0); }
 };
 
-// Light that passes as through a thin sheet (KHR_materials_transmission).
+// Transmission as through a thin sheet (KHR_materials_transmission).
 struct Transmission {
     float strength = 0; // 0 to 1
     Texture map;        // linear: r, times strength
@@ -181,9 +179,9 @@ struct Material {
     float occlusionStrength = 1;
     float normalScale = 1;            // factor on the slopes
     Convention normalFormat;          // how normalMap is stored; v runs down, as everywhere in a scene
-    std::optional<Frame> normalFrame; // that the normal maps were made for, where the file says so
-    // Green of the normal maps is the other way than the file declares, and so is w of the meshes' tangents: see
-    // scene/normal_maps.hpp.
+    std::optional<Frame> normalFrame; // frame of the normal maps, if the file names one
+    // Whether green of the normal maps and w of the meshes' tangents are flipped relative to the file
+    // (scene/normal_maps.hpp).
     bool greenReversed = false;
     Texture baseColorMap;         // sRGB, alpha linear
     Texture metallicRoughnessMap; // linear: g roughness, b metallic
@@ -199,14 +197,14 @@ struct Material {
     Specular specular;
     Sheen sheen;
     Transmission transmission;
-    std::string tangentsFor; // an extension that reads tangents and whose maps are not converted; empty if none
+    std::string tangentsFor; // an extension that reads tangents and whose maps are not converted; or empty
 
-    // What is behind it shows.
+    // Whether surfaces behind this one are visible through it.
     bool translucent() const { return alphaMode == AlphaMode::blend || transmission.strength > 0; }
-    // It stops light, by its alpha: opaque ones all of it, masked ones what their mask leaves, blended ones their
-    // alpha's share. What transmits counts as clear glass.
-    bool throwsShadow() const { return !(transmission.strength > 0); }
-    // Its reflections are others than those of metallic-roughness, or take less than all light.
+    // Whether the surface blocks light: all of it if opaque, where the mask keeps it if masked, the fraction alpha if
+    // blended. Transmissive materials cast no shadow, like clear glass.
+    bool castsShadow() const { return !(transmission.strength > 0); }
+    // Whether reflections differ from plain metallic-roughness, or part of the light is transmitted.
     bool glossy() const
     {
         const bool plain = specular.ior == 1.5f && specular.strength == 1 && specular.color == glm::vec3(1)
@@ -220,13 +218,13 @@ struct Mesh {
     std::string name;
     int material = 0; // index into Scene::materials, always valid
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;  // always present after loading; unit, or zero where unknown
-    std::vector<glm::vec4> tangents; // as stored in the file: xyz, w = +-1; empty if none
+    std::vector<glm::vec3> normals;  // always present after loading; unit, or zero if unknown
+    std::vector<glm::vec4> tangents; // as stored in the file: xyz, w = +-1; or empty
     std::array<std::vector<glm::vec2>, 2> texcoords;
-    std::vector<glm::vec4> colors;      // linear, multiply the base colour
-    std::vector<glm::vec3> cotangentsU; // derived for the frame `smooth`; empty if not made
+    std::vector<glm::vec4> colors;      // linear; factors on the base colour
+    std::vector<glm::vec3> cotangentsU; // derived for the frame `smooth`; otherwise empty
     std::vector<glm::vec3> cotangentsV;
-    std::vector<std::uint32_t> indices; // three a triangle, each < vertexCount()
+    std::vector<std::uint32_t> indices; // three per triangle, each < vertexCount()
 
     std::size_t vertexCount() const { return positions.size(); }
     std::size_t triangleCount() const { return indices.size() / 3; }
@@ -235,7 +233,7 @@ struct Mesh {
 struct Instance {
     std::string name;
     int mesh = 0;         // index into Scene::meshes
-    glm::mat4 toWorld{1}; // affine; any scale, mirroring included
+    glm::mat4 toWorld{1}; // affine; any scale, including mirroring
 };
 
 enum class LightKind { directional, point, spot };
@@ -243,9 +241,9 @@ enum class LightKind { directional, point, spot };
 struct Light {
     LightKind kind = LightKind::directional;
     glm::vec3 color{1, 1, 1};      // linear, times intensity
-    float intensity = 3;           // directional: lux / pi-free radiometric; point, spot: candela
+    float intensity = 3;           // directional: lux, perpendicular to the light; point, spot: candela
     glm::vec3 position{0, 0, 0};   // world
-    glm::vec3 direction{0, -1, 0}; // world, unit, the way the light travels
+    glm::vec3 direction{0, -1, 0}; // world, unit, direction in which the light travels
     float range = 0;               // metres; 0: infinite
     float innerCone = 0;           // radians from the axis
     float outerCone = 0.785398f;
@@ -269,13 +267,13 @@ struct Scene {
     std::vector<Instance> instances;
     std::vector<Light> lights;
     std::vector<Camera> cameras;
-    // World points that what moves in an animation reaches at all of its moments, not only this one: what cameras frame
-    // and the ground lies under. Empty: it stands as it is.
+    // World points that bound the scene over a whole animation, not only at the current time. Cameras frame these
+    // points, and the ground is placed below them. Empty if nothing moves.
     std::vector<glm::vec3> reach;
-    std::vector<std::string> warnings; // one line each: what was odd, and what was done about it
+    std::vector<std::string> warnings; // one line each: the problem found, and how it was handled
 };
 
-// The smallest box around all instances, in world space; low > high where there is nothing.
+// World-space bounding box of all instances; low > high if empty.
 struct Bounds {
     glm::vec3 low{1e30f};
     glm::vec3 high{-1e30f};
@@ -285,39 +283,37 @@ struct Bounds {
 
 // ---- built-in shapes and maps --------------------------------------------------------------
 
-// Analytic, made in memory. Every shape has outward normals, uv set 0 and counter-clockwise triangles seen from
-// outside. uv follow glTF: v = 0 at the top row of the image. `segments` is the number of cells along u.
-Mesh makePlane(float side, int segments, float uvRepeat); // in xz, facing +y, centred
+// Analytic shapes. Each has outward normals, uv set 0, and triangles that are counter-clockwise seen from outside. As
+// in glTF, v = 0 is the top row of the image. `segments` is the number of cells along u.
+Mesh makePlane(float side, int segments, float uvRepeat); // in the xz plane, facing +y, centred
 Mesh makeCube(float side, float uvRepeat);                // six faces, split at the edges
 Mesh makeSphere(float radius, int segments);              // latitude-longitude, poles split
 Mesh makeTorus(float majorRadius, float minorRadius, int segments, float repeatU, float repeatV);
-// M. Newell's 32 patches, one high, resting on y = 0, the spout along +x. Every patch covers the
-// unit square of uv: u around, v down the pot and along handle and spout.
+// The 32 patches of M. Newell's teapot, one unit high, resting on y = 0, with the spout along +x. Every patch covers
+// the unit square of uv: u runs around, v runs down the pot and along handle and spout.
 Mesh makeTeapot(int segmentsPerPatch);
-Mesh makeSpout(int segments); // bent, tapering, open tube; uv squashed at the tip
-// A unit square patch in xy facing +z, centred, whose uv are p -> L^-1 p with L = [stretch, shear;
-// 0, 1] and p measured rightwards and downwards from the top left corner; mirrored negates u.
-// (Figure 2.6.4 of the 2006 chapter.)
+Mesh makeSpout(int segments); // bent, tapering, open tube; its uv are squeezed at the tip
+// A centred unit square in the xy plane facing +z. Its uv are L^-1 p with L = [stretch, shear; 0, 1], where p is
+// measured right and down from the top left corner; `mirrored` negates u. (Figure 2.6.4 of the 2006 chapter.)
 Mesh makePatch(float stretch, float shear, bool mirrored, int segments);
 
 enum class Relief { domes, bricks, waves };
 
-// A height with its derivatives at (u,v), periodic in the unit square, v downwards.
+// A height and its derivatives at (u,v), periodic over the unit square, with v downwards.
 struct HeightSample {
     double h = 0, hu = 0, hv = 0; // in uv units
 };
 HeightSample relief(Relief kind, double u, double v);
 
-// The normal map of a relief from its analytic derivatives: 8 bit, exact expansion, green against
-// +v (glTF). side: pixels, each texel sampled at its centre.
+// The normal map of a relief, from its analytic derivatives: 8 bit, exact expansion, green against +v (glTF). side:
+// pixels; each texel is sampled at its centre.
 Image makeReliefMap(Relief kind, int side);
 
-// One shape of white plastic alone, to look at maps on: "plane" (upright), "sphere", "torus" or "teapot"; the plane for
-// all other names. It is about 2 units high; the torus repeats its texture six times around, the sphere twice.
+// A single shape of white plastic, for viewing maps: "plane" (upright), "sphere", "torus" or "teapot"; any other name
+// gives the plane. It is about 2 units high. The torus repeats its texture six times around, the sphere twice.
 Scene shapeScene(const std::string& shape);
 
-// The built-in scene of `cotan render` without a model: a normal-mapped floor, the teapot and a
-// few shapes; no tangent stored anywhere.
+// The scene of `cotan render` without a model: the teapot and a few shapes with normal maps. No tangents are stored.
 Scene builtinScene();
 
 } // namespace cotan

@@ -1,5 +1,5 @@
-// Pictures of real models beside those of three.js: the same camera, environment, exposure and tone mapping. The
-// pairs, and a third picture with four times their difference, are left in the build folder, to be looked at.
+// Renders of real models beside those of three.js with the same camera, environment, exposure and tone mapping. Each
+// pair, with a third image of four times the difference, is written to the build folder for inspection.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,12 +22,12 @@ using nlohmann::json;
 constexpr int kWidth = 480, kHeight = 360;
 constexpr std::uint8_t kGrey = 128;
 
-// A model, how far our picture may be from three's, and why as far as that. Both bars are some 1.3 times what was
-// measured when the pair was last looked at.
+// A model, the maximum difference between our render and that of three.js, and its reason. Both bounds are about 1.3
+// times what was measured when the pair was last inspected.
 struct Case {
     const char* name;
     const char* file;
-    double steps; // mean of the largest channel's difference over the model's pixels, in steps of 8 bits
+    double steps; // mean over the model's pixels of the largest difference of a channel, in 8-bit steps
     double flip;
     const char* why;
 };
@@ -62,7 +62,7 @@ const Case kCases[] = {
     {"lumberjack", "animated/lumberjack.glb", 4.8, 0.07, "edges"},
 };
 
-// What both draw.
+// The input of both renderers.
 struct Subject {
     Scene scene;
     Camera camera;
@@ -82,7 +82,7 @@ Result<Subject> subjectOf(const Case& c)
 }
 
 struct Drawn {
-    Image picture; // over the grey
+    Image image; // composited over grey
     std::vector<bool> covered;
 };
 
@@ -103,11 +103,11 @@ Drawn drawOurs(Renderer& renderer, Subject& subject, std::shared_ptr<const Envir
     view.lights = subject.scene.lights;
     view.environmentMap = std::move(environment);
     view.background = false;
-    view.shadows = false; // three's lamps cast none unless told to
+    view.shadows = false; // lights of three.js cast no shadows by default
     view.toneMapping = ToneMapping::neutral;
     Drawn drawn{drawWith(renderer, view), {}};
-    for (std::size_t i = 0; i < drawn.picture.pixelCount(); ++i) {
-        std::uint8_t* const p = texel(drawn.picture, i);
+    for (std::size_t i = 0; i < drawn.image.pixelCount(); ++i) {
+        std::uint8_t* const p = texel(drawn.image, i);
         drawn.covered.push_back(p[3] > 0);
         for (int k = 0; k < 3; ++k)
             p[k] = std::uint8_t((p[k] * p[3] + kGrey * (255 - p[3]) + 127) / 255);
@@ -127,8 +127,8 @@ Image theirs(const std::string& digits)
     return image;
 }
 
-// Ours, theirs, and the difference.
-void leavePair(const std::string& name, const Image& ours, const Image& three)
+// Writes our render, that of three.js, and their difference side by side.
+void writePair(const std::string& name, const Image& ours, const Image& three)
 {
     Image all = makeImage(3 * kWidth, kHeight, PixelType::unorm8);
     for (std::size_t y = 0; y < kHeight; ++y)
@@ -144,7 +144,7 @@ void leavePair(const std::string& name, const Image& ours, const Image& three)
     EXPECT_TRUE(writeImage(std::filesystem::path(COTAN_PAIRS) / (name + ".png"), all));
 }
 
-// The page over the models that are there.
+// The HTML page that draws all models in three.js.
 std::string pageOf(const std::map<std::string, Subject>& subjects)
 {
     json cases = json::array();
@@ -160,7 +160,7 @@ std::string pageOf(const std::map<std::string, Subject>& subjects)
                              {"fieldOfView", double(camera.verticalFieldOfView) * 180 / std::numbers::pi},
                              {"far", found->second.far}});
     }
-    std::string page = readWhole(COTAN_SOURCE_DIR "/tests/second_opinion.html.in");
+    std::string page = readWhole(COTAN_SOURCE_DIR "/tests/three_comparison.html.in");
     put(page, "LIBRARY_URL", "file://" COTAN_NPM "/node_modules/three/build/three.module.js");
     put(page, "ADDONS_URL", "file://" COTAN_NPM "/node_modules/three/examples/jsm");
     put(page, "ENVIRONMENT_URL", "file://" + std::filesystem::canonical(shared("environments/studio.exr")).string());
@@ -170,7 +170,7 @@ std::string pageOf(const std::map<std::string, Subject>& subjects)
     return page;
 }
 
-TEST(SecondOpinion, ofThreeOnEveryModelIsThatThePictureIsRight)
+TEST(ThreeComparison, rendersMatch)
 {
     COTAN_NEEDS_MODEL("environments/studio.exr");
     if (!std::filesystem::exists(COTAN_NPM "/node_modules/three"))
@@ -182,17 +182,17 @@ TEST(SecondOpinion, ofThreeOnEveryModelIsThatThePictureIsRight)
         subjects.emplace(c.name, std::move(*subject));
     }
     TemporaryFolder folder;
-    write(folder / "second_opinion.html", pageOf(subjects));
-    const json found = showPages(folder, {"second_opinion.html"}, 280);
+    write(folder / "three_comparison.html", pageOf(subjects));
+    const json found = showPages(folder, {"three_comparison.html"}, 280);
     if (found.is_string())
         GTEST_SKIP() << found.get<std::string>();
-    ASSERT_TRUE(found.contains("second_opinion")) << found.dump().substr(0, 300);
-    const json& pictures = found["second_opinion"];
+    ASSERT_TRUE(found.contains("three_comparison")) << found.dump().substr(0, 300);
+    const json& pictures = found["three_comparison"];
     ASSERT_FALSE(pictures.contains("error")) << pictures["error"];
 
     const auto studio = readImage(shared("environments/studio.exr"));
     ASSERT_TRUE(studio) << studio.error().message;
-    auto map = environmentOfPicture(*studio);
+    auto map = environmentOfImage(*studio);
     ASSERT_TRUE(map) << map.error().message;
     const auto environment = std::make_shared<const EnvironmentMap>(std::move(*map));
     auto renderer = openRenderer("auto");
@@ -203,20 +203,20 @@ TEST(SecondOpinion, ofThreeOnEveryModelIsThatThePictureIsRight)
         ASSERT_EQ(digits.size(), std::size_t(kWidth) * kHeight * 6) << c.name << ": " << digits.substr(0, 200);
         const Drawn ours = drawOurs(**renderer, subjects.at(c.name), environment);
         const Image three = theirs(digits);
-        leavePair(c.name, ours.picture, three);
+        writePair(c.name, ours.image, three);
         double sum = 0;
         std::size_t count = 0;
         for (std::size_t i = 0; i < three.pixelCount(); ++i) {
             if (!ours.covered[i])
                 continue;
-            int most = 0;
+            int maxDifference = 0;
             for (std::size_t k = 0; k < 3; ++k)
-                most = std::max(most, std::abs(texel(three, i)[k] - texel(ours.picture, i)[k]));
-            sum += most;
+                maxDifference = std::max(maxDifference, std::abs(texel(three, i)[k] - texel(ours.image, i)[k]));
+            sum += maxDifference;
             ++count;
         }
         ASSERT_GT(count, 2000u) << c.name;
-        const double steps = sum / double(count), flip = flipError(three, ours.picture, ours.covered);
+        const double steps = sum / double(count), flip = flipError(three, ours.image, ours.covered);
         std::printf("| %s | %.1f | %.3f |\n", c.name, steps, flip);
         EXPECT_LT(steps, c.steps) << c.name << ": " << c.why;
         EXPECT_LT(flip, c.flip) << c.name << ": " << c.why;

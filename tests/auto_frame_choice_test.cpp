@@ -1,4 +1,4 @@
-// The frame `auto`: what a scene's normal maps mean.
+// The frame `auto`: the frame that a scene's normal maps were made for.
 #include "scene/normal_maps.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 using test::Gltf;
 using test::json;
 
-// Squares with a material each, of those widths.
+// Squares of the given widths, with a material each.
 Scene squares(const std::vector<float>& widths)
 {
     Scene scene;
@@ -30,7 +30,7 @@ Scene squares(const std::vector<float>& widths)
     return scene;
 }
 
-TEST(MeantFrame, ofAModelsMapsIsTheReadingOfMikkTSpaceWithoutTangents)
+TEST(AutoFrameChoice, isOrthonormalForTheMapsOfAModel)
 {
     EXPECT_EQ(autoFrame(squares({1}), MapSource::model), Frame::orthonormal);
     EXPECT_EQ(autoFrame(squares({1}), MapSource::own), Frame::orthonormal);
@@ -42,27 +42,27 @@ TEST(MeantFrame, ofAModelsMapsIsTheReadingOfMikkTSpaceWithoutTangents)
     EXPECT_EQ(autoFrame(bare, MapSource::model), Frame::orthonormal);
 }
 
-TEST(MeantFrame, ofAnImageThatTheUvRepeatKeepsTheirStretch)
+TEST(AutoFrameChoice, isCotangentForRepeatedImages)
 {
     for (const int axis : {0, 1}) {
         Scene scene = squares({1, 1});
         for (glm::vec2& uv : scene.meshes[1].texcoords[0])
             uv[axis] *= 1.5f;
         EXPECT_EQ(autoFrame(scene, MapSource::own), Frame::cotangent);
-        EXPECT_EQ(autoFrame(scene, MapSource::model), Frame::orthonormal); // glTF means MikkTSpace all the same
+        EXPECT_EQ(autoFrame(scene, MapSource::model), Frame::orthonormal); // glTF prescribes MikkTSpace all the same
     }
-    Scene moved = squares({1}); // one copy, elsewhere
+    Scene moved = squares({1}); // one copy, at another offset
     for (glm::vec2& uv : moved.meshes[0].texcoords[0])
         uv += glm::vec2(3, -2);
     EXPECT_EQ(autoFrame(moved, MapSource::own), Frame::orthonormal);
     moved.materials[0].normalMap.uRow = {2, 0, 0};
     EXPECT_EQ(autoFrame(moved, MapSource::own), Frame::cotangent);
-    moved.materials[0].coat.normalMap.image = 0; // repeated or not, it does not count here
+    moved.materials[0].coat.normalMap.image = 0; // the coat's map is ignored here
     moved.materials[0].normalMap.image = -1;
     EXPECT_EQ(autoFrame(moved, MapSource::own), Frame::orthonormal);
 }
 
-TEST(MeantFrame, isTheNamedOneOfTheLargestArea)
+TEST(AutoFrameChoice, isTheNamedFrameOfTheLargestArea)
 {
     Scene scene = squares({1, 2, 4, 8});
     scene.materials[0].normalFrame = scene.materials[1].normalFrame = Frame::smooth;
@@ -71,16 +71,16 @@ TEST(MeantFrame, isTheNamedOneOfTheLargestArea)
         EXPECT_EQ(autoFrame(scene, source), Frame::cotangent);
     auto named = namedFrame(scene);
     ASSERT_TRUE(named);
-    EXPECT_EQ(named->others, 3u);                            // two for smooth, one that names none
+    EXPECT_EQ(named->others, 3u);                            // two for smooth, one without a name
     scene.instances[2].toWorld = glm::mat4(glm::mat3(0.5f)); // a quarter of its area
     EXPECT_EQ(namedFrame(scene)->frame, Frame::smooth);
     scene.materials[0].normalMap = scene.materials[1].normalMap = {};
-    EXPECT_EQ(namedFrame(scene)->frame, Frame::cotangent); // names count where there is a map
+    EXPECT_EQ(namedFrame(scene)->frame, Frame::cotangent); // names count only with a map
     scene.materials[2].normalFrame.reset();
     EXPECT_FALSE(namedFrame(scene));
 }
 
-TEST(MeantFrame, anotherOneOrSeveralAreSaid)
+TEST(AutoFrameChoice, differingFramesAreNoted)
 {
     Scene scene = squares({2, 1});
     EXPECT_EQ(frameNote(scene, Frame::cotangent), "");
@@ -92,7 +92,7 @@ TEST(MeantFrame, anotherOneOrSeveralAreSaid)
     EXPECT_NE(frameNote(scene, Frame::smooth).find("1 other material(s)"), std::string::npos);
 }
 
-TEST(MeantFrame, isReadFromTheExtrasOfAMaterial)
+TEST(AutoFrameChoice, isReadFromMaterialExtras)
 {
     const auto loaded = [](const json& extras) {
         Gltf g;

@@ -1,4 +1,4 @@
-// Files of pictures that tests make, whole or cut.
+// Image files that tests write, whole or truncated.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ template<class T> std::string messageOf(const Result<T>& result)
 
 inline std::span<const std::byte> bytesOf(const std::string& text) { return std::as_bytes(std::span(text)); }
 
-// Little-endian.
+// The numbers as little-endian bytes.
 inline std::string words(const std::vector<std::uint32_t>& numbers)
 {
     std::string bytes;
@@ -41,8 +41,8 @@ inline int component(const Image& image, int x, int y, int c)
     return image.type == PixelType::unorm16 ? image.words()[at] : image.bytes8()[at];
 }
 
-// A file for one test.
-class PictureFile : public testing::Test {
+// A folder of image files for one test.
+class ImageIo : public testing::Test {
 protected:
     std::filesystem::path folder = std::filesystem::temp_directory_path()
         / ("cotan_layout_test_" + std::to_string(::getpid()) + "_"
@@ -57,7 +57,7 @@ protected:
         return folder / name;
     }
 
-    // The picture by rows, `strip` at a time; nothing where that fails.
+    // Reads the image `strip` rows at a time; nullopt if that fails.
     std::optional<Image> byRows(const std::filesystem::path& file, int strip) const
     {
         auto rows = openRows(file);
@@ -74,7 +74,7 @@ protected:
         return whole;
     }
 
-    // Both ways of reading refuse what `cut` leaves of the file, in one line and without a word besides.
+    // Expects that reading whole and by rows refuses every truncation of the file, with a one-line error and no output.
     void expectCutsRefused(const std::string& name, const std::string& whole, std::size_t first) const
     {
         ASSERT_TRUE(decodeImage(bytesOf(whole), name));

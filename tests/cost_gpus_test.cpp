@@ -1,4 +1,4 @@
-// Figures of cards: what drivers' names mean, the file that carries them, and drivers that crash.
+// Statistics of GPUs: the meaning of drivers' names, the file that stores them, and drivers that crash.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ TEST(CostStatistics, everyDriversInstructionsAreFound)
     EXPECT_FALSE(named({{"No such number", 41}}).instructions);
 }
 
-TEST(CostStatistics, noOperationsOfTurnipAreNotArithmetic)
+TEST(CostStatistics, turnipNopsAreNotArithmetic)
 {
     const StageCode code = named({{"Instruction Count", 44},
                                   {"NOPs Count", 5},
@@ -37,17 +37,17 @@ TEST(CostStatistics, noOperationsOfTurnipAreNotArithmetic)
                                   {"cat4 instructions", 1}});
     EXPECT_EQ(code.instructions, 44);
     EXPECT_EQ(code.arithmetic, 38);
-    EXPECT_FALSE(named({{"cat2 instructions", 20}, {"cat3 instructions", 17}}).arithmetic); // no half sums
+    EXPECT_FALSE(named({{"cat2 instructions", 20}, {"cat3 instructions", 17}}).arithmetic); // no total from one half
 }
 
-TEST(CostStatistics, theBoundOfMaliAndAppleIsItsSlowestUnit)
+TEST(CostStatistics, inverseThroughputOnMaliAndAppleIsThatOfTheSlowestUnit)
 {
     EXPECT_EQ(named({{"Cycles", 1.125}, {"FMA", 0.47}, {"Varying", 1.125}}).inverseThroughput, 1.125);
     EXPECT_EQ(named({{"ALU", 29}, {"FSCIB", 31}, {"IC", 8}}).inverseThroughput, 31);
     EXPECT_EQ(named({{"Inverse Throughput", 100}}).inverseThroughput, 100);
 }
 
-TEST(CostStatistics, cyclesOfNvkAreALatencyAndNoBound)
+TEST(CostStatistics, cyclesOfNvkAreLatencyAndNotThroughput)
 {
     const StageCode code = named({{"Instruction count", 62}, {"Static cycle count", 220}, {"Number of GPRs", 24}});
     EXPECT_EQ(code.latency, 220);
@@ -57,60 +57,60 @@ TEST(CostStatistics, cyclesOfNvkAreALatencyAndNoBound)
 
 DeviceCode sample()
 {
-    DeviceCode card;
-    card.name = "Card, the \"first\"";
-    card.maker = "AMD";
-    card.driver = "radv, Mesa 26.2";
-    card.family = "NAVI21";
-    card.date = "2026-11-24";
+    DeviceCode gpu;
+    gpu.name = "Card, the \"first\"";
+    gpu.maker = "AMD";
+    gpu.driver = "radv, Mesa 26.2";
+    gpu.family = "NAVI21";
+    gpu.date = "2026-11-24";
     StageCode code;
     code.instructions = 49;
     code.inverseThroughput = 1.125;
-    card.rows.push_back({"floor", code});
+    gpu.rows.push_back({"floor", code});
     code = {};
     code.failure = "the driver crashed (signal 11)";
-    card.rows.push_back({"mikktspace", code});
-    return card;
+    gpu.rows.push_back({"mikktspace", code});
+    return gpu;
 }
 
-TEST(CostCards, whatIsWrittenIsReadAgain)
+TEST(CostGpus, csvRoundTrips)
 {
     DeviceCode silent;
     silent.name = "Other";
     silent.silence = "has no graphics queue";
-    const std::string text = cardsToCsv({sample(), silent});
-    const auto cards = cardsFromCsv(text + cardsToCsv({sample()})); // one file behind the other
-    ASSERT_TRUE(cards) << cards.error().message;
-    ASSERT_EQ(cards->size(), 3u);
-    const DeviceCode& card = cards->front();
-    EXPECT_EQ(card.name, "Card, the \"first\"");
-    EXPECT_EQ(card.driver, "radv, Mesa 26.2");
-    EXPECT_EQ(fragmentCode(card, "floor").instructions, 49);
-    EXPECT_EQ(fragmentCode(card, "floor").inverseThroughput, 1.125);
-    EXPECT_FALSE(fragmentCode(card, "floor").registers);
-    EXPECT_EQ(fragmentCode(card, "mikktspace").failure, "the driver crashed (signal 11)");
-    EXPECT_FALSE(fragmentCode(card, "smooth").instructions); // missing in the file
-    EXPECT_EQ((*cards)[1].silence, "has no graphics queue");
-    EXPECT_EQ((*cards)[2].date, "2026-11-24");
+    const std::string text = gpusToCsv({sample(), silent});
+    const auto gpus = gpusFromCsv(text + gpusToCsv({sample()})); // two files concatenated
+    ASSERT_TRUE(gpus) << gpus.error().message;
+    ASSERT_EQ(gpus->size(), 3u);
+    const DeviceCode& gpu = gpus->front();
+    EXPECT_EQ(gpu.name, "Card, the \"first\"");
+    EXPECT_EQ(gpu.driver, "radv, Mesa 26.2");
+    EXPECT_EQ(fragmentCode(gpu, "floor").instructions, 49);
+    EXPECT_EQ(fragmentCode(gpu, "floor").inverseThroughput, 1.125);
+    EXPECT_FALSE(fragmentCode(gpu, "floor").registers);
+    EXPECT_EQ(fragmentCode(gpu, "mikktspace").failure, "the driver crashed (signal 11)");
+    EXPECT_FALSE(fragmentCode(gpu, "smooth").instructions); // missing in the file
+    EXPECT_EQ((*gpus)[1].silence, "has no graphics queue");
+    EXPECT_EQ((*gpus)[2].date, "2026-11-24");
 }
 
-TEST(CostCards, onlyCellsThatNeedItAreQuoted)
+TEST(CostGpus, onlyCellsThatNeedItAreQuoted)
 {
-    const std::string text = cardsToCsv({sample()});
+    const std::string text = gpusToCsv({sample()});
     EXPECT_NE(text.find("AMD,NAVI21,\"Card, the \"\"first\"\"\",\"radv, Mesa 26.2\",2026-11-24,"), std::string::npos)
         << text;
     std::size_t quotes = 0;
     for (const char c : text)
         quotes += c == '"';
-    EXPECT_EQ(quotes, 2 * (2 + 4 + 2)); // of each of the two lines: around name and driver, and doubled around "first"
+    EXPECT_EQ(quotes, 2 * (2 + 4 + 2)); // on each line: around name and driver, and doubled around "first"
 }
 
-TEST(CostCards, aWrongLineIsNamed)
+TEST(CostGpus, invalidLinesAreReported)
 {
-    const std::string good = cardsToCsv({sample()});
+    const std::string good = gpusToCsv({sample()});
     const auto error = [](const std::string& text) {
-        const auto cards = cardsFromCsv(text);
-        return cards ? std::string("none") : cards.error().message;
+        const auto gpus = gpusFromCsv(text);
+        return gpus ? std::string("none") : gpus.error().message;
     };
     EXPECT_EQ(error("nonsense\n").rfind("line 1: expected 'maker,card,", 0), 0u);
     EXPECT_EQ(error(good + "AMD,NAVI21\n"), "line 4: expected 14 cells, found 2");
@@ -119,25 +119,25 @@ TEST(CostCards, aWrongLineIsNamed)
                   std::string("line 4: expected a number, found '") + number + "'");
 }
 
-TEST(CostCards, theCommandMakesTablesOfThem)
+TEST(CostGpus, theCommandMakesTablesFromAFile)
 {
     const test::TemporaryFolder folder;
-    std::ofstream(folder / "cards.csv") << cardsToCsv({sample()});
+    std::ofstream(folder / "cards.csv") << gpusToCsv({sample()});
     const test::ToolRun run =
         test::runTool({"cost", "--cards", "cards.csv", "-o", "cost.md", "--write-cards", "again.csv"}, folder.path());
     EXPECT_EQ(run.code, 0) << run.err;
     const std::string text = test::readWhole(folder / "cost.md");
-    EXPECT_NE(text.find(" AMD | 2006 |"), std::string::npos); // the maker over the card
+    EXPECT_NE(text.find(" AMD | 2006 |"), std::string::npos); // the maker above the GPU
     EXPECT_NE(text.find("fragment mikktspace: not compiled: the driver crashed (signal 11)."), std::string::npos);
-    const auto again = cardsFromCsv(test::readWhole(folder / "again.csv"));
+    const auto again = gpusFromCsv(test::readWhole(folder / "again.csv"));
     ASSERT_TRUE(again);
     EXPECT_EQ(fragmentCode(again->front(), "floor").instructions, 49);
 }
 
-TEST(CostCards, theCommandNamesTheWrongLineOfTheFile)
+TEST(CostGpus, theCommandReportsTheInvalidLineOfAFile)
 {
     const test::TemporaryFolder folder;
-    std::ofstream(folder / "cards.csv") << cardsToCsv({sample()}) << "AMD,NAVI21\n";
+    std::ofstream(folder / "cards.csv") << gpusToCsv({sample()}) << "AMD,NAVI21\n";
     const test::ToolRun run = test::runTool({"cost", "--cards", "cards.csv", "-o", "cost.md"}, folder.path());
     EXPECT_EQ(run.code, 2);
     EXPECT_NE(run.err.find("line 4: expected 14 cells, found 2"), std::string::npos) << run.err;
@@ -145,7 +145,7 @@ TEST(CostCards, theCommandNamesTheWrongLineOfTheFile)
     EXPECT_FALSE(std::filesystem::exists(folder / "cost.md"));
 }
 
-TEST(CostChild, whatWasWrittenBeforeACrashArrives)
+TEST(CostChild, outputBeforeACrashIsReceived)
 {
     std::vector<std::string> lines;
     const auto keep = [&](std::string_view line) { lines.emplace_back(line); };
@@ -153,7 +153,7 @@ TEST(CostChild, whatWasWrittenBeforeACrashArrives)
         60,
         [](const LineWriter& write) {
             write("first\nof two");
-            ::signal(SIGSEGV, SIG_DFL); // sanitizers have their own
+            ::signal(SIGSEGV, SIG_DFL); // sanitizers install their own handler
             ::raise(SIGSEGV);
         },
         keep);
@@ -168,7 +168,7 @@ TEST(CostChild, whatWasWrittenBeforeACrashArrives)
               "ended with 1");
 }
 
-TEST(CostChild, oneThatHangsIsEnded)
+TEST(CostChild, aHangingOneIsEnded)
 {
     const std::string end = inChild(
         1, [](const LineWriter&) { std::this_thread::sleep_for(std::chrono::hours(1)); }, [](std::string_view) {});

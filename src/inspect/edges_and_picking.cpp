@@ -1,4 +1,4 @@
-// Where edges are on a picture, and what is at a place of it.
+// Draws edges over an image, and finds the triangle at a pixel.
 #include "cotan/inspect.hpp"
 
 #include <algorithm>
@@ -24,8 +24,8 @@ namespace {
 using glm::dvec3;
 
 struct Eye : CameraAxes {
-    double high;  // of the picture, at depth 1 or orthographic
-    double scale; // pixels per unit there
+    double high;  // height of the image plane at depth 1, or of the orthographic view
+    double scale; // pixels per unit on that plane
     bool orthographic;
     double width, height;
 };
@@ -39,7 +39,7 @@ Eye eyeOf(const Camera& camera, int width, int height)
 
 // ---- edges ---------------------------------------------------------------------------------
 
-using Key = std::array<std::uint32_t, 6>; // the bits of both ends, the smaller first
+using Key = std::array<std::uint32_t, 6>; // the bits of both ends, the lexicographically smaller end first
 
 struct KeyHash {
     std::size_t operator()(const Key& key) const
@@ -48,9 +48,9 @@ struct KeyHash {
     }
 };
 
-struct Half {
+struct EdgeRecord {
     glm::vec2 uvA{0}, uvB{0};
-    bool positive = true; // the triangle's area in uv
+    bool positive = true; // sign of the first triangle's area in uv
     std::size_t edge = 0;
     int triangles = 0;
 };
@@ -63,7 +63,7 @@ bool before(const glm::vec3& a, const glm::vec3& b)
 void addEdgesOf(const Mesh& mesh, const Texture& map, const glm::mat4& toWorld, std::vector<SurfaceEdge>& edges)
 {
     const std::vector<glm::vec2> uv = textureUv(map, mesh);
-    std::unordered_map<Key, Half, KeyHash> known;
+    std::unordered_map<Key, EdgeRecord, KeyHash> known;
     known.reserve(mesh.indices.size() / 2);
     const auto placed = [&](std::size_t v) { return glm::vec3(toWorld * glm::vec4(mesh.positions[v], 1)); };
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -79,30 +79,30 @@ void addEdgesOf(const Mesh& mesh, const Texture& map, const glm::mat4& toWorld, 
             if (p == q)
                 continue;
             const auto [found, fresh] = known.try_emplace(std::bit_cast<Key>(std::array{p, q}));
-            Half& half = found->second;
+            EdgeRecord& record = found->second;
             if (fresh) {
-                half = {uvOf(a), uvOf(b), positive, edges.size(), 0};
+                record = {uvOf(a), uvOf(b), positive, edges.size(), 0};
                 edges.push_back({placed(v[a]), placed(v[b]), EdgeKind::border});
-            } else if (half.triangles == 1) {
-                const bool goesOn = half.uvA == uvOf(a) && half.uvB == uvOf(b) && half.positive == positive;
-                edges[half.edge].kind = goesOn  ? EdgeKind::inner
-                    : half.positive != positive ? EdgeKind::mirroredSeam
-                                                : EdgeKind::seam;
+            } else if (record.triangles == 1) {
+                const bool continuous = record.uvA == uvOf(a) && record.uvB == uvOf(b) && record.positive == positive;
+                edges[record.edge].kind = continuous ? EdgeKind::inner
+                    : record.positive != positive    ? EdgeKind::mirroredSeam
+                                                     : EdgeKind::seam;
             }
-            ++half.triangles;
+            ++record.triangles;
         }
     }
 }
 
-// In pixels; z: 1 over the depth, or the depth of an orthographic camera: what is even along a line of the picture.
-dvec3 seenBy(const Eye& e, const dvec3& v)
+// Projects a camera-space point to pixels. z: 1 / depth, or the depth if orthographic, which is linear in image space.
+dvec3 project(const Eye& e, const dvec3& v)
 {
     const double scale = e.orthographic ? e.scale : e.scale / v.z;
     return {e.width / 2 + v.x * scale, e.height / 2 - v.y * scale, e.orthographic ? v.z : 1 / v.z};
 }
 
-void drawEdge(Image& picture, const Image& depth, const Eye& e, const SurfaceEdge& edge,
-              const std::array<int, 3>& color, double strength)
+void drawEdge(Image& image, const Image& depth, const Eye& e, const SurfaceEdge& edge, const std::array<int, 3>& color,
+              double strength)
 {
     constexpr double kNear = 1e-6, kSlack = 1.003;
     const auto inEye = [&](const glm::vec3& p) {
@@ -118,8 +118,8 @@ void drawEdge(Image& picture, const Image& depth, const Eye& e, const SurfaceEdg
         if (b.z < kNear)
             b += (a - b) * ((kNear - b.z) / (a.z - b.z));
     }
-    const dvec3 from = seenBy(e, a), to = seenBy(e, b);
-    // Only the part in the picture is walked along.
+    const dvec3 from = project(e, a), to = project(e, b);
+    // Clips the line to the image.
     double start = 0, end = 1;
     for (int axis = 0; axis < 2; ++axis) {
         const double size = axis == 0 ? e.width : e.height, d = to[axis] - from[axis];
@@ -138,18 +138,18 @@ void drawEdge(Image& picture, const Image& depth, const Eye& e, const SurfaceEdg
     for (int i = 0; i <= steps; ++i) {
         const dvec3 at = from + (to - from) * (start + (end - start) * i / steps);
         const int x = int(std::floor(at.x)), y = int(std::floor(at.y));
-        if (x < 0 || y < 0 || x >= picture.width || y >= picture.height)
+        if (x < 0 || y < 0 || x >= image.width || y >= image.height)
             continue;
-        double behind = 0; // the farthest of the neighbours: an edge is where depths break
+        double behind = 0; // farthest depth around the pixel, since depth is discontinuous at edges
         for (const auto& [dx, dy] : {std::pair(0, 0), {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-            const int nx = std::clamp(x + dx, 0, picture.width - 1), ny = std::clamp(y + dy, 0, picture.height - 1);
+            const int nx = std::clamp(x + dx, 0, image.width - 1), ny = std::clamp(y + dy, 0, image.height - 1);
             const float* d = depth.floats() + 4 * (std::size_t(ny) * std::size_t(depth.width) + std::size_t(nx));
             behind = std::max(behind, d[3] > 0 ? double(d[0]) : 1e30);
         }
         const double z = e.orthographic ? at.z : 1 / at.z;
         if (z > behind * kSlack)
             continue;
-        std::uint8_t* p = picture.bytes8() + 4 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x));
+        std::uint8_t* p = image.bytes8() + 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
         for (std::size_t c = 0; c < 3; ++c)
             p[c] = std::uint8_t(std::lround(p[c] + (color[c] - p[c]) * strength));
         p[3] = 255;
@@ -168,20 +168,20 @@ std::vector<SurfaceEdge> surfaceEdges(const Scene& scene)
     return edges;
 }
 
-void drawEdges(Image& picture, const Image& depth, const Camera& camera, std::span<const SurfaceEdge> edges,
+void drawEdges(Image& image, const Image& depth, const Camera& camera, std::span<const SurfaceEdge> edges,
                EdgesShown shown)
 {
-    if (picture.width != depth.width || picture.height != depth.height || !hasPixels(picture) || !hasPixels(depth))
+    if (image.width != depth.width || image.height != depth.height || !hasPixels(image) || !hasPixels(depth))
         return;
-    const Eye eye = eyeOf(camera, picture.width, picture.height);
+    const Eye eye = eyeOf(camera, image.width, image.height);
     if (shown.triangles)
         for (const SurfaceEdge& edge : edges)
-            drawEdge(picture, depth, eye, edge, {20, 20, 24}, 0.6);
+            drawEdge(image, depth, eye, edge, {20, 20, 24}, 0.6);
     constexpr std::array<std::array<int, 3>, 4> kColors = {{{0, 0, 0}, {255, 215, 40}, {255, 60, 220}, {60, 220, 255}}};
     if (shown.seams)
         for (const SurfaceEdge& edge : edges)
             if (edge.kind != EdgeKind::inner)
-                drawEdge(picture, depth, eye, edge, kColors[std::size_t(edge.kind)], 1);
+                drawEdge(image, depth, eye, edge, kColors[std::size_t(edge.kind)], 1);
 }
 
 // ---- what is at a pixel --------------------------------------------------------------------
@@ -189,22 +189,22 @@ void drawEdges(Image& picture, const Image& depth, const Camera& camera, std::sp
 namespace {
 
 struct Ray {
-    dvec3 from, along; // along has length 1 in depth, not as a vector
+    dvec3 from, along; // `along` has unit depth, not unit length
 };
 
-// Through a place of the picture; along . forward is 1, so that its parameter is the depth.
-Ray rayAt(const Camera& camera, glm::ivec2 size, glm::vec2 place)
+// The ray through a point of the image; along . forward is 1, so its parameter is the depth.
+Ray rayAt(const Camera& camera, glm::ivec2 size, glm::vec2 point)
 {
     const Eye e = eyeOf(camera, size.x, size.y);
-    const double x = (double(place.x) - size.x * 0.5) * e.high / size.y,
-                 y = (size.y * 0.5 - double(place.y)) * e.high / size.y;
+    const double x = (double(point.x) - size.x * 0.5) * e.high / size.y,
+                 y = (size.y * 0.5 - double(point.y)) * e.high / size.y;
     const dvec3 aside = e.right * x + e.up * y;
     return camera.orthographic ? Ray{e.eye + aside, e.forward} : Ray{e.eye, e.forward + aside};
 }
 
-// Moeller and Trumbore. positive determinants: the front is seen.
-bool meets(const Ray& ray, const dvec3& a, const dvec3& b, const dvec3& c, bool bothSides, double& t,
-           glm::dvec2& weights)
+// Moeller-Trumbore intersection. A positive determinant means that the ray hits the front.
+bool intersect(const Ray& ray, const dvec3& a, const dvec3& b, const dvec3& c, bool bothSides, double& t,
+               glm::dvec2& weights)
 {
     const dvec3 e1 = b - a, e2 = c - a, p = glm::cross(ray.along, e2);
     const double determinant = glm::dot(e1, p);
@@ -221,12 +221,12 @@ bool meets(const Ray& ray, const dvec3& a, const dvec3& b, const dvec3& c, bool 
 
 } // namespace
 
-std::optional<PickedPoint> pick(const Scene& scene, const Camera& camera, glm::ivec2 size, glm::vec2 place)
+std::optional<PickedPoint> pick(const Scene& scene, const Camera& camera, glm::ivec2 size, glm::vec2 point)
 {
     std::optional<PickedPoint> nearest;
     if (size.x < 1 || size.y < 1)
         return nearest;
-    const Ray ray = rayAt(camera, size, place);
+    const Ray ray = rayAt(camera, size, point);
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
@@ -239,7 +239,7 @@ std::optional<PickedPoint> pick(const Scene& scene, const Camera& camera, glm::i
             const auto corner = [&](std::size_t k) { return dvec3(mesh.positions[mesh.indices[3 * triangle + k]]); };
             double t = 0;
             glm::dvec2 weights{0};
-            if (!meets(local, corner(0), corner(1), corner(2), bothSides, t, weights) || !(t > 0) || !(t < best))
+            if (!intersect(local, corner(0), corner(1), corner(2), bothSides, t, weights) || !(t > 0) || !(t < best))
                 continue;
             best = t;
             nearest = PickedPoint{int(i),

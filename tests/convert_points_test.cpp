@@ -1,5 +1,5 @@
-// The places of a map's texels in rows that cross blocks, against one row at a time and against a search through all
-// triangles, copies and mirrors.
+// The samples of a map's texels in rows that cross blocks, compared with one row at a time and with a search over all
+// triangles, copies and mirrored copies.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,24 +11,24 @@
 #include <tuple>
 
 #include "judgement_cases.hpp"
-#include "place_finder.hpp"
+#include "point_finder.hpp"
 
 namespace cotan {
 namespace {
 
 using namespace test;
-using convert::Place;
-using convert::PlaceFinder;
+using convert::PointFinder;
+using convert::SurfacePoint;
 
 constexpr int kWide = 13, kHigh = 21; // neither is a multiple of a block
 
-using RowsOfPlaces = std::map<int, std::vector<std::vector<Place>>>;
+using RowsOfPoints = std::map<int, std::vector<std::vector<SurfacePoint>>>;
 
-RowsOfPlaces rowsFrom(const PlaceFinder& finder, int first, int last)
+RowsOfPoints rowsFrom(const PointFinder& finder, int first, int last)
 {
-    RowsOfPlaces rows;
+    RowsOfPoints rows;
     int next = first;
-    finder.rows(first, last, [&](int y, const PlacesOfRow<convert::Place>& row) {
+    finder.rows(first, last, [&](int y, const SamplesOfRow<convert::SurfacePoint>& row) {
         EXPECT_EQ(y, next++);
         for (std::size_t x = 0; x + 1 < row.first.size(); ++x)
             rows[y].emplace_back(row.of(x).begin(), row.of(x).end());
@@ -37,7 +37,7 @@ RowsOfPlaces rowsFrom(const PlaceFinder& finder, int first, int last)
     return rows;
 }
 
-void expectEqual(const std::vector<std::vector<Place>>& a, const std::vector<std::vector<Place>>& b)
+void expectEqual(const std::vector<std::vector<SurfacePoint>>& a, const std::vector<std::vector<SurfacePoint>>& b)
 {
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t x = 0; x < a.size(); ++x) {
@@ -51,7 +51,7 @@ void expectEqual(const std::vector<std::vector<Place>>& a, const std::vector<std
     }
 }
 
-// Where the centre of a texel lies in the copy number k along an axis of so many texels; none: nowhere.
+// Position of a texel's centre in copy `k` along an axis of `size` texels, if that copy exists.
 std::optional<double> centreIn(int k, int texel, int size, Wrap wrap)
 {
     if (wrap == Wrap::clamp && k != 0)
@@ -61,7 +61,7 @@ std::optional<double> centreIn(int k, int texel, int size, Wrap wrap)
     return k + (back ? 1 - within : within);
 }
 
-// Triangles with uv up to two copies away, a third of a copy to one copy large.
+// Triangles with uv up to two copies away, from a third of a copy to one copy in size.
 std::vector<Corner> randomCorners(std::mt19937& random, int count)
 {
     const auto range = [&](float low, float high) { return std::uniform_real_distribution(low, high)(random); };
@@ -76,9 +76,9 @@ std::vector<Corner> randomCorners(std::mt19937& random, int count)
     return corners;
 }
 
-// (use, triangle, uv) of every place that covers the centre of a texel, and whether a rounding could decide otherwise.
+// The samples (use, triangle, uv) that cover a texel's centre, and whether rounding could decide otherwise.
 struct Found {
-    std::vector<std::tuple<std::uint32_t, std::uint32_t, double, double>> places;
+    std::vector<std::tuple<std::uint32_t, std::uint32_t, double, double>> points;
     bool close = false;
 };
 
@@ -100,27 +100,27 @@ Found searchAll(std::span<const MapUse> uses, const std::vector<std::vector<Corn
                                  least = std::min({b1, b2, 1 - b1 - b2});
                     found.close = found.close || std::abs(least) < 1e-4;
                     if (least > 0)
-                        found.places.emplace_back(use, t, p.x, p.y);
+                        found.points.emplace_back(use, t, p.x, p.y);
                 }
         }
     return found;
 }
 
-TEST(PlaceFinder, rowsOfSeveralBlocksAreThoseOfASearchThroughAllCopies)
+TEST(PointFinder, severalBlocksGiveTheResultsOfABruteForceSearch)
 {
     std::mt19937 random(7);
     std::size_t compared = 0, several = 0;
     for (const Wrap a : {Wrap::repeat, Wrap::mirror, Wrap::clamp})
         for (const Wrap b : {Wrap::repeat, Wrap::mirror, Wrap::clamp}) {
-            // Two surfaces with their wraps exchanged; the first is placed twice.
+            // Two surfaces with exchanged wrap modes; the first has two instances.
             const std::vector<Corner> one = randomCorners(random, 10), two = randomCorners(random, 8);
             const MappedSurface first = surfaceOf(one);
-            const MapUse uses[] = {{first, kAsMeant, 1, a, b},
-                                   {placedBy(first, glm::dmat3(2)), kAsMeant, 1, a, b},
-                                   {surfaceOf(two), kAsMeant, 1, b, a}};
+            const MapUse uses[] = {{first, kUnconverted, 1, a, b},
+                                   {placedBy(first, glm::dmat3(2)), kUnconverted, 1, a, b},
+                                   {surfaceOf(two), kUnconverted, 1, b, a}};
             const std::vector<std::vector<Corner>> corners{one, one, two};
-            const PlaceFinder finder(uses, kWide, kHigh);
-            RowsOfPlaces single;
+            const PointFinder finder(uses, kWide, kHigh);
+            RowsOfPoints single;
             for (int y = 0; y < kHigh; ++y)
                 single.merge(rowsFrom(finder, y, y));
             for (const auto& [from, to] : {std::pair(0, 20), {5, 18}, {7, 8}, {8, 15}, {16, 20}, {3, 4}})
@@ -128,32 +128,32 @@ TEST(PlaceFinder, rowsOfSeveralBlocksAreThoseOfASearchThroughAllCopies)
                     expectEqual(texels, single[y]);
             for (int y = 0; y < kHigh; ++y)
                 for (int x = 0; x < kWide; ++x) {
-                    const std::vector<Place>& places = single[y][std::size_t(x)];
+                    const std::vector<SurfacePoint>& points = single[y][std::size_t(x)];
                     Found expected = searchAll(uses, corners, x, y);
                     if (expected.close)
                         continue;
-                    ASSERT_LE(expected.places.size(), kMaxPlaces);
-                    EXPECT_TRUE(std::ranges::is_sorted(places, {}, &Place::use)) << x << " " << y;
-                    if (expected.places.empty()) { // those that only touch it
-                        EXPECT_TRUE(std::ranges::none_of(places, &Place::covers)) << x << " " << y;
+                    ASSERT_LE(expected.points.size(), kMaxPointsPerTexel);
+                    EXPECT_TRUE(std::ranges::is_sorted(points, {}, &SurfacePoint::use)) << x << " " << y;
+                    if (expected.points.empty()) { // only touching samples
+                        EXPECT_TRUE(std::ranges::none_of(points, &SurfacePoint::covers)) << x << " " << y;
                         continue;
                     }
-                    ASSERT_EQ(places.size(), expected.places.size()) << int(a) << int(b) << " " << x << " " << y;
+                    ASSERT_EQ(points.size(), expected.points.size()) << int(a) << int(b) << " " << x << " " << y;
                     std::vector<std::tuple<std::uint32_t, std::uint32_t, double, double>> found;
-                    for (const Place& p : places) {
+                    for (const SurfacePoint& p : points) {
                         EXPECT_TRUE(p.covers);
                         const glm::dvec2 uv = uvAt(uses[p.use].surface, p.triangle, p.barycentric);
                         found.emplace_back(p.use, p.triangle, uv.x, uv.y);
                     }
-                    const auto key = [](const auto& place) { // centres are 1 / 21 apart
-                        const auto& [use, triangle, u, v] = place;
+                    const auto key = [](const auto& point) { // centres are 1 / 21 apart
+                        const auto& [use, triangle, u, v] = point;
                         return std::tuple(use, triangle, std::lround(1000 * u), std::lround(1000 * v));
                     };
                     std::ranges::sort(found, {}, key);
-                    std::ranges::sort(expected.places, {}, key);
+                    std::ranges::sort(expected.points, {}, key);
                     for (std::size_t i = 0; i < found.size(); ++i) {
                         const auto& [use, triangle, u, v] = found[i];
-                        const auto& [use2, triangle2, u2, v2] = expected.places[i];
+                        const auto& [use2, triangle2, u2, v2] = expected.points[i];
                         EXPECT_EQ(use, use2);
                         EXPECT_EQ(triangle, triangle2);
                         EXPECT_NEAR(u, u2, 1e-5) << x << " " << y;
@@ -167,33 +167,33 @@ TEST(PlaceFinder, rowsOfSeveralBlocksAreThoseOfASearchThroughAllCopies)
     EXPECT_GT(several, 400u);
 }
 
-TEST(PlaceFinder, ofLargeMapsATexelHasFewerPlaces)
+TEST(PointFinder, texelsOfLargeMapsHaveFewerSamples)
 {
     std::vector<Corner> many;
     for (int i = 0; i < 30; ++i)
         many = many + rectangle({i, 0}, {1, 1}, {0, 0}, {1, 1});
-    const MapUse use{surfaceOf(many), kAsMeant};
-    // 2^24 places of all texels, 4 of each at least, 16 at most; 30 triangles show each texel.
+    const MapUse use{surfaceOf(many), kUnconverted};
+    // At most 2^24 samples for all texels, with 4 to 16 for each; 30 triangles cover each texel.
     const std::tuple<int, int, std::size_t> cases[] = {
         {8, 1024, 16}, {1024, 1024, 16}, {1024, 2048, 8}, {2048, 2048, 4}, {2048, 4096, 4}};
-    for (const auto& [width, height, most] : cases)
-        for (const auto& [y, texels] : rowsFrom(PlaceFinder({&use, 1}, width, height), height / 2, height / 2))
-            for (const std::vector<Place>& places : texels)
-                ASSERT_EQ(places.size(), most) << width << "x" << height;
+    for (const auto& [width, height, maximum] : cases)
+        for (const auto& [y, texels] : rowsFrom(PointFinder({&use, 1}, width, height), height / 2, height / 2))
+            for (const std::vector<SurfacePoint>& points : texels)
+                ASSERT_EQ(points.size(), maximum) << width << "x" << height;
 }
 
-TEST(PlaceFinder, usesWithoutUvOrStrengthShowNothing)
+TEST(PointFinder, usesWithoutUvOrStrengthHaveNoSamples)
 {
     Mesh bare = meshOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}));
     bare.texcoords[0].clear();
     const MappedSurface square = surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}));
-    const MapUse uses[] = {{makeSurface(bare, Texture{}), kAsMeant, 1},
-                           {square, kAsMeant, 0},
-                           {square, kAsMeant, -1}}; // turned over, and seen
-    for (const auto& [y, texels] : rowsFrom(PlaceFinder(uses, 3, 11), 6, 9))
-        for (const auto& places : texels) {
-            ASSERT_EQ(places.size(), 1u) << y;
-            EXPECT_EQ(places[0].use, 2u);
+    const MapUse uses[] = {{makeSurface(bare, Texture{}), kUnconverted, 1},
+                           {square, kUnconverted, 0},
+                           {square, kUnconverted, -1}}; // inverted but visible
+    for (const auto& [y, texels] : rowsFrom(PointFinder(uses, 3, 11), 6, 9))
+        for (const auto& points : texels) {
+            ASSERT_EQ(points.size(), 1u) << y;
+            EXPECT_EQ(points[0].use, 2u);
         }
 }
 

@@ -1,11 +1,11 @@
-"""PNG and JPEG under 1 MB of very many pixels, scans or chunks, for fuzz/bombs.py. Each maker takes a random.Random and
-returns bytes."""
+"""PNG and JPEG images, under 1 MB, with very many pixels, scans or chunks, for fuzz/bombs.py. Each maker takes a
+random.Random and returns bytes."""
 import struct
 import zlib
 
 
 def deflated(parts, head=True):
-    """The zlib stream of parts, each (bytes, how often)."""
+    """Returns the zlib stream of parts, each given as (bytes, repetitions)."""
     packer = zlib.compressobj(9, zlib.DEFLATED, 15 if head else -15)
     out = []
     for data, times in parts:
@@ -23,11 +23,11 @@ PNG_CHANNELS = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}
 
 
 def png(width, height, bits, colour, row, interlaced=0, between=b""):
-    """colour: 0 grey, 2 RGB, 4 grey and alpha, 6 RGBA. row: its bytes, cut or filled up with zeros."""
+    """colour: 0 grey, 2 RGB, 4 grey and alpha, 6 RGBA. row: bytes of each row, truncated or padded with zeros."""
     size = -(-width * bits * PNG_CHANNELS[colour] // 8)
     row = row[:size] + b"\0" * (size - len(row))
     parts = [(b"\0" + row, height)]
-    if interlaced:  # about as many bytes; the rows of a pass are short
+    if interlaced:  # about as many bytes, because the rows of a pass are short
         parts = []
         for x0, y0, dx, dy in ((0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), (2, 0, 4, 4), (0, 2, 2, 4), (1, 0, 2, 2), (0, 1, 1, 2)):
             w, h = -(-(width - x0) // dx), -(-(height - y0) // dy)
@@ -38,7 +38,7 @@ def png(width, height, bits, colour, row, interlaced=0, between=b""):
 
 
 def wide_png(r):
-    """PNG of as many pixels as fit, 1 to 16 bits."""
+    """PNG with as many pixels as fit, 1 to 16 bits."""
     bits, colour = r.choice([(1, 0), (8, 0), (8, 2), (16, 2), (8, 6), (16, 6)])
     side = int((r.uniform(0.3, 0.9) * 1e9 * 8 / bits / PNG_CHANNELS[colour]) ** 0.5)
     shape = r.choice([1, 1, 16])
@@ -46,19 +46,19 @@ def wide_png(r):
 
 
 def largest_png(r):
-    """PNG of the largest picture that is read."""
+    """PNG of the maximum size that is read."""
     side = r.choice([8192, 12_000, 16_384])
     return png(side, side, r.choice([1, 8]), 0, bytes([r.choice([0, 128, 255])]) * side)
 
 
 def interlaced_png(r):
-    """PNG of seven passes."""
+    """PNG with seven interlacing passes."""
     side = r.choice([4096, 8192, 12_000])
     return png(side, side, 8, 0, b"", interlaced=1)
 
 
 def chunks_png(r):
-    """PNG of tens of thousands of chunks, or packed text of gigabytes."""
+    """PNG with tens of thousands of chunks, or with compressed text that unpacks to hundreds of megabytes."""
     if r.random() < 0.5:
         between = chunk(r.choice([b"tEXt", b"prVt", b"sPLT"]), b"a\0b") * 60_000
     else:
@@ -72,13 +72,13 @@ def marker(code, data):
 
 def jpeg_head(code, width, height, components):
     tables = marker(0xdb, b"\0" + b"\1" * 64)
-    tables += marker(0xc4, b"\0" + b"\1" + b"\0" * 15 + b"\0")  # DC: "0" is no difference
+    tables += marker(0xc4, b"\0" + b"\1" + b"\0" * 15 + b"\0")  # DC: "0" means no difference
     sampled = b"".join(bytes([k + 1, 0x11, 0]) for k in range(components))
     return b"\xff\xd8" + tables + marker(code, struct.pack(">BHHB", 8, height, width, components) + sampled)
 
 
 def flat_jpeg(r):
-    """Baseline JPEG, two bits for a block of 64 pixels."""
+    """Baseline JPEG with two bits per block of 64 pixels."""
     side = r.choice([4096, 8192, 11_000])
     blocks = (-(-side // 8)) ** 2
     ac = marker(0xc4, b"\x10" + b"\1" + b"\0" * 15 + b"\0")  # AC: "0" ends the block
@@ -86,10 +86,10 @@ def flat_jpeg(r):
 
 
 def progressive_jpeg(r):
-    """Progressive JPEG of scans that each say nothing about the whole picture."""
+    """Progressive JPEG with many scans, each covering the whole image without changing it."""
     side = r.choice([1024, 2048, 4096, 8192])
     blocks = (-(-side // 8)) ** 2
-    ac = marker(0xc4, b"\x10" + b"\1" + b"\0" * 15 + b"\xe0")  # "0" and 14 bits: a run of 16384 empty blocks or more
+    ac = marker(0xc4, b"\x10" + b"\1" + b"\0" * 15 + b"\xe0")  # "0" and 14 ones: a run of 32767 empty blocks
     bits = ("0" + "1" * 14) * (-(-blocks // 32767))
     data = bytes(int(bits[k:k + 8].ljust(8, "1"), 2) for k in range(0, len(bits), 8)).replace(b"\xff", b"\xff\0")
     scan = marker(0xda, b"\1\1\0\1\x3f\0") + data
@@ -99,7 +99,7 @@ def progressive_jpeg(r):
 
 
 def filtered_png(r):
-    """PNG of 16 bits whose rows are each filtered in the slowest way."""
+    """PNG with 16 bits whose rows all use the slowest filter."""
     side = r.choice([4096, 5000, 7000])
     size = side * 8
     row = b"\4" + bytes([r.randrange(2)]) * size
@@ -108,7 +108,7 @@ def filtered_png(r):
 
 
 def animated_png(r):
-    """PNG of thousands of frames, each of the whole canvas."""
+    """PNG with thousands of frames, each covering the whole canvas."""
     side, count = r.choice([64, 1000, 8192]), r.choice([10, 3000])
     data = deflated([(b"\0" * (3 * side + 1), side)])
     count = min(count, 900_000 // (len(data) + 100))
@@ -122,7 +122,7 @@ def animated_png(r):
 
 
 def nearly_flat_png(r):
-    """An ordinary flat normal map, with marks here and there."""
+    """An ordinary flat normal map with a few deviating texels."""
     side = r.choice([4096, 8192])
     rows = []
     for _ in range(side // 64):
@@ -136,7 +136,7 @@ def nearly_flat_png(r):
 
 
 def sampled_jpeg(r):
-    """Baseline JPEG of four components sampled unevenly, with a restart after each row or block."""
+    """Baseline JPEG with four components of different sampling, with or without restart markers."""
     side = r.choice([2048, 4096, 8192])
     tables = marker(0xdb, b"\0" + b"\1" * 64) + marker(0xc4, b"\0" + b"\1" + b"\0" * 15 + b"\0")
     tables += marker(0xc4, b"\x10" + b"\1" + b"\0" * 15 + b"\0")

@@ -1,5 +1,5 @@
-// What a glTF file gets told, word for word and with its numbers: each message once, about something that is neither
-// the first mesh nor the first primitive, and each warning with what it counts.
+// Messages about glTF files, word for word with their numbers: each error once, about something other than the first
+// mesh and primitive, and each warning with its count.
 #include <cmath>
 #include <limits>
 
@@ -10,8 +10,8 @@ namespace {
 using namespace cotan::test;
 using cotan::LoadLimits;
 
-// What is said of the model, behind its name; "" where it is read.
-std::string toldOf(const Gltf& g, const LoadLimits& limits = {})
+// The error message after the file name; "" if the model is read.
+std::string loadError(const Gltf& g, const LoadLimits& limits = {})
 {
     const auto scene = g.load(limits);
     if (scene)
@@ -21,7 +21,7 @@ std::string toldOf(const Gltf& g, const LoadLimits& limits = {})
     return message.substr(message.find(name) + name.size());
 }
 
-// Two meshes, the second of two primitives; cases damage its second. Accessors 0 to 3: positions, normals, uv, indices.
+// Two meshes, the second of two primitives; cases damage the last. Accessors: positions, normals, uv, indices.
 Gltf threeSquares()
 {
     Gltf g = square();
@@ -37,18 +37,18 @@ json& lastOf(Gltf& g, const char* attribute) { return last(g)["attributes"][attr
 
 struct Damage {
     void (*make)(Gltf&);
-    std::string said;
+    std::string message;
 };
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
-TEST(GltfSaid, ofVerticesWithTheirPlaceWhatIsExpectedAndWhatIsFound)
+TEST(GltfMessages, errorsAboutVerticesNameFieldExpectedAndFound)
 {
     const std::string at = "meshes[1].primitives[1]";
     const auto shorts = [](Gltf& g, const char* type, int component, std::size_t count) {
         return g.accessor({{"componentType", component}, {"type", type}, {"count", count}});
     };
-    ASSERT_EQ(toldOf(threeSquares()), "");
+    ASSERT_EQ(loadError(threeSquares()), "");
     const Damage cases[] = {
         {[](Gltf& g) { lastOf(g, "POSITION") = 2; }, ".POSITION: expected accessors[2] of type VEC3, found VEC2"},
         {[](Gltf& g) { lastOf(g, "NORMAL") = 2; }, ".NORMAL: expected accessors[2] of type VEC3, found VEC2"},
@@ -108,9 +108,9 @@ TEST(GltfSaid, ofVerticesWithTheirPlaceWhatIsExpectedAndWhatIsFound)
     for (const Damage& damage : cases) {
         Gltf g = threeSquares();
         damage.make(g);
-        EXPECT_EQ(toldOf(g), at + damage.said);
+        EXPECT_EQ(loadError(g), at + damage.message);
     }
-    // Joints of each type that they may not have, and sets behind the first.
+    // Joints of each invalid type, and in sets after the first.
     for (const auto& [component, name] : {std::pair{kFloat, "floats"},
                                           {kUInt, "unsigned integers"},
                                           {kByte, "signed bytes"},
@@ -118,22 +118,22 @@ TEST(GltfSaid, ofVerticesWithTheirPlaceWhatIsExpectedAndWhatIsFound)
         Gltf g = threeSquares();
         lastOf(g, "JOINTS_0") = shorts(g, "VEC4", component, 4);
         lastOf(g, "WEIGHTS_0") = shorts(g, "VEC4", kFloat, 4);
-        EXPECT_EQ(toldOf(g), at + ".JOINTS_0: expected bytes or shorts in accessors[4], found " + name);
+        EXPECT_EQ(loadError(g), at + ".JOINTS_0: expected bytes or shorts in accessors[4], found " + name);
     }
     Gltf g = threeSquares();
     lastOf(g, "JOINTS_0") = shorts(g, "VEC4", kUByte, 4);
     lastOf(g, "WEIGHTS_0") = shorts(g, "VEC4", kFloat, 4);
-    EXPECT_EQ(toldOf(g), "");
+    EXPECT_EQ(loadError(g), "");
     lastOf(g, "WEIGHTS_1") = 5;
-    EXPECT_EQ(toldOf(g), at + ": expected JOINTS_1 and WEIGHTS_1 together");
+    EXPECT_EQ(loadError(g), at + ": expected JOINTS_1 and WEIGHTS_1 together");
     lastOf(g, "JOINTS_1") = shorts(g, "VEC4", kUShort, 3);
-    EXPECT_EQ(toldOf(g), at + ".JOINTS_1: expected accessors[6] with 4 elements, found 3");
+    EXPECT_EQ(loadError(g), at + ".JOINTS_1: expected accessors[6] with 4 elements, found 3");
     lastOf(g, "JOINTS_1") = 4;
     lastOf(g, "WEIGHTS_1") = 2;
-    EXPECT_EQ(toldOf(g), at + ".WEIGHTS_1: expected accessors[2] of type VEC4, found VEC2");
+    EXPECT_EQ(loadError(g), at + ".WEIGHTS_1: expected accessors[2] of type VEC4, found VEC2");
 }
 
-TEST(GltfSaid, ofNodesSkinsCamerasLightsAndVariants)
+TEST(GltfMessages, errorsAboutNodesSkinsCamerasLightsAndVariants)
 {
     const auto instanced = [](Gltf& g, json attributes) {
         g.root["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = std::move(attributes);
@@ -201,24 +201,24 @@ TEST(GltfSaid, ofNodesSkinsCamerasLightsAndVariants)
              g.root["cameras"] = {{{"type", "perspective"}, {"perspective", good}},
                                   {{"type", "orthographic"}, {"perspective", good}}};
          },
-         "cameras[1].orthographic: missing; its type is \"orthographic\""},
+         "cameras[1].orthographic: missing, although the type is \"orthographic\""},
         {[](Gltf& g) {
              g.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}, {{"type", "spot"}}};
          },
-         "extensions.KHR_lights_punctual.lights[1].spot: missing; its type is \"spot\""},
+         "extensions.KHR_lights_punctual.lights[1].spot: missing, although the type is \"spot\""},
         {[](Gltf& g) {
              g.root["meshes"][1]["weights"] = {1e30},
              last(g)["targets"] = {{{"POSITION", g.floats(std::vector<float>(12, 1e30f), "VEC3")}}};
          },
-         "meshes[1].primitives[1]: a position is beyond the range of float once it is morphed and skinned"},
-        // A mesh that no node shows is read too.
+         "meshes[1].primitives[1]: a position is beyond the range of float after morphing and skinning"},
+        // A mesh without a node is read, too.
         {[](Gltf& g) {
              json p = primitive(g);
              p["indices"] = g.accessor(std::vector<std::uint16_t>{0, 1, 9}, "SCALAR", kUShort);
              g.add("meshes", {{"primitives", {primitive(g), p}}});
          },
          "meshes[2].primitives[1].indices: index 2 is 9, but there are 4 vertices"},
-        // Numbers that serve as nothing but uv may be none; these serve as something else as well.
+        // Numbers used only as uv may be NaN or infinite; these have another use as well.
         {[](Gltf& g) {
              lastOf(g, "TEXCOORD_1") = lastOf(g, "_OWN") = g.floats({0, 0, 0, kInf, 0, 0, 0, 0}, "VEC2");
          },
@@ -227,7 +227,7 @@ TEST(GltfSaid, ofNodesSkinsCamerasLightsAndVariants)
     for (const Damage& damage : cases) {
         Gltf g = threeSquares();
         damage.make(g);
-        EXPECT_EQ(toldOf(g), damage.said);
+        EXPECT_EQ(loadError(g), damage.message);
     }
     Gltf g = threeSquares();
     g.root["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "red"}}, {{"name", 7}}, {{"name", "red"}}};
@@ -235,17 +235,17 @@ TEST(GltfSaid, ofNodesSkinsCamerasLightsAndVariants)
                                                                    {{"variants", {0}}, {"material", 1}}};
     LoadLimits limits;
     limits.variant = "2";
-    EXPECT_EQ(toldOf(g, limits), "");
+    EXPECT_EQ(loadError(g, limits), "");
     limits.variant = "red"; // the first of that name
-    EXPECT_EQ(toldOf(g, limits),
-              "meshes[1].primitives[1].extensions.KHR_materials_variants: expected the number of one "
-              "of 1 materials, found 1");
+    EXPECT_EQ(loadError(g, limits),
+              "meshes[1].primitives[1].extensions.KHR_materials_variants: expected an index below 1, the number of "
+              "materials, found 1");
     limits.variant = "3";
-    EXPECT_EQ(toldOf(g, limits), "expected one of its 3 variants by number or name (red, , red), found \"3\"");
-    EXPECT_EQ(toldOf(square(), limits), "expected a model with variants for \"3\", it has none");
+    EXPECT_EQ(loadError(g, limits), "expected one of its 3 variants by number or name (red, , red), found \"3\"");
+    EXPECT_EQ(loadError(square(), limits), "expected a model with variants for \"3\", found none");
 }
 
-TEST(GltfSaid, warningsNameTheirPlaceAndCountWhatTheyAreAbout)
+TEST(GltfMessages, warningsNameTheFieldAndCount)
 {
     const std::string at = "meshes[1].primitives[1]";
     const auto uv = [](Gltf& g, const std::vector<float>& values) {
@@ -254,26 +254,26 @@ TEST(GltfSaid, warningsNameTheirPlaceAndCountWhatTheyAreAbout)
     static const auto setUv = uv;
     const Damage cases[] = {
         {[](Gltf& g) { last(g)["attributes"].erase("POSITION"); }, at + ": no POSITION, nothing to draw"},
-        {[](Gltf& g) { last(g)["attributes"].erase("NORMAL"); }, at + ": no NORMAL, flat normals are made"},
+        {[](Gltf& g) { last(g)["attributes"].erase("NORMAL"); }, at + ": no NORMAL; flat normals are generated"},
         {[](Gltf& g) { last(g)["mode"] = 0; }, at + ": points and lines are not drawn"},
         {[](Gltf& g) { last(g)["mode"] = 3; }, at + ": points and lines are not drawn"},
         {[](Gltf& g) {
              last(g)["indices"] = g.accessor(std::vector<std::uint8_t>{0, 1, 2, 0, 2}, "SCALAR", kUByte);
          },
-         at + ": the number of corners is not a multiple of 3; the last triangle is left out"},
-        {[](Gltf& g) { lastOf(g, "TEXCOORD_2") = 2; }, at + ": TEXCOORD_2 is ignored: two uv sets are read"},
+         at + ": the number of corners is not a multiple of 3; the incomplete triangle is ignored"},
+        {[](Gltf& g) { lastOf(g, "TEXCOORD_2") = 2; }, at + ": TEXCOORD_2 is ignored: only two uv sets are supported"},
         {[](Gltf& g) {
              setUv(g, {0, 1, 1, kInf, 1, 0, NAN, NAN});
          },
-         at + ".TEXCOORD_0: not a finite number, replaced by 0 (vertices: 2)"},
+         at + ".TEXCOORD_0: not a finite number; replaced by 0 (vertices: 2)"},
         {[](Gltf& g) {
              lastOf(g, "NORMAL") = g.floats({0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
          },
-         at + ".NORMAL: zero length, no direction known (vertices: 1)"},
+         at + ".NORMAL: zero length, so the direction is unknown (vertices: 1)"},
         {[](Gltf& g) {
              lastOf(g, "NORMAL") = g.floats({0, 0, 1, 0, 0, 2, 0, 0, 1.02f, 0, 0, 0.98f}, "VEC3");
          },
-         at + ".NORMAL: not of unit length, normalised (vertices: 3)"},
+         at + ".NORMAL: not of unit length; normalised (vertices: 3)"},
         {[](Gltf& g) {
              lastOf(g, "TANGENT") = g.floats({0, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
          },
@@ -281,51 +281,51 @@ TEST(GltfSaid, warningsNameTheirPlaceAndCountWhatTheyAreAbout)
         {[](Gltf& g) {
              lastOf(g, "TANGENT") = g.floats({1, 0, 0, 1, 3, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
          },
-         at + ".TANGENT: not of unit length, normalised (vertices: 1)"},
+         at + ".TANGENT: not of unit length; normalised (vertices: 1)"},
         {[](Gltf& g) {
              lastOf(g, "TANGENT") = g.floats({1, 0, 0, 0, 1, 0, 0, 2, 1, 0, 0, .98f, 1, 0, 0, 1}, "VEC4");
          },
-         at + ".TANGENT: w is not +-1, its sign is taken (vertices: 3)"},
+         at + ".TANGENT: w is not +-1; only its sign is used (vertices: 3)"},
         {[](Gltf& g) {
              lastOf(g, "TANGENT") = g.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4"),
                        last(g)["attributes"].erase("NORMAL");
          },
-         at + ": TANGENT without NORMAL, ignored|" + at + ": no NORMAL, flat normals are made"},
+         at + ": TANGENT without NORMAL, ignored|" + at + ": no NORMAL; flat normals are generated"},
         {[](Gltf& g) {
              g.root["materials"] = {json::object(), {{"normalTexture", {{"index", 0}}}}};
              g.add("images", {{"uri", "data:image/png;base64," + base64(flatPng())}});
              g.add("textures", {{"source", 0}});
              last(g)["material"] = 1;
-             setUv(g, {0, 1, 1, 1, 0.5, 1, 0, 0}); // the first triangle is flat there
+             setUv(g, {0, 1, 1, 1, 0.5, 1, 0, 0}); // the first triangle has no uv area
          },
-         at + ": no area in the texture coordinates of the normal map: no frame there (triangles: 1)"},
+         at + ": no area in the texture coordinates of the normal map: undefined frame (triangles: 1)"},
         {[](Gltf& g) {
              g.root["materials"] = {json::object(), {{"normalTexture", {{"index", 1}}}}};
              g.root["textures"] = {json::object(), json::object()};
              last(g)["material"] = 1;
          },
-         "textures[1]: no PNG or JPEG image, the texture is left out"},
+         "textures[1]: no PNG or JPEG image; the texture is ignored"},
         {[](Gltf& g) {
              g.root["materials"] = {json::object(), {{"emissiveTexture", {{"index", 0}, {"texCoord", 2}}}}};
              g.add("images", {{"uri", "data:image/png;base64," + base64(flatPng())}});
              g.add("textures", {{"source", 0}});
              last(g)["material"] = 1;
          },
-         "materials[1].emissiveTexture: it asks for TEXCOORD_2, which is missing from a mesh that uses it; left out "
+         "materials[1].emissiveTexture: requires TEXCOORD_2, which a mesh with this material lacks; it is ignored "
          "there"},
         {[](Gltf& g) {
              g.root["materials"] = {json::object(), {{"extras", {{"cotanFrame", "sideways"}}}}};
              last(g)["material"] = 1;
          },
-         "materials[1].extras.cotanFrame: expected the name of a frame, found 'sideways'; left out"},
+         "materials[1].extras.cotanFrame: expected the name of a frame, found 'sideways'; ignored"},
         {[](Gltf& g) {
              g.root["nodes"][1]["rotation"] = {0, 0, 0, 1.02};
          },
-         "nodes[1].rotation: not a unit quaternion, normalised"},
+         "nodes[1].rotation: not a unit quaternion; normalised"},
         {[](Gltf& g) {
              g.root["nodes"][1]["rotation"] = {0, 0, 0, 0.98};
          },
-         "nodes[1].rotation: not a unit quaternion, normalised"},
+         "nodes[1].rotation: not a unit quaternion; normalised"},
         {[](Gltf& g) {
              g.root["nodes"][1]["rotation"] = {0, 0, 0, 1.008};
          },
@@ -334,17 +334,17 @@ TEST(GltfSaid, warningsNameTheirPlaceAndCountWhatTheyAreAbout)
              g.root["nodes"][1]["rotation"] = {0, 0, 0, 0.992};
          },
          ""},
-        {[](Gltf& g) { // which does not count beside a matrix
+        {[](Gltf& g) { // ignored next to a matrix
              g.root["nodes"][1]["rotation"] = {0, 0, 0, 5};
              g.root["nodes"][1]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
          },
          ""},
-        // Two axes that are nearly the same one, relative to their lengths: 1e-8 is not flat, 1e-10 is.
+        // Two nearly parallel axes, relative to their lengths: 1e-8 is not singular, 1e-10 is.
         {[](Gltf& g) { g.root["nodes"][1]["matrix"] = {1, 0, 0, 0, 1, 1e-8, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; }, ""},
         {[](Gltf& g) { g.root["nodes"][1]["matrix"] = {1, 0, 0, 0, 1, 1e-10, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; },
          "nodes[1]: its transform is singular (a scale of zero)"},
         {[](Gltf& g) { g.root["scenes"][0]["nodes"] = json::array(); }, "scene: nothing to draw: no triangles"},
-        // A mesh that no node shows is looked at once, those that are shown not again.
+        // A mesh without a node is checked once, and the meshes of nodes are not checked again.
         {[](Gltf& g) {
              json p = primitive(g);
              p["attributes"]["NORMAL"] = g.floats({0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
@@ -352,9 +352,8 @@ TEST(GltfSaid, warningsNameTheirPlaceAndCountWhatTheyAreAbout)
              g.add("meshes", {{"primitives", {primitive(g), p}}});
          },
          at
-             + ": TEXCOORD_2 is ignored: two uv sets are read|meshes[2].primitives[1].NORMAL: zero length, no "
-               "direction "
-               "known (vertices: 1)"},
+             + ": TEXCOORD_2 is ignored: only two uv sets are supported|meshes[2].primitives[1].NORMAL: zero length, "
+               "so the direction is unknown (vertices: 1)"},
     };
     for (const Damage& damage : cases) {
         Gltf g = threeSquares();
@@ -364,7 +363,7 @@ TEST(GltfSaid, warningsNameTheirPlaceAndCountWhatTheyAreAbout)
         std::string lines;
         for (const std::string& line : scene->warnings)
             lines += (lines.empty() ? "" : "|") + line;
-        EXPECT_EQ(lines, damage.said);
+        EXPECT_EQ(lines, damage.message);
     }
 }
 

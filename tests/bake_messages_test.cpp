@@ -1,4 +1,4 @@
-// What `cotan bake` says of a bake, whole lines with their numbers; and what it says in other cases only.
+// What `cotan bake` prints about a bake: whole lines with their numbers, and that each appears only when it applies.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -11,7 +11,7 @@
 namespace cotan::test {
 namespace {
 
-// A square of side 1 at height z above the xy plane, from x = `from` to `to`; uv as x and y, moved by `u`.
+// A rectangle at height z, from x = `from` to `to` and y = 0 to 1; uv are x + `u` and y.
 std::string square(double z, double from = 0, double to = 1, double u = 0)
 {
     std::string text;
@@ -20,16 +20,16 @@ std::string square(double z, double from = 0, double to = 1, double u = 0)
     return text + "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
 }
 
-class BakeSaid : public ::testing::Test {
+class BakeMessages : public ::testing::Test {
 protected:
-    BakeSaid()
+    BakeMessages()
     {
         write("low.obj", square(0));
         write("high.obj", square(0));
         write("above.obj", square(0.5));
         write("half.obj", square(0, 0, 0.5));
-        write("third.obj", square(0, 0, 1, 2));  // its uv lie on the third tile
-        write("sliver.obj", square(0, 0, 0.01)); // between the middles of texels
+        write("third.obj", square(0, 0, 1, 2));  // its uv are in the third tile
+        write("sliver.obj", square(0, 0, 0.01)); // between texel centres
     }
     void write(const char* name, const std::string& text) { std::ofstream(folder / name) << text; }
 
@@ -42,7 +42,7 @@ protected:
         return runTool(all, folder.path());
     }
 
-    // Standard error is these lines, one of each.
+    // Expects exactly these lines, each once, on standard error.
     void expectWarned(const std::string& words, const std::vector<std::string>& lines)
     {
         std::string expected;
@@ -56,7 +56,7 @@ protected:
     TemporaryFolder folder;
 };
 
-TEST_F(BakeSaid, aSoundBakeIsDescribedAndWarnsOfNothing)
+TEST_F(BakeMessages, aSoundBakeIsDescribedWithoutWarnings)
 {
     for (const auto& [words, covered] :
          {std::pair("", "64 of 64 texels covered, 0 more filled at the edges of charts; "), {"--low half.obj", ""}}) {
@@ -70,34 +70,33 @@ TEST_F(BakeSaid, aSoundBakeIsDescribedAndWarnsOfNothing)
     }
     const ToolRun smooth = bake("--high high.obj --low low.obj --frame smooth --bits 16 --convention directx");
     EXPECT_NE(smooth.out.find("map in m.png (normal, smooth, directx, 16 bit)"), std::string::npos) << smooth.out;
-    EXPECT_NE(smooth.out.find("the map is for the frame smooth: read it by that; engines make MikkTSpace tangents and "
-                              "show it wrongly (--frame mikktspace is for them)"),
+    EXPECT_NE(smooth.out.find("the map is for the frame smooth: read it with that; engines use MikkTSpace tangents "
+                              "and show it wrongly (--frame mikktspace is for them)"),
               std::string::npos);
     const ToolRun occlusion = bake("--high high.obj --low low.obj --kind ao --ao-rays 4");
     EXPECT_NE(occlusion.out.find("map in m.png (ao, world axes, 8 bit)"), std::string::npos) << occlusion.out;
     EXPECT_EQ(occlusion.out.find("the map is for"), std::string::npos);
 }
 
-TEST_F(BakeSaid, whatRaysDidNotFindIsCountedAndTheOptionsAreNamed)
+TEST_F(BakeMessages, missesAreCountedAndWarningsNameTheOptions)
 {
     expectWarned("--high above.obj --low low.obj --search nearest --max-distance 0.25",
                  {"64 of 64 covered texels found no high surface within 0.25 units; there is one further away "
                   "(--max-distance, --cage; --mask shows where)"});
-    expectWarned(
-        "--high half.obj --low low.obj",
-        {"32 of 64 covered texels have no high surface before or behind them at any distance: it has holes, or "
-         "ends before the low mesh does (--mask shows where)"});
+    expectWarned("--high half.obj --low low.obj",
+                 {"32 of 64 covered texels have no high surface in front or behind at any distance: it has holes, or "
+                  "ends before the low mesh does (--mask shows where)"});
     write("cage.obj", square(0.25));
     expectWarned(
         "--high above.obj --low low.obj --cage cage.obj --max-distance 0.125",
         {"64 of 64 covered texels found no high surface within the reach of the cage; there is one further away "
          "(--mask shows where)"});
     expectWarned("--high above.obj --high high.obj --low low.obj --extrusion 1",
-                 {"64 of 64 covered texels show the first surface from outside, not the nearest one: parts stand off "
-                  "there (--search nearest)"});
+                 {"64 of 64 covered texels show the first surface from outside, not the nearest one: parts are "
+                  "detached there (--search nearest)"});
 }
 
-TEST_F(BakeSaid, framesOfTrianglesAndTilesWithoutTexelsAreWarnedOf)
+TEST_F(BakeMessages, framesOfTrianglesAndTilesWithoutTexelsAreWarnedOf)
 {
     const std::string crease =
         " changes from triangle to triangle: filtering shows a crease one texel wide at edges of "
@@ -112,7 +111,7 @@ TEST_F(BakeSaid, framesOfTrianglesAndTilesWithoutTexelsAreWarnedOf)
     expectWarned("--high sliver.obj --low sliver.obj",
                  {"no triangle covers the centre of a texel on tile 1001; only edges touch it (--udim, --size)"});
     expectWarned("--high high.obj --low low.obj --kind height --high-normals map",
-                 {"--high-normals map changes nothing in a map of the kind height"});
+                 {"--high-normals map has no effect on a map of kind height"});
     write("twice.obj", square(0) + "f 1/1 2/2 3/3\n");
     const ToolRun twice = bake("--high high.obj --low twice.obj");
     EXPECT_NE(twice.err.find(" of 64 covered texels are claimed by several triangles; the first in the file won\n"),

@@ -1,4 +1,4 @@
-// File names in capitals, as other systems write them, mean what their twins in small letters mean.
+// File extensions in capitals, as some systems write them, mean the same as in small letters.
 #include <gtest/gtest.h>
 
 #include "cotan/image.hpp"
@@ -9,7 +9,7 @@
 namespace cotan::test {
 namespace {
 
-// The command, its last word a file name; the bytes of that file.
+// Runs the command, whose last word is a file name; returns the contents of that file.
 std::string madeBy(const TemporaryFolder& folder, const std::vector<std::string>& command)
 {
     const ToolRun run = runTool(command, folder.path());
@@ -28,7 +28,7 @@ void expectTwins(const TemporaryFolder& folder, std::vector<std::string> command
     EXPECT_TRUE(madeBy(folder, command) == expected) << command[0] << " " << large;
 }
 
-TEST(CapitalEndings, renderKeepsFloatsInThem)
+TEST(CapitalExtensions, renderKeepsFloats)
 {
     TemporaryFolder folder;
     for (const auto& [small, large] :
@@ -38,7 +38,7 @@ TEST(CapitalEndings, renderKeepsFloatsInThem)
     EXPECT_EQ(readImage(folder / "A.TIF")->type, PixelType::float32);
 }
 
-TEST(CapitalEndings, renderWritesAnimationsIntoThem)
+TEST(CapitalExtensions, renderWritesAnimations)
 {
     TemporaryFolder folder;
     write(movingQuad(), folder.path());
@@ -48,7 +48,7 @@ TEST(CapitalEndings, renderWritesAnimationsIntoThem)
                 ".webp", ".WEBP");
 }
 
-TEST(CapitalEndings, mapsKeepTheirBitsInThem)
+TEST(CapitalExtensions, mapsKeepTheirBits)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 16)));
@@ -69,7 +69,7 @@ TEST(CapitalEndings, mapsKeepTheirBitsInThem)
     expectTwins(folder, blocks, ".ktx2", ".KTX2");
 }
 
-TEST(CapitalEndings, modelsAreReadAndWrittenByThem)
+TEST(CapitalExtensions, modelsAreReadAndWritten)
 {
     TemporaryFolder folder;
     write(quad(2), folder.path());
@@ -79,7 +79,7 @@ TEST(CapitalEndings, modelsAreReadAndWrittenByThem)
     EXPECT_EQ(readWhole(folder / "A.Glb").substr(0, 4), "glTF");
 }
 
-TEST(CapitalEndings, bakeKeepsBitsInThem)
+TEST(CapitalExtensions, bakeKeepsBits)
 {
     TemporaryFolder folder;
     write(quad(2), folder.path());

@@ -1,4 +1,4 @@
-// What reading and writing pictures says of them, with its numbers, at both sides of each limit.
+// Messages of image readers and writers, with their numbers, on both sides of each limit.
 #include <cmath>
 #include <limits>
 #include <string>
@@ -9,7 +9,7 @@
 #include "cotan/image.hpp"
 #include "image/component_types.hpp"
 #include "ktx2_maker.hpp"
-#include "picture_file.hpp"
+#include "image_io.hpp"
 #include "png_maker.hpp"
 #include "webp_maker.hpp"
 
@@ -22,20 +22,20 @@ std::string textOf(const Bytes& bytes) { return {reinterpret_cast<const char*>(b
 
 std::string textOf(Status status) { return status ? "done" : status.error().message; }
 
-// 8 bits of grey, all 0.
+// 8-bit grey pixels, all 0.
 std::string greyPng(std::uint32_t width, std::uint32_t height)
 {
     return textOf(
         makePng({.width = width, .height = height, .colour = 0, .rows = std::string((width + 1) * height, '\0')}));
 }
 
-std::string toldOfPng(const std::string& file, const LoadLimits& limits)
+std::string pngMessage(const std::string& file, const LoadLimits& limits)
 {
     return messageOf(decodeImage(bytesOf(file), "a.png", limits));
 }
 
-// Colour types of PNG and its transparent colour: what a file stores, whole and by rows.
-TEST_F(PictureFile, pngSaysItsChannelsAndItsAlphaWholeAndByRows)
+// PNG colour types and the transparent colour: channels and alpha as stored, read whole and by rows.
+TEST_F(ImageIo, pngReportsChannelsAndAlphaWholeAndByRows)
 {
     const std::string colours = chunk("PLTE", "\x0a\x14\x1e\x28\x32\x3c"s);
     const struct {
@@ -77,18 +77,18 @@ TEST_F(PictureFile, pngSaysItsChannelsAndItsAlphaWholeAndByRows)
     EXPECT_EQ((*interlaced)->channels, 2);
 }
 
-TEST_F(PictureFile, sizesOverALimitAreToldWithBoth)
+TEST_F(ImageIo, errorsForSizesOverALimitStateBoth)
 {
     LoadLimits limits;
     limits.imageSide = 4;
-    EXPECT_EQ(toldOfPng(greyPng(5, 3), limits), "a.png: the image size is 5 x 3, the limit is 4 a side");
-    EXPECT_EQ(toldOfPng(greyPng(3, 5), limits), "a.png: the image size is 3 x 5, the limit is 4 a side");
-    EXPECT_EQ(toldOfPng(greyPng(4, 4), limits), "accepted");
+    EXPECT_EQ(pngMessage(greyPng(5, 3), limits), "a.png: the image size is 5 x 3, the limit is 4 per side");
+    EXPECT_EQ(pngMessage(greyPng(3, 5), limits), "a.png: the image size is 3 x 5, the limit is 4 per side");
+    EXPECT_EQ(pngMessage(greyPng(4, 4), limits), "accepted");
     const std::string name = (folder / "a.png").string();
     EXPECT_EQ(messageOf(openRows(write("a.png", greyPng(5, 3)), limits)),
-              name + ": the image size is 5 x 3, the limit is 4 a side");
+              name + ": the image size is 5 x 3, the limit is 4 per side");
     EXPECT_EQ(messageOf(openRows(write("a.png", greyPng(3, 5)), limits)),
-              name + ": the image size is 3 x 5, the limit is 4 a side");
+              name + ": the image size is 3 x 5, the limit is 4 per side");
     EXPECT_EQ(messageOf(openRows(write("a.png", greyPng(4, 4)), limits)), "accepted");
 
     limits = {};
@@ -101,22 +101,22 @@ TEST_F(PictureFile, sizesOverALimitAreToldWithBoth)
     EXPECT_EQ(refused.error().message, "a.png: 5 x 3 pixels take 60 bytes, the limit is 59");
     EXPECT_EQ(expected, 0u);
     limits.imageBytes = 60;
-    EXPECT_EQ(toldOfPng(greyPng(5, 3), limits), "accepted");
+    EXPECT_EQ(pngMessage(greyPng(5, 3), limits), "accepted");
     EXPECT_EQ(expected, 60u);
     const std::string wide = textOf(makePng({.width = 2, .bits = 16, .colour = 0, .rows = "\0\1\2\3\4"s}));
     limits.imageBytes = 15;
-    EXPECT_EQ(toldOfPng(wide, limits), "a.png: 2 x 1 pixels take 16 bytes, the limit is 15");
+    EXPECT_EQ(pngMessage(wide, limits), "a.png: 2 x 1 pixels take 16 bytes, the limit is 15");
     limits.imageBytes = 16;
-    EXPECT_EQ(toldOfPng(wide, limits), "accepted");
+    EXPECT_EQ(pngMessage(wide, limits), "accepted");
 
-    // What the file's own size allows: 128 bytes for each of its own, and some beyond.
+    // The limit grows with the file: 128 bytes for each of its bytes, plus a constant.
     limits = {};
     const std::string file = greyPng(300, 200);
     limits.imageBytesBeyond = 240'000 - 128 * file.size() - 1;
-    EXPECT_EQ(toldOfPng(file, limits), "a.png: 300 x 200 pixels take 240000 bytes, the limit is 239999");
+    EXPECT_EQ(pngMessage(file, limits), "a.png: 300 x 200 pixels take 240000 bytes, the limit is 239999");
     limits.imageBytesBeyond += 1;
-    EXPECT_EQ(toldOfPng(file, limits), "accepted");
-    // By rows the same of what one picture may take.
+    EXPECT_EQ(pngMessage(file, limits), "accepted");
+    // The same limit applies to a single image that is read by rows.
     const auto path = write("a.png", file);
     limits = {};
     limits.imageBytes = 240'000 - 128 * file.size() - 1;
@@ -134,7 +134,7 @@ TEST_F(PictureFile, sizesOverALimitAreToldWithBoth)
     EXPECT_EQ(messageOf(readImage(path, limits)), "accepted");
 }
 
-TEST_F(PictureFile, whatCannotBeReadOrWrittenIsToldWithWhatCan)
+TEST_F(ImageIo, errorsForUnknownFormatsListTheKnownOnes)
 {
     const std::string name = (folder / "a").string();
     EXPECT_EQ(messageOf(decodeImage(bytesOf("this is text, not an image"), "a.png")),
@@ -142,7 +142,7 @@ TEST_F(PictureFile, whatCannotBeReadOrWrittenIsToldWithWhatCan)
     EXPECT_EQ(messageOf(decodeImage(bytesOf("\0\0\0\x1c"
                                             "ftypavif"s),
                                     "a.png")),
-              "a.png: AVIF pictures are not read here");
+              "a.png: AVIF images are not supported");
     EXPECT_EQ(messageOf(readImage(folder)), folder.string() + ": expected a file, found a folder");
     EXPECT_EQ(messageOf(openRows(name)), name + ": no such file");
     EXPECT_EQ(messageOf(readImage(name)), name + ": no such file");
@@ -161,10 +161,10 @@ TEST_F(PictureFile, whatCannotBeReadOrWrittenIsToldWithWhatCan)
                   name + ".png: there is no image to write (" + std::to_string(width) + " x " + std::to_string(height)
                       + ", 0 bytes)");
     }
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1); // the empty one
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1); // the empty file
 }
 
-TEST(PictureFormat, isSaidByTheFirstBytesAndOfThoseThatAreNotReadHereWhichTheyAre)
+TEST(ImageFormat, isDetectedBySignatureAndUnsupportedFormatsAreNamed)
 {
     const struct {
         std::string head;
@@ -189,35 +189,35 @@ TEST(PictureFormat, isSaidByTheFirstBytesAndOfThoseThatAreNotReadHereWhichTheyAr
                  {"\x89PNG\r\n\x1a"s, "", ""},
                  {"", "", ""}};
     for (const auto& c : cases) {
-        EXPECT_EQ(pictureFormat(bytesOf(c.head)), c.format) << c.head;
-        EXPECT_EQ(foreignFormat(bytesOf(c.head)), c.foreign) << c.head;
+        EXPECT_EQ(imageFormatName(bytesOf(c.head)), c.format) << c.head;
+        EXPECT_EQ(unreadableFormat(bytesOf(c.head)), c.foreign) << c.head;
         EXPECT_EQ(isPng(bytesOf(c.head)), c.format == "PNG"s);
         EXPECT_EQ(isJpeg(bytesOf(c.head)), c.format == "JPEG"s);
     }
 }
 
-// What a WebP and a GIF can hold, at both sides of each limit.
-TEST_F(PictureFile, animationsOfAnySizeAndRateThatTheirFilesHoldAreBegunAndOthersTold)
+// Sizes and rates that WebP and GIF can hold, on both sides of each limit.
+TEST_F(ImageIo, animationSizesAndRatesAreCheckedAgainstTheFormat)
 {
-    const auto told = [&](const char* file, int width, int height, double rate) {
+    const auto messageFor = [&](const char* file, int width, int height, double rate) {
         return messageOf(createAnimation(folder / file, {width, height, 1, rate}));
     };
     for (const auto& [file, most, fastest] : {std::tuple("a.webp", 16383, 1000.0), {"a.gif", 65535, 50.0}}) {
-        const std::string sides = (folder / file).string() + ": expected a picture of 1 to " + std::to_string(most)
-            + " pixels a side; found ",
+        const std::string sides = (folder / file).string() + ": expected an image of 1 to " + std::to_string(most)
+            + " pixels per side; found ",
                           one = std::to_string(most + 1);
-        EXPECT_EQ(told(file, most, 1, fastest), "accepted");
-        EXPECT_EQ(told(file, 1, most, 0.5), "accepted");
-        EXPECT_EQ(told(file, most + 1, 1, 24), sides + one + " x 1");
-        EXPECT_EQ(told(file, 1, most + 1, 24), sides + "1 x " + one);
-        EXPECT_EQ(told(file, 0, 8, 24), sides + "0 x 8");
-        EXPECT_EQ(told(file, 8, 0, 24), sides + "8 x 0");
+        EXPECT_EQ(messageFor(file, most, 1, fastest), "accepted");
+        EXPECT_EQ(messageFor(file, 1, most, 0.5), "accepted");
+        EXPECT_EQ(messageFor(file, most + 1, 1, 24), sides + one + " x 1");
+        EXPECT_EQ(messageFor(file, 1, most + 1, 24), sides + "1 x " + one);
+        EXPECT_EQ(messageFor(file, 0, 8, 24), sides + "0 x 8");
+        EXPECT_EQ(messageFor(file, 8, 0, 24), sides + "8 x 0");
         const std::string rates = (folder / file).string() + ": expected at most " + std::to_string(int(fastest))
-            + " pictures a second in such a file; found ";
-        EXPECT_EQ(told(file, 8, 9, fastest + 0.5), rates + std::to_string(int(fastest)) + ".5");
-        EXPECT_EQ(told(file, 8, 9, 0), rates + "0");
-        EXPECT_EQ(told(file, 8, 9, -24), rates + "-24");
-        EXPECT_NE(told(file, 8, 9, std::numeric_limits<double>::quiet_NaN()), "accepted");
+            + " images per second in such a file; found ";
+        EXPECT_EQ(messageFor(file, 8, 9, fastest + 0.5), rates + std::to_string(int(fastest)) + ".5");
+        EXPECT_EQ(messageFor(file, 8, 9, 0), rates + "0");
+        EXPECT_EQ(messageFor(file, 8, 9, -24), rates + "-24");
+        EXPECT_NE(messageFor(file, 8, 9, std::numeric_limits<double>::quiet_NaN()), "accepted");
     }
     for (const auto& [rate, stored] : {std::pair(24.0, 4), {30.0, 3}, {50.0, 2}, {1000.0, 1}, {0.5, 200}, {40.0, 3}})
         EXPECT_DOUBLE_EQ(animationRate("a.gif", rate), 100.0 / stored) << rate; // whole hundredths of a second
@@ -225,17 +225,17 @@ TEST_F(PictureFile, animationsOfAnySizeAndRateThatTheirFilesHoldAreBegunAndOther
     ASSERT_TRUE(writer) << writer.error().message;
     const std::string name = (folder / "a.gif").string();
     EXPECT_EQ(textOf((*writer)->add(makeImage(9, 9, PixelType::unorm8))),
-              name + ": expected pictures of 8 x 9; found 9 x 9");
+              name + ": expected images of 8 x 9; found 9 x 9");
     EXPECT_EQ(textOf((*writer)->add(makeImage(8, 8, PixelType::unorm8))),
-              name + ": expected pictures of 8 x 9; found 8 x 8");
+              name + ": expected images of 8 x 9; found 8 x 8");
     EXPECT_EQ(textOf((*writer)->add(makeImage(8, 9, PixelType::float32))), "done");
     EXPECT_EQ(textOf((*writer)->add(makeImage(8, 9, PixelType::unorm8))),
-              name + ": there are more pictures than were announced");
+              name + ": expected no more images than announced");
 }
 
-// A full device: what the writer found, and nothing left behind. What fits in a buffer is told at the end, more of it
-// on the way.
-TEST_F(PictureFile, whatDoesNotFitOnADeviceIsToldByEveryWriter)
+// A full device: the message is the writer's, and no file remains. Small files fail when the buffer is flushed at the
+// end, larger ones while they are written.
+TEST_F(ImageIo, everyWriterReportsAFullDevice)
 {
     for (const char* const ending : {".png", ".exr", ".tif", ".tga", ".jpg", ".hdr"}) {
         const auto file = folder / ("a"s + ending);
@@ -243,11 +243,11 @@ TEST_F(PictureFile, whatDoesNotFitOnADeviceIsToldByEveryWriter)
         const bool png = ending == ".png"s;
         const std::string full = file.string()
             + (png ? ": writing failed"
-                   : ": expected to write the picture, OpenImageIO found: No space left on device");
+                   : ": expected to write the image, OpenImageIO found: No space left on device");
         for (const int side : {2, 300}) {
             Image image = makeImage(side, side, png ? PixelType::unorm8 : PixelType::float32);
             std::uint32_t state = 7;
-            for (std::size_t i = 0; i < 4 * image.pixelCount(); ++i) { // which no compression makes small
+            for (std::size_t i = 0; i < 4 * image.pixelCount(); ++i) { // noise, which does not compress
                 state = state * 1664525u + 1013904223u;
                 if (png)
                     image.bytes8()[i] = std::uint8_t(state >> 24);
@@ -271,8 +271,8 @@ TEST_F(PictureFile, whatDoesNotFitOnADeviceIsToldByEveryWriter)
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 6);
 }
 
-// What ends a PNG is written last: where its bytes are the first that do not fit, ending it says so.
-TEST_F(PictureFile, theEndOfAPngThatDoesNotFitIsTold)
+// The end chunk of a PNG is written last; if only its bytes do not fit, finishing the file reports that.
+TEST_F(ImageIo, fullDeviceAtTheEndOfAPngIsReported)
 {
     const auto full = folder / "full.png", whole = folder / "whole.png";
     std::filesystem::create_symlink("/dev/full", full);
@@ -280,7 +280,7 @@ TEST_F(PictureFile, theEndOfAPngThatDoesNotFitIsTold)
     for (int width = 1320; width < 1366; ++width) {
         Image image = makeImage(width, 1, PixelType::unorm8);
         std::uint32_t state = 7;
-        for (std::size_t i = 0; i < 4 * image.pixelCount(); ++i) // which no compression makes small
+        for (std::size_t i = 0; i < 4 * image.pixelCount(); ++i) // noise, which does not compress
             image.bytes8()[i] = std::uint8_t((state = state * 1664525u + 1013904223u) >> 24);
         const auto writeTo = [&](const std::filesystem::path& file) {
             auto rows = createRows(file, {width, 1});
@@ -291,18 +291,18 @@ TEST_F(PictureFile, theEndOfAPngThatDoesNotFitIsTold)
         };
         ASSERT_TRUE(writeTo(whole));
         const auto size = std::filesystem::file_size(whole);
-        if (size <= 4096 || size > 4096 + 12) // of the buffer, and of the chunk at the end
+        if (size <= 4096 || size > 4096 + 12) // the size of the buffer, and of the final chunk
             continue;
         ++tried;
         const Status ended = writeTo(full);
-        EXPECT_EQ(textOf(ended), full.string() + ": expected to write the picture, libpng found: writing failed");
+        EXPECT_EQ(textOf(ended), full.string() + ": expected to write the image, libpng found: writing failed");
         EXPECT_TRUE(!ended && ended.error().kind == ErrorKind::output);
     }
     EXPECT_GT(tried, 0);
 }
 
-// What a format of 8 bits cannot hold is rounded as toUnorm8 rounds it; no number at all is 0.
-TEST_F(PictureFile, formatsOfEightBitsTakeTheNearestOfWhatTheyAreGiven)
+// 8-bit formats round as toUnorm8 does; NaN becomes 0.
+TEST_F(ImageIo, eightBitFormatsRoundToNearest)
 {
     Image floats = makeImage(64, 9, PixelType::float32), wide = makeImage(64, 9, PixelType::unorm16);
     for (std::size_t i = 0; i < 4 * floats.pixelCount(); ++i) {
@@ -320,8 +320,8 @@ TEST_F(PictureFile, formatsOfEightBitsTakeTheNearestOfWhatTheyAreGiven)
     }
 }
 
-// Of pictures that are read whole, each texel says whether there is alpha: 8 bits and floats, the first and the last.
-TEST_F(PictureFile, rowsOfAWholePictureHaveAlphaWhereATexelHas)
+// In images that are read whole, every texel counts for alpha: 8 bits and floats, the first and the last.
+TEST_F(ImageIo, rowsOfAWholeImageHaveAlphaIfAnyTexelHas)
 {
     const auto alphaOf = [&](std::uint32_t format, const std::string& texels) {
         const std::string file = makeKtx2({.format = format, .width = 3, .height = 1, .levels = {{texels}}});
@@ -340,7 +340,7 @@ TEST_F(PictureFile, rowsOfAWholePictureHaveAlphaWhereATexelHas)
 }
 
 // 65535 is 255 times 257; halves are rounded up.
-TEST(EightBits, areTheNearestOfSixteenAndOfFloats)
+TEST(EightBits, areRoundedFrom16BitsAndFloats)
 {
     Image wide = makeImage(16384, 1, PixelType::unorm16, "w");
     for (int i = 0; i < 65536; ++i)
@@ -350,10 +350,10 @@ TEST(EightBits, areTheNearestOfSixteenAndOfFloats)
     EXPECT_EQ(narrow.name, "w");
     EXPECT_EQ(narrow.frame, "smooth");
     EXPECT_EQ(narrow.channels, 2);
-    int off = 0;
+    int wrongCodes = 0;
     for (int i = 0; i < 65536; ++i)
-        off += narrow.bytes8()[i] != std::lround(i / 257.0);
-    EXPECT_EQ(off, 0);
+        wrongCodes += narrow.bytes8()[i] != std::lround(i / 257.0);
+    EXPECT_EQ(wrongCodes, 0);
     Image floats = makeImage(2, 3, PixelType::float32, "f");
     const float nan = std::numeric_limits<float>::quiet_NaN(), half = 0.5f / 255;
     const float values[] = {nan, -1,   0,        half * 0.99f, half * 1.01f, 0.5f, 1 - half * 1.01f, 1 - half * 0.99f,
@@ -365,8 +365,8 @@ TEST(EightBits, areTheNearestOfSixteenAndOfFloats)
         EXPECT_EQ(bytes.bytes8()[i], expected[i]) << i;
 }
 
-// The same normal and one that is too long, whose blue is 0, in all types: the middle, and the longest in each.
-TEST(ConvertImage, blueIsMadeInEveryType)
+// A unit normal and one that is too long, whose blue becomes 0, in all types: the rounded middle code for each type.
+TEST(ConvertImage, missingBlueIsReconstructedInEveryType)
 {
     const double x = 0.6, y = -0.48, z = 0.64; // of length 1
     Image words = makeImage(2, 1, PixelType::unorm16), floats = makeImage(2, 1, PixelType::float32);

@@ -1,4 +1,4 @@
-// KTX 2.0 files: what each number of a format asks for, and what is said of files that lie.
+// KTX 2.0 files: the size that each format number requires, and the messages for files with false headers.
 #include <algorithm>
 #include <string>
 
@@ -8,7 +8,7 @@
 #include "deflate.hpp"
 #include "ktx2_bytes.hpp"
 #include "ktx2_maker.hpp"
-#include "picture_file.hpp"
+#include "image_io.hpp"
 
 namespace cotan::test {
 namespace {
@@ -21,8 +21,8 @@ std::string ktx2Refusal(const std::string& file) { return messageOf(ktx2Image(fi
 
 const std::string kBrokenKtx2 = "a.ktx2: broken ktx2 image: ";
 
-// The numbers of VkFormat with the bytes of a pixel, or of a block of 4 x 4; 5 x 7 pixels are 2 x 2 blocks.
-TEST(Ktx2, everyFormatByNumberAsksForItsBytesAndTheOthersAreRefused)
+// VkFormat numbers with the bytes of a pixel or of a 4 x 4 block; 5 x 7 pixels are 2 x 2 blocks.
+TEST(Ktx2, everyFormatRequiresItsByteCountAndOthersAreRefused)
 {
     const struct {
         std::uint32_t linear, srgb;
@@ -38,17 +38,18 @@ TEST(Ktx2, everyFormatByNumberAsksForItsBytesAndTheOthersAreRefused)
         SCOPED_TRACE(number);
         const auto* const format =
             std::ranges::find_if(formats, [&](const auto& f) { return f.linear == number || f.srgb == number; });
-        const std::string told = ktx2Refusal(makeKtx2({.format = number, .width = 5, .height = 7, .levels = {{"x"}}}));
+        const std::string reason =
+            ktx2Refusal(makeKtx2({.format = number, .width = 5, .height = 7, .levels = {{"x"}}}));
         if (number >= 147 && number <= 184) {
-            EXPECT_EQ(told, "a.ktx2: "s + (number <= 156 ? "ETC2" : "ASTC") + " is not decoded here");
+            EXPECT_EQ(reason, "a.ktx2: "s + (number <= 156 ? "ETC2" : "ASTC") + " is not supported");
             continue;
         }
         if (format == std::end(formats)) {
-            EXPECT_EQ(told, kBrokenKtx2 + "its format " + std::to_string(number) + " (VkFormat) is not read here");
+            EXPECT_EQ(reason, kBrokenKtx2 + "its format " + std::to_string(number) + " (VkFormat) is not supported");
             continue;
         }
         const std::size_t bytes = std::size_t(format->block > 0 ? 4 * format->block : 35 * format->bytes);
-        EXPECT_EQ(told, kBrokenKtx2 + "level 0 has 1 bytes, 1 as stored; its size asks for " + std::to_string(bytes));
+        EXPECT_EQ(reason, kBrokenKtx2 + "level 0 has 1 bytes, 1 as stored; its size requires " + std::to_string(bytes));
         const auto sound = [&](std::uint32_t n) {
             return ktx2Image(makeKtx2({.format = n, .width = 5, .height = 7, .levels = {{ramp(bytes)}}}));
         };
@@ -57,7 +58,7 @@ TEST(Ktx2, everyFormatByNumberAsksForItsBytesAndTheOthersAreRefused)
         EXPECT_EQ(image->channels, format->channels);
         EXPECT_EQ(image->width, 5);
         EXPECT_EQ(image->height, 7);
-        EXPECT_EQ(image->data, linear->data); // values stay as they are stored
+        EXPECT_EQ(image->data, linear->data); // stored values are not converted
     }
     for (const auto& [number, name] : {std::pair(1000065999u, ""),
                                        {1000066000u, "KTX2 with ASTC"},
@@ -68,62 +69,62 @@ TEST(Ktx2, everyFormatByNumberAsksForItsBytesAndTheOthersAreRefused)
                                        {157u, "KTX2 with ASTC"},
                                        {185u, ""}}) {
         const std::string file = makeKtx2({.format = number, .levels = {{"some"}}});
-        EXPECT_EQ(foreignFormat(std::as_bytes(std::span(file))), name) << number;
+        EXPECT_EQ(unreadableFormat(std::as_bytes(std::span(file))), name) << number;
     }
 }
 
-TEST(Ktx2, whatIsWrongIsToldWithItsNumbersAndOnlyBeyondEachBound)
+TEST(Ktx2, errorsStateNumbersAndBeginBeyondEachBound)
 {
     const std::string texels = ramp(96);
     const Ktx2File good{.width = 6, .height = 4, .levels = {{texels}}};
     const std::string file = makeKtx2(good);
-    const auto told = [](const Ktx2File& k) { return ktx2Refusal(makeKtx2(k)); };
+    const auto messageFor = [](const Ktx2File& k) { return ktx2Refusal(makeKtx2(k)); };
     const auto count = [](std::size_t n) { return std::to_string(n); };
     EXPECT_EQ(ktx2Refusal(file.substr(0, 79)), kBrokenKtx2 + "its header takes 80 bytes, the file has 79");
     for (const std::size_t size : {80u, 90u, 103u})
         EXPECT_EQ(ktx2Refusal(file.substr(0, size)),
-                  kBrokenKtx2 + "the list of its levels lies behind the end of the file");
+                  kBrokenKtx2 + "the list of its levels extends past the end of the file");
     EXPECT_EQ(ktx2Refusal(file.substr(0, file.size() - 1)),
               kBrokenKtx2 + "level 0 takes 96 bytes from " + count(file.size() - 96) + ", the file has "
                   + count(file.size() - 1));
     Ktx2File k = good;
     k.depth = k.layers = 1;
-    EXPECT_EQ(told(k), "accepted");
+    EXPECT_EQ(messageFor(k), "accepted");
     k = good, k.depth = 2;
-    EXPECT_EQ(told(k), kBrokenKtx2 + "expected one flat picture, found 6 x 4 x 2, 0 layers, 1 faces");
+    EXPECT_EQ(messageFor(k), kBrokenKtx2 + "expected one flat image, found 6 x 4 x 2, 0 layers, 1 faces");
     k = good, k.layers = 2, k.faces = 6;
-    EXPECT_EQ(told(k), kBrokenKtx2 + "expected one flat picture, found 6 x 4 x 0, 2 layers, 6 faces");
+    EXPECT_EQ(messageFor(k), kBrokenKtx2 + "expected one flat image, found 6 x 4 x 0, 2 layers, 6 faces");
     k = good, k.width = 0;
-    EXPECT_EQ(told(k), kBrokenKtx2 + "expected one flat picture, found 0 x 4 x 0, 0 layers, 1 faces");
+    EXPECT_EQ(messageFor(k), kBrokenKtx2 + "expected one flat image, found 0 x 4 x 0, 0 layers, 1 faces");
     k = {.format = 9, .width = (1 << 24) + 1, .height = 2, .levels = {{"x"}}};
-    EXPECT_EQ(told(k), kBrokenKtx2 + "its size is 16777217 x 2");
+    EXPECT_EQ(messageFor(k), kBrokenKtx2 + "its size is 16777217 x 2");
     k.width = 2, k.height = (1 << 24) + 1;
-    EXPECT_EQ(told(k), kBrokenKtx2 + "its size is 2 x 16777217");
+    EXPECT_EQ(messageFor(k), kBrokenKtx2 + "its size is 2 x 16777217");
     k.height = 1 << 24;
-    EXPECT_EQ(told(k), kBrokenKtx2 + "level 0 has 1 bytes, 1 as stored; its size asks for 33554432");
+    EXPECT_EQ(messageFor(k), kBrokenKtx2 + "level 0 has 1 bytes, 1 as stored; its size requires 33554432");
     k = good, k.packing = 4;
-    EXPECT_EQ(told(k), kBrokenKtx2 + "its supercompression 4 is not that of its format, or not known");
+    EXPECT_EQ(messageFor(k), kBrokenKtx2 + "its supercompression 4 does not match its format or is unknown");
     k = good, k.levels = {{texels}, {ramp(23)}};
-    EXPECT_EQ(told(k), kBrokenKtx2 + "level 1 has 23 bytes, 23 as stored; its size asks for 24");
+    EXPECT_EQ(messageFor(k), kBrokenKtx2 + "level 1 has 23 bytes, 23 as stored; its size requires 24");
     k.levels = {{texels}, {ramp(24)}, {ramp(5), 4}};
-    EXPECT_EQ(told(k), kBrokenKtx2 + "level 2 has 4 bytes, 5 as stored; its size asks for 4");
-    k.levelCount = 0; // one, and the others are to be made of it
-    EXPECT_EQ(told(k), "accepted");
+    EXPECT_EQ(messageFor(k), kBrokenKtx2 + "level 2 has 4 bytes, 5 as stored; its size requires 4");
+    k.levelCount = 0; // one level, from which the reader makes the others
+    EXPECT_EQ(messageFor(k), "accepted");
 
     for (const std::uint32_t packing : {2u, 3u}) {
         const std::string library = packing == 2 ? "zstd: " : "zlib: ";
         k = {.width = 6, .height = 4, .packing = packing};
         k.levels = {{packing == 2 ? zstd(ramp(95)) : deflated(ramp(95)), 96}};
-        EXPECT_EQ(told(k), kBrokenKtx2 + library + "expected 96 bytes, found 95");
+        EXPECT_EQ(messageFor(k), kBrokenKtx2 + library + "expected 96 bytes, found 95");
         k.levels = {{packing == 2 ? zstd(texels) : deflated(texels), 96}};
-        EXPECT_EQ(told(k), "accepted");
+        EXPECT_EQ(messageFor(k), "accepted");
     }
     k.packing = 3, k.levels = {{deflated(ramp(97)), 96}};
-    EXPECT_EQ(told(k), kBrokenKtx2 + "zlib: the data end too soon, or go on too long");
+    EXPECT_EQ(messageFor(k), kBrokenKtx2 + "zlib: the data are too short or too long");
     k.levels = {{"this is no stream", 96}};
-    EXPECT_EQ(told(k), kBrokenKtx2 + "zlib: the data are damaged");
+    EXPECT_EQ(messageFor(k), kBrokenKtx2 + "zlib: the data are damaged");
 
-    // One key of 5 bytes with three of padding behind 104 bytes of header and list and 28 of descriptor.
+    // One key of 5 bytes with three bytes of padding, after 104 bytes of header and level index and 28 of descriptor.
     k = good, k.keys = {"ab\0cd"s};
     const std::string keyed = makeKtx2(k);
     const auto with = [&](std::size_t at, std::uint64_t value) {

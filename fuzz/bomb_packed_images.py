@@ -1,12 +1,12 @@
-"""Pictures of other formats under 1 MB that unpack to very many pixels, for fuzz/bombs.py. Each maker takes a
+"""Images in other formats, under 1 MB, that decompress to very many pixels, for fuzz/bombs.py. Each maker takes a
 random.Random and returns bytes."""
 import struct
 
-from bomb_pictures import deflated
+from bomb_images import deflated
 
 
 def exr(r):
-    """OpenEXR of zeros in ZIP or RLE blocks."""
+    """OpenEXR with zeros in ZIP or RLE blocks."""
     width, height = r.choice([(16_384, 2048), (8192, 8192), (4096, 16_384), (16_000, 10_000)])
     channels = r.choice(["Y", "BGR", "ABGR", "ABGRZ"])
     packing = r.choice([1, 3])
@@ -40,14 +40,14 @@ def exr(r):
 
 
 def hdr(r):
-    """Radiance of old runs, four bytes for any number of pixels."""
+    """Radiance HDR with old run-length encoding, four bytes for any number of pixels."""
     side = r.choice([2048, 6000, 12_000])
     row = b"\x80\x80\x80\x80" + struct.pack("4B", 1, 1, 1, (side - 1) % 256) + struct.pack("4B", 1, 1, 1, (side - 1) // 256)
     return f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {side} +X {side}\n".encode() + row * side
 
 
 def dds(r):
-    """DDS of blocks, eight bytes for 16 pixels, or a head that promises more."""
+    """DDS with blocks of eight bytes per 16 pixels, or a header that claims more data."""
     side = r.choice([1024, 1152, 16_384])
     letters = r.choice([b"DXT1", b"ATI1"])
     head = struct.pack("<4s7I44x", b"DDS ", 124, 0x81007, side, side, side * side // 2, 0, r.choice([1, 15, 0xffffffff]))
@@ -56,7 +56,7 @@ def dds(r):
 
 
 def zstd(size):
-    """Zeros by blocks of one repeated byte, four bytes for 128 KiB."""
+    """Compresses zeros as blocks of one repeated byte, four bytes per 128 KiB."""
     out = b"\x28\xb5\x2f\xfd\xa0" + struct.pack("<I", size)
     while size > 0:
         part = min(size, 1 << 17)
@@ -66,7 +66,7 @@ def zstd(size):
 
 
 def ktx2(r):
-    """KTX2 in zstd or zlib, of one level."""
+    """KTX2 with one level, compressed by zstd or zlib."""
     width, height = r.choice([(4096, 4096), (12_000, 12_000), (16_384, 8192), (16_384, 300)])
     scheme = r.choice([2, 3])
     size = width * height * 4
@@ -81,7 +81,7 @@ def ktx2(r):
 
 
 def webp_of(width, height):
-    """WebP without loss of one colour: no bit for a pixel."""
+    """Lossless WebP of one colour: no bits per pixel."""
     bits, count = 0, 0
 
     def put(value, size):
@@ -90,7 +90,7 @@ def webp_of(width, height):
         count += size
     put(width - 1, 14), put(height - 1, 14), put(1, 1), put(0, 3)  # alpha, version
     put(0, 1), put(0, 1), put(0, 1)                              # no transform, cache, groups
-    for symbol in (128, 128, 255, 255, 0):                       # a code of one symbol each: green, red, blue, alpha, distance
+    for symbol in (128, 128, 255, 255, 0):                       # one-symbol codes: green, red, blue, alpha, distance
         put(1, 1), put(0, 1), put(1, 1), put(symbol, 8)
     data = b"\x2f" + bits.to_bytes(count // 8 + 1, "little")
     data += b"\0" * (len(data) % 2)
@@ -98,12 +98,12 @@ def webp_of(width, height):
 
 
 def webp_lossless(r):
-    """WebP without loss of one colour."""
+    """Lossless WebP of one colour."""
     return webp_of(*r.choice([(16_383, 16_383), (8192, 8192), (16_383, 4000), (12_000, 10_000)]))
 
 
 def gif(r):
-    """GIF of many frames of the whole canvas."""
+    """GIF with many frames that cover the whole canvas."""
     side = r.choice([64, 1000, 16_000])
     head = b"GIF89a" + struct.pack("<HHBBB", side, side, 0x80, 0, 0) + b"\0\0\0\xff\xff\xff"
     frame = b"," + struct.pack("<HHHHB", 0, 0, side, side, 0) + b"\2\2\x4c\1\0"
@@ -127,7 +127,7 @@ def tga(r):
 
 
 def tiff(r):
-    """TIFF of deflated strips, or of very many pictures or strips."""
+    """TIFF with deflated strips, or with very many images or strips."""
     width, height = r.choice([(8192, 8192), (16_384, 16_384), (16_384, 1000)])
     strips = r.choice([1, 8, 1000])
     rows = -(-height // strips)
@@ -150,7 +150,7 @@ def tiff(r):
 
 
 def exr_channels(r):
-    """OpenEXR of hundreds of channels that nobody reads."""
+    """OpenEXR with hundreds of unused channels."""
     side, channels = r.choice([(512, 2000), (2048, 100), (4096, 12)])
     names = sorted(["R", "G", "B"] + [f"x{k}" for k in range(channels)])
 
@@ -172,7 +172,7 @@ def exr_channels(r):
 
 
 def offsets_of(listed):
-    """Where the type of each channel of a list stands."""
+    """Returns the offset of each channel's type in a channel list."""
     at, found = 0, []
     while at < len(listed):
         at = listed.index(b"\0", at) + 1
@@ -182,7 +182,7 @@ def offsets_of(listed):
 
 
 def exr_tiles(r):
-    """OpenEXR of tiles, each the same few bytes."""
+    """OpenEXR with tiles of the same few bytes."""
     side, tile = r.choice([(8192, 64), (16_384, 256), (8192, 16)])
 
     def attribute(name, kind, data):
@@ -205,7 +205,7 @@ def exr_tiles(r):
 
 
 def hdr_runs(r):
-    """Radiance of new runs: two bytes for 127 pixels of a component."""
+    """Radiance HDR with new run-length encoding: two bytes per 127 pixels of a component."""
     width = r.choice([2048, 8192, 16_384])
     run = b"".join(bytes([128 + min(127, width - x), 128]) for x in range(0, width, 127))
     row = b"\2\2" + struct.pack(">H", width) + run * 4
@@ -214,7 +214,7 @@ def hdr_runs(r):
 
 
 def dds_blocks(r):
-    """DDS of BC7, BC6 or an array or cube of them."""
+    """DDS with BC7, BC6H or BC5 blocks, also as an array or a cube."""
     side, images = r.choice([(512, 1), (960, 1), (64, 200), (16_384, 1)]), r.choice([0, 6])
     form, array = r.choice([95, 98, 83]), side[1]
     head = struct.pack("<4s7I44x", b"DDS ", 124, 0x81007, side[0], side[0], side[0] * side[0], 0, r.choice([1, 15]))
@@ -224,7 +224,7 @@ def dds_blocks(r):
 
 
 def ktx2_blocks(r):
-    """KTX2 of BC blocks in zstd, with levels."""
+    """KTX2 with BC blocks compressed by zstd, with mip levels."""
     side = r.choice([4096, 8192, 16_384])
     levels = []
     for k in range(r.choice([1, 8])):
@@ -238,16 +238,16 @@ def ktx2_blocks(r):
     at = 12 + 36 + 32 + 24 * len(levels)
     head = b"\xabKTX 20\xbb\r\n\x1a\n" + struct.pack("<9I", form, 1, side, side, 0, 0, 1, len(levels), 2)
     head += struct.pack("<4I2Q", at, len(described), 0, 0, 0, 0)
-    packed, place, index = b"", at + len(described), b""
+    packed, data_at, index = b"", at + len(described), b""
     for size in levels:
         data = zstd(size)
-        index += struct.pack("<3Q", place + len(packed), len(data), size)
+        index += struct.pack("<3Q", data_at + len(packed), len(data), size)
         packed += data
     return head + index + described + packed
 
 
 def webp_frames(r):
-    """WebP of thousands of frames of one colour, each the whole canvas."""
+    """WebP with thousands of frames of one colour, each covering the whole canvas."""
     side, count = r.choice([(64, 20_000), (4096, 5000), (16_000, 3)])
     still = webp_of(side, side)[12:]
 
@@ -261,7 +261,7 @@ def webp_frames(r):
 
 
 def gif_packed(r):
-    """GIF of one picture as LZW packs zeros."""
+    """GIF with one image of zeros, compressed by LZW."""
     side = r.choice([4096, 16_000])
     bits, count, width, known = 0, 0, 3, 6
     out = bytearray()
@@ -299,7 +299,7 @@ def gif_packed(r):
 
 
 def tiff_packbits(r):
-    """TIFF of PackBits strips or tiles, two bytes for 128."""
+    """TIFF with PackBits strips or tiles, two bytes per 128."""
     width, height = r.choice([(8192, 6000), (4096, 4096), (16_384, 3000)])
     tiled = r.random() < 0.5
     rows = 256 if tiled else 64

@@ -1,4 +1,4 @@
-// What is said of words that are no camera or no size, and the bounds of those that are.
+// Errors for invalid cameras and sizes, and the bounds of valid ones.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace cotan {
 namespace {
 
-// Of two cameras, and points from (-1, -2, -3) to (1, 2, 3).
+// A scene with two cameras and points from (-1, -2, -3) to (1, 2, 3).
 Scene boxScene()
 {
     Scene scene;
@@ -28,10 +28,10 @@ Scene boxScene()
     return scene;
 }
 
-TEST(CameraWords, thatAreWrongAreRefusedByTheRuleThatIsBroken)
+TEST(CameraArguments, wrongOnesAreRefusedWithTheRule)
 {
     const Scene scene = boxScene();
-    const auto said = [&](const std::string& words) {
+    const auto errorOf = [&](const std::string& words) {
         const auto camera = parseCamera(words, scene, 20, 10);
         return camera ? "" : camera.error().message;
     };
@@ -39,25 +39,25 @@ TEST(CameraWords, thatAreWrongAreRefusedByTheRuleThatIsBroken)
         "expected orbit:AZ,EL, degrees around (-360 to 360) and above the horizon (-90 to 90); found '";
     for (const char* words : {"orbit:", "orbit:1", "orbit:1,2,3", "orbit:a,0", "orbit:0,b", "orbit:360.1,0",
                               "orbit:-360.1,0", "orbit:0,90.1", "orbit:0,-90.1"})
-        EXPECT_EQ(said(words), orbit + words + "'");
+        EXPECT_EQ(errorOf(words), orbit + words + "'");
     for (const char* words : {"orbit:360,0", "orbit:-360,0", "orbit:0,90", "orbit:0,-90"})
-        EXPECT_EQ(said(words), "") << words;
-    EXPECT_EQ(said("2"), "expected a camera of the model, it has 2; found 2");
-    EXPECT_EQ(said("-1"), "expected a camera of the model, it has 2; found -1");
-    EXPECT_EQ(said("1"), "");
-    EXPECT_EQ(said("1,2,3,1,2,3"), "the eye and the target are the same point");
-    EXPECT_EQ(said("0,0,0,0,0,2,45,0,0,1"), "the direction up is that of the view, or none");
-    EXPECT_EQ(said("0,0,0,0,0,2,45,0,0,0"), "the direction up is that of the view, or none");
+        EXPECT_EQ(errorOf(words), "") << words;
+    EXPECT_EQ(errorOf("2"), "expected a camera number below 2; found 2");
+    EXPECT_EQ(errorOf("-1"), "expected a camera number below 2; found -1");
+    EXPECT_EQ(errorOf("1"), "");
+    EXPECT_EQ(errorOf("1,2,3,1,2,3"), "the eye and the target are the same point");
+    EXPECT_EQ(errorOf("0,0,0,0,0,2,45,0,0,1"), "the up direction is parallel to the view direction, or zero");
+    EXPECT_EQ(errorOf("0,0,0,0,0,2,45,0,0,0"), "the up direction is parallel to the view direction, or zero");
     for (const char* words :
          {"", "side", "1,2,3,4,5", "1,2,3,4,5,6,7,8", "1,2,3,4,5,6,7,8,9", "1,2,3,4,5,6,7,8,9,10,11"})
-        EXPECT_EQ(said(words),
+        EXPECT_EQ(errorOf(words),
                   "expected front, left, right, top, bottom, back, fit, orbit:AZ,EL, the number of a "
-                  "camera, or six numbers ex,ey,ez,tx,ty,tz and perhaps a lens and a direction up; found '"
+                  "camera, or ex,ey,ez,tx,ty,tz, optionally followed by a field of view and an up direction; found '"
                       + std::string(words) + "'");
 }
 
-// A direction up that is nearly along the view says nothing; where nobody gave one, z takes its place.
-TEST(CameraWords, upCountsFromOneTenThousandthOfARadianOn)
+// An up direction nearly parallel to the view is ignored; if none was given, z replaces the default.
+TEST(CameraArguments, upIsIgnoredIfNearlyParallelToTheView)
 {
     const auto upOf = [](const std::string& words) {
         const auto camera = parseCamera(words, {}, 20, 10);
@@ -69,7 +69,7 @@ TEST(CameraWords, upCountsFromOneTenThousandthOfARadianOn)
     EXPECT_EQ(upOf("0,0,0,0.0011,-10,0,h2"), glm::vec3(0, 1, 0));
     EXPECT_EQ(upOf("0,0,0,10,0,0,45,2000,0,0.22"), glm::vec3(2000, 0, 0.22f));
     EXPECT_EQ(upOf("0,0,0,10,0,0,45,2000,0,0.18"), glm::vec3(7));
-    // As words: as few as tell it, and no direction up where it is the one that would be taken.
+    // Formatted with as few numbers as possible; the up direction is left out if it is the default.
     const auto words = [](glm::vec3 target, glm::vec3 up, bool orthographic) {
         Camera camera;
         camera.eye = {0, 0, 0};
@@ -90,9 +90,8 @@ TEST(CameraWords, upCountsFromOneTenThousandthOfARadianOn)
     EXPECT_NE(words({0.00022f, 2, 0}, {0, 0, -1}, true).find(",0,0,-1"), std::string::npos);
 }
 
-// Sides are seen along their axis with the middle of the model in the middle, and the wide picture is as high as it has
-// to be.
-TEST(CameraWords, sidesLookAtTheMiddleOfTheModel)
+// Side views look along an axis at the centre of the model; a wide image is as high as needed.
+TEST(CameraArguments, sidesLookAtTheCentreOfTheModel)
 {
     Scene scene = boxScene();
     scene.instances[0].toWorld[3] = {10, 20, 30, 1};
@@ -116,7 +115,7 @@ TEST(CameraWords, sidesLookAtTheMiddleOfTheModel)
     EXPECT_EQ(parseCamera("front", scene, 40, 10)->name, "front");
 }
 
-TEST(PictureWords, everyNameOfASizeIsThatSize)
+TEST(PictureOptionValues, everySizeNameHasItsSize)
 {
     const std::pair<const char*, PictureSize> sizes[] = {{"thumbnail", {320, 180}}, {"720p", {1280, 720}},
                                                          {"1080p", {1920, 1080}},   {"1440p", {2560, 1440}},
@@ -125,7 +124,7 @@ TEST(PictureWords, everyNameOfASizeIsThatSize)
         EXPECT_EQ(*parsePictureSize(word), size) << word;
 }
 
-TEST(PictureWords, memoryIsALimitOnEachImageAndOnAll)
+TEST(PictureOptionValues, memoryLimitsEachImageAndTheirTotal)
 {
     const LoadLimits none;
     for (const int memory : {1, 100, kDefaultMemory, kDefaultMemory + 1, 4000}) {
@@ -138,42 +137,42 @@ TEST(PictureWords, memoryIsALimitOnEachImageAndOnAll)
     }
 }
 
-TEST(PictureWords, whatGoesWithAModelOnlyIsRefusedWithoutOne)
+TEST(PictureOptionValues, optionsForModelsAreRefusedWithoutOne)
 {
-    const auto said = [](void (*set)(PictureOptions&)) {
+    const auto errorOf = [](void (*set)(PictureOptions&)) {
         PictureOptions options;
         set(options);
         const auto scene = openModel(options);
         return scene ? "" : scene.error().message;
     };
     using O = PictureOptions;
-    EXPECT_EQ(said([](O& o) { o.model = "a.glb", o.shape = "plane"; }),
+    EXPECT_EQ(errorOf([](O& o) { o.model = "a.glb", o.shape = "plane"; }),
               "--shape: expected no model with it; found a.glb");
-    EXPECT_EQ(said([](O& o) { o.variant = "2"; }), "--variant: expected a model; found the built-in scene");
-    EXPECT_EQ(said([](O& o) { o.up = Up::z; }), "--up: expected a model; found the built-in scene");
-    EXPECT_EQ(said([](O& o) { o.animation = "run"; }), "--animation: expected a model; found the built-in scene");
-    EXPECT_EQ(said([](O& o) { o.time = 0.5; }), "--time: expected --animation with it; found none");
-    EXPECT_EQ(said([](O& o) { o.model = "gone.glb", o.time = 0.5; }),
+    EXPECT_EQ(errorOf([](O& o) { o.variant = "2"; }), "--variant: expected a model; found the built-in scene");
+    EXPECT_EQ(errorOf([](O& o) { o.up = Up::z; }), "--up: expected a model; found the built-in scene");
+    EXPECT_EQ(errorOf([](O& o) { o.animation = "run"; }), "--animation: expected a model; found the built-in scene");
+    EXPECT_EQ(errorOf([](O& o) { o.time = 0.5; }), "--time: expected --animation with it; found none");
+    EXPECT_EQ(errorOf([](O& o) { o.model = "gone.glb", o.time = 0.5; }),
               "--time: expected --animation with it; found none");
-    EXPECT_EQ(said([](O& o) { o.shape = "torus"; }), "");
-    EXPECT_EQ(said([](O&) {}), "");
+    EXPECT_EQ(errorOf([](O& o) { o.shape = "torus"; }), "");
+    EXPECT_EQ(errorOf([](O&) {}), "");
 }
 
-TEST(PictureWords, lightInTangentSpaceAsksForItsFrameAndRaysForTheirShading)
+TEST(PictureOptionValues, tangentSpaceLightingAndRaysRequireFrameAndShading)
 {
-    const auto said = [](const PictureOptions& options, FrameChoice frame) {
+    const auto errorOf = [](const PictureOptions& options, FrameChoice frame) {
         const Status fits = checkLighting(options, frame);
         return fits ? "" : fits.error().message;
     };
     PictureOptions tangent;
     tangent.lighting = Lighting::tangentVertex;
     const std::string expected =
-        "--lighting tangent-vertex: expected a frame with tangents at the vertices, vertex or mikktspace; found '";
-    EXPECT_EQ(said(tangent, {}), expected + "auto'");
-    EXPECT_EQ(said(tangent, Frame::smooth), expected + "smooth'");
-    EXPECT_EQ(said(tangent, Frame::vertex) + said(tangent, Frame::mikktspace), "");
+        "--lighting tangent-vertex: expected a frame with tangents at the vertices (vertex or mikktspace); found '";
+    EXPECT_EQ(errorOf(tangent, {}), expected + "auto'");
+    EXPECT_EQ(errorOf(tangent, Frame::smooth), expected + "smooth'");
+    EXPECT_EQ(errorOf(tangent, Frame::vertex) + errorOf(tangent, Frame::mikktspace), "");
     tangent.lighting = Lighting::tangentPixel;
-    EXPECT_EQ(said(tangent, {}), "");
+    EXPECT_EQ(errorOf(tangent, {}), "");
     for (const auto& [shading, lighting, found] : {std::tuple(Shading::pbr, Lighting::world, ""),
                                                    {Shading::blinnPhong, Lighting::world, "blinn-phong and world"},
                                                    {Shading::pbr, Lighting::tangentPixel, "pbr and tangent-pixel"}}) {
@@ -181,18 +180,18 @@ TEST(PictureWords, lightInTangentSpaceAsksForItsFrameAndRaysForTheirShading)
         rays.normalMapping = NormalMapping::shadowed;
         rays.shading = shading;
         rays.lighting = lighting;
-        EXPECT_EQ(said(rays, {}),
+        EXPECT_EQ(errorOf(rays, {}),
                   *found ? "--normal-mapping shadowed: expected --shading pbr and --lighting world with "
                            "it; found "
                           + std::string(found)
                          : "");
         rays.normalMapping = NormalMapping::shading;
-        EXPECT_EQ(said(rays, {}), "");
+        EXPECT_EQ(errorOf(rays, {}), "");
     }
 }
 
-// What only the reference renderer does is drawn with it, unless a device is named.
-TEST(PictureWords, theDeviceIsTheReferenceWhereNoOtherCan)
+// Features that only the reference renderer has select it, unless a device is named.
+TEST(PictureOptionValues, featuresOfTheReferenceRendererSelectIt)
 {
     PictureOptions options;
     EXPECT_EQ(deviceOf(options), "auto");
@@ -205,7 +204,7 @@ TEST(PictureWords, theDeviceIsTheReferenceWhereNoOtherCan)
     EXPECT_EQ(deviceOf(options), "reference");
     options.device = "card";
     EXPECT_EQ(deviceOf(options), "card");
-    // Exposure is metered where nobody gives one and light is shown.
+    // Exposure is metered if none is given and light is displayed.
     for (const auto& [use, given, metered] : {std::tuple(PictureUse::shown, false, true),
                                               {PictureUse::shown, true, false},
                                               {PictureUse::radiance, false, false},
@@ -216,7 +215,7 @@ TEST(PictureWords, theDeviceIsTheReferenceWhereNoOtherCan)
             o.exposure = 1.0f;
         EXPECT_EQ(meters(o), metered);
     }
-    const Scene scene = boxScene(); // without a normal map
+    const Scene scene = boxScene(); // no normal map
     EXPECT_EQ(chosenFrame(Frame::unit, {}, scene), Frame::unit);
     Scene mapped = scene;
     mapped.materials[0].normalMap.image = 0;
@@ -226,9 +225,9 @@ TEST(PictureWords, theDeviceIsTheReferenceWhereNoOtherCan)
     for (const auto& [wide, whole] : {std::pair(1.0f, Frame::orthonormal), {3.0f, Frame::cotangent}}) {
         mapped.meshes[0].texcoords[0].assign(6, {0, 0});
         mapped.meshes[0].texcoords[0][5] = {wide, 1};
-        EXPECT_EQ(chosenFrame({}, {}, mapped), Frame::cotangent); // a shape
+        EXPECT_EQ(chosenFrame({}, {}, mapped), Frame::cotangent); // a built-in shape
         EXPECT_EQ(chosenFrame({}, model, mapped), Frame::orthonormal);
-        EXPECT_EQ(chosenFrame({}, own, mapped), whole); // where the uv repeat it
+        EXPECT_EQ(chosenFrame({}, own, mapped), whole); // whether the uv repeat the map
         EXPECT_EQ(chosenFrame({}, own, scene), Frame::cotangent);
     }
 }

@@ -1,5 +1,5 @@
-// The parts of the portable text that only pictures need, as C++: in cotan::f32 over float and in cotan::f64 over
-// double, beside those of cotan/portable.hpp.
+// The parts of the portable text that only renderers need, as C++: in cotan::f32 over float and in cotan::f64 over
+// double, like cotan/portable.hpp.
 #pragma once
 
 #include "cotan/portable.hpp"

@@ -1,4 +1,4 @@
-// What commands share: words of options in errors, lists of names, pictures of a comparison and what is said of it.
+// What commands share: option words in errors, lists of names, images of a comparison and the messages about it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,18 +21,18 @@ using Words = std::vector<std::string>;
 
 TEST(CommandErrors, nameTheOptionAsItIsTyped)
 {
-    const auto said = [](const Error& error) {
+    const auto errorText = [](const Error& error) {
         const Error worded = withOptionNames(error);
         EXPECT_EQ(worded.kind, error.kind);
         EXPECT_FALSE(worded.memory) << "a second call says the same";
         return worded.message;
     };
-    EXPECT_EQ(said(about("options.maxDistance", usageError("expected 1; found 2"))),
+    EXPECT_EQ(errorText(about("options.maxDistance", usageError("expected 1; found 2"))),
               "--max-distance: expected 1; found 2");
-    EXPECT_EQ(said(about("options.to", usageError("none"))), "--to: none");
-    EXPECT_EQ(said(about("scene.up", inputError("none"))), "scene.up: none");
-    EXPECT_EQ(said(memoryError("a.png: too large")), "a.png: too large (--memory raises it)");
-    EXPECT_EQ(said(inputError("a.png: broken")), "a.png: broken");
+    EXPECT_EQ(errorText(about("options.to", usageError("none"))), "--to: none");
+    EXPECT_EQ(errorText(about("scene.up", inputError("none"))), "scene.up: none");
+    EXPECT_EQ(errorText(memoryError("a.png: too large")), "a.png: too large (--memory raises it)");
+    EXPECT_EQ(errorText(inputError("a.png: broken")), "a.png: broken");
     const std::vector<std::string_view> known = {"red", "green", "blue"};
     EXPECT_EQ(unknownWord("--colour", known, "grey").message, "--colour: expected red, green or blue; found 'grey'");
     EXPECT_EQ(notOneOf("--colour", known, "grey").message, "--colour: expected one of red, green, blue; found 'grey'");
@@ -76,15 +76,15 @@ TEST(CommandWordsSplit, shortOptionsFromTheirValuesUpToTwoDashes)
         EXPECT_EQ(editDistance(a, b), std::size_t(distance)) << a << b;
 }
 
-TEST(BoxesTurned, haveZWhereYWas)
+TEST(BoxesRotated, haveZWhereYWas)
 {
-    const Bounds box = turnedZUp({{1, 2, 3}, {5, 7, 11}}); // y becomes -z, z becomes y
+    const Bounds box = rotatedZUp({{1, 2, 3}, {5, 7, 11}}); // y becomes -z, z becomes y
     EXPECT_EQ(box.low, glm::vec3(1, 3, -7));
     EXPECT_EQ(box.high, glm::vec3(5, 11, -2));
 }
 
-// One pixel in a hundred of a view is still allowed.
-TEST(BakesSeen, showTheHighSurfaceUpToOnePixelInAHundredOfEachView)
+// One pixel in a hundred of each view may differ.
+TEST(BakeViews, matchIfAtMostOnePercentOfEachViewDiffers)
 {
     const auto shows = [](std::initializer_list<std::pair<std::size_t, std::size_t>> views) {
         ComparedViews compared;
@@ -101,13 +101,13 @@ TEST(BakesSeen, showTheHighSurfaceUpToOnePixelInAHundredOfEachView)
     EXPECT_FALSE(shows({{2, 199}, {0, 1000}}));
     EXPECT_FALSE(shows({{0, 1000}, {11, 1000}}));
     EXPECT_EQ(
-        picturesOf(kConversionNames, 2),
+        imageNames(kConversionNames, 2),
         (Words{"before-0.png", "after-0.png", "difference-0.png", "before-1.png", "after-1.png", "difference-1.png"}));
-    EXPECT_EQ(picturesOf(kBakeNames, 1), (Words{"high-0.png", "low-0.png", "error-0.png"}));
-    EXPECT_EQ(picturesOf(kBakeNames, 0), Words{});
+    EXPECT_EQ(imageNames(kBakeNames, 1), (Words{"high-0.png", "low-0.png", "error-0.png"}));
+    EXPECT_EQ(imageNames(kBakeNames, 0), Words{});
 }
 
-// A quad whose uv are three times as long along x, and lean: the cotangents are not perpendicular.
+// A quad whose uv are stretched by 3 along x and sheared: the cotangents are not perpendicular.
 TEST(SmoothFigures, areTheAnglesAndLengthsOfTheCotangents)
 {
     const std::vector<packed::vec3> positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {5, 5, 5}};
@@ -119,20 +119,20 @@ TEST(SmoothFigures, areTheAnglesAndLengthsOfTheCotangents)
     const SmoothStatistics s = smoothStatistics({positions, normals, texcoords, indices});
     EXPECT_EQ(s.vertices, 5u);
     EXPECT_EQ(s.added, 0u);
-    EXPECT_EQ(s.without, 1u); // the one of no triangle
+    EXPECT_EQ(s.without, 1u); // the vertex without triangles
     EXPECT_EQ(s.shear.count, 4u);
     EXPECT_NEAR(s.shear.mean, 45, 1e-4);
     EXPECT_NEAR(s.shear.maximum, 45, 1e-4);
     EXPECT_NEAR(s.stretchMedian, 3 / std::sqrt(2.0), 1e-5);
     EXPECT_NEAR(s.stretchMaximum, 3 / std::sqrt(2.0), 1e-5);
-    SmoothStatistics told;
-    told.vertices = 7, told.added = 2, told.without = 1;
-    EXPECT_EQ(toText(told),
+    SmoothStatistics found;
+    found.vertices = 7, found.added = 2, found.without = 1;
+    EXPECT_EQ(toText(found),
               "7 vertices (2 added where mirrored charts meet), 1 without a frame; no shear or stretch to "
               "measure");
-    told.shear.count = 1;
-    told.stretchMedian = 1.5, told.stretchMaximum = 2.25;
-    EXPECT_TRUE(toText(told).ends_with("; stretch median 1.5, max 2.25")) << toText(told);
+    found.shear.count = 1;
+    found.stretchMedian = 1.5, found.stretchMaximum = 2.25;
+    EXPECT_TRUE(toText(found).ends_with("; stretch median 1.5, max 2.25")) << toText(found);
 }
 
 class VerifiedFiles : public ::testing::Test {
@@ -149,7 +149,7 @@ protected:
         options.memory = 100;
     }
 
-    // What is said of what goes wrong.
+    // Returns the error message, or an empty text.
     std::string refused()
     {
         const auto done = verifyConversion(options, common);
@@ -161,7 +161,7 @@ protected:
     VerifyOptions options;
 };
 
-TEST_F(VerifiedFiles, saysWhichFileOrFolderOrDeviceIsNotThere)
+TEST_F(VerifiedFiles, errorsNameTheMissingFileFolderOrDevice)
 {
     options.before = folder / "gone.gltf";
     EXPECT_NE(refused().find("gone.gltf"), std::string::npos) << refused();
@@ -173,7 +173,7 @@ TEST_F(VerifiedFiles, saysWhichFileOrFolderOrDeviceIsNotThere)
     EXPECT_NE(refused().find("moon"), std::string::npos) << refused();
     options.device = "reference";
     options.folder = folder / "quad.gltf";
-    EXPECT_NE(refused().find("quad.gltf: cannot make"), std::string::npos) << refused();
+    EXPECT_NE(refused().find("quad.gltf: cannot create"), std::string::npos) << refused();
 }
 
 } // namespace

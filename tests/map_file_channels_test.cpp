@@ -1,4 +1,4 @@
-// A map's file says what it stores, and is believed; what contradicts it is named.
+// The storage that a map's file states is believed; requests that contradict it are named.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,10 +17,10 @@ namespace {
 
 using namespace std::string_literals;
 
-// BC5 of unit vectors on this relief: 64 levels between a block's ends, which span up to a sixth of the range.
+// BC5 of unit vectors on this relief: 64 levels between a block's endpoints, which span up to a sixth of the range.
 constexpr double kBlockDegrees = 1;
 
-class MapStated : public ::testing::Test {
+class MapFileChannels : public ::testing::Test {
 protected:
     void SetUp() override
     {
@@ -65,18 +65,18 @@ protected:
     TemporaryFolder folder;
 };
 
-TEST_F(MapStated, filesOfTwoChannelsAreReadAsTwoWithoutAWord)
+TEST_F(MapFileChannels, twoChannelFilesAreReadAsTwoChannels)
 {
     for (const char* file : {"bc5.ktx2", "bc5.dds"}) {
         EXPECT_LT(meanBetween("map.png", file), kBlockDegrees) << file;
         EXPECT_LT(meanBetween(file, "map.png"), kBlockDegrees) << file;
         EXPECT_EQ(meanBetween("map.png", file), meanBetween("map.png", file, {"--to", "gltf,xy"})) << file;
     }
-    // Bytes of x and y as they are; z of the map is rounded, z from x and y is not: under half a code a component.
+    // x and y are stored unchanged; z is rounded in the map, and computed from x and y here: under half a code apart.
     EXPECT_LT(meanBetween("map.png", "grey-alpha.png"), 0.5);
 }
 
-TEST_F(MapStated, greenIsReadAsThePresetSaysInAFileOfTwoChannels)
+TEST_F(MapFileChannels, presetSetsGreenOfTwoChannelFiles)
 {
     ASSERT_EQ(
         tool({"convert", "map.png", "--from", "gltf", "--to", "unreal", "--compress", "bc5", "-o", "u.ktx2"}).code, 0);
@@ -84,7 +84,7 @@ TEST_F(MapStated, greenIsReadAsThePresetSaysInAFileOfTwoChannels)
     EXPECT_GT(meanBetween("map.png", "u.ktx2"), 10);
 }
 
-TEST_F(MapStated, reportsSayHowTheFileWasRead)
+TEST_F(MapFileChannels, reportsStateTheConventionRead)
 {
     const auto report = nlohmann::json::parse(tool({"diff", "map.png", "bc5.ktx2", "--json", "-"}).out);
     EXPECT_NE(report["convention_a"].get<std::string>().find("xyz"), std::string::npos) << report;
@@ -94,7 +94,7 @@ TEST_F(MapStated, reportsSayHowTheFileWasRead)
     EXPECT_EQ(tool({"info", "map.png"}).out.find("two channels"), std::string::npos);
 }
 
-TEST_F(MapStated, everyCommandReadsAFileOfTwoChannels)
+TEST_F(MapFileChannels, everyCommandReadsTwoChannelFiles)
 {
     ASSERT_EQ(tool({"convert", "bc5.ktx2", "--from", "gltf", "--to", "gltf", "-o", "c.png"}).code, 0);
     EXPECT_LT(meanBetween("map.png", "c.png"), kBlockDegrees);
@@ -102,29 +102,29 @@ TEST_F(MapStated, everyCommandReadsAFileOfTwoChannels)
     EXPECT_LT(meanBetween("map.png", "b.png"), kBlockDegrees);
     ASSERT_EQ(tool({"mips", "bc5.ktx2", "--to", "gltf", "-o", "m.png"}).code, 0);
     EXPECT_LT(meanBetween("map.png", "m_0.png"), kBlockDegrees);
-    ASSERT_EQ(tool({"mips", "bc5.ktx2", "-o", "same.png"}).code, 0); // as the map: two
+    ASSERT_EQ(tool({"mips", "bc5.ktx2", "-o", "same.png"}).code, 0); // like the source: two channels
     EXPECT_LT(meanBetween("map.png", "same_0.png", {"--to", "gltf,xy"}), kBlockDegrees);
     ASSERT_EQ(tool({"to-height", "bc5.ktx2", "-o", "h.exr"}).code, 0);
     ASSERT_EQ(tool({"to-height", "map.png", "-o", "h0.exr"}).code, 0);
     const auto h = readImage(folder / "h.exr"), h0 = readImage(folder / "h0.exr");
-    double most = 0, range = 0;
+    double largest = 0, range = 0;
     for (std::size_t i = 0; i < h->pixelCount(); ++i) {
-        most = std::max(most, double(std::abs(h->floats()[4 * i] - h0->floats()[4 * i])));
+        largest = std::max(largest, double(std::abs(h->floats()[4 * i] - h0->floats()[4 * i])));
         range = std::max(range, double(std::abs(h0->floats()[4 * i])));
     }
-    EXPECT_LT(most, 0.05 * range); // a sixtieth of a slope at every texel adds up to far less
+    EXPECT_LT(largest, 0.05 * range); // an error of a sixtieth in every slope adds up to far less
 }
 
-TEST_F(MapStated, aContradictionIsNamedInOneLine)
+TEST_F(MapFileChannels, contradictingOptionsAreRefusedInOneLine)
 {
     const struct {
         std::vector<std::string> words;
         std::string line;
     } cases[] = {
         {{"diff", "map.png", "bc5.ktx2", "--to", "gltf,xyz"},
-         "--to: bc5.ktx2 stores two channels; found xyz, which are three; leave the word out"},
+         "--to: bc5.ktx2 stores two channels; found xyz, which needs three; leave it out"},
         {{"diff", "bc5.dds", "map.png", "--from", "gltf,xyz"},
-         "--from: bc5.dds stores two channels; found xyz, which are three; leave the word out"},
+         "--from: bc5.dds stores two channels; found xyz, which needs three; leave it out"},
         {{"convert", "bc5.ktx2", "--from", "gltf,xyz", "--to", "gltf", "-o", "out.png"}, "--from: bc5.ktx2 stores two"},
         {{"convert", "grey-alpha.png", "--from", "gltf,xyz", "--to", "gltf", "-o", "out.png"},
          "--from: grey-alpha.png stores two"},
@@ -141,7 +141,7 @@ TEST_F(MapStated, aContradictionIsNamedInOneLine)
     }
 }
 
-TEST_F(MapStated, aFileOfOneChannelIsNoNormalMap)
+TEST_F(MapFileChannels, oneChannelFileIsNoNormalMap)
 {
     const Bytes bytes = makePng({.width = 2, .height = 1, .colour = 0, .rows = "\0\x80\x90"s});
     writeWhole("grey.png", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
@@ -161,7 +161,7 @@ TEST_F(MapStated, aFileOfOneChannelIsNoNormalMap)
         }
 }
 
-TEST_F(MapStated, aSwizzleWithoutBlueIsAFileOfTwoChannels)
+TEST_F(MapFileChannels, swizzleWithoutBlueIsATwoChannelFile)
 {
     const Image map = makeReliefMap(Relief::waves, 64);
     std::string texels;
@@ -195,13 +195,13 @@ TEST(MapPresets, unityUnrealAndGodotGetRealBlue)
                 .code,
             0);
         const auto two = readImage(folder / "two.png");
-        EXPECT_EQ(int(two->bytes8()[2]), 128) << to; // on the card blue counts for nothing
+        EXPECT_EQ(int(two->bytes8()[2]), 128) << to; // shaders on the GPU ignore blue
         EXPECT_EQ(two->bytes8()[0], out->bytes8()[0]) << to;
     }
 }
 
-// A flat surface over itself: (128, 128, 255).
-TEST(MapPresets, bakedForThemHaveRealBlueToo)
+// A flat surface baked onto itself: (128, 128, 255).
+TEST(MapPresets, bakedMapsHaveRealBlueToo)
 {
     TemporaryFolder folder;
     write(quad(2), folder.path());

@@ -1,4 +1,4 @@
-// What is said of files that cannot be read, found or written, and what is left of them.
+// Errors for files that cannot be read, found or written, and which files remain afterwards.
 #include <array>
 #include <cerrno>
 #include <filesystem>
@@ -25,30 +25,30 @@ namespace fs = std::filesystem;
 using test::readWhole;
 using test::TemporaryFolder;
 
-std::string toldOf(const Status& status) { return status ? "done" : status.error().message; }
+std::string errorIn(const Status& status) { return status ? "done" : status.error().message; }
 
-template<class T> std::string toldOf(const Result<T>& result) { return result ? "done" : result.error().message; }
+template<class T> std::string errorIn(const Result<T>& result) { return result ? "done" : result.error().message; }
 
-TEST(FilesTold, areReadUpToTheLimitAndRefusedInWords)
+TEST(FileErrors, statePathAndReasonWithinTheSizeLimit)
 {
     TemporaryFolder folder;
     std::ofstream(folder / "five") << "12345";
     std::ofstream(folder / "empty");
     const std::string five = (folder / "five").string(), empty = (folder / "empty").string();
-    EXPECT_EQ(toldOf(readFileBytes(five, 4)), five + ": the file has 5 bytes, the limit is 4");
+    EXPECT_EQ(errorIn(readFileBytes(five, 4)), five + ": the file has 5 bytes, the limit is 4");
     const auto bytes = readFileBytes(five, 5);
     ASSERT_TRUE(bytes);
     ASSERT_EQ(bytes->size(), 5u);
     EXPECT_EQ((*bytes)[0], std::byte('1'));
     EXPECT_EQ((*bytes)[4], std::byte('5'));
     EXPECT_EQ(*usableFileSize(five, 5), 5u);
-    EXPECT_EQ(toldOf(readFileBytes(empty, 4)), empty + ": the file is empty");
-    EXPECT_EQ(toldOf(readFileBytes(folder / "none", 4)), (folder / "none").string() + ": no such file");
-    EXPECT_EQ(toldOf(readFileBytes(folder.path(), 4)), folder.path().string() + ": expected a file, found a folder");
-    EXPECT_EQ(toldOf(readFileBytes("/dev/null", 4)), "/dev/null: expected a regular file");
+    EXPECT_EQ(errorIn(readFileBytes(empty, 4)), empty + ": the file is empty");
+    EXPECT_EQ(errorIn(readFileBytes(folder / "none", 4)), (folder / "none").string() + ": no such file");
+    EXPECT_EQ(errorIn(readFileBytes(folder.path(), 4)), folder.path().string() + ": expected a file, found a folder");
+    EXPECT_EQ(errorIn(readFileBytes("/dev/null", 4)), "/dev/null: expected a regular file");
 }
 
-TEST(FilesTold, areFoundWithinTheirFolderAndNowhereElse)
+TEST(FileErrors, refuseFilesOutsideTheFolder)
 {
     TemporaryFolder temporary;
     const fs::path folder = fs::canonical(temporary.path()) / "in";
@@ -78,63 +78,63 @@ TEST(FilesTold, areFoundWithinTheirFolderAndNowhereElse)
     }
 }
 
-TEST(OutputsTold, canComeToBeWhereFoldersAreOrAreMade)
+TEST(OutputErrors, occurUnlessTheFolderExistsOrCanBeMade)
 {
     TemporaryFolder folder;
     std::ofstream(folder / "file") << "x";
     const std::string base = folder.path().string();
-    EXPECT_EQ(toldOf(checkWritable(folder / "a")), "done");
-    EXPECT_EQ(toldOf(checkWritable(folder / "file")), "done");
-    EXPECT_EQ(toldOf(checkWritable(folder.path())), base + ": is a folder");
-    EXPECT_EQ(toldOf(checkWritable(folder / "no/a")), base + "/no/a: the folder " + base + "/no does not exist");
-    EXPECT_EQ(toldOf(checkWritable(folder / "no/deep/a", true)), "done");
-    EXPECT_EQ(toldOf(checkWritable(folder / "file/deep/a", true)),
-              base + "/file/deep/a: cannot make the folder: " + base + "/file is a file");
-    EXPECT_EQ(toldOf(checkWritable(folder / "file/a")), base + "/file/a: the folder " + base + "/file does not exist");
-    EXPECT_EQ(toldOf(checkWritable("/dev/null")), "done");
+    EXPECT_EQ(errorIn(checkWritable(folder / "a")), "done");
+    EXPECT_EQ(errorIn(checkWritable(folder / "file")), "done");
+    EXPECT_EQ(errorIn(checkWritable(folder.path())), base + ": is a folder");
+    EXPECT_EQ(errorIn(checkWritable(folder / "no/a")), base + "/no/a: the folder " + base + "/no does not exist");
+    EXPECT_EQ(errorIn(checkWritable(folder / "no/deep/a", true)), "done");
+    EXPECT_EQ(errorIn(checkWritable(folder / "file/deep/a", true)),
+              base + "/file/deep/a: cannot create a folder: " + base + "/file is a file");
+    EXPECT_EQ(errorIn(checkWritable(folder / "file/a")), base + "/file/a: the folder " + base + "/file does not exist");
+    EXPECT_EQ(errorIn(checkWritable("/dev/null")), "done");
     EXPECT_FALSE(fs::exists(folder / "no"));
-    if (::geteuid() != 0) { // whom nothing stops
+    if (::geteuid() != 0) { // root may write anywhere
         ::chmod(base.c_str(), 0500);
-        EXPECT_EQ(toldOf(checkWritable(folder / "a")),
+        EXPECT_EQ(errorIn(checkWritable(folder / "a")),
                   base + "/a: cannot write in the folder " + base + ": permission denied");
         ::chmod(base.c_str(), 0700);
     }
-    EXPECT_EQ(toldOf(OutputFile::begin(folder / "no/a")), base + "/no/a: the folder " + base + "/no does not exist");
-    EXPECT_EQ(toldOf(OutputFile::begin(folder.path())), base + ": is a folder");
-    EXPECT_EQ(toldOf(makeFolder(folder / "b/c")), "done");
+    EXPECT_EQ(errorIn(OutputFile::begin(folder / "no/a")), base + "/no/a: the folder " + base + "/no does not exist");
+    EXPECT_EQ(errorIn(OutputFile::begin(folder.path())), base + ": is a folder");
+    EXPECT_EQ(errorIn(makeFolder(folder / "b/c")), "done");
     EXPECT_TRUE(fs::is_directory(folder / "b/c"));
-    EXPECT_EQ(toldOf(makeFolder(folder / "b/c")), "done");
-    EXPECT_TRUE(toldOf(makeFolder(folder / "file")).starts_with(base + "/file: cannot make this folder: "));
-    EXPECT_EQ(toldOf(writeBytes(folder / "no/a", {})), base + "/no/a: cannot write: no such file or directory");
+    EXPECT_EQ(errorIn(makeFolder(folder / "b/c")), "done");
+    EXPECT_TRUE(errorIn(makeFolder(folder / "file")).starts_with(base + "/file: cannot create this folder: "));
+    EXPECT_EQ(errorIn(writeBytes(folder / "no/a", {})), base + "/no/a: cannot write: no such file or directory");
 }
 
-TEST(OutputsTold, thatCannotBePutInTheirPlaceSayWhyAndLeaveNothing)
+TEST(OutputErrors, ofAFailedRenameStateTheReasonAndLeaveNothing)
 {
     TemporaryFolder folder;
     {
         auto output = OutputFile::begin(folder / "a.png");
         ASSERT_TRUE(output && writeBytes(output->path(), {}));
-        EXPECT_EQ(output->place(), folder / "a.png");
+        EXPECT_EQ(output->destination(), folder / "a.png");
         fs::create_directories(folder / "a.png/full");
-        EXPECT_EQ(toldOf(output->commit()), (folder / "a.png").string() + ": cannot write: is a directory");
+        EXPECT_EQ(errorIn(output->commit()), (folder / "a.png").string() + ": cannot write: is a directory");
     }
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
-    // The writer's words, and the system's where nothing more can be written.
+    // The writer's error, or the system's if nothing can be written.
     fs::create_directory(folder / "gone");
     auto lost = OutputFile::begin(folder / "gone/a.png");
     ASSERT_TRUE(lost);
     EXPECT_EQ(lost->failed(outputError("a library failed")).message, "a library failed");
-    EXPECT_TRUE(fs::exists(lost->path())); // the trial's
+    EXPECT_TRUE(fs::exists(lost->path())); // the part of the trial
     fs::remove_all(folder / "gone");
     EXPECT_EQ(lost->failed(outputError("a library failed")).message,
               (folder / "gone/a.png").string() + ": cannot write: no such file or directory");
-    auto full = OutputFile::begin("/dev/full"); // of which there is no part to try
+    auto full = OutputFile::begin("/dev/full"); // devices have no part to try
     ASSERT_TRUE(full);
     EXPECT_EQ(full->path(), "/dev/full");
     EXPECT_EQ(full->failed(outputError("a library failed")).message, "a library failed");
 }
 
-TEST(OutputsTold, throughAPipeTheyStayAPipe)
+TEST(OutputErrors, doNotReplaceAPipe)
 {
     TemporaryFolder folder;
     const fs::path pipe = folder / "pipe";
@@ -146,11 +146,11 @@ TEST(OutputsTold, throughAPipeTheyStayAPipe)
     }
     EXPECT_TRUE(fs::is_fifo(pipe));
     auto output = OutputFile::begin(pipe);
-    EXPECT_EQ(toldOf(output->commit()), "done");
+    EXPECT_EQ(errorIn(output->commit()), "done");
     EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
-TEST(OutputsTold, togetherAppearAllOrOfTheNewOnesNone)
+TEST(OutputErrors, leaveNoNewFileOfSeveral)
 {
     TemporaryFolder folder;
     const auto begun = [&](const char* name) {
@@ -162,7 +162,7 @@ TEST(OutputsTold, togetherAppearAllOrOfTheNewOnesNone)
         std::vector<OutputFile> files;
         for (const char* const name : {"a", "b", "c"})
             files.push_back(begun(name));
-        EXPECT_EQ(toldOf(commitTogether(files)), "done");
+        EXPECT_EQ(errorIn(commitTogether(files)), "done");
     }
     for (const char* const name : {"a", "b", "c"})
         EXPECT_EQ(readWhole(folder / name), "new") << name;
@@ -173,23 +173,23 @@ TEST(OutputsTold, togetherAppearAllOrOfTheNewOnesNone)
         for (const char* const name : {"a", "b", "c", "d"})
             files.push_back(begun(name));
         fs::create_directories(folder / "c/full");
-        EXPECT_EQ(toldOf(commitTogether(files)), (folder / "c").string() + ": cannot write: is a directory");
+        EXPECT_EQ(errorIn(commitTogether(files)), (folder / "c").string() + ": cannot write: is a directory");
     }
-    EXPECT_EQ(readWhole(folder / "a"), "new"); // what replaced a file stays
+    EXPECT_EQ(readWhole(folder / "a"), "new"); // a replaced file keeps its new contents
     EXPECT_FALSE(fs::exists(folder / "b"));
     EXPECT_FALSE(fs::exists(folder / "d"));
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2);
 }
 
-TEST(OutputsTold, haveReasonsInSmallLetters)
+TEST(OutputErrors, haveReasonsInLowerCase)
 {
-    EXPECT_EQ(reasonOf(EFBIG), "no space left: files may not grow beyond a limit here (ulimit -f)");
+    EXPECT_EQ(reasonOf(EFBIG), "no space left: the file would exceed the file size limit (ulimit -f)");
     EXPECT_EQ(reasonOf(ENOENT), "no such file or directory");
     EXPECT_EQ(reasonOf(EISDIR), "is a directory");
 }
 
-// The account of what is read and written, with both names.
-TEST(AccountTold, refusesInOneSentenceAndRemembersTheFirst)
+// The record of files read and written; errors give both names.
+TEST(FileRecord, refusesInOneSentenceAndKeepsTheFirstError)
 {
     TemporaryFolder folder;
     std::ofstream(folder / "in.png") << "in";
@@ -199,22 +199,22 @@ TEST(AccountTold, refusesInOneSentenceAndRemembersTheFirst)
     watchInputs([&](const fs::path& file) { read.push_back(file); });
     watchOutputs([&](const fs::path& file) { written.push_back(file); });
     EXPECT_TRUE(noteInput(in));
-    EXPECT_FALSE(refusal());
-    EXPECT_EQ(toldOf(planOutput("-o", in)),
-              "-o " + in + " would replace " + in
-                  + ", which is read; expected another name, "
+    EXPECT_FALSE(firstRefusal());
+    EXPECT_EQ(errorIn(planOutput("-o", in)),
+              "-o " + in + " would overwrite " + in
+                  + ", which is an input; expected another name, "
                     "or --overwrite");
     EXPECT_TRUE(planOutput("-o", out));
-    EXPECT_EQ(toldOf(planOutput("", out)),
-              "-o " + out + " and " + out + " are one file; expected another name, or --overwrite");
-    ASSERT_TRUE(refusal());
-    EXPECT_NE(refusal()->message.find("which is read"), std::string::npos);
+    EXPECT_EQ(errorIn(planOutput("", out)),
+              "-o " + out + " and " + out + " are the same file; expected another name, or --overwrite");
+    ASSERT_TRUE(firstRefusal());
+    EXPECT_NE(firstRefusal()->message.find("which is an input"), std::string::npos);
     EXPECT_TRUE(writeFileWhole(out, "new"));
-    EXPECT_TRUE(noteInput(out)); // which is done
+    EXPECT_TRUE(noteInput(out)); // writing has finished
     EXPECT_EQ(read, (std::vector<fs::path>{in, out}));
     EXPECT_EQ(written, std::vector<fs::path>{out});
-    guardInputs(/*overwrite*/ false); // begins anew
-    EXPECT_FALSE(refusal());
+    guardInputs(/*overwrite*/ false); // starts a new record
+    EXPECT_FALSE(firstRefusal());
     EXPECT_TRUE(planOutput("-o", in));
     watchInputs({}), watchOutputs({});
     guardInputs(/*overwrite*/ true);

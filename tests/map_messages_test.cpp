@@ -1,4 +1,4 @@
-// What is said of maps: faults with their bounds, reasons, the commands that fix a map, and what is counted.
+// Messages about maps: faults with their limits, reasons, the commands that fix a map, and counts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace cases;
 
-NormalStatistics soundStatistics()
+NormalStatistics validStatistics()
 {
     NormalStatistics s;
     s.content = Content::tangentSpace;
@@ -31,10 +31,10 @@ std::vector<std::string> namesOf(const std::vector<Fault>& faults)
     return names;
 }
 
-TEST(FaultsTold, beginBeyondTheirBoundsAndSayTheLengthInHundredths)
+TEST(FaultRules, beginBeyondTheirBoundsAndStateTheLength)
 {
     const auto ofLength = [](double length) {
-        NormalStatistics s = soundStatistics();
+        NormalStatistics s = validStatistics();
         s.meanLength = length;
         const auto faults = faultsOf(s);
         return faults.empty() ? "" : std::string(name(faults[0].kind)) + ": " + faults[0].text;
@@ -49,10 +49,10 @@ TEST(FaultsTold, beginBeyondTheirBoundsAndSayTheLengthInHundredths)
     EXPECT_EQ(ofLength(1.051), "too_strong: too strong: vectors are 1.05" + end);
     EXPECT_EQ(ofLength(1.696), "too_strong: too strong: vectors are 1.70" + end);
     EXPECT_EQ(ofLength(2.004), "too_strong: too strong: vectors are 2.00" + end);
-    // Where flat, 128 of 255, comes to lie by the curve of sRGB and by its inverse.
+    // The code of flat (128 of 255) after the sRGB curve and after its inverse.
     const auto curve = [](double c) { return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055; };
     const auto back = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
-    NormalStatistics s = soundStatistics();
+    NormalStatistics s = validStatistics();
     s.transfer = Transfer::srgb;
     EXPECT_NE(faultsOf(s).at(0).text.find("flat is near " + std::to_string(std::lround(255 * curve(128 / 255.0)))
                                           + " instead of 128"),
@@ -63,11 +63,11 @@ TEST(FaultsTold, beginBeyondTheirBoundsAndSayTheLengthInHundredths)
               std::string::npos);
 }
 
-TEST(FaultsTold, areThoseOfTheirFiguresAloneInOneOrder)
+TEST(FaultRules, followTheirFiguresInFixedOrder)
 {
     using Names = std::vector<std::string>;
     GreenVerdict green;
-    NormalStatistics s = soundStatistics();
+    NormalStatistics s = validStatistics();
     EXPECT_EQ(namesOf(faultsOf(s, &green)), Names{});
     green.swapped = Swapped::no, green.green = Green::up;
     EXPECT_EQ(namesOf(faultsOf(s, &green)), Names{});
@@ -80,7 +80,7 @@ TEST(FaultsTold, areThoseOfTheirFiguresAloneInOneOrder)
     EXPECT_EQ(namesOf(faultsOf(s)), Names{});
     s.eightBits = true, s.meanLength = 0.5;
     EXPECT_EQ(namesOf(faultsOf(s, &green)), (Names{"washed_out", "8_in_16", "green_down"}));
-    s.transfer = Transfer::srgb; // of a curve lengths say nothing
+    s.transfer = Transfer::srgb; // lengths are meaningless under a curve
     EXPECT_EQ(namesOf(faultsOf(s)), (Names{"srgb", "8_in_16"}));
     s.transfer = Transfer::linearised, s.redIsZ = true;
     EXPECT_EQ(namesOf(faultsOf(s)), (Names{"linearised", "bgr", "8_in_16"}));
@@ -96,14 +96,14 @@ TEST(FaultsTold, areThoseOfTheirFiguresAloneInOneOrder)
     EXPECT_EQ(namesOf(faultsOf(s)), Names{"8_in_16"});
 }
 
-TEST(FaultsTold, areFixedByOneCommand)
+TEST(FaultRules, areFixedByOneCommand)
 {
     using Kind = Fault::Kind;
     const auto options = [](const std::vector<Kind>& kinds, Centre centre = Centre::exact) {
         std::vector<Fault> faults;
         for (const Kind kind : kinds)
             faults.push_back({kind, "it is " + std::string(name(kind))});
-        NormalStatistics s = soundStatistics();
+        NormalStatistics s = validStatistics();
         s.centre = centre;
         const std::string sentence = sentenceOf("a.png", faults, s), fix = fixOptions(faults, s);
         std::string expected = faults.empty() ? "" : "a.png: ";
@@ -129,7 +129,7 @@ TEST(FaultsTold, areFixedByOneCommand)
         "--from directx,biased,srgb,bgr,grb --to gltf,biased --normalise --bits 8");
 }
 
-TEST(ContentsTold, areNamedEachInItsWords)
+TEST(MapContents, areDescribed)
 {
     const std::pair<Content, const char*> words[] = {
         {Content::tangentSpace, "tangent space"}, {Content::objectSpace, "object space"},
@@ -144,14 +144,14 @@ TEST(ContentsTold, areNamedEachInItsWords)
               "nonelikelycertain");
 }
 
-// The relief sin(0.9 x) sin(0.3 y), y up, whose rows go down; red and green are not to be taken for each other.
+// The relief sin(0.9 x) sin(0.3 y), y up, rows down. Red and green differ, so that no exchange is detected.
 glm::vec3 waveNormal(double x, double row, double size)
 {
     const double y = -row;
     return ofSlopes(size * std::cos(0.9 * x) * std::sin(0.3 * y), size / 3 * std::sin(0.9 * x) * std::cos(0.3 * y));
 }
 
-TEST(GreenTold, givesTheReasonOfEachPictureThatCannotBeJudged)
+TEST(GreenVerdicts, giveTheReasonForUndecidableImages)
 {
     const auto expectReason = [](const Image& map, const char* words) {
         const GreenVerdict verdict = greenOf(map);
@@ -190,7 +190,7 @@ TEST(GreenTold, givesTheReasonOfEachPictureThatCannotBeJudged)
     expectReason(floatMap(64, 48, [&](int, int) { return ofSlopes(noise.next() - 0.5, noise.next() - 0.5); }),
                  "do not agree on a relief");
     expectReason(floatMap(64, 48, waves), "belong to one relief");
-    // Nearly a plane, steep, in 8 bits: what changes are single codes.
+    // Nearly a plane, steep, in 8 bits: only single codes change.
     Image plane = makeImage(64, 48, PixelType::unorm8);
     for (int y = 0; y < 48; ++y)
         for (int x = 0; x < 64; ++x) {
@@ -198,11 +198,11 @@ TEST(GreenTold, givesTheReasonOfEachPictureThatCannotBeJudged)
             for (int c = 0; c < 4; ++c)
                 plane.bytes8()[4 * (y * 64 + x) + c] = std::uint8_t(c == 3 ? 255 : std::lround(128 + 127 * n[c]));
         }
-    expectReason(plane, "drowns in rounding");
+    expectReason(plane, "weaker than the rounding noise");
 }
 
-// Of 64 columns the cells between neighbours are 63, and 31 of them touch nothing of the left half.
-TEST(GreenTold, countsTheCellsThatSaySomething)
+// 64 columns have 63 cells between neighbours; 31 of them lie entirely in the right half.
+TEST(GreenVerdicts, countInformativeCells)
 {
     const auto halved = [](int firstColumn) {
         Image map = makeImage(64, 48, PixelType::unorm8);
@@ -232,24 +232,24 @@ TEST(GreenTold, countsTheCellsThatSaySomething)
     }
 }
 
-TEST(ConventionTold, ofTwoChannelsOrOneIsWhatTheFileHasAndTheMistakeIsSaid)
+TEST(FileConvention, followsTheChannelsOfTheFile)
 {
     StatedConvention stated;
-    const auto told = [&](int channels) {
+    const auto messageFor = [&](int channels) {
         const auto convention = conventionOf(stated, "a.ktx2", channels, "--from");
         return convention ? "" : convention.error().message;
     };
     for (const int channels : {3, 4})
         EXPECT_EQ(conventionOf(stated, "a.ktx2", channels, "--from")->channels, Channels::xyz);
     EXPECT_EQ(conventionOf(stated, "a.ktx2", 2, "--from")->channels, Channels::orthographic);
-    EXPECT_EQ(told(1), "a.ktx2: expected a normal map of two or three channels; found one (grey)");
+    EXPECT_EQ(messageFor(1), "a.ktx2: expected a normal map of two or three channels; found one (grey)");
     EXPECT_EQ(conventionOf(stated, "a.ktx2", 1, "--from").error().kind, ErrorKind::input);
     stated.channels = true;
-    EXPECT_EQ(told(2), "--from: a.ktx2 stores two channels; found xyz, which are three; leave the word out");
+    EXPECT_EQ(messageFor(2), "--from: a.ktx2 stores two channels; found xyz, which needs three; leave it out");
     EXPECT_EQ(conventionOf(stated, "a.ktx2", 2, "--from").error().kind, ErrorKind::usage);
-    EXPECT_EQ(told(3), "");
+    EXPECT_EQ(messageFor(3), "");
     stated.convention.kind = MapKind::objectSpace;
-    EXPECT_EQ(told(2), "--from: a.ktx2 stores two channels; found object, which needs three");
+    EXPECT_EQ(messageFor(2), "--from: a.ktx2 stores two channels; found object, which needs three");
     for (const Channels channels : {Channels::orthographic, Channels::stereographic, Channels::slope}) {
         stated.convention.channels = channels;
         for (const int count : {2, 3, 4})
@@ -257,8 +257,8 @@ TEST(ConventionTold, ofTwoChannelsOrOneIsWhatTheFileHasAndTheMistakeIsSaid)
     }
 }
 
-// Rows are worked on sixteen at a time: what lies at the seams counts once.
-TEST(HeightsTold, texelsWithoutDirectionAreCountedOnceWhereverTheyLie)
+// Rows are processed sixteen at a time: texels at the boundaries count once.
+TEST(SolvedHeights, countTexelsWithoutDirectionOnce)
 {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     for (const int row : {0, 1, 15, 16, 17, 31, 32, 39}) {
@@ -278,21 +278,21 @@ TEST(HeightsTold, texelsWithoutDirectionAreCountedOnceWhereverTheyLie)
     EXPECT_EQ(heightWorkBytes(3, 5), 15 * (2 * sizeof(float) + sizeof(float))); // complex numbers, and heights
 }
 
-// A wave down the picture, and one to the right, of texels that are twice and half as high as wide.
-TEST(HeightsTold, repeatingHeightsFollowTheShapeOfTexels)
+// A wave down the image and one to the right, of texels that are twice and half as high as wide.
+TEST(SolvedHeights, followTheTexelAspect)
 {
     const int width = 12, height = 16;
-    const double turn = 2 * 3.14159265358979;
+    const double twoPi = 2 * 3.14159265358979;
     for (const double aspect : {1.0, 2.0, 0.5}) {
         const Image map = floatMap(width, height, [&](int x, int y) {
-            return ofSlopes(0.3 * std::cos(turn * x / width), -0.4 * std::cos(turn * y / height));
+            return ofSlopes(0.3 * std::cos(twoPi * x / width), -0.4 * std::cos(twoPi * y / height));
         });
         const Heights heights = heightFromNormals(map, {.from = kFloats, .aspect = aspect});
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x)
                 EXPECT_NEAR(double(heights.texels[std::size_t(y * width + x)]),
-                            0.3 * width / turn * std::sin(turn * x / width)
-                                + 0.4 * aspect * height / turn * std::sin(turn * y / height),
+                            0.3 * width / twoPi * std::sin(twoPi * x / width)
+                                + 0.4 * aspect * height / twoPi * std::sin(twoPi * y / height),
                             1e-5);
         EXPECT_NEAR(heights.slope, std::sqrt(0.3 * 0.3 / 2 + 0.4 * 0.4 * aspect * aspect / 2), 1e-6);
         EXPECT_NEAR(heights.residual, 0, 1e-6);
@@ -300,8 +300,8 @@ TEST(HeightsTold, repeatingHeightsFollowTheShapeOfTexels)
     }
 }
 
-// Toksvig's and von Mises' and Fisher's formulas as they are printed, at lengths of all sizes.
-TEST(MipsTold, roughnessFollowsTheFormulasUpToOne)
+// Toksvig's and the von Mises-Fisher formulas as published, at lengths of all sizes.
+TEST(MipRoughness, followsItsFormulasUpToOne)
 {
     for (const double roughness : {0.0, 0.2, 0.45, 0.9, 1.0})
         for (const double length : {0.02, 0.3, 0.7, 0.95, 0.9999}) {
@@ -321,8 +321,8 @@ TEST(MipsTold, roughnessFollowsTheFormulasUpToOne)
     EXPECT_NEAR(roughnessFromVariance(0.5, 0), 0.5, 1e-12);
 }
 
-// Of a map without any direction the roughness stays, and there is no length; of a half the rest says both.
-TEST(MipsTold, levelsWithoutDirectionsKeepTheRoughness)
+// Levels without any direction keep the roughness and have no length; with some, those determine both.
+TEST(MipRoughness, isKeptAtLevelsWithoutDirections)
 {
     const auto chain = [](int without) {
         return mipChain(
@@ -333,18 +333,18 @@ TEST(MipsTold, levelsWithoutDirectionsKeepTheRoughness)
         EXPECT_EQ(level.meanLength, 0);
         EXPECT_NEAR(level.meanRoughness, 0.4, 1e-12);
     }
-    // 6 x 3 becomes 3 x 1: pairs of slopes 0 and 0.6, of variance 0.09; the left pair is not there.
+    // 6 x 3 becomes 3 x 1: pairs of slopes 0 and 0.6, of variance 0.09; the left pair is empty.
     const auto half = chain(2);
     ASSERT_EQ(half.size(), 3u);
-    const double spread = std::pow(0.0256 + 0.09, 0.25);
-    EXPECT_NEAR(half[1].meanRoughness, (0.4 + 2 * spread) / 3, 1e-6);
+    const double roughness = std::pow(0.0256 + 0.09, 0.25);
+    EXPECT_NEAR(half[1].meanRoughness, (0.4 + 2 * roughness) / 3, 1e-6);
     EXPECT_NEAR(half[1].meanLength, std::cos(std::atan(0.6) / 2), 1e-6);
-    EXPECT_NEAR(half[2].meanRoughness, spread, 1e-6);
+    EXPECT_NEAR(half[2].meanRoughness, roughness, 1e-6);
     EXPECT_NEAR(half[2].meanLength, std::cos(std::atan(0.6) / 2), 1e-6);
     EXPECT_NEAR(half[0].meanLength, 1, 1e-6);
     const float* const rough = half[1].roughness.floats();
     EXPECT_NEAR(double(rough[0]), 0.4, 1e-6);
-    EXPECT_NEAR(double(rough[4]), spread, 1e-6);
+    EXPECT_NEAR(double(rough[4]), roughness, 1e-6);
     EXPECT_EQ(rough[3], 1);
 }
 

@@ -1,12 +1,12 @@
-// A quad with one material, for what is drawn of materials.
+// A quad with one material, for tests of materials.
 #pragma once
 
 #include "models.hpp"
 
 namespace cotan::test {
 
-// A quad in the xy plane, uv skewed and mirrored, with a map of one texel that leans.
-inline Scene leaningQuad()
+// A quad in the xy plane with skewed, mirrored uv and a one-texel map whose normal is tilted.
+inline Scene tiltedQuad()
 {
     Scene scene;
     Mesh mesh;
@@ -20,7 +20,7 @@ inline Scene leaningQuad()
     scene.instances.push_back({"", 0, glm::mat4(1)});
     scene.materials.emplace_back();
     Image image = makeImage(1, 1, PixelType::unorm8);
-    const int texel[] = {128 + 25, 128 + 40, 128 + 117, 255}; // leans 22 degrees
+    const int texel[] = {128 + 25, 128 + 40, 128 + 117, 255}; // tilted by 22 degrees
     for (int c = 0; c < 4; ++c)
         image.bytes8()[c] = std::uint8_t(texel[c]);
     scene.images.push_back(image);

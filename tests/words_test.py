@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+"""words_test.py SOURCES FACT: whether the sources use the field's terms. Prints each line that does not, with a better word.
+
+The documents have the same test in docs_test.cpp. A word that the field uses in another meaning has an exception here.
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(sys.argv[1])
+FOLDERS = ("src", "apps", "shaders", "bindings", "bench", "fuzz", "examples", "tests", "web", "scripts", "cmake", "integrations")
+SLASHES = (".cpp", ".hpp", ".h", ".c", ".inc", ".frag", ".vert", ".comp", ".glsl", ".js", ".mjs", ".ts")
+HASHES = (".py", ".sh", ".cmake", ".txt", "")
+# These hold the words as data: texts of other programs, planted mistakes, tables of hashes, and the two tests of words.
+LEFT_OUT = re.compile(r"tests/(words_test\.py|docs_test\.cpp|mutants\.txt|mutation/equivalent\.txt|output_bytes/)|fuzz/corpus|\.min\.js|"
+                      r"bindings/js/three/shader_text\.js|package-lock|\.patch$")
+
+# What a reader of the field would have to learn from us, and the field's term.
+TERMS = [
+    (r"surroundings", "environment"),
+    (r"mend(s|ed|ing)?", "fix"),
+    (r"hot spots?", "problem areas"),
+    (r"turned normals?", "perturbed normals"),
+    (r"stretched highlights?", "anisotropic highlights"),
+    (r"(a|the|this|each|every|one|whole) pictures?(?! options?| of a model)", "image"),
+    (r"over and over", "repeatedly"),
+    (r"some [0-9]+", "about"),
+    (r"the house", "architecture"),
+    (r"nearness", "reversed depth"),
+    (r"(a|the) shares? (of|that)", "fraction"),
+    (r"so (many|much) (?!as|that)\w+ed", "the number"),
+    (r"nobody (knows|sees|asks|reads|wants|needs|would)", "unknown, invisible, unused"),
+    (r"(is|are|was|were) told", "given, requested"),
+    (r"what is (told|left|asked|said|meant)", "a noun"),
+    (r"throws? (a|no|the) shadows?", "casts"),
+    (r"cut off at", "clamped to"),
+    (r"so it shows|as it shows", "a noun"),
+]
+# Identifiers that no longer exist, in any part of a name.
+NAMES = re.compile(r"\w*(kMost[A-Z]|inWords|loadTold|Surroundings|Nearness|HotSpot|[a-z]Told|TurnedNormal)\w*|"
+                   r"\b(Wish|Artist|Studio|Painter|Drawer)\b")
+PATTERNS = [(re.compile(rf"\b({pattern})\b", re.I), better) for pattern, better in TERMS]
+wrong, checked = [], 0
+
+
+def sources():
+    listed = subprocess.run(["git", "-C", ROOT, "ls-files", *FOLDERS], capture_output=True, text=True)
+    names = listed.stdout.split("\n") if listed.returncode == 0 else \
+        [str(p.relative_to(ROOT)) for folder in FOLDERS for p in (ROOT / folder).rglob("*")]
+    for name in names:
+        path = ROOT / name
+        if name and not LEFT_OUT.search(name) and path.suffix in SLASHES + HASHES and path.is_file():
+            yield name, path
+
+
+def comments(path, text):
+    """(line number, comment) of a source; a comment that goes on is one, so that a phrase may be broken over lines."""
+    opening = r"//+" if path.suffix in SLASHES else r"#"
+    start, parts = 0, []
+    for number, line in enumerate(text.split("\n"), 1):
+        found = re.search(rf"(?:^|\s){opening}(?!include|define|if|endif|else|pragma|version|!)\s?(.*)$", line)
+        if found and parts and line[: found.start(1)].strip(" /#") == "":
+            parts.append(found.group(1))
+            continue
+        if parts:
+            yield start, " ".join(parts)
+        start, parts = number, [found.group(1)] if found else []
+    if parts:
+        yield start, " ".join(parts)
+
+
+def check(name, number, text, what):
+    for pattern, better in PATTERNS:
+        for found in pattern.finditer(text):
+            wrong.append(f"{name}:{number}: {what} '{found.group(0)}'; write {better}")
+
+
+def readSources():
+    for name, path in sources():
+        try:
+            yield name, path, path.read_text()
+        except UnicodeDecodeError:
+            continue
+
+
+def commentsUseTheTermsOfTheField():
+    global checked
+    for name, path, text in readSources():
+        for number, comment in comments(path, text):
+            checked += 1
+            check(name, number, comment, "comment")
+            if re.match(r"Of (the|each|all|what|which|a|an)\b", comment):
+                wrong.append(f"{name}:{number}: comment 'Of ...'; begin with the noun")
+
+
+def messagesUseTheTermsOfTheField():
+    global checked
+    for name, path, text in readSources():
+        if name.startswith(("src/", "apps/", "bindings/python", "web/")):
+            for number, line in enumerate(text.split("\n"), 1):
+                for string in re.findall(r'"((?:\\.|[^"\\])*)"', line):
+                    checked += " " in string
+                    check(name, number, string, "message")
+
+
+def namesUseTheTermsOfTheField():
+    global checked
+    for name, path, text in readSources():
+        if path.suffix in SLASHES:
+            for number, line in enumerate(text.split("\n"), 1):
+                checked += 1
+                for found in NAMES.finditer(re.sub(r'"(?:\\.|[^"\\])*"|//.*', "", line)):
+                    wrong.append(f"{name}:{number}: name '{found.group(0)}'")
+
+
+FACTS = (commentsUseTheTermsOfTheField, messagesUseTheTermsOfTheField, namesUseTheTermsOfTheField)
+if __name__ == "__main__":
+    chosen = [f for f in FACTS if f.__name__ == sys.argv[2]] if len(sys.argv) > 2 else FACTS
+    if not chosen:
+        sys.exit(f"words_test: expected one of {', '.join(f.__name__ for f in FACTS)}; found {sys.argv[2]}")
+    for fact in chosen:
+        checked = 0
+        fact()
+        if checked < 3000:
+            wrong.append(f"{fact.__name__}: only {checked} texts were checked; this test no longer finds them")
+    print(*wrong, sep="\n", end="\n" if wrong else "")
+    sys.exit(bool(wrong))
