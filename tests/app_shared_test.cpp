@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "cotan/image.hpp"
-#include "likely_turn.hpp"
 #include "loading.hpp"
 #include "parse.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
 #include "smooth_report.hpp"
 #include "terminal/command_words.hpp"
+#include "up_mismatch.hpp"
 #include "verify.hpp"
 
 namespace cotan::app {

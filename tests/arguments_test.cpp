@@ -81,7 +81,7 @@ TEST(Arguments, numbersAreAcceptedUpToTheirBounds)
         expectAccepted("--auto", good);
     for (const char* bad : {"0", "automatic", "1.1e6", "nan"})
         expectAccepted("--auto", bad,
-                    "expected auto or a number above 0 and at most 1e6; found '" + std::string(bad) + "'");
+                       "expected auto or a number above 0 and at most 1e6; found '" + std::string(bad) + "'");
 }
 
 TEST(Arguments, onlyListedChoicesAreAccepted)

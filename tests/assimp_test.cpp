@@ -587,9 +587,9 @@ TEST_F(AssimpFile, plyListsAreCheckedBeforeMemoryIsAllocated)
     EXPECT_NE(problem("j.ply", text + "7 -3 0 1 2\n7 3 0 1 2\n").find("expected the count of a list"),
               std::string::npos);
     EXPECT_NE(problem("k.ply", text + "7 3 0 1 2\n").find("the file ends"), std::string::npos);
-    EXPECT_NE(problem("m.ply", text + "7 3" + std::string(8, '\0') + " 0 1 2\n7 3 2 1 0\n")
-                  .find("found a zero byte at"),
-              std::string::npos);
+    EXPECT_NE(
+        problem("m.ply", text + "7 3" + std::string(8, '\0') + " 0 1 2\n7 3 2 1 0\n").find("found a zero byte at"),
+        std::string::npos);
     const std::string floats = plyHeader("ascii", "element face 1\nproperty list float int vertex_indices\n");
     EXPECT_NE(problem("l.ply", floats + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").find("an integer type for the count"),
               std::string::npos);

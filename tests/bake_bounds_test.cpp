@@ -103,8 +103,8 @@ TEST(BakeBounds, optionsAreAcceptedUpToTheirLimits)
         high.maps.resize(std::size_t(maps));
         EXPECT_EQ(messageOf(prepareBake(low, std::move(high), fewTexels())),
                   accepted ? ""
-                        : fmt::format("high.maps: expected none, one, or one for each of the {} scenes; found {}",
-                                      scenes, maps));
+                           : fmt::format("high.maps: expected none, one, or one for each of the {} scenes; found {}",
+                                         scenes, maps));
     }
 }
 
@@ -226,8 +226,7 @@ TEST(BakeBounds, aRayMayCross2000Triangles)
 {
     for (const auto& [count, message] :
          {std::pair(2000, ""),
-          {2001,
-           "high: a ray crosses about 2001 of its triangles; expected at most 2000: remove hidden triangles"}}) {
+          {2001, "high: a ray crosses about 2001 of its triangles; expected at most 2000: remove hidden triangles"}}) {
         Mesh low = rectangle({0.1f, 0.1f, 0}, {0.1f, 0, 0}, {0, 0.1f, 0});
         EXPECT_EQ(messageOf(prepareBake(sceneOfMeshes({low}), highModel({crowd(count)}), fewTexels())), message);
     }

@@ -217,8 +217,7 @@ TEST_F(BakeHighMapCommand, boomBoxBakedOntoItselfGivesItsMapBack)
     for (std::size_t y = 0; y < 512; ++y)
         for (std::size_t x = 0; x < 512; ++x) {
             const std::uint8_t* state = mask.bytes8() + 4 * (512 * y + x);
-            if (state[0] != 0 || state[1] != 179
-                || state[2] != 0) // only green: one triangle, hit, above the horizon
+            if (state[0] != 0 || state[1] != 179 || state[2] != 0) // only green: one triangle, hit, above the horizon
                 continue;
             glm::dvec3 m(0);
             for (std::size_t k = 0; k < 4; ++k)
@@ -229,7 +228,7 @@ TEST_F(BakeHighMapCommand, boomBoxBakedOntoItselfGivesItsMapBack)
             ++compared;
         }
     ASSERT_GT(compared, 100000u);
-    EXPECT_LT(mean / double(compared), 0.25);         // 8 bits: see docs/explanation/baking.md, below 0.20
+    EXPECT_LT(mean / double(compared), 0.25);               // 8 bits: see docs/explanation/baking.md, below 0.20
     EXPECT_LT(double(differing), 0.002 * double(compared)); // where two parts are within 1e-5 of each other
 }
 

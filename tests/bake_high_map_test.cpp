@@ -220,8 +220,7 @@ TEST(BakeHighMap, rotatedMirroredScaledAndShiftedUvGiveTheSameNormals)
                         worst =
                             std::max(worst, degreesBetween(glm::dvec3(baked.values[std::size_t(j * kSide + i)]), n));
                     }
-                EXPECT_LT(worst, 0.002) << c.name << ", "
-                                        << name(frame); // float uv: 1e-6, times a slope of 4 per uv
+                EXPECT_LT(worst, 0.002) << c.name << ", " << name(frame); // float uv: 1e-6, times a slope of 4 per uv
             }
 }
 

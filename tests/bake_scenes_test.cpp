@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bake_objects.hpp"
-#include "likely_turn.hpp"
+#include "up_mismatch.hpp"
 
 namespace cotan::app {
 namespace {

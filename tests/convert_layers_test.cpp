@@ -79,7 +79,7 @@ void drawn(const std::filesystem::path& folder, const std::string& model, const 
            const std::string& image)
 {
     const ToolRun run =
-        runTool({"render",        model,      "-o",           image,    "--frame",    frame,      "--size",
+        runTool({"render",        model,      "-o",           image,      "--frame",    frame,      "--size",
                  "120x60",        "--device", "reference",    "--ground", "off",        "--camera", "fit",
                  "--environment", "none",     "--background", "none",     "--exposure", "1",        "--quiet"},
                 folder, 60);

@@ -171,9 +171,8 @@ TEST(CostReportText, namesTheQueriedDevicesAndWhatIsMissing)
     report.timing = {timing};
     const std::string timed = toMarkdown(report);
     EXPECT_EQ(timed.find("No timing"), std::string::npos);
-    EXPECT_NE(
-        timed.find("### a device: nanoseconds per million pixels, medians (renders on the CPU)\n\nits driver\n"),
-        std::string::npos);
+    EXPECT_NE(timed.find("### a device: nanoseconds per million pixels, medians (renders on the CPU)\n\nits driver\n"),
+              std::string::npos);
     EXPECT_EQ(cellsOfRow(timed, "### a device", "smooth-fused"), (Cells{"smooth-fused", "100", "0.50", "600", "1.50"}));
     EXPECT_EQ(cellsOfRow(timed, "### a device", "mikktspace"), (Cells{"mikktspace", "200", "1.00", "400", "1.00"}));
     report.timing[0].silence = "it has no clock";

@@ -166,10 +166,10 @@ void add(const Mesh& mesh, Errors& sums, double& area)
             const glm::dvec3 truth =
                 f64::cotan_apply(f64::cotan_frame_cotangent(glm::normalize(glm::dvec3(n)), e1, e2, d1, d2), m);
             const TriangleVectors& t = triangles[f / 3];
-            const std::array<glm::vec3, kMethods> found = {byTangent(n, at(mesh.tangents, v), m),
-                                                        byTangent(n, at(remade, corner), m),
-                                                        f32::cotan_perturb_triangle(n, t.u, t.v, m),
-                                                        f32::cotan_perturb_smooth(n, at(unit.u, s), at(unit.v, s), m)};
+            const std::array<glm::vec3, kMethods> found = {
+                byTangent(n, at(mesh.tangents, v), m), byTangent(n, at(remade, corner), m),
+                f32::cotan_perturb_triangle(n, t.u, t.v, m),
+                f32::cotan_perturb_smooth(n, at(unit.u, s), at(unit.v, s), m)};
             for (std::size_t method = 0; method < kMethods; ++method)
                 sums[method] += degrees(found[method], truth) * size / 4;
         }

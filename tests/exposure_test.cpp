@@ -55,7 +55,7 @@ TEST(Exposure, whiteClayIsBrightWithoutClippingAndRubberIsBlack)
     std::vector<float> exposures;
     for (const auto& renderer : renderers()) {
         const DisplayedBall clay = drawBall(*renderer, 0.9f, 3), grey = drawBall(*renderer, 0.2f, 3),
-                    rubber = drawBall(*renderer, 0.02f, 3);
+                            rubber = drawBall(*renderer, 0.02f, 3);
         EXPECT_LT(clay.maximum, 252) << renderer->device();
         EXPECT_GT(clay.mean, 165) << renderer->device();
         EXPECT_LT(rubber.mean, 75) << renderer->device();

@@ -16,9 +16,9 @@ namespace {
 using namespace cotan::testing;
 
 struct Sheet {
-    float tilt = 0;   // degrees by which the map tilts the normal
+    float tilt = 0;    // degrees by which the map tilts the normal
     float azimuth = 0; // degrees: towards the eye, across, away
-    float view = 0;   // degrees from the surface's normal to the eye
+    float view = 0;    // degrees from the surface's normal to the eye
     float metallic = 0;
     float roughness = 1;
 };

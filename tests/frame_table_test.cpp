@@ -50,11 +50,11 @@ std::vector<Requirement> requirementsOf(const FrameInfo& f)
         : historical                                       ? "shaders/cotan/history.h"
                                                            : "shaders/cotan/frame.h";
     std::vector<Requirement> requirements = {{text, " cotan_frame_" + word + "("},
-                                 {"docs/explanation/cost.md", "| " + name + " "},
-                                 {"docs/reference/conventions.md", rowOfDocs(f)},
-                                 {"docs/accuracy.csv", "," + name + ","},
-                                 {"tests/portable_main.glsl", "cotan_frame_" + word + "("},
-                                 {"tests/portable_main.hlsl", "cotan_frame_" + word + "("}};
+                                             {"docs/explanation/cost.md", "| " + name + " "},
+                                             {"docs/reference/conventions.md", rowOfDocs(f)},
+                                             {"docs/accuracy.csv", "," + name + ","},
+                                             {"tests/portable_main.glsl", "cotan_frame_" + word + "("},
+                                             {"tests/portable_main.hlsl", "cotan_frame_" + word + "("}};
     if (f.fused)
         for (const char* file : {"shaders/cotan/fused.h", "tests/portable_main.glsl", "tests/portable_main.hlsl"})
             requirements.push_back({file, "cotan_perturb_" + word + "("});

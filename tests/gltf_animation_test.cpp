@@ -115,8 +115,8 @@ TEST(GltfAnimation, combinesTheChannelsOfANode)
 {
     const float half = std::numbers::sqrt2_v<float> / 2;
     const Gltf g = animated({{"translation", {0}, {5, 6, 7}, "VEC3"},
-                          {"rotation", {0}, {0, 0, half, half}, "VEC4"},
-                          {"scale", {0}, {2, 3, 4}, "VEC3"}});
+                             {"rotation", {0}, {0, 0, half, half}, "VEC4"},
+                             {"scale", {0}, {2, 3, 4}, "VEC3"}});
     expectNear(movedPoint(g, 0, {1, 1, 1}), {5 - 3, 6 + 2, 7 + 4}); // scaled, rotated by 90 degrees, moved
 }
 

@@ -48,7 +48,7 @@ TEST(GltfLayout, partsOfAViewAreCompactedIfOneIsRemoved)
     std::vector<float> squares(12);
     for (std::size_t i = 0; i < 12; ++i)
         squares[i] = float(i * i);
-    words.insert(words.end(), squares.begin(), squares.end());                 // from byte 72
+    words.insert(words.end(), squares.begin(), squares.end());               // from byte 72
     words.insert(words.end(), kSquareNormals.begin(), kSquareNormals.end()); // from byte 120
     words.insert(words.end(), {0, 0});                                       // shorts from byte 170
     const std::uint16_t late[] = {7, 8};

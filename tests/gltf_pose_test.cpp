@@ -67,9 +67,9 @@ TEST(GltfPose, aChannelWithoutANodeIsIgnored)
                            {"pointer", {0}, {7, 7, 7}, "VEC3"}});
     COTAN_LOADED(scene, acted(g, 0));
     EXPECT_EQ(scene.instances.at(0).toWorld[3], glm::vec4(1, 2, 3, 1));
-    EXPECT_EQ(scene.warnings,
-              std::vector<std::string>{
-                  "animations[1].channels[2]: animation of the path \"pointer\" is not supported"});
+    EXPECT_EQ(
+        scene.warnings,
+        std::vector<std::string>{"animations[1].channels[2]: animation of the path \"pointer\" is not supported"});
 }
 
 // A key stores all in-tangents, then all values, then all out-tangents (glTF 2.0, appendix C.5).

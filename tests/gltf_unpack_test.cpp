@@ -131,8 +131,7 @@ TEST_P(DracoGeometryIs, decodedIfTheVerticesChanged)
     const auto written = writeGltf(*document, folder.path / "out.glb");
     ASSERT_TRUE(written) << written.error().message;
     ASSERT_EQ(written->notes.size(), 1u);
-    EXPECT_NE(written->notes[0].find("1 of 1 primitives changed and are written uncompressed"),
-              std::string::npos)
+    EXPECT_NE(written->notes[0].find("1 of 1 primitives changed and are written uncompressed"), std::string::npos)
         << written->notes[0];
     const ReadBack out = readBack(folder.path / "out.glb");
     EXPECT_EQ(out.buffer.find(dracoStream(s, GetParam())), std::string::npos); // nothing uses it

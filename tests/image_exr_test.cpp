@@ -169,8 +169,7 @@ TEST_F(ImageIo, exrAttributesOfWrongSizeAreRefused)
                 const auto image = decodeImage(bytesOf(file), "a.exr");
                 ASSERT_FALSE(image);
                 // A true size passes this check; OpenEXR itself reports what else is missing.
-                EXPECT_EQ(image.error().message.find("which do not fit its type") != std::string::npos,
-                          stored != size)
+                EXPECT_EQ(image.error().message.find("which do not fit its type") != std::string::npos, stored != size)
                     << type << ' ' << stored << ": " << image.error().message;
                 EXPECT_FALSE(openRows(write("a.exr", file)));
             }

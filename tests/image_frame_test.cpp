@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "image/component_types.hpp"
-#include "ktx2_maker.hpp"
 #include "image_io.hpp"
+#include "ktx2_maker.hpp"
 #include "png_maker.hpp"
 
 namespace cotan::test {

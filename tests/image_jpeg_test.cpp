@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "jpeg_maker.hpp"
 #include "image_io.hpp"
+#include "jpeg_maker.hpp"
 
 namespace cotan::test {
 namespace {
@@ -117,9 +117,8 @@ TEST_F(ImageIo, jpegScansAreLimitedTo100)
         return many + file.substr(behind);
     };
     EXPECT_EQ(messageOf(decodeImage(bytesOf(with(100)), "a.jpg")), "accepted");
-    EXPECT_EQ(
-        messageOf(decodeImage(bytesOf(with(101)), "a.jpg")),
-        "a.jpg: expected at most 100 scans and 4000000000 pixels in all, found 101 scans of 40 x 24 pixels");
+    EXPECT_EQ(messageOf(decodeImage(bytesOf(with(101)), "a.jpg")),
+              "a.jpg: expected at most 100 scans and 4000000000 pixels in all, found 101 scans of 40 x 24 pixels");
     std::string comment;
     for (int i = 0; i < 150; ++i)
         comment += "\xff\xda";

@@ -6,9 +6,9 @@
 
 #include "cotan/image.hpp"
 #include "deflate.hpp"
+#include "image_io.hpp"
 #include "ktx2_bytes.hpp"
 #include "ktx2_maker.hpp"
-#include "image_io.hpp"
 
 namespace cotan::test {
 namespace {

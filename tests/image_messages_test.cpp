@@ -8,8 +8,8 @@
 
 #include "cotan/image.hpp"
 #include "image/component_types.hpp"
-#include "ktx2_maker.hpp"
 #include "image_io.hpp"
+#include "ktx2_maker.hpp"
 #include "png_maker.hpp"
 #include "webp_maker.hpp"
 
@@ -242,8 +242,7 @@ TEST_F(ImageIo, everyWriterReportsAFullDevice)
         std::filesystem::create_symlink("/dev/full", file);
         const bool png = ending == ".png"s;
         const std::string full = file.string()
-            + (png ? ": writing failed"
-                   : ": expected to write the image, OpenImageIO found: No space left on device");
+            + (png ? ": writing failed" : ": expected to write the image, OpenImageIO found: No space left on device");
         for (const int side : {2, 300}) {
             Image image = makeImage(side, side, png ? PixelType::unorm8 : PixelType::float32);
             std::uint32_t state = 7;

@@ -135,8 +135,7 @@ TEST(Webp, errorsStateNumbersAndBeginBeyondEachBound)
     EXPECT_EQ(refusal(lossy(19)).find("the first part"), std::string::npos);
     std::string file = kLossy;
     file[21] = '\x02'; // the first partition claims 9 + 8 bytes, 12 are present
-    EXPECT_EQ(refusal(file),
-              broken + "the first part of its image takes 17 bytes, its chunk has 12 after the header");
+    EXPECT_EQ(refusal(file), broken + "the first part of its image takes 17 bytes, its chunk has 12 after the header");
     for (const std::size_t mark : {23u, 24u, 25u}) {
         file = kLossy;
         file[mark] ^= 1;

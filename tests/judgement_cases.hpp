@@ -51,7 +51,7 @@ inline std::vector<Corner> operator+(std::vector<Corner> a, const std::vector<Co
 }
 
 inline constexpr Convention kUnconverted{.expansion = Expansion::signedValues,
-                                     .greenUp = false}; // signed, green along v: stored without conversion
+                                         .greenUp = false}; // signed, green along v: stored without conversion
 
 // A float map; texel(x, y) returns the normal along (+u, +v, outwards).
 template<class Texel> Image floatMap(int width, int height, const Texel& texel)

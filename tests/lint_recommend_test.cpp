@@ -263,8 +263,7 @@ TEST(Recommend, reversedWAndReversedGreenCancelOut)
     EXPECT_TRUE(says(both.defects, "together they cancel out"));
     const LintReport less = advisedOn({storedAs(0.49, 0)}, {fitAs(9)}, other);
     EXPECT_FALSE(less.distrustStored); // neither is right everywhere, so nothing changes
-    EXPECT_TRUE(says(less.defects, "contradict the uv")
-                && says(less.defects, "Green seems to be flipped in bumps"))
+    EXPECT_TRUE(says(less.defects, "contradict the uv") && says(less.defects, "Green seems to be flipped in bumps"))
         << less.defects;
     EXPECT_TRUE(
         advisedOn({storedAs(0.51, 0)}, {fitAs(9)}, {greenAs(true, true, "bumps")}).distrustStored); // as declared

@@ -235,8 +235,7 @@ TEST(MapFaults, brokenConventionsAreRefusedAsTarget)
     const ToolRun run =
         runTool({"map", "convert", "map.png", "--from", "gltf", "--to", "gltf,srgb", "-o", "out.png"}, folder.path());
     EXPECT_EQ(run.code, 1);
-    EXPECT_NE(run.err.find("--to: srgb, linearised, bgr and grb describe broken maps"), std::string::npos)
-        << run.err;
+    EXPECT_NE(run.err.find("--to: srgb, linearised, bgr and grb describe broken maps"), std::string::npos) << run.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
 }
 

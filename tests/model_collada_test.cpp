@@ -133,9 +133,9 @@ TEST_F(ModelFile, colladaAccessorsStayWithinTheirArray)
     Collada collada;
     EXPECT_EQ(refusal("a.dae", collada.text()), "");
     collada.counted = 8;
-    EXPECT_NE(refusal("a.dae", collada.text())
-                  .find("accessor of #pa: expected an array of at least 9 numbers, found 8"),
-              std::string::npos);
+    EXPECT_NE(
+        refusal("a.dae", collada.text()).find("accessor of #pa: expected an array of at least 9 numbers, found 8"),
+        std::string::npos);
     collada.counted = 10;
     collada.positions += " 0";
     EXPECT_EQ(refusal("a.dae", collada.text()), "");

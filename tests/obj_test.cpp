@@ -365,9 +365,8 @@ TEST_F(ObjFile, aPolygonOfFiveThousandCornersIsQuick)
 TEST_F(ObjFile, quadraticTriangulationIsRefusedInTime)
 {
     const std::clock_t start = std::clock();
-    EXPECT_NE(
-        problem(faceText(star(100000, 0.5), 0, 0)).find("triangulation steps, at a polygon of 200000"),
-        std::string::npos);
+    EXPECT_NE(problem(faceText(star(100000, 0.5), 0, 0)).find("triangulation steps, at a polygon of 200000"),
+              std::string::npos);
     EXPECT_LT(double(std::clock() - start) / CLOCKS_PER_SEC, 5.0);
     EXPECT_EQ(problem(faceText(star(100000, 0.99999999), 0, 0)), ""); // a circle, up to rounding
 }

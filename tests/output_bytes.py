@@ -67,7 +67,7 @@ UNSTEADY = (
     (r'"seconds": *\{[^}]*\}', '"seconds": {}'),
     (r'("[A-Za-z_]*(?:second|bytes|memory)[A-Za-z_]*": *)[-+0-9.eE]+', r"\1N"),
     (r"[0-9.]+ s\b", "N s"),
-    (r"[0-9.]+( million rays a second|  ?MiB\b)", r"N\1"),
+    (r"[0-9.]+( million rays per second|  ?MiB\b)", r"N\1"),
     (r"[0-9]+ bytes, before .*", "N bytes"),
 )
 

@@ -294,11 +294,11 @@ TEST(ChosenText, functionSetsAreIncludedOnlyOnRequest)
 {
     // For each set, a function that no other set includes.
     const std::map<Set, std::string> exclusive = {{Set::gradient, "cotan_gradient_triplanar("},
-                                            {Set::blend, "cotan_blend_udn("},
-                                            {Set::light, "cotan_reflect_coat("},
-                                            {Set::environment, "cotan_environment_texel("},
-                                            {Set::tone, "cotan_tone_agx("},
-                                            {Set::shadow, "cotan_penumbra("}};
+                                                  {Set::blend, "cotan_blend_udn("},
+                                                  {Set::light, "cotan_reflect_coat("},
+                                                  {Set::environment, "cotan_environment_texel("},
+                                                  {Set::tone, "cotan_tone_agx("},
+                                                  {Set::shadow, "cotan_penumbra("}};
     for (const Set set : kSets) {
         Choice with, others;
         with.sets = {set};

@@ -44,7 +44,7 @@ inline bool neitherHasDirection(glm::vec4 a, glm::vec4 b)
 
 // Number of corners of a mesh at which our tangents differ from the oracle's, which start at oracle[first].
 inline std::size_t differingCorners(const MeshView& mesh, const std::vector<glm::vec4>& oracle, std::size_t first,
-                                const std::string& name)
+                                    const std::string& name)
 {
     const std::vector<glm::vec4> ours = mikktspaceTangents(mesh);
     EXPECT_EQ(ours.size(), mesh.indices.size()) << name;

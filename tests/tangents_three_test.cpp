@@ -89,7 +89,7 @@ TEST_F(MikktspacePairing, matchesThreeWhereTheReferenceMissesNeighbours)
 {
     const DifferenceCounts counts = compareWithNpm(unevenSheets(400));
     EXPECT_EQ(counts.fromThree, 0u) << "of " << counts.corners;
-    EXPECT_GT(counts.fromReference, 0u);                  // otherwise the test shows nothing
+    EXPECT_GT(counts.fromReference, 0u);                   // otherwise the test shows nothing
     EXPECT_LT(counts.fromReference, counts.corners / 500); // only corners at one vertex of some meshes
 }
 

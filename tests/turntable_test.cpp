@@ -68,7 +68,7 @@ double furthest(Scene scene, const Camera& camera, double aspect)
             const double depth = glm::dot(d, forward);
             EXPECT_GT(depth, 0);
             largest = std::max({largest, std::abs(glm::dot(d, right)) / (depth * tanY * aspect),
-                             std::abs(glm::dot(d, up)) / (depth * tanY)});
+                                std::abs(glm::dot(d, up)) / (depth * tanY)});
         });
     }
     return largest;

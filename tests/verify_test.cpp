@@ -118,7 +118,7 @@ TEST(VerifyConversion, imagesOfADifferentNumberOrSizeAreRefused)
     const auto small = drawSides(*renderer, {scene, Frame::cotangent}, all->cameras, kPixels / 2);
     ASSERT_TRUE(few && small);
     for (const auto& [other, expected] : {std::pair(&*few, "expected as many images after as before, 5; found 1"),
-                                      {&*small, "expected images of the same size, 96 x 96; found 48 x 48"}}) {
+                                          {&*small, "expected images of the same size, 96 x 96; found 48 x 48"}}) {
         const auto compared = compareSides(*all, *other);
         ASSERT_FALSE(compared);
         EXPECT_EQ(compared.error().kind, ErrorKind::usage);

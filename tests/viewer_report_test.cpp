@@ -87,11 +87,20 @@ TEST(ViewerReport, hasALineForEachField)
     other.camera.orthographic = true;
     other.camera.verticalExtent = 3.5f;
     const std::string bare = reportOf(other);
-    const std::vector<std::pair<const char*, const char*>> empty = {
-        {"model", "built-in"},           {"triangles", "none"}, {"compare", "off"},     {"camera moved", "no"},
-        {"lens", "orthographic 3.5000"}, {"playing", "no"},     {"light pinned", "no"}, {"interface", "shown"},
-        {"cheat sheet", "hidden"},       {"look", "dark"},      {"degrees", "none"},    {"uv", "no such line"},
-        {"problem areas", "no such line"},   {"problem", "none"}};
+    const std::vector<std::pair<const char*, const char*>> empty = {{"model", "built-in"},
+                                                                    {"triangles", "none"},
+                                                                    {"compare", "off"},
+                                                                    {"camera moved", "no"},
+                                                                    {"lens", "orthographic 3.5000"},
+                                                                    {"playing", "no"},
+                                                                    {"light pinned", "no"},
+                                                                    {"interface", "shown"},
+                                                                    {"cheat sheet", "hidden"},
+                                                                    {"look", "dark"},
+                                                                    {"degrees", "none"},
+                                                                    {"uv", "no such line"},
+                                                                    {"problem areas", "no such line"},
+                                                                    {"problem", "none"}};
     for (const auto& [name, value] : empty)
         EXPECT_EQ(lineOf(bare, name), value) << name;
     other.picture.shape = "torus";

@@ -13,11 +13,11 @@
 #include "files/bytes.hpp"
 #include "gltf_open.hpp"
 #include "image/component_types.hpp"
-#include "likely_turn.hpp"
 #include "parse.hpp"
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
 #include "scene/texture_sample.hpp"
+#include "up_mismatch.hpp"
 
 namespace cotan::app {
 

@@ -87,7 +87,7 @@ double trianglesError(const Mesh& pose, const std::vector<std::array<std::uint32
     for (std::size_t f = 0; f < packed.size(); ++f) {
         const f32::cotan_packed_triangle p{packed[f][0], packed[f][1], packed[f][2]};
         maxDegrees = std::max({maxDegrees, errorOf(f32::cotan_unpack_triangle_u(p), expected[f].u),
-                         errorOf(f32::cotan_unpack_triangle_v(p), expected[f].v)});
+                               errorOf(f32::cotan_unpack_triangle_v(p), expected[f].v)});
     }
     return maxDegrees;
 }

@@ -16,7 +16,7 @@ std::span<const glm::vec3> vectors(const float* array, std::size_t count, const 
     return {reinterpret_cast<const glm::vec3*>(array), count};
 }
 
-template<class T> std::vector<T> copied(std::span<const T> values) { return {values.begin(), values.end()}; }
+template<class T> std::vector<T> toVector(std::span<const T> values) { return {values.begin(), values.end()}; }
 
 void putSplit(const VertexSplit& split, uint32_t* indices, uint32_t* sources, size_t* count)
 {
@@ -78,7 +78,7 @@ cotan_status cotan_pack_smooth8(size_t count, const float* normals, const float*
                                 char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
-        const Cotangents cotangents{copied(vectors(u, count, "u")), copied(vectors(v, count, "v"))};
+        const Cotangents cotangents{toVector(vectors(u, count, "u")), toVector(vectors(v, count, "v"))};
         put(packSmooth8(vectors(normals, count, "normals"), cotangents), packed, "packed");
     });
 }
@@ -87,7 +87,7 @@ cotan_status cotan_pack_smooth4(size_t count, const float* normals, const float*
                                 char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
-        const Cotangents cotangents{copied(vectors(u, count, "u")), copied(vectors(v, count, "v"))};
+        const Cotangents cotangents{toVector(vectors(u, count, "u")), toVector(vectors(v, count, "v"))};
         put(packSmooth4(vectors(normals, count, "normals"), cotangents), packed, "packed");
     });
 }

@@ -154,7 +154,7 @@ def test_unfinished_jobs_are_rows_of_the_report(farm, code):
         (3, cotan.UnavailableError, "what is wrong"),
         (4, cotan.OutputError, "what is wrong"),
         (6, cotan.UnavailableError, "what is wrong"),
-        (-9, cotan.UnavailableError, "cotan ended with -9"),
+        (-9, cotan.UnavailableError, "cotan ended with exit code -9"),
     ],
 )
 def test_failure_of_a_whole_part_is_raised(farm, code, error, text):

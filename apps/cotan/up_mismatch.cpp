@@ -1,4 +1,4 @@
-#include "likely_turn.hpp"
+#include "up_mismatch.hpp"
 
 #include <algorithm>
 
