@@ -308,6 +308,18 @@ def equivalents():
     return {place.strip(): why for place, why in pairs}
 
 
+def stale_equivalents():
+    """The places whose line is no longer in its file."""
+    stale = []
+    for place in equivalents():
+        file, _, mistake = place.partition(": ")
+        lines = (HOME / file).read_text().splitlines() if (HOME / file).is_file() else []
+        lines = [" ".join(line.split())[:160] for line in lines]
+        if not any(len(line) > 3 and mistake.startswith(line + ": ") for line in lines):
+            stale.append(place)
+    return stale
+
+
 def report(results, outside, known, seed):
     parts = sorted({d.part for d, _ in results} | {d.part for d in outside})
     count = lambda which: collections.Counter(d.part for d in which)
