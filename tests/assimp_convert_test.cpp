@@ -218,6 +218,8 @@ TEST_F(AssimpStructures, meshesKeepTheirTrianglesAndWarnAboutNonFiniteValues)
     EXPECT_TRUE(convertMesh(*mesh, false, scene).positions.empty());
 }
 
+TEST(AssimpMessages, lineBreaksBecomeSpaces) { EXPECT_EQ(withoutBreaks("a\nb\r\nc\r"), "a b  c "); }
+
 TEST_F(AssimpStructures, nodesPlaceMeshesAndCamerasUpToALimit)
 {
     aiScene source; // owns what it points to

@@ -47,9 +47,9 @@ if(Python3_FOUND)
   endforeach()
 endif()
 
-# The field's terms in comments, messages and names.
+# The field's terms in comments, messages, names and pages.
 if(Python3_FOUND)
-  foreach(fact comments messages names)
+  foreach(fact comments messages names pages)
     add_test(NAME Words.${fact}UseTheTermsOfTheField
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/words_test.py ${PROJECT_SOURCE_DIR} ${fact}UseTheTermsOfTheField)
   endforeach()

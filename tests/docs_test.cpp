@@ -188,27 +188,6 @@ void expectNone(const fs::path& file, const std::vector<Wording>& wordings)
     }
 }
 
-// Private words of this project; readers know the field's terms.
-TEST(Documents, useTheTermsOfTheField)
-{
-    for (const fs::path& file : writtenPages())
-        expectNone(file,
-                   {{R"(\bsurroundings\b)", "environment"},
-                    {R"(\b(mend|mends|mended)\b)", "fix"},
-                    {R"(\bhot spots?\b)", "problem areas"},
-                    {R"(\bturned normals?\b)", "perturbed normal"},
-                    {R"(\bstretched highlights?\b)", "anisotropic highlight"},
-                    {R"(\b(a|the|this) pictures?\b)", "image"},
-                    {R"(\bpictures\b)", "images"},
-                    {R"(\bover and over\b)", "loop"},
-                    {R"(\bsome [0-9])", "about"},
-                    {R"(\bthe house\b)", "architecture"},
-                    {R"(\bnearness\b)", "reversed depth"},
-                    {R"(\b(a share of|shares? of the)\b)", "fraction, percent"},
-                    {R"(\bso (many|much)\b)", "the number"},
-                    {R"(\bthrows? (a|no|the) shadows?\b)", "casts"}});
-}
-
 // Phrases that leave the reader guessing.
 TEST(Documents, haveNoVaguePhrases)
 {

@@ -17,6 +17,7 @@
 
 #include "cotan/image.hpp"
 #include "cotan/model.hpp"
+#include "files/file_registry.hpp"
 #include "files/sandbox/confine.hpp"
 #include "files/sandbox/process.hpp"
 #include "run_tool.hpp"
@@ -79,6 +80,19 @@ TEST_F(Sandboxed, misbehavingReadersGiveOneLineErrors)
     EXPECT_EQ(problem("garbage"), the + "returned invalid data");
     EXPECT_EQ(problem("index"), "mesh 0: triangle 1: expected an index below 25, found 25");
     EXPECT_EQ(problem("flood"), "");
+}
+
+TEST_F(Sandboxed, watchersGetTheFilesThatTheChildReadsAndNoEmptyName)
+{
+    std::ofstream(folder / "m.mtl") << "newmtl red\n";
+    std::ofstream(model, std::ios::app) << "mtllib m.mtl\nusemtl red\n";
+    std::vector<std::filesystem::path> read;
+    watchInputs([&](const std::filesystem::path& file) { read.push_back(file); });
+    const bool loaded = bool(loadScene(model, limits));
+    watchInputs({});
+    ASSERT_TRUE(loaded);
+    EXPECT_NE(std::ranges::find(read, folder / "m.mtl"), read.end());
+    EXPECT_EQ(std::ranges::find(read, std::filesystem::path()), read.end());
 }
 
 TEST_F(Sandboxed, timeAndMemoryLimitsAreEnforced)

@@ -1,8 +1,6 @@
 #!/usr/bin/env python3
-"""words_test.py SOURCES FACT: whether the sources use the field's terms. Prints each line that does not, with a better word.
-
-The documents have the same test in docs_test.cpp. A word that the field uses in another meaning has an exception here.
-"""
+"""words_test.py SOURCES FACT: whether sources and pages use the field's terms. Prints each line that does not, with a better
+word. Exceptions are words that the field uses in another meaning."""
 import pathlib
 import re
 import subprocess
@@ -29,19 +27,33 @@ TERMS = [
     (r"the house", "architecture"),
     (r"nearness", "reversed depth"),
     (r"(a|the) shares? (of|that)", "fraction"),
-    (r"so (many|much) (?!as|that)\w+ed", "the number"),
+    (r"so (many|much) (?!as|that)\w+", "the number"),
     (r"nobody (knows|sees|asks|reads|wants|needs|would)", "unknown, invisible, unused"),
     (r"(is|are|was|were) told", "given, requested"),
     (r"what is (told|left|asked|said|meant)", "a noun"),
     (r"throws? (a|no|the) shadows?", "casts"),
     (r"cut off at", "clamped to"),
-    (r"so it shows|as it shows", "a noun"),
+    (r"(so|as) it shows(?=[.,;:]|$)", "a noun"),
 ]
+# In hand-written pages also these, since pages do not speak of files and functions with such names.
+PAGE_TERMS = [
+    (r"(a|the|this) pictures?", "image"),
+    (r"pictures", "images"),
+    (r"shares? of the", "fraction, percent"),
+    (r"so (many|much)", "the number"),
+]
+GENERATED = {f"docs/reference/{page}.md" for page in ("c", "cpp", "javascript", "command-line")}
 # Identifiers that no longer exist, in any part of a name.
 NAMES = re.compile(r"\w*(kMost[A-Z]|inWords|loadTold|Surroundings|Nearness|HotSpot|[a-z]Told|TurnedNormal)\w*|"
                    r"\b(Wish|Artist|Studio|Painter|Drawer)\b")
-PATTERNS = [(re.compile(rf"\b({pattern})\b", re.I), better) for pattern, better in TERMS]
 wrong, checked = [], 0
+
+
+def compiled(terms):
+    return [(re.compile(rf"\b({pattern})\b", re.I), better) for pattern, better in terms]
+
+
+PATTERNS, PAGE_PATTERNS = compiled(TERMS), compiled(TERMS + PAGE_TERMS)
 
 
 def sources():
@@ -55,23 +67,27 @@ def sources():
 
 
 def comments(path, text):
-    """(line number, comment) of a source; a comment that goes on is one, so that a phrase may be broken over lines."""
+    """(line number, comment) of a source; lines whose marks are under each other are one comment, so that a
+    phrase may be broken over them."""
     opening = r"//+" if path.suffix in SLASHES else r"#"
-    start, parts = 0, []
+    start, column, parts = 0, -1, []
     for number, line in enumerate(text.split("\n"), 1):
-        found = re.search(rf"(?:^|\s){opening}(?!include|define|if|endif|else|pragma|version|!)\s?(.*)$", line)
-        if found and parts and line[: found.start(1)].strip(" /#") == "":
+        found = re.search(rf"(?<!\S){opening}(?!include|define|if|endif|else|pragma|version|!)\s?(.*)$", line)
+        if found and parts and found.start() == column and not line[:column].strip():
             parts.append(found.group(1))
             continue
         if parts:
             yield start, " ".join(parts)
-        start, parts = number, [found.group(1)] if found else []
+        start, column, parts = number, found.start() if found else -1, [found.group(1)] if found else []
     if parts:
         yield start, " ".join(parts)
+    block = r'"""(.*?)"""' if path.suffix == ".py" else r"(?:^|\s)/\*+(.*?)\*/" if path.suffix in SLASHES else r"(?!)"
+    for found in re.finditer(block, text, re.S):
+        yield text.count("\n", 0, found.start()) + 1, " ".join(found.group(1).split())
 
 
-def check(name, number, text, what):
-    for pattern, better in PATTERNS:
+def check(name, number, text, what, patterns=PATTERNS):
+    for pattern, better in patterns:
         for found in pattern.finditer(text):
             wrong.append(f"{name}:{number}: {what} '{found.group(0)}'; write {better}")
 
@@ -114,7 +130,20 @@ def namesUseTheTermsOfTheField():
                     wrong.append(f"{name}:{number}: name '{found.group(0)}'")
 
 
-FACTS = (commentsUseTheTermsOfTheField, messagesUseTheTermsOfTheField, namesUseTheTermsOfTheField)
+def pagesUseTheTermsOfTheField():
+    global checked
+    pages = [ROOT / name for name in ("README.md", "CONTRIBUTING.md", "SECURITY.md", "bindings/js/README.md", "bindings/python/README.md")]
+    pages += sorted(page for folder in ("docs", "examples") for page in (ROOT / folder).rglob("*.md"))
+    for page in pages:
+        name = str(page.relative_to(ROOT))
+        if name not in GENERATED:
+            text = page.read_text().partition("<!-- cotan cost: from here")[0]
+            text = re.sub(r"```[^`]*```|`[^`]*`|\]\([^)]*\)", "", text)
+            checked += len(text.splitlines())
+            check(name, 1, " ".join(text.split()), "page", PAGE_PATTERNS)
+
+
+FACTS = (commentsUseTheTermsOfTheField, messagesUseTheTermsOfTheField, namesUseTheTermsOfTheField, pagesUseTheTermsOfTheField)
 if __name__ == "__main__":
     chosen = [f for f in FACTS if f.__name__ == sys.argv[2]] if len(sys.argv) > 2 else FACTS
     if not chosen:
