@@ -1,6 +1,7 @@
 #include "bake/convert/map_jobs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <set>
@@ -143,7 +144,8 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapSlo
                            .transforms = transforms,
                            .vertices = mesh->vertexCount(),
                            .triangles = mesh->triangleCount(),
-                           .stored = !mesh->tangents.empty()});
+                           .stored = !mesh->tangents.empty(),
+                           .green = storedGreen(*mesh, mesh->texcoords[0])});
     return Done{};
 }
 
@@ -231,6 +233,11 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
     std::vector<MapJob> result;
     for (auto& [image, job] : jobs) {
         job.alsoElsewhere = elsewhere.contains(int(image));
+        StoredGreen whole;
+        for (const MapReader& reader : job.readers)
+            whole.add(reader.green);
+        for (MapReader& reader : job.readers)
+            reader.reversed = readsReversed(reader.green, whole);
         result.push_back(std::move(job));
     }
     return result;
@@ -242,6 +249,17 @@ std::size_t surfacesOf(const MapJob& job)
     for (const MapReader& reader : job.readers)
         count += reader.transforms.size();
     return count;
+}
+
+GreenWithoutTangents greenWithoutTangents(const MapJob& job)
+{
+    bool reversed = false, declared = false;
+    for (const MapReader& reader : job.readers) {
+        (reader.reversed ? reversed : declared) |= std::abs(reader.strength) > kFlattened;
+    }
+    return !reversed ? GreenWithoutTangents::declared
+        : declared   ? GreenWithoutTangents::both
+                     : GreenWithoutTangents::reversed;
 }
 
 Result<std::vector<MapUse>> usesOf(const GltfDocument& document, const MapJob& job, const FramePair& frames)
@@ -341,7 +359,8 @@ std::string whyDirectionNeedsTangents(const RotatedDirection& d, Frame to)
 
 } // namespace
 
-Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frames, std::vector<std::string>& notes)
+Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frames,
+                                  const std::vector<KeptTangents>& kept, std::vector<std::string>& notes)
 {
     TangentBytes dropped;
     std::set<std::size_t> seen, reported;
@@ -358,6 +377,9 @@ Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frame
             if (reported.insert(material).second)
                 notes.push_back(fmt::format("materials[{}]: {}; TANGENT is kept", material, reason));
         };
+        for (const KeptTangents& k : kept)
+            if (k.mesh == m && k.primitive == p)
+                keepFor(k.material, k.reason);
         for (const std::size_t material : materialsOf(root, primitive)) {
             for (const MapSlot& slot : foreign)
                 if (slot.material == material)

@@ -10,6 +10,7 @@
 #include "bake/convert/reencode.hpp"
 #include "cotan/convert.hpp"
 #include "cotan/gltf.hpp"
+#include "scene/normal_maps.hpp"
 
 namespace cotan {
 
@@ -29,7 +30,9 @@ struct MapReader {
     Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
     std::vector<glm::dmat3> transforms; // node transforms; each makes a surface
     std::size_t vertices = 0, triangles = 0;
-    bool stored = false; // has TANGENT
+    bool stored = false;   // has TANGENT
+    StoredGreen green{};   // what TANGENT shows of the map's green
+    bool reversed = false; // TANGENT reverses green: readsReversed
 };
 
 // An image and everything that reads it as a normal map.
@@ -51,6 +54,10 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
 // The number of surfaces that read the job's image.
 std::size_t surfacesOf(const MapJob& job);
 
+// Whether without TANGENT every surface that shows the map reads it with green reversed; none does; or both are there.
+enum class GreenWithoutTangents { declared, reversed, both };
+GreenWithoutTangents greenWithoutTangents(const MapJob& job);
+
 // The surfaces, with the vertex data that frames.from and frames.to read. Errors: those of mapJobs.
 Result<std::vector<MapUse>> usesOf(const GltfDocument& document, const MapJob& job, const FramePair& frames);
 
@@ -69,9 +76,16 @@ std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document);
 // The images of these slots, in the order of the file's images.
 std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document);
 
-// Drops TANGENT from all primitives except those whose materials need it: for a normal map in a format that is not read
-// here, or for a direction that frames.to rotates (`notes` says so, one line each). Errors (ErrorKind::input):
-// compressed geometry.
-Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frames, std::vector<std::string>& notes);
+// A primitive that keeps TANGENT, and why: the end of a note about `material`.
+struct KeptTangents {
+    std::size_t mesh = 0, primitive = 0, material = 0;
+    std::string reason;
+};
+
+// Drops TANGENT from all primitives except those of `kept`, and those whose materials need it: for a normal map in a
+// format that is not read here or for a direction that frames.to rotates (`notes` says so, one line
+// each). Errors (ErrorKind::input): compressed geometry.
+Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frames,
+                                  const std::vector<KeptTangents>& kept, std::vector<std::string>& notes);
 
 } // namespace cotan

@@ -422,8 +422,9 @@ typedef struct cotan_convert_options {
     void* user;
     const char* expansion; /* how engines expand the values of the maps: "biased" (2c - 1) or "exact"; null: "biased" */
     /* Since version 5. */
-    int keep_maps; /* not 0: all maps are kept, byte for byte, to be read with `to`, which must not read tangents; only
-                      tangents are removed. If `to` is null: "orthonormal" */
+    int keep_maps; /* not 0: maps are kept, byte for byte, to be read with `to`, which must not read tangents; only
+                      tangents are removed. Where these reverse green of a map, its green is reversed, or they stay. If
+                      `to` is null: "orthonormal" */
 } cotan_convert_options;
 
 typedef struct cotan_convert_result {
