@@ -1,5 +1,7 @@
 #include "bake/reports.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "scene/geometry.hpp"
@@ -86,6 +88,31 @@ Json toJson(const GreenEvidence& g)
             {"reversed_by_tangents", g.reversedByTangents}};
 }
 
+Json number(double value) { return std::isnan(value) ? Json(nullptr) : Json(value); }
+
+Json toJson(const FrameDecision& d)
+{
+    constexpr const char* kMeanings[] = {"named", "stored", "mikktspace"};
+    constexpr const char* kReasons[] = {"no_map", "named", "fits", "keeps", "not_judged"};
+    Json candidates = Json::array();
+    for (const FrameCandidate& c : d.candidates)
+        candidates.push_back({{"frame", name(c.frame)},
+                              {"stored", c.tangents == TangentOrigin::stored},
+                              {"points", c.points},
+                              {"mean", number(c.mean)},
+                              {"percentile95", number(c.percentile95)},
+                              {"percentile99", number(c.percentile99)},
+                              {"maximum", number(c.maximum)}});
+    return {{"mesh", d.mesh},
+            {"meaning", kMeanings[std::size_t(d.meaning)]},
+            {"reason", kReasons[std::size_t(d.reason)]},
+            {"frame", name(d.frame)},
+            {"tangents_stay", !d.dropsTangents()},
+            {"candidates", candidates},
+            {"not_judged", d.notJudged},
+            {"text", textOf(d)}};
+}
+
 Json toJson(const MapFit& f)
 {
     return {{"image", f.image},
@@ -135,13 +162,15 @@ std::vector<std::string> warningsOf(const LintReport& report, std::vector<std::s
 
 Json listsOf(const LintReport& report)
 {
-    Json lists = {{"primitives", Json::array()}, {"maps", Json::array()}, {"fits", Json::array()}};
+    Json lists = {{"primitives", Json::array()}, {"maps", Json::array()}, {"fits", Json::array()}, {"decisions", Json::array()}};
     for (const PrimitiveLint& p : report.primitives)
         lists["primitives"].push_back(toJson(p));
     for (const GreenEvidence& g : report.maps)
         lists["maps"].push_back(toJson(g));
     for (const MapFit& f : report.fits)
         lists["fits"].push_back(toJson(f));
+    for (const FrameDecision& d : report.decisions)
+        lists["decisions"].push_back(toJson(d));
     return lists;
 }
 

@@ -99,15 +99,6 @@ constexpr float kOneCopy = 1.01f; // slightly above 1: uv of a chart that fills 
 
 bool hasNormalMap(const Material& m) { return mapOf(m).present(); }
 
-// The frame that the material names, or otherwise its map.
-std::optional<Frame> namedBy(const Scene& scene, const Material& m)
-{
-    if (m.normalFrame || !hasNormalMap(m))
-        return hasNormalMap(m) ? m.normalFrame : std::nullopt;
-    const std::size_t image = std::size_t(mapOf(m).image);
-    return image < scene.images.size() ? frameFromName(scene.images[image].frame) : std::nullopt;
-}
-
 // World-space area of each material.
 std::vector<double> areasOf(const Scene& scene)
 {
@@ -142,6 +133,14 @@ bool repeatsNormalMaps(const Scene& scene)
 }
 
 } // namespace
+
+std::optional<Frame> namedFrameOf(const Scene& scene, const Material& m)
+{
+    if (m.normalFrame || !hasNormalMap(m))
+        return hasNormalMap(m) ? m.normalFrame : std::nullopt;
+    const std::size_t image = std::size_t(mapOf(m).image);
+    return image < scene.images.size() ? frameFromName(scene.images[image].frame) : std::nullopt;
+}
 
 StoredGreen storedGreen(const Mesh& mesh, const std::vector<glm::vec2>& uv)
 {
@@ -180,7 +179,7 @@ std::vector<std::string> reconcileGreenWithTangents(Scene& scene)
     for (std::size_t i = 0; i < own.size(); ++i) {
         const Material& m = scene.materials[materialOf(i)];
         const StoredGreen& ofMap = maps[mapOf(m).image];
-        const std::optional<Frame> named = namedBy(scene, m); // tangents mean nothing to maps for other frames
+        const std::optional<Frame> named = namedFrameOf(scene, m); // tangents mean nothing to maps for other frames
         chosen[i] = readsReversed(own[i], ofMap) && !m.anisotropy.map.present() && (!named || readsTangents(*named));
         if (!mapOf(m).present())
             continue;
@@ -219,7 +218,7 @@ void restoreDeclaredGreen(Scene& scene, int material)
 
 std::optional<NamedFrame> namedFrame(const Scene& scene)
 {
-    if (std::ranges::none_of(scene.materials, [&](const Material& m) { return namedBy(scene, m).has_value(); }))
+    if (std::ranges::none_of(scene.materials, [&](const Material& m) { return namedFrameOf(scene, m).has_value(); }))
         return std::nullopt;
     const std::vector<double> areas = areasOf(scene);
     std::array<double, kFrameCount> area{};
@@ -228,7 +227,7 @@ std::optional<NamedFrame> namedFrame(const Scene& scene)
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& m = scene.materials[i];
         all += hasNormalMap(m) ? 1 : 0;
-        if (const auto frame = namedBy(scene, m)) {
+        if (const auto frame = namedFrameOf(scene, m)) {
             area[std::size_t(*frame)] += areas[i];
             ++materials[std::size_t(*frame)];
         }

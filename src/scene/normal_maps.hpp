@@ -65,6 +65,9 @@ struct NamedFrame {
 };
 std::optional<NamedFrame> namedFrame(const Scene& scene);
 
+// The frame that the file names for the maps of one material, likewise.
+std::optional<Frame> namedFrameOf(const Scene& scene, const Material& material);
+
 // Where the normal maps of a scene come from.
 enum class MapSource {
     model, // a model's file: made for MikkTSpace unless it names a frame, as glTF specifies

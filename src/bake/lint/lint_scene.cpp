@@ -248,7 +248,7 @@ std::size_t lintBytes(const Scene& scene)
 
 LintReport lintScene(const Scene& scene, const LintOptions& options)
 {
-    return *lintScene(scene, {.distance = options.distance}, {});
+    return *lintScene(scene, {.distance = options.distance, .limits = options.limits}, {});
 }
 
 Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, const Progress& progress)
@@ -310,6 +310,7 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
     if (!counted.add(kOfWhole * counted.all))
         return stoppedError();
     addFits(report, scene, std::move(uses), std::move(coats));
+    report.decisions = chooseFrames(scene, {.limits = options.limits, .all = true});
     counted.done = counted.all; // also without triangles
     if (!counted.add(0))
         return stoppedError();

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "cotan/frame.hpp"
+#include "cotan/frame_choice.hpp"
 #include "cotan/maps.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene.hpp"
@@ -144,6 +145,7 @@ struct LintReport {
     std::vector<PrimitiveLint> primitives;
     std::vector<GreenEvidence> maps;
     std::vector<MapFit> fits;
+    std::vector<FrameDecision> decisions; // one for each mesh, with all candidates
     double distance = 0;        // viewing distance used, world units
     std::optional<Frame> named; // frame that the file names for its maps (namedFrame)
     Advice advice = Advice::nothing;
@@ -166,6 +168,7 @@ Frame frameOf(const LintReport& report);
 struct LintOptions {
     double distance = 0;    // world units from eye to surface; 0: where the whole model just fits the image
     std::size_t memory = 0; // bytes that lint may take besides the scene; 0: no limit
+    ChoiceLimits limits{};  // of LintReport::decisions
 };
 
 // About the maximum number of bytes that the triangles take in lintScene, besides the scene. The memory that every
