@@ -58,6 +58,11 @@ Differences triangleEdges(CotanTextureUse use)
 }
 #endif
 
+// The numbers of the frames.
+#define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, normal, fused, after, name, summary) \
+    const int COTAN_NUMBER_##word = number;
+#include "cotan/frames.inc"
+
 cotan_frame noFrame(vec3 n) { return cotan_frame(vec3(0.0), vec3(0.0), n); }
 
 // The frame COTAN_FRAME. The switch has a case for each row of the table of frames, chosen by the row's source.
@@ -87,6 +92,15 @@ cotan_frame frameOf(vec3 n, Differences d, CotanTextureUse use, bool base)
 #define COTAN_FROM_tangents(word) \
     if (!base) return cotan_frame_orthonormal(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy); \
     if (hasTangents) return cotan_frame_##word(inNormal, inTangent.xyz, alongV); break;
+    if (COTAN_FRAME == int(COTAN_FRAME_OF_MESH)) { // only these, because CPU drivers execute every case
+        switch (int(draw.flags >> COTAN_DRAW_FRAME_BIT)) {
+        case COTAN_NUMBER_cotangent: COTAN_FROM_differences(cotangent)
+        case COTAN_NUMBER_orthonormal: COTAN_FROM_differences(orthonormal)
+        case COTAN_NUMBER_smooth: COTAN_FROM_cotangents(smooth)
+        case COTAN_NUMBER_mikktspace: COTAN_FROM_tangents(mikktspace)
+        }
+        return noFrame(n);
+    }
 #define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, normal, fused, after, name, summary) \
     case number: COTAN_FROM_##source(word)
     switch (COTAN_FRAME) {

@@ -102,10 +102,13 @@ struct CotanDraw {
     uvec2 positions; // address of the mesh's positions, three floats per vertex
     uvec2 texcoords; // offsets of uv sets 0 and 1 from `positions`, in floats; two floats per vertex
     uvec2 indices;   // address of the mesh's indices
-    uint flags;      // COTAN_DRAW_...
+    uint flags;      // COTAN_DRAW_...; from bit COTAN_DRAW_FRAME_BIT on: the mesh's frame, for COTAN_FRAME_OF_MESH
     uint order;      // index of a translucent instance in drawing order
 };
 
+// A value of COTAN_FRAME: each mesh is drawn with a frame of its own, one of the four that are chosen by measurement.
+#define COTAN_FRAME_OF_MESH 255u
+#define COTAN_DRAW_FRAME_BIT 8u
 #define COTAN_DRAW_HAS_TANGENTS 1u
 #define COTAN_DRAW_HAS_COTANGENTS 2u
 #define COTAN_DRAW_HAS_TEXCOORDS0 4u

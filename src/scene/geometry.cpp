@@ -240,14 +240,17 @@ Camera orbitCamera(const Scene& scene, double azimuth, double elevation, int wid
     return framedCamera("orbit", scene, framedBounds(scene), {sinA * cosE, sinE, cosA * cosE}, up, width, height);
 }
 
-Status checkVertexAttributes(const Scene& scene, Frame frame)
+Status checkVertexAttributes(const Scene& scene, Frame ofView, bool framesOfMeshes)
 {
-    if (!readsVertices(frame))
+    if (!readsVertices(ofView) && !framesOfMeshes)
         return Done{};
     for (const Instance& instance : scene.instances) {
         const Mesh* mesh = meshPlacedBy(scene, instance);
         if (!mesh || mesh->triangleCount() == 0 || mesh->material < 0
             || std::size_t(mesh->material) >= scene.materials.size())
+            continue;
+        const Frame frame = frameOf(*mesh, ofView, framesOfMeshes);
+        if (!readsVertices(frame))
             continue;
         const std::size_t vertices = mesh->vertexCount();
         const bool hasUv =

@@ -173,10 +173,16 @@ inline const Light* shadowLight(const View& view)
 // normals are the same in all frames and comparing them is meaningless.
 bool drawsNormalMaps(const Scene& scene);
 
-// Checks that every drawn mesh with the uv of its normal map also has the vertex attributes that the frame reads;
-// without them a renderer would have no frame for the mesh. Errors: ErrorKind::usage, naming the mesh, if
-// deriveVertexFrames (cotan/view.hpp) was not called.
-Status checkVertexAttributes(const Scene& scene, Frame frame);
+// The frame that a view draws a mesh with.
+inline Frame frameOf(const Mesh& mesh, Frame ofView, bool framesOfMeshes)
+{
+    return framesOfMeshes && mesh.readWith ? *mesh.readWith : ofView;
+}
+
+// Checks that every drawn mesh with the uv of its normal map also has the vertex attributes that its frame reads (see
+// frameOf); without them a renderer would have no frame for the mesh. Errors: ErrorKind::usage, naming the mesh, if
+// deriveVertexFrames or deriveFramesOfMeshes (cotan/view.hpp) was not called.
+Status checkVertexAttributes(const Scene& scene, Frame ofView, bool framesOfMeshes = false);
 
 // Returns the name of an instance, or of its mesh if the instance has none; may be empty.
 inline const std::string& objectName(const Scene& scene, const Instance& instance)

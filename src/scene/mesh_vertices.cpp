@@ -313,19 +313,34 @@ void transformTangents(std::vector<glm::vec4>& tangents, const MeshView& mesh, g
     }
 }
 
-void deriveVertexFrames(Scene& scene, Frame frame, TangentOrigin tangents)
+namespace {
+
+void deriveVertexFrames(const Scene& scene, Mesh& mesh, Frame frame, TangentOrigin tangents)
 {
     if (!readsVertices(frame))
         return;
-    for (Mesh& mesh : scene.meshes) {
-        const std::vector<glm::vec2> uv = textureUv(scene.materials[std::size_t(mesh.material)].normalMap, mesh);
-        if (uv.empty() || mesh.indices.empty())
-            continue;
-        if (readsCotangents(frame))
-            deriveCotangents(mesh, uv);
-        else if (tangents == TangentOrigin::generated || mesh.tangents.empty())
-            deriveTangents(mesh, uv, frame);
-    }
+    const std::vector<glm::vec2> uv = textureUv(scene.materials[std::size_t(mesh.material)].normalMap, mesh);
+    if (uv.empty() || mesh.indices.empty())
+        return;
+    if (readsCotangents(frame))
+        deriveCotangents(mesh, uv);
+    else if (tangents == TangentOrigin::generated || mesh.tangents.empty())
+        deriveTangents(mesh, uv, frame);
+}
+
+} // namespace
+
+void deriveVertexFrames(Scene& scene, Frame frame, TangentOrigin tangents)
+{
+    for (Mesh& mesh : scene.meshes)
+        deriveVertexFrames(scene, mesh, frame, tangents);
+}
+
+void deriveFramesOfMeshes(Scene& scene, TangentOrigin tangents)
+{
+    for (Mesh& mesh : scene.meshes)
+        if (mesh.readWith)
+            deriveVertexFrames(scene, mesh, *mesh.readWith, tangents);
 }
 
 } // namespace cotan

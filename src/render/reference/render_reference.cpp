@@ -34,7 +34,7 @@ Prepared prepare(const Scene& scene, const View& view)
     Ball ball = boundingBall(scene);
     f.projection = cameraProjection(view, ball);
     f.textures = makeTextures(scene, view);
-    f.draws = makeDraws(scene, f.textures, f.projection.eye, view.frame, view.output == Output::shaded);
+    f.draws = makeDraws(scene, f.textures, f.projection.eye, view);
     f.lights = prepareLights(view, f.projection.eye);
     const auto caster = std::ranges::find(f.lights, true, &PreparedLight::castsShadow);
     if (view.output == Output::shaded && caster != f.lights.end())
@@ -183,7 +183,8 @@ Result<Image> renderReference(const Scene& scene, const View& view, int threads,
     for (const Status& ok : {checkSize(view), checkView(view), checkTrianglesDrawn(scene)})
         if (!ok)
             return ok.error();
-    if (Status has = checkVertexAttributes(scene, view.frame); !has) // checkView has verified the frame
+    if (Status has = checkVertexAttributes(scene, view.frame, view.framesOfMeshes);
+        !has) // checkView has verified the frame
         return has.error();
     try {
         return withThreads(threads, [&] { return draw(scene, view, progress); });

@@ -286,8 +286,7 @@ glm::dvec3 rayOrigin(const Projection& p, double x, double y)
     return p.orthographic ? offsetFromCentre(p, x, y) : glm::dvec3(0);
 }
 
-std::vector<Draw> makeDraws(const Scene& scene, const TextureLibrary& textures, glm::dvec3 eye, Frame frame,
-                            bool blending)
+std::vector<Draw> makeDraws(const Scene& scene, const TextureLibrary& textures, glm::dvec3 eye, const View& view)
 {
     std::vector<Draw> draws;
     for (const Instance& instance : scene.instances) {
@@ -295,11 +294,12 @@ std::vector<Draw> makeDraws(const Scene& scene, const TextureLibrary& textures, 
         if (!mesh || mesh->material < 0 || std::size_t(mesh->material) >= scene.materials.size()
             || mesh->triangleCount() == 0)
             continue;
+        const Frame frame = frameOf(*mesh, view.frame, view.framesOfMeshes);
         Draw& draw = draws.emplace_back(makeDraw(*mesh, instance.toWorld, eye, frame));
         draw.material = &scene.materials[std::size_t(mesh->material)];
         draw.maps = &textures.materials[std::size_t(mesh->material)];
     }
-    if (blending)
+    if (view.output == Output::shaded)
         std::stable_partition(draws.begin(), draws.end(), [](const Draw& d) { return !d.material->translucent(); });
     return draws;
 }

@@ -70,11 +70,10 @@ struct Draw {
 };
 
 // The draws of a scene: opaque and masked instances in the scene's order, then translucent ones, which are tested
-// against all opaque depth and write none. Instances without a valid mesh or triangles are omitted. frame: only the
-// attributes that it reads are computed. blending: false draws translucent materials as opaque ones, in the scene's
-// order.
-std::vector<Draw> makeDraws(const Scene& scene, const TextureLibrary& textures, glm::dvec3 eye, Frame frame,
-                            bool blending);
+// against all opaque depth and write none. Instances without a valid mesh or triangles are omitted. Only the
+// attributes that the mesh's frame reads are computed. Views that are not shaded draw translucent materials as opaque
+// ones, in the scene's order.
+std::vector<Draw> makeDraws(const Scene& scene, const TextureLibrary& textures, glm::dvec3 eye, const View& view);
 
 inline constexpr int kTileSize = 32; // pixels, even
 

@@ -34,6 +34,14 @@ void addMesh(gpu::CotanDraw& constants, vk::DeviceAddress base, const GpuMesh& m
         | (mesh.has(kCotangentU) && mesh.has(kCotangentV) ? COTAN_DRAW_HAS_COTANGENTS : 0u);
 }
 
+// The frame of a mesh as shaders select it. From the edges of a triangle, differences give the same frame.
+std::uint32_t frameBits(const GpuMesh& mesh, Frame ofView)
+{
+    const Frame frame = mesh.readWith.value_or(ofView);
+    const bool ofTriangle = info(frame).source == FrameSource::triangle;
+    return std::uint32_t(ofTriangle ? Frame::cotangent : frame) << COTAN_DRAW_FRAME_BIT;
+}
+
 // The maps that a pipeline reads, if the material has them.
 std::uint32_t mapsNeeded(const PipelineKey& key)
 {
@@ -61,7 +69,8 @@ PassKeys keysOf(const View& view, const Targets& targets)
     const bool levels = kind.output == vk::Format::eR8G8B8A8Unorm;
     PassKeys keys;
     PipelineKey& forward = keys.forward;
-    forward = {.frame = view.frame,
+    forward = {.frame = view.framesOfMeshes ? Frame{} : view.frame,
+               .framesOfMeshes = view.framesOfMeshes,
                .output = view.output,
                .coarse = view.derivatives == Derivatives::coarse,
                .normalMaps = view.normalMaps,
@@ -134,6 +143,7 @@ CommandRecorder::DrawLists CommandRecorder::makeLists(const GpuScene& scene, con
         const Buffer& buffer = scene.buffers[item.mesh->buffer];
         item.buffer = *buffer.buffer;
         addMesh(item.constants, buffer.address, *item.mesh);
+        item.constants.flags |= frameBits(*item.mesh, view.frame);
         // A mirroring matrix reverses the winding, and so does a raster whose rows run upward.
         item.clockwise = (item.constants.normalX.w < 0) != view.rowsUpward;
         const Bounds& box = item.mesh->box;

@@ -30,7 +30,7 @@ struct Specialization {
     vk::SpecializationInfo info;
 
     explicit Specialization(const PipelineKey& key)
-        : values{std::uint32_t(key.frame),
+        : values{key.framesOfMeshes ? COTAN_FRAME_OF_MESH : std::uint32_t(key.frame),
                  std::uint32_t(key.output),
                  std::uint32_t(key.shading),
                  std::uint32_t(key.alphaMode),
@@ -98,7 +98,8 @@ StageShaders shadersOf(const PipelineKey& key, bool exact)
                 key.multisampledSource ? Spirv(cotanResolveMultisampledFrag) : Spirv(cotanResolveFrag)};
     case Pass::forward: break;
     }
-    return {cotanForwardVert, forwardShader(key, info(key.frame).source == FrameSource::triangle)};
+    return {cotanForwardVert,
+            forwardShader(key, !key.framesOfMeshes && info(key.frame).source == FrameSource::triangle)};
 }
 
 bool hasDepth(Pass pass) { return pass != Pass::compose && pass != Pass::surround && pass != Pass::resolve; }

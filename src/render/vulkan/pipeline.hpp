@@ -50,6 +50,7 @@ struct PipelineKey {
     Pass pass = Pass::forward;
     AlphaMode alphaMode = AlphaMode::opaque;
     Frame frame = Frame::cotangent;
+    bool framesOfMeshes = false; // each mesh's own, instead of `frame`
     Output output = Output::shaded;
     Shading shading = Shading::pbr;
     bool coarse = false;

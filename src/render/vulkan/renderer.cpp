@@ -164,7 +164,8 @@ Result<Image> CommandRecorder::draw(GpuScene& scene, const View& view, RenderTim
 {
     if (const Status ok = checkLimits(*device_, view); !ok)
         return ok.error();
-    if (const Status& ok = scene.withFrame[std::size_t(view.frame)]; !ok)
+    const std::vector<Status>& has = view.framesOfMeshes ? scene.withFramesOfMeshes : scene.withFrame;
+    if (const Status& ok = has[std::size_t(view.frame)]; !ok)
         return ok.error();
     const Targets::Kind kind = targetKind(*device_, view);
     if (!targets_ || !(targets_->kind() == kind)) {

@@ -193,8 +193,10 @@ GpuScene::GpuScene(const Device& device, const Layouts& layouts, const Scene& sc
     : bounds(withinReach(cotan::bounds(scene))), device_(&device), memory_(device), samplers_(device),
       textures_(std::move(textures))
 {
-    for (const FrameInfo& f : frames())
+    for (const FrameInfo& f : frames()) {
         withFrame.push_back(checkVertexAttributes(scene, f.frame));
+        withFramesOfMeshes.push_back(checkVertexAttributes(scene, f.frame, /*framesOfMeshes*/ true));
+    }
     Uploader uploader(device, kStaging);
     textures_.load(scene, uploader);
     loadMeshes(scene, uploader);
@@ -218,6 +220,7 @@ void GpuScene::loadMeshes(const Scene& scene, Uploader& uploader)
             GpuMesh& gpu = meshes.emplace_back();
             gpu.indexCount = static_cast<std::uint32_t>(source.indices.size());
             gpu.material = mesh->material;
+            gpu.readWith = mesh->readWith;
             gpu.box = cotan::bounds(*mesh);
         }
         if (meshes[at].indexCount > 0)

@@ -103,7 +103,8 @@ struct GpuMesh {
     vk::DeviceSize indices = 0; // offset in the buffer
     std::uint32_t indexCount = 0;
     int material = 0;
-    Bounds box; // in the mesh's space
+    std::optional<Frame> readWith; // of the mesh
+    Bounds box;                    // in the mesh's space
 
     bool has(Stream stream) const { return strides[stream] != 0; }
 };
@@ -141,8 +142,9 @@ public:
     std::vector<GpuMesh> meshes;
     std::vector<GpuMaterial> materials; // same indices as in the scene
     std::vector<GpuInstance> instances;
-    Bounds bounds;                 // world space
-    std::vector<Status> withFrame; // for each frame: whether the scene has the vertex attributes that it reads
+    Bounds bounds;                          // world space
+    std::vector<Status> withFrame;          // for each frame: whether the scene has the vertex attributes that it reads
+    std::vector<Status> withFramesOfMeshes; // the same where meshes have frames of their own
 
 private:
     void loadMeshes(const Scene& scene, Uploader& uploader);

@@ -226,6 +226,7 @@ struct Mesh {
     std::vector<glm::vec3> cotangentsU; // derived for the frame `smooth`; otherwise empty
     std::vector<glm::vec3> cotangentsV;
     std::vector<std::uint32_t> indices; // three per triangle, each < vertexCount()
+    std::optional<Frame> readWith;      // frame for a view with View::framesOfMeshes; none: View::frame
 
     std::size_t vertexCount() const { return positions.size(); }
     std::size_t triangleCount() const { return indices.size() / 3; }

@@ -103,6 +103,7 @@ struct View {
     int height = 720;
     Camera camera;
     Frame frame = Frame::cotangent;
+    bool framesOfMeshes = false; // meshes with a frame of their own (Mesh::readWith) are drawn with that
     Output output = Output::shaded;
     Shading shading = Shading::pbr;
     Lighting lighting = Lighting::world;
@@ -208,5 +209,8 @@ enum class TangentOrigin {
 // these attributes. Meshes without triangles, or without the uv set of their normal map (set 0 if there is no map), are
 // left unchanged. For triangles without area in space or in uv, see cotan/tangents.hpp.
 void deriveVertexFrames(Scene& scene, Frame frame, TangentOrigin tangents);
+
+// The same for meshes with a frame of their own, Mesh::readWith.
+void deriveFramesOfMeshes(Scene& scene, TangentOrigin tangents);
 
 } // namespace cotan
