@@ -71,7 +71,7 @@ struct Subject {
 
 Result<Subject> subjectOf(const Case& c)
 {
-    auto scene = loadScene(shared(c.file));
+    auto scene = loadScene(dataFile(c.file));
     if (!scene)
         return scene.error();
     Subject s{std::move(*scene), {}, 0};
@@ -154,7 +154,7 @@ std::string pageOf(const std::map<std::string, Subject>& subjects)
             continue;
         const Camera& camera = found->second.camera;
         cases.push_back(json{{"name", c.name},
-                             {"url", "file://" + std::filesystem::canonical(shared(c.file)).string()},
+                             {"url", "file://" + std::filesystem::canonical(dataFile(c.file)).string()},
                              {"eye", {camera.eye.x, camera.eye.y, camera.eye.z}},
                              {"target", {camera.target.x, camera.target.y, camera.target.z}},
                              {"fieldOfView", double(camera.verticalFieldOfView) * 180 / std::numbers::pi},
@@ -163,7 +163,7 @@ std::string pageOf(const std::map<std::string, Subject>& subjects)
     std::string page = readWhole(COTAN_SOURCE_DIR "/tests/three_comparison.html.in");
     put(page, "LIBRARY_URL", "file://" COTAN_NPM "/node_modules/three/build/three.module.js");
     put(page, "ADDONS_URL", "file://" COTAN_NPM "/node_modules/three/examples/jsm");
-    put(page, "ENVIRONMENT_URL", "file://" + std::filesystem::canonical(shared("environments/studio.exr")).string());
+    put(page, "ENVIRONMENT_URL", "file://" + std::filesystem::canonical(dataFile("environments/studio.exr")).string());
     put(page, "WIDTH", std::to_string(kWidth));
     put(page, "HEIGHT", std::to_string(kHeight));
     put(page, "CASES", cases.dump());
@@ -172,7 +172,7 @@ std::string pageOf(const std::map<std::string, Subject>& subjects)
 
 TEST(ThreeComparison, rendersMatch)
 {
-    COTAN_NEEDS_MODEL("environments/studio.exr");
+    COTAN_NEEDS_DATA("environments/studio.exr");
     if (!std::filesystem::exists(COTAN_NPM "/node_modules/three"))
         GTEST_SKIP() << "three is not installed (see the test npm_packages)";
     std::map<std::string, Subject> subjects;
@@ -190,7 +190,7 @@ TEST(ThreeComparison, rendersMatch)
     const json& pictures = found["three_comparison"];
     ASSERT_FALSE(pictures.contains("error")) << pictures["error"];
 
-    const auto studio = readImage(shared("environments/studio.exr"));
+    const auto studio = readImage(dataFile("environments/studio.exr"));
     ASSERT_TRUE(studio) << studio.error().message;
     auto map = environmentOfImage(*studio);
     ASSERT_TRUE(map) << map.error().message;

@@ -32,7 +32,7 @@ json judged(const json& cases, int side)
     return found.value("three_judge", found);
 }
 
-std::string urlOf(const char* file) { return "file://" + std::filesystem::canonical(shared(file)).string(); }
+std::string urlOf(const char* file) { return "file://" + std::filesystem::canonical(dataFile(file)).string(); }
 
 // Mean error that lint predicts over all primitives, weighted by area and by the number of points that count.
 double predicted(const LintReport& report, const std::string& frame)
@@ -62,7 +62,7 @@ class ThreeJudge : public testing::TestWithParam<Judged> {};
 TEST_P(ThreeJudge, measuresWhatLintPredicts)
 {
     const auto& [file, side] = GetParam();
-    COTAN_NEEDS_MODEL(file);
+    COTAN_NEEDS_DATA(file);
     const json pairs = json::parse(R"([["meant", "dropped"], ["meant", "orthonormal"]])");
     const json model = {{"name", "model"}, {"url", urlOf(file)}, {"pairs", pairs}};
     const json page = judged(json::array({model}), side);
@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(ThreeJudgeOfConvertedMaps, readsThemLikeTheOriginals)
 {
     constexpr const char* kModel = "compressed/chess_board_draco.glb";
-    COTAN_NEEDS_MODEL(kModel);
+    COTAN_NEEDS_DATA(kModel);
     TemporaryFolder folder;
     json pairs = json::parse(R"([["meant", "dropped"]])");
     for (const char* expansion : {"biased", "exact"}) {
@@ -131,7 +131,7 @@ TEST(ThreeJudgeOfConvertedMaps, readsThemLikeTheOriginals)
 // Its frame without tangents inverts the side there, as ours does.
 TEST(ThreeJudgeOfMirroredNodes, isWrongOnlyWithTangents)
 {
-    COTAN_NEEDS_MODEL("synthetic/uv_cases_tangents.gltf");
+    COTAN_NEEDS_DATA("synthetic/uv_cases_tangents.gltf");
     json stock = {{"name", "stock"}, {"url", urlOf("synthetic/uv_cases_tangents.gltf")}};
     stock["pairs"] = json::parse(R"([["tangents", "dropped"]])");
     json fixed = stock;
