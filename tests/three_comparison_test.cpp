@@ -23,7 +23,9 @@ constexpr int kWidth = 480, kHeight = 360;
 constexpr std::uint8_t kGrey = 128;
 
 // A model, the maximum difference between our render and that of three.js, and its reason. Both bounds are about 1.3
-// times what was measured when the pair was last inspected.
+// times what was measured when the pair was last inspected, with the published model. A model that takes its place has
+// the same materials, but other outlines and lights: kOthers times the bounds, where 1.5 times was measured.
+constexpr double kOthers = 1.7;
 struct Case {
     const char* name;
     const char* file;
@@ -190,6 +192,7 @@ TEST(ThreeComparison, rendersMatch)
     const json& pictures = found["three_comparison"];
     ASSERT_FALSE(pictures.contains("error")) << pictures["error"];
 
+    const bool published = isOriginal("environments/studio.exr");
     const auto studio = readImage(dataFile("environments/studio.exr"));
     ASSERT_TRUE(studio) << studio.error().message;
     auto map = environmentOfImage(*studio);
@@ -218,8 +221,9 @@ TEST(ThreeComparison, rendersMatch)
         ASSERT_GT(count, 2000u) << c.name;
         const double steps = sum / double(count), flip = flipError(three, ours.image, ours.covered);
         std::printf("| %s | %.1f | %.3f |\n", c.name, steps, flip);
-        EXPECT_LT(steps, c.steps) << c.name << ": " << c.why;
-        EXPECT_LT(flip, c.flip) << c.name << ": " << c.why;
+        const double allowed = published && isOriginal(c.file) ? 1 : kOthers;
+        EXPECT_LT(steps, allowed * c.steps) << c.name << ": " << c.why;
+        EXPECT_LT(flip, allowed * c.flip) << c.name << ": " << c.why;
     }
 }
 

@@ -107,7 +107,7 @@ TEST(ThreeJudgeOfConvertedMaps, readsThemLikeTheOriginals)
     json pairs = json::parse(R"([["meant", "dropped"]])");
     for (const char* expansion : {"biased", "exact"}) {
         const std::string file = std::string(expansion) + ".glb";
-        const ToolRun made = runTool({"convert", shared(kModel).string(), "--to-frame", "cotangent", "--unsigned",
+        const ToolRun made = runTool({"convert", dataFile(kModel).string(), "--to-frame", "cotangent", "--unsigned",
                                       expansion, "-o", file, "--quiet"},
                                      folder.path(), 120);
         ASSERT_EQ(made.code, 0) << made.err;
@@ -123,8 +123,10 @@ TEST(ThreeJudgeOfConvertedMaps, readsThemLikeTheOriginals)
             .get<double>();
     };
     EXPECT_LT(mean(1), mean(0)); // otherwise converting would be pointless
-    EXPECT_LT(mean(1), 0.14);
-    EXPECT_GT(mean(2), 0.35); // JPEG keeps the flat texels of `exact`, and adds its own losses
+    if (isOriginal(kModel)) { // whose new maps are PNG
+        EXPECT_LT(mean(1), 0.14);
+        EXPECT_GT(mean(2), 0.35); // JPEG keeps the flat texels of `exact`, and adds its own losses
+    }
 }
 
 // Under nodes that mirror, three.js makes bitangents from a mirrored normal and a mirrored tangent, which inverts them.

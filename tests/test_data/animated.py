@@ -48,7 +48,8 @@ def fox(file):
     gltf = Gltf()
     joints = [(None, (0, 0, 0)), (0, (0, 0, 40)), (1, (0, 10, 60))]
     body = shapes.tube(24, 24, lambda t: 14 * np.sqrt(np.maximum(1e-3, 1 - (2 * t - 1)**4)), 100)
-    body = Mesh(body.position[:, [0, 2, 1]] * [1, 1, 1], body.normal, body.uv, body.triangles[:, ::-1])
+    # Texels are square in the rest pose.
+    body = Mesh(body.position[:, [0, 2, 1]], body.normal, body.uv * [0.88, 1], body.triangles[:, ::-1])
     parts, owners = [body], []
     z = body.position[:, 2]
     bend = np.clip((z - 10) / 30, 0, 1)
@@ -57,7 +58,7 @@ def fox(file):
         x, z = (leg % 2 * 2 - 1) * 8, (leg // 2 * 2 - 1) * 32
         upper = len(joints)
         joints += [(1 if leg > 1 else 0, (x, -8, z)), (upper, (x, -30, z))]
-        mesh = shapes.tube(12, 24, lambda t: 5 + 0 * t, 48).moved((x, -32, z))
+        mesh = shapes.tube(12, 24, lambda t: 5 + 0 * t, 48).moved((x, -32, z)).charted((0.65, 1))
         down = np.clip((-mesh.position[:, 1] - 24) / 12, 0, 1)
         weights = np.zeros((len(mesh.position), len(joints)))
         weights[:, upper], weights[:, upper + 1] = 1 - down, down
@@ -90,21 +91,22 @@ def fox(file):
     animate(gltf, "Survey", [(nodes[1], "rotation", times, [turn((0, 1, 0), 45 * s) for s in swing]),
                              (nodes[1], "scale", times, [(1, 1, 1 + 0.4 * s * s) for s in swing])])
     animate(gltf, "Walk", walk(25, 0.3))
-    animate(gltf, "Run", walk(40, 0.6))
+    animate(gltf, "Run", walk(40, 0.9))
     gltf.write(file)
 
 
 def lumberjack(file):
     """One primitive with rigid weights. finish.mjs inverts w except on the hat, at the top."""
     gltf = Gltf()
-    maps = surface_maps(gltf, shapes.bumps(0.5), 256, green=-1)
+    maps = surface_maps(gltf, shapes.domes(8), 256, green=-1)
     gltf.list("materials", {"name": "Lumberjack", "doubleSided": True, "normalTexture": maps["normal"],
                             "pbrMetallicRoughness": {"baseColorTexture": maps["base"],
                                                      "metallicRoughnessTexture": maps["rough"]}})
     joints, parts, owner = [(None, (0, 0, 0)), (0, (0, 0.5, 0))], [], []
     parts.append(shapes.tube(24, 12, lambda t: 0.35 + 0.05 * np.sin(3 * t), 1))
     parts.append(shapes.zone(24, 12).moved((0, 0.85, 0), 0.25))
-    parts.append(shapes.tube(16, 3, lambda t: 0.16 + 0 * t, 0.12).moved((0, 1.2, 0)).charted((0.25, 0.25)))  # the hat
+    hat = shapes.tube(16, 3, lambda t: 0.16 + 0 * t, 0.12).moved((0, 1.2, 0))
+    parts.append(hat.charted((0.02, 0.02), (0.49, 0.49)))  # where the map is flat, so that w makes no difference
     owner += [0, 1, 1]
     for side in (-1, 1):
         for y, z, parent in ((0.4, 0, 0), (-0.5, 0, 0)):
@@ -129,7 +131,7 @@ def lumberjack(file):
 
 
 def morph_stress(file):
-    """A plate with eight targets, each of which raises a bump."""
+    """A plate with eight targets, each of which raises a bump and stretches the texture on it."""
     gltf = Gltf()
     label, base, stripes = [gltf.image(shapes.checks(a, b, 4)) for a, b in (
         ((255, 255, 255), (220, 220, 220)), ((60, 60, 60), (90, 90, 90)), ((180, 180, 190), (90, 120, 180)))]
@@ -141,14 +143,17 @@ def morph_stress(file):
     def plate(k=None):
         def of(s, t):
             x, y = 4 * (s - 0.5), 1.0 * (t - 0.5)
-            rise = 0 * x
+            rise, push = 0 * x, 0 * x
             if k is not None:
-                r2 = ((x - (0.5 * k - 1.75)) / 0.3)**2 + (y / 0.45)**2
-                rise = 0.5 * np.maximum(0, 1 - r2)**2
-            return x, rise, -y
+                across = (x - (0.5 * k - 1.75)) / 0.3
+                inside = np.maximum(0, 1 - across**2 - (y / 0.45)**2)**2
+                rise, push = 0.04 * inside, 0.25 * inside * across
+            return x + push, rise, -y
         return shapes.surface(of, 96, 24)
-    flat = plate()
-    box = shapes.rounded_box((2.2, 0.1, 0.7), 0.05, 8).moved((0, -0.2, 0))
+    flat = plate().charted((4, 1))  # square texels in the rest pose
+    half = (0.3, 0.1, 0.15)
+    box = shapes.rounded_box(half, 0.05, 8, lambda face: ((half[(face // 2 + 1) % 3], half[(face // 2 + 2) % 3]), (0, 0)))
+    box = box.moved((0, -0.2, 0))
     none = np.zeros_like(box.position)
     primitives = [gltf.mesh(box, 0, TEXCOORD_1=box.uv), gltf.mesh(flat, 1, TEXCOORD_1=flat.uv)]
     primitives[0]["targets"] = [{"POSITION": gltf.add(none, bounds=True), "NORMAL": gltf.add(none)}] * 8

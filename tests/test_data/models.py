@@ -74,23 +74,31 @@ def normal_tangent(file, columns):
 
 # ---- props ---------------------------------------------------------------------------------------------------------
 
+def six_charts(face):
+    """Scale and offset of the uv of a box's faces, beside one another in an image."""
+    return (0.3, 0.46), (face % 3 / 3 + 0.0167, face // 3 / 2 + 0.02)
+
+
+def quarter(number):
+    """The same for a quarter of an image."""
+    return (0.46, 0.46), (number % 2 / 2 + 0.02, number // 2 / 2 + 0.02)
+
+
 def boom_box(file):
-    def chart(face):
-        return (0.3, 0.46), ((face % 3) / 3 + 0.0167, face // 3 / 2 + 0.02)
     gltf = Gltf()
     names = {key: f"BoomBox_{word}.png" for key, word in
              (("base", "baseColor"), ("rough", "occlusionRoughnessMetallic"), ("normal", "normal"))}
     maps = surface_maps(gltf, shapes.domes(12), 1024, names)
     emissive = gltf.image(shapes.checks((0, 0, 0), (20, 60, 90), 8), "BoomBox_emissive.png")
     gltf.list("materials", material_of(maps, emissiveTexture=emissive, emissiveFactor=[1, 1, 1]))
-    gltf.mesh(shapes.rounded_box((1, 0.7, 0.5), 0.2, 20, chart), 0, name="BoomBox")
+    gltf.mesh(shapes.rounded_box((1, 0.7, 0.5), 0.2, 20, six_charts), 0, name="BoomBox")
     gltf.write(file)
 
 
 def flight_helmet(file):
     gltf = Gltf()
     parts = (("Hose", shapes.torus(0.5, 0.12, 96, 24).moved((0, -0.6, 0)), {"doubleSided": True}),
-             ("RubberWood", shapes.rounded_box((0.7, 0.1, 0.5), 0.08, 16).moved((0, -0.9, 0)), {}),
+             ("RubberWood", shapes.rounded_box((0.7, 0.1, 0.5), 0.08, 16, six_charts).moved((0, -0.9, 0)), {}),
              ("GlassPlastic", shapes.zone(48, 24, -0.7, 0.7).moved((0, 0.5, 0), 0.45), {}),
              ("MetalParts", shapes.tube(48, 24, lambda t: 0.2 + 0.1 * np.sin(6 * t), 1.2).moved((0.9, 0, 0)), {}),
              ("Lenses", shapes.zone(32, 16, -0.6, 0.6).moved((-0.9, 0, 0), 0.3), {"alphaMode": "BLEND"}))
@@ -120,19 +128,20 @@ def cat(file):
         gltf.files[names["base"]] = png(base)
         materials.append(gltf.list("materials", material_of(maps, name=name, doubleSided=True, **(
             {"alphaMode": "BLEND"} if blend else {}))))
-    half = shapes.zone(32, 24, -1.2, 1.2, 0.5)
-    other = Mesh(half.position * [-1, 1, -1], half.normal * [-1, 1, -1], half.uv * [-1, 1] + [1, 0], half.triangles)
+    half = shapes.zone(32, 24, -1.2, 1.2, 0.5).charted(*quarter(0))
+    other = Mesh(half.position * [-1, 1, 1], half.normal * [-1, 1, 1], half.uv, half.triangles[:, ::-1])
     gltf.mesh(half, materials[1], name="body right")
     gltf.mesh(other, materials[1], name="body left")
-    coat = shapes.zone(48, 16, -0.9, 0.2)
+    coat = shapes.zone(48, 16, -0.9, 0.2).charted(*quarter(0))
     gltf.mesh(coat.moved(scale=1.15), materials[0], name="coat")
-    gltf.mesh(shapes.zone(32, 16).moved((0, 1.5, 0), 0.6), materials[1], name="head")
+    gltf.mesh(shapes.zone(32, 16).charted(*quarter(1)).moved((0, 1.5, 0), 0.6), materials[1], name="head")
     for k, x in enumerate((-0.25, 0.25)):
-        gltf.mesh(shapes.zone(16, 8, -0.8, 0.8, 0.4).moved((x, 1.5, 0.5), 0.18), materials[0], name=f"eye {k}")
-        leg = shapes.tube(16, 8, lambda t: 0.2 + 0 * t, 0.9).moved((2 * x, -1.2, 0))
+        eye = shapes.zone(16, 8, -0.8, 0.8, 0.4).charted(*quarter(1 + k))
+        gltf.mesh(eye.moved((x, 1.5, 0.5), 0.18), materials[0], name=f"eye {k}")
+        leg = shapes.tube(16, 8, lambda t: 0.2 + 0 * t, 0.9).charted(*quarter(2 + k))
         if k:
-            leg = leg.charted((-1, 1), (1, 0))  # mirrored
-        gltf.mesh(leg, materials[1], name=f"leg {k}")
+            leg = leg.charted((-1, 1), (1.5, 0))  # mirrored
+        gltf.mesh(leg.moved((2 * x, -1.2, 0)), materials[1], name=f"leg {k}")
     gltf.write(file)
 
 
@@ -152,11 +161,9 @@ def sofa(file):
     gltf.list("materials", {"name": "legs", "occlusionTexture": occlusion,
                             "pbrMetallicRoughness": {"baseColorFactor": [0.02, 0.02, 0.02, 1], "metallicFactor": 0,
                                                      "roughnessFactor": 0.4}})
-    def chart(face):
-        return (0.3, 0.46), ((face % 3) / 3 + 0.0167, face // 3 / 2 + 0.02)
     for k, (half, at) in enumerate((((1, 0.25, 0.45), (0, 0, 0)), ((1, 0.4, 0.15), (0, 0.5, -0.4)),
                                     ((0.18, 0.4, 0.45), (-1.1, 0.2, 0)), ((0.18, 0.4, 0.45), (1.1, 0.2, 0)))):
-        gltf.mesh(shapes.rounded_box(half, 0.12, 12, chart).moved(at), 0, name=f"cushion {k}")
+        gltf.mesh(shapes.rounded_box(half, 0.12, 12, six_charts).moved(at), 0, name=f"cushion {k}")
     for k, x in enumerate((-0.9, 0.9)):
         gltf.mesh(shapes.tube(12, 2, lambda t: 0.06 + 0 * t, 0.3).moved((x, -0.35, 0.3)), 1, name=f"leg {k}")
     gltf.root["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 3}]}}
@@ -317,14 +324,14 @@ def chess_board(file):
     gltf = Gltf()
     gltf.extend("KHR_materials_clearcoat")
     for k, colour in enumerate((((30, 30, 30), (60, 60, 60)), ((120, 90, 60), (220, 200, 170)))):
-        maps = surface_maps(gltf, shapes.ripples(0.12, 5 + k, 3), 256, colour=colour)
+        maps = surface_maps(gltf, shapes.grooves(0.3, 5 + k, 3), 256, colour=colour)
         coat = {"extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.03}}}
         gltf.list("materials", material_of(maps, name=("piece", "board")[k], doubleSided=True, **(coat if k == 0 else {})))
     gltf.list("materials", {"name": "frame", "pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.3}})
     outline = lambda t: 0.1 + 0.12 * np.cos(2.6 * t)**2 + 0.03 * np.sin(9 * t)
     for k in range(4):
         gltf.mesh(shapes.tube(48, 48, outline, 0.9).moved((k - 1.5, 0.5, 0)), 0, name=f"piece {k}")
-    gltf.mesh(shapes.rounded_box((2.2, 0.05, 1), 0.03, 8), 1, name="board")
+    gltf.mesh(shapes.rounded_box((2.2, 0.05, 1), 0.03, 8, six_charts), 1, name="board")
     gltf.mesh(shapes.rounded_box((2.3, 0.04, 1.1), 0.03, 4).moved((0, -0.06, 0)), 2, name="frame")
     gltf.write(file)
 

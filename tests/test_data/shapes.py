@@ -148,9 +148,13 @@ def bumps(amplitude, waves=((3, 1), (1, -2), (-2, 3), (4, 3))):
     return slopes
 
 
-def ripples(amplitude, across=5, along=3):
-    """A relief h = f(u) + g(v). No test of the map can tell which way green points: f(u) - g(v) is a relief too."""
-    return lambda u, v: (amplitude * np.cos(2 * np.pi * across * u), amplitude * np.cos(2 * np.pi * along * v))
+def grooves(steepness, across=5, along=3, width=0.15):
+    """A relief h = f(u) + g(v) of grooves with flat parts between. No test of the map can tell which way green points:
+    f(u) - g(v) is a relief too. width: of a groove, as a fraction of the distance between two."""
+    def slope(w, count):
+        x = count * w % 1
+        return np.where(x < width, -steepness * np.sin(2 * np.pi * x / width), 0)
+    return lambda u, v: (slope(u, across), slope(v, along))
 
 
 def normals_of(slopes, width, height=None):

@@ -159,7 +159,7 @@ def textures(folder):
             ("noise16_normal_gl.png", "+Y", shapes.domes(7, 0.4), 512, 16),
             ("sofa_normal_gl.png", "+Y", shapes.bumps(1.6), 512, 8),
             ("ornament_normal_gl.png", "+Y", shapes.domes(5, 0.4), 204, 8),
-            ("mesh_wire_normal.png", "undecidable", shapes.ripples(0.5), 256, 8)):
+            ("mesh_wire_normal.png", "undecidable", shapes.grooves(0.5), 256, 8)):
         texels = shapes.relief_map(slopes, size, bits=bits, green=-1 if truth == "-Y" else 1)
         (place / name).write_bytes(png(texels))
         rows.append(f"{name}\t{truth}\tmade by scripts/test-data from a formula")
