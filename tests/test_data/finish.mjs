@@ -9,7 +9,7 @@ import { pathToFileURL } from 'node:url';
 const [modules, folder, assimp] = process.argv.slice(2);
 const require = createRequire(path.join(path.resolve(modules), 'x.js'));
 const from = (name) => import(pathToFileURL(path.join(path.resolve(modules), name)).href);
-const { NodeIO } = await from('@gltf-transform/core/dist/index.js');
+const { NodeIO, VertexLayout } = await from('@gltf-transform/core/dist/index.js');
 const { ALL_EXTENSIONS, EXTMeshoptCompression, KHRDracoMeshCompression, KHRTextureBasisu } = await from('@gltf-transform/extensions/dist/index.js');
 const { meshopt, unweld, weld } = await from('@gltf-transform/functions/dist/index.js');
 const { MeshoptDecoder, MeshoptEncoder, MeshoptSimplifier } = await from('meshoptimizer/index.js');
@@ -17,7 +17,7 @@ const draco = require('draco3dgltf'), jpeg = require('jpeg-js'), mikktspace = re
 const { decode } = await from('fast-png/lib/index.js');
 await Promise.all([MeshoptDecoder.ready, MeshoptEncoder.ready, MeshoptSimplifier.ready]);
 const decoders = await draco.createDecoderModule();
-const io = new NodeIO().registerExtensions(ALL_EXTENSIONS).registerDependencies({
+const io = new NodeIO().setVertexLayout(VertexLayout.SEPARATE).registerExtensions(ALL_EXTENSIONS).registerDependencies({
   'draco3d.decoder': decoders, 'draco3d.encoder': await draco.createEncoderModule(),
   'meshopt.decoder': MeshoptDecoder, 'meshopt.encoder': MeshoptEncoder,
 });

@@ -8,13 +8,16 @@ import shapes
 from shapes import Mesh
 
 
-def surface_maps(gltf, slopes, size, names=None, green=1, colour=((150, 110, 80), (180, 140, 100))):
-    """Adds textures of base colour, roughness (green) and metal (blue), and normals. names: of files, by these words."""
+def surface_maps(gltf, slopes, size, names=None, green=1, colour=((150, 110, 80), (180, 140, 100)), noise=0):
+    """Adds textures of base colour, roughness (green) and metal (blue), and normals. names: of files, by these words.
+    noise: steps of 8 bits that normals differ by at random, as in a photograph: PNG is larger than JPEG then."""
     names = names or {}
+    normals = shapes.relief_map(slopes, size, green=green).astype(int)
+    normals[..., :2] += np.random.default_rng(size).integers(-noise, noise + 1, normals[..., :2].shape)
     rough = shapes.checks((255, 120, 0), (255, 150, 0), 4)
     return {"base": gltf.image(shapes.checks(*colour, 4), names.get("base")),
             "rough": gltf.image(rough, names.get("rough")),
-            "normal": gltf.image(shapes.relief_map(slopes, size, green=green), names.get("normal"))}
+            "normal": gltf.image(np.clip(normals, 0, 255).astype(np.uint8), names.get("normal"))}
 
 
 def material_of(maps, **more):
@@ -324,7 +327,7 @@ def chess_board(file):
     gltf = Gltf()
     gltf.extend("KHR_materials_clearcoat")
     for k, colour in enumerate((((30, 30, 30), (60, 60, 60)), ((120, 90, 60), (220, 200, 170)))):
-        maps = surface_maps(gltf, shapes.grooves(0.3, 5 + k, 3), 256, colour=colour)
+        maps = surface_maps(gltf, shapes.grooves(0.3, 5 + k, 3), 256, colour=colour, noise=3)
         coat = {"extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.03}}}
         gltf.list("materials", material_of(maps, name=("piece", "board")[k], doubleSided=True, **(coat if k == 0 else {})))
     gltf.list("materials", {"name": "frame", "pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.3}})
