@@ -32,7 +32,7 @@ ROWS = (-0.8, -0.4, 0, 0.4, 0.8)
 
 
 def dome_slopes(u, v):
-    """Of the map: the dome fills the left upper quarter, the rest is flat, except for a stretched dome at the right."""
+    """Slopes of the relief: the dome fills the left upper quarter of the image, the rest is flat."""
     def of(x, y):
         r2 = (x * x + y * y) / RADIUS**2
         return np.where(r2 < 1, -4 * TALL * np.maximum(1 - r2, 0) / RADIUS**2, 0)
