@@ -17,6 +17,7 @@
 #include "ktx2_maker.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
+#include "test_data.hpp"
 #include "webp_maker.hpp"
 
 namespace cotan {
@@ -24,8 +25,6 @@ namespace {
 
 using namespace test;
 using nlohmann::json;
-
-std::string shared(const std::string& file) { return std::string(COTAN_SHARED_DATA) + "/" + file; }
 
 json jsonOfGlb(const std::filesystem::path& file)
 {
@@ -328,11 +327,10 @@ TEST(ConvertCommand, realModelsLookTheSameWithoutTangents)
         double mean; // degrees; 8-bit maps cost 0.17, the remainder is filtering across facets and shared texels
     } models[] = {{"models/FlightHelmet/FlightHelmet.gltf", 0.5}, {"models/SketchfabCat/scene.gltf", 0.5}};
     for (const auto& model : models) {
-        if (!std::filesystem::exists(shared(model.file)))
-            GTEST_SKIP() << model.file << " is missing";
+        COTAN_NEEDS_DATA(model.file);
         TemporaryFolder folder;
-        const json r =
-            convertJson(folder.path(), {shared(model.file), "--to", "smooth", "-o", "out.glb", "--verify", "v"});
+        const json r = convertJson(folder.path(),
+                                   {dataFile(model.file).string(), "--to", "smooth", "-o", "out.glb", "--verify", "v"});
         EXPECT_LT(r["verify"]["degrees"]["mean_degrees"].get<double>(), model.mean) << model.file;
         EXPECT_GT(r["tangents"]["bytes"].get<std::size_t>(), 10000u);
         EXPECT_EQ(runTool({"render", "out.glb", "-o", "out.png", "--frame", "smooth", "--size", "64x64", "--quiet"},
@@ -359,13 +357,14 @@ TEST(ConvertCommand, keepMapsDropsTangentsAndKeepsTheBytesOfMaps)
 {
     std::size_t tried = 0, anyReversed = 0;
     for (const char* file :
-         {"FlightHelmet/FlightHelmet.gltf", "SketchfabCat/scene.gltf", "BoomBox/BoomBox.gltf",
-          "ClearCoatTest/ClearCoatTest.glb", "GlamVelvetSofa/GlamVelvetSofa.glb", "TwoSidedPlane/TwoSidedPlane.glb",
-          "NormalTangentTest/NormalTangentTest.glb", "NormalTangentMirrorTest/NormalTangentMirrorTest.glb",
-          "SunglassesKhronos/SunglassesKhronos.glb", "AnisotropyStrengthTest/AnisotropyStrengthTest.glb",
-          "../compressed/chess_board_draco.glb", "../compressed/heart_draco.glb",
-          "../compressed/jet_fighter_draco_basisu.glb", "../compressed/pirate_meshopt.glb"}) {
-        const std::filesystem::path model = shared("models/" + std::string(file));
+         {"models/FlightHelmet/FlightHelmet.gltf", "models/SketchfabCat/scene.gltf", "models/BoomBox/BoomBox.gltf",
+          "models/ClearCoatTest/ClearCoatTest.glb", "models/GlamVelvetSofa/GlamVelvetSofa.glb",
+          "models/TwoSidedPlane/TwoSidedPlane.glb", "models/NormalTangentTest/NormalTangentTest.glb",
+          "models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb",
+          "models/SunglassesKhronos/SunglassesKhronos.glb", "models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb",
+          "compressed/chess_board_draco.glb", "compressed/heart_draco.glb", "compressed/jet_fighter_draco_basisu.glb",
+          "compressed/pirate_meshopt.glb"}) {
+        const std::filesystem::path model = dataFile(file);
         if (!std::filesystem::exists(model))
             continue;
         ++tried;
@@ -396,8 +395,8 @@ TEST(ConvertCommand, keepMapsDropsTangentsAndKeepsTheBytesOfMaps)
                 << file << " image " << i;
     }
     if (tried == 0)
-        GTEST_SKIP() << "no model is there";
-    if (std::filesystem::exists(shared("models/SketchfabCat/scene.gltf"))) {
+        GTEST_SKIP() << "no model is there: run scripts/test-data";
+    if (isOriginal("models/SketchfabCat/scene.gltf")) {
         EXPECT_GE(anyReversed, 3u); // two maps of the cat, that of TwoSidedPlane
     }
 }

@@ -9,6 +9,7 @@
 #include "cotan/model.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
+#include "test_data.hpp"
 
 namespace cotan {
 namespace {
@@ -200,10 +201,8 @@ TEST(ConvertAnisotropy, tangentsAreKeptWithoutUvToDeriveADirectionFrom)
 // Images of Khronos' model before and after differ by at most one 8-bit step in the mean.
 TEST(ConvertAnisotropy, aRealModelLooksTheSameWithoutTangents)
 {
-    const std::string model =
-        std::string(COTAN_SHARED_DATA) + "/models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb";
-    if (!std::filesystem::exists(model))
-        GTEST_SKIP() << model << " is missing";
+    COTAN_NEEDS_DATA("models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb");
+    const std::string model = dataFile("models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb").string();
     for (const auto& [frame, bar] : {std::pair("smooth", 0.3), {"cotangent", 1.0}}) {
         TemporaryFolder folder;
         ASSERT_EQ(runTool({"convert", model, "--to-frame", frame, "-o", "out.glb", "--quiet"}, folder.path()).code, 0);

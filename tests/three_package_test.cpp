@@ -6,6 +6,7 @@
 
 #include "examples_browser.hpp"
 #include "examples_sheet_model.hpp"
+#include "test_data.hpp"
 
 namespace cotan::test {
 namespace {
@@ -13,6 +14,8 @@ namespace {
 using nlohmann::json;
 
 const std::string kSourceFolder = COTAN_SOURCE_DIR;
+constexpr const char* kMirrored = "models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb";
+constexpr const char* kCoats = "models/ClearCoatTest/ClearCoatTest.glb";
 
 // Maximum error in degrees, as for the examples: float differences of a pixel of 2e-3 or more of the eye's distance.
 constexpr double kRight = 0.01;
@@ -49,10 +52,9 @@ std::string writePackagePage(const TemporaryFolder& folder, const std::string& n
     put(page, "MODULES_URL", "file://" COTAN_NPM "/node_modules");
     put(page, "SOURCES_URL", "file://" + kSourceFolder);
     put(page, "TESTS_URL", "file://" + kSourceFolder + "/tests");
-    const std::string models = std::string("file://") + COTAN_SHARED_DATA + "/models/";
+    const auto url = [](const char* file) { return "file://" + dataFile(file).string(); };
     put(page, "MODELS",
-        json::array({json::array({"mirrored", models + "NormalTangentMirrorTest/NormalTangentMirrorTest.glb", true}),
-                     json::array({"coats", models + "ClearCoatTest/ClearCoatTest.glb", false})})
+        json::array({json::array({"mirrored", url(kMirrored), true}), json::array({"coats", url(kCoats), false})})
             .dump());
     put(page, "FOLDER_URL", "file://" + folder.path().string());
     write(folder / (name + ".html"), page);
@@ -244,8 +246,8 @@ TEST(ThreePackage, drawsAsThreeAlsoIntoFlippedTargets)
 // about three times the measured values.
 TEST(ThreePackage, modelsWithTangentsLookTheSameWithoutThem)
 {
-    if (!std::filesystem::exists(std::string(COTAN_SHARED_DATA) + "/models/ClearCoatTest"))
-        GTEST_SKIP() << "no shared data";
+    COTAN_NEEDS_DATA(kMirrored);
+    COTAN_NEEDS_DATA(kCoats);
     const json page = packagePage("three_models");
     if (page.is_string())
         GTEST_SKIP() << page.get<std::string>();

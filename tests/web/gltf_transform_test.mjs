@@ -1,13 +1,14 @@
-// Tests cotan/gltf-transform from the tarball: node gltf_transform_test.mjs TARBALL NODE_MODULES SHARED_DATA [CASE]
+// Tests cotan/gltf-transform from the tarball: node gltf_transform_test.mjs TARBALL NODE_MODULES [CASE]
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 
+import { data, missing } from './data.mjs';
 import { filesUnder, hills, installed, load, skip } from './shared.mjs';
 
-const [tarball, modules, data, only] = process.argv.slice(2);
+const [tarball, modules, only] = process.argv.slice(2);
 if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
 if (!fs.existsSync(path.join(modules, '@gltf-transform'))) skip('the npm packages are not installed');
 const folder = installed(tarball, modules, ['@gltf-transform', 'draco3dgltf', 'meshoptimizer', 'property-graph', 'ktx-parse', 'sharp']);
@@ -155,7 +156,7 @@ const cases = {
   },
 
   async compressedModelsAreReadByTheDecodersOfGltfTransform() {
-    if (!fs.existsSync(data)) skip(`${data} is not here`);
+    if (missing) skip(missing);
     const { ALL_EXTENSIONS } = await from('@gltf-transform/extensions');
     const draco = (await from('draco3dgltf')).default;
     const { MeshoptDecoder, MeshoptEncoder } = await from('meshoptimizer');
@@ -182,7 +183,7 @@ const cases = {
 
   async ktx2MapsAreReportedWithAdvice() {
     const file = path.join(data, 'compressed/jet_fighter_draco_basisu.glb');
-    if (!fs.existsSync(file)) skip(`${file} is not here`);
+    if (!fs.existsSync(file)) skip(`${path.basename(file)} is not there: run scripts/test-data`);
     const { ALL_EXTENSIONS } = await from('@gltf-transform/extensions');
     const io = new NodeIO().registerExtensions(ALL_EXTENSIONS)
       .registerDependencies({ 'draco3d.decoder': await (await from('draco3dgltf')).default.createDecoderModule() });
@@ -205,7 +206,7 @@ const cases = {
 
   // A model of 1.79 MB once became 8.7 MB, with maps as PNG for a frame that nobody requested.
   async untangentDropsTangentsAndNoFileGrows() {
-    if (!fs.existsSync(data)) skip(`${data} is not here`);
+    if (missing) skip(missing);
     const { ALL_EXTENSIONS } = await from('@gltf-transform/extensions');
     const draco = (await from('draco3dgltf')).default;
     const io = new NodeIO().registerExtensions(ALL_EXTENSIONS).registerDependencies({ 'draco3d.decoder': await draco.createDecoderModule(), 'draco3d.encoder': await draco.createEncoderModule() });

@@ -1,20 +1,21 @@
 // The npm package from its tarball, installed in an empty folder and run by node:
-//   node package_test.mjs TARBALL LIBRARY SHARED_DATA [CASE]
+//   node package_test.mjs TARBALL LIBRARY [CASE]
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
 import { gzipSync } from 'node:zlib';
 
+import { data, missing } from './data.mjs';
 import { emptyFolder, filesUnder, here, hills, imageOf, installed, load, parseGlb, skip } from './shared.mjs';
 
-const [tarball, library, data, only] = process.argv.slice(2), modules = path.join(path.dirname(path.dirname(path.dirname(tarball))), 'npm/node_modules');
+const [tarball, library, only] = process.argv.slice(2), modules = path.join(path.dirname(path.dirname(path.dirname(tarball))), 'npm/node_modules');
 if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
 const folder = installed(tarball);
 const cotan = await load(folder), small = await load(folder, 'tangents');
 await Promise.all([cotan.ready, small.ready]);
 const native = (what, place) => execFileSync('python3', [path.join(here, 'native.py'), library, what, place]);
-const needsData = () => { if (!fs.existsSync(data)) skip(`${data} is not here`); };
+const needsData = () => { if (missing) skip(missing); };
 
 const cases = {
   async bothEntryPointsLoad() {

@@ -1,17 +1,18 @@
 // Renders of cotan/three without options, compared with stock three.js with tangents:
-//   node three_defaults_test.mjs SOURCES NODE_MODULES DATA [CASE]
+//   node three_defaults_test.mjs SOURCES NODE_MODULES [CASE]
 // SOURCES: bindings/js. With FILES="models/A.glb ..." in the environment, only prints the degrees of all frames for
 // these files. Exit code 77: skipped.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
 import { launch, serve } from './chromium.mjs';
+import { data, missing } from './data.mjs';
 import { here, skip } from './shared.mjs';
 
-const [sources, modules, data, only] = process.argv.slice(2);
+const [sources, modules, only] = process.argv.slice(2);
 if (!fs.existsSync(path.join(modules, 'three'))) skip('three is not installed (see the test npm_packages)');
 if (!fs.existsSync(process.env.CHROMIUM ?? '/usr/bin/chromium')) skip('no chromium');
-if (!fs.existsSync(path.join(data, 'models'))) skip(`${data} is not here`);
+if (missing) skip(missing);
 const { address, close } = await serve({ package: sources, modules, data, tests: here });
 const browser = await launch(modules);
 

@@ -6,7 +6,7 @@ import { pathToFileURL } from 'node:url';
 
 import { hills, installed, load, skip } from './shared.mjs';
 
-const [tarball, modules, , only] = process.argv.slice(2);
+const [tarball, modules, only] = process.argv.slice(2);
 if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
 if (!fs.existsSync(path.join(modules, 'three'))) skip('three is not installed (see the test npm_packages)');
 const folder = installed(tarball, modules, ['three']);
