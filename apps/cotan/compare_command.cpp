@@ -39,7 +39,7 @@ Result<std::array<FrameChoice, 2>> parsePair(const std::string& text)
 // All possible file names, since `auto` may become any frame.
 std::vector<std::string> comparedFiles(const std::array<FrameChoice, 2>& pair)
 {
-    std::set<std::string> names = {"difference.png"};
+    std::set<std::string> names = {"difference.png", std::string(kAutoFrame) + ".png"};
     for (const FrameChoice& choice : pair)
         for (const FrameInfo& frame : cotan::frames())
             if (!choice || *choice == frame.frame)
@@ -65,9 +65,9 @@ Status run(const CompareCommandOptions& o)
         return picture.error();
     if (Status fits = limitCoverage(picture->scene, picture->view, 2); !fits)
         return fits;
-    const std::array<Frame, 2> frames = {picture->frames[0], picture->frames[1]};
-    const std::string a(name(frames[0])), b(name(frames[1]));
-    for (const Frame frame : frames)
+    const std::array<std::optional<Frame>, 2> frames = {picture->frames[0], picture->frames[1]};
+    const std::string a = nameOf(frames[0]), b = nameOf(frames[1]);
+    for (const std::optional<Frame>& frame : frames)
         if (const std::string note = frameNote(picture->scene, frame); !note.empty())
             warn(o, note);
     auto renderer = makePictureRenderer(o.picture, o, *picture);

@@ -171,13 +171,22 @@ void addFrameOption(Arguments& a, std::string& frame)
     std::vector<std::string> names = frameWords();
     names.insert(names.begin(), std::string(kAutoFrame));
     a.option("--frame", frame,
-             "frame to apply normal maps with: auto (the one that the model names for its maps, else orthonormal for a "
-             "model's maps, which are made for MikkTSpace, and cotangent for shapes and repeated images), "
+             "frame to apply normal maps with: auto (for each part of a model the one that it names for its map, else the "
+             "cheapest within --max-degrees, or its tangents; cotangent for shapes and repeated images), "
                  + usefulFrameNames() + ", or a historical one of --list-frames")
         .in("NAME")
         .offers(names)
         .main();
     addListOfFrames(a);
+}
+
+void addMaxDegreesOption(Arguments& a, double& degrees)
+{
+    a.option("--max-degrees", degrees,
+             "error of normals, on average over a part of a model, that its frame may cause; ten times as much on 1 % of "
+             "its area")
+        .within(kChoiceDegrees.minimum, kChoiceDegrees.maximum)
+        .in("D");
 }
 
 void addShowOption(Arguments& a, std::string& show)
@@ -211,6 +220,7 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     a.option("--time", o.time, "moment of --animation, in seconds from its start")
         .within(kMoments.minimum, kMoments.maximum)
         .in("S");
+    addMaxDegreesOption(a, o.maxDegrees);
     a.group(HelpGroup::camera);
     a.option(
          "--size", sizeWord(o.size),

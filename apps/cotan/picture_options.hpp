@@ -34,6 +34,9 @@ void addOwnNormalMap(Arguments& a, OwnMaps& maps);
 // Adds --frame, which also accepts kAutoFrame, and --list-frames.
 void addFrameOption(Arguments& a, std::string& frame);
 
+// Adds --max-degrees, the limit of chooseFrames.
+void addMaxDegreesOption(Arguments& a, double& degrees);
+
 // Adds --view.
 void addShowOption(Arguments& a, std::string& show);
 

@@ -42,7 +42,7 @@ Result<Image> drawPicture(Renderer& renderer, const Picture& picture, const Rend
     auto image = drawShow(renderer, picture.scene, picture.view, o.picture.show, keepsFloats(o.output),
                           [&](const AngleStatistics& degrees) {
                               report["error_against_exact"] = toJson(degrees);
-                              say(o, "{} against exact: {}", name(picture.view.frame), toText(degrees));
+                              say(o, "{} against exact: {}", nameOfFrames(picture.frames.front(), picture.scene), toText(degrees));
                           });
     if (image)
         if (Status laid = layEdges(renderer, picture.view, o.picture, picture.edges, *image); !laid)
@@ -63,8 +63,8 @@ Result<Picture> loadFramed(const RenderCommandOptions& o, FrameChoice frame, con
     auto picture = loadPicture(o.picture, o, {frame, Frame::exact}, like);
     if (!picture)
         return picture;
-    picture->view.frame = picture->frames.front();
-    if (const std::string note = frameNote(picture->scene, picture->view.frame); !note.empty())
+    picture->view.setFrame(picture->frames.front());
+    if (const std::string note = frameNote(picture->scene, picture->frames.front()); !note.empty())
         warn(o, note);
     picture->view.output = outputOf(o.picture.show);
     return picture;
@@ -104,7 +104,7 @@ Status renderOne(const RenderCommandOptions& o, FrameChoice frame, Sequence& seq
     const double writeSeconds = watch.lap();
 
     report.update(describeScene(o.picture, *picture));
-    report["frame"] = name(picture->view.frame);
+    report["frame"] = nameOf(picture->frames.front());
     report["view"] = o.picture.show;
     report["shading"] = wordOf(kShadings, o.picture.shading);
     report["device"] = (*renderer)->device();
@@ -113,7 +113,7 @@ Status renderOne(const RenderCommandOptions& o, FrameChoice frame, Sequence& seq
         {"load", picture->loadSeconds}, {"open_device", openSeconds}, {"upload", (*renderer)->uploadSeconds()},
         {"draw", drawSeconds},          {"write", writeSeconds},      {"total", total.lap()}};
     say(o, "{}: {}x{}, {} triangles, frame {}, on {}", o.output.string(), picture->view.width, picture->view.height,
-        trianglesDrawn(picture->scene), name(picture->view.frame), (*renderer)->device());
+        trianglesDrawn(picture->scene), nameOfFrames(picture->frames.front(), picture->scene), (*renderer)->device());
     return writeReport(o, report);
 }
 
@@ -227,7 +227,7 @@ Status renderTurn(const RenderCommandOptions& o, FrameChoice frame, const std::v
     if (Status whole = finish(sequence); !whole)
         return whole;
     say(o, "{}: {} images of {}x{}, {} triangles, frame {}, on {}", o.output.string(), numbers.size(),
-        picture->view.width, picture->view.height, trianglesDrawn(picture->scene), name(picture->view.frame),
+        picture->view.width, picture->view.height, trianglesDrawn(picture->scene), nameOfFrames(picture->frames.front(), picture->scene),
         (*renderer)->device());
     return Done{};
 }

@@ -26,7 +26,9 @@ std::string frameLabel(const State& s, const Side& side)
 {
     if (side.frame != kAutoFrame || !s.model || !side.normalMap.empty())
         return side.frame;
-    return side.frame + " (" + std::string(name(chosenFrame({}, s.picture, s.model->scene))) + ")";
+    const auto frame = chosenFrame({}, s.picture, s.model->scene);
+    const std::string label = nameOfFrames(frame, s.model->scene);
+    return frame ? side.frame + " (" + label + ")" : label;
 }
 
 std::string statusOf(const State& s)

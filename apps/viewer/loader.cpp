@@ -32,6 +32,8 @@ Loaded readModel(const PictureOptions& options, std::uint64_t number, LastRead& 
     }
     auto model = std::make_shared<Model>();
     model->scene = std::move(opened->scene);
+    if (!options.model.empty())
+        chooseFramesOfMeshes(options, model->scene);
     model->box = bounds(model->scene);
     model->read = options;
     model->number = number;
@@ -54,7 +56,7 @@ Loaded poseKept(const PictureOptions& wanted, std::uint64_t number, LastRead& ke
             loaded.error = usageError("animation: expected a glTF model with animations; found none");
         return loaded;
     }
-    auto scene = poseModel(*kept.animated, loaded.options, kept.model->scene.images);
+    auto scene = poseModel(*kept.animated, loaded.options, kept.model->scene);
     if (!scene) {
         loaded.error = app::withOptionNames(scene.error());
         return loaded;

@@ -31,10 +31,12 @@ void PointerProbe::follow(State& state)
                        side, picture = state.picture] {
         Probe probe;
         probe.hit = pick(model->scene, camera, size, pointer + glm::vec2(0.5f));
-        if (probe.hit)
-            probe.surface =
-                prober_.at(model->scene, model->number, *probe.hit,
-                           chosenFrame(*parseFrameChoice(side.frame), picture, model->scene), side.tangents);
+        if (!probe.hit)
+            return probe;
+        const auto frame = chosenFrame(*parseFrameChoice(side.frame), picture, model->scene);
+        const Mesh& mesh = model->scene.meshes[std::size_t(probe.hit->mesh)];
+        probe.surface = prober_.at(model->scene, model->number, *probe.hit, frame.value_or(mesh.readWith.value_or(Frame{})),
+                                    side.tangents);
         return probe;
     };
     std::promise<Probe> found;

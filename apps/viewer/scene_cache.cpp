@@ -20,24 +20,27 @@ constexpr double kSmooth = 0.05; // seconds: slower images are drawn smaller whi
 constexpr double kDraftPixels = 160000;
 
 // Everything that the scene of a side depends on.
-std::string sceneKey(const Model& model, const PictureOptions& o, Frame frame, const std::string& inspection)
+std::string sceneKey(const Model& model, const PictureOptions& o, std::optional<Frame> frame,
+                     const std::string& inspection)
 {
     const std::string vertices =
-        readsVertices(frame) ? std::string(name(frame)) + "/" + wordOf(kTangentOrigins, o.tangents) : "";
+        !frame || readsVertices(*frame)
+        ? std::string(frame ? name(*frame) : kAutoFrame) + "/" + wordOf(kTangentOrigins, o.tangents)
+        : "";
     const OwnMaps& m = o.maps;
     return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}", model.number, vertices, inspection, m.normal, m.baseColor,
                        m.metallicRoughness, m.occlusion, m.convention, m.material);
 }
 
-bool plain(const PictureOptions& o, Frame frame)
+bool plain(const PictureOptions& o, std::optional<Frame> frame)
 {
     const OwnMaps none, &m = o.maps;
-    return !readsVertices(frame) && m.normal.empty() && m.baseColor.empty() && m.metallicRoughness.empty()
+    return frame && !readsVertices(*frame) && m.normal.empty() && m.baseColor.empty() && m.metallicRoughness.empty()
         && m.occlusion.empty() && m.convention == none.convention;
 }
 
-// The frame of a side. The frame's name must be valid.
-Frame frameOf(const Order& order, bool second, const Scene& scene)
+// The frame of a side; none: each mesh's own. The frame's name must be valid.
+std::optional<Frame> frameOf(const Order& order, bool second, const Scene& scene)
 {
     return chosenFrame(*parseFrameChoice((second ? order.b : order.a).frame), second ? order.second : order.first,
                        scene);
@@ -106,7 +109,8 @@ Status SceneCache::drawFigures(const Order& order, Drawn& drawn)
         return degrees.error();
     drawn.degrees = *degrees;
     drawn.statistics = angleStatistics(drawn.degrees);
-    drawn.statisticsOf = two ? "first against second" : std::string(name(view->frame)) + " against exact";
+    drawn.statisticsOf = two ? "first against second"
+                             : nameOfFrames(frameOf(order, false, *(*first)->scene), *(*first)->scene) + " against exact";
     drawn.hasFigures = true;
     return Done{};
 }
@@ -207,7 +211,7 @@ Result<std::vector<float>> SceneCache::degreesOf(const Order& order, CachedScene
         if (!secondScene)
             return secondScene.error();
         other = *secondScene;
-        normals.frame = frameOf(order, true, *other->scene);
+        normals.setFrame(frameOf(order, true, *other->scene));
         normals.normalMaps = !second.noNormalMaps;
     } else {
         normals.frame = Frame::exact;
@@ -228,7 +232,7 @@ Result<CachedScene*> SceneCache::cachedScene(std::size_t index, const Order& ord
     if (!choice)
         return choice.error();
     const std::string inspection = !normals && inspectionFromName(order.show) ? order.show : "";
-    const Frame frame =
+    const std::optional<Frame> frame =
         chosenFrame(*choice, o, order.model->scene); // of the model's own maps; others are not applied yet
     const std::string key = sceneKey(*order.model, o, frame, inspection);
     for (CachedScene& known : cachedScenes_)
@@ -266,7 +270,7 @@ Result<View> SceneCache::viewFor(const Order& order, CachedScene& s, bool second
     auto view = viewOf(o, *s.scene);
     if (!view)
         return view;
-    view->frame = frameOf(order, second, *s.scene);
+    view->setFrame(frameOf(order, second, *s.scene));
     view->output = outputOf(order.show);
     view->lights = lightsOf(o, *s.scene);
     const bool unlit = o.use == PictureUse::data; // data is drawn without lighting

@@ -49,15 +49,15 @@ Image draw(const Wanted& wanted, const cotan_render_options& o, Json& report)
     const FrameChoice frame = valueOf(parseFrameChoice(wanted.frame));
     valueOf(checkLighting(wanted.picture, frame));
     Picture picture = valueOf(openPicture(wanted.picture, o.threads, {frame, Frame::exact}));
-    picture.view.frame = picture.frames.front();
+    picture.view.setFrame(picture.frames.front());
     picture.view.output = outputOf(wanted.picture.show);
     const auto renderer = valueOf(openPictureRenderer(wanted.picture, picture));
     renderer->progress = progressOf(o.progress, o.user);
-    report = {{"frame", name(picture.view.frame)}, {"view", wanted.picture.show}, {"device", renderer->device()}};
+    report = {{"frame", nameOf(picture.frames.front())}, {"view", wanted.picture.show}, {"device", renderer->device()}};
     report.update(countsOf(picture.scene));
     if (!renderer->note.empty())
         report["note"] = renderer->note;
-    if (const std::string note = frameNote(picture.scene, picture.view.frame); !note.empty())
+    if (const std::string note = frameNote(picture.scene, picture.frames.front()); !note.empty())
         report["frame_note"] = note;
     Image image =
         valueOf(drawShow(*renderer, picture.scene, picture.view, wanted.picture.show, o.floats != 0,

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "cotan/frame_choice.hpp"
 #include "cotan/maps.hpp"
 #include "cotan/model.hpp"
 #include "files/bytes.hpp"
@@ -166,36 +168,84 @@ Result<MovingModel> openMovingModel(const PictureOptions& options)
     return MovingModel{std::move(*scene), std::move(*opened)};
 }
 
-Result<Scene> poseModel(AnimatedGltf& model, const PictureOptions& options, const std::vector<Image>& images)
+Result<Scene> poseModel(AnimatedGltf& model, const PictureOptions& options, const Scene& before)
 {
-    auto scene = model.at({options.animation, options.time}, &images);
-    if (scene)
-        if (Status whole = complete(model, options, *scene); !whole)
-            return whole.error();
+    auto scene = model.at({options.animation, options.time}, &before.images);
+    if (!scene)
+        return scene;
+    if (Status whole = complete(model, options, *scene); !whole)
+        return whole.error();
+    for (std::size_t i = 0; i < std::min(scene->meshes.size(), before.meshes.size()); ++i)
+        scene->meshes[i].readWith = before.meshes[i].readWith;
     return scene;
 }
 
-Frame chosenFrame(const FrameChoice& choice, const PictureOptions& options, const Scene& scene)
+namespace {
+
+MapSource sourceOf(const PictureOptions& options)
 {
-    const MapSource source = options.model.empty() ? MapSource::shape
-        : options.maps.normal.empty()              ? MapSource::model
-                                                   : MapSource::own;
-    return choice ? *choice : autoFrame(scene, source);
+    return options.model.empty()            ? MapSource::shape
+        : options.maps.normal.empty() ? MapSource::model
+                                      : MapSource::own;
 }
 
-Result<std::vector<Frame>> prepareScene(const PictureOptions& options, const std::string& show,
-                                        std::initializer_list<FrameChoice> choices, Scene& scene)
+// The frames of the meshes, each once.
+std::vector<Frame> framesOf(const Scene& scene)
+{
+    std::vector<Frame> all;
+    for (const Mesh& mesh : scene.meshes)
+        if (mesh.readWith && std::ranges::find(all, *mesh.readWith) == all.end())
+            all.push_back(*mesh.readWith);
+    std::ranges::sort(all);
+    return all;
+}
+
+} // namespace
+
+void chooseFramesOfMeshes(const PictureOptions& options, Scene& scene)
+{
+    for (const FrameDecision& d : chooseFrames(scene, {.limits = ChoiceLimits::of(options.maxDegrees)}))
+        if (d.reason != ChoiceReason::noMap)
+            scene.meshes[d.mesh].readWith = d.frame;
+}
+
+std::optional<Frame> chosenFrame(const FrameChoice& choice, const PictureOptions& options, const Scene& scene)
+{
+    if (choice)
+        return choice;
+    const MapSource source = sourceOf(options);
+    const std::vector<Frame> own = framesOf(scene);
+    if (source != MapSource::model || own.empty())
+        return autoFrame(scene, source);
+    return own.size() == 1 ? std::optional(own.front()) : std::nullopt;
+}
+
+std::string nameOfFrames(const std::optional<Frame>& frame, const Scene& scene)
+{
+    if (frame)
+        return std::string(name(*frame));
+    std::vector<std::string_view> names;
+    for (const Frame f : framesOf(scene))
+        names.push_back(name(f));
+    return fmt::format("{} ({})", kAutoFrame, fmt::join(names, ", "));
+}
+
+Result<std::vector<std::optional<Frame>>> prepareScene(const PictureOptions& options, const std::string& show,
+                                                       std::initializer_list<FrameChoice> choices, Scene& scene)
 {
     if (const Status applied = applyOwnMaps(options.maps, options.memory, scene); !applied)
         return applied.error();
-    std::vector<Frame> frames;
+    const bool automatic = std::ranges::any_of(choices, [](const FrameChoice& c) { return !c; });
+    if (automatic && sourceOf(options) == MapSource::model && framesOf(scene).empty())
+        chooseFramesOfMeshes(options, scene);
+    std::vector<std::optional<Frame>> frames;
     for (const FrameChoice& choice : choices)
         frames.push_back(chosenFrame(choice, options, scene));
     if (const auto inspection = inspectionFromName(show)) {
         scene = inspected(std::move(scene), *inspection);
         return frames;
     }
-    for (const Frame frame : frames)
+    for (const std::optional<Frame>& frame : frames)
         deriveVertexFrames(scene, frame, options.tangents);
     return frames;
 }

@@ -115,6 +115,7 @@ std::vector<Option> optionsOf(PictureOptions& o, std::string& frame)
         text("--camera", o.camera),
         text("--device", o.device),
         text("--frame", frame),
+        real<double>("--max-degrees", o.maxDegrees, within(kChoiceDegrees)),
         checked("--view", wordOf(showNames()), [&o](const std::string& word) { o.show = word; }),
         choice("--edges", o.edges, kEdges),
         choice("--shading", o.shading, kShadings),

@@ -48,6 +48,7 @@ struct Bounded {
 };
 inline constexpr Bounded kRotations = {-360, 360}; // degrees
 inline constexpr Bounded kSoftnesses = {0, 60};    // degrees
+inline constexpr Bounded kChoiceDegrees = {0, 180};
 inline constexpr Bounded kMoments = {0, 1e6};      // seconds
 inline constexpr int kMaxMemory = 1 << 16;         // MiB; the minimum is 1
 inline constexpr int kMaxMaterial = 100000;        // the minimum is -1: all
@@ -69,6 +70,8 @@ std::string frameNames();
 
 // Name of the frame choice that stands for the frame that the normal maps are for.
 inline constexpr std::string_view kAutoFrame = "auto";
+
+inline std::string nameOf(const FrameChoice& frame) { return std::string(frame ? name(*frame) : kAutoFrame); }
 
 // Parses a frame's name, or kAutoFrame for none. The error lists all names and begins with `field`, the option or field
 // that the text was given for.

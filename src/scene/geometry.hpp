@@ -181,7 +181,7 @@ inline Frame frameOf(const Mesh& mesh, Frame ofView, bool framesOfMeshes)
 
 // Checks that every drawn mesh with the uv of its normal map also has the vertex attributes that its frame reads (see
 // frameOf); without them a renderer would have no frame for the mesh. Errors: ErrorKind::usage, naming the mesh, if
-// deriveVertexFrames or deriveFramesOfMeshes (cotan/view.hpp) was not called.
+// deriveVertexFrames (cotan/view.hpp) was not called.
 Status checkVertexAttributes(const Scene& scene, Frame ofView, bool framesOfMeshes = false);
 
 // Returns the name of an instance, or of its mesh if the instance has none; may be empty.

@@ -330,17 +330,11 @@ void deriveVertexFrames(const Scene& scene, Mesh& mesh, Frame frame, TangentOrig
 
 } // namespace
 
-void deriveVertexFrames(Scene& scene, Frame frame, TangentOrigin tangents)
+void deriveVertexFrames(Scene& scene, std::optional<Frame> frame, TangentOrigin tangents)
 {
     for (Mesh& mesh : scene.meshes)
-        deriveVertexFrames(scene, mesh, frame, tangents);
-}
-
-void deriveFramesOfMeshes(Scene& scene, TangentOrigin tangents)
-{
-    for (Mesh& mesh : scene.meshes)
-        if (mesh.readWith)
-            deriveVertexFrames(scene, mesh, *mesh.readWith, tangents);
+        if (frame || mesh.readWith)
+            deriveVertexFrames(scene, mesh, frame ? *frame : *mesh.readWith, tangents);
 }
 
 } // namespace cotan

@@ -247,14 +247,14 @@ Frame autoFrame(const Scene& scene, MapSource source)
     return shaped || (source == MapSource::own && repeatsNormalMaps(scene)) ? Frame::cotangent : Frame::orthonormal;
 }
 
-std::string frameNote(const Scene& scene, Frame frame)
+std::string frameNote(const Scene& scene, std::optional<Frame> frame)
 {
     const auto named = namedFrame(scene);
-    if (!named)
+    if (!frame || !named)
         return "";
     const std::string maps = "the normal maps are for the frame " + std::string(name(named->frame));
-    if (named->frame != frame)
-        return maps + ", as the file says, and are read with " + std::string(name(frame));
+    if (named->frame != *frame)
+        return maps + ", as the file says, and are read with " + std::string(name(*frame));
     return named->others == 0 ? ""
                               : maps + ", the named frame with the largest area; " + std::to_string(named->others)
             + " other material(s) name another frame or none, and are read with it as well";

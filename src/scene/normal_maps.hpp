@@ -80,8 +80,9 @@ enum class MapSource {
 // without tangents) in all other cases.
 Frame autoFrame(const Scene& scene, MapSource source);
 
-// Returns a one-line warning if the maps are named for a frame other than `frame` or for several; otherwise empty.
-std::string frameNote(const Scene& scene, Frame frame);
+// Returns a one-line warning if the maps are named for a frame other than `frame` or for several; otherwise, and for
+// frames of meshes (none), empty.
+std::string frameNote(const Scene& scene, std::optional<Frame> frame);
 
 // ---- another map -----------------------------------------------------------------------------
 

@@ -184,10 +184,10 @@ inline constexpr const char* kNoNormalMap = "no normal map is drawn";
 inline constexpr int kConversionViews = 5;  // from four sides, 90 degrees apart, and from above
 inline constexpr int kConversionSide = 768; // pixels
 
-// A model and the frame that its maps were made for.
+// A model and the frame that its maps are read with; none: each mesh's own (Mesh::readWith).
 struct ModelInFrame {
     Scene scene;
-    Frame frame = Frame::cotangent;
+    std::optional<Frame> frame = Frame::cotangent;
     TangentOrigin tangents = TangentOrigin::stored; // the tangents it is drawn with
 };
 
@@ -231,7 +231,8 @@ struct ComparedFrames {
 inline constexpr int kComparedFramesImages = 8; // drawn by compareFrames; each advances renderer.progress
 
 // Draws the loaded scene, which is `scene`, with both frames. Errors: those of Renderer::draw.
-Result<ComparedFrames> compareFrames(Renderer& renderer, const Scene& scene, View view, std::array<Frame, 2> frames);
+Result<ComparedFrames> compareFrames(Renderer& renderer, const Scene& scene, View view,
+                                     std::array<std::optional<Frame>, 2> frames);
 
 // The statistics, or the reason that there are none.
 std::string toText(const ComparedFrames& compared);

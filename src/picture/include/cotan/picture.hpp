@@ -6,7 +6,7 @@
 //     auto picture = cotan::openPicture(options, /*threads=*/0, {cotan::FrameChoice()});
 //     if (!picture)
 //         return fail(picture.error().message);
-//     picture->view.frame = picture->frames.front();
+//     picture->view.setFrame(picture->frames.front());
 //     auto renderer = cotan::openPictureRenderer(options, *picture);
 //     auto image = cotan::drawShow(**renderer, picture->scene, picture->view, options.show, /*floats=*/false);
 //
@@ -111,6 +111,7 @@ struct PictureOptions {
     bool noNormalMaps = false;
     bool pointSampled = false;
     bool specularAntialiasing = false;
+    double maxDegrees = 0.3; // that the frames of `auto` may be off, on average, as ChoiceLimits::of
 
     // For a model that is not in files, as in LoadLimits; may be empty.
     std::function<Result<std::vector<std::byte>>(const std::string& name)> readFile;
@@ -137,19 +138,28 @@ struct MovingModel {
 };
 Result<MovingModel> openMovingModel(const PictureOptions& options);
 
-// Returns the model in the pose of the options. images: copied from an earlier scene of this model. Errors: as
-// AnimatedGltf::at.
-Result<Scene> poseModel(AnimatedGltf& model, const PictureOptions& options, const std::vector<Image>& images);
+// Returns the model in the pose of the options. before: an earlier scene of this model; images and frames of meshes are
+// copied from it. Errors: as AnimatedGltf::at.
+Result<Scene> poseModel(AnimatedGltf& model, const PictureOptions& options, const Scene& before);
 
-// A frame, or nothing for `auto`: the frame that the normal maps are for.
+// A frame, or nothing for `auto`: the frames of chooseFrames (cotan/frame_choice.hpp) for the maps of a model, the one
+// frame that other maps are for.
 using FrameChoice = std::optional<Frame>;
 
-// Resolves a frame choice for the scene of the options' model, with the options' own maps applied.
-Frame chosenFrame(const FrameChoice& choice, const PictureOptions& options, const Scene& scene);
+// Sets the frame of each mesh to the one that chooseFrames chooses for it within options.maxDegrees.
+void chooseFramesOfMeshes(const PictureOptions& options, Scene& scene);
+
+// Resolves a frame choice for the scene of the options' model, with the options' own maps applied, after
+// chooseFramesOfMeshes. None: the meshes' frames differ.
+std::optional<Frame> chosenFrame(const FrameChoice& choice, const PictureOptions& options, const Scene& scene);
+
+// The name of a resolved choice; if the meshes' frames differ, all of them: "auto (orthonormal, mikktspace)".
+std::string nameOfFrames(const std::optional<Frame>& frame, const Scene& scene);
 
 // Applies the options' own maps to the scene and derives the attributes that the frames need; for inspections (`show`),
-// replaces the scene by one in false colours instead. Resolves `auto` in the returned frames. Errors: as applyOwnMaps.
-Result<std::vector<Frame>> prepareScene(const PictureOptions& options, const std::string& show,
+// replaces the scene by one in false colours instead. Resolves `auto` in the returned frames, for which it calls
+// chooseFramesOfMeshes if no mesh has a frame yet. Errors: as applyOwnMaps.
+Result<std::vector<std::optional<Frame>>> prepareScene(const PictureOptions& options, const std::string& show,
                                         std::initializer_list<FrameChoice> frames, Scene& scene);
 
 // Returns the view of the options, except environment map, lights and ground.
@@ -163,7 +173,7 @@ struct Picture {
     Scene scene;
     View view;
     bool meter = false;                                    // whether to meter the exposure
-    std::vector<Frame> frames;                             // the requested ones, with `auto` resolved
+    std::vector<std::optional<Frame>> frames;              // the requested ones, with `auto` resolved
     std::vector<SurfaceEdge> edges;                        // to draw over the image
     double loadSeconds = 0;                                // set by the caller
     std::future<Result<std::unique_ptr<Renderer>>> device; // being opened; used by openPictureRenderer

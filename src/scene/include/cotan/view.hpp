@@ -131,6 +131,13 @@ struct View {
     Derivatives derivatives = Derivatives::fine;
     // Direction of raster rows during drawing. The image is upright either way; only the sign of y derivatives changes.
     bool rowsUpward = false;
+
+    // Reads maps with one frame, or with each mesh's own.
+    void setFrame(std::optional<Frame> one)
+    {
+        frame = one.value_or(frame);
+        framesOfMeshes = !one;
+    }
 };
 
 // ---- cameras and lights --------------------------------------------------------------------
@@ -204,13 +211,10 @@ enum class TangentOrigin {
 };
 
 // Adds the vertex attributes that `frame` reads to every mesh with uv: cotangents for `smooth`, tangents for `vertex`
-// and `mikktspace`. Other frames need none and leave the scene unchanged. Vertices are split, with all attributes,
+// and `mikktspace`; without `frame`, those of the mesh's own one (Mesh::readWith), if it has one. Other frames need none and leave the scene unchanged. Vertices are split, with all attributes,
 // where tangents differ or uv are mirrored; triangles keep their number and order. Renderers refuse a scene without
 // these attributes. Meshes without triangles, or without the uv set of their normal map (set 0 if there is no map), are
 // left unchanged. For triangles without area in space or in uv, see cotan/tangents.hpp.
-void deriveVertexFrames(Scene& scene, Frame frame, TangentOrigin tangents);
-
-// The same for meshes with a frame of their own, Mesh::readWith.
-void deriveFramesOfMeshes(Scene& scene, TangentOrigin tangents);
+void deriveVertexFrames(Scene& scene, std::optional<Frame> frame, TangentOrigin tangents);
 
 } // namespace cotan
