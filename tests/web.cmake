@@ -23,6 +23,11 @@ cotan_web_test(package_test ARGUMENTS $<TARGET_FILE:cotan_c> ${data}
     greenThatTangentsReverseIsNotFixed modesOfConversionAreChosenAndRefused pngFilesRoundTrip
     mapsConvertAndTheirGreenIsDetected errorsNameTheFieldAndTheFault encodePngValidatesItsImageFirst
     sizesThatOverflow32BitsAreRefused everyFunctionRefusesNonsenseWithACotanError missingDecodersAreExplainedForNpmUsers badInputLeaksNothing badFilesAreRefusedOrRead packageIsSmall)
+cotan_web_test(instance_test CASES everyKindOfThrowGivesAFreshInstance aNestedFaultEndsTheOuterCallToo aFailedRestartIsReportedAndTriedAgain
+    fullStacksLeaveNothingBehindInBothModules errorsOfCallbacksAreNoFaults)
+cotan_web_test(zip_test CASES zipsOfOtherProgramsAreRead hostileZipsAreRefused damagedZipsGiveTheirFilesOrOneLine)
+cotan_web_test(arguments_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
+  CASES everyArgumentOfTheTangents everyArgumentOfTheWholePackage everyOptionOfTheTransforms everyArgumentForThree)
 cotan_web_test(gltf_transform_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules ${data}
   CASES indexedPrimitivesGetTheTangentsOfTheirCorners untangentMatchesConvert lintNormalsReportsAndChangesNothing
     aModelWithGreenReversedFailsTheCheck newMapsAreEncodedFor2cMinus1 materialsNameTheFrameOfTheirMaps checkCommandHasALimitAReportAndAnExitCode
@@ -34,7 +39,7 @@ cotan_web_test(three_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules ${dat
     repeatedCallsAndLaterMeshesAgree autoIsTheFrameOfTheMaterialOrOrthonormal
     repeatedMapsOnOwnShapesUseCotangent smoothUsesTheCotangentsOfTheLibrary laterHooksAreInTheKeyAndKeepTheFrame
     clonesOfMaterialsKeepTheFrame replacementsAreFreedWithTheOriginal olderVersionsOfThreeWorkAndTooOldOnesAreRefused
-    unknownArgumentsAreRefused)
+    nodesAreInTheKeyOfTheProgram unknownArgumentsAreRefused)
 cotan_web_test(types_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
   CASES typingsAcceptEveryExportInStrictMode typingsMatchTheExports everyWrongCallIsATypeError)
 cotan_web_test(bundlers_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
