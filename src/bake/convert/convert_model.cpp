@@ -26,7 +26,7 @@ public:
 
     Result<ConvertModelReport> run()
     {
-        const auto named = namedFrame(document_);
+        const auto named = options_.readMaps ? namedFrame(document_) : Result<std::optional<Frame>>(std::nullopt);
         if (!named)
             return named.error();
         if (*named && **named != options_.frames.from)
@@ -34,10 +34,27 @@ public:
                                           "that as the frame to convert from, found {}",
                                           fileOf(document_), name(**named), name(options_.frames.from)));
         named_ = named->has_value();
-        const auto jobs = mapJobs(document_, report_.notes);
+        if (options_.readMaps)
+            if (Status converted = convertMaps(); !converted)
+                return converted.error();
+        if (Status settled = updateTangents(); !settled)
+            return settled.error();
+        if (!std::ranges::all_of(report_.maps, &ConvertedMap::kept) && options_.frames.to != Frame::mikktspace)
+            report_.notes.push_back(
+                fmt::format("the maps are now for the frame {}; readers that generate MikkTSpace tangents where "
+                            "TANGENT is missing, as glTF specifies, will shade them incorrectly",
+                            name(options_.frames.to)));
+        given_ = std::move(document_);
+        return std::move(report_);
+    }
+
+private:
+    Status convertMaps()
+    {
+        const auto jobs = mapJobs(document_, report_.notes, options_.limits);
         if (!jobs)
             return jobs.error();
-        report_.unread = unreadNormalMaps(document_);
+        report_.unread = unreadNormalMaps(document_, options_.limits);
         for (const UnreadMap& map : report_.unread)
             report_.notes.push_back(
                 fmt::format("{}: a normal map in {} is not supported; it and its tangents are unchanged: {}", map.name,
@@ -62,18 +79,9 @@ public:
         for (const MapJob& job : *jobs)
             for (const MapSlot& slot : options_.keepMaps ? std::vector<MapSlot>{} : job.slots)
                 nameFrame(document_, slot.material, options_.frames.to);
-        if (Status settled = updateTangents(); !settled)
-            return settled.error();
-        if (!std::ranges::all_of(report_.maps, &ConvertedMap::kept) && options_.frames.to != Frame::mikktspace)
-            report_.notes.push_back(
-                fmt::format("the maps are now for the frame {}; readers that generate MikkTSpace tangents where "
-                            "TANGENT is missing, as glTF specifies, will shade them incorrectly",
-                            name(options_.frames.to)));
-        given_ = std::move(document_);
-        return std::move(report_);
+        return Done{};
     }
 
-private:
     std::string fieldOf(const MapJob& job) const { return fileOf(document_) + job.name; }
 
     Status checkMemory(const std::vector<MapJob>& jobs) const
@@ -155,13 +163,22 @@ private:
             return file.error();
         const ValueSummary unconverted = done.figures.unconverted;
         done.figures = r;
-        if (file->format != "PNG") {
+        const bool byCaller = options_.encode && isPng(file->bytes);
+        if (file->format != "PNG" || byCaller) {
             const auto stored = decodeImage(file->bytes, field, options_.limits);
             if (!stored)
                 return stored.error();
+            if (stored->width != map->width || stored->height != map->height)
+                return outputError(fmt::format("{}: expected an encoded image of {} x {}, found {} x {}", field,
+                                               map->width, map->height, stored->width, stored->height));
             const ValueSummary lossy = mapError(*map, *stored, *uses, options_.frames, expansions.written);
-            if (lossy.mean <= std::max(kVisible, 0.5 * unconverted.mean)) {
+            const bool shows = lossy.mean > std::max(kVisible, 0.5 * unconverted.mean);
+            if (!shows || byCaller) {
                 done.figures.error = lossy;
+                if (shows)
+                    report_.notes.push_back(fmt::format(
+                        "{}: as encoded by the caller, its error is {:.2f} degrees on average, without losses {:.2f}",
+                        job.name, lossy.mean, r.error.mean));
             } else { // its losses would undo the conversion
                 auto png = encodePng(r.image);
                 if (!png)
@@ -242,10 +259,13 @@ private:
         }
         if (options_.keepTangents) {
             report_.tangents = TangentsAfter::kept;
-            report_.notes.push_back("TANGENT is kept; a reader that uses it will shade the converted maps incorrectly");
+            if (!options_.keepMaps)
+                report_.notes.push_back(
+                    "TANGENT is kept; a reader that uses it will shade the converted maps incorrectly");
             return Done{};
         }
-        auto dropped = dropTangents(document_, options_.frames, report_.notes);
+        const auto foreign = options_.readMaps ? foreignNormalMaps(document_, options_.limits) : std::vector<MapSlot>();
+        auto dropped = dropTangents(document_, options_.frames, foreign, report_.notes);
         if (!dropped)
             return dropped.error();
         report_.dropped = std::move(*dropped);
@@ -271,7 +291,7 @@ Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertMod
     if (options.bits != 0 && options.bits != 8 && options.bits != 16)
         return usageError(
             fmt::format("convert: expected 8 or 16 bits, or 0 for those of the old maps; found {}", options.bits));
-    if (options.keepMaps && (options.keepTangents || readsTangents(options.frames.to)))
+    if (options.keepMaps && ((options.keepTangents && options.readMaps) || readsTangents(options.frames.to)))
         return usageError(
             fmt::format("convert: with keepMaps the tangents are dropped; expected a frame that reads none, found {}",
                         options.keepTangents ? "keepTangents" : name(options.frames.to)));
