@@ -71,11 +71,11 @@ function domeTexels(count) {
 const twoTexels = [[128, 128, 255, 255], [218, 128, 218, 255]];
 
 // Degrees at the centres of the left and the right half between the drawn normals and those of `texels` on a plane that
-// faces the eye, with u to the right and v up. pixels: RGBA floats of width x height. mirrored: u to the left.
-function halvesErrors(pixels, width, height, texels = twoTexels, mirrored = false) {
+// faces the eye, with u to the right and v up. pixels: RGBA floats of width x height.
+function halvesErrors(pixels, width, height, texels = twoTexels) {
   return texels.map((texel, half) => {
     const at = 4 * (Math.floor(height / 2) * width + Math.floor(width * (half + 0.5) / 2)), got = pixels.subarray(at, at + 3);
-    const m = [0, 1, 2].map(i => (texel[i] / 127.5 - 1) * (i === 0 && mirrored ? -1 : 1));
+    const m = [0, 1, 2].map(i => texel[i] / 127.5 - 1);
     const dot = m[0] * got[0] + m[1] * got[1] + m[2] * got[2];
     const cross = Math.hypot(m[1] * got[2] - m[2] * got[1], m[2] * got[0] - m[0] * got[2], m[0] * got[1] - m[1] * got[0]);
     return Math.atan2(cross, dot) * 180 / Math.PI;

@@ -131,11 +131,14 @@ void expectTwoMaterials(const json& page, const std::string& prefix, std::size_t
         const std::string label = prefix + "two materials, " + frame;
         ASSERT_TRUE(page.contains(label)) << label;
         EXPECT_EQ(page[label].size(), kinds) << label;
-        for (const auto& [kind, halves] : page[label].items())
+        for (const auto& [kind, halves] : page[label].items()) {
+            if (kind == "two matrices" && std::string(frame) == "stock" && !prefix.empty())
+                continue; // three's nodes take the frame from texture coordinates that are not transformed
             for (const json& degrees : halves) {
                 ASSERT_TRUE(degrees.is_number()) << label << ", " << kind;
                 EXPECT_LT(degrees.get<double>(), kRight) << label << ", " << kind << ": " << halves;
             }
+        }
     }
 }
 
@@ -170,7 +173,7 @@ TEST(ThreePackage, drawsEverySceneRightWithWebGLRenderer)
         expectOurs(std::string(method) + ", ", page[method], 9);
     for (const auto& [scene, found] : page["broken"].items())
         expectDrawnWrong("broken, " + scene, found);
-    expectTwoMaterials(page, "", 4);
+    expectTwoMaterials(page, "", 5);
 }
 
 TEST(ThreePackage, drawsEverySceneRightWithWebGPURenderer)
@@ -189,7 +192,7 @@ TEST(ThreePackage, drawsEverySceneRightWithWebGPURenderer)
         for (const std::string method : {"orthonormal", "smooth"})
             expectOurs(backend + method + ", ", page[backend + method], 9);
         expectDrawnWrong(backend + "reversed", page[backend + "broken"]["front"]);
-        expectTwoMaterials(page, backend, 6);
+        expectTwoMaterials(page, backend, 7);
         EXPECT_EQ(page[backend + "lit"].size(), 5u);
         for (const auto& [scene, render] : page[backend + "lit"].items()) {
             EXPECT_GT(render["covered"].get<int>(), 30000) << scene;

@@ -43,12 +43,12 @@ export function replaceFrame(material, options) {
   const { normalMap, clearcoatNormalMap } = material;
   const put = (name, map, scale) => {
     if (material[name] && !ours.has(material[name])) return;
-    material[name] = perturbedNormal(map, materialReference(scale, 'vec2'), frame);
+    material[name] = perturbed(mapOfMaterial(map), materialReference(scale, 'vec2'), frame);
     ours.add(material[name]);
   };
-  if (normalMap && material.normalMapType !== ObjectSpaceNormalMap) put('normalNode', normalMap, 'normalScale');
-  if (clearcoatNormalMap) put('clearcoatNormalNode', clearcoatNormalMap, 'clearcoatNormalScale');
-  if (material.anisotropy !== undefined) material.setupVariants = variantsWith(frame, normalMap, against);
+  if (normalMap && material.normalMapType !== ObjectSpaceNormalMap) put('normalNode', 'normalMap', 'normalScale');
+  if (clearcoatNormalMap) put('clearcoatNormalNode', 'clearcoatNormalMap', 'clearcoatNormalScale');
+  if (material.anisotropy !== undefined) material.setupVariants = variantsWith(frame, normalMap ? mapOfMaterial('normalMap') : null, against);
   material.needsUpdate = true;
   const isNew = !chosen.has(material), key = isNew ? ownKeyOf(material) : chosen.get(material).key;
   chosen.set(material, { frame, against, key });
@@ -59,14 +59,16 @@ export function replaceFrame(material, options) {
 const ownKeyOf = material => Object.hasOwn(material, 'customProgramCacheKey') ? material.customProgramCacheKey : undefined;
 
 // Adds to the key by which three shares programs what three leaves out: the nodes of a material that is no node material,
-// and what setupVariants closes over.
+// and what they and setupVariants depend on. Our nodes are equal for all maps of one kind.
 function installKey(material) {
-  const nodesOf = () => material.isNodeMaterial ? [] : Object.entries(material).filter(([, value]) => value?.isNode).flatMap(([name, node]) => [name, node.getCacheKey(true)]);
+  const nodesOf = () => material.isNodeMaterial ? [] : Object.entries(material).filter(([, value]) => value?.isNode)
+    .flatMap(([name, node]) => [name, ours.has(node) ? '' : node.getCacheKey(true)]);
   Object.defineProperty(material, 'customProgramCacheKey', {
     configurable: true,
     get: () => () => {
       const { frame, against, key } = chosen.get(material), proto = Object.getPrototypeOf(material).customProgramCacheKey;
-      return ['cotan', frame, against, material.normalMap?.uuid, ...nodesOf(), (key ?? proto).call(material)].join();
+      const kinds = [material.normalMap, material.clearcoatNormalMap].map(map => map && hasTwoChannels(map));
+      return ['cotan', frame, against, ...kinds, ...nodesOf(), (key ?? proto).call(material)].join();
     },
     set: key => { chosen.get(material).key = key; },
   });
@@ -79,17 +81,35 @@ export function perturbedNormal(map, scale = vec2(1), frame = 'cotangent') {
   choice(frame, 'frame', kSupported);
   if (!scale?.isNode) throw usage(`scale: expected a vec2 node, found ${wordsFor(scale)}`);
   const sample = texture(map);
+  return perturbed(() => ({ map, sample, node: sample }), scale, frame);
+}
+
+const hasTwoChannels = map => [RGFormat, RED_GREEN_RGTC2_Format, RG11_EAC_Format].includes(map.format);
+
+// The map of the material that is drawn, by its name, so that materials with other maps can use the same nodes. Gives
+// { map, sample, node } for a builder: sample: what to read, node: the texture's node within.
+function mapOfMaterial(name) {
+  const sample = materialReference(name, 'texture');
+  return builder => {
+    sample.updateReference(builder);
+    sample.updateValue();
+    return { map: builder.material[name], sample, node: sample.node };
+  };
+}
+
+// source: gives the map, as mapOfMaterial().
+function perturbed(source, scale, frame) {
   return Fn((_, builder) => {
-    const c = sample.mul(2).sub(1).xyz.toVar();
-    if ([RGFormat, RED_GREEN_RGTC2_Format, RG11_EAC_Format].includes(map.format))
-      c.z.assign(c.xy.dot(c.xy).oneMinus().saturate().sqrt());
-    const { t, b, n } = frameOf(frame, map, sample, builder);
+    const read = source(builder), c = read.sample.mul(2).sub(1).xyz.toVar();
+    if (hasTwoChannels(read.map)) c.z.assign(c.xy.dot(c.xy).oneMinus().saturate().sqrt());
+    const { t, b, n } = frameOf(frame, read, builder);
     return t.mul(c.x.mul(scale.x)).add(b.mul(c.y.mul(scale.y))).add(n.mul(c.z)).normalize();
   })();
 }
 
-// The frame in three's convention: on back faces t, b and n are those of the front, negated.
-function frameOf(frame, map, sample, builder) {
+// The frame in three's convention: on back faces t, b and n are those of the front, negated. read: as from
+// mapOfMaterial(), null without a map.
+function frameOf(frame, read, builder) {
   const flat = builder.isFlatShading();
   const n = (flat ? normalViewGeometry : negateOnBackSide(normalViewGeometry)).toVar();
   const native = builder.renderer.backend.isWebGPUBackend ? inWgsl : inEssl;
@@ -108,18 +128,17 @@ function frameOf(frame, map, sample, builder) {
     f = native.smooth({ n, u: moved('cotanU'), v: moved('cotanV') }).toVar();
     return { t: negateOnBackSide(f[0]), b: negateOnBackSide(f[1]), n };
   }
-  const at = sample ? sample.getTransformedUV(uv(map.channel)) : uv();
+  const at = read ? read.node.getTransformedUV(uv(read.map.channel)) : uv();
   f = native[frame]({ n, dpdx: positionView.dFdx(), dpdy: positionView.dFdy(), duvdx: at.dFdx(), duvdy: at.dFdy() }).toVar();
   return { t: negateOnBackSide(f[0]), b: negateOnBackSide(f[1]), n };
 }
 
 // A setupVariants for MeshPhysicalNodeMaterial that sets orthonormal directions of anisotropy in the surface.
-function variantsWith(frame, map, against) {
-  const sample = map ? texture(map) : null;
+function variantsWith(frame, source, against) {
   return function setupVariants(builder) {
     Object.getPrototypeOf(this).setupVariants.call(this, builder);
     if (!this.useAnisotropy) return;
-    const { t, b, n } = frameOf(frame, map, sample, builder);
+    const { t, b, n } = frameOf(frame, source?.(builder), builder);
     const along = t.dot(b.cross(n)).sign().mul(b.cross(n)).normalize().toVar();
     const across = n.cross(along).toVar();
     across.mulAssign(across.dot(b).sign().mul(against ? -1 : 1));
