@@ -118,7 +118,7 @@ TEST(ConvertCoat, theCoatLooksTheSameWithRotatedAndStretchedUv)
     }
 }
 
-// Of a coat's map or anisotropy, glTF requires TANGENT or a normalTexture, from which readers derive it.
+// A coat's map or anisotropy requires TANGENT or, for readers to derive it from, a normalTexture.
 TEST(ConvertCoat, tangentsStayWhereGltfRequiresThem)
 {
     for (const bool bumps : {false, true})

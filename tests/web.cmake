@@ -51,7 +51,8 @@ cotan_web_test(readme_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
     ${data}/models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb CASES theReadmeShowsAModelWithoutTangents)
 
 # Compares cotan/three with its defaults, from its sources, with stock three.js. The cat alone takes a minute.
-foreach(fact reversedTangentsReverseGreen modelsLookTheSameWithoutTheirTangents modelsWithoutTangentsAreReadAsMikkTSpace
+foreach(fact reversedTangentsReverseGreen modelsLookTheSameWithoutTheirTangents
+    nodeMaterialsOfAModelKeepTheirOwnMaps modelsWithoutTangentsAreReadAsMikkTSpace
     mirroredInstancesKeepTheirBumps replacedGeometriesAreFreed anOlderThreeDrawsTheSame)
   add_test(NAME ThreeDefaults.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/three_defaults_test.mjs
     ${PROJECT_SOURCE_DIR}/bindings/js ${PROJECT_BINARY_DIR}/npm/node_modules ${data} ${fact})

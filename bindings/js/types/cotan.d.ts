@@ -198,7 +198,7 @@ export interface ConvertReport {
     kept: boolean;
     bytes_before: number;
     bytes_after: number;
-    /** Of a new map: mean angle in degrees between its texels before it was encoded and in its file, decoded again. */
+    /** For a new map: the mean angle in degrees between its texels before it was encoded and in its file. */
     degrees_of_encoding?: number;
     [more: string]: any;
   }[];
@@ -223,7 +223,7 @@ export interface ConvertReport {
  * - `convert`: makes new maps as `cotan convert` does; the default if an option that concerns new maps is set. These
  *   keep the format of the old ones: JPEG and WebP at the same quality if sharp, or the canvas in browsers, encodes
  *   them, and if that costs no more than half a degree, or half of what the conversion gains; else PNG, with a note.
- * Tangents that glTF requires stay, with a note: of materials with anisotropy, or with a normal map of the clear coat,
+ * Tangents that glTF requires stay, with a note: those of materials with anisotropy, or with a normal map of the clear coat,
  * without normalTexture. */
 export function convert(model: Bytes, options?: ModelOptions & {
   mode?: 'auto' | 'drop' | 'convert';
