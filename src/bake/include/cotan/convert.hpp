@@ -54,9 +54,8 @@ struct ConvertModelOptions {
     int threads = 0;           // 0: all cores; the result does not depend on it
     std::size_t memory = 0;    // bytes that the triangles may take besides the document; 0: no limit
     LoadLimits limits{};       // for reading the images
-    // Encodes each new map as a PNG file, in place of Cotan's own writers; called on the caller's thread. The file is
-    // decoded again: ReencodeFigures::error has its losses, and a note names visible ones. Other bytes are taken as
-    // they are, for callers who replace them later. May be empty.
+    // Encodes each new map as a PNG file, in place of Cotan's own writers, on the caller's thread. The file is decoded
+    // again for ReencodeFigures::error. Other bytes are taken unread, for callers who replace them later. May be empty.
     std::function<Result<std::vector<std::byte>>(const Image&)> encode{};
     Progress progress{}; // called from any thread, also from several at once
     // Called with each map when it is done, in the order of the report, on the caller's thread.
