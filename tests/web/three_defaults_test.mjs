@@ -66,6 +66,18 @@ const cases = {
     await holds('models/FlightHelmet/FlightHelmet.gltf', 1);
   },
 
+  // All its materials once had the map of the first one: 4.4 degrees.
+  async nodeMaterialsOfAModelKeepTheirOwnMaps() {
+    const nodes = await browser.newPage();
+    await nodes.route(address, route => route.fulfill({ contentType: 'text/html', body: `<!doctype html><script type="importmap">${JSON.stringify({ imports: {
+      three: '/modules/three/build/three.webgpu.js', 'three/webgpu': '/modules/three/build/three.webgpu.js', 'three/tsl': '/modules/three/build/three.tsl.js',
+      'three/addons/': '/modules/three/examples/jsm/' } })}</script>` }));
+    await nodes.goto(address);
+    const { maps, count, mean } = await nodes.evaluate(async () => (await import('/tests/three_nodes_judge.js')).measure('/data/models/FlightHelmet/FlightHelmet.gltf'));
+    console.log(`${maps} maps, ${count} pixels: ${mean.toFixed(3)} degrees`);
+    assert.ok(maps > 3 && count > 20000 && mean < 0.5, `${maps} maps, ${count} pixels, ${mean} degrees`);
+  },
+
   // three alone reads them in cotangent: 0.425 degrees on BoomBox, where orthonormal has 0.056.
   async modelsWithoutTangentsAreReadAsMikkTSpace() {
     for (const file of ['NormalTangentTest/NormalTangentTest.glb', 'BoomBox/BoomBox.gltf', 'GlamVelvetSofa/GlamVelvetSofa.glb']) await holds(`models/${file}`, 0.15);
