@@ -3,7 +3,7 @@ import { Primitive, WebIO } from '@gltf-transform/core';
 import { convert, CotanError, decodePicture, encodePng, frames, lint, provoking as provokingOf, ready, split, tangents as tangentsOf } from '../cotan.js';
 import { checkTypes, choice, options as checked } from '../src/arrays.js';
 import { imageIn, imageOfTexture, parsedModel } from '../src/glb.js';
-import { advised, kGrowth, modeOf, needsTangents, notWorthIt } from '../src/modes.js';
+import { kGrowth, modeOf, tooLarge } from '../src/modes.js';
 
 const named = (name, transform) => Object.defineProperty(transform, 'name', { value: name });
 const kTangentFrames = ['mikktspace', 'vertex'];
@@ -193,17 +193,8 @@ const normalMapsOf = (document) => [...new Set(document.getRoot().listMaterials(
 const imageBytes = (texture) => texture.getImage()?.byteLength ?? 0;
 const arrayBytes = (accessors) => accessors.reduce((sum, accessor) => sum + (accessor.getArray()?.byteLength ?? 0), 0);
 
-function tangentsOfDocument(document) {
-  const accessors = new Set();
-  let primitives = 0;
-  for (const { primitive } of primitivesOf(document)) {
-    const found = [primitive, ...primitive.listTargets()].map((holder) => holder.getAttribute('TANGENT')).filter(Boolean);
-    primitives += found.length > 0;
-    found.forEach((accessor) => accessors.add(accessor));
-  }
-  const vertices = [...accessors].reduce((sum, accessor) => sum + accessor.getCount(), 0), bytes = arrayBytes([...accessors]);
-  return { dropped_primitives: primitives, bytes_per_vertex: vertices ? bytes / vertices : 0, vertices, bytes };
-}
+const tangentBytes = (document) => arrayBytes([...new Set([...primitivesOf(document)].flatMap(({ primitive }) =>
+  [primitive, ...primitive.listTargets()].map((holder) => holder.getAttribute('TANGENT')).filter(Boolean)))]);
 
 const kPackedFraction = 0.2; // file size of compressed geometry as a fraction of its size in memory
 
@@ -221,28 +212,12 @@ function dropTangentsAs(document, { meshes }) {
   }));
 }
 
-/** Drops the tangents that nothing needs, or keeps all. model: the document as plain glTF. */
-async function dropAll(document, { model, files }, keepTangents) {
-  const before = tangentsOfDocument(document), textures = document.getRoot().listTextures(), notes = [];
-  if (!keepTangents) {
-    const { glb, report } = await convert(model, { mode: 'drop', files });
-    notes.push(...report.notes);
-    dropTangentsAs(document, parsedModel(glb).json);
-  }
-  const after = tangentsOfDocument(document), dropped = (name) => before[name] - after[name];
-  return {
-    mode: keepTangents ? 'keep' : 'drop', unread_maps: [], notes,
-    tangents: keepTangents ? { kept: true } : { ...before, dropped_primitives: dropped('dropped_primitives'), vertices: dropped('vertices'), bytes: dropped('bytes') },
-    maps: normalMapsOf(document).map((texture) => ({ image: textures.indexOf(texture), name: texture.getName() || texture.getURI() || 'normal map', kept: true,
-      bytes_before: imageBytes(texture), bytes_after: imageBytes(texture) })),
-  };
-}
-
-/** Makes the new maps, without changing the document: { report, made }. made: the converted model, parsed. */
-async function newMaps(document, { model, files }, o) {
-  const { glb, report } = await convert(model, { ...o, mode: 'convert', files }), textures = document.getRoot().listTextures();
+/** Converts the document, which is not changed: { report, made }. model: the document as plain glTF. made: the converted
+ * model, parsed. */
+async function converted(document, { model, files }, o) {
+  const { glb, report } = await convert(model, { ...o, files }), textures = document.getRoot().listTextures();
   const maps = report.maps.map((map) => ({ ...map, bytes_before: imageBytes(textures[map.image]), ...(map.kept && { bytes_after: imageBytes(textures[map.image]) }) }));
-  return { made: parsedModel(glb), report: { ...report, maps, mode: 'convert' } };
+  return { made: parsedModel(glb), report: { ...report, maps } };
 }
 
 function applyMaps(document, { made, report }, to) {
@@ -266,34 +241,16 @@ function applyMaps(document, { made, report }, to) {
   return report;
 }
 
-/** Does what lint advises, unless new maps would enlarge the file by more than kGrowth allows. */
-async function asAdvised(document, decode) {
-  const noted = (report, line) => ({ ...report, notes: [line, ...report.notes] });
-  let model, plan, unread = '';
-  try {
-    model = await asPlainGltf(document, decode);
-    plan = advised(await lint(model.model, { files: model.files, decode }));
-  } catch (error) { // maps cannot be decoded here: judge green by the stored tangents alone
-    if (error.code !== 'unavailable') throw error;
-    unread = error.message;
-    model = await asPlainGltf(document, null);
-    plan = advised({ ...await lint(model.model, { files: model.files, decode: async () => ({ width: 1, height: 1, data: Uint8Array.of(128, 128, 255, 255) }) }), maps_converted: 0, maps: [] });
-  }
-  const keptMaps = async (keepTangents, line) => {
-    const found = await dropAll(document, model, keepTangents);
-    return line ? noted(found, line) : found;
-  };
-  if (plan.mode === 'drop') return keptMaps(false, unread);
-  if (unread) return keptMaps(true, needsTangents(plan.green, unread));
-  const { whole, weight } = estimatedSize(document), made = await newMaps(document, model, { to: plan.to, decode });
-  const unreadMaps = made.report.unread_maps;
-  if (made.report.maps.every((map) => map.kept) && plan.green.length > 0)
-    return { ...await keptMaps(true, needsTangents(plan.green, unreadMaps.map(({ name, format, advice }) => `${name} is in ${format}: ${advice}`).join('; ') || 'no map can be remade')), unread_maps: unreadMaps };
-  const grown = made.report.maps.reduce((sum, map) => sum + map.bytes_after - map.bytes_before, 0) - weight * made.report.tangents.bytes;
-  if (grown <= (kGrowth - 1) * whole) return applyMaps(document, made, plan.to);
-  const after = Math.round(whole + grown), before = Math.round(whole);
-  return plan.green.length > 0 ? keptMaps(true, needsTangents(plan.green, `new maps would change the file from ${before} to ${after} bytes: mode 'convert' makes them`))
-    : keptMaps(false, notWorthIt(plan.to, plan.degrees, before, after));
+/** Converts as `convert` does by default, but leaves the maps as they are if new ones would enlarge the file by more than
+ * kGrowth allows. */
+async function convertedByDefault(document, decode) {
+  const unlessUnavailable = (error) => { if (error.code !== 'unavailable') throw error; return asPlainGltf(document, null); };
+  const model = await asPlainGltf(document, decode).catch(unlessUnavailable), found = await converted(document, model, { decode }), { report } = found;
+  const { whole, weight } = estimatedSize(document), { bytes = 0 } = report.tangents;
+  const grown = report.maps.reduce((sum, map) => sum + map.bytes_after - map.bytes_before, 0) - weight * bytes;
+  if (report.maps.every((map) => map.kept) || grown <= (kGrowth - 1) * whole) return found;
+  const { made, report: kept } = await converted(document, model, { mode: 'drop' });
+  return { made, report: { ...kept, notes: [tooLarge(Math.round(whole), Math.round(whole + grown)), ...kept.notes] } };
 }
 
 function withFunctions(options) {
@@ -307,11 +264,12 @@ export function untangent(given) {
   const { mode: _, report, decode, ...o } = withFunctions(checked(given, kUntangent)), mode = modeOf(given);
   return named('untangent', async (document) => {
     await ready;
-    const before = normalMapsOf(document).reduce((sum, texture) => sum + imageBytes(texture), 0) + tangentsOfDocument(document).bytes;
+    const before = normalMapsOf(document).reduce((sum, texture) => sum + imageBytes(texture), 0) + tangentBytes(document);
     const requested = Object.fromEntries(Object.entries({ ...o, to: o.to ?? 'cotangent', decode }).filter(([, value]) => value !== undefined));
-    const found = mode === 'drop' ? await dropAll(document, await asPlainGltf(document, null)) : mode === 'convert' ? applyMaps(document, await newMaps(document, await asPlainGltf(document, decode), requested), requested.to)
-      : await asAdvised(document, decode);
-    found.bytes = { before, after: normalMapsOf(document).reduce((sum, texture) => sum + imageBytes(texture), 0) + tangentsOfDocument(document).bytes };
+    const made = mode === 'drop' ? await converted(document, await asPlainGltf(document, null), { mode }) : mode === 'convert'
+      ? await converted(document, await asPlainGltf(document, decode), { ...requested, mode }) : await convertedByDefault(document, decode);
+    const found = applyMaps(document, made, requested.to);
+    found.bytes = { before, after: normalMapsOf(document).reduce((sum, texture) => sum + imageBytes(texture), 0) + tangentBytes(document) };
     const remade = found.maps.filter((map) => !map.kept).length;
     for (const note of found.notes) document.getLogger().warn(`untangent: ${note}`);
     document.getLogger().info(`untangent: ${found.mode}: ${remade} maps remade, ${found.maps.length - remade} kept; normal maps and tangents ${found.bytes.before} bytes before, ${found.bytes.after} after`);

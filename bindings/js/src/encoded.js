@@ -4,7 +4,7 @@ import { bytesOf } from './picture.js';
 import { decodePicture, encodeLossy, lossyFormat } from './pictures.js';
 import { decodePng, encodePng, isPng } from './png.js';
 
-const kVisible = 0.5; // degrees on average over a map; the library has the same threshold
+export const kVisible = 0.5; // degrees on average over a map; the library has the same threshold
 
 /** Mean angle in degrees between the directions of two maps of one size, texel by texel, read as 2c - 1. */
 export function degreesBetween(a, b) {
@@ -32,9 +32,9 @@ export async function encodedByCaller(picture, encode) {
 
 /** The file of a map in the format of the file `old` if that is smaller than `png` and accurate enough; else png. Adds
  * `format` and `quality` in the first case, and else a `note` where the reader should know why. name: of the map. more:
- * hasWebp: whether all readers of the model support WebP; error: degrees of the map without losses; before: those of the
- * map that it replaces. */
-export async function encodedLike(picture, old, png, name, { hasWebp, error = 0, before = 0 }) {
+ * hasWebp: whether all readers of the model support WebP; loss: degrees on average that the format
+ * may lose. */
+export async function encodedLike(picture, old, png, name, { hasWebp, loss = kVisible }) {
   const format = picture.bits === 8 ? lossyFormat(old) : null, sizes = `the new map is PNG: ${png.bytes.length} bytes, before ${old.length}`;
   if (!format) return png;
   if (format.mimeType === 'image/webp' && !hasWebp) return { ...png, note: `${name}: the model does not require its readers to support WebP, so ${sizes}` };
@@ -42,7 +42,7 @@ export async function encodedLike(picture, old, png, name, { hasWebp, error = 0,
   if (!bytes) return { ...png, note: `${name}: no encoder for ${format.mimeType} is available (in Node.js: the package sharp), so ${sizes}` };
   if (bytes.length >= png.bytes.length) return png;
   const degrees = degreesBetween(picture, await decodePicture(bytes, name)), word = format.mimeType === 'image/webp' ? 'WebP' : 'JPEG';
-  if (error + degrees > Math.max(kVisible, 0.5 * before))
+  if (degrees > loss)
     return { ...png, note: `${name}: ${word} of quality ${format.quality} would have an error of ${degrees.toFixed(2)} degrees on average, so ${sizes}` };
   return { bytes, mimeType: format.mimeType, degrees, format: word, quality: format.quality ?? null };
 }

@@ -7,11 +7,11 @@ import { encodedByCaller, encodedLike } from './encoded.js';
 import { decodePicture } from './pictures.js';
 import { encodePng } from './png.js';
 import { decodedUri, imageIn, parsedModel, requiresWebp, sizeOf, withImages } from './glb.js';
-import { advised, inOriginalFormats, keptMaps, kGrowth, modeOf, needsTangents, notWorthIt, reversedImages } from './modes.js';
+import { advised, inOriginalFormats, keptMaps, kGrowth, modeOf, notWorthIt, tooLarge } from './modes.js';
 import { kLimits, limitsOf, overLimits } from './verdict.js';
 
 const same = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[i]);
-const kMapsUnread = 2; // COTAN_MAPS_UNREAD of cotan.h
+const kMapsRead = 1, kMapsUnread = 2; // keep_maps of cotan.h
 // Placeholder for images that are not normal maps, whose pixels are never read.
 const kUnread = { width: 1, height: 1, bits: 8, data: Uint8Array.of(255, 255, 255, 255) };
 const kCommon = { files: {}, decode: decodePicture, progress: undefined };
@@ -107,23 +107,25 @@ export function modelFunctions(library, host, flipGreen) {
     if (!parsed) return convertMaps(model, o); // throws an error that says what is wrong
     if (o.fixGreen) return withFixedGreen(model, parsed, o, { ...more, fixGreen: undefined });
     const before = sizeOf(model, parsed.json, o.files), convertTo = (to) => convertMaps(model, { ...o, to }).then((made) => inOriginalFormats(parsed, o.files, made));
-    const keepMaps = (keepTangents) => withMapsKept(model, parsed, o, keepTangents);
-    const found = mode === 'convert' ? await convertTo(o.to ?? 'cotangent') : mode === 'drop' ? await keepMaps() : await asAdvised(model, o, before, convertTo, keepMaps);
-    return { glb: found.glb, report: { ...found.report, mode: found.mode, bytes: { before, after: found.glb.length } } };
+    const found = mode === 'convert' ? await convertTo(o.to ?? 'cotangent') : mode === 'drop' ? await withMapsKept(model, parsed, o, kMapsUnread) : await asAdvised(model, parsed, o, before, convertTo);
+    return { glb: found.glb, report: { mode: 'convert', ...found.report, bytes: { before, after: found.glb.length } } };
   }
 
-  /** Drops or keeps the tangents, and neither changes nor decodes the maps. */
-  async function withMapsKept(model, { json }, o, keepTangents = false) {
-    const { glb, report } = await convertMaps(model, { ...o, from: undefined, to: undefined, bits: 0, keepMaps: kMapsUnread, keepTangents });
-    return { mode: keepTangents ? 'keep' : 'drop', glb, report: { ...report, maps: keptMaps(json, o.files) } };
+  /** Keeps the maps. Where tangents reverse green of one, the library reverses the map's green or keeps the tangents.
+   * keepMaps: kMapsRead or kMapsUnread, which decodes no map and reverses none. */
+  async function withMapsKept(model, parsed, o, keepMaps, more) {
+    const made = await convertMaps(model, { ...o, from: undefined, to: undefined, bits: 0, keepMaps, ...more });
+    const { glb, report } = keepMaps === kMapsRead ? await inOriginalFormats(parsed, o.files, made) : { ...made, report: { ...made.report, maps: keptMaps(parsed.json, o.files) } };
+    const given = (parsed.json.meshes ?? []).some((mesh) => mesh.primitives?.some(({ attributes }) => attributes && 'TANGENT' in attributes));
+    return { glb, report: { ...report, mode: given && !report.tangents.dropped_primitives ? 'keep' : 'drop' } };
   }
 
   // Flips green of the maps in which, by their own evidence, it points the other way than the model says; then converts.
   async function withFixedGreen(model, parsed, o, more) {
-    const report = await lint(model, { files: o.files, decode: o.decode }), meant = reversedImages(report); // maps that are right with their tangents
-    const wrong = report.maps.filter((map) => map.decided && !map.as_declared && !meant.includes(map.image));
+    const report = await lint(model, { files: o.files, decode: o.decode });
+    const wrong = report.maps.filter((map) => map.decided && !map.as_declared && !map.reversed_by_tangents); // others are right with their tangents
     if (wrong.length === 0) return convert(model, more);
-    const { glb: whole } = await withMapsKept(model, parsed, o, true), inside = parsedModel(whole), flipped = new Map(), notes = [];
+    const { glb: whole } = await withMapsKept(model, parsed, o, kMapsUnread, { keepTangents: true }), inside = parsedModel(whole), flipped = new Map(), notes = [];
     for (const { image, name } of wrong) {
       const file = imageIn(inside, image), picture = checkedPicture(await o.decode(file, name), 'options.decode', [8, 16]);
       const right = flipGreen(picture), found = await encodedLike(right, file, await encodedByCaller(right, o.encode), name, { hasWebp: requiresWebp(inside.json) });
@@ -136,26 +138,20 @@ export function modelFunctions(library, host, flipGreen) {
   }
 
   // Does what lint advises, unless new maps would enlarge the file by more than kGrowth allows.
-  async function asAdvised(model, o, before, convertTo, keepMaps) {
-    const { files, decode } = o, notes = [];
-    let report = await lint(model, { files, decode }).catch((error) => { if (error.code !== 'unavailable') throw error; notes.push(error.message); });
-    const unread = !report; // the maps cannot be decoded: judge green by the stored tangents alone
-    report ??= await lint(model, { files, decode: async () => kUnread });
-    const plan = advised(unread ? { ...report, maps_converted: 0, maps: [] } : report), noted = (found, line) => ({ ...found, report: { ...found.report, notes: [...notes, line, ...found.report.notes].filter(Boolean) } });
-    if (plan.mode === 'drop') return noted(await keepMaps());
-    if (unread) return noted(await keepMaps(true), needsTangents(plan.green, 'new maps cannot be made here'));
-    const made = await convertTo(plan.to), after = made.glb.length, unreadMaps = made.report.unread_maps;
-    if (made.report.maps.every((map) => map.kept) && plan.green.length > 0) {
-      const kept = noted(await keepMaps(true), needsTangents(plan.green, unreadMaps.map(({ name, format, advice }) => `${name} is in ${format}: ${advice}`).join('; ') || 'no map can be remade'));
-      return { ...kept, report: { ...kept.report, unread_maps: unreadMaps } };
-    }
-    if (after <= kGrowth * before) return made;
-    return plan.green.length > 0 ? noted(await keepMaps(true), needsTangents(plan.green, `new maps would change the file from ${before} to ${after} bytes: mode 'convert' makes them`))
-      : noted(await keepMaps(), notWorthIt(plan.to, plan.degrees, before, after));
+  async function asAdvised(model, parsed, o, before, convertTo) {
+    const noted = ({ glb, report }, ...lines) => ({ glb, report: { ...report, notes: [...new Set([...lines, ...report.notes])].filter(Boolean) } });
+    const unread = async (...lines) => noted(await withMapsKept(model, parsed, o, kMapsUnread), ...lines);
+    const report = await lint(model, { files: o.files, decode: o.decode }).catch((error) => { if (error.code !== 'unavailable') throw error; return error.message; });
+    if (typeof report === 'string') return unread(report);
+    const { to, degrees } = advised(report), remade = to && await convertTo(to);
+    if (remade && remade.glb.length <= kGrowth * before) return remade;
+    const line = remade && notWorthIt(to, degrees, before, remade.glb.length), kept = await withMapsKept(model, parsed, o, kMapsRead);
+    if (kept.report.unread_maps.length > 0) return unread(line, ...kept.report.notes);
+    return kept.glb.length <= kGrowth * before ? noted(kept, line) : unread(line, tooLarge(before, kept.glb.length));
   }
 
   async function convertMaps(model, o) {
-    const known = o.keepMaps ? [] : await decoded(model, o);
+    const known = o.keepMaps === kMapsUnread ? [] : await decoded(model, o);
     let conversion = 0, wasm;
     const pictures = withModel(model, o.files, known, { progress: o.progress }, (s, at, files) => {
       wasm = s.wasm;

@@ -196,6 +196,8 @@ export interface ConvertReport {
     size: [number, number];
     /** The map stays, because the new frame reads it as well as a new map. */
     kept: boolean;
+    /** Only green of the map was reversed, as the tangents that were dropped showed it. */
+    green_reversed?: boolean;
     bytes_before: number;
     bytes_after: number;
     /** For a new map: the mean angle in degrees between its texels before it was encoded and in its file. */
@@ -203,7 +205,7 @@ export interface ConvertReport {
     [more: string]: any;
   }[];
   unread_maps: UnreadMap[];
-  /** The mode that was used. keep: tangents stay, because a map's green needs them and no new map could be made. */
+  /** The mode that was used. keep: all tangents stay, as those that reverse green of a map that could not be changed. */
   mode: 'drop' | 'convert' | 'keep';
   /** Size of the model with the files that it references. */
   bytes: { before: number; after: number };
@@ -217,9 +219,9 @@ export interface ConvertReport {
 /** Removes stored tangents from a model. mode:
  * - `auto`, the default: does what `lint` advises. Maps stay byte for byte, to be read with the frame `orthonormal` or
  *   MikkTSpace, if that is accurate enough, or if new maps would enlarge the file by more than 2 %. Otherwise new maps
- *   are made for the frame that `lint` advises. Tangents stay only if they reverse green of a map and no new one can be
- *   made.
- * - `drop`: leaves maps as they are, not even decoded, and ignores what the tangents say about green: see `lint`.
+ *   are made for the frame that `lint` advises. Where the tangents reverse green of a map that can stay otherwise, its
+ *   green is reversed, as `cotan convert --keep-maps` does, or the tangents stay; a note says so.
+ * - `drop`: leaves maps as they are, not even decoded. Tangents that reverse green of a map stay.
  * - `convert`: makes new maps as `cotan convert` does; the default if an option that concerns new maps is set. These
  *   keep the format of the old ones: JPEG and WebP at the same quality if sharp, or the canvas in browsers, encodes
  *   them, and if that costs no more than half a degree, or half of what the conversion gains; else PNG, with a note.

@@ -90,7 +90,7 @@ private:
         if (options_.frames.fromTangents != TangentOrigin::stored)
             return Done{};
         std::vector<std::string> aboutMaps; // that stay as they are
-        const auto jobs = mapJobs(document_, aboutMaps, options_.limits);
+        const auto jobs = mapJobs(document_, aboutMaps, options_.limits, true);
         if (!jobs)
             return jobs.error();
         for (const MapJob& job : *jobs) {

@@ -76,6 +76,8 @@ double strengthOf(const Json& material, const gltf::TextureUse& map, NormalSlot 
 
 std::string imageName(const Json& root, std::size_t image)
 {
+    if (image >= countOf(root, "images"))
+        return "a map in an unknown format";
     const std::string name = root["images"][image].value("name", root["images"][image].value("uri", std::string()));
     return name.empty() || name.starts_with("data:") ? fmt::format("image {}", image) : name;
 }
@@ -104,6 +106,20 @@ Result<Mesh> meshFor(const GltfDocument& document, std::size_t m, std::size_t p,
     return mesh;
 }
 
+// The image of a texture, or the one that an unknown extension names; -1 if there is none.
+int anyImage(const Json& root, int texture)
+{
+    if (const int image = textureAt(root, texture).image; image >= 0)
+        return image;
+    const Json& json = root["textures"][std::size_t(texture)];
+    if (json.contains("extensions"))
+        for (const Json& extension : json["extensions"])
+            if (extension.is_object() && extension.contains("source") && extension["source"].is_number_unsigned()
+                && extension["source"] < countOf(root, "images"))
+                return extension["source"];
+    return -1;
+}
+
 // Adds one primitive with one of its materials to the job of a normal map of that material.
 Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapSlot slot, bool foreign,
               const std::vector<glm::dmat3>& transforms, std::map<std::size_t, MapJob>& jobs,
@@ -129,7 +145,7 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapSlo
     }
     const gltf::Texture texture = textureAt(root, map.texture);
     const Sampler sampler = samplerOf(root, texture);
-    const auto image = std::size_t(texture.image);
+    const auto image = std::size_t(anyImage(root, map.texture));
     MapJob& job = jobs[image];
     job.image = image;
     job.name = imageName(root, image);
@@ -147,20 +163,6 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapSlo
                            .stored = !mesh->tangents.empty(),
                            .green = storedGreen(*mesh, mesh->texcoords[0])});
     return Done{};
-}
-
-// The image of a texture, or the one that an unknown extension names; -1 if there is none.
-int anyImage(const Json& root, int texture)
-{
-    if (const int image = textureAt(root, texture).image; image >= 0)
-        return image;
-    const Json& json = root["textures"][std::size_t(texture)];
-    if (json.contains("extensions"))
-        for (const Json& extension : json["extensions"])
-            if (extension.is_object() && extension.contains("source") && extension["source"].is_number_unsigned()
-                && extension["source"] < countOf(root, "images"))
-                return extension["source"];
-    return -1;
 }
 
 } // namespace
@@ -209,18 +211,18 @@ std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document, const Load
 }
 
 Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes,
-                                    const LoadLimits& limits)
+                                    const LoadLimits& limits, bool unread)
 {
     const Json& root = rootOf(document);
     const auto transforms = gltfMeshTransforms(root);
-    const std::vector<MapSlot> foreign = foreignNormalMaps(document, limits);
+    const std::vector<MapSlot> foreign = unread ? std::vector<MapSlot>() : foreignNormalMaps(document, limits);
     std::map<std::size_t, MapJob> jobs;
     const Status status = forEachPrimitive(root, [&](std::size_t m, std::size_t p) -> Status {
         for (const std::size_t material : materialsOf(root, root["meshes"][m]["primitives"][p]))
             for (const NormalSlot kind : kNormalSlots) {
                 const MapSlot slot{material, kind};
-                const bool unread = std::binary_search(foreign.begin(), foreign.end(), slot);
-                if (Status added = addUse(document, m, p, slot, unread, transforms[m], jobs, notes); !added)
+                const bool isForeign = std::binary_search(foreign.begin(), foreign.end(), slot);
+                if (Status added = addUse(document, m, p, slot, isForeign, transforms[m], jobs, notes); !added)
                     return added;
             }
         return Done{};
@@ -229,7 +231,7 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
         return status.error();
     const std::set<int> elsewhere = imagesReadElsewhere(root);
     for (std::size_t t = 0; t < countOf(root, "textures"); ++t)
-        if (const auto job = jobs.find(std::size_t(textureAt(root, int(t)).image)); job != jobs.end())
+        if (const auto job = jobs.find(std::size_t(anyImage(root, int(t)))); job != jobs.end())
             job->second.textures.push_back(t);
     std::vector<MapJob> result;
     for (auto& [image, job] : jobs) {

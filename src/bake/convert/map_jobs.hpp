@@ -48,9 +48,9 @@ struct MapJob {
 // The jobs of a file, in the order of its images. A mesh is several surfaces if nodes place it by linear maps that are
 // not rotations and uniform scales of one another, or if KHR_materials_variants gives it several materials. A coat's
 // map is read on a surface of its own (makeCoatSurface). `notes` lists the maps that are left out. limits: for reading
-// the images, here and below. Errors (ErrorKind::input): compressed geometry.
+// the images, here and below. unread: takes maps in formats that are not read here too. Errors (ErrorKind::input): compressed geometry.
 Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes,
-                                    const LoadLimits& limits = {});
+                                    const LoadLimits& limits = {}, bool unread = false);
 
 // The number of surfaces that read the job's image.
 std::size_t surfacesOf(const MapJob& job);
