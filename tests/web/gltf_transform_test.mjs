@@ -121,6 +121,36 @@ const cases = {
     assert.ok(primitive.getAttribute('TANGENT'));
   },
 
+  // Both doors: the map's green is reversed where its only mesh reverses it; where a second mesh reads the map as declared,
+  // with tangents or without, the map stays and the first mesh keeps its tangents.
+  async greenIsDecidedByEveryMeshThatShowsTheMap() {
+    for (const second of [null, 'tangents', 'none']) {
+      const { document, primitive, texture } = await hillsDocument(), io = new NodeIO();
+      const flat = (semantic, z) => primitive.getAttribute(semantic).setArray(primitive.getAttribute(semantic).getArray().map((value, i) => (i % 3 === 2 ? z : z === 0 ? value : 0)));
+      flat('POSITION', 0); // so that every frame reads the map alike
+      flat('NORMAL', 1);
+      await document.transform(transforms.tangents());
+      const other = primitive.clone();
+      const tangent = primitive.getAttribute('TANGENT').clone();
+      primitive.setAttribute('TANGENT', tangent.setArray(tangent.getArray().map((value, i) => (i % 4 === 3 ? -value : value))));
+      if (second) document.getRoot().listScenes()[0].addChild(document.createNode().setMesh(document.createMesh('second').addPrimitive(other)));
+      if (second === 'none') other.setAttribute('TANGENT', null);
+      const before = texture.getImage(), model = await io.writeBinary(document), made = await cotan.convert(model);
+      let report;
+      document.setLogger({ debug() {}, info() {}, warn() {}, error() {} });
+      await document.transform(transforms.untangent({ report: (found) => { report = found; } }));
+      for (const [door, file, notes] of [['convert', await io.readBinary(made.glb), made.report.notes], ['untangent', document, report.notes]]) {
+        const meshes = file.getRoot().listMeshes().map((mesh) => !!mesh.listPrimitives()[0].getAttribute('TANGENT')), [map] = file.getRoot().listTextures();
+        const { data } = await cotan.decodePng(map.getImage()), what = `${door}, second: ${second}: ${notes}`;
+        if (second) assert.deepEqual(meshes, [true, false], what);
+        else assert.deepEqual(meshes, [false], what);
+        if (second) assert.deepEqual(Buffer.from(map.getImage()), Buffer.from(before), what);
+        else assert.deepEqual([...data.subarray(0, 3)], [166, 255 - 153, 249], what); // 2c - 1 changes its sign
+        assert.ok(notes.some((line) => line.includes('bumps') && /reverse (its )?green/.test(line)), what);
+      }
+    }
+  },
+
   async lintNormalsReportsAndChangesNothing() {
     const { document } = await hillsDocument();
     const before = await new NodeIO().writeBinary(document);
