@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <stdexcept>
 
 #include "terminal/arguments.hpp"
 #include "terminal/command_words.hpp"
@@ -48,6 +49,16 @@ struct Everything {
         return tool.run(words, [](const std::string&) {});
     }
 };
+
+TEST(Arguments, anOptionThatNamesAFileSaysWhetherItIsReadOrWritten)
+{
+    std::string file;
+    Arguments tool{"tool", "what it is", "1.2.3"};
+    Argument option = tool.option("--forgotten", file, "a file").in("NAME|FILE");
+    EXPECT_THROW(tool.describe(), std::logic_error);
+    option.reads();
+    EXPECT_EQ(tool.describe().options.size(), 3u); // with --help and --version
+}
 
 // Expects that the command accepts the value or, if `unless` is not empty, that it fails with this one line.
 void expectAccepted(const std::string& option, const std::string& value, const std::string& unless = "")

@@ -1,11 +1,10 @@
 #include "requests.hpp"
 
-#include <fstream>
-
 #include <fmt/format.h>
 
 #include "commands.hpp"
 #include "cotan/image.hpp"
+#include "files/output.hpp"
 #include "image/format_table.hpp"
 #include "input.hpp"
 
@@ -60,12 +59,7 @@ Status carryOut(Parts& parts, const request::WriteWindow& r)
     return picture ? writeImage(r.file, *picture) : Status(picture.error());
 }
 
-Status carryOut(Parts& parts, const request::WriteReport& r)
-{
-    std::ofstream file(r.file, std::ios::binary);
-    file << reportOf(parts.state);
-    return file.flush() ? Status(Done{}) : Status(outputError(r.file + ": cannot be written"));
-}
+Status carryOut(Parts& parts, const request::WriteReport& r) { return writeFileWhole(r.file, reportOf(parts.state)); }
 
 Status carryOut(Parts& parts, const request::Paste&)
 {

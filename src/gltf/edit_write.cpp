@@ -268,7 +268,7 @@ Status writeTogether(std::span<const WrittenFile> outputs)
         if (!file)
             return file.error();
         files.push_back(*std::move(file));
-        if (Status written = writeBytes(files.back().path(), output.bytes); !written)
+        if (Status written = writeBytes(files.back(), output.bytes); !written)
             return files.back().failed(written.error());
     }
     return commitTogether(files);

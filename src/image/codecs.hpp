@@ -28,15 +28,14 @@ Result<Image> readPng(std::span<const std::byte> bytes, const std::string& name,
 
 // Writes unorm8 or unorm16. An image whose alpha is 1 everywhere is stored without alpha, which is read back as 1.
 // `name` is for messages.
-Status writePng(const std::filesystem::path& file, const Image& image, const std::string& name);
+Status writePng(OpenFile file, const Image& image, const std::string& name);
 
 // As openRows; `stream` is rewound first. Returns nullopt for interlaced files, which cannot be read by rows.
 std::optional<Result<std::unique_ptr<RowReader>>> openPngRows(const std::filesystem::path& file, OpenFile stream,
                                                               const LoadLimits& limits);
 
-// As createRows, for components of 8 or 16 bits; `file` is the path to write, visible at once. name: for messages.
-Result<std::unique_ptr<RowWriter>> createPngRows(const std::filesystem::path& file, const RowFormat& format,
-                                                 const std::string& name);
+// As createRows, for components of 8 or 16 bits. name: for messages.
+Result<std::unique_ptr<RowWriter>> createPngRows(OpenFile file, const RowFormat& format, const std::string& name);
 
 // ---- JPEG by libjpeg ------------------------------------------------------------------------
 
@@ -61,9 +60,9 @@ bool readsWebp();
 // As decodeImage. Errors: also ErrorKind::input for animations.
 Result<Image> readWebp(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
 
-// As createAnimation, for WebP and images of unorm8; `file` is the path to write, visible at once. name: for messages.
-Result<std::unique_ptr<AnimationWriter>> createWebpAnimation(const std::filesystem::path& file,
-                                                             const AnimationFormat& format, const std::string& name);
+// As createAnimation, for WebP and images of unorm8. name: for messages.
+Result<std::unique_ptr<AnimationWriter>> createWebpAnimation(OpenFile file, const AnimationFormat& format,
+                                                             const std::string& name);
 
 // As encodeLike, of an image of unorm8. quality: receives 0 if lossless. Returns nullopt if this build has no libwebp.
 std::optional<Result<std::vector<std::byte>>> writeWebpLike(const Image& image, std::span<const std::byte> old,
