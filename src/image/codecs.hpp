@@ -41,12 +41,12 @@ Result<std::unique_ptr<RowWriter>> createPngRows(OpenFile file, const RowFormat&
 
 // libjpeg is used directly: JPEG is as common as PNG in models, and the module for other formats is slow to load.
 
-// As decodeImage, for grey, YCbCr and RGB images. Returns nullopt for others, such as CMYK.
+// As decodeImage; CMYK becomes RGB, without a colour profile. Returns nullopt if this build has no libjpeg.
 std::optional<Result<Image>> readJpeg(std::span<const std::byte> bytes, const std::string& name,
                                       const LoadLimits& limits);
 
 // As encodeLike, of an opaque image of unorm8. quality: receives that of the quantisation tables. Returns nullopt if
-// the old file is grey or a JPEG that cannot be read.
+// the old file is grey, CMYK or a JPEG that cannot be read.
 std::optional<Result<std::vector<std::byte>>> writeJpegLike(const Image& image, std::span<const std::byte> old,
                                                             int& quality);
 

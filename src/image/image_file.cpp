@@ -192,7 +192,7 @@ Result<EncodedLike> encodeLike(const Image& image, std::span<const std::byte> ol
     auto bytes = name == "JPEG" ? writeJpegLike(image, old, quality) : writeWebpLike(image, old, quality);
     if (!bytes)
         return asPng(image,
-                     name == "JPEG" ? "a grey JPEG holds no normals, or this build has no libjpeg"
+                     name == "JPEG" ? "a grey or CMYK JPEG holds no normals, or this build has no libjpeg"
                                     : "this build has no libwebp");
     if (!*bytes)
         return bytes->error();
