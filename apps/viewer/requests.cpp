@@ -140,7 +140,8 @@ void beginLoads(Parts& parts)
     std::erase_if(parts.state.requests, [&](const Request& request) {
         const auto* load = std::get_if<request::Load>(&request);
         if (load)
-            carryOut(parts, *load);
+            if (const Status begun = carryOut(parts, *load); !begun)
+                parts.state.problem = begun.error().message;
         return load || std::holds_alternative<request::Pose>(request); // there is no model to pose yet
     });
 }

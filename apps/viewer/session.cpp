@@ -308,8 +308,7 @@ private:
             return;
         std::error_code error;
         fs::create_directories(options_.memory.parent_path(), error);
-        if (!writeFileWhole(options_.memory, memoryOf(state_))) // errors do not matter
-            return;
+        (void)writeFileWhole(options_.memory, memoryOf(state_)); // the next start then has the defaults
     }
 
     const SessionOptions& options_;

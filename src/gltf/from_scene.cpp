@@ -34,9 +34,10 @@ std::size_t addPositions(GltfDocument& document, const std::vector<glm::vec3>& p
 std::vector<glm::vec4> storedTangents(const Mesh& mesh, const Material& material)
 {
     std::vector<glm::vec4> tangents = mesh.tangents;
-    if (material.greenReversed)
-        for (glm::vec4& tangent : tangents)
-            tangent.w = -tangent.w;
+    for (glm::vec4& tangent : tangents) {
+        tangent = withUnitTangent(tangent);
+        tangent.w = material.greenReversed ? -tangent.w : tangent.w;
+    }
     return tangents;
 }
 

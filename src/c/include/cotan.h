@@ -125,7 +125,10 @@ typedef struct cotan_mesh {
  * ...". */
 
 /* Returns one tangent per index: x, y, z along increasing u, w as in glTF's TANGENT. `kind`: "mikktspace" or "vertex".
- * threads: 0 for all cores; the result does not depend on it. tangents: 4 * index_count floats. */
+ * threads: 0 for all cores; the result does not depend on it. tangents: 4 * index_count floats. x, y, z are unit. Only
+ * "mikktspace" gives (0, 0, 0, 1) or (0, 0, 0, -1) where directions cancel at a vertex, as MikkTSpace does. glTF
+ * requires unit length: replace such a tangent by (1, 0, 0) before you write a file. All functions of Cotan that write
+ * glTF do so. */
 cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int threads, float* tangents, char* message,
                             size_t message_size);
 
