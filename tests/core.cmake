@@ -50,7 +50,7 @@ endif()
 # What is done in one way everywhere: writing files, waiting for processes.
 if(Python3_FOUND)
   foreach(fact filesAreOpenedForWritingByOneFunction filesAreRemovedByTheirOwners filesAreReadByReadersThatNoteThem
-      childProcessesAreAwaitedByOneFunction)
+      childProcessesAreAwaitedByOneFunction nothingDependsOnTheLocale)
     add_test(NAME OneWay.${fact}
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/one_way_test.py ${PROJECT_SOURCE_DIR} ${fact})
   endforeach()

@@ -79,8 +79,31 @@ def childProcessesAreAwaitedByOneFunction():
     ])
 
 
+def nothingDependsOnTheLocale():
+    """A host program may have decimal commas, and letters of its own. {fmt}, from_chars and to_chars know no locale."""
+    texts = "read texts, no numbers"
+    only(r"\bstrto(d|f|ld)\b|\bsto(d|f|ld)\s*\(|\batof\b|\b[vfs]?n?w?scanf\b|\b[vfs]?n?printf\b|\bsetlocale\b|\bstd::locale\b|\bstrftime\b"
+         r"|\bput_time\b|stringstream|<(iomanip|iostream|ostream|istream|cctype|ctype\.h|locale|locale\.h|clocale)>|\bimbue\b|\{:[^}\"]*L\}"
+         r"|\b(std::|(?<![\w.:>]))(is(alpha|digit|alnum|space|print|upper|lower|xdigit|punct|cntrl|graph)|to(lower|upper))\s*\(",
+         "use core/real_number.hpp, core/named_values.hpp or {fmt}", [
+             ("src/image/png.cpp", 'snprintf(static_cast<char*>(png_get_error_ptr(png)), kPngMessage, "%s"', "a text"),
+             ("src/core/locale_of_c.hpp", "<locale.h>", "takes the locale away from libraries"),
+             ("apps/viewer/window/glfw_window.cpp", 'std::setlocale(LC_NUMERIC, "C")', "the opposite: undoes what GTK chooses"),
+             ("apps/viewer/window/glfw_window.cpp", "#include <clocale>", "the same"),
+             ("src/scene/environment/store_studio.cpp", "std::fprintf(stderr", "a program of the build"),
+             ("apps/lab/cost/machine_code.cpp", "strftime(", "digits only"),
+             ("apps/viewer/dialog.cpp", "stringstream folders(", texts),
+             ("apps/viewer/event.cpp", "stringstream lines(", texts),
+             ("apps/viewer/memory.cpp", "stringstream lines(", texts),
+             ("apps/viewer/memory.cpp", "stringstream words(", texts),
+             ("apps/cotan/common.cpp", "stringstream lines(", texts),
+             ("apps/cotan/help/man_page.cpp", "stringstream words(", texts),
+             ("apps/cotan/terminal/help_text.cpp", "stringstream words(", texts),
+         ])
+
+
 FACTS = (filesAreOpenedForWritingByOneFunction, filesAreRemovedByTheirOwners, filesAreReadByReadersThatNoteThem,
-         childProcessesAreAwaitedByOneFunction)
+         childProcessesAreAwaitedByOneFunction, nothingDependsOnTheLocale)
 if __name__ == "__main__":
     chosen = [f for f in FACTS if f.__name__ == sys.argv[2]] if len(sys.argv) > 2 else FACTS
     if not chosen:

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <vector>
 
+#include "core/locale_of_c.hpp"
 #include "files/bytes.hpp"
 #include "files/file_registry.hpp"
 
@@ -278,6 +279,7 @@ Json parseGltfJson(std::span<const std::byte> text)
 {
     const auto* const first = reinterpret_cast<const char*>(text.data());
     Builder builder({first, text.size()});
+    const LocaleOfC locale; // the parser calls strtod
     Json::sax_parse(first, first + text.size(), &builder);
     return std::move(builder.root);
 }

@@ -13,6 +13,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "core/named_values.hpp"
 #include "files/bytes.hpp"
 #include "files/children.hpp"
 #include "files/file_registry.hpp"
@@ -28,8 +29,7 @@ constexpr std::size_t kMaxStderr = 4096; // bytes of standard error that are kep
 
 std::string readerName(const ReaderRequest& request)
 {
-    std::string extension = lowerExtension(request.name);
-    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::toupper(c); });
+    const std::string extension = upperCase(lowerExtension(request.name));
     const bool known = extension.size() > 1 && extension.size() < 6;
     const std::string format = known ? extension.substr(1) + " " : "";
     if (request.kind == ReaderKind::draco)
