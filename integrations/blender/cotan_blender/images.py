@@ -5,7 +5,7 @@ import os
 import bpy
 import numpy as np
 
-from .refused import Refused
+from .refused import Refused, packages
 
 
 def pixels_of(image):
@@ -54,3 +54,15 @@ def stored(name, file, packed, frame):
     image.name = name
     image["cotan_frame"] = frame
     return image
+
+
+def with_green_reversed(image, path):
+    """A new image of the file `path`, which gets the pixels of `image` with green reversed."""
+    pixels = pixels_of(image)
+    if image.is_float:
+        pixels = np.rint(np.clip(pixels, 0, 1) * 65535).astype(np.uint16)
+    packages().write_picture(path, packages().map_convert(pixels, "directx", "gltf"))
+    copy = bpy.data.images.load(path)
+    copy.colorspace_settings.name = "Non-Color"
+    copy.name = image.name  # Blender adds a number
+    return copy
