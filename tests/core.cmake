@@ -47,6 +47,15 @@ if(Python3_FOUND)
   endforeach()
 endif()
 
+# What is done in one way everywhere: writing files, waiting for processes.
+if(Python3_FOUND)
+  foreach(fact filesAreOpenedForWritingByOneFunction filesAreRemovedByTheirOwners filesAreReadByReadersThatNoteThem
+      childProcessesAreAwaitedByOneFunction nothingDependsOnTheLocale)
+    add_test(NAME OneWay.${fact}
+      COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/one_way_test.py ${PROJECT_SOURCE_DIR} ${fact})
+  endforeach()
+endif()
+
 # The field's terms in comments, messages, names and pages.
 if(Python3_FOUND)
   foreach(fact comments messages names pages)

@@ -168,7 +168,7 @@ TEST_F(Overwrite, leftoverTemporaryFilesAreReportedByTheNextRun)
     const pid_t child = ::fork();
     if (child == 0) {
         const auto half = OutputFile::begin(folder / "half.png");
-        ::_exit(half && writeBytes(half->path(), {}) ? 0 : 1); // exits without removing the temporary file
+        ::_exit(half && writeBytes(*half, {}) ? 0 : 1); // exits without removing the temporary file
     }
     ASSERT_EQ(::waitpid(child, nullptr, 0), child);
     std::string part;

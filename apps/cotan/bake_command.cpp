@@ -1,12 +1,12 @@
 #include "commands.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include "bake_options.hpp"
+#include "core/named_values.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/convert.hpp"
 #include "cotan/image.hpp"
@@ -269,7 +269,7 @@ std::string fileNamePart(const std::string& object)
     std::string name = object.empty() ? "unnamed" : object;
     for (char& c : name)
         if (const auto byte = static_cast<unsigned char>(c);
-            byte < 128 && !std::isalnum(byte) && c != '.' && c != '-' && c != '_')
+            byte < 128 && !isLetter(c) && !isDigit(c) && c != '.' && c != '-' && c != '_')
             c = '_';
     return name;
 }

@@ -18,6 +18,7 @@
 #include "common.hpp"
 #include "cotan/files.hpp"
 #include "cotan/model.hpp"
+#include "files/children.hpp"
 #include "files/file_registry.hpp"
 #include "files/interrupt.hpp"
 #include "terminal/printable.hpp"
@@ -61,6 +62,7 @@ Status startLab()
 int runProgram(int argc, char** argv, int (*commandLine)(std::vector<std::string>))
 {
     programArguments = argv;
+    keepStatusOfChildren();
     if (isReaderProcess(argc, argv))
         return runReaderProcess();
     sandboxByDefault({.program = "/proc/self/exe"});

@@ -6,6 +6,7 @@
 #include <set>
 #include <system_error>
 
+#include "core/named_values.hpp"
 #include "edit_state.hpp"
 #include "files/bytes.hpp"
 #include "files/output.hpp"
@@ -136,12 +137,11 @@ std::vector<std::byte> makeGlb(const Layout& layout)
 std::string encodePercent(const std::string& name)
 {
     std::string uri;
-    for (const unsigned char c : name) {
-        if (std::isalnum(c) || c == '-' || c == '_' || c == '.' || c == '~')
-            uri += char(c);
+    for (const char c : name)
+        if (isLetter(c) || isDigit(c) || c == '-' || c == '_' || c == '.' || c == '~')
+            uri += c;
         else
-            uri += fmt::format("%{:02X}", c);
-    }
+            uri += fmt::format("%{:02X}", static_cast<unsigned char>(c));
     return uri;
 }
 
@@ -170,7 +170,7 @@ std::string nameOfImage(const GltfSource& source, const Json& root, std::size_t 
     constexpr std::size_t kMax = 64;
     name.resize(std::min(name.size(), kMax));
     for (char& c : name)
-        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-')
+        if (!isLetter(c) && !isDigit(c) && c != '-')
             c = '_';
     return name;
 }
@@ -268,7 +268,7 @@ Status writeTogether(std::span<const WrittenFile> outputs)
         if (!file)
             return file.error();
         files.push_back(*std::move(file));
-        if (Status written = writeBytes(files.back().path(), output.bytes); !written)
+        if (Status written = writeBytes(files.back(), output.bytes); !written)
             return files.back().failed(written.error());
     }
     return commitTogether(files);

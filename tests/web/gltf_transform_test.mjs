@@ -108,6 +108,24 @@ const cases = {
     }
   },
 
+  async tangentsHaveUnitLengthWhereDirectionsCancel() { // as glTF requires
+    const { document, primitive } = await hillsDocument();
+    const accessor = (type, array) => document.createAccessor().setType(type).setArray(array).setBuffer(document.getRoot().listBuffers()[0]);
+    const mesh = {
+      positions: Float32Array.of(0, 0, 0, 1, 0, 0, 0.5, 0.9, 0, -0.5, 0.9, 0, -1, 0, 0),
+      normals: Float32Array.from({ length: 15 }, (_, i) => Number(i % 3 === 2)),
+      uvs: Float32Array.of(0, 0, 1, 0, 0, -1, 0, 1, 1, 0), // at the origin opposite directions of u
+      indices: Uint16Array.of(0, 1, 2, 0, 2, 3, 0, 3, 4),
+    };
+    primitive.setIndices(accessor('SCALAR', mesh.indices)).setAttribute('POSITION', accessor('VEC3', mesh.positions))
+      .setAttribute('NORMAL', accessor('VEC3', mesh.normals)).setAttribute('TEXCOORD_0', accessor('VEC2', mesh.uvs));
+    await document.transform(transforms.tangents());
+    const corners = cotan.tangents(mesh), written = cornersOf(primitive, 'TANGENT', 4);
+    assert.deepEqual([...corners.slice(12, 16)], [0, 0, 0, 1]);
+    assert.deepEqual([...written.slice(12, 16)], [1, 0, 0, 1]);
+    for (let i = 0; i < written.length; i += 4) assert.ok(Math.abs(Math.hypot(...written.slice(i, i + 3)) - 1) < 1e-6, i);
+  },
+
   async untangentMatchesConvert() {
     const { document, primitive, texture } = await hillsDocument();
     await document.transform(transforms.tangents());

@@ -89,7 +89,10 @@ function giveTangents(document, primitive, uvs, kind) {
   const position = primitive.getAttribute('POSITION'), indices = indicesOf(primitive), mesh = {
     positions: floatsOf(position, 3), normals: floatsOf(primitive.getAttribute('NORMAL'), 3), uvs, indices,
   };
-  const corners = tangentsOf(mesh, { kind }), splitMesh = split(position.getCount(), indices, corners);
+  const corners = tangentsOf(mesh, { kind });
+  for (let i = 0; i < corners.length; i += 4) // glTF requires unit length
+    if (corners[i] === 0 && corners[i + 1] === 0 && corners[i + 2] === 0) corners[i] = 1;
+  const splitMesh = split(position.getCount(), indices, corners);
   dropTangents(primitive);
   renumber(document, primitive, splitMesh);
   const values = new Float32Array(splitMesh.sources.length * 4).fill(0);

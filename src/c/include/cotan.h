@@ -1,5 +1,6 @@
 /* Cotan for C and for bindings to other languages: plain arrays with sizes. The only global state is that of
- * cotan_set_reader. Any thread may call any function.
+ * cotan_set_reader. Any thread may call any function. Nothing depends on the locale that the program has chosen: numbers
+ * in texts and files have a decimal point.
  *
  * Errors. Every function that can fail returns a cotan_status. If that is not COTAN_OK, `message` contains one line
  * with the reason, cut to `message_size` bytes including the terminating zero. Callers who need no text pass null and
@@ -125,7 +126,10 @@ typedef struct cotan_mesh {
  * ...". */
 
 /* Returns one tangent per index: x, y, z along increasing u, w as in glTF's TANGENT. `kind`: "mikktspace" or "vertex".
- * threads: 0 for all cores; the result does not depend on it. tangents: 4 * index_count floats. */
+ * threads: 0 for all cores; the result does not depend on it. tangents: 4 * index_count floats. x, y, z are unit. Only
+ * "mikktspace" gives (0, 0, 0, 1) or (0, 0, 0, -1) where directions cancel at a vertex, as MikkTSpace does. glTF
+ * requires unit length: replace such a tangent by (1, 0, 0) before you write a file. All functions of Cotan that write
+ * glTF do so. */
 cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int threads, float* tangents, char* message,
                             size_t message_size);
 

@@ -31,8 +31,8 @@ struct Error {
     std::string field{}; // the caller's field that the message begins with, such as "options.maxDistance"
 };
 
-// A value or an Error. Check with `if (!result)` before `*result`.
-template<class T> class Result {
+// A value or an Error. Check with `if (!result)` before `*result`. Compilers warn of a call whose result is ignored.
+template<class T> class [[nodiscard]] Result {
 public:
     Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
     Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}
@@ -49,7 +49,7 @@ private:
     std::variant<T, Error> state_;
 };
 
-// The result of functions that return no value: `return Done{};` on success.
+// The result of functions that return no value: `return Done{};` on success. Ignoring it gives the same warning.
 struct Done {};
 using Status = Result<Done>;
 

@@ -167,7 +167,7 @@ struct Fault {
         tooLong,
         eightBitsIn16,
         greenDown,
-        // Of a model's map, which glTF reads as three channels in tangent space:
+        // Faults of a model's map, which glTF reads as three channels in tangent space:
         twoChannels,
         slopes,
         objectSpace,
