@@ -114,6 +114,7 @@ CASES = [
     (BAKE + " --kind object-normal", {"--up": "~y | *", "--high-up": "~y | *"}),
     ("bake --high layers.obj --low low.obj --size 24x24 -o out.png", {"--search": "~first | *", "--extrusion": "0.001 | 0.02", "--cage": "cage.obj"}),
     ("bake --high low.stl --high high.obj --low low.obj --size 24x24 -o out.png", {"--match-by-name": ""}),
+    ("bake --high low.stl --high high.obj --low low.obj --size 24x24 --kind ao --match-by-name -o out.png", {"--ao-occluders": "all"}),
     (BAKE + " --verify checked", {"--device": "reference"}),
     ("bake --high high.obj --low room.gltf --size 24x24 -o out.png", {"--object": "part-0 | part-5", "--material": "~-1 | 0 | 5"}),
     ("bake --high high.obj --low panel.gltf --frame vertex --size 24x24 -o out.png", {"--tangents": "~stored | *"}),

@@ -60,7 +60,7 @@ struct Output {
 
 struct FileRegistry {
     std::mutex mutex;
-    bool on = false;
+    bool on = false, guards = false; // compares announced outputs; also inputs, and outputs that were not announced
     std::vector<Input> inputs;
     std::vector<Output> outputs;
     std::optional<Error> refusal;
@@ -68,7 +68,7 @@ struct FileRegistry {
 
     Error refuse(std::string message)
     {
-        Error error = usageError(std::move(message) + "; expected another name, or --overwrite");
+        Error error = usageError(std::move(message));
         if (!refusal)
             refusal = error;
         return error;
@@ -83,18 +83,20 @@ FileRegistry& registry()
 
 Error replaces(FileRegistry& all, const Output& output, const std::string& input)
 {
-    return all.refuse(fmt::format("{} would overwrite {}, which is an input", output.name, input));
+    return all.refuse(fmt::format("{} would overwrite {}, which is an input; expected another name, or --overwrite",
+                                  output.name, input));
 }
 
 // Checks a new output against everything registered, and registers it.
 Status add(FileRegistry& all, Output output)
 {
     for (const Input& input : all.inputs)
-        if (input.identity == output.identity)
+        if (all.guards && input.identity == output.identity)
             return replaces(all, output, input.name);
     for (const Output& other : all.outputs)
         if (other.identity == output.identity)
-            return all.refuse(fmt::format("{} and {} are the same file", other.name, output.name));
+            return all.refuse(
+                fmt::format("{} and {} are the same file; expected different names", other.name, output.name));
     all.outputs.push_back(std::move(output));
     return Done{};
 }
@@ -105,7 +107,8 @@ void guardInputs(bool overwrite)
 {
     FileRegistry& all = registry();
     const std::lock_guard lock(all.mutex);
-    all.on = !overwrite;
+    all.on = true;
+    all.guards = !overwrite;
     all.inputs.clear();
     all.outputs.clear();
     all.refusal.reset();
@@ -130,7 +133,7 @@ Status noteInput(const fs::path& file)
     if (all.watcher)
         all.watcher(file);
     const std::lock_guard lock(all.mutex);
-    const auto identity = all.on ? identityOf(file) : std::nullopt;
+    const auto identity = all.guards ? identityOf(file) : std::nullopt;
     if (!identity || !identity->exists)
         return Done{};
     for (Output& output : all.outputs)
@@ -149,7 +152,7 @@ Status beginOutput(const fs::path& file)
 {
     FileRegistry& all = registry();
     const std::lock_guard lock(all.mutex);
-    const auto identity = all.on ? identityOf(file) : std::nullopt;
+    const auto identity = all.guards ? identityOf(file) : std::nullopt;
     if (!identity)
         return Done{};
     for (Output& output : all.outputs)
@@ -168,7 +171,7 @@ void endOutput(const fs::path& file)
     if (all.outputWatcher)
         all.outputWatcher(file);
     const std::lock_guard lock(all.mutex);
-    const auto identity = all.on ? identityOf(file) : std::nullopt;
+    const auto identity = all.guards ? identityOf(file) : std::nullopt;
     for (Output& output : all.outputs)
         if (identity && output.identity.path == identity->path) {
             output.identity = *identity; // a new file has replaced the old one

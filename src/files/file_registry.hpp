@@ -19,10 +19,11 @@
 
 namespace cotan {
 
-// Starts an empty registry. overwrite: everything is allowed and nothing is registered.
+// Starts an empty registry. overwrite: inputs may be replaced, and only announced outputs have to differ.
 void guardInputs(bool overwrite);
 
-// Announces an output, which messages call `option`. Errors: ErrorKind::usage if it was read or is already planned.
+// Announces an output, which messages call `option`. Errors: ErrorKind::usage if it was read, or is already planned,
+// which overwrite does not allow either.
 Status planOutput(const std::string& option, const std::filesystem::path& file);
 
 // Every reader calls this before it opens a file. Errors: ErrorKind::usage if an output that is planned or being
