@@ -9,6 +9,7 @@
 #include "bake/name_pairs.hpp"
 #include "core/named_values.hpp"
 #include "cotan/covector.hpp"
+#include "cotan/maps.hpp"
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
 #include "scene/parts.hpp"
@@ -163,6 +164,10 @@ void applyMaps(HighModel& high, const std::optional<Convention>& format)
 // Builds setup's normal maps from those of the detailed scenes, whose images are moved out.
 Status readOwnMaps(HighModel& high, BakeSetup& setup)
 {
+    const Convention stated = setup.options.highFormat.value_or(Convention());
+    for (const Image& map : high.maps)
+        if (const std::string found = maps::contradictionOf(map, stated); !found.empty())
+            setup.warnings.push_back(fmt::format("{}: {}; it is read as {}", map.name, found, describe(stated)));
     applyMaps(high, setup.options.highFormat);
     auto maps = HighNormalMaps::make(high.scenes, setup.options.highFrame);
     if (!maps)

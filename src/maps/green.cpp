@@ -317,16 +317,16 @@ GreenVerdict greenOf(const Image& image)
 namespace {
 
 constexpr int kMaxASide = 16;
-constexpr int kMinSide = 3, kLargestSide = 128;           // texels
-constexpr int kMaxCoveredSide = kMaxASide * kLargestSide; // images up to this side are covered entirely
+constexpr int kMinSide = 3; // texels
 
 } // namespace
 
-PatchSampler::PatchSampler(int width, int height, PixelType type) : width_(width), height_(height), type_(type)
+PatchSampler::PatchSampler(int width, int height, PixelType type, int largestSide)
+    : width_(width), height_(height), type_(type)
 {
     const int longer = std::max(width, height);
     square_ = std::max(kMinSide, (longer + kMaxASide - 1) / kMaxASide);
-    side_ = longer <= kMaxCoveredSide ? square_ : kLargestSide;
+    side_ = longer <= kMaxASide * largestSide ? square_ : largestSide;
     const int margin = (square_ - side_) / 2;
     for (int y = 0; y < height; y += square_)
         for (int x = 0; x < width; x += square_) {
