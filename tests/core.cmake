@@ -55,6 +55,15 @@ if(Python3_FOUND)
   endforeach()
 endif()
 
+# Scripts called with wrong arguments, and the programs that they name; who publishes Cotan.
+if(Python3_FOUND AND CMAKE_GENERATOR STREQUAL Ninja)
+  add_test(NAME Scripts.refuseUnknownArgumentsAndNameWhatTheBuildMakes
+    COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/scripts_test.py ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
+  set_tests_properties(Scripts.refuseUnknownArgumentsAndNameWhatTheBuildMakes PROPERTIES TIMEOUT 300)
+  add_test(NAME Contact.isNamedOnceItIsFilledIn
+    COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/contact_test.py ${PROJECT_SOURCE_DIR})
+endif()
+
 # Adds a frame, an image format and a shader language to a copy of the sources.
 if(Python3_FOUND AND TARGET cotan_image AND TARGET OpenImageIO::OpenImageIO)
   add_test(NAME Extending.addsAFrameAFormatAndALanguage
