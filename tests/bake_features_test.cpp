@@ -274,6 +274,7 @@ TEST_F(BakeFeatures, namesWithNumbersOfBlenderPair)
         ASSERT_EQ(r.code, 0) << r.err;
         EXPECT_NEAR(double(loadImage(file).floats()[0]), height, 1e-4);
     }
+    EXPECT_TRUE(nlohmann::json::parse(readWhole(folder / "r.json"))["warnings"].empty());
     // One object alone: the detail of the others does not become its own.
     auto alone = words;
     alone.insert(alone.end(), {"--object", "wall_low"});
@@ -308,6 +309,14 @@ TEST_F(BakeFeatures, namesThatPairSuggestMatching)
     EXPECT_NE(runTool(words, folder.path()).err.find(hint), std::string::npos);
     words.push_back("--match-by-name");
     EXPECT_EQ(runTool(words, folder.path()).err.find("--match-by-name"), std::string::npos);
+    // What the names leave open is a warning, and in the report.
+    write("high.obj",
+          "o a_high\n" + square(0, 0, 0, 1) + faces(1) + "o b_high\n" + square(2, 0, 0, 1) + faces(5) + "o c_high\n"
+              + square(4, 0, 0, 1) + faces(9));
+    words.insert(words.end(), {"--json", "r.json"});
+    const std::string left = "no low mesh has the name of 'c_high': not baked";
+    EXPECT_NE(runTool(words, folder.path()).err.find(left), std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(readWhole(folder / "r.json"))["warnings"], nlohmann::json::array({left}));
 }
 
 TEST_F(BakeFeatures, theMaskShowsMissedAndOverlappedTexels)

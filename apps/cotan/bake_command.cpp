@@ -246,6 +246,7 @@ Result<Json> bakeOne(const BakeCommandOptions& o)
                 {"kind", o.kind},
                 {"size", {image.width, image.height}},
                 {"high_normals", o.highNormals},
+                {"warnings", job->warnings},
                 {"triangles_high", job->setup.high.triangleCount()},
                 {"triangles_low", job->setup.low.triangleCount()},
                 {"bake", describe(baked->statistics)},

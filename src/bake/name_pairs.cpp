@@ -162,7 +162,7 @@ NamePairs pairNames(const std::vector<std::string>& low, const std::vector<std::
         }
     if (!shared.empty())
         pairs.notes.push_back(
-            fmt::format("no high mesh has exactly the name of {}: those of another ending are used", listOf(shared)));
+            fmt::format("no high mesh is named for {} alone: those of similar names are used", listOf(shared)));
     if (!left.empty())
         pairs.notes.push_back(fmt::format("no low mesh has the name of {}: not baked", listOf(left)));
     if (sure && used.size() > 1 && !used.contains(-1) && pairs.notes.empty())
