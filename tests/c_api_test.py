@@ -515,6 +515,13 @@ call("cotan_shader_text", b"wgsl", b"triangle", b"gltf", None, c.byref(size))
 whole = size.value
 call("cotan_shader_text", b"wgsl", b"triangle,fragment", b"gltf", None, c.byref(size))
 assert 0 < size.value < whole
+for absent in (None, b""):
+    assert call("cotan_shader_text", b"wgsl", absent, b"gltf", None, c.byref(size), expect=1) == ("frame: expected orthonormal for "
+        "maps that were baked for MikkTSpace, as most are; smooth or cotangent for maps that you bake for this shader; found none")
+call("cotan_shader_text", b"godot", None, b"gltf", None, c.byref(size))
+with_name = c.c_size_t()
+call("cotan_shader_text", b"godot", b"orthonormal", b"gltf", None, c.byref(with_name))
+assert size.value == with_name.value > 500
 assert "stage: expected fragment" in call("cotan_shader_text", b"wgsl", b"triangle,pixel", b"gltf", None, c.byref(size), expect=1)
 assert "the frame triangle" in call("cotan_shader_text", b"wgsl", b"cotangent,mesh", b"gltf", None, c.byref(size), expect=1)
 print("all of it holds")

@@ -24,7 +24,7 @@ from output_inputs import make_inputs
 RENDER = "render room.gltf --device reference --size 48x30 -o out.png"
 COMPARE = "compare room.gltf --device reference --size 40x25 --frames cotangent,smooth -o out"
 BAKE = "bake --high high.obj --low low.obj --size 24x24 -o out.png"
-SHADER = "shader --lang glsl"
+SHADER = "shader --lang glsl --frame cotangent"
 
 # Command lines with the options that are tried on each. `|` separates the words of an option; `*` stands for the words that
 # the tool names. Prefixes of words: `~` the default; `=` changes nothing, since it only affects how the work is done; `!` is

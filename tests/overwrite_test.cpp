@@ -121,7 +121,8 @@ TEST_F(Overwrite, equalOutputPathsAreRefusedBeforeWork)
     expectTwoNames({"compare", "-o", "new", "--json", "new/difference.png"}, "-o new/difference.png",
                    "--json new/difference.png");
     expectTwoNames({"accuracy", "-o", "a.md", "--csv", "./a.md"}, "-o a.md", "--csv ./a.md");
-    expectTwoNames({"shader", "--lang", "glsl", "-o", "a.glsl", "--json", "a.glsl"}, "-o a.glsl", "--json a.glsl");
+    expectTwoNames({"shader", "--lang", "glsl", "--frame", "cotangent", "-o", "a.glsl", "--json", "a.glsl"},
+                   "-o a.glsl", "--json a.glsl");
     expectTwoNames({"figures", "-o", "new", "--json", "new/index.html"}, "-o new/index.html", "--json new/index.html");
     expectTwoNames({"bake", "--high", "quad.gltf", "--low", "quad.gltf", "-o", "a.png", "--mask", "a.png"}, "-o a.png",
                    "--mask a.png");

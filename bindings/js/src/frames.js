@@ -23,7 +23,7 @@ export function frameFunctions(library) {
     frames: () => library.run((s) =>
       Array.from({ length: s.wasm.cotan_frame_count() }, (_, i) => s.textAt(s.wasm.cotan_frame_name(i)))),
     shader: (given) => library.run((s) => {
-      const o = options(given, { language: 'glsl', frame: 'cotangent', convention: 'gltf', stage: undefined });
+      const o = options(given, { language: 'glsl', frame: '', convention: 'gltf', stage: undefined });
       if (o.stage !== undefined) choice(o.stage, 'options.stage', ['fragment', 'vertex', 'mesh', 'compute']);
       const frame = s.text(o.stage ? `${o.frame},${o.stage}` : o.frame, 'options.frame');
       const words = [s.text(o.language, 'options.language'), frame, s.text(o.convention, 'options.convention')];

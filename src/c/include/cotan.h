@@ -62,10 +62,10 @@ const void* cotan_bytes_data(const cotan_bytes* bytes);
 size_t cotan_bytes_size(const cotan_bytes* bytes);
 void cotan_bytes_free(cotan_bytes* bytes);
 
-/* Returns parts of file names for names of objects, materials or images, one line each. They are 1 to about 64 bytes long, and
- * neither leave a folder nor mean a device on any file system. All differ, also where case is ignored, from one another
- * and from those in `taken`; a name that needs no change keeps it. taken: may be null if taken_count is 0. Since
- * version 7. */
+/* Returns parts of file names for names of objects, materials or images, one line each. They are 1 to about 64 bytes
+ * long, and neither leave a folder nor mean a device on any file system. All differ, also where case is ignored, from
+ * one another and from those in `taken`; a name that needs no change keeps it. taken: may be null if taken_count is 0.
+ * Since version 7. */
 cotan_status cotan_file_names(size_t count, const char* const* names, size_t taken_count, const char* const* taken,
                               cotan_bytes** parts, char* message, size_t message_size);
 
@@ -249,8 +249,9 @@ cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, do
 /* ---- shader text ------------------------------------------------------------------------------------------------- */
 
 /* Returns the self-contained function that perturbs the normal with a frame, with a terminating zero. `language`: a
- * name for `cotan shader --lang`, such as "hlsl"; "godot" gives a whole spatial shader. `frame`: a name; for "triangle"
- * a stage may follow, to which the text is then limited: "triangle,fragment", "triangle,vertex", "triangle,mesh" or
+ * name for `cotan shader --lang`, such as "hlsl"; "godot" gives a whole spatial shader. `frame`: a name; null is
+ * an error that says which frame is for which maps, but for "godot", where it means "orthonormal"; for "triangle" a
+ * stage may follow, to which the text is then limited: "triangle,fragment", "triangle,vertex", "triangle,mesh" or
  * "triangle,compute". text_size: size of the buffer; set to the size of the text. A buffer that is too small, or null,
  * is not written, which is no error. */
 cotan_status cotan_shader_text(const char* language, const char* frame, const char* convention, char* text,
