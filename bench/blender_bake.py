@@ -28,7 +28,8 @@ def load(file):
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.mesh.remove_doubles(threshold=1e-7)
     bpy.ops.object.mode_set(mode="OBJECT")
-    made[0].data.use_auto_smooth = False
+    if bpy.app.version < (4, 1, 0):
+        made[0].data.use_auto_smooth = False
     for polygon in made[0].data.polygons:
         polygon.use_smooth = True
     return made[0]
@@ -56,7 +57,8 @@ def prepare(low_file, high_file, size, threads):
     image = bpy.data.images.new("baked", size, size, float_buffer=False)
     image.colorspace_settings.name = "Non-Color"
     material = bpy.data.materials.new("low")
-    material.use_nodes = True
+    if bpy.app.version < (5, 0, 0):  # later ones always do
+        material.use_nodes = True
     node = material.node_tree.nodes.new("ShaderNodeTexImage")
     node.image = image
     material.node_tree.nodes.active = node

@@ -85,6 +85,7 @@ cotan_frame frameOf(vec3 n, Differences d, CotanTextureUse use, bool base)
     if (!base) return cotan_frame_cotangent(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy); \
     if (hasCotangents) return cotan_frame_##word(n, inCotangentU, inCotangentV); break;
 #define COTAN_FROM_tangents(word) \
+    if (!base) return cotan_frame_orthonormal(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy); \
     if (hasTangents) return cotan_frame_##word(inNormal, inTangent.xyz, alongV); break;
 #define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, normal, fused, after, name, summary) \
     case number: COTAN_FROM_##source(word)

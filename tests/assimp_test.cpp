@@ -792,14 +792,12 @@ Counted countText(const fs::path& file)
     return counted;
 }
 
-TEST(SharedObj, everyModelHasTheTrianglesAndBoundsOfItsText)
+TEST(ObjModels, everyModelHasTheTrianglesAndBoundsOfItsText)
 {
-    const fs::path data = COTAN_SHARED_DATA;
-    if (!fs::exists(data / "classic"))
-        GTEST_SKIP() << "no shared data folder at " << data;
+    COTAN_NEEDS_DATA("bake/bunny");
     std::size_t models = 0;
     for (const char* part : {"classic", "bake"}) {
-        for (const auto& entry : fs::recursive_directory_iterator(data / part)) {
+        for (const auto& entry : fs::recursive_directory_iterator(test::dataFile(part))) {
             if (entry.path().extension() != ".obj")
                 continue;
             const auto start = std::chrono::steady_clock::now();
@@ -826,9 +824,9 @@ TEST(SharedObj, everyModelHasTheTrianglesAndBoundsOfItsText)
 
 TEST(BadData, everyObjIsAcceptedOrRefusedWithinTimeAndMemory)
 {
+    COTAN_NEEDS_DATA("bad/EXPECTED.tsv");
     const auto rows = test::expectedFor(".obj");
-    if (rows.empty())
-        GTEST_SKIP() << "no shared data folder at " << COTAN_SHARED_DATA;
+    ASSERT_FALSE(rows.empty());
     for (const auto& row : rows) {
         testing::internal::CaptureStderr();
         const auto start = std::chrono::steady_clock::now();

@@ -7,6 +7,7 @@
 
 #include "quad_model.hpp"
 #include "run_tool.hpp"
+#include "test_data.hpp"
 
 namespace cotan::test {
 namespace {
@@ -40,23 +41,22 @@ protected:
 // `orthonormal` differ by about one degree on coarse models; reversed green gave 9.8 on the cat.
 TEST_F(AutoFrame, tangentsThatReverseGreenAreFollowed)
 {
-    const fs::path data = COTAN_SHARED_DATA;
     bool any = false;
     for (const char* model : {"models/SketchfabCat/scene.gltf", "animated/lumberjack.glb",
                               "compressed/chess_board_draco.glb", "models/TwoSidedPlane/TwoSidedPlane.glb"}) {
-        if (!fs::exists(data / model))
+        if (!hasData(model))
             continue;
         any = true;
-        const ToolRun r = runTool(
-            {"compare", (data / model).string(), "-o", "out", "--overwrite", "--size", "320x240", "--json", "out.json"},
-            folder.path(), 300);
+        const ToolRun r = runTool({"compare", dataFile(model).string(), "-o", "out", "--overwrite", "--size", "320x240",
+                                   "--json", "out.json"},
+                                  folder.path(), 300);
         ASSERT_EQ(r.code, 0) << model << ": " << r.err;
         const json report = reportOf(folder / "out.json");
         EXPECT_EQ(report.at("frames"), json({"orthonormal", "mikktspace"})) << model;
         EXPECT_LT(report.at("normals").at("mean_degrees").get<double>(), 1) << model;
     }
     if (!any)
-        GTEST_SKIP() << data << " has no models";
+        GTEST_SKIP() << "no models: run scripts/test-data";
 }
 
 TEST_F(AutoFrame, flippedGreenIsWarnedOfOnceAndTheConventionOverridesIt)

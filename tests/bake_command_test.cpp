@@ -10,12 +10,13 @@
 
 #include "cotan/image.hpp"
 #include "run_tool.hpp"
+#include "test_data.hpp"
 #include "truth/quad.hpp"
 
 namespace cotan::test {
 namespace {
 
-const std::filesystem::path kWaves = COTAN_SHARED_DATA "/bake/synthetic_waves";
+std::filesystem::path waves(const char* file) { return dataFile(std::string("bake/synthetic_waves/") + file); }
 
 glm::dvec3 decoded(const Image& image, std::size_t i, bool green)
 {
@@ -30,10 +31,9 @@ glm::dvec3 decoded(const Image& image, std::size_t i, bool green)
 // with vertices, so the answer is exact there.
 TEST(BakeCommand, syntheticWavesComeOutExactInBothGreenConventions)
 {
-    if (!std::filesystem::exists(kWaves / "high.obj"))
-        GTEST_SKIP() << "no " << kWaves;
+    COTAN_NEEDS_DATA("bake/synthetic_waves/high.obj");
     std::vector<glm::dvec3> normals;
-    std::istringstream lines(readWhole(kWaves / "high.obj"));
+    std::istringstream lines(readWhole(waves("high.obj")));
     for (std::string line; std::getline(lines, line);)
         if (glm::dvec3 n; std::sscanf(line.c_str(), "vn %lf %lf %lf", &n.x, &n.y, &n.z) == 3)
             normals.push_back(n);
@@ -41,9 +41,9 @@ TEST(BakeCommand, syntheticWavesComeOutExactInBothGreenConventions)
     TemporaryFolder folder;
     for (const char* convention : {"opengl", "directx"})
         for (const char* bits : {"8", "16"}) {
-            const ToolRun r = runTool({"bake", "--high", (kWaves / "high.obj").string(), "--low",
-                                       (kWaves / "low.obj").string(), "--size", "64x64", "--bits", bits, "--convention",
-                                       convention, "--frame", "cotangent", "-o", "map.png", "--quiet"},
+            const ToolRun r = runTool({"bake", "--high", waves("high.obj").string(), "--low", waves("low.obj").string(),
+                                       "--size", "64x64", "--bits", bits, "--convention", convention, "--frame",
+                                       "cotangent", "-o", "map.png", "--quiet"},
                                       folder.path());
             ASSERT_EQ(r.code, 0) << r.err;
             const auto map = readImage(folder / "map.png");
@@ -61,12 +61,12 @@ TEST(BakeCommand, syntheticWavesComeOutExactInBothGreenConventions)
 // Mean angle to the exact map of the same size, 256 x 256: each cell of the high mesh has four texels.
 double degreesFromWaves(const char* normals, const char* convention, const char* bits)
 {
-    const auto truth = readImage(kWaves / "normal_gl16.png");
+    const auto truth = readImage(waves("normal_gl16.png"));
     TemporaryFolder folder;
-    const ToolRun r = runTool({"bake", "--high", (kWaves / "high.obj").string(), "--low", (kWaves / "low.obj").string(),
-                               "--size", "256x256", "--bits", bits, "--convention", convention, "--high-normals",
-                               normals, "-o", "map.png", "--quiet"},
-                              folder.path());
+    const ToolRun r =
+        runTool({"bake", "--high", waves("high.obj").string(), "--low", waves("low.obj").string(), "--size", "256x256",
+                 "--bits", bits, "--convention", convention, "--high-normals", normals, "-o", "map.png", "--quiet"},
+                folder.path());
     EXPECT_EQ(r.code, 0) << r.err;
     const auto map = readImage(folder / "map.png");
     if (!truth || !map || map->pixelCount() != truth->pixelCount())
@@ -82,8 +82,7 @@ double degreesFromWaves(const char* normals, const char* convention, const char*
 
 TEST(BakeCommand, syntheticWavesComeOutExactBetweenTheVerticesOfACurvedSurface)
 {
-    if (!std::filesystem::exists(kWaves / "high.obj"))
-        GTEST_SKIP() << "no " << kWaves;
+    COTAN_NEEDS_DATA("bake/synthetic_waves/high.obj");
     for (const char* convention : {"opengl", "directx"}) {
         EXPECT_LT(degreesFromWaves("curved", convention, "8"), 0.2) << convention;
         EXPECT_LT(degreesFromWaves("curved", convention, "16"), 0.01) << convention;
@@ -94,9 +93,8 @@ TEST(BakeCommand, syntheticWavesComeOutExactBetweenTheVerticesOfACurvedSurface)
 
 TEST(BakeCommand, bunnyIsDrawnLikeItsHighMesh)
 {
-    const std::filesystem::path bunny = COTAN_SHARED_DATA "/bake/bunny";
-    if (!std::filesystem::exists(bunny / "bunny_high.obj"))
-        GTEST_SKIP() << "no " << bunny;
+    COTAN_NEEDS_DATA("bake/bunny/bunny_high.obj");
+    const std::filesystem::path bunny = dataFile("bake/bunny");
     TemporaryFolder folder;
     const ToolRun r = runTool({"bake", "--high", (bunny / "bunny_high.obj").string(), "--low",
                                (bunny / "bunny_low.obj").string(), "--size", "1024x1024", "--frame", "smooth", "-o",

@@ -8,12 +8,11 @@
 #include "cotan/model.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
+#include "test_data.hpp"
 #include "truth/quad.hpp"
 
 namespace cotan::test {
 namespace {
-
-const std::filesystem::path kBoomBox = COTAN_SHARED_DATA "/models/BoomBox/BoomBox.gltf";
 
 glm::dvec3 decodedAt(const Image& image, std::size_t i)
 {
@@ -201,13 +200,13 @@ TEST_F(BakeHighMapCommand, badInputGetsOneLineAndItsExitCode)
 
 TEST_F(BakeHighMapCommand, boomBoxBakedOntoItselfGivesItsMapBack)
 {
-    if (!std::filesystem::exists(kBoomBox))
-        GTEST_SKIP() << kBoomBox << " is missing";
+    COTAN_NEEDS_DATA("models/BoomBox/BoomBox.gltf");
+    const std::filesystem::path boomBox = dataFile("models/BoomBox/BoomBox.gltf");
     const ToolRun r =
-        bake({"--high", kBoomBox.string(), "--low", kBoomBox.string(), "--high-normals", "map", "--frame", "mikktspace",
+        bake({"--high", boomBox.string(), "--low", boomBox.string(), "--high-normals", "map", "--frame", "mikktspace",
               "--size", "512x512", "--mask", "mask.png", "--max-distance", "1e-5", "--quiet"});
     ASSERT_EQ(r.code, 0) << r.err;
-    const auto map = readImage(kBoomBox.parent_path() / "BoomBox_normal.png");
+    const auto map = readImage(boomBox.parent_path() / "BoomBox_normal.png");
     ASSERT_TRUE(map);
     ASSERT_EQ(map->width % 1024, 0); // centres of the baked texels are corners of four of the map's
     const std::size_t step = std::size_t(map->width) / 512, width = std::size_t(map->width);

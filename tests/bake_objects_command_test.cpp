@@ -1,6 +1,7 @@
 // `cotan bake` of several objects, and of files with another up axis, as a user runs it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include <fmt/format.h>

@@ -11,6 +11,7 @@
 
 #include "cotan/image.hpp"
 #include "run_tool.hpp"
+#include "test_data.hpp"
 
 namespace cotan {
 namespace {
@@ -276,9 +277,8 @@ std::pair<int, int> coveredPixels(const std::filesystem::path& file)
 
 TEST(CommandLine, oneCameraFramesTheWholeAnimation)
 {
-    const std::string model = std::string(COTAN_SHARED_DATA) + "/animated/Fox.glb";
-    if (!std::filesystem::exists(model))
-        GTEST_SKIP() << model << " is missing";
+    COTAN_NEEDS_DATA("animated/Fox.glb");
+    const std::string model = dataFile("animated/Fox.glb").string();
     TemporaryFolder folder;
     for (const char* camera : {"front", "fit"}) {
         const Words draw = {"render",       model,    "--animation", "Run",      "--background",  "none",
@@ -326,9 +326,8 @@ TEST(CommandLine, compareOfAFrameWithItselfIsZeroDegrees)
 
 TEST(Tool, images_of_an_animation_go_into_one_file)
 {
-    const std::string model = std::string(COTAN_SHARED_DATA) + "/animated/Fox.glb";
-    if (!std::filesystem::exists(model))
-        GTEST_SKIP() << model << " is missing";
+    COTAN_NEEDS_DATA("animated/Fox.glb");
+    const std::string model = dataFile("animated/Fox.glb").string();
     TemporaryFolder folder;
     const ToolRun run = runTool({"render", model, "-o", "fox.webp", "--animation", "Walk", "--frames", "3..5", "--size",
                                  "48x32", "--device", "reference", "--environment", "none"},

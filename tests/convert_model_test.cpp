@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <optional>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -146,6 +147,112 @@ TEST(ConvertModel, roundTripIsWithinRounding)
     EXPECT_GT(largestAngle(map, normalMapIn(document)), 3); // the conversion has an effect
     ASSERT_TRUE(convertModel(document, {.frames = kBack, .bits = 16, .expansion = Expansion::exact}));
     EXPECT_LT(largestAngle(map, normalMapIn(document)), 0.02); // 16 bits, twice
+}
+
+// ---- maps that are kept -----------------------------------------------------------------------
+
+struct Sheet {
+    std::optional<float> w; // of TANGENT, which it lacks without one
+    int material = 0;
+};
+
+// Squares beside each other, all of which show one map; material 1 is a second one with the same map.
+GltfDocument sheetsOf(const std::vector<Sheet>& sheets, const Image& map)
+{
+    Scene scene;
+    scene.images = {map};
+    scene.materials.resize(2);
+    for (Material& m : scene.materials)
+        m.normalMap.image = 0;
+    for (const Sheet& sheet : sheets) {
+        Mesh mesh;
+        mesh.material = sheet.material;
+        mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+        mesh.normals.assign(4, {0, 0, 1});
+        if (sheet.w)
+            mesh.tangents.assign(4, {1, 0, 0, *sheet.w});
+        mesh.texcoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+        mesh.indices = {0, 1, 2, 0, 2, 3};
+        scene.instances.push_back({"", int(scene.meshes.size()), glm::mat4(1)});
+        scene.meshes.push_back(std::move(mesh));
+    }
+    auto document = gltfDocumentOf(scene);
+    if (!document)
+        ADD_FAILURE() << document.error().message;
+    return *document;
+}
+
+std::vector<bool> tangentsIn(const GltfDocument& document)
+{
+    std::vector<bool> found;
+    for (const auto& mesh : rootOf(document)["meshes"])
+        found.push_back(mesh["primitives"][0]["attributes"].contains("TANGENT"));
+    return found;
+}
+
+constexpr FramePair kWithoutTangents{Frame::mikktspace, Frame::orthonormal};
+
+TEST(KeptMaps, haveGreenReversedWhereAllTheirTangentsReverseIt)
+{
+    for (const Expansion expansion : {Expansion::biased, Expansion::exact}) {
+        const Image map = makeReliefMap(Relief::waves, 32);
+        GltfDocument document = sheetsOf({{-1.0f, 0}, {-1.0f, 1}}, map);
+        const auto report =
+            convertModel(document, {.frames = kWithoutTangents, .expansion = expansion, .keepMaps = true});
+        ASSERT_TRUE(report) << report.error().message;
+        const ConvertedMap& m = report->maps.at(0);
+        EXPECT_TRUE(m.greenReversed);
+        EXPECT_FALSE(m.kept);
+        EXPECT_LT(m.figures.error.maximum, 1e-4); // lit as with its tangents
+        EXPECT_GT(m.figures.unconverted.mean, 3); // it would not be without the change
+        EXPECT_EQ(tangentsIn(document), (std::vector{false, false}));
+        ASSERT_EQ(report->notes.size(), 1u);
+        EXPECT_EQ(report->notes[0],
+                  "waves: the tangents of the file reverse its green; without them, the map has its green reversed");
+        const Image after = normalMapIn(document);
+        const int zeroTwice = expansion == Expansion::exact ? 256 : 255;
+        for (std::size_t i = 0; i < map.pixelCount(); ++i) {
+            const std::uint8_t *a = map.bytes8() + 4 * i, *b = after.bytes8() + 4 * i;
+            ASSERT_EQ(int(b[1]), std::min(zeroTwice - a[1], 255)) << i;
+            ASSERT_EQ(b[0], a[0]);
+            ASSERT_EQ(b[2], a[2]);
+        }
+    }
+}
+
+TEST(KeptMaps, stayWhereAnotherMeshShowsThemAsDeclared)
+{
+    const Image map = makeReliefMap(Relief::waves, 32);
+    const auto without = std::optional<float>();
+    // The second mesh has no tangents, or right ones; it shares the material, or has one of its own.
+    for (const Sheet& second : {Sheet{without, 0}, Sheet{without, 1}, Sheet{1.0f, 0}, Sheet{1.0f, 1}}) {
+        GltfDocument document = sheetsOf({{-1.0f, 0}, second}, map);
+        const auto before = gltfImageBytes(document, 0);
+        const auto report = convertModel(document, {.frames = kWithoutTangents, .keepMaps = true});
+        ASSERT_TRUE(report) << report.error().message;
+        EXPECT_TRUE(report->maps.at(0).kept);
+        EXPECT_LT(report->maps[0].figures.unconverted.maximum, 1e-4); // of the surface that lost its tangents
+        EXPECT_EQ(*gltfImageBytes(document, 0), *before);
+        EXPECT_EQ(tangentsIn(document), (std::vector{true, false}));
+        ASSERT_EQ(report->notes.size(), 1u);
+        EXPECT_EQ(report->notes[0],
+                  "materials[0]: its tangents reverse green of waves, which other surfaces show as "
+                  "declared; TANGENT is kept");
+    }
+}
+
+TEST(KeptMaps, stayWhereTangentsAreGeneratedOrAnotherFrameIsNamed)
+{
+    const Image map = makeReliefMap(Relief::waves, 32);
+    for (const FramePair& frames : {FramePair{Frame::mikktspace, Frame::orthonormal, TangentOrigin::generated},
+                                    FramePair{Frame::orthonormal, Frame::orthonormal}}) {
+        GltfDocument document = sheetsOf({{-1.0f, 0}}, map);
+        const auto report = convertModel(document, {.frames = frames, .keepMaps = true});
+        ASSERT_TRUE(report) << report.error().message;
+        EXPECT_TRUE(report->maps.at(0).kept);
+        EXPECT_FALSE(report->maps[0].greenReversed);
+        EXPECT_EQ(tangentsIn(document), std::vector{false});
+    }
 }
 
 // Readers that decode with 2c - 1 tilt flat texels towards red and green. Stored tangents with reversed w reverse

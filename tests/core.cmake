@@ -41,7 +41,7 @@ add_test(NAME PublicHeaders.compileWithoutAJsonLibrary
 # The structure of the parts: their number, includes and public headers.
 if(Python3_FOUND)
   foreach(fact hasFewFolders hasFewLines everySourceIsBuilt hasFewDependencies hasNoDependencyCycle partsIncludeWhatTheyLink eachPartHasOnePublicHeader
-      fileNamesAreUnique judgesAreIndependent)
+      fileNamesAreUnique judgesAreIndependent standardHeadersAreIncludedWhereUsed)
     add_test(NAME Architecture.${fact}
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/architecture_test.py ${PROJECT_SOURCE_DIR} ${fact})
   endforeach()

@@ -19,11 +19,10 @@
 #include "cotan/triangle.hpp"
 #include "gltf/json/lookup.hpp"
 #include "gltf_maker.hpp"
+#include "test_data.hpp"
 
 namespace cotan::test {
 namespace {
-
-const std::filesystem::path kAnimated = std::string(COTAN_SHARED_DATA) + "/animated";
 
 // ---- vertex attributes that a file lacks ----
 
@@ -84,7 +83,7 @@ void addNormals(Glb& glb, const std::vector<glm::vec3>& positions)
 // Writes the model with MikkTSpace tangents of its rest pose; returns the path.
 std::filesystem::path withTangents(const TemporaryFolder& folder, const std::string& name)
 {
-    std::filesystem::path source = kAnimated / name;
+    std::filesystem::path source = dataFile("animated/" + name);
     if (name == "Fox.glb") { // Fox.glb has no normals
         auto document = openGltfDocument(source);
         EXPECT_TRUE(document);
@@ -198,8 +197,7 @@ class DeformingModel : public testing::TestWithParam<const char*> {};
 
 TEST_P(DeformingModel, derivedFramesFollowAndStoredTangentsDoNot)
 {
-    if (!std::filesystem::exists(kAnimated / GetParam()))
-        GTEST_SKIP() << "no ../shared/data";
+    COTAN_NEEDS_DATA(std::string("animated/") + GetParam());
     const std::map<std::string, std::vector<std::pair<std::string, double>>> moments = {
         {"MorphStressTest.gltf", {{"Pulse", 0.5}, {"TheWave", 1}, {"TheWave", 2}, {"Individuals", 1}}},
         {"Fox.glb", {{"Survey", 1}, {"Walk", 0.35}, {"Run", 0.2}, {"Run", 0.6}}},

@@ -120,6 +120,10 @@ TEST(ExampleBabylon, cotansFrameIsRightEvenInFlippedTargetsAndMirrors)
         GTEST_SKIP() << "babylonjs is not installed (see the test npm_packages)";
     ASSERT_TRUE(measured().contains("babylon")) << measured();
     expectRightWhereTheirsIsAndFlipped(measured()["babylon"]);
+    EXPECT_EQ(measured()["babylon"]["two materials"].size(), 4u);
+    for (const auto& [way, halves] : measured()["babylon"]["two materials"].items())
+        for (const json& degrees : halves)
+            EXPECT_LT(degrees.get<double>(), kDegrees) << way << ": each half shows its own map: " << halves;
 }
 
 } // namespace

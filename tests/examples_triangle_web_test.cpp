@@ -13,6 +13,7 @@
 #include "examples_browser.hpp"
 #include "examples_odd_models.hpp"
 #include "gltf/json/lookup.hpp"
+#include "test_data.hpp"
 
 namespace cotan::test {
 namespace {
@@ -20,7 +21,7 @@ namespace {
 using nlohmann::json;
 
 const std::string kWeb = std::string(COTAN_SOURCE_DIR) + "/examples/triangle-web";
-const std::filesystem::path kBoomBox = std::string(COTAN_SHARED_DATA) + "/models/BoomBox/BoomBox.gltf";
+constexpr const char* kBoomBox = "models/BoomBox/BoomBox.gltf";
 
 // Writes NAME_first.glb and NAME_last.glb.
 void writeProvoking(const TemporaryFolder& folder, const std::string& model)
@@ -81,8 +82,8 @@ json writeModels(const TemporaryFolder& folder)
     write(folder / "map.bytes", std::string(reinterpret_cast<const char*>(map.data.data()), map.data.size()));
     json names = {"teapot"};
     writeModel(folder, "teapot", makeTeapot(12), map);
-    if (std::filesystem::exists(kBoomBox)) {
-        if (const auto scene = loadScene(kBoomBox)) {
+    if (hasData(kBoomBox)) {
+        if (const auto scene = loadScene(dataFile(kBoomBox))) {
             writeModel(folder, "boombox", scene->meshes.at(0), map);
             names.push_back("boombox");
         }
@@ -132,7 +133,7 @@ void expectWebModels(const json& page, const std::string& method)
         EXPECT_LT(errors["most95"].get<double>(), 0.25) << name << ", " << method;
         EXPECT_NE(found["refused"].get<std::string>().find("cotan convert --provoking"), std::string::npos) << name;
     }
-    EXPECT_EQ(page["models"].size(), std::filesystem::exists(kBoomBox) ? 2u : 1u);
+    EXPECT_EQ(page["models"].size(), hasData(kBoomBox) ? 2u : 1u);
 }
 
 void expectPage(const json& page, const std::vector<std::string>& methods)

@@ -1,4 +1,4 @@
-// The lists of malformed and hostile files in the shared data folder, with the expected outcome of each.
+// The lists of malformed and hostile files of the test data, with the expected outcome of each.
 #pragma once
 
 #include <filesystem>
@@ -6,6 +6,8 @@
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "test_data.hpp"
 
 namespace cotan::test {
 
@@ -27,7 +29,7 @@ inline std::vector<Expected> expectedFor(const std::string& extension)
 {
     std::vector<Expected> rows;
     for (const char* const name : {"bad", "found"}) {
-        const std::filesystem::path folder = std::filesystem::path(COTAN_SHARED_DATA) / name;
+        const std::filesystem::path folder = dataFile(name);
         std::ifstream list(folder / "EXPECTED.tsv");
         for (std::string line; std::getline(list, line);) {
             std::istringstream fields(line);

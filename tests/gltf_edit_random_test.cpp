@@ -1,6 +1,7 @@
 // Random documents through the editor and back: views that overlap, interleave and leave gaps in several buffers,
 // accessors of many types, sparse ones, morph targets. A small reader in this file reads the data of every triangle
 // corner before and after; they must be bitwise equal.
+#include <algorithm>
 #include <map>
 #include <random>
 

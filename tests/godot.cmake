@@ -1,4 +1,4 @@
-# Runs the output of `cotan shader --lang godot`, and examples/godot, in Godot 3 on a display, with both drivers.
+# Runs the output of `cotan shader --lang godot`, and examples/godot, in Godot 3 and 4 on a display, with all drivers.
 if(TARGET shader_test)
   add_executable(godot_test godot_test.cpp godot_draw.cpp godot_parity.cpp shader_cases.cpp shader_light.cpp)
   target_link_libraries(godot_test PRIVATE cotan_shader_text cotan_scene cotan_truth cotan_image
@@ -9,5 +9,8 @@ if(TARGET shader_test)
   add_dependencies(godot_test cotan)
   foreach(driver GLES3 GLES2)
     cotan_door(Godot.${driver} COMMAND godot_test --gtest_filter=*/${driver})
+  endforeach()
+  foreach(driver opengl3 vulkan)
+    cotan_door(Godot4.${driver} COMMAND godot_test --gtest_filter=*Godot4.*/${driver})
   endforeach()
 endif()

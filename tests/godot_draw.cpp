@@ -63,6 +63,7 @@ std::size_t GodotJobs::add(const std::string& shader, int width, int height, int
                        {"parts", parts},
                        {"textures", nlohmann::json::object()},
                        {"mirrored", false},
+                       {"scale", {1, 1, 1}},
                        {"light", nlohmann::json::array()}};
     if (more.is_object())
         job.update(more);
@@ -80,8 +81,8 @@ nlohmann::json GodotJobs::texture(const std::string& bytes, int width, int heigh
 std::vector<std::string> GodotJobs::draw(const std::string& driver)
 {
     store(folder_ / "jobs.json", jobs_.dump());
-    const std::string printed =
-        runGodot(COTAN_SOURCE_DIR "/tests/godot", driver, "--folder='" + folder_.path().string() + "'");
+    const std::string project = COTAN_SOURCE_DIR "/tests/godot" + std::string(isGodot4(driver) ? "4" : ""),
+                      printed = runGodot(project, driver, "--folder='" + folder_.path().string() + "'");
     std::vector<std::string> images;
     for (const nlohmann::json& job : jobs_) {
         images.push_back(readWhole(job["out"].get<std::string>()));
@@ -97,10 +98,14 @@ std::string runGodot(const std::string& project, const std::string& driver, cons
 {
     TemporaryFolder home;
     const std::string h = home.path().string();
+    const std::string program = driver == "opengl3"
+        ? "godot --rendering-method gl_compatibility --rendering-driver opengl3"
+        : driver == "vulkan" ? "godot --rendering-method forward_plus --rendering-driver vulkan"
+                             : "godot3 --video-driver " + driver;
     const std::string line = "env LC_ALL=C.UTF-8 LIBGL_ALWAYS_SOFTWARE=1 HOME='" + h + "' XDG_DATA_HOME='" + h
-        + "' XDG_CONFIG_HOME='" + h + "' XDG_CACHE_HOME='" + h
-        + "' timeout 200 xvfb-run -a -s '-screen 0 640x480x24' godot3 --path '" + project + "' --video-driver " + driver
-        + " --audio-driver Dummy " + words + " > '" + h + "/log' 2>&1";
+        + "' XDG_CONFIG_HOME='" + h + "' XDG_CACHE_HOME='" + h + "' timeout 200 xvfb-run -a -s '-screen 0 640x480x24' "
+        + program + " --path '" + project + "' --audio-driver Dummy " + (isGodot4(driver) ? "-- " : "") + words + " > '"
+        + h + "/log' 2>&1";
     const bool ran = std::system(line.c_str()) == 0;
     const std::string printed = readWhole(home / "log");
     std::string wrong = ran ? "" : "it failed";

@@ -1,4 +1,4 @@
-// Images drawn by Godot 3: tests/godot is the project, these are its jobs.
+// Images drawn by Godot 3 (tests/godot) and Godot 4 (tests/godot4): the jobs of these projects.
 #pragma once
 
 #include <string>
@@ -10,6 +10,9 @@
 
 namespace cotan::test {
 
+// The drivers are GLES3 and GLES2 of Godot 3, opengl3 and vulkan of Godot 4.
+inline bool isGodot4(const std::string& driver) { return driver == "opengl3" || driver == "vulkan"; }
+
 // The jobs of one run of Godot.
 class GodotJobs {
 public:
@@ -20,7 +23,7 @@ public:
     // A texture of RGBA bytes, for `more`.
     nlohmann::json texture(const std::string& bytes, int width, int height);
 
-    // RGB bytes of each job, rows from the top, its parts one after another. driver: GLES3 or GLES2. Throws
+    // RGB bytes of each job, rows from the top, its parts one after another. Throws
     // std::runtime_error with Godot's output if a shader does not compile or an image is missing.
     std::vector<std::string> draw(const std::string& driver);
 
@@ -30,7 +33,7 @@ private:
     std::size_t textures_ = 0;
 };
 
-// Runs godot3 on its own display and returns its output; throws if that has an error of a shader or script.
+// Runs Godot on its own display and returns its output; throws if that has an error of a shader or script.
 std::string runGodot(const std::string& project, const std::string& driver, const std::string& words);
 
 // Functions for shaders of jobs: cotan_test_unit(x) stores x from -1 to 1 in 24 bits of a colour; cotan_test_float(x,

@@ -73,9 +73,12 @@ template<class Vector> nlohmann::json numbersOf(const std::vector<Vector>& vecto
     return list;
 }
 
-inline nlohmann::json sheetFor(Frame frame)
+// scale: the mesh is divided by it, for a transform that scales by it.
+inline nlohmann::json sheetFor(Frame frame, glm::vec3 scale = glm::vec3(1))
 {
-    const SheetMesh mesh = sheetMesh();
+    SheetMesh mesh = sheetMesh();
+    for (glm::vec3& p : mesh.positions)
+        p /= scale;
     nlohmann::json sheet{
         {"positions", numbersOf(mesh.positions)}, {"normals", numbersOf(mesh.normals)}, {"uvs", numbersOf(mesh.uvs)}};
     const MeshView view{mesh.positions, mesh.normals, mesh.uvs, mesh.indices};

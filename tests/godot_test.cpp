@@ -1,4 +1,4 @@
-// Godot 3 draws the output of `cotan shader --lang godot`. Skipped without godot3 and xvfb-run.
+// Godot 3 and Godot 4 draw the output of `cotan shader --lang godot`. Skipped without them and xvfb-run.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,6 +20,9 @@ using shader_text::Language;
 
 class Godot : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Driver, Godot, testing::Values("GLES3", "GLES2"), [](const auto& p) { return p.param; });
+
+class Godot4 : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Driver, Godot4, testing::Values("opengl3", "vulkan"), [](const auto& p) { return p.param; });
 
 // Maximum error in units of what one rounding of the result and of each input changes (Case::allowance).
 double maxRoundings(const Case& c, const std::vector<Sample>& samples, const std::vector<glm::dvec3>& values)
@@ -62,6 +65,13 @@ TEST_P(Godot, functionsAgreeWithTheOtherLanguages)
                 const double error = cotan::degreesBetween(r.values[k][s], expected);
                 maximum = error <= maximum ? maximum : error; // NaN is kept
             }
+        for (std::size_t s = 0; s < finite.size(); ++s)
+            if (finite[s].kind == Kind::moved && finite[s].source == some[k].moves
+                && (some[k].anyScale || finite[s].scale == 1)) {
+                const glm::dvec3 axes(finite[s].mirrored ? -1 : 1, 1, 1);
+                const double error = cotan::degreesBetween(r.values[k][s], axes * some[k].expected(finite[s].from));
+                maximum = error <= maximum ? maximum : error;
+            }
         fmt::print("| {:24} | {} | {:.1e} |\n", some[k].name, r.language, maximum);
         EXPECT_LT(maximum, 1.2e-3) << some[k].name;
     }
@@ -74,17 +84,45 @@ std::string replaced(std::string text, const std::string& from, const std::strin
     return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-// The printed shader, which writes its normal as a colour.
-std::string normalShader(const Choice& choice)
+// Like cotan_test_unit and unitOfBytes, but in 7 bits of each byte: the opengl3 of Godot 4 changes those below 57. Its
+// vulkan converts colours to sRGB.
+constexpr char kGodot4Numbers[] = R"(
+vec3 cotan_test_unit(float x)
+{
+    float number = floor((x * 0.5 + 0.5) * 2097151.0 + 0.5);
+    float high = floor(number / 16384.0);
+    float middle = floor((number - high * 16384.0) / 128.0);
+    vec3 bytes = vec3(high, middle, number - high * 16384.0 - middle * 128.0) + 100.0;
+    return SRGB;
+}
+)";
+double unitOf7Bits(const char* at)
+{
+    const auto number = [&](int k) { return static_cast<unsigned char>(at[k]) - 100; };
+    return (number(0) * 16384 + number(1) * 128 + number(2)) / 2097151.0 * 2 - 1;
+}
+
+// The printed shader, which writes its normal as a colour. In Godot 4 textures are filtered and the vectors of the mesh
+// are in other arrays.
+std::string normalShader(const Choice& choice, const std::string& driver)
 {
     const auto made = makeShaderText(choice);
     EXPECT_TRUE(made) << made.error().message;
+    const bool four = isGodot4(driver);
     const std::string start =
         "shader_type spatial;\n" + std::string(choice.twoSided ? "render_mode cull_disabled;\n" : "");
-    const std::string text = replaced(made->text, start,
-                                      "shader_type spatial;\nrender_mode unshaded, "
-                                          + std::string(choice.twoSided ? "cull_disabled" : "cull_back")
-                                          + ";\nuniform float part;\n" + kGodotNumbers);
+    const std::string numbers = !four
+        ? kGodotNumbers
+        : replaced(kGodot4Numbers, "SRGB",
+                   driver == "vulkan" ? "pow((bytes / 255.0 + 0.055) / 1.055, vec3(2.4))" : "bytes / 255.0");
+    std::string text = replaced(made->text, start,
+                                "shader_type spatial;\nrender_mode unshaded, "
+                                    + std::string(choice.twoSided ? "cull_disabled" : "cull_back")
+                                    + ";\nuniform float part;\n" + numbers);
+    if (four)
+        text = replaced(text, "hint_normal;", "hint_normal, filter_nearest, repeat_enable;");
+    if (four && (readsTriangleVectors(choice.frame) || readsCotangents(choice.frame)))
+        text = replaced(text, "TANGENT, COLOR.rgb, MODEL", "CUSTOM0.xyz, CUSTOM1.xyz, MODEL");
     // fragment() is the last function.
     return text.substr(0, text.rfind('}'))
         + "    ALBEDO = cotan_test_unit(part < 0.5 ? NORMAL.x : (part < 1.5 ? NORMAL.y : NORMAL.z));\n}\n";
@@ -98,11 +136,11 @@ Vec rayAt(int row, int column)
 }
 
 // Reads a vector from an image in three parts.
-Vec vectorAt(const std::string& image, int pixel)
+Vec vectorAt(const std::string& image, int pixel, double (*unit)(const char*) = unitOfBytes)
 {
     Vec n{};
     for (int part = 0; part < 3; ++part)
-        n[static_cast<std::size_t>(part)] = unitOfBytes(image.data() + 3 * (part * kWidth * kHeight + pixel));
+        n[static_cast<std::size_t>(part)] = unit(image.data() + 3 * (part * kWidth * kHeight + pixel));
     return n;
 }
 
@@ -131,59 +169,134 @@ SheetError sheetError(bool right, SheetFrame frame, Vec (*map)(double, double), 
     return e;
 }
 
-TEST_P(Godot, shadersDrawTheShearedSheetOnBothSides)
+// A frame, and the truth that its shaders draw.
+struct Row {
+    Frame frame;
+    SheetFrame truth;
+    std::optional<Form> form = {};
+};
+
+// The frames that a driver can draw: GLES2 has no derivatives.
+std::vector<Row> rowsOf(const std::string& driver)
 {
-    struct Row {
-        Frame frame;
-        SheetFrame truth;
-        std::optional<Form> form = {};
-    };
-    const Row frames[] = {{Frame::cotangent, SheetFrame::cotangent},
-                          {Frame::cotangent, SheetFrame::cotangent, Form::total},
-                          {Frame::gradient, SheetFrame::gradient},
-                          {Frame::orthonormal, SheetFrame::orthonormal},
-                          {Frame::triangle, SheetFrame::cotangent},
-                          {Frame::smooth, SheetFrame::cotangent},
-                          {Frame::smooth, SheetFrame::cotangent, Form::fused},
-                          {Frame::mikktspace, SheetFrame::orthonormal},
-                          {Frame::vertex, SheetFrame::orthonormal}};
-    struct SheetCase : Row {
-        bool twoSided, mirrored; // mirrored: by the transform
-    };
-    std::vector<SheetCase> rows;
-    for (const Row& row : frames)
-        if (GetParam() == "GLES3" || info(row.frame).source != FrameSource::differences) // GLES2 has no derivatives
-            for (const bool twoSided : {false, true})
-                for (const bool mirrored : {false, true})
-                    rows.push_back({row, twoSided, mirrored});
+    std::vector<Row> rows = {{Frame::triangle, SheetFrame::cotangent},
+                             {Frame::smooth, SheetFrame::cotangent},
+                             {Frame::smooth, SheetFrame::cotangent, Form::fused},
+                             {Frame::mikktspace, SheetFrame::orthonormal},
+                             {Frame::vertex, SheetFrame::orthonormal}};
+    if (driver != "GLES2")
+        rows.insert(rows.begin(),
+                    {{Frame::cotangent, SheetFrame::cotangent},
+                     {Frame::cotangent, SheetFrame::cotangent, Form::total},
+                     {Frame::gradient, SheetFrame::gradient},
+                     {Frame::orthonormal, SheetFrame::orthonormal}});
+    return rows;
+}
+
+Choice choiceOf(const Row& row, const std::string& driver, bool twoSided)
+{
+    Choice choice;
+    choice.language = Language::godot;
+    choice.frame = row.frame;
+    choice.form = row.form;
+    choice.twoSided = twoSided;
+    choice.convention.channels = Channels::orthographic;
+    choice.callerDifferences = driver == "GLES2";
+    return choice;
+}
+
+// A sheet that is drawn, and what it must look like.
+struct SheetCase {
+    Row row;
+    bool twoSided = false, mirrored = false; // mirrored: by the transform
+    glm::vec3 scale{1};                      // of the transform
+    nlohmann::json sheet;                    // its mesh
+    Vec (*map)(double, double) = domeTexel;
+    std::string label = {};
+};
+
+void expectSheets(const std::string& driver, const std::vector<SheetCase>& cases)
+{
     GodotJobs jobs;
     const nlohmann::json map = jobs.texture(domeBytes(), kMapSize, kMapSize);
-    for (const SheetCase& row : rows) {
-        Choice choice;
-        choice.twoSided = row.twoSided;
-        choice.language = Language::godot;
-        choice.frame = row.frame;
-        choice.form = row.form;
-        choice.convention.channels = Channels::orthographic;
-        jobs.add(normalShader(choice), kWidth, kHeight, 3,
-                 {{"textures", {{"normal_map", map}}}, {"sheet", sheetFor(row.frame)}, {"mirrored", row.mirrored}});
-    }
-    const std::vector<std::string> images = jobs.draw(GetParam());
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        const auto normalAt = [&](int pixel) { return vectorAt(images[k], pixel); };
+    for (const SheetCase& c : cases)
+        jobs.add(normalShader(choiceOf(c.row, driver, c.twoSided), driver), kWidth, kHeight, 3,
+                 {{"textures", {{"normal_map", map}}},
+                  {"sheet", c.sheet},
+                  {"mirrored", c.mirrored},
+                  {"scale", {c.scale.x, c.scale.y, c.scale.z}}});
+    const std::vector<std::string> images = jobs.draw(driver);
+    for (std::size_t k = 0; k < cases.size(); ++k) {
+        const SheetCase& c = cases[k];
+        const auto normalAt = [&](int pixel) {
+            return vectorAt(images[k], pixel, isGodot4(driver) ? unitOf7Bits : unitOfBytes);
+        };
         for (const bool right : {false, true}) {
-            if (right && !rows[k].twoSided)
+            if (right && !c.twoSided)
                 continue;
-            const SheetError e = sheetError(right, rows[k].truth, domeTexel, normalAt);
-            const std::string label = fmt::format("{} {}{}, {}{}", info(rows[k].frame).name, GetParam(),
-                                                  rows[k].twoSided ? ", two-sided" : "", right ? "back" : "front",
-                                                  rows[k].mirrored ? ", mirrored" : "");
+            const SheetError e = sheetError(right, c.row.truth, c.map, normalAt);
+            const std::string label = fmt::format("{} {}{}, {}{}, scale {}{}", info(c.row.frame).name, driver,
+                                                  c.twoSided ? ", two-sided" : "", right ? "back" : "front",
+                                                  c.mirrored ? ", mirrored" : "", c.scale.x, c.label);
             fmt::print("| {:50} | {:.4f} {:.4f} |\n", label, e.mean, e.maximum);
             EXPECT_GT(e.count, 8000);
             EXPECT_LT(e.maximum, 0.02) << label;
         }
     }
 }
+
+std::vector<SheetCase> onBothSides(const std::string& driver)
+{
+    std::vector<SheetCase> cases;
+    for (const Row& row : rowsOf(driver))
+        for (const bool twoSided : {false, true})
+            for (const bool mirrored : {false, true})
+                cases.push_back({row, twoSided, mirrored, glm::vec3(1), sheetFor(row.frame)});
+    return cases;
+}
+
+// The sheet looks the same if its mesh is larger and its transform smaller, also along one axis only.
+std::vector<SheetCase> scaled(const std::string& driver)
+{
+    std::vector<SheetCase> cases;
+    for (const Row& row : rowsOf(driver))
+        for (const glm::vec3 scale :
+             {glm::vec3(0.25), glm::vec3(0.5), glm::vec3(2), glm::vec3(4), glm::vec3(3, 0.5, 1)})
+            for (const bool mirrored : {false, true})
+                cases.push_back({row, mirrored, mirrored, scale, sheetFor(row.frame, scale)});
+    return cases;
+}
+
+Vec flatTexel(double, double) { return {0, 0, 1}; }
+
+// With derivatives another frame draws the mesh, without them the normal of the mesh remains. Godot 4 invents tangents.
+std::vector<SheetCase> withoutData(const std::string& driver)
+{
+    nlohmann::json none = sheetFor(Frame::cotangent), tangents = none;
+    EXPECT_FALSE(none.contains("tangents") || none.contains("colors") || none.contains("generate_tangents"));
+    tangents["generate_tangents"] = true;
+    std::vector<SheetCase> cases;
+    for (const Row& row : rowsOf(driver))
+        for (const bool mirrored : {false, true})
+            for (const nlohmann::json& sheet : {none, tangents})
+                if (info(row.frame).source != FrameSource::differences
+                    && !(readsTangents(row.frame) && (sheet == tangents || isGodot4(driver))))
+                    cases.push_back({row, mirrored, mirrored, glm::vec3(1), sheet,
+                                     driver == "GLES2" ? flatTexel : domeTexel,
+                                     sheet == none ? ", no data" : ", tangents only"});
+    return cases;
+}
+
+TEST_P(Godot, shadersDrawTheShearedSheetOnBothSides) { expectSheets(GetParam(), onBothSides(GetParam())); }
+TEST_P(Godot, shadersDoNotDependOnTheScaleOfTheTransform) { expectSheets(GetParam(), scaled(GetParam())); }
+TEST_P(Godot, meshesWithoutTheDataOfAFrameAreDrawnWithAnotherOrFlat)
+{
+    expectSheets(GetParam(), withoutData(GetParam()));
+}
+
+TEST_P(Godot4, shadersDrawTheShearedSheetOnBothSides) { expectSheets(GetParam(), onBothSides(GetParam())); }
+TEST_P(Godot4, shadersDoNotDependOnTheScaleOfTheTransform) { expectSheets(GetParam(), scaled(GetParam())); }
+TEST_P(Godot4, meshesWithoutTheDataOfAFrameAreDrawnWithAnother) { expectSheets(GetParam(), withoutData(GetParam())); }
 
 // Combines all options.
 TEST_P(Godot, everyWholeShaderCompiles)
@@ -197,6 +310,7 @@ TEST_P(Godot, everyWholeShaderCompiles)
         choice.language = Language::godot;
         choice.frame = f.frame;
         choice.twoSided = true;
+        choice.callerDifferences = GetParam() == "GLES2";
         choice.uvSets = derivatives ? 2 : 1;
         choice.sets = {shader_text::Set::gradient, shader_text::Set::blend, shader_text::Set::light};
         const auto made = makeShaderText(choice);
@@ -216,7 +330,7 @@ TEST_P(Godot, theDirectionOfUIsThatOfTheSheet)
     GodotJobs jobs;
     const nlohmann::json map = jobs.texture(std::string("\x80\x80\xff\xff", 4), 1, 1); // flat
     jobs.add(
-        replaced(normalShader(choice), "    ALBEDO =",
+        replaced(normalShader(choice, GetParam()), "    ALBEDO =",
                  "    TANGENT = cotan_direction_of_u(NORMAL, VERTEX, UV);\n    BINORMAL = cross(NORMAL, TANGENT);\n"
                  "    ANISOTROPY = 0.8;\n    NORMAL = TANGENT;\n    ALBEDO ="),
         kWidth, kHeight, 3, {{"textures", {{"normal_map", map}}}, {"sheet", sheetFor(Frame::cotangent)}});
@@ -248,6 +362,7 @@ TEST_P(Godot, lightMatchesThePortableText)
     Choice choice;
     choice.language = Language::godot;
     choice.frame = derivatives ? Frame::cotangent : Frame::triangle;
+    choice.callerDifferences = !derivatives;
     choice.convention.channels = Channels::orthographic;
     choice.sets = {shader_text::Set::light};
     choice.twoSided = true;
@@ -312,7 +427,7 @@ Vec domesAwayFromRims(double u, double v)
 TEST_P(Godot, theExampleDrawsTheAnalyticSheet)
 {
     TemporaryFolder folder;
-    for (const std::string mirrored : {"", " --mirrored"}) {
+    for (const std::string mirrored : {"", " --mirrored", " --scale=0.25", " --scale=3 --mirrored"}) {
         const std::string file = folder / ("normals" + mirrored + ".png");
         runGodot(COTAN_SOURCE_DIR "/examples/godot", GetParam(),
                  "--resolution 480x240 --normals" + mirrored + " '--picture=" + file + "'");
@@ -344,10 +459,12 @@ TEST_P(Godot, theExampleDrawsTheAnalyticSheet)
 
 int main(int count, char** words)
 {
-    if (std::system("command -v godot3 > /dev/null && command -v xvfb-run > /dev/null") != 0) {
-        std::puts("skipped: no godot3 or no xvfb-run");
+    testing::InitGoogleTest(&count, words);
+    const bool four = testing::GTEST_FLAG(filter).find("Godot4") != std::string::npos;
+    const std::string program = four ? "godot --version | grep -q '^4'" : "command -v godot3 > /dev/null";
+    if (std::system((program + " && command -v xvfb-run > /dev/null").c_str()) != 0) {
+        std::printf("skipped: no Godot %d or no xvfb-run\n", four ? 4 : 3);
         return 77;
     }
-    testing::InitGoogleTest(&count, words);
     return RUN_ALL_TESTS();
 }

@@ -17,6 +17,7 @@
 #include "cotan/render.hpp"
 #include "cotan/scene.hpp"
 #include "probe.hpp"
+#include "test_data.hpp"
 
 namespace cotan {
 namespace {
@@ -243,10 +244,8 @@ TEST(ProblemAreas, cameraIsInFrontOfOccluders)
 // The window lists what `lint` reports, with the same fractions.
 TEST(ProblemAreas, fractionsEqualThoseOfLint)
 {
-    const std::filesystem::path file = COTAN_SHARED_DATA "/animated/lumberjack.glb";
-    if (!std::filesystem::exists(file))
-        GTEST_SKIP() << "no shared data at " << file;
-    const Scene scene = *loadScene(file);
+    COTAN_NEEDS_DATA("animated/lumberjack.glb");
+    const Scene scene = *loadScene(test::dataFile("animated/lumberjack.glb"));
     const PrimitiveLint lint = lintScene(scene).primitives.at(0);
     std::map<std::string, double> fractions;
     for (const ProblemArea& spot : problemAreas(scene))

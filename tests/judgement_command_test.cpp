@@ -15,6 +15,7 @@
 #include "ktx2_maker.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
+#include "test_data.hpp"
 
 namespace cotan {
 namespace {
@@ -160,9 +161,8 @@ TEST(Advice, commandWithoutEffectIsNotAdvised)
     EXPECT_EQ(r["run"], "");
     EXPECT_TRUE(says(r["recommendation"], "Nothing has to be changed")) << r["recommendation"];
     EXPECT_EQ(r["run_would"]["maps_kept"], 1);
-    const std::string boomBox = std::string(COTAN_SHARED_DATA) + "/models/BoomBox/BoomBox.gltf";
-    if (!std::filesystem::exists(boomBox))
-        GTEST_SKIP() << boomBox << " is missing";
+    COTAN_NEEDS_DATA("models/BoomBox/BoomBox.gltf");
+    const std::string boomBox = dataFile("models/BoomBox/BoomBox.gltf").string();
     const json b = jsonOf({"lint", boomBox}, folder.path());
     EXPECT_EQ(b["run"], "") << b["recommendation"];
 }

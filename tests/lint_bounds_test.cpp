@@ -271,8 +271,15 @@ TEST(Recommend, eachAdviceIsOneSentence)
 TEST(Recommend, brokenMapsAreListed)
 {
     GreenEvidence first = greenOf("", maps::Green::undecidable, 5), second = greenOf("bark", maps::Green::undecidable);
-    for (GreenEvidence* g : {&first, &second})
-        g->verdict.statistics.eightBits = true;
+    maps::NormalStatistics eightBits;
+    eightBits.content = maps::Content::tangentSpace;
+    eightBits.meanLength = 1;
+    eightBits.eightBits = true;
+    for (GreenEvidence* g : {&first, &second}) {
+        g->faults = maps::faultsInModel(eightBits);
+        ASSERT_EQ(g->faults.size(), 1u);
+        g->sentence = maps::sentenceOf(g->name.empty() ? "Image 5" : g->name, g->faults, eightBits);
+    }
     const LintReport r =
         advisedOn({judgedAs("a", 0.1, 0.2)}, {fitAs(0.1)}, {first, greenOf("sound", maps::Green::up), second});
     EXPECT_EQ(r.defects.find("Image 5: its 16-bit values are all multiples of an 8-bit step"), 0u) << r.defects;

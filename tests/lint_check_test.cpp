@@ -87,6 +87,25 @@ TEST(LintCheck, failureStatesTheMeansOfPrimitiveAndModel)
               "the limit applies to each primitive; the mean of this one is 1.5, of the model 0.375");
 }
 
+TEST(LintCheck, mapsThatChangeTheLightFailUnderAnyLimit)
+{
+    using Kind = maps::Fault::Kind;
+    for (const LintLimits& limits : {LintLimits{.degrees = 180}, LintLimits{.area = 100}}) {
+        LintReport report = reportOf(passingPrimitive());
+        GreenEvidence sound = report.maps[0];
+        sound.name = "other";
+        report.maps.push_back(sound);
+        report.maps[0].faults = {{Kind::eightBitsIn16, "its 16-bit values are multiples"}};
+        EXPECT_TRUE(checkLimits(report, limits).passed()); // larger than needed, but right
+        report.maps[0].faults.push_back({Kind::twoChannels, "blue is the same everywhere"});
+        const LintCheck check = checkLimits(report, limits);
+        ASSERT_EQ(kindsOf(check), Kinds{"broken_map"});
+        EXPECT_EQ(check.failures[0].where, "bumps");
+        EXPECT_EQ(check.failures[0].map, "bumps");
+        EXPECT_EQ(check.failures[0].text, "normal map bumps: blue is the same everywhere");
+    }
+}
+
 TEST(LintCheck, areaLimitIsInPercent)
 {
     PrimitiveLint p = passingPrimitive();

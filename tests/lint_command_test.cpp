@@ -7,6 +7,7 @@
 
 #include "quad_model.hpp"
 #include "run_tool.hpp"
+#include "test_data.hpp"
 
 namespace cotan {
 namespace {
@@ -14,16 +15,10 @@ namespace {
 using namespace test;
 using nlohmann::json;
 
-std::string shared(const std::string& file) { return std::string(COTAN_SHARED_DATA) + "/" + file; }
-
-#define COTAN_NEEDS(file)                                                                                              \
-    if (!std::filesystem::exists(shared(file)))                                                                        \
-    GTEST_SKIP() << shared(file) << " is missing"
-
 json lintJson(const std::string& file)
 {
     TemporaryFolder folder;
-    const ToolRun run = runTool({"lint", shared(file), "--json", "-", "--quiet"}, folder.path());
+    const ToolRun run = runTool({"lint", dataFile(file).string(), "--json", "-", "--quiet"}, folder.path());
     EXPECT_EQ(run.code, 0) << run.err;
     return json::parse(run.out, nullptr, false);
 }
@@ -39,7 +34,7 @@ const json& named(const json& report, const std::string& mesh)
 
 TEST(LintCommand, reportMatchesTheUvCases)
 {
-    COTAN_NEEDS("synthetic/uv_cases.gltf");
+    COTAN_NEEDS_DATA("synthetic/uv_cases.gltf");
     const json r = lintJson("synthetic/uv_cases.gltf");
     ASSERT_EQ(r["primitives"].size(), 16u);
     const auto uv = [&](const char* mesh, const char* what) { return named(r, mesh)["uv"][what].get<double>(); };
@@ -58,10 +53,10 @@ TEST(LintCommand, reportMatchesTheUvCases)
     EXPECT_TRUE(r["maps"][0]["as_declared"].get<bool>()); // the map has the convention that the file declares
 }
 
-// data/README: w is wrong almost everywhere, and the maps are probably green-down.
+// w is wrong almost everywhere, and green of the maps points down.
 TEST(LintCommand, sketchfabCatHasReversedHandednessAndGreenThatCancelOut)
 {
-    COTAN_NEEDS("models/SketchfabCat/scene.gltf");
+    COTAN_NEEDS_DATA("models/SketchfabCat/scene.gltf");
     const json r = lintJson("models/SketchfabCat/scene.gltf");
     for (const json& p : r["primitives"])
         if (p.contains("stored_tangents") && p["uv"]["degenerate"] == 0) {
@@ -73,10 +68,10 @@ TEST(LintCommand, sketchfabCatHasReversedHandednessAndGreenThatCancelOut)
     EXPECT_EQ(r["run"].get<std::string>().find("generated"), std::string::npos);
 }
 
-// By data/README its TANGENTs are those of MikkTSpace; its quads are mirrored.
+// Its TANGENTs are those of MikkTSpace; its quads are mirrored.
 TEST(LintCommand, normalTangentMirrorTestAgreesWithItsStoredTangents)
 {
-    COTAN_NEEDS("models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb");
+    COTAN_NEEDS_DATA("models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb");
     const json r = lintJson("models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb");
     const json& p = r["primitives"][0];
     EXPECT_LT(p["read_with"]["stored"]["maximum"].get<double>(), 0.002);
@@ -88,8 +83,7 @@ TEST(LintCommand, normalTangentMirrorTestAgreesWithItsStoredTangents)
 TEST(LintCommand, flightHelmetAndBoomBoxNeedNoConversion)
 {
     for (const char* file : {"models/FlightHelmet/FlightHelmet.gltf", "models/BoomBox/BoomBox.gltf"}) {
-        if (!std::filesystem::exists(shared(file)))
-            GTEST_SKIP() << file << " is missing";
+        COTAN_NEEDS_DATA(file);
         const json r = lintJson(file);
         EXPECT_NE(r["recommendation"].get<std::string>().find("frame orthonormal"), std::string::npos) << file;
         for (const json& m : r["maps"])
@@ -134,8 +128,8 @@ TEST(LintCommand, aCoatsMapIsJudgedToo)
 
 TEST(LintCommand, exceededLimitExitsWith5)
 {
-    COTAN_NEEDS("synthetic/uv_cases.gltf");
-    const std::string model = shared("synthetic/uv_cases.gltf");
+    COTAN_NEEDS_DATA("synthetic/uv_cases.gltf");
+    const std::string model = dataFile("synthetic/uv_cases.gltf").string();
     TemporaryFolder folder;
     const ToolRun over = runTool({"lint", model, "--limit", "1", "--frame", "cotangent", "--quiet"}, folder.path());
     EXPECT_EQ(over.code, 5);
@@ -240,8 +234,7 @@ TEST(LintCommand, predictionsForModelsAgreeWithCompare)
                  {"models/SketchfabCat/scene.gltf", "cotangent", 2},
                  {"models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb", "cotangent", 3}};
     for (const auto& [file, frame, factor] : cases) {
-        if (!std::filesystem::exists(shared(file)))
-            GTEST_SKIP() << file << " is missing";
+        COTAN_NEEDS_DATA(file);
         double area = 0, sum = 0;
         const json report = lintJson(file);
         for (const json& p : report["primitives"])
@@ -250,7 +243,7 @@ TEST(LintCommand, predictionsForModelsAgreeWithCompare)
                 sum += p["uv"]["area"].get<double>() * p["read_with"][frame]["mean"].get<double>();
             }
         TemporaryFolder folder;
-        const double ratio = measured(shared(file), frame, folder.path()) / (sum / area);
+        const double ratio = measured(dataFile(file).string(), frame, folder.path()) / (sum / area);
         EXPECT_GT(ratio, 1 / factor) << file;
         EXPECT_LT(ratio, factor) << file;
         RecordProperty(file, fmt::format("{:.3f}", ratio));
@@ -260,7 +253,7 @@ TEST(LintCommand, predictionsForModelsAgreeWithCompare)
 TEST(LintCommand, badInputGetsOneClearLine)
 {
     TemporaryFolder folder;
-    const std::string model = shared("synthetic/uv_cases.gltf");
+    const std::string model = dataFile("synthetic/uv_cases.gltf").string();
     const struct {
         std::vector<std::string> words;
         int code;

@@ -162,7 +162,7 @@ TEST(Charts, noise_on_islands_is_undecidable)
         Image map = atlasMap({256, 3, 0.5}, between, true, PixelType::unorm8);
         for (std::size_t i = 0; i < map.pixelCount(); ++i) {
             std::uint8_t* p = map.bytes8() + 4 * i;
-            if (outsideCharts({p[0] / 255.0f, p[1] / 255.0f, p[2] / 255.0f, p[3] / 255.0f}))
+            if (outsideCharts({p[0] / 255.0f, p[1] / 255.0f, p[2] / 255.0f, p[3] / 255.0f}, true))
                 continue;
             const glm::vec3 n = ofSlopes(noise.next() - 0.5, noise.next() - 0.5);
             for (int c = 0; c < 3; ++c)
@@ -196,15 +196,44 @@ TEST(Charts, figures_exclude_the_background)
 TEST(Charts, background_is_detected_on_both_sides_of_its_limits)
 {
     const auto texel = [](float c, float a) { return glm::vec4(c / 255, c / 255, c / 255, a); };
-    EXPECT_TRUE(outsideCharts(texel(8, 1)));
-    EXPECT_FALSE(outsideCharts(texel(9, 1)));
-    EXPECT_TRUE(outsideCharts(texel(247, 1)));
-    EXPECT_FALSE(outsideCharts(texel(246, 1)));
-    EXPECT_TRUE(outsideCharts(texel(100, 0)));
-    EXPECT_FALSE(outsideCharts(texel(100, 1.0f / 255)));
-    EXPECT_FALSE(outsideCharts({0, 0, 1, 1}));    // black in two components only
-    EXPECT_FALSE(outsideCharts({-1, -1, -1, 1})); // signed
-    EXPECT_FALSE(outsideCharts({1, 1, 0.5f, 1}));
+    EXPECT_TRUE(outsideCharts(texel(8, 1), true));
+    EXPECT_FALSE(outsideCharts(texel(9, 1), true));
+    EXPECT_TRUE(outsideCharts(texel(247, 1), true));
+    EXPECT_FALSE(outsideCharts(texel(246, 1), true));
+    EXPECT_TRUE(outsideCharts(texel(100, 0), true));
+    EXPECT_FALSE(outsideCharts(texel(100, 1.0f / 255), true));
+    EXPECT_FALSE(outsideCharts({0, 0, 1, 1}, true));    // black in two components only
+    EXPECT_FALSE(outsideCharts({-1, -1, -1, 1}, true)); // signed
+    EXPECT_FALSE(outsideCharts({1, 1, 0.5f, 1}, true));
+}
+
+// Alpha that is 0 everywhere separates no charts: such a map is judged like the same map without alpha. In a model
+// alpha has no meaning at all.
+TEST(Charts, alpha_that_is_zero_everywhere_is_ignored_and_mentioned)
+{
+    for (const bool up : {true, false})
+        for (const PixelType type : {PixelType::unorm8, PixelType::unorm16}) {
+            const Image opaque = atlasMap({128, 2, 0.75}, Between::flat, up, type);
+            Image transparent = opaque;
+            for (int y = 0; y < opaque.height; ++y) {
+                std::vector<glm::vec4> row(std::size_t(opaque.width));
+                loadRow(opaque, y, row);
+                for (glm::vec4& t : row)
+                    t.w = 0;
+                storeRow(transparent, y, row);
+            }
+            const GreenVerdict expected = greenOf(opaque), found = greenOf(transparent);
+            EXPECT_EQ(found.green, up ? Green::up : Green::down);
+            EXPECT_EQ(found.agreement, expected.agreement);
+            EXPECT_EQ(found.statistics.content, Content::tangentSpace);
+            EXPECT_EQ(found.statistics.meanTilt, expected.statistics.meanTilt);
+            EXPECT_EQ(noteOf(expected.statistics), "");
+            EXPECT_NE(noteOf(found.statistics).find("alpha is 0 everywhere"), std::string::npos);
+            EXPECT_NE(noteOf(statisticsOfMap(transparent)).find("alpha is 0 everywhere"), std::string::npos);
+        }
+    const Image masked = atlasMap({256, 5, 0.4}, Between::transparent, true, PixelType::unorm8);
+    EXPECT_EQ(noteOf(statisticsOfMap(masked)), "");
+    EXPECT_LT(greenOf(masked, AlphaUse::ignored).statistics.background, statisticsOfMap(masked).background);
 }
 
 TEST(Patches, cover_small_images_and_overlap_by_one_texel)

@@ -210,7 +210,7 @@ TEST(Diff, angle_between_tilted_maps_is_their_tilt)
 TEST(Descriptions, invalidEnumeratorsAreDescribedAsValidOnes)
 {
     EXPECT_EQ(describe(Content(99)), describe(Content::other));
-    EXPECT_STREQ(name(Fault::Kind(-1)), "green_down");
+    EXPECT_STREQ(name(Fault::Kind(-1)), "no_normals");
     const Convention none{.kind = MapKind(9), .expansion = Expansion(9), .channels = Channels(9)};
     EXPECT_EQ(describe(none), "height, slopes, green up, v down, signed");
 }

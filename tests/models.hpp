@@ -1,4 +1,4 @@
-// Draws models of the shared data folder.
+// Draws models of the test data.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,19 +10,13 @@
 #include "cotan/render.hpp"
 #include "inspect/angles.hpp"
 #include "scene/geometry.hpp"
+#include "test_data.hpp"
 
 namespace cotan::test {
 
-inline std::filesystem::path shared(const char* file) { return std::filesystem::path(COTAN_SHARED_DATA) / file; }
-
-// Skips the test if the model is missing.
-#define COTAN_NEEDS_MODEL(file)                                                                                        \
-    if (!std::filesystem::exists(shared(file)))                                                                        \
-    GTEST_SKIP() << shared(file) << " is missing"
-
 inline Scene loadModel(const char* file)
 {
-    auto scene = loadScene(shared(file));
+    auto scene = loadScene(dataFile(file));
     if (!scene) {
         ADD_FAILURE() << scene.error().message;
         return {};

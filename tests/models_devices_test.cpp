@@ -34,7 +34,7 @@ AngleStatistics difference(const Scene& scene, Renderer& gpu, Renderer& referenc
 
 TEST_P(Devices, pointSampledNormalsAgreeWithTheReference)
 {
-    COTAN_NEEDS_MODEL(GetParam().file);
+    COTAN_NEEDS_DATA(GetParam().file);
     auto gpu = rendererFor("auto"), reference = rendererFor("reference");
     if (!gpu)
         GTEST_SKIP() << "no Vulkan device";
@@ -92,7 +92,7 @@ ModeDifference modeDifference(const Scene& scene, Renderer& renderer)
 // Without sorted layers, the cat has hollow eyes and its coat is behind its body.
 TEST(BlendedModel, opaqueTexelsHideLayersBehindThemOnBothDevices)
 {
-    COTAN_NEEDS_MODEL("models/SketchfabCat/scene.gltf");
+    COTAN_NEEDS_DATA("models/SketchfabCat/scene.gltf");
     const Scene scene = loadModel("models/SketchfabCat/scene.gltf");
     for (const char* device : {"reference", "auto"}) {
         auto renderer = rendererFor(device);

@@ -15,7 +15,7 @@ using namespace test;
 // Alpha of the cat's coat and of its first material is 1 almost everywhere; the difference allows for the other texels.
 TEST(Shadows, nearlyOpaqueBlendingCastsTheShadowOfAnOpaqueSurface)
 {
-    COTAN_NEEDS_MODEL("models/SketchfabCat/scene.gltf");
+    COTAN_NEEDS_DATA("models/SketchfabCat/scene.gltf");
     Scene scene = loadModel("models/SketchfabCat/scene.gltf");
     View view;
     view.width = view.height = 400;
@@ -151,7 +151,7 @@ TEST(Anisotropy, highlightFollowsTheDirectionOnBothRenderers)
 // The base colour is almost black; the visible colour is the sheen.
 TEST(MaterialModels, theVelvetSofaIsBlue)
 {
-    COTAN_NEEDS_MODEL("models/GlamVelvetSofa/GlamVelvetSofa.glb");
+    COTAN_NEEDS_DATA("models/GlamVelvetSofa/GlamVelvetSofa.glb");
     const Scene scene = loadModel("models/GlamVelvetSofa/GlamVelvetSofa.glb");
     for (const char* device : {"reference", "auto"}) {
         auto renderer = rendererFor(device);
@@ -223,7 +223,7 @@ TEST(MaterialModels, bothRenderersDrawTheSameLayers)
           "materials/AnisotropyDiscTest.glb", "models/GlamVelvetSofa/GlamVelvetSofa.glb",
           "models/SunglassesKhronos/SunglassesKhronos.glb", "materials/AttenuationTest.glb",
           "materials/TransmissionRoughnessTest.glb"}) {
-        COTAN_NEEDS_MODEL(file);
+        COTAN_NEEDS_DATA(file);
         const Scene scene = loadModel(file);
         const Image plain = renderOf(*reference, scene, Frame::cotangent, false);
         const double edges = meanStep(renderOf(*gpu, scene, Frame::cotangent, false), plain);
@@ -284,7 +284,7 @@ TEST(Anisotropy, derivedDirectionIsThatOfTheStoredTangents)
 {
     for (const char* file :
          {"materials/AnisotropyDiscTest.glb", "models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb"}) {
-        COTAN_NEEDS_MODEL(file);
+        COTAN_NEEDS_DATA(file);
         for (const Frame frame : {Frame::cotangent, Frame::smooth}) {
             Scene scene = loadModel(file);
             // For files without tangents: MikkTSpace's, as an engine generates them.

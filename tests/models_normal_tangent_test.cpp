@@ -67,7 +67,7 @@ double meanDifference(const Image& normals, const View& view, glm::dvec2 real, g
 
 void check(const char* device, const char* model, const std::vector<Pair>& pairs)
 {
-    COTAN_NEEDS_MODEL(model);
+    COTAN_NEEDS_DATA(model);
     auto renderer = rendererFor(device);
     if (!renderer)
         GTEST_SKIP() << "no Vulkan device";

@@ -119,7 +119,7 @@ Error errorOver(const Grid& g, const Scene& scene, Renderer& renderer)
 
 void check(const char* device)
 {
-    COTAN_NEEDS_MODEL(kModel);
+    COTAN_NEEDS_DATA(kModel);
     auto renderer = rendererFor(device);
     if (!renderer)
         GTEST_SKIP() << "no Vulkan device";

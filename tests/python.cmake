@@ -28,6 +28,6 @@ foreach(part header arrays geometry maps bake models render json types work opti
     set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
   endif()
   set_property(TEST ${name} PROPERTY ENVIRONMENT
-    "COTAN_LIBRARY=$<TARGET_FILE:cotan_c>;COTAN_TOOL=$<TARGET_FILE:cotan>;COTAN_SHARED_DATA=${PROJECT_SOURCE_DIR}/../shared/data"
+    "COTAN_LIBRARY=$<TARGET_FILE:cotan_c>;COTAN_TOOL=$<TARGET_FILE:cotan>"
     "PYTHONPATH=${PROJECT_SOURCE_DIR}/bindings/python;PYTHONDONTWRITEBYTECODE=1")
 endforeach()

@@ -56,8 +56,14 @@ TEST(ConvertLines, printEveryFigureOfAMap)
     EXPECT_EQ(linesOf(m, "smooth").size(), 2u);
     m.kept = true;
     EXPECT_EQ(linesOf(m, "smooth"),
-              Lines{"leather: unchanged: read with smooth its error is 30.00 / 31.00 / 32.00 degrees on 1 surface, no "
+              Lines{"leather: unchanged: read with smooth its error is 30.00 / 31.00 / 32.00 degrees on 1 surface"});
+    m.figures.unconverted = {7, 0.1, 0.3, 0.5};
+    EXPECT_EQ(linesOf(m, "smooth"),
+              Lines{"leather: unchanged: read with smooth its error is 0.10 / 0.30 / 0.50 degrees on 1 surface, no "
                     "more than that of rounding a new map"});
+    m.surfacesWithTangents = 1;
+    EXPECT_EQ(linesOf(m, "smooth"), Lines{"leather: unchanged: TANGENT stays on 1 surface"});
+    m.surfacesWithTangents = 0;
     m.figures.unconverted.count = 0;
     EXPECT_NE(linesOf(m, "smooth").at(0).find("not checked"), std::string::npos);
 }

@@ -78,6 +78,11 @@ Case frameCase(const std::string& label, Choice choice, bool drawn = false)
     c.last = fused || choice.frame == Frame::mikktspace ? Kind::degenerate : total ? Kind::nonFinite : Kind::sound;
     const Frame frame = choice.frame;
     const Convention convention = choice.convention;
+    if (total && frame != Frame::gradient) { // `gradient` is metric
+        const FrameSource source = info(frame).source;
+        c.moves = source == FrameSource::triangle ? FrameSource::differences : source;
+        c.anyScale = !(readsCotangents(frame) && fused); // the text says so
+    }
     if (!readsVertices(frame)) {
         c.call = drawn ? "cotan_perturb_normal(n, p, uv, m)" : made->entry + "(n, dpdx, dpdy, duvdx, duvdy, m)";
         c.expected = [=](const Vectors& v) {
@@ -88,13 +93,13 @@ Case frameCase(const std::string& label, Choice choice, bool drawn = false)
         };
         return c;
     }
-    c.call = made->entry + (readsCotangents(frame) ? "(n, dpdx, dpdy, m)" : "(n, dpdx, -1.0, m)");
+    c.call = made->entry + (readsCotangents(frame) ? "(n, dpdx, dpdy, m)" : "(n, dpdx, duvdx.x * -100.0, m)");
     c.expected = [=](const Vectors& v) {
         const glm::dvec3 n(v.n), x(v.dpdx), y(v.dpdy);
         if (fused) // a different formula from the frame's: equal only up to rounding
             return f64::cotan_perturb_smooth(n, x, y, decoded(v));
-        const f64::cotan_frame f =
-            readsCotangents(frame) ? evaluateCotangents(frame, n, x, y) : evaluateTangents(frame, n, x, 1.0);
+        const f64::cotan_frame f = readsCotangents(frame) ? evaluateCotangents(frame, n, x, y)
+                                                          : evaluateTangents(frame, n, x, 100.0 * v.duvdx.x);
         return f64::cotan_apply(f, decoded(v));
     };
     return c;
@@ -272,6 +277,33 @@ void addLines(std::vector<Case>& all)
     all.push_back(COTAN_LINE_CASE("blend linear", cotan_blend_linear(m, m2)));
 }
 
+// `triangle` in two stages, as it is used: the first makes U and V in half floats.
+Case twoStagesCase()
+{
+    Choice choice;
+    choice.frame = Frame::triangle;
+    Case c = frameCase("triangle in two stages", choice);
+    c.call = "cotan_perturb_normal_on_triangle(n, cotan_make_triangle(dpdx - dpdx, dpdx, dpdy, duvdx - duvdx, duvdx, "
+             "duvdy, n, n, n), m)";
+    c.halfs = true;
+    return c;
+}
+
+// A sample after a transform by `scale` that may also mirror x. Positions and tangents are vectors; engines make
+// tangents unit again. Cotangents are covectors. A mirror reverses the w of tangents, which the cases take from duvdx.
+Sample movedSample(const Vectors& from, FrameSource source, float scale, bool mirrored)
+{
+    const glm::vec3 axes(mirrored ? -1 : 1, 1, 1);
+    Vectors v = from;
+    v.n = axes * v.n;
+    const float factor = source == FrameSource::tangents ? 1 : source == FrameSource::cotangents ? 1 / scale : scale;
+    v.dpdx = axes * v.dpdx * factor;
+    v.dpdy = axes * v.dpdy * factor;
+    if (source == FrameSource::tangents)
+        v.duvdx *= axes.x;
+    return {v, Kind::moved, from, scale, mirrored, source};
+}
+
 } // namespace
 
 std::vector<Sample> samples()
@@ -305,6 +337,13 @@ std::vector<Sample> samples()
     }
     for (const Sample& lit : litSamples())
         all.push_back(lit);
+    for (int k = 0; k < 8; ++k) {
+        const Vectors from = soundVectors(random, k & 1, k & 2, k & 4);
+        for (const FrameSource source : {FrameSource::differences, FrameSource::cotangents, FrameSource::tangents})
+            for (const float scale : {0.25f, 0.5f, 1.0f, 2.0f, 4.0f})
+                for (const bool mirrored : {false, true})
+                    all.push_back(movedSample(from, source, scale, mirrored));
+    }
     return all;
 }
 
@@ -352,6 +391,8 @@ std::vector<Case> frameCases(bool drawn)
         choice.form = Form::fused;
         all.push_back(frameCase(std::string(f.name) + ", fused", choice, drawn));
     }
+    if (!drawn)
+        all.push_back(twoStagesCase());
     return all;
 }
 
@@ -388,7 +429,7 @@ std::vector<Case> godotCases()
 {
     std::vector<Case> some;
     for (Case& c : casesOfAllLanguages())
-        if (c.text(Language::godot).find("uint") == std::string::npos)
+        if (!c.halfs && c.text(Language::godot).find("uint") == std::string::npos)
             some.push_back(std::move(c));
     return some;
 }

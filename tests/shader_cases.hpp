@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,15 +22,21 @@ struct Vectors {
 static_assert(sizeof(Vectors) == 16 * sizeof(float));
 
 // For `light`, the vectors hold n, to the light, to the eye, (metallic, roughness), two parameters, and a colour.
-enum class Kind { sound, degenerate, nonFinite, light };
+enum class Kind { sound, degenerate, nonFinite, light, moved };
 
 struct Sample {
     Vectors v;
     Kind kind = Kind::sound;
+    // For `moved`: the sample before a transform that scales and perhaps mirrors x, and what its vectors are, which
+    // decides how they transform.
+    Vectors from = {};
+    float scale = 1;
+    bool mirrored = false;
+    FrameSource source = FrameSource::differences;
 };
 
-// Random sound samples (mirrored or not, y up and y down, both facings), then degenerate ones, non-finite ones and lit
-// surfaces.
+// Random sound samples (mirrored or not, y up and y down, both facings), then degenerate ones, non-finite ones, lit
+// surfaces, and moved ones.
 std::vector<Sample> samples();
 std::vector<Sample> litSamples();
 
@@ -43,6 +50,10 @@ struct Case {
     std::function<std::string(shader_text::Language)> text;
     std::function<glm::dvec3(const Vectors&)> expected;
     bool light = false; // compared on lit surfaces as numbers; otherwise as directions
+    bool halfs = false; // two stages with half floats between them: an error of up to 0.03 degrees
+    // What the vectors are, for the frames whose result moves with the object: a scale does not change it.
+    std::optional<FrameSource> moves = {};
+    bool anyScale = true; // false: the caller scales the vectors of `moves`
     // For `light`: maximum change of the result by one rounding of the result and of each input.
     std::function<glm::dvec3(const Vectors&)> allowance;
 };

@@ -1,6 +1,7 @@
 // The complete shaders that `cotan shader --lang godot` prints, checked without Godot; godot_test runs them in Godot.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <regex>
 
 #include "shader_run.hpp"
@@ -30,6 +31,7 @@ out vec4 colour;
             choice.language = Language::godot;
             choice.frame = frame.frame;
             choice.twoSided = all;
+            choice.callerDifferences = all && frame.source != FrameSource::differences && frame.frame != Frame::exact;
             if (all)
                 choice.sets = {shader_text::Set::gradient, shader_text::Set::blend, shader_text::Set::light};
             if (all && frame.source == FrameSource::differences)
@@ -56,12 +58,14 @@ out vec4 colour;
 TEST(ShaderGodot, theExampleEqualsTheToolsOutput)
 {
     TemporaryFolder folder;
-    for (const auto& [file, frame] :
-         {std::pair<std::string, std::string>("cotan", "cotangent"), {"triangle", "triangle"}}) {
-        const ToolRun printed = runTool({"shader", "--lang", "godot", "--frame", frame, "--two-sided"}, folder.path());
+    for (const auto& [file, words] : std::map<std::string, std::vector<std::string>>{
+             {"cotan", {"--frame", "cotangent"}}, {"triangle", {"--frame", "triangle", "--differences", "caller"}}}) {
+        std::vector<std::string> all = {"shader", "--lang", "godot", "--two-sided"};
+        all.insert(all.end(), words.begin(), words.end());
+        const ToolRun printed = runTool(all, folder.path());
         ASSERT_EQ(printed.code, 0) << printed.err;
-        EXPECT_EQ(readWhole(COTAN_SOURCE_DIR "/examples/godot/" + file + ".shader"), printed.out)
-            << "cotan shader --lang godot --frame " << frame << " --two-sided -o examples/godot/" << file << ".shader";
+        EXPECT_TRUE(readWhole(COTAN_SOURCE_DIR "/examples/godot/" + file + ".shader") == printed.out)
+            << file << ".shader: examples/godot/README.md has the command that prints it";
     }
 }
 
@@ -73,6 +77,30 @@ TEST(ShaderGodot, mapsHaveTwoChannelsByDefault)
     EXPECT_EQ(plain, runTool({"shader", "--lang", "godot", "--preset", "godot"}, folder.path()).out);
     EXPECT_NE(plain, runTool({"shader", "--lang", "godot", "--preset", "gltf"}, folder.path()).out);
     EXPECT_NE(plain.find("cotan_orthographic_z(xy)"), std::string::npos);
+}
+
+// The drivers without derivatives get the same shader without a function that takes them.
+TEST(ShaderGodot, shadersForMeshDataTakeDerivativesOnlyForMeshesWithoutIt)
+{
+    for (const FrameInfo& frame : frames()) {
+        if (!readsVertices(frame.frame) && !readsTriangleVectors(frame.frame))
+            continue;
+        Choice choice;
+        choice.language = Language::godot;
+        choice.frame = frame.frame;
+        const std::string head = "Missing:\n", with = makeShaderText(choice)->text;
+        EXPECT_NE(with.find("dFdx("), std::string::npos) << frame.name;
+        EXPECT_NE(with.find(readsTangents(frame.frame) ? "`orthonormal`, from derivatives" : "`cotangent`, from"),
+                  std::string::npos);
+        choice.callerDifferences = true;
+        const std::string without = makeShaderText(choice)->text;
+        EXPECT_EQ(without.find("dFdx("), std::string::npos) << frame.name;
+        for (const std::string& text : {with, without}) {
+            EXPECT_LT(text.find(head), text.find("shader_type spatial")) << frame.name;
+            EXPECT_NE(text.find("void fragment()"), std::string::npos) << frame.name;
+        }
+        EXPECT_NE(without.find("has no bumps"), std::string::npos) << frame.name;
+    }
 }
 
 } // namespace

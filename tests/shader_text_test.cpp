@@ -290,6 +290,23 @@ TEST(ChosenText, screenDerivativesAreUsedIfLanguageAndFrameHaveThem)
         }
 }
 
+// No language can tell an attribute that a mesh lacks, so each text says what it gives.
+TEST(ChosenText, theHeadSaysWhatMissingVertexDataGives)
+{
+    for (const Language language : kLanguages)
+        for (const FrameInfo& f : frames()) {
+            Choice choice;
+            choice.language = language;
+            choice.frame = f.frame;
+            choice.functionsOnly = true;
+            choice.stage = readsTriangleVectors(f.frame) ? Stage::fragment : Stage::all;
+            const std::string text = textOf(choice), head = text.substr(0, text.find("\n\n"));
+            const bool fromMesh = readsVertices(f.frame) || readsTriangleVectors(f.frame);
+            EXPECT_EQ(has(head, "// Missing:\n"), fromMesh) << name(language) << ", " << f.name;
+            EXPECT_TRUE(!fromMesh || has(head, readsTangents(f.frame) ? "`orthonormal`" : "`cotangent`")) << f.name;
+        }
+}
+
 TEST(ChosenText, functionSetsAreIncludedOnlyOnRequest)
 {
     // For each set, a function that no other set includes.

@@ -12,14 +12,13 @@ class MikktspaceGltfOracle : public testing::TestWithParam<const char*> {};
 // The oracle lists the corners of all primitives in file order, which for these models is the order of loaded meshes.
 TEST_P(MikktspaceGltfOracle, agreesOnGltfModel)
 {
-    const std::filesystem::path data(COTAN_SHARED_DATA);
-    const std::filesystem::path model = data / GetParam();
-    const std::filesystem::path oracle = data / "mikktspace" / (model.stem().string() + ".mikk.f32");
-    if (!std::filesystem::exists(model) || !std::filesystem::exists(oracle))
-        GTEST_SKIP() << "needs " << model << " and " << oracle;
+    const std::filesystem::path model = dataFile(GetParam());
+    const std::string oracle = oracleOf(model);
+    COTAN_NEEDS_DATA(GetParam());
+    COTAN_NEEDS_DATA(oracle);
     const cotan::Result<cotan::Scene> scene = cotan::loadScene(model);
     ASSERT_TRUE(scene) << scene.error().message;
-    const std::vector<glm::vec4> expected = readOracle(oracle);
+    const std::vector<glm::vec4> expected = readOracle(dataFile(oracle));
     std::size_t first = 0, different = 0;
     for (const cotan::Mesh& mesh : scene->meshes) {
         const cotan::MeshView view{mesh.positions, mesh.normals, mesh.texcoords[0], mesh.indices};

@@ -12,8 +12,15 @@
 #include <gtest/gtest.h>
 
 #include "tangent_meshes.hpp"
+#include "test_data.hpp"
 
 namespace cotan::test {
+
+// The file of the test data that has another implementation's tangents of a model.
+inline std::string oracleOf(const std::filesystem::path& model)
+{
+    return "mikktspace/" + model.stem().string() + ".mikk.f32";
+}
 
 // Reads one tangent per triangle corner: little-endian floats x, y, z, w.
 inline std::vector<glm::vec4> readOracle(const std::filesystem::path& file)

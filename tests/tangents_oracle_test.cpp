@@ -50,13 +50,12 @@ class MikktspaceOracle : public testing::TestWithParam<const char*> {};
 
 TEST_P(MikktspaceOracle, agreesOnObjModel)
 {
-    const std::filesystem::path model = std::filesystem::path(COTAN_SHARED_DATA) / GetParam();
-    const std::filesystem::path oracle =
-        std::filesystem::path(COTAN_SHARED_DATA) / "mikktspace" / (model.stem().string() + ".mikk.f32");
-    if (!std::filesystem::exists(model) || !std::filesystem::exists(oracle))
-        GTEST_SKIP() << "needs " << model << " and " << oracle;
+    const std::filesystem::path model = dataFile(GetParam());
+    const std::string oracle = oracleOf(model);
+    COTAN_NEEDS_DATA(GetParam());
+    COTAN_NEEDS_DATA(oracle);
     const Arrays a = readObj(model);
-    std::vector<glm::vec4> expected = readOracle(oracle);
+    std::vector<glm::vec4> expected = readOracle(dataFile(oracle));
     ASSERT_EQ(a.indices.size(), expected.size());
     // The oracle was computed with v upwards. Corners without a direction have w = -1 for either direction of v, which
     // is +1 in our convention.

@@ -8,6 +8,7 @@
 #include "cotan/gltf.hpp"
 #include "gltf/json/lookup.hpp"
 #include "run_tool.hpp"
+#include "test_data.hpp"
 
 namespace cotan {
 namespace {
@@ -15,20 +16,17 @@ namespace {
 using namespace test;
 using nlohmann::json;
 
-const std::filesystem::path kModels = std::filesystem::path(COTAN_SHARED_DATA) / "models";
-
 class TangentsWritten : public ::testing::TestWithParam<const char*> {
 protected:
     void SetUp() override
     {
-        if (!std::filesystem::exists(model()))
-            GTEST_SKIP() << "no " << model();
+        COTAN_NEEDS_DATA(GetParam());
         for (const char* const name : {"out.glb", "out.gltf"}) {
             const ToolRun run = runTool({"tangents", model().string(), "--replace", "-o", name}, folder.path(), 60);
             ASSERT_EQ(run.code, 0) << run.err;
         }
     }
-    std::filesystem::path model() const { return kModels / GetParam(); }
+    std::filesystem::path model() const { return dataFile(GetParam()); }
 
     TemporaryFolder folder;
 };
@@ -135,12 +133,15 @@ TEST_P(TangentsWritten, areEqualToMikktspace)
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, TangentsWritten,
-                         ::testing::Values("NormalTangentMirrorTest/NormalTangentMirrorTest.glb",
-                                           "FlightHelmet/FlightHelmet.gltf", "GlamVelvetSofa/GlamVelvetSofa.glb",
-                                           "SketchfabCat/scene.gltf", "SunglassesKhronos/SunglassesKhronos.glb",
-                                           "VertexColorTest/VertexColorTest.glb",
-                                           "AnisotropyStrengthTest/AnisotropyStrengthTest.glb"),
-                         [](const auto& m) { return std::filesystem::path(m.param).parent_path().string(); });
+                         ::testing::Values("models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb",
+                                           "models/FlightHelmet/FlightHelmet.gltf",
+                                           "models/GlamVelvetSofa/GlamVelvetSofa.glb", "models/SketchfabCat/scene.gltf",
+                                           "models/SunglassesKhronos/SunglassesKhronos.glb",
+                                           "models/VertexColorTest/VertexColorTest.glb",
+                                           "models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb"),
+                         [](const auto& m) {
+                             return std::filesystem::path(m.param).parent_path().filename().string();
+                         });
 
 } // namespace
 } // namespace cotan

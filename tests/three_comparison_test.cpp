@@ -23,7 +23,9 @@ constexpr int kWidth = 480, kHeight = 360;
 constexpr std::uint8_t kGrey = 128;
 
 // A model, the maximum difference between our render and that of three.js, and its reason. Both bounds are about 1.3
-// times what was measured when the pair was last inspected.
+// times what was measured when the pair was last inspected, with the published model. A model that takes its place has
+// the same materials, but other outlines and lights: kOthers times the bounds, where 1.5 times was measured.
+constexpr double kOthers = 1.7;
 struct Case {
     const char* name;
     const char* file;
@@ -71,7 +73,7 @@ struct Subject {
 
 Result<Subject> subjectOf(const Case& c)
 {
-    auto scene = loadScene(shared(c.file));
+    auto scene = loadScene(dataFile(c.file));
     if (!scene)
         return scene.error();
     Subject s{std::move(*scene), {}, 0};
@@ -154,7 +156,7 @@ std::string pageOf(const std::map<std::string, Subject>& subjects)
             continue;
         const Camera& camera = found->second.camera;
         cases.push_back(json{{"name", c.name},
-                             {"url", "file://" + std::filesystem::canonical(shared(c.file)).string()},
+                             {"url", "file://" + std::filesystem::canonical(dataFile(c.file)).string()},
                              {"eye", {camera.eye.x, camera.eye.y, camera.eye.z}},
                              {"target", {camera.target.x, camera.target.y, camera.target.z}},
                              {"fieldOfView", double(camera.verticalFieldOfView) * 180 / std::numbers::pi},
@@ -163,7 +165,7 @@ std::string pageOf(const std::map<std::string, Subject>& subjects)
     std::string page = readWhole(COTAN_SOURCE_DIR "/tests/three_comparison.html.in");
     put(page, "LIBRARY_URL", "file://" COTAN_NPM "/node_modules/three/build/three.module.js");
     put(page, "ADDONS_URL", "file://" COTAN_NPM "/node_modules/three/examples/jsm");
-    put(page, "ENVIRONMENT_URL", "file://" + std::filesystem::canonical(shared("environments/studio.exr")).string());
+    put(page, "ENVIRONMENT_URL", "file://" + std::filesystem::canonical(dataFile("environments/studio.exr")).string());
     put(page, "WIDTH", std::to_string(kWidth));
     put(page, "HEIGHT", std::to_string(kHeight));
     put(page, "CASES", cases.dump());
@@ -172,7 +174,7 @@ std::string pageOf(const std::map<std::string, Subject>& subjects)
 
 TEST(ThreeComparison, rendersMatch)
 {
-    COTAN_NEEDS_MODEL("environments/studio.exr");
+    COTAN_NEEDS_DATA("environments/studio.exr");
     if (!std::filesystem::exists(COTAN_NPM "/node_modules/three"))
         GTEST_SKIP() << "three is not installed (see the test npm_packages)";
     std::map<std::string, Subject> subjects;
@@ -190,7 +192,8 @@ TEST(ThreeComparison, rendersMatch)
     const json& pictures = found["three_comparison"];
     ASSERT_FALSE(pictures.contains("error")) << pictures["error"];
 
-    const auto studio = readImage(shared("environments/studio.exr"));
+    const bool published = isOriginal("environments/studio.exr");
+    const auto studio = readImage(dataFile("environments/studio.exr"));
     ASSERT_TRUE(studio) << studio.error().message;
     auto map = environmentOfImage(*studio);
     ASSERT_TRUE(map) << map.error().message;
@@ -218,8 +221,9 @@ TEST(ThreeComparison, rendersMatch)
         ASSERT_GT(count, 2000u) << c.name;
         const double steps = sum / double(count), flip = flipError(three, ours.image, ours.covered);
         std::printf("| %s | %.1f | %.3f |\n", c.name, steps, flip);
-        EXPECT_LT(steps, c.steps) << c.name << ": " << c.why;
-        EXPECT_LT(flip, c.flip) << c.name << ": " << c.why;
+        const double allowed = published && isOriginal(c.file) ? 1 : kOthers;
+        EXPECT_LT(steps, allowed * c.steps) << c.name << ": " << c.why;
+        EXPECT_LT(flip, allowed * c.flip) << c.name << ": " << c.why;
     }
 }
 

@@ -1,6 +1,7 @@
 // Requests of the viewer that do more than change its state, and how loaded models are taken over.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "cotan/image.hpp"

@@ -17,44 +17,49 @@ function(cotan_web_test file)
     set_tests_properties(Web.${case} PROPERTIES FIXTURES_REQUIRED "web;npm" SKIP_RETURN_CODE 77 TIMEOUT 300)
   endforeach()
 endfunction()
-set(data ${PROJECT_SOURCE_DIR}/../shared/data)
-cotan_web_test(package_test ARGUMENTS $<TARGET_FILE:cotan_c> ${data}
+cotan_web_test(package_test ARGUMENTS $<TARGET_FILE:cotan_c>
   CASES bothEntryPointsLoad tangentsEqualTheNativeOnes lintAndConvertMatchTheNativeOnes droppingTangentsNeverMakesAFileLarger
-    greenThatTangentsReverseIsNotFixed modesOfConversionAreChosenAndRefused pngFilesRoundTrip
+    greenThatTangentsReverseIsNotFixed modesOfConversionAreChosenAndRefused filesAreFoundByTheirUrisAsWrittenOrDecoded pngFilesRoundTrip
     mapsConvertAndTheirGreenIsDetected errorsNameTheFieldAndTheFault encodePngValidatesItsImageFirst
     sizesThatOverflow32BitsAreRefused everyFunctionRefusesNonsenseWithACotanError missingDecodersAreExplainedForNpmUsers badInputLeaksNothing badFilesAreRefusedOrRead packageIsSmall)
-cotan_web_test(gltf_transform_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules ${data}
+cotan_web_test(instance_test CASES everyKindOfThrowGivesAFreshInstance aNestedFaultEndsTheOuterCallToo aFailedRestartIsReportedAndTriedAgain
+    fullStacksLeaveNothingBehindInBothModules errorsOfCallbacksAreNoFaults)
+cotan_web_test(zip_test CASES zipsOfOtherProgramsAreRead hostileZipsAreRefused damagedZipsGiveTheirFilesOrOneLine)
+cotan_web_test(arguments_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
+  CASES everyArgumentOfTheTangents everyArgumentOfTheWholePackage everyOptionOfTheTransforms everyArgumentForThree)
+cotan_web_test(gltf_transform_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
   CASES indexedPrimitivesGetTheTangentsOfTheirCorners untangentMatchesConvert lintNormalsReportsAndChangesNothing
     aModelWithGreenReversedFailsTheCheck newMapsAreEncodedFor2cMinus1 materialsNameTheFrameOfTheirMaps checkCommandHasALimitAReportAndAnExitCode
     provokingGivesEachTriangleItsOwnVertex compressedModelsAreReadByTheDecodersOfGltfTransform newMapsKeepTheFormatOfTheOldOnes ktx2MapsAreReportedWithAdvice
-    untangentDropsTangentsAndNoFileGrows unknownOptionsAreRefusedAtOnce gltfTransformRunsOurCommands)
-cotan_web_test(three_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules ${data}
+    webpMapsAreReadAndStayWebp lossesOfAnEncoderAreMeasuredAndVisibleOnesAvoided anEncoderOfTheCallerIsChecked
+    conversionsMakeNoNewErrorsOfTheValidator untangentDropsTangentsAndNoFileGrows unknownOptionsAreRefusedAtOnce gltfTransformRunsOurCommands)
+cotan_web_test(three_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
   CASES greenFollowsTangentsReversedOn90PercentOfTheArea mixedTangentsLeaveGreenAsDeclaredAndAreReported
     tangentsThatPointElsewhereDoNotReverseGreen clearCoatsFollowTheSameRule theOptionConventionOverridesTangents
     repeatedCallsAndLaterMeshesAgree autoIsTheFrameOfTheMaterialOrOrthonormal
     repeatedMapsOnOwnShapesUseCotangent smoothUsesTheCotangentsOfTheLibrary laterHooksAreInTheKeyAndKeepTheFrame
     clonesOfMaterialsKeepTheFrame replacementsAreFreedWithTheOriginal olderVersionsOfThreeWorkAndTooOldOnesAreRefused
-    unknownArgumentsAreRefused)
+    materialsOfOneFrameShareAProgramAndOthersDoNot unknownArgumentsAreRefused)
 cotan_web_test(types_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
   CASES typingsAcceptEveryExportInStrictMode typingsMatchTheExports everyWrongCallIsATypeError)
 cotan_web_test(bundlers_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
   CASES viteServesThePackage viteBundlesForTheBrowser viteBundlesForNode webpackBundlesForTheBrowser webpackBundlesForNode esbuildBundlesForTheBrowser esbuildBundlesForNode
-    browsersLoadTheFileOfUnpkg)
+    bundlersLoadTheNodesOfThreeDirectly browsersLoadTheFileOfUnpkg)
 cotan_web_test(browser_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules CASES bundleWorksInABrowserAndAWorker)
-cotan_web_test(readme_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
-    ${data}/models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb CASES theReadmeShowsAModelWithoutTangents)
+cotan_web_test(readme_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules CASES theReadmeShowsAModelWithoutTangents)
 
 # Compares cotan/three with its defaults, from its sources, with stock three.js. The cat alone takes a minute.
-foreach(fact reversedTangentsReverseGreen modelsLookTheSameWithoutTheirTangents modelsWithoutTangentsAreReadAsMikkTSpace
+foreach(fact reversedTangentsReverseGreen modelsLookTheSameWithoutTheirTangents
+    nodeMaterialsOfAModelKeepTheirOwnMaps modelsWithoutTangentsAreReadAsMikkTSpace
     mirroredInstancesKeepTheirBumps replacedGeometriesAreFreed anOlderThreeDrawsTheSame)
   add_test(NAME ThreeDefaults.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/three_defaults_test.mjs
-    ${PROJECT_SOURCE_DIR}/bindings/js ${PROJECT_BINARY_DIR}/npm/node_modules ${data} ${fact})
+    ${PROJECT_SOURCE_DIR}/bindings/js ${PROJECT_BINARY_DIR}/npm/node_modules ${fact})
   set_tests_properties(ThreeDefaults.${fact} PROPERTIES FIXTURES_REQUIRED npm SKIP_RETURN_CODE 77 TIMEOUT 600)
 endforeach()
 
 # The jet fighter, whose BasisU textures are replaced by ones that the tool reads.
 add_test(NAME BasisU.aModelWithPngTexturesIsDrawnAsItsTangentsMean COMMAND ${COTAN_NODE}
-  ${CMAKE_CURRENT_SOURCE_DIR}/web/basisu_test.mjs ${PROJECT_BINARY_DIR}/npm/node_modules $<TARGET_FILE:cotan> ${data})
+  ${CMAKE_CURRENT_SOURCE_DIR}/web/basisu_test.mjs ${PROJECT_BINARY_DIR}/npm/node_modules $<TARGET_FILE:cotan>)
 set_tests_properties(BasisU.aModelWithPngTexturesIsDrawnAsItsTangentsMean PROPERTIES
   FIXTURES_REQUIRED npm SKIP_RETURN_CODE 77 TIMEOUT 300)
 
@@ -64,7 +69,7 @@ set_tests_properties(web_page PROPERTIES FIXTURES_REQUIRED web FIXTURES_SETUP pa
 function(cotan_page_test file)
   foreach(fact ${ARGN})
     add_test(NAME Page.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/${file}.mjs ${PROJECT_BINARY_DIR}/web/page
-      ${PROJECT_BINARY_DIR}/npm/node_modules $<TARGET_FILE:cotan> ${data} ${fact})
+      ${PROJECT_BINARY_DIR}/npm/node_modules $<TARGET_FILE:cotan> ${fact})
     set_tests_properties(Page.${fact} PROPERTIES FIXTURES_REQUIRED "page;npm" SKIP_RETURN_CODE 77 TIMEOUT 300)
   endforeach()
 endfunction()
@@ -76,9 +81,10 @@ cotan_page_test(page_maps_test
 cotan_page_test(page_models_test
     modelsAreDrawnTwiceWithTheAngleBetween theViewShowsTheAdvisedConversion
     theCheckAndItsReportMatchTheCommandLine aModelWithReversedGreenIsFixed whiteSurfacesShowTheirBumps
-    realModelsAreJudgedAndDrawn convertedModelsEqualThoseOfTheCommandLine ktx2MapsAreReportedWithAdvice)
+    theVerdictComesBeforeTheView aLateViewOfAnotherModelIsDropped truncatedModelsAreRefused missingFilesAreNamed zipsAreOpened
+    webpMapsAreReadWithoutLosses realModelsAreJudgedAndDrawn convertedModelsEqualThoseOfTheCommandLine ktx2MapsAreReportedWithAdvice)
 cotan_page_test(page_test
     firstViewIsBelow200KBWithoutTheLibrary aFailedFileClearsTheOldVerdict
-    thePageWorksUnderItsContentSecurityPolicy libraryLoadFailuresAreReportedEachTime longWorkShowsItsDuration
+    thePageWorksUnderItsContentSecurityPolicy libraryLoadFailuresAreReportedEachTime aFailedDecoderGivesTheNextFileAFreshWorker longWorkShowsItsDuration
     facetsAreExplained badFilesGiveOneLineEach documentsShowTheirImagesAndTheirLinksWork
     accessibilityRulesHoldInLightAndDark phonesNeedNoSidewaysScrolling thePageWorksOfflineAfterTheFirstVisit)

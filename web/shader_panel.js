@@ -1,6 +1,6 @@
 // The panel with the shader text. The choice is kept in the URL: #shader?lang=wgsl&frame=cotangent&map=gltf
 import { choice, download, el } from './elements.js';
-import { cotan } from './library.js';
+import { library } from './library.js';
 
 const kLanguages = { essl: 'WebGL 2 (GLSL ES 3.00)', wgsl: 'WebGPU (WGSL)', glsl: 'Vulkan, OpenGL (GLSL)', hlsl: 'Direct3D, Unity, Unreal (HLSL)', msl: 'Metal', godot: 'Godot 3 and 4', cpp: 'C++' };
 const kFrames = {
@@ -33,7 +33,6 @@ export async function showShader(panel) {
 
   async function chosen(keep) {
     stages.hidden = state.frame !== 'triangle';
-    const library = await cotan();
     try {
       text.textContent = await library.shader({ language: state.lang, frame: state.frame, convention: state.map,
         ...(state.frame === 'triangle' && state.stage ? { stage: state.stage } : {}) });

@@ -248,7 +248,7 @@ void declare(Arguments& a, ConvertCommandOptions& o)
         "for --from-frame mikktspace or vertex: stored (as in the file, generated where missing) or generated");
     a.flag("--keep-maps", o.keepMaps,
            "keep the maps byte for byte, to be read with --to-frame (default then: orthonormal), and drop only the "
-           "tangents: maps never make the file larger")
+           "tangents; where these reverse green of a map, its green is reversed, or they stay")
         .main();
     a.group(HelpGroup::output);
     a.flag("--keep-tangents", o.keepTangents, "keep the tangents of the file");

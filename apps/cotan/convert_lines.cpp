@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "bake/lint/map_fit.hpp"
 #include "gltf/json/lookup.hpp"
 #include "lint_lines.hpp"
 
@@ -11,15 +12,19 @@ namespace cotan {
 
 namespace {
 
-// The line about a map that is left unchanged.
+// The line about a map that is left unchanged, but for its green.
 std::string whyKept(const ConvertedMap& map, const std::string& to)
 {
     const ValueSummary& unconverted = map.figures.unconverted;
     if (unconverted.count == 0)
         return fmt::format("{}: unchanged; not checked, since no triangle with an area, in uv too, uses it", map.name);
-    return fmt::format(
-        "{}: unchanged: read with {} its error is {} degrees on {}, no more than that of rounding a new map", map.name,
-        to, toText(unconverted), counted(map.surfaces, "surface"));
+    if (map.surfacesWithTangents == map.surfaces)
+        return fmt::format("{}: unchanged: TANGENT stays on {}", map.name, counted(map.surfaces, "surface"));
+    const std::string change = map.greenReversed ? "only its green is reversed" : "unchanged";
+    const ValueSummary& error = map.greenReversed ? map.figures.error : unconverted;
+    return fmt::format("{}: {}: read with {} its error is {} degrees on {}{}", map.name, change, to, toText(error),
+                       counted(map.surfaces - map.surfacesWithTangents, "surface"),
+                       fitsAsItIs(error) ? ", no more than that of rounding a new map" : "");
 }
 
 // "JPEG of quality 90,"
@@ -56,7 +61,7 @@ Json rowOf(const GltfProvoked& p)
 
 std::vector<std::string> linesOf(const ConvertedMap& map, const std::string& to)
 {
-    if (map.kept)
+    if (map.kept || map.greenReversed)
         return {whyKept(map, to)};
     const ReencodeFigures& r = map.figures;
     const double texels = double(map.width) * double(map.height);

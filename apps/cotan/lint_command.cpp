@@ -81,6 +81,9 @@ Status run(const LintCommandOptions& o)
     if (!linted)
         return withOptionNames(linted.error());
     const LintReport& report = *linted;
+    for (const GreenEvidence& map : report.maps)
+        if (!map.note.empty())
+            warn(o, "normal map {}: {}", map.name.empty() ? fmt::format("image {}", map.image) : map.name, map.note);
     const std::string command = commandFor(o, report);
     const LintCheck check = checkLimits(report, o.limits);
     const std::vector<std::string> verdict = verdictLines(o.model, report, command);

@@ -97,8 +97,8 @@ std::string toText(const ValueSummary& s)
 std::vector<std::string> verdictLines(const std::string& model, const LintReport& report, const std::string& run)
 {
     std::vector<std::string> lines = {titleOf(model, report)};
-    for (const std::string& line :
-         {report.defects, report.seen, greenLine(report), report.notJudged, report.otherReaders, report.advised})
+    for (const std::string& line : {report.defects, report.seen, report.worst, greenLine(report), report.notJudged,
+                                    report.otherReaders, report.advised})
         if (!line.empty())
             lines.push_back(line);
     if (!run.empty())
@@ -109,8 +109,6 @@ std::vector<std::string> verdictLines(const std::string& model, const LintReport
 std::vector<std::string> detailLines(const LintReport& report)
 {
     std::vector<std::string> lines;
-    if (!report.worst.empty())
-        lines.push_back(report.worst);
     lines.emplace_back("Three values are mean / 95 % / maximum, weighted by area.");
     for (std::size_t i = 0; i < report.primitives.size(); ++i)
         addPrimitive(report, i, lines);

@@ -224,7 +224,7 @@ void declare(Arguments& a, ShaderCommandOptions& o)
     a.flag("--two-sided", o.twoSided, "Godot: draw back faces, as of a thin sheet: a bump in front is a dent behind");
     a.option("--differences", o.differences,
              "shader: with a function that takes the screen derivatives itself; caller: without it, for compute, ray "
-             "tracing and vertex stages")
+             "tracing and vertex stages, and for Godot's driver GLES2")
         .in("WHO")
         .offers({"shader", "caller"});
     std::vector<std::string> languages, sets = {"all"};

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cotan/inspect.hpp"
+#include "cotan/maps.hpp"
 #include "scene/geometry.hpp"
 
 namespace cotan::viewer {
@@ -192,7 +193,7 @@ struct Loader::Work {
     static Loaded faultsIn(const Model& model)
     {
         Loaded loaded;
-        loaded.faults = mapFaults(model.scene);
+        loaded.faults = maps::mapFaults(model.scene, /*judgeGreen*/ true);
         return loaded;
     }
 

@@ -11,6 +11,7 @@
 //   normal_map the values of the file: imported without sRGB. Green up, as Godot expects
 //   VERTEX     the position in view space, as it is in fragment(); not normalised
 //   dFdx, dFdy In Godot 3 the driver GLES3: GLES2 has none. The frames triangle and smooth need none
+//              with --differences caller
 //   No tangents: disable them in the import of the mesh. Do not write NORMALMAP (NORMAL_MAP in
 //   Godot 4), which uses stored tangents.
 //   For ANISOTROPY, after NORMAL = ...:   TANGENT = cotan_direction_of_u(NORMAL, VERTEX, UV);

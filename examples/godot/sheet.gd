@@ -1,12 +1,19 @@
 # A sheet with a normal map of domes but no tangents, seen from the front (left) and from behind (right). Its texture
 # coordinates are sheared, half of them mirrored. The driver GLES2 has no derivatives and gets the frame `triangle`.
 #   --mirrored          mirrors the sheets in x by their transforms; the image stays the same
+#   --scale=0.5         scales the sheets by their transforms, and their meshes the other way; the image stays the same
 #   --normals           the normals in view space as colours, (n + 1)/2
 #   --picture=FILE.png  saves the picture and stops
 extends Spatial
 
 func has_word(word):
 	return word in OS.get_cmdline_args()
+
+func scale_word():
+	for argument in OS.get_cmdline_args():
+		if argument.begins_with("--scale="):
+			return float(argument.substr(8))
+	return 1.0
 
 func _ready():
 	var triangles = OS.get_current_video_driver() == OS.VIDEO_DRIVER_GLES2
@@ -18,12 +25,14 @@ func _ready():
 		get_viewport().hdr = false # the bytes as the shader rounds them
 	material.set_shader_param("normal_map", domes(128))
 
-	var mirror = Basis(Vector3(-1 if has_word("--mirrored") else 1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1))
+	var scale = scale_word()
+	var x = -scale if has_word("--mirrored") else scale
+	var model = Basis(Vector3(x, 0, 0), Vector3(0, scale, 0), Vector3(0, 0, scale))
 	for side in [[-1.2, 0.4], [1.2, PI - 0.4]]:
 		var sheet = MeshInstance.new()
-		sheet.mesh = sheet_mesh()
+		sheet.mesh = sheet_mesh(1 / scale)
 		sheet.material_override = material
-		sheet.transform = Transform(Basis(Vector3(0, 1, 0), side[1]) * mirror, Vector3(side[0], 0, 0))
+		sheet.transform = Transform(Basis(Vector3(0, 1, 0), side[1]) * model, Vector3(side[0], 0, 0))
 		add_child(sheet)
 
 	var camera = Camera.new()
@@ -39,8 +48,9 @@ func _ready():
 			save(argument.substr(10))
 
 # u = |x| + (1 - y)/2, v = 1 - y, clockwise as Godot expects. Triangles share no vertices, so that the two vectors of
-# `triangle` can be stored at all three corners: U in the array of tangents and V in that of colours.
-func sheet_mesh():
+# `triangle` can be stored at all three corners: U in the array of tangents and V in that of colours. size: half the
+# sheet's width.
+func sheet_mesh(size):
 	var positions = PoolVector3Array()
 	var normals = PoolVector3Array()
 	var uvs = PoolVector2Array()
@@ -51,7 +61,7 @@ func sheet_mesh():
 			var p = []
 			var t = []
 			for corner in corners:
-				p.append(Vector3(left + corner.x, corner.y, 0))
+				p.append(Vector3(left + corner.x, corner.y, 0) * size)
 				t.append(Vector2(abs(left + corner.x) + (1 - corner.y) / 2, 1 - corner.y))
 			var vectors = triangle_vectors(p, t, Vector3(0, 0, 1))
 			for k in range(3):

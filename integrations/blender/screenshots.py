@@ -70,7 +70,8 @@ def stone():
     bpy.ops.object.shade_smooth()
     low.modifiers.new("Triangulate", "TRIANGULATE")
     material = bpy.data.materials.new("stone")
-    material.use_nodes = True
+    if bpy.app.version < (5, 0, 0):  # later ones always do
+        material.use_nodes = True
     shader = material.node_tree.nodes["Principled BSDF"]
     shader.inputs["Base Color"].default_value = (0.35, 0.3, 0.25, 1)
     shader.inputs["Roughness"].default_value = 0.55

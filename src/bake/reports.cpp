@@ -68,6 +68,9 @@ Json toJson(const PrimitiveLint& p)
 
 Json toJson(const GreenEvidence& g)
 {
+    Json faults = Json::array();
+    for (const maps::Fault& fault : g.faults)
+        faults.push_back({{"kind", name(fault.kind)}, {"text", fault.text}});
     return {{"image", g.image},
             {"name", g.name},
             {"decided", g.decided()},
@@ -77,7 +80,10 @@ Json toJson(const GreenEvidence& g)
             {"reason", g.verdict.reason},
             {"agreement", g.verdict.agreement},
             {"votes", g.verdict.votes},
-            {"verdict", greenVerdict(g)}};
+            {"verdict", greenVerdict(g)},
+            {"faults", faults},
+            {"note", g.note.empty() ? Json(nullptr) : Json(g.note)},
+            {"reversed_by_tangents", g.reversedByTangents}};
 }
 
 Json toJson(const MapFit& f)
@@ -150,6 +156,8 @@ Json toJson(const ConvertedMap& map)
                  {"surfaces", map.surfaces},
                  {"size", {map.width, map.height}},
                  {"kept", map.kept},
+                 {"green_reversed", map.greenReversed},
+                 {"surfaces_with_tangents", map.surfacesWithTangents},
                  {"bits", map.bits},
                  {"format", map.format},
                  {"quality", map.quality > 0 ? Json(map.quality) : Json(nullptr)},
@@ -165,6 +173,10 @@ Json toJson(const ConvertedMap& map)
                  {"kept_elsewhere", map.alsoElsewhere},
                  {"bytes_before", map.bytesBefore},
                  {"bytes_after", map.bytesAfter}};
+    if (map.greenReversed)
+        for (const char* figure : {"texels_covered", "texels_padded", "texels_in_several_places",
+                                   "texels_that_disagree", "disagreement_degrees", "moved_degrees", "below_horizon"})
+            json.erase(figure);
     if (map.kept)
         for (const char* figure :
              {"bits", "quality", "texels_covered", "texels_padded", "texels_in_several_places", "texels_that_disagree",

@@ -4,6 +4,7 @@
 #include "cotan/vector.hpp"
 #include "edit_state.hpp"
 #include "gltf_model.hpp"
+#include "scene/geometry.hpp"
 #include "scene/texture_sample.hpp"
 
 namespace cotan {
@@ -113,7 +114,7 @@ Json withImage(GltfDocument& document, Json image, std::vector<std::byte> bytes,
 }
 
 GltfGeometry readGeometry(const GltfDocument& document, const Json& source, const std::string& field, NormalSlot slot,
-                          std::optional<std::size_t> material)
+                          std::optional<std::size_t> material, TexcoordSpace space)
 {
     gltf::Primitive primitive = gltf::readPrimitive(source);
     if (material)
@@ -140,10 +141,12 @@ GltfGeometry readGeometry(const GltfDocument& document, const Json& source, cons
     read(out.tangents, "TANGENT");
     out.texcoordSet = map.texcoord;
     read(out.texcoords, fmt::format("TEXCOORD_{}", map.texcoord));
-    for (glm::vec2& uv : out.texcoords) { // as the map reads them
+    for (glm::vec2& uv : out.texcoords)
         if (!isFinite(uv))
             uv = glm::vec2(0);
-        if (map.moves())
+    if (space == TexcoordSpace::map && map.moves()) {
+        transformTangents(out.tangents, {out.positions, out.normals, out.texcoords, out.indices}, map.uRow, map.vRow);
+        for (glm::vec2& uv : out.texcoords)
             uv = moveUv(map.uRow, map.vRow, uv);
     }
     return out;
@@ -159,11 +162,11 @@ Result<GltfDocument> openGltfDocument(const std::filesystem::path& file, const L
 const std::filesystem::path& gltfPath(const GltfDocument& document) { return document.source->path; }
 
 Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh, std::size_t primitive,
-                                  NormalSlot slot, std::optional<std::size_t> material)
+                                  NormalSlot slot, std::optional<std::size_t> material, TexcoordSpace space)
 {
     return caughtGltf(document.source->path, [&] {
         return readGeometry(document, rootOf(document)["meshes"][mesh]["primitives"][primitive],
-                            primitiveField(mesh, primitive), slot, material);
+                            primitiveField(mesh, primitive), slot, material, space);
     });
 }
 

@@ -8,7 +8,9 @@
 #include "cotan/image.hpp"
 #include "edit_state.hpp"
 #include "gltf/json/lookup.hpp"
+#include "scene/geometry.hpp"
 #include "scene/scene_check.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 
@@ -30,10 +32,18 @@ std::size_t addPositions(GltfDocument& document, const std::vector<glm::vec3>& p
     return added;
 }
 
-// The tangents as in the file that they were read from, with the sign change of reconcileGreenWithTangents undone.
+// The tangents as in the file that they were read from: for the stored uv, and with the sign change of
+// reconcileGreenWithTangents undone.
 std::vector<glm::vec4> storedTangents(const Mesh& mesh, const Material& material)
 {
     std::vector<glm::vec4> tangents = mesh.tangents;
+    const Texture& map = material.normalMap;
+    if (map.present() && (map.uRow != glm::vec3(1, 0, 0) || map.vRow != glm::vec3(0, 1, 0))) {
+        const glm::dvec2 u(map.uRow), v(map.vRow);
+        const double determinant = u.x * v.y - u.y * v.x;
+        transformTangents(tangents, {mesh.positions, mesh.normals, textureUv(map, mesh), mesh.indices},
+                          glm::dvec2(v.y, -u.y) / determinant, glm::dvec2(-v.x, u.x) / determinant);
+    }
     if (material.greenReversed)
         for (glm::vec4& tangent : tangents)
             tangent.w = -tangent.w;

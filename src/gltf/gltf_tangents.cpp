@@ -25,7 +25,7 @@ std::string whyNoTangents(const GltfGeometry& geometry)
 
 Result<GltfPrimitiveGeometry> readPrimitive(const GltfDocument& document, std::size_t m, std::size_t p)
 {
-    auto geometry = gltfGeometry(document, m, p);
+    auto geometry = gltfGeometry(document, m, p, NormalSlot::surface, std::nullopt, TexcoordSpace::file);
     if (!geometry)
         return geometry.error();
     const Json& mesh = rootOf(document)["meshes"][m];

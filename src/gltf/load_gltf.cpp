@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gltf_model.hpp"
+#include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
 
 namespace cotan {
@@ -84,7 +85,12 @@ private:
         const int material = primitive.mesh.material;
         const gltf::TextureUse map =
             material < 0 ? gltf::TextureUse{} : model_.structure.normalMaps[std::size_t(material)];
-        return finishGltfMesh(std::move(primitive), map.texture < 0 ? -1 : map.texcoord, model_.warnings);
+        Mesh mesh = finishGltfMesh(std::move(primitive), map.texture < 0 ? -1 : map.texcoord, model_.warnings);
+        if (map.moves() && map.texcoord < 2 && !mesh.tangents.empty())
+            transformTangents(mesh.tangents,
+                              {mesh.positions, mesh.normals, mesh.texcoords[std::size_t(map.texcoord)], mesh.indices},
+                              map.uRow, map.vRow);
+        return mesh;
     }
 
     const gltf::Mesh& sourceMesh(int mesh) const { return model_.structure.meshes[std::size_t(mesh)]; }

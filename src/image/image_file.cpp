@@ -28,13 +28,13 @@ bool isPng(std::span<const std::byte> bytes) { return imageFormatName(bytes) == 
 
 bool isJpeg(std::span<const std::byte> bytes) { return imageFormatName(bytes) == "JPEG"; }
 
-std::string unreadableFormat(std::span<const std::byte> bytes)
+std::string unreadableFormat(std::span<const std::byte> bytes, const LoadLimits& limits)
 {
     const std::string format = imageFormatName(bytes);
     if (format == "KTX2" && !foreignKtx2(bytes).empty())
         return "KTX2 with " + foreignKtx2(bytes);
-    const bool foreign =
-        format == "AVIF" || (format == "WebP" && !readsWebp()) || (format == "DDS" && !readsOtherFormats());
+    const bool foreign = !limits.decode
+        && (format == "AVIF" || (format == "WebP" && !readsWebp()) || (format == "DDS" && !readsOtherFormats()));
     return foreign ? format : "";
 }
 

@@ -30,7 +30,8 @@ Error notWritten(const std::string& name, const std::string& words)
 }
 
 // A file for OpenImageIO's writers that records write errors. The writers do not: on a full disk Targa's reports
-// success, and JPEG's ends the process.
+// success, and JPEG's ends the process. flush() does nothing, since finish() closes the file: it is const in some
+// versions of OpenImageIO only.
 class CheckedFile final : public OIIO::Filesystem::IOProxy {
 public:
     // Replaces the file. finish() reports if it could not be created.
@@ -88,16 +89,10 @@ public:
         return std::size_t(::ftello(file_.get()));
     }
 
-    void flush() const override
-    {
-        if (file_ && std::fflush(file_.get()) != 0)
-            note();
-    }
-
 private:
     enum class Use { nothing, reading, writing };
 
-    void note() const
+    void note()
     {
         if (error_ == 0)
             error_ = errno != 0 ? errno : EIO;
@@ -120,7 +115,7 @@ private:
     }
 
     OpenFile file_;
-    mutable int error_; // errno of the first failure
+    int error_; // errno of the first failure
     Use use_ = Use::nothing;
     mutable std::int64_t at_ = 0; // offset of the next write; -1: unknown
 };

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <set>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -12,7 +11,6 @@
 
 #include "bake/lint/lint_parts.hpp"
 #include "cotan/lint.hpp"
-#include "cotan/maps.hpp"
 #include "scene/geometry.hpp"
 
 namespace cotan {
@@ -194,27 +192,6 @@ std::vector<ProblemArea> problemAreas(const Scene& scene, std::size_t maxCount)
     for (ProblemArea& area : areas)
         avoidOccluders(scene, area.corners, area.camera);
     return areas;
-}
-
-std::vector<std::string> mapFaults(const Scene& scene)
-{
-    std::vector<std::string> sentences;
-    std::set<int> seen;
-    for (const Material& m : scene.materials) {
-        const int image = m.normalMap.image;
-        if (!m.normalMap.present() || std::size_t(image) >= scene.images.size() || !seen.insert(image).second)
-            continue;
-        const Image& map = scene.images[std::size_t(image)];
-        if (!hasPixels(map))
-            continue;
-        const maps::GreenVerdict verdict = maps::greenOf(map);
-        const bool readUp = m.normalFormat.greenUp && !m.greenReversed; // else read according to its tangents
-        const auto faults = maps::faultsOf(verdict.statistics, readUp ? &verdict : nullptr);
-        if (!faults.empty())
-            sentences.push_back(maps::sentenceOf(map.name.empty() ? fmt::format("Image {}", image) : map.name, faults,
-                                                 verdict.statistics));
-    }
-    return sentences;
 }
 
 } // namespace cotan

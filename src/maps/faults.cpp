@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -14,6 +16,7 @@ namespace {
 
 // Limits on the mean length. Filtering and 8 bits leave over 0.95 on all maps examined (docs/reference/maps.md).
 constexpr double kShort = 0.9, kLong = 1.05;
+constexpr double kUsableZ = 0.625; // stored: the vector's z is a quarter
 
 bool has(const std::vector<Fault>& faults, Fault::Kind kind)
 {
@@ -32,8 +35,9 @@ std::string longOnAverage(double length)
 
 const char* name(Fault::Kind kind)
 {
-    constexpr const char* kNames[] = {"srgb",       "linearised", "bgr",     "grb",
-                                      "washed_out", "too_strong", "8_in_16", "green_down"};
+    constexpr const char* kNames[] = {"srgb",         "linearised", "bgr",        "grb",          "washed_out",
+                                      "too_strong",   "8_in_16",    "green_down", "two_channels", "slopes",
+                                      "object_space", "height",     "no_normals"};
     return textAt(kNames, kind);
 }
 
@@ -92,14 +96,89 @@ std::string contradictionOf(const Image& map, const Convention& stated)
     return contradictionOf(greenOf(sample), stated);
 }
 
+std::vector<Fault> faultsInModel(const NormalStatistics& s, const GreenVerdict* green)
+{
+    using Kind = Fault::Kind;
+    std::vector<Fault> faults = faultsOf(s, green);
+    const char* const twoText = s.swizzle == Swizzle::alphaGreen ? "x is in alpha and y in green"
+        : s.swizzle == Swizzle::greyAlpha                        ? "x is in red and y in alpha"
+                                                                 : "blue is the same everywhere";
+    const std::string two = std::string(twoText) + ": only two channels are stored, and glTF reads z from blue";
+    // A bright constant blue is a usable z: x and y are then slopes times it.
+    const bool lacksZ = s.swizzle != Swizzle::rg || s.highest[2] < kUsableZ;
+    switch (s.content) {
+    case Content::twoChannel:
+    case Content::slopes:
+        if (lacksZ)
+            faults.push_back({s.content == Content::slopes ? Kind::slopes : Kind::twoChannels, two});
+        break;
+    case Content::objectSpace:
+        if (!s.redIsZ)
+            faults.push_back({Kind::objectSpace, "its directions are in object space, and glTF reads tangent space"});
+        break;
+    case Content::grey: faults.push_back({Kind::height, "it is grey: a height map, not a normal map"}); break;
+    case Content::other:
+        faults.push_back({Kind::noNormals, "it is no normal map: its vectors have lengths far from 1"});
+        break;
+    case Content::flat:
+        if (s.background == 1)
+            faults.push_back({Kind::noNormals, "it is no normal map: it is black or white everywhere"});
+        else if (s.mean[2] < 0)
+            faults.push_back({Kind::twoChannels, two});
+        break;
+    default: break;
+    }
+    return faults;
+}
+
+bool changesLight(Fault::Kind kind) { return kind != Fault::Kind::eightBitsIn16; }
+
+std::string noteOf(const NormalStatistics& s)
+{
+    return s.transparent ? "alpha is 0 everywhere; it is ignored, as glTF ignores alpha of a normal map" : "";
+}
+
+std::vector<std::string> mapFaults(const Scene& scene, bool judgeGreen)
+{
+    std::vector<std::string> sentences;
+    std::set<int> seen;
+    const auto judge = [&](const Material& m, const Texture& texture, const Convention& format) {
+        if (!texture.present() || std::size_t(texture.image) >= scene.images.size()
+            || format.kind != MapKind::tangentSpace || format.channels != Channels::xyz
+            || !hasPixels(scene.images[std::size_t(texture.image)]) || !seen.insert(texture.image).second)
+            return;
+        const Image& map = scene.images[std::size_t(texture.image)];
+        const std::string name =
+            "normal map " + (map.name.empty() ? "image " + std::to_string(texture.image) : map.name);
+        const NormalStatistics s = statisticsOfSample(map);
+        const bool readUp = format.greenUp && !m.greenReversed; // else read according to its tangents
+        const std::optional<GreenVerdict> green =
+            judgeGreen && readUp ? std::optional(greenOf(map, AlphaUse::ignored)) : std::nullopt;
+        const std::string faults = sentenceOf(name, faultsInModel(s, green ? &*green : nullptr), s);
+        if (!faults.empty())
+            sentences.push_back(faults);
+        if (const std::string note = noteOf(s); !note.empty())
+            sentences.push_back(name + ": " + note);
+    };
+    for (const Material& m : scene.materials) {
+        judge(m, m.normalMap, m.normalFormat);
+        judge(m, m.coat.normalMap, m.coat.normalFormat);
+    }
+    return sentences;
+}
+
 std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics& statistics)
 {
     if (faults.empty())
         return {};
     using Kind = Fault::Kind;
+    if (has(faults, Kind::height) || has(faults, Kind::noNormals) || has(faults, Kind::objectSpace))
+        return {}; // not converted by `map convert` alone
     const bool down = has(faults, Kind::greenDown);
     const char* const expansion = down && statistics.centre == Centre::biased ? ",biased" : "";
     std::string options = std::string(down ? "--from directx" : "--from gltf") + expansion;
+    if (has(faults, Kind::twoChannels) || has(faults, Kind::slopes))
+        options += has(faults, Kind::slopes) ? ",slope" : ",xy";
     for (const Kind kind : {Kind::srgb, Kind::linearised, Kind::redAndBlue, Kind::redAndGreen})
         if (has(faults, kind))
             options += std::string(",") + name(kind);
@@ -118,7 +197,13 @@ std::string sentenceOf(const std::string& name, const std::vector<Fault>& faults
     std::string text = name + ": ";
     for (const Fault& fault : faults)
         text += fault.text + "; ";
-    return text + "cotan map convert " + fixOptions(faults, statistics) + " fixes it.";
+    if (has(faults, Fault::Kind::height))
+        return text + "cotan map from-height makes a normal map of it.";
+    const std::string fix = fixOptions(faults, statistics);
+    if (!fix.empty())
+        return text + "cotan map convert " + fix + " fixes it.";
+    text.resize(text.size() - 2);
+    return text + ".";
 }
 
 } // namespace cotan::maps

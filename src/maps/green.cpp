@@ -94,11 +94,11 @@ std::string fillColour(const std::vector<Patch>& patches)
                                                                                          : std::string();
 }
 
-std::vector<Slope> slopesOf(const Patch& patch, const Convention& convention, Swizzle swizzle,
+std::vector<Slope> slopesOf(const Patch& patch, const Convention& convention, const NormalStatistics& statistics,
                             const std::string& between)
 {
     Image unswizzled = patch.texels;
-    unswizzle(unswizzled, swizzle);
+    unswizzle(unswizzled, statistics.swizzle);
     const std::size_t width = std::size_t(unswizzled.width);
     std::vector<glm::vec3> normals(width);
     std::vector<glm::vec4> texels(width);
@@ -108,7 +108,7 @@ std::vector<Slope> slopesOf(const Patch& patch, const Convention& convention, Sw
         decodeRow(unswizzled, y, convention, normals);
         for (std::size_t x = 0; x < width; ++x) {
             const std::size_t i = std::size_t(y) * width + x;
-            if (!outsideCharts(texels[x]) && at(patch.texels, i) != between)
+            if (!outsideCharts(texels[x], statistics.alphaMasks) && at(patch.texels, i) != between)
                 slopes[i] = slopeOf(normals[x], convention.channels == Channels::xyz);
         }
     }
@@ -215,9 +215,9 @@ Convention reading(const NormalStatistics& s)
     return c;
 }
 
-NormalStatistics statisticsOf(const std::vector<Patch>& patches)
+NormalStatistics statisticsOf(const std::vector<Patch>& patches, AlphaUse alpha)
 {
-    MapSurvey survey;
+    MapSurvey survey(alpha);
     for (const Patch& patch : patches)
         survey.addFirstPass(patch.texels);
     for (const Patch& patch : patches)
@@ -231,7 +231,7 @@ std::vector<Products> productsOf(const std::vector<Patch>& patches, const Normal
     const std::string between = fillColour(patches);
     std::vector<Products> products(patches.size());
     parallelFor(std::size_t(0), patches.size(), [&](std::size_t i) {
-        products[i] = productsOf(slopesOf(patches[i], convention, statistics.swizzle, between),
+        products[i] = productsOf(slopesOf(patches[i], convention, statistics, between),
                                  std::size_t(patches[i].texels.width), noise);
     });
     return products;
@@ -284,12 +284,12 @@ const char* name(Confidence c)
     return c == Confidence::certain ? "certain" : c == Confidence::likely ? "likely" : "none";
 }
 
-GreenVerdict greenOf(const PatchSampler& sampler)
+GreenVerdict greenOf(const PatchSampler& sampler, AlphaUse alpha)
 {
     const std::vector<Patch>& patches = sampler.patches();
     GreenVerdict v;
     v.sampled = sampler.coveredFraction();
-    v.statistics = statisticsOf(patches);
+    v.statistics = statisticsOf(patches, alpha);
     v.reason = whyUndecidable(sampler.width(), sampler.height(), v.statistics);
     if (!v.reason.empty())
         return v;
@@ -305,11 +305,18 @@ GreenVerdict greenOf(const PatchSampler& sampler)
     return v;
 }
 
-GreenVerdict greenOf(const Image& image)
+GreenVerdict greenOf(const Image& image, AlphaUse alpha)
 {
     PatchSampler sampler(image.width, image.height, image.type);
     sampler.add(image, 0);
-    return greenOf(sampler);
+    return greenOf(sampler, alpha);
+}
+
+NormalStatistics statisticsOfSample(const Image& image)
+{
+    PatchSampler sampler(image.width, image.height, image.type, 16);
+    sampler.add(image, 0);
+    return statisticsOf(sampler.patches(), AlphaUse::ignored);
 }
 
 // ---- patches -------------------------------------------------------------------------------
@@ -321,12 +328,12 @@ constexpr int kMinSide = 3; // texels
 
 } // namespace
 
-PatchSampler::PatchSampler(int width, int height, PixelType type, int largestSide)
+PatchSampler::PatchSampler(int width, int height, PixelType type, int largest)
     : width_(width), height_(height), type_(type)
 {
     const int longer = std::max(width, height);
     square_ = std::max(kMinSide, (longer + kMaxASide - 1) / kMaxASide);
-    side_ = longer <= kMaxASide * largestSide ? square_ : largestSide;
+    side_ = longer <= kMaxASide * largest ? square_ : largest;
     const int margin = (square_ - side_) / 2;
     for (int y = 0; y < height; y += square_)
         for (int x = 0; x < width; x += square_) {

@@ -16,11 +16,11 @@
 
 namespace cotan::maps {
 
-bool outsideCharts(const glm::vec4& t)
+bool outsideCharts(const glm::vec4& t, bool alphaMasks)
 {
     constexpr float kDark = 8.0f / 255, kBright = 247.0f / 255; // range of black and white after JPEG compression
     const bool black = std::abs(t.x) <= kDark && std::abs(t.y) <= kDark && std::abs(t.z) <= kDark;
-    return t.w == 0 || black || (t.x >= kBright && t.y >= kBright && t.z >= kBright);
+    return (alphaMasks && t.w == 0) || black || (t.x >= kBright && t.y >= kBright && t.z >= kBright);
 }
 
 bool usableLength(float length) { return length > 0.5f && length < 1.45f; }
@@ -109,19 +109,31 @@ template<class Band, class Work> void sumBands(const Image& image, Band& all, Wo
         all.add(band);
 }
 
-void addStoredValues(const Image& image, Sums& sums)
+// The sums over the texels with alpha, and over those whose alpha is 0.
+struct SumsByAlpha {
+    Sums visible, transparent;
+
+    void add(const SumsByAlpha& o, std::size_t times = 1)
+    {
+        visible.add(o.visible, times);
+        transparent.add(o.transparent, times);
+    }
+};
+
+void addStoredValues(const Image& image, SumsByAlpha& sums)
 {
     static const Curve decoded(f32::cotan_srgb_to_linear), encoded(f32::cotan_linear_to_srgb);
     const int bits = bitsPerComponent(image.type);
     const float top = bits == 32 ? 2.0f : std::exp2(float(bits)), middle = top / 2; // floats: 2c - 1 for both centres
-    sumBands(image, sums, [=](Sums& s, const glm::vec4& t, const glm::vec4& left) {
+    sumBands(image, sums, [=](SumsByAlpha& band, const glm::vec4& t, const glm::vec4& left) {
+        Sums& s = t.w == 0 ? band.transparent : band.visible;
         const bool grey = std::abs(t.x - t.y) < 0.012f && std::abs(t.x - t.z) < 0.012f;
         ++s.all;
         s.allGrey += grey;
         const glm::vec3 v(t);
         const glm::vec3 exact = bits == 32 ? v * 2.0f - 1.0f : (v * (top - 1) - middle) / (middle - 1);
         // Equal neighbours that are no normals are uniform fill. Floats may be signed, so their lengths prove nothing.
-        if (outsideCharts(t) || (t == left && bits != 32 && !usableLength(glm::length(exact))))
+        if (outsideCharts(t, /*alphaMasks*/ false) || (t == left && bits != 32 && !usableLength(glm::length(exact))))
             return;
         s.range.add(t);
         if (!isFinite(t))
@@ -206,12 +218,13 @@ struct Directions {
     }
 };
 
-void addDirections(const Image& image, const Convention& convention, Transfer transfer, Directions& sums)
+void addDirections(const Image& image, const Convention& convention, Transfer transfer, bool alphaMasks,
+                   Directions& sums)
 {
     static const Curve decoded(f32::cotan_srgb_to_linear), encoded(f32::cotan_linear_to_srgb);
     const bool xyz = convention.channels == Channels::xyz;
     sumBands(image, sums, [&](Directions& d, glm::vec4 t, const glm::vec4& left) {
-        if (outsideCharts(t)) {
+        if (outsideCharts(t, alphaMasks)) {
             ++d.background;
             return;
         }
@@ -276,7 +289,9 @@ Content contentOf(const NormalStatistics& s, const Sums& sums, bool constantBlue
 
 struct MapSurvey::State {
     NormalStatistics s;
-    Sums sums;
+    AlphaUse alpha = AlphaUse::masksCharts;
+    SumsByAlpha byAlpha;
+    Sums sums; // of the texels that count
     Directions d;
     PixelType type = PixelType::unorm8;
     Convention read;
@@ -287,7 +302,18 @@ struct MapSurvey::State {
     void afterFirst()
     {
         between = true;
-        s.swizzle = sums.range.swizzle();
+        sums = byAlpha.visible;
+        Sums whole = byAlpha.visible;
+        whole.add(byAlpha.transparent);
+        s.swizzle = (byAlpha.visible.all > 0 ? byAlpha.visible : whole).range.swizzle();
+        s.transparent = s.swizzle == Swizzle::rg && byAlpha.visible.all == 0;
+        s.alphaMasks = alpha == AlphaUse::masksCharts && !s.transparent;
+        if (s.alphaMasks) {
+            sums.all = whole.all; // an image is grey as a whole
+            sums.allGrey = whole.allGrey;
+        } else {
+            sums = whole;
+        }
         std::array<double, 4> range{};
         for (std::size_t c = 0; c < 4; ++c)
             range[c] = sums.finite ? sums.highest[c] - sums.lowest[c] : 0;
@@ -297,7 +323,8 @@ struct MapSurvey::State {
         }
         s.eightBits = type == PixelType::unorm16 && sums.finite > 0 && sums.between == 0;
         // z points outwards nearly everywhere, x to both sides.
-        s.redIsZ = fraction(sums.above[0], sums.finite) > 0.99 && fraction(sums.above[2], sums.finite) < 0.9;
+        s.redIsZ = s.swizzle == Swizzle::rg && fraction(sums.above[0], sums.finite) > 0.99
+            && fraction(sums.above[2], sums.finite) < 0.9;
         two = s.swizzle != Swizzle::rg || range[2] <= kConstant;
         constantAll = range[0] <= kConstant && range[1] <= kConstant && range[2] <= kConstant && range[3] <= kConstant;
         s.signedStored = type == PixelType::float32 && sums.finite
@@ -319,7 +346,7 @@ struct MapSurvey::State {
     }
 };
 
-MapSurvey::MapSurvey() : state_(std::make_unique<State>()) {}
+MapSurvey::MapSurvey(AlphaUse alpha) : state_(std::make_unique<State>()) { state_->alpha = alpha; }
 MapSurvey::~MapSurvey() = default;
 
 void MapSurvey::addFirstPass(const Image& strip)
@@ -335,7 +362,7 @@ void MapSurvey::addFirstPass(const Image& strip)
     if (!s.texel.data.empty() && !(alike && std::memcmp(s.texel.data.data(), strip.data.data(), pixel) == 0))
         s.texel.data.clear();
     s.s.texels += strip.pixelCount();
-    addStoredValues(strip, s.sums);
+    addStoredValues(strip, s.byAlpha);
 }
 
 bool MapSurvey::oneColour() const { return !state_->texel.data.empty(); }
@@ -349,7 +376,8 @@ void MapSurvey::addSecondPass(const Image& strip)
         unswizzled = strip;
         unswizzle(unswizzled, state_->s.swizzle);
     }
-    addDirections(unswizzled.width > 0 ? unswizzled : strip, state_->read, state_->s.transfer, state_->d);
+    addDirections(unswizzled.width > 0 ? unswizzled : strip, state_->read, state_->s.transfer, state_->s.alphaMasks,
+                  state_->d);
 }
 
 NormalStatistics MapSurvey::finish()

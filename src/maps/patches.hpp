@@ -13,14 +13,14 @@ struct Patch {
 };
 
 // Takes the strips of an image from the top and keeps its patches, one for each square of a grid of at most 16 x 16
-// squares over the image. Up to 2048 texels a side (16 times largestSide) the patches are whole squares and cover the
-// image; above, each is the central 128 x 128 texels of its square. Each patch also has the row below and the column to
-// its right, if the image has them. The result does not depend on the heights of the strips.
+// squares over the image. Each is the central `largest` x `largest` texels of its square, or the whole of a smaller
+// one: up to 16 * largest texels a side they cover the image. Each patch also has the row below and the column to its
+// right, if the image has them. The result does not depend on the heights of the strips.
 class PatchSampler {
 public:
-    static constexpr int kQuickSide = 64; // largestSide for verdicts that must take less time than other work on a map
+    static constexpr int kQuickSide = 64; // `largest` for verdicts that must take less time than other work on a map
 
-    PatchSampler(int width, int height, PixelType type, int largestSide = 128);
+    PatchSampler(int width, int height, PixelType type, int largest = 128);
     void add(const Image& strip, int firstRow); // several threads may add different rows
 
     int width() const { return width_; }

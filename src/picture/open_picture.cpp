@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cotan/maps.hpp"
 #include "cotan/model.hpp"
 #include "files/bytes.hpp"
 #include "files/file_registry.hpp"
@@ -236,6 +237,9 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
             return opened.error();
         picture.view.environmentMap = std::move(*opened);
     }
+    if (!like && drawsNormalMaps(picture.scene))
+        for (std::string& line : maps::mapFaults(picture.scene))
+            picture.scene.warnings.push_back(std::move(line));
     picture.meter = !like && meters(options);
     picture.view.lights = lightsOf(options, picture.scene);
     if (Status fits = limitCoverage(picture.scene, picture.view); !fits)

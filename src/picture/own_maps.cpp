@@ -22,7 +22,7 @@ Result<Image> readFor(const OwnMaps& maps, const std::string& file, Texture Mate
     // Whether any mesh with a chosen material has the uv set that the image is sampled with.
     const bool hasUv = std::ranges::any_of(scene.meshes, [&](const Mesh& mesh) {
         const Texture& map = scene.materials[std::size_t(mesh.material)].*slot;
-        return (maps.material < 0 || mesh.material == maps.material) && !mesh.texcoords[uvSetOf(map)].empty();
+        return isMaterial(scene, std::size_t(mesh.material), maps.material) && !mesh.texcoords[uvSetOf(map)].empty();
     });
     if (!hasUv)
         return inputError(
@@ -50,7 +50,7 @@ Status reinterpretNormalMaps(const OwnMaps& maps, Scene& scene)
     restoreDeclaredGreen(scene, maps.material);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         Material& m = scene.materials[i];
-        if (!m.normalMap.present() || (maps.material >= 0 && int(i) != maps.material))
+        if (!m.normalMap.present() || !isMaterial(scene, i, maps.material))
             continue;
         m.normalFormat = inScene(convention->convention);
         any = true;

@@ -14,6 +14,7 @@
 
 #include "cotan/result.hpp"
 #include "cotan/scene.hpp"
+#include "cotan/tangents.hpp"
 #include "cotan/vector.hpp"
 #include "cotan/view.hpp"
 
@@ -36,6 +37,14 @@ void generateNormals(Mesh& mesh, float creaseDegrees = 180);
 // Merges vertices with bitwise equal attributes and drops unused ones. Triangles keep their order; vertices are ordered
 // by first use.
 void weldVertices(Mesh& mesh);
+
+// Makes tangents that follow the stored uv follow the uv that a texture reads (KHR_texture_transform), as if the uv had
+// been transformed before the tangents were made: each turns about its normal as dP/du turns in the triangles of its
+// vertex, and w changes sign if the transform mirrors. With the transformed uv and the inverse transform it undoes
+// this. tangents: one per vertex, as in glTF. mesh: with the stored uv. uRow, vRow: linear part of the transform.
+// Degenerate input: a transform without area or not finite, and triangles without area in space or uv, turn nothing.
+// Source: the Khronos glTF-Sample-Renderer, which moves t and b in its shader (pull request 16).
+void transformTangents(std::vector<glm::vec4>& tangents, const MeshView& mesh, glm::dvec2 uRow, glm::dvec2 vRow);
 
 // ---- cameras ---------------------------------------------------------------------------------
 

@@ -268,6 +268,51 @@ void weldVertices(Mesh& mesh)
     takeVertices(mesh, kept);
 }
 
+// dP/du' = (vRow.y dP/du - vRow.x dP/dv) / determinant. Where v' does not depend on u, only its sign can change;
+// otherwise its direction depends on the lengths of dP/du and dP/dv.
+void transformTangents(std::vector<glm::vec4>& tangents, const MeshView& mesh, glm::dvec2 uRow, glm::dvec2 vRow)
+{
+    const double determinant = uRow.x * vRow.y - uRow.y * vRow.x;
+    if (!(std::abs(determinant) > 0) || !std::isfinite(determinant) || tangents.size() != mesh.positions.size()
+        || mesh.normals.size() != tangents.size() || mesh.texcoords.size() != tangents.size())
+        return;
+    // For each vertex: dP/du' in the basis of dP/du and n x dP/du, times area.
+    std::vector<glm::dvec2> turned(vRow.x != 0 ? tangents.size() : 0, glm::dvec2(0));
+    for (std::size_t i = 0; !turned.empty() && i + 2 < mesh.indices.size(); i += 3) {
+        const Index* const at = &mesh.indices[i];
+        const glm::dvec3 p0(mesh.positions[at[0]]), p1 = glm::dvec3(mesh.positions[at[1]]) - p0,
+                                                    p2 = glm::dvec3(mesh.positions[at[2]]) - p0;
+        const glm::dvec2 uv0(mesh.texcoords[at[0]]), uv1 = glm::dvec2(mesh.texcoords[at[1]]) - uv0,
+                                                     uv2 = glm::dvec2(mesh.texcoords[at[2]]) - uv0;
+        const double uvArea = uv1.x * uv2.y - uv1.y * uv2.x;
+        const glm::dvec3 alongU = (p1 * uv2.y - p2 * uv1.y) / uvArea, alongV = (p2 * uv1.x - p1 * uv2.x) / uvArea;
+        const double length = glm::length(alongU);
+        const glm::dvec3 face = glm::cross(p1, p2);
+        if (!(length > 0) || !std::isfinite(length) || !isFinite(alongV))
+            continue;
+        const double v = glm::dot(alongU, alongV) / length; // of dP/dv along dP/du, and across it
+        const double across = glm::length(glm::cross(alongU, alongV)) / length * (uvArea < 0 ? -1 : 1);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double side = glm::dot(face, glm::dvec3(mesh.normals[at[k]])) < 0 ? -1 : 1;
+            turned[at[k]] +=
+                glm::length(face) / determinant * glm::dvec2(vRow.y * length - vRow.x * v, -vRow.x * across * side);
+        }
+    }
+    const double sign = determinant < 0 ? -1 : 1;
+    for (std::size_t i = 0; i < tangents.size(); ++i) {
+        glm::vec4& t = tangents[i];
+        if (turned.empty()) {
+            t = glm::vec4(glm::vec3(t) * float(vRow.y * sign < 0 ? -1 : 1), t.w * float(sign));
+            continue;
+        }
+        const double length = glm::length(turned[i]);
+        if (!(length > 0) || !std::isfinite(length))
+            continue;
+        const glm::dvec3 along(t), across = glm::cross(glm::dvec3(unitOrZero(glm::dvec3(mesh.normals[i]))), along);
+        t = glm::vec4(glm::vec3((along * turned[i].x + across * turned[i].y) / length), t.w * float(sign));
+    }
+}
+
 void deriveVertexFrames(Scene& scene, Frame frame, TangentOrigin tangents)
 {
     if (!readsVertices(frame))

@@ -8,7 +8,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/groups.hpp"
 #include "scene/geometry.hpp"
 #include "scene/texture_sample.hpp"
 
@@ -20,12 +19,8 @@ const Texture& mapOf(const Material& m) { return m.normalMap.present() ? m.norma
 
 // ---- green -----------------------------------------------------------------------------------
 
-struct Area {
-    double compared = 0, contradicting = 0;
-};
-
 // Adds a triangle's area. Degenerate triangles, and corners without a tangent or a normal, add nothing.
-void addTriangle(const Mesh& mesh, const std::vector<glm::vec2>& uv, std::size_t first, Area& area)
+void addTriangle(const Mesh& mesh, const std::vector<glm::vec2>& uv, std::size_t first, StoredGreen& area)
 {
     const std::uint32_t* const at = &mesh.indices[first];
     const glm::dvec3 p0(mesh.positions[at[0]]);
@@ -48,18 +43,6 @@ void addTriangle(const Mesh& mesh, const std::vector<glm::vec2>& uv, std::size_t
     }
 }
 
-// Groups materials that share a normal map, directly or through other materials.
-JoinedGroups groupsByMap(const Scene& scene)
-{
-    JoinedGroups groups(scene.materials.size());
-    std::map<int, std::uint32_t> readers;
-    for (std::uint32_t i = 0; i < scene.materials.size(); ++i)
-        for (const Texture* const map : {&scene.materials[i].normalMap, &scene.materials[i].coat.normalMap})
-            if (map->present())
-                groups.join(i, readers.emplace(map->image, i).first->second);
-    return groups;
-}
-
 std::string nameOf(const Scene& scene, const Material& m)
 {
     const std::size_t image = std::size_t(mapOf(m).image);
@@ -67,20 +50,47 @@ std::string nameOf(const Scene& scene, const Material& m)
     return name.empty() ? "of material '" + m.name + "'" : "'" + name + "'";
 }
 
-void reverse(Scene& scene, const std::vector<bool>& chosen)
+// Changes the signs of green, of w and of what is measured from t towards b.
+void reverse(Scene& scene, const std::vector<bool>& materials)
 {
-    for (std::size_t i = 0; i < chosen.size(); ++i)
-        if (chosen[i]) {
+    for (std::size_t i = 0; i < materials.size(); ++i)
+        if (materials[i]) {
             Material& m = scene.materials[i];
             m.greenReversed = !m.greenReversed;
             m.normalFormat.greenUp = !m.normalFormat.greenUp;
             m.coat.normalFormat.greenUp = !m.coat.normalFormat.greenUp;
-            m.anisotropy.rotation = -m.anisotropy.rotation; // from t towards b
+            m.anisotropy.rotation = -m.anisotropy.rotation;
         }
     for (Mesh& mesh : scene.meshes)
-        if (chosen[std::size_t(mesh.material)])
+        if (materials[std::size_t(mesh.material)])
             for (glm::vec4& tangent : mesh.tangents)
                 tangent.w = -tangent.w;
+}
+
+// The materials of the chosen meshes, with a copy of each that other meshes read too.
+std::vector<bool> ownMaterials(Scene& scene, const std::vector<bool>& chosen)
+{
+    const std::size_t count = scene.materials.size();
+    std::vector<bool> shared(count);
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+        if (!chosen[i])
+            shared[std::size_t(scene.meshes[i].material)] = true;
+    std::vector<int> own(count, -1);
+    std::vector<bool> materials(count);
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        if (!chosen[i])
+            continue;
+        const std::size_t m = std::size_t(scene.meshes[i].material);
+        if (own[m] < 0 && shared[m]) {
+            own[m] = int(scene.materials.size());
+            scene.materials.push_back(scene.materials[m]);
+            scene.materials.back().copyOf = int(m);
+            materials.push_back(false);
+        }
+        scene.meshes[i].material = own[m] < 0 ? int(m) : own[m];
+        materials[std::size_t(scene.meshes[i].material)] = true;
+    }
+    return materials;
 }
 
 // ---- the frame -------------------------------------------------------------------------------
@@ -133,39 +143,63 @@ bool repeatsNormalMaps(const Scene& scene)
 
 } // namespace
 
+StoredGreen storedGreen(const Mesh& mesh, const std::vector<glm::vec2>& uv)
+{
+    StoredGreen area;
+    area.present = !mesh.tangents.empty() && !mesh.normals.empty();
+    if (!area.present || uv.empty())
+        return area;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+        addTriangle(mesh, uv, i, area);
+    return area;
+}
+
+bool readsReversed(const StoredGreen& mesh, const StoredGreen& map)
+{
+    const bool unclear =
+        !(mesh.compared > 0) || (mesh.fraction() > kGreenMentionedFrom && mesh.fraction() < kGreenReversedFrom);
+    return mesh.present && (unclear ? map.fraction() : mesh.fraction()) >= kGreenReversedFrom;
+}
+
 std::vector<std::string> reconcileGreenWithTangents(Scene& scene)
 {
-    JoinedGroups groups = groupsByMap(scene);
-    std::vector<Area> areas(scene.materials.size());
-    for (const Mesh& mesh : scene.meshes) {
-        const Texture& map = mapOf(scene.materials[std::size_t(mesh.material)]);
-        if (!map.present() || mesh.tangents.empty() || mesh.normals.empty())
-            continue;
-        const std::vector<glm::vec2> uv = textureUv(map, mesh);
-        Area& area = areas[groups.find(std::uint32_t(mesh.material))];
-        for (std::size_t i = 0; !uv.empty() && i + 2 < mesh.indices.size(); i += 3)
-            addTriangle(mesh, uv, i, area);
+    const auto materialOf = [&](std::size_t mesh) { return std::size_t(scene.meshes[mesh].material); };
+    std::vector<StoredGreen> own(scene.meshes.size());
+    std::map<int, StoredGreen> maps; // by image
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const Material& m = scene.materials[materialOf(i)];
+        if (mapOf(m).present()) // the tangents are for the uv of the surface's own map
+            own[i] = storedGreen(scene.meshes[i], textureUv(m.normalMap, scene.meshes[i]));
+        maps[mapOf(m).image].add(own[i]);
     }
-    std::vector<bool> keepsDeclaration(scene.materials.size()), chosen(scene.materials.size());
-    for (std::uint32_t i = 0; i < scene.materials.size(); ++i)
-        if (scene.materials[i].anisotropy.map.present())
-            keepsDeclaration[groups.find(i)] = true;
+    std::vector<bool> chosen(own.size());
+    struct Meshes {
+        std::size_t reversed = 0, declared = 0, material = 0;
+    };
+    std::map<int, Meshes> found; // by image
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const Material& m = scene.materials[materialOf(i)];
+        const StoredGreen& ofMap = maps[mapOf(m).image];
+        const std::optional<Frame> named = namedBy(scene, m); // tangents mean nothing to maps for other frames
+        chosen[i] = readsReversed(own[i], ofMap) && !m.anisotropy.map.present() && (!named || readsTangents(*named));
+        if (!mapOf(m).present())
+            continue;
+        Meshes& meshes = found.try_emplace(mapOf(m).image, Meshes{.material = materialOf(i)}).first->second;
+        ++(chosen[i] ? meshes.reversed : meshes.declared);
+    }
     std::vector<std::string> lines;
-    for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
-        const std::uint32_t group = groups.find(i);
-        const Area& area = areas[group];
-        const double fraction = area.compared > 0 ? area.contradicting / area.compared : 0;
-        chosen[i] = mapOf(scene.materials[i]).present() && fraction >= kGreenReversedFrom && !keepsDeclaration[group];
-        if (group != i || fraction < kGreenMentionedFrom)
-            continue;
-        lines.push_back("TANGENT.w contradicts the texture coordinates on "
-                        + std::to_string(std::lround(100 * fraction)) + " % of the area of normal map "
-                        + nameOf(scene, scene.materials[i])
-                        + (chosen[i] ? ": without stored tangents its green is flipped (--convention gltf: as "
-                                       "declared)"
-                                     : ": its green is read as declared"));
-    }
-    reverse(scene, chosen);
+    for (const auto& [image, meshes] : found)
+        if (meshes.reversed > 0 || maps[image].fraction() >= kGreenMentionedFrom)
+            lines.push_back("TANGENT.w contradicts the texture coordinates on "
+                            + std::to_string(std::lround(100 * maps[image].fraction()))
+                            + " % of the area of normal map " + nameOf(scene, scene.materials[meshes.material])
+                            + (meshes.reversed == 0 ? ": its green is read as declared"
+                                                    : ": without stored tangents its green is flipped"
+                                       + (meshes.declared == 0 ? std::string()
+                                                               : " in " + std::to_string(meshes.reversed) + " of "
+                                                  + std::to_string(meshes.reversed + meshes.declared) + " meshes")
+                                       + " (--convention gltf: as declared)"));
+    reverse(scene, ownMaterials(scene, chosen));
     return lines;
 }
 
@@ -173,8 +207,14 @@ void restoreDeclaredGreen(Scene& scene, int material)
 {
     std::vector<bool> chosen(scene.materials.size());
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
-        chosen[i] = scene.materials[i].greenReversed && (material < 0 || std::size_t(material) == i);
+        chosen[i] = scene.materials[i].greenReversed && isMaterial(scene, i, material);
     reverse(scene, chosen);
+    for (Mesh& mesh : scene.meshes)
+        if (const int original = scene.materials[std::size_t(mesh.material)].copyOf; original >= 0)
+            if (chosen[std::size_t(mesh.material)])
+                mesh.material = original;
+    if (material < 0) // copies are at the end, and nothing refers to them now
+        std::erase_if(scene.materials, [](const Material& m) { return m.copyOf >= 0; });
 }
 
 std::optional<NamedFrame> namedFrame(const Scene& scene)

@@ -16,21 +16,42 @@ namespace cotan {
 // cancel, but each alone is wrong. When such a file is drawn without its tangents, the result should still be what its
 // tangents show.
 
-// Fractions of the area that has a normal map and tangents. If w contradicts the texture coordinates on at least the
-// first fraction, green is flipped; on at least the second, the contradiction is reported.
+// Fractions of a compared area.
 inline constexpr double kGreenReversedFrom = 0.9, kGreenMentionedFrom = 0.1;
 
-// Interprets normal maps as the stored tangents imply. Where TANGENT.w contradicts the texture coordinates on at least
-// kGreenReversedFrom of a map's area, green of the map and w of the tangents change sign together
-// (Material::greenReversed): frames from stored tangents give the same result as before, and all other frames now agree
-// with them. A corner contradicts if the stored bitangent points against dP/dv and the stored tangent along dP/du;
-// triangles without area in space or in uv, and meshes without tangents, do not count. Materials that share a normal
-// map, including clear coat maps, are decided together. A material whose anisotropy has a direction map is not changed.
-// Returns one line for each map that was changed, and for each on which at least kGreenMentionedFrom of the area
-// contradicts.
+// What the stored tangents of a mesh show of green, as areas: where corners could be compared with dP/du and dP/dv, and
+// where these contradict: the stored bitangent points against dP/dv and the stored tangent along dP/du.
+struct StoredGreen {
+    bool present = false; // the mesh has tangents
+    double compared = 0, contradicting = 0;
+
+    void add(const StoredGreen& o) { compared += o.compared, contradicting += o.contradicting; }
+    double fraction() const { return compared > 0 ? contradicting / compared : 0; }
+};
+
+// uv: those that the tangents belong to, one per vertex. Triangles without area in space or in uv, and corners without
+// a tangent or normal, do not count.
+StoredGreen storedGreen(const Mesh& mesh, const std::vector<glm::vec2>& uv);
+
+// Whether the map is read with green flipped on a mesh without its tangents: the mesh contradicts on at least
+// kGreenReversedFrom of its area. If it contradicts on less, but on more than kGreenMentionedFrom, or nothing of it
+// could be compared, all meshes with the map decide. A mesh that has no tangents reads green as declared.
+bool readsReversed(const StoredGreen& mesh, const StoredGreen& map);
+
+// Whether material i is the one with index `material`, or a copy of it; any material if `material` is -1.
+inline bool isMaterial(const Scene& scene, std::size_t i, int material)
+{
+    return material < 0 || int(i) == material || scene.materials[i].copyOf == material;
+}
+
+// Interprets normal maps as the stored tangents imply: where a mesh reads its map reversed (readsReversed), green of
+// the material and w of the tangents change sign together (Material::greenReversed). Frames from stored tangents then
+// give the same result as before, and all other frames agree with them. A material that other meshes read too is copied
+// (Material::copyOf); one whose anisotropy has a direction map is not changed.  Returns one line for each map that is
+// flipped on some mesh, or on which at least kGreenMentionedFrom of the area contradicts.
 std::vector<std::string> reconcileGreenWithTangents(Scene& scene);
 
-// Undoes reconcileGreenWithTangents for a material, or for all if -1: green as declared, w as stored.
+// Undoes reconcileGreenWithTangents for a material, or for all if -1: green as declared, w as stored, no copies.
 void restoreDeclaredGreen(Scene& scene, int material = -1);
 
 // ---- the frame -------------------------------------------------------------------------------
@@ -62,15 +83,15 @@ std::string frameNote(const Scene& scene, Frame frame);
 // ---- another map -----------------------------------------------------------------------------
 
 // Adds the image to the scene and assigns it to `slot` of the materials with a default sampler; uv set and transform of
-// the replaced texture are kept (uv set 0 if there was none). material: index into scene.materials, checked by the
-// caller; -1: all. change(Material&): further changes to each material.
+// the replaced texture are kept (uv set 0 if there was none). material: as for isMaterial, checked by the caller.
+// change(Material&): further changes to each material.
 template<class Change>
 void assignImage(Scene& scene, Image image, Texture Material::*slot, int material, const Change& change)
 {
     const int number = int(scene.images.size());
     scene.images.push_back(std::move(image));
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        if (material >= 0 && int(i) != material)
+        if (!isMaterial(scene, i, material))
             continue;
         Material& m = scene.materials[i];
         (m.*slot).image = number;

@@ -18,11 +18,17 @@ std::string fromVertices(Frame frame, Form form)
     const std::string what = covectors
         ? std::string(
               "// cotangent, cobitangent: covectors averaged at the vertices, interpolated, in normal's space.\n")
-            + (form == Form::fused
-                   ? "// At the vertices the normal has length 1, and so has the longer of the two covectors.\n"
-                   : "")
+            + (form == Form::fused ? "// At the vertices the normal has length 1, and so has the longer of the two "
+                                     "covectors, also after\n"
+                                     "// a transform that scales.\n"
+                                   : "// Any common scale.\n")
         : "// tangent, w: glTF's TANGENT; its xyz interpolated, in normal's space. w, +1 or -1, is what glTF stores:\n"
-          "// w * cross(normal, tangent) points against +v. Where yours points along +v, pass its negative.\n";
+          "// w * cross(normal, tangent) points against +v. Where yours points along +v, as after a transform that\n"
+          "// mirrors, pass its negative.\n"
+            + std::string(
+                info(frame).normal == FrameNormal::nobody
+                    ? "// At the vertices normal and tangent have length 1, also after a transform that scales.\n"
+                    : "");
     const std::string head = fill("// The perturbed normal, unit.\n"
                                   "// normal: interpolated.\n{}"
                                   "// texel: the normal map as sampled.\n"
@@ -71,6 +77,38 @@ const char* const kTriangleVectorsPixel =
     "cotan_vec3 texel)\n{{\n"
     "    return cotan_perturb_{}(normal, u, v, cotan_decode(texel));\n}}\n";
 
+// Godot's vertex(): the vectors of the mesh in view space, of length 1 whatever the transform scales.
+const char* const kTriangleInView =
+    "// U and V in view space, for vertex(). Exact for every transform that has an inverse.\n"
+    "// u, v: as the mesh stores them: the longer has length 1. Anything else counts as missing and gives 0, such as\n"
+    "// zeros, or the white that a mesh without colours has.\n"
+    "// x, y, z: the columns MODELVIEW_MATRIX[0].xyz, MODELVIEW_MATRIX[1].xyz, MODELVIEW_MATRIX[2].xyz.\n"
+    "COTAN_FUNCTION cotan_triangle cotan_triangle_in_view(cotan_vec3 u, cotan_vec3 v, cotan_vec3 x, cotan_vec3 y, "
+    "cotan_vec3 z)\n{\n"
+    "    cotan_real longest2 = max(dot(u, u), dot(v, v));\n"
+    "    cotan_real given = abs(longest2 - cotan_real(1.0)) < cotan_real(0.01) ? cotan_real(1.0) : cotan_real(0.0);\n"
+    "    cotan_triangle object;\n"
+    "    object.u = u * given;\n"
+    "    object.v = v * given;\n"
+    "    return cotan_triangle_transformed(object, cotan_vec3(x.x, y.x, z.x), cotan_vec3(x.y, y.y, z.y), "
+    "cotan_vec3(x.z, y.z, z.z), cotan_sign(dot(cross(x, y), z)));\n}\n";
+const char* const kSmoothInView =
+    "// The cotangents of a vertex in view space, for vertex(). Exact for every transform that has an inverse.\n"
+    "// normal, t, b: as the mesh stores them. White for b, which a mesh without colours has, counts as missing and\n"
+    "// gives 0, like zeros.\n"
+    "// x, y, z: the columns MODELVIEW_MATRIX[0].xyz, MODELVIEW_MATRIX[1].xyz, MODELVIEW_MATRIX[2].xyz.\n"
+    "COTAN_FUNCTION cotan_covectors cotan_smooth_in_view(cotan_vec3 normal, cotan_vec3 t, cotan_vec3 b, cotan_vec3 x, "
+    "cotan_vec3 y, cotan_vec3 z)\n{\n"
+    "    cotan_vec3 yz = cross(y, z);\n"
+    "    cotan_vec3 zx = cross(z, x);\n"
+    "    cotan_vec3 xy = cross(x, y);\n"
+    "    cotan_real side = cotan_sign(dot(x, yz));\n"
+    "    cotan_vec3 white = cotan_vec3(cotan_real(1.0), cotan_real(1.0), cotan_real(1.0));\n"
+    "    cotan_real given = cotan_sum_abs(b - white) > cotan_real(0.0) ? side : cotan_real(0.0);\n"
+    "    cotan_frame frame = cotan_frame_smooth((yz * normal.x + zx * normal.y + xy * normal.z) * side, "
+    "(yz * t.x + zx * t.y + xy * t.z) * given, (yz * b.x + zx * b.y + xy * b.z) * given);\n"
+    "    cotan_covectors view;\n    view.t = frame.t;\n    view.b = frame.b;\n    return view;\n}\n";
+
 // The additional parameter of the form `seen`.
 const char* const kSideParameter = ", cotan_real side";
 const char* const kSide =
@@ -117,7 +155,8 @@ std::string ofTriangle(const Choice& choice)
     const std::string fromEdges = fromDifferences(choice.frame, Form::fused);
     if (choice.language == Language::godot) {
         const bool pixelOnly = isGodotShader(choice) || choice.stage == Stage::fragment;
-        return fill(kTriangleVectorsPixel, info(choice.frame).word) + (pixelOnly ? "" : "\n" + fromEdges);
+        return std::string(kTriangleInView) + "\n" + fill(kTriangleVectorsPixel, info(choice.frame).word)
+            + (pixelOnly ? "" : "\n" + fromEdges);
     }
     const std::string pixel = fill(kTrianglePixel, info(choice.frame).word);
     switch (choice.stage) {
@@ -185,6 +224,34 @@ std::string fromScreen(int sets, Form form)
                 seen ? ", side" : "");
 }
 
+// Godot: the function for meshes of which some lack what the frame reads, and the one of the frame that replaces it.
+std::string orFromScreen(const Choice& choice)
+{
+    const Frame other = substituteOf(choice.frame);
+    const bool tangents = readsTangents(choice.frame);
+    const std::string_view names = tangents ? "tangent, w"
+        : readsCotangents(choice.frame)     ? "cotangent, cobitangent"
+                                            : "u, v";
+    const std::string_view first = names.substr(0, names.find(',')), second = names.substr(names.find(' ') + 1);
+    return "\n" + fromDifferences(other, Form::fused)
+        + fill("\n// The same for meshes of which some lack them: {0} gives `{1}` from screen derivatives. Call it in\n"
+               "// uniform control flow, before any branch or discard that differs within a 2x2 quad.\n"
+               "// position: camera-relative, interpolated, not normalised. uv: those of the map.\n"
+               "COTAN_FUNCTION cotan_vec3 {2}(cotan_vec3 normal, cotan_vec3 position, cotan_vec2 uv, cotan_vec3 {3}, "
+               "{4} {5}, cotan_vec3 texel)\n{{\n"
+               "    cotan_vec3 dpdx = cotan_ddx(position);\n    cotan_vec3 dpdy = cotan_ddy(position);\n"
+               "    cotan_vec2 duvdx = cotan_ddx(uv);\n    cotan_vec2 duvdy = cotan_ddy(uv);\n"
+               "    if ({6} > cotan_real(0.0))\n"
+               "        return {7}(normal, {3}, {5}, texel);\n"
+               "    return {8}(normal, dpdx, dpdy, duvdx, duvdy, texel);\n}}\n",
+               tangents ? std::string("tangent = 0") : fill("{} = {} = 0", first, second), name(other), kScreenEntry,
+               first, tangents ? "cotan_real" : "cotan_vec3", second,
+               tangents ? std::string("dot(tangent, tangent)") : fill("dot({0}, {0}) + dot({1}, {1})", first, second),
+               readsTriangleVectors(choice.frame) ? std::string("cotan_perturb_normal_on_triangle")
+                                                  : entryOf(choice.frame),
+               kEntry);
+}
+
 // The direction that Godot's ANISOTROPY requires.
 const char* const kDirectionOfU =
     "\n// The direction along increasing u on the surface, unit, perpendicular to n; zero for constant uv. For "
@@ -225,6 +292,14 @@ std::string entryOf(const Choice& choice)
     return entryOf(choice.frame);
 }
 
+bool hasSubstitute(const Choice& choice, Form form)
+{
+    return choice.language == Language::godot && !choice.callerDifferences
+        && (readsVertices(choice.frame) || (readsTriangleVectors(choice.frame) && form == Form::fused));
+}
+
+Frame substituteOf(Frame frame) { return readsTangents(frame) ? Frame::orthonormal : Frame::cotangent; }
+
 bool hasScreenEntry(const Choice& choice)
 {
     return !choice.callerDifferences && choice.language != Language::cpp
@@ -233,15 +308,18 @@ bool hasScreenEntry(const Choice& choice)
 
 std::string entryText(const Choice& choice, Form form)
 {
-    if (readsVertices(choice.frame))
-        return fromVertices(choice.frame, form);
-    if (readsTriangleVectors(choice.frame) && form == Form::fused)
-        return ofTriangle(choice);
+    const bool godot = choice.language == Language::godot;
+    if (readsVertices(choice.frame) || (readsTriangleVectors(choice.frame) && form == Form::fused)) {
+        std::string text = readsVertices(choice.frame) ? fromVertices(choice.frame, form) : ofTriangle(choice);
+        if (godot && readsCotangents(choice.frame))
+            text = std::string(kSmoothInView) + "\n" + text;
+        return hasSubstitute(choice, form) ? text + orFromScreen(choice) : text;
+    }
     std::string text =
         choice.uvSets == 1 ? fromDifferences(choice.frame, form) : fromSeveralSets(choice.frame, form, choice.uvSets);
     if (hasScreenEntry(choice))
         text += fromScreen(choice.uvSets, form);
-    if (hasScreenEntry(choice) && choice.language == Language::godot)
+    if (hasScreenEntry(choice) && godot)
         text += kDirectionOfU;
     return text;
 }

@@ -29,6 +29,12 @@ std::string entryText(const Choice& choice, Form form);
 // Whether the text includes the function that takes derivatives itself.
 bool hasScreenEntry(const Choice& choice);
 
+// Whether the text, for Godot, includes a function that draws meshes without the vertex data of the frame with another
+// frame, from screen derivatives; and that frame: `orthonormal` reads maps for tangents, `cotangent` those for the
+// others.
+bool hasSubstitute(const Choice& choice, Form form);
+Frame substituteOf(Frame frame);
+
 // Returns the introductory comment: what the text is, what it needs, how to call it, its limits, and credits.
 std::string introduction(const Choice& choice, Form form);
 
@@ -46,7 +52,7 @@ Status checkGodot(const Choice& choice, Form form);
 std::vector<std::string> functionsOfLight();
 
 // Returns the part "Needs" of the introductory comment.
-std::string godotNeeds(const Choice& choice);
+std::string godotNeeds(const Choice& choice, Form form);
 
 // Returns the whole shader around the functions.
 std::string godotShader(const Choice& choice, const std::string& functions);

@@ -9,29 +9,29 @@ bool hasLight(const Choice& choice) { return hasSet(choice, Set::light); }
 // Whether the mesh supplies two vectors: U and V of its triangles, or cotangents.
 bool hasVectors(const Choice& choice) { return readsTriangleVectors(choice.frame) || readsCotangents(choice.frame); }
 
+// Whether fragment() takes derivatives, which OpenGL ES 2 lacks.
+bool isMadeOfDerivatives(const Choice& choice) { return info(choice.frame).source == FrameSource::differences; }
+
 // Returns the call in fragment() that perturbs the normal.
 std::string perturbed(const Choice& choice, const std::string& normal)
 {
     const std::string texel = "texture(normal_map, UV).xyz";
-    if (readsTriangleVectors(choice.frame))
-        return fill("cotan_perturb_normal_on_triangle({}, cotan_u, cotan_v, {})", normal, texel);
-    if (readsCotangents(choice.frame))
-        return fill("{}({}, cotan_u, cotan_v, {})", kVertexEntry, normal, texel);
-    if (readsVertices(choice.frame))
-        return fill("{}({}, TANGENT, w, {})", kTangentEntry, normal, texel);
+    if (!isMadeOfDerivatives(choice)) {
+        const bool orScreen = !choice.callerDifferences;
+        return fill("{}({}{}, {}, {})", orScreen ? kScreenEntry : entryOf(choice), normal,
+                    orScreen ? ", VERTEX, UV" : "", readsTangents(choice.frame) ? "t, w" : "cotan_u, cotan_v", texel);
+    }
     if (choice.uvSets == 1)
         return fill("{}({}, VERTEX, UV, {})", kScreenEntry, normal, texel);
     return fill("{}({}, VERTEX, UV, {}, UV2,\n        texture(normal_map2, UV2).xyz)", kScreenEntry, normal, texel);
 }
 
-// Whether fragment() takes derivatives, which OpenGL ES 2 lacks.
-bool hasDerivatives(const Choice& choice) { return info(choice.frame).source == FrameSource::differences; }
-
 bool readsNormal(const Choice& choice) { return hasLight(choice) || choice.twoSided; }
-// Whether the shader must know if the transform mirrors.
-bool readsSide(const Choice& choice)
+
+// The start of the call in vertex() that transforms the vectors of the mesh.
+std::string_view inView(const Choice& choice)
 {
-    return readsTriangleVectors(choice.frame) || (choice.twoSided && !hasDerivatives(choice));
+    return readsCotangents(choice.frame) ? "cotan_smooth_in_view(NORMAL, " : "cotan_triangle_in_view(";
 }
 
 std::string head(const Choice& choice)
@@ -48,33 +48,36 @@ std::string head(const Choice& choice)
                 "uniform float coat_roughness : hint_range(0.0, 1.0) = 0.05;\n";
     if (readsNormal(choice))
         text += "varying vec3 cotan_normal;\n";
-    if (choice.twoSided && !hasDerivatives(choice))
+    if (choice.twoSided && !isMadeOfDerivatives(choice))
         text += "varying float cotan_side;\n";
     if (hasVectors(choice))
         text += "varying vec3 cotan_u;\nvarying vec3 cotan_v;\n";
+    if (readsTangents(choice.frame))
+        text += "varying float cotan_given;\n";
     return text + '\n';
 }
 
 std::string vertex(const Choice& choice)
 {
     std::string text;
-    if (readsNormal(choice) || readsSide(choice))
+    if (readsNormal(choice)) // inverse() is wrong in the GLES2 of Godot 3.2
         text += "    vec3 x = MODELVIEW_MATRIX[0].xyz;\n"
                 "    vec3 y = MODELVIEW_MATRIX[1].xyz;\n"
                 "    vec3 z = MODELVIEW_MATRIX[2].xyz;\n"
-                "    float side = dot(cross(x, y), z) < 0.0 ? -1.0 : 1.0; // -1: it mirrors\n";
-    if (readsNormal(choice)) // inverse() is wrong in the GLES2 of Godot 3.2
-        text += "    vec3 n = cross(y, z) * NORMAL.x + cross(z, x) * NORMAL.y + cross(x, y) * NORMAL.z;\n"
+                "    float side = dot(cross(x, y), z) < 0.0 ? -1.0 : 1.0; // -1: it mirrors\n"
+                "    vec3 n = cross(y, z) * NORMAL.x + cross(z, x) * NORMAL.y + cross(x, y) * NORMAL.z;\n"
                 "    cotan_normal = normalize(n * side);\n";
-    if (choice.twoSided && !hasDerivatives(choice))
+    if (choice.twoSided && !isMadeOfDerivatives(choice))
         text += "    cotan_side = side;\n";
-    if (hasVectors(choice)) {
-        const std::string_view factor = readsTriangleVectors(choice.frame) ? " * side" : "";
-        text += fill("    // In Godot 4: CUSTOM0.xyz and CUSTOM1.xyz. For transforms with uniform scale.\n"
-                     "    cotan_u = (MODELVIEW_MATRIX * vec4(TANGENT, 0.0)).xyz{0};\n"
-                     "    cotan_v = (MODELVIEW_MATRIX * vec4(COLOR.rgb, 0.0)).xyz{0};\n",
-                     factor);
-    }
+    if (hasVectors(choice))
+        text += fill("    // In Godot 4: CUSTOM0.xyz and CUSTOM1.xyz.\n"
+                     "    vec3 u;\n    vec3 v;\n"
+                     "    {}TANGENT, COLOR.rgb, MODELVIEW_MATRIX[0].xyz, MODELVIEW_MATRIX[1].xyz,\n"
+                     "        MODELVIEW_MATRIX[2].xyz, u, v);\n"
+                     "    cotan_u = u;\n    cotan_v = v;\n",
+                     inView(choice));
+    if (readsTangents(choice.frame))
+        text += "    cotan_given = dot(TANGENT, TANGENT) > 0.0 ? 1.0 : 0.0;\n";
     return text.empty() ? text : "\nvoid vertex()\n{\n" + text + "}\n";
 }
 
@@ -84,7 +87,7 @@ std::string fragment(const Choice& choice)
     std::string text = "\nvoid fragment()\n{\n";
     if (hasLight(choice))
         text += "    METALLIC = metallic; // Godot 3 does not pass it to light()\n";
-    if (choice.twoSided && hasDerivatives(choice))
+    if (choice.twoSided && isMadeOfDerivatives(choice))
         text += "    // Seen from behind? FRONT_FACING is inverted in Godot 3 where the transform mirrors.\n"
                 "    vec3 seen = cross(dFdx(VERTEX), dFdy(VERTEX));\n"
                 "    vec3 away = mix(VERTEX, vec3(0.0, 0.0, -1.0), PROJECTION_MATRIX[3][3]); // from the eye\n"
@@ -93,8 +96,9 @@ std::string fragment(const Choice& choice)
         text += "    // FRONT_FACING is inverted where the transform mirrors.\n"
                 "    float side = FRONT_FACING ? cotan_side : -cotan_side;\n";
     if (readsTangents(choice.frame))
-        text += fill("    // BINORMAL points up the image, as glTF's bitangent does.\n"
-                     "    float w = dot(cross({}, TANGENT), BINORMAL) < 0.0 ? -1.0 : 1.0;\n",
+        text += fill("    vec3 t = cotan_given > 0.5 ? TANGENT : vec3(0.0);\n"
+                     "    // BINORMAL points up the image, as glTF's bitangent does.\n"
+                     "    float w = dot(cross({}, t), BINORMAL) < 0.0 ? -1.0 : 1.0;\n",
                      normal);
     return fill("{}    NORMAL = {}{};\n}}\n", text, perturbed(choice, normal), choice.twoSided ? " * side" : "");
 }
@@ -117,7 +121,8 @@ void light()
 
 bool isGodotShader(const Choice& choice)
 {
-    return choice.language == Language::godot && !choice.functionsOnly && !choice.callerDifferences;
+    const bool fromMesh = readsVertices(choice.frame) || readsTriangleVectors(choice.frame);
+    return choice.language == Language::godot && !choice.functionsOnly && (fromMesh || !choice.callerDifferences);
 }
 
 Status checkGodot(const Choice& choice, Form form)
@@ -143,7 +148,7 @@ std::vector<std::string> functionsOfLight()
     return {"cotan_reflect_pbr", "cotan_coat_fraction", "cotan_reflect_coat"};
 }
 
-std::string godotNeeds(const Choice& choice)
+std::string godotNeeds(const Choice& choice, Form form)
 {
     const bool whole = isGodotShader(choice);
     std::string text = whole
@@ -154,22 +159,42 @@ std::string godotNeeds(const Choice& choice)
           "// .gdshaderinc. All vectors are in view space.\n//\n";
     text += "// Needs:\n"
             "//   normal_map the values of the file: imported without sRGB. Green up, as Godot expects\n";
-    if (hasVectors(choice))
-        return text
-            + (readsTriangleVectors(choice.frame)
-                   ? "//   u, v       two vectors of each triangle (triangleVectors of cotan/triangle.hpp), at all "
-                     "three\n"
-                     "//              of its vertices, which belong to it alone\n"
-                   : "//   u, v       cotangents at the vertices (deriveVertexFrames of cotan/core)\n")
-            + "//              as six floats with the mesh, not compressed: in Godot 3 the arrays of tangents and of\n"
-              "//              colours, in Godot 4 those of CUSTOM0 and CUSTOM1. No stored tangents otherwise\n";
+    const std::string drawn = hasSubstitute(choice, form)
+        ? fill("is drawn with `{}`, from derivatives. For the driver\n"
+               "//   GLES2 of Godot 3, which has none, print with --differences caller: there it has no bumps.\n",
+               name(substituteOf(choice.frame)))
+        : "has no bumps. With --differences shader it is drawn with\n//   another frame.\n";
+    const bool triangle = readsTriangleVectors(choice.frame) && form == Form::fused;
+    if (triangle || readsCotangents(choice.frame)) {
+        text += triangle
+            ? "//   u, v       two vectors of each triangle (triangleVectors of cotan/triangle.hpp), at all three\n"
+              "//              of its vertices, which belong to it alone\n"
+            : "//   u, v       cotangents at the vertices (smoothCotangents of cotan/tangents.hpp)\n";
+        text +=
+            "//              as six floats with the mesh, not compressed: in Godot 3 the arrays of tangents and of\n"
+            "//              colours, in Godot 4 those of CUSTOM0 and CUSTOM1. No stored tangents otherwise\n";
+        if (!whole)
+            text += fill("//   In vertex(), for two varyings, with CUSTOM0.xyz and CUSTOM1.xyz in Godot 4:\n"
+                         "//     {}TANGENT, COLOR.rgb, MODELVIEW_MATRIX[0].xyz, MODELVIEW_MATRIX[1].xyz,\n"
+                         "//       MODELVIEW_MATRIX[2].xyz, u, v);\n",
+                         inView(choice));
+        return text + "//\n// Missing:\n//   A mesh without u and v " + drawn
+            + "//   In Godot 3 no shader can tell them from stored tangents in a mesh that has colours, too"
+            + (triangle ? "\n//   (dark ones): its bumps are wrong.\n" : ": its\n//   bumps are wrong.\n");
+    }
     if (readsVertices(choice.frame))
-        return text + "//   tangents   in the mesh; TANGENT is normalised, so it is not exactly MikkTSpace's\n";
+        return text
+            + "//   tangents   in the mesh; TANGENT is normalised, so it is not exactly MikkTSpace's\n"
+              "//\n// Missing:\n//   In Godot 3 a mesh without tangents "
+            + drawn
+            + "//   Godot 4 invents tangents that do not follow the uv, and no shader can tell: the bumps are wrong.\n"
+              "//   Turn on Ensure Tangents in the import of the mesh, or print the frame orthonormal.\n";
     if (info(choice.frame).source == FrameSource::triangle)
         return text + "//   p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0  the triangle's edges, which a shader cannot read\n";
     return text
         + "//   VERTEX     the position in view space, as it is in fragment(); not normalised\n"
           "//   dFdx, dFdy In Godot 3 the driver GLES3: GLES2 has none. The frames triangle and smooth need none\n"
+          "//              with --differences caller\n"
           "//   No tangents: disable them in the import of the mesh. Do not write NORMALMAP (NORMAL_MAP in\n"
           "//   Godot 4), which uses stored tangents.\n"
           "//   For ANISOTROPY, after NORMAL = ...:   TANGENT = cotan_direction_of_u(NORMAL, VERTEX, UV);\n"

@@ -23,11 +23,18 @@ std::string call(const Choice& choice, Form form)
     const auto calling = [&](std::string_view function, std::string_view arguments, std::string_view behind = "") {
         return fill("{} n = {}{}({}, {}{});", type, language.scope, function, arguments, language.sample, behind);
     };
+    const bool godotOrScreen = hasSubstitute(choice, form);
+    if (readsVertices(choice.frame) && godotOrScreen)
+        return calling(kScreenEntry,
+                       readsCotangents(choice.frame) ? "normal, position, uv, cotangent, cobitangent"
+                                                     : "normal, position, uv, tangent, w");
     if (readsVertices(choice.frame))
         return calling(entryOf(choice.frame),
                        readsCotangents(choice.frame) ? "normal, cotangent, cobitangent"
                                                      : "normal, tangent.xyz, tangent.w");
     const bool vectors = readsTriangleVectors(choice.frame) && form == Form::fused;
+    if (godotOrScreen)
+        return calling(kScreenEntry, "normal, position, uv, u, v");
     if (vectors && choice.language == Language::godot)
         return calling("cotan_perturb_normal_on_triangle", "normal, u, v");
     if (vectors && choice.stage != Stage::compute) {
@@ -50,10 +57,10 @@ std::string call(const Choice& choice, Form form)
     return fill("{} n = {}{}({});", type, language.scope, entry, arguments);
 }
 
-std::string needs(const Choice& choice)
+std::string needs(const Choice& choice, Form form)
 {
     if (choice.language == Language::godot)
-        return godotNeeds(choice);
+        return godotNeeds(choice, form);
     std::string text = "// Needs from the caller:\n";
     if (choice.stage == Stage::vertex)
         return text
@@ -70,10 +77,19 @@ std::string needs(const Choice& choice)
         return text
             + "//   normal     interpolated surface normal, in the space that the triangle was made in\n"
               "//   words      from the stage before, not interpolated (flat, or for each primitive), or read from a\n"
-              "//              buffer by the number of the triangle\n";
+              "//              buffer by the number of the triangle\n"
+              "//\n// Missing:\n"
+              "//   Words of 0 give the normal without bumps, other words that were not made here wrong bumps. Draw\n"
+              "//   a mesh without them with the text of `cotangent`.\n";
     text += "//   normal     interpolated surface normal; any space, the same for all vectors\n";
     if (readsVertices(choice.frame))
-        return text + "//   the vertex attributes named at the function below, interpolated\n";
+        return text
+            + fill("//   the vertex attributes named at the function below, interpolated\n"
+                   "//\n// Missing:\n"
+                   "//   Most programs fill in zeros or a constant for a mesh without these attributes. Zeros give "
+                   "the\n"
+                   "//   normal without bumps, a constant gives wrong bumps. Draw such a mesh with the text of `{}`.\n",
+                   name(substituteOf(choice.frame)));
     if (readsTriangleVectors(choice.frame) && choice.stage == Stage::all)
         return text
             + "//   p0 p1 p2, uv0 uv1 uv2, n0 n1 n2  the triangle's corners, in the vertex stage (at the provoking\n"
@@ -203,7 +219,7 @@ std::string introduction(const Choice& choice, Form form)
                 "//\n{}//\n// Call:\n//   {}\n// It returns {}.\n//\n{}//\n{}{}\n",
                 name(choice.frame), textAt(kFormTexts, form), halfs ? language.titleWithHalfs : language.title,
                 textAt(kChannelTexts, c.channels), textAt(kExpansionTexts, c.expansion, 2),
-                greenAlongV(c) ? "along" : "against", needs(choice), call(choice, form),
+                greenAlongV(c) ? "along" : "against", needs(choice, form), call(choice, form),
                 choice.stage == Stage::vertex || choice.stage == Stage::mesh
                     ? "three words, the same for the whole triangle"
                     : "the perturbed normal, unit, in the space of the arguments",

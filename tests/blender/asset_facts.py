@@ -6,7 +6,8 @@ import bpy
 import cotan
 import facts
 import numpy as np
-from facts import baked, ball, directions, expect_sphere, moved, select, settings, square, texel_centres, torus
+from facts import baked, ball, directions, expect_sphere, material_with_nodes, moved, select, settings, square
+from facts import texel_centres, torus
 
 
 def pairsAreFoundByName():
@@ -46,8 +47,7 @@ def pairsAreFoundByName():
 
 def theNormalNodeReadsTheMap():
     low, high = square(), ball()
-    material = bpy.data.materials.new("worn")
-    material.use_nodes = True
+    material = material_with_nodes("worn")
     low.data.materials.append(material)
     baked(low, high, distance=2)
     nodes = material.node_tree.nodes

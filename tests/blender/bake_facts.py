@@ -88,7 +88,10 @@ def instancesOfGeometryNodesCount():
     high = ball(radius=0.5, centre=(0, 0, 0), matrix=moved(9))
     placer = make_mesh("placer", [(0, 0, 0)], [], matrix=moved(0.2, -0.3))
     tree = bpy.data.node_groups.new("place", "GeometryNodeTree")
-    tree.outputs.new("NodeSocketGeometry", "Geometry")
+    if hasattr(tree, "interface"):  # since Blender 4.0
+        tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
+    else:
+        tree.outputs.new("NodeSocketGeometry", "Geometry")
     info, out = tree.nodes.new("GeometryNodeObjectInfo"), tree.nodes.new("NodeGroupOutput")
     info.inputs["Object"].default_value, info.inputs["As Instance"].default_value = high, True
     tree.links.new(info.outputs["Geometry"], out.inputs[0])
@@ -171,9 +174,8 @@ def theChosenUvMapCounts():
 
 def customNormalsCount():
     high = square("high")
-    high.data.use_auto_smooth = True
     leaning = (math.sin(0.3), 0, math.cos(0.3))
-    high.data.normals_split_custom_set([leaning] * 4)
+    facts.set_custom_normals(high, leaning)
     found = baked(square(), high, distance=1)
     assert degrees(found, leaning).max() < 0.02  # Blender stores them in 16 bits
 
@@ -181,8 +183,7 @@ def customNormalsCount():
 def customNormalsOfTheSimpleMeshCount():
     # The surface is tilted by 0.2 from its normals, so the flat detail is tilted the opposite way.
     low = square()
-    low.data.use_auto_smooth = True
-    low.data.normals_split_custom_set([(math.sin(0.2), 0, math.cos(0.2))] * 4)
+    facts.set_custom_normals(low, (math.sin(0.2), 0, math.cos(0.2)))
     found = baked(low, square("high", half=4, z=0.01), frame="orthonormal", distance=1)
     assert degrees(found, (-math.sin(0.2), 0, math.cos(0.2))).max() < 0.02
 

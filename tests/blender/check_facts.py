@@ -1,16 +1,14 @@
 """What the check reports and selects, and what the export writes and warns of."""
 
-import json
 import math
 import os
-import struct
 
 import bpy
 import cotan
 import facts
 import numpy as np
 from cotan_blender import gltf
-from facts import baked, ball, degrees, make_mesh, moved, select, square
+from facts import baked, ball, degrees, make_mesh, moved, parts_of, select, square
 from mathutils import Matrix
 
 
@@ -124,14 +122,6 @@ def mapProblemsAreReported():
     assert any("'low_normal' was baked for smooth" in text for _, text in checked(low)), said_lines()
 
 
-def parts_of(path):
-    """The JSON and the binary chunk of a .glb."""
-    with open(path, "rb") as file:
-        data = file.read()
-    length = struct.unpack_from("<I", data, 12)[0]
-    return json.loads(data[20 : 20 + length]), data[28 + length :]
-
-
 def export(name, to="smooth", **arguments):
     bpy.context.scene.cotan.to_frame = to
     path = os.path.join(facts.FOLDER, name)
@@ -230,11 +220,11 @@ def exportWarnsWhereBlenderIsSilent():
     wide = square("wide", matrix=Matrix.Diagonal((1, 2, 1, 1)))
     warned(wide, "has a non-uniform scale")
     leaning = square("leaning")
-    leaning.data.use_auto_smooth = True
-    leaning.data.normals_split_custom_set([(0.6, 0, 0.8)] * 4)
+    facts.set_custom_normals(leaning, (0.6, 0, 0.8))
     warned(leaning)
-    leaning.data.use_auto_smooth = False
-    warned(leaning, "'leaning' has custom normals, but its Auto Smooth is off")
+    if bpy.app.version < (4, 1, 0):
+        leaning.data.use_auto_smooth = False
+        warned(leaning, "'leaning' has custom normals, but its Auto Smooth is off")
     keyed = square("keyed")
     for name in ("Basis", "up"):
         keyed.shape_key_add(name=name)

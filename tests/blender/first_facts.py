@@ -3,7 +3,7 @@
 import bpy
 import facts
 import numpy as np
-from facts import ball, baked, degrees, directions, make_mesh, moved, select, square
+from facts import ball, baked, degrees, directions, make_mesh, material_with_nodes, moved, select, square
 
 SIZE = 128
 
@@ -28,8 +28,7 @@ def _by_cycles(low, high, extrusion):
     scene.cycles.use_denoising = False
     image = bpy.data.images.new("cycles", SIZE, SIZE, float_buffer=False)
     image.colorspace_settings.name = "Non-Color"
-    material = bpy.data.materials.new("cycles")
-    material.use_nodes = True
+    material = material_with_nodes("cycles")
     node = material.node_tree.nodes.new("ShaderNodeTexImage")
     node.image = image
     material.node_tree.nodes.active = node

@@ -4,7 +4,7 @@ import os
 
 import bpy
 import facts
-from facts import ball, error_of, make_mesh, moved, select, settings, square
+from facts import ball, error_of, make_mesh, material_with_nodes, moved, select, settings, square
 
 OUT = os.path.join(facts.FOLDER, "out.glb")
 
@@ -181,8 +181,7 @@ def noMaterialIsNoProblem():
 def aMaterialWithoutPrincipled():
     settings(distance=2)
     low = square()
-    material = bpy.data.materials.new("emits")
-    material.use_nodes = True
+    material = material_with_nodes("emits")
     material.node_tree.nodes.clear()
     low.data.materials.append(material)
     select(ball(), low)

@@ -1,7 +1,7 @@
 # Draws the jobs of --folder=FOLDER/jobs.json and stores the bytes of the pictures, RGB, rows from the top.
 # A job: shader and out (files), size, parts (the shader's uniform `part` is 0, 1, ... in so many pictures, one behind the
 # other); textures (of raw RGBA bytes, not filtered, repeated: file, width, height); sheet (its corners), or nothing for
-# a rectangle that fills the picture; mirrored (the sheet's transforms), light (three directions, for red, green, blue).
+# a rectangle that fills the picture; mirrored and scale (x, y, z; of the sheet's transforms), light (three directions, for red, green, blue).
 extends Node
 
 var viewport = Viewport.new()
@@ -53,9 +53,9 @@ func draw(job):
 		for side in [[-1.2, 0.4], [1.2, PI - 0.4]]:
 			var node = MeshInstance.new()
 			node.mesh = sheet_of(job.sheet)
+			var x = -job.scale[0] if job.mirrored else job.scale[0]
 			var basis = Basis(Vector3(0, 1, 0), side[1])
-			if job.mirrored:
-				basis = basis * Basis(Vector3(-1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1))
+			basis = basis * Basis(Vector3(x, 0, 0), Vector3(0, job.scale[1], 0), Vector3(0, 0, job.scale[2]))
 			node.transform = Transform(basis, Vector3(side[0], 0, 0))
 			nodes.append(node)
 	else:

@@ -248,7 +248,7 @@ class Web:
                     break
                 arguments = [plant.library()] if case == self.CASES[0] else [self.npm]
                 outcome, took = plant.run("", 0, limit, command=["node", "--expose-gc", HOME / "tests/web" / case, place / "web/npm" / tarball.name,
-                                                                  *arguments, HOME.parent / "shared/data"])
+                                                                  *arguments])
                 spent += took
             return outcome and f"{case}: {outcome}", spent
 

@@ -128,8 +128,7 @@ def run(program, number, seconds, python=None, command=None, reached=None):
     bytes; the byte of each mistake that the program reaches becomes 1. A file beside it gets a line per test."""
     limit = max(1, round(seconds))
     environment = dict(os.environ, COTAN_MUTANT=str(number), COTAN_LIBRARY=str(library()), COTAN_TOOL=str(BUILD / "bin/cotan"),
-                       COTAN_SHARED_DATA=str(HOME.parent / "shared/data"), PYTHONDONTWRITEBYTECODE="1",
-                       PYTHONPATH=str(python or HOME / "bindings/python"))
+                       PYTHONDONTWRITEBYTECODE="1", PYTHONPATH=str(python or HOME / "bindings/python"))
     if reached:
         environment["COTAN_MUTANTS_REACHED"] = str(reached)
     with tempfile.TemporaryFile() as output, tempfile.TemporaryDirectory() as folder:

@@ -1,5 +1,5 @@
-"""Shared fixtures of the Python tests. CTest runs them (tests/python.cmake) and passes the paths of the library, the
-command line and the folder of models in environment variables."""
+"""Shared fixtures of the Python tests. CTest runs them (tests/python.cmake) and passes the paths of the library and the
+command line in environment variables."""
 
 import os
 import pathlib
@@ -30,12 +30,19 @@ def command():
 
 
 @pytest.fixture(scope="session")
-def data():
-    """The folder of models."""
-    folder = pathlib.Path(os.environ.get("COTAN_SHARED_DATA", "nowhere"))
-    if not folder.is_dir():
-        pytest.skip(f"skipped: {folder} is not there")
-    return folder
+def data(source):
+    """data(name): a file that the repository does not contain; the test is skipped if it is missing. The rule is that of
+    dataFile in tests/test_data.hpp."""
+
+    def find(name):
+        shared = source.parent / "shared/data" / name
+        both = os.environ.get("COTAN_TEST_DATA") != "fetched"
+        file = shared if both and shared.exists() else source / "build/data" / name
+        if not file.exists():
+            pytest.skip(f"skipped: {name} is missing: run scripts/test-data")
+        return file
+
+    return find
 
 
 def pytest_unconfigure(config):

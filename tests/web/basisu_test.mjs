@@ -1,18 +1,19 @@
 // The tool refuses a model with BasisU textures in KTX2, and draws a copy of it with PNG textures. The transcoder of
 // Binomial in npm's three converts them; the copy is in a temporary folder.
-//   node basisu_test.mjs NODE_MODULES COTAN DATA [PICTURES]
+//   node basisu_test.mjs NODE_MODULES COTAN [PICTURES]
 // PICTURES: a folder that receives the compared images. Exit code 77: skipped.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
 import vm from 'node:vm';
+import { dataFile } from './data.mjs';
 import { emptyFolder, imageOf, parseGlb, skip } from './shared.mjs';
 
-const [modules, cotan, data, pictures] = process.argv.slice(2), folder = emptyFolder();
-const basis = path.join(modules, 'three/examples/jsm/libs/basis'), model = path.join(data, 'compressed/jet_fighter_draco_basisu.glb');
+const [modules, cotan, pictures] = process.argv.slice(2), folder = emptyFolder();
+const basis = path.join(modules, 'three/examples/jsm/libs/basis'), model = dataFile('compressed/jet_fighter_draco_basisu.glb');
 if (!fs.existsSync(basis)) skip('three is not installed (see the test npm_packages)');
-if (!fs.existsSync(model)) skip(`${model} is not here`);
+if (!fs.existsSync(model)) skip(`${path.basename(model)} is not there: run scripts/test-data`);
 const { encode } = await import(path.resolve(modules, 'fast-png/lib/index.js'));
 
 async function transcoder() {

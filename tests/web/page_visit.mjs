@@ -1,14 +1,16 @@
 // Shared by the tests of the page in web/, which run in headless Chromium:
-//   node page_..._test.mjs PAGE NODE_MODULES TOOL DATA [FACT]
-// PAGE: folder of the built page. NODE_MODULES: has playwright-core, axe-core, fast-png. TOOL: cotan. DATA: optional
-// shared data. FACT: the only one to run. Screenshots are written beside PAGE. Exit code 77: what a fact needs is missing.
+//   node page_..._test.mjs PAGE NODE_MODULES TOOL [FACT]
+// PAGE: folder of the built page. NODE_MODULES: has playwright-core, axe-core, fast-png. TOOL: cotan. FACT: the only one to run. Screenshots are written beside PAGE. Exit code 77: what a fact needs is missing.
 import { execFileSync } from 'node:child_process';
 import { createServer } from 'node:http';
 import { existsSync, mkdirSync, readFileSync, readdirSync, statSync, writeFileSync } from 'node:fs';
 import { basename, dirname, extname, join } from 'node:path';
 import { createRequire } from 'node:module';
+import { data, missing } from './data.mjs';
 
-export const [root, modules, tool, data, only] = process.argv.slice(2);
+export { data };
+
+export const [root, modules, tool, only] = process.argv.slice(2);
 if (!existsSync(join(root, 'index.html'))) {
   console.error(`skipped: ${root} was not built`);
   process.exit(77);
@@ -16,7 +18,7 @@ if (!existsSync(join(root, 'index.html'))) {
 export const require = createRequire(join(modules, 'x.js'));
 const { chromium } = require('playwright-core');
 export const { decode, encode } = await import(join(modules, 'fast-png/lib/index.js'));
-export const scratch = join(dirname(root), 'page-pictures'), errors = [], hasData = existsSync(join(data, 'textures'));
+export const scratch = join(dirname(root), 'page-pictures'), errors = [], hasData = missing === '';
 mkdirSync(scratch, { recursive: true });
 let tried = 0, failed = 0, skipped = 0;
 
@@ -91,6 +93,8 @@ export async function dropOnly(page, files, { keep = false } = {}) {
 
 export const settled = page => page.waitForFunction(() => document.getElementById('status').textContent === ''
   && (document.getElementById('problem').textContent !== '' || document.getElementById('result').childNodes.length > 0), undefined, { timeout: 60000 });
+// Waits for the view of a model, which comes after the verdict.
+export const viewed = page => page.waitForSelector('.view[data-shows]', { state: 'attached', timeout: 120000 });
 export const problem = page => page.textContent('#problem');
 
 export async function saved(page, click) {

@@ -1,5 +1,5 @@
-// Follows the package's README in an empty folder: node readme_test.mjs TARBALL NODE_MODULES MODEL [IMAGE]
-// MODEL: a GLB with a normal map. IMAGE: a .png for a screenshot of the page at the end, such as
+// Follows the package's README in an empty folder: node readme_test.mjs TARBALL NODE_MODULES [MODEL [IMAGE]]
+// MODEL: a GLB with a normal map; default: one of the test data. IMAGE: a .png for a screenshot of the page at the end, such as
 // docs/pictures/tutorial-web-page.png for vase-lost-sign.glb.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -8,12 +8,13 @@ import http from 'node:http';
 import { createRequire } from 'node:module';
 import path from 'node:path';
 
+import { dataFile } from './data.mjs';
 import { installed, parseGlb, skip } from './shared.mjs';
 
-const [tarball, modules, model, image] = process.argv.slice(2);
+const [tarball, modules, given, image] = process.argv.slice(2), model = given?.endsWith('.glb') ? given : dataFile('models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb');
 if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
 if (!fs.existsSync(path.join(modules, 'playwright-core'))) skip('playwright-core is not installed');
-if (!fs.existsSync(model)) skip(`${model} is not there`);
+if (!fs.existsSync(model)) skip(`${path.basename(model)} is not there: run scripts/test-data`);
 if (!fs.existsSync('/usr/bin/chromium')) skip('there is no chromium');
 
 const folder = installed(tarball, modules, ['three', 'esbuild', '@esbuild']);

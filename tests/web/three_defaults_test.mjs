@@ -1,17 +1,18 @@
 // Renders of cotan/three without options, compared with stock three.js with tangents:
-//   node three_defaults_test.mjs SOURCES NODE_MODULES DATA [CASE]
+//   node three_defaults_test.mjs SOURCES NODE_MODULES [CASE]
 // SOURCES: bindings/js. With FILES="models/A.glb ..." in the environment, only prints the degrees of all frames for
 // these files. Exit code 77: skipped.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
 import { launch, serve } from './chromium.mjs';
+import { data, missing } from './data.mjs';
 import { here, skip } from './shared.mjs';
 
-const [sources, modules, data, only] = process.argv.slice(2);
+const [sources, modules, only] = process.argv.slice(2);
 if (!fs.existsSync(path.join(modules, 'three'))) skip('three is not installed (see the test npm_packages)');
 if (!fs.existsSync(process.env.CHROMIUM ?? '/usr/bin/chromium')) skip('no chromium');
-if (!fs.existsSync(path.join(data, 'models'))) skip(`${data} is not here`);
+if (missing) skip(missing);
 const { address, close } = await serve({ package: sources, modules, data, tests: here });
 const browser = await launch(modules);
 
@@ -82,6 +83,18 @@ const cases = {
   async modelsLookTheSameWithoutTheirTangents() {
     for (const name of ['NormalTangentMirrorTest', 'ClearCoatTest']) await holds(`models/${name}/${name}.glb`, 0.5);
     await holds('models/FlightHelmet/FlightHelmet.gltf', 1);
+  },
+
+  // All its materials once had the map of the first one: 4.4 degrees.
+  async nodeMaterialsOfAModelKeepTheirOwnMaps() {
+    const nodes = await browser.newPage();
+    await nodes.route(address, route => route.fulfill({ contentType: 'text/html', body: `<!doctype html><script type="importmap">${JSON.stringify({ imports: {
+      three: '/modules/three/build/three.webgpu.js', 'three/webgpu': '/modules/three/build/three.webgpu.js', 'three/tsl': '/modules/three/build/three.tsl.js',
+      'three/addons/': '/modules/three/examples/jsm/' } })}</script>` }));
+    await nodes.goto(address);
+    const { maps, count, mean } = await nodes.evaluate(async () => (await import('/tests/three_nodes_judge.js')).measure('/data/models/FlightHelmet/FlightHelmet.gltf'));
+    console.log(`${maps} maps, ${count} pixels: ${mean.toFixed(3)} degrees`);
+    assert.ok(maps > 3 && count > 20000 && mean < 0.5, `${maps} maps, ${count} pixels, ${mean} degrees`);
   },
 
   // three alone reads them in cotangent: 0.425 degrees on BoomBox, where orthonormal has 0.056.

@@ -45,6 +45,12 @@ Json faultsJson(const std::vector<Fault>& faults)
     return list;
 }
 
+Json noteJson(const NormalStatistics& s)
+{
+    const std::string note = noteOf(s);
+    return note.empty() ? Json(nullptr) : Json(note);
+}
+
 // Whether any texel has a direction; otherwise means and fractions are undefined.
 bool measured(const NormalStatistics& s)
 {
@@ -92,6 +98,8 @@ std::vector<std::string> linesOf(const SurveyedFile& image, const std::string& f
         line("wrong: " + fault.text);
     if (!faults.empty())
         line("to fix it: " + fixCommand(faults, s, file));
+    if (const std::string note = noteOf(s); !note.empty())
+        line("note: " + note);
     if (s.content == Content::grey)
         return lines;
     line(fmt::format(
@@ -138,6 +146,7 @@ Json toJson(const SurveyedFile& image)
     const std::vector<Fault> faults = faultsOf(s);
     j["faults"] = faultsJson(faults);
     j["fix"] = faults.empty() ? Json(nullptr) : Json(fixOptions(faults, s));
+    j["note"] = noteJson(s);
     if (!image.frame.empty())
         j["frame"] = image.frame;
     if (!measured(s)) // undefined figures
@@ -157,6 +166,8 @@ std::vector<std::string> linesOf(const GreenOfFile& found, const std::string& fi
         lines.push_back("wrong: " + fault.text);
     if (!faults.empty())
         lines.push_back("to fix it: " + fixCommand(faults, v.statistics, file));
+    if (const std::string note = noteOf(v.statistics); !note.empty())
+        lines.push_back("note: " + note);
     if (v.sampled < 1)
         lines.push_back(fmt::format("judged by {} patches of 128 x 128 texels, evenly distributed: {:.2g} % of the "
                                     "image",
@@ -179,6 +190,7 @@ Json toJson(const GreenOfFile& found)
     return {{"green", name(v.green)},
             {"faults", faultsJson(faults)},
             {"fix", faults.empty() ? Json(nullptr) : Json(fixOptions(faults, v.statistics))},
+            {"note", noteJson(v.statistics)},
             {"confidence", name(v.confidence)},
             {"exchanged", name(v.swapped)},
             {"reason", v.reason},

@@ -1,8 +1,8 @@
 // The modes of dropping tangents: with the maps as they are, or with new ones.
 import { choice } from './arrays.js';
 import { usage, wordsFor } from './errors.js';
-import { imageFile, imageSize, modelBytes, normalImages, parsedModel, withImages } from './glb.js';
-import { encodeLossy, lossyFormat } from './pictures.js';
+import { imageFile, imageSize, normalImages, parsedModel, requiresWebp, withImages } from './glb.js';
+import { encodedLike } from './encoded.js';
 
 export const kGrowth = 1.02; // file size after over before: the maximum in mode auto
 const kReversed = 0.9; // fraction of a map's area; the library has the same threshold
@@ -35,40 +35,24 @@ export function advised(report) {
   return { mode: toConvert > 0 || green.length > 0 ? 'convert' : 'drop', to: toConvert > 0 ? advice : 'orthonormal', green, degrees: Math.max(0, ...degrees) };
 }
 
-const withoutMaps = ({ normalTexture, extensions, ...rest }) => {
-  const { KHR_materials_clearcoat: coat, ...others } = extensions ?? {}, { clearcoatNormalTexture, ...coatRest } = coat ?? {};
-  return { ...rest, ...(extensions && { extensions: { ...others, ...(coat && { KHR_materials_clearcoat: coatRest }) } }) };
-};
-
-/** The model with its maps unchanged, without tangents unless keepTangents is set. convert: the library's conversion,
- * which gets the model without normal maps, so that it decodes none. */
-export async function dropped(parsed, files, convert, keepTangents = false) {
-  const { json } = parsed, { materials } = json;
-  const plain = Array.isArray(materials) ? { ...parsed, json: { ...json, materials: materials.map((one) => (one && typeof one === 'object' ? withoutMaps(one) : one)) } } : parsed;
-  const { glb, report } = await convert(modelBytes(plain), { files, from: 'orthonormal', to: 'orthonormal', keepTangents });
-  const made = parsedModel(glb);
-  if (materials) made.json.materials = materials;
-  const notes = report.notes.filter((line) => !/^(no primitive has a normal map|TANGENT is kept)/.test(line));
-  return { mode: keepTangents ? 'keep' : 'drop', glb: modelBytes(made), report: { ...report, notes, maps: keptMaps(json, files) } };
-}
-
-/** The conversion's result with new maps in the format of the old ones, JPEG or WebP, if that is smaller than PNG. */
-export async function inOriginalFormats(parsed, files, { glb, report, pictures }) {
+/** The conversion's result with new maps in the format of the old ones, JPEG or WebP, if that is smaller than PNG and
+ * accurate enough. */
+export async function inOriginalFormats(parsed, files, { glb, report, made: pngs }) {
   const made = parsedModel(glb), other = new Map(), notes = [], maps = report.maps.map((map) => ({ ...map })), remade = maps.filter((map) => !map.kept);
   for (const [k, map] of remade.entries()) {
-    const format = pictures[k].bits === 8 ? lossyFormat(imageFile(parsed, map.image, files)) : null;
-    if (!format || map.kept_elsewhere) continue;
-    const bytes = await encodeLossy(pictures[k], format);
-    if (!bytes) notes.push(`${map.name}: no encoder for ${format.mimeType} is available (in Node.js: the package sharp), so the new map is PNG: ${map.bytes_after} bytes, before ${map.bytes_before}`);
-    if (!bytes || bytes.length >= map.bytes_after) continue;
-    other.set(map.image, { bytes, mimeType: format.mimeType });
-    Object.assign(map, { bytes_after: bytes.length, format: format.mimeType === 'image/webp' ? 'WebP' : 'JPEG', quality: format.quality ?? null });
+    const { picture, ...png } = pngs[k], old = imageFile(parsed, map.image, files);
+    const { bytes, mimeType, note, ...found } = map.kept_elsewhere ? png : await encodedLike(picture, old, png, map.name,
+      { hasWebp: requiresWebp(parsed.json), error: map.degrees_after_rounding?.mean, before: map.degrees_unconverted?.mean });
+    if (note) notes.push(note);
+    if (mimeType !== png.mimeType) other.set(map.image, { bytes, mimeType });
+    Object.assign(map, { bytes_after: bytes.length, degrees_of_encoding: found.degrees, ...(found.format && { format: found.format, quality: found.quality }) });
   }
   const whole = other.size > 0 && made.json.buffers?.length === 1 ? withImages(made, other) : glb;
   return { mode: 'convert', glb: whole, report: { ...report, maps, notes: [...report.notes, ...notes] } };
 }
 
-const keptMaps = (json, files) => normalImages(json).map((image) => {
+/** The maps of a report on a model whose maps stay as they are. */
+export const keptMaps = (json, files) => normalImages(json).map((image) => {
   const bytes = imageSize(json.images?.[image], json, files), { name, uri } = json.images?.[image] ?? {};
   return { image, name: name ?? (uri && !uri.startsWith('data:') ? uri : `image ${image}`), kept: true, bytes_before: bytes, bytes_after: bytes };
 });

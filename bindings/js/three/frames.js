@@ -21,6 +21,9 @@ export function namedFrame(material, warn = () => {}) {
   return undefined;
 }
 
+// Whether stored tangents say which way the material's maps are read: not if these name a frame without tangents.
+export const readsTangents = ({ userData }) => ![...kSupported, 'exact', 'gradient'].includes(userData?.[kKey]);
+
 // The frame for a material alone: the requested one, else the one that the material names, else `orthonormal`.
 export function frameFor(material, requested = 'auto') {
   choice(requested, 'options.frame', kFrames);

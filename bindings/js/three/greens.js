@@ -1,21 +1,23 @@
 // Which way green of a normal map points according to stored tangents.
-import { cornersOf, numbersOf, readingOf, transformedUv, uvMatrixOf, uvNameOf } from './mesh_data.js';
+import { cornersOf, numbersOf, uvMatrixOf, uvNameOf } from './mesh_data.js';
 
-// Fractions of the compared area on which tangents contradict the uv: from kDecided on tangents decide the direction of
-// green, from kMentioned on there is a note.
+// The same rule as in the library (scene/normal_maps.hpp): fractions of the compared area on which tangents contradict the
+// uv. From kDecided on green is reversed; between the two, all meshes that show the map decide together.
 const kDecided = 0.9, kMentioned = 0.1;
+const fractionOf = ({ compared, contradicting }) => (compared > 0 ? contradicting / compared : 0);
+const unclear = vote => !(vote.compared > 0) || fractionOf(vote) > kMentioned && fractionOf(vote) < kDecided;
 
 // Whether GLTFLoader made this texture. Then v runs down the image, green is declared to point against v, and the
 // loader has flipped the sign of normalScale.y in materials of meshes without tangents.
 export const ofGltf = map => map?.userData?.mimeType !== undefined;
 
 // Areas of a geometry by the direction of the bitangent cross(normal, tangent) * tangent.w: `against` or `along`
-// increasing v. `aligned` is the part of `along` where the tangent is within 90 degrees of dP/du. Each corner counts a
+// increasing v of the geometry, before a texture transforms it: tangents belong to these uv. `aligned` is the part of `along` where the tangent is within 90 degrees of dP/du. Each corner counts a
 // third of its triangle. Triangles without area in space or in uv and corners without a tangent are left out.
-function bitangentAreas(geometry, map) {
-  const { position, normal, [uvNameOf(map)]: coordinates, tangent } = geometry.attributes, areas = { against: 0, along: 0, aligned: 0 };
+function bitangentAreas(geometry, uvName) {
+  const { position, normal, [uvName]: coordinates, tangent } = geometry.attributes, areas = { against: 0, along: 0, aligned: 0 };
   if (!position || !normal || !coordinates || !tangent) return areas;
-  const corners = cornersOf(geometry), p = numbersOf(position, 3), n = numbersOf(normal, 3), t = numbersOf(tangent, 4), uv = transformedUv(coordinates, uvMatrixOf(map));
+  const corners = cornersOf(geometry), p = numbersOf(position, 3), n = numbersOf(normal, 3), t = numbersOf(tangent, 4), uv = numbersOf(coordinates, 2);
   const e1 = [0, 0, 0], e2 = [0, 0, 0];
   for (let k = 0; k + 2 < corners.length; k += 3) {
     const [a, b, c] = corners.subarray(k, k + 3);
@@ -46,44 +48,55 @@ function bitangentAreas(geometry, map) {
 
 // Collects what the stored tangents of meshes say about their normal maps. To be used before the tangents are removed.
 export class StoredGreens {
-  #areas = new Map();  // by geometry, then by readingOf(map)
-  #votes = new Map(); // by image: { compared, contradicting, name, used }, the first two are areas
+  #areas = new Map();  // by geometry, then by uv set
+  #maps = new Map(); // by image: { compared, contradicting, name, used }; areas of all geometries that show it
 
-  areas(geometry, map) {
+  #areasOf(geometry, map) {
     if (!this.#areas.has(geometry)) this.#areas.set(geometry, new Map());
-    const known = this.#areas.get(geometry), reading = readingOf(map);
-    if (!known.has(reading)) known.set(reading, bitangentAreas(geometry, map));
-    return known.get(reading);
+    const known = this.#areas.get(geometry), name = uvNameOf(map);
+    if (!known.has(name)) known.set(name, bitangentAreas(geometry, name));
+    return known.get(name);
+  }
+
+  // The areas where bitangents point along and against increasing v as the map is read, transformed.
+  areas(geometry, map) {
+    const { along, against } = this.#areasOf(geometry, map), [a, b, c, d] = uvMatrixOf(map);
+    return a * d - b * c < 0 ? { along: against, against: along } : { along, against };
+  }
+
+  #voteOf(geometry, map) {
+    const { along, against, aligned } = this.#areasOf(geometry, map);
+    return { compared: along + against, contradicting: aligned };
   }
 
   // Counts a geometry with tangents whose material reads the map.
   add(geometry, map, material) {
     if (!ofGltf(map)) return;
-    if (!this.#votes.has(map.source)) this.#votes.set(map.source, { compared: 0, contradicting: 0, used: new Set(),
+    if (!this.#maps.has(map.source)) this.#maps.set(map.source, { compared: 0, contradicting: 0, used: new Map(),
       name: map.name ? `normal map '${map.name}'` : `the normal map of material '${material.name}'` });
-    const vote = this.#votes.get(map.source), use = `${geometry.uuid} ${readingOf(map)}`;
-    if (vote.used.has(use)) return;
-    vote.used.add(use);
-    const { along, against, aligned } = this.areas(geometry, map);
-    vote.compared += along + against;
-    vote.contradicting += aligned;
+    const whole = this.#maps.get(map.source), use = `${geometry.uuid} ${uvNameOf(map)}`;
+    if (whole.used.has(use)) return;
+    const vote = this.#voteOf(geometry, map);
+    whole.used.set(use, vote);
+    whole.compared += vote.compared;
+    whole.contradicting += vote.contradicting;
   }
 
-  // The contradicting fraction of the compared area; 0 if nothing was compared.
-  #contradiction({ compared, contradicting }) { return compared > 0 ? contradicting / compared : 0; }
-
-  // Whether green of a glTF map is to be read reversed; undefined if no mesh with tangents reads the map.
-  reversed(map) {
-    const vote = this.#votes.get(map.source);
-    return vote && vote.compared > 0 ? this.#contradiction(vote) >= kDecided : undefined;
+  // Whether green of a glTF map is to be read reversed on a geometry with tangents.
+  reversed(geometry, map) {
+    return this.#reversed(this.#voteOf(geometry, map), this.#maps.get(map.source));
   }
+  #reversed(vote, whole) { return fractionOf(unclear(vote) ? whole : vote) >= kDecided; }
 
-  // One line for each map on which tangents contradict the texture coordinates.
+  // One line for each map that is reversed on some geometry, or on which tangents contradict the texture coordinates.
   notes() {
-    return [...this.#votes.values()].map(vote => [this.#contradiction(vote), vote.name]).filter(([fraction]) => fraction >= kMentioned).map(([fraction, name]) => {
-      const begin = `TANGENT.w contradicts the texture coordinates on ${Math.round(100 * fraction)} % of the area of ${name}`;
-      return fraction >= kDecided ? `${begin}: without stored tangents its green is flipped (the option convention overrides this)`
+    return [...this.#maps.values()].map(whole => {
+      const votes = [...whole.used.values()], reversed = votes.filter(vote => this.#reversed(vote, whole)).length;
+      if (reversed === 0 && fractionOf(whole) < kMentioned) return '';
+      const begin = `TANGENT.w contradicts the texture coordinates on ${Math.round(100 * fractionOf(whole))} % of the area of ${whole.name}`;
+      const where = reversed < votes.length ? ` in ${reversed} of ${votes.length} geometries` : '';
+      return reversed > 0 ? `${begin}: without stored tangents its green is flipped${where} (the option convention overrides this)`
         : `${begin}: its green is read as declared (the option convention overrides this)`;
-    });
+    }).filter(Boolean);
   }
 }

@@ -1,8 +1,8 @@
 // Prepares meshes for both renderers of three.js before frames are replaced: removes tangents, adapts materials so that
 // they look the same without them, and adds the attributes of the frames `triangle` and `smooth` to geometries.
-import { choice, options as checked } from '../src/arrays.js';
+import { checkTypes, choice, options as checked } from '../src/arrays.js';
 import { usage, wordsFor } from '../src/errors.js';
-import { kFrames, kKey, mapOf, guessedFrame, namedFrame } from './frames.js';
+import { kFrames, kKey, mapOf, guessedFrame, namedFrame, readsTangents } from './frames.js';
 import { ofGltf, StoredGreens } from './greens.js';
 import { readingOf, uvNameOf } from './mesh_data.js';
 import { kSmoothAttributes, withSmooth } from './smooth.js';
@@ -21,7 +21,7 @@ export function untangleOptions(given, more = {}) {
   o.note ??= line => console.info(`Cotan: ${line}`);
   if (o.frame !== undefined) choice(o.frame, 'options.frame', kFrames);
   if (o.convention !== undefined) choice(o.convention, 'options.convention', kConventions);
-  if (typeof o.note !== 'function') throw usage(`options.note: expected a function, found ${wordsFor(o.note)}`);
+  checkTypes(o, 'function', 'note');
   return o;
 }
 
@@ -29,7 +29,7 @@ export function untangleOptions(given, more = {}) {
 export function replaceOptions(material, given, more) {
   if (!material?.isMaterial) throw usage(`material: expected a Material, found ${wordsFor(material)}`);
   const o = checked(given, { frame: undefined, against: false, ...more });
-  if (typeof o.against !== 'boolean') throw usage(`options.against: expected true or false, found ${wordsFor(o.against)}`);
+  checkTypes(o, 'boolean', 'against');
   if (o.from !== undefined && !o.from?.isMaterial) throw usage(`options.from: expected a Material, found ${wordsFor(o.from)}`);
   return o;
 }
@@ -64,7 +64,7 @@ export function untangleMeshes(target, o, { provoking = 'last', instances = true
     note: once(o.note), warn: once(line => console.warn(`Cotan: ${line}`)) };
   for (const { geometry, material } of meshes)
     if (geometry.attributes.tangent)
-      for (const one of [material].flat())
+      for (const one of [material].flat().filter(readsTangents))
         for (const name of Object.values(kScales)) if (one[name]) all.greens.add(geometry, one[name], one);
   if (!o.convention) all.greens.notes().forEach(all.note);
   const copies = new Map();   // by material: its copies by the settings that meshes need
@@ -147,19 +147,16 @@ function signsOf(geometry, material, before, { o, greens, loaded }) {
     if (!material[name]) continue;
     const map = material[mapName], gltf = map ? ofGltf(map) : loaded;
     const now = before?.wants[name] ?? (gltf && !tangents ? -1 : 1); // GLTFLoader flips it if there are no tangents
-    wants[name] = wantedSign(geometry, map, { o, greens, gltf, tangents, now });
+    wants[name] = wantedSign(geometry, map, { o, greens, gltf, tangents, means: readsTangents(material), now });
     factors[name] = now * wants[name];
   }
   const { along, against } = greens.areas(geometry, mapOf(material)), gltf = loaded || ofGltf(mapOf(material));
   return { wants, factors, against: tangents ? against > along || along === 0 && gltf : before?.against ?? gltf };
 }
 
-function wantedSign(geometry, map, { o, greens, gltf, tangents, now }) {
+function wantedSign(geometry, map, { o, greens, gltf, tangents, means, now }) {
   if (o.convention && map) return (o.convention === 'gltf') === (gltf || map.flipY === false) ? -1 : 1; // v runs down the image there
-  if (gltf && map) {
-    const reversed = greens.reversed(map);
-    return reversed === undefined && !tangents ? now : reversed ? 1 : -1;
-  }
+  if (gltf && map) return !tangents ? now : means && greens.reversed(geometry, map) ? 1 : -1;
   const { along, against } = greens.areas(geometry, map);
   return !tangents ? now : against > along || along === 0 && gltf ? -1 : 1;
 }

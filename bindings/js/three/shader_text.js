@@ -408,6 +408,10 @@ smooth: `// Normal mapping, frame \`smooth\` (total form), for GLSL ES 3.00 (Web
 //   normal     interpolated surface normal; any space, the same for all vectors
 //   the vertex attributes named at the function below, interpolated
 //
+// Missing:
+//   Most programs fill in zeros or a constant for a mesh without these attributes. Zeros give the
+//   normal without bumps, a constant gives wrong bumps. Draw such a mesh with the text of \`cotangent\`.
+//
 // Call:
 //   vec3 n = cotan_perturb_normal_from_vertices(normal, cotangent, cobitangent, texture(normal_map, uv).xyz);
 // It returns the perturbed normal, unit, in the space of the arguments.
@@ -528,6 +532,7 @@ cotan_frame cotan_frame_smooth(vec3 n, vec3 t, vec3 b)
 // The perturbed normal, unit.
 // normal: interpolated.
 // cotangent, cobitangent: covectors averaged at the vertices, interpolated, in normal's space.
+// Any common scale.
 // texel: the normal map as sampled.
 vec3 cotan_perturb_normal_from_vertices(vec3 normal, vec3 cotangent, vec3 cobitangent, vec3 texel)
 {
@@ -1159,6 +1164,10 @@ smooth: `// Normal mapping, frame \`smooth\` (total form), for WGSL.
 //   normal     interpolated surface normal; any space, the same for all vectors
 //   the vertex attributes named at the function below, interpolated
 //
+// Missing:
+//   Most programs fill in zeros or a constant for a mesh without these attributes. Zeros give the
+//   normal without bumps, a constant gives wrong bumps. Draw such a mesh with the text of \`cotangent\`.
+//
 // Call:
 //   let n = cotan_perturb_normal_from_vertices(normal, cotangent, cobitangent, textureSample(normal_map, map_sampler, uv).xyz);
 // It returns the perturbed normal, unit, in the space of the arguments.
@@ -1274,6 +1283,7 @@ fn cotan_frame_smooth(n: vec3f, t_in: vec3f, b_in: vec3f) -> cotan_frame {
 // The perturbed normal, unit.
 // normal: interpolated.
 // cotangent, cobitangent: covectors averaged at the vertices, interpolated, in normal's space.
+// Any common scale.
 // texel: the normal map as sampled.
 fn cotan_perturb_normal_from_vertices(normal: vec3f, cotangent: vec3f, cobitangent: vec3f,
     texel: vec3f) -> vec3f {

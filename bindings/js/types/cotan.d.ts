@@ -105,7 +105,7 @@ type Bytes = ArrayBuffer | ArrayBufferView;
 export interface ModelOptions {
   /** External files of a .gltf by URI: as the model writes it, or percent-decoded. */
   files?: Record<string, Bytes>;
-  /** Default: decodePicture. */
+  /** Decodes the normal maps, of any format but KTX2. Default: decodePicture. */
   decode?: (bytes: Uint8Array, name: string) => Promise<Picture & { bits: number }>;
   /** Called with the fraction done, 0 to 1. Returning false stops the work (code "stopped"). */
   progress?: (done: number) => boolean | void;
@@ -200,6 +200,8 @@ export interface ConvertReport {
     kept: boolean;
     bytes_before: number;
     bytes_after: number;
+    /** For a new map: the mean angle in degrees between its texels before it was encoded and in its file. */
+    degrees_of_encoding?: number;
     [more: string]: any;
   }[];
   unread_maps: UnreadMap[];
@@ -222,7 +224,9 @@ export interface ConvertReport {
  * - `drop`: leaves maps as they are, not even decoded, and ignores what the tangents say about green: see `lint`.
  * - `convert`: makes new maps as `cotan convert` does; the default if an option that concerns new maps is set. These
  *   keep the format of the old ones: JPEG and WebP at the same quality if sharp, or the canvas in browsers, encodes
- *   them; else PNG, with a note. */
+ *   them, and if that costs no more than half a degree, or half of what the conversion gains; else PNG, with a note.
+ * Tangents that glTF requires stay, with a note: those of materials with anisotropy, or with a normal map of the clear coat,
+ * without normalTexture. */
 export function convert(model: Bytes, options?: ModelOptions & {
   mode?: 'auto' | 'drop' | 'convert';
   /** Default: the frame that the materials name in their extras (`cotanFrame`), else "mikktspace". */
@@ -238,7 +242,7 @@ export function convert(model: Bytes, options?: ModelOptions & {
   fixGreen?: boolean;
   /** How engines decode the maps: "biased" (2c - 1, as stock engines do; the default) or "exact", where 128 is zero. */
   unsigned?: 'biased' | 'exact';
-  /** Encodes an image as a PNG file; default: encodePng. */
+  /** Encodes an image as a PNG file; default: encodePng. The file is decoded again to measure its losses. */
   encode?: (picture: Picture) => Promise<Bytes>;
 }): Promise<{ glb: Uint8Array; report: ConvertReport }>;
 
@@ -247,5 +251,6 @@ export function convert(model: Bytes, options?: ModelOptions & {
 /** Lossless PNG files of 8 or 16 bits. */
 export function decodePng(bytes: Uint8Array): Promise<Picture & { bits: 8 | 16 }>;
 export function encodePng(picture: Picture & { bits: number }): Promise<Uint8Array>;
-/** Decodes PNG; other formats by the browser, or by the package sharp in node. */
+/** Decodes PNG; other formats by the browser, or by the package sharp in node. The values are those of the file: no
+ * colour profile is applied, and colours under transparent alpha are kept. */
 export function decodePicture(bytes: Uint8Array, name?: string): Promise<Picture & { bits: number }>;

@@ -321,7 +321,8 @@ def convert(
         decode: decode(name, bytes) returns the image of a PNG or JPEG file; replaces the library's own readers.
         encode: encode(picture) returns the PNG file of an image of uint8 or uint16; replaces the library's own writer.
         unsigned: how engines decode the maps: "biased" (2c - 1, as stock engines do) or "exact".
-        keep_maps: only drops tangents and leaves all maps byte for byte as they are, to be read with to_frame.
+        keep_maps: only drops tangents and leaves maps byte for byte as they are, to be read with to_frame. Where
+            tangents reverse green of a map, its green is reversed, or they stay.
 
     Raises UsageError, InputError for a broken or missing file, OutputError, StoppedError. Nothing is written then.
     """

@@ -143,9 +143,7 @@ def _put(low, made, image, uv_map, outcome):
         if material_slot.material is None:
             material_slot.material = bpy.data.materials.new(low.name)
             outcome.notes.append(f"'{low.name}' had no material: '{material_slot.material.name}' was created")
-        problem = nodes.assign(material_slot.material, image, "" if shown_anyway else uv_map)
-        if problem:
-            outcome.notes.append(problem)
+        outcome.notes += nodes.assign(material_slot.material, image, "" if shown_anyway else uv_map)
 
 
 def _notes_of(baked, name):
@@ -187,6 +185,7 @@ def run(context, settings, pairs, outcome):
                 outcome.notes += _notes_of(work.baked, image.name)
                 if settings.assign:
                     _put(pair.low, made, image, uv_map, outcome)
+                outcome.notes += nodes.all_read_green_up(image)
         except Refused as error:
             outcome.failures.append(str(error))
         except packages().Error as error:

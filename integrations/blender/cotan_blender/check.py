@@ -85,22 +85,22 @@ def _all_of(polygon, bad):
 
 def _on_maps(context, thing):
     """Sentences about the normal maps, from lint and detect."""
-    maps = gltf.normal_images([thing])
+    maps = gltf.normal_maps([thing])
     if not maps:
         return ["None of its materials reads a normal map"]
     said = []
-    foreign = [image for image in maps if gltf.frame_of(image) != "mikktspace"]
+    foreign = [image for image, _ in maps if gltf.frame_of(image) != "mikktspace"]
     for image in foreign:
         frame = gltf.frame_of(image)
         said.append(f"'{image.name}' was baked for {frame}: read it with that; Blender's own node uses MikkTSpace")
     report = packages().lint(gltf.exported(context, [thing]))
     if len(foreign) < len(maps) and report.recommendation:
         said.append(report.recommendation)
-    for image in maps:
+    for image, down in maps:
         if image.colorspace_settings.name not in {"Non-Color", "Raw", "Generic Data"}:
             space = image.colorspace_settings.name
             said.append(f"'{image.name}' is read as a colour ({space}): set its colour space to Non-Color")
-        said.append(gltf.detected(image))
+        said.append(gltf.detected(image, down))
     return said
 
 

@@ -1,5 +1,6 @@
 """Export by Blender's own glTF exporter, and warnings about it."""
 
+import contextlib
 import os
 import tempfile
 
@@ -20,7 +21,7 @@ def exported(context, things, apply_modifiers=True):
             thing.select_set(False)
         for thing in things:
             thing.select_set(True)
-        with tempfile.TemporaryDirectory() as folder:
+        with tempfile.TemporaryDirectory() as folder, _green_up(things, folder):
             path = os.path.join(folder, "model.glb")
             bpy.ops.export_scene.gltf(
                 filepath=path,
@@ -46,14 +47,43 @@ def _last_line(error):
     return lines[-1].strip() if lines else type(error).__name__
 
 
-def normal_images(things):
-    """The distinct images that the materials of these objects use as normal maps."""
-    found = []
-    for slot in [slot for thing in things for slot in thing.material_slots]:
-        _, texture = nodes.map_of(slot.material)
-        if texture is not None and texture.image is not None and texture.image not in found:
-            found.append(texture.image)
-    return found
+def _readers(things):
+    """(material, Normal Map node, Image Texture node) of the materials of these objects that have a normal map."""
+    materials = {slot.material: None for thing in things for slot in thing.material_slots}
+    chains = [(material, *nodes.map_of(material)) for material in materials]
+    return [chain for chain in chains if chain[2] is not None and chain[2].image is not None]
+
+
+def normal_maps(things):
+    """The distinct normal maps of these objects: (image, whether its node takes green as pointing down)."""
+    return list({(texture.image, nodes.reads_green_down(reader)): None for _, reader, texture in _readers(things)})
+
+
+@contextlib.contextmanager
+def _green_up(things, folder):
+    """Blender's exporter writes maps as they are, but glTF needs green up: nodes that take it as pointing down read a
+    copy in the folder, with green reversed, meanwhile. Raises Refused for a node that cannot be changed."""
+    copies, changed = {}, []
+    try:
+        for material, reader, texture in _readers(things):
+            image = texture.image
+            if not nodes.reads_green_down(reader) or 0 in tuple(image.size):
+                continue
+            if image not in copies:
+                copies[image] = images.with_green_reversed(image, os.path.join(folder, f"{len(copies)}.png"))
+            changed.append((texture, image))
+            texture.image = copies[image]
+            if texture.image != copies[image]:  # since Blender 5, nodes of a library file keep their image
+                raise Refused(
+                    f"The material '{material.name}' comes from a library file and takes green as pointing down, which "
+                    "glTF cannot: make it local first"
+                )
+        yield
+    finally:
+        for texture, image in changed:
+            texture.image = image
+        for copy in copies.values():
+            bpy.data.images.remove(copy)
 
 
 def frame_of(image):
@@ -64,7 +94,7 @@ def frame_of(image):
 def frame_of_all(things):
     """The frame that all maps of these objects were made for. Raises Refused if there are several frames."""
     frames = {}
-    for image in normal_images(things):
+    for image, _ in normal_maps(things):
         frames.setdefault(frame_of(image), image)
     if len(frames) > 1:
         (a, first), (b, second) = list(frames.items())[:2]
@@ -88,6 +118,11 @@ def _on_uv(thing):
         reader, texture = nodes.map_of(slot.material)
         if texture is None:
             continue
+        if nodes.reads_green_down(reader):
+            said.append(
+                f"'{slot.material.name}' takes green as pointing down (DirectX): the export reverses it, as glTF needs "
+                "it up; Blender's own exporter does not"
+            )
         if not layers:
             said.append(f"'{thing.name}' has no uv map: no program can show the normal map of '{slot.material.name}'")
             continue
@@ -152,8 +187,9 @@ def warnings(context, things, apply_modifiers=True):
     return said
 
 
-def detected(image):
-    """A sentence on which way green of a normal map points, judged by the map alone. Blender needs it to point up."""
+def detected(image, down):
+    """A sentence on which way green of a normal map points, judged by the map alone. down: the way in which its Normal
+    Map node takes it."""
     in_file = image.source == "FILE" and not image.has_data and not image.packed_file
     if in_file and not os.path.exists(bpy.path.abspath(image.filepath)):
         return f"'{image.name}': its file is missing"
@@ -162,6 +198,9 @@ def detected(image):
     green = packages().detect(images.pixels_of(image))
     if green.green == "undecidable":
         return f"'{image.name}': which way green points is undecidable ({green.reason})"
-    turned = " Reverse it: Blender shows every bump as a dent along v" if green.green == "down" else ""
+    turned = ""
+    if green.green != ("down" if down else "up"):
+        other = f", or set its Normal Map node to {'OpenGL' if down else 'DirectX'}" if nodes.HAS_CONVENTION else ""
+        turned = f" Reverse it{other}: Blender shows every bump as a dent along v"
     swapped = " Red and green are exchanged." if green.swapped else ""
     return f"'{image.name}': green points {green.green}, {green.confidence}.{swapped}{turned}"

@@ -86,3 +86,15 @@ def stored(made, file, frame):
     image["cotan_frame"], image["cotan_of"], image["cotan_part"] = frame, made.owner, made.part
     numbered = image.name != made.name or made.part != packages().file_names([made.name])[0]
     return image, old is None and numbered
+
+
+def with_green_reversed(image, path):
+    """A new image of the file `path`, which gets the pixels of `image` with green reversed."""
+    pixels = pixels_of(image)
+    if image.is_float:
+        pixels = np.rint(np.clip(pixels, 0, 1) * 65535).astype(np.uint16)
+    packages().write_picture(path, packages().map_convert(pixels, "directx", "gltf"))
+    copy = bpy.data.images.load(path)
+    copy.colorspace_settings.name = "Non-Color"
+    copy.name = image.name  # Blender adds a number
+    return copy

@@ -1,15 +1,19 @@
 """Materials: finds and assigns normal maps in their nodes."""
 
+import bpy
+
 from .refused import Refused
 
 
 FIX = "make it local first, or do not assign the map"
+HAS_CONVENTION = "convention" in bpy.types.ShaderNodeNormalMap.bl_rna.properties  # since Blender 5
+_OPTIONAL = bpy.app.version < (5, 0, 0)  # later materials always use nodes, and use_nodes is deprecated
 
 
 def _principled(material):
     """The material's Principled BSDF, preferably the one that is displayed; None if there is none."""
-    nodes = material.node_tree.nodes if material.use_nodes and material.node_tree else []
-    shaders = [n for n in nodes if n.type == "BSDF_PRINCIPLED"]
+    without = material.node_tree is None or (_OPTIONAL and not material.use_nodes)
+    shaders = [] if without else [n for n in material.node_tree.nodes if n.type == "BSDF_PRINCIPLED"]
     shown = [n for n in shaders if n.outputs[0].is_linked]
     return (shown or shaders or [None])[0]
 
@@ -34,6 +38,31 @@ def map_of(material):
     return reader, _source(reader.inputs["Color"], "TEX_IMAGE") if reader else None
 
 
+def reads_green_down(reader):
+    """Whether the Normal Map node takes green as pointing down (DirectX). Older Blenders always take it as up."""
+    return getattr(reader, "convention", "OPENGL") == "DIRECTX"
+
+
+def read_green_up(material, reader):
+    """Makes the node take green as pointing up, as in every map that is baked here. Returns sentences."""
+    if not reads_green_down(reader):
+        return []
+    if material.library is not None:
+        return [f"The material '{material.name}' comes from a library file and reverses the green of its map: {FIX}"]
+    reader.convention = "OPENGL"
+    return [f"'{material.name}' took green as pointing down (DirectX): its node is set to OpenGL, as the map is"]
+
+
+def all_read_green_up(image):
+    """The same for all materials that read the image, which may have replaced another. Returns sentences."""
+    said = []
+    for material in bpy.data.materials:
+        reader, texture = map_of(material)
+        if texture is not None and texture.image == image:
+            said += read_green_up(material, reader)
+    return said
+
+
 def writable(material):
     """Raises Refused if the material cannot be changed."""
     if material is not None and material.library is not None:
@@ -42,8 +71,9 @@ def writable(material):
 
 def assign(material, image, uv_map):
     """Makes the material read its normal from the image. uv_map: name of the uv map, "" for the default of renders.
-    Returns a sentence on what could not be done, or ""."""
-    material.use_nodes = True
+    Returns sentences on what could not be done, or was changed."""
+    if _OPTIONAL:
+        material.use_nodes = True
     tree = material.node_tree
     shader = _principled(material)
     reader, texture = map_of(material)
@@ -66,7 +96,9 @@ def assign(material, image, uv_map):
             tree.links.new(chosen.outputs["UV"], texture.inputs["Vector"])
         chosen.uv_map = uv_map
     tree.nodes.active = texture
-    if shader is None:
-        return f"the material '{material.name}' has no Principled BSDF, so its Normal Map node is linked to nothing"
-    tree.links.new(reader.outputs["Normal"], _normal_socket(shader))
-    return ""
+    said = read_green_up(material, reader)
+    if shader is not None:
+        tree.links.new(reader.outputs["Normal"], _normal_socket(shader))
+    else:
+        said.append(f"the material '{material.name}' has no Principled BSDF, so its Normal Map node is linked to nothing")
+    return said

@@ -7,6 +7,7 @@
 #include "bake/convert/map_jobs.hpp"
 #include "cotan/gltf.hpp"
 #include "cotan/image.hpp"
+#include "cotan/maps.hpp"
 #include "gltf/json/lookup.hpp"
 #include "image/component_types.hpp"
 
@@ -14,8 +15,9 @@ namespace cotan {
 
 namespace {
 
-constexpr double kVisible = 0.5; // degrees on average over a map: smaller errors are invisible
-constexpr double kMaxRows = 4e7; // of texels under all triangles together
+constexpr double kVisible = 0.5;   // degrees on average over a map: smaller errors are invisible
+constexpr double kMaxRows = 4e7;   // of texels under all triangles together
+constexpr double kMaxGrowth = 1.1; // of the file of a map whose green is reversed: other encoders take a few percent
 
 class ModelConverter {
 public:
@@ -26,7 +28,7 @@ public:
 
     Result<ConvertModelReport> run()
     {
-        const auto named = namedFrame(document_);
+        const auto named = options_.readMaps ? namedFrame(document_) : Result<std::optional<Frame>>(std::nullopt);
         if (!named)
             return named.error();
         if (*named && **named != options_.frames.from)
@@ -34,10 +36,27 @@ public:
                                           "that as the frame to convert from, found {}",
                                           fileOf(document_), name(**named), name(options_.frames.from)));
         named_ = named->has_value();
-        const auto jobs = mapJobs(document_, report_.notes);
+        if (Status converted = options_.readMaps ? convertMaps() : keepReversingTangents(); !converted)
+            return converted.error();
+        if (Status settled = updateTangents(); !settled)
+            return settled.error();
+        if (!options_.keepMaps && !std::ranges::all_of(report_.maps, &ConvertedMap::kept)
+            && options_.frames.to != Frame::mikktspace)
+            report_.notes.push_back(
+                fmt::format("the maps are now for the frame {}; readers that generate MikkTSpace tangents where "
+                            "TANGENT is missing, as glTF specifies, will shade them incorrectly",
+                            name(options_.frames.to)));
+        given_ = std::move(document_);
+        return std::move(report_);
+    }
+
+private:
+    Status convertMaps()
+    {
+        const auto jobs = mapJobs(document_, report_.notes, options_.limits);
         if (!jobs)
             return jobs.error();
-        report_.unread = unreadNormalMaps(document_);
+        report_.unread = unreadNormalMaps(document_, options_.limits);
         for (const UnreadMap& map : report_.unread)
             report_.notes.push_back(
                 fmt::format("{}: a normal map in {} is not supported; it and its tangents are unchanged: {}", map.name,
@@ -62,18 +81,26 @@ public:
         for (const MapJob& job : *jobs)
             for (const MapSlot& slot : options_.keepMaps ? std::vector<MapSlot>{} : job.slots)
                 nameFrame(document_, slot.material, options_.frames.to);
-        if (Status settled = updateTangents(); !settled)
-            return settled.error();
-        if (!std::ranges::all_of(report_.maps, &ConvertedMap::kept) && options_.frames.to != Frame::mikktspace)
-            report_.notes.push_back(
-                fmt::format("the maps are now for the frame {}; readers that generate MikkTSpace tangents where "
-                            "TANGENT is missing, as glTF specifies, will shade them incorrectly",
-                            name(options_.frames.to)));
-        given_ = std::move(document_);
-        return std::move(report_);
+        return Done{};
     }
 
-private:
+    // Of maps that are not read: they cannot get their green reversed.
+    Status keepReversingTangents()
+    {
+        if (options_.frames.fromTangents != TangentOrigin::stored)
+            return Done{};
+        std::vector<std::string> aboutMaps; // that stay as they are
+        const auto jobs = mapJobs(document_, aboutMaps, options_.limits);
+        if (!jobs)
+            return jobs.error();
+        for (const MapJob& job : *jobs) {
+            ConvertedMap none;
+            if (greenWithoutTangents(job) != GreenWithoutTangents::declared)
+                keepTangents(job, none, fmt::format("its tangents reverse green of {}", job.name));
+        }
+        return Done{};
+    }
+
     std::string fieldOf(const MapJob& job) const { return fileOf(document_) + job.name; }
 
     Status checkMemory(const std::vector<MapJob>& jobs) const
@@ -83,6 +110,16 @@ private:
                 return memoryError(fmt::format("{}: the triangles that use it take {} MiB, the limit is {} MiB",
                                                fieldOf(job), bytes >> 20, options_.memory >> 20));
         return Done{};
+    }
+
+    // What is wrong with a map as a file stays wrong in the converted one.
+    void noteFaults(const Image& map, const std::string& name)
+    {
+        const maps::NormalStatistics s = maps::statisticsOfSample(map);
+        if (std::string faults = maps::sentenceOf(name, maps::faultsInModel(s), s); !faults.empty())
+            report_.notes.push_back(std::move(faults));
+        if (const std::string note = maps::noteOf(s); !note.empty())
+            report_.notes.push_back(name + ": " + note);
     }
 
     struct Expansions {
@@ -122,6 +159,7 @@ private:
         auto uses = usesOf(document_, job, options_.frames);
         if (!uses)
             return uses.error();
+        noteFaults(*map, job.name);
         const Expansions expansions = expansionsOf(job);
         for (MapUse& use : *uses)
             use.stored.expansion = expansions.read;
@@ -131,14 +169,27 @@ private:
         // The old map stays, byte for byte, if it serves as well as a rounded new one.
         done.figures.unconverted =
             mapErrors(*map, *map, *uses, {&options_.frames, 1}, {}, pointsOfEach(surfaces_)).front();
+        if (options_.keepMaps) {
+            const bool shownByTangents =
+                readsTangents(options_.frames.from) && options_.frames.fromTangents == TangentOrigin::stored;
+            const GreenWithoutTangents green =
+                shownByTangents ? greenWithoutTangents(job) : GreenWithoutTangents::declared;
+            if (green == GreenWithoutTangents::reversed)
+                return withGreenReversed(job, std::move(done), *map, *bytes, *uses, expansions.read);
+            if (green == GreenWithoutTangents::both) {
+                keepTangents(job, done,
+                             fmt::format("its tangents reverse green of {}, which other surfaces show as "
+                                         "declared",
+                                         job.name));
+                done.figures.unconverted = errorWithoutTangents(job, *map, *uses);
+            }
+        }
         done.kept = options_.keepMaps || done.figures.unconverted.count == 0
             || (options_.bits == 0 && fitsAsItIs(done.figures.unconverted));
-        if (options_.keepMaps && done.figures.unconverted.mean > kVisible)
-            report_.notes.push_back(
-                fmt::format("{}: unchanged and read with {}, its error is {:.1f} degrees on average", job.name,
-                            name(options_.frames.to), done.figures.unconverted.mean));
-        if (done.kept)
+        if (done.kept) {
+            noteErrorOfKept(done);
             return done;
+        }
         if (const double rows = rowsOf(*uses, map->height); !(rows <= kMaxRows))
             return inputError(
                 fmt::format("{}: its triangles cover {:.3g} rows of its texels in total; expected at most "
@@ -150,39 +201,133 @@ private:
         if (rows.stopped())
             return stoppedError();
         r.image.frame = name(options_.frames.to);
-        auto file = encoded(r.image, *bytes);
-        if (!file)
-            return file.error();
         const ValueSummary unconverted = done.figures.unconverted;
         done.figures = r;
-        if (file->format != "PNG") {
-            const auto stored = decodeImage(file->bytes, field, options_.limits);
-            if (!stored)
-                return stored.error();
-            const ValueSummary lossy = mapError(*map, *stored, *uses, options_.frames, expansions.written);
-            if (lossy.mean <= std::max(kVisible, 0.5 * unconverted.mean)) {
-                done.figures.error = lossy;
-            } else { // its losses would undo the conversion
-                auto png = encodePng(r.image);
-                if (!png)
-                    return png.error();
-                *file = {*std::move(png), "PNG", "image/png", 0,
-                         fmt::format("{} of quality {} would have an error of {:.2f} degrees on average, PNG {:.2f}",
-                                     file->format, file->quality, lossy.mean, r.error.mean)};
-            }
-        }
-        done.bytesAfter = file->bytes.size();
-        done.format = file->format;
-        done.quality = file->quality;
-        if (!file->reason.empty())
-            report_.notes.push_back(fmt::format("{}: {}, so the new map is PNG: {} bytes, before {}", job.name,
-                                                file->reason, done.bytesAfter, done.bytesBefore));
-        replaceMap(document_, job, std::move(file->bytes), file->mime, report_.notes);
-        for (const MapSlot& slot : job.slots) // readers of the new map need this
-            if (slot.kind == NormalSlot::surface)
-                setExpansion(rootOf(document_)["materials"][slot.material], expansions.written);
+        auto file = encodedWithin(std::max(kVisible, 0.5 * unconverted.mean), r.image, *bytes, *map, *uses,
+                                  expansions.written, done);
+        if (!file)
+            return file.error();
+        put(job, std::move(*file), expansions.written, done);
         noteRemainingError(done);
         return done;
+    }
+
+    // Encodes a new map in the format of the old file, or as PNG if its losses would give a mean error over `limit`;
+    // what the caller encodes stays as it is. Sets done.figures.error to that of the map as it is stored.
+    Result<EncodedLike> encodedWithin(double limit, const Image& image, std::span<const std::byte> old,
+                                      const Image& before, std::span<const MapUse> uses, Expansion written,
+                                      ConvertedMap& done)
+    {
+        auto file = encoded(image, old);
+        const bool byCaller = file && options_.encode && isPng(file->bytes);
+        if (!file || (file->format == "PNG" && !byCaller))
+            return file;
+        const std::string field = fileOf(document_) + done.name;
+        const auto stored = decodeImage(file->bytes, field, options_.limits);
+        if (!stored)
+            return stored.error();
+        if (stored->width != image.width || stored->height != image.height)
+            return outputError(fmt::format("{}: expected an encoded image of {} x {}, found {} x {}", field,
+                                           image.width, image.height, stored->width, stored->height));
+        const ValueSummary lossy = mapError(before, *stored, uses, options_.frames, written);
+        if (lossy.mean > limit && byCaller)
+            report_.notes.push_back(
+                fmt::format("{}: as encoded by the caller, its error is {:.2f} degrees on average, without losses {:.2f}",
+                            done.name, lossy.mean, done.figures.error.mean));
+        if (lossy.mean <= limit || byCaller) {
+            done.figures.error = lossy;
+            return file;
+        }
+        auto png = encodePng(image);
+        if (!png)
+            return png.error();
+        return EncodedLike{*std::move(png), "PNG", "image/png", 0,
+                           fmt::format("{} of quality {} would have an error of {:.2f} degrees on average, PNG {:.2f}",
+                                       file->format, file->quality, lossy.mean, done.figures.error.mean)};
+    }
+
+    // Puts a new map into the document.
+    void put(const MapJob& job, EncodedLike file, Expansion written, ConvertedMap& done)
+    {
+        done.bytesAfter = file.bytes.size();
+        done.format = file.format;
+        done.quality = file.quality;
+        if (!file.reason.empty())
+            report_.notes.push_back(fmt::format("{}: {}, so the new map is PNG: {} bytes, before {}", job.name,
+                                                file.reason, done.bytesAfter, done.bytesBefore));
+        replaceMap(document_, job, std::move(file.bytes), file.mime, report_.notes);
+        for (const MapSlot& slot : job.slots) // readers of the new map need this
+            if (slot.kind == NormalSlot::surface)
+                setExpansion(rootOf(document_)["materials"][slot.material], written);
+    }
+
+    // Reverses green about its zero and keeps all else of the map, unless it would grow by over kMaxGrowth.
+    Result<ConvertedMap> withGreenReversed(const MapJob& job, ConvertedMap done, const Image& map,
+                                           std::span<const std::byte> old, std::vector<MapUse> uses, Expansion read)
+    {
+        if (maps::statisticsOfSample(map).centre == maps::Centre::biased) // whatever engines take for zero
+            read = Expansion::biased;
+        for (MapUse& use : uses)
+            use.stored.expansion = read;
+        maps::RecodeSettings settings;
+        settings.from.expansion = settings.to.expansion = read;
+        settings.from.greenUp = !settings.to.greenUp;
+        settings.type = map.type;
+        maps::RecodeCounts counts;
+        const Image reversed = maps::recode(map, settings, counts);
+        ConvertedMap made = done;
+        made.greenReversed = true;
+        made.bits = bitsPerComponent(map.type);
+        made.figures.error = mapError(map, reversed, uses, options_.frames);
+        auto file = encodedWithin(made.figures.error.mean + kVisible, reversed, old, map, uses, read, made);
+        if (!file)
+            return file.error();
+        if (double(file->bytes.size()) > kMaxGrowth * double(old.size())) {
+            keepTangents(
+                job, done,
+                fmt::format("its tangents reverse green of {}, which would grow from {} to {} bytes with green "
+                            "reversed",
+                            job.name, old.size(), file->bytes.size()));
+            done.kept = true;
+            return done;
+        }
+        put(job, std::move(*file), read, made);
+        report_.notes.push_back(fmt::format("{}: the tangents of the file reverse its green; without them, the map has "
+                                            "its green reversed",
+                                            job.name));
+        noteErrorOfKept(made);
+        return made;
+    }
+
+    // The surfaces that read a map with green reversed keep their tangents. uses: of the job.
+    void keepTangents(const MapJob& job, ConvertedMap& done, const std::string& reason)
+    {
+        for (const MapReader& reader : job.readers)
+            if (reader.reversed) {
+                keptTangents_.push_back({reader.mesh, reader.primitive, reader.slot.material, reason});
+                done.surfacesWithTangents += reader.transforms.size();
+            }
+    }
+
+    // Measures a map that is kept on the surfaces that lose their tangents.
+    ValueSummary errorWithoutTangents(const MapJob& job, const Image& map, const std::vector<MapUse>& uses)
+    {
+        std::vector<MapUse> dropping;
+        std::size_t use = 0;
+        for (const MapReader& reader : job.readers)
+            for (std::size_t k = 0; k < reader.transforms.size(); ++k, ++use)
+                if (!reader.reversed)
+                    dropping.push_back(uses[use]);
+        return mapErrors(map, map, dropping, {&options_.frames, 1}, {}, pointsOfEach(surfaces_)).front();
+    }
+
+    void noteErrorOfKept(const ConvertedMap& map)
+    {
+        const ValueSummary& error = map.greenReversed ? map.figures.error : map.figures.unconverted;
+        if (options_.keepMaps && map.surfacesWithTangents < map.surfaces && error.mean > kVisible)
+            report_.notes.push_back(fmt::format("{}: {} and read with {}, its error is {:.1f} degrees on average",
+                                                map.name, map.greenReversed ? "with green reversed" : "unchanged",
+                                                name(options_.frames.to), error.mean));
     }
 
     // Encodes in the format of the old file, or by options_.encode.
@@ -242,10 +387,13 @@ private:
         }
         if (options_.keepTangents) {
             report_.tangents = TangentsAfter::kept;
-            report_.notes.push_back("TANGENT is kept; a reader that uses it will shade the converted maps incorrectly");
+            if (!options_.keepMaps)
+                report_.notes.push_back(
+                    "TANGENT is kept; a reader that uses it will shade the converted maps incorrectly");
             return Done{};
         }
-        auto dropped = dropTangents(document_, options_.frames, report_.notes);
+        const auto foreign = options_.readMaps ? foreignNormalMaps(document_, options_.limits) : std::vector<MapSlot>();
+        auto dropped = dropTangents(document_, options_.frames, foreign, keptTangents_, report_.notes);
         if (!dropped)
             return dropped.error();
         report_.dropped = std::move(*dropped);
@@ -256,6 +404,7 @@ private:
     GltfDocument& given_;
     GltfDocument document_; // a copy, so that the given document is unchanged on error
     ConvertModelReport report_;
+    std::vector<KeptTangents> keptTangents_;
     std::size_t surfaces_ = 0; // number over all maps
     bool named_ = false;       // the materials name the frame of their maps
 };
@@ -271,7 +420,7 @@ Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertMod
     if (options.bits != 0 && options.bits != 8 && options.bits != 16)
         return usageError(
             fmt::format("convert: expected 8 or 16 bits, or 0 for those of the old maps; found {}", options.bits));
-    if (options.keepMaps && (options.keepTangents || readsTangents(options.frames.to)))
+    if (options.keepMaps && ((options.keepTangents && options.readMaps) || readsTangents(options.frames.to)))
         return usageError(
             fmt::format("convert: with keepMaps the tangents are dropped; expected a frame that reads none, found {}",
                         options.keepTangents ? "keepTangents" : name(options.frames.to)));

@@ -1,6 +1,7 @@
 #include "bake/convert/map_jobs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <set>
@@ -143,7 +144,8 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapSlo
                            .transforms = transforms,
                            .vertices = mesh->vertexCount(),
                            .triangles = mesh->triangleCount(),
-                           .stored = !mesh->tangents.empty()});
+                           .stored = !mesh->tangents.empty(),
+                           .green = storedGreen(*mesh, mesh->texcoords[0])});
     return Done{};
 }
 
@@ -163,7 +165,7 @@ int anyImage(const Json& root, int texture)
 
 } // namespace
 
-std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document)
+std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document, const LoadLimits& limits)
 {
     const Json& root = rootOf(document);
     std::map<int, bool> images = {{-1, true}};
@@ -175,8 +177,8 @@ std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document)
                 continue;
             const int image = textureAt(root, map.texture).image;
             if (!images.contains(image)) {
-                const auto bytes = gltfImageBytes(document, std::size_t(image));
-                images[image] = bytes && !unreadableFormat(*bytes).empty();
+                const auto bytes = gltfImageBytes(document, std::size_t(image), limits);
+                images[image] = bytes && !unreadableFormat(*bytes, limits).empty();
             }
             if (images[image])
                 foreign.push_back({m, slot});
@@ -184,16 +186,16 @@ std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document)
     return foreign;
 }
 
-std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document)
+std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document, const LoadLimits& limits)
 {
     const Json& root = rootOf(document);
     std::set<int> images;
-    for (const MapSlot& slot : foreignNormalMaps(document))
+    for (const MapSlot& slot : foreignNormalMaps(document, limits))
         images.insert(anyImage(root, normalMapOf(root, slot.material, slot.kind).texture));
     std::vector<UnreadMap> unread;
     for (const int image : images)
         if (image >= 0)
-            if (const auto bytes = gltfImageBytes(document, std::size_t(image))) {
+            if (const auto bytes = gltfImageBytes(document, std::size_t(image), limits)) {
                 const std::string format = unreadableFormat(*bytes);
                 unread.push_back(
                     {std::size_t(image), imageName(root, std::size_t(image)),
@@ -206,11 +208,12 @@ std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document)
     return unread;
 }
 
-Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes)
+Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes,
+                                    const LoadLimits& limits)
 {
     const Json& root = rootOf(document);
     const auto transforms = gltfMeshTransforms(root);
-    const std::vector<MapSlot> foreign = foreignNormalMaps(document);
+    const std::vector<MapSlot> foreign = foreignNormalMaps(document, limits);
     std::map<std::size_t, MapJob> jobs;
     const Status status = forEachPrimitive(root, [&](std::size_t m, std::size_t p) -> Status {
         for (const std::size_t material : materialsOf(root, root["meshes"][m]["primitives"][p]))
@@ -231,6 +234,11 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
     std::vector<MapJob> result;
     for (auto& [image, job] : jobs) {
         job.alsoElsewhere = elsewhere.contains(int(image));
+        StoredGreen whole;
+        for (const MapReader& reader : job.readers)
+            whole.add(reader.green);
+        for (MapReader& reader : job.readers)
+            reader.reversed = readsReversed(reader.green, whole);
         result.push_back(std::move(job));
     }
     return result;
@@ -242,6 +250,17 @@ std::size_t surfacesOf(const MapJob& job)
     for (const MapReader& reader : job.readers)
         count += reader.transforms.size();
     return count;
+}
+
+GreenWithoutTangents greenWithoutTangents(const MapJob& job)
+{
+    bool reversed = false, declared = false;
+    for (const MapReader& reader : job.readers) {
+        (reader.reversed ? reversed : declared) |= std::abs(reader.strength) > kFlattened;
+    }
+    return !reversed ? GreenWithoutTangents::declared
+        : declared   ? GreenWithoutTangents::both
+                     : GreenWithoutTangents::reversed;
 }
 
 Result<std::vector<MapUse>> usesOf(const GltfDocument& document, const MapJob& job, const FramePair& frames)
@@ -341,11 +360,11 @@ std::string whyDirectionNeedsTangents(const RotatedDirection& d, Frame to)
 
 } // namespace
 
-Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frames, std::vector<std::string>& notes)
+Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frames, const std::vector<MapSlot>& foreign,
+                                  const std::vector<KeptTangents>& kept, std::vector<std::string>& notes)
 {
     TangentBytes dropped;
     std::set<std::size_t> seen, reported;
-    const std::vector<MapSlot> foreign = foreignNormalMaps(document);
     const auto transforms = gltfMeshTransforms(rootOf(document));
     const Status status = forEachPrimitive(rootOf(document), [&](std::size_t m, std::size_t p) -> Status {
         const Json& root = rootOf(document);
@@ -358,17 +377,23 @@ Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frame
             if (reported.insert(material).second)
                 notes.push_back(fmt::format("materials[{}]: {}; TANGENT is kept", material, reason));
         };
+        for (const KeptTangents& k : kept)
+            if (k.mesh == m && k.primitive == p)
+                keepFor(k.material, k.reason);
         for (const std::size_t material : materialsOf(root, primitive)) {
             for (const MapSlot& slot : foreign)
                 if (slot.material == material)
                     keepFor(material, "its normal map is in an unsupported format and is not converted");
+            const std::string requirement = gltf::tangentRequirement(root["materials"][material]);
+            if (!requirement.empty())
+                keepFor(material, fmt::format("glTF requires TANGENT for {} without a normalTexture", requirement));
             if (gltf::tangentReader(root["materials"][material]).empty())
                 continue;
             const auto turn = turnOf(document, m, p, transforms[m], frames);
             if (!turn)
                 return turn.error();
             RotatedDirection& d = dropped.directions.emplace_back(RotatedDirection{m, p, material, *turn, false});
-            d.stays = !directionStays(d.degrees);
+            d.stays = !requirement.empty() || !directionStays(d.degrees);
             if (d.stays)
                 keepFor(material, whyDirectionNeedsTangents(d, frames.to));
         }

@@ -10,6 +10,7 @@
 #include "bake/convert/reencode.hpp"
 #include "cotan/convert.hpp"
 #include "cotan/gltf.hpp"
+#include "scene/normal_maps.hpp"
 
 namespace cotan {
 
@@ -29,7 +30,9 @@ struct MapReader {
     Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
     std::vector<glm::dmat3> transforms; // node transforms; each makes a surface
     std::size_t vertices = 0, triangles = 0;
-    bool stored = false; // has TANGENT
+    bool stored = false;   // has TANGENT
+    StoredGreen green{};   // what TANGENT shows of the map's green
+    bool reversed = false; // TANGENT reverses green: readsReversed
 };
 
 // An image and everything that reads it as a normal map.
@@ -44,12 +47,17 @@ struct MapJob {
 
 // The jobs of a file, in the order of its images. A mesh is several surfaces if nodes place it by linear maps that are
 // not rotations and uniform scales of one another, or if KHR_materials_variants gives it several materials. A coat's
-// map is read on a surface of its own (makeCoatSurface). `notes` lists the maps that are left out. Errors
-// (ErrorKind::input): compressed geometry.
-Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes);
+// map is read on a surface of its own (makeCoatSurface). `notes` lists the maps that are left out. limits: for reading
+// the images, here and below. Errors (ErrorKind::input): compressed geometry.
+Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes,
+                                    const LoadLimits& limits = {});
 
 // The number of surfaces that read the job's image.
 std::size_t surfacesOf(const MapJob& job);
+
+// Whether without TANGENT every surface that shows the map reads it with green reversed; none does; or both are there.
+enum class GreenWithoutTangents { declared, reversed, both };
+GreenWithoutTangents greenWithoutTangents(const MapJob& job);
 
 // The surfaces, with the vertex data that frames.from and frames.to read. Errors: those of mapJobs.
 Result<std::vector<MapUse>> usesOf(const GltfDocument& document, const MapJob& job, const FramePair& frames);
@@ -64,14 +72,21 @@ void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte
                 std::vector<std::string>& notes);
 
 // The slots of normal maps in a format that is not read here, named by an extension or, against glTF, by the texture.
-std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document);
+std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document, const LoadLimits& limits = {});
 
 // The images of these slots, in the order of the file's images.
-std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document);
+std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document, const LoadLimits& limits = {});
 
-// Drops TANGENT from all primitives except those whose materials need it: for a normal map in a format that is not read
-// here, or for a direction that frames.to rotates (`notes` says so, one line each). Errors (ErrorKind::input):
-// compressed geometry.
-Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frames, std::vector<std::string>& notes);
+// A primitive that keeps TANGENT, and why: the end of a note about `material`.
+struct KeptTangents {
+    std::size_t mesh = 0, primitive = 0, material = 0;
+    std::string reason;
+};
+
+// Drops TANGENT from all primitives except those of `kept`, and those whose materials need it: because glTF requires
+// it, for a normal map of `foreign`, or for a direction that frames.to rotates. `notes` says so, one line each. Errors
+// (ErrorKind::input): compressed geometry.
+Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frames, const std::vector<MapSlot>& foreign,
+                                  const std::vector<KeptTangents>& kept, std::vector<std::string>& notes);
 
 } // namespace cotan

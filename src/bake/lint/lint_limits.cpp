@@ -76,10 +76,17 @@ LintCheck checkLimits(const LintReport& report, const LintLimits& limits)
         anyMap = anyMap || p.image >= 0;
         anyJudged = anyJudged || (p.image >= 0 && p.notJudged.empty());
     }
-    for (const GreenEvidence& map : report.maps)
+    for (const GreenEvidence& map : report.maps) {
         if (!map.asDeclared())
             check.failures.push_back(
                 {.kind = "reversed_green", .where = nameOf(map), .text = reversedGreenText(map), .map = nameOf(map)});
+        for (const maps::Fault& fault : map.faults)
+            if (maps::changesLight(fault.kind))
+                check.failures.push_back({.kind = "broken_map",
+                                          .where = nameOf(map),
+                                          .text = fmt::format("normal map {}: {}", nameOf(map), fault.text),
+                                          .map = nameOf(map)});
+    }
     if (limits.degrees >= 0 && anyMap && !anyJudged && check.passed())
         check.failures.push_back({.kind = "not_judged", .where = "", .text = "no normal map could be judged"});
     return check;
@@ -94,9 +101,12 @@ const std::vector<std::string>& readingNames()
 std::vector<std::string> lintWarnings(const LintReport& report)
 {
     std::vector<std::string> lines;
-    for (const GreenEvidence& map : report.maps)
+    for (const GreenEvidence& map : report.maps) {
         if (!map.asDeclared())
             lines.push_back(reversedGreenText(map));
+        if (!map.note.empty())
+            lines.push_back(fmt::format("normal map {}: {}", nameOf(map), map.note));
+    }
     return lines;
 }
 

@@ -1,6 +1,7 @@
 #include "cotan/lint.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -115,10 +116,11 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
     if (!p.tangentsFor.empty())
         p.rotation = {rotationWith(Frame::orthonormal), rotationWith(Frame::cotangent), rotationWith(Frame::smooth)};
     const Texture& coat = material.coat.normalMap;
-    if (coat.present() && !hasPixels(scene.images[std::size_t(coat.image)])) { // not converted
+    // Not converted; or tangents are required, as gltf::tangentRequirement says.
+    if (coat.present() && (!hasPixels(scene.images[std::size_t(coat.image)]) || !material.normalMap.present()))
         p.tangentsFor = "KHR_materials_clearcoat";
+    if (p.tangentsFor == "KHR_materials_clearcoat" || !material.normalMap.present())
         p.rotation = {};
-    }
     p.madeFor = madeFor(material);
     p.triangles = mesh.triangleCount();
     p.hasUv = surface.hasUv();
@@ -169,15 +171,32 @@ void addOverlaps(LintReport& report, const std::vector<MapUse>& uses)
 
 void addMaps(LintReport& report, const Scene& scene)
 {
+    std::map<int, std::array<bool, 2>> readers; // by image: some material reads green as declared, reversed
+    for (const Material& m : scene.materials)
+        for (const int image : {m.normalMap.image, m.coat.normalMap.image})
+            readers[image][m.greenReversed] = true;
     std::set<int> done;
-    for (const Material& m : scene.materials) {
-        const int image = m.normalMap.image;
-        if (!m.normalMap.present() || !done.insert(image).second)
-            continue;
+    const auto add = [&](const Material& m, int image, bool greenUp) {
+        if (image < 0 || !done.insert(image).second)
+            return;
         const Image& map = scene.images[std::size_t(image)];
-        report.maps.push_back({image, map.name, m.normalFormat.greenUp != m.greenReversed,
-                               hasPixels(map) ? maps::greenOf(map) : maps::GreenVerdict()});
-    }
+        GreenEvidence& g = report.maps.emplace_back(
+            GreenEvidence{.image = image, .name = map.name, .declaredUp = greenUp != m.greenReversed});
+        g.reversedByTangents = readers[image][true];
+        g.reversedEverywhere = g.reversedByTangents && !readers[image][false];
+        if (!hasPixels(map))
+            return;
+        g.verdict = maps::greenOf(map, maps::AlphaUse::ignored);
+        const maps::NormalStatistics s = maps::statisticsOfSample(map);
+        g.faults = maps::faultsInModel(s, &g.verdict);
+        std::erase_if(g.faults, [](const maps::Fault& f) { return f.kind == maps::Fault::Kind::greenDown; });
+        g.sentence = maps::sentenceOf(map.name.empty() ? fmt::format("Image {}", image) : map.name, g.faults, s);
+        g.note = maps::noteOf(s);
+    };
+    for (const Material& m : scene.materials)
+        add(m, m.normalMap.image, m.normalFormat.greenUp);
+    for (const Material& m : scene.materials)
+        add(m, m.coat.normalMap.image, m.coat.normalFormat.greenUp);
 }
 
 // A clear coat's image, and how a primitive reads it.

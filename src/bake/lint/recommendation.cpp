@@ -132,9 +132,7 @@ std::string brokenMaps(const LintReport& report)
 {
     std::string text;
     for (const GreenEvidence& g : report.maps)
-        addSentence(text,
-                    maps::sentenceOf(g.name.empty() ? fmt::format("Image {}", g.image) : g.name,
-                                     maps::faultsOf(g.verdict.statistics), g.verdict.statistics));
+        addSentence(text, g.sentence);
     return text;
 }
 
@@ -210,29 +208,36 @@ std::string notJudged(const LintReport& report)
     return names.empty() ? "" : fmt::format("The normal map could not be judged in {}.", listed(names));
 }
 
-// A sentence on the primitive with the largest visible mean error of reading with orthonormal; empty if there is none.
-std::string worstReading(const LintReport& report)
+// The primitive with the largest mean error of reading with orthonormal among those on which it is visible, by the
+// limits that `cotan lint --limit 2` checks; null if there is none.
+const PrimitiveLint* worstReading(const LintReport& report)
 {
-    std::string text;
-    double worst = 0;
+    const PrimitiveLint* worst = nullptr;
     for (const PrimitiveLint& p : report.primitives)
-        if (const ValueSummary* const error = errorOf(p, "orthonormal");
-            error && (error->mean > kUnseenMean || error->percentile95 > kUnseen95) && error->mean > worst) {
-            worst = error->mean;
-            text = fmt::format("The largest error is in {}: {:.2f} degrees on average, over {:.1f} on 5 % of its area.",
-                               nameOf(p), error->mean, error->percentile95);
-        }
-    return text;
+        if (const ValueSummary* const error = errorOf(p, "orthonormal"); error
+            && (error->mean > kUnseenMean || error->percentile95 > kUnseen95)
+            && (!worst || error->mean > errorOf(*worst, "orthonormal")->mean))
+            worst = &p;
+    return worst;
 }
 
-std::string visibleErrorText(const AreaMean& orthonormal, const AreaMean& cotangent)
+std::string worstText(const PrimitiveLint* worst)
 {
-    const char* how = orthonormal.unseen() ? "the difference is invisible"
-        : orthonormal.mean < kWrongMean    ? "moving highlights show a difference"
-                                           : "the light seems to come from elsewhere";
+    if (!worst)
+        return {};
+    const ValueSummary& error = *errorOf(*worst, "orthonormal");
+    return fmt::format("The largest error is in {}: {:.2f} degrees on average, over {:.1f} on 5 % of its area.",
+                       nameOf(*worst), error.mean, error.percentile95);
+}
+
+// visible: whether worstReading found a primitive.
+std::string visibleErrorText(const AreaMean& orthonormal, const AreaMean& cotangent, bool visible)
+{
+    const char* how = !visible          ? "the difference is invisible"
+        : orthonormal.mean < kWrongMean ? "moving highlights show a difference"
+                                        : "the light seems to come from elsewhere";
     return fmt::format("If the maps were made for MikkTSpace and are read without tangents, {}: the error is {:.2f} "
-                       "degrees on average with the "
-                       "frame orthonormal ({:.2f} with cotangent).",
+                       "degrees on average with the frame orthonormal ({:.2f} with cotangent).",
                        how, orthonormal.mean, cotangent.mean);
 }
 
@@ -253,6 +258,23 @@ void predictConversion(LintReport& report)
             report.dropsTangents || (p.stored.present && !neededElsewhere(p, report.advice) && !p.unread);
 }
 
+// What the command does to maps whose green the stored tangents reverse; empty if there are none.
+std::string tangentsAndGreen(const LintReport& report)
+{
+    std::vector<std::string> reversed, shared;
+    for (const GreenEvidence& g : report.maps)
+        if (g.reversedByTangents && !report.distrustStored)
+            addOnce(g.reversedEverywhere ? reversed : shared,
+                    g.name.empty() ? fmt::format("image {}", g.image) : g.name);
+    std::string text = " the command drops the tangents";
+    if (!reversed.empty())
+        text += fmt::format(" and reverses green of {}, as they show it", listed(reversed));
+    if (!shared.empty())
+        text += fmt::format("; surfaces that reverse green of {}, which others show as declared, keep theirs",
+                            listed(shared));
+    return text + ".";
+}
+
 // The advice, given what the command would do.
 std::string adviceText(const LintReport& report, const AreaMean& steps)
 {
@@ -262,7 +284,7 @@ std::string adviceText(const LintReport& report, const AreaMean& steps)
         : fmt::format(" (cotangent has steps of {:.0f} degrees at edges, 95th percentile)", steps.percentile95);
     const std::string tangents = report.dropsTangents ? " The command drops the tangents." : "";
     if (report.mapsConverted == 0 && report.dropsTangents)
-        return fmt::format("Read the maps with the frame {} as they are; the command drops the tangents.", frame);
+        return fmt::format("Read the maps with the frame {} as they are;{}", frame, tangentsAndGreen(report));
     if (report.mapsConverted == 0 && (!brokenMaps(report).empty() || !reversedGreen(report).empty()))
         return fmt::format("Fix the maps; then they can be read with the frame {}.", frame);
     if (report.mapsConverted == 0)
@@ -309,9 +331,10 @@ void adviseForMaps(LintReport& report)
     const AreaMean orthonormal = meanReading(report, "orthonormal");
     const AreaMean steps =
         areaMeanOf(report, [](const PrimitiveLint& p) { return judged(p) ? &p.steps.cotangent : nullptr; });
+    const PrimitiveLint* const worst = report.named ? nullptr : worstReading(report);
     report.seen = report.named ? namedErrorText(report, orthonormal)
-                               : visibleErrorText(orthonormal, meanReading(report, "cotangent"));
-    report.worst = report.named ? std::string() : worstReading(report);
+                               : visibleErrorText(orthonormal, meanReading(report, "cotangent"), worst != nullptr);
+    report.worst = worstText(worst);
     report.advice = report.named           ? Advice::readNamed
         : readsAsItIs(report, orthonormal) ? Advice::readOrthonormal
         : orthonormal.unseen()             ? Advice::convertToOrthonormal

@@ -54,7 +54,7 @@ struct SurfaceMesh {
     std::vector<glm::vec2> uv; // of the map, transformed, per vertex; empty if the mesh has none
     std::array<CornerTangents, kFrameCount> generated; // of the frames that read tangents; empty if not requested
     CornerCotangents cotangents;                       // likewise
-    bool ofCoat = false; // uv of another map than the vertices' frames: `smooth` is `cotangent`
+    bool ofCoat = false; // uv of another map than the vertices' frames: these are `cotangent` and `orthonormal`
 };
 
 // The mesh moved by a linear map. Triangle i has the corners 3 i, 3 i + 1 and 3 i + 2. Copies share the mesh.
@@ -108,8 +108,8 @@ struct SurfaceBytes {
 };
 SurfaceBytes surfaceBytes(std::size_t vertices, std::size_t triangles, const FrameSet& frames);
 
-// The same as the normal map of a clear coat sees it, as in both renderers: tangents are those of the surface's own
-// map, and if the uv differ, `smooth` is `cotangent`.
+// The same as the normal map of a clear coat sees it, as in both renderers: vertices have the frames of the surface's
+// own map. If the uv differ, `smooth` is `cotangent`, and frames that read tangents are `orthonormal`.
 MappedSurface makeCoatSurface(std::shared_ptr<const Mesh> mesh, const Texture& surfaceMap, const Texture& coatMap,
                               const FrameSet& frames);
 

@@ -383,9 +383,11 @@ typedef struct cotan_model_files {
     void* user;
     /* Reads a file next to the model by its URI. If null, models that reference files are refused. */
     int (*read)(void* user, const char* uri, const void** bytes, size_t* byte_count);
-    /* Decodes a PNG or JPEG file: sets all members of `picture` except `size`. If null, the library decodes. */
+    /* Decodes an image file of any format except KTX2 (in models PNG, JPEG, WebP, AVIF or DDS): sets all members of
+     * `picture` except `size`. If null, the library decodes. */
     int (*decode)(void* user, const char* name, const void* bytes, size_t byte_count, cotan_picture* picture);
-    /* Encodes an image of 8 or 16 bits as a PNG file. If null, the library encodes. */
+    /* Encodes an image of 8 or 16 bits as a PNG file. It is decoded again, so that the report has what its losses cost.
+     * If null, the library encodes. */
     int (*encode)(void* user, const cotan_picture* picture, const void** bytes, size_t* byte_count);
     void (*done)(void* user);
     const char* name; /* of the model in messages; null: "model.glb" or "model.gltf". Since version 3 */
@@ -434,6 +436,7 @@ cotan_status cotan_lint_gltf(const void* model, size_t model_size, const cotan_m
 cotan_status cotan_lint_model(const cotan_model* model, const cotan_lint_options* options, cotan_lint_result* result,
                               cotan_bytes** json, char* message, size_t message_size);
 
+#define COTAN_MAPS_UNREAD 2
 typedef struct cotan_convert_options {
     size_t size;
     const char* from; /* frame that the maps were made for; null: the one named by the file, otherwise "mikktspace" */
@@ -446,8 +449,9 @@ typedef struct cotan_convert_options {
     void* user;
     const char* expansion; /* how engines expand the values of the maps: "biased" (2c - 1) or "exact"; null: "biased" */
     /* Since version 5. */
-    int keep_maps; /* not 0: all maps are kept, byte for byte, to be read with `to`, which must not read tangents; only
-                      tangents are removed. If `to` is null: "orthonormal" */
+    int keep_maps; /* not 0: maps are kept, byte for byte, to be read with `to`, which must not read tangents; only
+                      tangents are removed. Where these reverse green of a map, its green is reversed, or they stay. If
+                      `to` is null: "orthonormal". COTAN_MAPS_UNREAD: without decoding maps, which stay all as they are */
 } cotan_convert_options;
 
 typedef struct cotan_convert_result {

@@ -71,6 +71,7 @@ template<class W, class T> void exchangeMaterial(W& w, T& m)
     if constexpr (!std::is_const_v<T>)
         m.normalFrame = isFrame(frame) ? std::optional(Frame(frame)) : std::nullopt;
     w.flag(m.greenReversed);
+    w.number(m.copyOf);
     exchangeTextures(w, m.baseColorMap, m.metallicRoughnessMap, m.normalMap, m.occlusionMap, m.emissiveMap);
     w.choice(m.alphaMode, AlphaMode::blend);
     exchangeAll(w, m.alphaCutoff, m.doubleSided, m.unlit);

@@ -275,10 +275,10 @@ CoatNormal coatNormalOf(const SurfaceInputs& in, int lane, const SurfaceNormal& 
         f32::cotan_frame frame = base.frame;
         if (!sameUv(map, in.draw->material->normalMap)) {
             const Smooth smooth = smoothOf(in, lane, uv);
-            // Vertex attributes are made for the uv of the surface below.
-            frame = readsCotangents(in.view->frame)
-                ? evaluate(Frame::cotangent, smooth.n, smooth.dpdx, smooth.dpdy, uv.dx, uv.dy)
-                : frameOver(in, map, smooth, uv, lane);
+            // Vertex attributes are made for the uv of the surface below. Without them, these frames come nearest.
+            const Frame own = readsCotangents(in.view->frame) ? Frame::cotangent : Frame::orthonormal;
+            frame = readsVertices(in.view->frame) ? evaluate(own, smooth.n, smooth.dpdx, smooth.dpdy, uv.dx, uv.dy)
+                                                  : frameOver(in, map, smooth, uv, lane);
         }
         const glm::vec4 texel = sample(*chain, map.sampler, uv, in.view->pointSampled);
         const auto format = toFormat<f32::cotan_normal_format>(in.draw->material->coat.normalFormat, chain->image->type,

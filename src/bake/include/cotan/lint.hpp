@@ -92,8 +92,9 @@ struct PrimitiveLint {
     // Instances that stretch a mesh differently are reported separately: this is number `placing`, from 0, of
     // `placings`, of which only the first kMaxPlacings are reported.
     std::size_t placing = 0, placings = 1;
-    // Extension of the material that reads tangents and has no map of its own that could be converted. `rotation`: how
-    // far the direction that it reads rotates with each frame that may be advised (directionTurn); empty if unknown.
+    // Extension of the material that reads tangents and has no map of its own that could be converted, or that requires
+    // them because the surface has no normal map. `rotation`: how far the direction that it reads rotates with each
+    // frame that may be advised (directionTurn); empty if that does not matter.
     std::string tangentsFor;
     FrameSummaries rotation;
     int image = -1;        // of the normal map; -1: none
@@ -112,12 +113,18 @@ struct PrimitiveLint {
     double closest = 0;   // distance at which that is half a degree; both are 0 if uv have no gradient
 };
 
-// Which way green points by the map alone, and which way the material reads it, as in `cotan map detect`.
+// What a map alone shows: which way green points, and which way the material reads it, as in `cotan map detect`; and
+// what is wrong with the map as a file.
 struct GreenEvidence {
     int image = -1;
     std::string name;
     bool declaredUp = true; // green points up the image, as the material reads it
-    maps::GreenVerdict verdict;
+    // Some surfaces, or all that show it, read it with green reversed without their tangents (scene/normal_maps.hpp).
+    bool reversedByTangents = false, reversedEverywhere = false;
+    maps::GreenVerdict verdict = {};
+    std::vector<maps::Fault> faults = {}; // maps::faultsInModel, without Kind::greenDown
+    std::string sentence = {};            // these, with the command that fixes them; empty without faults
+    std::string note = {};                // maps::noteOf
 
     bool decided() const { return verdict.green != maps::Green::undecidable; }
     bool asDeclared() const { return !decided() || (verdict.green == maps::Green::up) == declaredUp; }
@@ -190,7 +197,7 @@ struct LintLimits {
 // One reason why a model fails.
 struct LintFailure {
     // reading, rounding, degenerate_uv, mirrored_overlap, reversed_w, turned_tangents: a value over its limit.
-    // reversed_green, not_judged: no limit allows them.
+    // reversed_green, broken_map, not_judged: no limit allows them.
     std::string kind;
     std::string where;            // nameOf(primitive), or the name of the map; empty: the whole model
     double value = 0, limit = -1; // in degrees or % of the area; limit -1: none
@@ -210,14 +217,15 @@ struct LintCheck {
 };
 
 // Compares each primitive by itself, not the whole model: areas in % with limits.area, angles with limits.degrees.
-// Under any limit, a map whose green points against the file's declaration fails. Under a limit in degrees, a map whose
-// pixels were not read fails too, and so does a model with maps of which none was judged.
+// Under any limit, a map whose green points against the file's declaration fails, and one whose faults change the light
+// (maps::changesLight). Under a limit in degrees, a map whose pixels were not read fails too, and so does a model with
+// maps of which none was judged.
 LintCheck checkLimits(const LintReport& report, const LintLimits& limits);
 
 // The names that LintLimits::frame may have: those of all readings.
 const std::vector<std::string>& readingNames();
 
-// Defects of the file, one line each: maps whose green points the other way than declared.
+// Defects of the file, one line each: maps whose green points the other way than declared, and odd maps (noteOf).
 std::vector<std::string> lintWarnings(const LintReport& report);
 
 // "mesh, material NAME", with the placing if there are several.

@@ -94,7 +94,7 @@ struct GltfGeometry {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec4> tangents;
-    std::vector<glm::vec2> texcoords;   // as the normal map reads them: its uv set, transformed
+    std::vector<glm::vec2> texcoords;   // of the uv set that the normal map reads
     std::vector<std::uint32_t> indices; // three a triangle; strips and fans are unrolled
     int texcoordSet = 0;                // the uv set that texcoords are from
 };
@@ -103,12 +103,17 @@ struct GltfGeometry {
 enum class NormalSlot { surface, coat };
 inline constexpr NormalSlot kNormalSlots[] = {NormalSlot::surface, NormalSlot::coat};
 
+// TEXCOORD and TANGENT as they are in the file, or as the normal map reads them: both with its transform
+// (KHR_texture_transform). TANGENT of a file belongs to its TEXCOORD without transforms, as exporters write it.
+enum class TexcoordSpace { file, map };
+
 // Returns the geometry of a primitive. mesh, primitive: indices in the file, in range. slot: the normal map whose uv
 // are read; uv set 0 if there is none. material: replaces the primitive's own. Points and lines, and primitives without
 // POSITION, give an empty geometry. Errors (ErrorKind::input): an attribute of the wrong type.
 Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh, std::size_t primitive,
                                   NormalSlot slot = NormalSlot::surface,
-                                  std::optional<std::size_t> material = std::nullopt);
+                                  std::optional<std::size_t> material = std::nullopt,
+                                  TexcoordSpace space = TexcoordSpace::map);
 
 // ---- tangents -------------------------------------------------------------------------------
 
@@ -198,7 +203,7 @@ Result<std::vector<std::byte>> glbBytes(GltfDocument document, const LoadLimits&
 struct GltfPrimitiveGeometry {
     std::size_t mesh = 0, primitive = 0; // indices into the file's
     std::string name;      // mesh name; "/" and the primitive's number are appended if the mesh has several
-    GltfGeometry geometry; // with unit normals
+    GltfGeometry geometry; // with unit normals; TexcoordSpace::file
     std::string reason;    // why tangents cannot be generated: "no NORMAL"; empty if they can
 
     MeshView view() const { return {geometry.positions, geometry.normals, geometry.texcoords, geometry.indices}; }

@@ -153,13 +153,6 @@ struct ProblemArea {
 // moves closer, unless the triangle would no longer fit into the image.
 std::vector<ProblemArea> problemAreas(const Scene& scene, std::size_t maxCount = 50);
 
-// ---- faults of maps ------------------------------------------------------------------------
-
-// One sentence for each defective normal map, with its name and the command that fixes it: maps saved as colour, with
-// exchanged channels, with green down although declared as up, and so on. Empty if all are good. Each map is read once,
-// which takes a second for 4096 x 4096 texels.
-std::vector<std::string> mapFaults(const Scene& scene);
-
 // ---- results of comparisons ----------------------------------------------------------------
 
 // Comparison in one view. The degrees are angles between the two normals of a pixel, over the interior pixels of both

@@ -61,6 +61,8 @@ struct NormalStatistics {
     bool redIsZ = false;       // red points outwards nearly everywhere and blue does not: they are exchanged
     bool eightBits = false;    // 16-bit components whose values are all multiples of an 8-bit step
     bool signedStored = false; // floats below zero, or unit vectors stored unencoded
+    bool transparent = false;  // alpha is 0 everywhere, and is ignored
+    bool alphaMasks = false;   // texels whose alpha is 0 are outside the charts
     std::size_t texels = 0;
     double background = 0;        // fraction outside the charts, excluded below: alpha 0, black, white, uniform fill
     double invalid = 0;           // fraction that is not finite or has length below 0.1
@@ -76,8 +78,12 @@ struct NormalStatistics {
     double rmsExact = 0, rmsBiased = 0;        // of (length - 1), for each centre
 };
 
-// Whether a texel's own value shows that it lies between charts: alpha 0, (nearly) black or (nearly) white.
-bool outsideCharts(const glm::vec4& texel);
+// What alpha of a map means: bakers and painting programs clear it outside the charts; glTF ignores it.
+enum class AlphaUse { masksCharts, ignored };
+
+// Whether a texel's own value shows that it lies between charts: (nearly) black or (nearly) white, or, if alpha masks
+// charts, alpha 0.
+bool outsideCharts(const glm::vec4& texel, bool alphaMasks);
 
 // Whether a three-channel normal can still have this length after filtering or compression.
 bool usableLength(float length);
@@ -85,11 +91,15 @@ bool usableLength(float length);
 // Makes two passes over the image, which may have any size and content.
 NormalStatistics statisticsOfMap(const Image& image);
 
+// Statistics of a model's map, whose alpha is ignored, from at most 16 x 16 evenly spaced patches of 16 x 16 texels:
+// takes milliseconds for any size.
+NormalStatistics statisticsOfSample(const Image& image);
+
 // The same statistics for an image that arrives in strips from the top, twice: every strip to addFirstPass(), then
 // every strip to addSecondPass(). Strips have a multiple of 16 rows, except the last one.
 class MapSurvey {
 public:
-    MapSurvey();
+    explicit MapSurvey(AlphaUse alpha = AlphaUse::masksCharts);
     ~MapSurvey();
     void addFirstPass(const Image& strip);
     bool oneColour() const; // after the first pass: all texels are equal, and the second pass may be skipped
@@ -112,7 +122,8 @@ std::string describe(Content content);
 // right, as in every convention.
 //
 // Only the charts of a map count. The space between them (alpha 0, black, white, a single colour) carries no
-// information. Slopes jump where two charts meet, so each cell's weight is bounded.
+// information. Slopes
+// jump where two charts meet, so each cell's weight is bounded.
 
 enum class Green { up, down, undecidable };
 enum class Swapped { no, yes, undecidable };
@@ -138,30 +149,64 @@ const char* name(Green green);           // up, down, undecidable
 const char* name(Swapped swapped);       // no, yes, undecidable
 const char* name(Confidence confidence); // none, likely, certain
 
-GreenVerdict greenOf(const PatchSampler& sampler);
-GreenVerdict greenOf(const Image& image); // samples the same patches; needs pixels
+GreenVerdict greenOf(const PatchSampler& sampler, AlphaUse alpha = AlphaUse::masksCharts);
+GreenVerdict greenOf(const Image& image,
+                     AlphaUse alpha = AlphaUse::masksCharts); // samples the same patches; needs pixels
 
 // ---- faults --------------------------------------------------------------------------------
 
 // Faults of a normal map as a file, and how to fix them.
 
 struct Fault {
-    enum class Kind { srgb, linearised, redAndBlue, redAndGreen, tooShort, tooLong, eightBitsIn16, greenDown };
+    enum class Kind {
+        srgb,
+        linearised,
+        redAndBlue,
+        redAndGreen,
+        tooShort,
+        tooLong,
+        eightBitsIn16,
+        greenDown,
+        // Of a model's map, which glTF reads as three channels in tangent space:
+        twoChannels,
+        slopes,
+        objectSpace,
+        height,
+        noNormals
+    };
     Kind kind{};
     std::string text; // one sentence
 };
 
-const char* name(Fault::Kind kind); // srgb, linearised, bgr, grb, washed_out, too_strong, 8_in_16, green_down
+// srgb, linearised, bgr, grb, washed_out, too_strong, 8_in_16, green_down, two_channels, slopes, object_space, height,
+// no_normals
+const char* name(Fault::Kind kind);
 
 // Returns the faults that the statistics reveal; for images that are no normal map, only those of the bit depth.
 // `green`: the verdict on the same map, which adds faults of the green channel; may be null.
 std::vector<Fault> faultsOf(const NormalStatistics& statistics, const GreenVerdict* green = nullptr);
 
+// The faults of a model's normal map: these, and contents that glTF does not read as they are meant. Each door that
+// reads models reports the faults of statisticsOfSample.
+std::vector<Fault> faultsInModel(const NormalStatistics& statistics, const GreenVerdict* green = nullptr);
+
+// Whether a model is lit wrongly by such a map.
+bool changesLight(Fault::Kind kind);
+
+// What is odd about a map but changes no normal, one sentence; empty if there is nothing.
+std::string noteOf(const NormalStatistics& statistics);
+
+// One sentence with its name for each normal map of a scene, clear coats included, that has faults in the model or a
+// note. judgeGreen: also where green points down although it is read as up, which takes up to a second for a map;
+// without it a map takes milliseconds. Maps that are not read as three channels, and images without pixels, have none.
+std::vector<std::string> mapFaults(const Scene& scene, bool judgeGreen = false);
+
 // The options of `cotan map convert` that fix all faults, such as "--from directx,srgb --to gltf"; empty without
 // faults. A map whose zero is 127.5 keeps it: negating green about 128 would tilt it by 0.45 degrees.
 std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics& statistics);
 
-// "NAME: FAULT; FAULT; cotan map convert OPTIONS fixes it."; empty without faults.
+// "NAME: FAULT; FAULT; cotan map convert OPTIONS fixes it."; without the command if none fixes it; empty without
+// faults.
 std::string sentenceOf(const std::string& name, const std::vector<Fault>& faults, const NormalStatistics& statistics);
 
 // What certainly contradicts the convention that someone states for a map, such as "green points up, not down"; empty

@@ -183,7 +183,8 @@ struct Material {
     // Whether green of the normal maps and w of the meshes' tangents are flipped relative to the file
     // (scene/normal_maps.hpp).
     bool greenReversed = false;
-    Texture baseColorMap;         // sRGB, alpha linear
+    int copyOf = -1;      // index of the material that this one was copied from, for the same reason; -1: it is no copy
+    Texture baseColorMap; // sRGB, alpha linear
     Texture metallicRoughnessMap; // linear: g roughness, b metallic
     Texture normalMap;            // linear
     Texture occlusionMap;         // linear: r
@@ -219,7 +220,7 @@ struct Mesh {
     int material = 0; // index into Scene::materials, always valid
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;  // always present after loading; unit, or zero if unknown
-    std::vector<glm::vec4> tangents; // as stored in the file: xyz, w = +-1; or empty
+    std::vector<glm::vec4> tangents; // as in glTF, for the uv that the normal map reads: xyz, w = +-1; or empty
     std::array<std::vector<glm::vec2>, 2> texcoords;
     std::vector<glm::vec4> colors;      // linear; factors on the base colour
     std::vector<glm::vec3> cotangentsU; // derived for the frame `smooth`; otherwise empty

@@ -95,7 +95,8 @@ struct Choice {
     std::optional<Form> form{};     // nothing: fused if the frame has that form and reads no vertices, otherwise total
     int uvSets = 1;                 // 1 to 4; more than one: gradients are added, fused only for `cotangent`
     Stage stage = Stage::all;       // other than `all`: only for the fused form of `triangle`
-    bool callerDifferences = false; // omit the function that takes derivatives itself
+    bool callerDifferences = false; // omit the function that takes derivatives itself. Godot: a frame that reads vertex
+                                    // data keeps its whole shader, where meshes without the data have no bumps
     bool functionsOnly = false;     // Godot: without shader_type, the map, vertex(), fragment() and light()
     bool twoSided = false;          // Godot: back faces are visible, as those of a thin sheet
     std::vector<Set> sets{};        // in any order

@@ -1,0 +1,18 @@
+// Files that tests need and that the repository does not contain. The rule is that of dataFile in tests/test_data.hpp.
+import fs from 'node:fs';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const repository = fileURLToPath(new URL('../..', import.meta.url));
+
+/** A file or folder: that of ../shared/data if it exists there, otherwise that of build/data, where scripts/test-data
+ * puts it. COTAN_TEST_DATA=fetched in the environment leaves ../shared/data out. */
+export function dataFile(name) {
+  const shared = path.join(repository, '../shared/data', name);
+  return process.env.COTAN_TEST_DATA !== 'fetched' && fs.existsSync(shared) ? shared : path.join(repository, 'build/data', name);
+}
+
+/** The folder that has the models. */
+export const data = path.dirname(dataFile('models'));
+/** Why tests that need data are skipped; '' if the data are there. */
+export const missing = fs.existsSync(path.join(data, 'models')) ? '' : 'there are no models: run scripts/test-data';
