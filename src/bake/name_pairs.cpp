@@ -71,10 +71,10 @@ Parts partsOf(std::string name)
     return parts;
 }
 
-using Groups = std::map<std::tuple<std::string, std::string, std::string>, std::int64_t>;
+using GroupsByName = std::map<std::tuple<std::string, std::string, std::string>, std::int64_t>;
 
 // The group of the simple mesh that a detailed one fits best; -1 if there is none.
-std::int64_t bestGroup(const Groups& groups, const Parts& high)
+std::int64_t bestGroup(const GroupsByName& groups, const Parts& high)
 {
     for (const std::string& number : {high.number, std::string()})
         for (std::size_t length = high.ending.size();;) {
@@ -107,7 +107,7 @@ NameRole roleOfName(std::string_view name) { return partsOf(std::string(name)).r
 NamePairs pairNames(const std::vector<std::string>& low, const std::vector<std::string>& high)
 {
     NamePairs pairs;
-    Groups groups;
+    GroupsByName groups;
     std::vector<std::string> bases;     // of the simple meshes
     std::vector<std::string> simple;    // the first simple mesh of each group
     std::set<std::string> shared, left; // names for notes
