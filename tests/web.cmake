@@ -39,7 +39,8 @@ cotan_web_test(three_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
     repeatedCallsAndLaterMeshesAgree autoIsTheFrameOfTheMaterialOrOrthonormal
     repeatedMapsOnOwnShapesUseCotangent smoothUsesTheCotangentsOfTheLibrary laterHooksAreInTheKeyAndKeepTheFrame
     clonesOfMaterialsKeepTheFrame replacementsAreFreedWithTheOriginal olderVersionsOfThreeWorkAndTooOldOnesAreRefused
-    materialsOfOneFrameShareAProgramAndOthersDoNot unknownArgumentsAreRefused)
+    materialsOfOneFrameShareAProgramAndOthersDoNot nodesOfAUserReadMapsForMikkTSpaceUnlessAFrameIsNamed
+    unknownArgumentsAreRefused)
 cotan_web_test(types_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
   CASES typingsAcceptEveryExportInStrictMode typingsMatchTheExports everyWrongCallIsATypeError)
 cotan_web_test(bundlers_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
