@@ -77,8 +77,8 @@ endfunction()
 cotan_page_test(page_maps_test
     aMapWithReversedGreenIsFoundAndFixed publishedMapsGetTheirVerdicts
     fixedMapsEqualThoseOfTheCommandLine shadersEqualTheCommandLinesAndTheAddressKeepsTheChoice
-    shadersOfTheFrameTriangleAreGivenByStage webGpuAndWebGlDrawTheSameImages webGlReplacesALostDevice
-    thePatchFollowsKeysAndPointerWithRightDegrees)
+    theFirstShaderIsForMapsThatWereBakedForMikkTSpace shadersOfTheFrameTriangleAreGivenByStage
+    webGpuAndWebGlDrawTheSameImages webGlReplacesALostDevice thePatchFollowsKeysAndPointerWithRightDegrees)
 cotan_page_test(page_models_test
     modelsAreDrawnTwiceWithTheAngleBetween theViewShowsTheAdvisedConversion
     theCheckAndItsReportMatchTheCommandLine aModelWithReversedGreenIsFixed whiteSurfacesShowTheirBumps
