@@ -424,8 +424,8 @@ TEST(ConvertCommand, conversionsMakeNoNewErrorsOfKhronosValidator)
         GTEST_SKIP() << "gltf-validator is not installed (see the test npm_packages)";
     std::size_t tried = 0;
     for (const char* const folder : {"models", "materials"})
-        if (std::filesystem::exists(shared(folder)))
-            for (const auto& entry : std::filesystem::recursive_directory_iterator(shared(folder))) {
+        if (hasData(folder))
+            for (const auto& entry : std::filesystem::recursive_directory_iterator(dataFile(folder))) {
                 const std::filesystem::path& model = entry.path();
                 if (model.extension() != ".glb" && model.extension() != ".gltf")
                     continue;
