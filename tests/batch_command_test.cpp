@@ -398,7 +398,7 @@ TEST(BatchArguments, everyFileOptionSaysWhetherItReadsOrWrites)
             job.insert(job.end(), {(*it)[1], "NAMED"});
             const std::map<std::string, std::vector<std::string>> needed = {
                 {"bake", {"--high", "h.obj", "--low", "l.obj"}},
-                {"shader", {"--lang", "glsl"}},
+                {"shader", {"--lang", "glsl", "--frame", "cotangent"}},
                 {"map convert", {"f.png", "--from", "opengl", "--to", "directx"}},
                 {"map blend", {"b.png", "d.png"}},
                 {"map diff", {"a.png", "b.png"}},

@@ -211,7 +211,7 @@ TEST(FileRecord, refusesInOneSentenceAndKeepsTheFirstError)
                     "or --overwrite");
     EXPECT_TRUE(planOutput("-o", out));
     EXPECT_EQ(errorIn(planOutput("", out)),
-              "-o " + out + " and " + out + " are the same file; expected another name, or --overwrite");
+              "-o " + out + " and " + out + " are the same file; expected different names");
     ASSERT_TRUE(firstRefusal());
     EXPECT_NE(firstRefusal()->message.find("which is an input"), std::string::npos);
     EXPECT_TRUE(writeFileWhole(out, "new"));

@@ -39,7 +39,8 @@ cotan_web_test(three_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
     repeatedCallsAndLaterMeshesAgree autoIsTheFrameOfTheMaterialOrOrthonormal
     repeatedMapsOnOwnShapesUseCotangent smoothUsesTheCotangentsOfTheLibrary laterHooksAreInTheKeyAndKeepTheFrame
     clonesOfMaterialsKeepTheFrame replacementsAreFreedWithTheOriginal olderVersionsOfThreeWorkAndTooOldOnesAreRefused
-    materialsOfOneFrameShareAProgramAndOthersDoNot unknownArgumentsAreRefused)
+    materialsOfOneFrameShareAProgramAndOthersDoNot nodesOfAUserReadMapsForMikkTSpaceUnlessAFrameIsNamed
+    unknownArgumentsAreRefused)
 cotan_web_test(types_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
   CASES typingsAcceptEveryExportInStrictMode typingsMatchTheExports everyWrongCallIsATypeError)
 cotan_web_test(bundlers_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
@@ -76,8 +77,8 @@ endfunction()
 cotan_page_test(page_maps_test
     aMapWithReversedGreenIsFoundAndFixed publishedMapsGetTheirVerdicts
     fixedMapsEqualThoseOfTheCommandLine shadersEqualTheCommandLinesAndTheAddressKeepsTheChoice
-    shadersOfTheFrameTriangleAreGivenByStage webGpuAndWebGlDrawTheSameImages webGlReplacesALostDevice
-    thePatchFollowsKeysAndPointerWithRightDegrees)
+    theFirstShaderIsForMapsThatWereBakedForMikkTSpace shadersOfTheFrameTriangleAreGivenByStage
+    webGpuAndWebGlDrawTheSameImages webGlReplacesALostDevice thePatchFollowsKeysAndPointerWithRightDegrees)
 cotan_page_test(page_models_test
     modelsAreDrawnTwiceWithTheAngleBetween theViewShowsTheAdvisedConversion
     theCheckAndItsReportMatchTheCommandLine aModelWithReversedGreenIsFixed whiteSurfacesShowTheirBumps

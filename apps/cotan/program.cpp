@@ -32,7 +32,7 @@ char** programArguments = nullptr; // main's argv
 // Does not use fmt::print, which throws if standard error cannot be written.
 int fail(const Error& error)
 {
-    std::fputs(fmt::format("cotan: error: {}\n", printable(error.message)).c_str(), stderr);
+    std::fputs(fmt::format("cotan: error: {}\n{}", printable(error.message), error.advice).c_str(), stderr);
     return int(error.kind);
 }
 

@@ -97,7 +97,8 @@ private:
 
 struct FileRegistry {
     std::mutex mutex;
-    bool on = false, again = false;
+    bool on = false, guards = false; // compares announced outputs; also inputs, and outputs that were not announced
+    bool again = false;
     Files<Input> inputs;
     Files<Output> outputs;
     std::optional<Error> refusal;
@@ -105,7 +106,7 @@ struct FileRegistry {
 
     Error refuse(std::string message)
     {
-        Error error = usageError(std::move(message) + "; expected another name, or --overwrite");
+        Error error = usageError(std::move(message));
         if (!refusal)
             refusal = error;
         return error;
@@ -120,16 +121,17 @@ FileRegistry& registry()
 
 Error replaces(FileRegistry& all, const Output& output, const std::string& input)
 {
-    return all.refuse(fmt::format("{} would overwrite {}, which is an input", output.name, input));
+    return all.refuse(fmt::format("{} would overwrite {}, which is an input; expected another name, or --overwrite",
+                                  output.name, input));
 }
 
 // Checks a new output against everything registered.
 Status check(FileRegistry& all, const Output& output)
 {
-    if (const Input* input = all.inputs.find(output.identity))
+    if (const Input* input = all.guards ? all.inputs.find(output.identity) : nullptr)
         return replaces(all, output, input->name);
     if (const Output* other = all.outputs.find(output.identity); other && !(all.again && other->state == State::done))
-        return all.refuse(fmt::format("{} and {} are the same file", other->name, output.name));
+        return all.refuse(fmt::format("{} and {} are the same file; expected different names", other->name, output.name));
     return Done{};
 }
 
@@ -155,7 +157,8 @@ void guardInputs(bool overwrite, bool again)
 {
     FileRegistry& all = registry();
     const std::lock_guard lock(all.mutex);
-    all.on = !overwrite;
+    all.on = true;
+    all.guards = !overwrite;
     all.again = again;
     all.inputs.clear();
     all.outputs.clear();
@@ -188,7 +191,7 @@ Status noteInput(const fs::path& file)
     if (all.watcher)
         all.watcher(file);
     const std::lock_guard lock(all.mutex);
-    const auto identity = all.on ? identityOf(file) : std::nullopt;
+    const auto identity = all.guards ? identityOf(file) : std::nullopt;
     if (!identity || !identity->exists)
         return Done{};
     if (Output* output = all.outputs.find(*identity); output && output->state != State::done) {
@@ -206,7 +209,7 @@ Status beginOutput(const fs::path& file)
 {
     FileRegistry& all = registry();
     const std::lock_guard lock(all.mutex);
-    const auto identity = all.on ? identityOf(file) : std::nullopt;
+    const auto identity = all.guards ? identityOf(file) : std::nullopt;
     if (!identity)
         return Done{};
     Output* const planned = all.outputs.find(*identity);
@@ -222,7 +225,7 @@ Status mayAppear(const fs::path& file)
 {
     FileRegistry& all = registry();
     const std::lock_guard lock(all.mutex);
-    const auto identity = all.on ? identityOf(file) : std::nullopt;
+    const auto identity = all.guards ? identityOf(file) : std::nullopt;
     const Output* const begun = identity ? all.outputs.find(*identity) : nullptr;
     return begun && begun->refused ? Status(*all.refusal) : Status(Done{});
 }

@@ -19,11 +19,12 @@
 
 namespace cotan {
 
-// Starts an empty registry. overwrite: everything is allowed and nothing is registered. again: a finished output may be
-// written again, as in a session of the window, unless it was read meanwhile.
+// Starts an empty registry. overwrite: inputs may be replaced, and only announced outputs have to differ. again: a
+// finished output may be written again, as in a session of the window, unless it was read meanwhile.
 void guardInputs(bool overwrite, bool again = false);
 
-// Announces an output, which messages call `option`. Errors: ErrorKind::usage if it was read or is already planned.
+// Announces an output, which messages call `option`. Errors: ErrorKind::usage if it was read, or is already planned,
+// which overwrite does not allow either.
 Status planOutput(const std::string& option, const std::filesystem::path& file);
 
 // The same check of an output that another process will write. Registers nothing.

@@ -115,4 +115,8 @@ def test_packed_forms_have_their_shapes():
 def test_shader_text_is_that_of_the_command_line(command, tmp_path):
     for lang in ("glsl", "wgsl", "hlsl"):
         command("shader", "--lang", lang, "--frame", "cotangent", "-o", tmp_path / lang)
-        assert cotan.shader(lang) == (tmp_path / lang).read_text()
+        assert cotan.shader(lang, "cotangent") == (tmp_path / lang).read_text()
+    command("shader", "--lang", "godot", "-o", tmp_path / "godot", "--preset", "gltf")
+    assert cotan.shader("godot") == (tmp_path / "godot").read_text()
+    with pytest.raises(cotan.UsageError, match="frame: expected orthonormal for maps .*MikkTSpace.*; smooth or cotangent .*; found none"):
+        cotan.shader("glsl")

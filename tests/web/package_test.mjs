@@ -205,8 +205,9 @@ const cases = {
     const flat = { width: 1, height: 1, data: Uint16Array.of(32768, 32768, 65535, 65535) };
     const same = cotan.blend(map, flat).data;
     map.data.forEach((value, i) => assert.ok(Math.abs(value - same[i]) <= 1));
-    assert.match(cotan.shader({ language: 'wgsl' }), /fn /);
+    assert.match(cotan.shader({ language: 'wgsl', frame: 'orthonormal' }), /fn /);
     assert.match(cotan.shader({ language: 'godot', convention: 'godot' }), /\nshader_type spatial;/);
+    assert.equal(cotan.shader({ language: 'godot' }), cotan.shader({ language: 'godot', frame: 'orthonormal' }));
     const ofStage = (stage) => cotan.shader({ language: 'wgsl', frame: 'triangle', stage });
     assert.match(ofStage('fragment'), /fn cotan_perturb_normal_on_triangle\(/);
     assert.doesNotMatch(ofStage('fragment'), /fn cotan_make_triangle\(/);
@@ -235,6 +236,7 @@ const cases = {
     fails(() => small.tangents(mesh, { knid: 'vertex' }), { code: 'usage' });
     fails(() => cotan.convertMap({ width: 2, height: 2, data: new Uint8Array(15) }), { code: 'usage', field: 'map.data' });
     fails(() => cotan.shader({ language: 'basic' }), { code: 'usage' });
+    fails(() => cotan.shader({ language: 'wgsl' }), { code: 'usage', expected: 'orthonormal for maps that were baked for MikkTSpace, as most are; smooth or cotangent for maps that you bake for this shader' });
     fails(() => cotan.shader({ frame: 'triangle', stage: 'pixel' }), { code: 'usage', field: 'options.stage', found: "'pixel'" });
     fails(() => cotan.shader({ frame: 'cotangent', stage: 'mesh' }), { code: 'usage', expected: 'the frame triangle in its fused form' });
     await assert.rejects(cotan.lint(new Uint8Array(3)), { code: 'input' });

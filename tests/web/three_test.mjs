@@ -315,6 +315,25 @@ const cases = {
     }
   },
 
+  // A map that is named without a mesh is read like most are baked, as `cotan shader` advises. The functions are found in
+  // what the node makes for a builder that says no more than which language it needs.
+  async nodesOfAUserReadMapsForMikkTSpaceUnlessAFrameIsNamed() {
+    const { perturbedNormal } = await from('cotan/three/tsl');
+    const builder = { isFlatShading: () => false, renderer: { backend: { isWebGPUBackend: true } } };
+    const framesOf = (frame) => {
+      const seen = new Set(), found = new Set();
+      const walk = (part) => {
+        if (!part || typeof part !== 'object' || seen.has(part)) return;
+        seen.add(part);
+        for (const [, name] of typeof part.code === 'string' ? part.code.matchAll(/fn cotan_frame_(\w+)/g) : []) found.add(name);
+        Object.values(part).forEach(walk);
+      };
+      walk(perturbedNormal(mapOf(), undefined, frame).shaderNode.jsFunc([], builder));
+      return [...found].join();
+    };
+    assert.deepEqual([undefined, 'orthonormal', 'cotangent'].map(framesOf), ['orthonormal', 'orthonormal', 'cotangent']);
+  },
+
   unknownArgumentsAreRefused() {
     for (const [work, field] of [[() => untangle(), 'target'], [() => untangle(new THREE.Scene(), { frame: 'mikktspace' }), 'options.frame'],
       [() => untangle(new THREE.Scene(), { fraem: 'smooth' }), 'options.fraem'], [() => untangle(new THREE.Scene(), { note: 'loud' }), 'options.note'],

@@ -121,7 +121,8 @@ std::string pageOf(const std::vector<const CommandHelp*>& path, std::size_t leng
 
 } // namespace
 
-std::string manPage(const std::vector<const CommandHelp*>& path, const std::string& version)
+std::string manPage(const std::vector<const CommandHelp*>& path, const std::string& version,
+                    const std::string& repository)
 {
     const CommandHelp& command = *path.back();
     const std::string name = pageOf(path, path.size());
@@ -166,6 +167,8 @@ std::string manPage(const std::vector<const CommandHelp*>& path, const std::stri
             + prose(command.closing.substr(
                 std::min(command.closing.size(), command.closing.starts_with("Exit codes: ") ? std::size_t(12) : 0)))
             + "\n";
+    if (path.size() == 1 && !repository.empty())
+        page += heading("\"REPORTING BUGS\"") + literal(repository) + "\n";
     if (path.size() > 1)
         page += heading("\"SEE ALSO\"") + bold(pageOf(path, path.size() - 1)) + "(1)\n";
     return page;

@@ -25,5 +25,6 @@ export function replaceFrame<T extends Material>(material: T, options?: { frame?
 
 /** The perturbed unit normal in view space, for your own node materials: `material.normalNode = perturbedNormal(map)`.
  * The tangent-space map is sampled with its own texture coordinates and matrix. scale: a vec2 node; after scaling,
- * green must point along v. Default of frame: `cotangent`. */
+ * green must point along v. frame: the one that the map was baked for; default: `orthonormal`, which reads maps for
+ * MikkTSpace, as most are. */
 export function perturbedNormal(map: Texture, scale?: Node, frame?: Exclude<Frame, 'auto'>): Node;

@@ -76,7 +76,7 @@ function installKey(material) {
 
 // The perturbed unit normal in view space. The tangent-space map is sampled with its own uv set and matrix.
 // map: a Texture. scale: a vec2 node; after scaling, green must point along v.
-export function perturbedNormal(map, scale = vec2(1), frame = 'cotangent') {
+export function perturbedNormal(map, scale = vec2(1), frame = 'orthonormal') {
   if (!map?.isTexture) throw usage(`map: expected a Texture, found ${wordsFor(map)}`);
   choice(frame, 'frame', kSupported);
   if (!scale?.isNode) throw usage(`scale: expected a vec2 node, found ${wordsFor(scale)}`);

@@ -87,6 +87,8 @@ export function frames(): string[];
  * shader. */
 export function shader(options?: {
   language?: 'glsl' | 'essl' | 'hlsl' | 'wgsl' | 'msl' | 'cpp' | 'godot';
+  /** The one that the map was baked for: 'orthonormal' reads maps for MikkTSpace, as most are, 'smooth' and 'cotangent'
+   * those that you bake for this shader. Required, except for 'godot', whose default is 'orthonormal'. */
   frame?: string;
   convention?: Convention;
   /** For the frame "triangle" only: emits the part for one stage. Default: all stages. */

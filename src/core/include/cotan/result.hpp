@@ -26,9 +26,10 @@ enum class ErrorKind {
 
 struct Error {
     ErrorKind kind = ErrorKind::input;
-    std::string message; // one line, no newline
-    bool memory = false; // the caller's memory limit was exceeded; a larger limit may succeed
-    std::string field{}; // the caller's field that the message begins with, such as "options.maxDistance"
+    std::string message;  // one line, no newline
+    bool memory = false;  // the caller's memory limit was exceeded; a larger limit may succeed
+    std::string field{};  // the caller's field that the message begins with, such as "options.maxDistance"
+    std::string advice{}; // further lines for people, each ending with a newline
 };
 
 // A value or an Error. Check with `if (!result)` before `*result`. Compilers warn of a call whose result is ignored.
