@@ -11,7 +11,11 @@ set(made ${PROJECT_BINARY_DIR}/packaging)
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME cotan)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
-set(CPACK_PACKAGE_CONTACT "The Cotan authors <maintainers@cotan.invalid>") # not read: see SECURITY.md
+set(CPACK_PACKAGE_CONTACT "${COTAN_MAINTAINER}")
+set(CPACK_DEBIAN_PACKAGE_HOMEPAGE "${COTAN_REPOSITORY}")
+foreach(file changelog copyright)
+  configure_file(${packaging}/${file}.in ${made}/${file} @ONLY)
+endforeach()
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
@@ -32,8 +36,8 @@ function(cotan_package name section summary description)
   set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${name} PARENT_SCOPE)
   set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section} PARENT_SCOPE)
   set(CPACK_DEBIAN_${upper}_DESCRIPTION "${summary}\n${description}" PARENT_SCOPE)
-  install(FILES ${packaging}/copyright DESTINATION share/doc/${name} COMPONENT ${name} EXCLUDE_FROM_ALL)
-  install(FILES ${packaging}/changelog DESTINATION share/doc/${name} RENAME changelog.Debian COMPONENT ${name} EXCLUDE_FROM_ALL)
+  install(FILES ${made}/copyright DESTINATION share/doc/${name} COMPONENT ${name} EXCLUDE_FROM_ALL)
+  install(FILES ${made}/changelog DESTINATION share/doc/${name} RENAME changelog.Debian COMPONENT ${name} EXCLUDE_FROM_ALL)
 endfunction()
 set(about "Cotan is normal mapping without precomputed tangents: the frame is derived
 where it is needed, from screen derivatives of position and texture
@@ -72,7 +76,7 @@ install(FILES CHANGELOG.md DESTINATION share/doc/cotan RENAME changelog COMPONEN
 install(DIRECTORY bindings/python/cotan DESTINATION lib/python3/dist-packages COMPONENT python3-cotan EXCLUDE_FROM_ALL
   FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
 # Metadata by which pip and importlib.metadata find the package.
-file(CONFIGURE OUTPUT ${made}/METADATA CONTENT "Metadata-Version: 2.1\nName: cotan\nVersion: @PROJECT_VERSION@\n" @ONLY)
+file(CONFIGURE OUTPUT ${made}/METADATA CONTENT "Metadata-Version: 2.1\nName: cotan\nVersion: @PROJECT_VERSION@\n@COTAN_PROJECT_URL_LINE@" @ONLY)
 install(FILES ${made}/METADATA DESTINATION lib/python3/dist-packages/cotan-${PROJECT_VERSION}.dist-info
   COMPONENT python3-cotan EXCLUDE_FROM_ALL)
 
@@ -82,6 +86,7 @@ set(COTAN_2_since 0.2.0)
 set(COTAN_3_since 0.2.0)
 set(COTAN_5_since 0.2.0)
 set(COTAN_6_since 0.2.0)
+set(COTAN_7_since 0.2.0)
 file(CONFIGURE OUTPUT ${made}/shlibs CONTENT "libcotan @PROJECT_VERSION_MAJOR@ libcotan0 (>= @PROJECT_VERSION@)\n" @ONLY)
 file(CONFIGURE OUTPUT ${made}/triggers CONTENT "activate-noawait ldconfig\n" @ONLY)
 file(READ src/c/cotan.map script)

@@ -128,8 +128,29 @@ def judgesAreIndependent():
                     wrong.append(f"{file.relative_to(ROOT)} includes {include}")
 
 
+# Standard headers that other standard headers include in some versions of libstdc++ only, and names that need them.
+OWN_HEADERS = {
+    "algorithm": r"std::(ranges::)?(sort|stable_sort|(min|max|minmax)_element|minmax|find_if|find_if_not|all_of|any_of|"
+                 r"none_of|count|count_if|copy_if|copy_n|transform|unique|remove_if|replace|fill_n|reverse|rotate|clamp|"
+                 r"(lower|upper)_bound|equal_range|binary_search|nth_element|partial_sort|is_sorted|mismatch|search|"
+                 r"adjacent_find|for_each|generate|shuffle|partition|merge|includes)\b|std::(min|max)\(\{",
+    "numeric": r"std::(accumulate|iota|gcd|lcm|partial_sum|inner_product|reduce|exclusive_scan|midpoint)\b",
+    "limits": r"std::numeric_limits",
+}
+
+
+def standardHeadersAreIncludedWhereUsed():
+    for file in [p for top in ("src", "apps", "tests", "bench", "fuzz") for p in (ROOT / top).rglob("*.?pp")]:
+        text = re.sub(r"//.*", "", file.read_text())
+        for header, names in OWN_HEADERS.items():
+            used = re.search(names, text)
+            if used and header not in INCLUDE.findall(text):
+                wrong.append(f"{file.relative_to(ROOT)} uses {used.group()} without <{header}>")
+
+
 FACTS = (hasFewFolders, hasFewLines, everySourceIsBuilt, hasFewDependencies, hasNoDependencyCycle,
-         partsIncludeWhatTheyLink, eachPartHasOnePublicHeader, fileNamesAreUnique, judgesAreIndependent)
+         partsIncludeWhatTheyLink, eachPartHasOnePublicHeader, fileNamesAreUnique, judgesAreIndependent,
+         standardHeadersAreIncludedWhereUsed)
 if __name__ == "__main__":
     chosen = [f for f in FACTS if f.__name__ == sys.argv[2]] if len(sys.argv) > 2 else FACTS
     if not chosen:

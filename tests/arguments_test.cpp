@@ -2,8 +2,11 @@
 // values that the help lists.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <stdexcept>
 
+#include "core/real_number.hpp"
 #include "terminal/arguments.hpp"
 #include "terminal/command_words.hpp"
 
@@ -48,6 +51,51 @@ struct Everything {
         return tool.run(words, [](const std::string&) {});
     }
 };
+
+TEST(Arguments, anOptionThatNamesAFileSaysWhetherItIsReadOrWritten)
+{
+    std::string file;
+    Arguments tool{"tool", "what it is", "1.2.3"};
+    Argument option = tool.option("--forgotten", file, "a file").in("NAME|FILE");
+    EXPECT_THROW(tool.describe(), std::logic_error);
+    option.reads();
+    EXPECT_EQ(tool.describe().options.size(), 3u); // with --help and --version
+}
+
+// The power of ten of the first digit says whether a number is too large or too small.
+TEST(RealNumbers, areParsedInAnySpelling)
+{
+    const double inf = std::numeric_limits<double>::infinity();
+    const std::string zeros(400, '0');
+    const std::pair<std::string, double> spellings[] = {{"1.5", 1.5},
+                                                        {"+1.5", 1.5},
+                                                        {"-.5", -0.5},
+                                                        {"5.", 5},
+                                                        {"1e+3", 1000},
+                                                        {"1e-400", 0},
+                                                        {"1e400", inf},
+                                                        {"-1e400", -inf},
+                                                        {"0." + zeros + "1", 0},
+                                                        {"1" + zeros, inf},
+                                                        {"0.01e-400", 0},
+                                                        {"1" + zeros + "e-500", 1e-100},
+                                                        {"0." + zeros + "1e300", 1e-101},
+                                                        {"1e99999999999999999999", inf},
+                                                        {"1e-99999999999999999999", 0},
+                                                        {"inf", inf}};
+    for (const auto& [text, expected] : spellings) {
+        const auto value = parseReal(text);
+        ASSERT_TRUE(value) << text;
+        EXPECT_EQ(*value, expected) << text;
+    }
+    EXPECT_TRUE(std::signbit(*parseReal("-1e-400")));
+    EXPECT_TRUE(std::isnan(*parseReal("nan")));
+    for (const std::string text : {"", "+", "-", ".", "1,5", "1.5.", "1e", " 1", "1 ", "++1", "+-1", "0x1p3", "1.5f"})
+        EXPECT_FALSE(parseReal(text)) << text;
+    EXPECT_EQ(textOfReal(0.5), "0.5");
+    EXPECT_EQ(textOfReal(1234567), "1.23457e+06");
+    EXPECT_EQ(textOfReal(0.1, 17), "0.10000000000000001");
+}
 
 // Expects that the command accepts the value or, if `unless` is not empty, that it fails with this one line.
 void expectAccepted(const std::string& option, const std::string& value, const std::string& unless = "")

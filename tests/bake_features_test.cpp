@@ -241,6 +241,84 @@ TEST_F(BakeFeatures, matchingByNameKeepsRaysOnTheirOwnPartner)
     EXPECT_NE(alone.err.find("roof_low"), std::string::npos) << alone.err;
 }
 
+// Two squares at one place with uv side by side, each with its own detail: at 0.1 and at 0.2.
+TEST_F(BakeFeatures, namesWithNumbersOfBlenderPair)
+{
+    write("low.obj",
+          "o wall_low\n" + square(0, 0, 0, 1) + faces(1) + "o wall_low.001\n" + square(0, 0, 0, 1, 0, 1) + faces(5));
+    write("high.obj",
+          "o wall_high\n" + square(-1, -1, 0.1, 3) + faces(1) + "o wall_high.001\n" + square(-1, -1, 0.2, 3)
+              + faces(5));
+    const std::vector<std::string> words{"--high",
+                                         "high.obj",
+                                         "--low",
+                                         "low.obj",
+                                         "--match-by-name",
+                                         "--kind",
+                                         "height",
+                                         "--bits",
+                                         "32",
+                                         "--size",
+                                         "4x4",
+                                         "--udim",
+                                         "1001",
+                                         "-o",
+                                         "a.exr",
+                                         "--max-distance",
+                                         "1"};
+    auto other = words;
+    other[12] = "1002";
+    other[14] = "b.exr";
+    for (const auto& [run, file, height] : {std::tuple(words, "a.exr", 0.1), {other, "b.exr", 0.2}}) {
+        const ToolRun r = bake(run);
+        ASSERT_EQ(r.code, 0) << r.err;
+        EXPECT_NEAR(double(loadImage(file).floats()[0]), height, 1e-4);
+    }
+    EXPECT_TRUE(nlohmann::json::parse(readWhole(folder / "r.json"))["warnings"].empty());
+    // One object alone: the detail of the others does not become its own.
+    auto alone = words;
+    alone.insert(alone.end(), {"--object", "wall_low"});
+    ASSERT_EQ(bake(alone).code, 0);
+    EXPECT_NEAR(double(loadImage("a.exr").floats()[0]), 0.1, 1e-4);
+}
+
+TEST_F(BakeFeatures, pairsByNameShadeOnlyThemselvesUnlessAsked)
+{
+    // A square under another pair's, which covers all of its sky.
+    write("low.obj",
+          "o a_low\n" + square(0, 0, 0, 1) + faces(1) + "o b_low\n" + square(0, 0, 0.01, 1, 0, 1) + faces(5));
+    write("high.obj",
+          "o a_high\n" + square(-9, -9, 0, 19) + faces(1) + "o b_high\n" + square(-9, -9, 0.01, 19) + faces(5));
+    const std::vector<std::string> words{"--high",          "high.obj", "--low", "low.obj", "--kind", "ao",
+                                         "--match-by-name", "--size",   "4x4",   "-o",      "ao.png"};
+    ASSERT_EQ(bake(words).code, 0);
+    EXPECT_EQ(int(loadImage("ao.png").bytes8()[0]), 255);
+    auto all = words;
+    all.insert(all.end(), {"--ao-occluders", "all"});
+    ASSERT_EQ(bake(all).code, 0);
+    EXPECT_LE(int(loadImage("ao.png").bytes8()[0]), 10);
+}
+
+TEST_F(BakeFeatures, namesThatPairSuggestMatching)
+{
+    write("low.obj", "o a_low\n" + square(0, 0, 0, 1) + faces(1) + "o b_low\n" + square(2, 0, 0, 1, 0, 1) + faces(5));
+    write("high.obj", "o a_high\n" + square(0, 0, 0, 1) + faces(1) + "o b_high\n" + square(2, 0, 0, 1) + faces(5));
+    std::vector<std::string> words{"bake",   "--high", "high.obj", "--low", "low.obj",
+                                   "--size", "4x4",    "-o",       "m.png", "--overwrite"};
+    const std::string hint = "--match-by-name: the names of the meshes pair, such as 'a_low' with 'a_high'";
+    EXPECT_NE(runTool(words, folder.path()).err.find(hint), std::string::npos);
+    words.push_back("--match-by-name");
+    EXPECT_EQ(runTool(words, folder.path()).err.find("--match-by-name"), std::string::npos);
+    // What the names leave open is a warning, and in the report.
+    write("high.obj",
+          "o a_high\n" + square(0, 0, 0, 1) + faces(1) + "o b_high\n" + square(2, 0, 0, 1) + faces(5) + "o c_high\n"
+              + square(4, 0, 0, 1) + faces(9));
+    words.insert(words.end(), {"--json", "r.json"});
+    const std::string left = "no low mesh has the name of 'c_high': not baked";
+    EXPECT_NE(runTool(words, folder.path()).err.find(left), std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(readWhole(folder / "r.json"))["warnings"], nlohmann::json::array({left}));
+}
+
 TEST_F(BakeFeatures, theMaskShowsMissedAndOverlappedTexels)
 {
     write("low.obj", square(0, 0, 0, 1) + kFaces);

@@ -195,6 +195,24 @@ TEST(BakeModel, meshesAreMatchedByName)
               "options.matchByName: no high mesh matches the name of the low mesh 'Door_LOW'");
 }
 
+TEST(BakeModel, theNameOfAMeshCountsWhereOnlyItSaysWhatItIs)
+{
+    Scene low = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})});
+    Scene high = sceneOfMeshes({square({0, 0, 0.1f}, {1, 0, 0.3f}), square({0, 0, 0.06f}, {1, 0, -0.05f})});
+    low.instances[0].name = "Node 7"; // as a glTF has nodes and meshes
+    low.meshes[0].name = "door_low";
+    high.instances[0].name = "wall_high";
+    high.meshes[0].name = "door_high"; // the node says what it is, so that its mesh does not count
+    high.instances[1].name = "Node 8";
+    high.meshes[1].name = "door_high";
+    BakeModelOptions options = smallOptions();
+    options.matchByName = true;
+    const auto matched = bakeModel(low, highOf(high), options);
+    ASSERT_TRUE(matched) << matched.error().message;
+    EXPECT_GT(codes(matched->maps[0].image, 0, 3).x, 128);
+    EXPECT_EQ(matched->warnings, std::vector<std::string>{"no low mesh has the name of 'wall_high': not baked"});
+}
+
 TEST(BakeModel, aMapForTheHighSceneIsApplied)
 {
     // The same direction everywhere, with green as in DirectX: down the image.

@@ -361,8 +361,8 @@ TEST(RayStarts, raysStartInFrontOfObstacles)
     EXPECT_EQ(open(*tree, at + glm::vec3(2, 0, 0), 0.01f, 5), 5); // beside all triangles
     const std::vector<std::uint32_t> instances{2, 0, 1};
     const std::vector<std::int64_t> matched{5, -1, 7};
-    EXPECT_EQ(highInstances(instances, matched), (std::vector<std::int64_t>{7, 5, -1}));
-    EXPECT_TRUE(highInstances(instances, {}).empty());
+    EXPECT_EQ(highGroups(instances, matched), (std::vector<std::int64_t>{7, 5, -1}));
+    EXPECT_TRUE(highGroups(instances, {}).empty());
 }
 
 TEST(RayStarts, aTriangleIsObstructedIfOneOfItsRaysStartsBehindAnother)

@@ -82,7 +82,7 @@ int perform(const std::vector<std::string>& words)
     }
     if (what == "half") { // dies while writing
         const auto part = cotan::OutputFile::begin(words.at(1));
-        if (part && cotan::writeBytes(part->path(), {}))
+        if (part && cotan::writeBytes(*part, {}))
             std::raise(SIGKILL);
     }
     if (what == "copy") { // copy FROM TO [LOG]: appends a line to LOG on every run

@@ -1,8 +1,10 @@
 // `cotan batch` as a user runs it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <regex>
@@ -107,6 +109,51 @@ TEST_F(BatchCommand, runsInFileOrderAndRepeatsOnlyWhatChanged)
     batch({"jobs.jsonl", "-o", "report.html", "--json", "r.json", "--rows", "3"});
     EXPECT_NE(readWhole(folder / "report.html").find("the worst 3 of 4"), std::string::npos);
     EXPECT_EQ(states().size(), 4u);
+}
+
+// Daemons and some CI runners ignore SIGCHLD, and the programs that they start inherit it.
+TEST_F(BatchCommand, failuresAreKeptAsFailuresUnderAParentThatIgnoresItsChildren)
+{
+    jobs({{{"name", "good"}, {"command", {"map", "info", "a.png"}}},
+          {{"name", "bad"}, {"command", {"map", "info", "gone.png"}}}});
+    const std::string command = "cd " + folder.path().string()
+        + " && exec sh -c \"trap '' CHLD; exec " COTAN_TOOL " batch jobs.jsonl --store s --json r.json > out 2> err\"";
+    for (const std::string kept : {"", " kept"}) {
+        EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2) << readWhole(folder / "err");
+        EXPECT_EQ(states(), (States{{"good", "done" + kept}, {"bad", "failed" + kept}}));
+        EXPECT_NE(readWhole(folder / "out").find("2 jobs: 1 done, 1 failed"), std::string::npos);
+    }
+}
+
+// The files of its jobs are known from their words, or from what they read.
+TEST_F(BatchCommand, replacesNoFileOfAJobAndNoJobReplacesItsFiles)
+{
+    write(quad(2), folder.path());
+    jobs({flip("a.png", "c.png"), {{"name", "lint"}, {"command", {"lint", "quad.gltf"}}}});
+    fs::create_hard_link(folder / "jobs.jsonl", folder / "hard.jsonl");
+    fs::create_symlink("waves.png", folder / "soft.png");
+    std::map<std::string, std::string> before;
+    for (const std::string name : {"jobs.jsonl", "a.png", "quad.gltf", "quad.bin", "waves.png"})
+        before[name] = readWhole(folder / name);
+    const auto refused = [&](const std::vector<std::string>& words, const std::string& why) {
+        const ToolRun run = batch(words);
+        EXPECT_EQ(run.code, 1) << run.err;
+        EXPECT_EQ(lines(run.err), 1) << run.err;
+        EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
+        for (const auto& [name, bytes] : before)
+            EXPECT_TRUE(readWhole(folder / name) == bytes) << name << " after " << run.err;
+    };
+    for (const std::string name : {"jobs.jsonl", "hard.jsonl", "a.png", "quad.gltf", "quad.bin", "soft.png"})
+        for (const char* option : {"-o", "--json"})
+            refused({"jobs.jsonl", "--store", "s", option, name},
+                    std::string(option) + " " + name + " would overwrite ");
+    refused({"jobs.jsonl", "--store", "s", "-o", "c.png"}, "-o c.png and line 1: ");
+    jobs({flip("a.png", "list"), flip("b.png", "c.png")}, "list");
+    before["list"] = readWhole(folder / "list");
+    refused({"list", "-o", "r.html"},
+            "line 1: " + (folder / "list").string() + " would overwrite list, which is an input");
+    EXPECT_EQ(batch({"jobs.jsonl", "-o", "a.png", "--overwrite"}).code, 0);
+    EXPECT_NE(readWhole(folder / "a.png").find("<html"), std::string::npos);
 }
 
 TEST_F(BatchCommand, filesReferencedByTheModelCountAsInputs)
@@ -351,7 +398,7 @@ TEST(BatchArguments, everyFileOptionSaysWhetherItReadsOrWrites)
             job.insert(job.end(), {(*it)[1], "NAMED"});
             const std::map<std::string, std::vector<std::string>> needed = {
                 {"bake", {"--high", "h.obj", "--low", "l.obj"}},
-                {"shader", {"--lang", "glsl"}},
+                {"shader", {"--lang", "glsl", "--frame", "cotangent"}},
                 {"map convert", {"f.png", "--from", "opengl", "--to", "directx"}},
                 {"map blend", {"b.png", "d.png"}},
                 {"map diff", {"a.png", "b.png"}},

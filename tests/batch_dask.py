@@ -92,6 +92,11 @@ def main(folder):
             again = cotan.dask.run(folder / "jobs.jsonl", store=folder / "r.store", client=client, tool=TOOL)
             assert again["counts"] == report["counts"] and time.monotonic() - before < 30
 
+            # Options in every spelling, and wrong ones in one line.
+            for options in (["--jobs=2"], ["--jobs", "2"], ["--jobs=2", "--limit-time=600", "--quiet", "--again"]):
+                counts = cotan.dask.run(folder / "jobs.jsonl", store=folder / "r.store", client=client, tool=TOOL, options=options)["counts"]
+                assert counts == report["counts"], (options, counts)
+
             # Errors have the text of the command line.
             (folder / "bad.jsonl").write_text("{}\n")
             for words, error in (
@@ -99,6 +104,9 @@ def main(folder):
                 ({"jobs": folder / "none.jsonl"}, cotan.InputError),
                 ({"tool": "/no/such/tool"}, cotan.UnavailableError),
                 ({"options": ["--limit-seconds", "x"]}, cotan.UsageError),
+                ({"options": ["-j4"]}, cotan.UsageError),
+                ({"options": ["--jobs 4"]}, cotan.UsageError),
+                ({"options": ["--store=elsewhere"]}, cotan.UsageError),
             ):
                 arguments = {"jobs": folder / "jobs.jsonl", "report": folder / "x.html", "client": client, "tool": TOOL, **words}
                 try:

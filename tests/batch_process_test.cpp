@@ -240,6 +240,19 @@ TEST_F(BatchScript, getsTheLimitsTheThreadsAndAReportPath)
     }
 }
 
+// The program undoes a parent's choice to ignore its children; a host of its functions may make that choice again.
+TEST_F(BatchScript, anUnknownEndIsAFailureThatIsTriedAgain)
+{
+    add({"one"});
+    ::signal(SIGCHLD, SIG_IGN);
+    const auto results = run("exit 0\n");
+    ::signal(SIGCHLD, SIG_DFL);
+    EXPECT_EQ(results[0].record.state, JobState::failed);
+    EXPECT_NE(results[0].record.reason.find("unknown"), std::string::npos) << results[0].record.reason;
+    EXPECT_FALSE(repeatable(results[0].record));
+    EXPECT_EQ(runAll()[0].record.state, JobState::done);
+}
+
 TEST_F(BatchScript, failureReasonIsItsLastOutput)
 {
     struct Row {

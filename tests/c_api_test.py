@@ -112,9 +112,9 @@ def call(name, *arguments, expect=0):
 # The exported symbols are exactly those of the version script.
 listed = set(re.findall(r"^    (cotan_\w+);", open(version_script).read(), re.M))
 lines = subprocess.check_output(["nm", "-D", "--defined-only", library], text=True).splitlines()
-exported = {line.split()[-1].split("@")[0] for line in lines} - {"COTAN_1", "COTAN_2", "COTAN_3", "COTAN_5", "COTAN_6"}
+exported = {line.split()[-1].split("@")[0] for line in lines} - {"COTAN_1", "COTAN_2", "COTAN_3", "COTAN_5", "COTAN_6", "COTAN_7"}
 assert exported == listed, exported ^ listed
-assert cotan.cotan_api_version() == 6 and re.fullmatch(rb"\d+\.\d+\.\d+", cotan.cotan_version())
+assert cotan.cotan_api_version() == 7 and re.fullmatch(rb"\d+\.\d+\.\d+", cotan.cotan_version())
 frames = [cotan.cotan_frame_name(i).decode() for i in range(cotan.cotan_frame_count())]
 assert "cotangent" in frames and "mikktspace" in frames and cotan.cotan_frame_name(99) is None
 
@@ -292,6 +292,17 @@ if call("cotan_bake", c.byref(low), c.byref(high), c.byref(options), c.byref(bak
     cotan.cotan_bytes_free(lines)
     for model in models:
         cotan.cotan_model_free(model)
+    # Meshes whose names pair, and the options that follow the names.
+    cotan.cotan_name_role.restype, cotan.cotan_bytes_data.restype = c.c_char_p, c.c_char_p
+    assert [cotan.cotan_name_role(n) for n in (b"a_low", b"a_HIGH.001", b"a.cage", b"pillow", None)] == [b"low", b"high", b"cage", b"", b""]
+    names, details = (text * 3)(b"a_low", b"a_low.001", b"b_low"), (text * 2)(b"a_high.001", b"A_high")
+    groups, of_detail, notes = (c.c_int64 * 3)(), (c.c_int64 * 2)(), c.c_void_p()
+    call("cotan_pair_names", c.c_size_t(3), names, c.c_size_t(2), details, groups, of_detail, c.byref(notes))
+    assert groups[0] == of_detail[1] >= 0 and groups[1] == of_detail[0] >= 0 and groups[0] != groups[1] and groups[2] == -1
+    assert cotan.cotan_bytes_data(notes) in (None, b"") and cotan.cotan_bytes_size(notes) == 0
+    cotan.cotan_bytes_free(notes)
+    assert "expected arrays, found null" in call("cotan_pair_names", c.c_size_t(3), names, c.c_size_t(2), details, None, of_detail, None, expect=1)
+    assert call("cotan_pair_names", c.c_size_t(3), None, c.c_size_t(0), None, None, None, None, expect=1) == "low: expected an array, found null"
     assert "low: expected a model, found null" in call("cotan_bake_models", None, c.c_size_t(0), None, None, c.byref(baked_map), None, None, expect=1)
     options.size -= 8
     assert "options.size: expected" in call("cotan_bake", c.byref(low), c.byref(high), c.byref(options), c.byref(baked_map), None, expect=1)
@@ -304,6 +315,14 @@ if call("cotan_bake", c.byref(low), c.byref(high), c.byref(options), c.byref(bak
     six[5] = 4
     assert "low.indices[5]: expected less than 4" in call("cotan_bake", c.byref(low), c.byref(high), None, c.byref(baked_map), None, expect=2)
     six[5] = 3
+
+# Parts of file names.
+parts, given = c.c_void_p(), (text * 4)(b"a b", b"a_b", b"..", b"Lid")
+call("cotan_file_names", c.c_size_t(4), given, c.c_size_t(1), (text * 1)(b"lid"), c.byref(parts))
+cotan.cotan_bytes_data.restype = c.c_void_p
+assert c.string_at(cotan.cotan_bytes_data(parts), cotan.cotan_bytes_size(parts)) == b"a_b-2\na_b\n__\nLid-2\n"
+cotan.cotan_bytes_free(parts)
+assert call("cotan_file_names", c.c_size_t(1), None, c.c_size_t(0), None, c.byref(parts), expect=1) == "names: expected an array, found null"
 
 # A model in memory, with its files and images: a rectangle of 2 x 1 whose uv fill the unit square, all texels equal,
 # for MikkTSpace. Frames from differences see u half as steep as v. Only this test decodes its images.
@@ -496,6 +515,13 @@ call("cotan_shader_text", b"wgsl", b"triangle", b"gltf", None, c.byref(size))
 whole = size.value
 call("cotan_shader_text", b"wgsl", b"triangle,fragment", b"gltf", None, c.byref(size))
 assert 0 < size.value < whole
+for absent in (None, b""):
+    assert call("cotan_shader_text", b"wgsl", absent, b"gltf", None, c.byref(size), expect=1) == ("frame: expected orthonormal for "
+        "maps that were baked for MikkTSpace, as most are; smooth or cotangent for maps that you bake for this shader; found none")
+call("cotan_shader_text", b"godot", None, b"gltf", None, c.byref(size))
+with_name = c.c_size_t()
+call("cotan_shader_text", b"godot", b"orthonormal", b"gltf", None, c.byref(with_name))
+assert size.value == with_name.value > 500
 assert "stage: expected fragment" in call("cotan_shader_text", b"wgsl", b"triangle,pixel", b"gltf", None, c.byref(size), expect=1)
 assert "the frame triangle" in call("cotan_shader_text", b"wgsl", b"cotangent,mesh", b"gltf", None, c.byref(size), expect=1)
 print("all of it holds")

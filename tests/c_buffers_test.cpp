@@ -105,6 +105,34 @@ TEST(CBuffers, tangentsHaveFourFloatsPerIndex)
     EXPECT_TRUE(tangents.untouched());
 }
 
+// Two triangles at the origin whose directions of u are opposite, and one without area in uv between them, which is
+// averaged with both (the mesh of MikktspaceTangents.equalThoseOfMikktspaceWithoutADirection).
+TEST(CBuffers, onlyMikktspaceTangentsAreZeroWhereDirectionsCancel)
+{
+    const std::vector<float> positions{0, 0, 0, 1, 0, 0, 0.5f, 0.9f, 0, -0.5f, 0.9f, 0, -1, 0, 0};
+    const std::vector<float> normals{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+    const std::vector<float> texcoords{0, 0, 1, 0, 0, -1, 0, 1, 1, 0};
+    const std::vector<std::uint32_t> indices{0, 1, 2, 0, 2, 3, 0, 3, 4};
+    const cotan_mesh mesh{sizeof(cotan_mesh), 5, positions.data(), normals.data(), texcoords.data(), 9, indices.data()};
+    for (const bool mikktspace : {true, false}) {
+        Guarded<float> tangents(4 * mesh.index_count);
+        ASSERT_EQ(
+            cotan_tangents(mikktspace ? "mikktspace" : "vertex", &mesh, 1, tangents.data(), message, sizeof message),
+            COTAN_OK)
+            << message;
+        int zeros = 0;
+        for (std::size_t i = 0; i < mesh.index_count; ++i) {
+            const float* t = tangents.data() + 4 * i;
+            const float length = std::hypot(t[0], t[1], t[2]);
+            EXPECT_TRUE(length == 0 || std::abs(length - 1) < kRounding) << i;
+            EXPECT_EQ(std::abs(t[3]), 1);
+            zeros += length == 0;
+        }
+        EXPECT_EQ(zeros, mikktspace ? 1 : 0);
+        EXPECT_EQ(tangents[4 * 3] == 0 && tangents[4 * 3 + 3] == 1, mikktspace) << "at the corner of the flat triangle";
+    }
+}
+
 TEST(CBuffers, outOfRangeIndicesAndIncompleteTrianglesAreRefused)
 {
     TwoTriangles two;

@@ -33,7 +33,16 @@ constexpr char kModel[] =
     {"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3, "material": 0}]}]})";
 
 // The function that fails, and how.
-enum class Failing { none, readSaysNo, readGivesNull, decodeSaysNo, decodeGivesBits, encodeSaysNo, encodeGivesNull };
+enum class Failing {
+    none,
+    readSaysNo,
+    readGivesNull,
+    decodeSaysNo,
+    decodeGivesBits,
+    encodeSaysNo,
+    encodeGivesNull,
+    encodeGivesJpeg
+};
 
 struct Caller {
     Failing failing = Failing::none;
@@ -89,7 +98,10 @@ struct Caller {
         f.encode = [](void* user, const cotan_picture* picture, const void** bytes, std::size_t* size) {
             Caller& self = *static_cast<Caller*>(user);
             self.calls.push_back("encode " + std::to_string(picture->width) + " x " + std::to_string(picture->height));
-            *bytes = self.failing == Failing::encodeGivesNull ? nullptr : self.file;
+            static const unsigned char jpeg[8] = {0xFF, 0xD8, 0xFF, 0xE0, 0, 16, 'J', 'F'};
+            *bytes = self.failing == Failing::encodeGivesNull ? nullptr
+                : self.failing == Failing::encodeGivesJpeg    ? jpeg
+                                                              : self.file;
             *size = sizeof self.file;
             return int(self.failing == Failing::encodeSaysNo);
         };
@@ -125,8 +137,10 @@ TEST(CFiles, eachImageIsDecodedAndEncodedOnceAndReleased)
     cotan_bytes* glb = nullptr;
     ASSERT_EQ(caller.convert(&glb), COTAN_OK) << text;
     caller.expectEachDoneWith();
-    for (const char* call : {"read square.bin", "decode model.gltf: bumps.png", "encode 8 x 8"})
+    for (const char* call : {"read square.bin", "encode 8 x 8"})
         EXPECT_EQ(caller.count(call), 1u) << call << " of " << testing::PrintToString(caller.calls);
+    // Once more after it was encoded, to measure what that lost.
+    EXPECT_EQ(caller.count("decode model.gltf: bumps.png"), 2u) << testing::PrintToString(caller.calls);
     // The new model contains the file that the caller encoded.
     const std::string made(static_cast<const char*>(cotan_bytes_data(glb)), cotan_bytes_size(glb));
     EXPECT_EQ(made.substr(0, 4), "glTF");
@@ -148,6 +162,7 @@ TEST(CFiles, aFailingCallbackEndsTheCallAndIsReleased)
         {Failing::decodeGivesBits, COTAN_USAGE, "bumps.png.bits: expected 8, 16 or 32, found 7"},
         {Failing::encodeSaysNo, COTAN_OUTPUT, "the caller did not encode the image"},
         {Failing::encodeGivesNull, COTAN_OUTPUT, "the caller did not encode the image"},
+        {Failing::encodeGivesJpeg, COTAN_OUTPUT, "expected a PNG file of the caller, found other data"},
     };
     for (const Case& c : cases) {
         Caller caller;
@@ -158,6 +173,43 @@ TEST(CFiles, aFailingCallbackEndsTheCallAndIsReleased)
         EXPECT_EQ(glb, nullptr);
         caller.expectEachDoneWith();
         EXPECT_FALSE(caller.calls.empty());
+    }
+}
+
+// This caller's file decodes as the old map, whatever it was to encode: the error after the conversion is the error
+// before.
+TEST(CFiles, lossesOfTheCallersEncoderAreInTheReport)
+{
+    Caller caller;
+    const cotan_model_files files = caller.files();
+    cotan_bytes *glb = nullptr, *json = nullptr;
+    cotan_convert_result result = COTAN_INIT(cotan_convert_result);
+    ASSERT_EQ(cotan_convert_gltf(kModel, sizeof kModel - 1, &files, nullptr, &result, &glb, &json, text, sizeof text),
+              COTAN_OK)
+        << text;
+    const std::string report(static_cast<const char*>(cotan_bytes_data(json)), cotan_bytes_size(json));
+    EXPECT_GT(result.worst_degrees_before, 2);
+    EXPECT_DOUBLE_EQ(result.worst_degrees_after, result.worst_degrees_before);
+    EXPECT_NE(report.find("as encoded by the caller, its error is"), std::string::npos) << report;
+    cotan_bytes_free(glb);
+    cotan_bytes_free(json);
+}
+
+TEST(CFiles, mapsThatAreKeptUnreadAreNotDecoded)
+{
+    for (const int keep : {1, COTAN_MAPS_UNREAD}) {
+        Caller caller;
+        const cotan_model_files files = caller.files();
+        cotan_convert_options options = COTAN_INIT(cotan_convert_options);
+        options.keep_maps = keep;
+        cotan_bytes* glb = nullptr;
+        ASSERT_EQ(
+            cotan_convert_gltf(kModel, sizeof kModel - 1, &files, &options, nullptr, &glb, nullptr, text, sizeof text),
+            COTAN_OK)
+            << text;
+        EXPECT_EQ(caller.count("decode model.gltf: bumps.png"), keep == COTAN_MAPS_UNREAD ? 0u : 1u);
+        EXPECT_EQ(caller.count("encode 8 x 8"), 0u);
+        cotan_bytes_free(glb);
     }
 }
 

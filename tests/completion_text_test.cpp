@@ -214,6 +214,18 @@ TEST(Completion, filesCoverEachShellAndEachCommand)
     }
 }
 
+// The page names a place for reports only if whoever publishes Cotan has filled one in.
+TEST(Completion, onlyThePageOfTheToolNamesTheRepository)
+{
+    const CommandHelp all = tool();
+    const std::string section = ".SH \"REPORTING BUGS\"\nhttps://forge.example/cotan\n";
+    EXPECT_EQ(manPage({&all}, "4.5").find("REPORTING"), std::string::npos);
+    EXPECT_NE(manPage({&all}, "4.5", "https://forge.example/cotan").find(section), std::string::npos);
+    EXPECT_EQ(manPage({&all, &all.commands[0]}, "4.5", "https://forge.example/cotan").find("REPORTING"),
+              std::string::npos);
+    EXPECT_NE(helpFiles(all, "4.5", "https://forge.example/cotan")[3].text.find(section), std::string::npos);
+}
+
 // Characters that roff would treat as commands or typeset as other characters.
 TEST(Completion, pagesEscapeRoffCharacters)
 {

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <set>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -399,6 +401,52 @@ TEST(ConvertCommand, keepMapsDropsTangentsAndKeepsTheBytesOfMaps)
     if (isOriginal("models/SketchfabCat/scene.gltf")) {
         EXPECT_GE(anyReversed, 3u); // two maps of the cat, that of TwoSidedPlane
     }
+}
+
+// Kinds of errors that Khronos' validator finds in a file; empty if there are none.
+std::set<std::string> validatorErrors(const std::filesystem::path& file, const std::filesystem::path& log)
+{
+    const std::string command = "node '" COTAN_SOURCE_DIR "/tests/npm/validate.mjs' '" COTAN_NPM "/node_modules' '"
+        + file.string() + "' > '" + log.string() + "' 2>&1";
+    EXPECT_LE(WEXITSTATUS(std::system(command.c_str())), 1) << readWhole(log);
+    std::set<std::string> kinds;
+    std::istringstream lines(readWhole(log));
+    for (std::string severity, name, kind, rest; lines >> severity >> name >> kind && std::getline(lines, rest);)
+        if (severity == "error")
+            kinds.insert(kind);
+    return kinds;
+}
+
+// MESH_PRIMITIVE_NO_TANGENT_SPACE among them, where a coat or anisotropy needs TANGENT.
+TEST(ConvertCommand, conversionsMakeNoNewErrorsOfKhronosValidator)
+{
+    if (!std::filesystem::exists(COTAN_NPM "/installed-lock.json"))
+        GTEST_SKIP() << "gltf-validator is not installed (see the test npm_packages)";
+    std::size_t tried = 0;
+    for (const char* const folder : {"models", "materials"})
+        if (hasData(folder))
+            for (const auto& entry : std::filesystem::recursive_directory_iterator(dataFile(folder))) {
+                const std::filesystem::path& model = entry.path();
+                if (model.extension() != ".glb" && model.extension() != ".gltf")
+                    continue;
+                TemporaryFolder place;
+                const std::set<std::string> known = validatorErrors(model, place / "log");
+                // Large maps take long to convert; their tangents are dropped in the same way.
+                std::vector<std::vector<std::string>> ways = {{"--keep-maps"}};
+                if (bytesWithItsFiles(model) < 500'000)
+                    ways.push_back({"--to-frame", "smooth"});
+                for (std::vector<std::string> words : ways) {
+                    words.insert(words.begin(), {"convert", model.string(), "-o", "out.glb", "--overwrite", "--quiet"});
+                    const ToolRun run = runTool(words, place.path(), 120);
+                    ASSERT_EQ(run.code, 0) << model << run.err;
+                    for (const std::string& kind : validatorErrors(place / "out.glb", place / "log"))
+                        EXPECT_TRUE(known.contains(kind))
+                            << model << ' ' << words.back() << ": " << readWhole(place / "log");
+                    ++tried;
+                }
+            }
+    if (tried == 0)
+        GTEST_SKIP() << "no model is there";
 }
 
 TEST(ConvertCommand, keepMapsIsRefusedWithContradictoryOptions)

@@ -2,6 +2,8 @@
 // into which slots a converted map is written back, with which notes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "bake/convert/map_jobs.hpp"

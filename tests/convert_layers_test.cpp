@@ -113,8 +113,51 @@ TEST(ConvertCoat, theCoatLooksTheSameWithRotatedAndStretchedUv)
                      unconverted = stepsApart(folder / "before.png", folder / "unconverted.png");
         EXPECT_GT(unconverted, 1.2) << frame;
         EXPECT_LT(difference, 0.25 * unconverted) << frame;
-        EXPECT_FALSE(hasTangents(folder / "out.glb"));
+        EXPECT_EQ(hasTangents(folder / "out.glb"), stored) << "glTF requires them without a normalTexture";
     }
+}
+
+// A coat's map or anisotropy requires TANGENT or, for readers to derive it from, a normalTexture.
+TEST(ConvertCoat, tangentsStayWhereGltfRequiresThem)
+{
+    for (const bool bumps : {false, true})
+        for (const std::string layer : {"", "coat", "coat without a map", "anisotropy"})
+            for (const std::vector<std::string>& how :
+                 {std::vector<std::string>{"--keep-maps"}, {"--to-frame", "cotangent"}, {"--to-frame", "smooth"}}) {
+                TemporaryFolder folder;
+                Made m = quad(2);
+                m.root["meshes"].push_back(m.root["meshes"][0]); // the same vertices with another material
+                m.root["meshes"][1]["primitives"][0]["material"] = 1;
+                m.root["materials"].push_back(m.root["materials"][0]);
+                m.root["nodes"].push_back({{"mesh", 1}});
+                m.root["scenes"][0]["nodes"].push_back(m.root["nodes"].size() - 1);
+                if (layer.starts_with("coat"))
+                    addCoat(m, {{"index", 1}});
+                if (layer == "coat without a map")
+                    m.root["materials"][0]["extensions"]["KHR_materials_clearcoat"].erase("clearcoatNormalTexture");
+                if (layer == "anisotropy") {
+                    m.root["extensionsUsed"] = {"KHR_materials_anisotropy"};
+                    m.root["materials"][0]["extensions"]["KHR_materials_anisotropy"] = {{"anisotropyStrength", 0.5}};
+                }
+                if (!bumps)
+                    m.root["materials"][0].erase("normalTexture");
+                write(m, folder.path());
+                std::vector<std::string> words = {"convert", "quad.gltf", "-o", "out.glb", "--json", "-", "--quiet"};
+                words.insert(words.end(), how.begin(), how.end());
+                const ToolRun run = runTool(words, folder.path(), 120);
+                ASSERT_EQ(run.code, 0) << run.err;
+                const bool required = !bumps && (layer == "coat" || layer == "anisotropy");
+                const std::string what = layer + (bumps ? ", bumps, " : ", ") + how[0];
+                const Scene scene = loaded(folder / "out.glb");
+                ASSERT_EQ(scene.meshes.size(), 2u);
+                EXPECT_EQ(!scene.meshes[0].tangents.empty(), required) << what;
+                EXPECT_TRUE(scene.meshes[1].tangents.empty()) << what;
+                EXPECT_EQ(run.out.find("glTF requires TANGENT for KHR_materials_") != std::string::npos, required)
+                    << what << run.out;
+                // lint says the same beforehand.
+                const ToolRun lint = runTool({"lint", "quad.gltf", "--quiet"}, folder.path(), 120);
+                EXPECT_EQ(lint.out.find("are kept for them") != std::string::npos, required) << what << lint.out;
+            }
 }
 
 // One image in both slots, with different uv: they need different maps, and the report counts the conflicts.

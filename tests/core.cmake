@@ -2,7 +2,7 @@ cotan_test(core_test
   SOURCES frame_test.cpp degenerate_test.cpp precision_test.cpp normal_test.cpp covector_test.cpp
           convention_test.cpp random_test.cpp fused_test.cpp gradient_test.cpp
           frame_range_test.cpp light_test.cpp light_layers_test.cpp frame_guards_test.cpp normal_codec_test.cpp result_test.cpp
-          value_statistics_test.cpp
+          value_statistics_test.cpp file_names_test.cpp
   LIBRARIES cotan_truth cotan_core)
 
 # The variant that needs only a compiler and GLM: builds it as shared libraries, installs it and uses it from outside.
@@ -41,9 +41,18 @@ add_test(NAME PublicHeaders.compileWithoutAJsonLibrary
 # The structure of the parts: their number, includes and public headers.
 if(Python3_FOUND)
   foreach(fact hasFewFolders hasFewLines everySourceIsBuilt hasFewDependencies hasNoDependencyCycle partsIncludeWhatTheyLink eachPartHasOnePublicHeader
-      fileNamesAreUnique judgesAreIndependent)
+      fileNamesAreUnique judgesAreIndependent standardHeadersAreIncludedWhereUsed)
     add_test(NAME Architecture.${fact}
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/architecture_test.py ${PROJECT_SOURCE_DIR} ${fact})
+  endforeach()
+endif()
+
+# What is done in one way everywhere: writing files, waiting for processes.
+if(Python3_FOUND)
+  foreach(fact filesAreOpenedForWritingByOneFunction filesAreRemovedByTheirOwners filesAreReadByReadersThatNoteThem
+      childProcessesAreAwaitedByOneFunction nothingDependsOnTheLocale)
+    add_test(NAME OneWay.${fact}
+      COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/one_way_test.py ${PROJECT_SOURCE_DIR} ${fact})
   endforeach()
 endif()
 
@@ -53,6 +62,15 @@ if(Python3_FOUND)
     add_test(NAME Words.${fact}UseTheTermsOfTheField
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/words_test.py ${PROJECT_SOURCE_DIR} ${fact}UseTheTermsOfTheField)
   endforeach()
+endif()
+
+# Scripts called with wrong arguments, and the programs that they name; who publishes Cotan.
+if(Python3_FOUND AND CMAKE_GENERATOR STREQUAL Ninja)
+  add_test(NAME Scripts.refuseUnknownArgumentsAndNameWhatTheBuildMakes
+    COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/scripts_test.py ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
+  set_tests_properties(Scripts.refuseUnknownArgumentsAndNameWhatTheBuildMakes PROPERTIES TIMEOUT 300)
+  add_test(NAME Contact.isNamedOnceItIsFilledIn
+    COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/contact_test.py ${PROJECT_SOURCE_DIR})
 endif()
 
 # Adds a frame, an image format and a shader language to a copy of the sources.

@@ -130,6 +130,7 @@ TEST(Defaults, ofBakingAreOneTileOfAMap)
     EXPECT_EQ(b.maxDistance, 0);
     EXPECT_EQ(b.cageReach, 0);
     EXPECT_EQ(b.occlusionRays, 64);
+    EXPECT_EQ(b.occluders, Occluders::matched);
     EXPECT_EQ(b.threads, 0);
     BakeModelOptions m;
     EXPECT_EQ(m.tiles, std::vector<int>{1001});

@@ -60,11 +60,11 @@ void expectRight(const std::string& label, const json& side)
 TEST(ExampleWebGl2, thePastedTextIsWhatTheToolPrintsToday)
 {
     TemporaryFolder folder;
-    const ToolRun printed = runTool({"shader", "--lang", "essl"}, folder.path());
+    const ToolRun printed = runTool({"shader", "--lang", "essl", "--frame", "cotangent"}, folder.path());
     ASSERT_EQ(printed.code, 0) << printed.err;
     EXPECT_NE(readWhole(kSources + "/examples/webgl2/index.html").find("id=\"cotan\">\n" + printed.out + "</script>"),
               std::string::npos)
-        << "paste the output of `cotan shader --lang essl` into examples/webgl2/index.html again";
+        << "paste the output of `cotan shader --lang essl --frame cotangent` into examples/webgl2/index.html again";
 }
 
 TEST(ExampleWebGl2, normalsMatchTheSheetOnBothSidesAndUpsideDown)
@@ -86,10 +86,11 @@ TEST(ExampleWebGl2, normalsMatchTheSheetOnBothSidesAndUpsideDown)
 void expectPrintedToday(const std::string& example)
 {
     TemporaryFolder folder;
-    const ToolRun printed = runTool({"shader", "--lang", "essl", "--form", "total"}, folder.path());
+    const ToolRun printed =
+        runTool({"shader", "--lang", "essl", "--frame", "cotangent", "--form", "total"}, folder.path());
     ASSERT_EQ(printed.code, 0) << printed.err;
     EXPECT_EQ(readWhole(kSources + "/examples/" + example + "/cotan.glsl"), printed.out)
-        << "cotan shader --lang essl --form total -o examples/" + example + "/cotan.glsl";
+        << "cotan shader --lang essl --frame cotangent --form total -o examples/" + example + "/cotan.glsl";
 }
 
 // Cotan's frame is right in every scene, the library's own in those that are not flipped.
@@ -119,6 +120,10 @@ TEST(ExampleBabylon, cotansFrameIsRightEvenInFlippedTargetsAndMirrors)
         GTEST_SKIP() << "babylonjs is not installed (see the test npm_packages)";
     ASSERT_TRUE(measured().contains("babylon")) << measured();
     expectRightWhereTheirsIsAndFlipped(measured()["babylon"]);
+    EXPECT_EQ(measured()["babylon"]["two materials"].size(), 4u);
+    for (const auto& [way, halves] : measured()["babylon"]["two materials"].items())
+        for (const json& degrees : halves)
+            EXPECT_LT(degrees.get<double>(), kDegrees) << way << ": each half shows its own map: " << halves;
 }
 
 } // namespace

@@ -67,6 +67,21 @@ function domeTexels(count) {
   return texels;
 }
 
+// Two one-texel maps, decoded as 2c - 1: flat, and tilted by 45 degrees along u.
+const twoTexels = [[128, 128, 255, 255], [218, 128, 218, 255]];
+
+// Degrees at the centres of the left and the right half between the drawn normals and those of `texels` on a plane that
+// faces the eye, with u to the right and v up. pixels: RGBA floats of width x height.
+function halvesErrors(pixels, width, height, texels = twoTexels) {
+  return texels.map((texel, half) => {
+    const at = 4 * (Math.floor(height / 2) * width + Math.floor(width * (half + 0.5) / 2)), got = pixels.subarray(at, at + 3);
+    const m = [0, 1, 2].map(i => texel[i] / 127.5 - 1);
+    const dot = m[0] * got[0] + m[1] * got[1] + m[2] * got[2];
+    const cross = Math.hypot(m[1] * got[2] - m[2] * got[1], m[2] * got[0] - m[0] * got[2], m[0] * got[1] - m[1] * got[0]);
+    return Math.atan2(cross, dot) * 180 / Math.PI;
+  });
+}
+
 const greenFlipped = texels => texels.map((x, i) => (i % 4 === 1 ? 255 - x : x));
 
 // x, y, u and v of the sheet's four triangles, corner by corner; the first six corners are the mirrored half.

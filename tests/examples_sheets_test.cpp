@@ -30,10 +30,10 @@ TEST(ExampleRaytracing, normalsMatchTheShearedSheetOnBothSides)
 TEST(ExampleVulkan, thePastedTextIsWhatTheToolPrintsToday)
 {
     TemporaryFolder folder;
-    const ToolRun printed = runTool({"shader", "--lang", "glsl"}, folder.path());
+    const ToolRun printed = runTool({"shader", "--lang", "glsl", "--frame", "cotangent"}, folder.path());
     ASSERT_EQ(printed.code, 0) << printed.err;
     EXPECT_EQ(readWhole(COTAN_SOURCE_DIR "/examples/vulkan/cotan.glsl"), printed.out)
-        << "cotan shader --lang glsl -o examples/vulkan/cotan.glsl";
+        << "cotan shader --lang glsl --frame cotangent -o examples/vulkan/cotan.glsl";
 }
 
 TEST(ExampleVulkan, normalsMatchTheShearedSheetOnBothSides)

@@ -105,7 +105,12 @@ TEST(OutputErrors, occurUnlessTheFolderExistsOrCanBeMade)
     EXPECT_TRUE(fs::is_directory(folder / "b/c"));
     EXPECT_EQ(errorIn(makeFolder(folder / "b/c")), "done");
     EXPECT_TRUE(errorIn(makeFolder(folder / "file")).starts_with(base + "/file: cannot create this folder: "));
-    EXPECT_EQ(errorIn(writeBytes(folder / "no/a", {})), base + "/no/a: cannot write: no such file or directory");
+    fs::create_directory(folder / "lost");
+    const auto lost = OutputFile::begin(folder / "lost/a");
+    ASSERT_TRUE(lost);
+    fs::remove(folder / "lost");
+    EXPECT_EQ(errorIn(writeBytes(*lost, {})), base + "/lost/a: cannot write: no such file or directory");
+    EXPECT_EQ(errorIn(lost->open()), base + "/lost/a: cannot write: no such file or directory");
 }
 
 TEST(OutputErrors, ofAFailedRenameStateTheReasonAndLeaveNothing)
@@ -113,7 +118,7 @@ TEST(OutputErrors, ofAFailedRenameStateTheReasonAndLeaveNothing)
     TemporaryFolder folder;
     {
         auto output = OutputFile::begin(folder / "a.png");
-        ASSERT_TRUE(output && writeBytes(output->path(), {}));
+        ASSERT_TRUE(output && writeBytes(*output, {}));
         EXPECT_EQ(output->destination(), folder / "a.png");
         fs::create_directories(folder / "a.png/full");
         EXPECT_EQ(errorIn(output->commit()), (folder / "a.png").string() + ": cannot write: is a directory");
@@ -155,7 +160,7 @@ TEST(OutputErrors, leaveNoNewFileOfSeveral)
     TemporaryFolder folder;
     const auto begun = [&](const char* name) {
         auto output = OutputFile::begin(folder / name);
-        EXPECT_TRUE(output && writeBytes(output->path(), std::as_bytes(std::span("new", 3))));
+        EXPECT_TRUE(output && writeBytes(*output, std::as_bytes(std::span("new", 3))));
         return *std::move(output);
     };
     {
@@ -206,7 +211,7 @@ TEST(FileRecord, refusesInOneSentenceAndKeepsTheFirstError)
                     "or --overwrite");
     EXPECT_TRUE(planOutput("-o", out));
     EXPECT_EQ(errorIn(planOutput("", out)),
-              "-o " + out + " and " + out + " are the same file; expected another name, or --overwrite");
+              "-o " + out + " and " + out + " are the same file; expected different names");
     ASSERT_TRUE(firstRefusal());
     EXPECT_NE(firstRefusal()->message.find("which is an input"), std::string::npos);
     EXPECT_TRUE(writeFileWhole(out, "new"));

@@ -155,6 +155,54 @@ TEST_F(InputGuard, differentFilesPipesAndFinishedOutputsAreAllowed)
     EXPECT_TRUE(planOutput("--json", "/dev/null"));
 }
 
+TEST_F(InputGuard, aFileThatIsReadWhileItIsWrittenStaysAsItWas)
+{
+    auto output = OutputFile::begin(folder / "hard.png");
+    ASSERT_TRUE(output && writeBytes(*output, {}));
+    EXPECT_FALSE(noteInput(folder / "real/in.png")); // the reader may continue without it
+    EXPECT_FALSE(output->commit());
+    EXPECT_EQ(readWhole(folder / "hard.png"), "input");
+}
+
+TEST_F(InputGuard, onlyASessionWritesAnOutputAgainAndNoneThatItHasReadMeanwhile)
+{
+    for (const bool again : {false, true}) {
+        guardInputs(/*overwrite*/ false, again);
+        ASSERT_TRUE(noteInput(folder / "real/in.png"));
+        ASSERT_TRUE(writeFileWhole(folder / "a", "first"));
+        EXPECT_EQ(bool(writeFileWhole(folder / "a", "second")), again);
+        EXPECT_EQ(bool(writeFileWhole(folder / "link/../a", "third")), again);
+        EXPECT_EQ(readWhole(folder / "a"), again ? "third" : "first");
+        ASSERT_TRUE(noteInput(folder / "a"));
+        EXPECT_FALSE(writeFileWhole(folder / "a", "fourth"));
+        EXPECT_FALSE(writeFileWhole(folder / "hard.png", "fifth"));
+        EXPECT_EQ(readWhole(folder / "a"), again ? "third" : "first");
+    }
+}
+
+// An editor replaces a file by a new one: every name of the new one is an input's once it is read again.
+TEST_F(InputGuard, aFileThatWasReplacedAndReadAgainIsProtectedByItsNewLinks)
+{
+    ASSERT_TRUE(noteInput(folder / "real/in.png"));
+    std::ofstream(folder / "saved") << "new";
+    fs::rename(folder / "saved", folder / "real/in.png");
+    ASSERT_TRUE(noteInput(folder / "real/in.png"));
+    fs::create_hard_link(folder / "real/in.png", folder / "newer.png");
+    EXPECT_FALSE(planOutput("-o", folder / "newer.png"));
+    EXPECT_TRUE(planOutput("-o", folder / "hard.png")) << "it has the old content, which nobody reads any more";
+}
+
+TEST_F(InputGuard, anOutputOfAnotherProcessIsCheckedAndNotRegistered)
+{
+    ASSERT_TRUE(noteInput(folder / "real/in.png"));
+    ASSERT_TRUE(planOutput("-o", folder / "page"));
+    for (const std::string& name : spellings)
+        EXPECT_FALSE(checkOutput("line 1:", folder / name)) << name;
+    EXPECT_FALSE(checkOutput("line 1:", folder / "page"));
+    EXPECT_TRUE(checkOutput("line 1:", folder / "free"));
+    EXPECT_TRUE(planOutput("--json", folder / "free"));
+}
+
 TEST_F(InputGuard, withOverwriteEverythingIsAllowed)
 {
     guardInputs(/*overwrite*/ true);
@@ -175,7 +223,7 @@ TEST(OutputFiles, uncommittedOutputsKeepTheOldFile)
         auto output = OutputFile::begin(folder / "a.png");
         ASSERT_TRUE(output);
         EXPECT_EQ(output->path().extension(), ".png");
-        ASSERT_TRUE(writeBytes(output->path(), {}));
+        ASSERT_TRUE(writeBytes(*output, {}));
         EXPECT_EQ(entries(folder.path()), 2u);
     }
     EXPECT_EQ(entries(folder.path()), 1u);
@@ -203,7 +251,7 @@ TEST(OutputFiles, onlyPartialFilesOfEndedProcessesAreFound)
     const pid_t child = ::fork();
     if (child == 0) {
         const auto half = OutputFile::begin(folder / "a.png");
-        ::_exit(half && writeBytes(half->path(), {}) ? 0 : 1); // without removing the part
+        ::_exit(half && writeBytes(*half, {}) ? 0 : 1); // without removing the part
     }
     int status = -1;
     ASSERT_EQ(::waitpid(child, &status, 0), child); // its process number is free now
@@ -211,7 +259,7 @@ TEST(OutputFiles, onlyPartialFilesOfEndedProcessesAreFound)
     const fs::path left = fs::directory_iterator(folder.path())->path();
     EXPECT_TRUE(left.filename().string().starts_with(".cotan-" + std::to_string(child) + "-")) << left;
     auto ours = OutputFile::begin(folder / "b.png");
-    ASSERT_TRUE(ours && writeBytes(ours->path(), {}));
+    ASSERT_TRUE(ours && writeBytes(*ours, {}));
     std::string elsewhere = left.filename().string(); // the same process number on another machine
     const std::size_t machine = elsewhere.find(".part") - 1;
     elsewhere[machine] = elsewhere[machine] == '0' ? '1' : '0';
@@ -267,7 +315,9 @@ TEST(OutputFiles, writingContinuesAfterASignal)
     const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
     const std::string sent(300000, 'x');
     Status written = Done{};
-    std::thread writer([&] { written = writeBytes(pipe, std::as_bytes(std::span(sent.data(), sent.size()))); });
+    const auto output = OutputFile::begin(pipe);
+    ASSERT_TRUE(output);
+    std::thread writer([&] { written = writeBytes(*output, std::as_bytes(std::span(sent.data(), sent.size()))); });
     for (int i = 0; i < 50; ++i) { // the pipe is soon full
         ::usleep(2000);
         ::pthread_kill(writer.native_handle(), SIGUSR1);
@@ -335,12 +385,12 @@ int statusAfter(int signal, const fs::path& folder, bool hold, bool ignored)
         ::signal(signal, ignored ? SIG_IGN : SIG_DFL); // overrides what the shell passed on (nohup)
         removePartsOnInterrupt();
         auto a = OutputFile::begin(folder / "a.png"), b = OutputFile::begin(folder / "b.png");
-        if (!a || !b || !writeBytes(a->path(), {}) || !writeBytes(b->path(), {}))
+        if (!a || !b || !writeBytes(*a, {}) || !writeBytes(*b, {}))
             ::_exit(70);
         if (hold) {
             const InterruptsHeld held;
             ::raise(signal);
-            if (!writeBytes(folder / "reached", {}))
+            if (!std::ofstream(folder / "reached"))
                 ::_exit(71);
         } else {
             ::raise(signal);

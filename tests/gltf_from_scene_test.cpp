@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "cotan/scene.hpp"
+#include "cotan/tangents.hpp"
 #include "gltf_edit_maker.hpp"
 
 namespace {
@@ -304,6 +305,52 @@ TEST(GltfFromScene, roundTripsUvTransformsAndWarnsOfShears)
         near(back.uRow, c * row.scaleU, s * row.scaleV, 0.25);
         near(back.vRow, -s * row.scaleU, c * row.scaleV, -0.75);
     }
+}
+
+// glTF requires unit tangents; generators give zero where directions cancel, and callers give any.
+TEST(GltfFromScene, givenTangentsOfAnyLengthAreWrittenWithUnitLength)
+{
+    Scene scene = twoPatches();
+    Mesh& mesh = scene.meshes[0];
+    const float almost = 1 + 1e-6f; // a rounding error, which stays
+    mesh.tangents.assign(mesh.vertexCount(), glm::vec4(0, almost, 0, -1));
+    mesh.tangents[0] = {0, 0, 0, 1};
+    mesh.tangents[1] = {0, 0, -0.25f, -1};
+    mesh.tangents[2] = {3, 0, 4, 1};
+    const Scene back = written(scene);
+    const std::vector<glm::vec4>& found = back.meshes[std::size_t(back.instances[0].mesh)].tangents;
+    ASSERT_EQ(found.size(), mesh.vertexCount());
+    EXPECT_EQ(found[0], glm::vec4(1, 0, 0, 1));
+    EXPECT_EQ(found[1], glm::vec4(0, 0, -1, -1));
+    EXPECT_LT(glm::length(found[2] - glm::vec4(0.6f, 0, 0.8f, 1)), 1e-6f);
+    EXPECT_EQ(found[3], glm::vec4(0, almost, 0, -1));
+}
+
+// At the origin opposite directions of u cancel; the triangle between them has no area in uv.
+TEST(GltfFromScene, generatedTangentsAreWrittenWithUnitLengthWhereDirectionsCancel)
+{
+    Scene scene;
+    Mesh& fan = scene.meshes.emplace_back();
+    fan.positions = {{0, 0, 0}, {1, 0, 0}, {0.5f, 0.9f, 0}, {-0.5f, 0.9f, 0}, {-1, 0, 0}};
+    fan.normals.assign(5, glm::vec3(0, 0, 1));
+    fan.texcoords[0] = {{0, 0}, {1, 0}, {0, -1}, {0, 1}, {1, 0}};
+    fan.indices = {0, 1, 2, 0, 2, 3, 0, 3, 4};
+    fan.material = 0;
+    scene.materials.emplace_back();
+    scene.instances = {{"fan", 0, glm::mat4(1)}};
+    auto document = gltfDocumentOf(scene);
+    ASSERT_TRUE(document);
+    const auto corners = mikktspaceTangents(MeshView{fan.positions, fan.normals, fan.texcoords[0], fan.indices});
+    ASSERT_EQ(corners[3], glm::vec4(0, 0, 0, 1)) << "nothing cancels";
+    const GltfCornerTangents given{0, 0, corners};
+    ASSERT_TRUE(setGltfTangents(*document, {&given, 1}));
+    const cotan::test::TemporaryFolder folder;
+    ASSERT_TRUE(writeGltf(*document, folder.path / "fan.glb"));
+    const auto loaded = loadGltf(folder.path / "fan.glb");
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    ASSERT_FALSE(loaded->meshes[0].tangents.empty());
+    for (const glm::vec4& tangent : loaded->meshes[0].tangents)
+        EXPECT_NEAR(glm::length(glm::vec3(tangent)), 1, 1e-6f);
 }
 
 TEST(GltfFromScene, errorsOfDocumentsWithoutAFileBeginWithTheField)

@@ -1,5 +1,6 @@
 // Animations of glTF beyond gltf_animation_test.cpp: channels without effect, several weights on splines, rotations of
 // other than unit length, errors about damage, and repeated use of one opened model.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>

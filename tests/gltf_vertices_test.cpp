@@ -1,5 +1,6 @@
 // Vertices of glTF beyond gltf_mesh_test.cpp: both sides of each tolerance, several sets of joints, morphed normals and
 // tangents; the order of nodes; clamping of cameras, lights and factors to their ranges.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

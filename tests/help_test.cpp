@@ -276,7 +276,7 @@ const std::map<std::string, Usual> kUsual = {
     {"convert", {{"model.glb", "-o", "a.glb", "--to-frame", "orthonormal"}, {"--device"}}},
     {"lint", {{"model.glb"}, {}}},
     {"tangents", {{"model.glb"}, {}}},
-    {"shader", {{"--lang", "glsl"}, {}}},
+    {"shader", {{"--lang", "glsl", "--frame", "cotangent"}, {}}},
     {"view",
      {{"model.glb"}, {"--variant", "--animation", "--device", "--camera", "--environment", "--do", "--convention"}}},
     {"batch", {{"jobs.jsonl", "-o", "a.html"}, {}}},
@@ -387,7 +387,7 @@ TEST(Help, unwritableStandardOutputExitsFourUnlessTheReaderClosedIt)
     prepare(folder);
     for (const std::string line :
          {"--help", "--version", "lint model.glb", "lint model.glb --json -", "map info rocks.png", "accuracy --list",
-          "shader --lang glsl", "tangents model.glb", "render --size 16x16 --device reference -o a.png"})
+          "shader --lang glsl --frame smooth", "tangents model.glb", "render --size 16x16 --device reference -o a.png"})
         // A full disk, and a pipe whose reader, like head, has ended: that reader had enough.
         for (const std::string sink : {">/dev/full", "> >(true); wait $!"}) {
             const bool full = sink == ">/dev/full";

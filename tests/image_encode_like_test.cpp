@@ -274,7 +274,7 @@ TEST(EncodeLike, reasonForPngNamesTheOriginalFormat)
     };
     EXPECT_EQ(whyNot("II*\0"s, image), "TIFF cannot be written");
     EXPECT_EQ(whyNot("GIF89a", image), "GIF cannot be written");
-    EXPECT_EQ(whyNot("\xff\xd8\xff", image), "a grey JPEG holds no normals, or this build has no libjpeg");
+    EXPECT_EQ(whyNot("\xff\xd8\xff", image), "a grey or CMYK JPEG holds no normals, or this build has no libjpeg");
     EXPECT_EQ(whyNot("RIFF1234WEBP", makeImage(2, 3, PixelType::unorm16)), "WebP has 8 bits, but 16 are required");
     Image clear = image;
     clear.bytes8()[4 * 255 + 3] = 0;

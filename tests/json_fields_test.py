@@ -53,7 +53,7 @@ map from-height height.png -o fh.png
 map to-height rocks.png -o th.png
 map blend rocks.png grain.png -o bl.png
 map mips rocks.png -o m.dds
-shader --lang glsl
+shader --lang glsl --frame cotangent
 accuracy --list
 accuracy --tables flat --frames cotangent
 figures --only mirrored -o figures --size 64x48 --device reference

@@ -28,7 +28,7 @@ printsTheSame() {
 missingProgramIsReported() {
   mkdir bin
   ln "$cotan" bin/cotan 2>/dev/null || cp "$cotan" bin/cotan
-  bin/cotan shader --lang glsl > shader.txt
+  bin/cotan shader --lang glsl --frame orthonormal > shader.txt
   [ -s shader.txt ]
   [ "$(code_of bin/cotan accuracy --list)" = 3 ] || failed "expected exit code 3 where cotan-lab is not beside cotan"
   [ "$(wc -l < error.txt)" = 1 ] && [ ! -s said.txt ] && grep -q "bin/cotan-lab" error.txt

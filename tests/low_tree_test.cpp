@@ -1,6 +1,7 @@
 // Nearest points and rays among random triangles, against an exhaustive search in double precision.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
 

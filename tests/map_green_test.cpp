@@ -2,6 +2,7 @@
 // q y, q x + r y), so da/dx, da/dy and db/dx, db/dy are p, q and q, r.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cotan/maps.hpp"

@@ -128,7 +128,7 @@ TEST(MapStored, twoChannelsAreMovedToRedAndGreen)
         ASSERT_TRUE(read && opened);
         Image strip = makeImage(5, 3, PixelType::unorm8);
         ASSERT_TRUE(opened->rows->read(strip)) << "from the first row on";
-        opened->put(strip);
+        opened->put(strip, 0);
         for (const Image* found : {&read->image, static_cast<const Image*>(&strip)})
             for (int i = 0; i < 15; ++i) {
                 const std::uint8_t* p = found->bytes8() + 4 * i;

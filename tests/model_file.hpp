@@ -1,6 +1,7 @@
 // A folder with a model and its images, for one test.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>

@@ -79,6 +79,10 @@ TEST_F(ObjFile, everyCommonNumberFormatIsRead)
                                                        {"5.e-1", 0.5f},
                                                        {".5E+0", 0.5f},
                                                        {"1e-60", 0},
+                                                       {"1.5e-400", 0}, // too small for a double
+                                                       {"0." + std::string(500, '0') + "1", 0},
+                                                       {"1.5e-99999999999999999999", 0},
+                                                       {"0e999999999999999999999", 0},
                                                        {"007", 7},
                                                        {"0.1", 0.1f},
                                                        {"16777217", 16777216},
@@ -93,7 +97,8 @@ TEST_F(ObjFile, everyCommonNumberFormatIsRead)
         EXPECT_NE(std::ranges::find(positions, glm::vec3(0, 0, value)), positions.end()) << word;
         EXPECT_EQ(scene.meshes[0].texcoords[0].at(0), glm::vec2(value, 1)) << word;
     }
-    for (const std::string word : {".", "+", "-", "1e", "0x10", "1,5", "nan", "1e39", "--1", "1.2.3", "1d5"})
+    for (const std::string word : {".", "+", "-", "1e", "0x10", "1,5", "nan", "1e39", "1e400",
+                                   "-1e99999999999999999999", "+-1", "--1", "1.2.3", "1d5"})
         EXPECT_NE(problem("v " + word + " 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n").find("line 1: expected a finite number"),
                   std::string::npos)
             << word;

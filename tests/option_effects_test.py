@@ -24,7 +24,7 @@ from output_inputs import make_inputs
 RENDER = "render room.gltf --device reference --size 48x30 -o out.png"
 COMPARE = "compare room.gltf --device reference --size 40x25 --frames cotangent,smooth -o out"
 BAKE = "bake --high high.obj --low low.obj --size 24x24 -o out.png"
-SHADER = "shader --lang glsl"
+SHADER = "shader --lang glsl --frame cotangent"
 
 # Command lines with the options that are tried on each. `|` separates the words of an option; `*` stands for the words that
 # the tool names. Prefixes of words: `~` the default; `=` changes nothing, since it only affects how the work is done; `!` is
@@ -114,6 +114,7 @@ CASES = [
     (BAKE + " --kind object-normal", {"--up": "~y | *", "--high-up": "~y | *"}),
     ("bake --high layers.obj --low low.obj --size 24x24 -o out.png", {"--search": "~first | *", "--extrusion": "0.001 | 0.02", "--cage": "cage.obj"}),
     ("bake --high low.stl --high high.obj --low low.obj --size 24x24 -o out.png", {"--match-by-name": ""}),
+    ("bake --high low.stl --high high.obj --low low.obj --size 24x24 --kind ao --match-by-name -o out.png", {"--ao-occluders": "all"}),
     (BAKE + " --verify checked", {"--device": "reference"}),
     ("bake --high high.obj --low room.gltf --size 24x24 -o out.png", {"--object": "part-0 | part-5", "--material": "~-1 | 0 | 5"}),
     ("bake --high high.obj --low panel.gltf --frame vertex --size 24x24 -o out.png", {"--tangents": "~stored | *"}),

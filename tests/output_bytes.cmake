@@ -1,5 +1,6 @@
 # Compares the bytes that commands print and write with tables. Checks that each option changes them, that both
-# renderers draw the same, that each field of a file changes them, and that a fault leaves no partial output.
+# renderers draw the same, that each field of a file changes them, that a fault leaves no partial output, and that no
+# option overwrites an input.
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)
   foreach(table lab maps meshes pictures shader_text)
@@ -19,6 +20,11 @@ if(Python3_FOUND)
     add_test(NAME OptionEffects.${command}
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/option_effects_test.py $<TARGET_FILE:cotan> ${command})
     set_tests_properties(OptionEffects.${command} PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77)
+  endforeach()
+  foreach(command look map make others)
+    add_test(NAME OverwriteWalk.${command}
+      COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/overwrite_walk_test.py $<TARGET_FILE:cotan> ${command})
+    set_tests_properties(OverwriteWalk.${command} PROPERTIES TIMEOUT 300)
   endforeach()
   foreach(part RANGE 3)
     add_test(NAME FileFields.${part}

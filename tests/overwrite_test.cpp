@@ -41,8 +41,9 @@ protected:
         return all;
     }
 
-    // Expects exit code 1, a one-line error that names both, and no change of any file.
-    void expectRefused(const Words& words, const std::string& a, const std::string& b)
+    // Expects exit code 1, a one-line error that names both and what helps, and no change of any file.
+    void expectRefused(const Words& words, const std::string& a, const std::string& b,
+                       const std::string& help = "; expected another name, or --overwrite\n")
     {
         const auto before = contents();
         const ToolRun run = runTool(words, folder.path());
@@ -51,7 +52,7 @@ protected:
         EXPECT_EQ(lines(run.err), 1) << all;
         EXPECT_NE(run.err.find(a), std::string::npos) << all;
         EXPECT_NE(run.err.find(b), std::string::npos) << all;
-        EXPECT_NE(run.err.find("--overwrite"), std::string::npos) << all;
+        EXPECT_TRUE(run.err.ends_with(help)) << all;
         EXPECT_TRUE(contents() == before) << all;
     }
 
@@ -108,18 +109,25 @@ TEST_F(Overwrite, imagesOfAModelAreProtectedFromAnOutputFolder)
                   "-o ./difference.png", "difference.png, which is an input");
 }
 
+// One of two outputs would be lost, whether or not --overwrite is given.
 TEST_F(Overwrite, equalOutputPathsAreRefusedBeforeWork)
 {
-    expectRefused({"render", "-o", "a.png", "--json", "sub/../a.png"}, "-o a.png", "--json sub/../a.png");
-    expectRefused({"compare", "-o", "new", "--json", "new/difference.png"}, "-o new/difference.png",
-                  "--json new/difference.png");
-    expectRefused({"accuracy", "-o", "a.md", "--csv", "./a.md"}, "-o a.md", "--csv ./a.md");
-    expectRefused({"shader", "--lang", "glsl", "-o", "a.glsl", "--json", "a.glsl"}, "-o a.glsl", "--json a.glsl");
-    expectRefused({"figures", "-o", "new", "--json", "new/index.html"}, "-o new/index.html", "--json new/index.html");
-    expectRefused({"bake", "--high", "quad.gltf", "--low", "quad.gltf", "-o", "a.png", "--mask", "a.png"}, "-o a.png",
-                  "--mask a.png");
-    expectRefused({"map", "convert", "n.png", "--from", "directx", "--to", "opengl", "-o", "a.png", "--json", "a.png"},
-                  "-o a.png", "--json a.png");
+    const auto expectTwoNames = [&](Words words, const std::string& a, const std::string& b) {
+        expectRefused(words, a, b, " are the same file; expected different names\n");
+        words.push_back("--overwrite");
+        expectRefused(words, a, b, " are the same file; expected different names\n");
+    };
+    expectTwoNames({"render", "-o", "a.png", "--json", "sub/../a.png"}, "-o a.png", "--json sub/../a.png");
+    expectTwoNames({"compare", "-o", "new", "--json", "new/difference.png"}, "-o new/difference.png",
+                   "--json new/difference.png");
+    expectTwoNames({"accuracy", "-o", "a.md", "--csv", "./a.md"}, "-o a.md", "--csv ./a.md");
+    expectTwoNames({"shader", "--lang", "glsl", "--frame", "cotangent", "-o", "a.glsl", "--json", "a.glsl"},
+                   "-o a.glsl", "--json a.glsl");
+    expectTwoNames({"figures", "-o", "new", "--json", "new/index.html"}, "-o new/index.html", "--json new/index.html");
+    expectTwoNames({"bake", "--high", "quad.gltf", "--low", "quad.gltf", "-o", "a.png", "--mask", "a.png"}, "-o a.png",
+                   "--mask a.png");
+    expectTwoNames({"map", "convert", "n.png", "--from", "directx", "--to", "opengl", "-o", "a.png", "--json", "a.png"},
+                   "-o a.png", "--json a.png");
 }
 
 TEST_F(Overwrite, overwriteOptionReplacesTheInput)
@@ -168,7 +176,7 @@ TEST_F(Overwrite, leftoverTemporaryFilesAreReportedByTheNextRun)
     const pid_t child = ::fork();
     if (child == 0) {
         const auto half = OutputFile::begin(folder / "half.png");
-        ::_exit(half && writeBytes(half->path(), {}) ? 0 : 1); // exits without removing the temporary file
+        ::_exit(half && writeBytes(*half, {}) ? 0 : 1); // exits without removing the temporary file
     }
     ASSERT_EQ(::waitpid(child, nullptr, 0), child);
     std::string part;

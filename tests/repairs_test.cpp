@@ -88,6 +88,16 @@ void expectRepair(const std::string& label, const json& stock, const json& fixed
         EXPECT_TRUE(stock.contains(scene)) << label << ": " << scene;
 }
 
+// Each half of the image of two materials shows its own map.
+void expectTwoMaps(const json& page, const std::string& what)
+{
+    ASSERT_TRUE(page.contains(what)) << what;
+    for (const json& degrees : page[what]) {
+        ASSERT_TRUE(degrees.is_number()) << what;
+        EXPECT_LT(degrees.get<double>(), kRepaired) << what << ": " << page[what];
+    }
+}
+
 TEST(Repairs, playCanvasPatchFixesMirroringAndOneSidedBackFaces)
 {
     const json page = repairPage("repair_playcanvas", {"playcanvas"}, {});
@@ -96,13 +106,16 @@ TEST(Repairs, playCanvasPatchFixesMirroringAndOneSidedBackFaces)
     ASSERT_TRUE(page.contains("webgl2 stock")) << page;
     const std::string coat = "coat on uv set 1, bumps on set 0"; // both use one frame: not fixed
     for (const std::string device : {"webgl2", "webgpu"})
-        if (page.contains(device + " stock")) // not in a Chromium without WebGPU
+        if (page.contains(device + " stock")) { // not in a Chromium without WebGPU
+            expectTwoMaps(page, device + " two materials, stock");
+            expectTwoMaps(page, device + " two materials, cotan");
             expectRepair(device, page[device + " stock"], page[device + " cotan"],
                          {{"back, one-sided lighting", 30},
                           {"projection with y down", 30},
                           {"projection with y down, back", 30},
                           {coat, 20}},
                          {coat});
+        }
 }
 
 TEST(Repairs, patchesFixCesiumLumaAndPex)
@@ -125,6 +138,8 @@ TEST(Repairs, patchesFixCesiumLumaAndPex)
         repaired(what, mirrored);
     if (page.contains("luma on WebGPU stock"))
         repaired("luma on WebGPU", mirrored);
+    for (const char* what : {"cesium", "cesium, anisotropy", "cesium, clear coat", "luma", "pex", "pex, clear coat"})
+        expectTwoMaps(page, std::string("two maps, ") + what);
     // pex normalises the view vector before it takes differences: wrong everywhere, most at grazing angles. Unit
     // lengths fail if uv are stretched; y down reverses t and b.
     for (const char* what : {"pex", "pex, clear coat"})

@@ -328,16 +328,16 @@ TEST(ShaderCommand, badArgumentsGiveOneLineAndExitCode1)
     TemporaryFolder folder;
     for (const std::vector<std::string>& words :
          {std::vector<std::string>{"shader"},
-          {"shader", "--lang", "cg"},
+          {"shader", "--lang", "cg", "--frame", "cotangent"},
           {"shader", "--lang", "glsl", "--frame", "nothing"},
           {"shader", "--lang", "glsl", "--frame", "unit", "--form", "fused"},
-          {"shader", "--lang", "glsl", "--preset", "quake"},
-          {"shader", "--lang", "glsl", "--green", "up"},
-          {"shader", "--lang", "glsl", "--channels", "4"},
-          {"shader", "--lang", "glsl", "--uv-sets", "9"},
-          {"shader", "--lang", "glsl", "--set", "tone,nothing"},
-          {"shader", "--lang", "glsl", "--functions"},
-          {"shader", "--lang", "wgsl", "--two-sided"},
+          {"shader", "--lang", "glsl", "--frame", "cotangent", "--preset", "quake"},
+          {"shader", "--lang", "glsl", "--frame", "cotangent", "--green", "up"},
+          {"shader", "--lang", "glsl", "--frame", "cotangent", "--channels", "4"},
+          {"shader", "--lang", "glsl", "--frame", "cotangent", "--uv-sets", "9"},
+          {"shader", "--lang", "glsl", "--frame", "cotangent", "--set", "tone,nothing"},
+          {"shader", "--lang", "glsl", "--frame", "cotangent", "--functions"},
+          {"shader", "--lang", "wgsl", "--frame", "cotangent", "--two-sided"},
           {"shader", "--lang", "godot", "--set", "shadow"},
           {"shader", "--lang", "godot", "--frame", "exact"},
           {"shader", "--lang", "godot", "--frame", "triangle", "--form", "total"},
@@ -350,16 +350,41 @@ TEST(ShaderCommand, badArgumentsGiveOneLineAndExitCode1)
     }
 }
 
+// A default would be the wrong frame for most maps, or for the maps of those who bake for it.
+TEST(ShaderCommand, aMissingFrameIsAnErrorWithALineForEachKindOfMap)
+{
+    TemporaryFolder folder;
+    const std::vector<std::string> words{"shader", "--lang", "wgsl", "--set", "light", "-o", "a.wgsl"};
+    const ToolRun run = runTool(words, folder.path());
+    EXPECT_EQ(run.code, 1);
+    EXPECT_EQ(run.err,
+              "cotan: error: --frame: expected the frame that the normal map was baked for; found none\n"
+              "  --frame orthonormal: for maps that were baked for MikkTSpace, as most are\n"
+              "  --frame smooth or cotangent: for maps that you bake for this shader\n");
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.wgsl"));
+    // Godot's text is the material of a model.
+    const ToolRun godot = runTool({"shader", "--lang", "godot"}, folder.path());
+    EXPECT_EQ(godot.code, 0) << godot.err;
+    EXPECT_EQ(godot.out, runTool({"shader", "--lang", "godot", "--frame", "orthonormal"}, folder.path()).out);
+    // In C++ the default is the frame for most maps, and what the messages recommend can be printed.
+    EXPECT_EQ(makeShaderText(Choice())->text,
+              runTool({"shader", "--lang", "glsl", "--frame", "orthonormal"}, folder.path()).out);
+}
+
 TEST(ShaderCommand, writesTheCompleteTextAndListsItsFunctions)
 {
     TemporaryFolder folder;
-    const ToolRun printed = runTool({"shader", "--lang", "wgsl"}, folder.path());
+    const ToolRun printed = runTool({"shader", "--lang", "wgsl", "--frame", "cotangent"}, folder.path());
     EXPECT_EQ(printed.code, 0) << printed.err;
-    const ToolRun written = runTool({"shader", "--lang", "wgsl", "-o", "a.wgsl", "--json", "-"}, folder.path());
+    const ToolRun written =
+        runTool({"shader", "--lang", "wgsl", "--frame", "cotangent", "-o", "a.wgsl", "--json", "-"}, folder.path());
     EXPECT_EQ(written.code, 0) << written.err;
     EXPECT_EQ(readWhole(folder / "a.wgsl"), printed.out);
     EXPECT_NE(written.out.find("\"cotan_perturb_cotangent\""), std::string::npos);
-    EXPECT_EQ(runTool({"shader", "--lang", "wgsl", "-o", "no/such/folder/a.wgsl"}, folder.path()).code, 4);
+    EXPECT_EQ(
+        runTool({"shader", "--lang", "wgsl", "--frame", "cotangent", "-o", "no/such/folder/a.wgsl"}, folder.path())
+            .code,
+        4);
 }
 
 } // namespace

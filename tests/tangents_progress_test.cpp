@@ -1,6 +1,7 @@
 // Progress and cancellation of tangents and cotangents, and errors for invalid meshes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <mutex>

@@ -80,6 +80,47 @@ const someCases = ['front', 'back', 'stretched', 'sheared', 'tangents, stretched
 const directionTexels = (what, sign) =>
   new Float32Array(sheetTexels * sheetTexels * 4).map((_, i) => (i % 4 === (what === 't' ? 0 : 1) ? 127.5 * (1 + sign) : 127.5));
 
+// Two planes beside one another with a material each, of one kind and with the same settings but another map, or another
+// matrix of the map. change(scene): what is tried; write(material, what): makes a material write the vector;
+// draw(scene, camera): the pixels, 64 x 32. Returns the degrees of both halves by kind of material.
+const twoMaterialCases = {
+  standard: { kind: 'MeshStandardMaterial', what: 'normal' },
+  'standard, as nodes': { kind: 'MeshStandardNodeMaterial', what: 'normal' },
+  coats: { kind: 'MeshPhysicalMaterial', what: 'coat' },
+  'coats, as nodes': { kind: 'MeshPhysicalNodeMaterial', what: 'coat' },
+  'anisotropy under bumps': { kind: 'MeshPhysicalMaterial', what: 'normal', anisotropy: 0.5 },
+  'three materials, two maps': { kind: 'MeshStandardMaterial', what: 'normal', extra: true },
+  'two matrices': { kind: 'MeshStandardMaterial', what: 'normal', rotation: Math.PI },
+};
+async function twoMaterials(THREE, change, write, draw) {
+  const result = {};
+  for (const [name, { kind, what, anisotropy, extra, rotation = 0 }] of Object.entries(twoMaterialCases)) {
+    if (!THREE[kind]) continue; // no node materials there
+    const scene = new THREE.Scene(), camera = new THREE.OrthographicCamera(-2, 2, 1, -1, 0.1, 10);
+    camera.position.z = 5;
+    scene.add(new THREE.DirectionalLight('white', 3));
+    const texels = rotation ? [twoTexels[1], twoTexels[1]] : twoTexels;
+    const maps = texels.map((texel, k) => {
+      const map = new THREE.DataTexture(new Uint8Array(texel), 1, 1);
+      map.rotation = k * rotation; // u and v run against x and y then, and the texel leans to the other side
+      map.needsUpdate = true;
+      return map;
+    });
+    [...maps, ...extra ? [maps[0]] : []].forEach((map, k) => {
+      const material = new THREE[kind]({ [what === 'coat' ? 'clearcoatNormalMap' : 'normalMap']: map });
+      if (what === 'coat') material.clearcoat = 1;
+      if (anisotropy) material.anisotropy = anisotropy;
+      const mesh = new THREE.Mesh(new THREE.PlaneGeometry(1.8, 1.8), material);
+      mesh.position.set(k % 2 * 2 - 1, 0, k < 2 ? 0 : -1); // the third is behind the first
+      scene.add(mesh);
+    });
+    await change(scene);
+    scene.traverse(child => { if (child.isMesh) write(child.material, what); });
+    result[name] = halvesErrors(await draw(scene, camera), 64, 32, rotation ? [texels[0], texels[1].map((c, i) => (i < 2 ? 255 - c : c))] : texels);
+  }
+  return result;
+}
+
 // draw(scene, camera, what, up) returns RGBA floats, bottom row first. frame: the frame in which the map is read;
 // 'stock' is orthonormal with tangents and otherwise cotangent; undefined is the same, but orthonormal also where the
 // map is not repeated.

@@ -10,15 +10,16 @@ function webglSheets(THREE) {
   renderer.setClearColor(0, 0);
   // Expressions that the fragment shader writes after lighting.
   const written = { normal: 'normal', coat: 'clearcoatNormal', t: 'material.anisotropyT', b: 'material.anisotropyB' };
-  const draw = (scene, camera, direction) => {
+  const draw = (scene, camera, direction, width = size, height = size) => {
     up = direction;
     renderer.resetState();
     camera.projectionMatrix.elements[5] *= up;
+    target.setSize(width, height);
     renderer.setRenderTarget(target);
     renderer.clear();
     renderer.render(scene, camera);
-    const pixels = new Float32Array(size * size * 4);
-    renderer.readRenderTargetPixels(target, 0, 0, size, size, pixels);
+    const pixels = new Float32Array(width * height * 4);
+    renderer.readRenderTargetPixels(target, 0, 0, width, height, pixels);
     return pixels;
   };
   const write = (material, what, broken) => { // broken: u reversed

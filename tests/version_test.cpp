@@ -21,7 +21,7 @@ TEST(Version, isTheSameInEveryFile)
     const std::string number = R"((\d+\.\d+\.\d+))";
     for (const Copy& copy : std::vector<Copy>{{"CITATION.cff", "\nversion: "},
                                               {"bindings/python/cotan/_version.py", "__version__ = \""},
-                                              {"cmake/packages/changelog", "^cotan \\("},
+                                              {"cmake/packages/changelog.in", "^cotan \\("},
                                               {"README.md", "cotan-"},
                                               {"bindings/js/README.md", "cotan-"},
                                               {"bindings/js/types/tangents.d.ts", "version of the library, \""},

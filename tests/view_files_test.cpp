@@ -77,10 +77,49 @@ TEST(ViewWindow, aChangedEnvironmentFileIsReloaded)
                              "0 wait\n0 do set environment sky.exr\n0 wait\n0 do report a.txt\n"
                              "0 do picture sky.exr 64 32\n"
                                  + pause + pause + pause + pause + "0 wait\n0 do report b.txt\n",
-                             {"--shape", "sphere", "--size", "100x80"});
+                             {"--shape", "sphere", "--size", "100x80", "--overwrite"});
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(lineOf(readWhole(folder / "a.txt"), "loads"), "1 failed 0");
     EXPECT_EQ(lineOf(readWhole(folder / "b.txt"), "loads"), "2 failed 0");
+}
+
+// Nobody looks at a recording before the session ends, so it ends at once, played or not.
+TEST(ViewWindow, aSessionThatWouldOverwriteAFileOfItsFirstModelEndsWithExitCode1)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    std::ofstream(folder / "session.txt") << "0 wait\n";
+    ::setenv("DISPLAY", display().c_str(), 1);
+    ::unsetenv("WAYLAND_DISPLAY");
+    for (const std::vector<std::string>& more : {std::vector<std::string>{"--forget"}, {"--play", "session.txt"}})
+        for (const char* option : {"--record", "--json"})
+            for (const char* name : {"quad.gltf", "quad.bin", "waves.png"}) {
+                const std::string before = readWhole(folder / name);
+                std::vector<std::string> words = {"view", "quad.gltf", "--size", "64x48", option, name};
+                words.insert(words.end(), more.begin(), more.end());
+                const ToolRun run = runTool(words, folder.path());
+                EXPECT_EQ(run.code, 1) << run.err;
+                EXPECT_EQ(lines(run.err), 1) << run.err;
+                EXPECT_NE(run.err.find(std::string(option) + " " + name + " would overwrite"), std::string::npos)
+                    << run.err;
+                EXPECT_TRUE(readWhole(folder / name) == before) << option << " " << name;
+            }
+}
+
+TEST(ViewWindow, aRecordingAppearsAlsoIfTheSessionFailsAndReplacesItsInputOnlyWithOverwrite)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    const std::string session = "0 wait\n0 do window no/such/w.png\n";
+    EXPECT_EQ(play(folder, session, {"--size", "64x48", "--record", "recorded.txt"}).code, 2);
+    EXPECT_NE(readWhole(folder / "recorded.txt").find("do window no/such/w.png"), std::string::npos);
+    const ToolRun kept = play(folder, "0 wait\n", {"--size", "64x48", "--record", "session.txt"});
+    EXPECT_EQ(kept.code, 1) << kept.err;
+    EXPECT_EQ(readWhole(folder / "session.txt"), "0 wait\n");
+    const ToolRun replaced = play(folder, "0 wait\n", {"--size", "64x48", "--record", "session.txt", "--overwrite"});
+    EXPECT_EQ(replaced.code, 0) << replaced.err;
+    EXPECT_TRUE(readWhole(folder / "session.txt").starts_with("0.000 resize 64 48\n"));
 }
 
 TEST(ViewWindow, aMapAloneIsShownOnAShapeAndTheDialogOpensAModel)

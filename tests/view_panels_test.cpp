@@ -1,6 +1,7 @@
 // The panels that `cotan view` draws over the image: their positions, their contents and clicks on them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 

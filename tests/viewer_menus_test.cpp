@@ -227,7 +227,7 @@ TEST(ViewerAnimation, theSliderIsAsLongAsTheAnimation)
 TEST(ViewerAnimation, theMenuListsAnimationsAndTicksTheCurrentOne)
 {
     State state = withAnimations();
-    perform(state, "set animation walk");
+    ASSERT_TRUE(perform(state, "set animation walk"));
     int ticked = 0, listed = 0;
     for (const Entry& entry : entriesOf(state))
         if (entry.command.starts_with("set animation")) {
@@ -243,8 +243,8 @@ TEST(ViewerAnimation, theMenuListsAnimationsAndTicksTheCurrentOne)
 TEST(ViewerAnimation, changingTheTimePosesWithoutReloading)
 {
     State state = withAnimations();
-    perform(state, "set animation 1");
-    perform(state, "set time 3");
+    ASSERT_TRUE(perform(state, "set animation 1"));
+    ASSERT_TRUE(perform(state, "set time 3"));
     ASSERT_EQ(state.requests.size(), 2u);
     for (const Request& request : state.requests)
         EXPECT_TRUE(std::holds_alternative<request::Pose>(request));

@@ -1,6 +1,7 @@
 // Requests of the viewer that do more than change its state, and how loaded models are taken over.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "cotan/image.hpp"
@@ -80,6 +81,45 @@ TEST(ViewerRequests, reportsAndWindowImagesAreWrittenToTheGivenPath)
         EXPECT_EQ(done.error().kind, ErrorKind::output);
         EXPECT_EQ(at.state().problem, done.error().message);
     }
+}
+
+// A session that began with files, as `view` starts it.
+TEST(ViewerRequests, noneReplacesAFileThatTheSessionHasRead)
+{
+    HeadlessSession at;
+    const test::GuardedInputs guarded(/*again*/ true);
+    test::write(test::quad(2), at.folder.path());
+    at.load(at.in("quad.gltf"));
+    at.draw();
+    fs::create_symlink("quad.bin", at.folder / "soft.png");
+    fs::create_hard_link(at.folder / "quad.gltf", at.folder / "hard.png");
+    for (const std::string name : {"waves.png", "soft.png", "hard.png"}) {
+        const std::string before = test::readWhole(at.folder / name);
+        for (const Request& request :
+             {Request(request::WriteImage{at.in(name)}), Request(request::WriteWindow{at.in(name)}),
+              Request(request::WriteReport{at.in(name)})}) {
+            const Status done = at.ask(request);
+            ASSERT_FALSE(done) << name;
+            EXPECT_EQ(done.error().kind, ErrorKind::usage);
+            EXPECT_NE(at.state().problem.find("which is an input"), std::string::npos) << at.state().problem;
+            EXPECT_TRUE(test::readWhole(at.folder / name) == before) << name;
+        }
+    }
+}
+
+TEST(ViewerRequests, aSavedImageIsReplacedByTheNextUntilItIsOpened)
+{
+    HeadlessSession at;
+    const test::GuardedInputs guarded(/*again*/ true);
+    for (int i = 0; i < 2; ++i)
+        EXPECT_TRUE(at.ask(request::WriteWindow{at.in("w.png")})) << at.state().problem;
+    at.state().a.normalMap = at.in("w.png");
+    at.load("");
+    at.draw();
+    const std::string before = test::readWhole(at.folder / "w.png");
+    EXPECT_FALSE(at.ask(request::WriteWindow{at.in("w.png")}));
+    EXPECT_FALSE(at.ask(request::WriteReport{at.in("w.png")}));
+    EXPECT_TRUE(test::readWhole(at.folder / "w.png") == before);
 }
 
 // The first error is returned; later requests are still carried out.

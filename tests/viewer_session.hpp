@@ -5,9 +5,22 @@
 #include <functional>
 #include <thread>
 
+#include "files/file_registry.hpp"
 #include "requests.hpp"
 #include "run_tool.hpp"
 #include "viewer_state.hpp"
+
+namespace cotan::test {
+
+// Protects inputs as a command does, while it exists.
+struct GuardedInputs {
+    explicit GuardedInputs(bool again) { guardInputs(/*overwrite*/ false, again); }
+    ~GuardedInputs() { guardInputs(/*overwrite*/ true); }
+    GuardedInputs(const GuardedInputs&) = delete;
+    GuardedInputs& operator=(const GuardedInputs&) = delete;
+};
+
+} // namespace cotan::test
 
 namespace cotan::viewer {
 

@@ -33,6 +33,8 @@ async function read(found) {
   return Promise.all(found.map(async ({ path, file }) => ({ name: file.name, path, bytes: new Uint8Array(await file.arrayBuffer()) })));
 }
 
+export const isZip = bytes => bytes.length >= 4 && bytes[0] === 0x50 && bytes[1] === 0x4b && (bytes[2] === 3 && bytes[3] === 4 || bytes[2] === 5 && bytes[3] === 6);
+
 export const isGlb = bytes => bytes.length >= 4 && bytes[0] === 0x67 && bytes[1] === 0x6c && bytes[2] === 0x54 && bytes[3] === 0x46;
 
 // The model among the files: { model, beside }, where beside maps paths to bytes of the other files; undefined if none.
@@ -41,13 +43,16 @@ export function modelAmong(files) {
   return model && { model, beside: new Map(files.filter(file => file !== model).map(file => [file.path, file.bytes])) };
 }
 
+// The image to show if there is no model: by its name, else the first file; undefined if there is none.
+export const mapAmong = files => files.find(({ name }) => /\.(png|jpe?g|webp|bmp|gif|avif)$/i.test(name)) ?? files[0];
+
 // The bytes of a file that a model references by URI; undefined if missing.
 export function besideModel({ model, beside }, uri) {
   let path = uri;
   try { path = decodeURIComponent(uri); } catch { /* keep it undecoded */ }
-  const folder = model.path.includes('/') ? model.path.slice(0, model.path.lastIndexOf('/') + 1) : '';
-  const name = path.slice(path.lastIndexOf('/') + 1);
-  const exact = beside.get(new URL(path, `file:///${folder}`).pathname.slice(1)) ?? beside.get(folder + path);
+  const parts = [], name = path.slice(path.lastIndexOf('/') + 1);
+  for (const part of [...model.path.split('/').slice(0, -1), ...path.split('/')])
+    if (part === '..') parts.pop(); else if (part !== '.' && part !== '') parts.push(part);
   // Files that were chosen one by one have lost their folders.
-  return exact ?? [...beside].find(([known]) => known.slice(known.lastIndexOf('/') + 1) === name)?.[1];
+  return beside.get(parts.join('/')) ?? [...beside].find(([known]) => known.slice(known.lastIndexOf('/') + 1) === name)?.[1];
 }

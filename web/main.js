@@ -1,7 +1,7 @@
 // The page: reads files and shows panels with the results.
 import { el } from './elements.js';
-import { cotan } from './library.js';
-import { modelAmong, readChosen, readDropped } from './files.js';
+import { library } from './library.js';
+import { isZip, mapAmong, modelAmong, readChosen, readDropped } from './files.js';
 import { showShader } from './shader_panel.js';
 import { showWhy } from './why_panel.js';
 
@@ -14,18 +14,18 @@ async function show(reading) {
   const waits = waiting();
   waits.on('Reading …');
   try {
-    const files = await reading;
-    if (files.length === 0) throw new Error('expected a file, found none');
+    const files = (await Promise.all((await reading).map(file => isZip(file.bytes) ? library.unzip(file.name, file.bytes) : [file]))).flat();
+    const model = modelAmong(files), map = mapAmong(files);
+    if (!model && !map) throw new Error('expected a file, found none');
     if (turn !== latest) return;
     const scratch = el('div');
-    const model = modelAmong(files);
-    waits.on(`Checking ${(model?.model ?? files[0]).name} …`);
+    waits.on(`Checking ${(model?.model ?? map).name} …`);
     if (model) {
       const { showModel } = await import('./model_panel.js');
       await showModel(scratch, model);
     } else {
-      const [library, { showMap }] = await Promise.all([cotan(), import('./map_panel.js')]);
-      await showMap(scratch, files[0].name, await library.decodePicture(files[0].bytes, files[0].name));
+      const { showMap } = await import('./map_panel.js');
+      await showMap(scratch, map.name, await library.decodePicture(map.bytes, map.name));
     }
     if (turn !== latest) return;
     result.replaceChildren(...scratch.childNodes);

@@ -1,6 +1,6 @@
 // The panel for a normal map: the findings, a preview and the fixed file.
 import { choice, degrees, download, el, percent, table } from './elements.js';
-import { cotan } from './library.js';
+import { library } from './library.js';
 import { divider } from './divider.js';
 import { mapView } from './map_view.js';
 
@@ -12,7 +12,6 @@ const kEngines = {
 const kGreenDown = new Set(['directx', 'unreal', '3dsmax', 'source']);
 
 export async function showMap(result, name, image) {
-  const library = await cotan();
   const text = language => library.shader({ language, frame: 'cotangent', convention: 'gltf' });
   const [green, info, essl, wgsl] = await Promise.all([library.detect(image), library.info(image), text('essl'), text('wgsl')]);
   const preview = mapView({ essl, wgsl }, { 'aria-label': 'The map as a relief, lit from the position of the pointer' });

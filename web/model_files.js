@@ -1,10 +1,18 @@
 // lint and convert for models in the worker. Finds referenced files by URI and first unpacks compressed geometry.
-import { convert, lint } from 'cotan/beside';
+import { convert, CotanError, lint } from 'cotan/beside';
 import { besideModel, isGlb } from './files.js';
 
 const kPacked = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression', 'KHR_meshopt_compression'];
 
-export const lintModel = async files => lint(...await given(files));
+export async function lintModel(files) {
+  try {
+    return await lint(...await given(files));
+  } catch (error) {
+    const missing = urisOf(jsonOf(files.model.bytes)).filter(uri => !besideModel(files, uri));
+    if (!/there is no such file beside the model/.test(error.message) || missing.length === 0) throw error;
+    throw new CotanError('input', `${files.model.name}: expected ${missing.join(', ')} beside it, found nothing: drop all files together, or a zip of them`);
+  }
+}
 
 // unpacked in the result: whether the input had compressed geometry, which the output has uncompressed.
 export async function convertModel(files, options) {
@@ -16,14 +24,17 @@ export async function convertModel(files, options) {
 // The arguments for the library: [bytes, options].
 async function given(files) {
   const { bytes } = files.model, json = jsonOf(bytes), beside = {};
-  for (const { uri } of [...json?.buffers ?? [], ...json?.images ?? []]) {
-    const found = typeof uri === 'string' && !uri.startsWith('data:') ? besideModel(files, uri) : undefined;
+  for (const uri of urisOf(json)) {
+    const found = besideModel(files, uri);
     if (found) beside[uri] = found;
   }
   if (!kPacked.some(name => json?.extensionsUsed?.includes?.(name))) return [bytes, { files: beside }];
   const { unpack } = await import('./unpack.js');
   return [await unpack(files.model, isGlb(bytes) ? null : json, beside), {}];
 }
+
+// The files that a model references.
+const urisOf = json => [json?.buffers, json?.images].flatMap(list => (Array.isArray(list) ? list : [])).map(one => one?.uri).filter(uri => typeof uri === 'string' && !uri.startsWith('data:'));
 
 // The JSON of a model; undefined if it cannot be parsed, which the library reports.
 function jsonOf(bytes) {

@@ -1,9 +1,7 @@
 // The panel for a model: the findings, a view in two halves, and the converted file.
 import { choice, degrees, download, el, size, table } from './elements.js';
-import { cotan } from './library.js';
+import { library } from './library.js';
 import { divider } from './divider.js';
-import { loadModel } from './model_load.js';
-import { modelView } from './model_view.js';
 
 const kFrames = {
   tangents: 'stored tangents', auto: 'auto: the frame of the maps', orthonormal: 'orthonormal (nothing stored)', cotangent: 'cotangent (nothing stored)',
@@ -11,17 +9,56 @@ const kFrames = {
 };
 const kMapsAfter = { '': 'kept if accurate enough', orthonormal: 'remade for orthonormal', cotangent: 'remade for cotangent', smooth: 'remade for smooth' };
 const kScales = { 2: '0 to 2°', 10: '0 to 10°', 45: '0 to 45°' };
-let open; // the view on screen, at most one
+let open; // { view }: what belongs to the model on screen, at most one; view: undefined until it is loaded
 
+// Shows the verdict. The view follows when it is loaded, which may take many times as long.
 export async function showModel(result, files) {
-  const { name } = files.model, library = await cotan();
-  const [gltf, lint] = await Promise.all([loadModel(files), library.lint(files).catch(error => ({ error }))]);
-  open?.close();
+  const { name } = files.model, lint = await library.lint(files).catch(error => {
+    if (!['unavailable', 'limit'].includes(error.code)) throw error; // others may still be drawn
+    return { error };
+  });
+  open?.view?.close();
+  open = {};
+  const saved = el('p', { role: 'status' }), button = el('button', { type: 'button', class: 'main', onclick: convert }, wrongGreen(lint).length > 0 ? 'Fix green and download' : 'Convert and download');
+  const to = choice('Normal maps', kMapsAfter, '', () => {}), figure = el('figure', { class: 'view' }, el('p', { role: 'status', class: 'small' }, 'The view is loading …'));
+  result.replaceChildren(el('div', { class: 'result' },
+    el('div', {}, ...verdictOf(lint, name),
+      el('h2', { class: 'part' }, 'The file without tangents'), el('div', { class: 'choices' }, to.element, button), saved,
+      ...(lint.maps?.length > 0 ? linesFor(lint) : []),
+      ...(lint.error ? [] : checkOf(lint, name))),
+    figure));
+  showView(figure, files, open).catch(error => {
+    figure.replaceChildren(el('p', { class: 'small' }, `The view could not be drawn: ${error.message}`));
+    if (!['CotanError', 'Error'].includes(error.name)) console.error(error);
+  });
+
+  async function convert() {
+    button.disabled = true;
+    saved.textContent = 'Converting …';
+    try {
+      const made = await library.convert(files, { to: to.select.value || undefined, fixGreen: wrongGreen(lint).length > 0 });
+      download(made.glb, `${name.replace(/\.[^.]*$/, '')}_${to.select.value || 'free'}.glb`, 'model/gltf-binary');
+      saved.textContent = savedWords(made);
+    } catch (error) {
+      saved.textContent = error.message;
+    }
+    button.disabled = false;
+  }
+}
+
+// Fills the figure with the view in two halves. mine: as `open`, which is another object when another model is shown.
+async function showView(figure, files, mine) {
+  const { name } = files.model, [{ loadModel }, { modelView }] = await Promise.all([import('./model_load.js'), import('./model_view.js')]);
+  const gltf = await loadModel(files);
+  if (open !== mine) return;
   const canvas = el('canvas', { tabindex: 0, 'aria-label': `${name}, drawn with two frames. Drag to rotate it.` });
-  const view = open = modelView(canvas);
-  let stored = false;
-  gltf.scene.traverse(object => { stored ||= object.isMesh && object.geometry.attributes.tangent !== undefined; });
-  const names = stored ? kFrames : { ...kFrames, tangents: 'MikkTSpace tangents, generated here' };
+  const view = mine.view = modelView(canvas);
+  let isStored = false, isMapped = false;
+  gltf.scene.traverse(({ isMesh, geometry, material }) => {
+    isStored ||= isMesh && geometry.attributes.tangent !== undefined;
+    isMapped ||= isMesh && [material].flat().some(one => one.normalMap || one.clearcoatNormalMap);
+  });
+  const names = isStored ? kFrames : { ...kFrames, tangents: 'MikkTSpace tangents, generated here' };
   const chosen = { left: 'tangents', right: 'auto' };
   const halves = divider(canvas, share => { view.share = share; }, [names.tangents, names.auto]);
   const under = el('p', { role: 'status', class: 'small' }), figures = el('p', {}), notes = el('p', { class: 'small' });
@@ -29,20 +66,14 @@ export async function showModel(result, files) {
   const mode = el('input', { type: 'checkbox', onchange: () => { view.angle = mode.checked; scale.hidden = !mode.checked; } });
   const scaleChoice = choice('Colours', kScales, '10', value => { view.most = Number(value); });
   const scale = el('div', { hidden: true }, el('div', { class: 'scale' }), scaleChoice.element);
-  const saved = el('p', { role: 'status' }), button = el('button', { type: 'button', class: 'main', onclick: convert }, wrongGreen(lint).length > 0 ? 'Fix green and download' : 'Convert and download');
-  const to = choice('Normal maps', kMapsAfter, '', () => {});
 
-  result.replaceChildren(el('div', { class: 'result' },
-    el('div', {}, ...verdictOf(lint, name),
-      el('h2', { class: 'part' }, 'The file without tangents'), el('div', { class: 'choices' }, to.element, button), saved,
-      ...(lint.maps?.length > 0 ? linesFor(lint) : []),
-      ...(lint.error ? [] : checkOf(lint, name, library))),
-    el('figure', { class: 'view' }, canvas, halves.element,
-      el('div', { class: 'choices' }, pick('Left', 'left').element, pick('Right', 'right').element, el('label', { class: 'tick' }, mode, 'Show the angle between them')),
-      scale, figures, notes, under,
-      el('figcaption', {}, 'Drag to rotate, use the wheel to zoom. Rest the pointer on the model to see the angle between the normals of the two halves.'))));
   view.open(gltf);
   await changed();
+  if (open !== mine) return;
+  figure.replaceChildren(canvas, halves.element,
+    el('div', { class: 'choices' }, pick('Left', 'left').element, pick('Right', 'right').element, el('label', { class: 'tick' }, mode, 'Show the angle between them')),
+    scale, figures, notes, under,
+    el('figcaption', {}, 'Drag to rotate, use the wheel to zoom. Rest the pointer on the model to see the angle between the normals of the two halves.'));
   let resting;
   canvas.addEventListener('pointermove', event => {
     clearTimeout(resting);
@@ -62,23 +93,13 @@ export async function showModel(result, files) {
     setTimeout(measure, 0);
   }
   function measure() {
+    if (open !== mine) return;
     if (!canvas.isConnected) { requestAnimationFrame(measure); return; }
-    const found = view.statistics();
-    figures.textContent = found ? `Over the visible surface, the normals of the two halves differ by ${degrees(found.mean)} on average, by at most ${degrees(found.most)} on 95 % of it.` : '';
-    canvas.parentElement.dataset.shows = view.names.join(' ');
+    const found = isMapped ? view.statistics() : undefined;
+    figures.textContent = found ? `Over the visible surface, the normals of the two halves differ by ${degrees(found.mean)} on average, by at most ${degrees(found.most)} on 95 % of it.`
+      : isMapped ? '' : 'No normal map is drawn: both halves are the same.';
+    figure.dataset.shows = view.names.join(' ');
     view.show();
-  }
-  async function convert() {
-    button.disabled = true;
-    saved.textContent = 'Converting …';
-    try {
-      const made = await library.convert(files, { to: to.select.value || undefined, fixGreen: wrongGreen(lint).length > 0 });
-      download(made.glb, `${name.replace(/\.[^.]*$/, '')}_${to.select.value || 'free'}.glb`, 'model/gltf-binary');
-      saved.textContent = savedWords(made);
-    } catch (error) {
-      saved.textContent = error.message;
-    }
-    button.disabled = false;
   }
 }
 
@@ -97,7 +118,7 @@ function linesFor(lint) {
 
 // A short verdict, the library's recommendation and a table of figures.
 function verdictOf(lint, name) {
-  if (lint.error) return [el('p', { class: 'verdict' }, 'The model is displayed, but it could not be checked.'), el('p', {}, lint.error.message)];
+  if (lint.error) return [el('p', { class: 'verdict' }, 'The model could not be checked.'), el('p', {}, lint.error.message)];
   const green = lint.maps.some(map => map.decided && !map.as_declared), changes = lint.maps_converted > 0, empty = lint.maps.length === 0;
   const reversed = lint.primitives.some(({ stored_tangents: stored }) => stored?.reversed_w > 0.5), distrusted = lint.distrust_stored;
   const words = empty ? 'It has no normal map: there is nothing to judge.'
@@ -121,7 +142,7 @@ function verdictOf(lint, name) {
 }
 
 // The check of the command line: fields for the limits, the verdict, and the report as a file.
-function checkOf(lint, name, library) {
+function checkOf(lint, name) {
   const verdict = el('p', { role: 'status', 'data-check': '' }), lines = el('ul', { class: 'small' });
   const field = (label, unit, value, max) => {
     const input = el('input', { type: 'number', min: 0, max, step: 'any', value, onchange: judge });
@@ -143,7 +164,8 @@ function checkOf(lint, name, library) {
 }
 
 function savedWords({ report, unpacked }) {
-  const made = report.maps.filter(map => !map.kept), off = made.map(map => map.degrees_after_rounding?.mean).filter(mean => typeof mean === 'number');
+  const made = report.maps.filter(map => !map.kept), off = made.filter(map => typeof map.degrees_after_rounding?.mean === 'number')
+    .map(map => map.degrees_after_rounding.mean + map.degrees_of_encoding);
   const { before, after } = report.bytes, fixed = report.green_fixed ?? [];
   return `${fixed.length > 0 ? `Green of ${fixed.join(', ')} was reversed; ` : ''}${made.length} ${made.length === 1 ? 'map' : 'maps'} remade, ${report.maps.length - made.length} kept, `
     + `${report.mode === 'keep' ? 'tangents kept' : `${size(report.tangents.bytes)} of tangents dropped`}; the file: ${size(before)} before, ${size(after)} after.${unpacked ? ' Its geometry is no longer compressed; glTF-Transform\u2019s untangent keeps the compression.' : ''}`

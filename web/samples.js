@@ -1,5 +1,5 @@
 // Generates sample files for visitors who have none at hand.
-import { cotan } from './library.js';
+import { library } from './library.js';
 import { slopes } from './patch.js';
 
 // A normal map of domes. Green points down as in DirectX, unless greenUp.
@@ -15,7 +15,6 @@ function domes(size, greenUp) {
 }
 
 export async function map() {
-  const library = await cotan();
   return [{ name: 'domes.png', path: 'domes.png', bytes: await library.encodePng(domes(512, false)) }];
 }
 

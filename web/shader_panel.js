@@ -1,11 +1,12 @@
 // The panel with the shader text. The choice is kept in the URL: #shader?lang=wgsl&frame=cotangent&map=gltf
 import { choice, download, el } from './elements.js';
-import { cotan } from './library.js';
+import { library } from './library.js';
 
 const kLanguages = { essl: 'WebGL 2 (GLSL ES 3.00)', wgsl: 'WebGPU (WGSL)', glsl: 'Vulkan, OpenGL (GLSL)', hlsl: 'Direct3D, Unity, Unreal (HLSL)', msl: 'Metal', godot: 'Godot 3 and 4', cpp: 'C++' };
 const kFrames = {
-  cotangent: 'cotangent: nothing stored, exact on stretched uv', orthonormal: 'orthonormal: for maps baked for MikkTSpace',
-  triangle: 'triangle: two vectors per triangle, the cheapest', smooth: 'smooth: cotangents at the vertices', mikktspace: 'mikktspace: stored tangents',
+  orthonormal: 'orthonormal: for maps baked for MikkTSpace, as most are', mikktspace: 'mikktspace: for the same maps, with stored tangents',
+  smooth: 'smooth: for maps baked for it; cotangents at the vertices', cotangent: 'cotangent: for maps baked for it, or that tile; nothing stored',
+  triangle: 'triangle: for maps baked for it; two vectors per triangle',
 };
 const kMaps = { gltf: 'glTF', opengl: 'OpenGL, green up', directx: 'DirectX, green down', unity: 'Unity', unreal: 'Unreal', godot: 'Godot', blender: 'Blender' };
 const kStages = { '': 'all', fragment: 'pixel', vertex: 'vertex', mesh: 'mesh', compute: 'compute' };
@@ -14,7 +15,7 @@ const kEnds = { essl: 'glsl', glsl: 'glsl', wgsl: 'wgsl', hlsl: 'hlsl', msl: 'me
 export async function showShader(panel) {
   const words = new URLSearchParams(location.hash.startsWith('#shader?') ? location.hash.slice(8) : '');
   const word = (name, known, otherwise) => words.get(name) in known ? words.get(name) : otherwise;
-  const state = { lang: word('lang', kLanguages, 'essl'), frame: word('frame', kFrames, 'cotangent'), map: '', stage: word('stage', kStages, '') };
+  const state = { lang: word('lang', kLanguages, 'essl'), frame: word('frame', kFrames, 'orthonormal'), map: '', stage: word('stage', kStages, '') };
   state.map = word('map', kMaps, state.lang === 'godot' ? 'godot' : 'gltf');
   const text = el('code', {}), said = el('p', { role: 'status', class: 'small' }), how = el('div', {}), stages = el('div', {});
   const select = (label, known, name) => choice(label, known, state[name], value => { state[name] = value; chosen(true); });
@@ -32,7 +33,6 @@ export async function showShader(panel) {
 
   async function chosen(keep) {
     stages.hidden = state.frame !== 'triangle';
-    const library = await cotan();
     try {
       text.textContent = await library.shader({ language: state.lang, frame: state.frame, convention: state.map,
         ...(state.frame === 'triangle' && state.stage ? { stage: state.stage } : {}) });

@@ -1,12 +1,12 @@
 #include "commands.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include "bake_options.hpp"
+#include "core/file_names.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/convert.hpp"
 #include "cotan/image.hpp"
@@ -246,6 +246,7 @@ Result<Json> bakeOne(const BakeCommandOptions& o)
                 {"kind", o.kind},
                 {"size", {image.width, image.height}},
                 {"high_normals", o.highNormals},
+                {"warnings", job->warnings},
                 {"triangles_high", job->setup.high.triangleCount()},
                 {"triangles_low", job->setup.low.triangleCount()},
                 {"bake", describe(baked->statistics)},
@@ -263,24 +264,12 @@ Result<Json> bakeOne(const BakeCommandOptions& o)
     return report;
 }
 
-// Makes an object's name usable as part of a file name.
-std::string fileNamePart(const std::string& object)
-{
-    std::string name = object.empty() ? "unnamed" : object;
-    for (char& c : name)
-        if (const auto byte = static_cast<unsigned char>(c);
-            byte < 128 && !std::isalnum(byte) && c != '.' && c != '-' && c != '_')
-            c = '_';
-    return name;
-}
-
 // map.png for the object lid: map-lid.png. An empty file stays empty.
-std::filesystem::path fileOf(const std::filesystem::path& file, const std::string& object)
+std::filesystem::path fileOf(const std::filesystem::path& file, const std::string& part)
 {
-    if (file.empty())
-        return {};
-    const std::string name = file.stem().string() + "-" + fileNamePart(object) + file.extension().string();
-    return std::filesystem::path(file).replace_filename(name);
+    return file.empty()
+        ? file
+        : std::filesystem::path(file).replace_filename(file.stem().string() + "-" + part + file.extension().string());
 }
 
 // Bakes one map per object.
@@ -291,13 +280,17 @@ Result<Json> bakeEach(const BakeCommandOptions& o)
         return names.error();
     std::vector<BakeCommandOptions> all;
     std::vector<PlannedOutput> files;
-    for (const std::string& name : *names) {
+    const std::vector<std::string> parts = fileNameParts(*names);
+    for (std::size_t i = 0; i < names->size(); ++i) {
         BakeCommandOptions& one = all.emplace_back(o);
-        one.object = name;
-        one.output = fileOf(o.output, name);
-        one.mask = fileOf(o.mask, name).string();
+        one.object = (*names)[i];
+        one.output = fileOf(o.output, parts[i]);
+        one.mask = fileOf(o.mask, parts[i]).string();
         if (!o.verify.empty())
-            one.verify = o.verify / fileNamePart(name);
+            one.verify = o.verify / parts[i];
+        if (fileNamePart(one.object) != parts[i])
+            warn(o, "the name of the object '{}' is that of another one in file names: its files are named {}",
+                 one.object, parts[i]);
         for (PlannedOutput& file : filesOf(one))
             files.push_back(std::move(file));
     }
@@ -363,8 +356,14 @@ void declare(Arguments& a, BakeCommandOptions& o)
         .in("FILE")
         .reads();
     a.option("--ao-rays", o.occlusionRays, "rays per sample for ao").within(1, 65536).in("N");
+    a.option("--ao-occluders", o.occluders,
+             "with --match-by-name, what casts occlusion: matched (the high meshes of the same name) or all")
+        .from({"matched", "all"})
+        .in("NAME");
     a.group(HelpGroup::input);
-    a.flag("--match-by-name", o.matchByName, "bake each low mesh NAME_low from the high mesh NAME_high only");
+    a.flag("--match-by-name", o.matchByName,
+           "bake each low mesh NAME_low from its high meshes NAME_high, NAME_high_a only; NAME_low.001 from "
+           "NAME_high.001");
     addUpOption(a, o.up, "the files");
     a.choice("--high-up", o.highUp, kUps, "the same for the high mesh only, where it differs: y or z");
     a.option("--object", o.object, "bake this object of the low mesh only: the name of its node, else of its mesh")

@@ -133,6 +133,7 @@ Result<BakeModelOptions> parseOptions(const BakeCommandOptions& o)
     options.bake.extrusion = o.extrusion;
     options.bake.maxDistance = o.maxDistance;
     options.bake.occlusionRays = o.occlusionRays;
+    options.bake.occluders = o.occluders == "all" ? Occluders::all : Occluders::matched;
     options.bake.threads = o.threads;
     options.tiles = {o.udim};
     options.material = o.material;
@@ -324,7 +325,8 @@ Result<BakeJob> loadBake(const BakeCommandOptions& o)
     auto setup = prepareBake(*low, std::move(*high), *options);
     if (!setup)
         return withBakeOptionNames(o, setup.error());
-    warnings.insert(warnings.end(), setup->warnings.begin(), setup->warnings.end());
+    for (const std::string& line : setup->warnings)
+        warnings.push_back(withOptionNames({.message = line, .field = line.substr(0, line.find(':'))}).message);
     const std::size_t objects = objectNames(*low).size();
     return BakeJob{std::move(*low), std::move(*setup), std::move(warnings), objects};
 }

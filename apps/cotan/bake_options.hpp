@@ -26,7 +26,7 @@ struct BakeCommandOptions : CommonOptions {
     int samples = 1, bits = 8, padding = 0, material = -1, udim = 1001, occlusionRays = 64;
     int memory = kDefaultMemory;
     float maxDistance = 0, extrusion = 0;
-    std::string search = "first";
+    std::string search = "first", occluders = "matched";
     bool dither = false, matchByName = false, perObject = false;
 };
 

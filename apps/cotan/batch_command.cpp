@@ -136,6 +136,32 @@ Status verdict(const JobList& list, const std::vector<JobResult>& all)
     return Done{};
 }
 
+// Jobs guard their own inputs. The batch's own outputs must replace no file of a job, and no job the list of jobs or
+// the batch's outputs.
+Status guardFiles(const JobList& list)
+{
+    for (const Job& job : list.jobs)
+        for (const std::string& output : job.outputs)
+            if (Status free = checkOutput(fmt::format("line {}:", job.line), list.folder / output); !free)
+                return free;
+    for (const Job& job : list.jobs)
+        for (const std::string& input : job.inputs)
+            if (Status free = noteInput(list.folder / input); !free)
+                return free;
+    return Done{};
+}
+
+// Likewise, with the files that are known only after a job has run.
+Status guardFiles(const JobList& list, const std::vector<JobResult>& results)
+{
+    for (const JobResult& result : results)
+        for (const auto* files : {&result.record.inputs, &result.record.outputs})
+            for (const FileState& file : *files)
+                if (Status free = noteInput(list.folder / file.file); !free)
+                    return free;
+    return Done{};
+}
+
 Status run(const Arguments& tool, const BatchOptions& o)
 {
     if (Status usage = checkUsage(o); !usage)
@@ -147,7 +173,7 @@ Status run(const Arguments& tool, const BatchOptions& o)
             return parsed.error();
         shard = *parsed;
     }
-    if (Status planned = beginOutputs(o, {{"-o", o.output}}); !planned)
+    if (Status planned = beginOutputs(o, {{"-o", o.output}}, /*again*/ true); !planned)
         return planned;
     Stopwatch watch;
     const auto list = readJobs(o.jobs, [&](Job& job) { return setFiles(tool, job); });
@@ -156,11 +182,13 @@ Status run(const Arguments& tool, const BatchOptions& o)
     const auto plan = planJobs(*list);
     if (!plan)
         return inputError(fmt::format("{}: {}", o.jobs, plan.error().message));
-    // Later outputs need no registration: each job process has its own, and the store replaces only its own files.
-    guardInputs(/*overwrite*/ true);
+    if (Status free = guardFiles(*list); !free)
+        return free;
     const auto all = results(o, *list, *plan, shard);
     if (!all)
         return all.error();
+    if (Status free = guardFiles(*list, *all); !free)
+        return free;
     const double seconds = watch.lap();
     const std::string summary = summaryOf(*all) + fmt::format("; {:.1f} s", seconds);
     if (!o.output.empty()) {

@@ -84,9 +84,9 @@ Result<std::vector<std::string>> planOutputs(std::vector<PlannedOutput> files)
     return left;
 }
 
-Status beginOutputs(const CommonOptions& options, std::vector<PlannedOutput> files)
+Status beginOutputs(const CommonOptions& options, std::vector<PlannedOutput> files, bool again)
 {
-    guardInputs(options.overwrite);
+    guardInputs(options.overwrite, again);
     if (options.json != "-")
         files.push_back({"--json", options.json});
     const auto left = planOutputs(std::move(files));

@@ -13,6 +13,7 @@
 #include "core/loops.hpp"
 #include "cotan/render.hpp"
 #include "cotan/result.hpp"
+#include "files/file_registry.hpp"
 #include "files/output.hpp"
 #include "files/report/json.hpp"
 #include "terminal/arguments.hpp"
@@ -58,7 +59,10 @@ void addCommand(Arguments& parent, const CommandText& text, void (*declare)(Argu
         command.find("--output").needed();
     declare(command, *options);
     addExamples(command, text.examples);
-    command.does([options, run] { return withThreads(options->threads, [&] { return run(*options); }); });
+    command.does([options, run] {
+        guardInputs(options->overwrite); // also if the command forgets beginOutputs
+        return withThreads(options->threads, [&] { return run(*options); });
+    });
 }
 
 // Measures the seconds since its construction or the last call.
@@ -92,10 +96,10 @@ std::vector<PlannedOutput> plannedIn(const std::string& option, const std::files
 Result<std::vector<std::string>> planOutputs(std::vector<PlannedOutput> files);
 
 // Every command calls this before it reads anything. Registers the output files, including --json; empty names are
-// skipped. From here on no output may be an input file or another output, unless --overwrite was given. Warns of
-// unfinished files of a killed run. Errors: ErrorKind::usage for two outputs with the same path; ErrorKind::output if a
-// file cannot be written.
-Status beginOutputs(const CommonOptions& options, std::vector<PlannedOutput> files);
+// skipped. From here on no output may be an input file or another output, unless --overwrite was given. again: as for
+// guardInputs. Warns of unfinished files of a killed run. Errors: ErrorKind::usage for two outputs with the same path;
+// ErrorKind::output if a file cannot be written.
+Status beginOutputs(const CommonOptions& options, std::vector<PlannedOutput> files, bool again = false);
 
 // Prints on standard output. Does not fail: the first error is kept for flushOutput.
 void print(const std::string& text);

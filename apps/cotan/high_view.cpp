@@ -82,7 +82,7 @@ public:
             const Hit hit = left > 0 ? high_.trace({start, -direction, 0, left}) : Hit{};
             if (!hit.found)
                 return {};
-            const bool counts = probe.only[0] == Probes::kAny || probe.only[0] == hit.instance;
+            const bool counts = probe.only[0] == Probes::kAny || probe.only[0] == high_.groupOf(hit.instance);
             if (counts && glm::dot(hit.front, direction) > 0 && glm::dot(hit.front, probe.normal.at(0)) > kUpright
                 && sees(eye, start - direction * hit.distance, hit.front))
                 return compareWithBaker(sample, probe, from - passed - hit.distance, normalOf(hit, direction));
@@ -126,7 +126,7 @@ Result<HighView> renderHighView(const LowSurface& low, const HighSurface& high, 
         return ready.error();
     std::optional<LowTree> tree = options.starts ? options.starts->tree : std::nullopt;
     if (!tree) {
-        auto made = LowTree::make(low.positions, low.indices, highInstances(low.triangleInstance, options.matched),
+        auto made = LowTree::make(low.positions, low.indices, highGroups(low.triangleInstance, options.matched),
                                   options.threads);
         if (!made)
             return made.error();

@@ -1,8 +1,8 @@
 #include "loading.hpp"
 
-#include <cctype>
 #include <string_view>
 
+#include "core/named_values.hpp"
 #include "cotan/image.hpp"
 #include "cotan/model.hpp"
 
@@ -15,8 +15,7 @@ Error withOptionNames(const Error& error)
     if (error.field.starts_with(kOptions)) {
         std::string option = "--";
         for (const char c : error.field.substr(kOptions.size()))
-            option += std::isupper(static_cast<unsigned char>(c)) ? std::string("-") + char(std::tolower(c))
-                                                                  : std::string(1, c);
+            option += isUpper(c) ? std::string("-") + lowerLetter(c) : std::string(1, c);
         text.replace(0, error.field.size(), option);
     }
     // The new error lacks the memory flag, so that another call does not append the hint again.

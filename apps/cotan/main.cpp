@@ -19,7 +19,7 @@ using cotan::app::finish;
 // Writes manual pages and shell completions to a folder laid out like share/, for the build (CMakeLists.txt).
 cotan::Status writeHelpFiles(const cotan::Arguments& tool, const std::filesystem::path& folder)
 {
-    for (const cotan::HelpFile& file : cotan::helpFiles(tool.describe(), COTAN_VERSION)) {
+    for (const cotan::HelpFile& file : cotan::helpFiles(tool.describe(), COTAN_VERSION, COTAN_REPOSITORY)) {
         std::error_code failed; // if set, writing the file fails as well
         std::filesystem::create_directories((folder / file.path).parent_path(), failed);
         if (cotan::Status written = cotan::writeFileWhole(folder / file.path, file.text); !written)

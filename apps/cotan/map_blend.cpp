@@ -78,6 +78,7 @@ Status run(const MapBlendCommandOptions& o)
         return done.error();
     if (done->invalid > 0)
         warn(o, "{} texels have no direction in one of the maps; the other map is used there", done->invalid);
+    const std::vector<std::string> warnings = warned(o, done->notes);
     say(o, "{}: {} x {}, {}: {}, {}", o.output.string(), done->width, done->height, bitsName(done->bits), o.mode,
         describe(done->to));
     return writeReport(o,
@@ -90,7 +91,8 @@ Status run(const MapBlendCommandOptions& o)
                         {"tiles", {options->tilesX, options->tilesY}},
                         {"to", describe(done->to)},
                         {"bits", bitsName(done->bits)},
-                        {"invalid", done->invalid}});
+                        {"invalid", done->invalid},
+                        {"warnings", warnings}});
 }
 
 void declare(Arguments& a, MapBlendCommandOptions& o)

@@ -50,6 +50,15 @@ Result<std::pair<StatedConvention, StatedConvention>> parseFromTo(const std::str
     return std::pair(*first, *second);
 }
 
+std::vector<std::string> warned(const MapOptions& options, std::vector<std::string> notes)
+{
+    for (std::string& note : notes) {
+        note = withOptionNames({.message = note, .field = note.substr(0, note.find(':'))}).message;
+        warn(options, "{} (cotan map detect)", note);
+    }
+    return notes;
+}
+
 Status needOutput(const MapOptions& options, const std::string& command, const std::filesystem::path& file)
 {
     if (options.output.empty())

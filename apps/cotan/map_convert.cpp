@@ -61,6 +61,7 @@ Status run(const MapConvertCommandOptions& o)
         warn(o, "{}: {} texels have no direction; written as flat", o.file, done->counts.invalid);
     if (done->counts.clamped > 0)
         warn(o, "{}: {} texels are steeper than {} can hold; clamped", o.file, done->counts.clamped, describe(to));
+    const std::vector<std::string> warnings = warned(o, done->notes);
     Convention stored = to;
     if (o.compress == "bc5" && to.channels == Channels::xyz)
         stored.channels = Channels::orthographic;
@@ -76,7 +77,8 @@ Status run(const MapConvertCommandOptions& o)
                         {"height", done->height},
                         {"bits", bits},
                         {"invalid", done->counts.invalid},
-                        {"clamped", done->counts.clamped}});
+                        {"clamped", done->counts.clamped},
+                        {"warnings", warnings}});
 }
 
 void declare(Arguments& a, MapConvertCommandOptions& o)

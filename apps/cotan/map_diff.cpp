@@ -24,6 +24,7 @@ Status run(const MapDiffCommandOptions& o)
     });
     if (!compared)
         return compared.error();
+    const std::vector<std::string> warnings = warned(o, compared->notes);
     say(o, "{} texels: {}", compared->angles.count, toText(compared->angles));
     if (compared->skipped > 0)
         say(o, "{} texels have no direction in one of the maps and were left out", compared->skipped);
@@ -36,7 +37,8 @@ Status run(const MapDiffCommandOptions& o)
                         {"convention_a", describe(compared->a)},
                         {"convention_b", describe(compared->b)},
                         {"skipped", compared->skipped},
-                        {"angles", toJson(compared->angles)}});
+                        {"angles", toJson(compared->angles)},
+                        {"warnings", warnings}});
 }
 
 void declare(Arguments& a, MapDiffCommandOptions& o)

@@ -145,6 +145,7 @@ Status runTo(const MapToHeightCommandOptions& o)
     const double lowest = h.lowest * done->unit, highest = h.highest * done->unit;
     const double fraction = h.slope > 0 ? h.residual / h.slope : 0;
     const char* const unit = o.metres.empty() ? "texels" : "metres";
+    const std::vector<std::string> warnings = warned(o, done->notes);
     if (h.invalid > 0)
         warn(o, "{}: {} texels have no direction; treated as flat", o.file, h.invalid);
     if (!o.free && h.meanTilt > 1)
@@ -167,7 +168,8 @@ Status runTo(const MapToHeightCommandOptions& o)
                         {"residual_rms", h.residual},
                         {"residual_share", fraction},
                         {"mean_tilt_degrees", h.meanTilt},
-                        {"invalid", h.invalid}});
+                        {"invalid", h.invalid},
+                        {"warnings", warnings}});
 }
 
 void declareFrom(Arguments& a, MapFromHeightCommandOptions& o)

@@ -83,6 +83,8 @@ Status runAll(const InspectOptions& o, const char* command, Inspect inspect)
     Json all = Json::array();
     for (const std::string& file : *files) {
         const auto inspected = inspect(o, file);
+        if (const auto refused = firstRefusal()) // the report would overwrite a file
+            return *refused;
         Json report = {{"file", file}};
         if (inspected) {
             for (std::size_t i = 0; i < std::min(inspected->brief, inspected->lines.size()); ++i) {

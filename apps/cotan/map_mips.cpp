@@ -40,6 +40,7 @@ Status run(const MapMipsCommandOptions& o)
     });
     if (!done)
         return done.error();
+    const std::vector<std::string> warnings = warned(o, done->notes);
     Json levels = Json::array();
     for (const maps::MipLevelFigures& level : done->levels) {
         levels.push_back({{"width", level.width},
@@ -57,7 +58,8 @@ Status run(const MapMipsCommandOptions& o)
                         {"to", describe(done->to)},
                         {"model", o.model},
                         {"roughness", o.roughness},
-                        {"levels", levels}});
+                        {"levels", levels},
+                        {"warnings", warnings}});
 }
 
 void declare(Arguments& a, MapMipsCommandOptions& o)

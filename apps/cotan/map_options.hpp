@@ -3,6 +3,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common.hpp"
 #include "cotan/convention.hpp"
@@ -52,6 +53,9 @@ template<class Work> auto onFilesToMap(const MapOptions& o, const std::string& w
         return work(files);
     });
 }
+
+// Warns of notes of map_files, and returns them with option names, for the report.
+std::vector<std::string> warned(const MapOptions& options, std::vector<std::string> notes);
 
 // Each adds one command.
 void addMapInfo(Arguments& map);

@@ -1,11 +1,10 @@
 #include "picture_options.hpp"
 
-#include <cstdlib>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/named_values.hpp"
+#include "core/real_number.hpp"
 #include "cotan/convention.hpp"
 
 namespace cotan::app {
@@ -88,7 +87,7 @@ void addLightOptions(Arguments& a, PictureOptions& o)
          [&o](const std::string& word) -> Status {
              o.exposure.reset();
              if (word != kAutoExposure)
-                 o.exposure = std::strtof(word.c_str(), nullptr); // above0Or has checked it
+                 o.exposure = float(*parseReal(word)); // above0Or has checked it
              return Done{};
          },
          "factor on all light, or auto: from the brightness of the model (1 in files that keep floats)")

@@ -18,6 +18,7 @@
 #include "common.hpp"
 #include "cotan/files.hpp"
 #include "cotan/model.hpp"
+#include "files/children.hpp"
 #include "files/file_registry.hpp"
 #include "files/interrupt.hpp"
 #include "terminal/printable.hpp"
@@ -31,7 +32,7 @@ char** programArguments = nullptr; // main's argv
 // Does not use fmt::print, which throws if standard error cannot be written.
 int fail(const Error& error)
 {
-    std::fputs(fmt::format("cotan: error: {}\n", printable(error.message)).c_str(), stderr);
+    std::fputs(fmt::format("cotan: error: {}\n{}", printable(error.message), error.advice).c_str(), stderr);
     return int(error.kind);
 }
 
@@ -61,6 +62,7 @@ Status startLab()
 int runProgram(int argc, char** argv, int (*commandLine)(std::vector<std::string>))
 {
     programArguments = argv;
+    keepStatusOfChildren();
     if (isReaderProcess(argc, argv))
         return runReaderProcess();
     sandboxByDefault({.program = "/proc/self/exe"});

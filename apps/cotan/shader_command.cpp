@@ -78,14 +78,27 @@ Status chooseText(const ShaderCommandOptions& o, Choice& choice)
     return choose(choice.callerDifferences, "--differences", o.differences, {{"shader", false}, {"caller", true}});
 }
 
+// The error for a missing --frame, with a line for each case.
+Error withoutFrame()
+{
+    Error error = usageError("--frame: expected the frame that the normal map was baked for; found none");
+    for (const shader_text::FrameAdvice& advice : shader_text::kFrameAdvice)
+        error.advice += fmt::format("  --frame {}: {}\n", advice.frames, advice.maps);
+    return error;
+}
+
 Result<Choice> choiceOf(const ShaderCommandOptions& o)
 {
     Choice choice;
     if (Status ok = chooseText(o, choice); !ok)
         return ok.error();
-    // In Godot the text is the material of a model, whose maps are made for MikkTSpace; elsewhere it is a function.
-    const std::string usual(name(o.language == "godot" ? Frame::orthonormal : Frame::cotangent));
-    std::string wanted = o.frame.empty() ? usual : o.frame;
+    std::string wanted = o.frame;
+    if (wanted.empty()) {
+        const auto usual = shader_text::frameIfNoneIsNamed(choice.language);
+        if (!usual)
+            return withoutFrame();
+        wanted = name(*usual);
+    }
     // The cost tables list these forms of `cotangent` like frames.
     for (const Form form : {Form::seen, Form::area})
         if (wanted == "cotangent-" + std::string(name(form)) && (!choice.form || choice.form == form)) {
@@ -161,7 +174,7 @@ void declare(Arguments& a, ShaderCommandOptions& o)
         .main();
     a.option("--frame", o.frame,
              "frame to print: " + usefulFrameNames()
-                 + ", or a historical one of --list-frames (default: cotangent; with --lang godot orthonormal)")
+                 + ", or a historical one of --list-frames; required, except for --lang godot (orthonormal)")
         .in("NAME")
         .offers(frameWords())
         .main();
@@ -227,13 +240,13 @@ void declare(Arguments& a, ShaderCommandOptions& o)
 
 void addShaderCommand(Arguments& tool)
 {
-    addCommand<ShaderCommandOptions>(
-        tool,
-        {"shader",
-         "Print self-contained shader code that applies a normal map.",
-         "file for the text instead of standard output",
-         {"cotan shader --lang wgsl -o normal.wgsl", "cotan shader --lang glsl --preset unity --set blend,light"}},
-        declare, run);
+    addCommand<ShaderCommandOptions>(tool,
+                                     {"shader",
+                                      "Print self-contained shader code that applies a normal map.",
+                                      "file for the text instead of standard output",
+                                      {"cotan shader --lang wgsl --frame orthonormal -o normal.wgsl",
+                                       "cotan shader --lang glsl --frame smooth --preset unity --set blend,light"}},
+                                     declare, run);
 }
 
 } // namespace cotan::app

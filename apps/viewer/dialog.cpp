@@ -7,10 +7,10 @@
 #include <vector>
 
 #include <fcntl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include "files.hpp"
+#include "files/children.hpp"
 
 namespace cotan::viewer {
 
@@ -35,7 +35,7 @@ Dialog::~Dialog()
 {
     if (child_ > 0) {
         ::kill(child_, SIGTERM);
-        ::waitpid(child_, nullptr, 0);
+        waitFor(child_);
     }
     if (pipe_ >= 0)
         ::close(pipe_);
@@ -104,7 +104,7 @@ std::string Dialog::takeFromProgram()
     char bytes[4096];
     for (ssize_t count; (count = ::read(pipe_, bytes, sizeof bytes)) > 0;)
         said_.append(bytes, std::size_t(count));
-    if (::waitpid(child_, nullptr, WNOHANG) == 0)
+    if (waitFor(child_, /*look*/ true) == Waited::running)
         return {};
     for (ssize_t count; (count = ::read(pipe_, bytes, sizeof bytes)) > 0;)
         said_.append(bytes, std::size_t(count));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 
@@ -159,8 +158,8 @@ std::vector<fs::path> filesOf(const fs::path& model, const std::vector<std::stri
         add(model.stem().string() + ".mtl");
         return files;
     }
-    std::ifstream in(model);
-    const auto root = nlohmann::json::parse(in, nullptr, false);
+    const auto text = readText(model, /*isInput*/ false); // the loader has noted it
+    const auto root = nlohmann::json::parse(text ? *text : "", nullptr, false);
     for (const char* list : {"buffers", "images"})
         if (root.is_object() && root.contains(list) && root[list].is_array())
             for (const auto& entry : root[list])

@@ -2,13 +2,13 @@
 #include "interface.hpp"
 
 #include <array>
-#include <cstdlib>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "camera.hpp"
 #include "commands.hpp"
+#include "core/real_number.hpp"
 #include "files.hpp"
 #include "inspect/angles.hpp"
 #include "picture/option_words.hpp"
@@ -55,7 +55,7 @@ std::string statusOf(const State& s)
 
 std::vector<Slider> slidersOf(const State& s)
 {
-    const auto number = [&](const char* name) { return std::atof(valueOf(*findSetting(name), s.picture).c_str()); };
+    const auto number = [&](const char* name) { return parseReal(valueOf(*findSetting(name), s.picture)).value_or(0); };
     std::vector<Slider> sliders = {
         {"exposure", "set exposure", "", s.picture.exposure.value_or(s.metered), 0.05, 20, true},
         {"light rotation", "set environment-rotation", "degrees", number("environment-rotation"), -180, 180},

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "core/parse_number.hpp"
 #include "session.hpp"
 #include "settings.hpp"
 
@@ -53,18 +54,20 @@ void remember(const std::string& text, State& state)
         if (first == "recent" && line.size() > 7 && state.recent.size() < kMaxRecent)
             state.recent.push_back(line.substr(7));
         else if (first == "scale")
-            perform(state, line);
+            (void)perform(state, line); // a scale that this version refuses stays as it is
         else if (first == "size" && state.picture.size == defaults.size) {
             glm::ivec2 size{0};
-            std::istringstream(line.substr(4)) >> size.x >> size.y;
-            if (size.x >= 160 && size.y >= 120 && size.x <= 8192 && size.y <= 8192)
+            std::string height;
+            words >> height;
+            if (parseNumber(second, size.x) && parseNumber(height, size.y) && size.x >= 160 && size.y >= 120
+                && size.x <= 8192 && size.y <= 8192)
                 state.size = size;
         } else if (first == "set") {
             const Setting* setting = findSetting(second);
             const std::size_t start = line.find(second) + second.size() + 1;
             if (setting && std::ranges::find(kKeptSettings, second) != kKeptSettings.end()
                 && valueOf(*setting, state.picture) == valueOf(*setting, defaults))
-                setValue(*setting, line.substr(std::min(start, line.size())), state.picture);
+                (void)setValue(*setting, line.substr(std::min(start, line.size())), state.picture);
         } else
             for (const Switch& s : kKeptSwitches)
                 if (first == s.name)

@@ -1,12 +1,12 @@
 // Menus and keys: one list of entries for both and for the cheat sheet.
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "core/named_values.hpp"
 #include "cotan/view.hpp"
 #include "files.hpp"
 #include "parse.hpp"
@@ -57,7 +57,7 @@ private:
 
 std::string capital(std::string word)
 {
-    word[0] = char(std::toupper(static_cast<unsigned char>(word[0])));
+    word[0] = upperLetter(word[0]);
     return word;
 }
 

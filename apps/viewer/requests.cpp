@@ -1,11 +1,10 @@
 #include "requests.hpp"
 
-#include <fstream>
-
 #include <fmt/format.h>
 
 #include "commands.hpp"
 #include "cotan/image.hpp"
+#include "files/output.hpp"
 #include "image/format_table.hpp"
 #include "input.hpp"
 
@@ -60,12 +59,7 @@ Status carryOut(Parts& parts, const request::WriteWindow& r)
     return picture ? writeImage(r.file, *picture) : Status(picture.error());
 }
 
-Status carryOut(Parts& parts, const request::WriteReport& r)
-{
-    std::ofstream file(r.file, std::ios::binary);
-    file << reportOf(parts.state);
-    return file.flush() ? Status(Done{}) : Status(outputError(r.file + ": cannot be written"));
-}
+Status carryOut(Parts& parts, const request::WriteReport& r) { return writeFileWhole(r.file, reportOf(parts.state)); }
 
 Status carryOut(Parts& parts, const request::Paste&)
 {
@@ -146,7 +140,8 @@ void beginLoads(Parts& parts)
     std::erase_if(parts.state.requests, [&](const Request& request) {
         const auto* load = std::get_if<request::Load>(&request);
         if (load)
-            carryOut(parts, *load);
+            if (const Status begun = carryOut(parts, *load); !begun)
+                parts.state.problem = begun.error().message;
         return load || std::holds_alternative<request::Pose>(request); // there is no model to pose yet
     });
 }

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
+#include <cstdio>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "files/file_registry.hpp"
+#include "files/output.hpp"
 #include "input.hpp"
 #include "player.hpp"
 #include "requests.hpp"
@@ -80,8 +83,8 @@ public:
         parts_.waker.set(parts_.window.get());
         Status done = loop();
         parts_.waker.set(nullptr);
-        if (done && recording_.is_open() && !recording_.flush())
-            done = outputError(fmt::format("{}: cannot be written", options_.record.string()));
+        if (const Status recorded = endRecording(); done)
+            done = recorded;
         saveState();
         if (done)
             done = writeReport(options_.common, reportOfTimes());
@@ -114,7 +117,7 @@ private:
     {
         while (parts_.loader.busy())
             if (const auto loaded = parts_.loader.take())
-                return loaded->error ? Status(*loaded->error) : why;
+                return loaded->error ? Status(*loaded->error) : why; // `finish` reports a refused input instead
             else
                 std::this_thread::sleep_for(std::chrono::milliseconds(5));
         return why;
@@ -124,10 +127,35 @@ private:
     {
         if (options_.record.empty())
             return Done{};
-        recording_.open(options_.record);
-        recording_ << fmt::format("0.000 resize {} {}\n", state_.size.x, state_.size.y);
-        return recording_ ? Status(Done{})
-                          : Status(outputError(fmt::format("{}: cannot be written", options_.record.string())));
+        auto file = OutputFile::begin(options_.record);
+        if (!file)
+            return file.error();
+        recording_.emplace(*std::move(file));
+        auto events = recording_->open();
+        if (!events)
+            return events.error();
+        events_ = *std::move(events);
+        record(fmt::format("0.000 resize {} {}", state_.size.x, state_.size.y));
+        return Done{};
+    }
+
+    // Each line is written at once, so that the events before a crash are in the unfinished file.
+    void record(const std::string& line)
+    {
+        const std::string text = line + "\n";
+        unrecorded_ = unrecorded_ || std::fwrite(text.data(), 1, text.size(), events_.get()) != text.size()
+            || std::fflush(events_.get()) != 0;
+    }
+
+    // The recording appears also if the session failed.
+    Status endRecording()
+    {
+        if (!recording_)
+            return Done{};
+        if (std::fclose(events_.release()) != 0 || unrecorded_)
+            return recording_->failed(
+                outputError(fmt::format("{}: cannot be written", recording_->destination().string())));
+        return recording_->commit();
     }
 
     // Data flows in one direction: events, state, requests, results, window.
@@ -142,8 +170,12 @@ private:
             adoptWindowSize();
             if (const Status done = carryOutRequests(parts_); !done && written_)
                 player_.blame(done.error().message);
-            while (auto loaded = parts_.loader.take())
+            while (auto loaded = parts_.loader.take()) {
+                const bool first = !std::exchange(loadedFirst_, true);
+                if (const auto refused = firstRefusal(); refused && (first || options_.plays))
+                    return *refused;
                 takeLoaded(std::move(*loaded));
+            }
             if (options_.plays && !state_.model && modelError_) // there is nothing to play with
                 return *modelError_;
             parts_.pictures.receive(state_, !options_.plays); // played sessions must look the same every time
@@ -191,8 +223,8 @@ private:
                 events.push_back(std::move(*step->event));
         }
         for (const Event& event : events)
-            if (recording_.is_open() && event.seconds >= 0) // commands chosen in the interface follow from the clicks
-                recording_ << toText(event) << '\n';
+            if (recording_ && event.seconds >= 0) // commands chosen in the interface follow from the clicks
+                record(toText(event));
         return events;
     }
 
@@ -276,7 +308,7 @@ private:
             return;
         std::error_code error;
         fs::create_directories(options_.memory.parent_path(), error);
-        std::ofstream(options_.memory, std::ios::binary) << memoryOf(state_); // errors do not matter
+        (void)writeFileWhole(options_.memory, memoryOf(state_)); // the next start then has the defaults
     }
 
     const SessionOptions& options_;
@@ -284,7 +316,10 @@ private:
     Parts parts_;
     State& state_ = parts_.state;
     Player player_;
-    std::ofstream recording_;
+    std::optional<OutputFile> recording_;
+    OpenFile events_;         // the recording, open
+    bool unrecorded_ = false; // events_ could not be written
+    bool loadedFirst_ = false;
     double start_ = 0, last_ = 0, windowSeconds_ = 0, loadSeconds_ = 0, firstShown_ = 0;
     std::optional<Error> modelError_; // error of the first model
     bool written_ = false;            // the current event is a written command

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "camera.hpp"
+#include "core/named_values.hpp"
 #include "core/parse_number.hpp"
 #include "cotan/render.hpp"
 #include "files.hpp"
@@ -99,8 +100,7 @@ void resetCamera(State& state)
     const glm::vec3 forward = glm::normalize(state.camera.target - state.camera.eye);
     if (!state.model->box.empty()) {
         const float depth = glm::dot(state.model->box.centre() - state.camera.eye, forward);
-        const bool own =
-            !o.camera.empty() && !std::isalpha(static_cast<unsigned char>(o.camera[0])); // given by eye and target
+        const bool own = !o.camera.empty() && !isLetter(o.camera[0]); // given by eye and target
         if (own && depth > 0)
             state.camera.target = state.camera.eye + forward * depth;
     }

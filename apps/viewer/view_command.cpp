@@ -1,12 +1,11 @@
 #include "view_command.hpp"
 
-#include <fstream>
-#include <sstream>
-
 #include <fmt/format.h>
 
 #include "commands.hpp"
 #include "files.hpp"
+#include "files/bytes.hpp"
+#include "files/file_registry.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
 #include "session.hpp"
@@ -24,14 +23,25 @@ struct ViewCommandOptions : CommonOptions {
     bool forget = false, validate = false;
 };
 
-Result<std::vector<viewer::Event>> readEvents(const std::string& file)
+// Files that the options name are noted before a window opens; those that a model names are when it is loaded.
+Status noteInputs(const PictureOptions& o)
 {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    if (!stream)
-        return inputError(file + ": cannot be read");
-    return viewer::eventsOf(text.str(), file);
+    for (const std::string* file :
+         {&o.model, &o.maps.normal, &o.maps.baseColor, &o.maps.metallicRoughness, &o.maps.occlusion, &o.environment})
+        if (std::filesystem::path(*file).has_extension()) // others are built-in environments or empty
+            if (Status free = noteInput(*file); !free)
+                return free;
+    return Done{};
+}
+
+// Restores the state of the window from `file`, where the session will save it.
+Status restore(const std::filesystem::path& file, viewer::State& state)
+{
+    if (Status planned = file.empty() ? Status(Done{}) : planOutput("the window's state in", file); !planned)
+        return planned;
+    const auto text = readText(file, /*isInput*/ false);
+    viewer::remember(text ? *text : "", state);
+    return Done{};
 }
 
 Status run(const ViewCommandOptions& o)
@@ -46,20 +56,24 @@ Status run(const ViewCommandOptions& o)
     for (const auto& [option, frame] : {std::pair("--frame", state.a.frame), {"--second", state.b.frame}})
         if (const auto known = parseFrameChoice(frame, option); !known)
             return known.error();
+    if (Status planned = beginOutputs(o, {{"--record", o.record}}, /*again*/ true); !planned)
+        return planned;
+    if (Status free = noteInputs(o.picture); !free)
+        return free;
     viewer::SessionOptions session;
     session.common = o;
     session.validation = o.validate;
     if (!o.play.empty()) {
-        auto events = readEvents(o.play);
+        const auto text = readText(o.play);
+        auto events = text ? viewer::eventsOf(*text, o.play) : text.error();
         if (!events)
             return events.error();
         session.played = std::move(*events);
         session.plays = true;
     } else if (!o.forget) {
         session.memory = viewer::memoryFile();
-        std::ostringstream text;
-        text << std::ifstream(session.memory, std::ios::binary).rdbuf();
-        viewer::remember(text.str(), state);
+        if (Status restored = restore(session.memory, state); !restored)
+            return restored;
     }
     if (viewer::isImageFile(state.picture.model)) { // a map or an environment without a model
         const std::string file = std::exchange(state.picture.model, {});
@@ -87,8 +101,8 @@ void declare(Arguments& a, ViewCommandOptions& o)
     a.group(HelpGroup::diagnostics);
     a.option("--do", o.commands, "a viewer command to run at the start, such as \"compare angle\"; may be repeated")
         .in("TEXT");
-    a.option("--record", o.record, "record the session to a file").in("FILE");
-    a.option("--play", o.play, "play a recorded session as fast as possible, then quit").in("FILE");
+    a.option("--record", o.record, "record the session to a file").in("FILE").writes();
+    a.option("--play", o.play, "play a recorded session as fast as possible, then quit").in("FILE").reads();
     a.flag("--forget", o.forget, "neither load nor save the state of the window");
     a.flag("--validate", o.validate, "fail if Vulkan's validation layer reports anything");
 }

@@ -1,5 +1,6 @@
 // Times every row of `cotan cost` and the passes of examples/deforming on a GPU, and writes docs/explanation/gpu.md.
 // bench/on-gpu copies this program to a machine with a GPU.
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <iostream>

@@ -6,7 +6,7 @@ import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { deflateRawSync } from 'node:zlib';
 
-const [wasmFolder, out, version] = process.argv.slice(2);
+const [wasmFolder, out, version, repository] = process.argv.slice(2);
 if (!version) {
   console.error('usage: node build.mjs WASM_FOLDER OUT_FOLDER VERSION');
   process.exit(1);
@@ -84,6 +84,7 @@ for (const folder of ['three', 'gltf-transform'])
 
 const manifest = JSON.parse(fs.readFileSync(path.join(here, 'package.json'), 'utf8'));
 manifest.version = version;
+if (repository) manifest.repository = repository;
 delete manifest.private;
 for (const [name, target] of Object.entries(manifest.exports))
   if (!fs.existsSync(path.join(packageFolder, typeof target === 'string' ? target : target.default))) delete manifest.exports[name];

@@ -1,6 +1,6 @@
 // Makes a Babylon.js material with a normal map (StandardMaterial, PBRMaterial) use a frame of Cotan without tangents.
 // Replaces the function cotangent_frame of its shader and leaves the rest (decoding, level, detail maps, two-sided
-// lighting). cotan: the output of `cotan shader --lang essl --form total`. Call this before the first render.
+// lighting). cotan: the output of `cotan shader --lang essl --frame cotangent --form total`. Call this before the first render.
 export function useCotanFrame(BABYLON, material, cotan) {
   // Comments are removed: Babylon omits its precision statement if any line contains one, even in a comment.
   const functions = cotan.replace(/\/\/.*/g, '');

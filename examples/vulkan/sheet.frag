@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "cotan.glsl" // the output of `cotan shader --lang glsl`
+#include "cotan.glsl" // the output of `cotan shader --lang glsl --frame cotangent`
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;

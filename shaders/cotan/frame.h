@@ -137,7 +137,7 @@ COTAN_FUNCTION cotan_vec3 cotan_encode(cotan_frame f, cotan_vec3 target)
 
 // ---- the frames -----------------------------------------------------------------------------
 
-// `cotangent`, the default. The cotangent frame of [2013] with two differences:
+// `cotangent`. The cotangent frame of [2013] with two differences:
 // - It carries the sign of n . (dpdx x dpdy), so it is correct for y-up and y-down targets, both world handednesses,
 //   mirrored transforms, back faces and uv-space rasters alike. [2013] is correct only where that sign is positive.
 // - It is total: no input gives a NaN or an infinity.

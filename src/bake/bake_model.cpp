@@ -6,8 +6,10 @@
 #include <glm/geometric.hpp>
 
 #include "bake/bake_surfaces.hpp"
+#include "bake/name_pairs.hpp"
 #include "core/named_values.hpp"
 #include "cotan/covector.hpp"
+#include "cotan/maps.hpp"
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
 #include "scene/parts.hpp"
@@ -162,6 +164,10 @@ void applyMaps(HighModel& high, const std::optional<Convention>& format)
 // Builds setup's normal maps from those of the detailed scenes, whose images are moved out.
 Status readOwnMaps(HighModel& high, BakeSetup& setup)
 {
+    const Convention stated = setup.options.highFormat.value_or(Convention());
+    for (const Image& map : high.maps)
+        if (const std::string found = maps::contradictionOf(map, stated); !found.empty())
+            setup.warnings.push_back(fmt::format("{}: {}; it is read as {}", map.name, found, describe(stated)));
     applyMaps(high, setup.options.highFormat);
     auto maps = HighNormalMaps::make(high.scenes, setup.options.highFrame);
     if (!maps)
@@ -202,26 +208,42 @@ LowRest restOf(const Scene& low, const BakeModelOptions& options)
     return rest;
 }
 
-// The lower-case name before its last "low" or "high", so that "door_low" and "door_high" match.
-std::string stem(std::string name)
+// Appends the names of the instances: their own, or those of their meshes if only these say what the mesh is.
+void addNames(const Scene& scene, bool withEmpty, std::vector<std::string>& names)
 {
-    name = lowerCase(std::move(name));
-    const std::size_t end = std::max(name.rfind("low") + 1, name.rfind("high") + 1); // 0: neither
-    return name.substr(0, end - 1);
+    for (const Instance& instance : scene.instances) {
+        const std::string &own = objectName(scene, instance), &mesh = scene.meshes[std::size_t(instance.mesh)].name;
+        if (withEmpty || !scene.meshes[std::size_t(instance.mesh)].indices.empty())
+            names.push_back(roleOfName(own) == NameRole::none && roleOfName(mesh) != NameRole::none ? mesh : own);
+    }
 }
 
-Result<std::vector<std::int64_t>> matches(const Scene& low, const HighSurface& high)
+// Pairs the instances of the simple scene, then of options.others, with those of the detailed scenes that have
+// triangles.
+NamePairs pairsOf(const Scene& low, const HighModel& high, const BakeModelOptions& options)
 {
-    std::vector<std::int64_t> result;
-    for (const Instance& instance : low.instances) {
-        const std::string& name = objectName(low, instance);
-        const auto found = std::ranges::find(high.names(), stem(name), stem);
-        if (found == high.names().end())
+    std::vector<std::string> lowNames, highNames;
+    addNames(low, true, lowNames);
+    if (options.others)
+        addNames(*options.others, true, lowNames);
+    for (const Scene& scene : high.scenes)
+        addNames(scene, false, highNames);
+    return pairNames(lowNames, highNames);
+}
+
+// Limits each instance of the simple scene to the detail of its name.
+Status match(const Scene& low, const NamePairs& pairs, BakeSetup& setup)
+{
+    for (std::size_t i = 0; i < low.instances.size(); ++i)
+        if (const Mesh& mesh = low.meshes[std::size_t(low.instances[i].mesh)];
+            pairs.low[i] < 0 && (setup.options.material < 0 || mesh.material == setup.options.material))
             return about("options.matchByName",
-                         inputError(fmt::format("no high mesh matches the name of the low mesh '{}'", name)));
-        result.push_back(found - high.names().begin());
-    }
-    return result;
+                         inputError(fmt::format("no high mesh matches the name of the low mesh '{}'",
+                                                objectName(low, low.instances[i]))));
+    setup.options.bake.matched.assign(pairs.low.begin(), pairs.low.begin() + std::ptrdiff_t(low.instances.size()));
+    setup.high.setGroups({pairs.high.begin(), pairs.high.end()});
+    setup.warnings.insert(setup.warnings.end(), pairs.notes.begin(), pairs.notes.end());
+    return Done{};
 }
 
 constexpr int kFirstUdim = 1001; // 1001 + u + 10 v, v upwards from the bottom of the first tile
@@ -241,6 +263,7 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
     auto cage = cagePositions(options.cage, *lowSurface);
     if (!cage)
         return cage.error();
+    const NamePairs pairs = pairsOf(low, high, options);
     for (Scene& scene : high.scenes)
         if (!options.matchByName) // with matching, rays need single instances
             joinParts(scene);
@@ -266,10 +289,12 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
         if (Status read = readOwnMaps(high, setup); !read)
             return read.error();
     if (options.matchByName) {
-        auto matched = matches(low, setup.high);
-        if (!matched)
+        if (Status matched = match(low, pairs, setup); !matched)
             return matched.error();
-        bake.matched = std::move(*matched);
+    } else if (!pairs.example.empty()) {
+        setup.warnings.push_back(fmt::format(
+            "options.matchByName: the names of the meshes pair, such as {}; with it each is baked from its own only",
+            pairs.example));
     }
     bake.starts = nullptr;
     if (Status ready = measureRayStarts(setup.low, setup.high, bake, restOf(low, options)); !ready)

@@ -58,7 +58,7 @@ struct BakeSetup {
     LowSurface low;
     HighSurface high;
     BakeModelOptions options;          // with the derived values in `bake`; `cage` and `others` are null
-    std::vector<std::string> warnings; // one line each
+    std::vector<std::string> warnings; // one line each; those about an option begin with "options.NAME: "
 };
 
 // Derives what the frame needs on the simple scene, and builds the acceleration structure of the detailed scenes, the

@@ -217,7 +217,8 @@ std::size_t Baker::valuesOf(const LowPoints& points, const Probes& probes, const
             // Occlusion is measured on the side that the ray came from.
             const glm::vec3 out = probes.direction.at(i), face = hits.face.at(i), n = hits.normal.at(i);
             values.set(i,
-                       {openness(where, glm::dot(face, out) < 0 ? -face : face, glm::dot(n, out) < 0 ? -n : n, pattern),
+                       {openness(where, glm::dot(face, out) < 0 ? -face : face, glm::dot(n, out) < 0 ? -n : n, pattern,
+                                 options_.occluders == Occluders::matched ? probes.only[i] : Probes::kAny),
                         0, 1});
             rays += std::size_t(options_.occlusionRays);
         }
@@ -225,7 +226,7 @@ std::size_t Baker::valuesOf(const LowPoints& points, const Probes& probes, const
 }
 
 // Cosine-weighted directions on a golden-ratio spiral around n, rotated by an angle that depends on the texel.
-float Baker::openness(glm::vec3 where, glm::vec3 face, glm::vec3 n, std::uint32_t pattern) const
+float Baker::openness(glm::vec3 where, glm::vec3 face, glm::vec3 n, std::uint32_t pattern, std::uint32_t only) const
 {
     const glm::vec3 t = glm::normalize(glm::cross(otherAxis(n), n)), b = glm::cross(n, t);
     const float length = glm::length(face);
@@ -236,7 +237,7 @@ float Baker::openness(glm::vec3 where, glm::vec3 face, glm::vec3 n, std::uint32_
         const double r2 = (i + 0.5) / options_.occlusionRays, a = rotation + i * 2.399963229728653;
         const float x = float(std::sqrt(r2) * std::cos(a)), y = float(std::sqrt(r2) * std::sin(a));
         const glm::vec3 d = t * x + b * y + n * float(std::sqrt(1 - r2));
-        open += !high_.blocked({origin, d, 0, 1e30f});
+        open += !high_.blocked({origin, d, 0, 1e30f}, only);
     }
     return float(open) / float(options_.occlusionRays);
 }

@@ -35,7 +35,7 @@ private:
     void aimFromCage(const UvSample& sample, std::size_t i, Probes& probes) const;
     void aimFromStart(const LowPoints& points, const UvSample& sample, std::size_t i, Probes& probes) const;
     std::size_t findFromFurtherOut(std::span<const UvSample> samples, const Probes& probes, Hits& hits) const;
-    float openness(glm::vec3 where, glm::vec3 face, glm::vec3 n, std::uint32_t pattern) const;
+    float openness(glm::vec3 where, glm::vec3 face, glm::vec3 n, std::uint32_t pattern, std::uint32_t only) const;
 
     const LowSurface& low_;
     const HighSurface& high_;

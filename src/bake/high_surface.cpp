@@ -87,8 +87,8 @@ void findRepeated(std::vector<Part>& parts)
 
 struct HighSurface::State {
     std::vector<Part> parts;
-    std::vector<float> fronts; // of the parts: -1 if most triangles are wound against their vertex normals
-    std::vector<std::string> names;
+    std::vector<float> fronts;         // of the parts: -1 if most triangles are wound against their vertex normals
+    std::vector<std::uint32_t> groups; // of the parts
     std::size_t triangles = 0;
     Bounds box;
     EmbreeScene embree; // shares the arrays of the parts
@@ -156,7 +156,7 @@ Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int thre
                 continue;
             state->parts.push_back(inWorld(mesh, instance.toWorld));
             state->fronts.push_back(frontSign(state->parts.back()));
-            state->names.push_back(objectName(scene, instance));
+            state->groups.push_back(std::uint32_t(state->groups.size()));
             state->triangles += mesh.triangleCount();
             for (const glm::vec3& p : state->parts.back().positions) {
                 state->box.low = glm::min(state->box.low, p);
@@ -177,6 +177,9 @@ Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int thre
     return HighSurface(std::move(state));
 }
 
+void HighSurface::setGroups(std::vector<std::uint32_t> groups) { state_->groups = std::move(groups); }
+std::uint32_t HighSurface::groupOf(std::size_t instance) const { return state_->groups[instance]; }
+
 void HighSurface::curve(int threads)
 {
     for (Part& part : state_->parts) // positions have an extra element for Embree
@@ -189,7 +192,7 @@ HighSurface::Triangles HighSurface::triangles(std::size_t instance) const
     return {{part.positions.data(), part.normals.size()}, part.normals, part.indices, part.repeated};
 }
 
-const std::vector<std::string>& HighSurface::names() const { return state_->names; }
+std::size_t HighSurface::instanceCount() const { return state_->parts.size(); }
 std::size_t HighSurface::triangleCount() const { return state_->triangles; }
 const Bounds& HighSurface::box() const { return state_->box; }
 
@@ -223,7 +226,7 @@ Hit HighSurface::trace(const Ray& ray) const
 
 void HighSurface::nearest(const Probes& probes, float lift, HighNormals normals, Hits& hits) const
 {
-    const FilterContext context = filterContextFor(probes, state_->fronts);
+    const FilterContext context = filterContextFor(probes, state_->fronts, state_->groups);
     Lanes<float> lifts, farthest;
     for (std::size_t i = 0; i < kLanes; ++i) {
         lifts[i] = lift;
@@ -255,7 +258,7 @@ void HighSurface::nearest(const Probes& probes, float lift, HighNormals normals,
 
 void HighSurface::outermost(const Probes& probes, HighNormals normals, Hits& hits) const
 {
-    const FilterContext context = filterContextFor(probes, state_->fronts);
+    const FilterContext context = filterContextFor(probes, state_->fronts, state_->groups);
     Lanes<float> farthest;
     for (std::size_t i = 0; i < kLanes; ++i)
         farthest[i] = probes.before[i] + probes.reach[i];
@@ -270,7 +273,8 @@ void HighSurface::outermost(const Probes& probes, HighNormals normals, Hits& hit
         if (!hits.away[i])
             continue;
         // Surfaces that face the low surface are preferred.
-        const FilterContext facing{RayQuery(Coherence::coherent, keepFacing), state_->fronts.data(), normal};
+        const FilterContext facing{RayQuery(Coherence::coherent, keepFacing), state_->fronts.data(),
+                                   state_->groups.data(), normal};
         packet.traceAlone(i, state_->embree.scene, facing);
         hits.away[i] = packet.foundAway(i, state_->fronts, normal) ? 1 : 0;
     }
@@ -286,7 +290,7 @@ void HighSurface::anyBetween(const Probes& probes, Lanes<int>& any) const
     for (std::size_t i = 0; i < kLanes; ++i)
         farthest[i] = probes.before[i] + probes.reach[i];
     Packet packet(probes, probes.before, -1, farthest);
-    FilterContext context = filterContextFor(probes, state_->fronts);
+    FilterContext context = filterContextFor(probes, state_->fronts, state_->groups);
     occluded(packet.valid.data(), state_->embree.scene, context.query, packet.rays.ray);
     for (std::size_t i = 0; i < kLanes; ++i)
         any[i] = packet.valid[i] != 0 && packet.rays.ray.tfar[i] < 0; // Embree's mark for an occluded ray
@@ -311,11 +315,13 @@ std::size_t HighSurface::countHits(const Ray& ray) const
     return counting.count;
 }
 
-bool HighSurface::blocked(const Ray& ray) const
+bool HighSurface::blocked(const Ray& ray, std::uint32_t only) const
 {
-    RayQuery query(Coherence::incoherent);
+    FilterContext context{RayQuery(Coherence::incoherent, only == Probes::kAny ? nullptr : keepOnly), nullptr,
+                          state_->groups.data()};
     RTCRay r = toEmbree(ray).ray;
-    occluded(state_->embree.scene, query, r);
+    r.id = only;
+    occluded(state_->embree.scene, context.query, r);
     return r.tfar < 0;
 }
 

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -41,7 +40,7 @@ struct Probes {
     Lanes3 normal;               // of the low surface at the point, unit; zero: no front faces away from it
     Lanes<float> before{};       // where rays start: distance in front of the point, along the direction
     Lanes<float> reach{};        // how far they extend behind the point; for nearest() on either side
-    Lanes<std::uint32_t> only{}; // instance whose triangles count; kAny: all
+    Lanes<std::uint32_t> only{}; // group of instances whose triangles count; kAny: all
 };
 
 // The hit of each probe.
@@ -65,10 +64,14 @@ public:
     // Why no surface can be made in this build: it lacks Embree. Lets callers fail before they read files.
     static std::optional<Error> unavailable();
 
-    // `threads`: 0 for all. byInstance: probes may be limited to one instance (Probes::only); otherwise rays see only
-    // the first of many coincident triangles. Errors: ErrorKind::input for no triangle; ErrorKind::unavailable for too
+    // `threads`: 0 for all. byInstance: probes may be limited to a group (Probes::only); otherwise rays see only the
+    // first of many coincident triangles. Errors: ErrorKind::input for no triangle; ErrorKind::unavailable for too
     // little memory.
     static Result<HighSurface> make(const std::vector<Scene>& scenes, int threads, bool byInstance = false);
+
+    // Sets the group of each instance; without it, each is its own.
+    void setGroups(std::vector<std::uint32_t> groups);
+    std::uint32_t groupOf(std::size_t instance) const;
 
     // Prepares curved normals: fits the shape operator of each vertex. Takes 24 bytes per vertex. `threads`: 0 for all.
     void curve(int threads);
@@ -85,8 +88,8 @@ public:
     void outermost(const Probes& probes, HighNormals normals, Hits& hits) const;
     // Whether these rays hit anything, 1 or 0.
     void anyBetween(const Probes& probes, Lanes<int>& any) const;
-    // Whether the ray hits anything.
-    bool blocked(const Ray& ray) const;
+    // Whether the ray hits anything. only: as in Probes.
+    bool blocked(const Ray& ray, std::uint32_t only = Probes::kAny) const;
     // The number of triangles that the ray crosses.
     std::size_t countHits(const Ray& ray) const;
 
@@ -97,8 +100,7 @@ public:
         std::span<const std::uint8_t> repeated; // per triangle: not 0 if rays skip it; empty: none is skipped
     };
     Triangles triangles(std::size_t instance) const;
-    // Names of the instances, in order, for matching.
-    const std::vector<std::string>& names() const;
+    std::size_t instanceCount() const;
     std::size_t triangleCount() const;
     const Bounds& box() const; // of all instances
 

@@ -13,7 +13,7 @@ struct LowTree::State {
     std::vector<glm::vec3> positions;
     std::vector<std::uint32_t> indices, embreeIndices; // embreeIndices: if some triangles are left out
     std::vector<glm::vec3> faces;
-    std::vector<std::int64_t> highInstances;
+    std::vector<std::int64_t> highGroups;
     EmbreeScene embree; // shares these arrays
 };
 
@@ -55,10 +55,10 @@ Coordinates nearestOn(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 p)
 } // namespace
 
 Result<LowTree> LowTree::make(std::vector<glm::vec3> positions, std::vector<std::uint32_t> indices,
-                              std::vector<std::int64_t> highInstances, int threads)
+                              std::vector<std::int64_t> highGroups, int threads)
 {
     auto state = std::make_shared<State>();
-    state->highInstances = std::move(highInstances);
+    state->highGroups = std::move(highGroups);
     state->positions = std::move(positions);
     state->indices = std::move(indices);
     for (std::size_t i = 0; i + 2 < state->indices.size(); i += 3) {
@@ -72,8 +72,7 @@ Result<LowTree> LowTree::make(std::vector<glm::vec3> positions, std::vector<std:
     const std::vector<std::uint8_t> repeated = repeatedTriangles(state->faces.size(), [&](std::size_t f) {
         const std::uint32_t* const c = &state->indices[3 * f];
         const std::vector<glm::vec3>& p = state->positions;
-        return CornersOfTriangle{{p[c[0]], p[c[1]], p[c[2]]},
-                                 state->highInstances.empty() ? 0 : state->highInstances[f]};
+        return CornersOfTriangle{{p[c[0]], p[c[1]], p[c[2]]}, state->highGroups.empty() ? 0 : state->highGroups[f]};
     });
     if (Status opened = state->embree.open(threads, RTC_SCENE_FLAG_ROBUST); !opened)
         return opened.error();
@@ -137,10 +136,10 @@ LowTree::TreeHit LowTree::first(const Ray& ray) const
 
 LowTree::TreeHit LowTree::firstBeside(std::uint32_t triangle, Ray ray) const
 {
-    const std::vector<std::int64_t>& highInstances = state_->highInstances;
+    const std::vector<std::int64_t>& highGroups = state_->highGroups;
     TreeHit hit = first(ray);
-    while (hit.found && hit.distance < ray.farthest && !highInstances.empty() && highInstances[triangle] >= 0
-           && highInstances[hit.triangle] >= 0 && highInstances[triangle] != highInstances[hit.triangle]) {
+    while (hit.found && hit.distance < ray.farthest && !highGroups.empty() && highGroups[triangle] >= 0
+           && highGroups[hit.triangle] >= 0 && highGroups[triangle] != highGroups[hit.triangle]) {
         ray.nearest = std::nextafter(hit.distance, ray.farthest);
         hit = first(ray);
     }

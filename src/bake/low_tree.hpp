@@ -16,11 +16,11 @@ namespace cotan {
 // Triangles in Embree's acceleration structure, for single queries from several threads. Copies share them.
 class LowTree {
 public:
-    // positions, indices: of the triangles, copied. highInstances: for each triangle the instance of the high surface
+    // positions, indices: of the triangles, copied. highGroups: for each triangle the group of the high surface
     // that it shows, -1 for all; empty: all triangles show all. threads: 0 for all. Errors: ErrorKind::unavailable if
     // memory does not suffice, or without Embree.
     static Result<LowTree> make(std::vector<glm::vec3> positions, std::vector<std::uint32_t> indices,
-                                std::vector<std::int64_t> highInstances, int threads);
+                                std::vector<std::int64_t> highGroups, int threads);
 
     struct TreeHit {
         bool found = false;

@@ -6,23 +6,24 @@
 namespace cotan {
 
 struct HighSurface::State {
-    std::vector<std::string> names;
     Bounds box;
 };
 
 std::optional<Error> HighSurface::unavailable() { return notBuiltWith("Embree", "libembree-dev"); }
 Result<HighSurface> HighSurface::make(const std::vector<Scene>&, int, bool) { return *unavailable(); }
 
+void HighSurface::setGroups(std::vector<std::uint32_t>) {}
+std::uint32_t HighSurface::groupOf(std::size_t) const { return 0; }
 void HighSurface::curve(int) {}
 glm::vec3 HighSurface::normalOf(const Hit&, HighNormals, glm::vec3) const { return glm::vec3(0); }
 Hit HighSurface::trace(const Ray&) const { return {}; }
 void HighSurface::nearest(const Probes&, float, HighNormals, Hits&) const {}
 void HighSurface::outermost(const Probes&, HighNormals, Hits&) const {}
 void HighSurface::anyBetween(const Probes&, Lanes<int>&) const {}
-bool HighSurface::blocked(const Ray&) const { return false; }
+bool HighSurface::blocked(const Ray&, std::uint32_t) const { return false; }
 std::size_t HighSurface::countHits(const Ray&) const { return 0; }
 HighSurface::Triangles HighSurface::triangles(std::size_t) const { return {}; }
-const std::vector<std::string>& HighSurface::names() const { return state_->names; }
+std::size_t HighSurface::instanceCount() const { return 0; }
 std::size_t HighSurface::triangleCount() const { return 0; }
 const Bounds& HighSurface::box() const { return state_->box; }
 

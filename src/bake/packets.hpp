@@ -191,17 +191,19 @@ inline RTCRayHit toEmbree(const Ray& ray)
 
 // Data for the filters of a trace.
 struct FilterContext {
-    RayQuery query;      // must be first: Embree passes its address to filters
-    const float* fronts; // of the instances: 1, or -1 if triangles are wound against their normals
-    glm::vec3 normal{0}; // of the low surface, for keepFacing
+    RayQuery query;              // must be first: Embree passes its address to filters
+    const float* fronts;         // of the instances: 1, or -1 if triangles are wound against their normals
+    const std::uint32_t* groups; // of the instances
+    glm::vec3 normal{0};         // of the low surface, for keepFacing
 };
 
-// Rejects hits on instances other than the one that a ray looks for, which its id holds.
+// Rejects hits on instances outside the group that a ray looks for, which its id holds.
 inline void keepOnly(const RTCFilterFunctionNArguments* a)
 {
+    const FilterContext& context = *reinterpret_cast<const FilterContext*>(a->context);
     for (unsigned i = 0; i < a->N; ++i) {
         const std::uint32_t only = RTCRayN_id(a->ray, a->N, i);
-        if (a->valid[i] && only != Probes::kAny && RTCHitN_geomID(a->hit, a->N, i) != only)
+        if (a->valid[i] && only != Probes::kAny && context.groups[RTCHitN_geomID(a->hit, a->N, i)] != only)
             a->valid[i] = 0;
     }
 }
@@ -234,12 +236,13 @@ inline void keepFacing(const RTCFilterFunctionNArguments* a)
     }
 }
 
-// Sets a filter only if a probe is limited to an instance: a filter costs a call for each candidate.
-inline FilterContext filterContextFor(const Probes& probes, const std::vector<float>& fronts)
+// Sets a filter only if a probe is limited to a group: a filter costs a call for each candidate.
+inline FilterContext filterContextFor(const Probes& probes, const std::vector<float>& fronts,
+                                      const std::vector<std::uint32_t>& groups)
 {
     const bool filtered = std::any_of(probes.only.begin(), probes.only.begin() + std::ptrdiff_t(probes.count),
                                       [](std::uint32_t only) { return only != Probes::kAny; });
-    return {RayQuery(Coherence::coherent, filtered ? keepOnly : nullptr), fronts.data()};
+    return {RayQuery(Coherence::coherent, filtered ? keepOnly : nullptr), fronts.data(), groups.data()};
 }
 
 static_assert(Hits::kNothing == RTC_INVALID_GEOMETRY_ID && kLanes == 16);

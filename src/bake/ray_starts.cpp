@@ -99,9 +99,9 @@ void findDirections(const LowSurface& low, const Groups& groups, RayStarts& star
 // The low surface and the rest as one tree, and their dimensions.
 struct Body {
     std::optional<LowTree> tree;
-    std::vector<glm::vec3> outwardNormals;   // per triangle: unit, on the side of the vertices' normals
-    std::vector<std::int64_t> highInstances; // per triangle: instance of the high surface, -1 for all; empty for all
-    float diagonal = 0, edge = 0;            // of the bounding box; typical one of a triangle
+    std::vector<glm::vec3> outwardNormals; // per triangle: unit, on the side of the vertices' normals
+    std::vector<std::int64_t> highGroups;  // per triangle: group of the high surface, -1 for all; empty for all
+    float diagonal = 0, edge = 0;          // of the bounding box; typical one of a triangle
 };
 
 Result<Body> bodyOf(const LowSurface& low, const LowRest& rest, const BakeOptions& options)
@@ -116,7 +116,7 @@ Result<Body> bodyOf(const LowSurface& low, const LowRest& rest, const BakeOption
     for (const std::uint32_t i : rest.indices)
         indices.push_back(base + i);
     instances.insert(instances.end(), rest.triangleInstance.begin(), rest.triangleInstance.end());
-    body.highInstances = highInstances(instances, options.matched);
+    body.highGroups = highGroups(instances, options.matched);
     glm::vec3 from(1e30f), to(-1e30f);
     for (const std::uint32_t i : indices) {
         from = glm::min(from, positions[i]);
@@ -133,7 +133,7 @@ Result<Body> bodyOf(const LowSurface& low, const LowRest& rest, const BakeOption
         body.outwardNormals.push_back(length > 0 ? n / (glm::dot(n, side) < 0 ? -length : length) : glm::vec3(0));
     }
     body.edge = float(1.5 * std::sqrt(area / double(body.outwardNormals.size())));
-    auto tree = LowTree::make(std::move(positions), std::move(indices), body.highInstances, options.threads);
+    auto tree = LowTree::make(std::move(positions), std::move(indices), body.highGroups, options.threads);
     if (!tree)
         return tree.error();
     body.tree = std::move(*tree);
@@ -238,8 +238,8 @@ public:
 private:
     bool shows(std::uint32_t triangle, std::uint32_t instance) const
     {
-        return body_.highInstances.empty() || body_.highInstances[triangle] < 0
-            || body_.highInstances[triangle] == std::int64_t(instance);
+        return body_.highGroups.empty() || body_.highGroups[triangle] < 0
+            || body_.highGroups[triangle] == std::int64_t(high_.groupOf(instance));
     }
     // Raises the distances at the corners until they enclose the plane across `direction` at `distance`.
     void raise(std::uint32_t triangle, float b1, float b2, float distance, glm::vec3 direction)
@@ -332,7 +332,7 @@ void pointsBetween(const HighSurface::Triangles& part, std::size_t triangle, flo
 Result<std::size_t> stepFor(const HighSurface& high, std::size_t vertices, float spacing, const Measuring& measuring)
 {
     std::size_t between = 0;
-    for (std::size_t instance = 0; instance < high.names().size(); ++instance) {
+    for (std::size_t instance = 0; instance < high.instanceCount(); ++instance) {
         const HighSurface::Triangles part = high.triangles(instance);
         for (std::size_t f = 0; f < part.indices.size() / 3; ++f)
             if (const auto cuts = std::size_t(cutsOf(part, f, spacing)))
@@ -341,7 +341,7 @@ Result<std::size_t> stepFor(const HighSurface& high, std::size_t vertices, float
     const std::size_t every = 1 + high.triangleCount() / kTried;
     std::vector<std::size_t> visited;
     std::size_t next = 0; // index in the instance's triangles
-    for (std::uint32_t instance = 0; instance < high.names().size(); ++instance) {
+    for (std::uint32_t instance = 0; instance < high.instanceCount(); ++instance) {
         const HighSurface::Triangles part = high.triangles(instance);
         for (; next < part.indices.size() / 3; next += every) {
             const std::uint32_t* const c = &part.indices[3 * next];
@@ -367,14 +367,14 @@ Result<std::size_t> stepFor(const HighSurface& high, std::size_t vertices, float
 Result<std::size_t> measure(const HighSurface& high, float spacing, Measuring& measuring)
 {
     std::size_t vertices = 0;
-    for (std::size_t instance = 0; instance < high.names().size(); ++instance)
+    for (std::size_t instance = 0; instance < high.instanceCount(); ++instance)
         vertices += high.triangles(instance).positions.size();
     const auto fitting = stepFor(high, vertices, spacing, measuring);
     if (!fitting)
         return fitting.error();
     const std::size_t every = *fitting, step = std::max(1 + vertices / kMaxVertices, every);
     std::size_t before = 0; // triangles of earlier instances
-    for (std::uint32_t instance = 0; instance < high.names().size(); ++instance) {
+    for (std::uint32_t instance = 0; instance < high.instanceCount(); ++instance) {
         const HighSurface::Triangles part = high.triangles(instance);
         parallelRanges<std::size_t>(0, (part.positions.size() + step - 1) / step, 4096,
                                     [&](std::size_t begin, std::size_t end) {
@@ -420,14 +420,14 @@ bool isObstructed(const LowSurface& low, const RayStarts& starts, std::size_t tr
 
 } // namespace
 
-std::vector<std::int64_t> highInstances(std::span<const std::uint32_t> triangleInstance,
-                                        std::span<const std::int64_t> matched)
+std::vector<std::int64_t> highGroups(std::span<const std::uint32_t> triangleInstance,
+                                     std::span<const std::int64_t> matched)
 {
-    std::vector<std::int64_t> highInstances;
+    std::vector<std::int64_t> highGroups;
     if (!matched.empty())
         for (const std::uint32_t instance : triangleInstance)
-            highInstances.push_back(matched[instance]);
-    return highInstances;
+            highGroups.push_back(matched[instance]);
+    return highGroups;
 }
 
 float openDistance(const LowTree& tree, std::uint32_t triangle, glm::vec3 point, glm::vec3 direction, float skip,

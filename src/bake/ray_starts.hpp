@@ -56,9 +56,9 @@ Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, 
 float openDistance(const LowTree& tree, std::uint32_t triangle, glm::vec3 point, glm::vec3 direction, float skip,
                    float wanted);
 
-// For each triangle the instance of the high surface that it shows, -1 for all, as LowTree::make takes it. Empty if no
+// For each triangle the group of the high surface that it shows, -1 for all, as LowTree::make takes it. Empty if no
 // instances are matched. matched: as in BakeOptions.
-std::vector<std::int64_t> highInstances(std::span<const std::uint32_t> triangleInstance,
-                                        std::span<const std::int64_t> matched);
+std::vector<std::int64_t> highGroups(std::span<const std::uint32_t> triangleInstance,
+                                     std::span<const std::int64_t> matched);
 
 } // namespace cotan

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "bake/name_pairs.hpp"
 #include "call.hpp"
 #include "cotan/bake.hpp"
 #include "meshes.hpp"
@@ -25,6 +26,8 @@ constexpr Named<HighNormals> kHighNormals[] = {{"smooth", HighNormals::smooth},
                                                {"curved", HighNormals::curved},
                                                {"face", HighNormals::face},
                                                {"map", HighNormals::smooth}};
+
+constexpr Named<Occluders> kOccluders[] = {{"matched", Occluders::matched}, {"all", Occluders::all}};
 
 // Sets how the normals of the detailed models are found.
 void readHigh(const cotan_bake_options& o, BakeModelOptions& options, HighModel& high)
@@ -68,6 +71,7 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture&
     b.maxDistance = o.max_distance;
     b.cageReach = o.cage_reach;
     b.occlusionRays = o.occlusion_rays != 0 ? o.occlusion_rays : 64;
+    b.occluders = valueOf(kOccluders, o.occluders ? o.occluders : "matched", "options.occluders");
     b.threads = o.threads;
     options.tiles = {o.tile != 0 ? o.tile : 1001};
     options.material = o.material - 1;
@@ -125,7 +129,9 @@ void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given,
     auto done = bakeModel(low, std::move(high), options, progressOf(o.progress, o.user));
     if (!done)
         throw aboutFieldOfC(done.error());
-    const BakedModel baked = *std::move(done);
+    BakedModel baked = *std::move(done);
+    for (std::string& line : baked.warnings)
+        line = aboutFieldOfC({.message = line, .field = line.substr(0, line.find(':'))}).message;
     giveText(joined(baked.warnings), warnings);
     put(baked.maps[0].image, out);
     if (o.mask)
@@ -164,5 +170,25 @@ cotan_status cotan_bake_models(const cotan_model* low, size_t high_count, const 
         for (std::size_t i = 0; i < high_count; ++i)
             model.scenes.push_back(sceneOf(high[i], ("high[" + std::to_string(i) + "]").c_str()));
         bakeInto(simple, std::move(model), options, map, result, warnings);
+    });
+}
+
+const char* cotan_name_role(const char* name)
+{
+    constexpr const char* kRoles[] = {"", "low", "high", "cage"};
+    return kRoles[std::size_t(roleOfName(name ? name : ""))];
+}
+
+cotan_status cotan_pair_names(size_t low_count, const char* const* low, size_t high_count, const char* const* high,
+                              int64_t* low_groups, int64_t* high_groups, cotan_bytes** notes, char* message,
+                              size_t message_size)
+{
+    return call(message, message_size, [&] {
+        const NamePairs pairs = pairNames(textsOf(low_count, low, "low"), textsOf(high_count, high, "high"));
+        require((low_groups || low_count == 0) && (high_groups || high_count == 0),
+                "low_groups, high_groups: expected arrays, found null");
+        std::ranges::copy(pairs.low, low_groups);
+        std::ranges::copy(pairs.high, high_groups);
+        giveText(joined(pairs.notes), notes);
     });
 }

@@ -145,6 +145,17 @@ inline cotan_status refused(const Error& error, char* message, std::size_t size)
     return refused(error.kind, error.message, message, size);
 }
 
+// A null in the array is an empty text.
+inline std::vector<std::string> textsOf(std::size_t count, const char* const* texts, const char* name)
+{
+    if (!texts && count > 0)
+        fail(ErrorKind::usage, name, ": expected an array, found null");
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < count; ++i)
+        all.emplace_back(texts[i] ? texts[i] : "");
+    return all;
+}
+
 // Returns a text as bytes, unless `to` is null.
 inline void giveText(std::string_view text, cotan_bytes** to)
 {

@@ -4,6 +4,7 @@
 #include "bake/reports.hpp"
 #include "cotan/convert.hpp"
 #include "cotan/gltf.hpp"
+#include "cotan/image.hpp"
 #include "gltf/json/lookup.hpp"
 #include "model_files.hpp"
 
@@ -68,6 +69,7 @@ ConvertModelOptions optionsFor(const cotan_convert_options& o, const ModelFiles&
     convert.bits = o.bits;
     convert.keepTangents = o.keep_tangents != 0;
     convert.keepMaps = o.keep_maps != 0;
+    convert.readMaps = o.keep_maps != COTAN_MAPS_UNREAD;
     if (convert.keepMaps && readsTangents(convert.frames.to))
         fail(ErrorKind::usage, "options.to: expected a frame without tangents for maps that are kept, found ",
              name(convert.frames.to));
@@ -86,7 +88,7 @@ ConvertModelOptions optionsFor(const cotan_convert_options& o, const ModelFiles&
 GltfDocument opened(const ModelFiles& source, const cotan_convert_options& o, ConvertModelOptions& convert)
 {
     GltfDocument document = valueOf(openGltfDocument(source.name(), convert.limits));
-    if (!o.from)
+    if (!o.from && convert.readMaps)
         convert.frames.from = valueOf(namedFrame(document)).value_or(convert.frames.from);
     return document;
 }
@@ -185,6 +187,7 @@ cotan_status cotan_conversion_set(cotan_conversion* conversion, size_t number, c
     return call(message, message_size, [&] {
         cotan_conversion::Picture& picture = pictureAt(conversion, number);
         require(png && png_size > 0, "png: expected bytes, found none");
+        require(isPng({static_cast<const std::byte*>(png), png_size}), "png: expected a PNG file, found other data");
         require(!picture.given, "number: expected an image that has no PNG file yet");
         GltfDocument& document = conversion->document;
         for (std::size_t i = 0; i < countOf(rootOf(document), "images"); ++i)

@@ -121,7 +121,7 @@ cotan_status cotan_gltf_pictures(const void* model, size_t model_size, const cot
         std::set<std::size_t> wanted;
         if (maps_only != 0) {
             std::vector<std::string> notes;
-            for (const MapJob& job : valueOf(mapJobs(document, notes)))
+            for (const MapJob& job : valueOf(mapJobs(document, notes, limits)))
                 wanted.insert(job.image);
         } else {
             for (std::size_t i = 0; i < countOf(rootOf(document), "images"); ++i)

@@ -1,5 +1,6 @@
 // cotan.h: the library itself.
 #include "call.hpp"
+#include "core/file_names.hpp"
 
 namespace cotan::c {
 
@@ -24,3 +25,15 @@ void cotan_bytes_free(cotan_bytes* bytes) { delete bytes; }
 
 const char* cotan_version(void) { return COTAN_VERSION; }
 int cotan_api_version(void) { return COTAN_API_VERSION; }
+
+cotan_status cotan_file_names(size_t count, const char* const* names, size_t taken_count, const char* const* taken,
+                              cotan_bytes** parts, char* message, size_t message_size)
+{
+    return cotan::c::call(message, message_size, [&] {
+        std::string lines;
+        for (const std::string& part : cotan::fileNameParts(cotan::c::textsOf(count, names, "names"),
+                                                            cotan::c::textsOf(taken_count, taken, "taken")))
+            lines += part + "\n";
+        cotan::c::giveText(lines, parts);
+    });
+}

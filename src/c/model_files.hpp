@@ -7,6 +7,7 @@
 
 #include "call.hpp"
 #include "cotan/files.hpp"
+#include "cotan/image.hpp"
 #include "files/report/json.hpp"
 #include "pictures.hpp"
 
@@ -59,8 +60,11 @@ public:
             return {};
         return [this](const Image& image) -> Result<Bytes> {
             const cotan_picture picture = pictureOf(image);
-            return given([&](auto... bytes) { return f_.encode(f_.user, &picture, bytes...); },
-                         outputError(image.name + ": the caller did not encode the image"));
+            auto png = given([&](auto... bytes) { return f_.encode(f_.user, &picture, bytes...); },
+                             outputError(image.name + ": the caller did not encode the image"));
+            if (png && !isPng(*png))
+                return outputError(image.name + ": expected a PNG file of the caller, found other data");
+            return png;
         };
     }
 

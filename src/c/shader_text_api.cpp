@@ -16,12 +16,14 @@ cotan_status cotan_shader_text(const char* language, const char* frame, const ch
         const auto known = shader_text::languageFromName(word(language, "language"));
         if (!known)
             fail(ErrorKind::usage, "language: expected ", shader_text::languageNames(), ", found '", language, "'");
-        const std::string_view words = word(frame, "frame"), name = words.substr(0, words.find(','));
-        const auto which = frameFromName(name);
-        if (!which)
-            fail(ErrorKind::usage, "frame: expected a frame, found '", name, "'");
         choice.language = *known;
-        choice.frame = *which;
+        const std::string_view words = frame ? frame : "", name = words.substr(0, words.find(','));
+        if (words.empty())
+            choice.frame = valueOf(shader_text::frameIfNoneIsNamed(*known));
+        else if (const auto which = frameFromName(name))
+            choice.frame = *which;
+        else
+            fail(ErrorKind::usage, "frame: expected a frame, found '", name, "'");
         if (name.size() < words.size()) { // "triangle,vertex": a comma, then the stage
             const std::string_view stage = words.substr(name.size() + 1);
             const auto wanted = shader_text::stageFromName(stage);

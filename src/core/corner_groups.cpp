@@ -1,5 +1,6 @@
 #include "corner_groups.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -50,10 +49,24 @@ constexpr Text textAt(const Text (&texts)[count], auto enumerator, std::size_t o
     return texts[std::size_t(enumerator) < count ? std::size_t(enumerator) : otherwise];
 }
 
+// ASCII letters and digits, whatever the locale of a host program; <cctype> depends on it.
+constexpr bool isDigit(char c) { return c >= '0' && c <= '9'; }
+constexpr bool isLower(char c) { return c >= 'a' && c <= 'z'; }
+constexpr bool isUpper(char c) { return c >= 'A' && c <= 'Z'; }
+constexpr bool isLetter(char c) { return isLower(c) || isUpper(c); }
+constexpr bool isSpace(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+constexpr char lowerLetter(char c) { return isUpper(c) ? char(c + 32) : c; }
+constexpr char upperLetter(char c) { return isLower(c) ? char(c - 32) : c; }
+
 // Converts ASCII letters only.
 inline std::string lowerCase(std::string text)
 {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    std::ranges::transform(text, text.begin(), lowerLetter);
+    return text;
+}
+inline std::string upperCase(std::string text)
+{
+    std::ranges::transform(text, text.begin(), upperLetter);
     return text;
 }
 

@@ -1,5 +1,6 @@
 #include "cotan/triangle.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cotan/portable.hpp"

@@ -2,33 +2,38 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <sstream>
+#include <optional>
 
 #include "core/named_values.hpp"
+#include "core/real_number.hpp"
 
 namespace cotan {
 
 namespace {
 
-// Returns a check for numbers. expected: such as "a whole number from 0 to 8". read: like std::strtod. CLI11's own
-// range checks accept NaN.
+// Returns a check for numbers. expected: such as "a whole number from 0 to 8". read: returns an optional number.
+// CLI11's own range checks accept NaN.
 template<class Read, class IsGood> ValueCheck numberCheck(const std::string& expected, Read read, IsGood isGood)
 {
     return [=](const std::string& text) -> std::string {
-        char* end = nullptr;
-        const auto value = read(text.c_str(), &end);
-        const bool good = end != text.c_str() && *end == '\0' && isGood(value);
-        return good ? std::string() : "expected " + expected + "; found '" + text + "'";
+        const auto value = read(text);
+        return value && isGood(*value) ? std::string() : "expected " + expected + "; found '" + text + "'";
     };
 }
 
-long long readWhole(const char* text, char** end) { return std::strtoll(text, end, 0); }
+std::optional<long long> readWhole(const std::string& text)
+{
+    char* end = nullptr;
+    const long long value = std::strtoll(text.c_str(), &end, 0);
+    return !text.empty() && *end == '\0' ? std::optional(value) : std::nullopt;
+}
 
 } // namespace
 
 ValueCheck numberAbove0()
 {
-    return numberCheck("a number above 0 and at most 1e6", std::strtof, [](float x) { return x > 0 && x <= 1e6f; });
+    return numberCheck("a number above 0 and at most 1e6", parseReal,
+                       [](double x) { return float(x) > 0 && float(x) <= 1e6f; });
 }
 
 ValueCheck numberAbove0Or(const std::string& word)
@@ -41,7 +46,7 @@ ValueCheck numberAbove0Or(const std::string& word)
 
 ValueCheck numberWithin(double minimum, double maximum)
 {
-    return numberCheck((std::ostringstream() << "a number from " << minimum << " to " << maximum).str(), std::strtod,
+    return numberCheck("a number from " + textOfReal(minimum) + " to " + textOfReal(maximum), parseReal,
                        [=](double value) { return value >= minimum && value <= maximum; });
 }
 

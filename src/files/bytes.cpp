@@ -1,6 +1,7 @@
 #include "files/bytes.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <system_error>
 #include <utility>
 
@@ -58,6 +59,23 @@ Result<std::vector<std::byte>> readFileBytes(const fs::path& file, std::size_t l
     if (std::fread(bytes.data(), 1, bytes.size(), handle.get()) != bytes.size())
         return inputError(fmt::format("{}: reading stopped before the end", file.string()));
     return bytes;
+}
+
+Result<std::string> readText(const fs::path& file, bool isInput, std::size_t limit)
+{
+    if (isInput)
+        if (Status free = noteInput(file); !free)
+            return free.error();
+    const OpenFile handle(std::fopen(file.c_str(), "rb"));
+    std::string text;
+    char part[4096];
+    for (std::size_t got; handle && text.size() <= limit && (got = std::fread(part, 1, sizeof part, handle.get())) > 0;)
+        text.append(part, got);
+    if (!handle || std::ferror(handle.get()) != 0)
+        return inputError(fmt::format("{}: cannot read: {}", file.string(), std::generic_category().message(errno)));
+    if (text.size() > limit)
+        return inputError(fmt::format("{}: expected at most {} bytes, found more", file.string(), limit));
+    return text;
 }
 
 std::optional<fs::path> findInFolder(const fs::path& folder, std::string request, bool& outside)

@@ -37,6 +37,11 @@ Result<std::size_t> usableFileSize(const std::filesystem::path& file, std::size_
 // Errors: those of usableFileSize; ErrorKind::input if the file cannot be read.
 Result<std::vector<std::byte>> readFileBytes(const std::filesystem::path& file, std::size_t limit, bool isInput = true);
 
+// Returns the text of a file or a pipe, which may be empty. isInput: as for usableFileSize.
+// Errors: ErrorKind::input if it cannot be read or has more than `limit` bytes; those of noteInput.
+Result<std::string> readText(const std::filesystem::path& file, bool isInput = true,
+                             std::size_t limit = std::size_t(64) << 20);
+
 // Resolves a file name from a model, with either kind of slash, relative to `folder` (canonical). Returns nothing if
 // the file is missing or leads out of the folder by an absolute path, ".." or a symbolic link, which sets `outside`.
 std::optional<std::filesystem::path> findInFolder(const std::filesystem::path& folder, std::string request,

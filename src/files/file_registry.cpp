@@ -1,9 +1,11 @@
 #include "files/file_registry.hpp"
 
-#include <algorithm>
+#include <deque>
+#include <map>
 #include <mutex>
 #include <system_error>
-#include <vector>
+#include <unordered_map>
+#include <utility>
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -20,11 +22,6 @@ struct Identity {
     bool exists = false;
     dev_t device = 0; // if it exists
     ino_t number = 0;
-
-    bool operator==(const Identity& other) const
-    {
-        return path == other.path || (exists && other.exists && device == other.device && number == other.number);
-    }
 };
 
 // Returns nothing for pipes and devices, which are written to and not replaced.
@@ -58,17 +55,58 @@ struct Output {
     bool refused = false; // a read of this file was refused; the reader may have continued without it
 };
 
+// Entries by the identities of their files. A batch has as many as it has jobs.
+template<class Entry> class Files {
+public:
+    Entry* find(const Identity& identity)
+    {
+        if (const auto found = byPath_.find(identity.path.string()); found != byPath_.end())
+            return found->second;
+        const auto found = byNumber_.find({identity.device, identity.number});
+        return identity.exists && found != byNumber_.end() ? found->second : nullptr;
+    }
+    void add(Entry entry) { index(entries_.emplace_back(std::move(entry))); }
+    // A new file has replaced the old one.
+    void replace(Entry& entry, Identity identity)
+    {
+        if (const auto old = byNumber_.find({entry.identity.device, entry.identity.number});
+            old != byNumber_.end() && old->second == &entry)
+            byNumber_.erase(old);
+        entry.identity = std::move(identity);
+        index(entry);
+    }
+    void clear()
+    {
+        byPath_.clear();
+        byNumber_.clear();
+        entries_.clear();
+    }
+
+private:
+    void index(Entry& entry)
+    {
+        byPath_.emplace(entry.identity.path.string(), &entry);
+        if (entry.identity.exists)
+            byNumber_.emplace(std::pair(entry.identity.device, entry.identity.number), &entry);
+    }
+
+    std::deque<Entry> entries_;
+    std::unordered_map<std::string, Entry*> byPath_;
+    std::map<std::pair<dev_t, ino_t>, Entry*> byNumber_;
+};
+
 struct FileRegistry {
     std::mutex mutex;
-    bool on = false;
-    std::vector<Input> inputs;
-    std::vector<Output> outputs;
+    bool on = false, guards = false; // compares announced outputs; also inputs, and outputs that were not announced
+    bool again = false;
+    Files<Input> inputs;
+    Files<Output> outputs;
     std::optional<Error> refusal;
     std::function<void(const fs::path&)> watcher, outputWatcher;
 
     Error refuse(std::string message)
     {
-        Error error = usageError(std::move(message) + "; expected another name, or --overwrite");
+        Error error = usageError(std::move(message));
         if (!refusal)
             refusal = error;
         return error;
@@ -83,29 +121,45 @@ FileRegistry& registry()
 
 Error replaces(FileRegistry& all, const Output& output, const std::string& input)
 {
-    return all.refuse(fmt::format("{} would overwrite {}, which is an input", output.name, input));
+    return all.refuse(fmt::format("{} would overwrite {}, which is an input; expected another name, or --overwrite",
+                                  output.name, input));
 }
 
-// Checks a new output against everything registered, and registers it.
+// Checks a new output against everything registered.
+Status check(FileRegistry& all, const Output& output)
+{
+    if (const Input* input = all.guards ? all.inputs.find(output.identity) : nullptr)
+        return replaces(all, output, input->name);
+    if (const Output* other = all.outputs.find(output.identity); other && !(all.again && other->state == State::done))
+        return all.refuse(fmt::format("{} and {} are the same file; expected different names", other->name, output.name));
+    return Done{};
+}
+
 Status add(FileRegistry& all, Output output)
 {
-    for (const Input& input : all.inputs)
-        if (input.identity == output.identity)
-            return replaces(all, output, input.name);
-    for (const Output& other : all.outputs)
-        if (other.identity == output.identity)
-            return all.refuse(fmt::format("{} and {} are the same file", other.name, output.name));
-    all.outputs.push_back(std::move(output));
-    return Done{};
+    Status free = check(all, output);
+    Output* const finished = free ? all.outputs.find(output.identity) : nullptr;
+    if (finished && finished->identity.path == output.identity.path)
+        finished->state = output.state;
+    else if (free)
+        all.outputs.add(std::move(output));
+    return free;
+}
+
+Output named(Identity identity, const std::string& option, const fs::path& file)
+{
+    return {std::move(identity), option.empty() ? file.string() : option + " " + file.string()};
 }
 
 } // namespace
 
-void guardInputs(bool overwrite)
+void guardInputs(bool overwrite, bool again)
 {
     FileRegistry& all = registry();
     const std::lock_guard lock(all.mutex);
-    all.on = !overwrite;
+    all.on = true;
+    all.guards = !overwrite;
+    all.again = again;
     all.inputs.clear();
     all.outputs.clear();
     all.refusal.reset();
@@ -116,8 +170,15 @@ Status planOutput(const std::string& option, const fs::path& file)
     FileRegistry& all = registry();
     const std::lock_guard lock(all.mutex);
     const auto identity = all.on ? identityOf(file) : std::nullopt;
-    const std::string name = option.empty() ? file.string() : option + " " + file.string();
-    return identity ? add(all, {*identity, name}) : Status(Done{});
+    return identity ? add(all, named(*identity, option, file)) : Status(Done{});
+}
+
+Status checkOutput(const std::string& option, const fs::path& file)
+{
+    FileRegistry& all = registry();
+    const std::lock_guard lock(all.mutex);
+    const auto identity = all.on ? identityOf(file) : std::nullopt;
+    return identity ? check(all, named(*identity, option, file)) : Status(Done{});
 }
 
 void watchInputs(std::function<void(const fs::path&)> watcher) { registry().watcher = std::move(watcher); }
@@ -130,18 +191,17 @@ Status noteInput(const fs::path& file)
     if (all.watcher)
         all.watcher(file);
     const std::lock_guard lock(all.mutex);
-    const auto identity = all.on ? identityOf(file) : std::nullopt;
+    const auto identity = all.guards ? identityOf(file) : std::nullopt;
     if (!identity || !identity->exists)
         return Done{};
-    for (Output& output : all.outputs)
-        if (output.identity == *identity) {
-            if (output.state == State::done)
-                return Done{};
-            output.refused = true;
-            return replaces(all, output, file.string());
-        }
-    if (std::ranges::find(all.inputs, *identity, &Input::identity) == all.inputs.end())
-        all.inputs.push_back({*identity, file.string()});
+    if (Output* output = all.outputs.find(*identity); output && output->state != State::done) {
+        output->refused = true;
+        return replaces(all, *output, file.string());
+    }
+    if (Input* known = all.inputs.find(*identity); known && known->identity.path == identity->path)
+        all.inputs.replace(*known, *identity); // it may be a new file under the old name
+    else
+        all.inputs.add({*identity, file.string()});
     return Done{};
 }
 
@@ -149,17 +209,25 @@ Status beginOutput(const fs::path& file)
 {
     FileRegistry& all = registry();
     const std::lock_guard lock(all.mutex);
-    const auto identity = all.on ? identityOf(file) : std::nullopt;
+    const auto identity = all.guards ? identityOf(file) : std::nullopt;
     if (!identity)
         return Done{};
-    for (Output& output : all.outputs)
-        if (output.identity.path == identity->path && output.state == State::planned) {
-            if (output.refused)
-                return *all.refusal;
-            output.state = State::begun;
-            return Done{};
-        }
-    return add(all, {*identity, file.string(), State::begun});
+    Output* const planned = all.outputs.find(*identity);
+    if (!planned || planned->identity.path != identity->path || planned->state != State::planned)
+        return add(all, {*identity, file.string(), State::begun});
+    if (planned->refused)
+        return *all.refusal;
+    planned->state = State::begun;
+    return Done{};
+}
+
+Status mayAppear(const fs::path& file)
+{
+    FileRegistry& all = registry();
+    const std::lock_guard lock(all.mutex);
+    const auto identity = all.guards ? identityOf(file) : std::nullopt;
+    const Output* const begun = identity ? all.outputs.find(*identity) : nullptr;
+    return begun && begun->refused ? Status(*all.refusal) : Status(Done{});
 }
 
 void endOutput(const fs::path& file)
@@ -169,11 +237,11 @@ void endOutput(const fs::path& file)
         all.outputWatcher(file);
     const std::lock_guard lock(all.mutex);
     const auto identity = all.on ? identityOf(file) : std::nullopt;
-    for (Output& output : all.outputs)
-        if (identity && output.identity.path == identity->path) {
-            output.identity = *identity; // a new file has replaced the old one
-            output.state = State::done;
-        }
+    Output* const begun = identity ? all.outputs.find(*identity) : nullptr;
+    if (begun && begun->identity.path == identity->path) {
+        all.outputs.replace(*begun, *identity);
+        begun->state = State::done;
+    }
 }
 
 std::optional<Error> firstRefusal()

@@ -19,11 +19,16 @@
 
 namespace cotan {
 
-// Starts an empty registry. overwrite: everything is allowed and nothing is registered.
-void guardInputs(bool overwrite);
+// Starts an empty registry. overwrite: inputs may be replaced, and only announced outputs have to differ. again: a
+// finished output may be written again, as in a session of the window, unless it was read meanwhile.
+void guardInputs(bool overwrite, bool again = false);
 
-// Announces an output, which messages call `option`. Errors: ErrorKind::usage if it was read or is already planned.
+// Announces an output, which messages call `option`. Errors: ErrorKind::usage if it was read, or is already planned,
+// which overwrite does not allow either.
 Status planOutput(const std::string& option, const std::filesystem::path& file);
+
+// The same check of an output that another process will write. Registers nothing.
+Status checkOutput(const std::string& option, const std::filesystem::path& file);
 
 // Every reader calls this before it opens a file. Errors: ErrorKind::usage if an output that is planned or being
 // written would replace the file. Finished outputs may be read.
@@ -36,9 +41,11 @@ void watchInputs(std::function<void(const std::filesystem::path&)> watcher);
 // Likewise for every output once it is complete.
 void watchOutputs(std::function<void(const std::filesystem::path&)> watcher);
 
-// Called by OutputFile when writing begins and when the file is complete. Errors of beginOutput: as planOutput for a
-// file that was not planned; ErrorKind::usage if it was written before.
+// Called by OutputFile when writing begins, before the file appears, and when it is complete. Errors of beginOutput: as
+// planOutput for a file that was not planned; ErrorKind::usage if it was written before. Errors of mayAppear:
+// ErrorKind::usage if a reader asked for the file meanwhile and was refused.
 Status beginOutput(const std::filesystem::path& file);
+Status mayAppear(const std::filesystem::path& file);
 void endOutput(const std::filesystem::path& file);
 
 // The first read or output that was refused, if any. Readers may replace its error message or continue without the

@@ -6,12 +6,12 @@
 #include <charconv>
 #include <csignal>
 #include <cstdint>
+#include <cstdio>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -111,31 +111,18 @@ void replaceAll(std::string& text, const std::string& from, const std::string& t
         text.replace(at, from.size(), to);
 }
 
-// Writes all bytes to a descriptor. Returns 0 or the errno.
-int writeAll(int file, const std::byte* bytes, std::size_t count)
+// Writes and closes. Returns 0 or the errno.
+int writeAll(OpenFile file, std::span<const std::byte> bytes)
 {
-    while (count > 0) {
-        const ssize_t written = ::write(file, bytes, count);
-        if (written < 0 && errno == EINTR)
-            continue;
-        if (written <= 0)
-            return written < 0 ? errno : ENOSPC;
-        bytes += written;
-        count -= std::size_t(written);
+    int number = 0;
+    while (!bytes.empty() && number == 0) {
+        const ssize_t written = ::write(::fileno(file.get()), bytes.data(), bytes.size()); // fwrite ends at a signal
+        if (written > 0)
+            bytes = bytes.subspan(std::size_t(written));
+        else if (written == 0 || errno != EINTR)
+            number = written == 0 ? ENOSPC : errno;
     }
-    return 0;
-}
-
-// Returns the errno of appending to a temporary file; 0 if it succeeds.
-int appendErrno(const fs::path& part)
-{
-    const int file = ::open(part.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
-    if (file < 0)
-        return errno;
-    static constexpr std::array<std::byte, 65536> kNothing{};
-    const int number = writeAll(file, kNothing.data(), kNothing.size());
-    ::close(file);
-    return number;
+    return std::fclose(file.release()) != 0 && number == 0 ? errno : number;
 }
 
 } // namespace
@@ -183,8 +170,18 @@ Result<OutputFile> OutputFile::begin(const fs::path& name)
     return OutputFile(file, special ? file : partBeside(file), special);
 }
 
+Result<OpenFile> OutputFile::open(bool reads) const
+{
+    OpenFile file(std::fopen(part_.c_str(), reads ? "w+be" : "wbe"));
+    if (!file)
+        return cannotWrite(file_, errno);
+    return file;
+}
+
 Status OutputFile::commit()
 {
+    if (Status free = mayAppear(file_); !free)
+        return free;
     if (!special_ && ::rename(part_.c_str(), file_.c_str()) != 0) {
         const int number = errno;
         blockWhileEnding();
@@ -200,9 +197,12 @@ Error OutputFile::failed(const Error& error) const
     blockWhileEnding();
     if (error.kind != ErrorKind::output)
         return error;
-    if (!special_)
-        if (const int number = appendErrno(part_))
+    if (!special_) { // a trial
+        static constexpr std::array<std::byte, 65536> kNothing{};
+        OpenFile part(std::fopen(part_.c_str(), "abe"));
+        if (const int number = part ? writeAll(std::move(part), kNothing) : errno)
             return cannotWrite(file_, number);
+    }
     Error forUser = error;
     replaceAll(forUser.message, part_.string(), file_.string());
     replaceAll(forUser.message, part_.filename().string(), file_.filename().string());
@@ -227,15 +227,13 @@ Status commitTogether(std::span<OutputFile> files)
     return Done{};
 }
 
-Status writeBytes(const fs::path& file, std::span<const std::byte> bytes)
+Status writeBytes(const OutputFile& file, std::span<const std::byte> bytes)
 {
-    const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (descriptor < 0)
-        return cannotWrite(file, errno);
-    int number = writeAll(descriptor, bytes.data(), bytes.size());
-    if (::close(descriptor) != 0 && number == 0)
-        number = errno;
-    return number == 0 ? Status(Done{}) : cannotWrite(file, number);
+    auto stream = file.open();
+    if (!stream)
+        return stream.error();
+    const int number = writeAll(*std::move(stream), bytes);
+    return number == 0 ? Status(Done{}) : cannotWrite(file.destination(), number);
 }
 
 Status writeFileWhole(const fs::path& file, std::string_view text)
@@ -243,7 +241,7 @@ Status writeFileWhole(const fs::path& file, std::string_view text)
     auto output = OutputFile::begin(file);
     if (!output)
         return output.error();
-    if (Status written = writeBytes(output->path(), std::as_bytes(std::span(text.data(), text.size()))); !written)
+    if (Status written = writeBytes(*output, std::as_bytes(std::span(text.data(), text.size()))); !written)
         return output->failed(written.error());
     return output->commit();
 }

@@ -1,6 +1,7 @@
 // Atomic output files: written to a temporary file (a part) beside their destination, then renamed. All files are
-// written in this way. On failure or interruption nothing is left behind and an older file is unchanged; only SIGKILL
-// leaves a part, which leftParts() finds.
+// written in this way: nothing else opens files for writing, so that nothing can replace an input (a test checks it).
+// On failure or interruption nothing is left behind and an older file is unchanged; only SIGKILL leaves a part, which
+// leftParts() finds.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +14,13 @@
 #include <sys/types.h>
 
 #include "cotan/result.hpp"
+#include "files/bytes.hpp"
 #include "files/interrupt.hpp"
 
 namespace cotan {
 
-// A temporary name beside a file: write to it, then commit. The temporary file is removed unless it is committed. Pipes
-// and devices are written to directly.
+// A file to write: open it, write, then commit. It has a temporary name beside its destination, and is removed unless
+// it is committed. Pipes and devices are written to directly.
 class OutputFile {
 public:
     // Follows symbolic links. Errors: ErrorKind::output for a missing folder or if `file` is one; those of beginOutput.
@@ -28,9 +30,13 @@ public:
     OutputFile& operator=(OutputFile&&) = delete;
     ~OutputFile();
 
+    // Opens the file, empty, in binary mode. reads: also for reading. The only function that opens files for writing.
+    // Errors: ErrorKind::output with the system's reason.
+    Result<OpenFile> open(bool reads = false) const;
+
     const std::filesystem::path& path() const { return part_; } // the temporary name; it keeps the file's extension
     const std::filesystem::path& destination() const { return file_; }
-    // Renames the temporary file to its destination. Errors: ErrorKind::output.
+    // Renames the temporary file to its destination. Errors: ErrorKind::output; those of mayAppear.
     Status commit();
     // Rewords a writer's error for the user: the destination replaces the temporary name, and a test write adds the
     // system's reason, such as a full disk.
@@ -50,8 +56,8 @@ private:
 // ErrorKind::output.
 Status commitTogether(std::span<OutputFile> files);
 
-// Writes bytes directly to a file. Errors: ErrorKind::output with the system's reason.
-Status writeBytes(const std::filesystem::path& file, std::span<const std::byte> bytes);
+// Writes the whole content of a file, without committing it. Errors: ErrorKind::output with the system's reason.
+Status writeBytes(const OutputFile& file, std::span<const std::byte> bytes);
 
 // Writes text through an OutputFile.
 Status writeFileWhole(const std::filesystem::path& file, std::string_view text);

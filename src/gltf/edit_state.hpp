@@ -1,6 +1,7 @@
 // Declarations shared by the files of the glTF editor.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <set>
@@ -8,6 +9,9 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
 
 #include "cotan/gltf.hpp"
 #include "elements.hpp"
@@ -50,6 +54,18 @@ std::vector<std::string> unknownExtensions(const Json& root);
 
 // Removes the marked items and adjusts all references. An empty collection is removed as a whole.
 void removeItems(Json& root, const Collection& collection, const std::vector<bool>& removed);
+
+// ---- values -----------------------------------------------------------------------------------
+
+// The tangent with the unit length that glTF requires, (1, 0, 0) if it has no direction. One that is unit but for
+// rounding is unchanged.
+inline glm::vec4 withUnitTangent(const glm::vec4& tangent)
+{
+    const float length = glm::length(glm::vec3(tangent));
+    if (std::abs(length - 1) < 1e-3f)
+        return tangent;
+    return {length > 0 && std::isfinite(length) ? glm::vec3(tangent) / length : glm::vec3(1, 0, 0), tangent.w};
+}
 
 // ---- edit.cpp ---------------------------------------------------------------------------------
 

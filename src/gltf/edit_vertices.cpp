@@ -2,6 +2,7 @@
 // numbers vertices so that every triangle has its own provoking vertex.
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <map>
 
 #include "cotan/tangents.hpp"
@@ -205,8 +206,7 @@ std::size_t setGroup(GltfDocument& document, const Group& group)
     std::vector<glm::vec4> corners;
     for (std::size_t m = 0; m < group.members.size(); ++m) {
         indices.insert(indices.end(), group.triangles[m].begin(), group.triangles[m].end());
-        const auto& c = group.members[m]->corners;
-        corners.insert(corners.end(), c.begin(), c.end());
+        std::ranges::transform(group.members[m]->corners, std::back_inserter(corners), withUnitTangent);
     }
     const VertexSplit split = splitVertices(group.vertexCount, indices, corners);
     const std::size_t count = split.sources.size();

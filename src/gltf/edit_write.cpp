@@ -6,6 +6,8 @@
 #include <set>
 #include <system_error>
 
+#include "core/file_names.hpp"
+#include "core/named_values.hpp"
 #include "edit_state.hpp"
 #include "files/bytes.hpp"
 #include "files/output.hpp"
@@ -136,12 +138,11 @@ std::vector<std::byte> makeGlb(const Layout& layout)
 std::string encodePercent(const std::string& name)
 {
     std::string uri;
-    for (const unsigned char c : name) {
-        if (std::isalnum(c) || c == '-' || c == '_' || c == '.' || c == '~')
-            uri += char(c);
+    for (const char c : name)
+        if (isLetter(c) || isDigit(c) || c == '-' || c == '_' || c == '.' || c == '~')
+            uri += c;
         else
-            uri += fmt::format("%{:02X}", c);
-    }
+            uri += fmt::format("%{:02X}", static_cast<unsigned char>(c));
     return uri;
 }
 
@@ -159,20 +160,13 @@ fs::path binaryBeside(const GltfSource& source, const fs::path& file)
 
 // ---- new images -----------------------------------------------------------------------------
 
-// The name of an image, else of the file it was in, else its number, as part of a file name.
+// The name of an image, else of the file it was in, else its number.
 std::string nameOfImage(const GltfSource& source, const Json& root, std::size_t i)
 {
     std::string name = root["images"][i].value("name", std::string());
     if (name.empty() && i < countOf(source.file.json, "images") && isExternal(source.file.json["images"][i]))
         name = fs::path(source.file.json["images"][i]["uri"].get<std::string>()).stem().string();
-    if (name.empty())
-        return fmt::format("image{}", i);
-    constexpr std::size_t kMax = 64;
-    name.resize(std::min(name.size(), kMax));
-    for (char& c : name)
-        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-')
-            c = '_';
-    return name;
+    return name.empty() ? fmt::format("image{}", i) : name;
 }
 
 // The image URIs of an existing model of this name, which is about to be replaced.
@@ -211,20 +205,23 @@ void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLim
         Json& image = rootOf(document)["images"][i];
         if (!image.contains("bufferView") || image["bufferView"].get<std::size_t>() < old)
             continue;
-        const std::string stem = file.stem().string() + "-" + nameOfImage(source, rootOf(document), i);
         const auto format =
             std::ranges::find(kImageFormats, image.value("mimeType", std::string("image/png")), &ImageFormat::mime);
         const std::string ending(format == kImageFormats.end() ? ".png" : format->endings[0]);
-        const auto taken = [&](const fs::path& target) {
+        const auto targetOf = [&](const std::string& part) {
+            return folderOf(file) / (file.stem().string() + "-" + part + ending);
+        };
+        const auto taken = [&](const std::string& part) {
             std::error_code error;
-            const bool here = std::ranges::find(outputs, target, &WrittenFile::file) != outputs.end();
+            const fs::path target = targetOf(part);
+            const bool here = std::ranges::any_of(outputs, [&](const WrittenFile& other) {
+                return lowerCase(other.file.string()) == lowerCase(target.string());
+            });
             const bool input = std::ranges::find(read, fs::weakly_canonical(target, error)) != read.end();
             const bool replaced = std::ranges::find(own, encodePercent(target.filename().string())) != own.end();
             return here || input || (fs::exists(target, error) && !replaced);
         };
-        fs::path target = folderOf(file) / (stem + ending);
-        for (int n = 2; taken(target); ++n)
-            target = folderOf(file) / fmt::format("{}-{}{}", stem, n, ending);
+        const fs::path target = targetOf(fileNamePart(nameOfImage(source, rootOf(document), i), taken));
         const auto bytes = viewBytes(document, image["bufferView"].get<std::size_t>());
         outputs.push_back({target, {bytes.begin(), bytes.end()}});
         image.erase("bufferView");
@@ -268,7 +265,7 @@ Status writeTogether(std::span<const WrittenFile> outputs)
         if (!file)
             return file.error();
         files.push_back(*std::move(file));
-        if (Status written = writeBytes(files.back().path(), output.bytes); !written)
+        if (Status written = writeBytes(files.back(), output.bytes); !written)
             return files.back().failed(written.error());
     }
     return commitTogether(files);

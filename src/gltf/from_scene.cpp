@@ -44,9 +44,10 @@ std::vector<glm::vec4> storedTangents(const Mesh& mesh, const Material& material
         transformTangents(tangents, {mesh.positions, mesh.normals, textureUv(map, mesh), mesh.indices},
                           glm::dvec2(v.y, -u.y) / determinant, glm::dvec2(-v.x, u.x) / determinant);
     }
-    if (material.greenReversed)
-        for (glm::vec4& tangent : tangents)
-            tangent.w = -tangent.w;
+    for (glm::vec4& tangent : tangents) {
+        tangent = withUnitTangent(tangent);
+        tangent.w = material.greenReversed ? -tangent.w : tangent.w;
+    }
     return tangents;
 }
 

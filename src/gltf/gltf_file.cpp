@@ -7,9 +7,12 @@
 #include <map>
 #include <optional>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
+#include "core/locale_of_c.hpp"
 #include "files/bytes.hpp"
+#include "files/file_registry.hpp"
 
 namespace cotan {
 
@@ -276,6 +279,7 @@ Json parseGltfJson(std::span<const std::byte> text)
 {
     const auto* const first = reinterpret_cast<const char*>(text.data());
     Builder builder({first, text.size()});
+    const LocaleOfC locale; // the parser calls strtod
     Json::sax_parse(first, first + text.size(), &builder);
     return std::move(builder.root);
 }
@@ -302,6 +306,23 @@ void takeBytes(std::uint64_t& taken, std::uint64_t bytes, std::uint64_t limit, c
     taken += bytes;
 }
 
+// Notes the files that a model names: no output replaces one that is not read, such as an image that stays as it is.
+static void noteResources(const GltfFile& file)
+{
+    const auto note = [&](const std::string& uri) {
+        std::error_code ignored;
+        const fs::path named = uri.starts_with("data:") ? fs::path() : file.folder / decodePercent(uri);
+        if (fs::is_regular_file(named, ignored))
+            if (Status free = noteInput(named); !free)
+                throw GltfProblem{free.error()};
+    };
+    for (const char* list : {"buffers", "images"})
+        if (const auto entries = file.json.find(list); entries != file.json.end() && entries->is_array())
+            for (const Json& entry : *entries)
+                if (entry.is_object() && entry.contains("uri") && entry["uri"].is_string())
+                    note(entry["uri"].get_ref<const std::string&>());
+}
+
 GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& warnings)
 {
     GltfFile file;
@@ -314,6 +335,8 @@ GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& 
     if (!file.isBinary && lowerExtension(path) == ".glb")
         failGltf("GLB header: expected the file to begin with \"glTF\"");
     file.json = parseGltfJson(file.isBinary ? splitChunks(file, warnings) : file.bytes);
+    if (!file.readFile)
+        noteResources(file);
     if (!file.isBinary)
         file.bytes = {}; // can be large if buffers are embedded as text
     return file;

@@ -78,15 +78,6 @@ Result<std::vector<PrimitiveTangents>> rowsOf(const GltfDocument& document, cons
     return rows;
 }
 
-// glTF requires unit tangents: any will do where MikkTSpace gives zero because directions cancel.
-std::vector<glm::vec4> unitForFile(std::vector<glm::vec4> tangents)
-{
-    for (glm::vec4& t : tangents)
-        if (glm::vec3(t) == glm::vec3(0))
-            t.x = 1;
-    return tangents;
-}
-
 } // namespace
 
 Result<std::vector<GltfPrimitiveGeometry>> gltfPrimitives(const GltfDocument& document)
@@ -116,7 +107,7 @@ Result<GiveTangentsResult> giveTangents(GltfDocument& document, const TangentsOp
         } else {
             row.generated = true;
             tangents.push_back(
-                {row.mesh, row.primitive, unitForFile(generateTangents(options.frame, read.view(), options.threads))});
+                {row.mesh, row.primitive, generateTangents(options.frame, read.view(), options.threads)});
         }
     });
     if (!rows)

@@ -53,7 +53,7 @@ Image decode(const GltfFile& model, ImageSource source, const LoadLimits& limits
     if (!source.resource.file.empty())
         source.bytes = source.resource.bytes = valueOrFail(readGltfResource(model, source.resource.file, limits));
     if (limits.pixels == Pixels::whereReadable)
-        foreign = unreadableFormat(source.bytes);
+        foreign = unreadableFormat(source.bytes, limits);
     if (!foreign.empty()) {
         Image image;
         image.name = fmt::format("{} ({})", source.name, foreign);

@@ -291,4 +291,12 @@ std::string tangentReader(const Json& material)
     return extension(material, "KHR_materials_anisotropy") ? "KHR_materials_anisotropy" : "";
 }
 
+std::string tangentRequirement(const Json& material)
+{
+    if (material.contains("normalTexture"))
+        return "";
+    const Json* const coat = extension(material, "KHR_materials_clearcoat");
+    return coat && coat->contains("clearcoatNormalTexture") ? "KHR_materials_clearcoat" : tangentReader(material);
+}
+
 } // namespace cotan::gltf

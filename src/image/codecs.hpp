@@ -28,26 +28,25 @@ Result<Image> readPng(std::span<const std::byte> bytes, const std::string& name,
 
 // Writes unorm8 or unorm16. An image whose alpha is 1 everywhere is stored without alpha, which is read back as 1.
 // `name` is for messages.
-Status writePng(const std::filesystem::path& file, const Image& image, const std::string& name);
+Status writePng(OpenFile file, const Image& image, const std::string& name);
 
 // As openRows; `stream` is rewound first. Returns nullopt for interlaced files, which cannot be read by rows.
 std::optional<Result<std::unique_ptr<RowReader>>> openPngRows(const std::filesystem::path& file, OpenFile stream,
                                                               const LoadLimits& limits);
 
-// As createRows, for components of 8 or 16 bits; `file` is the path to write, visible at once. name: for messages.
-Result<std::unique_ptr<RowWriter>> createPngRows(const std::filesystem::path& file, const RowFormat& format,
-                                                 const std::string& name);
+// As createRows, for components of 8 or 16 bits. name: for messages.
+Result<std::unique_ptr<RowWriter>> createPngRows(OpenFile file, const RowFormat& format, const std::string& name);
 
 // ---- JPEG by libjpeg ------------------------------------------------------------------------
 
 // libjpeg is used directly: JPEG is as common as PNG in models, and the module for other formats is slow to load.
 
-// As decodeImage, for grey, YCbCr and RGB images. Returns nullopt for others, such as CMYK.
+// As decodeImage; CMYK becomes RGB, without a colour profile. Returns nullopt if this build has no libjpeg.
 std::optional<Result<Image>> readJpeg(std::span<const std::byte> bytes, const std::string& name,
                                       const LoadLimits& limits);
 
 // As encodeLike, of an opaque image of unorm8. quality: receives that of the quantisation tables. Returns nullopt if
-// the old file is grey or a JPEG that cannot be read.
+// the old file is grey, CMYK or a JPEG that cannot be read.
 std::optional<Result<std::vector<std::byte>>> writeJpegLike(const Image& image, std::span<const std::byte> old,
                                                             int& quality);
 
@@ -61,9 +60,9 @@ bool readsWebp();
 // As decodeImage. Errors: also ErrorKind::input for animations.
 Result<Image> readWebp(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
 
-// As createAnimation, for WebP and images of unorm8; `file` is the path to write, visible at once. name: for messages.
-Result<std::unique_ptr<AnimationWriter>> createWebpAnimation(const std::filesystem::path& file,
-                                                             const AnimationFormat& format, const std::string& name);
+// As createAnimation, for WebP and images of unorm8. name: for messages.
+Result<std::unique_ptr<AnimationWriter>> createWebpAnimation(OpenFile file, const AnimationFormat& format,
+                                                             const std::string& name);
 
 // As encodeLike, of an image of unorm8. quality: receives 0 if lossless. Returns nullopt if this build has no libwebp.
 std::optional<Result<std::vector<std::byte>>> writeWebpLike(const Image& image, std::span<const std::byte> old,

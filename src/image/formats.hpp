@@ -13,6 +13,7 @@
 #include "cotan/image.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene.hpp"
+#include "files/bytes.hpp"
 
 namespace cotan {
 
@@ -24,20 +25,21 @@ struct ImageFormats {
     // data; it has no magic number).
     Result<Image> (*read)(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
 
-    // As writeImage, for formats with ImageFormat::openImageIo. `name` is for messages and gives the format.
-    Status (*write)(const std::filesystem::path& file, const Image& image, const std::string& name);
+    // As writeImage, for formats with ImageFormat::openImageIo. file: open for reading and writing, here and below.
+    // `name` is for messages and gives the format.
+    Status (*write)(OpenFile file, const Image& image, const std::string& name);
 
     // As openRows, for formats with ImageFormat::readsRows; `head` is the start of the file.
     Result<std::unique_ptr<RowReader>> (*openRows)(const std::filesystem::path& file, std::span<const std::byte> head,
                                                    const LoadLimits& limits);
 
-    // As createRows, for the extension of `name`; `file` is the path to write, visible at once.
-    Result<std::unique_ptr<RowWriter>> (*createRows)(const std::filesystem::path& file, const RowFormat& format,
-                                                     int threads, const std::string& name);
+    // As createRows, for the extension of `name`.
+    Result<std::unique_ptr<RowWriter>> (*createRows)(OpenFile file, const RowFormat& format, int threads,
+                                                     const std::string& name);
 
-    // As createAnimation, for GIF and images of unorm8; `file` is the path to write, visible at once.
-    Result<std::unique_ptr<AnimationWriter>> (*createGif)(const std::filesystem::path& file,
-                                                          const AnimationFormat& format, const std::string& name);
+    // As createAnimation, for GIF and images of unorm8.
+    Result<std::unique_ptr<AnimationWriter>> (*createGif)(OpenFile file, const AnimationFormat& format,
+                                                          const std::string& name);
 };
 
 // Whether this build has the module.

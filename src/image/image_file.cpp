@@ -28,13 +28,13 @@ bool isPng(std::span<const std::byte> bytes) { return imageFormatName(bytes) == 
 
 bool isJpeg(std::span<const std::byte> bytes) { return imageFormatName(bytes) == "JPEG"; }
 
-std::string unreadableFormat(std::span<const std::byte> bytes)
+std::string unreadableFormat(std::span<const std::byte> bytes, const LoadLimits& limits)
 {
     const std::string format = imageFormatName(bytes);
     if (format == "KTX2" && !foreignKtx2(bytes).empty())
         return "KTX2 with " + foreignKtx2(bytes);
-    const bool foreign =
-        format == "AVIF" || (format == "WebP" && !readsWebp()) || (format == "DDS" && !readsOtherFormats());
+    const bool foreign = !limits.decode
+        && (format == "AVIF" || (format == "WebP" && !readsWebp()) || (format == "DDS" && !readsOtherFormats()));
     return foreign ? format : "";
 }
 
@@ -110,12 +110,18 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, 
     return readOther(bytes, name, limits);
 }
 
-Status write(const std::filesystem::path& file, const Image& image, const std::string& name)
+Status write(const OutputFile& output, const Image& image, const std::string& name)
 {
-    if (writesItself(file))
-        return image.type == PixelType::float32 ? writePng(file, toUnorm8(image), name) : writePng(file, image, name);
-    const auto formats = imageFormats(name);
-    return formats ? (*formats)->write(file, image, name) : formats.error();
+    const bool png = writesItself(output.destination());
+    const Result<const ImageFormats*> formats = png ? nullptr : imageFormats(name);
+    if (!formats)
+        return formats.error();
+    auto file = output.open(/*reads*/ !png);
+    if (!file)
+        return file.error();
+    if (!png)
+        return (*formats)->write(*std::move(file), image, name);
+    return writePng(*std::move(file), image.type == PixelType::float32 ? toUnorm8(image) : image, name);
 }
 
 Result<EncodedLike> asPng(const Image& image, std::string reason)
@@ -159,7 +165,7 @@ Result<OutputFile> writePending(const std::filesystem::path& file, const Image& 
                                       image.height, image.data.size()));
     auto output = OutputFile::begin(file);
     if (output)
-        if (Status written = write(output->path(), image, name); !written)
+        if (Status written = write(*output, image, name); !written)
             return output->failed(written.error());
     return output;
 }
@@ -186,7 +192,7 @@ Result<EncodedLike> encodeLike(const Image& image, std::span<const std::byte> ol
     auto bytes = name == "JPEG" ? writeJpegLike(image, old, quality) : writeWebpLike(image, old, quality);
     if (!bytes)
         return asPng(image,
-                     name == "JPEG" ? "a grey JPEG holds no normals, or this build has no libjpeg"
+                     name == "JPEG" ? "a grey or CMYK JPEG holds no normals, or this build has no libjpeg"
                                     : "this build has no libwebp");
     if (!*bytes)
         return bytes->error();

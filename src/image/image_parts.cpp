@@ -191,10 +191,15 @@ Result<std::unique_ptr<RowWriter>> createRows(const fs::path& file, const RowFor
     const auto create = [&]() -> Result<std::unique_ptr<RowWriter>> {
         if (writesItself(file) && format.type == PixelType::float32)
             return usageError(fmt::format("{}: PNG files cannot hold floats", name));
-        if (writesItself(file))
-            return createPngRows(output->path(), format, name);
-        const auto formats = imageFormats(name);
-        return formats ? (*formats)->createRows(output->path(), format, threads, name) : formats.error();
+        const bool png = writesItself(file);
+        const Result<const ImageFormats*> formats = png ? nullptr : imageFormats(name);
+        if (!formats)
+            return formats.error();
+        auto stream = output->open(/*reads*/ !png);
+        if (!stream)
+            return stream.error();
+        return png ? createPngRows(*std::move(stream), format, name)
+                   : (*formats)->createRows(*std::move(stream), format, threads, name);
     };
     auto writer = create();
     if (!writer)
@@ -268,8 +273,11 @@ Result<std::unique_ptr<AnimationWriter>> createAnimation(const fs::path& file, c
         return output.error();
     AnimationFormat rounded = format;
     rounded.rate = animationRate(file, format.rate);
-    auto writer = isGif(file) ? (*formats)->createGif(output->path(), rounded, name)
-                              : createWebpAnimation(output->path(), rounded, name);
+    auto stream = output->open(/*reads*/ isGif(file));
+    if (!stream)
+        return stream.error();
+    auto writer = isGif(file) ? (*formats)->createGif(*std::move(stream), rounded, name)
+                              : createWebpAnimation(*std::move(stream), rounded, name);
     if (!writer)
         return output->failed(writer.error());
     return std::unique_ptr<AnimationWriter>(new EightBits(std::move(*output), std::move(*writer), format, name));

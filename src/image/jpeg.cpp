@@ -71,16 +71,31 @@ bool readHeader(Decoder& decoder, const unsigned char* data, unsigned long size)
     return true;
 }
 
+bool isCmyk(J_COLOR_SPACE stored) { return stored == JCS_CMYK || stored == JCS_YCCK; }
+
+// Converts a row in place. As Photoshop writes them, and other readers expect, 0 is full ink. Without a colour profile,
+// each ink transmits its fraction of a colour, and black its fraction of all.
+void cmykToRgba(unsigned char* row, std::size_t width)
+{
+    for (unsigned char* pixel = row; pixel != row + 4 * width; pixel += 4) {
+        for (int c = 0; c < 3; ++c)
+            pixel[c] = static_cast<unsigned char>((pixel[c] * pixel[3] + 127) / 255);
+        pixel[3] = 255;
+    }
+}
+
 bool readPixels(Decoder& decoder, unsigned char* pixels, std::size_t rowBytes)
 {
     jpeg_decompress_struct& jpeg = decoder.jpeg;
     if (setjmp(decoder.escape))
         return false;
-    jpeg.out_color_space = JCS_EXT_RGBA;
+    jpeg.out_color_space = isCmyk(jpeg.jpeg_color_space) ? JCS_CMYK : JCS_EXT_RGBA; // both have 4 bytes per pixel
     jpeg_start_decompress(&jpeg);
     while (jpeg.output_scanline < jpeg.output_height) {
         JSAMPROW row = pixels + jpeg.output_scanline * rowBytes;
         jpeg_read_scanlines(&jpeg, &row, 1);
+        if (jpeg.out_color_space == JCS_CMYK)
+            cmykToRgba(row, jpeg.output_width);
     }
     jpeg_finish_decompress(&jpeg);
     return true;
@@ -143,8 +158,10 @@ std::optional<Result<Image>> readJpeg(std::span<const std::byte> bytes, const st
     if (auto error = checkScans(decoder.jpeg, bytes, name, limits))
         return *error;
     const J_COLOR_SPACE stored = decoder.jpeg.jpeg_color_space;
-    if (stored != JCS_GRAYSCALE && stored != JCS_YCbCr && stored != JCS_RGB)
-        return std::nullopt;
+    if (stored != JCS_GRAYSCALE && stored != JCS_YCbCr && stored != JCS_RGB && !isCmyk(stored))
+        return inputError(
+            fmt::format("{}: expected a grey, colour or CMYK JPEG, found {} components of unknown meaning", name,
+                        decoder.jpeg.num_components));
     const int width = int(decoder.jpeg.image_width), height = int(decoder.jpeg.image_height);
     if (auto error = checkImageSize(width, height, PixelType::unorm8, name, limits))
         return *error;

@@ -18,7 +18,7 @@ namespace {
 static Error noPng(const std::string& name) { return missing(name, "libpng", "libpng-dev"); }
 
 Result<Image> readPng(std::span<const std::byte>, const std::string& name, const LoadLimits&) { return noPng(name); }
-Status writePng(const std::filesystem::path&, const Image&, const std::string& name) { return noPng(name); }
+Status writePng(OpenFile, const Image&, const std::string& name) { return noPng(name); }
 Result<std::vector<std::byte>> encodePng(const Image& image) { return noPng(image.name); }
 
 std::optional<Result<std::unique_ptr<RowReader>>> openPngRows(const std::filesystem::path& file, OpenFile,
@@ -27,8 +27,7 @@ std::optional<Result<std::unique_ptr<RowReader>>> openPngRows(const std::filesys
     return noPng(file.string());
 }
 
-Result<std::unique_ptr<RowWriter>> createPngRows(const std::filesystem::path&, const RowFormat&,
-                                                 const std::string& name)
+Result<std::unique_ptr<RowWriter>> createPngRows(OpenFile, const RowFormat&, const std::string& name)
 {
     return noPng(name);
 }
@@ -52,8 +51,7 @@ static Error noWebp(const std::string& name) { return missing(name, "libwebp", "
 bool readsWebp() { return false; }
 Result<Image> readWebp(std::span<const std::byte>, const std::string& name, const LoadLimits&) { return noWebp(name); }
 
-Result<std::unique_ptr<AnimationWriter>> createWebpAnimation(const std::filesystem::path&, const AnimationFormat&,
-                                                             const std::string& name)
+Result<std::unique_ptr<AnimationWriter>> createWebpAnimation(OpenFile, const AnimationFormat&, const std::string& name)
 {
     return noWebp(name);
 }

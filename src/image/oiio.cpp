@@ -2,7 +2,6 @@
 #include "oiio.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <exception>
@@ -24,7 +23,7 @@ namespace cotan::oiio {
 
 std::string oneLine(std::string text)
 {
-    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())))
+    while (!text.empty() && isSpace(text.back()))
         text.pop_back();
     std::ranges::replace(text, '\n', ' ');
     return text;

@@ -14,6 +14,7 @@
 #include "cotan/image.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene.hpp"
+#include "files/bytes.hpp"
 #include "numbers.hpp"
 
 namespace cotan::oiio {
@@ -48,10 +49,10 @@ OIIO::TypeDesc typeDesc(PixelType type);
 
 // ---- writing: functions of ImageFormats ----------------------------------------------------
 
-Status write(const std::filesystem::path& file, const Image& image, const std::string& name);
-Result<std::unique_ptr<RowWriter>> createRows(const std::filesystem::path& file, const RowFormat& format, int threads,
+Status write(OpenFile file, const Image& image, const std::string& name);
+Result<std::unique_ptr<RowWriter>> createRows(OpenFile file, const RowFormat& format, int threads,
                                               const std::string& name);
-Result<std::unique_ptr<AnimationWriter>> createGif(const std::filesystem::path& file, const AnimationFormat& format,
+Result<std::unique_ptr<AnimationWriter>> createGif(OpenFile file, const AnimationFormat& format,
                                                    const std::string& name);
 
 } // namespace cotan::oiio

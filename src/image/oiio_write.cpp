@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -30,14 +29,12 @@ Error notWritten(const std::string& name, const std::string& words)
 }
 
 // A file for OpenImageIO's writers that records write errors. The writers do not: on a full disk Targa's reports
-// success, and JPEG's ends the process.
+// success, and JPEG's ends the process. flush() does nothing, since finish() closes the file: it is const in some
+// versions of OpenImageIO only.
 class CheckedFile final : public OIIO::Filesystem::IOProxy {
 public:
-    // Replaces the file. finish() reports if it could not be created.
-    explicit CheckedFile(const std::filesystem::path& file)
-        : IOProxy(file.string(), Write), file_(std::fopen(file.c_str(), "w+be")), error_(file_ ? 0 : errno)
-    {
-    }
+    // file: open for reading and writing. name: where OpenImageIO finds the extension.
+    CheckedFile(OpenFile file, const std::string& name) : IOProxy(name, Write), file_(std::move(file)) {}
 
     // Closes the file. Errors: ErrorKind::output with the system's reason if any byte was not written. name: for the
     // message.
@@ -88,16 +85,10 @@ public:
         return std::size_t(::ftello(file_.get()));
     }
 
-    void flush() const override
-    {
-        if (file_ && std::fflush(file_.get()) != 0)
-            note();
-    }
-
 private:
     enum class Use { nothing, reading, writing };
 
-    void note() const
+    void note()
     {
         if (error_ == 0)
             error_ = errno != 0 ? errno : EIO;
@@ -120,7 +111,7 @@ private:
     }
 
     OpenFile file_;
-    mutable int error_; // errno of the first failure
+    int error_ = 0; // errno of the first failure
     Use use_ = Use::nothing;
     mutable std::int64_t at_ = 0; // offset of the next write; -1: unknown
 };
@@ -194,14 +185,14 @@ private:
 
 } // namespace
 
-Status write(const std::filesystem::path& file, const Image& image, const std::string& name)
+Status write(OpenFile file, const Image& image, const std::string& name)
 {
     const ImageFormat& format = *imageFormatOf(name); // checkImageName has accepted `name`
     const OIIO::TypeDesc type = typeToWrite(format, image.type);
     if (type == OIIO::TypeDesc::UINT8 && image.type != PixelType::unorm8)
-        return write(file, toUnorm8(image), name);
+        return write(std::move(file), toUnorm8(image), name);
     try {
-        CheckedFile checked(file); // outlives `output`, which writes to it
+        CheckedFile checked(std::move(file), name); // outlives `output`, which writes to it
         const auto output = OIIO::ImageOutput::create(std::string(format.openImageIo));
         if (!output)
             return notWritten(name, OIIO::geterror());
@@ -209,7 +200,7 @@ Status write(const std::filesystem::path& file, const Image& image, const std::s
         output->set_ioproxy(&checked);
         const OIIO::ImageSpec spec =
             outputSpec(image.width, image.height, format.alpha ? 4 : 3, type, format, image.frame);
-        const bool done = output->open(file.string(), spec)
+        const bool done = output->open(name, spec)
             && output->write_image(typeDesc(image.type), image.data.data(), OIIO::stride_t(image.bytesPerPixel()))
             && output->close();
         if (Status whole = checked.finish(name); !whole)
@@ -222,11 +213,11 @@ Status write(const std::filesystem::path& file, const Image& image, const std::s
     return Done{};
 }
 
-Result<std::unique_ptr<RowWriter>> createRows(const std::filesystem::path& file, const RowFormat& format, int threads,
+Result<std::unique_ptr<RowWriter>> createRows(OpenFile file, const RowFormat& format, int threads,
                                               const std::string& name)
 try {
-    const ImageFormat& stored = *imageFormatOf(name);   // checkImageName has accepted `name`
-    auto checked = std::make_unique<CheckedFile>(file); // outlives `output`, which writes to it
+    const ImageFormat& stored = *imageFormatOf(name);                    // checkImageName has accepted `name`
+    auto checked = std::make_unique<CheckedFile>(std::move(file), name); // outlives `output`, which writes to it
     auto output = OIIO::ImageOutput::create(std::string(stored.openImageIo));
     if (!output)
         return notWritten(name, OIIO::geterror());
@@ -234,7 +225,7 @@ try {
     const int channels = format.alpha && stored.alpha ? 4 : 3;
     const auto type = format.half ? OIIO::TypeDesc(OIIO::TypeDesc::HALF) : typeToWrite(stored, format.type);
     output->set_ioproxy(checked.get());
-    if (!output->open(file.string(), outputSpec(format.width, format.height, channels, type, stored, format.frame)))
+    if (!output->open(name, outputSpec(format.width, format.height, channels, type, stored, format.frame)))
         return notWritten(name, output->geterror());
     return std::unique_ptr<RowWriter>(std::make_unique<Writer>(std::move(checked), std::move(output), format, name));
 } catch (const std::exception& e) {
@@ -246,52 +237,39 @@ try {
 namespace {
 
 // Offsets of the delays of a GIF's images: 2 bytes each, little-endian, in hundredths of a second.
-std::vector<std::streamoff> delaysOf(std::istream& gif)
+std::vector<std::uint64_t> delaysOf(Numbers gif)
 {
-    constexpr int kHead = 13, kImage = 9; // bytes: of the file header, and of an image descriptor
-    const auto skipTable = [&](int flags) { gif.ignore((flags & 0x80) != 0 ? 3 << ((flags & 7) + 1) : 0); };
-    const auto skipBlocks = [&] {
-        for (int size = gif.get(); size > 0; size = gif.get())
-            gif.ignore(size);
-    };
-    std::vector<std::streamoff> delays;
-    std::array<char, kHead> head{};
-    gif.read(head.data(), kHead);
-    skipTable(head[10]);
-    for (int mark = gif.get(); mark == '!' || mark == ','; mark = gif.get()) {
+    constexpr std::uint64_t kHead = 13, kImage = 9; // bytes: of the file header, and of an image descriptor
+    const auto tableSize = [](std::uint64_t flags) { return (flags & 0x80) != 0 ? 3u << ((flags & 7) + 1) : 0; };
+    std::vector<std::uint64_t> delays;
+    std::uint64_t at = kHead + tableSize(gif.at(10, 1));
+    for (std::uint64_t mark = gif.at(at++, 1); mark == '!' || mark == ','; mark = gif.at(at++, 1)) {
         if (mark == '!') {
-            if (gif.get() == 0xf9) // the block: size, flags, delay, transparent colour
-                delays.push_back(std::streamoff(gif.tellg()) + 2);
+            if (gif.at(at++, 1) == 0xf9) // the block: size, flags, delay, transparent colour
+                delays.push_back(at + 2);
         } else {
-            gif.read(head.data(), kImage);
-            skipTable(head[8]);
-            gif.ignore(1); // LZW minimum code size
+            at += kImage + tableSize(gif.at(at + kImage - 1, 1)) + 1; // and the LZW minimum code size
         }
-        skipBlocks();
+        for (std::uint64_t size = gif.at(at++, 1); size > 0; size = gif.at(at++, 1))
+            at += size;
     }
     return delays;
 }
 
 // Sets the delays. OpenImageIO 2.5 writes one second for every image, whatever FramesPerSecond is.
-bool setDelays(const std::filesystem::path& file, double rate)
+void setDelays(CheckedFile& file, double rate)
 {
-    std::fstream gif(file, std::ios::in | std::ios::out | std::ios::binary);
-    const std::vector<std::streamoff> delays = delaysOf(gif);
-    gif.clear(); // clears the end-of-file state
     const auto delay = unsigned(std::lround(100 / rate));
-    for (const std::streamoff at : delays) {
-        gif.seekp(at);
-        gif.put(char(delay & 255)).put(char(delay >> 8));
-    }
-    gif.close();
-    return bool(gif);
+    const std::array<char, 2> bytes{char(delay & 255), char(delay >> 8)};
+    for (const std::uint64_t at : delaysOf(numbersOf(file)))
+        file.pwrite(bytes.data(), bytes.size(), std::int64_t(at));
 }
 
 class Gif : public AnimationWriter {
 public:
-    Gif(std::filesystem::path file, const AnimationFormat& format, std::string name)
-        : file_(std::move(file)), name_(std::move(name)), spec_(format.width, format.height, 4, OIIO::TypeDesc::UINT8),
-          rate_(format.rate), left_(format.images), checked_(file_)
+    Gif(OpenFile file, const AnimationFormat& format, std::string name)
+        : name_(std::move(name)), spec_(format.width, format.height, 4, OIIO::TypeDesc::UINT8), rate_(format.rate),
+          left_(format.images), checked_(std::move(file), name_)
     {
         spec_.attribute("FramesPerSecond", float(format.rate));
     }
@@ -303,9 +281,9 @@ public:
         if (!output_) {
             output_ = OIIO::ImageOutput::create("gif");
             const std::vector<OIIO::ImageSpec> all(left_, spec_);
-            if (!output_ || !output_->set_ioproxy(&checked_) || !output_->open(file_.string(), int(left_), all.data()))
+            if (!output_ || !output_->set_ioproxy(&checked_) || !output_->open(name_, int(left_), all.data()))
                 return failed();
-        } else if (!output_->open(file_.string(), spec_, OIIO::ImageOutput::AppendSubimage)) {
+        } else if (!output_->open(name_, spec_, OIIO::ImageOutput::AppendSubimage)) {
             return failed();
         }
         --left_;
@@ -317,11 +295,10 @@ public:
     Status finish() override
     {
         const bool closed = output_ && output_->close();
-        if (Status whole = checked_.finish(name_); !whole)
-            return whole;
-        if (!closed)
-            return failed();
-        return setDelays(file_, rate_) ? Status(Done{}) : outputError(name_ + ": cannot write the file");
+        if (closed)
+            setDelays(checked_, rate_);
+        Status whole = checked_.finish(name_);
+        return whole && !closed ? failed() : whole;
     }
 
 private:
@@ -330,7 +307,6 @@ private:
         return outputError(fmt::format("{}: {}", name_, oneLine(output_ ? output_->geterror() : OIIO::geterror())));
     }
 
-    std::filesystem::path file_;
     std::string name_;
     OIIO::ImageSpec spec_;
     double rate_; // images per second
@@ -341,10 +317,10 @@ private:
 
 } // namespace
 
-Result<std::unique_ptr<AnimationWriter>> createGif(const std::filesystem::path& file, const AnimationFormat& format,
+Result<std::unique_ptr<AnimationWriter>> createGif(OpenFile file, const AnimationFormat& format,
                                                    const std::string& name)
 {
-    return std::unique_ptr<AnimationWriter>(new Gif(file, format, name));
+    return std::unique_ptr<AnimationWriter>(new Gif(std::move(file), format, name));
 }
 
 } // namespace cotan::oiio

@@ -331,13 +331,12 @@ bool endPng(PngWriter& writer)
     return true;
 }
 
-// Closes `out`, also on errors.
-Status writeTo(std::FILE* out, const Image& image, const std::string& name, PngEffort effort)
+Status writeTo(OpenFile out, const Image& image, const std::string& name, PngEffort effort)
 {
     bool written = false;
     std::string why = "out of memory";
     {
-        PngWriter writer(out);
+        PngWriter writer(out.get());
         if (writer.info) {
             const RowFormat format = {image.width, image.height, image.type, !isOpaque(image), false, image.frame};
             written = startPng(writer, format, effort)
@@ -347,7 +346,7 @@ Status writeTo(std::FILE* out, const Image& image, const std::string& name, PngE
             why = writer.message;
         }
     }
-    if (std::fclose(out) != 0 && written) {
+    if (std::fclose(out.release()) != 0 && written) {
         written = false;
         why = "writing failed";
     }
@@ -396,22 +395,19 @@ private:
 
 } // namespace
 
-Status writePng(const std::filesystem::path& file, const Image& image, const std::string& name)
+Status writePng(OpenFile file, const Image& image, const std::string& name)
 {
-    std::FILE* out = std::fopen(file.c_str(), "wb");
-    if (!out)
-        return outputError(fmt::format("{}: cannot be opened for writing", name));
-    return writeTo(out, image, name, kQuickPng);
+    return writeTo(std::move(file), image, name, kQuickPng);
 }
 
 Result<std::vector<std::byte>> encodePng(const Image& image)
 {
     char* bytes = nullptr;
     std::size_t size = 0;
-    std::FILE* out = ::open_memstream(&bytes, &size);
+    OpenFile out(::open_memstream(&bytes, &size));
     if (!out)
         return outputError(fmt::format("{}: out of memory", image.name));
-    const Status written = writeTo(out, image, image.name, kSmallPng);
+    const Status written = writeTo(std::move(out), image, image.name, kSmallPng);
     const auto* first = reinterpret_cast<const std::byte*>(bytes);
     std::vector<std::byte> result(first, first + (written ? size : 0));
     std::free(bytes);
@@ -420,13 +416,9 @@ Result<std::vector<std::byte>> encodePng(const Image& image)
     return result;
 }
 
-Result<std::unique_ptr<RowWriter>> createPngRows(const std::filesystem::path& file, const RowFormat& format,
-                                                 const std::string& name)
+Result<std::unique_ptr<RowWriter>> createPngRows(OpenFile file, const RowFormat& format, const std::string& name)
 {
-    OpenFile stream(std::fopen(file.c_str(), "wb"));
-    if (!stream)
-        return outputError(fmt::format("{}: cannot be opened for writing", name));
-    auto rows = std::make_unique<PngOut>(std::move(stream), name);
+    auto rows = std::make_unique<PngOut>(std::move(file), name);
     if (Status started = rows->start(format); !started)
         return started.error();
     return std::unique_ptr<RowWriter>(std::move(rows));

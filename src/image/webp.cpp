@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 #include <webp/encode.h>
 #include <webp/mux.h>
 
-#include "files/output.hpp"
 #include "image/checks.hpp"
 #include "numbers.hpp"
 
@@ -140,7 +140,7 @@ struct Deleter {
 // Encodes with libwebp, which keeps the compressed images in memory.
 class WebpAnimation : public AnimationWriter {
 public:
-    WebpAnimation(std::filesystem::path file, const AnimationFormat& format, std::string name)
+    WebpAnimation(OpenFile file, const AnimationFormat& format, std::string name)
         : file_(std::move(file)), format_(format), name_(std::move(name))
     {
         WebPAnimEncoderOptions options;
@@ -173,10 +173,12 @@ public:
         WebPDataInit(&data);
         const bool made = encoder_ && WebPAnimEncoderAdd(encoder_.get(), nullptr, timeOf(count_), nullptr)
             && WebPAnimEncoderAssemble(encoder_.get(), &data);
-        Status written = made ? writeBytes(file_, std::as_bytes(std::span(data.bytes, data.size)))
-                              : failed(encoder_ ? WebPAnimEncoderGetError(encoder_.get()) : "not enough memory");
+        const bool whole = made && std::fwrite(data.bytes, 1, data.size, file_.get()) == data.size
+            && std::fclose(file_.release()) == 0;
         WebPDataClear(&data);
-        return written;
+        return whole ? Status(Done{})
+            : made   ? Status(failed("writing failed"))
+                     : failed(encoder_ ? WebPAnimEncoderGetError(encoder_.get()) : "not enough memory");
     }
 
 private:
@@ -188,7 +190,7 @@ private:
         return outputError(fmt::format("{}: libwebp: {}", name_, std::string(why).empty() ? "failed" : why));
     }
 
-    std::filesystem::path file_;
+    OpenFile file_;
     AnimationFormat format_;
     std::string name_;
     std::unique_ptr<WebPAnimEncoder, Deleter> encoder_;
@@ -197,10 +199,10 @@ private:
 
 } // namespace
 
-Result<std::unique_ptr<AnimationWriter>> createWebpAnimation(const std::filesystem::path& file,
-                                                             const AnimationFormat& format, const std::string& name)
+Result<std::unique_ptr<AnimationWriter>> createWebpAnimation(OpenFile file, const AnimationFormat& format,
+                                                             const std::string& name)
 {
-    return std::unique_ptr<AnimationWriter>(new WebpAnimation(file, format, name));
+    return std::unique_ptr<AnimationWriter>(new WebpAnimation(std::move(file), format, name));
 }
 
 // ---- encoding like another file ------------------------------------------------------------

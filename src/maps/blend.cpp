@@ -106,15 +106,18 @@ Image blend(const Image& base, const Image& detail, const BlendSettings& s, std:
     Image out = makeImage(base.width, base.height, s.type, base.name);
     const int height = s.imageHeight > 0 ? s.imageHeight : base.height;
     const DetailRows details(detail, s.detail, base.width, height, s.tilesX, s.tilesY);
+    const bool alpha = s.base.channels == Channels::xyz && s.to.channels == Channels::xyz;
     std::atomic<std::size_t> bad = 0;
     forRowBands(base.height, [&](int first, int last) {
         const std::size_t width = std::size_t(base.width);
         std::vector<glm::vec3> baseRow(width), detailRow(width);
-        std::vector<glm::vec4> texels(width);
+        std::vector<glm::vec4> texels(width), stored(width, glm::vec4(1));
         std::size_t badHere = 0;
         for (int y = first; y < last; ++y) {
             decodeRow(base, y, s.base, baseRow);
             details.load(s.firstRow + y, detailRow);
+            if (alpha)
+                loadRow(base, y, stored);
             for (std::size_t x = 0; x < width; ++x) {
                 const float mask = s.mask ? maskAt(*s.mask, int(x), s.firstRow + y, base.width, height) : 1.0f;
                 const glm::vec3 b = direction(baseRow[x]);
@@ -125,7 +128,7 @@ Image blend(const Image& base, const Image& detail, const BlendSettings& s, std:
                 // Zero strength leaves the base unchanged, even in the modes that flatten it.
                 if (b != glm::vec3(0) && d != glm::vec3(0) && mask * s.strength != 0)
                     n = blendTexels(b, d, s.mode);
-                texels[x] = encodeTexel(n, s.to, s.type);
+                texels[x] = glm::vec4(glm::vec3(encodeTexel(n, s.to, s.type)), stored[x].w);
             }
             if (s.dither)
                 ditherRow(texels, s.type, s.firstRow + y);

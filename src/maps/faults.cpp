@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/named_values.hpp"
+#include "maps/patches.hpp"
 
 namespace cotan::maps {
 
@@ -64,6 +65,35 @@ std::vector<Fault> faultsOf(const NormalStatistics& s, const GreenVerdict* green
     add(green && green->green == Green::down, Kind::greenDown,
         "green points down (DirectX), which glTF and OpenGL read as dents");
     return faults;
+}
+
+std::string contradictionOf(const GreenVerdict& verdict, const Convention& stated)
+{
+    const NormalStatistics& s = verdict.statistics;
+    const bool tangentSpace = stated.kind == MapKind::tangentSpace, certain = verdict.confidence == Confidence::certain;
+    if (stated.channels == Channels::xyz) { // otherwise blue may hold anything
+        if (s.content == Content::grey || s.content == Content::other)
+            return describe(s.content);
+        if (tangentSpace && s.content == Content::objectSpace && !s.redIsZ)
+            return describe(s.content) + ", not tangent space";
+    }
+    std::string text;
+    using Kind = Fault::Kind;
+    for (const Fault& fault : faultsOf(s, certain ? &verdict : nullptr))
+        if (fault.kind == Kind::srgb || fault.kind == Kind::linearised
+            || (tangentSpace && (fault.kind == Kind::redAndBlue || fault.kind == Kind::redAndGreen)))
+            text += (text.empty() ? "" : "; ") + fault.text;
+    if (tangentSpace && certain && (verdict.green == Green::up) != stated.greenUp)
+        text += (text.empty() ? "" : "; ") + std::string("green points ")
+            + (stated.greenUp ? "down, not up" : "up, not down");
+    return text;
+}
+
+std::string contradictionOf(const Image& map, const Convention& stated)
+{
+    PatchSampler sample(map.width, map.height, map.type, PatchSampler::kQuickSide);
+    sample.add(map, 0);
+    return contradictionOf(greenOf(sample), stated);
 }
 
 std::vector<Fault> faultsInModel(const NormalStatistics& s, const GreenVerdict* green)

@@ -18,8 +18,10 @@ struct Patch {
 // right, if the image has them. The result does not depend on the heights of the strips.
 class PatchSampler {
 public:
+    static constexpr int kQuickSide = 64; // `largest` for verdicts that must take less time than other work on a map
+
     PatchSampler(int width, int height, PixelType type, int largest = 128);
-    void add(const Image& strip, int firstRow);
+    void add(const Image& strip, int firstRow); // several threads may add different rows
 
     int width() const { return width_; }
     int height() const { return height_; }

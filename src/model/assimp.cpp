@@ -19,6 +19,7 @@
 #include <fmt/format.h>
 
 #include "assimp_convert.hpp"
+#include "core/locale_of_c.hpp"
 #include "files/bytes.hpp"
 #include "scene/scene_check.hpp"
 #include "source_material.hpp"
@@ -167,6 +168,7 @@ const aiScene* import(Job& job, Assimp::Importer& importer)
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+    const LocaleOfC locale; // Assimp parses the extras of COLLADA by strtod
     return importer.ReadFile(job.canonical.string(), 0);
 }
 

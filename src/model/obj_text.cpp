@@ -4,13 +4,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "core/real_number.hpp"
 #include "source_material.hpp"
 
 namespace cotan {
@@ -319,19 +319,10 @@ std::string_view Words::all() const
 
 std::optional<float> finiteNumber(std::string_view word)
 {
-    if (word.starts_with('+'))
-        word.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (end != word.data() + word.size() || word.empty() || word.starts_with('+'))
+    const auto value = parseReal(word);
+    if (!value || !(std::abs(*value) <= double(std::numeric_limits<float>::max())))
         return std::nullopt;
-    if (error == std::errc::result_out_of_range) // overflow or underflow
-        value = std::strtod(std::string(word).c_str(), nullptr);
-    else if (error != std::errc{})
-        return std::nullopt;
-    if (!(std::abs(value) <= double(std::numeric_limits<float>::max())))
-        return std::nullopt;
-    return float(value);
+    return float(*value);
 }
 
 Result<ObjText> parseObj(std::string text, const std::string& name, const LoadLimits& limits)

@@ -1,7 +1,6 @@
 #include "source_material.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <vector>
 
@@ -125,9 +124,7 @@ void setBaseColor(const SourceMaterial& source, TextureReader& textures, Scene& 
 bool namesDirectX(const std::string& path)
 {
     const std::string name = lowerCase(path.substr(path.find_last_of("/\\") + 1));
-    const auto letter = [&](std::size_t i) {
-        return i < name.size() && std::isalpha(static_cast<unsigned char>(name[i]));
-    };
+    const auto letter = [&](std::size_t i) { return i < name.size() && isLetter(name[i]); };
     if (name.find("directx") != std::string::npos)
         return true;
     for (std::size_t at = name.find("dx"); at != std::string::npos; at = name.find("dx", at + 1)) {

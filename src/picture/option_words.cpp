@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "core/parse_number.hpp"
+#include "core/real_number.hpp"
 #include "core/value_checks.hpp"
 
 namespace cotan {
@@ -70,8 +71,7 @@ Option choice(std::string_view name, auto& value, const Named<Value> (&words)[co
 
 template<class Real> Option real(std::string_view name, auto& value, ValueCheck check)
 {
-    return checked(name, std::move(check),
-                   [&value](const std::string& word) { value = Real(std::strtold(word.c_str(), nullptr)); });
+    return checked(name, std::move(check), [&value](const std::string& word) { value = Real(*parseReal(word)); });
 }
 
 Option whole(std::string_view name, int& value, int least, int most)
@@ -89,7 +89,7 @@ std::vector<Option> optionsOf(PictureOptions& o, std::string& frame)
     const auto exposure = [&o](const std::string& word) {
         o.exposure.reset();
         if (word != kAutoExposure)
-            o.exposure = std::strtof(word.c_str(), nullptr);
+            o.exposure = float(*parseReal(word));
     };
     const auto size = [&o](const std::string& word) -> Status {
         const auto read = parsePictureSize(word);

@@ -76,6 +76,9 @@ Status applyNormalMap(const OwnMaps& maps, int memory, Scene& scene)
     if (convention->channels != Channels::xyz)
         maps::unswizzle(*image, maps::swizzleOf(*image));
     maps::undo(stated->damage, *image);
+    if (const std::string found = maps::contradictionOf(*image, *convention); !found.empty())
+        scene.warnings.push_back(
+            fmt::format("{}: {}; it is read as {} (--convention)", maps.normal, found, describe(*convention)));
     putNormalMap(scene, std::move(*image), inScene(*convention), maps.material);
     return Done{};
 }

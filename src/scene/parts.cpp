@@ -5,10 +5,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <iomanip>
 #include <map>
 #include <set>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -320,12 +318,18 @@ std::size_t distinctPositions(const Scene& scene)
     return count;
 }
 
+// A number of times, with one decimal below 10.
+std::string timesText(double times)
+{
+    const long long tenths = std::llround(10 * std::min(times, 1e15));
+    const bool shown = tenths < 100 && tenths % 10 != 0;
+    return shown ? std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) : std::to_string((tenths + 5) / 10);
+}
+
 Error coverageError(const Scene& scene, const std::string& what, double found, double limit, const std::string& advice)
 {
-    std::ostringstream text;
-    text << scene.name << ": " << what << " " << std::setprecision(found < 10 ? 2 : 17)
-         << (found < 10 ? found : std::round(found)) << " times, expected at most " << limit << ": " << advice;
-    return inputError(text.str());
+    return inputError(scene.name + ": " + what + " " + timesText(found) + " times, expected at most " + timesText(limit)
+                      + ": " + advice);
 }
 
 } // namespace

@@ -113,6 +113,16 @@ bool hasSet(Language language, Set set)
 
 bool hasFusedForm(Frame frame) { return info(frame).fused; }
 
+Result<Frame> frameIfNoneIsNamed(Language language)
+{
+    if (language == Language::godot)
+        return Frame::orthonormal;
+    std::string text = "frame: expected ";
+    for (const FrameAdvice& advice : kFrameAdvice)
+        text += fill("{} {}; ", advice.frames, advice.maps);
+    return usageError(text + "found none");
+}
+
 std::string fusedFrameNames(std::string_view beforeLast)
 {
     std::vector<std::string_view> names;

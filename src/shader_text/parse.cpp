@@ -1,8 +1,9 @@
 #include "syntax.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <stdexcept>
+
+#include "core/named_values.hpp"
 
 namespace cotan::shader_text {
 
@@ -28,12 +29,12 @@ struct Token {
     std::string trailing;              // the comment after it, on the same line
 };
 
-bool wordCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+bool wordCharacter(char c) { return isLetter(c) || isDigit(c) || c == '_'; }
 
 // Numbers may contain a point, and a sign after the e of the exponent.
 std::size_t endOfWord(std::string_view text, std::size_t at)
 {
-    const bool number = std::isdigit(static_cast<unsigned char>(text[at]));
+    const bool number = isDigit(text[at]);
     const bool hexadecimal = number && text.substr(at, 2) == "0x";
     std::size_t end = at;
     while (end < text.size()) {
@@ -60,7 +61,7 @@ std::vector<Token> tokenise(std::string_view text)
             freshLine = true;
             ++line;
             ++at;
-        } else if (std::isspace(static_cast<unsigned char>(c))) {
+        } else if (isSpace(c)) {
             ++at;
         } else if (text.substr(at, 2) == "//") {
             const std::size_t end = std::min(text.find('\n', at), text.size());
@@ -278,7 +279,7 @@ private:
         if (peek().text.empty() || !wordCharacter(peek().text[0]))
             fail("an expression");
         const std::string word = take();
-        if (std::isdigit(static_cast<unsigned char>(word[0])))
+        if (isDigit(word[0]))
             return {Expression::Kind::number, word, {}};
         if (const auto constant = constants_.find(word); constant != constants_.end())
             return constant->second;

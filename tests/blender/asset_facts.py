@@ -25,6 +25,14 @@ def pairsAreFoundByName():
         found = directions(bpy.data.images[f"{low}_normal"])
         expect_sphere(found, x - 0.1 * number, y)
     expect_sphere(found, x + 0.8, y - 0.8, 0.15, least=50)
+    # Blender's numbers on both sides: each copy has its own detail, and a selection changes no pair.
+    for number, (rise, ending) in enumerate(((0.1, ""), (-0.1, ".001"))):
+        square(f"copy_low{ending}", matrix=moved(12))
+        ball(f"copy_high{ending}", matrix=moved(12), centre=(rise, 0, 0))
+    select(bpy.data.objects["copy_low.001"])
+    assert bpy.ops.object.cotan_bake(which="NAMES") == {"FINISHED"}
+    assert "copy_low_normal" not in bpy.data.images
+    expect_sphere(directions(bpy.data.images["copy_low.001_normal"]), x + 0.1, y)
     # Only selected objects count, and one without a counterpart does not stop the others.
     for image in list(bpy.data.images):
         bpy.data.images.remove(image)
@@ -88,6 +96,40 @@ def mapsAreSavedAsFiles():
     assert "already exists" in facts.error_of(bpy.ops.object.cotan_bake)
     bpy.context.scene.cotan.overwrite = True
     assert bpy.ops.object.cotan_bake() == {"FINISHED"}
+
+
+def mapsOfOneNameAreKeptApart():
+    # Object "a" with the material "b_c", and object "a_b" with "c": both maps would be "a_b_c_normal".
+    x, y = texel_centres()
+    high = ball()
+    for thing, material in (("a", "b_c"), ("a_b", "c")):
+        outline = [(-2, -1), (0, -1), (0, 1), (-2, 1), (2, -1), (2, 1)]
+        low = facts.make_mesh(thing, [(u, v, 0) for u, v in outline], [(0, 1, 2, 3), (1, 4, 5, 2)], [(0, 0)] * 6)
+        for polygon in low.data.polygons:
+            for loop, uv in zip(polygon.loop_indices, [(0, 0), (1, 0), (1, 1), (0, 1)]):
+                low.data.uv_layers[0].data[loop].uv = uv
+        for name in (material, "rest"):
+            low.data.materials.append(bpy.data.materials.new(name))
+        low.data.polygons[1].material_index = 1
+        settings(distance=2, each_material=True)
+        select(high, low)
+        assert bpy.ops.object.cotan_bake() == {"FINISHED"}
+    used = [next(n.image.name for n in bpy.data.materials[m].node_tree.nodes if n.type == "TEX_IMAGE") for m in ("b_c", "c")]
+    assert used == ["a_b_c_normal", "a_b_c_normal.001"], used
+    # Two names of objects that are one name of a file.
+    folder = os.path.join(facts.FOLDER, "names")
+    os.mkdir(folder)
+    for thing, lean in (("lid x", 0.2), ("lid_x", -0.2)):
+        high.location = (lean, 0, 0)
+        baked(square(thing), high, distance=2, store="FILE", folder=folder)
+    files = [os.path.basename(bpy.data.images[f"{name}_normal"].filepath) for name in ("lid x", "lid_x")]
+    assert files == ["lid_x_normal.png", "lid_x_normal-2.png"] and sorted(os.listdir(folder)) == sorted(files), files
+    # A second bake of one replaces its own map only.
+    high.location = (0.3, 0, 0)
+    baked(bpy.data.objects["lid_x"], high, distance=2, store="FILE", folder=folder)
+    assert len([image for image in bpy.data.images if "cotan_of" in image]) == 6 and len(os.listdir(folder)) == 2
+    expect_sphere(directions(bpy.data.images["lid_x_normal"]), x - 0.3, y)
+    expect_sphere(directions(bpy.data.images["lid x_normal"]), x - 0.2, y)
 
 
 def mapsSurviveSavingAndOpening():

@@ -67,6 +67,32 @@ def test_arrays_and_files_bake_the_bytes_of_the_command_line(options, command, t
         assert (baked.map == expected).all() and (baked.mask == became).all()
 
 
+def test_names_pair_as_in_a_bake():
+    low, high = ["wall_low", "wall_low.001", "door.lo", "alone_low"], ["wall_high.001", "Wall_HIGH", "door_hi_a", "door_hi_b"]
+    pairs, notes = cotan.pair_names(low, high)
+    assert pairs == [[1], [0], [2, 3], []] and notes == []
+    assert cotan.pair_names(["a_low"], ["b_high"]) == ([[]], ["no low mesh has the name of 'b_high': not baked"])
+    assert cotan.pair_names([], []) == ([], [])
+    assert [cotan.name_role(n) for n in ("a_low", "lp_a.001", "aHigh", "a.cage", "pillow")] == ["low", "low", "high", "cage", ""]
+    with pytest.raises(cotan.UsageError, match="low"):
+        cotan.pair_names([1], [])
+
+
+def test_pairs_shade_only_themselves_unless_asked():
+    def at(name, z, size, offset):
+        mesh = square(name)
+        mesh.positions = mesh.positions * np.float32([size, size, 1]) + np.float32([0, 0, z])
+        mesh.texcoords = mesh.texcoords * np.float32([0.5, 1]) + np.float32([offset, 0])
+        return mesh
+
+    low = [at("a_low", 0, 1, 0), at("b_low", 0.01, 1, 0.5)]
+    high = [at("a_high", 0, 9, 0), at("b_high", 0.01, 9, 0)]  # b covers the sky of a
+    options = {"size": 8, "kind": "ao", "match_by_name": True}
+    assert (cotan.bake(low, high, **options).map[..., 0] == 255).all()
+    shaded = cotan.bake(low, high, ao_occluders="all", **options).map[..., 0]
+    assert (shaded[:, :4] < 20).all() and (shaded[:, 4:] == 255).all()
+
+
 def lying(mesh):
     """The mesh as a z-up program stores it: y becomes z."""
     turned = [np.c_[v[:, 0], -v[:, 2], v[:, 1]].astype(np.float32) for v in (mesh.positions, mesh.normals)]
@@ -107,6 +133,10 @@ def test_cage_and_names_work_as_on_the_command_line(command, tmp_path):
     assert np.abs(apart[..., 0] - np.repeat([128 - lean, 128 + lean], 16)).max() <= 0.5
     with pytest.raises(cotan.InputError, match="b_low"):
         cotan.bake(low, high[:1], size=8, match_by_name=True)
+    hints = cotan.bake(low, high, size=8).warnings
+    assert hints == [
+        "match_by_name: the names of the meshes pair, such as 'a_low' with 'a_high'; with it each is baked from its own only"
+    ]
 
     cage = bumps(4)
     cage.positions = cage.positions + 0.05 * cage.normals

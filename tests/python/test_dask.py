@@ -120,9 +120,33 @@ def test_number_of_parts_follows_the_threads(farm, count, threads, more, parts):
     assert not farm.client.tasks
 
 
-def test_concurrent_jobs_may_be_given(farm):
-    farm.run(1, options=["--jobs", "3"])
-    assert farm.asked()[1][5:] == ["--jobs", "3", "--shard", "1/1"]
+@pytest.mark.parametrize("options", [["--jobs", "3"], ["--jobs=3"], ["--limit-time=9", "--jobs=3", "--retries", "2"]])
+def test_concurrent_jobs_may_be_given_in_every_spelling(farm, options):
+    farm.run(1, options=options)
+    assert farm.asked()[1][5:] == options + ["--shard", "1/1"]
+
+
+def test_quiet_is_given_once(farm):
+    farm.run(1, options=("--quiet",))
+    assert farm.asked()[1][4:] == ["--quiet", "--jobs", "1", "--shard", "1/1"]
+
+
+@pytest.mark.parametrize(
+    "options, text",
+    [
+        (["--store=elsewhere"], "options: expected no --store, which the argument store stands for; found it"),
+        (["--store", "elsewhere"], "options: expected no --store, which the argument store stands for; found it"),
+        (["--shard=1/2"], "options: expected no --shard, which the argument shards stands for; found it"),
+        (["-o", "r.html"], "options: expected no -o, which the argument report stands for; found it"),
+        (["--merge"], "options: expected no --merge, which the argument report stands for; found it"),
+        ("--jobs=4", "options: expected a list of words such as ['--jobs', '4'], found the text '--jobs=4'"),
+    ],
+)
+def test_options_that_the_arguments_stand_for_are_refused_before_anything_runs(farm, options, text):
+    with pytest.raises(cotan.UsageError) as raised:
+        farm.run(2, options=options)
+    assert str(raised.value) == text
+    assert farm.asked() == []
 
 
 @pytest.mark.parametrize("answer, calls", [(False, 1), (True, 3), (None, 3), (0, 3)])

@@ -58,6 +58,17 @@ def test_tangents_follow_u_and_w_the_mirroring():
     assert (cotan.tangents(square(), kind="vertex")[:, :3] == [1, 0, 0]).all()
 
 
+def test_only_mikktspace_tangents_are_zero_where_directions_cancel():
+    # Opposite directions of u at the origin; the triangle between them has no area in uv.
+    positions = np.float32([[0, 0, 0], [1, 0, 0], [0.5, 0.9, 0], [-0.5, 0.9, 0], [-1, 0, 0]])
+    texcoords = np.float32([[0, 0], [1, 0], [0, -1], [0, 1], [1, 0]])
+    fan = cotan.Mesh(positions, [0, 1, 2, 0, 2, 3, 0, 3, 4], np.repeat(UP, 5, 0), texcoords)
+    assert (cotan.tangents(fan)[3] == [0, 0, 0, 1]).all()
+    lengths = np.linalg.norm(cotan.tangents(fan)[:, :3], axis=1)
+    assert (np.delete(lengths, 3) > 0.999).all()
+    np.testing.assert_allclose(np.linalg.norm(cotan.tangents(fan, kind="vertex")[:, :3], axis=1), 1, atol=1e-6)
+
+
 def test_tangents_do_not_depend_on_threads():
     mesh = bumps()
     assert (cotan.tangents(mesh, threads=1) == cotan.tangents(mesh, threads=4)).all()
@@ -104,4 +115,8 @@ def test_packed_forms_have_their_shapes():
 def test_shader_text_is_that_of_the_command_line(command, tmp_path):
     for lang in ("glsl", "wgsl", "hlsl"):
         command("shader", "--lang", lang, "--frame", "cotangent", "-o", tmp_path / lang)
-        assert cotan.shader(lang) == (tmp_path / lang).read_text()
+        assert cotan.shader(lang, "cotangent") == (tmp_path / lang).read_text()
+    command("shader", "--lang", "godot", "-o", tmp_path / "godot", "--preset", "gltf")
+    assert cotan.shader("godot") == (tmp_path / "godot").read_text()
+    with pytest.raises(cotan.UsageError, match="frame: expected orthonormal for maps .*MikkTSpace.*; smooth or cotangent .*; found none"):
+        cotan.shader("glsl")

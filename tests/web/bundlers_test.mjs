@@ -136,6 +136,35 @@ const cases = {
     }
   },
 
+  // Vite 6 builds for browsers without top-level await, which its bundles therefore must not have.
+  async bundlersLoadTheNodesOfThreeDirectly() {
+    if (!fs.existsSync(path.join(modules, 'three'))) skip('three is not installed (see the test npm_packages)');
+    const text = "import { untangle, CotanError } from 'cotan/three/tsl';\nlet said;\ntry { untangle(); } catch (error) { said = `${error instanceof CotanError} ${error.message}`; }\ndocument.title = said;\n";
+    const made = (bundle) => {
+      const root = installed(tarball, path.resolve(modules), ['three']);
+      fs.writeFileSync(path.join(root, 'main.js'), text);
+      fs.writeFileSync(path.join(root, 'index.html'), '<!doctype html><title>waiting</title><script type="module" src="/main.js"></script>');
+      return bundle(root);
+    };
+    const kSaid = /^true target: expected an Object3D/, page = '<!doctype html><title>waiting</title><script type="module" src="main.js"></script>';
+    for (const [name, file] of Object.entries(vites))
+      await made(async (root) => {
+        await (await load(file)).build({ root, base: './', configFile: false, logLevel: 'error', build: { chunkSizeWarningLimit: 1e6 } });
+        assert.match(await titleOf(path.join(root, 'dist')), kSaid, name);
+      });
+    await made(async (root) => {
+      const { build } = await load('esbuild/lib/main.js');
+      await build({ absWorkingDir: root, entryPoints: ['main.js'], bundle: true, format: 'esm', outdir: path.join(root, 'out'), logLevel: 'silent' });
+      fs.writeFileSync(path.join(root, 'out/index.html'), page);
+      assert.match(await titleOf(path.join(root, 'out')), kSaid, 'esbuild');
+    });
+    await made(async (root) => {
+      assert.deepEqual(await packed({ mode: 'development', context: root, entry: './main.js', output: { path: path.join(root, 'out'), publicPath: 'auto' }, performance: { hints: false } }), []);
+      fs.writeFileSync(path.join(root, 'out/index.html'), page.replace('type="module" ', ''));
+      assert.match(await titleOf(path.join(root, 'out')), kSaid, 'webpack');
+    });
+  },
+
   // Without a bundler: the file that unpkg and jsdelivr serve.
   async browsersLoadTheFileOfUnpkg() {
     const root = project('cotan'), folder = path.join(root, 'node_modules/cotan'), { unpkg, jsdelivr } = JSON.parse(fs.readFileSync(path.join(folder, 'package.json'), 'utf8'));

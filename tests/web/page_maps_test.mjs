@@ -64,6 +64,15 @@ await fact('shadersEqualTheCommandLinesAndTheAddressKeepsTheChoice', async () =>
   return copied === shown ? '' : 'what was copied is not what is shown';
 });
 
+// The wrong frame for most maps must not be the one that is shown first.
+await fact('theFirstShaderIsForMapsThatWereBakedForMikkTSpace', async () => {
+  const page = await open({}, '#shader');
+  await page.waitForFunction(() => document.querySelector('#shader-panel pre code')?.textContent.length > 500);
+  const text = await page.textContent('#shader-panel pre code'), tools = run('shader', '--lang', 'essl', '--frame', 'orthonormal', '--preset', 'gltf');
+  await page.context().close();
+  return text.trim() === tools.trim() ? '' : `the page begins with ${text.slice(0, 300)}`;
+});
+
 await fact('shadersOfTheFrameTriangleAreGivenByStage', async () => {
   for (const stage of ['fragment', 'mesh']) {
     const page = await open({}, `#shader?lang=wgsl&frame=triangle&map=gltf&stage=${stage}`);

@@ -1,9 +1,10 @@
 // Models on the web page: its verdicts, renders, checks and fixes, in headless Chromium, used as a visitor uses it
 // (page_visit.mjs documents the arguments).
-import { existsSync, readFileSync, readdirSync, statSync, writeFileSync } from 'node:fs';
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
-import { data, decode, domed, drawn, drop, end, fact, hasData, model, needsData, open, partsOfGlb, problem, run, same,
-  saved, scratch, settled, texelsEqual, texture } from './page_visit.mjs';
+import { data, decode, domed, modules, drawn, drop, end, fact, hasData, model, needsData, open, partsOfGlb, problem, run, same,
+  saved, scratch, settled, texelsEqual, viewed } from './page_visit.mjs';
 
 await fact('modelsAreDrawnTwiceWithTheAngleBetween', async () => {
   const page = await open();
@@ -128,7 +129,7 @@ await fact('realModelsAreJudgedAndDrawn', async () => {
     await drop(page, files);
     const words = await page.textContent('#result');
     if (!/primitives, normal maps/.test(words)) wrong.push(`${basename(files[0])}: ${words.slice(0, 200)} ${await problem(page)}`);
-    else if (await drawn(page, '.view canvas') < 0.01) wrong.push(`${basename(files[0])}: the picture is blank`);
+    else if (await viewed(page) && await drawn(page, '.view canvas') < 0.01) wrong.push(`${basename(files[0])}: the picture is blank`);
     await page.screenshot({ path: join(scratch, `page-${basename(files[0])}.png`) });
   }
   await page.context().close();
@@ -152,6 +153,123 @@ await fact('convertedModelsEqualThoseOfTheCommandLine', async () => {
     if (!ours.json.images.some(image => image.bufferView === k && image.mimeType === 'image/png') || !texelsEqual(decode(a), decode(b))) return `bufferViews[${k}] differs`;
   }
 }, needsData);
+
+// A model of 158 KB once waited 11 seconds for its view, although the check took 0.4.
+await fact('theVerdictComesBeforeTheView', async () => {
+  const page = await open(), file = await domed('verdict.glb', true, [0.3, 0.5, 0.7]);
+  let release;
+  const released = new Promise(done => { release = done; });
+  await page.route(/\/parts\/model_(load|view)-/, async route => { await released; await route.continue(); });
+  await page.reload();
+  await drop(page, [file]);
+  const verdict = await page.textContent('.verdict'), view = await page.textContent('.view'), canvases = await page.locator('.view canvas').count();
+  if (!/It needs no stored tangents/.test(verdict) || !/The view is loading/.test(view) || canvases !== 0) return `before the view: ${verdict} ${view}`;
+  // The check and the file do not need the view either.
+  await page.waitForFunction(() => /The check passes/.test(document.querySelector('[data-check]').textContent));
+  await saved(page, () => page.click('text=Convert and download'));
+  release();
+  await viewed(page);
+  if (await drawn(page, '.view canvas') < 0.05) return 'the picture is blank';
+  await page.context().close();
+});
+
+// A model that is dropped while the view of another one is loading replaces it.
+await fact('aLateViewOfAnotherModelIsDropped', async () => {
+  const page = await open(), [first, second] = [await domed('first.glb', true, [1, 0, 0]), await domed('second.glb', true, [0, 0, 1])];
+  let release;
+  const released = new Promise(done => { release = done; });
+  await page.route(/\/parts\/model_view-/, async route => { await released; await route.continue(); });
+  await page.reload();
+  await drop(page, [first]);
+  await drop(page, [second]);
+  release();
+  await viewed(page);
+  await page.waitForTimeout(500);
+  const labels = await page.evaluate(() => [...document.querySelectorAll('.view canvas')].map(canvas => canvas.ariaLabel));
+  await page.context().close();
+  return labels.length === 1 && /second\.glb/.test(labels[0]) ? '' : `shows ${labels}`;
+});
+
+// Such a file was once "displayed, but could not be checked", with an angle of 0.00 degrees.
+await fact('truncatedModelsAreRefused', async () => {
+  const page = await open(), whole = readFileSync(await domed('whole.glb', true, [0.3, 0.5, 0.7])), wrong = [];
+  for (const share of [0.05, 0.3, 0.6, 0.9, 0.999]) {
+    writeFileSync(join(scratch, 'cut.glb'), whole.subarray(0, Math.floor(share * whole.length)));
+    await drop(page, [join(scratch, 'cut.glb')]);
+    const words = await problem(page), left = await page.textContent('#result');
+    if (!words || /\n/.test(words) || left) wrong.push(`${share}: says "${words}" and shows "${left.slice(0, 100)}"`);
+  }
+  await page.context().close();
+  return wrong.join('\n');
+});
+
+await fact('missingFilesAreNamed', async () => {
+  const page = await open(), folder = join(data, 'models/BoomBox'), gltf = 'BoomBox.gltf';
+  await drop(page, [join(folder, gltf)]);
+  const words = await problem(page);
+  await page.context().close();
+  return /expected .*\.bin.* beside it, found nothing: drop all files together, or a zip of them/.test(words) ? '' : `says: ${words}`;
+}, needsData);
+
+// A model with its files in folders, as Sketchfab's downloads have them; and two images of one name.
+await fact('zipsAreOpened', async () => {
+  const page = await open(), place = join(scratch, 'zipped'), glb = partsOfGlb(readFileSync(await domed('for_zip.glb', true, [0.3, 0.5, 0.7]))), wrong = [];
+  mkdirSync(join(place, 'a/textures'), { recursive: true });
+  mkdirSync(join(place, 'a/other'), { recursive: true });
+  const { json, binary } = glb, { byteOffset = 0, byteLength } = json.bufferViews[json.images[0].bufferView];
+  writeFileSync(join(place, 'a/textures/the map.png'), binary.subarray(byteOffset, byteOffset + byteLength));
+  writeFileSync(join(place, 'a/other/the map.png'), 'no image');
+  writeFileSync(join(place, 'a/mesh.bin'), binary);
+  writeFileSync(join(place, 'a/scene.gltf'), JSON.stringify({ ...json, buffers: [{ byteLength: json.buffers[0].byteLength, uri: 'mesh.bin' }], images: [{ uri: 'textures/the%20map.png' }] }));
+  const zipped = (name, ...more) => execFileSync('python3', ['-m', 'zipfile', '-c', join(scratch, name), ...more], { cwd: place });
+  rmSync(join(scratch, 'model.zip'), { force: true });
+  zipped('model.zip', 'a/');
+  zipped('map.zip', 'a/textures/the map.png');
+  zipped('none.zip', 'a/mesh.bin');
+  writeFileSync(join(scratch, 'cut.zip'), readFileSync(join(scratch, 'model.zip')).subarray(0, 500));
+  await drop(page, [join(scratch, 'model.zip')]);
+  if (!/1, 1/.test(await page.textContent('#result'))) wrong.push(`the model: ${await problem(page)} ${(await page.textContent('#result')).slice(0, 300)}`);
+  await viewed(page);
+  if (await drawn(page, '.view canvas') < 0.05) wrong.push('its picture is blank');
+  await drop(page, [join(scratch, 'map.zip')]);
+  if (!/the map\.png, 64 x 64/.test(await page.textContent('#result'))) wrong.push(`the map: ${await problem(page)}`);
+  for (const [name, words] of [['cut.zip', /cut\.zip: expected the end of a zip, found none/], ['none.zip', /./]]) {
+    await drop(page, [join(scratch, name)]);
+    if (!words.test(await problem(page))) wrong.push(`${name}: ${await problem(page)}`);
+  }
+  await page.context().close();
+  return wrong.join('\n');
+});
+
+// Colours under transparent alpha are part of the map: a canvas would lose them.
+await fact('webpMapsAreReadWithoutLosses', async () => {
+  const { createRequire } = await import('node:module'), sharp = createRequire(join(modules, 'x.js'))('sharp');
+  const page = await open(), side = 64, texels = new Uint8Array(4 * side * side).map((_, i) => (i % 4 === 3 ? i >> 2 & 255 : 60 + (i * 7919 >> 3) % 140));
+  writeFileSync(join(scratch, 'alpha.webp'), await sharp(texels, { raw: { width: side, height: side, channels: 4 } }).webp({ lossless: true, exact: true }).toBuffer());
+  const found = await page.evaluate(async bytes => {
+    const worker = new Worker(new URL('worker.js', document.baseURI), { type: 'module' });
+    const answer = new Promise(done => { worker.onmessage = ({ data }) => done(data); });
+    worker.postMessage({ call: 1, name: 'decodePicture', values: [Uint8Array.from(bytes), 'alpha.webp'] });
+    const { result, error } = await answer;
+    return error?.message ?? [...result.data];
+  }, [...readFileSync(join(scratch, 'alpha.webp'))]);
+  if (typeof found === 'string') return found;
+  const wrong = found.filter((value, i) => value !== texels[i]).length;
+  if (wrong > 0 || found.length !== texels.length) return `${wrong} of ${texels.length} numbers differ`;
+  // And a model with such a map gets the verdict of the same model with PNG.
+  const { NodeIO } = await import(join(modules, '@gltf-transform/core/dist/index.js')), { EXTTextureWebP } = await import(join(modules, '@gltf-transform/extensions/dist/index.js'));
+  const file = await domed('plain.glb', true, [0.3, 0.5, 0.7]), document = await new NodeIO().read(file), [map] = document.getRoot().listTextures();
+  document.createExtension(EXTTextureWebP).setRequired(true);
+  map.setImage(new Uint8Array(await sharp(map.getImage()).webp({ lossless: true }).toBuffer())).setMimeType('image/webp');
+  writeFileSync(join(scratch, 'webp.glb'), await new NodeIO().registerExtensions([EXTTextureWebP]).writeBinary(document));
+  const verdicts = [];
+  for (const name of ['plain.glb', 'webp.glb']) {
+    await drop(page, [join(scratch, name)]);
+    verdicts.push(await page.textContent('.verdict + p'));
+  }
+  await page.context().close();
+  return verdicts[0] && verdicts[0] === verdicts[1] ? '' : verdicts.join('\n');
+});
 
 await fact('ktx2MapsAreReportedWithAdvice', async () => {
   const page = await open();

@@ -93,6 +93,8 @@ export async function dropOnly(page, files, { keep = false } = {}) {
 
 export const settled = page => page.waitForFunction(() => document.getElementById('status').textContent === ''
   && (document.getElementById('problem').textContent !== '' || document.getElementById('result').childNodes.length > 0), undefined, { timeout: 60000 });
+// Waits for the view of a model, which comes after the verdict.
+export const viewed = page => page.waitForSelector('.view[data-shows]', { state: 'attached', timeout: 120000 });
 export const problem = page => page.textContent('#problem');
 
 export async function saved(page, click) {

@@ -272,20 +272,66 @@ const cases = {
     assert.equal(gone, 1);
   },
 
+  // 0.160 has no three/tsl at all, 0.180 has one without the names that are needed.
   async olderVersionsOfThreeWorkAndTooOldOnesAreRefused() {
-    if (!fs.existsSync(path.join(modules, 'three180'))) skip('three180 is not installed (see the test npm_packages)');
-    const place = installed(tarball);
-    fs.symlinkSync(path.join(path.resolve(modules), 'three180'), path.join(place, 'node_modules/three'));
-    fs.writeFileSync(path.join(place, 'from.mjs'), 'export const from = (name) => import(name);\n');
     globalThis.self ??= globalThis; // three 0.180's nodes ask for it
-    const { from: older } = await import(pathToFileURL(path.join(place, 'from.mjs'))), old = await older('three');
-    assert.equal(old.REVISION, '180');
-    const material = new old.MeshStandardMaterial({ normalMap: new old.DataTexture(new Uint8Array(4), 1, 1) });
-    (await older('cotan/three')).untangle(new old.Mesh(new old.PlaneGeometry(), material));
-    assert.match(material.customProgramCacheKey(), /cotan,cotangent/);
-    await assert.rejects(older('cotan/three/tsl'), (error) => error.code === 'unavailable' && error.message === 'three: expected version 0.185 or later for cotan/three/tsl, found 180');
-    // The peer dependency requires no more than that.
-    assert.equal(JSON.parse(fs.readFileSync(path.join(place, 'node_modules/cotan/package.json'), 'utf8')).peerDependencies.three, '>=0.160.0');
+    for (const revision of ['160', '180']) {
+      if (!fs.existsSync(path.join(modules, `three${revision}`))) skip(`three${revision} is not installed (see the test npm_packages)`);
+      const place = installed(tarball);
+      fs.symlinkSync(path.join(path.resolve(modules), `three${revision}`), path.join(place, 'node_modules/three'));
+      fs.writeFileSync(path.join(place, 'from.mjs'), 'export const from = (name) => import(name);\n');
+      const { from: older } = await import(pathToFileURL(path.join(place, 'from.mjs'))), old = await older('three');
+      assert.equal(old.REVISION, revision);
+      const material = new old.MeshStandardMaterial({ normalMap: new old.DataTexture(new Uint8Array(4), 1, 1) }), classic = await older('cotan/three');
+      classic.untangle(new old.Mesh(new old.PlaneGeometry(), material));
+      assert.match(material.customProgramCacheKey(), /cotan,cotangent/);
+      await assert.rejects(older('cotan/three/tsl'), (error) => error instanceof classic.CotanError && error.code === 'unavailable'
+        && error.message === `three: expected version 0.185 or later for cotan/three/tsl, found ${revision}`);
+      // The peer dependency requires no more than that.
+      assert.equal(JSON.parse(fs.readFileSync(path.join(place, 'node_modules/cotan/package.json'), 'utf8')).peerDependencies.three, '>=0.160.0');
+    }
+  },
+
+  // three leaves the nodes of such a material out of the key by which it shares programs. A program of its own for each
+  // material would cost 20 times as long at the first frame of 100 materials.
+  async materialsOfOneFrameShareAProgramAndOthersDoNot() {
+    const TSL = await from('cotan/three/tsl'), maps = [mapOf('a'), mapOf('b')];
+    for (const Kind of [THREE.MeshStandardMaterial, THREE.MeshPhysicalMaterial]) {
+      const [a, b] = maps.map((normalMap) => TSL.replaceFrame(new Kind({ normalMap }))), key = a.customProgramCacheKey();
+      assert.equal(key, b.customProgramCacheKey());
+      assert.equal(key, a.clone().customProgramCacheKey());
+      const twoChannels = mapOf('c');
+      twoChannels.format = THREE.RGFormat;
+      assert.notEqual(key, TSL.replaceFrame(new Kind({ normalMap: twoChannels })).customProgramCacheKey());
+      assert.notEqual(key, TSL.replaceFrame(new Kind({ normalMap: maps[0] }), { frame: 'smooth' }).customProgramCacheKey());
+      assert.notEqual(key, TSL.replaceFrame(new Kind({ normalMap: maps[0] }), { against: true }).customProgramCacheKey());
+      const own = TSL.replaceFrame(new Kind({ normalMap: maps[0] }));
+      own.colorNode = TSL.perturbedNormal(maps[0]); // a node of the user
+      assert.notEqual(key, own.customProgramCacheKey());
+      a.customProgramCacheKey = () => 'set later'; // by the user
+      assert.match(a.customProgramCacheKey(), /cotan,orthonormal,.*set later/);
+      TSL.replaceFrame(a, { frame: 'cotangent' });
+      assert.match(a.customProgramCacheKey(), /cotan,cotangent,.*set later/);
+    }
+  },
+
+  // A map that is named without a mesh is read like most are baked, as `cotan shader` advises. The functions are found in
+  // what the node makes for a builder that says no more than which language it needs.
+  async nodesOfAUserReadMapsForMikkTSpaceUnlessAFrameIsNamed() {
+    const { perturbedNormal } = await from('cotan/three/tsl');
+    const builder = { isFlatShading: () => false, renderer: { backend: { isWebGPUBackend: true } } };
+    const framesOf = (frame) => {
+      const seen = new Set(), found = new Set();
+      const walk = (part) => {
+        if (!part || typeof part !== 'object' || seen.has(part)) return;
+        seen.add(part);
+        for (const [, name] of typeof part.code === 'string' ? part.code.matchAll(/fn cotan_frame_(\w+)/g) : []) found.add(name);
+        Object.values(part).forEach(walk);
+      };
+      walk(perturbedNormal(mapOf(), undefined, frame).shaderNode.jsFunc([], builder));
+      return [...found].join();
+    };
+    assert.deepEqual([undefined, 'orthonormal', 'cotangent'].map(framesOf), ['orthonormal', 'orthonormal', 'cotangent']);
   },
 
   unknownArgumentsAreRefused() {

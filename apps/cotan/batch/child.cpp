@@ -131,7 +131,7 @@ int runJobProcess(int argc, const char* const* argv, const std::function<int(con
     watchInputs({});
     watchOutputs({});
     const std::string text = j.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-    const Status written = writeBytes(request.work / kAnswerName, std::as_bytes(std::span(text)));
+    const Status written = writeFileWhole(request.work / kAnswerName, text);
     return written ? code : code != 0 ? code : int(ErrorKind::output);
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/named_values.hpp"
 #include "html.hpp"
 #include "words.hpp"
 
@@ -200,7 +201,7 @@ std::string link(const std::string& path)
 {
     std::string text;
     for (const char c : path)
-        if (std::isalnum(static_cast<unsigned char>(c)) || std::string_view("-_./~").find(c) != std::string_view::npos)
+        if (isLetter(c) || isDigit(c) || std::string_view("-_./~").find(c) != std::string_view::npos)
             text += c;
         else
             text += fmt::format("%{:02X}", static_cast<unsigned char>(c));

@@ -9,9 +9,9 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
+
+#include "files/children.hpp"
 
 namespace cotan {
 
@@ -45,8 +45,7 @@ JobProcess::~JobProcess()
     if (process_ < 0)
         return;
     ::kill(-process_, SIGKILL);
-    while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR)
-        ;
+    waitFor(process_);
 }
 
 Result<JobProcess> JobProcess::start(const std::string& program, const std::filesystem::path& folder,
@@ -91,9 +90,9 @@ std::optional<Ending> JobProcess::look()
     listen();
     Ending ending;
     rusage usage{};
-    const pid_t found = ::wait4(process_, &ending.status, WNOHANG, &usage);
+    const Waited found = waitFor(process_, /*look*/ true, ending.status, &usage);
     const auto now = Clock::now();
-    if (found == 0 || (found < 0 && errno == EINTR)) {
+    if (found == Waited::running) {
         if (!terminated_ && now >= deadline_) {
             ::kill(-process_, SIGTERM);
             terminated_ = true;
@@ -107,6 +106,7 @@ std::optional<Ending> JobProcess::look()
     ::kill(-process_, SIGKILL); // kills processes that it left running
     process_ = -1;
     listen(); // reads the remaining output
+    ending.lost = found == Waited::lost;
     ending.late = terminated_;
     ending.output = cut_ ? head_ + "\n...\n" + tail_ : head_ + tail_;
     ending.seconds = Seconds(now - began_).count();

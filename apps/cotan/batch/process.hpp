@@ -16,7 +16,8 @@ namespace cotan {
 
 // How a process ended. megabytes: maximum resident memory in MiB. late: the time limit was exceeded.
 struct Ending {
-    int status = 0; // as waitpid gives it
+    int status = 0;    // as waitpid gives it
+    bool lost = false; // the status is unknown
     bool late = false;
     std::string output; // beginning and end of its output
     double seconds = 0, processorSeconds = 0;

@@ -13,9 +13,9 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/wait.h>
 
 #include "files/bytes.hpp"
+#include "files/children.hpp"
 #include "files/output.hpp"
 #include "files/sandbox/request.hpp"
 #include "process.hpp"
@@ -91,6 +91,10 @@ void judge(const Ending& ending, const Limits& limits, JobRecord& record)
         record.state = state;
         record.reason = std::move(reason);
     };
+    if (ending.lost) {
+        record.code = int(ErrorKind::unavailable);
+        return is(JobState::failed, "it ended, but how is unknown: the system has discarded its exit code");
+    }
     const int status = ending.status;
     const bool signalled = WIFSIGNALED(status);
     const int signal = signalled ? WTERMSIG(status) : 0, code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -328,7 +332,7 @@ private:
         record.megabytes = ending.megabytes;
         record.runs = runs_[r.job];
         judge(ending, limitsOf(options_, job.options), record);
-        if (!WIFEXITED(ending.status) || record.state == JobState::memory)
+        if (ending.lost || !WIFEXITED(ending.status) || record.state == JobState::memory)
             for (const std::string& output : job.outputs)
                 removeParts((list_.folder / output).parent_path(), number);
         const fs::path report = job.json.empty() ? r.work / kReportName : list_.folder / job.json;

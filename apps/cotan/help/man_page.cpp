@@ -2,9 +2,9 @@
 #include "help/help_files.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <sstream>
 
+#include "core/named_values.hpp"
 #include "terminal/command_walk.hpp"
 
 namespace cotan {
@@ -49,17 +49,16 @@ std::string sentence(std::string text)
         return text;
     // A name keeps its case: "glTF".
     const std::size_t end = std::min(text.find_first_of(" :,"), text.size());
-    if (std::all_of(text.begin(), text.begin() + std::ptrdiff_t(end),
-                    [](unsigned char c) { return std::islower(c) || c == '-'; }))
-        text[0] = char(std::toupper(static_cast<unsigned char>(text[0])));
+    if (std::all_of(text.begin(), text.begin() + std::ptrdiff_t(end), [](char c) { return isLower(c) || c == '-'; }))
+        text[0] = upperLetter(text[0]);
     return text + (text.ends_with('.') || text.ends_with("...") ? "" : ".");
 }
 
 // Turns "Bake a map." into the style of apropos: "bake a map".
 std::string withoutStop(std::string text)
 {
-    if (text.size() > 1 && std::islower(static_cast<unsigned char>(text[1])))
-        text[0] = char(std::tolower(static_cast<unsigned char>(text[0])));
+    if (text.size() > 1 && isLower(text[1]))
+        text[0] = lowerLetter(text[0]);
     if (text.ends_with('.'))
         text.pop_back();
     return text;
@@ -122,18 +121,18 @@ std::string pageOf(const std::vector<const CommandHelp*>& path, std::size_t leng
 
 } // namespace
 
-std::string manPage(const std::vector<const CommandHelp*>& path, const std::string& version)
+std::string manPage(const std::vector<const CommandHelp*>& path, const std::string& version,
+                    const std::string& repository)
 {
     const CommandHelp& command = *path.back();
     const std::string name = pageOf(path, path.size());
-    std::string words = path[0]->name, upper = name;
+    std::string words = path[0]->name;
     for (std::size_t i = 1; i < path.size(); ++i)
         words += " " + path[i]->name;
-    std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return char(std::toupper(c)); });
 
     std::string page = ".\\\" Made from the same table as \"" + words + " --help\".\n";
-    page +=
-        ".TH " + literal(upper) + " 1 \"\" \"" + path[0]->name + " " + version + "\" \"User Commands\"\n.nh\n.ad l\n";
+    page += ".TH " + literal(upperCase(name)) + " 1 \"\" \"" + path[0]->name + " " + version
+        + "\" \"User Commands\"\n.nh\n.ad l\n";
     page += heading("NAME") + literal(name) + " \\- " + prose(withoutStop(replaced(command.summary, "\n", " "))) + "\n";
     page += heading("SYNOPSIS") + bold(words);
     page += command.commands.empty() ? "" : " " + italic("COMMAND");
@@ -168,6 +167,8 @@ std::string manPage(const std::vector<const CommandHelp*>& path, const std::stri
             + prose(command.closing.substr(
                 std::min(command.closing.size(), command.closing.starts_with("Exit codes: ") ? std::size_t(12) : 0)))
             + "\n";
+    if (path.size() == 1 && !repository.empty())
+        page += heading("\"REPORTING BUGS\"") + literal(repository) + "\n";
     if (path.size() > 1)
         page += heading("\"SEE ALSO\"") + bold(pageOf(path, path.size() - 1)) + "(1)\n";
     return page;

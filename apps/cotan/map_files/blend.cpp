@@ -35,10 +35,11 @@ Result<BlendedFile> blendFiles(const std::filesystem::path& base, const std::fil
                                  .type = bits->type,
                                  .dither = o.dither,
                                  .imageHeight = in.height};
+    const bool alpha = in.alpha && settings.base.channels == Channels::xyz && to.channels == Channels::xyz;
     std::atomic<std::size_t> invalid = 0;
-    const Status streamed = streamToFile(in, {}, out, {in.width, in.height, bits->type, false, bits->half, in.frame},
+    const Status streamed = streamToFile(in, {}, out, {in.width, in.height, bits->type, alpha, bits->half, in.frame},
                                          files.threads, files.progress, [&](Image& strip, int firstRow) {
-                                             opened->put(strip);
+                                             opened->put(strip, firstRow);
                                              BlendSettings here = settings;
                                              here.firstRow = firstRow;
                                              std::size_t found = 0;
@@ -48,7 +49,10 @@ Result<BlendedFile> blendFiles(const std::filesystem::path& base, const std::fil
                                          });
     if (!streamed)
         return streamed.error();
-    return BlendedFile{in.width, in.height, *bits, invalid, to};
+    BlendedFile done{in.width, in.height, *bits, invalid, to};
+    addNote(opened->note(), done.notes);
+    addNote(fine->note, done.notes);
+    return done;
 }
 
 } // namespace cotan::maps

@@ -24,6 +24,7 @@ struct BlendedFile {
     Bits bits;
     std::size_t invalid = 0; // texels without a direction in one of the maps; only the other one counts there
     Convention to{};         // of the result
+    std::vector<std::string> notes = {}; // what contradicts a stated convention, one line each
 };
 
 // Blends two files; the detail and the mask are held in memory. Errors: as openRows, readImage and createRows;

@@ -35,6 +35,7 @@ Result<Image> convertByMesh(const std::filesystem::path& file, const MeshOfMap& 
     const auto map = readMap(file, settings.from, "options.from", files.limits);
     if (!map)
         return map.error();
+    addNote(map->note, done.notes);
     auto converted = recodeByMesh(map->image, settings, mesh, files.progress, done.counts, done.covered);
     if (converted && done.covered == 0)
         return inputError(
@@ -48,6 +49,7 @@ Result<Image> convertWhole(const std::filesystem::path& file, const RecodeSettin
     const auto map = readMap(file, settings.from, "options.from", files.limits);
     if (!map)
         return map.error();
+    addNote(map->note, done.notes);
     CountedSteps steps(files.progress, 2);
     if (!steps.step())
         return stoppedError();
@@ -81,7 +83,7 @@ Status convertByRows(const OpenMap& map, const std::filesystem::path& out, const
     const Status streamed =
         streamToFile(in, {}, out, {in.width, in.height, done.bits.type, alpha, done.bits.half, done.frame},
                      files.threads, files.progress, [&](Image& strip, int firstRow) {
-                         map.put(strip);
+                         map.put(strip, firstRow);
                          RecodeSettings here = settings;
                          here.firstRow = firstRow;
                          RecodeCounts found;
@@ -91,6 +93,7 @@ Status convertByRows(const OpenMap& map, const std::filesystem::path& out, const
                          return rows;
                      });
     done.counts = {invalid, clamped};
+    addNote(map.note(), done.notes);
     return streamed;
 }
 

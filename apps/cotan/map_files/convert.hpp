@@ -38,7 +38,8 @@ struct ConvertedFile {
     // Image::frame of the result, stored in .png, .exr and .ktx2: that of the map; from object space that of the mesh;
     // to object space none.
     std::string frame = {};
-    Convention from{}; // how the map was read
+    Convention from{};                   // how the map was read
+    std::vector<std::string> notes = {}; // what contradicts a stated convention, one line each
 };
 
 // Converts a file. With a mesh, or to .dds or .ktx2, the map is held in memory. Errors: ErrorKind::usage for options

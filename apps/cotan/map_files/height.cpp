@@ -127,7 +127,9 @@ Result<ToHeightFile> heightFromNormalsFile(const std::filesystem::path& file, co
     if (Status written = writeMap(out, heightImage(h, *map, bits->type, unit), *bits); !written)
         return written.error();
     steps.step();
-    return ToHeightFile{map->width, map->height, *bits, std::move(h), unit, read->convention};
+    ToHeightFile done{map->width, map->height, *bits, std::move(h), unit, read->convention};
+    addNote(read->note, done.notes);
+    return done;
 }
 
 } // namespace cotan::maps

@@ -49,9 +49,10 @@ struct ToHeightFileOptions {
 struct ToHeightFile {
     int width = 0, height = 0;
     Bits bits;
-    Heights heights;   // in texels
-    double unit = 1;   // width of a texel, in metres if `metres` was given
-    Convention from{}; // how the map was read
+    Heights heights;                     // in texels
+    double unit = 1;                     // width of a texel, in metres if `metres` was given
+    Convention from{};                   // how the map was read
+    std::vector<std::string> notes = {}; // what contradicts a stated convention, one line each
 };
 
 // Writes the heights of a normal map; floats keep their unit, integers go from black (lowest) to white. The map is held

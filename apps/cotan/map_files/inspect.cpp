@@ -70,9 +70,9 @@ Result<ComparedFiles> compareFiles(const std::filesystem::path& fileA, const Sta
         heatWriter = *std::move(writer);
     }
     AngleCounter angles;
-    const auto work = [&](std::span<Image> strips, int) -> std::function<Status()> {
-        a->put(strips[0]);
-        b->put(strips[1]);
+    const auto work = [&](std::span<Image> strips, int firstRow) -> std::function<Status()> {
+        a->put(strips[0], firstRow);
+        b->put(strips[1], firstRow);
         auto degrees = anglesBetween(strips[0], a->convention, strips[1], b->convention);
         Image rows = heatWriter ? heatMap(degrees, width, strips[0].height) : Image{};
         return [&, degrees = std::move(degrees), rows = std::move(rows)]() -> Status {
@@ -87,7 +87,10 @@ Result<ComparedFiles> compareFiles(const std::filesystem::path& fileA, const Sta
         if (Status written = heatWriter->finish(); !written)
             return written.error();
     const AngleStatistics s = angles.statistics();
-    return ComparedFiles{s, std::size_t(width) * std::size_t(height) - s.count, a->convention, b->convention};
+    ComparedFiles done{s, std::size_t(width) * std::size_t(height) - s.count, a->convention, b->convention};
+    addNote(a->note(), done.notes);
+    addNote(b->note(), done.notes);
+    return done;
 }
 
 } // namespace cotan::maps

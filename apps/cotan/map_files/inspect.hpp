@@ -39,9 +39,10 @@ std::vector<std::string> linesOf(const GreenOfFile& found, const std::string& fi
 Json toJson(const GreenOfFile& found);
 
 struct ComparedFiles {
-    AngleStatistics angles;  // degrees between the two, over the texels with a direction in both
-    std::size_t skipped = 0; // other texels
-    Convention a{}, b{};     // how the maps were read
+    AngleStatistics angles;              // degrees between the two, over the texels with a direction in both
+    std::size_t skipped = 0;             // other texels
+    Convention a{}, b{};                 // how the maps were read
+    std::vector<std::string> notes = {}; // what contradicts a stated convention, one line each
 };
 
 // Compares two maps of the same size, each with its own convention. heat: an image of the angles in the colours of

@@ -18,7 +18,20 @@ bool holds(const ImageFormat& format, PixelType type)
     return type == PixelType::unorm8 ? format.bits8 : type == PixelType::unorm16 ? format.bits16 : format.floats;
 }
 
+std::string noteOn(const std::string& option, const std::string& file, const std::string& contradiction)
+{
+    return contradiction.empty() ? contradiction : fmt::format("{}: {}: {}", option, file, contradiction);
+}
+
 } // namespace
+
+std::string OpenMap::note() const { return noteOn(option, name, contradictionOf(greenOf(*sample), convention)); }
+
+void addNote(std::string note, std::vector<std::string>& notes)
+{
+    if (!note.empty())
+        notes.push_back(std::move(note));
+}
 
 std::size_t workBudget(const std::filesystem::path& file, const LoadLimits& limits)
 {
@@ -92,7 +105,8 @@ Result<LoadedMap> readMap(const std::filesystem::path& file, const StatedConvent
     if (convention->channels != Channels::xyz)
         unswizzle(*image, swizzleOf(*image));
     undo(stated.damage, *image);
-    return LoadedMap{*std::move(image), *convention};
+    std::string note = noteOn(option, file.string(), contradictionOf(*image, *convention));
+    return LoadedMap{*std::move(image), *convention, std::move(note)};
 }
 
 Status writeMap(const std::filesystem::path& file, const Image& image, const Bits& bits)
@@ -116,7 +130,9 @@ Result<OpenMap> openMap(const std::filesystem::path& file, const StatedConventio
     const auto convention = conventionOf(stated, (*reader)->name, (*reader)->channels, option);
     if (!convention)
         return convention.error();
-    OpenMap map{*std::move(reader), *convention, Swizzle::rg, stated.damage};
+    OpenMap map{*std::move(reader), *convention, Swizzle::rg, stated.damage, option, file.string()};
+    map.sample =
+        std::make_unique<PatchSampler>(map.rows->width, map.rows->height, map.rows->type, PatchSampler::kQuickSide);
     if (convention->channels == Channels::xyz || !map.rows->alpha)
         return map;
     ChannelRange range;

@@ -7,12 +7,15 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "cotan/convention.hpp"
 #include "cotan/files.hpp"
 #include "cotan/image.hpp"
 #include "cotan/maps.hpp"
 #include "cotan/result.hpp"
+#include "maps/patches.hpp"
 #include "maps/texels.hpp"
 
 namespace cotan::maps {
@@ -47,6 +50,7 @@ Status checkSigned(const Convention& to, const Bits& bits, const std::filesystem
 struct LoadedMap {
     Image image;
     Convention convention;
+    std::string note; // what contradicts the stated convention; empty if nothing does
 };
 
 // Limit in bytes for work on an image, as for decoding it (imageBudget): it grows with the size of the file, up to
@@ -61,20 +65,30 @@ Result<LoadedMap> readMap(const std::filesystem::path& file, const StatedConvent
 // Writes a whole image. Errors: as writeImage.
 Status writeMap(const std::filesystem::path& file, const Image& image, const Bits& bits);
 
-// A map to be read by rows. Strips must be passed to put(), which moves x and y to red and green.
+// A map to be read by rows. Strips must be passed to put().
 struct OpenMap {
     std::unique_ptr<RowReader> rows;
     Convention convention;
     Swizzle swizzle = Swizzle::rg;
     Damage damage{};
+    std::string option{}, name{}; // that states the convention; of the file
+    std::unique_ptr<PatchSampler> sample{};
 
-    // Moves x to red and y to green in rows as read, and repairs the known damage.
-    void put(Image& strip) const
+    // Moves x to red and y to green in rows as read, and repairs the known damage. Several threads may call it for
+    // different rows.
+    void put(Image& strip, int firstRow) const
     {
         unswizzle(strip, swizzle);
         undo(damage, strip);
+        sample->add(strip, firstRow);
     }
+    // After all rows: what contradicts the stated convention, as a line that begins with the option; empty if nothing
+    // does.
+    std::string note() const;
 };
+
+// Appends a note that is not empty.
+void addNote(std::string note, std::vector<std::string>& notes);
 
 // Opens a map. A map of two channels in a file of four is read through once to find these channels. Errors: as openRows
 // and conventionOf.

@@ -145,6 +145,7 @@ Result<MippedFile> writeMips(const std::filesystem::path& file, const std::files
         return written.error();
     steps.step();
     MippedFile done{from, to, {}};
+    addNote(read->note, done.notes);
     for (const MipLevel& level : chain)
         done.levels.push_back({level.normals.width, level.normals.height, level.meanLength, level.meanRoughness});
     return done;

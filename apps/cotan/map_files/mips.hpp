@@ -31,6 +31,7 @@ struct MipLevelFigures {
 struct MippedFile {
     Convention from{}, to{}; // conventions of the map and of its levels
     std::vector<MipLevelFigures> levels;
+    std::vector<std::string> notes = {}; // what contradicts a stated convention, one line each
 };
 
 // Writes all levels and the roughness that they need: .dds and .ktx2 hold both, the roughness in alpha; with "bc5" it

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -50,6 +51,9 @@ OptionHelp helpOf(const CLI::Option& option, const Argument::Facts& facts)
         help.minimum = type.substr(range + 5, to - range - 5);
         help.maximum = type.substr(to + 3, type.find(']', to) - to - 3);
     }
+    if ((help.kind == ValueKind::file || help.kind == ValueKind::folder) && facts.use == FileUse::none
+        && !help.positional)
+        throw std::logic_error(help.names.back() + ": expected reads() or writes() for an option that names a file");
     help.usual = option.get_default_str();
     help.required = option.get_required() || facts.needed;
     help.repeated = option.get_items_expected_max() > 1;

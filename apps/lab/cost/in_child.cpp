@@ -7,8 +7,9 @@
 
 #include <fcntl.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
+
+#include "files/children.hpp"
 
 namespace cotan::cost {
 
@@ -44,9 +45,8 @@ namespace {
 std::string endOf(pid_t child, int seconds)
 {
     int status = 0;
-    while (::waitpid(child, &status, 0) < 0)
-        if (errno != EINTR)
-            return "was lost";
+    if (waitFor(child, /*look*/ false, status) == Waited::lost)
+        return "was lost";
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
         return "took more than " + std::to_string(seconds) + " s";
     if (WIFSIGNALED(status))

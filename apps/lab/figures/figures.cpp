@@ -1,7 +1,6 @@
 #include "figures/figures.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -52,12 +51,6 @@ Result<std::vector<FigureInfo>> chosenFigures(const std::vector<std::string>& on
     return figures;
 }
 
-std::string readBytes(const std::filesystem::path& file)
-{
-    std::ifstream stream(file, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(stream), {});
-}
-
 PageTable tableOf(const Figure& figure)
 {
     PageTable table{figure.measured, {"degrees", "mean", "95 %", "largest"}, {}};
@@ -98,8 +91,11 @@ Result<PageFigure> writeFigure(const std::filesystem::path& folder, const Figure
         const std::string file = fmt::format("{}-{}.png", name, panel.file);
         if (Status done = writeImage(folder / file, panel.image); !done)
             return done.error();
+        auto png = readText(folder / file, /*isInput*/ false);
+        if (!png)
+            return png.error();
         page.panels.push_back(
-            {file, panel.label, panel.caption, readBytes(folder / file), panel.image.width, panel.image.height});
+            {file, panel.label, panel.caption, *std::move(png), panel.image.width, panel.image.height});
     }
     return page;
 }

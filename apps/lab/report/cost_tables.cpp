@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include <fmt/format.h>
 
 #include "cost/scalar_count.hpp"
 #include "cost/spirv_count.hpp"
 #include "cost_markdown.hpp"
+#include "files/bytes.hpp"
 #include "files/output.hpp"
 
 namespace cotan {
@@ -361,11 +360,8 @@ std::string toCsv(const CostReport& report)
 
 Status writeTables(const std::filesystem::path& file, const std::string& tables)
 {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream old;
-    if (stream)
-        old << stream.rdbuf();
-    const std::string text = old.str();
+    const auto old = readText(file, /*isInput*/ false);
+    const std::string text = old ? *old : "";
     const std::string first = "<!-- cotan cost: from here to the end mark written by the tool -->\n",
                       last = "<!-- cotan cost: end -->\n";
     const std::size_t begin = text.find(first), end = text.find(last);

@@ -1,15 +1,13 @@
 #include "report/measurements.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <tuple>
 
 #include <fmt/format.h>
 
 #include "core/parse_number.hpp"
-#include "files/file_registry.hpp"
+#include "files/bytes.hpp"
 
 namespace cotan {
 
@@ -137,19 +135,8 @@ Result<std::vector<Measurement>> measurementsFromCsv(std::string_view text, cons
 
 Result<std::vector<Measurement>> readMeasurements(const std::filesystem::path& file)
 {
-    if (Status free = noteInput(file); !free)
-        return free.error();
-    std::error_code error;
-    const auto size = std::filesystem::file_size(file, error);
-    constexpr std::uintmax_t kLimit = 64u << 20;
-    if (error)
-        return inputError(fmt::format("{}: cannot read: {}", file.string(), error.message()));
-    if (size > kLimit)
-        return inputError(fmt::format("{}: {} bytes; expected at most {}", file.string(), size, kLimit));
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return measurementsFromCsv(text.str(), file.string());
+    const auto text = readText(file);
+    return text ? measurementsFromCsv(*text, file.string()) : text.error();
 }
 
 Json toJson(const std::vector<Measurement>& rows)

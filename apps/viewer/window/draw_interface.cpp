@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
+#include "core/real_number.hpp"
 #include "imgui_versions.hpp"
 
 namespace cotan::viewer {
@@ -15,13 +15,6 @@ namespace {
 using Commands = std::vector<std::string>;
 
 ImU32 colorOf(const glm::vec3& c, float alpha = 1) { return ImGui::GetColorU32(ImVec4(c.x, c.y, c.z, alpha)); }
-
-std::string numberText(double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return text;
-}
 
 void drawMenus(const Interface& interface, Commands& chosen)
 {
@@ -76,7 +69,7 @@ void drawSliders(const Interface& interface, Commands& chosen)
             const std::string format = "%.3g " + slider.unit;
             if (ImGui::SliderFloat(slider.label.c_str(), &value, float(slider.low), float(slider.high), format.c_str(),
                                    flags))
-                chosen.push_back(slider.command + " " + numberText(value));
+                chosen.push_back(slider.command + " " + textOfReal(value));
         }
     ImGui::End();
 }
@@ -182,7 +175,7 @@ void drawScale(const Interface& interface)
     }
     for (std::size_t i = 0; i <= steps; ++i) {
         const float y = top + height * float(steps - i) / float(steps) - line / 2;
-        label(list, {left + 1.25f * width, y}, numberText(interface.scaleBar[i].first) + "\xc2\xb0", IM_COL32_WHITE);
+        label(list, {left + 1.25f * width, y}, textOfReal(interface.scaleBar[i].first) + "\xc2\xb0", IM_COL32_WHITE);
     }
 }
 

@@ -1,7 +1,7 @@
 // The window by GLFW. Dear ImGui gets the same events as the viewer, including played ones.
 #include <algorithm>
 #include <array>
-#include <cctype>
+#include <clocale>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -17,6 +17,7 @@
 #include <GLFW/glfw3.h>
 #include <glm/common.hpp>
 
+#include "core/named_values.hpp"
 #include "draw_interface.hpp"
 #include "imgui_input.hpp"
 #include "portal.hpp"
@@ -64,7 +65,7 @@ std::string nameOfKey(int key, int scancode)
     const char* printed = glfwGetKeyName(key, scancode); // according to the keyboard layout
     std::string name = printed ? printed : "";
     if (name.size() == 1)
-        name[0] = char(std::tolower(static_cast<unsigned char>(name[0])));
+        name[0] = lowerLetter(name[0]);
     return name;
 }
 
@@ -73,7 +74,7 @@ int keyOfName(const std::string& name)
     for (const KeyName& known : kKeys)
         if (known.name == name)
             return known.key;
-    return name.size() == 1 && name[0] >= ' ' && name[0] <= '~' ? std::toupper(name[0]) : -1;
+    return name.size() == 1 && name[0] >= ' ' && name[0] <= '~' ? upperLetter(name[0]) : -1;
 }
 
 std::string heldWords(int mods)
@@ -138,6 +139,7 @@ public:
         window_ = glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
         if (!window_)
             return unavailableError("view: no window: " + lastProblem());
+        std::setlocale(LC_NUMERIC, "C"); // GTK, which draws frames on Wayland, sets the user's; Dear ImGui reads by it
         std::uint32_t count = 0;
         const char** names = glfwGetRequiredInstanceExtensions(&count);
         presenter_ = std::make_unique<Presenter>(

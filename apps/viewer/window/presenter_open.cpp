@@ -1,8 +1,8 @@
 // Creates what lives as long as the presenter: the instance, a device that can present, the command buffer.
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 
+#include "core/named_values.hpp"
 #include "presenter.hpp"
 
 namespace cotan::viewer {
@@ -17,12 +17,6 @@ VKAPI_ATTR VkBool32 VKAPI_CALL collect(VkDebugUtilsMessageSeverityFlagBitsEXT, V
     } catch (...) {
     }
     return VK_FALSE;
-}
-
-std::string lower(std::string text)
-{
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    return text;
 }
 
 } // namespace
@@ -87,7 +81,8 @@ void Presenter::openDevice(const std::string& wanted)
             if (vkGetPhysicalDeviceSurfaceSupportKHR(candidate, f, surface_, &presents) != VK_SUCCESS || !presents
                 || !(families[f].queueFlags & VK_QUEUE_GRAPHICS_BIT))
                 continue;
-            const bool named = !wanted.empty() && lower(properties.deviceName).find(lower(wanted)) != std::string::npos;
+            const bool named =
+                !wanted.empty() && lowerCase(properties.deviceName).find(lowerCase(wanted)) != std::string::npos;
             const int score = named                                             ? 3
                 : properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU ? 2
                 : properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU          ? 0

@@ -7,10 +7,12 @@ import type { ConvertReport, Limits, LintReport, Picture } from '../cotan.js';
 export function tangents(options?: { kind?: 'mikktspace' | 'vertex'; overwrite?: boolean }): Transform;
 
 /** Drops TANGENT. `mode` is as in `convert` of the package cotan. By default the mode is what lint advises: either maps
- * stay byte for byte, for readers that use `orthonormal` or MikkTSpace, or new maps are made. Compressed geometry and
- * KTX2 maps need no decoding to drop tangents. New maps keep the format of the old ones; JPEG and WebP become PNG if
- * their encoder is missing. Materials with new maps name the frame in their extras, as `cotanFrame`, which is also the
- * default of `from`. Generates tangents if the frame `to` reads them. New maps cannot be made from KTX2: such a map
+ * stay, for readers that use `orthonormal` or MikkTSpace, or new maps are made. Maps that stay do so byte for byte, but
+ * for green where the tangents reverse it. Compressed geometry and KTX2 maps need no decoding to drop tangents. New maps
+ * keep the format of the old ones; JPEG and WebP become PNG if their encoder is missing or loses too much, as with
+ * `convert`. Tangents that glTF requires stay, with a note, and so do tangents that reverse green of a map which cannot
+ * be changed. Materials with new maps name the frame in their extras, as `cotanFrame`, which is also the default of
+ * `from`. Generates tangents if the frame `to` reads them. New maps cannot be made from KTX2: such a map
  * stays as it is with the tangents that it needs, and is listed in the report as unread_maps. */
 export function untangent(options?: {
   mode?: 'auto' | 'drop' | 'convert';

@@ -1,9 +1,9 @@
 // Transforms for glTF-Transform 4, documented in index.d.ts.
 import { Primitive, WebIO } from '@gltf-transform/core';
 import { convert, CotanError, decodePicture, encodePng, frames, lint, provoking as provokingOf, ready, split, tangents as tangentsOf } from '../cotan.js';
-import { choice, options as checked } from '../src/arrays.js';
-import { advised, kGrowth, modeOf, needsTangents, notWorthIt } from '../src/modes.js';
-import { encodeLossy, lossyFormat } from '../src/pictures.js';
+import { checkTypes, choice, options as checked } from '../src/arrays.js';
+import { imageIn, imageOfTexture, parsedModel } from '../src/glb.js';
+import { kGrowth, modeOf, tooLarge } from '../src/modes.js';
 
 const named = (name, transform) => Object.defineProperty(transform, 'name', { value: name });
 const kTangentFrames = ['mikktspace', 'vertex'];
@@ -89,7 +89,10 @@ function giveTangents(document, primitive, uvs, kind) {
   const position = primitive.getAttribute('POSITION'), indices = indicesOf(primitive), mesh = {
     positions: floatsOf(position, 3), normals: floatsOf(primitive.getAttribute('NORMAL'), 3), uvs, indices,
   };
-  const corners = tangentsOf(mesh, { kind }), splitMesh = split(position.getCount(), indices, corners);
+  const corners = tangentsOf(mesh, { kind });
+  for (let i = 0; i < corners.length; i += 4) // glTF requires unit length
+    if (corners[i] === 0 && corners[i + 1] === 0 && corners[i + 2] === 0) corners[i] = 1;
+  const splitMesh = split(position.getCount(), indices, corners);
   dropTangents(primitive);
   renumber(document, primitive, splitMesh);
   const values = new Float32Array(splitMesh.sources.length * 4).fill(0);
@@ -101,7 +104,8 @@ function giveTangents(document, primitive, uvs, kind) {
 }
 
 export function tangents(given) {
-  const { kind, overwrite } = checked(given, { kind: 'mikktspace', overwrite: false });
+  const o = checked(given, { kind: 'mikktspace', overwrite: false }), { kind, overwrite } = o;
+  checkTypes(o, 'boolean', 'overwrite');
   choice(kind, 'options.kind', ['mikktspace', 'vertex']);
   return named('tangents', async (document) => {
     await ready;
@@ -137,16 +141,15 @@ export function provoking(given) {
 }
 
 const kCompressions = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression', 'KHR_meshopt_compression'];
-const kDecoded = ['image/webp', 'image/avif']; // formats that the platform decodes; written as PNG
 
 /** The document as plain glTF in memory. Geometry compression extensions are removed meanwhile, since they would need
- * encoders. WebP and AVIF normal maps are written as PNG, unless decode is null. */
+ * encoders. AVIF normal maps, which the library does not know, are written as PNG, unless decode is null. */
 async function asPlainGltf(document, decode) {
   const aside = document.getRoot().listExtensionsUsed().filter((extension) => kCompressions.includes(extension.extensionName))
     .map((extension) => ({ Type: extension.constructor, required: extension.isRequired(), options: extension._encoderOptions }));
   const pictures = new Map();
   for (const texture of decode ? normalMapsOf(document) : [])
-    if (kDecoded.includes(texture.getMimeType()) && texture.getImage())
+    if (texture.getMimeType() === 'image/avif' && texture.getImage())
       pictures.set(texture, { image: texture.getImage(), mimeType: texture.getMimeType(), uri: texture.getURI(),
         png: await encodePng(await decode(texture.getImage(), texture.getName())) });
   for (const [texture, { png, uri }] of pictures) texture.setImage(png).setMimeType('image/png').setURI(uri && `${uri}.png`);
@@ -193,17 +196,8 @@ const normalMapsOf = (document) => [...new Set(document.getRoot().listMaterials(
 const imageBytes = (texture) => texture.getImage()?.byteLength ?? 0;
 const arrayBytes = (accessors) => accessors.reduce((sum, accessor) => sum + (accessor.getArray()?.byteLength ?? 0), 0);
 
-function tangentsOfDocument(document) {
-  const accessors = new Set();
-  let primitives = 0;
-  for (const { primitive } of primitivesOf(document)) {
-    const found = [primitive, ...primitive.listTargets()].map((holder) => holder.getAttribute('TANGENT')).filter(Boolean);
-    primitives += found.length > 0;
-    found.forEach((accessor) => accessors.add(accessor));
-  }
-  const vertices = [...accessors].reduce((sum, accessor) => sum + accessor.getCount(), 0), bytes = arrayBytes([...accessors]);
-  return { dropped_primitives: primitives, bytes_per_vertex: vertices ? bytes / vertices : 0, vertices, bytes };
-}
+const tangentBytes = (document) => arrayBytes([...new Set([...primitivesOf(document)].flatMap(({ primitive }) =>
+  [primitive, ...primitive.listTargets()].map((holder) => holder.getAttribute('TANGENT')).filter(Boolean)))]);
 
 const kPackedFraction = 0.2; // file size of compressed geometry as a fraction of its size in memory
 
@@ -214,86 +208,71 @@ function estimatedSize(document) {
   return { whole: root.listTextures().reduce((sum, texture) => sum + imageBytes(texture), 0) + weight * arrayBytes(root.listAccessors()), weight };
 }
 
-function dropAll(document, keepTangents) {
-  const tangents = tangentsOfDocument(document), textures = document.getRoot().listTextures();
-  if (!keepTangents) for (const { primitive } of primitivesOf(document)) dropTangents(primitive);
-  return {
-    mode: keepTangents ? 'keep' : 'drop', unread_maps: [], notes: [], tangents: keepTangents ? { kept: true } : tangents,
-    maps: normalMapsOf(document).map((texture) => ({ image: textures.indexOf(texture), name: texture.getName() || texture.getURI() || 'normal map', kept: true,
-      bytes_before: imageBytes(texture), bytes_after: imageBytes(texture) })),
-  };
-}
-
-/** Makes the new maps, without changing the document: { report, images, glb }. images: { bytes, mimeType } of each. */
-async function newMaps(document, { model, files }, o) {
-  const made = [], pictures = [], textures = document.getRoot().listTextures();
-  const { glb, report } = await convert(model, { ...o, mode: 'convert', files, encode: async (picture) => {
-    pictures.push(picture);
-    made.push(await encodePng(picture));
-    return made.at(-1);
-  } });
-  const maps = report.maps.map((map) => ({ ...map })), notes = [...report.notes], images = [];
-  for (const [k, map] of maps.filter((one) => !one.kept).entries()) {
-    const old = textures[map.image], format = old?.getImage() && pictures[k].bits === 8 ? lossyFormat(old.getImage()) : null;
-    const lossy = format && await encodeLossy(pictures[k], format);
-    images.push(lossy && lossy.length < made[k].length ? { bytes: lossy, mimeType: format.mimeType } : { bytes: made[k], mimeType: 'image/png' });
-    if (format && !lossy) notes.push(`${map.name}: no encoder for ${format.mimeType} is available (in Node.js: the package sharp), so the new map is PNG`);
-    Object.assign(map, { bytes_before: imageBytes(old), bytes_after: images.at(-1).bytes.length });
-    if (images.at(-1).bytes === lossy) Object.assign(map, { format: format.mimeType === 'image/webp' ? 'WebP' : 'JPEG', quality: format.quality ?? null });
-  }
-  for (const map of maps.filter((one) => one.kept)) Object.assign(map, { bytes_before: imageBytes(textures[map.image]), bytes_after: imageBytes(textures[map.image]) });
-  return { glb, images, report: { ...report, maps, notes, mode: 'convert' } };
-}
-
-function applyMaps(document, { glb, images, report }, to) {
-  report.maps.filter((map) => !map.kept).forEach((map, k) => replaceMap(document, map, images[k]));
-  const view = new DataView(glb.buffer, glb.byteOffset), json = JSON.parse(new TextDecoder().decode(glb.subarray(20, 20 + view.getUint32(12, true))));
+/** Removes the tangents that the converted model, as JSON, does not have. */
+function dropTangentsAs(document, { meshes }) {
   document.getRoot().listMeshes().forEach((mesh, m) => mesh.listPrimitives().forEach((primitive, p) => {
-    const has = 'TANGENT' in (json.meshes?.[m]?.primitives[p]?.attributes ?? {});
-    if (!has) dropTangents(primitive);
-    else if (kTangentFrames.includes(to) && !whyNoTangents(primitive, uvsOf(primitive))) giveTangents(document, primitive, uvsOf(primitive), to);
+    if (!('TANGENT' in (meshes?.[m]?.primitives[p]?.attributes ?? {}))) dropTangents(primitive);
   }));
+}
+
+/** Converts the document, which is not changed: { report, made }. model: the document as plain glTF. made: the converted
+ * model, parsed. */
+async function converted(document, { model, files }, o) {
+  const { glb, report } = await convert(model, { ...o, files }), textures = document.getRoot().listTextures();
+  const maps = report.maps.map((map) => ({ ...map, bytes_before: imageBytes(textures[map.image]), ...(map.kept && { bytes_after: imageBytes(textures[map.image]) }) }));
+  return { made: parsedModel(glb), report: { ...report, maps } };
+}
+
+function applyMaps(document, { made, report }, to) {
+  const { json } = made, mapsOf = (material) => [material.normalTexture, material.extensions?.KHR_materials_clearcoat?.clearcoatNormalTexture];
+  const remade = new Map(); // by texture of the document: the new file
+  document.getRoot().listMaterials().forEach((material, m) => {
+    const theirs = mapsOf(json.materials[m]);
+    [material.getNormalTexture(), material.getExtension('KHR_materials_clearcoat')?.getClearcoatNormalTexture()].forEach((texture, k) => {
+      const image = theirs[k] && imageOfTexture(json.textures[theirs[k].index]);
+      if (texture && json.images?.[image]) remade.set(texture, { bytes: imageIn(made, image).slice(), mimeType: json.images[image].mimeType });
+    });
+  });
+  const textures = document.getRoot().listTextures(), files = report.maps.filter((map) => !map.kept).map((map) => [map, remade.get(textures[map.image])]);
+  for (const [map, file] of files) replaceMap(document, map, file);
+  dropTangentsAs(document, json);
+  if (kTangentFrames.includes(to))
+    document.getRoot().listMeshes().forEach((mesh, m) => mesh.listPrimitives().forEach((primitive, p) => {
+      if ('TANGENT' in (json.meshes?.[m]?.primitives[p]?.attributes ?? {}) && !whyNoTangents(primitive, uvsOf(primitive))) giveTangents(document, primitive, uvsOf(primitive), to);
+    }));
   document.getRoot().listMaterials().forEach((material, m) => takeExtras(material, json.materials?.[m]?.extras));
   return report;
 }
 
-/** Does what lint advises, unless new maps would enlarge the file by more than kGrowth allows. */
-async function asAdvised(document, decode) {
-  const noted = (report, line) => ({ ...report, notes: [line, ...report.notes] });
-  let model, plan, unread = '';
-  try {
-    model = await asPlainGltf(document, decode);
-    plan = advised(await lint(model.model, { files: model.files, decode }));
-  } catch (error) { // maps cannot be decoded here: judge green by the stored tangents alone
-    if (error.code !== 'unavailable') throw error;
-    unread = error.message;
-    model = await asPlainGltf(document, null);
-    plan = advised({ ...await lint(model.model, { files: model.files, decode: async () => ({ width: 1, height: 1, data: Uint8Array.of(128, 128, 255, 255) }) }), maps_converted: 0, maps: [] });
-  }
-  if (plan.mode === 'drop') return unread ? noted(dropAll(document), unread) : dropAll(document);
-  if (unread) return noted(dropAll(document, true), needsTangents(plan.green, unread));
-  const { whole, weight } = estimatedSize(document), made = await newMaps(document, model, { to: plan.to, decode });
-  const unreadMaps = made.report.unread_maps;
-  if (made.report.maps.every((map) => map.kept) && plan.green.length > 0)
-    return { ...noted(dropAll(document, true), needsTangents(plan.green, unreadMaps.map(({ name, format, advice }) => `${name} is in ${format}: ${advice}`).join('; ') || 'no map can be remade')), unread_maps: unreadMaps };
-  const grown = made.report.maps.reduce((sum, map) => sum + map.bytes_after - map.bytes_before, 0) - weight * made.report.tangents.bytes;
-  if (grown <= (kGrowth - 1) * whole) return applyMaps(document, made, plan.to);
-  const after = Math.round(whole + grown), before = Math.round(whole);
-  return plan.green.length > 0 ? noted(dropAll(document, true), needsTangents(plan.green, `new maps would change the file from ${before} to ${after} bytes: mode 'convert' makes them`))
-    : noted(dropAll(document), notWorthIt(plan.to, plan.degrees, before, after));
+/** Converts as `convert` does by default, but leaves the maps as they are if new ones would enlarge the file by more than
+ * kGrowth allows. */
+async function convertedByDefault(document, decode) {
+  const unlessUnavailable = (error) => { if (error.code !== 'unavailable') throw error; return asPlainGltf(document, null); };
+  const model = await asPlainGltf(document, decode).catch(unlessUnavailable), found = await converted(document, model, { decode }), { report } = found;
+  const { whole, weight } = estimatedSize(document), { bytes = 0 } = report.tangents;
+  const grown = report.maps.reduce((sum, map) => sum + map.bytes_after - map.bytes_before, 0) - weight * bytes;
+  if (report.maps.every((map) => map.kept) || grown <= (kGrowth - 1) * whole) return found;
+  const { made, report: kept } = await converted(document, model, { mode: 'drop' });
+  return { made, report: { ...kept, notes: [tooLarge(Math.round(whole), Math.round(whole + grown)), ...kept.notes] } };
+}
+
+function withFunctions(options) {
+  checkTypes(options, 'function', 'decode', 'report');
+  return options;
 }
 
 const kUntangent = { mode: undefined, from: undefined, to: undefined, bits: undefined, keepTangents: undefined, generateTangents: undefined, unsigned: undefined, decode: decodePicture, report: undefined };
 
 export function untangent(given) {
-  const { mode: _, report, decode, ...o } = checked(given, kUntangent), mode = modeOf(given);
+  const { mode: _, report, decode, ...o } = withFunctions(checked(given, kUntangent)), mode = modeOf(given);
   return named('untangent', async (document) => {
     await ready;
-    const before = normalMapsOf(document).reduce((sum, texture) => sum + imageBytes(texture), 0) + tangentsOfDocument(document).bytes;
+    const before = normalMapsOf(document).reduce((sum, texture) => sum + imageBytes(texture), 0) + tangentBytes(document);
     const requested = Object.fromEntries(Object.entries({ ...o, to: o.to ?? 'cotangent', decode }).filter(([, value]) => value !== undefined));
-    const found = mode === 'drop' ? dropAll(document) : mode === 'convert' ? applyMaps(document, await newMaps(document, await asPlainGltf(document, decode), requested), requested.to)
-      : await asAdvised(document, decode);
-    found.bytes = { before, after: normalMapsOf(document).reduce((sum, texture) => sum + imageBytes(texture), 0) + tangentsOfDocument(document).bytes };
+    const made = mode === 'drop' ? await converted(document, await asPlainGltf(document, null), { mode }) : mode === 'convert'
+      ? await converted(document, await asPlainGltf(document, decode), { ...requested, mode }) : await convertedByDefault(document, decode);
+    const found = applyMaps(document, made, requested.to);
+    found.bytes = { before, after: normalMapsOf(document).reduce((sum, texture) => sum + imageBytes(texture), 0) + tangentBytes(document) };
     const remade = found.maps.filter((map) => !map.kept).length;
     for (const note of found.notes) document.getLogger().warn(`untangent: ${note}`);
     document.getLogger().info(`untangent: ${found.mode}: ${remade} maps remade, ${found.maps.length - remade} kept; normal maps and tangents ${found.bytes.before} bytes before, ${found.bytes.after} after`);
@@ -302,7 +281,7 @@ export function untangent(given) {
 }
 
 export function lintNormals(given) {
-  const { distance, limit, limitArea, frame, decode, report } = checked(given, { distance: 0, limit: undefined, limitArea: undefined, frame: 'orthonormal', decode: decodePicture, report: undefined });
+  const { distance, limit, limitArea, frame, decode, report } = withFunctions(checked(given, { distance: 0, limit: undefined, limitArea: undefined, frame: 'orthonormal', decode: decodePicture, report: undefined }));
   return named('lintNormals', async (document) => {
     await ready;
     const { model, files } = await asPlainGltf(document, decode);

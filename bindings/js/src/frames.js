@@ -1,30 +1,32 @@
 // Frames at surface points, and shader text.
 import { choice, floats, options } from './arrays.js';
-import { usage } from './instance.js';
+import { usage, wordsFor } from './instance.js';
 
 export function frameFunctions(library) {
-  const atPlaces = (functions) => (frame, places, values) => library.run((s) => {
-    if (places === null || typeof places !== 'object') throw usage('places: expected an object of arrays');
+  const kAtVertices = { mikktspace: ['tangents'], vertex: ['tangents'], smooth: ['u', 'v'] }; // attributes, by frame
+  const namesOf = (s) => Array.from({ length: s.wasm.cotan_frame_count() }, (_, i) => s.textAt(s.wasm.cotan_frame_name(i)));
+  const atPlaces = (functions, what) => (frame, places, values) => library.run((s) => {
+    choice(frame, 'frame', namesOf(s));
+    if (places === null || typeof places !== 'object') throw usage(`places: expected an object of arrays, found ${wordsFor(places)}`);
     const normals = floats(places.normals, 'places.normals', 3), count = normals.length / 3;
     const array = (name, size) => s.put(floats(places[name], `places.${name}`, size, count));
-    const given = s.put(floats(values, 'values', 3, count)), out = s.allocate(12 * count);
-    const name = s.text(frame, 'frame');
-    if ('dpdx' in places)
-      s.call(functions[0], name, s.struct(count, s.put(normals), array('dpdx', 3), array('dpdy', 3), array('duvdx', 2), array('duvdy', 2)), given, out);
+    const given = s.put(floats(values, what, 3, count)), out = s.allocate(12 * count);
+    const name = s.text(frame, 'frame'), read = kAtVertices[frame], attribute = (one, size) => (read.includes(one) ? array(one, size) : 0);
+    if (read)
+      s.call(functions[1], name, s.struct(count, s.put(normals), attribute('tangents', 4), attribute('u', 3), attribute('v', 3)), given, out);
     else
-      s.call(functions[1], name, s.struct(count, s.put(normals), 'tangents' in places ? array('tangents', 4) : 0,
-        'u' in places ? array('u', 3) : 0, 'v' in places ? array('v', 3) : 0), given, out);
+      s.call(functions[0], name, s.struct(count, s.put(normals), array('dpdx', 3), array('dpdy', 3), array('duvdx', 2), array('duvdy', 2)), given, out);
     return s.take(Float32Array, out, 3 * count);
   });
 
   return {
-    apply: atPlaces(['cotan_frame_apply', 'cotan_vertex_frame_apply']),
-    encode: atPlaces(['cotan_frame_encode', 'cotan_vertex_frame_encode']),
-    frames: () => library.run((s) =>
-      Array.from({ length: s.wasm.cotan_frame_count() }, (_, i) => s.textAt(s.wasm.cotan_frame_name(i)))),
+    apply: atPlaces(['cotan_frame_apply', 'cotan_vertex_frame_apply'], 'texels'),
+    encode: atPlaces(['cotan_frame_encode', 'cotan_vertex_frame_encode'], 'normals'),
+    frames: () => library.run(namesOf),
     shader: (given) => library.run((s) => {
-      const o = options(given, { language: 'glsl', frame: 'cotangent', convention: 'gltf', stage: undefined });
+      const o = options(given, { language: 'glsl', frame: '', convention: 'gltf', stage: undefined });
       if (o.stage !== undefined) choice(o.stage, 'options.stage', ['fragment', 'vertex', 'mesh', 'compute']);
+      s.text(o.frame, 'options.frame');
       const frame = s.text(o.stage ? `${o.frame},${o.stage}` : o.frame, 'options.frame');
       const words = [s.text(o.language, 'options.language'), frame, s.text(o.convention, 'options.convention')];
       const size = s.put(new Uint32Array(1));

@@ -27,8 +27,8 @@ export function modelBytes({ json, rest }) {
 
 const list = (value) => (Array.isArray(value) ? value : []);
 const named = (uri) => typeof uri === 'string' && !uri.startsWith('data:');
-const found = (files, uri) => (Object.hasOwn(files, uri) ? files[uri] : Object.hasOwn(files, decoded(uri)) ? files[decoded(uri)] : null);
-function decoded(uri) {
+const found = (files, uri) => (Object.hasOwn(files, uri) ? files[uri] : Object.hasOwn(files, decodedUri(uri)) ? files[decodedUri(uri)] : null);
+export function decodedUri(uri) {
   try {
     return decodeURIComponent(uri);
   } catch {
@@ -58,13 +58,16 @@ export function imageFile({ json, rest }, image, files) {
   return bytes ? new Uint8Array(bytes.buffer ?? bytes, bytes.byteOffset ?? 0, bytes.byteLength) : new Uint8Array(0);
 }
 
+/** The image that a texture of the JSON shows. */
+export const imageOfTexture = ({ source, extensions } = {}) =>
+  extensions?.KHR_texture_basisu?.source ?? extensions?.EXT_texture_webp?.source ?? extensions?.EXT_texture_avif?.source ?? source;
+
 /** Sorted indices of the images that materials use as normal maps. */
 export function normalImages(json) {
   const textures = list(json.textures), images = new Set();
   for (const material of list(json.materials))
     for (const info of [material?.normalTexture, material?.extensions?.KHR_materials_clearcoat?.clearcoatNormalTexture]) {
-      const { source, extensions } = textures[info?.index] ?? {};
-      const image = extensions?.KHR_texture_basisu?.source ?? extensions?.EXT_texture_webp?.source ?? extensions?.EXT_texture_avif?.source ?? source;
+      const image = imageOfTexture(textures[info?.index]);
       if (Number.isInteger(image)) images.add(image);
     }
   return [...images].sort((a, b) => a - b);
@@ -74,6 +77,27 @@ export function normalImages(json) {
 export function imageIn({ json, rest }, image) {
   const { byteOffset = 0, byteLength } = json.bufferViews[json.images[image].bufferView];
   return rest.subarray(8 + byteOffset, 8 + byteOffset + byteLength);
+}
+
+const kWebp = 'EXT_texture_webp';
+/** Whether every reader of the model must support WebP. */
+export const requiresWebp = (json) => list(json.extensionsRequired).includes(kWebp);
+
+/** The textures after some images were replaced, which WebP needs an extension for and PNG does not. */
+function textureOf({ source, extensions, ...rest }, files) {
+  const { [kWebp]: webp, ...others } = extensions ?? {}, image = webp?.source ?? source, file = files.get(image);
+  if (!file) return { ...rest, ...(source !== undefined && { source }), ...(extensions && { extensions }) };
+  if (file.mimeType === 'image/webp') return { ...rest, extensions: { ...others, [kWebp]: { source: image } } };
+  return { ...rest, source: image, ...(Object.keys(others).length > 0 && { extensions: others }) };
+}
+
+/** json with the extension for WebP listed if a texture has it: as required if one has no fallback. */
+function withWebpListed(json) {
+  const { extensionsUsed, extensionsRequired, ...rest } = json, users = list(json.textures).filter(({ extensions }) => extensions?.[kWebp]);
+  const listed = (names, yes) => [...list(names).filter((name) => name !== kWebp), ...(yes ? [kWebp] : [])];
+  const used = listed(extensionsUsed, users.length > 0);
+  const required = listed(extensionsRequired, users.some(({ source }) => source === undefined) || (users.length > 0 && requiresWebp(json)));
+  return { ...rest, ...(used.length > 0 && { extensionsUsed: used }), ...(required.length > 0 && { extensionsRequired: required }) };
 }
 
 /** A self-contained GLB with some of its images replaced. files: Map from image index to { bytes, mimeType }. */
@@ -90,5 +114,6 @@ export function withImages({ json, rest }, files) {
   view.setUint32(4, 0x004e4942, true);
   for (const [offset, bytes] of pieces) whole.set(bytes, 8 + offset);
   const images = json.images.map((image, k) => (files.has(k) ? { ...image, mimeType: files.get(k).mimeType } : image));
-  return modelBytes({ json: { ...json, images, bufferViews: views, buffers: [{ ...json.buffers[0], byteLength: at.length }] }, rest: whole });
+  const named = withWebpListed({ ...json, textures: json.textures.map((one) => textureOf(one, files)) });
+  return modelBytes({ json: { ...named, images, bufferViews: views, buffers: [{ ...json.buffers[0], byteLength: at.length }] }, rest: whole });
 }

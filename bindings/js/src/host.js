@@ -2,11 +2,10 @@
 
 export const kFunction = { read: 0, decode: 1, done: 2, progress: 3, takeLevel: 4, takeFile: 5 };
 
-/** { imports, now }. The imports call the functions of `now`, which the caller sets: { read(uri), decode(name, bytes),
- * progress(done), takeLevel, takeFile, scratch }. The first exception ends the call and is kept in now.error. */
+/** { imports, now, during }. The imports call the functions of `now`: { read(uri), decode(name, bytes), progress(done),
+ * takeLevel, takeFile, scratch }. The first exception ends the call and is kept in now.error. */
 export function hostImports() {
   const host = { now: null };
-  let held = [];
   const guarded = (work) => (...args) => {
     try {
       return work(host.now, ...args);
@@ -18,13 +17,25 @@ export function hostImports() {
   const give = (s, bytes, bytesOut, sizeOut) => {
     const at = s.wasm.malloc(Math.max(bytes.byteLength, 1)) >>> 0;
     if (at === 0) return 1;
-    held.push(at);
+    (host.now.held ??= []).push(at);
     new Uint8Array(s.buffer, at, bytes.byteLength).set(bytes);
     if (bytesOut !== null) s.view(Uint32Array, bytesOut, 1)[0] = at;
     if (sizeOut !== null) s.view(Uint32Array, sizeOut, 1)[0] = bytes.byteLength;
     return at;
   };
   const asBytes = (array) => new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
+  /** work() with other functions, for the time of the call. */
+  host.during = (functions, work) => {
+    const before = host.now;
+    host.now = functions;
+    try {
+      return work();
+    } catch (error) {
+      throw functions.error ?? error;
+    } finally {
+      host.now = before;
+    }
+  };
   host.imports = {
     read: guarded((h, user, uri, bytesOut, sizeOut) => {
       const bytes = h.read?.(h.scratch.textAt(uri >>> 0));
@@ -41,8 +52,8 @@ export function hostImports() {
       return 0;
     }),
     done: () => {
-      for (const at of held) host.now.scratch.wasm.free(at);
-      held = [];
+      for (const at of host.now.held ?? []) host.now.scratch.wasm.free(at);
+      host.now.held = [];
     },
     progress: guarded((h, user, done) => (h.progress(done) === false ? 1 : 0)),
     take_level: guarded((h, user, level, map, roughness) => h.takeLevel(level, map >>> 0, roughness >>> 0) ?? 0),

@@ -79,6 +79,7 @@ export function mapFunctions(library, host) {
     fromHeight: (height, given) => library.run((s) => {
       const o = options(given, { scale: 1, to: 'gltf', bits: 8 });
       const from = input(s, height, 'height'), to = output(s, from, o.bits);
+      if (Array.isArray(o.scale) && o.scale.length !== 2) throw usage(`options.scale: expected a number or two, found ${o.scale.length}`);
       const [x, y] = Array.isArray(o.scale) ? o.scale : [o.scale, o.scale];
       s.call('cotan_map_from_height', from.at, number(x, 'options.scale'), number(y, 'options.scale'), s.text(o.to, 'options.to'), to.at);
       return to.take();
@@ -93,19 +94,12 @@ export function mapFunctions(library, host) {
 
     mips: (map, given) => library.run((s) => {
       const o = options(given, { convention: 'gltf', roughness: 0 });
-      const levels = [];
-      host.now = {
-        scratch: s,
-        takeLevel: (level, normals, roughness) => {
-          levels.push({ normals: pictureAt(s, normals), roughness: pictureAt(s, roughness) });
-        },
+      const levels = [], takeLevel = (level, normals, roughness) => {
+        levels.push({ normals: pictureAt(s, normals), roughness: pictureAt(s, roughness) });
       };
-      try {
+      host.during({ scratch: s, takeLevel }, () =>
         s.call('cotan_map_mips', input(s, map, 'map').at, s.text(o.convention, 'options.convention'),
-          number(o.roughness, 'options.roughness'), s.wasm.cotan_js_function(kFunction.takeLevel), 0);
-      } catch (error) {
-        throw host.now.error ?? error;
-      }
+          number(o.roughness, 'options.roughness'), s.wasm.cotan_js_function(kFunction.takeLevel), 0));
       return levels;
     }),
   };

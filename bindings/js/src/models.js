@@ -1,15 +1,17 @@
 // lint and convert for glTF models in memory.
-import { options } from './arrays.js';
+import { checkTypes, isRecord, options } from './arrays.js';
 import { CotanError, usage, wordsFor } from './instance.js';
 import { kFunction } from './host.js';
 import { bytesOf, checkedPicture } from './picture.js';
-import { decodePicture, encodeLossy, lossyFormat } from './pictures.js';
+import { encodedByCaller, encodedLike } from './encoded.js';
+import { decodePicture } from './pictures.js';
 import { encodePng } from './png.js';
-import { imageIn, parsedModel, sizeOf, withImages } from './glb.js';
-import { advised, dropped, inOriginalFormats, kGrowth, modeOf, needsTangents, notWorthIt, reversedImages } from './modes.js';
+import { decodedUri, imageIn, parsedModel, requiresWebp, sizeOf, withImages } from './glb.js';
+import { advised, inOriginalFormats, keptMaps, kGrowth, modeOf, notWorthIt, tooLarge } from './modes.js';
 import { kLimits, limitsOf, overLimits } from './verdict.js';
 
 const same = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[i]);
+const kMapsRead = 1, kMapsUnread = 2; // keep_maps of cotan.h
 // Placeholder for images that are not normal maps, whose pixels are never read.
 const kUnread = { width: 1, height: 1, bits: 8, data: Uint8Array.of(255, 255, 255, 255) };
 const kCommon = { files: {}, decode: decodePicture, progress: undefined };
@@ -26,47 +28,41 @@ function withNpmAdvice(error) {
 
 // Options with defaults filled in and types checked.
 function modelOptions(given, known) {
-  const o = options(given, known), defaults = Object.entries(known).filter(([name, value]) => o[name] === undefined && value !== undefined);
-  for (const [name, value] of defaults) o[name] = value;
-  const refuse = (name, expected) => { throw usage(`options.${name}: expected ${expected}, found ${wordsFor(o[name])}`); };
-  if (o.files === null || typeof o.files !== 'object') refuse('files', 'an object that maps URIs to bytes');
-  for (const name of ['decode', 'encode', 'progress'])
-    if (o[name] !== undefined && typeof o[name] !== 'function') refuse(name, 'a function');
-  for (const name of ['keepTangents', 'generateTangents', 'fixGreen'])
-    if (o[name] !== undefined && typeof o[name] !== 'boolean') refuse(name, 'true or false');
+  const o = options(given, known), refuse = (name, expected) => { throw usage(`options.${name}: expected ${expected}, found ${wordsFor(o[name])}`); };
+  if (!isRecord(o.files)) refuse('files', 'an object that maps URIs to bytes');
+  const files = Object.entries(o.files).map(([uri, bytes]) => [uri, bytesOf(bytes, `options.files['${uri}']`)]);
+  o.files = Object.fromEntries([...files.map(([uri, bytes]) => [decodedUri(uri), bytes]), ...files]); // the library asks for decoded ones
+  checkTypes(o, 'function', 'decode', 'encode', 'progress');
+  checkTypes(o, 'boolean', 'keepTangents', 'generateTangents', 'fixGreen');
   if (o.bits !== undefined && ![0, 8, 16].includes(o.bits)) refuse('bits', '0, 8 or 16');
   if (o.distance !== undefined && !Number.isFinite(o.distance)) refuse('distance', 'a number');
   return o;
 }
 
 export function modelFunctions(library, host, flipGreen) {
-  /** Sets up `host` for the callbacks and runs work(scratch, address of the model's bytes, address of the callbacks). */
-  const withModel = (model, files, known, progress, work) => library.run((s) => {
-    host.now = {
-      scratch: s,
-      read: (uri) => (Object.hasOwn(files, uri) ? bytesOf(files[uri], `files['${uri}']`) : null),
-      decode: (name, bytes) => {
-        const found = known.find((picture) => same(picture.bytes, bytes));
-        if (found?.error) throw found.error;
-        return found?.picture ?? kUnread;
-      },
-      progress,
+  /** Runs work(scratch, address of the model's bytes, address of the callbacks). more: further callbacks of `host`. */
+  const withModel = (model, files, known, more, work) => library.run((s) => {
+    const decode = (name, bytes) => {
+      const found = known.find((picture) => same(picture.bytes, bytes));
+      if (found?.error) throw found.error;
+      return found?.picture ?? kUnread;
     };
+    const read = (uri) => (Object.hasOwn(files, uri) ? files[uri] : null);
     const f = s.wasm.cotan_js_function;
     try {
-      return work(s, s.put(model), s.struct(0, f(kFunction.read), f(kFunction.decode), 0, f(kFunction.done)));
+      return host.during({ scratch: s, read, decode, ...more }, () =>
+        work(s, s.put(model), s.struct(0, f(kFunction.read), f(kFunction.decode), 0, f(kFunction.done))));
     } catch (error) {
-      throw host.now.error ?? withNpmAdvice(error);
+      throw withNpmAdvice(error);
     }
   });
 
   /** The normal maps of a model, decoded by options.decode. A failure is thrown only when the library needs the map. */
   async function decoded(model, o) {
     const known = [];
-    withModel(model, o.files, known, undefined, (s, at, files) => {
-      host.now.takeFile = (name, bytes) => { known.push({ name, bytes }); };
-      s.call('cotan_gltf_pictures', at, model.length, files, 1, s.wasm.cotan_js_function(kFunction.takeFile), 0);
-    });
+    const takeFile = (name, bytes) => { known.push({ name, bytes }); };
+    withModel(model, o.files, known, { takeFile }, (s, at, files) =>
+      s.call('cotan_gltf_pictures', at, model.length, files, 1, s.wasm.cotan_js_function(kFunction.takeFile), 0));
     for (const picture of known) {
       try {
         picture.picture = checkedPicture(await o.decode(picture.bytes, picture.name), 'options.decode', [8, 16]);
@@ -95,7 +91,7 @@ export function modelFunctions(library, host, flipGreen) {
     const o = modelOptions(more, { ...kCommon, distance: 0, ...kLimits });
     const limits = limitsOf(o);
     const known = await decoded(model, o);
-    return withModel(model, o.files, known, o.progress, (s, at, files) => {
+    return withModel(model, o.files, known, { progress: o.progress }, (s, at, files) => {
       const report = s.put(new Uint32Array(1)), settings = s.allocate(48), frame = s.text(limits.frame, 'options.frame');
       s.view(Uint32Array, settings, 12).set([48, 0, 0, 0, progressOf(s, o.progress), 0, 0, 0, 0, 0, frame, 0]);
       s.view(Float64Array, settings + 8, 1)[0] = o.distance;
@@ -111,52 +107,56 @@ export function modelFunctions(library, host, flipGreen) {
     if (!parsed) return convertMaps(model, o); // throws an error that says what is wrong
     if (o.fixGreen) return withFixedGreen(model, parsed, o, { ...more, fixGreen: undefined });
     const before = sizeOf(model, parsed.json, o.files), convertTo = (to) => convertMaps(model, { ...o, to }).then((made) => inOriginalFormats(parsed, o.files, made));
-    const keepMaps = (keepTangents) => dropped(parsed, o.files, (bytes, more) => convertMaps(bytes, { ...o, ...more }), keepTangents);
-    const found = mode === 'convert' ? await convertTo(o.to ?? 'cotangent') : mode === 'drop' ? await keepMaps() : await asAdvised(model, o, before, convertTo, keepMaps);
-    return { glb: found.glb, report: { ...found.report, mode: found.mode, bytes: { before, after: found.glb.length } } };
+    const found = mode === 'convert' ? await convertTo(o.to ?? 'cotangent') : mode === 'drop' ? await withMapsKept(model, parsed, o, kMapsUnread) : await asAdvised(model, parsed, o, before, convertTo);
+    return { glb: found.glb, report: { mode: 'convert', ...found.report, bytes: { before, after: found.glb.length } } };
+  }
+
+  /** Keeps the maps. Where tangents reverse green of one, the library reverses the map's green or keeps the tangents.
+   * keepMaps: kMapsRead or kMapsUnread, which decodes no map and reverses none. */
+  async function withMapsKept(model, parsed, o, keepMaps, more) {
+    const made = await convertMaps(model, { ...o, from: undefined, to: undefined, bits: 0, keepMaps, ...more });
+    const { glb, report } = keepMaps === kMapsRead ? await inOriginalFormats(parsed, o.files, made) : { ...made, report: { ...made.report, maps: keptMaps(parsed.json, o.files) } };
+    const given = (parsed.json.meshes ?? []).some((mesh) => mesh.primitives?.some(({ attributes }) => attributes && 'TANGENT' in attributes));
+    return { glb, report: { ...report, mode: given && !report.tangents.dropped_primitives ? 'keep' : 'drop' } };
   }
 
   // Flips green of the maps in which, by their own evidence, it points the other way than the model says; then converts.
   async function withFixedGreen(model, parsed, o, more) {
-    const report = await lint(model, { files: o.files, decode: o.decode }), meant = reversedImages(report); // maps that are right with their tangents
-    const wrong = report.maps.filter((map) => map.decided && !map.as_declared && !meant.includes(map.image));
+    const report = await lint(model, { files: o.files, decode: o.decode });
+    const wrong = report.maps.filter((map) => map.decided && !map.as_declared && !map.reversed_by_tangents); // others are right with their tangents
     if (wrong.length === 0) return convert(model, more);
-    const { glb: whole } = await dropped(parsed, o.files, (bytes, given) => convertMaps(bytes, { ...o, ...given }), true), inside = parsedModel(whole), flipped = new Map();
+    const { glb: whole } = await withMapsKept(model, parsed, o, kMapsUnread, { keepTangents: true }), inside = parsedModel(whole), flipped = new Map(), notes = [];
     for (const { image, name } of wrong) {
       const file = imageIn(inside, image), picture = checkedPicture(await o.decode(file, name), 'options.decode', [8, 16]);
-      const right = flipGreen(picture), format = picture.bits === 8 ? lossyFormat(file) : null, lossy = format && await encodeLossy(right, format);
-      flipped.set(image, lossy ? { bytes: lossy, mimeType: format.mimeType } : { bytes: bytesOf(await o.encode(right), 'options.encode'), mimeType: 'image/png' });
+      const right = flipGreen(picture), found = await encodedLike(right, file, await encodedByCaller(right, o.encode), name, { hasWebp: requiresWebp(inside.json) });
+      flipped.set(image, found);
+      if (found.note) notes.push(found.note);
     }
     const made = await convert(withImages(inside, flipped), { ...more, files: undefined }), { glb } = made;
     return { glb, report: { ...made.report, bytes: { before: sizeOf(model, parsed.json, o.files), after: glb.length }, green_fixed: wrong.map(({ name }) => name),
-      notes: [...wrong.map(({ name }) => `${name}: its green pointed opposite to what the model says and was reversed`), ...made.report.notes] } };
+      notes: [...wrong.map(({ name }) => `${name}: its green pointed opposite to what the model says and was reversed`), ...notes, ...made.report.notes] } };
   }
 
   // Does what lint advises, unless new maps would enlarge the file by more than kGrowth allows.
-  async function asAdvised(model, o, before, convertTo, keepMaps) {
-    const { files, decode } = o, notes = [];
-    let report = await lint(model, { files, decode }).catch((error) => { if (error.code !== 'unavailable') throw error; notes.push(error.message); });
-    const unread = !report; // the maps cannot be decoded: judge green by the stored tangents alone
-    report ??= await lint(model, { files, decode: async () => kUnread });
-    const plan = advised(unread ? { ...report, maps_converted: 0, maps: [] } : report), noted = (found, line) => ({ ...found, report: { ...found.report, notes: [...notes, line, ...found.report.notes].filter(Boolean) } });
-    if (plan.mode === 'drop') return noted(await keepMaps());
-    if (unread) return noted(await keepMaps(true), needsTangents(plan.green, 'new maps cannot be made here'));
-    const made = await convertTo(plan.to), after = made.glb.length, unreadMaps = made.report.unread_maps;
-    if (made.report.maps.every((map) => map.kept) && plan.green.length > 0) {
-      const kept = noted(await keepMaps(true), needsTangents(plan.green, unreadMaps.map(({ name, format, advice }) => `${name} is in ${format}: ${advice}`).join('; ') || 'no map can be remade'));
-      return { ...kept, report: { ...kept.report, unread_maps: unreadMaps } };
-    }
-    if (after <= kGrowth * before) return made;
-    return plan.green.length > 0 ? noted(await keepMaps(true), needsTangents(plan.green, `new maps would change the file from ${before} to ${after} bytes: mode 'convert' makes them`))
-      : noted(await keepMaps(), notWorthIt(plan.to, plan.degrees, before, after));
+  async function asAdvised(model, parsed, o, before, convertTo) {
+    const noted = ({ glb, report }, ...lines) => ({ glb, report: { ...report, notes: [...new Set([...lines, ...report.notes])].filter(Boolean) } });
+    const unread = async (...lines) => noted(await withMapsKept(model, parsed, o, kMapsUnread), ...lines);
+    const report = await lint(model, { files: o.files, decode: o.decode }).catch((error) => { if (error.code !== 'unavailable') throw error; return error.message; });
+    if (typeof report === 'string') return unread(report);
+    const { to, degrees } = advised(report), remade = to && await convertTo(to);
+    if (remade && remade.glb.length <= kGrowth * before) return remade;
+    const line = remade && notWorthIt(to, degrees, before, remade.glb.length), kept = await withMapsKept(model, parsed, o, kMapsRead);
+    if (kept.report.unread_maps.length > 0) return unread(line, ...kept.report.notes);
+    return kept.glb.length <= kGrowth * before ? noted(kept, line) : unread(line, tooLarge(before, kept.glb.length));
   }
 
   async function convertMaps(model, o) {
-    const known = await decoded(model, o);
-    let conversion = 0;
-    const pictures = withModel(model, o.files, known, o.progress, (s, at, files) => {
+    const known = o.keepMaps === kMapsUnread ? [] : await decoded(model, o);
+    let conversion = 0, wasm;
+    const pictures = withModel(model, o.files, known, { progress: o.progress }, (s, at, files) => {
+      wasm = s.wasm;
       const settings = s.struct(s.text(o.from, 'options.from'), s.text(o.to, 'options.to'), o.bits, o.keepTangents ? 1 : 0,
-        o.generateTangents ? 1 : 0, 1, progressOf(s, o.progress), 0, s.text(o.unsigned, 'options.unsigned'));
+        o.generateTangents ? 1 : 0, 1, progressOf(s, o.progress), 0, s.text(o.unsigned, 'options.unsigned'), o.keepMaps ?? 0);
       const slot = s.put(new Uint32Array(1));
       s.call('cotan_convert_begin', at, model.length, files, settings, 0, slot);
       conversion = s.view(Uint32Array, slot, 1)[0];
@@ -167,19 +167,18 @@ export function modelFunctions(library, host, flipGreen) {
         return { width, height, bits, data: s.take(bits === 16 ? Uint16Array : Uint8Array, pixels, 4 * width * height) };
       });
     });
-    const generation = library.generation;
     try {
-      const files = [];
-      for (const picture of pictures) files.push(bytesOf(await o.encode(picture), 'options.encode'));
+      const made = [];
+      for (const picture of pictures) made.push({ picture, ...await encodedByCaller(picture, o.encode) });
       return library.run((s) => {
-        if (library.generation !== generation) throw new CotanError('unavailable', 'the library was restarted during the conversion; convert again');
-        files.forEach((png, i) => s.call('cotan_conversion_set', conversion, i, s.put(png), png.length));
+        if (s.wasm !== wasm) throw new CotanError('unavailable', 'the library was restarted during the conversion; convert again');
+        made.forEach(({ bytes }, i) => s.call('cotan_conversion_set', conversion, i, s.put(bytes), bytes.length));
         const glb = s.put(new Uint32Array(1)), report = s.put(new Uint32Array(1));
         s.call('cotan_convert_end', conversion, glb, report);
-        return { glb: takeBytes(s, glb), report: json(takeBytes(s, report)), pictures };
+        return { glb: takeBytes(s, glb), report: json(takeBytes(s, report)), made };
       });
     } finally {
-      if (library.generation === generation) library.run((s) => s.wasm.cotan_conversion_free(conversion));
+      library.run((s) => { if (s.wasm === wasm) wasm.cotan_conversion_free(conversion); });
     }
   }
 

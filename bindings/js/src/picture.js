@@ -1,4 +1,5 @@
 // Checks the images and bytes that callers pass.
+import { checkMemory } from './arrays.js';
 import { usage, wordsFor } from './errors.js';
 
 const kTypes = [[8, Uint8Array], [16, Uint16Array], [32, Float32Array]];
@@ -8,6 +9,7 @@ export function checkedPicture(picture, name, known = [8, 16, 32]) {
   if (picture === null || typeof picture !== 'object') throw usage(`${name}: expected an image, found ${wordsFor(picture)}`);
   const { width, height } = picture;
   let { data } = picture;
+  if (ArrayBuffer.isView(data)) checkMemory(data, `${name}.data`);
   if (data instanceof Uint8ClampedArray) data = new Uint8Array(data.buffer, data.byteOffset, data.length);
   const bits = kTypes.find(([, Type]) => data instanceof Type)?.[0];
   if (!known.includes(bits)) throw usage(`${name}.data: expected numbers of ${known.join(' or ')} bits, found ${wordsFor(data)}`);
@@ -20,9 +22,12 @@ export function checkedPicture(picture, name, known = [8, 16, 32]) {
   return { width, height, bits, data };
 }
 
-/** The bytes of an ArrayBuffer or a view of one. */
+/** The bytes of an ArrayBuffer or a view of one; a copy if threads share them, which decoders refuse. */
 export function bytesOf(value, name) {
-  if (value instanceof ArrayBuffer) return new Uint8Array(value);
-  if (ArrayBuffer.isView(value)) return new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
-  throw usage(`${name}: expected bytes, found ${wordsFor(value)}`);
+  const buffer = ArrayBuffer.isView(value) ? value.buffer : value;
+  const isShared = typeof SharedArrayBuffer === 'function' && buffer instanceof SharedArrayBuffer;
+  if (!(buffer instanceof ArrayBuffer || isShared)) throw usage(`${name}: expected bytes, found ${wordsFor(value)}`);
+  checkMemory(value, name);
+  const bytes = buffer === value ? new Uint8Array(value) : new Uint8Array(buffer, value.byteOffset, value.byteLength);
+  return isShared ? bytes.slice() : bytes;
 }

@@ -1,5 +1,5 @@
 // Decodes and encodes image files: PNG here, other formats by the browser, or by sharp if it is installed.
-import { CotanError } from './errors.js';
+import { CotanError, usage, wordsFor } from './errors.js';
 import { builtin } from './node.js';
 import { bytesOf } from './picture.js';
 import { decodePng, isPng } from './png.js';
@@ -17,33 +17,72 @@ function optionalPackage(name) {
   return undefined;
 }
 
+const kMaxPixels = 2 ** 26;
+
+/** The texels of an image that the browser decoded, as they are in its file. */
+function texelsOf(bitmap, name) {
+  const { width, height } = bitmap;
+  if (width * height > kMaxPixels) throw new CotanError('input', `${name}: expected at most 67 million pixels, found ${width} x ${height}`);
+  const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
+  context.drawImage(bitmap, 0, 0);
+  const { data } = context.getImageData(0, 0, width, height);
+  for (let i = 3; i < data.length; i += 4) if (data[i] !== 255) return texelsByWebGl(bitmap, name);
+  return new Uint8Array(data.buffer);
+}
+
+/** A canvas multiplies colours by alpha and divides them again, which loses them where alpha is small. Textures do not. */
+function texelsByWebGl(bitmap, name) {
+  const { width, height } = bitmap, gl = new OffscreenCanvas(1, 1).getContext('webgl2'), data = new Uint8Array(4 * width * height);
+  const fail = () => { throw new CotanError('unavailable', `${name}: its colours under transparent alpha need WebGL 2 with textures of ${width} x ${height}, or options.decode`); };
+  if (!gl || Math.max(width, height) > gl.getParameter(gl.MAX_TEXTURE_SIZE)) fail();
+  gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, bitmap);
+  gl.bindFramebuffer(gl.FRAMEBUFFER, gl.createFramebuffer());
+  gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, gl.getParameter(gl.TEXTURE_BINDING_2D), 0);
+  gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, data);
+  const isFine = gl.getError() === gl.NO_ERROR;
+  gl.getExtension('WEBGL_lose_context')?.loseContext(); // browsers keep only a few contexts
+  return isFine ? data : fail();
+}
+
 /** Decodes to { width, height, bits, data } with four components per pixel; the default of options.decode. */
 export async function decodePicture(file, name = 'image') {
   const bytes = bytesOf(file, 'bytes');
+  if (typeof name !== 'string') throw usage(`name: expected a string, found ${wordsFor(name)}`);
   if (isPng(bytes)) return decodePng(bytes);
   if (typeof createImageBitmap === 'function' && typeof OffscreenCanvas === 'function') {
     const bitmap = await createImageBitmap(new Blob([bytes]), { colorSpaceConversion: 'none', premultiplyAlpha: 'none' })
       .catch(() => { throw new CotanError('input', `${name}: the browser cannot decode it`); });
-    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d', { willReadFrequently: true });
-    context.drawImage(bitmap, 0, 0);
-    const { width, height, data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
-    bitmap.close();
-    return { width, height, bits: 8, data: new Uint8Array(data.buffer) };
+    try {
+      return { width: bitmap.width, height: bitmap.height, bits: 8, data: texelsOf(bitmap, name) };
+    } finally {
+      bitmap.close();
+    }
   }
   const sharp = optionalPackage('sharp');
   if (!sharp) throw new CotanError('unavailable', `${name}: images other than PNG need the package sharp, or options.decode`);
-  const { data, info } = await sharp(bytes, { limitInputPixels: 2 ** 26 }).ensureAlpha().raw().toBuffer({ resolveWithObject: true })
+  const { data, info } = await sharp(bytes, { limitInputPixels: kMaxPixels, ignoreIcc: true }).ensureAlpha().raw().toBuffer({ resolveWithObject: true })
     .catch((error) => { throw new CotanError('input', `${name}: ${error.message}`); });
-  return { width: info.width, height: info.height, bits: 8, data: new Uint8Array(data.buffer, data.byteOffset, data.byteLength) };
+  const texels = new Uint8Array(data.buffer, data.byteOffset, data.byteLength), isGrey = info.channels === 2;
+  return { width: info.width, height: info.height, bits: 8,
+    data: isGrey ? Uint8Array.from({ length: 2 * texels.length }, (_, i) => texels[(i >> 2) * 2 + (i % 4 === 3)]) : texels };
 }
 
 /** { mimeType, quality, halved } of a JPEG or WebP file, else null. quality: 1 to 100, undefined if lossless.
  * halved: whether chroma is subsampled. */
 export function lossyFormat(bytes) {
   if (bytes[0] === 0xff && bytes[1] === 0xd8) return { mimeType: 'image/jpeg', ...jpegFormat(bytes) };
-  const word = (at) => String.fromCharCode(...bytes.subarray(at, at + 4));
-  if (word(0) === 'RIFF' && word(8) === 'WEBP') return { mimeType: 'image/webp', quality: word(12) === 'VP8L' ? undefined : kWebpQuality };
+  if (wordAt(bytes, 0) === 'RIFF' && wordAt(bytes, 8) === 'WEBP') return { mimeType: 'image/webp', quality: isLosslessWebp(bytes) ? undefined : kWebpQuality };
   return null;
+}
+
+const wordAt = (bytes, at) => String.fromCharCode(...bytes.subarray(at, at + 4));
+
+function isLosslessWebp(bytes) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  for (let at = 12; at + 8 <= bytes.length; at += 8 + view.getUint32(at + 4, true) + view.getUint32(at + 4, true) % 2)
+    if (/^VP8[ L]$/.test(wordAt(bytes, at))) return wordAt(bytes, at) === 'VP8L';
+  return false;
 }
 
 const kWebpQuality = 90; // assumed, since a WebP file does not store its quality
@@ -64,13 +103,15 @@ function jpegFormat(bytes) {
 
 /** Encodes an 8-bit image in a format of lossyFormat(), by the browser or by sharp; null if neither can. */
 export async function encodeLossy({ width, height, data }, { mimeType, quality, halved }) {
+  const isOpaque = data.every((value, i) => i % 4 !== 3 || value === 255);
+  if (mimeType === 'image/jpeg' && !isOpaque) return null;
   if (typeof OffscreenCanvas === 'function') {
-    if (mimeType === 'image/jpeg' && !halved) return null; // browsers subsample chroma, which would damage normals
+    if (!isOpaque || (mimeType === 'image/jpeg' && !halved)) return null; // browsers subsample chroma
     const canvas = new OffscreenCanvas(width, height);
     canvas.getContext('2d').putImageData(new ImageData(new Uint8ClampedArray(data), width, height), 0, 0);
     const blob = await canvas.convertToBlob({ type: mimeType, quality: (quality ?? 100) / 100 });
     return blob.type === mimeType && quality !== undefined ? new Uint8Array(await blob.arrayBuffer()) : null;
   }
-  const picture = optionalPackage('sharp')?.(data, { raw: { width, height, channels: 4 } }).removeAlpha();
+  const sharp = optionalPackage('sharp'), whole = sharp?.(data, { raw: { width, height, channels: 4 } }), picture = isOpaque ? whole?.removeAlpha() : whole;
   return picture ? new Uint8Array(await (mimeType === 'image/jpeg' ? picture.jpeg({ quality, chromaSubsampling: halved ? '4:2:0' : '4:4:4' }) : picture.webp({ quality, lossless: quality === undefined })).toBuffer()) : null;
 }

@@ -1,11 +1,11 @@
 // Renumbers vertices for shaders that compute U and V of the frame `triangle` at the provoking vertex.
-import { choice, options, unsignedIntegers } from './arrays.js';
+import { choice, options, triangleIndices } from './arrays.js';
 import { counted, splitBy } from './tangents.js';
 
 export const provokingFunction = (library) => (vertexCount, indices, given) => {
   const { vertex } = options(given, { vertex: 'first' });
   choice(vertex, 'options.vertex', ['first', 'last']);
-  const list = unsignedIntegers(indices, 'indices');
+  const list = triangleIndices(indices, 'indices');
   counted(vertexCount);
   return library.run((s) => {
     const corners = s.allocate(4 * list.length);

@@ -1,15 +1,14 @@
 // Tangents, and the vectors of other frames, from arrays.
-import { choice, floats, options, unsignedIntegers } from './arrays.js';
+import { choice, floats, options, triangleIndices } from './arrays.js';
 import { usage, wordsFor } from './instance.js';
 
 function arraysOf(mesh) {
   if (mesh === null || typeof mesh !== 'object') throw usage(`mesh: expected an object, found ${wordsFor(mesh)}`);
   const positions = floats(mesh.positions, 'mesh.positions', 3);
   const vertices = positions.length / 3;
-  const indices = mesh.indices === undefined || mesh.indices === null ? null : unsignedIntegers(mesh.indices, 'mesh.indices');
+  const indices = mesh.indices === undefined || mesh.indices === null ? null : triangleIndices(mesh.indices, 'mesh.indices');
   const corners = indices ? indices.length : vertices;
-  if (corners % 3 !== 0)
-    throw usage(`mesh.${indices ? 'indices' : 'positions'}: expected a multiple of 3, found ${corners}`);
+  if (corners % 3 !== 0) throw usage(`mesh.positions: expected three vertices for each triangle, found ${corners}`);
   return {
     positions, vertices, corners,
     indices: indices ?? Uint32Array.from({ length: vertices }, (_, i) => i),
@@ -76,7 +75,7 @@ export function tangentFunctions(library) {
     },
 
     split(vertexCount, indices, corners) {
-      const list = unsignedIntegers(indices, 'indices');
+      const list = triangleIndices(indices, 'indices');
       const values = floats(corners, 'corners', 4, list.length);
       counted(vertexCount);
       return library.run((s) => splitBy(s, vertexCount, list.length, (...out) =>

@@ -21,7 +21,7 @@ function nameOf({ mesh, material, placing, placings }, index) {
 export const kLimits = { limit: undefined, limitArea: undefined, frame: 'orthonormal' };
 export function limitsOf({ limit, limitArea, frame }) {
   for (const [value, name, maxValue] of [[limit, 'limit', 180], [limitArea, 'limitArea', 100]])
-    if (value !== undefined && !(value >= 0 && value <= maxValue)) throw usage(`options.${name}: expected a number from 0 to ${maxValue}, found ${wordsFor(value)}`);
+    if (value !== undefined && !(typeof value === 'number' && value >= 0 && value <= maxValue)) throw usage(`options.${name}: expected a number from 0 to ${maxValue}, found ${wordsFor(value)}`);
   return { limit, limitArea, frame: choice(frame, 'options.frame', kFrames) };
 }
 
@@ -29,7 +29,7 @@ export function limitsOf({ limit, limitArea, frame }) {
 export function overLimits(report, given) {
   const { limit, limitArea, frame } = limitsOf(options(given, kLimits));
   const { primitives, maps: images } = report ?? {};
-  if (!Array.isArray(primitives) || !Array.isArray(images) || !primitives.every((p) => p?.uv)) throw usage(`report: expected a report of lint, found ${wordsFor(report)}`);
+  if (!Array.isArray(primitives) || !Array.isArray(images) || primitives.findIndex((p) => !p?.uv) >= 0 || images.findIndex((map) => !map) >= 0) throw usage(`report: expected a report of lint, found ${wordsFor(report)}`);
   const over = [];
   const add = (kind, text, { mesh, material, map, degrees = null, percent = null, limit: maxValue = null }) =>
     over.push({ kind, mesh: mesh || null, material: material || null, map: map || null, degrees, percent, limit: maxValue, text });

@@ -1,6 +1,6 @@
 // Prepares meshes for both renderers of three.js before frames are replaced: removes tangents, adapts materials so that
 // they look the same without them, and adds the attributes of the frames `triangle` and `smooth` to geometries.
-import { choice, options as checked } from '../src/arrays.js';
+import { checkTypes, choice, options as checked } from '../src/arrays.js';
 import { usage, wordsFor } from '../src/errors.js';
 import { kFrames, kKey, mapOf, guessedFrame, namedFrame, readsTangents } from './frames.js';
 import { ofGltf, StoredGreens } from './greens.js';
@@ -21,7 +21,7 @@ export function untangleOptions(given, more = {}) {
   o.note ??= line => console.info(`Cotan: ${line}`);
   if (o.frame !== undefined) choice(o.frame, 'options.frame', kFrames);
   if (o.convention !== undefined) choice(o.convention, 'options.convention', kConventions);
-  if (typeof o.note !== 'function') throw usage(`options.note: expected a function, found ${wordsFor(o.note)}`);
+  checkTypes(o, 'function', 'note');
   return o;
 }
 
@@ -29,7 +29,7 @@ export function untangleOptions(given, more = {}) {
 export function replaceOptions(material, given, more) {
   if (!material?.isMaterial) throw usage(`material: expected a Material, found ${wordsFor(material)}`);
   const o = checked(given, { frame: undefined, against: false, ...more });
-  if (typeof o.against !== 'boolean') throw usage(`options.against: expected true or false, found ${wordsFor(o.against)}`);
+  checkTypes(o, 'boolean', 'against');
   if (o.from !== undefined && !o.from?.isMaterial) throw usage(`options.from: expected a Material, found ${wordsFor(o.from)}`);
   return o;
 }

@@ -1,5 +1,6 @@
 // cotan/three/tsl: normal mapping without tangents for three.js and its WebGPURenderer, on WebGPU and WebGL 2. Needs
-// three 0.185 or later; with an older version the import rejects with a CotanError, code `unavailable`.
+// three 0.185 or later; with an older version the import rejects with a CotanError, code `unavailable`. Bundlers report by
+// themselves that three before 0.167 has no `three/tsl`.
 import type { Material, Object3D, Texture } from 'three';
 import type { Node, Renderer } from 'three/webgpu';
 export { CotanError } from '../tangents.js';
@@ -13,7 +14,7 @@ export interface UntangleNodesOptions extends UntangleOptions {
 }
 
 /** Like `untangle` of cotan/three. Sets `normalNode` and `clearcoatNormalNode`, unless you have set them, and how the
- * directions of anisotropy are computed. Maps are bound by this call: call it again after replacing them. */
+ * directions of anisotropy are computed. Call it again after adding a map to a material that had none. */
 export function untangle<T extends Object3D | LoadedModel>(target: T, options?: UntangleNodesOptions): T;
 
 /** untangle() as a plugin of GLTFLoader: `new GLTFLoader().register(untangled())`. */
@@ -24,5 +25,6 @@ export function replaceFrame<T extends Material>(material: T, options?: { frame?
 
 /** The perturbed unit normal in view space, for your own node materials: `material.normalNode = perturbedNormal(map)`.
  * The tangent-space map is sampled with its own texture coordinates and matrix. scale: a vec2 node; after scaling,
- * green must point along v. Default of frame: `cotangent`. */
+ * green must point along v. frame: the one that the map was baked for; default: `orthonormal`, which reads maps for
+ * MikkTSpace, as most are. */
 export function perturbedNormal(map: Texture, scale?: Node, frame?: Exclude<Frame, 'auto'>): Node;

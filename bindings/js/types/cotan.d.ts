@@ -87,6 +87,8 @@ export function frames(): string[];
  * shader. */
 export function shader(options?: {
   language?: 'glsl' | 'essl' | 'hlsl' | 'wgsl' | 'msl' | 'cpp' | 'godot';
+  /** The one that the map was baked for: 'orthonormal' reads maps for MikkTSpace, as most are, 'smooth' and 'cotangent'
+   * those that you bake for this shader. Required, except for 'godot', whose default is 'orthonormal'. */
   frame?: string;
   convention?: Convention;
   /** For the frame "triangle" only: emits the part for one stage. Default: all stages. */
@@ -103,7 +105,7 @@ type Bytes = ArrayBuffer | ArrayBufferView;
 export interface ModelOptions {
   /** External files of a .gltf by URI: as the model writes it, or percent-decoded. */
   files?: Record<string, Bytes>;
-  /** Default: decodePicture. */
+  /** Decodes the normal maps, of any format but KTX2. Default: decodePicture. */
   decode?: (bytes: Uint8Array, name: string) => Promise<Picture & { bits: number }>;
   /** Called with the fraction done, 0 to 1. Returning false stops the work (code "stopped"). */
   progress?: (done: number) => boolean | void;
@@ -196,12 +198,16 @@ export interface ConvertReport {
     size: [number, number];
     /** The map stays, because the new frame reads it as well as a new map. */
     kept: boolean;
+    /** Only green of the map was reversed, as the tangents that were dropped showed it. */
+    green_reversed?: boolean;
     bytes_before: number;
     bytes_after: number;
+    /** For a new map: the mean angle in degrees between its texels before it was encoded and in its file. */
+    degrees_of_encoding?: number;
     [more: string]: any;
   }[];
   unread_maps: UnreadMap[];
-  /** The mode that was used. keep: tangents stay, because a map's green needs them and no new map could be made. */
+  /** The mode that was used. keep: all tangents stay, as those that reverse green of a map that could not be changed. */
   mode: 'drop' | 'convert' | 'keep';
   /** Size of the model with the files that it references. */
   bytes: { before: number; after: number };
@@ -215,12 +221,14 @@ export interface ConvertReport {
 /** Removes stored tangents from a model. mode:
  * - `auto`, the default: does what `lint` advises. Maps stay byte for byte, to be read with the frame `orthonormal` or
  *   MikkTSpace, if that is accurate enough, or if new maps would enlarge the file by more than 2 %. Otherwise new maps
- *   are made for the frame that `lint` advises. Tangents stay only if they reverse green of a map and no new one can be
- *   made.
- * - `drop`: leaves maps as they are, not even decoded, and ignores what the tangents say about green: see `lint`.
+ *   are made for the frame that `lint` advises. Where the tangents reverse green of a map that can stay otherwise, its
+ *   green is reversed, as `cotan convert --keep-maps` does, or the tangents stay; a note says so.
+ * - `drop`: leaves maps as they are, not even decoded. Tangents that reverse green of a map stay.
  * - `convert`: makes new maps as `cotan convert` does; the default if an option that concerns new maps is set. These
  *   keep the format of the old ones: JPEG and WebP at the same quality if sharp, or the canvas in browsers, encodes
- *   them; else PNG, with a note. */
+ *   them, and if that costs no more than half a degree, or half of what the conversion gains; else PNG, with a note.
+ * Tangents that glTF requires stay, with a note: those of materials with anisotropy, or with a normal map of the clear coat,
+ * without normalTexture. */
 export function convert(model: Bytes, options?: ModelOptions & {
   mode?: 'auto' | 'drop' | 'convert';
   /** Default: the frame that the materials name in their extras (`cotanFrame`), else "mikktspace". */
@@ -236,7 +244,7 @@ export function convert(model: Bytes, options?: ModelOptions & {
   fixGreen?: boolean;
   /** How engines decode the maps: "biased" (2c - 1, as stock engines do; the default) or "exact", where 128 is zero. */
   unsigned?: 'biased' | 'exact';
-  /** Encodes an image as a PNG file; default: encodePng. */
+  /** Encodes an image as a PNG file; default: encodePng. The file is decoded again to measure its losses. */
   encode?: (picture: Picture) => Promise<Bytes>;
 }): Promise<{ glb: Uint8Array; report: ConvertReport }>;
 
@@ -245,5 +253,6 @@ export function convert(model: Bytes, options?: ModelOptions & {
 /** Lossless PNG files of 8 or 16 bits. */
 export function decodePng(bytes: Uint8Array): Promise<Picture & { bits: 8 | 16 }>;
 export function encodePng(picture: Picture & { bits: number }): Promise<Uint8Array>;
-/** Decodes PNG; other formats by the browser, or by the package sharp in node. */
+/** Decodes PNG; other formats by the browser, or by the package sharp in node. The values are those of the file: no
+ * colour profile is applied, and colours under transparent alpha are kept. */
 export function decodePicture(bytes: Uint8Array, name?: string): Promise<Picture & { bits: number }>;

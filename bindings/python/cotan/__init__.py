@@ -13,7 +13,7 @@ Arrays are passed without copies if dtype and layout fit (float32, uint32, C ord
 
 from ._library import library_path, library_version
 from ._version import __version__
-from .baking import Baked, bake
+from .baking import Baked, bake, name_role, pair_names
 from .conversion import Conversion, model_pictures
 from .errors import (
     Error,
@@ -56,7 +56,7 @@ from .maps import (
     map_to_height,
 )
 from .models import Converted, Lint, Model, convert, lint, load
-from .pictures import read_picture, write_picture
+from .pictures import file_names, read_picture, write_picture
 from .rendering import render
 from .shaders import shader
 
@@ -82,6 +82,7 @@ __all__ = [
     "convert",
     "describe",
     "detect",
+    "file_names",
     "frame_apply",
     "frame_encode",
     "frames",
@@ -95,10 +96,12 @@ __all__ = [
     "map_mips",
     "map_to_height",
     "model_pictures",
+    "name_role",
     "pack_smooth4",
     "pack_smooth8",
     "pack_tangents",
     "pack_triangles",
+    "pair_names",
     "provoking",
     "read_picture",
     "render",

@@ -69,6 +69,7 @@ class BakeOptions(Struct):
         (c.c_float, "cage_reach"),
         (text, "search"),
         (c.c_float, "extrusion"),
+        (text, "occluders"),
     )
 
 
@@ -195,6 +196,10 @@ _STATUS = {
     "cotan_bake_models": (
         handle, size_t, c.POINTER(handle), BakeOptions, Picture, BakeResult, c.POINTER(handle),
     ),
+    "cotan_file_names": (size_t, c.POINTER(text), size_t, c.POINTER(text), c.POINTER(handle)),
+    "cotan_pair_names": (
+        size_t, c.POINTER(text), size_t, c.POINTER(text), pointer, pointer, c.POINTER(handle),
+    ),
     "cotan_model_open": (text, integer, integer, c.POINTER(handle)),
     "cotan_model_up": (handle, text),
     "cotan_model_of_meshes": (size_t, c.POINTER(c.POINTER(CMesh)), c.POINTER(text), c.POINTER(handle)),
@@ -224,6 +229,7 @@ _OTHERS = {
     "cotan_bytes_free": (None, handle),
     "cotan_frame_count": (integer,),
     "cotan_frame_name": (text, integer),
+    "cotan_name_role": (text, text),
     "cotan_conversion_count": (size_t, handle),
     "cotan_conversion_free": (None, handle),
     "cotan_model_free": (None, handle),

@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 from . import _arrays as arrays
 from . import _structs as structs
 from ._handles import is_path
-from ._library import call, taken
+from ._library import call, library, taken
 from ._work import Progress, long_call
-from .errors import InputError
+from .errors import InputError, in_keywords
 from .geometry import Mesh
 from .maps import Map
 from .models import Model, load
 from .pictures import Path, pixels_of
-from .words import BakeKind, Convention, Frame, HighNormals, Search, TangentOrigin, Up
+from .words import BakeKind, Convention, Frame, HighNormals, Occluders, Search, TangentOrigin, Up
 
 Geometry = Union[Mesh, Path, Model]
 
@@ -74,6 +74,37 @@ def _several(given):
     return list(given) if isinstance(given, (list, tuple)) else [given]
 
 
+def _lines(data):
+    """The lines of a cotan_bytes handle, which it frees."""
+    return [line for line in taken(data).decode("utf-8", "replace").split("\n") if line]
+
+
+def name_role(name: str) -> str:
+    """What the name of a mesh says that it is: "low" (door_low, Door.lo.001, lp_door), "high", "cage", or ""."""
+    return str(library().cotan_name_role(arrays.encoded(name, "name")).decode())
+
+
+def pair_names(low: Sequence[str], high: Sequence[str]) -> tuple[list[list[int]], list[str]]:
+    """Pairs simple with detailed meshes by their names, as `bake` with match_by_name does.
+
+    "door_low" belongs to "door_high" and "door_high_bolts", "door_low.001" to "door_high.001"; case does not matter.
+
+    Returns for each of `low` the indices of its meshes in `high`, none if it has no counterpart; and what the names
+    leave open, one sentence each.
+    """
+    names = [(ctypes.c_char_p * len(n))(*(arrays.encoded(name, what) for name in n))
+             for n, what in ((low, "low"), (high, "high"))]  # fmt: skip
+    groups = [np.empty(len(n), np.int64) for n in (low, high)]
+    notes = structs.handle()
+    call(
+        "cotan_pair_names", len(low), names[0], len(high), names[1], groups[0].ctypes.data, groups[1].ctypes.data, notes,
+    )  # fmt: skip
+    of_group: dict[int, list[int]] = {}
+    for index, group in enumerate(groups[1].tolist()):
+        of_group.setdefault(group, []).append(index)
+    return [of_group.get(group, []) if group >= 0 else [] for group in groups[0].tolist()], _lines(notes)
+
+
 def bake(
     low: Union[Geometry, Sequence[Mesh]],
     high: Union[Geometry, Sequence[Geometry]],
@@ -87,6 +118,7 @@ def bake(
     padding: int = 0,
     dither: bool = False,
     ao_rays: int = 64,
+    ao_occluders: Occluders = "matched",
     search: Search = "first",
     extrusion: float = 0.0,
     max_distance: float = 0.0,
@@ -122,6 +154,7 @@ def bake(
         padding: texels around charts that are filled from the nearest chart; 0: all, -1: none.
         dither: with 8 bits: dithers with a fixed pattern, so that slopes show no steps.
         ao_rays: rays per sample for "ao", 1 to 65536.
+        ao_occluders: with match_by_name, what casts occlusion: "matched" (the high meshes of the same name) or "all".
         search: "first": the first surface that a ray from outside inwards hits; "nearest": the surface nearest to the
             low mesh along its normal in either direction, which misses parts that float above another surface.
         extrusion: distance in front of the low mesh at which rays start, in units of the positions; 0: measured from
@@ -130,7 +163,7 @@ def bake(
             diagonal of the low mesh, for the search "nearest" 5 % of that of the high mesh.
         cage: a mesh with the triangles of the low mesh in their order, which encloses both meshes. Rays start there.
         cage_reach: length of rays from the cage; 0: as far behind the low mesh as the cage is in front of it.
-        match_by_name: a low mesh named NAME_low sees only the high mesh NAME_high.
+        match_by_name: a low mesh named NAME_low sees only its high meshes NAME_high: see `pair_names`.
         material: index of the low model's material to bake; -1: all.
         udim: tile of the texture coordinates to bake, 1001 to 1999.
         tangents: for the frames "vertex" and "mikktspace": "stored" (generated where missing) or "generated".
@@ -168,7 +201,7 @@ def bake(
         for name, word in (
             ("frame", frame), ("kind", "occlusion" if kind == "ao" else kind), ("convention", convention),
             ("tangents", tangents), ("high_normals", high_normals), ("high_frame", high_frame),
-            ("high_convention", high_convention), ("search", search),
+            ("high_convention", high_convention), ("search", search), ("occluders", ao_occluders),
         )
     }  # fmt: skip
     maps = [] if high_map is None else [pixels_of(m, "high_map") for m in _several(high_map)]
@@ -211,7 +244,7 @@ def bake(
         )  # fmt: skip
 
     long_call(work, progress)
-    warnings += [line for line in taken(lines).decode("utf-8", "replace").split("\n") if line]
+    warnings += [in_keywords(0, line) for line in _lines(lines)]
     return Baked(
         map=made,
         mask=mask_made,

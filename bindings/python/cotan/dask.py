@@ -26,6 +26,9 @@ Path = Union[str, "os.PathLike[str]"]
 
 _SHARDS_PER_THREAD = 4  # so that a slow one does not keep all others waiting
 _NOT_DONE = (2, 5)  # exit codes: some jobs failed, or are over a limit
+_OURS = {  # options of the tool, and the arguments that stand for them
+    "--store": "store", "--shard": "shards", "-o": "report", "--output": "report", "--json": "report", "--merge": "report",
+}
 
 
 def run(
@@ -44,13 +47,14 @@ def run(
     jobs: the file, one job per line. report: the page to write; None: none. store: the folder of results; None: beside
     the report. client: a distributed.Client; None: the current one. tool: the program cotan, here and on the workers.
     shards: number of parts that the jobs are split into; 0: four for each thread of the cluster, at most one per job.
-    options: more arguments of `cotan batch`, such as ["--limit-time", "600"]. progress: called with the fraction done,
+    options: more arguments of `cotan batch`, such as ["--limit-time", "600"] or ["--jobs=4"], the number of jobs that a
+    task runs at a time, 1 by default; not those that the arguments of this function stand for. progress: called with the fraction done,
     0 to 1, after each shard; returning False stops.
 
     Returns the report of `cotan batch --json`: "counts" by state, "jobs" with the worst first. A failed job is a row of
     the report and raises no exception.
 
-    Raises InputError for an invalid file of jobs, OutputError if the store is not writable, UnavailableError if the
+    Raises UsageError for options that this function sets itself, InputError for an invalid file of jobs, OutputError if the store is not writable, UnavailableError if the
     tool cannot be started here or on a worker, StoppedError if `progress` stopped the run, and distributed.KilledWorker
     if a task was lost with four workers.
     """
@@ -60,6 +64,11 @@ def run(
         client = distributed.get_client()
     if report is None and store is None:
         raise UsageError("report, store: expected one of them; found none")
+    if isinstance(options, str):
+        raise UsageError(f"options: expected a list of words such as ['--jobs', '4'], found the text {options!r}")
+    names = {word.partition("=")[0] for word in options}
+    for name in sorted(names & _OURS.keys()):
+        raise UsageError(f"options: expected no {name}, which the argument {_OURS[name]} stands for; found it")
     jobs = str(pathlib.Path(jobs).absolute())
     folder = pathlib.Path(store if store is not None else pathlib.Path(report).with_suffix(".store")).absolute()
     try:
@@ -69,8 +78,8 @@ def run(
     before = _merge(tool, jobs, folder, None)
     threads = sum(client.nthreads().values()) or 1
     count = shards or max(1, min(len(before["jobs"]), _SHARDS_PER_THREAD * threads))
-    words = [tool, "batch", jobs, "--store", str(folder), "--quiet", *options]
-    if "--jobs" not in options:
+    words = [tool, "batch", jobs, "--store", str(folder), "--quiet", *(word for word in options if word != "--quiet")]
+    if "--jobs" not in names:
         words += ["--jobs", "1"]
     tasks = [
         client.submit(_shard, [*words, "--shard", f"{number}/{count}"], pure=False, key=f"cotan-{os.urandom(6).hex()}-{number}")

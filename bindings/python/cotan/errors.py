@@ -104,7 +104,7 @@ def _keyword(match):
     return _KEYWORDS.get(name, name)
 
 
-def _in_keywords(status, message):
+def in_keywords(status, message):
     """Replaces names of options by keywords: --max-distance and options.max_distance become max_distance."""
     message = re.sub(r"^options\.(\w+)", _keyword, message)
     if status != UsageError.status:
@@ -114,7 +114,7 @@ def _in_keywords(status, message):
 
 def error_of(status, message, files=()):
     """The exception for a status and a message of the library. files: names with which the message may begin."""
-    message = _in_keywords(status, message)
+    message = in_keywords(status, message)
     rest, file = message, None
     for name in files:
         said = os.fsencode(name).decode("utf-8", "replace")

@@ -1,7 +1,8 @@
-"""Reads and writes image files."""
+"""Reads and writes image files, and names them."""
 
+import ctypes
 import os
-from typing import Union
+from typing import Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,6 +11,7 @@ from . import _arrays as arrays
 from . import _structs as structs
 from ._handles import array_of, is_path
 from ._library import call
+from ._library import taken as taken_bytes
 
 Path = Union[str, os.PathLike[str]]
 
@@ -34,6 +36,19 @@ def write_picture(file: Path, picture: ArrayLike) -> None:
     """
     pixels = arrays.pixels(picture, "picture")
     call("cotan_image_write", arrays.encoded(file, "file"), arrays.picture(pixels), files=(file,))
+
+
+def file_names(names: Sequence[str], taken: Sequence[str] = ()) -> list[str]:
+    """Parts of file names for names of objects, materials or images.
+
+    They are 1 to about 64 bytes long, and neither leave a folder nor mean a device on any file system. All differ, also where
+    case is ignored, from one another and from `taken`: "a b" and "a_b" become "a_b-2" and "a_b".
+    """
+    made = structs.handle()
+    lists = [(ctypes.c_char_p * len(n))(*(arrays.encoded(name, what) for name in n))
+             for n, what in ((names, "names"), (taken, "taken"))]  # fmt: skip
+    call("cotan_file_names", len(names), lists[0], len(taken), lists[1], made)
+    return taken_bytes(made).decode().split("\n")[:-1]
 
 
 def pixels_of(given, field="map"):

@@ -17,6 +17,8 @@ class Map:
     """One map to bake."""
 
     name: str
+    owner: str  # the object and material that the map is for
+    part: str  # the name of its file, without folder and ending
     slots: list  # material slots of the simple object that will use the map; empty: the object has none yet
     arguments: dict  # for cotan.bake, without the progress function
     path: str = ""  # file to write; "": packed into the .blend
@@ -91,14 +93,15 @@ def prepare(context, settings, pair):
     for slots, shown in parts:
         material = low.material_slots[slots[0]].material if slots else None
         part = "" if len(parts) == 1 else f"_{material.name if material else slots[0]}"
-        name = f"{low.name}{part}_normal"
+        name, owner = f"{low.name}{part}_normal", "\n".join([low.name, part])
+        file = images.part_for(owner, name, [made.part for made in maps])
         chosen = surface.triangles[shown]
         _check_uv(low, surface.texcoords, chosen, surface.uv_map)
         mesh = cotan.Mesh(surface.positions, chosen, surface.normals, surface.texcoords)
         arguments = {"low": mesh, "high": high, **common, **rays}
         if "cage" in rays:
             arguments["cage"] = cotan.Mesh(rays["cage"], chosen, surface.normals)
-        maps.append(Map(name, slots, arguments, images.file_for(settings, name)))
+        maps.append(Map(name, owner, file, slots, arguments, images.file_for(settings, owner, name, file)))
     return maps, surface.uv_map, _notes_on(low, matrix)
 
 
@@ -173,7 +176,11 @@ def run(context, settings, pairs, outcome):
                         work.join()
                     if work.error is not None:
                         raise work.error
-                    image = images.stored(made.name, work.file, not made.path, settings.frame)
+                    image, named_otherwise = images.stored(made, work.file, settings.frame)
+                if named_otherwise:
+                    outcome.notes.append(
+                        f"The map '{made.name}' of '{pair.low.name}' is named '{image.name}', and its file {made.part}.png"
+                    )
                 outcome.made.append(image)
                 outcome.notes += _notes_of(work.baked, image.name)
                 if settings.assign:

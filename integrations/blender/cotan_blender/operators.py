@@ -41,8 +41,8 @@ class CotanBake(bpy.types.Operator):
     def _begin(self, context):
         if context.mode != "OBJECT":
             raise Refused("Go back to Object Mode first")
-        found = pairs.by_name(context) if self.which == "NAMES" else pairs.by_selection(context)
-        self._outcome = bake.Outcome()
+        found, notes = pairs.by_name(context) if self.which == "NAMES" else pairs.by_selection(context)
+        self._outcome = bake.Outcome(notes=notes)
         self._steps = bake.run(context, context.scene.cotan, found, self._outcome)
 
     def execute(self, context):

@@ -28,7 +28,7 @@ public:
 
     Result<ConvertModelReport> run()
     {
-        const auto named = namedFrame(document_);
+        const auto named = options_.readMaps ? namedFrame(document_) : Result<std::optional<Frame>>(std::nullopt);
         if (!named)
             return named.error();
         if (*named && **named != options_.frames.from)
@@ -36,10 +36,27 @@ public:
                                           "that as the frame to convert from, found {}",
                                           fileOf(document_), name(**named), name(options_.frames.from)));
         named_ = named->has_value();
-        const auto jobs = mapJobs(document_, report_.notes);
+        if (Status converted = options_.readMaps ? convertMaps() : keepReversingTangents(); !converted)
+            return converted.error();
+        if (Status settled = updateTangents(); !settled)
+            return settled.error();
+        if (!options_.keepMaps && !std::ranges::all_of(report_.maps, &ConvertedMap::kept)
+            && options_.frames.to != Frame::mikktspace)
+            report_.notes.push_back(
+                fmt::format("the maps are now for the frame {}; readers that generate MikkTSpace tangents where "
+                            "TANGENT is missing, as glTF specifies, will shade them incorrectly",
+                            name(options_.frames.to)));
+        given_ = std::move(document_);
+        return std::move(report_);
+    }
+
+private:
+    Status convertMaps()
+    {
+        const auto jobs = mapJobs(document_, report_.notes, options_.limits);
         if (!jobs)
             return jobs.error();
-        report_.unread = unreadNormalMaps(document_);
+        report_.unread = unreadNormalMaps(document_, options_.limits);
         for (const UnreadMap& map : report_.unread)
             report_.notes.push_back(
                 fmt::format("{}: a normal map in {} is not supported; it and its tangents are unchanged: {}", map.name,
@@ -64,19 +81,26 @@ public:
         for (const MapJob& job : *jobs)
             for (const MapSlot& slot : options_.keepMaps ? std::vector<MapSlot>{} : job.slots)
                 nameFrame(document_, slot.material, options_.frames.to);
-        if (Status settled = updateTangents(); !settled)
-            return settled.error();
-        if (!options_.keepMaps && !std::ranges::all_of(report_.maps, &ConvertedMap::kept)
-            && options_.frames.to != Frame::mikktspace)
-            report_.notes.push_back(
-                fmt::format("the maps are now for the frame {}; readers that generate MikkTSpace tangents where "
-                            "TANGENT is missing, as glTF specifies, will shade them incorrectly",
-                            name(options_.frames.to)));
-        given_ = std::move(document_);
-        return std::move(report_);
+        return Done{};
     }
 
-private:
+    // Of maps that are not read: they cannot get their green reversed.
+    Status keepReversingTangents()
+    {
+        if (options_.frames.fromTangents != TangentOrigin::stored)
+            return Done{};
+        std::vector<std::string> aboutMaps; // that stay as they are
+        const auto jobs = mapJobs(document_, aboutMaps, options_.limits, true);
+        if (!jobs)
+            return jobs.error();
+        for (const MapJob& job : *jobs) {
+            ConvertedMap none;
+            if (greenWithoutTangents(job) != GreenWithoutTangents::declared)
+                keepTangents(job, none, fmt::format("its tangents reverse green of {}", job.name));
+        }
+        return Done{};
+    }
+
     std::string fieldOf(const MapJob& job) const { return fileOf(document_) + job.name; }
 
     Status checkMemory(const std::vector<MapJob>& jobs) const
@@ -188,20 +212,29 @@ private:
         return done;
     }
 
-    // Encodes a new map in the format of the old file, or as PNG if its losses would give a mean error over `limit`.
-    // Sets done.figures.error to that of the map as it is stored.
+    // Encodes a new map in the format of the old file, or as PNG if its losses would give a mean error over `limit`;
+    // what the caller encodes stays as it is. Sets done.figures.error to that of the map as it is stored.
     Result<EncodedLike> encodedWithin(double limit, const Image& image, std::span<const std::byte> old,
                                       const Image& before, std::span<const MapUse> uses, Expansion written,
                                       ConvertedMap& done)
     {
         auto file = encoded(image, old);
-        if (!file || file->format == "PNG")
+        const bool byCaller = file && options_.encode && isPng(file->bytes);
+        if (!file || (file->format == "PNG" && !byCaller))
             return file;
-        const auto stored = decodeImage(file->bytes, fileOf(document_) + done.name, options_.limits);
+        const std::string field = fileOf(document_) + done.name;
+        const auto stored = decodeImage(file->bytes, field, options_.limits);
         if (!stored)
             return stored.error();
+        if (stored->width != image.width || stored->height != image.height)
+            return outputError(fmt::format("{}: expected an encoded image of {} x {}, found {} x {}", field,
+                                           image.width, image.height, stored->width, stored->height));
         const ValueSummary lossy = mapError(before, *stored, uses, options_.frames, written);
-        if (lossy.mean <= limit) {
+        if (lossy.mean > limit && byCaller)
+            report_.notes.push_back(
+                fmt::format("{}: as encoded by the caller, its error is {:.2f} degrees on average, without losses {:.2f}",
+                            done.name, lossy.mean, done.figures.error.mean));
+        if (lossy.mean <= limit || byCaller) {
             done.figures.error = lossy;
             return file;
         }
@@ -354,10 +387,13 @@ private:
         }
         if (options_.keepTangents) {
             report_.tangents = TangentsAfter::kept;
-            report_.notes.push_back("TANGENT is kept; a reader that uses it will shade the converted maps incorrectly");
+            if (!options_.keepMaps)
+                report_.notes.push_back(
+                    "TANGENT is kept; a reader that uses it will shade the converted maps incorrectly");
             return Done{};
         }
-        auto dropped = dropTangents(document_, options_.frames, keptTangents_, report_.notes);
+        const auto foreign = options_.readMaps ? foreignNormalMaps(document_, options_.limits) : std::vector<MapSlot>();
+        auto dropped = dropTangents(document_, options_.frames, foreign, keptTangents_, report_.notes);
         if (!dropped)
             return dropped.error();
         report_.dropped = std::move(*dropped);
@@ -384,7 +420,7 @@ Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertMod
     if (options.bits != 0 && options.bits != 8 && options.bits != 16)
         return usageError(
             fmt::format("convert: expected 8 or 16 bits, or 0 for those of the old maps; found {}", options.bits));
-    if (options.keepMaps && (options.keepTangents || readsTangents(options.frames.to)))
+    if (options.keepMaps && ((options.keepTangents && options.readMaps) || readsTangents(options.frames.to)))
         return usageError(
             fmt::format("convert: with keepMaps the tangents are dropped; expected a frame that reads none, found {}",
                         options.keepTangents ? "keepTangents" : name(options.frames.to)));

@@ -76,6 +76,8 @@ double strengthOf(const Json& material, const gltf::TextureUse& map, NormalSlot 
 
 std::string imageName(const Json& root, std::size_t image)
 {
+    if (image >= countOf(root, "images"))
+        return "a map in an unknown format";
     const std::string name = root["images"][image].value("name", root["images"][image].value("uri", std::string()));
     return name.empty() || name.starts_with("data:") ? fmt::format("image {}", image) : name;
 }
@@ -104,6 +106,20 @@ Result<Mesh> meshFor(const GltfDocument& document, std::size_t m, std::size_t p,
     return mesh;
 }
 
+// The image of a texture, or the one that an unknown extension names; -1 if there is none.
+int anyImage(const Json& root, int texture)
+{
+    if (const int image = textureAt(root, texture).image; image >= 0)
+        return image;
+    const Json& json = root["textures"][std::size_t(texture)];
+    if (json.contains("extensions"))
+        for (const Json& extension : json["extensions"])
+            if (extension.is_object() && extension.contains("source") && extension["source"].is_number_unsigned()
+                && extension["source"] < countOf(root, "images"))
+                return extension["source"];
+    return -1;
+}
+
 // Adds one primitive with one of its materials to the job of a normal map of that material.
 Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapSlot slot, bool foreign,
               const std::vector<glm::dmat3>& transforms, std::map<std::size_t, MapJob>& jobs,
@@ -129,7 +145,7 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapSlo
     }
     const gltf::Texture texture = textureAt(root, map.texture);
     const Sampler sampler = samplerOf(root, texture);
-    const auto image = std::size_t(texture.image);
+    const auto image = std::size_t(anyImage(root, map.texture));
     MapJob& job = jobs[image];
     job.image = image;
     job.name = imageName(root, image);
@@ -149,23 +165,9 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapSlo
     return Done{};
 }
 
-// The image of a texture, or the one that an unknown extension names; -1 if there is none.
-int anyImage(const Json& root, int texture)
-{
-    if (const int image = textureAt(root, texture).image; image >= 0)
-        return image;
-    const Json& json = root["textures"][std::size_t(texture)];
-    if (json.contains("extensions"))
-        for (const Json& extension : json["extensions"])
-            if (extension.is_object() && extension.contains("source") && extension["source"].is_number_unsigned()
-                && extension["source"] < countOf(root, "images"))
-                return extension["source"];
-    return -1;
-}
-
 } // namespace
 
-std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document)
+std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document, const LoadLimits& limits)
 {
     const Json& root = rootOf(document);
     std::map<int, bool> images = {{-1, true}};
@@ -177,8 +179,8 @@ std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document)
                 continue;
             const int image = textureAt(root, map.texture).image;
             if (!images.contains(image)) {
-                const auto bytes = gltfImageBytes(document, std::size_t(image));
-                images[image] = bytes && !unreadableFormat(*bytes).empty();
+                const auto bytes = gltfImageBytes(document, std::size_t(image), limits);
+                images[image] = bytes && !unreadableFormat(*bytes, limits).empty();
             }
             if (images[image])
                 foreign.push_back({m, slot});
@@ -186,16 +188,16 @@ std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document)
     return foreign;
 }
 
-std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document)
+std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document, const LoadLimits& limits)
 {
     const Json& root = rootOf(document);
     std::set<int> images;
-    for (const MapSlot& slot : foreignNormalMaps(document))
+    for (const MapSlot& slot : foreignNormalMaps(document, limits))
         images.insert(anyImage(root, normalMapOf(root, slot.material, slot.kind).texture));
     std::vector<UnreadMap> unread;
     for (const int image : images)
         if (image >= 0)
-            if (const auto bytes = gltfImageBytes(document, std::size_t(image))) {
+            if (const auto bytes = gltfImageBytes(document, std::size_t(image), limits)) {
                 const std::string format = unreadableFormat(*bytes);
                 unread.push_back(
                     {std::size_t(image), imageName(root, std::size_t(image)),
@@ -208,18 +210,19 @@ std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document)
     return unread;
 }
 
-Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes)
+Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes,
+                                    const LoadLimits& limits, bool unread)
 {
     const Json& root = rootOf(document);
     const auto transforms = gltfMeshTransforms(root);
-    const std::vector<MapSlot> foreign = foreignNormalMaps(document);
+    const std::vector<MapSlot> foreign = unread ? std::vector<MapSlot>() : foreignNormalMaps(document, limits);
     std::map<std::size_t, MapJob> jobs;
     const Status status = forEachPrimitive(root, [&](std::size_t m, std::size_t p) -> Status {
         for (const std::size_t material : materialsOf(root, root["meshes"][m]["primitives"][p]))
             for (const NormalSlot kind : kNormalSlots) {
                 const MapSlot slot{material, kind};
-                const bool unread = std::binary_search(foreign.begin(), foreign.end(), slot);
-                if (Status added = addUse(document, m, p, slot, unread, transforms[m], jobs, notes); !added)
+                const bool isForeign = std::binary_search(foreign.begin(), foreign.end(), slot);
+                if (Status added = addUse(document, m, p, slot, isForeign, transforms[m], jobs, notes); !added)
                     return added;
             }
         return Done{};
@@ -228,7 +231,7 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
         return status.error();
     const std::set<int> elsewhere = imagesReadElsewhere(root);
     for (std::size_t t = 0; t < countOf(root, "textures"); ++t)
-        if (const auto job = jobs.find(std::size_t(textureAt(root, int(t)).image)); job != jobs.end())
+        if (const auto job = jobs.find(std::size_t(anyImage(root, int(t)))); job != jobs.end())
             job->second.textures.push_back(t);
     std::vector<MapJob> result;
     for (auto& [image, job] : jobs) {
@@ -359,12 +362,11 @@ std::string whyDirectionNeedsTangents(const RotatedDirection& d, Frame to)
 
 } // namespace
 
-Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frames,
+Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frames, const std::vector<MapSlot>& foreign,
                                   const std::vector<KeptTangents>& kept, std::vector<std::string>& notes)
 {
     TangentBytes dropped;
     std::set<std::size_t> seen, reported;
-    const std::vector<MapSlot> foreign = foreignNormalMaps(document);
     const auto transforms = gltfMeshTransforms(rootOf(document));
     const Status status = forEachPrimitive(rootOf(document), [&](std::size_t m, std::size_t p) -> Status {
         const Json& root = rootOf(document);
@@ -384,13 +386,16 @@ Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frame
             for (const MapSlot& slot : foreign)
                 if (slot.material == material)
                     keepFor(material, "its normal map is in an unsupported format and is not converted");
+            const std::string requirement = gltf::tangentRequirement(root["materials"][material]);
+            if (!requirement.empty())
+                keepFor(material, fmt::format("glTF requires TANGENT for {} without a normalTexture", requirement));
             if (gltf::tangentReader(root["materials"][material]).empty())
                 continue;
             const auto turn = turnOf(document, m, p, transforms[m], frames);
             if (!turn)
                 return turn.error();
             RotatedDirection& d = dropped.directions.emplace_back(RotatedDirection{m, p, material, *turn, false});
-            d.stays = !directionStays(d.degrees);
+            d.stays = !requirement.empty() || !directionStays(d.degrees);
             if (d.stays)
                 keepFor(material, whyDirectionNeedsTangents(d, frames.to));
         }

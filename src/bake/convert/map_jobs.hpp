@@ -47,9 +47,10 @@ struct MapJob {
 
 // The jobs of a file, in the order of its images. A mesh is several surfaces if nodes place it by linear maps that are
 // not rotations and uniform scales of one another, or if KHR_materials_variants gives it several materials. A coat's
-// map is read on a surface of its own (makeCoatSurface). `notes` lists the maps that are left out. Errors
-// (ErrorKind::input): compressed geometry.
-Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes);
+// map is read on a surface of its own (makeCoatSurface). `notes` lists the maps that are left out. limits: for reading
+// the images, here and below. unread: takes maps in formats that are not read here too. Errors (ErrorKind::input): compressed geometry.
+Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes,
+                                    const LoadLimits& limits = {}, bool unread = false);
 
 // The number of surfaces that read the job's image.
 std::size_t surfacesOf(const MapJob& job);
@@ -71,10 +72,10 @@ void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte
                 std::vector<std::string>& notes);
 
 // The slots of normal maps in a format that is not read here, named by an extension or, against glTF, by the texture.
-std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document);
+std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document, const LoadLimits& limits = {});
 
 // The images of these slots, in the order of the file's images.
-std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document);
+std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document, const LoadLimits& limits = {});
 
 // A primitive that keeps TANGENT, and why: the end of a note about `material`.
 struct KeptTangents {
@@ -82,10 +83,10 @@ struct KeptTangents {
     std::string reason;
 };
 
-// Drops TANGENT from all primitives except those of `kept`, and those whose materials need it: for a normal map in a
-// format that is not read here or for a direction that frames.to rotates (`notes` says so, one line
-// each). Errors (ErrorKind::input): compressed geometry.
-Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frames,
+// Drops TANGENT from all primitives except those of `kept`, and those whose materials need it: because glTF requires
+// it, for a normal map of `foreign`, or for a direction that frames.to rotates. `notes` says so, one line each. Errors
+// (ErrorKind::input): compressed geometry.
+Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frames, const std::vector<MapSlot>& foreign,
                                   const std::vector<KeptTangents>& kept, std::vector<std::string>& notes);
 
 } // namespace cotan

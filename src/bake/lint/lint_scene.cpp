@@ -116,10 +116,11 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
     if (!p.tangentsFor.empty())
         p.rotation = {rotationWith(Frame::orthonormal), rotationWith(Frame::cotangent), rotationWith(Frame::smooth)};
     const Texture& coat = material.coat.normalMap;
-    if (coat.present() && !hasPixels(scene.images[std::size_t(coat.image)])) { // not converted
+    // Not converted; or tangents are required, as gltf::tangentRequirement says.
+    if (coat.present() && (!hasPixels(scene.images[std::size_t(coat.image)]) || !material.normalMap.present()))
         p.tangentsFor = "KHR_materials_clearcoat";
+    if (p.tangentsFor == "KHR_materials_clearcoat" || !material.normalMap.present())
         p.rotation = {};
-    }
     p.madeFor = madeFor(material);
     p.triangles = mesh.triangleCount();
     p.hasUv = surface.hasUv();

@@ -1,5 +1,6 @@
 /* Cotan for C and for bindings to other languages: plain arrays with sizes. The only global state is that of
- * cotan_set_reader. Any thread may call any function.
+ * cotan_set_reader. Any thread may call any function. Nothing depends on the locale that the program has chosen: numbers
+ * in texts and files have a decimal point.
  *
  * Errors. Every function that can fail returns a cotan_status. If that is not COTAN_OK, `message` contains one line
  * with the reason, cut to `message_size` bytes including the terminating zero. Callers who need no text pass null and
@@ -22,7 +23,7 @@
 extern "C" {
 #endif
 
-#define COTAN_API_VERSION 6
+#define COTAN_API_VERSION 7
 /* clang-format off */
 #ifdef __cplusplus
 #define COTAN_INIT(type) cotan_init<type>()
@@ -61,6 +62,13 @@ typedef struct cotan_bytes cotan_bytes;
 const void* cotan_bytes_data(const cotan_bytes* bytes);
 size_t cotan_bytes_size(const cotan_bytes* bytes);
 void cotan_bytes_free(cotan_bytes* bytes);
+
+/* Returns parts of file names for names of objects, materials or images, one line each. They are 1 to about 64 bytes
+ * long, and neither leave a folder nor mean a device on any file system. All differ, also where case is ignored, from
+ * one another and from those in `taken`; a name that needs no change keeps it. taken: may be null if taken_count is 0.
+ * Since version 7. */
+cotan_status cotan_file_names(size_t count, const char* const* names, size_t taken_count, const char* const* taken,
+                              cotan_bytes** parts, char* message, size_t message_size);
 
 /* Called by long work with the fraction done, 0 to 1. Calls do not overlap, but they may come from other threads than
  * the caller's, and the numbers may be out of order. To stop the work, return a number other than 0; the function then
@@ -125,7 +133,10 @@ typedef struct cotan_mesh {
  * ...". */
 
 /* Returns one tangent per index: x, y, z along increasing u, w as in glTF's TANGENT. `kind`: "mikktspace" or "vertex".
- * threads: 0 for all cores; the result does not depend on it. tangents: 4 * index_count floats. */
+ * threads: 0 for all cores; the result does not depend on it. tangents: 4 * index_count floats. x, y, z are unit. Only
+ * "mikktspace" gives (0, 0, 0, 1) or (0, 0, 0, -1) where directions cancel at a vertex, as MikkTSpace does. glTF
+ * requires unit length: replace such a tangent by (1, 0, 0) before you write a file. All functions of Cotan that write
+ * glTF do so. */
 cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int threads, float* tangents, char* message,
                             size_t message_size);
 
@@ -242,8 +253,9 @@ cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, do
 /* ---- shader text ------------------------------------------------------------------------------------------------- */
 
 /* Returns the self-contained function that perturbs the normal with a frame, with a terminating zero. `language`: a
- * name for `cotan shader --lang`, such as "hlsl"; "godot" gives a whole spatial shader. `frame`: a name; for "triangle"
- * a stage may follow, to which the text is then limited: "triangle,fragment", "triangle,vertex", "triangle,mesh" or
+ * name for `cotan shader --lang`, such as "hlsl"; "godot" gives a whole spatial shader. `frame`: a name; null is
+ * an error that says which frame is for which maps, but for "godot", where it means "orthonormal"; for "triangle" a
+ * stage may follow, to which the text is then limited: "triangle,fragment", "triangle,vertex", "triangle,mesh" or
  * "triangle,compute". text_size: size of the buffer; set to the size of the text. A buffer that is too small, or null,
  * is not written, which is no error. */
 cotan_status cotan_shader_text(const char* language, const char* frame, const char* convention, char* text,
@@ -306,7 +318,8 @@ typedef struct cotan_bake_options {
     /* Since version 3. */
     const cotan_model* cage;     /* the triangles of the simple model, in the same order, moved outwards to enclose both
                                     models; rays start on it and go inwards. null: none */
-    int match_by_name;           /* not 0: a simple mesh NAME_low is baked only from the detailed mesh NAME_high */
+    int match_by_name;           /* not 0: a simple mesh NAME_low is baked only from its detailed meshes NAME_high; the
+                                    pairs are those of cotan_pair_names */
     int material;                /* of the simple model, from 1; 0: all */
     int tile;                    /* UDIM number; 0: 1001 */
     const char* tangents;        /* for "mikktspace" and "vertex": "stored" or "generated"; null: "generated" */
@@ -322,6 +335,9 @@ typedef struct cotan_bake_options {
                            the normal of the simple surface, in both directions; null: "first" */
     float extrusion;    /* distance before the simple surface at which rays start, in units of the positions; 0: derived
                            from the distance of the detailed surface */
+    /* Since version 7. */
+    const char* occluders; /* with match_by_name, what casts occlusion: "matched", the detailed meshes of the same name,
+                              or "all"; null: "matched" */
 } cotan_bake_options;
 
 typedef struct cotan_bake_result {
@@ -349,6 +365,18 @@ cotan_status cotan_bake_models(const cotan_model* low, size_t high_count, const 
                                const cotan_bake_options* options, cotan_picture* map, cotan_bake_result* result,
                                cotan_bytes** warnings, char* message, size_t message_size);
 
+/* What the name of a mesh says that it is: "low" (NAME_low, NAME.lo.001, lp_NAME, ...), "high", "cage", or "". Since
+ * version 7. */
+const char* cotan_name_role(const char* name);
+
+/* Pairs simple with detailed meshes by their names, as match_by_name does: "door_low" with "door_high" and
+ * "door_high_bolts", "door_low.001" with "door_high.001". A simple mesh belongs to the detailed ones of the same group.
+ * low_groups, high_groups: one number per name; -1: it has no counterpart. notes: what the names leave open, one line
+ * each; may be null. Since version 7. */
+cotan_status cotan_pair_names(size_t low_count, const char* const* low, size_t high_count, const char* const* high,
+                              int64_t* low_groups, int64_t* high_groups, cotan_bytes** notes, char* message,
+                              size_t message_size);
+
 /* ---- glTF in memory ---------------------------------------------------------------------------------------------- */
 
 /* Access to the files and images of a model. The functions are called on the caller's thread, one at a time. Each sets
@@ -359,9 +387,11 @@ typedef struct cotan_model_files {
     void* user;
     /* Reads a file next to the model by its URI. If null, models that reference files are refused. */
     int (*read)(void* user, const char* uri, const void** bytes, size_t* byte_count);
-    /* Decodes a PNG or JPEG file: sets all members of `picture` except `size`. If null, the library decodes. */
+    /* Decodes an image file of any format except KTX2 (in models PNG, JPEG, WebP, AVIF or DDS): sets all members of
+     * `picture` except `size`. If null, the library decodes. */
     int (*decode)(void* user, const char* name, const void* bytes, size_t byte_count, cotan_picture* picture);
-    /* Encodes an image of 8 or 16 bits as a PNG file. If null, the library encodes. */
+    /* Encodes an image of 8 or 16 bits as a PNG file. It is decoded again, so that the report has what its losses cost.
+     * If null, the library encodes. */
     int (*encode)(void* user, const cotan_picture* picture, const void** bytes, size_t* byte_count);
     void (*done)(void* user);
     const char* name; /* of the model in messages; null: "model.glb" or "model.gltf". Since version 3 */
@@ -410,6 +440,7 @@ cotan_status cotan_lint_gltf(const void* model, size_t model_size, const cotan_m
 cotan_status cotan_lint_model(const cotan_model* model, const cotan_lint_options* options, cotan_lint_result* result,
                               cotan_bytes** json, char* message, size_t message_size);
 
+#define COTAN_MAPS_UNREAD 2
 typedef struct cotan_convert_options {
     size_t size;
     const char* from; /* frame that the maps were made for; null: the one named by the file, otherwise "mikktspace" */
@@ -424,7 +455,7 @@ typedef struct cotan_convert_options {
     /* Since version 5. */
     int keep_maps; /* not 0: maps are kept, byte for byte, to be read with `to`, which must not read tangents; only
                       tangents are removed. Where these reverse green of a map, its green is reversed, or they stay. If
-                      `to` is null: "orthonormal" */
+                      `to` is null: "orthonormal". COTAN_MAPS_UNREAD: without decoding maps, which stay all as they are */
 } cotan_convert_options;
 
 typedef struct cotan_convert_result {

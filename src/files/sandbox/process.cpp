@@ -11,10 +11,11 @@
 #include <poll.h>
 #include <spawn.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/named_values.hpp"
 #include "files/bytes.hpp"
+#include "files/children.hpp"
 #include "files/file_registry.hpp"
 
 namespace cotan {
@@ -28,8 +29,7 @@ constexpr std::size_t kMaxStderr = 4096; // bytes of standard error that are kep
 
 std::string readerName(const ReaderRequest& request)
 {
-    std::string extension = lowerExtension(request.name);
-    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::toupper(c); });
+    const std::string extension = upperCase(lowerExtension(request.name));
     const bool known = extension.size() > 1 && extension.size() < 6;
     const std::string format = known ? extension.substr(1) + " " : "";
     if (request.kind == ReaderKind::draco)
@@ -272,11 +272,10 @@ bool ReaderProcess::ended(int& status)
     };
     for (;;) {
         drainStderr();
-        const pid_t found = ::waitpid(process_, &status, WNOHANG);
-        if (found != 0 && !(found < 0 && errno == EINTR)) {
+        if (const Waited found = waitFor(process_, /*look*/ true, status); found != Waited::running) {
             drainStderr(); // messages written just before the end
             process_ = -1;
-            return found > 0; // else somebody else waits for our children
+            return found == Waited::ended;
         }
         timedOut_ = Clock::now() >= deadline_;
         if (timedOut_)
@@ -290,8 +289,7 @@ void ReaderProcess::kill()
     if (process_ < 0)
         return;
     ::kill(process_, SIGKILL);
-    while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR)
-        ;
+    waitFor(process_);
     process_ = -1;
 }
 

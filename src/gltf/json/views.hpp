@@ -205,4 +205,8 @@ std::string frameText(const Json& material);
 // The extension that makes a material read tangents, among those not drawn here; empty: none.
 std::string tangentReader(const Json& material);
 
+// The extension because of which glTF requires TANGENT: that of anisotropy, or of a normal map of the clear coat, in a
+// material without normalTexture; empty: none. Sources: both; MESH_PRIMITIVE_NO_TANGENT_SPACE of Khronos' validator.
+std::string tangentRequirement(const Json& material);
+
 } // namespace cotan::gltf

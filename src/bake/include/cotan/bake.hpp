@@ -57,6 +57,12 @@ enum class HighNormals {
     face,
 };
 
+// What casts occlusion if BakeOptions::matched limits rays to some instances.
+enum class Occluders {
+    matched, // the same instances, as if each pair was baked alone
+    all,
+};
+
 class HighNormalMaps; // internal
 struct RayStarts;     // internal
 
@@ -78,8 +84,9 @@ struct BakeOptions {
     std::shared_ptr<const HighNormalMaps> highMaps; // normal maps of the high surface, which replace its normals; not
                                                     // read for heights and occlusion. Null: none
     int occlusionRays = 64;
-    std::vector<std::int64_t> matched; // per instance of the low scene: the high instance that rays can hit, -1: all;
-                                       // empty: all
+    Occluders occluders = Occluders::matched;
+    std::vector<std::int64_t> matched; // per instance of the low scene: the group of high instances that rays can hit,
+                                       // -1: all; empty: all
     int threads = 0;
 };
 
@@ -108,8 +115,9 @@ struct BakeModelOptions {
                                    // models; rays run from it inwards. Null: none. Read by prepareBake only
     const Scene* others = nullptr; // other simple meshes, not baked now: detail that is nearer to them than to the
                                    // simple scene is theirs. Null: none. Read by prepareBake only
-    bool matchByName = false;      // a simple mesh NAME_low is baked from the detailed mesh NAME_high only,
-                                   // case-insensitively. Instances without a name use that of their mesh
+    bool matchByName = false;      // a simple mesh NAME_low sees only the detailed meshes NAME_high, NAME_high_a, ...,
+                                   // and NAME_low.001 only NAME_high.001 (src/bake/name_pairs.hpp has the rule). Names
+                                   // are those of instances, or of their meshes if only these have such a word
     bool ownMaps = false; // bakes the detailed scenes' own normal maps, or HighModel::maps, instead of their normals.
                           // No effect on heights and occlusion
     Frame highFrame = Frame::mikktspace;  // frame that those maps were made for
@@ -157,7 +165,7 @@ struct BakedMap {
 
 struct BakedModel {
     std::vector<BakedMap> maps;        // one for each of options.tiles
-    std::vector<std::string> warnings; // one line each
+    std::vector<std::string> warnings; // one line each; those about an option begin with "options.NAME: "
 };
 
 // Prepares, then bakes every tile. Errors: those of prepareBake and bakeTile.

@@ -49,14 +49,16 @@ struct ConvertModelOptions {
     Expansion expansion = Expansion::biased;
     // Keeps all maps, byte for byte, to be read with frames.to, which must not read tangents; only drops tangents.
     // Where the tangents of the file reverse green of a map on all surfaces that show it, they are dropped and green of
-    // the// map is reversed, unless its file would grow by over 10 %. Otherwise, the surfaces on which they reverse it
+    // the map is reversed, unless its file would grow by over 10 %. Otherwise, the surfaces on which they reverse it
     // keep them.
     bool keepMaps = false;
+    bool readMaps = true;      // false, with keepMaps: the maps are not even decoded, and the report has none
     bool keepTangents = false; // keep TANGENT where the new frame does not read it
     int threads = 0;           // 0: all cores; the result does not depend on it
     std::size_t memory = 0;    // bytes that the triangles may take besides the document; 0: no limit
     LoadLimits limits{};       // for reading the images
-    // Encodes each new map as a PNG file, in place of Cotan's own writers; called on the caller's thread. May be empty.
+    // Encodes each new map as a PNG file, in place of Cotan's own writers, on the caller's thread. The file is decoded
+    // again for ReencodeFigures::error. Other bytes are taken unread, for callers who replace them later. May be empty.
     std::function<Result<std::vector<std::byte>>(const Image&)> encode{};
     Progress progress{}; // called from any thread, also from several at once
     // Called with each map when it is done, in the order of the report, on the caller's thread.

@@ -93,8 +93,9 @@ struct PrimitiveLint {
     // Instances that stretch a mesh differently are reported separately: this is number `placing`, from 0, of
     // `placings`, of which only the first kMaxPlacings are reported.
     std::size_t placing = 0, placings = 1;
-    // Extension of the material that reads tangents and has no map of its own that could be converted. `rotation`: how
-    // far the direction that it reads rotates with each frame that may be advised (directionTurn); empty if unknown.
+    // Extension of the material that reads tangents and has no map of its own that could be converted, or that requires
+    // them because the surface has no normal map. `rotation`: how far the direction that it reads rotates with each
+    // frame that may be advised (directionTurn); empty if that does not matter.
     std::string tangentsFor;
     FrameSummaries rotation;
     int image = -1;        // of the normal map; -1: none

@@ -26,13 +26,14 @@ enum class ErrorKind {
 
 struct Error {
     ErrorKind kind = ErrorKind::input;
-    std::string message; // one line, no newline
-    bool memory = false; // the caller's memory limit was exceeded; a larger limit may succeed
-    std::string field{}; // the caller's field that the message begins with, such as "options.maxDistance"
+    std::string message;  // one line, no newline
+    bool memory = false;  // the caller's memory limit was exceeded; a larger limit may succeed
+    std::string field{};  // the caller's field that the message begins with, such as "options.maxDistance"
+    std::string advice{}; // further lines for people, each ending with a newline
 };
 
-// A value or an Error. Check with `if (!result)` before `*result`.
-template<class T> class Result {
+// A value or an Error. Check with `if (!result)` before `*result`. Compilers warn of a call whose result is ignored.
+template<class T> class [[nodiscard]] Result {
 public:
     Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
     Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}
@@ -49,7 +50,7 @@ private:
     std::variant<T, Error> state_;
 };
 
-// The result of functions that return no value: `return Done{};` on success.
+// The result of functions that return no value: `return Done{};` on success. Ignoring it gives the same warning.
 struct Done {};
 using Status = Result<Done>;
 

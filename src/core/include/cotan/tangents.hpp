@@ -40,12 +40,13 @@ struct MeshView {
 // Degenerate input is handled as in the source. The corners of a triangle with two equal positions get the tangents of
 // the first valid triangle at their vertex. A triangle without area in uv shares the tangents of its neighbours;
 // without neighbours the tangent is (1,0,0), whatever the normal, and w = +1 (-1 in the source, whose v runs up). Where
-// tangents cancel out, xyz is zero. Non-finite tangents become those of a triangle without neighbours.
-// Source: M. Mikkelsen, Simulation of Wrinkled Surfaces Revisited (2008), and the behaviour of mikktspace.h with its
-// default angular threshold of 180 degrees, fixed as in three.js 0.187: every shared edge connects its triangles.
-// mikktspace.c leaves the edges of the last vertex unsorted (BuildNeighborsFast) and treats some as borders; corners at
-// that vertex differ in a few meshes.
-// threads: the number to use for large meshes, 0: all cores; the result does not depend on it.
+// tangents cancel out, xyz is zero, as in the source. glTF requires unit length: setGltfTangents (cotan/gltf.hpp)
+// writes (1,0,0) there, and so must you if you write the file. Non-finite tangents become those of a triangle without
+// neighbours. Source: M. Mikkelsen, Simulation of Wrinkled Surfaces Revisited (2008), and the behaviour of mikktspace.h
+// with its default angular threshold of 180 degrees, fixed as in three.js 0.187: every shared edge connects its
+// triangles. mikktspace.c leaves the edges of the last vertex unsorted (BuildNeighborsFast) and treats some as borders;
+// corners at that vertex differ in a few meshes. threads: the number to use for large meshes, 0: all cores; the result
+// does not depend on it.
 std::vector<packed::vec4> mikktspaceTangents(const MeshView& mesh, int threads = 0);
 
 // The classic method: dP/du of every triangle, from its edges, is normalised, summed per vertex without weights, and

@@ -117,7 +117,8 @@ Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh
 
 // ---- tangents -------------------------------------------------------------------------------
 
-// Tangents for one primitive, one per corner, in the order of GltfGeometry::indices.
+// Tangents for one primitive, one per corner, in the order of GltfGeometry::indices. xyz is unit, or zero where a
+// generator finds no direction: glTF requires unit length, so (1, 0, 0) is written there.
 struct GltfCornerTangents {
     std::size_t mesh = 0;
     std::size_t primitive = 0;

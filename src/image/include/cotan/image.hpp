@@ -33,8 +33,9 @@ bool isJpeg(std::span<const std::byte> bytes);
 // add. Empty for other data.
 std::string imageFormatName(std::span<const std::byte> bytes);
 
-// The same for image formats that this library or this build cannot read; empty for all others.
-std::string unreadableFormat(std::span<const std::byte> bytes);
+// The same for image formats that cannot be read: by this library or this build or, where limits.decode is set, by any
+// decoder that callers have (KTX2). Empty for all others.
+std::string unreadableFormat(std::span<const std::byte> bytes, const LoadLimits& limits = {});
 
 // Reads an image file. 8-bit files become unorm8, 16-bit ones unorm16, half and float float32. The values are those of
 // the file: no colour conversion, no premultiplication. Image::frame is the value that PNG (tEXt or uncompressed iTXt

@@ -167,7 +167,7 @@ struct Fault {
         tooLong,
         eightBitsIn16,
         greenDown,
-        // Of a model's map, which glTF reads as three channels in tangent space:
+        // Faults of a model's map, which glTF reads as three channels in tangent space:
         twoChannels,
         slopes,
         objectSpace,
@@ -208,6 +208,11 @@ std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics&
 // "NAME: FAULT; FAULT; cotan map convert OPTIONS fixes it."; without the command if none fixes it; empty without
 // faults.
 std::string sentenceOf(const std::string& name, const std::vector<Fault>& faults, const NormalStatistics& statistics);
+
+// What certainly contradicts the convention that someone states for a map, such as "green points up, not down"; empty
+// if nothing does. verdict: of the map, after the stated damage was undone.
+std::string contradictionOf(const GreenVerdict& verdict, const Convention& stated);
+std::string contradictionOf(const Image& map, const Convention& stated); // judges a million texels at most
 
 // ---- stated conventions --------------------------------------------------------------------
 
@@ -262,9 +267,9 @@ struct BlendSettings {
     int firstRow = 0, imageHeight = 0; // first row and height of the whole image; 0: base is whole
 };
 
-// Returns the blend, which has the base's size. The detail repeats and is filtered bilinearly; where it is minified, it
-// is averaged as vectors over the texel's footprint. invalid: texels where base or detail has no direction; these take
-// the other one.
+// Returns the blend, which has the base's size, and its alpha if both have three channels. The detail repeats and is
+// filtered bilinearly; where it is minified, it is averaged as vectors over the texel's footprint. invalid: texels
+// where base or detail has no direction; these take the other one.
 Image blend(const Image& base, const Image& detail, const BlendSettings& settings, std::size_t& invalid);
 
 // ---- heights -------------------------------------------------------------------------------

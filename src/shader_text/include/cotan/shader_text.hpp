@@ -74,10 +74,24 @@ std::string_view name(Set set);
 // Whether the language has the set. Godot implements environment, tone and shadows itself.
 bool hasSet(Language language, Set set);
 
+// Which frame to print for which maps. A shader that reads a map with another frame than it was baked for has errors of
+// degrees.
+struct FrameAdvice {
+    std::string_view frames, maps;
+};
+inline constexpr FrameAdvice kFrameAdvice[] = {
+    {"orthonormal", "for maps that were baked for MikkTSpace, as most are"},
+    {"smooth or cotangent", "for maps that you bake for this shader"},
+};
+
+// The frame where the caller names none: for Godot, whose text is the material of a model, orthonormal. Errors (usage):
+// another language; the message has kFrameAdvice.
+Result<Frame> frameIfNoneIsNamed(Language language);
+
 struct Choice {
     Language language = Language::glsl;
-    Frame frame = Frame::cotangent;
-    Convention convention{};        // only expansion, channels and green are used
+    Frame frame = Frame::orthonormal; // the right one for most maps; see kFrameAdvice
+    Convention convention{};          // only expansion, channels and green are used
     std::optional<Form> form{};     // nothing: fused if the frame has that form and reads no vertices, otherwise total
     int uvSets = 1;                 // 1 to 4; more than one: gradients are added, fused only for `cotangent`
     Stage stage = Stage::all;       // other than `all`: only for the fused form of `triangle`
