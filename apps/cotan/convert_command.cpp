@@ -15,6 +15,8 @@
 #include "gltf_open.hpp"
 #include "loading.hpp"
 #include "parse.hpp"
+#include "picture/option_words.hpp"
+#include "picture_options.hpp"
 #include "verify.hpp"
 
 namespace cotan::app {
@@ -26,6 +28,7 @@ struct ConvertCommandOptions : CommonOptions {
     std::string from, to; // empty `from`: the frame that the file names, else mikktspace
     TangentOrigin tangents = TangentOrigin::stored;
     bool keepTangents = false, keepMaps = false;
+    double maxDegrees = ChoiceLimits().mean; // for frames that are chosen
     std::string provoking; // empty: vertices stay unchanged
     int memory = kDefaultMemory;
     int bits = 0; // 0: as the old map
@@ -46,12 +49,14 @@ Result<Frame> frameFor(const char* option, const std::string& text)
     return *frame;
 }
 
-// Without --to-frame the maps stay unchanged, so options for converting them are errors.
+// --provoking alone concerns vertices only.
+bool verticesOnly(const ConvertCommandOptions& o) { return o.to.empty() && !o.keepMaps && !o.provoking.empty(); }
+
+// Without --to-frame the frames are chosen by measurement, and the maps stay.
+bool chooses(const ConvertCommandOptions& o) { return o.to.empty() && !verticesOnly(o); }
+
 Status checkVerticesOnly(const ConvertCommandOptions& o)
 {
-    if (o.provoking.empty())
-        return usageError("convert: expected --to-frame FRAME or --provoking first or last; or "
-                          "--keep-maps; found none");
     const ConvertCommandOptions unset;
     for (const auto& [option, given] : {std::pair{"--from-frame", o.from != unset.from},
                                         {"--tangents", o.tangents != unset.tangents},
@@ -68,16 +73,16 @@ Status checkVerticesOnly(const ConvertCommandOptions& o)
 // The frames of the maps; empty if the maps stay unchanged.
 Result<std::optional<FramePair>> checkUsage(const ConvertCommandOptions& o)
 {
-    if (o.keepMaps && (o.keepTangents || o.bits != 0))
-        return usageError(
-            fmt::format("{}: --keep-maps drops only the tangents", o.keepTangents ? "--keep-tangents" : "--bits"));
-    if (o.to.empty() && !o.keepMaps)
+    if ((o.keepMaps || chooses(o)) && (o.keepTangents || o.bits != 0))
+        return usageError(fmt::format("{}: {} drops only the tangents", o.keepTangents ? "--keep-tangents" : "--bits",
+                                      o.keepMaps ? "--keep-maps" : "convert without --to-frame"));
+    if (verticesOnly(o))
         if (Status alone = checkVerticesOnly(o); !alone)
             return alone.error();
     const auto from = frameFor("--from-frame", o.from.empty() ? "mikktspace" : o.from);
     if (!from)
         return from.error();
-    const auto to = !o.to.empty() ? frameFor("--to-frame", o.to) : o.keepMaps ? Frame::orthonormal : *from;
+    const auto to = !o.to.empty() ? frameFor("--to-frame", o.to) : chooses(o) ? Frame::orthonormal : *from;
     if (!to)
         return to.error();
     if (o.keepMaps && readsTangents(*to))
@@ -97,7 +102,7 @@ Result<std::optional<FramePair>> checkUsage(const ConvertCommandOptions& o)
     std::error_code ignored;
     if (!o.verify.empty() && std::filesystem::equivalent(o.model, o.output, ignored))
         return usageError(fmt::format("--verify: compares with {}, which -o replaces; expected another -o", o.model));
-    if (o.to.empty() && !o.keepMaps)
+    if (verticesOnly(o))
         return std::optional<FramePair>();
     return std::optional(FramePair{*from, *to, o.tangents, TangentOrigin::generated});
 }
@@ -117,7 +122,8 @@ Result<ConvertModelReport> convert(const ConvertCommandOptions& o, const FramePa
                             {.frames = frames,
                              .bits = o.bits,
                              .expansion = o.expansion == "biased" ? Expansion::biased : Expansion::exact,
-                             .keepMaps = o.keepMaps,
+                             .choose = chooses(o) ? std::optional(ChoiceLimits::of(o.maxDegrees)) : std::nullopt,
+                             .keepMaps = o.keepMaps || chooses(o),
                              .keepTangents = o.keepTangents,
                              .threads = o.threads,
                              .memory = std::size_t(o.memory) << 20,
@@ -155,6 +161,7 @@ Status convertMaps(const ConvertCommandOptions& o, const FramePair& frames, Gltf
     for (const std::string& line : tangentsLines(*done, std::string(name(frames.to))))
         say(o, line);
     report["tangents"] = tangentsJson(*done);
+    report["decisions"] = decisionsJson(*done);
     notes = done->notes;
     return Done{};
 }
@@ -193,7 +200,7 @@ Status run(const ConvertCommandOptions& o)
         if (*named && o.from.empty())
             (*frames)->from = **named;
         report.update({{"from", name((*frames)->from)},
-                       {"to", name((*frames)->to)},
+                       {"to", chooses(o) ? std::string(kAutoFrame) : std::string(name((*frames)->to))},
                        {"tangents_read", wordOf(kTangentOrigins, o.tangents)},
                        {"unsigned", o.expansion}});
     }
@@ -217,7 +224,8 @@ Status run(const ConvertCommandOptions& o)
     report["seconds"] = {{"convert", watch.lap()}};
     if (!o.verify.empty()) {
         auto verified = verifyConversion(
-            {o.model, o.output, (*frames)->from, (*frames)->to, (*frames)->fromTangents, o.verify, o.device, o.memory},
+            {o.model, o.output, (*frames)->from, chooses(o) ? std::nullopt : std::optional((*frames)->to),
+             (*frames)->fromTangents, o.verify, o.device, o.memory},
             o);
         if (!verified)
             return verified.error();
@@ -236,7 +244,8 @@ void declare(Arguments& a, ConvertCommandOptions& o)
         .in("FRAME")
         .offers(frameWords())
         .main();
-    a.option("--to-frame", o.to, "frame to make the maps for; mikktspace and vertex write TANGENT, all others drop it")
+    a.option("--to-frame", o.to, "frame to make the maps for; mikktspace and vertex write TANGENT, all others drop it (default: the maps stay, "
+             "each primitive is read with the frame that is near enough, and tangents stay where none is)")
         .in("FRAME")
         .offers(frameWords())
         .main();
@@ -247,9 +256,10 @@ void declare(Arguments& a, ConvertCommandOptions& o)
         a, o.tangents,
         "for --from-frame mikktspace or vertex: stored (as in the file, generated where missing) or generated");
     a.flag("--keep-maps", o.keepMaps,
-           "keep the maps byte for byte, to be read with --to-frame (default then: orthonormal), and drop only the "
-           "tangents; where these reverse green of a map, its green is reversed, or they stay")
+           "keep the maps byte for byte, to be read with --to-frame, and drop only the tangents; where these reverse "
+           "green of a map, its green is reversed, or they stay. Without --to-frame this is the default")
         .main();
+    addMaxDegreesOption(a, o.maxDegrees);
     a.group(HelpGroup::output);
     a.flag("--keep-tangents", o.keepTangents, "keep the tangents of the file");
     a.option("--bits", o.bits,
@@ -290,7 +300,7 @@ void addConvertCommand(Arguments& tool)
          "Convert a glTF model's normal maps to another frame and drop its tangents, or prepare its vertices for the "
          "frame triangle.",
          "the converted model, .glb or .gltf",
-         {"cotan convert model.glb --to-frame smooth -o out.glb", "cotan convert model.glb --keep-maps -o out.glb",
+         {"cotan convert model.glb --to-frame smooth -o out.glb", "cotan convert model.glb -o out.glb",
           "cotan convert model.glb --from-frame mikktspace --to-frame orthonormal -o out.glb --verify check",
           "cotan convert model.glb --provoking first -o out.glb"},
          /*needsOutput=*/true},

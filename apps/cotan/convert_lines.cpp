@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "bake/convert/choose_primitives.hpp"
 #include "bake/lint/map_fit.hpp"
 #include "gltf/json/lookup.hpp"
 #include "lint_lines.hpp"
@@ -13,7 +14,7 @@ namespace cotan {
 namespace {
 
 // The line about a map that is left unchanged, but for its green.
-std::string whyKept(const ConvertedMap& map, const std::string& to)
+std::string whyKept(const ConvertedMap& map)
 {
     const ValueSummary& unconverted = map.figures.unconverted;
     if (unconverted.count == 0)
@@ -22,7 +23,7 @@ std::string whyKept(const ConvertedMap& map, const std::string& to)
         return fmt::format("{}: unchanged: TANGENT stays on {}", map.name, counted(map.surfaces, "surface"));
     const std::string change = map.greenReversed ? "only its green is reversed" : "unchanged";
     const ValueSummary& error = map.greenReversed ? map.figures.error : unconverted;
-    return fmt::format("{}: {}: read with {} its error is {} degrees on {}{}", map.name, change, to, toText(error),
+    return fmt::format("{}: {}: read with {} its error is {} degrees on {}{}", map.name, change, namesOf(map.readWith), toText(error),
                        counted(map.surfaces - map.surfacesWithTangents, "surface"),
                        fitsAsItIs(error) ? ", no more than that of rounding a new map" : "");
 }
@@ -62,7 +63,7 @@ Json rowOf(const GltfProvoked& p)
 std::vector<std::string> linesOf(const ConvertedMap& map, const std::string& to)
 {
     if (map.kept || map.greenReversed)
-        return {whyKept(map, to)};
+        return {whyKept(map)};
     const ReencodeFigures& r = map.figures;
     const double texels = double(map.width) * double(map.height);
     std::vector<std::string> lines;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cotan/frame_choice.hpp"
 #include "cotan/image.hpp"
 #include "cotan/inspect.hpp"
 #include "cotan/model.hpp"
@@ -82,6 +83,9 @@ Result<ComparedViews> drawAndCompare(const VerifyOptions& o, const CommonOptions
     auto after = loadSceneWithin(o.memory, o.after);
     if (!after)
         return after.error();
+    if (!o.to)
+        for (const FrameDecision& d : chooseFrames(*after)) // which obeys the names
+            after->meshes[d.mesh].readWith = d.frame;
     const auto second = drawModel(**renderer, o.after, {std::move(*after), o.to}, common, first->cameras);
     if (!second)
         return second.error();
@@ -110,8 +114,9 @@ Result<Json> verifyConversion(const VerifyOptions& o, const CommonOptions& commo
     if (Status written = writeViews(*compared, kConversionNames, o.folder); !written)
         return written.error();
     const AngleStatistics& s = compared->all;
-    say(common, "drawn from {} sides on {}, {} without stored tangents against {} before: {}", kConversionViews, device,
-        name(o.to), name(o.from), toText(s));
+    say(common, "drawn from {} sides on {}, {} against {} before: {}", kConversionViews, device,
+        o.to ? fmt::format("{} without stored tangents", name(*o.to)) : std::string("the frames of the new file"),
+        name(o.from), toText(s));
     if (s.count == 0)
         warn(common, "--verify compared nothing: {}",
              compared->mapped ? "no pixel shows the inside of a surface in both" : kNoNormalMap);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace cotan::app {
 // A converted model and the original.
 struct VerifyOptions {
     std::filesystem::path before, after; // models
-    Frame from = Frame::mikktspace, to = Frame::cotangent;
+    Frame from = Frame::mikktspace;
+    std::optional<Frame> to = Frame::cotangent;         // none: those that the primitives of `after` name
     TangentOrigin fromTangents = TangentOrigin::stored; // of the original
     std::filesystem::path folder;                       // for before-N.png, after-N.png, difference-N.png
     std::string device;

@@ -185,6 +185,7 @@ Json toJson(const ConvertedMap& map)
                  {"surfaces", map.surfaces},
                  {"size", {map.width, map.height}},
                  {"kept", map.kept},
+                 {"read_with", Json::array()},
                  {"green_reversed", map.greenReversed},
                  {"surfaces_with_tangents", map.surfacesWithTangents},
                  {"bits", map.bits},
@@ -202,6 +203,8 @@ Json toJson(const ConvertedMap& map)
                  {"kept_elsewhere", map.alsoElsewhere},
                  {"bytes_before", map.bytesBefore},
                  {"bytes_after", map.bytesAfter}};
+    for (const Frame frame : map.readWith)
+        json["read_with"].push_back(name(frame));
     if (map.greenReversed)
         for (const char* figure : {"texels_covered", "texels_padded", "texels_in_several_places",
                                    "texels_that_disagree", "disagreement_degrees", "moved_degrees", "below_horizon"})
@@ -212,6 +215,18 @@ Json toJson(const ConvertedMap& map)
               "disagreement_degrees", "moved_degrees", "degrees_after_rounding", "below_horizon", "kept_elsewhere"})
             json.erase(figure);
     return json;
+}
+
+Json decisionsJson(const ConvertModelReport& report)
+{
+    Json list = Json::array();
+    for (const PrimitiveDecision& d : report.decisions) {
+        Json json = toJson(d.decision);
+        json["mesh"] = d.primitive.mesh;
+        json["primitive"] = d.primitive.primitive;
+        list.push_back(std::move(json));
+    }
+    return list;
 }
 
 Json tangentsJson(const ConvertModelReport& report)

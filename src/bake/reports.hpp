@@ -37,6 +37,9 @@ Json listsOf(const LintReport& report);
 // The result for a map.
 Json toJson(const ConvertedMap& map);
 
+// The frames that were chosen for primitives of the file, by options.choose; otherwise empty.
+Json decisionsJson(const ConvertModelReport& report);
+
 // The results for tangents and for anisotropic highlights.
 Json tangentsJson(const ConvertModelReport& report);
 

@@ -26,7 +26,8 @@ namespace {
 
 Json convertJson(const ConvertModelReport& report)
 {
-    Json json = {{"maps", Json::array()},
+    Json json = {{"decisions", decisionsJson(report)},
+                 {"maps", Json::array()},
                  {"unread_maps", Json::array()},
                  {"tangents", tangentsJson(report)},
                  {"notes", report.notes}};
@@ -63,17 +64,22 @@ ConvertModelOptions optionsFor(const cotan_convert_options& o, const ModelFiles&
     require(o.threads >= 0, "options.threads: expected 0 or more");
     ConvertModelOptions convert;
     convert.frames = {frameOr(o.from, Frame::mikktspace, "options.from"),
-                      frameOr(o.to, o.keep_maps != 0 ? Frame::orthonormal : Frame::cotangent, "options.to"),
+                      frameOr(o.to, Frame::orthonormal, "options.to"),
                       o.generate_tangents != 0 ? TangentOrigin::generated : TangentOrigin::stored,
                       TangentOrigin::generated};
     convert.bits = o.bits;
     convert.keepTangents = o.keep_tangents != 0;
-    convert.keepMaps = o.keep_maps != 0;
+    const bool chooses = !o.to && o.keep_maps != COTAN_MAPS_UNREAD;
+    if (chooses)
+        convert.choose = o.max_degrees > 0 ? ChoiceLimits::of(o.max_degrees) : ChoiceLimits();
+    convert.keepMaps = o.keep_maps != 0 || chooses;
     convert.readMaps = o.keep_maps != COTAN_MAPS_UNREAD;
     if (convert.keepMaps && readsTangents(convert.frames.to))
         fail(ErrorKind::usage, "options.to: expected a frame without tangents for maps that are kept, found ",
              name(convert.frames.to));
     require(!convert.keepMaps || convert.bits == 0, "options.bits: expected 0 where maps are kept");
+    require(!chooses || o.keep_tangents == 0, "options.keep_tangents: expected 0 where frames are chosen");
+    require(o.max_degrees >= 0 && o.max_degrees <= 180, "options.max_degrees: expected 0 to 180");
     const std::string_view expansion = o.expansion ? o.expansion : "biased";
     require(expansion == "biased" || expansion == "exact", "options.expansion: expected biased or exact");
     convert.expansion = expansion == "biased" ? Expansion::biased : Expansion::exact;

@@ -167,6 +167,9 @@ Mesh finishGltfMesh(GltfPrimitive&& primitive, int normalMapSet, GltfWarnings& w
 
 // ---- materials and the images they use --------------------------------------------------------
 
+// The frame of this name (kFrameExtra); none if the name is empty or unknown, which is a warning. field: its owner.
+std::optional<Frame> gltfFrame(const std::string& text, const std::string& field, GltfWarnings& warnings);
+
 // Creates the scene's materials when meshes first use them, and collects the images that they need.
 class GltfMaterials {
 public:

@@ -109,10 +109,17 @@ private:
                 skinGltfPrimitive(*primitive, joints_[std::size_t(use.skin)], model_.warnings);
             Mesh mesh = finish(std::move(*primitive));
             mesh.material = materials_.use(mesh.material, mesh);
+            mesh.source = {std::size_t(use.mesh), p};
+            mesh.named = frameNamed(use.mesh, p);
             entry->second.push_back(int(scene_.meshes.size()));
             scene_.meshes.push_back(std::move(mesh));
         }
         return entry->second;
+    }
+
+    std::optional<Frame> frameNamed(int mesh, std::size_t p)
+    {
+        return gltfFrame(sourceMesh(mesh).primitives[p].frame, primitiveField(std::size_t(mesh), p), model_.warnings);
     }
 
     MeshUse useOf(int node)

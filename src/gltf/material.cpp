@@ -52,7 +52,7 @@ Image decode(const GltfFile& model, ImageSource source, const LoadLimits& limits
 {
     if (!source.resource.file.empty())
         source.bytes = source.resource.bytes = valueOrFail(readGltfResource(model, source.resource.file, limits));
-    if (limits.pixels == Pixels::whereReadable)
+    if (limits.pixels != Pixels::all)
         foreign = unreadableFormat(source.bytes, limits);
     if (!foreign.empty()) {
         Image image;
@@ -134,18 +134,22 @@ Texture GltfMaterials::texture(const gltf::TextureUse& use, const Mesh& mesh, co
     return texture;
 }
 
+std::optional<Frame> gltfFrame(const std::string& text, const std::string& field, GltfWarnings& warnings)
+{
+    const std::optional<Frame> frame = frameFromName(text);
+    if (!frame && !text.empty())
+        warnings.add(fmt::format("{}.extras.{}", field, gltf::kFrameExtra),
+                     fmt::format("expected the name of a frame, found '{}'; ignored", oneLine(text)));
+    return frame;
+}
+
 Material GltfMaterials::make(int index, const Mesh& mesh)
 {
     if (index < 0)
         return {};
     const gltf::Json& source = (*materials_)[std::size_t(index)];
-    std::optional<Frame> frame;
-    if (const std::string named = gltf::frameText(source); !named.empty()) {
-        frame = frameFromName(named);
-        if (!frame)
-            model_.warnings.add(fmt::format("materials[{}].extras.{}", index, gltf::kFrameExtra),
-                                fmt::format("expected the name of a frame, found '{}'; ignored", oneLine(named)));
-    }
+    const std::optional<Frame> frame =
+        gltfFrame(gltf::frameText(source), fmt::format("materials[{}]", index), model_.warnings);
     Material material = gltf::readMaterial(source, [&](const gltf::Json& owner, const char* slot) {
         return texture(gltf::readTextureUse(gltf::member(owner, slot)), mesh,
                        fmt::format("materials[{}].{}", index, slot));
@@ -200,7 +204,13 @@ void GltfMaterials::decodeImages()
 {
     if (model_.limits.pixels == Pixels::none)
         return;
-    const std::vector<std::pair<int, int>> jobs(slots_.begin(), slots_.end());
+    std::vector<std::pair<int, int>> jobs(slots_.begin(), slots_.end());
+    if (model_.limits.pixels == Pixels::normalMaps)
+        std::erase_if(jobs, [&](const auto& job) {
+            return std::ranges::none_of(scene_.materials, [&](const Material& m) {
+                return m.normalMap.image == job.second || m.coat.normalMap.image == job.second;
+            });
+        });
     std::vector<GltfProblem> problems(jobs.size());
     std::vector<std::string> foreign(jobs.size());
     const std::size_t all = imageBudget(model_.limits, bytesOfFiles());

@@ -157,7 +157,8 @@ Primitive readPrimitive(const Json& primitive)
             .targets = listOf<Attributes>(primitive, "targets"),
             .indices = indexOf(primitive, "indices"),
             .material = indexOf(primitive, "material"),
-            .mode = valueOr(primitive, "mode", kTriangles)};
+            .mode = valueOr(primitive, "mode", kTriangles),
+            .frame = frameText(primitive)};
 }
 
 Mesh readMesh(const Json& mesh)
@@ -280,9 +281,9 @@ Json writeSampler(const Sampler& s)
     return sampler;
 }
 
-std::string frameText(const Json& material)
+std::string frameText(const Json& owner)
 {
-    const Json* const frame = member(member(material, "extras"), kFrameExtra);
+    const Json* const frame = member(member(owner, "extras"), kFrameExtra);
     return !frame ? "" : frame->is_string() ? frame->get<std::string>() : frame->dump();
 }
 

@@ -142,6 +142,12 @@ std::optional<Frame> namedFrameOf(const Scene& scene, const Material& m)
     return image < scene.images.size() ? frameFromName(scene.images[image].frame) : std::nullopt;
 }
 
+std::optional<Frame> namedFrameOf(const Scene& scene, const Mesh& mesh)
+{
+    const Material& m = scene.materials[std::size_t(mesh.material)];
+    return mesh.named && hasNormalMap(m) ? mesh.named : namedFrameOf(scene, m);
+}
+
 StoredGreen storedGreen(const Mesh& mesh, const std::vector<glm::vec2>& uv)
 {
     StoredGreen area;

@@ -65,8 +65,9 @@ struct NamedFrame {
 };
 std::optional<NamedFrame> namedFrame(const Scene& scene);
 
-// The frame that the file names for the maps of one material, likewise.
+// The frame that the file names for the maps of one material, likewise; and for one mesh, whose own name counts first.
 std::optional<Frame> namedFrameOf(const Scene& scene, const Material& material);
+std::optional<Frame> namedFrameOf(const Scene& scene, const Mesh& mesh);
 
 // Where the normal maps of a scene come from.
 enum class MapSource {

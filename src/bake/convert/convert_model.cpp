@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "bake/convert/choose_primitives.hpp"
 #include "bake/convert/map_jobs.hpp"
 #include "cotan/gltf.hpp"
 #include "cotan/image.hpp"
@@ -36,10 +37,13 @@ public:
                                           "that as the frame to convert from, found {}",
                                           fileOf(document_), name(**named), name(options_.frames.from)));
         named_ = named->has_value();
+        if (Status chosen = chooseFramesOfPrimitives(); !chosen)
+            return chosen.error();
         if (Status converted = options_.readMaps ? convertMaps() : keepReversingTangents(); !converted)
             return converted.error();
         if (Status settled = updateTangents(); !settled)
             return settled.error();
+        noteKeptTangents();
         if (!options_.keepMaps && !std::ranges::all_of(report_.maps, &ConvertedMap::kept)
             && options_.frames.to != Frame::mikktspace)
             report_.notes.push_back(
@@ -51,11 +55,51 @@ public:
     }
 
 private:
+    // Names the chosen frames; those of other conversions replace the names.
+    Status chooseFramesOfPrimitives()
+    {
+        if (options_.choose) {
+            auto decisions = choosePrimitives(document_, *options_.choose, options_.limits);
+            if (!decisions)
+                return decisions.error();
+            report_.decisions = std::move(*decisions);
+        }
+        return forEachPrimitive(rootOf(document_), [&](std::size_t m, std::size_t p) -> Status {
+            const FrameDecision* const d = decisionOf(m, p);
+            const bool reads = d && d->reason != ChoiceReason::noMap && d->reason != ChoiceReason::notJudged;
+            if (options_.choose ? reads : !options_.keepMaps)
+                nameFrameOfPrimitive(document_, {m, p}, reads ? std::optional(d->frame) : std::nullopt);
+            return Done{};
+        });
+    }
+
+    const FrameDecision* decisionOf(std::size_t mesh, std::size_t primitive) const
+    {
+        const auto found = std::ranges::find(report_.decisions, SourcePrimitive{mesh, primitive},
+                                             &PrimitiveDecision::primitive);
+        return found != report_.decisions.end() ? &found->decision : nullptr;
+    }
+
+    // Readers that keep TANGENT, and the frames of the others.
+    void applyDecisions(std::vector<MapJob>& jobs)
+    {
+        for (MapJob& job : jobs)
+            for (MapReader& reader : job.readers)
+                if (const FrameDecision* const d = decisionOf(reader.mesh, reader.primitive)) {
+                    reader.keeps = reader.stored && !d->dropsTangents();
+                    reader.readWith = d->frame;
+                }
+        for (const PrimitiveDecision& d : report_.decisions)
+            if (!d.decision.dropsTangents())
+                keptTangents_.push_back({d.primitive.mesh, d.primitive.primitive, 0, ""});
+    }
+
     Status convertMaps()
     {
-        const auto jobs = mapJobs(document_, report_.notes, options_.limits);
+        auto jobs = mapJobs(document_, report_.notes, options_.limits);
         if (!jobs)
             return jobs.error();
+        applyDecisions(*jobs);
         report_.unread = unreadNormalMaps(document_, options_.limits);
         for (const UnreadMap& map : report_.unread)
             report_.notes.push_back(
@@ -164,6 +208,7 @@ private:
         for (MapUse& use : *uses)
             use.stored.expansion = expansions.read;
         done.alsoElsewhere = job.alsoElsewhere;
+        done.readWith = framesOf(job);
         done.bytesBefore = done.bytesAfter = bytes->size();
         done.format = imageFormatName(*bytes);
         // The old map stays, byte for byte, if it serves as well as a rounded new one.
@@ -176,13 +221,15 @@ private:
                 shownByTangents ? greenWithoutTangents(job) : GreenWithoutTangents::declared;
             if (green == GreenWithoutTangents::reversed)
                 return withGreenReversed(job, std::move(done), *map, *bytes, *uses, expansions.read);
-            if (green == GreenWithoutTangents::both) {
+            if (green == GreenWithoutTangents::both)
                 keepTangents(job, done,
                              fmt::format("its tangents reverse green of {}, which other surfaces show as "
                                          "declared",
                                          job.name));
+            for (const MapReader& reader : job.readers)
+                done.surfacesWithTangents += reader.keeps ? reader.transforms.size() : 0;
+            if (done.surfacesWithTangents > 0)
                 done.figures.unconverted = errorWithoutTangents(job, *map, *uses);
-            }
         }
         done.kept = options_.keepMaps || done.figures.unconverted.count == 0
             || (options_.bits == 0 && fitsAsItIs(done.figures.unconverted));
@@ -299,12 +346,26 @@ private:
         return made;
     }
 
+    // The frames that the surfaces without tangents read a map with.
+    std::vector<Frame> framesOf(const MapJob& job) const
+    {
+        std::vector<Frame> frames;
+        for (const MapReader& reader : job.readers)
+            if (!reader.keeps)
+                frames.push_back(reader.readWith.value_or(options_.frames.to));
+        std::ranges::sort(frames);
+        frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+        return frames;
+    }
+
     // The surfaces that read a map with green reversed keep their tangents. uses: of the job.
     void keepTangents(const MapJob& job, ConvertedMap& done, const std::string& reason)
     {
         for (const MapReader& reader : job.readers)
-            if (reader.reversed) {
+            if (reader.reversed && !reader.keeps) {
                 keptTangents_.push_back({reader.mesh, reader.primitive, reader.slot.material, reason});
+                if (options_.choose)
+                    nameFrameOfPrimitive(document_, {reader.mesh, reader.primitive}, options_.frames.from);
                 done.surfacesWithTangents += reader.transforms.size();
             }
     }
@@ -316,7 +377,7 @@ private:
         std::size_t use = 0;
         for (const MapReader& reader : job.readers)
             for (std::size_t k = 0; k < reader.transforms.size(); ++k, ++use)
-                if (!reader.reversed)
+                if (!reader.reversed && !reader.keeps)
                     dropping.push_back(uses[use]);
         return mapErrors(map, map, dropping, {&options_.frames, 1}, {}, pointsOfEach(surfaces_)).front();
     }
@@ -327,7 +388,7 @@ private:
         if (options_.keepMaps && map.surfacesWithTangents < map.surfaces && error.mean > kVisible)
             report_.notes.push_back(fmt::format("{}: {} and read with {}, its error is {:.1f} degrees on average",
                                                 map.name, map.greenReversed ? "with green reversed" : "unchanged",
-                                                name(options_.frames.to), error.mean));
+                                                namesOf(map.readWith), error.mean));
     }
 
     // Encodes in the format of the old file, or by options_.encode.
@@ -400,6 +461,15 @@ private:
         return Done{};
     }
 
+    // Of primitives whose tangents stay because no frame is near enough.
+    void noteKeptTangents()
+    {
+        for (const PrimitiveDecision& d : report_.decisions)
+            if (d.decision.reason == ChoiceReason::keeps && !d.decision.dropsTangents())
+                report_.notes.push_back(fmt::format("{}: {}", primitiveField(d.primitive.mesh, d.primitive.primitive),
+                                                    textOf(d.decision)));
+    }
+
     const ConvertModelOptions& options_;
     GltfDocument& given_;
     GltfDocument document_; // a copy, so that the given document is unchanged on error
@@ -420,6 +490,8 @@ Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertMod
     if (options.bits != 0 && options.bits != 8 && options.bits != 16)
         return usageError(
             fmt::format("convert: expected 8 or 16 bits, or 0 for those of the old maps; found {}", options.bits));
+    if (options.choose && (!options.keepMaps || !options.readMaps || options.keepTangents))
+        return usageError("convert: frames are chosen for maps that are kept and read; expected keepMaps and readMaps");
     if (options.keepMaps && ((options.keepTangents && options.readMaps) || readsTangents(options.frames.to)))
         return usageError(
             fmt::format("convert: with keepMaps the tangents are dropped; expected a frame that reads none, found {}",

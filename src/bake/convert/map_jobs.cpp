@@ -258,7 +258,7 @@ GreenWithoutTangents greenWithoutTangents(const MapJob& job)
 {
     bool reversed = false, declared = false;
     for (const MapReader& reader : job.readers) {
-        (reader.reversed ? reversed : declared) |= std::abs(reader.strength) > kFlattened;
+        (reader.reversed && !reader.keeps ? reversed : declared) |= std::abs(reader.strength) > kFlattened;
     }
     return !reversed ? GreenWithoutTangents::declared
         : declared   ? GreenWithoutTangents::both
@@ -274,12 +274,14 @@ Result<std::vector<MapUse>> usesOf(const GltfDocument& document, const MapJob& j
         if (!mesh)
             return mesh.error();
         const auto held = std::make_shared<const Mesh>(*std::move(mesh));
-        const FrameSet read = framesRead(frames, r.stored);
+        FramePair used = frames;
+        used.to = r.readWith.value_or(frames.to);
+        const FrameSet read = framesRead(used, r.stored);
         const MappedSurface surface = r.slot.kind == NormalSlot::coat
             ? makeCoatSurface(held, Texture{}, Texture{.image = 0, .texcoord = 1, .sampler = {}}, read)
             : makeSurface(held, Texture{}, glm::dmat3(1), read);
         for (const glm::dmat3& linear : r.transforms)
-            uses.push_back({placedBy(surface, linear), Convention{}, r.strength, r.wrapU, r.wrapV});
+            uses.push_back({placedBy(surface, linear), Convention{}, r.strength, r.wrapU, r.wrapV, r.readWith});
     }
     return uses;
 }
@@ -376,7 +378,7 @@ Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frame
         bool stays = false;
         const auto keepFor = [&](std::size_t material, const std::string& reason) {
             stays = true;
-            if (reported.insert(material).second)
+            if (!reason.empty() && reported.insert(material).second)
                 notes.push_back(fmt::format("materials[{}]: {}; TANGENT is kept", material, reason));
         };
         for (const KeptTangents& k : kept)

@@ -4,6 +4,7 @@
 
 #include <compare>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,8 @@ struct MapReader {
     bool stored = false;   // has TANGENT
     StoredGreen green{};   // what TANGENT shows of the map's green
     bool reversed = false; // TANGENT reverses green: readsReversed
+    bool keeps = false;    // its TANGENT stays, so that it shows the map as before
+    std::optional<Frame> readWith{}; // as in MapUse
 };
 
 // An image and everything that reads it as a normal map.
@@ -80,7 +83,7 @@ std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document, const Load
 // A primitive that keeps TANGENT, and why: the end of a note about `material`.
 struct KeptTangents {
     std::size_t mesh = 0, primitive = 0, material = 0;
-    std::string reason;
+    std::string reason; // empty: without a note
 };
 
 // Drops TANGENT from all primitives except those of `kept`, and those whose materials need it: because glTF requires

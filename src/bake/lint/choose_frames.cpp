@@ -114,10 +114,12 @@ public:
         if (!material_.normalMap.present() && !material_.coat.normalMap.present())
             return decision_;
         const bool stored = mesh_.tangents.size() == mesh_.vertexCount() && !mesh_.tangents.empty();
-        if (const std::optional<Frame> named = namedFrameOf(scene_, material_); named && !readsTangents(*named)) {
+        if (const std::optional<Frame> named = namedFrameOf(scene_, mesh_)) {
             decision_.meaning = MapMeaning::named;
             decision_.reason = ChoiceReason::named;
             decision_.frame = *named;
+            decision_.tangents =
+                readsTangents(*named) && stored ? TangentOrigin::stored : TangentOrigin::generated;
             return decision_;
         }
         decision_.meaning = stored ? MapMeaning::stored : MapMeaning::mikktspace;

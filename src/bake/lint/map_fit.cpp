@@ -104,7 +104,8 @@ std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, std
             for (std::size_t i = 0; i < frames.size(); ++i)
                 errors[i].add(
                     lint::degreesBetween(normalOf(before, use, use.stored, frames[i].from, frames[i].fromTangents, p),
-                                         normalOf(after, use, stored, frames[i].to, frames[i].toTangents, p)),
+                                         normalOf(after, use, stored, use.readWith.value_or(frames[i].to),
+                                                  frames[i].toTangents, p)),
                     area / double(count));
     }
     std::vector<ValueSummary> summaries;

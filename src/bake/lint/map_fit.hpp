@@ -57,6 +57,7 @@ struct MapUse {
     Convention stored;
     double strength = 1; // the material's factor on the slopes; 0: does not count
     Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
+    std::optional<Frame> readWith{}; // in place of FramePair::to
 };
 
 // A use shows nothing of its map if its factor on the slopes is below this.

@@ -118,7 +118,8 @@ struct Primitive {
     Attributes attributes;
     std::vector<Attributes> targets; // morph targets
     int indices = -1, material = -1;
-    int mode = 4; // 4: triangles, 5: strip, 6: fan; below: points and lines
+    int mode = 4;      // 4: triangles, 5: strip, 6: fan; below: points and lines
+    std::string frame; // frameText
 };
 
 struct Mesh {
@@ -195,12 +196,12 @@ Image readImage(const Json& image);
 Sampler readSampler(const Json& sampler);
 Json writeSampler(const Sampler& sampler);
 
-// The string member of a material's extras that names the frame its normal maps were made for. three.js, Blender and
-// glTF-Transform keep the extras of materials.
+// The string member of extras that names a frame: in a material, the one that its normal maps were made for; in a
+// primitive, the one that reads its normal map. three.js and glTF-Transform keep both, Blender those of materials.
 inline constexpr const char* kFrameExtra = "cotanFrame";
 
 // The value of kFrameExtra; empty if missing. A value that is no string is printed as JSON.
-std::string frameText(const Json& material);
+std::string frameText(const Json& owner);
 
 // The extension that makes a material read tangents, among those not drawn here; empty: none.
 std::string tangentReader(const Json& material);

@@ -68,6 +68,7 @@ enum class Pixels {
     all,           // all that are used; an unreadable one is an error
     whereReadable, // the same, except that images in formats that glTF extensions allow but Cotan cannot read
                    // (unreadableFormat in cotan/image.hpp) have no pixels, and a warning names them
+    normalMaps,    // likewise, but normal maps only
     none,          // none
 };
 

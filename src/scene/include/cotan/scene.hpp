@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -215,6 +216,13 @@ struct Material {
 };
 
 // Triangles with one material. Every attribute array is empty or has vertexCount() entries.
+// A primitive of a glTF file.
+struct SourcePrimitive {
+    std::size_t mesh = 0, primitive = 0; // indices in the file
+
+    auto operator<=>(const SourcePrimitive&) const = default;
+};
+
 struct Mesh {
     std::string name;
     int material = 0; // index into Scene::materials, always valid
@@ -226,6 +234,8 @@ struct Mesh {
     std::vector<glm::vec3> cotangentsU; // derived for the frame `smooth`; otherwise empty
     std::vector<glm::vec3> cotangentsV;
     std::vector<std::uint32_t> indices; // three per triangle, each < vertexCount()
+    std::optional<SourcePrimitive> source; // in the glTF file that it was read from
+    std::optional<Frame> named;         // frame that the primitive names in the file; none: that of its material
     std::optional<Frame> readWith;      // frame for a view with View::framesOfMeshes; none: View::frame
 
     std::size_t vertexCount() const { return positions.size(); }

@@ -1,0 +1,102 @@
+#include "choose_primitives.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "cotan/gltf.hpp"
+#include "gltf/json/lookup.hpp"
+
+namespace cotan {
+
+namespace {
+
+// How many materials KHR_materials_variants can give a primitive.
+std::size_t variantsOf(const Json& root)
+{
+    const Json* const variants = gltf::member(gltf::extension(root, "KHR_materials_variants"), "variants");
+    return variants && variants->is_array() ? variants->size() : 0;
+}
+
+bool isWorse(const FrameCandidate& a, const FrameCandidate& b)
+{
+    return std::pair(a.percentile99, a.mean) > std::pair(b.percentile99, b.mean);
+}
+
+// Adds another way to draw the primitive: each candidate is as good as the worst of both.
+void add(FrameDecision& known, const FrameDecision& other, const ChoiceLimits& limits)
+{
+    if (other.reason == ChoiceReason::noMap)
+        return;
+    const bool both = known.reason == ChoiceReason::fits && other.reason == ChoiceReason::fits;
+    const bool judged = known.candidates.size() > 0 && known.candidates.size() == other.candidates.size();
+    if (known.reason == ChoiceReason::noMap || (!judged && known.dropsTangents() && !other.dropsTangents())) {
+        known = other;
+        return;
+    }
+    if (!judged)
+        return;
+    for (std::size_t i = 0; i < known.candidates.size(); ++i)
+        if (FrameCandidate& c = known.candidates[i]; isWorse(other.candidates[i], c))
+            c = {c.frame, c.tangents, other.candidates[i].points, std::max(c.mean, other.candidates[i].mean),
+                 std::max(c.percentile95, other.candidates[i].percentile95), other.candidates[i].percentile99,
+                 std::max(c.maximum, other.candidates[i].maximum)};
+    const auto first = std::ranges::find_if(known.candidates, [&](const FrameCandidate& c) {
+        return c.tangents == TangentOrigin::generated && c.within(limits);
+    });
+    if (both && first != known.candidates.end())
+        known.frame = first->frame;
+    else if (!other.dropsTangents() || (both && known.meaning == MapMeaning::stored))
+        std::tie(known.reason, known.frame, known.tangents) =
+            std::tuple(ChoiceReason::keeps, Frame::mikktspace, TangentOrigin::stored);
+}
+
+} // namespace
+
+Result<std::vector<PrimitiveDecision>> choosePrimitives(const GltfDocument& document, const ChoiceLimits& limits,
+                                                        const LoadLimits& load)
+{
+    auto bytes = glbBytes(document, load);
+    if (!bytes)
+        return bytes.error();
+    LoadLimits inside = load;
+    inside.pixels = Pixels::normalMaps;
+    inside.readFile = [&](const std::string&) { return Result<std::vector<std::byte>>(*bytes); };
+    std::map<SourcePrimitive, FrameDecision> found;
+    const std::filesystem::path path = gltfPath(document);
+    const std::size_t ways = std::max<std::size_t>(variantsOf(rootOf(document)), 1);
+    for (std::size_t way = 0; way < ways; ++way) {
+        inside.variant = ways > 1 ? std::to_string(way) : "";
+        const auto scene = loadGltf(path.empty() ? "model.glb" : path, inside);
+        if (!scene)
+            return scene.error();
+        for (FrameDecision& d : chooseFrames(*scene, {.limits = limits, .all = true}))
+            if (const auto& source = scene->meshes[d.mesh].source) {
+                const auto [known, isNew] = found.try_emplace(*source, d);
+                if (!isNew)
+                    add(known->second, d, limits);
+            }
+    }
+    std::vector<PrimitiveDecision> decisions;
+    for (auto& [primitive, decision] : found)
+        decisions.push_back({primitive, std::move(decision)});
+    return decisions;
+}
+
+void nameFrameOfPrimitive(GltfDocument& document, const SourcePrimitive& p, std::optional<Frame> frame)
+{
+    setExtra(rootOf(document)["meshes"][p.mesh]["primitives"][p.primitive], gltf::kFrameExtra,
+             frame ? name(*frame) : std::string_view());
+}
+
+std::string namesOf(const std::vector<Frame>& frames)
+{
+    std::string names;
+    for (const Frame frame : frames)
+        names += (names.empty() ? "" : ", ") + std::string(name(frame));
+    return names;
+}
+
+} // namespace cotan

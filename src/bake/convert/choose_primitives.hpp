@@ -1,0 +1,25 @@
+// Chooses frames for the primitives of a glTF file.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cotan/convert.hpp"
+#include "cotan/frame_choice.hpp"
+
+namespace cotan {
+
+// One decision for each primitive with triangles that the file's nodes show, in the order of the file: that of
+// chooseFrames. A primitive that is drawn in several ways (by skins, morph weights, or the materials of variants) is
+// judged by the worst of them. Errors: those of loadGltf.
+Result<std::vector<PrimitiveDecision>> choosePrimitives(const GltfDocument& document, const ChoiceLimits& limits,
+                                                        const LoadLimits& load);
+
+// Names the frame in the primitive's extras (gltf::kFrameExtra); none: removes the name.
+void nameFrameOfPrimitive(GltfDocument& document, const SourcePrimitive& primitive, std::optional<Frame> frame);
+
+// "orthonormal, smooth".
+std::string namesOf(const std::vector<Frame>& frames);
+
+} // namespace cotan
