@@ -455,7 +455,7 @@ typedef struct cotan_convert_options {
     /* Since version 5. */
     int keep_maps; /* not 0: maps are kept, byte for byte, to be read with `to`, which must not read tangents; only
                       tangents are removed. Where these reverse green of a map, its green is reversed, or they stay. If
-                      `to` is null: "orthonormal". COTAN_MAPS_UNREAD: without decoding maps, which stay all as they are */
+                      `to` is null: "orthonormal". COTAN_MAPS_UNREAD: without decoding maps, which all stay as is */
 } cotan_convert_options;
 
 typedef struct cotan_convert_result {
