@@ -95,7 +95,7 @@ private:
             return jobs.error();
         for (const MapJob& job : *jobs) {
             ConvertedMap none;
-            if (greenWithoutTangents(job) != GreenWithoutTangents::declared)
+            if (std::ranges::any_of(job.readers, showsReversed))
                 keepTangents(job, none, fmt::format("its tangents reverse green of {}", job.name));
         }
         return Done{};
@@ -176,11 +176,12 @@ private:
                 shownByTangents ? greenWithoutTangents(job) : GreenWithoutTangents::declared;
             if (green == GreenWithoutTangents::reversed)
                 return withGreenReversed(job, std::move(done), *map, *bytes, *uses, expansions.read);
-            if (green == GreenWithoutTangents::both) {
+            if (shownByTangents && std::ranges::any_of(job.readers, showsReversed)) {
                 keepTangents(job, done,
-                             fmt::format("its tangents reverse green of {}, which other surfaces show as "
-                                         "declared",
-                                         job.name));
+                             fmt::format("its tangents reverse green of {}, which {}", job.name,
+                                         green == GreenWithoutTangents::both
+                                             ? "other surfaces show as declared"
+                                             : "stays, since a coat or anisotropy needs the tangents"));
                 done.figures.unconverted = errorWithoutTangents(job, *map, *uses);
             }
         }
@@ -303,7 +304,7 @@ private:
     void keepTangents(const MapJob& job, ConvertedMap& done, const std::string& reason)
     {
         for (const MapReader& reader : job.readers)
-            if (reader.reversed) {
+            if (showsReversed(reader)) {
                 keptTangents_.push_back({reader.mesh, reader.primitive, reader.slot.material, reason});
                 done.surfacesWithTangents += reader.transforms.size();
             }
@@ -316,7 +317,7 @@ private:
         std::size_t use = 0;
         for (const MapReader& reader : job.readers)
             for (std::size_t k = 0; k < reader.transforms.size(); ++k, ++use)
-                if (!reader.reversed)
+                if (!showsReversed(reader))
                     dropping.push_back(uses[use]);
         return mapErrors(map, map, dropping, {&options_.frames, 1}, {}, pointsOfEach(surfaces_)).front();
     }
