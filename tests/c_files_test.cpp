@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -252,6 +253,40 @@ TEST(CFiles, imagesAreRenderedWithTheGivenOptions)
     ASSERT_EQ(cotan_image_picture(image, &made, text, sizeof text), COTAN_OK) << text;
     EXPECT_EQ(made.bits, 32);
     cotan_image_free(image);
+}
+
+// Numbers in words have a decimal point, also in a host with decimal commas (locale.cmake). Light is linear: float
+// pixels are the exposure times those of exposure 1, but for rounding.
+TEST(CFiles, anExposureWithDecimalsScalesAllLight)
+{
+    const auto render = [](const char* exposure) {
+        const char* words[] = {"--device", "reference", "--size", "8x8",        "--environment",
+                               "overcast", "--samples", "1",      "--exposure", exposure};
+        cotan_render_options options = COTAN_INIT(cotan_render_options);
+        options.words = words;
+        options.word_count = std::size(words);
+        options.floats = 1;
+        cotan_image* image = nullptr;
+        EXPECT_EQ(cotan_render(nullptr, 0, nullptr, &options, &image, nullptr, text, sizeof text), COTAN_OK) << text;
+        cotan_picture made = COTAN_INIT(cotan_picture);
+        EXPECT_EQ(cotan_image_picture(image, &made, text, sizeof text), COTAN_OK) << text;
+        const auto* first = static_cast<const float*>(made.pixels);
+        const std::vector<float> values(first, first + std::size_t(4 * made.width * made.height));
+        cotan_image_free(image);
+        return values;
+    };
+    const auto once = render("1"), more = render("1.5"), less = render("0.25");
+    ASSERT_EQ(once.size(), 256u);
+    ASSERT_EQ(more.size(), once.size());
+    ASSERT_EQ(less.size(), once.size());
+    float brightest = 0;
+    for (std::size_t i = 0; i < once.size(); ++i)
+        if (i % 4 != 3) {
+            brightest = std::max(brightest, once[i]);
+            EXPECT_NEAR(more[i], 1.5f * once[i], 1e-5f * once[i]) << i;
+            EXPECT_NEAR(less[i], 0.25f * once[i], 1e-5f * once[i]) << i;
+        }
+    EXPECT_GT(brightest, 0.1f) << "the image is black";
 }
 
 // Slopes of crossing waves: the slope along x varies along y as the slope along y varies along x. With red and green

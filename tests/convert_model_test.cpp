@@ -241,6 +241,31 @@ TEST(KeptMaps, stayWhereAnotherMeshShowsThemAsDeclared)
     }
 }
 
+// Their tangents stay in any case, and show the map: its green must not be reversed too.
+TEST(KeptMaps, stayWhereACoatOrAnisotropyNeedsTheTangents)
+{
+    const Image map = makeReliefMap(Relief::waves, 32);
+    for (const bool ofCoat : {false, true})
+        for (const bool read : {true, false}) {
+            GltfDocument document = sheetsOf({{-1.0f, 0}}, map);
+            auto& material = rootOf(document)["materials"][0];
+            if (ofCoat) {
+                material["extensions"]["KHR_materials_clearcoat"] = {
+                    {"clearcoatFactor", 1}, {"clearcoatNormalTexture", material["normalTexture"]}};
+                material.erase("normalTexture");
+            } else {
+                material["extensions"]["KHR_materials_anisotropy"] = {{"anisotropyStrength", 0.5}};
+            }
+            const auto before = gltfImageBytes(document, 0);
+            const auto report =
+                convertModel(document, {.frames = kWithoutTangents, .keepMaps = true, .readMaps = read});
+            ASSERT_TRUE(report) << report.error().message;
+            EXPECT_EQ(*gltfImageBytes(document, 0), *before) << ofCoat << read;
+            EXPECT_EQ(tangentsIn(document), std::vector{true}) << ofCoat << read;
+            EXPECT_EQ(report->notes.size(), 1u) << ofCoat << read;
+        }
+}
+
 TEST(KeptMaps, stayWhereTangentsAreGeneratedOrAnotherFrameIsNamed)
 {
     const Image map = makeReliefMap(Relief::waves, 32);

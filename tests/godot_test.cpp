@@ -326,6 +326,7 @@ TEST_P(Godot, theDirectionOfUIsThatOfTheSheet)
         GTEST_SKIP() << "GLES2 of Godot 3.2 has no derivatives";
     Choice choice;
     choice.language = Language::godot;
+    choice.frame = Frame::cotangent;
     choice.convention.channels = Channels::orthographic;
     GodotJobs jobs;
     const nlohmann::json map = jobs.texture(std::string("\x80\x80\xff\xff", 4), 1, 1); // flat

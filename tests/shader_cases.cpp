@@ -356,6 +356,7 @@ Case cotangentCase(Form form)
     c.text = [form](Language l) {
         Choice choice;
         choice.language = l;
+        choice.frame = Frame::cotangent;
         choice.form = form;
         choice.callerDifferences = true;
         const auto text = makeShaderText(choice);
@@ -365,6 +366,7 @@ Case cotangentCase(Form form)
     };
     c.last = Kind::degenerate;
     Choice usual;
+    usual.frame = Frame::cotangent;
     usual.form = form;
     c.call = makeShaderText(usual)->entry + "(n, dpdx, dpdy, duvdx, duvdy, m" + (seen ? ", 1.0)" : ")");
     c.expected = [seen](const Vectors& v) {

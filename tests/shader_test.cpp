@@ -267,6 +267,7 @@ TEST(ShaderText, isDeterministicAndFreeOfMacros)
 TEST(ShaderText, onlyWhatIsNeededIsPrinted)
 {
     Choice choice;
+    choice.frame = Frame::cotangent;
     const auto fused = makeShaderText(choice);
     ASSERT_TRUE(fused);
     EXPECT_EQ(fused->functions,

@@ -30,6 +30,7 @@ TEST(ShaderForms, seenTakesTheSideAsAnArgument)
     for (const Language language : kLanguages) {
         Choice choice;
         choice.language = language;
+        choice.frame = Frame::cotangent;
         choice.form = Form::seen;
         const auto made = makeShaderText(choice);
         ASSERT_EQ(bool(made), language != Language::godot) << name(language);
@@ -45,6 +46,7 @@ TEST(ShaderForms, seenTakesTheSideAsAnArgument)
 TEST(ShaderForms, areaHasTheArgumentsOfTheFrame)
 {
     Choice choice;
+    choice.frame = Frame::cotangent;
     choice.form = Form::area;
     EXPECT_TRUE(has(textOf(choice), "cotan_perturb_cotangent_area(normal, dpdx, dpdy, duvdx, duvdy, m)"));
     EXPECT_FALSE(has(textOf(choice), "side)"));
@@ -67,6 +69,7 @@ TEST(ShaderForms, seenAndAreaRequireCotangentOverOneUvSet)
 TEST(ShaderForms, theErrorOnASphereIsStatedOnlyForCotangent)
 {
     Choice choice;
+    choice.frame = Frame::cotangent;
     EXPECT_TRUE(has(textOf(choice), "1.1 degrees in the mean"));
     choice.frame = Frame::gradient;
     EXPECT_FALSE(has(textOf(choice), "1.1 degrees"));

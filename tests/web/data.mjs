@@ -1,4 +1,5 @@
 // Files that tests need and that the repository does not contain. The rule is that of dataFile in tests/test_data.hpp.
+import crypto from 'node:crypto';
 import fs from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -16,3 +17,11 @@ export function dataFile(name) {
 export const data = path.dirname(dataFile('models'));
 /** Why tests that need data are skipped; '' if the data are there. */
 export const missing = fs.existsSync(path.join(data, 'models')) ? '' : 'there are no models: run scripts/test-data';
+
+/** Whether a file is the published one of that name, and not a model with the same traits, as isOriginal in
+ * tests/test_data.hpp. Numbers that were measured on published files hold for these only. */
+export function isOriginal(name) {
+  const listed = fs.readFileSync(path.join(repository, 'tests/test_data/originals.sha256'), 'utf8').split('\n').find((line) => line.endsWith(`  ${name}`));
+  if (!listed) throw new Error(`tests/test_data/originals.sha256 does not list ${name}`);
+  return listed.startsWith(crypto.createHash('sha256').update(fs.readFileSync(dataFile(name))).digest('hex'));
+}

@@ -86,8 +86,11 @@ private:
         for (MapJob& job : jobs)
             for (MapReader& reader : job.readers)
                 if (const FrameDecision* const d = decisionOf(reader.mesh, reader.primitive)) {
-                    reader.keeps = reader.stored && !d->dropsTangents();
                     reader.readWith = d->frame;
+                    if (d->dropsTangents() || !reader.stored)
+                        continue;
+                    reader.keeps = true;
+                    reader.reversed = false; // without tangents it is not read
                 }
         for (const PrimitiveDecision& d : report_.decisions)
             if (!d.decision.dropsTangents())
@@ -139,7 +142,7 @@ private:
             return jobs.error();
         for (const MapJob& job : *jobs) {
             ConvertedMap none;
-            if (greenWithoutTangents(job) != GreenWithoutTangents::declared)
+            if (std::ranges::any_of(job.readers, showsReversed))
                 keepTangents(job, none, fmt::format("its tangents reverse green of {}", job.name));
         }
         return Done{};
@@ -221,13 +224,15 @@ private:
                 shownByTangents ? greenWithoutTangents(job) : GreenWithoutTangents::declared;
             if (green == GreenWithoutTangents::reversed)
                 return withGreenReversed(job, std::move(done), *map, *bytes, *uses, expansions.read);
-            if (green == GreenWithoutTangents::both)
+            if (shownByTangents && std::ranges::any_of(job.readers, showsReversed))
                 keepTangents(job, done,
-                             fmt::format("its tangents reverse green of {}, which other surfaces show as "
-                                         "declared",
-                                         job.name));
+                             fmt::format("its tangents reverse green of {}, which {}", job.name,
+                                         green == GreenWithoutTangents::both
+                                             ? "other surfaces show as declared"
+                                             : "stays, since a coat or anisotropy needs the tangents"));
             for (const MapReader& reader : job.readers)
-                done.surfacesWithTangents += reader.keeps ? reader.transforms.size() : 0;
+                if (reader.keeps && !showsReversed(reader))
+                    done.surfacesWithTangents += reader.transforms.size();
             if (done.surfacesWithTangents > 0)
                 done.figures.unconverted = errorWithoutTangents(job, *map, *uses);
         }
@@ -362,7 +367,7 @@ private:
     void keepTangents(const MapJob& job, ConvertedMap& done, const std::string& reason)
     {
         for (const MapReader& reader : job.readers)
-            if (reader.reversed && !reader.keeps) {
+            if (showsReversed(reader)) {
                 keptTangents_.push_back({reader.mesh, reader.primitive, reader.slot.material, reason});
                 if (options_.choose)
                     nameFrameOfPrimitive(document_, {reader.mesh, reader.primitive}, options_.frames.from);
@@ -377,7 +382,7 @@ private:
         std::size_t use = 0;
         for (const MapReader& reader : job.readers)
             for (std::size_t k = 0; k < reader.transforms.size(); ++k, ++use)
-                if (!reader.reversed && !reader.keeps)
+                if (!showsReversed(reader) && !reader.keeps)
                     dropping.push_back(uses[use]);
         return mapErrors(map, map, dropping, {&options_.frames, 1}, {}, pointsOfEach(surfaces_)).front();
     }

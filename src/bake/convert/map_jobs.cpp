@@ -239,8 +239,13 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
         StoredGreen whole;
         for (const MapReader& reader : job.readers)
             whole.add(reader.green);
-        for (MapReader& reader : job.readers)
+        for (MapReader& reader : job.readers) {
             reader.reversed = readsReversed(reader.green, whole);
+            const Json& material = root["materials"][reader.slot.material];
+            reader.keeps = reader.stored
+                && (!gltf::tangentRequirement(material).empty()
+                    || (reader.reversed && !gltf::tangentReader(material).empty()));
+        }
         result.push_back(std::move(job));
     }
     return result;
@@ -257,9 +262,9 @@ std::size_t surfacesOf(const MapJob& job)
 GreenWithoutTangents greenWithoutTangents(const MapJob& job)
 {
     bool reversed = false, declared = false;
-    for (const MapReader& reader : job.readers) {
-        (reader.reversed && !reader.keeps ? reversed : declared) |= std::abs(reader.strength) > kFlattened;
-    }
+    for (const MapReader& reader : job.readers)
+        if (std::abs(reader.strength) > kFlattened)
+            (reader.reversed && !reader.keeps ? reversed : declared) = true;
     return !reversed ? GreenWithoutTangents::declared
         : declared   ? GreenWithoutTangents::both
                      : GreenWithoutTangents::reversed;

@@ -2,6 +2,7 @@
 // put into the file, and which tangents are then dropped.
 #pragma once
 
+#include <cmath>
 #include <compare>
 #include <cstddef>
 #include <optional>
@@ -34,9 +35,15 @@ struct MapReader {
     bool stored = false;   // has TANGENT
     StoredGreen green{};   // what TANGENT shows of the map's green
     bool reversed = false; // TANGENT reverses green: readsReversed
-    bool keeps = false;    // its TANGENT stays, so that it shows the map as before
+    bool keeps = false;    // TANGENT stays, since a coat, anisotropy or a decision needs it: it shows the map as before
     std::optional<Frame> readWith{}; // as in MapUse
 };
+
+// Whether TANGENT reverses green that can be seen.
+inline bool showsReversed(const MapReader& reader)
+{
+    return reader.reversed && std::abs(reader.strength) > kFlattened;
+}
 
 // An image and everything that reads it as a normal map.
 struct MapJob {

@@ -456,8 +456,8 @@ typedef struct cotan_convert_options {
     /* Since version 5. */
     int keep_maps; /* not 0: maps are kept, byte for byte, to be read with `to`, which must not read tangents; only
                       tangents are removed. Where these reverse green of a map, its green is reversed, or they stay.
-                      COTAN_MAPS_UNREAD: without decoding maps, which stay all as they are; `to` is then "orthonormal" if
-                      it is null */
+                      COTAN_MAPS_UNREAD: without decoding maps, which all stay as is, to be read with "orthonormal" if `to`
+                      is null */
     /* Since version 8. */
     double max_degrees; /* if `to` is null: the mean error of normals that a frame may have on a primitive, and ten times
                            as much on 1 % of its area; 0: 0.3 */
