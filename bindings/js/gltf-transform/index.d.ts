@@ -6,9 +6,9 @@ import type { ConvertReport, Limits, LintReport, Picture } from '../cotan.js';
  * warning instead. */
 export function tangents(options?: { kind?: 'mikktspace' | 'vertex'; overwrite?: boolean }): Transform;
 
-/** Drops TANGENT. `mode` is as in `convert` of the package cotan. By default the mode is what lint advises: either maps
- * stay, for readers that use `orthonormal` or MikkTSpace, or new maps are made. Maps that stay do so byte for byte, but
- * for green where the tangents reverse it. Compressed geometry and KTX2 maps need no decoding to drop tangents. New maps
+/** Drops TANGENT. `mode` is as in `convert` of the package cotan. By default each primitive
+ * gets the frame that is near enough to its tangents, which its extras name, and maps stay byte for byte, but for green
+ * where the tangents reverse it; tangents stay where no frame is near enough. Compressed geometry and KTX2 maps need no decoding to drop tangents. New maps
  * keep the format of the old ones; JPEG and WebP become PNG if their encoder is missing or loses too much, as with
  * `convert`. Tangents that glTF requires stay, with a note, and so do tangents that reverse green of a map which cannot
  * be changed. Materials with new maps name the frame in their extras, as `cotanFrame`, which is also the default of
@@ -22,6 +22,7 @@ export function untangent(options?: {
   keepTangents?: boolean;
   generateTangents?: boolean;
   unsigned?: 'biased' | 'exact';
+  maxDegrees?: number;
   decode?: (bytes: Uint8Array, name: string) => Promise<Picture & { bits: number }>;
   /** Receives the report of the conversion. Its `bytes` count normal maps and uncompressed tangents only. Its notes are
    * also logged as warnings by the document's logger. */

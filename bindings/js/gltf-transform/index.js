@@ -184,10 +184,11 @@ function replaceMap(document, map, { bytes, mimeType }) {
   texture.setImage(bytes).setMimeType(mimeType).setURI(uri && `${uri.replace(/\.[^./]*$/, '')}${elsewhere ? '-normal' : ''}.${ending}`);
 }
 
-/** Replaces the material's extras that begin with "cotan" (cotanFrame, cotanUnsigned) by those of the conversion. */
-function takeExtras(material, extras = {}) {
+/** Replaces the extras of a material or primitive that begin with "cotan" (cotanFrame, cotanUnsigned) by those of the
+ * conversion. */
+function takeExtras(owner, extras = {}) {
   const ours = (entries, yes) => Object.fromEntries(Object.entries(entries).filter(([name]) => name.startsWith('cotan') === yes));
-  material.setExtras({ ...ours(material.getExtras(), false), ...ours(extras, true) });
+  owner.setExtras({ ...ours(owner.getExtras(), false), ...ours(extras, true) });
 }
 
 // The textures of a document that materials use as normal maps.
@@ -241,14 +242,15 @@ function applyMaps(document, { made, report }, to) {
       if ('TANGENT' in (json.meshes?.[m]?.primitives[p]?.attributes ?? {}) && !whyNoTangents(primitive, uvsOf(primitive))) giveTangents(document, primitive, uvsOf(primitive), to);
     }));
   document.getRoot().listMaterials().forEach((material, m) => takeExtras(material, json.materials?.[m]?.extras));
+  document.getRoot().listMeshes().forEach((mesh, m) => mesh.listPrimitives().forEach((primitive, p) => takeExtras(primitive, json.meshes?.[m]?.primitives[p]?.extras)));
   return report;
 }
 
 /** Converts as `convert` does by default, but leaves the maps as they are if new ones would enlarge the file by more than
  * kGrowth allows. */
-async function convertedByDefault(document, decode) {
+async function convertedByDefault(document, { decode, maxDegrees }) {
   const unlessUnavailable = (error) => { if (error.code !== 'unavailable') throw error; return asPlainGltf(document, null); };
-  const model = await asPlainGltf(document, decode).catch(unlessUnavailable), found = await converted(document, model, { decode }), { report } = found;
+  const model = await asPlainGltf(document, decode).catch(unlessUnavailable), found = await converted(document, model, { decode, maxDegrees }), { report } = found;
   const { whole, weight } = estimatedSize(document), { bytes = 0 } = report.tangents;
   const grown = report.maps.reduce((sum, map) => sum + map.bytes_after - map.bytes_before, 0) - weight * bytes;
   if (report.maps.every((map) => map.kept) || grown <= (kGrowth - 1) * whole) return found;
@@ -261,7 +263,7 @@ function withFunctions(options) {
   return options;
 }
 
-const kUntangent = { mode: undefined, from: undefined, to: undefined, bits: undefined, keepTangents: undefined, generateTangents: undefined, unsigned: undefined, decode: decodePicture, report: undefined };
+const kUntangent = { mode: undefined, from: undefined, to: undefined, bits: undefined, keepTangents: undefined, generateTangents: undefined, unsigned: undefined, maxDegrees: undefined, decode: decodePicture, report: undefined };
 
 export function untangent(given) {
   const { mode: _, report, decode, ...o } = withFunctions(checked(given, kUntangent)), mode = modeOf(given);
@@ -270,7 +272,7 @@ export function untangent(given) {
     const before = normalMapsOf(document).reduce((sum, texture) => sum + imageBytes(texture), 0) + tangentBytes(document);
     const requested = Object.fromEntries(Object.entries({ ...o, to: o.to ?? 'cotangent', decode }).filter(([, value]) => value !== undefined));
     const made = mode === 'drop' ? await converted(document, await asPlainGltf(document, null), { mode }) : mode === 'convert'
-      ? await converted(document, await asPlainGltf(document, decode), { ...requested, mode }) : await convertedByDefault(document, decode);
+      ? await converted(document, await asPlainGltf(document, decode), { ...requested, mode }) : await convertedByDefault(document, { decode, maxDegrees: o.maxDegrees });
     const found = applyMaps(document, made, requested.to);
     found.bytes = { before, after: normalMapsOf(document).reduce((sum, texture) => sum + imageBytes(texture), 0) + tangentBytes(document) };
     const remade = found.maps.filter((map) => !map.kept).length;

@@ -7,7 +7,7 @@ import { encodedByCaller, encodedLike } from './encoded.js';
 import { decodePicture } from './pictures.js';
 import { encodePng } from './png.js';
 import { decodedUri, imageIn, parsedModel, requiresWebp, sizeOf, withImages } from './glb.js';
-import { advised, inOriginalFormats, keptMaps, kGrowth, modeOf, notWorthIt, tooLarge } from './modes.js';
+import { inOriginalFormats, keptMaps, kGrowth, modeOf, tooLarge } from './modes.js';
 import { kLimits, limitsOf, overLimits } from './verdict.js';
 
 const same = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[i]);
@@ -16,7 +16,7 @@ const kMapsRead = 1, kMapsUnread = 2; // keep_maps of cotan.h
 const kUnread = { width: 1, height: 1, bits: 8, data: Uint8Array.of(255, 255, 255, 255) };
 const kCommon = { files: {}, decode: decodePicture, progress: undefined };
 const kConvert = {
-  ...kCommon, mode: undefined, from: undefined, to: undefined, bits: 0, keepTangents: false, generateTangents: false, encode: encodePng, unsigned: 'biased', fixGreen: false,
+  ...kCommon, mode: undefined, from: undefined, to: undefined, bits: 0, keepTangents: false, generateTangents: false, encode: encodePng, unsigned: 'biased', fixGreen: false, maxDegrees: undefined,
 };
 
 // Replaces an error whose advice is to rebuild the library by one with advice for users of the npm package.
@@ -35,6 +35,7 @@ function modelOptions(given, known) {
   checkTypes(o, 'function', 'decode', 'encode', 'progress');
   checkTypes(o, 'boolean', 'keepTangents', 'generateTangents', 'fixGreen');
   if (o.bits !== undefined && ![0, 8, 16].includes(o.bits)) refuse('bits', '0, 8 or 16');
+  if (o.maxDegrees !== undefined && !(o.maxDegrees > 0 && o.maxDegrees <= 180)) refuse('maxDegrees', 'a number of degrees above 0');
   if (o.distance !== undefined && !Number.isFinite(o.distance)) refuse('distance', 'a number');
   return o;
 }
@@ -107,7 +108,7 @@ export function modelFunctions(library, host, flipGreen) {
     if (!parsed) return convertMaps(model, o); // throws an error that says what is wrong
     if (o.fixGreen) return withFixedGreen(model, parsed, o, { ...more, fixGreen: undefined });
     const before = sizeOf(model, parsed.json, o.files), convertTo = (to) => convertMaps(model, { ...o, to }).then((made) => inOriginalFormats(parsed, o.files, made));
-    const found = mode === 'convert' ? await convertTo(o.to ?? 'cotangent') : mode === 'drop' ? await withMapsKept(model, parsed, o, kMapsUnread) : await asAdvised(model, parsed, o, before, convertTo);
+    const found = mode === 'convert' ? await convertTo(o.to ?? 'cotangent') : mode === 'drop' ? await withMapsKept(model, parsed, o, kMapsUnread) : await byDefault(model, parsed, o, before);
     return { glb: found.glb, report: { mode: 'convert', ...found.report, bytes: { before, after: found.glb.length } } };
   }
 
@@ -137,17 +138,15 @@ export function modelFunctions(library, host, flipGreen) {
       notes: [...wrong.map(({ name }) => `${name}: its green pointed opposite to what the model says and was reversed`), ...notes, ...made.report.notes] } };
   }
 
-  // Does what lint advises, unless new maps would enlarge the file by more than kGrowth allows.
-  async function asAdvised(model, parsed, o, before, convertTo) {
-    const noted = ({ glb, report }, ...lines) => ({ glb, report: { ...report, notes: [...new Set([...lines, ...report.notes])].filter(Boolean) } });
-    const unread = async (...lines) => noted(await withMapsKept(model, parsed, o, kMapsUnread), ...lines);
-    const report = await lint(model, { files: o.files, decode: o.decode }).catch((error) => { if (error.code !== 'unavailable') throw error; return error.message; });
-    if (typeof report === 'string') return unread(report);
-    const { to, degrees } = advised(report), remade = to && await convertTo(to);
-    if (remade && remade.glb.length <= kGrowth * before) return remade;
-    const line = remade && notWorthIt(to, degrees, before, remade.glb.length), kept = await withMapsKept(model, parsed, o, kMapsRead);
-    if (kept.report.unread_maps.length > 0) return unread(line, ...kept.report.notes);
-    return kept.glb.length <= kGrowth * before ? noted(kept, line) : unread(line, tooLarge(before, kept.glb.length));
+  // Drops the tangents that nobody misses, and keeps the maps.
+  async function byDefault(model, parsed, o, before) {
+    const unread = async (...lines) => {
+      const { glb, report } = await withMapsKept(model, parsed, o, kMapsUnread);
+      return { glb, report: { ...report, notes: [...new Set([...lines, ...report.notes])] } };
+    };
+    const kept = await withMapsKept(model, parsed, o, kMapsRead).catch((error) => { if (error.code !== 'unavailable') throw error; return error.message; });
+    if (typeof kept === 'string') return unread(kept);
+    return kept.glb.length <= kGrowth * before ? kept : unread(tooLarge(before, kept.glb.length));
   }
 
   async function convertMaps(model, o) {
@@ -155,8 +154,10 @@ export function modelFunctions(library, host, flipGreen) {
     let conversion = 0, wasm;
     const pictures = withModel(model, o.files, known, { progress: o.progress }, (s, at, files) => {
       wasm = s.wasm;
-      const settings = s.struct(s.text(o.from, 'options.from'), s.text(o.to, 'options.to'), o.bits, o.keepTangents ? 1 : 0,
-        o.generateTangents ? 1 : 0, 1, progressOf(s, o.progress), 0, s.text(o.unsigned, 'options.unsigned'), o.keepMaps ?? 0);
+      const settings = s.allocate(56);
+      s.view(Uint32Array, settings, 11).set([56, s.text(o.from, 'options.from'), s.text(o.to, 'options.to'), o.bits, o.keepTangents ? 1 : 0,
+        o.generateTangents ? 1 : 0, 1, progressOf(s, o.progress), 0, s.text(o.unsigned, 'options.unsigned'), o.keepMaps ?? 0]);
+      s.view(Float64Array, settings + 48, 1)[0] = o.maxDegrees ?? 0;
       const slot = s.put(new Uint32Array(1));
       s.call('cotan_convert_begin', at, model.length, files, settings, 0, slot);
       conversion = s.view(Uint32Array, slot, 1)[0];

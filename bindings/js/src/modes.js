@@ -14,13 +14,6 @@ export function modeOf(given) {
   return mode === 'auto' ? (more ? 'convert' : undefined) : mode;
 }
 
-/** What a lint report advises: { to, degrees }. to: the frame that new maps should be made for, null if the maps can stay.
- * degrees: maximum mean error of `orthonormal`. */
-export function advised({ maps_converted: toConvert, advice, fits }) {
-  const degrees = fits.map((fit) => fit.orthonormal?.mean).filter((mean) => typeof mean === 'number');
-  return { to: toConvert > 0 ? advice : null, degrees: Math.max(0, ...degrees) };
-}
-
 /** Degrees on average that a format may lose of a new map: what the library's own encoders may. */
 function allowedLoss({ green_reversed: greenReversed, degrees_after_rounding: after, degrees_unconverted: before }) {
   return greenReversed ? kVisible : Math.max(kVisible, 0.5 * (before?.mean ?? 0)) - (after?.mean ?? 0);
@@ -50,7 +43,5 @@ export const keptMaps = (json, files) => normalImages(json).map((image) => {
 
 const amount = (bytes) => `${bytes} bytes`;
 
-/** The note for new maps that would enlarge the file too much. */
-export const notWorthIt = (to, degrees, before, after) =>
-  `maps remade for the frame ${to} would reduce the error by ${degrees.toFixed(1)} degrees and change the file from ${amount(before)} to ${amount(after)}: the maps are kept and read with orthonormal; mode 'convert' remakes them`;
+/** The note for maps with their green reversed that would enlarge the file too much. */
 export const tooLarge = (before, after) => `new maps would change the file from ${amount(before)} to ${amount(after)}: the maps are kept; mode 'convert' remakes them`;

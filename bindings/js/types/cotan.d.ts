@@ -191,6 +191,22 @@ export interface UnreadMap {
 }
 
 /** The report of `cotan convert --json`. */
+/** How the map of a primitive is read without stored tangents. */
+export interface Decision {
+  /** Indices in the file. */
+  mesh: number;
+  primitive: number;
+  /** What the map means: the frame that the file names, its tangents, or MikkTSpace as glTF says. */
+  meaning: 'named' | 'stored' | 'mikktspace';
+  reason: 'no_map' | 'named' | 'fits' | 'keeps' | 'not_judged';
+  frame: string;
+  tangents_stay: boolean;
+  /** Degrees between the normals of each way to read the map and what it means. */
+  candidates: { frame: string; stored: boolean; points: number; mean: number | null; percentile95: number | null; percentile99: number | null; maximum: number | null }[];
+  not_judged: string;
+  text: string;
+}
+
 export interface ConvertReport {
   maps: {
     image: number;
@@ -207,6 +223,8 @@ export interface ConvertReport {
     [more: string]: any;
   }[];
   unread_maps: UnreadMap[];
+  /** The frame of each primitive, and what was measured. Empty if new maps were made, or no map was read. */
+  decisions: Decision[];
   /** The mode that was used. keep: all tangents stay, as those that reverse green of a map that could not be changed. */
   mode: 'drop' | 'convert' | 'keep';
   /** Size of the model with the files that it references. */
@@ -219,10 +237,9 @@ export interface ConvertReport {
 }
 
 /** Removes stored tangents from a model. mode:
- * - `auto`, the default: does what `lint` advises. Maps stay byte for byte, to be read with the frame `orthonormal` or
- *   MikkTSpace, if that is accurate enough, or if new maps would enlarge the file by more than 2 %. Otherwise new maps
- *   are made for the frame that `lint` advises. Where the tangents reverse green of a map that can stay otherwise, its
- *   green is reversed, as `cotan convert --keep-maps` does, or the tangents stay; a note says so.
+ * - `auto`, the default: drops them where nobody can see it. Each primitive is read with the frame that is nearest to its
+ *   tangents, by measurement; its extras name it (`cotanFrame`). Tangents stay where no frame is within `maxDegrees`, with
+ *   a note. Maps stay byte for byte, but for green that the tangents reverse, which is reversed in the map instead.
  * - `drop`: leaves maps as they are, not even decoded. Tangents that reverse green of a map stay.
  * - `convert`: makes new maps as `cotan convert` does; the default if an option that concerns new maps is set. These
  *   keep the format of the old ones: JPEG and WebP at the same quality if sharp, or the canvas in browsers, encodes
@@ -242,6 +259,9 @@ export function convert(model: Bytes, options?: ModelOptions & {
   /** First reverses green of maps in which it points the other way than the model says, judged by the map itself
    * (`lint`). */
   fixGreen?: boolean;
+  /** Without new maps: the mean error of normals, in degrees, that a frame may have on a primitive, and ten times as much
+   * on 1 % of its area. Default: 0.3. */
+  maxDegrees?: number;
   /** How engines decode the maps: "biased" (2c - 1, as stock engines do; the default) or "exact", where 128 is zero. */
   unsigned?: 'biased' | 'exact';
   /** Encodes an image as a PNG file; default: encodePng. The file is decoded again to measure its losses. */

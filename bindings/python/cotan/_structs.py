@@ -129,6 +129,7 @@ class ConvertOptions(Struct):
         (pointer, "user"),
         (text, "expansion"),
         (integer, "keep_maps"),
+        (double, "max_degrees"),
     )
 
 

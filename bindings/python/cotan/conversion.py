@@ -71,6 +71,7 @@ class Conversion:
         decode: Optional[Decode] = None,
         unsigned: Expansion = "biased",
         keep_maps: bool = False,
+        max_degrees: float = 0.3,
     ) -> None:
         """Arguments and errors are those of `convert`."""
         check_tangents(tangents)
@@ -79,7 +80,7 @@ class Conversion:
 
         def work(told):
             options = convert_options(
-                to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned, keep_maps
+                to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned, keep_maps, max_degrees
             )
             source.call("cotan_convert_begin", options, self._result, self._handle)
 

@@ -302,6 +302,7 @@ def convert(
     encode: Optional[Encode] = None,
     unsigned: Expansion = "biased",
     keep_maps: bool = False,
+    max_degrees: float = 0.3,
 ) -> Converted:
     """Converts the normal maps of a glTF model to another frame and drops its tangents.
 
@@ -309,7 +310,8 @@ def convert(
         model: a path to .glb or .gltf, or the bytes of one.
         out: .glb file to write atomically; None: returns the bytes in the result.
         to_frame, from_frame: names of frames. "mikktspace" and "vertex" write TANGENT, all others drop it.
-            to_frame None: "cotangent", with keep_maps "orthonormal". from_frame None: the frame that the file names
+            to_frame None: maps are kept, each primitive is read with the frame that is near enough, which its extras
+            name, and keeps its tangents where none is. from_frame None: the frame that the file names
             for its maps, else "mikktspace".
         tangents: "stored" (generated where missing) or "generated", for from_frame.
         keep_tangents: keeps TANGENT even if the new frame does not read it.
@@ -323,6 +325,8 @@ def convert(
         unsigned: how engines decode the maps: "biased" (2c - 1, as stock engines do) or "exact".
         keep_maps: only drops tangents and leaves maps byte for byte as they are, to be read with to_frame. Where
             tangents reverse green of a map, its green is reversed, or they stay.
+        max_degrees: without to_frame: the mean error of normals that a frame may have on a primitive, and ten times as
+            much on 1 % of its area; above 0, at most 180.
 
     Raises UsageError, InputError for a broken or missing file, OutputError, StoppedError. Nothing is written then.
     """
@@ -333,7 +337,7 @@ def convert(
     result, glb, text = structs.ConvertResult(), structs.handle(), structs.handle()
 
     def work(told):
-        options = convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned, keep_maps)
+        options = convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned, keep_maps, max_degrees)
         source.call("cotan_convert_gltf", options, result, glb, text)
 
     long_call(work, progress)
@@ -343,8 +347,10 @@ def convert(
     return converted_of(result, made if out is None else None, report)
 
 
-def convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned, keep_maps):
+def convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned, keep_maps, max_degrees):
     """The cotan_convert_options for these arguments."""
+    if not 0 < arrays.number(max_degrees, "max_degrees") <= 180:
+        raise arrays.wrong("max_degrees", "more than 0 and at most 180", max_degrees)
     options = structs.ConvertOptions(
         to=None if to_frame is None else arrays.encoded(to_frame, "to_frame"),
         bits=arrays.integer(bits, "bits", 0, 16),
@@ -354,6 +360,7 @@ def convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads
         progress=told,
         expansion=arrays.encoded(unsigned, "unsigned"),
         keep_maps=int(keep_maps),
+        max_degrees=max_degrees,
     )
     if from_frame is not None:
         setattr(options, "from", arrays.encoded(from_frame, "from_frame"))
