@@ -135,32 +135,6 @@ TEST(BakeBounds, positionsAreAcceptedUpToTheirLimitOnEachAxis)
         }
 }
 
-TEST(BakeBounds, namesMatchUpToTheLastLowOrHigh)
-{
-    // The first high mesh is never the right one.
-    const auto matchOf = [](const char* low, const char* high) {
-        Scene simple = sceneOfMeshes({flatSquare(0)});
-        simple.meshes[0].name = low;
-        HighModel detailed = highModel({flatSquare(0.1f), flatSquare(0.2f)});
-        detailed.scenes[0].meshes[0].name = "elsewhere_high";
-        detailed.scenes[0].meshes[1].name = high;
-        BakeModelOptions options = fewTexels();
-        options.matchByName = true;
-        const auto setup = prepareBake(simple, std::move(detailed), options);
-        return setup ? setup->options.bake.matched : std::vector<std::int64_t>{};
-    };
-    const std::vector<std::int64_t> second{1}, none;
-    EXPECT_EQ(matchOf("door_low", "door_high"), second);
-    EXPECT_EQ(matchOf("Door_LOW", "dOOR_High"), second);
-    EXPECT_EQ(matchOf("door_low.001", "door_high"), second);
-    EXPECT_EQ(matchOf("door", "door"), second);
-    EXPECT_EQ(matchOf("pillow_low", "pillow_high"), second); // "low" is part of the name itself
-    EXPECT_EQ(matchOf("yellow_flower_low", "yellow_flower_high"), second);
-    EXPECT_EQ(matchOf("highway_low", "highway_high"), second);
-    EXPECT_EQ(matchOf("door_low", "doors_high"), none);
-    EXPECT_EQ(matchOf("pillow_low", "pilot_high"), none);
-}
-
 TEST(BakeBounds, eachTileIsItsSquareOfUv)
 {
     // UDIM 1001 + u + 10 v with v upwards; texcoords here have v down. Each tile gets its own height.

@@ -417,7 +417,8 @@ TEST(CRefusals, shaderTextIsOfTheRequestedStage)
     expectRefused(errorOf("basic", "triangle", "gltf"), "language: expected ");
     expectRefused(errorOf("glsl", "triangle", "x"), "convention: ");
     expectRefused(errorOf(nullptr, "triangle", "gltf"), "language: expected a name, found null");
-    expectRefused(errorOf("glsl", nullptr, "gltf"), "frame: expected a name, found null");
+    expectRefused(errorOf("glsl", nullptr, "gltf"),
+                  "frame: expected orthonormal for maps that were baked for MikkTSpace");
     expectRefused(errorOf("glsl", "triangle", nullptr), "convention: expected a name, found null");
     expectRefused(cotan_shader_text("glsl", "triangle", "gltf", nullptr, nullptr, refusal, sizeof refusal),
                   "text_size: expected a pointer");

@@ -378,7 +378,9 @@ TEST(ConvertCommand, keepMapsDropsTangentsAndKeepsTheBytesOfMaps)
             if (map["green_reversed"]) {
                 reversed.insert(map["image"].get<std::size_t>());
                 EXPECT_LE(map["bytes_after"].get<double>(), 1.1 * map["bytes_before"].get<double>()) << file;
-                EXPECT_LT(map["degrees_after_rounding"]["mean"], 0.2 * map["degrees_unconverted"]["mean"].get<double>())
+                // 0.5 degrees: what the format may lose of a map that is almost flat.
+                EXPECT_LT(map["degrees_after_rounding"]["mean"],
+                          std::max(0.2 * map["degrees_unconverted"]["mean"].get<double>(), 0.5))
                     << file;
             } else {
                 EXPECT_EQ(map["bytes_after"], map["bytes_before"]) << file;

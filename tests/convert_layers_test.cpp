@@ -155,7 +155,7 @@ TEST(ConvertCoat, tangentsStayWhereGltfRequiresThem)
                 EXPECT_EQ(run.out.find("glTF requires TANGENT for KHR_materials_") != std::string::npos, required)
                     << what << run.out;
                 // lint says the same beforehand.
-                const ToolRun lint = runTool({"lint", "quad.gltf", "--quiet"}, folder.path(), 120);
+                const ToolRun lint = runTool({"lint", "quad.gltf"}, folder.path(), 120);
                 EXPECT_EQ(lint.out.find("are kept for them") != std::string::npos, required) << what << lint.out;
             }
 }
@@ -234,7 +234,6 @@ TEST(ConvertAnisotropy, tangentsAreKeptWithoutUvToDeriveADirectionFrom)
     TemporaryFolder folder;
     Made m = stretchedHighlights();
     m.root["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
-    m.root["materials"][0].erase("normalTexture");
     write(m, folder.path());
     const json r = converted(folder.path(), "cotangent");
     EXPECT_TRUE(hasTangents(folder / "out.glb"));

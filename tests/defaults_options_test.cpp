@@ -260,11 +260,11 @@ TEST(Defaults, ofBatchesRunOneSingleThreadedJobForAnHour)
     EXPECT_EQ(c.processorSeconds, 0u);
 }
 
-TEST(Defaults, ofShaderTextsAreAWholeShaderOfTheCotangentFrame)
+TEST(Defaults, ofShaderTextsAreAWholeShaderOfTheOrthonormalFrame)
 {
     shader_text::Choice c;
     EXPECT_TRUE(c.language == shader_text::Language::glsl);
-    EXPECT_EQ(c.frame, Frame::cotangent);
+    EXPECT_EQ(c.frame, Frame::orthonormal);
     EXPECT_FALSE(c.form);
     EXPECT_EQ(c.uvSets, 1);
     EXPECT_TRUE(c.stage == shader_text::Stage::all);

@@ -113,7 +113,7 @@ def add_format():
 
 with tempfile.TemporaryDirectory() as folder:
     copy = pathlib.Path(folder) / "cotan"
-    for name in ("CMakeLists.txt", "cmake", "src", "shaders", "apps"):
+    for name in ("CMakeLists.txt", "CITATION.cff", "cmake", "scripts", "src", "shaders", "apps"):
         source = SOURCES / name
         shutil.copytree(source, copy / name) if source.is_dir() else (copy.mkdir(exist_ok=True), shutil.copy(source, copy))
     for add in (add_frame, add_language, add_format):

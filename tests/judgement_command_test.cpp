@@ -381,8 +381,8 @@ TEST(ExternalImages, namesAreSanitisedAndMadeUnique)
     std::filesystem::copy_file(folder / "waves.png", folder / "copy.png");
     jsonOf({"convert", "quad.gltf", "--to", "cotangent", "-o", "out.gltf"}, folder.path());
     const json out = json::parse(readWhole(folder / "out.gltf"));
-    EXPECT_EQ(out["images"][0]["uri"], "out-___a_b_c.png");
-    EXPECT_EQ(out["images"][1]["uri"], "out-___a_b_c-2.png");
+    EXPECT_EQ(out["images"][0]["uri"], "out-_._a_b_c.png");
+    EXPECT_EQ(out["images"][1]["uri"], "out-_._a_b_c-2.png");
     EXPECT_TRUE(loadScene(folder / "out.gltf"));
 }
 

@@ -267,7 +267,7 @@ TEST(Lint, coatUsesItsOwnNormalScale)
 
 TEST(Lint, unreadCoatMapNeedsTangents)
 {
-    Scene scene = sceneOf({uneven()}, {mapped(-1)}, {constant(kTilted)});
+    Scene scene = sceneOf({uneven()}, {mapped(1)}, {constant(kTilted), constant(kTilted)});
     scene.materials[0].tangentsFor = "KHR_materials_anisotropy";
     scene.materials[0].coat.normalMap.image = 0;
     const PrimitiveLint read = lintScene(scene).primitives.at(0);

@@ -35,7 +35,7 @@ if(COTAN_PYTHON)
   foreach(part options models render maps)
     cotan_in_locales(Python.${part} de_DE ${COTAN_PYTHON} -m pytest -q -p no:cacheprovider ${CMAKE_CURRENT_SOURCE_DIR}/python/test_${part}.py)
     set_property(TEST Locale.Python.${part}.de_DE PROPERTY ENVIRONMENT
-      "COTAN_LIBRARY=$<TARGET_FILE:cotan_c>;COTAN_TOOL=$<TARGET_FILE:cotan>;COTAN_SHARED_DATA=${PROJECT_SOURCE_DIR}/../shared/data"
+      "COTAN_LIBRARY=$<TARGET_FILE:cotan_c>;COTAN_TOOL=$<TARGET_FILE:cotan>"
       COTAN_STREAMS_TOO=1 "PYTHONPATH=${PROJECT_SOURCE_DIR}/bindings/python;PYTHONDONTWRITEBYTECODE=1")
   endforeach()
 endif()

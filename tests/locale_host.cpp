@@ -1,6 +1,6 @@
 // Loaded before a program: a host that has chosen the user's locale, as desktop programs do. With the variable
-// COTAN_STREAMS_TOO it has chosen it for the streams of C++, too, by which many tests write their files. Programs that it
-// starts, such as the command line, choose none.
+// COTAN_STREAMS_TOO it has chosen it for the streams of C++, too, by which many tests write their files. Programs that
+// it starts, such as the command line, choose none.
 #include <clocale>
 #include <cstdio>
 #include <cstdlib>

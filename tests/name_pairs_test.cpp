@@ -60,6 +60,8 @@ TEST(NamePairs, wordsAreFoundInAnyCaseBetweenSeparatorsAndAtCapitals)
                                     {"door2low", "door2high"},
                                     {"door_low1", "door_high1"},
                                     {"pillow_low", "pillow_high"},
+                                    {"yellow_flower_low", "yellow_flower_high"},
+                                    {"highway_low", "highway_high"},
                                     {"high_rise_low", "high_rise_high"},
                                     {"door", "door_high"},
                                     {"door", "door"},

@@ -123,7 +123,7 @@ TEST(ThreeJudgeOfConvertedMaps, readsThemLikeTheOriginals)
             .get<double>();
     };
     EXPECT_LT(mean(1), mean(0)); // otherwise converting would be pointless
-    if (isOriginal(kModel)) { // whose new maps are PNG
+    if (isOriginal(kModel)) {    // whose new maps are PNG
         EXPECT_LT(mean(1), 0.14);
         EXPECT_GT(mean(2), 0.35); // JPEG keeps the flat texels of `exact`, and adds its own losses
     }

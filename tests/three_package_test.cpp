@@ -125,8 +125,8 @@ void expectStock(const std::string& label, const json& scenes, std::map<std::str
     }
 }
 
-// Each half of an image of two materials shows its own map. A one-texel map has no derivatives to round; 8 bits decode to
-// the expected normal exactly.
+// Each half of an image of two materials shows its own map. A one-texel map has no derivatives to round; 8 bits decode
+// to the expected normal exactly.
 void expectTwoMaterials(const json& page, const std::string& prefix, std::size_t kinds)
 {
     for (const char* const frame : {"stock", "auto", "cotangent", "orthonormal", "smooth", "triangle"}) {

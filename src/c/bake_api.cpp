@@ -187,8 +187,8 @@ cotan_status cotan_pair_names(size_t low_count, const char* const* low, size_t h
         const NamePairs pairs = pairNames(textsOf(low_count, low, "low"), textsOf(high_count, high, "high"));
         require((low_groups || low_count == 0) && (high_groups || high_count == 0),
                 "low_groups, high_groups: expected arrays, found null");
-        std::ranges::copy(pairs.low, low_groups);
-        std::ranges::copy(pairs.high, high_groups);
+        std::copy(pairs.low.begin(), pairs.low.end(), low_groups);
+        std::copy(pairs.high.begin(), pairs.high.end(), high_groups);
         giveText(joined(pairs.notes), notes);
     });
 }

@@ -131,7 +131,8 @@ Status check(FileRegistry& all, const Output& output)
     if (const Input* input = all.guards ? all.inputs.find(output.identity) : nullptr)
         return replaces(all, output, input->name);
     if (const Output* other = all.outputs.find(output.identity); other && !(all.again && other->state == State::done))
-        return all.refuse(fmt::format("{} and {} are the same file; expected different names", other->name, output.name));
+        return all.refuse(
+            fmt::format("{} and {} are the same file; expected different names", other->name, output.name));
     return Done{};
 }
 

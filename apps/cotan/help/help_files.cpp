@@ -21,8 +21,7 @@ void addPages(std::vector<const CommandHelp*>& path, const std::string& version,
 
 } // namespace
 
-std::vector<HelpFile> helpFiles(const CommandHelp& tool, const std::string& version,
-                                const std::string& repository)
+std::vector<HelpFile> helpFiles(const CommandHelp& tool, const std::string& version, const std::string& repository)
 {
     std::vector<HelpFile> files{
         {"bash-completion/completions/" + tool.name, bashCompletion(tool)},

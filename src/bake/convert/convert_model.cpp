@@ -283,9 +283,9 @@ private:
                                            image.width, image.height, stored->width, stored->height));
         const ValueSummary lossy = mapError(before, *stored, uses, options_.frames, written);
         if (lossy.mean > limit && byCaller)
-            report_.notes.push_back(
-                fmt::format("{}: as encoded by the caller, its error is {:.2f} degrees on average, without losses {:.2f}",
-                            done.name, lossy.mean, done.figures.error.mean));
+            report_.notes.push_back(fmt::format(
+                "{}: as encoded by the caller, its error is {:.2f} degrees on average, without losses {:.2f}",
+                done.name, lossy.mean, done.figures.error.mean));
         if (lossy.mean <= limit || byCaller) {
             done.figures.error = lossy;
             return file;

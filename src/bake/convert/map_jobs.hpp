@@ -40,10 +40,7 @@ struct MapReader {
 };
 
 // Whether TANGENT reverses green that can be seen.
-inline bool showsReversed(const MapReader& reader)
-{
-    return reader.reversed && std::abs(reader.strength) > kFlattened;
-}
+inline bool showsReversed(const MapReader& reader) { return reader.reversed && std::abs(reader.strength) > kFlattened; }
 
 // An image and everything that reads it as a normal map.
 struct MapJob {
@@ -58,7 +55,8 @@ struct MapJob {
 // The jobs of a file, in the order of its images. A mesh is several surfaces if nodes place it by linear maps that are
 // not rotations and uniform scales of one another, or if KHR_materials_variants gives it several materials. A coat's
 // map is read on a surface of its own (makeCoatSurface). `notes` lists the maps that are left out. limits: for reading
-// the images, here and below. unread: takes maps in formats that are not read here too. Errors (ErrorKind::input): compressed geometry.
+// the images, here and below. unread: takes maps in formats that are not read here too. Errors (ErrorKind::input):
+// compressed geometry.
 Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes,
                                     const LoadLimits& limits = {}, bool unread = false);
 

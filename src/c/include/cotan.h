@@ -1,6 +1,6 @@
 /* Cotan for C and for bindings to other languages: plain arrays with sizes. The only global state is that of
- * cotan_set_reader. Any thread may call any function. Nothing depends on the locale that the program has chosen: numbers
- * in texts and files have a decimal point.
+ * cotan_set_reader. Any thread may call any function. Nothing depends on the locale that the program has chosen:
+ * numbers in texts and files have a decimal point.
  *
  * Errors. Every function that can fail returns a cotan_status. If that is not COTAN_OK, `message` contains one line
  * with the reason, cut to `message_size` bytes including the terminating zero. Callers who need no text pass null and
