@@ -119,14 +119,14 @@ function linesFor(lint) {
 // A short verdict, the library's recommendation and a table of figures.
 function verdictOf(lint, name) {
   if (lint.error) return [el('p', { class: 'verdict' }, 'The model could not be checked.'), el('p', {}, lint.error.message)];
-  const green = lint.maps.some(map => map.decided && !map.as_declared), changes = lint.maps_converted > 0, empty = lint.maps.length === 0;
+  const green = lint.maps.some(map => map.decided && !map.as_declared), stay = lint.primitives_keeping, empty = lint.maps.length === 0;
   const reversed = lint.primitives.some(({ stored_tangents: stored }) => stored?.reversed_w > 0.5), distrusted = lint.distrust_stored;
   const words = empty ? 'It has no normal map: there is nothing to judge.'
     : green && reversed ? 'Green and the stored tangents are both reversed: together they cancel out, each alone is wrong.'
       : green ? 'Green of a normal map points opposite to what the model says: bumps look like dents.'
         : distrusted ? `Its stored tangents contradict its texture coordinates${reversed ? ': without them green is read as they imply' : ''}.`
-          : changes ? `Without stored tangents its maps have to be remade for the frame ${lint.advice}.`
-            : lint.advice ? `It needs no stored tangents: its maps are read as they are, with the frame ${lint.advice}.`
+          : stay > 0 ? `Without stored tangents ${stay} of its ${lint.primitives.length} parts would look different: those keep them.`
+            : lint.advice ? 'It needs no stored tangents: its maps are read as they are.'
               : 'None of its normal maps was judged as a whole.';
   const off = frame => {
     const means = lint.fits.map(fit => fit[frame].mean).filter(mean => typeof mean === 'number');

@@ -17,10 +17,10 @@ namespace {
 std::string whyKept(const ConvertedMap& map)
 {
     const ValueSummary& unconverted = map.figures.unconverted;
+    if (map.surfaces > 0 && map.surfacesWithTangents == map.surfaces)
+        return fmt::format("{}: unchanged: TANGENT stays on {}", map.name, counted(map.surfaces, "surface"));
     if (unconverted.count == 0)
         return fmt::format("{}: unchanged; not checked, since no triangle with an area, in uv too, uses it", map.name);
-    if (map.surfacesWithTangents == map.surfaces)
-        return fmt::format("{}: unchanged: TANGENT stays on {}", map.name, counted(map.surfaces, "surface"));
     const std::string change = map.greenReversed ? "only its green is reversed" : "unchanged";
     const ValueSummary& error = map.greenReversed ? map.figures.error : unconverted;
     return fmt::format("{}: {}: read with {} its error is {} degrees on {}{}", map.name, change, namesOf(map.readWith), toText(error),

@@ -24,6 +24,7 @@ struct LintCommandOptions : CommonOptions {
     OwnMaps maps;
     double distance = 0;
     bool strict = false;
+    double maxDegrees = ChoiceLimits().mean; // for frames that are chosen
     LintLimits limits;
 };
 
@@ -32,15 +33,13 @@ std::string commandFor(const LintCommandOptions& o, const LintReport& report)
 {
     if (report.advice == Advice::nothing || !o.maps.normal.empty()) // convert reads the model's own maps
         return {};
-    const std::string to(name(frameOf(report)));
     const std::string stem = std::filesystem::path(o.model).stem().string();
     if (!namedAsGltf(o.model)) // convert writes glTF only
         return fmt::format("cotan render {} --frame orthonormal -o {}", quoted(o.model), quoted(stem + ".png"));
-    if (report.mapsConverted == 0 && !report.dropsTangents)
+    if (report.dropping == 0)
         return {};
-    return fmt::format("cotan convert {} --from-frame mikktspace --to-frame {}{}{} -o {} --verify {}", quoted(o.model),
-                       to, report.advice == Advice::readOrthonormal ? " --keep-maps" : "",
-                       report.distrustStored ? " --tangents generated" : "", quoted(stem + "-" + to + ".glb"),
+    return fmt::format("cotan convert {}{} -o {} --verify {}", quoted(o.model),
+                       report.distrustStored ? " --tangents generated" : "", quoted(stem + "-free.glb"),
                        quoted(stem + "-verify"));
 }
 
@@ -76,7 +75,11 @@ Status run(const LintCommandOptions& o)
         warn(o, line);
     const double loadSeconds = watch.lap();
     const auto linted = withProgress(o, 1, "measuring " + o.model, [&](const Progress& progress) {
-        return lintScene(*scene, {.distance = o.distance, .memory = std::size_t(o.memory) << 20}, progress);
+        return lintScene(*scene,
+                         {.distance = o.distance,
+                          .memory = std::size_t(o.memory) << 20,
+                          .limits = ChoiceLimits::of(o.maxDegrees)},
+                         progress);
     });
     if (!linted)
         return withOptionNames(linted.error());
@@ -114,9 +117,9 @@ Status run(const LintCommandOptions& o)
               {"recommendation", report.recommendation},
               {"run", command},
               {"run_would",
-               {{"maps_converted", report.mapsConverted},
-                {"maps_kept", report.mapsKept},
-                {"drops_tangents", report.dropsTangents}}}};
+               {{"primitives_dropping", report.dropping},
+                {"primitives_keeping", report.keeping},
+                {"drops_tangents", report.dropping > 0}}}};
     j.update(listsOf(report));
     j["hot_spots"] = Json::array();
     for (const ProblemArea& area : areas)
@@ -144,6 +147,7 @@ void declare(Arguments& a, LintCommandOptions& o)
            "also print the statistics of each primitive and map, and cameras that look at the problem areas")
         .main();
     addOwnNormalMap(a, o.maps);
+    addMaxDegreesOption(a, o.maxDegrees);
     a.group(HelpGroup::diagnostics);
     a.option("--distance", o.distance,
              "distance from the eye in world units, for an image with a 45 degree view and 1080 rows; 0: where the "

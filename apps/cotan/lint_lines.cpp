@@ -1,6 +1,7 @@
 #include "lint_lines.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -81,6 +82,47 @@ std::string greenLine(const LintReport& report)
                        right, wrong, report.maps.size() - right - wrong);
 }
 
+constexpr std::size_t kWorst = 3; // primitives in the table of candidates
+
+// "0.12 / 1.3", or "-" if it was not measured.
+std::string cellOf(const FrameDecision& d, Frame frame, TangentOrigin tangents)
+{
+    const auto c = std::ranges::find_if(d.candidates, [&](const FrameCandidate& candidate) {
+        return candidate.frame == frame && candidate.tangents == tangents && candidate.points > 0;
+    });
+    const bool chosen = c != d.candidates.end() && d.frame == frame && d.tangents == tangents;
+    return c == d.candidates.end() ? "-" : fmt::format("{}{:.2f} / {:.1f}", chosen ? "*" : "", c->mean, c->percentile99);
+}
+
+// The candidates of the primitives that the cheapest one reads worst.
+std::vector<std::string> candidateLines(const LintReport& report)
+{
+    std::vector<const FrameDecision*> judged;
+    for (const FrameDecision& d : report.decisions)
+        if (!d.candidates.empty() && d.candidates.front().mean > 0)
+            judged.push_back(&d);
+    if (judged.empty())
+        return {};
+    std::ranges::stable_sort(judged, std::greater(), [](const FrameDecision* d) { return d->candidates.front().mean; });
+    judged.resize(std::min(judged.size(), kWorst));
+    std::vector<std::string> lines = {
+        fmt::format("Degrees between normals with each frame and with the tangents, on average / exceeded on 1 % of the "
+                    "area (* chosen):"),
+        fmt::format("  {:<24}{:>14}{:>14}{:>14}{:>14}{:>16}", "", "orthonormal", "triangle", "smooth", "mikktspace",
+                    "file's tangents")};
+    for (const FrameDecision* d : judged) {
+        const auto p = std::ranges::find(report.primitives, d->mesh, &PrimitiveLint::meshIndex);
+        std::string name = p == report.primitives.end() ? std::string() : p->mesh.empty() ? p->material : p->mesh;
+        if (name.size() > 22)
+            name = name.substr(0, 21) + "~";
+        std::string line = fmt::format("  {:<24}", name);
+        for (const Frame frame : {Frame::orthonormal, Frame::triangle, Frame::smooth, Frame::mikktspace})
+            line += fmt::format("{:>14}", cellOf(*d, frame, TangentOrigin::generated));
+        lines.push_back(line + fmt::format("{:>16}", cellOf(*d, Frame::mikktspace, TangentOrigin::stored)));
+    }
+    return lines;
+}
+
 } // namespace
 
 std::string counted(std::size_t number, const std::string& noun)
@@ -103,6 +145,8 @@ std::vector<std::string> verdictLines(const std::string& model, const LintReport
             lines.push_back(line);
     if (!run.empty())
         lines.push_back("  " + run);
+    for (std::string& line : candidateLines(report))
+        lines.push_back(std::move(line));
     return lines;
 }
 

@@ -34,9 +34,9 @@ Json lintJson(const LintReport& report, const Scene& scene, const LintLimits& li
     Json json = {{"recommendation", report.recommendation},
                  {"advice", adviceOf(report)},
                  {"distance", report.distance},
-                 {"maps_converted", report.mapsConverted},
-                 {"maps_kept", report.mapsKept},
-                 {"drops_tangents", report.dropsTangents},
+                 {"primitives_dropping", report.dropping},
+                 {"primitives_keeping", report.keeping},
+                 {"drops_tangents", report.dropping > 0},
                  {"distrust_stored", report.distrustStored}};
     json.update(listsOf(report));
     json["check"] = toJson(checkLimits(report, limits));
@@ -49,7 +49,7 @@ void fill(const LintReport& report, cotan_lint_result& r)
     r.primitives = report.primitives.size();
     r.maps = report.maps.size();
     copyText(adviceOf(report), r.advice, sizeof r.advice);
-    r.maps_to_convert = report.mapsConverted;
+    r.maps_to_convert = 0;
     r.distrust_stored = report.distrustStored;
     r.green_against =
         std::size_t(std::ranges::count_if(report.maps, [](const GreenEvidence& g) { return !g.asDeclared(); }));

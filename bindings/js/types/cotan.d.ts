@@ -114,10 +114,15 @@ export interface ModelOptions {
 /** The report of `cotan lint --json`. */
 export interface LintReport {
   recommendation: string;
-  /** The frame to read the maps with, after conversion if `maps_converted` is not 0; empty: nothing was judged. */
+  /** The frame to read the maps with, of chosen ones that of most primitives; empty: nothing was judged. */
   advice: string;
   warnings: string[];
   primitives: any[];
+  /** One for each mesh: how its map is read without stored tangents. `mesh` counts meshes of the scene here. */
+  decisions: Decision[];
+  /** Primitives whose stored tangents `convert` would drop and keep. */
+  primitives_dropping: number;
+  primitives_keeping: number;
   /** The verdict on `limit` and `limitArea`; null if neither was set. A limit of 0 appears as 1e-9. */
   check: LintCheck | null;
   /** The failures: findings over `limit` or `limitArea`; with either limit also each map whose green points the other

@@ -11,6 +11,8 @@
 
 namespace cotan {
 
+using gltf::Json;
+
 namespace {
 
 // How many materials KHR_materials_variants can give a primitive.
@@ -56,7 +58,7 @@ void add(FrameDecision& known, const FrameDecision& other, const ChoiceLimits& l
 } // namespace
 
 Result<std::vector<PrimitiveDecision>> choosePrimitives(const GltfDocument& document, const ChoiceLimits& limits,
-                                                        const LoadLimits& load)
+                                                        TangentOrigin tangents, const LoadLimits& load)
 {
     auto bytes = glbBytes(document, load);
     if (!bytes)
@@ -69,9 +71,12 @@ Result<std::vector<PrimitiveDecision>> choosePrimitives(const GltfDocument& docu
     const std::size_t ways = std::max<std::size_t>(variantsOf(rootOf(document)), 1);
     for (std::size_t way = 0; way < ways; ++way) {
         inside.variant = ways > 1 ? std::to_string(way) : "";
-        const auto scene = loadGltf(path.empty() ? "model.glb" : path, inside);
+        auto scene = loadGltf(path.empty() ? "model.glb" : path, inside);
         if (!scene)
             return scene.error();
+        if (tangents == TangentOrigin::generated)
+            for (Mesh& mesh : scene->meshes)
+                mesh.tangents.clear();
         for (FrameDecision& d : chooseFrames(*scene, {.limits = limits, .all = true}))
             if (const auto& source = scene->meshes[d.mesh].source) {
                 const auto [known, isNew] = found.try_emplace(*source, d);

@@ -1,6 +1,8 @@
 #include "cotan/convert.hpp"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -59,7 +61,7 @@ private:
     Status chooseFramesOfPrimitives()
     {
         if (options_.choose) {
-            auto decisions = choosePrimitives(document_, *options_.choose, options_.limits);
+            auto decisions = choosePrimitives(document_, *options_.choose, options_.frames.fromTangents, options_.limits);
             if (!decisions)
                 return decisions.error();
             report_.decisions = std::move(*decisions);
@@ -83,14 +85,23 @@ private:
     // Readers that keep TANGENT, and the frames of the others.
     void applyDecisions(std::vector<MapJob>& jobs)
     {
+        std::map<SourcePrimitive, std::size_t> readers;
+        for (const MapJob& job : jobs)
+            for (const MapReader& reader : job.readers)
+                ++readers[{reader.mesh, reader.primitive}];
         for (MapJob& job : jobs)
             for (MapReader& reader : job.readers)
                 if (const FrameDecision* const d = decisionOf(reader.mesh, reader.primitive)) {
                     reader.readWith = d->frame;
                     if (d->dropsTangents() || !reader.stored)
                         continue;
-                    reader.keeps = true;
+                    const bool needed = std::exchange(reader.keeps, true);
                     reader.reversed = false; // without tangents it is not read
+                    const gltf::Json& primitive =
+                        rootOf(document_)["meshes"][reader.mesh]["primitives"][reader.primitive];
+                    const gltf::Json& material = rootOf(document_)["materials"][reader.slot.material];
+                    reader.follows = !needed && readers[{reader.mesh, reader.primitive}] == 1
+                        && !primitive.contains("targets") && gltf::tangentReader(material).empty();
                 }
         for (const PrimitiveDecision& d : report_.decisions)
             if (!d.decision.dropsTangents())
@@ -234,7 +245,9 @@ private:
                 if (reader.keeps && !showsReversed(reader))
                     done.surfacesWithTangents += reader.transforms.size();
             if (done.surfacesWithTangents > 0)
-                done.figures.unconverted = errorWithoutTangents(job, *map, *uses);
+                done.figures.unconverted = mapErrors(*map, *map, usesWithoutTangents(job, *uses),
+                                                     {&options_.frames, 1}, {}, pointsOfEach(surfaces_))
+                                               .front();
         }
         done.kept = options_.keepMaps || done.figures.unconverted.count == 0
             || (options_.bits == 0 && fitsAsItIs(done.figures.unconverted));
@@ -319,6 +332,13 @@ private:
     {
         if (maps::statisticsOfSample(map).centre == maps::Centre::biased) // whatever engines take for zero
             read = Expansion::biased;
+        std::vector<MapUse> dropping;
+        std::size_t at = 0;
+        for (const MapReader& reader : job.readers)
+            for (std::size_t k = 0; k < reader.transforms.size(); ++k, ++at)
+                if (!reader.keeps)
+                    dropping.push_back(uses[at]);
+        uses = std::move(dropping);
         for (MapUse& use : uses)
             use.stored.expansion = read;
         maps::RecodeSettings settings;
@@ -344,6 +364,12 @@ private:
             return done;
         }
         put(job, std::move(*file), read, made);
+        for (const MapReader& reader : job.readers)
+            if (reader.follows) {
+                made.surfacesWithTangents += reader.transforms.size();
+                if (Status reversedToo = reverseBitangents(document_, reader.mesh, reader.primitive); !reversedToo)
+                    return reversedToo.error();
+            }
         report_.notes.push_back(fmt::format("{}: the tangents of the file reverse its green; without them, the map has "
                                             "its green reversed",
                                             job.name));
@@ -375,8 +401,8 @@ private:
             }
     }
 
-    // Measures a map that is kept on the surfaces that lose their tangents.
-    ValueSummary errorWithoutTangents(const MapJob& job, const Image& map, const std::vector<MapUse>& uses)
+    // The uses by surfaces that lose their tangents. uses: of the job.
+    static std::vector<MapUse> usesWithoutTangents(const MapJob& job, const std::vector<MapUse>& uses)
     {
         std::vector<MapUse> dropping;
         std::size_t use = 0;
@@ -384,7 +410,7 @@ private:
             for (std::size_t k = 0; k < reader.transforms.size(); ++k, ++use)
                 if (!showsReversed(reader) && !reader.keeps)
                     dropping.push_back(uses[use]);
-        return mapErrors(map, map, dropping, {&options_.frames, 1}, {}, pointsOfEach(surfaces_)).front();
+        return dropping;
     }
 
     void noteErrorOfKept(const ConvertedMap& map)

@@ -259,11 +259,24 @@ std::size_t surfacesOf(const MapJob& job)
     return count;
 }
 
+Status reverseBitangents(GltfDocument& document, std::size_t mesh, std::size_t primitive)
+{
+    const auto geometry =
+        gltfGeometry(document, mesh, primitive, NormalSlot::surface, std::nullopt, TexcoordSpace::file);
+    if (!geometry)
+        return geometry.error();
+    GltfCornerTangents tangents{mesh, primitive, {}};
+    for (const std::uint32_t i : geometry->indices)
+        tangents.corners.push_back(geometry->tangents[i] * glm::vec4(1, 1, 1, -1));
+    const auto set = setGltfTangents(document, {&tangents, 1});
+    return set ? Status(Done{}) : set.error();
+}
+
 GreenWithoutTangents greenWithoutTangents(const MapJob& job)
 {
     bool reversed = false, declared = false;
     for (const MapReader& reader : job.readers)
-        if (std::abs(reader.strength) > kFlattened)
+        if (std::abs(reader.strength) > kFlattened && !reader.follows)
             (reader.reversed && !reader.keeps ? reversed : declared) = true;
     return !reversed ? GreenWithoutTangents::declared
         : declared   ? GreenWithoutTangents::both

@@ -36,6 +36,7 @@ struct MapReader {
     StoredGreen green{};   // what TANGENT shows of the map's green
     bool reversed = false; // TANGENT reverses green: readsReversed
     bool keeps = false;    // TANGENT stays, since a coat, anisotropy or a decision needs it: it shows the map as before
+    bool follows = false;  // keeps, and nothing else reads TANGENT: its w can follow green of the map
     std::optional<Frame> readWith{}; // as in MapUse
 };
 
@@ -62,6 +63,9 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
 
 // The number of surfaces that read the job's image.
 std::size_t surfacesOf(const MapJob& job);
+
+// Negates w of TANGENT, so that a map whose green was reversed is shown as before. Errors: those of setGltfTangents.
+Status reverseBitangents(GltfDocument& document, std::size_t mesh, std::size_t primitive);
 
 // Whether without TANGENT every surface that shows the map reads it with green reversed; none does; or both are there.
 enum class GreenWithoutTangents { declared, reversed, both };

@@ -297,6 +297,7 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
                 lintPrimitive(scene, mesh, uses.back().surface, report.distance, surfaces, counted, perPlacing);
             if (counted.stopped)
                 return stoppedError();
+            p.meshIndex = i;
             p.placing = k;
             p.placings = placed[i].size();
             report.primitives.push_back(std::move(p));

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -8,12 +10,29 @@
 
 namespace cotan {
 
+namespace {
+
+bool readsMap(const FrameDecision& d) { return d.reason != ChoiceReason::noMap; }
+
+// The frames that read maps without the file's tangents, and how many meshes each reads.
+std::map<Frame, std::size_t> framesChosen(const LintReport& report)
+{
+    std::map<Frame, std::size_t> frames;
+    for (const FrameDecision& d : report.decisions)
+        if (readsMap(d) && d.dropsTangents())
+            ++frames[d.frame];
+    return frames;
+}
+
+} // namespace
+
 Frame frameOf(const LintReport& report)
 {
-    return report.advice == Advice::readNamed         ? report.named.value_or(Frame::orthonormal)
-        : report.advice == Advice::convertToCotangent ? Frame::cotangent
-        : report.advice == Advice::convertToSmooth    ? Frame::smooth
-                                                      : Frame::orthonormal;
+    if (report.advice == Advice::readNamed)
+        return report.named.value_or(Frame::orthonormal);
+    const auto frames = framesChosen(report);
+    const auto most = std::ranges::max_element(frames, {}, [](const auto& f) { return f.second; });
+    return most != frames.end() ? most->first : Frame::orthonormal;
 }
 
 namespace lint {
@@ -24,11 +43,6 @@ namespace {
 constexpr double kUnseenMean = 0.5, kUnseen95 = 2;
 // Degrees: from this mean on the light seems to come from elsewhere, even without motion.
 constexpr double kWrongMean = 5;
-// Degrees on average: the error that converted maps keep in other engines. On real models in three.js it was 0.1 to
-// 1.7, mostly above the error of the untouched map read with orthonormal (docs/how-to/remove-tangents.md).
-constexpr double kConvertedError = 1;
-// If steps at edges exceed this, a map for `cotangent` shows creases there.
-constexpr double kCreases95 = 2;
 constexpr std::size_t kMaxNames = 3; // per sentence
 
 // Means over all judged primitives, weighted by area; percentile95 is the mean of their percentiles.
@@ -168,17 +182,10 @@ std::string defectsOfFrames(const LintReport& report)
     return text;
 }
 
-const ValueSummary& summaryFor(const FrameSummaries& summaries, Advice advice)
+// Whether something other than a normal map needs the tangents of a primitive.
+bool neededElsewhere(const PrimitiveLint& p)
 {
-    return advice == Advice::convertToCotangent ? summaries.cotangent
-        : advice == Advice::convertToSmooth     ? summaries.smooth
-                                                : summaries.orthonormal;
-}
-
-// Whether something other than a converted normal map needs the tangents of a primitive.
-bool neededElsewhere(const PrimitiveLint& p, Advice advice)
-{
-    return !p.tangentsFor.empty() && !directionStays(summaryFor(p.rotation, advice));
+    return !p.tangentsFor.empty() && !directionStays(p.rotation.orthonormal);
 }
 
 // A sentence on the extensions that need tangents, with their materials; empty if there are none.
@@ -186,7 +193,7 @@ std::string otherReaders(const LintReport& report)
 {
     std::vector<std::string> names;
     for (const PrimitiveLint& p : report.primitives)
-        if (neededElsewhere(p, report.advice))
+        if (neededElsewhere(p))
             addOnce(names, fmt::format("{} ({})", p.material.empty() ? "a material" : p.material, p.tangentsFor));
     return names.empty()
         ? ""
@@ -241,21 +248,20 @@ std::string visibleErrorText(const AreaMean& orthonormal, const AreaMean& cotang
                        how, orthonormal.mean, cotangent.mean);
 }
 
-// Predicts what the command would do; dropTangents (bake/convert/map_jobs.cpp) decides which tangents are dropped. Maps
-// to be read as they are stay: for orthonormal by --keep-maps, for the frame that the file names without a command.
+// Predicts what `convert` would do; dropTangents (bake/convert/map_jobs.cpp) decides which tangents are dropped.
 void predictConversion(LintReport& report)
 {
-    for (const MapFit& fit : report.fits)
-        ++(fitsAsItIs(summaryFor(fit, report.advice)) ? report.mapsKept : report.mapsConverted);
-    if (report.advice == Advice::readNamed || report.advice == Advice::readOrthonormal) {
-        report.mapsConverted = 0;
-        report.mapsKept = report.fits.size();
-    }
-    if (report.advice == Advice::readNamed)
-        return;
+    std::set<std::size_t> needed;
     for (const PrimitiveLint& p : report.primitives)
-        report.dropsTangents =
-            report.dropsTangents || (p.stored.present && !neededElsewhere(p, report.advice) && !p.unread);
+        if (p.stored.present && (neededElsewhere(p) || p.unread))
+            needed.insert(p.meshIndex);
+    std::set<std::size_t> counted;
+    for (const PrimitiveLint& p : report.primitives)
+        if (p.stored.present && counted.insert(p.meshIndex).second) {
+            const bool drops = p.meshIndex < report.decisions.size() && report.decisions[p.meshIndex].dropsTangents()
+                && !needed.contains(p.meshIndex);
+            ++(drops ? report.dropping : report.keeping);
+        }
 }
 
 // What the command does to maps whose green the stored tangents reverse; empty if there are none.
@@ -275,24 +281,37 @@ std::string tangentsAndGreen(const LintReport& report)
     return text + ".";
 }
 
-// The advice, given what the command would do.
-std::string adviceText(const LintReport& report, const AreaMean& steps)
+// "orthonormal (9), smooth (2)".
+std::string framesText(const LintReport& report)
 {
-    const std::string frame(name(frameOf(report)));
-    const std::string why = report.advice != Advice::convertToSmooth
-        ? ""
-        : fmt::format(" (cotangent has steps of {:.0f} degrees at edges, 95th percentile)", steps.percentile95);
-    const std::string tangents = report.dropsTangents ? " The command drops the tangents." : "";
-    if (report.mapsConverted == 0 && report.dropsTangents)
-        return fmt::format("Read the maps with the frame {} as they are;{}", frame, tangentsAndGreen(report));
-    if (report.mapsConverted == 0 && (!brokenMaps(report).empty() || !reversedGreen(report).empty()))
-        return fmt::format("Fix the maps; then they can be read with the frame {}.", frame);
-    if (report.mapsConverted == 0)
-        return fmt::format("Nothing has to be changed: read the maps with the frame {} as they are.", frame);
-    if (report.mapsKept == 0)
-        return fmt::format("Convert the maps to the frame {}{}.{}", frame, why, tangents);
-    return fmt::format("Convert {} of {} maps to the frame {}{}; the others can be read with it as they are.{}",
-                       report.mapsConverted, report.fits.size(), frame, why, tangents);
+    const auto frames = framesChosen(report);
+    std::string text;
+    for (const auto& [frame, count] : frames)
+        text += fmt::format("{}{}{}", text.empty() ? "" : ", ", name(frame),
+                            frames.size() > 1 ? fmt::format(" ({})", count) : "");
+    return text;
+}
+
+// The advice, given what the command would do.
+std::string adviceText(const LintReport& report)
+{
+    const std::string frames = framesText(report);
+    if (report.dropping > 0) {
+        const std::string kept = report.keeping > 0
+            ? fmt::format(" Those of {} primitives stay.", report.keeping)
+            : "";
+        return fmt::format("Read the maps with {} as they are;{}{}",
+                           report.advice == Advice::readNamed ? fmt::format("the frame {}", name(frameOf(report)))
+                               : frames.empty()               ? std::string("their tangents")
+                                                              : frames,
+                           tangentsAndGreen(report), kept);
+    }
+    if (report.keeping > 0 && frames.empty())
+        return "Keep the tangents: without them the difference would be visible.";
+    if (!brokenMaps(report).empty() || !reversedGreen(report).empty())
+        return fmt::format("Fix the maps; then they can be read with {}.", frames);
+    return fmt::format("Nothing has to be changed: read the maps with {} as they are.",
+                       report.advice == Advice::readNamed ? fmt::format("the frame {}", name(frameOf(report))) : frames);
 }
 
 void adviseWithoutMaps(LintReport& report)
@@ -319,29 +338,16 @@ std::string namedErrorText(const LintReport& report, const AreaMean& orthonormal
                       frame, orthonormal.mean);
 }
 
-// Whether every map read with orthonormal errs less than converted maps do, compared with the stored tangents.
-bool readsAsItIs(const LintReport& report, const AreaMean& orthonormal)
-{
-    return orthonormal.mean < kConvertedError
-        && std::ranges::none_of(report.fits, [](const MapFit& f) { return f.orthonormal.mean >= kConvertedError; });
-}
-
 void adviseForMaps(LintReport& report)
 {
     const AreaMean orthonormal = meanReading(report, "orthonormal");
-    const AreaMean steps =
-        areaMeanOf(report, [](const PrimitiveLint& p) { return judged(p) ? &p.steps.cotangent : nullptr; });
     const PrimitiveLint* const worst = report.named ? nullptr : worstReading(report);
     report.seen = report.named ? namedErrorText(report, orthonormal)
                                : visibleErrorText(orthonormal, meanReading(report, "cotangent"), worst != nullptr);
     report.worst = worstText(worst);
-    report.advice = report.named           ? Advice::readNamed
-        : readsAsItIs(report, orthonormal) ? Advice::readOrthonormal
-        : orthonormal.unseen()             ? Advice::convertToOrthonormal
-        : steps.percentile95 > kCreases95  ? Advice::convertToSmooth
-                                           : Advice::convertToCotangent;
+    report.advice = report.named ? Advice::readNamed : Advice::readChosen;
     predictConversion(report);
-    report.advised = adviceText(report, steps);
+    report.advised = adviceText(report);
 }
 
 } // namespace

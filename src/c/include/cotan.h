@@ -423,7 +423,7 @@ typedef struct cotan_lint_result {
     size_t size;
     size_t primitives, maps;
     char advice[16];        /* the frame to read the maps with or to convert them for; empty: no change needed */
-    size_t maps_to_convert; /* number of maps that `advice` requires to be converted */
+    size_t maps_to_convert; /* 0 since version 8: maps stay, and each primitive has the frame that reads them */
     int distrust_stored;    /* 1: stored tangents contradict the uv */
     size_t green_against;   /* maps whose green points in the other direction than the model says */
     double orthonormal_degrees, cotangent_degrees, smooth_degrees; /* errors of maps for MikkTSpace, read as they are */

@@ -93,7 +93,7 @@ struct ConvertedMap {
     std::size_t surfaces = 0;  // primitives that read it, once for each material and distinct placing
     int width = 0, height = 0; // texels
     bool kept = false; // unchanged, byte for byte: keepMaps, or the new frame reads it as well as a rounded new map
-    std::vector<Frame> readWith; // frames that read a map that stays, in their order
+    std::vector<Frame> readWith{}; // frames that read a map that stays, in their order
     bool greenReversed = false; // kept but for green, which is reversed: so the file's tangents showed the map
     std::size_t surfacesWithTangents = 0; // of `surfaces`, with keepMaps: they keep TANGENT, which reverses green
     bool alsoElsewhere = false; // the old map stays in the file too, because another slot of a material reads it

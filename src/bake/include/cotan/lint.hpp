@@ -89,6 +89,7 @@ struct FrameSummaries {
 };
 
 struct PrimitiveLint {
+    std::size_t meshIndex = 0; // into Scene::meshes
     std::string mesh, material;
     // Instances that stretch a mesh differently are reported separately: this is number `placing`, from 0, of
     // `placings`, of which only the first kMaxPlacings are reported.
@@ -138,9 +139,8 @@ struct MapFit : FrameSummaries { // empty if nothing was judged: no pixels, or n
     std::string name;
 };
 
-// Reading the maps unchanged comes first: readNamed with the frame that the file names, readOrthonormal as MikkTSpace
-// without tangents. Converting is advised only if that leaves a larger error than converted maps have in other engines.
-enum class Advice { nothing, readNamed, readOrthonormal, convertToOrthonormal, convertToCotangent, convertToSmooth };
+// readNamed: with the frame that the file names; readChosen: each primitive with the frame of its decision.
+enum class Advice { nothing, readNamed, readChosen };
 
 struct LintReport {
     std::vector<PrimitiveLint> primitives;
@@ -153,17 +153,15 @@ struct LintReport {
     // Stored tangents contradict the uv on more than a tenth of the area, and a map proves them wrong: its green is as
     // declared. If no map can tell, the stored tangents are trusted.
     bool distrustStored = false;
-    // What `convert` to the advised frame would do: the numbers of maps that it would convert and keep, and whether it
-    // would drop tangents. If it would neither convert nor drop, there is nothing to do.
-    std::size_t mapsConverted = 0, mapsKept = 0;
-    bool dropsTangents = false;
+    // Meshes whose tangents `convert` would drop, and those that would keep them. If it drops none, there is nothing to do.
+    std::size_t dropping = 0, keeping = 0;
     // Sentences, empty if there is nothing to say: defects of the model as it is, the visible error without tangents,
     // the worst primitive, the advice, maps that were not judged, other readers of tangents.
     std::string defects, seen, worst, advised, notJudged, otherReaders;
     std::string recommendation; // all of these, joined
 };
 
-// The frame that the report advises; orthonormal if it advises nothing.
+// The frame that the report advises: of chosen ones, that of most meshes. orthonormal if it advises nothing.
 Frame frameOf(const LintReport& report);
 
 struct LintOptions {
