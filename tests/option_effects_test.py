@@ -131,7 +131,7 @@ CASES = [
     (SHADER, {
         "--lang": "~glsl | *", "--frame": "*", "--form": "~fused | total | area | seen", "--preset": "~gltf | directx | unity", "--green": "*", "--channels": "*", "--unsigned": "*",
         "--uv-sets": "~1 | 2 | 3 | 4", "--differences": "*", "--set": "gradient | blend | light | environment", "--list-frames": ""}),
-    (SHADER + " --frame triangle", {"--stage": "*"}),
+    ("shader --lang glsl --frame triangle", {"--stage": "*"}),
     ("shader --lang godot", {"--functions": "", "--two-sided": ""}),
     ("accuracy --tables degenerate,signs --csv out.csv", {"--tables": "half | signs", "--scene": "!nothing", "--frames": "cotangent | smooth,exact", "--threads": "=1 | =3"}),
     ("accuracy --tables signs", {"--csv": "out.csv", "--list": "", "--list-frames": "", "--against": "!rocks.png"}),

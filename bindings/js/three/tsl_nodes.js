@@ -48,7 +48,7 @@ export function replaceFrame(material, options) {
   };
   if (normalMap && material.normalMapType !== ObjectSpaceNormalMap) put('normalNode', 'normalMap', 'normalScale');
   if (clearcoatNormalMap) put('clearcoatNormalNode', 'clearcoatNormalMap', 'clearcoatNormalScale');
-  if (material.anisotropy !== undefined) material.setupVariants = variantsWith(frame, normalMap ? mapOfMaterial('normalMap') : null, against);
+  if (material.anisotropy !== undefined) material.setupVariants = variantsWith(frame, against);
   material.needsUpdate = true;
   const isNew = !chosen.has(material), key = isNew ? ownKeyOf(material) : chosen.get(material).key;
   chosen.set(material, { frame, against, key });
@@ -134,11 +134,12 @@ function frameOf(frame, read, builder) {
 }
 
 // A setupVariants for MeshPhysicalNodeMaterial that sets orthonormal directions of anisotropy in the surface.
-function variantsWith(frame, source, against) {
+function variantsWith(frame, against) {
   return function setupVariants(builder) {
     Object.getPrototypeOf(this).setupVariants.call(this, builder);
     if (!this.useAnisotropy) return;
-    const { t, b, n } = frameOf(frame, source?.(builder), builder);
+    const read = builder.material.normalMap ? mapOfMaterial('normalMap')(builder) : null; // it may have gone meanwhile
+    const { t, b, n } = frameOf(frame, read, builder);
     const along = t.dot(b.cross(n)).sign().mul(b.cross(n)).normalize().toVar();
     const across = n.cross(along).toVar();
     across.mulAssign(across.dot(b).sign().mul(against ? -1 : 1));
