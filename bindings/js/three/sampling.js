@@ -1,0 +1,112 @@
+// Points on the surface of a mesh, spread evenly by area, as in the library (src/bake/lint/map_fit.cpp).
+import { cornersOf, numbersOf, transformedUv, uvNameOf } from './mesh_data.js';
+
+const kPoints = 4096, kTotalPoints = 128 * kPoints, kMinPoints = 16; // of a surface, of all, of a surface of many
+const kMaxJudged = 200000, kParts = 64; // triangles, and the runs of triangles that are judged of more
+const kMaxStretches = 8;
+
+// The number of points of each of so many surfaces.
+export const pointsOfEach = surfaces => Math.min(Math.max(Math.floor(kTotalPoints / Math.max(surfaces, 1)), kMinPoints), kPoints);
+
+// { corners, position, normal, uv } of a geometry, or of the triangles that a group of materials draws, as its map sees them;
+// evenly chosen runs of triangles if there are very many. normal is null, and triangles count as flat, without normals and
+// in flat shading. Null without texture coordinates.
+export function surfaceOf(geometry, group, map, flat) {
+  const { position, normal, [uvNameOf(map)]: uv } = geometry.attributes;
+  if (!position || !uv) return null;
+  return { corners: judged(drawnBy(geometry, group)), position: numbersOf(position, 3), normal: flat || !normal ? null : numbersOf(normal, 3), uv: transformedUv(uv, map) };
+}
+
+function drawnBy(geometry, group) {
+  const corners = cornersOf(geometry);
+  if (group === undefined) return corners;
+  const parts = geometry.groups.filter(({ materialIndex = 0 }) => materialIndex === group)
+    .map(({ start, count }) => corners.subarray(start, Math.min(start + count, corners.length)));
+  const made = new Uint32Array(parts.reduce((sum, { length }) => sum + length - length % 3, 0));
+  let at = 0;
+  for (const part of parts) {
+    made.set(part.subarray(0, part.length - part.length % 3), at);
+    at += part.length - part.length % 3;
+  }
+  return made;
+}
+
+function judged(corners) {
+  const count = corners.length / 3;
+  if (count <= kMaxJudged) return corners;
+  const run = Math.floor(kMaxJudged / kParts), step = Math.floor(count / kParts), made = new Uint32Array(3 * run * kParts);
+  for (let p = 0; p < kParts; ++p) made.set(corners.subarray(3 * p * step, 3 * (p * step + run)), 3 * p * run);
+  return made;
+}
+
+// ---- transforms ---------------------------------------------------------------------------------
+
+// Adds the linear part of a Matrix4 to `known`, unless it differs from one of them only by rotation, mirroring and uniform
+// scale, which change nothing.
+export function addStretch(known, { elements: e }) {
+  const m = [e[0], e[1], e[2], e[4], e[5], e[6], e[8], e[9], e[10]], gram = gramOf(m);
+  if (known.length < kMaxStretches && !known.some(other => alike(gramOf(other), gram))) known.push(m);
+}
+
+const gramOf = m => [0, 1, 2].flatMap(i => [0, 1, 2].map(j => m[3 * i] * m[3 * j] + m[3 * i + 1] * m[3 * j + 1] + m[3 * i + 2] * m[3 * j + 2]));
+
+function alike(a, b) {
+  const ta = a[0] + a[4] + a[8], tb = b[0] + b[4] + b[8];
+  return a.every((x, i) => Math.abs(x * tb - b[i] * ta) <= 1e-5 * ta * tb);
+}
+
+const kIdentity = [1, 0, 0, 0, 1, 0, 0, 0, 1];
+
+// The surface moved by a linear map m (columns): positions by it, normals and other covectors by `planes`, its cofactors with
+// the sign of the determinant. A map without stretch is left out.
+export function placedBy(surface, m) {
+  if (alike(gramOf(m), gramOf(kIdentity))) return { ...surface, linear: kIdentity, planes: kIdentity, side: 1 };
+  const [a, b, c, d, e, f, g, h, i] = m, cofactors = [e * i - f * h, f * g - d * i, d * h - e * g, c * h - b * i, a * i - c * g, b * g - a * h, b * f - c * e, c * d - a * f, a * e - b * d];
+  const side = Math.sign(a * cofactors[0] + b * cofactors[1] + c * cofactors[2]) || 1, planes = cofactors.map(x => x * side);
+  return { ...surface, position: movedBy(m, surface.position), normal: surface.normal && movedBy(planes, surface.normal), linear: m, planes, side };
+}
+
+function movedBy(m, vectors) {
+  const moved = new Float64Array(vectors.length);
+  for (let k = 0; k < moved.length; k += 3)
+    for (let i = 0; i < 3; ++i) moved[k + i] = m[i] * vectors[k] + m[3 + i] * vectors[k + 1] + m[6 + i] * vectors[k + 2];
+  return moved;
+}
+
+// ---- points -------------------------------------------------------------------------------------
+
+// Area of a triangle in space; 0 if it has none, or none in uv.
+function mappedArea({ corners, position, uv }, triangle) {
+  const k = 3 * triangle, a = corners[k], b = corners[k + 1], c = corners[k + 2], u = uv[2 * a], v = uv[2 * a + 1];
+  if (!((uv[2 * b] - u) * (uv[2 * c + 1] - v) - (uv[2 * b + 1] - v) * (uv[2 * c] - u))) return 0;
+  const x = position[3 * a], y = position[3 * a + 1], z = position[3 * a + 2];
+  const px = position[3 * b] - x, py = position[3 * b + 1] - y, pz = position[3 * b + 2] - z, qx = position[3 * c] - x, qy = position[3 * c + 1] - y, qz = position[3 * c + 2] - z;
+  const i = py * qz - pz * qy, j = pz * qx - px * qz, l = px * qy - py * qx, area = Math.sqrt(i * i + j * j + l * l) / 2;
+  return area < Infinity ? area : 0;
+}
+
+// `count` points at equal steps of area over the triangles that have area in space and in uv: { triangles, weights,
+// total }, with two barycentric weights for each point, those of the second and third corner, and the area of all. Empty if
+// there are no such triangles.
+// Points within triangles follow the sequence of the plastic number (R2).
+export function pointsOver(surface, count) {
+  const all = surface.corners.length / 3, areas = new Float64Array(all);
+  let total = 0;
+  for (let i = 0; i < all; ++i) total += areas[i] = mappedArea(surface, i);
+  if (!(total > 0)) return { triangles: new Uint32Array(0), weights: new Float64Array(0), total: 0 };
+  const triangles = new Uint32Array(count), weights = new Float64Array(2 * count);
+  let triangle = 0, upTo = areas[0];
+  for (let k = 0; k < count; ++k) {
+    const at = (k + 0.5) / count * total;
+    while (triangle + 1 < all && upTo <= at) upTo += areas[++triangle];
+    let a = (0.5 + 0.7548776662466927 * k) % 1, b = (0.5 + 0.5698402909980532 * k) % 1;
+    if (a + b > 1) {
+      a = 1 - a;
+      b = 1 - b;
+    }
+    triangles[k] = triangle;
+    weights[2 * k] = a;
+    weights[2 * k + 1] = b;
+  }
+  return { triangles, weights, total };
+}
