@@ -3,8 +3,8 @@
 import { ObjectSpaceNormalMap } from 'three';
 import { degreesBetween, Sample, summaryOf, texelsAt } from './candidates.js';
 import { guessedFrame, meansTangents, namedFrame } from './frames.js';
-import { bitangentAreas, ofGltf, storedTangents } from './greens.js';
-import { readingOf } from './mesh_data.js';
+import { bitangentAreas, ofGltf } from './greens.js';
+import { numbersOf, readingOf, turns, uvMatrixOf } from './mesh_data.js';
 import { addStretch, pointsOfEach, surfaceOf } from './sampling.js';
 import { texelsOf } from './texels.js';
 
@@ -27,7 +27,7 @@ class Primitive {
   stretches = [];
 
   constructor(mesh, material, group) {
-    Object.assign(this, { geometry: mesh.geometry, material, group, stored: !!storedIn(mesh.geometry) });
+    Object.assign(this, { geometry: mesh.geometry, material, group, stored: storedIn(mesh.geometry) });
   }
 
   add(mesh) {
@@ -41,13 +41,12 @@ class Primitive {
     }
   }
 
-  // The points of the surface under a map, and the stored tangents for its uv. Null without uv.
+  // The points of the surface under a map. Null without uv. Tangents of a glTF belong to its uv before a transform.
   sampleFor(map, points) {
-    const key = readingOf(map);
+    const key = [readingOf(map), ofGltf(map)].join();
     if (!this.#samples.has(key)) {
       const { geometry, material, group, stored } = this, surface = surfaceOf(geometry, group, map, material.flatShading === true);
-      const sample = surface && new Sample(surface, this.stretches, points);
-      this.#samples.set(key, sample && { sample, tangents: stored && storedTangents(geometry, map, surface.corners) });
+      this.#samples.set(key, surface && new Sample(surface, this.stretches, points, stored && numbersOf(stored, 4), ofGltf(map) && turns(map) && uvMatrixOf(map)));
     }
     return this.#samples.get(key);
   }
@@ -90,9 +89,9 @@ export class Chooser {
   // The areas where stored bitangents run along and against increasing v of a map (bitangentAreas).
   areas(mesh, material, k, map) {
     const primitive = this.#primitives.get(keyOf(mesh, material, k)), found = primitive.stored && primitive.sampleFor(map, this.#points);
-    if (!found || !found.sample.usable) return { along: 0, against: 0, aligned: 0 };
+    if (!found?.usable) return { along: 0, against: 0, aligned: 0 };
     const key = `${keyOf(mesh, material, k)} ${readingOf(map)}`;
-    if (!this.#areas.has(key)) this.#areas.set(key, bitangentAreas(found.sample, found.tangents));
+    if (!this.#areas.has(key)) this.#areas.set(key, bitangentAreas(found));
     return this.#areas.get(key);
   }
 
@@ -120,17 +119,17 @@ export class Chooser {
   }
 
   #reasonNotToJudge(found, map) {
-    return !found ? 'it has no texture coordinates' : !found.sample.usable ? 'no triangle has an area both in space and in uv' : texelsOf(map).why;
+    return !found ? 'it has no texture coordinates' : !found.usable ? 'no triangle has an area both in space and in uv' : texelsOf(map).why;
   }
 
   // A function that compares a frame with what the maps mean. The largest error counts of those at each stretch and map.
-  #measureOf(primitive, { sample, tangents }, meaning) {
+  #measureOf(primitive, sample, meaning) {
     const { material } = primitive, [[first]] = mapsOf(material), parts = [];
     const shown = mapsOf(material).filter(([map, scale, name]) => readingOf(map) === readingOf(first) && Math.max(Math.abs(scale.x), Math.abs(scale.y)) > kFlattened
       && (name === 'normalScale' || material.clearcoat > 0) && !texelsOf(map).why);
     const green = meaning === 'stored' ? greenAlongV(first, this.areas(primitive.meshes[0], material, primitive.group ?? 0, first)) : 1;
     for (const place of sample.places) {
-      const meant = meaning === 'stored' ? sample.framesAt(place, 'stored', tangents) : sample.framesAt(place, 'mikktspace');
+      const meant = sample.framesAt(place, meaning);
       for (const [map, scale] of shown) parts.push({ place, meant, texels: texelsAt(place, map, texelsOf(map), scale.x, Math.abs(scale.y)) });
     }
     return frame => {

@@ -1,10 +1,10 @@
 // Geometries of three.js as plain numbers.
 
-// The first `width` components of all elements of an attribute of any type. Not to be written to: it may be the attribute's
-// own array.
+// The first `width` components of all elements of an attribute of any type. All vectors are in Float64Array, so that the
+// functions of vectors.js are compiled for one type.
 export function numbersOf(attribute, width) {
   const { array, itemSize, normalized, count } = attribute;
-  if (array instanceof Float32Array && itemSize === width && !normalized && !attribute.isInterleavedBufferAttribute) return array;
+  if (itemSize === width && !normalized && array && !attribute.isInterleavedBufferAttribute && !attribute.isFloat16BufferAttribute) return new Float64Array(array);
   const values = new Float64Array(count * width);
   for (let k = 0; k < count; ++k)
     for (let i = 0; i < width; ++i) values[k * width + i] = attribute.getComponent(k, i);
@@ -27,18 +27,21 @@ function rowsOf(map) {
 // [m00, m01, m10, m11], the linear part of a texture's matrix.
 export const uvMatrixOf = map => rowsOf(map).flatMap(row => row.slice(0, 2));
 
+// Whether this part turns or mirrors uv, so that tangents for uv without it do not fit.
+export const turns = map => { const [a, b, c, d] = uvMatrixOf(map); return b !== 0 || c !== 0 || !(a > 0 && d > 0); };
+
 export const uvNameOf = map => (map?.channel ? `uv${map.channel}` : 'uv');
 
 // A key that is equal for two maps that transform the same uv set by the same matrix, up to an offset.
 export const readingOf = map => [map?.channel ?? 0, ...uvMatrixOf(map)].join();
 
-// The uv at which the map is sampled. Those that are not finite are 0.
+// The uv at which the map is sampled, rounded to float. Those that are not finite are 0.
 export function transformedUv(attribute, map) {
-  const given = numbersOf(attribute, 2), uv = new Float32Array(given.length), [[a, b, c], [d, e, f]] = rowsOf(map);
+  const uv = numbersOf(attribute, 2), [[a, b, c], [d, e, f]] = rowsOf(map), finite = x => (Math.abs(x) <= 1e30 ? Math.fround(x) : 0);
   for (let k = 0; k < uv.length; k += 2) {
-    const u = a * given[k] + b * given[k + 1] + c, v = d * given[k] + e * given[k + 1] + f;
-    uv[k] = Math.abs(u) <= 1e30 ? u : 0;
-    uv[k + 1] = Math.abs(v) <= 1e30 ? v : 0;
+    const u = uv[k], v = uv[k + 1];
+    uv[k] = finite(a * u + b * v + c);
+    uv[k + 1] = finite(d * u + e * v + f);
   }
   return uv;
 }

@@ -7,7 +7,7 @@ import { usage, wordsFor } from '../src/errors.js';
 import { Chooser, greenAlongV, markGenerated, scalesOf, storedIn } from './choose.js';
 import { kFrames, kKey, mapOf, meansTangents, namedFrame } from './frames.js';
 import { GreenNotes, ofGltf } from './greens.js';
-import { readingOf, uvMatrixOf, uvNameOf } from './mesh_data.js';
+import { readingOf, turns, uvMatrixOf, uvNameOf } from './mesh_data.js';
 import { withTangents } from './mikktspace.js';
 import { kSmoothAttributes, withSmooth } from './smooth.js';
 import { kTriangleAttribute, withTriangles } from './triangles.js';
@@ -185,14 +185,11 @@ const made = (mesh, key, all, make) => {
   return all.made.get(whole).geometry;
 };
 
-// Whether the linear part of a texture's transform turns or mirrors uv, so that tangents for uv without it do not fit.
-const turns = ([a, b, c, d]) => b !== 0 || c !== 0 || !(a > 0 && d > 0);
-
 // Tangents that were loaded are drawn as they are. Others are made, for mirrored meshes with the w that three needs there: it
 // makes bitangents from a mirrored tangent and a normal that is not.
 function giveTangents(mesh, materials, decisions, all) {
   const map = mapOf(materials.find(material => material.normalScale && mapOf(material))), { geometry } = mesh;
-  if (decisions.some(({ keepsTangents }) => keepsTangents) || geometry.attributes.tangent && !(storedIn(geometry) && ofGltf(map) && turns(uvMatrixOf(map)))) return;
+  if (decisions.some(({ keepsTangents }) => keepsTangents) || geometry.attributes.tangent && !(storedIn(geometry) && ofGltf(map) && turns(map))) return;
   const mirrored = !mesh.isSkinnedMesh && mesh.matrixWorld.determinant() < 0;
   mesh.geometry = made(mesh, ['mikktspace', readingOf(map), mirrored], all, () => markGenerated(withTangents(geometry, map, ofGltf(map) !== mirrored)));
 }

@@ -1,104 +1,88 @@
 // Tangents as mikktspace.h makes them, generated when a model is loaded.
 import { BufferAttribute, BufferGeometry } from 'three';
-import { eachFan, fansOf } from './fans.js';
+import { fansOf } from './fans.js';
 import { gathered } from './gathered.js';
 import { cornersOf, numbersOf, transformedUv, uvNameOf } from './mesh_data.js';
+import { combine, cross, dot, flatten, normalise, readEdges, uvArea } from './vectors.js';
 
-const kEmpty = -1; // group of a corner: none yet
-const kFew = 32;   // corners of a vertex that are searched one by one
+const kFew = 32; // corners of a vertex that are searched one by one
 
-// A triangle as seen from one of its corners: the uv's side, dP/du and the corner's angle in the plane of the normal.
-// side: 1 if uv run counterclockwise, -1 if clockwise, 0 if they have no area; NaN without area in space.
-const kTriangle = { side: 0, x: 0, y: 0, z: 0, angle: 0 };
+// Triangles as seen from the corners of fans.list. sides: 1 if uv run counterclockwise, -1 if clockwise, 0 if they have no
+// area, NaN without area in space. vectors: dP/du in the plane of the normal, of length 1, and the corner's angle there.
+function trianglesOf(mesh, { list }) {
+  const sides = new Float32Array(list.length), vectors = new Float64Array(4 * list.length), e = new Float64Array(10), n = new Float64Array(3), work = new Float64Array(3);
+  const zero = (a, b, p, q) => { combine(work, 0, e, a, p, e, b, q); return !dot(work, 0, work, 0); };
+  for (let k = 0, t = 0; k < list.length; ++k, t += 4) {
+    readEdges(e, mesh, list[k]);
+    const area = uvArea(e), side = zero(0, 0, 1, 0) || zero(3, 3, 1, 0) || zero(0, 3, 1, -1) || !Number.isFinite(area) ? NaN : Math.sign(area);
+    combine(vectors, t, e, 0, e[9] * side, e, 3, -e[7] * side);
+    sides[k] = side && (!dot(vectors, t, vectors, t) || zero(3, 0, e[6], -e[8])) ? 0 : side;
+    combine(n, 0, mesh.normal, 3 * mesh.corners[list[k]], 1, n, 0, 0);
+    normalise(n, 0);
+    flatten(vectors, t, n, 0);
+    normalise(vectors, t);
+    flatten(e, 0, n, 0);
+    flatten(e, 3, n, 0);
+    cross(work, 0, e, 0, e, 3);
+    vectors[t + 3] = Math.atan2(Math.sqrt(dot(work, 0, work, 0)), dot(e, 0, e, 3));
+  }
+  return { sides, vectors };
+}
 
-function triangleAt({ corners, position, uv }, c, nx, ny, nz, out) {
-  const f = c - c % 3, a = corners[c], b = corners[f + (c + 1) % 3], d = corners[f + (c + 2) % 3];
-  let px = position[3 * b] - position[3 * a], py = position[3 * b + 1] - position[3 * a + 1], pz = position[3 * b + 2] - position[3 * a + 2];
-  let qx = position[3 * d] - position[3 * a], qy = position[3 * d + 1] - position[3 * a + 1], qz = position[3 * d + 2] - position[3 * a + 2];
-  const u1 = uv[2 * b] - uv[2 * a], v1 = uv[2 * b + 1] - uv[2 * a + 1], u2 = uv[2 * d] - uv[2 * a], v2 = uv[2 * d + 1] - uv[2 * a + 1];
-  const area = u1 * v2 - v1 * u2, meets = (x, y, z) => x === 0 && y === 0 && z === 0;
-  out.side = meets(px, py, pz) || meets(qx, qy, qz) || meets(px - qx, py - qy, pz - qz) || !Number.isFinite(area) ? NaN : Math.sign(area);
-  let x = (v2 * px - v1 * qx) * out.side, y = (v2 * py - v1 * qy) * out.side, z = (v2 * pz - v1 * qz) * out.side;
-  if (out.side && !(Math.abs(x) + Math.abs(y) + Math.abs(z) > 0)) out.side = 0;
-  if (out.side && meets(u1 * qx - u2 * px, u1 * qy - u2 * py, u1 * qz - u2 * pz)) out.side = 0;
-  const along = nx * x + ny * y + nz * z, scale = 1 / (Math.sqrt((x -= nx * along) * x + (y -= ny * along) * y + (z -= nz * along) * z) || 1);
-  out.x = x * scale;
-  out.y = y * scale;
-  out.z = z * scale;
-  const pn = nx * px + ny * py + nz * pz, qn = nx * qx + ny * qy + nz * qz;
-  px -= nx * pn, py -= ny * pn, pz -= nz * pn, qx -= nx * qn, qy -= ny * qn, qz -= nz * qn;
-  out.angle = Math.atan2(Math.hypot(py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx), px * qx + py * qy + pz * qz);
+// A function that gives, for index k of fans.list, the index of the corner at the same vertex whose triangle is across the
+// edge to the next vertex (step 1) or to the previous one (step 2), or -1.
+function neighboursOf({ corners }, { first, starts, list }, sides) {
+  const ends = [1, 2].map(step => Int32Array.from(list, (c, k) => (Number.isNaN(sides[k]) ? -1 : first[corners[c - c % 3 + (c + step) % 3]]))), large = new Map();
+  return (k, step) => {
+    const vertex = first[corners[list[k]]], begin = starts[vertex], end = starts[vertex + 1], wanted = ends[step - 1][k], others = ends[2 - step];
+    if (end - begin <= kFew) {
+      for (let j = begin; j < end; ++j) if (j !== k && others[j] === wanted) return j;
+      return -1;
+    }
+    if (!large.has(others)) large.set(others, new Map());
+    if (!large.get(others).has(vertex)) large.get(others).set(vertex, new Map(Array.from(others.subarray(begin, end), (other, i) => [other, begin + i]).reverse()));
+    return large.get(others).get(vertex).get(wanted) ?? -1;
+  };
 }
 
 // For each corner of fans.list: x y z w, with w * cross(normal, xyz) along increasing v. Corners at a vertex share a
-// tangent if their triangles are connected over edges and turn their uv to the same side. Triangles without area in uv join
-// the first group that reaches them, for each vertex on its own; triangles without area in space get the tangent of another
-// corner at the vertex. (1, 0, 0, 1) where there is none.
+// tangent if their triangles are connected over edges and turn their uv to the same side. Triangles without area in uv belong
+// to the side that reaches them first; triangles without area in space get the tangent of the first other corner at the
+// vertex. (1, 0, 0, -1) where there is none.
 export function tangentsOf(mesh, fans) {
-  const { corners, normal } = mesh, { first, list } = fans, values = new Float32Array(4 * list.length), group = [], sides = [], x = [], y = [], z = [], angles = [];
-  const ends = [[], [], []];
-  // Of a vertex: the function that gives the corner whose triangle is across corner i's edge to its next vertex (step 1) or
-  // to its previous one (step 2), or -1.
-  const neighbours = (begin, count) => {
-    for (let i = 0; i < count; ++i) {
-      const c = list[begin + i], f = c - c % 3;
-      for (let step = 1; step < 3; ++step) ends[step][i] = Number.isNaN(sides[i]) ? -1 : first[corners[f + (c + step) % 3]];
-    }
-    if (count <= kFew) return (i, step) => {
-      for (let j = 0; j < count; ++j) if (j !== i && ends[3 - step][j] === ends[step][i]) return j;
-      return -1;
-    };
-    const found = [0, 1, 2].map(step => new Map(ends[step].slice(0, count).map((end, i) => [end, i]).reverse()));
-    return (i, step) => found[3 - step].get(ends[step][i]) ?? -1;
-  };
-  eachFan(fans, (begin, end) => {
-    const count = end - begin, vertex = 3 * corners[list[begin]];
-    let nx = normal[vertex], ny = normal[vertex + 1], nz = normal[vertex + 2];
-    const length = Math.hypot(nx, ny, nz) || 1;
-    nx /= length, ny /= length, nz /= length;
-    for (let i = 0; i < count; ++i) {
-      triangleAt(mesh, list[begin + i], nx, ny, nz, kTriangle);
-      sides[i] = kTriangle.side;
-      x[i] = kTriangle.x;
-      y[i] = kTriangle.y;
-      z[i] = kTriangle.z;
-      angles[i] = kTriangle.angle;
-      group[i] = kEmpty;
-    }
-    const across = neighbours(begin, count);
-    let valued = -1;
-    for (let i = 0; i < count; ++i) {
-      if (group[i] !== kEmpty || !sides[i]) continue;
-      let sx = 0, sy = 0, sz = 0;
-      const members = [i];
-      group[i] = i;
-      for (let m = 0; m < members.length; ++m) {
-        const k = members[m];
-        if (sides[k]) {
-          sx += angles[k] * x[k];
-          sy += angles[k] * y[k];
-          sz += angles[k] * z[k];
-        }
-        for (let step = 1; step < 3; ++step) {
-          const j = across(k, step);
-          if (j < 0 || group[j] !== kEmpty || sides[j] && sides[j] !== sides[i]) continue;
-          group[j] = i;
-          members.push(j);
-        }
+  const { starts, list, at } = fans, { sides, vectors } = trianglesOf(mesh, fans), across = neighboursOf(mesh, fans, sides);
+  const values = new Float64Array(4 * list.length), done = new Uint8Array(list.length), turned = new Int8Array(mesh.corners.length / 3), sum = new Float64Array(3);
+  for (let c = 0; c < mesh.corners.length; ++c) {
+    const start = at[c], side = sides[start];
+    if (list[start] !== c || done[start] || !side) continue;
+    const members = [start];
+    sum.fill(0);
+    done[start] = 1;
+    for (let m = 0; m < members.length; ++m) {
+      const k = members[m];
+      if (sides[k]) combine(sum, 0, sum, 0, 1, vectors, 4 * k, vectors[4 * k + 3]);
+      for (let step = 1; step < 3; ++step) {
+        const j = across(k, step);
+        if (j < 0 || done[j]) continue;
+        const triangle = (list[j] - list[j] % 3) / 3, own = sides[j] || (turned[triangle] ||= side);
+        if (own !== side) continue;
+        done[j] = 1;
+        members.push(j);
       }
-      const scale = 1 / (Math.hypot(sx, sy, sz) || 1);
-      for (const k of members) {
-        const at = 4 * (begin + k);
-        values[at] = sx * scale;
-        values[at + 1] = sy * scale;
-        values[at + 2] = sz * scale;
-        values[at + 3] = sides[i];
-      }
-      if (valued < 0) valued = i;
     }
-    for (let k = 0; k < count; ++k)
-      if (group[k] === kEmpty) values.set(valued < 0 ? [1, 0, 0, 1] : values.subarray(4 * (begin + valued), 4 * (begin + valued) + 4), 4 * (begin + k));
-  });
+    normalise(sum, 0);
+    for (const k of members) {
+      for (let i = 0; i < 3; ++i) values[4 * k + i] = Math.fround(sum[i]);
+      values[4 * k + 3] = side;
+    }
+  }
+  for (let v = 0; v + 1 < starts.length; ++v)
+    for (let k = starts[v]; k < starts[v + 1]; ++k) {
+      if (done[k]) continue;
+      let other = starts[v];
+      while (Number.isNaN(sides[k]) && other < starts[v + 1] && Number.isNaN(sides[other])) ++other;
+      values.set(Number.isNaN(sides[k]) && done[other] && other < starts[v + 1] ? values.subarray(4 * other, 4 * other + 4) : [1, 0, 0, -1], 4 * k);
+    }
   return values;
 }
 
@@ -108,15 +92,15 @@ export function tangentsOf(mesh, fans) {
 export function withTangents(geometry, map, against) {
   const { position, normal, [uvNameOf(map)]: uv } = geometry.attributes, corners = cornersOf(geometry);
   const mesh = { corners, position: numbersOf(position, 3), normal: numbersOf(normal, 3), uv: transformedUv(uv, map) };
-  const fans = fansOf(mesh), values = tangentsOf(mesh, fans), bits = new Uint32Array(values.buffer);
+  const fans = fansOf(mesh), values = tangentsOf(mesh, fans);
   const sources = Array.from({ length: position.count }, (_, k) => k), from = new Int32Array(position.count).fill(-1), more = new Map();
-  const same = (a, b) => { for (let i = 0; i < 4; ++i) if (bits[4 * a + i] !== bits[4 * b + i]) return false; return true; };
+  const same = (a, b) => { for (let i = 0; i < 4; ++i) if (values[4 * a + i] !== values[4 * b + i]) return false; return true; };
   const places = Array.from(from); // by new vertex: the index into `values`
   for (let c = 0; c < corners.length; ++c) {
     const old = corners[c], at = fans.at[c];
     if (places[old] < 0) places[old] = at;
     if (same(places[old], at)) continue;
-    const key = `${old} ${bits.subarray(4 * at, 4 * at + 4)}`;
+    const key = `${old} ${values.subarray(4 * at, 4 * at + 4)}`;
     if (!more.has(key)) {
       more.set(key, sources.push(old) - 1);
       places.push(at);

@@ -1,5 +1,6 @@
 // Points on the surface of a mesh, spread evenly by area, as in the library (src/bake/lint/map_fit.cpp).
 import { cornersOf, numbersOf, transformedUv, uvNameOf } from './mesh_data.js';
+import { cross, dot, readEdges, transform, uvArea } from './vectors.js';
 
 const kPoints = 4096, kTotalPoints = 128 * kPoints, kMinPoints = 16; // of a surface, of all, of a surface of many
 const kMaxJudged = 200000, kParts = 64; // triangles, and the runs of triangles that are judged of more
@@ -44,57 +45,57 @@ function judged(corners) {
 // Adds the linear part of a Matrix4 to `known`, unless it differs from one of them only by rotation, mirroring and uniform
 // scale, which change nothing.
 export function addStretch(known, { elements: e }) {
-  const m = [e[0], e[1], e[2], e[4], e[5], e[6], e[8], e[9], e[10]], gram = gramOf(m);
+  const m = Float64Array.of(e[0], e[1], e[2], e[4], e[5], e[6], e[8], e[9], e[10]), gram = gramOf(m);
   if (known.length < kMaxStretches && !known.some(other => alike(gramOf(other), gram))) known.push(m);
 }
 
-const gramOf = m => [0, 1, 2].flatMap(i => [0, 1, 2].map(j => m[3 * i] * m[3 * j] + m[3 * i + 1] * m[3 * j + 1] + m[3 * i + 2] * m[3 * j + 2]));
+const gramOf = m => [0, 3, 6].flatMap(i => [0, 3, 6].map(j => dot(m, i, m, j)));
 
 function alike(a, b) {
   const ta = a[0] + a[4] + a[8], tb = b[0] + b[4] + b[8];
   return a.every((x, i) => Math.abs(x * tb - b[i] * ta) <= 1e-5 * ta * tb);
 }
 
-const kIdentity = [1, 0, 0, 0, 1, 0, 0, 0, 1];
+const kIdentity = Float64Array.of(1, 0, 0, 0, 1, 0, 0, 0, 1);
 
 // The surface moved by a linear map m (columns): positions by it, normals and other covectors by `planes`, its cofactors with
 // the sign of the determinant. A map without stretch is left out.
 export function placedBy(surface, m) {
   if (alike(gramOf(m), gramOf(kIdentity))) return { ...surface, linear: kIdentity, planes: kIdentity, side: 1 };
-  const [a, b, c, d, e, f, g, h, i] = m, cofactors = [e * i - f * h, f * g - d * i, d * h - e * g, c * h - b * i, a * i - c * g, b * g - a * h, b * f - c * e, c * d - a * f, a * e - b * d];
-  const side = Math.sign(a * cofactors[0] + b * cofactors[1] + c * cofactors[2]) || 1, planes = cofactors.map(x => x * side);
+  const planes = new Float64Array(9);
+  for (let i = 0; i < 3; ++i) cross(planes, 3 * i, m, (3 * i + 3) % 9, m, (3 * i + 6) % 9);
+  const side = dot(m, 0, planes, 0) < 0 ? -1 : 1;
+  planes.forEach((x, i) => { planes[i] = x * side; });
   return { ...surface, position: movedBy(m, surface.position), normal: surface.normal && movedBy(planes, surface.normal), linear: m, planes, side };
 }
 
 function movedBy(m, vectors) {
   const moved = new Float64Array(vectors.length);
-  for (let k = 0; k < moved.length; k += 3)
-    for (let i = 0; i < 3; ++i) moved[k + i] = m[i] * vectors[k] + m[3 + i] * vectors[k + 1] + m[6 + i] * vectors[k + 2];
+  for (let k = 0; k < moved.length; k += 3) transform(moved, k, m, vectors, k);
   return moved;
 }
 
 // ---- points -------------------------------------------------------------------------------------
 
+const kEdges = new Float64Array(10), kFace = new Float64Array(3);
+
 // Area of a triangle in space; 0 if it has none, or none in uv.
-function mappedArea({ corners, position, uv }, triangle) {
-  const k = 3 * triangle, a = corners[k], b = corners[k + 1], c = corners[k + 2], u = uv[2 * a], v = uv[2 * a + 1];
-  if (!((uv[2 * b] - u) * (uv[2 * c + 1] - v) - (uv[2 * b + 1] - v) * (uv[2 * c] - u))) return 0;
-  const x = position[3 * a], y = position[3 * a + 1], z = position[3 * a + 2];
-  const px = position[3 * b] - x, py = position[3 * b + 1] - y, pz = position[3 * b + 2] - z, qx = position[3 * c] - x, qy = position[3 * c + 1] - y, qz = position[3 * c + 2] - z;
-  const i = py * qz - pz * qy, j = pz * qx - px * qz, l = px * qy - py * qx, area = Math.sqrt(i * i + j * j + l * l) / 2;
-  return area < Infinity ? area : 0;
+function mappedArea(surface, triangle) {
+  readEdges(kEdges, surface, 3 * triangle);
+  cross(kFace, 0, kEdges, 0, kEdges, 3);
+  const area = Math.sqrt(dot(kFace, 0, kFace, 0)) / 2;
+  return uvArea(kEdges) && area < Infinity ? area : 0;
 }
 
 // `count` points at equal steps of area over the triangles that have area in space and in uv: { triangles, weights,
-// total }, with two barycentric weights for each point, those of the second and third corner, and the area of all. Empty if
-// there are no such triangles.
+// total }, with three barycentric weights for each point, and the area of all. Empty if there are no such triangles.
 // Points within triangles follow the sequence of the plastic number (R2).
 export function pointsOver(surface, count) {
   const all = surface.corners.length / 3, areas = new Float64Array(all);
   let total = 0;
   for (let i = 0; i < all; ++i) total += areas[i] = mappedArea(surface, i);
   if (!(total > 0)) return { triangles: new Uint32Array(0), weights: new Float64Array(0), total: 0 };
-  const triangles = new Uint32Array(count), weights = new Float64Array(2 * count);
+  const triangles = new Uint32Array(count), weights = new Float64Array(3 * count);
   let triangle = 0, upTo = areas[0];
   for (let k = 0; k < count; ++k) {
     const at = (k + 0.5) / count * total;
@@ -105,8 +106,7 @@ export function pointsOver(surface, count) {
       b = 1 - b;
     }
     triangles[k] = triangle;
-    weights[2 * k] = a;
-    weights[2 * k + 1] = b;
+    weights.set([1 - a - b, a, b], 3 * k);
   }
   return { triangles, weights, total };
 }

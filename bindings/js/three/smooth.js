@@ -3,6 +3,7 @@ import { BufferAttribute, BufferGeometry } from 'three';
 import { eachFan, fansOf } from './fans.js';
 import { gathered } from './gathered.js';
 import { cornersOf, numbersOf, transformedUv, uvNameOf } from './mesh_data.js';
+import { combine, cross, dot, normalise, readEdges, uvArea } from './vectors.js';
 
 export const kSmoothAttributes = ['cotanU', 'cotanV'];
 
@@ -37,30 +38,22 @@ export function withSmooth(geometry, map) {
 // { sides, values } for the corners of fans.list. sides: 1 if (dP/du, dP/dv, normal) is right-handed, -1 if left-handed, 0 if
 // degenerate. values: gradients of u and of v, averaged over the corners of the same side, weighted by their angles in the
 // tangent plane; degenerate corners have those of either side.
-export function gradientsOf({ corners, position, normal, uv }, fans) {
-  const { list } = fans, sides = new Int8Array(list.length), values = new Float64Array(6 * list.length), sums = new Float64Array(14);
+export function gradientsOf(mesh, fans) {
+  const { list } = fans, sides = new Int8Array(list.length), values = new Float64Array(6 * list.length), sums = new Float64Array(14), e = new Float64Array(10), n = new Float64Array(3), work = new Float64Array(6);
   eachFan(fans, (begin, end) => {
-    const vertex = 3 * corners[list[begin]], length = Math.hypot(normal[vertex], normal[vertex + 1], normal[vertex + 2]);
-    const x = normal[vertex] / (length || 1), y = normal[vertex + 1] / (length || 1), z = normal[vertex + 2] / (length || 1);
+    combine(n, 0, mesh.normal, 3 * mesh.corners[list[begin]], 1, n, 0, 0);
+    const facing = normalise(n, 0);
     sums.fill(0);
     for (let k = begin; k < end; ++k) {
-      const c = list[k], f = c - c % 3, a = corners[c], b = corners[f + (c + 1) % 3], d = corners[f + (c + 2) % 3];
-      const px = position[3 * b] - position[3 * a], py = position[3 * b + 1] - position[3 * a + 1], pz = position[3 * b + 2] - position[3 * a + 2];
-      const qx = position[3 * d] - position[3 * a], qy = position[3 * d + 1] - position[3 * a + 1], qz = position[3 * d + 2] - position[3 * a + 2];
-      const u1 = uv[2 * b] - uv[2 * a], v1 = uv[2 * b + 1] - uv[2 * a + 1], u2 = uv[2 * d] - uv[2 * a], v2 = uv[2 * d + 1] - uv[2 * a + 1];
-      const ax = qy * z - qz * y, ay = qz * x - qx * z, az = qx * y - qy * x, bx = y * pz - z * py, by = z * px - x * pz, bz = x * py - y * px;
-      const determinant = px * ax + py * ay + pz * az; // twice the signed area of the projected edges
-      const side = (u1 * v2 - v1 * u2) * (length ? determinant : 1); // a zero normal is replaced by the triangle's
+      readEdges(e, mesh, list[k]);
+      cross(work, 0, e, 3, n, 0);
+      cross(work, 3, n, 0, e, 0);
+      const determinant = dot(e, 0, work, 0); // twice the signed area of the projected edges
+      const side = uvArea(e) * (facing ? determinant : 1); // a zero normal is replaced by the triangle's
       sides[k] = Number.isFinite(side) ? Math.sign(side) : 0;
-      if (!sides[k] || !(Math.abs(determinant) > 0)) continue;
-      const along = px * x + py * y + pz * z, other = qx * x + qy * y + qz * z;
-      const weight = Math.atan2(Math.abs(determinant), px * qx + py * qy + pz * qz - along * other), slot = sides[k] > 0 ? 7 : 0, scale = weight / determinant;
-      sums[slot] += scale * (ax * u1 + bx * u2);
-      sums[slot + 1] += scale * (ay * u1 + by * u2);
-      sums[slot + 2] += scale * (az * u1 + bz * u2);
-      sums[slot + 3] += scale * (ax * v1 + bx * v2);
-      sums[slot + 4] += scale * (ay * v1 + by * v2);
-      sums[slot + 5] += scale * (az * v1 + bz * v2);
+      if (!sides[k] || !determinant) continue;
+      const weight = Math.atan2(Math.abs(determinant), dot(e, 0, e, 3) - dot(e, 0, n, 0) * dot(e, 3, n, 0)), slot = sides[k] > 0 ? 7 : 0, scale = weight / determinant;
+      for (let i = 0; i < 6; ++i) sums[slot + i] += scale * (i < 3 ? work[i] * e[6] + work[i + 3] * e[8] : work[i - 3] * e[7] + work[i] * e[9]);
       sums[slot + 6] += weight;
     }
     for (let k = begin; k < end; ++k) {

@@ -34,8 +34,7 @@ function ofPicture(image) {
   if (!(width > 0 && height > 0)) return { why: 'its map is not loaded' };
   const w = Math.min(width, kSide), h = Math.min(height, kSide);
   try {
-    const canvas = typeof OffscreenCanvas === 'undefined' ? Object.assign(document.createElement('canvas'), { width: w, height: h }) : new OffscreenCanvas(w, h);
-    const context = canvas.getContext('2d', { willReadFrequently: true });
+    const context = new OffscreenCanvas(w, h).getContext('2d', { willReadFrequently: true });
     context.imageSmoothingEnabled = false;
     context.drawImage(image, 0, 0, w, h);
     const { data } = context.getImageData(0, 0, w, h);
