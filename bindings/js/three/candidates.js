@@ -126,13 +126,13 @@ function trianglesAt(place) {
 
 // matrix: of the uv that the tangents are to be moved to; may be missing.
 function tangentsAt(place, { values, slots }, matrix) {
-  const { count, triangles, weights, surface: { linear, side } } = place, out = new Float64Array(6 * count), moved = new Float64Array(3);
+  const { count, triangles, weights, surface: { corners, linear, side, step } } = place, out = new Float64Array(6 * count), moved = new Float64Array(3);
   const turns = matrix && turnsOf(place, matrix), mirrors = matrix && matrix[0] * matrix[3] < matrix[1] * matrix[2] ? -1 : 1;
   for (let k = 0; k < count; ++k) {
     let w = 0;
     for (let c = 0; c < 3; ++c) {
-      const at = 4 * slots[3 * triangles[k] + c], weight = weights[3 * k + c];
-      transform(moved, 0, linear, values, at);
+      const corner = 3 * triangles[k] + c, at = 4 * slots[corner], weight = weights[3 * k + c];
+      transform(moved, 0, linear, step * corners[corner], values, at);
       normalise(moved, 0);
       combine(out, 6 * k, out, 6 * k, 1, moved, 0, weight);
       w += weight * values[at + 3];
@@ -148,12 +148,14 @@ function tangentsAt(place, { values, slots }, matrix) {
 }
 
 function smoothAt(place, { values, slots }) {
-  const { count, n, triangles, weights, surface: { planes } } = place, out = new Float64Array(6 * count), sum = new Float64Array(6);
+  const { count, n, triangles, weights, surface: { corners, planes, step } } = place, out = new Float64Array(6 * count), moved = new Float64Array(3);
   for (let k = 0; k < count; ++k) {
-    sum.fill(0);
-    for (let c = 0; c < 3; ++c) for (let i = 0; i < 6; ++i) sum[i] += weights[3 * k + c] * values[6 * slots[3 * triangles[k] + c] + i];
     for (let i = 0; i < 6; i += 3) {
-      transform(out, 6 * k + i, planes, sum, i);
+      for (let c = 0; c < 3; ++c) {
+        const corner = 3 * triangles[k] + c;
+        transform(moved, 0, planes, step * corners[corner], values, 6 * slots[corner] + i);
+        combine(out, 6 * k + i, out, 6 * k + i, 1, moved, 0, weights[3 * k + c]);
+      }
       flatten(out, 6 * k + i, n, 3 * k);
     }
     rescale(out, 6 * k, 1);

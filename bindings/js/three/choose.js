@@ -33,7 +33,7 @@ class Primitive {
   add(mesh) {
     this.meshes.push(mesh);
     const { isInstancedMesh, isSkinnedMesh, matrixWorld, count } = mesh, one = matrixWorld.clone();
-    if (isSkinnedMesh) addStretch(this.stretches, one.identity()); // its bones place it
+    if (isSkinnedMesh && mesh.skeleton && mesh.geometry.attributes.skinWeight) this.stretches[0] ??= mesh;
     else if (!isInstancedMesh) addStretch(this.stretches, one);
     else for (let k = 0; k < count; ++k) {
       mesh.getMatrixAt(k, one);

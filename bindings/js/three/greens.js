@@ -1,8 +1,6 @@
 // Which way green of a normal map points according to stored tangents.
 import { dot } from './vectors.js';
 
-const kMentioned = 0.1; // fraction of the area on which tangents contradict the uv, from which it is said
-
 // Whether GLTFLoader made this texture. Then v runs down the image, green is declared to point against v, and the
 // loader has flipped the sign of normalScale.y in materials of meshes without tangents.
 export const ofGltf = map => map?.userData?.mimeType !== undefined;
@@ -35,15 +33,10 @@ export class GreenNotes {
     if (reversed) ++whole.reversed;
   }
 
-  // One line for each map that is reversed on some geometry, or on which tangents contradict the texture coordinates.
+  // One line for each map that is reversed on some geometry.
   lines() {
-    return [...this.#maps.values()].map(({ name, compared, contradicting, used, reversed }) => {
-      const fraction = compared > 0 ? contradicting / compared : 0;
-      if (reversed === 0 && fraction < kMentioned) return '';
-      const begin = `TANGENT.w contradicts the texture coordinates on ${Math.round(100 * fraction)} % of the area of ${name}`;
-      const where = reversed < used ? ` in ${reversed} of ${used} geometries` : '';
-      return reversed > 0 ? `${begin}: without stored tangents its green is flipped${where} (the option convention overrides this)`
-        : `${begin}: its green is read as declared (the option convention overrides this)`;
-    }).filter(Boolean);
+    return [...this.#maps.values()].filter(({ reversed }) => reversed).map(({ name, compared, contradicting, used, reversed }) =>
+      `TANGENT.w contradicts the texture coordinates on ${Math.round(100 * contradicting / compared)} % of the area of ${name}: without stored tangents its green is flipped`
+      + `${reversed < used ? ` in ${reversed} of ${used} geometries` : ''} (the option convention overrides this)`);
   }
 }

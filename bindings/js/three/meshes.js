@@ -1,11 +1,11 @@
 // Prepares meshes for both renderers of three.js before frames are replaced: decides with which frame each map is read,
 // removes tangents that are not needed, adapts materials so that they look the same without them, and adds the vectors of the
 // frames `triangle` and `smooth`, or tangents, to geometries.
-import { BufferGeometry } from 'three';
 import { checkTypes, choice, options as checked } from '../src/arrays.js';
 import { usage, wordsFor } from '../src/errors.js';
 import { Chooser, greenAlongV, markGenerated, scalesOf, storedIn } from './choose.js';
 import { kFrames, kKey, mapOf, meansTangents, namedFrame } from './frames.js';
+import { withVertices } from './gathered.js';
 import { GreenNotes, ofGltf } from './greens.js';
 import { readingOf, turns, uvMatrixOf, uvNameOf } from './mesh_data.js';
 import { withTangents } from './mikktspace.js';
@@ -121,9 +121,7 @@ function decisionsFor(mesh, all) {
   const fixed = decisions.some(({ reason }, k) => mapped[k] && ['named', 'painted', 'requested'].includes(reason));
   return decisions.map((one, k) => {
     if (!mapped[k] || reads(one) !== fixed) return one;
-    if (!fixed) return { ...one, frame: 'mikktspace', keepsTangents: kept, reason: 'shared' };
-    const best = one.candidates.filter(({ frame, points }) => points && frame !== 'mikktspace').reduce((a, b) => (b.mean < a.mean ? b : a), { frame: 'orthonormal', mean: Infinity });
-    return { ...one, frame: best.frame, keepsTangents: false, reason: 'shared' };
+    return { ...one, frame: fixed ? 'orthonormal' : 'mikktspace', keepsTangents: !fixed && kept, reason: 'shared' };
   });
 }
 
@@ -219,7 +217,7 @@ function removeTangents(plans, keeps) {
     if (!geometry.attributes.tangent || keeps(plan)) continue;
     if (!kept.has(geometry)) dropped.add(geometry);
     else if (mesh.geometry === geometry) {
-      if (!bare.has(geometry)) bare.set(geometry, new BufferGeometry().copy(geometry).deleteAttribute('tangent'));
+      if (!bare.has(geometry)) bare.set(geometry, withVertices(geometry, []));
       mesh.geometry = bare.get(geometry);
     }
   }

@@ -1,7 +1,7 @@
 // Tangents as mikktspace.h makes them, generated when a model is loaded.
-import { BufferAttribute, BufferGeometry } from 'three';
+import { BufferAttribute } from 'three';
 import { fansOf } from './fans.js';
-import { gathered } from './gathered.js';
+import { withVertices } from './gathered.js';
 import { cornersOf, numbersOf, transformedUv, uvNameOf } from './mesh_data.js';
 import { combine, cross, dot, flatten, normalise, readEdges, uvArea } from './vectors.js';
 
@@ -107,17 +107,11 @@ export function withTangents(geometry, map, against) {
     }
     corners[c] = more.get(key);
   }
-  const made = new BufferGeometry().copy(geometry);
-  if (sources.length > position.count) {
-    for (const name of Object.keys(made.attributes)) made.setAttribute(name, gathered(geometry.attributes[name], sources));
-    for (const [name, targets] of Object.entries(geometry.morphAttributes)) made.morphAttributes[name] = targets.map(target => gathered(target, sources));
-    made.setIndex(new BufferAttribute(sources.length > 65535 ? corners : Uint16Array.from(corners), 1));
-  }
   const tangents = new Float32Array(4 * sources.length);
   places.forEach((at, k) => {
     if (at < 0) return; // no triangle uses the vertex
     tangents.set(values.subarray(4 * at, 4 * at + 4), 4 * k);
     if (against) tangents[4 * k + 3] *= -1;
   });
-  return made.setAttribute('tangent', new BufferAttribute(tangents, 4));
+  return withVertices(geometry, sources, sources.length > position.count && corners).setAttribute('tangent', new BufferAttribute(tangents, 4));
 }

@@ -46,7 +46,7 @@ function judged(corners) {
 // scale, which change nothing.
 export function addStretch(known, { elements: e }) {
   const m = Float64Array.of(e[0], e[1], e[2], e[4], e[5], e[6], e[8], e[9], e[10]), gram = gramOf(m);
-  if (known.length < kMaxStretches && !known.some(other => alike(gramOf(other), gram))) known.push(m);
+  if (known.length < kMaxStretches && !known.some(other => other.isSkinnedMesh || alike(gramOf(other), gram))) known.push(m);
 }
 
 const gramOf = m => [0, 3, 6].flatMap(i => [0, 3, 6].map(j => dot(m, i, m, j)));
@@ -58,20 +58,36 @@ function alike(a, b) {
 
 const kIdentity = Float64Array.of(1, 0, 0, 0, 1, 0, 0, 0, 1);
 
-// The surface moved by a linear map m (columns): positions by it, normals and other covectors by `planes`, its cofactors with
-// the sign of the determinant. A map without stretch is left out.
+// The surface moved as a mesh is: by a linear map (columns), positions by it and normals by `planes`, its cofactors with the
+// sign of the determinant; a map without stretch is left out. Or by the bones of a SkinnedMesh, as three does: normals by
+// the same matrices. linear, planes: for vertex k from step * k on.
 export function placedBy(surface, m) {
-  if (alike(gramOf(m), gramOf(kIdentity))) return { ...surface, linear: kIdentity, planes: kIdentity, side: 1 };
+  if (m.isSkinnedMesh) return posedBy(surface, m);
+  if (alike(gramOf(m), gramOf(kIdentity))) return { ...surface, linear: kIdentity, planes: kIdentity, side: 1, step: 0 };
   const planes = new Float64Array(9);
   for (let i = 0; i < 3; ++i) cross(planes, 3 * i, m, (3 * i + 3) % 9, m, (3 * i + 6) % 9);
   const side = dot(m, 0, planes, 0) < 0 ? -1 : 1;
   planes.forEach((x, i) => { planes[i] = x * side; });
-  return { ...surface, position: movedBy(m, surface.position), normal: surface.normal && movedBy(planes, surface.normal), linear: m, planes, side };
+  return { ...surface, position: movedBy(m, 0, surface.position), normal: surface.normal && movedBy(planes, 0, surface.normal), linear: m, planes, side, step: 0 };
 }
 
-function movedBy(m, vectors) {
+function posedBy(surface, mesh) {
+  const { skeleton, bindMatrix, geometry: { attributes: { skinIndex, skinWeight } } } = mesh, { position, normal } = surface, count = position.length / 3;
+  const indices = numbersOf(skinIndex, 4), weights = numbersOf(skinWeight, 4), linear = new Float64Array(9 * count), moves = new Float64Array(position.length);
+  const bones = skeleton.bones.map((bone, k) => bone.matrixWorld.clone().multiply(skeleton.boneInverses[k]).multiply(bindMatrix).elements);
+  for (let k = 0; k < 4 * count; ++k) {
+    const e = bones[indices[k]], weight = weights[k], vertex = k >> 2;
+    if (!e || !weight) continue;
+    for (let i = 0; i < 9; ++i) linear[9 * vertex + i] += weight * e[i + Math.floor(i / 3)];
+    for (let i = 0; i < 3; ++i) moves[3 * vertex + i] += weight * e[12 + i];
+  }
+  const moved = movedBy(linear, 9, position);
+  return { ...surface, position: moved.map((x, k) => x + moves[k]), normal: normal && movedBy(linear, 9, normal), linear, planes: linear, side: 1, step: 9 };
+}
+
+function movedBy(m, step, vectors) {
   const moved = new Float64Array(vectors.length);
-  for (let k = 0; k < moved.length; k += 3) transform(moved, k, m, vectors, k);
+  for (let k = 0; k < moved.length; k += 3) transform(moved, k, m, step * k / 3, vectors, k);
   return moved;
 }
 

@@ -1,7 +1,7 @@
 // The frame `smooth`: gradients of u and v averaged at the vertices, as in src/core/tangents.cpp.
-import { BufferAttribute, BufferGeometry } from 'three';
+import { BufferAttribute } from 'three';
 import { eachFan, fansOf } from './fans.js';
-import { gathered } from './gathered.js';
+import { withVertices } from './gathered.js';
 import { cornersOf, numbersOf, transformedUv, uvNameOf } from './mesh_data.js';
 import { combine, cross, dot, normalise, readEdges, uvArea } from './vectors.js';
 
@@ -15,12 +15,7 @@ export function withSmooth(geometry, map) {
   const mesh = { corners: cornersOf(geometry), position: numbersOf(position, 3), normal: numbersOf(normal, 3), uv: transformedUv(uv, map) };
   const fans = fansOf(mesh), { sides, values } = gradientsOf(mesh, fans);
   const { corners, sources } = splitMirrored(mesh.corners, fans, sides, position.count);
-  const split = sources.length > position.count, made = new BufferGeometry().copy(geometry);
-  made.deleteAttribute('tangent');
-  if (split) {
-    for (const name of Object.keys(made.attributes)) made.setAttribute(name, gathered(geometry.attributes[name], sources));
-    made.setIndex(new BufferAttribute(sources.length > 65535 ? corners : Uint16Array.from(corners), 1));
-  }
+  const made = withVertices(geometry, sources, sources.length > position.count && corners);
   const u = new Float32Array(3 * sources.length), v = new Float32Array(3 * sources.length);
   corners.forEach((vertex, c) => {
     const at = 6 * fans.at[c];

@@ -1,6 +1,6 @@
 // The frame `triangle`: two vectors in the plane of each triangle, stored at its provoking vertex.
-import { BufferAttribute, BufferGeometry, DataUtils, IntType } from 'three';
-import { gathered } from './gathered.js';
+import { BufferAttribute, DataUtils, IntType } from 'three';
+import { withVertices } from './gathered.js';
 import { cornersOf, numbersOf, transformedUv, uvNameOf } from './mesh_data.js';
 import { combine, cross, dot, readEdges } from './vectors.js';
 
@@ -29,16 +29,12 @@ export function withTriangles(geometry, map, provoking) {
     corners[k + 1] = first ? q : r;
     corners[k + 2] = first ? r : p;
   }
-  const made = new BufferGeometry().copy(geometry);
-  made.deleteAttribute('tangent');
-  for (const name of Object.keys(made.attributes)) made.setAttribute(name, gathered(geometry.attributes[name], sources));
+  const made = withVertices(geometry, sources, corners);
   const packed = new Uint32Array(sources.length * 3);
   provoked.forEach((triangle, vertex) => packed.set(words.subarray(triangle * 3, triangle * 3 + 3), vertex * 3));
   const attribute = new BufferAttribute(packed, 3);
   attribute.gpuType = IntType;
-  made.setAttribute(kTriangleAttribute, attribute);
-  made.setIndex(new BufferAttribute(sources.length > 65535 ? corners : Uint16Array.from(corners), 1));
-  return made;
+  return made.setAttribute(kTriangleAttribute, attribute);
 }
 
 // U and V of each triangle as three words of two halfs, the longer vector with length one. Zeros if degenerate.

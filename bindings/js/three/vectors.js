@@ -19,9 +19,9 @@ export function combine(out, o, a, i, p, b, j, q) {
 // Removes the part of out[o..] along the unit vector n[i..].
 export const flatten = (out, o, n, i) => combine(out, o, out, o, 1, n, i, -dot(out, o, n, i));
 
-// out[o..] = m a[i..]; m: three columns
-export function transform(out, o, m, a, i) {
-  for (let k = 0; k < 3; ++k) out[o + k] = m[k] * a[i] + m[k + 3] * a[i + 1] + m[k + 6] * a[i + 2];
+// out[o..] = m[j..] a[i..]; m: three columns
+export function transform(out, o, m, j, a, i) {
+  for (let k = 0; k < 3; ++k) out[o + k] = m[j + k] * a[i] + m[j + k + 3] * a[i + 1] + m[j + k + 6] * a[i + 2];
 }
 
 // Makes out[o..] a unit vector, or zeros; returns whether it has a direction.
