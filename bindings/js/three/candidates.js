@@ -197,9 +197,9 @@ export function degreesBetween(place, frames, meaning, texels, green) {
   return found;
 }
 
-// { points, mean, percentile95, percentile99, maximum } of values that are finite.
+// { points, mean, percentile95, percentile99 } of the values that are finite; NaN without any.
 export function summaryOf(values) {
-  const sorted = values.filter(Number.isFinite).sort(), points = sorted.length;
-  const upTo = fraction => sorted[Math.max(Math.ceil(fraction * points) - 1, 0)];
-  return { points, mean: sorted.reduce((sum, x) => sum + x, 0) / points, percentile95: upTo(0.95), percentile99: upTo(0.99), maximum: sorted[points - 1] };
+  const sorted = Float64Array.from(values).filter(Number.isFinite).sort(), points = sorted.length;
+  const upTo = fraction => sorted[Math.max(Math.ceil(fraction * points) - 1, 0)] ?? NaN;
+  return { points, mean: sorted.reduce((sum, x) => sum + x, 0) / points, percentile95: upTo(0.95), percentile99: upTo(0.99) };
 }

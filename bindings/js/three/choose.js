@@ -111,7 +111,7 @@ export class Chooser {
     const measure = this.#measureOf(primitive, found, meaning), candidates = [];
     for (const frame of kCandidates) {
       const against = primitive.meshes.map(mesh => this.reasonAgainst(mesh, frame)).find(Boolean);
-      candidates.push({ frame, ...against ? { points: 0, mean: NaN, percentile95: NaN, percentile99: NaN, maximum: NaN, why: against } : measure(frame) });
+      candidates.push({ frame, ...against ? { ...summaryOf([]), why: against } : measure(frame) });
       const { mean, percentile99 } = candidates.at(-1);
       if (mean <= this.limits.mean && percentile99 <= this.limits.percentile99) return decision(frame, meaning, 'fits', { candidates });
     }
@@ -134,9 +134,8 @@ export class Chooser {
     }
     return frame => {
       const found = parts.map(({ place, meant, texels }) => summaryOf(degreesBetween(place, sample.framesAt(place, frame), meant, texels, green)));
-      if (!found.length) return { points: sample.places[0].count, mean: 0, percentile95: 0, percentile99: 0, maximum: 0 }; // flattened
-      const worst = found.reduce((a, b) => (b.mean > a.mean ? b : a));
-      return { ...worst, percentile99: Math.max(...found.map(({ percentile99 }) => percentile99)), maximum: Math.max(...found.map(({ maximum }) => maximum)) };
+      if (!found.length) return summaryOf([0]); // flattened
+      return found.reduce((a, b) => ({ ...b.mean > a.mean ? b : a, percentile99: Math.max(a.percentile99, b.percentile99) }));
     };
   }
 }

@@ -130,11 +130,12 @@ const kTriangleFrame = `mat3 getTangentFrame( vec3 position, vec3 n, vec2 uv ) {
 	return mat3( f.t * side, f.b * side, f.n );
 }`;
 
-// Anisotropy needs orthonormal directions in the surface instead of cotangents.
+// Anisotropy needs orthonormal directions in the surface instead of cotangents. t: along increasing u, perpendicular to the
+// gradient of v.
 const kAnisotropyFrame = `
 #if defined( USE_ANISOTROPY ) && ! defined( USE_TANGENT )
 mat3 cotanAnisotropyFrame( mat3 f, vec3 n, float side ) {
-	vec3 t = cross( f[ 1 ], n );  // along increasing u, perpendicular to the gradient of v
+	vec3 t = cross( f[ 1 ], n );
 	t = dot( t, f[ 0 ] ) < 0.0 ? - t : t;
 	t = cotan_normalize_or( t, cotan_normalize_or( f[ 0 ], vec3( 0.0 ) ) );
 	vec3 b = cross( n, t );

@@ -4,7 +4,7 @@
 // functions of vectors.js are compiled for one type.
 export function numbersOf(attribute, width) {
   const { array, itemSize, normalized, count } = attribute;
-  if (itemSize === width && !normalized && array && !attribute.isInterleavedBufferAttribute && !attribute.isFloat16BufferAttribute) return new Float64Array(array);
+  if (itemSize === width && !normalized && !attribute.isInterleavedBufferAttribute && !attribute.isFloat16BufferAttribute) return new Float64Array(array);
   const values = new Float64Array(count * width);
   for (let k = 0; k < count; ++k)
     for (let i = 0; i < width; ++i) values[k * width + i] = attribute.getComponent(k, i);

@@ -1,7 +1,5 @@
 // Reads the texels of normal maps back from three's textures.
-import {
-  ClampToEdgeWrapping, DataUtils, FloatType, HalfFloatType, MirroredRepeatWrapping, RGBAFormat, RGFormat, UnsignedByteType, UnsignedShortType,
-} from 'three';
+import { ClampToEdgeWrapping, DataUtils, HalfFloatType, MirroredRepeatWrapping, RGBAFormat, RGFormat } from 'three';
 
 const kSide = 512;        // of the copy that is read, at most
 const kTransparent = 16;  // alpha, of 255, from which a canvas no longer keeps the other channels
@@ -21,12 +19,11 @@ export function texelsOf(map) {
   return known.get(image);
 }
 
-const kScales = { [UnsignedByteType]: 255, [UnsignedShortType]: 65535, [HalfFloatType]: 1, [FloatType]: 1 };
-
 function ofArray({ format, type, isDataTexture }, { data, width, height }) {
-  const channels = format === RGFormat ? 2 : format === RGBAFormat ? 4 : 0, scale = isDataTexture ? kScales[type] : 255;
-  if (!channels || !scale || data.length < width * height * channels) return { why: 'its map has a format that is not read' };
-  return { width, height, channels, scale, data: type === HalfFloatType && isDataTexture ? Float32Array.from(data, DataUtils.fromHalfFloat) : data };
+  const channels = format === RGFormat ? 2 : format === RGBAFormat ? 4 : 0, half = isDataTexture && type === HalfFloatType;
+  if (!channels || data.length < width * height * channels || !/^(Uint|Float32)/.test(data.constructor.name)) return { why: 'its map has a format that is not read' };
+  const values = half ? Float32Array.from(data, DataUtils.fromHalfFloat) : data;
+  return { width, height, channels, data: values, scale: values instanceof Float32Array ? 1 : 2 ** (8 * data.BYTES_PER_ELEMENT) - 1 };
 }
 
 function ofPicture(image) {
