@@ -140,10 +140,7 @@ export class Chooser {
   }
 }
 
-const numbers = new WeakMap();
-let last = 0;
-const numberOf = object => { if (!numbers.has(object)) numbers.set(object, ++last); return numbers.get(object); };
-const keyOf = ({ geometry, material: all }, material, k) => [numberOf(geometry), numberOf(material), Array.isArray(all) ? k : ''].join();
+const keyOf = ({ geometry, material: all }, material, k) => [geometry.uuid, material.uuid, Array.isArray(all) ? k : ''].join();
 
 // 1 if green that stored bitangents show points along increasing v, else -1. Tangents of a glTF reverse what it declares if
 // they contradict the uv on more than half of the area.

@@ -17,7 +17,7 @@ function gathered(attribute, sources) {
 }
 
 // A copy of the geometry without tangents. Its vertex k is the old vertex sources[k]: the old ones, then copies of some.
-// corners: the new indices; false if the old ones stay. Attributes are shared if there are no copies.
+// corners: the new indices; false if the old ones stay.
 export function withVertices(geometry, sources, corners) {
   const made = new BufferGeometry().copy(geometry).deleteAttribute('tangent');
   if (sources.length > geometry.attributes.position.count) {

@@ -87,8 +87,8 @@ export function tangentsOf(mesh, fans) {
 }
 
 // A copy of the geometry with tangents for the map's uv. Vertices whose corners have different tangents are split.
-// Attributes are copied if vertices were split, else shared. against: whether w * cross(normal, xyz) runs against
-// increasing v, as in glTF. The geometry must have positions, normals and this uv set.
+// against: whether w * cross(normal, xyz) runs against increasing v, as in glTF. The geometry must have positions, normals
+// and this uv set.
 export function withTangents(geometry, map, against) {
   const { position, normal, [uvNameOf(map)]: uv } = geometry.attributes, corners = cornersOf(geometry);
   const mesh = { corners, position: numbersOf(position, 3), normal: numbersOf(normal, 3), uv: transformedUv(uv, map) };

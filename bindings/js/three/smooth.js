@@ -8,7 +8,7 @@ import { combine, cross, dot, normalise, readEdges, uvArea } from './vectors.js'
 export const kSmoothAttributes = ['cotanU', 'cotanV'];
 
 // A copy of the geometry with the gradients of u and v, per unit of length, at its vertices. Splits vertices shared by
-// mirrored and unmirrored triangles. Attributes are copied if vertices were split, else shared.
+// mirrored and unmirrored triangles.
 // map: the normal map, whose uv set and matrix are used. The geometry must have positions, normals and this uv set.
 export function withSmooth(geometry, map) {
   const { position, normal, [uvNameOf(map)]: uv } = geometry.attributes;
