@@ -75,7 +75,8 @@ export function measure() {
   const instance = (matrix, frame) => {
     const made = new THREE.InstancedMesh(ring(), material(), 1);
     made.setMatrixAt(0, matrix);
-    return frame ? untangle(made, { frame }) : made;
+    if (frame) untangle(made, { frame });
+    return made;
   };
   const turn = new THREE.Matrix4().makeRotationY(0.4), found = {};
   for (const [name, matrix] of [['upright', turn], ['mirrored', turn.clone().multiply(new THREE.Matrix4().makeScale(-1, 1, 1))]]) {
