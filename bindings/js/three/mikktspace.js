@@ -32,7 +32,11 @@ function trianglesOf(mesh, { list }) {
 // A function that gives, for index k of fans.list, the index of the corner at the same vertex whose triangle is across the
 // edge to the next vertex (step 1) or to the previous one (step 2), or -1.
 function neighboursOf({ corners }, { first, starts, list }, sides) {
-  const ends = [1, 2].map(step => Int32Array.from(list, (c, k) => (Number.isNaN(sides[k]) ? -1 : first[corners[c - c % 3 + (c + step) % 3]]))), large = new Map();
+  const ends = [1, 2].map(() => new Int32Array(list.length).fill(-1)), large = new Map();
+  for (let k = 0; k < list.length; ++k) {
+    const c = list[k], f = c - c % 3;
+    for (let step = 0; step < 2 && !Number.isNaN(sides[k]); ++step) ends[step][k] = first[corners[f + (c + 1 + step) % 3]];
+  }
   return (k, step) => {
     const vertex = first[corners[list[k]]], begin = starts[vertex], end = starts[vertex + 1], wanted = ends[step - 1][k], others = ends[2 - step];
     if (end - begin <= kFew) {
@@ -51,11 +55,12 @@ function neighboursOf({ corners }, { first, starts, list }, sides) {
 // vertex. (1, 0, 0, -1) where there is none.
 export function tangentsOf(mesh, fans) {
   const { starts, list, at } = fans, { sides, vectors } = trianglesOf(mesh, fans), across = neighboursOf(mesh, fans, sides);
-  const values = new Float64Array(4 * list.length), done = new Uint8Array(list.length), turned = new Int8Array(mesh.corners.length / 3), sum = new Float64Array(3);
+  const values = new Float64Array(4 * list.length), done = new Uint8Array(list.length), turned = new Int8Array(mesh.corners.length / 3), sum = new Float64Array(3), members = [];
   for (let c = 0; c < mesh.corners.length; ++c) {
     const start = at[c], side = sides[start];
     if (list[start] !== c || done[start] || !side) continue;
-    const members = [start];
+    members.length = 0;
+    members.push(start);
     sum.fill(0);
     done[start] = 1;
     for (let m = 0; m < members.length; ++m) {

@@ -21,15 +21,10 @@ export function surfaceOf(geometry, group, map, flat) {
 function drawnBy(geometry, group) {
   const corners = cornersOf(geometry);
   if (group === undefined) return corners;
-  const parts = geometry.groups.filter(({ materialIndex = 0 }) => materialIndex === group)
-    .map(({ start, count }) => corners.subarray(start, Math.min(start + count, corners.length)));
-  const made = new Uint32Array(parts.reduce((sum, { length }) => sum + length - length % 3, 0));
-  let at = 0;
-  for (const part of parts) {
-    made.set(part.subarray(0, part.length - part.length % 3), at);
-    at += part.length - part.length % 3;
-  }
-  return made;
+  return Uint32Array.from(geometry.groups.filter(({ materialIndex = 0 }) => materialIndex === group).flatMap(({ start, count }) => {
+    const found = corners.subarray(start, start + count);
+    return Array.from(found.subarray(0, found.length - found.length % 3));
+  }));
 }
 
 function judged(corners) {
