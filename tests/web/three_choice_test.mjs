@@ -71,6 +71,28 @@ const cases = {
     }
   },
 
+  // uv are sheared, tangents point along the gradient of u instead of dP/du, and the map has slopes along u only: a frame of
+  // cotangents reads it exactly. Deforming meshes cannot have `triangle`.
+  vectorsAreMadeWhereOnlyTheyFit() {
+    const make = (Mesh) => {
+      const geometry = own(new THREE.PlaneGeometry()), { position, uv } = geometry.attributes, data = Uint8Array.from({ length: 4 * 64 }, (_, k) => [127.5 + 60 * Math.sin(k), 128, 220, 255][k % 4]);
+      for (let k = 0; k < 4; ++k) uv.setXY(k, position.getX(k) + 0.5 * position.getY(k), -position.getY(k));
+      geometry.setAttribute('tangent', new THREE.Float32BufferAttribute(Array(4).fill([2 / Math.sqrt(5), 1 / Math.sqrt(5), 0, 1]).flat(), 4));
+      geometry.setAttribute('skinIndex', new THREE.Uint8BufferAttribute(new Uint8Array(16), 4)).setAttribute('skinWeight', new THREE.Float32BufferAttribute(Array(4).fill([1, 0, 0, 0]).flat(), 4));
+      const map = new THREE.DataTexture(data, 64, 1);
+      map.userData.mimeType = 'image/png';
+      const mesh = new Mesh(geometry, new THREE.MeshStandardMaterial({ normalMap: map })), bone = new THREE.Bone();
+      if (mesh.isSkinnedMesh) mesh.add(bone).bind(new THREE.Skeleton([bone]));
+      return mesh;
+    };
+    for (const [Mesh, frame, attribute] of [[THREE.Mesh, 'triangle', 'cotanTriangle'], [THREE.SkinnedMesh, 'smooth', 'cotanU']]) {
+      const mesh = make(Mesh), [found] = decided(mesh);
+      assert.deepEqual([found.frame, found.reason, frameIn(mesh.material)], [frame, 'fits', frame]);
+      assert.ok(found.candidates[0].mean > 3 && found.candidates.at(-1).mean < 0.2, JSON.stringify(found.candidates));
+      assert.ok(mesh.geometry.attributes[attribute] && !mesh.geometry.attributes.tangent);
+    }
+  },
+
   // The limits are the mean, and ten times as much on 99 % of the area.
   maxDegreesMovesTheChoice() {
     const [{ candidates: [{ mean, percentile99 }] }] = decided(meshOf(stored(hilly(6))), { maxDegrees: 10 });

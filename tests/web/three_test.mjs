@@ -112,7 +112,7 @@ const cases = {
     }
   },
 
-  // Tangents opposite to dP/du were once dropped, and the map was read as declared. Now they stay, and so does the picture.
+  // Tangents opposite to dP/du were once dropped, and the map was read as declared. Now they stay, and the render is as before.
   tangentsThatPointElsewhereDoNotReverseGreen() {
     for (const [options, signs, kept] of [[{}, [1], true], [{ frame: 'orthonormal' }, [-1], false]]) {
       const map = bumpyMap(), mesh = square(map, -1), { tangent } = mesh.geometry.attributes;

@@ -253,7 +253,7 @@ function signsOf(mesh, material, k, tangents, { o, chooser, greens, counted, loa
     }
     // v runs down the image in glTF
     wants[name] = o.convention && map ? ((o.convention === 'gltf') === (gltf || map.flipY === false) ? -1 : 1) : shown ?? (gltf ? -1 : 1);
-    // Of a stored bitangent green is right as it is; those that are made run against v for a glTF.
+    // Green is right as it is for stored bitangents; those that are made run against v for a glTF.
     includes[name] = !tangents ? wants[name] : stored ? (o.convention ? wants[name] * shown : 1) : wants[name] * (gltf ? -1 : 1);
     factors[name] = (before?.includes[name] ?? initial) * includes[name];
   }

@@ -6,7 +6,7 @@ const kPoints = 4096, kTotalPoints = 128 * kPoints, kMinPoints = 16; // of a sur
 const kMaxJudged = 200000, kParts = 64; // triangles, and the runs of triangles that are judged of more
 const kMaxStretches = 8;
 
-// The number of points of each of so many surfaces.
+// The number of points of each surface, given the number of surfaces.
 export const pointsOfEach = surfaces => Math.min(Math.max(Math.floor(kTotalPoints / Math.max(surfaces, 1)), kMinPoints), kPoints);
 
 // { corners, position, normal, uv } of a geometry, or of the triangles that a group of materials draws, as its map sees them;

@@ -31,7 +31,7 @@ export function normalise(out, o) {
   return usable;
 }
 
-// Of the triangle of corner c: the edges from that corner to the next and to the previous one, then u and v along each.
+// Reads the edges of a triangle, from its corner c to the next and to the previous corner, then u and v along each.
 export function readEdges(out, { corners, position, uv }, c) {
   const f = c - c % 3, a = corners[c], b = corners[f + (c + 1) % 3], d = corners[f + (c + 2) % 3];
   combine(out, 0, position, 3 * b, 1, position, 3 * a, -1);
