@@ -236,6 +236,15 @@ const cases = {
     const broken = meshOf(stored(hilly(6)));
     broken.geometry.attributes.position.array.fill(NaN);
     assert.match(decided(broken)[0].why, /no triangle has an area/);
+    const notFinite = meshOf(stored(hilly(6)));
+    notFinite.geometry.attributes.tangent.array.fill(NaN);
+    const [kept] = decided(notFinite);
+    assert.ok(kept.keepsTangents && kept.candidates.every(({ points, mean }) => points === 0 && Number.isNaN(mean)));
+    const none = new THREE.InstancedMesh(stored(hilly(6)), new THREE.MeshStandardMaterial({ normalMap: bumps() }), 0);
+    assert.equal(decided(none)[0].reason, 'fits');
+    const batch = new THREE.BatchedMesh(1, 100, 300, new THREE.MeshStandardMaterial({ normalMap: bumps() }));
+    batch.addInstance(batch.addGeometry(hilly(6)));
+    assert.deepEqual(decided(batch).map(({ frame, reason, candidates }) => [frame, reason, candidates.length]), [['orthonormal', 'keeps', 4]]);
   },
 
   // ---- other kinds of meshes: each decides as the plain mesh does ----

@@ -34,7 +34,7 @@ class Primitive {
     this.meshes.push(mesh);
     const { isInstancedMesh, isSkinnedMesh, matrixWorld, count } = mesh, one = matrixWorld.clone();
     if (isSkinnedMesh && mesh.skeleton && mesh.geometry.attributes.skinWeight) this.stretches[0] ??= mesh;
-    else if (!isInstancedMesh) addStretch(this.stretches, one);
+    else if (!isInstancedMesh || count < 1) addStretch(this.stretches, one);
     else for (let k = 0; k < count; ++k) {
       mesh.getMatrixAt(k, one);
       addStretch(this.stretches, one.premultiply(matrixWorld));

@@ -155,7 +155,7 @@ function reasonAgainst(mesh, materials, frame, { instances, deformed, triangles 
 // Says that the tangents of a mesh stay, why, and what they cost.
 function noteKept(mesh, geometry, { reason, why, candidates }, { note }) {
   const { array, count, itemSize } = storedIn(geometry), kilobytes = Math.ceil(count * itemSize * array.BYTES_PER_ELEMENT / 1024);
-  const measured = candidates.map(one => `${one.frame} ${one.points ? one.mean.toFixed(2) : `(${one.why})`}`).join(', ');
+  const measured = candidates.map(one => `${one.frame} ${one.points ? one.mean.toFixed(2) : `(${one.why ?? 'not finite'})`}`).join(', ');
   const because = reason === 'notJudged' ? why : reason === 'shared' ? 'another material of the mesh needs them' : `degrees on average without them: ${measured}`;
   note(`mesh "${mesh.name}": its tangents stay (${kilobytes} KB): ${because}`);
 }

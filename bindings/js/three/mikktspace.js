@@ -52,7 +52,7 @@ function neighboursOf({ corners }, { first, starts, list }, sides) {
 // For each corner of fans.list: x y z w, with w * cross(normal, xyz) along increasing v. Corners at a vertex share a
 // tangent if their triangles are connected over edges and turn their uv to the same side. Triangles without area in uv belong
 // to the side that reaches them first; triangles without area in space get the tangent of the first other corner at the
-// vertex. (1, 0, 0, -1) where there is none.
+// vertex. (1, 0, 0, -1) where there is none. Unlike in mikktspace.h, triangles with exactly opposite dP/du are averaged.
 export function tangentsOf(mesh, fans) {
   const { starts, list, at } = fans, { sides, vectors } = trianglesOf(mesh, fans), across = neighboursOf(mesh, fans, sides);
   const values = new Float64Array(4 * list.length), done = new Uint8Array(list.length), turned = new Int8Array(mesh.corners.length / 3), sum = new Float64Array(3), members = [];
