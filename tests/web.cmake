@@ -61,7 +61,8 @@ cotan_web_test(readme_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules CASE
 # Compares cotan/three with its defaults, from its sources, with stock three.js. The cat alone takes a minute.
 foreach(fact reversedTangentsReverseGreen modelsLookTheSameWithoutTheirTangents
     nodeMaterialsOfAModelKeepTheirOwnMaps modelsWithoutTangentsAreReadAsMikkTSpace
-    mirroredInstancesKeepTheirBumps replacedGeometriesAreFreed anOlderThreeDrawsTheSame)
+    mirroredInstancesKeepTheirBumps tangentsMadeAtLoadAreRightAlsoOnMirroredMeshes replacedGeometriesAreFreed
+    anOlderThreeDrawsTheSame)
   add_test(NAME ThreeDefaults.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/three_defaults_test.mjs
     ${PROJECT_SOURCE_DIR}/bindings/js ${PROJECT_BINARY_DIR}/npm/node_modules ${fact})
   set_tests_properties(ThreeDefaults.${fact} PROPERTIES FIXTURES_REQUIRED npm SKIP_RETURN_CODE 77 TIMEOUT 600)

@@ -122,6 +122,14 @@ const cases = {
       assert.ok(Math.abs(mirrored[frame].inside - upright[frame].truth) < 0.5, `${frame}: ${mirrored[frame].inside} and ${upright[frame].truth} degrees`);
   },
 
+  // three makes bitangents of a mirrored tangent and a normal that is not mirrored: w that is made there is the other one.
+  async tangentsMadeAtLoadAreRightAlsoOnMirroredMeshes() {
+    const found = await page.evaluate(async () => (await import('/tests/three_instances.js')).madeTangents());
+    console.log(JSON.stringify(found));
+    assert.deepEqual(found.map(({ side, frame }) => [side, frame]), [[1, 'mikktspace'], [1, 'orthonormal'], [-1, 'mikktspace'], [-1, 'orthonormal']]);
+    for (const { frame, count, mean } of found) assert.ok(count > 20000 && (frame === 'mikktspace' ? mean < 0.01 : mean > 1), `${frame}: ${mean} degrees, ${count} pixels`);
+  },
+
   // The old geometry once stayed on the device for ever, and the new one after the caller had disposed of the original.
   async replacedGeometriesAreFreed() {
     for (const frame of ['orthonormal', 'smooth', 'triangle'])
