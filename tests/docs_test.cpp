@@ -515,7 +515,7 @@ std::string sphere(int segments, const char* frame)
     return fmt::format("curved,sphere,{},{},S,double", segments, frame);
 }
 
-// The means of examples/three/README.md's real models, read by untangle(gltf); of a model with two kinds of maps the
+// The means of examples/three/README.md's real models, read with `orthonormal`; of a model with two kinds of maps the
 // larger one. tests/web/three_defaults_test.mjs measures the table again.
 std::vector<double> fromThree()
 {

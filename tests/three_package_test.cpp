@@ -232,7 +232,7 @@ TEST(ThreePackage, warnsOfKeptTangentsSharesMaterialsAndReadsAnisotropy)
         page["refused"][1],
         "CotanError usage: options.frame: expected auto, cotangent, orthonormal, smooth, triangle, found 'mikktspace'");
     EXPECT_EQ(page["refused"][2],
-              "CotanError usage: options.fraem: expected one of frame, convention, note, found fraem");
+              "CotanError usage: options.fraem: expected one of frame, convention, note, maxDegrees, found fraem");
     EXPECT_EQ(page["refused"][3], "CotanError usage: options.convention: expected gltf, directx, found 'unity'");
     EXPECT_EQ(page["refused"][4], page["refused"][1]) << "before a model is loaded";
     EXPECT_EQ(page["refused"][5], page["refused"][1]);

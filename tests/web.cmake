@@ -34,13 +34,22 @@ cotan_web_test(gltf_transform_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modu
     webpMapsAreReadAndStayWebp lossesOfAnEncoderAreMeasuredAndVisibleOnesAvoided anEncoderOfTheCallerIsChecked
     conversionsMakeNoNewErrorsOfTheValidator untangentDropsTangentsAndNoFileGrows unknownOptionsAreRefusedAtOnce gltfTransformRunsOurCommands)
 cotan_web_test(three_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
-  CASES greenFollowsTangentsReversedOn90PercentOfTheArea mixedTangentsLeaveGreenAsDeclaredAndAreReported
-    tangentsThatPointElsewhereDoNotReverseGreen clearCoatsFollowTheSameRule theOptionConventionOverridesTangents
+  CASES greenFollowsTheTangentsOfEachMesh aMeshWithoutTangentsStaysAsDeclaredWhateverOthersStore
+    tangentsThatAreReversedInPartsStay tangentsBelongToTheUvBeforeTheTexturesTransform
+    tangentsSayNothingOfMapsForOtherFrames tangentsThatPointElsewhereDoNotReverseGreen clearCoatsFollowTheSameRule theOptionConventionOverridesTangents
     repeatedCallsAndLaterMeshesAgree autoIsTheFrameOfTheMaterialOrOrthonormal
     repeatedMapsOnOwnShapesUseCotangent smoothUsesTheCotangentsOfTheLibrary laterHooksAreInTheKeyAndKeepTheFrame
     clonesOfMaterialsKeepTheFrame replacementsAreFreedWithTheOriginal olderVersionsOfThreeWorkAndTooOldOnesAreRefused
     materialsOfOneFrameShareAProgramAndOthersDoNot nodesOfAUserReadMapsForMikkTSpaceUnlessAFrameIsNamed
     unknownArgumentsAreRefused)
+cotan_web_test(three_choice_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
+  CASES theFirstCandidateWithinTheLimitsIsTaken vectorsAreMadeWhereOnlyTheyFit maxDegreesMovesTheChoice errorsAreAnglesBetweenPerturbedNormals
+    tangentsMadeAtLoadAreThoseOfMikkTSpace madeTangentsComeWithTheScaleThatTheyNeed
+    twoCallsOfOneFileDecideTheSameAndASecondCallChangesNothing sharedMaterialsAndGeometriesAreCopiedWhereMeshesDiffer
+    materialsOfAMeshAgreeAboutTangents namesOfPrimitivesGoBeforeThoseOfMaterials mapsThatCannotBeReadKeepWhatIsThere
+    quantisedAndInterleavedAttributesDecideTheSame skinnedMeshesAreJudgedAsTheyArePosed morphedMeshesGetNoCovectors
+    instancesCountByTheWorstStretch flatShadedMeshesNeedNoTangents coatsWithTheSameUvCountToo
+    thePluginLeavesItsDecisionsWithTheModel nodesFollowTheSameRule theCodeIsBelow15KB)
 cotan_web_test(types_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
   CASES typingsAcceptEveryExportInStrictMode typingsMatchTheExports everyWrongCallIsATypeError)
 cotan_web_test(bundlers_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
@@ -52,7 +61,8 @@ cotan_web_test(readme_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules CASE
 # Compares cotan/three with its defaults, from its sources, with stock three.js. The cat alone takes a minute.
 foreach(fact reversedTangentsReverseGreen modelsLookTheSameWithoutTheirTangents
     nodeMaterialsOfAModelKeepTheirOwnMaps modelsWithoutTangentsAreReadAsMikkTSpace
-    mirroredInstancesKeepTheirBumps replacedGeometriesAreFreed anOlderThreeDrawsTheSame)
+    mirroredInstancesKeepTheirBumps tangentsMadeAtLoadAreRightAlsoOnMirroredMeshes replacedGeometriesAreFreed
+    anOlderThreeDrawsTheSame)
   add_test(NAME ThreeDefaults.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/three_defaults_test.mjs
     ${PROJECT_SOURCE_DIR}/bindings/js ${PROJECT_BINARY_DIR}/npm/node_modules ${fact})
   set_tests_properties(ThreeDefaults.${fact} PROPERTIES FIXTURES_REQUIRED npm SKIP_RETURN_CODE 77 TIMEOUT 600)

@@ -101,8 +101,8 @@ const cases = {
     const material = () => new THREE.MeshStandardMaterial({ normalMap: new THREE.DataTexture(new Uint8Array(4), 1, 1) });
     const scene = () => new THREE.Scene().add(new THREE.Mesh(new THREE.PlaneGeometry(), material()));
     const calls = ({ untangle, untangled, replaceFrame }) => ({
-      untangle: call(untangle, ['target', 'options'], scene, () => ({ frame: 'smooth', convention: 'gltf', note: () => {} })),
-      untangled: call(untangled, ['options'], () => ({ frame: 'smooth', convention: 'gltf', note: () => {} })),
+      untangle: call(untangle, ['target', 'options'], scene, () => ({ frame: 'smooth', maxDegrees: 1, convention: 'gltf', note: () => {} })),
+      untangled: call(untangled, ['options'], () => ({ frame: 'smooth', maxDegrees: 1, convention: 'gltf', note: () => {} })),
       replaceFrame: call(replaceFrame, ['material', 'options'], material, () => ({ frame: 'smooth', against: true })),
     });
     const { warn } = console;

@@ -35,10 +35,10 @@ function show(file, found) {
 }
 
 // The table of examples/three/README.md, from which other pages take their numbers: name of a model -> the cells of
-// untangle(gltf) and of cotangent, with "mean, 95 %" for each kind of normal map.
+// the frames and of untangle(gltf), with "mean, 95 %" for each kind of normal map.
 const kTable = Object.fromEntries(fs.readFileSync(path.join(here, '../../examples/three/README.md'), 'utf8').split('\n')
   .map(line => line.split('|').map(cell => cell.trim())).filter(cells => /^(stored|made by three)/.test(cells[2] ?? ''))
-  .map(([, name, , untangled, cotangent]) => [name.split(';')[0], { default: untangled, cotangent }]));
+  .map(([, name, , orthonormal, cotangent, untangled]) => [name.split(';')[0], { orthonormal, cotangent, default: untangled }]));
 
 // A number of the page is what was measured now, but for its rounding and 5 % for another rasteriser.
 function expectTable(file, found) {
@@ -52,37 +52,44 @@ function expectTable(file, found) {
     }));
 }
 
-// Expects a mean below `mean` degrees between untangle(gltf) and the original with its tangents, or with three's own
-// MikkTSpace tangents, and at most that of the frame that three derives by itself.
-async function holds(file, mean, { note } = {}) {
-  const found = await measure(file, { 'three alone': null, default: {}, cotangent: { frame: 'cotangent' } });
+// Expects what untangle() promises between untangle(gltf) and the original with its tangents, or with three's own MikkTSpace
+// tangents: a mean below 0.3 degrees, and 3 on 99 % of the pixels; and at most the mean of the frame that three derives by
+// itself. note: a pattern of lines that say something about green. stay: whether the tangents of some meshes stay.
+async function holds(file, { note, stay = false, frames } = {}) {
+  const found = await measure(file, { 'three alone': null, default: {}, orthonormal: { frame: 'orthonormal' }, cotangent: { frame: 'cotangent' } });
   show(file, found);
   if (isOriginal(file)) expectTable(file, found);
   assert.ok(Object.keys(found.default).length > 0, file);
-  for (const [kind, { mean: degrees, finite, count, notes, frames }] of Object.entries(found.default)) {
-    const label = `${file}, ${kind}`;
+  for (const [kind, { mean: degrees, most99, finite, count, notes, frames: drawn }] of Object.entries(found.default)) {
+    const label = `${file}, ${kind}`, kept = notes.filter(line => kKept.test(line)), others = notes.filter(line => !kKept.test(line));
     assert.ok(finite && count > 2000, label);
-    assert.deepEqual(frames, ['orthonormal'], label);
-    assert.ok(degrees < mean, `${label}: ${degrees} degrees, ${mean} expected at the most`);
+    assert.ok(degrees < 0.3 && most99 < 3, `${label}: ${degrees} degrees, and ${most99} on 99 %`);
     assert.ok(degrees <= found.cotangent[kind].mean + 0.01, `${label}: ${degrees} degrees, cotangent has ${found.cotangent[kind].mean}`);
-    assert.equal(notes.filter(line => note?.test(line)).length > 0, !!note, `${label}: ${notes}`);
-    if (!note) assert.deepEqual(notes, [], label);
+    assert.equal(kept.length > 0, stay, `${label}: ${notes}`);
+    assert.equal(others.length > 0, !!note, `${label}: ${notes}`);
+    if (note) others.forEach(line => assert.match(line, note, label));
+    if (frames) assert.deepEqual([...drawn].map(String).sort(), frames, label); // undefined: three's own
   }
 }
 
+const kKept = /^mesh ".*": its tangents stay \(\d+ KB\): /;
 const kTurned = /^TANGENT\.w contradicts the texture coordinates on (9\d|100) % of the area of .*: without stored tangents its green is flipped/;
 const cases = {
   // Stored w contradicts the uv on all of these maps, so that green points down: drawn as declared, pockets are dents,
-  // and the cat is wrong by 9.8 degrees.
+  // and the cat is wrong by 9.8 degrees. The map of the jet fighter is compressed and cannot be judged: its tangents stay,
+  // and nothing changes. Some parts of the cat are too coarse.
   async reversedTangentsReverseGreen() {
-    for (const file of ['models/SketchfabCat/scene.gltf', 'animated/lumberjack.glb', 'compressed/chess_board_draco.glb', 'compressed/jet_fighter_draco_basisu.glb',
-      'models/TwoSidedPlane/TwoSidedPlane.glb']) await holds(file, 1, { note: kTurned });
+    await holds('models/SketchfabCat/scene.gltf', { note: kTurned, stay: true });
+    await holds('animated/lumberjack.glb', { note: kTurned, frames: ['smooth'] }); // posed by its bones
+    for (const file of ['compressed/chess_board_draco.glb', 'models/TwoSidedPlane/TwoSidedPlane.glb']) await holds(file, { note: kTurned, frames: ['orthonormal'] });
+    await holds('compressed/jet_fighter_draco_basisu.glb', { stay: true });
   },
 
-  // The remaining difference is that between a frame per pixel and an interpolated frame.
+  // The remaining difference is that between a frame per pixel and an interpolated frame. The hose of the helmet needs
+  // vectors at its vertices, and three's own tangents are drawn on its metal parts.
   async modelsLookTheSameWithoutTheirTangents() {
-    for (const name of ['NormalTangentMirrorTest', 'ClearCoatTest']) await holds(`models/${name}/${name}.glb`, 0.5);
-    await holds('models/FlightHelmet/FlightHelmet.gltf', 1);
+    for (const name of ['NormalTangentMirrorTest', 'ClearCoatTest']) await holds(`models/${name}/${name}.glb`, { frames: ['orthonormal'] });
+    await holds('models/FlightHelmet/FlightHelmet.gltf', { frames: ['orthonormal', 'smooth', 'undefined'] });
   },
 
   // All its materials once had the map of the first one: 4.4 degrees.
@@ -99,7 +106,7 @@ const cases = {
 
   // three alone reads them in cotangent: 0.425 degrees on BoomBox, where orthonormal has 0.056.
   async modelsWithoutTangentsAreReadAsMikkTSpace() {
-    for (const file of ['NormalTangentTest/NormalTangentTest.glb', 'BoomBox/BoomBox.gltf', 'GlamVelvetSofa/GlamVelvetSofa.glb']) await holds(`models/${file}`, 0.15);
+    for (const file of ['NormalTangentTest/NormalTangentTest.glb', 'BoomBox/BoomBox.gltf', 'GlamVelvetSofa/GlamVelvetSofa.glb']) await holds(`models/${file}`, { frames: ['orthonormal'] });
   },
 
   // Mirrored instances are 179.7 and 153 degrees from the truth: three takes them for back faces and negates normals.
@@ -115,6 +122,14 @@ const cases = {
       assert.ok(Math.abs(mirrored[frame].inside - upright[frame].truth) < 0.5, `${frame}: ${mirrored[frame].inside} and ${upright[frame].truth} degrees`);
   },
 
+  // three makes bitangents of a mirrored tangent and a normal that is not mirrored: w that is made there is the other one.
+  async tangentsMadeAtLoadAreRightAlsoOnMirroredMeshes() {
+    const found = await page.evaluate(async () => (await import('/tests/three_instances.js')).madeTangents());
+    console.log(JSON.stringify(found));
+    assert.deepEqual(found.map(({ side, frame }) => [side, frame]), [[1, 'mikktspace'], [1, 'orthonormal'], [-1, 'mikktspace'], [-1, 'orthonormal']]);
+    for (const { frame, count, mean } of found) assert.ok(count > 20000 && (frame === 'mikktspace' ? mean < 0.01 : mean > 1), `${frame}: ${mean} degrees, ${count} pixels`);
+  },
+
   // The old geometry once stayed on the device for ever, and the new one after the caller had disposed of the original.
   async replacedGeometriesAreFreed() {
     for (const frame of ['orthonormal', 'smooth', 'triangle'])
@@ -124,8 +139,8 @@ const cases = {
   async anOlderThreeDrawsTheSame() {
     if (!fs.existsSync(path.join(modules, 'three180'))) skip('three180 is not installed (see the test npm_packages)');
     page = await pageWith('three180');
-    await holds('models/BoomBox/BoomBox.gltf', 0.15);
-    await holds('models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb', 0.5);
+    await holds('models/BoomBox/BoomBox.gltf', { frames: ['orthonormal'] });
+    await holds('models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb', { frames: ['orthonormal'] });
   },
 };
 if (process.env.FILES) {

@@ -2,6 +2,7 @@
 // vertices, which is the truth. For three_defaults_test.mjs.
 import * as THREE from 'three';
 import { untangle } from '/package/three/index.js';
+import { withTangents } from '/package/three/mikktspace.js';
 
 const kSize = 256;
 
@@ -75,7 +76,8 @@ export function measure() {
   const instance = (matrix, frame) => {
     const made = new THREE.InstancedMesh(ring(), material(), 1);
     made.setMatrixAt(0, matrix);
-    return frame ? untangle(made, { frame }) : made;
+    if (frame) untangle(made, { frame });
+    return made;
   };
   const turn = new THREE.Matrix4().makeRotationY(0.4), found = {};
   for (const [name, matrix] of [['upright', turn], ['mirrored', turn.clone().multiply(new THREE.Matrix4().makeScale(-1, 1, 1))]]) {
@@ -102,4 +104,47 @@ export function heldGeometries(frame) {
   held.push(renderer.info.memory.geometries);
   renderer.dispose();
   return held;
+}
+
+// A coarse sphere of a glTF without tangents, upright and with a mirrored matrix: what untangle() decides, and degrees from
+// the same sphere whose vertices are transformed and which came with MikkTSpace tangents.
+export function madeTangents() {
+  const renderer = new THREE.WebGLRenderer(), target = new THREE.WebGLRenderTarget(kSize, kSize, { type: THREE.FloatType }), camera = new THREE.PerspectiveCamera(40, 1, 0.1, 100);
+  camera.position.set(0.8, 1, 3.2);
+  camera.lookAt(0, 0, 0);
+  const map = bumps(128), sphere = () => new THREE.BufferGeometry().copy(new THREE.SphereGeometry(1, 10, 6)), found = [];
+  map.userData.mimeType = 'image/png';
+  const material = green => new THREE.MeshStandardMaterial({ normalMap: map, normalScale: new THREE.Vector2(1, green) });
+  const draw = mesh => {
+    const { onBeforeCompile: before } = mesh.material;
+    mesh.material.onBeforeCompile = (shader, given) => {
+      before.call(mesh.material, shader, given);
+      shader.fragmentShader = shader.fragmentShader.replace(/\}\s*$/, 'gl_FragColor = vec4( normalize( normal ), 1.0 );\n}');
+    };
+    renderer.setRenderTarget(target);
+    renderer.setClearColor(0, 0);
+    renderer.clear();
+    renderer.render(new THREE.Scene().add(mesh), camera);
+    const pixels = new Float32Array(kSize * kSize * 4);
+    renderer.readRenderTargetPixels(target, 0, 0, kSize, kSize, pixels);
+    return pixels;
+  };
+  for (const side of [1, -1]) {
+    const truth = sphere(), { attributes: { position, normal }, index } = truth;
+    for (let k = 0; k < position.count; ++k) {
+      position.setX(k, position.getX(k) * side);
+      normal.setX(k, normal.getX(k) * side);
+    }
+    if (side < 0) index.array.reverse(); // winding
+    const expected = draw(new THREE.Mesh(withTangents(truth, map, true).clone(), material(1)));
+    for (const frame of [undefined, 'orthonormal']) {
+      const mesh = new THREE.Mesh(sphere(), material(-1)); // green as the loader leaves it
+      mesh.scale.x = side;
+      const [decision] = untangle(mesh, { frame }), drawn = draw(mesh), degrees = [];
+      for (let k = 0; k < drawn.length; k += 4)
+        if (drawn[k + 3] > 0.5 && expected[k + 3] > 0.5) degrees.push(THREE.MathUtils.radToDeg(new THREE.Vector3().fromArray(drawn, k).angleTo(new THREE.Vector3().fromArray(expected, k))));
+      found.push({ side, frame: decision.frame, count: degrees.length, mean: degrees.reduce((sum, x) => sum + x, 0) / degrees.length });
+    }
+  }
+  return found;
 }

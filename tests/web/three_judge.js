@@ -120,7 +120,7 @@ function degreesBetween(views, others) {
     }
   });
   found.sort((x, y) => x - y);
-  return { count: found.length, finite: found.every(Number.isFinite), mean: found.reduce((sum, x) => sum + x, 0) / found.length, most: found[Math.floor(0.95 * (found.length - 1))] };
+  return { count: found.length, finite: found.every(Number.isFinite), mean: found.reduce((sum, x) => sum + x, 0) / found.length, most: found[Math.floor(0.95 * (found.length - 1))], most99: found[Math.floor(0.99 * (found.length - 1))] };
 }
 
 // url: a model. ways: options of untangle() by name; null for the model as loaded. Returns the degrees for each, of the

@@ -17,11 +17,22 @@ const library = await load(folder, 'tangents');
 await library.ready;
 
 /** A map as GLTFLoader creates it. */
-function mapOf(name = 'bumps') {
-  const map = new THREE.DataTexture(Uint8Array.of(128, 128, 255, 255), 1, 1);
+function mapOf(name = 'bumps', data = Uint8Array.of(128, 128, 255, 255), side = 1) {
+  const map = new THREE.DataTexture(data, side, side);
   map.name = name;
   map.userData.mimeType = 'image/png';
   return map;
+}
+
+/** The same with 64 x 64 texels of waves, up to 27 degrees steep. */
+function bumpyMap(side = 64) {
+  const data = new Uint8Array(side * side * 4);
+  for (let y = 0; y < side; ++y)
+    for (let x = 0; x < side; ++x) {
+      const slopes = [0.5 * Math.sin(x / 3), 0.4 * Math.cos(y / 4), 1], length = Math.hypot(...slopes);
+      data.set([...slopes.map((c) => Math.round(127.5 + 127.5 * c / length)), 255], 4 * (y * side + x));
+    }
+  return mapOf('bumps', data, side);
 }
 
 /** A glTF square of two triangles. w: 1 as glTF defines it, -1 reversed, 0 for no tangents; area: of the square. */
@@ -66,19 +77,22 @@ const cases = {
     }
   },
 
-  meshesWithMixedTangentsFollowTheWholeMap() {
-    const mixed = (map) => { // half of its area is reversed
-      const mesh = square(map, 1), { tangent } = mesh.geometry.attributes;
+  // They once followed the other meshes of the map. Now the error says that no frame without tangents fits.
+  tangentsThatAreReversedInPartsStay() {
+    for (const reversed of [3, 6]) { // corners, of 12
+      const map = bumpyMap(), mesh = square(map, 1), other = square(map, -1, { area: 10 }), notes = [], scene = new THREE.Scene().add(mesh, other);
+      mesh.name = 'mixed';
       mesh.geometry = mesh.geometry.toNonIndexed();
-      for (let k = 0; k < 3; ++k) mesh.geometry.attributes.tangent.setW(k, -1);
-      assert.equal(tangent.count, 4);
-      return mesh;
-    };
-    const map = mapOf();
-    assert.deepEqual(untangledSigns([mixed(map)]), { signs: [-1], notes: ["TANGENT.w contradicts the texture coordinates on 50 % of the area of normal map 'bumps': "
-      + 'its green is read as declared (the option convention overrides this)'] });
-    const decided = mapOf();
-    assert.deepEqual(untangledSigns([mixed(decided), square(decided, -1, { area: 10 })]).signs, [1, 1]);
+      for (let k = 0; k < reversed; ++k) mesh.geometry.attributes.tangent.setW(k % 3, -1);
+      const before = Array.from(mesh.geometry.attributes.tangent.array), decisions = untangle({ scenes: [scene] }, { note: (line) => notes.push(line) });
+      assert.deepEqual(decisions.map(({ frame, keepsTangents, reason, meaning }) => [frame, keepsTangents, reason, meaning]),
+        [['mikktspace', true, 'keeps', 'stored'], ['orthonormal', false, 'fits', 'stored']]);
+      assert.deepEqual(Array.from(mesh.geometry.attributes.tangent.array), before);
+      assert.equal(other.geometry.attributes.tangent, undefined);
+      assert.match(notes[0], /^TANGENT\.w contradicts the texture coordinates on 100 % of the area of normal map 'bumps'/);
+      assert.match(notes[1], /^mesh "mixed": its tangents stay \(1 KB\): degrees on average without them: orthonormal \d+\.\d\d, triangle \d+\.\d\d, smooth \d+\.\d\d, mikktspace \d+\.\d\d$/);
+      assert.equal(notes.length, 2);
+    }
   },
 
   tangentsBelongToTheUvBeforeTheTexturesTransform() {
@@ -98,13 +112,19 @@ const cases = {
     }
   },
 
+  // Tangents opposite to dP/du were once dropped, and the map was read as declared. Now they stay, and the render is as before.
   tangentsThatPointElsewhereDoNotReverseGreen() {
-    const map = mapOf(), mesh = square(map, -1), { tangent } = mesh.geometry.attributes;
-    for (let k = 0; k < tangent.count; ++k) tangent.setX(k, -1); // opposite to dP/du; w is right
-    assert.deepEqual(untangledSigns([mesh]), { signs: [-1], notes: [] });
+    for (const [options, signs, kept] of [[{}, [1], true], [{ frame: 'orthonormal' }, [-1], false]]) {
+      const map = bumpyMap(), mesh = square(map, -1), { tangent } = mesh.geometry.attributes;
+      for (let k = 0; k < tangent.count; ++k) tangent.setX(k, -1); // opposite to dP/du; w is right
+      assert.deepEqual(untangledSigns([mesh], options).signs, signs);
+      assert.equal(!!mesh.geometry.attributes.tangent, kept);
+    }
     const without = square(mapOf(), -1), { uv } = without.geometry.attributes;
-    for (let k = 0; k < uv.count; ++k) uv.setXY(k, 0.5, 0.5); // no area: nothing is compared
-    assert.deepEqual(untangledSigns([without]), { signs: [-1], notes: [] });
+    for (let k = 0; k < uv.count; ++k) uv.setXY(k, 0.5, 0.5); // no area: nothing is compared, and what is there stays
+    without.name = 'flat';
+    assert.deepEqual(untangledSigns([without]), { signs: [1], notes: ['mesh "flat": its tangents stay (1 KB): no triangle has an area both in space and in uv'] });
+    assert.deepEqual(untangledSigns([without], { frame: 'orthonormal' }), { signs: [-1], notes: [] });
   },
 
   clearCoatsFollowTheSameRule() {
@@ -337,7 +357,8 @@ const cases = {
   unknownArgumentsAreRefused() {
     for (const [work, field] of [[() => untangle(), 'target'], [() => untangle(new THREE.Scene(), { frame: 'mikktspace' }), 'options.frame'],
       [() => untangle(new THREE.Scene(), { fraem: 'smooth' }), 'options.fraem'], [() => untangle(new THREE.Scene(), { note: 'loud' }), 'options.note'],
-      [() => untangle(new THREE.Scene(), { convention: 'unity' }), 'options.convention'], [() => replaceFrame(), 'material'], [() => replaceFrame(new THREE.Mesh()), 'material'],
+      [() => untangle(new THREE.Scene(), { convention: 'unity' }), 'options.convention'],
+      ...[0, -1, NaN, Infinity, '1', true].map((maxDegrees) => [() => untangle(new THREE.Scene(), { maxDegrees }), 'options.maxDegrees']), [() => replaceFrame(), 'material'], [() => replaceFrame(new THREE.Mesh()), 'material'],
       [() => replaceFrame(new THREE.MeshStandardMaterial(), { frame: 'smoth' }), 'options.frame'], [() => replaceFrame(new THREE.MeshStandardMaterial(), { fraem: 'smooth' }), 'options.fraem'],
       [() => replaceFrame(new THREE.MeshStandardMaterial(), { against: 1 }), 'options.against'], [() => replaceFrame(new THREE.MeshStandardMaterial(), { from: {} }), 'options.from']])
       assert.throws(work, (error) => error instanceof CotanError && error instanceof library.CotanError && error.code === 'usage' && error.field === field);

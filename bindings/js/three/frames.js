@@ -1,6 +1,6 @@
 // Chooses the frame that a normal map is read with.
 import { choice } from '../src/arrays.js';
-import { transformedUv, uvMatrixOf, uvNameOf } from './mesh_data.js';
+import { transformedUv, uvNameOf } from './mesh_data.js';
 import { ofGltf } from './greens.js';
 
 export const kSupported = ['cotangent', 'orthonormal', 'smooth', 'triangle'];
@@ -9,10 +9,13 @@ export const kKey = 'cotanFrame'; // in a material's userData, which are the ext
 
 export const mapOf = material => material.normalMap ?? material.clearcoatNormalMap;
 
-// The supported frame for the name in a material's userData: `orthonormal` for MikkTSpace. Undefined if there is none.
-// warn: called with a line about an unsupported name.
-export function namedFrame(material, warn = () => {}) {
-  const found = material.userData?.[kKey];
+// What a file says about a map's frame: of the primitive, else of the material.
+const nameIn = (material, geometry) => geometry?.userData?.[kKey] ?? material.userData?.[kKey];
+
+// The supported frame for the name in the userData of the geometry or material: `orthonormal` for MikkTSpace. Undefined if
+// there is none. warn: called with a line about an unsupported name.
+export function namedFrame(material, warn = () => {}, geometry = undefined) {
+  const found = nameIn(material, geometry);
   if (found === undefined) return undefined;
   if (kSupported.includes(found)) return found;
   if (found === 'mikktspace' || found === 'vertex') return 'orthonormal';
@@ -21,8 +24,8 @@ export function namedFrame(material, warn = () => {}) {
   return undefined;
 }
 
-// Whether stored tangents say which way the material's maps are read: not if these name a frame without tangents.
-export const readsTangents = ({ userData }) => ![...kSupported, 'exact', 'gradient'].includes(userData?.[kKey]);
+// Whether the maps are for tangents: not if the file names a frame without them.
+export const meansTangents = (material, geometry) => ![...kSupported, 'exact', 'gradient'].includes(nameIn(material, geometry));
 
 // The frame for a material alone: the requested one, else the one that the material names, else `orthonormal`.
 export function frameFor(material, requested = 'auto') {
@@ -44,7 +47,7 @@ const kEdge = 0.01; // tolerance by which uv may exceed the range of one tile
 function repeats({ attributes }, map) {
   const uv = attributes[uvNameOf(map)];
   if (!uv) return false;
-  const transformed = transformedUv(uv, uvMatrixOf(map)), low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+  const transformed = transformedUv(uv, map), low = [Infinity, Infinity], high = [-Infinity, -Infinity];
   for (let k = 0; k < transformed.length; ++k) {
     low[k % 2] = Math.min(low[k % 2], transformed[k]);
     high[k % 2] = Math.max(high[k % 2], transformed[k]);

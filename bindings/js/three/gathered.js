@@ -1,8 +1,8 @@
-// Vertex attributes for split vertices.
-import { BufferAttribute } from 'three';
+// Copies of geometries with vectors at their vertices.
+import { BufferAttribute, BufferGeometry } from 'three';
 
 // A copy of the attribute: new vertex k has the value of old vertex sources[k]. Instanced attributes are just cloned.
-export function gathered(attribute, sources) {
+function gathered(attribute, sources) {
   if (attribute.isInstancedBufferAttribute) return attribute.clone();
   const { itemSize, normalized, gpuType } = attribute;
   const [array, stride, offset] = attribute.isInterleavedBufferAttribute
@@ -14,4 +14,15 @@ export function gathered(attribute, sources) {
   const made = new BufferAttribute(values, itemSize, normalized);
   if (gpuType !== undefined) made.gpuType = gpuType;
   return made;
+}
+
+// A copy of the geometry without tangents. Its vertex k is the old vertex sources[k]: the old ones, then copies of some.
+// corners: the new indices; false if the old ones stay.
+export function withVertices(geometry, sources, corners) {
+  const made = new BufferGeometry().copy(geometry).deleteAttribute('tangent');
+  if (sources.length > geometry.attributes.position.count) {
+    for (const name of Object.keys(made.attributes)) made.setAttribute(name, gathered(geometry.attributes[name], sources));
+    for (const [name, targets] of Object.entries(geometry.morphAttributes)) made.morphAttributes[name] = targets.map(target => gathered(target, sources));
+  }
+  return corners ? made.setIndex(new BufferAttribute(sources.length > 65535 ? corners : Uint16Array.from(corners), 1)) : made;
 }

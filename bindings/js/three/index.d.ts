@@ -1,14 +1,14 @@
 // cotan/three: normal mapping without tangents for three.js and its WebGLRenderer.
-import type { Material, Object3D, WebGLRenderer } from 'three';
+import type { Material, Mesh, Object3D } from 'three';
 
 export { CotanError } from '../tangents.js';
 
 /**
  * The frame that a normal map is read with.
- * - `auto`: the frame that the map was made for. If the material names one (`material.userData.cotanFrame`, from glTF extras
- *   that `convert` writes), that frame. Else `cotangent` for maps that GLTFLoader did not load, on meshes without tangents
- *   that are one of three's own shapes or repeat the map. Else `orthonormal`, since maps of models mean MikkTSpace.
- * - `orthonormal`: the nearest to MikkTSpace, for which most models with tangents were baked.
+ * - `auto`: the frame that the file names for the map (`userData.cotanFrame` of the geometry or the material, from glTF extras
+ *   that `convert` writes). Else `cotangent` for maps that GLTFLoader did not load, on meshes without tangents that are one of
+ *   three's own shapes or repeat the map. Else what measurement decides, see `untangle`.
+ * - `orthonormal`: the nearest to MikkTSpace, for which most models with tangents were baked, that needs no vectors.
  * - `cotangent`: from screen derivatives, as three.js itself reads maps of meshes without tangents. Exact on stretched and
  *   sheared texture coordinates for maps that were made for it (`cotan bake --frame cotangent`).
  * - `smooth`: from gradients of u and v that are computed here and stored at the vertices, 24 bytes each. No steps at edges.
@@ -21,35 +21,88 @@ export { CotanError } from '../tangents.js';
 export type Frame = 'auto' | 'cotangent' | 'orthonormal' | 'smooth' | 'triangle';
 
 export interface UntangleOptions {
-  /** Default: the frame of an earlier call for materials that have one, else `auto`. */
+  /** Default: the frame of an earlier call for materials that have one, else `auto`. Another one is obeyed without measuring,
+   * and no tangents stay. */
   frame?: Frame;
+  /** Degrees that perturbed normals may be off on average without the tangents of the file, and ten times as much on 99 % of
+   * the area. Above 0; default: 0.3. */
+  maxDegrees?: number;
   /** Which way green points: up the image (`gltf`) or down (`directx`). Default: as the stored tangents say, if they
-   * contradict the texture coordinates on at least 90 % of a map's area; else as the model declares. */
+   * contradict the texture coordinates on more than half of a primitive's area; else as the model declares. */
   convention?: 'gltf' | 'directx';
-  /** Receives notes that are not warnings: green that is read reversed, a frame that is not the map's own.
-   * Default: console.info. */
+  /** Receives notes that are not warnings: tangents that stay, green that is read reversed, a frame that is not the map's
+   * own. Default: console.info. */
   note?: (line: string) => void;
+}
+
+/** How well a frame reads a map: degrees between perturbed normals, at `points` points spread evenly over the surface.
+ * mikktspace: tangents that are made when the model is loaded. If `why` says why the mesh cannot have the frame, points is 0
+ * and the rest is NaN. */
+export interface Candidate {
+  frame: 'orthonormal' | 'triangle' | 'smooth' | 'mikktspace';
+  points: number;
+  mean: number;
+  /** The smallest value that 95 % of the area does not exceed. */
+  percentile95: number;
+  percentile99: number;
+  why?: string;
+}
+
+/** What was decided about a mesh and one of its materials. */
+export interface Decision {
+  mesh: Mesh;
+  /** As it is drawn now; a copy if meshes with the same material needed different settings. */
+  material: Material;
+  /** mikktspace: three.js draws it with its own frame, from tangents of the geometry. */
+  frame: Exclude<Frame, 'auto'> | 'mikktspace';
+  /** Whether the tangents that came with the mesh are needed. */
+  keepsTangents: boolean;
+  /** What the map is taken to mean: `named`: the frame that the file or the caller names; `stored`: what the tangents of the
+   * mesh show; `mikktspace`: MikkTSpace over its texture coordinates, as glTF says; `painted`: nothing that depends on a
+   * model; `none`: there is no map. */
+  meaning: 'named' | 'stored' | 'mikktspace' | 'painted' | 'none';
+  /** `fits`: the first candidate within the limits; `keeps`: no candidate is, so that what is there stays; `notJudged`: the
+   * same, because nothing could be compared (`why`); `shared`: as another material of the mesh needs; `named`: as the file
+   * says; `requested`: as the caller says; `earlier`: as in an earlier call; `painted`, `noMap`: see `meaning`. */
+  reason: 'fits' | 'keeps' | 'notJudged' | 'shared' | 'named' | 'requested' | 'earlier' | 'painted' | 'noMap';
+  /** In the order of cost, up to the chosen one. Empty if nothing was measured. */
+  candidates: Candidate[];
+  why?: string;
 }
 
 /** The part of GLTFLoader's result that is needed here. */
 export interface LoadedModel {
   scenes: Object3D[];
+  /** The plugin leaves its decisions in `userData.cotan`. */
+  userData?: Record<string, any>;
 }
 
 /**
- * Removes the tangents of all meshes and makes every material with a `normalScale` use a frame of Cotan for bumps, clear coat
- * and anisotropy. Correct for mirrored transforms, for both sides of faces, and for render targets with y down. Sets the sign
+ * Removes tangents where nobody can see it, and makes materials with a `normalScale` use a frame of Cotan for bumps, clear coat
+ * and anisotropy. Returns one decision for each mesh and material.
+ *
+ * For each mesh, frames are compared with what its map means (`Decision.meaning`) by the angle between perturbed normals, with
+ * the texels of the map: `orthonormal`, `triangle`, `smooth`, then MikkTSpace tangents made here. The first one within
+ * `maxDegrees` is taken. If none is, the tangents of the mesh stay, nothing of it is changed, and a note says what they cost.
+ * They also stay if the map cannot be read: compressed textures, and images where there is no OffscreenCanvas. Meshes without
+ * tangents then get `orthonormal`. Images are read once, with at most 512 x 512 texels. Skinned meshes are judged as they are
+ * posed now, and instances by the worst of the first eight that are stretched differently.
+ *
+ * The same file always gives the same decisions, and a second call changes nothing. Correct for mirrored transforms, for both
+ * sides of faces, and for render targets with y down, except on meshes whose tangents stay, which three.js draws. Sets the sign
  * of `normalScale.y` so that the render stays as it was with tangents. A material is cloned if its meshes need different
  * settings. Call this again for meshes that are added later. Your own hooks (`onBeforeCompile`) are kept, even if set later.
  * `material.clone()` keeps the frame, `copy()` does not. GPU memory of removed tangents and of replaced geometries is freed;
  * a new geometry is disposed of with the one that it replaces.
+ *
  * Throws a CotanError with code `usage` on anything but an Object3D or a loaded model, on unknown frames and on unknown
  * options; with code `unavailable` if this version of three, or a material's shader when it is compiled, cannot take the
  * frame. Needs three 0.160 or later.
  */
-export function untangle<T extends Object3D | LoadedModel>(target: T, options?: UntangleOptions): T;
+export function untangle(target: Object3D | LoadedModel, options?: UntangleOptions): Decision[];
 
-/** untangle() as a plugin of GLTFLoader: `new GLTFLoader().register(untangled())`. */
+/** untangle() as a plugin of GLTFLoader: `new GLTFLoader().register(untangled())`. The decisions are in the result's
+ * `userData.cotan`. */
 export function untangled(options?: UntangleOptions): (parser: unknown) => { name: string; afterRoot(model: LoadedModel): Promise<void> };
 
 /**

@@ -8,18 +8,18 @@ import { kTriangleAttribute } from './triangles.js';
 
 export { CotanError };
 
-// Removes the tangents of `target` and makes its materials use frames of Cotan. See index.d.ts.
+// Removes tangents of `target` where nobody can see it, and makes its materials use frames of Cotan. See index.d.ts.
 export function untangle(target, options) {
-  return untangleMeshes(target, untangleOptions(options), { provoking: 'last' }, replaceFrame);
+  return untangleMeshes(target, untangleOptions(options), { provoking: 'last' }, replaceFrame, restoreFrame);
 }
 
 // untangle() as a plugin: loader.register(untangled()).
 export const untangled = options => {
   untangleOptions(options);
-  return () => ({ name: 'COTAN_untangled', async afterRoot(gltf) { untangle(gltf, options); } });
+  return () => ({ name: 'COTAN_untangled', async afterRoot(gltf) { (gltf.userData ??= {}).cotan = untangle(gltf, options); } });
 };
 
-// By material: { frame, against, hook, key }. hook, key: the user's onBeforeCompile and customProgramCacheKey of the
+// By material: { frame, against, hook, key }. frame: `mikktspace` where three's own is drawn again. hook, key: the user's onBeforeCompile and customProgramCacheKey of the
 // material, set before or after our own; undefined if the user has set none.
 const patched = new WeakMap();
 
@@ -37,6 +37,14 @@ export function replaceFrame(material, options) {
   material.needsUpdate = true;
   if (!hooked) installHooks(material);
   return keepInClones(material, (clone, source) => replaceFrame(clone, { frame: patched.get(source).frame, against: patched.get(source).against }));
+}
+
+// Makes a material with a replaced frame draw three's own again.
+function restoreFrame(material) {
+  if (!patched.has(material)) return;
+  patched.get(material).frame = 'mikktspace';
+  material.needsUpdate = true;
+  keepInClones(material, () => {});
 }
 
 const hooksOf = material => ({
@@ -69,6 +77,7 @@ const kKeyOfThree = Material.prototype.customProgramCacheKey; // returns the sou
 const keyOf = (material, hook) => ['cotan', patched.get(material).frame, patched.get(material).against, hook ?? ''].join();
 
 function writeFrame(shader, material, { frame, against }) {
+  if (frame === 'mikktspace') return;
   if (shader.vertexTangents)
     console.warn(`Cotan: a mesh with the material "${material.name || material.type}" has tangents, so three does not use Cotan's `
       + 'frame: call untangle() on it');
@@ -121,11 +130,12 @@ const kTriangleFrame = `mat3 getTangentFrame( vec3 position, vec3 n, vec2 uv ) {
 	return mat3( f.t * side, f.b * side, f.n );
 }`;
 
-// Anisotropy needs orthonormal directions in the surface instead of cotangents.
+// Anisotropy needs orthonormal directions in the surface instead of cotangents. t: along increasing u, perpendicular to the
+// gradient of v.
 const kAnisotropyFrame = `
 #if defined( USE_ANISOTROPY ) && ! defined( USE_TANGENT )
 mat3 cotanAnisotropyFrame( mat3 f, vec3 n, float side ) {
-	vec3 t = cross( f[ 1 ], n );  // along increasing u, perpendicular to the gradient of v
+	vec3 t = cross( f[ 1 ], n );
 	t = dot( t, f[ 0 ] ) < 0.0 ? - t : t;
 	t = cotan_normalize_or( t, cotan_normalize_or( f[ 0 ], vec3( 0.0 ) ) );
 	vec3 b = cross( n, t );

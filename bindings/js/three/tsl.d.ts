@@ -4,20 +4,21 @@
 import type { Material, Object3D, Texture } from 'three';
 import type { Node, Renderer } from 'three/webgpu';
 export { CotanError } from '../tangents.js';
-import type { Frame, LoadedModel, UntangleOptions } from './index.js';
+import type { Decision, Frame, LoadedModel, UntangleOptions } from './index.js';
 
 export interface UntangleNodesOptions extends UntangleOptions {
   /** The renderer, after `await renderer.init()`. Required for the frame `triangle`, since WebGPU takes flat values
-   * from the first vertex and WebGL from the last. Instanced meshes get `cotangent` instead of `triangle` or `smooth`;
-   * skinned meshes also instead of `smooth`. */
+   * from the first vertex and WebGL from the last. Without it, `triangle` is no candidate. Instanced meshes get `cotangent`
+   * instead of `triangle` or `smooth`; skinned meshes also instead of `smooth`. */
   renderer?: Renderer;
 }
 
 /** Like `untangle` of cotan/three. Sets `normalNode` and `clearcoatNormalNode`, unless you have set them, and how the
  * directions of anisotropy are computed. Call it again after adding a map to a material that had none. */
-export function untangle<T extends Object3D | LoadedModel>(target: T, options?: UntangleNodesOptions): T;
+export function untangle(target: Object3D | LoadedModel, options?: UntangleNodesOptions): Decision[];
 
-/** untangle() as a plugin of GLTFLoader: `new GLTFLoader().register(untangled())`. */
+/** untangle() as a plugin of GLTFLoader: `new GLTFLoader().register(untangled())`. The decisions are in the result's
+ * `userData.cotan`. */
 export function untangled(options?: UntangleNodesOptions): (parser: unknown) => { name: string; afterRoot(model: LoadedModel): Promise<void> };
 
 /** Replaces the frame of one material and changes nothing else. */

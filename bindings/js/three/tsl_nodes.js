@@ -19,19 +19,19 @@ const { InterpolationSamplingMode, InterpolationSamplingType, ObjectSpaceNormalM
 if (![negateOnBackSide, normalViewGeometry, anisotropyT, wgslFn, InterpolationSamplingMode, RG11_EAC_Format].every(name => name !== undefined))
   throw new CotanError('unavailable', `three: expected version 0.185 or later for cotan/three/tsl, found ${three.REVISION}`);
 
-// Removes the tangents of `target` and makes its materials use frames of Cotan. See tsl.d.ts.
+// Removes tangents of `target` where nobody can see it, and makes its materials use frames of Cotan. See tsl.d.ts.
 export function untangle(target, options) {
   const { renderer, ...o } = untangleOptions(options, { renderer: undefined });
   if (o.frame === 'triangle' && !renderer?.backend)
     throw usage('options.renderer: expected a renderer, after `await renderer.init()`, for the frame triangle; found none');
   const provoking = renderer?.backend?.isWebGPUBackend ? 'first' : 'last';
-  return untangleMeshes(target, o, { provoking, instances: false, deformed: false, triangles: !!renderer?.backend }, replaceFrame);
+  return untangleMeshes(target, o, { provoking, instances: false, deformed: false, triangles: !!renderer?.backend }, replaceFrame, restoreFrame);
 }
 
 // untangle() as a plugin: loader.register(untangled()).
 export const untangled = options => {
   untangleOptions(options, { renderer: undefined });
-  return () => ({ name: 'COTAN_untangled', async afterRoot(gltf) { untangle(gltf, options); } });
+  return () => ({ name: 'COTAN_untangled', async afterRoot(gltf) { (gltf.userData ??= {}).cotan = untangle(gltf, options); } });
 };
 
 const ours = new WeakSet();  // nodes that replaceFrame() made
@@ -54,6 +54,16 @@ export function replaceFrame(material, options) {
   chosen.set(material, { frame, against, key });
   if (isNew) installKey(material);
   return keepInClones(material, (clone, source) => replaceFrame(clone, { frame: chosen.get(source).frame, against: chosen.get(source).against }));
+}
+
+// Makes a material with a replaced frame draw three's own again.
+function restoreFrame(material) {
+  if (!chosen.has(material)) return;
+  for (const name of ['normalNode', 'clearcoatNormalNode']) if (ours.has(material[name])) material[name] = null;
+  delete material.setupVariants;
+  chosen.get(material).frame = 'mikktspace';
+  material.needsUpdate = true;
+  keepInClones(material, () => {});
 }
 
 const ownKeyOf = material => Object.hasOwn(material, 'customProgramCacheKey') ? material.customProgramCacheKey : undefined;

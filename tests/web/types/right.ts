@@ -4,7 +4,7 @@ import * as beside from 'cotan/beside';
 import * as small from 'cotan/tangents';
 import * as smallBeside from 'cotan/tangents/beside';
 import { frames, lintNormals, provoking, tangents, untangent } from 'cotan/gltf-transform';
-import { CotanError as ThreeError, replaceFrame, untangle, untangled, type Frame, type LoadedModel, type UntangleOptions } from 'cotan/three';
+import { CotanError as ThreeError, replaceFrame, untangle, untangled, type Candidate, type Decision, type Frame, type LoadedModel, type UntangleOptions } from 'cotan/three';
 import * as tsl from 'cotan/three/tsl';
 import { Document, type Transform } from '@gltf-transform/core';
 import { Material, MeshStandardMaterial, Object3D, Texture } from 'three';
@@ -65,14 +65,15 @@ await new Document().transform(...all);
 const known: string[] = frames();
 
 // three.js
-const frame: Frame = 'smooth', wanted: UntangleOptions = { frame, convention: 'directx', note: (line) => console.log(line.length) };
+const frame: Frame = 'smooth', wanted: UntangleOptions = { frame, maxDegrees: 0.5, convention: 'directx', note: (line) => console.log(line.length) };
 if (wanted instanceof ThreeError || wanted instanceof tsl.CotanError) throw wanted;
 const model: LoadedModel = await new GLTFLoader().register(untangled(wanted)).loadAsync('model.glb');
-const same: LoadedModel = untangle(model, wanted), object: Object3D = untangle(new Object3D());
+const object = new Object3D(), decided: Decision[] = untangle(model, wanted), stay: string[] = untangle(object).filter((one) => one.keepsTangents).map(({ mesh, why }) => mesh.name + (why ?? ''));
+const measured: Candidate | undefined = decided[0]?.candidates[0], kept: Decision[] = model.userData?.cotan ?? [];
 const material: MeshStandardMaterial = replaceFrame(new MeshStandardMaterial(), { frame: 'orthonormal', against: true, from: new Material() });
-tsl.untangle(object, { frame: 'cotangent' } satisfies tsl.UntangleNodesOptions);
+tsl.untangle(object, { frame: 'cotangent', maxDegrees: 1 } satisfies tsl.UntangleNodesOptions).map(({ reason }) => reason);
 tsl.replaceFrame(material, { against: false });
 new GLTFLoader().register(tsl.untangled());
 const node = tsl.perturbedNormal(new Texture());
 
-export { version, sources, mirrored, words, eight, four, two, provoked, green, zero, heights, roughness, texels, names, text, judged, over, glb, advice, notes, known, same, node };
+export { version, sources, mirrored, words, eight, four, two, provoked, green, zero, heights, roughness, texels, names, text, judged, over, glb, advice, notes, known, stay, measured, kept, node };

@@ -20,6 +20,8 @@ untangle({});
 untangle({ scenes: [] }, { frame: 'mikktspace' });
 untangle({ scenes: [] }, { convention: 'unity' });
 untangle({ scenes: [] }, { fraem: 'smooth' });
+untangle({ scenes: [] }, { maxDegrees: '1' });
+untangle({ scenes: [] })[0]!.reason === 'fit';
 cotan.lint(new Uint8Array(), { limit: '2' });
 perturbedNormal('map.png');
 perturbedNormal(undefined!, undefined, 'auto');

@@ -1,0 +1,51 @@
+// How long untangle() of cotan/three takes to decide about a mesh of 100,352 triangles, in Chromium:
+//   node bench/three-choice.mjs NODE_MODULES
+// For each case and run: milliseconds of processor time of the page's thread, and what was decided. The last case also makes
+// the tangents. NODE_MODULES: with three and playwright-core.
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const home = fileURLToPath(new URL('..', import.meta.url)), [modules] = process.argv.slice(2);
+if (!modules) {
+  console.error('usage: node bench/three-choice.mjs NODE_MODULES');
+  process.exit(1);
+}
+const { launch, serve } = await import(path.join(home, 'tests/web/chromium.mjs'));
+const { address, close } = await serve({ package: path.join(home, 'bindings/js'), modules });
+const browser = await launch(modules), page = await browser.newPage(), devtools = await page.context().newCDPSession(page);
+await page.route(address, route => route.fulfill({ contentType: 'text/html', body: '<!doctype html><script type="importmap">{"imports": {"three": "/modules/three/build/three.module.js"}}</script>' }));
+await page.goto(address);
+await devtools.send('Performance.enable', { timeDomain: 'threadTicks' });
+await page.exposeFunction('threadTime', async () => (await devtools.send('Performance.getMetrics')).metrics.find(({ name }) => name === 'ThreadTime').value);
+
+const found = await page.evaluate(async () => {
+  const THREE = await import('three'), { untangle } = await import('/package/three/index.js'), { withTangents } = await import('/package/three/mikktspace.js');
+  const grid = () => {
+    const geometry = new THREE.PlaneGeometry(1, 1, 224, 224), { position, normal } = geometry.attributes;
+    for (let k = 0; k < position.count; ++k) {
+      const u = position.getX(k), v = position.getY(k), dx = 0.7 * Math.cos(7 * u) * Math.cos(5 * v), dy = -0.5 * Math.sin(7 * u) * Math.sin(5 * v), length = Math.hypot(dx, dy, 1);
+      position.setZ(k, 0.1 * Math.sin(7 * u) * Math.cos(5 * v));
+      normal.setXYZ(k, -dx / length, -dy / length, 1 / length);
+    }
+    return new THREE.BufferGeometry().copy(geometry); // three's own shapes are no models
+  };
+  const canvas = new OffscreenCanvas(2048, 2048), context = canvas.getContext('2d');
+  for (let k = 0; k < 2048; ++k) {
+    context.fillStyle = `rgb(${Math.round(128 + 60 * Math.sin(k / 9))}, ${Math.round(128 + 40 * Math.cos(k / 13))}, 240)`;
+    context.fillRect(k, 0, 1, 2048);
+  }
+  const image = await createImageBitmap(canvas), results = {};
+  const map = () => Object.assign(new THREE.Texture(image), { userData: { mimeType: 'image/png' }, flipY: false });
+  for (const [name, options, stored] of [['stored tangents', {}, true], ['no tangents', {}, false], ['stored tangents, all candidates', { maxDegrees: 1e-9 }, true], ['no tangents, all candidates', { maxDegrees: 1e-9 }, false]]) {
+    results[name] = [];
+    for (let run = 0; run < 6; ++run) {
+      const geometry = stored ? withTangents(grid(), map(), true).clone() : grid(), mesh = new THREE.Mesh(geometry, new THREE.MeshStandardMaterial({ normalMap: map() }));
+      const before = await window.threadTime(), [{ frame, reason }] = untangle(mesh, { note() {}, ...options });
+      results[name].push(`${Math.round(1000 * (await window.threadTime() - before))} ms, ${frame} ${reason}`);
+    }
+  }
+  return results;
+});
+for (const [name, runs] of Object.entries(found)) console.log(`${name}: ${runs.join('; ')}`);
+await browser.close();
+close();

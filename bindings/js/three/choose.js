@@ -1,0 +1,149 @@
+// Chooses the frame that reads a map without the tangents of its file, primitive by primitive, by measurement. The same rule
+// as in the library (src/bake/lint/choose_frames.cpp).
+import { ObjectSpaceNormalMap } from 'three';
+import { degreesBetween, Sample, summaryOf, texelsAt } from './candidates.js';
+import { guessedFrame, meansTangents, namedFrame } from './frames.js';
+import { bitangentAreas, ofGltf } from './greens.js';
+import { numbersOf, readingOf, turns, uvMatrixOf } from './mesh_data.js';
+import { addStretch, pointsOfEach, surfaceOf } from './sampling.js';
+import { texelsOf } from './texels.js';
+
+const kCandidates = ['orthonormal', 'triangle', 'smooth', 'mikktspace']; // in the order of cost
+const kFlattened = 1e-6; // factors on slopes below show nothing of a map
+const kScales = { normalScale: 'normalMap', clearcoatNormalScale: 'clearcoatNormalMap' };
+
+export const scalesOf = material => Object.entries(kScales).filter(([name]) => material[name]);
+
+// The maps of a material that read a frame, as [map, scale]: first the one whose uv the frame is for.
+function mapsOf(material) {
+  return scalesOf(material).filter(([name, map]) => material[map] && (name !== 'normalScale' || material.normalMapType !== ObjectSpaceNormalMap))
+    .map(([name, map]) => [material[map], material[name], name]);
+}
+
+// Meshes that draw the same triangles with the same material, and what is measured of them.
+class Primitive {
+  #samples = new Map(); // by the reading of a map
+  meshes = [];
+  stretches = [];
+
+  constructor(mesh, material, group) {
+    Object.assign(this, { geometry: mesh.geometry, material, group, stored: storedIn(mesh.geometry) });
+  }
+
+  add(mesh) {
+    this.meshes.push(mesh);
+    const { isInstancedMesh, isSkinnedMesh, matrixWorld, count } = mesh, one = matrixWorld.clone();
+    if (isSkinnedMesh && mesh.skeleton && mesh.geometry.attributes.skinWeight) this.stretches[0] ??= mesh;
+    else if (!isInstancedMesh || count < 1) addStretch(this.stretches, one);
+    else for (let k = 0; k < count; ++k) {
+      mesh.getMatrixAt(k, one);
+      addStretch(this.stretches, one.premultiply(matrixWorld));
+    }
+  }
+
+  // The points of the surface under a map. Null without uv. Tangents of a glTF belong to its uv before a transform.
+  sampleFor(map, points) {
+    const key = [readingOf(map), ofGltf(map)].join();
+    if (!this.#samples.has(key)) {
+      const { geometry, material, group, stored } = this, surface = surfaceOf(geometry, group, map, material.flatShading === true);
+      this.#samples.set(key, surface && new Sample(surface, this.stretches, points, stored && numbersOf(stored, 4), ofGltf(map) && turns(map) && uvMatrixOf(map)));
+    }
+    return this.#samples.get(key);
+  }
+}
+
+const generated = new WeakSet(); // geometries whose tangents were made here
+
+// Says that the tangents of a geometry are no file's.
+export const markGenerated = geometry => { generated.add(geometry); return geometry; };
+// The tangents of the geometry that came with it.
+export const storedIn = geometry => (generated.has(geometry) ? undefined : geometry.attributes.tangent);
+
+// The primitives of all meshes, and what is decided about them.
+export class Chooser {
+  #primitives = new Map(); // by geometry, material and group
+  #decisions = new Map();  // by primitive
+  #areas = new Map();      // by primitive and map
+  #points;
+
+  // meshes: with current world matrices. reasonAgainst(mesh, frame): why a mesh cannot have a frame; '' if it can.
+  // note, warn: take a line.
+  constructor(meshes, limits, { reasonAgainst, note, warn }) {
+    Object.assign(this, { limits, reasonAgainst, note, warn });
+    for (const mesh of meshes)
+      [mesh.material].flat().forEach((material, k) => {
+        const key = keyOf(mesh, material, k);
+        if (!this.#primitives.has(key)) this.#primitives.set(key, new Primitive(mesh, material, Array.isArray(mesh.material) ? k : undefined));
+        this.#primitives.get(key).add(mesh);
+      });
+    this.#points = pointsOfEach(this.#primitives.size);
+  }
+
+  // { frame, keepsTangents, meaning, reason, candidates, why } for material k of a mesh; see Decision in index.d.ts.
+  decide(mesh, material, k) {
+    const primitive = this.#primitives.get(keyOf(mesh, material, k));
+    if (!this.#decisions.has(primitive)) this.#decisions.set(primitive, this.#decided(primitive));
+    return this.#decisions.get(primitive);
+  }
+
+  // The areas where stored bitangents run along and against increasing v of a map (bitangentAreas).
+  areas(mesh, material, k, map) {
+    const primitive = this.#primitives.get(keyOf(mesh, material, k)), found = primitive.stored && primitive.sampleFor(map, this.#points);
+    if (!found?.usable) return { along: 0, against: 0, aligned: 0 };
+    const key = `${keyOf(mesh, material, k)} ${readingOf(map)}`;
+    if (!this.#areas.has(key)) this.#areas.set(key, bitangentAreas(found));
+    return this.#areas.get(key);
+  }
+
+  #decided(primitive) {
+    const { geometry, material, stored } = primitive, [first] = mapsOf(material);
+    const named = namedFrame(material, this.warn, geometry);
+    const decision = (frame, meaning, reason, more) => ({ frame, keepsTangents: false, meaning, reason, candidates: [], ...more });
+    if (!first) return decision(named ?? guessedFrame(geometry, undefined, stored), 'none', 'noMap');
+    if (named && !meansTangents(material, geometry)) return decision(named, 'named', 'named');
+    const guessed = guessedFrame(geometry, first[0], stored);
+    if (guessed !== 'orthonormal') return decision(guessed, 'painted', 'painted');
+    // Flat surfaces have no tangents in three, nor in glTF.
+    const meaning = stored && material.flatShading !== true ? 'stored' : 'mikktspace';
+    const kept = meaning === 'stored' ? { frame: 'mikktspace', keepsTangents: true } : {};
+    const found = primitive.sampleFor(first[0], this.#points), why = this.#reasonNotToJudge(found, first[0]);
+    if (why) return decision('orthonormal', meaning, 'notJudged', { ...kept, why });
+    const measure = this.#measureOf(primitive, found, meaning), candidates = [];
+    for (const frame of kCandidates) {
+      const against = primitive.meshes.map(mesh => this.reasonAgainst(mesh, frame)).find(Boolean);
+      candidates.push({ frame, ...against ? { ...summaryOf([]), why: against } : measure(frame) });
+      const { mean, percentile99 } = candidates.at(-1);
+      if (mean <= this.limits.mean && percentile99 <= this.limits.percentile99) return decision(frame, meaning, 'fits', { candidates });
+    }
+    return decision('orthonormal', meaning, 'keeps', { ...kept, candidates });
+  }
+
+  #reasonNotToJudge(found, map) {
+    return !found ? 'it has no texture coordinates' : !found.usable ? 'no triangle has an area both in space and in uv' : texelsOf(map).why;
+  }
+
+  // A function that compares a frame with what the maps mean. The largest error counts of those at each stretch and map.
+  #measureOf(primitive, sample, meaning) {
+    const { material } = primitive, [[first]] = mapsOf(material), parts = [];
+    const shown = mapsOf(material).filter(([map, scale, name]) => readingOf(map) === readingOf(first) && Math.max(Math.abs(scale.x), Math.abs(scale.y)) > kFlattened
+      && (name === 'normalScale' || material.clearcoat > 0) && !texelsOf(map).why);
+    const green = meaning === 'stored' ? greenAlongV(first, this.areas(primitive.meshes[0], material, primitive.group ?? 0, first)) : 1;
+    for (const place of sample.places) {
+      const meant = sample.framesAt(place, meaning);
+      for (const [map, scale] of shown) parts.push({ place, meant, texels: texelsAt(place, map, texelsOf(map), scale.x, Math.abs(scale.y)) });
+    }
+    return frame => {
+      const found = parts.map(({ place, meant, texels }) => summaryOf(degreesBetween(place, sample.framesAt(place, frame), meant, texels, green)));
+      if (!found.length) return summaryOf([0]); // flattened
+      return found.reduce((a, b) => ({ ...b.mean > a.mean ? b : a, percentile99: Math.max(a.percentile99, b.percentile99) }));
+    };
+  }
+}
+
+const keyOf = ({ geometry, material: all }, material, k) => [geometry.uuid, material.uuid, Array.isArray(all) ? k : ''].join();
+
+// 1 if green that stored bitangents show points along increasing v, else -1. Tangents of a glTF reverse what it declares if
+// they contradict the uv on more than half of the area.
+export function greenAlongV(map, { along, against, aligned }) {
+  return ofGltf(map) ? (2 * aligned > along + against ? 1 : -1) : against > along ? -1 : 1;
+}
