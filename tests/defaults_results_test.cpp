@@ -72,9 +72,8 @@ TEST(EmptyResults, ofLintJudgeNothing)
     EXPECT_EQ(r.distance, 0);
     EXPECT_TRUE(r.advice == Advice::nothing);
     EXPECT_FALSE(r.distrustStored);
-    EXPECT_EQ(r.mapsConverted, 0u);
-    EXPECT_EQ(r.mapsKept, 0u);
-    EXPECT_FALSE(r.dropsTangents);
+    EXPECT_EQ(r.dropping, 0u);
+    EXPECT_EQ(r.keeping, 0u);
     LintFailure f;
     EXPECT_EQ(f.value, 0);
     EXPECT_EQ(f.limit, -1);

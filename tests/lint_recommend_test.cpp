@@ -32,37 +32,65 @@ MapFit fitAs(double orthonormal95, double cotangent95 = 9, double smooth95 = 9)
 }
 
 LintReport advisedOn(std::vector<PrimitiveLint> primitives, std::vector<MapFit> fits = {fitAs(9)},
-                     std::vector<GreenEvidence> maps = {})
+                     std::vector<GreenEvidence> maps = {}, std::vector<FrameDecision> decisions = {})
 {
-    return adviceOn(std::move(primitives), std::move(fits), std::move(maps));
+    return adviceOn(std::move(primitives), std::move(fits), std::move(maps), std::move(decisions));
+}
+
+FrameDecision readWith(std::size_t mesh, Frame frame)
+{
+    return {.mesh = mesh, .reason = ChoiceReason::fits, .frame = frame};
+}
+
+FrameDecision keepsAt(std::size_t mesh)
+{
+    return {.mesh = mesh,
+            .meaning = MapMeaning::stored,
+            .reason = ChoiceReason::keeps,
+            .frame = Frame::mikktspace,
+            .tangents = TangentOrigin::stored};
+}
+
+PrimitiveLint withTangents(PrimitiveLint p)
+{
+    p.stored = {true, 0, 0, summaryAt(0, 0)};
+    return p;
 }
 
 bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
-// Errors against generated tangents, and against those of the file.
-TEST(Recommend, mapsAreReadUnconvertedBelowOneDegree)
+TEST(Recommend, theFramesAreThoseOfTheDecisions)
 {
-    EXPECT_EQ(advisedOn({judgedAs(0.99, 5)}).advice, Advice::readOrthonormal);
-    EXPECT_EQ(advisedOn({judgedAs(1.01, 5)}).advice, Advice::convertToCotangent);
-    const auto fit = [](double mean) { return MapFit{{summaryAt(mean, 2 * mean), {}, {}}, 0, "map"}; };
-    EXPECT_EQ(advisedOn({judgedAs(0.1, 0.2)}, {fit(0.1), fit(0.99)}).advice, Advice::readOrthonormal);
-    EXPECT_EQ(advisedOn({judgedAs(0.1, 0.2)}, {fit(0.1), fit(1.01)}).advice, Advice::convertToOrthonormal);
-    EXPECT_EQ(advisedOn({judgedAs(4, 5)}, {fit(0.1)}).advice, Advice::convertToCotangent);
+    const PrimitiveLint p = withTangents(judgedAs(4, 5));
+    const LintReport r = advisedOn(
+        {p, p, p, p}, {fitAs(9)}, {},
+        {readWith(0, Frame::smooth), readWith(1, Frame::orthonormal), readWith(2, Frame::smooth), keepsAt(3)});
+    EXPECT_EQ(r.advice, Advice::readChosen);
+    EXPECT_EQ(frameOf(r), Frame::smooth); // of most meshes
+    EXPECT_EQ(r.dropping, 3u);
+    EXPECT_EQ(r.keeping, 1u);
+    EXPECT_EQ(r.advised,
+              "Read the maps with orthonormal (1), smooth (2) as they are; the command drops the tangents. "
+              "Those of 1 primitive stay.");
+    const LintReport one = advisedOn({p, p}, {fitAs(9)}, {}, {readWith(0, Frame::smooth), readWith(1, Frame::smooth)});
+    EXPECT_EQ(one.advised, "Read the maps with smooth as they are; the command drops the tangents.");
+    const LintReport none = advisedOn({p, p}, {fitAs(9)}, {}, {keepsAt(0), keepsAt(1)});
+    EXPECT_EQ(none.dropping, 0u);
+    EXPECT_EQ(none.advised, "Keep the tangents: without them the difference would be visible.");
+    const LintReport bare = advisedOn({judgedAs(4, 5)}, {fitAs(9)}, {}, {readWith(0, Frame::smooth)});
+    EXPECT_EQ(bare.advised, "Nothing has to be changed: read the maps with smooth as they are.");
 }
 
-TEST(Recommend, unconvertedMapIsKeptByTheCommand)
+// Each placing of a mesh is reported, but the file has its tangents once.
+TEST(Recommend, placingsOfAMeshCountOnce)
 {
-    PrimitiveLint p = judgedAs(0.4, 1);
-    p.stored.present = true;
-    p.stored.angle = summaryAt(0, 0);
-    const LintReport fits = advisedOn({p}, {fitAs(0.29)}), close = advisedOn({p}, {fitAs(0.31)});
-    EXPECT_TRUE(fits.dropsTangents);
-    // convert would rewrite the map: the command keeps it (--keep-maps), and still removes the tangents.
-    EXPECT_EQ(close.advice, Advice::readOrthonormal);
-    EXPECT_TRUE(close.dropsTangents);
-    EXPECT_EQ(close.mapsConverted, 0u);
-    EXPECT_EQ(close.mapsKept, 1u);
-    EXPECT_TRUE(says(close.advised, "as they are; the command drops the tangents")) << close.advised;
+    LintReport r;
+    r.primitives = {withTangents(judgedAs(4, 5)), withTangents(judgedAs(4, 5))};
+    r.fits = {fitAs(9)};
+    r.decisions = {readWith(0, Frame::smooth)};
+    lint::recommend(r);
+    EXPECT_EQ(r.dropping, 1u);
+    EXPECT_EQ(r.keeping, 0u);
 }
 
 TEST(Recommend, frameNamedByTheFileIsAdvised)
@@ -71,11 +99,11 @@ TEST(Recommend, frameNamedByTheFileIsAdvised)
     report.primitives = {judgedAs(7, 9)};
     report.fits = {fitAs(9)};
     report.named = Frame::smooth;
+    report.decisions = {{.meaning = MapMeaning::named, .reason = ChoiceReason::named, .frame = Frame::smooth}};
     lint::recommend(report);
     EXPECT_EQ(report.advice, Advice::readNamed);
     EXPECT_EQ(frameOf(report), Frame::smooth);
-    EXPECT_EQ(report.mapsConverted, 0u);
-    EXPECT_FALSE(report.dropsTangents);
+    EXPECT_EQ(report.dropping, 0u);
     EXPECT_TRUE(says(report.advised, "read the maps with the frame smooth as they are")) << report.advised;
     EXPECT_TRUE(says(report.seen, "its maps are for the frame smooth; read with orthonormal, their error is 7.00"))
         << report.seen;
@@ -84,8 +112,8 @@ TEST(Recommend, frameNamedByTheFileIsAdvised)
 TEST(Recommend, largerAreasWeighMore)
 {
     // 9:1 gives 0.45 on average, 1:9 gives 3.6.
-    EXPECT_EQ(advisedOn({judgedAs(0.05, 0.1, 9), judgedAs(4, 5, 1)}).advice, Advice::readOrthonormal);
-    EXPECT_EQ(advisedOn({judgedAs(0.05, 0.1, 1), judgedAs(4, 1.9, 9)}).advice, Advice::convertToCotangent);
+    EXPECT_TRUE(says(advisedOn({judgedAs(0.05, 0.1, 9), judgedAs(4, 5, 1)}).seen, "the error is 0.45 degrees"));
+    EXPECT_TRUE(says(advisedOn({judgedAs(0.05, 0.1, 1), judgedAs(4, 1.9, 9)}).seen, "the error is 3.60 degrees"));
 }
 
 TEST(Recommend, unmeasuredPrimitiveDoesNotDiluteTheOthers)
@@ -93,32 +121,10 @@ TEST(Recommend, unmeasuredPrimitiveDoesNotDiluteTheOthers)
     PrimitiveLint nothing = judgedAs(0, 0, 1000);
     for (Reading& r : nothing.readings)
         r.error = {};
-    nothing.steps.cotangent = summaryAt(0, 0);
-    EXPECT_EQ(advisedOn({nothing, judgedAs(4, 5)}).advice, Advice::convertToCotangent);
+    EXPECT_TRUE(says(advisedOn({nothing, judgedAs(4, 5)}).seen, "the error is 4.00 degrees"));
     const LintReport alone = advisedOn({nothing});
     EXPECT_EQ(alone.advice, Advice::nothing);
     EXPECT_TRUE(alone.seen.empty());
-    // Likewise for steps at edges: a primitive without interior edges says nothing about creases.
-    PrimitiveLint creased = judgedAs(4, 5), without = judgedAs(4, 5, 1000);
-    creased.steps.cotangent = summaryAt(1, 3);
-    without.steps = {};
-    EXPECT_EQ(advisedOn({creased, without}).advice, Advice::convertToSmooth);
-}
-
-TEST(Recommend, edgeStepsOverTwoDegreesRequireSmooth)
-{
-    PrimitiveLint p = judgedAs(4, 5);
-    p.steps.cotangent = summaryAt(1, 1.9);
-    EXPECT_EQ(advisedOn({p}).advice, Advice::convertToCotangent);
-    p.steps.cotangent = summaryAt(1, 2.1);
-    EXPECT_EQ(advisedOn({p}).advice, Advice::convertToSmooth);
-    EXPECT_TRUE(says(advisedOn({p}).advised, "has steps of 2 degrees")) << advisedOn({p}).advised;
-    PrimitiveLint plain; // no map: its edges are invisible
-    plain.uv.area = 1000;
-    plain.steps.cotangent = summaryAt(0, 0);
-    EXPECT_EQ(advisedOn({p, plain}).advice, Advice::convertToSmooth);
-    p.steps.orthonormal = summaryAt(0, 0);
-    EXPECT_EQ(advisedOn({p}).advice, Advice::convertToSmooth); // the steps of cotangent count
 }
 
 TEST(Recommend, visibilityHasThreeLevels)
@@ -146,55 +152,24 @@ TEST(Recommend, worstVisiblePrimitiveIsNamed)
     EXPECT_EQ(advisedOn({b, c}).worst, "");
 }
 
-TEST(Recommend, convertIsAdvisedOnlyForMapsThatItChanges)
-{
-    const MapFit far{{summaryAt(3, 4), {}, {}}, 0, "map"}, near{{summaryAt(1, 0.29), {}, {}}, 0, "map"};
-    const LintReport none = advisedOn({judgedAs(0.4, 1)}, {fitAs(0.29)}), one = advisedOn({judgedAs(0.4, 1)}, {far});
-    EXPECT_EQ(none.mapsConverted, 0u);
-    EXPECT_EQ(none.mapsKept, 1u);
-    EXPECT_TRUE(says(none.advised, "Nothing has to be changed")) << none.advised;
-    EXPECT_EQ(one.mapsConverted, 1u);
-    EXPECT_EQ(one.mapsKept, 0u);
-    EXPECT_TRUE(says(one.advised, "Convert the maps to the frame orthonormal")) << one.advised;
-    const LintReport two = advisedOn({judgedAs(0.4, 1)}, {far, near, fitAs(0.1)});
-    EXPECT_EQ(two.mapsConverted, 1u);
-    EXPECT_EQ(two.mapsKept, 2u);
-    EXPECT_TRUE(says(two.advised, "Convert 1 of 3 maps")) << two.advised;
-    EXPECT_EQ(advisedOn({judgedAs(0.4, 1)}, {MapFit{}}).mapsConverted, 0u); // not judged, so nothing is known
-}
-
-TEST(Recommend, eachFrameIsJudgedByItsOwnFit)
-{
-    PrimitiveLint creased = judgedAs(4, 5);
-    creased.steps.cotangent = summaryAt(1, 3);
-    EXPECT_EQ(advisedOn({judgedAs(0.1, 0.2)}, {fitAs(0.1, 9, 9)}).mapsConverted, 0u);
-    EXPECT_EQ(advisedOn({judgedAs(4, 5)}, {fitAs(9, 0.1, 9)}).mapsConverted, 0u);
-    EXPECT_EQ(advisedOn({creased}, {fitAs(9, 9, 0.1)}).mapsConverted, 0u);
-    EXPECT_EQ(advisedOn({judgedAs(4, 5)}, {fitAs(0.1, 9, 0.1)}).mapsConverted, 1u);
-    EXPECT_EQ(advisedOn({creased}, {fitAs(0.1, 0.1, 9)}).mapsConverted, 1u);
-    EXPECT_EQ(frameOf(advisedOn({judgedAs(0.1, 0.2)}, {fitAs(0.1)})), Frame::orthonormal);
-    EXPECT_EQ(frameOf(advisedOn({judgedAs(4, 5)})), Frame::cotangent);
-    EXPECT_EQ(frameOf(advisedOn({creased})), Frame::smooth);
-}
-
 TEST(Recommend, tangentsWithoutOtherReadersAreDropped)
 {
     PrimitiveLint p = judgedAs(0.1, 0.2);
-    EXPECT_FALSE(advisedOn({p}, {fitAs(0.1)}).dropsTangents);
-    p.stored.present = true;
-    p.stored.angle = summaryAt(0, 0);
+    EXPECT_EQ(advisedOn({p}, {fitAs(0.1)}).dropping, 0u);
+    p = withTangents(p);
     const LintReport r = advisedOn({p}, {fitAs(0.1)});
-    EXPECT_TRUE(r.dropsTangents);
+    EXPECT_EQ(r.dropping, 1u);
     EXPECT_TRUE(says(r.advised, "as they are; the command drops the tangents")) << r.advised;
     p.tangentsFor = "KHR_materials_anisotropy";
-    EXPECT_FALSE(advisedOn({p}, {fitAs(0.1)}).dropsTangents);
+    EXPECT_EQ(advisedOn({p}, {fitAs(0.1)}).dropping, 0u);
+    EXPECT_EQ(advisedOn({p}, {fitAs(0.1)}).keeping, 1u);
     p.tangentsFor.clear();
     p.unread = true;
-    EXPECT_FALSE(advisedOn({p}, {fitAs(0.1)}).dropsTangents);
+    EXPECT_EQ(advisedOn({p}, {fitAs(0.1)}).dropping, 0u);
     p.unread = false;
     PrimitiveLint bare = judgedAs(0.1, 0.2);
-    EXPECT_TRUE(advisedOn({p, bare}, {fitAs(0.1)}).dropsTangents);
-    EXPECT_TRUE(advisedOn({bare, p}, {fitAs(0.1)}).dropsTangents);
+    EXPECT_EQ(advisedOn({p, bare}, {fitAs(0.1)}).dropping, 1u);
+    EXPECT_EQ(advisedOn({bare, p}, {fitAs(0.1)}).dropping, 1u);
 }
 
 PrimitiveLint storedAs(double reversedW, double turned, double area = 1)
@@ -319,7 +294,7 @@ TEST(Recommend, unjudgedMapIsNamedAndIgnored)
     EXPECT_FALSE(says(alone.recommendation, "can be dropped")) << alone.recommendation;
     EXPECT_TRUE(says(alone.notJudged, "door (door.webp (WebP) was not read)")) << alone.notJudged;
     const LintReport both = advisedOn({p, judgedAs(4, 5)});
-    EXPECT_EQ(both.advice, Advice::convertToCotangent);
+    EXPECT_EQ(both.advice, Advice::readChosen);
     EXPECT_TRUE(says(both.recommendation, "could not be judged in door"));
 }
 

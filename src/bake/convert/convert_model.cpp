@@ -61,7 +61,8 @@ private:
     Status chooseFramesOfPrimitives()
     {
         if (options_.choose) {
-            auto decisions = choosePrimitives(document_, *options_.choose, options_.frames.fromTangents, options_.limits);
+            auto decisions =
+                choosePrimitives(document_, *options_.choose, options_.frames.fromTangents, options_.limits);
             if (!decisions)
                 return decisions.error();
             report_.decisions = std::move(*decisions);
@@ -77,8 +78,8 @@ private:
 
     const FrameDecision* decisionOf(std::size_t mesh, std::size_t primitive) const
     {
-        const auto found = std::ranges::find(report_.decisions, SourcePrimitive{mesh, primitive},
-                                             &PrimitiveDecision::primitive);
+        const auto found =
+            std::ranges::find(report_.decisions, SourcePrimitive{mesh, primitive}, &PrimitiveDecision::primitive);
         return found != report_.decisions.end() ? &found->decision : nullptr;
     }
 
@@ -245,8 +246,8 @@ private:
                 if (reader.keeps && !showsReversed(reader))
                     done.surfacesWithTangents += reader.transforms.size();
             if (done.surfacesWithTangents > 0)
-                done.figures.unconverted = mapErrors(*map, *map, usesWithoutTangents(job, *uses),
-                                                     {&options_.frames, 1}, {}, pointsOfEach(surfaces_))
+                done.figures.unconverted = mapErrors(*map, *map, usesWithoutTangents(job, *uses), {&options_.frames, 1},
+                                                     {}, pointsOfEach(surfaces_))
                                                .front();
         }
         done.kept = options_.keepMaps || done.figures.unconverted.count == 0
@@ -485,7 +486,8 @@ private:
             return Done{};
         }
         const auto foreign = options_.readMaps ? foreignNormalMaps(document_, options_.limits) : std::vector<MapSlot>();
-        auto dropped = dropTangents(document_, options_.frames, foreign, keptTangents_, report_.notes);
+        auto dropped =
+            dropTangents(document_, options_.frames, foreign, keptTangents_, report_.decisions, report_.notes);
         if (!dropped)
             return dropped.error();
         report_.dropped = std::move(*dropped);
@@ -497,8 +499,8 @@ private:
     {
         for (const PrimitiveDecision& d : report_.decisions)
             if (d.decision.reason == ChoiceReason::keeps && !d.decision.dropsTangents())
-                report_.notes.push_back(fmt::format("{}: {}", primitiveField(d.primitive.mesh, d.primitive.primitive),
-                                                    textOf(d.decision)));
+                report_.notes.push_back(
+                    fmt::format("{}: {}", primitiveField(d.primitive.mesh, d.primitive.primitive), textOf(d.decision)));
     }
 
     const ConvertModelOptions& options_;

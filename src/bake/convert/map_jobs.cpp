@@ -383,7 +383,8 @@ std::string whyDirectionNeedsTangents(const RotatedDirection& d, Frame to)
 } // namespace
 
 Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frames, const std::vector<MapSlot>& foreign,
-                                  const std::vector<KeptTangents>& kept, std::vector<std::string>& notes)
+                                  const std::vector<KeptTangents>& kept,
+                                  const std::vector<PrimitiveDecision>& decisions, std::vector<std::string>& notes)
 {
     TangentBytes dropped;
     std::set<std::size_t> seen, reported;
@@ -411,13 +412,17 @@ Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frame
                 keepFor(material, fmt::format("glTF requires TANGENT for {} without a normalTexture", requirement));
             if (gltf::tangentReader(root["materials"][material]).empty())
                 continue;
-            const auto turn = turnOf(document, m, p, transforms[m], frames);
+            FramePair own = frames;
+            for (const PrimitiveDecision& d : decisions)
+                if (d.primitive == SourcePrimitive{m, p})
+                    own.to = d.decision.frame;
+            const auto turn = turnOf(document, m, p, transforms[m], own);
             if (!turn)
                 return turn.error();
             RotatedDirection& d = dropped.directions.emplace_back(RotatedDirection{m, p, material, *turn, false});
             d.stays = !requirement.empty() || !directionStays(d.degrees);
             if (d.stays)
-                keepFor(material, whyDirectionNeedsTangents(d, frames.to));
+                keepFor(material, whyDirectionNeedsTangents(d, own.to));
         }
         if (stays)
             return Done{};

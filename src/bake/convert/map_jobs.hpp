@@ -96,9 +96,10 @@ struct KeptTangents {
 };
 
 // Drops TANGENT from all primitives except those of `kept`, and those whose materials need it: because glTF requires
-// it, for a normal map of `foreign`, or for a direction that frames.to rotates. `notes` says so, one line each. Errors
-// (ErrorKind::input): compressed geometry.
+// it, for a normal map of `foreign`, or for a direction that frames.to, or the frame of `decisions`, rotates. `notes`
+// says so, one line each. Errors (ErrorKind::input): compressed geometry.
 Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frames, const std::vector<MapSlot>& foreign,
-                                  const std::vector<KeptTangents>& kept, std::vector<std::string>& notes);
+                                  const std::vector<KeptTangents>& kept,
+                                  const std::vector<PrimitiveDecision>& decisions, std::vector<std::string>& notes);
 
 } // namespace cotan

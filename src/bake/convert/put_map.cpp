@@ -75,7 +75,7 @@ void putMap(GltfDocument& document, const std::set<std::size_t>& materials, std:
 Status updateTangents(GltfDocument& document, const PutMapOptions& options, std::vector<std::string>& notes)
 {
     if (!readsTangents(options.frame)) {
-        const auto dropped = dropTangents(document, {.to = options.frame}, foreignNormalMaps(document), {}, notes);
+        const auto dropped = dropTangents(document, {.to = options.frame}, foreignNormalMaps(document), {}, {}, notes);
         return dropped ? Status(Done{}) : dropped.error();
     }
     if (options.keepTangents)

@@ -183,9 +183,10 @@ std::string defectsOfFrames(const LintReport& report)
 }
 
 // Whether something other than a normal map needs the tangents of a primitive.
-bool neededElsewhere(const PrimitiveLint& p)
+bool neededElsewhere(const LintReport& report, const PrimitiveLint& p)
 {
-    return !p.tangentsFor.empty() && !directionStays(p.rotation.orthonormal);
+    const bool smooth = p.meshIndex < report.decisions.size() && report.decisions[p.meshIndex].frame == Frame::smooth;
+    return !p.tangentsFor.empty() && !directionStays(smooth ? p.rotation.smooth : p.rotation.orthonormal);
 }
 
 // A sentence on the extensions that need tangents, with their materials; empty if there are none.
@@ -193,7 +194,7 @@ std::string otherReaders(const LintReport& report)
 {
     std::vector<std::string> names;
     for (const PrimitiveLint& p : report.primitives)
-        if (neededElsewhere(p))
+        if (neededElsewhere(report, p))
             addOnce(names, fmt::format("{} ({})", p.material.empty() ? "a material" : p.material, p.tangentsFor));
     return names.empty()
         ? ""
@@ -253,7 +254,7 @@ void predictConversion(LintReport& report)
 {
     std::set<std::size_t> needed;
     for (const PrimitiveLint& p : report.primitives)
-        if (p.stored.present && (neededElsewhere(p) || p.unread))
+        if (p.stored.present && (neededElsewhere(report, p) || p.unread))
             needed.insert(p.meshIndex);
     std::set<std::size_t> counted;
     for (const PrimitiveLint& p : report.primitives)
@@ -298,7 +299,7 @@ std::string adviceText(const LintReport& report)
     const std::string frames = framesText(report);
     if (report.dropping > 0) {
         const std::string kept = report.keeping > 0
-            ? fmt::format(" Those of {} primitives stay.", report.keeping)
+            ? fmt::format(" Those of {} primitive{} stay.", report.keeping, report.keeping == 1 ? "" : "s")
             : "";
         return fmt::format("Read the maps with {} as they are;{}{}",
                            report.advice == Advice::readNamed ? fmt::format("the frame {}", name(frameOf(report)))
@@ -311,7 +312,8 @@ std::string adviceText(const LintReport& report)
     if (!brokenMaps(report).empty() || !reversedGreen(report).empty())
         return fmt::format("Fix the maps; then they can be read with {}.", frames);
     return fmt::format("Nothing has to be changed: read the maps with {} as they are.",
-                       report.advice == Advice::readNamed ? fmt::format("the frame {}", name(frameOf(report))) : frames);
+                       report.advice == Advice::readNamed ? fmt::format("the frame {}", name(frameOf(report)))
+                                                          : frames);
 }
 
 void adviseWithoutMaps(LintReport& report)
