@@ -10,9 +10,9 @@
 // show; otherwise MikkTSpace over its uv, as glTF says. Candidates are compared with that meaning at points that are
 // spread evenly over the surface, by the angle between the perturbed normals, with the texels of the map. The first one
 // within the limits is taken, in the order of cost: `orthonormal`, which stores and makes nothing; `triangle`; `smooth`
-// and `mikktspace`, whose vectors are made when the model is loaded. If none is, the tangents of the file stay. Mirrored
-// parts, seams and reversed or missing signs of tangents need no rules of their own: they are errors of the candidates.
-// Part of the library cotan::bake.
+// and `mikktspace`, whose vectors are made when the model is loaded. If none is, the tangents of the file stay.
+// Mirrored parts, seams and reversed or missing signs of tangents need no rules of their own: they are errors of the
+// candidates. Part of the library cotan::bake.
 #pragma once
 
 #include <cstddef>
@@ -61,8 +61,8 @@ struct FrameDecision {
     ChoiceReason reason = ChoiceReason::noMap;
     Frame frame = Frame::orthonormal;                  // that was chosen
     TangentOrigin tangents = TangentOrigin::generated; // stored: the tangents of the file stay
-    std::vector<FrameCandidate> candidates;            // in the order of cost, up to the chosen one, or all
-    std::string notJudged; // why: "no uv"; empty if the map was judged, or there is none
+    std::vector<FrameCandidate> candidates{};          // in the order of cost, up to the chosen one, or all
+    std::string notJudged{};                           // why: "no uv"; empty if the map was judged, or there is none
 
     // Whether the tangents of the file, if it has any, are not needed any more.
     bool dropsTangents() const { return tangents == TangentOrigin::generated; }
@@ -77,9 +77,9 @@ struct ChoiceOptions {
 
 // One decision for each mesh of the scene, in order. Deterministic. Takes about 2 ms for a primitive of which the first
 // candidate fits, and the time to generate tangents for one without; of primitives with over 200,000 triangles parts
-// are judged. A mesh whose instances stretch it differently is judged by the worst of the first eight. A clear coat with
-// the uv of the surface's map counts like it. Meshes without pixels of their map, without uv, or without triangles that
-// have area in space and uv are not judged. For an inconsistent scene (checkScene) the result is empty.
+// are judged. A mesh whose instances stretch it differently is judged by the worst of the first eight. A clear coat
+// with the uv of the surface's map counts like it. Meshes without pixels of their map, without uv, or without triangles
+// that have area in space and uv are not judged. For an inconsistent scene (checkScene) the result is empty.
 std::vector<FrameDecision> chooseFrames(const Scene& scene, const ChoiceOptions& options = {});
 
 // One line: "orthonormal: 0.12 degrees on average, 1.3 on 1 % of the area", and where tangents stay, why and what the

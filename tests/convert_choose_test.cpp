@@ -1,0 +1,189 @@
+// Converts glTF documents with frames that are chosen primitive by primitive: which tangents stay, what is named, and
+// that the new file is read as the old one was.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "cotan/convert.hpp"
+#include "cotan/gltf.hpp"
+#include "cotan/image.hpp"
+#include "cotan/scene.hpp"
+#include "gltf/json/lookup.hpp"
+
+namespace cotan {
+namespace {
+
+// A square of two triangles in xy at x, with tangents at `degrees` from u and this w.
+Mesh square(float x, float degrees, float w)
+{
+    Mesh mesh;
+    mesh.positions = {{x, 0, 0}, {x + 1, 0, 0}, {x + 1, 1, 0}, {x, 1, 0}};
+    mesh.normals.assign(4, {0, 0, 1});
+    mesh.texcoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    const float a = glm::radians(degrees);
+    mesh.tangents.assign(4, {std::cos(a), std::sin(a), 0, w});
+    return mesh;
+}
+
+// A coarse sphere: its tangents, as MikkTSpace makes them, are averages at vertices, which no frame of a pixel is.
+Mesh coarseSphere()
+{
+    Mesh mesh = makeSphere(1, 8);
+    return mesh;
+}
+
+// All meshes show one map by one material.
+GltfDocument documentOf(const std::vector<Mesh>& meshes)
+{
+    Scene scene;
+    scene.images = {makeReliefMap(Relief::waves, 64)};
+    scene.materials.resize(1);
+    scene.materials[0].normalMap.image = 0;
+    for (const Mesh& mesh : meshes) {
+        scene.instances.push_back({"", int(scene.meshes.size()), glm::mat4(1)});
+        scene.meshes.push_back(mesh);
+    }
+    auto document = gltfDocumentOf(scene);
+    if (!document)
+        ADD_FAILURE() << document.error().message;
+    return *document;
+}
+
+ConvertModelReport chosen(GltfDocument& document, double degrees = ChoiceLimits().mean)
+{
+    const auto report = convertModel(
+        document,
+        {.frames = {Frame::mikktspace, Frame::orthonormal}, .choose = ChoiceLimits::of(degrees), .keepMaps = true});
+    if (!report)
+        ADD_FAILURE() << report.error().message;
+    return report ? *report : ConvertModelReport{};
+}
+
+std::vector<std::string> namesIn(const GltfDocument& document)
+{
+    std::vector<std::string> names;
+    for (const auto& mesh : rootOf(document)["meshes"])
+        names.push_back(gltf::frameText(mesh["primitives"][0]));
+    return names;
+}
+
+std::vector<bool> tangentsIn(const GltfDocument& document)
+{
+    std::vector<bool> found;
+    for (const auto& mesh : rootOf(document)["meshes"])
+        found.push_back(mesh["primitives"][0]["attributes"].contains("TANGENT"));
+    return found;
+}
+
+// Tangents at 30 degrees from u are none that a frame without them has; those along u are.
+TEST(ConvertChoose, eachPrimitiveOfAMaterialHasItsOwnFrame)
+{
+    GltfDocument document = documentOf({square(0, 0, 1), square(2, 30, 1), coarseSphere()});
+    const auto map = gltfImageBytes(document, 0);
+    const ConvertModelReport report = chosen(document);
+    EXPECT_EQ(tangentsIn(document), (std::vector{false, true, false}));
+    EXPECT_EQ(namesIn(document), (std::vector<std::string>{"orthonormal", "mikktspace", "mikktspace"}));
+    EXPECT_EQ(*gltfImageBytes(document, 0), *map);
+    ASSERT_EQ(report.decisions.size(), 3u);
+    EXPECT_EQ(report.decisions[0].decision.reason, ChoiceReason::fits);
+    EXPECT_EQ(report.decisions[1].decision.reason, ChoiceReason::keeps);
+    EXPECT_EQ(report.decisions[2].decision.meaning, MapMeaning::mikktspace); // it has no tangents
+    ASSERT_EQ(report.notes.size(), 1u);
+    EXPECT_TRUE(report.notes[0].starts_with("meshes[1].primitives[0]: its tangents stay")) << report.notes[0];
+    EXPECT_FALSE(rootOf(document)["materials"][0].contains("extras")); // the maps are still for MikkTSpace
+}
+
+TEST(ConvertChoose, nobodyDecidesTwice)
+{
+    GltfDocument document = documentOf({square(0, 0, 1), square(2, 30, 1), coarseSphere()});
+    chosen(document);
+    const auto once = glbBytes(document);
+    const ConvertModelReport again = chosen(document);
+    for (const PrimitiveDecision& d : again.decisions)
+        EXPECT_EQ(d.decision.reason, ChoiceReason::named);
+    EXPECT_EQ(*glbBytes(document), *once);
+    // New maps are for one frame again, whatever primitives named.
+    ASSERT_TRUE(convertModel(document, {.frames = {Frame::mikktspace, Frame::cotangent}}));
+    EXPECT_EQ(namesIn(document), (std::vector<std::string>{"", "", ""}));
+}
+
+TEST(ConvertChoose, aHigherLimitTakesACheaperFrame)
+{
+    const auto frameAt = [](double degrees) {
+        GltfDocument document = documentOf({coarseSphere()});
+        return chosen(document, degrees).decisions.at(0).decision.frame;
+    };
+    EXPECT_EQ(frameAt(0.01), Frame::mikktspace);
+    EXPECT_EQ(frameAt(180), Frame::orthonormal);
+}
+
+// The tangents of all reverse green. Of those that stay, w follows the map, so that both are right afterwards.
+TEST(ConvertChoose, tangentsThatStayFollowGreenOfTheirMap)
+{
+    GltfDocument document = documentOf({square(0, 0, -1), square(2, 30, -1)});
+    const ConvertModelReport report = chosen(document);
+    EXPECT_TRUE(report.maps.at(0).greenReversed);
+    EXPECT_EQ(tangentsIn(document), (std::vector{false, true}));
+    const auto kept = gltfGeometry(document, 1, 0);
+    ASSERT_TRUE(kept);
+    for (const glm::vec4& t : kept->tangents) {
+        EXPECT_FLOAT_EQ(t.w, 1);
+        EXPECT_NEAR(t.x, std::cos(glm::radians(30.0f)), 1e-6);
+    }
+}
+
+// Half of the area has w reversed: no frame shows that, so the tangents stay, and with them the map as it is.
+TEST(ConvertChoose, partlyReversedTangentsStay)
+{
+    Mesh half = square(0, 0, 1);
+    const Mesh other = square(2, 0, -1);
+    for (std::size_t i = 0; i < 4; ++i) {
+        half.positions.push_back(other.positions[i]);
+        half.normals.push_back(other.normals[i]);
+        half.texcoords[0].push_back(other.texcoords[0][i]);
+        half.tangents.push_back(other.tangents[i]);
+    }
+    for (const std::uint32_t i : other.indices)
+        half.indices.push_back(i + 4);
+    GltfDocument document = documentOf({half});
+    const auto map = gltfImageBytes(document, 0);
+    const ConvertModelReport report = chosen(document);
+    EXPECT_EQ(tangentsIn(document), std::vector{true});
+    EXPECT_EQ(report.decisions.at(0).decision.reason, ChoiceReason::keeps);
+    EXPECT_EQ(*gltfImageBytes(document, 0), *map);
+}
+
+TEST(ConvertChoose, whatCannotBeJudgedStays)
+{
+    Mesh collapsed = square(0, 0, 1), bare = square(2, 0, 1);
+    collapsed.texcoords[0].assign(4, {0.5f, 0.5f});
+    bare.texcoords[0].clear();
+    GltfDocument document = documentOf({collapsed, bare, square(4, 0, 1)});
+    const ConvertModelReport report = chosen(document);
+    EXPECT_EQ(tangentsIn(document), (std::vector{true, true, false}));
+    EXPECT_EQ(namesIn(document), (std::vector<std::string>{"", "", "orthonormal"}));
+    EXPECT_EQ(report.decisions.at(0).decision.notJudged, "no triangle has an area both in space and in uv");
+    EXPECT_EQ(report.decisions.at(1).decision.notJudged, "no uv");
+}
+
+TEST(ConvertChoose, contradictoryOptionsAreRefused)
+{
+    GltfDocument document = documentOf({square(0, 0, 1)});
+    for (const ConvertModelOptions& wrong :
+         {ConvertModelOptions{.choose = ChoiceLimits()},
+          ConvertModelOptions{.choose = ChoiceLimits(), .keepMaps = true, .readMaps = false},
+          ConvertModelOptions{.choose = ChoiceLimits(), .keepMaps = true, .keepTangents = true}}) {
+        const auto report = convertModel(document, wrong);
+        ASSERT_FALSE(report);
+        EXPECT_EQ(report.error().kind, ErrorKind::usage);
+    }
+}
+
+} // namespace
+} // namespace cotan
