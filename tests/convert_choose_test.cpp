@@ -19,7 +19,7 @@ namespace cotan {
 namespace {
 
 // A square of two triangles in xy at x, with tangents at `degrees` from u and this w.
-Mesh square(float x, float degrees, float w)
+Mesh squareAt(float x, float degrees, float w)
 {
     Mesh mesh;
     mesh.positions = {{x, 0, 0}, {x + 1, 0, 0}, {x + 1, 1, 0}, {x, 1, 0}};
@@ -39,7 +39,7 @@ Mesh coarseSphere()
 }
 
 // All meshes show one map by one material.
-GltfDocument documentOf(const std::vector<Mesh>& meshes)
+GltfDocument documentWith(const std::vector<Mesh>& meshes)
 {
     Scene scene;
     scene.images = {makeReliefMap(Relief::waves, 64)};
@@ -73,7 +73,7 @@ std::vector<std::string> namesIn(const GltfDocument& document)
     return names;
 }
 
-std::vector<bool> tangentsIn(const GltfDocument& document)
+std::vector<bool> keptIn(const GltfDocument& document)
 {
     std::vector<bool> found;
     for (const auto& mesh : rootOf(document)["meshes"])
@@ -84,10 +84,10 @@ std::vector<bool> tangentsIn(const GltfDocument& document)
 // Tangents at 30 degrees from u are none that a frame without them has; those along u are.
 TEST(ConvertChoose, eachPrimitiveOfAMaterialHasItsOwnFrame)
 {
-    GltfDocument document = documentOf({square(0, 0, 1), square(2, 30, 1), coarseSphere()});
+    GltfDocument document = documentWith({squareAt(0, 0, 1), squareAt(2, 30, 1), coarseSphere()});
     const auto map = gltfImageBytes(document, 0);
     const ConvertModelReport report = chosen(document);
-    EXPECT_EQ(tangentsIn(document), (std::vector{false, true, false}));
+    EXPECT_EQ(keptIn(document), (std::vector{false, true, false}));
     EXPECT_EQ(namesIn(document), (std::vector<std::string>{"orthonormal", "mikktspace", "mikktspace"}));
     EXPECT_EQ(*gltfImageBytes(document, 0), *map);
     ASSERT_EQ(report.decisions.size(), 3u);
@@ -101,7 +101,7 @@ TEST(ConvertChoose, eachPrimitiveOfAMaterialHasItsOwnFrame)
 
 TEST(ConvertChoose, nobodyDecidesTwice)
 {
-    GltfDocument document = documentOf({square(0, 0, 1), square(2, 30, 1), coarseSphere()});
+    GltfDocument document = documentWith({squareAt(0, 0, 1), squareAt(2, 30, 1), coarseSphere()});
     chosen(document);
     const auto once = glbBytes(document);
     const ConvertModelReport again = chosen(document);
@@ -116,7 +116,7 @@ TEST(ConvertChoose, nobodyDecidesTwice)
 TEST(ConvertChoose, aHigherLimitTakesACheaperFrame)
 {
     const auto frameAt = [](double degrees) {
-        GltfDocument document = documentOf({coarseSphere()});
+        GltfDocument document = documentWith({coarseSphere()});
         return chosen(document, degrees).decisions.at(0).decision.frame;
     };
     EXPECT_EQ(frameAt(0.01), Frame::mikktspace);
@@ -126,10 +126,10 @@ TEST(ConvertChoose, aHigherLimitTakesACheaperFrame)
 // The tangents of all reverse green. Of those that stay, w follows the map, so that both are right afterwards.
 TEST(ConvertChoose, tangentsThatStayFollowGreenOfTheirMap)
 {
-    GltfDocument document = documentOf({square(0, 0, -1), square(2, 30, -1)});
+    GltfDocument document = documentWith({squareAt(0, 0, -1), squareAt(2, 30, -1)});
     const ConvertModelReport report = chosen(document);
     EXPECT_TRUE(report.maps.at(0).greenReversed);
-    EXPECT_EQ(tangentsIn(document), (std::vector{false, true}));
+    EXPECT_EQ(keptIn(document), (std::vector{false, true}));
     const auto kept = gltfGeometry(document, 1, 0);
     ASSERT_TRUE(kept);
     for (const glm::vec4& t : kept->tangents) {
@@ -141,8 +141,8 @@ TEST(ConvertChoose, tangentsThatStayFollowGreenOfTheirMap)
 // Half of the area has w reversed: no frame shows that, so the tangents stay, and with them the map as it is.
 TEST(ConvertChoose, partlyReversedTangentsStay)
 {
-    Mesh half = square(0, 0, 1);
-    const Mesh other = square(2, 0, -1);
+    Mesh half = squareAt(0, 0, 1);
+    const Mesh other = squareAt(2, 0, -1);
     for (std::size_t i = 0; i < 4; ++i) {
         half.positions.push_back(other.positions[i]);
         half.normals.push_back(other.normals[i]);
@@ -151,22 +151,22 @@ TEST(ConvertChoose, partlyReversedTangentsStay)
     }
     for (const std::uint32_t i : other.indices)
         half.indices.push_back(i + 4);
-    GltfDocument document = documentOf({half});
+    GltfDocument document = documentWith({half});
     const auto map = gltfImageBytes(document, 0);
     const ConvertModelReport report = chosen(document);
-    EXPECT_EQ(tangentsIn(document), std::vector{true});
+    EXPECT_EQ(keptIn(document), std::vector{true});
     EXPECT_EQ(report.decisions.at(0).decision.reason, ChoiceReason::keeps);
     EXPECT_EQ(*gltfImageBytes(document, 0), *map);
 }
 
 TEST(ConvertChoose, whatCannotBeJudgedStays)
 {
-    Mesh collapsed = square(0, 0, 1), bare = square(2, 0, 1);
+    Mesh collapsed = squareAt(0, 0, 1), bare = squareAt(2, 0, 1);
     collapsed.texcoords[0].assign(4, {0.5f, 0.5f});
     bare.texcoords[0].clear();
-    GltfDocument document = documentOf({collapsed, bare, square(4, 0, 1)});
+    GltfDocument document = documentWith({collapsed, bare, squareAt(4, 0, 1)});
     const ConvertModelReport report = chosen(document);
-    EXPECT_EQ(tangentsIn(document), (std::vector{true, true, false}));
+    EXPECT_EQ(keptIn(document), (std::vector{true, true, false}));
     EXPECT_EQ(namesIn(document), (std::vector<std::string>{"", "", "orthonormal"}));
     EXPECT_EQ(report.decisions.at(0).decision.notJudged, "no triangle has an area both in space and in uv");
     EXPECT_EQ(report.decisions.at(1).decision.notJudged, "no uv");
@@ -174,7 +174,7 @@ TEST(ConvertChoose, whatCannotBeJudgedStays)
 
 TEST(ConvertChoose, contradictoryOptionsAreRefused)
 {
-    GltfDocument document = documentOf({square(0, 0, 1)});
+    GltfDocument document = documentWith({squareAt(0, 0, 1)});
     for (const ConvertModelOptions& wrong :
          {ConvertModelOptions{.choose = ChoiceLimits()},
           ConvertModelOptions{.choose = ChoiceLimits(), .keepMaps = true, .readMaps = false},

@@ -22,6 +22,20 @@ std::size_t variantsOf(const Json& root)
     return variants && variants->is_array() ? variants->size() : 0;
 }
 
+// Whether the primitive has TANGENT and a material with a normal map, but not the uv to read it at.
+bool lacksUv(const Json& root, const SourcePrimitive& p)
+{
+    const Json& primitive = root["meshes"][p.mesh]["primitives"][p.primitive];
+    const Json& attributes = primitive["attributes"];
+    if (!attributes.contains("TANGENT"))
+        return false;
+    for (const std::size_t material : materialsOf(root, primitive))
+        if (const gltf::TextureUse map = normalMapOf(root, material, NormalSlot::surface);
+            map.texture >= 0 && !attributes.contains("TEXCOORD_" + std::to_string(map.texcoord)))
+            return true;
+    return false;
+}
+
 bool isWorse(const FrameCandidate& a, const FrameCandidate& b)
 {
     return std::pair(a.percentile99, a.mean) > std::pair(b.percentile99, b.mean);
@@ -42,8 +56,12 @@ void add(FrameDecision& known, const FrameDecision& other, const ChoiceLimits& l
         return;
     for (std::size_t i = 0; i < known.candidates.size(); ++i)
         if (FrameCandidate& c = known.candidates[i]; isWorse(other.candidates[i], c))
-            c = {c.frame, c.tangents, other.candidates[i].points, std::max(c.mean, other.candidates[i].mean),
-                 std::max(c.percentile95, other.candidates[i].percentile95), other.candidates[i].percentile99,
+            c = {c.frame,
+                 c.tangents,
+                 other.candidates[i].points,
+                 std::max(c.mean, other.candidates[i].mean),
+                 std::max(c.percentile95, other.candidates[i].percentile95),
+                 other.candidates[i].percentile99,
                  std::max(c.maximum, other.candidates[i].maximum)};
     const auto first = std::ranges::find_if(known.candidates, [&](const FrameCandidate& c) {
         return c.tangents == TangentOrigin::generated && c.within(limits);
@@ -85,8 +103,14 @@ Result<std::vector<PrimitiveDecision>> choosePrimitives(const GltfDocument& docu
             }
     }
     std::vector<PrimitiveDecision> decisions;
-    for (auto& [primitive, decision] : found)
+    for (auto& [primitive, decision] : found) {
+        if (decision.reason == ChoiceReason::noMap && lacksUv(rootOf(document), primitive)) {
+            decision.reason = ChoiceReason::notJudged;
+            decision.notJudged = "no uv";
+            decision.tangents = tangents;
+        }
         decisions.push_back({primitive, std::move(decision)});
+    }
     return decisions;
 }
 

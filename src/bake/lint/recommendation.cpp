@@ -48,8 +48,6 @@ constexpr std::size_t kMaxNames = 3; // per sentence
 // Means over all judged primitives, weighted by area; percentile95 is the mean of their percentiles.
 struct AreaMean {
     double area = 0, mean = 0, percentile95 = 0;
-
-    bool unseen() const { return mean < kUnseenMean && percentile95 < kUnseen95; }
 };
 
 // The error of that reading; null if there is none.
