@@ -213,6 +213,7 @@ export async function measure(url, { posed = false, size = 512, rounds = 3, opti
       const original = await loadPosed(bytes, base, pose), box = boxOf(original);
       if (!meshesOf(original).some(({ material }) => material[name])) { release(original); continue; }
       const areas = new Map();
+      const shows = new Set(meshesOf(original).filter(({ material }) => material[name]).map(mesh => keyOf(original, mesh)));
       for (const mesh of meshesOf(original)) areas.set(keyOf(original, mesh), (areas.get(keyOf(original, mesh)) ?? 0) + areaOf(mesh));
       const shown = drawnKeys(original, box, size, keys);
       Object.assign(found, await judged(original));
@@ -232,9 +233,10 @@ export async function measure(url, { posed = false, size = 512, rounds = 3, opti
         for (let k = 0; k < shown[view].length; ++k) {
           const i = 4 * k, number = shown[view][k];
           if (!number || number !== alsoShown[view][k] || a[i + 3] < 0.5 || b[i + 3] < 0.5) continue;
+          const key = keys[number - 1], id = `${key} ${kind}`;
+          if (!shows.has(key)) continue; // two surfaces in one place
           const degrees = degreesAt(a, b, i), against = degreesAt(a, c, i);
           if (!Number.isFinite(degrees)) { ++found.notFinite; continue; }
-          const key = keys[number - 1], id = `${key} ${kind}`;
           if (!parts.has(id)) parts.set(id, { key, kind, area: areas.get(key), degrees: new Histogram(), reversed: 0, low: [2, 2, 2], high: [-2, -2, -2] });
           const part = parts.get(id);
           part.degrees.add(degrees);

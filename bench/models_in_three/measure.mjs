@@ -1,15 +1,17 @@
 // node measure.mjs MODULES RESULT: reads what to do from the environment, see bench/models-in-three.
 // MODULES: node_modules with three and playwright-core. RESULT: a JSON file, which keeps what it has of other models.
-import { execFileSync } from 'node:child_process';
+import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
+import os from 'node:os';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { launch, serve } from '../../tests/web/chromium.mjs';
+import { parseGlb } from '../../tests/web/shared.mjs';
 
 const here = fileURLToPath(new URL('.', import.meta.url)), root = path.join(here, '../..');
 const [modules, result] = process.argv.slice(2);
 const { ONLY = '', PACKAGE = path.join(root, 'bindings/js'), IMAGES, COTAN, OPTIONS } = process.env;
-const build = path.join(root, 'build'), shared = path.join(root, '../shared/data');
+const scratch = fs.mkdtempSync(path.join(os.tmpdir(), 'cotan-models-')), build = path.join(root, 'build'), shared = path.join(root, '../shared/data');
 const { models, extra } = JSON.parse(fs.readFileSync(path.join(here, 'models.json')));
 const folders = { made: path.join(build, 'models-made'), package: path.join(build, 'models-npm/node_modules'), data: path.join(build, 'data'), shared };
 
@@ -47,14 +49,21 @@ async function measured(model) {
   }
 }
 
-// The field `decisions` of the report of `cotan lint`; undefined if this version has none.
+// "mesh, primitive" of each primitive of a file, in the order of `cotan lint`.
+function primitivesOf(file) {
+  const bytes = fs.readFileSync(file), { meshes } = file.endsWith('.glb') ? parseGlb(bytes).json : JSON.parse(bytes);
+  return meshes.flatMap(({ primitives }, mesh) => primitives.map((_, primitive) => `${mesh}, ${primitive}`));
+}
+
+// What `cotan lint` decides for each primitive. Exit code 1 means warnings.
 function lintOf(model) {
-  const { folder, file } = fileOf(model);
-  try {
-    return JSON.parse(execFileSync(COTAN, ['lint', '--json', path.join(folders[folder], file)], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'], maxBuffer: 1 << 28 })).decisions;
-  } catch (error) { // exit code 1: warnings
-    try { return JSON.parse(error.stdout).decisions; } catch { return undefined; }
-  }
+  const { folder, file } = fileOf(model), report = path.join(scratch, 'report.json');
+  const { status, stderr } = spawnSync(COTAN, ['lint', path.join(folders[folder], file), '--json', report, '--overwrite'], { encoding: 'utf8' });
+  if (status > 1 || !fs.existsSync(report)) throw Error(`${model.name}: ${stderr}`);
+  const { decisions = [] } = JSON.parse(fs.readFileSync(report, 'utf8')), keys = primitivesOf(path.join(folders[folder], file));
+  if (decisions.length !== keys.length) throw Error(`${model.name}: lint decided about ${decisions.length} primitives of ${keys.length}`);
+  return decisions.map(({ frame, tangents_stay: stay, candidates, reason }, k) => ({ primitive: keys[k], frame: stay ? 'tangents' : frame, reason,
+    predicted: stay ? 0 : candidates.find((one) => one.frame === frame)?.mean, candidates: candidates.map(({ frame, stored, mean, percentile99 }) => ({ frame, stored, mean, percentile99 })) }));
 }
 
 // A model that covers nothing, or whose normals do not vary, has not been measured.
@@ -88,4 +97,5 @@ for (const model of chosen) {
 }
 await browser.close();
 close();
+fs.rmSync(scratch, { recursive: true });
 if (failed.length) process.exit(1);

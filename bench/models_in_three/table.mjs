@@ -7,6 +7,7 @@ import { fileURLToPath } from 'node:url';
 
 export const kMarks = ['<!-- table: bench/models-in-three writes it -->', '<!-- end of table -->'];
 const kMean = 0.3, kP99 = 3, kKept = 5, kModels = 30, kStored = 15;
+const kFactor = 1.3, kApart = 0.05; // of predictions
 const kReversed = 0.02; // degrees by which reversed green must be nearer: below, the map has no green to speak of
 
 const degrees = (value) => (value < 0.005 ? '0' : value < 10 ? value.toFixed(2) : value.toFixed(1));
@@ -61,6 +62,20 @@ export function brokenBars({ models }) {
   return broken;
 }
 
+/** A line for each model whose predicted mean, weighted by area, is not the measured one: by more than 0.05 degrees and a
+ * factor of 1.3. lint: whether to take the predictions of `cotan lint`, where the result has them. Parts whose tangents
+ * stay are 0 in both. */
+export function wrongPredictions({ models }, { lint = false } = {}) {
+  return models.flatMap(({ name, primitives, lint: ofLint }) => {
+    const of = (one) => (lint ? ofLint?.find(({ primitive }) => primitive === one.primitive) : one)?.predicted;
+    const judged = primitives.filter((one) => Number.isFinite(of(one))), area = judged.reduce((sum, one) => sum + one.area, 0);
+    if (!(area > 0)) return [];
+    const [predicted, measured] = [of, ({ mean }) => mean].map((value) => judged.reduce((sum, one) => sum + value(one) * one.area, 0) / area);
+    const apart = Math.max(predicted, measured) > kFactor * Math.min(predicted, measured) && Math.abs(predicted - measured) > kApart;
+    return apart ? [`${name}: ${predicted.toPrecision(3)} degrees predicted${lint ? ' by lint' : ''}, ${measured.toPrecision(3)} measured`] : [];
+  });
+}
+
 /** The page with the table in it. */
 export function withTable(page, result) {
   const [before, rest] = page.split(kMarks[0]), after = rest?.split(kMarks[1])[1];
@@ -72,7 +87,7 @@ if (process.argv[1] && path.resolve(process.argv[1]) === fileURLToPath(import.me
   const [file, page] = process.argv.slice(2), result = JSON.parse(fs.readFileSync(file));
   if (page) fs.writeFileSync(page, withTable(fs.readFileSync(page, 'utf8'), result));
   else console.log(tableOf(result), result.models.some(({ extra }) => extra) ? `\n\nFurther models:\n\n${tableOf(result, true)}` : '');
-  const broken = brokenBars(result);
+  const broken = [...brokenBars(result), ...wrongPredictions(result), ...wrongPredictions(result, { lint: true })];
   broken.forEach((line) => console.error(line));
   process.exitCode = broken.length ? 1 : 0;
 }

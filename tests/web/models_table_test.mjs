@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
 import { here } from './shared.mjs';
-import { brokenBars, kMarks, predictedMean, tableOf, withTable } from '../../bench/models_in_three/table.mjs';
+import { brokenBars, kMarks, predictedMean, tableOf, withTable, wrongPredictions } from '../../bench/models_in_three/table.mjs';
 
 const root = path.join(here, '../..'), [only] = process.argv.slice(2);
 
@@ -38,6 +38,16 @@ const cases = {
     }
   },
 
+  predictionsThatDifferFromTheMeasuredDegreesAreNamed() {
+    const primitives = (predicted, mean) => ({ models: [{ name: 'one', primitives: [{ predicted, mean, area: 3 }, { predicted: 1, mean: 1, area: 1 }] }] });
+    assert.deepEqual(wrongPredictions(primitives(0.2, 0.26)), [], 'by 1.1 with the second primitive');
+    assert.deepEqual(wrongPredictions({ models: [{ name: 'one', primitives: [{ predicted: 0.01, mean: 0.05, area: 1 }] }] }), [], 'by less than 0.05 degrees');
+    assert.deepEqual(wrongPredictions(primitives(1, 2)), ['one: 1.00 degrees predicted, 1.75 measured']);
+    const lint = { models: [{ name: 'one', primitives: [{ primitive: '0, 0', mean: 1, area: 1 }], lint: [{ primitive: '0, 0', predicted: 0.5 }] }] };
+    assert.deepEqual(wrongPredictions(lint), []);
+    assert.deepEqual(wrongPredictions(lint, { lint: true }), ['one: 0.500 degrees predicted by lint, 1.00 measured']);
+  },
+
   furtherModelsAreNotCounted() {
     const { models } = thirty(), more = { ...models[0], name: 'further', extra: true, mean: 9 };
     assert.deepEqual(brokenBars({ models: [...models, more] }), []);
@@ -57,7 +67,7 @@ const cases = {
     const result = JSON.parse(fs.readFileSync(path.join(root, 'docs/explanation/models.json'), 'utf8'));
     const page = fs.readFileSync(path.join(root, 'docs/explanation/models.md'), 'utf8');
     assert.equal(withTable(page, result), page);
-    assert.deepEqual(brokenBars(result), []);
+    assert.deepEqual([...brokenBars(result), ...wrongPredictions(result), ...wrongPredictions(result, { lint: true })], []);
     const list = JSON.parse(fs.readFileSync(path.join(root, 'bench/models_in_three/models.json'), 'utf8')).models;
     assert.deepEqual(result.models.filter(({ extra }) => !extra).map(({ name }) => name), list.map(({ name }) => name));
   },
