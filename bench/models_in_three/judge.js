@@ -1,4 +1,5 @@
-// Measures one model in stock three.js, in a browser: normals with the tangents that its file means, and after untangle().
+// Measures one model in stock three.js, in a browser: normals with the tangents that its file means, and after
+// untangle().
 import * as THREE from 'three';
 import { judged, load, mapped, meshesOf, renderer, withFlatBumps, write } from '/tests/three_judge.js';
 import { untangle } from '/package/three/index.js';
@@ -17,7 +18,8 @@ function keyOf(gltf, mesh) {
   return `${node?.mesh ?? mesh.name}, 0`;
 }
 
-// Loads a model in one of its poses: 0 is that of the file, 1 the middle of its first animation, or of all morph targets.
+// Loads a model in one of its poses: 0 is that of the file, 1 the middle of its first animation, or of all morph
+// targets.
 async function loadPosed(bytes, base, pose) {
   const gltf = await load(bytes, base);
   if (pose && gltf.animations.length) {
@@ -59,16 +61,18 @@ function areaOf(mesh) {
 
 const frameOf = material => /cotan,(\w+)/.exec(material.customProgramCacheKey())?.[1];
 
-// What untangle() decided for each primitive: the frame, or `tangents` where those of the file stay; and the mean that it
-// predicts, which is 0 where they stay. Without decisions, the frame is the one that its material is drawn with.
-function decisionsOf(gltf, decisions) {
+// What untangle() decided for each primitive: the frame, or `tangents` where those of the file are needed; and the mean
+// that it predicts, which is 0 where loaded tangents are drawn. before: their attributes. Without decisions, the frame
+// is the one that its material is drawn with.
+function decisionsOf(gltf, decisions, before) {
   const found = new Map();
   for (const mesh of meshesOf(gltf)) {
     if (!mapped(mesh.material)) continue;
     const own = decisions?.find(one => one.mesh === mesh && one.material === mesh.material);
     const { frame, keepsTangents, reason } = own ?? { frame: frameOf(mesh.material) ?? 'none', keepsTangents: !!mesh.geometry.attributes.tangent };
-    const predicted = keepsTangents ? 0 : own?.candidates.find(one => one.frame === frame)?.mean;
-    found.set(keyOf(gltf, mesh), { frame: keepsTangents ? 'tangents' : frame, predicted, reason, candidates: own?.candidates });
+    const drawsLoaded = before.has(mesh.geometry.attributes.tangent);
+    const predicted = drawsLoaded ? 0 : own?.candidates.find(one => one.frame === frame)?.mean;
+    found.set(keyOf(gltf, mesh), { frame: keepsTangents ? 'tangents' : frame, drawsLoaded, predicted, reason, candidates: own?.candidates });
   }
   return found;
 }
@@ -201,10 +205,11 @@ export async function measure(url, { posed = false, size = 512, rounds = 3, opti
   const bytes = await (await fetch(url)).arrayBuffer(), base = url.replace(/[^/]*$/, '');
   const keys = [], parts = new Map(), found = { stored: 0, generated: 0, notes: [], notFinite: 0 }, spans = [];
   for (let round = 0; round < rounds; ++round) {
-    const gltf = await loadPosed(bytes, base, 0), before = bytesOf(gltf), start = performance.now();
+    const gltf = await loadPosed(bytes, base, 0), before = bytesOf(gltf);
+    const loaded = new Set(meshesOf(gltf).map(({ geometry }) => geometry.attributes.tangent).filter(Boolean)), start = performance.now();
     const result = await untangle(gltf, { ...options, note: line => round || found.notes.push(line) });
     spans.push(performance.now() - start);
-    if (!round) Object.assign(found, { tangentBytes: before.tangents, savedBytes: before.total - bytesOf(gltf).total, decisions: decisionsOf(gltf, [result, result?.decisions].find(Array.isArray)) });
+    if (!round) Object.assign(found, { tangentBytes: before.tangents, savedBytes: before.total - bytesOf(gltf).total, decisions: decisionsOf(gltf, [result, result?.decisions].find(Array.isArray), loaded) });
     release(gltf);
   }
   found.milliseconds = spans.sort((a, b) => a - b)[rounds >> 1];
@@ -256,8 +261,8 @@ export async function measure(url, { posed = false, size = 512, rounds = 3, opti
   const rounded = object => Object.fromEntries(Object.entries(object).map(([name, value]) => [name, round(value)]));
   const { decisions, image: picture, ...rest } = found;
   const primitives = [...parts.values()].map(({ key, kind, area, degrees, reversed, low, high }) => {
-    const { frame, predicted, reason, candidates } = decisions.get(key) ?? { frame: 'none' };
-    return { primitive: key, kind, frame, predicted, reason, candidates: candidates?.map(rounded), pixels: degrees.weight, area, ...degrees.numbers, reversedMean: reversed / degrees.weight,
+    const { frame, drawsLoaded, predicted, reason, candidates } = decisions.get(key) ?? { frame: 'none' };
+    return { primitive: key, kind, frame, drawsLoaded, predicted, reason, candidates: candidates?.map(rounded), pixels: degrees.weight, area, ...degrees.numbers, reversedMean: reversed / degrees.weight,
       range: Math.max(...high.map((value, j) => value - low[j])) };
   });
   return { ...rounded(rest), pixels: all.weight, ...rounded(all.numbers), byArea: rounded(byArea.numbers), primitives: primitives.map(rounded), image: picture };

@@ -1,6 +1,6 @@
 // Makes the models of models.json that are not files of a package as they are: node make.mjs LIST MODELS TOOLS DATA OUT
 // LIST: models.json. MODELS, TOOLS: node_modules of models and of the packages that change them. DATA: made by
-// scripts/test-data. OUT: the folder for one .glb for each entry with `made`. What the steps mean stands in models.json.
+// scripts/test-data. OUT: the folder for one .glb for each entry with `made`, whose steps models.json explains.
 import fs from 'node:fs';
 import path from 'node:path';
 import { createRequire } from 'node:module';
@@ -55,8 +55,8 @@ function addSet(document) {
 const subtract = (a, b) => a.map((x, k) => x - b[k]), dot = (a, b) => a.reduce((sum, x, k) => sum + x * b[k], 0);
 const cross = (a, b) => [0, 1, 2].map((k) => a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
 
-// Sums of dP/du and dP/dv at each vertex, orthogonal to its normal: many exporters do so instead of MikkTSpace (Lengyel,
-// Computing Tangent Space Basis Vectors for an Arbitrary Mesh). w in the sense of glTF, with v down.
+// Sums of dP/du and dP/dv at each vertex, orthogonal to its normal: many exporters do so instead of MikkTSpace
+// (Lengyel, Computing Tangent Space Basis Vectors for an Arbitrary Mesh). w in the sense of glTF, with v down.
 function averagedTangents(primitive, uvName) {
   const [position, normal, uv] = ['POSITION', 'NORMAL', uvName].map((name) => primitive.getAttribute(name)), indices = primitive.getIndices().getArray();
   const sums = Array.from({ length: position.getCount() }, () => [[0, 0, 0], [0, 0, 0]]);

@@ -43,7 +43,7 @@ const cases = {
     assert.deepEqual(wrongPredictions(primitives(0.2, 0.26)), [], 'by 1.1 with the second primitive');
     assert.deepEqual(wrongPredictions({ models: [{ name: 'one', primitives: [{ predicted: 0.01, mean: 0.05, area: 1 }] }] }), [], 'by less than 0.05 degrees');
     assert.deepEqual(wrongPredictions(primitives(1, 2)), ['one: 1.00 degrees predicted, 1.75 measured']);
-    const lint = { models: [{ name: 'one', primitives: [{ primitive: '0, 0', mean: 1, area: 1 }], lint: [{ primitive: '0, 0', predicted: 0.5 }] }] };
+    const lint = { models: [{ name: 'one', primitives: [{ primitive: '0, 0', frame: 'smooth', mean: 1, area: 1 }], lint: [{ primitive: '0, 0', frame: 'smooth', predicted: 0.5 }] }] };
     assert.deepEqual(wrongPredictions(lint), []);
     assert.deepEqual(wrongPredictions(lint, { lint: true }), ['one: 0.500 degrees predicted by lint, 1.00 measured']);
   },
