@@ -132,11 +132,15 @@ function drawnKeys(gltf, box, size, keys) {
   return views;
 }
 
-// Draws the normals, or the clear coat's; alpha is 1 where a material has such a map.
-function drawnNormals(gltf, box, size, kind) {
+// Draws the normals, or the clear coat's; alpha is 1 where a material has such a map. sharp: without mipmaps, so that
+// small images show the texels of the map itself, as predictions sample them.
+function drawnNormals(gltf, box, size, kind, sharp) {
   const meshes = meshesOf(gltf), materials = new Set(meshes.map(({ material }) => material));
   meshes.forEach((mesh, k) => { mesh.renderOrder = k; }); // instead of ids that loading assigns
-  for (const material of materials) write(material, kind);
+  for (const material of materials) {
+    for (const map of [material.normalMap, material.clearcoatNormalMap]) if (map && sharp) Object.assign(map, { minFilter: THREE.LinearFilter, generateMipmaps: false });
+    write(material, kind);
+  }
   return { views: drawn(gltf, box, size), materials };
 }
 
@@ -201,7 +205,7 @@ function imageOf(withTangents, without, size) {
 
 // url: a model. posed: whether to draw it in the middle of its animation too. Returns the degrees over all pixels that
 // show a normal map or the map of a clear coat, for each primitive and each kind of map, and what untangle() did.
-export async function measure(url, { posed = false, size = 512, rounds = 3, options, image = false }) {
+export async function measure(url, { posed = false, size = 512, rounds = 3, sharp = false, options, image = false }) {
   const bytes = await (await fetch(url)).arrayBuffer(), base = url.replace(/[^/]*$/, '');
   const keys = [], parts = new Map(), found = { stored: 0, generated: 0, notes: [], notFinite: 0 }, spans = [];
   for (let round = 0; round < rounds; ++round) {
@@ -223,12 +227,12 @@ export async function measure(url, { posed = false, size = 512, rounds = 3, opti
       const shown = drawnKeys(original, box, size, keys);
       Object.assign(found, await judged(original));
       if (kind !== 'normal') for (const { material } of meshesOf(original)) withFlatBumps(material);
-      const { views: expected } = drawnNormals(original, box, size, kind);
+      const { views: expected } = drawnNormals(original, box, size, kind, sharp);
       release(original);
       const untangled = await loadPosed(bytes, base, pose);
       await untangle(untangled, { ...options, note: () => {} });
       const alsoShown = drawnKeys(untangled, box, size, keys);
-      const { views, materials } = drawnNormals(untangled, box, size, kind);
+      const { views, materials } = drawnNormals(untangled, box, size, kind, sharp);
       for (const { normalScale, clearcoatNormalScale } of materials) for (const scale of [normalScale, clearcoatNormalScale]) if (scale) scale.y *= -1;
       const reversed = drawn(untangled, box, size);
       release(untangled);

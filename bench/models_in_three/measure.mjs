@@ -10,7 +10,7 @@ import { parseGlb } from '../../tests/web/shared.mjs';
 
 const here = fileURLToPath(new URL('.', import.meta.url)), root = path.join(here, '../..');
 const [modules, result] = process.argv.slice(2);
-const { ONLY = '', PACKAGE = path.join(root, 'bindings/js'), IMAGES, COTAN, OPTIONS, SIZE = '512' } = process.env;
+const { ONLY = '', PACKAGE = path.join(root, 'bindings/js'), IMAGES, COTAN, OPTIONS, SIZE = '512', SHARP } = process.env;
 const scratch = fs.mkdtempSync(path.join(os.tmpdir(), 'cotan-models-')), build = path.join(root, 'build'), shared = path.join(root, '../shared/data');
 const { models, extra } = JSON.parse(fs.readFileSync(path.join(here, 'models.json')));
 const folders = { made: path.join(build, 'models-made'), package: path.join(build, 'models-npm/node_modules'), data: path.join(build, 'data'), shared };
@@ -41,7 +41,7 @@ async function measured(model) {
   await page.goto(address);
   try {
     return await page.evaluate(async ([url, options]) => (await import('/bench/judge.js')).measure(url, options),
-      [`/${folder === 'package' ? 'npm' : folder}/${file.split('/').map(encodeURIComponent).join('/')}`, { size: Number(SIZE), posed: !!model.posed, image: !!IMAGES, options: OPTIONS ? JSON.parse(OPTIONS) : undefined }]);
+      [`/${folder === 'package' ? 'npm' : folder}/${file.split('/').map(encodeURIComponent).join('/')}`, { size: Number(SIZE), sharp: !!SHARP, posed: !!model.posed, image: !!IMAGES, options: OPTIONS ? JSON.parse(OPTIONS) : undefined }]);
   } catch (error) {
     throw Error(`${model.name}: ${[String(error.message ?? error), ...failures].join('\n')}`);
   } finally {
