@@ -68,6 +68,12 @@ foreach(fact reversedTangentsReverseGreen modelsLookTheSameWithoutTheirTangents
   set_tests_properties(ThreeDefaults.${fact} PROPERTIES FIXTURES_REQUIRED npm SKIP_RETURN_CODE 77 TIMEOUT 600)
 endforeach()
 
+# The table of bench/models-in-three, which draws for half an hour: its rules and its page.
+foreach(fact everyBrokenBarIsNamed predictionsThatDifferFromTheMeasuredDegreesAreNamed furtherModelsAreNotCounted
+    aRowHasWhatWasMeasured)
+  add_test(NAME ModelsTable.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/models_table_test.mjs ${fact})
+endforeach()
+
 # The jet fighter, whose BasisU textures are replaced by ones that the tool reads.
 add_test(NAME BasisU.aModelWithPngTexturesIsDrawnAsItsTangentsMean COMMAND ${COTAN_NODE}
   ${CMAKE_CURRENT_SOURCE_DIR}/web/basisu_test.mjs ${PROJECT_BINARY_DIR}/npm/node_modules $<TARGET_FILE:cotan>)

@@ -13,19 +13,22 @@ const kSize = 320;
 // In front, behind, on both sides, above and below; none along an axis.
 const kViews = [[0.1, 0.15, 1], [-0.2, 0.25, -1], [1, 0.1, 0.2], [-1, 0.3, -0.1], [0.15, 1, 0.3], [0.2, -1, 0.1]];
 
-const renderer = new THREE.WebGLRenderer(), target = new THREE.WebGLRenderTarget(kSize, kSize, { type: THREE.FloatType });
+export const renderer = new THREE.WebGLRenderer();
+const target = new THREE.WebGLRenderTarget(kSize, kSize, { type: THREE.FloatType });
 renderer.setClearColor(0, 0);
 const libs = '/modules/three/examples/jsm/libs/';
 const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).setDRACOLoader(new DRACOLoader().setDecoderPath(`${libs}draco/gltf/`))
   .setKTX2Loader(new KTX2Loader().setTranscoderPath(`${libs}basis/`).detectSupport(renderer));
 
-const meshesOf = gltf => {
+export const load = (bytes, base) => loader.parseAsync(bytes.slice(0), base);
+
+export const meshesOf = gltf => {
   const found = [];
   gltf.scene.traverse(child => { if (child.isMesh) found.push(child); });
   return found;
 };
 const materialsOf = meshes => new Set(meshes.flatMap(({ material }) => material));
-const mapped = material => material.normalMap ?? material.clearcoatNormalMap;
+export const mapped = material => material.normalMap ?? material.clearcoatNormalMap;
 
 // three makes bitangents from a tangent and a normal that are both mirrored, which inverts them. The reference follows
 // the file, whose node mirrors the whole mesh.
@@ -38,7 +41,7 @@ function forMirroredNode(mesh) {
 
 // Prepares the reference: stored tangents, or MikkTSpace tangents where there are none. Returns the number of meshes
 // with each.
-async function judged(gltf) {
+export async function judged(gltf) {
   await MikkTSpace.ready;
   const counts = { stored: 0, generated: 0 }, turned = new Map();
   for (const mesh of meshesOf(gltf)) {
@@ -48,11 +51,12 @@ async function judged(gltf) {
       forMirroredNode(mesh);
       continue;
     }
-    const { position, normal, uv } = mesh.geometry.attributes;
-    if (!position || !normal || !uv || mapped(mesh.material).channel) continue;
+    const { position, normal, [uvNameOf(mapped(mesh.material))]: uv } = mesh.geometry.attributes;
+    if (!position || !normal || !uv) continue;
     ++counts.generated;
-    if (!turned.has(mesh.geometry)) turned.set(mesh.geometry, withTangents(mesh.geometry, mapped(mesh.material)));
-    mesh.geometry = turned.get(mesh.geometry);
+    const key = `${mesh.geometry.uuid} ${mapped(mesh.material).uuid}`;
+    if (!turned.has(key)) turned.set(key, withTangents(mesh.geometry, mapped(mesh.material)));
+    mesh.geometry = turned.get(key);
     forMirroredNode(mesh);
     if (!turned.has(mesh.material)) { // without tangents the loader has inverted green
       turned.set(mesh.material, mesh.material.clone());
@@ -63,25 +67,29 @@ async function judged(gltf) {
   return counts;
 }
 
-// Uses texture coordinates transformed by the map's matrix, which three's own function ignores.
+const uvNameOf = ({ channel }) => (channel ? `uv${channel}` : 'uv');
+
+// Uses texture coordinates of the map's set, transformed by the map's matrix, both of which three's own function
+// ignores.
 function withTangents(geometry, map) {
-  const made = geometry.index ? geometry.toNonIndexed() : geometry.clone(), { uv } = made.attributes, place = new THREE.Vector2();
+  const made = geometry.index ? geometry.toNonIndexed() : geometry.clone(), place = new THREE.Vector2();
+  const { uv: first, [uvNameOf(map)]: uv } = made.attributes;
   map.updateMatrix();
   const moved = Array.from({ length: uv.count }, (_, k) => place.fromBufferAttribute(uv, k).applyMatrix3(map.matrix).toArray()).flat();
   computeMikkTSpaceTangents(made.setAttribute('uv', new THREE.Float32BufferAttribute(moved, 2)), MikkTSpace);
-  return made.setAttribute('uv', uv);
+  return first ? made.setAttribute('uv', first) : made;
 }
 
 // three uses tangents for a clear coat only if there is a normal map too, and assumes them in the coat's scale in any
 // case.
-function withFlatBumps(material) {
+export function withFlatBumps(material) {
   if (material.normalMap || !material.clearcoatNormalMap) return;
   material.normalMap = new THREE.DataTexture(Uint8Array.of(128, 128, 255, 255), 1, 1);
   material.normalMap.needsUpdate = true;
 }
 
 // Makes a material write a normal, or zeros if it has no such map.
-function write(material, what) {
+export function write(material, what) {
   const { onBeforeCompile: before, customProgramCacheKey: key } = material, own = Object.hasOwn(material, 'customProgramCacheKey');
   const has = what === 'normal' ? material.normalMap : material.clearcoatNormalMap;
   Object.assign(material, { transparent: false, transmission: 0, alphaTest: material.alphaTest || (material.transparent ? 0.5 : 0) });
@@ -127,12 +135,11 @@ function degreesBetween(views, others) {
 // normals and the clear coat's, if any, over the pixels of materials with such a map; and the notes.
 export async function measure(url, ways) {
   const bytes = await (await fetch(url)).arrayBuffer(), base = url.replace(/[^/]*$/, ''), found = {};
-  const load = () => loader.parseAsync(bytes.slice(0), base);
   for (const what of ['normal', 'clearcoatNormal']) {
     let original;
     const box = new THREE.Box3();
     for (const [way, options] of [['judge'], ...Object.entries(ways)]) {
-      const gltf = await load(), notes = [];
+      const gltf = await load(bytes, base), notes = [];
       gltf.scene.updateMatrixWorld(true);
       const meshes = meshesOf(gltf);
       if (!meshes.some(mesh => what === 'normal' ? mesh.material.normalMap : mesh.material.clearcoatNormalMap)) break;

@@ -1,0 +1,93 @@
+// The table of measured models: node table.mjs RESULT [PAGE]. RESULT: the JSON file that measure.mjs writes. PAGE: a
+// page whose table between the lines of kMarks is replaced; without it, the table is printed. Exit code 1 and a line
+// for each bar that does not hold.
+import fs from 'node:fs';
+import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+export const kMarks = ['<!-- table: bench/models-in-three writes it -->', '<!-- end of table -->'];
+const kMean = 0.3, kP99 = 3, kKept = 5, kModels = 30, kStored = 15;
+const kFactor = 1.3, kApart = 0.05; // of predictions
+const kReversed = 0.02; // degrees by which reversed green must be nearer: below, the map has no green to speak of
+
+const degrees = (value) => (value < 0.005 ? '0' : value < 10 ? value.toFixed(2) : value.toFixed(1));
+const kibibytes = (value) => `${Math.round(value / 1024)}`;
+
+// "orthonormal 5, tangents 2": the number of primitives for each frame.
+function framesOf({ primitives }) {
+  const counts = new Map(), seen = new Set();
+  for (const { primitive, frame } of primitives) {
+    if (seen.has(primitive)) continue;
+    seen.add(primitive);
+    counts.set(frame, (counts.get(frame) ?? 0) + 1);
+  }
+  return counts;
+}
+
+export const keepsTangents = (row) => framesOf(row).has('tangents');
+
+// The mean that the decisions predict, weighted by the pixels of each primitive; undefined if one has no prediction.
+export function predictedMean({ primitives }) {
+  const sum = primitives.reduce((total, { predicted, pixels }) => total + predicted * pixels, 0);
+  return sum / primitives.reduce((total, { pixels }) => total + pixels, 0);
+}
+
+function lineOf(row) {
+  const frames = [...framesOf(row)].map(([frame, count]) => `${frame} ${count}`).join(', '), predicted = predictedMean(row);
+  return [row.name, row.stored ? 'stored' : 'MikkTSpace', row.traits.join(', '), frames, Number.isFinite(predicted) ? degrees(predicted) : '', degrees(row.mean), degrees(row.p95), degrees(row.p99),
+    degrees(row.max), kibibytes(row.savedBytes), row.milliseconds.toFixed(0)];
+}
+
+const kHeader = ['model', 'tangents', 'traits', 'what the rule took', 'predicted', 'mean', '95 %', '99 %', 'maximum', 'KiB saved', 'ms'];
+
+/** The lines of the table of the rows of `models`, without those that are extra. */
+export function tableOf({ models }, extra = false) {
+  const rows = models.filter((row) => !!row.extra === extra).map(lineOf);
+  return [kHeader, kHeader.map((_, k) => (k < 4 ? '---' : '--:')), ...rows].map((cells) => `| ${cells.join(' | ')} |`).join('\n');
+}
+
+/** A line for each bar that does not hold. */
+export function brokenBars({ models }) {
+  const rows = models.filter(({ extra }) => !extra), broken = [];
+  if (rows.length !== kModels) broken.push(`expected ${kModels} models, found ${rows.length}`);
+  const stored = rows.filter((row) => row.stored > 0).length, kept = rows.filter(keepsTangents).map(({ name }) => name);
+  if (stored < kStored) broken.push(`expected at least ${kStored} models with stored tangents, found ${stored}`);
+  if (kept.length > kKept) broken.push(`tangents are kept on ${kept.length} models, at most ${kKept} expected: ${kept.join('; ')}`);
+  for (const { name, mean, p99, byArea, primitives } of rows) {
+    if (!(mean < kMean && byArea.mean < kMean)) broken.push(`${name}: mean ${mean} degrees, by area ${byArea.mean}; less than ${kMean} expected`);
+    if (!(p99 < kP99 && byArea.p99 < kP99)) broken.push(`${name}: ${p99} degrees at 99 %, by area ${byArea.p99}; less than ${kP99} expected`);
+    for (const { primitive, kind, mean: own, reversedMean } of primitives)
+      if (reversedMean < own - kReversed) broken.push(`${name}, mesh and primitive ${primitive}, ${kind}: ${own} degrees, ${reversedMean} with green reversed`);
+  }
+  return broken;
+}
+
+/** A line for each model whose predicted mean, weighted by area, is not the measured one: by more than 0.05 degrees and a
+ * factor of 1.3. lint: whether to take the predictions of `cotan lint`, where the result has them for the same frame.
+ * Loaded tangents that are drawn are left out. */
+export function wrongPredictions({ models }, { lint = false } = {}) {
+  return models.flatMap(({ name, primitives, lint: ofLint }) => {
+    const of = (one) => (lint ? ofLint?.find(({ primitive, frame }) => primitive === one.primitive && frame === one.frame) : one)?.predicted;
+    const judged = primitives.filter((one) => !one.drawsLoaded && Number.isFinite(of(one))), area = judged.reduce((sum, one) => sum + one.area, 0);
+    if (!(area > 0)) return [];
+    const [predicted, measured] = [of, ({ mean }) => mean].map((value) => judged.reduce((sum, one) => sum + value(one) * one.area, 0) / area);
+    const apart = Math.max(predicted, measured) > kFactor * Math.min(predicted, measured) && Math.abs(predicted - measured) > kApart;
+    return apart ? [`${name}: ${predicted.toPrecision(3)} degrees predicted${lint ? ' by lint' : ''}, ${measured.toPrecision(3)} measured`] : [];
+  });
+}
+
+/** The page with the table in it. */
+export function withTable(page, result) {
+  const [before, rest] = page.split(kMarks[0]), after = rest?.split(kMarks[1])[1];
+  if (after === undefined) throw Error(`the page lacks the lines ${kMarks.join(' and ')}`);
+  return `${before}${kMarks[0]}\n${tableOf(result)}\n${kMarks[1]}${after}`;
+}
+
+if (process.argv[1] && path.resolve(process.argv[1]) === fileURLToPath(import.meta.url)) {
+  const [file, page] = process.argv.slice(2), result = JSON.parse(fs.readFileSync(file));
+  if (page) fs.writeFileSync(page, withTable(fs.readFileSync(page, 'utf8'), result));
+  else console.log(tableOf(result), result.models.some(({ extra }) => extra) ? `\n\nFurther models:\n\n${tableOf(result, true)}` : '');
+  const broken = [...brokenBars(result), ...wrongPredictions(result), ...wrongPredictions(result, { lint: true })];
+  broken.forEach((line) => console.error(line));
+  process.exitCode = broken.length ? 1 : 0;
+}
