@@ -47,7 +47,7 @@ inline bool isMaterial(const Scene& scene, std::size_t i, int material)
 // Interprets normal maps as the stored tangents imply: where a mesh reads its map reversed (readsReversed), green of
 // the material and w of the tangents change sign together (Material::greenReversed). Frames from stored tangents then
 // give the same result as before, and all other frames agree with them. A material that other meshes read too is copied
-// (Material::copyOf); one whose anisotropy has a direction map is not changed.  Returns one line for each map that is
+// (Material::copyOf); one whose anisotropy has a direction map is not changed. Returns one line for each map that is
 // flipped on some mesh, or on which at least kGreenMentionedFrom of the area contradicts.
 std::vector<std::string> reconcileGreenWithTangents(Scene& scene);
 

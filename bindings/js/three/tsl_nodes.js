@@ -172,26 +172,19 @@ mat3 cotanFrame_${frame}(${kParameters.glsl}) {
   cotan_frame f = cotan_frame_${frame}(n, dpdx, dpdy, duvdx, duvdy);
   return mat3(f.t, f.b, f.n);
 }`, [code(essl[frame], [], 'glsl')])]));
-inWgsl.smooth = wgslFn(`
-fn cotanFrame_smooth(n: vec3f, u: vec3f, v: vec3f) -> mat3x3f {
-  let f = cotan_frame_smooth(n, u, v);
+// Frames of two vectors that the geometry gives.
+for (const [frame, name] of [['smooth', 'cotan_frame_smooth'], ['triangle', 'cotan_frame_of_triangle']]) {
+  inWgsl[frame] = wgslFn(`
+fn cotanFrame_${frame}(n: vec3f, u: vec3f, v: vec3f) -> mat3x3f {
+  let f = ${name}(n, u, v);
   return mat3x3f(f.t, f.b, f.n);
-}`, [code(wgsl.smooth, [], 'wgsl')]);
-inEssl.smooth = glslFn(`
-mat3 cotanFrame_smooth(vec3 n, vec3 u, vec3 v) {
-  cotan_frame f = cotan_frame_smooth(n, u, v);
+}`, [code(wgsl[frame], [], 'wgsl')]);
+  inEssl[frame] = glslFn(`
+mat3 cotanFrame_${frame}(vec3 n, vec3 u, vec3 v) {
+  cotan_frame f = ${name}(n, u, v);
   return mat3(f.t, f.b, f.n);
-}`, [code(essl.smooth, [], 'glsl')]);
-inWgsl.triangle = wgslFn(`
-fn cotanFrame_triangle(n: vec3f, u: vec3f, v: vec3f) -> mat3x3f {
-  let f = cotan_frame_of_triangle(n, u, v);
-  return mat3x3f(f.t, f.b, f.n);
-}`, [code(wgsl.triangle, [], 'wgsl')]);
-inEssl.triangle = glslFn(`
-mat3 cotanFrame_triangle(vec3 n, vec3 u, vec3 v) {
-  cotan_frame f = cotan_frame_of_triangle(n, u, v);
-  return mat3(f.t, f.b, f.n);
-}`, [code(essl.triangle, [], 'glsl')]);
+}`, [code(essl[frame], [], 'glsl')]);
+}
 // Unpacks U or V and transforms it to view space.
 inWgsl.moved = wgslFn(`
 fn cotanMoved(words: vec3u, matrix: mat4x4f, second: bool) -> vec3f {

@@ -172,9 +172,8 @@ private:
     }
 
     // What is wrong with a map as a file stays wrong in the converted one.
-    void noteFaults(const Image& map, const std::string& name)
+    void noteFaults(const maps::NormalStatistics& s, const std::string& name)
     {
-        const maps::NormalStatistics s = maps::statisticsOfSample(map);
         if (std::string faults = maps::sentenceOf(name, maps::faultsInModel(s), s); !faults.empty())
             report_.notes.push_back(std::move(faults));
         if (const std::string note = maps::noteOf(s); !note.empty())
@@ -218,7 +217,8 @@ private:
         auto uses = usesOf(document_, job, options_.frames);
         if (!uses)
             return uses.error();
-        noteFaults(*map, job.name);
+        const maps::NormalStatistics statistics = maps::statisticsOfSample(*map);
+        noteFaults(statistics, job.name);
         const Expansions expansions = expansionsOf(job);
         for (MapUse& use : *uses)
             use.stored.expansion = expansions.read;
@@ -235,7 +235,9 @@ private:
             const GreenWithoutTangents green =
                 shownByTangents ? greenWithoutTangents(job) : GreenWithoutTangents::declared;
             if (green == GreenWithoutTangents::reversed)
-                return withGreenReversed(job, std::move(done), *map, *bytes, *uses, expansions.read);
+                return withGreenReversed( // about whatever engines take for zero
+                    job, std::move(done), *map, *bytes, *uses,
+                    statistics.centre == maps::Centre::biased ? Expansion::biased : expansions.read);
             if (shownByTangents && std::ranges::any_of(job.readers, showsReversed))
                 keepTangents(job, done,
                              fmt::format("its tangents reverse green of {}, which {}", job.name,
@@ -331,8 +333,6 @@ private:
     Result<ConvertedMap> withGreenReversed(const MapJob& job, ConvertedMap done, const Image& map,
                                            std::span<const std::byte> old, std::vector<MapUse> uses, Expansion read)
     {
-        if (maps::statisticsOfSample(map).centre == maps::Centre::biased) // whatever engines take for zero
-            read = Expansion::biased;
         std::vector<MapUse> dropping;
         std::size_t at = 0;
         for (const MapReader& reader : job.readers)

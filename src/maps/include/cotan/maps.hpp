@@ -122,8 +122,7 @@ std::string describe(Content content);
 // right, as in every convention.
 //
 // Only the charts of a map count. The space between them (alpha 0, black, white, a single colour) carries no
-// information. Slopes
-// jump where two charts meet, so each cell's weight is bounded.
+// information. Slopes jump where two charts meet, so each cell's weight is bounded.
 
 enum class Green { up, down, undecidable };
 enum class Swapped { no, yes, undecidable };
