@@ -371,7 +371,8 @@ TEST(ConvertCommand, keepMapsDropsTangentsAndKeepsTheBytesOfMaps)
             continue;
         ++tried;
         TemporaryFolder folder;
-        const json r = convertJson(folder.path(), {model.string(), "--keep-maps", "-o", "out.glb"});
+        const json r =
+            convertJson(folder.path(), {model.string(), "--keep-maps", "--to-frame", "orthonormal", "-o", "out.glb"});
         EXPECT_EQ(r["to"], "orthonormal");
         std::set<std::size_t> reversed; // images whose green TANGENT reverses
         for (const json& map : r["maps"]) {
@@ -489,7 +490,10 @@ TEST(ConvertCommand, badInputGetsOneClearLineAndLeavesNothing)
         std::vector<std::string> words;
         int code;
     } cases[] = {
-        {{"quad.gltf", "-o", "out.glb"}, 1},
+        {{"quad.gltf"}, 1},
+        {{"quad.gltf", "--bits", "8", "-o", "out.glb"}, 1},                             // the maps stay
+        {{"quad.gltf", "--max-degrees", "1", "--to", "cotangent", "-o", "out.glb"}, 1}, // nothing is chosen
+        {{"quad.gltf", "--max-degrees", "-1", "-o", "out.glb"}, 1},
         {{"quad.gltf", "--to", "cotangent"}, 1},
         {{"quad.gltf", "--to", "cotangent", "-o", "out.png"}, 1},
         {{"quad.gltf", "--to", "cotangent", "-o", "quad.gltf"}, 1},

@@ -92,7 +92,7 @@ TEST(ConvertProvoking, wrongArgumentsGetOneClearLine)
         {{"--provoking", "first", "--keep-tangents"}, "--keep-tangents: applies to converted maps only"},
         {{"--provoking", "first", "--from-frame", "smooth"}, "--from-frame: applies to converted maps only"},
         {{"--provoking", "first", "--tangents", "generated"}, "--tangents: applies to converted maps only"},
-        {{}, "--to-frame FRAME or --provoking first or last"}};
+        {{"--provoking", "first", "--max-degrees", "1"}, "--max-degrees: applies to frames that are chosen"}};
     for (const auto& [words, message] : cases) {
         std::vector<std::string> all = {"convert", "quad.gltf", "-o", "out.glb"};
         all.insert(all.end(), words.begin(), words.end());

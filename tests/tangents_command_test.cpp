@@ -59,6 +59,24 @@ TEST(TangentVerdicts, measureTheErrorOfFlightHelmet)
 }
 
 // A plane with perpendicular texture axes has a frame everywhere and no shear.
+TEST(TangentsCommand, saysWhichPrimitivesNeedTheirTangentsAsConvertDecides)
+{
+    TemporaryFolder folder;
+    for (const char* model : {"models/SketchfabCat/scene.gltf", "models/FlightHelmet/FlightHelmet.gltf"}) {
+        COTAN_NEEDS_DATA(model);
+        const json report = reportOn(model);
+        const ToolRun converted = runTool({"convert", dataFile(model).string(), "-o", (folder / "out.glb").string(),
+                                           "--overwrite", "--json", "-", "--quiet"},
+                                          folder.path());
+        ASSERT_EQ(converted.code, 0) << converted.err;
+        ASSERT_GT(report["decisions"].size(), 3u);
+        EXPECT_EQ(report["decisions"], json::parse(converted.out)["decisions"]) << model;
+        const ToolRun said = runTool({"tangents", dataFile(model).string()}, folder.path());
+        for (const json& d : report["decisions"])
+            EXPECT_NE(said.out.find("its normal map: " + d["text"].get<std::string>()), std::string::npos) << d.dump();
+    }
+}
+
 TEST(TangentsCommand, reportsOnSmoothCotangents)
 {
     COTAN_NEEDS_DATA("models/TwoSidedPlane/TwoSidedPlane.glb");

@@ -29,7 +29,7 @@ struct ConvertCommandOptions : CommonOptions {
     TangentOrigin tangents = TangentOrigin::stored;
     bool keepTangents = false, keepMaps = false;
     double maxDegrees = ChoiceLimits().mean; // for frames that are chosen
-    std::string provoking; // empty: vertices stay unchanged
+    std::string provoking;                   // empty: vertices stay unchanged
     int memory = kDefaultMemory;
     int bits = 0; // 0: as the old map
     std::string expansion = "biased";
@@ -76,6 +76,9 @@ Result<std::optional<FramePair>> checkUsage(const ConvertCommandOptions& o)
     if ((o.keepMaps || chooses(o)) && (o.keepTangents || o.bits != 0))
         return usageError(fmt::format("{}: {} drops only the tangents", o.keepTangents ? "--keep-tangents" : "--bits",
                                       o.keepMaps ? "--keep-maps" : "convert without --to-frame"));
+    if (!chooses(o) && o.maxDegrees != ConvertCommandOptions().maxDegrees)
+        return usageError(fmt::format("--max-degrees: applies to frames that are chosen; leave out {}",
+                                      o.to.empty() ? "--provoking, or add --keep-maps" : "--to-frame"));
     if (verticesOnly(o))
         if (Status alone = checkVerticesOnly(o); !alone)
             return alone.error();
@@ -161,7 +164,7 @@ Status convertMaps(const ConvertCommandOptions& o, const FramePair& frames, Gltf
     for (const std::string& line : tangentsLines(*done, std::string(name(frames.to))))
         say(o, line);
     report["tangents"] = tangentsJson(*done);
-    report["decisions"] = decisionsJson(*done);
+    report["decisions"] = decisionsJson(done->decisions);
     notes = done->notes;
     return Done{};
 }
@@ -223,10 +226,10 @@ Status run(const ConvertCommandOptions& o)
     report["notes"] = notes;
     report["seconds"] = {{"convert", watch.lap()}};
     if (!o.verify.empty()) {
-        auto verified = verifyConversion(
-            {o.model, o.output, (*frames)->from, chooses(o) ? std::nullopt : std::optional((*frames)->to),
-             (*frames)->fromTangents, o.verify, o.device, o.memory},
-            o);
+        auto verified = verifyConversion({o.model, o.output, (*frames)->from,
+                                          chooses(o) ? std::nullopt : std::optional((*frames)->to),
+                                          (*frames)->fromTangents, o.verify, o.device, o.memory},
+                                         o);
         if (!verified)
             return verified.error();
         report["verify"] = std::move(*verified);
@@ -244,8 +247,10 @@ void declare(Arguments& a, ConvertCommandOptions& o)
         .in("FRAME")
         .offers(frameWords())
         .main();
-    a.option("--to-frame", o.to, "frame to make the maps for; mikktspace and vertex write TANGENT, all others drop it (default: the maps stay, "
-             "each primitive is read with the frame that is near enough, and tangents stay where none is)")
+    a.option(
+         "--to-frame", o.to,
+         "frame to make the maps for; mikktspace and vertex write TANGENT, all others drop it (default: the maps stay, "
+         "each primitive is read with the frame that is near enough, and tangents stay where none is)")
         .in("FRAME")
         .offers(frameWords())
         .main();

@@ -1,7 +1,11 @@
 #include "commands.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
+#include "bake/convert/choose_primitives.hpp"
+#include "bake/reports.hpp"
 #include "cotan/gltf.hpp"
 #include "gltf_open.hpp"
 #include "lint_lines.hpp"
@@ -40,8 +44,18 @@ std::string referenceName(const TangentsCommandOptions& o)
     return o.frame == "vertex" ? "the classic tangents" : "MikkTSpace";
 }
 
+// The frame that reads the primitive's maps without tangents, or why these stay; empty if it has no such map.
+std::string chosenFor(const PrimitiveTangents& p, const std::vector<PrimitiveDecision>& decisions)
+{
+    const auto found =
+        std::ranges::find(decisions, SourcePrimitive{p.mesh, p.primitive}, &PrimitiveDecision::primitive);
+    const bool reads = found != decisions.end() && found->decision.reason != ChoiceReason::noMap;
+    return reads ? "; its normal map: " + textOf(found->decision) : "";
+}
+
 // Reports the tangent differences of one primitive.
-void reportDifference(const TangentsCommandOptions& o, const PrimitiveTangents& p, Json& row)
+void reportDifference(const TangentsCommandOptions& o, const PrimitiveTangents& p,
+                      const std::vector<PrimitiveDecision>& decisions, Json& row)
 {
     std::string text = p.reason.empty() ? "no TANGENT" : p.reason;
     if (!p.reason.empty()) {
@@ -50,7 +64,7 @@ void reportDifference(const TangentsCommandOptions& o, const PrimitiveTangents& 
         row.update(toJson(*p.difference));
         text = toText(*p.difference, referenceName(o));
     }
-    say(o, "{} ({} triangles): {}", p.name, p.triangles, text);
+    say(o, "{} ({} triangles): {}{}", p.name, p.triangles, text, chosenFor(p, decisions));
 }
 
 // Compares stored tangents with generated ones.
@@ -60,9 +74,14 @@ Status compare(const TangentsCommandOptions& o, const GltfDocument& document, Js
         o, 1, "comparing", [&](const Progress& progress) { return compareTangents(document, optionsOf(o, progress)); });
     if (!compared)
         return compared.error();
+    const auto decisions =
+        choosePrimitives(document, {}, TangentOrigin::stored, limitsFor(kDefaultMemory, Pixels::normalMaps));
+    if (!decisions)
+        return decisions.error();
+    report["decisions"] = decisionsJson(*decisions);
     for (const PrimitiveTangents& p : compared->primitives) {
         auto row = describe(p);
-        reportDifference(o, p, row);
+        reportDifference(o, p, *decisions, row);
         report["primitives"].push_back(std::move(row));
     }
     const bool any = compared->whole.corners > 0;

@@ -162,7 +162,8 @@ std::vector<std::string> warningsOf(const LintReport& report, std::vector<std::s
 
 Json listsOf(const LintReport& report)
 {
-    Json lists = {{"primitives", Json::array()}, {"maps", Json::array()}, {"fits", Json::array()}, {"decisions", Json::array()}};
+    Json lists = {
+        {"primitives", Json::array()}, {"maps", Json::array()}, {"fits", Json::array()}, {"decisions", Json::array()}};
     for (const PrimitiveLint& p : report.primitives)
         lists["primitives"].push_back(toJson(p));
     for (const GreenEvidence& g : report.maps)
@@ -217,10 +218,10 @@ Json toJson(const ConvertedMap& map)
     return json;
 }
 
-Json decisionsJson(const ConvertModelReport& report)
+Json decisionsJson(const std::vector<PrimitiveDecision>& decisions)
 {
     Json list = Json::array();
-    for (const PrimitiveDecision& d : report.decisions) {
+    for (const PrimitiveDecision& d : decisions) {
         Json json = toJson(d.decision);
         json["mesh"] = d.primitive.mesh;
         json["primitive"] = d.primitive.primitive;

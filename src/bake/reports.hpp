@@ -38,7 +38,7 @@ Json listsOf(const LintReport& report);
 Json toJson(const ConvertedMap& map);
 
 // The frames that were chosen for primitives of the file, by options.choose; otherwise empty.
-Json decisionsJson(const ConvertModelReport& report);
+Json decisionsJson(const std::vector<PrimitiveDecision>& decisions);
 
 // The results for tangents and for anisotropic highlights.
 Json tangentsJson(const ConvertModelReport& report);

@@ -26,7 +26,7 @@ namespace {
 
 Json convertJson(const ConvertModelReport& report)
 {
-    Json json = {{"decisions", decisionsJson(report)},
+    Json json = {{"decisions", decisionsJson(report.decisions)},
                  {"maps", Json::array()},
                  {"unread_maps", Json::array()},
                  {"tangents", tangentsJson(report)},
@@ -63,10 +63,9 @@ ConvertModelOptions optionsFor(const cotan_convert_options& o, const ModelFiles&
 {
     require(o.threads >= 0, "options.threads: expected 0 or more");
     ConvertModelOptions convert;
-    convert.frames = {frameOr(o.from, Frame::mikktspace, "options.from"),
-                      frameOr(o.to, Frame::orthonormal, "options.to"),
-                      o.generate_tangents != 0 ? TangentOrigin::generated : TangentOrigin::stored,
-                      TangentOrigin::generated};
+    convert.frames = {
+        frameOr(o.from, Frame::mikktspace, "options.from"), frameOr(o.to, Frame::orthonormal, "options.to"),
+        o.generate_tangents != 0 ? TangentOrigin::generated : TangentOrigin::stored, TangentOrigin::generated};
     convert.bits = o.bits;
     convert.keepTangents = o.keep_tangents != 0;
     const bool chooses = !o.to && o.keep_maps != COTAN_MAPS_UNREAD;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "bake/lint/map_fit.hpp"
+#include "core/loops.hpp"
 #include "lint_parts.hpp"
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
@@ -85,8 +86,8 @@ std::vector<ShownMap> mapsOf(const Scene& scene, const Material& m)
     const auto add = [&](const Texture& texture, const Convention& stored, float scale) {
         const Image& image = scene.images[std::size_t(texture.image)];
         if (hasPixels(image) && std::abs(scale) > kFlattened)
-            maps.push_back({&image, &texture.sampler,
-                            toFormat<f64::cotan_normal_format>(stored, image.type, double(scale))});
+            maps.push_back(
+                {&image, &texture.sampler, toFormat<f64::cotan_normal_format>(stored, image.type, double(scale))});
     };
     const auto sameUv = [](const Texture& a, const Texture& b) {
         return a.texcoord == b.texcoord && a.uRow == b.uRow && a.vRow == b.vRow;
@@ -118,8 +119,7 @@ public:
             decision_.meaning = MapMeaning::named;
             decision_.reason = ChoiceReason::named;
             decision_.frame = *named;
-            decision_.tangents =
-                readsTangents(*named) && stored ? TangentOrigin::stored : TangentOrigin::generated;
+            decision_.tangents = readsTangents(*named) && stored ? TangentOrigin::stored : TangentOrigin::generated;
             return decision_;
         }
         decision_.meaning = stored ? MapMeaning::stored : MapMeaning::mikktspace;
@@ -155,7 +155,10 @@ private:
         decision_.tangents = stored ? TangentOrigin::stored : TangentOrigin::generated;
     }
 
-    const Texture& uvOf() const { return material_.normalMap.present() ? material_.normalMap : material_.coat.normalMap; }
+    const Texture& uvOf() const
+    {
+        return material_.normalMap.present() ? material_.normalMap : material_.coat.normalMap;
+    }
 
     // Sets the points and the texels there, or why there are none.
     void prepare()
@@ -265,8 +268,10 @@ std::vector<FrameDecision> chooseFrames(const Scene& scene, const ChoiceOptions&
             addDistinctLinearMap(known, glm::dmat3(glm::dmat4(i.toWorld)));
     addIdentityWhereEmpty(stretches);
     const std::size_t points = pointsOfEach(scene.meshes.size());
-    for (std::size_t i = 0; i < scene.meshes.size(); ++i)
-        decisions.push_back(Chooser(scene, i, stretches[i], points, options).run());
+    decisions.resize(scene.meshes.size());
+    parallelFor(std::size_t(0), scene.meshes.size(), [&](std::size_t i) {
+        decisions[i] = Chooser(scene, i, std::move(stretches[i]), points, options).run();
+    });
     return decisions;
 }
 
@@ -287,8 +292,9 @@ std::string textOf(const FrameDecision& d)
     std::string text = d.dropsTangents() ? "no frame reads its map within the limits" : "its tangents stay";
     for (const FrameCandidate& c : d.candidates)
         if (c.tangents == TangentOrigin::generated)
-            text += fmt::format("{} {} {:.2f}", &c == &d.candidates.front() ? "; degrees on average without them:" : ",",
-                                nameOf(c), c.mean);
+            text +=
+                fmt::format("{} {} {:.2f}", &c == &d.candidates.front() ? "; degrees on average without them:" : ",",
+                            nameOf(c), c.mean);
     return text;
 }
 
