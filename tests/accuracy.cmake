@@ -1,5 +1,5 @@
 # The tables of `cotan accuracy`, their files, and the committed figures.
-cotan_test(accuracy_test
+cotan_test(accuracy_test SLOW AccuracyFigures.* AccuracyCommand.bars* AccuracyCommand.flat*
   SOURCES accuracy_bars_test.cpp accuracy_figures_test.cpp accuracy_committed_test.cpp accuracy_command_test.cpp theory_test.cpp
     truth_surface_test.cpp
   LIBRARIES cotan_lab_report cotan_truth cotan_core fmt::fmt)

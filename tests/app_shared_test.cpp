@@ -143,7 +143,8 @@ protected:
         common.quiet = true;
         common.threads = 1;
         options.before = options.after = folder / "quad.gltf";
-        options.from = options.to = Frame::cotangent;
+        options.from = Frame::cotangent;
+        options.to = Frame::cotangent;
         options.folder = folder / "v";
         options.device = "reference";
         options.memory = 100;

@@ -36,9 +36,9 @@ protected:
     TemporaryFolder folder;
 };
 
-// The stored tangents of these models contradict the declared green convention. Drawn with frames that need no
-// tangents, they must look as their tangents intend. Figures are mean angles between normals in degrees: MikkTSpace and
-// `orthonormal` differ by about one degree on coarse models; reversed green gave 9.8 on the cat.
+// The stored tangents of these models contradict the declared green convention. They must look as their tangents
+// intend, within the limit of the frames that `auto` chooses: a mean of 0.3 degrees between normals. Reversed green
+// gave 9.8 on the cat.
 TEST_F(AutoFrame, tangentsThatReverseGreenAreFollowed)
 {
     bool any = false;
@@ -52,8 +52,8 @@ TEST_F(AutoFrame, tangentsThatReverseGreenAreFollowed)
                                   folder.path(), 300);
         ASSERT_EQ(r.code, 0) << model << ": " << r.err;
         const json report = reportOf(folder / "out.json");
-        EXPECT_EQ(report.at("frames"), json({"orthonormal", "mikktspace"})) << model;
-        EXPECT_LT(report.at("normals").at("mean_degrees").get<double>(), 1) << model;
+        EXPECT_EQ(report.at("frames").at(1), "mikktspace") << model;
+        EXPECT_LT(report.at("normals").at("mean_degrees").get<double>(), 0.3) << model;
     }
     if (!any)
         GTEST_SKIP() << "no models: run scripts/test-data";
@@ -78,7 +78,9 @@ TEST_F(AutoFrame, flippedGreenIsWarnedOfOnceAndTheConventionOverridesIt)
     EXPECT_LT(mean(""), 0.01); // a flat quad with square uv: both frames are equal
     EXPECT_LT(mean(" --convention gltf --frames orthonormal,cotangent"), 12);
     EXPECT_LT(mean(" --frames smooth,mikktspace"), 12);
-    EXPECT_GT(mean(" --convention gltf"), 10); // as declared, against the stored tangents: reversed
+    // As declared, against the stored tangents: reversed. `auto` measures that, and keeps the tangents.
+    EXPECT_GT(mean(" --convention gltf --frames orthonormal,mikktspace"), 10);
+    EXPECT_LT(mean(" --convention gltf"), 0.01);
     // Generated tangents replace those of the file: their w, and with it the direction of green, follows the uv.
     EXPECT_LT(mean(" --frames orthonormal,mikktspace --tangents generated"), 0.01);
 }

@@ -1,5 +1,5 @@
 # The tool, run as users run it.
-cotan_test(cli_test
+cotan_test(cli_test SLOW CommandLine.every*
   SOURCES cli_test.cpp cli_bad_input_test.cpp cli_packed_input_test.cpp capital_extensions_test.cpp own_maps_test.cpp
     render_turntable_test.cpp command_errors_test.cpp
   LIBRARIES cotan_model cotan_scene cotan_inspect nlohmann_json::nlohmann_json fmt::fmt)
@@ -15,7 +15,7 @@ set_target_properties(module_versions PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAK
 target_compile_definitions(files_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>"
   MODULE_FOLDER="$<TARGET_FILE_DIR:module_versions>" MODULE_NAME="$<TARGET_FILE_NAME:module_versions>")
 add_dependencies(files_test cotan module_versions)
-cotan_test(help_test
+cotan_test(help_test SLOW Help.every*
   SOURCES help_test.cpp man_page_test.cpp progress_test.cpp
   LIBRARIES cotan_app cotan_scene fmt::fmt)
 target_compile_definitions(help_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
@@ -23,6 +23,7 @@ add_dependencies(help_test cotan)
 # A few commands under every fault; docs/project/robustness.md has the complete table.
 add_test(NAME Faults.quick COMMAND ${PROJECT_SOURCE_DIR}/scripts/try-faults --quick $<TARGET_FILE:cotan>)
 set_tests_properties(Faults.quick PROPERTIES TIMEOUT 300)
+cotan_slow(Faults.quick)
 # Compares docs/reference/json.md with the reports.
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)
@@ -38,4 +39,5 @@ cotan_test(words_test
 foreach(part man words bash zsh fish)
   add_test(NAME HelpFiles.${part} COMMAND python3 ${CMAKE_CURRENT_SOURCE_DIR}/help_files_test.py $<TARGET_FILE:cotan> ${PROJECT_BINARY_DIR}/share ${part})
   set_tests_properties(HelpFiles.${part} PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77)
+  cotan_slow(HelpFiles.${part})
 endforeach()

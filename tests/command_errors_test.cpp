@@ -180,8 +180,10 @@ TEST(CommandErrors, convertErrorsStateTheRule)
 {
     const std::string convert = "convert quad.gltf ";
     expectMessage({
-        {convert + "-o c.glb", 1,
-         "convert: expected --to-frame FRAME or --provoking first or last; or --keep-maps; found none"},
+        {convert + "-o d.glb", 0, "d.glb: "},
+        {convert + "--bits 8 -o c.glb", 1, "--bits: convert without --to-frame drops only the tangents"},
+        {convert + "--to-frame smooth --max-degrees 1 -o c.glb", 1,
+         "--max-degrees: applies to frames that are chosen; leave out --to-frame"},
         {convert + "--to-frame smooth", 1, "convert needs -o FILE"},
         {convert + "--to-frame x -o c.glb", 1, "--to-frame: "},
         {convert + "--from-frame x --to-frame smooth -o c.glb", 1, "--from-frame: "},

@@ -13,6 +13,7 @@ if(NOT CMAKE_CXX_FLAGS MATCHES "fsanitize")
   add_test(NAME Consumer.keepsItsCacheVectorTypesAndInstall
     COMMAND ${PROJECT_SOURCE_DIR}/scripts/try-consumer ${PROJECT_BINARY_DIR}/consumer ${CMAKE_CXX_COMPILER})
   set_tests_properties(Consumer.keepsItsCacheVectorTypesAndInstall PROPERTIES TIMEOUT 300 COST 50 PROCESSORS 2)
+  cotan_slow(SmallestBuild.buildsInstallsAndWorks Consumer.keepsItsCacheVectorTypesAndInstall)
   add_test(NAME Suite.failsIfALibraryIsMissing
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/suite_test.sh ${PROJECT_BINARY_DIR}/suite ${CMAKE_CXX_COMPILER})
   set_tests_properties(Suite.failsIfALibraryIsMissing PROPERTIES TIMEOUT 300)
@@ -78,6 +79,7 @@ if(Python3_FOUND AND TARGET cotan_image AND TARGET OpenImageIO::OpenImageIO)
   add_test(NAME Extending.addsAFrameAFormatAndALanguage
     COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/extending_test.py ${PROJECT_SOURCE_DIR})
   set_tests_properties(Extending.addsAFrameAFormatAndALanguage PROPERTIES COST 110)
+  cotan_slow(Extending.addsAFrameAFormatAndALanguage)
 endif()
 if(Python3_FOUND)
   add_test(NAME PublicHeaders.beginWithExamplesThatCompile

@@ -1,5 +1,5 @@
 # Runs the integration examples as they are shipped.
-cotan_test(examples_test FIXTURE npm
+cotan_test(examples_test FIXTURE npm SLOW Meshes/ExampleDeforming.*large*
   SOURCES examples_browser_test.cpp browser_pages.cpp examples_triangle_web_test.cpp
   LIBRARIES cotan_model cotan_scene cotan_gltf_json)
 target_compile_definitions(examples_test PRIVATE
@@ -7,21 +7,21 @@ target_compile_definitions(examples_test PRIVATE
 add_dependencies(examples_test cotan)
 
 # The package for three.js, and repairs for other web engines.
-cotan_test(web_engines_test FIXTURE npm
+cotan_test(web_engines_test FIXTURE npm SLOW "*"
   SOURCES three_package_test.cpp repairs_test.cpp browser_pages.cpp
   LIBRARIES cotan_model cotan_scene nlohmann_json::nlohmann_json)
 target_compile_definitions(web_engines_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
 add_dependencies(web_engines_test cotan)
 
 # Compares renders of real models with those of three.js.
-cotan_test(three_comparison_test FIXTURE npm
+cotan_test(three_comparison_test FIXTURE npm SLOW ThreeComparison.*
   SOURCES three_comparison_test.cpp browser_pages.cpp flip.cpp flip_test.cpp
   LIBRARIES cotan_model cotan_render cotan_scene cotan_bake cotan_inspect nlohmann_json::nlohmann_json)
 target_compile_definitions(three_comparison_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm"
   COTAN_PAIRS="${CMAKE_CURRENT_BINARY_DIR}/three_comparison")
 
 # Compares predictions of lint with three.js.
-cotan_test(three_judge_test FIXTURE npm
+cotan_test(three_judge_test FIXTURE npm SLOW "*"
   SOURCES three_judge_test.cpp browser_pages.cpp
   LIBRARIES cotan_model cotan_render cotan_bake cotan_inspect nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(three_judge_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
@@ -51,7 +51,7 @@ if(TARGET Vulkan::Vulkan AND COTAN_GLSLANG)
   add_dependencies(examples_test deforming_example)
   if(TARGET cotan_cost)
     add_subdirectory(${PROJECT_SOURCE_DIR}/bench/gpu ${CMAKE_CURRENT_BINARY_DIR}/on_gpu)
-    cotan_test(on_gpu_test SOURCES on_gpu_test.cpp LIBRARIES on_gpu_page)
+    cotan_test(on_gpu_test SLOW "*" SOURCES on_gpu_test.cpp LIBRARIES on_gpu_page)
     target_compile_definitions(on_gpu_test PRIVATE COTAN_ON_GPU="$<TARGET_FILE:on_gpu>"
       COTAN_TOOL="$<TARGET_FILE:cotan>")
     add_dependencies(on_gpu_test on_gpu)

@@ -1,4 +1,4 @@
-cotan_test(lint_test
+cotan_test(lint_test SLOW LintCommand.prediction*
   SOURCES lint_test.cpp lint_command_test.cpp scale_test.cpp
   LIBRARIES cotan_bake cotan_model cotan_scene cotan_truth nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(lint_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")

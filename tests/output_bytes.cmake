@@ -7,19 +7,23 @@ if(Python3_FOUND)
     add_test(NAME OutputBytes.${table}
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/output_bytes.py $<TARGET_FILE:cotan> ${CMAKE_CURRENT_SOURCE_DIR}/output_bytes/${table}.txt)
     set_tests_properties(OutputBytes.${table} PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77)
+    cotan_slow(OutputBytes.${table})
   endforeach()
   add_test(NAME TwoRenderers.drawTheSame
     COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/two_renderers_test.py $<TARGET_FILE:cotan> ${CMAKE_CURRENT_SOURCE_DIR}/output_bytes/pictures.txt)
   set_tests_properties(TwoRenderers.drawTheSame PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77 COST 75)
+  cotan_slow(TwoRenderers.drawTheSame)
   if(NOT CMAKE_CXX_FLAGS MATCHES "fsanitize") # the sanitizers' library must be loaded first
     add_test(NAME FailingCalls.leaveCompleteOutputOrNone
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/failing_calls_test.py $<TARGET_FILE:cotan>)
     set_tests_properties(FailingCalls.leaveCompleteOutputOrNone PROPERTIES TIMEOUT 900 SKIP_RETURN_CODE 77 COST 120 PROCESSORS 2)
+    cotan_slow(FailingCalls.leaveCompleteOutputOrNone)
   endif()
   foreach(command render compare bake convert map others)
     add_test(NAME OptionEffects.${command}
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/option_effects_test.py $<TARGET_FILE:cotan> ${command})
     set_tests_properties(OptionEffects.${command} PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77)
+    cotan_slow(OptionEffects.${command})
   endforeach()
   foreach(command look map make others)
     add_test(NAME OverwriteWalk.${command}
@@ -30,5 +34,6 @@ if(Python3_FOUND)
     add_test(NAME FileFields.${part}
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/file_fields_test.py $<TARGET_FILE:cotan> ${part})
     set_tests_properties(FileFields.${part} PROPERTIES TIMEOUT 300)
+    cotan_slow(FileFields.${part})
   endforeach()
 endif()

@@ -385,7 +385,7 @@ TEST(PictureOptionValues, libraryAcceptsAndRefusesLikeTheCommandLine)
         for (const std::string& word : words)
             EXPECT_EQ(libraryMessage({name, word}), commandLineMessage({name, word})) << name << " " << word;
     }
-    EXPECT_EQ(options, 37u);
+    EXPECT_EQ(options, 38u);
 }
 
 TEST(PictureOptionValues, libraryReadsTheSameValues)

@@ -26,6 +26,7 @@ foreach(part header arrays geometry maps bake models render json types work opti
   else()
     add_test(NAME ${name} COMMAND ${test})
     set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
+    cotan_slow(${name})
   endif()
   set_property(TEST ${name} PROPERTY ENVIRONMENT
     "COTAN_LIBRARY=$<TARGET_FILE:cotan_c>;COTAN_TOOL=$<TARGET_FILE:cotan>"

@@ -1,5 +1,5 @@
 if(TARGET cotan_vulkan)
-  cotan_test(render_test
+  cotan_test(render_test SLOW RenderValidation.*
     SOURCES render_test.cpp render_frame_test.cpp render_shading_test.cpp render_mips_test.cpp
       render_layers_test.cpp render_layout_test.cpp render_view_data_test.cpp
     LIBRARIES cotan_render)

@@ -55,6 +55,7 @@ TEST(ConvertLines, printEveryFigureOfAMap)
     m.figures.several = 0;
     EXPECT_EQ(linesOf(m, "smooth").size(), 2u);
     m.kept = true;
+    m.readWith = {Frame::smooth};
     EXPECT_EQ(linesOf(m, "smooth"),
               Lines{"leather: unchanged: read with smooth its error is 30.00 / 31.00 / 32.00 degrees on 1 surface"});
     m.figures.unconverted = {7, 0.1, 0.3, 0.5};
@@ -98,6 +99,7 @@ TEST(ConvertLines, jsonOfAMapHasEveryFigure)
     m.quality = 0;
     EXPECT_EQ(parsed(toJson(m))["quality"], nullptr);
     m.kept = true;
+    m.readWith = {Frame::smooth};
     const auto kept = parsed(toJson(m));
     EXPECT_EQ(kept["kept"], true);
     EXPECT_EQ(kept["image"], 3);

@@ -72,7 +72,7 @@ def what_builds_make():
 
 
 # Written by scripts, not by the build.
-BY_SCRIPTS = ("found", "corpus", "logs", "debs", "cpack.txt", "npm")
+BY_SCRIPTS = ("found", "corpus", "logs", "debs", "cpack.txt", "npm", "data", "data-npm", "models-npm", "models-made", "models-made.part")
 
 
 def namesWhatTheBuildMakes():

@@ -4,7 +4,7 @@ target_include_directories(shader_text_test PRIVATE ${PROJECT_SOURCE_DIR}/src/sh
 cotan_test(frame_table_test SOURCES frame_table_test.cpp LIBRARIES cotan_shader_text)
 # Compiles and runs the printed shader text in every language that this machine supports.
 if(COTAN_GLSLANG)
-  cotan_test(shader_test
+  cotan_test(shader_test SLOW ShaderParity.*
     SOURCES shader_test.cpp shader_godot_test.cpp shader_cases.cpp shader_light.cpp shader_draw.cpp shader_compute.cpp shader_run_cpp.cpp shader_run_browser.cpp
     LIBRARIES cotan_shader_text cotan_scene cotan_truth nlohmann_json::nlohmann_json fmt::fmt)
   target_compile_definitions(shader_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>"

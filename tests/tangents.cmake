@@ -17,3 +17,4 @@ add_test(NAME Core.isRightWith32BitSizes
     -DSOURCE=${PROJECT_SOURCE_DIR} -DOUT=${CMAKE_CURRENT_BINARY_DIR}/core_32bit
     -P ${CMAKE_CURRENT_SOURCE_DIR}/core_32bit.cmake)
 set_tests_properties(Core.isRightWith32BitSizes PROPERTIES SKIP_REGULAR_EXPRESSION "skipped:" TIMEOUT 300)
+cotan_slow(Core.isRightWith32BitSizes)

@@ -23,7 +23,8 @@ Scene quadWithTangents(glm::vec4 tangent)
     return scene;
 }
 
-ComparedFrames compared(const Scene& scene, std::array<Frame, 2> frames = {Frame::mikktspace, Frame::exact},
+ComparedFrames compared(const Scene& scene,
+                        std::array<std::optional<Frame>, 2> frames = {Frame::mikktspace, Frame::exact},
                         bool normalMaps = true)
 {
     const auto renderer = openRenderer("reference", 1);

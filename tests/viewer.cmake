@@ -1,6 +1,6 @@
 # The viewer's behaviour without a window, and the window on a display in memory.
 if(TARGET cotan_viewer)
-  cotan_test(viewer_test
+  cotan_test(viewer_test SLOW ViewerMenus.*
     SOURCES viewer_camera_test.cpp viewer_camera_moves_test.cpp viewer_commands_test.cpp viewer_menus_test.cpp viewer_state_test.cpp
       pick_test.cpp inspection_test.cpp drawn_edges_test.cpp
       inspection_views_test.cpp viewer_input_test.cpp viewer_interface_test.cpp viewer_orders_test.cpp viewer_pictures_test.cpp viewer_report_test.cpp
@@ -9,7 +9,7 @@ if(TARGET cotan_viewer)
   target_compile_definitions(viewer_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
   add_dependencies(viewer_test cotan)
   if(TARGET cotan_window)
-    cotan_test(view_window_test
+    cotan_test(view_window_test SLOW ViewWindow.reloads*
       SOURCES view_animation_test.cpp view_display_test.cpp view_files_test.cpp view_panels_test.cpp view_random_test.cpp view_window_test.cpp
       LIBRARIES cotan_model cotan_image cotan_scene fmt::fmt)
     if(COTAN_BUS_LIBRARY AND COTAN_BUS_INCLUDE_DIR)

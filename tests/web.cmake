@@ -3,6 +3,7 @@
 set(tarball ${PROJECT_BINARY_DIR}/web/npm/cotan-${PROJECT_VERSION}.tgz)
 add_test(NAME web_package COMMAND ${PROJECT_SOURCE_DIR}/scripts/npm-package ${PROJECT_BINARY_DIR}/web)
 set_tests_properties(web_package PROPERTIES FIXTURES_SETUP web SKIP_RETURN_CODE 3 TIMEOUT 1200 COST 200)
+cotan_slow(web_package)
 find_program(COTAN_NODE node)
 if(NOT COTAN_NODE)
   cotan_without(Node.js "not found: install nodejs" "no tests of the npm package and of the page")
@@ -15,6 +16,7 @@ function(cotan_web_test file)
     add_test(NAME Web.${case} COMMAND ${COTAN_NODE} --expose-gc ${CMAKE_CURRENT_SOURCE_DIR}/web/${file}.mjs ${tarball}
       ${WEB_ARGUMENTS} ${case})
     set_tests_properties(Web.${case} PROPERTIES FIXTURES_REQUIRED "web;npm" SKIP_RETURN_CODE 77 TIMEOUT 300)
+    cotan_slow(Web.${case})
   endforeach()
 endfunction()
 cotan_web_test(package_test ARGUMENTS $<TARGET_FILE:cotan_c>
@@ -66,6 +68,7 @@ foreach(fact reversedTangentsReverseGreen modelsLookTheSameWithoutTheirTangents
   add_test(NAME ThreeDefaults.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/three_defaults_test.mjs
     ${PROJECT_SOURCE_DIR}/bindings/js ${PROJECT_BINARY_DIR}/npm/node_modules ${fact})
   set_tests_properties(ThreeDefaults.${fact} PROPERTIES FIXTURES_REQUIRED npm SKIP_RETURN_CODE 77 TIMEOUT 600)
+  cotan_slow(ThreeDefaults.${fact})
 endforeach()
 
 # The table of bench/models-in-three, which draws for half an hour: its rules and its page.
@@ -79,15 +82,18 @@ add_test(NAME BasisU.aModelWithPngTexturesIsDrawnAsItsTangentsMean COMMAND ${COT
   ${CMAKE_CURRENT_SOURCE_DIR}/web/basisu_test.mjs ${PROJECT_BINARY_DIR}/npm/node_modules $<TARGET_FILE:cotan>)
 set_tests_properties(BasisU.aModelWithPngTexturesIsDrawnAsItsTangentsMean PROPERTIES
   FIXTURES_REQUIRED npm SKIP_RETURN_CODE 77 TIMEOUT 300)
+cotan_slow(BasisU.aModelWithPngTexturesIsDrawnAsItsTangentsMean)
 
 # Builds the page of web/, and tests it in Chromium.
 add_test(NAME web_page COMMAND ${PROJECT_SOURCE_DIR}/scripts/web-page ${PROJECT_BINARY_DIR}/web)
 set_tests_properties(web_page PROPERTIES FIXTURES_REQUIRED web FIXTURES_SETUP page SKIP_RETURN_CODE 3 TIMEOUT 300)
+cotan_slow(web_page)
 function(cotan_page_test file)
   foreach(fact ${ARGN})
     add_test(NAME Page.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/${file}.mjs ${PROJECT_BINARY_DIR}/web/page
       ${PROJECT_BINARY_DIR}/npm/node_modules $<TARGET_FILE:cotan> ${fact})
     set_tests_properties(Page.${fact} PROPERTIES FIXTURES_REQUIRED "page;npm" SKIP_RETURN_CODE 77 TIMEOUT 300)
+    cotan_slow(Page.${fact})
   endforeach()
 endfunction()
 cotan_page_test(page_maps_test
