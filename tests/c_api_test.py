@@ -114,7 +114,7 @@ listed = set(re.findall(r"^    (cotan_\w+);", open(version_script).read(), re.M)
 lines = subprocess.check_output(["nm", "-D", "--defined-only", library], text=True).splitlines()
 exported = {line.split()[-1].split("@")[0] for line in lines} - {"COTAN_1", "COTAN_2", "COTAN_3", "COTAN_5", "COTAN_6", "COTAN_7"}
 assert exported == listed, exported ^ listed
-assert cotan.cotan_api_version() == 7 and re.fullmatch(rb"\d+\.\d+\.\d+", cotan.cotan_version())
+assert cotan.cotan_api_version() == 8 and re.fullmatch(rb"\d+\.\d+\.\d+", cotan.cotan_version())
 frames = [cotan.cotan_frame_name(i).decode() for i in range(cotan.cotan_frame_count())]
 assert "cotangent" in frames and "mikktspace" in frames and cotan.cotan_frame_name(99) is None
 

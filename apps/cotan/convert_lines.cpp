@@ -23,8 +23,8 @@ std::string whyKept(const ConvertedMap& map)
         return fmt::format("{}: unchanged; not checked, since no triangle with an area, in uv too, uses it", map.name);
     const std::string change = map.greenReversed ? "only its green is reversed" : "unchanged";
     const ValueSummary& error = map.greenReversed ? map.figures.error : unconverted;
-    return fmt::format("{}: {}: read with {} its error is {} degrees on {}{}", map.name, change, namesOf(map.readWith), toText(error),
-                       counted(map.surfaces - map.surfacesWithTangents, "surface"),
+    return fmt::format("{}: {}: read with {} its error is {} degrees on {}{}", map.name, change, namesOf(map.readWith),
+                       toText(error), counted(map.surfaces - map.surfacesWithTangents, "surface"),
                        fitsAsItIs(error) ? ", no more than that of rounding a new map" : "");
 }
 

@@ -75,11 +75,10 @@ Status run(const LintCommandOptions& o)
         warn(o, line);
     const double loadSeconds = watch.lap();
     const auto linted = withProgress(o, 1, "measuring " + o.model, [&](const Progress& progress) {
-        return lintScene(*scene,
-                         {.distance = o.distance,
-                          .memory = std::size_t(o.memory) << 20,
-                          .limits = ChoiceLimits::of(o.maxDegrees)},
-                         progress);
+        return lintScene(
+            *scene,
+            {.distance = o.distance, .memory = std::size_t(o.memory) << 20, .limits = ChoiceLimits::of(o.maxDegrees)},
+            progress);
     });
     if (!linted)
         return withOptionNames(linted.error());

@@ -91,7 +91,8 @@ std::string cellOf(const FrameDecision& d, Frame frame, TangentOrigin tangents)
         return candidate.frame == frame && candidate.tangents == tangents && candidate.points > 0;
     });
     const bool chosen = c != d.candidates.end() && d.frame == frame && d.tangents == tangents;
-    return c == d.candidates.end() ? "-" : fmt::format("{}{:.2f} / {:.1f}", chosen ? "*" : "", c->mean, c->percentile99);
+    return c == d.candidates.end() ? "-"
+                                   : fmt::format("{}{:.2f} / {:.1f}", chosen ? "*" : "", c->mean, c->percentile99);
 }
 
 // The candidates of the primitives that the cheapest one reads worst.
@@ -106,8 +107,9 @@ std::vector<std::string> candidateLines(const LintReport& report)
     std::ranges::stable_sort(judged, std::greater(), [](const FrameDecision* d) { return d->candidates.front().mean; });
     judged.resize(std::min(judged.size(), kWorst));
     std::vector<std::string> lines = {
-        fmt::format("Degrees between normals with each frame and with the tangents, on average / exceeded on 1 % of the "
-                    "area (* chosen):"),
+        fmt::format(
+            "Degrees between normals with each frame and with the tangents, on average / exceeded on 1 % of the "
+            "area (* chosen):"),
         fmt::format("  {:<24}{:>14}{:>14}{:>14}{:>14}{:>16}", "", "orthonormal", "triangle", "smooth", "mikktspace",
                     "file's tangents")};
     for (const FrameDecision* d : judged) {

@@ -169,10 +169,11 @@ void addFrameOption(Arguments& a, std::string& frame)
 {
     std::vector<std::string> names = frameWords();
     names.insert(names.begin(), std::string(kAutoFrame));
-    a.option("--frame", frame,
-             "frame to apply normal maps with: auto (for each part of a model the one that it names for its map, else the "
-             "cheapest within --max-degrees, or its tangents; cotangent for shapes and repeated images), "
-                 + usefulFrameNames() + ", or a historical one of --list-frames")
+    a.option(
+         "--frame", frame,
+         "frame to apply normal maps with: auto (for each part of a model the one that it names for its map, else the "
+         "cheapest within --max-degrees, or its tangents; cotangent for shapes and repeated images), "
+             + usefulFrameNames() + ", or a historical one of --list-frames")
         .in("NAME")
         .offers(names)
         .main();
@@ -181,9 +182,10 @@ void addFrameOption(Arguments& a, std::string& frame)
 
 void addMaxDegreesOption(Arguments& a, double& degrees)
 {
-    a.option("--max-degrees", degrees,
-             "error of normals, on average over a part of a model, that its frame may cause; ten times as much on 1 % of "
-             "its area")
+    a.option(
+         "--max-degrees", degrees,
+         "error of normals, on average over a part of a model, that its frame may cause; ten times as much on 1 % of "
+         "its area")
         .within(kChoiceDegrees.minimum, kChoiceDegrees.maximum)
         .in("D");
 }

@@ -42,7 +42,8 @@ Result<Image> drawPicture(Renderer& renderer, const Picture& picture, const Rend
     auto image = drawShow(renderer, picture.scene, picture.view, o.picture.show, keepsFloats(o.output),
                           [&](const AngleStatistics& degrees) {
                               report["error_against_exact"] = toJson(degrees);
-                              say(o, "{} against exact: {}", nameOfFrames(picture.frames.front(), picture.scene), toText(degrees));
+                              say(o, "{} against exact: {}", nameOfFrames(picture.frames.front(), picture.scene),
+                                  toText(degrees));
                           });
     if (image)
         if (Status laid = layEdges(renderer, picture.view, o.picture, picture.edges, *image); !laid)
@@ -227,8 +228,8 @@ Status renderTurn(const RenderCommandOptions& o, FrameChoice frame, const std::v
     if (Status whole = finish(sequence); !whole)
         return whole;
     say(o, "{}: {} images of {}x{}, {} triangles, frame {}, on {}", o.output.string(), numbers.size(),
-        picture->view.width, picture->view.height, trianglesDrawn(picture->scene), nameOfFrames(picture->frames.front(), picture->scene),
-        (*renderer)->device());
+        picture->view.width, picture->view.height, trianglesDrawn(picture->scene),
+        nameOfFrames(picture->frames.front(), picture->scene), (*renderer)->device());
     return Done{};
 }
 

@@ -35,8 +35,8 @@ void PointerProbe::follow(State& state)
             return probe;
         const auto frame = chosenFrame(*parseFrameChoice(side.frame), picture, model->scene);
         const Mesh& mesh = model->scene.meshes[std::size_t(probe.hit->mesh)];
-        probe.surface = prober_.at(model->scene, model->number, *probe.hit, frame.value_or(mesh.readWith.value_or(Frame{})),
-                                    side.tangents);
+        probe.surface = prober_.at(model->scene, model->number, *probe.hit,
+                                   frame.value_or(mesh.readWith.value_or(Frame{})), side.tangents);
         return probe;
     };
     std::promise<Probe> found;

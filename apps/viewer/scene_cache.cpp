@@ -23,8 +23,7 @@ constexpr double kDraftPixels = 160000;
 std::string sceneKey(const Model& model, const PictureOptions& o, std::optional<Frame> frame,
                      const std::string& inspection)
 {
-    const std::string vertices =
-        !frame || readsVertices(*frame)
+    const std::string vertices = !frame || readsVertices(*frame)
         ? std::string(frame ? name(*frame) : kAutoFrame) + "/" + wordOf(kTangentOrigins, o.tangents)
         : "";
     const OwnMaps& m = o.maps;
@@ -109,8 +108,9 @@ Status SceneCache::drawFigures(const Order& order, Drawn& drawn)
         return degrees.error();
     drawn.degrees = *degrees;
     drawn.statistics = angleStatistics(drawn.degrees);
-    drawn.statisticsOf = two ? "first against second"
-                             : nameOfFrames(frameOf(order, false, *(*first)->scene), *(*first)->scene) + " against exact";
+    drawn.statisticsOf = two
+        ? "first against second"
+        : nameOfFrames(frameOf(order, false, *(*first)->scene), *(*first)->scene) + " against exact";
     drawn.hasFigures = true;
     return Done{};
 }

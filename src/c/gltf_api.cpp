@@ -67,6 +67,7 @@ cotan_lint_options lintOptionsOf(const cotan_lint_options* options, const cotan_
     const auto& frames = readingNames();
     require(!o.frame || std::ranges::find(frames, o.frame) != frames.end(),
             "options.frame: expected cotangent, orthonormal, smooth, exact, triangle or stored");
+    require(o.max_degrees >= 0 && o.max_degrees <= 180, "options.max_degrees: expected 0 to 180");
     require(o.limit_area >= 0 && o.limit_area <= 100, "options.limit_area: expected percent from 0 to 100");
     if (result)
         checked(result, "result");
@@ -75,7 +76,9 @@ cotan_lint_options lintOptionsOf(const cotan_lint_options* options, const cotan_
 
 void lintInto(const Scene& scene, const cotan_lint_options& o, cotan_lint_result* result, cotan_bytes** json)
 {
-    const LintReport report = valueOf(lintScene(scene, {.distance = o.distance}, progressOf(o.progress, o.user)));
+    const LintOptions options = {.distance = o.distance,
+                                 .limits = o.max_degrees > 0 ? ChoiceLimits::of(o.max_degrees) : ChoiceLimits()};
+    const LintReport report = valueOf(lintScene(scene, options, progressOf(o.progress, o.user)));
     LintLimits limits;
     if (o.limit > 0)
         limits.degrees = o.limit;

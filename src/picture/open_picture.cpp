@@ -184,9 +184,7 @@ namespace {
 
 MapSource sourceOf(const PictureOptions& options)
 {
-    return options.model.empty()            ? MapSource::shape
-        : options.maps.normal.empty() ? MapSource::model
-                                      : MapSource::own;
+    return options.model.empty() ? MapSource::shape : options.maps.normal.empty() ? MapSource::model : MapSource::own;
 }
 
 // The frames of the meshes, each once.

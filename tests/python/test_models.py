@@ -73,7 +73,7 @@ def test_lint_reads_other_formats_too(tmp_path):
 
 
 def test_convert_makes_the_texel_twice_as_steep_and_drops_tangents(model, tmp_path):
-    done = cotan.convert(model, tmp_path / "out.glb")
+    done = cotan.convert(model, tmp_path / "out.glb", to_frame="cotangent")
     assert done.glb is None and (done.maps_converted, done.maps_kept, done.tangent_bytes_dropped) == (1, 0, 64)
     assert done.worst_degrees_after < 0.5 < done.worst_degrees_before
     whole = (tmp_path / "out.glb").read_bytes()
@@ -223,7 +223,7 @@ def test_models_keep_their_warnings(model):
 
 
 def test_decoders_and_encoders_of_the_caller_are_called(model, tmp_path):
-    expected = cotan.convert(model).glb
+    expected = cotan.convert(model, to_frame="cotangent").glb
     asked = []
 
     def decode(name, content):
@@ -236,7 +236,7 @@ def test_decoders_and_encoders_of_the_caller_are_called(model, tmp_path):
         cotan.write_picture(tmp_path / "written.png", picture)
         return (tmp_path / "written.png").read_bytes()
 
-    converted = cotan.convert(model, decode=decode, encode=encode)
+    converted = cotan.convert(model, to_frame="cotangent", decode=decode, encode=encode)
     # What was encoded is decoded, too: the report says what the encoder lost.
     assert asked[0].endswith("the%20map.png") and asked[1:] == [(8, 8, 4), asked[0]]
     (tmp_path / "a.glb").write_bytes(expected)
@@ -248,9 +248,22 @@ def test_decoders_and_encoders_of_the_caller_are_called(model, tmp_path):
 
     for own in ({"decode": broken}, {"encode": broken}):
         with pytest.raises(ZeroDivisionError):
-            cotan.convert(model, **own)
+            cotan.convert(model, to_frame="cotangent", **own)
     with pytest.raises(cotan.UsageError, match="decode: expected shape"):
         cotan.convert(model, decode=lambda name, content: np.zeros(3, np.uint8))
+
+
+def test_the_decoder_gets_the_same_name_when_frames_are_chosen_and_the_map_stays(model, tmp_path):
+    asked = []
+
+    def decode(name, content):
+        asked.append(name)
+        (tmp_path / "asked.png").write_bytes(content)
+        return cotan.read_picture(tmp_path / "asked.png")
+
+    done = cotan.convert(model, decode=decode)
+    assert done.maps_kept == 1 and done.report["decisions"][0]["frame"] == "orthonormal"
+    assert len(asked) == 2 and all(name.endswith("the%20map.png") for name in asked)
 
 
 def test_conversion_in_two_steps_equals_one_call(model, tmp_path):
@@ -258,14 +271,14 @@ def test_conversion_in_two_steps_equals_one_call(model, tmp_path):
         cotan.write_picture(tmp_path / "step.png", picture)
         return (tmp_path / "step.png").read_bytes()
 
-    conversion = cotan.Conversion(model)
+    conversion = cotan.Conversion(model, to_frame="cotangent")
     assert [p.shape for p in conversion.pictures] == [(8, 8, 4)]
     with pytest.raises(cotan.UsageError):
         conversion.end()
     with pytest.raises(cotan.UsageError):
         conversion.set(1, b"")
     conversion.set(0, png(conversion.pictures[0]))
-    steps, whole = conversion.end(), cotan.convert(model, encode=png)
+    steps, whole = conversion.end(), cotan.convert(model, to_frame="cotangent", encode=png)
     assert len(steps.glb) == len(whole.glb) and steps.worst_degrees_after == whole.worst_degrees_after
     assert steps.report["maps"] == whole.report["maps"]
 

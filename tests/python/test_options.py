@@ -54,9 +54,9 @@ BAKE = [
 CONVERT = [
     *({"to_frame": f, "from_frame": "mikktspace"} for f in FRAMES), *({"to_frame": "smooth", "from_frame": f} for f in FRAMES),
     {"to_frame": "smooth", "tangents": "generated"}, {"to_frame": "smooth", "keep_tangents": True}, {"to_frame": "smooth", "bits": 16},
-    {"to_frame": "smooth", "unsigned": "exact"}, {"to_frame": "smooth", "keep_maps": True},
+    {"to_frame": "smooth", "unsigned": "exact"}, {"to_frame": "smooth", "keep_maps": True}, {}, {"max_degrees": 40}, {"max_degrees": 0.001},
 ]  # fmt: skip
-LINT = [{}, {"distance": 2.5}, {"limit": 0.01}, {"limit": 80, "frame": "exact"}, {"limit": 3, "frame": "stored"}, {"limit_area": 20}, {"limit_area": 0.5}]
+LINT = [{}, {"max_degrees": 5}, {"distance": 2.5}, {"limit": 0.01}, {"limit": 80, "frame": "exact"}, {"limit": 3, "frame": "stored"}, {"limit_area": 20}, {"limit_area": 0.5}]
 
 
 @pytest.fixture(scope="module")

@@ -230,6 +230,7 @@ def lint(
     limit: Optional[float] = None,
     limit_area: Optional[float] = None,
     frame: Reading = "orthonormal",
+    max_degrees: float = 0.3,
 ) -> Lint:
     """Reports what to expect of a model whose normal maps are read without stored tangents, without a render.
 
@@ -243,6 +244,7 @@ def lint(
             95 % of the area. limit_area: maximum percent of a primitive's area with bad uv or tangents. Reversed green
             fails the check; maps that could not be judged fail `limit`.
         frame: the frame that `limit` judges: cotangent, orthonormal, smooth, exact, triangle or stored.
+        max_degrees: for `decisions` in the report, as in `convert`.
 
     Raises InputError for a broken or missing file, StoppedError if `progress` stopped the work.
     """
@@ -256,6 +258,7 @@ def lint(
             limit=_limit(limit, "limit"),
             limit_area=_limit(limit_area, "limit_area"),
             frame=arrays.encoded(frame, "frame"),
+            max_degrees=_max_degrees(max_degrees),
         )
         if source is not None:
             source.call("cotan_lint_gltf", options, result, text)
@@ -279,6 +282,12 @@ def lint(
         report=report,
         passed=report["check"] and report["check"]["passed"],
     )
+
+
+def _max_degrees(degrees):
+    if not 0 < arrays.number(degrees, "max_degrees") <= 180:
+        raise arrays.wrong("max_degrees", "more than 0 and at most 180", degrees)
+    return degrees
 
 
 def check_tangents(tangents):
@@ -349,8 +358,6 @@ def convert(
 
 def convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned, keep_maps, max_degrees):
     """The cotan_convert_options for these arguments."""
-    if not 0 < arrays.number(max_degrees, "max_degrees") <= 180:
-        raise arrays.wrong("max_degrees", "more than 0 and at most 180", max_degrees)
     options = structs.ConvertOptions(
         to=None if to_frame is None else arrays.encoded(to_frame, "to_frame"),
         bits=arrays.integer(bits, "bits", 0, 16),
@@ -360,7 +367,7 @@ def convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads
         progress=told,
         expansion=arrays.encoded(unsigned, "unsigned"),
         keep_maps=int(keep_maps),
-        max_degrees=max_degrees,
+        max_degrees=_max_degrees(max_degrees),
     )
     if from_frame is not None:
         setattr(options, "from", arrays.encoded(from_frame, "from_frame"))

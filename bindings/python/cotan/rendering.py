@@ -34,6 +34,7 @@ def render(
     *,
     size: Union[str, int, Sequence[int]] = (1280, 720),
     frame: DrawnFrame = "auto",
+    max_degrees: Optional[float] = None,
     view: str = "shaded",
     camera: Union[str, int, Sequence[float], None] = None,
     shape: Optional[str] = None,
@@ -84,6 +85,7 @@ def render(
         model: a path to a model file, the bytes of a glTF one, or None for the built-in scene or `shape`.
         size: (width, height), one number for both, or "WxH".
         frame: the frame to apply normal maps with: see `frames`.
+        max_degrees: for the frame "auto", as in `convert`.
         view: "shaded", "normal", "uv", "depth", "error", "checker", "stretch", "base-color", ...
         camera: "front", "fit", the index of a camera of the file, or six numbers in world units: eye and target.
         up: "y", or "z" for files with z up, such as PLY and STL of Blender and CAD.

@@ -8,6 +8,7 @@
 
 #include "cotan/gltf.hpp"
 #include "gltf/json/lookup.hpp"
+#include "map_jobs.hpp"
 
 namespace cotan {
 
@@ -78,7 +79,10 @@ void add(FrameDecision& known, const FrameDecision& other, const ChoiceLimits& l
 Result<std::vector<PrimitiveDecision>> choosePrimitives(const GltfDocument& document, const ChoiceLimits& limits,
                                                         TangentOrigin tangents, const LoadLimits& load)
 {
-    auto bytes = glbBytes(document, load);
+    GltfDocument named = document; // decoders get the names of files that become a part of the GLB
+    for (std::size_t i = 0; i < countOf(rootOf(named), "images"); ++i)
+        rootOf(named)["images"][i]["name"] = imageName(rootOf(named), i);
+    auto bytes = glbBytes(std::move(named), load);
     if (!bytes)
         return bytes.error();
     LoadLimits inside = load;

@@ -15,6 +15,14 @@ namespace cotan {
 
 using gltf::Json;
 
+std::string imageName(const Json& root, std::size_t image)
+{
+    if (image >= countOf(root, "images"))
+        return "a map in an unknown format";
+    const std::string name = root["images"][image].value("name", root["images"][image].value("uri", std::string()));
+    return name.empty() || name.starts_with("data:") ? fmt::format("image {}", image) : name;
+}
+
 namespace {
 
 // The images that materials read in slots other than those of normal maps.
@@ -72,14 +80,6 @@ double strengthOf(const Json& material, const gltf::TextureUse& map, NormalSlot 
 {
     const Json* const coat = gltf::extension(material, "KHR_materials_clearcoat");
     return slot == NormalSlot::coat && coat->value("clearcoatFactor", 0.0) <= 0 ? 0 : map.scale;
-}
-
-std::string imageName(const Json& root, std::size_t image)
-{
-    if (image >= countOf(root, "images"))
-        return "a map in an unknown format";
-    const std::string name = root["images"][image].value("name", root["images"][image].value("uri", std::string()));
-    return name.empty() || name.starts_with("data:") ? fmt::format("image {}", image) : name;
 }
 
 const char* whatOf(NormalSlot slot) { return slot == NormalSlot::coat ? "its coat's normal map" : "its normal map"; }

@@ -12,6 +12,7 @@
 #include "bake/convert/reencode.hpp"
 #include "cotan/convert.hpp"
 #include "cotan/gltf.hpp"
+#include "gltf/json/views.hpp"
 #include "scene/normal_maps.hpp"
 
 namespace cotan {
@@ -23,6 +24,9 @@ struct MapSlot {
 
     auto operator<=>(const MapSlot&) const = default;
 };
+
+// The name that reports, and decoders of the caller, get for an image: its name, else its URI, else its number.
+std::string imageName(const gltf::Json& root, std::size_t image);
 
 // A primitive that reads a map through one of its materials.
 struct MapReader {

@@ -103,9 +103,9 @@ std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, std
         for (const MeshPoint& p : points)
             for (std::size_t i = 0; i < frames.size(); ++i)
                 errors[i].add(
-                    lint::degreesBetween(normalOf(before, use, use.stored, frames[i].from, frames[i].fromTangents, p),
-                                         normalOf(after, use, stored, use.readWith.value_or(frames[i].to),
-                                                  frames[i].toTangents, p)),
+                    lint::degreesBetween(
+                        normalOf(before, use, use.stored, frames[i].from, frames[i].fromTangents, p),
+                        normalOf(after, use, stored, use.readWith.value_or(frames[i].to), frames[i].toTangents, p)),
                     area / double(count));
     }
     std::vector<ValueSummary> summaries;

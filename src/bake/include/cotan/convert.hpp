@@ -48,8 +48,9 @@ struct ConvertModelOptions {
     // exact, Cotan's own. New maps are written like that, and material extras record it (kUnsignedKey). Old maps are
     // read like that unless their extras say otherwise. Maps that a clear coat reads are written exact.
     Expansion expansion = Expansion::biased;
-    // Chooses the frame of each primitive by measurement (chooseFrames) in place of frames.to, and keeps all maps: drops
-    // tangents where nobody can see it, and names the frame in the primitive's extras. Needs keepMaps and readMaps.
+    // Chooses the frame of each primitive by measurement (chooseFrames) in place of frames.to, and keeps all maps:
+    // drops tangents where nobody can see it, and names the frame in the primitive's extras. Needs keepMaps and
+    // readMaps.
     std::optional<ChoiceLimits> choose{};
     // Keeps all maps, byte for byte, to be read with frames.to, which must not read tangents; only drops tangents.
     // Where the tangents of the file reverse green of a map on all surfaces that show it, they are dropped and green of
@@ -94,7 +95,7 @@ struct ConvertedMap {
     int width = 0, height = 0; // texels
     bool kept = false; // unchanged, byte for byte: keepMaps, or the new frame reads it as well as a rounded new map
     std::vector<Frame> readWith{}; // frames that read a map that stays, in their order
-    bool greenReversed = false; // kept but for green, which is reversed: so the file's tangents showed the map
+    bool greenReversed = false;    // kept but for green, which is reversed: so the file's tangents showed the map
     std::size_t surfacesWithTangents = 0; // of `surfaces`, with keepMaps: they keep TANGENT, which reverses green
     bool alsoElsewhere = false; // the old map stays in the file too, because another slot of a material reads it
     int bits = 0;               // of the new map, 8 or 16 per component; 0 if kept
@@ -140,8 +141,8 @@ struct ConvertModelReport {
     std::size_t primitivesGiven = 0;                 // primitives with new tangents
     TangentBytes dropped;
     std::vector<PrimitiveDecision> decisions; // with options.choose: of all primitives that are drawn
-    std::vector<UnreadMap> unread;  // normal maps that stay because their format is not read here
-    std::vector<std::string> notes; // what the user should know, one line each
+    std::vector<UnreadMap> unread;            // normal maps that stay because their format is not read here
+    std::vector<std::string> notes;           // what the user should know, one line each
 };
 
 // Converts every normal map of the file to another frame: decodes each texel with the old frame at its surface points,

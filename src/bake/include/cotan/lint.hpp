@@ -147,13 +147,14 @@ struct LintReport {
     std::vector<GreenEvidence> maps;
     std::vector<MapFit> fits;
     std::vector<FrameDecision> decisions; // one for each mesh, with all candidates
-    double distance = 0;        // viewing distance used, world units
-    std::optional<Frame> named; // frame that the file names for its maps (namedFrame)
+    double distance = 0;                  // viewing distance used, world units
+    std::optional<Frame> named;           // frame that the file names for its maps (namedFrame)
     Advice advice = Advice::nothing;
     // Stored tangents contradict the uv on more than a tenth of the area, and a map proves them wrong: its green is as
     // declared. If no map can tell, the stored tangents are trusted.
     bool distrustStored = false;
-    // Meshes whose tangents `convert` would drop, and those that would keep them. If it drops none, there is nothing to do.
+    // Meshes whose tangents `convert` would drop, and those that would keep them. If it drops none, there is nothing to
+    // do.
     std::size_t dropping = 0, keeping = 0;
     // Sentences, empty if there is nothing to say: defects of the model as it is, the visible error without tangents,
     // the worst primitive, the advice, maps that were not judged, other readers of tangents.

@@ -160,7 +160,7 @@ std::string nameOfFrames(const std::optional<Frame>& frame, const Scene& scene);
 // replaces the scene by one in false colours instead. Resolves `auto` in the returned frames, for which it calls
 // chooseFramesOfMeshes if no mesh has a frame yet. Errors: as applyOwnMaps.
 Result<std::vector<std::optional<Frame>>> prepareScene(const PictureOptions& options, const std::string& show,
-                                        std::initializer_list<FrameChoice> frames, Scene& scene);
+                                                       std::initializer_list<FrameChoice> frames, Scene& scene);
 
 // Returns the view of the options, except environment map, lights and ground.
 Result<View> viewOf(const PictureOptions& options, const Scene& scene);

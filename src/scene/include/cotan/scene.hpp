@@ -233,10 +233,10 @@ struct Mesh {
     std::vector<glm::vec4> colors;      // linear; factors on the base colour
     std::vector<glm::vec3> cotangentsU; // derived for the frame `smooth`; otherwise empty
     std::vector<glm::vec3> cotangentsV;
-    std::vector<std::uint32_t> indices; // three per triangle, each < vertexCount()
+    std::vector<std::uint32_t> indices;    // three per triangle, each < vertexCount()
     std::optional<SourcePrimitive> source; // in the glTF file that it was read from
-    std::optional<Frame> named;         // frame that the primitive names in the file; none: that of its material
-    std::optional<Frame> readWith;      // frame for a view with View::framesOfMeshes; none: View::frame
+    std::optional<Frame> named;            // frame that the primitive names in the file; none: that of its material
+    std::optional<Frame> readWith;         // frame for a view with View::framesOfMeshes; none: View::frame
 
     std::size_t vertexCount() const { return positions.size(); }
     std::size_t triangleCount() const { return indices.size() / 3; }

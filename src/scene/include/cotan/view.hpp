@@ -211,10 +211,11 @@ enum class TangentOrigin {
 };
 
 // Adds the vertex attributes that `frame` reads to every mesh with uv: cotangents for `smooth`, tangents for `vertex`
-// and `mikktspace`; without `frame`, those of the mesh's own one (Mesh::readWith), if it has one. Other frames need none and leave the scene unchanged. Vertices are split, with all attributes,
-// where tangents differ or uv are mirrored; triangles keep their number and order. Renderers refuse a scene without
-// these attributes. Meshes without triangles, or without the uv set of their normal map (set 0 if there is no map), are
-// left unchanged. For triangles without area in space or in uv, see cotan/tangents.hpp.
+// and `mikktspace`; without `frame`, those of the mesh's own one (Mesh::readWith), if it has one. Other frames need
+// none and leave the scene unchanged. Vertices are split, with all attributes, where tangents differ or uv are
+// mirrored; triangles keep their number and order. Renderers refuse a scene without these attributes. Meshes without
+// triangles, or without the uv set of their normal map (set 0 if there is no map), are left unchanged. For triangles
+// without area in space or in uv, see cotan/tangents.hpp.
 void deriveVertexFrames(Scene& scene, std::optional<Frame> frame, TangentOrigin tangents);
 
 } // namespace cotan
