@@ -68,6 +68,7 @@ cotan_lint_options lintOptionsOf(const cotan_lint_options* options, const cotan_
     require(!o.frame || std::ranges::find(frames, o.frame) != frames.end(),
             "options.frame: expected cotangent, orthonormal, smooth, exact, triangle or stored");
     require(o.limit_area >= 0 && o.limit_area <= 100, "options.limit_area: expected percent from 0 to 100");
+    choiceLimitsOf(o.max_degrees);
     if (result)
         checked(result, "result");
     return o;
@@ -75,7 +76,8 @@ cotan_lint_options lintOptionsOf(const cotan_lint_options* options, const cotan_
 
 void lintInto(const Scene& scene, const cotan_lint_options& o, cotan_lint_result* result, cotan_bytes** json)
 {
-    const LintReport report = valueOf(lintScene(scene, {.distance = o.distance}, progressOf(o.progress, o.user)));
+    const LintReport report = valueOf(lintScene(
+        scene, {.distance = o.distance, .limits = choiceLimitsOf(o.max_degrees)}, progressOf(o.progress, o.user)));
     LintLimits limits;
     if (o.limit > 0)
         limits.degrees = o.limit;

@@ -104,7 +104,8 @@ class ModelFiles(Struct):
 
 class LintOptions(Struct):
     _fields_ = _fields(
-        (double, "distance"), (Progress, "progress"), (pointer, "user"), (double, "limit limit_area"), (text, "frame")
+        (double, "distance"), (Progress, "progress"), (pointer, "user"), (double, "limit limit_area"), (text, "frame"),
+        (double, "max_degrees"),
     )
 
 

@@ -415,6 +415,7 @@ typedef struct cotan_lint_options {
     double limit;      /* degrees that the error with `frame` may exceed on 5 % of the area */
     double limit_area; /* % of a primitive's area with degenerate or mirrored overlapping uv, or wrong tangents */
     const char* frame; /* cotangent, orthonormal, smooth, exact, triangle or stored; null: "orthonormal" */
+    double max_degrees; /* as in cotan_convert_options, for the report's "decisions". Since version 8 */
 } cotan_lint_options;
 
 /* The main results of a report. Degrees are means over the surface, for the worst of the maps; -1: no map was
