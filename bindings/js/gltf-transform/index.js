@@ -3,7 +3,7 @@ import { Primitive, WebIO } from '@gltf-transform/core';
 import { convert, CotanError, decodePicture, encodePng, frames, lint, provoking as provokingOf, ready, split, tangents as tangentsOf } from '../cotan.js';
 import { checkTypes, choice, options as checked } from '../src/arrays.js';
 import { imageIn, imageOfTexture, parsedModel } from '../src/glb.js';
-import { kGrowth, modeOf, tooLarge } from '../src/modes.js';
+import { grownBy, kGrowth, modeOf, tooLarge } from '../src/modes.js';
 
 const named = (name, transform) => Object.defineProperty(transform, 'name', { value: name });
 const kTangentFrames = ['mikktspace', 'vertex'];
@@ -251,8 +251,7 @@ function applyMaps(document, { made, report }, to) {
 async function convertedByDefault(document, o) {
   const unlessUnavailable = (error) => { if (error.code !== 'unavailable') throw error; return asPlainGltf(document, null); };
   const model = await asPlainGltf(document, o.decode).catch(unlessUnavailable), found = await converted(document, model, o), { report } = found;
-  const { whole, weight } = estimatedSize(document), { bytes = 0 } = report.tangents;
-  const grown = report.maps.reduce((sum, map) => sum + map.bytes_after - map.bytes_before, 0) - weight * bytes;
+  const { whole, weight } = estimatedSize(document), grown = grownBy(report, weight);
   if (report.maps.every((map) => map.kept) || grown <= (kGrowth - 1) * whole) return found;
   const maps = report.maps.map(({ image, name, bytes_before: bytes }) => ({ image, name, kept: true, bytes_before: bytes, bytes_after: bytes }));
   return { made: parsedModel(model.model), report: { ...report, mode: 'keep', maps, decisions: [], tangents: { kept: true }, notes: [tooLarge(Math.round(whole), Math.round(whole + grown))] } };

@@ -7,7 +7,7 @@ import { encodedByCaller, encodedLike } from './encoded.js';
 import { decodePicture } from './pictures.js';
 import { encodePng } from './png.js';
 import { decodedUri, imageIn, parsedModel, requiresWebp, sizeOf, withImages } from './glb.js';
-import { inOriginalFormats, keptMaps, kGrowth, modeOf, tooLarge } from './modes.js';
+import { grownBy, inOriginalFormats, keptMaps, kGrowth, modeOf, tooLarge } from './modes.js';
 import { kLimits, limitsOf, overLimits } from './verdict.js';
 
 const same = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[i]);
@@ -35,7 +35,7 @@ function modelOptions(given, known) {
   checkTypes(o, 'function', 'decode', 'encode', 'progress');
   checkTypes(o, 'boolean', 'keepTangents', 'generateTangents', 'fixGreen');
   if (o.bits !== undefined && ![0, 8, 16].includes(o.bits)) refuse('bits', '0, 8 or 16');
-  if (o.maxDegrees !== undefined && !(o.maxDegrees > 0 && o.maxDegrees <= 180)) refuse('maxDegrees', 'a number of degrees above 0');
+  if (o.maxDegrees !== undefined && !(typeof o.maxDegrees === 'number' && o.maxDegrees > 0 && o.maxDegrees <= 180)) refuse('maxDegrees', 'a number of degrees above 0, at most 180');
   if (o.distance !== undefined && !Number.isFinite(o.distance)) refuse('distance', 'a number');
   return o;
 }
@@ -148,7 +148,8 @@ export function modelFunctions(library, host, flipGreen) {
     };
     const found = await withMapsKept(model, parsed, o, kMapsRead).catch((error) => { if (error.code !== 'unavailable') throw error; return error; });
     if (found instanceof CotanError) return unchanged(`${found.message}; its maps are not judged and its tangents stay`);
-    return found.glb.length <= kGrowth * before ? found : unchanged(tooLarge(before, found.glb.length));
+    const grown = grownBy(found.report);
+    return grown <= (kGrowth - 1) * before ? found : unchanged(tooLarge(before, before + grown));
   }
 
   async function convertMaps(model, o) {

@@ -44,5 +44,8 @@ export const keptMaps = (json, files) => normalImages(json).map((image) => {
 
 const amount = (bytes) => `${bytes} bytes`;
 
+/** Bytes by which new maps and dropped tangents enlarge a file. weight: of a byte of tangents. */
+export const grownBy = ({ maps, tangents }, weight = 1) => maps.reduce((sum, map) => sum + map.bytes_after - map.bytes_before, 0) - weight * (tangents.bytes ?? 0);
+
 /** The note for maps with their green reversed that would enlarge the file too much. */
 export const tooLarge = (before, after) => `maps with their green reversed would change the file from ${amount(before)} to ${amount(after)}: maps and tangents are kept`;
