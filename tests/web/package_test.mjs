@@ -402,7 +402,9 @@ const cases = {
     // 2 KB for the search of meshes for numbers that are not finite and a shortcut that halves the time of smooth
     // cotangents, and 500 bytes for large arrays of zeros and meshes with a vertex for every corner. 425,000: it was
     // 453,000 with std::locale, which {fmt} uses unless Findfmt.cmake turns it off. 445,000: names of meshes
-    // and files, CMYK, green that tangents reverse, and the faults of a model's maps take 18 KB; the locale, 2 KB.
+    // and files, CMYK, green that tangents reverse, and the faults of a model's maps take 18 KB; the locale, 2 KB. 441,600
+    // are used: frames that are chosen by measurement take 9 KB, for which texts of lighting functions, which the package
+    // cannot print, went: 12 KB.
     for (const [name, most] of [['tangents', 33900], ['cotan', 445000]]) {
       const beside = packed(...reached(`${name}_beside.js`), `wasm/${name}.wasm`), inside = packed(...reached(`${name}.js`));
       console.log(`${name}: ${beside} bytes gzipped, ${inside} with the wasm inside`);

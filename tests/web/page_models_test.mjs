@@ -105,7 +105,7 @@ await fact('eachPartHasItsDecisionInPlainWordsAndTheLimitCounts', async () => {
     if (degrees !== 0.3) {
       await page.getByLabel('A part may be off on average by').fill(String(degrees));
       await page.getByLabel('A part may be off on average by').blur();
-      await page.waitForFunction(() => !/its tangents: without them/.test(document.querySelector('[data-parts]').textContent), undefined, { timeout: 60000 });
+      await page.waitForFunction(() => !/its tangents: without them/.test(document.querySelector('[data-parts]').textContent), undefined, { timeout: 200000 });
     }
     const { decisions, run_would: would } = decided(degrees), shown = await rows(), staying = shown.filter(([, needs]) => /^its tangents: without them it is off by/.test(needs)).length;
     if (shown.length !== 8) wrong.push(`${degrees}: ${shown.length} rows`);
