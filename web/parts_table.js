@@ -22,13 +22,14 @@ export function partsOf({ decisions = [], primitives = [] }) {
 }
 
 function rowOf({ mesh, reason, frame, tangents_stay: stays, candidates, not_judged: why }, name) {
-  const chosen = candidates.find(one => one.frame === frame && one.stored === stays), best = nearest(candidates);
+  const chosen = candidates.find(one => one.frame === frame && one.stored === stays);
   const needs = reason === 'not_judged' ? `${stays ? 'its tangents' : 'unknown'}: not judged, ${why}`
     : reason === 'named' ? `the frame ${frame}, which the file names`
-      : stays ? `its tangents: without them it is off by ${degrees(best.mean)} on average and ${degrees(best.percentile99)} on 1 % of the area`
+      : stays ? `its tangents: without them it is off by ${offOf(nearest(candidates))}`
         : reason === 'keeps' ? `more than can be made: drawn with ${frame}` : `${kMade[frame]} (${frame})`;
   const shown = value => (typeof value === 'number' ? degrees(value) : '');
   return { stays, off: chosen?.mean ?? 0, texts: [name || `part ${mesh + 1}`, needs, shown(chosen?.mean), shown(chosen?.percentile99)] };
 }
 
+const offOf = ({ mean, percentile99 }) => `${degrees(mean)} on average and ${degrees(percentile99)} on 1 % of the area`;
 const nearest = candidates => candidates.filter(one => !one.stored).reduce((best, one) => (one.mean < best.mean ? one : best));

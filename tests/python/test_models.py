@@ -73,7 +73,7 @@ def test_lint_reads_other_formats_too(tmp_path):
 
 
 def test_convert_makes_the_texel_twice_as_steep_and_drops_tangents(model, tmp_path):
-    done = cotan.convert(model, tmp_path / "out.glb")
+    done = cotan.convert(model, tmp_path / "out.glb", to_frame="cotangent")
     assert done.glb is None and (done.maps_converted, done.maps_kept, done.tangent_bytes_dropped) == (1, 0, 64)
     assert done.worst_degrees_after < 0.5 < done.worst_degrees_before
     whole = (tmp_path / "out.glb").read_bytes()
@@ -90,17 +90,32 @@ def test_convert_makes_the_texel_twice_as_steep_and_drops_tangents(model, tmp_pa
 @pytest.mark.parametrize(
     "options",
     [{"to_frame": "smooth"}, {"to_frame": "cotangent", "bits": 16}, {"to_frame": "orthonormal", "tangents": "generated"},
-     {"to_frame": "cotangent", "keep_tangents": True}, {"keep_maps": True}],
+     {"to_frame": "cotangent", "keep_tangents": True}, {"keep_maps": True}, {}, {"max_degrees": 0.01},
+     {"tangents": "generated"}],
     ids=lambda o: " ".join(map(str, o.values())),
 )  # fmt: skip
 def test_convert_writes_the_bytes_of_the_command_line(options, model, command, tmp_path):
     words = []
     for name, value in options.items():
-        words += [f"--{name.replace('_', '-')}"] + ([] if value is True else [value])
+        words += [f"--{name.replace('_', '-')}"] + ([] if value is True else [str(value)])
     command("convert", model, "-o", tmp_path / "expected.glb", *words)
     cotan.convert(model, tmp_path / "out.glb", **options)
     assert (tmp_path / "out.glb").read_bytes() == (tmp_path / "expected.glb").read_bytes()
     assert cotan.convert(model, **options).glb == (tmp_path / "expected.glb").read_bytes()
+
+
+def test_frames_are_chosen_within_the_limit(model):
+    """On a flat square orthonormal is right, whatever the limit; lint says the same."""
+    converted = cotan.convert(model)
+    assert (converted.maps_converted, converted.maps_kept, converted.tangent_bytes_dropped) == (0, 1, 64)
+    (decision,) = converted.report["decisions"]
+    assert (decision["frame"], decision["reason"], decision["meaning"]) == ("orthonormal", "fits", "stored")
+    (predicted,) = cotan.lint(model, max_degrees=1e-3).report["decisions"]
+    assert {**predicted, "primitive": 0} == decision
+    for wrong in (0, -1, 181, float("nan"), "little"):
+        for work in (cotan.lint, cotan.convert):
+            with pytest.raises(cotan.UsageError, match="max_degrees"):
+                work(model, max_degrees=wrong)
 
 
 def test_keep_maps_requires_a_frame_without_tangents(model):
@@ -223,7 +238,7 @@ def test_models_keep_their_warnings(model):
 
 
 def test_decoders_and_encoders_of_the_caller_are_called(model, tmp_path):
-    expected = cotan.convert(model).glb
+    expected = cotan.convert(model, to_frame="cotangent").glb
     asked = []
 
     def decode(name, content):
@@ -236,7 +251,7 @@ def test_decoders_and_encoders_of_the_caller_are_called(model, tmp_path):
         cotan.write_picture(tmp_path / "written.png", picture)
         return (tmp_path / "written.png").read_bytes()
 
-    converted = cotan.convert(model, decode=decode, encode=encode)
+    converted = cotan.convert(model, to_frame="cotangent", decode=decode, encode=encode)
     # What was encoded is decoded, too: the report says what the encoder lost.
     assert asked[0].endswith("the%20map.png") and asked[1:] == [(8, 8, 4), asked[0]]
     (tmp_path / "a.glb").write_bytes(expected)
@@ -248,7 +263,7 @@ def test_decoders_and_encoders_of_the_caller_are_called(model, tmp_path):
 
     for own in ({"decode": broken}, {"encode": broken}):
         with pytest.raises(ZeroDivisionError):
-            cotan.convert(model, **own)
+            cotan.convert(model, to_frame="cotangent", **own)
     with pytest.raises(cotan.UsageError, match="decode: expected shape"):
         cotan.convert(model, decode=lambda name, content: np.zeros(3, np.uint8))
 
@@ -258,14 +273,14 @@ def test_conversion_in_two_steps_equals_one_call(model, tmp_path):
         cotan.write_picture(tmp_path / "step.png", picture)
         return (tmp_path / "step.png").read_bytes()
 
-    conversion = cotan.Conversion(model)
+    conversion = cotan.Conversion(model, to_frame="cotangent")
     assert [p.shape for p in conversion.pictures] == [(8, 8, 4)]
     with pytest.raises(cotan.UsageError):
         conversion.end()
     with pytest.raises(cotan.UsageError):
         conversion.set(1, b"")
     conversion.set(0, png(conversion.pictures[0]))
-    steps, whole = conversion.end(), cotan.convert(model, encode=png)
+    steps, whole = conversion.end(), cotan.convert(model, to_frame="cotangent", encode=png)
     assert len(steps.glb) == len(whole.glb) and steps.worst_degrees_after == whole.worst_degrees_after
     assert steps.report["maps"] == whole.report["maps"]
 

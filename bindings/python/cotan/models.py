@@ -223,9 +223,10 @@ def _limit(value, name):
 
 
 def _max_degrees(value):
-    if not 0 < arrays.number(value, "max_degrees") <= 180:
+    degrees = arrays.number(value, "max_degrees")
+    if not 0 < degrees <= 180:
         raise arrays.wrong("max_degrees", "more than 0 and at most 180", value)
-    return value
+    return degrees
 
 
 def lint(
