@@ -445,8 +445,8 @@ cotan_status cotan_lint_model(const cotan_model* model, const cotan_lint_options
 typedef struct cotan_convert_options {
     size_t size;
     const char* from; /* frame that the maps were made for; null: the one named by the file, otherwise "mikktspace" */
-    const char* to;   /* frame to convert the maps for; null: maps are kept, each primitive is read with the frame that is
-                         near enough, which its extras name, and keeps its tangents where none is */
+    const char* to;   /* frame to convert the maps for; null: maps are kept, each primitive is read with the frame that
+                         is near enough, which its extras name, and keeps its tangents where none is */
     int bits; /* of the new maps, 8 or 16; all maps are rewritten. 0: as the old maps, which are kept if they fit */
     int keep_tangents;       /* not 0: TANGENT is kept if the new frame does not read it */
     int generate_tangents;   /* not 0: tangents of `from` are generated even if the model has some */
@@ -457,11 +457,11 @@ typedef struct cotan_convert_options {
     /* Since version 5. */
     int keep_maps; /* not 0: maps are kept, byte for byte, to be read with `to`, which must not read tangents; only
                       tangents are removed. Where these reverse green of a map, its green is reversed, or they stay.
-                      COTAN_MAPS_UNREAD: without decoding maps, which all stay as is, to be read with "orthonormal" if `to`
-                      is null */
+                      COTAN_MAPS_UNREAD: without decoding maps, which all stay as is, to be read with "orthonormal" if
+                      `to` is null */
     /* Since version 8. */
-    double max_degrees; /* if `to` is null: the mean error of normals that a frame may have on a primitive, and ten times
-                           as much on 1 % of its area; 0: 0.3 */
+    double max_degrees; /* if `to` is null: the mean error of normals that a frame may have on a primitive, and ten
+                           times as much on 1 % of its area; 0: 0.3 */
 } cotan_convert_options;
 
 typedef struct cotan_convert_result {
