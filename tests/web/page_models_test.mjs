@@ -95,7 +95,7 @@ await fact('theCheckAndItsReportMatchTheCommandLine', async () => {
 
 // What the command line decides, in plain words; and a limit that the visitor sets counts for the table, the view and the
 // file. The vase lost the sign of its tangents: on its left half every frame is far from what they show.
-await fact('eachPartHasItsDecisionInPlainWordsAndTheLimitCounts', async () => {
+await fact('theDecisionOfEachPartIsShownAndTheLimitCounts', async () => {
   const page = await open(), wrong = [], file = join(scratch, 'vase-lost-sign.glb'), limit = page.getByLabel('A part may be off on average by');
   execFileSync('python3', [fileURLToPath(new URL('../../docs/tutorials/make-files', import.meta.url)), scratch]);
   await drop(page, [file]);
