@@ -578,8 +578,6 @@ TEST(Documents, numbersMatchTheMeasuredTables)
          2},
         {"README.md", "is below 0.1 degrees on {} of [{} models](examples/three/README.md#measured),", {small, count}},
         {"README.md", "#measured), and {} on the worst.", {worst}, 2},
-        {"docs/explanation/faq.md", "below 0.1 degrees on {} of [{} models]", {small, count}},
-        {"docs/explanation/faq.md", "#measured), and {} on the worst.", {worst}, 2},
         {"docs/how-to/choose-a-frame.md", "| `orthonormal` | right | below 0.1 on {} of {} models,", {small, count}},
         {"docs/how-to/choose-a-frame.md", "models, worst {} |", {worst}, 2},
         {"docs/how-to/my-engine.md",

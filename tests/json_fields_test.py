@@ -34,6 +34,7 @@ tangents panel.gltf --frame smooth
 convert panel.gltf --to-frame orthonormal -o c.glb --verify converted --device reference
 convert panel.gltf --to-frame cotangent -o c.glb
 convert panel.gltf --to-frame orthonormal --keep-tangents -o c.glb
+convert panel.gltf -o c.glb
 convert plain.gltf --to-frame mikktspace -o c.glb
 convert panel.gltf --provoking first -o c.glb
 lint panel.gltf --limit 0.01 --limit-area 0

@@ -23,6 +23,12 @@ export function table(caption, rows) {
     ...rows.filter(([, value]) => value !== undefined).map(([name, value]) => el('tr', {}, el('th', { scope: 'row' }, name), el('td', {}, value))))));
 }
 
+// A field for a number. value(): undefined if it is empty or out of range. changed: called without arguments.
+export function numberField(label, unit, value, { min = 0, max }, changed) {
+  const input = el('input', { type: 'number', min, max, step: 'any', value, onchange: changed });
+  return { element: el('label', {}, label, el('span', { class: 'unit' }, input, unit)), value: () => (input.value === '' || !input.validity.valid ? undefined : Number(input.value)) };
+}
+
 // Offers the bytes as a file to save. The object URL is revoked after a minute.
 export function download(bytes, name, type) {
   const link = el('a', { href: URL.createObjectURL(new Blob([bytes], { type })), download: name });

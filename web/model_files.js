@@ -4,9 +4,10 @@ import { besideModel, isGlb } from './files.js';
 
 const kPacked = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression', 'KHR_meshopt_compression'];
 
-export async function lintModel(files) {
+export async function lintModel(files, options) {
   try {
-    return await lint(...await given(files));
+    const [model, more] = await given(files);
+    return await lint(model, { ...more, ...options });
   } catch (error) {
     const missing = urisOf(jsonOf(files.model.bytes)).filter(uri => !besideModel(files, uri));
     if (!/there is no such file beside the model/.test(error.message) || missing.length === 0) throw error;

@@ -1,13 +1,15 @@
 // The panel for a model: the findings, a view in two halves, and the converted file.
-import { choice, degrees, download, el, size, table } from './elements.js';
+import { choice, degrees, download, el, numberField, size, table } from './elements.js';
 import { library } from './library.js';
+import { partsOf } from './parts_table.js';
 import { divider } from './divider.js';
 
 const kFrames = {
-  tangents: 'stored tangents', auto: 'auto: the frame of the maps', orthonormal: 'orthonormal (nothing stored)', cotangent: 'cotangent (nothing stored)',
+  tangents: 'stored tangents', auto: 'without tangents where nobody can see it', orthonormal: 'orthonormal (nothing stored)', cotangent: 'cotangent (nothing stored)',
   smooth: 'smooth (cotangents at the vertices)', triangle: 'triangle (two vectors per triangle)',
 };
-const kMapsAfter = { '': 'kept if accurate enough', orthonormal: 'remade for orthonormal', cotangent: 'remade for cotangent', smooth: 'remade for smooth' };
+const kMapsAfter = { '': 'kept, with a frame for each part', orthonormal: 'remade for orthonormal', cotangent: 'remade for cotangent', smooth: 'remade for smooth' };
+const kMaxDegrees = 0.3; // on average: the default of the library
 const kScales = { 2: '0 to 2°', 10: '0 to 10°', 45: '0 to 45°' };
 let open; // { view }: what belongs to the model on screen, at most one; view: undefined until it is loaded
 
@@ -20,10 +22,11 @@ export async function showModel(result, files) {
   open?.view?.close();
   open = {};
   const saved = el('p', { role: 'status' }), button = el('button', { type: 'button', class: 'main', onclick: convert }, wrongGreen(lint).length > 0 ? 'Fix green and download' : 'Convert and download');
-  const to = choice('Normal maps', kMapsAfter, '', () => {}), figure = el('figure', { class: 'view' }, el('p', { role: 'status', class: 'small' }, 'The view is loading …'));
+  const to = choice('Normal maps', kMapsAfter, '', () => {}), parts = el('div', {}, ...partsOf(lint));
+  const limit = numberField('A part may be off on average by', ' °', kMaxDegrees, { min: 0.001, max: 180 }, decideAgain), figure = el('figure', { class: 'view' }, el('p', { role: 'status', class: 'small' }, 'The view is loading …'));
   result.replaceChildren(el('div', { class: 'result' },
     el('div', {}, ...verdictOf(lint, name),
-      el('h2', { class: 'part' }, 'The file without tangents'), el('div', { class: 'choices' }, to.element, button), saved,
+      el('h2', { class: 'part' }, 'The file without tangents'), el('div', { class: 'choices' }, limit.element, to.element, button), saved, parts,
       ...(lint.maps?.length > 0 ? linesFor(lint) : []),
       ...(lint.error ? [] : checkOf(lint, name))),
     figure));
@@ -32,11 +35,25 @@ export async function showModel(result, files) {
     if (!['CotanError', 'Error'].includes(error.name)) console.error(error);
   });
 
+  // The library decides; the view follows.
+  async function decideAgain() {
+    const mine = open, maxDegrees = limit.value();
+    if (lint.error) return;
+    try {
+      const found = await library.lint(files, { maxDegrees });
+      if (open !== mine || limit.value() !== maxDegrees) return;
+      parts.replaceChildren(...partsOf(found));
+      await mine.decide?.(maxDegrees);
+    } catch (error) {
+      parts.replaceChildren(el('p', {}, error.message));
+    }
+  }
+
   async function convert() {
     button.disabled = true;
     saved.textContent = 'Converting …';
     try {
-      const made = await library.convert(files, { to: to.select.value || undefined, fixGreen: wrongGreen(lint).length > 0 });
+      const made = await library.convert(files, { ...(to.select.value ? { to: to.select.value } : { maxDegrees: limit.value() }), fixGreen: wrongGreen(lint).length > 0 });
       download(made.glb, `${name.replace(/\.[^.]*$/, '')}_${to.select.value || 'free'}.glb`, 'model/gltf-binary');
       saved.textContent = savedWords(made);
     } catch (error) {
@@ -68,6 +85,7 @@ async function showView(figure, files, mine) {
   const scale = el('div', { hidden: true }, el('div', { class: 'scale' }), scaleChoice.element);
 
   view.open(gltf);
+  mine.decide = maxDegrees => { view.maxDegrees = maxDegrees; return changed(); };
   await changed();
   if (open !== mine) return;
   figure.replaceChildren(canvas, halves.element,
@@ -121,18 +139,19 @@ function verdictOf(lint, name) {
   if (lint.error) return [el('p', { class: 'verdict' }, 'The model could not be checked.'), el('p', {}, lint.error.message)];
   const green = lint.maps.some(map => map.decided && !map.as_declared), stay = lint.primitives_keeping, empty = lint.maps.length === 0;
   const reversed = lint.primitives.some(({ stored_tangents: stored }) => stored?.reversed_w > 0.5), distrusted = lint.distrust_stored;
+  const mapped = lint.decisions.filter(({ reason }) => reason !== 'no_map').length;
   const words = empty ? 'It has no normal map: there is nothing to judge.'
     : green && reversed ? 'Green and the stored tangents are both reversed: together they cancel out, each alone is wrong.'
       : green ? 'Green of a normal map points opposite to what the model says: bumps look like dents.'
         : distrusted ? `Its stored tangents contradict its texture coordinates${reversed ? ': without them green is read as they imply' : ''}.`
-          : stay > 0 ? `Without stored tangents ${stay} of its ${lint.primitives.length} parts would look different: those keep them.`
+          : stay > 0 ? `Without stored tangents ${stay} of its ${mapped} parts would look different: ${stay === 1 ? 'it keeps' : 'those keep'} them.`
             : lint.advice ? 'It needs no stored tangents: its maps are read as they are.'
               : 'None of its normal maps was judged as a whole.';
   const off = frame => {
     const means = lint.fits.map(fit => fit[frame].mean).filter(mean => typeof mean === 'number');
     return means.length > 0 ? degrees(Math.max(...means)) : undefined;
   };
-  return [el('p', { class: `verdict ${green || distrusted ? 'bad' : empty || changes || !lint.advice ? '' : 'good'}` }, words),
+  return [el('p', { class: `verdict ${green || distrusted ? 'bad' : empty || stay > 0 || !lint.advice ? '' : 'good'}` }, words),
     el('p', {}, lint.recommendation),
     table(`Findings for ${name}`, [
       ['file', name], ['primitives, normal maps', `${lint.primitives.length}, ${lint.maps.length}`],
@@ -144,11 +163,7 @@ function verdictOf(lint, name) {
 // The check of the command line: fields for the limits, the verdict, and the report as a file.
 function checkOf(lint, name) {
   const verdict = el('p', { role: 'status', 'data-check': '' }), lines = el('ul', { class: 'small' });
-  const field = (label, unit, value, max) => {
-    const input = el('input', { type: 'number', min: 0, max, step: 'any', value, onchange: judge });
-    return { element: el('label', {}, label, el('span', { class: 'unit' }, input, unit)), value: () => input.value === '' || !input.validity.valid ? undefined : Number(input.value) };
-  };
-  const limit = field('Maximum error on 95 % of the area', ' °', 2, 180), area = field('Maximum area with bad uv or tangents', ' %', undefined, 100);
+  const limit = numberField('Maximum error on 95 % of the area', ' °', 2, { max: 180 }, judge), area = numberField('Maximum area with bad uv or tangents', ' %', undefined, { max: 100 }, judge);
   const limits = () => ({ limit: limit.value(), limitArea: area.value() });
   let over = [];
   async function judge() {

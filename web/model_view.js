@@ -23,7 +23,7 @@ export function modelView(canvas) {
   const what = { value: 0 }; // 0: shaded; 1: normals in view space
   const targets = [0, 1].map(() => new three.WebGLRenderTarget(1, 1, { type: three.FloatType, minFilter: three.NearestFilter, magFilter: three.NearestFilter }));
   const angles = angleQuad(targets);
-  const state = { gltf: null, variants: new Map(), notes: new Set(), names: ['tangents', 'auto'], share: 0.5, angle: false, most: 10 };
+  const state = { gltf: null, variants: new Map(), notes: new Set(), names: ['tangents', 'auto'], share: 0.5, angle: false, most: 10, maxDegrees: undefined };
   let asked = 0;
   controls.addEventListener('change', show);
   new ResizeObserver(show).observe(canvas);
@@ -147,9 +147,9 @@ export function modelView(canvas) {
       const { gltf } = state;
       for (const name of [left, right])
         if (!variant(name)) {
-          const made = await makeVariant(gltf.scene, name, what, state.notes);
+          const { maxDegrees } = state, made = await makeVariant(gltf.scene, name, what, state.notes, maxDegrees);
           await compiled(made);
-          if (gltf !== state.gltf) return;
+          if (gltf !== state.gltf || maxDegrees !== state.maxDegrees) return;
           state.variants.set(name, made);
         }
       state.names = [left, right];
@@ -163,6 +163,12 @@ export function modelView(canvas) {
     set share(value) { state.share = value; show(); },
     set angle(value) { state.angle = value; show(); },
     set most(value) { state.most = value; show(); },
+    // What `auto` may be off; choose() draws it.
+    set maxDegrees(value) {
+      state.maxDegrees = value;
+      state.variants.delete('auto');
+      state.notes.clear();
+    },
     // Mean and 95th percentile of the angle over the visible surface; undefined if nothing is visible.
     statistics() {
       if (!state.names.every(variant)) return undefined;
@@ -183,7 +189,7 @@ export function modelView(canvas) {
 }
 
 // A copy of the scene with a frame. name: 'tangents' (stored, else MikkTSpace's) or a frame of cotan/three.
-async function makeVariant(scene, name, what, notes) {
+async function makeVariant(scene, name, what, notes, maxDegrees) {
   const copy = cloneScene(scene), materials = new Map(), geometries = new Map();
   const once = (known, source) => known.get(source) ?? known.set(source, source.clone()).get(source);
   copy.traverse(object => {
@@ -193,7 +199,7 @@ async function makeVariant(scene, name, what, notes) {
   });
   for (const material of materials.values()) showNormals(material, what);
   if (name === 'tangents') await giveMikkTSpace(copy);
-  else untangle(copy, { frame: name, note: line => notes.add(line) });
+  else untangle(copy, { frame: name, note: line => notes.add(line), ...(maxDegrees && { maxDegrees }) });
   return copy;
 }
 

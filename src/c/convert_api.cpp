@@ -70,7 +70,7 @@ ConvertModelOptions optionsFor(const cotan_convert_options& o, const ModelFiles&
     convert.keepTangents = o.keep_tangents != 0;
     const bool chooses = !o.to && o.keep_maps != COTAN_MAPS_UNREAD;
     if (chooses)
-        convert.choose = o.max_degrees > 0 ? ChoiceLimits::of(o.max_degrees) : ChoiceLimits();
+        convert.choose = choiceLimitsOf(o.max_degrees);
     convert.keepMaps = o.keep_maps != 0 || chooses;
     convert.readMaps = o.keep_maps != COTAN_MAPS_UNREAD;
     if (convert.keepMaps && readsTangents(convert.frames.to))
@@ -78,7 +78,6 @@ ConvertModelOptions optionsFor(const cotan_convert_options& o, const ModelFiles&
              name(convert.frames.to));
     require(!convert.keepMaps || convert.bits == 0, "options.bits: expected 0 where maps are kept");
     require(!chooses || o.keep_tangents == 0, "options.keep_tangents: expected 0 where frames are chosen");
-    require(o.max_degrees >= 0 && o.max_degrees <= 180, "options.max_degrees: expected 0 to 180");
     const std::string_view expansion = o.expansion ? o.expansion : "biased";
     require(expansion == "biased" || expansion == "exact", "options.expansion: expected biased or exact");
     convert.expansion = expansion == "biased" ? Expansion::biased : Expansion::exact;

@@ -67,8 +67,8 @@ cotan_lint_options lintOptionsOf(const cotan_lint_options* options, const cotan_
     const auto& frames = readingNames();
     require(!o.frame || std::ranges::find(frames, o.frame) != frames.end(),
             "options.frame: expected cotangent, orthonormal, smooth, exact, triangle or stored");
-    require(o.max_degrees >= 0 && o.max_degrees <= 180, "options.max_degrees: expected 0 to 180");
     require(o.limit_area >= 0 && o.limit_area <= 100, "options.limit_area: expected percent from 0 to 100");
+    choiceLimitsOf(o.max_degrees);
     if (result)
         checked(result, "result");
     return o;
@@ -76,9 +76,8 @@ cotan_lint_options lintOptionsOf(const cotan_lint_options* options, const cotan_
 
 void lintInto(const Scene& scene, const cotan_lint_options& o, cotan_lint_result* result, cotan_bytes** json)
 {
-    const LintOptions options = {.distance = o.distance,
-                                 .limits = o.max_degrees > 0 ? ChoiceLimits::of(o.max_degrees) : ChoiceLimits()};
-    const LintReport report = valueOf(lintScene(scene, options, progressOf(o.progress, o.user)));
+    const LintReport report = valueOf(lintScene(
+        scene, {.distance = o.distance, .limits = choiceLimitsOf(o.max_degrees)}, progressOf(o.progress, o.user)));
     LintLimits limits;
     if (o.limit > 0)
         limits.degrees = o.limit;

@@ -7,6 +7,7 @@
 
 #include "call.hpp"
 #include "cotan/files.hpp"
+#include "cotan/frame_choice.hpp"
 #include "cotan/image.hpp"
 #include "files/report/json.hpp"
 #include "pictures.hpp"
@@ -115,6 +116,13 @@ private:
     std::size_t size_;
     cotan_model_files f_;
 };
+
+// The limits for max_degrees of an options struct, where 0 means the default.
+inline ChoiceLimits choiceLimitsOf(double maxDegrees)
+{
+    require(maxDegrees >= 0 && maxDegrees <= 180, "options.max_degrees: expected 0 to 180");
+    return maxDegrees > 0 ? ChoiceLimits::of(maxDegrees) : ChoiceLimits();
+}
 
 // format: as in files/report/json.hpp.
 inline void giveText(std::string_view format, const Json& json, cotan_bytes** to)

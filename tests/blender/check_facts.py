@@ -173,6 +173,30 @@ def theExportedMapEqualsABakeForItsFrame():
     export("kept.glb")
 
 
+def theMeasuredExportKeepsMapsAndNamesFrames():
+    """What the library decides for the exported model is in the file; a map for another frame keeps its frame."""
+    low, high = curved_hull()
+    baked(low, high, frame="mikktspace", width=64, height=64)
+    select(low)
+    assert bpy.context.scene.cotan.bl_rna.properties["to_frame"].default == "MEASURED"
+    decided = cotan.convert(gltf.exported(bpy.context, [low])).report["decisions"]
+    assert [(d["reason"], d["meaning"]) for d in decided] == [("fits", "mikktspace")], decided
+    model, _ = parts_of(export("measured.glb", "MEASURED"))
+    (primitive,) = model["meshes"][0]["primitives"]
+    assert "TANGENT" not in primitive["attributes"]
+    assert primitive["extras"]["cotanFrame"] == decided[0]["frame"]
+    assert "cotanFrame" not in model["materials"][0].get("extras", {})
+    # With a larger limit a cheaper frame is near enough on this coarse hull.
+    bpy.context.scene.cotan.max_degrees = 90
+    model, _ = parts_of(export("loose.glb", "MEASURED"))
+    assert model["meshes"][0]["primitives"][0]["extras"]["cotanFrame"] == "orthonormal"
+    assert decided[0]["frame"] != "orthonormal", decided
+    baked(low, high, frame="smooth", width=64, height=64)
+    select(low)
+    model, _ = parts_of(export("smooth.glb", "MEASURED"))
+    assert model["materials"][0]["extras"]["cotanFrame"] == "smooth"
+
+
 def theExportRestoresTheSelection():
     low, high = curved_hull()
     select(high, low)

@@ -90,17 +90,32 @@ def test_convert_makes_the_texel_twice_as_steep_and_drops_tangents(model, tmp_pa
 @pytest.mark.parametrize(
     "options",
     [{"to_frame": "smooth"}, {"to_frame": "cotangent", "bits": 16}, {"to_frame": "orthonormal", "tangents": "generated"},
-     {"to_frame": "cotangent", "keep_tangents": True}, {"keep_maps": True}],
+     {"to_frame": "cotangent", "keep_tangents": True}, {"keep_maps": True}, {}, {"max_degrees": 0.01},
+     {"tangents": "generated"}],
     ids=lambda o: " ".join(map(str, o.values())),
 )  # fmt: skip
 def test_convert_writes_the_bytes_of_the_command_line(options, model, command, tmp_path):
     words = []
     for name, value in options.items():
-        words += [f"--{name.replace('_', '-')}"] + ([] if value is True else [value])
+        words += [f"--{name.replace('_', '-')}"] + ([] if value is True else [str(value)])
     command("convert", model, "-o", tmp_path / "expected.glb", *words)
     cotan.convert(model, tmp_path / "out.glb", **options)
     assert (tmp_path / "out.glb").read_bytes() == (tmp_path / "expected.glb").read_bytes()
     assert cotan.convert(model, **options).glb == (tmp_path / "expected.glb").read_bytes()
+
+
+def test_frames_are_chosen_within_the_limit(model):
+    """On a flat square orthonormal is right, whatever the limit; lint says the same."""
+    converted = cotan.convert(model)
+    assert (converted.maps_converted, converted.maps_kept, converted.tangent_bytes_dropped) == (0, 1, 64)
+    (decision,) = converted.report["decisions"]
+    assert (decision["frame"], decision["reason"], decision["meaning"]) == ("orthonormal", "fits", "stored")
+    (predicted,) = cotan.lint(model, max_degrees=1e-3).report["decisions"]
+    assert {**predicted, "primitive": 0} == decision
+    for wrong in (0, -1, 181, float("nan"), "little"):
+        for work in (cotan.lint, cotan.convert):
+            with pytest.raises(cotan.UsageError, match="max_degrees"):
+                work(model, max_degrees=wrong)
 
 
 def test_keep_maps_requires_a_frame_without_tangents(model):

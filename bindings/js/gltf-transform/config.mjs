@@ -41,13 +41,15 @@ export default {
       .option('--kind <kind>', 'mikktspace or vertex', { default: 'mikktspace' })
       .option('--overwrite <overwrite>', 'Replace existing tangents', { validator: program.BOOLEAN, default: false })
       .action(run(io, ({ kind, overwrite }) => tangents({ kind, overwrite })));
-    addCommand(program, 'untangent', 'Drop tangents; remake normal maps for another frame if requested or needed')
-      .option('--mode <mode>', 'auto: drop tangents and keep the maps, or remake them if needed and if the file hardly grows; drop: keep the maps; '
-        + 'convert: remake the maps. Default: auto, or convert with one of the next options')
+    addCommand(program, 'untangent', 'Drop tangents where nobody can see it, or remake normal maps for another frame')
+      .option('--mode <mode>', 'auto: keep the maps, choose a frame for each primitive by measurement, and keep tangents where none is near enough; '
+        + 'drop: drop tangents without reading maps; convert: remake the maps. Default: auto, or convert with --to')
+      .option('--max-degrees <degrees>', 'Mean error of normals that a chosen frame may have, and ten times as much on 1 % of the area. '
+        + 'Default: 0.3', { validator: program.NUMBER })
       .option('--from <frame>', 'Frame that the maps were made for. Default: the one that the materials name, else mikktspace')
       .option('--to <frame>', 'Frame of the new maps. Default with --mode convert: cotangent')
       .option('--unsigned <how>', 'How engines decode the new maps: biased, 2c - 1 (default), or exact, where 128 is zero')
-      .action(run(io, ({ mode, from, to, unsigned }) => untangent({ mode, from, to, unsigned })));
+      .action(run(io, ({ mode, maxDegrees, from, to, unsigned }) => untangent({ mode, maxDegrees, from, to, unsigned })));
     addCommand(program, 'provoking', 'Renumber vertices so that vertex k is the provoking vertex of triangle k')
       .option('--vertex <vertex>', 'Provoking vertex: first or last of the three', { default: 'first' })
       .action(run(io, ({ vertex }) => provoking({ vertex })));

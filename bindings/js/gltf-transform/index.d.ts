@@ -6,14 +6,14 @@ import type { ConvertReport, Limits, LintReport, Picture } from '../cotan.js';
  * warning instead. */
 export function tangents(options?: { kind?: 'mikktspace' | 'vertex'; overwrite?: boolean }): Transform;
 
-/** Drops TANGENT. `mode` is as in `convert` of the package cotan. By default each primitive
- * gets the frame that is near enough to its tangents, which its extras name, and maps stay byte for byte, but for green
- * where the tangents reverse it; tangents stay where no frame is near enough. Compressed geometry and KTX2 maps need no decoding to drop tangents. New maps
- * keep the format of the old ones; JPEG and WebP become PNG if their encoder is missing or loses too much, as with
- * `convert`. Tangents that glTF requires stay, with a note, and so do tangents that reverse green of a map which cannot
- * be changed. Materials with new maps name the frame in their extras, as `cotanFrame`, which is also the default of
- * `from`. Generates tangents if the frame `to` reads them. New maps cannot be made from KTX2: such a map
- * stays as it is with the tangents that it needs, and is listed in the report as unread_maps. */
+/** Drops TANGENT where nobody can see it. `mode` is as in `convert` of the package cotan. By default each primitive gets
+ * the frame that is near enough to its tangents, which its extras name (`cotanFrame`), and maps stay byte for byte, but
+ * for green where the tangents reverse it. Tangents stay, with a note, where no frame is near enough, where a map cannot
+ * be decoded, such as KTX2 (listed in the report as unread_maps), and where glTF requires them. Geometry stays
+ * compressed as it was.
+ * With mode `convert`, new maps keep the format of the old ones; JPEG and WebP become PNG if their encoder is missing or
+ * loses too much, as with `convert`. Materials with new maps name the frame in their extras, which is also the default
+ * of `from`. Tangents are generated if the frame `to` reads them. */
 export function untangent(options?: {
   mode?: 'auto' | 'drop' | 'convert';
   from?: string;
@@ -33,6 +33,7 @@ export function untangent(options?: {
  * exceeded, rejects with a CotanError with code `limit`, after calling `report`. See `lint` of the package cotan. */
 export function lintNormals(options?: Limits & {
   distance?: number;
+  maxDegrees?: number;
   decode?: (bytes: Uint8Array, name: string) => Promise<Picture & { bits: number }>;
   report?: (report: LintReport) => void;
 }): Transform;

@@ -3,7 +3,7 @@ import { Primitive, WebIO } from '@gltf-transform/core';
 import { convert, CotanError, decodePicture, encodePng, frames, lint, provoking as provokingOf, ready, split, tangents as tangentsOf } from '../cotan.js';
 import { checkTypes, choice, options as checked } from '../src/arrays.js';
 import { imageIn, imageOfTexture, parsedModel } from '../src/glb.js';
-import { kGrowth, modeOf, tooLarge } from '../src/modes.js';
+import { grownBy, kGrowth, modeOf, tooLarge } from '../src/modes.js';
 
 const named = (name, transform) => Object.defineProperty(transform, 'name', { value: name });
 const kTangentFrames = ['mikktspace', 'vertex'];
@@ -231,7 +231,7 @@ function applyMaps(document, { made, report }, to) {
     const theirs = mapsOf(json.materials[m]);
     [material.getNormalTexture(), material.getExtension('KHR_materials_clearcoat')?.getClearcoatNormalTexture()].forEach((texture, k) => {
       const image = theirs[k] && imageOfTexture(json.textures[theirs[k].index]);
-      if (texture && json.images?.[image]) remade.set(texture, { bytes: imageIn(made, image).slice(), mimeType: json.images[image].mimeType });
+      if (texture && json.images?.[image]?.bufferView !== undefined) remade.set(texture, { bytes: imageIn(made, image).slice(), mimeType: json.images[image].mimeType });
     });
   });
   const textures = document.getRoot().listTextures(), files = report.maps.filter((map) => !map.kept).map((map) => [map, remade.get(textures[map.image])]);
@@ -246,16 +246,15 @@ function applyMaps(document, { made, report }, to) {
   return report;
 }
 
-/** Converts as `convert` does by default, but leaves the maps as they are if new ones would enlarge the file by more than
- * kGrowth allows. */
-async function convertedByDefault(document, { decode, maxDegrees }) {
+/** Converts as `convert` does by default, but leaves the document as it is if maps with their green reversed would enlarge
+ * the file by more than kGrowth allows. */
+async function convertedByDefault(document, o) {
   const unlessUnavailable = (error) => { if (error.code !== 'unavailable') throw error; return asPlainGltf(document, null); };
-  const model = await asPlainGltf(document, decode).catch(unlessUnavailable), found = await converted(document, model, { decode, maxDegrees }), { report } = found;
-  const { whole, weight } = estimatedSize(document), { bytes = 0 } = report.tangents;
-  const grown = report.maps.reduce((sum, map) => sum + map.bytes_after - map.bytes_before, 0) - weight * bytes;
+  const model = await asPlainGltf(document, o.decode).catch(unlessUnavailable), found = await converted(document, model, o), { report } = found;
+  const { whole, weight } = estimatedSize(document), grown = grownBy(report, weight);
   if (report.maps.every((map) => map.kept) || grown <= (kGrowth - 1) * whole) return found;
-  const { made, report: kept } = await converted(document, model, { mode: 'drop' });
-  return { made, report: { ...kept, notes: [tooLarge(Math.round(whole), Math.round(whole + grown)), ...kept.notes] } };
+  const maps = report.maps.map(({ image, name, bytes_before: bytes }) => ({ image, name, kept: true, bytes_before: bytes, bytes_after: bytes }));
+  return { made: parsedModel(model.model), report: { ...report, mode: 'keep', maps, decisions: [], tangents: { kept: true }, notes: [tooLarge(Math.round(whole), Math.round(whole + grown))] } };
 }
 
 function withFunctions(options) {
@@ -270,10 +269,10 @@ export function untangent(given) {
   return named('untangent', async (document) => {
     await ready;
     const before = normalMapsOf(document).reduce((sum, texture) => sum + imageBytes(texture), 0) + tangentBytes(document);
-    const requested = Object.fromEntries(Object.entries({ ...o, to: o.to ?? 'cotangent', decode }).filter(([, value]) => value !== undefined));
+    const requested = Object.fromEntries(Object.entries({ ...o, decode }).filter(([, value]) => value !== undefined));
     const made = mode === 'drop' ? await converted(document, await asPlainGltf(document, null), { mode }) : mode === 'convert'
-      ? await converted(document, await asPlainGltf(document, decode), { ...requested, mode }) : await convertedByDefault(document, { decode, maxDegrees: o.maxDegrees });
-    const found = applyMaps(document, made, requested.to);
+      ? await converted(document, await asPlainGltf(document, decode), { ...requested, mode }) : await convertedByDefault(document, requested);
+    const found = applyMaps(document, made, o.to);
     found.bytes = { before, after: normalMapsOf(document).reduce((sum, texture) => sum + imageBytes(texture), 0) + tangentBytes(document) };
     const remade = found.maps.filter((map) => !map.kept).length;
     for (const note of found.notes) document.getLogger().warn(`untangent: ${note}`);
@@ -283,11 +282,11 @@ export function untangent(given) {
 }
 
 export function lintNormals(given) {
-  const { distance, limit, limitArea, frame, decode, report } = withFunctions(checked(given, { distance: 0, limit: undefined, limitArea: undefined, frame: 'orthonormal', decode: decodePicture, report: undefined }));
+  const { distance, limit, limitArea, frame, maxDegrees, decode, report } = withFunctions(checked(given, { distance: 0, limit: undefined, limitArea: undefined, frame: 'orthonormal', maxDegrees: undefined, decode: decodePicture, report: undefined }));
   return named('lintNormals', async (document) => {
     await ready;
     const { model, files } = await asPlainGltf(document, decode);
-    const found = await lint(model, { files, distance, limit, limitArea, frame, decode });
+    const found = await lint(model, { files, distance, limit, limitArea, frame, maxDegrees, decode });
     document.getLogger().info(`lintNormals: ${found.recommendation}`);
     for (const warning of found.warnings) document.getLogger().warn(`lintNormals: ${warning}`);
     report?.(found);

@@ -7,7 +7,7 @@ import { encodedByCaller, encodedLike } from './encoded.js';
 import { decodePicture } from './pictures.js';
 import { encodePng } from './png.js';
 import { decodedUri, imageIn, parsedModel, requiresWebp, sizeOf, withImages } from './glb.js';
-import { inOriginalFormats, keptMaps, kGrowth, modeOf, tooLarge } from './modes.js';
+import { grownBy, inOriginalFormats, keptMaps, kGrowth, modeOf, tooLarge } from './modes.js';
 import { kLimits, limitsOf, overLimits } from './verdict.js';
 
 const same = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[i]);
@@ -35,7 +35,7 @@ function modelOptions(given, known) {
   checkTypes(o, 'function', 'decode', 'encode', 'progress');
   checkTypes(o, 'boolean', 'keepTangents', 'generateTangents', 'fixGreen');
   if (o.bits !== undefined && ![0, 8, 16].includes(o.bits)) refuse('bits', '0, 8 or 16');
-  if (o.maxDegrees !== undefined && !(o.maxDegrees > 0 && o.maxDegrees <= 180)) refuse('maxDegrees', 'a number of degrees above 0');
+  if (o.maxDegrees !== undefined && !(typeof o.maxDegrees === 'number' && o.maxDegrees > 0 && o.maxDegrees <= 180)) refuse('maxDegrees', 'a number of degrees above 0, at most 180');
   if (o.distance !== undefined && !Number.isFinite(o.distance)) refuse('distance', 'a number');
   return o;
 }
@@ -89,14 +89,15 @@ export function modelFunctions(library, host, flipGreen) {
 
   async function lint(given, more) {
     const model = bytesOf(given, 'model');
-    const o = modelOptions(more, { ...kCommon, distance: 0, ...kLimits });
+    const o = modelOptions(more, { ...kCommon, distance: 0, maxDegrees: undefined, ...kLimits });
     const limits = limitsOf(o);
     const known = await decoded(model, o);
     return withModel(model, o.files, known, { progress: o.progress }, (s, at, files) => {
-      const report = s.put(new Uint32Array(1)), settings = s.allocate(48), frame = s.text(limits.frame, 'options.frame');
-      s.view(Uint32Array, settings, 12).set([48, 0, 0, 0, progressOf(s, o.progress), 0, 0, 0, 0, 0, frame, 0]);
+      const report = s.put(new Uint32Array(1)), settings = s.allocate(56), frame = s.text(limits.frame, 'options.frame');
+      s.view(Uint32Array, settings, 12).set([56, 0, 0, 0, progressOf(s, o.progress), 0, 0, 0, 0, 0, frame, 0]);
       s.view(Float64Array, settings + 8, 1)[0] = o.distance;
       s.view(Float64Array, settings + 24, 2).set([limits.limit, limits.limitArea].map(limitOf));
+      s.view(Float64Array, settings + 48, 1)[0] = o.maxDegrees ?? 0;
       s.call('cotan_lint_gltf', at, model.length, files, settings, 0, report);
       const found = json(takeBytes(s, report));
       return { ...found, over_limit: overLimits(found, limits) };
@@ -115,7 +116,7 @@ export function modelFunctions(library, host, flipGreen) {
   /** Keeps the maps. Where tangents reverse green of one, the library reverses the map's green or keeps the tangents.
    * keepMaps: kMapsRead or kMapsUnread, which decodes no map and reverses none. */
   async function withMapsKept(model, parsed, o, keepMaps, more) {
-    const made = await convertMaps(model, { ...o, from: undefined, to: undefined, bits: 0, keepMaps, ...more });
+    const made = await convertMaps(model, { ...o, to: undefined, bits: 0, keepMaps, ...more });
     const { glb, report } = keepMaps === kMapsRead ? await inOriginalFormats(parsed, o.files, made) : { ...made, report: { ...made.report, maps: keptMaps(parsed.json, o.files) } };
     const given = (parsed.json.meshes ?? []).some((mesh) => mesh.primitives?.some(({ attributes }) => attributes && 'TANGENT' in attributes));
     return { glb, report: { ...report, mode: given && !report.tangents.dropped_primitives ? 'keep' : 'drop' } };
@@ -138,15 +139,17 @@ export function modelFunctions(library, host, flipGreen) {
       notes: [...wrong.map(({ name }) => `${name}: its green pointed opposite to what the model says and was reversed`), ...notes, ...made.report.notes] } };
   }
 
-  // Drops the tangents that nobody misses, and keeps the maps.
+  // Drops the tangents that nobody misses, and keeps the maps. All tangents stay if a map cannot be decoded, since it is
+  // not judged then, or if the file would grow by more than kGrowth.
   async function byDefault(model, parsed, o, before) {
-    const unread = async (...lines) => {
-      const { glb, report } = await withMapsKept(model, parsed, o, kMapsUnread);
-      return { glb, report: { ...report, notes: [...new Set([...lines, ...report.notes])] } };
+    const unchanged = async (note) => {
+      const { glb, report } = await withMapsKept(model, parsed, o, kMapsUnread, { keepTangents: true, from: undefined });
+      return { glb, report: { ...report, notes: [note, ...report.notes] } };
     };
-    const kept = await withMapsKept(model, parsed, o, kMapsRead).catch((error) => { if (error.code !== 'unavailable') throw error; return error.message; });
-    if (typeof kept === 'string') return unread(kept);
-    return kept.glb.length <= kGrowth * before ? kept : unread(tooLarge(before, kept.glb.length));
+    const found = await withMapsKept(model, parsed, o, kMapsRead).catch((error) => { if (error.code !== 'unavailable') throw error; return error; });
+    if (found instanceof CotanError) return unchanged(`${found.message}; its maps are not judged and its tangents stay`);
+    const grown = grownBy(found.report);
+    return grown <= (kGrowth - 1) * before ? found : unchanged(tooLarge(before, before + grown));
   }
 
   async function convertMaps(model, o) {

@@ -6,12 +6,13 @@ import { encodedLike, kVisible } from './encoded.js';
 
 export const kGrowth = 1.02; // file size after over before: the maximum in mode auto
 
-/** The mode that the caller chose, by `mode` or by an option that implies new maps; undefined for auto. */
+/** The mode that the caller chose, by `mode` or by an option for new maps only; undefined for auto. */
 export function modeOf(given) {
-  const more = ['from', 'to', 'bits', 'keepTangents', 'generateTangents', 'unsigned'].find((name) => given?.[name] !== undefined);
+  const first = (...names) => names.find((name) => given?.[name] !== undefined), converts = first('to', 'bits', 'keepTangents');
+  const more = converts ?? first('from', 'generateTangents', 'unsigned', 'maxDegrees');
   const mode = choice(given?.mode ?? 'auto', 'options.mode', ['auto', 'drop', 'convert']);
-  if (mode === 'drop' && more) throw usage(`options.${more}: expected none with mode drop, which makes no maps; found ${wordsFor(given[more])}`);
-  return mode === 'auto' ? (more ? 'convert' : undefined) : mode;
+  if (mode === 'drop' && more) throw usage(`options.${more}: expected none with mode drop, which measures nothing and makes no maps; found ${wordsFor(given[more])}`);
+  return mode === 'auto' ? (converts ? 'convert' : undefined) : mode;
 }
 
 /** Degrees on average that a format may lose of a new map: what the library's own encoders may. */
@@ -43,5 +44,8 @@ export const keptMaps = (json, files) => normalImages(json).map((image) => {
 
 const amount = (bytes) => `${bytes} bytes`;
 
+/** Bytes by which new maps and dropped tangents enlarge a file. weight: of a byte of tangents. */
+export const grownBy = ({ maps, tangents }, weight = 1) => maps.reduce((sum, map) => sum + map.bytes_after - map.bytes_before, 0) - weight * (tangents.bytes ?? 0);
+
 /** The note for maps with their green reversed that would enlarge the file too much. */
-export const tooLarge = (before, after) => `new maps would change the file from ${amount(before)} to ${amount(after)}: the maps are kept; mode 'convert' remakes them`;
+export const tooLarge = (before, after) => `maps with their green reversed would change the file from ${amount(before)} to ${amount(after)}: maps and tangents are kept`;

@@ -118,8 +118,8 @@ export interface LintReport {
   advice: string;
   warnings: string[];
   primitives: any[];
-  /** One for each mesh: how its map is read without stored tangents. `mesh` counts meshes of the scene here. */
-  decisions: Decision[];
+  /** One for each primitive that is drawn; `mesh` is its number among these. */
+  decisions: Omit<Decision, 'primitive'>[];
   /** Primitives whose stored tangents `convert` would drop and keep. */
   primitives_dropping: number;
   primitives_keeping: number;
@@ -180,6 +180,8 @@ export type LimitFrame = 'cotangent' | 'orthonormal' | 'smooth' | 'exact' | 'tri
 export function lint(model: Bytes, options?: ModelOptions & Limits & {
   /** Distance from eye to surface in units of the model; 0, the default: where the whole model fills the image. */
   distance?: number;
+  /** As for `convert`, for `decisions`. */
+  maxDegrees?: number;
 }): Promise<LintReport>;
 
 /** `over_limit` of a report, evaluated for other limits. */
@@ -195,7 +197,6 @@ export interface UnreadMap {
   advice: string;
 }
 
-/** The report of `cotan convert --json`. */
 /** How the map of a primitive is read without stored tangents. */
 export interface Decision {
   /** Indices in the file. */
@@ -203,15 +204,18 @@ export interface Decision {
   primitive: number;
   /** What the map means: the frame that the file names, its tangents, or MikkTSpace as glTF says. */
   meaning: 'named' | 'stored' | 'mikktspace';
+  /** fits: the first candidate within the limits. keeps: no candidate is, so that what is there stays. not_judged: the
+   * same, because nothing could be compared (`not_judged` says why). */
   reason: 'no_map' | 'named' | 'fits' | 'keeps' | 'not_judged';
   frame: string;
   tangents_stay: boolean;
-  /** Degrees between the normals of each way to read the map and what it means. */
+  /** Degrees between the normals of each way to read the map and what it means, in the order of cost. */
   candidates: { frame: string; stored: boolean; points: number; mean: number | null; percentile95: number | null; percentile99: number | null; maximum: number | null }[];
   not_judged: string;
   text: string;
 }
 
+/** The report of `cotan convert --json`. */
 export interface ConvertReport {
   maps: {
     image: number;
@@ -242,11 +246,13 @@ export interface ConvertReport {
 }
 
 /** Removes stored tangents from a model. mode:
- * - `auto`, the default: drops them where nobody can see it. Each primitive is read with the frame that is nearest to its
- *   tangents, by measurement; its extras name it (`cotanFrame`). Tangents stay where no frame is within `maxDegrees`, with
- *   a note. Maps stay byte for byte, but for green that the tangents reverse, which is reversed in the map instead.
- * - `drop`: leaves maps as they are, not even decoded. Tangents that reverse green of a map stay.
- * - `convert`: makes new maps as `cotan convert` does; the default if an option that concerns new maps is set. These
+ * - `auto`, the default: drops them where nobody can see it. Each primitive gets the first frame, in the order of cost,
+ *   that reads its map within `maxDegrees` of its tangents; its extras name it (`cotanFrame`). Tangents stay, with a note,
+ *   where no frame does, where a map cannot be decoded, and where the file would grow by more than 2 %. Maps stay byte
+ *   for byte, but for green that the tangents reverse, which is reversed in the map instead.
+ * - `drop`: leaves maps as they are, not even decoded, and measures nothing: the maps are read with `orthonormal`.
+ *   Tangents that reverse green of a map stay.
+ * - `convert`: makes new maps as `cotan convert --to-frame` does; the default with `to`, `bits` or `keepTangents`. These
  *   keep the format of the old ones: JPEG and WebP at the same quality if sharp, or the canvas in browsers, encodes
  *   them, and if that costs no more than half a degree, or half of what the conversion gains; else PNG, with a note.
  * Tangents that glTF requires stay, with a note: those of materials with anisotropy, or with a normal map of the clear coat,

@@ -74,14 +74,15 @@ class Lint:
 
     Attributes:
         primitives, maps: number of primitives and of normal maps.
-        advice: the frame to read or convert the maps with; None if nothing has to be changed.
-        maps_to_convert: number of maps to convert for that frame.
+        advice: the frame that most primitives read their maps with; None if there is nothing to read.
+        maps_to_convert: always 0: maps stay as they are.
         distrust_stored: whether stored tangents contradict the uv.
         green_against: number of maps whose green points the other way than the model says.
         orthonormal_degrees, cotangent_degrees, smooth_degrees: error of maps for MikkTSpace that are read with this
             frame: mean over the surface, maximum over the maps; None if nothing was judged.
         recommendation: the advice in sentences.
-        report: the data of all primitives and maps, `warnings` and `check`, as in `cotan lint --json`.
+        report: the data of all primitives and maps, `decisions` (the frame of each primitive), `warnings` and `check`,
+            as in `cotan lint --json`.
         passed: whether the check passed; None if neither `limit` nor `limit_area` was given. The failures are in
             `report["check"]["failures"]`.
     """
@@ -221,6 +222,13 @@ def _limit(value, name):
     return 0.0 if value is None else max(arrays.number(value, name), 1e-9)
 
 
+def _max_degrees(value):
+    degrees = arrays.number(value, "max_degrees")
+    if not 0 < degrees <= 180:
+        raise arrays.wrong("max_degrees", "more than 0 and at most 180", value)
+    return degrees
+
+
 def lint(
     model: Union[Path, Bytes, Model],
     distance: float = 0.0,
@@ -244,7 +252,7 @@ def lint(
             95 % of the area. limit_area: maximum percent of a primitive's area with bad uv or tangents. Reversed green
             fails the check; maps that could not be judged fail `limit`.
         frame: the frame that `limit` judges: cotangent, orthonormal, smooth, exact, triangle or stored.
-        max_degrees: for `decisions` in the report, as in `convert`.
+        max_degrees: as for `convert`, for the decisions in the report.
 
     Raises InputError for a broken or missing file, StoppedError if `progress` stopped the work.
     """
@@ -284,12 +292,6 @@ def lint(
     )
 
 
-def _max_degrees(degrees):
-    if not 0 < arrays.number(degrees, "max_degrees") <= 180:
-        raise arrays.wrong("max_degrees", "more than 0 and at most 180", degrees)
-    return degrees
-
-
 def check_tangents(tangents):
     if tangents not in ("stored", "generated"):
         raise arrays.wrong("tangents", "'stored' or 'generated'", repr(tangents))
@@ -313,15 +315,15 @@ def convert(
     keep_maps: bool = False,
     max_degrees: float = 0.3,
 ) -> Converted:
-    """Converts the normal maps of a glTF model to another frame and drops its tangents.
+    """Drops the tangents of a glTF model where nobody can see it, or converts its normal maps to another frame.
 
     Args:
         model: a path to .glb or .gltf, or the bytes of one.
         out: .glb file to write atomically; None: returns the bytes in the result.
         to_frame, from_frame: names of frames. "mikktspace" and "vertex" write TANGENT, all others drop it.
             to_frame None: maps are kept, each primitive is read with the frame that is near enough, which its extras
-            name, and keeps its tangents where none is. from_frame None: the frame that the file names
-            for its maps, else "mikktspace".
+            name, and keeps its tangents where none is. from_frame None: the frame that the file names for its maps,
+            else "mikktspace".
         tangents: "stored" (generated where missing) or "generated", for from_frame.
         keep_tangents: keeps TANGENT even if the new frame does not read it.
         bits: bit depth of the new maps, 8 or 16; all maps are rewritten. 0: that of the old maps, which stay if valid.
@@ -346,7 +348,9 @@ def convert(
     result, glb, text = structs.ConvertResult(), structs.handle(), structs.handle()
 
     def work(told):
-        options = convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned, keep_maps, max_degrees)
+        options = convert_options(
+            to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned, keep_maps, max_degrees
+        )
         source.call("cotan_convert_gltf", options, result, glb, text)
 
     long_call(work, progress)
@@ -356,7 +360,9 @@ def convert(
     return converted_of(result, made if out is None else None, report)
 
 
-def convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned, keep_maps, max_degrees):
+def convert_options(
+    to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned, keep_maps, max_degrees
+):
     """The cotan_convert_options for these arguments."""
     options = structs.ConvertOptions(
         to=None if to_frame is None else arrays.encoded(to_frame, "to_frame"),

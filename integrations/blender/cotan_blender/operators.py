@@ -148,7 +148,7 @@ class CotanCheck(bpy.types.Operator):
 
 
 class CotanExport(bpy.types.Operator, ExportHelper):
-    """Export the selected objects as glTF without tangents, with normal maps for a frame that needs none"""
+    """Export the selected objects as glTF without tangents, with the frames that read their normal maps"""
 
     bl_idname = "export_scene.cotan_gltf"
     bl_label = "Export glTF without Tangents"
@@ -159,7 +159,7 @@ class CotanExport(bpy.types.Operator, ExportHelper):
     )
 
     def execute(self, context):
-        frame = context.scene.cotan.to_frame
+        settings = context.scene.cotan
         try:
             if context.mode != "OBJECT":
                 raise Refused("Go back to Object Mode first")
@@ -169,12 +169,20 @@ class CotanExport(bpy.types.Operator, ExportHelper):
             notes = gltf.warnings(context, things, self.apply_modifiers)
             made_for = gltf.frame_of_all(things)
             model = gltf.exported(context, things, self.apply_modifiers)
-            done = packages().convert(model, self.filepath, to_frame=frame, from_frame=made_for, tangents="generated")
+            frame, limits = settings.to_frame, {}
+            if frame == "MEASURED" and made_for != "mikktspace":  # the maps have a frame: nothing is to be measured
+                frame = "orthonormal" if made_for == "vertex" else made_for
+            if frame == "MEASURED":
+                limits["max_degrees"] = settings.max_degrees
+            done = packages().convert(
+                model, self.filepath, None if limits else frame, made_for, tangents="generated", **limits
+            )
         except (Refused, packages().Error) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         for note in notes:
             self.report({"WARNING"}, note)
+        chosen = dict.fromkeys(d["frame"] for d in done.report["decisions"] if d["reason"] != "no_map")
         maps = f"{done.maps_converted} maps converted, {done.maps_kept} kept"
-        self.report({"INFO"}, f"Exported for the frame {frame}: {maps}")
+        self.report({"INFO"}, f"Exported for the frame {', '.join(chosen) or frame}: {maps}")
         return {"FINISHED"}

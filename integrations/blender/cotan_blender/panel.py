@@ -112,7 +112,10 @@ class CotanExportPanel(_Part, bpy.types.Panel):
 
     def draw(self, context):
         layout = self.begun()
-        layout.prop(context.scene.cotan, "to_frame")
+        settings = context.scene.cotan
+        layout.prop(settings, "to_frame")
+        if settings.to_frame == "MEASURED":
+            layout.prop(settings, "max_degrees")
         layout.operator("export_scene.cotan_gltf", text="Export glTF", icon="EXPORT")
 
 

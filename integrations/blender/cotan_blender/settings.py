@@ -19,6 +19,9 @@ FRAMES = [
     ("orthonormal", "orthonormal", "The tangent-free frame nearest to MikkTSpace"),
     ("vertex", "vertex", "Tangents per vertex, not orthogonalised"),
 ]
+MEASURED = [
+    ("MEASURED", "Measured", "Keeps the maps; each part gets the cheapest frame that looks the same, which the file names"),
+]
 
 
 class CotanSettings(bpy.types.PropertyGroup):
@@ -95,8 +98,12 @@ class CotanSettings(bpy.types.PropertyGroup):
         description="Report faces on which MikkTSpace and cotangent differ by more than this",
     )
     to_frame: EnumProperty(
-        name="Frame", items=[f for f in FRAMES if f[0] not in ("mikktspace", "vertex")], default="orthonormal",
+        name="Frame", items=MEASURED + [f for f in FRAMES if f[0] not in ("mikktspace", "vertex")], default="MEASURED",
         description="Frame of the exported maps",
+    )
+    max_degrees: FloatProperty(
+        name="Degrees Off", default=0.3, min=0.001, max=180,
+        description="What the measured frame of a part may be off on average; ten times as much on 1 % of its area",
     )
 
 

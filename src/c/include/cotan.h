@@ -415,7 +415,7 @@ typedef struct cotan_lint_options {
     double limit;       /* degrees that the error with `frame` may exceed on 5 % of the area */
     double limit_area;  /* % of a primitive's area with degenerate or mirrored overlapping uv, or wrong tangents */
     const char* frame;  /* cotangent, orthonormal, smooth, exact, triangle or stored; null: "orthonormal" */
-    double max_degrees; /* as in cotan_convert_options. Since version 8. */
+    double max_degrees; /* as in cotan_convert_options, for the report's "decisions". Since version 8 */
 } cotan_lint_options;
 
 /* The main results of a report. Degrees are means over the surface, for the worst of the maps; -1: no map was
@@ -457,8 +457,8 @@ typedef struct cotan_convert_options {
     /* Since version 5. */
     int keep_maps; /* not 0: maps are kept, byte for byte, to be read with `to`, which must not read tangents; only
                       tangents are removed. Where these reverse green of a map, its green is reversed, or they stay.
-                      COTAN_MAPS_UNREAD: without decoding maps, which all stay as is, to be read with "orthonormal"
-                      if `to` is null */
+                      COTAN_MAPS_UNREAD: without decoding maps, which all stay as is, to be read with "orthonormal" if
+                      `to` is null */
     /* Since version 8. */
     double max_degrees; /* if `to` is null: the mean error of normals that a frame may have on a primitive, and ten
                            times as much on 1 % of its area; 0: 0.3 */
