@@ -166,7 +166,8 @@ function noteKept(mesh, geometry, { reason, why, candidates }, { note }) {
 function apply({ mesh, decisions }, tangents, all) {
   const materials = [mesh.material].flat(), { geometry } = mesh;
   if (!materials.some(material => material.normalScale)) return;
-  const signs = materials.map((material, k) => material.normalScale && signsOf(mesh, material, k, tangents, all));
+  const reads = tangents && drawsStored(mesh, firstMapOf(materials), decisions);
+  const signs = materials.map((material, k) => material.normalScale && signsOf(mesh, material, k, { tangents, reads }, all));
   if (tangents) giveTangents(mesh, materials, decisions, all);
   else giveVectors(mesh, materials, decisions, all);
   const copied = materials.map((material, k) => {
@@ -183,13 +184,19 @@ const made = (mesh, key, all, make) => {
   return all.made.get(whole).geometry;
 };
 
-// Tangents that were loaded are drawn as they are. Others are made, for mirrored meshes with the w that three needs there: it
-// makes bitangents from a mirrored tangent and a normal that is not.
+const firstMapOf = materials => mapOf(materials.find(material => material.normalScale && mapOf(material)));
+
+// Whether three draws the tangents that came with the mesh, needed or not: not if they are for other uv than the map's.
+const drawsStored = (mesh, map, decisions) => !!storedIn(mesh.geometry) && (decisions.some(({ keepsTangents }) => keepsTangents) || !(ofGltf(map) && turns(map)));
+
+// Whether three inverts the bitangents of a mesh: it makes them from a mirrored tangent and a normal that is not.
+const inverts = mesh => !mesh.isSkinnedMesh && mesh.matrixWorld.determinant() < 0;
+
+// Tangents that were loaded are drawn as they are. Others are made, for mirrored meshes with the other w.
 function giveTangents(mesh, materials, decisions, all) {
-  const map = mapOf(materials.find(material => material.normalScale && mapOf(material))), { geometry } = mesh;
-  if (decisions.some(({ keepsTangents }) => keepsTangents) || geometry.attributes.tangent && !(storedIn(geometry) && ofGltf(map) && turns(map))) return;
-  const mirrored = !mesh.isSkinnedMesh && mesh.matrixWorld.determinant() < 0;
-  mesh.geometry = made(mesh, ['mikktspace', readingOf(map), mirrored], all, () => markGenerated(withTangents(geometry, map, ofGltf(map) !== mirrored)));
+  const map = firstMapOf(materials), { geometry } = mesh;
+  if (drawsStored(mesh, map, decisions) || geometry.attributes.tangent && !storedIn(geometry)) return;
+  mesh.geometry = made(mesh, ['mikktspace', readingOf(map), inverts(mesh)], all, () => markGenerated(withTangents(geometry, map, ofGltf(map) !== inverts(mesh))));
 }
 
 // Adds the attributes that the frames of a mesh read to its geometry.
@@ -238,13 +245,13 @@ function freeTogether(meshes, made) {
 // ---- materials ----------------------------------------------------------------------------------
 
 // { wants, includes, factors, against } for a material: see `known`; factors: by scale, the sign to multiply the current scale
-// with, so that it includes the new one. tangents: whether three reads tangents.
-function signsOf(mesh, material, k, tangents, { o, chooser, greens, counted, loaded, earlier }) {
+// with, so that it includes the new one. tangents, reads: whether three draws tangents, and whether they are the stored ones.
+function signsOf(mesh, material, k, { tangents, reads }, { o, chooser, greens, counted, loaded, earlier }) {
   const stored = !!storedIn(mesh.geometry), wants = {}, includes = {}, factors = {}, before = earlier.get(material), means = meansTangents(material, mesh.geometry);
   for (const [name, mapName] of scalesOf(material)) {
     const map = material[mapName], gltf = map ? ofGltf(map) : loaded, initial = gltf && !stored ? -1 : 1; // GLTFLoader flips it if there are no tangents
-    let shown = stored && tangents && !o.convention ? undefined : before?.wants[name] ?? initial; // which way tangents and uv say
-    if (stored && (!tangents || o.convention)) {
+    let shown = reads && !o.convention ? undefined : before?.wants[name] ?? initial; // which way tangents and uv say
+    if (stored && (!reads || o.convention)) {
       const areas = chooser.areas(mesh, material, k, map);
       shown = !gltf || !map ? areas.against > areas.along || areas.along === 0 && gltf ? -1 : 1 : means ? greenAlongV(map, areas) : -1;
       const use = [mesh.geometry.uuid, map?.uuid, k].join();
@@ -253,8 +260,8 @@ function signsOf(mesh, material, k, tangents, { o, chooser, greens, counted, loa
     }
     // v runs down the image in glTF
     wants[name] = o.convention && map ? ((o.convention === 'gltf') === (gltf || map.flipY === false) ? -1 : 1) : shown ?? (gltf ? -1 : 1);
-    // Green is right as it is for stored bitangents; those that are made run against v for a glTF.
-    includes[name] = !tangents ? wants[name] : stored ? (o.convention ? wants[name] * shown : 1) : wants[name] * (gltf ? -1 : 1);
+    // Green is right as it is for stored bitangents, unless three inverts them; those that are made run against v for a glTF.
+    includes[name] = reads ? (o.convention ? wants[name] * shown : 1) * (inverts(mesh) ? -1 : 1) : tangents && gltf ? -wants[name] : wants[name];
     factors[name] = (before?.includes[name] ?? initial) * includes[name];
   }
   const map = mapOf(material), gltf = loaded || ofGltf(map);
