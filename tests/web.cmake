@@ -43,7 +43,7 @@ cotan_web_test(three_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
     materialsOfOneFrameShareAProgramAndOthersDoNot nodesOfAUserReadMapsForMikkTSpaceUnlessAFrameIsNamed
     unknownArgumentsAreRefused)
 cotan_web_test(three_choice_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
-  CASES theFirstCandidateWithinTheLimitsIsTaken vectorsAreMadeWhereOnlyTheyFit maxDegreesMovesTheChoice errorsAreAnglesBetweenPerturbedNormals
+  CASES theFirstCandidateWithinTheLimitsIsTaken vectorsAreMadeWhereOnlyTheyFit loadedTangentsThatMikkTSpaceMakesArePacked maxDegreesMovesTheChoice errorsAreAnglesBetweenPerturbedNormals
     tangentsMadeAtLoadAreThoseOfMikkTSpace madeTangentsComeWithTheScaleThatTheyNeed
     twoCallsOfOneFileDecideTheSameAndASecondCallChangesNothing sharedMaterialsAndGeometriesAreCopiedWhereMeshesDiffer
     materialsOfAMeshAgreeAboutTangents namesOfPrimitivesGoBeforeThoseOfMaterials mapsThatCannotBeReadKeepWhatIsThere
@@ -61,7 +61,7 @@ cotan_web_test(readme_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules CASE
 # Compares cotan/three with its defaults, from its sources, with stock three.js. The cat alone takes a minute.
 foreach(fact reversedTangentsReverseGreen modelsLookTheSameWithoutTheirTangents
     nodeMaterialsOfAModelKeepTheirOwnMaps modelsWithoutTangentsAreReadAsMikkTSpace
-    mirroredInstancesKeepTheirBumps tangentsMadeAtLoadAreRightAlsoOnMirroredMeshes replacedGeometriesAreFreed
+    mirroredInstancesKeepTheirBumps tangentsThatThreeDrawsAreRightAlsoOnMirroredMeshes replacedGeometriesAreFreed
     anOlderThreeDrawsTheSame)
   add_test(NAME ThreeDefaults.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/three_defaults_test.mjs
     ${PROJECT_SOURCE_DIR}/bindings/js ${PROJECT_BINARY_DIR}/npm/node_modules ${fact})

@@ -63,7 +63,7 @@ function lintOf(model) {
   const { decisions = [] } = JSON.parse(fs.readFileSync(report, 'utf8')), keys = primitivesOf(path.join(folders[folder], file));
   if (decisions.length !== keys.length) throw Error(`${model.name}: lint decided about ${decisions.length} primitives of ${keys.length}`);
   return decisions.map(({ frame, tangents_stay: stay, candidates, reason }, k) => ({ primitive: keys[k], frame: stay ? 'tangents' : frame, reason,
-    predicted: stay ? 0 : candidates.find((one) => one.frame === frame)?.mean, candidates: candidates.map(({ frame, stored, mean, percentile99 }) => ({ frame, stored, mean, percentile99 })) }));
+    predicted: stay ? 0 : candidates.find((one) => one.frame === frame)?.mean }));
 }
 
 // A model that covers nothing, or whose normals do not vary, has not been measured.

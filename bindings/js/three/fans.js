@@ -28,7 +28,7 @@ export function welded({ position, normal, uv }) {
 // { first, starts, list, at } for the vertices of the corners in `wanted`, or for all. first: as from welded(). The corners
 // at vertex v = first[corners[c]] are list[starts[v]] to list[starts[v + 1] - 1], in rising order; list[at[c]] is c.
 export function fansOf(mesh, wanted) {
-  const { corners } = mesh, first = welded(mesh), count = first.length, flags = new Uint8Array(count).fill(wanted ? 0 : 1);
+  const { corners } = mesh, first = mesh.first ??= welded(mesh), count = first.length, flags = new Uint8Array(count).fill(wanted ? 0 : 1);
   wanted?.forEach(c => { flags[first[corners[c]]] = 1; });
   const starts = new Uint32Array(count + 1), at = new Int32Array(corners.length);
   for (let c = 0; c < corners.length; ++c) if (flags[first[corners[c]]]) ++starts[first[corners[c]] + 1];

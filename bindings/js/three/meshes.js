@@ -7,8 +7,8 @@ import { Chooser, greenAlongV, markGenerated, scalesOf, storedIn } from './choos
 import { kFrames, kKey, mapOf, meansTangents, namedFrame } from './frames.js';
 import { withVertices } from './gathered.js';
 import { GreenNotes, ofGltf } from './greens.js';
-import { readingOf, turns, uvMatrixOf, uvNameOf } from './mesh_data.js';
-import { withTangents } from './mikktspace.js';
+import { numbersOf, readingOf, turns, uvMatrixOf, uvNameOf } from './mesh_data.js';
+import { packed, withTangents } from './mikktspace.js';
 import { kSmoothAttributes, withSmooth } from './smooth.js';
 import { kTriangleAttribute, withTriangles } from './triangles.js';
 
@@ -78,13 +78,13 @@ export function untangleMeshes(target, o, { provoking = 'last', instances = true
   const all = { o, provoking, instances, deformed, triangles, loaded: !target.isObject3D, made: new Map(), greens: new GreenNotes(), counted: new Set(), replace, restore,
     copies: new Map(), earlier: new Map(), note: once(o.note), warn: once(line => console.warn(`Cotan: ${line}`)) };
   for (const { material } of meshes) for (const one of [material].flat()) all.earlier.set(one, known.get(one));
-  all.chooser = new Chooser(meshes, { mean: o.maxDegrees, percentile99: 10 * o.maxDegrees },
-    { note: all.note, warn: all.warn, reasonAgainst: (mesh, frame) => reasonAgainst(mesh, [mesh.material].flat(), frame, all) });
+  all.chooser = new Chooser(meshes, { mean: o.maxDegrees, percentile99: 10 * o.maxDegrees }, (mesh, frame) => reasonAgainst(mesh, [mesh.material].flat(), frame, all), all.warn);
   const plans = meshes.map(mesh => ({ mesh, geometry: mesh.geometry, decisions: decisionsFor(mesh, all) }));
   const keeps = ({ decisions }) => decisions.some(({ frame }) => frame === 'mikktspace');
   // First the meshes that three draws with tangents: they get the materials that are not changed.
   for (const plan of [...plans.filter(keeps), ...plans.filter(plan => !keeps(plan))]) apply(plan, keeps(plan), all);
   removeTangents(plans, keeps);
+  packTangents(plans);
   if (!o.convention) all.greens.lines().forEach(all.note);
   freeTogether(meshes, all.made);
   return plans.flatMap(({ mesh, geometry, decisions }) => [mesh.material].flat().map((material, k) => {
@@ -101,13 +101,13 @@ const mapsOf = ({ normalMap, clearcoatNormalMap }) => [normalMap, clearcoatNorma
 
 function remember(geometry, material, decision) {
   if (!decided.has(geometry)) decided.set(geometry, new WeakMap());
-  decided.get(geometry).set(material, { decision, maps: mapsOf(material) });
+  decided.get(geometry).set(material, { decision, maps: mapsOf(material), tangent: storedIn(geometry) });
 }
 
 // What an earlier call decided, if that still holds.
 function remembered(geometry, material, { o }) {
-  const found = storedIn(geometry) ? undefined : decided.get(geometry)?.get(material);
-  if (!found || found.decision.reason === 'notJudged' || mapsOf(material).some((map, k) => map !== found.maps[k])) return undefined;
+  const found = decided.get(geometry)?.get(material);
+  if (!found || found.tangent !== storedIn(geometry) || found.decision.reason === 'notJudged' || mapsOf(material).some((map, k) => map !== found.maps[k])) return undefined;
   return o.frame === undefined || o.frame === 'auto' && found.decision.reason !== 'requested' ? found.decision : undefined;
 }
 
@@ -141,13 +141,13 @@ function decisionFor(mesh, material, k, all) {
 function reasonAgainst(mesh, materials, frame, { instances, deformed, triangles }) {
   if (frame === 'orthonormal') return '';
   if (frame === 'triangle' && !triangles) return 'needs the option renderer';
-  if (!instances && mesh.isInstancedMesh) return 'has instances, whose transforms node materials do not provide';
+  if (!instances && mesh.isInstancedMesh) return 'has instances';
   const morphs = Object.keys(mesh.geometry.morphAttributes).length > 0;
   if (frame !== 'mikktspace' && (morphs || mesh.isSkinnedMesh && (frame === 'triangle' || !deformed))) return 'deforms';
-  if (mesh.isBatchedMesh) return 'is a BatchedMesh, whose vertices cannot be renumbered';
+  if (mesh.isBatchedMesh) return 'is a BatchedMesh';
   const readings = new Set(materials.flatMap(material => (material.normalScale ? mapsOf(material) : [])).filter(Boolean).map(readingOf));
   if (readings.size > 1) return 'has normal maps over different texture coordinates';
-  const { position, normal, [uvNameOf(materials.map(mapOf).find(Boolean))]: uv } = mesh.geometry.attributes;
+  const { position, normal, [uvNameOf(firstMapOf(materials))]: uv } = mesh.geometry.attributes;
   if (!position || !uv) return 'has no texture coordinates';
   return frame !== 'triangle' && !normal ? 'has no normals' : '';
 }
@@ -184,7 +184,7 @@ const made = (mesh, key, all, make) => {
   return all.made.get(whole).geometry;
 };
 
-const firstMapOf = materials => mapOf(materials.find(material => material.normalScale && mapOf(material)));
+const firstMapOf = materials => materials.map(mapOf).find(Boolean);
 
 // Whether three draws the tangents that came with the mesh, needed or not: not if they are for other uv than the map's.
 const drawsStored = (mesh, map, decisions) => !!storedIn(mesh.geometry) && (decisions.some(({ keepsTangents }) => keepsTangents) || !(ofGltf(map) && turns(map)));
@@ -233,6 +233,17 @@ function removeTangents(plans, keeps) {
     geometry.deleteAttribute('tangent');
   }
   for (const [geometry, copy] of bare) geometry.addEventListener('dispose', () => copy.dispose());
+}
+
+// Packs tangents of floats that MikkTSpace makes, too. Those that stay are left as they are.
+function packTangents(plans) {
+  const kept = new Set(plans.filter(({ decisions }) => decisions.some(({ keepsTangents }) => keepsTangents)).map(({ mesh }) => mesh.geometry));
+  for (const { mesh: { geometry } } of plans) {
+    const tangents = storedIn(geometry);
+    if (kept.has(geometry) || !tangents || tangents.isInterleavedBufferAttribute || tangents.array.BYTES_PER_ELEMENT < 4) continue;
+    geometry.dispose(); // frees the renderer's buffer of the old ones
+    geometry.setAttribute('tangent', packed(numbersOf(tangents, 4)));
+  }
 }
 
 // Disposes of replaced geometries without meshes. A new geometry is disposed of together with the one that it replaced.
