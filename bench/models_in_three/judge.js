@@ -8,6 +8,7 @@ import { drawUnfolded, layoutOf, unfold } from './unfolded.js';
 // In front, behind, on both sides, above and below; none along an axis.
 const kViews = [[0.1, 0.15, 1], [-0.2, 0.25, -1], [1, 0.1, 0.2], [-1, 0.3, -0.1], [0.15, 1, 0.3], [0.2, -1, 0.1]];
 const kKinds = { normal: 'normalMap', clearcoatNormal: 'clearcoatNormalMap' };
+const kRounds = 3;          // of untangle(), for its time
 const kBinsPerDegree = 200; // of the histograms that percentiles come from
 const kVisibleDegrees = 3;  // white in the image of differences
 
@@ -242,20 +243,33 @@ function imageOf(withTangents, without, size) {
   return canvas.convertToBlob().then(blob => new Promise(done => { const reader = new FileReader(); reader.onload = () => done(reader.result); reader.readAsDataURL(blob); }));
 }
 
-// url: a model. posed: whether to draw it in the middle of its animation too. Returns the degrees over all pixels that
-// show a normal map or the map of a clear coat, for each primitive and each kind of map, and what untangle() did.
-export async function measure(url, { posed = false, size = 512, rounds = 3, sharp = false, options, image = false }) {
-  const bytes = await (await fetch(url)).arrayBuffer(), base = url.replace(/[^/]*$/, '');
-  const keys = [], parts = new Map(), whole = new Map(), found = { stored: 0, generated: 0, notes: [], notFinite: 0 }, spans = [];
-  for (let round = 0; round < rounds; ++round) {
+// Loads a model and calls untangle() three times: what it decided, the vertex data before and after, and the median of its
+// times.
+async function untangledTimes(bytes, base, options, notes) {
+  const spans = [], found = {};
+  for (let round = 0; round < kRounds; ++round) {
     const gltf = await loadPosed(bytes, base, 0), before = bytesOf(gltf);
-    const loaded = new Map(meshesOf(gltf).map(mesh => [mesh, mesh.geometry.attributes.tangent])), start = performance.now();
-    const result = await untangle(gltf, { ...options, note: line => round || found.notes.push(line) });
-    spans.push(performance.now() - start);
+    const loaded = new Map(meshesOf(gltf).map(mesh => [mesh, mesh.geometry.attributes.tangent])), start = await window.threadTime();
+    const result = untangle(gltf, { ...options, note: line => round || notes.push(line) });
+    spans.push(1000 * (await window.threadTime() - start));
     if (!round) Object.assign(found, { tangentBytes: before.tangents, savedBytes: before.total - bytesOf(gltf).total, decisions: decisionsOf(gltf, [result, result?.decisions].find(Array.isArray), loaded) });
     release(gltf);
   }
-  found.milliseconds = spans.sort((a, b) => a - b)[rounds >> 1];
+  return { ...found, milliseconds: spans.sort((a, b) => a - b)[kRounds >> 1] };
+}
+
+// url: a model. Only the median time of untangle(), in milliseconds.
+export async function time(url, { options }) {
+  const bytes = await (await fetch(url)).arrayBuffer();
+  return round((await untangledTimes(bytes, url.replace(/[^/]*$/, ''), options, [])).milliseconds);
+}
+
+// url: a model. posed: whether to draw it in the middle of its animation too. Returns the degrees over all pixels that
+// show a normal map or the map of a clear coat, for each primitive and each kind of map, and what untangle() did.
+export async function measure(url, { posed = false, size = 512, sharp = false, options, image = false }) {
+  const bytes = await (await fetch(url)).arrayBuffer(), base = url.replace(/[^/]*$/, '');
+  const keys = [], parts = new Map(), whole = new Map(), found = { stored: 0, generated: 0, notes: [], notFinite: 0 };
+  Object.assign(found, await untangledTimes(bytes, base, options, found.notes));
   for (const [kind, name] of Object.entries(kKinds))
     for (const pose of posed ? [0, 1] : [0]) {
       const original = await loadPosed(bytes, base, pose), box = boxOf(original);

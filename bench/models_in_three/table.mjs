@@ -43,18 +43,23 @@ function surfaceMeans({ primitives }, of, judged = () => true) {
 const ofRule = ({ predicted }) => predicted;
 const apart = (a, b) => Math.max(a, b) > kFactor * Math.min(a, b) && Math.abs(a - b) > kApart;
 
-function lineOf(row) {
-  const frames = [...framesOf(row)].map(([frame, count]) => `${frame} ${count}`).join(', '), { predicted, measured } = surfaceMeans(row, ofRule);
-  return [row.name, row.stored ? 'stored' : 'MikkTSpace', row.traits.join(', '), frames, Number.isFinite(predicted) ? degrees(predicted) : '', degrees(measured), degrees(row.mean), degrees(row.p95),
-    degrees(row.p99), degrees(row.max), kibibytes(row.savedBytes), row.milliseconds.toFixed(0)];
+const kChoices = ['model', 'tangents', 'traits', 'what the rule took'];
+const kNumbers = ['model', 'predicted', 'surface', 'mean', '95 %', '99 %', 'maximum', 'KiB saved', 'ms'];
+
+const choiceOf = (row) => [row.name, row.stored ? 'stored' : 'MikkTSpace', row.traits.join(', '), [...framesOf(row)].map(([frame, count]) => `${frame} ${count}`).join(', ')];
+
+function numbersOf(row) {
+  const { predicted, measured } = surfaceMeans(row, ofRule);
+  return [row.name, Number.isFinite(predicted) ? degrees(predicted) : '', degrees(measured), degrees(row.mean), degrees(row.p95), degrees(row.p99), degrees(row.max), kibibytes(row.savedBytes),
+    row.milliseconds.toFixed(0)];
 }
 
-const kHeader = ['model', 'tangents', 'traits', 'what the rule took', 'predicted', 'surface', 'mean', '95 %', '99 %', 'maximum', 'KiB saved', 'ms'];
+const lines = (header, rows, numbers) => [header, header.map((_, k) => (numbers && k ? '--:' : '---')), ...rows].map((cells) => `| ${cells.join(' | ')} |`).join('\n');
 
-/** The lines of the table of the rows of `models`, without those that are extra. */
+/** Two tables of the rows of `models`, without those that are extra: what was chosen, and what was measured. */
 export function tableOf({ models }, extra = false) {
-  const rows = models.filter((row) => !!row.extra === extra).map(lineOf);
-  return [kHeader, kHeader.map((_, k) => (k < 4 ? '---' : '--:')), ...rows].map((cells) => `| ${cells.join(' | ')} |`).join('\n');
+  const rows = models.filter((row) => !!row.extra === extra);
+  return `${lines(kChoices, rows.map(choiceOf), false)}\n\nDegrees, memory and time:\n\n${lines(kNumbers, rows.map(numbersOf), true)}`;
 }
 
 /** A line for each bar that does not hold. */

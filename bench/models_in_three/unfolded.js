@@ -58,7 +58,7 @@ export function layoutOf(mesh, instance) {
   return { corners, at };
 }
 
-// Of a mesh with the same triangles as the layout's, whose corners may start elsewhere: x and y of each corner.
+// x and y of each corner of a mesh with the same triangles as the layout's, whose corners may start elsewhere.
 function placesOf(mesh, instance, layout) {
   const own = cornersOf(mesh, instance), at = new Float32Array(layout.at.length);
   for (let k = 0; k + 2 < own.length; k += 3) {
