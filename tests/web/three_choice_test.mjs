@@ -66,7 +66,7 @@ const cases = {
       assert.deepEqual([decision.frame, decision.keepsTangents, decision.reason, decision.candidates.length], [frame, false, 'fits', count]);
       assert.equal(decision.meaning, kept ? 'stored' : 'mikktspace');
       assert.deepEqual(decision.candidates.map((one) => one.frame), ['orthonormal', 'triangle', 'smooth', 'mikktspace'].slice(0, count));
-      for (const { mean, percentile95, percentile99, maximum, points } of decision.candidates) assert.ok((points === 4096 || points === 512 && 2 * mean <= 0.3 && maximum <= 3) && mean <= percentile95 + 1 && percentile95 <= percentile99 && percentile99 <= maximum);
+      for (const { mean, percentile95, percentile99, maximum, points } of decision.candidates) assert.ok((points === 4096 || points === 512 && (2 * mean <= 0.3 && maximum <= 3 || mean > 1.2)) && mean <= percentile95 + 1 && percentile95 <= percentile99 && percentile99 <= maximum);
       const last = decision.candidates.at(-1);
       assert.ok(last.mean <= 0.3 && last.percentile99 <= 3 && decision.candidates.slice(0, -1).every(({ mean, percentile99 }) => mean > 0.3 || percentile99 > 3));
       assert.equal(frameIn(mesh.material), frame === 'mikktspace' ? 'three' : frame);
@@ -117,9 +117,9 @@ const cases = {
   // The limits are the mean, and ten times as much on 99 % of the area.
   maxDegreesMovesTheChoice() {
     const first = (maxDegrees) => { const [{ frame, candidates: [{ mean, percentile99, points }] }] = decided(meshOf(stored(hilly(6))), { maxDegrees }); return { frame, mean, percentile99, points }; };
-    const { mean, percentile99 } = first(1e-9), limit = Math.max(mean, percentile99 / 10);
+    const { mean, percentile99 } = first(first(1e-9).mean), limit = Math.max(mean, percentile99 / 10);
     // Far from the limit a few points decide, about the same degrees.
-    for (const [maxDegrees, frame, points] of [[limit * 1.001, 'orthonormal', 4096], [limit * 0.999, 'mikktspace', 4096], [30, 'orthonormal', 512]]) {
+    for (const [maxDegrees, frame, points] of [[limit * 1.001, 'orthonormal', 4096], [limit * 0.999, 'mikktspace', 4096], [30, 'orthonormal', 512], [limit / 20, 'mikktspace', 512]]) {
       const found = first(maxDegrees);
       assert.deepEqual([found.frame, found.points], [frame, points], maxDegrees);
       assert.ok(Math.abs(found.mean - mean) < 0.05 * mean);

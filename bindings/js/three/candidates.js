@@ -25,7 +25,7 @@ export class Sample {
   // The same surface at a few of its points.
   few() { return new Sample(this.#surface, this.places.map(place => ({ ...place, count: Math.min(place.count, kFew) })), this.#vectors.get('stored').values, this.#transform); }
 
-  get usable() { return this.places.every(({ count }) => count > 0); }
+  get usable() { return this.places.every(place => place.count); }
 
   // { values, slots } of a frame that reads vertices: element slots[c] of values belongs to corner c.
   #vectorsOf(frame) {

@@ -101,13 +101,13 @@ export class Chooser {
     const meaning = stored && material.flatShading !== true ? 'stored' : 'mikktspace';
     const kept = meaning === 'stored' ? { frame: 'mikktspace', keepsTangents: true } : {};
     const found = primitive.sampleFor(first[0], this.#points);
-    const why = !found ? 'it has no texture coordinates' : !found.usable ? 'no triangle has an area both in space and in uv' : texelsOf(first[0]).why;
+    const why = !found ? 'it has no texture coordinates' : !found.usable ? 'no triangle has an area in space and in uv' : texelsOf(first[0]).why;
     if (why) return decision('orthonormal', meaning, 'notJudged', { ...kept, why });
     const few = this.#measureOf(primitive, found.few(), meaning), all = this.#measureOf(primitive, found, meaning), candidates = [], { limits } = this;
-    // Some points tell if they are far from both limits.
+    // Some points tell if they are far from the limits.
     const measure = frame => {
       const first = few(frame);
-      return 2 * first.mean <= limits.mean && first.maximum <= limits.percentile99 ? first : all(frame);
+      return 2 * first.mean <= limits.mean && first.maximum <= limits.percentile99 || first.mean > 4 * limits.mean ? first : all(frame);
     };
     for (const frame of kCandidates) {
       const against = primitive.meshes.map(mesh => this.reasonAgainst(mesh, frame)).find(Boolean);

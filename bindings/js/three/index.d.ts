@@ -36,8 +36,8 @@ export interface UntangleOptions {
 }
 
 /** How well a frame reads a map: degrees between perturbed normals, at `points` points spread evenly over the surface: 4096,
- * or 512 of them if their mean is below half of the limit and their maximum below that of 99 %; fewer in a scene of many meshes.
- * mikktspace: tangents that are made when the model is loaded. If `why` says why the mesh cannot have the frame, points is 0
+ * or 512 of them if their mean is below half of the limit and their maximum below that of 99 %, or their mean above four times
+ * the limit; fewer in a scene of many meshes. mikktspace: tangents that are made when the model is loaded. If `why` says why the mesh cannot have the frame, points is 0
  * and the rest is NaN. */
 export interface Candidate {
   frame: 'orthonormal' | 'triangle' | 'smooth' | 'mikktspace';

@@ -56,9 +56,9 @@ function neighboursOf({ corners }, { first, starts, list }, sides) {
 export function tangentsOf(mesh, fans) {
   const { list, at } = fans, { sides, vectors } = trianglesOf(mesh, fans), across = neighboursOf(mesh, fans, sides);
   const values = new Float64Array(4 * list.length), done = new Uint8Array(list.length), turned = new Int8Array(mesh.corners.length / 3), sum = new Float64Array(3), members = [];
-  for (let c = 0; c < mesh.corners.length; ++c) {
+  for (const c of fans.rising) {
     const start = at[c], side = sides[start];
-    if (list[start] !== c || done[start] || !side) continue;
+    if (done[start] || !side) continue;
     members.length = 0;
     members.push(start);
     sum.fill(0);
@@ -123,5 +123,5 @@ export function withTangents(geometry, map, against) {
 // Tangents in 8 bytes each instead of 16: within 0.003 degrees. values: x y z w, of any length.
 export function packed(values) {
   for (let k = 0; k < values.length; k += 4) normalise(values, k);
-  return new BufferAttribute(Int16Array.from(values, x => Math.round(32767 * x)), 4, true);
+  return new BufferAttribute(new Int16Array(values.map(x => Math.round(32767 * x))), 4, true);
 }

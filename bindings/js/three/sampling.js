@@ -24,7 +24,7 @@ export function surfaceOf(geometry, group, map, flat) {
 // Adds the linear part of a Matrix4 to `known`, unless it differs from one of them only by rotation, mirroring and uniform
 // scale, which change nothing.
 export function addStretch(known, { elements: e }) {
-  const m = Float64Array.of(e[0], e[1], e[2], e[4], e[5], e[6], e[8], e[9], e[10]), gram = gramOf(m);
+  const m = Float64Array.from([0, 1, 2, 4, 5, 6, 8, 9, 10], i => e[i]), gram = gramOf(m);
   if (known.length < kMaxStretches && !known.some(other => other.isSkinnedMesh || alike(gramOf(other), gram))) known.push(m);
 }
 
