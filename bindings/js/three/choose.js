@@ -101,7 +101,7 @@ export class Chooser {
     const meaning = stored && material.flatShading !== true ? 'stored' : 'mikktspace';
     const kept = meaning === 'stored' ? { frame: 'mikktspace', keepsTangents: true } : {};
     const found = primitive.sampleFor(first[0], this.#points);
-    const why = !found ? 'it has no texture coordinates' : !found.usable ? 'no triangle has an area in space and in uv' : texelsOf(first[0]).why;
+    const why = !found ? 'it has no texture coordinates' : !found.usable ? 'no triangle has an area both in space and in uv' : texelsOf(first[0]).why;
     if (why) return decision('orthonormal', meaning, 'notJudged', { ...kept, why });
     const few = this.#measureOf(primitive, found.few(), meaning), all = this.#measureOf(primitive, found, meaning), candidates = [], { limits } = this;
     // Some points tell if they are far from the limits.
