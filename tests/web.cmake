@@ -45,7 +45,7 @@ cotan_web_test(three_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
     materialsOfOneFrameShareAProgramAndOthersDoNot nodesOfAUserReadMapsForMikkTSpaceUnlessAFrameIsNamed
     unknownArgumentsAreRefused)
 cotan_web_test(three_choice_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules
-  CASES theFirstCandidateWithinTheLimitsIsTaken vectorsAreMadeWhereOnlyTheyFit maxDegreesMovesTheChoice errorsAreAnglesBetweenPerturbedNormals
+  CASES theFirstCandidateWithinTheLimitsIsTaken vectorsAreMadeWhereOnlyTheyFit loadedTangentsThatMikkTSpaceMakesArePacked maxDegreesMovesTheChoice errorsAreAnglesBetweenPerturbedNormals
     tangentsMadeAtLoadAreThoseOfMikkTSpace madeTangentsComeWithTheScaleThatTheyNeed
     twoCallsOfOneFileDecideTheSameAndASecondCallChangesNothing sharedMaterialsAndGeometriesAreCopiedWhereMeshesDiffer
     materialsOfAMeshAgreeAboutTangents namesOfPrimitivesGoBeforeThoseOfMaterials mapsThatCannotBeReadKeepWhatIsThere
@@ -63,7 +63,7 @@ cotan_web_test(readme_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules CASE
 # Compares cotan/three with its defaults, from its sources, with stock three.js. The cat alone takes a minute.
 foreach(fact reversedTangentsReverseGreen modelsLookTheSameWithoutTheirTangents
     nodeMaterialsOfAModelKeepTheirOwnMaps modelsWithoutTangentsAreReadAsMikkTSpace
-    mirroredInstancesKeepTheirBumps tangentsMadeAtLoadAreRightAlsoOnMirroredMeshes replacedGeometriesAreFreed
+    mirroredInstancesKeepTheirBumps tangentsThatThreeDrawsAreRightAlsoOnMirroredMeshes replacedGeometriesAreFreed
     anOlderThreeDrawsTheSame)
   add_test(NAME ThreeDefaults.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/three_defaults_test.mjs
     ${PROJECT_SOURCE_DIR}/bindings/js ${PROJECT_BINARY_DIR}/npm/node_modules ${fact})
@@ -72,8 +72,9 @@ foreach(fact reversedTangentsReverseGreen modelsLookTheSameWithoutTheirTangents
 endforeach()
 
 # The table of bench/models-in-three, which draws for half an hour: its rules and its page.
-foreach(fact everyBrokenBarIsNamed predictionsThatDifferFromTheMeasuredDegreesAreNamed furtherModelsAreNotCounted
-    aRowHasWhatWasMeasured)
+foreach(fact everyBrokenBarIsNamed predictionsThatDifferFromTheMeasuredDegreesAreNamed
+    viewsMayBeNearerThanPredictedAndAreNamed furtherModelsAreNotCounted aRowHasWhatWasMeasured
+    thePageShowsItsNumbersAndAllBarsHold)
   add_test(NAME ModelsTable.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/models_table_test.mjs ${fact})
 endforeach()
 

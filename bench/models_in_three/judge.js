@@ -3,10 +3,12 @@
 import * as THREE from 'three';
 import { judged, load, mapped, meshesOf, renderer, withFlatBumps, write } from '/tests/three_judge.js';
 import { untangle } from '/package/three/index.js';
+import { drawUnfolded, layoutOf, unfold } from './unfolded.js';
 
 // In front, behind, on both sides, above and below; none along an axis.
 const kViews = [[0.1, 0.15, 1], [-0.2, 0.25, -1], [1, 0.1, 0.2], [-1, 0.3, -0.1], [0.15, 1, 0.3], [0.2, -1, 0.1]];
 const kKinds = { normal: 'normalMap', clearcoatNormal: 'clearcoatNormalMap' };
+const kRounds = 3;          // of untangle(), for its time
 const kBinsPerDegree = 200; // of the histograms that percentiles come from
 const kVisibleDegrees = 3;  // white in the image of differences
 
@@ -34,14 +36,15 @@ async function loadPosed(bytes, base, pose) {
   return gltf;
 }
 
-// Bytes of vertices and indices of all meshes, as they are uploaded.
+// Bytes of vertices and indices of all meshes, as they are uploaded. Interleaved attributes are uploaded together.
 function bytesOf(gltf) {
   const counted = new Set(), all = { total: 0, tangents: 0 };
   for (const { geometry } of meshesOf(gltf))
     for (const [name, attribute] of [...Object.entries(geometry.attributes), ['index', geometry.index]]) {
-      if (!attribute || counted.has(attribute)) continue;
-      counted.add(attribute);
-      const bytes = attribute.count * attribute.itemSize * attribute.array.BYTES_PER_ELEMENT;
+      const buffer = attribute?.data ?? attribute;
+      if (!buffer || counted.has(buffer)) continue;
+      counted.add(buffer);
+      const bytes = buffer.array.byteLength;
       all.total += bytes;
       if (name === 'tangent') all.tangents += bytes;
     }
@@ -61,16 +64,23 @@ function areaOf(mesh) {
 
 const frameOf = material => /cotan,(\w+)/.exec(material.customProgramCacheKey())?.[1];
 
+// Whether tangents are the loaded ones, or those in fewer bits.
+function alike(a, b) {
+  if (!a || a.count !== b?.count) return false;
+  for (let k = 0; k < 4 * a.count; ++k) if (Math.abs(a.getComponent(k >> 2, k % 4) - b.getComponent(k >> 2, k % 4)) > 1e-3) return false;
+  return true;
+}
+
 // What untangle() decided for each primitive: the frame, or `tangents` where those of the file are needed; and the mean
-// that it predicts, which is 0 where loaded tangents are drawn. before: their attributes. Without decisions, the frame
-// is the one that its material is drawn with.
+// that it predicts, which is 0 where loaded tangents are drawn. before: their attributes by mesh. Without decisions, the
+// frame is the one that its material is drawn with.
 function decisionsOf(gltf, decisions, before) {
   const found = new Map();
   for (const mesh of meshesOf(gltf)) {
     if (!mapped(mesh.material)) continue;
     const own = decisions?.find(one => one.mesh === mesh && one.material === mesh.material);
     const { frame, keepsTangents, reason } = own ?? { frame: frameOf(mesh.material) ?? 'none', keepsTangents: !!mesh.geometry.attributes.tangent };
-    const drawsLoaded = before.has(mesh.geometry.attributes.tangent);
+    const drawsLoaded = alike(mesh.geometry.attributes.tangent, before.get(mesh));
     const predicted = drawsLoaded ? 0 : own?.candidates.find(one => one.frame === frame)?.mean;
     found.set(keyOf(gltf, mesh), { frame: keepsTangents ? 'tangents' : frame, drawsLoaded, predicted, reason, candidates: own?.candidates });
   }
@@ -144,6 +154,36 @@ function drawnNormals(gltf, box, size, kind, sharp) {
   return { views: drawn(gltf, box, size), materials };
 }
 
+// Degrees over the whole surface of each mesh with such a map, as a Histogram, by key: those of the instance, or of the
+// mesh of several with one key, that has the largest mean. Both scenes write normals. The untangled model is loaded later:
+// call it with the original alone first, which returns what the second call needs.
+function drawnSurfaces(gltf, box, shows, before) {
+  const scene = new THREE.Scene().add(gltf.scene), middle = box.getCenter(new THREE.Vector3()), found = new Map();
+  new Set(meshesOf(gltf).map(({ material }) => material)).forEach(unfold);
+  meshesOf(gltf).forEach((mesh, k) => {
+    const key = keyOf(gltf, mesh);
+    if (!shows.has(key)) return;
+    for (let instance = 0; instance < (mesh.isInstancedMesh ? mesh.count : 1); ++instance) {
+      const id = `${k} ${instance}`, layout = before?.get(id).layout ?? layoutOf(mesh, instance), pixels = drawUnfolded(renderer, scene, mesh, instance, layout, middle);
+      found.set(id, { key, layout, pixels });
+    }
+  });
+  return found;
+}
+
+function surfaceDegrees(before, after) {
+  const found = new Map();
+  for (const [id, { key, pixels: a }] of before) {
+    const degrees = new Histogram(), b = after.get(id).pixels;
+    for (let i = 0; i < a.length; i += 4) {
+      const apart = a[i + 3] > 0.5 && b[i + 3] > 0.5 ? degreesAt(a, b, i) : NaN;
+      if (Number.isFinite(apart)) degrees.add(apart);
+    }
+    if (degrees.weight && !(found.get(key)?.mean > degrees.mean)) found.set(key, degrees);
+  }
+  return found;
+}
+
 function release(gltf) {
   for (const { geometry, material } of meshesOf(gltf)) {
     geometry.dispose();
@@ -203,20 +243,33 @@ function imageOf(withTangents, without, size) {
   return canvas.convertToBlob().then(blob => new Promise(done => { const reader = new FileReader(); reader.onload = () => done(reader.result); reader.readAsDataURL(blob); }));
 }
 
-// url: a model. posed: whether to draw it in the middle of its animation too. Returns the degrees over all pixels that
-// show a normal map or the map of a clear coat, for each primitive and each kind of map, and what untangle() did.
-export async function measure(url, { posed = false, size = 512, rounds = 3, sharp = false, options, image = false }) {
-  const bytes = await (await fetch(url)).arrayBuffer(), base = url.replace(/[^/]*$/, '');
-  const keys = [], parts = new Map(), found = { stored: 0, generated: 0, notes: [], notFinite: 0 }, spans = [];
-  for (let round = 0; round < rounds; ++round) {
+// Loads a model and calls untangle() three times: what it decided, the vertex data before and after, and the median of its
+// times.
+async function untangledTimes(bytes, base, options, notes) {
+  const spans = [], found = {};
+  for (let round = 0; round < kRounds; ++round) {
     const gltf = await loadPosed(bytes, base, 0), before = bytesOf(gltf);
-    const loaded = new Set(meshesOf(gltf).map(({ geometry }) => geometry.attributes.tangent).filter(Boolean)), start = performance.now();
-    const result = await untangle(gltf, { ...options, note: line => round || found.notes.push(line) });
-    spans.push(performance.now() - start);
+    const loaded = new Map(meshesOf(gltf).map(mesh => [mesh, mesh.geometry.attributes.tangent])), start = await window.threadTime();
+    const result = untangle(gltf, { ...options, note: line => round || notes.push(line) });
+    spans.push(1000 * (await window.threadTime() - start));
     if (!round) Object.assign(found, { tangentBytes: before.tangents, savedBytes: before.total - bytesOf(gltf).total, decisions: decisionsOf(gltf, [result, result?.decisions].find(Array.isArray), loaded) });
     release(gltf);
   }
-  found.milliseconds = spans.sort((a, b) => a - b)[rounds >> 1];
+  return { ...found, milliseconds: spans.sort((a, b) => a - b)[kRounds >> 1] };
+}
+
+// url: a model. Only the median time of untangle(), in milliseconds.
+export async function time(url, { options }) {
+  const bytes = await (await fetch(url)).arrayBuffer();
+  return round((await untangledTimes(bytes, url.replace(/[^/]*$/, ''), options, [])).milliseconds);
+}
+
+// url: a model. posed: whether to draw it in the middle of its animation too. Returns the degrees over all pixels that
+// show a normal map or the map of a clear coat, for each primitive and each kind of map, and what untangle() did.
+export async function measure(url, { posed = false, size = 512, sharp = false, options, image = false }) {
+  const bytes = await (await fetch(url)).arrayBuffer(), base = url.replace(/[^/]*$/, '');
+  const keys = [], parts = new Map(), whole = new Map(), found = { stored: 0, generated: 0, notes: [], notFinite: 0 };
+  Object.assign(found, await untangledTimes(bytes, base, options, found.notes));
   for (const [kind, name] of Object.entries(kKinds))
     for (const pose of posed ? [0, 1] : [0]) {
       const original = await loadPosed(bytes, base, pose), box = boxOf(original);
@@ -228,6 +281,7 @@ export async function measure(url, { posed = false, size = 512, rounds = 3, shar
       Object.assign(found, await judged(original));
       if (kind !== 'normal') for (const { material } of meshesOf(original)) withFlatBumps(material);
       const { views: expected } = drawnNormals(original, box, size, kind, sharp);
+      const surfaces = pose ? undefined : drawnSurfaces(original, box, shows);
       release(original);
       const untangled = await loadPosed(bytes, base, pose);
       await untangle(untangled, { ...options, note: () => {} });
@@ -235,6 +289,10 @@ export async function measure(url, { posed = false, size = 512, rounds = 3, shar
       const { views, materials } = drawnNormals(untangled, box, size, kind, sharp);
       for (const { normalScale, clearcoatNormalScale } of materials) for (const scale of [normalScale, clearcoatNormalScale]) if (scale) scale.y *= -1;
       const reversed = drawn(untangled, box, size);
+      if (surfaces) {
+        for (const { normalScale, clearcoatNormalScale } of materials) for (const scale of [normalScale, clearcoatNormalScale]) if (scale) scale.y *= -1;
+        whole.set(kind, surfaceDegrees(surfaces, drawnSurfaces(untangled, box, shows, surfaces)));
+      }
       release(untangled);
       if (image && !found.image) found.image = await imageOf(expected, views, size);
       expected.forEach((a, view) => {
@@ -266,8 +324,8 @@ export async function measure(url, { posed = false, size = 512, rounds = 3, shar
   const { decisions, image: picture, ...rest } = found;
   const primitives = [...parts.values()].map(({ key, kind, area, degrees, reversed, low, high }) => {
     const { frame, drawsLoaded, predicted, reason, candidates } = decisions.get(key) ?? { frame: 'none' };
-    return { primitive: key, kind, frame, drawsLoaded, predicted, reason, candidates: candidates?.map(rounded), pixels: degrees.weight, area, ...degrees.numbers, reversedMean: reversed / degrees.weight,
-      range: Math.max(...high.map((value, j) => value - low[j])) };
+    return { primitive: key, kind, frame, drawsLoaded, predicted, reason, candidates: candidates && rounded(Object.fromEntries(candidates.map(one => [one.frame, one.mean]))), pixels: degrees.weight, area, ...degrees.numbers, reversedMean: reversed / degrees.weight,
+      range: Math.max(...high.map((value, j) => value - low[j])), surface: whole.get(kind)?.get(key)?.mean };
   });
   return { ...rounded(rest), pixels: all.weight, ...rounded(all.numbers), byArea: rounded(byArea.numbers), primitives: primitives.map(rounded), image: picture };
 }

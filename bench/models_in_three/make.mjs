@@ -9,14 +9,15 @@ import { pathToFileURL } from 'node:url';
 const [list, models, tools, data, out] = process.argv.slice(2).map((name) => path.resolve(name));
 const require = createRequire(path.join(tools, 'x.js'));
 const from = (name) => import(pathToFileURL(path.join(tools, name)).href);
-const { NodeIO } = await from('@gltf-transform/core/dist/index.js');
+const { NodeIO, VertexLayout } = await from('@gltf-transform/core/dist/index.js');
 const { ALL_EXTENSIONS, EXTMeshGPUInstancing, EXTMeshoptCompression, EXTTextureWebP, KHRDracoMeshCompression, KHRTextureTransform } =
   await from('@gltf-transform/extensions/dist/index.js');
 const { meshopt, quantize, unweld, weld } = await from('@gltf-transform/functions/dist/index.js');
 const { MeshoptDecoder, MeshoptEncoder } = await from('meshoptimizer/index.js');
 const draco = require('draco3dgltf'), mikktspace = require('mikktspace');
 await Promise.all([MeshoptDecoder.ready, MeshoptEncoder.ready]);
-const io = new NodeIO().registerExtensions(ALL_EXTENSIONS).registerDependencies({
+// Not interleaved: three keeps the buffer of interleaved attributes if one of them is removed.
+const io = new NodeIO().setVertexLayout(VertexLayout.SEPARATE).registerExtensions(ALL_EXTENSIONS).registerDependencies({
   'draco3d.decoder': await draco.createDecoderModule(), 'draco3d.encoder': await draco.createEncoderModule(),
   'meshopt.decoder': MeshoptDecoder, 'meshopt.encoder': MeshoptEncoder,
 });

@@ -10,7 +10,7 @@ import { parseGlb } from '../../tests/web/shared.mjs';
 
 const here = fileURLToPath(new URL('.', import.meta.url)), root = path.join(here, '../..');
 const [modules, result] = process.argv.slice(2);
-const { ONLY = '', PACKAGE = path.join(root, 'bindings/js'), IMAGES, COTAN, OPTIONS, SIZE = '512', SHARP } = process.env;
+const { ONLY = '', PACKAGE = path.join(root, 'bindings/js'), IMAGES, COTAN, OPTIONS, SIZE = '512', SHARP, TIMES } = process.env;
 const scratch = fs.mkdtempSync(path.join(os.tmpdir(), 'cotan-models-')), build = path.join(root, 'build'), shared = path.join(root, '../shared/data');
 const { models, extra } = JSON.parse(fs.readFileSync(path.join(here, 'models.json')));
 const folders = { made: path.join(build, 'models-made'), package: path.join(build, 'models-npm/node_modules'), data: path.join(build, 'data'), shared };
@@ -39,9 +39,12 @@ async function measured(model) {
   await page.route(address, (route) => route.fulfill({ contentType: 'text/html', body: `<!doctype html><script type="importmap">${JSON.stringify({ imports: {
     three: '/modules/three/build/three.module.js', 'three/addons/': '/modules/three/examples/jsm/' } })}</script>` }));
   await page.goto(address);
+  const devtools = await page.context().newCDPSession(page);
+  await devtools.send('Performance.enable', { timeDomain: 'threadTicks' });
+  await page.exposeFunction('threadTime', async () => (await devtools.send('Performance.getMetrics')).metrics.find(({ name }) => name === 'ThreadTime').value);
   try {
-    return await page.evaluate(async ([url, options]) => (await import('/bench/judge.js')).measure(url, options),
-      [`/${folder === 'package' ? 'npm' : folder}/${file.split('/').map(encodeURIComponent).join('/')}`, { size: Number(SIZE), sharp: !!SHARP, posed: !!model.posed, image: !!IMAGES, options: OPTIONS ? JSON.parse(OPTIONS) : undefined }]);
+    return await page.evaluate(async ([work, url, options]) => (await import('/bench/judge.js'))[work](url, options),
+      [TIMES ? 'time' : 'measure', `/${folder === 'package' ? 'npm' : folder}/${file.split('/').map(encodeURIComponent).join('/')}`, { size: Number(SIZE), sharp: !!SHARP, posed: !!model.posed, image: !!IMAGES, options: OPTIONS ? JSON.parse(OPTIONS) : undefined }]);
   } catch (error) {
     throw Error(`${model.name}: ${[String(error.message ?? error), ...failures].join('\n')}`);
   } finally {
@@ -49,10 +52,16 @@ async function measured(model) {
   }
 }
 
-// "mesh, primitive" of each primitive of a file, in the order of `cotan lint`.
+// "mesh, primitive" of each primitive of a file, in the order of `cotan lint`: as nodes of the scene come to them.
 function primitivesOf(file) {
-  const bytes = fs.readFileSync(file), { meshes } = file.endsWith('.glb') ? parseGlb(bytes).json : JSON.parse(bytes);
-  return meshes.flatMap(({ primitives }, mesh) => primitives.map((_, primitive) => `${mesh}, ${primitive}`));
+  const bytes = fs.readFileSync(file), { meshes, nodes, scenes, scene = 0 } = file.endsWith('.glb') ? parseGlb(bytes).json : JSON.parse(bytes), found = new Set();
+  const visit = (k) => {
+    const { mesh, children = [] } = nodes[k];
+    if (mesh !== undefined) found.add(mesh);
+    children.forEach(visit);
+  };
+  scenes[scene].nodes.forEach(visit);
+  return [...found].flatMap((mesh) => meshes[mesh].primitives.map((_, primitive) => `${mesh}, ${primitive}`));
 }
 
 // What `cotan lint` decides for each primitive. Exit code 1 means warnings.
@@ -63,7 +72,7 @@ function lintOf(model) {
   const { decisions = [] } = JSON.parse(fs.readFileSync(report, 'utf8')), keys = primitivesOf(path.join(folders[folder], file));
   if (decisions.length !== keys.length) throw Error(`${model.name}: lint decided about ${decisions.length} primitives of ${keys.length}`);
   return decisions.map(({ frame, tangents_stay: stay, candidates, reason }, k) => ({ primitive: keys[k], frame: stay ? 'tangents' : frame, reason,
-    predicted: stay ? 0 : candidates.find((one) => one.frame === frame)?.mean, candidates: candidates.map(({ frame, stored, mean, percentile99 }) => ({ frame, stored, mean, percentile99 })) }));
+    predicted: stay ? 0 : candidates.find((one) => one.frame === frame)?.mean }));
 }
 
 // A model that covers nothing, or whose normals do not vary, has not been measured.
@@ -75,18 +84,25 @@ function check({ name }, { pixels, primitives, notFinite }) {
 
 const known = fs.existsSync(result) ? JSON.parse(fs.readFileSync(result)).models : [], rows = new Map(known.map((row) => [row.name, row]));
 const order = [...models, ...extra].map(({ name }) => name), failed = [];
+
+async function rowOf(model) {
+  if (TIMES) return { ...rows.get(model.name), milliseconds: await measured(model) };
+  const { image, ...found } = await measured(model);
+  if (IMAGES) {
+    fs.mkdirSync(IMAGES, { recursive: true });
+    fs.writeFileSync(path.join(IMAGES, `${model.name}.png`), Buffer.from(image.split('base64,')[1], 'base64'));
+  }
+  check(model, found);
+  const { folder } = fileOf(model);
+  return { name: model.name, source: folder, ...(model.extra ? { extra: true } : {}), traits: model.traits, ...found, ...(COTAN ? { lint: lintOf(model) } : {}) };
+}
+
 for (const model of chosen) {
+  if (TIMES && !rows.has(model.name)) continue;
   try {
-    const { image, ...found } = await measured(model);
-    if (IMAGES) {
-      fs.mkdirSync(IMAGES, { recursive: true });
-      fs.writeFileSync(path.join(IMAGES, `${model.name}.png`), Buffer.from(image.split('base64,')[1], 'base64'));
-    }
-    check(model, found);
-    const { folder } = fileOf(model);
-    rows.set(model.name, { name: model.name, source: folder, ...(model.extra ? { extra: true } : {}), traits: model.traits, ...found,
-      ...(COTAN ? { lint: lintOf(model) } : {}) });
-    console.log(`${model.name}: mean ${found.mean}, 99 % ${found.p99}, ${[...new Set(found.primitives.map(({ frame }) => frame))]}, ${found.milliseconds} ms`);
+    const row = await rowOf(model);
+    rows.set(model.name, row);
+    console.log(`${model.name}: mean ${row.mean}, 99 % ${row.p99}, ${[...new Set(row.primitives.map(({ frame }) => frame))]}, ${row.milliseconds} ms`);
   } catch (error) {
     failed.push(error.message);
     console.error(error.message);

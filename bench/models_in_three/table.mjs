@@ -26,24 +26,40 @@ function framesOf({ primitives }) {
 
 export const keepsTangents = (row) => framesOf(row).has('tangents');
 
-// The mean that the decisions predict, weighted by the pixels of each primitive; undefined if one has no prediction.
-export function predictedMean({ primitives }) {
-  const sum = primitives.reduce((total, { predicted, pixels }) => total + predicted * pixels, 0);
-  return sum / primitives.reduce((total, { pixels }) => total + pixels, 0);
+// { predicted, measured } means over the whole surface, weighted by area; undefined if nothing is left. Of a primitive with
+// two maps the one that is further off counts, as in the prediction. of: the prediction for a primitive. judged: which
+// primitives count.
+function surfaceMeans({ primitives }, of, judged = () => true) {
+  const found = new Map();
+  for (const one of primitives) {
+    if (!judged(one)) continue;
+    const { area, surface } = one, before = found.get(one.primitive);
+    if (!(before?.measured >= surface)) found.set(one.primitive, { predicted: of(one), measured: surface, area });
+  }
+  const all = [...found.values()], area = all.reduce((sum, one) => sum + one.area, 0), mean = (name) => all.reduce((sum, one) => sum + one[name] * one.area, 0) / area;
+  return area > 0 ? { predicted: mean('predicted'), measured: mean('measured') } : undefined;
 }
 
-function lineOf(row) {
-  const frames = [...framesOf(row)].map(([frame, count]) => `${frame} ${count}`).join(', '), predicted = predictedMean(row);
-  return [row.name, row.stored ? 'stored' : 'MikkTSpace', row.traits.join(', '), frames, Number.isFinite(predicted) ? degrees(predicted) : '', degrees(row.mean), degrees(row.p95), degrees(row.p99),
-    degrees(row.max), kibibytes(row.savedBytes), row.milliseconds.toFixed(0)];
+const ofRule = ({ predicted }) => predicted;
+const apart = (a, b) => Math.max(a, b) > kFactor * Math.min(a, b) && Math.abs(a - b) > kApart;
+
+const kChoices = ['model', 'tangents', 'traits', 'what the rule took'];
+const kNumbers = ['model', 'predicted', 'surface', 'mean', '95 %', '99 %', 'maximum', 'KiB saved', 'ms'];
+
+const choiceOf = (row) => [row.name, row.stored ? 'stored' : 'MikkTSpace', row.traits.join(', '), [...framesOf(row)].map(([frame, count]) => `${frame} ${count}`).join(', ')];
+
+function numbersOf(row) {
+  const { predicted, measured } = surfaceMeans(row, ofRule);
+  return [row.name, Number.isFinite(predicted) ? degrees(predicted) : '', degrees(measured), degrees(row.mean), degrees(row.p95), degrees(row.p99), degrees(row.max), kibibytes(row.savedBytes),
+    row.milliseconds.toFixed(0)];
 }
 
-const kHeader = ['model', 'tangents', 'traits', 'what the rule took', 'predicted', 'mean', '95 %', '99 %', 'maximum', 'KiB saved', 'ms'];
+const lines = (header, rows, numbers) => [header, header.map((_, k) => (numbers && k ? '--:' : '---')), ...rows].map((cells) => `| ${cells.join(' | ')} |`).join('\n');
 
-/** The lines of the table of the rows of `models`, without those that are extra. */
+/** Two tables of the rows of `models`, without those that are extra: what was chosen, and what was measured. */
 export function tableOf({ models }, extra = false) {
-  const rows = models.filter((row) => !!row.extra === extra).map(lineOf);
-  return [kHeader, kHeader.map((_, k) => (k < 4 ? '---' : '--:')), ...rows].map((cells) => `| ${cells.join(' | ')} |`).join('\n');
+  const rows = models.filter((row) => !!row.extra === extra);
+  return `${lines(kChoices, rows.map(choiceOf), false)}\n\nDegrees, memory and time:\n\n${lines(kNumbers, rows.map(numbersOf), true)}`;
 }
 
 /** A line for each bar that does not hold. */
@@ -59,28 +75,45 @@ export function brokenBars({ models }) {
     for (const { primitive, kind, mean: own, reversedMean } of primitives)
       if (reversedMean < own - kReversed) broken.push(`${name}, mesh and primitive ${primitive}, ${kind}: ${own} degrees, ${reversedMean} with green reversed`);
   }
+  otherwiseInViews({ models: rows }).farther.forEach((name) => broken.push(`${name}: farther from its reference in the six views than predicted`));
   return broken;
 }
 
-/** A line for each model whose predicted mean, weighted by area, is not the measured one: by more than 0.05 degrees and a
- * factor of 1.3. lint: whether to take the predictions of `cotan lint`, where the result has them for the same frame.
+/** A line for each model whose predicted mean is not the one measured on its whole surface: by more than 0.05 degrees and
+ * a factor of 1.3. lint: whether to take the predictions of `cotan lint`, where the result has them for the same frame.
  * Loaded tangents that are drawn are left out. */
 export function wrongPredictions({ models }, { lint = false } = {}) {
-  return models.flatMap(({ name, primitives, lint: ofLint }) => {
-    const of = (one) => (lint ? ofLint?.find(({ primitive, frame }) => primitive === one.primitive && frame === one.frame) : one)?.predicted;
-    const judged = primitives.filter((one) => !one.drawsLoaded && Number.isFinite(of(one))), area = judged.reduce((sum, one) => sum + one.area, 0);
-    if (!(area > 0)) return [];
-    const [predicted, measured] = [of, ({ mean }) => mean].map((value) => judged.reduce((sum, one) => sum + value(one) * one.area, 0) / area);
-    const apart = Math.max(predicted, measured) > kFactor * Math.min(predicted, measured) && Math.abs(predicted - measured) > kApart;
-    return apart ? [`${name}: ${predicted.toPrecision(3)} degrees predicted${lint ? ' by lint' : ''}, ${measured.toPrecision(3)} measured`] : [];
+  return models.flatMap((row) => {
+    const of = (one) => (lint ? row.lint?.find(({ primitive, frame }) => primitive === one.primitive && frame === one.frame) : one)?.predicted;
+    const found = surfaceMeans(row, of, (one) => !one.drawsLoaded && Number.isFinite(of(one)));
+    return found && apart(found.predicted, found.measured) ? [`${row.name}: ${found.predicted.toPrecision(3)} degrees predicted${lint ? ' by lint' : ''}, ${found.measured.toPrecision(3)} measured`] : [];
   });
+}
+
+/** The names of models that the six views show nearer to their reference than predicted, by more than these margins; and of
+ * those that they show farther from it. */
+export function otherwiseInViews({ models }) {
+  const of = (sign) => models.filter(({ extra }) => !extra).filter((row) => {
+    const { predicted } = surfaceMeans(row, ofRule) ?? {};
+    return Math.sign(row.byArea.mean - predicted) === sign && apart(row.byArea.mean, predicted);
+  }).map(({ name }) => name);
+  return { nearer: of(-1), farther: of(1) };
+}
+
+// In lines of at most 120 columns.
+const folded = (text) => text.split(' ').reduce((lines, word) => (`${lines.at(-1)} ${word}`.length > 120 ? [...lines, word] : [...lines.slice(0, -1), `${lines.at(-1)} ${word}`.trim()]), ['']).join('\n');
+
+function sentencesOf(result) {
+  const kept = result.models.filter((row) => !row.extra && keepsTangents(row)).map(({ name }) => name), { nearer } = otherwiseInViews(result);
+  const list = (names) => (names.length ? names.join('; ') : 'none');
+  return folded(`Models with a primitive whose tangents stay: ${list(kept)}. Models that the six views show nearer to their reference than predicted, by more than ${kApart} degrees and a factor of ${kFactor}: ${list(nearer)}.`);
 }
 
 /** The page with the table in it. */
 export function withTable(page, result) {
   const [before, rest] = page.split(kMarks[0]), after = rest?.split(kMarks[1])[1];
   if (after === undefined) throw Error(`the page lacks the lines ${kMarks.join(' and ')}`);
-  return `${before}${kMarks[0]}\n${tableOf(result)}\n${kMarks[1]}${after}`;
+  return `${before}${kMarks[0]}\n${tableOf(result)}\n\n${sentencesOf(result)}\n${kMarks[1]}${after}`;
 }
 
 if (process.argv[1] && path.resolve(process.argv[1]) === fileURLToPath(import.meta.url)) {

@@ -42,7 +42,11 @@ const hilly = (side) => geometryOf(hills(side));
 // uv of a model, instead of a tiled map
 const oneTile = (geometry) => { const { uv } = geometry.attributes; for (let k = 0; k < uv.count; ++k) uv.setX(k, uv.getX(k) / 1.1); return geometry; };
 // As a file has them: clone() makes them look like any other tangents.
-const stored = (geometry) => withTangents(geometry, new THREE.Texture(), true).clone();
+const stored = (geometry, length = 1) => {
+  const made = withTangents(geometry, new THREE.Texture(), true).clone(), { tangent } = made.attributes;
+  const floats = Float32Array.from({ length: 4 * tangent.count }, (_, k) => tangent.getComponent(k >> 2, k % 4) * (k % 4 === 3 ? 1 : length));
+  return made.setAttribute('tangent', new THREE.BufferAttribute(floats, 4));
+};
 const own = (geometry) => new THREE.BufferGeometry().copy(geometry); // three's own shapes are no models
 const bare = (material) => Object.assign(material, { normalScale: material.normalScale.multiply(new THREE.Vector2(1, -1)) }); // as the loader does without tangents
 const meshOf = (geometry, material = new THREE.MeshStandardMaterial({ normalMap: bumps() })) => new THREE.Mesh(geometry, geometry.attributes.tangent ? material : bare(material));
@@ -62,12 +66,11 @@ const cases = {
       assert.deepEqual([decision.frame, decision.keepsTangents, decision.reason, decision.candidates.length], [frame, false, 'fits', count]);
       assert.equal(decision.meaning, kept ? 'stored' : 'mikktspace');
       assert.deepEqual(decision.candidates.map((one) => one.frame), ['orthonormal', 'triangle', 'smooth', 'mikktspace'].slice(0, count));
-      for (const { mean, percentile95, percentile99, points } of decision.candidates) assert.ok(points === 4096 && mean <= percentile95 + 1 && percentile95 <= percentile99);
+      for (const { mean, percentile95, percentile99, maximum, points } of decision.candidates) assert.ok((points === 4096 || points === 512 && (2 * mean <= 0.3 && maximum <= 3 || mean > 1.2)) && mean <= percentile95 + 1 && percentile95 <= percentile99 && percentile99 <= maximum);
       const last = decision.candidates.at(-1);
       assert.ok(last.mean <= 0.3 && last.percentile99 <= 3 && decision.candidates.slice(0, -1).every(({ mean, percentile99 }) => mean > 0.3 || percentile99 > 3));
       assert.equal(frameIn(mesh.material), frame === 'mikktspace' ? 'three' : frame);
       assert.equal(!!mesh.geometry.attributes.tangent, frame === 'mikktspace');
-      if (kept && frame === 'mikktspace') assert.equal(mesh.geometry.attributes.tangent, kept, 'tangents that were loaded are drawn as they are');
     }
   },
 
@@ -93,12 +96,34 @@ const cases = {
     }
   },
 
+  // Eight bytes for each vertex; quantised ones have no more. The order of vertices stays.
+  loadedTangentsThatMikkTSpaceMakesArePacked() {
+    const floats = () => stored(hilly(6), 2), loaded = floats().attributes.tangent;
+    const mesh = meshOf(floats()), [first] = decided(mesh), { tangent } = mesh.geometry.attributes;
+    assert.deepEqual([first.frame, first.keepsTangents, tangent.array.constructor, tangent.normalized, tangent.count], ['mikktspace', false, Int16Array, true, loaded.count]);
+    for (let k = 0; k < loaded.count; ++k) { // within half a step of each number; of any length in the file
+      for (let i = 0; i < 3; ++i) assert.ok(Math.abs(tangent.getComponent(k, i) - loaded.getComponent(k, i) / 2) < 1 / 32767);
+      assert.equal(tangent.getW(k), loaded.getW(k));
+    }
+    const [again] = decided(mesh);
+    assert.equal(mesh.geometry.attributes.tangent, tangent, 'a second call changes nothing');
+    assert.deepEqual(withoutCandidates([again]), withoutCandidates([first]));
+    const broken = floats(); // tangents that stay are not packed
+    for (let k = 0; k < 20; ++k) broken.attributes.tangent.setW(k, -broken.attributes.tangent.getW(k));
+    const kept = meshOf(broken), before = broken.attributes.tangent;
+    assert.ok(decided(kept)[0].keepsTangents && kept.geometry.attributes.tangent === before);
+  },
+
   // The limits are the mean, and ten times as much on 99 % of the area.
   maxDegreesMovesTheChoice() {
-    const [{ candidates: [{ mean, percentile99 }] }] = decided(meshOf(stored(hilly(6))), { maxDegrees: 10 });
-    const limit = Math.max(mean, percentile99 / 10);
-    for (const [maxDegrees, frame] of [[limit * 1.001, 'orthonormal'], [limit * 0.999, 'mikktspace'], [30, 'orthonormal']])
-      assert.equal(decided(meshOf(stored(hilly(6))), { maxDegrees })[0].frame, frame, maxDegrees);
+    const first = (maxDegrees) => { const [{ frame, candidates: [{ mean, percentile99, points }] }] = decided(meshOf(stored(hilly(6))), { maxDegrees }); return { frame, mean, percentile99, points }; };
+    const { mean, percentile99 } = first(first(1e-9).mean), limit = Math.max(mean, percentile99 / 10);
+    // Far from the limit a few points decide, about the same degrees.
+    for (const [maxDegrees, frame, points] of [[limit * 1.001, 'orthonormal', 4096], [limit * 0.999, 'mikktspace', 4096], [30, 'orthonormal', 512], [limit / 20, 'mikktspace', 512]]) {
+      const found = first(maxDegrees);
+      assert.deepEqual([found.frame, found.points], [frame, points], maxDegrees);
+      assert.ok(Math.abs(found.mean - mean) < 0.05 * mean);
+    }
   },
 
   // The angle between two frames of a square whose uv are stretched by 2: `orthonormal` and stored tangents agree there, and
@@ -125,6 +150,7 @@ const cases = {
     assert.ok(degrees.triangle > 8, 'the stretch of uv counts for frames of cotangents');
   },
 
+  // Within half a step of 16 bits in each component.
   tangentsMadeAtLoadAreThoseOfMikkTSpace() {
     const mikktspace = require('mikktspace'), mirrored = hills(41);
     for (let i = 0; i < mirrored.uvs.length; i += 2) mirrored.uvs[i] = Math.abs(mirrored.uvs[i] - 0.503);
@@ -137,7 +163,7 @@ const cases = {
       for (let c = 0; c < indices.length; ++c) {
         const vertex = made.index ? made.index.getX(c) : c, ours = [0, 1, 2, 3].map((i) => made.attributes.tangent.getComponent(vertex, i));
         for (const [other, w] of [[theirs, -1], [library_, 1]]) { // the package has v up
-          assert.ok(Math.hypot(...[0, 1, 2].map((i) => ours[i] - other[4 * c + i])) < 1e-5, `${name}, corner ${c}: ${ours} and ${other.subarray(4 * c, 4 * c + 4)}`);
+          assert.ok(Math.hypot(...[0, 1, 2].map((i) => ours[i] - other[4 * c + i])) < 4e-5, `${name}, corner ${c}: ${ours} and ${other.subarray(4 * c, 4 * c + 4)}`);
           assert.equal(ours[3], w * other[4 * c + 3], `${name}, corner ${c}`);
         }
         for (let i = 0; i < 3; ++i) assert.equal(made.attributes.position.getComponent(vertex, i), given.attributes.position.getComponent(indices[c], i));

@@ -106,13 +106,22 @@ export function heldGeometries(frame) {
   return held;
 }
 
-// A coarse sphere of a glTF without tangents, upright and with a mirrored matrix: what untangle() decides, and degrees from
-// the same sphere whose vertices are transformed and which came with MikkTSpace tangents.
-export function madeTangents() {
+// A coarse sphere of a glTF, upright and with a mirrored matrix: what untangle() decides, and degrees from the same sphere
+// whose vertices are transformed and which came with MikkTSpace tangents. stored: the sphere comes with tangents in floats,
+// which `kept` spoils, so that they stay: one vertex has the other w. Both spheres have one geometry if `shared`, else each its own; in either
+// case they are decided about in one call.
+export function coarseSpheres({ stored = false, shared = false, kept = false } = {}) {
   const renderer = new THREE.WebGLRenderer(), target = new THREE.WebGLRenderTarget(kSize, kSize, { type: THREE.FloatType }), camera = new THREE.PerspectiveCamera(40, 1, 0.1, 100);
   camera.position.set(0.8, 1, 3.2);
   camera.lookAt(0, 0, 0);
   const map = bumps(128), sphere = () => new THREE.BufferGeometry().copy(new THREE.SphereGeometry(1, 10, 6)), found = [];
+  const withFloats = geometry => {
+    const made = withTangents(geometry, map, true).clone(), { tangent } = made.attributes;
+    const array = Float32Array.from({ length: 4 * tangent.count }, (_, k) => tangent.getComponent(k >> 2, k % 4));
+    for (let k = 3; kept && k < array.length; k += 8) array[k] *= -1;
+    return made.setAttribute('tangent', new THREE.BufferAttribute(array, 4));
+  };
+  const loaded = () => (stored ? withFloats(sphere()) : sphere());
   map.userData.mimeType = 'image/png';
   const material = green => new THREE.MeshStandardMaterial({ normalMap: map, normalScale: new THREE.Vector2(1, green) });
   const draw = mesh => {
@@ -129,22 +138,29 @@ export function madeTangents() {
     renderer.readRenderTargetPixels(target, 0, 0, kSize, kSize, pixels);
     return pixels;
   };
-  for (const side of [1, -1]) {
-    const truth = sphere(), { attributes: { position, normal }, index } = truth;
-    for (let k = 0; k < position.count; ++k) {
-      position.setX(k, position.getX(k) * side);
-      normal.setX(k, normal.getX(k) * side);
-    }
-    if (side < 0) index.array.reverse(); // winding
-    const expected = draw(new THREE.Mesh(withTangents(truth, map, true).clone(), material(1)));
-    for (const frame of [undefined, 'orthonormal']) {
-      const mesh = new THREE.Mesh(sphere(), material(-1)); // green as the loader leaves it
+  for (const frame of [undefined, 'orthonormal']) {
+    const one = loaded(), sides = [1, -1];
+    const meshes = sides.map(side => {
+      const mesh = new THREE.Mesh(shared ? one : loaded(), material(stored ? 1 : -1)); // green as the loader leaves it
       mesh.scale.x = side;
-      const [decision] = untangle(mesh, { frame }), drawn = draw(mesh), degrees = [];
+      return mesh;
+    });
+    const decisions = untangle(new THREE.Group().add(...meshes), { frame, note() {} });
+    meshes.forEach((mesh, which) => {
+      const truth = sphere(), { attributes: { position, normal }, index } = truth, side = sides[which];
+      for (let k = 0; k < position.count; ++k) {
+        position.setX(k, position.getX(k) * side);
+        normal.setX(k, normal.getX(k) * side);
+      }
+      if (side < 0) index.array.reverse(); // winding
+      const reference = withFloats(truth), given = withFloats(sphere());
+      // What the file means where its tangents are wrong: its w, of a mirrored tangent.
+      if (kept) for (let k = 0; k < position.count; ++k) reference.attributes.tangent.setXYZW(k, ...[side, 1, 1, side].map((s, i) => s * given.attributes.tangent.getComponent(k, i)));
+      const expected = draw(new THREE.Mesh(reference, material(1))), drawn = draw(mesh), degrees = [];
       for (let k = 0; k < drawn.length; k += 4)
         if (drawn[k + 3] > 0.5 && expected[k + 3] > 0.5) degrees.push(THREE.MathUtils.radToDeg(new THREE.Vector3().fromArray(drawn, k).angleTo(new THREE.Vector3().fromArray(expected, k))));
-      found.push({ side, frame: decision.frame, count: degrees.length, mean: degrees.reduce((sum, x) => sum + x, 0) / degrees.length });
-    }
+      found.push({ side, frame: decisions[which].keepsTangents ? 'tangents' : decisions[which].frame, count: degrees.length, mean: degrees.reduce((sum, x) => sum + x, 0) / degrees.length });
+    });
   }
   return found;
 }

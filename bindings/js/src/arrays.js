@@ -28,8 +28,8 @@ function listOf(Type, value, name, expected, fits) {
   return new Type(value);
 }
 
-const isNumber = Object.assign((value) => typeof value === 'number', { expected: 'a number' });
-const isUnsigned = Object.assign((value) => Number.isInteger(value) && value >= 0 && value <= 0xffffffff, { expected: 'a 32-bit unsigned integer' });
+const isNumber = /* @__PURE__ */ Object.assign((value) => typeof value === 'number', { expected: 'a number' });
+const isUnsigned = /* @__PURE__ */ Object.assign((value) => Number.isInteger(value) && value >= 0 && value <= 0xffffffff, { expected: 'a 32-bit unsigned integer' });
 
 /** Numbers as a Float32Array of elements with `size` components; exactly `count` elements if count is given. */
 export function floats(value, name, size, count) {

@@ -2,34 +2,35 @@
 // (src/bake/lint/choose_frames.cpp): the angle between perturbed normals.
 import { fansOf } from './fans.js';
 import { tangentsOf } from './mikktspace.js';
-import { placedBy, pointsOver } from './sampling.js';
+import { kFew, placedBy, pointsOver } from './sampling.js';
 import { gradientsOf } from './smooth.js';
 import { decodeAt } from './texels.js';
 import { combine, cross, dot, flatten, normalise, readEdges, transform } from './vectors.js';
 
-// A surface at `count` points for each of its stretches (addStretch). Empty places if no triangle has area in space and uv.
-// tangents: that came with the geometry, four numbers for each vertex. transform: the linear part of the texture's matrix
+// A surface at its places (placesOf). tangents: that came with the geometry, four numbers for each vertex. transform: the linear part of the texture's matrix
 // that they are to be moved by, if any.
 export class Sample {
   #surface;
+  #fans;
   #vectors = new Map(); // by frame: the values that are made at the vertices
   #transform;
 
-  constructor(surface, stretches, count, tangents, transform) {
+  constructor(surface, places, tangents, transform) {
     this.#surface = surface;
     this.#transform = transform;
     this.#vectors.set('stored', { values: tangents, slots: surface.corners });
-    this.places = stretches.map(m => placeOf(placedBy(surface, m), count));
+    this.places = places;
   }
 
-  get usable() { return this.places.every(({ count }) => count > 0); }
+  // The same surface at a few of its points.
+  few() { return new Sample(this.#surface, this.places.map(place => ({ ...place, count: Math.min(place.count, kFew) })), this.#vectors.get('stored').values, this.#transform); }
+
+  get usable() { return this.places.every(place => place.count); }
 
   // { values, slots } of a frame that reads vertices: element slots[c] of values belongs to corner c.
   #vectorsOf(frame) {
     if (!this.#vectors.has(frame)) {
-      const wanted = this.places.flatMap(({ triangles }) => [...new Set(triangles)].flatMap(k => [3 * k, 3 * k + 1, 3 * k + 2]));
-      const fans = this.#vectors.get('fans') ?? fansOf(this.#surface, wanted);
-      this.#vectors.set('fans', fans);
+      const fans = this.#fans ??= fansOf(this.#surface, this.places.flatMap(({ triangles, count }) => [...new Set(triangles.subarray(0, count))].flatMap(k => [3 * k, 3 * k + 1, 3 * k + 2])));
       this.#vectors.set(frame, { slots: fans.at, values: frame === 'smooth' ? gradientsOf(this.#surface, fans).values : tangentsOf(this.#surface, fans) });
     }
     return this.#vectors.get(frame);
@@ -61,6 +62,9 @@ function turnsOf(place, [a, b, c, d]) {
   }
   return turns;
 }
+
+// A surface at `count` points for each of its stretches (addStretch); empty if no triangle has area in space and uv.
+export const placesOf = (surface, stretches, count) => stretches.map(m => placeOf(placedBy(surface, m), count));
 
 function placeOf(surface, count) {
   const { corners, normal, uv } = surface, { triangles, weights, total } = pointsOver(surface, count), found = triangles.length;
@@ -197,9 +201,9 @@ export function degreesBetween(place, frames, meaning, texels, green) {
   return found;
 }
 
-// { points, mean, percentile95, percentile99 } of the values that are finite; NaN without any.
+// { points, mean, percentile95, percentile99, maximum } of the values that are finite; NaN without any.
 export function summaryOf(values) {
   const sorted = Float64Array.from(values).filter(Number.isFinite).sort(), points = sorted.length;
   const upTo = fraction => sorted[Math.max(Math.ceil(fraction * points) - 1, 0)] ?? NaN;
-  return { points, mean: sorted.reduce((sum, x) => sum + x, 0) / points, percentile95: upTo(0.95), percentile99: upTo(0.99) };
+  return { points, mean: sorted.reduce((sum, x) => sum + x, 0) / points, percentile95: upTo(0.95), percentile99: upTo(0.99), maximum: upTo(1) };
 }

@@ -1,7 +1,7 @@
 // Chooses the frame that reads a map without the tangents of its file, primitive by primitive, by measurement. The same rule
 // as in the library (src/bake/lint/choose_frames.cpp).
 import { ObjectSpaceNormalMap } from 'three';
-import { degreesBetween, Sample, summaryOf, texelsAt } from './candidates.js';
+import { degreesBetween, placesOf, Sample, summaryOf, texelsAt } from './candidates.js';
 import { guessedFrame, meansTangents, namedFrame } from './frames.js';
 import { bitangentAreas, ofGltf } from './greens.js';
 import { numbersOf, readingOf, turns, uvMatrixOf } from './mesh_data.js';
@@ -46,7 +46,7 @@ class Primitive {
     const key = [readingOf(map), ofGltf(map)].join();
     if (!this.#samples.has(key)) {
       const { geometry, material, group, stored } = this, surface = surfaceOf(geometry, group, map, material.flatShading === true);
-      this.#samples.set(key, surface && new Sample(surface, this.stretches, points, stored && numbersOf(stored, 4), ofGltf(map) && turns(map) && uvMatrixOf(map)));
+      this.#samples.set(key, surface && new Sample(surface, placesOf(surface, this.stretches, points), stored && numbersOf(stored, 4), ofGltf(map) && turns(map) && uvMatrixOf(map)));
     }
     return this.#samples.get(key);
   }
@@ -62,14 +62,12 @@ export const storedIn = geometry => (generated.has(geometry) ? undefined : geome
 // The primitives of all meshes, and what is decided about them.
 export class Chooser {
   #primitives = new Map(); // by geometry, material and group
-  #decisions = new Map();  // by primitive
-  #areas = new Map();      // by primitive and map
   #points;
 
   // meshes: with current world matrices. reasonAgainst(mesh, frame): why a mesh cannot have a frame; '' if it can.
-  // note, warn: take a line.
-  constructor(meshes, limits, { reasonAgainst, note, warn }) {
-    Object.assign(this, { limits, reasonAgainst, note, warn });
+  // warn: takes a line.
+  constructor(meshes, limits, reasonAgainst, warn) {
+    Object.assign(this, { limits, reasonAgainst, warn });
     for (const mesh of meshes)
       [mesh.material].flat().forEach((material, k) => {
         const key = keyOf(mesh, material, k);
@@ -82,17 +80,13 @@ export class Chooser {
   // { frame, keepsTangents, meaning, reason, candidates, why } for material k of a mesh; see Decision in index.d.ts.
   decide(mesh, material, k) {
     const primitive = this.#primitives.get(keyOf(mesh, material, k));
-    if (!this.#decisions.has(primitive)) this.#decisions.set(primitive, this.#decided(primitive));
-    return this.#decisions.get(primitive);
+    return primitive.decision ??= this.#decided(primitive);
   }
 
   // The areas where stored bitangents run along and against increasing v of a map (bitangentAreas).
   areas(mesh, material, k, map) {
     const primitive = this.#primitives.get(keyOf(mesh, material, k)), found = primitive.stored && primitive.sampleFor(map, this.#points);
-    if (!found?.usable) return { along: 0, against: 0, aligned: 0 };
-    const key = `${keyOf(mesh, material, k)} ${readingOf(map)}`;
-    if (!this.#areas.has(key)) this.#areas.set(key, bitangentAreas(found));
-    return this.#areas.get(key);
+    return found?.usable ? found.areas ??= bitangentAreas(found) : { along: 0, against: 0, aligned: 0 };
   }
 
   #decided(primitive) {
@@ -106,36 +100,39 @@ export class Chooser {
     // Flat surfaces have no tangents in three, nor in glTF.
     const meaning = stored && material.flatShading !== true ? 'stored' : 'mikktspace';
     const kept = meaning === 'stored' ? { frame: 'mikktspace', keepsTangents: true } : {};
-    const found = primitive.sampleFor(first[0], this.#points), why = this.#reasonNotToJudge(found, first[0]);
+    const found = primitive.sampleFor(first[0], this.#points);
+    const why = !found ? 'it has no texture coordinates' : !found.usable ? 'no triangle has an area both in space and in uv' : texelsOf(first[0]).why;
     if (why) return decision('orthonormal', meaning, 'notJudged', { ...kept, why });
-    const measure = this.#measureOf(primitive, found, meaning), candidates = [];
+    const few = this.#measureOf(primitive, found.few(), meaning), all = this.#measureOf(primitive, found, meaning), candidates = [], { limits } = this;
+    // Some points tell if they are far from the limits.
+    const measure = frame => {
+      const first = few(frame);
+      return 2 * first.mean <= limits.mean && first.maximum <= limits.percentile99 || first.mean > 4 * limits.mean ? first : all(frame);
+    };
     for (const frame of kCandidates) {
       const against = primitive.meshes.map(mesh => this.reasonAgainst(mesh, frame)).find(Boolean);
       candidates.push({ frame, ...against ? { ...summaryOf([]), why: against } : measure(frame) });
       const { mean, percentile99 } = candidates.at(-1);
-      if (mean <= this.limits.mean && percentile99 <= this.limits.percentile99) return decision(frame, meaning, 'fits', { candidates });
+      if (mean <= limits.mean && percentile99 <= limits.percentile99) return decision(frame, meaning, 'fits', { candidates });
     }
     return decision('orthonormal', meaning, 'keeps', { ...kept, candidates });
   }
 
-  #reasonNotToJudge(found, map) {
-    return !found ? 'it has no texture coordinates' : !found.usable ? 'no triangle has an area both in space and in uv' : texelsOf(map).why;
-  }
-
   // A function that compares a frame with what the maps mean. The largest error counts of those at each stretch and map.
   #measureOf(primitive, sample, meaning) {
-    const { material } = primitive, [[first]] = mapsOf(material), parts = [];
+    const { material } = primitive, [[first]] = mapsOf(material);
     const shown = mapsOf(material).filter(([map, scale, name]) => readingOf(map) === readingOf(first) && Math.max(Math.abs(scale.x), Math.abs(scale.y)) > kFlattened
       && (name === 'normalScale' || material.clearcoat > 0) && !texelsOf(map).why);
     const green = meaning === 'stored' ? greenAlongV(first, this.areas(primitive.meshes[0], material, primitive.group ?? 0, first)) : 1;
-    for (const place of sample.places) {
-      const meant = sample.framesAt(place, meaning);
-      for (const [map, scale] of shown) parts.push({ place, meant, texels: texelsAt(place, map, texelsOf(map), scale.x, Math.abs(scale.y)) });
-    }
+    let parts;
     return frame => {
+      parts ??= sample.places.flatMap(place => {
+        const meant = sample.framesAt(place, meaning);
+        return shown.map(([map, scale]) => ({ place, meant, texels: texelsAt(place, map, texelsOf(map), scale.x, Math.abs(scale.y)) }));
+      });
       const found = parts.map(({ place, meant, texels }) => summaryOf(degreesBetween(place, sample.framesAt(place, frame), meant, texels, green)));
       if (!found.length) return summaryOf([0]); // flattened
-      return found.reduce((a, b) => ({ ...b.mean > a.mean ? b : a, percentile99: Math.max(a.percentile99, b.percentile99) }));
+      return found.reduce((a, b) => ({ ...b.mean > a.mean ? b : a, percentile99: Math.max(a.percentile99, b.percentile99), maximum: Math.max(a.maximum, b.maximum) }));
     };
   }
 }

@@ -25,22 +25,23 @@ export function welded({ position, normal, uv }) {
   return first;
 }
 
-// { first, starts, list, at } for the vertices of the corners in `wanted`, or for all. first: as from welded(). The corners
-// at vertex v = first[corners[c]] are list[starts[v]] to list[starts[v + 1] - 1], in rising order; list[at[c]] is c.
+// { first, starts, list, at, rising } for the vertices of the corners in `wanted`, or for all. first: as from welded(). The
+// corners at vertex v = first[corners[c]] are list[starts[v]] to list[starts[v + 1] - 1], in rising order; list[at[c]] is c.
+// rising: all these corners, in rising order.
 export function fansOf(mesh, wanted) {
-  const { corners } = mesh, first = welded(mesh), count = first.length, flags = new Uint8Array(count).fill(wanted ? 0 : 1);
-  wanted?.forEach(c => { flags[first[corners[c]]] = 1; });
-  const starts = new Uint32Array(count + 1), at = new Int32Array(corners.length);
-  for (let c = 0; c < corners.length; ++c) if (flags[first[corners[c]]]) ++starts[first[corners[c]] + 1];
-  for (let v = 0; v < count; ++v) starts[v + 1] += starts[v];
-  const list = new Uint32Array(starts[count]), next = starts.slice(0, count);
+  const { corners } = mesh, first = mesh.first ??= welded(mesh), count = first.length, flags = new Uint8Array(count);
+  for (const c of wanted ?? corners.keys()) flags[first[corners[c]]] = 1;
+  const starts = new Uint32Array(count + 1), at = new Int32Array(corners.length), rising = [];
   for (let c = 0; c < corners.length; ++c) {
     const v = first[corners[c]];
     if (!flags[v]) continue;
-    at[c] = next[v];
-    list[next[v]++] = c;
+    ++starts[v + 1];
+    rising.push(c);
   }
-  return { first, starts, list, at };
+  for (let v = 0; v < count; ++v) starts[v + 1] += starts[v];
+  const list = new Uint32Array(starts[count]), next = starts.slice(0, count);
+  for (const c of rising) list[at[c] = next[first[corners[c]]]++] = c;
+  return { first, starts, list, at, rising };
 }
 
 // Calls work(begin, end) for each vertex that has corners.

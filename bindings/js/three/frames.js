@@ -47,10 +47,13 @@ const kEdge = 0.01; // tolerance by which uv may exceed the range of one tile
 function repeats({ attributes }, map) {
   const uv = attributes[uvNameOf(map)];
   if (!uv) return false;
-  const transformed = transformedUv(uv, map), low = [Infinity, Infinity], high = [-Infinity, -Infinity];
-  for (let k = 0; k < transformed.length; ++k) {
-    low[k % 2] = Math.min(low[k % 2], transformed[k]);
-    high[k % 2] = Math.max(high[k % 2], transformed[k]);
-  }
-  return high.some((value, i) => value - low[i] > 1 + kEdge);
+  const transformed = transformedUv(uv, map);
+  return [0, 1].some(i => {
+    let low = Infinity, high = -Infinity;
+    for (let k = i; k < transformed.length; k += 2) {
+      low = Math.min(low, transformed[k]);
+      high = Math.max(high, transformed[k]);
+    }
+    return high - low > 1 + kEdge;
+  });
 }

@@ -35,8 +35,9 @@ export interface UntangleOptions {
   note?: (line: string) => void;
 }
 
-/** How well a frame reads a map: degrees between perturbed normals, at `points` points spread evenly over the surface.
- * mikktspace: tangents that are made when the model is loaded. If `why` says why the mesh cannot have the frame, points is 0
+/** How well a frame reads a map: degrees between perturbed normals, at `points` points spread evenly over the surface: 4096,
+ * or 512 of them if their mean is below half of the limit and their maximum below that of 99 %, or their mean above four times
+ * the limit; fewer in a scene of many meshes. mikktspace: tangents that are made when the model is loaded. If `why` says why the mesh cannot have the frame, points is 0
  * and the rest is NaN. */
 export interface Candidate {
   frame: 'orthonormal' | 'triangle' | 'smooth' | 'mikktspace';
@@ -45,6 +46,8 @@ export interface Candidate {
   /** The smallest value that 95 % of the area does not exceed. */
   percentile95: number;
   percentile99: number;
+  /** At the points. */
+  maximum: number;
   why?: string;
 }
 
@@ -53,9 +56,9 @@ export interface Decision {
   mesh: Mesh;
   /** As it is drawn now; a copy if meshes with the same material needed different settings. */
   material: Material;
-  /** mikktspace: three.js draws it with its own frame, from tangents of the geometry. */
+  /** mikktspace: three.js draws it with its own frame, from tangents of the geometry, which are made here, or the loaded ones. */
   frame: Exclude<Frame, 'auto'> | 'mikktspace';
-  /** Whether the tangents that came with the mesh are needed. */
+  /** Whether the tangents that came with the mesh are needed: a file without them would look different. */
   keepsTangents: boolean;
   /** What the map is taken to mean: `named`: the frame that the file or the caller names; `stored`: what the tangents of the
    * mesh show; `mikktspace`: MikkTSpace over its texture coordinates, as glTF says; `painted`: nothing that depends on a
@@ -82,18 +85,20 @@ export interface LoadedModel {
  * and anisotropy. Returns one decision for each mesh and material.
  *
  * For each mesh, frames are compared with what its map means (`Decision.meaning`) by the angle between perturbed normals, with
- * the texels of the map: `orthonormal`, `triangle`, `smooth`, then MikkTSpace tangents made here. The first one within
- * `maxDegrees` is taken. If none is, the tangents of the mesh stay, nothing of it is changed, and a note says what they cost.
- * They also stay if the map cannot be read: compressed textures, and images where there is no OffscreenCanvas. Meshes without
- * tangents then get `orthonormal`. Images are read once, with at most 512 x 512 texels. Skinned meshes are judged as they are
- * posed now, and instances by the worst of the first eight that are stretched differently.
+ * the texels of the map: `orthonormal`, `triangle`, `smooth`, then MikkTSpace tangents made here, in 8 bytes a vertex. The
+ * first one within `maxDegrees` is taken. If none is, the tangents of the mesh stay as they are, and a note says what they
+ * cost. Loaded tangents that MikkTSpace makes, too, are drawn, in 8 bytes. Tangents also stay if the map cannot be read:
+ * compressed textures, and images where there is no OffscreenCanvas. Meshes without tangents then get `orthonormal`. Images
+ * are read once, with at most 512 x 512 texels. Skinned meshes are judged as they are posed now, and instances by the worst of
+ * the first eight that are stretched differently.
  *
- * The same file always gives the same decisions, and a second call changes nothing. Correct for mirrored transforms, for both
- * sides of faces, and for render targets with y down, except on meshes whose tangents stay, which three.js draws. Sets the sign
- * of `normalScale.y` so that the render stays as it was with tangents. A material is cloned if its meshes need different
- * settings. Call this again for meshes that are added later. Your own hooks (`onBeforeCompile`) are kept, even if set later.
- * `material.clone()` keeps the frame, `copy()` does not. GPU memory of removed tangents and of replaced geometries is freed;
- * a new geometry is disposed of with the one that it replaces.
+ * The same file always gives the same decisions, and a second call changes nothing. Correct for mirrored meshes and both sides
+ * of faces, and without tangents also for mirrored instances and render targets with y down. Sets the sign of `normalScale.y`
+ * so that the render is that of the file with its tangents; three.js alone inverts bitangents of mirrored meshes. A material
+ * is cloned if its meshes need different settings. Call this again for meshes that are added later. Your own hooks
+ * (`onBeforeCompile`) are kept, even if set later. `material.clone()` keeps the frame, `copy()` does not. GPU memory of removed
+ * tangents and of replaced geometries is freed; a new geometry is disposed of with the one that it replaces. A buffer that
+ * interleaves tangents with other attributes keeps its size.
  *
  * Throws a CotanError with code `usage` on anything but an Object3D or a loaded model, on unknown frames and on unknown
  * options; with code `unavailable` if this version of three, or a material's shader when it is compiled, cannot take the

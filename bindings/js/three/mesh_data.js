@@ -45,3 +45,9 @@ export function transformedUv(attribute, map) {
   }
   return uv;
 }
+
+// { corners, position, normal, uv } of a geometry as its map sees it. normal is null if there are none.
+export function meshOf(geometry, map) {
+  const { position, normal, [uvNameOf(map)]: uv } = geometry.attributes;
+  return { corners: cornersOf(geometry), position: numbersOf(position, 3), normal: normal ? numbersOf(normal, 3) : null, uv: transformedUv(uv, map) };
+}

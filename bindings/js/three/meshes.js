@@ -7,8 +7,8 @@ import { Chooser, greenAlongV, markGenerated, scalesOf, storedIn } from './choos
 import { kFrames, kKey, mapOf, meansTangents, namedFrame } from './frames.js';
 import { withVertices } from './gathered.js';
 import { GreenNotes, ofGltf } from './greens.js';
-import { readingOf, turns, uvMatrixOf, uvNameOf } from './mesh_data.js';
-import { withTangents } from './mikktspace.js';
+import { numbersOf, readingOf, turns, uvMatrixOf, uvNameOf } from './mesh_data.js';
+import { packed, withTangents } from './mikktspace.js';
 import { kSmoothAttributes, withSmooth } from './smooth.js';
 import { kTriangleAttribute, withTriangles } from './triangles.js';
 
@@ -78,13 +78,13 @@ export function untangleMeshes(target, o, { provoking = 'last', instances = true
   const all = { o, provoking, instances, deformed, triangles, loaded: !target.isObject3D, made: new Map(), greens: new GreenNotes(), counted: new Set(), replace, restore,
     copies: new Map(), earlier: new Map(), note: once(o.note), warn: once(line => console.warn(`Cotan: ${line}`)) };
   for (const { material } of meshes) for (const one of [material].flat()) all.earlier.set(one, known.get(one));
-  all.chooser = new Chooser(meshes, { mean: o.maxDegrees, percentile99: 10 * o.maxDegrees },
-    { note: all.note, warn: all.warn, reasonAgainst: (mesh, frame) => reasonAgainst(mesh, [mesh.material].flat(), frame, all) });
+  all.chooser = new Chooser(meshes, { mean: o.maxDegrees, percentile99: 10 * o.maxDegrees }, (mesh, frame) => reasonAgainst(mesh, [mesh.material].flat(), frame, all), all.warn);
   const plans = meshes.map(mesh => ({ mesh, geometry: mesh.geometry, decisions: decisionsFor(mesh, all) }));
   const keeps = ({ decisions }) => decisions.some(({ frame }) => frame === 'mikktspace');
   // First the meshes that three draws with tangents: they get the materials that are not changed.
   for (const plan of [...plans.filter(keeps), ...plans.filter(plan => !keeps(plan))]) apply(plan, keeps(plan), all);
   removeTangents(plans, keeps);
+  packTangents(plans);
   if (!o.convention) all.greens.lines().forEach(all.note);
   freeTogether(meshes, all.made);
   return plans.flatMap(({ mesh, geometry, decisions }) => [mesh.material].flat().map((material, k) => {
@@ -101,13 +101,13 @@ const mapsOf = ({ normalMap, clearcoatNormalMap }) => [normalMap, clearcoatNorma
 
 function remember(geometry, material, decision) {
   if (!decided.has(geometry)) decided.set(geometry, new WeakMap());
-  decided.get(geometry).set(material, { decision, maps: mapsOf(material) });
+  decided.get(geometry).set(material, { decision, maps: mapsOf(material), tangent: storedIn(geometry) });
 }
 
 // What an earlier call decided, if that still holds.
 function remembered(geometry, material, { o }) {
-  const found = storedIn(geometry) ? undefined : decided.get(geometry)?.get(material);
-  if (!found || found.decision.reason === 'notJudged' || mapsOf(material).some((map, k) => map !== found.maps[k])) return undefined;
+  const found = decided.get(geometry)?.get(material);
+  if (!found || found.tangent !== storedIn(geometry) || found.decision.reason === 'notJudged' || mapsOf(material).some((map, k) => map !== found.maps[k])) return undefined;
   return o.frame === undefined || o.frame === 'auto' && found.decision.reason !== 'requested' ? found.decision : undefined;
 }
 
@@ -141,13 +141,13 @@ function decisionFor(mesh, material, k, all) {
 function reasonAgainst(mesh, materials, frame, { instances, deformed, triangles }) {
   if (frame === 'orthonormal') return '';
   if (frame === 'triangle' && !triangles) return 'needs the option renderer';
-  if (!instances && mesh.isInstancedMesh) return 'has instances, whose transforms node materials do not provide';
+  if (!instances && mesh.isInstancedMesh) return 'has instances';
   const morphs = Object.keys(mesh.geometry.morphAttributes).length > 0;
   if (frame !== 'mikktspace' && (morphs || mesh.isSkinnedMesh && (frame === 'triangle' || !deformed))) return 'deforms';
-  if (mesh.isBatchedMesh) return 'is a BatchedMesh, whose vertices cannot be renumbered';
+  if (mesh.isBatchedMesh) return 'is a BatchedMesh';
   const readings = new Set(materials.flatMap(material => (material.normalScale ? mapsOf(material) : [])).filter(Boolean).map(readingOf));
   if (readings.size > 1) return 'has normal maps over different texture coordinates';
-  const { position, normal, [uvNameOf(materials.map(mapOf).find(Boolean))]: uv } = mesh.geometry.attributes;
+  const { position, normal, [uvNameOf(firstMapOf(materials))]: uv } = mesh.geometry.attributes;
   if (!position || !uv) return 'has no texture coordinates';
   return frame !== 'triangle' && !normal ? 'has no normals' : '';
 }
@@ -166,7 +166,8 @@ function noteKept(mesh, geometry, { reason, why, candidates }, { note }) {
 function apply({ mesh, decisions }, tangents, all) {
   const materials = [mesh.material].flat(), { geometry } = mesh;
   if (!materials.some(material => material.normalScale)) return;
-  const signs = materials.map((material, k) => material.normalScale && signsOf(mesh, material, k, tangents, all));
+  const reads = tangents && drawsStored(mesh, firstMapOf(materials), decisions);
+  const signs = materials.map((material, k) => material.normalScale && signsOf(mesh, material, k, { tangents, reads }, all));
   if (tangents) giveTangents(mesh, materials, decisions, all);
   else giveVectors(mesh, materials, decisions, all);
   const copied = materials.map((material, k) => {
@@ -183,13 +184,19 @@ const made = (mesh, key, all, make) => {
   return all.made.get(whole).geometry;
 };
 
-// Tangents that were loaded are drawn as they are. Others are made, for mirrored meshes with the w that three needs there: it
-// makes bitangents from a mirrored tangent and a normal that is not.
+const firstMapOf = materials => materials.map(mapOf).find(Boolean);
+
+// Whether three draws the tangents that came with the mesh, needed or not: not if they are for other uv than the map's.
+const drawsStored = (mesh, map, decisions) => !!storedIn(mesh.geometry) && (decisions.some(({ keepsTangents }) => keepsTangents) || !(ofGltf(map) && turns(map)));
+
+// Whether three inverts the bitangents of a mesh: it makes them from a mirrored tangent and a normal that is not.
+const inverts = mesh => !mesh.isSkinnedMesh && mesh.matrixWorld.determinant() < 0;
+
+// Tangents that were loaded are drawn as they are. Others are made, for mirrored meshes with the other w.
 function giveTangents(mesh, materials, decisions, all) {
-  const map = mapOf(materials.find(material => material.normalScale && mapOf(material))), { geometry } = mesh;
-  if (decisions.some(({ keepsTangents }) => keepsTangents) || geometry.attributes.tangent && !(storedIn(geometry) && ofGltf(map) && turns(map))) return;
-  const mirrored = !mesh.isSkinnedMesh && mesh.matrixWorld.determinant() < 0;
-  mesh.geometry = made(mesh, ['mikktspace', readingOf(map), mirrored], all, () => markGenerated(withTangents(geometry, map, ofGltf(map) !== mirrored)));
+  const map = firstMapOf(materials), { geometry } = mesh;
+  if (drawsStored(mesh, map, decisions) || geometry.attributes.tangent && !storedIn(geometry)) return;
+  mesh.geometry = made(mesh, ['mikktspace', readingOf(map), inverts(mesh)], all, () => markGenerated(withTangents(geometry, map, ofGltf(map) !== inverts(mesh))));
 }
 
 // Adds the attributes that the frames of a mesh read to its geometry.
@@ -228,6 +235,17 @@ function removeTangents(plans, keeps) {
   for (const [geometry, copy] of bare) geometry.addEventListener('dispose', () => copy.dispose());
 }
 
+// Packs tangents of floats that MikkTSpace makes, too. Those that stay are left as they are.
+function packTangents(plans) {
+  const kept = new Set(plans.filter(({ decisions }) => decisions.some(({ keepsTangents }) => keepsTangents)).map(({ mesh }) => mesh.geometry));
+  for (const { mesh: { geometry } } of plans) {
+    const tangents = storedIn(geometry);
+    if (kept.has(geometry) || !tangents || tangents.isInterleavedBufferAttribute || tangents.array.BYTES_PER_ELEMENT < 4) continue;
+    geometry.dispose(); // frees the renderer's buffer of the old ones
+    geometry.setAttribute('tangent', packed(numbersOf(tangents, 4)));
+  }
+}
+
 // Disposes of replaced geometries without meshes. A new geometry is disposed of together with the one that it replaced.
 function freeTogether(meshes, made) {
   const inUse = new Set(meshes.map(mesh => mesh.geometry));
@@ -238,13 +256,13 @@ function freeTogether(meshes, made) {
 // ---- materials ----------------------------------------------------------------------------------
 
 // { wants, includes, factors, against } for a material: see `known`; factors: by scale, the sign to multiply the current scale
-// with, so that it includes the new one. tangents: whether three reads tangents.
-function signsOf(mesh, material, k, tangents, { o, chooser, greens, counted, loaded, earlier }) {
+// with, so that it includes the new one. tangents, reads: whether three draws tangents, and whether they are the stored ones.
+function signsOf(mesh, material, k, { tangents, reads }, { o, chooser, greens, counted, loaded, earlier }) {
   const stored = !!storedIn(mesh.geometry), wants = {}, includes = {}, factors = {}, before = earlier.get(material), means = meansTangents(material, mesh.geometry);
   for (const [name, mapName] of scalesOf(material)) {
     const map = material[mapName], gltf = map ? ofGltf(map) : loaded, initial = gltf && !stored ? -1 : 1; // GLTFLoader flips it if there are no tangents
-    let shown = stored && tangents && !o.convention ? undefined : before?.wants[name] ?? initial; // which way tangents and uv say
-    if (stored && (!tangents || o.convention)) {
+    let shown = reads && !o.convention ? undefined : before?.wants[name] ?? initial; // which way tangents and uv say
+    if (stored && (!reads || o.convention)) {
       const areas = chooser.areas(mesh, material, k, map);
       shown = !gltf || !map ? areas.against > areas.along || areas.along === 0 && gltf ? -1 : 1 : means ? greenAlongV(map, areas) : -1;
       const use = [mesh.geometry.uuid, map?.uuid, k].join();
@@ -253,8 +271,8 @@ function signsOf(mesh, material, k, tangents, { o, chooser, greens, counted, loa
     }
     // v runs down the image in glTF
     wants[name] = o.convention && map ? ((o.convention === 'gltf') === (gltf || map.flipY === false) ? -1 : 1) : shown ?? (gltf ? -1 : 1);
-    // Green is right as it is for stored bitangents; those that are made run against v for a glTF.
-    includes[name] = !tangents ? wants[name] : stored ? (o.convention ? wants[name] * shown : 1) : wants[name] * (gltf ? -1 : 1);
+    // Green is right as it is for stored bitangents, unless three inverts them; those that are made run against v for a glTF.
+    includes[name] = reads ? (o.convention ? wants[name] * shown : 1) * (inverts(mesh) ? -1 : 1) : tangents && gltf ? -wants[name] : wants[name];
     factors[name] = (before?.includes[name] ?? initial) * includes[name];
   }
   const map = mapOf(material), gltf = loaded || ofGltf(map);

@@ -1,38 +1,22 @@
 // Points on the surface of a mesh, spread evenly by area, as in the library (src/bake/lint/map_fit.cpp).
-import { cornersOf, numbersOf, transformedUv, uvNameOf } from './mesh_data.js';
+import { meshOf, numbersOf, uvNameOf } from './mesh_data.js';
 import { cross, dot, readEdges, transform, uvArea } from './vectors.js';
 
 const kPoints = 4096, kTotalPoints = 128 * kPoints, kMinPoints = 16; // of a surface, of all, of a surface of many
-const kMaxJudged = 200000, kParts = 64; // triangles, and the runs of triangles that are judged of more
+export const kFew = 512; // points of a first look
 const kMaxStretches = 8;
 
-// The number of points of each surface, given the number of surfaces.
-export const pointsOfEach = surfaces => Math.min(Math.max(Math.floor(kTotalPoints / Math.max(surfaces, 1)), kMinPoints), kPoints);
+// The number of points of each surface, a power of two, given the number of surfaces.
+export const pointsOfEach = surfaces => Math.min(Math.max(2 ** Math.floor(Math.log2(kTotalPoints / Math.max(surfaces, 1))), kMinPoints), kPoints);
 
-// { corners, position, normal, uv } of a geometry, or of the triangles that a group of materials draws, as its map sees them;
-// evenly chosen runs of triangles if there are very many. normal is null, and triangles count as flat, without normals and
-// in flat shading. Null without texture coordinates.
+// { corners, position, normal, uv } of a geometry, or of the triangles that a group of materials draws, as its map sees them.
+// normal is null, and triangles count as flat, without normals and in flat shading. Null without texture coordinates.
 export function surfaceOf(geometry, group, map, flat) {
-  const { position, normal, [uvNameOf(map)]: uv } = geometry.attributes;
+  const { position, [uvNameOf(map)]: uv } = geometry.attributes;
   if (!position || !uv) return null;
-  return { corners: judged(drawnBy(geometry, group)), position: numbersOf(position, 3), normal: flat || !normal ? null : numbersOf(normal, 3), uv: transformedUv(uv, map) };
-}
-
-function drawnBy(geometry, group) {
-  const corners = cornersOf(geometry);
-  if (group === undefined) return corners;
-  return Uint32Array.from(geometry.groups.filter(({ materialIndex = 0 }) => materialIndex === group).flatMap(({ start, count }) => {
-    const found = corners.subarray(start, start + count);
-    return Array.from(found.subarray(0, found.length - found.length % 3));
-  }));
-}
-
-function judged(corners) {
-  const count = corners.length / 3;
-  if (count <= kMaxJudged) return corners;
-  const run = Math.floor(kMaxJudged / kParts), step = Math.floor(count / kParts), made = new Uint32Array(3 * run * kParts);
-  for (let p = 0; p < kParts; ++p) made.set(corners.subarray(3 * p * step, 3 * (p * step + run)), 3 * p * run);
-  return made;
+  const mesh = meshOf(geometry, map), groups = geometry.groups.filter(({ materialIndex = 0 }) => materialIndex === group);
+  const draws = (_, c) => groups.some(({ start, count }) => c >= start && c - (c - start) % 3 + 3 <= start + count);
+  return { ...mesh, corners: group === undefined ? mesh.corners : mesh.corners.filter(draws), normal: flat ? null : mesh.normal };
 }
 
 // ---- transforms ---------------------------------------------------------------------------------
@@ -40,7 +24,7 @@ function judged(corners) {
 // Adds the linear part of a Matrix4 to `known`, unless it differs from one of them only by rotation, mirroring and uniform
 // scale, which change nothing.
 export function addStretch(known, { elements: e }) {
-  const m = Float64Array.of(e[0], e[1], e[2], e[4], e[5], e[6], e[8], e[9], e[10]), gram = gramOf(m);
+  const m = Float64Array.from([0, 1, 2, 4, 5, 6, 8, 9, 10], i => e[i]), gram = gramOf(m);
   if (known.length < kMaxStretches && !known.some(other => other.isSkinnedMesh || alike(gramOf(other), gram))) known.push(m);
 }
 
@@ -100,13 +84,13 @@ function mappedArea(surface, triangle) {
 
 // `count` points at equal steps of area over the triangles that have area in space and in uv: { triangles, weights,
 // total }, with three barycentric weights for each point, and the area of all. Empty if there are no such triangles.
-// Points within triangles follow the sequence of the plastic number (R2).
+// The first kFew are spread over all. Points within triangles follow the sequence of the plastic number (R2).
 export function pointsOver(surface, count) {
   const all = surface.corners.length / 3, areas = new Float64Array(all);
   let total = 0;
   for (let i = 0; i < all; ++i) total += areas[i] = mappedArea(surface, i);
   if (!(total > 0)) return { triangles: new Uint32Array(0), weights: new Float64Array(0), total: 0 };
-  const triangles = new Uint32Array(count), weights = new Float64Array(3 * count);
+  const step = Math.ceil(count / kFew), triangles = new Uint32Array(count), weights = new Float64Array(3 * count);
   let triangle = 0, upTo = areas[0];
   for (let k = 0; k < count; ++k) {
     const at = (k + 0.5) / count * total;
@@ -116,8 +100,9 @@ export function pointsOver(surface, count) {
       a = 1 - a;
       b = 1 - b;
     }
-    triangles[k] = triangle;
-    weights.set([1 - a - b, a, b], 3 * k);
+    const slot = k % step * kFew + Math.floor(k / step);
+    triangles[slot] = triangle;
+    weights.set([1 - a - b, a, b], 3 * slot);
   }
   return { triangles, weights, total };
 }

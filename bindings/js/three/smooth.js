@@ -2,7 +2,7 @@
 import { BufferAttribute } from 'three';
 import { eachFan, fansOf } from './fans.js';
 import { withVertices } from './gathered.js';
-import { cornersOf, numbersOf, transformedUv, uvNameOf } from './mesh_data.js';
+import { meshOf } from './mesh_data.js';
 import { combine, cross, dot, normalise, readEdges, uvArea } from './vectors.js';
 
 export const kSmoothAttributes = ['cotanU', 'cotanV'];
@@ -11,8 +11,7 @@ export const kSmoothAttributes = ['cotanU', 'cotanV'];
 // mirrored and unmirrored triangles.
 // map: the normal map, whose uv set and matrix are used. The geometry must have positions, normals and this uv set.
 export function withSmooth(geometry, map) {
-  const { position, normal, [uvNameOf(map)]: uv } = geometry.attributes;
-  const mesh = { corners: cornersOf(geometry), position: numbersOf(position, 3), normal: numbersOf(normal, 3), uv: transformedUv(uv, map) };
+  const mesh = meshOf(geometry, map), { position } = geometry.attributes;
   const fans = fansOf(mesh), { sides, values } = gradientsOf(mesh, fans);
   const { corners, sources } = splitMirrored(mesh.corners, fans, sides, position.count);
   const made = withVertices(geometry, sources, sources.length > position.count && corners);
@@ -59,15 +58,14 @@ export function gradientsOf(mesh, fans) {
   return { sides, values };
 }
 
-// Splits the vertices that triangles of both sides share. Right-handed corners get the copy, all others the original.
+// Splits the vertices that triangles of both sides share: those of the second side get a copy.
 function splitMirrored(corners, { at }, sides, count) {
-  const used = new Uint8Array(count), right = new Map(), made = corners.slice();
-  const sources = Array.from({ length: count }, (_, k) => k);
-  corners.forEach((vertex, c) => { if (sides[at[c]]) used[vertex] |= sides[at[c]] > 0 ? 2 : 1; });
+  const first = new Int8Array(count), copies = new Map(), made = corners.slice(), sources = Array.from({ length: count }, (_, k) => k);
   corners.forEach((vertex, c) => {
-    if (used[vertex] !== 3 || sides[at[c]] <= 0) return;
-    if (!right.has(vertex)) right.set(vertex, sources.push(vertex) - 1);
-    made[c] = right.get(vertex);
+    const side = sides[at[c]];
+    if (!side || (first[vertex] ||= side) === side) return;
+    if (!copies.has(vertex)) copies.set(vertex, sources.push(vertex) - 1);
+    made[c] = copies.get(vertex);
   });
   return { corners: made, sources };
 }

@@ -1,7 +1,7 @@
 // The frame `triangle`: two vectors in the plane of each triangle, stored at its provoking vertex.
 import { BufferAttribute, DataUtils, IntType } from 'three';
 import { withVertices } from './gathered.js';
-import { cornersOf, numbersOf, transformedUv, uvNameOf } from './mesh_data.js';
+import { meshOf } from './mesh_data.js';
 import { combine, cross, dot, readEdges } from './vectors.js';
 
 export const kTriangleAttribute = 'cotanTriangle';
@@ -10,9 +10,8 @@ export const kTriangleAttribute = 'cotanTriangle';
 // of each triangle (docs/explanation/triangle.md). Splits vertices that provoke two triangles.
 // map: the normal map, whose uv set and matrix are used; provoking: 'last' (WebGL) or 'first' (WebGPU).
 export function withTriangles(geometry, map, provoking) {
-  const { position, normal, [uvNameOf(map)]: uv } = geometry.attributes, corners = cornersOf(geometry);
-  const words = wordsOf({ corners, position: numbersOf(position, 3), normal: normal && numbersOf(normal, 3), uv: transformedUv(uv, map) });
-  const sources = Array.from({ length: position.count }, (_, k) => k);  // by new vertex: the old one
+  const mesh = meshOf(geometry, map), { corners } = mesh, words = wordsOf(mesh);
+  const sources = Array.from({ length: geometry.attributes.position.count }, (_, k) => k);  // by new vertex: the old one
   const provoked = [];  // by new vertex: the triangle that it provokes
   for (let k = 0; k < corners.length; k += 3) {
     let rotation = 0;
