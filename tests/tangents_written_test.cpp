@@ -1,4 +1,6 @@
 // Models written by `cotan tangents` are valid, have no unnecessary vertices, and are otherwise unchanged.
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -6,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cotan/gltf.hpp"
+#include "cotan/view.hpp"
 #include "gltf/json/lookup.hpp"
 #include "run_tool.hpp"
 #include "test_data.hpp"
@@ -142,6 +145,70 @@ INSTANTIATE_TEST_SUITE_P(Models, TangentsWritten,
                          [](const auto& m) {
                              return std::filesystem::path(m.param).parent_path().filename().string();
                          });
+
+// Engines make tangents when they load a model, before bones move it. The tool's come from the same mesh, by other
+// code.
+TEST(SkinnedFrames, tangentsMadeAtLoadMoveWithTheBonesLikeThoseOfTheFile)
+{
+    COTAN_NEEDS_DATA("animated/lumberjack.glb");
+    TemporaryFolder folder;
+    const std::filesystem::path model = dataFile("animated/lumberjack.glb");
+    const ToolRun run = runTool({"tangents", model.string(), "--replace", "-o", "with.glb"}, folder.path(), 60);
+    ASSERT_EQ(run.code, 0) << run.err;
+    for (const double seconds : {0.0, 0.5}) {
+        LoadLimits limits;
+        limits.pixels = Pixels::none;
+        limits.pose = {"0", seconds};
+        const auto stored = loadGltf(folder / "with.glb", limits);
+        auto made = loadGltf(model, limits);
+        ASSERT_TRUE(stored && made);
+        deriveVertexFrames(*made, Frame::mikktspace, TangentOrigin::generated);
+        const Mesh &a = stored->meshes.at(0), &b = made->meshes.at(0);
+        ASSERT_EQ(a.indices.size(), b.indices.size());
+        std::size_t compared = 0;
+        for (std::size_t i = 0; i < a.indices.size(); ++i) {
+            const glm::vec4 expected = a.tangents[a.indices[i]], found = b.tangents[b.indices[i]];
+            compared += glm::length(glm::vec3(expected)) > 0.5f;
+            // Rounding of float in the matrices; the normal of the file is not exactly a unit vector.
+            ASSERT_LT(glm::length(glm::vec3(expected - found)), 1e-4f) << seconds << " corner " << i;
+        }
+        EXPECT_GT(compared, 4000u);
+    }
+}
+
+// Bones of this model are rigid where one of them alone moves a vertex, and rotations keep lengths.
+TEST(SkinnedFrames, cotangentsOfRigidPartsKeepTheirLengthsInEveryPose)
+{
+    COTAN_NEEDS_DATA("animated/lumberjack.glb");
+    std::vector<Mesh> poses;
+    for (const double seconds : {0.0, 0.5}) {
+        LoadLimits limits;
+        limits.pixels = Pixels::none;
+        limits.pose = {"0", seconds};
+        auto scene = loadGltf(dataFile("animated/lumberjack.glb"), limits);
+        ASSERT_TRUE(scene);
+        deriveVertexFrames(*scene, Frame::smooth, TangentOrigin::generated);
+        poses.push_back(scene->meshes.at(0));
+    }
+    ASSERT_EQ(poses[0].cotangentsU.size(), poses[1].cotangentsU.size());
+    std::size_t rigid = 0;
+    for (std::size_t i = 0; i < poses[0].vertexCount(); ++i) {
+        const auto isRigid = [&](const Mesh& m) {
+            return std::ranges::all_of(m.skin, [&](const auto& column) {
+                return std::abs(glm::length(column[i]) - glm::length(m.skin[0][i])) < 1e-5f * glm::length(column[i]);
+            });
+        };
+        if (!isRigid(poses[0]) || !isRigid(poses[1]))
+            continue;
+        const float scale = glm::length(poses[1].skin[0][i]) / glm::length(poses[0].skin[0][i]);
+        const float before = glm::length(poses[0].cotangentsU[i]), after = glm::length(poses[1].cotangentsU[i]);
+        if (before > 0) {
+            ASSERT_NEAR(after * scale / before, 1, 1e-3) << i;
+            ++rigid;
+        }
+    }
+    EXPECT_GT(rigid, 300u);
+}
 
 } // namespace
 } // namespace cotan

@@ -193,6 +193,12 @@ void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& 
 {
     Mesh& mesh = primitive.mesh;
     std::size_t mirrored = 0, loose = 0;
+    Mesh bind;
+    bind.bindPositions = mesh.positions;
+    for (const glm::vec3& n : mesh.normals)
+        bind.bindNormals.push_back(unitOrZero(glm::dvec3(n)));
+    for (int k = 0; k < 3; ++k)
+        bind.skin[std::size_t(k)].assign(mesh.positions.size(), glm::mat3(1)[k]);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const Blend sum = blend(primitive, i, joints);
         if (!(std::abs(sum.weight) > 1e-6)) { // weights are fractions of one; smaller sums are zero
@@ -204,6 +210,8 @@ void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& 
         const LinearMap<double> map(linear);
         const bool mirrors = map.determinant() < 0;
         mirrored += mirrors;
+        for (int k = 0; k < 3; ++k)
+            bind.skin[std::size_t(k)][i] = glm::vec3(linear[k]);
         mesh.positions[i] = glm::vec3(matrix * glm::dvec4(mesh.positions[i], 1));
         if (!mesh.normals.empty())
             mesh.normals[i] = unitOrZero(map.planeMatrix() * glm::dvec3(mesh.normals[i]));
@@ -211,6 +219,11 @@ void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& 
             const glm::vec4 t = mesh.tangents[i];
             mesh.tangents[i] = glm::vec4(unitOrZero(linear * glm::dvec3(t)), mirrors ? -t.w : t.w);
         }
+    }
+    if (mirrored == 0 && !mesh.normals.empty()) { // mirrored parts: vectors are made from the moved mesh
+        mesh.bindPositions = std::move(bind.bindPositions);
+        mesh.bindNormals = std::move(bind.bindNormals);
+        mesh.skin = std::move(bind.skin);
     }
     if (mirrored == mesh.positions.size())
         for (std::size_t i = 0; i < mesh.indices.size(); i += 3)

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -26,8 +27,15 @@ namespace cotan {
 template<class M> auto attributesOf(M& mesh)
 {
     return std::tie(mesh.positions, mesh.normals, mesh.tangents, mesh.texcoords[0], mesh.texcoords[1], mesh.colors,
-                    mesh.cotangentsU, mesh.cotangentsV);
+                    mesh.cotangentsU, mesh.cotangentsV, mesh.bindPositions, mesh.bindNormals, mesh.skin[0],
+                    mesh.skin[1], mesh.skin[2]);
 }
+
+// What vectors at the vertices are made from: the mesh, without its skin if it has one. Skinned: moves them as the skin
+// moves that vertex; others stay.
+MeshView bindView(const Mesh& mesh, std::span<const glm::vec2> uv);
+glm::vec4 skinned(const Mesh& mesh, std::size_t vertex, glm::vec4 tangent);
+glm::vec3 skinnedCotangent(const Mesh& mesh, std::size_t vertex, glm::vec3 cotangent);
 
 // Replaces the mesh's normals by angle-weighted averages over corners that share a position. Faces that meet at more
 // than `creaseDegrees` are kept separate (180: everything is smoothed). Vertices are split where needed, with all

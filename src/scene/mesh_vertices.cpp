@@ -15,6 +15,7 @@
 
 #include "core/groups.hpp"
 #include "core/tangents_mesh.hpp"
+#include "cotan/covector.hpp"
 #include "cotan/tangents.hpp"
 #include "cotan/vector.hpp"
 #include "scene/geometry.hpp"
@@ -197,9 +198,9 @@ void assignNormals(Mesh& mesh, JoinedGroups& groups, const std::vector<glm::vec3
 // ---- equal vertices --------------------------------------------------------------------------
 
 // The bits of all attributes of a vertex; zeros at the end if the mesh lacks arrays.
-std::array<std::uint32_t, 24> bitsOf(const Mesh& mesh, Index vertex)
+std::array<std::uint32_t, 39> bitsOf(const Mesh& mesh, Index vertex)
 {
-    std::array<std::uint32_t, 24> bits{};
+    std::array<std::uint32_t, 39> bits{};
     std::size_t at = 0;
     eachAttribute(mesh, [&](const auto& attribute) {
         const auto& value = attribute[vertex];
@@ -213,26 +214,54 @@ std::array<std::uint32_t, 24> bitsOf(const Mesh& mesh, Index vertex)
 
 void deriveCotangents(Mesh& mesh, std::span<const glm::vec2> uv)
 {
-    SplitCotangents made = splitSmoothCotangents({mesh.positions, mesh.normals, uv, mesh.indices});
+    SplitCotangents made = splitSmoothCotangents(bindView(mesh, uv));
     takeVertices(mesh, made.split);
     mesh.indices = std::move(made.split.indices);
     mesh.cotangentsU = std::move(made.cotangents.u);
     mesh.cotangentsV = std::move(made.cotangents.v);
+    for (auto* const vectors : {&mesh.cotangentsU, &mesh.cotangentsV})
+        for (std::size_t i = 0; i < vectors->size(); ++i)
+            (*vectors)[i] = skinnedCotangent(mesh, i, (*vectors)[i]);
 }
 
 void deriveTangents(Mesh& mesh, std::span<const glm::vec2> uv, Frame frame)
 {
-    const auto corners = generateTangents(frame, {mesh.positions, mesh.normals, uv, mesh.indices});
+    const auto corners = generateTangents(frame, bindView(mesh, uv));
     const VertexSplit split = splitVertices(mesh.vertexCount(), mesh.indices, corners);
     mesh.tangents.clear();
     takeVertices(mesh, split);
     mesh.indices = split.indices;
     mesh.tangents.resize(mesh.vertexCount());
     for (std::size_t i = 0; i < corners.size(); ++i)
-        mesh.tangents[mesh.indices[i]] = corners[i];
+        mesh.tangents[mesh.indices[i]] = skinned(mesh, mesh.indices[i], corners[i]);
+}
+
+LinearMap<double> skinAt(const Mesh& mesh, std::size_t vertex)
+{
+    const auto& [x, y, z] = mesh.skin;
+    return LinearMap<double>(glm::dmat3(x[vertex], y[vertex], z[vertex]));
 }
 
 } // namespace
+
+MeshView bindView(const Mesh& mesh, std::span<const glm::vec2> uv)
+{
+    if (mesh.skin[0].empty())
+        return {mesh.positions, mesh.normals, uv, mesh.indices};
+    return {mesh.bindPositions, mesh.bindNormals, uv, mesh.indices};
+}
+
+glm::vec4 skinned(const Mesh& mesh, std::size_t vertex, glm::vec4 tangent)
+{
+    if (mesh.skin[0].empty())
+        return tangent;
+    return {unitOrZero(skinAt(mesh, vertex)(Vector3d(glm::dvec3(tangent))).raw()), tangent.w};
+}
+
+glm::vec3 skinnedCotangent(const Mesh& mesh, std::size_t vertex, glm::vec3 cotangent)
+{
+    return mesh.skin[0].empty() ? cotangent : glm::vec3(skinAt(mesh, vertex)(Covector3d(glm::dvec3(cotangent))).raw());
+}
 
 void generateNormals(Mesh& mesh, float creaseDegrees)
 {

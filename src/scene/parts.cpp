@@ -99,7 +99,7 @@ void joinSmall(Scene& scene)
             continue;
         const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
         const std::size_t count = mesh.triangleCount();
-        if (count > kSmall || triangles + count > kMaxJoined || !mesh.cotangentsU.empty()) {
+        if (count > kSmall || triangles + count > kMaxJoined || !mesh.cotangentsU.empty() || !mesh.skin[0].empty()) {
             kept.push_back(std::move(instance));
             continue;
         }

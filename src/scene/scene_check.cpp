@@ -156,6 +156,19 @@ private:
         return std::nullopt;
     }
 
+    Problem checkSkin(const Mesh& mesh) const
+    {
+        const std::size_t n = mesh.skin[0].empty() ? 0 : mesh.vertexCount();
+        for (const auto* values :
+             {&mesh.bindPositions, &mesh.bindNormals, &mesh.skin[0], &mesh.skin[1], &mesh.skin[2]}) {
+            if (values->size() != n)
+                return joined("skin: expected ", n, " entries, found ", values->size());
+            if (const Problem problem = checkArray(*values, n, "skin"))
+                return problem;
+        }
+        return std::nullopt;
+    }
+
     Problem checkMesh(const Mesh& mesh) const
     {
         const std::size_t n = mesh.vertexCount();
@@ -167,7 +180,7 @@ private:
                                 checkArray(mesh.tangents, n, "tangent"), checkArray(mesh.texcoords[0], n, "uv set 0"),
                                 checkArray(mesh.texcoords[1], n, "uv set 1"), checkArray(mesh.colors, n, "colour"),
                                 checkArray(mesh.cotangentsU, n, "cotangent u"),
-                                checkArray(mesh.cotangentsV, n, "cotangent v"), checkIndices(mesh)})
+                                checkArray(mesh.cotangentsV, n, "cotangent v"), checkSkin(mesh), checkIndices(mesh)})
             if (problem)
                 return problem;
         return std::nullopt;

@@ -51,6 +51,10 @@ std::shared_ptr<const Mesh> judgedPart(const Mesh& mesh)
             take(part->tangents, mesh.tangents, old);
             for (std::size_t set = 0; set < 2; ++set)
                 take(part->texcoords[set], mesh.texcoords[set], old);
+            take(part->bindPositions, mesh.bindPositions, old);
+            take(part->bindNormals, mesh.bindNormals, old);
+            for (std::size_t column = 0; column < 3; ++column)
+                take(part->skin[column], mesh.skin[column], old);
         }
     return part;
 }

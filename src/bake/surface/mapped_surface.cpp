@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "scene/geometry.hpp"
 #include "scene/texture_sample.hpp"
 
 namespace cotan {
@@ -79,9 +80,12 @@ CornerTangents gathered(std::size_t vertices, const std::vector<std::uint32_t>& 
 }
 
 // Cotangents, separate for mirrored and unmirrored triangles.
-CornerCotangents cotangentsOf(const MeshView& mesh)
+CornerCotangents cotangentsOf(const Mesh& skin, const MeshView& mesh)
 {
     SplitCotangents made = splitSmoothCotangents(mesh);
+    for (std::size_t i = 0; i < made.split.sources.size(); ++i)
+        for (auto* const vectors : {&made.cotangents.u, &made.cotangents.v})
+            (*vectors)[i] = skinnedCotangent(skin, made.split.sources[i], (*vectors)[i]);
     CornerCotangents result{std::move(made.cotangents), {}};
     for (std::size_t c = 0; c < made.split.indices.size(); ++c)
         if (made.split.indices[c] != mesh.indices[c])
@@ -134,13 +138,16 @@ std::shared_ptr<SurfaceMesh> shareMesh(std::shared_ptr<const Mesh> mesh, const T
     const Mesh& m = *shared->mesh;
     if (shared->uv.empty() || m.indices.empty())
         return shared;
-    const MeshView view{m.positions, m.normals, shared->uv, m.indices};
+    const MeshView view = bindView(m, shared->uv);
     for (const FrameInfo& f : frames()) // first those that take most memory while they are made
-        if (wanted[std::size_t(f.frame)] && readsTangents(f.frame))
-            shared->generated[std::size_t(f.frame)] =
-                gathered(m.vertexCount(), m.indices, generateTangents(f.frame, view));
+        if (wanted[std::size_t(f.frame)] && readsTangents(f.frame)) {
+            auto corners = generateTangents(f.frame, view);
+            for (std::size_t c = 0; c < corners.size(); ++c)
+                corners[c] = skinned(m, m.indices[c], corners[c]);
+            shared->generated[std::size_t(f.frame)] = gathered(m.vertexCount(), m.indices, corners);
+        }
     if (wanted[std::size_t(Frame::smooth)])
-        shared->cotangents = cotangentsOf(view);
+        shared->cotangents = cotangentsOf(m, view);
     return shared;
 }
 
@@ -152,6 +159,9 @@ std::shared_ptr<const Mesh> copied(const Mesh& mesh)
     copy->normals = mesh.normals;
     copy->tangents = mesh.tangents;
     copy->texcoords = mesh.texcoords;
+    copy->bindPositions = mesh.bindPositions;
+    copy->bindNormals = mesh.bindNormals;
+    copy->skin = mesh.skin;
     copy->indices = mesh.indices;
     return copy;
 }

@@ -86,7 +86,8 @@ template<class W, class T> void exchangeScene(W& w, T& scene)
     w.list(scene.materials, [](W& to, auto& x) { exchangeMaterial(to, x); });
     w.list(scene.meshes, [](W& to, auto& mesh) {
         exchangeAll(to, mesh.name, mesh.material, mesh.positions, mesh.normals, mesh.tangents, mesh.texcoords[0],
-                    mesh.texcoords[1], mesh.colors, mesh.cotangentsU, mesh.cotangentsV, mesh.indices);
+                    mesh.texcoords[1], mesh.colors, mesh.cotangentsU, mesh.cotangentsV, mesh.bindPositions,
+                    mesh.bindNormals, mesh.skin[0], mesh.skin[1], mesh.skin[2], mesh.indices);
     });
     w.list(scene.instances, [](W& to, auto& x) { exchangeAll(to, x.name, x.mesh, x.toWorld); });
     w.list(scene.lights, [](W& to, auto& light) {

@@ -215,7 +215,6 @@ struct Material {
     }
 };
 
-// Triangles with one material. Every attribute array is empty or has vertexCount() entries.
 // A primitive of a glTF file.
 struct SourcePrimitive {
     std::size_t mesh = 0, primitive = 0; // indices in the file
@@ -223,6 +222,7 @@ struct SourcePrimitive {
     auto operator<=>(const SourcePrimitive&) const = default;
 };
 
+// Triangles with one material. Every attribute array is empty or has vertexCount() entries.
 struct Mesh {
     std::string name;
     int material = 0; // index into Scene::materials, always valid
@@ -233,6 +233,10 @@ struct Mesh {
     std::vector<glm::vec4> colors;      // linear; factors on the base colour
     std::vector<glm::vec3> cotangentsU; // derived for the frame `smooth`; otherwise empty
     std::vector<glm::vec3> cotangentsV;
+    // A skinned mesh before its skin moved it, and the columns of the matrix that moved each vertex; otherwise empty.
+    // Vectors at vertices are made there and then moved, as engines do.
+    std::vector<glm::vec3> bindPositions, bindNormals;
+    std::array<std::vector<glm::vec3>, 3> skin;
     std::vector<std::uint32_t> indices;    // three per triangle, each < vertexCount()
     std::optional<SourcePrimitive> source; // in the glTF file that it was read from
     std::optional<Frame> named;            // frame that the primitive names in the file; none: that of its material
