@@ -414,7 +414,8 @@ if lint_of(model) is not None:
     arguments = (model, c.c_size_t(len(model)), c.byref(files))
     call("cotan_convert_gltf", *arguments, c.byref(stop), None, c.byref(glb), None, expect=6)
     assert not glb and not encoded
-    call("cotan_convert_gltf", *arguments, None, c.byref(convert), c.byref(glb), c.byref(how))
+    new_map = ConvertOptions(None, b"cotangent", 0, 0, 0, 1, Progress(), None)
+    call("cotan_convert_gltf", *arguments, c.byref(new_map), c.byref(convert), c.byref(glb), c.byref(how))
     assert convert.maps_converted == 1 and convert.maps_kept == 0 and convert.tangent_bytes_dropped == 64 and len(encoded) == 1
     # Half as steep along u: the texel must be twice as steep there. Half a code is 0.3 degrees.
     assert degrees([w - 128 for w in encoded[0][:3]], (2 * stored[0], stored[1], stored[2])) < 0.5, list(encoded[0])
@@ -430,7 +431,7 @@ if lint_of(model) is not None:
     Take = c.CFUNCTYPE(c.c_int, c.c_void_p, text, c.c_void_p, c.c_size_t)
     call("cotan_gltf_pictures", *arguments, c.c_int(1), Take(lambda user, name, data, size: names.append(size) or 0), None)
     assert names == [len(PNG)]
-    call("cotan_convert_begin", *arguments, None, c.byref(convert), c.byref(conversion))
+    call("cotan_convert_begin", *arguments, c.byref(new_map), c.byref(convert), c.byref(conversion))
     asked.clear()
     cotan.cotan_conversion_count.restype = c.c_size_t
     assert cotan.cotan_conversion_count(conversion) == 1 and len(encoded) == number and convert.maps_converted == 1

@@ -12,6 +12,7 @@
 #include "cotan/convert.hpp"
 #include "cotan/gltf.hpp"
 #include "cotan/image.hpp"
+#include "cotan/lint.hpp"
 #include "cotan/scene.hpp"
 #include "gltf/json/lookup.hpp"
 
@@ -157,6 +158,60 @@ TEST(ConvertChoose, partlyReversedTangentsStay)
     EXPECT_EQ(keptIn(document), std::vector{true});
     EXPECT_EQ(report.decisions.at(0).decision.reason, ChoiceReason::keeps);
     EXPECT_EQ(*gltfImageBytes(document, 0), *map);
+}
+
+TEST(ConvertChoose, mapsThatWereMadeForAnotherFrameAreReadWithIt)
+{
+    GltfDocument document = documentWith({squareAt(0, 0, 1), squareAt(2, 30, 1)});
+    const auto report = convertModel(
+        document, {.frames = {Frame::smooth, Frame::orthonormal}, .choose = ChoiceLimits(), .keepMaps = true});
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_EQ(namesIn(document), (std::vector<std::string>{"smooth", "smooth"}));
+    EXPECT_EQ(keptIn(document), (std::vector{false, false}));
+    for (const PrimitiveDecision& d : report->decisions)
+        EXPECT_EQ(d.decision.reason, ChoiceReason::named);
+}
+
+// Each material alone could have its green reversed, but they share the map.
+TEST(ConvertChoose, decisionsSayWhereTangentsStayForTheGreenOfASharedMap)
+{
+    GltfDocument document = documentWith({squareAt(0, 0, 1), squareAt(2, 0, -1)});
+    auto& root = rootOf(document);
+    root["materials"].push_back(root["materials"][0]);
+    root["meshes"][1]["primitives"][0]["material"] = 1u;
+    const ConvertModelReport report = chosen(document);
+    EXPECT_EQ(keptIn(document), (std::vector{false, true}));
+    ASSERT_EQ(report.decisions.size(), 2u);
+    EXPECT_TRUE(report.decisions[0].decision.dropsTangents());
+    EXPECT_FALSE(report.decisions[1].decision.dropsTangents());
+    EXPECT_EQ(namesIn(document), (std::vector<std::string>{"orthonormal", "mikktspace"}));
+}
+
+// w is wrong on a third of the area, and the map shows that its green is as declared: lint advises to make tangents
+// anew, and decides as that conversion does.
+TEST(ConvertChoose, lintDecidesAsTheConversionThatItAdvisesForWrongTangents)
+{
+    const GltfDocument document = documentWith({squareAt(0, 0, 1), squareAt(2, 0, 1), squareAt(4, 0, -1)});
+    const auto bytes = glbBytes(document);
+    LoadLimits limits;
+    limits.readFile = [&](const std::string&) { return Result<std::vector<std::byte>>(*bytes); };
+    const auto scene = loadGltf("model.glb", limits);
+    ASSERT_TRUE(scene);
+    const auto lint = lintScene(*scene);
+    ASSERT_TRUE(lint.distrustStored) << lint.recommendation;
+    EXPECT_EQ(lint.dropping, 3u);
+    EXPECT_EQ(lint.keeping, 0u);
+    GltfDocument converted = document;
+    const auto report = convertModel(converted,
+                                     {.frames = {Frame::mikktspace, Frame::orthonormal, TangentOrigin::generated},
+                                      .choose = ChoiceLimits(),
+                                      .keepMaps = true});
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_EQ(keptIn(converted), (std::vector{false, false, false}));
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(report->decisions[i].decision.frame, lint.decisions[i].frame);
+        EXPECT_EQ(report->decisions[i].decision.meaning, MapMeaning::mikktspace);
+    }
 }
 
 TEST(ConvertChoose, whatCannotBeJudgedStays)

@@ -529,8 +529,8 @@ std::vector<double> fromThree()
     return means;
 }
 
-// The means of docs/explanation/models.md, with what untangle() decides. tests/web/models_table_test.mjs compares the page
-// with what was measured.
+// The means of docs/explanation/models.md, with what untangle() decides. tests/web/models_table_test.mjs compares the
+// page with what was measured.
 std::vector<double> fromModels()
 {
     const std::string page = readWhole(kSources / "docs/explanation/models.md");

@@ -146,6 +146,7 @@ void declare(Arguments& a, LintCommandOptions& o)
            "also print the statistics of each primitive and map, and cameras that look at the problem areas")
         .main();
     addOwnNormalMap(a, o.maps);
+    a.group(HelpGroup::frame);
     addMaxDegreesOption(a, o.maxDegrees);
     a.group(HelpGroup::diagnostics);
     a.option("--distance", o.distance,

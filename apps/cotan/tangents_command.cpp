@@ -74,7 +74,7 @@ Status compare(const TangentsCommandOptions& o, const GltfDocument& document, Js
         o, 1, "comparing", [&](const Progress& progress) { return compareTangents(document, optionsOf(o, progress)); });
     if (!compared)
         return compared.error();
-    const auto decisions = choosePrimitives(document, {}, TangentOrigin::stored, {});
+    const auto decisions = choosePrimitives(document, {}, {Frame::mikktspace, Frame::orthonormal}, {});
     if (!decisions)
         return decisions.error();
     report["decisions"] = decisionsJson(*decisions);

@@ -77,7 +77,7 @@ void add(FrameDecision& known, const FrameDecision& other, const ChoiceLimits& l
 } // namespace
 
 Result<std::vector<PrimitiveDecision>> choosePrimitives(const GltfDocument& document, const ChoiceLimits& limits,
-                                                        TangentOrigin tangents, const LoadLimits& load)
+                                                        const FramePair& frames, const LoadLimits& load)
 {
     GltfDocument named = document; // decoders get the names of files that become a part of the GLB
     for (std::size_t i = 0; i < countOf(rootOf(named), "images"); ++i)
@@ -96,10 +96,10 @@ Result<std::vector<PrimitiveDecision>> choosePrimitives(const GltfDocument& docu
         auto scene = loadGltf(path.empty() ? "model.glb" : path, inside);
         if (!scene)
             return scene.error();
-        if (tangents == TangentOrigin::generated)
-            for (Mesh& mesh : scene->meshes)
-                mesh.tangents.clear();
-        for (FrameDecision& d : chooseFrames(*scene, {.limits = limits, .all = true}))
+        for (Mesh& mesh : scene->meshes)
+            if (!readsTangents(frames.from) && !namedFrameOf(*scene, mesh))
+                mesh.named = frames.from;
+        for (FrameDecision& d : chooseFrames(*scene, {.limits = limits, .all = true, .tangents = frames.fromTangents}))
             if (const auto& source = scene->meshes[d.mesh].source) {
                 const auto [known, isNew] = found.try_emplace(*source, d);
                 if (!isNew)
@@ -111,7 +111,7 @@ Result<std::vector<PrimitiveDecision>> choosePrimitives(const GltfDocument& docu
         if (decision.reason == ChoiceReason::noMap && lacksUv(rootOf(document), primitive)) {
             decision.reason = ChoiceReason::notJudged;
             decision.notJudged = "no uv";
-            decision.tangents = tangents;
+            decision.tangents = frames.fromTangents;
         }
         decisions.push_back({primitive, std::move(decision)});
     }

@@ -12,9 +12,10 @@ namespace cotan {
 
 // One decision for each primitive with triangles that the file's nodes show, in the order of the file: that of
 // chooseFrames. A primitive that is drawn in several ways (by skins, morph weights, or the materials of variants) is
-// judged by the worst of them. tangents: generated: the file's count for nothing. Errors: those of loadGltf.
+// judged by the worst of them. frames: what maps were made for whose frame the file does not name. Errors: those of
+// loadGltf.
 Result<std::vector<PrimitiveDecision>> choosePrimitives(const GltfDocument& document, const ChoiceLimits& limits,
-                                                        TangentOrigin tangents, const LoadLimits& load);
+                                                        const FramePair& frames, const LoadLimits& load);
 
 // Names the frame in the primitive's extras (gltf::kFrameExtra); none: removes the name.
 void nameFrameOfPrimitive(GltfDocument& document, const SourcePrimitive& primitive, std::optional<Frame> frame);

@@ -61,8 +61,7 @@ private:
     Status chooseFramesOfPrimitives()
     {
         if (options_.choose) {
-            auto decisions =
-                choosePrimitives(document_, *options_.choose, options_.frames.fromTangents, options_.limits);
+            auto decisions = choosePrimitives(document_, *options_.choose, options_.frames, options_.limits);
             if (!decisions)
                 return decisions.error();
             report_.decisions = std::move(*decisions);
@@ -76,7 +75,7 @@ private:
         });
     }
 
-    const FrameDecision* decisionOf(std::size_t mesh, std::size_t primitive) const
+    FrameDecision* decisionOf(std::size_t mesh, std::size_t primitive)
     {
         const auto found =
             std::ranges::find(report_.decisions, SourcePrimitive{mesh, primitive}, &PrimitiveDecision::primitive);
@@ -396,8 +395,13 @@ private:
         for (const MapReader& reader : job.readers)
             if (showsReversed(reader)) {
                 keptTangents_.push_back({reader.mesh, reader.primitive, reader.slot.material, reason});
-                if (options_.choose)
+                if (options_.choose) {
                     nameFrameOfPrimitive(document_, {reader.mesh, reader.primitive}, options_.frames.from);
+                    if (FrameDecision* const d = decisionOf(reader.mesh, reader.primitive)) {
+                        d->frame = options_.frames.from;
+                        d->tangents = TangentOrigin::stored;
+                    }
+                }
                 done.surfacesWithTangents += reader.transforms.size();
             }
     }

@@ -118,7 +118,8 @@ public:
     {
         if (!material_.normalMap.present() && !material_.coat.normalMap.present())
             return decision_;
-        const bool stored = mesh_.tangents.size() == mesh_.vertexCount() && !mesh_.tangents.empty();
+        const bool stored = options_.tangents == TangentOrigin::stored && mesh_.tangents.size() == mesh_.vertexCount()
+            && !mesh_.tangents.empty();
         if (const std::optional<Frame> named = namedFrameOf(scene_, mesh_)) {
             decision_.meaning = MapMeaning::named;
             decision_.reason = ChoiceReason::named;
@@ -290,7 +291,7 @@ std::string textOf(const FrameDecision& d)
     case ChoiceReason::notJudged:
         return fmt::format("not judged: {}; {}", d.notJudged,
                            d.dropsTangents() ? std::string(name(d.frame)) : "its tangents stay");
-    case ChoiceReason::fits: return fmt::format("{}: {}", name(d.frame), error(*d.chosen()));
+    case ChoiceReason::fits: return fmt::format("{}: {}", nameOf(*d.chosen()), error(*d.chosen()));
     case ChoiceReason::keeps: break;
     }
     std::string text = d.dropsTangents() ? "no frame reads its map within the limits" : "its tangents stay";

@@ -72,7 +72,8 @@ struct FrameDecision {
 
 struct ChoiceOptions {
     ChoiceLimits limits{};
-    bool all = false; // measure all candidates, not only those up to the chosen one
+    bool all = false;                               // measure all candidates, not only those up to the chosen one
+    TangentOrigin tangents = TangentOrigin::stored; // generated: those of the file count for nothing and never stay
 };
 
 // One decision for each mesh of the scene, in order. Deterministic. Takes about 2 ms for a primitive of which the first
