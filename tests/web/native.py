@@ -46,12 +46,18 @@ def take(handle):
     return c.string_at(cotan.cotan_bytes_data(handle), cotan.cotan_bytes_size(handle))
 
 
+class ConvertOptions(c.Structure):  # the fields of version 1
+    _fields_ = [("size", c.c_size_t), ("from", c.c_char_p), ("to", c.c_char_p)] + [
+        (name, c.c_int) for name in ("bits", "keep_tangents", "generate_tangents", "threads")] + [("progress", c.c_void_p), ("user", c.c_void_p)]
+
+
 def model():
     data = (folder / "model.glb").read_bytes()
     report, glb = c.c_void_p(), c.c_void_p()
     call("cotan_lint_gltf", data, c.c_size_t(len(data)), None, None, None, c.byref(report))
     (folder / "lint.json").write_bytes(take(report))
-    call("cotan_convert_gltf", data, c.c_size_t(len(data)), None, None, None, c.byref(glb), c.byref(report))
+    options = ConvertOptions(size=c.sizeof(ConvertOptions), to=b"cotangent")
+    call("cotan_convert_gltf", data, c.c_size_t(len(data)), None, c.byref(options), None, c.byref(glb), c.byref(report))
     (folder / "converted.json").write_bytes(take(report))
     (folder / "converted.glb").write_bytes(take(glb))
 
