@@ -9,7 +9,6 @@
 
 #include "batch/job.hpp"
 #include "batch/report.hpp"
-#include "batch/thumbnail.hpp"
 #include "cotan/image.hpp"
 #include "run_tool.hpp"
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include "batch/plan.hpp"
+#include "batch/job.hpp"
 #include "batch/run.hpp"
 #include "run_tool.hpp"
 

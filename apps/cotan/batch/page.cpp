@@ -8,7 +8,6 @@
 
 #include "core/named_values.hpp"
 #include "html.hpp"
-#include "words.hpp"
 
 namespace cotan {
 

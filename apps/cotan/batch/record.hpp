@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,6 +53,11 @@ struct JobRecord {
     std::int64_t at = 0; // when the states of the files were taken: nanoseconds since 1970
 };
 
+inline bool isGood(const JobRecord& record)
+{
+    return record.state == JobState::done || record.state == JobState::limit;
+}
+
 // Whether a repeated run with the same inputs would end the same way; not if a limit, a signal or the machine ended it.
 bool repeatable(const JobRecord& record);
 
@@ -63,5 +69,9 @@ std::optional<JobRecord> parseRecord(std::string_view text);
 
 // The degrees in a command's JSON report; nullopt if it has none.
 std::optional<Degrees> degreesIn(std::string_view report);
+
+// A JPEG of at most 64 x 64 pixels and about two kilobytes, with transparent pixels over grey. Only a few rows of the
+// image are in memory at a time. Returns nullopt for files that are not images.
+std::optional<Thumbnail> thumbnailOf(const std::filesystem::path& image);
 
 } // namespace cotan

@@ -7,18 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "terminal/command_words.hpp"
-#include "words.hpp"
-
 namespace cotan {
-
-std::string commandLine(const std::vector<std::string>& words)
-{
-    std::string line;
-    for (const std::string& word : words)
-        line += (line.empty() ? "" : " ") + quoted(word);
-    return line;
-}
 
 namespace {
 

@@ -99,13 +99,8 @@ fs::path Store::fileOf(const std::vector<std::string>& words) const
 
 std::optional<JobRecord> Store::find(const std::vector<std::string>& words) const
 {
-    const fs::path file = fileOf(words);
-    if (::access(file.c_str(), R_OK) != 0)
-        return std::nullopt;
-    const auto bytes = readFileBytes(file, kMaxRecordBytes, /*isInput*/ false);
-    if (!bytes)
-        return std::nullopt;
-    return parseRecord({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+    const auto text = readText(fileOf(words), /*isInput*/ false, kMaxRecordBytes);
+    return text ? parseRecord(*text) : std::nullopt;
 }
 
 Status Store::keep(const std::vector<std::string>& words, const JobRecord& record) const

@@ -1,4 +1,4 @@
-#include "thumbnail.hpp"
+#include "batch/record.hpp"
 
 #include <algorithm>
 #include <array>
