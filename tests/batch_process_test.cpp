@@ -224,7 +224,6 @@ TEST_F(BatchScript, failureReasonIsItsLastOutput)
         JobState state;
         std::string reason;
     };
-    const std::string many(401, 'm');
     const Row rows[] = {
         {"printf 'x\\ncotan: error: a\\ncotan: error: b c\\nmore'; exit 2", JobState::failed, "b c"},
         {"printf 'cotan: error: the end'; exit 5", JobState::limit, "the end"},

@@ -56,14 +56,12 @@ struct ChildAnswer {
 // Reads the answer; empty if there is none or it is damaged.
 ChildAnswer readAnswer(const std::filesystem::path& work);
 
-// How a process ended. megabytes: maximum resident memory in MiB. late: the time limit was exceeded.
+// How a process ended.
 struct Ending {
     int status = 0;    // as waitpid gives it
     bool lost = false; // the status is unknown
-    bool late = false;
-    std::string output; // beginning and end of its output
-    double seconds = 0, processorSeconds = 0;
-    double megabytes = 0;
+    bool late = false; // the time limit was exceeded
+    JobRecord record;  // with its output, times and memory
 };
 
 // The parent's side.

@@ -20,9 +20,7 @@ using nlohmann::json;
 
 constexpr std::size_t kMaxBytes = std::size_t(4) << 30;
 constexpr std::size_t kMaxNameBytes = 1000;
-constexpr double kMaxMegabytes = 1 << 24;
-constexpr double kMinSeconds = 0.001, kMaxSeconds = 1e6;
-constexpr double kMaxRetries = 100, kMaxPriority = 1000000;
+constexpr double kMaxMegabytes = 1 << 24, kMaxSeconds = 1e6, kMaxPriority = 1e6;
 
 // Lists and objects are not printed, since dumping them recurses once per nesting level.
 Error expected(const std::string& member, const std::string& what, const json& found)
@@ -102,9 +100,9 @@ Status readOptions(const json& job, JobOptions& options)
 {
     std::optional<int> priority;
     for (const Status& read : {readNumber(job, "limit-memory", 0, kMaxMegabytes, options.megabytes),
-                               readNumber(job, "limit-time", kMinSeconds, kMaxSeconds, options.seconds),
+                               readNumber(job, "limit-time", 0.001, kMaxSeconds, options.seconds),
                                readNumber(job, "limit-processor-time", 0, kMaxSeconds, options.processorSeconds),
-                               readNumber(job, "retries", 0, kMaxRetries, options.retries),
+                               readNumber(job, "retries", 0, 100, options.retries),
                                readNumber(job, "priority", -kMaxPriority, kMaxPriority, priority),
                                readEnvironment(job, options.environment)})
         if (!read)

@@ -98,10 +98,10 @@ std::optional<Ending> JobProcess::look()
     listen(); // reads the remaining output
     ending.lost = found == Waited::lost;
     ending.late = terminated_;
-    ending.output = cut_ ? head_ + "\n...\n" + tail_ : head_ + tail_;
-    ending.seconds = Seconds(now - began_).count();
-    ending.processorSeconds = secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime);
-    ending.megabytes = double(usage.ru_maxrss) / 1024;
+    ending.record.output = cut_ ? head_ + "\n...\n" + tail_ : head_ + tail_;
+    ending.record.seconds = Seconds(now - began_).count();
+    ending.record.processorSeconds = secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime);
+    ending.record.megabytes = double(usage.ru_maxrss) / 1024;
     return ending;
 }
 

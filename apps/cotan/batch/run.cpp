@@ -5,7 +5,6 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
-#include <deque>
 #include <functional>
 #include <list>
 #include <map>
@@ -36,7 +35,6 @@ constexpr std::size_t kMaxReportBytes = std::size_t(256) << 20;
 
 struct Running {
     std::size_t job;
-    std::size_t slot;
     fs::path work;
     std::unique_ptr<JobProcess> process;
     Claim claim;
@@ -105,9 +103,10 @@ Limits limitsOf(const RunOptions& all, const JobOptions& own)
             own.megabytes.value_or(all.megabytes)};
 }
 
+// Sets the state, the code and the reason.
 void judge(const Ending& ending, const Limits& limits, JobRecord& record)
 {
-    const std::string words = lastMessage(ending.output);
+    const std::string words = lastMessage(record.output);
     const auto is = [&](JobState state, std::string reason) {
         record.state = state;
         record.reason = std::move(reason);
@@ -123,7 +122,7 @@ void judge(const Ending& ending, const Limits& limits, JobRecord& record)
         record.signal = signal;
     else
         record.code = code;
-    const bool noMemory = code == kNoMemoryCode || (signalled && ending.output.find("bad_alloc") != std::string::npos);
+    const bool noMemory = code == kNoMemoryCode || (signalled && record.output.find("bad_alloc") != std::string::npos);
     if (ending.late)
         return is(JobState::late, fmt::format("took longer than {:.4g} s and was terminated", limits.seconds));
     if (signal == SIGXCPU)
@@ -135,11 +134,11 @@ void judge(const Ending& ending, const Limits& limits, JobRecord& record)
         return is(JobState::memory, "needed more memory than is available");
     if (signal == SIGKILL)
         return is(JobState::crashed,
-                  fmt::format("was killed (signal 9) with {:.0f} MiB in use, perhaps out of memory", ending.megabytes));
+                  fmt::format("was killed (signal 9) with {:.0f} MiB in use, perhaps out of memory", record.megabytes));
     if (signalled)
         return is(JobState::crashed,
                   fmt::format("crashed (signal {}, {}) with {:.0f} MiB in use: {}", signal, ::strsignal(signal),
-                              ending.megabytes, words));
+                              record.megabytes, words));
     if (code == 0)
         return is(JobState::done, "");
     is(code == int(ErrorKind::limit) ? JobState::limit : JobState::failed, words);
@@ -154,8 +153,6 @@ public:
           results_(list.jobs.size()), waitsFor_(list.jobs.size()), waiting_(list.jobs.size()), runs_(list.jobs.size()),
           steps_(progress, chosen.size())
     {
-        for (std::size_t slot = std::max<std::size_t>(options.processes, 1); slot > 0; --slot)
-            slots_.push_back(slot);
         // A job has at least the priority of the jobs that wait for it.
         for (const Job& job : list.jobs)
             priorities_.push_back(job.options.priority);
@@ -188,26 +185,16 @@ public:
     }
 
 private:
-    void addReady(std::size_t job) { ready_[priorities_[job]].push_back(job); }
+    void addReady(std::size_t job) { ready_.emplace(priorities_[job], job); }
 
-    // Takes the first job with the highest priority.
-    std::size_t takeReady()
-    {
-        const auto highest = ready_.begin();
-        const std::size_t job = highest->second.front();
-        highest->second.pop_front();
-        if (highest->second.empty())
-            ready_.erase(highest);
-        return job;
-    }
-
-    // Starts as many jobs as there are free slots.
+    // Starts as many jobs as may run at a time.
     Status start()
     {
-        std::deque<std::size_t> elsewhere; // claimed by other processes
+        const std::size_t most = std::max<std::size_t>(options_.processes, 1);
+        std::vector<std::size_t> elsewhere; // claimed by other processes
         Status status = Done{};
-        while (status && !slots_.empty() && !ready_.empty() && !steps_.stopped()) {
-            const std::size_t job = takeReady();
+        while (status && running_.size() < most && !ready_.empty() && !steps_.stopped()) {
+            const std::size_t job = ready_.extract(ready_.begin()).mapped();
             if (auto skipped = skippedRecord(list_, plan_, results_, job)) {
                 finish(job, std::move(*skipped), /*kept*/ false);
             } else if (auto kept = keptOf(job)) {
@@ -239,11 +226,9 @@ private:
         auto folder = store_.workFolder();
         if (!folder)
             return folder.error();
-        const std::size_t slot = slots_.back();
         ChildRequest request;
-        request.work = *folder / std::to_string(slot);
+        request.work = *folder / std::to_string(job);
         std::error_code ignored;
-        fs::remove_all(request.work, ignored);
         if (Status made = makeFolder(request.work); !made)
             return made;
         for (const std::string& output : requested.outputs)
@@ -274,8 +259,7 @@ private:
             finish(job, recordWithoutRun(JobState::failed, error.message, int(error.kind)), /*kept*/ false);
             return Done{};
         }
-        slots_.pop_back();
-        running_.push_back({job, slot, request.work, std::move(*process), std::move(claim), began});
+        running_.push_back({job, request.work, std::move(*process), std::move(claim), began});
         return Done{};
     }
 
@@ -304,7 +288,8 @@ private:
             }
             const std::size_t job = at->job;
             JobRecord record = recordOf(*at, number, *ending);
-            slots_.push_back(at->slot);
+            std::error_code ignored;
+            fs::remove_all(at->work, ignored);
             const bool retry =
                 !repeatable(record) && runs_[job] <= list_.jobs[job].options.retries.value_or(options_.retries);
             Status kept = retry ? Done{} : store_.keep(list_.jobs[job].key(), record);
@@ -322,11 +307,7 @@ private:
     JobRecord recordOf(const Running& r, pid_t number, const Ending& ending)
     {
         const Job& job = list_.jobs[r.job];
-        JobRecord record;
-        record.output = ending.output;
-        record.seconds = ending.seconds;
-        record.processorSeconds = ending.processorSeconds;
-        record.megabytes = ending.megabytes;
+        JobRecord record = ending.record;
         record.runs = runs_[r.job];
         judge(ending, limitsOf(options_, job.options), record);
         if (ending.lost || !WIFEXITED(ending.status) || record.state == JobState::memory)
@@ -387,8 +368,7 @@ private:
     std::vector<std::vector<std::size_t>> waiting_; // per job: jobs that wait for it
     std::vector<int> runs_;                         // per job: number of starts by this process
     std::vector<int> priorities_;
-    std::map<int, std::deque<std::size_t>, std::greater<>> ready_; // by priority
-    std::vector<std::size_t> slots_;                               // free slots
+    std::multimap<int, std::size_t, std::greater<>> ready_; // by priority, then in the order in which they became ready
     std::list<Running> running_;
     const std::int64_t began_ = nowNanoseconds();
     std::size_t finished_ = 0;

@@ -114,7 +114,7 @@ Status Store::keep(const std::vector<std::string>& words, const JobRecord& recor
 std::optional<Claim> Store::claim(const std::vector<std::string>& words) const
 {
     // Locks one byte of a shared file per job, far past its end: no file is created that could be left behind.
-    Descriptor file(::open((folder_ / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+    Claim file(::open((folder_ / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
     struct flock range {};
     range.l_type = F_WRLCK;
     range.l_whence = SEEK_SET;
@@ -122,7 +122,7 @@ std::optional<Claim> Store::claim(const std::vector<std::string>& words) const
     range.l_len = 1;
     if (file.get() >= 0 && ::fcntl(file.get(), F_OFD_SETLK, &range) != 0 && (errno == EAGAIN || errno == EACCES))
         return std::nullopt;
-    return Claim(std::move(file));
+    return file;
 }
 
 Result<fs::path> Store::workFolder()

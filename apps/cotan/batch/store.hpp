@@ -14,13 +14,7 @@
 namespace cotan {
 
 // The exclusive right to run one job. It ends with this object, and with the process.
-class Claim {
-public:
-    explicit Claim(Descriptor file) : file_(std::move(file)) {}
-
-private:
-    Descriptor file_;
-};
+using Claim = Descriptor;
 
 class Store {
 public:
