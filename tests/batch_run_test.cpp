@@ -22,24 +22,31 @@ TEST_F(BatchRun, jobsThatCrashHangOrExhaustMemoryDoNotEndTheRun)
 {
     options.processes = 4;
     options.megabytes = 256;
-    const std::pair<std::string, JobState> cases[] = {
-        {"crash", JobState::crashed}, {"abort", JobState::crashed}, {"killed", JobState::crashed},
-        {"hang", JobState::late},     {"stubborn", JobState::late}, {"eat", JobState::memory},
-        {"loud", JobState::done},     {"leave", JobState::done},    {"fine", JobState::done}};
-    for (const auto& [word, state] : cases) // on a busy machine, the others take longer than a second
-        add({word}).options.seconds = state == JobState::late ? 1 : 30;
-    add({"fail", "2", "a.glb: broken"});
-    add({"fail", "5", "over 3 degrees"});
+    const std::pair<Words, JobState> cases[] = {
+        {{"sh", "kill -SEGV $$"}, JobState::crashed},
+        {{"sh", "kill -ABRT $$"}, JobState::crashed},
+        {{"sh", "kill -KILL $$"}, JobState::crashed},
+        {{"sh", "sleep 1000"}, JobState::late},
+        {{"sh", "trap '' TERM; while :; do sleep 1; done"}, JobState::late},
+        {{"eat"}, JobState::memory},
+        {{"sh", "echo the beginning; yes 'and so on, and so on' | head -n 200000; echo the end"}, JobState::done},
+        {{"sh", "sleep 1000 & :"}, JobState::done}, // its child keeps running and holds standard output open
+        {{"fine"}, JobState::done}};
+    for (const auto& [words, state] : cases) // on a busy machine, the others take longer than a second
+        add(words).options.seconds = state == JobState::late ? 1 : 30;
+    add({"sh", "echo cotan: error: a.glb: broken; exit 2"});
+    add({"sh", "echo cotan: error: over 3 degrees; exit 5"});
     const auto results = run();
     ASSERT_EQ(results.size(), 11u);
     for (std::size_t i = 0; i < std::size(cases); ++i) {
-        if (kSanitized && cases[i].first == "eat") // memory is not limited then
+        const std::string word = cases[i].first.back();
+        if (kSanitized && word == "eat") // memory is not limited then
             continue;
         EXPECT_EQ(results[i].record.state, cases[i].second)
-            << cases[i].first << ": " << name(results[i].record.state) << ", " << results[i].record.reason;
-        EXPECT_EQ(results[i].record.reason.empty(), cases[i].second == JobState::done) << cases[i].first;
+            << word << ": " << name(results[i].record.state) << ", " << results[i].record.reason;
+        EXPECT_EQ(results[i].record.reason.empty(), cases[i].second == JobState::done) << word;
         const JobRecord& record = results[i].record;
-        EXPECT_NE(record.code.has_value(), record.signal.has_value()) << cases[i].first << " ended one way";
+        EXPECT_NE(record.code.has_value(), record.signal.has_value()) << word << " ended one way";
     }
     EXPECT_EQ(results[0].record.signal, SIGSEGV);
     EXPECT_EQ(results[3].record.signal, SIGTERM) << "too slow, and asked to end";
@@ -76,7 +83,7 @@ TEST_F(BatchRun, aSecondRunRepeatsOnlyChangedJobs)
     add({"copy", "b1", "b2", "log"});
     add({"copy", "c", "c1", "log"});
     add({"copy", "gone", "g1", "log"}); // fails because of its inputs: kept as well
-    add({"crash"});                     // not because of its inputs: run again
+    add({"sh", "kill -SEGV $$"});       // not because of its inputs: run again
     const auto ran = [&] {
         fs::remove(folder / "log");
         std::string names;
@@ -209,7 +216,7 @@ TEST_F(BatchRun, processorTimeEndsBusyJobsButNotWaitingOnes)
 {
     options.processorSeconds = 0.5; // rounded up to 1
     add({"spin", "100"});
-    add({"wait", "2"}); // longer than any limit here by the clock, as on a busy machine
+    add({"sh", "sleep 2"}); // longer than any limit here by the clock, as on a busy machine
     add({"spin", "101"}).options.seconds = 0.2;
     const auto results = run();
     EXPECT_EQ(results[0].record.state, JobState::late);
@@ -224,8 +231,8 @@ TEST_F(BatchRun, aJobsOwnLimitsTakePrecedence)
 {
     options.seconds = 0.3;
     options.processorSeconds = 1;
-    add({"wait", "1"}).options.seconds = 20;
-    add({"wait", "1.1"});             // different words, because equal words share a result
+    add({"sh", "sleep 1"}).options.seconds = 20;
+    add({"sh", "sleep 1.1"});         // different words, because equal words share a result
     Job& free = add({"spin", "1.5"}); // seconds of processor time
     free.options.processorSeconds = 0;
     free.options.seconds = 25;
@@ -238,11 +245,15 @@ TEST_F(BatchRun, aJobsOwnLimitsTakePrecedence)
 TEST_F(BatchRun, transientFailuresAreRetriedAndWrongInputIsNot)
 {
     options.retries = 1;
-    add({"flaky", "once", "1"});
-    add({"flaky", "thrice", "3"}).options.retries = 5;
-    add({"flaky", "never", "9"});
-    add({"flaky", "off", "1"}).options.retries = 0;
-    add({"fail", "2", "a.glb: broken"});
+    const auto addFlaky = [&](const std::string& file, int times) -> Job& { // crashes so many times
+        const std::string count = fmt::format("n=$(cat {0} || echo 0); echo $((n + 1)) > {0}; ", file);
+        return add({"sh", count + fmt::format("[ $n -ge {} ] || kill -KILL $$", times)});
+    };
+    addFlaky("once", 1);
+    addFlaky("thrice", 3).options.retries = 5;
+    addFlaky("never", 9);
+    addFlaky("off", 1).options.retries = 0;
+    add({"sh", "exit 2"});
     const auto results = run();
     const std::pair<JobState, int> expected[] = {{JobState::done, 2},
                                                  {JobState::done, 4},
@@ -271,7 +282,7 @@ TEST_F(BatchRun, priorityOrdersJobsAndIsPassedToTheJobsTheyNeed)
 TEST_F(BatchRun, variablesReachTheJobAndChangeItsResultKey)
 {
     ::setenv("COTAN_TEST_OURS", "ours", 1);
-    add({"variables", "out", "COTAN_TEST_OURS", "COTAN_TEST_OWN"}).options.environment = {{"COTAN_TEST_OWN", "1"}};
+    add({"sh", "printf '%s\n' $COTAN_TEST_OURS $COTAN_TEST_OWN > out"}).options.environment = {{"COTAN_TEST_OWN", "1"}};
     const auto ran = [&] {
         const auto results = run();
         return readWhole(folder / "out") + (results[0].kept ? "kept" : "ran");

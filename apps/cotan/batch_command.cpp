@@ -156,13 +156,9 @@ Status run(const Arguments& tool, const BatchOptions& o)
 {
     if (Status usage = checkUsage(o); !usage)
         return usage;
-    Shard shard;
-    if (!o.shard.empty()) {
-        const auto parsed = parseShard(o.shard);
-        if (!parsed)
-            return parsed.error();
-        shard = *parsed;
-    }
+    const auto shard = parseShard(o.shard.empty() ? "1/1" : o.shard);
+    if (!shard)
+        return shard.error();
     if (Status planned = beginOutputs(o, {{"-o", o.output}}, /*again*/ true); !planned)
         return planned;
     Stopwatch watch;
@@ -174,7 +170,7 @@ Status run(const Arguments& tool, const BatchOptions& o)
         return inputError(fmt::format("{}: {}", o.jobs, plan.error().message));
     if (Status free = guardFiles(*list); !free)
         return free;
-    const auto all = results(o, *list, *plan, shard);
+    const auto all = results(o, *list, *plan, *shard);
     if (!all)
         return all.error();
     if (Status free = guardFiles(*list, *all); !free)

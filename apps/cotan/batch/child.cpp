@@ -24,6 +24,7 @@ using nlohmann::ordered_json;
 
 constexpr const char* kJobWord = "run-for-batch"; // first argument of a job process
 constexpr std::size_t kFixedWords = 6;
+constexpr const char *kAnswerName = "answer.json", *kThumbnailName = "thumbnail.png"; // in the work folder
 constexpr std::size_t kMaxAnswerBytes = 256 << 20;
 
 constexpr std::string_view kModels[] = {".glb", ".gltf", ".obj", ".ply", ".stl", ".dae", ".fbx", ".3ds"};

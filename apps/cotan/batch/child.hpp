@@ -42,10 +42,8 @@ bool isJobProcess(int argc, const char* const* argv);
 int runJobProcess(int argc, const char* const* argv,
                   const std::function<int(const std::vector<std::string>&)>& command);
 
-// Files of a job process in its work folder.
-inline constexpr const char* kReportName = "report.json"; // of the command, unless its words choose another path
-inline constexpr const char* kAnswerName = "answer.json";
-inline constexpr const char* kThumbnailName = "thumbnail.png";
+// The command's report in the work folder, unless its words choose another path.
+inline constexpr const char* kReportName = "report.json";
 
 // The answer of a job process. Files are named as in the command, relative to the folder in which it ran.
 struct ChildAnswer {

@@ -212,6 +212,7 @@ ordered_json rowOf(const JobList& list, const JobResult& result, const fs::path&
 {
     const JobRecord& r = result.record;
     const Job& job = list.jobs[result.job];
+    const Thumbnail& t = r.thumbnail;
     const bool bad = r.state > JobState::limit;
     auto outputs = ordered_json::array(), inputs = ordered_json::array();
     for (const FileState& output : r.outputs) {
@@ -221,24 +222,19 @@ ordered_json rowOf(const JobList& list, const JobResult& result, const fs::path&
     }
     for (const FileState& input : r.inputs)
         inputs.push_back(input.file);
-    ordered_json row = {job.name,
-                        int(r.state),
-                        nullptr,
-                        r.degrees ? r.degrees->of : "",
-                        std::round(r.seconds * 1000) / 1000,
-                        std::round(r.megabytes),
-                        commandLine(job.words),
-                        r.reason,
-                        bad || r.output.size() <= kMaxOutput ? r.output : r.output.substr(0, kMaxOutput) + "...",
-                        outputs,
-                        inputs,
-                        nullptr,
-                        result.kept ? 1 : 0};
-    if (r.degrees)
-        row[2] = r.degrees->mean;
-    if (!r.thumbnail.jpeg.empty())
-        row[11] = {r.thumbnail.width, r.thumbnail.height, r.thumbnail.jpeg};
-    return row;
+    return {job.name,
+            int(r.state),
+            r.degrees ? ordered_json(r.degrees->mean) : nullptr,
+            r.degrees ? r.degrees->of : "",
+            std::round(r.seconds * 1000) / 1000,
+            std::round(r.megabytes),
+            commandLine(job.words),
+            r.reason,
+            bad || r.output.size() <= kMaxOutput ? r.output : r.output.substr(0, kMaxOutput) + "...",
+            outputs,
+            inputs,
+            t.jpeg.empty() ? nullptr : ordered_json({t.width, t.height, t.jpeg}),
+            result.kept ? 1 : 0};
 }
 
 // Escapes JSON for a script element: no text in it may end the element.

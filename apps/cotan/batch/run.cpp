@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <ranges>
+#include <set>
 #include <thread>
 
 #include <fmt/format.h>
@@ -91,20 +92,18 @@ bool holds(FileStates& states, const JobRecord& record)
     });
 }
 
-// The limits of one job.
-struct Limits {
-    double seconds = 0, processorSeconds = 0;
-    std::size_t megabytes = 0;
-};
-
-Limits limitsOf(const RunOptions& all, const JobOptions& own)
+// The options of the batch with those of one job.
+RunOptions optionsOf(RunOptions all, const JobOptions& own)
 {
-    return {own.seconds.value_or(all.seconds), std::ceil(own.processorSeconds.value_or(all.processorSeconds)),
-            own.megabytes.value_or(all.megabytes)};
+    all.seconds = own.seconds.value_or(all.seconds);
+    all.processorSeconds = std::ceil(own.processorSeconds.value_or(all.processorSeconds));
+    all.megabytes = own.megabytes.value_or(all.megabytes);
+    all.retries = own.retries.value_or(all.retries);
+    return all;
 }
 
 // Sets the state, the code and the reason.
-void judge(const Ending& ending, const Limits& limits, JobRecord& record)
+void judge(const Ending& ending, const RunOptions& limits, JobRecord& record)
 {
     const std::string words = lastMessage(record.output);
     const auto is = [&](JobState state, std::string reason) {
@@ -234,7 +233,7 @@ private:
         for (const std::string& output : requested.outputs)
             fs::create_directories((list_.folder / output).parent_path(), ignored); // else the command reports it
         request.parent = ::getpid();
-        const Limits limits = limitsOf(options_, requested.options);
+        const RunOptions limits = optionsOf(options_, requested.options);
         request.megabytes = limits.megabytes;
         request.processorSeconds = std::size_t(limits.processorSeconds);
         request.thumbnails = options_.thumbnails;
@@ -291,7 +290,7 @@ private:
             std::error_code ignored;
             fs::remove_all(at->work, ignored);
             const bool retry =
-                !repeatable(record) && runs_[job] <= list_.jobs[job].options.retries.value_or(options_.retries);
+                !repeatable(record) && runs_[job] <= optionsOf(options_, list_.jobs[job].options).retries;
             Status kept = retry ? Done{} : store_.keep(list_.jobs[job].key(), record);
             running_.erase(at++); // also releases its claim
             if (retry)
@@ -309,7 +308,7 @@ private:
         const Job& job = list_.jobs[r.job];
         JobRecord record = ending.record;
         record.runs = runs_[r.job];
-        judge(ending, limitsOf(options_, job.options), record);
+        judge(ending, optionsOf(options_, job.options), record);
         if (ending.lost || !WIFEXITED(ending.status) || record.state == JobState::memory)
             for (const std::string& output : job.outputs)
                 removeParts((list_.folder / output).parent_path(), number);
@@ -335,12 +334,10 @@ private:
 
     std::vector<FileState> statesOf(const std::vector<std::string>& files, const fs::path& work)
     {
-        std::vector<std::string> names;
+        std::set<std::string> names;
         for (const std::string& file : files)
             if (!(list_.folder / file).lexically_normal().string().starts_with(work.string()))
-                names.push_back(nameOf(list_.folder, file));
-        std::ranges::sort(names);
-        names.erase(std::unique(names.begin(), names.end()), names.end());
+                names.insert(nameOf(list_.folder, file));
         std::vector<FileState> states;
         for (const std::string& name : names)
             states.push_back(states_.of(name));
