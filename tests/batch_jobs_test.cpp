@@ -145,7 +145,7 @@ TEST(BatchJobs, invalidLinesAreReportedWithWhatIsExpectedAndFound)
           {"limit-processor-time", "0", "1000000", "-0.001", "1000000.1"},
           {"retries", "0", "100", "-1", "101"},
           {"priority", "-1000000", "1000000", "-1000001", "1000001"}}) {
-        const auto takes = [&](const char* value) {
+        const auto takes = [member = member, &with](const char* value) {
             return bool(read(with(fmt::format("\"{}\": {}", member, value))));
         };
         EXPECT_TRUE(takes(least) && takes(most)) << member;

@@ -245,7 +245,7 @@ TEST_F(BatchRun, aJobsOwnLimitsTakePrecedence)
 TEST_F(BatchRun, transientFailuresAreRetriedAndWrongInputIsNot)
 {
     options.retries = 1;
-    const auto addFlaky = [&](const std::string& file, int times) -> Job& { // crashes so many times
+    const auto addFlaky = [&](const std::string& file, int times) -> Job& { // crashes at first
         const std::string count = fmt::format("n=$(cat {0} || echo 0); echo $((n + 1)) > {0}; ", file);
         return add({"sh", count + fmt::format("[ $n -ge {} ] || kill -KILL $$", times)});
     };

@@ -10,7 +10,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <ranges>
 #include <set>
 #include <thread>
 
@@ -155,9 +154,9 @@ public:
         // A job has at least the priority of the jobs that wait for it.
         for (const Job& job : list.jobs)
             priorities_.push_back(job.options.priority);
-        for (const std::size_t job : plan.order | std::views::reverse)
-            for (const std::size_t need : plan.needs[job])
-                priorities_[need] = std::max(priorities_[need], priorities_[job]);
+        for (auto job = plan.order.rbegin(); job != plan.order.rend(); ++job)
+            for (const std::size_t need : plan.needs[*job])
+                priorities_[need] = std::max(priorities_[need], priorities_[*job]);
         for (const std::size_t job : chosen) {
             waitsFor_[job] = plan.needs[job].size();
             for (const std::size_t need : plan.needs[job])

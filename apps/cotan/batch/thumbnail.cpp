@@ -36,7 +36,7 @@ std::optional<Thumbnail> thumbnailOf(const std::filesystem::path& image)
     const double factor = std::min({1.0, double(kSide) / reader.width, double(kSide) / reader.height});
     Image small = makeImage(std::max(1, int(std::lround(factor * reader.width))),
                             std::max(1, int(std::lround(factor * reader.height))), PixelType::unorm8);
-    // Of the pixels that fall on each pixel: the sum of their colours, and their number.
+    // The sum of the colours of the pixels that fall on each pixel, and their number.
     std::vector<glm::dvec4> sums(small.pixelCount(), glm::dvec4(0));
     Image strip = makeImage(reader.width, 1, reader.type, reader.name);
     for (std::int64_t row = 0; row < reader.height; ++row) {
