@@ -110,6 +110,25 @@ TEST_F(BatchRun, aSecondRunRepeatsOnlyChangedJobs)
     EXPECT_EQ(ran(), "a1 b1 b2 c1 g1 crash ");
 }
 
+// Nodes of a farm share a store, and their clocks differ.
+TEST_F(BatchRun, aJobWaitsForNoResultOfAMachineWhoseClockIsAhead)
+{
+    write(folder / "a", "a");
+    add({"copy", "a", "b"});
+    add({"copy", "b", "c"});
+    run();
+    {
+        const Store store = openStore(folder / "store");
+        JobRecord record = *store.find(list.jobs[0].key());
+        record.at += 3'600'000'000'000;
+        ASSERT_TRUE(store.keep(list.jobs[0].key(), record));
+    }
+    fs::remove(folder / "c");
+    const auto results = run();
+    EXPECT_TRUE(results[0].kept);
+    EXPECT_EQ(results[1].record.state, JobState::done);
+}
+
 TEST_F(BatchRun, dependentsOfAFailedJobAreSkippedAndTheRestRuns)
 {
     write(folder / "a", "a");

@@ -245,7 +245,8 @@ private:
         // times, and files that change while it runs do not.
         std::int64_t written = began_;
         for (const std::size_t need : plan_.needs[job])
-            written = std::max(written, results_[need].record.at);
+            if (!results_[need].kept) // the clock of another machine may be ahead
+                written = std::max(written, results_[need].record.at);
         while (fileClockNanoseconds() <= written)
             std::this_thread::sleep_for(kFileClockStep);
         const std::int64_t began = fileClockNanoseconds();
