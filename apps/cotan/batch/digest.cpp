@@ -1,5 +1,3 @@
-#include "batch/digest.hpp"
-
 #include <chrono>
 #include <ctime>
 #include <memory>
@@ -11,6 +9,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#include "batch/record.hpp"
 #include "files/sandbox/process.hpp"
 
 namespace cotan {

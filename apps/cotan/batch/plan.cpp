@@ -60,22 +60,6 @@ std::vector<std::size_t> orderJobs(Plan& plan)
     return {path.begin() + std::ptrdiff_t(position[job] - 1), path.end()};
 }
 
-// The connected component of each job, numbered in the order of their first jobs.
-std::vector<std::size_t> groupsOf(const std::vector<std::vector<std::size_t>>& needs)
-{
-    JoinedGroups joined(needs.size());
-    for (std::size_t job = 0; job < needs.size(); ++job)
-        for (const std::size_t need : needs[job])
-            joined.join(std::uint32_t(job), std::uint32_t(need));
-    std::vector<std::size_t> group(needs.size());
-    std::size_t count = 0;
-    for (std::size_t job = 0; job < needs.size(); ++job) {
-        const std::size_t first = joined.find(std::uint32_t(job));
-        group[job] = first == job ? count++ : group[first];
-    }
-    return group;
-}
-
 } // namespace
 
 Result<Plan> planJobs(const JobList& list)
@@ -110,7 +94,15 @@ Result<Plan> planJobs(const JobList& list)
         return inputError(
             fmt::format("{}line {}: each reads what the next one writes", lines, list.jobs[cycle.front()].line));
     }
-    plan.group = groupsOf(plan.needs);
+    JoinedGroups joined(list.jobs.size());
+    for (const std::size_t job : plan.order)
+        for (const std::size_t need : plan.needs[job])
+            joined.join(std::uint32_t(job), std::uint32_t(need));
+    std::size_t count = 0; // of groups, numbered in the order of their first jobs
+    for (std::size_t job = 0; job < list.jobs.size(); ++job) {
+        const std::size_t first = joined.find(std::uint32_t(job));
+        plan.group.push_back(first == job ? count++ : plan.group[first]);
+    }
     return plan;
 }
 

@@ -37,8 +37,6 @@ public:
     // A folder for this process alone, created by the first call.
     Result<std::filesystem::path> workFolder();
 
-    const std::filesystem::path& folder() const { return folder_; }
-
     Store(Store&&) = default;
     Store& operator=(Store&&) = delete;
     ~Store(); // removes the work folder
