@@ -46,6 +46,14 @@ protected:
         return runTool(words, folder.path(), 120);
     }
 
+    // Runs jobs.jsonl; the report is in r.html and r.json.
+    ToolRun batchReport(const std::vector<std::string>& more = {})
+    {
+        std::vector<std::string> words = {"jobs.jsonl", "-o", "r.html", "--json", "r.json"};
+        words.insert(words.end(), more.begin(), more.end());
+        return batch(words);
+    }
+
     json read(const std::string& file) { return json::parse(readWhole(folder / file)); }
 
     // State of each job by name: "done", "failed", ...; " kept" is appended for results from the store.
@@ -59,6 +67,14 @@ protected:
             all[name] = job["state"].get<std::string>() + (job["kept"].get<bool>() ? " kept" : "");
         }
         return all;
+    }
+
+    // Number of files in the folder whose names contain a text.
+    std::ptrdiff_t filesWith(const std::string& text)
+    {
+        return std::ranges::count_if(fs::directory_iterator(folder.path()), [&](const auto& entry) {
+            return entry.path().filename().string().find(text) != std::string::npos;
+        });
     }
 
     TemporaryFolder folder;
@@ -77,8 +93,7 @@ TEST_F(BatchCommand, runsInFileOrderAndRepeatsOnlyWhatChanged)
           flip("a.png", "out/ü <i>'\"&.png"),
           flip("b.png", "c.png"),
           {{"name", "gone"}, {"command", {"map", "info", "gone.png"}}}});
-    const std::vector<std::string> words = {"jobs.jsonl", "-o", "report.html", "--json", "r.json"};
-    const ToolRun first = batch(words);
+    const ToolRun first = batchReport();
     EXPECT_EQ(first.code, 2);
     EXPECT_EQ(lines(first.err), 1) << first.err;
     EXPECT_NE(first.err.find("1 of 4 jobs are not done; the worst is 'gone': gone.png: no such file"),
@@ -88,26 +103,26 @@ TEST_F(BatchCommand, runsInFileOrderAndRepeatsOnlyWhatChanged)
     const std::string odd = "out/ü <i>'\"&.png";
     EXPECT_EQ(states(), (States{{"twice.png", "done"}, {odd, "done"}, {"c.png", "done"}, {"gone", "failed"}}));
     EXPECT_EQ(read("r.json")["jobs"][0]["name"], "gone") << "the worst is first";
-    EXPECT_TRUE(fs::exists(folder / "report.store"));
+    EXPECT_TRUE(fs::exists(folder / "r.store"));
 
-    batch(words);
+    batchReport();
     EXPECT_EQ(
         states(),
         (States{{"twice.png", "done kept"}, {odd, "done kept"}, {"c.png", "done kept"}, {"gone", "failed kept"}}));
     ASSERT_TRUE(writeImage(folder / "a.png", makeReliefMap(Relief::domes, 40)));
     ASSERT_TRUE(writeImage(folder / "gone.png", makeReliefMap(Relief::domes, 8)));
-    const ToolRun third = batch(words);
+    const ToolRun third = batchReport();
     EXPECT_EQ(third.code, 0) << third.err;
     EXPECT_EQ(states(), (States{{"twice.png", "done"}, {odd, "done"}, {"c.png", "done kept"}, {"gone", "done"}}));
     fs::remove(folder / "c.png");
-    batch(words);
+    batchReport();
     EXPECT_EQ(states()["c.png"], "done");
-    batch({"jobs.jsonl", "-o", "report.html", "--json", "r.json", "--again"});
+    batchReport({"--again"});
     EXPECT_EQ(states()["c.png"], "done");
-    EXPECT_NE(readWhole(folder / "report.html").find("data:image/jpeg"), std::string::npos);
-    EXPECT_EQ(readWhole(folder / "report.html").find("the worst"), std::string::npos);
-    batch({"jobs.jsonl", "-o", "report.html", "--json", "r.json", "--rows", "3"});
-    EXPECT_NE(readWhole(folder / "report.html").find("the worst 3 of 4"), std::string::npos);
+    EXPECT_NE(readWhole(folder / "r.html").find("data:image/jpeg"), std::string::npos);
+    EXPECT_EQ(readWhole(folder / "r.html").find("the worst"), std::string::npos);
+    batchReport({"--rows", "3"});
+    EXPECT_NE(readWhole(folder / "r.html").find("the worst 3 of 4"), std::string::npos);
     EXPECT_EQ(states().size(), 4u);
 }
 
@@ -160,18 +175,17 @@ TEST_F(BatchCommand, filesReferencedByTheModelCountAsInputs)
 {
     write(quad(2), folder.path());
     jobs({{{"name", "lint"}, {"command", {"lint", "quad.gltf"}}}});
-    const std::vector<std::string> words = {"jobs.jsonl", "-o", "report.html", "--json", "r.json"};
-    ASSERT_EQ(batch(words).code, 0);
+    ASSERT_EQ(batchReport().code, 0);
     std::string other;
     const json report = read("r.json");
     for (const json& input : report["jobs"][0]["inputs"])
         if (input != "quad.gltf")
             other = input;
     ASSERT_FALSE(other.empty());
-    batch(words);
+    batchReport();
     EXPECT_EQ(states()["lint"], "done kept");
     std::ofstream(folder / other, std::ios::app) << "x";
-    batch(words);
+    batchReport();
     EXPECT_EQ(states()["lint"].find("kept"), std::string::npos) << other;
 }
 
@@ -267,8 +281,7 @@ TEST_F(BatchCommand, limitsEndAJobAndTheOthersContinue)
            {"limit-time", 60}, // a busy machine takes seconds to reach the allocation
            {"command", {"render", "--device", "reference", "--size", "8000x8000", "-o", "l.png"}}},
           flip("a.png", "fine.png")});
-    const ToolRun run = batch({"jobs.jsonl", "-o", "r.html", "--json", "r.json", "--jobs", "3", "--limit-seconds", "2",
-                               "--limit-memory", "200"});
+    const ToolRun run = batchReport({"--jobs", "3", "--limit-seconds", "2", "--limit-memory", "200"});
     EXPECT_EQ(run.code, 2) << run.err;
     const auto all = states();
     EXPECT_EQ(all.at("fine.png"), "done");
@@ -276,8 +289,7 @@ TEST_F(BatchCommand, limitsEndAJobAndTheOthersContinue)
     if (!kSanitized) {
         EXPECT_EQ(all.at("large"), "out of memory");
     }
-    for (const auto& entry : fs::directory_iterator(folder.path()))
-        EXPECT_EQ(entry.path().filename().string().find(".part"), std::string::npos) << entry.path();
+    EXPECT_EQ(filesWith(".part"), 0);
 }
 
 TEST_F(BatchCommand, anInterruptEndsTheJobsAndTheNextRunContinues)
@@ -297,26 +309,21 @@ TEST_F(BatchCommand, anInterruptEndsTheJobsAndTheNextRunContinues)
             ::_exit(there ? 127 : 126);
         }
         // Interrupt after the first image, then after the next one.
-        const auto images = [&] {
-            return std::ranges::count_if(fs::directory_iterator(folder.path()),
-                                         [](const auto& entry) { return entry.path().extension() == ".png"; });
-        };
         const auto ended = [child] { // ended but not yet reaped
             siginfo_t which{};
             return ::waitid(P_PID, id_t(child), &which, WEXITED | WNOHANG | WNOWAIT) != 0 || which.si_pid != 0;
         };
-        for (const auto before = images(); images() == before && !ended();)
+        for (const auto before = filesWith(".png"); filesWith(".png") == before && !ended();)
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         ::kill(child, signal);
         int status = 0;
         ::waitpid(child, &status, 0);
         EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal);
     }
-    const ToolRun run = batch({"jobs.jsonl", "-o", "r.html", "--json", "r.json"});
+    const ToolRun run = batchReport();
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(states().size(), 6u);
-    for (const auto& entry : fs::directory_iterator(folder.path()))
-        EXPECT_EQ(entry.path().filename().string().find(".part"), std::string::npos) << entry.path();
+    EXPECT_EQ(filesWith(".part"), 0);
 }
 
 // A job's own options for threads and report take precedence.
@@ -325,7 +332,7 @@ TEST_F(BatchCommand, aJobsOwnThreadAndReportOptionsTakePrecedence)
     jobs({{{"name", "threads"}, {"command", {"map", "info", "a.png", "--threads", "2"}}},
           {{"name", "report"}, {"command", {"map", "diff", "a.png", "a.png", "--json", "own.json"}}},
           {{"name", "none"}, {"command", {"map", "diff", "b.png", "b.png"}}}});
-    const ToolRun run = batch({"jobs.jsonl", "-o", "r.html", "--json", "r.json", "--shard", "1/1", "--store", "kept"});
+    const ToolRun run = batchReport({"--shard", "1/1", "--store", "kept"});
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(states(), (States{{"threads", "done"}, {"report", "done"}, {"none", "done"}}));
     EXPECT_EQ(read("own.json")["command"], "map diff");
@@ -350,7 +357,7 @@ TEST_F(BatchCommand, exitCodeIsTheWorstAndThumbnailsOfModelsAreOptional)
 {
     write(quad(2), folder.path());
     jobs({{{"name", "lint"}, {"command", {"lint", "quad.gltf", "--limit", "0"}}}, flip("a.png", "x.png")});
-    const ToolRun limit = batch({"jobs.jsonl", "-o", "r.html", "--thumbnails", "models"});
+    const ToolRun limit = batchReport({"--thumbnails", "models"});
     EXPECT_EQ(limit.code, 5);
     EXPECT_NE(limit.err.find("1 of 2 jobs are over a limit; the worst is 'lint': "), std::string::npos) << limit.err;
     const auto thumbnails = [&] {
@@ -368,60 +375,59 @@ TEST_F(BatchCommand, exitCodeIsTheWorstAndThumbnailsOfModelsAreOptional)
           {{"name", "tangents"}, {"command", {"tangents", "quad.gltf"}}},
           {{"name", "gone"}, {"command", {"map", "info", "gone.png"}}},
           flip("b.png", "y.png")});
-    const ToolRun bad = batch({"jobs.jsonl", "-o", "r.html"});
+    const ToolRun bad = batchReport();
     EXPECT_EQ(thumbnails(), (States{{"lint", "one"}, {"tangents", "none"}, {"y.png", "one"}, {"gone", "none"}}));
     EXPECT_EQ(bad.code, 2); // a job over its limit counts as done
     EXPECT_NE(bad.err.find("1 of 4 jobs are not done; the worst is 'gone': gone.png: no such file"), std::string::npos)
         << bad.err;
     jobs({flip("a.png", "z.png")});
-    batch({"jobs.jsonl", "-o", "r.html", "--thumbnails", "none"});
+    batchReport({"--thumbnails", "none"});
     EXPECT_EQ(thumbnails(), (States{{"z.png", "none"}}));
+}
+
+std::vector<std::string> split(const std::string& text)
+{
+    std::istringstream words(text);
+    return {std::istream_iterator<std::string>(words), {}};
 }
 
 // For every option that takes a file, by its help, the table of options must say whether it is read or written.
 TEST(BatchArguments, everyFileOptionSaysWhetherItReadsOrWrites)
 {
-    TemporaryFolder folder;
+    const TemporaryFolder folder;
     const std::regex option(R"((?:^|\n)  (?:-o, )?(--[a-z-]+) (?:FILE|PATH|DIR|FOLDER)\b)");
     std::size_t checked = 0;
-    for (const std::string name :
-         {"render", "compare", "figures", "accuracy", "bake", "tangents", "lint", "convert", "shader", "map convert",
-          "map blend", "map diff", "map info", "map detect", "map mips", "map from-height", "map to-height"}) {
-        std::istringstream words(name);
-        std::vector<std::string> help{std::istream_iterator<std::string>(words), {}};
-        const std::vector<std::string> command = help;
-        help.push_back("--help");
-        const std::string text = runTool(help, folder.path()).out;
+    // Commands, and what they need. An option given before is the one that is asked about.
+    for (const auto& [command, needed] : {std::pair("render", ""),
+                                          {"compare", ""},
+                                          {"figures", ""},
+                                          {"accuracy", ""},
+                                          {"bake", "--high h.obj --low l.obj"},
+                                          {"tangents", "m.glb"},
+                                          {"lint", "m.glb"},
+                                          {"convert", "m.glb --to-frame smooth --from-frame mikktspace"},
+                                          {"shader", "--lang glsl --frame cotangent"},
+                                          {"map convert", "f.png --from opengl --to directx"},
+                                          {"map blend", "b.png d.png"},
+                                          {"map diff", "a.png b.png"},
+                                          {"map info", "f.png"},
+                                          {"map detect", "f.png"},
+                                          {"map mips", "f.png"},
+                                          {"map from-height", "f.png"},
+                                          {"map to-height", "f.png"}}) {
+        const std::string text = runTool(split(std::string(command) + " --help"), folder.path()).out;
         for (auto it = std::sregex_iterator(text.begin(), text.end(), option); it != std::sregex_iterator(); ++it) {
             // Another job writes the file and waits for this one: a cycle, if the file is known as input or output.
-            std::vector<std::string> job = command;
-            job.insert(job.end(), {(*it)[1], "NAMED"});
-            const std::map<std::string, std::vector<std::string>> needed = {
-                {"bake", {"--high", "h.obj", "--low", "l.obj"}},
-                {"shader", {"--lang", "glsl", "--frame", "cotangent"}},
-                {"map convert", {"f.png", "--from", "opengl", "--to", "directx"}},
-                {"map blend", {"b.png", "d.png"}},
-                {"map diff", {"a.png", "b.png"}},
-                {"map info", {"f.png"}},
-                {"map detect", {"f.png"}},
-                {"map mips", {"f.png"}},
-                {"map from-height", {"f.png"}},
-                {"map to-height", {"f.png"}},
-                {"tangents", {"m.glb"}},
-                {"lint", {"m.glb"}},
-                {"convert", {"m.glb", "--to-frame", "smooth", "--from-frame", "mikktspace"}}};
-            if (const auto more = needed.find(name); more != needed.end())
-                for (std::size_t i = 0; i < more->second.size(); ++i)
-                    if (more->second[i] != (*it)[1] || name != "bake")
-                        job.push_back(more->second[i]);
+            const std::string name = (*it)[1];
+            const std::string rest = std::regex_replace(std::string(needed), std::regex(name + " \\S+"), "");
             std::ofstream(folder / "jobs.jsonl")
-                << json{{"command", job}, {"outputs", {"TOKEN"}}}.dump() << "\n"
-                << json{{"command", {"map", "info", "x"}}, {"inputs", {"TOKEN"}}, {"outputs", {"NAMED"}}}.dump()
-                << "\n";
+                << json{{"command", split(fmt::format("{} {} NAMED {}", command, name, rest))}, {"outputs", {"TOKEN"}}}
+                << "\n"
+                << json{{"command", {"map", "info", "x"}}, {"inputs", {"TOKEN"}}, {"outputs", {"NAMED"}}} << "\n";
             const ToolRun run = runTool({"batch", "jobs.jsonl", "-o", "r.html"}, folder.path());
-            const bool found = run.err.find("waits for") != std::string::npos
-                || run.err.find("writes NAMED, which line 1 also writes") != std::string::npos;
-            EXPECT_TRUE(found) << name << " " << (*it)[1] << ": " << run.err;
+            EXPECT_TRUE(run.err.find("waits for") != std::string::npos
+                        || run.err.find("writes NAMED, which line 1 also writes") != std::string::npos)
+                << command << " " << name << ": " << run.err;
             ++checked;
         }
     }

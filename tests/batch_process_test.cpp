@@ -3,26 +3,21 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
-#include <fstream>
-#include <limits>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "batch/run.hpp"
+#include "batch_fixture.hpp"
 #include "cotan/image.hpp"
 #include "files/file_registry.hpp"
 #include "files/output.hpp"
 #include "files/sandbox/confine.hpp"
 #include "files/sandbox/request.hpp"
-#include "run_tool.hpp"
 
 namespace cotan {
 namespace {
 
 using namespace test;
 namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
 
 std::vector<const char*> pointersOf(const Words& words)
 {
@@ -34,14 +29,7 @@ std::vector<const char*> pointersOf(const Words& words)
 
 TEST(BatchChild, argumentsStartWithTheChildMarker)
 {
-    ChildRequest request;
-    request.work = "/w x";
-    request.parent = 12;
-    request.megabytes = 34;
-    request.thumbnails = Thumbnails::models;
-    request.processorSeconds = 56;
-    request.words = {"lint", "a b"};
-    Words words = toWords(request);
+    Words words = toWords({"/w x", 12, 34, 56, Thumbnails::models, {"lint", "a b"}});
     EXPECT_EQ(words, (Words{"run-for-batch", "/w x", "12", "34", "2", "56", "lint", "a b"}));
     words.insert(words.begin(), "cotan");
     const auto pointers = pointersOf(words);
@@ -154,7 +142,7 @@ TEST_F(BatchAnswer, hasAThumbnailOfTheFirstImageThatASuccessfulJobWrites)
 TEST_F(BatchAnswer, incompleteAnswersAreIgnored)
 {
     const auto reply = [&](const std::string& text) {
-        std::ofstream(folder / "work/answer.json") << text;
+        write(folder / "work/answer.json", text);
         const ChildAnswer a = readAnswer(folder / "work");
         return fmt::format("{} {} {}x{} {}", a.inputs.size(), a.outputs.size(), a.thumbnail.width, a.thumbnail.height,
                            a.thumbnail.jpeg);
@@ -168,45 +156,21 @@ TEST_F(BatchAnswer, incompleteAnswersAreIgnored)
 }
 
 // A job whose process is a script: $2 is its work folder, and its words start at $7.
-class BatchScript : public ::testing::Test {
+class BatchScript : public BatchRun {
 protected:
-    Job& add(const Words& words)
-    {
-        Job job;
-        job.name = fmt::format("job {}", list.jobs.size());
-        job.words = words;
-        return list.jobs.emplace_back(std::move(job));
-    }
+    BatchScript() { options.program = (folder / "tool").string(); }
 
     std::vector<JobResult> run(const std::string& script)
     {
-        std::ofstream(folder / "tool") << "#!/bin/sh\n" << script;
-        fs::permissions(folder / "tool", fs::perms::owner_all);
-        options.program = (folder / "tool").string();
-        return runAll();
+        write(options.program, "#!/bin/sh\n" + script);
+        fs::permissions(options.program, fs::perms::owner_all);
+        return BatchRun::run();
     }
-
-    std::vector<JobResult> runAll()
-    {
-        list.folder = folder.path();
-        const auto plan = planJobs(list);
-        std::vector<std::size_t> all(list.jobs.size());
-        for (std::size_t i = 0; i < all.size(); ++i)
-            all[i] = i;
-        auto store = Store::open(folder / "store", "1");
-        auto results = runJobs(list, *plan, all, *store, options, progress);
-        EXPECT_TRUE(results) << results.error().message;
-        return results ? *std::move(results) : std::vector<JobResult>(list.jobs.size());
-    }
-
-    TemporaryFolder folder;
-    JobList list;
-    RunOptions options{.processes = 2, .threads = 3, .seconds = 30, .megabytes = 0};
-    Progress progress;
 };
 
 TEST_F(BatchScript, getsTheLimitsTheThreadsAndAReportPath)
 {
+    options.threads = 3;
     options.megabytes = 900;
     options.processorSeconds = 4.2; // rounded up
     options.thumbnails = Thumbnails::none;
@@ -250,7 +214,7 @@ TEST_F(BatchScript, anUnknownEndIsAFailureThatIsTriedAgain)
     EXPECT_EQ(results[0].record.state, JobState::failed);
     EXPECT_NE(results[0].record.reason.find("unknown"), std::string::npos) << results[0].record.reason;
     EXPECT_FALSE(repeatable(results[0].record));
-    EXPECT_EQ(runAll()[0].record.state, JobState::done);
+    EXPECT_EQ(run("exit 0\n")[0].record.state, JobState::done);
 }
 
 TEST_F(BatchScript, failureReasonIsItsLastOutput)
@@ -260,7 +224,6 @@ TEST_F(BatchScript, failureReasonIsItsLastOutput)
         JobState state;
         std::string reason;
     };
-    const std::string many(401, 'm');
     const Row rows[] = {
         {"printf 'x\\ncotan: error: a\\ncotan: error: b c\\nmore'; exit 2", JobState::failed, "b c"},
         {"printf 'cotan: error: the end'; exit 5", JobState::limit, "the end"},
@@ -303,8 +266,8 @@ TEST_F(BatchScript, keepsTheBeginningAndTheEndOfWhatItPrints)
     std::string numbers;
     for (int i = 1; i <= 20000; ++i)
         numbers += std::to_string(i) + "\n";
-    std::ofstream(folder / "all") << numbers;
-    std::ofstream(folder / "most") << numbers.substr(0, 4096 + 16384);
+    write(folder / "all", numbers);
+    write(folder / "most", numbers.substr(0, 4096 + 16384));
     add({"all"});
     add({"most"});
     const auto results = run("cat $7\n");
@@ -321,9 +284,9 @@ TEST_F(BatchScript, keepsTheBeginningAndTheEndOfWhatItPrints)
 TEST_F(BatchScript, filesAreNamedRelativeToTheFolderWithoutWorkFiles)
 {
     for (const char* file : {"a", "b", "..c", "made"})
-        std::ofstream(folder / file) << file;
+        write(folder / file, file);
     const fs::path outside = folder.path().parent_path() / (folder.path().filename().string() + "-outside");
-    std::ofstream(outside) << "o";
+    write(outside, "o");
     add({"one"}).inputs = {"stated"};
     const auto results = run(
         fmt::format("echo '{{\"inputs\": [\"b\", \"./a\", \"b\", \"x/../..c\", \"../{}\", \"'$2/mine'\", \"made\"], "
@@ -344,40 +307,34 @@ TEST_F(BatchScript, filesAreNamedRelativeToTheFolderWithoutWorkFiles)
 
 TEST_F(BatchScript, aFailedStartIsAResultAndReportsProgress)
 {
-    options.program = (folder / "gone").string();
-    options.retries = 0;
-    add({"one"});
-    list.jobs[0].outputs = {"x"};
+    add({"one"}).outputs = {"x"};
     add({"two"}).inputs = {"x"};
     double last = 0;
-    int calls = 0;
-    progress = [&](double fraction) {
+    const auto results = tryToRun([&](double fraction) {
         last = fraction;
-        return ++calls > 0;
-    };
-    const auto results = runAll();
-    EXPECT_EQ(results[0].record.state, JobState::failed);
-    EXPECT_EQ(results[0].record.code, int(ErrorKind::unavailable));
-    EXPECT_EQ(results[0].record.reason, "cannot start a process: No such file or directory");
-    EXPECT_EQ(results[1].record.reason, "waits for 'job 0', which is not done");
-    EXPECT_EQ(results[1].record.state, JobState::skipped);
+        return true;
+    });
+    ASSERT_TRUE(results);
+    const JobRecord &one = (*results)[0].record, &two = (*results)[1].record;
+    EXPECT_EQ(one.state, JobState::failed);
+    EXPECT_EQ(one.code, int(ErrorKind::unavailable));
+    EXPECT_EQ(one.reason, "cannot start a process: No such file or directory");
+    EXPECT_EQ(two.reason, "waits for 'one 0', which is not done");
+    EXPECT_EQ(two.state, JobState::skipped);
     EXPECT_EQ(last, 1);
-    // Stopped in between: there are no results, and the error says so.
-    list.jobs.clear();
+}
+
+TEST_F(BatchScript, aStoppedRunIsAnErrorAndStartsNoFurtherJob)
+{
     add({"three"});
     add({"four"});
     options.processes = 1;
-    std::ofstream(folder / "tool") << "#!/bin/sh\n";
-    fs::permissions(folder / "tool", fs::perms::owner_all);
-    options.program = (folder / "tool").string();
-    list.folder = folder.path();
-    const auto plan = planJobs(list);
-    auto store = Store::open(folder / "store", "1");
-    const std::size_t all[] = {0, 1};
-    const auto stopped = runJobs(list, *plan, all, *store, options, [](double) { return false; });
+    write(options.program, "#!/bin/sh\n");
+    fs::permissions(options.program, fs::perms::owner_all);
+    const auto stopped = tryToRun([](double) { return false; });
     ASSERT_FALSE(stopped);
     EXPECT_EQ(stopped.error().kind, ErrorKind::stopped);
-    EXPECT_FALSE(store->find({"four"}));
+    EXPECT_FALSE(openStore(folder / "store").find({"four"}));
 }
 
 } // namespace

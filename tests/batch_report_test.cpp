@@ -1,17 +1,13 @@
-// The page and the report of a batch: every field of a job, with distinct values. Thumbnails of large images.
+// The page and the report of a batch: every field of a job, with distinct values; the page in a browser.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <fstream>
-#include <limits>
+#include <cstdlib>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "batch/job.hpp"
 #include "batch/report.hpp"
-#include "batch/thumbnail.hpp"
-#include "cotan/image.hpp"
-#include "run_tool.hpp"
+#include "batch_fixture.hpp"
 
 namespace cotan {
 namespace {
@@ -19,38 +15,45 @@ namespace {
 using namespace test;
 using nlohmann::json;
 
-// One job of each state, in the order of their names; the first has no other fields.
 struct Results {
     JobList list{"/jobs", {}};
     std::vector<JobResult> all;
 
-    Results()
+    // mean: degrees; negative: none.
+    JobRecord& add(const std::string& name, JobState state, double mean = -1)
     {
-        for (int i = 0; i < 8; ++i) {
-            Job job;
-            job.name = "job " + std::to_string(i);
-            job.words = {"lint", "a b.glb", std::to_string(i)};
-            job.line = std::size_t(10 + i);
-            list.jobs.push_back(job);
-            all.push_back({std::size_t(i), {}, false});
-            all.back().record.state = JobState(i);
-        }
-        JobRecord& r = all[1].record;
-        r.code = 5;
-        r.signal = 15;
-        r.runs = 3;
-        r.reason = "over 2 degrees";
-        r.output = std::string(1500, 'x');
-        r.seconds = 1.23456;
-        r.processorSeconds = 2.5;
-        r.megabytes = 20.75;
-        r.degrees = Degrees{4.5, "between the maps"};
-        r.thumbnail = {7, 9, "AAAA"};
-        r.inputs = {{"a.glb", "00"}, {"b.png", "01"}};
-        r.outputs = {{"out/c d.png", "02"}, {"/report/sub/e~1.txt", "03"}};
-        all[1].kept = true;
+        addJob(list, {"lint", "a b.glb", name.substr(name.find(' ') + 1)}).name = name;
+        list.jobs.back().line += 9;
+        JobRecord& record = all.emplace_back(JobResult{all.size(), {}, false}).record;
+        record.state = state;
+        if (mean >= 0)
+            record.degrees = Degrees{mean, "of"};
+        return record;
     }
 };
+
+// In the order of their names; the second has all fields, the others have none.
+Results oneOfEachState()
+{
+    Results results;
+    for (int i = 0; i < 8; ++i)
+        results.add("job " + std::to_string(i), JobState(i));
+    JobRecord& r = results.all[1].record;
+    r.code = 5;
+    r.signal = 15;
+    r.runs = 3;
+    r.reason = "over 2 degrees";
+    r.output = std::string(1500, 'x');
+    r.seconds = 1.23456;
+    r.processorSeconds = 2.5;
+    r.megabytes = 20.75;
+    r.degrees = Degrees{4.5, "between the maps"};
+    r.thumbnail = {7, 9, "AAAA"};
+    r.inputs = {{"a.glb", "00"}, {"b.png", "01"}};
+    r.outputs = {{"out/c d.png", "02"}, {"/report/sub/e~1.txt", "03"}};
+    results.all[1].kept = true;
+    return results;
+}
 
 json dataOf(const std::string& page)
 {
@@ -61,7 +64,7 @@ json dataOf(const std::string& page)
 
 TEST(BatchReport, aRowOfThePageHasEveryFieldOfItsJob)
 {
-    Results results;
+    const Results results = oneOfEachState();
     const std::string page = batchPage(results.list, results.all, "a & b", "the end", "/report", 8);
     const json data = dataOf(page);
     EXPECT_EQ(data["states"],
@@ -100,9 +103,10 @@ TEST(BatchReport, aRowOfThePageHasEveryFieldOfItsJob)
     EXPECT_NE(page.find("<h1>a &amp; b</h1>"), std::string::npos);
     EXPECT_NE(page.find("<footer>the end</footer>"), std::string::npos) << "all are shown";
     // One button for each state present, worst first, with its number and count.
-    results.all.push_back(results.all[4]);
-    results.all.erase(results.all.begin() + 6); // no job is out of memory
-    const std::string other = batchPage(results.list, results.all, "t", "f", "/report", 8);
+    std::vector<JobResult> some = results.all;
+    some.push_back(some[4]);
+    some.erase(some.begin() + 6); // no job is out of memory
+    const std::string other = batchPage(results.list, some, "t", "f", "/report", 8);
     std::size_t at = 0;
     for (const char* button : {"\"7\">1 crashed<", "\"5\">1 too slow<", "\"4\">2 failed<", "\"3\">1 skipped<",
                                "\"2\">1 not run<", "\"1\">1 over limit<", "\"0\">1 done<"})
@@ -117,11 +121,8 @@ TEST(BatchReport, outputOfFinishedJobsIsTruncatedOnThePage)
          {JobState::done, JobState::limit, JobState::skipped, JobState::failed, JobState::crashed})
         for (const std::size_t size : {1500, 1501, 4000}) {
             Results results;
-            results.all.resize(1);
-            results.all[0].record.state = state;
-            results.all[0].record.output = std::string(size, 'y') + "z";
-            results.all[0].record.output.erase(0, 1);
-            const std::string output = results.all[0].record.output;
+            const std::string output = std::string(size - 1, 'y') + "z";
+            results.add("job", state).output = output;
             const std::string printed = dataOf(batchPage(results.list, results.all, "", "", "/", 1))["rows"][0][8];
             const bool cut = size > 1500 && (state == JobState::done || state == JobState::limit);
             EXPECT_EQ(printed, cut ? std::string(1500, 'y') + "..." : output) << size << int(state);
@@ -130,7 +131,7 @@ TEST(BatchReport, outputOfFinishedJobsIsTruncatedOnThePage)
 
 TEST(BatchReport, asJsonHasTheCountOfEachStateAndEveryFieldOfEachJob)
 {
-    const Results results;
+    const Results results = oneOfEachState();
     const json report = json::parse(toText(batchJson(results.list, results.all)));
     EXPECT_EQ(report["command"], "batch");
     for (const char* state :
@@ -162,7 +163,7 @@ TEST(BatchReport, asJsonHasTheCountOfEachStateAndEveryFieldOfEachJob)
 
 TEST(BatchReport, theSummaryCountsStatesInOrderAndReusedResults)
 {
-    Results results;
+    Results results = oneOfEachState();
     EXPECT_EQ(summaryOf(results.all),
               "8 jobs: 1 done, 1 over limit, 1 not run, 1 skipped, 1 failed, 1 too slow, 1 out of memory, 1 crashed; "
               "1 from an earlier run");
@@ -172,181 +173,176 @@ TEST(BatchReport, theSummaryCountsStatesInOrderAndReusedResults)
     EXPECT_EQ(summaryOf(results.all), "0 jobs");
 }
 
+// Jobs over their limit come before failed ones, which say nothing about the model; equal ones keep their order.
+TEST(BatchReport, sortsTheWorstFirst)
+{
+    Results results;
+    for (const JobState state :
+         {JobState::done, JobState::failed, JobState::limit, JobState::skipped, JobState::notRun, JobState::late,
+          JobState::crashed, JobState::memory, JobState::limit, JobState::done, JobState::done, JobState::done})
+        results.add("job", state, state == JobState::limit ? double(results.all.size()) : -1);
+    results.all[9].record.degrees = Degrees{0.5, ""};
+    results.all[11].record.degrees = Degrees{7, ""};
+    EXPECT_EQ(worstFirst(results.all), (std::vector<std::size_t>{6, 7, 5, 8, 2, 1, 3, 4, 11, 9, 0, 10}));
+}
+
+TEST(BatchReport, escapesTextOfJobs)
+{
+    Results results;
+    for (const char* name : {"good", "<b>crash</b>", "unknown"}) {
+        JobRecord& record = results.add(name, *name == '<' ? JobState::crashed : JobState::done, 1);
+        results.list.jobs.back().words = {"lint", "</script><script>alert(1)</script>"};
+        record.reason = "<img src=x onerror=alert(2)>";
+        record.output = "<!--<script>";
+        record.degrees->of = "<i>";
+        record.outputs = {{"/out/\"><script>%20 ü", "00"}};
+    }
+    const std::string page = batchPage(results.list, results.all, "</title><script>", "<footer>", "/report", 100);
+    const auto count = [&](const std::string& what) {
+        std::size_t n = 0;
+        for (std::size_t at = 0; (at = page.find(what, at)) != std::string::npos; ++at)
+            ++n;
+        return n;
+    };
+    // The column headings, from left to right.
+    std::size_t at = page.find("class=\"row head\"");
+    for (const char* const head : {">Job<", ">State<", ">Degrees<", ">Seconds<", ">MiB<", "id=\"list\""}) {
+        ASSERT_NE(at = page.find(head, at), std::string::npos) << head;
+    }
+    EXPECT_EQ(count("<script"), 2u);
+    EXPECT_EQ(count("</script>"), 2u);
+    EXPECT_EQ(count("<img") + count("<b>") + count("<!--"), 0u);
+    EXPECT_NE(page.find("\"../out/%22%3E%3Cscript%3E%2520%20%C3%BC\""), std::string::npos);
+    const std::string two = batchPage(results.list, results.all, "t", "f", "/report", 2);
+    EXPECT_NE(two.find("the worst 2 of 3; f"), std::string::npos);
+    EXPECT_NE(two.find("crash"), std::string::npos);
+    EXPECT_EQ(two.find("\"unknown\""), std::string::npos);
+}
+
+// The worst map of a model counts, read with its best frame, and measurements in renders before other ones.
 TEST(BatchDegrees, areReadFromTheFieldOfEachCommand)
 {
     struct Row {
         const char *report, *of;
         double mean;
     };
-    for (const Row& row :
-         {Row{R"({"command": "bake", "verify": {"all": {"mean_degrees": 3}, "views": 1}})", "against the detailed mesh",
-              3},
-          {R"({"command": "convert", "maps": [{"degrees_after_rounding": {"mean": 2},
-               "degrees_unconverted": {"mean": 1}},
-               {"degrees_after_rounding": {"mean": 0.5}, "degrees_unconverted": {"mean": 9}}]})",
-           "read with the new frame", 1},
-          {R"({"command": "convert", "verify": {"degrees": {"mean_degrees": 4}}})", "drawn, against the original", 4},
-          {R"({"command": "compare", "normals": {"mean_degrees": 5}})", "between the frames", 5},
-          {R"({"command": "map diff", "angles": {"mean_degrees": 6}})", "between the maps", 6},
-          {R"({"command": "tangents", "whole": {"directions": {"mean_degrees": 7}}})", "stored tangents", 7},
-          {R"({"command": "lint", "fits": [{"cotangent": {"mean": 8}}]})", "read without tangents", 8}}) {
+    const Row rows[] = {
+        {R"({"command": "bake", "verify": {"all": {"mean_degrees": 3}, "views": 1}})", "against the detailed mesh", 3},
+        {R"({"command": "bake", "objects": [{"verify": {"all": {"mean_degrees": 1}}},
+            {"verify": {"all": {"mean_degrees": 3}}}, {"verify": {"all": {"mean_degrees": null}}}]})",
+         "against the detailed mesh", 3},
+        {R"({"command": "convert", "maps": [{"degrees_after_rounding": {"mean": 2}, "degrees_unconverted": {"mean": 1}},
+            {"degrees_after_rounding": {"mean": 0.5}, "degrees_unconverted": {"mean": 9}}]})",
+         "read with the new frame", 1},
+        {R"({"command": "convert", "verify": {"degrees": {"mean_degrees": 4}}})", "drawn, against the original", 4},
+        {R"({"command": "convert", "maps": [{"degrees_unconverted": {"mean": 5}}],
+            "verify": {"degrees": {"mean_degrees": 0.5}}})",
+         "drawn, against the original", 0.5},
+        {R"({"command": "compare", "normals": {"mean_degrees": 5}})", "between the frames", 5},
+        {R"({"command": "map diff", "angles": {"mean_degrees": 6}})", "between the maps", 6},
+        {R"({"command": "tangents", "whole": {"directions": {"mean_degrees": 7}}})", "stored tangents", 7},
+        {R"({"command": "lint", "fits": [{"cotangent": {"mean": 8}}]})", "read without tangents", 8},
+        {R"({"command": "lint", "fits": [
+            {"orthonormal": {"mean": 4}, "cotangent": {"mean": 3}, "smooth": {"mean": 2}},
+            {"orthonormal": {"mean": 1}, "cotangent": {"mean": 9}, "smooth": {"mean": 9}}]})",
+         "read without tangents", 2}};
+    for (const Row& row : rows) {
         const auto degrees = degreesIn(row.report);
         ASSERT_TRUE(degrees) << row.report;
         EXPECT_EQ(degrees->mean, row.mean) << row.report;
         EXPECT_EQ(degrees->of, row.of) << row.report;
     }
+    for (const char* none : {"", "{", "[]", "{\"command\": \"lint\"}", "{\"command\": \"lint\", \"fits\": []}",
+                             "{\"command\": 3}", "{\"command\": \"lint\", \"fits\": {\"orthonormal\": 1}}",
+                             "{\"command\": \"compare\", \"normals\": {\"mean_degrees\": null}}"})
+        EXPECT_FALSE(degreesIn(none)) << none;
 }
 
-TEST(BatchJobOptions, areAcceptedUpToTheirBounds)
+// ---- the page in a browser ---------------------------------------------------------------------
+
+// The JSON that `script`, run at the end of the page, puts into the page's title.
+json titleAfter(const Results& input, const std::string& script)
 {
-    const TemporaryFolder folder;
-    const auto takes = [&](const std::string& member) {
-        std::ofstream(folder / "jobs.jsonl", std::ios::binary) << "{\"command\": [\"lint\"], " << member << "}\n";
-        return bool(readJobs(folder / "jobs.jsonl", [](Job&) { return Status(Done{}); }));
-    };
-    for (const auto& [member, least, most, under, over] :
-         {std::tuple("limit-memory", "0", "16777216", "-1", "16777217"),
-          {"limit-time", "0.001", "1000000", "0.0009", "1000000.1"},
-          {"limit-processor-time", "0", "1000000", "-0.001", "1000000.1"},
-          {"retries", "0", "100", "-1", "101"},
-          {"priority", "-1000000", "1000000", "-1000001", "1000001"}}) {
-        const std::string begin = "\"" + std::string(member) + "\": ";
-        EXPECT_TRUE(takes(begin + least) && takes(begin + most)) << member;
-        EXPECT_FALSE(takes(begin + under)) << member;
-        EXPECT_FALSE(takes(begin + over)) << member;
-    }
-    EXPECT_TRUE(takes("\"name\": \"" + std::string(1000, 'n') + "\""));
-    EXPECT_FALSE(takes("\"name\": \"" + std::string(1001, 'n') + "\""));
-}
-
-// ---- thumbnails --------------------------------------------------------------------------------
-
-std::string decoded(const std::string& base64)
-{
-    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string bytes;
-    unsigned bits = 0;
-    int count = 0;
-    for (const char c : base64) {
-        if (c == '=')
-            break;
-        bits = bits << 6 | unsigned(digits.find(c));
-        if ((count += 6) >= 8)
-            bytes += char(bits >> (count -= 8) & 255u);
-    }
-    return bytes;
-}
-
-class BatchThumbnail : public ::testing::Test {
-protected:
-    // Decodes the thumbnail of a file; returns an empty image if there is no thumbnail.
-    Image of(const std::string& file)
-    {
-        const auto thumbnail = thumbnailOf(folder / file);
-        if (!thumbnail)
-            return {};
-        const std::string jpeg = decoded(thumbnail->jpeg);
-        bytes = jpeg.size();
-        std::ofstream(folder / "read.jpg", std::ios::binary) << jpeg;
-        auto image = readImage(folder / "read.jpg");
-        EXPECT_TRUE(image);
-        EXPECT_EQ(image->width, thumbnail->width);
-        EXPECT_EQ(image->height, thumbnail->height);
-        return std::move(*image);
-    }
-
-    // The thumbnail's colour for a uniform image of this type; `color` is red, green, blue and alpha.
-    glm::ivec3 colorOf(const std::string& file, PixelType type, std::array<float, 4> color)
-    {
-        Image image = makeImage(16, 16, type);
-        for (std::size_t i = 0; i < 4 * image.pixelCount(); ++i) {
-            const float c = color[i % 4];
-            if (type == PixelType::unorm8)
-                image.bytes8()[i] = std::uint8_t(std::lround(c * 255));
-            else if (type == PixelType::unorm16)
-                image.words()[i] = std::uint16_t(std::lround(c * 65535));
-            else
-                image.floats()[i] = c;
-        }
-        EXPECT_TRUE(writeImage(folder / file, image));
-        return colorAt(of(file), 8, 8);
-    }
-
-    static glm::ivec3 colorAt(const Image& image, int x, int y)
-    {
-        if (!hasPixels(image))
-            return {};
-        const std::uint8_t* p = image.bytes8() + 4 * (y * image.width + x);
-        return {p[0], p[1], p[2]};
-    }
-
-    static void expectNear(glm::ivec3 found, glm::ivec3 expected)
-    {
-        for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(found[c], expected[c], 3) << c; // error of JPEG compression
-    }
-
     TemporaryFolder folder;
-    std::size_t bytes = 0;
-};
-
-TEST_F(BatchThumbnail, fitsInto64PixelsAndKeepsTheAspectRatio)
-{
-    for (const auto& [from, to] : {std::pair(glm::ivec2(64, 64), glm::ivec2(64, 64)),
-                                   {{65, 13}, {64, 13}},
-                                   {{256, 64}, {64, 16}},
-                                   {{50, 200}, {16, 64}},
-                                   {{3, 2}, {3, 2}},
-                                   {{1, 300}, {1, 64}},
-                                   {{300, 1}, {64, 1}}}) {
-        ASSERT_TRUE(writeImage(folder / "a.png", makeImage(from.x, from.y, PixelType::unorm8)));
-        const Image image = of("a.png");
-        EXPECT_EQ(glm::ivec2(image.width, image.height), to) << from.x << " " << from.y;
-    }
-    std::ofstream(folder / "text.png") << "no picture";
-    EXPECT_FALSE(hasPixels(of("text.png")));
-    EXPECT_FALSE(hasPixels(of("missing.png")));
+    std::string page = batchPage(input.list, input.all, "jobs", "footer", "/report", 100000);
+    page.insert(page.find("</body>"),
+                "<script>document.title = 'RESULT' + JSON.stringify((() => {" + script + "})());</script>");
+    write(folder / "page.html", page);
+    const std::string f = folder.path().string();
+    const std::string line =
+        fmt::format("timeout 100 chromium --headless --no-sandbox --disable-gpu --user-data-dir='{0}/profile' "
+                    "--window-size=1000,800 --dump-dom 'file://{0}/page.html' > '{0}/dom' 2> '{0}/log'",
+                    f);
+    const int code = std::system(line.c_str());
+    const std::string dom = readWhole(folder / "dom");
+    const std::size_t begin = dom.find("<title>RESULT"), end = dom.find("</title>", begin);
+    if (begin == std::string::npos)
+        return {{"error", fmt::format("chromium printed no result, exit {}: {}", code, dom.substr(0, 80))}};
+    std::string text = dom.substr(begin + 13, end - begin - 13);
+    for (const auto& [from, to] : {std::pair("&lt;", "<"), {"&gt;", ">"}, {"&amp;", "&"}})
+        for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; ++at)
+            text.replace(at, std::string_view(from).size(), to);
+    return json::parse(text);
 }
 
-TEST_F(BatchThumbnail, averagesThePixelsThatFallOnEachPixel)
+bool noBrowser() { return std::system("command -v chromium > /dev/null 2>&1") != 0; }
+
+TEST(BatchPage, onlyVisibleRowsExistAndTheyFilterAndSort)
 {
-    // Four quarters; the last one has stripes that are averaged.
-    Image image = makeImage(256, 128, PixelType::unorm8);
-    for (int y = 0; y < 128; ++y)
-        for (int x = 0; x < 256; ++x) {
-            std::uint8_t* p = image.bytes8() + 4 * (y * 256 + x);
-            const bool right = x >= 128, below = y >= 64;
-            const glm::ivec3 c = right && below ? glm::ivec3(x % 2 ? 240 : 40)
-                : right                         ? glm::ivec3(200, 180, 160)
-                : below                         ? glm::ivec3(60, 80, 100)
-                                                : glm::ivec3(90, 90, 120);
-            for (int k = 0; k < 3; ++k)
-                p[k] = std::uint8_t(c[k]);
-            p[3] = 255;
-        }
-    ASSERT_TRUE(writeImage(folder / "a.png", image));
-    const Image small = of("a.png");
-    ASSERT_EQ(small.width, 64);
-    ASSERT_EQ(small.height, 32);
-    expectNear(colorAt(small, 8, 4), {90, 90, 120});
-    expectNear(colorAt(small, 56, 4), {200, 180, 160});
-    expectNear(colorAt(small, 8, 28), {60, 80, 100});
-    expectNear(colorAt(small, 56, 28), glm::ivec3(140));
-    // A JPEG of one colour takes 623 bytes with the standard's tables, and less with optimised ones.
-    expectNear(colorOf("even.png", PixelType::unorm8, {0.4f, 0.4f, 0.4f, 1}), glm::ivec3(102));
-    EXPECT_LT(bytes, 400u);
+    if (noBrowser())
+        GTEST_SKIP() << "no chromium";
+    Results input;
+    for (int i = 0; i < 10000; ++i)
+        input.add(fmt::format("rock {}", i), i % 100 == 7 ? JobState::crashed : JobState::done, i % 2 ? i / 100.0 : -1);
+    json got = titleAfter(input, R"(
+        const names = () => [...document.querySelectorAll('#space .name')].map(e => e.textContent);
+        const result = { rows: names().length, first: names()[0], height: space.offsetHeight };
+        find.value = 'ROCK 99'; find.dispatchEvent(new Event('input'));
+        result.found = shown.length;
+        find.value = ''; find.dispatchEvent(new Event('input'));
+        const press = column => document.querySelector(`[data-column="${column}"]`).click();
+        press(2); result.most = names()[0];
+        press(2); result.least = names()[0];
+        press(0); result.byName = names().slice(0, 3);
+        press(0); press(0); result.again = names()[0];
+        document.querySelector('[data-state="7"]').click(); result.crashed = shown.length;
+        list.scrollTop = 50 * 64; draw(false); result.scrolled = names().includes('rock 5007');
+        return result;)");
+    EXPECT_LT(got.value("rows", 10000), 60) << got;
+    EXPECT_GT(got.value("rows", 0), 5) << got;
+    EXPECT_EQ(got["first"], "rock 9907") << "crashed, with the most degrees";
+    EXPECT_EQ(got["height"], 640000);
+    EXPECT_EQ(got["found"], 280) << "numbers of four digits with two nines beside each other: 3 * 100 - 21 + 1";
+    EXPECT_EQ(got["most"], "rock 9999");
+    EXPECT_EQ(got["least"], "rock 1");
+    EXPECT_EQ(got["byName"], json({"rock 0", "rock 1", "rock 2"})) << "numbers as numbers";
+    EXPECT_EQ(got["again"], got["first"]);
+    EXPECT_EQ(got["crashed"], 100);
+    EXPECT_EQ(got["scrolled"], true);
 }
 
-TEST_F(BatchThumbnail, showsTransparencyOverGreyAndNonColoursAsBlack)
+TEST(BatchPage, jobNamesAreShownAsTextAndNeverExecuted)
 {
-    expectNear(colorOf("a.png", PixelType::unorm8, {1, 1, 1, 0.25f}), glm::ivec3(159)); // 0.25 + 0.75 / 2
-    expectNear(colorOf("b.png", PixelType::unorm16, {0, 0, 0, 0.5f}), glm::ivec3(64));
-    expectNear(colorOf("c.png", PixelType::unorm16, {0.7f, 0.6f, 0.5f, 1}), {179, 153, 128});
-    const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
-    expectNear(colorOf("d.exr", PixelType::float32, {0.5f, 0.5f, 0.5f, 1}), glm::ivec3(128));
-    expectNear(colorOf("e.exr", PixelType::float32, {7, 7, 7, 1}), glm::ivec3(255));
-    expectNear(colorOf("f.exr", PixelType::float32, {-7, -7, -7, 1}), glm::ivec3(0));
-    expectNear(colorOf("g.exr", PixelType::float32, {nan, infinite, -infinite, 1}), glm::ivec3(0));
+    if (noBrowser())
+        GTEST_SKIP() << "no chromium";
+    const std::string evil =
+        "</script><script>window.ran = 1</script><img src=x onerror='window.ran = 2'><!-- <script> ü\"&";
+    Results input;
+    JobRecord& record = input.add(evil, JobState::failed, 1);
+    record.degrees->of = record.output = evil;
+    record.outputs = {{"out/" + evil, "00"}};
+    record.thumbnail = {1, 1, "\" onerror=\"window.ran = 3"};
+    json got = titleAfter(input, R"(
+        document.querySelector('#space .row').click();
+        return { name: document.querySelector('#space .name').textContent, ran: window.ran || 0,
+                 heading: document.querySelector('dialog h2').textContent, open: document.querySelector('dialog').open,
+                 link: document.querySelector('dialog a').href, bad: document.querySelectorAll('.row.bad').length };)");
+    EXPECT_EQ(got["name"], evil);
+    EXPECT_EQ(got["heading"], evil);
+    EXPECT_EQ(got["ran"], 0);
+    EXPECT_EQ(got["open"], true);
+    EXPECT_EQ(got["bad"], 1);
+    EXPECT_NE(got["link"].get<std::string>().find("/jobs/out/%3C/script%3E"), std::string::npos) << got;
 }
 
 } // namespace

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "batch/child.hpp"
-#include "batch/plan.hpp"
+#include "batch/job.hpp"
 #include "batch/run.hpp"
 #include "cotan/bake.hpp"
 #include "cotan/convert.hpp"

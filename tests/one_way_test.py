@@ -54,7 +54,7 @@ def filesAreRemovedByTheirOwners():
         ("src/files/output.cpp", "fs::remove(part", "temporary files of a process that has ended"),
         ("src/files/interrupt.cpp", "::unlink(slot.name)", "temporary files, on a signal"),
         ("apps/cotan/batch/store.cpp", "fs::remove_all(", "folders of the store"),
-        ("apps/cotan/batch/run.cpp", "fs::remove_all(request.work", "a folder of the store"),
+        ("apps/cotan/batch/run.cpp", "fs::remove_all(at->work", "a folder of the store"),
     ])
 
 

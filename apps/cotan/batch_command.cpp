@@ -15,13 +15,15 @@ namespace cotan::app {
 
 namespace {
 
+constexpr Named<Thumbnails> kThumbnails[] = {
+    {"none", Thumbnails::none}, {"pictures", Thumbnails::pictures}, {"models", Thumbnails::models}};
+
 struct BatchOptions : CommonOptions {
-    std::string jobs, shard, thumbnails = "pictures";
+    std::string jobs, shard;
     std::vector<std::string> stores;
     int processes = 0, rows = 50000, memory = -1; // memory: negative: that of the machine / processes
-    int retries = 0;
-    double seconds = 3600, processorSeconds = 0;
-    bool merge = false, again = false;
+    bool merge = false;
+    RunOptions run; // but for what follows from the machine: runOptions
 };
 
 // Sets a job's files and flags from its words, by the declarations of all commands.
@@ -57,17 +59,10 @@ std::size_t megabytesHere()
 RunOptions runOptions(const BatchOptions& o)
 {
     const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-    RunOptions run;
+    RunOptions run = o.run;
     run.processes = o.processes > 0 ? std::size_t(o.processes) : cores;
     run.threads = int(std::max<std::size_t>(1, (o.threads > 0 ? std::size_t(o.threads) : cores) / run.processes));
-    run.seconds = o.seconds;
-    run.processorSeconds = o.processorSeconds;
-    run.retries = o.retries;
     run.megabytes = o.memory >= 0 ? std::size_t(o.memory) : megabytesHere() / run.processes;
-    run.again = o.again;
-    run.thumbnails = o.thumbnails == "none" ? Thumbnails::none
-        : o.thumbnails == "models"          ? Thumbnails::models
-                                            : Thumbnails::pictures;
     return run;
 }
 
@@ -83,8 +78,9 @@ Status checkUsage(const BatchOptions& o)
 {
     if (o.output.empty() && o.stores.empty())
         return usageError("expected -o REPORT.html, or --store FOLDER and no report; found neither");
-    if (o.merge && (!o.shard.empty() || o.again))
-        return usageError(fmt::format("--merge runs nothing: expected no {} with it", o.again ? "--again" : "--shard"));
+    if (o.merge && (!o.shard.empty() || o.run.again))
+        return usageError(
+            fmt::format("--merge runs nothing: expected no {} with it", o.run.again ? "--again" : "--shard"));
     if (o.merge && o.output.empty() && o.json.empty())
         return usageError("--merge: expected -o REPORT.html or --json FILE; found neither");
     if (!o.merge && o.stores.size() > 1)
@@ -113,26 +109,20 @@ Result<std::vector<JobResult>> results(const BatchOptions& o, const JobList& lis
     });
 }
 
-// The worst result, as the status for the exit code.
+// The worst result, as the status for the exit code. Jobs over a limit matter only where all others are done.
 Status verdict(const JobList& list, const std::vector<JobResult>& all)
 {
-    if (all.empty())
-        return Done{};
-    const StateCounts counts = countsOf(all);
-    const std::size_t good = counts[std::size_t(JobState::done)] + counts[std::size_t(JobState::limit)];
-    const std::vector<std::size_t> order = worstFirst(all);
-    // The worst of the jobs that the message counts.
-    const JobResult& worst = all[*std::ranges::find_if(order, [&](std::size_t i) {
-        const JobState state = all[i].record.state;
-        return good == all.size() || (state != JobState::done && state != JobState::limit);
-    })];
-    const std::string first = fmt::format("the worst is '{}': {}", list.jobs[worst.job].name, worst.record.reason);
-    if (good < all.size())
-        return inputError(fmt::format("{} of {} jobs are not done; {}", all.size() - good, all.size(), first));
-    if (worst.record.state == JobState::limit)
-        return Error{
-            ErrorKind::limit,
-            fmt::format("{} of {} jobs are over a limit; {}", counts[std::size_t(JobState::limit)], all.size(), first)};
+    const auto bad = [](const JobResult& result) { return !isGood(result.record); };
+    const auto over = [](const JobResult& result) { return result.record.state == JobState::limit; };
+    const auto failed = std::ranges::count_if(all, bad), limited = std::ranges::count_if(all, over);
+    for (const std::size_t i : worstFirst(all)) {
+        if (failed > 0 ? !bad(all[i]) : !over(all[i]))
+            continue;
+        return Error{failed > 0 ? ErrorKind::input : ErrorKind::limit,
+                     fmt::format("{} of {} jobs are {}; the worst is '{}': {}", failed > 0 ? failed : limited,
+                                 all.size(), failed > 0 ? "not done" : "over a limit", list.jobs[all[i].job].name,
+                                 all[i].record.reason)};
+    }
     return Done{};
 }
 
@@ -166,13 +156,9 @@ Status run(const Arguments& tool, const BatchOptions& o)
 {
     if (Status usage = checkUsage(o); !usage)
         return usage;
-    Shard shard;
-    if (!o.shard.empty()) {
-        const auto parsed = parseShard(o.shard);
-        if (!parsed)
-            return parsed.error();
-        shard = *parsed;
-    }
+    const auto shard = parseShard(o.shard.empty() ? "1/1" : o.shard);
+    if (!shard)
+        return shard.error();
     if (Status planned = beginOutputs(o, {{"-o", o.output}}, /*again*/ true); !planned)
         return planned;
     Stopwatch watch;
@@ -184,7 +170,7 @@ Status run(const Arguments& tool, const BatchOptions& o)
         return inputError(fmt::format("{}: {}", o.jobs, plan.error().message));
     if (Status free = guardFiles(*list); !free)
         return free;
-    const auto all = results(o, *list, *plan, shard);
+    const auto all = results(o, *list, *plan, *shard);
     if (!all)
         return all.error();
     if (Status free = guardFiles(*list, *all); !free)
@@ -227,14 +213,14 @@ void declare(Arguments& a, BatchOptions& o)
     a.option("--shard", o.shard, "run part K of N, for farms; jobs that use each other's files stay together")
         .in("K/N");
     a.flag("--merge", o.merge, "run nothing; report what the stores hold");
-    a.flag("--again", o.again, "run all jobs, also those whose results are kept");
-    a.option("--limit-time,--limit-seconds", o.seconds, "elapsed time that a job may take").above0().in("S");
-    a.option("--limit-processor-time", o.processorSeconds,
+    a.flag("--again", o.run.again, "run all jobs, also those whose results are kept");
+    a.option("--limit-time,--limit-seconds", o.run.seconds, "elapsed time that a job may take").above0().in("S");
+    a.option("--limit-processor-time", o.run.processorSeconds,
              "processor time that the process of a job may take, summed over its threads, whatever else the machine "
              "does; whole seconds; 0: no limit")
         .within(0.0, 1e6)
         .in("S");
-    a.option("--retries", o.retries,
+    a.option("--retries", o.run.retries,
              "how often to retry a job that a limit or a signal ended, or that ended with exit code 3 or 4")
         .within(0, 100)
         .in("N");
@@ -247,11 +233,9 @@ void declare(Arguments& a, BatchOptions& o)
     a.option("--rows", o.rows, "maximum number of jobs that the page shows, the worst ones; --json has all")
         .within(1, 250000)
         .in("N");
-    a.option("--thumbnails", o.thumbnails,
+    a.choice("--thumbnails", o.run.thumbnails, kThumbnails,
              "pictures: of the first image that a job writes; models: otherwise a render of the model that it reads; "
-             "none")
-        .from({"none", "pictures", "models"})
-        .in("NAME");
+             "none");
 }
 
 } // namespace

@@ -50,6 +50,10 @@ std::optional<Result<Image>> readJpeg(std::span<const std::byte> bytes, const st
 std::optional<Result<std::vector<std::byte>>> writeJpegLike(const Image& image, std::span<const std::byte> old,
                                                             int& quality);
 
+// The JPEG file of an image of unorm8, without its alpha. quality: percent. Returns an empty text if this build has no
+// libjpeg, or if there is not enough memory.
+std::string writeJpeg(const Image& image, int quality);
+
 // ---- WebP by libwebp ------------------------------------------------------------------------
 
 // libwebp is used directly: OpenImageIO's reader multiplies colours by alpha.

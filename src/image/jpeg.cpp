@@ -193,8 +193,8 @@ struct Encoder {
 
 void onEncoderError(j_common_ptr common) { std::longjmp(static_cast<Encoder*>(common->client_data)->escape, 1); }
 
-// like: its header has been read. Returns false if there is not enough memory.
-bool writePixels(Encoder& encoder, const jpeg_decompress_struct& like, const Image& image)
+// Calls configure(jpeg) after the defaults are set. Returns false if there is not enough memory.
+template<class Configure> bool writePixels(Encoder& encoder, const Image& image, const Configure& configure)
 {
     jpeg_compress_struct& jpeg = encoder.jpeg;
     jpeg.err = jpeg_std_error(&encoder.errors);
@@ -210,6 +210,20 @@ bool writePixels(Encoder& encoder, const jpeg_decompress_struct& like, const Ima
     jpeg.input_components = 4;
     jpeg.in_color_space = JCS_EXT_RGBA;
     jpeg_set_defaults(&jpeg);
+    jpeg.optimize_coding = TRUE;
+    configure(jpeg);
+    jpeg_start_compress(&jpeg, TRUE);
+    while (jpeg.next_scanline < jpeg.image_height) {
+        auto* row = const_cast<JSAMPROW>(image.bytes8()) + std::size_t(jpeg.next_scanline) * jpeg.image_width * 4;
+        jpeg_write_scanlines(&jpeg, &row, 1);
+    }
+    jpeg_finish_compress(&jpeg);
+    return true;
+}
+
+// Copies the settings of a JPEG whose header has been read.
+void copySettings(const jpeg_decompress_struct& like, jpeg_compress_struct& jpeg)
+{
     jpeg_set_colorspace(&jpeg, like.jpeg_color_space);
     for (int slot = 0; slot < NUM_QUANT_TBLS; ++slot)
         if (const JQUANT_TBL* const table = like.quant_tbl_ptrs[slot]) {
@@ -223,16 +237,8 @@ bool writePixels(Encoder& encoder, const jpeg_decompress_struct& like, const Ima
         jpeg.comp_info[c].v_samp_factor = like.comp_info[c].v_samp_factor;
         jpeg.comp_info[c].quant_tbl_no = like.comp_info[c].quant_tbl_no;
     }
-    jpeg.optimize_coding = TRUE;
     if (like.progressive_mode)
         jpeg_simple_progression(&jpeg);
-    jpeg_start_compress(&jpeg, TRUE);
-    while (jpeg.next_scanline < jpeg.image_height) {
-        auto* row = const_cast<JSAMPROW>(image.bytes8()) + std::size_t(jpeg.next_scanline) * jpeg.image_width * 4;
-        jpeg_write_scanlines(&jpeg, &row, 1);
-    }
-    jpeg_finish_compress(&jpeg);
-    return true;
 }
 
 // The quality setting of libjpeg's encoder that gives this table. Quality 50 gives the steps of the standard.
@@ -262,10 +268,18 @@ std::optional<Result<std::vector<std::byte>>> writeJpegLike(const Image& image, 
             return std::nullopt;
     quality = qualityOf(*like.quant_tbl_ptrs[like.comp_info[0].quant_tbl_no]);
     Encoder encoder;
-    if (!writePixels(encoder, like, image))
+    if (!writePixels(encoder, image, [&](jpeg_compress_struct& jpeg) { copySettings(like, jpeg); }))
         return outputError(image.name + ": not enough memory for its JPEG file");
     const auto* const bytes = reinterpret_cast<const std::byte*>(encoder.bytes);
     return std::vector<std::byte>(bytes, bytes + encoder.size);
+}
+
+std::string writeJpeg(const Image& image, int quality)
+{
+    Encoder encoder;
+    if (!writePixels(encoder, image, [&](jpeg_compress_struct& jpeg) { jpeg_set_quality(&jpeg, quality, TRUE); }))
+        return {};
+    return {reinterpret_cast<const char*>(encoder.bytes), encoder.size};
 }
 
 } // namespace cotan

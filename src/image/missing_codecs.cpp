@@ -43,6 +43,8 @@ std::optional<Result<std::vector<std::byte>>> writeJpegLike(const Image&, std::s
 {
     return std::nullopt;
 }
+
+std::string writeJpeg(const Image&, int) { return {}; }
 #endif
 
 #ifdef COTAN_WITHOUT_WEBP

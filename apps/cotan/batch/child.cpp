@@ -1,7 +1,6 @@
 #include "batch/child.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <csignal>
 #include <mutex>
 #include <new>
@@ -10,12 +9,12 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "core/parse_number.hpp"
 #include "files/bytes.hpp"
 #include "files/file_registry.hpp"
 #include "files/output.hpp"
 #include "files/sandbox/confine.hpp"
 #include "image/format_table.hpp"
-#include "thumbnail.hpp"
 
 namespace cotan {
 
@@ -25,35 +24,10 @@ using nlohmann::ordered_json;
 
 constexpr const char* kJobWord = "run-for-batch"; // first argument of a job process
 constexpr std::size_t kFixedWords = 6;
+constexpr const char *kAnswerName = "answer.json", *kThumbnailName = "thumbnail.png"; // in the work folder
 constexpr std::size_t kMaxAnswerBytes = 256 << 20;
 
-// Collects file names without duplicates, in order; thread-safe.
-class Names {
-public:
-    void add(const std::filesystem::path& file)
-    {
-        const std::lock_guard lock(mutex_);
-        if (open_ && std::ranges::find(all_, file.string()) == all_.end())
-            all_.push_back(file.string());
-    }
-    std::vector<std::string> close()
-    {
-        const std::lock_guard lock(mutex_);
-        open_ = false;
-        return all_;
-    }
-
-private:
-    std::mutex mutex_;
-    std::vector<std::string> all_;
-    bool open_ = true;
-};
-
-bool hasExtension(const std::string& file, std::initializer_list<const char*> known)
-{
-    const std::string extension = lowerExtension(file);
-    return std::ranges::any_of(known, [&](const char* one) { return extension == one; });
-}
+constexpr std::string_view kModels[] = {".glb", ".gltf", ".obj", ".ply", ".stl", ".dae", ".fbx", ".3ds"};
 
 // An image to make the thumbnail from; empty: none.
 std::filesystem::path thumbnailSource(const ChildRequest& request, const ChildAnswer& answer,
@@ -65,20 +39,13 @@ std::filesystem::path thumbnailSource(const ChildRequest& request, const ChildAn
     if (request.thumbnails != Thumbnails::models)
         return {};
     for (const std::string& file : answer.inputs)
-        if (hasExtension(file, {".glb", ".gltf", ".obj", ".ply", ".stl", ".dae", ".fbx", ".3ds"})) {
+        if (std::ranges::find(kModels, lowerExtension(file)) != std::end(kModels)) {
             const std::filesystem::path drawn = request.work / kThumbnailName;
             if (command({"render", file, "-o", drawn.string(), "--size", "128x128", "--samples", "1", "--quiet"}) == 0)
                 return drawn;
             break;
         }
     return {};
-}
-
-std::size_t numberIn(const char* text)
-{
-    std::size_t value = 0;
-    std::from_chars(text, text + std::string_view(text).size(), value);
-    return value;
 }
 
 } // namespace
@@ -103,11 +70,13 @@ bool isJobProcess(int argc, const char* const* argv)
 int runJobProcess(int argc, const char* const* argv, const std::function<int(const std::vector<std::string>&)>& command)
 {
     ChildRequest request;
+    int thumbnails = 0;
     request.work = argv[2];
-    request.parent = std::int64_t(numberIn(argv[3]));
-    request.megabytes = numberIn(argv[4]);
-    request.thumbnails = Thumbnails(numberIn(argv[5]));
-    request.processorSeconds = numberIn(argv[6]);
+    parseNumber(argv[3], request.parent);
+    parseNumber(argv[4], request.megabytes);
+    parseNumber(argv[5], thumbnails);
+    parseNumber(argv[6], request.processorSeconds);
+    request.thumbnails = Thumbnails(thumbnails);
     request.words = {argv + kFixedWords + 1, argv + argc};
     dieWith(request.parent, SIGTERM); // the handler of SIGTERM removes unfinished files
     leaveNoCore();
@@ -117,19 +86,26 @@ int runJobProcess(int argc, const char* const* argv, const std::function<int(con
         setLimit(RLIMIT_CPU, request.processorSeconds, RLIM_INFINITY);
     std::set_new_handler([] { ::_exit(kNoMemoryCode); });
 
-    Names inputs, outputs;
-    watchInputs([&](const std::filesystem::path& file) { inputs.add(file); });
-    watchOutputs([&](const std::filesystem::path& file) { outputs.add(file); });
+    ChildAnswer answer;
+    std::mutex mutex;
+    const auto addTo = [&mutex](std::vector<std::string>& names) { // each name once, in order, from any thread
+        return [&](const std::filesystem::path& file) {
+            const std::lock_guard lock(mutex);
+            if (std::ranges::find(names, file.string()) == names.end())
+                names.push_back(file.string());
+        };
+    };
+    watchInputs(addTo(answer.inputs));
+    watchOutputs(addTo(answer.outputs));
     const int code = command(request.words);
-    ChildAnswer answer{inputs.close(), outputs.close(), {}};
+    watchInputs({});
+    watchOutputs({});
     ordered_json j = {{"inputs", answer.inputs}, {"outputs", answer.outputs}};
     if (request.thumbnails != Thumbnails::none && (code == 0 || code == int(ErrorKind::limit)))
         if (const std::filesystem::path image = thumbnailSource(request, answer, command); !image.empty())
             if (const auto thumbnail = thumbnailOf(image))
                 j["thumbnail"] = {
                     {"width", thumbnail->width}, {"height", thumbnail->height}, {"jpeg", thumbnail->jpeg}};
-    watchInputs({});
-    watchOutputs({});
     const std::string text = j.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
     const Status written = writeFileWhole(request.work / kAnswerName, text);
     return written ? code : code != 0 ? code : int(ErrorKind::output);
@@ -137,23 +113,18 @@ int runJobProcess(int argc, const char* const* argv, const std::function<int(con
 
 ChildAnswer readAnswer(const std::filesystem::path& work)
 {
-    ChildAnswer answer;
-    const auto bytes = readFileBytes(work / kAnswerName, kMaxAnswerBytes, /*isInput*/ false);
-    if (!bytes)
-        return answer;
+    const auto text = readText(work / kAnswerName, /*isInput*/ false, kMaxAnswerBytes);
+    if (!text)
+        return {};
     try {
-        const auto j =
-            nlohmann::json::parse(std::string_view(reinterpret_cast<const char*>(bytes->data()), bytes->size()));
-        answer.inputs = j.at("inputs");
-        answer.outputs = j.at("outputs");
-        if (j.contains("thumbnail")) {
-            const auto& t = j["thumbnail"];
-            answer.thumbnail = {t.at("width"), t.at("height"), t.at("jpeg")};
-        }
+        const auto j = nlohmann::json::parse(*text);
+        ChildAnswer answer{j.at("inputs"), j.at("outputs"), {}};
+        if (const auto t = j.find("thumbnail"); t != j.end())
+            answer.thumbnail = {t->at("width"), t->at("height"), t->at("jpeg")};
+        return answer;
     } catch (const nlohmann::json::exception&) {
         return {};
     }
-    return answer;
 }
 
 } // namespace cotan

@@ -1,5 +1,3 @@
-#include "batch/digest.hpp"
-
 #include <chrono>
 #include <ctime>
 #include <memory>
@@ -11,6 +9,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#include "batch/record.hpp"
 #include "files/sandbox/process.hpp"
 
 namespace cotan {
@@ -32,21 +31,12 @@ bool sameFile(const FileState& a, const FileState& b)
 // Everything but the digest of the contents.
 FileState statusOf(const std::filesystem::path& path, const std::string& file)
 {
-    FileState state{.file = file, .digest = {}};
     struct stat status {};
-    if (::stat(path.c_str(), &status) != 0) {
-        state.digest = "missing";
-        return state;
-    }
-    if (S_ISDIR(status.st_mode)) { // the files within have states of their own
-        state.digest = "folder";
-        return state;
-    }
-    if (!S_ISREG(status.st_mode)) {
-        state.digest = "special";
-        return state;
-    }
-    state.bytes = std::uint64_t(status.st_size);
+    if (::stat(path.c_str(), &status) != 0)
+        return {.file = file, .digest = "missing"};
+    if (!S_ISREG(status.st_mode)) // the files within a folder have states of their own
+        return {.file = file, .digest = S_ISDIR(status.st_mode) ? "folder" : "special"};
+    FileState state{.file = file, .digest = {}, .bytes = std::uint64_t(status.st_size)};
     state.modified = nanoseconds(status.st_mtim);
     state.changed = nanoseconds(status.st_ctim);
     state.number = status.st_ino;

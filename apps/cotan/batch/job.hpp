@@ -46,11 +46,36 @@ struct JobList {
     std::vector<Job> jobs;
 };
 
+// The words quoted for a shell, on one line.
+std::string commandLine(const std::vector<std::string>& words);
+
 // Checks the words of a job and sets its files. Errors: what is wrong with the words.
 using CheckWords = std::function<Status(Job&)>;
 
 // Reads a job file; empty lines are skipped but counted. Errors (ErrorKind::input): lines that are not jobs, with the
 // first line number and how many more there are; two jobs with the same name; no job at all.
 Result<JobList> readJobs(const std::filesystem::path& file, const CheckWords& check);
+
+// Dependencies: a job that reads what another one writes runs after it.
+struct Plan {
+    std::vector<std::vector<std::size_t>> needs; // for each job: the jobs it depends on
+    std::vector<std::size_t> order;              // all jobs, each after those it depends on
+    std::vector<std::size_t> group;              // for each job: its connected component, from 0
+};
+
+// Plans by the files that are known before jobs run. Errors (ErrorKind::input): two jobs that write the same file, jobs
+// that wait for each other, a job that writes a file it reads.
+Result<Plan> planJobs(const JobList& list);
+
+// Part `number` of `of` parts of a batch.
+struct Shard {
+    std::size_t number = 1, of = 1;
+};
+
+// Parses "3/8". Errors: ErrorKind::usage.
+Result<Shard> parseShard(const std::string& text);
+
+// The jobs of a shard, in order. Shards get whole connected components in turn; every job is in exactly one shard.
+std::vector<std::size_t> jobsOf(const Plan& plan, const Shard& shard);
 
 } // namespace cotan

@@ -1,9 +1,6 @@
 #include "batch/job.hpp"
 
 #include <algorithm>
-#include <map>
-#include <optional>
-#include <span>
 #include <string_view>
 #include <type_traits>
 
@@ -13,7 +10,7 @@
 
 #include "files/bytes.hpp"
 #include "files/sandbox/process.hpp"
-#include "words.hpp"
+#include "terminal/command_words.hpp"
 
 namespace cotan {
 
@@ -23,9 +20,7 @@ using nlohmann::json;
 
 constexpr std::size_t kMaxBytes = std::size_t(4) << 30;
 constexpr std::size_t kMaxNameBytes = 1000;
-constexpr double kMaxMegabytes = 1 << 24;
-constexpr double kMinSeconds = 0.001, kMaxSeconds = 1e6;
-constexpr double kMaxRetries = 100, kMaxPriority = 1000000;
+constexpr double kMaxMegabytes = 1 << 24, kMaxSeconds = 1e6, kMaxPriority = 1e6;
 
 // Lists and objects are not printed, since dumping them recurses once per nesting level.
 Error expected(const std::string& member, const std::string& what, const json& found)
@@ -104,17 +99,16 @@ Status readEnvironment(const json& job, std::map<std::string, std::string>& envi
 Status readOptions(const json& job, JobOptions& options)
 {
     std::optional<int> priority;
-    Status read = readNumber(job, "limit-memory", 0, kMaxMegabytes, options.megabytes);
-    if (read)
-        read = readNumber(job, "limit-time", kMinSeconds, kMaxSeconds, options.seconds);
-    if (read)
-        read = readNumber(job, "limit-processor-time", 0, kMaxSeconds, options.processorSeconds);
-    if (read)
-        read = readNumber(job, "retries", 0, kMaxRetries, options.retries);
-    if (read)
-        read = readNumber(job, "priority", -kMaxPriority, kMaxPriority, priority);
+    for (const Status& read : {readNumber(job, "limit-memory", 0, kMaxMegabytes, options.megabytes),
+                               readNumber(job, "limit-time", 0.001, kMaxSeconds, options.seconds),
+                               readNumber(job, "limit-processor-time", 0, kMaxSeconds, options.processorSeconds),
+                               readNumber(job, "retries", 0, 100, options.retries),
+                               readNumber(job, "priority", -kMaxPriority, kMaxPriority, priority),
+                               readEnvironment(job, options.environment)})
+        if (!read)
+            return read;
     options.priority = priority.value_or(0);
-    return read ? readEnvironment(job, options.environment) : read;
+    return Done{};
 }
 
 Result<Job> readJob(std::string_view line, const CheckWords& check)
@@ -153,27 +147,15 @@ Result<Job> readJob(std::string_view line, const CheckWords& check)
     return job;
 }
 
-// Combines the errors of many lines into one.
-class LineErrors {
-public:
-    void add(const std::string& place, std::size_t line, const std::string& what)
-    {
-        if (count_++ == 0)
-            first_ = fmt::format("{}:{}: {}", place, line, what);
-    }
-    std::optional<Error> error() const
-    {
-        if (count_ == 0)
-            return std::nullopt;
-        return inputError(first_ + (count_ > 1 ? fmt::format(" (and {} more lines are wrong)", count_ - 1) : ""));
-    }
-
-private:
-    std::string first_;
-    std::size_t count_ = 0;
-};
-
 } // namespace
+
+std::string commandLine(const std::vector<std::string>& words)
+{
+    std::string line;
+    for (const std::string& word : words)
+        line += (line.empty() ? "" : " ") + quoted(word);
+    return line;
+}
 
 std::vector<std::string> Job::key() const
 {
@@ -195,7 +177,8 @@ Result<JobList> readJobs(const std::filesystem::path& file, const CheckWords& ch
     JobList list;
     list.folder = std::filesystem::absolute(file).lexically_normal().parent_path();
     std::map<std::string, std::size_t> lines; // by job name
-    LineErrors errors;
+    std::string first;                        // error of the first line that is wrong
+    std::size_t wrong = 0;
     for (std::size_t line = 1; !text.empty(); ++line) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         const std::string_view one = text.substr(0, end);
@@ -203,21 +186,20 @@ Result<JobList> readJobs(const std::filesystem::path& file, const CheckWords& ch
         if (one.find_first_not_of(" \t\r") == std::string_view::npos)
             continue;
         auto job = readJob(one, check);
-        if (!job) {
-            errors.add(file.string(), line, job.error().message);
-            continue;
+        if (job) {
+            job->line = line;
+            const auto [known, isNew] = lines.emplace(job->name, line);
+            if (!isNew)
+                job = inputError(fmt::format("'{}' is also the name of line {}; expected a different name for each job",
+                                             printable(job->name, 120), known->second));
         }
-        job->line = line;
-        const auto [known, isNew] = lines.emplace(job->name, line);
-        if (isNew)
+        if (job)
             list.jobs.push_back(std::move(*job));
-        else
-            errors.add(file.string(), line,
-                       fmt::format("'{}' is also the name of line {}; expected a different name for each job",
-                                   printable(job->name, 120), known->second));
+        else if (wrong++ == 0)
+            first = fmt::format("{}:{}: {}", file.string(), line, job.error().message);
     }
-    if (const auto error = errors.error())
-        return *error;
+    if (wrong > 0)
+        return inputError(first + (wrong > 1 ? fmt::format(" (and {} more lines are wrong)", wrong - 1) : ""));
     if (list.jobs.empty())
         return inputError(file.string() + ": expected a job in each line; found none");
     return list;

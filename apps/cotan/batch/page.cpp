@@ -2,13 +2,13 @@
 
 #include <cmath>
 #include <string_view>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/named_values.hpp"
 #include "html.hpp"
-#include "words.hpp"
 
 namespace cotan {
 
@@ -212,6 +212,7 @@ ordered_json rowOf(const JobList& list, const JobResult& result, const fs::path&
 {
     const JobRecord& r = result.record;
     const Job& job = list.jobs[result.job];
+    const Thumbnail& t = r.thumbnail;
     const bool bad = r.state > JobState::limit;
     auto outputs = ordered_json::array(), inputs = ordered_json::array();
     for (const FileState& output : r.outputs) {
@@ -221,24 +222,19 @@ ordered_json rowOf(const JobList& list, const JobResult& result, const fs::path&
     }
     for (const FileState& input : r.inputs)
         inputs.push_back(input.file);
-    ordered_json row = {job.name,
-                        int(r.state),
-                        nullptr,
-                        r.degrees ? r.degrees->of : "",
-                        std::round(r.seconds * 1000) / 1000,
-                        std::round(r.megabytes),
-                        commandLine(job.words),
-                        r.reason,
-                        bad || r.output.size() <= kMaxOutput ? r.output : r.output.substr(0, kMaxOutput) + "...",
-                        outputs,
-                        inputs,
-                        nullptr,
-                        result.kept ? 1 : 0};
-    if (r.degrees)
-        row[2] = r.degrees->mean;
-    if (!r.thumbnail.jpeg.empty())
-        row[11] = {r.thumbnail.width, r.thumbnail.height, r.thumbnail.jpeg};
-    return row;
+    return {job.name,
+            int(r.state),
+            r.degrees ? ordered_json(r.degrees->mean) : nullptr,
+            r.degrees ? r.degrees->of : "",
+            std::round(r.seconds * 1000) / 1000,
+            std::round(r.megabytes),
+            commandLine(job.words),
+            r.reason,
+            bad || r.output.size() <= kMaxOutput ? r.output : r.output.substr(0, kMaxOutput) + "...",
+            outputs,
+            inputs,
+            t.jpeg.empty() ? nullptr : ordered_json({t.width, t.height, t.jpeg}),
+            result.kept ? 1 : 0};
 }
 
 // Escapes JSON for a script element: no text in it may end the element.
@@ -255,36 +251,33 @@ std::string scriptJson(const ordered_json& data)
     return safe;
 }
 
-std::string head(int column, std::string_view text, std::string_view className)
-{
-    return fmt::format(
-        "<div role=\"columnheader\" class=\"{}\"><button data-column=\"{}\">{}<span></span></button></div>", className,
-        column, text);
-}
-
 } // namespace
 
 std::string batchPage(const JobList& list, const std::vector<JobResult>& results, const std::string& title,
                       const std::string& footer, const fs::path& folder, std::size_t maxRows)
 {
-    ordered_json data = {{"states", ordered_json::array()},
-                         {"bad", ordered_json::array()},
-                         {"warn", ordered_json::array()},
-                         {"rows", ordered_json::array()}};
+    ordered_json data;
+    for (const char* member : {"states", "bad", "warn", "rows"})
+        data[member] = ordered_json::array();
     const StateCounts counts = countsOf(results);
-    std::string buttons;
-    for (std::size_t i = counts.size(); i-- > 0;)
-        if (counts[i] > 0)
-            buttons += fmt::format("<button data-state=\"{}\">{} {}</button>", i, counts[i], name(JobState(i)));
+    std::string buttons, heads, more;
     for (std::size_t i = 0; i < counts.size(); ++i) {
         data["states"].push_back(name(JobState(i)));
-        if (JobState(i) > JobState::skipped)
-            data["bad"].push_back(i);
-        else if (JobState(i) > JobState::done)
-            data["warn"].push_back(i);
+        if (i > 0)
+            data[JobState(i) > JobState::skipped ? "bad" : "warn"].push_back(i);
+        if (counts[i] > 0) // worst first
+            buttons =
+                fmt::format("<button data-state=\"{}\">{} {}</button>", i, counts[i], name(JobState(i))) + buttons;
     }
+    for (const auto& [column, text, className] : {std::tuple(0, "Job", ""),
+                                                  {1, "State", ""},
+                                                  {2, "Degrees", "number"},
+                                                  {4, "Seconds", "number wide"},
+                                                  {5, "MiB", "number wide"}})
+        heads += fmt::format(
+            "<div role=\"columnheader\" class=\"{}\"><button data-column=\"{}\">{}<span></span></button></div>",
+            className, column, text);
     std::vector<std::size_t> order = worstFirst(results);
-    std::string more;
     if (order.size() > maxRows) {
         more = fmt::format("the worst {} of {}; ", maxRows, order.size());
         order.resize(maxRows);
@@ -300,8 +293,7 @@ std::string batchPage(const JobList& list, const std::vector<JobResult>& results
           "<span id=\"count\" aria-live=\"polite\"></span></div>\n</header>\n"
           "<noscript><p>This page needs JavaScript; <code>--json</code> writes the same data.</p></noscript>\n"
           "<div class=\"row head\" role=\"row\"><div></div>"
-        + head(0, "Job", "") + head(1, "State", "") + head(2, "Degrees", "number") + head(4, "Seconds", "number wide")
-        + head(5, "MiB", "number wide") + "</div>\n<div id=\"list\" role=\"table\" aria-label=\"jobs, worst first\">"
+        + heads + "</div>\n<div id=\"list\" role=\"table\" aria-label=\"jobs, worst first\">"
         + "<div id=\"space\" role=\"rowgroup\"></div></div>\n<footer>" + escapeHtml(more + footer) + "</footer>\n"
         + "<dialog></dialog>\n<script type=\"application/json\" id=\"data\">" + scriptJson(data) + "</script>\n<script>"
         + std::string(kScript) + "</script>\n</body>\n</html>\n";

@@ -1,12 +1,12 @@
-#include "batch/plan.hpp"
-
 #include <algorithm>
-#include <charconv>
+#include <functional>
 #include <unordered_map>
 
 #include <fmt/format.h>
 
+#include "batch/job.hpp"
 #include "core/groups.hpp"
+#include "core/parse_number.hpp"
 
 namespace cotan {
 
@@ -23,61 +23,41 @@ std::string pathOf(const JobList& list, const std::string& file)
 // The job that writes a file or a folder that contains it; null: none.
 const std::size_t* writerOf(const std::unordered_map<std::string, std::size_t>& writers, fs::path path)
 {
-    for (;;) {
+    for (;; path = path.parent_path()) {
         if (const auto found = writers.find(path.string()); found != writers.end())
             return &found->second;
         if (!path.has_relative_path())
             return nullptr;
-        path = path.parent_path();
     }
 }
 
-// The jobs of a dependency cycle; empty: none. A depth-first search without recursion.
-std::vector<std::size_t> findCycle(const std::vector<std::vector<std::size_t>>& needs)
+// Sets plan.order. Returns the jobs of a dependency cycle; empty: none.
+std::vector<std::size_t> orderJobs(Plan& plan)
 {
-    enum class Mark { fresh, open, done };
-    std::vector<Mark> marks(needs.size(), Mark::fresh);
-    for (std::size_t start = 0; start < needs.size(); ++start) {
-        std::vector<std::pair<std::size_t, std::size_t>> path; // a job, and how many of its needs were followed
-        if (marks[start] == Mark::fresh)
-            path.emplace_back(start, 0);
-        while (!path.empty()) {
-            auto& [job, next] = path.back();
-            marks[job] = Mark::open;
-            if (next == needs[job].size()) {
-                marks[job] = Mark::done;
-                path.pop_back();
-                continue;
-            }
-            const std::size_t need = needs[job][next++];
-            if (marks[need] == Mark::fresh) {
-                path.emplace_back(need, 0);
-            } else if (marks[need] == Mark::open) {
-                std::vector<std::size_t> cycle;
-                for (auto at = std::ranges::find(path, need, &std::pair<std::size_t, std::size_t>::first);
-                     at != path.end(); ++at)
-                    cycle.push_back(at->first);
-                return cycle;
-            }
-        }
+    std::vector<std::size_t> open(plan.needs.size()); // per job: number of needs that are not yet in the order
+    std::vector<std::vector<std::size_t>> users(plan.needs.size());
+    for (std::size_t job = 0; job < plan.needs.size(); ++job) {
+        for (const std::size_t need : plan.needs[job])
+            users[need].push_back(job);
+        if ((open[job] = plan.needs[job].size()) == 0)
+            plan.order.push_back(job);
     }
-    return {};
-}
-
-// The connected component of each job, numbered in the order of their first jobs.
-std::vector<std::size_t> groupsOf(const std::vector<std::vector<std::size_t>>& needs)
-{
-    JoinedGroups joined(needs.size());
-    for (std::size_t job = 0; job < needs.size(); ++job)
-        for (const std::size_t need : needs[job])
-            joined.join(std::uint32_t(job), std::uint32_t(need));
-    std::vector<std::size_t> group(needs.size());
-    std::size_t count = 0;
-    for (std::size_t job = 0; job < needs.size(); ++job) {
-        const std::size_t first = joined.find(std::uint32_t(job));
-        group[job] = first == job ? count++ : group[first];
+    for (std::size_t i = 0; i < plan.order.size(); ++i)
+        for (const std::size_t user : users[plan.order[i]])
+            if (--open[user] == 0)
+                plan.order.push_back(user);
+    if (plan.order.size() == plan.needs.size())
+        return {};
+    // Every remaining job needs another one that remains, so a walk along these needs comes back to a job on its path.
+    std::size_t job = std::size_t(std::ranges::find_if(open, std::identity()) - open.begin());
+    std::vector<std::size_t> path,
+        position(plan.needs.size()); // position: where a job is on the path, from 1; 0: nowhere
+    while (position[job] == 0) {
+        path.push_back(job);
+        position[job] = path.size();
+        job = *std::ranges::find_if(plan.needs[job], [&](std::size_t need) { return open[need] > 0; });
     }
-    return group;
+    return {path.begin() + std::ptrdiff_t(position[job] - 1), path.end()};
 }
 
 } // namespace
@@ -107,33 +87,33 @@ Result<Plan> planJobs(const JobList& list)
             if (*writer != i && std::ranges::find(plan.needs[i], *writer) == plan.needs[i].end())
                 plan.needs[i].push_back(*writer);
         }
-    if (const auto cycle = findCycle(plan.needs); !cycle.empty()) {
+    if (const auto cycle = orderJobs(plan); !cycle.empty()) {
         std::string lines;
         for (const std::size_t job : cycle)
             lines += fmt::format("line {} waits for ", list.jobs[job].line);
         return inputError(
             fmt::format("{}line {}: each reads what the next one writes", lines, list.jobs[cycle.front()].line));
     }
-    plan.group = groupsOf(plan.needs);
+    JoinedGroups joined(list.jobs.size());
+    for (const std::size_t job : plan.order)
+        for (const std::size_t need : plan.needs[job])
+            joined.join(std::uint32_t(job), std::uint32_t(need));
+    std::size_t count = 0; // of groups, numbered in the order of their first jobs
+    for (std::size_t job = 0; job < list.jobs.size(); ++job) {
+        const std::size_t first = joined.find(std::uint32_t(job));
+        plan.group.push_back(first == job ? count++ : plan.group[first]);
+    }
     return plan;
 }
 
 Result<Shard> parseShard(const std::string& text)
 {
-    const auto wrong = [&] {
-        return usageError("--shard: expected K/N with K from 1 to N, such as 3/8; found '" + text + "'");
-    };
-    const std::size_t slash = text.find('/');
-    if (slash == std::string::npos)
-        return wrong();
-    const auto number = [&](std::size_t from, std::size_t to, std::size_t& value) {
-        const auto [end, error] = std::from_chars(text.data() + from, text.data() + to, value);
-        return error == std::errc() && end == text.data() + to;
-    };
+    const std::string_view all = text;
+    const std::size_t slash = all.find('/');
     Shard shard;
-    if (!number(0, slash, shard.number) || !number(slash + 1, text.size(), shard.of) || shard.number < 1
-        || shard.number > shard.of)
-        return wrong();
+    if (slash == std::string::npos || !parseNumber(all.substr(0, slash), shard.number)
+        || !parseNumber(all.substr(slash + 1), shard.of) || shard.number < 1 || shard.number > shard.of)
+        return usageError("--shard: expected K/N with K from 1 to N, such as 3/8; found '" + text + "'");
     return shard;
 }
 

@@ -1,11 +1,10 @@
-#include "process.hpp"
+#include "batch/child.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -27,17 +26,23 @@ double secondsOf(const timeval& time) { return double(time.tv_sec) + 1e-6 * doub
 
 } // namespace
 
-JobProcess::JobProcess(pid_t process, Descriptor messages, double limitSeconds)
-    : process_(process), messages_(std::move(messages)),
-      deadline_(began_ + std::chrono::duration_cast<Clock::duration>(Seconds(limitSeconds)))
+Result<std::unique_ptr<JobProcess>> JobProcess::start(const std::string& program, const std::filesystem::path& folder,
+                                                      const ChildRequest& request,
+                                                      const std::map<std::string, std::string>& environment,
+                                                      double limitSeconds)
 {
-}
-
-JobProcess::JobProcess(JobProcess&& other) noexcept
-    : process_(std::exchange(other.process_, -1)), messages_(std::move(other.messages_)), began_(other.began_),
-      deadline_(other.deadline_), terminated_(other.terminated_), killed_(other.killed_), head_(std::move(other.head_)),
-      tail_(std::move(other.tail_)), cut_(other.cut_)
-{
+    const auto failed = [](int problem) {
+        return unavailableError(fmt::format("cannot start a process: {}", std::strerror(problem)));
+    };
+    int pair[2];
+    if (::pipe2(pair, O_CLOEXEC) != 0)
+        return failed(errno);
+    const Descriptor theirs(pair[1]);
+    std::unique_ptr<JobProcess> job(new JobProcess(Descriptor(pair[0]), Seconds(limitSeconds)));
+    ::fcntl(pair[0], F_SETFL, O_NONBLOCK);
+    if (const int problem = spawn({program, toWords(request), -1, theirs.get(), folder, environment}, job->process_))
+        return failed(problem);
+    return job;
 }
 
 JobProcess::~JobProcess()
@@ -46,21 +51,6 @@ JobProcess::~JobProcess()
         return;
     ::kill(-process_, SIGKILL);
     waitFor(process_);
-}
-
-Result<JobProcess> JobProcess::start(const std::string& program, const std::filesystem::path& folder,
-                                     const ChildRequest& request, const std::map<std::string, std::string>& environment,
-                                     double limitSeconds)
-{
-    int pair[2];
-    if (::pipe2(pair, O_CLOEXEC) != 0)
-        return unavailableError(fmt::format("cannot start a process: {}", std::strerror(errno)));
-    Descriptor ours(pair[0]), theirs(pair[1]);
-    ::fcntl(ours.get(), F_SETFL, O_NONBLOCK);
-    pid_t process = -1;
-    if (const int problem = spawn({program, toWords(request), -1, theirs.get(), folder, environment}, process))
-        return unavailableError(fmt::format("cannot start a process: {}", std::strerror(problem)));
-    return JobProcess(process, std::move(ours), limitSeconds);
 }
 
 void JobProcess::listen()
@@ -93,11 +83,11 @@ std::optional<Ending> JobProcess::look()
     const Waited found = waitFor(process_, /*look*/ true, ending.status, &usage);
     const auto now = Clock::now();
     if (found == Waited::running) {
-        if (!terminated_ && now >= deadline_) {
+        if (!terminated_ && now - began_ >= limit_) {
             ::kill(-process_, SIGTERM);
             terminated_ = true;
         }
-        if (!killed_ && now >= deadline_ + std::chrono::duration_cast<Clock::duration>(Seconds(kGrace))) {
+        if (!killed_ && now - began_ >= limit_ + Seconds(kGrace)) {
             ::kill(-process_, SIGKILL);
             killed_ = true;
         }
@@ -108,10 +98,10 @@ std::optional<Ending> JobProcess::look()
     listen(); // reads the remaining output
     ending.lost = found == Waited::lost;
     ending.late = terminated_;
-    ending.output = cut_ ? head_ + "\n...\n" + tail_ : head_ + tail_;
-    ending.seconds = Seconds(now - began_).count();
-    ending.processorSeconds = secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime);
-    ending.megabytes = double(usage.ru_maxrss) / 1024;
+    ending.record.output = cut_ ? head_ + "\n...\n" + tail_ : head_ + tail_;
+    ending.record.seconds = Seconds(now - began_).count();
+    ending.record.processorSeconds = secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime);
+    ending.record.megabytes = double(usage.ru_maxrss) / 1024;
     return ending;
 }
 

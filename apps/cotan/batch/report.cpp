@@ -7,18 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "terminal/command_words.hpp"
-#include "words.hpp"
-
 namespace cotan {
-
-std::string commandLine(const std::vector<std::string>& words)
-{
-    std::string line;
-    for (const std::string& word : words)
-        line += (line.empty() ? "" : " ") + quoted(word);
-    return line;
-}
 
 namespace {
 
@@ -82,27 +71,22 @@ Json batchJson(const JobList& list, const std::vector<JobResult>& results)
     for (const std::size_t i : worstFirst(results)) {
         const JobRecord& r = results[i].record;
         const Job& job = list.jobs[results[i].job];
-        Json row = {{"name", job.name},
-                    {"line", job.line},
-                    {"command", job.words},
-                    {"state", name(r.state)},
-                    {"code", r.code ? Json(*r.code) : Json(nullptr)},
-                    {"signal", r.signal ? Json(*r.signal) : Json(nullptr)},
-                    {"runs", r.runs},
-                    {"reason", r.reason},
-                    {"kept", results[i].kept},
-                    {"degrees", nullptr},
-                    {"degrees_of", nullptr},
-                    {"seconds", r.seconds},
-                    {"processor_seconds", r.processorSeconds},
-                    {"megabytes", r.megabytes},
-                    {"inputs", names(r.inputs)},
-                    {"outputs", names(r.outputs)}};
-        if (r.degrees) {
-            row["degrees"] = r.degrees->mean;
-            row["degrees_of"] = r.degrees->of;
-        }
-        jobs.push_back(std::move(row));
+        jobs.push_back({{"name", job.name},
+                        {"line", job.line},
+                        {"command", job.words},
+                        {"state", name(r.state)},
+                        {"code", r.code ? Json(*r.code) : Json()},
+                        {"signal", r.signal ? Json(*r.signal) : Json()},
+                        {"runs", r.runs},
+                        {"reason", r.reason},
+                        {"kept", results[i].kept},
+                        {"degrees", r.degrees ? Json(r.degrees->mean) : Json()},
+                        {"degrees_of", r.degrees ? Json(r.degrees->of) : Json()},
+                        {"seconds", r.seconds},
+                        {"processor_seconds", r.processorSeconds},
+                        {"megabytes", r.megabytes},
+                        {"inputs", names(r.inputs)},
+                        {"outputs", names(r.outputs)}});
     }
     return {{"command", "batch"}, {"counts", counts}, {"jobs", jobs}};
 }

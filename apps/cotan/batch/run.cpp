@@ -1,14 +1,16 @@
 #include "batch/run.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <cstring>
-#include <deque>
 #include <functional>
 #include <list>
 #include <map>
+#include <memory>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include <fmt/format.h>
@@ -18,7 +20,6 @@
 #include "files/children.hpp"
 #include "files/output.hpp"
 #include "files/sandbox/request.hpp"
-#include "process.hpp"
 
 namespace cotan {
 
@@ -34,9 +35,8 @@ constexpr std::size_t kMaxReportBytes = std::size_t(256) << 20;
 
 struct Running {
     std::size_t job;
-    std::size_t slot;
     fs::path work;
-    JobProcess process;
+    std::unique_ptr<JobProcess> process;
     Claim claim;
     std::int64_t began; // by fileClockNanoseconds()
 };
@@ -62,31 +62,49 @@ std::string lastMessage(const std::string& output)
     return printable(output.substr(begin == std::string::npos ? 0 : begin + 1, end - begin), 400);
 }
 
-bool isGood(const JobRecord& record) { return record.state == JobState::done || record.state == JobState::limit; }
-
-JobRecord skippedRecord(const std::string& failed)
+// The record of a job that did not run.
+JobRecord recordWithoutRun(JobState state, std::string reason, std::optional<int> code = std::nullopt)
 {
     JobRecord record;
-    record.state = JobState::skipped;
-    record.reason = fmt::format("waits for '{}', which is not done", failed);
+    record.state = state;
+    record.code = code;
+    record.reason = std::move(reason);
     return record;
 }
 
-// The limits of one job.
-struct Limits {
-    double seconds = 0, processorSeconds = 0;
-    std::size_t megabytes = 0;
-};
-
-Limits limitsOf(const RunOptions& all, const JobOptions& own)
+// The record of a job that depends on a finished one that is not good; nullopt: it depends on none.
+std::optional<JobRecord> skippedRecord(const JobList& list, const Plan& plan, const std::vector<JobResult>& results,
+                                       std::size_t job)
 {
-    return {own.seconds.value_or(all.seconds), std::ceil(own.processorSeconds.value_or(all.processorSeconds)),
-            own.megabytes.value_or(all.megabytes)};
+    for (const std::size_t need : plan.needs[job])
+        if (const JobRecord& r = results[need].record; r.state != JobState::notRun && !isGood(r))
+            return recordWithoutRun(JobState::skipped,
+                                    fmt::format("waits for '{}', which is not done", list.jobs[need].name));
+    return std::nullopt;
 }
 
-void judge(const Ending& ending, const Limits& limits, JobRecord& record)
+// Whether the files of a record are as they were when it was made.
+bool holds(FileStates& states, const JobRecord& record)
 {
-    const std::string words = lastMessage(ending.output);
+    return std::ranges::all_of(std::array{&record.inputs, &record.outputs}, [&](const auto* files) {
+        return std::ranges::all_of(*files, [&](const FileState& file) { return states.holds(file, record.at); });
+    });
+}
+
+// The options of the batch with those of one job.
+RunOptions optionsOf(RunOptions all, const JobOptions& own)
+{
+    all.seconds = own.seconds.value_or(all.seconds);
+    all.processorSeconds = std::ceil(own.processorSeconds.value_or(all.processorSeconds));
+    all.megabytes = own.megabytes.value_or(all.megabytes);
+    all.retries = own.retries.value_or(all.retries);
+    return all;
+}
+
+// Sets the state, the code and the reason.
+void judge(const Ending& ending, const RunOptions& limits, JobRecord& record)
+{
+    const std::string words = lastMessage(record.output);
     const auto is = [&](JobState state, std::string reason) {
         record.state = state;
         record.reason = std::move(reason);
@@ -102,7 +120,7 @@ void judge(const Ending& ending, const Limits& limits, JobRecord& record)
         record.signal = signal;
     else
         record.code = code;
-    const bool noMemory = code == kNoMemoryCode || (signalled && ending.output.find("bad_alloc") != std::string::npos);
+    const bool noMemory = code == kNoMemoryCode || (signalled && record.output.find("bad_alloc") != std::string::npos);
     if (ending.late)
         return is(JobState::late, fmt::format("took longer than {:.4g} s and was terminated", limits.seconds));
     if (signal == SIGXCPU)
@@ -114,11 +132,11 @@ void judge(const Ending& ending, const Limits& limits, JobRecord& record)
         return is(JobState::memory, "needed more memory than is available");
     if (signal == SIGKILL)
         return is(JobState::crashed,
-                  fmt::format("was killed (signal 9) with {:.0f} MiB in use, perhaps out of memory", ending.megabytes));
+                  fmt::format("was killed (signal 9) with {:.0f} MiB in use, perhaps out of memory", record.megabytes));
     if (signalled)
         return is(JobState::crashed,
                   fmt::format("crashed (signal {}, {}) with {:.0f} MiB in use: {}", signal, ::strsignal(signal),
-                              ending.megabytes, words));
+                              record.megabytes, words));
     if (code == 0)
         return is(JobState::done, "");
     is(code == int(ErrorKind::limit) ? JobState::limit : JobState::failed, words);
@@ -129,12 +147,16 @@ class Run {
 public:
     Run(const JobList& list, const Plan& plan, std::span<const std::size_t> chosen, Store& store,
         const RunOptions& options, const Progress& progress)
-        : list_(list), chosen_(chosen), store_(store), options_(options), states_(list.folder),
+        : list_(list), plan_(plan), chosen_(chosen), store_(store), options_(options), states_(list.folder),
           results_(list.jobs.size()), waitsFor_(list.jobs.size()), waiting_(list.jobs.size()), runs_(list.jobs.size()),
-          priorities_(prioritiesOf(list, plan)), steps_(progress, chosen.size())
+          steps_(progress, chosen.size())
     {
-        for (std::size_t slot = std::max<std::size_t>(options.processes, 1); slot > 0; --slot)
-            slots_.push_back(slot);
+        // A job has at least the priority of the jobs that wait for it.
+        for (const Job& job : list.jobs)
+            priorities_.push_back(job.options.priority);
+        for (auto job = plan.order.rbegin(); job != plan.order.rend(); ++job)
+            for (const std::size_t need : plan.needs[*job])
+                priorities_[need] = std::max(priorities_[need], priorities_[*job]);
         for (const std::size_t job : chosen) {
             waitsFor_[job] = plan.needs[job].size();
             for (const std::size_t need : plan.needs[job])
@@ -161,48 +183,19 @@ public:
     }
 
 private:
-    // Priority of each job: the maximum of its own and those of the jobs that wait for it.
-    static std::vector<int> prioritiesOf(const JobList& list, const Plan& plan)
-    {
-        std::vector<int> priorities;
-        std::vector<std::size_t> raised;
-        for (const Job& job : list.jobs) {
-            raised.push_back(priorities.size());
-            priorities.push_back(job.options.priority);
-        }
-        while (!raised.empty()) {
-            const std::size_t job = raised.back();
-            raised.pop_back();
-            for (const std::size_t need : plan.needs[job])
-                if (priorities[need] < priorities[job]) {
-                    priorities[need] = priorities[job];
-                    raised.push_back(need);
-                }
-        }
-        return priorities;
-    }
+    void addReady(std::size_t job) { ready_.emplace(priorities_[job], job); }
 
-    void addReady(std::size_t job) { ready_[priorities_[job]].push_back(job); }
-
-    // Takes the first job with the highest priority.
-    std::size_t takeReady()
-    {
-        const auto highest = ready_.begin();
-        const std::size_t job = highest->second.front();
-        highest->second.pop_front();
-        if (highest->second.empty())
-            ready_.erase(highest);
-        return job;
-    }
-
-    // Starts as many jobs as there are free slots.
+    // Starts as many jobs as may run at a time.
     Status start()
     {
-        std::deque<std::size_t> elsewhere; // claimed by other processes
+        const std::size_t most = std::max<std::size_t>(options_.processes, 1);
+        std::vector<std::size_t> elsewhere; // claimed by other processes
         Status status = Done{};
-        while (status && !slots_.empty() && !ready_.empty() && !steps_.stopped()) {
-            const std::size_t job = takeReady();
-            if (auto kept = keptOf(job)) {
+        while (status && running_.size() < most && !ready_.empty() && !steps_.stopped()) {
+            const std::size_t job = ready_.extract(ready_.begin()).mapped();
+            if (auto skipped = skippedRecord(list_, plan_, results_, job)) {
+                finish(job, std::move(*skipped), /*kept*/ false);
+            } else if (auto kept = keptOf(job)) {
                 finish(job, std::move(*kept), /*kept*/ true);
             } else if (auto claim = store_.claim(list_.jobs[job].key())) {
                 // Another process may have finished the job meanwhile.
@@ -221,14 +214,8 @@ private:
 
     std::optional<JobRecord> keptOf(std::size_t job)
     {
-        if (options_.again)
-            return std::nullopt;
-        auto record = store_.find(list_.jobs[job].key());
-        const auto holds = [&](const FileState& state) { return states_.holds(state, record->at); };
-        if (record && repeatable(*record) && std::ranges::all_of(record->inputs, holds)
-            && std::ranges::all_of(record->outputs, holds))
-            return record;
-        return std::nullopt;
+        auto record = options_.again ? std::nullopt : store_.find(list_.jobs[job].key());
+        return record && repeatable(*record) && holds(states_, *record) ? record : std::nullopt;
     }
 
     Status begin(std::size_t job, Claim claim)
@@ -237,17 +224,15 @@ private:
         auto folder = store_.workFolder();
         if (!folder)
             return folder.error();
-        const std::size_t slot = slots_.back();
         ChildRequest request;
-        request.work = *folder / std::to_string(slot);
+        request.work = *folder / std::to_string(job);
         std::error_code ignored;
-        fs::remove_all(request.work, ignored);
         if (Status made = makeFolder(request.work); !made)
             return made;
         for (const std::string& output : requested.outputs)
             fs::create_directories((list_.folder / output).parent_path(), ignored); // else the command reports it
         request.parent = ::getpid();
-        const Limits limits = limitsOf(options_, requested.options);
+        const RunOptions limits = optionsOf(options_, requested.options);
         request.megabytes = limits.megabytes;
         request.processorSeconds = std::size_t(limits.processorSeconds);
         request.thumbnails = options_.thumbnails;
@@ -256,23 +241,24 @@ private:
             request.words.insert(request.words.end(), {"--threads", std::to_string(options_.threads)});
         if (requested.json.empty())
             request.words.insert(request.words.end(), {"--json", (request.work / kReportName).string()});
-        // Waits until the file clock has passed written_: earlier writes then have earlier times, later ones do not.
-        while (fileClockNanoseconds() <= written_)
+        // Waits until the file clock has passed the last write of the files that it reads: they then have earlier
+        // times, and files that change while it runs do not.
+        std::int64_t written = began_;
+        for (const std::size_t need : plan_.needs[job])
+            if (!results_[need].kept) // the clock of another machine may be ahead
+                written = std::max(written, results_[need].record.at);
+        while (fileClockNanoseconds() <= written)
             std::this_thread::sleep_for(kFileClockStep);
         const std::int64_t began = fileClockNanoseconds();
         auto process =
             JobProcess::start(options_.program, list_.folder, request, requested.options.environment, limits.seconds);
         ++runs_[job];
         if (!process) {
-            JobRecord record;
-            record.state = JobState::failed;
-            record.code = int(process.error().kind);
-            record.reason = process.error().message;
-            finish(job, std::move(record), false);
+            const Error& error = process.error();
+            finish(job, recordWithoutRun(JobState::failed, error.message, int(error.kind)), /*kept*/ false);
             return Done{};
         }
-        slots_.pop_back();
-        running_.push_back({job, slot, request.work, std::move(*process), std::move(claim), began});
+        running_.push_back({job, request.work, std::move(*process), std::move(claim), began});
         return Done{};
     }
 
@@ -287,61 +273,52 @@ private:
         std::vector<pollfd> descriptors;
         int tick = kTick;
         for (const Running& r : running_) {
-            descriptors.push_back({r.process.descriptor(), POLLIN, 0});
-            if (r.process.descriptor() < 0)
+            descriptors.push_back({r.process->descriptor(), POLLIN, 0});
+            if (r.process->descriptor() < 0)
                 tick = kClosingTick;
         }
         ::poll(descriptors.data(), descriptors.size(), tick);
         for (auto at = running_.begin(); at != running_.end();) {
-            const pid_t number = at->process.number();
-            const auto ending = at->process.look();
+            const pid_t number = at->process->number();
+            const auto ending = at->process->look();
             if (!ending) {
                 ++at;
                 continue;
             }
             const std::size_t job = at->job;
             JobRecord record = recordOf(*at, number, *ending);
-            slots_.push_back(at->slot);
-            if (shouldRetry(job, record)) {
-                running_.erase(at++);
-                addReady(job);
-                continue;
-            }
-            Status kept = store_.keep(list_.jobs[job].key(), record);
+            std::error_code ignored;
+            fs::remove_all(at->work, ignored);
+            const bool retry =
+                !repeatable(record) && runs_[job] <= optionsOf(options_, list_.jobs[job].options).retries;
+            Status kept = retry ? Done{} : store_.keep(list_.jobs[job].key(), record);
             running_.erase(at++); // also releases its claim
-            finish(job, std::move(record), false);
+            if (retry)
+                addReady(job);
+            else
+                finish(job, std::move(record), false);
             if (!kept)
                 return kept;
         }
         return Done{};
     }
 
-    // Whether to run the job once more.
-    bool shouldRetry(std::size_t job, const JobRecord& record) const
-    {
-        return !repeatable(record) && runs_[job] <= list_.jobs[job].options.retries.value_or(options_.retries);
-    }
-
     JobRecord recordOf(const Running& r, pid_t number, const Ending& ending)
     {
         const Job& job = list_.jobs[r.job];
-        JobRecord record;
-        record.output = ending.output;
-        record.seconds = ending.seconds;
-        record.processorSeconds = ending.processorSeconds;
-        record.megabytes = ending.megabytes;
+        JobRecord record = ending.record;
         record.runs = runs_[r.job];
-        judge(ending, limitsOf(options_, job.options), record);
+        judge(ending, optionsOf(options_, job.options), record);
         if (ending.lost || !WIFEXITED(ending.status) || record.state == JobState::memory)
             for (const std::string& output : job.outputs)
                 removeParts((list_.folder / output).parent_path(), number);
         const fs::path report = job.json.empty() ? r.work / kReportName : list_.folder / job.json;
         if (isGood(record))
-            if (const auto bytes = readFileBytes(report, kMaxReportBytes, /*isInput*/ false))
-                record.degrees = degreesIn({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+            if (const auto text = readText(report, /*isInput*/ false, kMaxReportBytes))
+                record.degrees = degreesIn(*text);
         ChildAnswer answer = readAnswer(r.work);
         record.thumbnail = std::move(answer.thumbnail);
-        record.at = written_ = nowNanoseconds();
+        record.at = nowNanoseconds();
         record.outputs = statesOf(answer.outputs, r.work);
         answer.inputs.insert(answer.inputs.end(), job.inputs.begin(), job.inputs.end());
         record.inputs = statesOf(answer.inputs, r.work);
@@ -357,12 +334,10 @@ private:
 
     std::vector<FileState> statesOf(const std::vector<std::string>& files, const fs::path& work)
     {
-        std::vector<std::string> names;
+        std::set<std::string> names;
         for (const std::string& file : files)
             if (!(list_.folder / file).lexically_normal().string().starts_with(work.string()))
-                names.push_back(nameOf(list_.folder, file));
-        std::ranges::sort(names);
-        names.erase(std::unique(names.begin(), names.end()), names.end());
+                names.insert(nameOf(list_.folder, file));
         std::vector<FileState> states;
         for (const std::string& name : names)
             states.push_back(states_.of(name));
@@ -371,31 +346,16 @@ private:
 
     void finish(std::size_t job, JobRecord record, bool kept)
     {
-        std::vector<std::size_t> failed;
-        const bool good = isGood(record);
         results_[job] = {job, std::move(record), kept};
         ++finished_;
         steps_.step();
-        if (!good)
-            failed.push_back(job);
-        else
-            for (const std::size_t next : waiting_[job])
-                if (--waitsFor_[next] == 0)
-                    addReady(next);
-        while (!failed.empty()) { // skips all jobs that wait for them
-            const std::size_t bad = failed.back();
-            failed.pop_back();
-            for (const std::size_t next : waiting_[bad])
-                if (results_[next].record.state == JobState::notRun) {
-                    results_[next] = {next, skippedRecord(list_.jobs[bad].name), false};
-                    ++finished_;
-                    steps_.step();
-                    failed.push_back(next);
-                }
-        }
+        for (const std::size_t next : waiting_[job])
+            if (--waitsFor_[next] == 0)
+                addReady(next);
     }
 
     const JobList& list_;
+    const Plan& plan_;
     const std::span<const std::size_t> chosen_;
     Store& store_;
     const RunOptions& options_;
@@ -405,28 +365,12 @@ private:
     std::vector<std::vector<std::size_t>> waiting_; // per job: jobs that wait for it
     std::vector<int> runs_;                         // per job: number of starts by this process
     std::vector<int> priorities_;
-    std::map<int, std::deque<std::size_t>, std::greater<>> ready_; // by priority
-    std::vector<std::size_t> slots_;                               // free slots
+    std::multimap<int, std::size_t, std::greater<>> ready_; // by priority, then in the order in which they became ready
     std::list<Running> running_;
-    std::int64_t written_ = nowNanoseconds(); // latest possible write time of files that jobs read
+    const std::int64_t began_ = nowNanoseconds();
     std::size_t finished_ = 0;
     CountedSteps steps_;
 };
-
-// Marks jobs without a result as skipped if a job they wait for is not done.
-void skipWaiting(const JobList& list, const Plan& plan, std::vector<JobResult>& results)
-{
-    for (bool more = true; more;) {
-        more = false;
-        for (JobResult& result : results)
-            for (const std::size_t need : plan.needs[result.job])
-                if (const JobState state = results[need].record.state; result.record.state == JobState::notRun
-                    && state != JobState::notRun && !isGood(results[need].record)) {
-                    result.record = skippedRecord(list.jobs[need].name);
-                    more = true;
-                }
-    }
-}
 
 } // namespace
 
@@ -441,18 +385,18 @@ std::vector<JobResult> collect(const JobList& list, const Plan& plan, std::span<
     FileStates states(list.folder);
     std::vector<JobResult> results;
     for (std::size_t job = 0; job < list.jobs.size(); ++job) {
-        JobResult result{job, {}, /*kept*/ false};
-        result.record.reason = "no store has a result for these inputs";
-        for (const Store& store : stores) {
-            auto record = store.find(list.jobs[job].key());
-            const auto holds = [&](const FileState& state) { return states.holds(state, record->at); };
-            if (record && record->at > result.record.at && std::ranges::all_of(record->inputs, holds)
-                && std::ranges::all_of(record->outputs, holds))
-                result.record = std::move(*record);
-        }
-        results.push_back(std::move(result));
+        results.push_back(
+            {job, recordWithoutRun(JobState::notRun, "no store has a result for these inputs"), /*kept*/ false});
+        JobRecord& newest = results.back().record;
+        for (const Store& store : stores)
+            if (auto record = store.find(list.jobs[job].key());
+                record && record->at > newest.at && holds(states, *record))
+                newest = std::move(*record);
     }
-    skipWaiting(list, plan, results);
+    for (const std::size_t job : plan.order)
+        if (results[job].record.state == JobState::notRun)
+            if (auto skipped = skippedRecord(list, plan, results, job))
+                results[job].record = std::move(*skipped);
     return results;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "batch/child.hpp"
-#include "batch/plan.hpp"
+#include "batch/job.hpp"
 #include "batch/store.hpp"
 #include "cotan/result.hpp"
 

@@ -99,13 +99,8 @@ fs::path Store::fileOf(const std::vector<std::string>& words) const
 
 std::optional<JobRecord> Store::find(const std::vector<std::string>& words) const
 {
-    const fs::path file = fileOf(words);
-    if (::access(file.c_str(), R_OK) != 0)
-        return std::nullopt;
-    const auto bytes = readFileBytes(file, kMaxRecordBytes, /*isInput*/ false);
-    if (!bytes)
-        return std::nullopt;
-    return parseRecord({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+    const auto text = readText(fileOf(words), /*isInput*/ false, kMaxRecordBytes);
+    return text ? parseRecord(*text) : std::nullopt;
 }
 
 Status Store::keep(const std::vector<std::string>& words, const JobRecord& record) const
@@ -119,7 +114,7 @@ Status Store::keep(const std::vector<std::string>& words, const JobRecord& recor
 std::optional<Claim> Store::claim(const std::vector<std::string>& words) const
 {
     // Locks one byte of a shared file per job, far past its end: no file is created that could be left behind.
-    Descriptor file(::open((folder_ / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+    Claim file(::open((folder_ / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
     struct flock range {};
     range.l_type = F_WRLCK;
     range.l_whence = SEEK_SET;
@@ -127,7 +122,7 @@ std::optional<Claim> Store::claim(const std::vector<std::string>& words) const
     range.l_len = 1;
     if (file.get() >= 0 && ::fcntl(file.get(), F_OFD_SETLK, &range) != 0 && (errno == EAGAIN || errno == EACCES))
         return std::nullopt;
-    return Claim(std::move(file));
+    return file;
 }
 
 Result<fs::path> Store::workFolder()

@@ -14,13 +14,7 @@
 namespace cotan {
 
 // The exclusive right to run one job. It ends with this object, and with the process.
-class Claim {
-public:
-    explicit Claim(Descriptor file) : file_(std::move(file)) {}
-
-private:
-    Descriptor file_;
-};
+using Claim = Descriptor;
 
 class Store {
 public:
@@ -42,8 +36,6 @@ public:
 
     // A folder for this process alone, created by the first call.
     Result<std::filesystem::path> workFolder();
-
-    const std::filesystem::path& folder() const { return folder_; }
 
     Store(Store&&) = default;
     Store& operator=(Store&&) = delete;

@@ -2,27 +2,35 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <fstream>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include "batch/plan.hpp"
-#include "batch/run.hpp"
-#include "run_tool.hpp"
+#include "batch_fixture.hpp"
 
 namespace cotan {
 namespace {
 
 using namespace test;
 namespace fs = std::filesystem;
-using Numbers = std::vector<std::size_t>;
+
+TEST(BatchDigest, isThePublishedXxh3Of128Bits)
+{
+    // From xxHash's table of sanity checks: no input, seed 0.
+    EXPECT_EQ(digestOf(""), "99aa06d3014798d86001c324468d497f");
+    const TemporaryFolder folder;
+    FileStates states(folder.path());
+    for (const std::string& text : {std::string(), std::string(5 << 20, 'x')}) {
+        write(folder / "file", text);
+        EXPECT_EQ(states.of("file").digest, digestOf(text));
+    }
+}
 
 TEST(BatchFileStates, holdTheSizeTimesAndInodeOfTheFile)
 {
     const TemporaryFolder folder;
-    std::ofstream(folder / "a") << "seven b";
+    write(folder / "a", "seven b");
     const timespec times[] = {{11, 22}, {5, 7}}; // access, modification
     ASSERT_EQ(::utimensat(AT_FDCWD, (folder / "a").c_str(), times, 0), 0);
     struct stat status {};
@@ -35,7 +43,9 @@ TEST(BatchFileStates, holdTheSizeTimesAndInodeOfTheFile)
     EXPECT_EQ(state.changed, std::int64_t(status.st_ctim.tv_sec) * 1'000'000'000 + status.st_ctim.tv_nsec);
     EXPECT_EQ(state.number, status.st_ino);
     EXPECT_EQ(state.digest, digestOf("seven b"));
-    for (const auto& [file, digest] : {std::pair("gone", "missing"), {".", "folder"}, {"/dev/null", "special"}}) {
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+    for (const auto& [file, digest] :
+         {std::pair("gone", "missing"), {".", "folder"}, {"/dev/null", "special"}, {"pipe", "special"}}) {
         const FileState none = states.of(file);
         EXPECT_EQ(none.digest, digest);
         EXPECT_EQ(none.file, file);
@@ -50,11 +60,28 @@ TEST(BatchFileStates, holdTheSizeTimesAndInodeOfTheFile)
         EXPECT_LT(std::abs(clock - now), 1'000'000'000);
 }
 
+TEST(BatchFileStates, noticeAChangeEvenWithEqualSizeAndTime)
+{
+    const TemporaryFolder folder;
+    write(folder / "a", "first");
+    const auto time = fs::last_write_time(folder / "a");
+    FileStates states(folder.path());
+    const FileState before = states.of("a");
+    EXPECT_TRUE(states.holds(before, nowNanoseconds()));
+    write(folder / "a", "other");
+    fs::last_write_time(folder / "a", time);
+    EXPECT_FALSE(states.holds(before, nowNanoseconds()));
+    write(folder / "a", "first"); // the same contents with another time
+    EXPECT_TRUE(states.holds(before, nowNanoseconds()));
+    fs::remove(folder / "a");
+    EXPECT_FALSE(states.holds(before, nowNanoseconds()));
+}
+
 // From two seconds after a change on, the times suffice and the file is not read. A wrong digest shows whether it was.
 TEST(BatchFileStates, areTrustedFromTwoSecondsAfterTheLastChange)
 {
     const TemporaryFolder folder;
-    std::ofstream(folder / "a") << "seven b";
+    write(folder / "a", "seven b");
     FileStates states(folder.path());
     const FileState right = states.of("a");
     FileState wrong = right;
@@ -75,20 +102,25 @@ TEST(BatchFileStates, areTrustedFromTwoSecondsAfterTheLastChange)
 }
 
 // Every field has a distinct value, as in a store.
+const std::string kRecord =
+    R"({"format":2,"version":"3","words":["x"],"state":"too slow","code":4,"signal":9,"runs":3,"reason":"a <why>",)"
+    R"("said":"what\nelse\n","seconds":1.5,"processor_seconds":2.5,"megabytes":3.5,"at":77,)"
+    R"("inputs":[{"file":"a","digest":"b","bytes":1,"modified":2,"changed":3,"number":4}],)"
+    R"("outputs":[{"file":"c","digest":"d","bytes":5,"modified":6,"changed":7,"number":8},)"
+    R"({"file":"e","digest":"missing","bytes":0,"modified":0,"changed":0,"number":0}],)"
+    R"("degrees":{"mean":0.5,"of":"maps"},"thumbnail":{"width":6,"height":5,"jpeg":"AA"}})"
+    "\n";
+
 TEST(BatchRecord, hasEachFieldUnderItsName)
 {
-    const auto r = parseRecord(R"({"format": 2, "version": "3", "words": ["x"], "state": "too slow", "code": 4,
-        "signal": 9, "runs": 3, "reason": "why", "said": "what", "seconds": 1.5, "processor_seconds": 2.5,
-        "megabytes": 3.5, "at": 77, "inputs": [{"file": "a", "digest": "b", "bytes": 1, "modified": 2, "changed": 3,
-        "number": 4}], "outputs": [{"file": "c", "digest": "d", "bytes": 5, "modified": 6, "changed": 7, "number": 8}],
-        "degrees": {"mean": 0.5, "of": "maps"}, "thumbnail": {"width": 6, "height": 5, "jpeg": "AA"}})");
+    const auto r = parseRecord(kRecord);
     ASSERT_TRUE(r);
     EXPECT_EQ(r->state, JobState::late);
     EXPECT_EQ(r->code, 4);
     EXPECT_EQ(r->signal, 9);
     EXPECT_EQ(r->runs, 3);
-    EXPECT_EQ(r->reason, "why");
-    EXPECT_EQ(r->output, "what");
+    EXPECT_EQ(r->reason, "a <why>");
+    EXPECT_EQ(r->output, "what\nelse\n");
     EXPECT_EQ(r->seconds, 1.5);
     EXPECT_EQ(r->processorSeconds, 2.5);
     EXPECT_EQ(r->megabytes, 3.5);
@@ -99,18 +131,13 @@ TEST(BatchRecord, hasEachFieldUnderItsName)
     EXPECT_EQ(r->thumbnail.height, 5);
     EXPECT_EQ(r->thumbnail.jpeg, "AA");
     ASSERT_EQ(r->inputs.size(), 1u);
-    ASSERT_EQ(r->outputs.size(), 1u);
+    ASSERT_EQ(r->outputs.size(), 2u);
     const auto text = [](const FileState& s) {
         return fmt::format("{} {} {} {} {} {}", s.file, s.digest, s.bytes, s.modified, s.changed, s.number);
     };
     EXPECT_EQ(text(r->inputs[0]), "a b 1 2 3 4");
     EXPECT_EQ(text(r->outputs[0]), "c d 5 6 7 8");
-    const std::string written = toText(*r, {"x"}, "3");
-    EXPECT_TRUE(written.starts_with(R"({"format":2,"version":"3","words":["x"],"state":"too slow","code":4,"signal":9,)"
-                                    R"("runs":3,"reason":"why","said":"what","seconds":1.5,"processor_seconds":2.5,)"
-                                    R"("megabytes":3.5,"at":77,)"))
-        << written;
-    EXPECT_TRUE(written.ends_with("}\n"));
+    EXPECT_EQ(toText(*r, {"x"}, "3"), kRecord);
     JobRecord none;
     const std::string without = toText(none, {}, "");
     for (const char* part : {"\"code\":null", "\"signal\":null", "\"inputs\":[]", "\"outputs\":[]"})
@@ -124,60 +151,124 @@ TEST(BatchRecord, hasEachFieldUnderItsName)
         none.state = JobState(i);
         EXPECT_EQ(parseRecord(toText(none, {}, ""))->state, JobState(i));
     }
+    none.output = "no UTF-8: \xff";
+    EXPECT_TRUE(parseRecord(toText(none, {}, "")));
 }
 
-TEST(BatchStoreFiles, areNamedByVersionAndArguments)
+TEST(BatchStore, truncatedAndForeignRecordsAreRefused)
+{
+    for (std::size_t size = 0; size + 2 < kRecord.size(); ++size)
+        EXPECT_FALSE(parseRecord(kRecord.substr(0, size))) << size;
+    std::string unknown = kRecord;
+    unknown.replace(unknown.find("too slow"), 1, "?");
+    for (const std::string& other : {unknown, std::string("[]"), std::string("{\"format\": 1}"),
+                                     std::string("{\"format\": 2, \"state\": \"done\"}"), std::string("3")})
+        EXPECT_FALSE(parseRecord(other)) << other;
+}
+
+TEST(BatchStore, onlyResultsDeterminedByTheInputsAreRepeatable)
+{
+    const auto again = [](JobState state, int code) {
+        JobRecord record;
+        record.state = state;
+        record.code = code;
+        return repeatable(record);
+    };
+    EXPECT_TRUE(again(JobState::done, 0));
+    EXPECT_TRUE(again(JobState::limit, 5));
+    EXPECT_TRUE(again(JobState::failed, 1)); // wrong options
+    EXPECT_TRUE(again(JobState::failed, 2)); // wrong input
+    for (const int code : {3, 4, 70})        // missing device or library, full disk, crash
+        EXPECT_FALSE(again(JobState::failed, code)) << code;
+    for (const JobState state :
+         {JobState::notRun, JobState::skipped, JobState::late, JobState::memory, JobState::crashed})
+        EXPECT_FALSE(again(state, 2)) << name(state);
+}
+
+TEST(BatchStore, findsByArgumentsAndVersionAndIgnoresDamagedRecords)
 {
     const TemporaryFolder folder;
     fs::path work;
     {
-        auto store = Store::open(folder / "s", "7");
-        ASSERT_TRUE(store);
-        EXPECT_EQ(store->folder(), folder / "s");
-        ASSERT_TRUE(store->keep({"lint", "a"}, {}));
-        const std::string key = digestOf(std::string("7\0lint\0a", 8));
-        EXPECT_TRUE(fs::is_regular_file(folder / "s/results" / key.substr(0, 2) / (key.substr(2) + ".json")));
-        const auto once = store->workFolder(), twice = store->workFolder();
+        Store one = openStore(folder / "s", "1");
+        const Store two = openStore(folder / "s", "2");
+        ASSERT_TRUE(one.keep({"lint", "a"}, *parseRecord(kRecord)));
+        const std::string key = digestOf(std::string("1\0lint\0a", 8));
+        const fs::path file = folder / "s/results" / key.substr(0, 2) / (key.substr(2) + ".json");
+        EXPECT_TRUE(fs::is_regular_file(file));
+        EXPECT_TRUE(one.find({"lint", "a"}));
+        EXPECT_TRUE(Store::openToRead(folder / "s", "1")->find({"lint", "a"}));
+        EXPECT_FALSE(one.find({"linta"}));
+        EXPECT_FALSE(one.find({"lint", "a", ""}));
+        EXPECT_FALSE(two.find({"lint", "a"}));
+        fs::resize_file(file, fs::file_size(file) / 2);
+        EXPECT_FALSE(one.find({"lint", "a"}));
+        const auto once = one.workFolder(), twice = one.workFolder();
         ASSERT_TRUE(once && twice);
         EXPECT_EQ(*once, *twice);
         work = *once;
         EXPECT_EQ(work.parent_path(), folder / "s/work");
         EXPECT_TRUE(fs::is_directory(work));
-        const auto other = Store::openToRead(folder / "s", "7");
-        ASSERT_TRUE(other);
-        EXPECT_TRUE(other->find({"lint", "a"}));
     }
     EXPECT_FALSE(fs::exists(work)) << "gone with its store";
     fs::create_directory(folder / "empty");
     for (const char* name : {"empty", "gone"}) {
-        const auto none = Store::openToRead(folder / name, "7");
+        const auto none = Store::openToRead(folder / name, "1");
         ASSERT_FALSE(none);
         EXPECT_EQ(none.error().kind, ErrorKind::input);
         EXPECT_EQ(none.error().message, (folder / name).string() + ": expected a store of cotan batch; found none");
     }
 }
 
+TEST(BatchStore, aJobIsClaimedByOneProcessAtATime)
+{
+    const TemporaryFolder folder;
+    const Store one = openStore(folder / "s"), two = openStore(folder / "s");
+    auto claim = one.claim({"a"});
+    ASSERT_TRUE(claim);
+    EXPECT_FALSE(two.claim({"a"}));
+    EXPECT_TRUE(two.claim({"b"}));
+    claim.reset();
+    EXPECT_TRUE(two.claim({"a"}));
+}
+
+TEST(BatchStore, onlyWorkFoldersOfKilledProcessesAreRemoved)
+{
+    const TemporaryFolder folder;
+    fs::create_directories(folder / "s/work/killed/1");
+    write(folder / "s/work/killed/lock", "");
+    Store one = openStore(folder / "s"), two = openStore(folder / "s");
+    const auto a = one.workFolder(), b = two.workFolder();
+    ASSERT_TRUE(a && b);
+    EXPECT_NE(*a, *b);
+    EXPECT_FALSE(fs::exists(folder / "s/work/killed"));
+
+    // Folders without a lock are kept for a minute: their process may be about to create it.
+    fs::create_directories(folder / "s/work/young");
+    fs::create_directories(folder / "s/work/old");
+    fs::last_write_time(folder / "s/work/old", fs::file_time_type::clock::now() - std::chrono::minutes(2));
+    const Store three = openStore(folder / "s");
+    EXPECT_TRUE(fs::exists(*a) && fs::exists(*b));
+    EXPECT_TRUE(fs::exists(folder / "s/work/young"));
+    EXPECT_FALSE(fs::exists(folder / "s/work/old"));
+}
+
 TEST(BatchCollect, takesTheNewestValidRecord)
 {
     const TemporaryFolder folder;
-    std::ofstream(folder / "in") << "x";
+    write(folder / "in", "x");
     FileStates states(folder.path());
     JobList list{folder.path(), {}};
-    for (const char* name : {"both", "broken", "waits", "never"}) {
-        Job job;
-        job.name = name;
-        job.words = {name};
-        list.jobs.push_back(job);
-    }
+    for (const char* name : {"both", "broken", "waits", "never"})
+        addJob(list, {name}).name = name;
     list.jobs[1].outputs = {"b"};
     list.jobs[2].inputs = {"b"};
     const auto plan = planJobs(list);
     ASSERT_TRUE(plan);
-    using Names = std::vector<std::string>;
-    const auto open = [&](const Names& names) {
+    const auto open = [&](const Words& names) {
         std::vector<Store> stores;
         for (const std::string& name : names)
-            stores.push_back(std::move(*Store::open(folder / name, "1")));
+            stores.push_back(openStore(folder / name));
         return stores;
     };
     const std::vector<Store> stores = open({"old", "new", "stale"});
@@ -199,7 +290,7 @@ TEST(BatchCollect, takesTheNewestValidRecord)
     record.inputs = record.outputs = {};
     record.state = JobState::failed;
     keep(2, "broken", 1, "it is broken");
-    for (const Names& names : {Names{"old", "new", "stale"}, {"stale", "new", "old"}}) {
+    for (const Words& names : {Words{"old", "new", "stale"}, {"stale", "new", "old"}}) {
         const auto results = collect(list, *plan, open(names));
         ASSERT_EQ(results.size(), 4u);
         const std::pair<JobState, const char*> expected[] = {
@@ -214,56 +305,6 @@ TEST(BatchCollect, takesTheNewestValidRecord)
             EXPECT_FALSE(results[i].kept);
         }
     }
-}
-
-JobList jobsWith(const std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>>& files)
-{
-    JobList list{"/jobs", {}};
-    for (const auto& [inputs, outputs] : files) {
-        Job job;
-        job.inputs = inputs;
-        job.outputs = outputs;
-        job.line = 10 + list.jobs.size();
-        list.jobs.push_back(job);
-    }
-    return list;
-}
-
-TEST(BatchPlan, dependenciesAreUniqueAndAJobMayReadItsOutputFolder)
-{
-    const auto plan =
-        planJobs(jobsWith({{{}, {"folder", "b", "b"}},
-                           {{"folder/x", "b", "folder/y"}, {"c"}},
-                           {{"out/deep/x"}, {"out"}}, // a job may read its own output folder; files in it may be older
-                           {{"folders"}, {"d"}}}));
-    ASSERT_TRUE(plan) << plan.error().message;
-    EXPECT_EQ(plan->needs, (std::vector<Numbers>{{}, {0}, {}, {}}));
-    EXPECT_EQ(plan->group, (Numbers{0, 0, 1, 2}));
-    const auto own = planJobs(jobsWith({{{}, {"x"}}, {{"b"}, {"./b"}}}));
-    ASSERT_FALSE(own);
-    EXPECT_EQ(own.error().kind, ErrorKind::input);
-    EXPECT_EQ(own.error().message,
-              "line 11: writes b, which it also reads: a second run would start from the first one's "
-              "result; expected another name");
-    const auto circle = planJobs(jobsWith({{{}, {"z"}}, {{"a"}, {"b"}}, {{"b"}, {"a"}}}));
-    ASSERT_FALSE(circle);
-    EXPECT_EQ(circle.error().message,
-              "line 11 waits for line 12 waits for line 11: each reads what the next one writes");
-    // Jobs connected by a third job have the number of the first of them.
-    const auto joined = planJobs(jobsWith({{{}, {"a"}}, {{}, {"b"}}, {{}, {"c"}}, {{"c", "a"}, {"d"}}, {{}, {"e"}}}));
-    ASSERT_TRUE(joined);
-    EXPECT_EQ(joined->group, (Numbers{0, 1, 0, 0, 2}));
-    EXPECT_EQ(jobsOf(*joined, {1, 2}), (Numbers{0, 2, 3, 4}));
-    EXPECT_EQ(jobsOf(*joined, {2, 2}), Numbers{1});
-    EXPECT_EQ(jobsOf(*joined, {3, 3}), Numbers{4});
-    EXPECT_EQ(jobsOf(*joined, {4, 4}), Numbers{});
-    EXPECT_EQ(jobsOf(*joined, {}), (Numbers{0, 1, 2, 3, 4}));
-    for (const char* whole : {"1/1", "8/8", "1/8"})
-        EXPECT_TRUE(parseShard(whole)) << whole;
-    const auto wrong = parseShard("9/8");
-    ASSERT_FALSE(wrong);
-    EXPECT_EQ(wrong.error().kind, ErrorKind::usage);
-    EXPECT_EQ(wrong.error().message, "--shard: expected K/N with K from 1 to N, such as 3/8; found '9/8'");
 }
 
 } // namespace
