@@ -187,9 +187,9 @@ TEST(ConvertChoose, decisionsSayWhereTangentsStayForTheGreenOfASharedMap)
     EXPECT_EQ(namesIn(document), (std::vector<std::string>{"orthonormal", "mikktspace"}));
 }
 
-// w is wrong on a third of the area, and the map shows that its green is as declared: lint advises to make tangents
-// anew, and decides as that conversion does.
-TEST(ConvertChoose, lintDecidesAsTheConversionThatItAdvisesForWrongTangents)
+// w is wrong on a third of the area, and the map shows that its green is as declared. Whoever draws the file sees what
+// its tangents show, and that is what decisions are for; lint advises a conversion that ignores them.
+TEST(ConvertChoose, lintAdvisesAConversionThatIgnoresTangentsWhichAMapProvesWrong)
 {
     const GltfDocument document = documentWith({squareAt(0, 0, 1), squareAt(2, 0, 1), squareAt(4, 0, -1)});
     const auto bytes = glbBytes(document);
@@ -208,10 +208,8 @@ TEST(ConvertChoose, lintDecidesAsTheConversionThatItAdvisesForWrongTangents)
                                       .keepMaps = true});
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_EQ(keptIn(converted), (std::vector{false, false, false}));
-    for (std::size_t i = 0; i < 3; ++i) {
-        EXPECT_EQ(report->decisions[i].decision.frame, lint.decisions[i].frame);
-        EXPECT_EQ(report->decisions[i].decision.meaning, MapMeaning::mikktspace);
-    }
+    for (const PrimitiveDecision& d : report->decisions)
+        EXPECT_EQ(d.decision.meaning, MapMeaning::mikktspace);
 }
 
 TEST(ConvertChoose, whatCannotBeJudgedStays)

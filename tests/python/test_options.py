@@ -20,6 +20,7 @@ from output_inputs import make_inputs, png  # noqa: E402
 ELSEWHERE = {"threads", "memory", "progress", "report", "beside", "out", "decode", "encode", "overwrite", "device", "floats", "mask", "cage_reach"}
 
 RENDER = [
+    {"max_degrees": 1e-6, "view": "normal"},
     *({"size": s} for s in ((30, 40), 36, "50x20")),
     *({"frame": f, "view": "normal"} for f in cotan.frames()),
     *({"view": v} for v in "tangent bitangent uv depth error checker density stretch shear mirrored w facing base-color alpha normal-map "

@@ -312,11 +312,7 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
     if (!counted.add(kOfWhole * counted.all))
         return stoppedError();
     addFits(report, scene, std::move(uses), std::move(coats));
-    report.decisions =
-        chooseFrames(scene,
-                     {.limits = options.limits,
-                      .all = true,
-                      .tangents = lint::distrustStored(report) ? TangentOrigin::generated : TangentOrigin::stored});
+    report.decisions = chooseFrames(scene, {.limits = options.limits, .all = true});
     counted.done = counted.all; // also without triangles
     if (!counted.add(0))
         return stoppedError();

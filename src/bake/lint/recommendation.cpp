@@ -257,8 +257,8 @@ void predictConversion(LintReport& report)
     std::set<std::size_t> counted;
     for (const PrimitiveLint& p : report.primitives)
         if (p.stored.present && counted.insert(p.meshIndex).second) {
-            const bool drops = p.meshIndex < report.decisions.size() && report.decisions[p.meshIndex].dropsTangents()
-                && !needed.contains(p.meshIndex);
+            const bool drops = p.meshIndex < report.decisions.size() && !needed.contains(p.meshIndex)
+                && (report.distrustStored || report.decisions[p.meshIndex].dropsTangents());
             ++(drops ? report.dropping : report.keeping);
         }
 }
@@ -268,7 +268,7 @@ std::string tangentsAndGreen(const LintReport& report)
 {
     std::vector<std::string> reversed, shared;
     for (const GreenEvidence& g : report.maps)
-        if (g.reversedByTangents && !report.distrustStored)
+        if (g.reversedByTangents)
             addOnce(g.reversedEverywhere ? reversed : shared,
                     g.name.empty() ? fmt::format("image {}", g.image) : g.name);
     std::string text = " the command drops the tangents";
@@ -295,6 +295,9 @@ std::string framesText(const LintReport& report)
 std::string adviceText(const LintReport& report)
 {
     const std::string frames = framesText(report);
+    if (report.dropping > 0 && report.distrustStored)
+        return "The tangents are wrong, for green of the maps is right: the command decides as if there were none, and "
+               "drops them.";
     if (report.dropping > 0) {
         const std::string kept = report.keeping > 0
             ? fmt::format(" Those of {} primitive{} stay.", report.keeping, report.keeping == 1 ? "" : "s")
