@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "gltf/json/lookup.hpp"
 #include "gltf_model.hpp"
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
