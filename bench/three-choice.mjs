@@ -5,7 +5,7 @@
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-const home = fileURLToPath(new URL('..', import.meta.url)), [modules] = process.argv.slice(2);
+const home = fileURLToPath(new URL('..', import.meta.url)), modules = process.argv[2] && path.resolve(process.argv[2]);
 if (!modules) {
   console.error('usage: node bench/three-choice.mjs NODE_MODULES');
   process.exit(1);
