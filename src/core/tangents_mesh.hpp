@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -30,6 +31,7 @@ inline std::uint32_t bitsOf(float x) { return std::bit_cast<std::uint32_t>(x + 0
 template<class Key> std::uint32_t hashOf(const Key& key)
 {
     std::uint64_t hash = 0;
+    static_assert(std::tuple_size_v<Key> % 2 == 0, "the loop reads pairs");
     for (std::size_t j = 0; j < key.size(); j += 2) {
         hash = (hash ^ (key[j] | std::uint64_t(key[j + 1]) << 32)) * 0x9e3779b97f4a7c15u;
         hash ^= hash >> 32;

@@ -198,9 +198,9 @@ void assignNormals(Mesh& mesh, JoinedGroups& groups, const std::vector<glm::vec3
 // ---- equal vertices --------------------------------------------------------------------------
 
 // The bits of all attributes of a vertex; zeros at the end if the mesh lacks arrays.
-std::array<std::uint32_t, 39> bitsOf(const Mesh& mesh, Index vertex)
+std::array<std::uint32_t, 40> bitsOf(const Mesh& mesh, Index vertex)
 {
-    std::array<std::uint32_t, 39> bits{};
+    std::array<std::uint32_t, 40> bits{};
     std::size_t at = 0;
     eachAttribute(mesh, [&](const auto& attribute) {
         const auto& value = attribute[vertex];
