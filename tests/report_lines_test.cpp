@@ -179,6 +179,47 @@ TEST(LintLines, verdictCountsAndOmitsEmptySentences)
               Lines{"m.glb: 1 primitive, 0 with a normal map, 0 with stored tangents"});
 }
 
+// The three worst of four by `orthonormal`, each with its own name and choice; a name is cut between characters.
+TEST(LintLines, theTableOfCandidatesHasTheWorstThreeWithTheirChoices)
+{
+    LintReport report;
+    for (const char* const name : {"near", "ährenförmige Verzierungen am Tor", "worst", "of four"}) {
+        report.primitives.emplace_back().mesh = name;
+        report.primitives.back().meshIndex = report.primitives.size() - 1;
+    }
+    const double orthonormal[] = {0.1, 2, 4, 3};
+    for (std::size_t i = 0; i < 4; ++i) {
+        FrameDecision& d = report.decisions.emplace_back();
+        d.mesh = i, d.meaning = MapMeaning::stored, d.reason = ChoiceReason::fits;
+        d.candidates = {{Frame::orthonormal, TangentOrigin::generated, 7, orthonormal[i], 5, 6, 8},
+                        {Frame::smooth, TangentOrigin::generated, 7, 0.25, 1, 1.5, 2},
+                        {Frame::mikktspace, TangentOrigin::stored, 7, 0, 0, 0, 0}};
+    }
+    report.decisions[1].frame = Frame::smooth;
+    report.decisions[2].frame = Frame::mikktspace, report.decisions[2].tangents = TangentOrigin::stored;
+    const Lines lines = verdictLines("m.glb", report, "");
+    ASSERT_GE(lines.size(), 4u);
+    EXPECT_EQ(Lines(lines.end() - 3, lines.end()),
+              (Lines{"  worst                   "
+                     "    4.00 / 6.0"
+                     "             -"
+                     "    0.25 / 1.5"
+                     "             -"
+                     "     *0.00 / 0.0",
+                     "  of four                 "
+                     "   *3.00 / 6.0"
+                     "             -"
+                     "    0.25 / 1.5"
+                     "             -"
+                     "      0.00 / 0.0",
+                     "  ährenförmige Verzieru~  "
+                     "    2.00 / 6.0"
+                     "             -"
+                     "   *0.25 / 1.5"
+                     "             -"
+                     "      0.00 / 0.0"}));
+}
+
 TEST(LintLines, jsonHasEveryFigure)
 {
     const auto lists = readBack(listsOf(withMaps()));

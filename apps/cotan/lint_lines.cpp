@@ -107,16 +107,15 @@ std::vector<std::string> candidateLines(const LintReport& report)
     std::ranges::stable_sort(judged, std::greater(), [](const FrameDecision* d) { return d->candidates.front().mean; });
     judged.resize(std::min(judged.size(), kWorst));
     std::vector<std::string> lines = {
-        fmt::format(
-            "Degrees between normals with each frame and with the tangents, on average / exceeded on 1 % of the "
-            "area (* chosen):"),
+        "Degrees between normals with each frame and with the tangents, on average / exceeded on 1 % of the area (* "
+        "chosen):",
         fmt::format("  {:<24}{:>14}{:>14}{:>14}{:>14}{:>16}", "", "orthonormal", "triangle", "smooth", "mikktspace",
                     "file's tangents")};
     for (const FrameDecision* d : judged) {
         const auto p = std::ranges::find(report.primitives, d->mesh, &PrimitiveLint::meshIndex);
         std::string name = p == report.primitives.end() ? std::string() : p->mesh.empty() ? p->material : p->mesh;
-        if (name.size() > 22)
-            name = name.substr(0, 21) + "~";
+        if (fmt::format("{:.22}", name) != name) // which counts characters, not bytes
+            name = fmt::format("{:.21}~", name);
         std::string line = fmt::format("  {:<24}", name);
         for (const Frame frame : {Frame::orthonormal, Frame::triangle, Frame::smooth, Frame::mikktspace})
             line += fmt::format("{:>14}", cellOf(*d, frame, TangentOrigin::generated));

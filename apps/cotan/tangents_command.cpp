@@ -1,7 +1,5 @@
 #include "commands.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "bake/convert/choose_primitives.hpp"
@@ -47,10 +45,8 @@ std::string referenceName(const TangentsCommandOptions& o)
 // The frame that reads the primitive's maps without tangents, or why these stay; empty if it has no such map.
 std::string chosenFor(const PrimitiveTangents& p, const std::vector<PrimitiveDecision>& decisions)
 {
-    const auto found =
-        std::ranges::find(decisions, SourcePrimitive{p.mesh, p.primitive}, &PrimitiveDecision::primitive);
-    const bool reads = found != decisions.end() && found->decision.reason != ChoiceReason::noMap;
-    return reads ? "; its normal map: " + textOf(found->decision) : "";
+    const FrameDecision* const d = decisionOf(decisions, {p.mesh, p.primitive});
+    return d && d->reason != ChoiceReason::noMap ? "; its normal map: " + textOf(*d) : "";
 }
 
 // Reports the tangent differences of one primitive.

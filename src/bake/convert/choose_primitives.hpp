@@ -1,6 +1,7 @@
 // Chooses frames for the primitives of a glTF file.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,13 @@ namespace cotan {
 // loadGltf.
 Result<std::vector<PrimitiveDecision>> choosePrimitives(const GltfDocument& document, const ChoiceLimits& limits,
                                                         const FramePair& frames, const LoadLimits& load);
+
+// The decision about a primitive, of those that choosePrimitives returned; null if there is none.
+template<class Decisions> auto* decisionOf(Decisions& decisions, const SourcePrimitive& primitive)
+{
+    const auto found = std::ranges::lower_bound(decisions, primitive, {}, &PrimitiveDecision::primitive);
+    return found != decisions.end() && found->primitive == primitive ? &found->decision : nullptr;
+}
 
 // Names the frame in the primitive's extras (gltf::kFrameExtra); none: removes the name.
 void nameFrameOfPrimitive(GltfDocument& document, const SourcePrimitive& primitive, std::optional<Frame> frame);

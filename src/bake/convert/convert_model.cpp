@@ -67,19 +67,12 @@ private:
             report_.decisions = std::move(*decisions);
         }
         return forEachPrimitive(rootOf(document_), [&](std::size_t m, std::size_t p) -> Status {
-            const FrameDecision* const d = decisionOf(m, p);
+            const FrameDecision* const d = decisionOf(report_.decisions, {m, p});
             const bool reads = d && d->reason != ChoiceReason::noMap && d->reason != ChoiceReason::notJudged;
             if (options_.choose ? reads : !options_.keepMaps)
                 nameFrameOfPrimitive(document_, {m, p}, reads ? std::optional(d->frame) : std::nullopt);
             return Done{};
         });
-    }
-
-    FrameDecision* decisionOf(std::size_t mesh, std::size_t primitive)
-    {
-        const auto found =
-            std::ranges::find(report_.decisions, SourcePrimitive{mesh, primitive}, &PrimitiveDecision::primitive);
-        return found != report_.decisions.end() ? &found->decision : nullptr;
     }
 
     // Readers that keep TANGENT, and the frames of the others.
@@ -91,7 +84,7 @@ private:
                 ++readers[{reader.mesh, reader.primitive}];
         for (MapJob& job : jobs)
             for (MapReader& reader : job.readers)
-                if (const FrameDecision* const d = decisionOf(reader.mesh, reader.primitive)) {
+                if (const FrameDecision* const d = decisionOf(report_.decisions, {reader.mesh, reader.primitive})) {
                     reader.readWith = d->frame;
                     if (d->dropsTangents() || !reader.stored)
                         continue;
@@ -247,9 +240,12 @@ private:
                 if (reader.keeps && !showsReversed(reader))
                     done.surfacesWithTangents += reader.transforms.size();
             if (done.surfacesWithTangents > 0)
-                done.figures.unconverted = mapErrors(*map, *map, usesWithoutTangents(job, *uses), {&options_.frames, 1},
-                                                     {}, pointsOfEach(surfaces_))
-                                               .front();
+                done.figures.unconverted =
+                    mapErrors(*map, *map,
+                              usesBy(job, *uses,
+                                     [](const MapReader& reader) { return !showsReversed(reader) && !reader.keeps; }),
+                              {&options_.frames, 1}, {}, pointsOfEach(surfaces_))
+                        .front();
         }
         done.kept = options_.keepMaps || done.figures.unconverted.count == 0
             || (options_.bits == 0 && fitsAsItIs(done.figures.unconverted));
@@ -332,13 +328,7 @@ private:
     Result<ConvertedMap> withGreenReversed(const MapJob& job, ConvertedMap done, const Image& map,
                                            std::span<const std::byte> old, std::vector<MapUse> uses, Expansion read)
     {
-        std::vector<MapUse> dropping;
-        std::size_t at = 0;
-        for (const MapReader& reader : job.readers)
-            for (std::size_t k = 0; k < reader.transforms.size(); ++k, ++at)
-                if (!reader.keeps)
-                    dropping.push_back(uses[at]);
-        uses = std::move(dropping);
+        uses = usesBy(job, uses, [](const MapReader& reader) { return !reader.keeps; });
         for (MapUse& use : uses)
             use.stored.expansion = read;
         maps::RecodeSettings settings;
@@ -397,7 +387,7 @@ private:
                 keptTangents_.push_back({reader.mesh, reader.primitive, reader.slot.material, reason});
                 if (options_.choose) {
                     nameFrameOfPrimitive(document_, {reader.mesh, reader.primitive}, options_.frames.from);
-                    if (FrameDecision* const d = decisionOf(reader.mesh, reader.primitive)) {
+                    if (FrameDecision* const d = decisionOf(report_.decisions, {reader.mesh, reader.primitive})) {
                         d->frame = options_.frames.from;
                         d->tangents = TangentOrigin::stored;
                     }
@@ -406,16 +396,19 @@ private:
             }
     }
 
-    // The uses by surfaces that lose their tangents. uses: of the job.
-    static std::vector<MapUse> usesWithoutTangents(const MapJob& job, const std::vector<MapUse>& uses)
+    // The uses by some readers. uses: of the job.
+    template<class Which>
+    static std::vector<MapUse> usesBy(const MapJob& job, const std::vector<MapUse>& uses, const Which& which)
     {
-        std::vector<MapUse> dropping;
-        std::size_t use = 0;
-        for (const MapReader& reader : job.readers)
-            for (std::size_t k = 0; k < reader.transforms.size(); ++k, ++use)
-                if (!showsReversed(reader) && !reader.keeps)
-                    dropping.push_back(uses[use]);
-        return dropping;
+        std::vector<MapUse> found;
+        auto use = uses.begin();
+        for (const MapReader& reader : job.readers) {
+            const auto next = use + std::ptrdiff_t(reader.transforms.size());
+            if (which(reader))
+                found.insert(found.end(), use, next);
+            use = next;
+        }
+        return found;
     }
 
     void noteErrorOfKept(const ConvertedMap& map)

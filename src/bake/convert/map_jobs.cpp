@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "bake/convert/choose_primitives.hpp"
 #include "cotan/image.hpp"
 #include "gltf/json/lookup.hpp"
 
@@ -413,9 +414,8 @@ Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frame
             if (gltf::tangentReader(root["materials"][material]).empty())
                 continue;
             FramePair own = frames;
-            for (const PrimitiveDecision& d : decisions)
-                if (d.primitive == SourcePrimitive{m, p})
-                    own.to = d.decision.frame;
+            if (const FrameDecision* const chosen = decisionOf(decisions, {m, p}))
+                own.to = chosen->frame;
             const auto turn = turnOf(document, m, p, transforms[m], own);
             if (!turn)
                 return turn.error();

@@ -66,13 +66,7 @@ f64::cotan_frame frameInEngines(const MappedSurface& s, Frame frame, TangentOrig
     const f64::cotan_frame f = frameAt(s, frame, tangents, p.triangle, p.barycentric);
     if (frame != Frame::mikktspace)
         return f;
-    glm::dvec4 t(0);
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t corner = 3 * p.triangle + k;
-        const bool ofFile = tangents == TangentOrigin::stored && s.hasStored();
-        if (ofFile || s.hasGenerated(frame))
-            t += p.barycentric[int(k)] * (ofFile ? s.stored(corner) : s.generated(frame, corner));
-    }
+    const glm::dvec4 t = tangentAt(s, frame, tangents, p.triangle, p.barycentric);
     return f64::cotan_frame_mikktspace(f64::cotan_normalize_or(f.n, f.n),
                                        f64::cotan_normalize_or(glm::dvec3(t), glm::dvec3(0)), t.w);
 }

@@ -100,17 +100,6 @@ template<class ValueOf> auto blended(std::size_t triangle, glm::dvec3 weights, c
         + valueOf(3 * triangle + 2) * weights.z;
 }
 
-// xyz along +u, w as tangentAlongV; (0, 0, 0, 1) without tangents.
-glm::dvec4 tangentAt(const MappedSurface& s, Frame frame, TangentOrigin source, std::size_t triangle,
-                     glm::dvec3 barycentric)
-{
-    if (source == TangentOrigin::stored && s.hasStored())
-        return storedAt(s, triangle, barycentric);
-    if (!s.hasGenerated(frame))
-        return {0, 0, 0, 1};
-    return blended(triangle, barycentric, [&](std::size_t corner) { return s.generated(frame, corner); });
-}
-
 f64::cotan_frame frameOfVertices(const MappedSurface& s, Frame frame, TangentOrigin source, std::size_t triangle,
                                  glm::dvec3 barycentric, glm::dvec3 n)
 {
@@ -291,6 +280,16 @@ glm::dvec2 uvAt(const MappedSurface& s, std::size_t triangle, glm::dvec3 barycen
 glm::dvec4 storedAt(const MappedSurface& s, std::size_t triangle, glm::dvec3 barycentric)
 {
     return blended(triangle, barycentric, [&](std::size_t corner) { return s.stored(corner); });
+}
+
+glm::dvec4 tangentAt(const MappedSurface& s, Frame frame, TangentOrigin source, std::size_t triangle,
+                     glm::dvec3 barycentric)
+{
+    if (source == TangentOrigin::stored && s.hasStored())
+        return storedAt(s, triangle, barycentric);
+    if (!s.hasGenerated(frame))
+        return {0, 0, 0, 1};
+    return blended(triangle, barycentric, [&](std::size_t corner) { return s.generated(frame, corner); });
 }
 
 TriangleEdges edgesOf(const MappedSurface& s, std::size_t triangle)

@@ -135,6 +135,9 @@ f64::cotan_frame frameOf(const SurfaceSpot& spot, Frame frame);
 glm::dvec3 normalAt(const MappedSurface& surface, std::size_t triangle, glm::dvec3 barycentric);
 glm::dvec2 uvAt(const MappedSurface& surface, std::size_t triangle, glm::dvec3 barycentric);
 glm::dvec4 storedAt(const MappedSurface& surface, std::size_t triangle, glm::dvec3 barycentric);
+// xyz along +u, w as tangentAlongV: the stored tangent, or the one that the frame reads; (0, 0, 0, 1) without tangents.
+glm::dvec4 tangentAt(const MappedSurface& surface, Frame frame, TangentOrigin tangents, std::size_t triangle,
+                     glm::dvec3 barycentric);
 
 TriangleEdges edgesOf(const MappedSurface& surface, std::size_t triangle);
 

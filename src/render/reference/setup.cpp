@@ -80,6 +80,7 @@ Draw makeDraw(const Mesh& mesh, const glm::mat4& toWorld, glm::dvec3 eye, Frame 
     std::size_t count = mesh.vertexCount();
     Draw draw;
     draw.mesh = &mesh;
+    draw.frame = frame;
     draw.vectors = glm::mat3(toWorld);
     draw.mirrored = map.determinant() < 0;
     transformAll(mesh.positions, count, draw.positions, [&](glm::vec3 p) { return draw.vectors * p + translation; });

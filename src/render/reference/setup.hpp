@@ -60,6 +60,7 @@ struct Draw {
     const Mesh* mesh = nullptr;
     const Material* material = nullptr;
     const MaterialMaps* maps = nullptr;
+    Frame frame = Frame{};              // that the mesh is drawn with
     glm::mat3 vectors{1};               // transforms differences of mesh positions to the world
     bool mirrored = false;              // the matrix reverses orientation
     std::vector<glm::vec3> positions;   // relative to the eye, world axes

@@ -3,7 +3,6 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/frame.hpp"
-#include "scene/geometry.hpp"
 #include "scene/texture_sample.hpp"
 
 namespace cotan::reference {
@@ -39,11 +38,6 @@ template<class ValueAt> auto alongY(const ValueAt& valueAt, int lane, Derivative
     return valueAt(first | 2) - valueAt(first);
 }
 
-Frame frameOf(const SurfaceInputs& in)
-{
-    return cotan::frameOf(*in.draw->mesh, in.view->frame, in.view->framesOfMeshes);
-}
-
 // Transforms differences of texture coordinates: the linear part of the transform.
 glm::vec2 transformedEdge(const Texture& texture, glm::vec2 edge)
 {
@@ -60,7 +54,7 @@ f32::cotan_frame frameOfTriangle(const SurfaceInputs& in, const Texture& texture
     const std::array<std::uint32_t, 3>& v = in.triangle->vertex;
     const std::vector<glm::vec3>& p = in.draw->mesh->positions;
     const std::vector<glm::vec2>& uv = in.draw->mesh->texcoords[set];
-    return evaluate(frameOf(in), n, in.draw->vectors * (p[v[1]] - p[v[0]]), in.draw->vectors * (p[v[2]] - p[v[0]]),
+    return evaluate(in.draw->frame, n, in.draw->vectors * (p[v[1]] - p[v[0]]), in.draw->vectors * (p[v[2]] - p[v[0]]),
                     transformedEdge(texture, uv[v[1]] - uv[v[0]]), transformedEdge(texture, uv[v[2]] - uv[v[0]]));
 }
 
@@ -75,7 +69,7 @@ struct Smooth {
 // Frames from vertex attributes. t = b = 0 if the mesh lacks them.
 f32::cotan_frame frameOfVertices(const SurfaceInputs& in, const Smooth& smooth, int lane)
 {
-    const Frame frame = frameOf(in);
+    const Frame frame = in.draw->frame;
     const std::array<double, 3>& weights = in.points->weights[std::size_t(lane)];
     const Draw& draw = *in.draw;
     const RasterTriangle& triangle = *in.triangle;
@@ -149,7 +143,7 @@ float lostVariance(const View& view, glm::vec4 texel)
 f32::cotan_frame frameOver(const SurfaceInputs& in, const Texture& map, const Smooth& smooth, const UvDifferences& uv,
                            int lane)
 {
-    const Frame frame = frameOf(in);
+    const Frame frame = in.draw->frame;
     if (info(frame).source == FrameSource::triangle)
         return frameOfTriangle(in, map, smooth.n);
     if (readsVertices(frame))
@@ -282,9 +276,9 @@ CoatNormal coatNormalOf(const SurfaceInputs& in, int lane, const SurfaceNormal& 
         if (!sameUv(map, in.draw->material->normalMap)) {
             const Smooth smooth = smoothOf(in, lane, uv);
             // Vertex attributes are made for the uv of the surface below. Without them, these frames come nearest.
-            const Frame own = readsCotangents(frameOf(in)) ? Frame::cotangent : Frame::orthonormal;
-            frame = readsVertices(frameOf(in)) ? evaluate(own, smooth.n, smooth.dpdx, smooth.dpdy, uv.dx, uv.dy)
-                                               : frameOver(in, map, smooth, uv, lane);
+            const Frame own = readsCotangents(in.draw->frame) ? Frame::cotangent : Frame::orthonormal;
+            frame = readsVertices(in.draw->frame) ? evaluate(own, smooth.n, smooth.dpdx, smooth.dpdy, uv.dx, uv.dy)
+                                                  : frameOver(in, map, smooth, uv, lane);
         }
         const glm::vec4 texel = sample(*chain, map.sampler, uv, in.view->pointSampled);
         const auto format = toFormat<f32::cotan_normal_format>(in.draw->material->coat.normalFormat, chain->image->type,
