@@ -124,12 +124,34 @@ TEST(ConvertChoose, aHigherLimitTakesACheaperFrame)
     EXPECT_EQ(frameAt(180), Frame::orthonormal);
 }
 
+// A fiftieth of the area is far off: little on average, and more than 3 degrees on 1 % of the area.
+TEST(ConvertChoose, tangentsStayForAFewPercentThatAreFarOff)
+{
+    Mesh mesh = squareAt(0, 0, 1);
+    const Mesh off = squareAt(2, 30, 1);
+    for (std::size_t i = 0; i < 4; ++i) {
+        mesh.positions.push_back(off.positions[i] * std::sqrt(1.0f / 49));
+        mesh.normals.push_back(off.normals[i]);
+        mesh.texcoords[0].push_back(off.texcoords[0][i]);
+        mesh.tangents.push_back(off.tangents[i]);
+    }
+    for (const std::uint32_t i : off.indices)
+        mesh.indices.push_back(i + 4);
+    GltfDocument document = documentWith({mesh});
+    const ConvertModelReport report = chosen(document);
+    EXPECT_EQ(keptIn(document), std::vector{true});
+    const FrameDecision& decision = report.decisions.at(0).decision;
+    EXPECT_EQ(decision.reason, ChoiceReason::keeps);
+    EXPECT_LT(decision.candidates.at(0).mean, ChoiceLimits().mean);
+}
+
 // The tangents of all reverse green. Of those that stay, w follows the map, so that both are right afterwards.
 TEST(ConvertChoose, tangentsThatStayFollowGreenOfTheirMap)
 {
     GltfDocument document = documentWith({squareAt(0, 0, -1), squareAt(2, 30, -1)});
     const ConvertModelReport report = chosen(document);
     EXPECT_TRUE(report.maps.at(0).greenReversed);
+    EXPECT_LT(report.maps.at(0).figures.error.maximum, 1e-4); // of the square without tangents
     EXPECT_EQ(keptIn(document), (std::vector{false, true}));
     const auto kept = gltfGeometry(document, 1, 0);
     ASSERT_TRUE(kept);
