@@ -33,7 +33,7 @@ struct Everything {
         command.option("--chosen", chosen, "a number of these").in("K").from({1, 4, 16});
         command.option("--real", real, "a number").in("X").within(-1.5, 2.25);
         command.option("--above", above, "above none").in("X").above0();
-        command.option("--auto", autoOr, "above none, or auto").in("X").above0Or("auto");
+        command.option("--auto", autoOr, "above none, or auto").in("X").checked(numberAbove0Or("auto"));
         command.option("--word", word, "one of them").in("WORD").from({"a", "b", "c"});
         command.option("--list", list, "several").in("NAMES").separatedByCommas();
         command.option("--plain", plain, "anything").in("WORD").offers({"p", "q"}).withoutDefault();

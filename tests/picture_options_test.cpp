@@ -11,6 +11,7 @@
 #include "cotan/scene.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
+#include "picture/option_table.hpp"
 
 namespace cotan::app {
 namespace {
@@ -292,7 +293,7 @@ TEST(PictureOptionValues, invalidSizesAreRefused)
     EXPECT_EQ(done.error().kind, ErrorKind::usage);
     EXPECT_EQ(done.error().message,
               "--size: expected WxH, or one number for both, each from 1 to 16384, or thumbnail, 720p, 1080p, 1440p, "
-              "2160p, square; found '640x'");
+              "2160p, square; found '640x' (see tool --help)");
     EXPECT_EQ(options.size, (PictureSize{1280, 720}));
     for (const PictureSize size : {PictureSize{0, 1}, {1, 0}, {16385, 1}, {1, 16385}, {-1, 5}}) {
         PictureOptions wrong;
@@ -340,7 +341,7 @@ struct DeclaredTool {
     {
         addPictureOptions(tool, options);
         addFrameOption(tool, frame);
-        addShowOption(tool, options.show);
+        addShowOption(tool, options);
     }
 };
 

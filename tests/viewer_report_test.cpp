@@ -82,7 +82,7 @@ TEST(ViewerReport, hasALineForEachField)
         EXPECT_EQ(lineOf(report, name), value) << name;
     EXPECT_EQ(lineOf(report, "under the pointer").find("mesh 3 triangle 17 at "), 0u);
     for (const Setting& setting : settings())
-        EXPECT_EQ(lineOf(report, setting.name), valueOf(setting, s.picture)) << setting.name;
+        EXPECT_EQ(lineOf(report, setting.option.name), valueOf(setting, s.picture)) << setting.option.name;
     State other;
     other.camera.orthographic = true;
     other.camera.verticalExtent = 3.5f;

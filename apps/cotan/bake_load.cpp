@@ -10,9 +10,9 @@
 #include "bake_objects.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/image.hpp"
-#include "files/bytes.hpp"
 #include "gltf_open.hpp"
 #include "image/component_types.hpp"
+#include "model/model_formats.hpp"
 #include "parse.hpp"
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
@@ -189,8 +189,8 @@ std::optional<Frame> namedHighFrame(const HighModel& high)
 
 bool mayHaveZUp(const std::string& file)
 {
-    const std::string ending = lowerExtension(file);
-    return ending == ".ply" || ending == ".stl";
+    const ModelFormat* format = modelFormatOf(file);
+    return format && format->upUnknown;
 }
 
 // The options that would align the meshes after the rotation `turn`; empty if there are none.

@@ -1,5 +1,4 @@
-// Declares the options of `render` and `compare`, with help and groups: the model, the view and the device. Words and
-// bounds are those of picture/option_words.hpp.
+// Declares the options of the table picture/option_table.hpp on the command line, all of them or single ones.
 #pragma once
 
 #include <string>
@@ -38,9 +37,9 @@ void addFrameOption(Arguments& a, std::string& frame);
 void addMaxDegreesOption(Arguments& a, double& degrees);
 
 // Adds --view.
-void addShowOption(Arguments& a, std::string& show);
+void addShowOption(Arguments& a, PictureOptions& options);
 
-// Adds all other options.
+// Adds the model and all options of the table but --view.
 void addPictureOptions(Arguments& a, PictureOptions& options);
 
 } // namespace cotan::app

@@ -290,7 +290,7 @@ void declare(Arguments& a, RenderCommandOptions& o)
 {
     addPictureOptions(a, o.picture);
     addFrameOption(a, o.frame);
-    addShowOption(a, o.picture.show);
+    addShowOption(a, o.picture);
     a.group(HelpGroup::output);
     a.option("--frames", o.frames,
              "images A to B of --animation, all with one camera, written as NAME-0000.png and so on, or into one "

@@ -1,7 +1,6 @@
 #include "files.hpp"
 
 #include <algorithm>
-#include <array>
 #include <string_view>
 #include <system_error>
 
@@ -9,6 +8,7 @@
 
 #include "files/bytes.hpp"
 #include "image/format_table.hpp"
+#include "model/model_formats.hpp"
 
 namespace cotan::viewer {
 
@@ -17,11 +17,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kPollSeconds = 0.25, kRestSeconds = 0.3; // polling interval, and time without changes; seconds
-
-template<std::size_t n> bool endsWithOneOf(const fs::path& file, const std::array<std::string_view, n>& endings)
-{
-    return std::ranges::find(endings, lowerExtension(file)) != endings.end();
-}
 
 int digit(char c)
 {
@@ -48,12 +43,7 @@ std::string percentDecoded(const std::string& text)
 
 bool isImageFile(const fs::path& file) { return imageFormatHas(file, &ImageFormat::reads); }
 
-bool isModel(const fs::path& file)
-{
-    constexpr std::array<std::string_view, 8> kEndings = {".gltf", ".glb", ".obj", ".ply",
-                                                          ".stl",  ".dae", ".fbx", ".3ds"};
-    return endsWithOneOf(file, kEndings);
-}
+bool isModel(const fs::path& file) { return modelFormatOf(file) != nullptr; }
 
 std::string neighbourOf(const fs::path& file, int step)
 {

@@ -146,16 +146,16 @@ std::string commandLine(const State& state, const std::string& file, glm::ivec2 
         add("material", fmt::format("{}", o.maps.material));
     for (const Setting& setting : settings()) {
         std::string value = valueOf(setting, o);
-        if (setting.flag) {
+        if (setting.option.flag) {
             if (value == "on")
-                text += std::string(" --") + setting.name;
+                text += " --" + setting.option.name;
             continue;
         }
-        if (std::string("exposure") == setting.name && value == kAutoExposure && state.metered > 0
+        if (setting.option.name == "exposure" && value == kAutoExposure && state.metered > 0
             && o.use == PictureUse::shown && !keepsFloats(file))
             value = fmt::format("{}", state.metered);
         if (value != valueOf(setting, usual))
-            add(setting.name, value);
+            add(setting.option.name, value);
     }
     if (o.device != usual.device)
         add("device", o.device);
@@ -168,7 +168,9 @@ std::string commandLine(const State& state, const std::string& file, glm::ivec2 
 std::string reportOf(const State& state)
 {
     std::string text;
-    const auto add = [&](const char* name, const std::string& value) { text += fmt::format("{}: {}\n", name, value); };
+    const auto add = [&](const std::string& name, const std::string& value) {
+        text += fmt::format("{}: {}\n", name, value);
+    };
     add("model",
         !state.picture.model.empty()       ? fileName(state.picture.model)
             : !state.picture.shape.empty() ? state.picture.shape
@@ -192,7 +194,7 @@ std::string reportOf(const State& state)
         state.camera.orthographic ? fmt::format("orthographic {:.4f}", state.camera.verticalExtent)
                                   : fmt::format("{:.2f} degrees", state.camera.verticalFieldOfView * 57.2957795));
     for (const Setting& setting : settings())
-        add(setting.name, valueOf(setting, state.picture));
+        add(setting.option.name, valueOf(setting, state.picture));
     add("playing", state.playing ? "yes" : "no");
     add("metered", fmt::format("{:.4f}", state.metered));
     add("light pinned", state.lightPinned ? "yes" : "no");

@@ -97,7 +97,7 @@ void declare(Arguments& a, ViewCommandOptions& o)
     addPictureOptions(a, o.picture);
     addFrameOption(a, o.frame);
     a.option("--second", o.second, "a second frame, to compare with the first").in("NAME").offers(frameWords()).main();
-    addShowOption(a, o.picture.show);
+    addShowOption(a, o.picture);
     a.group(HelpGroup::diagnostics);
     a.option("--do", o.commands, "a viewer command to run at the start, such as \"compare angle\"; may be repeated")
         .in("TEXT");

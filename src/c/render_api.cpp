@@ -4,7 +4,7 @@
 #include "cotan/picture.hpp"
 #include "inspect/angles.hpp"
 #include "model_files.hpp"
-#include "picture/option_words.hpp"
+#include "picture/option_table.hpp"
 #include "scene/normal_maps.hpp"
 
 using namespace cotan;

@@ -1,16 +1,14 @@
 #include "cotan/model.hpp"
 
-#include <algorithm>
-#include <array>
 #include <new>
 #include <string>
 
 #include <fmt/format.h>
 
-#include "files/bytes.hpp"
 #include "files/file_registry.hpp"
 #include "files/sandbox/process.hpp"
 #include "files/sandbox/scene_wire.hpp"
+#include "model/model_formats.hpp"
 #include "scene/geometry.hpp"
 #include "scene/scene_check.hpp"
 
@@ -19,8 +17,6 @@ namespace cotan {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr std::array<std::string_view, 5> kAssimpExtensions = {".ply", ".stl", ".dae", ".fbx", ".3ds"};
 
 // Enforces limits that the child process should have enforced.
 Status checkLimits(const Scene& scene, const std::string& file, const LoadLimits& limits)
@@ -66,20 +62,17 @@ Result<Scene> loadAny(const fs::path& file, const LoadLimits& limits)
     const auto size = usableFileSize(file, limits.fileBytes);
     if (!size)
         return size.error();
-    const std::string extension = lowerExtension(file);
-    if (extension == ".gltf" || extension == ".glb")
+    const ModelFormat* format = modelFormatOf(file);
+    if (!format)
+        return inputError(fmt::format("{}: expected the extension {}, found \"{}\"", file.string(), modelFormats(true),
+                                      file.extension().string()));
+    if (!format->assimp && format->name != "OBJ")
         return loadGltf(file, limits);
     if (!limits.pose.animation.empty())
         return usageError(fmt::format("{}: only glTF animations are supported", file.string()));
-    const bool assimp = std::ranges::find(kAssimpExtensions, extension) != kAssimpExtensions.end();
-    if (assimp || extension == ".obj") {
-        if (!limits.sandbox.program.empty())
-            return loadSandboxed(file, *size, limits);
-        return assimp ? loadWithAssimp(file, limits) : loadObj(file, limits);
-    }
-    return inputError(
-        fmt::format("{}: expected the extension .gltf .glb .obj .ply .stl .dae .fbx or .3ds, found \"{}\"",
-                    file.string(), file.extension().string()));
+    if (!limits.sandbox.program.empty())
+        return loadSandboxed(file, *size, limits);
+    return format->assimp ? loadWithAssimp(file, limits) : loadObj(file, limits);
 }
 
 } // namespace

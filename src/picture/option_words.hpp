@@ -2,7 +2,7 @@
 // In code the options are typed: PictureOptions.
 #pragma once
 
-#include <span>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,11 +57,14 @@ inline constexpr const char* kAutoExposure = "auto"; // or a factor above 0
 
 std::string sizeWord(const PictureSize& size); // "640x480"
 
+// What an error about a size says.
+std::string expectedSize(const std::vector<std::string>& presets, const std::string& found);
+
 // Parses "WxH", or one number for both, each 1..16384.
 Result<PictureSize> parseSize(const std::string& text);
 
 // Likewise, also accepting the presets: "1080p", "square" and others.
-Result<PictureSize> parsePictureSize(const std::string& text);
+std::optional<PictureSize> parsePictureSize(const std::string& text);
 std::vector<std::string> sizePresetWords();
 
 // All frame names, as a list and separated by commas.
@@ -76,10 +79,5 @@ inline std::string nameOf(const FrameChoice& frame) { return std::string(frame ?
 // Parses a frame's name, or kAutoFrame for none. The error lists all names and begins with `field`, the option or field
 // that the text was given for.
 Result<FrameChoice> parseFrameChoice(const std::string& text, std::string_view field = "frame");
-
-// Sets options from words of the command line of `cotan render`: "--size", "640x480", "--edges=all", and a model after
-// "--" or by itself. Options for files and the terminal are not accepted. Errors: ErrorKind::usage, with the option,
-// what was expected and what was found.
-Status readPictureWords(std::span<const std::string> words, PictureOptions& options, std::string& frame);
 
 } // namespace cotan

@@ -10,11 +10,11 @@
 #include <unistd.h>
 
 #include "core/parse_number.hpp"
-#include "files/bytes.hpp"
 #include "files/file_registry.hpp"
 #include "files/output.hpp"
 #include "files/sandbox/confine.hpp"
 #include "image/format_table.hpp"
+#include "model/model_formats.hpp"
 
 namespace cotan {
 
@@ -27,8 +27,6 @@ constexpr std::size_t kFixedWords = 6;
 constexpr const char *kAnswerName = "answer.json", *kThumbnailName = "thumbnail.png"; // in the work folder
 constexpr std::size_t kMaxAnswerBytes = 256 << 20;
 
-constexpr std::string_view kModels[] = {".glb", ".gltf", ".obj", ".ply", ".stl", ".dae", ".fbx", ".3ds"};
-
 // An image to make the thumbnail from; empty: none.
 std::filesystem::path thumbnailSource(const ChildRequest& request, const ChildAnswer& answer,
                                       const std::function<int(const std::vector<std::string>&)>& command)
@@ -39,7 +37,7 @@ std::filesystem::path thumbnailSource(const ChildRequest& request, const ChildAn
     if (request.thumbnails != Thumbnails::models)
         return {};
     for (const std::string& file : answer.inputs)
-        if (std::ranges::find(kModels, lowerExtension(file)) != std::end(kModels)) {
+        if (modelFormatOf(file)) {
             const std::filesystem::path drawn = request.work / kThumbnailName;
             if (command({"render", file, "-o", drawn.string(), "--size", "128x128", "--samples", "1", "--quiet"}) == 0)
                 return drawn;

@@ -1,7 +1,7 @@
 // The jobs of a batch: a file with one cotan command line per line.
 //
 //     {"name": "rock 7", "command": ["bake", "--high", "rock7.obj", "--low", "rock7_low.obj", "-o", "rock7.png"]}
-//     {"command": ["lint", "city.glb"], "limit-memory": 8000, "limit-time": 600, "priority": 1, "retries": 2}
+//     {"command": ["render", "city.glb", "-o", "city.png"], "limit-memory": 8000, "priority": 1, "retries": 2}
 #pragma once
 
 #include <cstddef>

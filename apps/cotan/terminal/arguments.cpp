@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "core/value_checks.hpp"
+#include "core/real_number.hpp"
 #include "parse_errors.hpp"
 #include "terminal/command_words.hpp"
 #include "terminal/help_text.hpp"
@@ -43,14 +43,11 @@ OptionHelp helpOf(const CLI::Option& option, const Argument::Facts& facts)
         help.names.push_back("-" + name);
     for (const std::string& name : option.get_lnames())
         help.names.push_back("--" + name);
-    // For a value "N:INT in [1 - 5]" CLI11's type name has the value word N and the range.
-    const std::string type = option.get_items_expected_max() > 0 ? option.get_type_name() : "";
-    help.value = help.positional ? help.names[0] : type.substr(0, type.find(':'));
+    help.value = help.positional ? help.names[0] : option.get_items_expected_max() > 0 ? option.get_type_name() : "";
+    help.value = help.value.substr(0, help.value.find(':'));
     help.kind = help.positional ? ValueKind::file : valueKind(help.value);
-    if (const std::size_t range = type.find(" in ["), to = type.find(" - "); range != std::string::npos) {
-        help.minimum = type.substr(range + 5, to - range - 5);
-        help.maximum = type.substr(to + 3, type.find(']', to) - to - 3);
-    }
+    help.minimum = facts.minimum;
+    help.maximum = facts.maximum;
     if ((help.kind == ValueKind::file || help.kind == ValueKind::folder) && facts.use == FileUse::none
         && !help.positional)
         throw std::logic_error(help.names.back() + ": expected reads() or writes() for an option that names a file");
@@ -94,27 +91,26 @@ Argument& Argument::offers(std::vector<std::string> words)
 
 Argument& Argument::within(int least, int most)
 {
-    option_->check(wholeNumberWithin(least, most));
-    option_->check(CLI::Range(least, most)); // for the help
-    return *this;
+    return checked(wholeNumberWithin(least, most)).shows(std::to_string(least), std::to_string(most));
 }
 
 Argument& Argument::within(double least, double most)
 {
-    option_->check(numberWithin(least, most));
-    option_->check(CLI::Range(least, most)); // for the help
+    return checked(numberWithin(least, most)).shows(textOfReal(least), textOfReal(most));
+}
+
+Argument& Argument::above0() { return checked(numberAbove0()); }
+
+Argument& Argument::checked(ValueCheck check)
+{
+    option_->check(std::move(check));
     return *this;
 }
 
-Argument& Argument::above0()
+Argument& Argument::shows(std::string minimum, std::string maximum)
 {
-    option_->check(numberAbove0());
-    return *this;
-}
-
-Argument& Argument::above0Or(const std::string& word)
-{
-    option_->check(numberAbove0Or(word));
+    facts_->minimum = std::move(minimum);
+    facts_->maximum = std::move(maximum);
     return *this;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/named_values.hpp"
+#include "core/value_checks.hpp"
 #include "cotan/result.hpp"
 #include "terminal/command_help.hpp"
 #include "terminal/help_text.hpp"
@@ -44,6 +45,7 @@ public:
         FileUse use = FileUse::none;
         std::vector<std::string> words; // suggested or allowed values
         bool closed = false;            // only `words` are allowed
+        std::string minimum, maximum;   // of a number, for the help; may be empty
         HelpGroup group = HelpGroup::general;
         bool needed = false;
     };
@@ -58,7 +60,8 @@ public:
     Argument& within(int least, int most);
     Argument& within(double least, double most);
     Argument& above0(); // at most 1e6
-    Argument& above0Or(const std::string& word);
+    Argument& checked(ValueCheck check);
+    Argument& shows(std::string minimum, std::string maximum); // in the help
     Argument& reads();                // names files that are read, or words that stand for a file
     Argument& writes();               // names files or folders that are written
     Argument& under(HelpGroup group); // for this option only, instead of the current group

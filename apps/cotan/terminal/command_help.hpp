@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/help_group.hpp"
+
 namespace cotan {
 
 // The kind of value of an option, by the value's word in the help.
@@ -17,8 +19,6 @@ enum class ValueKind {
 };
 ValueKind valueKind(std::string_view valueWord);
 
-// The heading of an option, in the order of the help. `main` holds the few options that matter most.
-enum class HelpGroup { main, input, output, rays, camera, light, frame, look, jobs, diagnostics, general };
 std::string_view headingOf(HelpGroup group);
 
 struct OptionHelp {
