@@ -14,8 +14,8 @@
 
 #include "files/bytes.hpp"
 #include "files/file_registry.hpp"
+#include "files/json.hpp"
 #include "files/output.hpp"
-#include "files/report/json.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

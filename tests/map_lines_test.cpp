@@ -1,7 +1,7 @@
 // The lines that `map info` and `map detect` print for their figures, and the names of the figures in reports.
 #include <gtest/gtest.h>
 
-#include "files/report/json.hpp"
+#include "files/json.hpp"
 #include "map_files/inspect.hpp"
 
 namespace cotan::maps {

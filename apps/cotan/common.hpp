@@ -14,8 +14,8 @@
 #include "cotan/render.hpp"
 #include "cotan/result.hpp"
 #include "files/file_registry.hpp"
+#include "files/json.hpp"
 #include "files/output.hpp"
-#include "files/report/json.hpp"
 #include "terminal/arguments.hpp"
 #include "terminal/progress_line.hpp"
 

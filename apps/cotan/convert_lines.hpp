@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cotan/convert.hpp"
-#include "files/report/json.hpp"
+#include "files/json.hpp"
 
 namespace cotan {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cotan/lint.hpp"
-#include "files/report/json.hpp"
+#include "files/json.hpp"
 
 namespace cotan {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "cotan/tangents.hpp"
-#include "files/report/json.hpp"
+#include "files/json.hpp"
 
 namespace cotan {
 

@@ -4,9 +4,8 @@
 #include <string_view>
 #include <system_error>
 
-#include <nlohmann/json.hpp>
-
 #include "files/bytes.hpp"
+#include "files/json.hpp"
 #include "image/format_table.hpp"
 #include "model/model_formats.hpp"
 
@@ -149,7 +148,7 @@ std::vector<fs::path> filesOf(const fs::path& model, const std::vector<std::stri
         return files;
     }
     const auto text = readText(model, /*isInput*/ false); // the loader has noted it
-    const auto root = nlohmann::json::parse(text ? *text : "", nullptr, false);
+    const auto root = Json::parse(text ? *text : "", nullptr, false);
     for (const char* list : {"buffers", "images"})
         if (root.is_object() && root.contains(list) && root[list].is_array())
             for (const auto& entry : root[list])

@@ -7,7 +7,7 @@
 #include "cotan/convert.hpp"
 #include "cotan/lint.hpp"
 #include "cotan/scene.hpp"
-#include "files/report/json.hpp"
+#include "files/json.hpp"
 
 namespace cotan {
 

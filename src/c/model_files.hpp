@@ -9,7 +9,7 @@
 #include "cotan/files.hpp"
 #include "cotan/frame_choice.hpp"
 #include "cotan/image.hpp"
-#include "files/report/json.hpp"
+#include "files/json.hpp"
 #include "pictures.hpp"
 
 namespace cotan::c {
@@ -124,7 +124,7 @@ inline ChoiceLimits choiceLimitsOf(double maxDegrees)
     return maxDegrees > 0 ? ChoiceLimits::of(maxDegrees) : ChoiceLimits();
 }
 
-// format: as in files/report/json.hpp.
+// format: as in files/json.hpp.
 inline void giveText(std::string_view format, const Json& json, cotan_bytes** to)
 {
     if (to)

@@ -6,7 +6,7 @@
 
 #include "core/value_statistics.hpp"
 #include "cotan/inspect.hpp"
-#include "files/report/json.hpp"
+#include "files/json.hpp"
 
 namespace cotan {
 

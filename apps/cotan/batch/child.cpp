@@ -5,12 +5,12 @@
 #include <mutex>
 #include <new>
 
-#include <nlohmann/json.hpp>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include "core/parse_number.hpp"
 #include "files/file_registry.hpp"
+#include "files/json.hpp"
 #include "files/output.hpp"
 #include "files/sandbox/confine.hpp"
 #include "image/format_table.hpp"
@@ -19,8 +19,6 @@
 namespace cotan {
 
 namespace {
-
-using nlohmann::ordered_json;
 
 constexpr const char* kJobWord = "run-for-batch"; // first argument of a job process
 constexpr std::size_t kFixedWords = 6;
@@ -98,13 +96,13 @@ int runJobProcess(int argc, const char* const* argv, const std::function<int(con
     const int code = command(request.words);
     watchInputs({});
     watchOutputs({});
-    ordered_json j = {{"inputs", answer.inputs}, {"outputs", answer.outputs}};
+    Json j = {{"inputs", answer.inputs}, {"outputs", answer.outputs}};
     if (request.thumbnails != Thumbnails::none && (code == 0 || code == int(ErrorKind::limit)))
         if (const std::filesystem::path image = thumbnailSource(request, answer, command); !image.empty())
             if (const auto thumbnail = thumbnailOf(image))
                 j["thumbnail"] = {
                     {"width", thumbnail->width}, {"height", thumbnail->height}, {"jpeg", thumbnail->jpeg}};
-    const std::string text = j.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    const std::string text = j.dump(-1, ' ', false, Json::error_handler_t::replace);
     const Status written = writeFileWhole(request.work / kAnswerName, text);
     return written ? code : code != 0 ? code : int(ErrorKind::output);
 }
@@ -115,12 +113,12 @@ ChildAnswer readAnswer(const std::filesystem::path& work)
     if (!text)
         return {};
     try {
-        const auto j = nlohmann::json::parse(*text);
+        const auto j = Json::parse(*text);
         ChildAnswer answer{j.at("inputs"), j.at("outputs"), {}};
         if (const auto t = j.find("thumbnail"); t != j.end())
             answer.thumbnail = {t->at("width"), t->at("height"), t->at("jpeg")};
         return answer;
-    } catch (const nlohmann::json::exception&) {
+    } catch (const Json::exception&) {
         return {};
     }
 }

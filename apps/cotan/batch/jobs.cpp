@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "files/bytes.hpp"
+#include "files/json.hpp"
 #include "files/sandbox/process.hpp"
 #include "terminal/command_words.hpp"
 
@@ -16,31 +16,29 @@ namespace cotan {
 
 namespace {
 
-using nlohmann::json;
-
 constexpr std::size_t kMaxBytes = std::size_t(4) << 30;
 constexpr std::size_t kMaxNameBytes = 1000;
 constexpr double kMaxMegabytes = 1 << 24, kMaxSeconds = 1e6, kMaxPriority = 1e6;
 
 // Lists and objects are not printed, since dumping them recurses once per nesting level.
-Error expected(const std::string& member, const std::string& what, const json& found)
+Error expected(const std::string& member, const std::string& what, const Json& found)
 {
     const std::string text = found.is_array() ? "a list"
         : found.is_object()                   ? "an object"
-                                              : found.dump(-1, ' ', false, json::error_handler_t::replace);
+                                              : found.dump(-1, ' ', false, Json::error_handler_t::replace);
     return inputError(fmt::format("\"{}\": expected {}; found {}", member, what, printable(text, 60)));
 }
 
 // The strings of an array member; empty if the member is absent.
-Result<std::vector<std::string>> texts(const json& job, const char* member)
+Result<std::vector<std::string>> texts(const Json& job, const char* member)
 {
     std::vector<std::string> all;
     if (!job.contains(member))
         return all;
-    const json& list = job[member];
+    const Json& list = job[member];
     if (!list.is_array())
         return expected(member, "a list of strings such as [\"lint\", \"model.glb\"]", list);
-    for (const json& item : list) {
+    for (const Json& item : list) {
         if (!item.is_string())
             return expected(member, "strings only (quote numbers, too)", item);
         all.push_back(item.get<std::string>());
@@ -63,11 +61,11 @@ constexpr std::string_view kMembers[] = {
 
 // Reads a number member, if present.
 template<class Number>
-Status readNumber(const json& job, const char* member, double least, double most, std::optional<Number>& number)
+Status readNumber(const Json& job, const char* member, double least, double most, std::optional<Number>& number)
 {
     if (!job.contains(member))
         return Done{};
-    const json& value = job[member];
+    const Json& value = job[member];
     const bool whole = std::is_integral_v<Number>;
     const bool fits = (whole ? value.is_number_integer() : value.is_number()) && value.get<double>() >= least
         && value.get<double>() <= most;
@@ -79,11 +77,11 @@ Status readNumber(const json& job, const char* member, double least, double most
     return Done{};
 }
 
-Status readEnvironment(const json& job, std::map<std::string, std::string>& environment)
+Status readEnvironment(const Json& job, std::map<std::string, std::string>& environment)
 {
     if (!job.contains("env"))
         return Done{};
-    const json& value = job["env"];
+    const Json& value = job["env"];
     if (!value.is_object())
         return expected("env", "an object of strings such as {\"NAME\": \"VALUE\"}", value);
     for (const auto& [name, text] : value.items()) {
@@ -96,7 +94,7 @@ Status readEnvironment(const json& job, std::map<std::string, std::string>& envi
     return Done{};
 }
 
-Status readOptions(const json& job, JobOptions& options)
+Status readOptions(const Json& job, JobOptions& options)
 {
     std::optional<int> priority;
     for (const Status& read : {readNumber(job, "limit-memory", 0, kMaxMegabytes, options.megabytes),
@@ -113,7 +111,7 @@ Status readOptions(const json& job, JobOptions& options)
 
 Result<Job> readJob(std::string_view line, const CheckWords& check)
 {
-    const json parsed = json::parse(line, nullptr, /*allow_exceptions*/ false);
+    const Json parsed = Json::parse(line, nullptr, /*allow_exceptions*/ false);
     if (parsed.is_discarded())
         return inputError("expected a JSON object on one line; found text that is not JSON");
     if (!parsed.is_object())
@@ -131,7 +129,7 @@ Result<Job> readJob(std::string_view line, const CheckWords& check)
     Job job;
     job.words = *command;
     if (parsed.contains("name")) {
-        const json& name = parsed["name"];
+        const Json& name = parsed["name"];
         if (!name.is_string() || name.get<std::string>().empty() || name.get<std::string>().size() > kMaxNameBytes)
             return expected("name", fmt::format("a string of 1 to {} bytes", kMaxNameBytes), name);
         job.name = printable(name.get<std::string>(), kMaxNameBytes);

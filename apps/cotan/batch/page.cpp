@@ -5,9 +5,9 @@
 #include <tuple>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "core/named_values.hpp"
+#include "files/json.hpp"
 #include "html.hpp"
 
 namespace cotan {
@@ -15,8 +15,6 @@ namespace cotan {
 namespace fs = std::filesystem;
 
 namespace {
-
-using nlohmann::ordered_json;
 
 constexpr std::string_view kStyle = R"(
 :root { color-scheme: light dark; --line: #8884; --soft: #8881; --bad: #c62828; --warn: #a15c00; --good: #2e7d32; }
@@ -208,13 +206,13 @@ std::string link(const std::string& path)
     return text;
 }
 
-ordered_json rowOf(const JobList& list, const JobResult& result, const fs::path& folder)
+Json rowOf(const JobList& list, const JobResult& result, const fs::path& folder)
 {
     const JobRecord& r = result.record;
     const Job& job = list.jobs[result.job];
     const Thumbnail& t = r.thumbnail;
     const bool bad = r.state > JobState::limit;
-    auto outputs = ordered_json::array(), inputs = ordered_json::array();
+    auto outputs = Json::array(), inputs = Json::array();
     for (const FileState& output : r.outputs) {
         const fs::path path = (list.folder / output.file).lexically_normal();
         const fs::path relative = path.lexically_relative(folder);
@@ -224,7 +222,7 @@ ordered_json rowOf(const JobList& list, const JobResult& result, const fs::path&
         inputs.push_back(input.file);
     return {job.name,
             int(r.state),
-            r.degrees ? ordered_json(r.degrees->mean) : nullptr,
+            r.degrees ? Json(r.degrees->mean) : nullptr,
             r.degrees ? r.degrees->of : "",
             std::round(r.seconds * 1000) / 1000,
             std::round(r.megabytes),
@@ -233,14 +231,14 @@ ordered_json rowOf(const JobList& list, const JobResult& result, const fs::path&
             bad || r.output.size() <= kMaxOutput ? r.output : r.output.substr(0, kMaxOutput) + "...",
             outputs,
             inputs,
-            t.jpeg.empty() ? nullptr : ordered_json({t.width, t.height, t.jpeg}),
+            t.jpeg.empty() ? nullptr : Json({t.width, t.height, t.jpeg}),
             result.kept ? 1 : 0};
 }
 
 // Escapes JSON for a script element: no text in it may end the element.
-std::string scriptJson(const ordered_json& data)
+std::string scriptJson(const Json& data)
 {
-    const std::string text = data.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    const std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
     std::string safe;
     safe.reserve(text.size());
     for (const char c : text)
@@ -256,9 +254,9 @@ std::string scriptJson(const ordered_json& data)
 std::string batchPage(const JobList& list, const std::vector<JobResult>& results, const std::string& title,
                       const std::string& footer, const fs::path& folder, std::size_t maxRows)
 {
-    ordered_json data;
+    Json data;
     for (const char* member : {"states", "bad", "warn", "rows"})
-        data[member] = ordered_json::array();
+        data[member] = Json::array();
     const StateCounts counts = countsOf(results);
     std::string buttons, heads, more;
     for (std::size_t i = 0; i < counts.size(); ++i) {

@@ -4,21 +4,18 @@
 #include <array>
 #include <cmath>
 
-#include <nlohmann/json.hpp>
+#include "files/json.hpp"
 
 namespace cotan {
 
-using nlohmann::json;
-using nlohmann::ordered_json;
-
 // JSON of the parts of a record, which the library finds by these names.
-static void to_json(ordered_json& j, const FileState& s)
+static void to_json(Json& j, const FileState& s)
 {
     j = {{"file", s.file},         {"digest", s.digest},   {"bytes", s.bytes},
          {"modified", s.modified}, {"changed", s.changed}, {"number", s.number}};
 }
 
-static void from_json(const json& j, FileState& s)
+static void from_json(const Json& j, FileState& s)
 {
     s = {j.at("file"), j.at("digest"), j.at("bytes"), j.at("modified"), j.at("changed"), j.at("number")};
 }
@@ -30,9 +27,9 @@ constexpr int kFormat = 2;
 constexpr std::array<std::string_view, 8> kStates = {"done",   "over limit", "not run",       "skipped",
                                                      "failed", "too slow",   "out of memory", "crashed"};
 
-ordered_json orNull(const std::optional<int>& number) { return number ? ordered_json(*number) : ordered_json(nullptr); }
+Json orNull(const std::optional<int>& number) { return number ? Json(*number) : Json(nullptr); }
 
-std::optional<int> numberIn(const json& j) { return j.is_null() ? std::nullopt : std::optional(j.get<int>()); }
+std::optional<int> numberIn(const Json& j) { return j.is_null() ? std::nullopt : std::optional(j.get<int>()); }
 
 // Where the JSON report of a command has its degrees. "*" is every item of a list, and the worst counts; names between
 // bars are alternatives, and the best counts.
@@ -53,7 +50,7 @@ constexpr DegreesPath kDegreesPaths[] = {
 };
 
 // The number at `path`; NaN: none.
-double valueAt(const json& j, std::string_view path)
+double valueAt(const Json& j, std::string_view path)
 {
     if (path.empty())
         return j.is_number() ? j.get<double>() : NAN;
@@ -62,7 +59,7 @@ double valueAt(const json& j, std::string_view path)
     const std::string_view rest = path.substr(std::min(slash + 1, path.size()));
     double found = NAN;
     if (names == "*") {
-        for (const json& item : j.is_array() ? j : json::array())
+        for (const Json& item : j.is_array() ? j : Json::array())
             found = std::fmax(found, valueAt(item, rest)); // fmax prefers numbers to NaN
         return found;
     }
@@ -88,32 +85,32 @@ bool repeatable(const JobRecord& record)
 
 std::string toText(const JobRecord& r, const std::vector<std::string>& words, const std::string& version)
 {
-    ordered_json j = {{"format", kFormat},
-                      {"version", version},
-                      {"words", words},
-                      {"state", name(r.state)},
-                      {"code", orNull(r.code)},
-                      {"signal", orNull(r.signal)},
-                      {"runs", r.runs},
-                      {"reason", r.reason},
-                      {"said", r.output},
-                      {"seconds", r.seconds},
-                      {"processor_seconds", r.processorSeconds},
-                      {"megabytes", r.megabytes},
-                      {"at", r.at},
-                      {"inputs", r.inputs},
-                      {"outputs", r.outputs}};
+    Json j = {{"format", kFormat},
+              {"version", version},
+              {"words", words},
+              {"state", name(r.state)},
+              {"code", orNull(r.code)},
+              {"signal", orNull(r.signal)},
+              {"runs", r.runs},
+              {"reason", r.reason},
+              {"said", r.output},
+              {"seconds", r.seconds},
+              {"processor_seconds", r.processorSeconds},
+              {"megabytes", r.megabytes},
+              {"at", r.at},
+              {"inputs", r.inputs},
+              {"outputs", r.outputs}};
     if (r.degrees)
         j["degrees"] = {{"mean", r.degrees->mean}, {"of", r.degrees->of}};
     if (!r.thumbnail.jpeg.empty())
         j["thumbnail"] = {{"width", r.thumbnail.width}, {"height", r.thumbnail.height}, {"jpeg", r.thumbnail.jpeg}};
-    return j.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    return j.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::optional<JobRecord> parseRecord(std::string_view text)
 {
     try {
-        const json j = json::parse(text);
+        const Json j = Json::parse(text);
         const auto state = std::ranges::find(kStates, j.at("state").get<std::string>());
         if (j.at("format") != kFormat || state == kStates.end())
             return std::nullopt;
@@ -135,14 +132,14 @@ std::optional<JobRecord> parseRecord(std::string_view text)
         if (j.contains("thumbnail"))
             r.thumbnail = {j["thumbnail"].at("width"), j["thumbnail"].at("height"), j["thumbnail"].at("jpeg")};
         return r;
-    } catch (const json::exception&) { // a truncated or foreign file
+    } catch (const Json::exception&) { // a truncated or foreign file
         return std::nullopt;
     }
 }
 
 std::optional<Degrees> degreesIn(std::string_view report)
 {
-    const json j = json::parse(report, nullptr, /*allow_exceptions*/ false);
+    const Json j = Json::parse(report, nullptr, /*allow_exceptions*/ false);
     if (!j.is_object() || !j.contains("command") || !j["command"].is_string())
         return std::nullopt;
     const std::string command = j["command"];

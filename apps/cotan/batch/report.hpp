@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "batch/run.hpp"
-#include "files/report/json.hpp"
+#include "files/json.hpp"
 
 namespace cotan {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cotan/maps.hpp"
-#include "files/report/json.hpp"
+#include "files/json.hpp"
 #include "inspect/angles.hpp"
 #include "map_files/map_file.hpp"
 

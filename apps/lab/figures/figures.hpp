@@ -9,7 +9,7 @@
 
 #include "cotan/render.hpp"
 #include "cotan/result.hpp"
-#include "files/report/json.hpp"
+#include "files/json.hpp"
 
 namespace cotan::figures {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cost/price.hpp"
-#include "files/report/json.hpp"
+#include "files/json.hpp"
 
 namespace cotan {
 

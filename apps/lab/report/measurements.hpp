@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cotan/result.hpp"
-#include "files/report/json.hpp"
+#include "files/json.hpp"
 #include "truth/measurement.hpp"
 
 namespace cotan {

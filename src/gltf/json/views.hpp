@@ -15,13 +15,13 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cotan/scene.hpp"
+#include "files/json.hpp"
 
 namespace cotan::gltf {
 
-using Json = nlohmann::ordered_json; // members stay in the order of the file
+using cotan::Json;
 
 // ---- OpenGL constants for types and modes ---------------------------------------------------
 
