@@ -30,6 +30,7 @@ if(Python3_FOUND)
   add_test(NAME JsonFields.matchThePage COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/json_fields_test.py
     $<TARGET_FILE:cotan> ${PROJECT_SOURCE_DIR}/docs/reference/json.md)
   set_tests_properties(JsonFields.matchThePage PROPERTIES TIMEOUT 300)
+  cotan_slow(JsonFields.matchThePage)
 endif()
 # Parsing of words to values, without a process.
 cotan_test(words_test

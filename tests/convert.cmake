@@ -1,4 +1,4 @@
-cotan_test(convert_test FIXTURE npm SLOW ConvertCommand.real*
+cotan_test(convert_test FIXTURE npm SLOW ConvertCommand.real* ConvertCommand.conversionsMake*
   SOURCES convert_test.cpp convert_command_test.cpp convert_jobs_test.cpp convert_layers_test.cpp
     convert_choose_test.cpp convert_model_test.cpp convert_notes_test.cpp convert_provoking_test.cpp model_faults_test.cpp texture_transform_test.cpp
   LIBRARIES cotan_bake cotan_model cotan_scene cotan_render cotan_gltf_json fmt::fmt ZLIB::ZLIB)

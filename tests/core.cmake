@@ -70,6 +70,7 @@ if(Python3_FOUND AND CMAKE_GENERATOR STREQUAL Ninja)
   add_test(NAME Scripts.refuseUnknownArgumentsAndNameWhatTheBuildMakes
     COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/scripts_test.py ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
   set_tests_properties(Scripts.refuseUnknownArgumentsAndNameWhatTheBuildMakes PROPERTIES TIMEOUT 300)
+  cotan_slow(Scripts.refuseUnknownArgumentsAndNameWhatTheBuildMakes)
   add_test(NAME Contact.isNamedOnceItIsFilledIn
     COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/contact_test.py ${PROJECT_SOURCE_DIR})
 endif()

@@ -26,6 +26,9 @@ foreach(test image_test viewer_test shader_text_test)
     cotan_in_locales(${test} de_DE $<TARGET_FILE:${test}>)
   endif()
 endforeach()
+if(TARGET viewer_test)
+  cotan_slow(Locale.viewer_test.de_DE)
+endif()
 # Programs in other languages leave the streams of C++ to the library.
 foreach(locale IN ITEMS de_DE tr_TR ps_AF)
   set_property(TEST Locale.c_buffers_test.${locale} PROPERTY ENVIRONMENT COTAN_STREAMS_TOO=1)
@@ -34,6 +37,7 @@ cotan_in_locales(exampleInC de_DE $<TARGET_FILE:example_c>)
 if(COTAN_PYTHON)
   foreach(part options models render maps)
     cotan_in_locales(Python.${part} de_DE ${COTAN_PYTHON} -m pytest -q -p no:cacheprovider ${CMAKE_CURRENT_SOURCE_DIR}/python/test_${part}.py)
+    cotan_slow(Locale.Python.${part}.de_DE)
     set_property(TEST Locale.Python.${part}.de_DE PROPERTY ENVIRONMENT
       "COTAN_LIBRARY=$<TARGET_FILE:cotan_c>;COTAN_TOOL=$<TARGET_FILE:cotan>"
       COTAN_STREAMS_TOO=1 "PYTHONPATH=${PROJECT_SOURCE_DIR}/bindings/python;PYTHONDONTWRITEBYTECODE=1")

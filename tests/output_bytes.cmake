@@ -29,6 +29,7 @@ if(Python3_FOUND)
     add_test(NAME OverwriteWalk.${command}
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/overwrite_walk_test.py $<TARGET_FILE:cotan> ${command})
     set_tests_properties(OverwriteWalk.${command} PROPERTIES TIMEOUT 300)
+    cotan_slow(OverwriteWalk.${command})
   endforeach()
   foreach(part RANGE 3)
     add_test(NAME FileFields.${part}

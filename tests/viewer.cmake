@@ -9,7 +9,8 @@ if(TARGET cotan_viewer)
   target_compile_definitions(viewer_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
   add_dependencies(viewer_test cotan)
   if(TARGET cotan_window)
-    cotan_test(view_window_test SLOW ViewWindow.reloads*
+    cotan_test(view_window_test SLOW ViewWindow.reloads* ViewWindow.aChangedEnvironment* ViewWindow.showsExactly*
+      ViewWindow.thePrinted* ViewPanels.each*
       SOURCES view_animation_test.cpp view_display_test.cpp view_files_test.cpp view_panels_test.cpp view_random_test.cpp view_window_test.cpp
       LIBRARIES cotan_model cotan_image cotan_scene fmt::fmt)
     if(COTAN_BUS_LIBRARY AND COTAN_BUS_INCLUDE_DIR)
