@@ -7,7 +7,7 @@ import sys
 
 ROOT = pathlib.Path(sys.argv[1])
 SRC = ROOT / "src"
-MOST_FOLDERS, MOST_ARROWS, MOST_HEADERS, MOST_LINES = 13, 80, 30, 52_500
+MOST_FOLDERS, MOST_ARROWS, MOST_HEADERS, MOST_LINES = 13, 80, 30, 52_700
 WITHOUT_HEADER = {"c"}  # its header is cotan.h
 INCLUDE = re.compile(r'^\s*#\s*include\s+[<"]([^">]+)[">]', re.M)
 

@@ -1,6 +1,9 @@
 // `cotan view` in a window: its exact image, the pointer and the keys.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include <fmt/format.h>
 
 #include "quad_model.hpp"
@@ -16,6 +19,7 @@ TEST(ViewWindow, showsExactlyTheImageOfRender)
     write(quad(2), folder.path());
     for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
              {"--size", "320x180"},
+             {"--size", "1000x700", "--environment", "none"}, // drawn in bands
              {"quad.gltf", "--size", "301x203", "--frame", "smooth"},
              {"quad.gltf", "--size", "200x150", "--view", "normal", "--frame", "mikktspace"},
              {"--shape", "torus", "--size", "240x160", "--environment", "evening", "--device", "reference"},
@@ -31,6 +35,56 @@ TEST(ViewWindow, showsExactlyTheImageOfRender)
         EXPECT_EQ(differentPixels(readImageFile(folder / "window.png"), readImageFile(folder / "render.png")), 0u)
             << ::testing::PrintToString(options);
     }
+}
+
+TEST(ViewWindow, framesStayOnTheDeviceUntilAPictureIsAskedFor)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    const std::string frames = "0 wait\n0 do orbit 20 5\n0 wait\n0 do compare divider\n0 wait\n"
+                               "0 do show checker\n0 wait\n0 do show shaded\n0 wait\n0 do toggle interface\n0 wait\n";
+    const auto imagesRead = [&](const std::string& session, const std::vector<std::string>& more) {
+        std::vector<std::string> words{"--shape", "torus",  "--size",      "160x120", "--exposure",       "1",
+                                       "--json",  "j.json", "--overwrite", "--do",    "toggle statistics"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ToolRun run = play(folder, session, words);
+        EXPECT_EQ(run.code, 0) << run.err;
+        const std::string report = readWhole(folder / "j.json"), name = "\"images_read\": ";
+        return std::stoi(report.substr(report.find(name) + name.size()));
+    };
+    EXPECT_EQ(imagesRead(frames, {}), 0);
+    EXPECT_EQ(imagesRead(frames + "0 do window w.png\n0 do picture p.png\n", {}), 2);
+    EXPECT_GT(imagesRead(frames, {"--view", "normal"}), 0); // colours of values are made by the host
+}
+
+// Both halves are drawn by one renderer, one after the other.
+TEST(ViewWindow, theDividerShowsTheImagesOfBothFrames)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    const std::vector<std::string> options{"quad.gltf", "--size", "200x120", "--exposure", "1"};
+    std::vector<std::string> words = options;
+    words.insert(words.end(), {"--frame", "cotangent", "--second", "paper-nodet"});
+    const ToolRun run = play(folder, "0 wait\n0 do toggle interface\n0 do window w.png\n", words);
+    ASSERT_EQ(run.code, 0) << run.err;
+    const Image window = readImageFile(folder / "w.png");
+    ASSERT_EQ(window.width, 200);
+    std::array<Image, 2> sides;
+    for (const auto& [frame, side] : {std::pair("cotangent", 0), {"paper-nodet", 1}}) {
+        std::vector<std::string> render = options;
+        render.insert(render.begin(), "render");
+        render.insert(render.end(), {"--frame", frame, "-o", "r.png", "--overwrite"});
+        ASSERT_EQ(runTool(render, folder.path()).code, 0);
+        sides[std::size_t(side)] = readImageFile(folder / "r.png");
+    }
+    EXPECT_GT(differentPixels(sides[0], sides[1]), 100u);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < window.pixelCount(); ++i) {
+        const Image& side = sides[i % 200 < 100 ? 0 : 1];
+        wrong += !std::equal(window.bytes8() + 4 * i, window.bytes8() + 4 * i + 3, side.bytes8() + 4 * i);
+    }
+    EXPECT_EQ(wrong, 0u);
 }
 
 TEST(ViewWindow, thePrintedCommandDrawsTheSameImage)

@@ -25,36 +25,36 @@ TEST(ViewerPictures, eachSideIsDrawnOnceUntilItsOptionsChange)
     EXPECT_EQ(s.statisticsOf.find(" against exact"), s.statisticsOf.size() - 14) << s.statisticsOf;
     EXPECT_GT(s.statistics.count, 0);
     const auto same = [](const Image& a, const Image& b) { return a.data == b.data; };
-    ASSERT_TRUE(at.parts.pictures.shown(s).picture);
-    const Image first = *at.parts.pictures.shown(s).picture;
+    ASSERT_TRUE(at.parts.pictures.shown(s).picture.onHost);
+    const Image first = *at.parts.pictures.shown(s).picture.onHost;
     EXPECT_EQ(first.width, 64);
     EXPECT_EQ(first.height, 48);
-    const auto serial = at.parts.pictures.shown(s).serial;
+    const Drawing shown = at.parts.pictures.shown(s).picture;
     at.draw();
     EXPECT_EQ(s.pictures, 1u);
-    EXPECT_EQ(at.parts.pictures.shown(s).serial, serial);
+    EXPECT_TRUE(at.parts.pictures.shown(s).picture == shown);
     s.b.frame = "paper-nodet";
     s.compare = Compare::flip;
     s.second = true;
     at.draw();
     EXPECT_EQ(s.pictures, 2u);
-    EXPECT_NE(at.parts.pictures.shown(s).serial, serial);
-    const Image second = *at.parts.pictures.shown(s).picture;
+    EXPECT_FALSE(at.parts.pictures.shown(s).picture == shown);
+    const Image second = *at.parts.pictures.shown(s).picture.onHost;
     EXPECT_FALSE(same(first, second));
     s.compare = Compare::divider;
     s.second = false;
     s.divider = 0.25f;
     at.draw();
     const Shown both = at.parts.pictures.shown(s);
-    ASSERT_TRUE(both.picture && both.other);
-    EXPECT_TRUE(same(*both.picture, first));
-    EXPECT_TRUE(same(*both.other, second));
+    ASSERT_TRUE(both.picture.onHost && both.other.onHost);
+    EXPECT_TRUE(same(*both.picture.onHost, first));
+    EXPECT_TRUE(same(*both.other.onHost, second));
     EXPECT_EQ(both.divider, 16);
     EXPECT_EQ(s.statisticsOf, "first against second");
     s.compare = Compare::angle;
     at.draw();
     EXPECT_FALSE(at.parts.pictures.shown(s).other);
-    EXPECT_FALSE(same(*at.parts.pictures.shown(s).picture, first));
+    EXPECT_FALSE(same(*at.parts.pictures.shown(s).picture.onHost, first));
     EXPECT_GT(s.statistics.maximum, 0.1);
 }
 
@@ -122,15 +122,15 @@ TEST(ViewerPictures, slowRendersAreSmallerWhileTheCameraMoves)
     State& s = at.state();
     if (s.drawSeconds <= 0.05)
         GTEST_SKIP() << "this machine draws it in " << s.drawSeconds << " s";
-    EXPECT_EQ(at.parts.pictures.shown(s).picture->width, 1000);
+    EXPECT_EQ(at.parts.pictures.shown(s).picture.onHost->width, 1000);
     s.moving = true;
     at.draw();
-    EXPECT_EQ(at.parts.pictures.shown(s).picture->width, 500);
-    EXPECT_EQ(at.parts.pictures.shown(s).picture->height, 320);
+    EXPECT_EQ(at.parts.pictures.shown(s).picture.onHost->width, 500);
+    EXPECT_EQ(at.parts.pictures.shown(s).picture.onHost->height, 320);
     s.moving = false;
     at.draw();
-    EXPECT_EQ(at.parts.pictures.shown(s).picture->width, 1000);
-    EXPECT_EQ(at.parts.pictures.shown(s).picture->height, 640);
+    EXPECT_EQ(at.parts.pictures.shown(s).picture.onHost->width, 1000);
+    EXPECT_EQ(at.parts.pictures.shown(s).picture.onHost->height, 640);
 }
 
 // Scenes, light and the ground are cached between images. Each change of their inputs is drawn, and disappears when it
@@ -161,7 +161,7 @@ TEST(ViewerPictures, eachChangeIsDrawnAndCanBeUndone)
     const auto drawn = [&] {
         at.draw();
         EXPECT_EQ(s.problem, "");
-        return at.parts.pictures.shown(s).picture->data;
+        return at.parts.pictures.shown(s).picture.onHost->data;
     };
     const auto before = drawn();
     const std::vector<std::pair<const char*, std::function<void()>>> changes = {

@@ -42,8 +42,9 @@ public:
         ++calls_.shows;
         return Done{};
     }
-    Result<Image> read() override
+    Result<Image> showAndRead(const Interface&, const Shown&) override
     {
+        ++calls_.shows;
         Image image;
         image.width = 2;
         image.height = 1;
@@ -60,7 +61,8 @@ public:
     void askForFile(const std::string& folder) override { calls_.folder = folder; }
     FileAnswer fileAnswer() override { return answer; }
     void loseSurface() override { ++calls_.lost; }
-    std::string device() const override { return {}; }
+    std::shared_ptr<Device> device() const override { return {}; }
+    std::uint64_t imagesRead() const override { return 0; }
     const std::vector<std::string>& messages() const override { return messages_; }
     void wake() override {}
 

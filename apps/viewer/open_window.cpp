@@ -22,7 +22,7 @@ Result<std::unique_ptr<Window>> openWindow(const WindowOptions& options)
 #else
 Result<std::unique_ptr<Window>> openWindow(const WindowOptions&)
 {
-    return notBuiltWith("GLFW and Dear ImGui", "libglfw3-dev and libimgui-dev");
+    return notBuiltWith("GLFW, Dear ImGui and Vulkan", "libglfw3-dev, libimgui-dev, libvulkan-dev and glslang-tools");
 }
 #endif
 

@@ -68,8 +68,7 @@ void Pictures::receive(State& state, bool timed)
             state.problem.clear();
         lastGood_ = {true, state.picture, state.a, state.b};
     }
-    if (drawn->picture && drawn->picture != drawn_.picture) {
-        ++serial_;
+    if (drawn->picture && !(drawn->picture == drawn_.picture)) {
         firstSeconds_ = firstSeconds_ > 0 ? firstSeconds_ : drawn->seconds;
         ++state.pictures;
         state.drawSeconds = timed ? drawn->seconds : 0;
@@ -112,13 +111,8 @@ bool Pictures::idle(const State& state) const
 
 Shown Pictures::shown(const State& state) const
 {
-    Shown shown;
-    shown.picture = drawn_.picture.get();
-    if (state.compare == Compare::divider)
-        shown.other = drawn_.other.get();
-    shown.divider = state.divider * float(state.size.x);
-    shown.serial = serial_;
-    return shown;
+    return {drawn_.picture, state.compare == Compare::divider ? drawn_.other : Drawing(),
+            state.divider * float(state.size.x)};
 }
 
 float Pictures::degreesAtPointer(const State& state) const

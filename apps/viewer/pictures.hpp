@@ -16,6 +16,9 @@ public:
     // Parameters as for RenderThread.
     Pictures(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done);
 
+    // The device of the window, which draws the images for it. Call before the first ask().
+    void drawOn(std::shared_ptr<Device> device) { renderThread_.drawOn(std::move(device)); }
+
     // Orders an image if the state differs from that of the last order.
     void ask(const State& state);
     // Puts what was drawn since the last call into the state. If drawing failed, stores the error in state.problem and
@@ -24,7 +27,7 @@ public:
     // Whether everything that the state shows is drawn.
     bool idle(const State& state) const;
 
-    // The last image drawn, for the window; valid until the next receive().
+    // The last image drawn, for the window.
     Shown shown(const State& state) const;
     // The angle of the displayed image at the pointer; negative: none.
     float degreesAtPointer(const State& state) const;
@@ -33,7 +36,7 @@ public:
 
     std::vector<std::string> finish() { return renderThread_.finish(); }
 
-    bool any() const { return drawn_.picture != nullptr; }
+    bool any() const { return bool(drawn_.picture); }
     double firstSeconds() const { return firstSeconds_; } // drawing time of the first image
 
 private:
@@ -49,7 +52,7 @@ private:
         std::vector<float> degrees;
     } figures_; // of the displayed image
     std::string key_;
-    std::uint64_t serial_ = 0, orders_ = 0;
+    std::uint64_t orders_ = 0;
     double firstSeconds_ = 0;
     bool failed_ = false;
     std::size_t failedAtLoads_ = 0; // State::loads at the last failure

@@ -20,7 +20,7 @@ struct RenderThread::Work {
     {
         guarded(
             [&] {
-                sceneCache.open(first);
+                sceneCache.openEnvironment(first);
                 return Drawn{};
             },
             0);
@@ -29,6 +29,7 @@ struct RenderThread::Work {
             changed.wait(lock, [&] { return stop || next || file; });
             if (stop)
                 return;
+            sceneCache.drawOn(device);
             if (file) {
                 const auto* task = std::exchange(file, nullptr);
                 lock.unlock();
@@ -93,6 +94,7 @@ struct RenderThread::Work {
     std::optional<Order> next;
     std::optional<Drawn> ready;
     const std::function<void()>* file = nullptr;
+    std::shared_ptr<Device> device;
     bool working = false, stop = false;
     std::thread thread; // declared last, because it uses all other members
 };
@@ -115,6 +117,12 @@ std::vector<std::string> RenderThread::finish()
     if (work_->thread.joinable())
         work_->thread.join();
     return work_->sceneCache.messages();
+}
+
+void RenderThread::drawOn(std::shared_ptr<Device> device)
+{
+    const std::lock_guard lock(work_->mutex);
+    work_->device = std::move(device);
 }
 
 void RenderThread::ask(Order order)

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "state.hpp"
+#include "window.hpp"
 
 namespace cotan::viewer {
 
@@ -26,10 +27,10 @@ struct Order {
 
 struct Drawn {
     std::uint64_t number = 0;
-    std::shared_ptr<const Image> picture, other; // 8 bits; other: right side of a divider
-    View view;                                   // of `picture`
-    float exposure = 0;                          // metered for "auto"; 0: not requested
-    std::string device, problem;                 // if there is a problem, there is no image
+    Drawing picture, other;      // other: right side of a divider
+    View view;                   // of `picture`
+    float exposure = 0;          // metered for "auto"; 0: not requested
+    std::string device, problem; // if there is a problem, there is no image
     double seconds = 0;
     bool draft = false;
     // Figures, which arrive later than the image; degrees has one entry per pixel, or is empty.
@@ -44,11 +45,13 @@ Order orderOf(const State& state);
 
 class RenderThread {
 public:
-    // first: the expected options; their device and environment are opened while the model is still being read.
-    // validation: use Vulkan's validation layer. done: called on the render thread when take() has a result.
+    // first: the expected options; their environment is opened while the model is still being read. validation: use
+    // Vulkan's validation layer. done: called on the render thread when take() has a result.
     RenderThread(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done);
     ~RenderThread();
 
+    // The device of the window, which draws the images for it. Call before the first order.
+    void drawOn(std::shared_ptr<Device> device);
     // Draws this order next; replaces a waiting order.
     void ask(Order order);
     // Returns the last result, once.

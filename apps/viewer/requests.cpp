@@ -53,9 +53,7 @@ Status carryOut(Parts& parts, const request::WriteImage& r)
 
 Status carryOut(Parts& parts, const request::WriteWindow& r)
 {
-    if (const Status shown = parts.window->show(interfaceNow(parts), parts.pictures.shown(parts.state)); !shown)
-        return shown;
-    const auto picture = parts.window->read();
+    const auto picture = parts.window->showAndRead(interfaceNow(parts), parts.pictures.shown(parts.state));
     return picture ? writeImage(r.file, *picture) : Status(picture.error());
 }
 

@@ -10,6 +10,7 @@
 #include "cotan/render.hpp"
 #include "inspect/angles.hpp"
 #include "parse.hpp"
+#include "render/shared_device.hpp"
 #include "scene/geometry.hpp"
 
 namespace cotan::viewer {
@@ -72,10 +73,8 @@ View smaller(View view)
 
 } // namespace
 
-void SceneCache::open(const PictureOptions& o)
+void SceneCache::openEnvironment(const PictureOptions& o)
 {
-    if (auto renderer = app::openDevice(deviceOf(o), common_, validation_))
-        cachedScenes_[0].renderer = std::move(*renderer);
     if (auto opened = openEnvironmentMap(o))
         environment_ = {lightKey(o), *opened};
 }
@@ -85,7 +84,7 @@ Drawn SceneCache::draw(const Order& order)
     Drawn drawn;
     drawn.number = order.number;
     app::Stopwatch watch;
-    const Status done = drawInto(order, drawn, false);
+    const Status done = drawInto(order, drawn, Aim::window);
     if (!done)
         drawn.problem = app::withOptionNames(done.error()).message;
     drawn.seconds = watch.lap();
@@ -118,9 +117,9 @@ Status SceneCache::drawFigures(const Order& order, Drawn& drawn)
 Result<Image> SceneCache::drawForFile(const Order& order, bool floats)
 {
     Drawn drawn;
-    if (Status done = drawInto(order, drawn, floats); !done)
+    if (Status done = drawInto(order, drawn, floats ? Aim::floatFile : Aim::file); !done)
         return done.error();
-    return *drawn.picture;
+    return *drawn.picture.onHost;
 }
 
 std::vector<std::string> SceneCache::messages() const
@@ -133,7 +132,7 @@ std::vector<std::string> SceneCache::messages() const
     return all;
 }
 
-Status SceneCache::drawInto(const Order& order, Drawn& drawn, bool floats)
+Status SceneCache::drawInto(const Order& order, Drawn& drawn, Aim aim)
 {
     const bool second = order.compare == Compare::flip && order.flipped;
     auto first = cachedScene(second ? 1 : 0, order, second, order.compare == Compare::angle);
@@ -143,7 +142,7 @@ Status SceneCache::drawInto(const Order& order, Drawn& drawn, bool floats)
     auto view = viewFor(order, **first, second, order.exposure);
     if (!view)
         return view.error();
-    drawn.draft = order.draft && seconds_ > kSmooth && !floats;
+    drawn.draft = order.draft && seconds_ > kSmooth && aim != Aim::floatFile;
     if (drawn.draft)
         *view = smaller(*view);
     drawn.view = *view;
@@ -152,13 +151,13 @@ Status SceneCache::drawInto(const Order& order, Drawn& drawn, bool floats)
         const auto degrees = degreesOf(order, **first, *view, order.second, true);
         if (!degrees)
             return degrees.error();
-        drawn.picture = std::make_shared<Image>(heatMap(*degrees, view->width, view->height));
+        drawn.picture.onHost = std::make_shared<Image>(heatMap(*degrees, view->width, view->height));
         return Done{};
     }
-    auto image = drawSide(order, **first, *view, order.first, floats);
-    if (!image)
-        return image.error();
-    drawn.picture = std::make_shared<Image>(std::move(*image));
+    auto drawing = drawSide(order, **first, *view, order.first, aim);
+    if (!drawing)
+        return drawing.error();
+    drawn.picture = std::move(*drawing);
     if (order.compare != Compare::divider)
         return Done{};
     auto other = cachedScene(1, order, true);
@@ -169,21 +168,37 @@ Status SceneCache::drawInto(const Order& order, Drawn& drawn, bool floats)
         return otherView.error();
     if (drawn.draft)
         *otherView = smaller(*otherView);
-    image = drawSide(order, **other, *otherView, order.second, floats);
-    if (!image)
-        return image.error();
-    drawn.other = std::make_shared<Image>(std::move(*image));
+    drawing = drawSide(order, **other, *otherView, order.second, aim);
+    if (!drawing)
+        return drawing.error();
+    drawn.other = std::move(*drawing);
     return Done{};
 }
 
-Result<Image> SceneCache::drawSide(const Order& order, CachedScene& s, const View& view, const PictureOptions& o,
-                                   bool floats)
+Result<Drawing> SceneCache::drawSide(const Order& order, CachedScene& s, const View& view, const PictureOptions& o,
+                                     Aim aim)
 {
-    auto image = drawShow(*s.renderer, *s.scene, view, order.show, floats);
-    if (image)
-        if (Status laid = layEdgesOn(order, s, view, o, *image); !laid)
-            return laid.error();
-    return image;
+    const bool inspects = inspectionFromName(order.show).has_value();
+    if (aim == Aim::window && (order.show == "shaded" || inspects) && o.edges == Edges::none) {
+        auto drawn = drawOnDevice(*s.renderer, inspects ? inspectionView(view) : view);
+        if (!drawn || *drawn)
+            return drawn ? Result<Drawing>({std::move(*drawn), nullptr}) : drawn.error();
+    }
+    auto image = drawShow(*s.renderer, *s.scene, view, order.show, aim == Aim::floatFile);
+    if (!image)
+        return image.error();
+    if (Status laid = layEdgesOn(order, s, view, o, *image); !laid)
+        return laid.error();
+    return Drawing{nullptr, std::make_shared<Image>(std::move(*image))};
+}
+
+Result<std::unique_ptr<Renderer>> SceneCache::openRenderer(const PictureOptions& o) const
+{
+    const std::string name = deviceOf(o);
+    if (device_ && name != "reference")
+        if (auto shared = openRendererOn(device_))
+            return shared;
+    return app::openDevice(name, common_, validation_);
 }
 
 Status SceneCache::layEdgesOn(const Order& order, CachedScene& s, const View& view, const PictureOptions& o,
@@ -241,7 +256,7 @@ Result<CachedScene*> SceneCache::cachedScene(std::size_t index, const Order& ord
     CachedScene& s = cachedScenes_[index];
     const bool loaded = !std::exchange(s.key, {}).empty();
     if (!s.renderer) {
-        auto renderer = app::openDevice(deviceOf(o), common_, validation_);
+        auto renderer = openRenderer(o);
         if (!renderer)
             return renderer.error();
         s.renderer = std::move(*renderer);

@@ -32,8 +32,10 @@ class SceneCache {
 public:
     SceneCache(app::CommonOptions common, bool validation) : common_(std::move(common)), validation_(validation) {}
 
-    // Opens what needs no model. Errors are ignored, because they occur again, and are reported, on use.
-    void open(const PictureOptions& o);
+    // Opens the environment. Errors are ignored, because they occur again, and are reported, on use.
+    void openEnvironment(const PictureOptions& o);
+    // The device of the window, which draws the images for it; null: renderers open their own.
+    void drawOn(std::shared_ptr<Device> device) { device_ = std::move(device); }
     Drawn draw(const Order& order);
     // Adds degrees and statistics to a result.
     Status drawFigures(const Order& order, Drawn& drawn);
@@ -43,8 +45,10 @@ public:
     std::vector<std::string> messages() const;
 
 private:
-    Status drawInto(const Order& order, Drawn& drawn, bool floats);
-    Result<Image> drawSide(const Order& order, CachedScene& s, const View& view, const PictureOptions& o, bool floats);
+    enum class Aim { window, file, floatFile };
+    Status drawInto(const Order& order, Drawn& drawn, Aim aim);
+    Result<Drawing> drawSide(const Order& order, CachedScene& s, const View& view, const PictureOptions& o, Aim aim);
+    Result<std::unique_ptr<Renderer>> openRenderer(const PictureOptions& o) const;
     Status layEdgesOn(const Order& order, CachedScene& s, const View& view, const PictureOptions& o, Image& image);
     // Angles between the normals of the first image and those of the second, or those of the frame `exact`.
     Result<std::vector<float>> degreesOf(const Order& order, CachedScene& first, const View& view,
@@ -57,6 +61,7 @@ private:
 
     app::CommonOptions common_;
     bool validation_ = false;
+    std::shared_ptr<Device> device_;
     std::array<CachedScene, 2> cachedScenes_;
     Kept<std::shared_ptr<const EnvironmentMap>> environment_;
     Kept<std::shared_ptr<const GroundMap>> ground_;

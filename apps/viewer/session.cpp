@@ -106,6 +106,7 @@ private:
         if (!opened)
             return opened.error();
         parts_.window = std::move(*opened);
+        parts_.pictures.drawOn(parts_.window->device());
         windowSeconds_ = secondsNow() - begun_;
         if (options_.plays)
             parts_.window->resize(state_.size.x, state_.size.y);
@@ -279,9 +280,8 @@ private:
 
     Status checkValidation()
     {
-        std::vector<std::string> messages = parts_.window->messages();
-        for (std::string& message : parts_.pictures.finish())
-            messages.push_back(std::move(message));
+        std::vector<std::string> messages = parts_.pictures.finish(); // ends the thread that may add to the window's
+        messages.insert(messages.end(), parts_.window->messages().begin(), parts_.window->messages().end());
         return !options_.validation || messages.empty() ? Status(Done{})
                                                         : Status(unavailableError("validation: " + messages[0]));
     }
@@ -291,6 +291,7 @@ private:
         return {{"command", "view"},
                 {"device", state_.device},
                 {"pictures", state_.pictures},
+                {"images_read", parts_.window->imagesRead()}, // from the device
                 {"loads", state_.loads},
                 {"failed_loads", state_.failedLoads},
                 {"ended", ended_.empty() ? "last event" : ended_},

@@ -11,22 +11,35 @@
 #include "event.hpp"
 #include "interface.hpp"
 
+namespace cotan {
+struct Device;
+struct DeviceImage;
+} // namespace cotan
+
 namespace cotan::viewer {
 
 struct WindowOptions {
     int width = 1280, height = 720; // pixels
     std::string title;
-    std::string device;      // name of the preferred device for presenting
+    std::string device;      // part of the name of the device that draws; empty: the best
     bool validation = false; // enable the validation layer; its messages are added to messages()
     bool played = false;     // ignore the machine's pointer and keys
 };
 
+// An image of 8 bits, sRGB: on the window's device or in host memory; or none.
+struct Drawing {
+    std::shared_ptr<const DeviceImage> onDevice;
+    std::shared_ptr<const Image> onHost;
+
+    explicit operator bool() const { return onDevice || onHost; }
+    bool operator==(const Drawing&) const = default;
+};
+
 // The images in the window: the left part of one and the right part of another, or a single one.
 struct Shown {
-    const Image* picture = nullptr; // 8 bits, sRGB; scaled to the window; null: uniform grey
-    const Image* other = nullptr;   // shown right of the divider, same size as picture; null: none
-    float divider = 0;              // window pixels from the left
-    std::uint64_t serial = 0;       // changes whenever an image changes
+    Drawing picture;   // scaled to the window; none: uniform grey
+    Drawing other;     // shown right of the divider, same size as picture; none: only picture
+    float divider = 0; // window pixels from the left
 };
 
 // State and result of a file dialog.
@@ -51,8 +64,9 @@ public:
     virtual std::vector<Event> interact(const Interface& interface, const std::vector<Event>& events) = 0;
     // Draws images and interface. Errors: ErrorKind::unavailable if the device is lost.
     virtual Status show(const Interface& interface, const Shown& shown) = 0;
-    // Reads back what the last show() drew. Errors: ErrorKind::unavailable if nothing was drawn (minimised).
-    virtual Result<Image> read() = 0;
+    // As show(), and copies the window to host memory. Errors: also ErrorKind::unavailable if nothing was drawn
+    // (minimised).
+    virtual Result<Image> showAndRead(const Interface& interface, const Shown& shown) = 0;
 
     virtual glm::ivec2 size() const = 0; // pixels; 0 if minimised
     virtual void resize(int width, int height) = 0;
@@ -63,7 +77,10 @@ public:
     virtual void askForFile(const std::string& folder) = 0;
     virtual FileAnswer fileAnswer() = 0;
     virtual void loseSurface() = 0; // for tests: the next show() recreates it
-    virtual std::string device() const = 0;
+    // The device that renderers share, which must outlive their images. Null: it is not the one that the options ask
+    // for, which cannot present.
+    virtual std::shared_ptr<Device> device() const = 0;
+    virtual std::uint64_t imagesRead() const = 0;                 // copied from the device to host memory
     virtual const std::vector<std::string>& messages() const = 0; // of the validation layer
     virtual void wake() = 0;                                      // interrupts a waiting poll(), from any thread
 };

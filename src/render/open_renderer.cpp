@@ -2,6 +2,7 @@
 
 #include "core/not_built.hpp"
 #include "scene/scene_check.hpp"
+#include "shared_device.hpp"
 
 namespace cotan {
 
@@ -25,7 +26,12 @@ private:
     int threads_;
 };
 
+} // namespace
+
 #ifdef COTAN_WITH_VULKAN
+
+namespace {
+
 class VulkanBackend final : public Renderer {
 public:
     explicit VulkanBackend(VulkanRenderer renderer) : renderer_(std::move(renderer)) {}
@@ -34,28 +40,58 @@ public:
     double uploadSeconds() const override { return renderer_.timings().upload; }
     std::vector<std::string> messages() const override { return renderer_.messages(); }
 
+    VulkanRenderer renderer_;
+
 private:
     Status loadScene(const Scene& scene, bool sameImages) override { return renderer_.load(scene, sameImages); }
     Result<Image> drawLoaded(const View& view) override { return renderer_.render(view); }
-
-    VulkanRenderer renderer_;
 };
 
-Result<std::unique_ptr<Renderer>> openVulkan(const std::string& device, bool validation)
+Result<std::unique_ptr<Renderer>> asRenderer(Result<VulkanRenderer> renderer)
 {
-    auto renderer = VulkanRenderer::create({device == "auto" ? "" : device, validation});
     if (!renderer)
         return renderer.error();
     return std::unique_ptr<Renderer>(std::make_unique<VulkanBackend>(std::move(*renderer)));
 }
+
+Result<std::unique_ptr<Renderer>> openVulkan(const std::string& device, bool validation)
+{
+    return asRenderer(VulkanRenderer::create({device == "auto" ? "" : device, validation}));
+}
+
+} // namespace
+
+Result<std::unique_ptr<Renderer>> openRendererOn(std::shared_ptr<Device> device)
+{
+    return asRenderer(DeviceSharing::open(std::move(device)));
+}
+
+Result<std::shared_ptr<const DeviceImage>> drawOnDevice(Renderer& renderer, const View& view)
+{
+    auto* const backend = dynamic_cast<VulkanBackend*>(&renderer);
+    if (!backend)
+        return std::shared_ptr<const DeviceImage>();
+    return DeviceSharing::draw(backend->renderer_, view);
+}
+
 #else
+
+namespace {
+
 Result<std::unique_ptr<Renderer>> openVulkan(const std::string&, bool)
 {
     return notBuiltWith("Vulkan", "libvulkan-dev and glslang-tools");
 }
-#endif
 
 } // namespace
+
+Result<std::unique_ptr<Renderer>> openRendererOn(std::shared_ptr<Device>) { return openVulkan("", false); }
+Result<std::shared_ptr<const DeviceImage>> drawOnDevice(Renderer&, const View&)
+{
+    return std::shared_ptr<const DeviceImage>();
+}
+
+#endif
 
 Status Renderer::load(const Scene& scene, bool sameImages)
 {

@@ -142,14 +142,17 @@ public:
         std::setlocale(LC_NUMERIC, "C"); // GTK, which draws frames on Wayland, sets the user's; Dear ImGui reads by it
         std::uint32_t count = 0;
         const char** names = glfwGetRequiredInstanceExtensions(&count);
-        presenter_ = std::make_unique<Presenter>(
+        auto presenter = Presenter::open(
             std::vector<const char*>(names, names + count), options, [window = window_](VkInstance instance) {
                 VkSurfaceKHR surface = VK_NULL_HANDLE;
                 const VkResult code = glfwCreateWindowSurface(instance, window, nullptr, &surface);
                 if (code != VK_SUCCESS)
-                    throw VulkanFailed("glfwCreateWindowSurface", code);
+                    throw std::runtime_error("glfwCreateWindowSurface failed (" + std::to_string(code) + ")");
                 return surface;
             });
+        if (!presenter)
+            return presenter.error();
+        presenter_ = std::move(*presenter);
         listen();
         IMGUI_CHECKVERSION();
         ImGui::CreateContext();
@@ -213,29 +216,16 @@ public:
         return others;
     }
 
-    Status show(const Interface& interface, const Shown& shown) override
-    {
-        try {
-            for (std::string& command : layOut(interface))
-                events_.push_back({-1, EventKind::command, 0, 0, std::move(command)});
-            const glm::ivec2 pixels = size();
-            presenter_->show(shown, ImGui::GetDrawData(), pixels.x, pixels.y);
-            return Done{};
-        } catch (const std::exception& e) {
-            return unavailableError(std::string("view: ") + e.what());
-        }
-    }
+    Status show(const Interface& interface, const Shown& shown) override { return show(interface, shown, nullptr); }
 
-    Result<Image> read() override
+    Result<Image> showAndRead(const Interface& interface, const Shown& shown) override
     {
-        try {
-            Image image = presenter_->read();
-            if (image.width == 0)
-                return unavailableError("view: the window shows nothing");
-            return image;
-        } catch (const std::exception& e) {
-            return unavailableError(std::string("view: ") + e.what());
-        }
+        Image image;
+        if (const Status done = show(interface, shown, &image); !done)
+            return done.error();
+        if (image.width == 0)
+            return unavailableError("view: the window shows nothing");
+        return image;
     }
 
     glm::ivec2 size() const override
@@ -262,8 +252,9 @@ public:
     void askForFile(const std::string& folder) override { portal_.ask(folder); }
     FileAnswer fileAnswer() override { return portal_.answer(); }
     void loseSurface() override { presenter_->loseSurface(); }
-    std::string device() const override { return presenter_->device(); }
-    const std::vector<std::string>& messages() const override { return presenter_->messages; }
+    std::shared_ptr<Device> device() const override { return presenter_->device(); }
+    std::uint64_t imagesRead() const override { return presenter_->imagesRead(); }
+    const std::vector<std::string>& messages() const override { return presenter_->messages(); }
     void wake() override { glfwPostEmptyEvent(); }
 
 private:
@@ -315,6 +306,19 @@ private:
     {
         tellImGuiKey(keyOfName(bareWord(event)), event.kind == EventKind::key, holds(event, "ctrl"),
                      holds(event, "shift"), holds(event, "alt"));
+    }
+
+    Status show(const Interface& interface, const Shown& shown, Image* read)
+    {
+        try {
+            for (std::string& command : layOut(interface))
+                events_.push_back({-1, EventKind::command, 0, 0, std::move(command)});
+            const glm::ivec2 pixels = size();
+            presenter_->show(shown, ImGui::GetDrawData(), pixels.x, pixels.y, read);
+            return Done{};
+        } catch (const std::exception& e) {
+            return unavailableError(std::string("view: ") + e.what());
+        }
     }
 
     // Builds a frame of Dear ImGui, up to its triangles.

@@ -4,6 +4,8 @@
 #include <backends/imgui_impl_vulkan.h>
 #include <imgui.h>
 
+#include <mutex>
+
 namespace cotan::viewer {
 
 // Starts the backend with a single-sampled render pass. Some versions of `info` have no field for it.
@@ -37,13 +39,16 @@ inline void buildImGuiFonts()
 }
 
 // Uploads the fonts. submit: before 1.90, called with a function that records into a command buffer; it must run the
-// buffer and wait. From 1.90 on the backend submits by itself; from 1.92 on there is nothing to upload here.
-template<class Submit> void uploadImGuiFonts([[maybe_unused]] const Submit& submit)
+// buffer and wait. From 1.90 on the backend submits by itself, to a queue that `inUse` guards; from 1.92 on it does so
+// while it draws.
+template<class Submit>
+void uploadImGuiFonts([[maybe_unused]] const Submit& submit, [[maybe_unused]] std::recursive_mutex& inUse)
 {
 #if IMGUI_VERSION_NUM < 19000
     submit([](VkCommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(commands); });
     ImGui_ImplVulkan_DestroyFontUploadObjects();
 #elif IMGUI_VERSION_NUM < 19200
+    const std::lock_guard lock(inUse);
     ImGui_ImplVulkan_CreateFontsTexture();
 #endif
 }

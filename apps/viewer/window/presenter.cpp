@@ -1,303 +1,386 @@
+#include "render/vulkan/memory.hpp"
+
 #include "presenter.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 #include "imgui_versions.hpp"
 
 namespace cotan::viewer {
 
-void check(VkResult code, const char* call)
+namespace {
+
+constexpr auto kColor = vk::ImageAspectFlagBits::eColor;
+constexpr auto kForever = std::numeric_limits<std::uint64_t>::max();
+
+// Changes the layout of an image and waits for all earlier commands, which is fast enough for the few of a frame.
+void change(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageLayout from, vk::ImageLayout to)
 {
-    if (code != VK_SUCCESS)
-        throw VulkanFailed(call, code);
+    transition(commands, image, kColor, {from, Stage::eAllCommands, Access::eMemoryWrite},
+               {to, Stage::eAllCommands, Access::eMemoryRead | Access::eMemoryWrite});
 }
 
-VulkanFailed::VulkanFailed(const char* call, VkResult result)
-    : std::runtime_error(std::string(call).substr(0, std::string(call).find('(')) + " failed (" + std::to_string(result)
-                         + ")"),
-      code(result)
+bool blueFirst(vk::Format format)
 {
+    return format == vk::Format::eB8G8R8A8Unorm || format == vk::Format::eB8G8R8A8Srgb;
 }
 
-Presenter::Presenter(const std::vector<const char*>& extensions, const WindowOptions& options,
-                     std::function<VkSurfaceKHR(VkInstance)> makeSurface)
-    : make_surface_(std::move(makeSurface))
+} // namespace
+
+// In the order of dependence: later members are destroyed first.
+struct Presenter::State {
+    struct Target { // an image of the window
+        vk::Image image;
+        vk::raii::ImageView view{nullptr};
+        vk::raii::Framebuffer framebuffer{nullptr};
+        vk::raii::Semaphore drawn{nullptr}; // one per image, so that none is reused while a present still waits on it
+    };
+
+    struct Upload { // of an image of the host
+        std::shared_ptr<const Image> from;
+        std::optional<DeviceImage> image;
+    };
+
+    std::function<VkSurfaceKHR(VkInstance)> makeSurface;
+    std::shared_ptr<Device> device;
+    vk::raii::SurfaceKHR surface{nullptr};
+    std::optional<Commands> commands;
+    vk::raii::Semaphore acquired{nullptr};
+    vk::raii::DescriptorPool descriptors{nullptr};
+    vk::SurfaceFormatKHR format;
+    vk::raii::RenderPass pass{nullptr};
+    vk::Extent2D extent;
+    vk::raii::SwapchainKHR swapchain{nullptr};
+    std::vector<Target> targets;
+    std::array<Upload, 2> uploads;
+    bool interfaceStarted = false, lost = false;
+
+    Status open(const std::vector<const char*>& extensions, const WindowOptions& options);
+    void remakeSurface();
+    void waitForQueue();
+    void makeRenderPass();
+    void makeSwapchain(int width, int height);
+    void dropSwapchain();
+    void startInterface();
+    bool acquire(int width, int height, std::uint32_t& index);
+    const DeviceImage* onDevice(const Drawing& drawing, Upload& upload);
+    void record(const vk::raii::CommandBuffer& buffer, const Target& target, const Shown& shown, ImDrawData* interface);
+    void blit(const vk::raii::CommandBuffer& buffer, const DeviceImage& from, vk::Image into, float left, float right);
+    void present(std::uint32_t index);
+};
+
+// ---- what lives as long as the window ---------------------------------------------------------
+
+Status Presenter::State::open(const std::vector<const char*>& extensions, const WindowOptions& options)
 {
-    openInstance(extensions, options.validation);
-    surface_ = make_surface_(instance_);
-    openDevice(options.device);
-    openCommands();
+    const auto presents = [this](const vk::raii::Instance& instance, const vk::raii::PhysicalDevice& physical,
+                                 std::uint32_t family) {
+        if (std::ranges::none_of(physical.enumerateDeviceExtensionProperties(),
+                                 [](const vk::ExtensionProperties& known) {
+                                     return std::strcmp(known.extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME) == 0;
+                                 }))
+            return false;
+        const vk::raii::SurfaceKHR trial(instance, makeSurface(*instance));
+        return bool(physical.getSurfaceSupportKHR(family, *trial));
+    };
+    const WindowNeeds needs{extensions, presents};
+    auto opened = openDevice({options.device, options.validation}, &needs);
+    if (!opened)
+        return opened.error();
+    device = std::move(*opened);
+    remakeSurface();
+    commands.emplace(*device);
+    acquired = vk::raii::Semaphore(device->device, vk::SemaphoreCreateInfo());
+    const vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 8);
+    descriptors = vk::raii::DescriptorPool(
+        device->device, vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 8, size));
+    return Done{};
 }
 
-Presenter::~Presenter()
+void Presenter::State::remakeSurface()
 {
-    if (device_) {
-        vkDeviceWaitIdle(device_);
-        if (interface_started_)
-            ImGui_ImplVulkan_Shutdown();
-        drop(picture_);
-        drop(other_);
-        dropSwapchain();
-        vkDestroyBuffer(device_, read_, nullptr);
-        vkFreeMemory(device_, read_memory_, nullptr);
-        vkDestroyRenderPass(device_, pass_, nullptr);
-        vkDestroyDescriptorPool(device_, descriptors_, nullptr);
-        vkDestroySemaphore(device_, acquired_, nullptr);
-        vkDestroyFence(device_, done_, nullptr);
-        vkDestroyCommandPool(device_, pool_, nullptr);
-        vkDestroyDevice(device_, nullptr);
-    }
-    if (surface_)
-        vkDestroySurfaceKHR(instance_, surface_, nullptr);
-    if (messenger_)
-        reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
-            vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"))(instance_, messenger_, nullptr);
-    if (instance_)
-        vkDestroyInstance(instance_, nullptr);
+    surface = nullptr; // a window has one
+    surface = vk::raii::SurfaceKHR(device->instance, makeSurface(*device->instance));
+    if (!device->physical.getSurfaceSupportKHR(device->queueFamily, *surface))
+        throw std::runtime_error("the device can no longer present in the window");
+    lost = false;
 }
 
-void Presenter::makeRenderPass()
+void Presenter::State::waitForQueue()
 {
-    const auto formats = listOf<VkSurfaceFormatKHR>(
-        [&](auto* count, auto* list) { vkGetPhysicalDeviceSurfaceFormatsKHR(physical_, surface_, count, list); });
+    const std::lock_guard lock(device->queueInUse);
+    device->device.getDispatcher()->vkQueueWaitIdle(*device->queue); // a lost device has nothing to wait for
+}
+
+void Presenter::State::makeRenderPass()
+{
+    const std::vector<vk::SurfaceFormatKHR> formats = device->physical.getSurfaceFormatsKHR(*surface);
     if (formats.empty())
         throw std::runtime_error("the window's surface offers no pixel format");
-    format_ = formats[0];
-    for (const VkSurfaceFormatKHR& f : formats) // not sRGB: the image bytes are shown unchanged
-        if (f.format == VK_FORMAT_B8G8R8A8_UNORM || f.format == VK_FORMAT_R8G8B8A8_UNORM) {
-            format_ = f;
-            break;
-        }
-    VkAttachmentDescription color{};
-    color.format = format_.format;
-    color.samples = VK_SAMPLE_COUNT_1_BIT;
-    color.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD; // the image is already there
-    color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    color.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-    color.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-    color.initialLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    color.finalLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    VkSubpassDescription subpass{};
-    subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
-    subpass.colorAttachmentCount = 1;
-    subpass.pColorAttachments = &reference;
-    auto info = made<VkRenderPassCreateInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO);
-    info.attachmentCount = 1;
-    info.pAttachments = &color;
-    info.subpassCount = 1;
-    info.pSubpasses = &subpass;
-    COTAN_CHECK(vkCreateRenderPass(device_, &info, nullptr, &pass_));
+    const auto bytes = std::ranges::find_if(formats, [](const vk::SurfaceFormatKHR& f) { // not sRGB: shown unchanged
+        return f.format == vk::Format::eB8G8R8A8Unorm || f.format == vk::Format::eR8G8B8A8Unorm;
+    });
+    format = bytes == formats.end() ? formats[0] : *bytes;
+    constexpr auto drawn = vk::ImageLayout::eColorAttachmentOptimal;
+    const vk::AttachmentDescription color({}, format.format, vk::SampleCountFlagBits::e1,
+                                          vk::AttachmentLoadOp::eLoad, // the image is already there
+                                          vk::AttachmentStoreOp::eStore, vk::AttachmentLoadOp::eDontCare,
+                                          vk::AttachmentStoreOp::eDontCare, drawn, drawn);
+    const vk::AttachmentReference reference(0, drawn);
+    const vk::SubpassDescription subpass({}, vk::PipelineBindPoint::eGraphics, {}, reference);
+    pass = vk::raii::RenderPass(device->device, vk::RenderPassCreateInfo({}, color, subpass));
 }
 
-void Presenter::makeSwapchain(int width, int height)
+void Presenter::State::startInterface()
 {
-    vkDeviceWaitIdle(device_);
+    ImGui_ImplVulkan_InitInfo info{};
+    info.Instance = *device->instance;
+    info.PhysicalDevice = *device->physical;
+    info.Device = *device->device;
+    info.QueueFamily = device->queueFamily;
+    info.Queue = *device->queue;
+    info.DescriptorPool = *descriptors;
+    info.MinImageCount = 2;
+    info.ImageCount = std::max(2u, std::uint32_t(targets.size()));
+    startImGuiBackend(info, *pass);
+    interfaceStarted = true;
+    const auto submit = [this](const auto& upload) {
+        upload(*commands->begin());
+        commands->submitAndWait();
+    };
+    uploadImGuiFonts(submit, device->queueInUse);
+}
+
+// ---- what lives as long as the window's size --------------------------------------------------
+
+void Presenter::State::makeSwapchain(int width, int height)
+{
     dropSwapchain();
-    if (lost_) {
-        vkDestroySurfaceKHR(instance_, surface_, nullptr);
-        surface_ = VK_NULL_HANDLE;
-        surface_ = make_surface_(instance_);
-        lost_ = false;
-    }
-    if (!pass_)
+    if (lost)
+        remakeSurface();
+    if (!*pass)
         makeRenderPass();
-    VkSurfaceCapabilitiesKHR can{};
-    COTAN_CHECK(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(physical_, surface_, &can));
-    extent_ = can.currentExtent;
-    if (extent_.width == std::numeric_limits<std::uint32_t>::max())
-        extent_ = {std::clamp(std::uint32_t(width), can.minImageExtent.width, can.maxImageExtent.width),
-                   std::clamp(std::uint32_t(height), can.minImageExtent.height, can.maxImageExtent.height)};
-    if (extent_.width == 0 || extent_.height == 0)
+    const vk::SurfaceCapabilitiesKHR can = device->physical.getSurfaceCapabilitiesKHR(*surface);
+    extent = can.currentExtent;
+    if (extent.width == std::numeric_limits<std::uint32_t>::max())
+        extent = vk::Extent2D(std::clamp(std::uint32_t(width), can.minImageExtent.width, can.maxImageExtent.width),
+                              std::clamp(std::uint32_t(height), can.minImageExtent.height, can.maxImageExtent.height));
+    if (extent.width == 0 || extent.height == 0)
         return; // minimised
-    constexpr VkImageUsageFlags kUsage =
-        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    if ((can.supportedUsageFlags & kUsage) != kUsage)
+    using Usage = vk::ImageUsageFlagBits;
+    constexpr auto usage = Usage::eColorAttachment | Usage::eTransferDst | Usage::eTransferSrc;
+    if ((can.supportedUsageFlags & usage) != usage)
         throw std::runtime_error("the window's surface cannot be copied to");
-    auto info = made<VkSwapchainCreateInfoKHR>(VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR);
-    info.surface = surface_;
-    info.minImageCount = std::max(2u, can.minImageCount);
-    if (can.maxImageCount)
-        info.minImageCount = std::min(info.minImageCount, can.maxImageCount);
-    info.imageFormat = format_.format;
-    info.imageColorSpace = format_.colorSpace;
-    info.imageExtent = extent_;
-    info.imageArrayLayers = 1;
-    info.imageUsage = kUsage;
-    info.preTransform = can.currentTransform;
-    info.compositeAlpha = can.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
-        ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
-        : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
-    info.presentMode = VK_PRESENT_MODE_FIFO_KHR;
-    info.clipped = VK_TRUE;
-    COTAN_CHECK(vkCreateSwapchainKHR(device_, &info, nullptr, &swapchain_));
-    images_ =
-        listOf<VkImage>([&](auto* count, auto* list) { vkGetSwapchainImagesKHR(device_, swapchain_, count, list); });
-    for (VkImage image : images_) {
-        auto view = made<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
-        view.image = image;
-        view.viewType = VK_IMAGE_VIEW_TYPE_2D;
-        view.format = format_.format;
-        view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-        COTAN_CHECK(vkCreateImageView(device_, &view, nullptr, &views_.emplace_back()));
-        auto framebuffer = made<VkFramebufferCreateInfo>(VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO);
-        framebuffer.renderPass = pass_;
-        framebuffer.attachmentCount = 1;
-        framebuffer.pAttachments = &views_.back();
-        framebuffer.width = extent_.width;
-        framebuffer.height = extent_.height;
-        framebuffer.layers = 1;
-        COTAN_CHECK(vkCreateFramebuffer(device_, &framebuffer, nullptr, &framebuffers_.emplace_back()));
-        auto semaphore = made<VkSemaphoreCreateInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO);
-        COTAN_CHECK(vkCreateSemaphore(device_, &semaphore, nullptr, &drawn_.emplace_back()));
+    const std::uint32_t count = std::min(std::max(2u, can.minImageCount), can.maxImageCount ? can.maxImageCount : ~0u);
+    using Alpha = vk::CompositeAlphaFlagBitsKHR;
+    const auto alpha = can.supportedCompositeAlpha & Alpha::eOpaque ? Alpha::eOpaque : Alpha::eInherit;
+    swapchain = vk::raii::SwapchainKHR(device->device,
+                                       vk::SwapchainCreateInfoKHR({}, *surface, count, format.format, format.colorSpace,
+                                                                  extent, 1, usage, vk::SharingMode::eExclusive, {},
+                                                                  can.currentTransform, alpha,
+                                                                  vk::PresentModeKHR::eFifo, VK_TRUE));
+    for (const vk::Image image : swapchain.getImages()) {
+        Target& target = targets.emplace_back();
+        target.image = image;
+        target.view = vk::raii::ImageView(
+            device->device,
+            vk::ImageViewCreateInfo({}, image, vk::ImageViewType::e2D, format.format, {}, {kColor, 0, 1, 0, 1}));
+        const vk::ImageView view = *target.view;
+        target.framebuffer = vk::raii::Framebuffer(
+            device->device, vk::FramebufferCreateInfo({}, *pass, view, extent.width, extent.height, 1));
+        target.drawn = vk::raii::Semaphore(device->device, vk::SemaphoreCreateInfo());
     }
-    read_ =
-        makeBuffer(VkDeviceSize(4) * extent_.width * extent_.height, VK_BUFFER_USAGE_TRANSFER_DST_BIT, read_memory_);
-    if (!interface_started_)
+    if (!interfaceStarted)
         startInterface();
 }
 
-void Presenter::dropSwapchain()
+void Presenter::State::dropSwapchain()
 {
-    for (VkFramebuffer framebuffer : framebuffers_)
-        vkDestroyFramebuffer(device_, framebuffer, nullptr);
-    for (VkImageView view : views_)
-        vkDestroyImageView(device_, view, nullptr);
-    for (VkSemaphore semaphore : drawn_)
-        vkDestroySemaphore(device_, semaphore, nullptr);
-    framebuffers_.clear();
-    views_.clear();
-    drawn_.clear();
-    images_.clear();
-    if (swapchain_)
-        vkDestroySwapchainKHR(device_, swapchain_, nullptr);
-    swapchain_ = VK_NULL_HANDLE;
-    vkDestroyBuffer(device_, read_, nullptr);
-    vkFreeMemory(device_, read_memory_, nullptr);
-    read_ = VK_NULL_HANDLE;
-    read_memory_ = VK_NULL_HANDLE;
-    has_read_ = false;
+    waitForQueue();
+    targets.clear();
+    swapchain = nullptr;
 }
 
-void Presenter::startInterface()
-{
-    ImGui_ImplVulkan_InitInfo info{};
-    info.Instance = instance_;
-    info.PhysicalDevice = physical_;
-    info.Device = device_;
-    info.QueueFamily = family_;
-    info.Queue = queue_;
-    info.DescriptorPool = descriptors_;
-    info.MinImageCount = 2;
-    info.ImageCount = std::max(2u, std::uint32_t(images_.size()));
-    startImGuiBackend(info, pass_);
-    interface_started_ = true;
-    uploadImGuiFonts([this](const auto& upload) {
-        auto begin = made<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
-        begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-        COTAN_CHECK(vkBeginCommandBuffer(commands_, &begin));
-        upload(commands_);
-        COTAN_CHECK(vkEndCommandBuffer(commands_));
-        auto submit = made<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
-        submit.commandBufferCount = 1;
-        submit.pCommandBuffers = &commands_;
-        COTAN_CHECK(vkQueueSubmit(queue_, 1, &submit, VK_NULL_HANDLE));
-        COTAN_CHECK(vkQueueWaitIdle(queue_));
-    });
-}
+// ---- one frame --------------------------------------------------------------------------------
 
-// Restarts the backend, because it frees a font texture only when it ends.
-void Presenter::useFont()
-{
-    if (!interface_started_)
-        return;
-    vkDeviceWaitIdle(device_);
-    ImGui_ImplVulkan_Shutdown();
-    startInterface();
-}
-
-bool Presenter::acquire(int width, int height, std::uint32_t& index)
+bool Presenter::State::acquire(int width, int height, std::uint32_t& index)
 {
     for (int attempt = 0; attempt < 3; ++attempt) {
-        if (lost_ || !swapchain_ || int(extent_.width) != width || int(extent_.height) != height)
+        if (lost || !*swapchain || int(extent.width) != width || int(extent.height) != height)
             makeSwapchain(width, height);
-        if (!swapchain_)
+        if (!*swapchain)
             return false;
-        const VkResult code = vkAcquireNextImageKHR(device_, swapchain_, std::numeric_limits<std::uint64_t>::max(),
-                                                    acquired_, VK_NULL_HANDLE, &index);
+        // The C function, because codes that are no errors here are exceptions of the C++ one.
+        const VkResult code = device->device.getDispatcher()->vkAcquireNextImageKHR(
+            *device->device, *swapchain, kForever, *acquired, VK_NULL_HANDLE, &index);
         if (code == VK_SUCCESS || code == VK_SUBOPTIMAL_KHR)
             return true;
         if (code != VK_ERROR_OUT_OF_DATE_KHR && code != VK_ERROR_SURFACE_LOST_KHR)
-            throw VulkanFailed("vkAcquireNextImageKHR", code);
-        lost_ = lost_ || code == VK_ERROR_SURFACE_LOST_KHR;
-        vkDeviceWaitIdle(device_);
+            throw std::runtime_error("vkAcquireNextImageKHR failed (" + std::to_string(code) + ")");
+        lost = lost || code == VK_ERROR_SURFACE_LOST_KHR;
         dropSwapchain();
     }
     return false;
 }
 
-bool Presenter::show(const Shown& shown, ImDrawData* interface, int width, int height)
+// The image of a drawing; null: none. Uploads one of the host, once.
+const DeviceImage* Presenter::State::onDevice(const Drawing& drawing, Upload& upload)
 {
-    std::uint32_t index = 0;
-    if (width <= 0 || height <= 0 || !acquire(width, height, index))
-        return has_read_ = false;
-    if (shown.picture && shown.serial != serial_) {
-        keep(picture_, *shown.picture);
-        if (shown.other)
-            keep(other_, *shown.other);
-        serial_ = shown.serial;
+    if (!drawing.onHost) {
+        upload = {};
+        return drawing.onDevice.get();
     }
-    if (interface)
-        nameImGuiTexture(*interface);
-    record(index, shown, interface);
-    const VkPipelineStageFlags waitStages =
-        VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-    auto submit = made<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
-    submit.waitSemaphoreCount = 1;
-    submit.pWaitSemaphores = &acquired_;
-    submit.pWaitDstStageMask = &waitStages;
-    submit.commandBufferCount = 1;
-    submit.pCommandBuffers = &commands_;
-    submit.signalSemaphoreCount = 1;
-    submit.pSignalSemaphores = &drawn_[index];
-    COTAN_CHECK(vkQueueSubmit(queue_, 1, &submit, done_));
-    auto present = made<VkPresentInfoKHR>(VK_STRUCTURE_TYPE_PRESENT_INFO_KHR);
-    present.waitSemaphoreCount = 1;
-    present.pWaitSemaphores = &drawn_[index];
-    present.swapchainCount = 1;
-    present.pSwapchains = &swapchain_;
-    present.pImageIndices = &index;
-    const VkResult code = vkQueuePresentKHR(queue_, &present);
-    COTAN_CHECK(vkWaitForFences(device_, 1, &done_, VK_TRUE, std::numeric_limits<std::uint64_t>::max()));
-    COTAN_CHECK(vkResetFences(device_, 1, &done_));
-    has_read_ = true;
-    if (code == VK_ERROR_SURFACE_LOST_KHR)
-        lost_ = true;
-    else if (code != VK_SUCCESS && code != VK_SUBOPTIMAL_KHR && code != VK_ERROR_OUT_OF_DATE_KHR)
-        throw VulkanFailed("vkQueuePresentKHR", code);
-    return true;
+    if (upload.from != drawing.onHost) {
+        using Usage = vk::ImageUsageFlagBits;
+        const Image& image = *drawing.onHost;
+        const TextureInfo info{.extent = {std::uint32_t(image.width), std::uint32_t(image.height)},
+                               .usage = Usage::eTransferDst | Usage::eTransferSrc | Usage::eSampled};
+        upload.image.emplace(*device, info);
+        Uploader uploader(*device, image.data.size());
+        const std::span<const std::byte> pixels(image.data);
+        uploader.image(upload.image->texture, {&pixels, 1}, image.bytesPerPixel(), kCopied);
+        uploader.finish();
+        upload.from = drawing.onHost;
+    }
+    return &*upload.image;
 }
 
-Image Presenter::read()
+// Copies the columns from `left` to `right`, as fractions of the width, of an image into the window.
+void Presenter::State::blit(const vk::raii::CommandBuffer& buffer, const DeviceImage& from, vk::Image into, float left,
+                            float right)
 {
-    Image image;
-    if (!has_read_)
-        return image;
-    image = makeImage(int(extent_.width), int(extent_.height), PixelType::unorm8, "window");
-    void* bytes = nullptr;
-    COTAN_CHECK(vkMapMemory(device_, read_memory_, 0, VK_WHOLE_SIZE, 0, &bytes));
-    std::memcpy(image.data.data(), bytes, image.data.size());
-    vkUnmapMemory(device_, read_memory_);
-    const bool blueFirst = format_.format == VK_FORMAT_B8G8R8A8_UNORM || format_.format == VK_FORMAT_B8G8R8A8_SRGB;
-    for (std::size_t i = 0; i < image.pixelCount(); ++i) {
-        std::uint8_t* pixel = image.bytes8() + 4 * i;
-        if (blueFirst)
+    const vk::Extent2D size = from.texture.extent;
+    const auto column = [](float fraction, std::uint32_t width) { return int(std::lround(fraction * float(width))); };
+    const vk::ImageSubresourceLayers layers(kColor, 0, 0, 1);
+    const vk::ImageBlit region(
+        layers,
+        {vk::Offset3D(column(left, size.width), 0, 0), vk::Offset3D(column(right, size.width), int(size.height), 1)},
+        layers,
+        {vk::Offset3D(column(left, extent.width), 0, 0),
+         vk::Offset3D(column(right, extent.width), int(extent.height), 1)});
+    if (region.srcOffsets[0].x < region.srcOffsets[1].x && region.dstOffsets[0].x < region.dstOffsets[1].x)
+        buffer.blitImage(*from.texture.image, kCopied.layout, into, vk::ImageLayout::eTransferDstOptimal, region,
+                         size == extent ? vk::Filter::eNearest : vk::Filter::eLinear);
+}
+
+// Draws the images into the window, and the interface over them; ends in the layout eTransferSrcOptimal.
+void Presenter::State::record(const vk::raii::CommandBuffer& buffer, const Target& target, const Shown& shown,
+                              ImDrawData* interface)
+{
+    using Layout = vk::ImageLayout;
+    constexpr auto filled = Layout::eTransferDstOptimal, drawn = Layout::eColorAttachmentOptimal;
+    change(buffer, target.image, Layout::eUndefined, filled);
+    const vk::ClearColorValue grey(std::array{0.25f, 0.25f, 0.25f, 1.0f});
+    buffer.clearColorImage(target.image, filled, grey, vk::ImageSubresourceRange(kColor, 0, 1, 0, 1));
+    change(buffer, target.image, filled, filled);
+    if (const DeviceImage* picture = onDevice(shown.picture, uploads[0])) {
+        const DeviceImage* other = onDevice(shown.other, uploads[1]);
+        const float at = other ? std::clamp(shown.divider / float(extent.width), 0.0f, 1.0f) : 1.0f;
+        blit(buffer, *picture, target.image, 0, at);
+        if (at < 1)
+            blit(buffer, *other, target.image, at, 1);
+    }
+    change(buffer, target.image, filled, drawn);
+    buffer.beginRenderPass(vk::RenderPassBeginInfo(*pass, *target.framebuffer, {{0, 0}, extent}),
+                           vk::SubpassContents::eInline);
+    if (interface && interface->TotalVtxCount > 0) {
+        const std::lock_guard lock(device->queueInUse); // newer versions of Dear ImGui upload textures here
+        ImGui_ImplVulkan_RenderDrawData(interface, *buffer);
+    }
+    buffer.endRenderPass();
+    change(buffer, target.image, drawn, kCopied.layout);
+}
+
+void Presenter::State::present(std::uint32_t index)
+{
+    const vk::Semaphore drawn = *targets[index].drawn;
+    const vk::SwapchainKHR to = *swapchain;
+    const vk::PresentInfoKHR info(drawn, to, index);
+    const VkPresentInfoKHR& plain = info;
+    const std::lock_guard lock(device->queueInUse);
+    const VkResult code = device->device.getDispatcher()->vkQueuePresentKHR(*device->queue, &plain);
+    if (code == VK_ERROR_SURFACE_LOST_KHR)
+        lost = true;
+    else if (code != VK_SUCCESS && code != VK_SUBOPTIMAL_KHR && code != VK_ERROR_OUT_OF_DATE_KHR)
+        throw std::runtime_error("vkQueuePresentKHR failed (" + std::to_string(code) + ")");
+}
+
+void Presenter::show(const Shown& shown, ImDrawData* interface, int width, int height, Image* read)
+{
+    State& s = *state_;
+    std::uint32_t index = 0;
+    if (width <= 0 || height <= 0 || !s.acquire(width, height, index))
+        return;
+    if (interface)
+        nameImGuiTexture(*interface);
+    const State::Target& target = s.targets[index];
+    const vk::raii::CommandBuffer& buffer = s.commands->begin();
+    s.record(buffer, target, shown, interface);
+    Memory memory(*s.device, 0);
+    Buffer copy;
+    if (read) {
+        *read = makeImage(int(s.extent.width), int(s.extent.height), PixelType::unorm8, "window");
+        copy = makeHostBuffer(memory, read->data.size(), vk::BufferUsageFlagBits::eTransferDst, /*readBack*/ true);
+        copyToHost(buffer, *s.device, target.image, s.extent, copy);
+    }
+    change(buffer, target.image, kCopied.layout, vk::ImageLayout::ePresentSrcKHR);
+    {
+        const std::lock_guard lock(s.device->queueInUse); // nothing comes between the two
+        s.commands->submit(*s.acquired, *target.drawn);
+        s.present(index);
+    }
+    s.commands->wait();
+    if (!read)
+        return;
+    std::memcpy(read->data.data(), copy.mapped, read->data.size());
+    for (std::size_t i = 0; i < read->pixelCount(); ++i) {
+        std::uint8_t* pixel = read->bytes8() + 4 * i;
+        if (blueFirst(s.format.format))
             std::swap(pixel[0], pixel[2]);
         pixel[3] = 255;
     }
-    return image;
 }
+
+// ---- the presenter ----------------------------------------------------------------------------
+
+Result<std::unique_ptr<Presenter>> Presenter::open(const std::vector<const char*>& extensions,
+                                                   const WindowOptions& options,
+                                                   std::function<VkSurfaceKHR(VkInstance)> makeSurface)
+{
+    auto state = std::make_unique<State>();
+    state->makeSurface = std::move(makeSurface);
+    if (const Status opened = state->open(extensions, options); !opened)
+        return opened.error();
+    return std::unique_ptr<Presenter>(new Presenter(std::move(state)));
+}
+
+Presenter::Presenter(std::unique_ptr<State> state) : state_(std::move(state)) {}
+
+Presenter::~Presenter()
+{
+    state_->waitForQueue();
+    if (state_->interfaceStarted)
+        ImGui_ImplVulkan_Shutdown();
+}
+
+// Restarts the backend, because it frees a font texture only when it ends.
+void Presenter::useFont()
+{
+    if (!state_->interfaceStarted)
+        return;
+    state_->waitForQueue();
+    ImGui_ImplVulkan_Shutdown();
+    state_->startInterface();
+}
+
+void Presenter::loseSurface() { state_->lost = true; }
+std::shared_ptr<Device> Presenter::device() const { return state_->device->asAsked ? state_->device : nullptr; }
+std::uint64_t Presenter::imagesRead() const { return state_->device->imagesRead; }
+const std::vector<std::string>& Presenter::messages() const { return *state_->device->messages; }
 
 } // namespace cotan::viewer

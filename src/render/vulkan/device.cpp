@@ -17,8 +17,10 @@ constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 VKAPI_ATTR VkBool32 VKAPI_CALL collectMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                               const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages)
 {
-    // The layer calls this from inside Vulkan, which exceptions must not cross.
+    // The layer calls this from inside Vulkan, which exceptions must not cross, and on the thread of the call.
+    static std::mutex collecting;
     try {
+        const std::lock_guard lock(collecting);
         static_cast<std::vector<std::string>*>(messages)->emplace_back(data->pMessage);
     } catch (...) {
     }
@@ -45,10 +47,11 @@ bool hasValidation(const vk::raii::Context& context)
     });
 }
 
-vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate, std::vector<std::string>& messages)
+vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate, std::vector<std::string>& messages,
+                                std::vector<const char*> extensions)
 {
     const vk::ApplicationInfo application("cotan", 1, "cotan", 1, VK_API_VERSION_1_3);
-    std::vector<const char*> layers, extensions;
+    std::vector<const char*> layers;
     const vk::DebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(messages);
     if (validate) {
         layers.push_back(kValidationLayer);
@@ -125,14 +128,26 @@ std::string listed(const std::vector<vk::raii::PhysicalDevice>& devices)
     return text.empty() ? "none" : text;
 }
 
-// The first usable device whose name contains `wanted`.
-Result<vk::raii::PhysicalDevice> choose(std::vector<vk::raii::PhysicalDevice> devices, const std::string& wanted)
+// Chooses the first usable device that can present in the window, those whose names contain `wanted` before others.
+// Without a window: the first whose name does.
+Status choose(Device& d, const std::string& wanted, const WindowNeeds* window)
 {
-    for (vk::raii::PhysicalDevice& d : devices)
-        if (missingFeature(d).empty() && lowerCase(nameOf(d)).find(lowerCase(wanted)) != std::string::npos)
-            return std::move(d);
-    return unavailableError("no Vulkan device " + (wanted.empty() ? "" : "named '" + wanted + "' ")
-                            + "can be used; found: " + listed(devices));
+    std::vector<vk::raii::PhysicalDevice> devices = devicesOf(d.instance);
+    const auto asked = [&](const vk::raii::PhysicalDevice& known) {
+        return missingFeature(known).empty() && lowerCase(nameOf(known)).find(lowerCase(wanted)) != std::string::npos;
+    };
+    std::stable_partition(devices.begin(), devices.end(), asked);
+    for (vk::raii::PhysicalDevice& known : devices) {
+        const auto family = std::uint32_t(graphicsFamily(known));
+        if (missingFeature(known).empty() && (window ? window->presents(d.instance, known, family) : asked(known))) {
+            d.asAsked = &known == &devices.front() && asked(known);
+            d.physical = std::move(known);
+            return Done{};
+        }
+    }
+    const std::string does = window ? "can present in a window of this display" : "can be used";
+    return unavailableError("no Vulkan device " + (wanted.empty() || window ? "" : "named '" + wanted + "' ") + does
+                            + "; found: " + listed(devices));
 }
 
 // ---- opening --------------------------------------------------------------------------------
@@ -184,16 +199,17 @@ void openLogicalDevice(Device& d)
 
     const float priority = 1;
     const vk::DeviceQueueCreateInfo queue({}, d.queueFamily, 1, &priority);
-    d.device = vk::raii::Device(d.physical, vk::DeviceCreateInfo({}, queue, {}, {}, {}, &use));
+    const std::vector<const char*> extensions(d.presents ? 1 : 0, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    d.device = vk::raii::Device(d.physical, vk::DeviceCreateInfo({}, queue, {}, extensions, {}, &use));
     d.queue = d.device.getQueue(d.queueFamily, 0);
 }
 
-void startValidation(Device& d, bool wanted)
+void openInstance(Device& d, bool wanted, const std::vector<const char*>& extensions)
 {
     const bool validate = wanted && hasValidation(d.context);
     if (wanted && !validate)
         d.messages->emplace_back("VK_LAYER_KHRONOS_validation is not installed");
-    d.instance = makeInstance(d.context, validate, *d.messages);
+    d.instance = makeInstance(d.context, validate, *d.messages, extensions);
     if (validate)
         d.messenger = vk::raii::DebugUtilsMessengerEXT(d.instance, messengerInfo(*d.messages));
 }
@@ -212,15 +228,14 @@ std::string reason(const std::exception& e)
     return text;
 }
 
-Result<std::unique_ptr<Device>> openDevice(const VulkanRendererOptions& options)
+Result<std::unique_ptr<Device>> openDevice(const VulkanRendererOptions& options, const WindowNeeds* window)
 {
     try {
         auto d = std::make_unique<Device>();
-        startValidation(*d, options.validation);
-        auto chosen = choose(devicesOf(d->instance), options.device);
-        if (!chosen)
+        d->presents = window != nullptr;
+        openInstance(*d, options.validation, window ? window->extensions : std::vector<const char*>());
+        if (const Status chosen = choose(*d, options.device, window); !chosen)
             return chosen.error();
-        d->physical = std::move(*chosen);
         d->name = nameOf(d->physical);
         d->queueFamily = std::uint32_t(graphicsFamily(d->physical)); // not -1: missingFeature has checked it
         describe(*d);
@@ -236,7 +251,7 @@ Result<std::vector<std::string>> renderDevices()
     try {
         const vk::raii::Context context;
         std::vector<std::string> messages;
-        const vk::raii::Instance instance = makeInstance(context, false, messages);
+        const vk::raii::Instance instance = makeInstance(context, false, messages, {});
         const std::vector<vk::raii::PhysicalDevice> devices = devicesOf(instance);
         std::vector<std::string> names;
         for (const vk::raii::PhysicalDevice& d : devices)

@@ -1,7 +1,10 @@
 // Choosing and opening a Vulkan device.
 #pragma once
 
+#include <atomic>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -11,7 +14,8 @@
 
 namespace cotan {
 
-// An open device. Everything made from it must be destroyed before it.
+// An open device. Everything made from it must be destroyed before it. Threads may share it: whoever uses the queue
+// holds `queueInUse`.
 struct Device {
     vk::raii::Context context;
     // Messages of the validation layer, which keeps their address.
@@ -22,6 +26,10 @@ struct Device {
     vk::raii::Device device{nullptr};
     vk::raii::Queue queue{nullptr};
     std::uint32_t queueFamily = 0;
+    mutable std::recursive_mutex queueInUse;
+    mutable std::atomic<std::uint64_t> imagesRead = 0; // copied to the host
+    bool presents = false;                             // in a window, whose commands wait for those of renderers
+    bool asAsked = true; // false: the device that the options ask for cannot present in the window
 
     std::string name;
     std::string driver;
@@ -35,7 +43,16 @@ struct Device {
     bool filterable32 = false; // 32-bit float textures support linear filtering
 };
 
-Result<std::unique_ptr<Device>> openDevice(const VulkanRendererOptions& options);
+// What a window needs of a device.
+struct WindowNeeds {
+    std::vector<const char*> extensions; // of the instance
+    // Whether a queue family can present in the window.
+    std::function<bool(const vk::raii::Instance&, const vk::raii::PhysicalDevice&, std::uint32_t family)> presents;
+};
+
+// window: the device can present in it. Errors: those of VulkanRenderer::create; ErrorKind::unavailable if no device
+// can present.
+Result<std::unique_ptr<Device>> openDevice(const VulkanRendererOptions& options, const WindowNeeds* window = nullptr);
 
 // One line that describes the error in any exception of the Vulkan bindings.
 std::string reason(const std::exception& e);

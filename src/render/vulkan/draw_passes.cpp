@@ -206,7 +206,7 @@ void CommandRecorder::writeViewSet(bool layered)
                                         vk::ImageLayout::eDepthStencilReadOnlyOptimal);
     const vk::DescriptorImageInfo samples(*depthSampler_, targets_->colorView(), kReadOnly);
     const auto imageInfo = [&](const HeldTexture& held) {
-        return held.owner ? vk::DescriptorImageInfo(*linearSampler_, *held.texture.view, kReadOnly) : shadow;
+        return held.owner ? vk::DescriptorImageInfo(*linearSampler_, *held.image->texture.view, kReadOnly) : shadow;
     };
     const vk::DescriptorImageInfo environment = imageInfo(environment_), ground = imageInfo(ground_);
     const auto write = [&](vk::DescriptorSet set, const vk::DescriptorImageInfo& depths,

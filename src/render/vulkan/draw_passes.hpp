@@ -50,8 +50,10 @@ public:
     // Starts drawing into the area of the resolved image, whose remainder beginSurround has covered. The samples can be
     // read from here on. Ends with endRendering. Requires resolves().
     void beginResolve(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area);
-    // Copies the image into the read-back buffer.
-    void copy(const vk::raii::CommandBuffer& commands);
+    // Ends drawing the image, and copies it into the read-back buffer if the host reads it.
+    void finish(const vk::raii::CommandBuffer& commands, bool hostReads);
+    // The resolved image. The next one is drawn into another, while anyone holds this one. Requires resolves().
+    std::shared_ptr<const DeviceImage> share() const { return resolved_; }
     vk::ImageView depthView() const { return *depth_.view; }
     vk::ImageView colorView() const { return *color_.view; }
     // The image, first row at the top. Requires that the commands have completed.
@@ -62,10 +64,13 @@ private:
     void beginColor(const vk::raii::CommandBuffer& commands, const Texture2D& target, vk::AttachmentLoadOp load,
                     const vk::Rect2D& area) const;
 
+    void chooseResolved();
+
     Memory memory_;
     Kind kind_;
     Texture2D color_;
-    std::optional<Texture2D> resolved_;
+    std::vector<std::shared_ptr<DeviceImage>> all_; // that were resolved into
+    std::shared_ptr<DeviceImage> resolved_;
     Texture2D depth_;
     Buffer readBack_;
 };
@@ -111,7 +116,10 @@ class CommandRecorder {
 public:
     CommandRecorder(const Device& device, const Layouts& layouts);
 
-    Result<Image> draw(GpuScene& scene, const View& view, RenderTimings& timings);
+    // host: gets the image. If null, share() does; only for views that staysOnDevice() accepts.
+    Status draw(GpuScene& scene, const View& view, RenderTimings& timings, Image* host);
+    static bool staysOnDevice(const View& view);
+    std::shared_ptr<const DeviceImage> share() const { return targets_->share(); }
     // Discards what was kept for the previous scene.
     void forgetScene() { shadowDrawn_.reset(); }
 
@@ -136,7 +144,7 @@ private:
     };
 
     // sample: the only one of the kSampleCount samples to draw; if empty, all.
-    Result<Image> drawOnce(GpuScene& scene, const View& view, std::optional<int> sample, RenderTimings& timings);
+    Status drawOnce(GpuScene& scene, const View& view, std::optional<int> sample, RenderTimings& timings, Image* host);
     static DrawLists makeLists(const GpuScene& scene, const View& view, const CameraAxes& axes,
                                const gpu::CotanView& constants);
     void beginPipelines(const DrawLists& lists, const View& view, bool layered);
@@ -147,7 +155,8 @@ private:
     void recordMain(const vk::raii::CommandBuffer& commands, const DrawLists& lists, const View& view);
     static PipelineKey keyOf(PipelineKey key, const Item& item);
     void recordSurround(const vk::raii::CommandBuffer& commands, const View& view, const PixelArea& a);
-    void finish(const vk::raii::CommandBuffer& commands, const PixelArea& area);
+    void resolve(const vk::raii::CommandBuffer& commands, const PixelArea& area);
+    int rowsAtOnce(const View& view, bool layered) const;
     void drawFullScreen(const vk::raii::CommandBuffer& commands, const PipelineKey& key);
     const vk::raii::CommandBuffer& begin();
     Status drawLayers(const DrawLists& lists);

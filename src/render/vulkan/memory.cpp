@@ -7,8 +7,6 @@ namespace cotan {
 
 namespace {
 
-constexpr vk::DeviceSize kBlockSize = vk::DeviceSize(32) << 20;
-
 Buffer makeBuffer(Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage, vk::MemoryPropertyFlags needed,
                   vk::MemoryPropertyFlags wanted)
 {
@@ -62,7 +60,7 @@ Memory::Piece Memory::allocate(const vk::MemoryRequirements& requirements, vk::M
         if (b.type == type && aligned(b.used, alignment) + requirements.size <= b.size)
             block = &b;
     if (!block)
-        block = &addBlock(type, std::max(requirements.size, kBlockSize));
+        block = &addBlock(type, std::max(requirements.size, blockSize_));
     const vk::DeviceSize offset = aligned(block->used, alignment);
     block->used = offset + requirements.size;
     return {*block->memory, offset, block->mapped ? block->mapped + offset : nullptr};
@@ -110,11 +108,18 @@ const vk::raii::CommandBuffer& Commands::begin()
     return buffer_;
 }
 
-void Commands::submitAndWait()
+void Commands::submit(vk::Semaphore before, vk::Semaphore after)
 {
     buffer_.end();
     const vk::CommandBufferSubmitInfo commands(*buffer_);
-    device_->queue.submit2(vk::SubmitInfo2({}, {}, commands), *fence_);
+    const vk::SemaphoreSubmitInfo first(before, 0, Stage::eAllCommands), last(after, 0, Stage::eAllCommands);
+    const vk::SubmitInfo2 info({}, before ? 1 : 0, &first, 1, &commands, after ? 1 : 0, &last);
+    const std::lock_guard lock(device_->queueInUse);
+    device_->queue.submit2(info, *fence_);
+}
+
+void Commands::wait()
+{
     while (device_->device.waitForFences(*fence_, VK_TRUE, UINT64_MAX) == vk::Result::eTimeout) {
     }
     device_->device.resetFences(*fence_);
@@ -127,6 +132,17 @@ void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::Im
                                           after.layout, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, image,
                                           {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS});
     commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
+}
+
+void copyToHost(const vk::raii::CommandBuffer& commands, const Device& device, vk::Image image, vk::Extent2D extent,
+                const Buffer& target)
+{
+    const vk::BufferImageCopy copy(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {0, 0, 0},
+                                   vk::Extent3D(extent, 1));
+    commands.copyImageToBuffer(image, kCopied.layout, *target.buffer, copy);
+    const vk::MemoryBarrier2 toHost(Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
+    commands.pipelineBarrier2(vk::DependencyInfo({}, toHost));
+    ++device.imagesRead;
 }
 
 Uploader::Uploader(const Device& device, vk::DeviceSize capacity) : memory_(device), commands_(device)
@@ -189,14 +205,14 @@ void Uploader::level(const Texture2D& target, std::uint32_t index, std::span<con
 }
 
 void Uploader::image(const Texture2D& target, std::span<const std::span<const std::byte>> levels,
-                     std::size_t bytesPerTexel)
+                     std::size_t bytesPerTexel, const ImageUse& after)
 {
     constexpr auto color = vk::ImageAspectFlagBits::eColor;
     constexpr ImageUse written{vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite};
     transition(recording(), *target.image, color, {vk::ImageLayout::eUndefined, Stage::eTopOfPipe, {}}, written);
     for (std::uint32_t i = 0; i < target.levels; ++i)
         level(target, i, levels[i], bytesPerTexel);
-    transition(recording(), *target.image, color, written, kSampled);
+    transition(recording(), *target.image, color, written, after);
 }
 
 } // namespace cotan

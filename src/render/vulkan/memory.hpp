@@ -21,7 +21,7 @@ inline vk::DeviceSize aligned(vk::DeviceSize value, vk::DeviceSize alignment)
 // Memory in blocks, allocated from front to back and freed all at once.
 class Memory {
 public:
-    explicit Memory(const Device& device) : device_(&device) {}
+    explicit Memory(const Device& device, vk::DeviceSize least = 32 << 20) : device_(&device), blockSize_(least) {}
 
     const Device& device() const { return *device_; }
 
@@ -48,6 +48,7 @@ private:
                              vk::MemoryPropertyFlags wanted) const;
 
     const Device* device_;
+    vk::DeviceSize blockSize_;
     std::vector<Block> blocks_;
 };
 
@@ -79,12 +80,24 @@ struct TextureInfo {
 };
 Texture2D makeTexture(Memory& memory, const TextureInfo& info);
 
+// An image with memory of its own. When handed out, it is in the layout eTransferSrcOptimal.
+struct DeviceImage {
+    DeviceImage(const Device& device, const TextureInfo& info) : memory(device, 0), texture(makeTexture(memory, info))
+    {
+    }
+    Memory memory;
+    Texture2D texture;
+};
+
 // A command buffer that is recorded, submitted and waited for, after which it can be recorded again.
 class Commands {
 public:
     explicit Commands(const Device& device);
     const vk::raii::CommandBuffer& begin();
-    void submitAndWait();
+    void submitAndWait() { submit(), wait(); }
+    // before: waited for; after: signalled.
+    void submit(vk::Semaphore before = {}, vk::Semaphore after = {});
+    void wait();
 
 private:
     const Device* device_;
@@ -99,6 +112,7 @@ struct ImageUse {
     vk::PipelineStageFlags2 stages;
     vk::AccessFlags2 access;
 };
+inline constexpr ImageUse kCopied{vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead};
 inline constexpr ImageUse kSampled{vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader,
                                    Access::eShaderSampledRead};
 inline constexpr auto kDepthStages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
@@ -108,6 +122,10 @@ inline constexpr ImageUse kDepthDrawn{vk::ImageLayout::eDepthAttachmentOptimal, 
 void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageAspectFlags aspect,
                 const ImageUse& before, const ImageUse& after);
 
+// Copies an image, which is used as kCopied, into a host buffer.
+void copyToHost(const vk::raii::CommandBuffer& commands, const Device& device, vk::Image image, vk::Extent2D extent,
+                const Buffer& target);
+
 // Copies data into device buffers and images through one staging buffer, which is flushed when full. Call finish()
 // before the data is used.
 class Uploader {
@@ -116,8 +134,9 @@ public:
     Uploader(const Device& device, vk::DeviceSize capacity);
 
     void buffer(const Buffer& target, vk::DeviceSize offset, std::span<const std::byte> data);
-    // levels: finest first, as many as the texture has, each without padding.
-    void image(const Texture2D& target, std::span<const std::span<const std::byte>> levels, std::size_t bytesPerTexel);
+    // levels: finest first, as many as the texture has, each without padding. after: how the image is used next.
+    void image(const Texture2D& target, std::span<const std::span<const std::byte>> levels, std::size_t bytesPerTexel,
+               const ImageUse& after = kSampled);
     void finish();
 
 private:

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "draw_passes.hpp"
+#include "render/shared_device.hpp"
 #include "scene/geometry.hpp"
 #include "scene/sample_positions.hpp"
 #include "scene/scene_check.hpp"
@@ -14,7 +15,13 @@ namespace cotan {
 
 // In the order of dependence: later members are destroyed first.
 struct VulkanRenderer::State {
-    std::unique_ptr<Device> device;
+    explicit State(std::shared_ptr<Device> opened)
+        : device(std::move(opened)), layouts(std::make_unique<Layouts>(*device)),
+          drawer(std::make_unique<CommandRecorder>(*device, *layouts))
+    {
+    }
+
+    std::shared_ptr<Device> device;
     std::unique_ptr<Layouts> layouts;
     std::unique_ptr<CommandRecorder> drawer;
     std::unique_ptr<GpuScene> scene;
@@ -107,20 +114,28 @@ void CommandRecorder::recordSurround(const vk::raii::CommandBuffer& commands, co
     commands.endRendering();
 }
 
-// Resolves the samples of the area and copies the image to the read-back buffer.
-void CommandRecorder::finish(const vk::raii::CommandBuffer& commands, const PixelArea& area)
+// Resolves the samples of the area, if there are several.
+void CommandRecorder::resolve(const vk::raii::CommandBuffer& commands, const PixelArea& area)
 {
-    if (targets_->resolves()) {
-        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0, composeSet_, {});
-        targets_->beginResolve(commands, rectangle(area));
-        drawFullScreen(commands, keys_.resolve);
-        commands.endRendering();
-    }
-    targets_->copy(commands);
+    if (!targets_->resolves())
+        return;
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0, composeSet_, {});
+    targets_->beginResolve(commands, rectangle(area));
+    drawFullScreen(commands, keys_.resolve);
+    commands.endRendering();
 }
 
-Result<Image> CommandRecorder::drawOnce(GpuScene& scene, const View& view, std::optional<int> sample,
-                                        RenderTimings& timings)
+// Rows per submission. A CPU is slow, and a window on it would wait for the whole image.
+int CommandRecorder::rowsAtOnce(const View& view, bool layered) const
+{
+    constexpr int kSamplesAtOnce = 1 << 19; // about 0.1 s on two cores
+    if (!device_->cpu || !device_->presents || !targets_->resolves() || layered)
+        return view.height;
+    return std::max(kSamplesAtOnce / (view.width * view.samples) / 16 * 16, 16); // keeps pixels that share derivatives
+}
+
+Status CommandRecorder::drawOnce(GpuScene& scene, const View& view, std::optional<int> sample, RenderTimings& timings,
+                                 Image* host)
 {
     const CameraAxes axes = cameraAxes(view.camera);
     scene.setPointSampled(view.pointSampled);
@@ -140,27 +155,42 @@ Result<Image> CommandRecorder::drawOnce(GpuScene& scene, const View& view, std::
     recordShadow(commands, lists, {constants.shadowX, constants.shadowY, constants.shadowZ, view.pointSampled});
     if (targets_->resolves())
         recordSurround(commands, view, area);
-    targets_->begin(commands, rectangle(area), layered);
-    recordMain(commands, lists, view);
-    if (layered) {
-        targets_->endOpaque(commands);
-        commands_.submitAndWait();
-        if (const Status ok = drawLayers(lists); !ok)
-            return ok.error();
-        finish(begin(), area);
-    } else {
-        commands.endRendering();
-        finish(commands, area);
+    const int rows = rowsAtOnce(view, layered);
+    for (PixelArea band = area; band.y0 < area.y1; band.y0 = band.y1) {
+        if (band.y0 > area.y0) {
+            commands_.submitAndWait();
+            begin();
+        }
+        band.y1 = std::min((band.y0 / rows + 1) * rows, area.y1);
+        targets_->begin(commands, rectangle(band), layered);
+        recordMain(commands, lists, view);
+        if (layered) {
+            targets_->endOpaque(commands);
+            commands_.submitAndWait();
+            if (const Status ok = drawLayers(lists); !ok)
+                return ok.error();
+            begin();
+        } else {
+            commands.endRendering();
+        }
+        resolve(commands, band);
     }
+    targets_->finish(commands, host != nullptr);
     commands_.submitAndWait();
     timings.draw += secondsSince(start);
     const auto drawn = std::chrono::steady_clock::now();
-    Image image = targets_->image(view.rowsUpward);
+    if (host)
+        *host = targets_->image(view.rowsUpward);
     timings.readBack += secondsSince(drawn);
-    return image;
+    return Done{};
 }
 
-Result<Image> CommandRecorder::draw(GpuScene& scene, const View& view, RenderTimings& timings)
+bool CommandRecorder::staysOnDevice(const View& view)
+{
+    return view.output == Output::shaded && view.samples <= kMaxSharedSamples && !view.linearOutput && !view.rowsUpward;
+}
+
+Status CommandRecorder::draw(GpuScene& scene, const View& view, RenderTimings& timings, Image* host)
 {
     if (const Status ok = checkLimits(*device_, view); !ok)
         return ok.error();
@@ -174,17 +204,16 @@ Result<Image> CommandRecorder::draw(GpuScene& scene, const View& view, RenderTim
     }
     timings.draw = timings.readBack = 0;
     if (view.output != Output::shaded || view.samples <= kMaxSharedSamples)
-        return drawOnce(scene, view, std::nullopt, timings);
-    Image sum = makeImage(view.width, view.height, PixelType::float32, "render");
+        return drawOnce(scene, view, std::nullopt, timings, host);
+    Image sum = makeImage(view.width, view.height, PixelType::float32, "render"), image;
     for (int sample = 0; sample < kSampleCount; ++sample) {
-        const Result<Image> image = drawOnce(scene, view, sample, timings);
-        if (!image)
-            return image;
-        const float* values = image->floats();
+        if (const Status drawn = drawOnce(scene, view, sample, timings, &image); !drawn)
+            return drawn;
         for (std::size_t i = 0; i < 4 * sum.pixelCount(); ++i)
-            sum.floats()[i] += values[i];
+            sum.floats()[i] += image.floats()[i];
     }
-    return meanOf(sum, view);
+    *host = meanOf(sum, view);
+    return Done{};
 }
 
 Result<VulkanRenderer> VulkanRenderer::create(const VulkanRendererOptions& options)
@@ -193,11 +222,25 @@ Result<VulkanRenderer> VulkanRenderer::create(const VulkanRendererOptions& optio
         Result<std::unique_ptr<Device>> device = openDevice(options);
         if (!device)
             return device.error();
-        auto state = std::make_unique<State>();
-        state->device = std::move(*device);
-        state->layouts = std::make_unique<Layouts>(*state->device);
-        state->drawer = std::make_unique<CommandRecorder>(*state->device, *state->layouts);
-        return VulkanRenderer(std::move(state));
+        return VulkanRenderer(std::make_unique<State>(std::move(*device)));
+    });
+}
+
+Result<VulkanRenderer> DeviceSharing::open(std::shared_ptr<Device> device)
+{
+    return guarded<VulkanRenderer>("opening the renderer", [&] {
+        return VulkanRenderer(std::make_unique<VulkanRenderer::State>(std::move(device)));
+    });
+}
+
+Result<std::shared_ptr<const DeviceImage>> DeviceSharing::draw(VulkanRenderer& renderer, const View& view)
+{
+    VulkanRenderer::State& s = *renderer.state_;
+    return guarded<std::shared_ptr<const DeviceImage>>("drawing", [&]() -> Result<std::shared_ptr<const DeviceImage>> {
+        if (!CommandRecorder::staysOnDevice(view))
+            return std::shared_ptr<const DeviceImage>();
+        const Status drawn = s.drawer->draw(*s.scene, view, s.timings, nullptr);
+        return drawn ? s.drawer->share() : Result<std::shared_ptr<const DeviceImage>>(drawn.error());
     });
 }
 
@@ -226,7 +269,11 @@ Result<Image> VulkanRenderer::render(const View& view)
     if (!state_->scene)
         if (const Status loaded = load(Scene{}); !loaded)
             return loaded.error();
-    return guarded<Image>("drawing", [&] { return state_->drawer->draw(*state_->scene, view, state_->timings); });
+    return guarded<Image>("drawing", [&]() -> Result<Image> {
+        Image image;
+        const Status drawn = state_->drawer->draw(*state_->scene, view, state_->timings, &image);
+        return drawn ? std::move(image) : Result<Image>(drawn.error());
+    });
 }
 
 const std::string& VulkanRenderer::deviceName() const { return state_->device->name; }

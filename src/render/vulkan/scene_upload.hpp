@@ -35,10 +35,9 @@ private:
 // A float image on the device, as halfs. It is kept for later images while its owner stays the same.
 struct HeldTexture {
     std::shared_ptr<const void> owner; // of the uploaded image; null: none
-    std::unique_ptr<Memory> memory;
-    Texture2D texture;
+    std::optional<DeviceImage> image;
 
-    void hold(const Device& device, std::shared_ptr<const void> newOwner, const Image& image);
+    void hold(const Device& device, std::shared_ptr<const void> newOwner, const Image& values);
 };
 
 // How a material uses an image.

@@ -1,5 +1,6 @@
 #include "draw_passes.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "scene/sample_positions.hpp"
@@ -37,11 +38,6 @@ Targets::Targets(const Device& device, const Kind& kind) : memory_(device), kind
          .extent = extent,
          .samples = kind.samples,
          .usage = ImageUsage::eColorAttachment | (resolves() ? ImageUsage::eSampled : ImageUsage::eTransferSrc)});
-    if (resolves())
-        resolved_ = makeTexture(memory_,
-                                {.format = kind.output,
-                                 .extent = extent,
-                                 .usage = ImageUsage::eColorAttachment | ImageUsage::eTransferSrc});
     vk::ImageUsageFlags depthUsage = ImageUsage::eDepthStencilAttachment;
     if (multisampled()) // then they hide samples of translucent layers
         depthUsage |= ImageUsage::eSampled;
@@ -70,11 +66,28 @@ void Targets::beginColor(const vk::raii::CommandBuffer& commands, const Texture2
     setArea(commands, area);
 }
 
+// Chooses an image that nobody shows.
+void Targets::chooseResolved()
+{
+    resolved_.reset();
+    const auto unused = std::ranges::find_if(all_, [](const auto& image) { return image.use_count() == 1; });
+    if (unused == all_.end()) {
+        const auto usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc;
+        all_.push_back(std::make_shared<DeviceImage>(
+            memory_.device(),
+            TextureInfo{.format = kind_.output, .extent = {kind_.width, kind_.height}, .usage = usage}));
+        resolved_ = all_.back();
+    } else {
+        resolved_ = *unused;
+    }
+}
+
 void Targets::beginSurround(const vk::raii::CommandBuffer& commands)
 {
-    transition(commands, *resolved_->image, kColorAspect,
+    chooseResolved();
+    transition(commands, *resolved_->texture.image, kColorAspect,
                {vk::ImageLayout::eUndefined, Stage::eTransfer | Stage::eColorAttachmentOutput, {}}, kDrawnInto);
-    beginColor(commands, *resolved_, vk::AttachmentLoadOp::eClear, {{0, 0}, {kind_.width, kind_.height}});
+    beginColor(commands, resolved_->texture, vk::AttachmentLoadOp::eClear, {{0, 0}, {kind_.width, kind_.height}});
 }
 
 void Targets::begin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area, bool layersFollow)
@@ -124,19 +137,16 @@ void Targets::beginCompose(const vk::raii::CommandBuffer& commands, const vk::Re
 void Targets::beginResolve(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area)
 {
     transition(commands, *color_.image, kColorAspect, kDrawnInto, kSampled);
-    transition(commands, *resolved_->image, kColorAspect, kDrawnInto, kDrawnInto);
-    beginColor(commands, *resolved_, vk::AttachmentLoadOp::eLoad, area);
+    transition(commands, *resolved_->texture.image, kColorAspect, kDrawnInto, kDrawnInto);
+    beginColor(commands, resolved_->texture, vk::AttachmentLoadOp::eLoad, area);
 }
 
-void Targets::copy(const vk::raii::CommandBuffer& commands)
+void Targets::finish(const vk::raii::CommandBuffer& commands, bool hostReads)
 {
-    const vk::Image source = resolved_ ? *resolved_->image : *color_.image;
-    transition(commands, source, kColorAspect, kDrawnInto,
-               {vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead});
-    const vk::BufferImageCopy copy(0, 0, 0, {kColorAspect, 0, 0, 1}, {0, 0, 0}, {kind_.width, kind_.height, 1});
-    commands.copyImageToBuffer(source, vk::ImageLayout::eTransferSrcOptimal, *readBack_.buffer, copy);
-    const vk::MemoryBarrier2 toHost(Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
-    commands.pipelineBarrier2(vk::DependencyInfo({}, toHost));
+    const Texture2D& source = resolved_ ? resolved_->texture : color_;
+    transition(commands, *source.image, kColorAspect, kDrawnInto, kCopied);
+    if (hostReads)
+        copyToHost(commands, memory_.device(), *source.image, source.extent, readBack_);
 }
 
 Image Targets::image(bool flipRows) const

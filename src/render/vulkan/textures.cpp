@@ -53,25 +53,24 @@ vk::Sampler Samplers::get(const Sampler& s, bool pointSampled)
     return *made_.emplace(key, vk::raii::Sampler(device_->device, info)).first->second;
 }
 
-void HeldTexture::hold(const Device& device, std::shared_ptr<const void> newOwner, const Image& image)
+void HeldTexture::hold(const Device& device, std::shared_ptr<const void> newOwner, const Image& values)
 {
     if (newOwner == owner)
         return;
-    std::vector<glm::uint64> halves(image.pixelCount());
+    std::vector<glm::uint64> halves(values.pixelCount());
     for (std::size_t i = 0; i < halves.size(); ++i) {
-        const float* p = image.floats() + 4 * i;
+        const float* p = values.floats() + 4 * i;
         halves[i] = glm::packHalf4x16(glm::vec4(p[0], p[1], p[2], p[3]));
     }
     owner.reset();
-    texture = {};
-    memory = std::make_unique<Memory>(device);
-    texture = makeTexture(*memory,
-                          {.format = vk::Format::eR16G16B16A16Sfloat,
-                           .extent = {std::uint32_t(image.width), std::uint32_t(image.height)},
-                           .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
+    image.reset(); // frees its memory first
+    image.emplace(device,
+                  TextureInfo{.format = vk::Format::eR16G16B16A16Sfloat,
+                              .extent = {std::uint32_t(values.width), std::uint32_t(values.height)},
+                              .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
     const std::array levels{std::as_bytes(std::span(halves))};
     Uploader uploader(device, halves.size() * sizeof(glm::uint64));
-    uploader.image(texture, levels, sizeof(glm::uint64));
+    uploader.image(image->texture, levels, sizeof(glm::uint64));
     uploader.finish();
     owner = std::move(newOwner);
 }

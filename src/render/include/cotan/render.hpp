@@ -173,6 +173,7 @@ public:
     const std::vector<std::string>& messages() const; // from the validation layer
 
 private:
+    friend struct DeviceSharing;
     struct State;
     explicit VulkanRenderer(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
