@@ -21,6 +21,7 @@ namespace {
 
 constexpr int kLargestSide = 65535; // texels: texel indices have 32 bits
 constexpr int kMaxOcclusionRays = 1 << 16;
+constexpr SceneRules kRules{.pixels = false};
 constexpr float kFarthest = 1e17f; // model units: Embree terminates the program for rays that start beyond 1.8e18
 
 // The error for an option that is out of range.
@@ -29,7 +30,7 @@ template<class... Found> Error wrong(const char* option, fmt::format_string<Foun
     return about(option, usageError(fmt::format(text, std::forward<Found>(found)...)));
 }
 
-Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptions& options)
+Status checkRanges(const Scene& low, const BakeModelOptions& options)
 {
     const BakeOptions& b = options.bake;
     if (b.width < 1 || b.height < 1 || b.width > kLargestSide || b.height > kLargestSide)
@@ -58,22 +59,27 @@ Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptio
         return wrong("options.extrusion", "the search nearest already looks to both sides of the low surface");
     if (options.material >= int(low.materials.size()))
         return wrong("options.material", "expected 0 to {}; found {}", int(low.materials.size()) - 1, options.material);
-    if (high.maps.size() > 1 && high.maps.size() != high.scenes.size())
-        return wrong("high.maps", "expected none, one, or one for each of the {} scenes; found {}", high.scenes.size(),
-                     high.maps.size());
     return Done{};
 }
 
-// Whether all scenes are consistent.
-Status checkScenes(const Scene& low, const HighModel& high, const BakeModelOptions& options)
+Status checkHigh(const HighModel& high)
 {
-    constexpr SceneRules rules{.pixels = false};
-    Status sound = checkScene(low, "low", rules);
+    if (high.maps.size() > 1 && high.maps.size() != high.scenes.size())
+        return wrong("high.maps", "expected none, one, or one for each of the {} scenes; found {}", high.scenes.size(),
+                     high.maps.size());
+    Status sound = Done{};
     for (std::size_t i = 0; sound && i < high.scenes.size(); ++i)
-        sound = checkScene(high.scenes[i], fmt::format("high.scenes[{}]", i), rules);
+        sound = checkScene(high.scenes[i], fmt::format("high.scenes[{}]", i), kRules);
+    return sound;
+}
+
+// Whether the scenes of the simple side are consistent.
+Status checkLow(const Scene& low, const BakeModelOptions& options)
+{
+    Status sound = checkScene(low, "low", kRules);
     for (const auto& [scene, what] : {std::pair(options.cage, "options.cage"), {options.others, "options.others"}})
         if (sound && scene)
-            sound = checkScene(*scene, what, rules);
+            sound = checkScene(*scene, what, kRules);
     return sound;
 }
 
@@ -161,22 +167,22 @@ void applyMaps(HighModel& high, const std::optional<Convention>& format)
         }
 }
 
-// Builds setup's normal maps from those of the detailed scenes, whose images are moved out.
-Status readOwnMaps(HighModel& high, BakeSetup& setup)
+// Reads the normal maps of the detailed scenes, whose images are moved out.
+Status readOwnMaps(HighModel& high, DetailedSurface& open)
 {
-    const Convention stated = setup.options.highFormat.value_or(Convention());
+    const Convention stated = open.options.highFormat.value_or(Convention());
     for (const Image& map : high.maps)
         if (const std::string found = maps::contradictionOf(map, stated); !found.empty())
-            setup.warnings.push_back(fmt::format("{}: {}; it is read as {}", map.name, found, describe(stated)));
-    applyMaps(high, setup.options.highFormat);
-    auto maps = HighNormalMaps::make(high.scenes, setup.options.highFrame);
+            open.warnings.push_back(fmt::format("{}: {}; it is read as {}", map.name, found, describe(stated)));
+    applyMaps(high, open.options.highFormat);
+    auto maps = HighNormalMaps::make(high.scenes, open.options.highFrame);
     if (!maps)
         return maps.error();
     if (const std::size_t bare = maps->instanceCount() - maps->mappedCount(); bare > 0)
-        setup.warnings.push_back(fmt::format(
+        open.warnings.push_back(fmt::format(
             "{} of {} high meshes have no normal map or no texture coordinates for it: their smooth normals are used",
             bare, maps->instanceCount()));
-    setup.options.bake.highMaps = std::make_shared<const HighNormalMaps>(std::move(*maps));
+    open.maps = std::make_shared<const HighNormalMaps>(std::move(*maps));
     return Done{};
 }
 
@@ -196,13 +202,13 @@ void add(LowRest& rest, const Scene& scene, const Instance& instance, std::uint3
 }
 
 // The triangles of other materials and, unless matchByName limits each mesh to its own detail, of options.others.
-LowRest restOf(const Scene& low, const BakeModelOptions& options)
+LowRest restOf(const Scene& low, const BakeModelOptions& options, bool matchByName)
 {
     LowRest rest;
     for (std::size_t i = 0; i < low.instances.size() && options.material >= 0; ++i)
         if (low.meshes[std::size_t(low.instances[i].mesh)].material != options.material)
             add(rest, low, low.instances[i], std::uint32_t(i));
-    if (options.others && !options.matchByName)
+    if (options.others && !matchByName)
         for (const Instance& instance : options.others->instances)
             add(rest, *options.others, instance, 0);
     return rest;
@@ -220,15 +226,13 @@ void addNames(const Scene& scene, bool withEmpty, std::vector<std::string>& name
 
 // Pairs the instances of the simple scene, then of options.others, with those of the detailed scenes that have
 // triangles.
-NamePairs pairsOf(const Scene& low, const HighModel& high, const BakeModelOptions& options)
+NamePairs pairsOf(const Scene& low, const DetailedSurface& high, const BakeModelOptions& options)
 {
-    std::vector<std::string> lowNames, highNames;
-    addNames(low, true, lowNames);
+    std::vector<std::string> names;
+    addNames(low, true, names);
     if (options.others)
-        addNames(*options.others, true, lowNames);
-    for (const Scene& scene : high.scenes)
-        addNames(scene, false, highNames);
-    return pairNames(lowNames, highNames);
+        addNames(*options.others, true, names);
+    return pairNames(names, high.names);
 }
 
 // Limits each instance of the simple scene to the detail of its name.
@@ -249,46 +253,46 @@ Status match(const Scene& low, const NamePairs& pairs, BakeSetup& setup)
 constexpr int kFirstUdim = 1001; // 1001 + u + 10 v, v upwards from the bottom of the first tile
 constexpr int kUdimColumns = 10;
 
-} // namespace
+// The simple side of a bake.
+struct LowSide {
+    LowSurface surface;
+    std::vector<glm::vec3> cage;
+};
 
-Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options)
+Result<LowSide> openLow(const Scene& low, const BakeModelOptions& options)
 {
-    if (Status ok = checkRanges(low, high, options); !ok)
+    if (Status ok = checkRanges(low, options); !ok)
         return ok.error();
-    if (Status ok = checkScenes(low, high, options); !ok)
+    if (Status ok = checkLow(low, options); !ok)
         return ok.error();
-    auto lowSurface = makeLowSurface(low, options.material, options.bake.frame, options.tangents);
-    if (!lowSurface)
-        return lowSurface.error();
-    auto cage = cagePositions(options.cage, *lowSurface);
+    auto surface = makeLowSurface(low, options.material, options.bake.frame, options.tangents);
+    if (!surface)
+        return surface.error();
+    auto cage = cagePositions(options.cage, *surface);
     if (!cage)
         return cage.error();
-    const NamePairs pairs = pairsOf(low, high, options);
-    for (Scene& scene : high.scenes)
-        if (!options.matchByName) // with matching, rays need single instances
-            joinParts(scene);
-    auto highSurface = HighSurface::make(high.scenes, options.bake.threads, options.matchByName);
-    if (!highSurface)
-        return highSurface.error();
     for (const Status& placed :
-         {checkPositions(lowSurface->positions, "low"), checkArea(*lowSurface), checkPositions(*cage, "options.cage"),
-          checkPositions({highSurface->box().low, highSurface->box().high}, "high")})
+         {checkPositions(surface->positions, "low"), checkArea(*surface), checkPositions(*cage, "options.cage")})
         if (!placed)
             return placed.error();
-    if (Status fits = checkCrowded(*lowSurface, *highSurface); !fits) // shoots rays, so the positions must be valid
+    return LowSide{std::move(*surface), std::move(*cage)};
+}
+
+Result<BakeSetup> joined(const Scene& low, LowSide side, const DetailedSurface& high, const BakeModelOptions& options)
+{
+    if (Status fits = checkCrowded(side.surface, high.surface); !fits)
         return fits.error();
-    BakeSetup setup{std::move(*lowSurface), std::move(*highSurface), options, {}};
+    BakeSetup setup{std::move(side.surface), high.surface, options, high.warnings};
     BakeOptions& bake = setup.options.bake;
     setup.options.cage = setup.options.others = nullptr;
-    bake.cage = std::move(*cage);
-    bake.highMaps = nullptr;
+    setup.options.matchByName = high.options.matchByName;
+    bake.highNormals = high.options.bake.highNormals;
+    bake.highMaps = high.maps;
+    bake.cage = std::move(side.cage);
     bake.matched.clear();
-    if (bake.highNormals == HighNormals::curved)
-        setup.high.curve(bake.threads);
-    if (options.ownMaps && showsNormals(bake.kind))
-        if (Status read = readOwnMaps(high, setup); !read)
-            return read.error();
-    if (options.matchByName) {
+    bake.starts = nullptr;
+    const NamePairs pairs = pairsOf(low, high, options);
+    if (setup.options.matchByName) {
         if (Status matched = match(low, pairs, setup); !matched)
             return matched.error();
     } else if (!pairs.example.empty()) {
@@ -296,10 +300,72 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
             "options.matchByName: the names of the meshes pair, such as {}; with it each is baked from its own only",
             pairs.example));
     }
-    bake.starts = nullptr;
-    if (Status ready = measureRayStarts(setup.low, setup.high, bake, restOf(low, options)); !ready)
+    const LowRest rest = restOf(low, options, setup.options.matchByName);
+    if (Status ready = measureRayStarts(setup.low, setup.high, bake, rest); !ready)
         return ready.error();
     return setup;
+}
+
+Result<BakedModel> bakeTiles(Result<BakeSetup> setup, const Progress& progress)
+{
+    if (!setup)
+        return setup.error();
+    BakedModel model;
+    model.warnings = std::move(setup->warnings);
+    const std::vector<int>& tiles = setup->options.tiles;
+    for (const int tile : tiles) {
+        auto map = bakeTile(*setup, tile, partOf(progress, model.maps.size(), tiles.size()));
+        if (!map)
+            return map.error();
+        model.maps.push_back(std::move(*map));
+    }
+    return model;
+}
+
+} // namespace
+
+Result<std::shared_ptr<const DetailedSurface>> openDetailed(HighModel high, const BakeModelOptions& options)
+{
+    if (Status ok = checkHigh(high); !ok)
+        return ok.error();
+    std::vector<std::string> names;
+    for (Scene& scene : high.scenes) {
+        addNames(scene, false, names);
+        if (!options.matchByName) // with matching, rays need single instances
+            joinParts(scene);
+    }
+    auto surface = HighSurface::make(high.scenes, options.bake.threads, options.matchByName);
+    if (!surface)
+        return surface.error();
+    if (Status placed = checkPositions({surface->box().low, surface->box().high}, "high"); !placed)
+        return placed.error();
+    if (options.bake.highNormals == HighNormals::curved)
+        surface->curve(options.bake.threads);
+    DetailedSurface open{std::move(*surface), nullptr, std::move(names), options, {}};
+    open.options.cage = open.options.others = nullptr;
+    if (options.ownMaps && showsNormals(options.bake.kind))
+        if (Status read = readOwnMaps(high, open); !read)
+            return read.error();
+    return std::make_shared<const DetailedSurface>(std::move(open));
+}
+
+Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options)
+{
+    auto side = openLow(low, options); // before the slower work
+    if (!side)
+        return side.error();
+    const auto open = openDetailed(std::move(high), options);
+    if (!open)
+        return open.error();
+    return joined(low, std::move(*side), **open, options);
+}
+
+Result<BakeSetup> prepareBake(const Scene& low, const DetailedSurface& high, const BakeModelOptions& options)
+{
+    auto side = openLow(low, options);
+    if (!side)
+        return side.error();
+    return joined(low, std::move(*side), high, options);
 }
 
 Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& progress)
@@ -332,18 +398,13 @@ Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& prog
 Result<BakedModel> bakeModel(const Scene& low, HighModel high, const BakeModelOptions& options,
                              const Progress& progress)
 {
-    auto setup = prepareBake(low, std::move(high), options);
-    if (!setup)
-        return setup.error();
-    BakedModel model;
-    model.warnings = std::move(setup->warnings);
-    for (const int tile : options.tiles) {
-        auto map = bakeTile(*setup, tile, partOf(progress, model.maps.size(), options.tiles.size()));
-        if (!map)
-            return map.error();
-        model.maps.push_back(std::move(*map));
-    }
-    return model;
+    return bakeTiles(prepareBake(low, std::move(high), options), progress);
+}
+
+Result<BakedModel> bakeModel(const Scene& low, const DetailedSurface& high, const BakeModelOptions& options,
+                             const Progress& progress)
+{
+    return bakeTiles(prepareBake(low, high, options), progress);
 }
 
 } // namespace cotan

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -87,8 +88,7 @@ void findRepeated(std::vector<Part>& parts)
 
 struct HighSurface::State {
     std::vector<Part> parts;
-    std::vector<float> fronts;         // of the parts: -1 if most triangles are wound against their vertex normals
-    std::vector<std::uint32_t> groups; // of the parts
+    std::vector<float> fronts; // of the parts: -1 if most triangles are wound against their vertex normals
     std::size_t triangles = 0;
     Bounds box;
     EmbreeScene embree; // shares the arrays of the parts
@@ -156,7 +156,6 @@ Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int thre
                 continue;
             state->parts.push_back(inWorld(mesh, instance.toWorld));
             state->fronts.push_back(frontSign(state->parts.back()));
-            state->groups.push_back(std::uint32_t(state->groups.size()));
             state->triangles += mesh.triangleCount();
             for (const glm::vec3& p : state->parts.back().positions) {
                 state->box.low = glm::min(state->box.low, p);
@@ -174,11 +173,13 @@ Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int thre
         state->embree.add(part.positions, part.indices, part.repeated, part.embreeIndices);
     if (Status committed = state->embree.commit(state->triangles); !committed)
         return committed.error();
-    return HighSurface(std::move(state));
+    std::vector<std::uint32_t> groups(state->parts.size());
+    std::iota(groups.begin(), groups.end(), 0);
+    return HighSurface(std::move(state), std::move(groups));
 }
 
-void HighSurface::setGroups(std::vector<std::uint32_t> groups) { state_->groups = std::move(groups); }
-std::uint32_t HighSurface::groupOf(std::size_t instance) const { return state_->groups[instance]; }
+void HighSurface::setGroups(std::vector<std::uint32_t> groups) { groups_ = std::move(groups); }
+std::uint32_t HighSurface::groupOf(std::size_t instance) const { return groups_[instance]; }
 
 void HighSurface::curve(int threads)
 {
@@ -226,7 +227,7 @@ Hit HighSurface::trace(const Ray& ray) const
 
 void HighSurface::nearest(const Probes& probes, float lift, HighNormals normals, Hits& hits) const
 {
-    const FilterContext context = filterContextFor(probes, state_->fronts, state_->groups);
+    const FilterContext context = filterContextFor(probes, state_->fronts, groups_);
     Lanes<float> lifts, farthest;
     for (std::size_t i = 0; i < kLanes; ++i) {
         lifts[i] = lift;
@@ -258,7 +259,7 @@ void HighSurface::nearest(const Probes& probes, float lift, HighNormals normals,
 
 void HighSurface::outermost(const Probes& probes, HighNormals normals, Hits& hits) const
 {
-    const FilterContext context = filterContextFor(probes, state_->fronts, state_->groups);
+    const FilterContext context = filterContextFor(probes, state_->fronts, groups_);
     Lanes<float> farthest;
     for (std::size_t i = 0; i < kLanes; ++i)
         farthest[i] = probes.before[i] + probes.reach[i];
@@ -273,8 +274,8 @@ void HighSurface::outermost(const Probes& probes, HighNormals normals, Hits& hit
         if (!hits.away[i])
             continue;
         // Surfaces that face the low surface are preferred.
-        const FilterContext facing{RayQuery(Coherence::coherent, keepFacing), state_->fronts.data(),
-                                   state_->groups.data(), normal};
+        const FilterContext facing{RayQuery(Coherence::coherent, keepFacing), state_->fronts.data(), groups_.data(),
+                                   normal};
         packet.traceAlone(i, state_->embree.scene, facing);
         hits.away[i] = packet.foundAway(i, state_->fronts, normal) ? 1 : 0;
     }
@@ -290,7 +291,7 @@ void HighSurface::anyBetween(const Probes& probes, Lanes<int>& any) const
     for (std::size_t i = 0; i < kLanes; ++i)
         farthest[i] = probes.before[i] + probes.reach[i];
     Packet packet(probes, probes.before, -1, farthest);
-    FilterContext context = filterContextFor(probes, state_->fronts, state_->groups);
+    FilterContext context = filterContextFor(probes, state_->fronts, groups_);
     occluded(packet.valid.data(), state_->embree.scene, context.query, packet.rays.ray);
     for (std::size_t i = 0; i < kLanes; ++i)
         any[i] = packet.valid[i] != 0 && packet.rays.ray.tfar[i] < 0; // Embree's mark for an occluded ray
@@ -318,7 +319,7 @@ std::size_t HighSurface::countHits(const Ray& ray) const
 bool HighSurface::blocked(const Ray& ray, std::uint32_t only) const
 {
     FilterContext context{RayQuery(Coherence::incoherent, only == Probes::kAny ? nullptr : keepOnly), nullptr,
-                          state_->groups.data()};
+                          groups_.data()};
     RTCRay r = toEmbree(ray).ray;
     r.id = only;
     occluded(state_->embree.scene, context.query, r);
