@@ -154,6 +154,19 @@ public:
         : low_(low), high_(high), options_(options), body_(body), groups_(groups), starts_(starts),
           distances_(groups.count, 0), reached_(groups.count, 0)
     {
+        for (const std::uint32_t i : low.indices)
+            extend(near_, low.positions[i]);
+        const glm::vec3 margin(1.001f * starts.limit);
+        near_ = {near_.low - margin, near_.high + margin};
+    }
+
+    // Whether anything of the low surface may be within the limit of one of the points.
+    bool reaches(std::span<const glm::vec3> points) const
+    {
+        Bounds box;
+        for (const glm::vec3& p : points)
+            extend(box, p);
+        return box.low == glm::min(box.low, near_.high) && box.high == glm::max(box.high, near_.low);
     }
 
     // Whether a triangle faces the same way as a point of the high surface with this normal, and shows this instance.
@@ -173,7 +186,7 @@ public:
     // Adds one point of the high surface with its normal.
     void add(glm::vec3 point, glm::vec3 normal, std::uint32_t instance, LastNearest& last)
     {
-        if (!(glm::dot(normal, normal) > 0))
+        if (!reaches({&point, 1}) || !(glm::dot(normal, normal) > 0))
             return;
         const auto accepts = accepting(normal, instance);
         float radius = starts_.limit;
@@ -236,6 +249,7 @@ public:
     }
 
 private:
+    static void extend(Bounds& box, glm::vec3 p) { box = {glm::min(box.low, p), glm::max(box.high, p)}; }
     bool shows(std::uint32_t triangle, std::uint32_t instance) const
     {
         return body_.highGroups.empty() || body_.highGroups[triangle] < 0
@@ -289,6 +303,7 @@ private:
     const Body& body_;
     const Groups& groups_;
     const RayStarts& starts_;
+    Bounds near_;                          // of the low surface and all within the limit
     std::vector<std::uint32_t> distances_; // bits of floats, per group
     std::vector<std::uint8_t> reached_;    // something belongs to the group
 };
@@ -376,6 +391,9 @@ Result<std::size_t> measure(const HighSurface& high, float spacing, Measuring& m
     std::size_t before = 0; // triangles of earlier instances
     for (std::uint32_t instance = 0; instance < high.instanceCount(); ++instance) {
         const HighSurface::Triangles part = high.triangles(instance);
+        const std::size_t first = std::exchange(before, before + part.indices.size() / 3);
+        if (!measuring.reaches(part.positions))
+            continue;
         parallelRanges<std::size_t>(0, (part.positions.size() + step - 1) / step, 4096,
                                     [&](std::size_t begin, std::size_t end) {
                                         LastNearest last;
@@ -386,11 +404,10 @@ Result<std::size_t> measure(const HighSurface& high, float spacing, Measuring& m
         parallelRanges<std::size_t>(0, part.indices.size() / 3, 1024, [&](std::size_t begin, std::size_t end) {
             LastNearest last;
             for (std::size_t f = begin; f != end; ++f)
-                if ((before + f) % every == 0)
+                if ((first + f) % every == 0)
                     pointsBetween(part, f, spacing,
                                   [&](glm::vec3 p, glm::vec3 n) { measuring.add(p, n, instance, last); });
         });
-        before += part.indices.size() / 3;
     }
     measuring.addRays(spacing, every);
     return every;
