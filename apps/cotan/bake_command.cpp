@@ -258,7 +258,7 @@ Json toJson(const BakeJob& job, const MapReport& done)
 }
 
 // Bakes, writes and tells of one map.
-Result<MapReport> bakeMap(const BakeJob& job, const MapJob& one, OpenBake& open)
+Result<MapReport> bakeMap(const BakeJob& job, const MapJob& one, OpenBake& open, bool isFirst)
 {
     MapReport done;
     done.job = one;
@@ -268,9 +268,9 @@ Result<MapReport> bakeMap(const BakeJob& job, const MapJob& one, OpenBake& open)
                             [&](const Progress&) { return prepareMap(job, open, one.object); });
     if (!map)
         return map.error();
-    for (const std::string& line : map->warnings)
-        warn(job.common, line);
     done.warnings.insert(done.warnings.end(), map->warnings.begin(), map->warnings.end());
+    for (const std::string& line : isFirst ? done.warnings : map->warnings) // an error so far is the only line
+        warn(job.common, line);
     done.prepareSeconds = watch.lap();
     const BakeSetup& setup = map->setup;
     const auto baked = withProgress(job.common, 1, "baking", [&](const Progress& progress) {
@@ -310,13 +310,11 @@ Result<std::vector<MapReport>> bakeAll(const BakeJob& job)
     const auto maps = mapsOf(job, open->low);
     if (!maps)
         return maps.error();
-    for (const std::string& line : open->warnings)
-        warn(job.common, line);
     std::vector<MapReport> reports;
     for (const MapJob& one : *maps) {
         if (job.perObject)
             say(job.common, "{}:", one.object);
-        auto done = bakeMap(job, one, *open);
+        auto done = bakeMap(job, one, *open, reports.empty());
         if (!done)
             return done.error();
         reports.push_back(std::move(*done));
