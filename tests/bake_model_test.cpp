@@ -331,7 +331,7 @@ TEST(OpenDetailed, severalBakesGiveTheBytesOfSeparateOnes)
             for (const BakeKind kind : {BakeKind::normal, BakeKind::height}) {
                 options.bake.kind = kind;
                 options.bake.width = kind == BakeKind::normal ? 12 : 20;
-                const auto shared = bakeModel(low, **open, options), alone = bakeModel(low, highOf(high), options);
+                const auto shared = bakeModel(low, *open, options), alone = bakeModel(low, highOf(high), options);
                 ASSERT_TRUE(shared && alone) << errorOf(shared) << errorOf(alone);
                 EXPECT_EQ(shared->maps[0].image.data, alone->maps[0].image.data) << matched << int(kind);
                 EXPECT_EQ(shared->warnings, alone->warnings);
@@ -339,7 +339,7 @@ TEST(OpenDetailed, severalBakesGiveTheBytesOfSeparateOnes)
             }
         EXPECT_EQ(maps[0] != maps[2], matched); // without names both see the upper surface
     }
-    EXPECT_EQ(errorOf(bakeModel(Scene{}, **openDetailed(highOf(high), smallOptions()), smallOptions())),
+    EXPECT_EQ(errorOf(bakeModel(Scene{}, *openDetailed(highOf(high), smallOptions()), smallOptions())),
               errorOf(bakeModel(Scene{}, highOf(high), smallOptions())));
 }
 
@@ -357,7 +357,7 @@ TEST(OpenDetailed, preparedBakesDoNotShareTheirMatches)
         low.instances[0].name = name;
         return low;
     };
-    const auto a = prepareBake(lowNamed("a_low"), **open, options), b = prepareBake(lowNamed("b_low"), **open, options);
+    const auto a = prepareBake(lowNamed("a_low"), *open, options), b = prepareBake(lowNamed("b_low"), *open, options);
     ASSERT_TRUE(a && b);
     const int red = code(0.2 / std::sqrt(1.04)); // of the normal of a slope of 0.2
     EXPECT_EQ(codes(bakeTile(*a, 1001)->image, 6, 4).x, 256 - red);

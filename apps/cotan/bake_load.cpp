@@ -208,7 +208,7 @@ Result<PreparedMap> prepareMap(const BakeJob& job, OpenBake& open, const std::st
     BakeModelOptions options = open.options;
     options.others = object.empty() ? nullptr : &split.others;
     options.cage = open.cage ? &*open.cage : nullptr;
-    auto setup = open.detailed ? prepareBake(split.object, *open.detailed, options)
+    auto setup = open.detailed ? prepareBake(split.object, open.detailed, options)
                                : prepareBake(split.object, std::move(open.high), options);
     if (!setup)
         return withBakeOptionNames(job, setup.error());

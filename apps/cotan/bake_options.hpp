@@ -46,7 +46,7 @@ struct BakeJob {
     std::string object;          // of the low mesh; empty: all
     bool perObject = false;      // a map for each object, with its name in all of `files`
     BakeFiles files;
-    std::string device;
+    std::string device = "auto";
 
     bool readsHighMaps() const { return options.ownMaps && showsNormals(options.bake.kind); }
 };

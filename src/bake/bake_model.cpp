@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -253,13 +254,9 @@ Status match(const Scene& low, const NamePairs& pairs, BakeSetup& setup)
 constexpr int kFirstUdim = 1001; // 1001 + u + 10 v, v upwards from the bottom of the first tile
 constexpr int kUdimColumns = 10;
 
-// The simple side of a bake.
-struct LowSide {
-    LowSurface surface;
-    std::vector<glm::vec3> cage;
-};
-
-Result<LowSide> openLow(const Scene& low, const BakeModelOptions& options)
+// open: called after the simple side was found to be sound, since it is slower.
+Result<BakeSetup> prepared(const Scene& low, const BakeModelOptions& options,
+                           const std::function<Result<std::shared_ptr<const DetailedSurface>>()>& open)
 {
     if (Status ok = checkRanges(low, options); !ok)
         return ok.error();
@@ -275,20 +272,19 @@ Result<LowSide> openLow(const Scene& low, const BakeModelOptions& options)
          {checkPositions(surface->positions, "low"), checkArea(*surface), checkPositions(*cage, "options.cage")})
         if (!placed)
             return placed.error();
-    return LowSide{std::move(*surface), std::move(*cage)};
-}
-
-Result<BakeSetup> joined(const Scene& low, LowSide side, const DetailedSurface& high, const BakeModelOptions& options)
-{
-    if (Status fits = checkCrowded(side.surface, high.surface); !fits)
+    const auto opened = open();
+    if (!opened)
+        return opened.error();
+    const DetailedSurface& high = **opened;
+    if (Status fits = checkCrowded(*surface, high.surface); !fits)
         return fits.error();
-    BakeSetup setup{std::move(side.surface), high.surface, options, high.warnings};
+    BakeSetup setup{std::move(*surface), high.surface, options, high.warnings};
     BakeOptions& bake = setup.options.bake;
     setup.options.cage = setup.options.others = nullptr;
     setup.options.matchByName = high.options.matchByName;
     bake.highNormals = high.options.bake.highNormals;
     bake.highMaps = high.maps;
-    bake.cage = std::move(side.cage);
+    bake.cage = std::move(*cage);
     bake.matched.clear();
     bake.starts = nullptr;
     const NamePairs pairs = pairsOf(low, high, options);
@@ -304,22 +300,6 @@ Result<BakeSetup> joined(const Scene& low, LowSide side, const DetailedSurface& 
     if (Status ready = measureRayStarts(setup.low, setup.high, bake, rest); !ready)
         return ready.error();
     return setup;
-}
-
-Result<BakedModel> bakeTiles(Result<BakeSetup> setup, const Progress& progress)
-{
-    if (!setup)
-        return setup.error();
-    BakedModel model;
-    model.warnings = std::move(setup->warnings);
-    const std::vector<int>& tiles = setup->options.tiles;
-    for (const int tile : tiles) {
-        auto map = bakeTile(*setup, tile, partOf(progress, model.maps.size(), tiles.size()));
-        if (!map)
-            return map.error();
-        model.maps.push_back(std::move(*map));
-    }
-    return model;
 }
 
 } // namespace
@@ -351,21 +331,13 @@ Result<std::shared_ptr<const DetailedSurface>> openDetailed(HighModel high, cons
 
 Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options)
 {
-    auto side = openLow(low, options); // before the slower work
-    if (!side)
-        return side.error();
-    const auto open = openDetailed(std::move(high), options);
-    if (!open)
-        return open.error();
-    return joined(low, std::move(*side), **open, options);
+    return prepared(low, options, [&] { return openDetailed(std::move(high), options); });
 }
 
-Result<BakeSetup> prepareBake(const Scene& low, const DetailedSurface& high, const BakeModelOptions& options)
+Result<BakeSetup> prepareBake(const Scene& low, std::shared_ptr<const DetailedSurface> high,
+                              const BakeModelOptions& options)
 {
-    auto side = openLow(low, options);
-    if (!side)
-        return side.error();
-    return joined(low, std::move(*side), high, options);
+    return prepared(low, options, [&] { return Result(std::move(high)); });
 }
 
 Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& progress)
@@ -395,16 +367,36 @@ Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& prog
     return map;
 }
 
+namespace {
+
+Result<BakedModel> bakeTiles(Result<BakeSetup> setup, const Progress& progress)
+{
+    if (!setup)
+        return setup.error();
+    BakedModel model;
+    model.warnings = std::move(setup->warnings);
+    const std::vector<int>& tiles = setup->options.tiles;
+    for (const int tile : tiles) {
+        auto map = bakeTile(*setup, tile, partOf(progress, model.maps.size(), tiles.size()));
+        if (!map)
+            return map.error();
+        model.maps.push_back(std::move(*map));
+    }
+    return model;
+}
+
+} // namespace
+
 Result<BakedModel> bakeModel(const Scene& low, HighModel high, const BakeModelOptions& options,
                              const Progress& progress)
 {
     return bakeTiles(prepareBake(low, std::move(high), options), progress);
 }
 
-Result<BakedModel> bakeModel(const Scene& low, const DetailedSurface& high, const BakeModelOptions& options,
-                             const Progress& progress)
+Result<BakedModel> bakeModel(const Scene& low, std::shared_ptr<const DetailedSurface> high,
+                             const BakeModelOptions& options, const Progress& progress)
 {
-    return bakeTiles(prepareBake(low, high, options), progress);
+    return bakeTiles(prepareBake(low, std::move(high), options), progress);
 }
 
 } // namespace cotan

@@ -77,7 +77,8 @@ struct DetailedSurface {
 // extrusion or the search `nearest` together with a cage. ErrorKind::input: a cage with another number of triangles, a
 // mesh without its match.
 Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options);
-Result<BakeSetup> prepareBake(const Scene& low, const DetailedSurface& high, const BakeModelOptions& options);
+Result<BakeSetup> prepareBake(const Scene& low, std::shared_ptr<const DetailedSurface> high,
+                              const BakeModelOptions& options);
 
 // Bakes one tile, fills around its charts and stores it. Calls `progress` from several threads, not always in order.
 // Errors: ErrorKind::input if no triangle lies on the tile, ErrorKind::usage for a number below 1001, both beginning

@@ -312,7 +312,7 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
 
 namespace {
 
-// Replaces the picture's scene by the model at another time. A pose changes no material and no image.
+// Replaces the scene by the model at another time. A pose changes no material and no image.
 Status pose(const PictureOptions& options, double seconds, Picture& picture)
 {
     PictureOptions then = options;

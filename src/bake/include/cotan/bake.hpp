@@ -182,7 +182,7 @@ Result<BakedModel> bakeModel(const Scene& low, HighModel high, const BakeModelOp
 Result<std::shared_ptr<const DetailedSurface>> openDetailed(HighModel high, const BakeModelOptions& options);
 
 // Bakes as with the HighModel that `high` was opened from; gives the same bytes.
-Result<BakedModel> bakeModel(const Scene& low, const DetailedSurface& high, const BakeModelOptions& options = {},
-                             const Progress& progress = {});
+Result<BakedModel> bakeModel(const Scene& low, std::shared_ptr<const DetailedSurface> high,
+                             const BakeModelOptions& options = {}, const Progress& progress = {});
 
 } // namespace cotan

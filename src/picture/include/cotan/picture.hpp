@@ -191,7 +191,7 @@ private:
     glm::dvec3 middle_{0};
 };
 
-// ---- a picture -----------------------------------------------------------------------------
+// ---- an open model --------------------------------------------------------------------------
 
 // A loaded model and a view of it. The caller sets the frame and the output.
 struct Picture {
@@ -224,10 +224,10 @@ std::string deviceOf(const PictureOptions& options);
 // Call once per Picture, which must outlive the renderer. Errors: of openRenderer, Renderer::load and draw.
 Result<std::unique_ptr<Renderer>> openPictureRenderer(const PictureOptions& options, Picture& picture);
 
-// Moves the model and loads it into the renderer of the picture: with options.turntable by `to` degrees from where it
-// was read; else to `to` seconds of options.animation, which must not be empty. Reads no file. The camera, the
-// exposure, the frames of meshes and the height of the ground stay; lights, the shadow on the ground and edges follow.
-// After an error the picture cannot be used. Errors: as AnimatedGltf::at, limitCoverage and Renderer::load.
+// Moves the model, for another image by the same renderer: with options.turntable by `to` degrees from where it was
+// read; else to `to` seconds of options.animation, which must not be empty. Reads no file. The camera, the exposure,
+// the frames of meshes and the ground's height stay; lights, the shadow on the ground and edges follow. After an error
+// `picture` must not be used. Errors: as AnimatedGltf::at, limitCoverage and Renderer::load.
 Status movePicture(const PictureOptions& options, double to, Picture& picture, Renderer& renderer);
 
 // The values of --view.
