@@ -27,6 +27,8 @@ struct Part { // an instance in world space
     std::vector<std::uint8_t> repeated; // per triangle: not 0 if it coincides with an earlier one; empty: none does
     std::vector<std::uint32_t> embreeIndices; // for Embree, if some triangles are left out
     std::vector<ShapeOperator> shapes;        // per vertex; empty: not prepared
+    Bounds box;
+    float longestEdge = 0; // of all triangles
 };
 
 namespace {
@@ -157,10 +159,12 @@ Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int thre
             state->parts.push_back(inWorld(mesh, instance.toWorld));
             state->fronts.push_back(frontSign(state->parts.back()));
             state->triangles += mesh.triangleCount();
-            for (const glm::vec3& p : state->parts.back().positions) {
-                state->box.low = glm::min(state->box.low, p);
-                state->box.high = glm::max(state->box.high, p);
-            }
+            Part& part = state->parts.back();
+            for (const glm::vec3& p : part.positions)
+                part.box = {glm::min(part.box.low, p), glm::max(part.box.high, p)};
+            for (std::size_t i = 0; i + 2 < part.indices.size(); i += 3)
+                part.longestEdge = std::max(part.longestEdge, longestEdge(part.positions, &part.indices[i]));
+            state->box = {glm::min(state->box.low, part.box.low), glm::max(state->box.high, part.box.high)};
         }
     if (state->triangles == 0)
         return inputError(fmt::format("{}: expected triangles; found none", scenes.empty() ? "" : scenes[0].name));
@@ -190,7 +194,12 @@ void HighSurface::curve(int threads)
 HighSurface::Triangles HighSurface::triangles(std::size_t instance) const
 {
     const Part& part = state_->parts[instance];
-    return {{part.positions.data(), part.normals.size()}, part.normals, part.indices, part.repeated};
+    return {{part.positions.data(), part.normals.size()},
+            part.normals,
+            part.indices,
+            part.repeated,
+            part.box,
+            part.longestEdge};
 }
 
 std::size_t HighSurface::instanceCount() const { return state_->parts.size(); }

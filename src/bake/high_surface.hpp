@@ -99,6 +99,8 @@ public:
         std::span<const glm::vec3> positions, normals; // normals: unit, or zero if unknown
         std::span<const std::uint32_t> indices;
         std::span<const std::uint8_t> repeated; // per triangle: not 0 if rays skip it; empty: none is skipped
+        Bounds box;
+        float longestEdge = 0; // of all triangles
     };
     Triangles triangles(std::size_t instance) const;
     std::size_t instanceCount() const;

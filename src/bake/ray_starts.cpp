@@ -155,17 +155,14 @@ public:
           distances_(groups.count, 0), reached_(groups.count, 0)
     {
         for (const std::uint32_t i : low.indices)
-            extend(near_, low.positions[i]);
+            near_ = {glm::min(near_.low, low.positions[i]), glm::max(near_.high, low.positions[i])};
         const glm::vec3 margin(1.001f * starts.limit);
         near_ = {near_.low - margin, near_.high + margin};
     }
 
-    // Whether anything of the low surface may be within the limit of one of the points.
-    bool reaches(std::span<const glm::vec3> points) const
+    // Whether anything of the low surface may be within the limit of the box.
+    bool reaches(const Bounds& box) const
     {
-        Bounds box;
-        for (const glm::vec3& p : points)
-            extend(box, p);
         return box.low == glm::min(box.low, near_.high) && box.high == glm::max(box.high, near_.low);
     }
 
@@ -186,7 +183,7 @@ public:
     // Adds one point of the high surface with its normal.
     void add(glm::vec3 point, glm::vec3 normal, std::uint32_t instance, LastNearest& last)
     {
-        if (!reaches({&point, 1}) || !(glm::dot(normal, normal) > 0))
+        if (!reaches({point, point}) || !(glm::dot(normal, normal) > 0))
             return;
         const auto accepts = accepting(normal, instance);
         float radius = starts_.limit;
@@ -249,7 +246,6 @@ public:
     }
 
 private:
-    static void extend(Bounds& box, glm::vec3 p) { box = {glm::min(box.low, p), glm::max(box.high, p)}; }
     bool shows(std::uint32_t triangle, std::uint32_t instance) const
     {
         return body_.highGroups.empty() || body_.highGroups[triangle] < 0
@@ -308,13 +304,6 @@ private:
     std::vector<std::uint8_t> reached_;    // something belongs to the group
 };
 
-// The longest edge of a triangle. v: the indices of its vertices.
-template<class Positions> float longestEdge(const Positions& positions, const std::uint32_t* v)
-{
-    const glm::vec3 a = positions[v[0]], b = positions[v[1]], c = positions[v[2]];
-    return std::sqrt(std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)}));
-}
-
 // The number of pieces of a triangle's edges for points about `spacing` apart; 0 if it is small, or rays skip it.
 int cutsOf(const HighSurface::Triangles& part, std::size_t triangle, float spacing)
 {
@@ -349,7 +338,7 @@ Result<std::size_t> stepFor(const HighSurface& high, std::size_t vertices, float
     std::size_t between = 0;
     for (std::size_t instance = 0; instance < high.instanceCount(); ++instance) {
         const HighSurface::Triangles part = high.triangles(instance);
-        for (std::size_t f = 0; f < part.indices.size() / 3; ++f)
+        for (std::size_t f = 0; part.longestEdge > spacing && f < part.indices.size() / 3; ++f)
             if (const auto cuts = std::size_t(cutsOf(part, f, spacing)))
                 between += (cuts + 1) * (cuts + 2) / 2;
     }
@@ -392,7 +381,7 @@ Result<std::size_t> measure(const HighSurface& high, float spacing, Measuring& m
     for (std::uint32_t instance = 0; instance < high.instanceCount(); ++instance) {
         const HighSurface::Triangles part = high.triangles(instance);
         const std::size_t first = std::exchange(before, before + part.indices.size() / 3);
-        if (!measuring.reaches(part.positions))
+        if (!measuring.reaches(part.box))
             continue;
         parallelRanges<std::size_t>(0, (part.positions.size() + step - 1) / step, 4096,
                                     [&](std::size_t begin, std::size_t end) {
@@ -401,7 +390,8 @@ Result<std::size_t> measure(const HighSurface& high, float spacing, Measuring& m
                                             if (i < part.positions.size())
                                                 measuring.add(part.positions[i], part.normals[i], instance, last);
                                     });
-        parallelRanges<std::size_t>(0, part.indices.size() / 3, 1024, [&](std::size_t begin, std::size_t end) {
+        const std::size_t large = part.longestEdge > spacing ? part.indices.size() / 3 : 0;
+        parallelRanges<std::size_t>(0, large, 1024, [&](std::size_t begin, std::size_t end) {
             LastNearest last;
             for (std::size_t f = begin; f != end; ++f)
                 if ((first + f) % every == 0)
