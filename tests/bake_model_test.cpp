@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "bake/bake_surfaces.hpp"
 #include "bake_scene.hpp"
 #include "cotan/bake.hpp"
 #include "cotan/convention.hpp"
@@ -304,6 +305,63 @@ TEST(BakeModel, aTransformThatLeavesNoAreaIsRefused)
     low.instances[0].toWorld = glm::mat4(0);
     EXPECT_EQ(errorOf(bakeModel(low, highOf(high), smallOptions())),
               "low: expected a triangle with an area; all 2 have none in world space");
+}
+
+// Two simple models, two detailed ones beside each other, in other kinds and sizes: the first bake must not change the
+// second. Names are matched by instance, so that each bake has groups of its own.
+TEST(OpenDetailed, severalBakesGiveTheBytesOfSeparateOnes)
+{
+    const auto named = [](Scene scene, std::initializer_list<std::string> names) {
+        for (std::size_t i = 0; i < names.size(); ++i)
+            scene.instances[i].name = names.begin()[i];
+        return scene;
+    };
+    const Scene high = named(sceneOfMeshes({square({0, 0, 0.1f}, {1, 0, 0.2f}), square({0, 0, 0.2f}, {1, 0, -0.2f})}),
+                             {"a_high", "b_high"});
+    const Scene lows[] = {named(sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})}), {"a_low"}),
+                          named(sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})}), {"b_low"})};
+    for (const bool matched : {false, true}) {
+        BakeModelOptions options = smallOptions();
+        options.matchByName = matched;
+        options.bake.highNormals = HighNormals::curved;
+        const auto open = openDetailed(highOf(high), options);
+        ASSERT_TRUE(open) << open.error().message;
+        std::vector<std::vector<std::byte>> maps;
+        for (const Scene& low : lows)
+            for (const BakeKind kind : {BakeKind::normal, BakeKind::height}) {
+                options.bake.kind = kind;
+                options.bake.width = kind == BakeKind::normal ? 12 : 20;
+                const auto shared = bakeModel(low, *open, options), alone = bakeModel(low, highOf(high), options);
+                ASSERT_TRUE(shared && alone) << errorOf(shared) << errorOf(alone);
+                EXPECT_EQ(shared->maps[0].image.data, alone->maps[0].image.data) << matched << int(kind);
+                EXPECT_EQ(shared->warnings, alone->warnings);
+                maps.push_back(shared->maps[0].image.data);
+            }
+        EXPECT_EQ(maps[0] != maps[2], matched); // without names both see the upper surface
+    }
+    EXPECT_EQ(errorOf(bakeModel(Scene{}, *openDetailed(highOf(high), smallOptions()), smallOptions())),
+              errorOf(bakeModel(Scene{}, highOf(high), smallOptions())));
+}
+
+// Both are prepared before either is baked.
+TEST(OpenDetailed, preparedBakesDoNotShareTheirMatches)
+{
+    Scene high = sceneOfMeshes({square({0, 0, 0.1f}, {1, 0, 0.2f}), square({0, 0, 0.2f}, {1, 0, -0.2f})});
+    high.instances[0].name = "a_high", high.instances[1].name = "b_high";
+    BakeModelOptions options = smallOptions();
+    options.matchByName = true;
+    const auto open = openDetailed(highOf(high), options);
+    ASSERT_TRUE(open);
+    const auto lowNamed = [](const std::string& name) {
+        Scene low = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})});
+        low.instances[0].name = name;
+        return low;
+    };
+    const auto a = prepareBake(lowNamed("a_low"), *open, options), b = prepareBake(lowNamed("b_low"), *open, options);
+    ASSERT_TRUE(a && b);
+    const int red = code(0.2 / std::sqrt(1.04)); // of the normal of a slope of 0.2
+    EXPECT_EQ(codes(bakeTile(*a, 1001)->image, 6, 4).x, 256 - red);
+    EXPECT_EQ(codes(bakeTile(*b, 1001)->image, 6, 4).x, red);
 }
 
 } // namespace

@@ -7,7 +7,7 @@ target_compile_definitions(cli_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(cli_test cotan)
 # Files that are read and written, by functions and by every command.
 cotan_test(files_test
-  SOURCES app_shared_test.cpp files_test.cpp file_errors_test.cpp module_test.cpp overwrite_test.cpp
+  SOURCES app_shared_test.cpp files_test.cpp file_errors_test.cpp module_test.cpp overwrite_test.cpp open_once_test.cpp
   LIBRARIES cotan_app cotan_files cotan_model cotan_scene nlohmann_json::nlohmann_json fmt::fmt)
 add_library(module_versions MODULE module_versions.cpp)
 # Outside the folder of the tests, where it would always be found.

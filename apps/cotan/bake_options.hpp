@@ -1,4 +1,4 @@
-// The options of `cotan bake`, and what the baker needs of them.
+// The options of `cotan bake`, and the job that they describe.
 #pragma once
 
 #include <optional>
@@ -7,46 +7,92 @@
 
 #include "bake/bake_surfaces.hpp"
 #include "common.hpp"
+#include "core/named_values.hpp"
 #include "loading.hpp"
 
 namespace cotan::app {
 
-struct BakeCommandOptions : CommonOptions {
-    std::vector<std::string> high;
-    std::string low, cage, mask, device = "auto";
-    std::string frame = "mikktspace", kind = "normal", size = "1024x1024", convention = "opengl",
-                expansion; // empty: depends on -o
-    TangentOrigin tangents = TangentOrigin::stored;
-    std::string highNormals = "smooth", highFrame, highConvention; // empty: not given
-    std::vector<std::string> highMaps;
-    Up up = Up::y;
-    std::optional<Up> highUp; // empty: as `up`
-    std::string object;       // of the low mesh; empty: all
-    std::filesystem::path verify;
-    int samples = 1, bits = 8, padding = 0, material = -1, udim = 1001, occlusionRays = 64;
-    int memory = kDefaultMemory;
-    float maxDistance = 0, extrusion = 0;
-    std::string search = "first", occluders = "matched";
-    bool dither = false, matchByName = false, perObject = false;
+inline constexpr Named<BakeKind> kBakeKinds[] = {{"normal", BakeKind::normal},
+                                                 {"object-normal", BakeKind::objectNormal},
+                                                 {"height", BakeKind::height},
+                                                 {"ao", BakeKind::occlusion}};
+inline constexpr Named<PixelType> kBitCounts[] = {
+    {"8", PixelType::unorm8}, {"16", PixelType::unorm16}, {"32", PixelType::float32}};
+
+// Where the normals of the high mesh come from.
+enum class HighSource { smooth, curved, face, map };
+inline constexpr Named<HighSource> kHighSources[] = {{"smooth", HighSource::smooth},
+                                                     {"curved", HighSource::curved},
+                                                     {"face", HighSource::face},
+                                                     {"map", HighSource::map}};
+
+// The output of one map; empty: not wanted.
+struct BakeFiles {
+    std::filesystem::path map, mask;
+    std::filesystem::path verify; // a folder
 };
 
-// Everything loaded and prepared for one bake.
+// What to bake.
 struct BakeJob {
-    Scene lowScene;
-    BakeSetup setup;
-    std::vector<std::string> warnings; // from loading and preparing, one line each
-    std::size_t objects = 1;           // number of low-mesh objects baked into this map
+    CommonOptions common;
+    std::vector<std::string> high, highMaps;
+    std::string low, cage;
+    Up up = Up::y, highUp = Up::y;
+    int memory = kDefaultMemory;
+    HighSource highNormals = HighSource::smooth;
+    bool namesHighFrame = false; // options.highFrame was given
+    std::string convention;      // as it was given
+    BakeModelOptions options;    // one tile; without cage and others
+    std::string object;          // of the low mesh; empty: all
+    bool perObject = false;      // a map for each object, with its name in all of `files`
+    BakeFiles files;
+    std::string device = "auto";
 
-    Frame frame() const { return setup.options.bake.frame; }
+    bool readsHighMaps() const { return options.ownMaps && showsNormals(options.bake.kind); }
 };
 
-// Checks the options, loads the files and prepares the bake. Errors: those of the options and files.
-Result<BakeJob> loadBake(const BakeCommandOptions& o);
+// The options, as the command line sets them: most members of the job, and words that are yet to be parsed.
+struct BakeCommandOptions : CommonOptions {
+    BakeJob job;
+    std::string frame = "mikktspace", size = "1024x1024", convention = "opengl", highFrame, highConvention;
+    std::optional<Expansion> expansion; // none: depends on -o
+    std::optional<Up> highUp;           // none: as of the low mesh
+    int udim = 1001;
+};
 
-// The names of the low mesh's objects. Errors: those of reading it; ErrorKind::input if it has no object.
-Result<std::vector<std::string>> lowObjects(const BakeCommandOptions& o);
+void declareBakeOptions(Arguments& a, BakeCommandOptions& o);
+
+// Parses and checks the options. Reads and writes no file. Errors: ErrorKind::usage.
+Result<BakeJob> bakeJobOf(const BakeCommandOptions& o);
+
+// ---- the open models ------------------------------------------------------------------------
+
+// The models of a job, each read once.
+struct OpenBake {
+    BakeModelOptions options; // those of the job, with the frame that the high mesh's maps name
+    Scene low;
+    std::optional<Scene> cage;
+    std::optional<GltfDocument> document;            // of the low mesh, if the map is put into a glTF model
+    HighModel high;                                  // for one map
+    std::shared_ptr<const DetailedSurface> detailed; // for several
+    std::vector<std::string> warnings;
+};
+
+// Reads the models. Errors: those of the files; ErrorKind::input if the low mesh lacks the object, or has none.
+Result<OpenBake> openBake(const BakeJob& job);
+
+// One map, ready to be baked.
+struct PreparedMap {
+    Scene low; // what is baked
+    BakeSetup setup;
+    std::vector<std::string> warnings; // of preparing it
+};
+
+// object: of the low mesh; empty: all. Takes open.high if there is no open.detailed. Errors: those of prepareBake, with
+// the names of options.
+Result<PreparedMap> prepareMap(const BakeJob& job, OpenBake& open, const std::string& object);
 
 // Replaces the name of a library option in an error by that of the command's option.
-Error withBakeOptionNames(const BakeCommandOptions& o, const Error& error);
+Error withBakeOptionNames(const BakeJob& job, const Error& error);
 
 } // namespace cotan::app

@@ -6,12 +6,12 @@
 namespace cotan::app {
 
 Result<Picture> loadPicture(const PictureOptions& options, const CommonOptions& common,
-                            std::initializer_list<FrameChoice> frames, const View* like)
+                            std::initializer_list<FrameChoice> frames)
 {
     Stopwatch watch;
     const auto open = [&] {
         const ProgressLine loading(common.quiet || options.model.empty(), 0, "loading " + options.model);
-        return cotan::openPicture(options, common.threads, frames, like);
+        return cotan::openPicture(options, common.threads, frames);
     };
     auto picture = open();
     if (!picture)

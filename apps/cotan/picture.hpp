@@ -9,7 +9,7 @@ namespace cotan::app {
 
 // openPicture and openPictureRenderer with a progress line; warnings are printed, errors have option names.
 Result<Picture> loadPicture(const PictureOptions& options, const CommonOptions& common,
-                            std::initializer_list<FrameChoice> frames, const View* like = nullptr);
+                            std::initializer_list<FrameChoice> frames);
 Result<std::unique_ptr<Renderer>> makePictureRenderer(const PictureOptions& options, const CommonOptions& common,
                                                       Picture& picture);
 

@@ -28,6 +28,32 @@ struct RenderCommandOptions : CommonOptions {
     double rate = 0;    // images per second; 0: the usual rate of the file
 };
 
+// One image.
+struct Shot {
+    std::filesystem::path file;
+    double at = 0; // seconds of the animation, or degrees on the turntable
+};
+
+// What the options ask for.
+struct RenderJob {
+    CommonOptions common;
+    PictureOptions picture;
+    FrameChoice frame;
+    std::vector<Shot> shots; // one or more
+    double rate = 0;         // images per second of one file for all shots; 0: each has its own
+};
+
+// What was drawn. The error is that of the first image.
+struct Rendered {
+    Json scene;
+    std::size_t triangles = 0;
+    std::string frame, frames, device;
+    std::optional<AngleStatistics> error;
+    double loadSeconds = 0, openSeconds = 0, uploadSeconds = 0, drawSeconds = 0, writeSeconds = 0, totalSeconds = 0;
+};
+
+// ---- from the options to the job -------------------------------------------------------------
+
 constexpr double kUsualRate = 24, kUsualGifRate = 25; // GIF stores durations in hundredths of a second
 
 double rateOf(const RenderCommandOptions& o)
@@ -35,87 +61,6 @@ double rateOf(const RenderCommandOptions& o)
     if (o.rate > 0)
         return o.rate;
     return animationRate(o.output, kUsualRate) == kUsualRate ? kUsualRate : kUsualGifRate;
-}
-
-Result<Image> drawPicture(Renderer& renderer, const Picture& picture, const RenderCommandOptions& o, Json& report)
-{
-    auto image = drawShow(renderer, picture.scene, picture.view, o.picture.show, keepsFloats(o.output),
-                          [&](const AngleStatistics& degrees) {
-                              report["error_against_exact"] = toJson(degrees);
-                              say(o, "{} against exact: {}", nameOfFrames(picture.frames.front(), picture.scene),
-                                  toText(degrees));
-                          });
-    if (image)
-        if (Status laid = layEdges(renderer, picture.view, o.picture, picture.edges, *image); !laid)
-            return laid.error();
-    return image;
-}
-
-// Shared by the images of a sequence: the view of the first image, whose camera covers the whole animation and whose
-// environment takes a second to compute, and the animation file, if any.
-struct Sequence {
-    std::optional<View> view;
-    std::unique_ptr<AnimationWriter> animation;
-};
-
-// The model with its chosen frame. like: the view of the previous image.
-Result<Picture> loadFramed(const RenderCommandOptions& o, FrameChoice frame, const View* like)
-{
-    auto picture = loadPicture(o.picture, o, {frame, Frame::exact}, like);
-    if (!picture)
-        return picture;
-    picture->view.setFrame(picture->frames.front());
-    if (const std::string note = frameNote(picture->scene, picture->frames.front()); !note.empty())
-        warn(o, note);
-    picture->view.output = outputOf(o.picture.show);
-    return picture;
-}
-
-// Number of draws per image: errors also need the reference frame.
-std::size_t drawsOf(const RenderCommandOptions& o) { return o.picture.show == "error" ? 2 : 1; }
-
-Status writeNext(const RenderCommandOptions& o, const Image& image, Sequence& sequence)
-{
-    return sequence.animation ? sequence.animation->add(image) : writeImage(o.output, image);
-}
-
-// Draws one image to o.output, or appends it to the animation file.
-Status renderOne(const RenderCommandOptions& o, FrameChoice frame, Sequence& sequence)
-{
-    std::optional<View>& shared = sequence.view;
-    Stopwatch total;
-    auto picture = loadFramed(o, frame, shared ? &*shared : nullptr);
-    if (!picture)
-        return picture.error();
-
-    Stopwatch watch;
-    auto renderer = makePictureRenderer(o.picture, o, *picture);
-    if (!renderer)
-        return renderer.error();
-    shared = picture->view;
-    const double openSeconds = watch.lap() - (*renderer)->uploadSeconds();
-    Json report = {{"command", "render"}};
-    const auto image = drawWithProgress(o, **renderer, drawsOf(o), "drawing",
-                                        [&] { return drawPicture(**renderer, *picture, o, report); });
-    if (!image)
-        return image.error();
-    const double drawSeconds = watch.lap();
-    if (Status written = writeNext(o, *image, sequence); !written)
-        return written;
-    const double writeSeconds = watch.lap();
-
-    report.update(describeScene(o.picture, *picture));
-    report["frame"] = nameOf(picture->frames.front());
-    report["view"] = o.picture.show;
-    report["shading"] = wordOf(kShadings, o.picture.shading);
-    report["device"] = (*renderer)->device();
-    report["output"] = o.output.string();
-    report["seconds"] = {
-        {"load", picture->loadSeconds}, {"open_device", openSeconds}, {"upload", (*renderer)->uploadSeconds()},
-        {"draw", drawSeconds},          {"write", writeSeconds},      {"total", total.lap()}};
-    say(o, "{}: {}x{}, {} triangles, frame {}, on {}", o.output.string(), picture->view.width, picture->view.height,
-        trianglesDrawn(picture->scene), nameOfFrames(picture->frames.front(), picture->scene), (*renderer)->device());
-    return writeReport(o, report);
 }
 
 constexpr int kMaxFrames = 100000;
@@ -154,97 +99,17 @@ std::filesystem::path numbered(std::filesystem::path file, int number)
     return file.replace_filename(name);
 }
 
-// Starts one file for all images.
-Status beginAnimation(const RenderCommandOptions& o, std::size_t images, Sequence& sequence)
-{
-    const double requested = rateOf(o);
-    auto animation = createAnimation(o.output, {o.picture.size.width, o.picture.size.height, images, requested});
-    if (!animation)
-        return animation.error();
-    sequence.animation = std::move(*animation);
-    if (const double rate = animationRate(o.output, requested); rate != requested)
-        warn(o, "{}: GIF counts in hundredths of a second: {:.4g} images per second, not {:g}", o.output.string(), rate,
-             requested);
-    return Done{};
-}
-
-// Completes the animation file, if any.
-Status finish(Sequence& sequence) { return sequence.animation ? sequence.animation->finish() : Status(Done{}); }
-
-// Draws the images of --frames: the model is loaded in a new pose for each.
-Status renderFrames(const RenderCommandOptions& o, FrameChoice frame, const std::vector<int>& numbers,
-                    Sequence& sequence)
-{
-    RenderCommandOptions one = o;
-    for (const int number : numbers) {
-        if (!sequence.animation)
-            one.output = numbered(o.output, number);
-        one.picture.time = number / rateOf(o);
-        if (Status drawn = renderOne(one, frame, sequence); !drawn)
-            return drawn;
-        if (one.quiet && !sequence.animation) // the first image has printed its own line
-            say(o, "{}", one.output.string());
-        one.quiet = true; // all warnings were printed with the first image
-    }
-    return finish(sequence);
-}
-
-// Draws the images of --turntable: the model is loaded once, its shadow is computed for each image.
-Status renderTurn(const RenderCommandOptions& o, FrameChoice frame, const std::vector<int>& numbers, Sequence& sequence)
-{
-    RenderCommandOptions one = o;
-    one.picture.turntable = true;
-    auto picture = loadFramed(one, frame, nullptr);
-    if (!picture)
-        return picture.error();
-    auto renderer = makePictureRenderer(one.picture, o, *picture);
-    if (!renderer)
-        return renderer.error();
-    const Turntable table(picture->scene);
-    one.quiet = true; // no line per image
-    Json none;
-    const std::size_t draws = numbers.size() * drawsOf(o);
-    const auto drawAll = [&]() -> Status {
-        for (const int number : numbers) {
-            if (number > 0) {
-                table.turn(picture->scene, 360.0 * number / double(numbers.size()));
-                if (Status loaded = (*renderer)->load(picture->scene, /*sameImages=*/true); !loaded)
-                    return loaded;
-                picture->view.ground = groundOf(one.picture, picture->scene, picture->view);
-                if (o.picture.edges != Edges::none)
-                    picture->edges = surfaceEdges(picture->scene);
-            }
-            one.output = sequence.animation ? o.output : numbered(o.output, number);
-            const auto image = drawPicture(**renderer, *picture, one, none);
-            if (!image)
-                return image.error();
-            if (Status written = writeNext(one, *image, sequence); !written)
-                return written;
-        }
-        return Done{};
-    };
-    if (Status drawn = drawWithProgress(o, **renderer, draws, "drawing", drawAll); !drawn)
-        return drawn;
-    if (Status whole = finish(sequence); !whole)
-        return whole;
-    say(o, "{}: {} images of {}x{}, {} triangles, frame {}, on {}", o.output.string(), numbers.size(),
-        picture->view.width, picture->view.height, trianglesDrawn(picture->scene),
-        nameOfFrames(picture->frames.front(), picture->scene), (*renderer)->device());
-    return Done{};
-}
-
 // Refuses a transparent background in formats without alpha, where it would be black.
-Status checkBackground(const RenderCommandOptions& o)
+Status checkBackground(const PictureOptions& picture, const std::filesystem::path& output)
 {
-    if (o.picture.background != Background::none || imageFormatHas(o.output, &ImageFormat::alpha)
-        || !imageFormatOf(o.output))
+    if (picture.background != Background::none || imageFormatHas(output, &ImageFormat::alpha) || !imageFormatOf(output))
         return Done{};
     return usageError(fmt::format(
-        "--background none: {} files keep no transparency; expected {}", o.output.extension().string(),
+        "--background none: {} files keep no transparency; expected {}", output.extension().string(),
         imageEndings([](const ImageFormat& f) { return (f.writes || f.animation) && f.alpha; }, ", ", " or ")));
 }
 
-Status run(const RenderCommandOptions& o)
+Result<RenderJob> jobOf(const RenderCommandOptions& o)
 {
     if (o.output.empty())
         return usageError("render needs -o FILE");
@@ -252,38 +117,151 @@ Status run(const RenderCommandOptions& o)
     if (!frame)
         return frame.error();
     if (Status fits = checkLighting(o.picture, *frame); !fits)
-        return fits;
-    if (Status keeps = checkBackground(o); !keeps)
-        return keeps;
+        return fits.error();
+    if (Status keeps = checkBackground(o.picture, o.output); !keeps)
+        return keeps.error();
     const auto numbers = imageNumbers(o);
     if (!numbers)
         return numbers.error();
-    const bool animated = isAnimation(o.output);
+    const bool animated = isAnimation(o.output), turns = o.turntable > 0;
     if (animated && numbers->empty())
         return usageError(fmt::format("-o: {} files hold the images of --turntable or --frames; found neither",
                                       o.output.extension().string()));
-    std::vector<PlannedOutput> outputs;
-    for (const int number : *numbers)
-        if (!animated)
-            outputs.push_back({"-o", numbered(o.output, number)});
-    if (outputs.empty())
-        outputs.push_back({"-o", o.output});
-    if (Status planned = beginOutputs(o, outputs); !planned)
-        return planned;
-    Sequence sequence;
-    RenderCommandOptions one = o;
-    one.picture.use = o.picture.show != "shaded" ? PictureUse::data
+    const double rate = rateOf(o);
+    RenderJob job{o, o.picture, *frame, {}, animated ? rate : 0};
+    job.picture.turntable = turns;
+    job.picture.use = o.picture.show != "shaded" ? PictureUse::data
         : keepsFloats(o.output)                  ? PictureUse::radiance
                                                  : PictureUse::shown;
-    if (numbers->empty())
-        return renderOne(one, *frame, sequence);
-    if (animated)
-        if (Status begun = beginAnimation(o, numbers->size(), sequence); !begun)
-            return begun;
-    const auto draw = o.turntable > 0 ? renderTurn : renderFrames;
-    if (Status drawn = draw(one, *frame, *numbers, sequence); !drawn)
-        return drawn;
-    return Done{};
+    for (const int number : *numbers)
+        job.shots.push_back({animated ? o.output : numbered(o.output, number),
+                             turns ? 360.0 * number / double(numbers->size()) : number / rate});
+    if (job.shots.empty())
+        job.shots = {{o.output, o.picture.time}};
+    else if (!turns)
+        job.picture.time = job.shots.front().at;
+    return job;
+}
+
+std::vector<PlannedOutput> outputsOf(const RenderJob& job)
+{
+    std::vector<PlannedOutput> outputs;
+    for (const Shot& shot : job.shots)
+        if (outputs.empty() || job.rate == 0)
+            outputs.push_back({"-o", shot.file});
+    return outputs;
+}
+
+// ---- from the job to the report --------------------------------------------------------------
+
+// Starts the file for all images; null if each has its own.
+Result<std::unique_ptr<AnimationWriter>> beginAnimation(const RenderJob& job)
+{
+    if (job.rate == 0)
+        return std::unique_ptr<AnimationWriter>();
+    const std::filesystem::path& file = job.shots.front().file;
+    auto animation =
+        createAnimation(file, {job.picture.size.width, job.picture.size.height, job.shots.size(), job.rate});
+    if (const double rate = animationRate(file, job.rate); animation && rate != job.rate)
+        warn(job.common, "{}: GIF counts in hundredths of a second: {:.4g} images per second, not {:g}", file.string(),
+             rate, job.rate);
+    return animation;
+}
+
+Result<Image> drawShot(const RenderJob& job, const Picture& picture, Renderer& renderer, Rendered& done)
+{
+    auto image = drawShow(renderer, picture.scene, picture.view, job.picture.show, keepsFloats(job.shots.front().file),
+                          [&](const AngleStatistics& degrees) { done.error = done.error.value_or(degrees); });
+    if (image)
+        if (Status laid = layEdges(renderer, picture.view, job.picture, picture.edges, *image); !laid)
+            return laid.error();
+    return image;
+}
+
+// Reads the model once and opens the renderer once, for all images.
+Result<Rendered> render(const RenderJob& job)
+{
+    Stopwatch total, watch;
+    const auto animation = beginAnimation(job);
+    if (!animation)
+        return animation.error();
+    auto picture = loadPicture(job.picture, job.common, {job.frame, Frame::exact});
+    if (!picture)
+        return picture.error();
+    const std::optional<Frame> frame = picture->frames.front();
+    picture->view.setFrame(frame);
+    picture->view.output = outputOf(job.picture.show);
+    if (const std::string note = frameNote(picture->scene, frame); !note.empty())
+        warn(job.common, note);
+    Rendered done;
+    done.scene = describeScene(job.picture, *picture);
+    done.triangles = trianglesDrawn(picture->scene);
+    done.frame = nameOf(frame);
+    done.frames = nameOfFrames(frame, picture->scene);
+    done.loadSeconds = picture->loadSeconds;
+    watch.lap();
+    const auto renderer = makePictureRenderer(job.picture, job.common, *picture);
+    if (!renderer)
+        return renderer.error();
+    done.device = (*renderer)->device();
+    done.uploadSeconds = (*renderer)->uploadSeconds();
+    done.openSeconds = watch.lap() - done.uploadSeconds;
+    const auto drawAll = [&]() -> Status {
+        for (std::size_t i = 0; i < job.shots.size(); ++i) {
+            if (i > 0)
+                if (Status moved = movePicture(job.picture, job.shots[i].at, *picture, **renderer); !moved)
+                    return moved;
+            const auto image = drawShot(job, *picture, **renderer, done);
+            if (!image)
+                return image.error();
+            done.drawSeconds += watch.lap();
+            if (Status written = *animation ? (*animation)->add(*image) : writeImage(job.shots[i].file, *image);
+                !written)
+                return written;
+            done.writeSeconds += watch.lap();
+        }
+        return *animation ? (*animation)->finish() : Done{};
+    };
+    const std::size_t draws = job.picture.show == "error" ? 2 : 1; // errors also need the reference frame
+    if (Status drawn = drawWithProgress(job.common, **renderer, draws * job.shots.size(), "drawing", drawAll); !drawn)
+        return drawn.error();
+    done.totalSeconds = total.lap();
+    return done;
+}
+
+// ---- from the report to lines and JSON -------------------------------------------------------
+
+Status tell(const RenderJob& job, const Rendered& done)
+{
+    const std::string first = job.shots.front().file.string(), last = job.shots.back().file.string();
+    if (done.error)
+        say(job.common, "{} against exact: {}", done.frames, toText(*done.error));
+    say(job.common, "{}: {}{}x{}, {} triangles, frame {}, on {}", first == last ? first : first + " to " + last,
+        job.shots.size() > 1 ? fmt::format("{} images of ", job.shots.size()) : "", job.picture.size.width,
+        job.picture.size.height, done.triangles, done.frames, done.device);
+    Json report = {{"command", "render"}};
+    if (done.error)
+        report["error_against_exact"] = toJson(*done.error);
+    report.update(done.scene);
+    report["frame"] = done.frame;
+    report["view"] = job.picture.show;
+    report["shading"] = wordOf(kShadings, job.picture.shading);
+    report["device"] = done.device;
+    report["output"] = first;
+    report["seconds"] = {{"load", done.loadSeconds}, {"open_device", done.openSeconds}, {"upload", done.uploadSeconds},
+                         {"draw", done.drawSeconds}, {"write", done.writeSeconds},      {"total", done.totalSeconds}};
+    return writeReport(job.common, report);
+}
+
+Status run(const RenderCommandOptions& o)
+{
+    const auto job = jobOf(o);
+    if (!job)
+        return job.error();
+    if (Status planned = beginOutputs(job->common, outputsOf(*job)); !planned)
+        return planned;
+    const auto done = render(*job);
+    return done ? tell(*job, *done) : done.error();
 }
 
 void declare(Arguments& a, RenderCommandOptions& o)

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -21,6 +22,7 @@ namespace {
 
 constexpr int kLargestSide = 65535; // texels: texel indices have 32 bits
 constexpr int kMaxOcclusionRays = 1 << 16;
+constexpr SceneRules kRules{.pixels = false};
 constexpr float kFarthest = 1e17f; // model units: Embree terminates the program for rays that start beyond 1.8e18
 
 // The error for an option that is out of range.
@@ -29,7 +31,7 @@ template<class... Found> Error wrong(const char* option, fmt::format_string<Foun
     return about(option, usageError(fmt::format(text, std::forward<Found>(found)...)));
 }
 
-Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptions& options)
+Status checkRanges(const Scene& low, const BakeModelOptions& options)
 {
     const BakeOptions& b = options.bake;
     if (b.width < 1 || b.height < 1 || b.width > kLargestSide || b.height > kLargestSide)
@@ -58,22 +60,27 @@ Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptio
         return wrong("options.extrusion", "the search nearest already looks to both sides of the low surface");
     if (options.material >= int(low.materials.size()))
         return wrong("options.material", "expected 0 to {}; found {}", int(low.materials.size()) - 1, options.material);
-    if (high.maps.size() > 1 && high.maps.size() != high.scenes.size())
-        return wrong("high.maps", "expected none, one, or one for each of the {} scenes; found {}", high.scenes.size(),
-                     high.maps.size());
     return Done{};
 }
 
-// Whether all scenes are consistent.
-Status checkScenes(const Scene& low, const HighModel& high, const BakeModelOptions& options)
+Status checkHigh(const HighModel& high)
 {
-    constexpr SceneRules rules{.pixels = false};
-    Status sound = checkScene(low, "low", rules);
+    if (high.maps.size() > 1 && high.maps.size() != high.scenes.size())
+        return wrong("high.maps", "expected none, one, or one for each of the {} scenes; found {}", high.scenes.size(),
+                     high.maps.size());
+    Status sound = Done{};
     for (std::size_t i = 0; sound && i < high.scenes.size(); ++i)
-        sound = checkScene(high.scenes[i], fmt::format("high.scenes[{}]", i), rules);
+        sound = checkScene(high.scenes[i], fmt::format("high.scenes[{}]", i), kRules);
+    return sound;
+}
+
+// Whether the scenes of the simple side are consistent.
+Status checkLow(const Scene& low, const BakeModelOptions& options)
+{
+    Status sound = checkScene(low, "low", kRules);
     for (const auto& [scene, what] : {std::pair(options.cage, "options.cage"), {options.others, "options.others"}})
         if (sound && scene)
-            sound = checkScene(*scene, what, rules);
+            sound = checkScene(*scene, what, kRules);
     return sound;
 }
 
@@ -161,22 +168,22 @@ void applyMaps(HighModel& high, const std::optional<Convention>& format)
         }
 }
 
-// Builds setup's normal maps from those of the detailed scenes, whose images are moved out.
-Status readOwnMaps(HighModel& high, BakeSetup& setup)
+// Reads the normal maps of the detailed scenes, whose images are moved out.
+Status readOwnMaps(HighModel& high, DetailedSurface& open)
 {
-    const Convention stated = setup.options.highFormat.value_or(Convention());
+    const Convention stated = open.options.highFormat.value_or(Convention());
     for (const Image& map : high.maps)
         if (const std::string found = maps::contradictionOf(map, stated); !found.empty())
-            setup.warnings.push_back(fmt::format("{}: {}; it is read as {}", map.name, found, describe(stated)));
-    applyMaps(high, setup.options.highFormat);
-    auto maps = HighNormalMaps::make(high.scenes, setup.options.highFrame);
+            open.warnings.push_back(fmt::format("{}: {}; it is read as {}", map.name, found, describe(stated)));
+    applyMaps(high, open.options.highFormat);
+    auto maps = HighNormalMaps::make(high.scenes, open.options.highFrame);
     if (!maps)
         return maps.error();
     if (const std::size_t bare = maps->instanceCount() - maps->mappedCount(); bare > 0)
-        setup.warnings.push_back(fmt::format(
+        open.warnings.push_back(fmt::format(
             "{} of {} high meshes have no normal map or no texture coordinates for it: their smooth normals are used",
             bare, maps->instanceCount()));
-    setup.options.bake.highMaps = std::make_shared<const HighNormalMaps>(std::move(*maps));
+    open.maps = std::make_shared<const HighNormalMaps>(std::move(*maps));
     return Done{};
 }
 
@@ -196,13 +203,13 @@ void add(LowRest& rest, const Scene& scene, const Instance& instance, std::uint3
 }
 
 // The triangles of other materials and, unless matchByName limits each mesh to its own detail, of options.others.
-LowRest restOf(const Scene& low, const BakeModelOptions& options)
+LowRest restOf(const Scene& low, const BakeModelOptions& options, bool matchByName)
 {
     LowRest rest;
     for (std::size_t i = 0; i < low.instances.size() && options.material >= 0; ++i)
         if (low.meshes[std::size_t(low.instances[i].mesh)].material != options.material)
             add(rest, low, low.instances[i], std::uint32_t(i));
-    if (options.others && !options.matchByName)
+    if (options.others && !matchByName)
         for (const Instance& instance : options.others->instances)
             add(rest, *options.others, instance, 0);
     return rest;
@@ -220,15 +227,13 @@ void addNames(const Scene& scene, bool withEmpty, std::vector<std::string>& name
 
 // Pairs the instances of the simple scene, then of options.others, with those of the detailed scenes that have
 // triangles.
-NamePairs pairsOf(const Scene& low, const HighModel& high, const BakeModelOptions& options)
+NamePairs pairsOf(const Scene& low, const DetailedSurface& high, const BakeModelOptions& options)
 {
-    std::vector<std::string> lowNames, highNames;
-    addNames(low, true, lowNames);
+    std::vector<std::string> names;
+    addNames(low, true, names);
     if (options.others)
-        addNames(*options.others, true, lowNames);
-    for (const Scene& scene : high.scenes)
-        addNames(scene, false, highNames);
-    return pairNames(lowNames, highNames);
+        addNames(*options.others, true, names);
+    return pairNames(names, high.names);
 }
 
 // Limits each instance of the simple scene to the detail of its name.
@@ -249,46 +254,41 @@ Status match(const Scene& low, const NamePairs& pairs, BakeSetup& setup)
 constexpr int kFirstUdim = 1001; // 1001 + u + 10 v, v upwards from the bottom of the first tile
 constexpr int kUdimColumns = 10;
 
-} // namespace
-
-Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options)
+// open: called after the simple side was found to be sound, since it is slower.
+Result<BakeSetup> prepared(const Scene& low, const BakeModelOptions& options,
+                           const std::function<Result<std::shared_ptr<const DetailedSurface>>()>& open)
 {
-    if (Status ok = checkRanges(low, high, options); !ok)
+    if (Status ok = checkRanges(low, options); !ok)
         return ok.error();
-    if (Status ok = checkScenes(low, high, options); !ok)
+    if (Status ok = checkLow(low, options); !ok)
         return ok.error();
-    auto lowSurface = makeLowSurface(low, options.material, options.bake.frame, options.tangents);
-    if (!lowSurface)
-        return lowSurface.error();
-    auto cage = cagePositions(options.cage, *lowSurface);
+    auto surface = makeLowSurface(low, options.material, options.bake.frame, options.tangents);
+    if (!surface)
+        return surface.error();
+    auto cage = cagePositions(options.cage, *surface);
     if (!cage)
         return cage.error();
-    const NamePairs pairs = pairsOf(low, high, options);
-    for (Scene& scene : high.scenes)
-        if (!options.matchByName) // with matching, rays need single instances
-            joinParts(scene);
-    auto highSurface = HighSurface::make(high.scenes, options.bake.threads, options.matchByName);
-    if (!highSurface)
-        return highSurface.error();
     for (const Status& placed :
-         {checkPositions(lowSurface->positions, "low"), checkArea(*lowSurface), checkPositions(*cage, "options.cage"),
-          checkPositions({highSurface->box().low, highSurface->box().high}, "high")})
+         {checkPositions(surface->positions, "low"), checkArea(*surface), checkPositions(*cage, "options.cage")})
         if (!placed)
             return placed.error();
-    if (Status fits = checkCrowded(*lowSurface, *highSurface); !fits) // shoots rays, so the positions must be valid
+    const auto opened = open();
+    if (!opened)
+        return opened.error();
+    const DetailedSurface& high = **opened;
+    if (Status fits = checkCrowded(*surface, high.surface); !fits)
         return fits.error();
-    BakeSetup setup{std::move(*lowSurface), std::move(*highSurface), options, {}};
+    BakeSetup setup{std::move(*surface), high.surface, options, high.warnings};
     BakeOptions& bake = setup.options.bake;
     setup.options.cage = setup.options.others = nullptr;
+    setup.options.matchByName = high.options.matchByName;
+    bake.highNormals = high.options.bake.highNormals;
+    bake.highMaps = high.maps;
     bake.cage = std::move(*cage);
-    bake.highMaps = nullptr;
     bake.matched.clear();
-    if (bake.highNormals == HighNormals::curved)
-        setup.high.curve(bake.threads);
-    if (options.ownMaps && showsNormals(bake.kind))
-        if (Status read = readOwnMaps(high, setup); !read)
-            return read.error();
-    if (options.matchByName) {
+    bake.starts = nullptr;
+    const NamePairs pairs = pairsOf(low, high, options);
+    if (setup.options.matchByName) {
         if (Status matched = match(low, pairs, setup); !matched)
             return matched.error();
     } else if (!pairs.example.empty()) {
@@ -296,10 +296,48 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
             "options.matchByName: the names of the meshes pair, such as {}; with it each is baked from its own only",
             pairs.example));
     }
-    bake.starts = nullptr;
-    if (Status ready = measureRayStarts(setup.low, setup.high, bake, restOf(low, options)); !ready)
+    const LowRest rest = restOf(low, options, setup.options.matchByName);
+    if (Status ready = measureRayStarts(setup.low, setup.high, bake, rest); !ready)
         return ready.error();
     return setup;
+}
+
+} // namespace
+
+Result<std::shared_ptr<const DetailedSurface>> openDetailed(HighModel high, const BakeModelOptions& options)
+{
+    if (Status ok = checkHigh(high); !ok)
+        return ok.error();
+    std::vector<std::string> names;
+    for (Scene& scene : high.scenes) {
+        addNames(scene, false, names);
+        if (!options.matchByName) // with matching, rays need single instances
+            joinParts(scene);
+    }
+    auto surface = HighSurface::make(high.scenes, options.bake.threads, options.matchByName);
+    if (!surface)
+        return surface.error();
+    if (Status placed = checkPositions({surface->box().low, surface->box().high}, "high"); !placed)
+        return placed.error();
+    if (options.bake.highNormals == HighNormals::curved)
+        surface->curve(options.bake.threads);
+    DetailedSurface open{std::move(*surface), nullptr, std::move(names), options, {}};
+    open.options.cage = open.options.others = nullptr;
+    if (options.ownMaps && showsNormals(options.bake.kind))
+        if (Status read = readOwnMaps(high, open); !read)
+            return read.error();
+    return std::make_shared<const DetailedSurface>(std::move(open));
+}
+
+Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options)
+{
+    return prepared(low, options, [&] { return openDetailed(std::move(high), options); });
+}
+
+Result<BakeSetup> prepareBake(const Scene& low, std::shared_ptr<const DetailedSurface> high,
+                              const BakeModelOptions& options)
+{
+    return prepared(low, options, [&] { return Result(std::move(high)); });
 }
 
 Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& progress)
@@ -329,21 +367,36 @@ Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& prog
     return map;
 }
 
-Result<BakedModel> bakeModel(const Scene& low, HighModel high, const BakeModelOptions& options,
-                             const Progress& progress)
+namespace {
+
+Result<BakedModel> bakeTiles(Result<BakeSetup> setup, const Progress& progress)
 {
-    auto setup = prepareBake(low, std::move(high), options);
     if (!setup)
         return setup.error();
     BakedModel model;
     model.warnings = std::move(setup->warnings);
-    for (const int tile : options.tiles) {
-        auto map = bakeTile(*setup, tile, partOf(progress, model.maps.size(), options.tiles.size()));
+    const std::vector<int>& tiles = setup->options.tiles;
+    for (const int tile : tiles) {
+        auto map = bakeTile(*setup, tile, partOf(progress, model.maps.size(), tiles.size()));
         if (!map)
             return map.error();
         model.maps.push_back(std::move(*map));
     }
     return model;
+}
+
+} // namespace
+
+Result<BakedModel> bakeModel(const Scene& low, HighModel high, const BakeModelOptions& options,
+                             const Progress& progress)
+{
+    return bakeTiles(prepareBake(low, std::move(high), options), progress);
+}
+
+Result<BakedModel> bakeModel(const Scene& low, std::shared_ptr<const DetailedSurface> high,
+                             const BakeModelOptions& options, const Progress& progress)
+{
+    return bakeTiles(prepareBake(low, std::move(high), options), progress);
 }
 
 } // namespace cotan

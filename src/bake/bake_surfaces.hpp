@@ -61,6 +61,15 @@ struct BakeSetup {
     std::vector<std::string> warnings; // one line each; those about an option begin with "options.NAME: "
 };
 
+// The detailed side of bakes.
+struct DetailedSurface {
+    HighSurface surface;
+    std::shared_ptr<const HighNormalMaps> maps; // null: none are read
+    std::vector<std::string> names;             // of the instances with triangles
+    BakeModelOptions options;                   // that it was opened with
+    std::vector<std::string> warnings;
+};
+
 // Derives what the frame needs on the simple scene, and builds the acceleration structure of the detailed scenes, the
 // cage's vertices and the matches. Errors: those of checkScene, makeLowSurface, HighSurface::make and
 // HighNormalMaps::make. An error about an option begins with its name, "options.material: ". ErrorKind::usage: a size,
@@ -68,6 +77,8 @@ struct BakeSetup {
 // extrusion or the search `nearest` together with a cage. ErrorKind::input: a cage with another number of triangles, a
 // mesh without its match.
 Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options);
+Result<BakeSetup> prepareBake(const Scene& low, std::shared_ptr<const DetailedSurface> high,
+                              const BakeModelOptions& options);
 
 // Bakes one tile, fills around its charts and stores it. Calls `progress` from several threads, not always in order.
 // Errors: ErrorKind::input if no triangle lies on the tile, ErrorKind::usage for a number below 1001, both beginning

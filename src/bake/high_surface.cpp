@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -26,6 +27,8 @@ struct Part { // an instance in world space
     std::vector<std::uint8_t> repeated; // per triangle: not 0 if it coincides with an earlier one; empty: none does
     std::vector<std::uint32_t> embreeIndices; // for Embree, if some triangles are left out
     std::vector<ShapeOperator> shapes;        // per vertex; empty: not prepared
+    Bounds box;
+    float longestEdge = 0; // of all triangles
 };
 
 namespace {
@@ -87,8 +90,7 @@ void findRepeated(std::vector<Part>& parts)
 
 struct HighSurface::State {
     std::vector<Part> parts;
-    std::vector<float> fronts;         // of the parts: -1 if most triangles are wound against their vertex normals
-    std::vector<std::uint32_t> groups; // of the parts
+    std::vector<float> fronts; // of the parts: -1 if most triangles are wound against their vertex normals
     std::size_t triangles = 0;
     Bounds box;
     EmbreeScene embree; // shares the arrays of the parts
@@ -156,12 +158,13 @@ Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int thre
                 continue;
             state->parts.push_back(inWorld(mesh, instance.toWorld));
             state->fronts.push_back(frontSign(state->parts.back()));
-            state->groups.push_back(std::uint32_t(state->groups.size()));
             state->triangles += mesh.triangleCount();
-            for (const glm::vec3& p : state->parts.back().positions) {
-                state->box.low = glm::min(state->box.low, p);
-                state->box.high = glm::max(state->box.high, p);
-            }
+            Part& part = state->parts.back();
+            for (const glm::vec3& p : part.positions)
+                part.box = {glm::min(part.box.low, p), glm::max(part.box.high, p)};
+            for (std::size_t i = 0; i + 2 < part.indices.size(); i += 3)
+                part.longestEdge = std::max(part.longestEdge, longestEdge(part.positions, &part.indices[i]));
+            state->box = {glm::min(state->box.low, part.box.low), glm::max(state->box.high, part.box.high)};
         }
     if (state->triangles == 0)
         return inputError(fmt::format("{}: expected triangles; found none", scenes.empty() ? "" : scenes[0].name));
@@ -174,11 +177,13 @@ Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int thre
         state->embree.add(part.positions, part.indices, part.repeated, part.embreeIndices);
     if (Status committed = state->embree.commit(state->triangles); !committed)
         return committed.error();
-    return HighSurface(std::move(state));
+    std::vector<std::uint32_t> groups(state->parts.size());
+    std::iota(groups.begin(), groups.end(), 0);
+    return HighSurface(std::move(state), std::move(groups));
 }
 
-void HighSurface::setGroups(std::vector<std::uint32_t> groups) { state_->groups = std::move(groups); }
-std::uint32_t HighSurface::groupOf(std::size_t instance) const { return state_->groups[instance]; }
+void HighSurface::setGroups(std::vector<std::uint32_t> groups) { groups_ = std::move(groups); }
+std::uint32_t HighSurface::groupOf(std::size_t instance) const { return groups_[instance]; }
 
 void HighSurface::curve(int threads)
 {
@@ -189,7 +194,12 @@ void HighSurface::curve(int threads)
 HighSurface::Triangles HighSurface::triangles(std::size_t instance) const
 {
     const Part& part = state_->parts[instance];
-    return {{part.positions.data(), part.normals.size()}, part.normals, part.indices, part.repeated};
+    return {{part.positions.data(), part.normals.size()},
+            part.normals,
+            part.indices,
+            part.repeated,
+            part.box,
+            part.longestEdge};
 }
 
 std::size_t HighSurface::instanceCount() const { return state_->parts.size(); }
@@ -226,7 +236,7 @@ Hit HighSurface::trace(const Ray& ray) const
 
 void HighSurface::nearest(const Probes& probes, float lift, HighNormals normals, Hits& hits) const
 {
-    const FilterContext context = filterContextFor(probes, state_->fronts, state_->groups);
+    const FilterContext context = filterContextFor(probes, state_->fronts, groups_);
     Lanes<float> lifts, farthest;
     for (std::size_t i = 0; i < kLanes; ++i) {
         lifts[i] = lift;
@@ -258,7 +268,7 @@ void HighSurface::nearest(const Probes& probes, float lift, HighNormals normals,
 
 void HighSurface::outermost(const Probes& probes, HighNormals normals, Hits& hits) const
 {
-    const FilterContext context = filterContextFor(probes, state_->fronts, state_->groups);
+    const FilterContext context = filterContextFor(probes, state_->fronts, groups_);
     Lanes<float> farthest;
     for (std::size_t i = 0; i < kLanes; ++i)
         farthest[i] = probes.before[i] + probes.reach[i];
@@ -273,8 +283,8 @@ void HighSurface::outermost(const Probes& probes, HighNormals normals, Hits& hit
         if (!hits.away[i])
             continue;
         // Surfaces that face the low surface are preferred.
-        const FilterContext facing{RayQuery(Coherence::coherent, keepFacing), state_->fronts.data(),
-                                   state_->groups.data(), normal};
+        const FilterContext facing{RayQuery(Coherence::coherent, keepFacing), state_->fronts.data(), groups_.data(),
+                                   normal};
         packet.traceAlone(i, state_->embree.scene, facing);
         hits.away[i] = packet.foundAway(i, state_->fronts, normal) ? 1 : 0;
     }
@@ -290,7 +300,7 @@ void HighSurface::anyBetween(const Probes& probes, Lanes<int>& any) const
     for (std::size_t i = 0; i < kLanes; ++i)
         farthest[i] = probes.before[i] + probes.reach[i];
     Packet packet(probes, probes.before, -1, farthest);
-    FilterContext context = filterContextFor(probes, state_->fronts, state_->groups);
+    FilterContext context = filterContextFor(probes, state_->fronts, groups_);
     occluded(packet.valid.data(), state_->embree.scene, context.query, packet.rays.ray);
     for (std::size_t i = 0; i < kLanes; ++i)
         any[i] = packet.valid[i] != 0 && packet.rays.ray.tfar[i] < 0; // Embree's mark for an occluded ray
@@ -318,7 +328,7 @@ std::size_t HighSurface::countHits(const Ray& ray) const
 bool HighSurface::blocked(const Ray& ray, std::uint32_t only) const
 {
     FilterContext context{RayQuery(Coherence::incoherent, only == Probes::kAny ? nullptr : keepOnly), nullptr,
-                          state_->groups.data()};
+                          groups_.data()};
     RTCRay r = toEmbree(ray).ray;
     r.id = only;
     occluded(state_->embree.scene, context.query, r);

@@ -58,7 +58,8 @@ struct Hits {
     bool found(std::size_t i) const { return instance[i] != kNothing; }
 };
 
-// All instances of some scenes in world space, in Embree's acceleration structure. Copies share it.
+// All instances of some scenes in world space, in Embree's acceleration structure. Copies share it, and have groups of
+// their own.
 class HighSurface {
 public:
     // Why no surface can be made in this build: it lacks Embree. Lets callers fail before they read files.
@@ -98,6 +99,8 @@ public:
         std::span<const glm::vec3> positions, normals; // normals: unit, or zero if unknown
         std::span<const std::uint32_t> indices;
         std::span<const std::uint8_t> repeated; // per triangle: not 0 if rays skip it; empty: none is skipped
+        Bounds box;
+        float longestEdge = 0; // of all triangles
     };
     Triangles triangles(std::size_t instance) const;
     std::size_t instanceCount() const;
@@ -106,8 +109,12 @@ public:
 
 private:
     struct State;
-    explicit HighSurface(std::shared_ptr<State> state) : state_(std::move(state)) {}
+    HighSurface(std::shared_ptr<State> state, std::vector<std::uint32_t> groups)
+        : state_(std::move(state)), groups_(std::move(groups))
+    {
+    }
     std::shared_ptr<State> state_;
+    std::vector<std::uint32_t> groups_; // of the instances
 };
 
 } // namespace cotan

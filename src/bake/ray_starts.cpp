@@ -154,6 +154,16 @@ public:
         : low_(low), high_(high), options_(options), body_(body), groups_(groups), starts_(starts),
           distances_(groups.count, 0), reached_(groups.count, 0)
     {
+        for (const std::uint32_t i : low.indices)
+            near_ = {glm::min(near_.low, low.positions[i]), glm::max(near_.high, low.positions[i])};
+        const glm::vec3 margin(1.001f * starts.limit);
+        near_ = {near_.low - margin, near_.high + margin};
+    }
+
+    // Whether anything of the low surface may be within the limit of the box.
+    bool reaches(const Bounds& box) const
+    {
+        return box.low == glm::min(box.low, near_.high) && box.high == glm::max(box.high, near_.low);
     }
 
     // Whether a triangle faces the same way as a point of the high surface with this normal, and shows this instance.
@@ -173,7 +183,7 @@ public:
     // Adds one point of the high surface with its normal.
     void add(glm::vec3 point, glm::vec3 normal, std::uint32_t instance, LastNearest& last)
     {
-        if (!(glm::dot(normal, normal) > 0))
+        if (!reaches({point, point}) || !(glm::dot(normal, normal) > 0))
             return;
         const auto accepts = accepting(normal, instance);
         float radius = starts_.limit;
@@ -289,16 +299,10 @@ private:
     const Body& body_;
     const Groups& groups_;
     const RayStarts& starts_;
+    Bounds near_;                          // of the low surface and all within the limit
     std::vector<std::uint32_t> distances_; // bits of floats, per group
     std::vector<std::uint8_t> reached_;    // something belongs to the group
 };
-
-// The longest edge of a triangle. v: the indices of its vertices.
-template<class Positions> float longestEdge(const Positions& positions, const std::uint32_t* v)
-{
-    const glm::vec3 a = positions[v[0]], b = positions[v[1]], c = positions[v[2]];
-    return std::sqrt(std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)}));
-}
 
 // The number of pieces of a triangle's edges for points about `spacing` apart; 0 if it is small, or rays skip it.
 int cutsOf(const HighSurface::Triangles& part, std::size_t triangle, float spacing)
@@ -334,7 +338,7 @@ Result<std::size_t> stepFor(const HighSurface& high, std::size_t vertices, float
     std::size_t between = 0;
     for (std::size_t instance = 0; instance < high.instanceCount(); ++instance) {
         const HighSurface::Triangles part = high.triangles(instance);
-        for (std::size_t f = 0; f < part.indices.size() / 3; ++f)
+        for (std::size_t f = 0; part.longestEdge > spacing && f < part.indices.size() / 3; ++f)
             if (const auto cuts = std::size_t(cutsOf(part, f, spacing)))
                 between += (cuts + 1) * (cuts + 2) / 2;
     }
@@ -376,6 +380,9 @@ Result<std::size_t> measure(const HighSurface& high, float spacing, Measuring& m
     std::size_t before = 0; // triangles of earlier instances
     for (std::uint32_t instance = 0; instance < high.instanceCount(); ++instance) {
         const HighSurface::Triangles part = high.triangles(instance);
+        const std::size_t first = std::exchange(before, before + part.indices.size() / 3);
+        if (!measuring.reaches(part.box))
+            continue;
         parallelRanges<std::size_t>(0, (part.positions.size() + step - 1) / step, 4096,
                                     [&](std::size_t begin, std::size_t end) {
                                         LastNearest last;
@@ -383,14 +390,14 @@ Result<std::size_t> measure(const HighSurface& high, float spacing, Measuring& m
                                             if (i < part.positions.size())
                                                 measuring.add(part.positions[i], part.normals[i], instance, last);
                                     });
-        parallelRanges<std::size_t>(0, part.indices.size() / 3, 1024, [&](std::size_t begin, std::size_t end) {
+        const std::size_t large = part.longestEdge > spacing ? part.indices.size() / 3 : 0;
+        parallelRanges<std::size_t>(0, large, 1024, [&](std::size_t begin, std::size_t end) {
             LastNearest last;
             for (std::size_t f = begin; f != end; ++f)
-                if ((before + f) % every == 0)
+                if ((first + f) % every == 0)
                     pointsBetween(part, f, spacing,
                                   [&](glm::vec3 p, glm::vec3 n) { measuring.add(p, n, instance, last); });
         });
-        before += part.indices.size() / 3;
     }
     measuring.addRays(spacing, every);
     return every;

@@ -1,6 +1,7 @@
 #include "cotan/picture.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -94,11 +95,11 @@ Result<Scene> checkedScene(Result<Scene> scene)
     return scene;
 }
 
-Result<Scene> sceneOf(Result<MovingModel> model)
+Result<MovingModel> still(Result<Scene> scene)
 {
-    if (!model)
-        return model.error();
-    return std::move(model->scene);
+    if (!scene)
+        return scene.error();
+    return MovingModel{std::move(*scene), nullptr};
 }
 
 } // namespace
@@ -146,12 +147,8 @@ Result<MovingModel> openMovingModel(const PictureOptions& options)
 {
     const std::string ending = lowerExtension(options.model);
     const bool gltf = options.readFile || ending == ".gltf" || ending == ".glb";
-    if (!gltf || !checkModelOptions(options)) {
-        auto scene = openModel(options);
-        if (!scene)
-            return scene.error();
-        return MovingModel{std::move(*scene), nullptr};
-    }
+    if (!gltf || !checkModelOptions(options))
+        return still(openModel(options));
     const LoadLimits limits = limitsOf(options);
     auto opened = AnimatedGltf::open(options.model, limits);
     if (!opened)
@@ -228,28 +225,46 @@ std::string nameOfFrames(const std::optional<Frame>& frame, const Scene& scene)
     return fmt::format("{} ({})", kAutoFrame, fmt::join(names, ", "));
 }
 
-Result<std::vector<std::optional<Frame>>> prepareScene(const PictureOptions& options, const std::string& show,
-                                                       std::initializer_list<FrameChoice> choices, Scene& scene)
+namespace {
+
+// Resolves the choices for a scene with the options' own maps.
+std::vector<std::optional<Frame>> resolved(const PictureOptions& options, std::initializer_list<FrameChoice> choices,
+                                           Scene& scene)
 {
-    if (const Status applied = applyOwnMaps(options.maps, options.memory, scene); !applied)
-        return applied.error();
     const bool automatic = std::ranges::any_of(choices, [](const FrameChoice& c) { return !c; });
     if (automatic && sourceOf(options) == MapSource::model && framesOf(scene).empty())
         chooseFramesOfMeshes(options, scene);
     std::vector<std::optional<Frame>> frames;
     for (const FrameChoice& choice : choices)
         frames.push_back(chosenFrame(choice, options, scene));
-    if (const auto inspection = inspectionFromName(show)) {
-        scene = inspected(std::move(scene), *inspection);
-        return frames;
-    }
-    for (const std::optional<Frame>& frame : frames)
-        deriveVertexFrames(scene, frame, options.tangents);
     return frames;
 }
 
-Result<Picture> openPicture(const PictureOptions& options, int threads, std::initializer_list<FrameChoice> frames,
-                            const View* like)
+// Derives what the frames need, or replaces the scene by one in false colours.
+void derive(const PictureOptions& options, const std::string& show, const std::vector<std::optional<Frame>>& frames,
+            Scene& scene)
+{
+    if (const auto inspection = inspectionFromName(show)) {
+        scene = inspected(std::move(scene), *inspection);
+        return;
+    }
+    for (const std::optional<Frame>& frame : frames)
+        deriveVertexFrames(scene, frame, options.tangents);
+}
+
+} // namespace
+
+Result<std::vector<std::optional<Frame>>> prepareScene(const PictureOptions& options, const std::string& show,
+                                                       std::initializer_list<FrameChoice> choices, Scene& scene)
+{
+    if (const Status applied = applyOwnMaps(options.maps, options.memory, scene); !applied)
+        return applied.error();
+    auto frames = resolved(options, choices, scene);
+    derive(options, show, frames, scene);
+    return frames;
+}
+
+Result<Picture> openPicture(const PictureOptions& options, int threads, std::initializer_list<FrameChoice> frames)
 {
     if (const Status fits = checkSize(options.size); !fits) // before a large model is loaded
         return fits.error();
@@ -257,42 +272,89 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
     // Slow work that runs while the model is read.
     picture.device =
         std::async(std::launch::async, [name = deviceOf(options), threads] { return openRenderer(name, threads); });
-    std::future<Result<std::shared_ptr<const EnvironmentMap>>> environment;
-    if (!like)
-        environment = std::async(std::launch::async, openEnvironmentMap, options);
-    // The first image of a sequence determines the camera of all.
-    const bool moves = !like && !options.animation.empty();
-    auto scene = moves ? sceneOf(openMovingModel(options)) : openModel(options);
-    if (!scene)
-        return scene.error();
-    picture.scene = std::move(*scene);
+    auto environment = std::async(std::launch::async, openEnvironmentMap, options);
+    auto model = options.animation.empty() ? still(openModel(options)) : openMovingModel(options);
+    if (!model)
+        return model.error();
+    picture.scene = std::move(model->scene);
+    picture.animated = std::move(model->animated);
+    picture.imagesOfFile = picture.scene.images.size();
     joinParts(picture.scene);
     if (options.turntable)
         picture.scene.reach = sweptPoints(picture.scene);
     if (options.edges != Edges::none)
         picture.edges = surfaceEdges(picture.scene);
-    auto prepared = prepareScene(options, options.show, frames, picture.scene);
-    if (!prepared)
-        return prepared.error();
-    picture.frames = std::move(*prepared);
-    auto view = like ? Result<View>(*like) : viewOf(options, picture.scene);
+    if (const Status applied = applyOwnMaps(options.maps, options.memory, picture.scene); !applied)
+        return applied.error();
+    picture.frames = resolved(options, frames, picture.scene);
+    if (picture.animated && inspectionFromName(options.show))
+        picture.inspected = {picture.scene.materials, picture.scene.images};
+    derive(options, options.show, picture.frames, picture.scene);
+    auto view = viewOf(options, picture.scene);
     if (!view)
         return view.error();
     picture.view = std::move(*view);
-    if (!like) {
-        auto opened = environment.get();
-        if (!opened)
-            return opened.error();
-        picture.view.environmentMap = std::move(*opened);
-    }
-    if (!like && drawsNormalMaps(picture.scene))
+    auto opened = environment.get();
+    if (!opened)
+        return opened.error();
+    picture.view.environmentMap = std::move(*opened);
+    if (drawsNormalMaps(picture.scene))
         for (std::string& line : maps::mapFaults(picture.scene))
             picture.scene.warnings.push_back(std::move(line));
-    picture.meter = !like && meters(options);
+    picture.meter = meters(options);
     picture.view.lights = lightsOf(options, picture.scene);
     if (Status fits = limitCoverage(picture.scene, picture.view); !fits)
         return fits.error();
+    if (options.turntable)
+        picture.table.emplace(picture.scene);
     return picture;
+}
+
+namespace {
+
+// Replaces the scene by the model at another time. A pose changes no material and no image.
+Status pose(const PictureOptions& options, double seconds, Picture& picture)
+{
+    PictureOptions then = options;
+    then.time = seconds;
+    Scene before;
+    before.images.resize(picture.imagesOfFile);
+    auto posed = poseModel(*picture.animated, then, before);
+    if (!posed)
+        return posed.error();
+    joinParts(*posed);
+    before = std::exchange(picture.scene, std::move(*posed));
+    Scene& scene = picture.scene;
+    if (inspectionFromName(options.show)) {
+        std::tie(scene.materials, scene.images) = picture.inspected;
+    } else {
+        scene.materials = std::move(before.materials);
+        scene.images = std::move(before.images);
+    }
+    if (options.edges != Edges::none)
+        picture.edges = surfaceEdges(scene);
+    for (std::size_t i = 0; i < scene.meshes.size() && scene.meshes.size() == before.meshes.size(); ++i)
+        scene.meshes[i].readWith = before.meshes[i].readWith;
+    derive(options, options.show, picture.frames, scene);
+    picture.view.lights = lightsOf(options, scene);
+    return limitCoverage(scene, picture.view);
+}
+
+} // namespace
+
+Status movePicture(const PictureOptions& options, double to, Picture& picture, Renderer& renderer)
+{
+    if (picture.table)
+        picture.table->turn(picture.scene, to);
+    else if (Status posed = pose(options, to, picture); !posed)
+        return posed;
+    auto ground =
+        std::async(std::launch::async, [&] { return groundOf(options, picture.scene, std::as_const(picture.view)); });
+    Status loaded = renderer.load(picture.scene, /*sameImages=*/true);
+    picture.view.ground = ground.get();
+    if (picture.table && options.edges != Edges::none)
+        picture.edges = surfaceEdges(picture.scene);
+    return loaded;
 }
 
 std::string deviceOf(const PictureOptions& options)

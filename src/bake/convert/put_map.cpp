@@ -7,7 +7,6 @@
 
 #include "bake/convert/map_jobs.hpp"
 #include "cotan/image.hpp"
-#include "files/bytes.hpp"
 #include "gltf/json/lookup.hpp"
 #include "gltf/json/views.hpp"
 
@@ -139,20 +138,16 @@ Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const Pu
     return Done{};
 }
 
-Result<GltfWritten> writeModelWithMap(const Scene& scene, const std::filesystem::path& model, const Image& map,
-                                      const PutMapOptions& options, const std::filesystem::path& output)
+Result<GltfWritten> writeModelWithMap(GltfDocument& document, const Image& map, const PutMapOptions& options,
+                                      const std::filesystem::path& output)
 {
-    const std::string extension = lowerExtension(model);
-    auto document = extension == ".gltf" || extension == ".glb" ? openGltfDocument(model) : gltfDocumentOf(scene);
-    if (!document)
-        return document.error();
     auto png = encodePng(map);
     if (!png)
         return png.error();
     std::vector<std::string> notes;
-    if (Status put = putNormalMap(*document, std::move(*png), options, notes); !put)
+    if (Status put = putNormalMap(document, std::move(*png), options, notes); !put)
         return put.error();
-    auto written = writeGltf(*document, output);
+    auto written = writeGltf(document, output);
     if (written)
         written->notes.insert(written->notes.begin(), notes.begin(), notes.end());
     return written;

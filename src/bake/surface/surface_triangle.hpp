@@ -1,9 +1,12 @@
 // Triangles in arrays of vertices: corners, edges and interpolation.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -32,5 +35,12 @@ struct TriangleEdges {
     // Twice the area in uv, positive if the corners are counter-clockwise in uv with v up.
     double uvArea2() const { return uv1.x * uv2.y - uv1.y * uv2.x; }
 };
+
+// The longest edge of a triangle. v: the indices of its vertices.
+template<class Positions> float longestEdge(const Positions& positions, const std::uint32_t* v)
+{
+    const glm::vec3 a = positions[v[0]], b = positions[v[1]], c = positions[v[2]];
+    return std::sqrt(std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)}));
+}
 
 } // namespace cotan

@@ -63,8 +63,9 @@ enum class Occluders {
     all,
 };
 
-class HighNormalMaps; // internal
-struct RayStarts;     // internal
+class HighNormalMaps;   // internal
+struct RayStarts;       // internal
+struct DetailedSurface; // internal
 
 struct BakeOptions {
     BakeKind kind = BakeKind::normal;
@@ -171,5 +172,17 @@ struct BakedModel {
 // Prepares, then bakes every tile. Errors: those of prepareBake and bakeTile.
 Result<BakedModel> bakeModel(const Scene& low, HighModel high, const BakeModelOptions& options = {},
                              const Progress& progress = {});
+
+// ---- several bakes from one detailed model ----------------------------------------------------
+
+// Opens the detailed side once: its acceleration structure and normal maps then serve any number of bakes, of other
+// simple scenes, frames, kinds and sizes. options: bake.threads, and bake.highNormals, matchByName, ownMaps, highFrame
+// and highFormat, which hold for every bake from it. Maps are read if bake.kind holds directions.
+// Errors: those of prepareBake that concern the detailed scenes.
+Result<std::shared_ptr<const DetailedSurface>> openDetailed(HighModel high, const BakeModelOptions& options);
+
+// Bakes as with the HighModel that `high` was opened from; gives the same bytes.
+Result<BakedModel> bakeModel(const Scene& low, std::shared_ptr<const DetailedSurface> high,
+                             const BakeModelOptions& options = {}, const Progress& progress = {});
 
 } // namespace cotan

@@ -183,10 +183,9 @@ struct PutMapOptions {
 Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const PutMapOptions& options,
                     std::vector<std::string>& notes);
 
-// Writes a model with a new map. If `model` is named like glTF, the rest of that file is kept; otherwise `scene`, which
-// was loaded from it, is written as glTF. GltfWritten::notes begin with those of putNormalMap. Errors: those of
-// putNormalMap, openGltfDocument, encodePng and writeGltf.
-Result<GltfWritten> writeModelWithMap(const Scene& scene, const std::filesystem::path& model, const Image& map,
-                                      const PutMapOptions& options, const std::filesystem::path& output);
+// Puts the map into the document, which the call changes, and writes it. GltfWritten::notes begin with those of
+// putNormalMap. Errors: those of putNormalMap, encodePng and writeGltf.
+Result<GltfWritten> writeModelWithMap(GltfDocument& document, const Image& map, const PutMapOptions& options,
+                                      const std::filesystem::path& output);
 
 } // namespace cotan

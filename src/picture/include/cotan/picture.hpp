@@ -168,6 +168,31 @@ Result<View> viewOf(const PictureOptions& options, const Scene& scene);
 // Whether the exposure is to be found by meterExposure.
 bool meters(const PictureOptions& options);
 
+// ---- turntable -----------------------------------------------------------------------------
+
+// A model that rotates about the vertical while camera, lights and ground stay fixed.
+
+// Points whose convex hull contains everything that a scene covers while it rotates about the vertical through the
+// middle of its box: for Scene::reach, so that one camera frames all of it. They are circles of 32 points at 33
+// heights, each as wide as the adjacent slices of the scene, up to 0.5 % too wide. Empty without finite points.
+std::vector<glm::vec3> sweptPoints(const Scene& scene);
+
+// Rotates the instances of a scene about the vertical.
+class Turntable {
+public:
+    explicit Turntable(const Scene& scene); // keeps the scene's current transforms
+
+    // Sets the instances of that scene to the kept transforms, rotated counter-clockwise by `degrees` as seen from
+    // above. Lights and cameras are not changed.
+    void turn(Scene& scene, double degrees) const;
+
+private:
+    std::vector<glm::mat4> transforms_;
+    glm::dvec3 middle_{0};
+};
+
+// ---- an open model --------------------------------------------------------------------------
+
 // A loaded model and a view of it. The caller sets the frame and the output.
 struct Picture {
     Scene scene;
@@ -177,13 +202,16 @@ struct Picture {
     std::vector<SurfaceEdge> edges;                        // to draw over the image
     double loadSeconds = 0;                                // set by the caller
     std::future<Result<std::unique_ptr<Renderer>>> device; // being opened; used by openPictureRenderer
+    // Used by movePicture.
+    std::unique_ptr<AnimatedGltf> animated;                         // the open file of options.animation
+    std::size_t imagesOfFile = 0;                                   // without the options' own maps
+    std::pair<std::vector<Material>, std::vector<Image>> inspected; // those that an inspection has replaced
+    std::optional<Turntable> table;                                 // for options.turntable
 };
 
-// Loads the model (or makes the built-in scene), derives the attributes that `frames` need, and sets up the view:
-// `like` with new lights if it is given. Warnings are in the scene. Opens the device in parallel; threads: as for
-// openRenderer.
-Result<Picture> openPicture(const PictureOptions& options, int threads, std::initializer_list<FrameChoice> frames,
-                            const View* like = nullptr);
+// Loads the model (or makes the built-in scene), derives the attributes that `frames` need, and sets up the view.
+// Warnings are in the scene. Opens the device in parallel; threads: as for openRenderer.
+Result<Picture> openPicture(const PictureOptions& options, int threads, std::initializer_list<FrameChoice> frames);
 
 // Checks that --lighting works with the frame (tangent-vertex needs tangents at vertices), and --normal-mapping with
 // the other options.
@@ -195,6 +223,12 @@ std::string deviceOf(const PictureOptions& options);
 // Waits for the device, loads the scene into it and meters the exposure; the renderer's note tells of a fallback.
 // Call once per Picture, which must outlive the renderer. Errors: of openRenderer, Renderer::load and draw.
 Result<std::unique_ptr<Renderer>> openPictureRenderer(const PictureOptions& options, Picture& picture);
+
+// Moves the model, for another image by the same renderer: with options.turntable by `to` degrees from where it was
+// read; else to `to` seconds of options.animation, which must not be empty. Reads no file. The camera, the exposure,
+// the frames of meshes and the ground's height stay; lights, the shadow on the ground and edges follow. After an error
+// `picture` must not be used. Errors: as AnimatedGltf::at, limitCoverage and Renderer::load.
+Status movePicture(const PictureOptions& options, double to, Picture& picture, Renderer& renderer);
 
 // The values of --view.
 const std::vector<std::string>& showNames();
@@ -231,28 +265,5 @@ std::vector<Light> lightsOf(const PictureOptions& options, const Scene& scene);
 
 // Returns the shadow on the ground, or null if the options want none. If the view has a ground, its height is kept.
 std::shared_ptr<const GroundMap> groundOf(const PictureOptions& options, const Scene& scene, const View& view);
-
-// ---- turntable -----------------------------------------------------------------------------
-
-// A model that rotates about the vertical while camera, lights and ground stay fixed.
-
-// Points whose convex hull contains everything that a scene covers while it rotates about the vertical through the
-// middle of its box: for Scene::reach, so that one camera frames all of it. They are circles of 32 points at 33
-// heights, each as wide as the adjacent slices of the scene, up to 0.5 % too wide. Empty without finite points.
-std::vector<glm::vec3> sweptPoints(const Scene& scene);
-
-// Rotates the instances of a scene about the vertical.
-class Turntable {
-public:
-    explicit Turntable(const Scene& scene); // keeps the scene's current transforms
-
-    // Sets the instances of that scene to the kept transforms, rotated counter-clockwise by `degrees` as seen from
-    // above. Lights and cameras are not changed.
-    void turn(Scene& scene, double degrees) const;
-
-private:
-    std::vector<glm::mat4> transforms_;
-    glm::dvec3 middle_{0};
-};
 
 } // namespace cotan

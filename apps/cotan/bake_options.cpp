@@ -1,0 +1,261 @@
+#include "bake_options.hpp"
+
+#include <fmt/format.h>
+
+#include "cotan/convention.hpp"
+#include "gltf_open.hpp"
+#include "image/format_table.hpp"
+#include "parse.hpp"
+#include "picture_options.hpp"
+#include "scene/normal_maps.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+constexpr Named<int> kSamples[] = {{"1", 1}, {"4", 2}, {"16", 4}}; // per texel, and per axis
+constexpr Named<BakeSearch> kSearches[] = {{"first", BakeSearch::first}, {"nearest", BakeSearch::nearest}};
+constexpr Named<Occluders> kOccluders[] = {{"matched", Occluders::matched}, {"all", Occluders::all}};
+constexpr Named<Expansion> kExpansions[] = {{"exact", Expansion::exact}, {"biased", Expansion::biased}};
+
+Result<Convention> formatFromName(const std::string& option, const std::string& name)
+{
+    const auto convention = parseConvention(name);
+    if (!convention)
+        return usageError(option + ": " + convention.error().message);
+    if (convention->kind != MapKind::tangentSpace)
+        return usageError(fmt::format("{}: expected a tangent-space map; found '{}'", option, name));
+    return inScene(*convention);
+}
+
+// How the map is stored, but for its type. model: it is put into a glTF model.
+Result<Convention> formatOfMap(const std::string& convention, std::optional<Expansion> expansion, bool model)
+{
+    auto format = formatFromName("--convention", convention);
+    if (!format)
+        return format;
+    if (format->expansion == Expansion::signedValues)
+        return usageError("--convention: expected exact or biased; found signed");
+    format->expansion = expansion.value_or(model ? Expansion::biased : format->expansion);
+    if (model && (greenAlongV(*format) || format->channels != Channels::xyz))
+        return usageError(fmt::format("--convention: a glTF model has three channels, green up; found {}", convention));
+    return format;
+}
+
+// Checks the files and the objects of a job. Baking may take hours, so that errors of the outputs must be found before.
+Status checkOutputs(const BakeJob& job)
+{
+    const BakeModelOptions& options = job.options;
+    const std::filesystem::path& map = job.files.map;
+    const std::string kind = wordOf(kBakeKinds, options.bake.kind);
+    const bool model = namedAsGltf(map), normal = options.bake.kind == BakeKind::normal;
+    if (map.empty())
+        return usageError("bake needs -o FILE for the map");
+    if (!job.files.verify.empty() && !normal)
+        return usageError("--verify: only maps of the kind normal can be drawn and compared");
+    if (model && !normal)
+        return usageError(
+            fmt::format("-o {}: expected --kind normal for a map in a model; found {}", map.string(), kind));
+    if (model && options.stored.type == PixelType::float32)
+        return usageError(
+            fmt::format("-o {}: expected --bits 8 or 16 for an image in a model; found 32", map.string()));
+    if (model && options.tiles != std::vector{1001})
+        return usageError(
+            fmt::format("-o {}: one map covers tile 1001 of the texture coordinates only; found --udim {}",
+                        map.string(), options.tiles.front()));
+    if (job.perObject && !job.object.empty())
+        return usageError("--per-object: makes a map for each object; expected no --object with it");
+    if (model && (job.perObject || !job.object.empty()))
+        return usageError(fmt::format("-o {}: expected an image with {}; found a model", map.string(),
+                                      job.perObject ? "--per-object" : "--object"));
+    if (job.perObject && !job.cage.empty())
+        return usageError("--per-object: expected no --cage, which belongs to one object; --object NAME accepts one");
+    if (options.stored.type == PixelType::float32 && !imageFormatHas(map, &ImageFormat::negative))
+        return usageError(fmt::format("--bits 32: expected a file that ends in {}; found '{}'",
+                                      imageEndings(&ImageFormat::negative, ", ", " or "), map.string()));
+    return Done{};
+}
+
+// Parses --high-normals and its options.
+Status parseHigh(const BakeCommandOptions& o, BakeJob& job)
+{
+    BakeModelOptions& options = job.options;
+    options.ownMaps = job.highNormals == HighSource::map;
+    options.bake.highNormals = job.highNormals == HighSource::curved ? HighNormals::curved
+        : job.highNormals == HighSource::face                        ? HighNormals::face
+                                                                     : HighNormals::smooth;
+    for (const auto& [option, given] : {std::pair("--high-map", !job.highMaps.empty()),
+                                        {"--high-convention", !o.highConvention.empty()},
+                                        {"--high-frame", !o.highFrame.empty()}})
+        if (given && !options.ownMaps)
+            return usageError(fmt::format("{}: expected --high-normals map with it; found {}", option,
+                                          wordOf(kHighSources, job.highNormals)));
+    if (job.highMaps.size() > 1 && job.highMaps.size() != job.high.size())
+        return usageError(fmt::format("--high-map: expected one, or one for each of the {} --high; found {}",
+                                      job.high.size(), job.highMaps.size()));
+    if (!o.highConvention.empty()) {
+        const auto format = formatFromName("--high-convention", o.highConvention);
+        if (!format)
+            return format.error();
+        options.highFormat = *format;
+    }
+    if (o.highFrame.empty())
+        return Done{};
+    const auto frame = parseFrame(o.highFrame, "--high-frame");
+    if (!frame)
+        return frame.error();
+    if (dependsOnView(*frame))
+        return usageError(
+            fmt::format("--high-frame: the frame {} depends on the view: no map can be made for it", o.highFrame));
+    options.highFrame = *frame;
+    job.namesHighFrame = true;
+    return Done{};
+}
+
+// Refuses ray options that contradict each other.
+Status checkRays(const BakeJob& job)
+{
+    const bool nearest = job.options.bake.search == BakeSearch::nearest, extruded = job.options.bake.extrusion > 0;
+    if (nearest && extruded)
+        return usageError("--extrusion: expected --search first with it; found nearest, which needs no extrusion");
+    if (!job.cage.empty() && (nearest || extruded))
+        return usageError(fmt::format("--cage: rays start on it and stop at the first surface; expected no {} with it",
+                                      nearest ? "--search nearest" : "--extrusion"));
+    return Done{};
+}
+
+} // namespace
+
+Result<BakeJob> bakeJobOf(const BakeCommandOptions& o)
+{
+    BakeJob job = o.job;
+    job.common = o;
+    job.files.map = o.output;
+    job.highUp = o.highUp.value_or(job.up);
+    job.convention = o.convention;
+    BakeModelOptions& options = job.options;
+    options.tiles = {o.udim};
+    options.mask = !job.files.mask.empty();
+    options.bake.threads = o.threads;
+    if (Status ok = checkOutputs(job); !ok)
+        return ok.error();
+    const auto size = parseSize(o.size);
+    if (!size)
+        return size.error();
+    options.bake.width = size->width;
+    options.bake.height = size->height;
+    const auto frame = parseFrame(o.frame, "--frame");
+    if (!frame)
+        return frame.error();
+    options.bake.frame = *frame;
+    const auto format = formatOfMap(o.convention, o.expansion, namedAsGltf(o.output));
+    if (!format)
+        return format.error();
+    options.stored.format = *format;
+    if (Status ok = parseHigh(o, job); !ok)
+        return ok.error();
+    if (Status ok = checkRays(job); !ok)
+        return ok.error();
+    return job;
+}
+
+void declareBakeOptions(Arguments& a, BakeCommandOptions& o)
+{
+    a.option("--high", o.job.high, "high-poly mesh; may be given several times").required().in("FILE").reads().main();
+    a.option("--low", o.job.low, "low-poly mesh with texture coordinates").required().in("FILE").reads().main();
+    a.option(
+         "--frame", o.frame,
+         "frame that the shader will use: " + usefulFrameNames()
+             + ", or a historical one of --list-frames; mikktspace is that of Unity, Unreal, Godot, Blender and glTF")
+        .in("NAME")
+        .offers(frameWords())
+        .main();
+    addListOfFrames(a);
+    a.group(HelpGroup::output);
+    BakeModelOptions& model = o.job.options;
+    a.choice("--kind", model.bake.kind, kBakeKinds, "what to bake: normal, object-normal, height (model units) or ao");
+    a.option("--size", o.size, "width and height in texels; 512 is 512x512").in("WxH").main();
+    a.group(HelpGroup::rays);
+    a.choice("--samples", model.bake.samples, kSamples, "samples per texel: 1, 4 or 16").in("N");
+    a.choice("--search", model.bake.search, kSearches,
+             "surface to bake: first (that a ray from outside meets), or nearest (to the low mesh, on either side)");
+    a.option("--extrusion", model.bake.extrusion,
+             "how far in front of the low mesh rays start, in model units; 0: measured from the high mesh")
+        .within(0.0, 1e9)
+        .in("D");
+    a.option("--max-distance", model.bake.maxDistance,
+             "ignore high surfaces further from the low mesh, in model units; 0: 10 % of the low mesh's diagonal "
+             "(--search nearest: 5 % of the high mesh's)")
+        .within(0.0, 1e9)
+        .in("D");
+    a.option("--cage", o.job.cage,
+             "mesh with the triangles of the low one that encloses both; rays start on it and run inwards")
+        .in("FILE")
+        .reads();
+    a.option("--ao-rays", model.bake.occlusionRays, "rays per sample for ao").within(1, 65536).in("N");
+    a.choice("--ao-occluders", model.bake.occluders, kOccluders,
+             "with --match-by-name, what casts occlusion: matched (the high meshes of the same name) or all");
+    a.group(HelpGroup::input);
+    a.flag("--match-by-name", model.matchByName,
+           "bake each low mesh NAME_low from its high meshes NAME_high, NAME_high_a only; NAME_low.001 from "
+           "NAME_high.001");
+    addUpOption(a, o.job.up, "the files");
+    a.choice("--high-up", o.highUp, kUps, "the same for the high mesh only, where it differs: y or z");
+    a.option("--object", o.job.object, "bake this object of the low mesh only: the name of its node, else of its mesh")
+        .in("TEXT");
+    a.flag("--per-object", o.job.perObject,
+           "make a map for each object of the low mesh: -o map.png writes map-NAME.png")
+        .under(HelpGroup::output);
+    a.option("--material", model.material, "number of the low mesh's material to bake; -1: all")
+        .within(-1, 100000)
+        .in("N");
+    a.option("--udim", o.udim, "tile of the texture coordinates to bake").within(1001, 1999).in("N");
+    addTangentsOption(a, model.tangents,
+                      "for the frames vertex and mikktspace: stored (generated where missing) or generated");
+    a.choice("--high-normals", o.job.highNormals, kHighSources,
+             "normals of the high mesh: smooth, curved (where its triangles are larger than texels), face (flat "
+             "triangles) or map (its own normal map)");
+    a.option(
+         "--high-frame", o.highFrame,
+         "frame that the high mesh's map was made for; default: mikktspace, from TANGENT or generated, as glTF says")
+        .in("NAME")
+        .offers(frameWords());
+    a.option("--high-map", o.job.highMaps,
+             "image that replaces the high mesh's normal maps; one, or one for each --high")
+        .in("FILE")
+        .reads();
+    a.option("--high-convention", o.highConvention,
+             "how the high mesh's map is stored, words as for --convention; default: as its material says, opengl for "
+             "--high-map")
+        .in("WORDS")
+        .offers(conventionWordList());
+    a.group(HelpGroup::output);
+    a.choice("--bits", model.stored.type, kBitCounts,
+             "bits per component: 8, 16 or 32 (float; " + imageEndings(&ImageFormat::negative, ", ", " or ") + ")")
+        .in("N");
+    a.flag("--dither", model.stored.dither, "with 8 bits: dither with a fixed pattern, so that slopes show no steps");
+    a.option("--convention", o.convention, "how the map is stored: " + conventionWords())
+        .in("WORDS")
+        .offers(conventionWordList());
+    a.choice("--unsigned", o.expansion, kExpansions,
+             "which code means zero: exact (128, or 32768 with 16 bits) or biased (none: 2c - 1) (default: biased in a "
+             "glTF model, as its readers assume, else exact)")
+        .withoutDefault();
+    a.option("--padding", model.padding,
+             "how many texels around charts are filled from the nearest chart; 0: all, -1: none")
+        .within(-1, 65536)
+        .in("N");
+    a.option("--mask", o.job.files.mask, "write an image that shows the state of each texel as a colour")
+        .in("FILE")
+        .writes()
+        .under(HelpGroup::diagnostics);
+    addMemoryOption(a, o.job.memory);
+    a.option("--verify", o.job.files.verify,
+             "draw the low mesh with the map, compare it with the high one, and write the images into this folder")
+        .in("DIR")
+        .writes()
+        .under(HelpGroup::diagnostics);
+    addDeviceOption(a, o.job.device, "for --verify: ");
+}
+
+} // namespace cotan::app
