@@ -260,5 +260,21 @@ TEST(ConvertChoose, contradictoryOptionsAreRefused)
     }
 }
 
+// Otherwise the file would be read again.
+TEST(ConvertChoose, anOpenModelIsJudgedByItsScene)
+{
+    GltfDocument document = documentWith({squareAt(0, 0, 1), squareAt(2, 30, 1)});
+    auto scene = gltfScene(document);
+    ASSERT_TRUE(scene) << scene.error().message;
+    for (Mesh& mesh : scene->meshes)
+        mesh.named = Frame::smooth; // which the document does not say
+    OpenGltf model{document, *std::move(scene)};
+    const auto report = convertModel(
+        model, {.frames = {Frame::mikktspace, Frame::orthonormal}, .choose = ChoiceLimits(), .keepMaps = true});
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_EQ(namesIn(model.document), (std::vector<std::string>{"smooth", "smooth"}));
+    EXPECT_TRUE(model.scene.meshes.empty());
+}
+
 } // namespace
 } // namespace cotan

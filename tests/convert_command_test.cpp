@@ -5,12 +5,16 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <map>
 #include <set>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+#include <sys/inotify.h>
+#include <unistd.h>
 
 #include "cotan/gltf.hpp"
 #include "cotan/image.hpp"
@@ -518,6 +522,53 @@ TEST(ConvertCommand, badInputGetsOneClearLineAndLeavesNothing)
     const json r = convertJson(folder.path(), {"no-uv/quad.gltf", "--to", "cotangent", "-o", "no-uv.glb"});
     EXPECT_TRUE(r["maps"].empty());
     EXPECT_NE(r["notes"].dump().find("no uv"), std::string::npos);
+}
+
+// The number of times that the files are opened and closed again while `work` runs, by the names in the folder.
+std::map<std::string, int> timesOpened(const std::filesystem::path& folder, const std::function<void()>& work)
+{
+    std::map<std::string, int> times;
+    const int watch = ::inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+    EXPECT_GE(::inotify_add_watch(watch, folder.c_str(), IN_OPEN | IN_CLOSE_NOWRITE), 0);
+    work();
+    alignas(inotify_event) char events[65536];
+    const ssize_t size = ::read(watch, events, sizeof events);
+    for (ssize_t at = 0; at < size;) {
+        const auto* const event = reinterpret_cast<const inotify_event*>(events + at);
+        if (event->mask & IN_CLOSE_NOWRITE && event->len > 0)
+            ++times[event->name];
+        at += ssize_t(sizeof *event + event->len);
+    }
+    ::close(watch);
+    return times;
+}
+
+TEST(ConvertCommand, theModelIsReadOnce)
+{
+    for (const std::vector<std::string>& words : {std::vector<std::string>{},
+                                                  {"--to", "cotangent"},
+                                                  {"--keep-maps", "--to", "smooth"},
+                                                  {"--provoking", "last"}}) {
+        TemporaryFolder folder;
+        write(quad(2), folder.path());
+        std::vector<std::string> all = {"quad.gltf", "-o", "out.glb"};
+        all.insert(all.end(), words.begin(), words.end());
+        auto times = timesOpened(folder.path(), [&] { convertJson(folder.path(), all); });
+        EXPECT_EQ(times["quad.gltf"], 1) << fmt::format("{}", fmt::join(all, " "));
+        EXPECT_EQ(times["quad.bin"], 1) << fmt::format("{}", fmt::join(all, " "));
+    }
+}
+
+// A check that had registered its outputs would let another command fail; this one says what is wrong first.
+TEST(ConvertCommand, aWrongCommandLineTouchesNoOutput)
+{
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    const ToolRun run = runTool(
+        {"convert", "quad.gltf", "--provoking", "first", "--bits", "8", "-o", "no/folder/out.glb"}, folder.path(), 20);
+    EXPECT_EQ(run.code, 1);
+    EXPECT_NE(run.err.find("--bits: applies to converted maps only"), std::string::npos) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "no"));
 }
 
 } // namespace

@@ -160,7 +160,7 @@ TEST(OutputErrors, leaveNoNewFileOfSeveral)
     TemporaryFolder folder;
     const auto begun = [&](const char* name) {
         auto output = OutputFile::begin(folder / name);
-        EXPECT_TRUE(output && writeBytes(*output, std::as_bytes(std::span("new", 3))));
+        EXPECT_TRUE(output && writeBytes(*output, {std::as_bytes(std::span("new", 3))}));
         return *std::move(output);
     };
     {

@@ -317,7 +317,7 @@ TEST(OutputFiles, writingContinuesAfterASignal)
     Status written = Done{};
     const auto output = OutputFile::begin(pipe);
     ASSERT_TRUE(output);
-    std::thread writer([&] { written = writeBytes(*output, std::as_bytes(std::span(sent.data(), sent.size()))); });
+    std::thread writer([&] { written = writeBytes(*output, {std::as_bytes(std::span(sent.data(), sent.size()))}); });
     for (int i = 0; i < 50; ++i) { // the pipe is soon full
         ::usleep(2000);
         ::pthread_kill(writer.native_handle(), SIGUSR1);

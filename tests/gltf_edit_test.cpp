@@ -156,4 +156,97 @@ TEST(GltfEdit, copiedMaterialReadsTheAddedImage)
     EXPECT_EQ(readBack(folder.path / "out.glb").root["images"].size(), 2u) << "material 0 uses the old one";
 }
 
+// The limits that make every reading of a file count in `read`.
+cotan::LoadLimits countingLimits(const TemporaryFolder& folder, std::map<std::string, int>& read)
+{
+    cotan::LoadLimits limits;
+    limits.readFile = [&](const std::string& name) -> cotan::Result<std::vector<std::byte>> {
+        ++read[name];
+        const std::string bytes = wholeFile(folder.path / name);
+        const auto span = std::as_bytes(std::span(bytes));
+        return std::vector(span.begin(), span.end());
+    };
+    return limits;
+}
+
+TEST(GltfEdit, anOpenModelReadsEachFileOnceForItsSceneAndItsDocument)
+{
+    Gltf g = richSquare();
+    addNormalMap(g);
+    const TemporaryFolder folder;
+    folder.write("model.bin", g.bytes);
+    g.root["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", "model.bin"}}};
+    folder.write("model.gltf", g.root.dump());
+    std::map<std::string, int> read;
+    const auto opened = cotan::openGltf("model.gltf", countingLimits(folder, read));
+    ASSERT_TRUE(opened) << opened.error().message;
+    EXPECT_EQ(read, (std::map<std::string, int>{{"model.gltf", 1}, {"model.bin", 1}}));
+    COTAN_LOADED(scene, cotan::loadGltf(folder.path / "model.gltf"));
+    ASSERT_EQ(opened->scene.meshes.size(), scene.meshes.size());
+    EXPECT_EQ(opened->scene.meshes[0].positions, scene.meshes[0].positions);
+    EXPECT_EQ(opened->scene.images.at(0).data, scene.images.at(0).data);
+    const auto alone = cotan::openGltfDocument(folder.path / "model.gltf");
+    ASSERT_TRUE(alone);
+    EXPECT_EQ(*cotan::glbBytes(opened->document), *cotan::glbBytes(*alone));
+    read.clear();
+    ASSERT_TRUE(cotan::gltfScene(opened->document));
+    EXPECT_TRUE(read.empty());
+}
+
+TEST(GltfEdit, theSceneOfADocumentHasItsEdits)
+{
+    Gltf g = square();
+    addNormalMap(g);
+    primitive(g)["attributes"]["TANGENT"] = g.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
+    g.root["meshes"].push_back(g.root["meshes"][0]);
+    g.root["nodes"].push_back({{"mesh", 1}});
+    g.root["scenes"][0]["nodes"].push_back(1);
+    const TemporaryFolder folder;
+    auto document = openText(folder, g.text());
+    ASSERT_TRUE(document) << document.error().message;
+    ASSERT_TRUE(cotan::dropGltfTangents(*document, 1, 0));
+    const std::vector<cotan::GltfCornerTangents> mirrored = {{0, 0, cornersOf({-1, 1, 1, 1, 1, 1})}};
+    ASSERT_TRUE(cotan::setGltfTangents(*document, mirrored));
+    COTAN_LOADED(scene, cotan::gltfScene(*document));
+    ASSERT_TRUE(cotan::writeGltf(*document, folder.path / "out.glb"));
+    COTAN_LOADED(written, cotan::loadGltf(folder.path / "out.glb"));
+    ASSERT_EQ(scene.meshes.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(scene.meshes[i].tangents, written.meshes[i].tangents) << i;
+        EXPECT_EQ(scene.meshes[i].indices, written.meshes[i].indices) << i;
+    }
+    EXPECT_EQ(scene.meshes[0].vertexCount(), 5u); // one is copied, since the corners that share it differ
+    EXPECT_TRUE(scene.meshes[1].tangents.empty());
+}
+
+TEST(GltfEdit, copiesOfADocumentShareTheBytesThatWereAdded)
+{
+    const TemporaryFolder folder;
+    auto document = openText(folder, square().text());
+    ASSERT_TRUE(document);
+    for (const char* name : {"one", "two"})
+        cotan::addGltfImage(*document, std::vector<std::byte>(9), "image/png", name);
+    const cotan::GltfDocument copy = *document;
+    ASSERT_EQ(copy.added.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i)
+        EXPECT_EQ(copy.added[i]->data(), document->added[i]->data());
+}
+
+// The base colour is not decoded where only normal maps are read.
+TEST(GltfEdit, openingForNormalMapsFindsADamagedImageOfAnotherSlot)
+{
+    Gltf g = square();
+    addNormalMap(g);
+    g.root["images"].push_back({{"uri", "data:image/png;base64,iVBORw0KGgo="}}); // a signature, nothing else
+    g.root["textures"].push_back({{"source", 1}});
+    g.root["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 1;
+    const TemporaryFolder folder;
+    cotan::LoadLimits limits;
+    limits.pixels = cotan::Pixels::normalMaps;
+    const auto opened = cotan::openGltf(folder.write("model.gltf", g.text()), limits);
+    ASSERT_FALSE(opened);
+    EXPECT_TRUE(opened.error().message.ends_with("images[1]: the PNG image 1 ends within its header"))
+        << opened.error().message;
+}
+
 } // namespace

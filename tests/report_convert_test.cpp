@@ -151,11 +151,11 @@ TEST(ConvertLines, tangentsLineNamesTheWorstDirection)
 TEST(ConvertLines, provokingLineSumsThePrimitives)
 {
     const std::vector<GltfProvoked> all = {{0, 0, 10, 20, 25}, {0, 1, 1, 4, 5}};
-    EXPECT_EQ(provokingLine(all, "last"),
+    EXPECT_EQ(provokingLine(all, ProvokingVertex::last),
               "11 triangles of 2 primitives: 30 vertices, before 24: 1.25 times as many; vertex k provokes triangle k "
               "as its last");
-    EXPECT_EQ(provokingLine({}, "last"), "no triangles: no vertices were reordered");
-    const auto j = parsed(provokingJson(all, "first"));
+    EXPECT_EQ(provokingLine({}, ProvokingVertex::last), "no triangles: no vertices were reordered");
+    const auto j = parsed(provokingJson(all, ProvokingVertex::first));
     EXPECT_EQ(j["vertex"], "first");
     EXPECT_EQ(j["triangles"], 11);
     EXPECT_EQ(j["vertices_before"], 24);
@@ -164,7 +164,7 @@ TEST(ConvertLines, provokingLineSumsThePrimitives)
     EXPECT_EQ(j["primitives"][1]["primitive"], 1);
     EXPECT_EQ(j["primitives"][1]["growth"], 1.25);
     EXPECT_EQ(j["primitives"][0]["vertices_after"], 25);
-    EXPECT_EQ(parsed(provokingJson({}, "first"))["growth"], 1);
+    EXPECT_EQ(parsed(provokingJson({}, ProvokingVertex::first))["growth"], 1);
 }
 
 TEST(ReportText, countsTheObjectsOfAScene)

@@ -23,220 +23,252 @@ namespace cotan::app {
 
 namespace {
 
+constexpr Named<Expansion> kExpansions[] = {{"biased", Expansion::biased}, {"exact", Expansion::exact}};
+
+struct ConvertJob {
+    std::string model;
+    LoadLimits limits;
+    std::optional<ConvertModelOptions> maps;  // none: only vertices change
+    bool fileNamesFrom = false;               // the frame that the file names, if any, replaces maps->frames.from
+    std::optional<ProvokingVertex> provoking; // none: vertices stay unchanged
+    std::filesystem::path output;
+    std::optional<VerifyOptions> verify; // of `maps`, whose frames it gets
+};
+
+// ---- words to a job -------------------------------------------------------------------------
+
 struct ConvertCommandOptions : CommonOptions {
     std::string model;
-    std::string from, to; // empty `from`: the frame that the file names, else mikktspace
-    TangentOrigin tangents = TangentOrigin::stored;
-    bool keepTangents = false, keepMaps = false;
+    std::string from, to;                    // empty `from`: the frame that the file names, else mikktspace
+    ConvertModelOptions maps;                // what the options of maps say
     double maxDegrees = ChoiceLimits().mean; // for frames that are chosen
-    std::string provoking;                   // empty: vertices stay unchanged
-    int memory = kDefaultMemory;
-    int bits = 0; // 0: as the old map
-    std::string expansion = "biased";
-    std::filesystem::path verify;
-    std::string device = "auto";
+    std::optional<ProvokingVertex> provoking;
+    VerifyOptions verify;
 };
 
 Result<Frame> frameFor(const char* option, const std::string& text)
 {
     const auto frame = parseFrame(text, option);
-    if (!frame)
-        return frame.error();
-    if (dependsOnView(*frame))
+    if (frame && dependsOnView(*frame))
         return usageError(
             fmt::format("{}: expected a frame that does not depend on the view; found {}, for which no map can be made",
                         option, text));
-    return *frame;
+    return frame;
 }
 
-// --provoking alone concerns vertices only.
-bool verticesOnly(const ConvertCommandOptions& o) { return o.to.empty() && !o.keepMaps && !o.provoking.empty(); }
-
-// Without --to-frame the frames are chosen by measurement, and the maps stay.
-bool chooses(const ConvertCommandOptions& o) { return o.to.empty() && !verticesOnly(o); }
-
-Status checkVerticesOnly(const ConvertCommandOptions& o)
+Status checkTogether(const ConvertCommandOptions& o, bool chooses, bool verticesOnly)
 {
-    const ConvertCommandOptions unset;
-    for (const auto& [option, given] : {std::pair{"--from-frame", o.from != unset.from},
-                                        {"--tangents", o.tangents != unset.tangents},
-                                        {"--keep-tangents", o.keepTangents},
-                                        {"--bits", o.bits != unset.bits},
-                                        {"--unsigned", o.expansion != unset.expansion},
-                                        {"--verify", !o.verify.empty()}})
-        if (given)
+    const ConvertModelOptions &maps = o.maps, unset;
+    if ((maps.keepMaps || chooses) && (maps.keepTangents || maps.bits != unset.bits))
+        return usageError(fmt::format("{}: {} drops only the tangents",
+                                      maps.keepTangents ? "--keep-tangents" : "--bits",
+                                      maps.keepMaps ? "--keep-maps" : "convert without --to-frame"));
+    if (!chooses && o.maxDegrees != ChoiceLimits().mean)
+        return usageError(fmt::format("--max-degrees: applies to frames that are chosen; leave out {}",
+                                      o.to.empty() ? "--provoking, or add --keep-maps" : "--to-frame"));
+    for (const auto& [option, given] : {std::pair{"--from-frame", !o.from.empty()},
+                                        {"--tangents", maps.frames.fromTangents != unset.frames.fromTangents},
+                                        {"--keep-tangents", maps.keepTangents},
+                                        {"--bits", maps.bits != unset.bits},
+                                        {"--unsigned", maps.expansion != unset.expansion},
+                                        {"--verify", !o.verify.folder.empty()}})
+        if (given && verticesOnly)
             return usageError(
                 fmt::format("{}: applies to converted maps only; expected --to-frame FRAME with it", option));
     return Done{};
 }
 
-// The frames of the maps; empty if the maps stay unchanged.
-Result<std::optional<FramePair>> checkUsage(const ConvertCommandOptions& o)
+Result<ConvertJob> jobOf(const ConvertCommandOptions& o)
 {
-    if ((o.keepMaps || chooses(o)) && (o.keepTangents || o.bits != 0))
-        return usageError(fmt::format("{}: {} drops only the tangents", o.keepTangents ? "--keep-tangents" : "--bits",
-                                      o.keepMaps ? "--keep-maps" : "convert without --to-frame"));
-    if (!chooses(o) && o.maxDegrees != ConvertCommandOptions().maxDegrees)
-        return usageError(fmt::format("--max-degrees: applies to frames that are chosen; leave out {}",
-                                      o.to.empty() ? "--provoking, or add --keep-maps" : "--to-frame"));
-    if (verticesOnly(o))
-        if (Status alone = checkVerticesOnly(o); !alone)
-            return alone.error();
+    // --provoking alone concerns vertices only. Without --to-frame the frames are chosen by measurement, and the maps
+    // stay.
+    const bool verticesOnly = o.to.empty() && !o.maps.keepMaps && o.provoking, chooses = o.to.empty() && !verticesOnly;
+    if (Status fit = checkTogether(o, chooses, verticesOnly); !fit)
+        return fit.error();
     const auto from = frameFor("--from-frame", o.from.empty() ? "mikktspace" : o.from);
     if (!from)
         return from.error();
-    const auto to = !o.to.empty() ? frameFor("--to-frame", o.to) : chooses(o) ? Frame::orthonormal : *from;
+    const auto to = o.to.empty() ? Frame::orthonormal : frameFor("--to-frame", o.to);
     if (!to)
         return to.error();
-    if (o.keepMaps && readsTangents(*to))
+    if (o.maps.keepMaps && readsTangents(*to))
         return usageError(fmt::format(
             "--to-frame: expected a frame that reads no tangents, since --keep-maps drops them; found {}", name(*to)));
     if (o.output.empty())
         return usageError("convert needs -o FILE");
     if (Status names = checkGltfNames(o.model, o.output); !names)
         return names.error();
-    std::vector<PlannedOutput> files = {{"-o", o.output}};
-    if (!o.verify.empty())
-        for (const PlannedOutput& picture :
-             plannedIn("--verify", o.verify, imageNames(kConversionNames, kConversionViews)))
-            files.push_back(picture);
-    if (Status planned = beginOutputs(o, files); !planned)
-        return planned.error();
     std::error_code ignored;
-    if (!o.verify.empty() && std::filesystem::equivalent(o.model, o.output, ignored))
+    const bool verifies = !o.verify.folder.empty();
+    if (verifies && std::filesystem::equivalent(o.model, o.output, ignored))
         return usageError(fmt::format("--verify: compares with {}, which -o replaces; expected another -o", o.model));
-    if (verticesOnly(o))
-        return std::optional<FramePair>();
-    return std::optional(FramePair{*from, *to, o.tangents, TangentOrigin::generated});
+    const LoadLimits limits = limitsFor(o.verify.memory, chooses ? Pixels::normalMaps : Pixels::none);
+    ConvertJob job{o.model, limits, o.maps, o.from.empty(), o.provoking, o.output, o.verify};
+    job.maps->frames.from = *from;
+    job.maps->frames.to = *to;
+    if (chooses)
+        job.maps->choose = ChoiceLimits::of(o.maxDegrees);
+    job.maps->keepMaps |= chooses;
+    job.maps->threads = o.threads;
+    job.maps->memory = std::size_t(o.verify.memory) << 20;
+    job.maps->limits = limits;
+    job.verify->before = o.model;
+    job.verify->after = o.output;
+    if (verticesOnly)
+        job.maps.reset();
+    if (!verifies)
+        job.verify.reset();
+    return job;
 }
 
-// Converts the maps, and prints the result of each when it is done.
-Result<ConvertModelReport> convert(const ConvertCommandOptions& o, const FramePair& frames, GltfDocument& document)
+// ---- the work -------------------------------------------------------------------------------
+
+struct ConvertResult {
+    FramePair frames;
+    ConvertModelReport maps;
+    std::vector<GltfProvoked> provoked;
+    GltfWritten written;
+};
+
+std::vector<PlannedOutput> outputsOf(const ConvertJob& job)
 {
-    bool first = true;
-    const auto mapDone = [&](const ConvertedMap& map) {
-        if (std::exchange(first, false))
-            say(o, "three values are mean / 95 % / maximum, weighted by surface area");
-        for (const std::string& line : linesOf(map, std::string(name(frames.to))))
-            say(o, line);
-    };
-    auto done = withProgress(o, 1, "converting " + o.model, [&](Progress progress) {
-        return convertModel(document,
-                            {.frames = frames,
-                             .bits = o.bits,
-                             .expansion = o.expansion == "biased" ? Expansion::biased : Expansion::exact,
-                             .choose = chooses(o) ? std::optional(ChoiceLimits::of(o.maxDegrees)) : std::nullopt,
-                             .keepMaps = o.keepMaps || chooses(o),
-                             .keepTangents = o.keepTangents,
-                             .threads = o.threads,
-                             .memory = std::size_t(o.memory) << 20,
-                             .limits = limitsFor(o.memory),
-                             .progress = std::move(progress),
-                             .mapDone = mapDone});
-    });
-    return done ? std::move(done) : Result<ConvertModelReport>(withOptionNames(done.error()));
+    std::vector<PlannedOutput> files;
+    if (job.verify)
+        files = plannedIn("--verify", job.verify->folder, imageNames(kConversionNames, kConversionViews));
+    files.insert(files.begin(), {"-o", job.output});
+    return files;
 }
 
-Status writeModel(const ConvertCommandOptions& o, const GltfDocument& document, Json& report)
+Result<ConvertResult> convert(ConvertJob job, const CommonOptions& terminal)
 {
-    const auto written = writeGltfWithProgress(document, o);
+    ConvertResult done;
+    auto opened = openGltfToEdit(job.model, job.limits, terminal);
+    if (!opened)
+        return opened.error();
+    if (job.maps) {
+        const auto named = namedFrame(opened->document);
+        if (!named)
+            return named.error();
+        if (job.fileNamesFrom)
+            job.maps->frames.from = named->value_or(job.maps->frames.from);
+        done.frames = job.maps->frames;
+        auto maps = withProgress(terminal, 1, "converting " + job.model, [&](Progress progress) {
+            job.maps->progress = std::move(progress);
+            return convertModel(*opened, *job.maps);
+        });
+        if (!maps)
+            return maps.error();
+        done.maps = std::move(*maps);
+    }
+    opened->scene = {}; // its memory
+    if (job.provoking) {
+        auto provoked = setGltfProvoking(opened->document, *job.provoking);
+        if (!provoked)
+            return provoked.error();
+        done.provoked = std::move(*provoked);
+    }
+    if (job.verify) // fails before anything is written
+        if (Status made = makeFolder(job.verify->folder); !made)
+            return made.error();
+    auto written = writeGltf(opened->document, job.output);
     if (!written)
         return written.error();
-    report["files"] = fileNames(*written);
-    report["bytes_before"] = written->bytesBefore;
-    report["bytes_after"] = written->bytesAfter;
-    const double before = double(written->bytesBefore), after = double(written->bytesAfter);
-    say(o, "{}: {} bytes, before {}: {:.0f} ({:.1f} %) {}", o.output.string(), written->bytesAfter,
-        written->bytesBefore, std::abs(before - after), 100 * std::abs(before - after) / std::max(before, 1.0),
-        after > before ? "more" : "less");
-    return Done{};
+    done.written = std::move(*written);
+    return done;
 }
 
-// Converts the maps, and adds the results to the report.
-Status convertMaps(const ConvertCommandOptions& o, const FramePair& frames, GltfDocument& document, Json& report,
-                   std::vector<std::string>& notes)
+// ---- the report -----------------------------------------------------------------------------
+
+std::vector<std::string> linesOf(const ConvertJob& job, const ConvertResult& done)
 {
-    const auto done = convert(o, frames, document);
-    if (!done)
-        return done.error();
-    for (const ConvertedMap& map : done->maps)
+    std::vector<std::string> lines;
+    const auto add = [&](std::vector<std::string> more) { lines.insert(lines.end(), more.begin(), more.end()); };
+    const std::string to(name(done.frames.to));
+    if (!done.maps.maps.empty())
+        add({"three values are mean / 95 % / maximum, weighted by surface area"});
+    for (const ConvertedMap& map : done.maps.maps)
+        add(linesOf(map, to));
+    if (job.maps)
+        add(tangentsLines(done.maps, to));
+    if (job.provoking)
+        add({provokingLine(done.provoked, *job.provoking)});
+    const double before = double(done.written.bytesBefore), after = double(done.written.bytesAfter);
+    add({fmt::format("{}: {} bytes, before {}: {:.0f} ({:.1f} %) {}", job.output.string(), done.written.bytesAfter,
+                     done.written.bytesBefore, std::abs(before - after),
+                     100 * std::abs(before - after) / std::max(before, 1.0), after > before ? "more" : "less")});
+    return lines;
+}
+
+Json toJson(const ConvertJob& job, const ConvertResult& done)
+{
+    Json report = {{"command", "convert"}, {"model", job.model}};
+    if (job.maps)
+        report.update({{"from", name(done.frames.from)},
+                       {"to", job.maps->choose ? kAutoFrame : name(done.frames.to)},
+                       {"tangents_read", wordOf(kTangentOrigins, done.frames.fromTangents)},
+                       {"unsigned", wordOf(kExpansions, job.maps->expansion)}});
+    report["output"] = job.output.string();
+    report["maps"] = Json::array();
+    for (const ConvertedMap& map : done.maps.maps)
         report["maps"].push_back(toJson(map));
-    for (const std::string& line : tangentsLines(*done, std::string(name(frames.to))))
-        say(o, line);
-    report["tangents"] = tangentsJson(*done);
-    report["decisions"] = decisionsJson(done->decisions);
-    notes = done->notes;
-    return Done{};
+    if (job.maps) {
+        report["tangents"] = tangentsJson(done.maps);
+        report["decisions"] = decisionsJson(done.maps.decisions);
+    }
+    if (job.provoking)
+        report["provoking"] = provokingJson(done.provoked, *job.provoking);
+    report["files"] = fileNames(done.written);
+    report["bytes_before"] = done.written.bytesBefore;
+    report["bytes_after"] = done.written.bytesAfter;
+    report["notes"] = done.maps.notes;
+    return report;
 }
 
-// Reorders vertices for the provoking vertex, and prints how many were added.
-Status provoke(const ConvertCommandOptions& o, GltfDocument& document, Json& report)
+// Compares the written model with the old one, and adds the result to the report.
+Status verify(VerifyOptions check, const ConvertJob& job, const ConvertResult& done, const CommonOptions& terminal,
+              Json& report)
 {
-    const auto done =
-        setGltfProvoking(document, o.provoking == "first" ? ProvokingVertex::first : ProvokingVertex::last);
-    if (!done)
-        return done.error();
-    report["provoking"] = provokingJson(*done, o.provoking);
-    say(o, provokingLine(*done, o.provoking));
+    check.from = done.frames.from;
+    check.fromTangents = done.frames.fromTangents;
+    check.to = job.maps->choose ? std::nullopt : std::optional(done.frames.to);
+    auto verified = verifyConversion(check, terminal);
+    if (!verified)
+        return verified.error();
+    report["verify"] = std::move(*verified);
     return Done{};
 }
 
 Status run(const ConvertCommandOptions& o)
 {
-    auto frames = checkUsage(o);
-    if (!frames)
-        return frames.error();
-    Stopwatch watch;
-    if (!o.verify.empty()) { // fails before any work
-        if (const auto renderer = openRenderer(o.device, o.threads); !renderer)
+    const auto job = jobOf(o);
+    if (!job)
+        return job.error();
+    const CommonOptions& terminal = o;
+    if (Status planned = beginOutputs(terminal, outputsOf(*job)); !planned)
+        return planned;
+    if (job->verify) // fails before any work
+        if (const auto renderer = openRenderer(job->verify->device, terminal.threads); !renderer)
             return renderer.error();
-    }
-    auto opened = openGltfToEdit(o.model, o);
-    if (!opened)
-        return opened.error();
-    GltfDocument& document = opened->document;
-    Json report = {{"command", "convert"}, {"model", o.model}};
-    if (*frames) {
-        const auto named = namedFrame(document);
-        if (!named)
-            return withOptionNames(named.error());
-        if (*named && o.from.empty())
-            (*frames)->from = **named;
-        report.update({{"from", name((*frames)->from)},
-                       {"to", chooses(o) ? std::string(kAutoFrame) : std::string(name((*frames)->to))},
-                       {"tangents_read", wordOf(kTangentOrigins, o.tangents)},
-                       {"unsigned", o.expansion}});
-    }
-    report["output"] = o.output.string();
-    report["maps"] = Json::array();
-    std::vector<std::string> notes;
-    if (*frames)
-        if (Status converted = convertMaps(o, **frames, document, report, notes); !converted)
-            return converted;
-    if (!o.provoking.empty())
-        if (Status provoked = provoke(o, document, report); !provoked)
-            return provoked;
-    if (!o.verify.empty()) // fails before anything is written
-        if (Status made = makeFolder(o.verify); !made)
-            return made;
-    if (Status written = writeModel(o, document, report); !written)
-        return written;
-    for (const std::string& note : notes)
-        warn(o, note);
-    report["notes"] = notes;
+    Stopwatch watch;
+    const auto done = convert(*job, terminal);
+    if (!done)
+        return withOptionNames(done.error());
+    for (const std::string& line : linesOf(*job, *done))
+        say(terminal, line);
+    for (const std::vector<std::string>& notes : {done->written.notes, done->maps.notes})
+        for (const std::string& note : notes)
+            warn(terminal, note);
+    Json report = toJson(*job, *done);
     report["seconds"] = {{"convert", watch.lap()}};
-    if (!o.verify.empty()) {
-        auto verified = verifyConversion({o.model, o.output, (*frames)->from,
-                                          chooses(o) ? std::nullopt : std::optional((*frames)->to),
-                                          (*frames)->fromTangents, o.verify, o.device, o.memory},
-                                         o);
-        if (!verified)
-            return verified.error();
-        report["verify"] = std::move(*verified);
+    if (job->verify) {
+        if (Status verified = verify(*job->verify, *job, *done, terminal, report); !verified)
+            return verified;
         report["seconds"]["verify"] = watch.lap();
     }
-    return writeReport(o, report);
+    return writeReport(terminal, report);
 }
+
+// ---- the options ----------------------------------------------------------------------------
 
 void declare(Arguments& a, ConvertCommandOptions& o)
 {
@@ -258,41 +290,38 @@ void declare(Arguments& a, ConvertCommandOptions& o)
     addOlderName(a, "--from", "--from-frame", o.from);
     addOlderName(a, "--to", "--to-frame", o.to);
     addTangentsOption(
-        a, o.tangents,
+        a, o.maps.frames.fromTangents,
         "for --from-frame mikktspace or vertex: stored (as in the file, generated where missing) or generated");
-    a.flag("--keep-maps", o.keepMaps,
+    a.flag("--keep-maps", o.maps.keepMaps,
            "keep the maps byte for byte, to be read with --to-frame, and drop only the tangents; where these reverse "
            "green of a map, its green is reversed, or they stay. Without --to-frame this is the default")
         .main();
     addMaxDegreesOption(a, o.maxDegrees);
     a.group(HelpGroup::output);
-    a.flag("--keep-tangents", o.keepTangents, "keep the tangents of the file");
-    a.option("--bits", o.bits,
+    a.flag("--keep-tangents", o.maps.keepTangents, "keep the tangents of the file");
+    a.option("--bits", o.maps.bits,
              "bits of the new maps, 8 or 16; rewrites all maps (default: bits of the old map; a suitable map is kept)")
         .from({8, 16})
         .in("N")
         .withoutDefault();
-    a.option(
-         "--unsigned", o.expansion,
-         "how the engine decodes the maps: biased (2c - 1, as glTF says and stock engines do) or exact (zero is 128, "
-         "Cotan's default for maps that do not say)")
-        .from({"biased", "exact"})
-        .in("NAME");
-    a.option(
-         "--provoking", o.provoking,
+    a.choice(
+        "--unsigned", o.maps.expansion, kExpansions,
+        "how the engine decodes the maps: biased (2c - 1, as glTF says and stock engines do) or exact (zero is 128, "
+        "Cotan's default for maps that do not say)");
+    a.choice(
+         "--provoking", o.provoking, kProvokings,
          "give every triangle its own provoking vertex, its first (Vulkan, Direct3D, Metal, WebGPU) or its last "
          "(OpenGL, WebGL), for the frame triangle: vertex k provokes triangle k. Copies vertices; without --to-frame "
          "nothing else changes")
-        .from({"first", "last"})
         .in("CORNER")
         .withoutDefault();
-    addMemoryOption(a, o.memory, ", and the maximum for the triangles of one map besides the model");
-    a.option("--verify", o.verify,
+    addMemoryOption(a, o.verify.memory, ", and the maximum for the triangles of one map besides the model");
+    a.option("--verify", o.verify.folder,
              "draw both models from five sides, compare normals, and write the images into this folder")
         .in("FOLDER")
         .writes()
         .main();
-    addDeviceOption(a, o.device, "for --verify: ");
+    addDeviceOption(a, o.verify.device, "for --verify: ");
 }
 
 } // namespace

@@ -112,19 +112,19 @@ std::vector<std::string> tangentsLines(const ConvertModelReport& report, const s
     return lines;
 }
 
-std::string provokingLine(const std::vector<GltfProvoked>& primitives, const std::string& provoking)
+std::string provokingLine(const std::vector<GltfProvoked>& primitives, ProvokingVertex provoking)
 {
     const GltfProvoked sum = sumOf(primitives);
     if (primitives.empty())
         return "no triangles: no vertices were reordered";
     return fmt::format("{} of {}: {} vertices, before {}: {:.2f} times as many; vertex k provokes triangle k as its {}",
                        counted(sum.triangles, "triangle"), counted(primitives.size(), "primitive"), sum.verticesAfter,
-                       sum.verticesBefore, growthOf(sum), provoking);
+                       sum.verticesBefore, growthOf(sum), wordOf(kProvokings, provoking));
 }
 
-Json provokingJson(const std::vector<GltfProvoked>& primitives, const std::string& provoking)
+Json provokingJson(const std::vector<GltfProvoked>& primitives, ProvokingVertex provoking)
 {
-    Json json = {{"vertex", provoking}};
+    Json json = {{"vertex", wordOf(kProvokings, provoking)}};
     json.update(rowOf(sumOf(primitives)));
     json["primitives"] = Json::array();
     for (const GltfProvoked& p : primitives) {

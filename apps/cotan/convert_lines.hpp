@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/named_values.hpp"
 #include "cotan/convert.hpp"
 #include "files/json.hpp"
 
@@ -15,8 +16,11 @@ std::vector<std::string> linesOf(const ConvertedMap& map, const std::string& to)
 // What happened to the tangents, and to anisotropic highlights along them; empty if nothing did.
 std::vector<std::string> tangentsLines(const ConvertModelReport& report, const std::string& to);
 
-// The number of vertices that the triangles used before and use now; provoking: "first" or "last".
-std::string provokingLine(const std::vector<GltfProvoked>& primitives, const std::string& provoking);
-Json provokingJson(const std::vector<GltfProvoked>& primitives, const std::string& provoking);
+inline constexpr Named<ProvokingVertex> kProvokings[] = {{"first", ProvokingVertex::first},
+                                                         {"last", ProvokingVertex::last}};
+
+// The number of vertices that the triangles used before and use now.
+std::string provokingLine(const std::vector<GltfProvoked>& primitives, ProvokingVertex provoking);
+Json provokingJson(const std::vector<GltfProvoked>& primitives, ProvokingVertex provoking);
 
 } // namespace cotan

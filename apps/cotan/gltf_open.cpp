@@ -24,29 +24,14 @@ Status checkGltfNames(const std::string& model, const std::filesystem::path& out
     return Done{};
 }
 
-Result<OpenedGltf> openGltfToEdit(const std::string& model, const CommonOptions& common)
+Result<OpenGltf> openGltfToEdit(const std::string& model, const LoadLimits& limits, const CommonOptions& common)
 {
     const ProgressLine loading(common.quiet, 0, "loading " + model);
-    LoadLimits limits;
-    limits.pixels = Pixels::none;
-    auto scene = loadGltf(model, limits);
-    if (!scene)
-        return scene.error();
-    for (const std::string& line : scene->warnings)
-        warn(common, line);
-    auto document = openGltfDocument(model, limits);
-    if (!document)
-        return document.error();
-    return OpenedGltf{std::move(*document), std::move(scene->warnings)};
-}
-
-Result<GltfWritten> writeGltfWithProgress(const GltfDocument& document, const CommonOptions& common)
-{
-    auto written = writeGltf(document, common.output);
-    if (written)
-        for (const std::string& note : written->notes)
-            warn(common, note);
-    return written;
+    auto opened = openGltf(model, limits);
+    if (opened)
+        for (const std::string& line : opened->scene.warnings)
+            warn(common, line);
+    return opened;
 }
 
 std::vector<std::string> fileNames(const GltfWritten& written)

@@ -16,157 +16,199 @@ namespace cotan::app {
 
 namespace {
 
-struct LintCommandOptions : CommonOptions {
+struct LintJob {
     std::string model;
-    Up up = Up::y;
-    int memory = kDefaultMemory;
-    bool details = false;
     OwnMaps maps;
-    double distance = 0;
-    bool strict = false;
-    double maxDegrees = ChoiceLimits().mean; // for frames that are chosen
+    int memory = kDefaultMemory; // MiB
+    LoadLimits load;
+    LintOptions lint;
     LintLimits limits;
+    bool details = false; // also in the lines
 };
 
-// The command that follows the advice; empty if it would change nothing.
-std::string commandFor(const LintCommandOptions& o, const LintReport& report)
+struct LintCommandOptions : CommonOptions {
+    LintJob job; // but for `load` and `lint.memory`
+    Up up = Up::y;
+    bool strict = false;
+    double maxDegrees = ChoiceLimits().mean; // for frames that are chosen
+};
+
+Result<LintJob> jobOf(const LintCommandOptions& o)
 {
-    if (report.advice == Advice::nothing || !o.maps.normal.empty()) // convert reads the model's own maps
+    LintJob job = o.job;
+    const LintLimits& limits = job.limits;
+    if (!(job.lint.distance >= 0 && job.lint.distance <= 1e9))
+        return usageError(fmt::format("--distance: expected a number from 0 to 1e9; found {}", job.lint.distance));
+    const auto outside = [](double limit, double max) { return !(limit == -1 || (limit >= 0 && limit <= max)); };
+    if (outside(limits.degrees, 180))
+        return usageError(fmt::format("--limit: expected degrees from 0 to 180; found {}", limits.degrees));
+    if (outside(limits.area, 100))
+        return usageError(fmt::format("--limit-area: expected percent from 0 to 100; found {}", limits.area));
+    if (o.strict && limits.degrees < 0 && limits.area < 0)
+        return usageError("--strict: expected --limit DEGREES or --limit-area PERCENT; found neither");
+    job.load = limitsFor(job.memory, Pixels::whereReadable);
+    job.load.up = o.up;
+    job.lint.memory = std::size_t(job.memory) << 20;
+    job.lint.limits = ChoiceLimits::of(o.maxDegrees);
+    return job;
+}
+
+// ---- the work -------------------------------------------------------------------------------
+
+struct LintResult {
+    Scene scene; // with the given maps
+    LintReport report;
+    LintCheck check;
+    std::vector<ProblemArea> areas;
+    std::string command;                 // that follows the advice; empty if it would change nothing
+    double loadSeconds = 0, seconds = 0; // seconds: of the measurements
+};
+
+std::string commandFor(const LintJob& job, const LintReport& report)
+{
+    if (report.advice == Advice::nothing || !job.maps.normal.empty()) // convert reads the model's own maps
         return {};
-    const std::string stem = std::filesystem::path(o.model).stem().string();
-    if (!namedAsGltf(o.model)) // convert writes glTF only
-        return fmt::format("cotan render {} --frame orthonormal -o {}", quoted(o.model), quoted(stem + ".png"));
+    const std::string stem = std::filesystem::path(job.model).stem().string();
+    if (!namedAsGltf(job.model)) // convert writes glTF only
+        return fmt::format("cotan render {} --frame orthonormal -o {}", quoted(job.model), quoted(stem + ".png"));
     if (report.dropping == 0)
         return {};
-    return fmt::format("cotan convert {}{} -o {} --verify {}", quoted(o.model),
+    return fmt::format("cotan convert {}{} -o {} --verify {}", quoted(job.model),
                        report.distrustStored ? " --tangents generated" : "", quoted(stem + "-free.glb"),
                        quoted(stem + "-verify"));
 }
 
-Status checkUsage(const LintCommandOptions& o)
+Result<LintResult> lint(const LintJob& job, const CommonOptions& terminal)
 {
-    if (!(o.distance >= 0 && o.distance <= 1e9))
-        return usageError(fmt::format("--distance: expected a number from 0 to 1e9; found {}", o.distance));
-    const auto outside = [](double limit, double max) { return !(limit == -1 || (limit >= 0 && limit <= max)); };
-    if (outside(o.limits.degrees, 180))
-        return usageError(fmt::format("--limit: expected degrees from 0 to 180; found {}", o.limits.degrees));
-    if (outside(o.limits.area, 100))
-        return usageError(fmt::format("--limit-area: expected percent from 0 to 100; found {}", o.limits.area));
-    if (o.strict && o.limits.degrees < 0 && o.limits.area < 0)
-        return usageError("--strict: expected --limit DEGREES or --limit-area PERCENT; found neither");
-    return Done{};
-}
-
-Status run(const LintCommandOptions& o)
-{
-    if (Status usage = checkUsage(o); !usage)
-        return usage;
-    if (Status planned = beginOutputs(o, {}); !planned)
-        return planned;
     Stopwatch watch;
-    LoadLimits limits = limitsFor(o.memory, Pixels::whereReadable);
-    limits.up = o.up;
-    auto scene = loadWithProgress(o, limits, o.model);
+    auto scene = loadWithProgress(terminal, job.load, job.model);
     if (!scene)
         return scene.error();
-    if (Status applied = applyOwnMaps(o.maps, o.memory, *scene); !applied)
-        return applied;
-    for (const std::string& line : scene->warnings)
-        warn(o, line);
-    const double loadSeconds = watch.lap();
-    const auto linted = withProgress(o, 1, "measuring " + o.model, [&](const Progress& progress) {
-        return lintScene(
-            *scene,
-            {.distance = o.distance, .memory = std::size_t(o.memory) << 20, .limits = ChoiceLimits::of(o.maxDegrees)},
-            progress);
-    });
-    if (!linted)
-        return withOptionNames(linted.error());
-    const LintReport& report = *linted;
-    for (const GreenEvidence& map : report.maps)
-        if (!map.note.empty())
-            warn(o, "normal map {}: {}", map.name.empty() ? fmt::format("image {}", map.image) : map.name, map.note);
-    const std::string command = commandFor(o, report);
-    const LintCheck check = checkLimits(report, o.limits);
-    const std::vector<std::string> verdict = verdictLines(o.model, report, command);
-    for (const std::string& line : verdict)
-        say(o, line);
-    std::vector<std::string> details = detailLines(report);
-    const std::vector<ProblemArea> areas =
-        report.primitives.empty() ? std::vector<ProblemArea>() : problemAreas(*scene);
-    for (const ProblemArea& area : areas)
-        details.push_back(fmt::format("look: {}: --camera {}", area.text, formatCamera(area.camera)));
-    if (o.limits.any())
-        for (const std::string& line : checkLines(check, o.details ? check.failures.size() : 1))
-            say(o, line);
-    if (o.details)
-        for (const std::string& line : details)
-            say(o, line);
-    else
-        say(o,
-            "--details adds {} lines: the statistics of each primitive and map, and cameras that look at the problem "
-            "areas",
-            details.size());
+    if (Status applied = applyOwnMaps(job.maps, job.memory, *scene); !applied)
+        return applied.error();
+    LintResult done;
+    done.scene = *std::move(scene);
+    done.loadSeconds = watch.lap();
+    auto report = withProgress(terminal, 1, "measuring " + job.model,
+                               [&](const Progress& progress) { return lintScene(done.scene, job.lint, progress); });
+    if (!report)
+        return report.error();
+    done.report = std::move(*report);
+    done.check = checkLimits(done.report, job.limits);
+    done.command = commandFor(job, done.report);
+    if (!done.report.primitives.empty())
+        done.areas = problemAreas(done.scene);
+    done.seconds = watch.lap();
+    return done;
+}
 
+// ---- the report -----------------------------------------------------------------------------
+
+std::vector<std::string> linesOf(const LintJob& job, const LintResult& done)
+{
+    std::vector<std::string> lines = verdictLines(job.model, done.report, done.command);
+    std::vector<std::string> details = detailLines(done.report);
+    for (const ProblemArea& area : done.areas)
+        details.push_back(fmt::format("look: {}: --camera {}", area.text, formatCamera(area.camera)));
+    const std::vector<std::string> checks = job.limits.any()
+        ? checkLines(done.check, job.details ? done.check.failures.size() : 1)
+        : std::vector<std::string>();
+    lines.insert(lines.end(), checks.begin(), checks.end());
+    if (job.details)
+        lines.insert(lines.end(), details.begin(), details.end());
+    else
+        lines.push_back(fmt::format("--details adds {} lines: the statistics of each primitive and map, and cameras "
+                                    "that look at the problem areas",
+                                    details.size()));
+    return lines;
+}
+
+Json toJson(const LintJob& job, const LintResult& done)
+{
+    const LintReport& report = done.report;
     Json j = {{"command", "lint"},
-              {"model", o.model},
-              {"warnings", warningsOf(report, scene->warnings)},
+              {"model", job.model},
+              {"warnings", warningsOf(report, done.scene.warnings)},
               {"distance", report.distance},
-              {"verdict", verdict},
+              {"verdict", verdictLines(job.model, report, done.command)},
               {"recommendation", report.recommendation},
-              {"run", command},
+              {"run", done.command},
               {"run_would",
                {{"primitives_dropping", report.dropping},
                 {"primitives_keeping", report.keeping},
                 {"drops_tangents", report.dropping > 0}}}};
     j.update(listsOf(report));
     j["hot_spots"] = Json::array();
-    for (const ProblemArea& area : areas)
+    for (const ProblemArea& area : done.areas)
         j["hot_spots"].push_back({{"text", area.text},
-                                  {"mesh", scene->meshes[area.mesh].name},
+                                  {"mesh", done.scene.meshes[area.mesh].name},
                                   {"share", area.share},
                                   {"camera", formatCamera(area.camera)}});
-    j["check"] = toJson(check);
-    j["over_limit"] = overLimits(check);
-    j["seconds"] = {{"load", loadSeconds}, {"lint", watch.lap()}};
-    if (Status written = writeReport(o, j); !written)
+    j["check"] = toJson(done.check);
+    j["over_limit"] = overLimits(done.check);
+    j["seconds"] = {{"load", done.loadSeconds}, {"lint", done.seconds}};
+    return j;
+}
+
+Status run(const LintCommandOptions& o)
+{
+    const auto job = jobOf(o);
+    if (!job)
+        return job.error();
+    const CommonOptions& terminal = o;
+    if (Status planned = beginOutputs(terminal, {}); !planned)
+        return planned;
+    const auto done = lint(*job, terminal);
+    if (!done)
+        return withOptionNames(done.error());
+    for (const std::string& line : done->scene.warnings)
+        warn(terminal, line);
+    for (const GreenEvidence& map : done->report.maps)
+        if (!map.note.empty())
+            warn(terminal, "normal map {}: {}", map.name.empty() ? fmt::format("image {}", map.image) : map.name,
+                 map.note);
+    for (const std::string& line : linesOf(*job, *done))
+        say(terminal, line);
+    if (Status written = writeReport(terminal, toJson(*job, *done)); !written)
         return written;
-    if (!check.passed())
-        return Error{ErrorKind::limit, summaryOf(check)};
+    if (!done->check.passed())
+        return Error{ErrorKind::limit, summaryOf(done->check)};
     return Done{};
 }
+
+// ---- the options ----------------------------------------------------------------------------
 
 void declare(Arguments& a, LintCommandOptions& o)
 {
     a.find("--threads").unlisted(); // accepted by all commands, but listed only where used
-    a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file").required().reads();
+    a.option("MODEL", o.job.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file").required().reads();
     addUpOption(a, o.up);
-    addMemoryOption(a, o.memory, ", and the maximum for all triangles besides the model");
-    a.flag("--details", o.details,
+    addMemoryOption(a, o.job.memory, ", and the maximum for all triangles besides the model");
+    a.flag("--details", o.job.details,
            "also print the statistics of each primitive and map, and cameras that look at the problem areas")
         .main();
-    addOwnNormalMap(a, o.maps);
+    addOwnNormalMap(a, o.job.maps);
     a.group(HelpGroup::frame);
     addMaxDegreesOption(a, o.maxDegrees);
     a.group(HelpGroup::diagnostics);
-    a.option("--distance", o.distance,
+    a.option("--distance", o.job.lint.distance,
              "distance from the eye in world units, for an image with a 45 degree view and 1080 rows; 0: where the "
              "model fills it")
         .in("D");
     a.option(
-         "--limit", o.limits.degrees,
+         "--limit", o.job.limits.degrees,
          "check each primitive: exit code 5 if the error with --frame exceeds this many degrees on more than 5 % of "
          "a primitive's area, a map's green points the other way, or a normal map could not be judged")
         .in("DEGREES")
         .withoutDefault()
         .main();
-    a.option("--limit-area", o.limits.area,
+    a.option("--limit-area", o.job.limits.area,
              "check each primitive: exit code 5 if degenerate uv, mirrored uv that overlap, or stored tangents against "
              "the uv exceed this % of a primitive's area, or a map's green points the other way")
         .in("PERCENT")
         .withoutDefault();
     a.flag("--strict", o.strict, "require --limit or --limit-area: without either it is a usage error");
-    a.option("--frame", o.limits.frame,
+    a.option("--frame", o.job.limits.frame,
              "frame that --limit judges: cotangent, orthonormal, smooth, exact, triangle or stored")
         .from(readingNames())
         .in("NAME")

@@ -20,13 +20,36 @@ struct TangentsCommandOptions : CommonOptions {
     bool replace = false;
 };
 
-TangentsOptions optionsOf(const TangentsCommandOptions& o, const Progress& progress)
+// ---- words to a job -------------------------------------------------------------------------
+
+struct TangentsJob {
+    std::string model;
+    TangentsOptions tangents;     // frame: also smooth, for its statistics
+    std::filesystem::path output; // empty: nothing is written
+};
+
+Result<TangentsJob> jobOf(const TangentsCommandOptions& o)
 {
-    return {.frame = o.frame == "vertex" ? Frame::vertex : Frame::mikktspace,
-            .replace = o.replace,
-            .threads = o.threads,
-            .progress = progress};
+    const auto frame = frameFromName(o.frame);
+    if (!frame || !readsVertices(*frame))
+        return usageError(fmt::format("--frame: expected mikktspace, vertex or smooth; found '{}'", o.frame));
+    if (frame == Frame::smooth && !o.output.empty())
+        return usageError("--frame smooth is derived when a model is loaded and never stored; leave "
+                          "out -o for its statistics");
+    if (o.replace && o.output.empty())
+        return usageError("--replace needs -o FILE");
+    if (Status names = checkGltfNames(o.model, o.output); !names)
+        return names.error();
+    return TangentsJob{o.model, {.frame = *frame, .replace = o.replace, .threads = o.threads}, o.output};
 }
+
+// ---- the work and its report ----------------------------------------------------------------
+
+// The lines and the JSON of what was done.
+struct TangentsReport {
+    std::vector<std::string> lines, warnings;
+    Json json = Json::object();
+};
 
 Json describe(const PrimitiveTangents& p)
 {
@@ -37,11 +60,6 @@ Json describe(const PrimitiveTangents& p)
             {"stored", p.stored}};
 }
 
-std::string referenceName(const TangentsCommandOptions& o)
-{
-    return o.frame == "vertex" ? "the classic tangents" : "MikkTSpace";
-}
-
 // The frame that reads the primitive's maps without tangents, or why these stay; empty if it has no such map.
 std::string chosenFor(const PrimitiveTangents& p, const std::vector<PrimitiveDecision>& decisions)
 {
@@ -49,86 +67,85 @@ std::string chosenFor(const PrimitiveTangents& p, const std::vector<PrimitiveDec
     return d && d->reason != ChoiceReason::noMap ? "; its normal map: " + textOf(*d) : "";
 }
 
-// Reports the tangent differences of one primitive.
-void reportDifference(const TangentsCommandOptions& o, const PrimitiveTangents& p,
-                      const std::vector<PrimitiveDecision>& decisions, Json& row)
-{
-    std::string text = p.reason.empty() ? "no TANGENT" : p.reason;
-    if (!p.reason.empty()) {
-        row["cannot"] = p.reason;
-    } else if (p.difference) {
-        row.update(toJson(*p.difference));
-        text = toText(*p.difference, referenceName(o));
-    }
-    say(o, "{} ({} triangles): {}{}", p.name, p.triangles, text, chosenFor(p, decisions));
-}
-
 // Compares stored tangents with generated ones.
-Status compare(const TangentsCommandOptions& o, const GltfDocument& document, Json& report)
+Result<TangentsReport> compare(OpenGltf& model, const TangentsOptions& options)
 {
-    const auto compared = withProgress(
-        o, 1, "comparing", [&](const Progress& progress) { return compareTangents(document, optionsOf(o, progress)); });
+    const std::string reference = options.frame == Frame::vertex ? "the classic tangents" : "MikkTSpace";
+    const auto compared = compareTangents(model.document, options);
     if (!compared)
         return compared.error();
-    const auto decisions = choosePrimitives(document, {}, {Frame::mikktspace, Frame::orthonormal}, {});
+    const auto decisions =
+        choosePrimitives(model.document, {}, {Frame::mikktspace, Frame::orthonormal}, {}, std::move(model.scene));
     if (!decisions)
         return decisions.error();
-    report["decisions"] = decisionsJson(*decisions);
+    TangentsReport report;
+    report.json["decisions"] = decisionsJson(*decisions);
     for (const PrimitiveTangents& p : compared->primitives) {
-        auto row = describe(p);
-        reportDifference(o, p, *decisions, row);
-        report["primitives"].push_back(std::move(row));
+        Json row = describe(p);
+        std::string text = p.reason.empty() ? "no TANGENT" : p.reason;
+        if (!p.reason.empty()) {
+            row["cannot"] = p.reason;
+        } else if (p.difference) {
+            row.update(toJson(*p.difference));
+            text = toText(*p.difference, reference);
+        }
+        report.lines.push_back(
+            fmt::format("{} ({} triangles): {}{}", p.name, p.triangles, text, chosenFor(p, *decisions)));
+        report.json["primitives"].push_back(std::move(row));
     }
     const bool any = compared->whole.corners > 0;
-    std::string verdict = any ? toText(compared->whole, referenceName(o)) : "no TANGENT is stored";
+    std::string verdict = any ? toText(compared->whole, reference) : "no TANGENT is stored";
     if (any && compared->without > 0)
         verdict += fmt::format("; {} without TANGENT", counted(compared->without, "primitive"));
-    report["model_verdict"] = verdict;
+    report.json["model_verdict"] = verdict;
     if (any)
-        report["whole"] = toJson(compared->whole);
-    say(o, "whole model: " + verdict);
-    return Done{};
+        report.json["whole"] = toJson(compared->whole);
+    report.lines.push_back("whole model: " + verdict);
+    return report;
 }
 
 // Generates tangents and writes the model.
-Status write(const TangentsCommandOptions& o, GltfDocument& document, Json& report)
+Result<TangentsReport> write(GltfDocument& document, const TangentsOptions& options, const std::filesystem::path& file)
 {
-    const auto given = withProgress(
-        o, 1, "generating", [&](const Progress& progress) { return giveTangents(document, optionsOf(o, progress)); });
+    const auto given = giveTangents(document, options);
     if (!given)
         return given.error();
+    const auto written = writeGltf(document, file);
+    if (!written)
+        return written.error();
+    TangentsReport report;
     for (const PrimitiveTangents& p : given->primitives) {
-        auto row = describe(p);
+        Json row = describe(p);
         row["generated"] = p.generated;
         if (!p.reason.empty()) {
             row["cannot"] = p.reason;
-            warn(o, "{}: {}, no tangents", p.name, p.reason);
+            report.warnings.push_back(fmt::format("{}: {}, no tangents", p.name, p.reason));
         }
-        report["primitives"].push_back(std::move(row));
+        report.json["primitives"].push_back(std::move(row));
     }
-    const auto written = writeGltfWithProgress(document, o);
-    if (!written)
-        return written.error();
-    report["generated"] = given->generated;
-    report["kept"] = given->kept;
-    report["skipped"] = given->skipped;
-    report["vertices_added"] = given->verticesAdded;
-    report["bytes_before"] = written->bytesBefore;
-    report["bytes_after"] = written->bytesAfter;
-    report["files"] = fileNames(*written);
-    report["notes"] = written->notes;
-    say(o, "{} got {} tangents, {} kept theirs, {} cannot have any; {} vertices added",
-        counted(given->generated, "primitive"), o.frame, given->kept, given->skipped, given->verticesAdded);
-    say(o, "{}: {} bytes, before {}", o.output.string(), written->bytesAfter, written->bytesBefore);
-    return Done{};
+    report.warnings.insert(report.warnings.end(), written->notes.begin(), written->notes.end());
+    report.json.update({{"generated", given->generated},
+                        {"kept", given->kept},
+                        {"skipped", given->skipped},
+                        {"vertices_added", given->verticesAdded},
+                        {"bytes_before", written->bytesBefore},
+                        {"bytes_after", written->bytesAfter},
+                        {"files", fileNames(*written)},
+                        {"notes", written->notes}});
+    report.lines = {fmt::format("{} got {} tangents, {} kept theirs, {} cannot have any; {} vertices added",
+                                counted(given->generated, "primitive"), name(options.frame), given->kept,
+                                given->skipped, given->verticesAdded),
+                    fmt::format("{}: {} bytes, before {}", file.string(), written->bytesAfter, written->bytesBefore)};
+    return report;
 }
 
 // Statistics of the frame `smooth`, which is derived when a model is loaded.
-Status describeSmooth(const TangentsCommandOptions& o, const GltfDocument& document, Json& report)
+Result<TangentsReport> describeSmooth(const GltfDocument& document)
 {
     const auto primitives = gltfPrimitives(document);
     if (!primitives)
         return primitives.error();
+    TangentsReport report;
     for (const GltfPrimitiveGeometry& p : *primitives) {
         const GltfGeometry& g = p.geometry;
         Json row = describe({p.mesh, p.primitive, p.name, g.indices.size() / 3, !g.tangents.empty()});
@@ -138,49 +155,53 @@ Status describeSmooth(const TangentsCommandOptions& o, const GltfDocument& docum
             row.update(toJson(smooth));
             line = toText(smooth);
         }
-        say(o, "{}: {}", p.name, line);
-        report["primitives"].push_back(std::move(row));
+        report.lines.push_back(fmt::format("{}: {}", p.name, line));
+        report.json["primitives"].push_back(std::move(row));
     }
-    return Done{};
-}
-
-Status checkUsage(const TangentsCommandOptions& o)
-{
-    if (o.frame != "mikktspace" && o.frame != "vertex" && o.frame != "smooth")
-        return usageError(fmt::format("--frame: expected mikktspace, vertex or smooth; found '{}'", o.frame));
-    if (o.frame == "smooth" && !o.output.empty())
-        return usageError("--frame smooth is derived when a model is loaded and never stored; leave "
-                          "out -o for its statistics");
-    if (o.replace && o.output.empty())
-        return usageError("--replace needs -o FILE");
-    if (Status names = checkGltfNames(o.model, o.output); !names)
-        return names;
-    return beginOutputs(o, {{"-o", o.output}});
+    return report;
 }
 
 Status run(const TangentsCommandOptions& o)
 {
-    if (Status usage = checkUsage(o); !usage)
-        return usage;
+    const auto job = jobOf(o);
+    if (!job)
+        return job.error();
+    const CommonOptions& terminal = o;
+    if (Status planned = beginOutputs(terminal, {{"-o", job->output}}); !planned)
+        return planned;
     Stopwatch watch;
-    auto opened = openGltfToEdit(o.model, o);
+    LoadLimits limits;
+    const bool compares = job->output.empty() && job->tangents.frame != Frame::smooth;
+    limits.pixels = compares ? Pixels::normalMaps : Pixels::none;
+    auto opened = openGltfToEdit(job->model, limits, terminal);
     if (!opened)
         return opened.error();
-    Json report = {{"command", "tangents"},
-                   {"model", o.model},
-                   {"frame", o.frame},
-                   {"warnings", opened->warnings},
-                   {"primitives", Json::array()}};
+    Json json = {{"command", "tangents"},
+                 {"model", job->model},
+                 {"frame", name(job->tangents.frame)},
+                 {"warnings", opened->scene.warnings},
+                 {"primitives", Json::array()}};
     const double load = watch.lap();
-    GltfDocument& document = opened->document;
-    Status done = o.frame == "smooth" ? describeSmooth(o, document, report)
-        : o.output.empty()            ? compare(o, document, report)
-                                      : write(o, document, report);
+    const auto done =
+        withProgress(terminal, 1, job->output.empty() ? "comparing" : "generating", [&](Progress progress) {
+            TangentsOptions options = job->tangents;
+            options.progress = std::move(progress);
+            return compares           ? compare(*opened, options)
+                : job->output.empty() ? describeSmooth(opened->document)
+                                      : write(opened->document, options, job->output);
+        });
     if (!done)
-        return done;
-    report["seconds"] = {{"load", load}, {"work", watch.lap()}};
-    return writeReport(o, report);
+        return done.error();
+    for (const std::string& line : done->warnings)
+        warn(terminal, line);
+    for (const std::string& line : done->lines)
+        say(terminal, line);
+    json.update(done->json);
+    json["seconds"] = {{"load", load}, {"work", watch.lap()}};
+    return writeReport(terminal, json);
 }
+
+// ---- the options ----------------------------------------------------------------------------
 
 void declare(Arguments& a, TangentsCommandOptions& o)
 {

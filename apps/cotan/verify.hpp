@@ -8,6 +8,7 @@
 
 #include "common.hpp"
 #include "cotan/frame.hpp"
+#include "cotan/picture.hpp"
 #include "verify_bake.hpp"
 
 namespace cotan::app {
@@ -19,8 +20,8 @@ struct VerifyOptions {
     std::optional<Frame> to = Frame::cotangent;         // none: those that the primitives of `after` name
     TangentOrigin fromTangents = TangentOrigin::stored; // of the original
     std::filesystem::path folder;                       // for before-N.png, after-N.png, difference-N.png
-    std::string device;
-    int memory = 0;
+    std::string device = "auto";
+    int memory = kDefaultMemory;
 };
 
 // Name parts of a view's images: NAME-0.png, NAME-1.png etc.

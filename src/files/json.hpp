@@ -14,8 +14,8 @@ using Json = nlohmann::ordered_json;
 std::string toText(const Json& json);
 
 // Returns the report with "format" and "version" before its own members: its name, and the version of its fields that
-// this program writes. format: a name in the list in json.cpp. docs/reference/json.md lists the fields;
-// tests/json_fields_test.py compares it with the output of commands.
+// this program writes. docs/reference/json.md lists the formats and their fields; tests/json_fields_test.py compares it
+// with the output of commands.
 Json versioned(std::string_view format, const Json& report);
 
 // Likewise for a command's report, whose format follows from its member "command".

@@ -112,16 +112,18 @@ void replaceAll(std::string& text, const std::string& from, const std::string& t
 }
 
 // Writes and closes. Returns 0 or the errno.
-int writeAll(OpenFile file, std::span<const std::byte> bytes)
+int writeAll(OpenFile file, const ByteBlocks& blocks)
 {
     int number = 0;
-    while (!bytes.empty() && number == 0) {
-        const ssize_t written = ::write(::fileno(file.get()), bytes.data(), bytes.size()); // fwrite ends at a signal
-        if (written > 0)
-            bytes = bytes.subspan(std::size_t(written));
-        else if (written == 0 || errno != EINTR)
-            number = written == 0 ? ENOSPC : errno;
-    }
+    for (std::span<const std::byte> bytes : blocks)
+        while (!bytes.empty() && number == 0) {
+            const ssize_t written =
+                ::write(::fileno(file.get()), bytes.data(), bytes.size()); // fwrite ends at a signal
+            if (written > 0)
+                bytes = bytes.subspan(std::size_t(written));
+            else if (written == 0 || errno != EINTR)
+                number = written == 0 ? ENOSPC : errno;
+        }
     return std::fclose(file.release()) != 0 && number == 0 ? errno : number;
 }
 
@@ -200,7 +202,7 @@ Error OutputFile::failed(const Error& error) const
     if (!special_) { // a trial
         static constexpr std::array<std::byte, 65536> kNothing{};
         OpenFile part(std::fopen(part_.c_str(), "abe"));
-        if (const int number = part ? writeAll(std::move(part), kNothing) : errno)
+        if (const int number = part ? writeAll(std::move(part), {kNothing}) : errno)
             return cannotWrite(file_, number);
     }
     Error forUser = error;
@@ -227,12 +229,12 @@ Status commitTogether(std::span<OutputFile> files)
     return Done{};
 }
 
-Status writeBytes(const OutputFile& file, std::span<const std::byte> bytes)
+Status writeBytes(const OutputFile& file, const ByteBlocks& blocks)
 {
     auto stream = file.open();
     if (!stream)
         return stream.error();
-    const int number = writeAll(*std::move(stream), bytes);
+    const int number = writeAll(*std::move(stream), blocks);
     return number == 0 ? Status(Done{}) : cannotWrite(file.destination(), number);
 }
 
@@ -241,7 +243,7 @@ Status writeFileWhole(const fs::path& file, std::string_view text)
     auto output = OutputFile::begin(file);
     if (!output)
         return output.error();
-    if (Status written = writeBytes(*output, std::as_bytes(std::span(text.data(), text.size()))); !written)
+    if (Status written = writeBytes(*output, {std::as_bytes(std::span(text))}); !written)
         return output->failed(written.error());
     return output->commit();
 }

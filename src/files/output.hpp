@@ -56,8 +56,11 @@ private:
 // ErrorKind::output.
 Status commitTogether(std::span<OutputFile> files);
 
-// Writes the whole content of a file, without committing it. Errors: ErrorKind::output with the system's reason.
-Status writeBytes(const OutputFile& file, std::span<const std::byte> bytes);
+using ByteBlocks = std::vector<std::span<const std::byte>>;
+
+// Writes the whole content of a file, block after block, without committing it. Errors: ErrorKind::output with the
+// system's reason.
+Status writeBytes(const OutputFile& file, const ByteBlocks& blocks);
 
 // Writes text through an OutputFile.
 Status writeFileWhole(const std::filesystem::path& file, std::string_view text);

@@ -14,7 +14,7 @@ namespace gltf_edit {
 std::span<const std::byte> viewBytes(const GltfDocument& document, std::size_t view)
 {
     const std::vector<gltf::ViewBytes>& old = document.source->views;
-    return view < old.size() ? old[view].bytes : document.added[view - old.size()];
+    return view < old.size() ? old[view].bytes : *document.added[view - old.size()];
 }
 
 gltf::Elements elementsOf(const GltfDocument& document, const Json& accessor)
@@ -49,7 +49,7 @@ std::size_t addView(GltfDocument& document, std::vector<std::byte> bytes, std::s
         view["byteStride"] = stride;
     if (target > 0)
         view["target"] = target;
-    document.added.push_back(std::move(bytes));
+    document.added.push_back(std::make_shared<const std::vector<std::byte>>(std::move(bytes)));
     return addItem(document, "bufferViews", std::move(view));
 }
 
@@ -83,15 +83,18 @@ void checkCounts(const GltfModel& model)
     }
 }
 
-GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
+// Reads all nodes and geometry, and so finds the errors that loading would find there.
+void checkGeometry(GltfModel& model)
 {
-    GltfModel model;
-    readGltfModel(model, path, limits);
-    // Finds all errors that loading would find in nodes and geometry.
     readGltfNodes(model);
     for (std::size_t m = 0; m < model.structure.meshes.size(); ++m)
         for (std::size_t p = 0; p < model.structure.meshes[m].primitives.size(); ++p)
             readGltfPrimitive(model, int(m), p, {});
+}
+
+// model: its geometry is checked.
+GltfDocument documentOf(GltfModel model, const std::filesystem::path& path)
+{
     checkCounts(model);
     auto source = std::make_shared<GltfSource>();
     source->path = path;
@@ -103,6 +106,27 @@ GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
         rootOf(document)["bufferViews"] = Json::array();
     document.source = std::move(source);
     return document;
+}
+
+// The model that the document is now; the document has the bytes.
+GltfModel modelOf(const GltfDocument& document, const LoadLimits& limits)
+{
+    const GltfFile& source = document.source->file;
+    GltfModel model;
+    model.limits = limits;
+    model.file.readFile = source.readFile;
+    model.file.folder = source.folder;
+    model.file.size = source.size;
+    model.file.unpacked = source.unpacked;
+    for (const auto& bytes : document.added)
+        model.file.size += bytes->size();
+    model.file.json = rootOf(document);
+    std::size_t at = 0;
+    model.views = gltf::readAll(&model.file.json, "bufferViews", [&](const Json& json) {
+        return gltf::ViewBytes{viewBytes(document, at++), gltf::readBufferView(json).stride};
+    });
+    interpretGltfModel(model);
+    return model;
 }
 
 Json withImage(GltfDocument& document, Json image, std::vector<std::byte> bytes, const std::string& mimeType)
@@ -156,7 +180,30 @@ GltfGeometry readGeometry(const GltfDocument& document, const Json& source, cons
 
 Result<GltfDocument> openGltfDocument(const std::filesystem::path& file, const LoadLimits& limits)
 {
-    return caughtGltf(file, [&] { return open(file, limits); });
+    return caughtGltf(file, [&] {
+        GltfModel model;
+        readGltfModel(model, file, limits);
+        checkGeometry(model);
+        return documentOf(std::move(model), file);
+    });
+}
+
+Result<OpenGltf> openGltf(const std::filesystem::path& file, const LoadLimits& limits)
+{
+    return caughtGltf(file, [&] {
+        GltfModel model;
+        readGltfModel(model, file, limits);
+        Scene scene = buildGltfScene(model, file);
+        return OpenGltf{documentOf(std::move(model), file), std::move(scene)};
+    });
+}
+
+Result<Scene> gltfScene(const GltfDocument& document, const LoadLimits& limits)
+{
+    return caughtGltf(document.source->path, [&] {
+        GltfModel model = modelOf(document, limits);
+        return buildGltfScene(model, document.source->path);
+    });
 }
 
 const std::filesystem::path& gltfPath(const GltfDocument& document) { return document.source->path; }

@@ -164,7 +164,7 @@ std::size_t addLike(GltfDocument& document, Json view, std::vector<std::byte> by
     view["buffer"] = 0;
     view["byteLength"] = bytes.size();
     view.erase("byteOffset");
-    document.added.push_back(std::move(bytes));
+    document.added.push_back(std::make_shared<const std::vector<std::byte>>(std::move(bytes)));
     return addItem(document, "bufferViews", std::move(view));
 }
 
@@ -310,9 +310,20 @@ std::vector<Part> partsOf(const GltfDocument& document)
     return parts;
 }
 
-void alignFor(std::vector<std::byte>& buffer, std::size_t offset)
+void append(Layout& out, std::span<const std::byte> bytes)
 {
-    buffer.resize(gltf::aligned(buffer.size()) + offset % 4);
+    out.size += bytes.size();
+    if (std::span<const std::byte>* const last = out.blocks.empty() ? nullptr : &out.blocks.back();
+        last && last->data() + last->size() == bytes.data())
+        *last = {last->data(), last->size() + bytes.size()};
+    else if (!bytes.empty())
+        out.blocks.push_back(bytes);
+}
+
+void alignFor(Layout& out, std::size_t offset)
+{
+    static constexpr std::byte kZeros[6] = {};
+    append(out, std::span(kZeros).first(gltf::aligned(out.size) + offset % 4 - out.size));
 }
 
 void place(Layout& out, const Part& part, std::size_t offset)
@@ -348,10 +359,9 @@ void appendFileParts(const GltfDocument& document, std::vector<Part> parts, Layo
         std::size_t end = begin + parts[first].bytes.size();
         for (last = first + 1; last < parts.size() && parts[last].buffer == buffer && parts[last].offset < end; ++last)
             end = std::max(end, parts[last].offset + parts[last].bytes.size());
-        alignFor(out.buffer, begin);
-        const std::size_t start = out.buffer.size();
-        const auto block = document.source->file.buffers[buffer].subspan(begin, end - begin);
-        out.buffer.insert(out.buffer.end(), block.begin(), block.end());
+        alignFor(out, begin);
+        const std::size_t start = out.size;
+        append(out, document.source->file.buffers[buffer].subspan(begin, end - begin));
         for (std::size_t i = first; i < last; ++i)
             place(out, parts[i], start + parts[i].offset - begin);
     }
@@ -361,7 +371,7 @@ void appendFileParts(const GltfDocument& document, std::vector<Part> parts, Layo
 void appendWhole(const GltfDocument& document, const std::vector<Part>& parts, Layout& out)
 {
     for (const auto& bytes : document.source->file.buffers)
-        out.buffer.insert(out.buffer.end(), bytes.begin(), bytes.end());
+        append(out, bytes);
     for (const Part& part : parts)
         if (part.fromFile)
             place(out, part, part.offset);
@@ -377,8 +387,8 @@ void describeBuffer(GltfDocument& document, Layout& out)
                 fmt::format("buffers: {} were joined into one; names and extras of the first are kept", count));
     }
     first.erase("uri");
-    first["byteLength"] = out.buffer.size();
-    if (out.buffer.empty())
+    first["byteLength"] = out.size;
+    if (out.size == 0)
         out.root.erase("buffers");
     else
         out.root["buffers"] = Json::array({std::move(first)});
@@ -424,16 +434,16 @@ Layout layOut(GltfDocument& document)
     for (std::size_t i = 0; i < parts.size(); ++i)
         parts[i].view = i;
 
-    Layout out{std::move(rootOf(document)), {}, 0, {}};
+    Layout out{std::move(rootOf(document)), {}, 0, 0, {}};
     if (removes)
         appendFileParts(document, parts, out);
     else
         appendWhole(document, parts, out);
     for (const Part& part : parts)
         if (!part.fromFile) {
-            alignFor(out.buffer, 0);
-            place(out, part, out.buffer.size());
-            out.buffer.insert(out.buffer.end(), part.bytes.begin(), part.bytes.end());
+            alignFor(out, 0);
+            place(out, part, out.size);
+            append(out, part.bytes);
         }
     if (countOf(out.root, "bufferViews") == 0)
         out.root.erase("bufferViews");

@@ -15,6 +15,7 @@
 
 #include "cotan/gltf.hpp"
 #include "elements.hpp"
+#include "files/output.hpp"
 #include "gltf/json/lookup.hpp"
 #include "gltf_file.hpp"
 
@@ -97,12 +98,13 @@ std::size_t addElements(GltfDocument& document, const std::vector<T>& elements, 
 
 struct Layout {
     Json root;
-    std::vector<std::byte> buffer;               // content of the only buffer that has bytes; empty: none
+    ByteBlocks blocks;                           // content of the only buffer that has bytes; the document has them
+    std::size_t size = 0;                        // of all blocks
     std::size_t decoded = 0;                     // decoded size of the views that stay compressed
     std::set<std::string> compressionExtensions; // extensions that compress these views
 };
 
-// Removes unused items and joins all bytes into one buffer. Consumes `document` except for its notes, which it adds to.
+// Removes unused items and joins all bytes into one buffer. Consumes the JSON of `document`, and adds to its notes.
 Layout layOut(GltfDocument& document);
 
 } // namespace gltf_edit

@@ -3,6 +3,7 @@
 #include <limits>
 #include <map>
 #include <new>
+#include <numeric>
 #include <set>
 #include <system_error>
 
@@ -23,6 +24,12 @@ namespace {
 struct WrittenFile {
     fs::path file;
     std::vector<std::byte> bytes;
+    ByteBlocks more{}; // follow `bytes`; of the document
+
+    std::size_t size() const
+    {
+        return std::accumulate(more.begin(), more.end(), bytes.size(), [](auto n, auto& b) { return n + b.size(); });
+    }
 };
 
 bool isExternal(const Json& image)
@@ -106,31 +113,25 @@ void appendWord(std::vector<std::byte>& bytes, std::size_t word)
         bytes.push_back(std::byte(word >> shift & 0xff));
 }
 
-void appendChunk(std::vector<std::byte>& bytes, std::uint32_t type, std::span<const std::byte> content, char padding)
+WrittenFile makeGlb(const Layout& layout, const fs::path& file)
 {
-    const std::size_t padded = gltf::aligned(content.size());
-    appendWord(bytes, padded);
-    appendWord(bytes, type);
-    bytes.insert(bytes.end(), content.begin(), content.end());
-    bytes.resize(bytes.size() + padded - content.size(), std::byte(padding));
-}
-
-std::vector<std::byte> makeGlb(const Layout& layout)
-{
-    const std::string text = layout.root.dump();
-    const std::size_t total =
-        12 + 8 + gltf::aligned(text.size()) + (layout.buffer.empty() ? 0 : 8 + gltf::aligned(layout.buffer.size()));
+    std::string text = layout.root.dump();
+    text.resize(gltf::aligned(text.size()), ' ');
+    const std::size_t binary = gltf::aligned(layout.size), total = 12 + 8 + text.size() + (binary > 0 ? 8 + binary : 0);
     if (total > std::numeric_limits<std::uint32_t>::max())
         failGltf("a .glb of {} bytes cannot be written, the limit is 4 GiB; write .gltf", total);
-    std::vector<std::byte> bytes;
-    bytes.reserve(total);
-    appendWord(bytes, kGlbMagic);
-    appendWord(bytes, 2);
-    appendWord(bytes, total);
-    appendChunk(bytes, kGlbJson, std::as_bytes(std::span(text)), ' ');
-    if (!layout.buffer.empty())
-        appendChunk(bytes, kGlbBinary, layout.buffer, '\0');
-    return bytes;
+    WrittenFile glb{file, {}, layout.blocks};
+    for (const std::size_t word : {std::size_t(kGlbMagic), std::size_t(2), total, text.size(), std::size_t(kGlbJson)})
+        appendWord(glb.bytes, word);
+    const auto json = std::as_bytes(std::span(text));
+    glb.bytes.insert(glb.bytes.end(), json.begin(), json.end());
+    if (binary > 0) {
+        static constexpr std::byte kZeros[3] = {};
+        appendWord(glb.bytes, binary);
+        appendWord(glb.bytes, kGlbBinary);
+        glb.more.push_back(std::span(kZeros).first(binary - layout.size));
+    }
+    return glb;
 }
 
 // ---- glTF with separate files ---------------------------------------------------------------
@@ -223,7 +224,7 @@ void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLim
         };
         const fs::path target = targetOf(fileNamePart(nameOfImage(source, rootOf(document), i), taken));
         const auto bytes = viewBytes(document, image["bufferView"].get<std::size_t>());
-        outputs.push_back({target, {bytes.begin(), bytes.end()}});
+        outputs.push_back({target, {}, {bytes}});
         image.erase("bufferView");
         image["uri"] = encodePercent(target.filename().string());
     }
@@ -265,7 +266,9 @@ Status writeTogether(std::span<const WrittenFile> outputs)
         if (!file)
             return file.error();
         files.push_back(*std::move(file));
-        if (Status written = writeBytes(files.back(), output.bytes); !written)
+        ByteBlocks blocks = {output.bytes};
+        blocks.insert(blocks.end(), output.more.begin(), output.more.end());
+        if (Status written = writeBytes(files.back(), blocks); !written)
             return files.back().failed(written.error());
     }
     return commitTogether(files);
@@ -286,19 +289,19 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
         putImagesBeside(document, file, limits, outputs);
     Layout layout = layOut(document);
     if (binary) {
-        outputs[0].bytes = makeGlb(layout);
+        outputs[0] = makeGlb(layout, file);
     } else {
-        if (!layout.buffer.empty()) {
+        if (layout.size > 0) {
             const fs::path beside = binaryBeside(*document.source, file);
             layout.root["buffers"][0]["uri"] = encodePercent(beside.filename().string());
-            outputs.push_back({beside, std::move(layout.buffer)});
+            outputs.push_back({beside, {}, std::move(layout.blocks)});
         }
         const std::string text = layout.root.dump(2) + "\n";
         const auto bytes = std::as_bytes(std::span(text));
         outputs[0].bytes.assign(bytes.begin(), bytes.end());
     }
     for (const WrittenFile& output : outputs)
-        written.bytesAfter += output.bytes.size();
+        written.bytesAfter += output.size();
     if (!binary)
         copyImages(*document.source, layout.root, folderOf(file), limits, outputs);
     if (Status done = writeTogether(outputs); !done)
@@ -338,7 +341,11 @@ Result<std::vector<std::byte>> glbBytes(GltfDocument document, const LoadLimits&
 {
     return caughtWriting(document, "the model", [&] {
         embedImages(document, limits);
-        return makeGlb(layOut(document));
+        WrittenFile glb = makeGlb(layOut(document), {});
+        glb.bytes.reserve(glb.size());
+        for (const auto& block : glb.more)
+            glb.bytes.insert(glb.bytes.end(), block.begin(), block.end());
+        return std::move(glb.bytes);
     });
 }
 

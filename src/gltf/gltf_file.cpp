@@ -323,11 +323,14 @@ static void noteResources(const GltfFile& file)
                     note(entry["uri"].get_ref<const std::string&>());
 }
 
-GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& warnings)
+GltfFile readGltfFile(const fs::path& path, const LoadLimits& limits, GltfWarnings& warnings)
 {
     GltfFile file;
     file.readFile = limits.readFile;
-    file.bytes = valueOrFail(readGltfResource(file, path, limits));
+    auto bytes = readGltfResource(file, path, limits);
+    if (!bytes)
+        throw GltfProblem{inputError(bytes.error().message), /*namesFile*/ true};
+    file.bytes = std::move(*bytes);
     file.modelBytes = file.size = file.bytes.size();
     if (!file.readFile)
         file.folder = fs::canonical(folderOf(path));

@@ -66,7 +66,7 @@ struct GltfFile {
 gltf::Json parseGltfJson(std::span<const std::byte> text);
 
 // Reads the file, splits a GLB into chunks and parses the JSON. Every length is checked against the file size.
-GltfFile openGltf(const std::filesystem::path& path, const LoadLimits& limits, GltfWarnings& warnings);
+GltfFile readGltfFile(const std::filesystem::path& path, const LoadLimits& limits, GltfWarnings& warnings);
 
 // The bytes of a resource that is a file, from LoadLimits::readFile or the disk.
 Result<std::vector<std::byte>> readGltfResource(const GltfFile& file, const std::filesystem::path& resource,

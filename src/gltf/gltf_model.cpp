@@ -261,16 +261,11 @@ std::set<int> texcoordAccessors(const gltf::Structure& structure)
     return texcoords;
 }
 
-// Fills GltfModel::views and GltfModel::accessors. Checks all buffer views and accessors, sparse values included,
-// against the buffers and the allowance. Throws GltfProblem for NaN and infinity in float accessors other than texture
-// coordinates. All readers of accessors rely on these checks.
+// Fills GltfModel::accessors. Checks all accessors, sparse values included, against the views and the allowance. Throws
+// GltfProblem for NaN and infinity in float accessors other than texture coordinates. All readers of accessors rely on
+// these checks.
 void findAccessors(GltfModel& model)
 {
-    std::size_t at = 0; // index of the view, for messages
-    model.views = gltf::readAll(&model.file.json, "bufferViews", [&](const Json& json) {
-        const gltf::BufferView view = gltf::readBufferView(json);
-        return gltf::ViewBytes{gltfViewBytes(model.file, view, fmt::format("bufferViews[{}]", at++)), view.stride};
-    });
     const std::set<int> texcoords = texcoordAccessors(model.structure);
     // Accessors without a view are zeros that cost the file nothing, and many accessors may share one view, so their
     // total size bounds memory and time. Counts are below 2^53 and elements at most 64 bytes, so a single product
@@ -310,10 +305,20 @@ std::size_t findNamed(const std::vector<std::string>& names, const std::string& 
 void readGltfModel(GltfModel& model, const std::filesystem::path& path, const LoadLimits& limits)
 {
     model.limits = limits;
-    model.file = openGltf(path, limits, model.warnings);
+    model.file = readGltfFile(path, limits, model.warnings);
     checkGltfShape(model.file.json, model.limits, model.warnings);
     loadGltfBuffers(model.file, model.limits);
     unpackGltf(model.file, model.limits);
+    std::size_t at = 0; // index of the view, for messages
+    model.views = gltf::readAll(&model.file.json, "bufferViews", [&](const Json& json) {
+        const gltf::BufferView view = gltf::readBufferView(json);
+        return gltf::ViewBytes{gltfViewBytes(model.file, view, fmt::format("bufferViews[{}]", at++)), view.stride};
+    });
+    interpretGltfModel(model);
+}
+
+void interpretGltfModel(GltfModel& model)
+{
     chooseGltfVariant(model);
     model.structure = gltf::readStructure(model.file.json);
     findAccessors(model);

@@ -78,6 +78,13 @@ struct GltfModel {
 // accessors, and poses the nodes (poseGltf).
 void readGltfModel(GltfModel& model, const std::filesystem::path& path, const LoadLimits& limits);
 
+// The part of readGltfModel that needs no file: fills structure and accessors from file.json and views.
+void interpretGltfModel(GltfModel& model);
+
+// Makes the scene of a model. path: the file, for the name. images: replace those that would be decoded; null: images
+// are decoded. Throws GltfProblem: all that loadGltf reports about geometry, nodes, materials and images.
+Scene buildGltfScene(GltfModel& model, const std::filesystem::path& path, const std::vector<Image>* images = nullptr);
+
 // The maximum number of bytes that the geometry of this file may take: a constant plus a multiple of the file size,
 // which only accessors without data and accessors that are read repeatedly can exceed. The factor 16 covers the largest
 // growth, a strip of byte indices that becomes triangles with flat normals. Decompressed bytes, which have a limit of
@@ -186,14 +193,16 @@ public:
     // number in the file.
     void decodeImages();
 
-    // Checks the images that `use` has not met without decoding them. Images outside the model's folder, and PNGs
-    // without a complete header, get a warning. If the scene has no instances, throws GltfProblem for the first.
-    void checkUnusedImages() const;
+    // Checks the images that decodeImages leaves out. Throws GltfProblem for the first that is outside the model's
+    // folder or a PNG without a complete header; if `use` has not met it and the scene has instances, it gets a
+    // warning.
+    void checkOtherImages() const;
 
 private:
     Texture texture(const gltf::TextureUse& use, const Mesh& mesh, const std::string& field);
     Material make(int material, const Mesh& mesh);
     int firstEqual(int image);
+    std::vector<std::pair<int, int>> imagesToDecode() const; // as in slots_
     std::uint64_t bytesOfFiles() const;
 
     GltfModel& model_;

@@ -48,7 +48,6 @@ public:
     {
     }
 
-    // images: replace those that would be decoded; null: decode them.
     void build(const std::vector<Image>* images)
     {
         readSkins();
@@ -58,7 +57,7 @@ public:
         if (images && images->size() == scene_.images.size()) {
             scene_.images = *images;
         } else {
-            materials_.checkUnusedImages();
+            materials_.checkOtherImages();
             materials_.decodeImages();
         }
         if (scene_.instances.empty())
@@ -175,17 +174,6 @@ private:
     std::map<MeshUse, std::vector<int>> made_;
 };
 
-Scene build(GltfModel& model, const std::filesystem::path& path, const std::vector<Image>* images)
-{
-    Scene scene;
-    scene.name = path.stem().string();
-    SceneBuilder(model, scene).build(images);
-    scene.warnings = model.warnings.lines();
-    for (std::string& line : reconcileGreenWithTangents(scene))
-        scene.warnings.push_back(std::move(line));
-    return scene;
-}
-
 Scene load(const std::filesystem::path& path, const LoadLimits& limits)
 {
     GltfModel model;
@@ -195,10 +183,21 @@ Scene load(const std::filesystem::path& path, const LoadLimits& limits)
     for (auto& [collection, items] : model.file.json.get_ref<gltf::Json::object_t&>())
         if (collection != "materials" && collection != "images")
             items = nullptr;
-    return build(model, path, nullptr);
+    return buildGltfScene(model, path);
 }
 
 } // namespace
+
+Scene buildGltfScene(GltfModel& model, const std::filesystem::path& path, const std::vector<Image>* images)
+{
+    Scene scene;
+    scene.name = path.stem().string();
+    SceneBuilder(model, scene).build(images);
+    scene.warnings = model.warnings.lines();
+    for (std::string& line : reconcileGreenWithTangents(scene))
+        scene.warnings.push_back(std::move(line));
+    return scene;
+}
 
 Result<Scene> loadGltf(const std::filesystem::path& file, const LoadLimits& limits)
 {
@@ -247,7 +246,7 @@ Result<Scene> AnimatedGltf::at(const Pose& pose, const std::vector<Image>* image
         model.verticesTaken = model.trianglesTaken = 0;
         model.limits.pose = pose;
         poseGltf(model);
-        return build(model, work_->path, images);
+        return buildGltfScene(model, work_->path, images);
     });
 }
 

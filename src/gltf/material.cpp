@@ -200,10 +200,10 @@ int GltfMaterials::firstEqual(int image)
     return known->second;
 }
 
-void GltfMaterials::decodeImages()
+std::vector<std::pair<int, int>> GltfMaterials::imagesToDecode() const
 {
     if (model_.limits.pixels == Pixels::none)
-        return;
+        return {};
     std::vector<std::pair<int, int>> jobs(slots_.begin(), slots_.end());
     if (model_.limits.pixels == Pixels::normalMaps)
         std::erase_if(jobs, [&](const auto& job) {
@@ -211,6 +211,12 @@ void GltfMaterials::decodeImages()
                 return m.normalMap.image == job.second || m.coat.normalMap.image == job.second;
             });
         });
+    return jobs;
+}
+
+void GltfMaterials::decodeImages()
+{
+    const std::vector<std::pair<int, int>> jobs = imagesToDecode();
     std::vector<GltfProblem> problems(jobs.size());
     std::vector<std::string> foreign(jobs.size());
     const std::size_t all = imageBudget(model_.limits, bytesOfFiles());
@@ -237,16 +243,17 @@ void GltfMaterials::decodeImages()
         if (material.normalMap.image >= 0)
             completeNormals(scene_.images[std::size_t(material.normalMap.image)]);
     for (std::size_t i = 0; i < jobs.size(); ++i)
-        if (!foreign[i].empty())
+        if (!foreign[i].empty() && model_.limits.pixels != Pixels::normalMaps) // else the caller reports them
             model_.warnings.add(imageField(jobs[i].first), fmt::format("{} is not supported", foreign[i]));
 }
 
-void GltfMaterials::checkUnusedImages() const
+void GltfMaterials::checkOtherImages() const
 {
+    const std::vector<std::pair<int, int>> decoded = imagesToDecode();
     for (int i = 0; i < int(model_.structure.images.size()); ++i) {
+        if (std::ranges::binary_search(decoded, i, {}, &std::pair<int, int>::first))
+            continue;
         const bool used = slots_.contains(i);
-        if (used && model_.limits.pixels != Pixels::none)
-            continue; // already decoded
         try {
             checkUndecodedImage(model_, i, used);
         } catch (const GltfProblem& problem) {

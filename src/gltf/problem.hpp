@@ -20,6 +20,7 @@ namespace cotan {
 // field, expected and found; caughtGltf prepends the file.
 struct GltfProblem {
     Error error;
+    bool namesFile = false; // the message begins with the file already
 };
 
 template<class... Args> [[noreturn]] void failGltf(fmt::format_string<Args...> text, Args&&... args)
@@ -63,14 +64,14 @@ std::string oneLine(std::string_view text);
 // Returns load(), or its exception as an error: one line that starts with the file name.
 template<class Load> auto caughtGltf(const std::filesystem::path& file, Load load) -> Result<decltype(load())>
 {
-    const auto failed = [&](const Error& error) {
-        const std::string name = file.string(), &what = error.message;
-        return reworded(error, oneLine(what.starts_with(name) ? what : name + ": " + what));
+    const auto failed = [&](const Error& error, bool namesFile = false) {
+        const std::string name = namesFile || file.empty() ? "" : file.string() + ": ";
+        return reworded(error, oneLine(name + error.message));
     };
     try {
         return load();
     } catch (const GltfProblem& problem) {
-        return failed(problem.error);
+        return failed(problem.error, problem.namesFile);
     } catch (const std::bad_alloc&) {
         return failed(inputError("not enough memory for the data of the file"));
     } catch (const std::exception& problem) {

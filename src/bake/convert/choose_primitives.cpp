@@ -77,23 +77,16 @@ void add(FrameDecision& known, const FrameDecision& other, const ChoiceLimits& l
 } // namespace
 
 Result<std::vector<PrimitiveDecision>> choosePrimitives(const GltfDocument& document, const ChoiceLimits& limits,
-                                                        const FramePair& frames, const LoadLimits& load)
+                                                        const FramePair& frames, const LoadLimits& load,
+                                                        std::optional<Scene> opened)
 {
-    GltfDocument named = document; // decoders get the names of files that become a part of the GLB
-    for (std::size_t i = 0; i < countOf(rootOf(named), "images"); ++i)
-        rootOf(named)["images"][i]["name"] = imageName(rootOf(named), i);
-    auto bytes = glbBytes(std::move(named), load);
-    if (!bytes)
-        return bytes.error();
-    LoadLimits inside = load;
-    inside.pixels = Pixels::normalMaps;
-    inside.readFile = [&](const std::string&) { return Result<std::vector<std::byte>>(*bytes); };
+    LoadLimits limitsOfWay = load;
+    limitsOfWay.pixels = Pixels::normalMaps;
     std::map<SourcePrimitive, FrameDecision> found;
-    const std::filesystem::path path = gltfPath(document);
     const std::size_t ways = std::max<std::size_t>(variantsOf(rootOf(document)), 1);
     for (std::size_t way = 0; way < ways; ++way) {
-        inside.variant = ways > 1 ? std::to_string(way) : "";
-        auto scene = loadGltf(path.empty() ? "model.glb" : path, inside);
+        limitsOfWay.variant = ways > 1 ? std::to_string(way) : "";
+        auto scene = opened && ways == 1 ? Result<Scene>(*std::move(opened)) : gltfScene(document, limitsOfWay);
         if (!scene)
             return scene.error();
         for (Mesh& mesh : scene->meshes)

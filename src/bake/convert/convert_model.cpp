@@ -24,8 +24,9 @@ constexpr double kMaxGrowth = 1.1; // of the file of a map whose green is revers
 
 class ModelConverter {
 public:
-    ModelConverter(GltfDocument& document, const ConvertModelOptions& options)
-        : options_(options), given_(document), document_(document)
+    // scene: of the document, if there is one.
+    ModelConverter(GltfDocument& document, std::optional<Scene> scene, const ConvertModelOptions& options)
+        : options_(options), given_(document), document_(document), scene_(std::move(scene))
     {
     }
 
@@ -60,8 +61,10 @@ private:
     // Names the chosen frames; those of other conversions replace the names.
     Status chooseFramesOfPrimitives()
     {
+        std::optional<Scene> scene = std::exchange(scene_, std::nullopt); // its memory is free before maps are read
         if (options_.choose) {
-            auto decisions = choosePrimitives(document_, *options_.choose, options_.frames, options_.limits);
+            auto decisions =
+                choosePrimitives(document_, *options_.choose, options_.frames, options_.limits, std::move(scene));
             if (!decisions)
                 return decisions.error();
             report_.decisions = std::move(*decisions);
@@ -125,8 +128,6 @@ private:
                 return map.error();
             if (mapProgress && !mapProgress(1))
                 return stoppedError();
-            if (options_.mapDone)
-                options_.mapDone(*map);
             report_.maps.push_back(std::move(*map));
         }
         for (const MapJob& job : *jobs)
@@ -503,15 +504,15 @@ private:
     const ConvertModelOptions& options_;
     GltfDocument& given_;
     GltfDocument document_; // a copy, so that the given document is unchanged on error
+    std::optional<Scene> scene_;
     ConvertModelReport report_;
     std::vector<KeptTangents> keptTangents_;
     std::size_t surfaces_ = 0; // number over all maps
     bool named_ = false;       // the materials name the frame of their maps
 };
 
-} // namespace
-
-Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertModelOptions& options)
+Result<ConvertModelReport> checkedConversion(GltfDocument& document, std::optional<Scene> scene,
+                                             const ConvertModelOptions& options)
 {
     for (const Frame frame : {options.frames.from, options.frames.to})
         if (dependsOnView(frame))
@@ -526,7 +527,19 @@ Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertMod
         return usageError(
             fmt::format("convert: with keepMaps the tangents are dropped; expected a frame that reads none, found {}",
                         options.keepTangents ? "keepTangents" : name(options.frames.to)));
-    return ModelConverter(document, options).run();
+    return ModelConverter(document, std::move(scene), options).run();
+}
+
+} // namespace
+
+Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertModelOptions& options)
+{
+    return checkedConversion(document, std::nullopt, options);
+}
+
+Result<ConvertModelReport> convertModel(OpenGltf& model, const ConvertModelOptions& options)
+{
+    return checkedConversion(model.document, std::exchange(model.scene, Scene()), options);
 }
 
 } // namespace cotan

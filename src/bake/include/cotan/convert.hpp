@@ -39,8 +39,6 @@ struct FramePair {
     TangentOrigin fromTangents = TangentOrigin::stored, toTangents = TangentOrigin::generated;
 };
 
-struct ConvertedMap;
-
 struct ConvertModelOptions {
     FramePair frames{}; // neither may depend on the view
     int bits = 0;       // of the new maps, 8 or 16: converts all; 0: as the old map, and maps that fit stay
@@ -66,8 +64,6 @@ struct ConvertModelOptions {
     // again for ReencodeFigures::error. Other bytes are taken unread, for callers who replace them later. May be empty.
     std::function<Result<std::vector<std::byte>>(const Image&)> encode{};
     Progress progress{}; // called from any thread, also from several at once
-    // Called with each map when it is done, in the order of the report, on the caller's thread.
-    std::function<void(const ConvertedMap&)> mapDone{};
 };
 
 // ---- results --------------------------------------------------------------------------------
@@ -156,6 +152,10 @@ struct ConvertModelReport {
 // materials or images that name another frame than frames.from; ErrorKind::output if there is no memory for a PNG;
 // ErrorKind::stopped. On error the document is unchanged.
 Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertModelOptions& options);
+
+// The same for a model that was opened with the limits that `options` has, and Pixels::normalMaps if frames are chosen.
+// Its scene is used in place of another one, and is empty afterwards.
+Result<ConvertModelReport> convertModel(OpenGltf& model, const ConvertModelOptions& options);
 
 // ---- the frame that a file names ------------------------------------------------------------
 

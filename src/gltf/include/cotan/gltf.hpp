@@ -66,8 +66,8 @@ struct GltfRoot {
 
 struct GltfDocument {
     GltfRoot root;
-    // Bytes of the new buffer views, which follow those of `source`.
-    std::vector<std::vector<std::byte>> added;
+    // Bytes of the new buffer views, which follow those of `source`. Copies of the document share them.
+    std::vector<std::shared_ptr<const std::vector<std::byte>>> added;
     std::vector<std::string> notes; // what the user should know about the edits; one line each
     std::shared_ptr<const GltfSource> source;
 };
@@ -76,6 +76,19 @@ struct GltfDocument {
 // Compressed geometry is decoded, and is uncompressed in the document; writing restores the file's own streams for
 // geometry that was not changed. Errors: those of loadGltf.
 Result<GltfDocument> openGltfDocument(const std::filesystem::path& file, const LoadLimits& limits = {});
+
+// An open file: what it shows, and the document to edit.
+struct OpenGltf {
+    GltfDocument document;
+    Scene scene; // of the file, as loadGltf returns it
+};
+
+// Reads and checks a file once for both. Errors: those of loadGltf and openGltfDocument.
+Result<OpenGltf> openGltf(const std::filesystem::path& file, const LoadLimits& limits = {});
+
+// The scene of a document with its edits. Nothing is read again but image files beside the model. limits.readFile is
+// ignored: the document keeps the readFile that it was opened with. Errors: those of loadGltf.
+Result<Scene> gltfScene(const GltfDocument& document, const LoadLimits& limits = {});
 
 // The file that a document was read from, for messages; empty for a document made by gltfDocumentOf.
 const std::filesystem::path& gltfPath(const GltfDocument& document);
