@@ -16,7 +16,6 @@ namespace {
 constexpr Named<int> kSamples[] = {{"1", 1}, {"4", 2}, {"16", 4}}; // per texel, and per axis
 constexpr Named<BakeSearch> kSearches[] = {{"first", BakeSearch::first}, {"nearest", BakeSearch::nearest}};
 constexpr Named<Occluders> kOccluders[] = {{"matched", Occluders::matched}, {"all", Occluders::all}};
-constexpr Named<Expansion> kExpansions[] = {{"exact", Expansion::exact}, {"biased", Expansion::biased}};
 
 Result<Convention> formatFromName(const std::string& option, const std::string& name)
 {

@@ -23,8 +23,6 @@ namespace cotan::app {
 
 namespace {
 
-constexpr Named<Expansion> kExpansions[] = {{"biased", Expansion::biased}, {"exact", Expansion::exact}};
-
 struct ConvertJob {
     std::string model;
     LoadLimits limits;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/named_values.hpp"
+#include "cotan/convention.hpp"
 #include "cotan/frame.hpp"
 #include "cotan/picture.hpp"
 
@@ -29,6 +30,7 @@ inline constexpr Named<Derivatives> kDerivatives[] = {{"fine", Derivatives::fine
 inline constexpr Named<TangentOrigin> kTangentOrigins[] = {{"stored", TangentOrigin::stored},
                                                            {"generated", TangentOrigin::generated}};
 inline constexpr Named<Up> kUps[] = {{"y", Up::y}, {"z", Up::z}};
+inline constexpr Named<Expansion> kExpansions[] = {{"exact", Expansion::exact}, {"biased", Expansion::biased}};
 inline constexpr Named<Edges> kEdges[] = {
     {"none", Edges::none}, {"triangles", Edges::triangles}, {"seams", Edges::seams}, {"all", Edges::all}};
 inline constexpr Named<Background> kBackgrounds[] = {{"paper", Background::paper},
