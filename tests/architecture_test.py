@@ -7,7 +7,8 @@ import sys
 
 ROOT = pathlib.Path(sys.argv[1])
 SRC = ROOT / "src"
-MOST_FOLDERS, MOST_ARROWS, MOST_HEADERS, MOST_LINES = 13, 80, 30, 52_700
+MOST_FOLDERS, MOST_ARROWS, MOST_HEADERS = 13, 56, 30
+MOST_LINES = {"src": 53_000, "apps": 28_400}  # of C++; a commit that raises one says why
 WITHOUT_HEADER = {"c"}  # its header is cotan.h
 INCLUDE = re.compile(r'^\s*#\s*include\s+[<"]([^">]+)[">]', re.M)
 
@@ -46,9 +47,11 @@ def hasFewFolders():
 
 
 def hasFewLines():
-    count = sum(len(p.read_text().splitlines()) for p in files)
-    if count > MOST_LINES:
-        wrong.append(f"src has {count} lines of C++: expected at most {MOST_LINES}")
+    for folder, most in MOST_LINES.items():
+        found = [p for p in (ROOT / folder).rglob("*") if p.suffix in (".cpp", ".hpp", ".h", ".inc")]
+        count = sum(len(p.read_text().splitlines()) for p in found)
+        if not most * 0.9 < count <= most:
+            wrong.append(f"{folder} has {count} lines of C++: expected at most {most}, and not far fewer: lower the limit")
 
 
 def everySourceIsBuilt():

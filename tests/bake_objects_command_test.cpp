@@ -221,7 +221,7 @@ TEST(BakeUp, upAppliesInEveryCommandThatReadsModels)
     same({"map", "convert", "n.png", "--from", "opengl", "--to", "object", "--overwrite"}, "--mesh");
     const auto spots = [&](const std::string& up) {
         const ToolRun run = runTool({"lint", up + ".obj", "--up", up, "--json", "-"}, folder.path());
-        return nlohmann::json::parse(run.out)["hot_spots"].at(0).at("camera").dump();
+        return nlohmann::json::parse(run.out)["problem_areas"].at(0).at("camera").dump();
     };
     EXPECT_EQ(spots("y"), spots("z"));
     const ToolRun none = runTool({"render", "--up", "z", "-o", "a.png"}, folder.path());

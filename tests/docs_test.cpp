@@ -410,7 +410,7 @@ TEST(Documents, walkThroughsListTheFilesThatNameTheirExample)
             EXPECT_TRUE(files.contains(file)) << heading << ": nothing is to be done any more in " << file;
         ++checked;
     }
-    EXPECT_EQ(checked, 5u);
+    EXPECT_EQ(checked, 6u);
 }
 
 // The command, its subcommand and each --option of the line must be in the help.

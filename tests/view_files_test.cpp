@@ -180,7 +180,7 @@ TEST(ViewWindow, problemAreasMatchLintAndMoveTheCamera)
     ASSERT_EQ(run.code, 0) << run.err;
     const ToolRun lint = runTool({"lint", "quad.gltf", "--json", "lint.json"}, folder.path());
     ASSERT_EQ(lint.code, 0) << lint.err;
-    const json spots = json::parse(readWhole(folder / "lint.json"))["hot_spots"];
+    const json spots = json::parse(readWhole(folder / "lint.json"))["problem_areas"];
     ASSERT_FALSE(spots.empty());
     const std::string report = readWhole(folder / "r.txt");
     EXPECT_EQ(lineOf(report, "problem areas"), std::to_string(spots.size()));

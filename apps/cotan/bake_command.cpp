@@ -8,6 +8,7 @@
 #include "bake_objects.hpp"
 #include "bake_options.hpp"
 #include "core/file_names.hpp"
+#include "core/try.hpp"
 #include "cotan/convert.hpp"
 #include "gltf_open.hpp"
 #include "image/format_table.hpp"
@@ -139,12 +140,9 @@ Status writeMap(const BakeJob& job, const BakeFiles& files, OpenBake& open, cons
         images.push_back({files.mask, &baked.mask});
     if (!open.document)
         images.push_back({files.map, &baked.image});
-    auto pending = writePending(images);
-    if (!pending)
-        return pending.error();
+    COTAN_TRY(pending, writePending(images));
     if (open.document)
-        if (Status written = writeBakedModel(job, *open.document, low, baked.image); !written)
-            return written;
+        COTAN_CHECK(writeBakedModel(job, *open.document, low, baked.image));
     return commitTogether(*pending);
 }
 
@@ -279,8 +277,7 @@ Result<MapReport> bakeMap(const BakeJob& job, const MapJob& one, OpenBake& open,
     if (!baked)
         return withBakeOptionNames(job, baked.error());
     watch.lap();
-    if (Status written = writeMap(job, one.files, open, map->low, *baked); !written)
-        return written.error();
+    COTAN_CHECK(writeMap(job, one.files, open, map->low, *baked));
     done.writeSeconds = watch.lap();
     done.statistics = baked->statistics;
     done.highTriangles = setup.high.triangleCount();
@@ -289,11 +286,10 @@ Result<MapReport> bakeMap(const BakeJob& job, const MapJob& one, OpenBake& open,
     tell(job, done);
     if (one.files.verify.empty())
         return done;
-    auto verified = verifyBake({map->low, setup.low, setup.high, setup.options.bake, baked->image,
-                                setup.options.stored.format, setup.options.material, setup.options.tangents},
-                               job.device, one.files.verify, job.common);
-    if (!verified)
-        return verified.error();
+    COTAN_TRY(verified,
+              verifyBake({map->low, setup.low, setup.high, setup.options.bake, baked->image,
+                          setup.options.stored.format, setup.options.material, setup.options.tangents},
+                         job.device, one.files.verify, job.common));
     done.verified = std::move(*verified);
     return done;
 }
@@ -307,16 +303,12 @@ Result<std::vector<MapReport>> bakeAll(const BakeJob& job)
     if (!open)
         return open.error();
     const double openSeconds = watch.lap();
-    const auto maps = mapsOf(job, open->low);
-    if (!maps)
-        return maps.error();
+    COTAN_TRY(maps, mapsOf(job, open->low));
     std::vector<MapReport> reports;
     for (const MapJob& one : *maps) {
         if (job.perObject)
             say(job.common, "{}:", one.object);
-        auto done = bakeMap(job, one, *open, reports.empty());
-        if (!done)
-            return done.error();
+        COTAN_TRY(done, bakeMap(job, one, *open, reports.empty()));
         reports.push_back(std::move(*done));
     }
     reports.front().prepareSeconds += openSeconds;
@@ -325,14 +317,9 @@ Result<std::vector<MapReport>> bakeAll(const BakeJob& job)
 
 Status run(const BakeCommandOptions& o)
 {
-    const auto job = bakeJobOf(o);
-    if (!job)
-        return job.error();
-    if (Status free = beginOutputs(o, job->perObject ? std::vector<PlannedOutput>() : plannedFor(job->files)); !free)
-        return free;
-    const auto baked = bakeAll(*job);
-    if (!baked)
-        return baked.error();
+    COTAN_TRY(job, bakeJobOf(o));
+    COTAN_CHECK(beginOutputs(o, job->perObject ? std::vector<PlannedOutput>() : plannedFor(job->files)));
+    COTAN_TRY(baked, bakeAll(*job));
     Json report = {{"command", "bake"}};
     if (!job->perObject) {
         report.update(toJson(*job, baked->front()));

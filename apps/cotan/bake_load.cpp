@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "bake_objects.hpp"
+#include "core/try.hpp"
 #include "gltf_open.hpp"
 #include "image/component_types.hpp"
 #include "model/model_formats.hpp"
@@ -32,15 +33,11 @@ Result<HighModel> loadHigh(const BakeJob& job)
 {
     HighModel high;
     for (const std::string& file : job.high) {
-        auto scene = loadUp(job.memory, file, job.highUp, job.options.ownMaps ? Pixels::all : Pixels::none);
-        if (!scene)
-            return scene.error();
+        COTAN_TRY(scene, loadUp(job.memory, file, job.highUp, job.options.ownMaps ? Pixels::all : Pixels::none));
         high.scenes.push_back(std::move(*scene));
     }
     for (std::size_t i = 0; job.readsHighMaps() && i < job.highMaps.size(); ++i) {
-        auto image = readImageWithin(job.memory, job.highMaps[i]);
-        if (!image)
-            return image.error();
+        COTAN_TRY(image, readImageWithin(job.memory, job.highMaps[i]));
         if (image->channels == 2) // z is missing in the file
             completeNormals(*image);
         high.maps.push_back(std::move(*image));
@@ -133,17 +130,12 @@ Status checkObjects(const BakeJob& job, const Scene& low)
 // Reads the low mesh and its cage, and opens its file for a map that is put into it.
 Status openLow(const BakeJob& job, OpenBake& open)
 {
-    auto low = loadUp(job.memory, job.low, job.up, Pixels::all);
-    if (!low)
-        return low.error();
+    COTAN_TRY(low, loadUp(job.memory, job.low, job.up, Pixels::all));
     open.low = std::move(*low);
     restoreDeclaredGreen(open.low); // the new map replaces the old one, next to the stored tangents
-    if (Status known = checkObjects(job, open.low); !known)
-        return known;
+    COTAN_CHECK(checkObjects(job, open.low));
     if (namedAsGltf(job.files.map)) {
-        auto document = namedAsGltf(job.low) ? openGltfDocument(job.low) : gltfDocumentOf(open.low);
-        if (!document)
-            return document.error();
+        COTAN_TRY(document, namedAsGltf(job.low) ? openGltfDocument(job.low) : gltfDocumentOf(open.low));
         open.document = std::move(*document);
     }
     if (job.files.verify.empty())
@@ -153,9 +145,7 @@ Status openLow(const BakeJob& job, OpenBake& open)
         }
     if (job.cage.empty())
         return Done{};
-    auto cage = loadUp(job.memory, job.cage, job.up, Pixels::none);
-    if (!cage)
-        return cage.error();
+    COTAN_TRY(cage, loadUp(job.memory, job.cage, job.up, Pixels::none));
     open.cage = std::move(*cage);
     return Done{};
 }
@@ -184,11 +174,8 @@ Result<OpenBake> openBake(const BakeJob& job)
         return *why;
     OpenBake open;
     open.options = job.options;
-    if (Status read = openLow(job, open); !read)
-        return read.error();
-    auto high = loadHigh(job);
-    if (!high)
-        return high.error();
+    COTAN_CHECK(openLow(job, open));
+    COTAN_TRY(high, loadHigh(job));
     if (job.readsHighMaps() && !job.namesHighFrame)
         open.options.highFrame = namedHighFrame(*high).value_or(open.options.highFrame);
     open.warnings = warningsOf(job, open.low, *high);

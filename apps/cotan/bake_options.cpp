@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "cotan/convention.hpp"
 #include "gltf_open.hpp"
 #include "image/format_table.hpp"
@@ -93,16 +94,12 @@ Status parseHigh(const BakeCommandOptions& o, BakeJob& job)
         return usageError(fmt::format("--high-map: expected one, or one for each of the {} --high; found {}",
                                       job.high.size(), job.highMaps.size()));
     if (!o.highConvention.empty()) {
-        const auto format = formatFromName("--high-convention", o.highConvention);
-        if (!format)
-            return format.error();
+        COTAN_TRY(format, formatFromName("--high-convention", o.highConvention));
         options.highFormat = *format;
     }
     if (o.highFrame.empty())
         return Done{};
-    const auto frame = parseFrame(o.highFrame, "--high-frame");
-    if (!frame)
-        return frame.error();
+    COTAN_TRY(frame, parseFrame(o.highFrame, "--high-frame"));
     if (dependsOnView(*frame))
         return usageError(
             fmt::format("--high-frame: the frame {} depends on the view: no map can be made for it", o.highFrame));
@@ -136,25 +133,16 @@ Result<BakeJob> bakeJobOf(const BakeCommandOptions& o)
     options.tiles = {o.udim};
     options.mask = !job.files.mask.empty();
     options.bake.threads = o.threads;
-    if (Status ok = checkOutputs(job); !ok)
-        return ok.error();
-    const auto size = parseSize(o.size);
-    if (!size)
-        return size.error();
+    COTAN_CHECK(checkOutputs(job));
+    COTAN_TRY(size, parseSize(o.size));
     options.bake.width = size->width;
     options.bake.height = size->height;
-    const auto frame = parseFrame(o.frame, "--frame");
-    if (!frame)
-        return frame.error();
+    COTAN_TRY(frame, parseFrame(o.frame, "--frame"));
     options.bake.frame = *frame;
-    const auto format = formatOfMap(o.convention, o.expansion, namedAsGltf(o.output));
-    if (!format)
-        return format.error();
+    COTAN_TRY(format, formatOfMap(o.convention, o.expansion, namedAsGltf(o.output)));
     options.stored.format = *format;
-    if (Status ok = parseHigh(o, job); !ok)
-        return ok.error();
-    if (Status ok = checkRays(job); !ok)
-        return ok.error();
+    COTAN_CHECK(parseHigh(o, job));
+    COTAN_CHECK(checkRays(job));
     return job;
 }
 

@@ -8,6 +8,7 @@
 #include "batch/report.hpp"
 #include "batch/run.hpp"
 #include "commands.hpp"
+#include "core/try.hpp"
 #include "files/file_registry.hpp"
 #include "files/output.hpp"
 
@@ -29,9 +30,7 @@ struct BatchOptions : CommonOptions {
 // Sets a job's files and flags from its words, by the declarations of all commands.
 Status setFiles(const Arguments& tool, Job& job)
 {
-    const auto given = tool.parse(job.words);
-    if (!given)
-        return given.error();
+    COTAN_TRY(given, tool.parse(job.words));
     for (const char* name : {"batch", "view"})
         if (given->name == name)
             return usageError(fmt::format("{} cannot run in a batch", name));
@@ -93,16 +92,12 @@ Result<std::vector<JobResult>> results(const BatchOptions& o, const JobList& lis
     if (o.merge) {
         std::vector<Store> stores;
         for (const std::string& folder : o.stores.empty() ? std::vector{storeOf(o).string()} : o.stores) {
-            auto store = Store::openToRead(folder, COTAN_VERSION);
-            if (!store)
-                return store.error();
+            COTAN_TRY(store, Store::openToRead(folder, COTAN_VERSION));
             stores.push_back(std::move(*store));
         }
         return collect(list, plan, stores);
     }
-    auto store = Store::open(storeOf(o), COTAN_VERSION);
-    if (!store)
-        return store.error();
+    COTAN_TRY(store, Store::open(storeOf(o), COTAN_VERSION));
     const std::vector<std::size_t> chosen = jobsOf(plan, shard);
     return withProgress(o, 1, "jobs of " + o.jobs, [&](const Progress& progress) {
         return runJobs(list, plan, chosen, *store, runOptions(o), progress);
@@ -132,12 +127,10 @@ Status guardFiles(const JobList& list)
 {
     for (const Job& job : list.jobs)
         for (const std::string& output : job.outputs)
-            if (Status free = checkOutput(fmt::format("line {}:", job.line), list.folder / output); !free)
-                return free;
+            COTAN_CHECK(checkOutput(fmt::format("line {}:", job.line), list.folder / output));
     for (const Job& job : list.jobs)
         for (const std::string& input : job.inputs)
-            if (Status free = noteInput(list.folder / input); !free)
-                return free;
+            COTAN_CHECK(noteInput(list.folder / input));
     return Done{};
 }
 
@@ -147,20 +140,15 @@ Status guardFiles(const JobList& list, const std::vector<JobResult>& results)
     for (const JobResult& result : results)
         for (const auto* files : {&result.record.inputs, &result.record.outputs})
             for (const FileState& file : *files)
-                if (Status free = noteInput(list.folder / file.file); !free)
-                    return free;
+                COTAN_CHECK(noteInput(list.folder / file.file));
     return Done{};
 }
 
 Status run(const Arguments& tool, const BatchOptions& o)
 {
-    if (Status usage = checkUsage(o); !usage)
-        return usage;
-    const auto shard = parseShard(o.shard.empty() ? "1/1" : o.shard);
-    if (!shard)
-        return shard.error();
-    if (Status planned = beginOutputs(o, {{"-o", o.output}}, /*again*/ true); !planned)
-        return planned;
+    COTAN_CHECK(checkUsage(o));
+    COTAN_TRY(shard, parseShard(o.shard.empty() ? "1/1" : o.shard));
+    COTAN_CHECK(beginOutputs(o, {{"-o", o.output}}, /*again*/ true));
     Stopwatch watch;
     const auto list = readJobs(o.jobs, [&](Job& job) { return setFiles(tool, job); });
     if (!list)
@@ -168,13 +156,9 @@ Status run(const Arguments& tool, const BatchOptions& o)
     const auto plan = planJobs(*list);
     if (!plan)
         return inputError(fmt::format("{}: {}", o.jobs, plan.error().message));
-    if (Status free = guardFiles(*list); !free)
-        return free;
-    const auto all = results(o, *list, *plan, *shard);
-    if (!all)
-        return all.error();
-    if (Status free = guardFiles(*list, *all); !free)
-        return free;
+    COTAN_CHECK(guardFiles(*list));
+    COTAN_TRY(all, results(o, *list, *plan, *shard));
+    COTAN_CHECK(guardFiles(*list, *all));
     const double seconds = watch.lap();
     const std::string summary = summaryOf(*all) + fmt::format("; {:.1f} s", seconds);
     if (!o.output.empty()) {
@@ -182,16 +166,14 @@ Status run(const Arguments& tool, const BatchOptions& o)
         const auto folder = std::filesystem::absolute(o.output).lexically_normal().parent_path();
         const std::string page =
             batchPage(*list, *all, title, "cotan " COTAN_VERSION ": " + summary, folder, std::size_t(o.rows));
-        if (Status written = writeFileWhole(o.output, page); !written)
-            return written;
+        COTAN_CHECK(writeFileWhole(o.output, page));
     }
     say(o, "{}{}", summary, o.output.empty() ? "" : "; report: " + o.output.string());
     Json j = batchJson(*list, *all);
     j["jobs_file"] = o.jobs;
     j["shard"] = o.shard;
     j["seconds"] = seconds;
-    if (Status written = writeReport(o, j); !written)
-        return written;
+    COTAN_CHECK(writeReport(o, j));
     return verdict(*list, *all);
 }
 

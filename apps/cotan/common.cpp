@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "files/file_registry.hpp"
 #include "files/output.hpp"
@@ -63,16 +64,14 @@ Result<std::vector<std::string>> planOutputs(std::vector<PlannedOutput> files)
 {
     std::erase_if(files, [](const PlannedOutput& output) { return output.file.empty(); });
     for (const PlannedOutput& output : files)
-        if (Status planned = planOutput(output.option, output.file); !planned)
-            return planned.error();
+        COTAN_CHECK(planOutput(output.option, output.file));
     std::set<std::filesystem::path> folders, made;
     for (const PlannedOutput& output : files) {
         const std::filesystem::path folder = folderOf(output.file).lexically_normal();
         folders.insert(folder);
         if (output.makesFolder)
             made.insert(folder);
-        if (Status writable = checkWritable(output.file, made.contains(folder)); !writable)
-            return writable.error();
+        COTAN_CHECK(checkWritable(output.file, made.contains(folder)));
     }
     std::vector<std::string> left;
     for (const std::filesystem::path& folder : folders)
@@ -89,9 +88,7 @@ Status beginOutputs(const CommonOptions& options, std::vector<PlannedOutput> fil
     guardInputs(options.overwrite, again);
     if (options.json != "-")
         files.push_back({"--json", options.json});
-    const auto left = planOutputs(std::move(files));
-    if (!left)
-        return left.error();
+    COTAN_TRY(left, planOutputs(std::move(files)));
     for (const std::string& line : *left)
         warn(options, line);
     return Done{};

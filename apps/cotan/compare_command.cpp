@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "cotan/image.hpp"
 #include "cotan/inspect.hpp"
 #include "inspect/angles.hpp"
@@ -51,50 +52,38 @@ Status run(const CompareCommandOptions& o)
 {
     if (o.output.empty())
         return usageError("compare needs -o FOLDER");
-    const auto pair = parsePair(o.frames);
-    if (!pair)
-        return pair.error();
+    COTAN_TRY(pair, parsePair(o.frames));
     for (const FrameChoice& frame : *pair)
-        if (Status fits = checkLighting(o.picture, frame); !fits)
-            return fits;
+        COTAN_CHECK(checkLighting(o.picture, frame));
     // Before the model is read, so that none of its files is replaced.
-    if (Status planned = beginOutputs(o, plannedIn("-o", o.output, comparedFiles(*pair))); !planned)
-        return planned;
-    auto picture = loadPicture(o.picture, o, {(*pair)[0], (*pair)[1]});
-    if (!picture)
-        return picture.error();
-    if (Status fits = limitCoverage(picture->scene, picture->view, 2); !fits)
-        return fits;
+    COTAN_CHECK(beginOutputs(o, plannedIn("-o", o.output, comparedFiles(*pair))));
+    COTAN_TRY(picture, loadPicture(o.picture, o, {(*pair)[0], (*pair)[1]}));
+    COTAN_CHECK(limitCoverage(picture->scene, picture->view, 2));
     const std::array<std::optional<Frame>, 2> frames = {picture->frames[0], picture->frames[1]};
     const std::string a = nameOf(frames[0]), b = nameOf(frames[1]);
     for (const std::optional<Frame>& frame : frames)
         if (const std::string note = frameNote(picture->scene, frame); !note.empty())
             warn(o, note);
-    auto renderer = makePictureRenderer(o.picture, o, *picture);
-    if (!renderer)
-        return renderer.error();
+    COTAN_TRY(renderer, makePictureRenderer(o.picture, o, *picture));
     Stopwatch watch;
     const std::size_t pictures = kComparedFramesImages + (o.picture.edges != Edges::none ? 2 : 0);
     const auto compared = drawWithProgress(o, **renderer, pictures, "drawing", [&]() -> Result<ComparedFrames> {
         auto drawn = compareFrames(**renderer, picture->scene, picture->view, frames);
         if (drawn)
             for (Image& image : drawn->shaded)
-                if (Status laid = layEdges(**renderer, picture->view, o.picture, picture->edges, image); !laid)
-                    return laid.error();
+                COTAN_CHECK(layEdges(**renderer, picture->view, o.picture, picture->edges, image));
         return drawn;
     });
     if (!compared)
         return compared.error();
     const double drawSeconds = watch.lap();
 
-    if (Status made = makeFolder(o.output); !made)
-        return made;
+    COTAN_CHECK(makeFolder(o.output));
     std::vector<PlacedImage> files{{o.output / (a + ".png"), &compared->shaded[0]},
                                    {o.output / "difference.png", &compared->difference}};
     if (b != a)
         files.push_back({o.output / (b + ".png"), &compared->shaded[1]});
-    if (Status written = writeTogether(files); !written)
-        return written;
+    COTAN_CHECK(writeTogether(files));
 
     Json report = {{"command", "compare"}};
     report.update(describeScene(o.picture, *picture));

@@ -9,6 +9,7 @@
 
 #include "bake/reports.hpp"
 #include "convert_lines.hpp"
+#include "core/try.hpp"
 #include "cotan/convert.hpp"
 #include "cotan/inspect.hpp"
 #include "cotan/render.hpp"
@@ -81,21 +82,15 @@ Result<ConvertJob> jobOf(const ConvertCommandOptions& o)
     // --provoking alone concerns vertices only. Without --to-frame the frames are chosen by measurement, and the maps
     // stay.
     const bool verticesOnly = o.to.empty() && !o.maps.keepMaps && o.provoking, chooses = o.to.empty() && !verticesOnly;
-    if (Status fit = checkTogether(o, chooses, verticesOnly); !fit)
-        return fit.error();
-    const auto from = frameFor("--from-frame", o.from.empty() ? "mikktspace" : o.from);
-    if (!from)
-        return from.error();
-    const auto to = o.to.empty() ? Frame::orthonormal : frameFor("--to-frame", o.to);
-    if (!to)
-        return to.error();
+    COTAN_CHECK(checkTogether(o, chooses, verticesOnly));
+    COTAN_TRY(from, frameFor("--from-frame", o.from.empty() ? "mikktspace" : o.from));
+    COTAN_TRY(to, o.to.empty() ? Frame::orthonormal : frameFor("--to-frame", o.to));
     if (o.maps.keepMaps && readsTangents(*to))
         return usageError(fmt::format(
             "--to-frame: expected a frame that reads no tangents, since --keep-maps drops them; found {}", name(*to)));
     if (o.output.empty())
         return usageError("convert needs -o FILE");
-    if (Status names = checkGltfNames(o.model, o.output); !names)
-        return names.error();
+    COTAN_CHECK(checkGltfNames(o.model, o.output));
     std::error_code ignored;
     const bool verifies = !o.verify.folder.empty();
     if (verifies && std::filesystem::equivalent(o.model, o.output, ignored))
@@ -140,13 +135,9 @@ std::vector<PlannedOutput> outputsOf(const ConvertJob& job)
 Result<ConvertResult> convert(ConvertJob job, const CommonOptions& terminal)
 {
     ConvertResult done;
-    auto opened = openGltfToEdit(job.model, job.limits, terminal);
-    if (!opened)
-        return opened.error();
+    COTAN_TRY(opened, openGltfToEdit(job.model, job.limits, terminal));
     if (job.maps) {
-        const auto named = namedFrame(opened->document);
-        if (!named)
-            return named.error();
+        COTAN_TRY(named, namedFrame(opened->document));
         if (job.fileNamesFrom)
             job.maps->frames.from = named->value_or(job.maps->frames.from);
         done.frames = job.maps->frames;
@@ -160,17 +151,12 @@ Result<ConvertResult> convert(ConvertJob job, const CommonOptions& terminal)
     }
     opened->scene = {}; // its memory
     if (job.provoking) {
-        auto provoked = setGltfProvoking(opened->document, *job.provoking);
-        if (!provoked)
-            return provoked.error();
+        COTAN_TRY(provoked, setGltfProvoking(opened->document, *job.provoking));
         done.provoked = std::move(*provoked);
     }
     if (job.verify) // fails before anything is written
-        if (Status made = makeFolder(job.verify->folder); !made)
-            return made.error();
-    auto written = writeGltf(opened->document, job.output);
-    if (!written)
-        return written.error();
+        COTAN_CHECK(makeFolder(job.verify->folder));
+    COTAN_TRY(written, writeGltf(opened->document, job.output));
     done.written = std::move(*written);
     return done;
 }
@@ -229,21 +215,16 @@ Status verify(VerifyOptions check, const ConvertJob& job, const ConvertResult& d
     check.from = done.frames.from;
     check.fromTangents = done.frames.fromTangents;
     check.to = job.maps->choose ? std::nullopt : std::optional(done.frames.to);
-    auto verified = verifyConversion(check, terminal);
-    if (!verified)
-        return verified.error();
+    COTAN_TRY(verified, verifyConversion(check, terminal));
     report["verify"] = std::move(*verified);
     return Done{};
 }
 
 Status run(const ConvertCommandOptions& o)
 {
-    const auto job = jobOf(o);
-    if (!job)
-        return job.error();
+    COTAN_TRY(job, jobOf(o));
     const CommonOptions& terminal = o;
-    if (Status planned = beginOutputs(terminal, outputsOf(*job)); !planned)
-        return planned;
+    COTAN_CHECK(beginOutputs(terminal, outputsOf(*job)));
     if (job->verify) // fails before any work
         if (const auto renderer = openRenderer(job->verify->device, terminal.threads); !renderer)
             return renderer.error();
@@ -259,8 +240,7 @@ Status run(const ConvertCommandOptions& o)
     Json report = toJson(*job, *done);
     report["seconds"] = {{"convert", watch.lap()}};
     if (job->verify) {
-        if (Status verified = verify(*job->verify, *job, *done, terminal, report); !verified)
-            return verified;
+        COTAN_CHECK(verify(*job->verify, *job, *done, terminal, report));
         report["seconds"]["verify"] = watch.lap();
     }
     return writeReport(terminal, report);

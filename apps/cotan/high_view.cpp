@@ -10,6 +10,7 @@
 
 #include "bake/baker.hpp"
 #include "core/loops.hpp"
+#include "core/try.hpp"
 #include "scene/geometry.hpp"
 #include "scene/sample_positions.hpp"
 
@@ -122,14 +123,12 @@ Result<HighView> renderHighView(const LowSurface& low, const HighSurface& high, 
                                 const View& view)
 {
     BakeOptions options = given;
-    if (Status ready = measureRayStarts(low, high, options); !ready)
-        return ready.error();
+    COTAN_CHECK(measureRayStarts(low, high, options));
     std::optional<LowTree> tree = options.starts ? options.starts->tree : std::nullopt;
     if (!tree) {
-        auto made = LowTree::make(low.positions, low.indices, highGroups(low.triangleInstance, options.matched),
-                                  options.threads);
-        if (!made)
-            return made.error();
+        COTAN_TRY(made,
+                  LowTree::make(low.positions, low.indices, highGroups(low.triangleInstance, options.matched),
+                                options.threads));
         tree = std::move(*made);
     }
     HighView result{.normals = makeImage(view.width, view.height, PixelType::float32, "high surface"),

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "bake/reports.hpp"
+#include "core/try.hpp"
 #include "cotan/inspect.hpp"
 #include "cotan/lint.hpp"
 #include "cotan/render.hpp"
@@ -81,11 +82,8 @@ std::string commandFor(const LintJob& job, const LintReport& report)
 Result<LintResult> lint(const LintJob& job, const CommonOptions& terminal)
 {
     Stopwatch watch;
-    auto scene = loadWithProgress(terminal, job.load, job.model);
-    if (!scene)
-        return scene.error();
-    if (Status applied = applyOwnMaps(job.maps, job.memory, *scene); !applied)
-        return applied.error();
+    COTAN_TRY(scene, loadWithProgress(terminal, job.load, job.model));
+    COTAN_CHECK(applyOwnMaps(job.maps, job.memory, *scene));
     LintResult done;
     done.scene = *std::move(scene);
     done.loadSeconds = watch.lap();
@@ -138,12 +136,14 @@ Json toJson(const LintJob& job, const LintResult& done)
                 {"primitives_keeping", report.keeping},
                 {"drops_tangents", report.dropping > 0}}}};
     j.update(listsOf(report));
-    j["hot_spots"] = Json::array();
+    Json areas = Json::array();
     for (const ProblemArea& area : done.areas)
-        j["hot_spots"].push_back({{"text", area.text},
-                                  {"mesh", done.scene.meshes[area.mesh].name},
-                                  {"share", area.share},
-                                  {"camera", formatCamera(area.camera)}});
+        areas.push_back({{"text", area.text},
+                         {"mesh", done.scene.meshes[area.mesh].name},
+                         {"share", area.share},
+                         {"camera", formatCamera(area.camera)}});
+    j["problem_areas"] = areas;
+    j["hot_spots"] = areas; // the old name, for one version
     j["check"] = toJson(done.check);
     j["over_limit"] = overLimits(done.check);
     j["seconds"] = {{"load", done.loadSeconds}, {"lint", done.seconds}};
@@ -152,12 +152,9 @@ Json toJson(const LintJob& job, const LintResult& done)
 
 Status run(const LintCommandOptions& o)
 {
-    const auto job = jobOf(o);
-    if (!job)
-        return job.error();
+    COTAN_TRY(job, jobOf(o));
     const CommonOptions& terminal = o;
-    if (Status planned = beginOutputs(terminal, {}); !planned)
-        return planned;
+    COTAN_CHECK(beginOutputs(terminal, {}));
     const auto done = lint(*job, terminal);
     if (!done)
         return withOptionNames(done.error());
@@ -169,8 +166,7 @@ Status run(const LintCommandOptions& o)
                  map.note);
     for (const std::string& line : linesOf(*job, *done))
         say(terminal, line);
-    if (Status written = writeReport(terminal, toJson(*job, *done)); !written)
-        return written;
+    COTAN_CHECK(writeReport(terminal, toJson(*job, *done)));
     if (!done->check.passed())
         return Error{ErrorKind::limit, summaryOf(done->check)};
     return Done{};

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "map_files/blend.hpp"
 #include "map_options.hpp"
 #include "parse.hpp"
@@ -36,25 +37,21 @@ Result<maps::BlendFileOptions> parseOptions(const MapBlendCommandOptions& o)
     for (const auto& [words, option, target] :
          {std::tuple(o.from, "--from", &options.base),
           {o.detailFrom.empty() ? o.from : o.detailFrom, "--detail-from", &options.detail}}) {
-        const auto convention = parseConvention(words, option);
-        if (!convention)
-            return convention.error();
+        COTAN_TRY(convention, parseConvention(words, option));
         *target = *convention;
     }
     if (!o.to.empty()) {
-        const auto convention = parseConvention(o.to, "--to");
-        if (!convention)
-            return convention.error();
+        COTAN_TRY(convention, parseConvention(o.to, "--to"));
         options.to = convention->convention;
     }
-    const auto mode = valueOf<maps::BlendMode>(
-        "--mode", o.mode,
-        {{"reoriented", reoriented}, {"whiteout", whiteout}, {"udn", udn}, {"slopes", slopes}, {"linear", linear}});
-    if (!mode)
-        return mode.error();
-    const auto tiles = parseTiles(o.tiles);
-    if (!tiles)
-        return tiles.error();
+    COTAN_TRY(mode,
+              valueOf<maps::BlendMode>("--mode", o.mode,
+                                       {{"reoriented", reoriented},
+                                        {"whiteout", whiteout},
+                                        {"udn", udn},
+                                        {"slopes", slopes},
+                                        {"linear", linear}}));
+    COTAN_TRY(tiles, parseTiles(o.tiles));
     options.mode = *mode;
     options.strength = float(o.strength);
     options.tilesX = tiles->first, options.tilesY = tiles->second;
@@ -66,11 +63,8 @@ Result<maps::BlendFileOptions> parseOptions(const MapBlendCommandOptions& o)
 
 Status run(const MapBlendCommandOptions& o)
 {
-    if (Status given = needOutput(o, "blend"); !given)
-        return given;
-    const auto options = parseOptions(o);
-    if (!options)
-        return options.error();
+    COTAN_CHECK(needOutput(o, "blend"));
+    COTAN_TRY(options, parseOptions(o));
     const auto done = onFilesToMap(o, o.base, [&](const maps::FileOptions& files) {
         return maps::blendFiles(o.base, o.detail, o.output, *options, files);
     });

@@ -1,6 +1,7 @@
 // `cotan map convert`: converts a map to another convention.
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "image/format_table.hpp"
 #include "map_files/convert.hpp"
 #include "map_options.hpp"
@@ -22,17 +23,14 @@ struct MapConvertCommandOptions : MapOptions {
 
 Status run(const MapConvertCommandOptions& o)
 {
-    const auto conventions = parseFromTo(o.from, o.to);
-    if (!conventions)
-        return conventions.error();
+    COTAN_TRY(conventions, parseFromTo(o.from, o.to));
     const StatedConvention& from = conventions->first;
     const Convention& to = conventions->second.convention;
     if (conventions->second.damage.any())
         return usageError(fmt::format("--to: srgb, linearised, bgr and grb describe broken maps; expected a convention "
                                       "without them, found '{}'",
                                       o.to));
-    if (Status given = needOutput(o, "convert"); !given)
-        return given;
+    COTAN_CHECK(needOutput(o, "convert"));
     const bool blocks = o.compress != "none";
     maps::ConvertFileOptions options{.from = from,
                                      .to = to,
@@ -43,9 +41,7 @@ Status run(const MapConvertCommandOptions& o)
                                      .dither = o.dither,
                                      .mesh = {}};
     if (!o.mesh.empty()) {
-        const auto frame = parseFrame(o.frame, "--frame");
-        if (!frame)
-            return frame.error();
+        COTAN_TRY(frame, parseFrame(o.frame, "--frame"));
         options.mesh = {o.mesh, *frame, o.tangents, o.material, o.up};
     }
     const auto done =

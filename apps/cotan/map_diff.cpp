@@ -1,6 +1,7 @@
 // `cotan map diff`: compares two maps, in degrees.
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "map_files/inspect.hpp"
 #include "map_options.hpp"
 
@@ -14,11 +15,8 @@ struct MapDiffCommandOptions : MapOptions {
 
 Status run(const MapDiffCommandOptions& o)
 {
-    if (Status planned = beginOutputs(o, {{"-o", o.output}}); !planned)
-        return planned;
-    const auto conventions = parseFromTo(o.from, o.to.empty() ? o.from : o.to);
-    if (!conventions)
-        return conventions.error();
+    COTAN_CHECK(beginOutputs(o, {{"-o", o.output}}));
+    COTAN_TRY(conventions, parseFromTo(o.from, o.to.empty() ? o.from : o.to));
     const auto compared = onFiles(o, o.a, [&](const maps::FileOptions& files) {
         return maps::compareFiles(o.a, conventions->first, o.b, conventions->second, o.output, files);
     });

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "map_files/height.hpp"
 #include "map_options.hpp"
 #include "parse.hpp"
@@ -55,23 +56,14 @@ const Words<maps::Kernel> kDifferences = {{"forward", maps::Kernel::forward},
 
 Status runFrom(const MapFromHeightCommandOptions& o)
 {
-    if (Status given = needOutput(o, "from-height"); !given)
-        return given;
-    const auto to = parseConvention(o.convention, "--to");
-    if (!to)
-        return to.error();
-    const auto kernel = valueOf("--kernel", o.kernel, kDifferences);
-    if (!kernel)
-        return kernel.error();
+    COTAN_CHECK(needOutput(o, "from-height"));
+    COTAN_TRY(to, parseConvention(o.convention, "--to"));
+    COTAN_TRY(kernel, valueOf("--kernel", o.kernel, kDifferences));
     using enum maps::Wrap;
-    const auto wrap = valueOf<maps::Wrap>("--wrap", o.wrap, {{"repeat", repeat}, {"clamp", clamp}, {"mirror", mirror}});
-    if (!wrap)
-        return wrap.error();
+    COTAN_TRY(wrap, valueOf<maps::Wrap>("--wrap", o.wrap, {{"repeat", repeat}, {"clamp", clamp}, {"mirror", mirror}}));
     if (o.metres.empty() != (o.range == 0))
         return usageError("from-height: expected --metres and --range together, both in metres; found one of them");
-    const auto metres = parseMetres(o.metres);
-    if (!metres)
-        return metres.error();
+    COTAN_TRY(metres, parseMetres(o.metres));
     const auto done = onFilesToMap(o, o.file, [&](const maps::FileOptions& files) {
         return maps::normalsFromHeightFile(o.file, o.output,
                                            {.to = to->convention,
@@ -117,19 +109,12 @@ std::string inverseOptions(const MapToHeightCommandOptions& o, const maps::ToHei
 
 Status runTo(const MapToHeightCommandOptions& o)
 {
-    if (Status given = needOutput(o, "to-height"); !given)
-        return given;
-    const auto from = parseConvention(o.convention, "--from");
-    if (!from)
-        return from.error();
+    COTAN_CHECK(needOutput(o, "to-height"));
+    COTAN_TRY(from, parseConvention(o.convention, "--from"));
     Words<maps::Kernel> kernels = {{"spectral", maps::Kernel::spectral}};
     kernels.insert(kernels.end(), kDifferences.begin(), kDifferences.end());
-    const auto kernel = valueOf("--kernel", o.kernel, kernels);
-    if (!kernel)
-        return kernel.error();
-    const auto metres = parseMetres(o.metres);
-    if (!metres)
-        return metres.error();
+    COTAN_TRY(kernel, valueOf("--kernel", o.kernel, kernels));
+    COTAN_TRY(metres, parseMetres(o.metres));
     const auto done = onFiles(o, "solving for the height", [&](const maps::FileOptions& files) {
         return maps::heightFromNormalsFile(o.file, o.output,
                                            {.from = *from,

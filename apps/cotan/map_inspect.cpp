@@ -5,6 +5,7 @@
 #include <system_error>
 #include <vector>
 
+#include "core/try.hpp"
 #include "image/format_table.hpp"
 #include "map_files/inspect.hpp"
 #include "map_options.hpp"
@@ -53,9 +54,7 @@ Result<std::vector<std::string>> filesOf(const InspectOptions& o)
             all.push_back(name);
             continue;
         }
-        const auto inside = imagesIn(name);
-        if (!inside)
-            return inside.error();
+        COTAN_TRY(inside, imagesIn(name));
         all.insert(all.end(), inside->begin(), inside->end());
     }
     return all;
@@ -63,9 +62,7 @@ Result<std::vector<std::string>> filesOf(const InspectOptions& o)
 
 Status runOne(const InspectOptions& o, const char* command, Inspect inspect)
 {
-    const auto inspected = inspect(o, o.files.front());
-    if (!inspected)
-        return inspected.error();
+    COTAN_TRY(inspected, inspect(o, o.files.front()));
     for (const std::string& line : inspected->lines)
         say(o, line);
     Json report = {{"command", command}, {"file", o.files.front()}};
@@ -76,9 +73,7 @@ Status runOne(const InspectOptions& o, const char* command, Inspect inspect)
 // Inspects the files in turn, and continues after those that cannot be read.
 Status runAll(const InspectOptions& o, const char* command, Inspect inspect)
 {
-    const auto files = filesOf(o);
-    if (!files)
-        return files.error();
+    COTAN_TRY(files, filesOf(o));
     std::vector<Error> errors;
     Json all = Json::array();
     for (const std::string& file : *files) {
@@ -99,8 +94,7 @@ Status runAll(const InspectOptions& o, const char* command, Inspect inspect)
         }
         all.push_back(std::move(report));
     }
-    if (Status written = writeReport(o, {{"command", command}, {"files", all}}); !written)
-        return written;
+    COTAN_CHECK(writeReport(o, {{"command", command}, {"files", all}}));
     if (errors.empty())
         return Done{};
     return Error{errors.front().kind,
@@ -110,8 +104,7 @@ Status runAll(const InspectOptions& o, const char* command, Inspect inspect)
 
 Status run(const InspectOptions& o, const char* command, Inspect inspect)
 {
-    if (Status planned = beginOutputs(o, {}); !planned)
-        return planned;
+    COTAN_CHECK(beginOutputs(o, {}));
     std::error_code ignored;
     const bool one = o.files.size() == 1 && !fs::is_directory(o.files.front(), ignored);
     return one ? runOne(o, command, inspect) : runAll(o, command, inspect);

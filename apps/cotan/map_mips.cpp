@@ -1,6 +1,7 @@
 // `cotan map mips`: writes mip levels as one texture or as a file per level.
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "files/file_registry.hpp"
 #include "map_files/mips.hpp"
 #include "map_options.hpp"
@@ -19,17 +20,12 @@ struct MapMipsCommandOptions : MapOptions {
 Status run(const MapMipsCommandOptions& o)
 {
     const std::filesystem::path first = maps::firstMipFile(o.output);
-    if (Status given = needOutput(o, "mips", first); !given)
-        return given;
-    const auto conventions = parseFromTo(o.from, o.to.empty() ? o.from : o.to);
-    if (!conventions)
-        return conventions.error();
+    COTAN_CHECK(needOutput(o, "mips", first));
+    COTAN_TRY(conventions, parseFromTo(o.from, o.to.empty() ? o.from : o.to));
     const std::optional<Convention> to = o.to.empty() ? std::nullopt : std::optional(conventions->second.convention);
     using enum maps::VarianceModel;
-    const auto model =
-        valueOf<maps::VarianceModel>("--model", o.model, {{"toksvig", toksvig}, {"vmf", vmf}, {"lean", lean}});
-    if (!model)
-        return model.error();
+    COTAN_TRY(model,
+              valueOf<maps::VarianceModel>("--model", o.model, {{"toksvig", toksvig}, {"vmf", vmf}, {"lean", lean}}));
     const auto plan = [&](const std::filesystem::path& file) {
         return file == first ? Status(Done{}) : planOutput("-o", file);
     };

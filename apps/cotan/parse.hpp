@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/try.hpp"
 #include "cotan/frame.hpp"
 #include "cotan/result.hpp"
 #include "cotan/view.hpp"
@@ -54,9 +55,7 @@ Status choose(Value& value, const std::string& option, const std::string& word, 
 {
     if (word.empty())
         return Done{};
-    const auto found = oneOf(option, word, words);
-    if (!found)
-        return found.error();
+    COTAN_TRY(found, oneOf(option, word, words));
     value = *found;
     return Done{};
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/parse_number.hpp"
+#include "core/try.hpp"
 #include "cotan/image.hpp"
 #include "cotan/inspect.hpp"
 #include "cotan/picture.hpp"
@@ -113,16 +114,10 @@ Result<RenderJob> jobOf(const RenderCommandOptions& o)
 {
     if (o.output.empty())
         return usageError("render needs -o FILE");
-    const auto frame = parseFrameChoice(o.frame, "--frame");
-    if (!frame)
-        return frame.error();
-    if (Status fits = checkLighting(o.picture, *frame); !fits)
-        return fits.error();
-    if (Status keeps = checkBackground(o.picture, o.output); !keeps)
-        return keeps.error();
-    const auto numbers = imageNumbers(o);
-    if (!numbers)
-        return numbers.error();
+    COTAN_TRY(frame, parseFrameChoice(o.frame, "--frame"));
+    COTAN_CHECK(checkLighting(o.picture, *frame));
+    COTAN_CHECK(checkBackground(o.picture, o.output));
+    COTAN_TRY(numbers, imageNumbers(o));
     const bool animated = isAnimation(o.output), turns = o.turntable > 0;
     if (animated && numbers->empty())
         return usageError(fmt::format("-o: {} files hold the images of --turntable or --frames; found neither",
@@ -173,8 +168,7 @@ Result<Image> drawShot(const RenderJob& job, const Picture& picture, Renderer& r
     auto image = drawShow(renderer, picture.scene, picture.view, job.picture.show, keepsFloats(job.shots.front().file),
                           [&](const AngleStatistics& degrees) { done.error = done.error.value_or(degrees); });
     if (image)
-        if (Status laid = layEdges(renderer, picture.view, job.picture, picture.edges, *image); !laid)
-            return laid.error();
+        COTAN_CHECK(layEdges(renderer, picture.view, job.picture, picture.edges, *image));
     return image;
 }
 
@@ -182,12 +176,8 @@ Result<Image> drawShot(const RenderJob& job, const Picture& picture, Renderer& r
 Result<Rendered> render(const RenderJob& job)
 {
     Stopwatch total, watch;
-    const auto animation = beginAnimation(job);
-    if (!animation)
-        return animation.error();
-    auto picture = loadPicture(job.picture, job.common, {job.frame, Frame::exact});
-    if (!picture)
-        return picture.error();
+    COTAN_TRY(animation, beginAnimation(job));
+    COTAN_TRY(picture, loadPicture(job.picture, job.common, {job.frame, Frame::exact}));
     const std::optional<Frame> frame = picture->frames.front();
     picture->view.setFrame(frame);
     picture->view.output = outputOf(job.picture.show);
@@ -200,20 +190,15 @@ Result<Rendered> render(const RenderJob& job)
     done.frames = nameOfFrames(frame, picture->scene);
     done.loadSeconds = picture->loadSeconds;
     watch.lap();
-    const auto renderer = makePictureRenderer(job.picture, job.common, *picture);
-    if (!renderer)
-        return renderer.error();
+    COTAN_TRY(renderer, makePictureRenderer(job.picture, job.common, *picture));
     done.device = (*renderer)->device();
     done.uploadSeconds = (*renderer)->uploadSeconds();
     done.openSeconds = watch.lap() - done.uploadSeconds;
     const auto drawAll = [&]() -> Status {
         for (std::size_t i = 0; i < job.shots.size(); ++i) {
             if (i > 0)
-                if (Status moved = movePicture(job.picture, job.shots[i].at, *picture, **renderer); !moved)
-                    return moved;
-            const auto image = drawShot(job, *picture, **renderer, done);
-            if (!image)
-                return image.error();
+                COTAN_CHECK(movePicture(job.picture, job.shots[i].at, *picture, **renderer));
+            COTAN_TRY(image, drawShot(job, *picture, **renderer, done));
             done.drawSeconds += watch.lap();
             if (Status written = *animation ? (*animation)->add(*image) : writeImage(job.shots[i].file, *image);
                 !written)
@@ -223,8 +208,7 @@ Result<Rendered> render(const RenderJob& job)
         return *animation ? (*animation)->finish() : Done{};
     };
     const std::size_t draws = job.picture.show == "error" ? 2 : 1; // errors also need the reference frame
-    if (Status drawn = drawWithProgress(job.common, **renderer, draws * job.shots.size(), "drawing", drawAll); !drawn)
-        return drawn.error();
+    COTAN_CHECK(drawWithProgress(job.common, **renderer, draws * job.shots.size(), "drawing", drawAll));
     done.totalSeconds = total.lap();
     return done;
 }
@@ -255,11 +239,8 @@ Status tell(const RenderJob& job, const Rendered& done)
 
 Status run(const RenderCommandOptions& o)
 {
-    const auto job = jobOf(o);
-    if (!job)
-        return job.error();
-    if (Status planned = beginOutputs(job->common, outputsOf(*job)); !planned)
-        return planned;
+    COTAN_TRY(job, jobOf(o));
+    COTAN_CHECK(beginOutputs(job->common, outputsOf(*job)));
     const auto done = render(*job);
     return done ? tell(*job, *done) : done.error();
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "cotan/shader_text.hpp"
 #include "files/output.hpp"
 #include "parse.hpp"
@@ -32,8 +33,7 @@ Result<Convention> conventionOf(const ShaderCommandOptions& o)
         presets.push_back({p.name, onGpu(p)});
     // Godot's importer may drop blue; code that reads it would fail silently.
     const std::string preset = o.preset.empty() && o.language == "godot" ? o.language : o.preset;
-    if (Status ok = choose(c, "--preset", preset, presets); !ok)
-        return ok.error();
+    COTAN_CHECK(choose(c, "--preset", preset, presets));
     if (Status ok = choose(c.channels, "--channels", o.channels,
                            {{"3", Channels::xyz},
                             {"2", Channels::orthographic},
@@ -48,8 +48,7 @@ Result<Convention> conventionOf(const ShaderCommandOptions& o)
                             {"signed", Expansion::signedValues}});
         !ok)
         return ok.error();
-    if (Status ok = choose(c.greenUp, "--green", o.green, {{"along-v", true}, {"against-v", false}}); !ok)
-        return ok.error();
+    COTAN_CHECK(choose(c.greenUp, "--green", o.green, {{"along-v", true}, {"against-v", false}}));
     if (!o.green.empty())
         c.v = VDirection::up;
     return c;
@@ -60,21 +59,18 @@ Status chooseText(const ShaderCommandOptions& o, Choice& choice)
     Words<shader_text::Language> languages;
     for (shader_text::Language l : shader_text::kLanguages)
         languages.push_back({name(l), l});
-    if (Status ok = choose(choice.language, "--lang", o.language, languages); !ok)
-        return ok;
+    COTAN_CHECK(choose(choice.language, "--lang", o.language, languages));
     Words<std::optional<Form>> forms;
     for (const Form f : shader_text::kForms) {
         forms.push_back({name(f), f});
         if (f == Form::total)
             forms.push_back({"readable", f});
     }
-    if (Status ok = choose(choice.form, "--form", o.form, forms); !ok)
-        return ok;
+    COTAN_CHECK(choose(choice.form, "--form", o.form, forms));
     Words<shader_text::Stage> stages;
     for (shader_text::Stage s : shader_text::kStages)
         stages.push_back({name(s), s});
-    if (Status ok = choose(choice.stage, "--stage", o.stage, stages); !ok)
-        return ok;
+    COTAN_CHECK(choose(choice.stage, "--stage", o.stage, stages));
     return choose(choice.callerDifferences, "--differences", o.differences, {{"shader", false}, {"caller", true}});
 }
 
@@ -90,8 +86,7 @@ Error withoutFrame()
 Result<Choice> choiceOf(const ShaderCommandOptions& o)
 {
     Choice choice;
-    if (Status ok = chooseText(o, choice); !ok)
-        return ok.error();
+    COTAN_CHECK(chooseText(o, choice));
     std::string wanted = o.frame;
     if (wanted.empty()) {
         const auto usual = shader_text::frameIfNoneIsNamed(choice.language);
@@ -129,9 +124,7 @@ Result<Choice> choiceOf(const ShaderCommandOptions& o)
     }
     sets.push_back({"all", all});
     for (const std::string& word : o.sets) {
-        const auto chosen = oneOf("--set", word, sets);
-        if (!chosen)
-            return chosen.error();
+        COTAN_TRY(chosen, oneOf("--set", word, sets));
         choice.sets.insert(choice.sets.end(), chosen->begin(), chosen->end());
     }
     return choice;
@@ -142,14 +135,12 @@ Status run(const ShaderCommandOptions& o)
     const Result<Choice> choice = choiceOf(o);
     if (!choice)
         return choice.error();
-    if (Status planned = beginOutputs(o, {{"-o", o.output}}); !planned)
-        return planned;
+    COTAN_CHECK(beginOutputs(o, {{"-o", o.output}}));
     const Result<shader_text::ShaderText> text = makeShaderText(*choice);
     if (!text)
         return text.error();
     if (!o.output.empty()) {
-        if (Status written = writeFileWhole(o.output, text->text); !written)
-            return written;
+        COTAN_CHECK(writeFileWhole(o.output, text->text));
     } else if (o.json != "-") {
         print(text->text);
     }

@@ -4,6 +4,7 @@
 
 #include "bake/convert/choose_primitives.hpp"
 #include "bake/reports.hpp"
+#include "core/try.hpp"
 #include "cotan/gltf.hpp"
 #include "gltf_open.hpp"
 #include "lint_lines.hpp"
@@ -38,8 +39,7 @@ Result<TangentsJob> jobOf(const TangentsCommandOptions& o)
                           "out -o for its statistics");
     if (o.replace && o.output.empty())
         return usageError("--replace needs -o FILE");
-    if (Status names = checkGltfNames(o.model, o.output); !names)
-        return names.error();
+    COTAN_CHECK(checkGltfNames(o.model, o.output));
     return TangentsJob{o.model, {.frame = *frame, .replace = o.replace, .threads = o.threads}, o.output};
 }
 
@@ -71,13 +71,10 @@ std::string chosenFor(const PrimitiveTangents& p, const std::vector<PrimitiveDec
 Result<TangentsReport> compare(OpenGltf& model, const TangentsOptions& options)
 {
     const std::string reference = options.frame == Frame::vertex ? "the classic tangents" : "MikkTSpace";
-    const auto compared = compareTangents(model.document, options);
-    if (!compared)
-        return compared.error();
-    const auto decisions =
-        choosePrimitives(model.document, {}, {Frame::mikktspace, Frame::orthonormal}, {}, std::move(model.scene));
-    if (!decisions)
-        return decisions.error();
+    COTAN_TRY(compared, compareTangents(model.document, options));
+    COTAN_TRY(
+        decisions,
+        choosePrimitives(model.document, {}, {Frame::mikktspace, Frame::orthonormal}, {}, std::move(model.scene)));
     TangentsReport report;
     report.json["decisions"] = decisionsJson(*decisions);
     for (const PrimitiveTangents& p : compared->primitives) {
@@ -107,12 +104,8 @@ Result<TangentsReport> compare(OpenGltf& model, const TangentsOptions& options)
 // Generates tangents and writes the model.
 Result<TangentsReport> write(GltfDocument& document, const TangentsOptions& options, const std::filesystem::path& file)
 {
-    const auto given = giveTangents(document, options);
-    if (!given)
-        return given.error();
-    const auto written = writeGltf(document, file);
-    if (!written)
-        return written.error();
+    COTAN_TRY(given, giveTangents(document, options));
+    COTAN_TRY(written, writeGltf(document, file));
     TangentsReport report;
     for (const PrimitiveTangents& p : given->primitives) {
         Json row = describe(p);
@@ -142,9 +135,7 @@ Result<TangentsReport> write(GltfDocument& document, const TangentsOptions& opti
 // Statistics of the frame `smooth`, which is derived when a model is loaded.
 Result<TangentsReport> describeSmooth(const GltfDocument& document)
 {
-    const auto primitives = gltfPrimitives(document);
-    if (!primitives)
-        return primitives.error();
+    COTAN_TRY(primitives, gltfPrimitives(document));
     TangentsReport report;
     for (const GltfPrimitiveGeometry& p : *primitives) {
         const GltfGeometry& g = p.geometry;
@@ -163,19 +154,14 @@ Result<TangentsReport> describeSmooth(const GltfDocument& document)
 
 Status run(const TangentsCommandOptions& o)
 {
-    const auto job = jobOf(o);
-    if (!job)
-        return job.error();
+    COTAN_TRY(job, jobOf(o));
     const CommonOptions& terminal = o;
-    if (Status planned = beginOutputs(terminal, {{"-o", job->output}}); !planned)
-        return planned;
+    COTAN_CHECK(beginOutputs(terminal, {{"-o", job->output}}));
     Stopwatch watch;
     LoadLimits limits;
     const bool compares = job->output.empty() && job->tangents.frame != Frame::smooth;
     limits.pixels = compares ? Pixels::normalMaps : Pixels::none;
-    auto opened = openGltfToEdit(job->model, limits, terminal);
-    if (!opened)
-        return opened.error();
+    COTAN_TRY(opened, openGltfToEdit(job->model, limits, terminal));
     Json json = {{"command", "tangents"},
                  {"model", job->model},
                  {"frame", name(job->tangents.frame)},

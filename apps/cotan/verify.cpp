@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "cotan/frame_choice.hpp"
 #include "cotan/image.hpp"
 #include "cotan/inspect.hpp"
@@ -24,8 +25,7 @@ Status writeViews(const ComparedViews& compared, const ViewNames& names, const s
         const ComparedView& v = compared.views[k];
         for (const auto& [what, image] :
              {std::pair(names.expected, &v.expected), {names.drawn, &v.drawn}, {names.difference, &v.difference}})
-            if (Status written = writeImage(folder / imageName(what, k), *image); !written)
-                return written;
+            COTAN_CHECK(writeImage(folder / imageName(what, k), *image));
     }
     return Done{};
 }
@@ -57,9 +57,7 @@ Status copyExpansion(Scene& before, const VerifyOptions& o)
 {
     LoadLimits limits = limitsFor(o.memory);
     limits.pixels = Pixels::none;
-    const auto after = loadScene(o.after, limits);
-    if (!after)
-        return after.error();
+    COTAN_TRY(after, loadScene(o.after, limits));
     for (std::size_t i = 0; i < std::min(before.materials.size(), after->materials.size()); ++i)
         before.materials[i].normalFormat.expansion = after->materials[i].normalFormat.expansion;
     return Done{};
@@ -68,27 +66,16 @@ Status copyExpansion(Scene& before, const VerifyOptions& o)
 // Draws and compares. Only one model is in memory at a time.
 Result<ComparedViews> drawAndCompare(const VerifyOptions& o, const CommonOptions& common, std::string& device)
 {
-    auto before = loadSceneWithin(o.memory, o.before);
-    if (!before)
-        return before.error();
-    if (Status read = copyExpansion(*before, o); !read)
-        return read.error();
-    const auto renderer = openDevice(o.device, common);
-    if (!renderer)
-        return renderer.error();
+    COTAN_TRY(before, loadSceneWithin(o.memory, o.before));
+    COTAN_CHECK(copyExpansion(*before, o));
+    COTAN_TRY(renderer, openDevice(o.device, common));
     device = (*renderer)->device();
-    const auto first = drawModel(**renderer, o.before, {std::move(*before), o.from, o.fromTangents}, common);
-    if (!first)
-        return first.error();
-    auto after = loadSceneWithin(o.memory, o.after);
-    if (!after)
-        return after.error();
+    COTAN_TRY(first, drawModel(**renderer, o.before, {std::move(*before), o.from, o.fromTangents}, common));
+    COTAN_TRY(after, loadSceneWithin(o.memory, o.after));
     if (!o.to)
         for (const FrameDecision& d : chooseFrames(*after)) // which obeys the names
             after->meshes[d.mesh].readWith = d.frame;
-    const auto second = drawModel(**renderer, o.after, {std::move(*after), o.to}, common, first->cameras);
-    if (!second)
-        return second.error();
+    COTAN_TRY(second, drawModel(**renderer, o.after, {std::move(*after), o.to}, common, first->cameras));
     return compareSides(*first, *second);
 }
 
@@ -105,14 +92,10 @@ std::vector<std::string> imageNames(const ViewNames& names, std::size_t views)
 
 Result<Json> verifyConversion(const VerifyOptions& o, const CommonOptions& common)
 {
-    if (Status made = makeFolder(o.folder); !made)
-        return made.error();
+    COTAN_CHECK(makeFolder(o.folder));
     std::string device;
-    const auto compared = drawAndCompare(o, common, device);
-    if (!compared)
-        return compared.error();
-    if (Status written = writeViews(*compared, kConversionNames, o.folder); !written)
-        return written.error();
+    COTAN_TRY(compared, drawAndCompare(o, common, device));
+    COTAN_CHECK(writeViews(*compared, kConversionNames, o.folder));
     const AngleStatistics& s = compared->all;
     say(common, "drawn from {} sides on {}, {} against {} before: {}", kConversionViews, device,
         o.to ? fmt::format("{} without stored tangents", name(*o.to)) : std::string("the frames of the new file"),
@@ -130,19 +113,15 @@ Result<Json> verifyConversion(const VerifyOptions& o, const CommonOptions& commo
 Result<Json> verifyBake(const BakeToVerify& bake, const std::string& device, const std::filesystem::path& folder,
                         const CommonOptions& common)
 {
-    if (Status made = makeFolder(folder); !made)
-        return made.error();
-    const auto renderer = openDevice(device, common);
-    if (!renderer)
-        return renderer.error();
+    COTAN_CHECK(makeFolder(folder));
+    COTAN_TRY(renderer, openDevice(device, common));
     const auto compared = drawWithProgress(common, **renderer, kBakeViews, "drawing and comparing",
                                            [&] { return verifyBake(**renderer, bake); });
     if (!compared)
         return compared.error();
     for (std::size_t k = 0; k < compared->views.size(); ++k)
         say(common, "view {}: {}", k, toText(compared->views[k].degrees));
-    if (Status written = writeViews(*compared, kBakeNames, folder); !written)
-        return written.error();
+    COTAN_CHECK(writeViews(*compared, kBakeNames, folder));
     say(common, "drawn with {} by {}, against the high mesh: {}", name(bake.options.frame), (*renderer)->device(),
         toText(compared->all));
     const std::size_t others = compared->others, pixels = compared->pixels;

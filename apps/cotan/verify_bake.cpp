@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "high_view.hpp"
 #include "inspect/angles.hpp"
 #include "scene/geometry.hpp"
@@ -54,12 +55,8 @@ Result<ComparedViews> compareAround(Renderer& renderer, const std::vector<View>&
     compared.mapped = true;
     AngleCounter all;
     for (const View& view : views) {
-        const auto drawn = renderer.draw(view);
-        if (!drawn)
-            return drawn.error();
-        const auto seen = renderHighView(bake.low, bake.high, bake.options, view);
-        if (!seen)
-            return seen.error();
+        COTAN_TRY(drawn, renderer.draw(view));
+        COTAN_TRY(seen, renderHighView(bake.low, bake.high, bake.options, view));
         const std::vector<float> degrees = interiorAngles(seen->expected, *drawn);
         compared.views.push_back(compareView(*seen, *drawn, degrees));
         compared.others += seen->others;
@@ -91,12 +88,10 @@ Result<ComparedViews> verifyBake(Renderer& renderer, const BakeToVerify& bake, i
     deriveVertexFrames(scene, bake.options.frame, bake.tangents);
     const std::vector<View> views = viewsOf(scene, bake, side);
     for (const View& view : views)
-        if (Status fits = limitCoverage(scene, view); !fits)
-            return fits.error();
+        COTAN_CHECK(limitCoverage(scene, view));
     const auto forget = [](Renderer* drawing) { drawing->forget(); }; // the scene goes out of scope here
     const std::unique_ptr<Renderer, decltype(forget)> unloadAtEnd(&renderer, forget);
-    if (Status loaded = renderer.load(scene); !loaded)
-        return loaded.error();
+    COTAN_CHECK(renderer.load(scene));
     return compareAround(renderer, views, bake);
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "figures/rendered_table.hpp"
 #include "files/output.hpp"
 #include "loading.hpp"
@@ -55,9 +56,7 @@ Result<AccuracySelection> chooseRows(const AccuracyCommandOptions& o)
     AccuracySelection selection;
     selection.scene = o.scene;
     for (const std::string& word : splitAtCommas(o.frames)) {
-        const auto frame = parseFrame(word, "--frames");
-        if (!frame)
-            return frame.error();
+        COTAN_TRY(frame, parseFrame(word, "--frames"));
         selection.frames.push_back(*frame);
     }
     return selection;
@@ -66,9 +65,7 @@ Result<AccuracySelection> chooseRows(const AccuracyCommandOptions& o)
 // Prints which results are worse than in the file given by --against.
 Status compareWith(const AccuracyCommandOptions& o, const std::vector<Measurement>& rows)
 {
-    const auto before = readMeasurements(o.against);
-    if (!before)
-        return before.error();
+    COTAN_TRY(before, readMeasurements(o.against));
     std::size_t compared = 0;
     const auto worse = worsenings(*before, rows, compared);
     for (const Worsening& w : worse)
@@ -100,24 +97,17 @@ Status listTables(const AccuracyCommandOptions& o)
 
 Status runAccuracy(const AccuracyCommandOptions& o)
 {
-    if (Status planned = beginOutputs(o, {{"-o", o.output}, {"--csv", o.csv}}); !planned)
-        return planned;
+    COTAN_CHECK(beginOutputs(o, {{"-o", o.output}, {"--csv", o.csv}}));
     if (o.list)
         return listTables(o);
     if (!o.against.empty()) // check it first: measuring may take hours
         if (const auto before = readMeasurements(o.against); !before)
             return before.error();
-    const auto tables = chooseTables(o.tables);
-    if (!tables)
-        return tables.error();
-    const auto selection = chooseRows(o);
-    if (!selection)
-        return selection.error();
+    COTAN_TRY(tables, chooseTables(o.tables));
+    COTAN_TRY(selection, chooseRows(o));
     std::unique_ptr<Renderer> renderer; // opened first: a missing device is reported before measuring
     if (tables->rendered && o.device != "none") {
-        auto opened = openDevice(o.device, o);
-        if (!opened)
-            return opened.error();
+        COTAN_TRY(opened, openDevice(o.device, o));
         renderer = *std::move(opened);
     }
     auto measured = withProgress(o, 1, "measuring tables", [&](const Progress& progress) {
@@ -139,11 +129,9 @@ Status runAccuracy(const AccuracyCommandOptions& o)
     if (o.output.empty() && o.against.empty())
         sayLines(o, toText(rows));
     if (!o.output.empty())
-        if (Status written = writeFileWhole(o.output, toText(rows)); !written)
-            return written;
+        COTAN_CHECK(writeFileWhole(o.output, toText(rows)));
     if (!o.csv.empty())
-        if (Status written = writeFileWhole(o.csv, toCsv(rows)); !written)
-            return written;
+        COTAN_CHECK(writeFileWhole(o.csv, toCsv(rows)));
     if (Status written = writeReport(o, {{"command", "accuracy"}, {"unit", "degrees"}, {"figures", toJson(rows)}});
         !written)
         return written;

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/try.hpp"
 #include "cost/cards.hpp"
 #include "cost/rows.hpp"
 #include "files/bytes.hpp"
@@ -30,9 +31,7 @@ Status runCost(const CostCommandOptions& o)
         return planned;
     std::string cards;
     if (!o.cards.empty()) {
-        const auto bytes = readFileBytes(o.cards, kMaxCardBytes);
-        if (!bytes)
-            return bytes.error();
+        COTAN_TRY(bytes, readFileBytes(o.cards, kMaxCardBytes));
         cards.assign(reinterpret_cast<const char*>(bytes->data()), bytes->size());
     }
     const auto report = withProgress(o, 1, "pricing", [&](Progress progress) {
@@ -58,22 +57,17 @@ Status runCost(const CostCommandOptions& o)
     const auto svg = o.output.empty() ? std::nullopt : costChart(*report);
     const std::string tables = toMarkdown(*report, svg ? chart.filename().string() : "");
     if (svg)
-        if (Status written = writeFileWhole(chart, *svg); !written)
-            return written;
+        COTAN_CHECK(writeFileWhole(chart, *svg));
     if (!o.output.empty()) {
-        if (Status written = writeTables(o.output, tables); !written)
-            return written;
+        COTAN_CHECK(writeTables(o.output, tables));
     } else if (o.json != "-") {
         print(tables);
     }
     if (!o.csv.empty())
-        if (Status written = writeFileWhole(o.csv, toCsv(*report)); !written)
-            return written;
+        COTAN_CHECK(writeFileWhole(o.csv, toCsv(*report)));
     if (!o.writeCards.empty())
-        if (Status written = writeFileWhole(o.writeCards, cost::gpusToCsv(report->code)); !written)
-            return written;
-    if (Status written = writeReport(o, toJson(*report)); !written)
-        return written;
+        COTAN_CHECK(writeFileWhole(o.writeCards, cost::gpusToCsv(report->code)));
+    COTAN_CHECK(writeReport(o, toJson(*report)));
     return report->codeSilence.empty() ? Status(Done{}) : unavailableError(report->codeSilence);
 }
 

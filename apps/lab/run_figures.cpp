@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/try.hpp"
 #include "figures/figures.hpp"
 #include "lab.hpp"
 #include "loading.hpp"
@@ -29,21 +30,15 @@ Status runFigures(const FiguresCommandOptions& o)
 {
     if (o.output.empty())
         return usageError("figures needs -o FOLDER");
-    const auto size = parseSize(o.size);
-    if (!size)
-        return size.error();
+    COTAN_TRY(size, parseSize(o.size));
     const auto only = splitAtCommas(o.only);
     const auto names = figures::figureNames();
     for (const std::string& word : only)
         if (std::ranges::find(names, word) == names.end())
             return notOneOf("--only", names, word);
-    if (Status planned = beginOutputs(o, plannedIn("-o", o.output, {"index.html", "overview.png"})); !planned)
-        return planned;
-    const auto renderer = openDevice(o.device, o);
-    if (!renderer)
-        return renderer.error();
-    if (Status made = makeFolder(o.output); !made)
-        return made;
+    COTAN_CHECK(beginOutputs(o, plannedIn("-o", o.output, {"index.html", "overview.png"})));
+    COTAN_TRY(renderer, openDevice(o.device, o));
+    COTAN_CHECK(makeFolder(o.output));
     const auto figures = withProgress(o, 1, "drawing figures", [&](Progress progress) {
         return figures::drawFigures(
             **renderer, o.output,

@@ -3,6 +3,7 @@
 
 #include "camera.hpp"
 #include "command_words.hpp"
+#include "core/try.hpp"
 #include "cotan/render.hpp"
 
 namespace cotan::viewer {
@@ -33,18 +34,14 @@ Status setCamera(State& state, const std::string& words)
 {
     if (!state.model)
         return expected("camera", "a model", "none");
-    const auto camera = parseCamera(words, state.model->scene, state.size.x, state.size.y);
-    if (!camera)
-        return camera.error();
+    COTAN_TRY(camera, parseCamera(words, state.model->scene, state.size.x, state.size.y));
     state.camera = *camera;
     return afterCameraMove(state);
 }
 
 Status goToProblemArea(State& state, Words& words)
 {
-    const auto number = words.number("hot-spot");
-    if (!number)
-        return number.error();
+    COTAN_TRY(number, words.number("hot-spot"));
     const std::size_t count = state.problemAreas ? state.problemAreas->size() : 0;
     if (*number < 0 || std::size_t(*number) >= count)
         return expected("hot-spot",
@@ -68,9 +65,7 @@ Result<Numbers> numbersOf(Words& words, const char* command, int count)
 {
     Numbers all;
     for (int i = 0; i < count; ++i) {
-        const auto number = words.number(command);
-        if (!number)
-            return number.error();
+        COTAN_TRY(number, words.number(command));
         all.push_back(*number);
     }
     return all;
@@ -109,9 +104,7 @@ std::optional<Status> performCamera(State& state, const std::string& command, Wo
 {
     for (const Motion& motion : kMotions)
         if (command == motion.name) {
-            const auto numbers = numbersOf(words, motion.name, motion.count);
-            if (!numbers)
-                return numbers.error();
+            COTAN_TRY(numbers, numbersOf(words, motion.name, motion.count));
             motion.move(state, *numbers);
             return afterCameraMove(state);
         }
@@ -132,9 +125,7 @@ std::optional<Status> performCamera(State& state, const std::string& command, Wo
     if (command == "hot-spot")
         return goToProblemArea(state, words);
     if (command == "turn-light") {
-        const auto degrees = words.number("turn-light");
-        if (!degrees)
-            return degrees.error();
+        COTAN_TRY(degrees, words.number("turn-light"));
         rotateLight(state.picture, double(*degrees));
         return Done{};
     }

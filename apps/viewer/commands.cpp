@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "command_words.hpp"
+#include "core/try.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/render.hpp"
 #include "files.hpp"
@@ -121,9 +122,7 @@ Status setCompare(State& state, const std::string& mode)
 
 Result<glm::ivec2> sizeFrom(Words words, const std::string& command)
 {
-    const auto width = words.number(command.c_str()), height = words.number(command.c_str());
-    if (!width)
-        return width.error();
+    COTAN_TRY(width, words.number(command.c_str()), height = words.number(command.c_str()));
     if (!height)
         return height.error();
     if (*width < 1 || *height < 1 || *width > 16384 || *height > 16384)
@@ -133,9 +132,7 @@ Result<glm::ivec2> sizeFrom(Words words, const std::string& command)
 
 Status resize(State& state, const Words& words)
 {
-    const auto size = sizeFrom(words, "size");
-    if (!size)
-        return size.error();
+    COTAN_TRY(size, sizeFrom(words, "size"));
     state.requests.push_back(request::Resize{*size});
     return Done{};
 }
@@ -147,9 +144,7 @@ Status writePicture(State& state, const std::string& rest)
     const Words size{width == rest.npos || height == rest.npos ? "" : rest.substr(width + 1)};
     Words tried = size;
     const bool sized = tried.number("picture") && tried.number("picture");
-    const auto pixels = sized ? sizeFrom(size, "picture") : Result<glm::ivec2>(state.size);
-    if (!pixels)
-        return pixels.error();
+    COTAN_TRY(pixels, sized ? sizeFrom(size, "picture") : Result<glm::ivec2>(state.size));
     state.requests.push_back(request::WriteImage{sized ? rest.substr(0, width) : rest, *pixels});
     return Done{};
 }
@@ -201,8 +196,7 @@ Status performSet(State& state, Words& words)
     const Setting* setting = findSetting(name);
     if (!setting)
         return expected("set", "a setting of the view", name);
-    if (Status set = setValue(*setting, words.rest, state.picture); !set)
-        return set;
+    COTAN_CHECK(setValue(*setting, words.rest, state.picture));
     if (setting->after == Setting::After::metering)
         state.metered = 0;
     if (name == "exposure")
@@ -228,9 +222,7 @@ template<class Write> Status writeTo(State& state, const char* command, const st
 
 template<class Set> Status withNumber(Words& words, const char* command, const Set& set)
 {
-    const auto value = words.number(command);
-    if (!value)
-        return value.error();
+    COTAN_TRY(value, words.number(command));
     set(*value);
     return Done{};
 }

@@ -9,6 +9,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "core/try.hpp"
 #include "files.hpp"
 #include "files/children.hpp"
 
@@ -91,8 +92,7 @@ Result<std::string> Dialog::take(Window& window)
         const FileAnswer answer = window.fileAnswer();
         asked_ = answer.state == FileAnswer::open;
         if (answer.state == FileAnswer::refused)
-            if (const Status started = startProgram(); !started)
-                return started.error();
+            COTAN_CHECK(startProgram());
         if (answer.state == FileAnswer::closed)
             return pathOf(answer.path);
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "core/try.hpp"
 #include "cotan/image.hpp"
 #include "files/output.hpp"
 #include "image/format_table.hpp"
@@ -44,8 +45,7 @@ Status carryOut(Parts& parts, const request::WriteImage& r)
     const auto image = parts.pictures.drawNow(order, floats);
     if (!image)
         return app::withOptionNames(image.error());
-    if (Status done = writeImage(file, *image); !done)
-        return done;
+    COTAN_CHECK(writeImage(file, *image));
     state.message = commandLine(wanted, file.string(), wanted.size);
     app::say(parts.options.common, state.message);
     return Done{};

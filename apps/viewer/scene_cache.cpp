@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "cotan/inspect.hpp"
 #include "cotan/render.hpp"
 #include "inspect/angles.hpp"
@@ -96,15 +97,9 @@ Drawn SceneCache::draw(const Order& order)
 Status SceneCache::drawFigures(const Order& order, Drawn& drawn)
 {
     const bool two = order.compare != Compare::off;
-    auto first = cachedScene(0, order, false, true);
-    if (!first)
-        return first.error();
-    auto view = viewFor(order, **first, false, drawn.exposure);
-    if (!view)
-        return view.error();
-    const auto degrees = degreesOf(order, **first, *view, two ? order.second : order.first, two);
-    if (!degrees)
-        return degrees.error();
+    COTAN_TRY(first, cachedScene(0, order, false, true));
+    COTAN_TRY(view, viewFor(order, **first, false, drawn.exposure));
+    COTAN_TRY(degrees, degreesOf(order, **first, *view, two ? order.second : order.first, two));
     drawn.degrees = *degrees;
     drawn.statistics = angleStatistics(drawn.degrees);
     drawn.statisticsOf = two
@@ -117,8 +112,7 @@ Status SceneCache::drawFigures(const Order& order, Drawn& drawn)
 Result<Image> SceneCache::drawForFile(const Order& order, bool floats)
 {
     Drawn drawn;
-    if (Status done = drawInto(order, drawn, floats ? Aim::floatFile : Aim::file); !done)
-        return done.error();
+    COTAN_CHECK(drawInto(order, drawn, floats ? Aim::floatFile : Aim::file));
     return *drawn.picture.onHost;
 }
 
@@ -135,37 +129,25 @@ std::vector<std::string> SceneCache::messages() const
 Status SceneCache::drawInto(const Order& order, Drawn& drawn, Aim aim)
 {
     const bool second = order.compare == Compare::flip && order.flipped;
-    auto first = cachedScene(second ? 1 : 0, order, second, order.compare == Compare::angle);
-    if (!first)
-        return first.error();
+    COTAN_TRY(first, cachedScene(second ? 1 : 0, order, second, order.compare == Compare::angle));
     drawn.device = (*first)->renderer->device();
-    auto view = viewFor(order, **first, second, order.exposure);
-    if (!view)
-        return view.error();
+    COTAN_TRY(view, viewFor(order, **first, second, order.exposure));
     drawn.draft = order.draft && seconds_ > kSmooth && aim != Aim::floatFile;
     if (drawn.draft)
         *view = smaller(*view);
     drawn.view = *view;
     drawn.exposure = meters(second ? order.second : order.first) ? view->exposure : 0;
     if (order.compare == Compare::angle) {
-        const auto degrees = degreesOf(order, **first, *view, order.second, true);
-        if (!degrees)
-            return degrees.error();
+        COTAN_TRY(degrees, degreesOf(order, **first, *view, order.second, true));
         drawn.picture.onHost = std::make_shared<Image>(heatMap(*degrees, view->width, view->height));
         return Done{};
     }
-    auto drawing = drawSide(order, **first, *view, order.first, aim);
-    if (!drawing)
-        return drawing.error();
+    COTAN_TRY(drawing, drawSide(order, **first, *view, order.first, aim));
     drawn.picture = std::move(*drawing);
     if (order.compare != Compare::divider)
         return Done{};
-    auto other = cachedScene(1, order, true);
-    if (!other)
-        return other.error();
-    auto otherView = viewFor(order, **other, true, drawn.exposure);
-    if (!otherView)
-        return otherView.error();
+    COTAN_TRY(other, cachedScene(1, order, true));
+    COTAN_TRY(otherView, viewFor(order, **other, true, drawn.exposure));
     if (drawn.draft)
         *otherView = smaller(*otherView);
     drawing = drawSide(order, **other, *otherView, order.second, aim);
@@ -184,11 +166,8 @@ Result<Drawing> SceneCache::drawSide(const Order& order, CachedScene& s, const V
         if (!drawn || *drawn)
             return drawn ? Result<Drawing>({std::move(*drawn), nullptr}) : drawn.error();
     }
-    auto image = drawShow(*s.renderer, *s.scene, view, order.show, aim == Aim::floatFile);
-    if (!image)
-        return image.error();
-    if (Status laid = layEdgesOn(order, s, view, o, *image); !laid)
-        return laid.error();
+    COTAN_TRY(image, drawShow(*s.renderer, *s.scene, view, order.show, aim == Aim::floatFile));
+    COTAN_CHECK(layEdgesOn(order, s, view, o, *image));
     return Drawing{nullptr, std::make_shared<Image>(std::move(*image))};
 }
 
@@ -217,23 +196,17 @@ Result<std::vector<float>> SceneCache::degreesOf(const Order& order, CachedScene
 {
     View normals = view;
     normals.output = Output::normal;
-    auto a = first.renderer->draw(normals);
-    if (!a)
-        return a.error();
+    COTAN_TRY(a, first.renderer->draw(normals));
     CachedScene* other = &first;
     if (two) {
-        auto secondScene = cachedScene(1, order, true, true);
-        if (!secondScene)
-            return secondScene.error();
+        COTAN_TRY(secondScene, cachedScene(1, order, true, true));
         other = *secondScene;
         normals.setFrame(frameOf(order, true, *other->scene));
         normals.normalMaps = !second.noNormalMaps;
     } else {
         normals.frame = Frame::exact;
     }
-    auto b = other->renderer->draw(normals);
-    if (!b)
-        return b.error();
+    COTAN_TRY(b, other->renderer->draw(normals));
     if (!two && !showsNormalMaps(*first.scene, view))
         return std::vector<float>(a->pixelCount(), -1.0f);
     return anglesBetween(*a, *b);
@@ -243,9 +216,7 @@ Result<CachedScene*> SceneCache::cachedScene(std::size_t index, const Order& ord
 {
     const PictureOptions& o = second ? order.second : order.first;
     const Side& side = second ? order.b : order.a;
-    const auto choice = parseFrameChoice(side.frame);
-    if (!choice)
-        return choice.error();
+    COTAN_TRY(choice, parseFrameChoice(side.frame));
     const std::string inspection = !normals && inspectionFromName(order.show) ? order.show : "";
     const std::optional<Frame> frame =
         chosenFrame(*choice, o, order.model->scene); // of the model's own maps; others are not applied yet
@@ -256,9 +227,7 @@ Result<CachedScene*> SceneCache::cachedScene(std::size_t index, const Order& ord
     CachedScene& s = cachedScenes_[index];
     const bool loaded = !std::exchange(s.key, {}).empty();
     if (!s.renderer) {
-        auto renderer = openRenderer(o);
-        if (!renderer)
-            return renderer.error();
+        COTAN_TRY(renderer, openRenderer(o));
         s.renderer = std::move(*renderer);
     }
     s.renderer->forget();
@@ -273,8 +242,7 @@ Result<CachedScene*> SceneCache::cachedScene(std::size_t index, const Order& ord
         s.scene = &s.own;
     }
     const bool same = before && sameImages(before->images, s.scene->images);
-    if (Status done = s.renderer->load(*s.scene, same); !done)
-        return done.error();
+    COTAN_CHECK(s.renderer->load(*s.scene, same));
     s.key = key;
     return &s;
 }
@@ -290,9 +258,7 @@ Result<View> SceneCache::viewFor(const Order& order, CachedScene& s, bool second
     view->lights = lightsOf(o, *s.scene);
     const bool unlit = o.use == PictureUse::data; // data is drawn without lighting
     if (!unlit && (environment_.key != lightKey(o) || !environment_.value)) {
-        auto opened = openEnvironmentMap(o);
-        if (!opened)
-            return opened.error();
+        COTAN_TRY(opened, openEnvironmentMap(o));
         environment_ = {lightKey(o), *opened};
     }
     view->environmentMap = unlit ? nullptr : *environment_.value;
@@ -307,9 +273,7 @@ Result<View> SceneCache::viewFor(const Order& order, CachedScene& s, bool second
         from.camera = order.meteredFrom;
         if (const auto there = viewOf(from, *s.scene))
             meteringView.camera = there->camera;
-        const auto found = meterExposure(*s.renderer, meteringView);
-        if (!found)
-            return found.error();
+        COTAN_TRY(found, meterExposure(*s.renderer, meteringView));
         exposure = *found;
     }
     if (meters(o))

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "core/try.hpp"
 #include "files/file_registry.hpp"
 #include "files/output.hpp"
 #include "input.hpp"
@@ -77,8 +78,7 @@ public:
         watchShown(parts_);
         if (const Status opened = open(); !opened)
             return withoutWindow(opened);
-        if (const Status recording = beginRecording(); !recording)
-            return recording;
+        COTAN_CHECK(beginRecording());
         start_ = last_ = secondsNow();
         parts_.waker.set(parts_.window.get());
         Status done = loop();
@@ -102,9 +102,7 @@ private:
         window.played = options_.plays;
         if (state_.picture.device != "auto" && state_.picture.device != "reference")
             window.device = state_.picture.device;
-        auto opened = openWindow(window);
-        if (!opened)
-            return opened.error();
+        COTAN_TRY(opened, openWindow(window));
         parts_.window = std::move(*opened);
         parts_.pictures.drawOn(parts_.window->device());
         windowSeconds_ = secondsNow() - begun_;
@@ -128,13 +126,9 @@ private:
     {
         if (options_.record.empty())
             return Done{};
-        auto file = OutputFile::begin(options_.record);
-        if (!file)
-            return file.error();
+        COTAN_TRY(file, OutputFile::begin(options_.record));
         recording_.emplace(*std::move(file));
-        auto events = recording_->open();
-        if (!events)
-            return events.error();
+        COTAN_TRY(events, recording_->open());
         events_ = *std::move(events);
         record(fmt::format("0.000 resize {} {}", state_.size.x, state_.size.y));
         return Done{};
@@ -164,9 +158,7 @@ private:
     {
         while (!parts_.quits) {
             double passed = 0;
-            const auto events = nextEvents(passed);
-            if (!events)
-                return events.error();
+            COTAN_TRY(events, nextEvents(passed));
             handleEvents(*events, passed);
             adoptWindowSize();
             if (const Status done = carryOutRequests(parts_); !done && written_)
@@ -183,8 +175,7 @@ private:
             parts_.pictures.ask(state_);
             parts_.probe.follow(state_);
             state_.probe.degrees = parts_.pictures.degreesAtPointer(state_);
-            if (const Status shown = parts_.window->show(interfaceNow(parts_), parts_.pictures.shown(state_)); !shown)
-                return shown;
+            COTAN_CHECK(parts_.window->show(interfaceNow(parts_), parts_.pictures.shown(state_)));
             if (firstShown_ == 0 && parts_.pictures.any())
                 firstShown_ = secondsNow() - begun_;
             if (options_.plays && player_.ended() && idle())
@@ -216,9 +207,7 @@ private:
         passed = now - last_;
         last_ = now;
         if (options_.plays) {
-            auto step = player_.step(idle(), now);
-            if (!step)
-                return step.error();
+            COTAN_TRY(step, player_.step(idle(), now));
             passed = step->passed;
             if (step->event)
                 events.push_back(std::move(*step->event));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "core/try.hpp"
 #include "files.hpp"
 #include "files/bytes.hpp"
 #include "files/file_registry.hpp"
@@ -29,16 +30,14 @@ Status noteInputs(const PictureOptions& o)
     for (const std::string* file :
          {&o.model, &o.maps.normal, &o.maps.baseColor, &o.maps.metallicRoughness, &o.maps.occlusion, &o.environment})
         if (std::filesystem::path(*file).has_extension()) // others are built-in environments or empty
-            if (Status free = noteInput(*file); !free)
-                return free;
+            COTAN_CHECK(noteInput(*file));
     return Done{};
 }
 
 // Restores the state of the window from `file`, where the session will save it.
 Status restore(const std::filesystem::path& file, viewer::State& state)
 {
-    if (Status planned = file.empty() ? Status(Done{}) : planOutput("the window's state in", file); !planned)
-        return planned;
+    COTAN_CHECK(file.empty() ? Status(Done{}) : planOutput("the window's state in", file));
     const auto text = readText(file, /*isInput*/ false);
     viewer::remember(text ? *text : "", state);
     return Done{};
@@ -56,38 +55,31 @@ Status run(const ViewCommandOptions& o)
     for (const auto& [option, frame] : {std::pair("--frame", state.a.frame), {"--second", state.b.frame}})
         if (const auto known = parseFrameChoice(frame, option); !known)
             return known.error();
-    if (Status planned = beginOutputs(o, {{"--record", o.record}}, /*again*/ true); !planned)
-        return planned;
-    if (Status free = noteInputs(o.picture); !free)
-        return free;
+    COTAN_CHECK(beginOutputs(o, {{"--record", o.record}}, /*again*/ true));
+    COTAN_CHECK(noteInputs(o.picture));
     viewer::SessionOptions session;
     session.common = o;
     session.validation = o.validate;
     if (!o.play.empty()) {
         const auto text = readText(o.play);
-        auto events = text ? viewer::eventsOf(*text, o.play) : text.error();
-        if (!events)
-            return events.error();
+        COTAN_TRY(events, text ? viewer::eventsOf(*text, o.play) : text.error());
         session.played = std::move(*events);
         session.plays = true;
     } else if (!o.forget) {
         session.memory = viewer::memoryFile();
-        if (Status restored = restore(session.memory, state); !restored)
-            return restored;
+        COTAN_CHECK(restore(session.memory, state));
     }
     if (viewer::isImageFile(state.picture.model)) { // a map or an environment without a model
         const std::string file = std::exchange(state.picture.model, {});
         if (state.picture.shape.empty())
             state.picture.shape = "plane";
-        if (Status done = viewer::perform(state, "drop " + file); !done)
-            return done;
+        COTAN_CHECK(viewer::perform(state, "drop " + file));
         state.b.normalMap = state.a.normalMap;
     }
     if (!o.second.empty())
         state.compare = viewer::Compare::divider;
     for (const std::string& command : o.commands)
-        if (Status done = viewer::perform(state, command); !done)
-            return done;
+        COTAN_CHECK(viewer::perform(state, command));
     session.record = o.record;
     return viewer::runSession(std::move(state), session);
 }

@@ -9,6 +9,7 @@
 #include "bake/bake_surfaces.hpp"
 #include "bake/name_pairs.hpp"
 #include "core/named_values.hpp"
+#include "core/try.hpp"
 #include "cotan/covector.hpp"
 #include "cotan/maps.hpp"
 #include "scene/geometry.hpp"
@@ -176,9 +177,7 @@ Status readOwnMaps(HighModel& high, DetailedSurface& open)
         if (const std::string found = maps::contradictionOf(map, stated); !found.empty())
             open.warnings.push_back(fmt::format("{}: {}; it is read as {}", map.name, found, describe(stated)));
     applyMaps(high, open.options.highFormat);
-    auto maps = HighNormalMaps::make(high.scenes, open.options.highFrame);
-    if (!maps)
-        return maps.error();
+    COTAN_TRY(maps, HighNormalMaps::make(high.scenes, open.options.highFrame));
     if (const std::size_t bare = maps->instanceCount() - maps->mappedCount(); bare > 0)
         open.warnings.push_back(fmt::format(
             "{} of {} high meshes have no normal map or no texture coordinates for it: their smooth normals are used",
@@ -258,26 +257,17 @@ constexpr int kUdimColumns = 10;
 Result<BakeSetup> prepared(const Scene& low, const BakeModelOptions& options,
                            const std::function<Result<std::shared_ptr<const DetailedSurface>>()>& open)
 {
-    if (Status ok = checkRanges(low, options); !ok)
-        return ok.error();
-    if (Status ok = checkLow(low, options); !ok)
-        return ok.error();
-    auto surface = makeLowSurface(low, options.material, options.bake.frame, options.tangents);
-    if (!surface)
-        return surface.error();
-    auto cage = cagePositions(options.cage, *surface);
-    if (!cage)
-        return cage.error();
+    COTAN_CHECK(checkRanges(low, options));
+    COTAN_CHECK(checkLow(low, options));
+    COTAN_TRY(surface, makeLowSurface(low, options.material, options.bake.frame, options.tangents));
+    COTAN_TRY(cage, cagePositions(options.cage, *surface));
     for (const Status& placed :
          {checkPositions(surface->positions, "low"), checkArea(*surface), checkPositions(*cage, "options.cage")})
         if (!placed)
             return placed.error();
-    const auto opened = open();
-    if (!opened)
-        return opened.error();
+    COTAN_TRY(opened, open());
     const DetailedSurface& high = **opened;
-    if (Status fits = checkCrowded(*surface, high.surface); !fits)
-        return fits.error();
+    COTAN_CHECK(checkCrowded(*surface, high.surface));
     BakeSetup setup{std::move(*surface), high.surface, options, high.warnings};
     BakeOptions& bake = setup.options.bake;
     setup.options.cage = setup.options.others = nullptr;
@@ -289,16 +279,14 @@ Result<BakeSetup> prepared(const Scene& low, const BakeModelOptions& options,
     bake.starts = nullptr;
     const NamePairs pairs = pairsOf(low, high, options);
     if (setup.options.matchByName) {
-        if (Status matched = match(low, pairs, setup); !matched)
-            return matched.error();
+        COTAN_CHECK(match(low, pairs, setup));
     } else if (!pairs.example.empty()) {
         setup.warnings.push_back(fmt::format(
             "options.matchByName: the names of the meshes pair, such as {}; with it each is baked from its own only",
             pairs.example));
     }
     const LowRest rest = restOf(low, options, setup.options.matchByName);
-    if (Status ready = measureRayStarts(setup.low, setup.high, bake, rest); !ready)
-        return ready.error();
+    COTAN_CHECK(measureRayStarts(setup.low, setup.high, bake, rest));
     return setup;
 }
 
@@ -306,26 +294,21 @@ Result<BakeSetup> prepared(const Scene& low, const BakeModelOptions& options,
 
 Result<std::shared_ptr<const DetailedSurface>> openDetailed(HighModel high, const BakeModelOptions& options)
 {
-    if (Status ok = checkHigh(high); !ok)
-        return ok.error();
+    COTAN_CHECK(checkHigh(high));
     std::vector<std::string> names;
     for (Scene& scene : high.scenes) {
         addNames(scene, false, names);
         if (!options.matchByName) // with matching, rays need single instances
             joinParts(scene);
     }
-    auto surface = HighSurface::make(high.scenes, options.bake.threads, options.matchByName);
-    if (!surface)
-        return surface.error();
-    if (Status placed = checkPositions({surface->box().low, surface->box().high}, "high"); !placed)
-        return placed.error();
+    COTAN_TRY(surface, HighSurface::make(high.scenes, options.bake.threads, options.matchByName));
+    COTAN_CHECK(checkPositions({surface->box().low, surface->box().high}, "high"));
     if (options.bake.highNormals == HighNormals::curved)
         surface->curve(options.bake.threads);
     DetailedSurface open{std::move(*surface), nullptr, std::move(names), options, {}};
     open.options.cage = open.options.others = nullptr;
     if (options.ownMaps && showsNormals(options.bake.kind))
-        if (Status read = readOwnMaps(high, open); !read)
-            return read.error();
+        COTAN_CHECK(readOwnMaps(high, open));
     return std::make_shared<const DetailedSurface>(std::move(open));
 }
 
@@ -347,9 +330,7 @@ Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& prog
     BakeOptions options = setup.options.bake;
     const int n = tile - kFirstUdim;
     options.tile = {n % kUdimColumns, -(n / kUdimColumns)}; // here v runs down from the top of the first tile
-    auto baked = bake(setup.low, setup.high, options, progress);
-    if (!baked)
-        return baked.error();
+    COTAN_TRY(baked, bake(setup.low, setup.high, options, progress));
     if (baked->statistics.covered + baked->statistics.touched == 0)
         return about("options.tiles",
                      inputError(fmt::format("no triangle lies on tile {} of the texture coordinates", tile)));
@@ -377,9 +358,7 @@ Result<BakedModel> bakeTiles(Result<BakeSetup> setup, const Progress& progress)
     model.warnings = std::move(setup->warnings);
     const std::vector<int>& tiles = setup->options.tiles;
     for (const int tile : tiles) {
-        auto map = bakeTile(*setup, tile, partOf(progress, model.maps.size(), tiles.size()));
-        if (!map)
-            return map.error();
+        COTAN_TRY(map, bakeTile(*setup, tile, partOf(progress, model.maps.size(), tiles.size())));
         model.maps.push_back(std::move(*map));
     }
     return model;

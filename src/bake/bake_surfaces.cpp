@@ -16,6 +16,7 @@
 #include "bake/surface/uv_raster.hpp"
 #include "baker.hpp"
 #include "core/loops.hpp"
+#include "core/try.hpp"
 #include "scene/parts.hpp"
 #include "scene/texture_sample.hpp"
 
@@ -238,8 +239,7 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
                                             name(low.frame), name(options.frame))));
     if (options.starts && options.starts->directions.size() != low.positions.size())
         return about("options.starts", usageError("made for another low surface"));
-    if (Status ready = measureRayStarts(low, high, options); !ready)
-        return ready.error();
+    COTAN_CHECK(measureRayStarts(low, high, options));
     const auto start = std::chrono::steady_clock::now();
     const std::size_t texels = std::size_t(options.width) * std::size_t(options.height);
     Baked out{options.width, options.height, std::vector(texels, glm::vec3(0)), std::vector<std::uint8_t>(texels), {}};

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/other_axis.hpp"
+#include "core/try.hpp"
 
 namespace cotan {
 
@@ -55,9 +56,7 @@ Status measureRayStarts(const LowSurface& low, const HighSurface& high, BakeOpti
 {
     if (options.starts || !options.cage.empty() || options.search != BakeSearch::first)
         return Done{};
-    auto starts = makeRayStarts(low, high, options, rest);
-    if (!starts)
-        return starts.error();
+    COTAN_TRY(starts, makeRayStarts(low, high, options, rest));
     options.starts = std::make_shared<const RayStarts>(std::move(*starts));
     return Done{};
 }

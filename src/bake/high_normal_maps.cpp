@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "cotan/vector.hpp"
 #include "scene/texture_sample.hpp"
 
@@ -45,9 +46,7 @@ Result<HighNormalMaps> HighNormalMaps::make(std::vector<Scene>& scenes, Frame fr
             const Image& image = *entry->second;
             if (!hasPixels(image))
                 continue;
-            auto surface = makeLowSurface(scene, -1, frame, TangentOrigin::stored, {&instance, 1});
-            if (!surface)
-                return surface.error();
+            COTAN_TRY(surface, makeLowSurface(scene, -1, frame, TangentOrigin::stored, {&instance, 1}));
             part = {
                 std::move(*surface), &image, map.sampler,
                 toFormat<f64::cotan_normal_format>(material.normalFormat, image.type, double(material.normalScale))};

@@ -13,6 +13,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "bake/surface/surface_triangle.hpp"
+#include "core/try.hpp"
 #include "cotan/covector.hpp"
 #include "curved_normals.hpp"
 #include "packets.hpp"
@@ -169,14 +170,12 @@ Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int thre
     if (state->triangles == 0)
         return inputError(fmt::format("{}: expected triangles; found none", scenes.empty() ? "" : scenes[0].name));
     // Robust: rays along an edge hit one of its two triangles. Filters: packets.hpp.
-    if (Status opened = state->embree.open(threads, RTC_SCENE_FLAG_ROBUST | kFiltersInQueries); !opened)
-        return opened.error();
+    COTAN_CHECK(state->embree.open(threads, RTC_SCENE_FLAG_ROBUST | kFiltersInQueries));
     if (!byInstance) // otherwise every instance needs its triangles
         findRepeated(state->parts);
     for (Part& part : state->parts)
         state->embree.add(part.positions, part.indices, part.repeated, part.embreeIndices);
-    if (Status committed = state->embree.commit(state->triangles); !committed)
-        return committed.error();
+    COTAN_CHECK(state->embree.commit(state->triangles));
     std::vector<std::uint32_t> groups(state->parts.size());
     std::iota(groups.begin(), groups.end(), 0);
     return HighSurface(std::move(state), std::move(groups));

@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/try.hpp"
 #include "packets.hpp"
 #include "scene/parts.hpp"
 
@@ -74,11 +75,9 @@ Result<LowTree> LowTree::make(std::vector<glm::vec3> positions, std::vector<std:
         const std::vector<glm::vec3>& p = state->positions;
         return CornersOfTriangle{{p[c[0]], p[c[1]], p[c[2]]}, state->highGroups.empty() ? 0 : state->highGroups[f]};
     });
-    if (Status opened = state->embree.open(threads, RTC_SCENE_FLAG_ROBUST); !opened)
-        return opened.error();
+    COTAN_CHECK(state->embree.open(threads, RTC_SCENE_FLAG_ROBUST));
     state->embree.add(state->positions, state->indices, repeated, state->embreeIndices);
-    if (Status committed = state->embree.commit(state->faces.size()); !committed)
-        return committed.error();
+    COTAN_CHECK(state->embree.commit(state->faces.size()));
     return LowTree(std::move(state));
 }
 

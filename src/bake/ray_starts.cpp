@@ -15,6 +15,7 @@
 
 #include "bake/surface/surface_triangle.hpp"
 #include "core/loops.hpp"
+#include "core/try.hpp"
 #include "cotan/vector.hpp"
 
 namespace cotan {
@@ -133,9 +134,7 @@ Result<Body> bodyOf(const LowSurface& low, const LowRest& rest, const BakeOption
         body.outwardNormals.push_back(length > 0 ? n / (glm::dot(n, side) < 0 ? -length : length) : glm::vec3(0));
     }
     body.edge = float(1.5 * std::sqrt(area / double(body.outwardNormals.size())));
-    auto tree = LowTree::make(std::move(positions), std::move(indices), body.highGroups, options.threads);
-    if (!tree)
-        return tree.error();
+    COTAN_TRY(tree, LowTree::make(std::move(positions), std::move(indices), body.highGroups, options.threads));
     body.tree = std::move(*tree);
     return body;
 }
@@ -373,9 +372,7 @@ Result<std::size_t> measure(const HighSurface& high, float spacing, Measuring& m
     std::size_t vertices = 0;
     for (std::size_t instance = 0; instance < high.instanceCount(); ++instance)
         vertices += high.triangles(instance).positions.size();
-    const auto fitting = stepFor(high, vertices, spacing, measuring);
-    if (!fitting)
-        return fitting.error();
+    COTAN_TRY(fitting, stepFor(high, vertices, spacing, measuring));
     const std::size_t every = *fitting, step = std::max(1 + vertices / kMaxVertices, every);
     std::size_t before = 0; // triangles of earlier instances
     for (std::uint32_t instance = 0; instance < high.instanceCount(); ++instance) {
@@ -454,9 +451,7 @@ Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, 
     RayStarts starts;
     const Groups groups = groupsOf(low);
     findDirections(low, groups, starts);
-    auto body = bodyOf(low, rest, options);
-    if (!body)
-        return body.error();
+    COTAN_TRY(body, bodyOf(low, rest, options));
     starts.skip = kSkip * body->diagonal;
     starts.limit = options.maxDistance > 0 ? options.maxDistance : kLimit * body->diagonal;
     if (options.extrusion > 0) {
@@ -468,9 +463,7 @@ Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, 
     starts.tree = body->tree;
     const Status measured = withThreads(options.threads, [&]() -> Status {
         Measuring measuring(low, high, options, *body, groups, starts);
-        const auto every = measure(high, std::max(body->edge, kSpacing * body->diagonal), measuring);
-        if (!every)
-            return every.error();
+        COTAN_TRY(every, measure(high, std::max(body->edge, kSpacing * body->diagonal), measuring));
         starts.distances = measuring.distances();
         starts.obstructed.assign(low.triangleCount(), 1);
         if (*every == 1) // otherwise so crowded that the bake tests the rays of all triangles

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/named_values.hpp"
+#include "core/try.hpp"
 
 namespace cotan {
 
@@ -190,9 +191,7 @@ Result<Convention> parseConvention(std::string_view text)
 
 Result<Convention> parseSampledConvention(std::string_view text)
 {
-    const auto stated = undamaged(text);
-    if (!stated)
-        return stated.error();
+    COTAN_TRY(stated, undamaged(text));
     Convention convention = stated->convention;
     for (const ConventionPreset& p : kPresets)
         if (!stated->channels && p.name == text.substr(0, text.find(',')))

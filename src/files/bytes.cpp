@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "cotan/files.hpp"
 #include "files/file_registry.hpp"
 
@@ -31,8 +32,7 @@ Result<std::size_t> usableFileSize(const fs::path& file, std::size_t limit, bool
     if (!fs::exists(status))
         return inputError(fmt::format("{}: no such file", file.string()));
     if (isInput)
-        if (Status free = noteInput(file); !free)
-            return free.error();
+        COTAN_CHECK(noteInput(file));
     if (fs::is_directory(status))
         return inputError(fmt::format("{}: expected a file, found a folder", file.string()));
     if (!fs::is_regular_file(status))
@@ -49,9 +49,7 @@ Result<std::size_t> usableFileSize(const fs::path& file, std::size_t limit, bool
 
 Result<std::vector<std::byte>> readFileBytes(const fs::path& file, std::size_t limit, bool isInput)
 {
-    const auto size = usableFileSize(file, limit, isInput);
-    if (!size)
-        return size.error();
+    COTAN_TRY(size, usableFileSize(file, limit, isInput));
     const OpenFile handle(std::fopen(file.c_str(), "rb"));
     if (!handle)
         return inputError(fmt::format("{}: cannot be opened for reading", file.string()));
@@ -64,8 +62,7 @@ Result<std::vector<std::byte>> readFileBytes(const fs::path& file, std::size_t l
 Result<std::string> readText(const fs::path& file, bool isInput, std::size_t limit)
 {
     if (isInput)
-        if (Status free = noteInput(file); !free)
-            return free.error();
+        COTAN_CHECK(noteInput(file));
     const OpenFile handle(std::fopen(file.c_str(), "rb"));
     std::string text;
     char part[4096];

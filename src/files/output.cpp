@@ -16,6 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "files/file_registry.hpp"
 
@@ -166,8 +167,7 @@ Result<OutputFile> OutputFile::begin(const fs::path& name)
         return outputError(fmt::format("{}: the folder {} does not exist", file.string(), folderOf(file).string()));
     if (fs::is_directory(file, ignored))
         return outputError(fmt::format("{}: is a folder", file.string()));
-    if (Status free = beginOutput(file); !free)
-        return free.error();
+    COTAN_CHECK(beginOutput(file));
     const bool special = isSpecial(file);
     return OutputFile(file, special ? file : partBeside(file), special);
 }
@@ -182,8 +182,7 @@ Result<OpenFile> OutputFile::open(bool reads) const
 
 Status OutputFile::commit()
 {
-    if (Status free = mayAppear(file_); !free)
-        return free;
+    COTAN_CHECK(mayAppear(file_));
     if (!special_ && ::rename(part_.c_str(), file_.c_str()) != 0) {
         const int number = errno;
         blockWhileEnding();
@@ -231,18 +230,14 @@ Status commitTogether(std::span<OutputFile> files)
 
 Status writeBytes(const OutputFile& file, const ByteBlocks& blocks)
 {
-    auto stream = file.open();
-    if (!stream)
-        return stream.error();
+    COTAN_TRY(stream, file.open());
     const int number = writeAll(*std::move(stream), blocks);
     return number == 0 ? Status(Done{}) : cannotWrite(file.destination(), number);
 }
 
 Status writeFileWhole(const fs::path& file, std::string_view text)
 {
-    auto output = OutputFile::begin(file);
-    if (!output)
-        return output.error();
+    COTAN_TRY(output, OutputFile::begin(file));
     if (Status written = writeBytes(*output, {std::as_bytes(std::span(text))}); !written)
         return output->failed(written.error());
     return output->commit();

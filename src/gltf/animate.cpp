@@ -11,6 +11,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/parse_number.hpp"
+#include "core/try.hpp"
 #include "scene/geometry.hpp"
 
 namespace cotan {
@@ -301,9 +302,7 @@ Result<std::vector<glm::vec3>> pointsReached(AnimatedGltf& model, const std::str
     std::size_t moments = 1, vertices = 0;
     for (std::size_t i = 0; i < moments; ++i) {
         const double fraction = moments > 1 ? double(i) / double(moments - 1) : 0;
-        const auto scene = model.at({animation, seconds * fraction});
-        if (!scene)
-            return scene.error();
+        COTAN_TRY(scene, model.at({animation, seconds * fraction}));
         if (i == 0 && seconds > 0) {
             vertices = std::max<std::size_t>(verticesPlaced(*scene), 1);
             const std::size_t affordable = std::clamp(kMaxPosed / vertices, kMinMoments, kMaxMoments);

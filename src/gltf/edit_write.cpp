@@ -9,6 +9,7 @@
 
 #include "core/file_names.hpp"
 #include "core/named_values.hpp"
+#include "core/try.hpp"
 #include "edit_state.hpp"
 #include "files/bytes.hpp"
 #include "files/output.hpp"
@@ -262,9 +263,7 @@ Status writeTogether(std::span<const WrittenFile> outputs)
         const WrittenFile& output = outputs[i];
         std::error_code error;
         fs::create_directories(folderOf(output.file), error);
-        auto file = OutputFile::begin(output.file);
-        if (!file)
-            return file.error();
+        COTAN_TRY(file, OutputFile::begin(output.file));
         files.push_back(*std::move(file));
         ByteBlocks blocks = {output.bytes};
         blocks.insert(blocks.end(), output.more.begin(), output.more.end());

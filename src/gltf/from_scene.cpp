@@ -5,6 +5,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include "core/try.hpp"
 #include "cotan/image.hpp"
 #include "edit_state.hpp"
 #include "gltf/json/lookup.hpp"
@@ -154,8 +155,7 @@ Json nodeOf(const Instance& instance)
 
 Result<GltfDocument> gltfDocumentOf(const Scene& scene)
 {
-    if (const Status valid = checkScene(scene, "scene", {.pixels = false}); !valid)
-        return valid.error();
+    COTAN_CHECK(checkScene(scene, "scene", {.pixels = false}));
     GltfDocument document;
     auto source = std::make_shared<GltfSource>();
     source->file.json = Json::object();
@@ -166,9 +166,7 @@ Result<GltfDocument> gltfDocumentOf(const Scene& scene)
         if (image.type == PixelType::float32 || image.pixelCount() == 0)
             return inputError(fmt::format("{}: expected pixels of 8 or 16 bits, which glTF can hold; found {}",
                                           image.name, image.pixelCount() == 0 ? "none" : "floats"));
-        auto png = encodePng(image);
-        if (!png)
-            return png.error();
+        COTAN_TRY(png, encodePng(image));
         addGltfImage(document, std::move(*png), "image/png", image.name);
     }
     for (const Material& material : scene.materials)

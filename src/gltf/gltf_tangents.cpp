@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "gltf/json/lookup.hpp"
 
 namespace cotan {
@@ -25,9 +26,7 @@ std::string whyNoTangents(const GltfGeometry& geometry)
 
 Result<GltfPrimitiveGeometry> readPrimitive(const GltfDocument& document, std::size_t m, std::size_t p)
 {
-    auto geometry = gltfGeometry(document, m, p, NormalSlot::surface, std::nullopt, TexcoordSpace::file);
-    if (!geometry)
-        return geometry.error();
+    COTAN_TRY(geometry, gltfGeometry(document, m, p, NormalSlot::surface, std::nullopt, TexcoordSpace::file));
     const Json& mesh = rootOf(document)["meshes"][m];
     GltfPrimitiveGeometry read{m, p, mesh.value("name", fmt::format("mesh {}", m)), std::move(*geometry), {}};
     if (mesh["primitives"].size() > 1)
@@ -61,9 +60,7 @@ Result<std::vector<PrimitiveTangents>> rowsOf(const GltfDocument& document, cons
         all += rootOf(document)["meshes"][m]["primitives"].size();
     const Status status = forEachPrimitive(rootOf(document), [&](std::size_t m, std::size_t p) -> Status {
         if (!options.mappedOnly || hasNormalMap(rootOf(document), m, p)) {
-            const auto read = readPrimitive(document, m, p);
-            if (!read)
-                return read.error();
+            COTAN_TRY(read, readPrimitive(document, m, p));
             PrimitiveTangents& row =
                 rows.emplace_back(PrimitiveTangents{m, p, read->name, read->geometry.indices.size() / 3,
                                                     !read->geometry.tangents.empty(), false, read->reason});
@@ -84,9 +81,7 @@ Result<std::vector<GltfPrimitiveGeometry>> gltfPrimitives(const GltfDocument& do
 {
     std::vector<GltfPrimitiveGeometry> all;
     const Status status = forEachPrimitive(rootOf(document), [&](std::size_t m, std::size_t p) -> Status {
-        auto read = readPrimitive(document, m, p);
-        if (!read)
-            return read.error();
+        COTAN_TRY(read, readPrimitive(document, m, p));
         all.push_back(std::move(*read));
         return Done{};
     });
@@ -112,9 +107,7 @@ Result<GiveTangentsResult> giveTangents(GltfDocument& document, const TangentsOp
     });
     if (!rows)
         return rows.error();
-    const auto added = setGltfTangents(document, tangents);
-    if (!added)
-        return added.error();
+    COTAN_TRY(added, setGltfTangents(document, tangents));
     given.primitives = std::move(*rows);
     given.generated = tangents.size();
     given.verticesAdded = *added;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "codecs.hpp"
+#include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "files/output.hpp"
 #include "files/sandbox/process.hpp"
@@ -65,20 +66,18 @@ Status checkPicture(const Image& image, const std::string& file, const LoadLimit
 // Decodes in a child process: limits.sandbox.program.
 Result<Image> decodeSandboxed(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {
-    auto process = ReaderProcess::start({.kind = ReaderKind::image,
-                                         .name = name,
-                                         .bytes = {bytes.begin(), bytes.end()},
-                                         .fileBytes = bytes.size(),
-                                         .limits = limits});
-    if (!process)
-        return process.error();
+    COTAN_TRY(process,
+              ReaderProcess::start({.kind = ReaderKind::image,
+                                    .name = name,
+                                    .bytes = {bytes.begin(), bytes.end()},
+                                    .fileBytes = bytes.size(),
+                                    .limits = limits}));
     Image image;
     exchangeImage((*process)->answer(), image);
     image.frame = std::string(frameText(image.frame));
     if (!(*process)->answer().good())
         return (*process)->failure();
-    if (Status sound = checkPicture(image, name, limits); !sound)
-        return sound.error();
+    COTAN_CHECK(checkPicture(image, name, limits));
     return image;
 }
 
@@ -116,9 +115,7 @@ Status write(const OutputFile& output, const Image& image, const std::string& na
     const Result<const ImageFormats*> formats = png ? nullptr : imageFormats(name);
     if (!formats)
         return formats.error();
-    auto file = output.open(/*reads*/ !png);
-    if (!file)
-        return file.error();
+    COTAN_TRY(file, output.open(/*reads*/ !png));
     if (!png)
         return (*formats)->write(*std::move(file), image, name);
     return writePng(*std::move(file), image.type == PixelType::float32 ? toUnorm8(image) : image, name);
@@ -126,9 +123,7 @@ Status write(const OutputFile& output, const Image& image, const std::string& na
 
 Result<EncodedLike> asPng(const Image& image, std::string reason)
 {
-    auto png = encodePng(image);
-    if (!png)
-        return png.error();
+    COTAN_TRY(png, encodePng(image));
     return EncodedLike{*std::move(png), "PNG", "image/png", 0, std::move(reason)};
 }
 
@@ -147,9 +142,7 @@ try {
 
 Result<Image> readImage(const std::filesystem::path& file, const LoadLimits& limits)
 try {
-    const auto bytes = readFileBytes(file, limits.fileBytes);
-    if (!bytes)
-        return bytes.error();
+    COTAN_TRY(bytes, readFileBytes(file, limits.fileBytes));
     return decodeImage(*bytes, file.string(), limits);
 } catch (const std::bad_alloc&) {
     return inputError(fmt::format("{}: not enough memory for the file", file.string()));
@@ -158,8 +151,7 @@ try {
 Result<OutputFile> writePending(const std::filesystem::path& file, const Image& image)
 {
     const std::string name = file.string();
-    if (Status writable = checkImageName(file); !writable)
-        return writable.error();
+    COTAN_CHECK(checkImageName(file));
     if (image.width <= 0 || image.height <= 0 || image.data.size() != image.pixelCount() * image.bytesPerPixel())
         return usageError(fmt::format("{}: there is no image to write ({} x {}, {} bytes)", name, image.width,
                                       image.height, image.data.size()));

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "codecs.hpp"
+#include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "files/output.hpp"
 #include "files/sandbox/process.hpp"
@@ -71,8 +72,7 @@ public:
     {
         process_->restartClock();
         process_->question().number(std::int32_t(strip.height));
-        if (Status found = process_->await(); !found)
-            return found;
+        COTAN_CHECK(process_->await());
         const std::size_t expected = strip.data.size();
         process_->answer().array(strip.data);
         if (strip.data.size() != expected)
@@ -88,9 +88,7 @@ private:
 // Opens rows in a child process: limits.sandbox.program.
 Result<std::unique_ptr<RowReader>> openRowsSandboxed(const std::filesystem::path& file, const LoadLimits& limits)
 {
-    auto process = ReaderProcess::start({.kind = ReaderKind::rows, .name = file.string(), .limits = limits});
-    if (!process)
-        return process.error();
+    COTAN_TRY(process, ReaderProcess::start({.kind = ReaderKind::rows, .name = file.string(), .limits = limits}));
     ReaderProcess& reader = **process;
     auto rows = std::make_unique<SandboxedRows>(*std::move(process));
     rows->name = file.string();
@@ -160,9 +158,7 @@ Result<std::unique_ptr<RowReader>> openAnyRows(const fs::path& file, const LoadL
         const auto formats = imageFormats(file.string());
         return formats ? (*formats)->openRows(file, head, limits) : formats.error();
     }
-    auto image = readImage(file, limits);
-    if (!image)
-        return image.error();
+    COTAN_TRY(image, readImage(file, limits));
     return std::unique_ptr<RowReader>(std::make_unique<WholeRows>(*std::move(image)));
 }
 
@@ -175,19 +171,15 @@ Result<std::unique_ptr<RowReader>> openRows(const fs::path& file, const LoadLimi
         return size.error();
     auto rows = openAnyRows(file, limits);
     if (rows)
-        if (Status fits = checkRows(**rows, *size, limits); !fits)
-            return fits.error();
+        COTAN_CHECK(checkRows(**rows, *size, limits));
     return rows;
 }
 
 Result<std::unique_ptr<RowWriter>> createRows(const fs::path& file, const RowFormat& format, int threads)
 {
     const std::string name = file.string();
-    if (Status writable = checkImageName(file); !writable)
-        return writable.error();
-    auto output = OutputFile::begin(file);
-    if (!output)
-        return output.error();
+    COTAN_CHECK(checkImageName(file));
+    COTAN_TRY(output, OutputFile::begin(file));
     const auto create = [&]() -> Result<std::unique_ptr<RowWriter>> {
         if (writesItself(file) && format.type == PixelType::float32)
             return usageError(fmt::format("{}: PNG files cannot hold floats", name));
@@ -195,9 +187,7 @@ Result<std::unique_ptr<RowWriter>> createRows(const fs::path& file, const RowFor
         const Result<const ImageFormats*> formats = png ? nullptr : imageFormats(name);
         if (!formats)
             return formats.error();
-        auto stream = output->open(/*reads*/ !png);
-        if (!stream)
-            return stream.error();
+        COTAN_TRY(stream, output->open(/*reads*/ !png));
         return png ? createPngRows(*std::move(stream), format, name)
                    : (*formats)->createRows(*std::move(stream), format, threads, name);
     };
@@ -262,20 +252,13 @@ double animationRate(const fs::path& file, double rate)
 
 Result<std::unique_ptr<AnimationWriter>> createAnimation(const fs::path& file, const AnimationFormat& format)
 {
-    if (Status fits = checkFormat(file, format); !fits)
-        return fits.error();
+    COTAN_CHECK(checkFormat(file, format));
     const std::string name = file.string();
-    const auto formats = isGif(file) ? imageFormats(name) : nullptr;
-    if (!formats)
-        return formats.error();
-    auto output = OutputFile::begin(file);
-    if (!output)
-        return output.error();
+    COTAN_TRY(formats, isGif(file) ? imageFormats(name) : nullptr);
+    COTAN_TRY(output, OutputFile::begin(file));
     AnimationFormat rounded = format;
     rounded.rate = animationRate(file, format.rate);
-    auto stream = output->open(/*reads*/ isGif(file));
-    if (!stream)
-        return stream.error();
+    COTAN_TRY(stream, output->open(/*reads*/ isGif(file)));
     auto writer = isGif(file) ? (*formats)->createGif(*std::move(stream), rounded, name)
                               : createWebpAnimation(*std::move(stream), rounded, name);
     if (!writer)

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <glm/detail/type_half.hpp>
 
+#include "core/try.hpp"
 #include "formats.hpp"
 #include "image/checks.hpp"
 #include "image/component_types.hpp"
@@ -155,8 +156,7 @@ Result<Ktx2Image> checkKtx2(std::span<const std::byte> bytes)
             picture.bytes = std::size_t(expected);
         }
     }
-    if (Status keys = readKeys(file, bytes, picture); !keys)
-        return keys.error();
+    COTAN_CHECK(readKeys(file, bytes, picture));
     return picture;
 }
 

@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "image/checks.hpp"
 #include "image/component_types.hpp"
@@ -203,8 +204,7 @@ Status write(OpenFile file, const Image& image, const std::string& name)
         const bool done = output->open(name, spec)
             && output->write_image(typeDesc(image.type), image.data.data(), OIIO::stride_t(image.bytesPerPixel()))
             && output->close();
-        if (Status whole = checked.finish(name); !whole)
-            return whole;
+        COTAN_CHECK(checked.finish(name));
         if (!done)
             return notWritten(name, output->geterror());
     } catch (const std::exception& e) {

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <png.h>
 
+#include "core/try.hpp"
 #include "image/checks.hpp"
 
 namespace cotan {
@@ -372,8 +373,7 @@ public:
     }
     Status finish() override
     {
-        if (Status ended = check(endPng(writer_)); !ended)
-            return ended;
+        COTAN_CHECK(check(endPng(writer_)));
         if (std::fclose(file_.release()) != 0)
             return outputError(fmt::format("{}: writing failed", name_));
         return Done{};
@@ -419,8 +419,7 @@ Result<std::vector<std::byte>> encodePng(const Image& image)
 Result<std::unique_ptr<RowWriter>> createPngRows(OpenFile file, const RowFormat& format, const std::string& name)
 {
     auto rows = std::make_unique<PngOut>(std::move(file), name);
-    if (Status started = rows->start(format); !started)
-        return started.error();
+    COTAN_CHECK(rows->start(format));
     return std::unique_ptr<RowWriter>(std::move(rows));
 }
 

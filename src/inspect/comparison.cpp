@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/try.hpp"
 #include "inspect/angles.hpp"
 #include "scene/geometry.hpp"
 #include "scene/parts.hpp"
@@ -52,18 +53,14 @@ Result<DrawnSides> drawSides(Renderer& renderer, ModelInFrame model, std::vector
     view.output = Output::normal;
     for (const Camera& camera : sides.cameras) {
         view.camera = camera;
-        if (Status fits = limitCoverage(model.scene, view); !fits)
-            return fits.error();
+        COTAN_CHECK(limitCoverage(model.scene, view));
     }
     const auto forget = [](Renderer* drawing) { drawing->forget(); }; // the scene is destroyed on return
     const std::unique_ptr<Renderer, decltype(forget)> guard(&renderer, forget);
-    if (Status loaded = renderer.load(model.scene); !loaded)
-        return loaded.error();
+    COTAN_CHECK(renderer.load(model.scene));
     for (const Camera& camera : sides.cameras) {
         view.camera = camera;
-        auto image = renderer.draw(view);
-        if (!image)
-            return image.error();
+        COTAN_TRY(image, renderer.draw(view));
         sides.normals.push_back(std::move(*image));
     }
     return sides;
@@ -94,12 +91,8 @@ Result<ComparedViews> compareSides(const DrawnSides& before, const DrawnSides& a
 
 Result<ComparedViews> verifyConversion(Renderer& renderer, ModelInFrame before, ModelInFrame after, int side)
 {
-    const auto first = drawSides(renderer, std::move(before), {}, side);
-    if (!first)
-        return first.error();
-    const auto second = drawSides(renderer, std::move(after), first->cameras, side);
-    if (!second)
-        return second.error();
+    COTAN_TRY(first, drawSides(renderer, std::move(before), {}, side));
+    COTAN_TRY(second, drawSides(renderer, std::move(after), first->cameras, side));
     return compareSides(*first, *second);
 }
 
@@ -139,9 +132,7 @@ Result<ComparedFrames> compareFrames(Renderer& renderer, const Scene& scene, Vie
                                       {Output::normal, &normal},
                                       {Output::tangent, &tangent},
                                       {Output::bitangent, &bitangent}}) {
-            auto image = drawn(renderer, view, frames[k], output);
-            if (!image)
-                return image.error();
+            COTAN_TRY(image, drawn(renderer, view, frames[k], output));
             (*images)[k] = std::move(*image);
         }
     ComparedFrames compared;
@@ -164,12 +155,8 @@ std::string toText(const ComparedFrames& c)
 Result<FrameError> errorAgainstExact(Renderer& renderer, const Scene& scene, View view)
 {
     view.output = Output::normal;
-    const auto normals = renderer.draw(view);
-    if (!normals)
-        return normals.error();
-    const auto exact = drawn(renderer, view, Frame::exact, Output::normal);
-    if (!exact)
-        return exact.error();
+    COTAN_TRY(normals, renderer.draw(view));
+    COTAN_TRY(exact, drawn(renderer, view, Frame::exact, Output::normal));
     const auto degrees = mappedAngles(anglesBetween(*normals, *exact), showsNormalMaps(scene, view));
     return FrameError{angleStatistics(degrees), heatMap(degrees, view.width, view.height)};
 }

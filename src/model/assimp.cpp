@@ -20,6 +20,7 @@
 
 #include "assimp_convert.hpp"
 #include "core/locale_of_c.hpp"
+#include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "scene/scene_check.hpp"
 #include "source_material.hpp"
@@ -121,9 +122,7 @@ private:
 
 Status openModel(Job& job)
 {
-    auto bytes = readFileBytes(job.file, job.limits.fileBytes);
-    if (!bytes)
-        return bytes.error();
+    COTAN_TRY(bytes, readFileBytes(job.file, job.limits.fileBytes));
     job.bytes = *std::move(bytes);
     std::error_code error;
     job.canonical = fs::canonical(job.file, error);
@@ -298,8 +297,7 @@ void warnAboutSource(const aiScene& source, Job& job)
 Result<Scene> loadWithAssimp(const fs::path& file, const LoadLimits& limits)
 try {
     Job job{.file = file, .limits = limits};
-    if (Status ok = openModel(job); !ok)
-        return ok.error();
+    COTAN_CHECK(openModel(job));
     // Checks of the bytes that Assimp would trust.
     if (job.extension == ".ply")
         checkPly(job.bytes, job.limits);
@@ -326,8 +324,7 @@ try {
     convertNodes(*source, convertMeshes(*source, job), job.limits, job.scene);
     if (job.scene.instances.empty())
         failModel("expected triangles, found none");
-    if (Status valid = checkScene(job.scene, file.string()); !valid)
-        return valid.error();
+    COTAN_CHECK(checkScene(job.scene, file.string()));
     return std::move(job.scene);
 } catch (const Error& problem) {
     return inputError(fmt::format("{}: {}", file.string(), problem.message));

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "files/file_registry.hpp"
 #include "files/sandbox/process.hpp"
 #include "files/sandbox/scene_wire.hpp"
@@ -38,18 +39,15 @@ Status checkLimits(const Scene& scene, const std::string& file, const LoadLimits
 // Reads in a child process, limits.sandbox.program.
 Result<Scene> loadSandboxed(const fs::path& file, std::size_t fileBytes, const LoadLimits& limits)
 try {
-    auto process = ReaderProcess::start(
-        {.kind = ReaderKind::model, .name = file.string(), .fileBytes = fileBytes, .limits = limits});
-    if (!process)
-        return process.error();
+    COTAN_TRY(process,
+              ReaderProcess::start(
+                  {.kind = ReaderKind::model, .name = file.string(), .fileBytes = fileBytes, .limits = limits}));
     Scene scene;
     exchangeScene((*process)->answer(), scene);
     if (!(*process)->answer().good())
         return (*process)->failure();
-    if (Status valid = checkScene(scene, file.string()); !valid)
-        return valid.error();
-    if (Status within = checkLimits(scene, file.string(), limits); !within)
-        return within.error();
+    COTAN_CHECK(checkScene(scene, file.string()));
+    COTAN_CHECK(checkLimits(scene, file.string(), limits));
     return scene;
 } catch (const std::bad_alloc&) {
     return inputError(fmt::format("{}: not enough memory for the model", file.string()));
@@ -59,9 +57,7 @@ Result<Scene> loadAny(const fs::path& file, const LoadLimits& limits)
 {
     if (limits.readFile)
         return loadGltf(file, limits);
-    const auto size = usableFileSize(file, limits.fileBytes);
-    if (!size)
-        return size.error();
+    COTAN_TRY(size, usableFileSize(file, limits.fileBytes));
     const ModelFormat* format = modelFormatOf(file);
     if (!format)
         return inputError(fmt::format("{}: expected the extension {}, found \"{}\"", file.string(), modelFormats(true),

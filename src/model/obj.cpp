@@ -11,6 +11,7 @@
 #include <glm/common.hpp>
 
 #include "core/named_values.hpp"
+#include "core/try.hpp"
 #include "cotan/model.hpp"
 #include "cotan/portable.hpp"
 #include "files/bytes.hpp"
@@ -25,9 +26,7 @@ namespace {
 
 Result<std::string> readText(const fs::path& file, const LoadLimits& limits)
 {
-    const auto bytes = readFileBytes(file, limits.fileBytes);
-    if (!bytes)
-        return bytes.error();
+    COTAN_TRY(bytes, readFileBytes(file, limits.fileBytes));
     return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
 }
 
@@ -298,16 +297,12 @@ Mesh makeMesh(const ObjText& obj, const ObjPart& part, Scene& scene)
 
 Result<Scene> loadObj(const fs::path& file, const LoadLimits& limits)
 try {
-    auto text = readText(file, limits);
-    if (!text)
-        return text.error();
+    COTAN_TRY(text, readText(file, limits));
     std::error_code error;
     const fs::path canonical = fs::canonical(file, error);
     if (error)
         return inputError(fmt::format("{}: {}", file.string(), error.message()));
-    const auto obj = parseObj(*std::move(text), file.string(), limits);
-    if (!obj)
-        return obj.error();
+    COTAN_TRY(obj, parseObj(*std::move(text), file.string(), limits));
 
     Scene scene;
     scene.name = file.filename().string();

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/try.hpp"
 #include "cotan/image.hpp"
 #include "picture/option_words.hpp"
 #include "scene/geometry.hpp"
@@ -80,12 +81,8 @@ Result<std::shared_ptr<const EnvironmentMap>> openEnvironmentMap(const PictureOp
     if (std::filesystem::path(o.environment).extension().empty())
         return usageError(fmt::format("--environment: expected {}, none, or a .hdr or .exr file; found '{}'",
                                       fmt::join(environmentNames(), ", "), o.environment));
-    const auto image = readImage(o.environment, limitsFor(o.memory));
-    if (!image)
-        return image.error();
-    auto map = environmentOfImage(*image, environmentOptions);
-    if (!map)
-        return map.error();
+    COTAN_TRY(image, readImage(o.environment, limitsFor(o.memory)));
+    COTAN_TRY(map, environmentOfImage(*image, environmentOptions));
     return std::make_shared<const EnvironmentMap>(std::move(*map));
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/try.hpp"
 #include "cotan/frame_choice.hpp"
 #include "cotan/maps.hpp"
 #include "cotan/model.hpp"
@@ -77,9 +78,7 @@ LoadLimits limitsOf(const PictureOptions& options)
 Status complete(AnimatedGltf& model, const PictureOptions& options, Scene& scene)
 {
     if (!options.animation.empty()) {
-        auto points = model.reach(options.animation);
-        if (!points)
-            return points.error();
+        COTAN_TRY(points, model.reach(options.animation));
         scene.reach = std::move(*points);
     }
     if (options.up == Up::z)
@@ -107,8 +106,7 @@ Result<MovingModel> still(Result<Scene> scene)
 Result<View> viewOf(const PictureOptions& options, const Scene& scene)
 {
     View view;
-    if (const Status fits = checkSize(options.size); !fits)
-        return fits.error();
+    COTAN_CHECK(checkSize(options.size));
     view.width = options.size.width;
     view.height = options.size.height;
     const bool ownCamera = options.camera.empty() && options.model.empty() && options.shape.empty()
@@ -118,8 +116,7 @@ Result<View> viewOf(const PictureOptions& options, const Scene& scene)
     if (!parsed)
         return usageError("--camera: " + parsed.error().message);
     view.camera = *parsed;
-    if (Status lit = lightPicture(options, view); !lit)
-        return lit.error();
+    COTAN_CHECK(lightPicture(options, view));
     view.shading = options.shading;
     view.lighting = options.lighting;
     view.normalMapping = options.normalMapping;
@@ -136,8 +133,7 @@ bool meters(const PictureOptions& options) { return !options.exposure && options
 
 Result<Scene> openModel(const PictureOptions& options)
 {
-    if (const Status usage = checkModelOptions(options); !usage)
-        return usage.error();
+    COTAN_CHECK(checkModelOptions(options));
     if (options.model.empty())
         return options.shape.empty() ? builtinScene() : shapeScene(options.shape);
     return checkedScene(loadScene(options.model, limitsOf(options)));
@@ -150,14 +146,9 @@ Result<MovingModel> openMovingModel(const PictureOptions& options)
     if (!gltf || !checkModelOptions(options))
         return still(openModel(options));
     const LoadLimits limits = limitsOf(options);
-    auto opened = AnimatedGltf::open(options.model, limits);
-    if (!opened)
-        return opened.error();
-    auto scene = checkedScene((*opened)->at(limits.pose));
-    if (!scene)
-        return scene.error();
-    if (Status whole = complete(**opened, options, *scene); !whole)
-        return whole.error();
+    COTAN_TRY(opened, AnimatedGltf::open(options.model, limits));
+    COTAN_TRY(scene, checkedScene((*opened)->at(limits.pose)));
+    COTAN_CHECK(complete(**opened, options, *scene));
     if (const auto refused = firstRefusal())
         return *refused;
     if ((*opened)->animations().empty())
@@ -170,8 +161,7 @@ Result<Scene> poseModel(AnimatedGltf& model, const PictureOptions& options, cons
     auto scene = model.at({options.animation, options.time}, &before.images);
     if (!scene)
         return scene;
-    if (Status whole = complete(model, options, *scene); !whole)
-        return whole.error();
+    COTAN_CHECK(complete(model, options, *scene));
     for (std::size_t i = 0; i < std::min(scene->meshes.size(), before.meshes.size()); ++i)
         scene->meshes[i].readWith = before.meshes[i].readWith;
     return scene;
@@ -257,8 +247,7 @@ void derive(const PictureOptions& options, const std::string& show, const std::v
 Result<std::vector<std::optional<Frame>>> prepareScene(const PictureOptions& options, const std::string& show,
                                                        std::initializer_list<FrameChoice> choices, Scene& scene)
 {
-    if (const Status applied = applyOwnMaps(options.maps, options.memory, scene); !applied)
-        return applied.error();
+    COTAN_CHECK(applyOwnMaps(options.maps, options.memory, scene));
     auto frames = resolved(options, choices, scene);
     derive(options, show, frames, scene);
     return frames;
@@ -273,9 +262,7 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
     picture.device =
         std::async(std::launch::async, [name = deviceOf(options), threads] { return openRenderer(name, threads); });
     auto environment = std::async(std::launch::async, openEnvironmentMap, options);
-    auto model = options.animation.empty() ? still(openModel(options)) : openMovingModel(options);
-    if (!model)
-        return model.error();
+    COTAN_TRY(model, options.animation.empty() ? still(openModel(options)) : openMovingModel(options));
     picture.scene = std::move(model->scene);
     picture.animated = std::move(model->animated);
     picture.imagesOfFile = picture.scene.images.size();
@@ -284,27 +271,21 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
         picture.scene.reach = sweptPoints(picture.scene);
     if (options.edges != Edges::none)
         picture.edges = surfaceEdges(picture.scene);
-    if (const Status applied = applyOwnMaps(options.maps, options.memory, picture.scene); !applied)
-        return applied.error();
+    COTAN_CHECK(applyOwnMaps(options.maps, options.memory, picture.scene));
     picture.frames = resolved(options, frames, picture.scene);
     if (picture.animated && inspectionFromName(options.show))
         picture.inspected = {picture.scene.materials, picture.scene.images};
     derive(options, options.show, picture.frames, picture.scene);
-    auto view = viewOf(options, picture.scene);
-    if (!view)
-        return view.error();
+    COTAN_TRY(view, viewOf(options, picture.scene));
     picture.view = std::move(*view);
-    auto opened = environment.get();
-    if (!opened)
-        return opened.error();
+    COTAN_TRY(opened, environment.get());
     picture.view.environmentMap = std::move(*opened);
     if (drawsNormalMaps(picture.scene))
         for (std::string& line : maps::mapFaults(picture.scene))
             picture.scene.warnings.push_back(std::move(line));
     picture.meter = meters(options);
     picture.view.lights = lightsOf(options, picture.scene);
-    if (Status fits = limitCoverage(picture.scene, picture.view); !fits)
-        return fits.error();
+    COTAN_CHECK(limitCoverage(picture.scene, picture.view));
     if (options.turntable)
         picture.table.emplace(picture.scene);
     return picture;
@@ -319,9 +300,7 @@ Status pose(const PictureOptions& options, double seconds, Picture& picture)
     then.time = seconds;
     Scene before;
     before.images.resize(picture.imagesOfFile);
-    auto posed = poseModel(*picture.animated, then, before);
-    if (!posed)
-        return posed.error();
+    COTAN_TRY(posed, poseModel(*picture.animated, then, before));
     joinParts(*posed);
     before = std::exchange(picture.scene, std::move(*posed));
     Scene& scene = picture.scene;
@@ -371,8 +350,7 @@ Result<std::unique_ptr<Renderer>> openPictureRenderer(const PictureOptions& opti
     auto renderer = picture.device.get();
     if (!renderer)
         return renderer;
-    if (Status loaded = (*renderer)->load(picture.scene); !loaded)
-        return loaded.error();
+    COTAN_CHECK((*renderer)->load(picture.scene));
     std::optional<Result<float>> exposure;
     if (picture.meter)
         exposure = meterExposure(**renderer, picture.view);
@@ -420,9 +398,7 @@ Result<Image> drawShow(Renderer& renderer, const Scene& scene, View view, const 
     if (inspectionFromName(show))
         return renderer.draw(inspectionView(view));
     if (show == "error") {
-        auto found = errorAgainstExact(renderer, scene, view);
-        if (!found)
-            return found.error();
+        COTAN_TRY(found, errorAgainstExact(renderer, scene, view));
         if (error)
             error(found->degrees);
         return std::move(found->difference);
@@ -440,9 +416,7 @@ Status layEdges(Renderer& renderer, View view, const PictureOptions& options, st
     if (options.edges == Edges::none || image.type != PixelType::unorm8)
         return Done{};
     view.output = Output::depth;
-    const auto depth = renderer.draw(view);
-    if (!depth)
-        return depth.error();
+    COTAN_TRY(depth, renderer.draw(view));
     drawEdges(image, *depth, view.camera, edges, {options.edges != Edges::seams, options.edges != Edges::triangles});
     return Done{};
 }

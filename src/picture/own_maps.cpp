@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/image.hpp"
 #include "cotan/maps.hpp"
@@ -43,9 +44,7 @@ Result<StatedConvention> conventionOf(const OwnMaps& maps)
 // Reads the model's own normal maps with another convention.
 Status reinterpretNormalMaps(const OwnMaps& maps, Scene& scene)
 {
-    const auto convention = conventionOf(maps);
-    if (!convention)
-        return convention.error();
+    COTAN_TRY(convention, conventionOf(maps));
     bool any = false;
     restoreDeclaredGreen(scene, maps.material);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -62,15 +61,9 @@ Status reinterpretNormalMaps(const OwnMaps& maps, Scene& scene)
 
 Status applyNormalMap(const OwnMaps& maps, int memory, Scene& scene)
 {
-    const auto stated = conventionOf(maps);
-    if (!stated)
-        return stated.error();
-    auto image = readFor(maps, maps.normal, &Material::normalMap, memory, scene);
-    if (!image)
-        return image.error();
-    const auto convention = maps::conventionOf(*stated, maps.normal, image->channels, "--convention");
-    if (!convention)
-        return convention.error();
+    COTAN_TRY(stated, conventionOf(maps));
+    COTAN_TRY(image, readFor(maps, maps.normal, &Material::normalMap, memory, scene));
+    COTAN_TRY(convention, maps::conventionOf(*stated, maps.normal, image->channels, "--convention"));
     if (!stated->channels) // x and y in three channels with constant blue: no such normals exist
         completeNormals(*image);
     if (convention->channels != Channels::xyz)
@@ -96,11 +89,9 @@ Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene)
         return usageError(
             fmt::format("--material: expected 0 to {}; found {}", scene.materials.size() - 1, maps.material));
     if (reinterprets)
-        if (Status read = reinterpretNormalMaps(maps, scene); !read)
-            return read;
+        COTAN_CHECK(reinterpretNormalMaps(maps, scene));
     if (!maps.normal.empty())
-        if (Status applied = applyNormalMap(maps, memory, scene); !applied)
-            return applied;
+        COTAN_CHECK(applyNormalMap(maps, memory, scene));
     struct OwnMap {
         const std::string& file;
         Texture Material::*slot;
@@ -113,9 +104,7 @@ Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene)
     for (const auto& [file, slot, change] : others) {
         if (file.empty())
             continue;
-        auto image = readFor(maps, file, slot, memory, scene);
-        if (!image)
-            return image.error();
+        COTAN_TRY(image, readFor(maps, file, slot, memory, scene));
         assignImage(scene, std::move(*image), slot, maps.material, change);
     }
     return Done{};

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/try.hpp"
 #include "scene/render_text.hpp"
 #include "scene/sample_positions.hpp"
 
@@ -68,9 +69,7 @@ Result<float> meterExposure(Renderer& renderer, View view)
     view.background = false;
     view.ground.reset();
     view.exposure = kMeterExposure;
-    const auto image = renderer.draw(view);
-    if (!image)
-        return image.error();
+    COTAN_TRY(image, renderer.draw(view));
     std::vector<float> values = luminances(*image, view.toneMapping);
     if (values.empty())
         return 1.0f;

@@ -1,6 +1,7 @@
 #include "cotan/render.hpp"
 
 #include "core/not_built.hpp"
+#include "core/try.hpp"
 #include "scene/scene_check.hpp"
 #include "shared_device.hpp"
 
@@ -127,15 +128,11 @@ Result<std::unique_ptr<Renderer>> openRenderer(const std::string& device, int th
 
 Result<Image> drawView(Scene scene, const View& view, const std::string& device, int threads)
 {
-    const auto renderer = openRenderer(device, threads);
-    if (!renderer)
-        return renderer.error();
-    if (const Status sound = checkScene(scene, "scene", {.finite = false, .pixels = false}); !sound)
-        return sound.error();
+    COTAN_TRY(renderer, openRenderer(device, threads));
+    COTAN_CHECK(checkScene(scene, "scene", {.finite = false, .pixels = false}));
     if (isFrame(int(view.frame))) // the renderer rejects others
         deriveVertexFrames(scene, view.frame, TangentOrigin::stored);
-    if (const Status loaded = (*renderer)->load(scene); !loaded)
-        return loaded.error();
+    COTAN_CHECK((*renderer)->load(scene));
     return (*renderer)->draw(view);
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "files/json.hpp"
 #include "files/sandbox/process.hpp"
@@ -138,8 +139,7 @@ Result<Job> readJob(std::string_view line, const CheckWords& check)
     }
     if (Status good = check(job); !good)
         return inputError(good.error().message);
-    if (Status read = readOptions(parsed, job.options); !read)
-        return read.error();
+    COTAN_CHECK(readOptions(parsed, job.options));
     addNew(job.inputs, *inputs);
     addNew(job.outputs, *outputs);
     return job;
@@ -166,9 +166,7 @@ std::vector<std::string> Job::key() const
 
 Result<JobList> readJobs(const std::filesystem::path& file, const CheckWords& check)
 {
-    const auto bytes = readFileBytes(file, kMaxBytes);
-    if (!bytes)
-        return bytes.error();
+    COTAN_TRY(bytes, readFileBytes(file, kMaxBytes));
     std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
     if (text.starts_with("\xef\xbb\xbf")) // byte order mark of UTF-8
         text.remove_prefix(3);

@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 
+#include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "files/children.hpp"
 #include "files/output.hpp"
@@ -169,10 +170,8 @@ public:
     Result<std::vector<JobResult>> all()
     {
         while (finished_ < chosen_.size()) {
-            if (Status started = start(); !started)
-                return started.error();
-            if (Status heard = wait(); !heard)
-                return heard.error();
+            COTAN_CHECK(start());
+            COTAN_CHECK(wait());
             if (steps_.stopped())
                 return stoppedError();
         }
@@ -221,14 +220,11 @@ private:
     Status begin(std::size_t job, Claim claim)
     {
         const Job& requested = list_.jobs[job];
-        auto folder = store_.workFolder();
-        if (!folder)
-            return folder.error();
+        COTAN_TRY(folder, store_.workFolder());
         ChildRequest request;
         request.work = *folder / std::to_string(job);
         std::error_code ignored;
-        if (Status made = makeFolder(request.work); !made)
-            return made;
+        COTAN_CHECK(makeFolder(request.work));
         for (const std::string& output : requested.outputs)
             fs::create_directories((list_.folder / output).parent_path(), ignored); // else the command reports it
         request.parent = ::getpid();

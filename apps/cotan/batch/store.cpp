@@ -12,6 +12,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "files/output.hpp"
 
@@ -72,10 +73,8 @@ Result<Store> Store::open(const fs::path& folder, std::string version)
 {
     Store store(folder, std::move(version));
     for (const char* name : {kResults, kWork}) {
-        if (Status made = makeFolder(store.folder_ / name); !made)
-            return made.error();
-        if (Status writable = checkWritable(store.folder_ / name / kLock); !writable)
-            return writable.error();
+        COTAN_CHECK(makeFolder(store.folder_ / name));
+        COTAN_CHECK(checkWritable(store.folder_ / name / kLock));
     }
     removeStale(store.folder_ / kWork);
     return store;
@@ -106,8 +105,7 @@ std::optional<JobRecord> Store::find(const std::vector<std::string>& words) cons
 Status Store::keep(const std::vector<std::string>& words, const JobRecord& record) const
 {
     const fs::path file = fileOf(words);
-    if (Status made = makeFolder(file.parent_path()); !made)
-        return made;
+    COTAN_CHECK(makeFolder(file.parent_path()));
     return writeFileWhole(file, toText(record, words, version_));
 }
 

@@ -2,6 +2,7 @@
 
 #include <atomic>
 
+#include "core/try.hpp"
 #include "cotan/image.hpp"
 #include "stream.hpp"
 
@@ -10,20 +11,12 @@ namespace cotan::maps {
 Result<BlendedFile> blendFiles(const std::filesystem::path& base, const std::filesystem::path& detail,
                                const std::filesystem::path& out, const BlendFileOptions& o, const FileOptions& files)
 {
-    auto opened = openMap(base, o.base, "options.from", files.limits);
-    if (!opened)
-        return opened.error();
+    COTAN_TRY(opened, openMap(base, o.base, "options.from", files.limits));
     RowReader& in = *opened->rows;
-    const auto fine = readMap(detail, o.detail, "options.detailFrom", files.limits);
-    if (!fine)
-        return fine.error();
-    const auto mask = o.mask.empty() ? Result<Image>(Image{}) : readImage(o.mask, files.limits);
-    if (!mask)
-        return mask.error();
+    COTAN_TRY(fine, readMap(detail, o.detail, "options.detailFrom", files.limits));
+    COTAN_TRY(mask, o.mask.empty() ? Result<Image>(Image{}) : readImage(o.mask, files.limits));
     const Convention to = o.to.value_or(opened->convention);
-    const auto bits = bitsFor(o.bits, in.type, to, out);
-    if (!bits)
-        return bits.error();
+    COTAN_TRY(bits, bitsFor(o.bits, in.type, to, out));
     const BlendSettings settings{.base = opened->convention,
                                  .detail = fine->convention,
                                  .to = to,

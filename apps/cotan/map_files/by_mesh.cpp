@@ -11,6 +11,7 @@
 #include "bake/surface/low_surface.hpp"
 #include "bake/surface/uv_raster.hpp"
 #include "core/loops.hpp"
+#include "core/try.hpp"
 #include "cotan/model.hpp"
 #include "maps/texels.hpp"
 
@@ -55,12 +56,8 @@ Result<Image> recodeByMesh(const Image& map, const RecodeSettings& s, const Mesh
     LoadLimits limits;
     limits.pixels = Pixels::none;
     limits.up = mesh.up;
-    const auto scene = loadScene(mesh.file, limits);
-    if (!scene)
-        return scene.error();
-    const auto surface = makeLowSurface(*scene, mesh.material, mesh.frame, mesh.tangents);
-    if (!surface)
-        return surface.error();
+    COTAN_TRY(scene, loadScene(mesh.file, limits));
+    COTAN_TRY(surface, makeLowSurface(*scene, mesh.material, mesh.frame, mesh.tangents));
     const auto indices = indicesToDraw(*surface, {map.width, map.height});
     if (!indices)
         return inputError(mesh.file.string() + ": " + indices.error().message);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "by_mesh.hpp"
+#include "core/try.hpp"
 #include "stream.hpp"
 #include "texture_file.hpp"
 
@@ -32,9 +33,7 @@ Status checkOptions(const ConvertFileOptions& o)
 Result<Image> convertByMesh(const std::filesystem::path& file, const MeshOfMap& mesh, const RecodeSettings& settings,
                             const FileOptions& files, ConvertedFile& done)
 {
-    const auto map = readMap(file, settings.from, "options.from", files.limits);
-    if (!map)
-        return map.error();
+    COTAN_TRY(map, readMap(file, settings.from, "options.from", files.limits));
     addNote(map->note, done.notes);
     auto converted = recodeByMesh(map->image, settings, mesh, files.progress, done.counts, done.covered);
     if (converted && done.covered == 0)
@@ -46,9 +45,7 @@ Result<Image> convertByMesh(const std::filesystem::path& file, const MeshOfMap& 
 Result<Image> convertWhole(const std::filesystem::path& file, const RecodeSettings& settings, const FileOptions& files,
                            ConvertedFile& done)
 {
-    const auto map = readMap(file, settings.from, "options.from", files.limits);
-    if (!map)
-        return map.error();
+    COTAN_TRY(map, readMap(file, settings.from, "options.from", files.limits));
     addNote(map->note, done.notes);
     CountedSteps steps(files.progress, 2);
     if (!steps.step())
@@ -102,18 +99,11 @@ Status convertByRows(const OpenMap& map, const std::filesystem::path& out, const
 Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::filesystem::path& out,
                                   const ConvertFileOptions& o, const FileOptions& files)
 {
-    if (Status fits = checkOptions(o); !fits)
-        return fits.error();
-    auto opened = openMap(map, o.from, "options.from", files.limits);
-    if (!opened)
-        return opened.error();
+    COTAN_CHECK(checkOptions(o));
+    COTAN_TRY(opened, openMap(map, o.from, "options.from", files.limits));
     RowReader& in = *opened->rows;
-    const auto code = codeFor(o.compress, o.bits, o.to, out);
-    if (!code)
-        return code.error();
-    const auto bits = isTextureFile(out) ? Result<Bits>(Bits{}) : bitsFor(o.bits, in.type, o.to, out);
-    if (!bits)
-        return bits.error();
+    COTAN_TRY(code, codeFor(o.compress, o.bits, o.to, out));
+    COTAN_TRY(bits, isTextureFile(out) ? Result<Bits>(Bits{}) : bitsFor(o.bits, in.type, o.to, out));
     const RecodeSettings settings{.from = opened->convention,
                                   .to = codeConvention(*code, o.to),
                                   .type = *code == TexelCode::rgba8 ? bits->type : PixelType::float32,
@@ -125,10 +115,8 @@ Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::f
         const Status streamed = convertByRows(*opened, out, settings, files, done);
         return streamed ? Result<ConvertedFile>(done) : streamed.error();
     }
-    auto converted =
-        o.mesh ? convertByMesh(map, *o.mesh, settings, files, done) : convertWhole(map, settings, files, done);
-    if (!converted)
-        return converted.error();
+    COTAN_TRY(converted,
+              o.mesh ? convertByMesh(map, *o.mesh, settings, files, done) : convertWhole(map, settings, files, done));
     converted->frame = done.frame;
     const Status written =
         isTextureFile(out) ? writeTexture(out, *converted, *code, o.to) : writeMap(out, *converted, done.bits);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "stream.hpp"
 
 namespace cotan::maps {
@@ -61,17 +62,11 @@ Result<Bits> bitsOfHeights(const std::string& wanted, PixelType input, const std
 Result<FromHeightFile> normalsFromHeightFile(const std::filesystem::path& heights, const std::filesystem::path& out,
                                              const FromHeightFileOptions& o, const FileOptions& files)
 {
-    const auto reader = openRows(heights, files.limits);
-    if (!reader)
-        return reader.error();
+    COTAN_TRY(reader, openRows(heights, files.limits));
     RowReader& in = **reader;
-    const auto bits = bitsFor(o.bits, in.type, o.to, out);
-    if (!bits)
-        return bits.error();
+    COTAN_TRY(bits, bitsFor(o.bits, in.type, o.to, out));
     // A repeating image needs its last row first.
-    const auto lastRow = o.wrap == Wrap::repeat ? lastRowOf(heights, files.limits) : Result<Image>(Image{});
-    if (!lastRow)
-        return lastRow.error();
+    COTAN_TRY(lastRow, o.wrap == Wrap::repeat ? lastRowOf(heights, files.limits) : Result<Image>(Image{}));
     const auto [slopeX, slopeY] = slopesOf(o, in.width, in.height);
     const FromHeightSettings settings{.kernel = o.kernel,
                                       .wrap = o.wrap,
@@ -100,13 +95,9 @@ Result<FromHeightFile> normalsFromHeightFile(const std::filesystem::path& height
 Result<ToHeightFile> heightFromNormalsFile(const std::filesystem::path& file, const std::filesystem::path& out,
                                            const ToHeightFileOptions& o, const FileOptions& files)
 {
-    const auto read = readMap(file, o.from, "options.from", files.limits);
-    if (!read)
-        return read.error();
+    COTAN_TRY(read, readMap(file, o.from, "options.from", files.limits));
     const Image* const map = &read->image;
-    const auto bits = bitsOfHeights(o.bits, map->type, out);
-    if (!bits)
-        return bits.error();
+    COTAN_TRY(bits, bitsOfHeights(o.bits, map->type, out));
     const std::size_t work = heightWorkBytes(map->width, map->height), most = workBudget(file, files.limits);
     if (work > most)
         return memoryError(
@@ -124,8 +115,7 @@ Result<ToHeightFile> heightFromNormalsFile(const std::filesystem::path& file, co
         *map, {.from = read->convention, .boundary = o.boundary, .kernel = o.kernel, .aspect = aspect});
     if (!steps.step())
         return stoppedError();
-    if (Status written = writeMap(out, heightImage(h, *map, bits->type, unit), *bits); !written)
-        return written.error();
+    COTAN_CHECK(writeMap(out, heightImage(h, *map, bits->type, unit), *bits));
     steps.step();
     ToHeightFile done{map->width, map->height, *bits, std::move(h), unit, read->convention};
     addNote(read->note, done.notes);

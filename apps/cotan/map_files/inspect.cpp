@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "cotan/maps.hpp"
 #include "inspect/angles.hpp"
 #include "maps/patches.hpp"
@@ -16,9 +17,7 @@ Result<SurveyedFile> surveyFile(const std::filesystem::path& map, const FileOpti
     MapSurvey survey;
     SurveyedFile found;
     for (const auto pass : {&MapSurvey::addFirstPass, &MapSurvey::addSecondPass}) {
-        const auto reader = openRows(map, files.limits);
-        if (!reader)
-            return reader.error();
+        COTAN_TRY(reader, openRows(map, files.limits));
         RowReader& in = **reader;
         found.width = in.width, found.height = in.height, found.type = in.type, found.frame = in.frame,
         found.channels = in.channels;
@@ -36,9 +35,7 @@ Result<SurveyedFile> surveyFile(const std::filesystem::path& map, const FileOpti
 
 Result<GreenOfFile> greenOfFile(const std::filesystem::path& map, const FileOptions& files)
 {
-    const auto reader = openRows(map, files.limits);
-    if (!reader)
-        return reader.error();
+    COTAN_TRY(reader, openRows(map, files.limits));
     RowReader& in = **reader;
     PatchSampler sampler(in.width, in.height, in.type);
     const Status read = inOrder(in, files.progress, [&](const Image& strip, int row) { sampler.add(strip, row); });
@@ -51,12 +48,8 @@ Result<ComparedFiles> compareFiles(const std::filesystem::path& fileA, const Sta
                                    const std::filesystem::path& fileB, const StatedConvention& statedB,
                                    const std::filesystem::path& heat, const FileOptions& files)
 {
-    const auto a = openMap(fileA, statedA, "options.from", files.limits);
-    if (!a)
-        return a.error();
-    const auto b = openMap(fileB, statedB, "options.to", files.limits);
-    if (!b)
-        return b.error();
+    COTAN_TRY(a, openMap(fileA, statedA, "options.from", files.limits));
+    COTAN_TRY(b, openMap(fileB, statedB, "options.to", files.limits));
     RowReader* const readers[] = {a->rows.get(), b->rows.get()};
     const int width = readers[0]->width, height = readers[0]->height;
     if (width != readers[1]->width || height != readers[1]->height)
@@ -64,9 +57,7 @@ Result<ComparedFiles> compareFiles(const std::filesystem::path& fileA, const Sta
                                       fileA.string(), readers[1]->width, readers[1]->height));
     std::unique_ptr<RowWriter> heatWriter;
     if (!heat.empty()) {
-        auto writer = createRows(heat, {width, height, PixelType::unorm8, false, false}, files.threads);
-        if (!writer)
-            return writer.error();
+        COTAN_TRY(writer, createRows(heat, {width, height, PixelType::unorm8, false, false}, files.threads));
         heatWriter = *std::move(writer);
     }
     AngleCounter angles;
@@ -81,11 +72,9 @@ Result<ComparedFiles> compareFiles(const std::filesystem::path& fileA, const Sta
             return heatWriter ? heatWriter->write(rows) : Status(Done{});
         };
     };
-    if (Status done = streamStrips(readers, {}, files.progress, work); !done)
-        return done.error();
+    COTAN_CHECK(streamStrips(readers, {}, files.progress, work));
     if (heatWriter)
-        if (Status written = heatWriter->finish(); !written)
-            return written.error();
+        COTAN_CHECK(heatWriter->finish());
     const AngleStatistics s = angles.statistics();
     ComparedFiles done{s, std::size_t(width) * std::size_t(height) - s.count, a->convention, b->convention};
     addNote(a->note(), done.notes);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "cotan/image.hpp"
 #include "image/format_table.hpp"
 #include "stream.hpp"
@@ -42,8 +43,7 @@ std::size_t workBudget(const std::filesystem::path& file, const LoadLimits& limi
 
 Result<Bits> bitsFor(const std::string& wanted, PixelType input, const std::filesystem::path& file)
 {
-    if (Status writable = checkImageName(file); !writable)
-        return writable.error();
+    COTAN_CHECK(checkImageName(file));
     const ImageFormat& format = *imageFormatOf(file);
     PixelType type = input;
     if (wanted == "8")
@@ -96,12 +96,8 @@ Result<Bits> bitsFor(const std::string& wanted, PixelType input, const Conventio
 Result<LoadedMap> readMap(const std::filesystem::path& file, const StatedConvention& stated, const std::string& option,
                           const LoadLimits& limits)
 {
-    auto image = readImage(file, limits);
-    if (!image)
-        return image.error();
-    const auto convention = conventionOf(stated, image->name, image->channels, option);
-    if (!convention)
-        return convention.error();
+    COTAN_TRY(image, readImage(file, limits));
+    COTAN_TRY(convention, conventionOf(stated, image->name, image->channels, option));
     if (convention->channels != Channels::xyz)
         unswizzle(*image, swizzleOf(*image));
     undo(stated.damage, *image);
@@ -113,23 +109,16 @@ Status writeMap(const std::filesystem::path& file, const Image& image, const Bit
 {
     if (!bits.half)
         return writeImage(file, image);
-    auto writer = createRows(file, {image.width, image.height, image.type, true, true, image.frame});
-    if (!writer)
-        return writer.error();
-    if (Status written = (*writer)->write(image); !written)
-        return written;
+    COTAN_TRY(writer, createRows(file, {image.width, image.height, image.type, true, true, image.frame}));
+    COTAN_CHECK((*writer)->write(image));
     return (*writer)->finish();
 }
 
 Result<OpenMap> openMap(const std::filesystem::path& file, const StatedConvention& stated, const std::string& option,
                         const LoadLimits& limits)
 {
-    auto reader = openRows(file, limits);
-    if (!reader)
-        return reader.error();
-    const auto convention = conventionOf(stated, (*reader)->name, (*reader)->channels, option);
-    if (!convention)
-        return convention.error();
+    COTAN_TRY(reader, openRows(file, limits));
+    COTAN_TRY(convention, conventionOf(stated, (*reader)->name, (*reader)->channels, option));
     OpenMap map{*std::move(reader), *convention, Swizzle::rg, stated.damage, option, file.string()};
     map.sample =
         std::make_unique<PatchSampler>(map.rows->width, map.rows->height, map.rows->type, PatchSampler::kQuickSide);
@@ -140,9 +129,7 @@ Result<OpenMap> openMap(const std::filesystem::path& file, const StatedConventio
         return read.error();
     map.swizzle = range.swizzle();
     map.rows.reset(); // frees its memory first
-    auto again = openRows(file, limits);
-    if (!again)
-        return again.error();
+    COTAN_TRY(again, openRows(file, limits));
     map.rows = *std::move(again);
     return map;
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "placed_images.hpp"
 #include "texture_file.hpp"
 
@@ -42,14 +43,12 @@ Status writeTextures(const std::filesystem::path& out, const std::vector<MipLeve
     }
     const std::filesystem::path second = marked(out, "_roughness");
     if (o.mayWrite)
-        if (Status may = o.mayWrite(second); !may)
-            return may;
+        COTAN_CHECK(o.mayWrite(second));
     for (const MipLevel& level : chain) {
         normals.push_back(levelOf(level.normals, code, *o.to));
         roughness.push_back(bc4Level(level.roughness));
     }
-    if (Status w = writeTextureFile(out, TexelCode::bc5, normals, chain[0].normals.frame); !w)
-        return w;
+    COTAN_CHECK(writeTextureFile(out, TexelCode::bc5, normals, chain[0].normals.frame));
     return writeTextureFile(second, TexelCode::bc4, roughness);
 }
 
@@ -63,8 +62,7 @@ Status writeChain(const std::filesystem::path& out, const std::vector<MipLevel>&
 {
     for (std::size_t i = 0; i < chain.size() && o.mayWrite; ++i)
         for (const char* mark : {"", "_roughness"})
-            if (Status may = o.mayWrite(numbered(out, mark, i)); !may)
-                return may;
+            COTAN_CHECK(o.mayWrite(numbered(out, mark, i)));
     std::optional<InterruptsHeld> held;
     if (bits.half) // written by rows, one file after another
         held.emplace();
@@ -74,8 +72,7 @@ Status writeChain(const std::filesystem::path& out, const std::vector<MipLevel>&
              {std::pair("", &chain[i].normals), std::pair("_roughness", &chain[i].roughness)}) {
             const std::filesystem::path file = numbered(out, mark, i);
             if (bits.half) {
-                if (Status w = writeMap(file, *image, bits); !w)
-                    return w;
+                COTAN_CHECK(writeMap(file, *image, bits));
                 continue;
             }
             images.push_back({file, image});
@@ -107,18 +104,12 @@ Result<MippedFile> writeMips(const std::filesystem::path& file, const std::files
     if (o.to) // fails before the work
         if (const auto code = codeFor(o.compress, o.bits, *o.to, out); !code)
             return code.error();
-    const auto read = readMap(file, o.from, "options.from", files.limits);
-    if (!read)
-        return read.error();
+    COTAN_TRY(read, readMap(file, o.from, "options.from", files.limits));
     const Image* const map = &read->image;
     const Convention from = read->convention, to = o.to.value_or(from);
     o.to = to;
-    const auto code = codeFor(o.compress, o.bits, to, out);
-    if (!code)
-        return code.error();
-    const auto bits = bitsOfMips(*code, map->type, out, o);
-    if (!bits)
-        return bits.error();
+    COTAN_TRY(code, codeFor(o.compress, o.bits, to, out));
+    COTAN_TRY(bits, bitsOfMips(*code, map->type, out, o));
     // 32 bytes of moments for a quarter of the texels, and normals and roughness of all levels.
     const std::size_t work = map->pixelCount() * (8 + 11 * bytesPerComponent(bits->type));
     const std::size_t limit = 3 * workBudget(file, files.limits);

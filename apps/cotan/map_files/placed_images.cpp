@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/try.hpp"
 #include "image/pending.hpp"
 
 namespace cotan {
@@ -10,9 +11,7 @@ Result<std::vector<OutputFile>> writePending(std::span<const PlacedImage> images
 {
     std::vector<OutputFile> pending;
     for (const auto& [file, image] : images) {
-        auto output = writePending(file, *image);
-        if (!output)
-            return output.error();
+        COTAN_TRY(output, writePending(file, *image));
         pending.push_back(std::move(*output));
     }
     return pending;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/try.hpp"
 #include "pipeline.hpp"
 
 namespace cotan::maps {
@@ -47,12 +48,10 @@ public:
             if (row >= 0)
                 copyRow(kept_, row - keptFirst_, strip, at);
         if (!plan_.bordered) {
-            if (Status read = reader_.read(strip); !read)
-                return read.error();
+            COTAN_CHECK(reader_.read(strip));
         } else if (end > read_) {
             Image fresh = makeImage(reader_.width, end - read_, reader_.type, reader_.name);
-            if (Status read = reader_.read(fresh); !read)
-                return read.error();
+            COTAN_CHECK(reader_.read(fresh));
             std::ranges::copy(fresh.data, strip.data.begin() + std::ptrdiff_t(std::size_t(at) * rowBytes(strip)));
             read_ = end;
         }
@@ -170,9 +169,7 @@ Status streamToFile(RowReader& reader, const StreamPlan& plan, const std::filesy
                     const RowFormat& format, int threads, const Progress& progress,
                     const std::function<Image(Image& strip, int firstRow)>& work)
 {
-    const auto writer = createRows(file, format, threads);
-    if (!writer)
-        return writer.error();
+    COTAN_TRY(writer, createRows(file, format, threads));
     RowReader* const readers[] = {&reader};
     const Status done = streamStrips(readers, plan, progress, [&](std::span<Image> strips, int firstRow) {
         return [&writer, out = work(strips[0], firstRow)] { return (*writer)->write(out); };
@@ -182,16 +179,13 @@ Status streamToFile(RowReader& reader, const StreamPlan& plan, const std::filesy
 
 Result<Image> lastRowOf(const std::filesystem::path& file, const LoadLimits& limits)
 {
-    const auto reader = openRows(file, limits);
-    if (!reader)
-        return reader.error();
+    COTAN_TRY(reader, openRows(file, limits));
     RowReader& rows = **reader;
     const int step = rowsOfStrip(rows.width);
     for (int y = 0; y < rows.height;) {
         const int count = std::min(step, rows.height - 1 - y);
         Image strip = makeImage(rows.width, count > 0 ? count : 1, rows.type);
-        if (Status read = rows.read(strip); !read)
-            return read.error();
+        COTAN_CHECK(rows.read(strip));
         y += strip.height;
         if (y == rows.height)
             return strip;

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/real_number.hpp"
+#include "core/try.hpp"
 #include "parse_errors.hpp"
 #include "terminal/command_words.hpp"
 #include "terminal/help_text.hpp"
@@ -340,8 +341,7 @@ Status Arguments::read(std::vector<std::string> words, std::string& answer) cons
         words.emplace_back("--help");
     }
     const bool brief = std::ranges::find(words, "--help") == words.end(); // -h instead
-    if (Status checked = checkCommandWords(known, words); !checked)
-        return checked;
+    COTAN_CHECK(checkCommandWords(known, words));
     tool_->taken = Done{};
     std::ranges::reverse(words); // CLI11 takes them from the back
     try {
@@ -360,8 +360,7 @@ Status Arguments::read(std::vector<std::string> words, std::string& answer) cons
 Status Arguments::run(std::vector<std::string> words, const std::function<void(const std::string&)>& print)
 {
     std::string answer;
-    if (Status known = read(std::move(words), answer); !known)
-        return known;
+    COTAN_CHECK(read(std::move(words), answer));
     if (!answer.empty()) {
         print(answer);
         return Done{};
@@ -375,8 +374,7 @@ Status Arguments::run(std::vector<std::string> words, const std::function<void(c
 Result<GivenCommand> Arguments::parse(std::vector<std::string> words) const
 {
     std::string answer;
-    if (Status known = read(std::move(words), answer); !known)
-        return known.error();
+    COTAN_CHECK(read(std::move(words), answer));
     if (!answer.empty())
         return usageError("expected a command that does something; found --help or --version");
     GivenCommand result;

@@ -5,6 +5,7 @@
 
 #include <sys/utsname.h>
 
+#include "core/try.hpp"
 #include "cost/cards.hpp"
 
 namespace cotan::cost {
@@ -100,9 +101,7 @@ Status measure(const PriceOptions& o, CostReport& report)
 
 Result<CostReport> price(const PriceOptions& options)
 {
-    auto rows = chosenRows(options.frames);
-    if (!rows)
-        return rows.error();
+    COTAN_TRY(rows, chosenRows(options.frames));
     CostReport report;
     report.machine = machineText();
     report.rows = std::move(*rows);

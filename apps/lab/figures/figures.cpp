@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/try.hpp"
 #include "cotan/image.hpp"
 #include "figure.hpp"
 #include "figure_renderer.hpp"
@@ -89,11 +90,8 @@ Result<PageFigure> writeFigure(const std::filesystem::path& folder, const Figure
         page.tables.push_back(tableOf(figure));
     for (const Panel& panel : figure.panels) {
         const std::string file = fmt::format("{}-{}.png", name, panel.file);
-        if (Status done = writeImage(folder / file, panel.image); !done)
-            return done.error();
-        auto png = readText(folder / file, /*isInput*/ false);
-        if (!png)
-            return png.error();
+        COTAN_CHECK(writeImage(folder / file, panel.image));
+        COTAN_TRY(png, readText(folder / file, /*isInput*/ false));
         page.panels.push_back(
             {file, panel.label, panel.caption, *std::move(png), panel.image.width, panel.image.height});
     }
@@ -136,9 +134,7 @@ std::vector<std::string_view> figureNames()
 
 Result<Json> drawFigures(Renderer& renderer, const std::filesystem::path& folder, const FiguresOptions& o)
 {
-    const auto figures = chosenFigures(o.only);
-    if (!figures)
-        return figures.error();
+    COTAN_TRY(figures, chosenFigures(o.only));
     FigureRenderer studio(renderer, o.threads, o.width, o.height);
     Page page = emptyPage(renderer.device());
     Json report = Json::array();
@@ -148,9 +144,7 @@ Result<Json> drawFigures(Renderer& renderer, const std::filesystem::path& folder
         made.push_back(info.make(studio));
         if (studio.error())
             return *studio.error();
-        auto onPage = writeFigure(folder, o, info.name, made.back());
-        if (!onPage)
-            return onPage.error();
+        COTAN_TRY(onPage, writeFigure(folder, o, info.name, made.back()));
         page.figures.push_back(std::move(*onPage));
         report.push_back(reportOf(info.name, made.back()));
         if (!steps.step())
@@ -158,10 +152,8 @@ Result<Json> drawFigures(Renderer& renderer, const std::filesystem::path& folder
         if (o.made)
             o.made(info.name, made.back().title);
     }
-    if (Status done = writeImage(folder / "overview.png", overviewOf(made, o)); !done)
-        return done.error();
-    if (Status done = writeFileWhole(folder / "index.html", toHtml(page)); !done)
-        return done.error();
+    COTAN_CHECK(writeImage(folder / "overview.png", overviewOf(made, o)));
+    COTAN_CHECK(writeFileWhole(folder / "index.html", toHtml(page)));
     return report;
 }
 

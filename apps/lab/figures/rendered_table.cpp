@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/try.hpp"
 #include "cotan/view.hpp"
 #include "truth/painted.hpp"
 #include "truth/patch.hpp"
@@ -91,15 +92,13 @@ Result<std::vector<Measurement>> measureRendered(Renderer& renderer, const Accur
             const PaintedScene painted = paintedScene(subject.surface, segments);
             for (const FrameGroup& group : frameGroups(selection)) {
                 const Scene scene = sceneFor(painted, group);
-                if (Status loaded = renderer.load(scene); !loaded)
-                    return loaded.error();
+                COTAN_CHECK(renderer.load(scene));
                 for (Frame frame : group) {
                     const char* truth = frame == Frame::gradient ? "E" : "S";
-                    const auto row = drawn(renderer, painted, frame,
-                                           {"rendered", subject.surface.name, fmt::format("{}", segments),
-                                            std::string(name(frame)), truth, arithmetic});
-                    if (!row)
-                        return row.error();
+                    COTAN_TRY(row,
+                              drawn(renderer, painted, frame,
+                                    {"rendered", subject.surface.name, fmt::format("{}", segments),
+                                     std::string(name(frame)), truth, arithmetic}));
                     rows.push_back(*row);
                 }
             }

@@ -18,6 +18,7 @@
 #include <glm/common.hpp>
 
 #include "core/named_values.hpp"
+#include "core/try.hpp"
 #include "draw_interface.hpp"
 #include "imgui_input.hpp"
 #include "portal.hpp"
@@ -221,8 +222,7 @@ public:
     Result<Image> showAndRead(const Interface& interface, const Shown& shown) override
     {
         Image image;
-        if (const Status done = show(interface, shown, &image); !done)
-            return done.error();
+        COTAN_CHECK(show(interface, shown, &image));
         if (image.width == 0)
             return unavailableError("view: the window shows nothing");
         return image;
@@ -365,8 +365,7 @@ Result<std::unique_ptr<Window>> open(const WindowOptions& options)
 {
     try {
         auto window = std::make_unique<GlfwWindow>();
-        if (Status opened = window->open(options); !opened)
-            return opened.error();
+        COTAN_CHECK(window->open(options));
         return std::unique_ptr<Window>(std::move(window));
     } catch (const std::exception& e) {
         return unavailableError(std::string("view: ") + e.what());

@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/try.hpp"
 #include "imgui_versions.hpp"
 
 namespace cotan::viewer {
@@ -89,9 +90,7 @@ Status Presenter::State::open(const std::vector<const char*>& extensions, const 
         return bool(physical.getSurfaceSupportKHR(family, *trial));
     };
     const WindowNeeds needs{extensions, presents};
-    auto opened = openDevice({options.device, options.validation}, &needs);
-    if (!opened)
-        return opened.error();
+    COTAN_TRY(opened, openDevice({options.device, options.validation}, &needs));
     device = std::move(*opened);
     remakeSurface();
     commands.emplace(*device);
@@ -354,8 +353,7 @@ Result<std::unique_ptr<Presenter>> Presenter::open(const std::vector<const char*
 {
     auto state = std::make_unique<State>();
     state->makeSurface = std::move(makeSurface);
-    if (const Status opened = state->open(extensions, options); !opened)
-        return opened.error();
+    COTAN_CHECK(state->open(extensions, options));
     return std::unique_ptr<Presenter>(new Presenter(std::move(state)));
 }
 

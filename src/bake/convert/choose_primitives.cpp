@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/try.hpp"
 #include "cotan/gltf.hpp"
 #include "gltf/json/lookup.hpp"
 #include "map_jobs.hpp"
@@ -86,9 +87,7 @@ Result<std::vector<PrimitiveDecision>> choosePrimitives(const GltfDocument& docu
     const std::size_t ways = std::max<std::size_t>(variantsOf(rootOf(document)), 1);
     for (std::size_t way = 0; way < ways; ++way) {
         limitsOfWay.variant = ways > 1 ? std::to_string(way) : "";
-        auto scene = opened && ways == 1 ? Result<Scene>(*std::move(opened)) : gltfScene(document, limitsOfWay);
-        if (!scene)
-            return scene.error();
+        COTAN_TRY(scene, opened && ways == 1 ? Result<Scene>(*std::move(opened)) : gltfScene(document, limitsOfWay));
         for (Mesh& mesh : scene->meshes)
             if (!readsTangents(frames.from) && !namedFrameOf(*scene, mesh))
                 mesh.named = frames.from;

@@ -8,6 +8,7 @@
 
 #include "bake/convert/choose_primitives.hpp"
 #include "bake/convert/map_jobs.hpp"
+#include "core/try.hpp"
 #include "cotan/gltf.hpp"
 #include "cotan/image.hpp"
 #include "cotan/maps.hpp"
@@ -32,20 +33,15 @@ public:
 
     Result<ConvertModelReport> run()
     {
-        const auto named = options_.readMaps ? namedFrame(document_) : Result<std::optional<Frame>>(std::nullopt);
-        if (!named)
-            return named.error();
+        COTAN_TRY(named, options_.readMaps ? namedFrame(document_) : Result<std::optional<Frame>>(std::nullopt));
         if (*named && **named != options_.frames.from)
             return inputError(fmt::format("{}its materials say that the normal maps are for the frame {}; expected "
                                           "that as the frame to convert from, found {}",
                                           fileOf(document_), name(**named), name(options_.frames.from)));
         named_ = named->has_value();
-        if (Status chosen = chooseFramesOfPrimitives(); !chosen)
-            return chosen.error();
-        if (Status converted = options_.readMaps ? convertMaps() : keepReversingTangents(); !converted)
-            return converted.error();
-        if (Status settled = updateTangents(); !settled)
-            return settled.error();
+        COTAN_CHECK(chooseFramesOfPrimitives());
+        COTAN_CHECK(options_.readMaps ? convertMaps() : keepReversingTangents());
+        COTAN_CHECK(updateTangents());
         noteKeptTangents();
         if (!options_.keepMaps && !std::ranges::all_of(report_.maps, &ConvertedMap::kept)
             && options_.frames.to != Frame::mikktspace)
@@ -63,10 +59,9 @@ private:
     {
         std::optional<Scene> scene = std::exchange(scene_, std::nullopt); // its memory is free before maps are read
         if (options_.choose) {
-            auto decisions =
-                choosePrimitives(document_, *options_.choose, options_.frames, options_.limits, std::move(scene));
-            if (!decisions)
-                return decisions.error();
+            COTAN_TRY(
+                decisions,
+                choosePrimitives(document_, *options_.choose, options_.frames, options_.limits, std::move(scene)));
             report_.decisions = std::move(*decisions);
         }
         return forEachPrimitive(rootOf(document_), [&](std::size_t m, std::size_t p) -> Status {
@@ -106,26 +101,21 @@ private:
 
     Status convertMaps()
     {
-        auto jobs = mapJobs(document_, report_.notes, options_.limits);
-        if (!jobs)
-            return jobs.error();
+        COTAN_TRY(jobs, mapJobs(document_, report_.notes, options_.limits));
         applyDecisions(*jobs);
         report_.unread = unreadNormalMaps(document_, options_.limits);
         for (const UnreadMap& map : report_.unread)
             report_.notes.push_back(
                 fmt::format("{}: a normal map in {} is not supported; it and its tangents are unchanged: {}", map.name,
                             map.format, map.advice));
-        if (Status fits = checkMemory(*jobs); !fits)
-            return fits.error();
+        COTAN_CHECK(checkMemory(*jobs));
         for (const MapJob& job : *jobs)
             surfaces_ += surfacesOf(job);
         if (jobs->empty() && report_.unread.empty()) // otherwise their notes say why
             report_.notes.push_back("no primitive has a normal map and uv: nothing to convert");
         for (std::size_t k = 0; k < jobs->size(); ++k) {
             const Progress mapProgress = partOf(options_.progress, k, jobs->size());
-            auto map = convertMap((*jobs)[k], mapProgress);
-            if (!map)
-                return map.error();
+            COTAN_TRY(map, convertMap((*jobs)[k], mapProgress));
             if (mapProgress && !mapProgress(1))
                 return stoppedError();
             report_.maps.push_back(std::move(*map));
@@ -142,9 +132,7 @@ private:
         if (options_.frames.fromTangents != TangentOrigin::stored)
             return Done{};
         std::vector<std::string> aboutMaps; // that stay as they are
-        const auto jobs = mapJobs(document_, aboutMaps, options_.limits, true);
-        if (!jobs)
-            return jobs.error();
+        COTAN_TRY(jobs, mapJobs(document_, aboutMaps, options_.limits, true));
         for (const MapJob& job : *jobs) {
             ConvertedMap none;
             if (std::ranges::any_of(job.readers, showsReversed))
@@ -193,12 +181,8 @@ private:
     Result<ConvertedMap> convertMap(const MapJob& job, const Progress& mapProgress)
     {
         const std::string field = fieldOf(job);
-        const auto bytes = gltfImageBytes(document_, job.image, options_.limits);
-        if (!bytes)
-            return bytes.error();
-        auto map = decodeImage(*bytes, field, options_.limits);
-        if (!map)
-            return map.error();
+        COTAN_TRY(bytes, gltfImageBytes(document_, job.image, options_.limits));
+        COTAN_TRY(map, decodeImage(*bytes, field, options_.limits));
         // The frame that an image names counts only if the materials name none.
         if (const auto named = frameFromName(map->frame); named && !named_ && *named != options_.frames.from)
             return inputError(
@@ -207,9 +191,7 @@ private:
                             field, map->frame, name(options_.frames.from)));
         completeNormals(*map);
         ConvertedMap done{job.image, job.name, surfacesOf(job), map->width, map->height};
-        auto uses = usesOf(document_, job, options_.frames);
-        if (!uses)
-            return uses.error();
+        COTAN_TRY(uses, usesOf(document_, job, options_.frames));
         const maps::NormalStatistics statistics = maps::statisticsOfSample(*map);
         noteFaults(statistics, job.name);
         const Expansions expansions = expansionsOf(job);
@@ -267,10 +249,9 @@ private:
         r.image.frame = name(options_.frames.to);
         const ValueSummary unconverted = done.figures.unconverted;
         done.figures = r;
-        auto file = encodedWithin(std::max(kVisible, 0.5 * unconverted.mean), r.image, *bytes, *map, *uses,
-                                  expansions.written, done);
-        if (!file)
-            return file.error();
+        COTAN_TRY(file,
+                  encodedWithin(std::max(kVisible, 0.5 * unconverted.mean), r.image, *bytes, *map, *uses,
+                                expansions.written, done));
         put(job, std::move(*file), expansions.written, done);
         noteRemainingError(done);
         return done;
@@ -287,9 +268,7 @@ private:
         if (!file || (file->format == "PNG" && !byCaller))
             return file;
         const std::string field = fileOf(document_) + done.name;
-        const auto stored = decodeImage(file->bytes, field, options_.limits);
-        if (!stored)
-            return stored.error();
+        COTAN_TRY(stored, decodeImage(file->bytes, field, options_.limits));
         if (stored->width != image.width || stored->height != image.height)
             return outputError(fmt::format("{}: expected an encoded image of {} x {}, found {} x {}", field,
                                            image.width, image.height, stored->width, stored->height));
@@ -302,9 +281,7 @@ private:
             done.figures.error = lossy;
             return file;
         }
-        auto png = encodePng(image);
-        if (!png)
-            return png.error();
+        COTAN_TRY(png, encodePng(image));
         return EncodedLike{*std::move(png), "PNG", "image/png", 0,
                            fmt::format("{} of quality {} would have an error of {:.2f} degrees on average, PNG {:.2f}",
                                        file->format, file->quality, lossy.mean, done.figures.error.mean)};
@@ -342,9 +319,7 @@ private:
         made.greenReversed = true;
         made.bits = bitsPerComponent(map.type);
         made.figures.error = mapError(map, reversed, uses, options_.frames);
-        auto file = encodedWithin(made.figures.error.mean + kVisible, reversed, old, map, uses, read, made);
-        if (!file)
-            return file.error();
+        COTAN_TRY(file, encodedWithin(made.figures.error.mean + kVisible, reversed, old, map, uses, read, made));
         if (double(file->bytes.size()) > kMaxGrowth * double(old.size())) {
             keepTangents(
                 job, done,
@@ -358,8 +333,7 @@ private:
         for (const MapReader& reader : job.readers)
             if (reader.follows) {
                 made.surfacesWithTangents += reader.transforms.size();
-                if (Status reversedToo = reverseBitangents(document_, reader.mesh, reader.primitive); !reversedToo)
-                    return reversedToo.error();
+                COTAN_CHECK(reverseBitangents(document_, reader.mesh, reader.primitive));
             }
         report_.notes.push_back(fmt::format("{}: the tangents of the file reverse its green; without them, the map has "
                                             "its green reversed",
@@ -431,9 +405,7 @@ private:
             webp && (!required || std::ranges::find(*required, "EXT_texture_webp") == required->end());
         if (!options_.encode && !fallsBack)
             return encodeLike(image, old);
-        auto png = options_.encode ? options_.encode(image) : encodePng(image);
-        if (!png)
-            return png.error();
+        COTAN_TRY(png, options_.encode ? options_.encode(image) : encodePng(image));
         return EncodedLike{*std::move(png), "PNG", "image/png", 0,
                            fallsBack ? "the model does not require its readers to support WebP" : ""};
     }
@@ -468,11 +440,11 @@ private:
     {
         if (readsTangents(options_.frames.to)) {
             report_.tangents = TangentsAfter::given;
-            const auto given = giveTangents(
-                document_,
-                {.frame = options_.frames.to, .replace = true, .mappedOnly = true, .threads = options_.threads});
-            if (!given)
-                return given.error();
+            COTAN_TRY(
+                given,
+                giveTangents(
+                    document_,
+                    {.frame = options_.frames.to, .replace = true, .mappedOnly = true, .threads = options_.threads}));
             report_.primitivesGiven = given->generated;
             return Done{};
         }
@@ -484,10 +456,8 @@ private:
             return Done{};
         }
         const auto foreign = options_.readMaps ? foreignNormalMaps(document_, options_.limits) : std::vector<MapSlot>();
-        auto dropped =
-            dropTangents(document_, options_.frames, foreign, keptTangents_, report_.decisions, report_.notes);
-        if (!dropped)
-            return dropped.error();
+        COTAN_TRY(dropped,
+                  dropTangents(document_, options_.frames, foreign, keptTangents_, report_.decisions, report_.notes));
         report_.dropped = std::move(*dropped);
         return Done{};
     }

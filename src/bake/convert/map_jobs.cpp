@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "bake/convert/choose_primitives.hpp"
+#include "core/try.hpp"
 #include "cotan/image.hpp"
 #include "gltf/json/lookup.hpp"
 
@@ -90,14 +91,10 @@ const char* whatOf(NormalSlot slot) { return slot == NormalSlot::coat ? "its coa
 Result<Mesh> meshFor(const GltfDocument& document, std::size_t m, std::size_t p, MapSlot slot, std::string& why)
 {
     const NormalSlot kind = slot.kind;
-    auto geometry = gltfGeometry(document, m, p, NormalSlot::surface, slot.material);
-    if (!geometry)
-        return geometry.error();
+    COTAN_TRY(geometry, gltfGeometry(document, m, p, NormalSlot::surface, slot.material));
     Mesh mesh = gltfMesh(std::move(*geometry));
     if (kind == NormalSlot::coat) {
-        auto coat = gltfGeometry(document, m, p, kind, slot.material);
-        if (!coat)
-            return coat.error();
+        COTAN_TRY(coat, gltfGeometry(document, m, p, kind, slot.material));
         mesh.texcoords[1] = std::move(gltfMesh(std::move(*coat)).texcoords[0]);
     }
     if (mesh.indices.empty())
@@ -136,9 +133,7 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapSlo
         return Done{};
     }
     std::string why;
-    const auto mesh = meshFor(document, m, p, slot, why);
-    if (!mesh)
-        return mesh.error();
+    COTAN_TRY(mesh, meshFor(document, m, p, slot, why));
     if (!why.empty()) {
         notes.push_back(
             fmt::format("{}: {}; {} is not converted for it", primitiveField(m, p), why, whatOf(slot.kind)));
@@ -223,8 +218,7 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
             for (const NormalSlot kind : kNormalSlots) {
                 const MapSlot slot{material, kind};
                 const bool isForeign = std::binary_search(foreign.begin(), foreign.end(), slot);
-                if (Status added = addUse(document, m, p, slot, isForeign, transforms[m], jobs, notes); !added)
-                    return added;
+                COTAN_CHECK(addUse(document, m, p, slot, isForeign, transforms[m], jobs, notes));
             }
         return Done{};
     });
@@ -262,10 +256,8 @@ std::size_t surfacesOf(const MapJob& job)
 
 Status reverseBitangents(GltfDocument& document, std::size_t mesh, std::size_t primitive)
 {
-    const auto geometry =
-        gltfGeometry(document, mesh, primitive, NormalSlot::surface, std::nullopt, TexcoordSpace::file);
-    if (!geometry)
-        return geometry.error();
+    COTAN_TRY(geometry,
+              gltfGeometry(document, mesh, primitive, NormalSlot::surface, std::nullopt, TexcoordSpace::file));
     GltfCornerTangents tangents{mesh, primitive, {}};
     for (const std::uint32_t i : geometry->indices)
         tangents.corners.push_back(geometry->tangents[i] * glm::vec4(1, 1, 1, -1));
@@ -289,9 +281,7 @@ Result<std::vector<MapUse>> usesOf(const GltfDocument& document, const MapJob& j
     std::vector<MapUse> uses;
     for (const MapReader& r : job.readers) {
         std::string why;
-        auto mesh = meshFor(document, r.mesh, r.primitive, r.slot, why);
-        if (!mesh)
-            return mesh.error();
+        COTAN_TRY(mesh, meshFor(document, r.mesh, r.primitive, r.slot, why));
         const auto held = std::make_shared<const Mesh>(*std::move(mesh));
         FramePair used = frames;
         used.to = r.readWith.value_or(frames.to);
@@ -354,9 +344,7 @@ namespace {
 Result<ValueSummary> turnOf(const GltfDocument& document, std::size_t m, std::size_t p,
                             const std::vector<glm::dmat3>& transforms, const FramePair& frames)
 {
-    auto geometry = gltfGeometry(document, m, p);
-    if (!geometry)
-        return geometry.error();
+    COTAN_TRY(geometry, gltfGeometry(document, m, p));
     const auto mesh = std::make_shared<const Mesh>(gltfMesh(std::move(*geometry)));
     const MappedSurface surface =
         makeSurface(mesh, Texture{}, glm::dmat3(1), framesRead(frames, !mesh->tangents.empty()));
@@ -416,9 +404,7 @@ Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frame
             FramePair own = frames;
             if (const FrameDecision* const chosen = decisionOf(decisions, {m, p}))
                 own.to = chosen->frame;
-            const auto turn = turnOf(document, m, p, transforms[m], own);
-            if (!turn)
-                return turn.error();
+            COTAN_TRY(turn, turnOf(document, m, p, transforms[m], own));
             RotatedDirection& d = dropped.directions.emplace_back(RotatedDirection{m, p, material, *turn, false});
             d.stays = !requirement.empty() || !directionStays(d.degrees);
             if (d.stays)

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "bake/convert/map_jobs.hpp"
+#include "core/try.hpp"
 #include "cotan/image.hpp"
 #include "gltf/json/lookup.hpp"
 #include "gltf/json/views.hpp"
@@ -116,9 +117,7 @@ Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const Pu
 {
     std::set<std::size_t> materials;
     if (options.material) {
-        const auto chosen = materialNamed(rootOf(document), *options.material);
-        if (!chosen)
-            return chosen.error();
+        COTAN_TRY(chosen, materialNamed(rootOf(document), *options.material));
         materials = {*chosen};
     } else {
         materials = allMaterials(document);
@@ -128,8 +127,7 @@ Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const Pu
         nameFrame(document, material, options.frame);
         setExpansion(rootOf(document)["materials"][material], options.expansion);
     }
-    if (Status settled = updateTangents(document, options, notes); !settled)
-        return settled;
+    COTAN_CHECK(updateTangents(document, options, notes));
     if (options.frame != Frame::mikktspace)
         notes.push_back(fmt::format(
             "the map is for the frame {}; readers that generate MikkTSpace tangents where TANGENT is missing, "
@@ -141,12 +139,9 @@ Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const Pu
 Result<GltfWritten> writeModelWithMap(GltfDocument& document, const Image& map, const PutMapOptions& options,
                                       const std::filesystem::path& output)
 {
-    auto png = encodePng(map);
-    if (!png)
-        return png.error();
+    COTAN_TRY(png, encodePng(map));
     std::vector<std::string> notes;
-    if (Status put = putNormalMap(document, std::move(*png), options, notes); !put)
-        return put.error();
+    COTAN_CHECK(putNormalMap(document, std::move(*png), options, notes));
     auto written = writeGltf(document, output);
     if (written)
         written->notes.insert(written->notes.begin(), notes.begin(), notes.end());

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "core/named_values.hpp"
+#include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "files/children.hpp"
 #include "files/file_registry.hpp"
@@ -160,8 +161,7 @@ Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest reques
     request.bytes = std::vector<std::byte>(); // free the bytes while the child reads; {} would keep their memory
     if (more)
         more(started->question_);
-    if (Status found = started->await(); !found)
-        return found.error();
+    COTAN_CHECK(started->await());
     return started;
 }
 
@@ -183,8 +183,7 @@ Status ReaderProcess::await()
         if (!answer_.good())
             return failure();
         if (frame == ReaderFrame::input)
-            if (Status free = noteInput(input); !free)
-                return free;
+            COTAN_CHECK(noteInput(input));
         if (frame == ReaderFrame::value)
             return Done{};
         if (frame == ReaderFrame::error) {

@@ -9,6 +9,7 @@
 
 #include <glm/mat3x3.hpp>
 
+#include "core/try.hpp"
 #include "cotan/gltf.hpp"
 #include "cotan/result.hpp"
 #include "gltf/json/views.hpp"
@@ -45,8 +46,7 @@ template<class Visit> Status forEachPrimitive(const gltf::Json& root, const Visi
 {
     for (std::size_t m = 0; m < countOf(root, "meshes"); ++m)
         for (std::size_t p = 0; p < root["meshes"][m]["primitives"].size(); ++p)
-            if (Status status = visit(m, p); !status)
-                return status;
+            COTAN_CHECK(visit(m, p));
     return Done{};
 }
 

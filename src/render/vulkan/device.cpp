@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/named_values.hpp"
+#include "core/try.hpp"
 #include "gpu_structs.hpp"
 #include "pipeline.hpp"
 
@@ -234,8 +235,7 @@ Result<std::unique_ptr<Device>> openDevice(const VulkanRendererOptions& options,
         auto d = std::make_unique<Device>();
         d->presents = window != nullptr;
         openInstance(*d, options.validation, window ? window->extensions : std::vector<const char*>());
-        if (const Status chosen = choose(*d, options.device, window); !chosen)
-            return chosen.error();
+        COTAN_CHECK(choose(*d, options.device, window));
         d->name = nameOf(d->physical);
         d->queueFamily = std::uint32_t(graphicsFamily(d->physical)); // not -1: missingFeature has checked it
         describe(*d);

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <optional>
 
+#include "core/try.hpp"
 #include "draw_passes.hpp"
 #include "render/shared_device.hpp"
 #include "scene/geometry.hpp"
@@ -49,8 +50,7 @@ double secondsSince(std::chrono::steady_clock::time_point start)
 
 Status checkLimits(const Device& device, const View& view)
 {
-    if (Status sound = checkView(view); !sound)
-        return sound;
+    COTAN_CHECK(checkView(view));
     if (view.lighting != Lighting::world)
         return unavailableError("lighting in tangent space: only the reference renderer supports it "
                                 "(--device reference)");
@@ -167,8 +167,7 @@ Status CommandRecorder::drawOnce(GpuScene& scene, const View& view, std::optiona
         if (layered) {
             targets_->endOpaque(commands);
             commands_.submitAndWait();
-            if (const Status ok = drawLayers(lists); !ok)
-                return ok.error();
+            COTAN_CHECK(drawLayers(lists));
             begin();
         } else {
             commands.endRendering();
@@ -192,8 +191,7 @@ bool CommandRecorder::staysOnDevice(const View& view)
 
 Status CommandRecorder::draw(GpuScene& scene, const View& view, RenderTimings& timings, Image* host)
 {
-    if (const Status ok = checkLimits(*device_, view); !ok)
-        return ok.error();
+    COTAN_CHECK(checkLimits(*device_, view));
     const std::vector<Status>& has = view.framesOfMeshes ? scene.withFramesOfMeshes : scene.withFrame;
     if (const Status& ok = has[std::size_t(view.frame)]; !ok)
         return ok.error();
@@ -207,8 +205,7 @@ Status CommandRecorder::draw(GpuScene& scene, const View& view, RenderTimings& t
         return drawOnce(scene, view, std::nullopt, timings, host);
     Image sum = makeImage(view.width, view.height, PixelType::float32, "render"), image;
     for (int sample = 0; sample < kSampleCount; ++sample) {
-        if (const Status drawn = drawOnce(scene, view, sample, timings, &image); !drawn)
-            return drawn;
+        COTAN_CHECK(drawOnce(scene, view, sample, timings, &image));
         for (std::size_t i = 0; i < 4 * sum.pixelCount(); ++i)
             sum.floats()[i] += image.floats()[i];
     }
@@ -252,8 +249,7 @@ VulkanRenderer::~VulkanRenderer() = default;
 Status VulkanRenderer::load(const Scene& scene, bool sameImages)
 {
     return guarded<Done>("uploading the scene", [&]() -> Status {
-        if (const Status ok = checkTrianglesDrawn(scene); !ok)
-            return ok;
+        COTAN_CHECK(checkTrianglesDrawn(scene));
         const auto start = std::chrono::steady_clock::now();
         state_->drawer->forgetScene();
         Textures textures = sameImages && state_->scene ? state_->scene->takeTextures() : Textures(*state_->device);
@@ -267,8 +263,7 @@ Status VulkanRenderer::load(const Scene& scene, bool sameImages)
 Result<Image> VulkanRenderer::render(const View& view)
 {
     if (!state_->scene)
-        if (const Status loaded = load(Scene{}); !loaded)
-            return loaded.error();
+        COTAN_CHECK(load(Scene{}));
     return guarded<Image>("drawing", [&]() -> Result<Image> {
         Image image;
         const Status drawn = state_->drawer->draw(*state_->scene, view, state_->timings, &image);
