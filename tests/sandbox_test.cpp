@@ -285,11 +285,11 @@ TEST_F(Sandboxed, theReaderEndsWhenItsParentIsKilledOrInterrupted)
 // The text is cut to the given number of bytes; "..." marks a cut.
 TEST(SandboxText, isTruncatedAndControlCharactersBecomeSpaces)
 {
-    EXPECT_EQ(printable("abcd", 4), "abcd");
-    EXPECT_EQ(printable("abcde", 4), "abcd...");
-    EXPECT_EQ(printable("", 0), "");
-    EXPECT_EQ(printable("\n\t\x1f !~\x7f\xc3\xa4", 99), "    !~ \xc3\xa4");
-    EXPECT_EQ(printable(std::string("a\0b", 3), 3), "a b");
+    EXPECT_EQ(oneLine("abcd", 4), "abcd");
+    EXPECT_EQ(oneLine("abcde", 4), "abcd...");
+    EXPECT_EQ(oneLine("", 0), "");
+    EXPECT_EQ(oneLine("\n\t\x1f !~\x7f\xc3\xa4", 99), "    !~ \xc3\xa4");
+    EXPECT_EQ(oneLine(std::string("a\0b", 3), 3), "a b");
 }
 
 // The caller's limits apply to the child's answer too, here a plane of 25 vertices and 32 triangles.

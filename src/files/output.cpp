@@ -238,7 +238,7 @@ Status writeBytes(const OutputFile& file, const ByteBlocks& blocks)
 Status writeFileWhole(const fs::path& file, std::string_view text)
 {
     COTAN_TRY(output, OutputFile::begin(file));
-    if (Status written = writeBytes(*output, {std::as_bytes(std::span(text))}); !written)
+    if (Status written = writeBytes(*output, {std::as_bytes(std::span(text.data(), text.size()))}); !written)
         return output->failed(written.error());
     return output->commit();
 }

@@ -251,7 +251,7 @@ void GltfMaterials::checkOtherImages() const
 {
     const std::vector<std::pair<int, int>> decoded = imagesToDecode();
     for (int i = 0; i < int(model_.structure.images.size()); ++i) {
-        if (std::ranges::binary_search(decoded, i, {}, &std::pair<int, int>::first))
+        if (std::ranges::find(decoded, i, &std::pair<int, int>::first) != decoded.end())
             continue;
         const bool used = slots_.contains(i);
         try {

@@ -27,7 +27,7 @@ Error expected(const std::string& member, const std::string& what, const Json& f
     const std::string text = found.is_array() ? "a list"
         : found.is_object()                   ? "an object"
                                               : found.dump(-1, ' ', false, Json::error_handler_t::replace);
-    return inputError(fmt::format("\"{}\": expected {}; found {}", member, what, printable(text, 60)));
+    return inputError(fmt::format("\"{}\": expected {}; found {}", member, what, oneLine(text, 60)));
 }
 
 // The strings of an array member; empty if the member is absent.
@@ -120,7 +120,7 @@ Result<Job> readJob(std::string_view line, const CheckWords& check)
     for (const auto& [member, value] : parsed.items())
         if (std::ranges::find(kMembers, member) == std::end(kMembers))
             return inputError(
-                fmt::format("expected {}; found \"{}\"", fmt::join(kMembers, ", "), printable(member, 60)));
+                fmt::format("expected {}; found \"{}\"", fmt::join(kMembers, ", "), oneLine(member, 60)));
     const auto command = texts(parsed, "command"), inputs = texts(parsed, "inputs"), outputs = texts(parsed, "outputs");
     for (const auto* list : {&command, &inputs, &outputs})
         if (!*list)
@@ -133,7 +133,7 @@ Result<Job> readJob(std::string_view line, const CheckWords& check)
         const Json& name = parsed["name"];
         if (!name.is_string() || name.get<std::string>().empty() || name.get<std::string>().size() > kMaxNameBytes)
             return expected("name", fmt::format("a string of 1 to {} bytes", kMaxNameBytes), name);
-        job.name = printable(name.get<std::string>(), kMaxNameBytes);
+        job.name = oneLine(name.get<std::string>(), kMaxNameBytes);
     } else {
         job.name = commandLine(job.words);
     }
@@ -187,7 +187,7 @@ Result<JobList> readJobs(const std::filesystem::path& file, const CheckWords& ch
             const auto [known, isNew] = lines.emplace(job->name, line);
             if (!isNew)
                 job = inputError(fmt::format("'{}' is also the name of line {}; expected a different name for each job",
-                                             printable(job->name, 120), known->second));
+                                             oneLine(job->name, 120), known->second));
         }
         if (job)
             list.jobs.push_back(std::move(*job));

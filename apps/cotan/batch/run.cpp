@@ -55,12 +55,12 @@ std::string lastMessage(const std::string& output)
 {
     constexpr std::string_view kError = "cotan: error: ";
     if (const std::size_t at = output.rfind(kError); at != std::string::npos)
-        return printable(output.substr(at + kError.size(), output.find('\n', at) - at - kError.size()), 400);
+        return oneLine(output.substr(at + kError.size(), output.find('\n', at) - at - kError.size()), 400);
     const std::size_t end = output.find_last_not_of(" \n\r\t");
     if (end == std::string::npos)
         return "it printed nothing";
     const std::size_t begin = output.rfind('\n', end);
-    return printable(output.substr(begin == std::string::npos ? 0 : begin + 1, end - begin), 400);
+    return oneLine(output.substr(begin == std::string::npos ? 0 : begin + 1, end - begin), 400);
 }
 
 // The record of a job that did not run.

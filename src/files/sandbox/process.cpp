@@ -69,7 +69,7 @@ void Descriptor::close()
     number_ = -1;
 }
 
-std::string printable(std::string text, std::size_t maxBytes)
+std::string oneLine(std::string text, std::size_t maxBytes)
 {
     if (text.size() > maxBytes)
         text.replace(maxBytes, text.size() - maxBytes, "...");
@@ -193,7 +193,7 @@ Status ReaderProcess::await()
                 answer_.refuse();
             if (!answer_.good())
                 return failure();
-            return reworded(error, printable(error.message, 4096));
+            return reworded(error, oneLine(error.message, 4096));
         }
     }
 }
@@ -296,7 +296,7 @@ Error ReaderProcess::failure()
 {
     const ReaderBudget budget = budgetFor(limits_, fileBytes_, decodedBytes_);
     const auto line = [&](const std::string& what) {
-        const std::string first = printable(log_.substr(0, log_.find('\n')), 160);
+        const std::string first = oneLine(log_.substr(0, log_.find('\n')), 160);
         return inputError(fmt::format("{}: {} {}{}", name_, reader_, what, first.empty() ? "" : ": " + first));
     };
     int status = 0;
