@@ -57,9 +57,9 @@ if(Python3_FOUND)
   endforeach()
 endif()
 
-# The field's terms in comments, messages, names and pages.
+# The field's terms in messages, names and pages.
 if(Python3_FOUND)
-  foreach(fact comments messages names pages)
+  foreach(fact messages names pages)
     add_test(NAME Words.${fact}UseTheTermsOfTheField
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/words_test.py ${PROJECT_SOURCE_DIR} ${fact}UseTheTermsOfTheField)
   endforeach()

@@ -15,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/one_line.hpp"
 #include "cotan/image.hpp"
 #include "cotan/model.hpp"
 #include "files/file_registry.hpp"

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "core/one_line.hpp"
 #include "core/parse_number.hpp"
 #include "core/try.hpp"
 #include "scene/geometry.hpp"

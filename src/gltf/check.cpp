@@ -7,6 +7,7 @@
 
 #include <fmt/ranges.h>
 
+#include "core/one_line.hpp"
 #include "gltf_file.hpp"
 #include "schema.hpp"
 

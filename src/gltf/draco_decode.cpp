@@ -8,6 +8,7 @@
 #include <draco/core/decoder_buffer.h>
 #include <draco/core/varint_decoding.h>
 
+#include "core/one_line.hpp"
 #include "elements.hpp"
 #include "gltf/draco.hpp"
 #include "problem.hpp"

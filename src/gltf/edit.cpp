@@ -1,6 +1,7 @@
 // Opens a glTF file for editing; reads its geometry; edits images, textures and materials.
 #include <numeric>
 
+#include "core/one_line.hpp"
 #include "cotan/vector.hpp"
 #include "edit_state.hpp"
 #include "gltf_model.hpp"

@@ -5,6 +5,7 @@
 
 #include <fmt/ranges.h>
 
+#include "core/one_line.hpp"
 #include "edit_state.hpp"
 
 namespace cotan::gltf_edit {

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 
+#include "core/one_line.hpp"
 #include "cotan/tangents.hpp"
 #include "edit_state.hpp"
 #include "gltf_model.hpp"

@@ -9,6 +9,7 @@
 
 #include "core/file_names.hpp"
 #include "core/named_values.hpp"
+#include "core/one_line.hpp"
 #include "core/try.hpp"
 #include "edit_state.hpp"
 #include "files/bytes.hpp"

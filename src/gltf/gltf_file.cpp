@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/locale_of_c.hpp"
+#include "core/one_line.hpp"
 #include "files/bytes.hpp"
 #include "files/file_registry.hpp"
 

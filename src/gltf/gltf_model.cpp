@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 #include <glm/common.hpp>
 
+#include "core/one_line.hpp"
 #include "core/parse_number.hpp"
 #include "gltf/json/lookup.hpp"
 #include "schema.hpp"

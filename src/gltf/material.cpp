@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/loops.hpp"
+#include "core/one_line.hpp"
 #include "cotan/image.hpp"
 #include "files/bytes.hpp"
 #include "image/component_types.hpp"

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <numeric>
 
+#include "core/one_line.hpp"
 #include "cotan/vector.hpp"
 #include "gltf/json/lookup.hpp"
 #include "gltf_model.hpp"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/one_line.hpp"
+
 namespace cotan {
 
 void failGltfVersion1(const std::string& field)
@@ -43,18 +45,6 @@ std::vector<std::string> GltfWarnings::lines() const
     if (leftOut_ > 0)
         lines.push_back(fmt::format("{} more warnings are left out", leftOut_));
     return lines;
-}
-
-std::string oneLine(std::string_view text)
-{
-    constexpr std::size_t kMaxLength = 500;
-    std::string line(text.substr(0, kMaxLength));
-    for (char& c : line)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-            c = ' ';
-    while (!line.empty() && line.back() == ' ')
-        line.pop_back();
-    return text.size() > kMaxLength ? line + "..." : line;
 }
 
 } // namespace cotan

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "core/one_line.hpp"
 #include "cotan/result.hpp"
 
 namespace cotan {
@@ -57,9 +58,6 @@ private:
     std::vector<Entry> entries_;
     std::size_t leftOut_ = 0;
 };
-
-// Makes text from a file fit for a one-line message: replaces control characters and limits the length.
-std::string oneLine(std::string_view text);
 
 // Returns load(), or its exception as an error: one line that starts with the file name.
 template<class Load> auto caughtGltf(const std::filesystem::path& file, Load load) -> Result<decltype(load())>

@@ -3,6 +3,7 @@
 #include <optional>
 #include <set>
 
+#include "core/one_line.hpp"
 #include "elements.hpp"
 #include "files/sandbox/process.hpp"
 #include "gltf/draco.hpp"

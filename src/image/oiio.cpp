@@ -14,20 +14,13 @@
 #include <fmt/format.h>
 
 #include "core/named_values.hpp"
+#include "core/one_line.hpp"
 #include "formats.hpp"
 #include "image/checks.hpp"
 #include "image/component_types.hpp"
 #include "image/format_table.hpp"
 
 namespace cotan::oiio {
-
-std::string oneLine(std::string text)
-{
-    while (!text.empty() && isSpace(text.back()))
-        text.pop_back();
-    std::ranges::replace(text, '\n', ' ');
-    return text;
-}
 
 OIIO::TypeDesc typeDesc(PixelType type)
 {

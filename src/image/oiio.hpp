@@ -42,9 +42,6 @@ Problem checkBmp(File& file, const LoadLimits& limits);
 
 // ---- shared --------------------------------------------------------------------------------
 
-// An OpenImageIO message without trailing white space and with spaces for line breaks.
-std::string oneLine(std::string text);
-
 OIIO::TypeDesc typeDesc(PixelType type);
 
 // ---- writing: functions of ImageFormats ----------------------------------------------------

@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "core/one_line.hpp"
 #include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "image/checks.hpp"

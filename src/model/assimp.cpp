@@ -20,6 +20,7 @@
 
 #include "assimp_convert.hpp"
 #include "core/locale_of_c.hpp"
+#include "core/one_line.hpp"
 #include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "scene/scene_check.hpp"
@@ -309,7 +310,7 @@ try {
         failModel("no reader for the extension \"{}\"", job.extension);
     const aiScene* source = import(job, importer);
     if (!source || !source->mRootNode)
-        failModel("expected a model that Assimp can read; it reports: {}", withoutBreaks(importer.GetErrorString()));
+        failModel("expected a model that Assimp can read; it reports: {}", oneLine(importer.GetErrorString()));
     checkIndices(*source);
     removeEmptyFaces(*source, job);
     if (job.limits.expect)
@@ -331,7 +332,7 @@ try {
 } catch (const std::bad_alloc&) {
     return inputError(fmt::format("{}: not enough memory for the model", file.string()));
 } catch (const std::exception& e) {
-    return inputError(fmt::format("{}: {}", file.string(), withoutBreaks(e.what())));
+    return inputError(fmt::format("{}: {}", file.string(), oneLine(e.what())));
 } catch (...) {
     return inputError(fmt::format("{}: the reader failed", file.string()));
 }

@@ -12,6 +12,7 @@
 
 #include "assimp_convert.hpp"
 #include "core/named_values.hpp"
+#include "core/one_line.hpp"
 #include "core/parse_number.hpp"
 
 namespace cotan {
@@ -288,19 +289,12 @@ void checkAccessors(std::string_view text)
         const std::uint64_t needed =
             numberOf(tag, "offset", 0) + (count - 1) * numberOf(tag, "stride", 1) + std::max<std::uint64_t>(params, 1);
         if (needed > array->second)
-            failModel("accessor of {}: expected an array of at least {} numbers, found {}",
-                      withoutBreaks(std::string(source)), needed, array->second);
+            failModel("accessor of {}: expected an array of at least {} numbers, found {}", oneLine(source), needed,
+                      array->second);
     });
 }
 
 } // namespace
-
-std::string withoutBreaks(std::string text)
-{
-    std::ranges::replace_if(
-        text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
-    return text;
-}
 
 void checkPly(std::span<const std::byte> bytes, const LoadLimits& limits)
 {

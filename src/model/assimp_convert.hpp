@@ -31,9 +31,6 @@ void convertNodes(const aiScene& source, const std::vector<int>& meshes, const L
 
 // ---- checks, which throw (failModel) ---------------------------------------------------------
 
-// Replaces line breaks by spaces, for one-line messages.
-std::string withoutBreaks(std::string text);
-
 // Checks each line of a PLY header, then that every counted row and list value exists, because Assimp allocates memory
 // by these counts. Source: the PLY description of G. Turk (1994), with the sized type names that are common now.
 void checkPly(std::span<const std::byte> bytes, const LoadLimits& limits);

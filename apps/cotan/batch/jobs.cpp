@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/one_line.hpp"
 #include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "files/json.hpp"
@@ -119,8 +120,7 @@ Result<Job> readJob(std::string_view line, const CheckWords& check)
         return inputError("expected a JSON object; found another JSON value");
     for (const auto& [member, value] : parsed.items())
         if (std::ranges::find(kMembers, member) == std::end(kMembers))
-            return inputError(
-                fmt::format("expected {}; found \"{}\"", fmt::join(kMembers, ", "), oneLine(member, 60)));
+            return inputError(fmt::format("expected {}; found \"{}\"", fmt::join(kMembers, ", "), oneLine(member, 60)));
     const auto command = texts(parsed, "command"), inputs = texts(parsed, "inputs"), outputs = texts(parsed, "outputs");
     for (const auto* list : {&command, &inputs, &outputs})
         if (!*list)

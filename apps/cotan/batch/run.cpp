@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 
+#include "core/one_line.hpp"
 #include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "files/children.hpp"

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "core/named_values.hpp"
+#include "core/one_line.hpp"
 #include "core/try.hpp"
 #include "files/bytes.hpp"
 #include "files/children.hpp"
@@ -67,15 +68,6 @@ void Descriptor::close()
     if (number_ >= 0)
         ::close(number_);
     number_ = -1;
-}
-
-std::string oneLine(std::string text, std::size_t maxBytes)
-{
-    if (text.size() > maxBytes)
-        text.replace(maxBytes, text.size() - maxBytes, "...");
-    std::ranges::replace_if(
-        text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-    return text;
 }
 
 int spawn(const SpawnRequest& request, pid_t& process)

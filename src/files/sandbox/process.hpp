@@ -100,7 +100,4 @@ private:
     WireOut question_;
 };
 
-// Makes a message of another process one line: no control characters, at most `maxBytes` and "...".
-std::string oneLine(std::string text, std::size_t maxBytes);
-
 } // namespace cotan

@@ -1,0 +1,21 @@
+// Text of files, users and libraries in messages, which are one line.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+namespace cotan {
+
+// The text with spaces for control characters and none at its end. Longer text ends after `maxBytes` with "...".
+inline std::string oneLine(std::string_view text, std::size_t maxBytes = 500)
+{
+    std::string line(text.substr(0, maxBytes));
+    std::ranges::replace_if(
+        line, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+    while (!line.empty() && line.back() == ' ')
+        line.pop_back();
+    return text.size() > maxBytes ? line + "..." : line;
+}
+
+} // namespace cotan
