@@ -127,6 +127,11 @@ GltfModel modelOf(const GltfDocument& document, const LoadLimits& limits)
         return gltf::ViewBytes{viewBytes(document, at++), gltf::readBufferView(json).stride};
     });
     interpretGltfModel(model);
+    for (gltf::Image& image : model.structure.images) { // decoders get the names that convert uses
+        if (image.name.empty() && image.uri && !image.uri->starts_with("data:"))
+            image.name = *image.uri;
+        image.named = !image.name.empty();
+    }
     return model;
 }
 

@@ -39,7 +39,7 @@ ImageSource findImage(const GltfModel& model, int image, bool mayMiss = false)
     } else {
         source.resource = resolveGltfUri(model.file, *entry.uri, field + ".uri", mayMiss);
         source.bytes = source.resource.bytes;
-        if (!source.resource.file.empty())
+        if (!source.resource.file.empty() && !entry.named)
             source.name = source.resource.file.filename().string();
     }
     if (source.name.empty())

@@ -184,6 +184,7 @@ struct Image {
     std::string name;
     std::optional<std::string_view> uri; // points into the JSON
     int view = -1;
+    bool named = false; // messages have `name`, not that of the file
 };
 
 // info: a material's "normalTexture" or other texture info; null: none.
