@@ -218,8 +218,6 @@ TEST_F(AssimpStructures, meshesKeepTheirTrianglesAndWarnAboutNonFiniteValues)
     EXPECT_TRUE(convertMesh(*mesh, false, scene).positions.empty());
 }
 
-TEST(AssimpMessages, lineBreaksBecomeSpaces) { EXPECT_EQ(withoutBreaks("a\nb\r\nc\r"), "a b  c "); }
-
 TEST_F(AssimpStructures, nodesPlaceMeshesAndCamerasUpToALimit)
 {
     aiScene source; // owns what it points to

@@ -289,6 +289,7 @@ TEST(SandboxText, isTruncatedAndControlCharactersBecomeSpaces)
     EXPECT_EQ(oneLine("abcd", 4), "abcd");
     EXPECT_EQ(oneLine("abcde", 4), "abcd...");
     EXPECT_EQ(oneLine("", 0), "");
+    EXPECT_EQ(oneLine("a\nb\r\nc\r"), "a b  c");
     EXPECT_EQ(oneLine("\n\t\x1f !~\x7f\xc3\xa4", 99), "    !~ \xc3\xa4");
     EXPECT_EQ(oneLine(std::string("a\0b", 3), 3), "a b");
 }

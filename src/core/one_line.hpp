@@ -1,7 +1,6 @@
 // Text of files, users and libraries in messages, which are one line.
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -11,8 +10,9 @@ namespace cotan {
 inline std::string oneLine(std::string_view text, std::size_t maxBytes = 500)
 {
     std::string line(text.substr(0, maxBytes));
-    std::ranges::replace_if(
-        line, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+    for (char& c : line)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+            c = ' ';
     while (!line.empty() && line.back() == ' ')
         line.pop_back();
     return text.size() > maxBytes ? line + "..." : line;

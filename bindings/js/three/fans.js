@@ -30,8 +30,7 @@ export function welded({ position, normal, uv }) {
 // rising: all these corners, in rising order.
 export function fansOf(mesh, wanted) {
   const { corners } = mesh, first = mesh.first ??= welded(mesh), count = first.length, flags = new Uint8Array(count);
-  if (wanted) for (const c of wanted) flags[first[corners[c]]] = 1;
-  else flags.fill(1);
+  for (const c of wanted ?? corners.keys()) flags[first[corners[c]]] = 1;
   const starts = new Uint32Array(count + 1), at = new Int32Array(corners.length), rising = [];
   for (let c = 0; c < corners.length; ++c) {
     const v = first[corners[c]];
