@@ -84,7 +84,7 @@ Result<std::vector<PrimitiveDecision>> choosePrimitives(const GltfDocument& docu
     LoadLimits limitsOfWay = load;
     limitsOfWay.pixels = Pixels::normalMaps;
     std::map<SourcePrimitive, FrameDecision> found;
-    const std::size_t ways = std::max<std::size_t>(variantsOf(rootOf(document)), 1);
+    const std::size_t ways = std::clamp<std::size_t>(variantsOf(rootOf(document)), 1, kMaxVariants);
     for (std::size_t way = 0; way < ways; ++way) {
         limitsOfWay.variant = ways > 1 ? std::to_string(way) : "";
         COTAN_TRY(scene, opened && ways == 1 ? Result<Scene>(*std::move(opened)) : gltfScene(document, limitsOfWay));

@@ -11,6 +11,9 @@
 
 namespace cotan {
 
+// Of more variants only the first are judged: each takes the time to make and judge a scene.
+inline constexpr std::size_t kMaxVariants = 8;
+
 // One decision for each primitive with triangles that the file's nodes show, in the order of the file: that of
 // chooseFrames. A primitive that is drawn in several ways (by skins, morph weights, or the materials of variants) is
 // judged by the worst of them. frames: what maps were made for whose frame the file does not name. scene: of the
