@@ -50,6 +50,15 @@ void main()
     sum += cotan_resolve_gradient(n, g);
     sum += cotan_blend_reoriented(m, n) + cotan_blend_whiteout(m, n) + cotan_blend_udn(m, n);
     sum += cotan_blend_slopes(m, n, 1.0, 0.5) + cotan_blend_linear(m, n);
+    cotan_frame metric = cotan_frame_projected(n, p, m);
+    sum += cotan_to_texture_space(metric, p) + cotan_texture_travel(metric, p);
+    sum += cotan_tangent_direction(metric, n, uv);
+    cotan_hex_tiles tiles = cotan_hex_tiles_at(uv, 7.0);
+    sum += tiles.weights * cotan_wrapped_difference(tiles.a.x, 1.0);
+    cotan_relief relief = cotan_relief_next(cotan_relief_start(metric, p, uv, 0.1, 16.0), m.x);
+    relief = cotan_relief_next(cotan_relief_shadow(metric, m, relief.uv, 0.5, 0.1, 16.0), m.y);
+    sum.x += cotan_relief_distance(relief, metric, p, 0.1) + relief.found;
+    sum.y += cotan_slope_of_rotated(cotan_parallax_offset(metric, p, 0.1), 0.6, 0.8).x;
     cotan_surface s;
     s.base_color = m;
     s.metallic = 0.5;

@@ -39,11 +39,11 @@ TEST(ShaderForms, incompatibleChoicesAreRefusedByTheirRule)
                                              "fragment, with the vectors in the mesh");
     }
     for (const Set set : kSets) {
-        const bool has = set == Set::gradient || set == Set::blend || set == Set::light;
+        const bool has = set != Set::environment && set != Set::tone && set != Set::shadow;
         EXPECT_EQ(errorOf({.language = Language::godot, .sets = {set}}),
                   has ? ""
                       : "the set " + std::string(name(set))
-                          + ": Godot does this itself; expected gradient, blend or light");
+                          + ": Godot does this itself; expected gradient, blend, space, mapping, parallax or light");
     }
     EXPECT_EQ(errorOf({.language = Language::godot, .uvSets = 2}), "");
     EXPECT_EQ(errorOf({.language = Language::godot, .uvSets = 3}),

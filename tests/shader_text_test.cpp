@@ -315,6 +315,9 @@ TEST(ChosenText, functionSetsAreIncludedOnlyOnRequest)
     // For each set, a function that no other set includes.
     const std::map<Set, std::string> exclusive = {{Set::gradient, "cotan_gradient_triplanar("},
                                                   {Set::blend, "cotan_blend_udn("},
+                                                  {Set::space, "cotan_to_texture_space("},
+                                                  {Set::mapping, "cotan_frame_projected("},
+                                                  {Set::parallax, "cotan_relief_shadow("},
                                                   {Set::light, "cotan_reflect_coat("},
                                                   {Set::environment, "cotan_environment_texel("},
                                                   {Set::tone, "cotan_tone_agx("},

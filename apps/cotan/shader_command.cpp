@@ -206,7 +206,8 @@ void declare(Arguments& a, ShaderCommandOptions& o)
              "number of normal maps, 1 to 4, each with its own uv set; they are added as gradients")
         .in("N");
     a.group(HelpGroup::output);
-    a.option("--set", o.sets, "more functions: gradient, blend, light, environment, tone, shadow, all")
+    a.option("--set", o.sets,
+             "more functions: gradient, blend, space, mapping, parallax, light, environment, tone, shadow, all")
         .separatedByCommas()
         .in("A,B")
         .main();

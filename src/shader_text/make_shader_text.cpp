@@ -87,7 +87,9 @@ Result<Form> formOf(const Choice& choice)
         return usageError("a stage: expected the frame triangle in its fused form; found another");
     for (const Set set : choice.sets)
         if (!hasSet(choice.language, set))
-            return usageError(fill("the set {}: Godot does this itself; expected gradient, blend or light", name(set)));
+            return usageError(
+                fill("the set {}: Godot does this itself; expected gradient, blend, space, mapping, parallax or light",
+                     name(set)));
     const Status possible = choice.language == Language::godot ? checkGodot(choice, form) : Done{};
     return possible ? Result<Form>(form) : possible.error();
 }
@@ -96,7 +98,8 @@ Result<Form> formOf(const Choice& choice)
 
 std::string_view name(Set set)
 {
-    constexpr std::string_view kSetNames[] = {"gradient", "blend", "light", "environment", "tone", "shadow"};
+    constexpr std::string_view kSetNames[] = {"gradient", "blend",       "space", "mapping", "parallax",
+                                              "light",    "environment", "tone",  "shadow"};
     return kSetNames[int(set)];
 }
 
@@ -108,7 +111,7 @@ std::string_view name(Form form)
 
 bool hasSet(Language language, Set set)
 {
-    return language != Language::godot || set == Set::gradient || set == Set::blend || set == Set::light;
+    return language != Language::godot || (set != Set::environment && set != Set::tone && set != Set::shadow);
 }
 
 bool hasFusedForm(Frame frame) { return info(frame).fused; }

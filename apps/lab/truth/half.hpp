@@ -56,6 +56,7 @@ inline Half abs(Half x) { return Half(std::fabs(double(float(x)))); }
 inline Half sqrt(Half x) { return Half(std::sqrt(double(float(x)))); }
 inline Half pow(Half x, Half y) { return Half(std::pow(double(float(x)), double(float(y)))); }
 inline Half exp2(Half x) { return Half(std::exp2(double(float(x)))); }
+inline Half floor(Half x) { return Half(std::floor(double(float(x)))); }
 inline Half cotan_inverse_power_of_two(Half x) { return Half(std::ldexp(1.0, -std::ilogb(float(x)))); }
 
 } // namespace cotan

@@ -64,12 +64,16 @@ std::optional<Stage> stageFromName(std::string_view name);
 enum class Set {
     gradient,
     blend,
-    light, // light.h and sheen.h
+    space,    // vectors into texture space, the direction of grooves
+    mapping,  // decals and projectors, coordinates that jump, hex tiles
+    parallax, // offset, relief and its own shadow
+    light,    // light.h and sheen.h
     environment,
     tone,
     shadow,
 };
-inline constexpr Set kSets[] = {Set::gradient, Set::blend, Set::light, Set::environment, Set::tone, Set::shadow};
+inline constexpr Set kSets[] = {Set::gradient, Set::blend,       Set::space, Set::mapping, Set::parallax,
+                                Set::light,    Set::environment, Set::tone,  Set::shadow};
 std::string_view name(Set set);
 // Whether the language has the set. Godot implements environment, tone and shadows itself.
 bool hasSet(Language language, Set set);

@@ -1,0 +1,69 @@
+// Cotan portable text: vectors to and from texture space. Include lang.h and frame.h first.
+//
+// A frame has three covectors t, b, n. t*m.x + b*m.y + n*m.z takes a texel m out of texture space. For another vector
+// there are two ways in, and they are equal only where t, b and n are orthonormal:
+// - cotan_to_texture_space is the inverse. Use it for vectors that are compared with a texel's normal, such as those to
+//   the light and to the eye: a vector along the perturbed normal becomes one along m, so highlights stay in place.
+// - cotan_texture_travel is the transpose. Use it for a path of a point, such as a ray: with the frame `gradient` its
+//   x and y are the changes of u and v along the path, and its z is the change of height.
+// Lighting in world space needs neither, and is exact for all frames.
+//
+// Sources: C. Schueler, Normal Mapping without Precomputed Tangents, ShaderX5 (2006), cited as [2006]: its last remark
+// on frames that are not orthogonal.
+
+#ifndef COTAN_SPACE_H
+#define COTAN_SPACE_H
+
+// Returns m with t*m.x + b*m.y + n*m.z = v: v in texture space, along (+u, +v, outwards). Its length is not kept.
+// f: any frame; its vectors need not be orthogonal or unit. v: any length, in the space of f.
+// Degenerate input: dependent or zero covectors (a frame without a map), v that is not finite: (0, 0, n . v), or
+// (0, 0, 0) where that is not finite either.
+// Source: [2006], by the adjugate of [t b n].
+COTAN_FUNCTION cotan_vec3 cotan_to_texture_space(cotan_frame f, cotan_vec3 v)
+{
+    bool finite = cotan_sum_abs(v) <= COTAN_HUGE;
+    v = finite ? v : cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
+    // Both covectors of uv are scaled by one power of two, so that their products stay in range.
+    cotan_real scale = cotan_power_of_two_scale(max(cotan_max_abs(f.t), cotan_max_abs(f.b)));
+    cotan_vec3 t = f.t * scale;
+    cotan_vec3 b = f.b * scale;
+    cotan_vec3 bn = cross(b, f.n);
+    cotan_vec3 nt = cross(f.n, t);
+    cotan_real determinant = dot(t, bn);
+    cotan_real along_n = dot(v, f.n);
+    bool usable = abs(determinant) > cotan_real(1e-12) && abs(determinant) <= COTAN_HUGE;
+    cotan_real inverse = cotan_real(1.0) / (usable ? determinant : cotan_real(1.0));
+    cotan_vec3 m = cotan_vec3(dot(v, bn) * scale, dot(v, nt) * scale, dot(v, cross(t, b))) * inverse;
+    usable = usable && cotan_sum_abs(m) <= COTAN_HUGE;
+    along_n = abs(along_n) <= COTAN_HUGE ? along_n : cotan_real(0.0);
+    return usable ? m : cotan_vec3(cotan_real(0.0), cotan_real(0.0), along_n);
+}
+
+// Returns the changes of u, v and height of a point that moves by v: (t . v, b . v, n . v).
+// f: `gradient` for changes of u and v per unit of length; with a frame of unit scale, up to the common scale of t, b.
+// v: in the space of f. Total where f and v are finite.
+COTAN_FUNCTION cotan_vec3 cotan_texture_travel(cotan_frame f, cotan_vec3 v)
+{
+    return cotan_vec3(dot(f.t, v), dot(f.b, v), dot(f.n, v));
+}
+
+// Returns the unit direction on the surface in which the grooves of an anisotropic surface run, perpendicular to the
+// perturbed normal n. (1, 0) gives dP/du, along increasing u with constant v, whether t and b are tangents or gradients,
+// because grad v is perpendicular to dP/du. (0, 1) gives the direction perpendicular to it, on the side of increasing v.
+// t itself is along dP/du only where it is perpendicular to b.
+// f: the frame of the uv set that the direction belongs to. n: unit. along: for glTF's anisotropyRotation r in radians
+// (cos(r), -sin(r)), since v runs down there; where the texture has a transform, in the transformed coordinates.
+// Degenerate input: a frame without t and b, `along` of zero, a direction parallel to n: zero. Test for it, and shade
+// without anisotropy.
+// Source: the dual basis of [2006]; KHR_materials_anisotropy, whose bitangent is perpendicular to the tangent.
+COTAN_FUNCTION cotan_vec3 cotan_tangent_direction(cotan_frame f, cotan_vec3 n, cotan_vec2 along)
+{
+    cotan_vec3 zero = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
+    cotan_vec3 u = cotan_normalize_or(cross(f.b, f.n), zero);
+    cotan_vec3 across = cross(f.n, u); // on the side of b
+    cotan_real along_u = dot(u, f.t) < cotan_real(0.0) ? -along.x : along.x; // mirrored uv
+    cotan_vec3 d = u * along_u + across * along.y;
+    return cotan_normalize_or(d - n * dot(n, d), zero);
+}
+
+#endif
