@@ -110,7 +110,41 @@ def pagesUseTheTermsOfTheField():
             check(name, 1, " ".join(text.split()), "page", PAGE_PATTERNS)
 
 
-FACTS = (messagesUseTheTermsOfTheField, namesUseTheTermsOfTheField, pagesUseTheTermsOfTheField)
+# The names of the last version, which are accepted once more: where they stand, and how each file writes them.
+OLD_NAMES = {
+    "src/c/include/cotan_old_names.h": r"#define (\w+) \w+",
+    "src/c/old_names.cpp": r"cotan_status (\w+)\(",
+    "src/files/old_fields.hpp": r'\{"\w+", "(\w+)"\}',
+    "bindings/python/cotan/_old_names.py": r'^    "(\w+_\w+)": "\w+",$',
+    "bindings/js/src/old_names.js": r"as (\w+) }",
+    "bindings/js/types/old_names.d.ts": r"export (?:type|const) (\w+)",
+}
+
+
+def documentsUseTheTermsOfTheField():
+    """No page, header, typing or docstring of a door has a name of the last version."""
+    global checked
+    old, ofScripts = set(), set()
+    for name, pattern in OLD_NAMES.items():
+        found = set(re.findall(pattern, (ROOT / name).read_text(), re.M))
+        if not found:
+            wrong.append(f"{name}: expected old names, found none")
+        # Fields are ordinary words, too; as fields they stand in code, at the end of a path.
+        patterns = {rf"`(?:[^`\s]*[.\]])?{word}\??`" if "fields" in name else rf"\b{word}\b" for word in found}
+        (ofScripts if "bindings/js" in name else old).update(patterns)
+    ofPages, elsewhere = (re.compile("|".join(sorted(patterns))) for patterns in (old | ofScripts, old))
+    doors = [page for folder in ("docs", "examples", "bindings", "integrations", "web") for suffix in ("md", "ts", "py", "js", "c", "cpp")
+             for page in (ROOT / folder).rglob(f"*.{suffix}")] + [ROOT / "README.md", ROOT / "src/c/include/cotan.h"]
+    for page in doors:
+        name = str(page.relative_to(ROOT))
+        if name not in OLD_NAMES and "node_modules" not in name:
+            for number, line in enumerate(page.read_text().splitlines(), 1):
+                checked += 1
+                for found in (ofPages if page.suffix in (".md", ".ts", ".js") else elsewhere).finditer(line):
+                    wrong.append(f"{name}:{number}: the old name {found.group(0)}")
+
+
+FACTS = (documentsUseTheTermsOfTheField, messagesUseTheTermsOfTheField, namesUseTheTermsOfTheField, pagesUseTheTermsOfTheField)
 if __name__ == "__main__":
     chosen = [f for f in FACTS if f.__name__ == sys.argv[2]] if len(sys.argv) > 2 else FACTS
     if not chosen:

@@ -8,7 +8,7 @@
 #include "call.hpp"
 #include "cotan/bake.hpp"
 #include "meshes.hpp"
-#include "pictures.hpp"
+#include "image_views.hpp"
 #include "scene/normal_maps.hpp"
 #include "scene/texture_sample.hpp"
 
@@ -46,7 +46,7 @@ void readHigh(const cotan_bake_options& o, BakeModelOptions& options, HighModel&
         high.maps.push_back(imageOf(o.high_maps[i], ("options.high_maps[" + std::to_string(i) + "]").c_str()));
 }
 
-BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture& map)
+BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_image_view& map)
 {
     BakeModelOptions options;
     require(std::isfinite(o.max_distance) && o.max_distance >= 0, "options.max_distance: expected 0 or more");
@@ -110,15 +110,15 @@ Error aboutFieldOfC(Error error)
 }
 
 // Bakes a map and writes the results.
-void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given, cotan_picture* map,
+void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given, cotan_image_view* map,
               cotan_bake_result* result, cotan_bytes** warnings)
 {
-    const cotan_picture& out = checkedPicture(map, "map");
+    const cotan_image_view& out = checkedView(map, "map");
     const cotan_bake_options o = optionsOf(given, "options");
     if (result)
         requireSize(result->size, offsetof(cotan_bake_result, further), "result");
     if (o.mask) {
-        const cotan_picture& mask = checkedPicture(o.mask, "options.mask");
+        const cotan_image_view& mask = checkedView(o.mask, "options.mask");
         require(mask.bits == 8 && mask.width == out.width && mask.height == out.height,
                 "options.mask: expected 8 bits and the size of the map");
     }
@@ -148,7 +148,7 @@ void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given,
 } // namespace
 
 cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cotan_bake_options* options,
-                        cotan_picture* map, cotan_bake_result* result, char* message, size_t message_size)
+                        cotan_image_view* map, cotan_bake_result* result, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         const cotan_mesh &simple = checkedMesh(low, "low", true), &detailed = checkedMesh(high, "high", false);
@@ -159,7 +159,7 @@ cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cot
 }
 
 cotan_status cotan_bake_models(const cotan_model* low, size_t high_count, const cotan_model* const* high,
-                               const cotan_bake_options* options, cotan_picture* map, cotan_bake_result* result,
+                               const cotan_bake_options* options, cotan_image_view* map, cotan_bake_result* result,
                                cotan_bytes** warnings, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {

@@ -73,7 +73,7 @@ def frames() -> list[Frame]:
     return [made.cotan_frame_name(i).decode() for i in range(made.cotan_frame_count())]
 
 
-def _places(function, frame, given, normals, dpdx, dpdy, duvdx, duvdy, out):
+def _at_points(function, frame, given, normals, dpdx, dpdy, duvdx, duvdy, out):
     given = arrays.floats(given, "texels" if function == "cotan_frame_apply" else "normals_wanted", 3)
     count = len(given)
     own = {
@@ -84,8 +84,8 @@ def _places(function, frame, given, normals, dpdx, dpdy, duvdx, duvdy, out):
         "duvdy": arrays.floats(duvdy, "duvdy", 2, count),
     }
     out = arrays.made(out, "out", (count, 3), np.float32)
-    places = structs.Places(count=count, **{name: arrays.at(array) for name, array in own.items()})
-    call(function, arrays.encoded(frame, "frame"), places, arrays.at(given), arrays.at(out))
+    points = structs.SurfacePoints(count=count, **{name: arrays.at(array) for name, array in own.items()})
+    call(function, arrays.encoded(frame, "frame"), points, arrays.at(given), arrays.at(out))
     return out
 
 
@@ -111,7 +111,7 @@ def frame_apply(
 
     Degenerate differences give the unperturbed normal. Raises UsageError for bad shapes and frames.
     """
-    return _places("cotan_frame_apply", frame, texels, normals, dpdx, dpdy, duvdx, duvdy, out)
+    return _at_points("cotan_frame_apply", frame, texels, normals, dpdx, dpdy, duvdx, duvdy, out)
 
 
 def frame_encode(
@@ -128,10 +128,10 @@ def frame_encode(
 
     Degenerate differences give (0, 0, 1).
     """
-    return _places("cotan_frame_encode", frame, normals_wanted, normals, dpdx, dpdy, duvdx, duvdy, out)
+    return _at_points("cotan_frame_encode", frame, normals_wanted, normals, dpdx, dpdy, duvdx, duvdy, out)
 
 
-def _vertex_places(function, frame, given, normals, tangents, cotangents_u, cotangents_v, out):
+def _at_interpolated_points(function, frame, given, normals, tangents, cotangents_u, cotangents_v, out):
     given = arrays.floats(given, "texels" if function == "cotan_vertex_frame_apply" else "normals_wanted", 3)
     count = len(given)
     own = {"normals": arrays.floats(normals, "normals", 3, count)}
@@ -142,8 +142,8 @@ def _vertex_places(function, frame, given, normals, tangents, cotangents_u, cota
     ):
         own[name] = None if array is None else arrays.floats(array, name, width, count)
     out = arrays.made(out, "out", (count, 3), np.float32)
-    places = structs.VertexPlaces(count=count, **{name: arrays.at(array) for name, array in own.items()})
-    call(function, arrays.encoded(frame, "frame"), places, arrays.at(given), arrays.at(out))
+    points = structs.InterpolatedPoints(count=count, **{name: arrays.at(array) for name, array in own.items()})
+    call(function, arrays.encoded(frame, "frame"), points, arrays.at(given), arrays.at(out))
     return out
 
 
@@ -165,7 +165,7 @@ def vertex_frame_apply(
         tangents: (n, 4), w as in glTF's TANGENT, from `tangents`.
         cotangents_u, cotangents_v: (n, 3) each, from `smooth_cotangents`.
     """
-    return _vertex_places(
+    return _at_interpolated_points(
         "cotan_vertex_frame_apply", frame, texels, normals, tangents, cotangents_u, cotangents_v, out
     )
 
@@ -180,7 +180,7 @@ def vertex_frame_encode(
     out: Optional[Floats] = None,
 ) -> Floats:
     """The inverse of `vertex_frame_apply`: unit texels (n, 3) for normals_wanted (n, 3)."""
-    return _vertex_places(
+    return _at_interpolated_points(
         "cotan_vertex_frame_encode", frame, normals_wanted, normals, tangents, cotangents_u, cotangents_v, out
     )
 
