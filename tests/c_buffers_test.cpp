@@ -260,7 +260,8 @@ TEST(CBuffers, framesFillThreeFloatsPerSample)
 {
     const std::vector<float> normals{0, 0, 1, 0, 1, 0}, dpdx{1, 0, 0, 1, 0, 0}, dpdy{0, 1, 0, 0, 0, -1};
     const std::vector<float> duvdx{1, 0, 1, 0}, duvdy{0, 1, 0, 1}, texels{0.6f, 0, 0.8f, 0, 0.6f, 0.8f};
-    cotan_surface_points points = {sizeof points, 2, normals.data(), dpdx.data(), dpdy.data(), duvdx.data(), duvdy.data()};
+    cotan_surface_points points = {sizeof points, 2,           normals.data(), dpdx.data(), dpdy.data(),
+                                   duvdx.data(),  duvdy.data()};
     Guarded<float> out(6), back(6);
     ASSERT_EQ(cotan_frame_apply("orthonormal", &points, texels.data(), out.data(), message, sizeof message), COTAN_OK);
     const std::array<float, 6> expected{0.6f, 0, 0.8f, 0, 0.8f, -0.6f}; // u along x; v along y, then along -z

@@ -130,7 +130,7 @@ TEST(CModels, bakeOptionsAreCheckedAgainstTheirBounds)
                                       {&Options::cage_reach, "cage_reach"}})
         for (const float bad : {-0.001f, kInf, NAN})
             expectError(bake([&](Options& o) { o.*field = bad; }),
-                        "options." + std::string(name) + ": expected 0 or more");
+                        "options." + std::string(name) + ": expected 0 to 1e+17; found ");
     for (const auto& [field, bad, error] : {std::tuple(&Options::threads, -1, "threads: expected 0 or more"),
                                             {&Options::padding, -2, "padding: expected -1 or more"},
                                             {&Options::occlusion_rays, -1, "occlusion_rays: expected 0 to 65536"},

@@ -55,8 +55,9 @@ TEST(CRefusals, framesRequireAllTheirArrays)
         expectRefused(call("cotangent", nullptr, n, out, refusal, sizeof refusal), "points");
         expectRefused(call("cotangent", &good, nullptr, out, refusal, sizeof refusal), "texels and normals");
         expectRefused(call("cotangent", &good, n, nullptr, refusal, sizeof refusal), "texels and normals");
-        for (const auto member : {&cotan_surface_points::normals, &cotan_surface_points::dpdx, &cotan_surface_points::dpdy,
-                                  &cotan_surface_points::duvdx, &cotan_surface_points::duvdy}) {
+        for (const auto member :
+             {&cotan_surface_points::normals, &cotan_surface_points::dpdx, &cotan_surface_points::dpdy,
+              &cotan_surface_points::duvdx, &cotan_surface_points::duvdy}) {
             cotan_surface_points points = good;
             points.*member = nullptr;
             expectRefused(call("cotangent", &points, n, out, refusal, sizeof refusal), "points: expected five arrays");
@@ -75,7 +76,8 @@ TEST(CRefusals, vertexFramesRequireTheArraysTheyRead)
     const float n[3] = {0, 0, 1}, t[4] = {1, 0, 0, 1}, u[3] = {1, 0, 0}, v[3] = {0, 1, 0};
     float out[3];
     const cotan_interpolated_points good = {sizeof good, 1, n, t, u, v};
-    using Call = cotan_status (*)(const char*, const cotan_interpolated_points*, const float*, float*, char*, std::size_t);
+    using Call =
+        cotan_status (*)(const char*, const cotan_interpolated_points*, const float*, float*, char*, std::size_t);
     for (const Call call : {&cotan_vertex_frame_apply, &cotan_vertex_frame_encode}) {
         expectRefused(call("smooth", &good, nullptr, out, refusal, sizeof refusal), "texels and normals");
         expectRefused(call("smooth", &good, n, nullptr, refusal, sizeof refusal), "texels and normals");
@@ -84,12 +86,13 @@ TEST(CRefusals, vertexFramesRequireTheArraysTheyRead)
         for (const char* frame : {"mikktspace", "vertex", "smooth"}) {
             const bool smooth = frame == std::string("smooth");
             ASSERT_EQ(call(frame, &good, n, out, refusal, sizeof refusal), COTAN_OK) << refusal;
-            for (const auto member : {&cotan_interpolated_points::normals, &cotan_interpolated_points::tangents,
-                                      &cotan_interpolated_points::cotangents_u, &cotan_interpolated_points::cotangents_v}) {
+            for (const auto member :
+                 {&cotan_interpolated_points::normals, &cotan_interpolated_points::tangents,
+                  &cotan_interpolated_points::cotangents_u, &cotan_interpolated_points::cotangents_v}) {
                 cotan_interpolated_points points = good;
                 points.*member = nullptr;
-                const bool reads =
-                    member == &cotan_interpolated_points::normals || (member == &cotan_interpolated_points::tangents) == !smooth;
+                const bool reads = member == &cotan_interpolated_points::normals
+                    || (member == &cotan_interpolated_points::tangents) == !smooth;
                 if (reads)
                     expectRefused(call(frame, &points, n, out, refusal, sizeof refusal), "points: expected normals");
                 else

@@ -250,7 +250,7 @@ TEST(JsonText, keepsTheOrderOfMembersAndEveryKindOfValue)
               "{\n  \"format\": \"cotan-convert-result\",\n  \"version\": 1,\n  \"x\": 2\n}\n");
 }
 
-TEST(FilesTexts, oldNamesOfFieldsStayBesideTheNewOnes)
+TEST(JsonText, oldNamesOfFieldsStayBesideTheNewOnes)
 {
     const Json report = versioned({{"command", "lint"}, {"problem_areas", {{{"fraction", 0.5}}, {{"fraction", 1}}}}});
     EXPECT_EQ(report["problem_areas"][0], (Json{{"fraction", 0.5}, {"share", 0.5}}));

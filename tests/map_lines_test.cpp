@@ -91,7 +91,7 @@ TEST(MapLines, printEveryFigureOfAMap)
 TEST(MapLines, jsonHasNullForUndefinedFigures)
 {
     SurveyedFile file = surveyed();
-    const Texts figures = {"mean_length", "length_deviation",     "shortened",
+    const Texts figures = {"mean_length", "length_deviation",  "shortened",
                            "mean",        "mean_tilt_degrees", "tilt_by_10_degrees"};
     const std::string whole = toText(toJson(file));
     for (const auto& [name, value] : {std::pair("mean_length", "0.99"),

@@ -124,24 +124,24 @@ OLD_NAMES = {
 def documentsUseTheTermsOfTheField():
     """No page, header, typing or docstring of a door has a name of the last version."""
     global checked
-    old, ofScripts = set(), set()
-    for name, pattern in OLD_NAMES.items():
-        found = set(re.findall(pattern, (ROOT / name).read_text(), re.M))
-        if not found:
-            wrong.append(f"{name}: expected old names, found none")
-        # Fields are ordinary words, too; as fields they stand in code, at the end of a path.
-        patterns = {rf"`(?:[^`\s]*[.\]])?{word}\??`" if "fields" in name else rf"\b{word}\b" for word in found}
-        (ofScripts if "bindings/js" in name else old).update(patterns)
-    ofPages, elsewhere = (re.compile("|".join(sorted(patterns))) for patterns in (old | ofScripts, old))
-    doors = [page for folder in ("docs", "examples", "bindings", "integrations", "web") for suffix in ("md", "ts", "py", "js", "c", "cpp")
-             for page in (ROOT / folder).rglob(f"*.{suffix}")] + [ROOT / "README.md", ROOT / "src/c/include/cotan.h"]
-    for page in doors:
-        name = str(page.relative_to(ROOT))
-        if name not in OLD_NAMES and "node_modules" not in name:
-            for number, line in enumerate(page.read_text().splitlines(), 1):
-                checked += 1
-                for found in (ofPages if page.suffix in (".md", ".ts", ".js") else elsewhere).finditer(line):
-                    wrong.append(f"{name}:{number}: the old name {found.group(0)}")
+    old = {name: set(re.findall(pattern, (ROOT / name).read_text(), re.M)) for name, pattern in OLD_NAMES.items()}
+    wrong.extend(f"{name}: expected old names, found none" for name, found in old.items() if not found)
+
+    def anyOf(part):
+        return "|".join(sorted(word for name, found in old.items() if part in name for word in found))
+
+    # Fields of reports and types of npm are ordinary words, too: fields are looked for in code, at the end of a path.
+    everywhere = rf"\b(?:{anyOf('src/c')}|{anyOf('python')})\b"
+    pages = rf"{everywhere}|\b(?:{anyOf('bindings/js')})\b|`(?:[^`\s]*[.\]])?(?:{anyOf('fields')})\??`"
+    patterns = {".md": re.compile(pages), ".ts": re.compile(pages)}
+    for folder in ("README.md", "docs", "examples", "bindings", "integrations", "src/c/include"):
+        for page in [ROOT / folder] if folder.endswith(".md") else (ROOT / folder).rglob("*"):
+            name = str(page.relative_to(ROOT))
+            if page.suffix in (".md", ".ts", ".py", ".js", ".h", ".c", ".cpp") and not LEFT_OUT.search(name) and name not in OLD_NAMES:
+                text = page.read_text()
+                checked += text.count("\n")
+                for found in patterns.get(page.suffix, re.compile(everywhere)).finditer(text):
+                    wrong.append(f"{name}:{text.count(chr(10), 0, found.start()) + 1}: the old name {found.group(0)}")
 
 
 FACTS = (documentsUseTheTermsOfTheField, messagesUseTheTermsOfTheField, namesUseTheTermsOfTheField, pagesUseTheTermsOfTheField)

@@ -207,8 +207,8 @@ Json toJson(const ConvertedMap& map)
     for (const Frame frame : map.readWith)
         json["read_with"].push_back(name(frame));
     if (map.greenReversed)
-        for (const char* figure : {"texels_covered", "texels_padded", "texels_overlapped",
-                                   "texels_that_disagree", "disagreement_degrees", "moved_degrees", "below_horizon"})
+        for (const char* figure : {"texels_covered", "texels_padded", "texels_overlapped", "texels_that_disagree",
+                                   "disagreement_degrees", "moved_degrees", "below_horizon"})
             json.erase(figure);
     if (map.kept)
         for (const char* figure :

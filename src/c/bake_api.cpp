@@ -1,14 +1,13 @@
 // cotan.h: baking, from arrays and from models.
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstring>
 
 #include "bake/name_pairs.hpp"
 #include "call.hpp"
 #include "cotan/bake.hpp"
-#include "meshes.hpp"
 #include "image_views.hpp"
+#include "meshes.hpp"
 #include "scene/normal_maps.hpp"
 #include "scene/texture_sample.hpp"
 
@@ -49,11 +48,8 @@ void readHigh(const cotan_bake_options& o, BakeModelOptions& options, HighModel&
 BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_image_view& map)
 {
     BakeModelOptions options;
-    require(std::isfinite(o.max_distance) && o.max_distance >= 0, "options.max_distance: expected 0 or more");
-    require(std::isfinite(o.extrusion) && o.extrusion >= 0, "options.extrusion: expected 0 or more");
     const std::string_view search = o.search ? o.search : "first";
     require(search == "first" || search == "nearest", "options.search: expected first or nearest");
-    require(std::isfinite(o.cage_reach) && o.cage_reach >= 0, "options.cage_reach: expected 0 or more");
     require(o.threads >= 0, "options.threads: expected 0 or more");
     require(o.padding >= -1, "options.padding: expected -1 or more");
     require(o.occlusion_rays >= 0 && o.occlusion_rays <= 1 << 16, "options.occlusion_rays: expected 0 to 65536");

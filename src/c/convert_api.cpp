@@ -171,13 +171,10 @@ cotan_status cotan_convert_begin(const void* model, size_t model_size, const cot
     });
 }
 
-size_t cotan_conversion_count(const cotan_conversion* conversion)
-{
-    return conversion ? conversion->images.size() : 0;
-}
+size_t cotan_conversion_count(const cotan_conversion* conversion) { return conversion ? conversion->images.size() : 0; }
 
 cotan_status cotan_conversion_image(const cotan_conversion* conversion, size_t number, cotan_image_view* view,
-                                      char* message, size_t message_size)
+                                    char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         checked(view, "view");

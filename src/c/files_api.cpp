@@ -2,8 +2,8 @@
 #include "cotan/image.hpp"
 #include "cotan/model.hpp"
 #include "cotan/picture.hpp"
-#include "meshes.hpp"
 #include "image_views.hpp"
+#include "meshes.hpp"
 
 using namespace cotan;
 using namespace cotan::c;

@@ -98,14 +98,14 @@ const char* cotan_frame_name(int frame)
     return isFrame(frame) ? name(Frame(frame)).data() : nullptr; // a literal, which ends with a zero
 }
 
-cotan_status cotan_frame_apply(const char* frame, const cotan_surface_points* points, const float* texels, float* normals,
-                               char* message, size_t message_size)
+cotan_status cotan_frame_apply(const char* frame, const cotan_surface_points* points, const float* texels,
+                               float* normals, char* message, size_t message_size)
 {
     return call(message, message_size, [&] { mapByFrames(frame, points, texels, normals, f32::cotan_apply); });
 }
 
-cotan_status cotan_frame_encode(const char* frame, const cotan_surface_points* points, const float* normals, float* texels,
-                                char* message, size_t message_size)
+cotan_status cotan_frame_encode(const char* frame, const cotan_surface_points* points, const float* normals,
+                                float* texels, char* message, size_t message_size)
 {
     return call(message, message_size, [&] { mapByFrames(frame, points, normals, texels, f32::cotan_encode); });
 }

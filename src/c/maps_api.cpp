@@ -98,7 +98,8 @@ cotan_status cotan_map_to_height(const cotan_image_view* map, const char* from, 
 }
 
 cotan_status cotan_map_blend(const cotan_image_view* base, const cotan_image_view* detail, const char* convention,
-                             const char* mode, double strength, cotan_image_view* map, char* message, size_t message_size)
+                             const char* mode, double strength, cotan_image_view* map, char* message,
+                             size_t message_size)
 {
     return call(message, message_size, [&] {
         const Image under = imageOf(base, "base"), over = imageOf(detail, "detail");
@@ -114,8 +115,8 @@ cotan_status cotan_map_blend(const cotan_image_view* base, const cotan_image_vie
     });
 }
 
-cotan_status cotan_map_mips(const cotan_image_view* map, const char* convention, double roughness, cotan_take_level take,
-                            void* user, char* message, size_t message_size)
+cotan_status cotan_map_mips(const cotan_image_view* map, const char* convention, double roughness,
+                            cotan_take_level take, void* user, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         const Image image = imageOf(map, "map");

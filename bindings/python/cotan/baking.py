@@ -248,15 +248,6 @@ def bake(
     return Baked(
         map=made,
         mask=mask_made,
-        texels=result.texels,
-        covered=result.covered,
-        missed=result.missed,
-        negative=result.negative,
-        twice=result.twice,
-        rays=result.rays,
-        ray_distance=result.ray_distance,
-        further=result.further,
-        nearer=result.nearer,
-        ray_start=result.ray_start,
         warnings=warnings,
+        **{name: getattr(result, name) for name, _ in structs.BakeResult._fields_ if name != "size"},
     )

@@ -100,10 +100,10 @@ typedef struct cotan_surface_points {
 /* Return perturbed unit normals for decoded texels (x along +u, y along +v, z outwards), or the inverse: the unit
  * texels that a frame maps to the given normals. `frame` is one that is made from differences ("cotangent",
  * "orthonormal", ...). Degenerate differences give the normal as it is, or the texel (0, 0, 1). */
-cotan_status cotan_frame_apply(const char* frame, const cotan_surface_points* points, const float* texels, float* normals,
-                               char* message, size_t message_size);
-cotan_status cotan_frame_encode(const char* frame, const cotan_surface_points* points, const float* normals, float* texels,
-                                char* message, size_t message_size);
+cotan_status cotan_frame_apply(const char* frame, const cotan_surface_points* points, const float* texels,
+                               float* normals, char* message, size_t message_size);
+cotan_status cotan_frame_encode(const char* frame, const cotan_surface_points* points, const float* normals,
+                                float* texels, char* message, size_t message_size);
 
 /* The same for frames made at the vertices and interpolated: "mikktspace" and "vertex" from tangents of cotan_tangents,
  * "smooth" from cotangents of cotan_smooth_cotangents. Normals are interpolated, of any length. */
@@ -245,15 +245,16 @@ cotan_status cotan_map_to_height(const cotan_image_view* map, const char* from, 
 /* Blends a detail map over a base map of the same size; both and the result use `convention`. `mode`: "reoriented",
  * "whiteout", "udn", "slopes" or "linear". strength: factor on the slopes of the detail. */
 cotan_status cotan_map_blend(const cotan_image_view* base, const cotan_image_view* detail, const char* convention,
-                             const char* mode, double strength, cotan_image_view* map, char* message, size_t message_size);
+                             const char* mode, double strength, cotan_image_view* map, char* message,
+                             size_t message_size);
 
 /* Makes mip levels from the map itself (level 0, re-encoded) to 1 x 1, each half the size, filtered as vectors. `take`
  * is called for each level in order, with the map and with the roughness (grey) that compensates for the variation lost
  * by averaging. Both are valid only during the call; a result other than 0 stops (COTAN_STOPPED). roughness: of the
  * material, 0 to 1. */
 typedef int (*cotan_take_level)(void* user, int level, const cotan_image_view* map, const cotan_image_view* roughness);
-cotan_status cotan_map_mips(const cotan_image_view* map, const char* convention, double roughness, cotan_take_level take,
-                            void* user, char* message, size_t message_size);
+cotan_status cotan_map_mips(const cotan_image_view* map, const char* convention, double roughness,
+                            cotan_take_level take, void* user, char* message, size_t message_size);
 
 /* ---- shader text ------------------------------------------------------------------------------------------------- */
 
@@ -407,7 +408,7 @@ typedef struct cotan_model_files {
  * other than 0 stops (COTAN_STOPPED). Since version 2. */
 typedef int (*cotan_take_file)(void* user, const char* name, const void* bytes, size_t byte_count);
 cotan_status cotan_gltf_images(const void* model, size_t model_size, const cotan_model_files* files, int maps_only,
-                                 cotan_take_file take, void* user, char* message, size_t message_size);
+                               cotan_take_file take, void* user, char* message, size_t message_size);
 
 typedef struct cotan_lint_options {
     size_t size;
@@ -494,7 +495,7 @@ cotan_status cotan_convert_begin(const void* model, size_t model_size, const cot
                                  cotan_conversion** conversion, char* message, size_t message_size);
 size_t cotan_conversion_count(const cotan_conversion* conversion);
 cotan_status cotan_conversion_image(const cotan_conversion* conversion, size_t number, cotan_image_view* view,
-                                      char* message, size_t message_size);
+                                    char* message, size_t message_size);
 cotan_status cotan_conversion_set(cotan_conversion* conversion, size_t number, const void* png, size_t png_size,
                                   char* message, size_t message_size);
 cotan_status cotan_convert_end(cotan_conversion* conversion, cotan_bytes** glb, cotan_bytes** json, char* message,
