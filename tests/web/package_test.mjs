@@ -387,6 +387,16 @@ const cases = {
     assert.ok(read > 10 && refused > 10, `${read} read, ${refused} refused`);
   },
 
+  async namesOfTheLastVersionWork() {
+    assert.equal(cotan.decodePicture, cotan.decodeImage);
+    const report = (stored) => ({ primitives: [{ mesh: 'a', normal_map: -1, uv: {}, stored_tangents: stored }], maps: [] });
+    for (const stored of [{ rotated: 0.5 }, { turned: 0.5 }, { rotated: 0.5, turned: 0.5 }]) {
+      const found = cotan.overLimits(report(stored), { limitArea: 1 });
+      assert.deepEqual(found.map(({ kind, percent }) => [kind, percent]), [['rotated_tangents', 50]]);
+    }
+    assert.deepEqual(cotan.overLimits(report({ rotated: 0, turned: 0.5 }), { limitArea: 1 }), []);
+  },
+
   async packageIsSmall() {
     const place = path.join(folder, 'node_modules/cotan');
     const packed = (...names) => gzipSync(Buffer.concat(names.map((name) => fs.readFileSync(path.join(place, name)))), { level: 9 }).length;

@@ -39,6 +39,10 @@ const made: cotan.Image = cotan.fromHeight(blended, { scale: [1, 2] });
 const heights: Float32Array = cotan.toHeight(made, { from: 'directx' }).data;
 const roughness: cotan.Image | undefined = cotan.mips(made, { roughness: 0.2 })[0]?.roughness;
 
+// The names of version 0.2, in this version only
+const old: cotan.Picture = await cotan.decodePicture(new Uint8Array()), oldPlaces: cotan.Places = { normals: [], dpdx: [], dpdy: [], duvdx: [], duvdy: [] };
+const oldVertexPlaces: cotan.VertexPlaces = { normals: [], tangents: [] }, stillRead: cotan.Image[] = [old];
+
 // Frames, shaders
 const points: cotan.SurfacePoints = { normals: [0, 0, 1], dpdx: [1, 0, 0], dpdy: [0, 1, 0], duvdx: [1, 0], duvdy: [0, 1] };
 const atVertices: cotan.InterpolatedPoints = { normals: [0, 0, 1], tangents: [1, 0, 0, 1] };
