@@ -64,7 +64,7 @@ with tempfile.TemporaryDirectory() as folder:
     subprocess.run([tool, "bake", "--low", files["low"], "--high", files["high"], "--frame", settings.frame,
                     "--size", f"{size}x{size}", "--padding", "-1", "--max-distance", str(settings.distance), "--quiet",
                     "-o", map_file], check=True)
-    wanted = cotan.read_picture(map_file)
+    wanted = cotan.read_image(map_file)
 inside = ((found != (128, 128, 255, 255)) | (wanted != (128, 128, 255, 255))).any(axis=2)
 a, b = ((p[inside][:, :3].astype(np.float32) - 128) / 127 for p in (found, wanted))
 cosine = (a * b).sum(axis=1) / np.sqrt((a * a).sum(axis=1) * (b * b).sum(axis=1))

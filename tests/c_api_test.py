@@ -25,7 +25,7 @@ class Struct(c.Structure):
         super().__init__(c.sizeof(type(self)), *values)
 
 
-class Places(Struct):
+class SurfacePoints(Struct):
     _fields_ = [("size", c.c_size_t), ("count", c.c_size_t)] + [(n, floats) for n in ("normals", "dpdx", "dpdy", "duvdx", "duvdy")]
 
 
@@ -34,14 +34,14 @@ class Mesh(Struct):
                 ("index_count", c.c_size_t), ("indices", c.POINTER(c.c_uint32))]
 
 
-class Picture(Struct):
+class ImageView(Struct):
     _fields_ = [("size", c.c_size_t), ("width", c.c_int), ("height", c.c_int), ("bits", c.c_int), ("pixels", c.c_void_p)]
 
 
 sizes_t, text, Progress = c.c_size_t, c.c_char_p, c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_double)
 
 
-class VertexPlaces(Struct):
+class InterpolatedPoints(Struct):
     _fields_ = [("size", sizes_t), ("count", sizes_t)] + [(n, floats) for n in ("normals", "tangents", "cotangents_u", "cotangents_v")]
 
 
@@ -64,8 +64,8 @@ class BakeResult(Struct):
 
 pointer, number = c.POINTER(c.c_void_p), c.POINTER(sizes_t)
 Read = c.CFUNCTYPE(c.c_int, c.c_void_p, text, pointer, number)
-Decode = c.CFUNCTYPE(c.c_int, c.c_void_p, text, c.c_void_p, sizes_t, c.POINTER(Picture))
-Encode = c.CFUNCTYPE(c.c_int, c.c_void_p, c.POINTER(Picture), pointer, number)
+Decode = c.CFUNCTYPE(c.c_int, c.c_void_p, text, c.c_void_p, sizes_t, c.POINTER(ImageView))
+Encode = c.CFUNCTYPE(c.c_int, c.c_void_p, c.POINTER(ImageView), pointer, number)
 Done = c.CFUNCTYPE(None, c.c_void_p)
 
 
@@ -112,25 +112,30 @@ def call(name, *arguments, expect=0):
 # The exported symbols are exactly those of the version script.
 listed = set(re.findall(r"^    (cotan_\w+);", open(version_script).read(), re.M))
 lines = subprocess.check_output(["nm", "-D", "--defined-only", library], text=True).splitlines()
-exported = {line.split()[-1].split("@")[0] for line in lines} - {"COTAN_1", "COTAN_2", "COTAN_3", "COTAN_5", "COTAN_6", "COTAN_7"}
+exported = {line.split()[-1].split("@")[0] for line in lines} - {"COTAN_1", "COTAN_2", "COTAN_3", "COTAN_5", "COTAN_6", "COTAN_7", "COTAN_9"}
 assert exported == listed, exported ^ listed
-assert cotan.cotan_api_version() == 8 and re.fullmatch(rb"\d+\.\d+\.\d+", cotan.cotan_version())
+assert cotan.cotan_api_version() == 9 and re.fullmatch(rb"\d+\.\d+\.\d+", cotan.cotan_version())
+# Programs that were linked with the last version find their functions.
+old, image = c.create_string_buffer(99), c.c_void_p()
+assert cotan.cotan_image_picture(None, c.byref(image), old, c.c_size_t(99)) == 1 and old.value == b"image: expected one, found null"
+for name in ("cotan_gltf_pictures", "cotan_conversion_picture"):
+    assert hasattr(cotan, name)
 frames = [cotan.cotan_frame_name(i).decode() for i in range(cotan.cotan_frame_count())]
 assert "cotangent" in frames and "mikktspace" in frames and cotan.cotan_frame_name(99) is None
 
 # A plane with u along -x and v along y: the texel's x goes to -x and its y to +y in every frame.
 normals, dpdx, dpdy, duvdx, duvdy = (array(v) for v in ([0, 0, 1], [2, 0, 0], [0, 2, 0], [-1, 0], [0, 1]))
-places = Places(1, normals, dpdx, dpdy, duvdx, duvdy)
+points = SurfacePoints(1, normals, dpdx, dpdy, duvdx, duvdy)
 texel, out, back = array([0.6, 0.48, 0.64]), array([0] * 3), array([0] * 3)
 for frame in ("cotangent", "orthonormal", "unit", "exact"):
-    call("cotan_frame_apply", frame.encode(), c.byref(places), texel, out)
+    call("cotan_frame_apply", frame.encode(), c.byref(points), texel, out)
     assert max(abs(a - b) for a, b in zip(out, (-0.6, 0.48, 0.64))) < 1e-5, (frame, list(out))
-    call("cotan_frame_encode", frame.encode(), c.byref(places), out, back)
+    call("cotan_frame_encode", frame.encode(), c.byref(points), out, back)
     assert max(abs(a - b) for a, b in zip(back, texel)) < 1e-5, (frame, list(back))
-call("cotan_frame_apply", b"smooth", c.byref(places), texel, out, expect=1)
+call("cotan_frame_apply", b"smooth", c.byref(points), texel, out, expect=1)
 call("cotan_frame_apply", b"cotangent", None, texel, out, expect=1)
-places.size = 8
-assert "places.size: expected" in call("cotan_frame_apply", b"cotangent", c.byref(places), texel, out, expect=1)
+points.size = 8
+assert "points.size: expected" in call("cotan_frame_apply", b"cotangent", c.byref(points), texel, out, expect=1)
 
 # Tangents of that plane: -x, and glTF's w for v along y: cross(n, t) = -y is up in the image, where v falls.
 indices = (c.c_uint32 * 3)(0, 1, 2)
@@ -146,9 +151,9 @@ assert "mesh.indices[2]: expected less than 3, found 3" in call("cotan_tangents"
 side = 64
 heights = [math.sin(2 * math.pi * x / side) * math.cos(4 * math.pi * y / side) for y in range(side) for x in range(side)]
 pixels = array([v for h in heights for v in (h, h, h, 1)])
-picture = Picture(side, side, 32, c.cast(pixels, c.c_void_p))
+picture = ImageView(side, side, 32, c.cast(pixels, c.c_void_p))
 made = (c.c_uint16 * (4 * side * side))()
-normal_map = Picture(side, side, 16, c.cast(made, c.c_void_p))
+normal_map = ImageView(side, side, 16, c.cast(made, c.c_void_p))
 call("cotan_map_from_height", c.byref(picture), c.c_double(2), c.c_double(2), b"gltf", c.byref(normal_map))
 green = Green(c.sizeof(Green))
 call("cotan_map_green", c.byref(normal_map), c.byref(green))
@@ -163,7 +168,7 @@ assert max(abs(a - 2 * h) for a, h in zip(again, heights)) < 0.02 * 2, max(abs(a
 
 # Levels arrive largest first, and a caller may stop.
 sizes = []
-Take = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_int, c.POINTER(Picture), c.POINTER(Picture))
+Take = c.CFUNCTYPE(c.c_int, c.c_void_p, c.c_int, c.POINTER(ImageView), c.POINTER(ImageView))
 call("cotan_map_mips", c.byref(normal_map), b"directx", c.c_double(0.3),
      Take(lambda user, level, normals, rough: sizes.append((level, normals[0].width, rough[0].height)) or 0), None)
 assert sizes == [(i, side >> i, side >> i) for i in range(7)], sizes
@@ -173,7 +178,7 @@ call("cotan_map_mips", c.byref(normal_map), b"directx", c.c_double(0.3), Take(la
 flat = (c.c_uint8 * 4)(128, 128, 255, 255)
 small = (c.c_uint8 * 16)(*([100, 150, 250, 255] * 4))
 result = (c.c_uint8 * 16)()
-base, detail, target = Picture(2, 2, 8, c.cast(small, c.c_void_p)), Picture(1, 1, 8, c.cast(flat, c.c_void_p)), Picture(2, 2, 8, c.cast(result, c.c_void_p))
+base, detail, target = ImageView(2, 2, 8, c.cast(small, c.c_void_p)), ImageView(1, 1, 8, c.cast(flat, c.c_void_p)), ImageView(2, 2, 8, c.cast(result, c.c_void_p))
 call("cotan_map_blend", c.byref(base), c.byref(detail), b"gltf", b"reoriented", c.c_double(1), c.byref(target))
 assert max(abs(a - b) for a, b in zip(result, small)) <= 1, list(result)
 for words, name in ((b"gltf,nonsense", "from"), (b"", "from")):
@@ -189,20 +194,20 @@ info = MapInfo()
 call("cotan_map_describe", c.byref(normal_map), c.byref(info))
 assert info.content == b"tangent space" and abs(info.mean_length - 1) < 1e-3 and 10 < info.mean_tilt < 60, info.content
 grey = (c.c_uint8 * 64)(*(v for i in range(16) for v in (i * 16, i * 16, i * 16, 255)))
-call("cotan_map_describe", c.byref(Picture(4, 4, 8, c.cast(grey, c.c_void_p))), c.byref(info))
+call("cotan_map_describe", c.byref(ImageView(4, 4, 8, c.cast(grey, c.c_void_p))), c.byref(info))
 assert info.content.startswith(b"grey"), info.content
 
 # Frames from vertex attributes: the plane's tangents and cotangents give the same as its differences.
 u, v = array([0] * 9), array([0] * 9)
 indices[2] = 2
 call("cotan_smooth_cotangents", c.byref(mesh), u, v)
-for frame, vertex in ((b"mikktspace", VertexPlaces(1, normals, tangents, None, None)), (b"vertex", VertexPlaces(1, normals, tangents, None, None)),
-                      (b"smooth", VertexPlaces(1, normals, None, u, v))):
+for frame, vertex in ((b"mikktspace", InterpolatedPoints(1, normals, tangents, None, None)), (b"vertex", InterpolatedPoints(1, normals, tangents, None, None)),
+                      (b"smooth", InterpolatedPoints(1, normals, None, u, v))):
     call("cotan_vertex_frame_apply", frame, c.byref(vertex), texel, out)
     assert max(abs(a - b) for a, b in zip(out, (-0.6, 0.48, 0.64))) < 1e-5, (frame, list(out))
     call("cotan_vertex_frame_encode", frame, c.byref(vertex), out, back)
     assert max(abs(a - b) for a, b in zip(back, texel)) < 1e-5, (frame, list(back))
-call("cotan_vertex_frame_apply", b"smooth", c.byref(VertexPlaces(1, normals, tangents, None, None)), texel, out, expect=1)
+call("cotan_vertex_frame_apply", b"smooth", c.byref(InterpolatedPoints(1, normals, tangents, None, None)), texel, out, expect=1)
 
 # The plane in other forms. Split: three equal corners share no vertex. U and V: t = cross(n, u) is along +u, -x.
 split, sources, count = (c.c_uint32 * 3)(), (c.c_uint32 * 6)(), c.c_size_t()
@@ -261,7 +266,7 @@ for function, words, outputs in (("tangents", [b"mikktspace"], 24), ("tangents",
 shares = []
 options = BakeOptions(None, None, None, 1, 0, 0, 0, 0.5, 1, Progress(lambda user, done: shares.append(done) or 0), None)
 pixels8 = (c.c_uint8 * (16 * 16 * 4))()
-baked_map = Picture(16, 16, 8, c.cast(pixels8, c.c_void_p))
+baked_map = ImageView(16, 16, 8, c.cast(pixels8, c.c_void_p))
 baked = BakeResult()
 if call("cotan_bake", c.byref(low), c.byref(high), c.byref(options), c.byref(baked_map), c.byref(baked), expect="built") is not None:
     expected = (round(128 - 127 * 0.1 / slope), 128, round(128 + 127 / slope), 255)
@@ -426,16 +431,16 @@ if lint_of(model) is not None:
     assert whole[:4] == b"glTF" and lint_of(whole) is not None and not asked  # everything is embedded
     take(report)
     # Two steps give the same, except for the image's position in the file.
-    conversion, picture, number = c.c_void_p(), Picture(), len(encoded)
+    conversion, picture, number = c.c_void_p(), ImageView(), len(encoded)
     names = []
     Take = c.CFUNCTYPE(c.c_int, c.c_void_p, text, c.c_void_p, c.c_size_t)
-    call("cotan_gltf_pictures", *arguments, c.c_int(1), Take(lambda user, name, data, size: names.append(size) or 0), None)
+    call("cotan_gltf_images", *arguments, c.c_int(1), Take(lambda user, name, data, size: names.append(size) or 0), None)
     assert names == [len(PNG)]
     call("cotan_convert_begin", *arguments, c.byref(new_map), c.byref(convert), c.byref(conversion))
     asked.clear()
     cotan.cotan_conversion_count.restype = c.c_size_t
     assert cotan.cotan_conversion_count(conversion) == 1 and len(encoded) == number and convert.maps_converted == 1
-    call("cotan_conversion_picture", conversion, c.c_size_t(0), c.byref(picture))
+    call("cotan_conversion_image", conversion, c.c_size_t(0), c.byref(picture))
     assert picture.width == picture.height == side and c.string_at(picture.pixels, 4) == encoded[0]
     assert "PNG files of all" in call("cotan_convert_end", conversion, c.byref(glb), None, expect=1)
     assert "expected less than 1, found 1" in call("cotan_conversion_set", conversion, c.c_size_t(1), PNG, c.c_size_t(len(PNG)), expect=1)
@@ -482,8 +487,8 @@ if call("cotan_render", None, c.c_size_t(0), None, None, None, None, expect="fil
     words = [b"--size", b"8x6", b"--device", b"reference", b"--environment", b"none", b"--shape", b"plane"]
     wanted = RenderOptions(len(words), (text * len(words))(*words), 0, 0, Progress(), None)
     call("cotan_render", None, c.c_size_t(0), None, c.byref(wanted), c.byref(made), None)
-    drawn = Picture()
-    call("cotan_image_picture", made, c.byref(drawn))
+    drawn = ImageView()
+    call("cotan_image_pixels", made, c.byref(drawn))
     assert (drawn.width, drawn.height, drawn.bits) == (8, 6, 8)
     cotan.cotan_image_free(made)
     wanted.words[1] = b"8x"

@@ -46,9 +46,9 @@ private:
     std::vector<T> all_;
 };
 
-template<class T> cotan_picture pictureOf(T* pixels, int width, int height)
+template<class T> cotan_image_view pictureOf(T* pixels, int width, int height)
 {
-    return {sizeof(cotan_picture), width, height, int(8 * sizeof(T)), pixels};
+    return {sizeof(cotan_image_view), width, height, int(8 * sizeof(T)), pixels};
 }
 
 // A float image of one colour.
@@ -260,28 +260,29 @@ TEST(CBuffers, framesFillThreeFloatsPerSample)
 {
     const std::vector<float> normals{0, 0, 1, 0, 1, 0}, dpdx{1, 0, 0, 1, 0, 0}, dpdy{0, 1, 0, 0, 0, -1};
     const std::vector<float> duvdx{1, 0, 1, 0}, duvdy{0, 1, 0, 1}, texels{0.6f, 0, 0.8f, 0, 0.6f, 0.8f};
-    cotan_places places = {sizeof places, 2, normals.data(), dpdx.data(), dpdy.data(), duvdx.data(), duvdy.data()};
+    cotan_surface_points points = {sizeof points, 2,           normals.data(), dpdx.data(), dpdy.data(),
+                                   duvdx.data(),  duvdy.data()};
     Guarded<float> out(6), back(6);
-    ASSERT_EQ(cotan_frame_apply("orthonormal", &places, texels.data(), out.data(), message, sizeof message), COTAN_OK);
+    ASSERT_EQ(cotan_frame_apply("orthonormal", &points, texels.data(), out.data(), message, sizeof message), COTAN_OK);
     const std::array<float, 6> expected{0.6f, 0, 0.8f, 0, 0.8f, -0.6f}; // u along x; v along y, then along -z
     for (std::size_t i = 0; i < 6; ++i)
         EXPECT_NEAR(out[i], expected[i], kRounding) << i;
-    ASSERT_EQ(cotan_frame_encode("orthonormal", &places, out.data(), back.data(), message, sizeof message), COTAN_OK);
+    ASSERT_EQ(cotan_frame_encode("orthonormal", &points, out.data(), back.data(), message, sizeof message), COTAN_OK);
     for (std::size_t i = 0; i < 6; ++i)
         EXPECT_NEAR(back[i], texels[i], kRounding) << i;
-    places.count = 0;
+    points.count = 0;
     Guarded<float> none(6);
-    EXPECT_EQ(cotan_frame_apply("orthonormal", &places, texels.data(), none.data(), message, sizeof message), COTAN_OK);
-    EXPECT_EQ(cotan_frame_encode("orthonormal", &places, texels.data(), none.data(), message, sizeof message),
+    EXPECT_EQ(cotan_frame_apply("orthonormal", &points, texels.data(), none.data(), message, sizeof message), COTAN_OK);
+    EXPECT_EQ(cotan_frame_encode("orthonormal", &points, texels.data(), none.data(), message, sizeof message),
               COTAN_OK);
     EXPECT_TRUE(none.untouched());
-    const cotan_places nowhere = {sizeof nowhere, 0, nullptr, nullptr, nullptr, nullptr, nullptr};
+    const cotan_surface_points nowhere = {sizeof nowhere, 0, nullptr, nullptr, nullptr, nullptr, nullptr};
     EXPECT_EQ(cotan_frame_apply("orthonormal", &nowhere, texels.data(), none.data(), message, sizeof message), COTAN_OK)
         << message;
     EXPECT_EQ(cotan_frame_encode("orthonormal", &nowhere, texels.data(), none.data(), message, sizeof message),
               COTAN_OK)
         << message;
-    cotan_places lacking = nowhere;
+    cotan_surface_points lacking = nowhere;
     lacking.count = 1;
     EXPECT_EQ(cotan_frame_apply("orthonormal", &lacking, texels.data(), none.data(), message, sizeof message),
               COTAN_USAGE);
@@ -301,9 +302,9 @@ TEST(CBuffers, mapsAreConvertedWithinTheirBufferAndDirectXFlipsOnlyGreen)
 {
     constexpr int kWidth = 5, kHeight = 3;
     const auto pixels = filled(kWidth, kHeight, {stored(0.6), stored(0.48), stored(0.64)});
-    cotan_picture map = pictureOf(const_cast<float*>(pixels.data()), kWidth, kHeight);
+    cotan_image_view map = pictureOf(const_cast<float*>(pixels.data()), kWidth, kHeight);
     Guarded<float> floats(4 * kWidth * kHeight);
-    cotan_picture out = pictureOf(floats.data(), kWidth, kHeight);
+    cotan_image_view out = pictureOf(floats.data(), kWidth, kHeight);
     ASSERT_EQ(cotan_map_convert(&map, "opengl", "directx", &out, message, sizeof message), COTAN_OK) << message;
     for (int i = 0; i < kWidth * kHeight; ++i)
         expectPixel(floats.data() + 4 * i, 0.6, -0.48, 0.64, kRounding);
@@ -321,10 +322,10 @@ TEST(CBuffers, mapsAreConvertedWithinTheirBufferAndDirectXFlipsOnlyGreen)
 TEST(CBuffers, imagesOfWrongSizeOrDepthAreRefused)
 {
     const auto pixels = filled(5, 3, {0.5f, 0.5f, 1});
-    cotan_picture map = pictureOf(const_cast<float*>(pixels.data()), 5, 3);
+    cotan_image_view map = pictureOf(const_cast<float*>(pixels.data()), 5, 3);
     Guarded<float> floats(4 * 6 * 4);
     for (const auto& [width, height] : {std::pair{5, 4}, {4, 3}, {6, 3}, {5, 2}, {3, 5}}) {
-        cotan_picture out = pictureOf(floats.data(), width, height);
+        cotan_image_view out = pictureOf(floats.data(), width, height);
         EXPECT_EQ(cotan_map_convert(&map, "gltf", "gltf", &out, message, sizeof message), COTAN_USAGE)
             << width << height;
         EXPECT_EQ(cotan_map_from_height(&map, 1, 1, "gltf", &out, message, sizeof message), COTAN_USAGE);
@@ -333,17 +334,17 @@ TEST(CBuffers, imagesOfWrongSizeOrDepthAreRefused)
     cotan_green green = {};
     green.size = sizeof green;
     for (const auto& [width, height] : {std::pair{0, 3}, {5, 0}, {-1, 3}, {65537, 1}, {1, 65537}}) {
-        cotan_picture wrong = pictureOf(floats.data(), width, height);
+        cotan_image_view wrong = pictureOf(floats.data(), width, height);
         EXPECT_EQ(cotan_map_green(&wrong, &green, message, sizeof message), COTAN_USAGE) << width << " " << height;
     }
     for (const int bits : {0, 7, 9, 15, 24, 64}) {
-        cotan_picture wrong = map;
+        cotan_image_view wrong = map;
         wrong.bits = bits;
         EXPECT_EQ(cotan_map_green(&wrong, &green, message, sizeof message), COTAN_USAGE) << bits;
     }
     std::vector<std::uint8_t> row(4 * 65536, 128);
     for (const auto& [width, height] : {std::pair{65536, 1}, {1, 65536}}) {
-        cotan_picture longest = pictureOf(row.data(), width, height);
+        cotan_image_view longest = pictureOf(row.data(), width, height);
         EXPECT_EQ(cotan_map_green(&longest, &green, message, sizeof message), COTAN_OK) << message;
     }
     EXPECT_TRUE(floats.untouched());
@@ -362,7 +363,7 @@ TEST(CBuffers, greenDetectionFillsEveryNumber)
                 const double inside = dx * dx + dy * dy < 0.8 ? 0.7 : 0, nx = inside * dx, ny = inside * dy * up;
                 pixels.insert(pixels.end(), {stored(nx), stored(ny), stored(std::sqrt(1 - nx * nx - ny * ny)), 1});
             }
-        cotan_picture map = pictureOf(pixels.data(), 4 * kSide, 2 * kSide);
+        cotan_image_view map = pictureOf(pixels.data(), 4 * kSide, 2 * kSide);
         cotan_green green = {};
         green.size = sizeof green;
         ASSERT_EQ(cotan_map_green(&map, &green, message, sizeof message), COTAN_OK) << message;
@@ -381,7 +382,7 @@ TEST(CBuffers, mapInfoFillsEveryNumber)
     for (int i = 0; i < 8; ++i) // the last row is below the horizon
         pixels[std::size_t(4 * (32 + i) + 2)] = stored(-std::sqrt(1 - 0.36 - 0.04));
     pixels[0] = std::numeric_limits<float>::quiet_NaN();
-    cotan_picture map = pictureOf(pixels.data(), 8, 5);
+    cotan_image_view map = pictureOf(pixels.data(), 8, 5);
     cotan_map_info info = {};
     info.size = sizeof info;
     ASSERT_EQ(cotan_map_describe(&map, &info, message, sizeof message), COTAN_OK) << message;
@@ -407,9 +408,9 @@ TEST(CBuffers, slopesOfHeightsHaveAFactorForEachAxis)
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x)
             pixels.insert(pixels.end(), {0.1f * float(x) - 0.05f * float(y), 9, 9, 1}); // only red is read
-    cotan_picture height = pictureOf(pixels.data(), kWidth, kHeight);
+    cotan_image_view height = pictureOf(pixels.data(), kWidth, kHeight);
     Guarded<float> made(4 * kWidth * kHeight);
-    cotan_picture map = pictureOf(made.data(), kWidth, kHeight);
+    cotan_image_view map = pictureOf(made.data(), kWidth, kHeight);
     ASSERT_EQ(cotan_map_from_height(&height, 2, 3, "gltf", &map, message, sizeof message), COTAN_OK) << message;
     const double sx = -2 * 0.1, sy = -3 * 0.05, length = std::sqrt(1 + sx * sx + sy * sy); // rises up the image
     for (int y = 1; y + 1 < kHeight; ++y) // heights wrap around at the borders
@@ -430,7 +431,7 @@ TEST(CBuffers, heightsHaveOneFloatPerTexelAndMeanZero)
             const double slope = 0.3 * std::sin(2 * std::numbers::pi * (x + 0.5) / kWidth);
             pixels.insert(pixels.end(), {stored(slope), stored(0), stored(std::sqrt(1 - slope * slope)), 1});
         }
-    cotan_picture map = pictureOf(pixels.data(), kWidth, kHeight);
+    cotan_image_view map = pictureOf(pixels.data(), kWidth, kHeight);
     Guarded<float> heights(kWidth * kHeight);
     ASSERT_EQ(cotan_map_to_height(&map, "gltf", heights.data(), message, sizeof message), COTAN_OK) << message;
     double sum = 0, differing = 0;
@@ -453,10 +454,10 @@ TEST(CBuffers, detailIsBlendedOverTheBaseWithItsStrength)
         return filled(3, 2, {stored(x * z), stored(y * z), stored(z)});
     };
     auto base = leaning(0.3, 0.1), detail = leaning(0, 0.2);
-    const cotan_picture under = pictureOf(base.data(), 3, 2), over = pictureOf(detail.data(), 3, 2);
+    const cotan_image_view under = pictureOf(base.data(), 3, 2), over = pictureOf(detail.data(), 3, 2);
     for (const double strength : {0.0, 0.5, 2.0}) {
         Guarded<float> made(4 * 3 * 2);
-        cotan_picture map = pictureOf(made.data(), 3, 2);
+        cotan_image_view map = pictureOf(made.data(), 3, 2);
         ASSERT_EQ(cotan_map_blend(&under, &over, "gltf", "slopes", strength, &map, message, sizeof message), COTAN_OK)
             << message;
         const double sy = 0.1 + strength * 0.2, z = 1 / std::sqrt(1 + 0.09 + sy * sy);
@@ -464,7 +465,7 @@ TEST(CBuffers, detailIsBlendedOverTheBaseWithItsStrength)
             expectPixel(made.data() + 4 * i, 0.3 * z, sy * z, z, 1e-5);
     }
     Guarded<float> made(4 * 3 * 2);
-    cotan_picture map = pictureOf(made.data(), 3, 2);
+    cotan_image_view map = pictureOf(made.data(), 3, 2);
     EXPECT_EQ(cotan_map_blend(&under, &over, "gltf", "slope", 1, &map, message, sizeof message), COTAN_USAGE);
     EXPECT_EQ(cotan_map_blend(&under, &over, "gltf", "slopes", NAN, &map, message, sizeof message), COTAN_USAGE);
     EXPECT_TRUE(made.untouched());
@@ -473,12 +474,12 @@ TEST(CBuffers, detailIsBlendedOverTheBaseWithItsStrength)
 TEST(CBuffers, levelsHalveEachSideAndANonzeroReturnStops)
 {
     auto pixels = filled(12, 5, {0.5f, 0.5f, 1});
-    const cotan_picture map = pictureOf(pixels.data(), 12, 5);
+    const cotan_image_view map = pictureOf(pixels.data(), 12, 5);
     struct Seen {
         std::vector<std::array<int, 5>> levels;
         int stopAt = -1;
     } seen;
-    const auto take = [](void* user, int level, const cotan_picture* normals, const cotan_picture* rough) {
+    const auto take = [](void* user, int level, const cotan_image_view* normals, const cotan_image_view* rough) {
         Seen& s = *static_cast<Seen*>(user);
         s.levels.push_back({level, normals->width, normals->height, rough->width, rough->height});
         EXPECT_NEAR(static_cast<const float*>(rough->pixels)[0], 0.25, 0.01);
@@ -522,7 +523,7 @@ TEST(CBuffers, resultsAreWrittenUpToTheStatedAndKnownSize)
     const std::uint32_t indices[] = {0, 1, 2, 0, 2, 3};
     const cotan_mesh mesh = {sizeof(cotan_mesh), 4, positions, normals, uvs, 6, indices};
     Guarded<std::uint8_t> pixels(8 * 8 * 4);
-    cotan_picture map = pictureOf(pixels.data(), 8, 8);
+    cotan_image_view map = pictureOf(pixels.data(), 8, 8);
     for (const std::size_t size :
          {offsetof(cotan_bake_result, further), sizeof(cotan_bake_result), sizeof(cotan_bake_result) + kMore}) {
         Guarded<std::uint64_t> words((sizeof(cotan_bake_result) + kMore) / kWord);

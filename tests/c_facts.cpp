@@ -67,26 +67,26 @@ void tangentsAndWhatTheyMake()
                 && tangents[4 * i + 3] == -1; // cross(n, t) = -y, and v falls with y
         expect(right, "every corner of a mirrored plane");
         const float normal[] = {0, 0, 2}, texel[] = {0.6f, 0, 0.8f};
-        const cotan_vertex_places place = {sizeof place, 1, normal, tangents.data(), nullptr, nullptr};
+        const cotan_interpolated_points point = {sizeof point, 1, normal, tangents.data(), nullptr, nullptr};
         float out[3], back[3];
-        expect(cotan_vertex_frame_apply(kind, &place, texel, out, message, sizeof message) == COTAN_OK, kind);
+        expect(cotan_vertex_frame_apply(kind, &point, texel, out, message, sizeof message) == COTAN_OK, kind);
         if (std::strcmp(kind, "vertex") == 0) // mikktspace does not normalise the normal
             expect(near(out, -0.6f, 0, 0.8f), "a texel towards +u");
-        expect(cotan_vertex_frame_encode(kind, &place, out, back, message, sizeof message) == COTAN_OK
+        expect(cotan_vertex_frame_encode(kind, &point, out, back, message, sizeof message) == COTAN_OK
                    && near(back, 0.6f, 0, 0.8f),
                "and back");
     }
     std::vector<float> u(3 * mesh.vertex_count), v(3 * mesh.vertex_count);
     expect(cotan_smooth_cotangents(&mesh, u.data(), v.data(), message, sizeof message) == COTAN_OK, "smooth");
     const float normal[] = {0, 0, 1}, texel[] = {0, 0.6f, 0.8f};
-    const cotan_vertex_places place = {sizeof place, 1, normal, nullptr, u.data(), v.data()};
+    const cotan_interpolated_points point = {sizeof point, 1, normal, nullptr, u.data(), v.data()};
     float out[3];
-    expect(cotan_vertex_frame_apply("smooth", &place, texel, out, message, sizeof message) == COTAN_OK
+    expect(cotan_vertex_frame_apply("smooth", &point, texel, out, message, sizeof message) == COTAN_OK
                && near(out, 0, -0.6f, 0.8f),
            "a texel towards +v, which falls with y");
-    expect(cotan_vertex_frame_apply("vertex", &place, texel, out, message, sizeof message) == COTAN_USAGE,
+    expect(cotan_vertex_frame_apply("vertex", &point, texel, out, message, sizeof message) == COTAN_USAGE,
            "vertex wants tangents");
-    expect(cotan_vertex_frame_apply("exact", &place, texel, out, message, sizeof message) == COTAN_USAGE,
+    expect(cotan_vertex_frame_apply("exact", &point, texel, out, message, sizeof message) == COTAN_USAGE,
            "exact is from differences");
 }
 
@@ -101,8 +101,8 @@ void mapsOfAWave()
             pixels.insert(pixels.end(), 4, heights.back());
         }
     std::vector<std::uint16_t> made(4 * side * side);
-    const cotan_picture picture = {sizeof picture, side, side, 32, pixels.data()};
-    cotan_picture map = {sizeof map, side, side, 16, made.data()};
+    const cotan_image_view picture = {sizeof picture, side, side, 32, pixels.data()};
+    cotan_image_view map = {sizeof map, side, side, 16, made.data()};
     expect(cotan_map_from_height(&picture, 2, 2, "gltf", &map, message, sizeof message) == COTAN_OK, "from height");
     cotan_green green{};
     green.size = sizeof green;
@@ -122,14 +122,14 @@ void mapsOfAWave()
         worst < 0.04,
         "the height again, but for what central differences take of a wave of 32 texels"); // 0.6 % of 2, and rounding
     int levels = 0;
-    const auto count = [](void* user, int, const cotan_picture*, const cotan_picture*) {
+    const auto count = [](void* user, int, const cotan_image_view*, const cotan_image_view*) {
         return ++*static_cast<int*>(user), 0;
     };
     expect(cotan_map_mips(&map, "gltf", 0.5, count, &levels, message, sizeof message) == COTAN_OK && levels == 7,
            "seven levels");
     expect(cotan_map_blend(&map, &map, "gltf", "udn", 0, &map, message, sizeof message) == COTAN_OK, "blend");
     if (sizeof(std::size_t) == 4) { // 65536 x 65536 x 4 wraps around to 0
-        cotan_picture large = {sizeof large, 65536, 65536, 8, made.data()};
+        cotan_image_view large = {sizeof large, 65536, 65536, 8, made.data()};
         expect(cotan_map_green(&large, &green, message, sizeof message) == COTAN_UNAVAILABLE,
                "a picture larger than memory");
     }

@@ -86,7 +86,7 @@ struct Caller {
                 *bytes = nullptr;
             return 0;
         };
-        f.decode = [](void* user, const char* name, const void* bytes, std::size_t size, cotan_picture* picture) {
+        f.decode = [](void* user, const char* name, const void* bytes, std::size_t size, cotan_image_view* picture) {
             Caller& self = *static_cast<Caller*>(user);
             self.calls.push_back(std::string("decode ") + name);
             EXPECT_TRUE(size == sizeof self.file && std::memcmp(bytes, self.file, size) == 0);
@@ -96,7 +96,7 @@ struct Caller {
             picture->pixels = self.pixels.data();
             return int(self.failing == Failing::decodeSaysNo);
         };
-        f.encode = [](void* user, const cotan_picture* picture, const void** bytes, std::size_t* size) {
+        f.encode = [](void* user, const cotan_image_view* picture, const void** bytes, std::size_t* size) {
             Caller& self = *static_cast<Caller*>(user);
             self.calls.push_back("encode " + std::to_string(picture->width) + " x " + std::to_string(picture->height));
             static const unsigned char jpeg[8] = {0xFF, 0xD8, 0xFF, 0xE0, 0, 16, 'J', 'F'};
@@ -244,8 +244,8 @@ TEST(CFiles, imagesAreRenderedWithTheGivenOptions)
     EXPECT_EQ(render(nullptr), COTAN_USAGE);
     words[1] = "20x10";
     ASSERT_EQ(render(&image), COTAN_OK) << text;
-    cotan_picture made = COTAN_INIT(cotan_picture);
-    ASSERT_EQ(cotan_image_picture(image, &made, text, sizeof text), COTAN_OK) << text;
+    cotan_image_view made = COTAN_INIT(cotan_image_view);
+    ASSERT_EQ(cotan_image_pixels(image, &made, text, sizeof text), COTAN_OK) << text;
     EXPECT_EQ(made.width, 20);
     EXPECT_EQ(made.height, 10);
     EXPECT_EQ(made.bits, 8);
@@ -260,7 +260,7 @@ TEST(CFiles, imagesAreRenderedWithTheGivenOptions)
     options.floats = 1;
     options.word_count = 0; // then the array is not read
     ASSERT_EQ(render(&image), COTAN_OK) << text;
-    ASSERT_EQ(cotan_image_picture(image, &made, text, sizeof text), COTAN_OK) << text;
+    ASSERT_EQ(cotan_image_pixels(image, &made, text, sizeof text), COTAN_OK) << text;
     EXPECT_EQ(made.bits, 32);
     cotan_image_free(image);
 }
@@ -278,8 +278,8 @@ TEST(CFiles, anExposureWithDecimalsScalesAllLight)
         options.floats = 1;
         cotan_image* image = nullptr;
         EXPECT_EQ(cotan_render(nullptr, 0, nullptr, &options, &image, nullptr, text, sizeof text), COTAN_OK) << text;
-        cotan_picture made = COTAN_INIT(cotan_picture);
-        EXPECT_EQ(cotan_image_picture(image, &made, text, sizeof text), COTAN_OK) << text;
+        cotan_image_view made = COTAN_INIT(cotan_image_view);
+        EXPECT_EQ(cotan_image_pixels(image, &made, text, sizeof text), COTAN_OK) << text;
         const auto* first = static_cast<const float*>(made.pixels);
         const std::vector<float> values(first, first + std::size_t(4 * made.width * made.height));
         cotan_image_free(image);
@@ -318,7 +318,7 @@ TEST(CFiles, exchangedRedAndGreenAreDetected)
                     pixels.push_back(float(0.5 * n + 0.5));
                 pixels.push_back(1);
             }
-        const cotan_picture map{sizeof map, kWidth, kHeight, 32, pixels.data()};
+        const cotan_image_view map{sizeof map, kWidth, kHeight, 32, pixels.data()};
         cotan_green green = COTAN_INIT(cotan_green);
         ASSERT_EQ(cotan_map_green(&map, &green, text, sizeof text), COTAN_OK) << text;
         EXPECT_EQ(green.swapped, int(exchanged)) << green.reason;
@@ -354,7 +354,7 @@ TEST(CFiles, zeroAndTransferOfAMapAreDetected)
                 }
                 pixels.push_back(255);
             }
-        const cotan_picture map{sizeof map, kWidth, kHeight, 8, pixels.data()};
+        const cotan_image_view map{sizeof map, kWidth, kHeight, 8, pixels.data()};
         cotan_map_info info = COTAN_INIT(cotan_map_info);
         ASSERT_EQ(cotan_map_describe(&map, &info, text, sizeof text), COTAN_OK) << text;
         EXPECT_EQ(info.srgb, row.expectedSrgb) << row.zero << " " << row.curve;
@@ -372,23 +372,23 @@ TEST(CFiles, imagesRoundTripThroughFiles)
         std::vector<decltype(number)> pixels(4 * 5 * 3);
         for (std::size_t i = 0; i < pixels.size(); ++i)
             pixels[i] = decltype(number)(i * 977 + 3);
-        const cotan_picture given{sizeof given, 5, 3, int(8 * sizeof number), pixels.data()};
+        const cotan_image_view given{sizeof given, 5, 3, int(8 * sizeof number), pixels.data()};
         const cotan_status written = cotan_image_write(file.c_str(), &given, text, sizeof text);
         if (written == COTAN_UNAVAILABLE)
             return;
         ASSERT_EQ(written, COTAN_OK) << text;
         cotan_image* image = nullptr;
         ASSERT_EQ(cotan_image_read(file.c_str(), 1, &image, text, sizeof text), COTAN_OK) << text;
-        cotan_picture made = COTAN_INIT(cotan_picture);
-        ASSERT_EQ(cotan_image_picture(image, &made, text, sizeof text), COTAN_OK) << text;
+        cotan_image_view made = COTAN_INIT(cotan_image_view);
+        ASSERT_EQ(cotan_image_pixels(image, &made, text, sizeof text), COTAN_OK) << text;
         EXPECT_EQ(made.size, sizeof made);
         EXPECT_EQ(made.width, 5);
         EXPECT_EQ(made.height, 3);
         EXPECT_EQ(made.bits, given.bits);
         EXPECT_EQ(std::memcmp(made.pixels, pixels.data(), pixels.size() * sizeof number), 0);
-        cotan_picture shorter = made;
+        cotan_image_view shorter = made;
         shorter.size -= 1;
-        EXPECT_EQ(cotan_image_picture(image, &shorter, text, sizeof text), COTAN_USAGE);
+        EXPECT_EQ(cotan_image_pixels(image, &shorter, text, sizeof text), COTAN_USAGE);
         cotan_image_free(image);
     };
     throughFile(static_cast<unsigned char>(0));

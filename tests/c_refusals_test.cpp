@@ -37,33 +37,34 @@ struct Square {
 
 struct Picture {
     std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(4 * 4 * 2, 128);
-    cotan_picture picture{sizeof(cotan_picture), 4, 2, 8, bytes.data()};
+    cotan_image_view picture{sizeof(cotan_image_view), 4, 2, 8, bytes.data()};
 };
 
-int takeLevel(void*, int, const cotan_picture*, const cotan_picture*) { return 0; }
+int takeLevel(void*, int, const cotan_image_view*, const cotan_image_view*) { return 0; }
 
 TEST(CRefusals, framesRequireAllTheirArrays)
 {
     const float n[3] = {0, 0, 1}, p[3] = {1, 0, 0}, q[3] = {0, 1, 0}, u[2] = {1, 0}, v[2] = {0, 1};
     float out[3] = {77, 77, 77};
-    const cotan_places good = {sizeof good, 1, n, p, q, u, v};
-    using Call = cotan_status (*)(const char*, const cotan_places*, const float*, float*, char*, std::size_t);
+    const cotan_surface_points good = {sizeof good, 1, n, p, q, u, v};
+    using Call = cotan_status (*)(const char*, const cotan_surface_points*, const float*, float*, char*, std::size_t);
     for (const Call call : {&cotan_frame_apply, &cotan_frame_encode}) {
         ASSERT_EQ(call("cotangent", &good, n, out, refusal, sizeof refusal), COTAN_OK) << refusal;
         out[0] = 77;
         expectRefused(call(nullptr, &good, n, out, refusal, sizeof refusal), "frame");
-        expectRefused(call("cotangent", nullptr, n, out, refusal, sizeof refusal), "places");
+        expectRefused(call("cotangent", nullptr, n, out, refusal, sizeof refusal), "points");
         expectRefused(call("cotangent", &good, nullptr, out, refusal, sizeof refusal), "texels and normals");
         expectRefused(call("cotangent", &good, n, nullptr, refusal, sizeof refusal), "texels and normals");
-        for (const auto member : {&cotan_places::normals, &cotan_places::dpdx, &cotan_places::dpdy,
-                                  &cotan_places::duvdx, &cotan_places::duvdy}) {
-            cotan_places places = good;
-            places.*member = nullptr;
-            expectRefused(call("cotangent", &places, n, out, refusal, sizeof refusal), "places: expected five arrays");
+        for (const auto member :
+             {&cotan_surface_points::normals, &cotan_surface_points::dpdx, &cotan_surface_points::dpdy,
+              &cotan_surface_points::duvdx, &cotan_surface_points::duvdy}) {
+            cotan_surface_points points = good;
+            points.*member = nullptr;
+            expectRefused(call("cotangent", &points, n, out, refusal, sizeof refusal), "points: expected five arrays");
         }
-        cotan_places places = good;
-        places.size = sizeof places - 1;
-        expectRefused(call("cotangent", &places, n, out, refusal, sizeof refusal), "places.size");
+        cotan_surface_points points = good;
+        points.size = sizeof points - 1;
+        expectRefused(call("cotangent", &points, n, out, refusal, sizeof refusal), "points.size");
         for (const char* frame : {"mikktspace", "vertex", "smooth", "nothing"})
             expectRefused(call(frame, &good, n, out, refusal, sizeof refusal), "frame");
         EXPECT_EQ(out[0], 77);
@@ -74,26 +75,28 @@ TEST(CRefusals, vertexFramesRequireTheArraysTheyRead)
 {
     const float n[3] = {0, 0, 1}, t[4] = {1, 0, 0, 1}, u[3] = {1, 0, 0}, v[3] = {0, 1, 0};
     float out[3];
-    const cotan_vertex_places good = {sizeof good, 1, n, t, u, v};
-    using Call = cotan_status (*)(const char*, const cotan_vertex_places*, const float*, float*, char*, std::size_t);
+    const cotan_interpolated_points good = {sizeof good, 1, n, t, u, v};
+    using Call =
+        cotan_status (*)(const char*, const cotan_interpolated_points*, const float*, float*, char*, std::size_t);
     for (const Call call : {&cotan_vertex_frame_apply, &cotan_vertex_frame_encode}) {
         expectRefused(call("smooth", &good, nullptr, out, refusal, sizeof refusal), "texels and normals");
         expectRefused(call("smooth", &good, n, nullptr, refusal, sizeof refusal), "texels and normals");
-        expectRefused(call("smooth", nullptr, n, out, refusal, sizeof refusal), "places");
+        expectRefused(call("smooth", nullptr, n, out, refusal, sizeof refusal), "points");
         expectRefused(call("cotangent", &good, n, out, refusal, sizeof refusal), "frame");
         for (const char* frame : {"mikktspace", "vertex", "smooth"}) {
             const bool smooth = frame == std::string("smooth");
             ASSERT_EQ(call(frame, &good, n, out, refusal, sizeof refusal), COTAN_OK) << refusal;
-            for (const auto member : {&cotan_vertex_places::normals, &cotan_vertex_places::tangents,
-                                      &cotan_vertex_places::cotangents_u, &cotan_vertex_places::cotangents_v}) {
-                cotan_vertex_places places = good;
-                places.*member = nullptr;
-                const bool reads =
-                    member == &cotan_vertex_places::normals || (member == &cotan_vertex_places::tangents) == !smooth;
+            for (const auto member :
+                 {&cotan_interpolated_points::normals, &cotan_interpolated_points::tangents,
+                  &cotan_interpolated_points::cotangents_u, &cotan_interpolated_points::cotangents_v}) {
+                cotan_interpolated_points points = good;
+                points.*member = nullptr;
+                const bool reads = member == &cotan_interpolated_points::normals
+                    || (member == &cotan_interpolated_points::tangents) == !smooth;
                 if (reads)
-                    expectRefused(call(frame, &places, n, out, refusal, sizeof refusal), "places: expected normals");
+                    expectRefused(call(frame, &points, n, out, refusal, sizeof refusal), "points: expected normals");
                 else
-                    EXPECT_EQ(call(frame, &places, n, out, refusal, sizeof refusal), COTAN_OK) << refusal;
+                    EXPECT_EQ(call(frame, &points, n, out, refusal, sizeof refusal), COTAN_OK) << refusal;
             }
         }
     }
@@ -231,7 +234,7 @@ TEST(CRefusals, vertexCopiesRequireBuffersAndACount)
 TEST(CRefusals, mapFunctionsRequireTheirImagesAndNames)
 {
     Picture map, out, other;
-    using P = cotan_picture*;
+    using P = cotan_image_view*;
     cotan_green green = {};
     green.size = sizeof green;
     cotan_map_info info = {};
@@ -341,12 +344,12 @@ TEST(CRefusals, modelAndConversionFunctionsRequireTheirPointers)
     Picture picture;
     expectRefused(cotan_image_write(nullptr, &picture.picture, refusal, sizeof refusal), "file");
     expectRefused(cotan_image_write("x.png", nullptr, refusal, sizeof refusal), "picture");
-    expectRefused(cotan_image_picture(nullptr, &picture.picture, refusal, sizeof refusal), "image");
+    expectRefused(cotan_image_pixels(nullptr, &picture.picture, refusal, sizeof refusal), "image");
     cotan_bytes* glb = nullptr;
     cotan_conversion* conversion = nullptr;
     const auto take = [](void*, const char*, const void*, std::size_t) { return 0; };
-    expectRefused(cotan_gltf_pictures(nullptr, 1, nullptr, 0, take, nullptr, refusal, sizeof refusal), "model");
-    expectRefused(cotan_gltf_pictures("{}", 2, nullptr, 0, nullptr, nullptr, refusal, sizeof refusal), "take");
+    expectRefused(cotan_gltf_images(nullptr, 1, nullptr, 0, take, nullptr, refusal, sizeof refusal), "model");
+    expectRefused(cotan_gltf_images("{}", 2, nullptr, 0, nullptr, nullptr, refusal, sizeof refusal), "take");
     expectRefused(cotan_lint_gltf(nullptr, 1, nullptr, nullptr, nullptr, nullptr, refusal, sizeof refusal), "model");
     expectRefused(cotan_convert_gltf(nullptr, 1, nullptr, nullptr, nullptr, &glb, nullptr, refusal, sizeof refusal),
                   "model");
@@ -354,7 +357,7 @@ TEST(CRefusals, modelAndConversionFunctionsRequireTheirPointers)
                   "glb");
     expectRefused(cotan_convert_begin("{}", 2, nullptr, nullptr, nullptr, nullptr, refusal, sizeof refusal),
                   "conversion");
-    expectRefused(cotan_conversion_picture(nullptr, 0, &picture.picture, refusal, sizeof refusal), "conversion");
+    expectRefused(cotan_conversion_image(nullptr, 0, &picture.picture, refusal, sizeof refusal), "conversion");
     expectRefused(cotan_conversion_set(nullptr, 0, "", 0, refusal, sizeof refusal), "conversion");
     expectRefused(cotan_convert_end(nullptr, &glb, nullptr, refusal, sizeof refusal), "conversion");
     EXPECT_EQ(cotan_conversion_count(nullptr), 0u);

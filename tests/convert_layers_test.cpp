@@ -221,7 +221,7 @@ TEST(ConvertAnisotropy, tangentsAreDroppedIfTheFrameHasTheirDirection)
             const json r = converted(folder.path(), frame);
             const json& turned = r["tangents"]["anisotropy"];
             ASSERT_EQ(turned.size(), 1u) << r;
-            EXPECT_NEAR(turned[0]["turned_degrees"]["mean"].get<double>(), degrees, 1e-4) << frame;
+            EXPECT_NEAR(turned[0]["rotated_degrees"]["mean"].get<double>(), degrees, 1e-4) << frame;
             EXPECT_EQ(turned[0]["tangents_stay"], degrees > 5) << frame;
             EXPECT_EQ(hasTangents(folder / "out.glb"), degrees > 5) << frame;
             EXPECT_EQ(r["notes"].dump().find("would rotate by 30.0 degrees") != std::string::npos, degrees > 5)

@@ -60,7 +60,7 @@ endif()
 
 # The field's terms in messages, names and pages.
 if(Python3_FOUND)
-  foreach(fact messages names pages)
+  foreach(fact documents messages names pages)
     add_test(NAME Words.${fact}UseTheTermsOfTheField
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/words_test.py ${PROJECT_SOURCE_DIR} ${fact}UseTheTermsOfTheField)
   endforeach()

@@ -91,8 +91,8 @@ TEST(Figures, everyNameMakesImagesAndOneSelfContainedPage)
     for (std::size_t i = 0; i < std::size(kNames); ++i) {
         EXPECT_EQ(report["figures"][i]["name"], kNames[i]);
         EXPECT_NE(page.find(std::string("cotan figures --only ") + kNames[i] + " -o"), std::string::npos) << kNames[i];
-        EXPECT_GE(report["figures"][i]["pictures"].size(), 2u);
-        for (const std::string file : report["figures"][i]["pictures"]) {
+        EXPECT_GE(report["figures"][i]["image_files"].size(), 2u);
+        for (const std::string file : report["figures"][i]["image_files"]) {
             const auto image = readImage(folder / ("a/" + file));
             ASSERT_TRUE(image) << file;
             EXPECT_EQ(image->height, 48) << file;

@@ -246,8 +246,18 @@ TEST(JsonText, keepsTheOrderOfMembersAndEveryKindOfValue)
     EXPECT_EQ(
         toText(versioned({{"command", "map detect"}, {"x", 1}})),
         "{\n  \"format\": \"cotan-map-detect\",\n  \"version\": 1,\n  \"command\": \"map detect\",\n  \"x\": 1\n}\n");
-    EXPECT_EQ(toText(versioned("cotan-lint-result", {{"x", 2}})),
-              "{\n  \"format\": \"cotan-lint-result\",\n  \"version\": 1,\n  \"x\": 2\n}\n");
+    EXPECT_EQ(toText(versioned("cotan-convert-result", {{"x", 2}})),
+              "{\n  \"format\": \"cotan-convert-result\",\n  \"version\": 1,\n  \"x\": 2\n}\n");
+}
+
+TEST(JsonText, oldNamesOfFieldsStayBesideTheNewOnes)
+{
+    const Json report = versioned({{"command", "lint"}, {"problem_areas", {{{"fraction", 0.5}}, {{"fraction", 1}}}}});
+    EXPECT_EQ(report["problem_areas"][0], (Json{{"fraction", 0.5}, {"share", 0.5}}));
+    EXPECT_EQ(report["problem_areas"][1], (Json{{"fraction", 1}, {"share", 1}}));
+    EXPECT_EQ(report["hot_spots"], report["problem_areas"]);
+    EXPECT_EQ(versioned({{"command", "tangents"}, {"whole", {{"reversed", 0.25}}}})["whole"],
+              (Json{{"reversed", 0.25}, {"turned", 0.25}}));
 }
 
 } // namespace

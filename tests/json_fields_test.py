@@ -146,12 +146,25 @@ def parent_of(field):
     return field.removesuffix("[]") if field.endswith("[]") else field.rpartition(".")[0]
 
 
+RENAMED = re.findall(r'\{"(\w+)", "(\w+)"\}', (HERE.parent / "src/files/old_fields.hpp").read_text())  # new name, old name
+
+
+def without_old_fields(value):
+    """The report without the old names of its fields, each of which must have the value of a new one."""
+    if isinstance(value, list):
+        return [without_old_fields(item) for item in value]
+    if not isinstance(value, dict):
+        return value
+    old = {old for name, old in RENAMED if name in value and value.get(old) == value[name]}
+    return {name: without_old_fields(member) for name, member in value.items() if name not in old}
+
+
 def differences(name, page, reports):
     """Mistakes of a page about these reports, one sentence each."""
     documented = page.reports.get(name, {})
     seen = Seen(documented)
     for report in reports:
-        seen.add(report)
+        seen.add(without_old_fields(report))
     rows, wrong = {}, []
     for field, types in documented.items():
         rows[field.replace("?", "")] = (field, types)

@@ -85,7 +85,7 @@ TEST(LintCheck, valuesAtALimitPassAndValuesOverItFail)
                           {"degenerate_uv", nullptr, &UvQuality::degenerate, nullptr, 0.01},
                           {"mirrored_overlap", nullptr, &UvQuality::overlappingMirrored, nullptr, 0.01},
                           {"reversed_w", nullptr, nullptr, &StoredTangents::reversedW, 0.01},
-                          {"turned_tangents", nullptr, nullptr, &StoredTangents::rotated, 0.01}};
+                          {"rotated_tangents", nullptr, nullptr, &StoredTangents::rotated, 0.01}};
     for (const Case& c : cases)
         for (const double limit : {0.0, 25.0}) {
             const auto checkAt = [&](double value) {
@@ -137,7 +137,7 @@ TEST(LintCheck, failuresAreSentencesWithNamesAndFigures)
                      "degenerate_uv | " + door + ": degenerate uv on 2 % of the area, limit 1",
                      "mirrored_overlap | " + door + ": uv overlapping in both orientations on 3 % of the area, limit 1",
                      "reversed_w | " + door + ": TANGENT.w contradicting the uv on 4 % of the area, limit 1",
-                     "turned_tangents | " + door + ": stored tangents rotated on 5.5 % of the area, limit 1",
+                     "rotated_tangents | " + door + ": stored tangents rotated on 5.5 % of the area, limit 1",
                      "not_judged | primitive 1: not judged, x.webp was not read",
                      "reversed_green | normal map bumps: green points opposite to what the file says (certain)",
                      "reversed_green | normal map image 7: green points opposite to what the file says (certain)"}));

@@ -115,8 +115,8 @@ TEST(LintCheck, areaLimitIsInPercent)
     p.stored.rotated = 0.05;
     EXPECT_TRUE(checkLimits(reportOf(p), {.area = 5}).passed());
     EXPECT_EQ(kindsOf(checkLimits(reportOf(p), {.area = 1})),
-              (Kinds{"degenerate_uv", "mirrored_overlap", "reversed_w", "turned_tangents"}));
-    EXPECT_EQ(kindsOf(checkLimits(reportOf(p), {.area = 4.5})), Kinds{"turned_tangents"});
+              (Kinds{"degenerate_uv", "mirrored_overlap", "reversed_w", "rotated_tangents"}));
+    EXPECT_EQ(kindsOf(checkLimits(reportOf(p), {.area = 4.5})), Kinds{"rotated_tangents"});
     EXPECT_TRUE(checkLimits(reportOf(p), {.degrees = 10}).passed());
 }
 

@@ -122,7 +122,7 @@ TEST(MapCommand, heights_with_free_borders_honour_the_kernel)
         const auto report = reportOf(
             runTool({"map", "to-height", "map.png", "--free", "--kernel", kernel, "-o", kernel + ".exr", "--json", "-"},
                     folder.path()));
-        return report["residual_share"].get<double>();
+        return report["residual_fraction"].get<double>();
     };
     EXPECT_NE(residualFraction("forward"), residualFraction("spectral"));
     EXPECT_NE(residualFraction("scharr"), residualFraction("central"));
@@ -293,7 +293,7 @@ TEST(MapCommand, heights_round_trip_through_normals)
     // 8 bits of the map: at most 0.4 degrees (sqrt(3)/2 steps of 1/127). 16 bits of the heights: half a step of range 9
     // texels/65535 is a slope of 1e-4.
     EXPECT_LT(report["angles"]["max_degrees"].get<double>(), 0.6) << report;
-    EXPECT_LT(heights["residual_share"].get<double>(), 0.02); // rounding of 1/127/sqrt(12) over slopes of 0.2
+    EXPECT_LT(heights["residual_fraction"].get<double>(), 0.02); // rounding of 1/127/sqrt(12) over slopes of 0.2
 }
 
 TEST(MapCommand, free_borders_follow_the_mean_tilt)

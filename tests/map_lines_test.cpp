@@ -91,11 +91,11 @@ TEST(MapLines, printEveryFigureOfAMap)
 TEST(MapLines, jsonHasNullForUndefinedFigures)
 {
     SurveyedFile file = surveyed();
-    const Texts figures = {"mean_length", "length_spread",     "shortened",
+    const Texts figures = {"mean_length", "length_deviation",  "shortened",
                            "mean",        "mean_tilt_degrees", "tilt_by_10_degrees"};
     const std::string whole = toText(toJson(file));
     for (const auto& [name, value] : {std::pair("mean_length", "0.99"),
-                                      {"length_spread", "0.0123"},
+                                      {"length_deviation", "0.0123"},
                                       {"shortened", "0.034"},
                                       {"invalid", "0.011"},
                                       {"below_horizon", "0.022"},

@@ -47,6 +47,7 @@ expect cotan 'lib.*/cotan/cotan_window.so'
 expect libcotan0 'lib.*/libcotan.so.0'
 expect libcotan-dev 'lib.*/libcotan.so'
 expect libcotan-dev include/cotan.h
+expect libcotan-dev include/cotan_old_names.h
 expect libcotan-dev share/cotan/shaders/cotan/frame.h
 expect python3-cotan lib/python3/dist-packages/cotan/py.typed
 ! grep -v -e '^share/doc/' -e '\.so\.[0-9.]*$' "$place/libcotan0.files" || failed "libcotan0 has more than a library"

@@ -82,7 +82,7 @@ TEST(ConvertLines, jsonOfAMapHasEveryFigure)
                                                                  {"texels_covered", 50},
                                                                  {"texels_padded", 61},
                                                                  {"bytes_after", 222},
-                                                                 {"texels_in_several_places", 72},
+                                                                 {"texels_overlapped", 72},
                                                                  {"below_horizon", 8},
                                                                  {"texels_that_disagree", 5}};
     for (const auto& [key, value] : numbers)
@@ -145,7 +145,7 @@ TEST(ConvertLines, tangentsLineNamesTheWorstDirection)
     EXPECT_EQ(j["anisotropy"][3]["primitive"], 4);
     EXPECT_EQ(j["anisotropy"][3]["material"], 8);
     EXPECT_EQ(j["anisotropy"][3]["tangents_stay"], true);
-    EXPECT_EQ(j["anisotropy"][3]["turned_degrees"]["mean"], 9);
+    EXPECT_EQ(j["anisotropy"][3]["rotated_degrees"]["mean"], 9);
 }
 
 TEST(ConvertLines, provokingLineSumsThePrimitives)

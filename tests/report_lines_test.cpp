@@ -248,7 +248,7 @@ TEST(LintLines, jsonHasEveryFigure)
     EXPECT_EQ(p["edge_steps"]["cotangent"]["mean"], 31);
     EXPECT_EQ(p["edge_steps"]["orthonormal"]["mean"], 41);
     EXPECT_EQ(p["stored_tangents"]["reversed_w"], 0.077);
-    EXPECT_EQ(p["stored_tangents"]["turned"], 0.088);
+    EXPECT_EQ(p["stored_tangents"]["rotated"], 0.088);
     EXPECT_EQ(p["stored_tangents"]["degrees_from_dpdu"]["mean"], 51);
     EXPECT_EQ(p["read_with"]["cotangent"]["mean"], 61);
     EXPECT_EQ(p["read_with"]["smooth"]["mean"], 71);

@@ -50,7 +50,7 @@ TEST(Statistics, emptyInputGivesNaN)
         const auto written = writtenOf(toJson(s));
         EXPECT_EQ(written["pixels"], 0);
         for (const char* figure : {"mean_degrees", "median_degrees", "percentile95_degrees", "percentile99_degrees",
-                                   "max_degrees", "share_over_1_degree", "share_over_5_degrees"})
+                                   "max_degrees", "fraction_over_1_degree", "fraction_over_5_degrees"})
             EXPECT_TRUE(written[figure].is_null()) << figure;
     }
     EXPECT_TRUE(std::isnan(shareOpposed({-1, -1})));
@@ -81,8 +81,8 @@ TEST(Statistics, areWrittenUnderTheirNames)
     EXPECT_EQ(written["percentile95_degrees"], 8); // 95 % of four are more than three
     EXPECT_EQ(written["percentile99_degrees"], 8);
     EXPECT_EQ(written["max_degrees"], 8);
-    EXPECT_EQ(written["share_over_1_degree"], 0.5);
-    EXPECT_EQ(written["share_over_5_degrees"], 0.25);
+    EXPECT_EQ(written["fraction_over_1_degree"], 0.5);
+    EXPECT_EQ(written["fraction_over_5_degrees"], 0.25);
 }
 
 TEST(Statistics, ignoreInvalidAngles)
@@ -156,7 +156,7 @@ TEST(TangentDifferenceVerdict, isWrittenWithItsFractions)
     EXPECT_EQ(written["corners"], 6);
     EXPECT_EQ(written["degenerate"], 2);
     EXPECT_EQ(written["w_different"], 0.25);
-    EXPECT_EQ(written["turned"], 0.25);
+    EXPECT_EQ(written["reversed"], 0.25);
     EXPECT_EQ(written["directions"]["max_degrees"], 170);
     EXPECT_FALSE(written["directions"].contains("pixels"));
     EXPECT_NE(toText(d, "X").find("; 2 of 6 corners are degenerate"), std::string::npos) << toText(d, "X");

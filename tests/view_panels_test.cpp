@@ -234,9 +234,9 @@ TEST_F(ViewPanels, commandLineOptionsSetBothSides)
     EXPECT_EQ(end["loads"], 1);
     EXPECT_EQ(end["failed_loads"], 0);
     EXPECT_EQ(end["events_played"], 6);
-    EXPECT_EQ(end["pictures"], 2); // with the divider, and without
+    EXPECT_EQ(end["images_drawn"], 2); // with the divider, and without
     EXPECT_EQ(end["ended"], "last event");
-    for (const char* what : {"window", "load", "first_picture", "first_shown"})
+    for (const char* what : {"window", "load", "first_image", "first_shown"})
         EXPECT_GT(end["seconds"][what].get<double>(), 0) << what;
 }
 

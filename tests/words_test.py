@@ -110,7 +110,41 @@ def pagesUseTheTermsOfTheField():
             check(name, 1, " ".join(text.split()), "page", PAGE_PATTERNS)
 
 
-FACTS = (messagesUseTheTermsOfTheField, namesUseTheTermsOfTheField, pagesUseTheTermsOfTheField)
+# The names of the last version, which are accepted once more: where they stand, and how each file writes them.
+OLD_NAMES = {
+    "src/c/include/cotan_old_names.h": r"#define (\w+) \w+",
+    "src/c/old_names.cpp": r"cotan_status (\w+)\(",
+    "src/files/old_fields.hpp": r'\{"\w+", "(\w+)"\}',
+    "bindings/python/cotan/_old_names.py": r'^    "(\w+_\w+)": "\w+",$',
+    "bindings/js/src/old_names.js": r"as (\w+) }",
+    "bindings/js/types/old_names.d.ts": r"export (?:type|const) (\w+)",
+}
+
+
+def documentsUseTheTermsOfTheField():
+    """No page, header, typing or docstring of a door has a name of the last version."""
+    global checked
+    old = {name: set(re.findall(pattern, (ROOT / name).read_text(), re.M)) for name, pattern in OLD_NAMES.items()}
+    wrong.extend(f"{name}: expected old names, found none" for name, found in old.items() if not found)
+
+    def anyOf(part):
+        return "|".join(sorted(word for name, found in old.items() if part in name for word in found))
+
+    # Fields of reports and types of npm are ordinary words, too: fields are looked for in code, at the end of a path.
+    everywhere = rf"\b(?:{anyOf('src/c')}|{anyOf('python')})\b"
+    pages = rf"{everywhere}|\b(?:{anyOf('bindings/js')})\b|`(?:[^`\s]*[.\]])?(?:{anyOf('fields')})\??`"
+    patterns = {".md": re.compile(pages), ".ts": re.compile(pages)}
+    for folder in ("README.md", "docs", "examples", "bindings", "integrations", "src/c/include"):
+        for page in [ROOT / folder] if folder.endswith(".md") else (ROOT / folder).rglob("*"):
+            name = str(page.relative_to(ROOT))
+            if page.suffix in (".md", ".ts", ".py", ".js", ".h", ".c", ".cpp") and not LEFT_OUT.search(name) and name not in OLD_NAMES:
+                text = page.read_text()
+                checked += text.count("\n")
+                for found in patterns.get(page.suffix, re.compile(everywhere)).finditer(text):
+                    wrong.append(f"{name}:{text.count(chr(10), 0, found.start()) + 1}: the old name {found.group(0)}")
+
+
+FACTS = (documentsUseTheTermsOfTheField, messagesUseTheTermsOfTheField, namesUseTheTermsOfTheField, pagesUseTheTermsOfTheField)
 if __name__ == "__main__":
     chosen = [f for f in FACTS if f.__name__ == sys.argv[2]] if len(sys.argv) > 2 else FACTS
     if not chosen:

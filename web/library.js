@@ -1,6 +1,6 @@
 // The library in a worker, so that it never blocks the page: await library.lint(...). Errors keep their message and code.
 // After a failure that is no message for the user the next call gets a new worker.
-const kCalls = ['decodePicture', 'encodePng', 'detect', 'info', 'convertMap', 'tangents', 'shader', 'lint', 'overLimits', 'convert', 'unzip'];
+const kCalls = ['decodeImage', 'encodePng', 'detect', 'info', 'convertMap', 'tangents', 'shader', 'lint', 'overLimits', 'convert', 'unzip'];
 export const library = Object.fromEntries(kCalls.map(name => [name, (...values) => ask(name, values)]));
 
 let current; // { worker, waiting }, waiting: by number of the call

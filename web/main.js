@@ -25,7 +25,7 @@ async function show(reading) {
       await showModel(scratch, model);
     } else {
       const { showMap } = await import('./map_panel.js');
-      await showMap(scratch, map.name, await library.decodePicture(map.bytes, map.name));
+      await showMap(scratch, map.name, await library.decodeImage(map.bytes, map.name));
     }
     if (turn !== latest) return;
     result.replaceChildren(...scratch.childNodes);

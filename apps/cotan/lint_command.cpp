@@ -140,10 +140,9 @@ Json toJson(const LintJob& job, const LintResult& done)
     for (const ProblemArea& area : done.areas)
         areas.push_back({{"text", area.text},
                          {"mesh", done.scene.meshes[area.mesh].name},
-                         {"share", area.share},
+                         {"fraction", area.share},
                          {"camera", formatCamera(area.camera)}});
     j["problem_areas"] = areas;
-    j["hot_spots"] = areas; // the old name, for one version
     j["check"] = toJson(done.check);
     j["over_limit"] = overLimits(done.check);
     j["seconds"] = {{"load", done.loadSeconds}, {"lint", done.seconds}};

@@ -151,7 +151,7 @@ Status runTo(const MapToHeightCommandOptions& o)
                         {"strength", 100 * (h.highest - h.lowest) / done->width},
                         {"slope_rms", h.slope},
                         {"residual_rms", h.residual},
-                        {"residual_share", fraction},
+                        {"residual_fraction", fraction},
                         {"mean_tilt_degrees", h.meanTilt},
                         {"invalid", h.invalid},
                         {"warnings", warnings}});

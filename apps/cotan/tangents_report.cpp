@@ -64,8 +64,9 @@ Json toJson(const TangentDifference& d)
 {
     Json directions = toJson(angleStatistics(d.degrees));
     directions.erase("pixels"); // these are corners, not pixels
-    return {{"verdict", name(verdictOf(d))},      {"corners", d.corners},          {"degenerate", d.degenerate},
-            {"w_different", invertedFraction(d)}, {"turned", reversedFraction(d)}, {"directions", directions}};
+    return {{"verdict", name(verdictOf(d))},   {"corners", d.corners},
+            {"degenerate", d.degenerate},      {"w_different", invertedFraction(d)},
+            {"reversed", reversedFraction(d)}, {"directions", directions}};
 }
 
 } // namespace cotan

@@ -279,7 +279,7 @@ private:
     {
         return {{"command", "view"},
                 {"device", state_.device},
-                {"pictures", state_.pictures},
+                {"images_drawn", state_.pictures},
                 {"images_read", parts_.window->imagesRead()}, // from the device
                 {"loads", state_.loads},
                 {"failed_loads", state_.failedLoads},
@@ -288,7 +288,7 @@ private:
                 {"seconds",
                  {{"window", windowSeconds_},
                   {"load", loadSeconds_},
-                  {"first_picture", parts_.pictures.firstSeconds()},
+                  {"first_image", parts_.pictures.firstSeconds()},
                   {"first_shown", firstShown_}}}};
     }
 

@@ -70,7 +70,8 @@ export const { lint, convert } = modelFunctions(library, host, (map) => convertM
 export const version = () => library.version;
 export { overLimits } from './src/verdict.js';
 export { decodePng, encodePng } from './src/png.js';
-export { decodePicture } from './src/pictures.js';
+export { decodeImage } from './src/image_files.js';
+export { decodePicture } from './src/old_names.js';
 export { CotanError };
 `,
 };
@@ -79,6 +80,7 @@ for (const [name, text] of Object.entries(entries)) {
   put(`${name}_beside.js`, text('beside'));
   fs.copyFileSync(path.join(here, `types/${name}.d.ts`), path.join(packageFolder, `${name}.d.ts`));
 }
+fs.copyFileSync(path.join(here, 'types/old_names.d.ts'), path.join(packageFolder, 'old_names.d.ts'));
 for (const folder of ['three', 'gltf-transform'])
   if (fs.existsSync(path.join(here, folder))) fs.cpSync(path.join(here, folder), path.join(packageFolder, folder), { recursive: true });
 

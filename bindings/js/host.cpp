@@ -7,11 +7,11 @@
 extern "C" {
 COTAN_FROM_HOST("read") int hostRead(void* user, const char* uri, const void** bytes, size_t* byteCount);
 COTAN_FROM_HOST("decode")
-int hostDecode(void* user, const char* name, const void* bytes, size_t byteCount, cotan_picture* picture);
+int hostDecode(void* user, const char* name, const void* bytes, size_t byteCount, cotan_image_view* view);
 COTAN_FROM_HOST("done") void hostDone(void* user);
 COTAN_FROM_HOST("progress") int hostProgress(void* user, double done);
 COTAN_FROM_HOST("take_level")
-int hostTakeLevel(void* user, int level, const cotan_picture* map, const cotan_picture* roughness);
+int hostTakeLevel(void* user, int level, const cotan_image_view* map, const cotan_image_view* roughness);
 COTAN_FROM_HOST("take_file") int hostTakeFile(void* user, const char* name, const void* bytes, size_t byteCount);
 
 // Address of the function with this number in kFunction of src/host.js, for the structs that JavaScript fills.

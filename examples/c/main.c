@@ -36,16 +36,16 @@ int main(void)
 
     /* A frame without tangents, from differences of position and uv, applied to a texel that leans towards +u. */
     const float dpdx[] = {1, 0, 0}, dpdy[] = {0, 1, 0}, duvdx[] = {-1, 0}, duvdy[] = {0, -1}, texel[] = {0.6f, 0, 0.8f};
-    const cotan_places place = {sizeof place, 1, normals, dpdx, dpdy, duvdx, duvdy};
+    const cotan_surface_points point = {sizeof point, 1, normals, dpdx, dpdy, duvdx, duvdy};
     float normal[3], back[3];
-    check(cotan_frame_apply("cotangent", &place, texel, normal, message, sizeof message), message);
-    check(cotan_frame_encode("cotangent", &place, normal, back, message, sizeof message), message);
+    check(cotan_frame_apply("cotangent", &point, texel, normal, message, sizeof message), message);
+    check(cotan_frame_encode("cotangent", &point, normal, back, message, sizeof message), message);
     printf("normal %g %g %g\n", normal[0], normal[1], normal[2]);
 
     /* Converts one texel from Direct3D's convention to glTF's: green is reversed about 128, which stands for zero. */
     uint8_t pixels[] = {128, 200, 230, 255}, converted[4];
-    const cotan_picture map = {sizeof map, 1, 1, 8, pixels};
-    cotan_picture out = {sizeof out, 1, 1, 8, converted};
+    const cotan_image_view map = {sizeof map, 1, 1, 8, pixels};
+    cotan_image_view out = {sizeof out, 1, 1, 8, converted};
     check(cotan_map_convert(&map, "directx", "gltf", &out, message, sizeof message), message);
     printf("texel %d %d %d\n", converted[0], converted[1], converted[2]);
 
@@ -64,7 +64,7 @@ int main(void)
     options.progress = progress;
     options.user = &done;
     uint8_t baked[8 * 8 * 4];
-    cotan_picture baked_map = {sizeof baked_map, 8, 8, 8, baked};
+    cotan_image_view baked_map = {sizeof baked_map, 8, 8, 8, baked};
     const cotan_status made = cotan_bake(&mesh, &detailed, &options, &baked_map, NULL, message, sizeof message);
     if (made == COTAN_UNAVAILABLE)
         printf("%s\n", message);
@@ -77,7 +77,7 @@ int main(void)
            made == COTAN_OK ? baked[2] : 0);
 
     /* Errors come with a message of one line. */
-    const cotan_status status = cotan_frame_apply("nonsense", &place, texel, normal, message, sizeof message);
+    const cotan_status status = cotan_frame_apply("nonsense", &point, texel, normal, message, sizeof message);
     printf("%d: %s\n", (int)status, message);
     const int right = tangents[0] < -0.999f && normal[0] < 0 && fabsf(back[0] - 0.6f) < 1e-5f && converted[0] == 128
         && converted[1] == 56 && converted[2] == 230 && status == COTAN_USAGE && baked_right;

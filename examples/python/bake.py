@@ -44,7 +44,7 @@ def main(low, high, out):
     )
     print(file=sys.stderr)
     print(f"{baked.covered} of {baked.texels} texels covered, {baked.missed} of them found no detail")
-    cotan.write_picture(out, baked.map)
+    cotan.write_image(out, baked.map)
 
 
 if __name__ == "__main__":

@@ -59,7 +59,7 @@ Json toJson(const PrimitiveLint& p)
                        {"orthonormal", toJson(p.steps.orthonormal)}};
     if (p.stored.present)
         j["stored_tangents"] = {{"reversed_w", p.stored.reversedW},
-                                {"turned", p.stored.rotated},
+                                {"rotated", p.stored.rotated},
                                 {"degrees_from_dpdu", toJson(p.stored.angle)}};
     for (const Reading& r : p.readings)
         j["read_with"][r.name] = toJson(r.error);
@@ -194,7 +194,7 @@ Json toJson(const ConvertedMap& map)
                  {"quality", map.quality > 0 ? Json(map.quality) : Json(nullptr)},
                  {"texels_covered", r.covered},
                  {"texels_padded", r.padded},
-                 {"texels_in_several_places", r.several},
+                 {"texels_overlapped", r.several},
                  {"texels_that_disagree", r.disagreeing},
                  {"disagreement_degrees", toJson(r.disagreement)},
                  {"moved_degrees", toJson(r.moved)},
@@ -207,12 +207,12 @@ Json toJson(const ConvertedMap& map)
     for (const Frame frame : map.readWith)
         json["read_with"].push_back(name(frame));
     if (map.greenReversed)
-        for (const char* figure : {"texels_covered", "texels_padded", "texels_in_several_places",
-                                   "texels_that_disagree", "disagreement_degrees", "moved_degrees", "below_horizon"})
+        for (const char* figure : {"texels_covered", "texels_padded", "texels_overlapped", "texels_that_disagree",
+                                   "disagreement_degrees", "moved_degrees", "below_horizon"})
             json.erase(figure);
     if (map.kept)
         for (const char* figure :
-             {"bits", "quality", "texels_covered", "texels_padded", "texels_in_several_places", "texels_that_disagree",
+             {"bits", "quality", "texels_covered", "texels_padded", "texels_overlapped", "texels_that_disagree",
               "disagreement_degrees", "moved_degrees", "degrees_after_rounding", "below_horizon", "kept_elsewhere"})
             json.erase(figure);
     return json;
@@ -245,7 +245,7 @@ Json tangentsJson(const ConvertModelReport& report)
         json["anisotropy"].push_back({{"mesh", direction.mesh},
                                       {"primitive", direction.primitive},
                                       {"material", direction.material},
-                                      {"turned_degrees", toJson(direction.degrees)},
+                                      {"rotated_degrees", toJson(direction.degrees)},
                                       {"tangents_stay", direction.stays}});
     return json;
 }

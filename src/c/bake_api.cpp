@@ -1,14 +1,13 @@
 // cotan.h: baking, from arrays and from models.
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstring>
 
 #include "bake/name_pairs.hpp"
 #include "call.hpp"
 #include "cotan/bake.hpp"
+#include "image_views.hpp"
 #include "meshes.hpp"
-#include "pictures.hpp"
 #include "scene/normal_maps.hpp"
 #include "scene/texture_sample.hpp"
 
@@ -46,14 +45,11 @@ void readHigh(const cotan_bake_options& o, BakeModelOptions& options, HighModel&
         high.maps.push_back(imageOf(o.high_maps[i], ("options.high_maps[" + std::to_string(i) + "]").c_str()));
 }
 
-BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture& map)
+BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_image_view& map)
 {
     BakeModelOptions options;
-    require(std::isfinite(o.max_distance) && o.max_distance >= 0, "options.max_distance: expected 0 or more");
-    require(std::isfinite(o.extrusion) && o.extrusion >= 0, "options.extrusion: expected 0 or more");
     const std::string_view search = o.search ? o.search : "first";
     require(search == "first" || search == "nearest", "options.search: expected first or nearest");
-    require(std::isfinite(o.cage_reach) && o.cage_reach >= 0, "options.cage_reach: expected 0 or more");
     require(o.threads >= 0, "options.threads: expected 0 or more");
     require(o.padding >= -1, "options.padding: expected -1 or more");
     require(o.occlusion_rays >= 0 && o.occlusion_rays <= 1 << 16, "options.occlusion_rays: expected 0 to 65536");
@@ -110,15 +106,15 @@ Error aboutFieldOfC(Error error)
 }
 
 // Bakes a map and writes the results.
-void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given, cotan_picture* map,
+void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given, cotan_image_view* map,
               cotan_bake_result* result, cotan_bytes** warnings)
 {
-    const cotan_picture& out = checkedPicture(map, "map");
+    const cotan_image_view& out = checkedView(map, "map");
     const cotan_bake_options o = optionsOf(given, "options");
     if (result)
         requireSize(result->size, offsetof(cotan_bake_result, further), "result");
     if (o.mask) {
-        const cotan_picture& mask = checkedPicture(o.mask, "options.mask");
+        const cotan_image_view& mask = checkedView(o.mask, "options.mask");
         require(mask.bits == 8 && mask.width == out.width && mask.height == out.height,
                 "options.mask: expected 8 bits and the size of the map");
     }
@@ -148,7 +144,7 @@ void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given,
 } // namespace
 
 cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cotan_bake_options* options,
-                        cotan_picture* map, cotan_bake_result* result, char* message, size_t message_size)
+                        cotan_image_view* map, cotan_bake_result* result, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         const cotan_mesh &simple = checkedMesh(low, "low", true), &detailed = checkedMesh(high, "high", false);
@@ -159,7 +155,7 @@ cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cot
 }
 
 cotan_status cotan_bake_models(const cotan_model* low, size_t high_count, const cotan_model* const* high,
-                               const cotan_bake_options* options, cotan_picture* map, cotan_bake_result* result,
+                               const cotan_bake_options* options, cotan_image_view* map, cotan_bake_result* result,
                                cotan_bytes** warnings, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {

@@ -12,14 +12,14 @@ using namespace cotan;
 using namespace cotan::c;
 
 struct cotan_conversion {
-    struct Picture {
+    struct NewImage {
         Image image;
         Bytes placeholder; // in the document until the PNG file is given
         bool given = false;
     };
     GltfDocument document;
     ConvertModelReport report;
-    std::vector<Picture> pictures;
+    std::vector<NewImage> images;
 };
 
 namespace {
@@ -104,12 +104,12 @@ Bytes placeholderOf(std::size_t number)
     return copied(text.data(), text.size());
 }
 
-cotan_conversion::Picture& pictureAt(cotan_conversion* conversion, std::size_t number)
+cotan_conversion::NewImage& imageAt(cotan_conversion* conversion, std::size_t number)
 {
     require(conversion, "conversion: expected one, found null");
-    if (number >= conversion->pictures.size())
-        fail(ErrorKind::usage, "number: expected less than ", conversion->pictures.size(), ", found ", number);
-    return conversion->pictures[number];
+    if (number >= conversion->images.size())
+        fail(ErrorKind::usage, "number: expected less than ", conversion->images.size(), ", found ", number);
+    return conversion->images[number];
 }
 
 // Returns the same document with all its files inside, so that the caller's functions are no longer needed.
@@ -159,8 +159,8 @@ cotan_status cotan_convert_begin(const void* model, size_t model_size, const cot
         ConvertModelOptions convert = optionsFor(o, source);
         auto made = std::make_unique<cotan_conversion>();
         convert.encode = [&](const Image& image) -> Result<Bytes> {
-            made->pictures.push_back({image, placeholderOf(made->pictures.size())});
-            return made->pictures.back().placeholder;
+            made->images.push_back({image, placeholderOf(made->images.size())});
+            return made->images.back().placeholder;
         };
         made->document = opened(source, o, convert);
         made->report = valueOf(convertModel(made->document, convert));
@@ -171,17 +171,14 @@ cotan_status cotan_convert_begin(const void* model, size_t model_size, const cot
     });
 }
 
-size_t cotan_conversion_count(const cotan_conversion* conversion)
-{
-    return conversion ? conversion->pictures.size() : 0;
-}
+size_t cotan_conversion_count(const cotan_conversion* conversion) { return conversion ? conversion->images.size() : 0; }
 
-cotan_status cotan_conversion_picture(const cotan_conversion* conversion, size_t number, cotan_picture* picture,
-                                      char* message, size_t message_size)
+cotan_status cotan_conversion_image(const cotan_conversion* conversion, size_t number, cotan_image_view* view,
+                                    char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
-        checked(picture, "picture");
-        *picture = pictureOf(pictureAt(const_cast<cotan_conversion*>(conversion), number).image);
+        checked(view, "view");
+        *view = imageViewOf(imageAt(const_cast<cotan_conversion*>(conversion), number).image);
     });
 }
 
@@ -189,19 +186,19 @@ cotan_status cotan_conversion_set(cotan_conversion* conversion, size_t number, c
                                   char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
-        cotan_conversion::Picture& picture = pictureAt(conversion, number);
+        cotan_conversion::NewImage& image = imageAt(conversion, number);
         require(png && png_size > 0, "png: expected bytes, found none");
         require(isPng({static_cast<const std::byte*>(png), png_size}), "png: expected a PNG file, found other data");
-        require(!picture.given, "number: expected an image that has no PNG file yet");
+        require(!image.given, "number: expected an image that has no PNG file yet");
         GltfDocument& document = conversion->document;
         for (std::size_t i = 0; i < countOf(rootOf(document), "images"); ++i)
-            if (const auto bytes = gltfImageBytes(document, i); bytes && *bytes == picture.placeholder)
+            if (const auto bytes = gltfImageBytes(document, i); bytes && *bytes == image.placeholder)
                 replaceGltfImage(document, i, copied(png, png_size), "image/png");
         std::size_t converted = 0; // maps so far; their images are in the same order
         for (ConvertedMap& map : conversion->report.maps)
             if (!map.kept && converted++ == number)
                 map.bytesAfter = png_size;
-        picture.given = true;
+        image.given = true;
     });
 }
 
@@ -210,7 +207,7 @@ cotan_status cotan_convert_end(cotan_conversion* conversion, cotan_bytes** glb, 
 {
     return call(message, message_size, [&] {
         require(conversion && glb, "conversion and glb: expected both, found null");
-        require(std::ranges::all_of(conversion->pictures, &cotan_conversion::Picture::given),
+        require(std::ranges::all_of(conversion->images, &cotan_conversion::NewImage::given),
                 "conversion: expected the PNG files of all images");
         auto made = std::make_unique<cotan_bytes>(cotan_bytes{valueOf(glbBytes(conversion->document))});
         giveText("cotan-convert-result", convertJson(conversion->report), json);

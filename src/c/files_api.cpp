@@ -2,8 +2,8 @@
 #include "cotan/image.hpp"
 #include "cotan/model.hpp"
 #include "cotan/picture.hpp"
+#include "image_views.hpp"
 #include "meshes.hpp"
-#include "pictures.hpp"
 
 using namespace cotan;
 using namespace cotan::c;
@@ -18,12 +18,12 @@ int memoryOf(int megabytes)
 
 } // namespace
 
-cotan_status cotan_model_open(const char* file, int pictures, int memory, cotan_model** model, char* message,
+cotan_status cotan_model_open(const char* file, int images, int memory, cotan_model** model, char* message,
                               size_t message_size)
 {
     return call(message, message_size, [&] {
         require(model, "model: expected a pointer, found null");
-        const LoadLimits limits = limitsFor(memoryOf(memory), pictures != 0 ? Pixels::whereReadable : Pixels::none);
+        const LoadLimits limits = limitsFor(memoryOf(memory), images != 0 ? Pixels::whereReadable : Pixels::none);
         Scene scene = valueOf(loadScene(word(file, "file"), limits));
         std::string warnings = joined(scene.warnings);
         *model = new cotan_model{std::move(scene), std::move(warnings)};
@@ -56,7 +56,7 @@ cotan_status cotan_image_read(const char* file, int memory, cotan_image** image,
     });
 }
 
-cotan_status cotan_image_write(const char* file, const cotan_picture* picture, char* message, size_t message_size)
+cotan_status cotan_image_write(const char* file, const cotan_image_view* image, char* message, size_t message_size)
 {
-    return call(message, message_size, [&] { valueOf(writeImage(word(file, "file"), imageOf(picture, "picture"))); });
+    return call(message, message_size, [&] { valueOf(writeImage(word(file, "file"), imageOf(image, "image"))); });
 }

@@ -15,14 +15,14 @@ void store(float* array, std::size_t i, const glm::vec3& v)
 }
 
 // Calls work(i, frame) for every surface point.
-void forEachPoint(const char* frame, const cotan_places* given, const auto& work)
+void forEachPoint(const char* frame, const cotan_surface_points* given, const auto& work)
 {
     const auto kind = frameFromName(word(frame, "frame"));
     if (!kind || readsVertices(*kind))
         fail(ErrorKind::usage, "frame: expected one made from differences, found '", frame, "'");
-    const cotan_places& p = checked(given, "places");
+    const cotan_surface_points& p = checked(given, "points");
     require(p.count == 0 || (p.normals && p.dpdx && p.dpdy && p.duvdx && p.duvdy),
-            "places: expected five arrays, found null");
+            "points: expected five arrays, found null");
     const auto uv = [](const float* array, std::size_t i) { return glm::vec2(array[2 * i], array[2 * i + 1]); };
     for (std::size_t i = 0; i < p.count; ++i)
         work(i,
@@ -30,16 +30,16 @@ void forEachPoint(const char* frame, const cotan_places* given, const auto& work
                       uv(p.duvdy, i)));
 }
 
-void forEachPoint(const char* frame, const cotan_vertex_places* given, const auto& work)
+void forEachPoint(const char* frame, const cotan_interpolated_points* given, const auto& work)
 {
-    const cotan_vertex_places& p = checked(given, "places");
+    const cotan_interpolated_points& p = checked(given, "points");
     const auto kind = frameFromName(word(frame, "frame"));
     if (!kind || !readsVertices(*kind))
         fail(ErrorKind::usage, "frame: expected one made at the vertices, found '", frame, "'");
     const bool smooth = readsCotangents(*kind);
     require(p.count == 0 || (p.normals && (smooth ? p.cotangents_u && p.cotangents_v : p.tangents != nullptr)),
-            smooth ? "places: expected normals and two arrays of cotangents, found null"
-                   : "places: expected normals and tangents, found null");
+            smooth ? "points: expected normals and two arrays of cotangents, found null"
+                   : "points: expected normals and tangents, found null");
     for (std::size_t i = 0; i < p.count; ++i) {
         const glm::vec3 n = vec3At(p.normals, i);
         if (smooth) {
@@ -53,10 +53,10 @@ void forEachPoint(const char* frame, const cotan_vertex_places* given, const aut
 }
 
 // Maps texels to normals, or normals to texels, by the frames.
-void mapByFrames(const char* frame, const auto* places, const float* from, float* to, const auto& map)
+void mapByFrames(const char* frame, const auto* points, const float* from, float* to, const auto& map)
 {
     require(from && to, "texels and normals: expected arrays, found null");
-    forEachPoint(frame, places,
+    forEachPoint(frame, points,
                  [&](std::size_t i, const f32::cotan_frame& f) { store(to, i, map(f, vec3At(from, i))); });
 }
 
@@ -98,28 +98,28 @@ const char* cotan_frame_name(int frame)
     return isFrame(frame) ? name(Frame(frame)).data() : nullptr; // a literal, which ends with a zero
 }
 
-cotan_status cotan_frame_apply(const char* frame, const cotan_places* places, const float* texels, float* normals,
-                               char* message, size_t message_size)
+cotan_status cotan_frame_apply(const char* frame, const cotan_surface_points* points, const float* texels,
+                               float* normals, char* message, size_t message_size)
 {
-    return call(message, message_size, [&] { mapByFrames(frame, places, texels, normals, f32::cotan_apply); });
+    return call(message, message_size, [&] { mapByFrames(frame, points, texels, normals, f32::cotan_apply); });
 }
 
-cotan_status cotan_frame_encode(const char* frame, const cotan_places* places, const float* normals, float* texels,
-                                char* message, size_t message_size)
+cotan_status cotan_frame_encode(const char* frame, const cotan_surface_points* points, const float* normals,
+                                float* texels, char* message, size_t message_size)
 {
-    return call(message, message_size, [&] { mapByFrames(frame, places, normals, texels, f32::cotan_encode); });
+    return call(message, message_size, [&] { mapByFrames(frame, points, normals, texels, f32::cotan_encode); });
 }
 
-cotan_status cotan_vertex_frame_apply(const char* frame, const cotan_vertex_places* places, const float* texels,
+cotan_status cotan_vertex_frame_apply(const char* frame, const cotan_interpolated_points* points, const float* texels,
                                       float* normals, char* message, size_t message_size)
 {
-    return call(message, message_size, [&] { mapByFrames(frame, places, texels, normals, f32::cotan_apply); });
+    return call(message, message_size, [&] { mapByFrames(frame, points, texels, normals, f32::cotan_apply); });
 }
 
-cotan_status cotan_vertex_frame_encode(const char* frame, const cotan_vertex_places* places, const float* normals,
+cotan_status cotan_vertex_frame_encode(const char* frame, const cotan_interpolated_points* points, const float* normals,
                                        float* texels, char* message, size_t message_size)
 {
-    return call(message, message_size, [&] { mapByFrames(frame, places, normals, texels, f32::cotan_encode); });
+    return call(message, message_size, [&] { mapByFrames(frame, points, normals, texels, f32::cotan_encode); });
 }
 
 cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int threads, float* tangents, char* message,

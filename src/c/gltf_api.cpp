@@ -112,8 +112,8 @@ cotan_status cotan_lint_model(const cotan_model* model, const cotan_lint_options
     });
 }
 
-cotan_status cotan_gltf_pictures(const void* model, size_t model_size, const cotan_model_files* files, int maps_only,
-                                 cotan_take_file take, void* user, char* message, size_t message_size)
+cotan_status cotan_gltf_images(const void* model, size_t model_size, const cotan_model_files* files, int maps_only,
+                               cotan_take_file take, void* user, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         require(take, "take: expected a function, found null");

@@ -14,10 +14,10 @@ using namespace cotan::c;
 #ifdef COTAN_WITHOUT_BAKE
 static Error embree() { return notBuiltWith("Embree", "libembree-dev"); }
 
-COTAN_REFUSES(embree, cotan_bake, const cotan_mesh*, const cotan_mesh*, const cotan_bake_options*, cotan_picture*,
+COTAN_REFUSES(embree, cotan_bake, const cotan_mesh*, const cotan_mesh*, const cotan_bake_options*, cotan_image_view*,
               cotan_bake_result*)
 COTAN_REFUSES(embree, cotan_bake_models, const cotan_model*, size_t, const cotan_model* const*,
-              const cotan_bake_options*, cotan_picture*, cotan_bake_result*, cotan_bytes**)
+              const cotan_bake_options*, cotan_image_view*, cotan_bake_result*, cotan_bytes**)
 COTAN_REFUSES(embree, cotan_pair_names, size_t, const char* const*, size_t, const char* const*, int64_t*, int64_t*,
               cotan_bytes**)
 
@@ -32,10 +32,10 @@ COTAN_REFUSES(gltf, cotan_lint_gltf, const void*, size_t, const cotan_model_file
 COTAN_REFUSES(gltf, cotan_lint_model, const cotan_model*, const cotan_lint_options*, cotan_lint_result*, cotan_bytes**)
 COTAN_REFUSES(gltf, cotan_convert_gltf, const void*, size_t, const cotan_model_files*, const cotan_convert_options*,
               cotan_convert_result*, cotan_bytes**, cotan_bytes**)
-COTAN_REFUSES(gltf, cotan_gltf_pictures, const void*, size_t, const cotan_model_files*, int, cotan_take_file, void*)
+COTAN_REFUSES(gltf, cotan_gltf_images, const void*, size_t, const cotan_model_files*, int, cotan_take_file, void*)
 COTAN_REFUSES(gltf, cotan_convert_begin, const void*, size_t, const cotan_model_files*, const cotan_convert_options*,
               cotan_convert_result*, cotan_conversion**)
-COTAN_REFUSES(gltf, cotan_conversion_picture, const cotan_conversion*, size_t, cotan_picture*)
+COTAN_REFUSES(gltf, cotan_conversion_image, const cotan_conversion*, size_t, cotan_image_view*)
 COTAN_REFUSES(gltf, cotan_conversion_set, cotan_conversion*, size_t, const void*, size_t)
 COTAN_REFUSES(gltf, cotan_convert_end, cotan_conversion*, cotan_bytes**, cotan_bytes**)
 
@@ -49,7 +49,7 @@ static Error files() { return notBuiltWith("files", "libfmt-dev, nlohmann-json3-
 COTAN_REFUSES(files, cotan_model_open, const char*, int, int, cotan_model**)
 COTAN_REFUSES(files, cotan_set_reader, size_t, const char* const*)
 COTAN_REFUSES(files, cotan_image_read, const char*, int, cotan_image**)
-COTAN_REFUSES(files, cotan_image_write, const char*, const cotan_picture*)
+COTAN_REFUSES(files, cotan_image_write, const char*, const cotan_image_view*)
 COTAN_REFUSES(files, cotan_render, const void*, size_t, const cotan_model_files*, const cotan_render_options*,
               cotan_image**, cotan_bytes**)
 

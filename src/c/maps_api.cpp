@@ -3,7 +3,7 @@
 
 #include "call.hpp"
 #include "cotan/maps.hpp"
-#include "pictures.hpp"
+#include "image_views.hpp"
 
 using namespace cotan;
 using namespace cotan::c;
@@ -18,7 +18,7 @@ constexpr Named<maps::BlendMode> kModes[] = {{"reoriented", maps::BlendMode::reo
 
 } // namespace
 
-cotan_status cotan_map_green(const cotan_picture* map, cotan_green* green, char* message, size_t message_size)
+cotan_status cotan_map_green(const cotan_image_view* map, cotan_green* green, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         checked(green, "green");
@@ -33,7 +33,7 @@ cotan_status cotan_map_green(const cotan_picture* map, cotan_green* green, char*
     });
 }
 
-cotan_status cotan_map_describe(const cotan_picture* map, cotan_map_info* info, char* message, size_t message_size)
+cotan_status cotan_map_describe(const cotan_image_view* map, cotan_map_info* info, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         checked(info, "info");
@@ -50,12 +50,12 @@ cotan_status cotan_map_describe(const cotan_picture* map, cotan_map_info* info, 
     });
 }
 
-cotan_status cotan_map_convert(const cotan_picture* map, const char* from, const char* to, cotan_picture* to_map,
+cotan_status cotan_map_convert(const cotan_image_view* map, const char* from, const char* to, cotan_image_view* to_map,
                                char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         const Image image = imageOf(map, "map");
-        const cotan_picture& out = output(to_map, "to_map", image);
+        const cotan_image_view& out = output(to_map, "to_map", image);
         maps::RecodeSettings settings;
         settings.from = conventionOf(from, "from");
         settings.type = typeOf(out, "to_map");
@@ -67,12 +67,12 @@ cotan_status cotan_map_convert(const cotan_picture* map, const char* from, const
     });
 }
 
-cotan_status cotan_map_from_height(const cotan_picture* height, double scale_x, double scale_y, const char* to,
-                                   cotan_picture* map, char* message, size_t message_size)
+cotan_status cotan_map_from_height(const cotan_image_view* height, double scale_x, double scale_y, const char* to,
+                                   cotan_image_view* map, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         const Image image = imageOf(height, "height");
-        const cotan_picture& out = output(map, "map", image);
+        const cotan_image_view& out = output(map, "map", image);
         require(std::isfinite(scale_x) && std::isfinite(scale_y), "scale_x and scale_y: expected finite numbers");
         maps::FromHeightSettings settings;
         settings.scaleX = scale_x;
@@ -84,7 +84,7 @@ cotan_status cotan_map_from_height(const cotan_picture* height, double scale_x, 
     });
 }
 
-cotan_status cotan_map_to_height(const cotan_picture* map, const char* from, float* heights, char* message,
+cotan_status cotan_map_to_height(const cotan_image_view* map, const char* from, float* heights, char* message,
                                  size_t message_size)
 {
     return call(message, message_size, [&] {
@@ -97,12 +97,13 @@ cotan_status cotan_map_to_height(const cotan_picture* map, const char* from, flo
     });
 }
 
-cotan_status cotan_map_blend(const cotan_picture* base, const cotan_picture* detail, const char* convention,
-                             const char* mode, double strength, cotan_picture* map, char* message, size_t message_size)
+cotan_status cotan_map_blend(const cotan_image_view* base, const cotan_image_view* detail, const char* convention,
+                             const char* mode, double strength, cotan_image_view* map, char* message,
+                             size_t message_size)
 {
     return call(message, message_size, [&] {
         const Image under = imageOf(base, "base"), over = imageOf(detail, "detail");
-        const cotan_picture& out = output(map, "map", under);
+        const cotan_image_view& out = output(map, "map", under);
         require(std::isfinite(strength), "strength: expected a finite number");
         maps::BlendSettings settings;
         settings.type = typeOf(out, "map");
@@ -114,8 +115,8 @@ cotan_status cotan_map_blend(const cotan_picture* base, const cotan_picture* det
     });
 }
 
-cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, double roughness, cotan_take_level take,
-                            void* user, char* message, size_t message_size)
+cotan_status cotan_map_mips(const cotan_image_view* map, const char* convention, double roughness,
+                            cotan_take_level take, void* user, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         const Image image = imageOf(map, "map");
@@ -127,7 +128,7 @@ cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, do
         settings.roughness = roughness;
         auto levels = maps::mipChain(image, settings);
         for (std::size_t i = 0; i < levels.size(); ++i) {
-            const cotan_picture normals = pictureOf(levels[i].normals), rough = pictureOf(levels[i].roughness);
+            const cotan_image_view normals = imageViewOf(levels[i].normals), rough = imageViewOf(levels[i].roughness);
             if (take(user, int(i), &normals, &rough) != 0)
                 throw stoppedError();
         }

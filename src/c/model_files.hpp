@@ -10,7 +10,7 @@
 #include "cotan/frame_choice.hpp"
 #include "cotan/image.hpp"
 #include "files/json.hpp"
-#include "pictures.hpp"
+#include "image_views.hpp"
 
 namespace cotan::c {
 
@@ -49,8 +49,8 @@ public:
             return read(file);
         };
         if (f_.decode)
-            limits.decode = [this](std::span<const std::byte> bytes, const std::string& picture) {
-                return decode(bytes, picture);
+            limits.decode = [this](std::span<const std::byte> bytes, const std::string& name) {
+                return decode(bytes, name);
             };
         return limits;
     }
@@ -60,8 +60,8 @@ public:
         if (!f_.encode)
             return {};
         return [this](const Image& image) -> Result<Bytes> {
-            const cotan_picture picture = pictureOf(image);
-            auto png = given([&](auto... bytes) { return f_.encode(f_.user, &picture, bytes...); },
+            const cotan_image_view view = imageViewOf(image);
+            auto png = given([&](auto... bytes) { return f_.encode(f_.user, &view, bytes...); },
                              outputError(image.name + ": the caller did not encode the image"));
             if (png && !isPng(*png))
                 return outputError(image.name + ": expected a PNG file of the caller, found other data");
@@ -91,13 +91,13 @@ private:
 
     Result<Image> decode(std::span<const std::byte> bytes, const std::string& name) const
     try {
-        cotan_picture picture{};
-        picture.size = sizeof picture;
-        if (f_.decode(f_.user, name.c_str(), bytes.data(), bytes.size(), &picture) != 0) {
+        cotan_image_view view{};
+        view.size = sizeof view;
+        if (f_.decode(f_.user, name.c_str(), bytes.data(), bytes.size(), &view) != 0) {
             done();
             return inputError(name + ": the caller did not decode the image");
         }
-        Image image = imageOf(&picture, name.c_str());
+        Image image = imageOf(&view, name.c_str());
         image.name = name;
         done();
         return image;

@@ -1,7 +1,7 @@
 // cotan.h: models and images in memory.
 #include "meshes.hpp"
 
-#include "pictures.hpp"
+#include "image_views.hpp"
 #include "scene/geometry.hpp"
 
 using namespace cotan;
@@ -44,11 +44,11 @@ cotan_status cotan_model_of_meshes(size_t count, const cotan_mesh* const* meshes
 
 void cotan_image_free(cotan_image* image) { delete image; }
 
-cotan_status cotan_image_picture(const cotan_image* image, cotan_picture* picture, char* message, size_t message_size)
+cotan_status cotan_image_pixels(const cotan_image* image, cotan_image_view* view, char* message, size_t message_size)
 {
     return call(message, message_size, [&] {
         require(image, "image: expected one, found null");
-        checked(picture, "picture");
-        *picture = pictureOf(image->image);
+        checked(view, "view");
+        *view = imageViewOf(image->image);
     });
 }

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 
+#include "files/old_fields.hpp"
+
 namespace cotan {
 
 namespace {
 
-// Version of all formats so far. Adding a field keeps the version. Removing or renaming a field, or changing its type
-// or meaning, raises that report's version alone: the first such report gets its own number beside its name.
-constexpr int kVersion = 1;
+// Adding a field keeps the version of a report. Removing or renaming a field, or changing its type or meaning, raises
+// that report's version alone.
+int versionOf(std::string_view format) { return format.starts_with("cotan-lint") ? 2 : 1; }
 
 } // namespace
 
@@ -16,8 +18,9 @@ std::string toText(const Json& json) { return json.dump(2, ' ', false, Json::err
 
 Json versioned(std::string_view format, const Json& report)
 {
-    Json all = {{"format", format}, {"version", kVersion}};
+    Json all = {{"format", format}, {"version", versionOf(format)}};
     all.update(report);
+    addOldFields(all);
     return all;
 }
 

@@ -185,8 +185,8 @@ Json toJson(const AngleStatistics& s)
             {"percentile95_degrees", s.percentile95},
             {"percentile99_degrees", s.percentile99},
             {"max_degrees", s.maximum},
-            {"share_over_1_degree", s.over1},
-            {"share_over_5_degrees", s.over5}};
+            {"fraction_over_1_degree", s.over1},
+            {"fraction_over_5_degrees", s.over5}};
 }
 
 } // namespace cotan

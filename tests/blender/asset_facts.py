@@ -87,7 +87,7 @@ def mapsAreSavedAsFiles():
         path = os.path.join(folder, "low_normal.png")
         image = bpy.data.images["low_normal"]
         assert os.path.isfile(path) and image.packed_file is None and bpy.path.abspath(image.filepath) == path
-        again = cotan.read_picture(path)
+        again = cotan.read_image(path)
         assert again.dtype == (np.uint8 if bits == "8" else np.uint16) and image.depth == depth, image.depth
         stored = (again[..., :3].astype(float) - 2 ** (int(bits) - 1)) / (2 ** (int(bits) - 1) - 1)
         assert np.abs(stored - found).max() < 1e-4

@@ -309,7 +309,7 @@ def theMapEqualsThatOfTheCommandLine():
         out = os.path.join(facts.FOLDER, f"{frame}.png")
         words = ["--frame", frame, "--size", "256x256", "--bits", "16", "--padding", "-1", "--tangents", "generated"]
         facts.command("bake", "--low", files[0], "--high", files[1], *words, "-o", out)
-        theirs = (cotan.read_picture(out)[..., :3].astype(float) - 32768) / 32767
+        theirs = (cotan.read_image(out)[..., :3].astype(float) - 32768) / 32767
         off = degrees(ours, theirs)
         assert off.mean() < 0.01, (frame, off.mean(), off.max())
         assert degrees(ours, (0, 0, 1)).mean() > 1  # so that the comparison means something

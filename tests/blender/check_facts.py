@@ -161,7 +161,7 @@ def theExportedMapEqualsABakeForItsFrame():
     picture = os.path.join(facts.FOLDER, "map.png")
     with open(picture, "wb") as file:
         file.write(binary[view.get("byteOffset", 0) :][: view["byteLength"]])
-    pixels = cotan.read_picture(picture)
+    pixels = cotan.read_image(picture)
     half = 2 ** (8 * pixels.itemsize - 1)
     found = (pixels[..., :3].astype(float) - half) / (half - 1)
     before, after = degrees(directions["mikktspace"], directions["smooth"]), degrees(found, directions["smooth"])

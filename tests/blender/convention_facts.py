@@ -64,7 +64,7 @@ def maps_in(model):
         view = tree["bufferViews"][image["bufferView"]]
         with open(f"{path}.png", "wb") as file:
             file.write(binary[view.get("byteOffset", 0) :][: view["byteLength"]])
-        found[material["name"]] = cotan.read_picture(f"{path}.png")
+        found[material["name"]] = cotan.read_image(f"{path}.png")
     return found
 
 

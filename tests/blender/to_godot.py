@@ -61,7 +61,7 @@ def drawn(folder, *words):
     run = godot(folder, f"--image={file}", *words)
     said, _ = run.communicate(timeout=120)
     assert "DONE" in said, said
-    return cotan.read_picture(str(file))[..., :3].astype(float).mean(axis=-1)
+    return cotan.read_image(str(file))[..., :3].astype(float).mean(axis=-1)
 
 
 with tempfile.TemporaryDirectory() as name:

@@ -94,7 +94,7 @@ def write_stretched(folder):
     model, buffer, texel = stretched_gltf()
     (folder / "plane.gltf").write_bytes(model)
     (folder / "plane.bin").write_bytes(buffer)
-    cotan.write_picture(folder / "the map.png", texel)
+    cotan.write_image(folder / "the map.png", texel)
     return folder / "plane.gltf"
 
 

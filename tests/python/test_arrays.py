@@ -30,7 +30,7 @@ def test_fitting_images_are_passed_without_a_copy():
     for dtype in (np.uint8, np.uint16, np.float32):
         given = np.zeros((3, 5, 4), dtype)
         assert _arrays.pixels(given) is given
-        made = _arrays.picture(given)
+        made = _arrays.image_view(given)
         assert (made.pixels, made.width, made.height, made.bits) == (given.ctypes.data, 5, 3, 8 * given.itemsize)
 
 

@@ -60,7 +60,7 @@ def test_arrays_and_files_bake_the_bytes_of_the_command_line(options, command, t
         words += [f"--{name.replace('_', '-')}"] + ([] if value is True else [value])
     out, mask = tmp_path / "out.png", tmp_path / "mask.png"
     command("bake", "--low", files[0], "--high", files[1], "--size", "96x64", "-o", out, "--mask", mask, *words)
-    expected, became = cotan.read_picture(out), cotan.read_picture(mask)
+    expected, became = cotan.read_image(out), cotan.read_image(mask)
     for a, b in (files, (low, high), (cotan.load(files[0]), cotan.load(files[1])), (low, files[1])):
         baked = cotan.bake(a, b, size="96x64", mask=True, **options)
         assert baked.map.dtype == expected.dtype
@@ -114,7 +114,7 @@ def test_meshes_with_z_up_bake_the_same_map(command, tmp_path):
         cotan.load(tmp_path / "low.obj", up="x")
     command("bake", "--low", tmp_path / "low.obj", "--high", tmp_path / "high.obj", "-o", tmp_path / "map.png", "--up",
             "z", "--high-up", "y", "--size", 32, "--kind", "object-normal")  # fmt: skip
-    assert (cotan.read_picture(tmp_path / "map.png") == one).all()
+    assert (cotan.read_image(tmp_path / "map.png") == one).all()
 
 
 def test_cage_and_names_work_as_on_the_command_line(command, tmp_path):
@@ -142,7 +142,7 @@ def test_cage_and_names_work_as_on_the_command_line(command, tmp_path):
     cage.positions = cage.positions + 0.05 * cage.normals
     files = [write_obj(tmp_path / f"{n}.obj", m) for n, m in (("low", bumps(4)), ("high", bumps(40)), ("cage", cage))]
     command("bake", "--low", files[0], "--high", files[1], "--cage", files[2], "--size", "64x64", "-o", tmp_path / "out.png")
-    expected = cotan.read_picture(tmp_path / "out.png")
+    expected = cotan.read_image(tmp_path / "out.png")
     for caged in (cage, files[2]):
         assert (cotan.bake(bumps(4), bumps(40), cage=caged, size=64).map == expected).all()
     # Rays from 2 above reach equally far below, or as far as cage_reach says.
@@ -159,11 +159,11 @@ def test_cage_and_names_work_as_on_the_command_line(command, tmp_path):
 def test_normal_map_of_the_detailed_mesh_is_baked(command, tmp_path):
     tilt = np.zeros((8, 8, 4), np.uint8)
     tilt[:] = [128 + 38, 128, 249, 255]  # 0.3, 0, 0.95
-    cotan.write_picture(tmp_path / "tilt.png", tilt)
+    cotan.write_image(tmp_path / "tilt.png", tilt)
     files = [write_obj(tmp_path / f"{n}.obj", m) for n, m in (("low", square()), ("high", square()))]
     command("bake", "--low", files[0], "--high", files[1], "--high-normals", "map", "--high-map", tmp_path / "tilt.png",
             "--size", "8x8", "-o", tmp_path / "out.png")  # fmt: skip
-    expected = cotan.read_picture(tmp_path / "out.png")
+    expected = cotan.read_image(tmp_path / "out.png")
     assert np.abs(expected[..., :3].astype(int) - tilt[..., :3]).max() <= 1
     for high_map in (tilt, tmp_path / "tilt.png", [tilt]):
         baked = cotan.bake(square(), square(), size=8, high_normals="map", high_map=high_map)
@@ -183,7 +183,7 @@ def test_material_number_selects_triangles(command, tmp_path):
         command("bake", "--low", low, "--high", low, "--material", material, "--size", "16x16", "--padding", -1,
                 "-o", tmp_path / "out.png")  # fmt: skip
         baked = cotan.bake(low, low, material=material, size=16, padding=-1)
-        assert (baked.map == cotan.read_picture(tmp_path / "out.png")).all()
+        assert (baked.map == cotan.read_image(tmp_path / "out.png")).all()
         covered.append(baked.covered)
     assert covered[0] == 256 and covered[1] + covered[2] == 256 and min(covered) > 100
 
@@ -223,7 +223,7 @@ def test_example_bakes_the_map_of_the_command_line(source, command, tmp_path):
     finally:
         sys.argv = words
     command("bake", "--low", low, "--high", high, "--frame", "smooth", "--size", "512x512", "-o", tmp_path / "out.png")
-    assert (cotan.read_picture(tmp_path / "example.png") == cotan.read_picture(tmp_path / "out.png")).all()
+    assert (cotan.read_image(tmp_path / "example.png") == cotan.read_image(tmp_path / "out.png")).all()
 
 
 def test_errors_in_meshes_name_keyword_or_mesh():

@@ -39,8 +39,8 @@ import cotan, numpy as np
 corners = np.float32([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
 mesh = cotan.Mesh(corners, [[0, 1, 2], [0, 2, 3]], texcoords=corners[:, :2])
 print(cotan.__file__, cotan.library_path(), cotan.bake(mesh, mesh, size=4).map[0, 0])
-cotan.write_picture("a.exr", np.zeros((2, 2, 4), np.float32))
-print(cotan.read_picture("a.exr").dtype)
+cotan.write_image("a.exr", np.zeros((2, 2, 4), np.float32))
+print(cotan.read_image("a.exr").dtype)
 """
 
 

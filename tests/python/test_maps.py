@@ -32,28 +32,28 @@ def normal_map(green_up=True, dtype=np.uint8):
 def files(tmp_path):
     """A map and a detail as PNG files, and as the arrays that these contain."""
     base, detail = normal_map(), normal_map(dtype=np.uint16)[::2, ::2]
-    cotan.write_picture(tmp_path / "base.png", base)
-    cotan.write_picture(tmp_path / "detail.png", detail)
-    return tmp_path, cotan.read_picture(tmp_path / "base.png"), cotan.read_picture(tmp_path / "detail.png")
+    cotan.write_image(tmp_path / "base.png", base)
+    cotan.write_image(tmp_path / "detail.png", detail)
+    return tmp_path, cotan.read_image(tmp_path / "base.png"), cotan.read_image(tmp_path / "detail.png")
 
 
 def test_images_round_trip_through_files(tmp_path):
     for dtype, name in ((np.uint8, "a.png"), (np.uint16, "b.png"), (np.float32, "c.exr")):
         given = normal_map(dtype=dtype)
-        cotan.write_picture(tmp_path / name, given)
-        read = cotan.read_picture(tmp_path / name)
+        cotan.write_image(tmp_path / name, given)
+        read = cotan.read_image(tmp_path / name)
         assert read.dtype == dtype and (read[..., :3] == given).all()
         assert (read[..., 3] == (1 if dtype == np.float32 else np.iinfo(dtype).max)).all()
     with pytest.raises(cotan.UsageError, match="extension"):
-        cotan.write_picture(tmp_path / "a.txt", normal_map())
+        cotan.write_image(tmp_path / "a.txt", normal_map())
     with pytest.raises(cotan.OutputError):
-        cotan.write_picture(tmp_path / "nowhere" / "a.png", normal_map())
+        cotan.write_image(tmp_path / "nowhere" / "a.png", normal_map())
     with pytest.raises(cotan.InputError, match="no such file") as caught:
-        cotan.read_picture(tmp_path / "missing.png")
+        cotan.read_image(tmp_path / "missing.png")
     assert caught.value.file == str(tmp_path / "missing.png")
     (tmp_path / "text.png").write_text("this is no picture")
     with pytest.raises(cotan.InputError, match="expected"):
-        cotan.read_picture(tmp_path / "text.png")
+        cotan.read_image(tmp_path / "text.png")
 
 
 @pytest.mark.parametrize("green_up, word", [(True, "up"), (False, "down")])
@@ -61,7 +61,7 @@ def test_green_is_detected_from_the_relief(green_up, word, tmp_path, command):
     found = cotan.detect(normal_map(green_up))
     assert (found.green, found.confidence) == (word, "certain")
     assert np.sign(found.agreement) == (1 if green_up else -1) and found.reason
-    cotan.write_picture(tmp_path / "map.png", normal_map(green_up))
+    cotan.write_image(tmp_path / "map.png", normal_map(green_up))
     assert command("map", "detect", tmp_path / "map.png").startswith(f"green: {word}")
     assert cotan.detect(tmp_path / "map.png") == found
 
@@ -86,7 +86,7 @@ def test_conversion_equals_the_command_line(files, command):
     for source, to, bits in (("gltf", "directx", 8), ("opengl", "unity,xy", 16), ("gltf", "directx,biased", 8)):
         out = folder / "out.png"
         command("map", "convert", folder / "base.png", "--from", source, "--to", to, "--bits", bits, "-o", out)
-        assert (cotan.map_convert(base, source, to, bits) == cotan.read_picture(out)).all(), (source, to)
+        assert (cotan.map_convert(base, source, to, bits) == cotan.read_image(out)).all(), (source, to)
 
 
 def test_green_is_reversed_between_gltf_and_directx(files):
@@ -110,20 +110,20 @@ def test_heights_become_the_normals_of_their_slopes():
 def test_heights_from_files_equal_the_command_line(tmp_path, command):
     height = relief()[0]
     grey = np.round((height - height.min()) / np.ptp(height) * 65535).astype(np.uint16)
-    cotan.write_picture(tmp_path / "height.png", grey)
+    cotan.write_image(tmp_path / "height.png", grey)
     # 2 m across 96 texels, 5 cm from black to white.
     command("map", "from-height", tmp_path / "height.png", "--metres", 2, "--range", 0.05, "-o", tmp_path / "map.png")
     made = cotan.map_from_height(tmp_path / "height.png", 0.05 * 96 / 2, bits=16)
-    assert (made == cotan.read_picture(tmp_path / "map.png")).all()
+    assert (made == cotan.read_image(tmp_path / "map.png")).all()
 
 
 def test_blending_equals_the_command_line(files, command):
     folder, base, _ = files
-    cotan.write_picture(folder / "over.png", base[::-1])
+    cotan.write_image(folder / "over.png", base[::-1])
     for mode in ("reoriented", "whiteout", "udn", "slopes", "linear"):
         command("map", "blend", folder / "base.png", folder / "over.png", "--mode", mode, "-o", folder / "out.png")
         made = cotan.map_blend(base, folder / "over.png", mode=mode, convention="opengl")
-        assert (made == cotan.read_picture(folder / "out.png")).all(), mode
+        assert (made == cotan.read_image(folder / "out.png")).all(), mode
 
 
 def test_levels_halve_to_one_texel_and_stay_unit():
@@ -175,7 +175,7 @@ def test_floats_in_the_range_of_the_convention_are_accepted():
 
 def test_missing_and_unwritable_files_raise_errors_of_python_too(tmp_path):
     for call in (
-        lambda: cotan.read_picture(tmp_path / "gone.png"),
+        lambda: cotan.read_image(tmp_path / "gone.png"),
         lambda: cotan.load(tmp_path / "gone.obj"),
         lambda: cotan.convert(tmp_path / "gone.glb"),
         lambda: cotan.detect(tmp_path / "gone.png"),
@@ -189,8 +189,8 @@ def test_missing_and_unwritable_files_raise_errors_of_python_too(tmp_path):
         assert str(again) == str(error) and again.file == error.file and again.errno == 2
     (tmp_path / "text.png").write_text("no picture")
     with pytest.raises(cotan.InputError) as broken:
-        cotan.read_picture(tmp_path / "text.png")
+        cotan.read_image(tmp_path / "text.png")
     assert not isinstance(broken.value, OSError)
     with pytest.raises(OSError, match="nowhere does not exist") as unwritten:
-        cotan.write_picture(tmp_path / "nowhere" / "a.png", normal_map())
+        cotan.write_image(tmp_path / "nowhere" / "a.png", normal_map())
     assert isinstance(unwritten.value, cotan.OutputError) and str(unwritten.value) == unwritten.value.args[0]

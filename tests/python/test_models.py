@@ -83,7 +83,7 @@ def test_convert_makes_the_texel_twice_as_steep_and_drops_tangents(model, tmp_pa
     view = document["bufferViews"][document["images"][0]["bufferView"]]
     start = 28 + length + view.get("byteOffset", 0)
     (tmp_path / "new.png").write_bytes(whole[start : start + view["byteLength"]])
-    texel = (cotan.read_picture(tmp_path / "new.png")[4, 4, :3].astype(float) - 128) / 127
+    texel = (cotan.read_image(tmp_path / "new.png")[4, 4, :3].astype(float) - 128) / 127
     assert degrees(texel, STORED * [2, 1, 1]) < 0.5  # half a code is 0.3 degrees
 
 
@@ -122,7 +122,7 @@ def test_keep_maps_requires_a_frame_without_tangents(model):
     converted = cotan.convert(model, keep_maps=True)
     assert (converted.maps_converted, converted.maps_kept) == (0, 1)
     assert converted.tangent_bytes_dropped > 0
-    assert cotan.Conversion(model, keep_maps=True).pictures == []
+    assert cotan.Conversion(model, keep_maps=True).images == []
     for wrong, message in (
         ({"to_frame": "mikktspace"}, "to: expected a frame without tangents"),
         ({"bits": 16}, "bits: expected 0 where maps are kept"),
@@ -244,11 +244,11 @@ def test_decoders_and_encoders_of_the_caller_are_called(model, tmp_path):
     def decode(name, content):
         asked.append(name)
         (tmp_path / "asked.png").write_bytes(content)
-        return cotan.read_picture(tmp_path / "asked.png")
+        return cotan.read_image(tmp_path / "asked.png")
 
     def encode(picture):
         asked.append(picture.shape)
-        cotan.write_picture(tmp_path / "written.png", picture)
+        cotan.write_image(tmp_path / "written.png", picture)
         return (tmp_path / "written.png").read_bytes()
 
     converted = cotan.convert(model, to_frame="cotangent", decode=decode, encode=encode)
@@ -274,7 +274,7 @@ def test_the_decoder_gets_the_same_name_when_frames_are_chosen_and_the_map_stays
     def decode(name, content):
         asked.append(name)
         (tmp_path / "asked.png").write_bytes(content)
-        return cotan.read_picture(tmp_path / "asked.png")
+        return cotan.read_image(tmp_path / "asked.png")
 
     done = cotan.convert(model, decode=decode)
     assert done.maps_kept == 1 and done.report["decisions"][0]["frame"] == "orthonormal"
@@ -283,16 +283,16 @@ def test_the_decoder_gets_the_same_name_when_frames_are_chosen_and_the_map_stays
 
 def test_conversion_in_two_steps_equals_one_call(model, tmp_path):
     def png(picture):
-        cotan.write_picture(tmp_path / "step.png", picture)
+        cotan.write_image(tmp_path / "step.png", picture)
         return (tmp_path / "step.png").read_bytes()
 
     conversion = cotan.Conversion(model, to_frame="cotangent")
-    assert [p.shape for p in conversion.pictures] == [(8, 8, 4)]
+    assert [p.shape for p in conversion.images] == [(8, 8, 4)]
     with pytest.raises(cotan.UsageError):
         conversion.end()
     with pytest.raises(cotan.UsageError):
         conversion.set(1, b"")
-    conversion.set(0, png(conversion.pictures[0]))
+    conversion.set(0, png(conversion.images[0]))
     steps, whole = conversion.end(), cotan.convert(model, to_frame="cotangent", encode=png)
     assert len(steps.glb) == len(whole.glb) and steps.worst_degrees_after == whole.worst_degrees_after
     assert steps.report["maps"] == whole.report["maps"]
@@ -301,7 +301,7 @@ def test_conversion_in_two_steps_equals_one_call(model, tmp_path):
 def test_images_of_a_model_are_listed_as_stored(model, tmp_path):
     stored = (tmp_path / "the map.png").read_bytes()
     for maps_only in (False, True):
-        assert [content for _, content in cotan.model_pictures(model, maps_only)] == [stored]
+        assert [content for _, content in cotan.model_images(model, maps_only)] == [stored]
 
 
 def run(program):

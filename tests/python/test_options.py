@@ -92,7 +92,7 @@ def test_render_equals_the_command_line(options, command, tmp_path):
     all_options = {"size": (48, 30), "device": "reference", "model": "room.gltf", **options}
     model = all_options.pop("model")
     command("render", *([model] if model else []), "-o", tmp_path / "out.png", *words_of(all_options))
-    np.testing.assert_array_equal(cotan.render(model, **all_options), cotan.read_picture(tmp_path / "out.png"))
+    np.testing.assert_array_equal(cotan.render(model, **all_options), cotan.read_image(tmp_path / "out.png"))
 
 
 @pytest.mark.parametrize("options", BAKE, ids=names)
@@ -101,7 +101,7 @@ def test_bake_equals_the_command_line(options, command, tmp_path):
     command("bake", "-o", tmp_path / "out.png", "--mask", tmp_path / "mask.png", "--json", tmp_path / "report.json", *words_of(options))
     baked = cotan.bake(options.pop("low"), options.pop("high"), mask=True, **options)
     for own, file in ((baked.map, "out.png"), (baked.mask, "mask.png")):
-        written = cotan.read_picture(tmp_path / file)
+        written = cotan.read_image(tmp_path / file)
         np.testing.assert_array_equal(own[..., : written.shape[2]], written)
     report = json.loads((tmp_path / "report.json").read_text())["bake"]
     assert (baked.texels, baked.covered, baked.missed, baked.further, baked.nearer, baked.negative, baked.twice, baked.rays) == tuple(
@@ -141,9 +141,9 @@ def test_every_parameter_is_tested(function, tried):
 
 def test_defaults_equal_those_of_the_command_line(command, tmp_path):
     command("bake", "--low", "low.obj", "--high", "high.obj", "-o", tmp_path / "out.png")
-    np.testing.assert_array_equal(cotan.bake("low.obj", "high.obj").map, cotan.read_picture(tmp_path / "out.png"))
+    np.testing.assert_array_equal(cotan.bake("low.obj", "high.obj").map, cotan.read_image(tmp_path / "out.png"))
     command("render", "panel.gltf", "-o", tmp_path / "drawn.png")
-    np.testing.assert_array_equal(cotan.render("panel.gltf"), cotan.read_picture(tmp_path / "drawn.png"))
+    np.testing.assert_array_equal(cotan.render("panel.gltf"), cotan.read_image(tmp_path / "drawn.png"))
 
 
 def test_memory_limits_the_images_of_a_render():

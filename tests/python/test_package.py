@@ -154,7 +154,7 @@ def test_examples_of_the_page_run(source, tmp_path, monkeypatch):
     write_obj("low.obj", bumps(4))
     write_obj("high.obj", bumps(24))
     (tmp_path / "model.glb").write_bytes(cotan.convert(write_stretched(tmp_path), to_frame="mikktspace").glb)
-    cotan.write_picture("rocks.png", np.full((16, 16, 3), 128, np.uint8))
+    cotan.write_image("rocks.png", np.full((16, 16, 3), 128, np.uint8))
     for page in ("docs/reference/python.md", "bindings/python/README.md"):
         blocks = re.findall(r"```python\n(.*?)```", (source / page).read_text(), re.S)
         assert blocks

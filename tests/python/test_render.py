@@ -40,7 +40,7 @@ def test_image_has_the_bytes_of_the_command_line(options, model, command, tmp_pa
     out = tmp_path / "out.png"
     command("render", model, "--size", "48x32", "--device", "reference", "-o", out, *words_of(options))
     picture = cotan.render(model, size=(48, 32), device="reference", **options)
-    expected = cotan.read_picture(out)
+    expected = cotan.read_image(out)
     assert picture.dtype == np.uint8 and (picture == expected).all()
     assert len(np.unique(picture.reshape(-1, 4), axis=0)) > 1  # the image is not empty
 
@@ -48,12 +48,12 @@ def test_image_has_the_bytes_of_the_command_line(options, model, command, tmp_pa
 def test_floats_equal_those_of_an_exr_file(model, command, tmp_path):
     command("render", model, "--size", "48x32", "--device", "reference", "-o", tmp_path / "out.exr")
     picture = cotan.render(model, size="48x32", device="reference", floats=True)
-    assert picture.dtype == np.float32 and (picture == cotan.read_picture(tmp_path / "out.exr")).all()
+    assert picture.dtype == np.float32 and (picture == cotan.read_image(tmp_path / "out.exr")).all()
 
 
 def test_the_default_device_draws_as_the_command_line_does(model, command, tmp_path):
     command("render", model, "--size", "48x32", "-o", tmp_path / "out.png")
-    assert (cotan.render(model, size=(48, 32)) == cotan.read_picture(tmp_path / "out.png")).all()
+    assert (cotan.render(model, size=(48, 32)) == cotan.read_image(tmp_path / "out.png")).all()
 
 
 def test_bytes_and_files_render_equally(model, tmp_path):
@@ -68,7 +68,7 @@ def test_bytes_and_files_render_equally(model, tmp_path):
 def test_own_maps_replace_those_of_the_model(model, command, tmp_path):
     flat = np.full((4, 4, 3), 128, np.uint8)
     flat[..., 2] = 255
-    cotan.write_picture(tmp_path / "flat.png", flat)
+    cotan.write_image(tmp_path / "flat.png", flat)
     picture = cotan.render(model, size=(48, 32), device="reference", view="normal", normal_map=tmp_path / "flat.png")
     plain = cotan.render(model, size=(48, 32), device="reference", view="normal", no_normal_maps=True)
     assert (picture == plain).all() and (picture != cotan.render(model, size=(48, 32), device="reference", view="normal")).any()

@@ -176,14 +176,14 @@ def resident():
 def print_memory_of_a_loop(folder):
     folder = pathlib.Path(folder)
     model = write_stretched(folder)
-    cotan.write_picture(folder / "large.png", np.zeros((1024, 1024, 4), np.uint8))
+    cotan.write_image(folder / "large.png", np.zeros((1024, 1024, 4), np.uint8))
     high = bumps(200)
     for _ in range(40):
         cotan.bake(square(), cotan.Model(high), size=64, mask=True)  # 2 MiB
         cotan.render(model, size=(32, 32), environment="none", device="reference", ground="off")
         cotan.lint(model)
         cotan.convert(model)
-        cotan.read_picture(folder / "large.png")  # 4 MiB
+        cotan.read_image(folder / "large.png")  # 4 MiB
         cotan.load(model)
         for wrong in (lambda: cotan.load(folder / "missing.glb"), lambda: cotan.bake(square(), high, size=8, frame="x")):
             with pytest.raises(cotan.Error):
@@ -204,8 +204,8 @@ def test_memory_is_flat_in_a_loop(tmp_path):
 
 def test_views_of_images_outlive_their_owner(tmp_path):
     gradient = np.arange(64 * 64 * 4, dtype=np.uint32).astype(np.uint8).reshape(64, 64, 4)
-    cotan.write_picture(tmp_path / "a.png", gradient)
-    row = cotan.read_picture(tmp_path / "a.png")[3]
+    cotan.write_image(tmp_path / "a.png", gradient)
+    row = cotan.read_image(tmp_path / "a.png")[3]
     for _ in range(20):
-        cotan.read_picture(tmp_path / "a.png")
+        cotan.read_image(tmp_path / "a.png")
     assert (row == gradient[3]).all()

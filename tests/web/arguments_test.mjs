@@ -20,7 +20,7 @@ await Promise.all([cotan.ready, small.ready]);
 const mesh = () => ({ positions: [0, 0, 0, 1, 0, 0, 0, 1, 0], normals: new Float32Array([0, 0, 1, 0, 0, 1, 0, 0, 1]), uvs: [0, 0, 1, 0, 0, 1], indices: [0, 1, 2] });
 const map = () => ({ width: 2, height: 2, bits: 8, data: new Uint8Array(16).fill(128) });
 const corners = () => Array(3).fill([1, 0, 0, 1]).flat();
-const places = () => ({ normals: [0, 0, 1], dpdx: [1, 0, 0], dpdy: [0, 1, 0], duvdx: [1, 0], duvdy: [0, 1] });
+const points = () => ({ normals: [0, 0, 1], dpdx: [1, 0, 0], dpdy: [0, 1, 0], duvdx: [1, 0], duvdy: [0, 1] });
 const png = await cotan.encodePng(map());
 const model = new TextEncoder().encode(JSON.stringify({
   asset: { version: '2.0' }, buffers: [{ byteLength: 96, uri: 'mesh.bin' }], images: [{ uri: 'map.png' }], textures: [{ source: 0 }], materials: [{ normalTexture: { index: 0 } }],
@@ -53,13 +53,13 @@ const whole = {
   fromHeight: call(cotan.fromHeight, ['height', 'options'], map, () => ({ scale: [1, 2], to: 'gltf', bits: 8 })),
   toHeight: call(cotan.toHeight, ['map', 'options'], map, { from: 'gltf' }),
   mips: call(cotan.mips, ['map', 'options'], map, { convention: 'gltf', roughness: 0.5 }),
-  apply: call(cotan.apply, ['frame', 'places', 'texels'], 'cotangent', places, () => [0, 0, 1]),
-  encode: call(cotan.encode, ['frame', 'places', 'normals'], 'mikktspace', { normals: [0, 0, 1], tangents: [1, 0, 0, 1] }, () => [0, 0, 1]),
-  smoothFrame: call(cotan.apply, ['frame', 'places', 'texels'], 'smooth', { normals: [0, 0, 1], u: [1, 0, 0], v: [0, 1, 0] }, () => [0, 0, 1]),
+  apply: call(cotan.apply, ['frame', 'points', 'texels'], 'cotangent', points, () => [0, 0, 1]),
+  encode: call(cotan.encode, ['frame', 'points', 'normals'], 'mikktspace', { normals: [0, 0, 1], tangents: [1, 0, 0, 1] }, () => [0, 0, 1]),
+  smoothFrame: call(cotan.apply, ['frame', 'points', 'texels'], 'smooth', { normals: [0, 0, 1], u: [1, 0, 0], v: [0, 1, 0] }, () => [0, 0, 1]),
   shader: call(cotan.shader, ['options'], { language: 'glsl', frame: 'triangle', convention: 'gltf', stage: 'vertex' }),
   decodePng: call(cotan.decodePng, ['bytes'], png),
-  encodePng: call(cotan.encodePng, ['picture'], map),
-  decodePicture: call(cotan.decodePicture, ['bytes', 'name'], png, 'map.png'),
+  encodePng: call(cotan.encodePng, ['image'], map),
+  decodeImage: call(cotan.decodeImage, ['bytes', 'name'], png, 'map.png'),
   lint: call(cotan.lint, ['model', 'options'], model, () => ({ files: files(), decode: cotan.decodePng, progress: () => true, distance: 1, limit: 90, limitArea: 90, frame: 'smooth' })),
   convert: call(cotan.convert, ['model', 'options'], model, () => ({ files: files(), decode: cotan.decodePng, encode: cotan.encodePng, progress: () => true, mode: 'convert', from: 'mikktspace',
     to: 'cotangent', bits: 8, keepTangents: false, generateTangents: true, fixGreen: false, unsigned: 'exact' })),
@@ -75,10 +75,10 @@ const cases = {
   },
 
   async everyArgumentOfTheWholePackage() {
-    assert.deepEqual(exported(cotan).filter((name) => !(name in whole) && !['version', 'frames'].includes(name)), []);
+    assert.deepEqual(exported(cotan).filter((name) => !(name in whole) && !['version', 'frames', 'decodePicture'].includes(name)), []);
     whole.overLimits.depth = 3; // entries of a report are the library's own
     whole.overLimits.fine = (at) => at[0] === 0 && at.length > 1;
-    whole.decodePicture.fine = (at, kind) => at[0] === 1 && kind === 'text with NUL'; // a name for messages
+    whole.decodeImage.fine = (at, kind) => at[0] === 1 && kind === 'text with NUL'; // a name for messages
     console.log(`${await walkBadValues(whole, cotan.CotanError, { seed })} calls`);
   },
 

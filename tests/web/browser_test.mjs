@@ -32,7 +32,7 @@ export async function work() {
   context.fillStyle = 'rgb(10, 20, 30)';
   context.fillRect(0, 0, 2, 1);
   const jpeg = new Uint8Array(await (await canvas.convertToBlob({ type: 'image/jpeg', quality: 1 })).arrayBuffer());
-  const decoded = await cotan.decodePicture(jpeg);
+  const decoded = await cotan.decodeImage(jpeg);
   const error = await cotan.lint(new Uint8Array(3)).catch((e) => e.code);
   return { made, again: [...again.data], decoded: [...decoded.data.slice(0, 4)], error };
 }

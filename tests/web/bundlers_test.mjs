@@ -31,8 +31,8 @@ export async function found() {
   return [...tangents({ positions: [0,0,0, 1,0,0, 0,1,0], normals: [0,0,1, 0,0,1, 0,0,1], uvs: [0,1, 1,1, 0,0] })].join(' ') + ' ' + version();
 }`;
 const kExpected = /^1 0 0 1 1 0 0 1 1 0 0 1 \d+\.\d+\.\d+$/;
-const kDecode = `import { decodePicture } from 'cotan';
-export const jpeg = () => decodePicture(Uint8Array.of(0xff, 0xd8, 0xff), 'a.jpg').catch((error) => error.message);`;
+const kDecode = `import { decodeImage } from 'cotan';
+export const jpeg = () => decodeImage(Uint8Array.of(0xff, 0xd8, 0xff), 'a.jpg').catch((error) => error.message);`;
 
 /** Creates a folder with the package installed as users install it, a program and a page. */
 function project(entry) {

@@ -416,7 +416,7 @@ const cases = {
       assert.deepEqual((await validator.validateBytes(glb)).issues.messages.filter(({ severity }) => severity === 0), [], how);
       // The same texels as of the PNG, but for losses.
       const file = imageOf({ json, bin: glb.subarray(28 + new DataView(glb.buffer).getUint32(12, true)) }, image), fromPng = await cotan.convert(await io.writeBinary(plain.document), { mode: 'convert' });
-      const expected = await cotan.decodePng(imageOf(parseGlb(fromPng.glb), 0)), found = await cotan.decodePicture(file), degrees = degreesBetween(found, expected);
+      const expected = await cotan.decodePng(imageOf(parseGlb(fromPng.glb), 0)), found = await cotan.decodeImage(file), degrees = degreesBetween(found, expected);
       console.log(`${how}: ${made.maps[0].format} of ${made.maps[0].bytes_after} bytes, ${made.maps[0].degrees_of_encoding.toFixed(3)} degrees said, ${degrees.toFixed(3)} found`);
       if (how !== 'lossy') assert.ok(degrees < 1e-5, how); // the same texels, but for rounding of the cosine
       assert.ok(degrees < 1, how);
@@ -457,7 +457,7 @@ const cases = {
         assert.equal(map.format, isPng ? 'PNG' : 'JPEG', where);
         // The same map without losses, from the library; the degrees between the two by arithmetic of this test.
         const whole = await cotan.convert(model, { mode: 'convert', bits: 16 }), exact = await cotan.decodePng(imageOf(parseGlb(whole.glb), 0));
-        const degrees = degreesBetween(await cotan.decodePicture(file), exact);
+        const degrees = degreesBetween(await cotan.decodeImage(file), exact);
         console.log(`${where}: ${map.format}, ${map.degrees_of_encoding.toFixed(2)} degrees said, ${degrees.toFixed(2)} found; ${report.notes.find((line) => /would have/.test(line)) ?? ''}`);
         assert.ok(Math.abs(map.degrees_of_encoding - degrees) < 0.25, where); // rounding to 8 bits
         assert.ok(degrees < 0.75, where);
@@ -525,7 +525,7 @@ const cases = {
     const other = await hillsDocument();
     await other.document.transform(transforms.untangent({ mode: 'convert' }));
     assert.equal(texture.getMimeType(), 'image/webp'); // lossless like the original
-    const texels = await cotan.decodePicture(texture.getImage()), expected = await cotan.decodePng(other.texture.getImage());
+    const texels = await cotan.decodeImage(texture.getImage()), expected = await cotan.decodePng(other.texture.getImage());
     assert.deepEqual([...texels.data], [...expected.data]);
     const jpeg = await hillsDocument(), png = await hillsDocument();
     png.texture.setImage(await cotan.encodePng(waves(256)));
@@ -533,7 +533,7 @@ const cases = {
     const before = jpeg.texture.getImage().length;
     for (const one of [jpeg, png]) await one.document.transform(transforms.untangent({ mode: 'convert' }));
     assert.equal(jpeg.texture.getMimeType(), 'image/jpeg');
-    const { data } = await cotan.decodePicture(jpeg.texture.getImage()), wanted = (await cotan.decodePng(png.texture.getImage())).data;
+    const { data } = await cotan.decodeImage(jpeg.texture.getImage()), wanted = (await cotan.decodePng(png.texture.getImage())).data;
     const steps = data.reduce((most, value, k) => Math.max(most, Math.abs(value - wanted[k])), 0);
     assert.ok(steps <= 8 && jpeg.texture.getImage().length < 1.5 * before, `${steps} steps, ${jpeg.texture.getImage().length} bytes for ${before}`);
   },

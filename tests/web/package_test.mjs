@@ -242,10 +242,10 @@ const cases = {
     assert.doesNotMatch(ofStage('fragment'), /fn cotan_make_triangle\(/);
     assert.match(ofStage('vertex'), /fn cotan_make_triangle\(/);
     assert.match(ofStage(undefined), /fn cotan_make_triangle\([^]*fn cotan_perturb_normal_on_triangle\(/);
-    const places = { normals: [0, 0, 1], dpdx: [2, 0, 0], dpdy: [0, 2, 0], duvdx: [-1, 0], duvdy: [0, 1] };
-    const out = cotan.apply('cotangent', places, [0.6, 0.48, 0.64]); // u along -x
+    const points = { normals: [0, 0, 1], dpdx: [2, 0, 0], dpdy: [0, 2, 0], duvdx: [-1, 0], duvdy: [0, 1] };
+    const out = cotan.apply('cotangent', points, [0.6, 0.48, 0.64]); // u along -x
     [-0.6, 0.48, 0.64].forEach((value, i) => assert.ok(Math.abs(out[i] - value) < 1e-5));
-    cotan.encode('cotangent', places, out).forEach((value, i) => assert.ok(Math.abs(value - [0.6, 0.48, 0.64][i]) < 1e-5));
+    cotan.encode('cotangent', points, out).forEach((value, i) => assert.ok(Math.abs(value - [0.6, 0.48, 0.64][i]) < 1e-5));
   },
 
   async errorsNameTheFieldAndTheFault() {
@@ -276,9 +276,9 @@ const cases = {
   // A height of 1e9 with 4 bytes of data once encoded endlessly, and 3000 x 30000 with 4 bytes gave an empty image.
   async encodePngValidatesItsImageFirst() {
     const data = new Uint8Array(4);
-    for (const [picture, field] of [[{ width: 1, height: 1e9, data }, 'picture.height'], [{ width: 3000, height: 30000, data }, 'picture.data'],
-      [{ width: 1, height: 1, data: [0, 0, 0, 0] }, 'picture.data'], [{ width: 1, height: 1, data: new Float32Array(4) }, 'picture.data'],
-      [{ width: 1, height: 1, bits: 16, data }, 'picture.bits'], [undefined, 'picture']])
+    for (const [picture, field] of [[{ width: 1, height: 1e9, data }, 'image.height'], [{ width: 3000, height: 30000, data }, 'image.data'],
+      [{ width: 1, height: 1, data: [0, 0, 0, 0] }, 'image.data'], [{ width: 1, height: 1, data: new Float32Array(4) }, 'image.data'],
+      [{ width: 1, height: 1, bits: 16, data }, 'image.bits'], [undefined, 'image']])
       await assert.rejects(cotan.encodePng(picture), (error) => error instanceof cotan.CotanError && error.code === 'usage' && error.field === field);
     await assert.rejects(cotan.encodePng({ width: 65536, height: 2048, data: { length: 4 } }), cotan.CotanError);
     const png = await cotan.encodePng({ width: 1, height: 1, data: Uint8ClampedArray.of(1, 2, 3, 255) }); // without bits, as from a canvas
@@ -385,6 +385,16 @@ const cases = {
         ++refused;
       }
     assert.ok(read > 10 && refused > 10, `${read} read, ${refused} refused`);
+  },
+
+  async namesOfTheLastVersionWork() {
+    assert.equal(cotan.decodePicture, cotan.decodeImage);
+    const report = (stored) => ({ primitives: [{ mesh: 'a', normal_map: -1, uv: {}, stored_tangents: stored }], maps: [] });
+    for (const stored of [{ rotated: 0.5 }, { turned: 0.5 }, { rotated: 0.5, turned: 0.5 }]) {
+      const found = cotan.overLimits(report(stored), { limitArea: 1 });
+      assert.deepEqual(found.map(({ kind, percent }) => [kind, percent]), [['rotated_tangents', 50]]);
+    }
+    assert.deepEqual(cotan.overLimits(report({ rotated: 0, turned: 0.5 }), { limitArea: 1 }), []);
   },
 
   async packageIsSmall() {

@@ -280,7 +280,7 @@ await fact('webpMapsAreReadWithoutLosses', async () => {
   const found = await page.evaluate(async bytes => {
     const worker = new Worker(new URL('worker.js', document.baseURI), { type: 'module' });
     const answer = new Promise(done => { worker.onmessage = ({ data }) => done(data); });
-    worker.postMessage({ call: 1, name: 'decodePicture', values: [Uint8Array.from(bytes), 'alpha.webp'] });
+    worker.postMessage({ call: 1, name: 'decodeImage', values: [Uint8Array.from(bytes), 'alpha.webp'] });
     const { result, error } = await answer;
     return error?.message ?? [...result.data];
   }, [...readFileSync(join(scratch, 'alpha.webp'))]);

@@ -132,7 +132,7 @@ Json toJson(const SurveyedFile& image)
               {"transfer", name(s.transfer)},
               {"signed", s.signedStored},
               {"mean_length", s.meanLength},
-              {"length_spread", s.lengthDeviation},
+              {"length_deviation", s.lengthDeviation},
               {"shortened", s.shortened},
               {"background", s.background},
               {"invalid", s.invalid},
@@ -151,7 +151,7 @@ Json toJson(const SurveyedFile& image)
         j["frame"] = image.frame;
     if (!measured(s)) // undefined figures
         for (const char* figure :
-             {"mean_length", "length_spread", "shortened", "mean", "mean_tilt_degrees", "tilt_by_10_degrees"})
+             {"mean_length", "length_deviation", "shortened", "mean", "mean_tilt_degrees", "tilt_by_10_degrees"})
             j[figure] = nullptr;
     return j;
 }

@@ -64,9 +64,9 @@ PageTable tableOf(const Figure& figure)
 Json reportOf(std::string_view name, const Figure& figure)
 {
     Json json = {{"name", name}, {"title", figure.title}};
-    json["pictures"] = Json::array();
+    json["image_files"] = Json::array();
     for (const Panel& panel : figure.panels)
-        json["pictures"].push_back(fmt::format("{}-{}.png", name, panel.file));
+        json["image_files"].push_back(fmt::format("{}-{}.png", name, panel.file));
     json["measured"] = figure.measured;
     json["angles"] = Json::object();
     for (const Measure& m : figure.measures)

@@ -1,5 +1,5 @@
 import type { Transform } from '@gltf-transform/core';
-import type { ConvertReport, Limits, LintReport, Picture } from '../cotan.js';
+import type { ConvertReport, Limits, LintReport, Image } from '../cotan.js';
 
 /** Generates tangents for every primitive, indexed or not. A vertex is duplicated where the tangents of its corners
  * differ. Existing tangents are kept unless `overwrite` is true. Primitives without triangles, normals or uv get a
@@ -23,7 +23,7 @@ export function untangent(options?: {
   generateTangents?: boolean;
   unsigned?: 'biased' | 'exact';
   maxDegrees?: number;
-  decode?: (bytes: Uint8Array, name: string) => Promise<Picture & { bits: number }>;
+  decode?: (bytes: Uint8Array, name: string) => Promise<Image & { bits: number }>;
   /** Receives the report of the conversion. Its `bytes` count normal maps and uncompressed tangents only. Its notes are
    * also logged as warnings by the document's logger. */
   report?: (report: ConvertReport) => void;
@@ -34,7 +34,7 @@ export function untangent(options?: {
 export function lintNormals(options?: Limits & {
   distance?: number;
   maxDegrees?: number;
-  decode?: (bytes: Uint8Array, name: string) => Promise<Picture & { bits: number }>;
+  decode?: (bytes: Uint8Array, name: string) => Promise<Image & { bits: number }>;
   report?: (report: LintReport) => void;
 }): Transform;
 

@@ -1,6 +1,6 @@
 // Transforms for glTF-Transform 4, documented in index.d.ts.
 import { Primitive, WebIO } from '@gltf-transform/core';
-import { convert, CotanError, decodePicture, encodePng, frames, lint, provoking as provokingOf, ready, split, tangents as tangentsOf } from '../cotan.js';
+import { convert, CotanError, decodeImage, encodePng, frames, lint, provoking as provokingOf, ready, split, tangents as tangentsOf } from '../cotan.js';
 import { checkTypes, choice, options as checked } from '../src/arrays.js';
 import { imageIn, imageOfTexture, parsedModel } from '../src/glb.js';
 import { grownBy, kGrowth, modeOf, tooLarge } from '../src/modes.js';
@@ -262,7 +262,7 @@ function withFunctions(options) {
   return options;
 }
 
-const kUntangent = { mode: undefined, from: undefined, to: undefined, bits: undefined, keepTangents: undefined, generateTangents: undefined, unsigned: undefined, maxDegrees: undefined, decode: decodePicture, report: undefined };
+const kUntangent = { mode: undefined, from: undefined, to: undefined, bits: undefined, keepTangents: undefined, generateTangents: undefined, unsigned: undefined, maxDegrees: undefined, decode: decodeImage, report: undefined };
 
 export function untangent(given) {
   const { mode: _, report, decode, ...o } = withFunctions(checked(given, kUntangent)), mode = modeOf(given);
@@ -282,7 +282,7 @@ export function untangent(given) {
 }
 
 export function lintNormals(given) {
-  const { distance, limit, limitArea, frame, maxDegrees, decode, report } = withFunctions(checked(given, { distance: 0, limit: undefined, limitArea: undefined, frame: 'orthonormal', maxDegrees: undefined, decode: decodePicture, report: undefined }));
+  const { distance, limit, limitArea, frame, maxDegrees, decode, report } = withFunctions(checked(given, { distance: 0, limit: undefined, limitArea: undefined, frame: 'orthonormal', maxDegrees: undefined, decode: decodeImage, report: undefined }));
   return named('lintNormals', async (document) => {
     await ready;
     const { model, files } = await asPlainGltf(document, decode);

@@ -1,7 +1,7 @@
 // Files of new maps: in the format of the old file, unless its losses would show.
 import { usage } from './errors.js';
-import { bytesOf } from './picture.js';
-import { decodePicture, encodeLossy, lossyFormat } from './pictures.js';
+import { bytesOf } from './image_checks.js';
+import { decodeImage, encodeLossy, lossyFormat } from './image_files.js';
 import { decodePng, encodePng, isPng } from './png.js';
 
 export const kVisible = 0.5; // degrees on average over a map; the library has the same threshold
@@ -20,28 +20,28 @@ export function degreesBetween(a, b) {
 
 /** { bytes, mimeType, degrees }: the PNG file that the caller's function makes of an image, decoded again and compared.
  * degrees: 0 for the package's own function, which loses nothing. */
-export async function encodedByCaller(picture, encode) {
-  const name = 'options.encode', bytes = bytesOf(await encode(picture), name), made = { bytes, mimeType: 'image/png', degrees: 0 };
+export async function encodedByCaller(image, encode) {
+  const name = 'options.encode', bytes = bytesOf(await encode(image), name), made = { bytes, mimeType: 'image/png', degrees: 0 };
   if (encode === encodePng) return made;
   if (!isPng(bytes)) throw usage(`${name}: expected a PNG file, found other data`);
   const stored = await decodePng(bytes).catch((error) => { throw usage(`${name}: ${error.message}`); });
   const sizeOf = ({ width, height }) => `${width} x ${height}`;
-  if (sizeOf(stored) !== sizeOf(picture)) throw usage(`${name}: expected an image of ${sizeOf(picture)}, found ${sizeOf(stored)}`);
-  return { ...made, degrees: degreesBetween(picture, stored) };
+  if (sizeOf(stored) !== sizeOf(image)) throw usage(`${name}: expected an image of ${sizeOf(image)}, found ${sizeOf(stored)}`);
+  return { ...made, degrees: degreesBetween(image, stored) };
 }
 
 /** The file of a map in the format of the file `old` if that is smaller than `png` and accurate enough; else png. Adds
  * `format` and `quality` in the first case, and else a `note` where the reader should know why. name: of the map. more:
  * hasWebp: whether all readers of the model support WebP; loss: degrees on average that the format
  * may lose. */
-export async function encodedLike(picture, old, png, name, { hasWebp, loss = kVisible }) {
-  const format = picture.bits === 8 ? lossyFormat(old) : null, sizes = `the new map is PNG: ${png.bytes.length} bytes, before ${old.length}`;
+export async function encodedLike(image, old, png, name, { hasWebp, loss = kVisible }) {
+  const format = image.bits === 8 ? lossyFormat(old) : null, sizes = `the new map is PNG: ${png.bytes.length} bytes, before ${old.length}`;
   if (!format) return png;
   if (format.mimeType === 'image/webp' && !hasWebp) return { ...png, note: `${name}: the model does not require its readers to support WebP, so ${sizes}` };
-  const bytes = await encodeLossy(picture, format);
+  const bytes = await encodeLossy(image, format);
   if (!bytes) return { ...png, note: `${name}: no encoder for ${format.mimeType} is available (in Node.js: the package sharp), so ${sizes}` };
   if (bytes.length >= png.bytes.length) return png;
-  const degrees = degreesBetween(picture, await decodePicture(bytes, name)), word = format.mimeType === 'image/webp' ? 'WebP' : 'JPEG';
+  const degrees = degreesBetween(image, await decodeImage(bytes, name)), word = format.mimeType === 'image/webp' ? 'WebP' : 'JPEG';
   if (degrees > loss)
     return { ...png, note: `${name}: ${word} of quality ${format.quality} would have an error of ${degrees.toFixed(2)} degrees on average, so ${sizes}` };
   return { bytes, mimeType: format.mimeType, degrees, format: word, quality: format.quality ?? null };

@@ -5,11 +5,11 @@ import { usage, wordsFor } from './instance.js';
 export function frameFunctions(library) {
   const kAtVertices = { mikktspace: ['tangents'], vertex: ['tangents'], smooth: ['u', 'v'] }; // attributes, by frame
   const namesOf = (s) => Array.from({ length: s.wasm.cotan_frame_count() }, (_, i) => s.textAt(s.wasm.cotan_frame_name(i)));
-  const atPlaces = (functions, what) => (frame, places, values) => library.run((s) => {
+  const atPoints = (functions, what) => (frame, points, values) => library.run((s) => {
     choice(frame, 'frame', namesOf(s));
-    if (places === null || typeof places !== 'object') throw usage(`places: expected an object of arrays, found ${wordsFor(places)}`);
-    const normals = floats(places.normals, 'places.normals', 3), count = normals.length / 3;
-    const array = (name, size) => s.put(floats(places[name], `places.${name}`, size, count));
+    if (points === null || typeof points !== 'object') throw usage(`points: expected an object of arrays, found ${wordsFor(points)}`);
+    const normals = floats(points.normals, 'points.normals', 3), count = normals.length / 3;
+    const array = (name, size) => s.put(floats(points[name], `points.${name}`, size, count));
     const given = s.put(floats(values, what, 3, count)), out = s.allocate(12 * count);
     const name = s.text(frame, 'frame'), read = kAtVertices[frame], attribute = (one, size) => (read.includes(one) ? array(one, size) : 0);
     if (read)
@@ -20,8 +20,8 @@ export function frameFunctions(library) {
   });
 
   return {
-    apply: atPlaces(['cotan_frame_apply', 'cotan_vertex_frame_apply'], 'texels'),
-    encode: atPlaces(['cotan_frame_encode', 'cotan_vertex_frame_encode'], 'normals'),
+    apply: atPoints(['cotan_frame_apply', 'cotan_vertex_frame_apply'], 'texels'),
+    encode: atPoints(['cotan_frame_encode', 'cotan_vertex_frame_encode'], 'normals'),
     frames: () => library.run(namesOf),
     shader: (given) => library.run((s) => {
       const o = options(given, { language: 'glsl', frame: '', convention: 'gltf', stage: undefined });

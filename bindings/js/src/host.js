@@ -42,13 +42,13 @@ export function hostImports() {
       if (!bytes) return 1;
       return give(h.scratch, bytes, bytesOut >>> 0, sizeOut >>> 0) === 1 ? 1 : 0;
     }),
-    decode: guarded((h, user, name, bytes, size, picture) => {
+    decode: guarded((h, user, name, bytes, size, image) => {
       const s = h.scratch;
       const found = h.decode?.(s.textAt(name >>> 0), new Uint8Array(s.buffer, bytes >>> 0, size >>> 0));
       if (!found) return 1;
       const at = give(s, asBytes(found.data), null, null);
       if (at === 1) return 1;
-      s.view(Uint32Array, (picture >>> 0) + 4, 4).set([found.width, found.height, found.bits, at]);
+      s.view(Uint32Array, (image >>> 0) + 4, 4).set([found.width, found.height, found.bits, at]);
       return 0;
     }),
     done: () => {

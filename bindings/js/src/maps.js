@@ -2,7 +2,7 @@
 import { choice, options } from './arrays.js';
 import { usage, wordsFor } from './instance.js';
 import { kFunction } from './host.js';
-import { checkedPicture } from './picture.js';
+import { checkedImage } from './image_checks.js';
 
 const kTypes = { 8: Uint8Array, 16: Uint16Array, 32: Float32Array };
 
@@ -12,8 +12,8 @@ const number = (value, name) => {
 };
 
 export function mapFunctions(library, host) {
-  const input = (s, picture, name) => {
-    const p = checkedPicture(picture, name);
+  const input = (s, image, name) => {
+    const p = checkedImage(image, name);
     return { ...p, at: s.struct(p.width, p.height, p.bits, s.put(p.data)) };
   };
   const output = (s, like, bits) => {
@@ -24,7 +24,7 @@ export function mapFunctions(library, host) {
       take: () => ({ width: like.width, height: like.height, bits, data: s.take(kTypes[bits], pixels, count) }),
     };
   };
-  const pictureAt = (s, at) => {
+  const imageAt = (s, at) => {
     const [, width, height, bits, pixels] = s.view(Uint32Array, at, 5);
     return { width, height, bits, data: s.take(kTypes[bits], pixels, 4 * width * height) };
   };
@@ -95,7 +95,7 @@ export function mapFunctions(library, host) {
     mips: (map, given) => library.run((s) => {
       const o = options(given, { convention: 'gltf', roughness: 0 });
       const levels = [], takeLevel = (level, normals, roughness) => {
-        levels.push({ normals: pictureAt(s, normals), roughness: pictureAt(s, roughness) });
+        levels.push({ normals: imageAt(s, normals), roughness: imageAt(s, roughness) });
       };
       host.during({ scratch: s, takeLevel }, () =>
         s.call('cotan_map_mips', input(s, map, 'map').at, s.text(o.convention, 'options.convention'),

@@ -2,9 +2,9 @@
 import { checkTypes, isRecord, options } from './arrays.js';
 import { CotanError, usage, wordsFor } from './instance.js';
 import { kFunction } from './host.js';
-import { bytesOf, checkedPicture } from './picture.js';
+import { bytesOf, checkedImage } from './image_checks.js';
 import { encodedByCaller, encodedLike } from './encoded.js';
-import { decodePicture } from './pictures.js';
+import { decodeImage } from './image_files.js';
 import { encodePng } from './png.js';
 import { decodedUri, imageIn, parsedModel, requiresWebp, sizeOf, withImages } from './glb.js';
 import { grownBy, inOriginalFormats, keptMaps, kGrowth, modeOf, tooLarge } from './modes.js';
@@ -14,7 +14,7 @@ const same = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[
 const kMapsRead = 1, kMapsUnread = 2; // keep_maps of cotan.h
 // Placeholder for images that are not normal maps, whose pixels are never read.
 const kUnread = { width: 1, height: 1, bits: 8, data: Uint8Array.of(255, 255, 255, 255) };
-const kCommon = { files: {}, decode: decodePicture, progress: undefined };
+const kCommon = { files: {}, decode: decodeImage, progress: undefined };
 const kConvert = {
   ...kCommon, mode: undefined, from: undefined, to: undefined, bits: 0, keepTangents: false, generateTangents: false, encode: encodePng, unsigned: 'biased', fixGreen: false, maxDegrees: undefined,
 };
@@ -44,9 +44,9 @@ export function modelFunctions(library, host, flipGreen) {
   /** Runs work(scratch, address of the model's bytes, address of the callbacks). more: further callbacks of `host`. */
   const withModel = (model, files, known, more, work) => library.run((s) => {
     const decode = (name, bytes) => {
-      const found = known.find((picture) => same(picture.bytes, bytes));
+      const found = known.find((image) => same(image.bytes, bytes));
       if (found?.error) throw found.error;
-      return found?.picture ?? kUnread;
+      return found?.image ?? kUnread;
     };
     const read = (uri) => (Object.hasOwn(files, uri) ? files[uri] : null);
     const f = s.wasm.cotan_js_function;
@@ -63,12 +63,12 @@ export function modelFunctions(library, host, flipGreen) {
     const known = [];
     const takeFile = (name, bytes) => { known.push({ name, bytes }); };
     withModel(model, o.files, known, { takeFile }, (s, at, files) =>
-      s.call('cotan_gltf_pictures', at, model.length, files, 1, s.wasm.cotan_js_function(kFunction.takeFile), 0));
-    for (const picture of known) {
+      s.call('cotan_gltf_images', at, model.length, files, 1, s.wasm.cotan_js_function(kFunction.takeFile), 0));
+    for (const image of known) {
       try {
-        picture.picture = checkedPicture(await o.decode(picture.bytes, picture.name), 'options.decode', [8, 16]);
+        image.image = checkedImage(await o.decode(image.bytes, image.name), 'options.decode', [8, 16]);
       } catch (error) {
-        picture.error = error instanceof CotanError ? error : new CotanError('input', `${picture.name}: ${error?.message ?? error}`);
+        image.error = error instanceof CotanError ? error : new CotanError('input', `${image.name}: ${error?.message ?? error}`);
       }
     }
     return known;
@@ -129,8 +129,8 @@ export function modelFunctions(library, host, flipGreen) {
     if (wrong.length === 0) return convert(model, more);
     const { glb: whole } = await withMapsKept(model, parsed, o, kMapsUnread, { keepTangents: true }), inside = parsedModel(whole), flipped = new Map(), notes = [];
     for (const { image, name } of wrong) {
-      const file = imageIn(inside, image), picture = checkedPicture(await o.decode(file, name), 'options.decode', [8, 16]);
-      const right = flipGreen(picture), found = await encodedLike(right, file, await encodedByCaller(right, o.encode), name, { hasWebp: requiresWebp(inside.json) });
+      const file = imageIn(inside, image), pixels = checkedImage(await o.decode(file, name), 'options.decode', [8, 16]);
+      const right = flipGreen(pixels), found = await encodedLike(right, file, await encodedByCaller(right, o.encode), name, { hasWebp: requiresWebp(inside.json) });
       flipped.set(image, found);
       if (found.note) notes.push(found.note);
     }
@@ -155,7 +155,7 @@ export function modelFunctions(library, host, flipGreen) {
   async function convertMaps(model, o) {
     const known = o.keepMaps === kMapsUnread ? [] : await decoded(model, o);
     let conversion = 0, wasm;
-    const pictures = withModel(model, o.files, known, { progress: o.progress }, (s, at, files) => {
+    const images = withModel(model, o.files, known, { progress: o.progress }, (s, at, files) => {
       wasm = s.wasm;
       const settings = s.allocate(56);
       s.view(Uint32Array, settings, 11).set([56, s.text(o.from, 'options.from'), s.text(o.to, 'options.to'), o.bits, o.keepTangents ? 1 : 0,
@@ -165,15 +165,15 @@ export function modelFunctions(library, host, flipGreen) {
       s.call('cotan_convert_begin', at, model.length, files, settings, 0, slot);
       conversion = s.view(Uint32Array, slot, 1)[0];
       return Array.from({ length: s.wasm.cotan_conversion_count(conversion) }, (_, i) => {
-        const picture = s.struct(0, 0, 0, 0);
-        s.call('cotan_conversion_picture', conversion, i, picture);
-        const [, width, height, bits, pixels] = s.view(Uint32Array, picture, 5);
+        const image = s.struct(0, 0, 0, 0);
+        s.call('cotan_conversion_image', conversion, i, image);
+        const [, width, height, bits, pixels] = s.view(Uint32Array, image, 5);
         return { width, height, bits, data: s.take(bits === 16 ? Uint16Array : Uint8Array, pixels, 4 * width * height) };
       });
     });
     try {
       const made = [];
-      for (const picture of pictures) made.push({ picture, ...await encodedByCaller(picture, o.encode) });
+      for (const image of images) made.push({ image, ...await encodedByCaller(image, o.encode) });
       return library.run((s) => {
         if (s.wasm !== wasm) throw new CotanError('unavailable', 'the library was restarted during the conversion; convert again');
         made.forEach(({ bytes }, i) => s.call('cotan_conversion_set', conversion, i, s.put(bytes), bytes.length));

@@ -25,8 +25,8 @@ function allowedLoss({ green_reversed: greenReversed, degrees_after_rounding: af
 export async function inOriginalFormats(parsed, files, { glb, report, made: pngs }) {
   const made = parsedModel(glb), other = new Map(), notes = [], maps = report.maps.map((map) => ({ ...map })), remade = maps.filter((map) => !map.kept);
   for (const [k, map] of remade.entries()) {
-    const { picture, ...png } = pngs[k], old = imageFile(parsed, map.image, files);
-    const { bytes, mimeType, note, ...found } = map.kept_elsewhere ? png : await encodedLike(picture, old, png, map.name,
+    const { image, ...png } = pngs[k], old = imageFile(parsed, map.image, files);
+    const { bytes, mimeType, note, ...found } = map.kept_elsewhere ? png : await encodedLike(image, old, png, map.name,
       { hasWebp: requiresWebp(parsed.json), loss: allowedLoss(map) });
     if (note) notes.push(note);
     if (mimeType !== png.mimeType) other.set(map.image, { bytes, mimeType });

@@ -1,6 +1,6 @@
 // Lossless PNG files of 8 and 16 bits, by the platform's deflate in node, browsers and workers.
 import { CotanError, usage } from './errors.js';
-import { bytesOf, checkedPicture } from './picture.js';
+import { bytesOf, checkedImage } from './image_checks.js';
 import { through } from './streams.js';
 
 const kMaxPixels = 2 ** 26;
@@ -124,9 +124,9 @@ export async function decodePng(file) {
 }
 
 /** Encodes an image of 8 or 16 bits as a PNG file; RGB if every pixel is opaque, else RGBA. */
-export async function encodePng(picture) {
-  const { width, height, bits, data } = checkedPicture(picture, 'picture', [8, 16]);
-  if (width * height > kMaxPixels) throw usage(`picture: expected at most 67 million pixels, found ${width} x ${height}`);
+export async function encodePng(image) {
+  const { width, height, bits, data } = checkedImage(image, 'image', [8, 16]);
+  if (width * height > kMaxPixels) throw usage(`image: expected at most 67 million pixels, found ${width} x ${height}`);
   const maxValue = bits === 16 ? 65535 : 255;
   let channels = 3;
   for (let i = 3; i < data.length && channels === 3; i += 4) if (data[i] !== maxValue) channels = 4;

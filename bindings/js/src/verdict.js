@@ -2,6 +2,7 @@
 // (src/bake/lint/lint_limits.cpp), for limits other than those that the report was made with.
 import { choice, options } from './arrays.js';
 import { usage, wordsFor } from './errors.js';
+import { rotatedOf } from './old_names.js';
 
 const kFrames = ['cotangent', 'orthonormal', 'smooth', 'exact', 'triangle', 'stored'];
 
@@ -45,7 +46,7 @@ export function overLimits(report, given) {
     if (mapped) check('rounding', p.rounding_degrees, limit, 'rounding', 'degrees', 'degrees');
     for (const [kind, fraction, what] of [['degenerate_uv', p.uv.degenerate, 'degenerate uv on'],
       ['mirrored_overlap', p.uv.overlapping_mirrored, 'uv overlapping in both orientations on'],
-      ['reversed_w', p.stored_tangents?.reversed_w, 'TANGENT.w contradicting the uv on'], ['turned_tangents', p.stored_tangents?.turned, 'stored tangents rotated on']])
+      ['reversed_w', p.stored_tangents?.reversed_w, 'TANGENT.w contradicting the uv on'], ['rotated_tangents', rotatedOf(p.stored_tangents), 'stored tangents rotated on']])
       check(kind, typeof fraction === 'number' ? 100 * fraction : undefined, limitArea, what, 'percent', '% of the area');
   });
   for (const { name, image, confidence } of images.filter((map) => map.decided && !map.as_declared)) {

@@ -1,8 +1,9 @@
 import type { Split } from './tangents.js';
+export * from './old_names.js';
 export * from './tangents.js';
 
 /** An image with four components per pixel, rows from the top. Bit depth by the type of data: 8, 16 or 32 (floats). */
-export interface Picture {
+export interface Image {
   width: number;
   height: number;
   bits?: number;
@@ -16,7 +17,7 @@ export type Bits = 8 | 16 | 32;
 // ---- normal maps
 
 /** Detects which way green points, from the map alone. */
-export function detect(map: Picture): {
+export function detect(map: Image): {
   green: 'up' | 'down' | 'unknown';
   /** Whether red and green are swapped; null: unknown. */
   swapped: boolean | null;
@@ -27,7 +28,7 @@ export function detect(map: Picture): {
 };
 
 /** Statistics of an image, read as a normal map. Fractions are 0 to 1, tilt is in degrees. */
-export function info(map: Picture): {
+export function info(map: Image): {
   content: string;
   /** The code of 255 that stands for zero: 128; 127 for 127.5; null: unknown. */
   zero: 127 | 128 | null;
@@ -41,28 +42,28 @@ export function info(map: Picture): {
 };
 
 /** Converts a map from one convention to another. Default of bits: those of the map. */
-export function convertMap(map: Picture, options?: { from?: Convention; to?: Convention; bits?: Bits }): Picture;
+export function convertMap(map: Image, options?: { from?: Convention; to?: Convention; bits?: Bits }): Image;
 
-export function blend(base: Picture, detail: Picture, options?: {
+export function blend(base: Image, detail: Image, options?: {
   convention?: Convention;
   mode?: 'reoriented' | 'whiteout' | 'udn' | 'slopes' | 'linear';
   /** Factor on the detail's slopes. */
   strength?: number;
   bits?: Bits;
-}): Picture;
+}): Image;
 
 /** Makes a normal map from red of a height map. scale: slope per unit of height and texel, one or [x, y]. */
-export function fromHeight(height: Picture, options?: { scale?: number | [number, number]; to?: Convention; bits?: Bits }): Picture;
+export function fromHeight(height: Image, options?: { scale?: number | [number, number]; to?: Convention; bits?: Bits }): Image;
 
 /** The height map, in texel widths and with mean 0, whose slopes are nearest to those of the normal map. */
-export function toHeight(map: Picture, options?: { from?: Convention }): { width: number; height: number; data: Float32Array };
+export function toHeight(map: Image, options?: { from?: Convention }): { width: number; height: number; data: Float32Array };
 
 /** Mip levels, filtered as vectors, with the roughness that compensates for the lost variance of normals. */
-export function mips(map: Picture, options?: { convention?: Convention; roughness?: number }): { normals: Picture; roughness: Picture }[];
+export function mips(map: Image, options?: { convention?: Convention; roughness?: number }): { normals: Image; roughness: Image }[];
 
 // ---- frames
 
-export interface Places {
+export interface SurfacePoints {
   /** Unit normals, 3 numbers each. */
   normals: ArrayLike<number>;
   /** Differences of position (3 numbers each) and uv (2 each) along any two directions. */
@@ -72,15 +73,15 @@ export interface Places {
   duvdy: ArrayLike<number>;
 }
 /** Interpolated attributes: tangents (4 numbers each) for "mikktspace" and "vertex", u and v (3 each) for "smooth". */
-export interface VertexPlaces {
+export interface InterpolatedPoints {
   normals: ArrayLike<number>;
   tangents?: ArrayLike<number>;
   u?: ArrayLike<number>;
   v?: ArrayLike<number>;
 }
 /** apply: perturbed unit normals from decoded texels. encode, its inverse: texels from normals. 3 numbers each. */
-export function apply(frame: string, places: Places | VertexPlaces, texels: ArrayLike<number>): Float32Array;
-export function encode(frame: string, places: Places | VertexPlaces, normals: ArrayLike<number>): Float32Array;
+export function apply(frame: string, points: SurfacePoints | InterpolatedPoints, texels: ArrayLike<number>): Float32Array;
+export function encode(frame: string, points: SurfacePoints | InterpolatedPoints, normals: ArrayLike<number>): Float32Array;
 export function frames(): string[];
 
 /** Self-contained source of the function that perturbs the normal with the given frame; for Godot a whole spatial
@@ -105,8 +106,8 @@ type Bytes = ArrayBuffer | ArrayBufferView;
 export interface ModelOptions {
   /** External files of a .gltf by URI: as the model writes it, or percent-decoded. */
   files?: Record<string, Bytes>;
-  /** Decodes the normal maps, of any format but KTX2. Default: decodePicture. */
-  decode?: (bytes: Uint8Array, name: string) => Promise<Picture & { bits: number }>;
+  /** Decodes the normal maps, of any format but KTX2. Default: decodeImage. */
+  decode?: (bytes: Uint8Array, name: string) => Promise<Image & { bits: number }>;
   /** Called with the fraction done, 0 to 1. Returning false stops the work (code "stopped"). */
   progress?: (done: number) => boolean | void;
 }
@@ -133,7 +134,7 @@ export interface LintReport {
 }
 
 export interface OverLimit {
-  kind: 'reading' | 'rounding' | 'degenerate_uv' | 'mirrored_overlap' | 'reversed_w' | 'turned_tangents' | 'reversed_green' | 'not_judged';
+  kind: 'reading' | 'rounding' | 'degenerate_uv' | 'mirrored_overlap' | 'reversed_w' | 'rotated_tangents' | 'reversed_green' | 'not_judged';
   /** Names of the mesh and its material; null: unnamed, or the finding concerns no mesh. */
   mesh: string | null;
   material: string | null;
@@ -276,14 +277,14 @@ export function convert(model: Bytes, options?: ModelOptions & {
   /** How engines decode the maps: "biased" (2c - 1, as stock engines do; the default) or "exact", where 128 is zero. */
   unsigned?: 'biased' | 'exact';
   /** Encodes an image as a PNG file; default: encodePng. The file is decoded again to measure its losses. */
-  encode?: (picture: Picture) => Promise<Bytes>;
+  encode?: (image: Image) => Promise<Bytes>;
 }): Promise<{ glb: Uint8Array; report: ConvertReport }>;
 
 // ---- images
 
 /** Lossless PNG files of 8 or 16 bits. */
-export function decodePng(bytes: Uint8Array): Promise<Picture & { bits: 8 | 16 }>;
-export function encodePng(picture: Picture & { bits: number }): Promise<Uint8Array>;
+export function decodePng(bytes: Uint8Array): Promise<Image & { bits: 8 | 16 }>;
+export function encodePng(image: Image & { bits: number }): Promise<Uint8Array>;
 /** Decodes PNG; other formats by the browser, or by the package sharp in node. The values are those of the file: no
  * colour profile is applied, and colours under transparent alpha are kept. */
-export function decodePicture(bytes: Uint8Array, name?: string): Promise<Picture & { bits: number }>;
+export function decodeImage(bytes: Uint8Array, name?: string): Promise<Image & { bits: number }>;

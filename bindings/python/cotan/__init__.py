@@ -4,17 +4,18 @@
     baked = cotan.bake(low, high, size=2048, frame="smooth")     # cotan.Mesh of numpy arrays, or paths
     report = cotan.lint("model.glb")                             # degrees, in a dataclass
     cotan.convert("model.glb", "out.glb", to_frame="smooth")
-    picture = cotan.render("model.glb", size=(640, 360), frame="smooth")
+    image = cotan.render("model.glb", size=(640, 360), frame="smooth")
     green = cotan.detect(map).green                              # "up", "down" or "undecidable"
 
 Arrays are passed without copies if dtype and layout fit (float32, uint32, C order). Long calls release the GIL, call
 `progress` on the calling thread, and end at Ctrl-C. All errors are of type `cotan.Error`.
 """
 
+from . import _old_names
 from ._library import library_path, library_version
 from ._version import __version__
 from .baking import Baked, bake, name_role, pair_names
-from .conversion import Conversion, model_pictures
+from .conversion import Conversion, model_images
 from .errors import (
     Error,
     InputError,
@@ -43,6 +44,7 @@ from .geometry import (
     vertex_frame_apply,
     vertex_frame_encode,
 )
+from .images import file_names, read_image, write_image
 from .maps import (
     Green,
     Level,
@@ -56,9 +58,11 @@ from .maps import (
     map_to_height,
 )
 from .models import Converted, Lint, Model, convert, lint, load
-from .pictures import file_names, read_picture, write_picture
 from .rendering import render
 from .shaders import shader
+
+__getattr__ = _old_names.of_package
+_old_names.of_module("pictures", "images")
 
 __all__ = [
     "Baked",
@@ -95,7 +99,7 @@ __all__ = [
     "map_from_height",
     "map_mips",
     "map_to_height",
-    "model_pictures",
+    "model_images",
     "name_role",
     "pack_smooth4",
     "pack_smooth8",
@@ -103,7 +107,7 @@ __all__ = [
     "pack_triangles",
     "pair_names",
     "provoking",
-    "read_picture",
+    "read_image",
     "render",
     "shader",
     "smooth_cotangents",
@@ -113,6 +117,6 @@ __all__ = [
     "triangle_vectors",
     "vertex_frame_apply",
     "vertex_frame_encode",
-    "write_picture",
+    "write_image",
     "__version__",
 ]

@@ -120,9 +120,9 @@ def stored(array, words, field):
             raise wrong(field, f"floats from {low:g} to 1 as {','.join(words)} stores them", f"{found:g}", InputError)
 
 
-def picture(array):
-    """A cotan_picture that refers to an array from `pixels` or `made`, which must outlive the struct."""
-    return structs.Picture(width=array.shape[1], height=array.shape[0], bits=BITS[array.dtype], pixels=at(array))
+def image_view(array):
+    """A cotan_image_view that refers to an array from `pixels` or `made`, which must outlive the struct."""
+    return structs.ImageView(width=array.shape[1], height=array.shape[0], bits=BITS[array.dtype], pixels=at(array))
 
 
 def dtype_of(bits, field="bits"):

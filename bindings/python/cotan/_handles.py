@@ -13,24 +13,24 @@ from ._library import call, library
 
 def array_of(image):
     """An array over the pixels of an image handle of the library, which is freed with the last view of the array."""
-    picture = structs.Picture()
-    call("cotan_image_picture", image, picture)
-    pixels = _memory_of(picture)
+    view = structs.ImageView()
+    call("cotan_image_pixels", image, view)
+    pixels = _memory_of(view)
     weakref.finalize(pixels, library().cotan_image_free, image.value)
-    return _shaped(pixels, picture)
+    return _shaped(pixels, view)
 
 
-def array_of_picture(picture):
-    """A copied array of a cotan_picture that the library owns."""
-    return _shaped(_memory_of(picture), picture).copy()
+def array_of_view(view):
+    """A copied array of a cotan_image_view that the library owns."""
+    return _shaped(_memory_of(view), view).copy()
 
 
-def _memory_of(picture):
-    return (ctypes.c_uint8 * (picture.width * picture.height * picture.bits // 2)).from_address(picture.pixels)
+def _memory_of(view):
+    return (ctypes.c_uint8 * (view.width * view.height * view.bits // 2)).from_address(view.pixels)
 
 
-def _shaped(pixels, picture):
-    return np.frombuffer(pixels, arrays.DTYPES[picture.bits]).reshape(picture.height, picture.width, 4)
+def _shaped(pixels, view):
+    return np.frombuffer(pixels, arrays.DTYPES[view.bits]).reshape(view.height, view.width, 4)
 
 
 def is_path(given):

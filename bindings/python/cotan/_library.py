@@ -9,7 +9,7 @@ import threading
 from . import _structs as structs
 from .errors import UnavailableError, error_of
 
-API_VERSION = 8  # minimum version of the interface of cotan.h
+API_VERSION = 9  # minimum version of the interface of cotan.h
 
 if sys.platform == "win32":
     _NAMES = ("cotan.dll", "libcotan.dll")

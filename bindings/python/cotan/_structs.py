@@ -19,11 +19,11 @@ def _fields(*groups):
     return [("size", size_t)] + [(name, kind) for kind, names in groups for name in names.split()]
 
 
-class Places(Struct):
+class SurfacePoints(Struct):
     _fields_ = _fields((size_t, "count"), (pointer, "normals dpdx dpdy duvdx duvdy"))
 
 
-class VertexPlaces(Struct):
+class InterpolatedPoints(Struct):
     _fields_ = _fields((size_t, "count"), (pointer, "normals tangents cotangents_u cotangents_v"))
 
 
@@ -36,7 +36,7 @@ class CMesh(Struct):
     )
 
 
-class Picture(Struct):
+class ImageView(Struct):
     _fields_ = _fields((integer, "width height bits"), (pointer, "pixels"))
 
 
@@ -84,10 +84,10 @@ class BakeResult(Struct):
 
 bytes_out, size_out = c.POINTER(pointer), c.POINTER(size_t)
 Read = c.CFUNCTYPE(integer, pointer, text, bytes_out, size_out)
-Decode = c.CFUNCTYPE(integer, pointer, text, pointer, size_t, c.POINTER(Picture))
-Encode = c.CFUNCTYPE(integer, pointer, c.POINTER(Picture), bytes_out, size_out)
+Decode = c.CFUNCTYPE(integer, pointer, text, pointer, size_t, c.POINTER(ImageView))
+Encode = c.CFUNCTYPE(integer, pointer, c.POINTER(ImageView), bytes_out, size_out)
 Done = c.CFUNCTYPE(None, pointer)
-TakeLevel = c.CFUNCTYPE(integer, pointer, integer, c.POINTER(Picture), c.POINTER(Picture))
+TakeLevel = c.CFUNCTYPE(integer, pointer, integer, c.POINTER(ImageView), c.POINTER(ImageView))
 TakeFile = c.CFUNCTYPE(integer, pointer, text, pointer, size_t)
 
 
@@ -152,10 +152,10 @@ class RenderOptions(Struct):
 
 
 STRUCTS = {
-    "cotan_places": Places,
-    "cotan_vertex_places": VertexPlaces,
+    "cotan_surface_points": SurfacePoints,
+    "cotan_interpolated_points": InterpolatedPoints,
     "cotan_mesh": CMesh,
-    "cotan_picture": Picture,
+    "cotan_image_view": ImageView,
     "cotan_green": CGreen,
     "cotan_map_info": CMapInfo,
     "cotan_bake_options": BakeOptions,
@@ -170,10 +170,10 @@ STRUCTS = {
 
 # Argument types of functions that return a cotan_status, without the final `message` and `message_size`.
 _STATUS = {
-    "cotan_frame_apply": (text, Places, pointer, pointer),
-    "cotan_frame_encode": (text, Places, pointer, pointer),
-    "cotan_vertex_frame_apply": (text, VertexPlaces, pointer, pointer),
-    "cotan_vertex_frame_encode": (text, VertexPlaces, pointer, pointer),
+    "cotan_frame_apply": (text, SurfacePoints, pointer, pointer),
+    "cotan_frame_encode": (text, SurfacePoints, pointer, pointer),
+    "cotan_vertex_frame_apply": (text, InterpolatedPoints, pointer, pointer),
+    "cotan_vertex_frame_encode": (text, InterpolatedPoints, pointer, pointer),
     "cotan_tangents": (text, CMesh, integer, pointer),
     "cotan_smooth_cotangents": (CMesh, pointer, pointer),
     "cotan_tangents_with_progress": (text, CMesh, integer, Progress, pointer, pointer),
@@ -186,17 +186,17 @@ _STATUS = {
     "cotan_pack_smooth4": (size_t, pointer, pointer, pointer, pointer),
     "cotan_pack_tangents": (size_t, pointer, pointer, pointer),
     "cotan_provoking": (size_t, size_t, pointer, integer, pointer, pointer, size_out, pointer),
-    "cotan_map_green": (Picture, CGreen),
-    "cotan_map_describe": (Picture, CMapInfo),
-    "cotan_map_convert": (Picture, text, text, Picture),
-    "cotan_map_from_height": (Picture, double, double, text, Picture),
-    "cotan_map_to_height": (Picture, text, pointer),
-    "cotan_map_blend": (Picture, Picture, text, text, double, Picture),
-    "cotan_map_mips": (Picture, text, double, TakeLevel, pointer),
+    "cotan_map_green": (ImageView, CGreen),
+    "cotan_map_describe": (ImageView, CMapInfo),
+    "cotan_map_convert": (ImageView, text, text, ImageView),
+    "cotan_map_from_height": (ImageView, double, double, text, ImageView),
+    "cotan_map_to_height": (ImageView, text, pointer),
+    "cotan_map_blend": (ImageView, ImageView, text, text, double, ImageView),
+    "cotan_map_mips": (ImageView, text, double, TakeLevel, pointer),
     "cotan_shader_text": (text, text, text, pointer, size_out),
-    "cotan_bake": (CMesh, CMesh, BakeOptions, Picture, BakeResult),
+    "cotan_bake": (CMesh, CMesh, BakeOptions, ImageView, BakeResult),
     "cotan_bake_models": (
-        handle, size_t, c.POINTER(handle), BakeOptions, Picture, BakeResult, c.POINTER(handle),
+        handle, size_t, c.POINTER(handle), BakeOptions, ImageView, BakeResult, c.POINTER(handle),
     ),
     "cotan_file_names": (size_t, c.POINTER(text), size_t, c.POINTER(text), c.POINTER(handle)),
     "cotan_pair_names": (
@@ -207,17 +207,17 @@ _STATUS = {
     "cotan_model_of_meshes": (size_t, c.POINTER(c.POINTER(CMesh)), c.POINTER(text), c.POINTER(handle)),
     "cotan_set_reader": (size_t, c.POINTER(text)),
     "cotan_lint_model": (handle, LintOptions, LintResult, c.POINTER(handle)),
-    "cotan_image_picture": (handle, Picture),
+    "cotan_image_pixels": (handle, ImageView),
     "cotan_image_read": (text, integer, c.POINTER(handle)),
-    "cotan_image_write": (text, Picture),
+    "cotan_image_write": (text, ImageView),
     "cotan_render": (pointer, size_t, ModelFiles, RenderOptions, c.POINTER(handle), c.POINTER(handle)),
-    "cotan_gltf_pictures": (pointer, size_t, ModelFiles, integer, TakeFile, pointer),
+    "cotan_gltf_images": (pointer, size_t, ModelFiles, integer, TakeFile, pointer),
     "cotan_lint_gltf": (pointer, size_t, ModelFiles, LintOptions, LintResult, c.POINTER(handle)),
     "cotan_convert_gltf": (
         pointer, size_t, ModelFiles, ConvertOptions, ConvertResult, c.POINTER(handle), c.POINTER(handle),
     ),
     "cotan_convert_begin": (pointer, size_t, ModelFiles, ConvertOptions, ConvertResult, c.POINTER(handle)),
-    "cotan_conversion_picture": (handle, size_t, Picture),
+    "cotan_conversion_image": (handle, size_t, ImageView),
     "cotan_conversion_set": (handle, size_t, pointer, size_t),
     "cotan_convert_end": (handle, c.POINTER(handle), c.POINTER(handle)),
 }  # fmt: skip

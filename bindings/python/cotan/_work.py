@@ -17,11 +17,11 @@ def long_call(work, progress=None):
     the work, this function waits until the library has returned and no longer uses its arguments. Without a progress
     function, calls from threads other than the main one cannot be stopped and run directly.
     """
-    share, stop = 0.0, False
+    fraction, stop = 0.0, False
 
     def told(_, done):
-        nonlocal share
-        share = max(share, done)
+        nonlocal fraction
+        fraction = max(fraction, done)
         return int(stop)
 
     callback = structs.Progress(told)
@@ -43,7 +43,7 @@ def long_call(work, progress=None):
     thread.start()
     try:
         while not ended.wait(_SECONDS):
-            if progress is not None and progress(min(share, 1.0)) is False:
+            if progress is not None and progress(min(fraction, 1.0)) is False:
                 stop = True
                 break
     except BaseException:  # Ctrl-C, or what `progress` raised

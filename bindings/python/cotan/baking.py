@@ -16,7 +16,7 @@ from .errors import InputError, in_keywords
 from .geometry import Mesh
 from .maps import Map
 from .models import Model, load
-from .pictures import Path, pixels_of
+from .images import Path, pixels_of
 from .words import BakeKind, Convention, Frame, HighNormals, Occluders, Search, TangentOrigin, Up
 
 Geometry = Union[Mesh, Path, Model]
@@ -56,12 +56,12 @@ class Baked:
     warnings: list[str]
 
 
-def _model(given, field, up, pictures=False, memory=640):
+def _model(given, field, up, images=False, memory=640):
     """A Model from a mesh, several meshes, a file, or a Model."""
     if isinstance(given, Model):
         return given
     if is_path(given):
-        return load(given, pictures, memory, up)
+        return load(given, images, memory, up)
     if isinstance(given, Mesh) or (
         isinstance(given, Sequence) and len(given) > 0 and all(isinstance(mesh, Mesh) for mesh in given)
     ):
@@ -207,8 +207,8 @@ def bake(
     maps = [] if high_map is None else [pixels_of(m, "high_map") for m in _several(high_map)]
     for given in maps:
         arrays.stored(given, "opengl" if high_convention is None else high_convention, "high_map")
-    pictures = [arrays.picture(m) for m in maps]
-    mask_picture = None if mask_made is None else arrays.picture(mask_made)
+    images = [arrays.image_view(m) for m in maps]
+    mask_view = None if mask_made is None else arrays.image_view(mask_made)
     result, lines = structs.BakeResult(), structs.handle()
     warnings: list[str] = []
 
@@ -219,7 +219,7 @@ def bake(
         for model in (simple, *detailed):
             warnings.extend(w for w in model.warnings if w not in warnings)
         handles = (structs.handle * len(detailed))(*(model._handle for model in detailed))
-        high_maps = (ctypes.POINTER(structs.Picture) * len(pictures))(*map(ctypes.pointer, pictures))
+        high_maps = (ctypes.POINTER(structs.ImageView) * len(images))(*map(ctypes.pointer, images))
         options = structs.BakeOptions(
             samples={1: 1, 4: 2, 16: 4}[samples],
             padding=padding,
@@ -232,15 +232,15 @@ def bake(
             match_by_name=int(match_by_name),
             material=material + 1,
             tile=udim,
-            high_map_count=len(pictures),
-            high_maps=ctypes.addressof(high_maps) if pictures else None,
+            high_map_count=len(images),
+            high_maps=ctypes.addressof(high_maps) if images else None,
             cage_reach=cage_reach,
             extrusion=extrusion,
-            mask=None if mask_picture is None else ctypes.addressof(mask_picture),
+            mask=None if mask_view is None else ctypes.addressof(mask_view),
             **words,
         )
         call(
-            "cotan_bake_models", simple._handle, len(detailed), handles, options, arrays.picture(made), result, lines,
+            "cotan_bake_models", simple._handle, len(detailed), handles, options, arrays.image_view(made), result, lines,
         )  # fmt: skip
 
     long_call(work, progress)
@@ -248,15 +248,6 @@ def bake(
     return Baked(
         map=made,
         mask=mask_made,
-        texels=result.texels,
-        covered=result.covered,
-        missed=result.missed,
-        negative=result.negative,
-        twice=result.twice,
-        rays=result.rays,
-        ray_distance=result.ray_distance,
-        further=result.further,
-        nearer=result.nearer,
-        ray_start=result.ray_start,
         warnings=warnings,
+        **{name: getattr(result, name) for name, _ in structs.BakeResult._fields_ if name != "size"},
     )

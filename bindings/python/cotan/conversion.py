@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays as arrays
+from . import _old_names
 from . import _structs as structs
-from ._handles import array_of_picture
+from ._handles import array_of_view
 from ._library import call, library, taken
 from ._work import Progress, long_call
 from .models import (
@@ -23,11 +24,11 @@ from .models import (
     convert_options,
     converted_of,
 )
-from .pictures import Path
+from .images import Path
 from .words import Expansion, Frame, TangentOrigin
 
 
-def model_pictures(
+def model_images(
     model: Union[Path, Bytes], maps_only: bool = False, beside: Optional[Mapping[str, bytes]] = None
 ) -> list[tuple[str, bytes]]:
     """Names and encoded files (PNG, JPEG, ...) of the images in a glTF model that are decoded to lint it.
@@ -41,7 +42,7 @@ def model_pictures(
         found.append((name.decode("utf-8", "replace"), ctypes.string_at(data, size)))
         return 0
 
-    source.call("cotan_gltf_pictures", int(maps_only), structs.TakeFile(take), None)
+    source.call("cotan_gltf_images", int(maps_only), structs.TakeFile(take), None)
     return found
 
 
@@ -49,12 +50,12 @@ class Conversion:
     """`convert` in two steps: the first makes the new maps; after they are encoded as PNG, the second makes the model.
 
         conversion = cotan.Conversion("model.glb", to_frame="smooth")
-        for number, picture in enumerate(conversion.pictures):
-            conversion.set(number, png_of(picture))
+        for number, image in enumerate(conversion.images):
+            conversion.set(number, png_of(image))
         converted = conversion.end()
 
     Attributes:
-        pictures: the images to encode, (height, width, 4) of uint8 or uint16 each.
+        images: the images to encode, (height, width, 4) of uint8 or uint16 each.
     """
 
     def __init__(
@@ -86,16 +87,18 @@ class Conversion:
 
         long_call(work, progress)
         weakref.finalize(self, library().cotan_conversion_free, self._handle.value)
-        self.pictures: list[NDArray[np.generic]] = []
+        self.images: list[NDArray[np.generic]] = []
         for number in range(library().cotan_conversion_count(self._handle)):
-            picture = structs.Picture()
-            call("cotan_conversion_picture", self._handle, number, picture)
-            self.pictures.append(array_of_picture(picture))
+            view = structs.ImageView()
+            call("cotan_conversion_image", self._handle, number, view)
+            self.images.append(array_of_view(view))
+
+    pictures = _old_names.attribute("pictures", "images")
 
     def set(self, number: int, png: bytes) -> None:
-        """Sets the PNG file of picture `number`, once."""
-        if not 0 <= number < len(self.pictures):
-            raise arrays.wrong("number", f"0 to {len(self.pictures) - 1}", number)
+        """Sets the PNG file of image `number`, once."""
+        if not 0 <= number < len(self.images):
+            raise arrays.wrong("number", f"0 to {len(self.images) - 1}", number)
         array = np.frombuffer(png, np.uint8)
         call("cotan_conversion_set", self._handle, number, arrays.at(array), array.nbytes)
 

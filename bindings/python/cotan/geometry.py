@@ -73,20 +73,32 @@ def frames() -> list[Frame]:
     return [made.cotan_frame_name(i).decode() for i in range(made.cotan_frame_count())]
 
 
-def _places(function, frame, given, normals, dpdx, dpdy, duvdx, duvdy, out):
-    given = arrays.floats(given, "texels" if function == "cotan_frame_apply" else "normals_wanted", 3)
+def _by_frame(function, frame, given, points, out, missing=(), **attributes):
+    """Calls a function for points: attributes, with their widths, of the struct `points`. missing: may be None."""
+    given = arrays.floats(given, "texels" if function.endswith("apply") else "normals_wanted", 3)
     count = len(given)
     own = {
-        "normals": arrays.floats(normals, "normals", 3, count),
-        "dpdx": arrays.floats(dpdx, "dpdx", 3, count),
-        "dpdy": arrays.floats(dpdy, "dpdy", 3, count),
-        "duvdx": arrays.floats(duvdx, "duvdx", 2, count),
-        "duvdy": arrays.floats(duvdy, "duvdy", 2, count),
+        name: None if array is None and name in missing else arrays.floats(array, name, width, count)
+        for name, (array, width) in attributes.items()
     }
     out = arrays.made(out, "out", (count, 3), np.float32)
-    places = structs.Places(count=count, **{name: arrays.at(array) for name, array in own.items()})
-    call(function, arrays.encoded(frame, "frame"), places, arrays.at(given), arrays.at(out))
+    struct = points(count=count, **{name: arrays.at(array) for name, array in own.items()})
+    call(function, arrays.encoded(frame, "frame"), struct, arrays.at(given), arrays.at(out))
     return out
+
+
+def _at_points(function, frame, given, normals, dpdx, dpdy, duvdx, duvdy, out):
+    return _by_frame(
+        function, frame, given, structs.SurfacePoints, out,
+        normals=(normals, 3), dpdx=(dpdx, 3), dpdy=(dpdy, 3), duvdx=(duvdx, 2), duvdy=(duvdy, 2),
+    )  # fmt: skip
+
+
+def _at_interpolated_points(function, frame, given, normals, tangents, u, v, out):
+    return _by_frame(
+        function, frame, given, structs.InterpolatedPoints, out, ("tangents", "cotangents_u", "cotangents_v"),
+        normals=(normals, 3), tangents=(tangents, 4), cotangents_u=(u, 3), cotangents_v=(v, 3),
+    )  # fmt: skip
 
 
 def frame_apply(
@@ -111,7 +123,7 @@ def frame_apply(
 
     Degenerate differences give the unperturbed normal. Raises UsageError for bad shapes and frames.
     """
-    return _places("cotan_frame_apply", frame, texels, normals, dpdx, dpdy, duvdx, duvdy, out)
+    return _at_points("cotan_frame_apply", frame, texels, normals, dpdx, dpdy, duvdx, duvdy, out)
 
 
 def frame_encode(
@@ -128,23 +140,7 @@ def frame_encode(
 
     Degenerate differences give (0, 0, 1).
     """
-    return _places("cotan_frame_encode", frame, normals_wanted, normals, dpdx, dpdy, duvdx, duvdy, out)
-
-
-def _vertex_places(function, frame, given, normals, tangents, cotangents_u, cotangents_v, out):
-    given = arrays.floats(given, "texels" if function == "cotan_vertex_frame_apply" else "normals_wanted", 3)
-    count = len(given)
-    own = {"normals": arrays.floats(normals, "normals", 3, count)}
-    for name, array, width in (
-        ("tangents", tangents, 4),
-        ("cotangents_u", cotangents_u, 3),
-        ("cotangents_v", cotangents_v, 3),
-    ):
-        own[name] = None if array is None else arrays.floats(array, name, width, count)
-    out = arrays.made(out, "out", (count, 3), np.float32)
-    places = structs.VertexPlaces(count=count, **{name: arrays.at(array) for name, array in own.items()})
-    call(function, arrays.encoded(frame, "frame"), places, arrays.at(given), arrays.at(out))
-    return out
+    return _at_points("cotan_frame_encode", frame, normals_wanted, normals, dpdx, dpdy, duvdx, duvdy, out)
 
 
 def vertex_frame_apply(
@@ -165,7 +161,7 @@ def vertex_frame_apply(
         tangents: (n, 4), w as in glTF's TANGENT, from `tangents`.
         cotangents_u, cotangents_v: (n, 3) each, from `smooth_cotangents`.
     """
-    return _vertex_places(
+    return _at_interpolated_points(
         "cotan_vertex_frame_apply", frame, texels, normals, tangents, cotangents_u, cotangents_v, out
     )
 
@@ -180,7 +176,7 @@ def vertex_frame_encode(
     out: Optional[Floats] = None,
 ) -> Floats:
     """The inverse of `vertex_frame_apply`: unit texels (n, 3) for normals_wanted (n, 3)."""
-    return _vertex_places(
+    return _at_interpolated_points(
         "cotan_vertex_frame_encode", frame, normals_wanted, normals, tangents, cotangents_u, cotangents_v, out
     )
 

@@ -18,9 +18,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays as arrays
 from . import _structs as structs
-from ._handles import array_of_picture
+from ._handles import array_of_view
 from ._library import call
-from .pictures import Path, pixels_of
+from .images import Path, pixels_of
 from .words import BlendMode, Convention
 
 Pixels = NDArray[np.generic]
@@ -83,7 +83,7 @@ class Level(NamedTuple):
 def detect(map: Map) -> Green:
     """Detects which way green of a tangent-space normal map points. map: an image."""
     pixels, green = pixels_of(map), structs.CGreen()
-    call("cotan_map_green", arrays.picture(pixels), green)
+    call("cotan_map_green", arrays.image_view(pixels), green)
     return Green(
         green={1: "up", -1: "down"}.get(green.direction, "undecidable"),
         swapped=None if green.swapped < 0 else bool(green.swapped),
@@ -96,7 +96,7 @@ def detect(map: Map) -> Green:
 def describe(map: Map) -> MapInfo:
     """Statistics of an image, read as a normal map."""
     pixels, info = pixels_of(map), structs.CMapInfo()
-    call("cotan_map_describe", arrays.picture(pixels), info)
+    call("cotan_map_describe", arrays.image_view(pixels), info)
     return MapInfo(
         content=info.content.decode(),
         zero=info.zero or None,
@@ -135,8 +135,8 @@ def map_convert(
     arrays.stored(pixels, source, "map")
     out = _like(pixels, bits, out)
     call(
-        "cotan_map_convert", arrays.picture(pixels), arrays.encoded(source, "source"), arrays.encoded(to, "to"),
-        arrays.picture(out),
+        "cotan_map_convert", arrays.image_view(pixels), arrays.encoded(source, "source"), arrays.encoded(to, "to"),
+        arrays.image_view(out),
     )  # fmt: skip
     return out
 
@@ -162,8 +162,8 @@ def map_from_height(
     out = arrays.made(out, "out", pixels.shape, arrays.dtype_of(bits))
     scale_x = arrays.number(scale_x, "scale_x")
     scale_y = scale_x if scale_y is None else arrays.number(scale_y, "scale_y")
-    given = arrays.picture(pixels)
-    call("cotan_map_from_height", given, scale_x, scale_y, arrays.encoded(to, "to"), arrays.picture(out))
+    given = arrays.image_view(pixels)
+    call("cotan_map_from_height", given, scale_x, scale_y, arrays.encoded(to, "to"), arrays.image_view(out))
     return out
 
 
@@ -172,7 +172,7 @@ def map_to_height(map: Map, source: Convention = "gltf") -> NDArray[np.float32]:
     pixels = pixels_of(map)
     arrays.stored(pixels, source, "map")
     heights = np.empty(pixels.shape[:2], np.float32)
-    call("cotan_map_to_height", arrays.picture(pixels), arrays.encoded(source, "source"), arrays.at(heights))
+    call("cotan_map_to_height", arrays.image_view(pixels), arrays.encoded(source, "source"), arrays.at(heights))
     return heights
 
 
@@ -194,8 +194,8 @@ def map_blend(
         arrays.stored(pixels, convention, field)
     out = _like(under, bits, out)
     call(
-        "cotan_map_blend", arrays.picture(under), arrays.picture(over), arrays.encoded(convention, "convention"),
-        arrays.encoded(mode, "mode"), arrays.number(strength, "strength"), arrays.picture(out),
+        "cotan_map_blend", arrays.image_view(under), arrays.image_view(over), arrays.encoded(convention, "convention"),
+        arrays.encoded(mode, "mode"), arrays.number(strength, "strength"), arrays.image_view(out),
     )  # fmt: skip
     return out
 
@@ -212,7 +212,7 @@ def map_mips(map: Map, convention: Convention = "gltf", roughness: float = 0.5) 
 
     def take(_, number, level, rough):
         try:
-            levels.append(Level(array_of_picture(level[0]), array_of_picture(rough[0])))
+            levels.append(Level(array_of_view(level[0]), array_of_view(rough[0])))
             return 0
         except BaseException as error:  # exceptions must not pass through the library
             failures.append(error)
@@ -220,7 +220,7 @@ def map_mips(map: Map, convention: Convention = "gltf", roughness: float = 0.5) 
 
     try:
         call(
-            "cotan_map_mips", arrays.picture(pixels), arrays.encoded(convention, "convention"),
+            "cotan_map_mips", arrays.image_view(pixels), arrays.encoded(convention, "convention"),
             arrays.number(roughness, "roughness"), structs.TakeLevel(take), None,
         )  # fmt: skip
     except Exception:

@@ -12,13 +12,14 @@ from typing import Any, Callable, Mapping, Optional, Sequence, Union
 import numpy as np
 
 from . import _arrays as arrays
+from . import _old_names
 from . import _structs as structs
-from ._handles import array_of_picture, is_path
+from ._handles import array_of_view, is_path
 from ._library import call, library, taken
 from ._work import Progress, long_call
 from .errors import InputError, MissingFileError, OutputError, UsageError
 from .geometry import Mesh
-from .pictures import Path
+from .images import Path
 from .words import Expansion, Frame, Reading, TangentOrigin, Up
 
 Bytes = Union[bytes, bytearray, memoryview]
@@ -54,15 +55,16 @@ class Model:
         self.warnings = [w for w in library().cotan_model_warnings(made).decode("utf-8", "replace").split("\n") if w]
 
 
-def load(file: Path, pictures: bool = True, memory: int = 640, up: Up = "y") -> Model:
+@_old_names.keyword("pictures", "images")
+def load(file: Path, images: bool = True, memory: int = 640, up: Up = "y") -> Model:
     """Reads a model file: .glb, .gltf, .obj, .ply, .stl, .dae, .fbx or .3ds. Missing normals are computed.
 
-    pictures: False skips the images of materials, which a bake of the shape does not need. memory: maximum size of an
+    images: False skips the images of materials, which a bake of the shape does not need. memory: maximum size of an
     image, in MiB. up: "z" rotates the model by 90 degrees about x, for PLY and STL of Blender and CAD. A child process
     reads formats other than glTF. Raises InputError for a missing or broken file or one over a limit.
     """
     made = structs.handle()
-    call("cotan_model_open", arrays.encoded(file, "file"), int(pictures), arrays.memory_of(memory), made, files=(file,))
+    call("cotan_model_open", arrays.encoded(file, "file"), int(images), arrays.memory_of(memory), made, files=(file,))
     model = Model.__new__(Model)
     model._hold(made, up)
     return model
@@ -189,16 +191,16 @@ class Source:
     def _read(self, _, uri, data, size):
         return self._give(self._safely(lambda: self._bytes_of(uri)), data, size)
 
-    def _decode(self, _, name, data, size, picture):
+    def _decode(self, _, name, data, size, image):
         name, content = name.decode("utf-8", "replace"), ctypes.string_at(data, size)
         pixels = self._safely(lambda: arrays.pixels(self.decode(name, content), "decode"))
         if pixels is None:
             return 1
-        picture[0] = arrays.picture(pixels)
+        image[0] = arrays.image_view(pixels)
         return 0
 
-    def _encode(self, _, picture, data, size):
-        return self._give(self._safely(lambda: self.encode(array_of_picture(picture[0]))), data, size)
+    def _encode(self, _, image, data, size):
+        return self._give(self._safely(lambda: self.encode(array_of_view(image[0]))), data, size)
 
     def _done(self, _):
         self.kept.clear()
@@ -332,7 +334,7 @@ def convert(
         progress: called on this thread with the fraction done, 0 to 1. Returning False stops, and so does Ctrl-C.
         beside: files that a model in bytes references, by URI.
         decode: decode(name, bytes) returns the image of a PNG or JPEG file; replaces the library's own readers.
-        encode: encode(picture) returns the PNG file of an image of uint8 or uint16; replaces the library's own writer.
+        encode: encode(image) returns the PNG file of an image of uint8 or uint16; replaces the library's own writer.
         unsigned: how engines decode the maps: "biased" (2c - 1, as stock engines do) or "exact".
         keep_maps: only drops tangents and leaves maps byte for byte as they are, to be read with to_frame. Where
             tangents reverse green of a map, its green is reversed, or they stay.

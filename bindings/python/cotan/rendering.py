@@ -13,7 +13,7 @@ from ._handles import array_of, is_path
 from ._library import call, taken
 from ._work import Progress, long_call
 from .models import Bytes, Source
-from .pictures import Path
+from .images import Path
 from .words import Convention, DrawnFrame, TangentOrigin, Up
 
 

@@ -128,7 +128,7 @@ class Work(threading.Thread):
     def run(self):
         try:
             self.baked = packages().bake(progress=self._told, **self.arguments)
-            packages().write_picture(self.file, self.baked.map)
+            packages().write_image(self.file, self.baked.map)
         except BaseException as error:  # raised by the waiting thread
             self.error = error
 

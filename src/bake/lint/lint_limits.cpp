@@ -58,7 +58,7 @@ void checkPrimitive(const PrimitiveLint& p, const std::string& where, double mod
     over("degenerate_uv", 100 * p.uv.degenerate, area, "degenerate uv on", percent);
     over("mirrored_overlap", 100 * p.uv.overlappingMirrored, area, "uv overlapping in both orientations on", percent);
     over("reversed_w", 100 * p.stored.reversedW, area, "TANGENT.w contradicting the uv on", percent);
-    over("turned_tangents", 100 * p.stored.rotated, area, "stored tangents rotated on", percent);
+    over("rotated_tangents", 100 * p.stored.rotated, area, "stored tangents rotated on", percent);
 }
 
 } // namespace

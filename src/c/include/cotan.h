@@ -19,11 +19,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#ifndef COTAN_NO_OLD_NAMES
+#include "cotan_old_names.h"
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-#define COTAN_API_VERSION 8
+#define COTAN_API_VERSION 9
 /* clang-format off */
 #ifdef __cplusplus
 #define COTAN_INIT(type) cotan_init<type>()
@@ -83,7 +87,7 @@ const char* cotan_frame_name(int frame);
 
 /* Surface points: unit normals, and differences of position and uv along any two directions, such as pixels or
  * edges. */
-typedef struct cotan_places {
+typedef struct cotan_surface_points {
     size_t size;          /* of this struct */
     size_t count;         /* number of points */
     const float* normals; /* 3 each */
@@ -91,29 +95,29 @@ typedef struct cotan_places {
     const float* dpdy;    /* 3 each */
     const float* duvdx;   /* 2 each */
     const float* duvdy;   /* 2 each */
-} cotan_places;
+} cotan_surface_points;
 
 /* Return perturbed unit normals for decoded texels (x along +u, y along +v, z outwards), or the inverse: the unit
  * texels that a frame maps to the given normals. `frame` is one that is made from differences ("cotangent",
  * "orthonormal", ...). Degenerate differences give the normal as it is, or the texel (0, 0, 1). */
-cotan_status cotan_frame_apply(const char* frame, const cotan_places* places, const float* texels, float* normals,
-                               char* message, size_t message_size);
-cotan_status cotan_frame_encode(const char* frame, const cotan_places* places, const float* normals, float* texels,
-                                char* message, size_t message_size);
+cotan_status cotan_frame_apply(const char* frame, const cotan_surface_points* points, const float* texels,
+                               float* normals, char* message, size_t message_size);
+cotan_status cotan_frame_encode(const char* frame, const cotan_surface_points* points, const float* normals,
+                                float* texels, char* message, size_t message_size);
 
 /* The same for frames made at the vertices and interpolated: "mikktspace" and "vertex" from tangents of cotan_tangents,
  * "smooth" from cotangents of cotan_smooth_cotangents. Normals are interpolated, of any length. */
-typedef struct cotan_vertex_places {
+typedef struct cotan_interpolated_points {
     size_t size;
     size_t count;
     const float* normals;      /* 3 each */
     const float* tangents;     /* 4 each, w as in glTF's TANGENT; null for "smooth" */
     const float* cotangents_u; /* 3 each; null for the others */
     const float* cotangents_v; /* 3 each; null for the others */
-} cotan_vertex_places;
-cotan_status cotan_vertex_frame_apply(const char* frame, const cotan_vertex_places* places, const float* texels,
+} cotan_interpolated_points;
+cotan_status cotan_vertex_frame_apply(const char* frame, const cotan_interpolated_points* points, const float* texels,
                                       float* normals, char* message, size_t message_size);
-cotan_status cotan_vertex_frame_encode(const char* frame, const cotan_vertex_places* places, const float* normals,
+cotan_status cotan_vertex_frame_encode(const char* frame, const cotan_interpolated_points* points, const float* normals,
                                        float* texels, char* message, size_t message_size);
 
 /* ---- tangents ---------------------------------------------------------------------------------------------------- */
@@ -189,13 +193,14 @@ cotan_status cotan_provoking(size_t vertex_count, size_t index_count, const uint
 
 /* ---- normal maps ------------------------------------------------------------------------------------------------- */
 
-/* An image: width * height * 4 components of 8 or 16 bits, or floats (32). At most 65536 pixels per side. */
-typedef struct cotan_picture {
+/* The pixels of an image, in memory that somebody else owns: width * height * 4 components of 8 or 16 bits, or floats
+ * (32). At most 65536 pixels per side. */
+typedef struct cotan_image_view {
     size_t size;
     int width, height;
     int bits;
     void* pixels; /* never null: read if the image is an input, written if it is an output */
-} cotan_picture;
+} cotan_image_view;
 
 typedef struct cotan_green {
     size_t size;
@@ -207,7 +212,7 @@ typedef struct cotan_green {
 } cotan_green;
 
 /* Detects the direction of green in a tangent-space map, from the map alone. */
-cotan_status cotan_map_green(const cotan_picture* map, cotan_green* green, char* message, size_t message_size);
+cotan_status cotan_map_green(const cotan_image_view* map, cotan_green* green, char* message, size_t message_size);
 
 /* Properties of an image as a normal map, derived from its values. Fractions are 0 to 1. */
 typedef struct cotan_map_info {
@@ -222,33 +227,34 @@ typedef struct cotan_map_info {
     double mean_tilt; /* degrees from flat */
     double mean[3];   /* x, y, z, with green up */
 } cotan_map_info;
-cotan_status cotan_map_describe(const cotan_picture* map, cotan_map_info* info, char* message, size_t message_size);
+cotan_status cotan_map_describe(const cotan_image_view* map, cotan_map_info* info, char* message, size_t message_size);
 
 /* Converts a map to another convention. `to_map` has the size of `map` and the requested bits. */
-cotan_status cotan_map_convert(const cotan_picture* map, const char* from, const char* to, cotan_picture* to_map,
+cotan_status cotan_map_convert(const cotan_image_view* map, const char* from, const char* to, cotan_image_view* to_map,
                                char* message, size_t message_size);
 
 /* Makes the normal map of a height map, whose red is read; heights wrap around at the borders. scale_x, scale_y: slope
  * per unit of stored height and texel. */
-cotan_status cotan_map_from_height(const cotan_picture* height, double scale_x, double scale_y, const char* to,
-                                   cotan_picture* map, char* message, size_t message_size);
+cotan_status cotan_map_from_height(const cotan_image_view* height, double scale_x, double scale_y, const char* to,
+                                   cotan_image_view* map, char* message, size_t message_size);
 
 /* Returns the height whose slopes are closest to the map's, in texel widths, with mean 0: width * height floats. */
-cotan_status cotan_map_to_height(const cotan_picture* map, const char* from, float* heights, char* message,
+cotan_status cotan_map_to_height(const cotan_image_view* map, const char* from, float* heights, char* message,
                                  size_t message_size);
 
 /* Blends a detail map over a base map of the same size; both and the result use `convention`. `mode`: "reoriented",
  * "whiteout", "udn", "slopes" or "linear". strength: factor on the slopes of the detail. */
-cotan_status cotan_map_blend(const cotan_picture* base, const cotan_picture* detail, const char* convention,
-                             const char* mode, double strength, cotan_picture* map, char* message, size_t message_size);
+cotan_status cotan_map_blend(const cotan_image_view* base, const cotan_image_view* detail, const char* convention,
+                             const char* mode, double strength, cotan_image_view* map, char* message,
+                             size_t message_size);
 
 /* Makes mip levels from the map itself (level 0, re-encoded) to 1 x 1, each half the size, filtered as vectors. `take`
  * is called for each level in order, with the map and with the roughness (grey) that compensates for the variation lost
  * by averaging. Both are valid only during the call; a result other than 0 stops (COTAN_STOPPED). roughness: of the
  * material, 0 to 1. */
-typedef int (*cotan_take_level)(void* user, int level, const cotan_picture* map, const cotan_picture* roughness);
-cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, double roughness, cotan_take_level take,
-                            void* user, char* message, size_t message_size);
+typedef int (*cotan_take_level)(void* user, int level, const cotan_image_view* map, const cotan_image_view* roughness);
+cotan_status cotan_map_mips(const cotan_image_view* map, const char* convention, double roughness,
+                            cotan_take_level take, void* user, char* message, size_t message_size);
 
 /* ---- shader text ------------------------------------------------------------------------------------------------- */
 
@@ -269,10 +275,10 @@ typedef struct cotan_model cotan_model;
 void cotan_model_free(cotan_model* model);
 
 /* Reads a model file: .glb, .gltf, .obj, and with Assimp .ply, .stl, .dae, .fbx or .3ds: see cotan_set_reader. Missing
- * normals are generated. pictures: 0 omits the images of the materials, which baking of the shape does not need.
+ * normals are generated. images: 0 omits the images of the materials, which baking of the shape does not need.
  * memory: limit for the largest image, in MiB; 0: 640. COTAN_UNAVAILABLE: the required reader is not built. Since
  * version 3. */
-cotan_status cotan_model_open(const char* file, int pictures, int memory, cotan_model** model, char* message,
+cotan_status cotan_model_open(const char* file, int images, int memory, cotan_model** model, char* message,
                               size_t message_size);
 
 /* Third-party readers may crash on broken files. After this call a child process reads models other than glTF, and
@@ -327,8 +333,8 @@ typedef struct cotan_bake_options {
     const char* high_frame;      /* frame that the detailed models' maps were made for; null: "mikktspace" */
     const char* high_convention; /* of these maps; null: as the materials say, "gltf" for high_maps */
     size_t high_map_count;       /* 0, 1, or one per detailed model */
-    const cotan_picture* const* high_maps; /* used instead of the detailed models' own maps */
-    cotan_picture* mask; /* 8 bits, the size of the map: receives the state of each texel; null: not requested */
+    const cotan_image_view* const* high_maps; /* used instead of the detailed models' own maps */
+    cotan_image_view* mask; /* 8 bits, the size of the map: receives the state of each texel; null: not requested */
     float cage_reach; /* length of the rays from the cage; 0: as far behind the simple model as the cage is in front */
     /* Since version 4. */
     const char* search; /* "first": the first surface on a ray from outside inwards; "nearest": the nearest one along
@@ -357,12 +363,12 @@ typedef struct cotan_bake_result {
 /* Bakes a map for the simple mesh `low` from the detailed mesh `high`, whose texcoords may be null. `map` has the
  * requested size and bits. options and result may be null. COTAN_UNAVAILABLE: not built with Embree. */
 cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cotan_bake_options* options,
-                        cotan_picture* map, cotan_bake_result* result, char* message, size_t message_size);
+                        cotan_image_view* map, cotan_bake_result* result, char* message, size_t message_size);
 
 /* Bakes a map for a simple model from all detailed models together. `warnings` may be null; it receives text, one line
  * each. Since version 3. */
 cotan_status cotan_bake_models(const cotan_model* low, size_t high_count, const cotan_model* const* high,
-                               const cotan_bake_options* options, cotan_picture* map, cotan_bake_result* result,
+                               const cotan_bake_options* options, cotan_image_view* map, cotan_bake_result* result,
                                cotan_bytes** warnings, char* message, size_t message_size);
 
 /* What the name of a mesh says that it is: "low" (NAME_low, NAME.lo.001, lp_NAME, ...), "high", "cage", or "". Since
@@ -388,11 +394,11 @@ typedef struct cotan_model_files {
     /* Reads a file next to the model by its URI. If null, models that reference files are refused. */
     int (*read)(void* user, const char* uri, const void** bytes, size_t* byte_count);
     /* Decodes an image file of any format except KTX2 (in models PNG, JPEG, WebP, AVIF or DDS): sets all members of
-     * `picture` except `size`. If null, the library decodes. */
-    int (*decode)(void* user, const char* name, const void* bytes, size_t byte_count, cotan_picture* picture);
+     * `view` except `size`. If null, the library decodes. */
+    int (*decode)(void* user, const char* name, const void* bytes, size_t byte_count, cotan_image_view* view);
     /* Encodes an image of 8 or 16 bits as a PNG file. It is decoded again, so that the report has what its losses cost.
      * If null, the library encodes. */
-    int (*encode)(void* user, const cotan_picture* picture, const void** bytes, size_t* byte_count);
+    int (*encode)(void* user, const cotan_image_view* view, const void** bytes, size_t* byte_count);
     void (*done)(void* user);
     const char* name; /* of the model in messages; null: "model.glb" or "model.gltf". Since version 3 */
 } cotan_model_files;
@@ -401,8 +407,8 @@ typedef struct cotan_model_files {
  * callers can decode them beforehand if they cannot do so synchronously. bytes: valid only during the call. A result
  * other than 0 stops (COTAN_STOPPED). Since version 2. */
 typedef int (*cotan_take_file)(void* user, const char* name, const void* bytes, size_t byte_count);
-cotan_status cotan_gltf_pictures(const void* model, size_t model_size, const cotan_model_files* files, int maps_only,
-                                 cotan_take_file take, void* user, char* message, size_t message_size);
+cotan_status cotan_gltf_images(const void* model, size_t model_size, const cotan_model_files* files, int maps_only,
+                               cotan_take_file take, void* user, char* message, size_t message_size);
 
 typedef struct cotan_lint_options {
     size_t size;
@@ -488,8 +494,8 @@ cotan_status cotan_convert_begin(const void* model, size_t model_size, const cot
                                  const cotan_convert_options* options, cotan_convert_result* result,
                                  cotan_conversion** conversion, char* message, size_t message_size);
 size_t cotan_conversion_count(const cotan_conversion* conversion);
-cotan_status cotan_conversion_picture(const cotan_conversion* conversion, size_t number, cotan_picture* picture,
-                                      char* message, size_t message_size);
+cotan_status cotan_conversion_image(const cotan_conversion* conversion, size_t number, cotan_image_view* view,
+                                    char* message, size_t message_size);
 cotan_status cotan_conversion_set(cotan_conversion* conversion, size_t number, const void* png, size_t png_size,
                                   char* message, size_t message_size);
 cotan_status cotan_convert_end(cotan_conversion* conversion, cotan_bytes** glb, cotan_bytes** json, char* message,
@@ -502,7 +508,7 @@ void cotan_conversion_free(cotan_conversion* conversion); /* null is allowed */
 typedef struct cotan_image cotan_image;
 void cotan_image_free(cotan_image* image);
 /* Returns size, bits and pixels of the image, valid as long as the image. */
-cotan_status cotan_image_picture(const cotan_image* image, cotan_picture* picture, char* message, size_t message_size);
+cotan_status cotan_image_pixels(const cotan_image* image, cotan_image_view* view, char* message, size_t message_size);
 
 /* Reads an image file without conversion: .png, .jpg, .webp, .ktx2, .dds, and with OpenImageIO .exr, .tif, .tga, .hdr
  * and more. memory: limit in MiB; 0: 640. Since version 3. */
@@ -510,7 +516,7 @@ cotan_status cotan_image_read(const char* file, int memory, cotan_image** image,
 
 /* Writes an image file, completely or not at all: .png, and with OpenImageIO .exr, .tif, .tga, .jpg and .hdr. Since
  * version 3. */
-cotan_status cotan_image_write(const char* file, const cotan_picture* picture, char* message, size_t message_size);
+cotan_status cotan_image_write(const char* file, const cotan_image_view* image, char* message, size_t message_size);
 
 typedef struct cotan_render_options {
     size_t size;

@@ -27,22 +27,26 @@ const two: Uint16Array = cotan.packTangents(mesh.normals, corners);
 const provoked: Uint32Array = cotan.provoking(3, indices, { vertex: 'last' }).corners;
 
 // Maps
-const picture: cotan.Picture = await cotan.decodePng(new Uint8Array());
-const read: cotan.Picture & { bits: number } = await cotan.decodePicture(new Uint8Array(), 'map.jpg');
+const picture: cotan.Image = await cotan.decodePng(new Uint8Array());
+const read: cotan.Image & { bits: number } = await cotan.decodeImage(new Uint8Array(), 'map.jpg');
 const file: Uint8Array = await cotan.encodePng(read);
 const green: 'up' | 'down' | 'unknown' = cotan.detect(picture).green;
 const zero: 127 | 128 | null = cotan.info(picture).zero;
 const bits: cotan.Bits = 16, convention: cotan.Convention = 'unity,xyz';
-const other: cotan.Picture = cotan.convertMap(picture, { from: convention, to: 'gltf', bits });
-const blended: cotan.Picture = cotan.blend(picture, other, { mode: 'whiteout', strength: 0.5 });
-const made: cotan.Picture = cotan.fromHeight(blended, { scale: [1, 2] });
+const other: cotan.Image = cotan.convertMap(picture, { from: convention, to: 'gltf', bits });
+const blended: cotan.Image = cotan.blend(picture, other, { mode: 'whiteout', strength: 0.5 });
+const made: cotan.Image = cotan.fromHeight(blended, { scale: [1, 2] });
 const heights: Float32Array = cotan.toHeight(made, { from: 'directx' }).data;
-const roughness: cotan.Picture | undefined = cotan.mips(made, { roughness: 0.2 })[0]?.roughness;
+const roughness: cotan.Image | undefined = cotan.mips(made, { roughness: 0.2 })[0]?.roughness;
+
+// The names of version 0.2, in this version only
+const old: cotan.Picture = await cotan.decodePicture(new Uint8Array()), oldPlaces: cotan.Places = { normals: [], dpdx: [], dpdy: [], duvdx: [], duvdy: [] };
+const oldVertexPlaces: cotan.VertexPlaces = { normals: [], tangents: [] }, stillRead: cotan.Image[] = [old];
 
 // Frames, shaders
-const places: cotan.Places = { normals: [0, 0, 1], dpdx: [1, 0, 0], dpdy: [0, 1, 0], duvdx: [1, 0], duvdy: [0, 1] };
-const atVertices: cotan.VertexPlaces = { normals: [0, 0, 1], tangents: [1, 0, 0, 1] };
-const normals: Float32Array = cotan.apply('cotangent', places, [0, 0, 1]), texels: Float32Array = cotan.encode('mikktspace', atVertices, normals);
+const points: cotan.SurfacePoints = { normals: [0, 0, 1], dpdx: [1, 0, 0], dpdy: [0, 1, 0], duvdx: [1, 0], duvdy: [0, 1] };
+const atVertices: cotan.InterpolatedPoints = { normals: [0, 0, 1], tangents: [1, 0, 0, 1] };
+const normals: Float32Array = cotan.apply('cotangent', points, [0, 0, 1]), texels: Float32Array = cotan.encode('mikktspace', atVertices, normals);
 const names: string[] = cotan.frames();
 const text: string = cotan.shader({ language: 'wgsl', frame: 'triangle', convention: 'gltf', stage: 'vertex' });
 

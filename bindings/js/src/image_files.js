@@ -1,7 +1,7 @@
 // Decodes and encodes image files: PNG here, other formats by the browser, or by sharp if it is installed.
 import { CotanError, usage, wordsFor } from './errors.js';
 import { builtin } from './node.js';
-import { bytesOf } from './picture.js';
+import { bytesOf } from './image_checks.js';
 import { decodePng, isPng } from './png.js';
 
 /** A package that the user may have installed, found from this file or the working directory; else undefined. */
@@ -46,7 +46,7 @@ function texelsByWebGl(bitmap, name) {
 }
 
 /** Decodes to { width, height, bits, data } with four components per pixel; the default of options.decode. */
-export async function decodePicture(file, name = 'image') {
+export async function decodeImage(file, name = 'image') {
   const bytes = bytesOf(file, 'bytes');
   if (typeof name !== 'string') throw usage(`name: expected a string, found ${wordsFor(name)}`);
   if (isPng(bytes)) return decodePng(bytes);
@@ -112,6 +112,6 @@ export async function encodeLossy({ width, height, data }, { mimeType, quality, 
     const blob = await canvas.convertToBlob({ type: mimeType, quality: (quality ?? 100) / 100 });
     return blob.type === mimeType && quality !== undefined ? new Uint8Array(await blob.arrayBuffer()) : null;
   }
-  const sharp = optionalPackage('sharp'), whole = sharp?.(data, { raw: { width, height, channels: 4 } }), picture = isOpaque ? whole?.removeAlpha() : whole;
-  return picture ? new Uint8Array(await (mimeType === 'image/jpeg' ? picture.jpeg({ quality, chromaSubsampling: halved ? '4:2:0' : '4:4:4' }) : picture.webp({ quality, lossless: quality === undefined })).toBuffer()) : null;
+  const sharp = optionalPackage('sharp'), whole = sharp?.(data, { raw: { width, height, channels: 4 } }), image = isOpaque ? whole?.removeAlpha() : whole;
+  return image ? new Uint8Array(await (mimeType === 'image/jpeg' ? image.jpeg({ quality, chromaSubsampling: halved ? '4:2:0' : '4:4:4' }) : image.webp({ quality, lossless: quality === undefined })).toBuffer()) : null;
 }

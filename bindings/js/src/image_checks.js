@@ -5,15 +5,15 @@ import { usage, wordsFor } from './errors.js';
 const kTypes = [[8, Uint8Array], [16, Uint16Array], [32, Float32Array]];
 
 /** { width, height, bits, data } with four components per pixel. known: the accepted bit depths. */
-export function checkedPicture(picture, name, known = [8, 16, 32]) {
-  if (picture === null || typeof picture !== 'object') throw usage(`${name}: expected an image, found ${wordsFor(picture)}`);
-  const { width, height } = picture;
-  let { data } = picture;
+export function checkedImage(image, name, known = [8, 16, 32]) {
+  if (image === null || typeof image !== 'object') throw usage(`${name}: expected an image, found ${wordsFor(image)}`);
+  const { width, height } = image;
+  let { data } = image;
   if (ArrayBuffer.isView(data)) checkMemory(data, `${name}.data`);
   if (data instanceof Uint8ClampedArray) data = new Uint8Array(data.buffer, data.byteOffset, data.length);
   const bits = kTypes.find(([, Type]) => data instanceof Type)?.[0];
   if (!known.includes(bits)) throw usage(`${name}.data: expected numbers of ${known.join(' or ')} bits, found ${wordsFor(data)}`);
-  if (picture.bits !== undefined && picture.bits !== bits) throw usage(`${name}.bits: expected ${bits}, the bit depth of its data; found ${wordsFor(picture.bits)}`);
+  if (image.bits !== undefined && image.bits !== bits) throw usage(`${name}.bits: expected ${bits}, the bit depth of its data; found ${wordsFor(image.bits)}`);
   for (const [side, value] of [['width', width], ['height', height]])
     if (!(Number.isInteger(value) && value >= 1 && value <= 65536))
       throw usage(`${name}.${side}: expected 1 to 65536 pixels, found ${wordsFor(value)}`);

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays as arrays
+from . import _old_names
 from . import _structs as structs
 from ._handles import array_of, is_path
 from ._library import call
@@ -16,7 +17,7 @@ from ._library import taken as taken_bytes
 Path = Union[str, os.PathLike[str]]
 
 
-def read_picture(file: Path, memory: int = 640) -> NDArray[np.generic]:
+def read_image(file: Path, memory: int = 640) -> NDArray[np.generic]:
     """Reads an image file as array (height, width, 4) of uint8, uint16 or float32, rows from the top.
 
     Colours are not converted; grey is repeated, missing alpha is opaque. memory: maximum size, in MiB. Raises
@@ -28,14 +29,15 @@ def read_picture(file: Path, memory: int = 640) -> NDArray[np.generic]:
     return array_of(image)
 
 
-def write_picture(file: Path, picture: ArrayLike) -> None:
+@_old_names.keyword("picture", "image")
+def write_image(file: Path, image: ArrayLike) -> None:
     """Writes .png, and with OpenImageIO .exr, .tif, .tga, .jpg and .hdr, atomically.
 
-    picture: (height, width, 4), (height, width, 3) or (height, width) of uint8, uint16 or float32. PNG stores floats
+    image: (height, width, 4), (height, width, 3) or (height, width) of uint8, uint16 or float32. PNG stores floats
     with 8 bits, clamped to 0 to 1. Raises OutputError, UsageError for an unknown extension.
     """
-    pixels = arrays.pixels(picture, "picture")
-    call("cotan_image_write", arrays.encoded(file, "file"), arrays.picture(pixels), files=(file,))
+    pixels = arrays.pixels(image, "image")
+    call("cotan_image_write", arrays.encoded(file, "file"), arrays.image_view(pixels), files=(file,))
 
 
 def file_names(names: Sequence[str], taken: Sequence[str] = ()) -> list[str]:
@@ -53,4 +55,4 @@ def file_names(names: Sequence[str], taken: Sequence[str] = ()) -> list[str]:
 
 def pixels_of(given, field="map"):
     """The image of an array, by `_arrays.pixels`, or of an image file."""
-    return read_picture(given) if is_path(given) else arrays.pixels(given, field)
+    return read_image(given) if is_path(given) else arrays.pixels(given, field)

@@ -18,7 +18,7 @@ inline constexpr int kMaxSide = 65536;
 // Processing a pixel takes up to 64 bytes, and the total must fit into 32-bit addresses.
 inline constexpr std::uint64_t kMaxPixels = SIZE_MAX / 64;
 
-inline PixelType typeOf(const cotan_picture& p, const char* name)
+inline PixelType typeOf(const cotan_image_view& p, const char* name)
 {
     if (p.bits == 8)
         return PixelType::unorm8;
@@ -27,9 +27,9 @@ inline PixelType typeOf(const cotan_picture& p, const char* name)
     return p.bits == 16 ? PixelType::unorm16 : PixelType::float32;
 }
 
-inline const cotan_picture& checkedPicture(const cotan_picture* given, const char* name)
+inline const cotan_image_view& checkedView(const cotan_image_view* given, const char* name)
 {
-    const cotan_picture& p = checked(given, name);
+    const cotan_image_view& p = checked(given, name);
     typeOf(p, name);
     if (p.width < 1 || p.height < 1 || p.width > kMaxSide || p.height > kMaxSide)
         fail(ErrorKind::usage, name, ": expected 1 to 65536 pixels per side, found ", p.width, " x ", p.height);
@@ -41,25 +41,25 @@ inline const cotan_picture& checkedPicture(const cotan_picture* given, const cha
     return p;
 }
 
-inline Image imageOf(const cotan_picture* given, const char* name)
+inline Image imageOf(const cotan_image_view* given, const char* name)
 {
-    const cotan_picture& p = checkedPicture(given, name);
+    const cotan_image_view& p = checkedView(given, name);
     Image image = makeImage(p.width, p.height, typeOf(p, name));
     std::memcpy(image.data.data(), p.pixels, image.pixelCount() * image.bytesPerPixel());
     return image;
 }
 
 // Checks an output image for a result of that size.
-inline const cotan_picture& output(const cotan_picture* given, const char* name, const Image& like)
+inline const cotan_image_view& output(const cotan_image_view* given, const char* name, const Image& like)
 {
-    const cotan_picture& p = checkedPicture(given, name);
+    const cotan_image_view& p = checkedView(given, name);
     if (p.width != like.width || p.height != like.height)
         fail(ErrorKind::usage, name, ": expected ", like.width, " x ", like.height, " pixels, found ", p.width, " x ",
              p.height);
     return p;
 }
 
-inline void put(const Image& image, const cotan_picture& p)
+inline void put(const Image& image, const cotan_image_view& p)
 {
     std::memcpy(p.pixels, image.data.data(), image.pixelCount() * image.bytesPerPixel());
 }
@@ -89,9 +89,9 @@ inline Convention storableAs(const char* words, const char* name, PixelType type
     return convention;
 }
 
-inline cotan_picture pictureOf(const Image& image)
+inline cotan_image_view imageViewOf(const Image& image)
 {
-    return {sizeof(cotan_picture), image.width, image.height, bitsPerComponent(image.type),
+    return {sizeof(cotan_image_view), image.width, image.height, bitsPerComponent(image.type),
             const_cast<std::byte*>(image.data.data())};
 }
 
