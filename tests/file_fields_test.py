@@ -2,7 +2,7 @@
 """Every field of a glTF file that a render depends on has an effect, and without it the specification's default
 applies.
 
-file_fields_test.py TOOL PART    (of the fields: 0 to 3)
+file_fields_test.py    (with PYTHONPATH and COTAN_LIBRARY: one process draws all images)
 
 The defaults are those of glTF 2.0 and its extensions. In a scene every field has a value other than its default. For
 each field it is drawn unchanged, without the field, with the default, and with each component of the value changed
@@ -12,19 +12,19 @@ import itertools
 import json
 import math
 import pathlib
-import subprocess
 import sys
 import tempfile
 
+import cotan
+
 from output_inputs import make_inputs
 
-PARTS = 4
-CAMERA_0, CAMERA_1 = ["--camera", "0"], ["--camera", "1"]
+CAMERA_0, CAMERA_1 = {"camera": 0}, {"camera": 1}
 MATERIAL = "materials/0/"
 LIGHTS = "extensions/KHR_lights_punctual/lights/"
 ONE, NONE = [1, 1, 1], [0, 0, 0]
 
-# Path of the field, its default, and the words that draw it. ABSENT: no value means the same as leaving the field out.
+# Path of the field, its default, and the options that draw it. ABSENT: no value means the same as leaving the field out.
 ABSENT = object()
 FIELDS = [
     (MATERIAL + "pbrMetallicRoughness/baseColorFactor", [1, 1, 1, 1], CAMERA_0),
@@ -62,7 +62,7 @@ FIELDS = [
     (MATERIAL + "extensions/KHR_materials_specular/specularTexture", ABSENT, CAMERA_0),
     (MATERIAL + "extensions/KHR_materials_specular/specularColorFactor", ONE, CAMERA_0),
     (MATERIAL + "extensions/KHR_materials_specular/specularColorTexture", ABSENT, CAMERA_0),
-    ("materials/1/doubleSided", False, ["--camera", "-1,0.4,-3,0,0,0"]),
+    ("materials/1/doubleSided", False, {"camera": (-1, 0.4, -3, 0, 0, 0)}),
     ("materials/1/pbrMetallicRoughness", ABSENT, CAMERA_0),
     ("materials/3/alphaMode", "OPAQUE", CAMERA_0),
     ("materials/3/extensions/KHR_materials_transmission/transmissionFactor", 0, CAMERA_0),
@@ -89,8 +89,8 @@ FIELDS = [
     (LIGHTS + "1/spot/outerConeAngle", math.pi / 4, CAMERA_0),
     (LIGHTS + "2/color", ONE, CAMERA_0),
     (LIGHTS + "2/intensity", 1, CAMERA_0),
-    ("animations/0/samplers/1/interpolation", "LINEAR", [*CAMERA_0, "--animation", "0", "--time", "0.3"]),
-    ("animations/0/samplers/0/interpolation", "LINEAR", [*CAMERA_0, "--animation", "0", "--time", "0.3"]),
+    ("animations/0/samplers/1/interpolation", "LINEAR", {**CAMERA_0, "animation": 0, "time": 0.3}),
+    ("animations/0/samplers/0/interpolation", "LINEAR", {**CAMERA_0, "animation": 0, "time": 0.3}),
     ("meshes/0/primitives/0/mode", 4, CAMERA_0),
     ("meshes/0/primitives/0/material", ABSENT, CAMERA_0),
     ("meshes/0/primitives/0/attributes/TEXCOORD_1", ABSENT, CAMERA_0),
@@ -112,8 +112,8 @@ REQUIRED = [
     ("nodes/9/extensions/KHR_lights_punctual/light", CAMERA_0),
     ("textures/0/source", CAMERA_0),
     (LIGHTS + "0/type", CAMERA_0),
-    ("animations/0/channels/0/target/node", [*CAMERA_0, "--animation", "0", "--time", "0.3"]),
-    ("animations/0/channels/1/target/path", [*CAMERA_0, "--animation", "0", "--time", "0.7"]),
+    ("animations/0/channels/0/target/node", {**CAMERA_0, "animation": 0, "time": 0.3}),
+    ("animations/0/channels/1/target/path", {**CAMERA_0, "animation": 0, "time": 0.7}),
 ]
 
 # Replacement values for fields whose numbers cannot simply be changed. For an index: the next.
@@ -195,33 +195,38 @@ def others(path, value):
     return [] if index and "texCoord" in path else [value + 1 if index else 0.85 * value + 0.011]
 
 
-def main(tool, part):
-    tool, wrong, drawn = str(pathlib.Path(tool).resolve()), [], 0
+def main():
+    wrong, drawn = [], 0
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         root = scene(folder)
 
-        def render(made, words):
+        def render(made, options):
+            """The bytes of the image, or the error."""
             nonlocal drawn
             drawn += 1
             (folder / "made.gltf").write_text(json.dumps(made))
-            (folder / "out.exr").unlink(missing_ok=True)
-            done = subprocess.run([tool, *"render made.gltf --device reference --size 48x30 --samples 1 --exposure 1 -o out.exr".split(), *words],
-                                  cwd=folder, capture_output=True, text=True, timeout=120, check=False)
-            return (folder / "out.exr").read_bytes() if done.returncode == 0 else done.stderr.strip()
+            try:
+                return cotan.render(folder / "made.gltf", device="reference", size=(48, 30), samples=1, exposure=1, ground="off",
+                                    floats=True, **options).tobytes()
+            except cotan.Error as error:
+                return str(error)
 
-        as_it_is = {tuple(words): render(root, words) for words in (CAMERA_0, CAMERA_1)}
+        as_it_is = {}
 
-        def compare(path, words, default):
+        def compare(path, options, default):
             holder, name = owner(root, path)
             if not isinstance(holder, list) and name not in holder:
                 return [f"{path}: the scene has no such field"]
-            images = {"as it is": as_it_is.get(tuple(words)) or render(root, words)}
+            shown = json.dumps(options)
+            if shown not in as_it_is:
+                as_it_is[shown] = render(root, options)
+            images = {"as it is": as_it_is[shown]}
             for value in others(path, holder[name]):
-                images["without" if value is ABSENT else json.dumps(value)] = render(changed(root, path, value), words)
+                images["without" if value is ABSENT else json.dumps(value)] = render(changed(root, path, value), options)
             if default is not None:
-                without = render(changed(root, path, ABSENT), words)
-                if default is not ABSENT and render(changed(root, path, default), words) != without:
+                without = render(changed(root, path, ABSENT), options)
+                if default is not ABSENT and render(changed(root, path, default), options) != without:
                     return [f"{path}: without it the image is another than with {default}"]
                 if holder[name] != default:
                     images["without"] = without
@@ -230,13 +235,13 @@ def main(tool, part):
             found = [f"{path}: {how}: {image}" for how, image in images.items() if isinstance(image, str)]
             return found + [f"{path}: the same image with {a} and {b}" for a, b in itertools.combinations(images, 2) if images[a] == images[b]]
 
-        cases = [*FIELDS, *((path, None, words) for path, words in REQUIRED)][part::PARTS]
-        for path, default, words in cases:
-            wrong += compare(path, words, default)
+        cases = [*FIELDS, *((path, None, options) for path, options in REQUIRED)]
+        for path, default, options in cases:
+            wrong += compare(path, options, default)
     print(*wrong, sep="\n", end="\n" if wrong else "")
     print(f"{len(cases)} fields in {drawn} images, {len(wrong)} wrong")
     return 1 if wrong or not drawn else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1], int(sys.argv[2])))
+    sys.exit(main())

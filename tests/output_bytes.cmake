@@ -1,6 +1,5 @@
 # Compares the bytes that commands print and write with tables. Checks that each option changes them, that both
-# renderers draw the same, that each field of a file changes them, that a fault leaves no partial output, and that no
-# option overwrites an input.
+# renderers draw the same, that a fault leaves no partial output, and that no option overwrites an input.
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)
   foreach(table lab maps meshes pictures shader_text)
@@ -30,11 +29,5 @@ if(Python3_FOUND)
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/overwrite_walk_test.py $<TARGET_FILE:cotan> ${command})
     set_tests_properties(OverwriteWalk.${command} PROPERTIES TIMEOUT 300)
     cotan_slow(OverwriteWalk.${command})
-  endforeach()
-  foreach(part RANGE 3)
-    add_test(NAME FileFields.${part}
-      COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/file_fields_test.py $<TARGET_FILE:cotan> ${part})
-    set_tests_properties(FileFields.${part} PROPERTIES TIMEOUT 300)
-    cotan_slow(FileFields.${part})
   endforeach()
 endif()

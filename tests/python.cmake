@@ -32,3 +32,10 @@ foreach(part header arrays geometry maps bake models render json types work opti
     "COTAN_LIBRARY=$<TARGET_FILE:cotan_c>;COTAN_TOOL=$<TARGET_FILE:cotan>"
     "PYTHONPATH=${PROJECT_SOURCE_DIR}/bindings/python;PYTHONDONTWRITEBYTECODE=1")
 endforeach()
+# Each field of a glTF file changes an image. Hundreds of images are drawn by one process.
+if(COTAN_PYTHON)
+  add_test(NAME FileFields.changeTheImageAndHaveTheirDefaults COMMAND ${COTAN_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/file_fields_test.py)
+  set_tests_properties(FileFields.changeTheImageAndHaveTheirDefaults PROPERTIES TIMEOUT 300 ENVIRONMENT
+    "COTAN_LIBRARY=$<TARGET_FILE:cotan_c>;PYTHONPATH=${PROJECT_SOURCE_DIR}/bindings/python;PYTHONDONTWRITEBYTECODE=1")
+  cotan_slow(FileFields.changeTheImageAndHaveTheirDefaults)
+endif()

@@ -9,7 +9,7 @@ skipped = collections.defaultdict(list)
 failed = [case.get("name") for case in cases if case.find("failure") is not None]
 for case in cases:
     text = case.findtext("system-out") or ""
-    if case.find("skipped") is not None or "[  SKIPPED ]" in text:
+    if case.find("skipped") is not None or re.search(r"\[  SKIPPED \]|^skipped: ", text, re.MULTILINE):
         found = re.search(r": Skipped\n(.+)", text) or re.search(r"^skipped: (.+)", text, re.MULTILINE)
         skipped[found.group(1).strip() if found else "no reason was given"].append(case.get("name"))
 seconds = sum(float(case.get("time") or 0) for case in cases)

@@ -50,8 +50,7 @@ words_test bake_command_test batch_command_test c_facts c_api command_line outpu
 output_bytes:shader_text json_fields python:arrays python:bake python:geometry
 python:dask python:json python:maps python:models python:options python:package python:render python:types python:work view_window_test
 option_effects:map option_effects:render option_effects:compare
-option_effects:bake option_effects:convert option_effects:others two_renderers
-file_fields:0 file_fields:1 file_fields:2 file_fields:3""".split()
+option_effects:bake option_effects:convert option_effects:others two_renderers file_fields""".split()
 MOST_OF_A_FILE = 6  # mistakes per file, so that none hides in the text of another
 
 

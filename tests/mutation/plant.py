@@ -97,7 +97,7 @@ def command_of(program):
     if name == "option_effects":
         return ["/usr/bin/python3", HOME / "tests/option_effects_test.py", BUILD / "bin/cotan", chosen]
     if name == "file_fields":
-        return ["/usr/bin/python3", HOME / "tests/file_fields_test.py", BUILD / "bin/cotan", chosen]
+        return ["/usr/bin/python3", HOME / "tests/file_fields_test.py"]
     if name == "two_renderers":
         return ["/usr/bin/python3", HOME / "tests/two_renderers_test.py", BUILD / "bin/cotan", HOME / "tests/output_bytes/pictures.txt"]
     if name == "json_fields":
@@ -114,7 +114,7 @@ def library():
     return next(iter(sorted(BUILD.glob("**/libcotan.so*"))), BUILD / "libcotan.so")
 
 
-SCRIPTS = {"python": {"cotan_c", "cotan"}, "c_api": {"cotan_c"}, "output_bytes": {"cotan", "cotan_lab"}, "option_effects": {"cotan", "cotan_lab"}, "two_renderers": {"cotan"}, "file_fields": {"cotan"}, "json_fields": {"cotan"},
+SCRIPTS = {"python": {"cotan_c", "cotan"}, "c_api": {"cotan_c"}, "output_bytes": {"cotan", "cotan_lab"}, "option_effects": {"cotan", "cotan_lab"}, "two_renderers": {"cotan"}, "file_fields": {"cotan_c"}, "json_fields": {"cotan"},
            "command_line": {"cotan"}, "help_files": {"cotan"}}
 
 

@@ -36,8 +36,8 @@ RENDER = [
     {"exposure": 0.5}, {"exposure": "auto", "environment": "overcast"}, *({"tone_mapping": t} for t in ("none", "aces", "agx")),
     *({"environment": e, "background": b} for e, b in (("evening", "blur"), ("overcast", "gradient"), ("none", "none"), ("sky.hdr", "environment"),
                                                        ("studio", "paper"))),
-    {"environment_rotation": 70}, {"environment_intensity": 0.4}, {"ground": "off"}, {"shadow_softness": 40, "model": "plain.gltf"},
-    {"no_shadows": True, "model": "plain.gltf"}, {"rows": "up", "frame": "cotangent-2013"}, {"derivatives": "coarse"}, {"no_normal_maps": True},
+    {"environment_rotation": 70}, {"environment_intensity": 0.4}, {"ground": "on"}, {"shadow_softness": 40, "model": "plain.gltf", "ground": "on"},
+    {"no_shadows": True, "model": "plain.gltf", "ground": "on"}, {"rows": "up", "frame": "cotangent-2013"}, {"derivatives": "coarse"}, {"no_normal_maps": True},
     {"specular_antialiasing": True}, {"point_sampled": True},
 ]  # fmt: skip
 DEPENDS_ON_VIEW = {"cotangent-2013", "nonperspective", "paper-orthogonal"}
@@ -89,7 +89,7 @@ def names(options):
 
 @pytest.mark.parametrize("options", RENDER, ids=names)
 def test_render_equals_the_command_line(options, command, tmp_path):
-    all_options = {"size": (48, 30), "device": "reference", "model": "room.gltf", **options}
+    all_options = {"size": (48, 30), "device": "reference", "ground": "off", "model": "room.gltf", **options}
     model = all_options.pop("model")
     command("render", *([model] if model else []), "-o", tmp_path / "out.png", *words_of(all_options))
     np.testing.assert_array_equal(cotan.render(model, **all_options), cotan.read_image(tmp_path / "out.png"))

@@ -6,7 +6,7 @@ import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 
 import { walkBadValues } from './bad_values.mjs';
-import { installed, load, skip } from './shared.mjs';
+import { installed, load, runCases, skip } from './shared.mjs';
 
 const [tarball, modules, only] = process.argv.slice(2), seed = Number(process.env.SEED ?? 20261128);
 if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
@@ -117,8 +117,4 @@ const cases = {
     }
   },
 };
-for (const [name, work] of Object.entries(cases)) {
-  if (only && only !== name) continue;
-  await work();
-  console.log(`holds: ${name}`);
-}
+await runCases(cases, only);

@@ -8,7 +8,7 @@ import { createRequire } from 'node:module';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { launch, serve } from './chromium.mjs';
-import { emptyFolder, installed, skip } from './shared.mjs';
+import { emptyFolder, installed, runCases, skip } from './shared.mjs';
 
 const [tarball, modules, only] = process.argv.slice(2);
 if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
@@ -198,10 +198,6 @@ async function runs(file, name) {
   }
 }
 
-for (const [name, work] of Object.entries(cases)) {
-  if (only && only !== name) continue;
-  await work();
-  console.log(`holds: ${name}`);
-}
+await runCases(cases, only);
 await browser?.close();
-process.exit(0);
+process.exit();

@@ -6,7 +6,7 @@ import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 
 import { data, missing } from './data.mjs';
-import { filesUnder, hills, imageOf, installed, load, parseGlb, skip } from './shared.mjs';
+import { filesUnder, hills, imageOf, installed, load, parseGlb, runCases, skip } from './shared.mjs';
 
 const [tarball, modules, only] = process.argv.slice(2);
 if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
@@ -538,8 +538,4 @@ const cases = {
     assert.ok(steps <= 8 && jpeg.texture.getImage().length < 1.5 * before, `${steps} steps, ${jpeg.texture.getImage().length} bytes for ${before}`);
   },
 };
-for (const [name, work] of Object.entries(cases)) {
-  if (only && only !== name) continue;
-  await work();
-  console.log(`holds: ${name}`);
-}
+await runCases(cases, only);

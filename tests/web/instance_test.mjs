@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
 
-import { hills, installed, load, skip } from './shared.mjs';
+import { hills, installed, load, runCases, skip } from './shared.mjs';
 
 const [tarball, only] = process.argv.slice(2);
 if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
@@ -165,8 +165,4 @@ function oneTriangle() {
   }));
 }
 
-for (const [name, work] of Object.entries(cases)) {
-  if (only && only !== name) continue;
-  await work();
-  console.log(`holds: ${name}`);
-}
+await runCases(cases, only);

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
-import { here } from './shared.mjs';
+import { here, runCases } from './shared.mjs';
 import { brokenBars, kMarks, otherwiseInViews, tableOf, withTable, wrongPredictions } from '../../bench/models_in_three/table.mjs';
 
 const root = path.join(here, '../..'), [only] = process.argv.slice(2);
@@ -85,8 +85,4 @@ const cases = {
     assert.deepEqual(result.models.filter(({ extra }) => !extra).map(({ name }) => name), list.map(({ name }) => name));
   },
 };
-for (const [name, work] of Object.entries(cases)) {
-  if (only && only !== name) continue;
-  work();
-  console.log(`holds: ${name}`);
-}
+await runCases(cases, only);

@@ -7,7 +7,7 @@ import path from 'node:path';
 import { gzipSync } from 'node:zlib';
 
 import { data, missing } from './data.mjs';
-import { emptyFolder, filesUnder, here, hills, imageOf, installed, load, parseGlb, skip } from './shared.mjs';
+import { emptyFolder, filesUnder, here, hills, imageOf, installed, load, parseGlb, runCases, skip } from './shared.mjs';
 
 const [tarball, library, only] = process.argv.slice(2), modules = path.join(path.dirname(path.dirname(path.dirname(tarball))), 'npm/node_modules');
 if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
@@ -423,8 +423,4 @@ const cases = {
     }
   },
 };
-for (const [name, work] of Object.entries(cases)) {
-  if (only && only !== name) continue;
-  await work();
-  console.log(`holds: ${name}`);
-}
+await runCases(cases, only);

@@ -132,7 +132,7 @@ export async function drawn(page, selector) {
 export async function fact(name, check, { needsData = false } = {}) {
   if (only !== undefined && name !== only) return;
   if (needsData && !hasData) {
-    console.error(`skipped ${name}: ${data} is not there`);
+    console.error(`skipped: ${data} is not there (${name})`);
     ++skipped;
     return;
   }

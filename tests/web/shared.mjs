@@ -7,9 +7,33 @@ import { fileURLToPath } from 'node:url';
 
 export const here = fileURLToPath(new URL('.', import.meta.url)); // this folder; Node.js 18 has no import.meta.dirname
 
+class Skipped extends Error {}
+let running = false;
+/** Ends the running case, or the test if none runs. */
 export function skip(why) {
+  if (running) throw new Skipped(why);
   console.log(`skipped: ${why}`);
   process.exit(77);
+}
+
+/** Runs all cases, or the one named `only`. Sets the exit code: 1 if a case fails or none has that name, 77 if all are
+ * skipped. */
+export async function runCases(cases, only) {
+  const names = Object.keys(cases).filter((name) => !only || name === only), count = { holds: 0, skipped: 0, FAILS: 0 };
+  running = true;
+  for (const name of names) {
+    const began = performance.now();
+    let found = 'holds', why;
+    try {
+      await cases[name]();
+    } catch (error) {
+      [found, why] = error instanceof Skipped ? ['skipped', error.message] : ['FAILS', error.stack ?? error];
+    }
+    ++count[found];
+    console.log(found === 'skipped' ? `skipped: ${why} (${name})` : `${found}: ${name} (${((performance.now() - began) / 1000).toFixed(1)} s) ${why ?? ''}`);
+  }
+  running = false;
+  process.exitCode = count.FAILS > 0 || names.length === 0 ? 1 : count.holds === 0 ? 77 : 0;
 }
 
 const left = [];

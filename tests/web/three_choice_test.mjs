@@ -6,7 +6,7 @@ import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { gzipSync } from 'node:zlib';
 
-import { hills, installed, load, skip } from './shared.mjs';
+import { hills, installed, load, runCases, skip } from './shared.mjs';
 
 const [tarball, modules, only] = process.argv.slice(2);
 if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
@@ -402,8 +402,4 @@ const cases = {
     assert.ok(size > 1000 && size <= 15 * 1024, `${size} bytes`);
   },
 };
-for (const [name, work] of Object.entries(cases)) {
-  if (only && only !== name) continue;
-  await work();
-  console.log(`holds: ${name}`);
-}
+await runCases(cases, only);

@@ -7,7 +7,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { launch, serve } from './chromium.mjs';
 import { data, isOriginal, missing } from './data.mjs';
-import { here, skip } from './shared.mjs';
+import { here, runCases, skip } from './shared.mjs';
 
 const [sources, modules, only] = process.argv.slice(2);
 if (!fs.existsSync(path.join(modules, 'three'))) skip('three is not installed (see the test npm_packages)');
@@ -150,11 +150,6 @@ const cases = {
 if (process.env.FILES) {
   const frames = Object.fromEntries(['cotangent', 'orthonormal', 'smooth', 'triangle'].map(frame => [frame, { frame }]));
   for (const file of process.env.FILES.split(' ')) show(file, await measure(file, { 'three alone': null, default: {}, ...frames }));
-}
-for (const [name, work] of Object.entries(process.env.FILES ? {} : cases)) {
-  if (only && only !== name) continue;
-  await work();
-  console.log(`holds: ${name}`);
-}
+} else await runCases(cases, only);
 await browser.close();
 close();

@@ -4,7 +4,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 
-import { hills, installed, load, skip } from './shared.mjs';
+import { hills, installed, load, runCases, skip } from './shared.mjs';
 
 const [tarball, modules, only] = process.argv.slice(2);
 if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
@@ -364,8 +364,4 @@ const cases = {
       assert.throws(work, (error) => error instanceof CotanError && error instanceof library.CotanError && error.code === 'usage' && error.field === field);
   },
 };
-for (const [name, work] of Object.entries(cases)) {
-  if (only && only !== name) continue;
-  await work();
-  console.log(`holds: ${name}`);
-}
+await runCases(cases, only);

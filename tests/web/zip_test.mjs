@@ -6,7 +6,7 @@ import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { crc32, deflateRawSync } from 'node:zlib';
 
-import { here, installed, skip } from './shared.mjs';
+import { here, installed, runCases, skip } from './shared.mjs';
 
 const [tarball, only] = process.argv.slice(2);
 if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
@@ -134,8 +134,4 @@ const cases = {
     assert.ok(read > 50 && wrong > 1000);
   },
 };
-for (const [name, work] of Object.entries(cases)) {
-  if (only && only !== name) continue;
-  await work();
-  console.log(`holds: ${name}`);
-}
+await runCases(cases, only);
