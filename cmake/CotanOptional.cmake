@@ -32,7 +32,6 @@ function(cotan_optional name target word packages cost)
   endif()
 endfunction()
 
-cotan_optional(TBB TBB::tbb oneTBB libtbb-dev "loops create threads on every call" TBB)
 cotan_optional(FMT fmt::fmt "{fmt}" libfmt-dev "no files, no tool: the parts without text remain" fmt)
 cotan_optional(JSON nlohmann_json::nlohmann_json nlohmann-json nlohmann-json3-dev "no glTF, no tool" nlohmann_json)
 cotan_optional(CLI11 CLI11::CLI11 CLI11 libcli11-dev "no tool" CLI11)

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdio>
 
-#include "../src/core/parallel.hpp"
+#include "../src/core/loops.hpp"
 #include "cotan/frame.hpp"
 #include "tangent_meshes.hpp"
 

@@ -1,4 +1,4 @@
-// The loops of core/loops.hpp, and map_files/pipeline.hpp, built without oneTBB: they still run on several threads.
+// The loops of core/loops.hpp, and map_files/pipeline.hpp.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -13,10 +13,6 @@
 
 #include "core/loops.hpp"
 #include "map_files/pipeline.hpp"
-
-#ifdef COTAN_WITH_TBB
-#error "this test is for the loops without oneTBB"
-#endif
 
 // Counts down to the allocation on this thread that fails; below 0: none.
 thread_local int failing = -1;
@@ -140,8 +136,8 @@ TEST(ParallelLoops, allWorkIsDoneIfAThreadCannotStart)
 TEST(ParallelLoops, pipelineKeepsOrderAndWorksInParallel)
 {
     for (const std::size_t limit : {0u, 1u, 3u}) {
-        int read = 0, given = 0;
-        std::atomic<int> met{0};
+        int read = 0;
+        std::atomic<int> given{0}, met{0};
         Meeting meeting{int(limit)};
         const auto next = [&]() -> std::shared_ptr<int> {
             EXPECT_LE(read - given, std::max(int(limit), 1) - 1);
@@ -156,6 +152,50 @@ TEST(ParallelLoops, pipelineKeepsOrderAndWorksInParallel)
         EXPECT_EQ(given, 10);
         EXPECT_EQ(met, int(limit));
     }
+}
+
+TEST(ParallelLoops, pipelineReadsWhileItGives)
+{
+    Meeting meeting(2); // of the reader of item 1 and the receiver of item 0
+    int read = 0, given = 0;
+    bool metInRead = false, metInGive = false;
+    const auto next = [&]() -> std::shared_ptr<int> {
+        if (read == 1)
+            metInRead = meeting.meet();
+        return read < 2 ? std::make_shared<int>(read++) : nullptr;
+    };
+    const auto give = [&](const std::shared_ptr<int>& item) {
+        if (*item == 0)
+            metInGive = meeting.meet();
+        ++given;
+    };
+    withThreads(2, [&] {
+        pipeline(
+            4, next, [](const std::shared_ptr<int>&) {}, give);
+    });
+    EXPECT_TRUE(metInRead && metInGive);
+    EXPECT_EQ(given, 2);
+}
+
+// Each stage may fail; the others end, whatever they wait for.
+TEST(ParallelLoops, exceptionsOfAPipelineReachTheCaller)
+{
+    for (const int threads : {1, 3})
+        for (const int failing : {0, 1, 2}) {
+            int read = 0;
+            const auto failAt = [&](int stage, int item) {
+                if (stage == failing && item == 5)
+                    throw std::runtime_error("five");
+            };
+            const auto next = [&]() -> std::shared_ptr<int> {
+                failAt(0, read);
+                return read < 50 ? std::make_shared<int>(read++) : nullptr;
+            };
+            const auto work = [&](const std::shared_ptr<int>& item) { failAt(1, *item); };
+            const auto give = [&](const std::shared_ptr<int>& item) { failAt(2, *item); };
+            EXPECT_THROW(withThreads(threads, [&] { pipeline(4, next, work, give); }), std::runtime_error)
+                << threads << " threads, stage " << failing;
+        }
 }
 
 } // namespace

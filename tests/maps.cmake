@@ -4,7 +4,7 @@ cotan_test(map_test BATCH 4 # files of a row are compiled at once; rows may repe
     map_detect_test.cpp map_height_test.cpp map_small_test.cpp map_zero_test.cpp
     map_mips_test.cpp map_recode_test.cpp map_block_test.cpp map_messages_test.cpp
     map_lines_test.cpp map_green_test.cpp
-  LIBRARIES cotan_loops cotan_map_files cotan_maps cotan_model cotan_scene)
+  LIBRARIES cotan_map_files cotan_maps cotan_model cotan_scene)
 find_package(JPEG REQUIRED)
 find_package(ZLIB REQUIRED)
 cotan_test(map_command_test FIXTURE npm

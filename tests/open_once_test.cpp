@@ -29,6 +29,7 @@ protected:
         Arguments tool("cotan", "", "");
         addRenderCommand(tool);
         addBakeCommand(tool);
+        addConvertCommand(tool);
         Names read;
         watchInputs([&](const std::filesystem::path& file) { read.push_back(file.filename().string()); });
         const Status done = tool.run(words, [](const std::string&) {});
@@ -39,6 +40,13 @@ protected:
     }
     std::string at(const std::string& name) const { return (folder / name).string(); }
     std::string bytes(const std::string& name) const { return test::readWhole(folder / name); }
+    // How often a file is opened when its model is read once.
+    std::ptrdiff_t openings(const std::string& model, const std::string& file)
+    {
+        const Names read = readBy({"render", at(model), "--size", "8x8", "--samples", "1", "--device", "reference",
+                                   "--quiet", "--overwrite", "-o", at("once.png")});
+        return std::ranges::count(read, file);
+    }
     // An image of 2 x 2 texels with these red values.
     void writeTexels(const std::string& name, std::initializer_list<int> reds)
     {
@@ -140,6 +148,26 @@ TEST_F(OpenOnce, aModelThatGetsItsMapIsReadBeforeTheHighMesh)
                                    "--size", "8", "--quiet", "-o", at(output)});
         EXPECT_EQ(std::ranges::find(std::ranges::find(read, "high.obj"), read.end(), "m.gltf"), read.end()) << output;
     }
+}
+
+TEST_F(OpenOnce, aModelThatGetsItsMapIsReadOnce)
+{
+    writeMovingTriangle();
+    writeSquares("high.obj", 0.2, "_high");
+    for (const std::string up : {"y", "z"}) {
+        const Names read = readBy({"bake", "--high", at("high.obj"), "--low", at("m.gltf"), "--size", "8", "--up", up,
+                                   "--quiet", "--overwrite", "-o", at("out.glb")});
+        EXPECT_EQ(std::ranges::count(read, "m.gltf"), 1) << up;
+        EXPECT_EQ(std::ranges::count(read, "m.bin"), openings("m.gltf", "m.bin")) << up;
+    }
+}
+
+TEST_F(OpenOnce, aConvertedModelIsReadOnceToVerifyIt)
+{
+    writeMovingTriangle();
+    const Names read = readBy({"convert", at("m.gltf"), "--to-frame", "orthonormal", "--verify", at("check"),
+                               "--device", "reference", "--quiet", "-o", at("out.glb")});
+    EXPECT_EQ(std::ranges::count(read, "out.glb"), openings("out.glb", "out.glb"));
 }
 
 } // namespace

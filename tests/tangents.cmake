@@ -7,7 +7,7 @@ cotan_test(tangents_gltf_test
   SOURCES tangents_gltf_test.cpp
   LIBRARIES cotan_model cotan_scene)
 
-# The loops for builds without oneTBB, which parts that have it do not compile.
+# Loops on several threads, with a limit of the memory for starting them.
 cotan_test(loops_test SOURCES loops_test.cpp LIBRARIES cotan_core)
 target_include_directories(loops_test PRIVATE ${PROJECT_SOURCE_DIR}/apps/cotan)
 

@@ -9,6 +9,8 @@
 
 #include "bake_objects.hpp"
 #include "core/try.hpp"
+#include "cotan/gltf.hpp"
+#include "files/file_registry.hpp"
 #include "gltf_open.hpp"
 #include "image/component_types.hpp"
 #include "model/model_formats.hpp"
@@ -127,15 +129,35 @@ Status checkObjects(const BakeJob& job, const Scene& low)
                                                     : fmt::format("one of '{}'", fmt::join(names, "', '"))));
 }
 
+// Reads the low mesh; and its file to edit, for a map that is put into it, by the same reading if it is a glTF file.
+Status readLow(const BakeJob& job, OpenBake& open)
+{
+    const bool writesModel = namedAsGltf(job.files.map);
+    if (!writesModel || !namedAsGltf(job.low)) {
+        COTAN_TRY(low, loadUp(job.memory, job.low, job.up, Pixels::all));
+        open.low = std::move(*low);
+        return Done{};
+    }
+    auto opened = openGltf(job.low, limitsFor(job.memory, Pixels::all));
+    if (const auto refused = firstRefusal()) // as loadScene
+        return *refused;
+    if (!opened)
+        return withOptionNames(opened.error());
+    if (job.up == Up::z)
+        rotateZUpToYUp(opened->scene);
+    open.low = std::move(opened->scene);
+    open.document = std::move(opened->document);
+    return Done{};
+}
+
 // Reads the low mesh and its cage, and opens its file for a map that is put into it.
 Status openLow(const BakeJob& job, OpenBake& open)
 {
-    COTAN_TRY(low, loadUp(job.memory, job.low, job.up, Pixels::all));
-    open.low = std::move(*low);
+    COTAN_CHECK(readLow(job, open));
     restoreDeclaredGreen(open.low); // the new map replaces the old one, next to the stored tangents
     COTAN_CHECK(checkObjects(job, open.low));
-    if (namedAsGltf(job.files.map)) {
-        COTAN_TRY(document, namedAsGltf(job.low) ? openGltfDocument(job.low) : gltfDocumentOf(open.low));
+    if (namedAsGltf(job.files.map) && !open.document) {
+        COTAN_TRY(document, gltfDocumentOf(open.low));
         open.document = std::move(*document);
     }
     if (job.files.verify.empty())

@@ -52,30 +52,25 @@ Result<DrawnSides> drawModel(Renderer& renderer, const std::filesystem::path& fi
                             [&] { return drawSides(renderer, std::move(model), std::move(cameras)); });
 }
 
-// Decodes the original's maps with the expansion of the converted ones, as the renderer that they are made for.
-Status copyExpansion(Scene& before, const VerifyOptions& o)
-{
-    LoadLimits limits = limitsFor(o.memory);
-    limits.pixels = Pixels::none;
-    COTAN_TRY(after, loadScene(o.after, limits));
-    for (std::size_t i = 0; i < std::min(before.materials.size(), after->materials.size()); ++i)
-        before.materials[i].normalFormat.expansion = after->materials[i].normalFormat.expansion;
-    return Done{};
-}
-
-// Draws and compares. Only one model is in memory at a time.
+// Draws and compares. Only one model is in memory at a time, and each is read once. The converted one comes first: the
+// original's maps are decoded with the expansion of its maps, as by the renderer that they are made for.
 Result<ComparedViews> drawAndCompare(const VerifyOptions& o, const CommonOptions& common, std::string& device)
 {
-    COTAN_TRY(before, loadSceneWithin(o.memory, o.before));
-    COTAN_CHECK(copyExpansion(*before, o));
-    COTAN_TRY(renderer, openDevice(o.device, common));
-    device = (*renderer)->device();
-    COTAN_TRY(first, drawModel(**renderer, o.before, {std::move(*before), o.from, o.fromTangents}, common));
     COTAN_TRY(after, loadSceneWithin(o.memory, o.after));
+    std::vector<Expansion> expansions;
+    for (const Material& material : after->materials)
+        expansions.push_back(material.normalFormat.expansion);
     if (!o.to)
         for (const FrameDecision& d : chooseFrames(*after)) // which obeys the names
             after->meshes[d.mesh].readWith = d.frame;
-    COTAN_TRY(second, drawModel(**renderer, o.after, {std::move(*after), o.to}, common, first->cameras));
+    COTAN_TRY(renderer, openDevice(o.device, common));
+    device = (*renderer)->device();
+    COTAN_TRY(second, drawModel(**renderer, o.after, {std::move(*after), o.to}, common));
+    COTAN_TRY(before, loadSceneWithin(o.memory, o.before));
+    for (std::size_t i = 0; i < std::min(before->materials.size(), expansions.size()); ++i)
+        before->materials[i].normalFormat.expansion = expansions[i];
+    COTAN_TRY(first,
+              drawModel(**renderer, o.before, {std::move(*before), o.from, o.fromTangents}, common, second->cameras));
     return compareSides(*first, *second);
 }
 

@@ -77,9 +77,7 @@ void findRepeated(std::vector<Part>& parts)
     }
     const std::vector<std::uint8_t> repeated = repeatedTriangles(count, [&](std::size_t i) {
         const auto n = std::size_t(std::upper_bound(first.begin(), first.end(), i) - first.begin()) - 1;
-        const std::uint32_t* const c = &parts[n].indices[3 * (i - first[n])];
-        const std::vector<glm::vec3>& p = parts[n].positions;
-        return CornersOfTriangle{{p[c[0]], p[c[1]], p[c[2]]}};
+        return cornersOfTriangle(parts[n].positions, parts[n].indices, i - first[n]);
     });
     for (std::size_t n = 0; n < parts.size() && !repeated.empty(); ++n) {
         const auto from = repeated.begin() + std::ptrdiff_t(first[n]);

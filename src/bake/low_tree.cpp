@@ -71,9 +71,8 @@ Result<LowTree> LowTree::make(std::vector<glm::vec3> positions, std::vector<std:
     }
     // Of equally near triangles the first counts, so triangles on earlier ones that show the same can be left out.
     const std::vector<std::uint8_t> repeated = repeatedTriangles(state->faces.size(), [&](std::size_t f) {
-        const std::uint32_t* const c = &state->indices[3 * f];
-        const std::vector<glm::vec3>& p = state->positions;
-        return CornersOfTriangle{{p[c[0]], p[c[1]], p[c[2]]}, state->highGroups.empty() ? 0 : state->highGroups[f]};
+        return cornersOfTriangle(state->positions, state->indices, f,
+                                 state->highGroups.empty() ? 0 : state->highGroups[f]);
     });
     COTAN_CHECK(state->embree.open(threads, RTC_SCENE_FLAG_ROBUST));
     state->embree.add(state->positions, state->indices, repeated, state->embreeIndices);

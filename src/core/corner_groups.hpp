@@ -10,7 +10,7 @@
 
 #include "cotan/tangents.hpp"
 #include "large_array.hpp"
-#include "parallel.hpp"
+#include "loops.hpp"
 #include "tangents_mesh.hpp"
 
 namespace cotan::tangents {

@@ -16,7 +16,7 @@
 
 #include "cotan/tangents.hpp"
 #include "large_array.hpp"
-#include "parallel.hpp"
+#include "loops.hpp"
 
 namespace cotan::tangents {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cotan/portable.hpp"
-#include "parallel.hpp"
+#include "loops.hpp"
 #include "tangents_mesh.hpp"
 
 namespace cotan {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -18,6 +19,7 @@
 
 #include "core/tangents_mesh.hpp"
 #include "cotan/covector.hpp"
+#include "cotan/tangents.hpp"
 #include "cotan/vector.hpp"
 #include "scene/geometry.hpp"
 
@@ -145,28 +147,32 @@ std::array<std::uint32_t, 12> bitsOf(const CornersOfTriangle& triangle)
     return bits;
 }
 
-// The corners of a triangle in cyclic order, starting with the smallest one.
-CornersOfTriangle cornersOf(const Mesh& mesh, std::size_t first)
+// Finds equal triangles: for each, the number of earlier equal ones; 2 means 2 or more.
+std::vector<std::uint8_t> earlierEqual(std::size_t count, const TriangleCorners& triangle)
 {
-    CornersOfTriangle t;
-    for (std::size_t k = 0; k < 3; ++k)
-        t.at[k] = mesh.positions[mesh.indices[first + k]];
-    const auto isLess = [](const glm::vec3& a, const glm::vec3& b) {
-        return std::tuple(a.x, a.y, a.z) < std::tuple(b.x, b.y, b.z);
-    };
-    std::rotate(t.at.begin(), std::min_element(t.at.begin(), t.at.end(), isLess), t.at.end());
-    return t;
+    const auto first = tangents::firstEqual(std::uint32_t(count), [&](std::uint32_t i) { return bitsOf(triangle(i)); });
+    std::vector<std::uint8_t> repeated(count), occurrences(count); // occurrences of each first triangle, at most 2
+    for (std::size_t i = 0; i < count; ++i) {
+        repeated[i] = occurrences[first[i]];
+        occurrences[first[i]] = std::uint8_t(std::min(repeated[i] + 1, 2));
+    }
+    return repeated;
 }
 
 void dropRepeated(Mesh& mesh)
 {
-    const auto count = std::uint32_t(mesh.triangleCount());
-    const auto first =
-        tangents::firstEqual(count, [&](std::uint32_t i) { return bitsOf(cornersOf(mesh, 3 * std::size_t(i))); });
+    const std::vector<std::uint8_t> repeated = earlierEqual(mesh.triangleCount(), [&](std::size_t i) {
+        CornersOfTriangle t = cornersOfTriangle(mesh.positions, mesh.indices, i);
+        const auto isLess = [](const glm::vec3& a, const glm::vec3& b) {
+            return std::tuple(a.x, a.y, a.z) < std::tuple(b.x, b.y, b.z);
+        };
+        std::rotate(t.at.begin(), std::min_element(t.at.begin(), t.at.end(), isLess), t.at.end());
+        return t;
+    });
     std::vector<std::uint32_t> kept;
-    for (std::uint32_t i = 0; i < count; ++i)
-        if (first[i] == i)
-            kept.insert(kept.end(), &mesh.indices[3 * std::size_t(i)], &mesh.indices[3 * std::size_t(i)] + 3);
+    for (std::size_t i = 0; i < repeated.size(); ++i)
+        if (repeated[i] == 0)
+            kept.insert(kept.end(), &mesh.indices[3 * i], &mesh.indices[3 * i] + 3);
     mesh.indices = std::move(kept);
 }
 
@@ -185,8 +191,7 @@ void dropRepeated(Scene& scene)
             dropRepeated(mesh);
 }
 
-std::vector<std::uint8_t> repeatedTriangles(std::size_t count,
-                                            const std::function<CornersOfTriangle(std::size_t)>& triangle)
+std::vector<std::uint8_t> repeatedTriangles(std::size_t count, const TriangleCorners& triangle)
 {
     const auto sampled = std::uint32_t(std::min(count, kSampleSize));
     const auto sample = tangents::firstEqual(sampled, [&](std::uint32_t k) {
@@ -197,13 +202,40 @@ std::vector<std::uint8_t> repeatedTriangles(std::size_t count,
         repeats += sample[k] != k ? 1 : 0;
     if (repeats < kMinRepeats || count >= tangents::kNone) // larger counts have no indices
         return {};
-    const auto first = tangents::firstEqual(std::uint32_t(count), [&](std::uint32_t i) { return bitsOf(triangle(i)); });
-    std::vector<std::uint8_t> repeated(count), occurrences(count); // occurrences of each first triangle, at most 2
-    for (std::size_t i = 0; i < count; ++i) {
-        repeated[i] = occurrences[first[i]];
-        occurrences[first[i]] = std::uint8_t(std::min(repeated[i] + 1, 2));
+    return earlierEqual(count, triangle);
+}
+
+Mesh partOfMesh(const Mesh& mesh, std::size_t triangles)
+{
+    if (mesh.triangleCount() <= triangles)
+        return mesh;
+    constexpr std::size_t kMaxRuns = 64;
+    const std::size_t runs = std::min(kMaxRuns, triangles);
+    const std::size_t run = triangles / runs, step = mesh.triangleCount() / runs;
+    VertexSplit taken;
+    std::map<std::uint32_t, std::uint32_t> numbers; // old to new
+    for (std::size_t r = 0; r < runs; ++r)
+        for (std::size_t i = 3 * r * step; i < 3 * (r * step + run); ++i) {
+            const auto [number, isNew] = numbers.emplace(mesh.indices[i], std::uint32_t(taken.sources.size()));
+            taken.indices.push_back(number->second);
+            if (isNew)
+                taken.sources.push_back(mesh.indices[i]);
+        }
+    Mesh part;
+    part.name = mesh.name;
+    part.material = mesh.material;
+    part.source = mesh.source;
+    part.named = mesh.named;
+    part.readWith = mesh.readWith;
+    const auto from = attributesOf(mesh);
+    const auto to = attributesOf(part);
+    [&]<std::size_t... N>(std::index_sequence<N...>)
+    {
+        ((std::get<N>(to) = gathered(std::span(std::get<N>(from)), taken)), ...);
     }
-    return repeated;
+    (std::make_index_sequence<std::tuple_size_v<decltype(from)>>());
+    part.indices = std::move(taken.indices);
+    return part;
 }
 
 // ---- cost of the pixels of an image ----------------------------------------------------------

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -25,6 +26,9 @@ void joinParts(Scene& scene, std::size_t maxParts = 1000);
 // their mesh; only the first is visible.
 void dropRepeated(Scene& scene);
 
+// About `triangles` triangles of the mesh, in evenly chosen runs of neighbours; all if it has no more.
+Mesh partOfMesh(const Mesh& mesh, std::size_t triangles);
+
 // Number of pixels covered by triangles that face the eye or are double-sided, counting all layers of depth. Plain
 // translucent layers count half, translucent ones with further lobes (a coat or the like) more.
 double pixelsCovered(const Scene& scene, const View& view);
@@ -43,10 +47,19 @@ struct CornersOfTriangle {
     std::int64_t key = 0; // further criterion for equality
 };
 
+// The corners of a triangle of a list.
+inline CornersOfTriangle cornersOfTriangle(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices,
+                                           std::size_t triangle, std::int64_t key = 0)
+{
+    const std::uint32_t* const c = &indices[3 * triangle];
+    return {{positions[c[0]], positions[c[1]], positions[c[2]]}, key};
+}
+
+using TriangleCorners = std::function<CornersOfTriangle(std::size_t triangle)>;
+
 // For each of `count` triangles: the number of earlier triangles with the same corners in the same order; 2 means 2 or
 // more. Empty if a sample shows that few repeat, which saves the search. Queries that visit all triangles at a point
 // take a thousand times as long where a thousand coincide.
-std::vector<std::uint8_t> repeatedTriangles(std::size_t count,
-                                            const std::function<CornersOfTriangle(std::size_t)>& triangle);
+std::vector<std::uint8_t> repeatedTriangles(std::size_t count, const TriangleCorners& triangle);
 
 } // namespace cotan

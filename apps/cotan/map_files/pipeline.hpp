@@ -1,67 +1,81 @@
-// A pipeline that reads in order, works in parallel and writes in order: by oneTBB in builds that have it.
+// A pipeline that reads in order, works in parallel and writes in order.
 #pragma once
 
 #include <algorithm>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <mutex>
 #include <utility>
-#include <vector>
 
 #include "core/loops.hpp"
-
-#ifdef COTAN_WITH_TBB
-#include <oneapi/tbb/parallel_pipeline.h>
-#endif
 
 namespace cotan {
 
 // The number of threads that a loop started here may use.
-inline int loopThreads()
-{
-#ifdef COTAN_WITH_TBB
-    return oneapi::tbb::this_task_arena::max_concurrency();
-#else
-    return int(threadsFor(SIZE_MAX, 1));
-#endif
-}
+inline int loopThreads() { return int(threadsFor(SIZE_MAX, 1)); }
 
 // Runs a pipeline of pointers: read() returns the next item, null at the end; work(item) changes it, in any order and
-// in parallel; give(item) takes the items in order. At most `maxItems` items are in flight.
+// in parallel; give(item) takes the items in order. At most `maxItems` items are in flight. Reading, work and giving
+// overlap. Rethrows an exception of a call after all calls have ended.
 template<class Read, class Work, class Give>
 void pipeline(std::size_t maxItems, const Read& read, const Work& work, const Give& give)
 {
     using Item = decltype(read());
-#ifdef COTAN_WITH_TBB
-    namespace tbb = oneapi::tbb;
-    const auto source = [&](tbb::flow_control& control) -> Item {
-        Item item = read();
-        if (!item)
-            control.stop();
-        return item;
+    const std::size_t most = std::max<std::size_t>(maxItems, 1), threads = threadsFor(SIZE_MAX, 1);
+    std::mutex mutex; // of what follows; not held during calls
+    std::condition_variable changed;
+    std::map<std::size_t, Item> worked; // that wait to be given, by their number
+    std::size_t readItems = 0, givenItems = 0;
+    bool reading = false, giving = false, ended = false, failed = false;
+
+    // Takes whatever can be done next, until nothing is left.
+    const auto run = [&](std::unique_lock<std::mutex>& lock) {
+        while (!failed)
+            if (!giving && worked.contains(givenItems)) {
+                giving = true;
+                const Item item = std::move(worked.extract(givenItems).mapped());
+                lock.unlock();
+                give(item);
+                lock.lock();
+                giving = false;
+                ++givenItems;
+                changed.notify_all();
+            } else if (!ended && !reading && readItems - givenItems < most) {
+                reading = true;
+                lock.unlock();
+                Item item = read();
+                lock.lock();
+                reading = false;
+                ended |= !item;
+                const std::size_t number = item ? readItems++ : readItems;
+                changed.notify_all();
+                if (!item)
+                    continue;
+                lock.unlock();
+                work(item);
+                lock.lock();
+                worked.emplace(number, std::move(item));
+                changed.notify_all();
+            } else if (ended && !reading && readItems == givenItems) {
+                return;
+            } else {
+                changed.wait(lock);
+            }
     };
-    const auto stage = [&](Item item) -> Item {
-        work(item);
-        return item;
-    };
-    const auto sink = [&](Item item) -> void { give(item); };
-    tbb::parallel_pipeline(std::max<std::size_t>(maxItems, 1),
-                           tbb::make_filter<void, Item>(tbb::filter_mode::serial_in_order, source)
-                               & tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, stage)
-                               & tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, sink));
-#else
-    for (bool more = true; more;) {
-        std::vector<Item> items;
-        while (items.size() < std::max<std::size_t>(maxItems, 1) && more) {
-            Item item = read();
-            more = bool(item);
-            if (more)
-                items.push_back(std::move(item));
+    runTasks(threads, threads, [&](std::size_t) {
+        std::unique_lock lock(mutex);
+        try {
+            run(lock);
+        } catch (...) {
+            if (!lock.owns_lock())
+                lock.lock();
+            failed = true;
+            changed.notify_all();
+            throw;
         }
-        parallelFor(std::size_t(0), items.size(), [&](std::size_t i) { work(items[i]); });
-        for (const Item& item : items)
-            give(item);
-    }
-#endif
+    });
 }
 
 } // namespace cotan

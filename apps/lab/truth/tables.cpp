@@ -2,7 +2,7 @@
 
 #include <iterator>
 
-#include "core/parallel.hpp"
+#include "core/loops.hpp"
 
 namespace cotan {
 

@@ -14,6 +14,7 @@
 #include "lint_parts.hpp"
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
+#include "scene/parts.hpp"
 #include "scene/scene_check.hpp"
 
 namespace cotan {
@@ -21,42 +22,17 @@ namespace cotan {
 namespace {
 
 constexpr std::size_t kMaxJudged = 200'000; // triangles of a primitive
-constexpr std::size_t kParts = 64;          // runs of triangles that are judged of larger ones
 constexpr std::size_t kMaxStretches = 8;    // of instances
 
 // In the order of cost.
 constexpr Frame kCandidates[] = {Frame::orthonormal, Frame::triangle, Frame::smooth, Frame::mikktspace};
 
-// The mesh, or evenly chosen runs of triangles if it has very many.
+// The mesh, or a part of it if it has very many triangles.
 std::shared_ptr<const Mesh> judgedPart(const Mesh& mesh)
 {
     if (mesh.triangleCount() <= kMaxJudged)
         return {std::shared_ptr<void>(), &mesh}; // the scene outlives it
-    auto part = std::make_shared<Mesh>();
-    const auto take = [&](auto& to, const auto& from, std::uint32_t i) {
-        if (!from.empty())
-            to.push_back(from[i]);
-    };
-    std::map<std::uint32_t, std::uint32_t> taken;
-    const std::size_t run = kMaxJudged / kParts, step = mesh.triangleCount() / kParts;
-    for (std::size_t p = 0; p < kParts; ++p)
-        for (std::size_t i = 3 * p * step; i < 3 * (p * step + run); ++i) {
-            const std::uint32_t old = mesh.indices[i];
-            const auto [found, isNew] = taken.emplace(old, std::uint32_t(part->positions.size()));
-            part->indices.push_back(found->second);
-            if (!isNew)
-                continue;
-            take(part->positions, mesh.positions, old);
-            take(part->normals, mesh.normals, old);
-            take(part->tangents, mesh.tangents, old);
-            for (std::size_t set = 0; set < 2; ++set)
-                take(part->texcoords[set], mesh.texcoords[set], old);
-            take(part->bindPositions, mesh.bindPositions, old);
-            take(part->bindNormals, mesh.bindNormals, old);
-            for (std::size_t column = 0; column < 3; ++column)
-                take(part->skin[column], mesh.skin[column], old);
-        }
-    return part;
+    return std::make_shared<Mesh>(partOfMesh(mesh, kMaxJudged));
 }
 
 // The frame that engines show with tangents at the vertices: they normalise what they interpolate, which mikktspace.h

@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "core/parallel.hpp"
+#include "core/loops.hpp"
 #include "cotan_shaders.h"
 #include "gpu_structs.hpp"
 #include "scene/sample_positions.hpp"

@@ -4,8 +4,8 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "core/loops.hpp"
 #include "core/named_values.hpp"
-#include "core/parallel.hpp"
 
 namespace cotan {
 
