@@ -5,7 +5,7 @@
 #include "inspect/angles.hpp"
 #include <fmt/format.h>
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -68,4 +68,4 @@ Json toJson(const TangentDifference& d)
             {"w_different", invertedFraction(d)}, {"turned", reversedFraction(d)}, {"directions", directions}};
 }
 
-} // namespace cotan
+} // namespace cotan::app

@@ -13,7 +13,7 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 #endif
 
-namespace cotan {
+namespace cotan::app {
 
 // The number of threads that a loop started here may use.
 inline int loopThreads()
@@ -64,4 +64,4 @@ void pipeline(std::size_t maxItems, const Read& read, const Work& work, const Gi
 #endif
 }
 
-} // namespace cotan
+} // namespace cotan::app
