@@ -136,7 +136,7 @@ Figures errorOfThree(const std::vector<glm::dvec3>& normals, int width, int heig
 Bytes byCotan(const Image& map)
 {
     Bytes blocks;
-    cotan::withThreads(1, [&] { blocks = cotan::maps::encodeBc5(map, {}); });
+    cotan::withThreads(1, [&] { blocks = cotan::app::encodeBc5(map, {}); });
     return blocks;
 }
 
@@ -197,7 +197,7 @@ int main(int count, char** files)
         };
         const auto bc7 = [&] {
             Bytes blocks;
-            cotan::withThreads(1, [&] { blocks = cotan::maps::encodeBc7(target, {}); });
+            cotan::withThreads(1, [&] { blocks = cotan::app::encodeBc7(target, {}); });
             return blocks;
         };
         const std::tuple<const char*, cotan::DdsCode, std::function<Bytes()>> wide[] = {

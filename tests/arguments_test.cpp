@@ -11,6 +11,8 @@
 #include "terminal/command_words.hpp"
 
 namespace cotan {
+
+using namespace app;
 namespace {
 
 struct Everything {

@@ -56,5 +56,5 @@ int perform(const std::vector<std::string>& words)
 int main(int argc, char** argv)
 {
     cotan::removePartsOnInterrupt();
-    return cotan::isJobProcess(argc, argv) ? cotan::runJobProcess(argc, argv, perform) : 70;
+    return cotan::app::isJobProcess(argc, argv) ? cotan::app::runJobProcess(argc, argv, perform) : 70;
 }

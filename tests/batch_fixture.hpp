@@ -13,6 +13,8 @@
 
 namespace cotan::test {
 
+using namespace app;
+
 using Words = std::vector<std::string>;
 
 inline void write(const std::filesystem::path& file, const std::string& text)

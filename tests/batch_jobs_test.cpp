@@ -11,6 +11,7 @@
 namespace cotan {
 namespace {
 
+using namespace app;
 using namespace test;
 using Numbers = std::vector<std::size_t>;
 

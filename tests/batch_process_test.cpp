@@ -16,6 +16,7 @@
 namespace cotan {
 namespace {
 
+using namespace app;
 using namespace test;
 namespace fs = std::filesystem;
 

@@ -12,6 +12,7 @@
 namespace cotan {
 namespace {
 
+using namespace app;
 using namespace test;
 using nlohmann::json;
 

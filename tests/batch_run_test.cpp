@@ -15,6 +15,7 @@
 namespace cotan {
 namespace {
 
+using namespace app;
 using namespace test;
 namespace fs = std::filesystem;
 

@@ -12,6 +12,7 @@
 namespace cotan {
 namespace {
 
+using namespace app;
 using namespace test;
 
 class BatchThumbnail : public ::testing::Test {

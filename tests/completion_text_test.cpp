@@ -6,6 +6,8 @@
 #include "terminal/command_walk.hpp"
 
 namespace cotan {
+
+using namespace app;
 namespace {
 
 OptionHelp optionOf(std::vector<std::string> names, const std::string& value, const std::string& help,

@@ -21,6 +21,8 @@
 #include "map_files/mips.hpp"
 
 namespace cotan {
+
+using namespace app;
 namespace {
 
 // glTF 2.0, "Material" and the extensions; KHR_lights_punctual: an outer cone of 45 degrees.
@@ -214,27 +216,27 @@ TEST(Defaults, ofMapsAreThoseOfTheHelp)
 
 TEST(Defaults, ofMapFilesAreThoseOfTheHelp)
 {
-    maps::BlendFileOptions b;
+    BlendFileOptions b;
     EXPECT_EQ(b.strength, 1);
     EXPECT_EQ(b.tilesX, 1);
     EXPECT_EQ(b.tilesY, 1);
     EXPECT_EQ(b.bits, "auto");
     EXPECT_FALSE(b.dither);
-    maps::ConvertFileOptions c;
+    ConvertFileOptions c;
     EXPECT_EQ(c.bits, "auto");
     EXPECT_EQ(c.compress, "none");
     EXPECT_EQ(c.strength, 1);
     EXPECT_FALSE(c.normalise);
     EXPECT_FALSE(c.dither);
-    maps::FromHeightFileOptions f;
+    FromHeightFileOptions f;
     EXPECT_EQ(f.range, 0);
     EXPECT_EQ(f.strength, 1);
     EXPECT_EQ(f.bits, "auto");
     EXPECT_FALSE(f.dither);
-    maps::ToHeightFileOptions t;
+    ToHeightFileOptions t;
     EXPECT_TRUE(t.boundary == maps::Boundary::periodic);
     EXPECT_EQ(t.bits, "auto");
-    maps::MipFileOptions m;
+    MipFileOptions m;
     EXPECT_EQ(m.roughness, 0.3);
     EXPECT_FALSE(m.keepLengths);
     EXPECT_EQ(m.bits, "auto");

@@ -21,6 +21,8 @@
 #include "smooth_report.hpp"
 
 namespace cotan {
+
+using namespace app;
 namespace {
 
 TEST(EmptyResults, ofBakingCountNothing)
@@ -130,11 +132,11 @@ TEST(EmptyResults, ofMapsKnowNothing)
     for (const double x : {h.lowest, h.highest, h.slope, h.residual, h.meanTilt})
         EXPECT_EQ(x, 0);
     EXPECT_EQ(h.invalid, 0u);
-    maps::ConvertedFile c;
+    ConvertedFile c;
     EXPECT_EQ(c.width, 0);
     EXPECT_EQ(c.height, 0);
     EXPECT_EQ(c.covered, 0u);
-    EXPECT_EQ(maps::ToHeightFile().unit, 1);
+    EXPECT_EQ(ToHeightFile().unit, 1);
 }
 
 TEST(EmptyResults, ofGltfNameNothing)

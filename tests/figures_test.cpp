@@ -18,6 +18,7 @@
 namespace cotan {
 namespace {
 
+using namespace app;
 using namespace test;
 using Words = std::vector<std::string>;
 

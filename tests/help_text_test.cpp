@@ -7,6 +7,8 @@
 #include "terminal/printable.hpp"
 
 namespace cotan {
+
+using namespace app;
 namespace {
 
 OptionHelp optionOf(HelpGroup group, std::vector<std::string> names, const std::string& value, const std::string& help)

@@ -29,6 +29,8 @@ thread_local int failing = -1;
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace cotan {
+
+using namespace app;
 namespace {
 
 // Lets `size` calls of meet() wait for each other.

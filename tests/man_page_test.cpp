@@ -4,6 +4,8 @@
 #include "help/help_files.hpp"
 
 namespace cotan {
+
+using namespace app;
 namespace {
 
 OptionHelp option(HelpGroup group, std::vector<std::string> names, std::string value, std::string help)

@@ -16,6 +16,8 @@
 #include "core/loops.hpp"
 
 namespace cotan::maps {
+
+using namespace app;
 namespace {
 
 using Half = std::array<double, 16>;

@@ -15,6 +15,8 @@
 #include "run_tool.hpp"
 
 namespace cotan {
+
+using namespace app;
 namespace {
 
 namespace fs = std::filesystem;
@@ -37,21 +39,21 @@ protected:
     void SetUp() override { ASSERT_TRUE(writeImage(map, makeReliefMap(Relief::domes, 64))); }
 
     // Results of every call that takes long, with the given options; those that write a file write `out`.
-    std::vector<Status> allCalls(const maps::FileOptions& files) const
+    std::vector<Status> allCalls(const FileOptions& files) const
     {
         const auto status = [](const auto& result) { return result ? Status(Done{}) : Status(result.error()); };
-        const maps::MeshOfMap mesh{folder / "quad.obj"};
+        const MeshOfMap mesh{folder / "quad.obj"};
         const Convention object = *parseConvention("object");
         return {
-            status(maps::convertFile(map, out, {.from = asGltf(), .to = asDirectx()}, files)),
-            status(maps::convertFile(map, out, {.from = asGltf(), .to = object, .mesh = mesh}, files)),
-            status(maps::blendFiles(map, map, out, {.base = asGltf(), .detail = asGltf(), .to = asGltf()}, files)),
-            status(maps::normalsFromHeightFile(map, out, {.to = asGltf()}, files)),
-            status(maps::heightFromNormalsFile(map, out, {.from = asGltf()}, files)),
-            status(maps::writeMips(map, out, {.from = asGltf(), .to = asGltf()}, files)),
-            status(maps::compareFiles(map, asGltf(), map, asDirectx(), out, files)),
-            status(maps::surveyFile(map, files)),
-            status(maps::greenOfFile(map, files)),
+            status(convertFile(map, out, {.from = asGltf(), .to = asDirectx()}, files)),
+            status(convertFile(map, out, {.from = asGltf(), .to = object, .mesh = mesh}, files)),
+            status(blendFiles(map, map, out, {.base = asGltf(), .detail = asGltf(), .to = asGltf()}, files)),
+            status(normalsFromHeightFile(map, out, {.to = asGltf()}, files)),
+            status(heightFromNormalsFile(map, out, {.from = asGltf()}, files)),
+            status(writeMips(map, out, {.from = asGltf(), .to = asGltf()}, files)),
+            status(compareFiles(map, asGltf(), map, asDirectx(), out, files)),
+            status(surveyFile(map, files)),
+            status(greenOfFile(map, files)),
         };
     }
 
@@ -64,21 +66,21 @@ TEST_F(MapFiles, memoryIsLimitedByTheFileSize)
     // One colour, which a PNG stores in a few hundred bytes. Decoding is within the budget, processing is not.
     const fs::path flat = folder / "flat.png";
     ASSERT_TRUE(writeImage(flat, Image{"", 512, 512, PixelType::unorm8, std::vector(4 * 512 * 512, std::byte{128})}));
-    maps::FileOptions files;
+    FileOptions files;
     const double size = double(fs::file_size(flat));
     const auto allowBytes = [&](double bytes) { files.limits.imageBytesBeyond = std::size_t(bytes - 128 * size); };
     ASSERT_GT(4.0 * 512 * 512, 128 * size); // otherwise nothing would be refused
 
     allowBytes(4.0 * 512 * 512 + 1);
-    const auto height = maps::heightFromNormalsFile(flat, out, {.from = asGltf()}, files);
-    const auto mips = maps::writeMips(flat, out, {.from = asGltf(), .to = asGltf()}, files);
+    const auto height = heightFromNormalsFile(flat, out, {.from = asGltf()}, files);
+    const auto mips = writeMips(flat, out, {.from = asGltf(), .to = asGltf()}, files);
     ASSERT_FALSE(height);
     ASSERT_FALSE(mips);
     EXPECT_NE(height.error().message.find("the solver takes"), std::string::npos) << height.error().message;
     EXPECT_NE(mips.error().message.find("the chain takes"), std::string::npos) << mips.error().message;
     EXPECT_TRUE(height.error().memory && mips.error().memory);
     files.limits.imageBytes = 1;
-    const auto rows = maps::surveyFile(flat, files); // opening a PNG succeeds at any limit; reading it is refused
+    const auto rows = surveyFile(flat, files); // opening a PNG succeeds at any limit; reading it is refused
     ASSERT_FALSE(rows);
     EXPECT_TRUE(rows.error().memory) << rows.error().message;
     EXPECT_FALSE(fs::exists(out));
@@ -106,21 +108,21 @@ TEST_F(MapFiles, stoppedCallFailsAndLeavesNoFile)
 TEST_F(MapFiles, progressEndsAtOne)
 {
     double last = 0;
-    const maps::FileOptions files{.limits = {}, .threads = 1, .progress = [&](double fraction) {
-                                      EXPECT_GE(fraction, last);
-                                      last = fraction;
-                                      return true;
-                                  }};
-    ASSERT_TRUE(maps::surveyFile(map, files)); // in two passes
+    const FileOptions files{.limits = {}, .threads = 1, .progress = [&](double fraction) {
+                                EXPECT_GE(fraction, last);
+                                last = fraction;
+                                return true;
+                            }};
+    ASSERT_TRUE(surveyFile(map, files)); // in two passes
     EXPECT_EQ(last, 1);
     last = 0;
-    ASSERT_TRUE(maps::convertFile(map, out, {.from = asGltf(), .to = asDirectx()}, files));
+    ASSERT_TRUE(convertFile(map, out, {.from = asGltf(), .to = asDirectx()}, files));
     EXPECT_EQ(last, 1);
 }
 
 TEST_F(MapFiles, convertedFileHasTheConvertedPixels)
 {
-    const auto done = maps::convertFile(map, out, {.from = asGltf(), .to = asDirectx()});
+    const auto done = convertFile(map, out, {.from = asGltf(), .to = asDirectx()});
     ASSERT_TRUE(done) << done.error().message;
     EXPECT_EQ(done->width, 64);
     EXPECT_EQ(done->bits.type, PixelType::unorm8);
@@ -134,8 +136,8 @@ TEST_F(MapFiles, convertedFileHasTheConvertedPixels)
 
 TEST_F(MapFiles, wrongOptionsAreNamed)
 {
-    const auto refused = [&](const maps::ConvertFileOptions& options, const char* words) {
-        const auto done = maps::convertFile(map, out, options);
+    const auto refused = [&](const ConvertFileOptions& options, const char* words) {
+        const auto done = convertFile(map, out, options);
         ASSERT_FALSE(done) << words;
         EXPECT_EQ(done.error().kind, ErrorKind::usage);
         EXPECT_TRUE(done.error().message.starts_with(words)) << done.error().message;

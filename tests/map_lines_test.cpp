@@ -5,6 +5,8 @@
 #include "map_files/inspect.hpp"
 
 namespace cotan::maps {
+
+using namespace app;
 namespace {
 
 using Texts = std::vector<std::string>;

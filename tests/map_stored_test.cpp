@@ -18,6 +18,8 @@
 #include "run_tool.hpp"
 
 namespace cotan::maps {
+
+using namespace app;
 namespace {
 
 namespace fs = std::filesystem;

@@ -19,6 +19,7 @@
 namespace cotan {
 namespace {
 
+using namespace app;
 using namespace test;
 using Words = std::vector<std::string>;
 

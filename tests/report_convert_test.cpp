@@ -11,6 +11,8 @@
 #include "lint_lines.hpp"
 
 namespace cotan {
+
+using namespace app;
 namespace {
 
 using Lines = std::vector<std::string>;
@@ -36,7 +38,7 @@ ConvertedMap convertedMap()
 TEST(ConvertLines, printEveryFigureOfAMap)
 {
     ConvertedMap m = convertedMap();
-    EXPECT_EQ(linesOf(m, "smooth"),
+    EXPECT_EQ(mapLines(m, "smooth"),
               (Lines{"leather: 20x10, 25.0 % covered by 2 surfaces; read with smooth unchanged, error 30.00 / 31.00 / "
                      "32.00 degrees",
                      "  72 texels are used at several surface points; in 5 (10.00 % of the covered) these differ by "
@@ -45,7 +47,7 @@ TEST(ConvertLines, printEveryFigureOfAMap)
                      "converted too; JPEG of quality 90, 222 bytes, before 111",
                      "  8 texels point below the horizon of the frame"}));
     m.figures.disagreeing = 0, m.figures.belowHorizon = 0, m.quality = 0, m.surfaces = 1;
-    const Lines lines = linesOf(m, "smooth");
+    const Lines lines = mapLines(m, "smooth");
     ASSERT_EQ(lines.size(), 3u);
     EXPECT_NE(lines[0].find("by 1 surface;"), std::string::npos);
     EXPECT_EQ(lines[1],
@@ -53,20 +55,20 @@ TEST(ConvertLines, printEveryFigureOfAMap)
               "degrees");
     EXPECT_NE(lines[2].find("too; JPEG 222 bytes"), std::string::npos) << lines[2];
     m.figures.several = 0;
-    EXPECT_EQ(linesOf(m, "smooth").size(), 2u);
+    EXPECT_EQ(mapLines(m, "smooth").size(), 2u);
     m.kept = true;
     m.readWith = {Frame::smooth};
-    EXPECT_EQ(linesOf(m, "smooth"),
+    EXPECT_EQ(mapLines(m, "smooth"),
               Lines{"leather: unchanged: read with smooth its error is 30.00 / 31.00 / 32.00 degrees on 1 surface"});
     m.figures.unconverted = {7, 0.1, 0.3, 0.5};
-    EXPECT_EQ(linesOf(m, "smooth"),
+    EXPECT_EQ(mapLines(m, "smooth"),
               Lines{"leather: unchanged: read with smooth its error is 0.10 / 0.30 / 0.50 degrees on 1 surface, no "
                     "more than that of rounding a new map"});
     m.surfacesWithTangents = 1;
-    EXPECT_EQ(linesOf(m, "smooth"), Lines{"leather: unchanged: TANGENT stays on 1 surface"});
+    EXPECT_EQ(mapLines(m, "smooth"), Lines{"leather: unchanged: TANGENT stays on 1 surface"});
     m.surfacesWithTangents = 0;
     m.figures.unconverted.count = 0;
-    EXPECT_NE(linesOf(m, "smooth").at(0).find("not checked"), std::string::npos);
+    EXPECT_NE(mapLines(m, "smooth").at(0).find("not checked"), std::string::npos);
 }
 
 TEST(ConvertLines, jsonOfAMapHasEveryFigure)

@@ -11,6 +11,8 @@
 #include "lint_lines.hpp"
 
 namespace cotan {
+
+using namespace app;
 namespace {
 
 using Lines = std::vector<std::string>;

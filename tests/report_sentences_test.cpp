@@ -17,6 +17,8 @@
 #include "tangents_report.hpp"
 
 namespace cotan {
+
+using namespace app;
 namespace lint {
 void recommend(LintReport& report); // bake/lint/lint_parts.hpp
 }
@@ -50,7 +52,7 @@ TEST(SentencesBesideNumbers, keptMapsAreComparedWithRounding)
         map.figures.unconverted = map.figures.error = {100, 45, 90, 180}; // of the other kind
         (map.kept ? map.figures.unconverted : map.figures.error) = draw.error();
         const ValueSummary& shown = map.kept ? map.figures.unconverted : map.figures.error;
-        const std::vector<std::string> lines = linesOf(map, "orthonormal");
+        const std::vector<std::string> lines = mapLines(map, "orthonormal");
         ASSERT_EQ(lines.size(), 1u);
         EXPECT_TRUE(says(lines[0], toText(shown))) << lines[0];
         EXPECT_EQ(says(lines[0], "no more than that of rounding"), shown.percentile95 <= kOfRounding) << lines[0];

@@ -10,6 +10,8 @@
 #include "tangents_report.hpp"
 
 namespace cotan {
+
+using namespace app;
 namespace {
 
 Image directions(std::vector<std::array<float, 4>> pixels)

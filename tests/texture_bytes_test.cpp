@@ -9,6 +9,8 @@
 #include "run_tool.hpp"
 
 namespace cotan::maps {
+
+using namespace app;
 namespace {
 
 using test::readWhole, test::TemporaryFolder;

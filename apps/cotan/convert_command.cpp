@@ -171,7 +171,7 @@ std::vector<std::string> linesOf(const ConvertJob& job, const ConvertResult& don
     if (!done.maps.maps.empty())
         add({"three values are mean / 95 % / maximum, weighted by surface area"});
     for (const ConvertedMap& map : done.maps.maps)
-        add(linesOf(map, to));
+        add(mapLines(map, to));
     if (job.maps)
         add(tangentsLines(done.maps, to));
     if (job.provoking)

@@ -9,7 +9,7 @@
 #include "gltf/json/lookup.hpp"
 #include "lint_lines.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -60,7 +60,7 @@ Json rowOf(const GltfProvoked& p)
 
 } // namespace
 
-std::vector<std::string> linesOf(const ConvertedMap& map, const std::string& to)
+std::vector<std::string> mapLines(const ConvertedMap& map, const std::string& to)
 {
     if (map.kept || map.greenReversed)
         return {whyKept(map)};
@@ -135,4 +135,4 @@ Json provokingJson(const std::vector<GltfProvoked>& primitives, ProvokingVertex 
     return json;
 }
 
-} // namespace cotan
+} // namespace cotan::app

@@ -8,10 +8,10 @@
 #include "cotan/convert.hpp"
 #include "files/json.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 // How a map was converted; `to`: the new frame's name.
-std::vector<std::string> linesOf(const ConvertedMap& map, const std::string& to);
+std::vector<std::string> mapLines(const ConvertedMap& map, const std::string& to);
 
 // What happened to the tangents, and to anisotropic highlights along them; empty if nothing did.
 std::vector<std::string> tangentsLines(const ConvertModelReport& report, const std::string& to);
@@ -23,4 +23,4 @@ inline constexpr Named<ProvokingVertex> kProvokings[] = {{"first", ProvokingVert
 std::string provokingLine(const std::vector<GltfProvoked>& primitives, ProvokingVertex provoking);
 Json provokingJson(const std::vector<GltfProvoked>& primitives, ProvokingVertex provoking);
 
-} // namespace cotan
+} // namespace cotan::app

@@ -1,6 +1,6 @@
 #include "html.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 std::string escapeHtml(std::string_view text)
 {
@@ -33,4 +33,4 @@ std::string toBase64(std::string_view bytes)
     return text;
 }
 
-} // namespace cotan
+} // namespace cotan::app

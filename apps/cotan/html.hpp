@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace cotan {
+namespace cotan::app {
 
 // Escapes text for elements and quoted attributes.
 std::string escapeHtml(std::string_view text);
@@ -12,4 +12,4 @@ std::string escapeHtml(std::string_view text);
 // RFC 4648 base64, with padding.
 std::string toBase64(std::string_view bytes);
 
-} // namespace cotan
+} // namespace cotan::app

@@ -8,7 +8,7 @@
 #include "bake/lint/map_fit.hpp"
 #include "bake/reports.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -208,4 +208,4 @@ std::string summaryOf(const LintCheck& check)
     return check.failures.size() == 1 ? first : fmt::format("{} and {} more", first, check.failures.size() - 1);
 }
 
-} // namespace cotan
+} // namespace cotan::app

@@ -8,7 +8,7 @@
 #include "cotan/lint.hpp"
 #include "files/json.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 // "1 primitive", "2 primitives".
 std::string counted(std::size_t number, const std::string& noun);
@@ -33,4 +33,4 @@ std::string summaryOf(const LintCheck& check);
 // if they do not apply or the file gives none. Of degrees and percent, only the measured one is not null.
 Json overLimits(const LintCheck& check);
 
-} // namespace cotan
+} // namespace cotan::app

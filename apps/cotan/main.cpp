@@ -17,9 +17,9 @@ namespace {
 using cotan::app::finish;
 
 // Writes manual pages and shell completions to a folder laid out like share/, for the build (CMakeLists.txt).
-cotan::Status writeHelpFiles(const cotan::Arguments& tool, const std::filesystem::path& folder)
+cotan::Status writeHelpFiles(const cotan::app::Arguments& tool, const std::filesystem::path& folder)
 {
-    for (const cotan::HelpFile& file : cotan::helpFiles(tool.describe(), COTAN_VERSION, COTAN_REPOSITORY)) {
+    for (const cotan::app::HelpFile& file : cotan::app::helpFiles(tool.describe(), COTAN_VERSION, COTAN_REPOSITORY)) {
         std::error_code failed; // if set, writing the file fails as well
         std::filesystem::create_directories((folder / file.path).parent_path(), failed);
         if (cotan::Status written = cotan::writeFileWhole(folder / file.path, file.text); !written)
@@ -29,12 +29,12 @@ cotan::Status writeHelpFiles(const cotan::Arguments& tool, const std::filesystem
 }
 
 // Arguments itself parses "help render" as "render --help"; this entry is for the help and completion only.
-void addHelpCommand(cotan::Arguments& tool)
+void addHelpCommand(cotan::app::Arguments& tool)
 {
     std::vector<std::string> names;
-    for (const cotan::CommandHelp& command : tool.describe().commands)
+    for (const cotan::app::CommandHelp& command : tool.describe().commands)
         names.push_back(command.name);
-    cotan::Arguments command = tool.command("help", "Show the options of a command.");
+    cotan::app::Arguments command = tool.command("help", "Show the options of a command.");
     const auto words = std::make_shared<std::vector<std::string>>();
     command.option("COMMAND", *words, "command, such as render, or map convert").offers(names);
     cotan::app::addExamples(command, {"cotan help render", "cotan help map convert"});
@@ -45,7 +45,7 @@ void addHelpCommand(cotan::Arguments& tool)
 template<class Options> cotan::Status runInLab(const Options&) { return cotan::app::startLab(); }
 
 // Grouped by task; the order is that of the help.
-void addCommands(cotan::Arguments& tool)
+void addCommands(cotan::app::Arguments& tool)
 {
     using namespace cotan::app;
     tool.heading("Look at models");
@@ -73,7 +73,7 @@ void addCommands(cotan::Arguments& tool)
 int runCommandLine(std::vector<std::string> words)
 {
     using namespace cotan::app;
-    cotan::Arguments tool("cotan", "Normal mapping without precomputed tangents.", "cotan " COTAN_VERSION);
+    cotan::app::Arguments tool("cotan", "Normal mapping without precomputed tangents.", "cotan " COTAN_VERSION);
     addExamples(tool, {"cotan render model.glb -o picture.png", "cotan help render"});
     addCommands(tool);
     if (words.size() == 2 && words[0] == "--help-files")

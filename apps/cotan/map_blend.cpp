@@ -30,10 +30,10 @@ Result<std::pair<int, int>> parseTiles(const std::string& text)
     return std::pair(int(x), int(y));
 }
 
-Result<maps::BlendFileOptions> parseOptions(const MapBlendCommandOptions& o)
+Result<BlendFileOptions> parseOptions(const MapBlendCommandOptions& o)
 {
     using enum maps::BlendMode;
-    maps::BlendFileOptions options;
+    BlendFileOptions options;
     for (const auto& [words, option, target] :
          {std::tuple(o.from, "--from", &options.base),
           {o.detailFrom.empty() ? o.from : o.detailFrom, "--detail-from", &options.detail}}) {
@@ -65,9 +65,8 @@ Status run(const MapBlendCommandOptions& o)
 {
     COTAN_CHECK(needOutput(o, "blend"));
     COTAN_TRY(options, parseOptions(o));
-    const auto done = onFilesToMap(o, o.base, [&](const maps::FileOptions& files) {
-        return maps::blendFiles(o.base, o.detail, o.output, *options, files);
-    });
+    const auto done = onFilesToMap(
+        o, o.base, [&](const FileOptions& files) { return blendFiles(o.base, o.detail, o.output, *options, files); });
     if (!done)
         return done.error();
     if (done->invalid > 0)

@@ -32,22 +32,21 @@ Status run(const MapConvertCommandOptions& o)
                                       o.to));
     COTAN_CHECK(needOutput(o, "convert"));
     const bool blocks = o.compress != "none";
-    maps::ConvertFileOptions options{.from = from,
-                                     .to = to,
-                                     .bits = o.bits,
-                                     .compress = o.compress,
-                                     .strength = float(o.strength),
-                                     .normalise = o.normalise,
-                                     .dither = o.dither,
-                                     .mesh = {}};
+    ConvertFileOptions options{.from = from,
+                               .to = to,
+                               .bits = o.bits,
+                               .compress = o.compress,
+                               .strength = float(o.strength),
+                               .normalise = o.normalise,
+                               .dither = o.dither,
+                               .mesh = {}};
     if (!o.mesh.empty()) {
         COTAN_TRY(frame, parseFrame(o.frame, "--frame"));
         options.mesh = {o.mesh, *frame, o.tangents, o.material, o.up};
     }
     const auto done =
-        onFilesToMap(o, o.mesh.empty() ? o.file : "converting with the mesh", [&](const maps::FileOptions& files) {
-            return maps::convertFile(o.file, o.output, options, files);
-        });
+        onFilesToMap(o, o.mesh.empty() ? o.file : "converting with the mesh",
+                     [&](const FileOptions& files) { return convertFile(o.file, o.output, options, files); });
     if (!done)
         return done.error();
     if (!o.mesh.empty())

@@ -17,8 +17,8 @@ Status run(const MapDiffCommandOptions& o)
 {
     COTAN_CHECK(beginOutputs(o, {{"-o", o.output}}));
     COTAN_TRY(conventions, parseFromTo(o.from, o.to.empty() ? o.from : o.to));
-    const auto compared = onFiles(o, o.a, [&](const maps::FileOptions& files) {
-        return maps::compareFiles(o.a, conventions->first, o.b, conventions->second, o.output, files);
+    const auto compared = onFiles(o, o.a, [&](const FileOptions& files) {
+        return compareFiles(o.a, conventions->first, o.b, conventions->second, o.output, files);
     });
     if (!compared)
         return compared.error();

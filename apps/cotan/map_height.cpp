@@ -32,12 +32,12 @@ struct MapToHeightCommandOptions : HeightOptions {
 };
 
 // Parses "W" or "WxH" in metres; empty for an empty text.
-Result<std::optional<maps::Metres>> parseMetres(const std::string& text)
+Result<std::optional<Metres>> parseMetres(const std::string& text)
 {
     if (text.empty())
-        return std::optional<maps::Metres>();
+        return std::optional<Metres>();
     // Not strtod, which would parse "0x1" as one number.
-    maps::Metres metres{0, 0};
+    Metres metres{0, 0};
     const char* const last = text.data() + text.size();
     const char* end = std::from_chars(text.data(), last, metres.width).ptr;
     const bool both = end != last && *end == 'x';
@@ -64,17 +64,17 @@ Status runFrom(const MapFromHeightCommandOptions& o)
     if (o.metres.empty() != (o.range == 0))
         return usageError("from-height: expected --metres and --range together, both in metres; found one of them");
     COTAN_TRY(metres, parseMetres(o.metres));
-    const auto done = onFilesToMap(o, o.file, [&](const maps::FileOptions& files) {
-        return maps::normalsFromHeightFile(o.file, o.output,
-                                           {.to = to->convention,
-                                            .kernel = *kernel,
-                                            .wrap = *wrap,
-                                            .metres = *metres,
-                                            .range = o.range,
-                                            .strength = o.strength,
-                                            .bits = o.bits,
-                                            .dither = o.dither},
-                                           files);
+    const auto done = onFilesToMap(o, o.file, [&](const FileOptions& files) {
+        return normalsFromHeightFile(o.file, o.output,
+                                     {.to = to->convention,
+                                      .kernel = *kernel,
+                                      .wrap = *wrap,
+                                      .metres = *metres,
+                                      .range = o.range,
+                                      .strength = o.strength,
+                                      .bits = o.bits,
+                                      .dither = o.dither},
+                                     files);
     });
     if (!done)
         return done.error();
@@ -95,7 +95,7 @@ Status runFrom(const MapFromHeightCommandOptions& o)
 }
 
 // The options that convert the heights back to the map.
-std::string inverseOptions(const MapToHeightCommandOptions& o, const maps::ToHeightFile& done)
+std::string inverseOptions(const MapToHeightCommandOptions& o, const ToHeightFile& done)
 {
     const double range = done.heights.highest - done.heights.lowest;
     std::string options = o.metres.empty() ? fmt::format("--strength {:.9g}", 100 * range / done.width)
@@ -115,14 +115,14 @@ Status runTo(const MapToHeightCommandOptions& o)
     kernels.insert(kernels.end(), kDifferences.begin(), kDifferences.end());
     COTAN_TRY(kernel, valueOf("--kernel", o.kernel, kernels));
     COTAN_TRY(metres, parseMetres(o.metres));
-    const auto done = onFiles(o, "solving for the height", [&](const maps::FileOptions& files) {
-        return maps::heightFromNormalsFile(o.file, o.output,
-                                           {.from = *from,
-                                            .kernel = *kernel,
-                                            .boundary = o.free ? maps::Boundary::free : maps::Boundary::periodic,
-                                            .metres = *metres,
-                                            .bits = o.bits},
-                                           files);
+    const auto done = onFiles(o, "solving for the height", [&](const FileOptions& files) {
+        return heightFromNormalsFile(o.file, o.output,
+                                     {.from = *from,
+                                      .kernel = *kernel,
+                                      .boundary = o.free ? maps::Boundary::free : maps::Boundary::periodic,
+                                      .metres = *metres,
+                                      .bits = o.bits},
+                                     files);
     });
     if (!done)
         return done.error();

@@ -112,24 +112,24 @@ Status run(const InspectOptions& o, const char* command, Inspect inspect)
 
 Result<Inspected> survey(const InspectOptions& o, const std::string& file)
 {
-    const auto found = onFiles(o, file, [&](const maps::FileOptions& files) { return maps::surveyFile(file, files); });
+    const auto found = onFiles(o, file, [&](const FileOptions& files) { return surveyFile(file, files); });
     if (!found)
         return found.error();
-    const auto lines = maps::linesOf(*found, file);
-    return Inspected{lines, maps::toJson(*found), lines.size()};
+    const auto lines = linesOf(*found, file);
+    return Inspected{lines, toJson(*found), lines.size()};
 }
 
 Result<Inspected> detect(const InspectOptions& o, const std::string& file)
 {
-    const auto found = onFiles(o, file, [&](const maps::FileOptions& files) { return maps::greenOfFile(file, files); });
+    const auto found = onFiles(o, file, [&](const FileOptions& files) { return greenOfFile(file, files); });
     if (!found)
         return found.error();
-    const auto lines = maps::linesOf(*found, file);
+    const auto lines = linesOf(*found, file);
     // Briefly: the verdict and the faults.
     const auto rest = std::ranges::find_if(lines.begin() + 1, lines.end(), [](const std::string& line) {
         return !line.starts_with("wrong: ") && !line.starts_with("to fix it: ");
     });
-    return Inspected{lines, maps::toJson(*found), std::size_t(rest - lines.begin())};
+    return Inspected{lines, toJson(*found), std::size_t(rest - lines.begin())};
 }
 
 Status runInfo(const InspectOptions& o) { return run(o, "map info", survey); }

@@ -19,7 +19,7 @@ struct MapMipsCommandOptions : MapOptions {
 
 Status run(const MapMipsCommandOptions& o)
 {
-    const std::filesystem::path first = maps::firstMipFile(o.output);
+    const std::filesystem::path first = firstMipFile(o.output);
     COTAN_CHECK(needOutput(o, "mips", first));
     COTAN_TRY(conventions, parseFromTo(o.from, o.to.empty() ? o.from : o.to));
     const std::optional<Convention> to = o.to.empty() ? std::nullopt : std::optional(conventions->second.convention);
@@ -29,16 +29,14 @@ Status run(const MapMipsCommandOptions& o)
     const auto plan = [&](const std::filesystem::path& file) {
         return file == first ? Status(Done{}) : planOutput("-o", file);
     };
-    const maps::MipFileOptions options{conventions->first, to,     *model,     o.roughness,
-                                       o.keepLengths,      o.bits, o.compress, plan};
-    const auto done = onFiles(o, "filtering levels", [&](const maps::FileOptions& files) {
-        return maps::writeMips(o.file, o.output, options, files);
-    });
+    const MipFileOptions options{conventions->first, to, *model, o.roughness, o.keepLengths, o.bits, o.compress, plan};
+    const auto done = onFiles(o, "filtering levels",
+                              [&](const FileOptions& files) { return writeMips(o.file, o.output, options, files); });
     if (!done)
         return done.error();
     const std::vector<std::string> warnings = warned(o, done->notes);
     Json levels = Json::array();
-    for (const maps::MipLevelFigures& level : done->levels) {
+    for (const MipLevelFigures& level : done->levels) {
         levels.push_back({{"width", level.width},
                           {"height", level.height},
                           {"mean_length", level.meanLength},

@@ -35,7 +35,7 @@ Status needOutput(const MapOptions& options, const std::string& command, const s
 template<class Work> auto onFiles(const MapOptions& o, const std::string& what, const Work& work)
 {
     auto result = withProgress(o, 1, what, [&](Progress progress) {
-        return work(maps::FileOptions{limitsFor(o.memory), o.threads, std::move(progress)});
+        return work(FileOptions{limitsFor(o.memory), o.threads, std::move(progress)});
     });
     return result ? std::move(result) : decltype(result)(withOptionNames(result.error()));
 }
@@ -44,7 +44,7 @@ template<class Work> auto onFiles(const MapOptions& o, const std::string& what, 
 template<class Work> auto onFilesToMap(const MapOptions& o, const std::string& what, const Work& work)
 {
     bool warned = false;
-    return onFiles(o, what, [&](maps::FileOptions files) {
+    return onFiles(o, what, [&](FileOptions files) {
         files.progress = [&, line = std::move(files.progress)](double fraction) {
             if (!std::exchange(warned, true))
                 warnIfLossy(o, o.output);

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-namespace cotan {
+namespace cotan::app {
 
 SmoothStatistics smoothStatistics(const MeshView& mesh)
 {
@@ -55,4 +55,4 @@ Json toJson(const SmoothStatistics& s)
             {"stretch", {{"median", s.stretchMedian}, {"max", s.stretchMaximum}}}};
 }
 
-} // namespace cotan
+} // namespace cotan::app

@@ -6,7 +6,7 @@
 #include "cotan/tangents.hpp"
 #include "inspect/angles.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 struct SmoothStatistics {
     std::size_t vertices = 0; // after splitting at mirrored charts
@@ -24,4 +24,4 @@ SmoothStatistics smoothStatistics(const MeshView& mesh);
 std::string toText(const SmoothStatistics& statistics);
 Json toJson(const SmoothStatistics& statistics);
 
-} // namespace cotan
+} // namespace cotan::app

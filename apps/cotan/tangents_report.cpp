@@ -5,7 +5,7 @@
 #include "inspect/angles.hpp"
 #include <fmt/format.h>
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -69,4 +69,4 @@ Json toJson(const TangentDifference& d)
             {"reversed", reversedFraction(d)}, {"directions", directions}};
 }
 
-} // namespace cotan
+} // namespace cotan::app

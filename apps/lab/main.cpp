@@ -9,8 +9,8 @@ namespace {
 int runCommandLine(std::vector<std::string> words)
 {
     using namespace cotan::app;
-    cotan::Arguments tool("cotan", "Normal mapping without precomputed tangents: accuracy, figures, costs.",
-                          "cotan " COTAN_VERSION);
+    cotan::app::Arguments tool("cotan", "Normal mapping without precomputed tangents: accuracy, figures, costs.",
+                               "cotan " COTAN_VERSION);
     addCostCommand(tool, runCost);
     addAccuracyCommand(tool, runAccuracy);
     addFiguresCommand(tool, runFigures);

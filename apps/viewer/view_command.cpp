@@ -84,7 +84,7 @@ Status run(const ViewCommandOptions& o)
     return viewer::runSession(std::move(state), session);
 }
 
-void declare(Arguments& a, ViewCommandOptions& o)
+void declare(app::Arguments& a, ViewCommandOptions& o)
 {
     addPictureOptions(a, o.picture);
     addFrameOption(a, o.frame);
@@ -101,7 +101,7 @@ void declare(Arguments& a, ViewCommandOptions& o)
 
 } // namespace
 
-void addViewCommand(Arguments& tool)
+void addViewCommand(app::Arguments& tool)
 {
     addCommand<ViewCommandOptions>(
         tool,

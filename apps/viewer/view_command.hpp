@@ -4,6 +4,6 @@
 
 namespace cotan::app {
 
-void addViewCommand(Arguments& tool);
+void addViewCommand(app::Arguments& tool);
 
 } // namespace cotan::app

@@ -16,7 +16,7 @@
 #include "image/format_table.hpp"
 #include "model/model_formats.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -123,4 +123,4 @@ ChildAnswer readAnswer(const std::filesystem::path& work)
     }
 }
 
-} // namespace cotan
+} // namespace cotan::app

@@ -18,7 +18,7 @@
 #include "cotan/result.hpp"
 #include "files/sandbox/process.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 // Which files get thumbnails: none, images, or also models, which are rendered.
 enum class Thumbnails { none, pictures, models };
@@ -99,4 +99,4 @@ private:
     bool cut_ = false; // output between the two was dropped
 };
 
-} // namespace cotan
+} // namespace cotan::app

@@ -12,7 +12,7 @@
 #include "batch/record.hpp"
 #include "files/sandbox/process.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -103,4 +103,4 @@ bool FileStates::holds(const FileState& recorded, std::int64_t at)
     return now.bytes == recorded.bytes && of(recorded.file).digest == recorded.digest;
 }
 
-} // namespace cotan
+} // namespace cotan::app

@@ -14,7 +14,7 @@
 
 #include "cotan/result.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 // Options of one job, which override those of the batch.
 struct JobOptions {
@@ -78,4 +78,4 @@ Result<Shard> parseShard(const std::string& text);
 // The jobs of a shard, in order. Shards get whole connected components in turn; every job is in exactly one shard.
 std::vector<std::size_t> jobsOf(const Plan& plan, const Shard& shard);
 
-} // namespace cotan
+} // namespace cotan::app

@@ -14,7 +14,7 @@
 #include "files/sandbox/process.hpp"
 #include "terminal/command_words.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -201,4 +201,4 @@ Result<JobList> readJobs(const std::filesystem::path& file, const CheckWords& ch
     return list;
 }
 
-} // namespace cotan
+} // namespace cotan::app

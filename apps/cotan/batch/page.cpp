@@ -10,7 +10,7 @@
 #include "files/json.hpp"
 #include "html.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace fs = std::filesystem;
 
@@ -297,4 +297,4 @@ std::string batchPage(const JobList& list, const std::vector<JobResult>& results
         + std::string(kScript) + "</script>\n</body>\n</html>\n";
 }
 
-} // namespace cotan
+} // namespace cotan::app

@@ -8,7 +8,7 @@
 #include "core/groups.hpp"
 #include "core/parse_number.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace fs = std::filesystem;
 
@@ -126,4 +126,4 @@ std::vector<std::size_t> jobsOf(const Plan& plan, const Shard& shard)
     return jobs;
 }
 
-} // namespace cotan
+} // namespace cotan::app

@@ -12,7 +12,7 @@
 
 #include "files/children.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -105,4 +105,4 @@ std::optional<Ending> JobProcess::look()
     return ending;
 }
 
-} // namespace cotan
+} // namespace cotan::app

@@ -6,7 +6,7 @@
 
 #include "files/json.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 // JSON of the parts of a record, which the library finds by these names.
 static void to_json(Json& j, const FileState& s)
@@ -150,4 +150,4 @@ std::optional<Degrees> degreesIn(std::string_view report)
     return std::nullopt;
 }
 
-} // namespace cotan
+} // namespace cotan::app

@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace cotan {
+namespace cotan::app {
 
 // The 128-bit XXH3 hash as 32 hexadecimal digits; as fast as memory. Two contents collide by chance with a probability
 // of 3e-39, but collisions can be constructed on purpose.
@@ -114,4 +114,4 @@ std::optional<Degrees> degreesIn(std::string_view report);
 // image are in memory at a time. Returns nullopt for files that are not images.
 std::optional<Thumbnail> thumbnailOf(const std::filesystem::path& image);
 
-} // namespace cotan
+} // namespace cotan::app

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -91,4 +91,4 @@ Json batchJson(const JobList& list, const std::vector<JobResult>& results)
     return {{"command", "batch"}, {"counts", counts}, {"jobs", jobs}};
 }
 
-} // namespace cotan
+} // namespace cotan::app

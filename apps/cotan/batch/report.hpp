@@ -10,7 +10,7 @@
 #include "batch/run.hpp"
 #include "files/json.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 // Indices of results, worst first: crashed, out of memory, too slow, over limit, failed, skipped, not run, done; then
 // by degrees; ties keep the order of the jobs.
@@ -31,4 +31,4 @@ std::string batchPage(const JobList& list, const std::vector<JobResult>& results
 // The jobs, worst first: name, state, reason, degrees, seconds, memory, files.
 Json batchJson(const JobList& list, const std::vector<JobResult>& results);
 
-} // namespace cotan
+} // namespace cotan::app

@@ -23,7 +23,7 @@
 #include "files/output.hpp"
 #include "files/sandbox/request.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace fs = std::filesystem;
 
@@ -397,4 +397,4 @@ std::vector<JobResult> collect(const JobList& list, const Plan& plan, std::span<
     return results;
 }
 
-} // namespace cotan
+} // namespace cotan::app

@@ -11,7 +11,7 @@
 #include "batch/store.hpp"
 #include "cotan/result.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 // Defaults for all jobs; the JobOptions of a job override them.
 struct RunOptions {
@@ -44,4 +44,4 @@ Result<std::vector<JobResult>> runJobs(const JobList& list, const Plan& plan, st
 // unchanged. Jobs without one are JobState::notRun.
 std::vector<JobResult> collect(const JobList& list, const Plan& plan, std::span<const Store> stores);
 
-} // namespace cotan
+} // namespace cotan::app

@@ -16,7 +16,7 @@
 #include "files/bytes.hpp"
 #include "files/output.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace fs = std::filesystem;
 
@@ -138,4 +138,4 @@ Result<fs::path> Store::workFolder()
     return work_;
 }
 
-} // namespace cotan
+} // namespace cotan::app

@@ -11,7 +11,7 @@
 #include "cotan/result.hpp"
 #include "files/sandbox/process.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 // The exclusive right to run one job. It ends with this object, and with the process.
 using Claim = Descriptor;
@@ -50,4 +50,4 @@ private:
     Descriptor workLock_;
 };
 
-} // namespace cotan
+} // namespace cotan::app

@@ -8,7 +8,7 @@
 #include "image/codecs.hpp"
 #include "scene/texture_sample.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -54,4 +54,4 @@ std::optional<Thumbnail> thumbnailOf(const std::filesystem::path& image)
     return jpeg.empty() ? std::nullopt : std::optional(Thumbnail{small.width, small.height, toBase64(jpeg)});
 }
 
-} // namespace cotan
+} // namespace cotan::app

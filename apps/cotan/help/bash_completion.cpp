@@ -3,7 +3,7 @@
 
 #include "terminal/command_walk.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -108,4 +108,4 @@ std::string bashCompletion(const CommandHelp& tool)
     return replaced(text, "TOOL", tool.name);
 }
 
-} // namespace cotan
+} // namespace cotan::app

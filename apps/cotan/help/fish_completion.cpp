@@ -3,7 +3,7 @@
 
 #include "terminal/command_walk.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -59,4 +59,4 @@ std::string fishCompletion(const CommandHelp& tool)
     return replaced(replaced(kFishBegin, "COMMANDS", joined(commands, " ")) + text, "TOOL", tool.name);
 }
 
-} // namespace cotan
+} // namespace cotan::app

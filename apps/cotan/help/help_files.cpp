@@ -1,6 +1,6 @@
 #include "help/help_files.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -33,4 +33,4 @@ std::vector<HelpFile> helpFiles(const CommandHelp& tool, const std::string& vers
     return files;
 }
 
-} // namespace cotan
+} // namespace cotan::app

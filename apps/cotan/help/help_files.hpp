@@ -6,7 +6,7 @@
 
 #include "terminal/command_help.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 struct HelpFile {
     std::string path; // below share/
@@ -26,4 +26,4 @@ std::string bashCompletion(const CommandHelp& tool);
 std::string zshCompletion(const CommandHelp& tool);
 std::string fishCompletion(const CommandHelp& tool);
 
-} // namespace cotan
+} // namespace cotan::app

@@ -7,7 +7,7 @@
 #include "core/named_values.hpp"
 #include "terminal/command_walk.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -174,4 +174,4 @@ std::string manPage(const std::vector<const CommandHelp*>& path, const std::stri
     return page;
 }
 
-} // namespace cotan
+} // namespace cotan::app

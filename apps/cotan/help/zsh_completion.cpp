@@ -3,7 +3,7 @@
 
 #include "terminal/command_walk.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -94,4 +94,4 @@ std::string zshCompletion(const CommandHelp& tool)
     return replaced(text + "_TOOL \"$@\"\n", "TOOL", tool.name);
 }
 
-} // namespace cotan
+} // namespace cotan::app

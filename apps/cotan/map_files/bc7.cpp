@@ -9,7 +9,7 @@
 
 #include "block_texels.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
 
 namespace bc7 {
 
@@ -328,4 +328,4 @@ std::vector<std::byte> encodeBc7(const Image& map, const CodeScale& scale, bool 
     });
 }
 
-} // namespace cotan::maps
+} // namespace cotan::app

@@ -6,7 +6,9 @@
 #include "cotan/image.hpp"
 #include "stream.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
+
+using namespace maps;
 
 Result<BlendedFile> blendFiles(const std::filesystem::path& base, const std::filesystem::path& detail,
                                const std::filesystem::path& out, const BlendFileOptions& o, const FileOptions& files)
@@ -48,4 +50,4 @@ Result<BlendedFile> blendFiles(const std::filesystem::path& base, const std::fil
     return done;
 }
 
-} // namespace cotan::maps
+} // namespace cotan::app

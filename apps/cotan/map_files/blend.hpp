@@ -6,12 +6,12 @@
 #include "cotan/maps.hpp"
 #include "map_files/map_file.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
 
 struct BlendFileOptions {
     StatedConvention base{}, detail{};
     std::optional<Convention> to{}; // empty: that of the base
-    BlendMode mode = BlendMode::reoriented;
+    maps::BlendMode mode = maps::BlendMode::reoriented;
     float strength = 1;           // factor on the detail's slopes
     int tilesX = 1, tilesY = 1;   // number of repeats of the detail over the base; at least 1
     std::filesystem::path mask{}; // image whose red multiplies the strength; empty: 1 everywhere
@@ -33,4 +33,4 @@ Result<BlendedFile> blendFiles(const std::filesystem::path& base, const std::fil
                                const std::filesystem::path& out, const BlendFileOptions& options,
                                const FileOptions& files = {});
 
-} // namespace cotan::maps
+} // namespace cotan::app

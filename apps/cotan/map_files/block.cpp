@@ -7,7 +7,7 @@
 
 #include "block_texels.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
 
 namespace {
 
@@ -257,4 +257,4 @@ std::vector<std::byte> encodeBc4(const Image& image)
     });
 }
 
-} // namespace cotan::maps
+} // namespace cotan::app

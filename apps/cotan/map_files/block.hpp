@@ -6,7 +6,7 @@
 
 #include "cotan/scene.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
 
 // A code c of 0 to 255 is decoded to (c - zero) / unit.
 struct CodeScale {
@@ -26,4 +26,4 @@ std::vector<std::byte> encodeBc7(const Image& map, const CodeScale& scale, bool 
 // Encodes red, 0 to 1, as BC4: 8 bytes per block, least squares. image: float32.
 std::vector<std::byte> encodeBc4(const Image& image);
 
-} // namespace cotan::maps
+} // namespace cotan::app

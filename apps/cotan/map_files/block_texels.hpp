@@ -16,7 +16,7 @@
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
 
-namespace cotan::maps {
+namespace cotan::app {
 
 // Sixteen texels as four vectors, since compilers do not vectorise strict float sums. The order of the sums is fixed,
 // so the bytes are the same on all machines.
@@ -68,4 +68,4 @@ template<class Encode> std::vector<std::byte> encodeBlocks(const Image& map, std
     return blocks;
 }
 
-} // namespace cotan::maps
+} // namespace cotan::app

@@ -15,7 +15,9 @@
 #include "cotan/model.hpp"
 #include "maps/texels.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
+
+using namespace maps;
 
 namespace {
 
@@ -104,4 +106,4 @@ Result<Image> recodeByMesh(const Image& map, const RecodeSettings& s, const Mesh
     return stored(values, s, counts.clamped);
 }
 
-} // namespace cotan::maps
+} // namespace cotan::app

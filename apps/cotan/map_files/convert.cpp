@@ -9,7 +9,9 @@
 #include "stream.hpp"
 #include "texture_file.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
+
+using namespace maps;
 
 namespace {
 
@@ -123,4 +125,4 @@ Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::f
     return written ? Result<ConvertedFile>(done) : written.error();
 }
 
-} // namespace cotan::maps
+} // namespace cotan::app

@@ -8,7 +8,7 @@
 #include "cotan/view.hpp"
 #include "map_files/map_file.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
 
 // The mesh of a map.
 struct MeshOfMap {
@@ -33,7 +33,7 @@ struct ConvertFileOptions {
 struct ConvertedFile {
     int width = 0, height = 0;
     Bits bits;
-    RecodeCounts counts;
+    maps::RecodeCounts counts;
     std::size_t covered = 0; // texels that the mesh covers, if there is one; the rest is padding
     // Image::frame of the result, stored in .png, .exr and .ktx2: that of the map; from object space that of the mesh;
     // to object space none.
@@ -49,4 +49,4 @@ struct ConvertedFile {
 Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::filesystem::path& out,
                                   const ConvertFileOptions& options, const FileOptions& files = {});
 
-} // namespace cotan::maps
+} // namespace cotan::app

@@ -8,7 +8,9 @@
 #include "core/try.hpp"
 #include "stream.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
+
+using namespace maps;
 
 namespace {
 
@@ -66,7 +68,7 @@ Result<FromHeightFile> normalsFromHeightFile(const std::filesystem::path& height
     RowReader& in = **reader;
     COTAN_TRY(bits, bitsFor(o.bits, in.type, o.to, out));
     // A repeating image needs its last row first.
-    COTAN_TRY(lastRow, o.wrap == Wrap::repeat ? lastRowOf(heights, files.limits) : Result<Image>(Image{}));
+    COTAN_TRY(lastRow, o.wrap == maps::Wrap::repeat ? lastRowOf(heights, files.limits) : Result<Image>(Image{}));
     const auto [slopeX, slopeY] = slopesOf(o, in.width, in.height);
     const FromHeightSettings settings{.kernel = o.kernel,
                                       .wrap = o.wrap,
@@ -122,4 +124,4 @@ Result<ToHeightFile> heightFromNormalsFile(const std::filesystem::path& file, co
     return done;
 }
 
-} // namespace cotan::maps
+} // namespace cotan::app

@@ -6,7 +6,7 @@
 #include "cotan/maps.hpp"
 #include "map_files/map_file.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
 
 // The extent of an image in metres.
 struct Metres {
@@ -16,8 +16,8 @@ struct Metres {
 
 struct FromHeightFileOptions {
     Convention to{};
-    Kernel kernel = Kernel::central; // not spectral
-    Wrap wrap = Wrap::repeat;
+    maps::Kernel kernel = maps::Kernel::central; // not spectral
+    maps::Wrap wrap = maps::Wrap::repeat;
     std::optional<Metres> metres{}; // if set, `range` applies, else `strength`
     double range = 0;               // metres from black to white, or per unit of floats; negative: white is low
     double strength = 1;            // height from black to white, in percent of the image width
@@ -40,8 +40,8 @@ Result<FromHeightFile> normalsFromHeightFile(const std::filesystem::path& height
 
 struct ToHeightFileOptions {
     StatedConvention from{};
-    Kernel kernel = Kernel::spectral; // by which the slopes were made
-    Boundary boundary = Boundary::periodic;
+    maps::Kernel kernel = maps::Kernel::spectral; // by which the slopes were made
+    maps::Boundary boundary = maps::Boundary::periodic;
     std::optional<Metres> metres{}; // if set, heights are in metres, else in texels
     std::string bits = "auto";      // as for bitsFor; auto: 16 if the file can hold them
 };
@@ -49,7 +49,7 @@ struct ToHeightFileOptions {
 struct ToHeightFile {
     int width = 0, height = 0;
     Bits bits;
-    Heights heights;                     // in texels
+    maps::Heights heights;               // in texels
     double unit = 1;                     // width of a texel, in metres if `metres` was given
     Convention from{};                   // how the map was read
     std::vector<std::string> notes = {}; // what contradicts a stated convention, one line each
@@ -61,4 +61,4 @@ struct ToHeightFile {
 Result<ToHeightFile> heightFromNormalsFile(const std::filesystem::path& map, const std::filesystem::path& out,
                                            const ToHeightFileOptions& options, const FileOptions& files = {});
 
-} // namespace cotan::maps
+} // namespace cotan::app

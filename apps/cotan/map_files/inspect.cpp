@@ -10,7 +10,9 @@
 #include "maps/patches.hpp"
 #include "stream.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
+
+using namespace maps;
 
 Result<SurveyedFile> surveyFile(const std::filesystem::path& map, const FileOptions& files)
 {
@@ -82,4 +84,4 @@ Result<ComparedFiles> compareFiles(const std::filesystem::path& fileA, const Sta
     return done;
 }
 
-} // namespace cotan::maps
+} // namespace cotan::app

@@ -9,12 +9,12 @@
 #include "inspect/angles.hpp"
 #include "map_files/map_file.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
 
 struct SurveyedFile {
     int width = 0, height = 0;
     PixelType type = PixelType::unorm8;
-    NormalStatistics statistics;
+    maps::NormalStatistics statistics;
     std::string frame = {}; // as Image::frame
     int channels = 4;       // as Image::channels
 };
@@ -27,7 +27,7 @@ std::vector<std::string> linesOf(const SurveyedFile& survey, const std::string& 
 Json toJson(const SurveyedFile& survey);
 
 struct GreenOfFile {
-    GreenVerdict verdict;
+    maps::GreenVerdict verdict;
     std::size_t patches = 0; // evaluated patches
 };
 
@@ -52,4 +52,4 @@ Result<ComparedFiles> compareFiles(const std::filesystem::path& a, const StatedC
                                    const std::filesystem::path& b, const StatedConvention& statedB,
                                    const std::filesystem::path& heat = {}, const FileOptions& files = {});
 
-} // namespace cotan::maps
+} // namespace cotan::app

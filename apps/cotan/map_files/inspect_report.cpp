@@ -7,7 +7,9 @@
 #include "map_files/inspect.hpp"
 #include "terminal/command_words.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
+
+using namespace maps;
 
 namespace {
 
@@ -206,4 +208,4 @@ Json toJson(const GreenOfFile& found)
             {"bump_or_dent", "cannot be told"}};
 }
 
-} // namespace cotan::maps
+} // namespace cotan::app

@@ -10,7 +10,9 @@
 #include "image/format_table.hpp"
 #include "stream.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
+
+using namespace maps;
 
 namespace {
 
@@ -134,4 +136,4 @@ Result<OpenMap> openMap(const std::filesystem::path& file, const StatedConventio
     return map;
 }
 
-} // namespace cotan::maps
+} // namespace cotan::app

@@ -18,7 +18,7 @@
 #include "maps/patches.hpp"
 #include "maps/texels.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
 
 struct FileOptions {
     LoadLimits limits{}; // for reading; imageBytes also limits images held in memory and work on them
@@ -69,17 +69,17 @@ Status writeMap(const std::filesystem::path& file, const Image& image, const Bit
 struct OpenMap {
     std::unique_ptr<RowReader> rows;
     Convention convention;
-    Swizzle swizzle = Swizzle::rg;
+    maps::Swizzle swizzle = maps::Swizzle::rg;
     Damage damage{};
     std::string option{}, name{}; // that states the convention; of the file
-    std::unique_ptr<PatchSampler> sample{};
+    std::unique_ptr<maps::PatchSampler> sample{};
 
     // Moves x to red and y to green in rows as read, and repairs the known damage. Several threads may call it for
     // different rows.
     void put(Image& strip, int firstRow) const
     {
-        unswizzle(strip, swizzle);
-        undo(damage, strip);
+        maps::unswizzle(strip, swizzle);
+        maps::undo(damage, strip);
         sample->add(strip, firstRow);
     }
     // After all rows: what contradicts the stated convention, as a line that begins with the option; empty if nothing
@@ -95,4 +95,4 @@ void addNote(std::string note, std::vector<std::string>& notes);
 Result<OpenMap> openMap(const std::filesystem::path& file, const StatedConvention& stated, const std::string& option,
                         const LoadLimits& limits = {});
 
-} // namespace cotan::maps
+} // namespace cotan::app

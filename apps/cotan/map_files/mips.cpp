@@ -10,7 +10,9 @@
 #include "placed_images.hpp"
 #include "texture_file.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
+
+using namespace maps;
 
 namespace {
 
@@ -142,4 +144,4 @@ Result<MippedFile> writeMips(const std::filesystem::path& file, const std::files
     return done;
 }
 
-} // namespace cotan::maps
+} // namespace cotan::app

@@ -8,12 +8,12 @@
 #include "cotan/maps.hpp"
 #include "map_files/map_file.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
 
 struct MipFileOptions {
     StatedConvention from{};
     std::optional<Convention> to{}; // empty: as the map is read
-    VarianceModel model = VarianceModel::lean;
+    maps::VarianceModel model = maps::VarianceModel::lean;
     double roughness = 0.3;        // perceptual roughness of the material, 0 to 1
     bool keepLengths = false;      // three channels: store mean vectors with their shortened lengths
     std::string bits = "auto";     // as for bitsFor; .dds and .ktx2 have 8
@@ -45,4 +45,4 @@ Result<MippedFile> writeMips(const std::filesystem::path& map, const std::filesy
 // The first file that writeMips writes.
 std::filesystem::path firstMipFile(const std::filesystem::path& out);
 
-} // namespace cotan::maps
+} // namespace cotan::app

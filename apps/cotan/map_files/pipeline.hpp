@@ -11,7 +11,7 @@
 
 #include "core/loops.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 // The number of threads that a loop started here may use.
 inline int loopThreads() { return int(threadsFor(SIZE_MAX, 1)); }
@@ -78,4 +78,4 @@ void pipeline(std::size_t maxItems, const Read& read, const Work& work, const Gi
     });
 }
 
-} // namespace cotan
+} // namespace cotan::app

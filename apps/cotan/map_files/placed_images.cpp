@@ -5,7 +5,7 @@
 #include "core/try.hpp"
 #include "image/pending.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 Result<std::vector<OutputFile>> writePending(std::span<const PlacedImage> images)
 {
@@ -23,4 +23,4 @@ Status writeTogether(std::span<const PlacedImage> images)
     return pending ? commitTogether(*pending) : pending.error();
 }
 
-} // namespace cotan
+} // namespace cotan::app

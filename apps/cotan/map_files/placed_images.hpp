@@ -8,7 +8,7 @@
 #include "cotan/scene.hpp"
 #include "files/output.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 struct PlacedImage {
     std::filesystem::path file;
@@ -22,4 +22,4 @@ Result<std::vector<OutputFile>> writePending(std::span<const PlacedImage> images
 // Writes all images or none. Errors: as writeImage; those of commitTogether.
 Status writeTogether(std::span<const PlacedImage> images);
 
-} // namespace cotan
+} // namespace cotan::app

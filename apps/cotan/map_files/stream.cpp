@@ -10,7 +10,9 @@
 #include "core/try.hpp"
 #include "pipeline.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
+
+using namespace maps;
 
 namespace {
 
@@ -67,7 +69,7 @@ private:
 
     void setEnds(Image& strip, int first, int last)
     {
-        const bool repeat = plan_.wrap == Wrap::repeat;
+        const bool repeat = plan_.wrap == maps::Wrap::repeat;
         if (first == 0) {
             firstRow_ = makeImage(strip.width, 1, strip.type);
             copyRow(strip, 1, firstRow_, 0);
@@ -193,4 +195,4 @@ Result<Image> lastRowOf(const std::filesystem::path& file, const LoadLimits& lim
     return inputError(rows.name + ": there are no rows");
 }
 
-} // namespace cotan::maps
+} // namespace cotan::app

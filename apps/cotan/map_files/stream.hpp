@@ -9,12 +9,12 @@
 #include "cotan/maps.hpp"
 #include "cotan/result.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
 
 struct StreamPlan {
-    bool bordered = false;          // strips include a row above and a row below, also at the ends; for one reader only
-    Wrap wrap = Wrap::clamp;        // how rows beyond the ends are made
-    const Image* lastRow = nullptr; // the image's last row, for Wrap::repeat
+    bool bordered = false; // strips include a row above and a row below, also at the ends; for one reader only
+    maps::Wrap wrap = maps::Wrap::clamp; // how rows beyond the ends are made
+    const Image* lastRow = nullptr;      // the image's last row, for Wrap::repeat
 };
 
 // Works on the same rows of every reader, on several threads at a time, and returns a function that takes the result.
@@ -38,4 +38,4 @@ Status streamToFile(RowReader& reader, const StreamPlan& plan, const std::filesy
 // The last row of an image, for StreamPlan. Reads the whole file.
 Result<Image> lastRowOf(const std::filesystem::path& file, const LoadLimits& limits);
 
-} // namespace cotan::maps
+} // namespace cotan::app

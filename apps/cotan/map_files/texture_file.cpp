@@ -14,7 +14,7 @@
 #include "image/dds.hpp"
 #include "image/format_table.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
 
 namespace {
 
@@ -193,4 +193,4 @@ Convention codeConvention(TexelCode code, const Convention& to)
     return taken;
 }
 
-} // namespace cotan::maps
+} // namespace cotan::app

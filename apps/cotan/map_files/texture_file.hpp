@@ -9,7 +9,7 @@
 #include "cotan/result.hpp"
 #include "cotan/scene.hpp"
 
-namespace cotan::maps {
+namespace cotan::app {
 
 enum class TexelCode { rgba8, bc5, bc7, bc4 };
 
@@ -41,4 +41,4 @@ Result<TexelCode> codeFor(const std::string& compress, const std::string& bits, 
 // The convention in which levelOf expects normals that are read as `to`: blocks need 2c - 1, bc5 also two channels.
 Convention codeConvention(TexelCode code, const Convention& to);
 
-} // namespace cotan::maps
+} // namespace cotan::app

@@ -13,7 +13,7 @@
 #include "terminal/command_words.hpp"
 #include "terminal/help_text.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -389,4 +389,4 @@ Result<GivenCommand> Arguments::parse(std::vector<std::string> words) const
     return result;
 }
 
-} // namespace cotan
+} // namespace cotan::app

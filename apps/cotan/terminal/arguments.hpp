@@ -19,7 +19,7 @@ class App;
 class Option;
 } // namespace CLI
 
-namespace cotan {
+namespace cotan::app {
 
 // What a command does with the files named by an option.
 enum class FileUse { none, reads, writes };
@@ -147,4 +147,4 @@ private:
     CLI::App* app_;
 };
 
-} // namespace cotan
+} // namespace cotan::app

@@ -7,7 +7,7 @@
 
 #include "core/help_group.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 // The kind of value of an option, by the value's word in the help.
 enum class ValueKind {
@@ -43,4 +43,4 @@ struct CommandHelp {
     std::string closing;               // a sentence on exit codes
 };
 
-} // namespace cotan
+} // namespace cotan::app

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -63,4 +63,4 @@ std::string inQuotes(const std::string& text, std::string_view escaped)
     return "'" + replaced(text, "'", escaped) + "'";
 }
 
-} // namespace cotan
+} // namespace cotan::app

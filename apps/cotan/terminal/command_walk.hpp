@@ -8,7 +8,7 @@
 
 #include "terminal/command_help.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 // Calls `visit` for the tool with "", and for each command with its words after the tool's name: "map convert".
 void walk(const CommandHelp& tool, const std::function<void(const std::string&, const CommandHelp&)>& visit);
@@ -22,4 +22,4 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
 // Puts single quotes of a shell around `text`; single quotes within become `escaped`.
 std::string inQuotes(const std::string& text, std::string_view escaped);
 
-} // namespace cotan
+} // namespace cotan::app

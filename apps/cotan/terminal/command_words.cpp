@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -91,4 +91,4 @@ std::string quoted(const std::string& path)
     return plain && !path.empty() ? path : text + "'";
 }
 
-} // namespace cotan
+} // namespace cotan::app

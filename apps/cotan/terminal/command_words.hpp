@@ -8,7 +8,7 @@
 
 #include "cotan/result.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 // A command and its subcommands.
 struct CommandNames {
@@ -32,4 +32,4 @@ std::size_t editDistance(std::string_view a, std::string_view b);
 // A path quoted as a word for a shell.
 std::string quoted(const std::string& path);
 
-} // namespace cotan
+} // namespace cotan::app

@@ -11,7 +11,7 @@
 #include "command_walk.hpp"
 #include "core/parse_number.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -196,4 +196,4 @@ std::size_t helpWidth()
     return std::clamp(columns, kMinWidth, kMaxWidth);
 }
 
-} // namespace cotan
+} // namespace cotan::app

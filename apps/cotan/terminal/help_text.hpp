@@ -7,7 +7,7 @@
 
 #include "terminal/command_help.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 enum class HelpLength {
     brief, // usage, the main options, examples
@@ -22,4 +22,4 @@ std::string helpText(const std::vector<const CommandHelp*>& path, HelpLength len
 // lines are hard to read.
 std::size_t helpWidth();
 
-} // namespace cotan
+} // namespace cotan::app

@@ -9,7 +9,7 @@
 #include "core/named_values.hpp"
 #include "terminal/command_words.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -143,4 +143,4 @@ std::string messageOf(const CLI::ParseError& error, const CLI::App& command)
     return message + " (see " + pathOf(command) + " --help)";
 }
 
-} // namespace cotan
+} // namespace cotan::app

@@ -8,9 +8,9 @@ class App;
 class ParseError;
 } // namespace CLI
 
-namespace cotan {
+namespace cotan::app {
 
 // Returns a message of one line. command: the one being parsed.
 std::string messageOf(const CLI::ParseError& error, const CLI::App& command);
 
-} // namespace cotan
+} // namespace cotan::app

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace cotan {
+namespace cotan::app {
 
 // Escapes control characters as in C, such as \x1b and \n, including those of C1, which are two bytes in UTF-8.
 inline std::string printable(std::string_view text)
@@ -27,4 +27,4 @@ inline std::string printable(std::string_view text)
     return result;
 }
 
-} // namespace cotan
+} // namespace cotan::app

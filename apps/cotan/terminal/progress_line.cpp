@@ -10,7 +10,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -133,4 +133,4 @@ void wipeProgress()
         std::fputs("\r\033[K", stderr);
 }
 
-} // namespace cotan
+} // namespace cotan::app

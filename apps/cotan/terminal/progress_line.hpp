@@ -8,7 +8,7 @@
 
 #include "cotan/result.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 // Shows "rows of a.png: 45 %, about 20 s left" on standard error, on one line of at most 79 columns that is rewritten
 // at most ten times a second, and wipes it at the end. The percentage never decreases. The remaining time is shown once
@@ -45,4 +45,4 @@ private:
 // Wipes the line, if any, so that something else can be printed. The next step draws it again.
 void wipeProgress();
 
-} // namespace cotan
+} // namespace cotan::app

@@ -6,6 +6,8 @@
 
 namespace cotan {
 
+using namespace app;
+
 namespace {
 
 constexpr std::string_view kStyle = R"(
