@@ -4,24 +4,23 @@ layout(constant_id = 0) const int COTAN_FRAME = 0;
 layout(constant_id = 1) const int OUTPUT = 0;
 layout(constant_id = 2) const int SHADING = 0;
 layout(constant_id = 3) const int ALPHA_MODE = 0;
-layout(constant_id = 4) const bool COARSE_DERIVATIVES = false;
-layout(constant_id = 5) const bool NORMAL_MAPS = true;
-layout(constant_id = 6) const bool ENVIRONMENT = true;
-layout(constant_id = 7) const bool SHADOWS = true;
-layout(constant_id = 8) const bool TONE_MAP = true;
+layout(constant_id = 4) const bool NORMAL_MAPS = true;
+layout(constant_id = 5) const bool ENVIRONMENT = true;
+layout(constant_id = 6) const bool SHADOWS = true;
+layout(constant_id = 7) const bool TONE_MAP = true;
 // The maps and layers that the material may have: COTAN_MAP_... and COTAN_LAYER_... of gpu_structs.glsl. CPU drivers
 // execute both sides of a branch, so only a map whose bit is cleared here costs no reads.
-layout(constant_id = 9) const uint MAPS = 0xffffffffu;
-layout(constant_id = 10) const int TONE = COTAN_TONE_ACES; // if TONE_MAP
-layout(constant_id = 11) const bool ENVIRONMENT_MAP = false; // if ENVIRONMENT: map instead of formula
-layout(constant_id = 12) const bool SOFT_SHADOWS = false; // if SHADOWS
-layout(constant_id = 13) const int BACKDROP = 0;
-layout(constant_id = 14) const bool GROUND = false;
-layout(constant_id = 15) const bool FOUR_SAMPLES = false; // per pixel
-layout(constant_id = 16) const bool SPECULAR_ANTIALIASING = false;
-layout(constant_id = 17) const bool LEVELS = false; // see levels.glsl
+layout(constant_id = 8) const uint MAPS = 0xffffffffu;
+layout(constant_id = 9) const int TONE = COTAN_TONE_ACES; // if TONE_MAP
+layout(constant_id = 10) const bool ENVIRONMENT_MAP = false; // if ENVIRONMENT: map instead of formula
+layout(constant_id = 11) const bool SOFT_SHADOWS = false; // if SHADOWS
+layout(constant_id = 12) const int BACKDROP = 0;
+layout(constant_id = 13) const bool GROUND = false;
+layout(constant_id = 14) const bool FOUR_SAMPLES = false; // per pixel
+layout(constant_id = 15) const bool SPECULAR_ANTIALIASING = false;
+layout(constant_id = 16) const bool LEVELS = false; // see levels.glsl
 // Distance between adjacent samples in pixels. Texture footprints are scaled by it.
-layout(constant_id = 18) const float APART = 1.0;
+layout(constant_id = 17) const float APART = 1.0;
 
 #define OUTPUT_SHADED 0
 #define OUTPUT_NORMAL 1

@@ -52,8 +52,7 @@ struct NormalDifferences {
 
 NormalDifferences normalDifferencesOf(vec3 smoothNormal)
 {
-    return COARSE_DERIVATIVES ? NormalDifferences(dFdxCoarse(smoothNormal), dFdyCoarse(smoothNormal))
-                              : NormalDifferences(dFdxFine(smoothNormal), dFdyFine(smoothNormal));
+    return NormalDifferences(dFdxFine(smoothNormal), dFdyFine(smoothNormal));
 }
 
 bool present(uint map, CotanTextureUse use) { return (MAPS & map) != 0u && use.vRow.w > 0.5; }

@@ -10,9 +10,6 @@ struct Differences {
 
 Differences screenDifferences(vec3 position, vec2 uv)
 {
-    if (COARSE_DERIVATIVES)
-        return Differences(
-            dFdxCoarse(position), dFdyCoarse(position), dFdxCoarse(uv), dFdyCoarse(uv));
     return Differences(dFdxFine(position), dFdyFine(position), dFdxFine(uv), dFdyFine(uv));
 }
 

@@ -11,7 +11,7 @@
 #include "gpu_structs.glsl"
 
 layout(set = 0, binding = 0, std140) uniform ViewBlock { CotanView view; };
-layout(constant_id = 17) const bool LEVELS = false; // as in constants.glsl
+layout(constant_id = 16) const bool LEVELS = false; // as in constants.glsl
 #include "levels.glsl"
 
 #ifdef COTAN_MULTISAMPLED

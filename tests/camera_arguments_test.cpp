@@ -158,52 +158,8 @@ TEST(PictureOptionValues, optionsForModelsAreRefusedWithoutOne)
     EXPECT_EQ(errorOf([](O&) {}), "");
 }
 
-TEST(PictureOptionValues, tangentSpaceLightingAndRaysRequireFrameAndShading)
+TEST(PictureOptionValues, exposureIsMeteredIfNoneIsGivenAndLightIsDisplayed)
 {
-    const auto errorOf = [](const PictureOptions& options, FrameChoice frame) {
-        const Status fits = checkLighting(options, frame);
-        return fits ? "" : fits.error().message;
-    };
-    PictureOptions tangent;
-    tangent.lighting = Lighting::tangentVertex;
-    const std::string expected =
-        "--lighting tangent-vertex: expected a frame with tangents at the vertices (vertex or mikktspace); found '";
-    EXPECT_EQ(errorOf(tangent, {}), expected + "auto'");
-    EXPECT_EQ(errorOf(tangent, Frame::smooth), expected + "smooth'");
-    EXPECT_EQ(errorOf(tangent, Frame::vertex) + errorOf(tangent, Frame::mikktspace), "");
-    tangent.lighting = Lighting::tangentPixel;
-    EXPECT_EQ(errorOf(tangent, {}), "");
-    for (const auto& [shading, lighting, found] : {std::tuple(Shading::pbr, Lighting::world, ""),
-                                                   {Shading::blinnPhong, Lighting::world, "blinn-phong and world"},
-                                                   {Shading::pbr, Lighting::tangentPixel, "pbr and tangent-pixel"}}) {
-        PictureOptions rays;
-        rays.normalMapping = NormalMapping::shadowed;
-        rays.shading = shading;
-        rays.lighting = lighting;
-        EXPECT_EQ(errorOf(rays, {}),
-                  *found ? "--normal-mapping shadowed: expected --shading pbr and --lighting world with "
-                           "it; found "
-                          + std::string(found)
-                         : "");
-        rays.normalMapping = NormalMapping::shading;
-        EXPECT_EQ(errorOf(rays, {}), "");
-    }
-}
-
-// Features that only the reference renderer has select it, unless a device is named.
-TEST(PictureOptionValues, featuresOfTheReferenceRendererSelectIt)
-{
-    PictureOptions options;
-    EXPECT_EQ(deviceOf(options), "auto");
-    options.lighting = Lighting::tangentPixel;
-    EXPECT_EQ(deviceOf(options), "reference");
-    options.device = "card";
-    EXPECT_EQ(deviceOf(options), "card");
-    options = {};
-    options.normalMapping = NormalMapping::rays;
-    EXPECT_EQ(deviceOf(options), "reference");
-    options.device = "card";
-    EXPECT_EQ(deviceOf(options), "card");
     // Exposure is metered if none is given and light is displayed.
     for (const auto& [use, given, metered] : {std::tuple(PictureUse::shown, false, true),
                                               {PictureUse::shown, true, false},

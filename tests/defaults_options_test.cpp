@@ -111,7 +111,6 @@ TEST(Defaults, ofRendersAreThoseOfTheHelp)
     EXPECT_FALSE(o.exposure);
     EXPECT_FALSE(o.background);
     EXPECT_TRUE(o.ground);
-    EXPECT_FALSE(o.rowsUpward);
     EXPECT_EQ(o.size, (PictureSize{1280, 720}));
     EXPECT_FALSE(o.noShadows);
     EXPECT_FALSE(o.noNormalMaps);

@@ -22,8 +22,8 @@ using namespace app;
 using namespace test;
 using Words = std::vector<std::string>;
 
-const char* const kNames[] = {"2.6.3",   "2.6.4",  "2.6.5",    "tutorial", "normal-matrices", "mirrored",
-                              "targets", "decode", "faceting", "furnace",  "sparkle"};
+const char* const kNames[] = {"2.6.3",    "2.6.4",   "2.6.5",  "tutorial", "normal-matrices",
+                              "mirrored", "targets", "decode", "faceting", "sparkle"};
 
 Words command(const std::string& folder, const Words& more)
 {
@@ -220,57 +220,6 @@ TEST(Figures, wrongArgumentsExitOneAndAnUnwritableFolderExitsFour)
     const ToolRun run = runTool(command("file", {"--only", "2.6.4", "--size", "32x32"}), folder.path());
     EXPECT_EQ(run.code, 4);
     EXPECT_EQ(lines(run.err), 1) << run.err;
-}
-
-TEST(Lighting, inTangentSpaceUsesTheReferenceAndRequiresTangents)
-{
-    TemporaryFolder folder;
-    const ToolRun run = runTool({"render", "-o", "a.png", "--size", "32x24", "--samples", "1", "--lighting",
-                                 "tangent-vertex", "--frame", "mikktspace", "--json", "-"},
-                                folder.path());
-    ASSERT_EQ(run.code, 0) << run.err;
-    EXPECT_EQ(nlohmann::json::parse(run.out)["device"], "reference");
-    const ToolRun wrong = runTool({"render", "-o", "b.png", "--lighting", "tangent-vertex"}, folder.path());
-    EXPECT_EQ(wrong.code, 1);
-    EXPECT_EQ(lines(wrong.err), 1) << wrong.err;
-    // No Vulkan device supports it; without any device the exit code is the same.
-    EXPECT_EQ(
-        runTool({"render", "-o", "b.png", "--lighting", "tangent-pixel", "--device", "llvmpipe"}, folder.path()).code,
-        3);
-    EXPECT_FALSE(std::filesystem::exists(folder / "b.png"));
-}
-
-TEST(NormalMapping, byRaysUsesTheReferenceAndRequiresWorldSpacePbr)
-{
-    TemporaryFolder folder;
-    const Words start = {"render",    "-o", "a.png",  "--size", "32x24",
-                         "--samples", "1",  "--json", "-",      "--normal-mapping"};
-    const auto with = [&](Words more) {
-        Words words = start;
-        words.insert(words.end(), more.begin(), more.end());
-        return runTool(words, folder.path());
-    };
-    EXPECT_EQ(with({"facets", "--shading", "blinn-phong"}).code, 1);
-    EXPECT_EQ(with({"facets", "--lighting", "tangent-pixel"}).code, 1);
-    EXPECT_EQ(with({"microfacets"}).code, 1);
-    EXPECT_EQ(with({"facets", "--device", "llvmpipe"}).code, 3); // also without Vulkan
-    EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
-    const ToolRun run = with({"facets"});
-    ASSERT_EQ(run.code, 0) << run.err;
-    EXPECT_EQ(nlohmann::json::parse(run.out)["device"], "reference");
-}
-
-// The furnace test allows 1 %; the ball's rim has every view angle.
-TEST(Figures, facetsLoseNoLightAndPerturbedNormalsATenth)
-{
-    const nlohmann::json numbers = report("furnace", "64x48")["figures"][0]["numbers"];
-    const auto lost = [&](const char* method) {
-        return numbers[std::string(method) + ", light lost in a white furnace, %"].get<double>();
-    };
-    EXPECT_NEAR(lost("facets"), 0, 1);
-    EXPECT_NEAR(lost("mirror-facet"), 0, 1);
-    EXPECT_GT(lost("rays"), 10);
-    EXPECT_GT(lost("shadowed"), lost("rays"));
 }
 
 TEST(Figures, antialiasingHalvesTheErrorOfHighlights)

@@ -1,14 +1,17 @@
-// Lighting in tangent space against lighting in world space: where they must agree and where they cannot.
+// The laboratory's lighting in tangent space against lighting in world space: where they must agree and where they
+// cannot.
 #include <algorithm>
 
 #include "reference_scene.hpp"
 
 #include "cotan/view.hpp"
+#include "figures/tangent_space.hpp"
 
 namespace cotan {
 namespace {
 
 using namespace cotan::testing;
+using namespace cotan::figures;
 
 // A tilted plane whose texels are all tilted, along u and v alike.
 Scene tiltedScene(glm::dvec3 alongU, glm::dvec3 alongV)
@@ -27,13 +30,12 @@ Scene tiltedScene(glm::dvec3 alongU, glm::dvec3 alongV)
 
 Scene squareScene() { return tiltedScene({2, 0, 0.4}, {0.08, -2, -0.4}); }
 
-View litView(Shading shading, Lighting lighting, Frame frame)
+View litView(Shading shading, Frame frame)
 {
     View view = viewOf(Output::shaded, frame);
     view.samples = 1;
     view.linearOutput = true;
     view.shading = shading;
-    view.lighting = lighting;
     Light sun;
     sun.direction = glm::normalize(glm::vec3(0.5f, -0.4f, -0.7f));
     Light lamp;
@@ -46,11 +48,14 @@ View litView(Shading shading, Lighting lighting, Frame frame)
 }
 
 // Maximum difference of a channel, relative to the brightest value of the world-space render.
-double largestDifference(const Scene& scene, View view)
+double largestDifference(const Scene& scene, const View& view, const reference::LightSpace& space)
 {
-    const Image there = rendered(scene, view);
-    view.lighting = Lighting::world;
-    const Image world = rendered(scene, view);
+    const auto drawn = reference::renderIn(space, scene, view, 2);
+    if (!drawn) {
+        ADD_FAILURE() << drawn.error().message;
+        return 1e9;
+    }
+    const Image &there = *drawn, world = rendered(scene, view);
     double largest = 0, brightest = 0;
     const int covered = forCovered(world, [&](int x, int y, glm::vec4 value) {
         const glm::vec4 d = glm::abs(value - pixelOf(there, x, y));
@@ -70,7 +75,7 @@ TEST(TangentSpaceLighting, orthonormalFramesEqualWorldSpaceLighting)
     // Square and stretched: an orthonormal frame may misplace the bumps, and the two lightings still agree.
     for (const Scene& scene : {squareScene(), tiltedScene({1, 0, 0.3}, {0.7, -2, 0})})
         for (Shading shading : {Shading::blinnPhong, Shading::pbr})
-            EXPECT_LT(largestDifference(scene, litView(shading, Lighting::tangentPixel, Frame::orthonormal)),
+            EXPECT_LT(largestDifference(scene, litView(shading, Frame::orthonormal), tangentSpaceOfPixels()),
                       kRounding);
 }
 
@@ -78,13 +83,13 @@ TEST(TangentSpaceLighting, agreesOnBackFaces)
 {
     Scene scene = squareScene();
     scene.materials[0].doubleSided = true;
-    View view = litView(Shading::blinnPhong, Lighting::tangentPixel, Frame::orthonormal);
+    View view = litView(Shading::blinnPhong, Frame::orthonormal);
     view.camera.eye = {0, 0, -4};
     for (Light& light : view.lights) {
         light.direction.z = -light.direction.z;
         light.position.z = -light.position.z;
     }
-    EXPECT_LT(largestDifference(scene, view), kRounding);
+    EXPECT_LT(largestDifference(scene, view, tangentSpaceOfPixels()), kRounding);
 }
 
 TEST(TangentSpaceLighting, vertexFramesAreExactOnAFlatSquarePlane)
@@ -93,7 +98,7 @@ TEST(TangentSpaceLighting, vertexFramesAreExactOnAFlatSquarePlane)
     deriveVertexFrames(scene, Frame::vertex, TangentOrigin::generated);
     ASSERT_FALSE(scene.meshes[0].tangents.empty());
     for (Shading shading : {Shading::blinnPhong, Shading::pbr})
-        EXPECT_LT(largestDifference(scene, litView(shading, Lighting::tangentVertex, Frame::vertex)), kRounding);
+        EXPECT_LT(largestDifference(scene, litView(shading, Frame::vertex), tangentSpaceOfVertices()), kRounding);
 }
 
 TEST(TangentSpaceLighting, generalFramesDifferFromWorldSpaceLighting)
@@ -101,42 +106,17 @@ TEST(TangentSpaceLighting, generalFramesDifferFromWorldSpaceLighting)
     // At a stretch of 2:1 the frame's inverse is not its transpose: angles differ by degrees and light by more than
     // 0.01.
     const Scene scene = tiltedScene({1, 0, 0.3}, {0, -2, 0});
-    EXPECT_GT(largestDifference(scene, litView(Shading::blinnPhong, Lighting::tangentPixel, Frame::cotangent)), 0.01);
+    EXPECT_GT(largestDifference(scene, litView(Shading::blinnPhong, Frame::cotangent), tangentSpaceOfPixels()), 0.01);
 }
 
 TEST(TangentSpaceLighting, withoutMapOrTangentsEqualsWorldSpaceLighting)
 {
     Scene unmapped = squareScene();
     unmapped.materials[0].normalMap.image = -1;
-    EXPECT_EQ(largestDifference(unmapped, litView(Shading::blinnPhong, Lighting::tangentPixel, Frame::cotangent)), 0);
+    EXPECT_EQ(largestDifference(unmapped, litView(Shading::blinnPhong, Frame::cotangent), tangentSpaceOfPixels()), 0);
     // The frame must read no tangents: those that do refuse a scene without them.
-    EXPECT_EQ(largestDifference(squareScene(), litView(Shading::blinnPhong, Lighting::tangentVertex, Frame::cotangent)),
-              0);
-}
-
-// Applies to lights only; the environment is read in world space, with anisotropic highlights.
-TEST(TangentSpaceLighting, ignoresAnisotropyAndNormalMappingByRays)
-{
-    Scene little = squareScene();
-    little.materials[0].metallic = 1;
-    little.materials[0].anisotropy.strength = 0.25f;
-    Scene much = little;
-    much.materials[0].anisotropy.strength = 0.9f;
-    much.materials[0].anisotropy.rotation = 0.7f;
-    View view = litView(Shading::pbr, Lighting::tangentPixel, Frame::orthonormal);
-    view.environment = false;
-    const auto draw = [](const Scene& scene, const View& v) { return rendered(scene, v).data; };
-    EXPECT_EQ(draw(little, view), draw(much, view));
-    View other = view;
-    other.normalMapping = NormalMapping::rays;
-    EXPECT_EQ(draw(much, view), draw(much, other));
-    other.lighting = view.lighting = Lighting::world;
-    EXPECT_NE(draw(little, view), draw(much, view));
-    EXPECT_NE(draw(much, view), draw(much, other));
-    other.shading = view.shading = Shading::blinnPhong;
-    EXPECT_EQ(draw(much, view), draw(much, other));
-    view = litView(Shading::pbr, Lighting::tangentPixel, Frame::orthonormal);
-    EXPECT_NE(draw(little, view), draw(much, view));
+    EXPECT_EQ(
+        largestDifference(squareScene(), litView(Shading::blinnPhong, Frame::cotangent), tangentSpaceOfVertices()), 0);
 }
 
 } // namespace

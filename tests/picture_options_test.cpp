@@ -104,14 +104,6 @@ CommonOptions quiet()
     return common;
 }
 
-TEST(PictureOptionValues, rowDirectionIsTheRequestedOne)
-{
-    PictureOptions options;
-    EXPECT_FALSE(loadPicture(options, quiet(), {Frame::cotangent})->view.rowsUpward);
-    options.rowsUpward = true;
-    EXPECT_TRUE(loadPicture(options, quiet(), {Frame::cotangent})->view.rowsUpward);
-}
-
 TEST(PictureOptionValues, lightsOfTheSceneAreUsed)
 {
     const auto picture = loadPicture({}, quiet(), {Frame::cotangent});
@@ -184,15 +176,6 @@ constexpr WordRow kWordRows[] = {
     {"--edges", "all", [](const Options& o) { return o.edges == Edges::all; }},
     {"--shading", "pbr", [](const Options& o) { return o.shading == Shading::pbr; }},
     {"--shading", "blinn-phong", [](const Options& o) { return o.shading == Shading::blinnPhong; }},
-    {"--lighting", "world", [](const Options& o) { return o.lighting == Lighting::world; }},
-    {"--lighting", "tangent-vertex", [](const Options& o) { return o.lighting == Lighting::tangentVertex; }},
-    {"--lighting", "tangent-pixel", [](const Options& o) { return o.lighting == Lighting::tangentPixel; }},
-    {"--normal-mapping", "shading", [](const Options& o) { return o.normalMapping == NormalMapping::shading; }},
-    {"--normal-mapping", "rays", [](const Options& o) { return o.normalMapping == NormalMapping::rays; }},
-    {"--normal-mapping", "shadowed", [](const Options& o) { return o.normalMapping == NormalMapping::shadowed; }},
-    {"--normal-mapping", "facets", [](const Options& o) { return o.normalMapping == NormalMapping::facets; }},
-    {"--normal-mapping", "mirror-facet",
-     [](const Options& o) { return o.normalMapping == NormalMapping::mirrorFacet; }},
     {"--tangents", "stored", [](const Options& o) { return o.tangents == TangentOrigin::stored; }},
     {"--tangents", "generated", [](const Options& o) { return o.tangents == TangentOrigin::generated; }},
     {"--tone-mapping", "none", [](const Options& o) { return o.toneMapping == ToneMapping::none; }},
@@ -206,10 +189,6 @@ constexpr WordRow kWordRows[] = {
     {"--background", "none", [](const Options& o) { return o.background == Background::none; }},
     {"--ground", "on", [](const Options& o) { return o.ground; }},
     {"--ground", "off", [](const Options& o) { return !o.ground; }},
-    {"--rows", "down", [](const Options& o) { return !o.rowsUpward; }},
-    {"--rows", "up", [](const Options& o) { return o.rowsUpward; }},
-    {"--derivatives", "fine", [](const Options& o) { return o.derivatives == Derivatives::fine; }},
-    {"--derivatives", "coarse", [](const Options& o) { return o.derivatives == Derivatives::coarse; }},
     {"--shape", "plane", [](const Options& o) { return o.shape == "plane"; }},
     {"--shape", "teapot", [](const Options& o) { return o.shape == "teapot"; }},
     {"--samples", "16", [](const Options& o) { return o.samples == 16; }},
@@ -263,14 +242,10 @@ TEST(PictureOptionValues, unknownValuesAreRefusedWithTheKnownOnes)
     for (const auto& [option, expected] : {std::pair("--up", "y or z"),
                                            {"--edges", "none, triangles, seams or all"},
                                            {"--shading", "pbr or blinn-phong"},
-                                           {"--lighting", "world, tangent-vertex or tangent-pixel"},
-                                           {"--normal-mapping", "shading, rays, shadowed, facets or mirror-facet"},
                                            {"--tangents", "stored or generated"},
                                            {"--tone-mapping", "none, neutral, aces or agx"},
                                            {"--background", "paper, blur, environment, gradient or none"},
                                            {"--ground", "on or off"},
-                                           {"--rows", "down or up"},
-                                           {"--derivatives", "fine or coarse"},
                                            {"--shape", "plane, sphere, torus or teapot"},
                                            {"--samples", "1, 4 or 16"},
                                            {"--exposure", "auto or a number above 0 and at most 1e6"},
@@ -318,19 +293,6 @@ TEST(OptionNames, fieldsBecomeOptionNamesAndMemoryIsNamedOnce)
     EXPECT_EQ(withOptionNames(memoryError("")).kind, ErrorKind::input);
 }
 
-TEST(PictureOptionValues, incompatibleLightingOptionsAreNamed)
-{
-    PictureOptions options;
-    options.normalMapping = NormalMapping::mirrorFacet;
-    options.shading = Shading::blinnPhong;
-    options.lighting = Lighting::tangentPixel;
-    const Status done = checkLighting(options, Frame::cotangent);
-    ASSERT_FALSE(done);
-    EXPECT_EQ(done.error().message,
-              "--normal-mapping mirror-facet: expected --shading pbr and --lighting world with it; found blinn-phong "
-              "and tangent-pixel");
-}
-
 // A command with the options of `render` except those for files.
 struct DeclaredTool {
     PictureOptions options;
@@ -365,6 +327,20 @@ std::string libraryMessage(const std::vector<std::string>& words)
     const Status done = readPictureWords(words, options, frame);
     EXPECT_TRUE(done || done.error().kind == ErrorKind::usage);
     return done ? "" : done.error().message;
+}
+
+TEST(PictureOptionValues, removedOptionsAreUnknownWithAHint)
+{
+    for (const auto& [name, word, hint] :
+         {std::tuple("--lighting", "world", "lights are always evaluated in world space"),
+          {"--normal-mapping", "facets", "lights and the environment always meet the perturbed normal"},
+          {"--rows", "up", "rows always run down"},
+          {"--derivatives", "coarse", "derivatives are always fine"}}) {
+        const std::string message = std::string("unknown option ") + name + ": " + hint;
+        EXPECT_EQ(commandLineMessage({name, word}), message);
+        EXPECT_EQ(libraryMessage({name, word}), message);
+        EXPECT_EQ(libraryMessage({std::string(name) + "=" + word}), message);
+    }
 }
 
 TEST(PictureOptionValues, libraryAcceptsAndRefusesLikeTheCommandLine)

@@ -133,19 +133,6 @@ TEST(ReferenceFrame, rowsUpwardReversesOnlyTheFrameOf2013)
     });
 }
 
-TEST(ReferenceFrame, fineAndCoarseAgreeOnAPlane)
-{
-    Scene scene = sceneOf(meshOf(kSheared));
-    addNormalMap(scene, kTexel);
-    View fine = viewOf(Output::normal), coarse = fine;
-    coarse.derivatives = Derivatives::coarse;
-    Image a = rendered(scene, fine), b = rendered(scene, coarse);
-    EXPECT_NE(a.data, b.data); // proves that the two are different computations
-    forCovered(a, [&](int x, int y, glm::vec4 value) {
-        ASSERT_LT(degreesBetween(glm::vec3(value), glm::vec3(pixelOf(b, x, y))), kDegrees);
-    });
-}
-
 // Section "signs" of docs/explanation/theory.md: handedness of the world (reversed by a mirroring instance), direction
 // of the raster's rows, mirrored uv, and the visible side with the normal as stored or flipped towards the viewer: 24
 // combinations.

@@ -309,15 +309,4 @@ TEST(RenderFrame, precisionIsIndependentOfTheOrigin)
     EXPECT_LT(degreesBetween(glm::dvec3(floatPixel(drawn(renderer, far), 20, 40)), expected), 1e-3);
 }
 
-TEST(RenderFrame, coarseDerivativesGiveTheSameFrameOnAPlane)
-{
-    COTAN_RENDERER_OR_SKIP(renderer, {});
-    load(renderer, sceneOf(quad(), flatImage(texelOf({0.5f, 0.2f, 1})), placement(false)));
-    View view = viewOf(Output::normal);
-    const glm::dvec3 fine(floatPixel(drawn(renderer, view), 32, 32));
-    view.derivatives = Derivatives::coarse;
-    const glm::dvec3 coarse(floatPixel(drawn(renderer, view), 32, 32));
-    EXPECT_LT(degreesBetween(fine, coarse), 0.01);
-}
-
 } // namespace cotan

@@ -22,7 +22,7 @@ from output_inputs import make_inputs
 # to a sample is below rounding gives a different pixel.
 MEAN, LARGE, MANY = 1.5, 12, 0.02  # the mean difference, and the fraction of pixels that may differ by more than LARGE
 LAYERS = {"VK_INSTANCE_LAYERS": "VK_LAYER_KHRONOS_validation"}
-OWN = ("--lighting", "--normal-mapping", "--rate", "--shadow-softness")  # only the reference renderer has the first two
+OWN = ("--rate", "--shadow-softness")
 
 
 def pixels(path):

@@ -143,9 +143,6 @@ TEST(ViewerCommandLine, writesEachFieldAsItsOption)
         {[](State& s) { s.picture.noNormalMaps = true; }, "--no-normal-maps"},
         {[](State& s) { s.picture.samples = 16; }, "--samples 16"},
         {[](State& s) { s.picture.device = "reference"; }, "--device reference"},
-        {[](State& s) { s.picture.lighting = Lighting::tangentPixel; }, "--lighting tangent-pixel"},
-        {[](State& s) { s.picture.rowsUpward = true; }, "--rows up"},
-        {[](State& s) { s.picture.normalMapping = NormalMapping::rays; }, "--normal-mapping rays"},
     };
     for (const Row& row : rows) {
         State s;

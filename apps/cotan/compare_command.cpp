@@ -53,8 +53,6 @@ Status run(const CompareCommandOptions& o)
     if (o.output.empty())
         return usageError("compare needs -o FOLDER");
     COTAN_TRY(pair, parsePair(o.frames));
-    for (const FrameChoice& frame : *pair)
-        COTAN_CHECK(checkLighting(o.picture, frame));
     // Before the model is read, so that none of its files is replaced.
     COTAN_CHECK(beginOutputs(o, plannedIn("-o", o.output, comparedFiles(*pair))));
     COTAN_TRY(picture, loadPicture(o.picture, o, {(*pair)[0], (*pair)[1]}));

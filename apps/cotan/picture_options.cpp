@@ -126,6 +126,13 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     for (const PictureOption& option : pictureOptions())
         if (option.name != "view")
             add(a, o, option);
+    for (const auto& [removed, why] : removedPictureOptions()) {
+        const std::string name = fmt::format("--{}", removed);
+        a.option(
+             name, "", [](const std::string&) { return Status(Done{}); }, "")
+            .unlisted()
+            .refused([name, why] { return fmt::format("unknown option {}: {}", name, why); });
+    }
 }
 
 } // namespace cotan::app

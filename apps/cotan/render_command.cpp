@@ -115,7 +115,6 @@ Result<RenderJob> jobOf(const RenderCommandOptions& o)
     if (o.output.empty())
         return usageError("render needs -o FILE");
     COTAN_TRY(frame, parseFrameChoice(o.frame, "--frame"));
-    COTAN_CHECK(checkLighting(o.picture, *frame));
     COTAN_CHECK(checkBackground(o.picture, o.output));
     COTAN_TRY(numbers, imageNumbers(o));
     const bool animated = isAnimation(o.output), turns = o.turntable > 0;

@@ -173,11 +173,10 @@ Result<Drawing> SceneCache::drawSide(const Order& order, CachedScene& s, const V
 
 Result<std::unique_ptr<Renderer>> SceneCache::openRenderer(const PictureOptions& o) const
 {
-    const std::string name = deviceOf(o);
-    if (device_ && name != "reference")
+    if (device_ && o.device != "reference")
         if (auto shared = openRendererOn(device_))
             return shared;
-    return app::openDevice(name, common_, validation_);
+    return app::openDevice(o.device, common_, validation_);
 }
 
 Status SceneCache::layEdgesOn(const Order& order, CachedScene& s, const View& view, const PictureOptions& o,

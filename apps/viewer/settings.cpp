@@ -26,7 +26,6 @@ std::span<const Setting> settings()
                                           {"samples", nothing},
                                           {"edges", nothing},
                                           {"shading", nothing},
-                                          {"derivatives", nothing},
                                           {"variant", loading},
                                           {"animation", posing},
                                           {"time", posing},

@@ -159,9 +159,6 @@ std::string commandLine(const State& state, const std::string& file, glm::ivec2 
     }
     if (o.device != usual.device)
         add("device", o.device);
-    addChoice("lighting", &PictureOptions::lighting, kLightings);
-    addChoice("rows", &PictureOptions::rowsUpward, kRows);
-    addChoice("normal-mapping", &PictureOptions::normalMapping, kNormalMappings);
     return text;
 }
 

@@ -47,7 +47,6 @@ void readFrom(const ModelFiles& source, PictureOptions& options)
 Image draw(const Wanted& wanted, const cotan_render_options& o, Json& report)
 {
     const FrameChoice frame = valueOf(parseFrameChoice(wanted.frame));
-    valueOf(checkLighting(wanted.picture, frame));
     Picture picture = valueOf(openPicture(wanted.picture, o.threads, {frame, Frame::exact}));
     picture.view.setFrame(picture.frames.front());
     picture.view.output = outputOf(wanted.picture.show);

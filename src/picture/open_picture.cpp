@@ -118,10 +118,6 @@ Result<View> viewOf(const PictureOptions& options, const Scene& scene)
     view.camera = *parsed;
     COTAN_CHECK(lightPicture(options, view));
     view.shading = options.shading;
-    view.lighting = options.lighting;
-    view.normalMapping = options.normalMapping;
-    view.rowsUpward = options.rowsUpward;
-    view.derivatives = options.derivatives;
     view.samples = options.samples;
     view.normalMaps = !options.noNormalMaps;
     view.pointSampled = options.pointSampled;
@@ -260,7 +256,7 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
     Picture picture;
     // Slow work that runs while the model is read.
     picture.device =
-        std::async(std::launch::async, [name = deviceOf(options), threads] { return openRenderer(name, threads); });
+        std::async(std::launch::async, [name = options.device, threads] { return openRenderer(name, threads); });
     auto environment = std::async(std::launch::async, openEnvironmentMap, options);
     COTAN_TRY(model, options.animation.empty() ? still(openModel(options)) : openMovingModel(options));
     picture.scene = std::move(model->scene);
@@ -336,13 +332,6 @@ Status movePicture(const PictureOptions& options, double to, Picture& picture, R
     return loaded;
 }
 
-std::string deviceOf(const PictureOptions& options)
-{
-    const bool reference = options.device == "auto"
-        && (options.lighting != Lighting::world || options.normalMapping != NormalMapping::shading);
-    return reference ? "reference" : options.device;
-}
-
 Result<std::unique_ptr<Renderer>> openPictureRenderer(const PictureOptions& options, Picture& picture)
 {
     auto ground =
@@ -359,22 +348,6 @@ Result<std::unique_ptr<Renderer>> openPictureRenderer(const PictureOptions& opti
         return exposure->error();
     picture.view.exposure = exposure ? **exposure : picture.view.exposure;
     return renderer;
-}
-
-Status checkLighting(const PictureOptions& options, FrameChoice frame)
-{
-    if (options.lighting == Lighting::tangentVertex && !(frame && readsTangents(*frame)))
-        return usageError(
-            fmt::format("--lighting tangent-vertex: expected a frame with tangents at the vertices (vertex or "
-                        "mikktspace); found '{}'",
-                        frame ? name(*frame) : kAutoFrame));
-    if (options.normalMapping != NormalMapping::shading
-        && (options.shading != Shading::pbr || options.lighting != Lighting::world))
-        return usageError(fmt::format("--normal-mapping {}: expected --shading pbr and --lighting world with it; found "
-                                      "{} and {}",
-                                      wordOf(kNormalMappings, options.normalMapping),
-                                      wordOf(kShadings, options.shading), wordOf(kLightings, options.lighting)));
-    return Done{};
 }
 
 // ---- outputs: light, a vector, an inspection, an error --------------------------------------

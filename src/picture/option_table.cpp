@@ -219,12 +219,6 @@ std::vector<PictureOption> makeTable()
         choice("edges", diagnostics, &Options::edges, kEdges,
                "lines over the image: none, triangles, seams (of uv: yellow; mirrored: magenta; borders: cyan) or all"),
         choice("shading", look, &Options::shading, kShadings, "shading model: pbr or blinn-phong"),
-        choice("lighting", diagnostics, &Options::lighting, kLightings,
-               "space to light in: world; or tangent space, entered per vertex (tangent-vertex) or per pixel "
-               "(tangent-pixel), for comparison and on the reference device only"),
-        choice("normal-mapping", diagnostics, &Options::normalMapping, kNormalMappings,
-               "how perturbed normals are used: shading; or with rays, on the reference device only: rays (light from "
-               "below the surface is lost), shadowed, facets (a second facet compensates), mirror-facet"),
         choice("tangents", frame, &Options::tangents, kTangentOrigins,
                "for the frames vertex and mikktspace: stored (as in the file, generated where missing) or generated"),
         number("max-degrees", frame, "D", &Options::maxDegrees, kChoiceDegrees,
@@ -264,9 +258,6 @@ std::vector<PictureOption> makeTable()
                "angle that the shadow-casting light subtends: 0 for sharp edges, 0.5 for the sun (default: 10, in the "
                "evening 3)"),
         flag("no-shadows", light, &Options::noShadows, "draw no shadows of lights"),
-        choice("rows", diagnostics, &Options::rowsUpward, kRows,
-               "whether the rows of the render target run down or up; the image is upright either way"),
-        choice("derivatives", diagnostics, &Options::derivatives, kDerivatives, "screen derivatives: fine or coarse"),
         flag("no-normal-maps", diagnostics, &Options::noNormalMaps, "use interpolated normals only"),
         flag("specular-antialiasing", look, &Options::specularAntialiasing,
              "light 16 to 256 normals per pixel, more for sharper highlights, each roughened by the detail below its "
@@ -283,6 +274,14 @@ Error wrong(std::string message)
     return usageError(std::move(message));
 }
 
+std::string unknownOption(const std::string& name)
+{
+    for (const auto& [removed, why] : removedPictureOptions())
+        if (name == fmt::format("--{}", removed))
+            return fmt::format("unknown option {}: {}", name, why);
+    return "unknown option " + name;
+}
+
 } // namespace
 
 std::span<const PictureOption> pictureOptions()
@@ -295,6 +294,16 @@ const PictureOption* findPictureOption(std::string_view name)
 {
     const auto found = std::ranges::find(pictureOptions(), name, &PictureOption::name);
     return found == pictureOptions().end() ? nullptr : &*found;
+}
+
+std::span<const std::pair<std::string_view, std::string_view>> removedPictureOptions()
+{
+    static constexpr std::pair<std::string_view, std::string_view> kRemoved[] = {
+        {"lighting", "lights are always evaluated in world space"},
+        {"normal-mapping", "lights and the environment always meet the perturbed normal"},
+        {"rows", "rows always run down"},
+        {"derivatives", "derivatives are always fine"}};
+    return kRemoved;
 }
 
 Status setOption(const PictureOption& option, const std::string& word, PictureOptions& options)
@@ -325,7 +334,7 @@ Status readPictureWords(std::span<const std::string> words, PictureOptions& opti
         const std::string name = word.substr(0, equals);
         const PictureOption* option = name.starts_with("--") ? findPictureOption(name.substr(2)) : nullptr;
         if (!option && name != "--frame")
-            return wrong("unknown option " + name);
+            return wrong(unknownOption(name));
         if (option && option->flag) {
             if (equals != std::string::npos)
                 return wrong(name + " takes no value; found '" + word.substr(equals + 1) + "'");

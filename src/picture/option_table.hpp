@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/help_group.hpp"
@@ -35,6 +36,9 @@ struct PictureOption {
 std::span<const PictureOption> pictureOptions();
 
 const PictureOption* findPictureOption(std::string_view name); // null if there is none
+
+// Options of earlier versions, without hyphens, and why there are none now.
+std::span<const std::pair<std::string_view, std::string_view>> removedPictureOptions();
 
 // Sets an option from a word. Errors: ErrorKind::usage: what was expected and found, without the option's name.
 Status setOption(const PictureOption& option, const std::string& word, PictureOptions& options);

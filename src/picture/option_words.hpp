@@ -15,18 +15,10 @@
 namespace cotan {
 
 inline constexpr Named<Shading> kShadings[] = {{"pbr", Shading::pbr}, {"blinn-phong", Shading::blinnPhong}};
-inline constexpr Named<Lighting> kLightings[] = {
-    {"world", Lighting::world}, {"tangent-vertex", Lighting::tangentVertex}, {"tangent-pixel", Lighting::tangentPixel}};
-inline constexpr Named<NormalMapping> kNormalMappings[] = {{"shading", NormalMapping::shading},
-                                                           {"rays", NormalMapping::rays},
-                                                           {"shadowed", NormalMapping::shadowed},
-                                                           {"facets", NormalMapping::facets},
-                                                           {"mirror-facet", NormalMapping::mirrorFacet}};
 inline constexpr Named<ToneMapping> kToneMappings[] = {{"none", ToneMapping::none},
                                                        {"neutral", ToneMapping::neutral},
                                                        {"aces", ToneMapping::aces},
                                                        {"agx", ToneMapping::agx}};
-inline constexpr Named<Derivatives> kDerivatives[] = {{"fine", Derivatives::fine}, {"coarse", Derivatives::coarse}};
 inline constexpr Named<TangentOrigin> kTangentOrigins[] = {{"stored", TangentOrigin::stored},
                                                            {"generated", TangentOrigin::generated}};
 inline constexpr Named<Up> kUps[] = {{"y", Up::y}, {"z", Up::z}};
@@ -38,7 +30,6 @@ inline constexpr Named<Background> kBackgrounds[] = {{"paper", Background::paper
                                                      {"environment", Background::sharp},
                                                      {"gradient", Background::gradient},
                                                      {"none", Background::none}};
-inline constexpr Named<bool> kRows[] = {{"down", false}, {"up", true}};   // rowsUpward
 inline constexpr Named<bool> kGrounds[] = {{"on", true}, {"off", false}}; // ground
 
 inline constexpr Named<int> kSampleCounts[] = {{"1", 1}, {"4", 4}, {"16", 16}};

@@ -31,13 +31,12 @@ RENDER = [
     {"normal_map": "grain.png", "material": 1}, {"base_color": "rocks.png"}, {"metallic_roughness": "colors.png"}, {"occlusion": "rocks.png"},
     {"variant": "cloth"}, {"variant": 1}, {"animation": "turn"}, {"animation": 1, "time": 0.6}, {"animation": "turn", "time": 0.3},
     *({"edges": e, "view": "stretch"} for e in ("triangles", "seams", "all")), {"shading": "blinn-phong"},
-    *({"lighting": s, "frame": "mikktspace", "shading": "blinn-phong"} for s in ("tangent-vertex", "tangent-pixel")),
-    *({"normal_mapping": m} for m in ("rays", "shadowed", "facets", "mirror-facet")), {"tangents": "generated", "frame": "vertex"},
+    {"tangents": "generated", "frame": "vertex"},
     {"exposure": 0.5}, {"exposure": "auto", "environment": "overcast"}, *({"tone_mapping": t} for t in ("none", "aces", "agx")),
     *({"environment": e, "background": b} for e, b in (("evening", "blur"), ("overcast", "gradient"), ("none", "none"), ("sky.hdr", "environment"),
                                                        ("studio", "paper"))),
     {"environment_rotation": 70}, {"environment_intensity": 0.4}, {"ground": "on"}, {"shadow_softness": 40, "model": "plain.gltf", "ground": "on"},
-    {"no_shadows": True, "model": "plain.gltf", "ground": "on"}, {"rows": "up", "frame": "cotangent-2013"}, {"derivatives": "coarse"}, {"no_normal_maps": True},
+    {"no_shadows": True, "model": "plain.gltf", "ground": "on"}, {"no_normal_maps": True},
     {"specular_antialiasing": True}, {"point_sampled": True},
 ]  # fmt: skip
 DEPENDS_ON_VIEW = {"cotangent-2013", "nonperspective", "paper-orthogonal"}

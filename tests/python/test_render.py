@@ -30,8 +30,8 @@ OPTIONS = [
     {"view": "checker", "edges": "all"},
     {"camera": (1, 2, 3, 1, 0.5, 0), "environment": "none", "samples": 1},
     {"environment": "evening", "environment_rotation": -30.5, "background": "blur", "exposure": 1.5, "tone_mapping": "agx"},
-    {"shading": "blinn-phong", "ground": "off", "no_normal_maps": True, "rows": "up"},
-    {"normal_mapping": "facets", "tangents": "generated", "frame": "mikktspace"},
+    {"shading": "blinn-phong", "ground": "off", "no_normal_maps": True},
+    {"tangents": "generated", "frame": "mikktspace"},
 ]
 
 

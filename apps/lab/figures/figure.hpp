@@ -51,7 +51,6 @@ Figure makeMirroredFigure(FigureRenderer& studio);
 Figure makeTargetsFigure(FigureRenderer& studio);
 Figure makeDecodeFigure(FigureRenderer& studio);
 Figure makeFacetingFigure(FigureRenderer& studio);
-Figure makeFurnaceFigure(FigureRenderer& studio);
 Figure makeSparkleFigure(FigureRenderer& studio);
 
 } // namespace cotan::figures

@@ -33,7 +33,6 @@ constexpr FigureInfo kFigures[] = {
     {"targets", makeTargetsFigure},
     {"decode", makeDecodeFigure},
     {"faceting", makeFacetingFigure},
-    {"furnace", makeFurnaceFigure},
     {"sparkle", makeSparkleFigure},
 };
 

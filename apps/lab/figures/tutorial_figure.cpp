@@ -6,6 +6,7 @@
 
 #include "figure.hpp"
 #include "stage.hpp"
+#include "tangent_space.hpp"
 
 namespace cotan::figures {
 
@@ -100,20 +101,18 @@ Figure makeTutorialFigure(FigureRenderer& studio)
     figure.overview = {0, 2};
 
     const struct {
-        Lighting lighting;
+        reference::LightSpace space;
         Frame frame;
         const char *file, *label;
     } carried[] = {
-        {Lighting::tangentVertex, Frame::vertex, "d-tangent-vertex", "tangent space, vectors from the vertices"},
-        {Lighting::tangentPixel, Frame::vertex, "e-tangent-pixel", "tangent space, vectors by the pixel's inverse"},
-        {Lighting::tangentPixel, Frame::cotangent, "f-tangent-pixel-cotangent", "the same with the frame cotangent"}};
+        {tangentSpaceOfVertices(), Frame::vertex, "d-tangent-vertex", "tangent space, vectors from the vertices"},
+        {tangentSpaceOfPixels(), Frame::vertex, "e-tangent-pixel", "tangent space, vectors by the pixel's inverse"},
+        {tangentSpaceOfPixels(), Frame::cotangent, "f-tangent-pixel-cotangent", "the same with the frame cotangent"}};
     std::vector<Panel> differences;
     for (const auto& row : carried) {
         view.frame = row.frame;
-        view.lighting = Lighting::world;
         const Image world = studio.drawReference(view);
-        view.lighting = row.lighting;
-        Image image = studio.drawReference(view);
+        Image image = studio.drawReference(view, row.space);
         const Levels levels = levelsBetween(world, image);
         differences.push_back({std::string(row.file) + "-difference", std::string(row.label) + ": difference, 16 times",
                                levelsText(levels), differenceOf(world, image, 16)});

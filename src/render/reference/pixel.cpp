@@ -122,9 +122,8 @@ std::pair<glm::vec3, glm::vec3> shadedColor(const PixelInputs& all, const Surfac
         point.taps = taps;
         surface.roughness = f32::cotan_roughness_of_variance(surface.roughness, normal.variance);
     }
-    const auto tangent = tangentSpaceOf(in, lane, normal, surface, all.projection.orthographic);
     const Layers layers = layersOf(all, in, lane, normal);
-    return {radianceOf(all, surface, layers, point, tangent), transmittanceOf(surface, layers)};
+    return {radianceOf(all, in, lane, normal, surface, layers, point), transmittanceOf(surface, layers)};
 }
 
 glm::vec3 dataOutput(const PixelInputs& all, const SurfaceInputs& in, int lane)

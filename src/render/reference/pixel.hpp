@@ -1,7 +1,8 @@
-// Shading of a pixel: the surface of a triangle, lights, shadows, light by random walks, and the background.
+// Shading of a pixel: the surface of a triangle, lights, shadows, and the background.
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -126,29 +127,19 @@ struct PreparedLight {
 // The view's lights. The first directional one casts the shadow if the view has shadows.
 std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye);
 
+// Transforms a pixel's surface and the unit direction to a light, both in world space, to another space in which the
+// light is evaluated, for comparisons by cotan-lab; null: world space. Affects neither shadows, coats nor environments.
+using LightSpace = std::function<void(const SurfaceInputs& in, int lane, const SurfaceNormal& normal,
+                                      const PreparedLight& light, f32::cotan_surface& surface, glm::vec3& toLight)>;
+
 // Inputs that all pixels of an image share.
 struct PixelInputs {
     const View& view;
     Projection projection;
     std::vector<PreparedLight> lights;
     ShadowMap shadow;
+    LightSpace space;
 };
-
-// Lighting in tangent space as in common tutorials: vectors are transformed to the map's normal instead of the reverse.
-// Vectors have components along t, b, n of a pixel.
-struct TangentSpace {
-    f32::cotan_surface surface; // n: the texel; v: transformed to tangent space
-    f32::cotan_frame pixel{};   // of the pixel
-    bool perVertex = false;     // transform at the corners and interpolate
-    std::array<f32::cotan_frame, 3> corners{};
-    std::array<glm::vec3, 3> positions{}; // of the corners, relative to the eye
-    std::array<double, 3> weights{};
-};
-
-// Empty if the view lights in world space, if there is no normal map, and if the requested method lacks its input:
-// tangents at the vertices, or an invertible frame. surface: in world space.
-std::optional<TangentSpace> tangentSpaceOf(const SurfaceInputs& in, int lane, const SurfaceNormal& normal,
-                                           const f32::cotan_surface& surface, bool orthographic);
 
 // A shaded point: what the surface of the portable text does not contain.
 struct LitPoint {
@@ -164,28 +155,13 @@ struct Layers {
     std::optional<f32::cotan_coat> coat;
 };
 
-// Linear radiance towards the eye, before exposure: lights, environment, emission. tangent: if set, lights are
-// evaluated in tangent space with its surface instead of `surface`, without anisotropy.
-glm::vec3 radianceOf(const PixelInputs& all, const f32::cotan_surface& surface, const Layers& layers,
-                     const LitPoint& point, const std::optional<TangentSpace>& tangent);
+// Linear radiance towards the eye, before exposure: lights, environment, emission. in, lane, normal: for
+// PixelInputs::space.
+glm::vec3 radianceOf(const PixelInputs& all, const SurfaceInputs& in, int lane, const SurfaceNormal& normal,
+                     const f32::cotan_surface& surface, const Layers& layers, const LitPoint& point);
 
 // Transmittance for the colours behind the surface.
 glm::vec3 transmittanceOf(const f32::cotan_surface& surface, const Layers& layers);
-
-// ---- light by random walks: classic normal mapping, or two facets with a perturbed and a vertical normal ----
-
-// Light from one direction; the irradiance is on a plane perpendicular to it.
-struct ArrivingLight {
-    glm::vec3 toLight{0};
-    glm::vec3 irradiance{0};
-};
-
-// Linear radiance towards the eye from lights and, if the view has one, the environment, by one of the methods of
-// View::normalMapping other than `shading`: the mean of 64 random walks. Emission is not included. An eye direction
-// below the surface is clamped to the surface. surface: n is the perturbed normal. gloss: its anisotropy is taken as 0.
-// point: its position seeds the random numbers.
-glm::vec3 radianceByRays(const f32::cotan_surface& surface, const f32::cotan_gloss& gloss, const LitPoint& point,
-                         const View& view, const std::vector<ArrivingLight>& lights);
 
 // ---- pixels ---------------------------------------------------------------------------------
 
@@ -200,5 +176,11 @@ std::optional<Fragment> shade(const PixelInputs& all, const SurfaceInputs& in, i
 
 // The background in a pixel of the raster: the environment if the view shows it, otherwise 0.
 glm::vec4 background(const PixelInputs& all, int x, int y);
+
+// ---- images ---------------------------------------------------------------------------------
+
+// As renderReference, with lights evaluated in another space.
+Result<Image> renderIn(const LightSpace& space, const Scene& scene, const View& view, int threads,
+                       const Progress& progress = {});
 
 } // namespace cotan::reference

@@ -11,6 +11,12 @@ namespace cotan::reference {
 
 namespace {
 
+// Light from one direction; the irradiance is on a plane perpendicular to it.
+struct ArrivingLight {
+    glm::vec3 toLight{0};
+    glm::vec3 irradiance{0};
+};
+
 // Empty if no light reaches the point.
 std::optional<ArrivingLight> arrivalOf(const PreparedLight& light, const LitPoint& point, const PixelInputs& all)
 {
@@ -31,7 +37,7 @@ std::optional<ArrivingLight> arrivalOf(const PreparedLight& light, const LitPoin
     return ArrivingLight{toLight, light.radiance * strength};
 }
 
-// The light reflected by a surface, in world or tangent space.
+// The light reflected by a surface.
 glm::vec3 reflected(const f32::cotan_surface& surface, const Layers& layers, glm::vec3 toLight, Shading shading)
 {
     if (shading == Shading::blinnPhong)
@@ -67,47 +73,6 @@ template<class Reflect> glm::vec3 meanOfTaps(f32::cotan_surface surface, const L
     return sum / float(point.taps.size());
 }
 
-// Interpolates the vectors of `vectorAt` at the corners, transformed by the transpose of the corners' frames as in a
-// vertex shader. The transpose is the inverse only for orthonormal frames.
-template<class VectorAt> glm::vec3 interpolated(const TangentSpace& space, VectorAt vectorAt)
-{
-    glm::dvec3 sum(0);
-    for (std::size_t i = 0; i < 3; ++i) {
-        const f32::cotan_frame& f = space.corners[i];
-        const glm::vec3 v = vectorAt(space.positions[i]);
-        sum += glm::dvec3(glm::dot(f.t, v), glm::dot(f.b, v), glm::dot(f.n, v)) * space.weights[i];
-    }
-    return f32::cotan_normalize_or(glm::vec3(sum), glm::vec3(0, 0, 1));
-}
-
-bool invertible(const f32::cotan_frame& f)
-{
-    const float determinant = glm::dot(f.t, glm::cross(f.b, f.n));
-    return determinant != 0 && f32::cotan_sum_abs(f.t) + f32::cotan_sum_abs(f.b) <= 1e37f;
-}
-
-// Sets the corners' frames from stored tangents.
-void setCorners(TangentSpace& space, const Draw& draw, const RasterTriangle& triangle)
-{
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint32_t v = triangle.vertex[i];
-        const glm::vec3 n = draw.normals[v], t(draw.tangents[v]);
-        space.corners[i].t = t;
-        space.corners[i].b = glm::cross(n, t) * draw.tangents[v].w;
-        space.corners[i].n = n;
-        space.positions[i] = draw.positions[v];
-    }
-}
-
-// Unit vector to the light in tangent space. toLight: from the pixel, unit, in world space.
-glm::vec3 toLightInTangentSpace(const TangentSpace& space, const PreparedLight& light, glm::vec3 toLight)
-{
-    if (!space.perVertex)
-        return f32::cotan_encode(space.pixel, toLight);
-    const bool directional = light.kind == LightKind::directional;
-    return interpolated(space, [&](glm::vec3 p) { return directional ? toLight : light.position - p; });
-}
-
 } // namespace
 
 std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye)
@@ -131,65 +96,28 @@ std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye)
     return prepared;
 }
 
-std::optional<TangentSpace> tangentSpaceOf(const SurfaceInputs& in, int lane, const SurfaceNormal& normal,
-                                           const f32::cotan_surface& surface, bool orthographic)
-{
-    const Draw& draw = *in.draw;
-    const Lighting lighting = in.view->lighting;
-    if (lighting == Lighting::world || !normal.mapped)
-        return std::nullopt;
-    TangentSpace space{surface};
-    space.pixel = normal.frame;
-    space.weights = in.points->weights[std::size_t(lane)];
-    space.surface.n = normal.texel;
-    space.perVertex = lighting == Lighting::tangentVertex;
-    if (space.perVertex) {
-        if (draw.tangents.empty() || draw.normals.empty())
-            return std::nullopt;
-        setCorners(space, draw, *in.triangle);
-        // Not normalised at the corners, which makes the interpolation exact on a flat triangle.
-        space.surface.v = interpolated(space, [&](glm::vec3 p) { return orthographic ? surface.v : -p; });
-        return space;
-    }
-    if (!invertible(normal.frame))
-        return std::nullopt;
-    space.surface.v = f32::cotan_encode(normal.frame, surface.v);
-    return space;
-}
-
-glm::vec3 radianceOf(const PixelInputs& all, const f32::cotan_surface& surface, const Layers& layers,
-                     const LitPoint& point, const std::optional<TangentSpace>& tangent)
+glm::vec3 radianceOf(const PixelInputs& all, const SurfaceInputs& in, int lane, const SurfaceNormal& normal,
+                     const f32::cotan_surface& surface, const Layers& layers, const LitPoint& point)
 {
     const View& view = all.view;
     glm::vec3 radiance = surface.emissive, fromCoat(0);
-    Layers isotropic = layers; // tangent space has no anisotropy
-    if (isotropic.gloss)
-        isotropic.gloss->anisotropy = 0;
-    const bool rays = view.normalMapping != NormalMapping::shading && view.shading == Shading::pbr && !tangent;
-    std::vector<ArrivingLight> arrivals; // for the random walks
     for (const PreparedLight& light : all.lights) {
         const std::optional<ArrivingLight> arrival = arrivalOf(light, point, all);
         if (!arrival)
             continue;
-        const glm::vec3 toLight = arrival->toLight;
-        if (rays)
-            arrivals.push_back(*arrival);
-        else
-            radiance += arrival->irradiance
-                * (tangent ? reflected(tangent->surface, isotropic, toLightInTangentSpace(*tangent, light, toLight),
-                                       view.shading)
-                           : meanOfTaps(surface, point, [&](const f32::cotan_surface& s) {
-                                 return reflected(s, layers, toLight, view.shading);
-                             }));
+        f32::cotan_surface lit = surface;
+        glm::vec3 toLight = arrival->toLight;
+        if (all.space)
+            all.space(in, lane, normal, light, lit, toLight);
+        radiance += arrival->irradiance * meanOfTaps(lit, point, [&](const f32::cotan_surface& s) {
+                        return reflected(s, layers, toLight, view.shading);
+                    });
         if (layers.coat)
-            fromCoat += arrival->irradiance * f32::cotan_reflect_coat(*layers.coat, surface.v, toLight);
+            fromCoat += arrival->irradiance * f32::cotan_reflect_coat(*layers.coat, surface.v, arrival->toLight);
     }
-    if (rays)
-        radiance += radianceByRays(surface, layers.gloss.value_or(f32::cotan_plain_gloss()), point, view, arrivals);
     if (view.environment) {
-        if (!rays)
-            radiance += meanOfTaps(surface, point,
-                                   [&](const f32::cotan_surface& s) { return environmentLight(s, layers, view); });
+        radiance +=
+            meanOfTaps(surface, point, [&](const f32::cotan_surface& s) { return environmentLight(s, layers, view); });
         if (layers.coat)
             fromCoat += surface.occlusion
                 * (view.environmentMap ? reflectedOfCoat(*view.environmentMap, *layers.coat, surface.v)

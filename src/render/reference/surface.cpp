@@ -25,18 +25,9 @@ glm::vec<N, float> interpolated(const std::vector<glm::vec<N, float>>& values, c
 
 std::size_t setOf(const Texture& texture) { return texture.texcoord == 1 ? 1 : 0; }
 
-// Screen-space differences of a lane. Fine: along the lane's own row or column. Coarse: along the first row or column
-// for all four lanes.
-template<class ValueAt> auto alongX(const ValueAt& valueAt, int lane, Derivatives d)
-{
-    const int first = d == Derivatives::fine ? lane & 2 : 0;
-    return valueAt(first | 1) - valueAt(first);
-}
-template<class ValueAt> auto alongY(const ValueAt& valueAt, int lane, Derivatives d)
-{
-    const int first = d == Derivatives::fine ? lane & 1 : 0;
-    return valueAt(first | 2) - valueAt(first);
-}
+// Screen-space differences of a lane, along its own row or column.
+template<class ValueAt> auto alongX(const ValueAt& valueAt, int lane) { return valueAt(lane | 1) - valueAt(lane & 2); }
+template<class ValueAt> auto alongY(const ValueAt& valueAt, int lane) { return valueAt(lane | 2) - valueAt(lane & 1); }
 
 // Transforms differences of texture coordinates: the linear part of the transform.
 glm::vec2 transformedEdge(const Texture& texture, glm::vec2 edge)
@@ -91,9 +82,8 @@ UvDifferences uvOf(const SurfaceInputs& in, const Texture& texture, int lane)
 {
     const std::size_t set = setOf(texture);
     const auto cornerUv = [&](int at) { return in.points->cornerUv[set][std::size_t(at)]; };
-    return {textureUv(texture, in.points->uv[set][std::size_t(lane)]),
-            transformedEdge(texture, alongX(cornerUv, lane, in.view->derivatives)),
-            transformedEdge(texture, alongY(cornerUv, lane, in.view->derivatives))};
+    return {textureUv(texture, in.points->uv[set][std::size_t(lane)]), transformedEdge(texture, alongX(cornerUv, lane)),
+            transformedEdge(texture, alongY(cornerUv, lane))};
 }
 
 // Interpolates a uv set in one lane, both absolute and relative to the triangle's first corner.
@@ -113,8 +103,8 @@ Smooth smoothOf(const SurfaceInputs& in, int lane, const UvDifferences& uv)
 {
     Smooth smooth;
     const auto position = [&](int at) { return in.points->position[std::size_t(at)]; };
-    smooth.dpdx = alongX(position, lane, in.view->derivatives);
-    smooth.dpdy = alongY(position, lane, in.view->derivatives);
+    smooth.dpdx = alongX(position, lane);
+    smooth.dpdy = alongY(position, lane);
     if (!in.draw->normals.empty())
         smooth.raw = interpolated(in.draw->normals, *in.triangle, in.points->weights[std::size_t(lane)]);
     f32::cotan_differences safe = f32::cotan_scale_differences(smooth.dpdx, smooth.dpdy, uv.dx, uv.dy);
@@ -128,8 +118,8 @@ void addNormalDifferences(SurfaceNormal& result, const SurfaceInputs& in, int la
     if (!in.view->specularAntialiasing)
         return;
     const auto normal = [&](int at) { return smoothOf(in, at, {}).n; };
-    result.dndx = alongX(normal, lane, in.view->derivatives);
-    result.dndy = alongY(normal, lane, in.view->derivatives);
+    result.dndx = alongX(normal, lane);
+    result.dndy = alongY(normal, lane);
     result.smoothVariance = result.variance = f32::cotan_variance_of_curvature(result.dndx, result.dndy);
 }
 

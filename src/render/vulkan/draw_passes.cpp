@@ -72,7 +72,6 @@ PassKeys keysOf(const View& view, const Targets& targets)
     forward = {.frame = view.framesOfMeshes ? Frame{} : view.frame,
                .framesOfMeshes = view.framesOfMeshes,
                .output = view.output,
-               .coarse = view.derivatives == Derivatives::coarse,
                .normalMaps = view.normalMaps,
                .samples = kind.samples,
                .format = kind.format};

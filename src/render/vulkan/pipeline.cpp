@@ -26,8 +26,8 @@ vk::raii::DescriptorSetLayout makeSetLayout(const Device& device, std::span<cons
 
 // The values of shaders/constants.glsl, ordered by constant_id.
 struct Specialization {
-    std::array<std::uint32_t, 19> values;
-    std::array<vk::SpecializationMapEntry, 19> entries;
+    std::array<std::uint32_t, 18> values;
+    std::array<vk::SpecializationMapEntry, 18> entries;
     vk::SpecializationInfo info;
 
     explicit Specialization(const PipelineKey& key)
@@ -35,7 +35,6 @@ struct Specialization {
                  std::uint32_t(key.output),
                  std::uint32_t(key.shading),
                  std::uint32_t(key.alphaMode),
-                 key.coarse,
                  key.normalMaps,
                  key.environment,
                  key.shadows,

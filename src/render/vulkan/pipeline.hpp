@@ -53,7 +53,6 @@ struct PipelineKey {
     bool framesOfMeshes = false; // each mesh's own, instead of `frame`
     Output output = Output::shaded;
     Shading shading = Shading::pbr;
-    bool coarse = false;
     bool normalMaps = true;
     bool environment = true;
     bool environmentMap = false; // environment map instead of the formula

@@ -51,11 +51,6 @@ double secondsSince(std::chrono::steady_clock::time_point start)
 Status checkLimits(const Device& device, const View& view)
 {
     COTAN_CHECK(checkView(view));
-    if (view.lighting != Lighting::world)
-        return unavailableError("lighting in tangent space: only the reference renderer supports it "
-                                "(--device reference)");
-    if (view.normalMapping != NormalMapping::shading)
-        return unavailableError("normal mapping by rays: only the reference renderer supports it (--device reference)");
     const std::uint32_t largest = std::min({device.limits.maxFramebufferWidth, device.limits.maxFramebufferHeight,
                                             device.limits.maxImageDimension2D, device.limits.maxViewportDimensions[0],
                                             device.limits.maxViewportDimensions[1]});

@@ -92,8 +92,6 @@ struct PictureOptions {
     std::string device = "auto";
     Edges edges = Edges::none;
     Shading shading = Shading::pbr;
-    Lighting lighting = Lighting::world;
-    NormalMapping normalMapping = NormalMapping::shading;
     TangentOrigin tangents = TangentOrigin::stored;
     std::string environment = "studio"; // or "none"
     double environmentRotation = 0;     // degrees
@@ -103,8 +101,6 @@ struct PictureOptions {
     std::optional<float> exposure;        // factor; none: metered
     bool ground = true;                   // an otherwise invisible ground receives the model's shadow
     std::optional<double> shadowSoftness; // degrees; none: depends on the environment (shadowSoftnessOf)
-    bool rowsUpward = false;              // as in View
-    Derivatives derivatives = Derivatives::fine;
     int memory = kDefaultMemory;
     int samples = 4;
     bool noShadows = false;
@@ -212,13 +208,6 @@ struct Picture {
 // Loads the model (or makes the built-in scene), derives the attributes that `frames` need, and sets up the view.
 // Warnings are in the scene. Opens the device in parallel; threads: as for openRenderer.
 Result<Picture> openPicture(const PictureOptions& options, int threads, std::initializer_list<FrameChoice> frames);
-
-// Checks that --lighting works with the frame (tangent-vertex needs tangents at vertices), and --normal-mapping with
-// the other options.
-Status checkLighting(const PictureOptions& options, FrameChoice frame);
-
-// The name of the device for the options: "auto" becomes "reference" if only the reference renderer supports them.
-std::string deviceOf(const PictureOptions& options);
 
 // Waits for the device, loads the scene into it and meters the exposure; the renderer's note tells of a fallback.
 // Call once per Picture, which must outlive the renderer. Errors: of openRenderer, Renderer::load and draw.

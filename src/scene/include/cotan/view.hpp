@@ -44,30 +44,6 @@ enum class Output {
 
 enum class Shading { pbr, blinnPhong };
 
-// The space in which lights are evaluated. The last two exist for comparison with `world`, in the reference renderer
-// only: they transform vectors to tangent space and shade with the map's normal as stored, which requires an
-// orthonormal frame. The environment is always sampled in world space.
-enum class Lighting {
-    world,         // the map's normal is transformed to world space
-    tangentVertex, // light and view vectors are transformed to tangent space by the transpose of t, b, n at
-                   // each vertex and interpolated; frames without vertex tangents: as `world`
-    tangentPixel,  // the same per pixel, by the inverse of the frame
-};
-
-// How a perturbed normal shades a surface that is geometrically flat. All modes except `shading` exist in the reference
-// renderer only. They trace 64 rays per pixel from the point, with an energy-preserving material, and omit sheen and
-// anisotropy. With Blinn-Phong or tangent-space lighting, every mode is `shading`.
-enum class NormalMapping {
-    shading,     // lights and the environment are evaluated with the perturbed normal
-    rays,        // the same, but light from below the geometric surface is lost, as in path tracers
-    shadowed,    // also darkens grazing light, which hides the terminator (Conty Estevez, Lecocq, Stein 2019)
-    facets,      // a second facet of the same material balances the perturbed one (Schuessler and others 2017)
-    mirrorFacet, // the same with a mirror as the second facet, as in the paper
-};
-
-// Differences within a 2x2 quad: of each pixel's own row and column, or one pair for all four pixels.
-enum class Derivatives { fine, coarse };
-
 // How unbounded light becomes a displayed colour. The values and their order match shaders/cotan/tone.h.
 enum class ToneMapping {
     none,    // clipped at 1
@@ -106,8 +82,6 @@ struct View {
     bool framesOfMeshes = false; // meshes with a frame of their own (Mesh::readWith) are drawn with that
     Output output = Output::shaded;
     Shading shading = Shading::pbr;
-    Lighting lighting = Lighting::world;
-    NormalMapping normalMapping = NormalMapping::shading;
     std::vector<Light> lights; // the first directional one casts shadows
     bool shadows = true;
     float shadowSoftness = 0; // tangent of half the angle that the shadow-casting light subtends; 0: sharp
@@ -128,7 +102,6 @@ struct View {
     // curvature, and from the shortened mean normals of the map's mips.
     bool specularAntialiasing = false;
     bool pointSampled = false; // nearest texel of the finest level, for comparing renderers
-    Derivatives derivatives = Derivatives::fine;
     // Direction of raster rows during drawing. The image is upright either way; only the sign of y derivatives changes.
     bool rowsUpward = false;
 
