@@ -3,8 +3,8 @@
 // The same files compile as GLSL 4.50, GLSL ES 3.00, HLSL and C++20. The including file selects one language by
 // defining exactly one of the macros below; predefined compiler macros are not consulted. No file of the portable text
 // includes another, so the files also work where shader sources are simply concatenated. Order: lang.h first, then
-// normal.h, frame.h (or fused.h alone), history.h, gradient.h, blend.h, space.h, mapping.h, parallax.h, light.h,
-// sheen.h as needed.
+// normal.h, frame.h (or fused.h alone), history.h, gradient.h, blend.h, light.h, sheen.h, space.h, mapping.h,
+// parallax.h as needed.
 //
 //   COTAN_LANG_GLSL   GLSL 4.50 and GLSL ES 3.00
 //   COTAN_LANG_HLSL   HLSL, shader model 5 and later

@@ -1,4 +1,4 @@
-// Cotan portable text: vectors to and from texture space. Include lang.h and frame.h first.
+// Cotan portable text: vectors to and from texture space. Include lang.h, frame.h and light.h first.
 //
 // A frame has three covectors t, b, n. t*m.x + b*m.y + n*m.z takes a texel m out of texture space. For another vector
 // there are two ways in, and they are equal only where t, b and n are orthonormal:
@@ -59,11 +59,7 @@ COTAN_FUNCTION cotan_vec3 cotan_texture_travel(cotan_frame f, cotan_vec3 v)
 COTAN_FUNCTION cotan_vec3 cotan_tangent_direction(cotan_frame f, cotan_vec3 n, cotan_vec2 along)
 {
     cotan_vec3 zero = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
-    cotan_vec3 u = cotan_normalize_or(cross(f.b, f.n), zero);
-    cotan_vec3 across = cross(f.n, u); // on the side of b
-    cotan_real along_u = dot(u, f.t) < cotan_real(0.0) ? -along.x : along.x; // mirrored uv
-    cotan_vec3 d = u * along_u + across * along.y;
-    return cotan_normalize_or(d - n * dot(n, d), zero);
+    return cotan_direction_on_surface(cotan_normalize_or(f.n, zero), f.t, f.b, along, n);
 }
 
 #endif
