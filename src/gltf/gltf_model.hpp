@@ -81,6 +81,11 @@ void readGltfModel(GltfModel& model, const std::filesystem::path& path, const Lo
 // The part of readGltfModel that needs no file: fills structure and accessors from file.json and views.
 void interpretGltfModel(GltfModel& model);
 
+// Adds to the primitives the materials that variants put in place of their own (KHR_materials_variants). Of materials
+// whose normal maps are read alike only the first counts, and those without normal maps do not. Throws GltfProblem:
+// ErrorKind::input for damaged mappings.
+void addVariantMaterials(GltfModel& model);
+
 // Makes the scene of a model. path: the file, for the name. images: replace those that would be decoded; null: images
 // are decoded. Throws GltfProblem: all that loadGltf reports about geometry, nodes, materials and images.
 Scene buildGltfScene(GltfModel& model, const std::filesystem::path& path, const std::vector<Image>* images = nullptr);
