@@ -169,9 +169,9 @@ void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& 
 // normalising it again could make different normals equal, and weld their vertices.
 glm::vec3 unitNormal(const glm::vec3& normal);
 
-// Gives each corner of the triangles a vertex of its own, with positions, uv and colours; the indices become 0, 1, 2,
-// ...
-void separateCorners(Mesh& mesh);
+// Gives each corner of the triangles a vertex of its own, with positions, uv, colours and the normal of its triangle,
+// as glTF requires of primitives without normals. The normal is zero if the triangle has no area.
+void makeFlat(Mesh& mesh);
 
 // Makes the mesh: unit normals (flat ones if the file has none) and tangents with w = +-1. Warns about unusual values.
 // normalMapSet: the uv set of the material's normal map, or -1.
@@ -226,7 +226,6 @@ private:
 // them. Does nothing if no animation is requested. Requires GltfModel::accessors. Times before the first or after the
 // last key of a channel give that key. Throws GltfProblem: ErrorKind::usage if there is no such animation;
 // ErrorKind::input for damaged channels. Source: glTF 2.0, section 3.11 and appendix C.
-// section 3.11 and appendix C.
 void poseGltf(GltfModel& model);
 
 // The animations of the file and their durations. Never fails: errors in an animation are reported when it is
