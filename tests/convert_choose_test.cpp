@@ -10,6 +10,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "cotan/convert.hpp"
+#include "cotan/frame_choice.hpp"
 #include "cotan/gltf.hpp"
 #include "cotan/image.hpp"
 #include "cotan/lint.hpp"
@@ -98,6 +99,110 @@ TEST(ConvertChoose, eachPrimitiveOfAMaterialHasItsOwnFrame)
     ASSERT_EQ(report.notes.size(), 1u);
     EXPECT_TRUE(report.notes[0].starts_with("meshes[1].primitives[0]: its tangents stay")) << report.notes[0];
     EXPECT_FALSE(rootOf(document)["materials"][0].contains("extras")); // the maps are still for MikkTSpace
+}
+
+// A mesh with `count` variants, each with a material and a scale of normals of its own. All maps are flat but that of
+// the variant `last`, which shows where the tangents are.
+GltfDocument documentWithVariants(const Mesh& mesh, std::size_t count, std::size_t last)
+{
+    GltfDocument document = documentWith({mesh});
+    auto& root = rootOf(document);
+    Image flat = makeReliefMap(Relief::waves, 8);
+    for (std::size_t i = 0; i < flat.data.size(); ++i)
+        flat.data[i] = std::byte(i % 4 < 2 ? 128 : 255);
+    const std::size_t flatImage = addGltfImage(document, *encodePng(flat), "image/png", "flat");
+    const std::size_t flatTexture = copyGltfTexture(document, 0, flatImage);
+    gltf::Json mappings, variants;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t material = copyGltfMaterial(document, 0);
+        auto& map = root["materials"][material]["normalTexture"];
+        if (i != last)
+            map["index"] = flatTexture;
+        map["scale"] = 1 + double(i) / 1e6;
+        mappings[i]["material"] = material;
+        mappings[i]["variants"] = {i};
+        variants[i]["name"] = std::to_string(i);
+    }
+    root["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"] = mappings;
+    root["extensionsUsed"] = {"KHR_materials_variants"};
+    root["extensions"]["KHR_materials_variants"]["variants"] = variants;
+    root["materials"][0]["normalTexture"]["index"] = flatTexture;
+    return document;
+}
+
+TEST(ConvertChoose, aLateVariantThatNeedsTangentsKeepsThem)
+{
+    for (const std::size_t last : {std::size_t(0), std::size_t(11)}) {
+        GltfDocument document = documentWithVariants(squareAt(0, 30, 1), 12, last);
+        chosen(document);
+        EXPECT_EQ(keptIn(document), std::vector{true}) << last;
+    }
+    GltfDocument without =
+        documentWithVariants(squareAt(0, 30, 1), 12, 12); // all maps are flat, whatever the tangents are
+    chosen(without);
+    EXPECT_EQ(keptIn(without), std::vector{false});
+}
+
+// All variants show the same geometry: they share the points that are judged, and the triangles.
+TEST(ConvertChoose, thousandsOfVariantsShareTheJudgedPoints)
+{
+    constexpr std::size_t kVariants = 3000;
+    const GltfDocument document = documentWithVariants(squareAt(0, 0, 1), kVariants, kVariants);
+    const auto scene = gltfSceneOfVariants(document, {});
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->meshes.size(), 1 + kVariants);
+    std::size_t points = 0;
+    for (const FrameDecision& d : chooseFrames(*scene)) {
+        ASSERT_EQ(d.candidates.size(), 1u); // the first one fits
+        points += d.candidates[0].points;
+    }
+    EXPECT_LE(points, 128u * 4096);
+    EXPECT_GE(points, 16 * kVariants);
+}
+
+TEST(ConvertChoose, materialsThatShowTheSameNormalsAreJudgedOnce)
+{
+    GltfDocument document = documentWithVariants(squareAt(0, 0, 1), 4, 4);
+    auto& materials = rootOf(document)["materials"];
+    materials[2]["normalTexture"] = materials[1]["normalTexture"]; // another colour only
+    materials[2]["pbrMetallicRoughness"]["metallicFactor"] = 0.5;
+    materials[3].erase("normalTexture");
+    const auto scene = gltfSceneOfVariants(document, {});
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->meshes.size(), 3u); // its own material, those of the first and of the last variant
+    EXPECT_EQ(scene->instances.size(), 3u);
+}
+
+// A plane of `side` x `side` squares.
+Mesh plane(int side)
+{
+    Mesh mesh;
+    for (int y = 0; y <= side; ++y)
+        for (int x = 0; x <= side; ++x) {
+            mesh.positions.emplace_back(x, y, 0);
+            mesh.normals.emplace_back(0, 0, 1);
+            mesh.texcoords[0].emplace_back(float(x) / float(side), 1 - float(y) / float(side));
+        }
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const auto at = [&](int dx, int dy) { return std::uint32_t((y + dy) * (side + 1) + x + dx); };
+            mesh.indices.insert(mesh.indices.end(), {at(0, 0), at(1, 0), at(1, 1), at(0, 0), at(1, 1), at(0, 1)});
+        }
+    return mesh;
+}
+
+TEST(ConvertChoose, variantsOfALargePrimitiveShareAMillionTriangles)
+{
+    constexpr std::size_t kVariants = 20; // 20 times 80,000 triangles are over a million
+    const auto scene = gltfSceneOfVariants(documentWithVariants(plane(200), kVariants, kVariants), {});
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->meshes.size(), 1 + kVariants);
+    EXPECT_EQ(scene->meshes[0].triangleCount(), 80'000u); // its own material: all
+    std::size_t triangles = 0;
+    for (std::size_t i = 1; i < scene->meshes.size(); ++i)
+        triangles += scene->meshes[i].triangleCount();
+    EXPECT_LE(triangles, 1'000'000u);
+    EXPECT_GE(triangles, 990'000u);
 }
 
 TEST(ConvertChoose, nobodyDecidesTwice)

@@ -212,6 +212,15 @@ Result<Scene> gltfScene(const GltfDocument& document, const LoadLimits& limits)
     });
 }
 
+Result<Scene> gltfSceneOfVariants(const GltfDocument& document, const LoadLimits& limits)
+{
+    return caughtGltf(document.source->path, [&] {
+        GltfModel model = modelOf(document, limits);
+        addVariantMaterials(model);
+        return buildGltfScene(model, document.source->path);
+    });
+}
+
 const std::filesystem::path& gltfPath(const GltfDocument& document) { return document.source->path; }
 
 Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh, std::size_t primitive,

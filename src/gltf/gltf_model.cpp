@@ -216,6 +216,30 @@ std::size_t findVariant(const Json& root, const std::string& wanted)
     return findNamed(names, wanted, "variants");
 }
 
+// The material of a mapping of a primitive. count: of materials.
+int materialOf(const Json& mapping, std::size_t count, std::size_t mesh, std::size_t primitive)
+{
+    const Json material = mapping.is_object() ? mapping.value("material", Json()) : Json();
+    if (!material.is_number_unsigned() || material.get<std::uint64_t>() >= count)
+        failGltf("{}.extensions.{}: expected an index below {}, the number of materials, found {}",
+                 primitiveField(mesh, primitive), kVariants, count, oneLine(material.dump()));
+    return material.get<int>();
+}
+
+// What decides how the normal maps of a material are read; empty if it has none.
+std::string normalsOf(const Json& material)
+{
+    const Json* const map = gltf::member(material, "normalTexture");
+    const Json* const coat = gltf::extension(material, "KHR_materials_clearcoat");
+    if (!map && !gltf::member(coat, "clearcoatNormalTexture"))
+        return {};
+    const Json* const anisotropy = gltf::extension(material, "KHR_materials_anisotropy");
+    std::string text = gltf::frameText(material) + '\n' + std::to_string(int(gltf::expansionOf(material)));
+    for (const Json* part : {map, coat, anisotropy})
+        text += '\n' + (part ? part->dump(-1, ' ', false, Json::error_handler_t::replace) : std::string());
+    return text;
+}
+
 // Sets the material of limits.variant on each primitive that has one (KHR_materials_variants); the others keep theirs.
 // Throws GltfProblem: ErrorKind::usage if there is no such variant; ErrorKind::input for damaged mappings.
 void chooseGltfVariant(GltfModel& model)
@@ -238,14 +262,38 @@ void chooseGltfVariant(GltfModel& model)
             });
             if (found == mappings->end())
                 continue;
-            const Json material = found->value("material", Json());
-            if (!material.is_number_unsigned() || material.get<std::uint64_t>() >= materials)
-                failGltf("{}.extensions.{}: expected an index below {}, the number of materials, found {}",
-                         primitiveField(m, p), kVariants, materials, oneLine(material.dump()));
-            primitives[p]["material"] = material;
+            primitives[p]["material"] = materialOf(*found, materials, m, p);
         }
     }
 }
+
+} // namespace
+
+void addVariantMaterials(GltfModel& model)
+{
+    const Json& root = model.file.json;
+    const std::size_t materials = countOf(root, "materials");
+    std::vector<std::string> normals;
+    for (std::size_t i = 0; i < materials; ++i)
+        normals.push_back(normalsOf(root["materials"][i]));
+    for (std::size_t m = 0; m < model.structure.meshes.size(); ++m)
+        for (std::size_t p = 0; p < model.structure.meshes[m].primitives.size(); ++p) {
+            gltf::Primitive& primitive = model.structure.meshes[m].primitives[p];
+            const Json* const mappings =
+                gltf::member(gltf::extension(root["meshes"][m]["primitives"][p], kVariants), "mappings");
+            if (!mappings || !mappings->is_array())
+                continue;
+            std::set<std::string_view> seen{""};
+            if (primitive.material >= 0)
+                seen.insert(normals[std::size_t(primitive.material)]);
+            for (const Json& mapping : *mappings)
+                if (const int material = materialOf(mapping, materials, m, p);
+                    seen.insert(normals[std::size_t(material)]).second)
+                    primitive.others.push_back(material);
+        }
+}
+
+namespace {
 
 // ---- accessors ------------------------------------------------------------------------------
 

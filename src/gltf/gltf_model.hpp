@@ -81,6 +81,11 @@ void readGltfModel(GltfModel& model, const std::filesystem::path& path, const Lo
 // The part of readGltfModel that needs no file: fills structure and accessors from file.json and views.
 void interpretGltfModel(GltfModel& model);
 
+// Adds to the primitives the materials that variants put in place of their own (KHR_materials_variants). Of materials
+// whose normal maps are read alike only the first counts, and those without normal maps do not. Throws GltfProblem:
+// ErrorKind::input for damaged mappings.
+void addVariantMaterials(GltfModel& model);
+
 // Makes the scene of a model. path: the file, for the name. images: replace those that would be decoded; null: images
 // are decoded. Throws GltfProblem: all that loadGltf reports about geometry, nodes, materials and images.
 Scene buildGltfScene(GltfModel& model, const std::filesystem::path& path, const std::vector<Image>* images = nullptr);
@@ -164,9 +169,9 @@ void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& 
 // normalising it again could make different normals equal, and weld their vertices.
 glm::vec3 unitNormal(const glm::vec3& normal);
 
-// Gives each corner of the triangles a vertex of its own, with positions, uv and colours; the indices become 0, 1, 2,
-// ...
-void separateCorners(Mesh& mesh);
+// Gives each corner of the triangles a vertex of its own, with positions, uv, colours and the normal of its triangle,
+// as glTF requires of primitives without normals. The normal is zero if the triangle has no area.
+void makeFlat(Mesh& mesh);
 
 // Makes the mesh: unit normals (flat ones if the file has none) and tangents with w = +-1. Warns about unusual values.
 // normalMapSet: the uv set of the material's normal map, or -1.
@@ -221,7 +226,6 @@ private:
 // them. Does nothing if no animation is requested. Requires GltfModel::accessors. Times before the first or after the
 // last key of a channel give that key. Throws GltfProblem: ErrorKind::usage if there is no such animation;
 // ErrorKind::input for damaged channels. Source: glTF 2.0, section 3.11 and appendix C.
-// section 3.11 and appendix C.
 void poseGltf(GltfModel& model);
 
 // The animations of the file and their durations. Never fails: errors in an animation are reported when it is

@@ -1,6 +1,7 @@
 // Converts glTF 2.0 and GLB files to a Scene.
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -8,10 +9,16 @@
 #include "gltf_model.hpp"
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
+#include "scene/parts.hpp"
 
 namespace cotan {
 
 namespace {
+
+// Meshes that show the materials of variants: triangles in all, but at least so many each; the number of those that
+// differ from another one only by skin or morph weights; and their instances, which differ in stretch.
+constexpr std::size_t kMaxVariantTriangles = 1'000'000, kMinVariantTriangles = 64;
+constexpr std::size_t kMaxVariantsAgain = 4096, kMaxStretches = 8;
 
 // A mesh of the file as used by a node: morph weights and skin make its primitives depend on the node.
 struct MeshUse {
@@ -50,6 +57,11 @@ public:
 
     void build(const std::vector<Image>* images)
     {
+        std::size_t variants = 0;
+        for (const gltf::Mesh& mesh : model_.structure.meshes)
+            for (const gltf::Primitive& primitive : mesh.primitives)
+                variants += primitive.others.size();
+        trianglesOfVariant_ = std::max(kMaxVariantTriangles / std::max<std::size_t>(variants, 1), kMinVariantTriangles);
         readSkins();
         placeMeshes();
         checkUnusedMeshes();
@@ -95,24 +107,56 @@ private:
 
     const gltf::Mesh& sourceMesh(int mesh) const { return model_.structure.meshes[std::size_t(mesh)]; }
 
-    // The scene's meshes for a use, created on first use.
-    const std::vector<int>& meshesFor(const MeshUse& use)
+    // What the scene has of a use.
+    struct Made {
+        std::vector<int> meshes;
+        std::vector<int> variants;           // the same with the other materials of the primitives
+        std::vector<glm::dmat3> stretches{}; // of instances of `variants`
+    };
+
+    int add(Mesh mesh, int use, std::size_t p)
     {
-        const auto [entry, isNew] = made_.emplace(use, std::vector<int>());
+        mesh.material = materials_.use(mesh.material, mesh);
+        mesh.source = {std::size_t(use), p};
+        mesh.named = frameNamed(use, p);
+        scene_.meshes.push_back(std::move(mesh));
+        return int(scene_.meshes.size()) - 1;
+    }
+
+    // Whether the other materials of a mesh are shown by a new use of it; of very many skins or weights not by all.
+    bool showsVariants(int mesh)
+    {
+        std::size_t count = 0;
+        for (const gltf::Primitive& p : sourceMesh(mesh).primitives)
+            count += p.others.size();
+        const bool isFirst = withVariants_.insert(mesh).second;
+        if (count == 0 || (!isFirst && repeatedVariants_ + count > kMaxVariantsAgain))
+            return false;
+        repeatedVariants_ += isFirst ? 0 : count;
+        return true;
+    }
+
+    // The scene's meshes for a use, created on first use.
+    Made& meshesFor(const MeshUse& use)
+    {
+        const auto [entry, isNew] = made_.emplace(use, Made());
         if (!isNew)
             return entry->second;
+        const bool all = showsVariants(use.mesh);
         for (std::size_t p = 0; p < sourceMesh(use.mesh).primitives.size(); ++p) {
             auto primitive = readGltfPrimitive(model_, use.mesh, p, use.weights);
             if (!primitive)
                 continue;
             if (use.skin >= 0)
                 skinGltfPrimitive(*primitive, joints_[std::size_t(use.skin)], model_.warnings);
-            Mesh mesh = finish(std::move(*primitive));
-            mesh.material = materials_.use(mesh.material, mesh);
-            mesh.source = {std::size_t(use.mesh), p};
-            mesh.named = frameNamed(use.mesh, p);
-            entry->second.push_back(int(scene_.meshes.size()));
-            scene_.meshes.push_back(std::move(mesh));
+            std::vector<GltfPrimitive> others;
+            for (const int material : all ? sourceMesh(use.mesh).primitives[p].others : std::vector<int>()) {
+                others.push_back({primitive->field, partOfMesh(primitive->mesh, trianglesOfVariant_), {}, {}});
+                others.back().mesh.material = material;
+            }
+            entry->second.meshes.push_back(add(finish(std::move(*primitive)), use.mesh, p));
+            for (GltfPrimitive& other : others)
+                entry->second.variants.push_back(add(finish(std::move(other)), use.mesh, p));
         }
         return entry->second;
     }
@@ -142,15 +186,27 @@ private:
             if (source.mesh < 0)
                 continue;
             const MeshUse use = useOf(node);
-            const std::vector<int>& meshes = meshesFor(use);
+            Made& made = meshesFor(use);
+            const std::vector<int>& meshes = made.meshes;
             const std::vector<glm::mat4> placements =
                 use.skin >= 0 ? std::vector<glm::mat4>{glm::mat4(1)} : gltfPlacements(model_, nodes_, node);
-            if (meshes.size() * placements.size() > model_.limits.nodes - scene_.instances.size())
+            const std::size_t instances = meshes.size() * placements.size();
+            if (instances > instancesLeft_)
                 failGltf("nodes[{}]: the limit is {} instances in total", node, model_.limits.nodes);
-            for (const glm::mat4& placement : placements)
-                for (const int mesh : meshes)
+            instancesLeft_ -= instances;
+            const auto show = [&](const std::vector<int>& shown, const glm::mat4& placement) {
+                for (const int mesh : shown)
                     scene_.instances.push_back(
                         {source.name.empty() ? scene_.meshes[std::size_t(mesh)].name : source.name, mesh, placement});
+            };
+            for (const glm::mat4& placement : placements) {
+                show(meshes, placement);
+                const std::size_t known = made.stretches.size();
+                if (!made.variants.empty() && known < kMaxStretches)
+                    addDistinctLinearMap(made.stretches, glm::dmat3(glm::dmat4(placement)));
+                if (made.stretches.size() > known)
+                    show(made.variants, placement);
+            }
         }
     }
 
@@ -171,7 +227,11 @@ private:
     GltfMaterials materials_;
     GltfNodes nodes_;
     std::vector<std::vector<glm::dmat4>> joints_; // by skin
-    std::map<MeshUse, std::vector<int>> made_;
+    std::map<MeshUse, Made> made_;
+    std::set<int> withVariants_;                      // meshes of the file whose variants are shown
+    std::size_t repeatedVariants_ = 0;                // meshes that show one again, by another skin or other weights
+    std::size_t instancesLeft_ = model_.limits.nodes; // besides those of variants
+    std::size_t trianglesOfVariant_ = kMaxVariantTriangles;
 };
 
 Scene load(const std::filesystem::path& path, const LoadLimits& limits)

@@ -194,15 +194,10 @@ Mesh gltfMesh(GltfGeometry geometry)
     mesh.texcoords[0] = std::move(geometry.texcoords);
     mesh.indices = std::move(geometry.indices);
     makeUnit(mesh.normals);
-    if (!mesh.normals.empty()) {
+    if (mesh.normals.empty())
+        makeFlat(mesh);
+    else
         mesh.tangents = std::move(geometry.tangents);
-        return mesh;
-    }
-    separateCorners(mesh);
-    for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
-        const glm::vec3 &a = mesh.positions[i], &b = mesh.positions[i + 1], &c = mesh.positions[i + 2];
-        mesh.normals.insert(mesh.normals.end(), 3, f32::cotan_normalize_or(glm::cross(b - a, c - a), glm::vec3(0)));
-    }
     return mesh;
 }
 

@@ -23,18 +23,6 @@ constexpr float kUnitTolerance = 0.01f;
 
 // ---- normals --------------------------------------------------------------------------------
 
-// glTF requires flat normals if a primitive has none. Triangles without area get a zero normal.
-void makeFlat(Mesh& mesh)
-{
-    separateCorners(mesh);
-    mesh.normals.assign(mesh.positions.size(), glm::vec3(0));
-    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-        const glm::dvec3 a = mesh.positions[i], b = mesh.positions[i + 1], c = mesh.positions[i + 2];
-        const glm::vec3 n = unitOrZero(glm::cross(b - a, c - a));
-        std::fill_n(mesh.normals.begin() + std::ptrdiff_t(i), 3, n);
-    }
-}
-
 void normalizeNormals(Mesh& mesh, const std::string& field, GltfWarnings& warnings)
 {
     std::size_t zero = 0, odd = 0;
@@ -157,7 +145,7 @@ glm::vec3 unitNormal(const glm::vec3& normal)
     return std::abs(glm::length(glm::dvec3(normal)) - 1) > kRounding ? unitOrZero(normal) : normal;
 }
 
-void separateCorners(Mesh& mesh)
+void makeFlat(Mesh& mesh)
 {
     const VertexSplit corners{std::move(mesh.indices), {}};
     const auto separate = [&](auto& values) { values = gathered(std::span(std::as_const(values)), corners); };
@@ -167,6 +155,12 @@ void separateCorners(Mesh& mesh)
     separate(mesh.colors);
     mesh.indices.resize(corners.sources.size());
     std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
+    mesh.normals.assign(mesh.positions.size(), glm::vec3(0));
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const glm::dvec3 a = mesh.positions[i], b = mesh.positions[i + 1], c = mesh.positions[i + 2];
+        const glm::vec3 n = unitOrZero(glm::cross(b - a, c - a));
+        std::fill_n(mesh.normals.begin() + std::ptrdiff_t(i), 3, n);
+    }
 }
 
 Mesh finishGltfMesh(GltfPrimitive&& source, int normalMapSet, GltfWarnings& warnings)

@@ -17,12 +17,7 @@ using gltf::Json;
 
 namespace {
 
-// How many materials KHR_materials_variants can give a primitive.
-std::size_t variantsOf(const Json& root)
-{
-    const Json* const variants = gltf::member(gltf::extension(root, "KHR_materials_variants"), "variants");
-    return variants && variants->is_array() ? variants->size() : 0;
-}
+bool hasVariants(const Json& root) { return gltf::extension(root, "KHR_materials_variants") != nullptr; }
 
 // Whether the primitive has TANGENT and a material with a normal map, but not the uv to read it at.
 bool lacksUv(const Json& root, const SourcePrimitive& p)
@@ -81,23 +76,22 @@ Result<std::vector<PrimitiveDecision>> choosePrimitives(const GltfDocument& docu
                                                         const FramePair& frames, const LoadLimits& load,
                                                         std::optional<Scene> opened)
 {
-    LoadLimits limitsOfWay = load;
-    limitsOfWay.pixels = Pixels::normalMaps;
+    LoadLimits normalMaps = load;
+    normalMaps.pixels = Pixels::normalMaps;
+    normalMaps.variant.clear();
+    COTAN_TRY(scene,
+              opened && !hasVariants(rootOf(document)) ? Result<Scene>(*std::move(opened))
+                                                       : gltfSceneOfVariants(document, normalMaps));
+    for (Mesh& mesh : scene->meshes)
+        if (!readsTangents(frames.from) && !namedFrameOf(*scene, mesh))
+            mesh.named = frames.from;
     std::map<SourcePrimitive, FrameDecision> found;
-    const std::size_t ways = std::clamp<std::size_t>(variantsOf(rootOf(document)), 1, kMaxVariants);
-    for (std::size_t way = 0; way < ways; ++way) {
-        limitsOfWay.variant = ways > 1 ? std::to_string(way) : "";
-        COTAN_TRY(scene, opened && ways == 1 ? Result<Scene>(*std::move(opened)) : gltfScene(document, limitsOfWay));
-        for (Mesh& mesh : scene->meshes)
-            if (!readsTangents(frames.from) && !namedFrameOf(*scene, mesh))
-                mesh.named = frames.from;
-        for (FrameDecision& d : chooseFrames(*scene, {.limits = limits, .all = true, .tangents = frames.fromTangents}))
-            if (const auto& source = scene->meshes[d.mesh].source) {
-                const auto [known, isNew] = found.try_emplace(*source, d);
-                if (!isNew)
-                    add(known->second, d, limits);
-            }
-    }
+    for (FrameDecision& d : chooseFrames(*scene, {.limits = limits, .all = true, .tangents = frames.fromTangents}))
+        if (const auto& source = scene->meshes[d.mesh].source) {
+            const auto [known, isNew] = found.try_emplace(*source, d);
+            if (!isNew)
+                add(known->second, d, limits);
+        }
     std::vector<PrimitiveDecision> decisions;
     for (auto& [primitive, decision] : found) {
         if (decision.reason == ChoiceReason::noMap && lacksUv(rootOf(document), primitive)) {

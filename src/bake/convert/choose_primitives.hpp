@@ -11,14 +11,11 @@
 
 namespace cotan {
 
-// Of more variants only the first are judged: each takes the time to make and judge a scene.
-inline constexpr std::size_t kMaxVariants = 8;
-
 // One decision for each primitive with triangles that the file's nodes show, in the order of the file: that of
 // chooseFrames. A primitive that is drawn in several ways (by skins, morph weights, or the materials of variants) is
 // judged by the worst of them. frames: what maps were made for whose frame the file does not name. scene: of the
-// document, with the pixels of its normal maps, if there is one; variants have scenes of their own. Errors: those of
-// gltfScene.
+// document, with the pixels of its normal maps, if there is one; a file with variants needs another one. Errors: those
+// of gltfScene.
 Result<std::vector<PrimitiveDecision>> choosePrimitives(const GltfDocument& document, const ChoiceLimits& limits,
                                                         const FramePair& frames, const LoadLimits& load,
                                                         std::optional<Scene> scene = std::nullopt);

@@ -202,8 +202,8 @@ private:
         done.bytesBefore = done.bytesAfter = bytes->size();
         done.format = imageFormatName(*bytes);
         // The old map stays, byte for byte, if it serves as well as a rounded new one.
-        done.figures.unconverted =
-            mapErrors(*map, *map, *uses, {&options_.frames, 1}, {}, pointsOfEach(surfaces_)).front();
+        const std::size_t points = pointsOfEach(surfaces_);
+        done.figures.unconverted = mapError(*map, *map, *uses, options_.frames, {}, points);
         if (options_.keepMaps) {
             const bool shownByTangents =
                 readsTangents(options_.frames.from) && options_.frames.fromTangents == TangentOrigin::stored;
@@ -223,12 +223,10 @@ private:
                 if (reader.keeps && !showsReversed(reader))
                     done.surfacesWithTangents += reader.transforms.size();
             if (done.surfacesWithTangents > 0)
-                done.figures.unconverted =
-                    mapErrors(*map, *map,
-                              usesBy(job, *uses,
-                                     [](const MapReader& reader) { return !showsReversed(reader) && !reader.keeps; }),
-                              {&options_.frames, 1}, {}, pointsOfEach(surfaces_))
-                        .front();
+                done.figures.unconverted = mapError(
+                    *map, *map,
+                    usesBy(job, *uses, [](const MapReader& reader) { return !showsReversed(reader) && !reader.keeps; }),
+                    options_.frames, {}, points);
         }
         done.kept = options_.keepMaps || done.figures.unconverted.count == 0
             || (options_.bits == 0 && fitsAsItIs(done.figures.unconverted));

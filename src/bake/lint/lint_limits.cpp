@@ -10,15 +10,12 @@ namespace cotan {
 
 namespace {
 
-std::string nameOf(const GreenEvidence& map)
-{
-    return map.name.empty() ? fmt::format("image {}", map.image) : map.name;
-}
+using lint::mapName;
 
 // "normal map bumps: green points opposite to what the file says (certain)"
 std::string reversedGreenText(const GreenEvidence& map)
 {
-    return fmt::format("normal map {}: green points opposite to what the file says ({})", nameOf(map),
+    return fmt::format("normal map {}: green points opposite to what the file says ({})", mapName(map),
                        maps::name(map.verdict.confidence));
 }
 
@@ -63,6 +60,11 @@ void checkPrimitive(const PrimitiveLint& p, const std::string& where, double mod
 
 } // namespace
 
+std::string lint::mapName(const GreenEvidence& map)
+{
+    return map.name.empty() ? fmt::format("image {}", map.image) : map.name;
+}
+
 LintCheck checkLimits(const LintReport& report, const LintLimits& limits)
 {
     LintCheck check{limits, {}};
@@ -79,13 +81,13 @@ LintCheck checkLimits(const LintReport& report, const LintLimits& limits)
     for (const GreenEvidence& map : report.maps) {
         if (!map.asDeclared())
             check.failures.push_back(
-                {.kind = "reversed_green", .where = nameOf(map), .text = reversedGreenText(map), .map = nameOf(map)});
+                {.kind = "reversed_green", .where = mapName(map), .text = reversedGreenText(map), .map = mapName(map)});
         for (const maps::Fault& fault : map.faults)
             if (maps::changesLight(fault.kind))
                 check.failures.push_back({.kind = "broken_map",
-                                          .where = nameOf(map),
-                                          .text = fmt::format("normal map {}: {}", nameOf(map), fault.text),
-                                          .map = nameOf(map)});
+                                          .where = mapName(map),
+                                          .text = fmt::format("normal map {}: {}", mapName(map), fault.text),
+                                          .map = mapName(map)});
     }
     if (limits.degrees >= 0 && anyMap && !anyJudged && check.passed())
         check.failures.push_back({.kind = "not_judged", .where = "", .text = "no normal map could be judged"});
@@ -105,7 +107,7 @@ std::vector<std::string> lintWarnings(const LintReport& report)
         if (!map.asDeclared())
             lines.push_back(reversedGreenText(map));
         if (!map.note.empty())
-            lines.push_back(fmt::format("normal map {}: {}", nameOf(map), map.note));
+            lines.push_back(fmt::format("normal map {}: {}", mapName(map), map.note));
     }
     return lines;
 }

@@ -77,6 +77,9 @@ bool distrustStored(const LintReport& report);
 // Sets all fields from `advice` on. Reads primitives, maps and fits.
 void recommend(LintReport& report);
 
+// The name of a map in sentences.
+std::string mapName(const GreenEvidence& map);
+
 double degreesBetween(glm::dvec3 a, glm::dvec3 b); // of any lengths; accurate near zero
 
 } // namespace lint

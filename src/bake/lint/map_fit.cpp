@@ -120,12 +120,6 @@ std::size_t pointsOfEach(std::size_t surfaces)
     return std::clamp(kTotalPoints / std::max<std::size_t>(surfaces, 1), kMinOfSurface, kPointsOfSurface);
 }
 
-ValueSummary mapError(const Image& before, const Image& after, std::span<const MapUse> uses, const FramePair& frames,
-                      std::optional<Expansion> expansionAfter)
-{
-    return mapErrors(before, after, uses, {&frames, 1}, expansionAfter).front();
-}
-
 ValueSummary directionTurn(const MappedSurface& surface, const std::vector<MeshPoint>& points, const FramePair& frames)
 {
     ValueStatistics turns;

@@ -73,20 +73,25 @@ struct MeshPoint {
 // Deterministic. area: receives the area of these triangles; may be null.
 std::vector<MeshPoint> pointsOver(const MappedSurface& surface, std::size_t count, double* area = nullptr);
 
-// Degrees between the normals that frames.from makes of `before` and those that frames.to makes of `after`, at points
-// spread over the surfaces, weighted by area. Reads the nearest texel of the finest level. Both images need all their
-// data, and may differ in size; `after` is stored with the given expansion, or as `before`. Empty (count 0) if no use
-// shows anything: no triangle with area in space and uv.
-ValueSummary mapError(const Image& before, const Image& after, std::span<const MapUse> uses, const FramePair& frames,
-                      std::optional<Expansion> expansionAfter = {});
-
 // The number of points of one surface for the statistics of a primitive.
 inline constexpr std::size_t kPointsOfSurface = 4096;
 
-// The same for several pairs of frames, at the same points. points: maximum per surface; many surfaces get fewer.
+// For each pair of frames, degrees between the normals that pair.from makes of `before` and those that pair.to makes of
+// `after`, at points spread over the surfaces, weighted by area. Reads the nearest texel of the finest level. Both
+// images need all their data, and may differ in size; `after` is stored with the given expansion, or as `before`.
+// points: maximum per surface; many surfaces get fewer. Empty (count 0) if no use shows anything: no triangle with area
+// in space and uv.
 std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, std::span<const MapUse> uses,
                                     std::span<const FramePair> frames, std::optional<Expansion> expansionAfter = {},
                                     std::size_t points = kPointsOfSurface);
+
+// The same for one pair.
+inline ValueSummary mapError(const Image& before, const Image& after, std::span<const MapUse> uses,
+                             const FramePair& frames, std::optional<Expansion> expansionAfter = {},
+                             std::size_t points = kPointsOfSurface)
+{
+    return mapErrors(before, after, uses, {&frames, 1}, expansionAfter, points).front();
+}
 
 // The number of points per surface: at most 128 * kPointsOfSurface in all, but at least 16 per surface.
 std::size_t pointsOfEach(std::size_t surfaces);

@@ -126,7 +126,7 @@ std::string reversedGreen(const LintReport& report)
     std::vector<std::string> names;
     for (const GreenEvidence& g : report.maps)
         if (!g.asDeclared())
-            names.push_back(g.name.empty() ? fmt::format("image {}", g.image) : g.name);
+            names.push_back(mapName(g));
     return listed(names);
 }
 
@@ -269,8 +269,7 @@ std::string tangentsAndGreen(const LintReport& report)
     std::vector<std::string> reversed, shared;
     for (const GreenEvidence& g : report.maps)
         if (g.reversedByTangents)
-            addOnce(g.reversedEverywhere ? reversed : shared,
-                    g.name.empty() ? fmt::format("image {}", g.image) : g.name);
+            addOnce(g.reversedEverywhere ? reversed : shared, mapName(g));
     std::string text = " the command drops the tangents";
     if (!reversed.empty())
         text += fmt::format(" and reverses green of {}, as they show it", listed(reversed));

@@ -82,6 +82,11 @@ void takeOut(gltf::Json& owner, const char* object, const std::string& name);
 // Removes an extension from the lists of used and required extensions.
 void takeOffExtension(gltf::Json& root, const std::string& name);
 
+// Like gltfScene, and shows each primitive once more with every material of a variant that reads other normal maps: a
+// mesh with the same source and at most eight instances, which differ in stretch. These meshes have a million triangles
+// in all, or 64 each if they are very many; of larger primitives, parts.
+Result<Scene> gltfSceneOfVariants(const GltfDocument& document, const LoadLimits& limits);
+
 // ---- the geometry in world space ------------------------------------------------------------
 
 // For each mesh, the linear maps of the nodes that show it. Maps that differ only by rotation, mirroring and uniform

@@ -118,8 +118,9 @@ struct Primitive {
     Attributes attributes;
     std::vector<Attributes> targets; // morph targets
     int indices = -1, material = -1;
-    int mode = 4;      // 4: triangles, 5: strip, 6: fan; below: points and lines
-    std::string frame; // frameText
+    int mode = 4;              // 4: triangles, 5: strip, 6: fan; below: points and lines
+    std::string frame;         // frameText
+    std::vector<int> others{}; // further materials, of variants, that the scene shows too: see addVariantMaterials
 };
 
 struct Mesh {

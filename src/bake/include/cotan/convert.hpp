@@ -48,7 +48,7 @@ struct ConvertModelOptions {
     Expansion expansion = Expansion::biased;
     // Chooses the frame of each primitive by measurement (chooseFrames) in place of frames.to, and keeps all maps:
     // drops tangents where nobody can see it, and names the frame in the primitive's extras. Needs keepMaps and
-    // readMaps. Of more than eight variants of a model only the first eight are judged.
+    // readMaps. The materials of all variants count; many of them share the points and triangles that are judged.
     std::optional<ChoiceLimits> choose{};
     // Keeps all maps, byte for byte, to be read with frames.to, which must not read tangents; only drops tangents.
     // Where the tangents of the file reverse green of a map on all surfaces that show it, they are dropped and green of
