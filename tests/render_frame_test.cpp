@@ -43,9 +43,9 @@ glm::mat4 placement(bool mirrored)
     return m;
 }
 
-bool everyFrameExists(Frame frame, VulkanRenderer& renderer)
+bool everyFrameExists(Frame frame, Renderer& renderer)
 {
-    const Result<Image> image = renderer.render(viewOf(Output::normal, frame));
+    const Result<Image> image = renderer.draw(viewOf(Output::normal, frame));
     return bool(image);
 }
 
@@ -68,7 +68,7 @@ template<class Check> int overSurface(const Image& a, Check check)
 // filtered values to 8 bits errs by up to 0.23; the tolerance only allows for 8-bit weights, 0.02.
 TEST(RenderFrame, magnified8BitMapsAreFilteredAboveTheirPrecision)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     Image map = makeImage(2, 2, PixelType::unorm8);
     for (std::size_t i = 0; i < 4; ++i)
         for (std::size_t c = 0; c < 4; ++c)
@@ -95,7 +95,7 @@ TEST(RenderFrame, magnified8BitMapsAreFilteredAboveTheirPrecision)
 
 TEST(RenderFrame, flatMapChangesNothingInAnyFrame)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     Mesh mesh = sphere(12);
     mesh.tangents.assign(mesh.vertexCount(), {1, 0, 0, 1});
     mesh.cotangentsU.assign(mesh.vertexCount(), {1, 0, 0});
@@ -118,7 +118,7 @@ TEST(RenderFrame, flatMapChangesNothingInAnyFrame)
 
 TEST(RenderFrame, rowDirectionChangesOnlyTheFrameOf2013)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     load(renderer, sceneOf(sphere(16), flatImage(texelOf({0.4f, 0.3f, 1}))));
     for (const Frame frame : {Frame::cotangent, Frame::cotangent2013}) {
         View view = viewOf(Output::tangent, frame);
@@ -142,7 +142,7 @@ TEST(RenderFrame, rowDirectionChangesOnlyTheFrameOf2013)
 
 TEST(RenderFrame, tangentsFollowTheGradientsInEverySignCombination)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     int combinations = 0;
     for (const bool mirrored : {false, true})
         for (const bool uvMirrored : {false, true})
@@ -176,7 +176,7 @@ TEST(RenderFrame, tangentsFollowTheGradientsInEverySignCombination)
 
 TEST(RenderFrame, planeWithAKnownMapHasTheAnalyticNormals)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     constexpr int kSize = 4;
     Image map = makeImage(kSize, kSize, PixelType::float32);
     std::vector<glm::dvec3> stored; // along +u, along green, outwards
@@ -223,7 +223,7 @@ TEST(RenderFrame, planeWithAKnownMapHasTheAnalyticNormals)
 
 TEST(RenderFrame, backOfAThinSheetShowsTheNegatedNormal)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     Scene scene = sceneOf(quad(), flatImage(texelOf({0.5f, 0.2f, 1})));
     scene.materials[0].doubleSided = true;
     load(renderer, scene);
@@ -237,7 +237,7 @@ TEST(RenderFrame, backOfAThinSheetShowsTheNegatedNormal)
 
 TEST(RenderFrame, mirroredInstanceShowsItsFrontAndHidesItsBack)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     for (const bool mirrored : {false, true})
         for (const bool rowsUpward : {false, true}) {
             load(renderer, sceneOf(quad(), std::nullopt, placement(mirrored)));
@@ -251,7 +251,7 @@ TEST(RenderFrame, mirroredInstanceShowsItsFrontAndHidesItsBack)
 
 TEST(RenderFrame, uvWithoutAreaGiveThePlainNormal)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     Mesh constant = quad({0, 0}, {0, 0});
     Mesh missing = quad();
     missing.texcoords[0].clear();
@@ -274,7 +274,7 @@ TEST(RenderFrame, uvWithoutAreaGiveThePlainNormal)
 // glTF map points up, t = +x, and w = +1.
 TEST(RenderFrame, storedTangentsAgreeWithTheUv)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     for (const bool uvMirrored : {false, true})
         for (const bool instanceMirrored : {false, true}) {
             const float right = uvMirrored ? -1.0f : 1.0f;
@@ -295,7 +295,7 @@ TEST(RenderFrame, storedTangentsAgreeWithTheUv)
 
 TEST(RenderFrame, precisionIsIndependentOfTheOrigin)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     const View near = viewOf(Output::normal);
     load(renderer, sceneOf(quad(), flatImage(texelOf({0.5f, 0.2f, 1}))));
     const glm::dvec3 expected(floatPixel(drawn(renderer, near), 20, 40));

@@ -13,11 +13,9 @@ class RenderLayers : public ::testing::Test {
 protected:
     static void SetUpTestSuite()
     {
-        VulkanRendererOptions options;
-        options.validation = true;
-        Result<VulkanRenderer> opened = VulkanRenderer::create(options);
+        auto opened = openVulkanRenderer("", /*validation*/ true);
         if (opened)
-            renderer = std::make_unique<VulkanRenderer>(std::move(*opened));
+            renderer = std::move(*opened);
         else
             reason = opened.error().message;
     }
@@ -41,7 +39,7 @@ protected:
         return drawn(*renderer, view);
     }
 
-    static inline std::unique_ptr<VulkanRenderer> renderer;
+    static inline std::unique_ptr<Renderer> renderer;
     static inline std::string reason;
     std::size_t said = 0;
 };
@@ -110,7 +108,7 @@ TEST_F(RenderLayers, oneRowWithMoreLayersThanFitIsRefused)
     view.width = 4096; // times 700: 2.87 million
     view.height = 1;
     view.camera.verticalExtent = 0.001f;
-    const Result<Image> image = renderer->render(view);
+    const Result<Image> image = renderer->draw(view);
     ASSERT_FALSE(image);
     EXPECT_EQ(image.error().kind, ErrorKind::unavailable);
     EXPECT_EQ(image.error().message,

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 #include <optional>
 
 #include <glm/geometric.hpp>
@@ -11,6 +12,7 @@
 
 #include "cotan/frame.hpp"
 #include "cotan/render.hpp"
+#include "render/shared_device.hpp"
 
 namespace cotan::rendertest {
 
@@ -19,11 +21,11 @@ namespace cotan::rendertest {
 inline const bool kQuicklyCompiled = ::setenv("GALLIVM_PERF", "nopt", /*replace*/ 0) == 0;
 
 // Opens a renderer, or skips the test with the reason.
-#define COTAN_RENDERER_OR_SKIP(name, options)                                                                          \
-    Result<VulkanRenderer> name##Result = VulkanRenderer::create(options);                                             \
+#define COTAN_RENDERER_OR_SKIP(name, ...)                                                                              \
+    const Result<std::unique_ptr<Renderer>> name##Result = openVulkanRenderer(__VA_ARGS__);                            \
     if (!name##Result)                                                                                                 \
         GTEST_SKIP() << name##Result.error().message;                                                                  \
-    VulkanRenderer& name = *name##Result
+    Renderer& name = **name##Result
 
 inline double degreesBetween(glm::dvec3 a, glm::dvec3 b)
 {
@@ -132,9 +134,9 @@ inline View viewOf(Output output, Frame frame = Frame::cotangent)
     return view;
 }
 
-inline Image drawn(VulkanRenderer& renderer, const View& view)
+inline Image drawn(Renderer& renderer, const View& view)
 {
-    Result<Image> image = renderer.render(view);
+    Result<Image> image = renderer.draw(view);
     if (!image) {
         ADD_FAILURE() << image.error().message;
         return makeImage(view.width, view.height, PixelType::float32);
@@ -142,7 +144,7 @@ inline Image drawn(VulkanRenderer& renderer, const View& view)
     return *std::move(image);
 }
 
-inline void load(VulkanRenderer& renderer, const Scene& scene)
+inline void load(Renderer& renderer, const Scene& scene)
 {
     const Status status = renderer.load(scene);
     ASSERT_TRUE(status) << status.error().message;

@@ -44,7 +44,7 @@ Image chessboard(int size)
 
 TEST(RenderShading, imageIsUprightForBothRowDirections)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     // A texture whose texels are red, green (top row), blue, white (bottom row).
     Scene scene = unlitQuad({1, 1, 1, 1});
     Image image = makeImage(2, 2, PixelType::unorm8);
@@ -69,7 +69,7 @@ TEST(RenderShading, imageIsUprightForBothRowDirections)
 
 TEST(RenderShading, depthIsTheDistanceAlongTheViewAxis)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     load(renderer, sceneOf(quad()));
     for (const bool orthographic : {false, true}) {
         View view = viewOf(Output::depth);
@@ -85,7 +85,7 @@ TEST(RenderShading, depthIsTheDistanceAlongTheViewAxis)
 
 TEST(RenderShading, uvOutputIsTheTransformedUvOfTheNormalMap)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     Scene scene = sceneOf(quad(), flatImage(texelOf({0, 0, 1})));
     scene.meshes[0].texcoords[1].assign(4, {3, 7});
     scene.materials[0].normalMap.uRow = {0, 2, 0.25f};
@@ -105,7 +105,7 @@ TEST(RenderShading, uvOutputIsTheTransformedUvOfTheNormalMap)
 
 TEST(RenderShading, lightsAddAsInThePortableText)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     Scene scene = sceneOf(quad());
     scene.materials[0].baseColor = {0.8f, 0.5f, 0.2f, 1};
     scene.materials[0].metallic = 0.3f;
@@ -158,7 +158,7 @@ TEST(RenderShading, lightsAddAsInThePortableText)
 
 TEST(RenderShading, shadedBytesAreToneMappedAndSrgbEncoded)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     load(renderer, unlitQuad({0.5f, 0.18f, 2.0f, 1}));
     View view = bareView();
     view.linearOutput = false;
@@ -179,7 +179,7 @@ TEST(RenderShading, shadedBytesAreToneMappedAndSrgbEncoded)
 
 TEST(RenderShading, backgroundIsTheEnvironmentAlongTheRay)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     load(renderer, Scene{});
     View view = bareView();
     view.background = true;
@@ -198,7 +198,7 @@ TEST(RenderShading, backgroundIsTheEnvironmentAlongTheRay)
 
 TEST(RenderShading, farTexturesShowTheirMeanInLinearLight)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     Scene scene = unlitQuad({1, 1, 1, 1});
     scene.images.push_back(chessboard(256)); // four texels per pixel and more
     scene.materials[0].baseColorMap.image = 0;
@@ -212,7 +212,7 @@ TEST(RenderShading, farTexturesShowTheirMeanInLinearLight)
 
 TEST(RenderShading, sixteenBitAndFloatImagesKeepTheirValues)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     View view = bareView();
     Scene scene = unlitQuad({1, 1, 1, 1});
     Image words = makeImage(2, 2, PixelType::unorm16);
@@ -231,7 +231,7 @@ TEST(RenderShading, sixteenBitAndFloatImagesKeepTheirValues)
 
 TEST(RenderShading, maskCutsAndBlendMixesFarToNear)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     Scene scene;
     const glm::vec4 colors[] = {{0, 0, 1, 1}, {1, 0, 0, 0.5f}, {0, 1, 0, 0.25f}, {1, 1, 1, 0.3f}};
     for (int i = 0; i < 4; ++i) {
@@ -259,7 +259,7 @@ TEST(RenderShading, maskCutsAndBlendMixesFarToNear)
 
 TEST(RenderShading, halfCoveredPixelsKeepTheirColourWithoutBackground)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     Scene scene = unlitQuad({0.2f, 0.5f, 0.1f, 0.5f});
     load(renderer, scene);
     View view = bareView();
@@ -277,7 +277,7 @@ TEST(RenderShading, halfCoveredPixelsKeepTheirColourWithoutBackground)
 
 TEST(RenderShading, shadowIsWhereTheOccluderBlocksTheLight)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     Scene scene = sceneOf(quad());
     scene.meshes.push_back(quad());
     glm::mat4 small(0.25f);

@@ -19,7 +19,7 @@ std::shared_ptr<Device> openForWindow(const std::string& name, bool validation =
     const WindowNeeds window{
         {"VK_KHR_surface"},
         [](const vk::raii::Instance&, const vk::raii::PhysicalDevice&, std::uint32_t) { return true; }};
-    auto device = openDevice({name, validation}, &window);
+    auto device = openDevice(name, validation, &window);
     return device ? std::shared_ptr<Device>(std::move(*device)) : nullptr;
 }
 
@@ -164,7 +164,7 @@ TEST(RenderSharedDevice, windowsUseADeviceThatCanPresent)
     const WindowNeeds nowhere{
         {"VK_KHR_surface"},
         [](const vk::raii::Instance&, const vk::raii::PhysicalDevice&, std::uint32_t) { return false; }};
-    const auto none = openDevice({}, &nowhere);
+    const auto none = openDevice("", false, &nowhere);
     ASSERT_FALSE(none);
     EXPECT_EQ(none.error().kind, ErrorKind::unavailable);
     EXPECT_NE(none.error().message.find("present in a window"), std::string::npos) << none.error().message;

@@ -95,17 +95,15 @@ Scene hostile()
             if (k % 11 == 0)
                 mesh.positions[i] = k % 2 ? glm::vec3(kNan) : glm::vec3(1e30f, -1e38f, 3e38f);
         }
-        mesh.indices.insert(mesh.indices.end(), {0, 0, 0, 1, 1, 2, 0, 1, 0xffffffffu});
+        mesh.indices.insert(mesh.indices.end(), {0, 0, 0, 1, 1, 2});
     }
     glm::mat4 flat(1);
     flat[2] = glm::vec4(0);
     scene.instances.push_back({"flattened", 0, flat});
     scene.instances.push_back({"vanished", 0, glm::mat4(0)});
     scene.instances.push_back({"not a number", 0, glm::mat4(kNan)});
-    scene.instances.push_back({"no mesh", 99, glm::mat4(1)});
     scene.images.push_back(Image{});
-    scene.materials[3].baseColorMap.image = 1;  // an image without pixels
-    scene.materials[3].normalMap.image = 12345; // no such image
+    scene.materials[3].baseColorMap.image = 1; // an image without pixels
     return scene;
 }
 
@@ -113,42 +111,34 @@ Scene hostile()
 
 TEST(RenderDevice, unknownNameIsRefusedWithTheKnownNames)
 {
-    const Result<std::vector<std::string>> devices = renderDevices();
-    if (!devices)
-        GTEST_SKIP() << devices.error().message;
-    VulkanRendererOptions options;
-    options.device = "no such device";
-    const Result<VulkanRenderer> renderer = VulkanRenderer::create(options);
+    COTAN_RENDERER_OR_SKIP(best);
+    const auto renderer = openVulkanRenderer("no such device");
     ASSERT_FALSE(renderer);
     EXPECT_EQ(renderer.error().kind, ErrorKind::unavailable);
     EXPECT_NE(renderer.error().message.find("no such device"), std::string::npos);
-    EXPECT_NE(renderer.error().message.find(devices->front()), std::string::npos);
+    EXPECT_NE(renderer.error().message.find(best.device()), std::string::npos);
     EXPECT_EQ(renderer.error().message.find('\n'), std::string::npos);
 }
 
 TEST(RenderDevice, partOfTheNameInAnyCaseSelectsTheDevice)
 {
-    const Result<std::vector<std::string>> devices = renderDevices();
-    if (!devices)
-        GTEST_SKIP() << devices.error().message;
-    std::string part = devices->back().substr(0, 6);
+    COTAN_RENDERER_OR_SKIP(best);
+    std::string part = best.device().substr(0, 6);
     for (char& c : part)
         c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    VulkanRendererOptions options;
-    options.device = part;
-    COTAN_RENDERER_OR_SKIP(renderer, options);
-    EXPECT_EQ(renderer.deviceName().substr(0, 6), devices->back().substr(0, 6));
-    EXPECT_FALSE(renderer.driver().empty());
+    COTAN_RENDERER_OR_SKIP(renderer, part);
+    EXPECT_EQ(renderer.device().substr(0, 6), best.device().substr(0, 6));
 }
 
 TEST(RenderDevice, impossibleSizesAreUsageErrors)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
+    load(renderer, Scene{});
     for (const auto& [width, height] : {std::pair(0, 10), {10, -1}, {1 << 30, 10}, {10, 2000000}}) {
         View view;
         view.width = width;
         view.height = height;
-        const Result<Image> image = renderer.render(view);
+        const Result<Image> image = renderer.draw(view);
         ASSERT_FALSE(image);
         EXPECT_EQ(image.error().kind, ErrorKind::usage);
     }
@@ -156,7 +146,7 @@ TEST(RenderDevice, impossibleSizesAreUsageErrors)
 
 TEST(RenderDevice, drawsOddAndTinySizes)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     load(renderer, everything());
     for (const auto& [width, height] : {std::pair(1, 1), {3, 1}, {1, 7}, {333, 17}}) {
         View view;
@@ -171,9 +161,9 @@ TEST(RenderDevice, drawsOddAndTinySizes)
 
 TEST(RenderDevice, loadReplacesThePreviousScene)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     const View view = viewOf(Output::normal);
-    EXPECT_EQ(floatPixel(drawn(renderer, view), 32, 32).w, 0.0f); // no scene is loaded
+    EXPECT_FALSE(renderer.draw(view)); // no scene is loaded
     load(renderer, sceneOf(quad()));
     EXPECT_EQ(floatPixel(drawn(renderer, view), 32, 32).w, 1.0f);
     load(renderer, Scene{});
@@ -183,7 +173,7 @@ TEST(RenderDevice, loadReplacesThePreviousScene)
 // The third scene has another image on purpose: with sameImages it must not be read.
 TEST(RenderDevice, texturesOfTheSameImagesStayOnTheDevice)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     const Scene still = sceneOf(sphere(6), flatImage(texelOf({0.3f, 0.1f, 1})));
     Scene moved = still;
     moved.instances[0].toWorld[3] = {0.3f, 0.2f, 0, 1};
@@ -207,7 +197,7 @@ TEST(RenderDevice, texturesOfTheSameImagesStayOnTheDevice)
 // scissor rectangle, which have no list of layers.
 TEST(RenderDevice, renderingTwiceGivesTheSameBytes)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     View view;
     view.width = 160;
     view.height = 90;
@@ -232,7 +222,7 @@ TEST(RenderDevice, renderingTwiceGivesTheSameBytes)
 // code: drawn with the first frame only.
 TEST(RenderHostile, everyPixelOfEveryOutputAndFrameIsFinite)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     for (const FrameInfo& info : frames()) {
         const bool first = info.frame == Frame::cotangent;
         load(renderer, first ? hostile() : opaqueOnly(hostile()));
@@ -242,7 +232,7 @@ TEST(RenderHostile, everyPixelOfEveryOutputAndFrameIsFinite)
             View view = viewOf(output, info.frame);
             view.linearOutput = true;
             view.lights = testLights();
-            const Result<Image> image = renderer.render(view);
+            const Result<Image> image = renderer.draw(view);
             if (!image && info.source == FrameSource::triangle)
                 continue; // not supported by the device
             ASSERT_TRUE(image) << image.error().message;
@@ -251,9 +241,26 @@ TEST(RenderHostile, everyPixelOfEveryOutputAndFrameIsFinite)
     }
 }
 
+// The upload does not check again what Renderer::load has checked.
+TEST(RenderHostile, inconsistentScenesAreRefused)
+{
+    COTAN_RENDERER_OR_SKIP(renderer);
+    Scene noMesh = sceneOf(quad()), noImage = noMesh, noVertex = noMesh, shortArray = noMesh;
+    noMesh.instances[0].mesh = 99;
+    noImage.materials[0].normalMap.image = 12345;
+    noVertex.meshes[0].indices.back() = 0xffffffffu;
+    shortArray.meshes[0].tangents.resize(1);
+    for (const Scene& scene : {noMesh, noImage, noVertex, shortArray}) {
+        const Status refused = renderer.load(scene);
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().kind, ErrorKind::input);
+        EXPECT_FALSE(renderer.draw(viewOf(Output::normal)));
+    }
+}
+
 TEST(RenderHostile, degenerateCamerasAreRefused)
 {
-    COTAN_RENDERER_OR_SKIP(renderer, {});
+    COTAN_RENDERER_OR_SKIP(renderer);
     load(renderer, everything());
     Camera inside;
     inside.eye = inside.target = {0, 0, 0};
@@ -265,7 +272,7 @@ TEST(RenderHostile, degenerateCamerasAreRefused)
     for (const Camera& camera : {inside, along, numberless}) {
         View view = viewOf(Output::shaded);
         view.camera = camera;
-        const Result<Image> refused = renderer.render(view);
+        const Result<Image> refused = renderer.draw(view);
         ASSERT_FALSE(refused);
         EXPECT_EQ(refused.error().kind, ErrorKind::usage);
     }
@@ -284,9 +291,7 @@ Scene withAttributes(Scene scene)
 
 TEST(RenderValidation, everyOutputAndFrameIsValid)
 {
-    VulkanRendererOptions options;
-    options.validation = true;
-    COTAN_RENDERER_OR_SKIP(renderer, options);
+    COTAN_RENDERER_OR_SKIP(renderer, "", /*validation*/ true);
     if (!renderer.messages().empty())
         GTEST_SKIP() << renderer.messages().front();
     // Frames from differences give the driver the same buffers and stages, so one of them draws every output of both
@@ -308,7 +313,7 @@ TEST(RenderValidation, everyOutputAndFrameIsValid)
                 view.pointSampled = int(info.frame) % 2 == 1;
                 view.rowsUpward = int(info.frame) % 5 == 0;
                 view.shadows = int(info.frame) != 3;
-                const Result<Image> image = renderer.render(view);
+                const Result<Image> image = renderer.draw(view);
                 if (!image) {
                     EXPECT_EQ(info.source, FrameSource::triangle) << image.error().message;
                 }

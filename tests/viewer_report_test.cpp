@@ -143,6 +143,9 @@ TEST(ViewerCommandLine, writesEachFieldAsItsOption)
         {[](State& s) { s.picture.noNormalMaps = true; }, "--no-normal-maps"},
         {[](State& s) { s.picture.samples = 16; }, "--samples 16"},
         {[](State& s) { s.picture.device = "reference"; }, "--device reference"},
+        {[](State& s) { s.picture.up = Up::z; }, "--up z"},
+        {[](State& s) { s.picture.memory = 900; }, "--memory 900"},
+        {[](State& s) { s.picture.maxDegrees = 1; }, "--max-degrees 1"},
     };
     for (const Row& row : rows) {
         State s;

@@ -52,9 +52,9 @@ Result<std::unique_ptr<Renderer>> warnOfNote(Result<std::unique_ptr<Renderer>> r
     return renderer;
 }
 
-Result<std::unique_ptr<Renderer>> openDevice(const std::string& device, const CommonOptions& common, bool validation)
+Result<std::unique_ptr<Renderer>> openDevice(const std::string& device, const CommonOptions& common)
 {
-    return warnOfNote(openRenderer(device, common.threads, validation), common);
+    return warnOfNote(openRenderer(device, common.threads), common);
 }
 
 } // namespace cotan::app

@@ -29,7 +29,6 @@ Result<std::unique_ptr<Renderer>> warnOfNote(Result<std::unique_ptr<Renderer>> r
 
 // Opens a device by openRenderer. If "auto" falls back to the reference renderer, prints a warning with the reason.
 // Errors: those of openRenderer.
-Result<std::unique_ptr<Renderer>> openDevice(const std::string& device, const CommonOptions& common,
-                                             bool validation = false);
+Result<std::unique_ptr<Renderer>> openDevice(const std::string& device, const CommonOptions& common);
 
 } // namespace cotan::app

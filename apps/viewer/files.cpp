@@ -6,6 +6,7 @@
 
 #include "files/bytes.hpp"
 #include "files/json.hpp"
+#include "gltf/gltf_file.hpp"
 #include "image/format_table.hpp"
 #include "model/model_formats.hpp"
 
@@ -16,27 +17,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kPollSeconds = 0.25, kRestSeconds = 0.3; // polling interval, and time without changes; seconds
-
-int digit(char c)
-{
-    return c >= '0' && c <= '9' ? c - '0'
-        : c >= 'a' && c <= 'f'  ? c - 'a' + 10
-        : c >= 'A' && c <= 'F'  ? c - 'A' + 10
-                                : -1;
-}
-
-std::string percentDecoded(const std::string& text)
-{
-    std::string decoded;
-    for (std::size_t i = 0; i < text.size(); ++i)
-        if (text[i] == '%' && i + 2 < text.size() && digit(text[i + 1]) >= 0 && digit(text[i + 2]) >= 0) {
-            decoded += char(16 * digit(text[i + 1]) + digit(text[i + 2]));
-            i += 2;
-        } else {
-            decoded += text[i];
-        }
-    return decoded;
-}
 
 } // namespace
 
@@ -79,7 +59,7 @@ std::string pathOf(std::string text)
     if (!text.starts_with(kScheme))
         return text;
     const std::size_t start = text.find('/', kScheme.size()); // skip the host name
-    return percentDecoded(text.substr(std::min(start, text.size())));
+    return decodePercent(text.substr(std::min(start, text.size())));
 }
 
 std::optional<Watch::FileStamp> Watch::stampOf(const fs::path& file)
@@ -154,7 +134,7 @@ std::vector<fs::path> filesOf(const fs::path& model, const std::vector<std::stri
             for (const auto& entry : root[list])
                 if (entry.is_object() && entry.contains("uri") && entry["uri"].is_string())
                     if (const auto uri = entry["uri"].get<std::string>(); !uri.starts_with("data:"))
-                        add(percentDecoded(uri));
+                        add(decodePercent(uri));
     return files;
 }
 

@@ -31,8 +31,8 @@ std::string keyOf(const State& s)
 
 } // namespace
 
-Pictures::Pictures(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done)
-    : renderThread_(std::move(common), std::move(first), validation, std::move(done))
+Pictures::Pictures(app::CommonOptions common, PictureOptions first, std::function<void()> done)
+    : renderThread_(std::move(common), std::move(first), std::move(done))
 {
 }
 

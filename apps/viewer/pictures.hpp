@@ -14,7 +14,7 @@ namespace cotan::viewer {
 class Pictures {
 public:
     // Parameters as for RenderThread.
-    Pictures(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done);
+    Pictures(app::CommonOptions common, PictureOptions first, std::function<void()> done);
 
     // The device of the window, which draws the images for it. Call before the first ask().
     void drawOn(std::shared_ptr<Device> device) { renderThread_.drawOn(std::move(device)); }
@@ -33,8 +33,6 @@ public:
     float degreesAtPointer(const State& state) const;
     // Draws an image for a file, independent of other orders; waits for the result.
     Result<Image> drawNow(const Order& order, bool floats) { return renderThread_.drawNow(order, floats); }
-
-    std::vector<std::string> finish() { return renderThread_.finish(); }
 
     bool any() const { return bool(drawn_.picture); }
     double firstSeconds() const { return firstSeconds_; } // drawing time of the first image

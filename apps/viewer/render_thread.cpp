@@ -10,9 +10,8 @@
 namespace cotan::viewer {
 
 struct RenderThread::Work {
-    Work(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> tell)
-        : sceneCache(std::move(common), validation), done(std::move(tell)),
-          thread([this, first = std::move(first)] { run(first); })
+    Work(app::CommonOptions common, PictureOptions first, std::function<void()> tell)
+        : sceneCache(std::move(common)), done(std::move(tell)), thread([this, first = std::move(first)] { run(first); })
     {
     }
 
@@ -99,14 +98,12 @@ struct RenderThread::Work {
     std::thread thread; // declared last, because it uses all other members
 };
 
-RenderThread::RenderThread(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done)
-    : work_(std::make_unique<Work>(std::move(common), std::move(first), validation, std::move(done)))
+RenderThread::RenderThread(app::CommonOptions common, PictureOptions first, std::function<void()> done)
+    : work_(std::make_unique<Work>(std::move(common), std::move(first), std::move(done)))
 {
 }
 
-RenderThread::~RenderThread() { finish(); }
-
-std::vector<std::string> RenderThread::finish()
+RenderThread::~RenderThread()
 {
     {
         const std::lock_guard lock(work_->mutex);
@@ -114,9 +111,7 @@ std::vector<std::string> RenderThread::finish()
         work_->done = nullptr;
     }
     work_->changed.notify_all();
-    if (work_->thread.joinable())
-        work_->thread.join();
-    return work_->sceneCache.messages();
+    work_->thread.join();
 }
 
 void RenderThread::drawOn(std::shared_ptr<Device> device)

@@ -45,9 +45,9 @@ Order orderOf(const State& state);
 
 class RenderThread {
 public:
-    // first: the expected options; their environment is opened while the model is still being read. validation: use
-    // Vulkan's validation layer. done: called on the render thread when take() has a result.
-    RenderThread(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done);
+    // first: the expected options; their environment is opened while the model is still being read. done: called on the
+    // render thread when take() has a result.
+    RenderThread(app::CommonOptions common, PictureOptions first, std::function<void()> done);
     ~RenderThread();
 
     // The device of the window, which draws the images for it. Call before the first order.
@@ -60,9 +60,6 @@ public:
 
     // Draws an image for a file, independent of other orders, and waits. floats: for a file with float values.
     Result<Image> drawNow(const Order& order, bool floats);
-
-    // Ends the thread. Returns the messages of the validation layer.
-    std::vector<std::string> finish();
 
 private:
     struct Work;

@@ -116,16 +116,6 @@ Result<Image> SceneCache::drawForFile(const Order& order, bool floats)
     return *drawn.picture.onHost;
 }
 
-std::vector<std::string> SceneCache::messages() const
-{
-    std::vector<std::string> all;
-    for (const CachedScene& cachedScene : cachedScenes_)
-        if (cachedScene.renderer)
-            for (std::string& message : cachedScene.renderer->messages())
-                all.push_back(std::move(message));
-    return all;
-}
-
 Status SceneCache::drawInto(const Order& order, Drawn& drawn, Aim aim)
 {
     const bool second = order.compare == Compare::flip && order.flipped;
@@ -176,7 +166,7 @@ Result<std::unique_ptr<Renderer>> SceneCache::openRenderer(const PictureOptions&
     if (device_ && o.device != "reference")
         if (auto shared = openRendererOn(device_))
             return shared;
-    return app::openDevice(o.device, common_, validation_);
+    return app::openDevice(o.device, common_);
 }
 
 Status SceneCache::layEdgesOn(const Order& order, CachedScene& s, const View& view, const PictureOptions& o,

@@ -30,7 +30,7 @@ struct CachedScene {
 // Used by one thread only.
 class SceneCache {
 public:
-    SceneCache(app::CommonOptions common, bool validation) : common_(std::move(common)), validation_(validation) {}
+    explicit SceneCache(app::CommonOptions common) : common_(std::move(common)) {}
 
     // Opens the environment. Errors are ignored, because they occur again, and are reported, on use.
     void openEnvironment(const PictureOptions& o);
@@ -41,8 +41,6 @@ public:
     Status drawFigures(const Order& order, Drawn& drawn);
     // floats: for a file with float values.
     Result<Image> drawForFile(const Order& order, bool floats);
-    // Messages of the validation layer from all devices.
-    std::vector<std::string> messages() const;
 
 private:
     enum class Aim { window, file, floatFile };
@@ -60,7 +58,6 @@ private:
     Result<View> viewFor(const Order& order, CachedScene& s, bool second, float exposure);
 
     app::CommonOptions common_;
-    bool validation_ = false;
     std::shared_ptr<Device> device_;
     std::array<CachedScene, 2> cachedScenes_;
     Kept<std::shared_ptr<const EnvironmentMap>> environment_;

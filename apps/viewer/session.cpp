@@ -39,8 +39,7 @@ app::CommonOptions quiet(app::CommonOptions common)
 
 Parts::Parts(State first, const SessionOptions& o)
     : state(std::move(first)), options(o), loader([this] { waker.wake(); }),
-      pictures(quiet(o.common), optionsOf(state, false), o.validation, [this] { waker.wake(); }),
-      probe([this] { waker.wake(); })
+      pictures(quiet(o.common), optionsOf(state, false), [this] { waker.wake(); }), probe([this] { waker.wake(); })
 {
 }
 
@@ -88,7 +87,7 @@ public:
         saveState();
         if (done)
             done = writeReport(options_.common, reportOfTimes());
-        return done ? checkValidation() : done;
+        return done;
     }
 
 private:
@@ -98,7 +97,6 @@ private:
         window.width = state_.size.x;
         window.height = state_.size.y;
         window.title = "cotan view";
-        window.validation = options_.validation;
         window.played = options_.plays;
         if (state_.picture.device != "auto" && state_.picture.device != "reference")
             window.device = state_.picture.device;
@@ -265,14 +263,6 @@ private:
         parts_.window->setTitle(fmt::format("{} - cotan view", file.empty() ? std::string("cotan") : fileName(file)));
         for (const std::string& line : state_.model->scene.warnings)
             app::warn(options_.common, line);
-    }
-
-    Status checkValidation()
-    {
-        std::vector<std::string> messages = parts_.pictures.finish(); // ends the thread that may add to the window's
-        messages.insert(messages.end(), parts_.window->messages().begin(), parts_.window->messages().end());
-        return !options_.validation || messages.empty() ? Status(Done{})
-                                                        : Status(unavailableError("validation: " + messages[0]));
     }
 
     Json reportOfTimes() const

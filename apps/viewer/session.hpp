@@ -15,7 +15,6 @@ struct SessionOptions {
     bool plays = false;        // also if there are no events
     std::filesystem::path record;
     std::filesystem::path memory; // where the state is kept between runs; empty: nowhere
-    bool validation = false;      // messages of the validation layer are an error at the end
 };
 
 // Runs until the user quits or all events are played. Errors: those of reading the first model if events are played or

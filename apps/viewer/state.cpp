@@ -11,7 +11,7 @@
 #include "cotan/render.hpp"
 #include "files.hpp"
 #include "image/format_table.hpp"
-#include "picture/option_words.hpp"
+#include "picture/option_table.hpp"
 #include "scene/geometry.hpp"
 #include "settings.hpp"
 
@@ -117,10 +117,6 @@ std::string commandLine(const State& state, const std::string& file, glm::ivec2 
     const auto add = [&](const std::string& name, const std::string& value) {
         text += " --" + name + " " + quoted(value);
     };
-    const auto addChoice = [&](const std::string& name, auto PictureOptions::*field, const auto& words) {
-        if (o.*field != usual.*field)
-            add(name, wordOf(words, o.*field));
-    };
     if (!o.model.empty())
         text += " " + quoted(o.model);
     text += " -o " + quoted(file) + fmt::format(" --size {}x{}", size.x, size.y);
@@ -130,35 +126,16 @@ std::string commandLine(const State& state, const std::string& file, glm::ivec2 
         add("frame", side.frame);
     if (!compares && state.show != "shaded")
         add("view", state.show);
-    if (!o.camera.empty())
-        add("camera", o.camera);
-    if (!side.normalMap.empty())
-        add("normal-map", side.normalMap);
-    if (!side.convention.empty())
-        add("convention", side.convention);
-    addChoice("tangents", &PictureOptions::tangents, kTangentOrigins);
-    for (const auto& [name, field] : {std::pair("base-color", &OwnMaps::baseColor),
-                                      {"metallic-roughness", &OwnMaps::metallicRoughness},
-                                      {"occlusion", &OwnMaps::occlusion}})
-        if (!(o.maps.*field).empty())
-            add(name, o.maps.*field);
-    if (o.maps.material != usual.maps.material)
-        add("material", fmt::format("{}", o.maps.material));
-    for (const Setting& setting : settings()) {
-        std::string value = valueOf(setting, o);
-        if (setting.option.flag) {
-            if (value == "on")
-                text += " --" + setting.option.name;
-            continue;
-        }
-        if (setting.option.name == "exposure" && value == kAutoExposure && state.metered > 0
-            && o.use == PictureUse::shown && !keepsFloats(file))
+    for (const PictureOption& option : pictureOptions()) {
+        std::string value = option.name == "size" || option.name == "view" ? option.word(usual) : option.word(o);
+        if (option.name == "exposure" && value == kAutoExposure && state.metered > 0 && o.use == PictureUse::shown
+            && !keepsFloats(file))
             value = fmt::format("{}", state.metered);
-        if (value != valueOf(setting, usual))
-            add(setting.option.name, value);
+        if (option.flag && value == "on")
+            text += " --" + option.name;
+        else if (value != option.word(usual))
+            add(option.name, value);
     }
-    if (o.device != usual.device)
-        add("device", o.device);
     return text;
 }
 

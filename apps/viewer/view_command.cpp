@@ -21,7 +21,7 @@ struct ViewCommandOptions : CommonOptions {
     std::string second;
     std::vector<std::string> commands;
     std::string play, record;
-    bool forget = false, validate = false;
+    bool forget = false;
 };
 
 // Files that the options name are noted before a window opens; those that a model names are when it is loaded.
@@ -59,7 +59,6 @@ Status run(const ViewCommandOptions& o)
     COTAN_CHECK(noteInputs(o.picture));
     viewer::SessionOptions session;
     session.common = o;
-    session.validation = o.validate;
     if (!o.play.empty()) {
         const auto text = readText(o.play);
         COTAN_TRY(events, text ? viewer::eventsOf(*text, o.play) : text.error());
@@ -96,7 +95,9 @@ void declare(app::Arguments& a, ViewCommandOptions& o)
     a.option("--record", o.record, "record the session to a file").in("FILE").writes();
     a.option("--play", o.play, "play a recorded session as fast as possible, then quit").in("FILE").reads();
     a.flag("--forget", o.forget, "neither load nor save the state of the window");
-    a.flag("--validate", o.validate, "fail if Vulkan's validation layer reports anything");
+    a.flag("--validate", o.forget, "").unlisted().refused([] { // of earlier versions
+        return "unknown option --validate: VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation enables Vulkan's checks";
+    });
 }
 
 } // namespace

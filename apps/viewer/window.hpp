@@ -21,9 +21,8 @@ namespace cotan::viewer {
 struct WindowOptions {
     int width = 1280, height = 720; // pixels
     std::string title;
-    std::string device;      // part of the name of the device that draws; empty: the best
-    bool validation = false; // enable the validation layer; its messages are added to messages()
-    bool played = false;     // ignore the machine's pointer and keys
+    std::string device;  // part of the name of the device that draws; empty: the best
+    bool played = false; // ignore the machine's pointer and keys
 };
 
 // An image of 8 bits, sRGB: on the window's device or in host memory; or none.
@@ -80,9 +79,8 @@ public:
     // The device that renderers share, which must outlive their images. Null: it is not the one that the options ask
     // for, which cannot present.
     virtual std::shared_ptr<Device> device() const = 0;
-    virtual std::uint64_t imagesRead() const = 0;                 // copied from the device to host memory
-    virtual const std::vector<std::string>& messages() const = 0; // of the validation layer
-    virtual void wake() = 0;                                      // interrupts a waiting poll(), from any thread
+    virtual std::uint64_t imagesRead() const = 0; // copied from the device to host memory
+    virtual void wake() = 0;                      // interrupts a waiting poll(), from any thread
 };
 
 // Errors: ErrorKind::unavailable without the module, a display, or a device that can present.

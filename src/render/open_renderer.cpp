@@ -29,64 +29,13 @@ private:
 
 } // namespace
 
-#ifdef COTAN_WITH_VULKAN
+#ifndef COTAN_WITH_VULKAN
 
-namespace {
-
-class VulkanBackend final : public Renderer {
-public:
-    explicit VulkanBackend(VulkanRenderer renderer) : renderer_(std::move(renderer)) {}
-
-    std::string device() const override { return renderer_.deviceName(); }
-    double uploadSeconds() const override { return renderer_.timings().upload; }
-    std::vector<std::string> messages() const override { return renderer_.messages(); }
-
-    VulkanRenderer renderer_;
-
-private:
-    Status loadScene(const Scene& scene, bool sameImages) override { return renderer_.load(scene, sameImages); }
-    Result<Image> drawLoaded(const View& view) override { return renderer_.render(view); }
-};
-
-Result<std::unique_ptr<Renderer>> asRenderer(Result<VulkanRenderer> renderer)
-{
-    if (!renderer)
-        return renderer.error();
-    return std::unique_ptr<Renderer>(std::make_unique<VulkanBackend>(std::move(*renderer)));
-}
-
-Result<std::unique_ptr<Renderer>> openVulkan(const std::string& device, bool validation)
-{
-    return asRenderer(VulkanRenderer::create({device == "auto" ? "" : device, validation}));
-}
-
-} // namespace
-
-Result<std::unique_ptr<Renderer>> openRendererOn(std::shared_ptr<Device> device)
-{
-    return asRenderer(DeviceSharing::open(std::move(device)));
-}
-
-Result<std::shared_ptr<const DeviceImage>> drawOnDevice(Renderer& renderer, const View& view)
-{
-    auto* const backend = dynamic_cast<VulkanBackend*>(&renderer);
-    if (!backend)
-        return std::shared_ptr<const DeviceImage>();
-    return DeviceSharing::draw(backend->renderer_, view);
-}
-
-#else
-
-namespace {
-
-Result<std::unique_ptr<Renderer>> openVulkan(const std::string&, bool)
+Result<std::unique_ptr<Renderer>> openVulkanRenderer(const std::string&, bool)
 {
     return notBuiltWith("Vulkan", "libvulkan-dev and glslang-tools");
 }
-
-} // namespace
-
-Result<std::unique_ptr<Renderer>> openRendererOn(std::shared_ptr<Device>) { return openVulkan("", false); }
+Result<std::unique_ptr<Renderer>> openRendererOn(std::shared_ptr<Device>) { return openVulkanRenderer(); }
 Result<std::shared_ptr<const DeviceImage>> drawOnDevice(Renderer&, const View&)
 {
     return std::shared_ptr<const DeviceImage>();
@@ -116,7 +65,7 @@ Result<std::unique_ptr<Renderer>> openRenderer(const std::string& device, int th
 {
     std::string note;
     if (device != "reference") {
-        auto vulkan = openVulkan(device, validation);
+        auto vulkan = openVulkanRenderer(device == "auto" ? "" : device, validation);
         if (vulkan || device != "auto")
             return vulkan;
         note = vulkan.error().message + "; drawing with the reference renderer";

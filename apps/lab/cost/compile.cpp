@@ -21,11 +21,11 @@ double number(const vk::PipelineExecutableStatisticKHR& s)
 StageCode readStage(const Device& device, const vk::raii::Pipeline& pipeline, Flags stage)
 {
     StageCode code;
-    const auto executables = device.device.getPipelineExecutablePropertiesKHR(vk::PipelineInfoKHR(*pipeline));
+    const auto executables = device.opened->device.getPipelineExecutablePropertiesKHR(vk::PipelineInfoKHR(*pipeline));
     for (std::uint32_t i = 0; i < executables.size(); ++i) {
         if (!(executables[i].stages & stage))
             continue;
-        for (const auto& s : device.device.getPipelineExecutableStatisticsKHR({*pipeline, i}))
+        for (const auto& s : device.opened->device.getPipelineExecutableStatisticsKHR({*pipeline, i}))
             code.all.emplace_back(s.name.data(), number(s));
         break; // some drivers compile a stage for several widths and list the first one first
     }

@@ -110,7 +110,13 @@ void open(Device& d)
     }
     const float priority = 1;
     const vk::DeviceQueueCreateInfo queue({}, d.queueFamily, 1, &priority);
-    d.device = vk::raii::Device(d.physical, vk::DeviceCreateInfo({}, queue, {}, extensions, {}, &use));
+    d.opened = std::make_unique<cotan::Device>();
+    d.opened->physical = d.physical;
+    d.opened->device = vk::raii::Device(d.physical, vk::DeviceCreateInfo({}, queue, {}, extensions, {}, &use));
+    d.opened->queue = d.opened->device.getQueue(d.queueFamily, 0);
+    d.opened->queueFamily = d.queueFamily;
+    d.opened->limits = d.physical.getProperties().limits;
+    d.opened->memory = d.physical.getMemoryProperties();
 }
 
 bool wanted(const std::string& name, const std::vector<std::string>& names)
@@ -118,16 +124,6 @@ bool wanted(const std::string& name, const std::vector<std::string>& names)
     return names.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& n) {
                return lowerCase(name).find(lowerCase(n)) != std::string::npos;
            });
-}
-
-std::string reason(const std::exception& e)
-{
-    const auto* failed = dynamic_cast<const vk::SystemError*>(&e);
-    if (failed && failed->code() == vk::Result::eErrorIncompatibleDriver)
-        return "no driver is installed (the loader found no usable ICD)";
-    std::string text = e.what();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
 }
 
 } // namespace cotan::cost

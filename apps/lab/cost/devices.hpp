@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cotan/result.hpp"
-#include "vulkan.hpp"
+#include "render/vulkan/device.hpp"
 
 namespace cotan::cost {
 
@@ -15,12 +15,12 @@ struct Instance {
     vk::raii::Instance instance{nullptr};
 };
 
-// Throws vk::SystemError and others; `reason` formats them as one line.
+// Throws vk::SystemError and others; cotan::reason formats them as one line.
 Instance openInstance();
 
 struct Device {
     vk::raii::PhysicalDevice physical{nullptr};
-    vk::raii::Device device{nullptr};
+    std::unique_ptr<cotan::Device> opened; // by open(); as the renderer's, for its memory and commands
     std::uint32_t queueFamily = 0;
     std::string name;
     std::string maker; // AMD, NVIDIA, ...; empty if unknown
@@ -43,7 +43,5 @@ void open(Device& device);
 
 // Whether `names` is empty or `name` contains one of them, ignoring case.
 bool wanted(const std::string& name, const std::vector<std::string>& names);
-
-std::string reason(const std::exception& e);
 
 } // namespace cotan::cost

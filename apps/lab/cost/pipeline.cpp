@@ -8,7 +8,8 @@ namespace {
 
 vk::raii::ShaderModule makeModule(const Device& device, std::span<const std::uint32_t> words)
 {
-    return vk::raii::ShaderModule(device.device, vk::ShaderModuleCreateInfo({}, words.size_bytes(), words.data()));
+    return vk::raii::ShaderModule(device.opened->device,
+                                  vk::ShaderModuleCreateInfo({}, words.size_bytes(), words.data()));
 }
 
 std::vector<vk::VertexInputAttributeDescription> attributesOf(Stored stored)
@@ -40,7 +41,7 @@ vk::raii::RenderPass makeRenderPass(const Device& device)
     const vk::AttachmentReference color(0, vk::ImageLayout::eColorAttachmentOptimal);
     vk::SubpassDescription subpass;
     subpass.setColorAttachments(color);
-    return vk::raii::RenderPass(device.device, vk::RenderPassCreateInfo({}, attachment, subpass));
+    return vk::raii::RenderPass(device.opened->device, vk::RenderPassCreateInfo({}, attachment, subpass));
 }
 
 } // namespace
@@ -56,12 +57,13 @@ Layout makeLayout(const Device& device)
     for (std::uint32_t i = 0; i < kBuffers; ++i)
         bindings.emplace_back(2 + i, T::eStorageBuffer, 1, kAll);
     Layout layout;
-    layout.set = vk::raii::DescriptorSetLayout(device.device, vk::DescriptorSetLayoutCreateInfo({}, bindings));
-    layout.pipeline = vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, *layout.set));
+    layout.set = vk::raii::DescriptorSetLayout(device.opened->device, vk::DescriptorSetLayoutCreateInfo({}, bindings));
+    layout.pipeline = vk::raii::PipelineLayout(device.opened->device, vk::PipelineLayoutCreateInfo({}, *layout.set));
     if (!device.dynamicRendering)
         layout.renderPass = makeRenderPass(device);
     const vk::PushConstantRange constants(vk::ShaderStageFlagBits::eCompute, 0, kPassConstants);
-    layout.pass = vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, *layout.set, constants));
+    layout.pass =
+        vk::raii::PipelineLayout(device.opened->device, vk::PipelineLayoutCreateInfo({}, *layout.set, constants));
     return layout;
 }
 
@@ -106,7 +108,7 @@ vk::raii::Pipeline makeGraphics(const Device& device, const Layout& layout, vk::
         info.pNext = &rendering;
     else
         info.renderPass = *layout.renderPass;
-    return vk::raii::Pipeline(device.device, nullptr, info);
+    return vk::raii::Pipeline(device.opened->device, nullptr, info);
 }
 
 } // namespace
@@ -133,7 +135,7 @@ vk::raii::Pipeline makePassPipeline(const Device& device, const Layout& layout, 
     const vk::ComputePipelineCreateInfo info(
         vk::PipelineCreateFlagBits::eCaptureStatisticsKHR,
         vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eCompute, *module, "main"), *layout.pass);
-    return vk::raii::Pipeline(device.device, nullptr, info);
+    return vk::raii::Pipeline(device.opened->device, nullptr, info);
 }
 
 } // namespace cotan::cost

@@ -4,7 +4,10 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <map>
+#include <memory>
+#include <optional>
 
 #include "timing_scene.hpp"
 
@@ -22,24 +25,16 @@ struct Uniforms { // the struct Draw of vertex.vert
 
 class Timer {
 public:
-    explicit Timer(Device& device) : device_(device)
+    explicit Timer(const Device& device)
+        : device_(device), gpu_(*device.opened), commands_(gpu_), memory_(gpu_), layout_(makeLayout(device))
     {
-        queue_ = device.device.getQueue(device.queueFamily, 0);
-        pool_ = vk::raii::CommandPool(device.device,
-                                      {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, device.queueFamily});
-        commands_ =
-            std::move(vk::raii::CommandBuffers(device.device, {*pool_, vk::CommandBufferLevel::ePrimary, 1})[0]);
-        fence_ = vk::raii::Fence(device.device, vk::FenceCreateInfo());
-        queries_ = vk::raii::QueryPool(device.device, {{}, vk::QueryType::eTimestamp, 2});
-        layout_ = makeLayout(device);
-        using U = vk::ImageUsageFlagBits;
-        map_ = makeGpuImage(device, vk::Format::eR8G8B8A8Unorm, kMapSize, U::eSampled | U::eTransferDst);
-        sampler_ =
-            vk::raii::Sampler(device.device, vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear));
+        queries_ = vk::raii::QueryPool(gpu_.device, {{}, vk::QueryType::eTimestamp, 2});
+        sampler_ = vk::raii::Sampler(gpu_.device, vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear));
+        uniforms_ = makeHostBuffer(memory_, sizeof(Uniforms), vk::BufferUsageFlagBits::eUniformBuffer);
         const Uniforms uniforms;
-        uniforms_ = makeBuffer(device, vk::BufferUsageFlagBits::eUniformBuffer, &uniforms, sizeof uniforms);
+        std::memcpy(uniforms_.mapped, &uniforms, sizeof uniforms);
         makeSet();
-        prepareImages();
+        makeMap();
     }
 
     // Selects what draw() draws. Throws if the device has no render target with the requested samples.
@@ -49,12 +44,18 @@ public:
               & vk::SampleCountFlagBits(what.samples)))
             throw std::runtime_error("the device has no render targets with this sample count");
         what_ = what;
-        target_ = {};
-        target_ = makeGpuImage(device_, kColorFormat, std::uint32_t(what.side),
-                               vk::ImageUsageFlagBits::eColorAttachment, what.samples);
-        commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-        transition(commands_, *target_.image, vk::ImageLayout::eUndefined, vk::ImageLayout::eColorAttachmentOptimal);
-        submit();
+        target_.reset();
+        const auto side = std::uint32_t(what.side);
+        target_.emplace(gpu_,
+                        TextureInfo{.format = kColorFormat,
+                                    .extent = {side, side},
+                                    .samples = vk::SampleCountFlagBits(what.samples),
+                                    .usage = vk::ImageUsageFlagBits::eColorAttachment});
+        transition(commands_.begin(), *target_->texture.image, vk::ImageAspectFlagBits::eColor,
+                   {vk::ImageLayout::eUndefined, cotan::Stage::eTopOfPipe, {}},
+                   {vk::ImageLayout::eColorAttachmentOptimal, cotan::Stage::eColorAttachmentOutput,
+                    Access::eColorAttachmentWrite});
+        commands_.submitAndWait();
         std::vector<vk::raii::Pipeline>& pipelines = pipelines_[what.samples];
         for (std::size_t i = pipelines.size(); i < rows.size(); ++i)
             pipelines.push_back(makePipeline(device_, layout_, rows[i]->stored, vertexStage(rows[i]->stored).vertex,
@@ -70,32 +71,32 @@ public:
         const std::array writes{vk::WriteDescriptorSet(set_, 0, 0, 1, T::eUniformBuffer, nullptr, &buffers[0]),
                                 vk::WriteDescriptorSet(set_, 1, 0, 1, T::eCombinedImageSampler, &image),
                                 vk::WriteDescriptorSet(set_, 2, 0, 5, T::eStorageBuffer, nullptr, &buffers[1])};
-        device_.device.updateDescriptorSets(writes, nullptr);
+        gpu_.device.updateDescriptorSets(writes, nullptr);
     }
 
     // Draws once and returns the time in nanoseconds.
     double draw(std::size_t pipeline, Stored stored, const Grid& grid)
     {
-        commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-        commands_.resetQueryPool(*queries_, 0, 2);
-        vk::RenderingAttachmentInfo color(*target_.view, vk::ImageLayout::eColorAttachmentOptimal);
+        const vk::raii::CommandBuffer& commands = commands_.begin();
+        commands.resetQueryPool(*queries_, 0, 2);
+        vk::RenderingAttachmentInfo color(*target_->texture.view, vk::ImageLayout::eColorAttachmentOptimal);
         color.loadOp = vk::AttachmentLoadOp::eDontCare;
         color.storeOp = vk::AttachmentStoreOp::eStore;
         const auto side = std::uint32_t(what_.side);
         const vk::Rect2D area({0, 0}, {side, side});
-        commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *queries_, 0);
-        commands_.beginRendering(vk::RenderingInfo({}, area, 1, 0, color));
-        commands_.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipelines_[what_.samples][pipeline]);
-        commands_.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_.pipeline, 0, set_, nullptr);
-        commands_.setViewport(0, vk::Viewport(0, 0, float(side), float(side), 0, 1));
-        commands_.setScissor(0, area);
-        commands_.bindVertexBuffers(0, *grid.vertices[std::size_t(stored)].buffer, vk::DeviceSize(0));
+        commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *queries_, 0);
+        commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color));
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipelines_[what_.samples][pipeline]);
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_.pipeline, 0, set_, nullptr);
+        commands.setViewport(0, vk::Viewport(0, 0, float(side), float(side), 0, 1));
+        commands.setScissor(0, area);
+        commands.bindVertexBuffers(0, *grid.vertices[std::size_t(stored)].buffer, vk::DeviceSize(0));
         const Buffer& indices = provokes(stored) ? grid.provokingIndices : grid.indices;
-        commands_.bindIndexBuffer(*indices.buffer, 0, vk::IndexType::eUint32);
-        commands_.drawIndexed(grid.indexCount, std::uint32_t(what_.layers), 0, 0, 0);
-        commands_.endRendering();
-        commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *queries_, 1);
-        submit();
+        commands.bindIndexBuffer(*indices.buffer, 0, vk::IndexType::eUint32);
+        commands.drawIndexed(grid.indexCount, std::uint32_t(what_.layers), 0, 0, 0);
+        commands.endRendering();
+        commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *queries_, 1);
+        commands_.submitAndWait();
         [[maybe_unused]] const auto [result, ticks] = queries_.getResults<std::uint64_t>(
             0, 2, 16, 8, vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
         return double(ticks[1] - ticks[0]) * device_.nanoseconds;
@@ -108,13 +109,13 @@ private:
         const std::array sizes{vk::DescriptorPoolSize(T::eUniformBuffer, 1),
                                vk::DescriptorPoolSize(T::eCombinedImageSampler, 1),
                                vk::DescriptorPoolSize(T::eStorageBuffer, kBuffers)};
-        descriptors_ = vk::raii::DescriptorPool(device_.device, vk::DescriptorPoolCreateInfo({}, 1, sizes));
+        descriptors_ = vk::raii::DescriptorPool(gpu_.device, vk::DescriptorPoolCreateInfo({}, 1, sizes));
         // A plain handle: the pool frees the set.
         const vk::DescriptorSetAllocateInfo info(*descriptors_, *layout_.set);
-        set_ = (*device_.device).allocateDescriptorSets(info, *device_.device.getDispatcher())[0];
+        set_ = (*gpu_.device).allocateDescriptorSets(info, *gpu_.device.getDispatcher())[0];
     }
 
-    void prepareImages()
+    void makeMap()
     {
         std::vector<std::uint8_t> texels;
         for (std::uint32_t i = 0; i < kMapSize * kMapSize; ++i) {
@@ -122,34 +123,22 @@ private:
             for (const double c : {0.3 * std::sin(a), 0.3 * std::sin(b), 0.9, 1.0})
                 texels.push_back(static_cast<std::uint8_t>(std::lround((c * 0.5 + 0.5) * 255)));
         }
-        const Buffer staging = makeBuffer(device_, vk::BufferUsageFlagBits::eTransferSrc, texels.data(), texels.size());
-        using L = vk::ImageLayout;
-        commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-        transition(commands_, *map_.image, L::eUndefined, L::eTransferDstOptimal);
-        const vk::BufferImageCopy copy(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {},
-                                       {kMapSize, kMapSize, 1});
-        commands_.copyBufferToImage(*staging.buffer, *map_.image, L::eTransferDstOptimal, copy);
-        transition(commands_, *map_.image, L::eTransferDstOptimal, L::eShaderReadOnlyOptimal);
-        submit();
+        using U = vk::ImageUsageFlagBits;
+        map_ = makeTexture(memory_, {.extent = {kMapSize, kMapSize}, .usage = U::eSampled | U::eTransferDst});
+        Uploader uploader(gpu_, texels.size());
+        const auto bytes = std::as_bytes(std::span(texels));
+        uploader.image(map_, {&bytes, 1}, 4);
+        uploader.finish();
     }
 
-    void submit()
-    {
-        commands_.end();
-        queue_.submit(vk::SubmitInfo({}, {}, *commands_), *fence_);
-        if (device_.device.waitForFences(*fence_, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess)
-            throw std::runtime_error("the device did not finish drawing");
-        device_.device.resetFences(*fence_);
-    }
-
-    Device& device_;
-    vk::raii::Queue queue_{nullptr};
-    vk::raii::CommandPool pool_{nullptr};
-    vk::raii::CommandBuffer commands_{nullptr};
-    vk::raii::Fence fence_{nullptr};
-    vk::raii::QueryPool queries_{nullptr};
+    const Device& device_;
+    const cotan::Device& gpu_;
+    Commands commands_;
+    Memory memory_;
     Layout layout_;
-    GpuImage target_, map_;
+    vk::raii::QueryPool queries_{nullptr};
+    std::optional<DeviceImage> target_;
+    Texture2D map_;
     vk::raii::Sampler sampler_{nullptr};
     Buffer uniforms_;
     vk::raii::DescriptorPool descriptors_{nullptr};
@@ -205,18 +194,18 @@ void timeAll(Device& device, const std::vector<const Row*>& rows, const TimingOp
     for (const Row* row : rows)
         result.rows.push_back({row->name, {}, {}, {}});
     std::pair<int, int> made;
-    Grid grid;
+    std::unique_ptr<Grid> grid;
     for (const TimingCase& what : options.cases) {
         try {
             if (secondsSince(start) > options.seconds)
                 throw std::runtime_error(kLate);
             if (std::pair(what.leg, what.side) != made) {
-                grid = {};
+                grid.reset();
                 made = {};
                 grid = makeGrid(device, what.leg, what.side);
                 made = {what.leg, what.side};
             }
-            timeCase(timer, rows, what, grid, options.repeats, options.seconds - secondsSince(start), result);
+            timeCase(timer, rows, what, *grid, options.repeats, options.seconds - secondsSince(start), result);
         } catch (const vk::DeviceLostError&) {
             throw;
         } catch (const std::exception& e) {

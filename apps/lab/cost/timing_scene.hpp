@@ -2,23 +2,16 @@
 #pragma once
 
 #include "pipeline.hpp"
+#include "render/vulkan/memory.hpp"
 
 namespace cotan::cost {
-
-struct Buffer {
-    vk::raii::Buffer buffer{nullptr};
-    vk::raii::DeviceMemory memory{nullptr};
-};
-
-struct GpuImage {
-    vk::raii::Image image{nullptr};
-    vk::raii::DeviceMemory memory{nullptr};
-    vk::raii::ImageView view{nullptr};
-};
 
 // The square as a grid of right-angled triangles. Rows that take U and V from the provoking vertex use their own index
 // buffer, in which every triangle owns a provoking vertex, which makes more vertices.
 struct Grid {
+    explicit Grid(const cotan::Device& device) : memory(device) {}
+
+    Memory memory;
     std::vector<Buffer> vertices; // in the order of Stored
     Buffer indices;
     Buffer provokingIndices;
@@ -33,15 +26,7 @@ struct Grid {
 
 bool provokes(Stored stored);
 
-// Creates a host-visible buffer. All functions here throw vk::SystemError.
-Buffer makeBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data, std::size_t bytes);
-// Creates a device-local buffer, so that draws do not read across the bus. Waits for the copy.
-Buffer makeDeviceBuffer(const Device& device, vk::BufferUsageFlags usage, const void* data, std::size_t bytes);
-GpuImage makeGpuImage(const Device& device, vk::Format format, std::uint32_t size, vk::ImageUsageFlags usage,
-                      int samples = 1);
-Grid makeGrid(const Device& device, int leg, int side);
-
-// Records an image layout transition that waits for all stages.
-void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageLayout from, vk::ImageLayout to);
+// Copies the grid to the device, so that draws do not read across the bus. Throws vk::SystemError.
+std::unique_ptr<Grid> makeGrid(const Device& device, int leg, int side);
 
 } // namespace cotan::cost

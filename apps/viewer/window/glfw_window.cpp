@@ -254,7 +254,6 @@ public:
     void loseSurface() override { presenter_->loseSurface(); }
     std::shared_ptr<Device> device() const override { return presenter_->device(); }
     std::uint64_t imagesRead() const override { return presenter_->imagesRead(); }
-    const std::vector<std::string>& messages() const override { return presenter_->messages(); }
     void wake() override { glfwPostEmptyEvent(); }
 
 private:

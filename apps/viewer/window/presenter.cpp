@@ -90,7 +90,7 @@ Status Presenter::State::open(const std::vector<const char*>& extensions, const 
         return bool(physical.getSurfaceSupportKHR(family, *trial));
     };
     const WindowNeeds needs{extensions, presents};
-    COTAN_TRY(opened, openDevice({options.device, options.validation}, &needs));
+    COTAN_TRY(opened, openDevice(options.device, /*validation*/ false, &needs));
     device = std::move(*opened);
     remakeSurface();
     commands.emplace(*device);
@@ -379,6 +379,5 @@ void Presenter::useFont()
 void Presenter::loseSurface() { state_->lost = true; }
 std::shared_ptr<Device> Presenter::device() const { return state_->device->asAsked ? state_->device : nullptr; }
 std::uint64_t Presenter::imagesRead() const { return state_->device->imagesRead; }
-const std::vector<std::string>& Presenter::messages() const { return *state_->device->messages; }
 
 } // namespace cotan::viewer

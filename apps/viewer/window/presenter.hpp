@@ -30,10 +30,9 @@ public:
     // there was no surface to draw into.
     void show(const Shown& shown, ImDrawData* interface, int width, int height, Image* read = nullptr);
     void loseSurface();
-    void useFont();                                   // switches to Dear ImGui's current font
-    std::shared_ptr<Device> device() const;           // null if it is not the one that the options ask for
-    std::uint64_t imagesRead() const;                 // copied from the device to host memory
-    const std::vector<std::string>& messages() const; // of the validation layer
+    void useFont();                         // switches to Dear ImGui's current font
+    std::shared_ptr<Device> device() const; // null if it is not the one that the options ask for
+    std::uint64_t imagesRead() const;       // copied from the device to host memory
 
 private:
     struct State;

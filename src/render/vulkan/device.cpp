@@ -162,11 +162,7 @@ bool filterable(const vk::raii::PhysicalDevice& physical, vk::Format format)
 
 void describe(Device& d)
 {
-    const auto properties =
-        d.physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
-    const auto& core = properties.get<vk::PhysicalDeviceProperties2>().properties;
-    const auto& driver = properties.get<vk::PhysicalDeviceDriverProperties>();
-    d.driver = std::string(driver.driverName.data()) + " " + std::string(driver.driverInfo.data());
+    const vk::PhysicalDeviceProperties core = d.physical.getProperties();
     d.cpu = core.deviceType == vk::PhysicalDeviceType::eCpu;
     d.limits = core.limits;
     d.memory = d.physical.getMemoryProperties();
@@ -229,37 +225,18 @@ std::string reason(const std::exception& e)
     return text;
 }
 
-Result<std::unique_ptr<Device>> openDevice(const VulkanRendererOptions& options, const WindowNeeds* window)
+Result<std::unique_ptr<Device>> openDevice(const std::string& name, bool validation, const WindowNeeds* window)
 {
     try {
         auto d = std::make_unique<Device>();
         d->presents = window != nullptr;
-        openInstance(*d, options.validation, window ? window->extensions : std::vector<const char*>());
-        COTAN_CHECK(choose(*d, options.device, window));
+        openInstance(*d, validation, window ? window->extensions : std::vector<const char*>());
+        COTAN_CHECK(choose(*d, name, window));
         d->name = nameOf(d->physical);
         d->queueFamily = std::uint32_t(graphicsFamily(d->physical)); // not -1: missingFeature has checked it
         describe(*d);
         openLogicalDevice(*d);
         return d;
-    } catch (const std::exception& e) {
-        return unavailableError("Vulkan cannot be used: " + reason(e));
-    }
-}
-
-Result<std::vector<std::string>> renderDevices()
-{
-    try {
-        const vk::raii::Context context;
-        std::vector<std::string> messages;
-        const vk::raii::Instance instance = makeInstance(context, false, messages, {});
-        const std::vector<vk::raii::PhysicalDevice> devices = devicesOf(instance);
-        std::vector<std::string> names;
-        for (const vk::raii::PhysicalDevice& d : devices)
-            if (missingFeature(d).empty())
-                names.push_back(nameOf(d));
-        if (names.empty())
-            return unavailableError("no Vulkan device can be used; found: " + listed(devices));
-        return names;
     } catch (const std::exception& e) {
         return unavailableError("Vulkan cannot be used: " + reason(e));
     }

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "cotan/render.hpp"
 #include "cotan/result.hpp"
 #include "vulkan.hpp"
 
@@ -32,7 +31,6 @@ struct Device {
     bool asAsked = true; // false: the device that the options ask for cannot present in the window
 
     std::string name;
-    std::string driver;
     bool cpu = false; // the driver renders on the CPU
     vk::PhysicalDeviceLimits limits;
     vk::PhysicalDeviceMemoryProperties memory;
@@ -50,9 +48,10 @@ struct WindowNeeds {
     std::function<bool(const vk::raii::Instance&, const vk::raii::PhysicalDevice&, std::uint32_t family)> presents;
 };
 
-// window: the device can present in it. Errors: those of VulkanRenderer::create; ErrorKind::unavailable if no device
-// can present.
-Result<std::unique_ptr<Device>> openDevice(const VulkanRendererOptions& options, const WindowNeeds* window = nullptr);
+// name, validation: as for openVulkanRenderer. window: the device can present in it. Errors: those of
+// openVulkanRenderer; ErrorKind::unavailable if no device can present.
+Result<std::unique_ptr<Device>> openDevice(const std::string& name, bool validation,
+                                           const WindowNeeds* window = nullptr);
 
 // One line that describes the error in any exception of the Vulkan bindings.
 std::string reason(const std::exception& e);

@@ -117,7 +117,7 @@ public:
     CommandRecorder(const Device& device, const Layouts& layouts);
 
     // host: gets the image. If null, share() does; only for views that staysOnDevice() accepts.
-    Status draw(GpuScene& scene, const View& view, RenderTimings& timings, Image* host);
+    Status draw(GpuScene& scene, const View& view, Image* host);
     static bool staysOnDevice(const View& view);
     std::shared_ptr<const DeviceImage> share() const { return targets_->share(); }
     // Discards what was kept for the previous scene.
@@ -144,7 +144,7 @@ private:
     };
 
     // sample: the only one of the kSampleCount samples to draw; if empty, all.
-    Status drawOnce(GpuScene& scene, const View& view, std::optional<int> sample, RenderTimings& timings, Image* host);
+    Status drawOnce(GpuScene& scene, const View& view, std::optional<int> sample, Image* host);
     static DrawLists makeLists(const GpuScene& scene, const View& view, const CameraAxes& axes,
                                const gpu::CotanView& constants);
     void beginPipelines(const DrawLists& lists, const View& view, bool layered);

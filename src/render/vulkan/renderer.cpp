@@ -14,21 +14,6 @@
 
 namespace cotan {
 
-// In the order of dependence: later members are destroyed first.
-struct VulkanRenderer::State {
-    explicit State(std::shared_ptr<Device> opened)
-        : device(std::move(opened)), layouts(std::make_unique<Layouts>(*device)),
-          drawer(std::make_unique<CommandRecorder>(*device, *layouts))
-    {
-    }
-
-    std::shared_ptr<Device> device;
-    std::unique_ptr<Layouts> layouts;
-    std::unique_ptr<CommandRecorder> drawer;
-    std::unique_ptr<GpuScene> scene;
-    RenderTimings timings;
-};
-
 namespace {
 
 // Runs `work` and converts exceptions to an Error.
@@ -41,11 +26,6 @@ template<class T, class Work> Result<T> guarded(const char* doing, Work work)
     } catch (const std::exception& e) {
         return unavailableError(std::string(doing) + ": " + reason(e));
     }
-}
-
-double secondsSince(std::chrono::steady_clock::time_point start)
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 Status checkLimits(const Device& device, const View& view)
@@ -129,8 +109,7 @@ int CommandRecorder::rowsAtOnce(const View& view, bool layered) const
     return std::max(kSamplesAtOnce / (view.width * view.samples) / 16 * 16, 16); // keeps pixels that share derivatives
 }
 
-Status CommandRecorder::drawOnce(GpuScene& scene, const View& view, std::optional<int> sample, RenderTimings& timings,
-                                 Image* host)
+Status CommandRecorder::drawOnce(GpuScene& scene, const View& view, std::optional<int> sample, Image* host)
 {
     const CameraAxes axes = cameraAxes(view.camera);
     scene.setPointSampled(view.pointSampled);
@@ -145,7 +124,6 @@ Status CommandRecorder::drawOnce(GpuScene& scene, const View& view, std::optiona
     if (targets_->resolves())
         area = lists.area.empty() ? PixelArea{0, 0, 1, 1} : lists.area;
 
-    const auto start = std::chrono::steady_clock::now();
     const vk::raii::CommandBuffer& commands = begin();
     recordShadow(commands, lists, {constants.shadowX, constants.shadowY, constants.shadowZ, view.pointSampled});
     if (targets_->resolves())
@@ -171,11 +149,8 @@ Status CommandRecorder::drawOnce(GpuScene& scene, const View& view, std::optiona
     }
     targets_->finish(commands, host != nullptr);
     commands_.submitAndWait();
-    timings.draw += secondsSince(start);
-    const auto drawn = std::chrono::steady_clock::now();
     if (host)
         *host = targets_->image(view.rowsUpward);
-    timings.readBack += secondsSince(drawn);
     return Done{};
 }
 
@@ -184,7 +159,7 @@ bool CommandRecorder::staysOnDevice(const View& view)
     return view.output == Output::shaded && view.samples <= kMaxSharedSamples && !view.linearOutput && !view.rowsUpward;
 }
 
-Status CommandRecorder::draw(GpuScene& scene, const View& view, RenderTimings& timings, Image* host)
+Status CommandRecorder::draw(GpuScene& scene, const View& view, Image* host)
 {
     COTAN_CHECK(checkLimits(*device_, view));
     const std::vector<Status>& has = view.framesOfMeshes ? scene.withFramesOfMeshes : scene.withFrame;
@@ -195,12 +170,11 @@ Status CommandRecorder::draw(GpuScene& scene, const View& view, RenderTimings& t
         targets_.reset(); // frees its memory first
         targets_ = std::make_unique<Targets>(*device_, kind);
     }
-    timings.draw = timings.readBack = 0;
     if (view.output != Output::shaded || view.samples <= kMaxSharedSamples)
-        return drawOnce(scene, view, std::nullopt, timings, host);
+        return drawOnce(scene, view, std::nullopt, host);
     Image sum = makeImage(view.width, view.height, PixelType::float32, "render"), image;
     for (int sample = 0; sample < kSampleCount; ++sample) {
-        COTAN_CHECK(drawOnce(scene, view, sample, timings, &image));
+        COTAN_CHECK(drawOnce(scene, view, sample, &image));
         for (std::size_t i = 0; i < 4 * sum.pixelCount(); ++i)
             sum.floats()[i] += image.floats()[i];
     }
@@ -208,67 +182,81 @@ Status CommandRecorder::draw(GpuScene& scene, const View& view, RenderTimings& t
     return Done{};
 }
 
-Result<VulkanRenderer> VulkanRenderer::create(const VulkanRendererOptions& options)
+namespace {
+
+class VulkanRenderer final : public Renderer {
+public:
+    explicit VulkanRenderer(std::shared_ptr<Device> device)
+        : device_(std::move(device)), layouts_(*device_), recorder_(*device_, layouts_)
+    {
+    }
+
+    std::string device() const override { return device_->name; }
+    double uploadSeconds() const override { return uploadSeconds_; }
+    std::vector<std::string> messages() const override { return *device_->messages; }
+
+    Result<std::shared_ptr<const DeviceImage>> drawOnDevice(const View& view)
+    {
+        using Shared = std::shared_ptr<const DeviceImage>;
+        return guarded<Shared>("drawing", [&]() -> Result<Shared> {
+            if (!CommandRecorder::staysOnDevice(view))
+                return Shared();
+            COTAN_CHECK(recorder_.draw(*scene_, view, nullptr));
+            return recorder_.share();
+        });
+    }
+
+private:
+    Status loadScene(const Scene& scene, bool sameImages) override
+    {
+        return guarded<Done>("uploading the scene", [&]() -> Status {
+            COTAN_CHECK(checkTrianglesDrawn(scene));
+            const auto start = std::chrono::steady_clock::now();
+            recorder_.forgetScene();
+            Textures textures = sameImages && scene_ ? scene_->takeTextures() : Textures(*device_);
+            scene_.reset(); // frees its memory first
+            scene_ = std::make_unique<GpuScene>(*device_, layouts_, scene, std::move(textures));
+            uploadSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            return Done{};
+        });
+    }
+
+    Result<Image> drawLoaded(const View& view) override
+    {
+        return guarded<Image>("drawing", [&]() -> Result<Image> {
+            Image image;
+            COTAN_CHECK(recorder_.draw(*scene_, view, &image));
+            return image;
+        });
+    }
+
+    // In the order of dependence: later members are destroyed first.
+    std::shared_ptr<Device> device_;
+    Layouts layouts_;
+    CommandRecorder recorder_;
+    std::unique_ptr<GpuScene> scene_;
+    double uploadSeconds_ = 0;
+};
+
+} // namespace
+
+Result<std::unique_ptr<Renderer>> openVulkanRenderer(const std::string& device, bool validation)
 {
-    return guarded<VulkanRenderer>("opening the device", [&]() -> Result<VulkanRenderer> {
-        Result<std::unique_ptr<Device>> device = openDevice(options);
-        if (!device)
-            return device.error();
-        return VulkanRenderer(std::make_unique<State>(std::move(*device)));
+    COTAN_TRY(opened, openDevice(device, validation));
+    return openRendererOn(std::move(*opened));
+}
+
+Result<std::unique_ptr<Renderer>> openRendererOn(std::shared_ptr<Device> device)
+{
+    return guarded<std::unique_ptr<Renderer>>("opening the renderer", [&] {
+        return std::unique_ptr<Renderer>(std::make_unique<VulkanRenderer>(std::move(device)));
     });
 }
 
-Result<VulkanRenderer> DeviceSharing::open(std::shared_ptr<Device> device)
+Result<std::shared_ptr<const DeviceImage>> drawOnDevice(Renderer& renderer, const View& view)
 {
-    return guarded<VulkanRenderer>("opening the renderer", [&] {
-        return VulkanRenderer(std::make_unique<VulkanRenderer::State>(std::move(device)));
-    });
+    auto* const vulkan = dynamic_cast<VulkanRenderer*>(&renderer);
+    return vulkan ? vulkan->drawOnDevice(view) : std::shared_ptr<const DeviceImage>();
 }
-
-Result<std::shared_ptr<const DeviceImage>> DeviceSharing::draw(VulkanRenderer& renderer, const View& view)
-{
-    VulkanRenderer::State& s = *renderer.state_;
-    return guarded<std::shared_ptr<const DeviceImage>>("drawing", [&]() -> Result<std::shared_ptr<const DeviceImage>> {
-        if (!CommandRecorder::staysOnDevice(view))
-            return std::shared_ptr<const DeviceImage>();
-        const Status drawn = s.drawer->draw(*s.scene, view, s.timings, nullptr);
-        return drawn ? s.drawer->share() : Result<std::shared_ptr<const DeviceImage>>(drawn.error());
-    });
-}
-
-VulkanRenderer::VulkanRenderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
-VulkanRenderer::VulkanRenderer(VulkanRenderer&&) noexcept = default;
-VulkanRenderer& VulkanRenderer::operator=(VulkanRenderer&&) noexcept = default;
-VulkanRenderer::~VulkanRenderer() = default;
-
-Status VulkanRenderer::load(const Scene& scene, bool sameImages)
-{
-    return guarded<Done>("uploading the scene", [&]() -> Status {
-        COTAN_CHECK(checkTrianglesDrawn(scene));
-        const auto start = std::chrono::steady_clock::now();
-        state_->drawer->forgetScene();
-        Textures textures = sameImages && state_->scene ? state_->scene->takeTextures() : Textures(*state_->device);
-        state_->scene.reset(); // frees its memory first
-        state_->scene = std::make_unique<GpuScene>(*state_->device, *state_->layouts, scene, std::move(textures));
-        state_->timings.upload = secondsSince(start);
-        return Done{};
-    });
-}
-
-Result<Image> VulkanRenderer::render(const View& view)
-{
-    if (!state_->scene)
-        COTAN_CHECK(load(Scene{}));
-    return guarded<Image>("drawing", [&]() -> Result<Image> {
-        Image image;
-        const Status drawn = state_->drawer->draw(*state_->scene, view, state_->timings, &image);
-        return drawn ? std::move(image) : Result<Image>(drawn.error());
-    });
-}
-
-const std::string& VulkanRenderer::deviceName() const { return state_->device->name; }
-const std::string& VulkanRenderer::driver() const { return state_->device->driver; }
-const RenderTimings& VulkanRenderer::timings() const { return state_->timings; }
-const std::vector<std::string>& VulkanRenderer::messages() const { return *state_->device->messages; }
 
 } // namespace cotan

@@ -25,11 +25,9 @@ struct StreamData {
     vk::DeviceSize stride = 0;
 };
 
-template<class T> StreamData streamOf(const std::vector<T>& values, std::size_t vertices)
+template<class T> StreamData streamOf(const std::vector<T>& values)
 {
-    if (values.size() != vertices || vertices == 0)
-        return {};
-    return {bytesOf(values), sizeof(T)};
+    return values.empty() ? StreamData{} : StreamData{bytesOf(values), sizeof(T)};
 }
 
 // A value that can be subtracted from all values in [low, high] exactly and makes them smaller: the midpoint if they
@@ -72,8 +70,7 @@ struct MeshSource {
             texcoordOrigin[2 * set] = o.x;
             texcoordOrigin[2 * set + 1] = o.y;
         }
-        const std::size_t n = source.vertexCount();
-        const auto usable = [&](std::uint32_t i) { return i < n && drawable(source.positions[i]); };
+        const auto usable = [&](std::uint32_t i) { return drawable(source.positions[i]); };
         indices.reserve(source.indices.size());
         for (std::size_t i = 0; i + 2 < source.indices.size(); i += 3) {
             const std::uint32_t* t = &source.indices[i];
@@ -84,15 +81,14 @@ struct MeshSource {
 
     std::array<StreamData, kStreamCount> streams() const // the streams refer to this object
     {
-        const std::size_t n = mesh->vertexCount();
-        return {streamOf(mesh->positions, n),
-                streamOf(mesh->normals, n),
-                streamOf(texcoords[0], n),
-                streamOf(texcoords[1], n),
-                streamOf(mesh->colors, n),
-                streamOf(mesh->tangents, n),
-                streamOf(mesh->cotangentsU, n),
-                streamOf(mesh->cotangentsV, n),
+        return {streamOf(mesh->positions),
+                streamOf(mesh->normals),
+                streamOf(texcoords[0]),
+                streamOf(texcoords[1]),
+                streamOf(mesh->colors),
+                streamOf(mesh->tangents),
+                streamOf(mesh->cotangentsU),
+                streamOf(mesh->cotangentsV),
                 StreamData{bytesOf(std::span(&texcoordOrigin, 1)), 0}};
     }
 };
@@ -158,8 +154,7 @@ std::uint32_t mapsOf(const Material& m, const Textures& textures)
 // Encoding of a normal map; w: 0.
 gpu::ivec4 normalConstants(const Scene& scene, const Texture& map, const Convention& format)
 {
-    const bool mapped = map.present() && std::size_t(map.image) < scene.images.size();
-    const PixelType type = mapped ? scene.images[std::size_t(map.image)].type : PixelType::unorm8;
+    const PixelType type = map.present() ? scene.images[std::size_t(map.image)].type : PixelType::unorm8;
     return {expansionFor(format.expansion, bitsPerComponent(type)), int(format.channels), greenAlongV(format) ? 1 : -1,
             0};
 }
@@ -210,18 +205,16 @@ void GpuScene::loadMeshes(const Scene& scene, Uploader& uploader)
     std::vector<std::size_t> gpuOf(scene.meshes.size(), kNone);
     std::vector<MeshSource> sources;
     for (const Instance& instance : scene.instances) {
-        const Mesh* mesh = meshPlacedBy(scene, instance);
-        if (!mesh || mesh->material < 0 || std::size_t(mesh->material) >= scene.materials.size())
-            continue;
+        const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
         std::size_t& at = gpuOf[std::size_t(instance.mesh)];
         if (at == kNone) {
             at = meshes.size();
-            const MeshSource& source = sources.emplace_back(*mesh);
+            const MeshSource& source = sources.emplace_back(mesh);
             GpuMesh& gpu = meshes.emplace_back();
             gpu.indexCount = static_cast<std::uint32_t>(source.indices.size());
-            gpu.material = mesh->material;
-            gpu.readWith = mesh->readWith;
-            gpu.box = cotan::bounds(*mesh);
+            gpu.material = mesh.material;
+            gpu.readWith = mesh.readWith;
+            gpu.box = cotan::bounds(mesh);
         }
         if (meshes[at].indexCount > 0)
             instances.push_back({instance.toWorld, at});

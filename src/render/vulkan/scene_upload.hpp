@@ -124,8 +124,7 @@ struct GpuInstance {
     std::size_t mesh = 0; // index into GpuScene::meshes
 };
 
-// Omits what cannot be drawn: instances without a mesh, triangles with an index out of range or a corner that is not
-// finite, and attributes of the wrong length.
+// Of a consistent scene (checkScene). Omits triangles with a corner that is not finite.
 class GpuScene {
 public:
     // textures: empty, or those of a scene with the same images.

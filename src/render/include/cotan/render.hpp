@@ -54,7 +54,8 @@ public:
 
     // Draws the loaded scene. Errors: ErrorKind::usage without a scene, for a size that cannot be drawn (the reference
     // renderer: 1 to 16384 pixels a side), an unknown frame, or one whose vertex attributes the scene lacks;
-    // ErrorKind::unavailable if memory runs out; those of VulkanRenderer::render and renderReference.
+    // ErrorKind::unavailable if memory runs out; those of renderReference; on a Vulkan device for more than 2.8 million
+    // translucent fragments in one row of pixels.
     Result<Image> draw(const View& view);
 
     // "reference", or the Vulkan device's name.
@@ -126,57 +127,5 @@ std::string formatCamera(const Camera& camera);
 // million triangles, instances counted; ErrorKind::unavailable if memory runs out, or for more than 1024 translucent
 // layers per pixel on average in a tile of 32 x 32 pixels.
 Result<Image> renderReference(const Scene& scene, const View& view, int threads = 0, const Progress& progress = {});
-
-// ---- the Vulkan renderer -------------------------------------------------------------------
-
-// The Vulkan renderer. At run time it needs only the Vulkan loader.
-
-struct VulkanRendererOptions {
-    std::string device;      // part of the device's name, in any case; empty: best type of device
-    bool validation = false; // enables the validation layer; see messages()
-};
-
-struct RenderTimings { // seconds
-    double upload = 0; // of the last load()
-    double draw = 0;   // of the last render(): submit to idle
-    double readBack = 0;
-};
-
-// The names of all devices that can run the renderer, in order of preference.
-// Errors: ErrorKind::unavailable, with the reason if there is none.
-Result<std::vector<std::string>> renderDevices();
-
-class VulkanRenderer {
-public:
-    // Opens a device. Errors: ErrorKind::unavailable, with the reason (no loader, no driver, no
-    // device of that name, a missing feature).
-    static Result<VulkanRenderer> create(const VulkanRendererOptions& options = {});
-
-    VulkanRenderer(VulkanRenderer&&) noexcept;
-    VulkanRenderer& operator=(VulkanRenderer&&) noexcept;
-    ~VulkanRenderer();
-
-    // Uploads a scene and replaces the previous one. sameImages: all images are those of the previous scene, in the
-    // same order; their textures stay on the device. Errors: ErrorKind::unavailable if the device has not enough
-    // memory; ErrorKind::input over 100 million triangles, instances counted.
-    Status load(const Scene& scene, bool sameImages = false);
-
-    // Draws the loaded scene. Any number of translucent layers is composed per sample in depth order; of equally
-    // distant ones the one later in the scene is in front. The fragment lists take 144 MiB of device memory.
-    // Errors: ErrorKind::usage for a size that the device cannot draw; ErrorKind::unavailable if memory runs out, or
-    // for more than 2.8 million translucent fragments in one row of pixels.
-    Result<Image> render(const View& view);
-
-    const std::string& deviceName() const;
-    const std::string& driver() const; // name and version
-    const RenderTimings& timings() const;
-    const std::vector<std::string>& messages() const; // from the validation layer
-
-private:
-    friend struct DeviceSharing;
-    struct State;
-    explicit VulkanRenderer(std::unique_ptr<State> state);
-    std::unique_ptr<State> state_;
-};
 
 } // namespace cotan
