@@ -271,7 +271,7 @@ TEST(CFiles, anExposureWithDecimalsScalesAllLight)
 {
     const auto render = [](const char* exposure) {
         const char* words[] = {"--device", "reference", "--size", "8x8",        "--environment",
-                               "overcast", "--samples", "1",      "--exposure", exposure};
+                               "studio",   "--samples", "1",      "--exposure", exposure};
         cotan_render_options options = COTAN_INIT(cotan_render_options);
         options.words = words;
         options.word_count = std::size(words);
