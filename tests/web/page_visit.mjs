@@ -65,7 +65,7 @@ export async function domed(name, up, colour) {
 }
 
 export async function open(options = {}, hash = '') {
-  const context = await browser.newContext({ viewport: { width: 900, height: 700 }, acceptDownloads: true, serviceWorkers: 'block', ...options });
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, acceptDownloads: true, serviceWorkers: 'block', ...options });
   const page = await context.newPage();
   page.setDefaultTimeout(30000);
   page.on('console', message => { if (['error', 'warning'].includes(message.type()) && !/GPU stall|GL Driver|blocked by Playwright/.test(message.text())) errors.push(message.text()); });
@@ -143,6 +143,7 @@ export async function fact(name, check, { needsData = false } = {}) {
   } catch (error) {
     problem = error.message;
   }
+  await Promise.all(browser.contexts().map(context => context.close())); // a fact that fails leaves its page open
   if (!problem && errors.length > before) problem = `the console says: ${errors.slice(before).join('; ')}`;
   ++tried;
   if (problem) ++failed;
