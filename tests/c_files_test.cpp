@@ -268,8 +268,8 @@ TEST(CFiles, imagesAreRenderedWithTheGivenOptions)
 TEST(CFiles, anExposureWithDecimalsScalesAllLight)
 {
     const auto render = [](const char* exposure) {
-        const char* words[] = {"--device", "reference", "--size", "8x8",        "--environment",
-                               "overcast", "--samples", "1",      "--exposure", exposure};
+        const char* words[] = {"--device",     "reference",   "--size",    "8x8", "--environment", "studio",
+                               "--background", "environment", "--samples", "1",   "--exposure",    exposure};
         cotan_render_options options = COTAN_INIT(cotan_render_options);
         options.words = words;
         options.word_count = std::size(words);

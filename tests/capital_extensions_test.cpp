@@ -33,7 +33,7 @@ TEST(CapitalExtensions, renderKeepsFloats)
     TemporaryFolder folder;
     for (const auto& [small, large] :
          {std::pair(".exr", ".EXR"), {".tif", ".TIF"}, {".tiff", ".Tiff"}, {".hdr", ".HDR"}})
-        expectTwins(folder, {"render", "--size", "24x16", "--samples", "1", "--device", "reference"}, small, large);
+        expectTwins(folder, {"render", "--size", "24x16", "--view", "normal", "--device", "reference"}, small, large);
     EXPECT_EQ(readImage(folder / "A.EXR")->type, PixelType::float32);
     EXPECT_EQ(readImage(folder / "A.TIF")->type, PixelType::float32);
 }

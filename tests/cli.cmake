@@ -1,5 +1,5 @@
 # The tool, run as users run it.
-cotan_test(cli_test SLOW CommandLine.every*
+cotan_test(cli_test SLOW CommandLine.every* FoundInput.everyCommand*
   SOURCES cli_test.cpp cli_bad_input_test.cpp cli_packed_input_test.cpp capital_extensions_test.cpp own_maps_test.cpp
     render_turntable_test.cpp command_errors_test.cpp
   LIBRARIES cotan_model cotan_scene cotan_inspect nlohmann_json::nlohmann_json fmt::fmt)
@@ -15,7 +15,7 @@ set_target_properties(module_versions PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAK
 target_compile_definitions(files_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>"
   MODULE_FOLDER="$<TARGET_FILE_DIR:module_versions>" MODULE_NAME="$<TARGET_FILE_NAME:module_versions>")
 add_dependencies(files_test cotan module_versions)
-cotan_test(help_test SLOW Help.every*
+cotan_test(help_test SLOW Help.every* ProgressLine.showsTheRemaining*
   SOURCES help_test.cpp man_page_test.cpp progress_test.cpp
   LIBRARIES cotan_app cotan_scene fmt::fmt)
 target_compile_definitions(help_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")

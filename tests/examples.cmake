@@ -1,5 +1,5 @@
 # Runs the integration examples as they are shipped.
-cotan_test(examples_test FIXTURE npm SLOW Meshes/ExampleDeforming.*large* ExampleWebGl2.* ExampleBabylon.* ExampleTriangleWeb.*
+cotan_test(examples_test FIXTURE npm SLOW Meshes/ExampleDeforming.*large* ExampleDeformingArguments.* ExampleDeformingFigure.* ExampleWebGl2.* ExampleBabylon.* ExampleTriangleWeb.*
   SOURCES examples_browser_test.cpp browser_pages.cpp examples_triangle_web_test.cpp
   LIBRARIES cotan_model cotan_scene cotan_gltf_json)
 target_compile_definitions(examples_test PRIVATE

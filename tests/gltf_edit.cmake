@@ -9,7 +9,7 @@ cotan_test(gltf_edit_test
     gltf_edit_split_test.cpp gltf_edit_write_test.cpp gltf_edit_files_test.cpp gltf_edit_layout_test.cpp
     gltf_edit_vertices_test.cpp gltf_lookup_test.cpp gltf_from_scene_test.cpp
   LIBRARIES cotan_model cotan_scene cotan_gltf_json ZLIB::ZLIB)
-cotan_test(tangents_command_test BATCH 1 FIXTURE npm
+cotan_test(tangents_command_test BATCH 1 FIXTURE npm SLOW TangentsCommand.saysWhichPrimitives* MikktspacePairing.matchesThreeOnModels*
   SOURCES tangents_command_test.cpp tangents_written_test.cpp tangents_three_test.cpp
   LIBRARIES cotan_model cotan_scene cotan_inspect cotan_gltf_json fmt::fmt)
 target_compile_definitions(tangents_command_test PRIVATE

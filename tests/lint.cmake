@@ -1,4 +1,4 @@
-cotan_test(lint_test SLOW LintCommand.prediction*
+cotan_test(lint_test SLOW LintCommand.prediction* LintCommand.sketchfabCat* Scans.*
   SOURCES lint_test.cpp lint_command_test.cpp scale_test.cpp
   LIBRARIES cotan_bake cotan_model cotan_scene cotan_truth nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(lint_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
@@ -16,7 +16,7 @@ cotan_test(judgement_command_test
 target_compile_definitions(judgement_command_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(judgement_command_test cotan)
 # Commands without an option for the frame.
-cotan_test(auto_frame_test
+cotan_test(auto_frame_test SLOW AutoFrame.tangentsThatReverse*
   SOURCES auto_frame_command_test.cpp
   LIBRARIES cotan_model cotan_scene nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(auto_frame_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")

