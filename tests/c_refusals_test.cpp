@@ -35,9 +35,9 @@ struct Square {
     }
 };
 
-struct Picture {
+struct Pixels {
     std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(4 * 4 * 2, 128);
-    cotan_image_view picture{sizeof(cotan_image_view), 4, 2, 8, bytes.data()};
+    cotan_image_view view{sizeof(cotan_image_view), 4, 2, 8, bytes.data()};
 };
 
 int takeLevel(void*, int, const cotan_image_view*, const cotan_image_view*) { return 0; }
@@ -233,7 +233,7 @@ TEST(CRefusals, vertexCopiesRequireBuffersAndACount)
 
 TEST(CRefusals, mapFunctionsRequireTheirImagesAndNames)
 {
-    Picture map, out, other;
+    Pixels map, out, other;
     using P = cotan_image_view*;
     cotan_green green = {};
     green.size = sizeof green;
@@ -244,57 +244,52 @@ TEST(CRefusals, mapFunctionsRequireTheirImagesAndNames)
     const std::vector<std::pair<std::string, std::function<cotan_status(P)>>> readers = {
         {"map", [&](P p) { return cotan_map_green(p, &green, refusal, sizeof refusal); }},
         {"map", [&](P p) { return cotan_map_describe(p, &info, refusal, sizeof refusal); }},
-        {"map", [&](P p) { return cotan_map_convert(p, "gltf", "gltf", &out.picture, refusal, sizeof refusal); }},
-        {"height", [&](P p) { return cotan_map_from_height(p, 1, 1, "gltf", &out.picture, refusal, sizeof refusal); }},
+        {"map", [&](P p) { return cotan_map_convert(p, "gltf", "gltf", &out.view, refusal, sizeof refusal); }},
+        {"height", [&](P p) { return cotan_map_from_height(p, 1, 1, "gltf", &out.view, refusal, sizeof refusal); }},
         {"map", [&](P p) { return cotan_map_to_height(p, "gltf", heights.data(), refusal, sizeof refusal); }},
         {"base",
-         [&](P p) {
-             return cotan_map_blend(p, &other.picture, "gltf", "udn", 1, &out.picture, refusal, sizeof refusal);
-         }},
+         [&](P p) { return cotan_map_blend(p, &other.view, "gltf", "udn", 1, &out.view, refusal, sizeof refusal); }},
         {"detail",
-         [&](P p) {
-             return cotan_map_blend(&other.picture, p, "gltf", "udn", 1, &out.picture, refusal, sizeof refusal);
-         }},
+         [&](P p) { return cotan_map_blend(&other.view, p, "gltf", "udn", 1, &out.view, refusal, sizeof refusal); }},
         {"map", [&](P p) { return cotan_map_mips(p, "gltf", 0.5, takeLevel, nullptr, refusal, sizeof refusal); }}};
     for (const auto& [named, call] : readers) {
-        ASSERT_EQ(call(&map.picture), COTAN_OK) << named << refusal;
+        ASSERT_EQ(call(&map.view), COTAN_OK) << named << refusal;
         expectRefused(call(nullptr), named);
-        Picture wrong;
-        wrong.picture.pixels = nullptr;
-        expectRefused(call(&wrong.picture), named);
-        wrong = Picture();
-        wrong.picture.size -= 1;
-        expectRefused(call(&wrong.picture), named + ".size");
+        Pixels wrong;
+        wrong.view.pixels = nullptr;
+        expectRefused(call(&wrong.view), named);
+        wrong = Pixels();
+        wrong.view.size -= 1;
+        expectRefused(call(&wrong.view), named + ".size");
         for (const int side : {0, 65537}) {
-            wrong = Picture();
-            wrong.picture.width = side;
-            expectRefused(call(&wrong.picture), named);
-            wrong = Picture();
-            wrong.picture.height = side;
-            expectRefused(call(&wrong.picture), named);
+            wrong = Pixels();
+            wrong.view.width = side;
+            expectRefused(call(&wrong.view), named);
+            wrong = Pixels();
+            wrong.view.height = side;
+            expectRefused(call(&wrong.view), named);
         }
     }
-    expectRefused(cotan_map_green(&map.picture, nullptr, refusal, sizeof refusal), "green");
+    expectRefused(cotan_map_green(&map.view, nullptr, refusal, sizeof refusal), "green");
     green.size -= 1;
-    expectRefused(cotan_map_green(&map.picture, &green, refusal, sizeof refusal), "green.size");
-    expectRefused(cotan_map_describe(&map.picture, nullptr, refusal, sizeof refusal), "info");
-    P to = &out.picture;
-    expectRefused(cotan_map_convert(&map.picture, nullptr, "gltf", to, refusal, sizeof refusal), "from");
-    expectRefused(cotan_map_convert(&map.picture, "gltf", nullptr, to, refusal, sizeof refusal), "to");
-    expectRefused(cotan_map_convert(&map.picture, "gltf", "gltf", nullptr, refusal, sizeof refusal), "to_map");
-    expectRefused(cotan_map_convert(&map.picture, "gltf", "object", to, refusal, sizeof refusal), "to");
-    expectRefused(cotan_map_convert(&map.picture, "gltf", "gltf,signed", to, refusal, sizeof refusal), "to");
+    expectRefused(cotan_map_green(&map.view, &green, refusal, sizeof refusal), "green.size");
+    expectRefused(cotan_map_describe(&map.view, nullptr, refusal, sizeof refusal), "info");
+    P to = &out.view;
+    expectRefused(cotan_map_convert(&map.view, nullptr, "gltf", to, refusal, sizeof refusal), "from");
+    expectRefused(cotan_map_convert(&map.view, "gltf", nullptr, to, refusal, sizeof refusal), "to");
+    expectRefused(cotan_map_convert(&map.view, "gltf", "gltf", nullptr, refusal, sizeof refusal), "to_map");
+    expectRefused(cotan_map_convert(&map.view, "gltf", "object", to, refusal, sizeof refusal), "to");
+    expectRefused(cotan_map_convert(&map.view, "gltf", "gltf,signed", to, refusal, sizeof refusal), "to");
     constexpr double kInf = std::numeric_limits<double>::infinity();
-    expectRefused(cotan_map_from_height(&map.picture, kInf, 1, "gltf", to, refusal, sizeof refusal), "scale_x");
-    expectRefused(cotan_map_from_height(&map.picture, 1, kInf, "gltf", to, refusal, sizeof refusal), "scale_y");
-    expectRefused(cotan_map_from_height(&map.picture, 1, 1, nullptr, to, refusal, sizeof refusal), "to");
-    expectRefused(cotan_map_from_height(&map.picture, 1, 1, "gltf,signed", to, refusal, sizeof refusal), "to");
-    expectRefused(cotan_map_from_height(&map.picture, 1, 1, "gltf", nullptr, refusal, sizeof refusal), "map");
-    expectRefused(cotan_map_to_height(&map.picture, nullptr, heights.data(), refusal, sizeof refusal), "from");
-    expectRefused(cotan_map_to_height(&map.picture, "gltf", nullptr, refusal, sizeof refusal), "heights");
+    expectRefused(cotan_map_from_height(&map.view, kInf, 1, "gltf", to, refusal, sizeof refusal), "scale_x");
+    expectRefused(cotan_map_from_height(&map.view, 1, kInf, "gltf", to, refusal, sizeof refusal), "scale_y");
+    expectRefused(cotan_map_from_height(&map.view, 1, 1, nullptr, to, refusal, sizeof refusal), "to");
+    expectRefused(cotan_map_from_height(&map.view, 1, 1, "gltf,signed", to, refusal, sizeof refusal), "to");
+    expectRefused(cotan_map_from_height(&map.view, 1, 1, "gltf", nullptr, refusal, sizeof refusal), "map");
+    expectRefused(cotan_map_to_height(&map.view, nullptr, heights.data(), refusal, sizeof refusal), "from");
+    expectRefused(cotan_map_to_height(&map.view, "gltf", nullptr, refusal, sizeof refusal), "heights");
     const auto blend = [&](const char* convention, const char* mode, double strength, P target) {
-        return cotan_map_blend(&map.picture, &other.picture, convention, mode, strength, target, refusal,
-                               sizeof refusal);
+        return cotan_map_blend(&map.view, &other.view, convention, mode, strength, target, refusal, sizeof refusal);
     };
     expectRefused(blend(nullptr, "udn", 1, to), "convention");
     expectRefused(blend("gltf,signed", "udn", 1, to), "convention");
@@ -305,7 +300,7 @@ TEST(CRefusals, mapFunctionsRequireTheirImagesAndNames)
     for (const char* mode : {"reoriented", "whiteout", "udn", "slopes", "linear"})
         EXPECT_EQ(blend("gltf", mode, 1, to), COTAN_OK) << refusal;
     const auto mips = [&](const char* convention, double roughness, cotan_take_level take) {
-        return cotan_map_mips(&map.picture, convention, roughness, take, nullptr, refusal, sizeof refusal);
+        return cotan_map_mips(&map.view, convention, roughness, take, nullptr, refusal, sizeof refusal);
     };
     expectRefused(mips(nullptr, 0.5, takeLevel), "convention");
     expectRefused(mips("gltf", -0.001, takeLevel), "roughness");
@@ -341,10 +336,10 @@ TEST(CRefusals, modelAndConversionFunctionsRequireTheirPointers)
     expectRefused(cotan_image_read(nullptr, 0, &image, refusal, sizeof refusal), "file");
     expectRefused(cotan_image_read("x.png", 0, nullptr, refusal, sizeof refusal), "image");
     expectRefused(cotan_image_read("x.png", -1, &image, refusal, sizeof refusal), "memory");
-    Picture picture;
-    expectRefused(cotan_image_write(nullptr, &picture.picture, refusal, sizeof refusal), "file");
-    expectRefused(cotan_image_write("x.png", nullptr, refusal, sizeof refusal), "picture");
-    expectRefused(cotan_image_pixels(nullptr, &picture.picture, refusal, sizeof refusal), "image");
+    Pixels pixels;
+    expectRefused(cotan_image_write(nullptr, &pixels.view, refusal, sizeof refusal), "file");
+    expectRefused(cotan_image_write("x.png", nullptr, refusal, sizeof refusal), "image");
+    expectRefused(cotan_image_pixels(nullptr, &pixels.view, refusal, sizeof refusal), "image");
     cotan_bytes* glb = nullptr;
     cotan_conversion* conversion = nullptr;
     const auto take = [](void*, const char*, const void*, std::size_t) { return 0; };
@@ -357,7 +352,7 @@ TEST(CRefusals, modelAndConversionFunctionsRequireTheirPointers)
                   "glb");
     expectRefused(cotan_convert_begin("{}", 2, nullptr, nullptr, nullptr, nullptr, refusal, sizeof refusal),
                   "conversion");
-    expectRefused(cotan_conversion_image(nullptr, 0, &picture.picture, refusal, sizeof refusal), "conversion");
+    expectRefused(cotan_conversion_image(nullptr, 0, &pixels.view, refusal, sizeof refusal), "conversion");
     expectRefused(cotan_conversion_set(nullptr, 0, "", 0, refusal, sizeof refusal), "conversion");
     expectRefused(cotan_convert_end(nullptr, &glb, nullptr, refusal, sizeof refusal), "conversion");
     EXPECT_EQ(cotan_conversion_count(nullptr), 0u);

@@ -106,7 +106,7 @@ def test_other_libraries_are_refused_by_name(copy, tmp_path):
     program.write_text("int cotan_api_version(void) { return 2; }\n")
     subprocess.run(["cc", "-shared", "-fPIC", program, "-o", tmp_path / "old.so"], check=True)
     said = run(SAY, copy, COTAN_LIBRARY=str(tmp_path / "old.so"), LD_LIBRARY_PATH="")
-    assert "expected interface version 8 or later, found 2" in said
+    assert "expected interface version 9 or later, found 2" in said
 
 
 def public():
