@@ -55,8 +55,17 @@ TEST(CommandWordsSplit, atEachComma)
     EXPECT_TRUE(files[0].makesFolder && files[1].makesFolder);
 }
 
-TEST(CommandWordsSplit, haveADistance)
+TEST(CommandWordsSplit, shortOptionsFromTheirValuesUpToTwoDashes)
 {
+    EXPECT_EQ(withoutEquals({"-o=a", "-o=", "--x=y", "-o", "-p=-q=r", "x=y", "-=", "--", "-o=b"}),
+              (Words{"-o", "a", "-o", "", "--x=y", "-o", "-p", "-q=r", "x=y", "-=", "--", "-o=b"}));
+    const CommandNames tool{"tool", {{"render", {}}, {"help", {}}}}, other{"tool", {{"render", {}}}};
+    const auto asks = [](const CommandNames& names, const Words& words) { return asksForHelp(names, words); };
+    EXPECT_TRUE(asks(tool, {"help"}));
+    EXPECT_TRUE(asks(tool, {"help", "render"}));
+    for (const Words& words : {Words{}, {"help", "-h"}, {"help", "--help"}, {"render", "help"}})
+        EXPECT_FALSE(asks(tool, words));
+    EXPECT_FALSE(asks(other, {"help"}));
     for (const auto& [a, b, distance] : {std::tuple("", "", 0),
                                          {"ab", "ba", 1},
                                          {"ca", "abc", 3},

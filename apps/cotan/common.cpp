@@ -41,6 +41,14 @@ void addCommonOptions(Arguments& command, CommonOptions& options, const std::str
     command.option("--threads", options.threads, "threads to use; 0 means all cores").within(0, 1024).in("N");
 }
 
+void addOlderName(Arguments& command, const std::string& older, const std::string& name, std::string& value)
+{
+    // CLI11's `excludes` would list the old option in the help of the new one, without a name.
+    command.option(older, value, "").unlisted().refused([newer = command.find(name), older, name] {
+        return newer.count() > 0 ? older + " is another name for " + name + ": expected one of them, found both" : "";
+    });
+}
+
 void addExamples(Arguments& command, const std::vector<std::string>& lines) { command.examples(lines, kExitCodes); }
 
 std::vector<PlannedOutput> plannedIn(const std::string& option, const std::filesystem::path& folder,

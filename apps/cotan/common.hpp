@@ -33,6 +33,9 @@ struct CommonOptions {
 // writes only its report; -o is then unlisted and refused.
 void addCommonOptions(Arguments& command, CommonOptions& options, const std::string& outputHelp);
 
+// Adds an older name of the option `name`, which still works but is not listed.
+void addOlderName(Arguments& command, const std::string& older, const std::string& name, std::string& value);
+
 // Ends a command's help with example commands and the exit codes.
 void addExamples(Arguments& command, const std::vector<std::string>& lines);
 

@@ -256,17 +256,17 @@ void declare(Arguments& a, ConvertCommandOptions& o)
              "mikktspace)")
         .in("FRAME")
         .offers(frameWords())
-        .main()
-        .olderName("--from");
+        .main();
     a.option(
          "--to-frame", o.to,
          "frame to make the maps for; mikktspace and vertex write TANGENT, all others drop it (default: the maps stay, "
          "each primitive is read with the frame that is near enough, and tangents stay where none is)")
         .in("FRAME")
         .offers(frameWords())
-        .main()
-        .olderName("--to");
+        .main();
     addListOfFrames(a);
+    addOlderName(a, "--from", "--from-frame", o.from);
+    addOlderName(a, "--to", "--to-frame", o.to);
     addTangentsOption(
         a, o.maps.frames.fromTangents,
         "for --from-frame mikktspace or vertex: stored (as in the file, generated where missing) or generated");
@@ -279,7 +279,7 @@ void declare(Arguments& a, ConvertCommandOptions& o)
     a.flag("--keep-tangents", o.maps.keepTangents, "keep the tangents of the file");
     a.option("--bits", o.maps.bits,
              "bits of the new maps, 8 or 16; rewrites all maps (default: bits of the old map; a suitable map is kept)")
-        .from({"8", "16"})
+        .from({8, 16})
         .in("N")
         .withoutDefault();
     a.choice(

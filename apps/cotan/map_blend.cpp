@@ -1,67 +1,87 @@
 // `cotan map blend`: blends a base map and a detail map.
 #include <cstdlib>
-#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "core/named_values.hpp"
 #include "core/try.hpp"
 #include "map_files/blend.hpp"
 #include "map_options.hpp"
+#include "parse.hpp"
 
 namespace cotan::app {
 
 namespace {
 
-constexpr Named<maps::BlendMode> kModes[] = {{"reoriented", maps::BlendMode::reoriented},
-                                             {"whiteout", maps::BlendMode::whiteout},
-                                             {"udn", maps::BlendMode::udn},
-                                             {"slopes", maps::BlendMode::slopes},
-                                             {"linear", maps::BlendMode::linear}};
-
 struct MapBlendCommandOptions : MapOptions {
-    std::string detail;
+    std::string base, detail, from = "gltf", detailFrom, to, mode = "reoriented", mask, tiles = "1";
     double strength = 1;
-    BlendFileOptions blend;                     // but for `detail` and `strength`
-    std::optional<StatedConvention> detailFrom; // none: as the base
+    bool dither = false;
 };
 
 // Parses "N" or "NxM", each 1 to 4096.
-Status parseTiles(const std::string& text, BlendFileOptions& options)
+Result<std::pair<int, int>> parseTiles(const std::string& text)
 {
     char* end = nullptr;
     const long x = std::strtol(text.c_str(), &end, 10);
     const long y = *end == 'x' ? std::strtol(end + 1, &end, 10) : x;
     if (text.empty() || *end != '\0' || x < 1 || y < 1 || x > 4096 || y > 4096)
         return usageError(fmt::format("--tiles: expected N or NxM, each 1 to 4096; found '{}'", text));
-    options.tilesX = int(x), options.tilesY = int(y);
-    return Done{};
+    return std::pair(int(x), int(y));
+}
+
+Result<BlendFileOptions> parseOptions(const MapBlendCommandOptions& o)
+{
+    using enum maps::BlendMode;
+    BlendFileOptions options;
+    for (const auto& [words, option, target] :
+         {std::tuple(o.from, "--from", &options.base),
+          {o.detailFrom.empty() ? o.from : o.detailFrom, "--detail-from", &options.detail}}) {
+        COTAN_TRY(convention, parseConvention(words, option));
+        *target = *convention;
+    }
+    if (!o.to.empty()) {
+        COTAN_TRY(convention, parseConvention(o.to, "--to"));
+        options.to = convention->convention;
+    }
+    COTAN_TRY(mode,
+              valueOf<maps::BlendMode>("--mode", o.mode,
+                                       {{"reoriented", reoriented},
+                                        {"whiteout", whiteout},
+                                        {"udn", udn},
+                                        {"slopes", slopes},
+                                        {"linear", linear}}));
+    COTAN_TRY(tiles, parseTiles(o.tiles));
+    options.mode = *mode;
+    options.strength = float(o.strength);
+    options.tilesX = tiles->first, options.tilesY = tiles->second;
+    options.mask = o.mask;
+    options.bits = o.bits;
+    options.dither = o.dither;
+    return options;
 }
 
 Status run(const MapBlendCommandOptions& o)
 {
     COTAN_CHECK(needOutput(o, "blend"));
-    BlendFileOptions options = o.blend;
-    options.detail = o.detailFrom.value_or(options.base);
-    options.strength = float(o.strength);
-    const std::string mode = wordOf(kModes, options.mode);
+    COTAN_TRY(options, parseOptions(o));
     const auto done = onFilesToMap(
-        o, o.file, [&](const FileOptions& files) { return blendFiles(o.file, o.detail, o.output, options, files); });
+        o, o.base, [&](const FileOptions& files) { return blendFiles(o.base, o.detail, o.output, *options, files); });
     if (!done)
         return done.error();
     if (done->invalid > 0)
         warn(o, "{} texels have no direction in one of the maps; the other map is used there", done->invalid);
     const std::vector<std::string> warnings = warned(o, done->notes);
-    say(o, "{}: {} x {}, {}: {}, {}", o.output.string(), done->width, done->height, bitsName(done->bits), mode,
+    say(o, "{}: {} x {}, {}: {}, {}", o.output.string(), done->width, done->height, bitsName(done->bits), o.mode,
         describe(done->to));
     return writeReport(o,
                        {{"command", "map blend"},
-                        {"base", o.file},
+                        {"base", o.base},
                         {"detail", o.detail},
                         {"output", o.output.string()},
-                        {"mode", mode},
+                        {"mode", o.mode},
                         {"strength", o.strength},
-                        {"tiles", {options.tilesX, options.tilesY}},
+                        {"tiles", {options->tilesX, options->tilesY}},
                         {"to", describe(done->to)},
                         {"bits", bitsName(done->bits)},
                         {"invalid", done->invalid},
@@ -70,23 +90,27 @@ Status run(const MapBlendCommandOptions& o)
 
 void declare(Arguments& a, MapBlendCommandOptions& o)
 {
-    addFile(a, o, "BASE", "the base map");
+    addMemoryOption(a, o.memory);
+    a.group(HelpGroup::input);
+    a.option("BASE", o.base, "the base map").required().reads();
     a.option("DETAIL", o.detail, "the detail map").required().reads();
-    a.choice("--mode", o.blend.mode, kModes, "how to combine the maps: reoriented, whiteout, udn, slopes or linear")
+    a.option("--mode", o.mode, "how to combine the maps: reoriented, whiteout, udn, slopes or linear")
+        .in("NAME")
+        .offers({"reoriented", "whiteout", "udn", "slopes", "linear"})
         .main();
     a.option("--strength", o.strength, "factor on the detail's slopes").in("X").main();
-    a.option(
-         "--tiles", "1", [&o](const std::string& text) { return parseTiles(text, o.blend); },
-         "how often the detail repeats over the base")
-        .in("N[xM]")
-        .main();
-    a.option("--mask", o.blend.mask, "image whose red, 0 to 1, multiplies the strength").in("FILE").reads();
-    addConvention(a, "--from", o.blend.base, "gltf", "how the base is stored: " + conventionWords());
-    addConvention(a, "--detail-from", o.detailFrom, "", "how the detail is stored; as the base if not given");
-    addConvention(a, "--to", o.blend.to, "", "how to store the blend; as the base if not given")
+    a.option("--tiles", o.tiles, "how often the detail repeats over the base").in("N[xM]").main();
+    a.option("--mask", o.mask, "image whose red, 0 to 1, multiplies the strength").in("FILE").reads();
+    a.option("--from", o.from, "how the base is stored: " + conventionWords()).in("WORDS").offers(conventionWordList());
+    a.option("--detail-from", o.detailFrom, "how the detail is stored; as the base if not given")
+        .in("WORDS")
+        .offers(conventionWordList());
+    a.option("--to", o.to, "how to store the blend; as the base if not given")
+        .in("WORDS")
+        .offers(conventionWordList())
         .under(HelpGroup::output);
-    addBits(a, o.blend.bits, " (as the base)");
-    addDither(a, o.blend.dither);
+    addBits(a, o, " (as the base)");
+    addDither(a, o.dither);
 }
 
 } // namespace

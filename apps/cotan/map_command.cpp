@@ -6,17 +6,10 @@
 
 namespace cotan::app {
 
-void addFile(Arguments& command, MapOptions& options, const std::string& name, const std::string& help)
-{
-    addMemoryOption(command, options.memory);
-    command.group(HelpGroup::input);
-    command.option(name, options.file, help).required().reads();
-}
-
-void addBits(Arguments& command, std::string& bits, const std::string& help)
+void addBits(Arguments& command, MapOptions& options, const std::string& help)
 {
     command
-        .option("--bits", bits,
+        .option("--bits", options.bits,
                 "bits per component: auto" + help + ", 8, 16, half (" + imageEndings(&ImageFormat::halfs, ", ")
                     + ") or float")
         .in("N")
@@ -48,14 +41,13 @@ Result<StatedConvention> parseConvention(const std::string& text, const std::str
     return convention ? convention : usageError(option + ": " + convention.error().message);
 }
 
-Result<Convention> parseWrittenConvention(const std::string& text, const std::string& option)
+Result<std::pair<StatedConvention, StatedConvention>> parseFromTo(const std::string& from, const std::string& to)
 {
-    COTAN_TRY(stated, parseConvention(text, option));
-    if (stated->damage.any())
-        return usageError(fmt::format("{}: srgb, linearised, bgr and grb describe broken maps; expected a convention "
-                                      "without them, found '{}'",
-                                      option, text));
-    return stated->convention;
+    const auto first = parseConvention(from, "--from");
+    const auto second = parseConvention(to, "--to");
+    if (!first || !second)
+        return first ? second.error() : first.error();
+    return std::pair(*first, *second);
 }
 
 std::vector<std::string> warned(const MapOptions& options, std::vector<std::string> notes)

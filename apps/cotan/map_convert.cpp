@@ -12,25 +12,45 @@ namespace cotan::app {
 namespace {
 
 struct MapConvertCommandOptions : MapOptions {
-    ConvertFileOptions convert; // without the mesh
-    MeshOfMap mesh;             // without a file: none
+    std::string file, from, to;
+    double strength = 1;
+    bool normalise = false, dither = false;
+    std::string mesh, frame = "smooth", compress = "none";
+    TangentOrigin tangents = TangentOrigin::stored;
+    Up up = Up::y;
+    int material = -1;
 };
 
 Status run(const MapConvertCommandOptions& o)
 {
+    COTAN_TRY(conventions, parseFromTo(o.from, o.to));
+    const StatedConvention& from = conventions->first;
+    const Convention& to = conventions->second.convention;
+    if (conventions->second.damage.any())
+        return usageError(fmt::format("--to: srgb, linearised, bgr and grb describe broken maps; expected a convention "
+                                      "without them, found '{}'",
+                                      o.to));
     COTAN_CHECK(needOutput(o, "convert"));
-    ConvertFileOptions options = o.convert;
-    const Convention& to = options.to;
-    const std::string mesh = o.mesh.file.string();
-    if (!mesh.empty())
-        options.mesh = o.mesh;
+    const bool blocks = o.compress != "none";
+    ConvertFileOptions options{.from = from,
+                               .to = to,
+                               .bits = o.bits,
+                               .compress = o.compress,
+                               .strength = float(o.strength),
+                               .normalise = o.normalise,
+                               .dither = o.dither,
+                               .mesh = {}};
+    if (!o.mesh.empty()) {
+        COTAN_TRY(frame, parseFrame(o.frame, "--frame"));
+        options.mesh = {o.mesh, *frame, o.tangents, o.material, o.up};
+    }
     const auto done =
-        onFilesToMap(o, mesh.empty() ? o.file : "converting with the mesh",
+        onFilesToMap(o, o.mesh.empty() ? o.file : "converting with the mesh",
                      [&](const FileOptions& files) { return convertFile(o.file, o.output, options, files); });
     if (!done)
         return done.error();
-    if (!mesh.empty())
-        say(o, "{}: the mesh uses {:.1f} % of the map; the rest is padding", mesh,
+    if (!o.mesh.empty())
+        say(o, "{}: the mesh uses {:.1f} % of the map; the rest is padding", o.mesh,
             100 * double(done->covered) / (double(done->width) * double(done->height)));
     if (done->counts.invalid > 0)
         warn(o, "{}: {} texels have no direction; written as flat", o.file, done->counts.invalid);
@@ -38,9 +58,9 @@ Status run(const MapConvertCommandOptions& o)
         warn(o, "{}: {} texels are steeper than {} can hold; clamped", o.file, done->counts.clamped, describe(to));
     const std::vector<std::string> warnings = warned(o, done->notes);
     Convention stored = to;
-    if (options.compress == "bc5" && to.channels == Channels::xyz)
+    if (o.compress == "bc5" && to.channels == Channels::xyz)
         stored.channels = Channels::orthographic;
-    const std::string bits = options.compress != "none" ? options.compress : bitsName(done->bits);
+    const std::string bits = blocks ? o.compress : bitsName(done->bits);
     say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bits, describe(stored));
     return writeReport(o,
                        {{"command", "map convert"},
@@ -58,37 +78,45 @@ Status run(const MapConvertCommandOptions& o)
 
 void declare(Arguments& a, MapConvertCommandOptions& o)
 {
-    addFile(a, o, "FILE", "the map");
+    addMemoryOption(a, o.memory);
+    a.group(HelpGroup::input);
+    a.option("FILE", o.file, "the map").required().reads();
     std::vector<std::string> words = conventionWordList();
     std::string damages;
     for (const std::string& word : damageWords()) {
         words.push_back(word);
         damages += ' ' + word;
     }
-    addConvention(a, "--from", o.convert.from, "",
-                  "how the map is stored: " + conventionWords()
-                      + "; and for broken maps, which are repaired:" + damages)
+    a.option("--from", o.from,
+             "how the map is stored: " + conventionWords() + "; and for broken maps, which are repaired:" + damages)
+        .in("WORDS")
         .offers(words)
         .required()
         .main();
-    addConvention(a, "--to", o.convert.to, "", "how to store the result; the same words").required().main();
-    addBits(a, o.convert.bits, "");
-    a.option("--strength", o.convert.strength, "factor on the slopes; negative turns bumps into dents").in("X").main();
-    a.flag("--normalise", o.convert.normalise,
+    a.option("--to", o.to, "how to store the result; the same words")
+        .in("WORDS")
+        .offers(conventionWordList())
+        .required()
+        .main();
+    addBits(a, o, "");
+    a.option("--strength", o.strength, "factor on the slopes; negative turns bumps into dents").in("X").main();
+    a.flag("--normalise", o.normalise,
            "normalise every vector; without this, vectors of three channels keep their lengths")
         .under(HelpGroup::output);
-    addCompress(a, o.convert.compress);
-    addDither(a, o.convert.dither);
-    a.option("--mesh", o.mesh.file, "mesh that uses the map; required to or from object space").in("FILE").reads();
-    addFrameName(a, "--frame", o.mesh.frame, "with --mesh: the frame that reads the tangent-space map")
+    addCompress(a, o.compress);
+    addDither(a, o.dither);
+    a.option("--mesh", o.mesh, "mesh that uses the map; required to or from object space").in("FILE").reads();
+    a.option("--frame", o.frame, "with --mesh: the frame that reads the tangent-space map")
+        .in("NAME")
+        .offers(frameWords())
         .under(HelpGroup::frame);
     addListOfFrames(a);
     a.group(HelpGroup::input);
-    addUpOption(a, o.mesh.up, "--mesh");
-    a.option("--material", o.mesh.material, "with --mesh: only triangles of this material; -1: all")
+    addUpOption(a, o.up, "--mesh");
+    a.option("--material", o.material, "with --mesh: only triangles of this material; -1: all")
         .within(-1, 1 << 20)
         .in("N");
-    addTangentsOption(a, o.mesh.tangents, "with --mesh, for the frames vertex and mikktspace: stored or generated");
+    addTangentsOption(a, o.tangents, "with --mesh, for the frames vertex and mikktspace: stored or generated");
 }
 
 } // namespace

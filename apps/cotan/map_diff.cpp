@@ -1,6 +1,4 @@
 // `cotan map diff`: compares two maps, in degrees.
-#include <optional>
-
 #include <fmt/format.h>
 
 #include "core/try.hpp"
@@ -12,16 +10,15 @@ namespace cotan::app {
 namespace {
 
 struct MapDiffCommandOptions : MapOptions {
-    std::string second;
-    StatedConvention from;
-    std::optional<StatedConvention> to; // none: as `from`
+    std::string a, b, from = "gltf", to;
 };
 
 Status run(const MapDiffCommandOptions& o)
 {
     COTAN_CHECK(beginOutputs(o, {{"-o", o.output}}));
-    const auto compared = onFiles(o, o.file, [&](const FileOptions& files) {
-        return compareFiles(o.file, o.from, o.second, o.to.value_or(o.from), o.output, files);
+    COTAN_TRY(conventions, parseFromTo(o.from, o.to.empty() ? o.from : o.to));
+    const auto compared = onFiles(o, o.a, [&](const FileOptions& files) {
+        return compareFiles(o.a, conventions->first, o.b, conventions->second, o.output, files);
     });
     if (!compared)
         return compared.error();
@@ -33,8 +30,8 @@ Status run(const MapDiffCommandOptions& o)
         say(o, "{}: black 0, blue 0.5, green 2, yellow 5, red 15, white 45 degrees and more", o.output.string());
     return writeReport(o,
                        {{"command", "map diff"},
-                        {"a", o.file},
-                        {"b", o.second},
+                        {"a", o.a},
+                        {"b", o.b},
                         {"convention_a", describe(compared->a)},
                         {"convention_b", describe(compared->b)},
                         {"skipped", compared->skipped},
@@ -44,10 +41,12 @@ Status run(const MapDiffCommandOptions& o)
 
 void declare(Arguments& a, MapDiffCommandOptions& o)
 {
-    addFile(a, o, "A", "the first map");
-    a.option("B", o.second, "the second, of the same size").required().reads();
-    addConvention(a, "--from", o.from, "gltf", "how A is stored: " + conventionWords());
-    addConvention(a, "--to", o.to, "", "how B is stored; as A if not given");
+    addMemoryOption(a, o.memory);
+    a.group(HelpGroup::input);
+    a.option("A", o.a, "the first map").required().reads();
+    a.option("B", o.b, "the second, of the same size").required().reads();
+    a.option("--from", o.from, "how A is stored: " + conventionWords()).in("WORDS").offers(conventionWordList());
+    a.option("--to", o.to, "how B is stored; as A if not given").in("WORDS").offers(conventionWordList());
 }
 
 } // namespace

@@ -5,36 +5,37 @@
 
 #include <fmt/format.h>
 
-#include "core/named_values.hpp"
 #include "core/try.hpp"
 #include "map_files/height.hpp"
 #include "map_options.hpp"
+#include "parse.hpp"
 
 namespace cotan::app {
 
 namespace {
 
-constexpr Named<maps::Kernel> kKernels[] = {{"spectral", maps::Kernel::spectral},
-                                            {"forward", maps::Kernel::forward},
-                                            {"central", maps::Kernel::central},
-                                            {"sobel", maps::Kernel::sobel},
-                                            {"scharr", maps::Kernel::scharr}};
-constexpr Named<maps::Kernel> kDifferences[] = {kKernels[1], kKernels[2], kKernels[3], kKernels[4]};
-constexpr Named<maps::Wrap> kWraps[] = {
-    {"repeat", maps::Wrap::repeat}, {"clamp", maps::Wrap::clamp}, {"mirror", maps::Wrap::mirror}};
-
-struct MapFromHeightCommandOptions : MapOptions {
-    FromHeightFileOptions height;
+// Options of both commands.
+struct HeightOptions : MapOptions {
+    std::string file, convention = "gltf", metres, kernel;
 };
 
-struct MapToHeightCommandOptions : MapOptions {
-    ToHeightFileOptions height;
+struct MapFromHeightCommandOptions : HeightOptions {
+    MapFromHeightCommandOptions() { kernel = "central"; }
+    std::string wrap = "repeat";
+    double range = 0, strength = 1;
+    bool dither = false;
+};
+
+struct MapToHeightCommandOptions : HeightOptions {
+    MapToHeightCommandOptions() { kernel = "spectral"; }
     bool free = false;
 };
 
-// Parses "W" or "WxH" in metres.
-Status parseMetres(const std::string& text, std::optional<Metres>& parsed)
+// Parses "W" or "WxH" in metres; empty for an empty text.
+Result<std::optional<Metres>> parseMetres(const std::string& text)
 {
+    if (text.empty())
+        return std::optional<Metres>();
     // Not strtod, which would parse "0x1" as one number.
     Metres metres{0, 0};
     const char* const last = text.data() + text.size();
@@ -45,18 +46,36 @@ Status parseMetres(const std::string& text, std::optional<Metres>& parsed)
     const double height = both ? metres.height : metres.width;
     if (end != last || !(metres.width > 0) || !(height > 0) || !std::isfinite(metres.width * height))
         return usageError(fmt::format("--metres: expected metres as W or WxH, each over 0; found '{}'", text));
-    parsed = metres;
-    return Done{};
+    return std::optional(metres);
 }
+
+const Words<maps::Kernel> kDifferences = {{"forward", maps::Kernel::forward},
+                                          {"central", maps::Kernel::central},
+                                          {"sobel", maps::Kernel::sobel},
+                                          {"scharr", maps::Kernel::scharr}};
 
 Status runFrom(const MapFromHeightCommandOptions& o)
 {
     COTAN_CHECK(needOutput(o, "from-height"));
-    const FromHeightFileOptions& options = o.height;
-    if (!options.metres != (options.range == 0))
+    COTAN_TRY(to, parseConvention(o.convention, "--to"));
+    COTAN_TRY(kernel, valueOf("--kernel", o.kernel, kDifferences));
+    using enum maps::Wrap;
+    COTAN_TRY(wrap, valueOf<maps::Wrap>("--wrap", o.wrap, {{"repeat", repeat}, {"clamp", clamp}, {"mirror", mirror}}));
+    if (o.metres.empty() != (o.range == 0))
         return usageError("from-height: expected --metres and --range together, both in metres; found one of them");
-    const auto done = onFilesToMap(
-        o, o.file, [&](const FileOptions& files) { return normalsFromHeightFile(o.file, o.output, options, files); });
+    COTAN_TRY(metres, parseMetres(o.metres));
+    const auto done = onFilesToMap(o, o.file, [&](const FileOptions& files) {
+        return normalsFromHeightFile(o.file, o.output,
+                                     {.to = to->convention,
+                                      .kernel = *kernel,
+                                      .wrap = *wrap,
+                                      .metres = *metres,
+                                      .range = o.range,
+                                      .strength = o.strength,
+                                      .bits = o.bits,
+                                      .dither = o.dither},
+                                     files);
+    });
     if (!done)
         return done.error();
     if (done->invalid > 0)
@@ -64,31 +83,25 @@ Status runFrom(const MapFromHeightCommandOptions& o)
     if (done->heights == PixelType::unorm8)
         warn(o, "{}: 8-bit heights make steps; one step is a slope of {:.3g} here", o.file, done->slopeX / 255 / 2);
     say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bitsName(done->bits),
-        describe(options.to));
+        describe(to->convention));
     return writeReport(o,
                        {{"command", "map from-height"},
                         {"file", o.file},
                         {"output", o.output.string()},
-                        {"to", describe(options.to)},
+                        {"to", describe(to->convention)},
                         {"slope_per_unit_and_texel", {done->slopeX, done->slopeY}},
                         {"bits", bitsName(done->bits)},
                         {"invalid", done->invalid}});
-}
-
-std::string textOf(const Metres& metres)
-{
-    return metres.height > 0 ? fmt::format("{}x{}", metres.width, metres.height) : fmt::format("{}", metres.width);
 }
 
 // The options that convert the heights back to the map.
 std::string inverseOptions(const MapToHeightCommandOptions& o, const ToHeightFile& done)
 {
     const double range = done.heights.highest - done.heights.lowest;
-    std::string options = !o.height.metres
-        ? fmt::format("--strength {:.9g}", 100 * range / done.width)
-        : fmt::format("--metres {} --range {:.9g}", textOf(*o.height.metres), range * done.unit);
-    if (o.height.kernel != maps::Kernel::spectral)
-        options += " --kernel " + wordOf(kKernels, o.height.kernel);
+    std::string options = o.metres.empty() ? fmt::format("--strength {:.9g}", 100 * range / done.width)
+                                           : fmt::format("--metres {} --range {:.9g}", o.metres, range * done.unit);
+    if (o.kernel != "spectral")
+        options += " --kernel " + o.kernel;
     if (o.free)
         options += " --wrap clamp";
     return options;
@@ -97,17 +110,26 @@ std::string inverseOptions(const MapToHeightCommandOptions& o, const ToHeightFil
 Status runTo(const MapToHeightCommandOptions& o)
 {
     COTAN_CHECK(needOutput(o, "to-height"));
-    ToHeightFileOptions options = o.height;
-    options.boundary = o.free ? maps::Boundary::free : maps::Boundary::periodic;
+    COTAN_TRY(from, parseConvention(o.convention, "--from"));
+    Words<maps::Kernel> kernels = {{"spectral", maps::Kernel::spectral}};
+    kernels.insert(kernels.end(), kDifferences.begin(), kDifferences.end());
+    COTAN_TRY(kernel, valueOf("--kernel", o.kernel, kernels));
+    COTAN_TRY(metres, parseMetres(o.metres));
     const auto done = onFiles(o, "solving for the height", [&](const FileOptions& files) {
-        return heightFromNormalsFile(o.file, o.output, options, files);
+        return heightFromNormalsFile(o.file, o.output,
+                                     {.from = *from,
+                                      .kernel = *kernel,
+                                      .boundary = o.free ? maps::Boundary::free : maps::Boundary::periodic,
+                                      .metres = *metres,
+                                      .bits = o.bits},
+                                     files);
     });
     if (!done)
         return done.error();
     const maps::Heights& h = done->heights;
     const double lowest = h.lowest * done->unit, highest = h.highest * done->unit;
     const double fraction = h.slope > 0 ? h.residual / h.slope : 0;
-    const char* const unit = !options.metres ? "texels" : "metres";
+    const char* const unit = o.metres.empty() ? "texels" : "metres";
     const std::vector<std::string> warnings = warned(o, done->notes);
     if (h.invalid > 0)
         warn(o, "{}: {} texels have no direction; treated as flat", o.file, h.invalid);
@@ -135,43 +157,54 @@ Status runTo(const MapToHeightCommandOptions& o)
                         {"warnings", warnings}});
 }
 
-void addMetres(Arguments& a, std::optional<Metres>& metres, const std::string& help)
-{
-    a.option(
-         "--metres", "", [&metres](const std::string& text) { return parseMetres(text, metres); }, help)
-        .in("W[xH]")
-        .main()
-        .olderName("--size");
-}
-
 void declareFrom(Arguments& a, MapFromHeightCommandOptions& o)
 {
-    addFile(a, o, "FILE", "heights: grey, or the red channel");
-    addConvention(a, "--to", o.height.to, "gltf", "how to store the map: " + conventionWords()).main();
-    addMetres(a, o.height.metres, "size of the image in metres; with --range");
-    a.option("--range", o.height.range, "metres from black to white (floats: metres per unit); below 0: white is low")
+    addMemoryOption(a, o.memory);
+    a.group(HelpGroup::input);
+    a.option("FILE", o.file, "heights: grey, or the red channel").required().reads();
+    a.option("--to", o.convention, "how to store the map: " + conventionWords())
+        .in("WORDS")
+        .offers(conventionWordList())
+        .main();
+    a.option("--metres", o.metres, "size of the image in metres; with --range").in("W[xH]").main();
+    addOlderName(a, "--size", "--metres", o.metres);
+    a.option("--range", o.range, "metres from black to white (floats: metres per unit); below 0: white is low")
         .in("METRES")
         .withoutDefault()
         .main();
-    a.option("--strength", o.height.strength,
+    a.option("--strength", o.strength,
              "without --metres: height from black to white, in hundredths of the image's width")
         .in("X")
         .main();
-    a.choice("--kernel", o.height.kernel, kDifferences, "how slopes are measured: forward, central, sobel or scharr");
-    a.choice("--wrap", o.height.wrap, kWraps, "at the borders: repeat, clamp or mirror");
-    addBits(a, o.height.bits, " (as the heights)");
-    addDither(a, o.height.dither);
+    a.option("--kernel", o.kernel, "how slopes are measured: forward, central, sobel or scharr")
+        .in("NAME")
+        .offers({"forward", "central", "sobel", "scharr"});
+    a.option("--wrap", o.wrap, "at the borders: repeat, clamp or mirror")
+        .in("NAME")
+        .offers({"repeat", "clamp", "mirror"});
+    addBits(a, o, " (as the heights)");
+    addDither(a, o.dither);
 }
 
 void declareTo(Arguments& a, MapToHeightCommandOptions& o)
 {
-    addFile(a, o, "FILE", "the map");
-    addConvention(a, "--from", o.height.from, "gltf", "how the map is stored: " + conventionWords()).main();
-    addMetres(a, o.height.metres, "size of the image in metres; heights are then in metres, without this in texels");
-    a.choice("--kernel", o.height.kernel, kKernels,
-             "what made the slopes: spectral (a baker, true derivatives), forward, central, sobel, scharr");
+    addMemoryOption(a, o.memory);
+    a.group(HelpGroup::input);
+    a.option("FILE", o.file, "the map").required().reads();
+    a.option("--from", o.convention, "how the map is stored: " + conventionWords())
+        .in("WORDS")
+        .offers(conventionWordList())
+        .main();
+    a.option("--metres", o.metres, "size of the image in metres; heights are then in metres, without this in texels")
+        .in("W[xH]")
+        .main();
+    addOlderName(a, "--size", "--metres", o.metres);
+    a.option("--kernel", o.kernel,
+             "what made the slopes: spectral (a baker, true derivatives), forward, central, sobel, scharr")
+        .in("NAME")
+        .offers({"spectral", "forward", "central", "sobel", "scharr"});
     a.flag("--free", o.free, "the map does not repeat at its borders");
-    addBits(a, o.height.bits, " (16 where the file can hold it)");
+    addBits(a, o, " (16 where the file can hold it)");
 }
 
 } // namespace

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct InspectOptions : MapOptions {
-    std::vector<std::string> files; // or folders; instead of `file`
+    std::vector<std::string> files; // or folders
 };
 
 // The result for one file.

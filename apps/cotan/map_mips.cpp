@@ -1,31 +1,35 @@
 // `cotan map mips`: writes mip levels as one texture or as a file per level.
 #include <fmt/format.h>
 
-#include "core/named_values.hpp"
 #include "core/try.hpp"
 #include "files/file_registry.hpp"
 #include "map_files/mips.hpp"
 #include "map_options.hpp"
+#include "parse.hpp"
 
 namespace cotan::app {
 
 namespace {
 
-constexpr Named<maps::VarianceModel> kModels[] = {
-    {"toksvig", maps::VarianceModel::toksvig}, {"vmf", maps::VarianceModel::vmf}, {"lean", maps::VarianceModel::lean}};
-
 struct MapMipsCommandOptions : MapOptions {
-    MipFileOptions mips;
+    std::string file, from = "gltf", to, model = "lean", compress = "none";
+    double roughness = 0.3;
+    bool keepLengths = false;
 };
 
 Status run(const MapMipsCommandOptions& o)
 {
     const std::filesystem::path first = firstMipFile(o.output);
     COTAN_CHECK(needOutput(o, "mips", first));
-    MipFileOptions options = o.mips;
-    options.mayWrite = [&](const std::filesystem::path& file) {
+    COTAN_TRY(conventions, parseFromTo(o.from, o.to.empty() ? o.from : o.to));
+    const std::optional<Convention> to = o.to.empty() ? std::nullopt : std::optional(conventions->second.convention);
+    using enum maps::VarianceModel;
+    COTAN_TRY(model,
+              valueOf<maps::VarianceModel>("--model", o.model, {{"toksvig", toksvig}, {"vmf", vmf}, {"lean", lean}}));
+    const auto plan = [&](const std::filesystem::path& file) {
         return file == first ? Status(Done{}) : planOutput("-o", file);
     };
+    const MipFileOptions options{conventions->first, to, *model, o.roughness, o.keepLengths, o.bits, o.compress, plan};
     const auto done = onFiles(o, "filtering levels",
                               [&](const FileOptions& files) { return writeMips(o.file, o.output, options, files); });
     if (!done)
@@ -46,27 +50,34 @@ Status run(const MapMipsCommandOptions& o)
                         {"output", o.output.string()},
                         {"from", describe(done->from)},
                         {"to", describe(done->to)},
-                        {"model", wordOf(kModels, options.model)},
-                        {"roughness", options.roughness},
+                        {"model", o.model},
+                        {"roughness", o.roughness},
                         {"levels", levels},
                         {"warnings", warnings}});
 }
 
 void declare(Arguments& a, MapMipsCommandOptions& o)
 {
-    addFile(a, o, "FILE", "the map");
-    addConvention(a, "--from", o.mips.from, "gltf", "how the map is stored: " + conventionWords());
-    addConvention(a, "--to", o.mips.to, "", "how to store the levels; as the map if not given")
+    addMemoryOption(a, o.memory);
+    a.group(HelpGroup::input);
+    a.option("FILE", o.file, "the map").required().reads();
+    a.option("--from", o.from, "how the map is stored: " + conventionWords()).in("WORDS").offers(conventionWordList());
+    a.option("--to", o.to, "how to store the levels; as the map if not given")
+        .in("WORDS")
+        .offers(conventionWordList())
         .under(HelpGroup::output);
-    a.option("--roughness", o.mips.roughness, "perceptual roughness of the material, 0 to 1")
+    a.option("--roughness", o.roughness, "perceptual roughness of the material, 0 to 1")
         .within(0.0, 1.0)
         .in("X")
         .main();
-    a.choice("--model", o.mips.model, kModels, "how lost detail becomes roughness: toksvig, vmf or lean").main();
-    a.flag("--keep-lengths", o.mips.keepLengths, "with three channels: store mean vectors with their shortened lengths")
+    a.option("--model", o.model, "how lost detail becomes roughness: toksvig, vmf or lean")
+        .in("NAME")
+        .offers({"toksvig", "vmf", "lean"})
+        .main();
+    a.flag("--keep-lengths", o.keepLengths, "with three channels: store mean vectors with their shortened lengths")
         .under(HelpGroup::output);
-    addBits(a, o.mips.bits, " (as the map)");
-    addCompress(a, o.mips.compress);
+    addBits(a, o, " (as the map)");
+    addCompress(a, o.compress);
 }
 
 } // namespace

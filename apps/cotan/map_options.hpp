@@ -2,12 +2,10 @@
 #pragma once
 
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "common.hpp"
-#include "core/try.hpp"
 #include "cotan/convention.hpp"
 #include "loading.hpp"
 #include "map_files/map_file.hpp"
@@ -16,40 +14,19 @@ namespace cotan::app {
 
 struct MapOptions : CommonOptions {
     int memory = kDefaultMemory; // for an image that is decoded whole
-    std::string file;            // the map
+    std::string bits = "auto";
 };
 
-// Parse conventions, with the option's name in errors.
-Result<StatedConvention> parseConvention(const std::string& text, const std::string& option);
-Result<Convention> parseWrittenConvention(const std::string& text, const std::string& option);
-
 // Options shared by subcommands, besides those of all commands.
-void addFile(Arguments& command, MapOptions& options, const std::string& name, const std::string& help); // and --memory
-void addBits(Arguments& command, std::string& bits, const std::string& help);
+void addBits(Arguments& command, MapOptions& options, const std::string& help);
 void addCompress(Arguments& command, std::string& compress);
 void addDither(Arguments& command, bool& dither);
 
-// Adds an option whose words state how a map is stored. usual: the words of its default, which `value` is set to;
-// empty: `value` stays what it is. A Convention, unlike a StatedConvention, is that of a map to write: its words must
-// not describe a broken map.
-template<class Value>
-Argument addConvention(Arguments& command, const std::string& name, Value& value, const std::string& usual,
-                       const std::string& help)
-{
-    const auto take = [&value, name](const std::string& words) -> Status {
-        if constexpr (std::is_constructible_v<Value, StatedConvention>) {
-            COTAN_TRY(stated, parseConvention(words, name));
-            value = *stated;
-        } else {
-            COTAN_TRY(written, parseWrittenConvention(words, name));
-            value = *written;
-        }
-        return Done{};
-    };
-    if (!usual.empty())
-        (void)take(usual);
-    return command.option(name, usual, take, help).in("WORDS").offers(conventionWordList());
-}
+// parseStatedConvention with the option's name in its error.
+Result<StatedConvention> parseConvention(const std::string& text, const std::string& option);
+
+// Parses --from and --to.
+Result<std::pair<StatedConvention, StatedConvention>> parseFromTo(const std::string& from, const std::string& to);
 
 // For commands that write a map: requires -o, and plans the output `file`, or that of -o if `file` is empty.
 Status needOutput(const MapOptions& options, const std::string& command, const std::filesystem::path& file = {});

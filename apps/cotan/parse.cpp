@@ -15,6 +15,14 @@ std::vector<std::string> presetWords()
     return words;
 }
 
+std::vector<std::string> splitAtCommas(const std::string& text)
+{
+    std::vector<std::string> words;
+    for (std::size_t at = 0; !text.empty() && at <= text.size(); at += words.back().size() + 1)
+        words.push_back(text.substr(at, text.find(',', at) - at));
+    return words;
+}
+
 Result<Frame> parseFrame(const std::string& text, std::string_view option)
 {
     if (const auto frame = frameFromName(text))

@@ -1,7 +1,6 @@
 // Parses words of the command line. Each error names the option, what it expects and what it found.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,27 +11,17 @@
 #include "cotan/result.hpp"
 #include "cotan/view.hpp"
 #include "picture_options.hpp"
-#include "terminal/command_words.hpp"
 
 namespace cotan::app {
 
 // The names of the convention presets.
 std::vector<std::string> presetWords();
 
+// The words between commas; none for an empty text.
+std::vector<std::string> splitAtCommas(const std::string& text);
+
 // Parses a frame name. The error begins with the option and lists all frames.
 Result<Frame> parseFrame(const std::string& text, std::string_view option);
-
-// Adds an option for a frame, whose value is a Frame or an optional one; --list-frames shows all.
-Argument addFrameName(Arguments& a, const std::string& name, auto& frame, const std::string& help)
-{
-    const auto take = [&frame, name](const std::string& text) -> Status {
-        COTAN_TRY(parsed, parseFrame(text, name));
-        frame = *parsed;
-        return Done{};
-    };
-    const std::optional<Frame> usual = frame;
-    return a.option(name, usual ? std::string(cotan::name(*usual)) : "", take, help).in("NAME").offers(frameWords());
-}
 
 template<class Value> using Words = std::vector<std::pair<std::string_view, Value>>;
 

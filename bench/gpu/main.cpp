@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iostream>
 
+#include <CLI/CLI.hpp>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
@@ -121,22 +122,18 @@ int measure(const Options& options)
 int main(int count, char** words)
 {
     cotan::bench::Options options;
-    cotan::app::Arguments tool("on_gpu", "Time every row of cotan cost and the passes of examples/deforming on a GPU.",
-                               "");
-    tool.option("-o,--output", options.output, "file for the page").in("FILE").writes();
-    tool.option("--tests", options.log, "output of the test programs").in("FILE").reads();
-    tool.option("--seconds", options.seconds, "triangle sizes that would end later are skipped and listed").in("S");
-    tool.flag("--quick", options.quick, "small sizes, as on a device that renders on the CPU");
-    tool.flag("--tables", options.tables, "also write tables of small sizes; they say nothing about a GPU");
-    tool.flag("--probe", options.probe, "print `gpu` or `cpu` and the name of the device, and stop");
-    bool parsed = false;
-    tool.does([&]() -> cotan::Status {
-        parsed = true;
-        return cotan::Done{};
-    });
-    const auto done = tool.run({words + 1, words + count}, [](const std::string& text) { fmt::print("{}", text); });
-    if (!parsed)
-        return done ? 0 : cotan::bench::failed(1, done.error().message);
+    CLI::App app("times every row of cotan cost and the passes of examples/deforming on a GPU");
+    app.add_option("-o,--output", options.output, "file for the page");
+    app.add_option("--tests", options.log, "output of the test programs");
+    app.add_option("--seconds", options.seconds, "triangle sizes that would end later are skipped and listed");
+    app.add_flag("--quick", options.quick, "small sizes, as on a device that renders on the CPU");
+    app.add_flag("--tables", options.tables, "also write tables of small sizes; they say nothing about a GPU");
+    app.add_flag("--probe", options.probe, "print `gpu` or `cpu` and the name of the device, and stop");
+    try {
+        app.parse(count, words);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? 0 : 1;
+    }
     try {
         return cotan::bench::measure(options);
     } catch (const std::exception& e) {

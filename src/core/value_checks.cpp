@@ -12,6 +12,7 @@ namespace cotan {
 namespace {
 
 // Returns a check for numbers. expected: such as "a whole number from 0 to 8". read: returns an optional number.
+// CLI11's own range checks accept NaN.
 template<class Read, class IsGood> ValueCheck numberCheck(const std::string& expected, Read read, IsGood isGood)
 {
     return [=](const std::string& text) -> std::string {
@@ -53,6 +54,15 @@ ValueCheck wholeNumberWithin(long long minimum, long long maximum)
 {
     return numberCheck("a whole number from " + std::to_string(minimum) + " to " + std::to_string(maximum), readWhole,
                        [=](long long value) { return value >= minimum && value <= maximum; });
+}
+
+ValueCheck wholeNumberOf(const std::vector<long long>& numbers)
+{
+    std::vector<std::string> words;
+    for (const long long number : numbers)
+        words.push_back(std::to_string(number));
+    return numberCheck(eitherOf(words), readWhole,
+                       [numbers](long long value) { return std::ranges::find(numbers, value) != numbers.end(); });
 }
 
 ValueCheck wordOf(const std::vector<std::string>& words)

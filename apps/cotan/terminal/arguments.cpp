@@ -1,107 +1,259 @@
 #include "terminal/arguments.hpp"
 
-#include <cstdlib>
-#include <filesystem>
-#include <optional>
-#include <type_traits>
+#include <algorithm>
+#include <map>
+#include <stdexcept>
 #include <utility>
+
+#include <CLI/CLI.hpp>
 
 #include "core/real_number.hpp"
 #include "core/try.hpp"
-#include "terminal/command.hpp"
-#include "terminal/command_walk.hpp"
+#include "parse_errors.hpp"
+#include "terminal/command_words.hpp"
+#include "terminal/help_text.hpp"
 
 namespace cotan::app {
 
 namespace {
 
-std::optional<long long> wholeNumber(const std::string& text)
+std::vector<const CLI::App*> commandsOf(const CLI::App& app)
 {
-    char* end = nullptr;
-    const long long value = std::strtoll(text.c_str(), &end, 0);
-    return !text.empty() && *end == '\0' ? std::optional(value) : std::nullopt;
+    return app.get_subcommands([](const CLI::App*) { return true; });
 }
 
-template<class Value>
-constexpr bool kIsReal = std::is_floating_point_v<Value> || std::is_same_v<Value, std::optional<double>>;
-
-// Parses the values of an option, of which all but lists have one. Returns false if it is not a number as it should be.
-template<class Value> bool parseValue(const std::vector<std::string>& words, Value& value)
+CommandNames namesOf(const CLI::App& app)
 {
-    if constexpr (std::is_same_v<Value, std::vector<std::string>>) {
-        value = words;
-    } else if constexpr (std::is_same_v<Value, int>) {
-        const auto number = wholeNumber(words.front());
-        value = int(number.value_or(0));
-        return number.has_value();
-    } else if constexpr (kIsReal<Value>) {
-        const auto number = parseReal(words.front());
-        if (number)
-            value = Value(*number);
-        return number.has_value();
-    } else {
-        value = words.front();
-    }
-    return true;
+    CommandNames all{app.get_name(), {}};
+    for (const CLI::App* command : commandsOf(app))
+        all.commands.push_back(namesOf(*command));
+    return all;
 }
 
-// The text of a default; empty: the help shows none.
-std::string textOf(const std::string& value) { return value; }
-std::string textOf(const std::filesystem::path& value) { return value.string(); }
-std::string textOf(int value) { return std::to_string(value); }
-std::string textOf(double value) { return textOfReal(value); }
-std::string textOf(const std::optional<double>& value) { return value ? textOfReal(*value) : ""; }
-std::string textOf(const std::vector<std::string>& value) { return joined(value, ","); }
+OptionHelp helpOf(const CLI::Option& option, const Argument::Facts& facts)
+{
+    OptionHelp help;
+    help.group = facts.group;
+    help.help = option.get_description();
+    help.words = facts.words;
+    help.closed = facts.closed;
+    help.positional = option.get_positional();
+    if (help.positional)
+        help.names = {option.get_name()};
+    for (const std::string& name : option.get_snames())
+        help.names.push_back("-" + name);
+    for (const std::string& name : option.get_lnames())
+        help.names.push_back("--" + name);
+    help.value = help.positional ? help.names[0] : option.get_items_expected_max() > 0 ? option.get_type_name() : "";
+    help.value = help.value.substr(0, help.value.find(':'));
+    help.kind = help.positional ? ValueKind::file : valueKind(help.value);
+    help.minimum = facts.minimum;
+    help.maximum = facts.maximum;
+    if ((help.kind == ValueKind::file || help.kind == ValueKind::folder) && facts.use == FileUse::none
+        && !help.positional)
+        throw std::logic_error(help.names.back() + ": expected reads() or writes() for an option that names a file");
+    help.usual = option.get_default_str();
+    help.required = option.get_required() || facts.needed;
+    help.repeated = option.get_items_expected_max() > 1;
+    return help;
+}
 
 } // namespace
 
-Arguments::Arguments(const std::string& name, const std::string& summary, const std::string& version)
-    : tool_(std::make_shared<Command>()), command_(tool_.get())
+Argument& Argument::in(const std::string& unit)
 {
-    command_->help.name = name;
-    command_->help.summary = summary;
-    Argument(added("-h,--help", "print this help; -h prints the main options only")).in("");
-    answers("--version", "print the version", [version] { return version; });
+    option_->type_name(unit);
+    return *this;
+}
+
+Argument& Argument::from(std::initializer_list<std::string> words) { return from(std::vector(words)); }
+
+Argument& Argument::from(const std::vector<std::string>& words)
+{
+    option_->check(wordOf(words));
+    facts_->closed = true;
+    return offers(words);
+}
+
+Argument& Argument::from(std::initializer_list<int> numbers)
+{
+    for (const int number : numbers)
+        facts_->words.push_back(std::to_string(number));
+    facts_->closed = true;
+    option_->check(wholeNumberOf({numbers.begin(), numbers.end()}));
+    return *this;
+}
+
+Argument& Argument::offers(std::vector<std::string> words)
+{
+    facts_->words = std::move(words);
+    return *this;
+}
+
+Argument& Argument::within(int least, int most)
+{
+    return checked(wholeNumberWithin(least, most)).shows(std::to_string(least), std::to_string(most));
+}
+
+Argument& Argument::within(double least, double most)
+{
+    return checked(numberWithin(least, most)).shows(textOfReal(least), textOfReal(most));
+}
+
+Argument& Argument::above0() { return checked(numberAbove0()); }
+
+Argument& Argument::checked(ValueCheck check)
+{
+    option_->check(std::move(check));
+    return *this;
+}
+
+Argument& Argument::shows(std::string minimum, std::string maximum)
+{
+    facts_->minimum = std::move(minimum);
+    facts_->maximum = std::move(maximum);
+    return *this;
+}
+
+Argument& Argument::reads()
+{
+    facts_->use = FileUse::reads;
+    return *this;
+}
+
+Argument& Argument::writes()
+{
+    facts_->use = FileUse::writes;
+    return *this;
+}
+
+Argument& Argument::under(HelpGroup group)
+{
+    facts_->group = group;
+    return *this;
+}
+
+Argument& Argument::main() { return under(HelpGroup::main); }
+
+Argument& Argument::needed()
+{
+    facts_->needed = true;
+    return *this;
+}
+
+Argument& Argument::required()
+{
+    option_->required();
+    return *this;
+}
+
+Argument& Argument::separatedByCommas()
+{
+    option_->delimiter(',');
+    return *this;
+}
+
+Argument& Argument::withoutDefault()
+{
+    option_->default_str("");
+    return *this;
+}
+
+Argument& Argument::unlisted()
+{
+    option_->group("");
+    return *this;
+}
+
+Argument& Argument::refused(std::function<std::string()> why)
+{
+    option_->each([why = std::move(why)](const std::string&) {
+        if (const std::string message = why(); !message.empty())
+            throw CLI::ArgumentMismatch(message);
+    });
+    return *this;
+}
+
+int Argument::count() const { return int(option_->count()); }
+
+struct Arguments::Tool {
+    CLI::App app;
+    std::vector<std::pair<CLI::App*, std::function<Status()>>> works;
+    std::map<const CLI::Option*, Argument::Facts> facts;
+    struct Words { // of a command, for its help
+        std::string heading;
+        std::vector<std::string> examples;
+        std::string closing;
+        HelpGroup group = HelpGroup::general; // of the options declared next
+        std::string nextHeading;              // of the commands added next
+    };
+    std::map<const CLI::App*, Words> words;
+    Status taken = Done{}; // or the first error of a custom value parser
+
+    CommandHelp describe(const CLI::App& command)
+    {
+        CommandHelp help;
+        help.name = command.get_name();
+        help.summary = command.get_description();
+        for (const CLI::Option* option : command.get_options())
+            if (!option->get_group().empty())
+                help.options.push_back(helpOf(*option, facts[option]));
+        std::ranges::stable_sort(help.options, {}, [](const OptionHelp& option) {
+            return std::pair(option.group, !option.positional); // positional arguments come first
+        });
+        for (const CLI::App* inner : commandsOf(command))
+            help.commands.push_back(describe(*inner));
+        help.heading = words[&command].heading;
+        help.examples = words[&command].examples;
+        help.closing = words[&command].closing;
+        return help;
+    }
+};
+
+Arguments::Arguments(const std::string& name, const std::string& summary, const std::string& version)
+    : tool_(std::make_shared<Tool>())
+{
+    app_ = &tool_->app;
+    app_->name(name);
+    app_->description(summary);
+    app_->set_help_flag("-h,--help", "print this help; -h prints the main options only");
+    app_->set_version_flag("--version", version, "print the version");
 }
 
 Arguments Arguments::command(const std::string& name, const std::string& summary)
 {
-    Command& inner = command_->commands.emplace_back();
-    inner.help.name = name;
-    inner.help.summary = summary;
-    inner.help.heading = command_->nextHeading;
-    inner.parent = command_;
-    inner.options.push_back(tool_->options.front()); // --help
-    return {tool_, inner};
+    app_->require_subcommand(1);
+    Arguments command(tool_, *app_->add_subcommand(name, summary));
+    tool_->words[command.app_].heading = tool_->words[app_].nextHeading;
+    return command;
 }
 
-Argument::Option& Arguments::added(const std::string& names, const std::string& help)
+// Makes CLI11 check values and answer --help before it reports missing options, as versions up to 2.4 always do.
+static void beforeRequirements(auto& option)
 {
-    Argument::Option& option = command_->options.emplace_back();
-    option.help.help = help;
-    for (std::size_t at = 0; at <= names.size(); at += option.help.names.back().size() + 1)
-        option.help.names.push_back(names.substr(at, names.find(',', at) - at));
-    option.help.positional = !names.starts_with('-');
-    option.help.group = option.help.positional ? HelpGroup::main : command_->group;
-    option.help.value = option.help.positional ? names : "TEXT";
-    option.help.kind = option.help.positional ? ValueKind::file : ValueKind::word;
-    return option;
+    if constexpr (requires { option.get_callback_priority(); })
+        option.callback_priority(decltype(option.get_callback_priority())::PreRequirementsCheckPreHelp);
+}
+
+Argument Arguments::added(CLI::Option& option)
+{
+    beforeRequirements(option);
+    Argument::Facts& facts = tool_->facts[&option];
+    facts.group = option.get_positional() ? HelpGroup::main : tool_->words[app_].group;
+    return Argument(option, facts);
 }
 
 template<class Value> Argument Arguments::option(const std::string& names, Value& value, const std::string& help)
 {
-    Argument::Option& option = added(names, help);
-    option.help.usual = textOf(value);
-    option.help.repeated = std::is_same_v<Value, std::vector<std::string>>;
-    option.check = [](const std::string& text) {
-        Value unused{};
-        return parseValue({text}, unused) ? std::string() : "expected a number; found '" + text + "'";
-    };
-    option.take = [&value](const std::vector<std::string>& values) {
-        parseValue(values, value);
-        return Status(Done{});
-    };
-    return Argument(option);
+    CLI::Option* option = app_->add_option(names, value, help);
+    bool empty = false;
+    if constexpr (requires { value.empty(); })
+        empty = value.empty();
+    if constexpr (requires { value.has_value(); })
+        empty = !value.has_value();
+    if (!empty)
+        option->capture_default_str();
+    return added(*option);
 }
 
 template Argument Arguments::option(const std::string&, std::string&, const std::string&);
@@ -115,71 +267,125 @@ template Argument Arguments::option(const std::string&, std::vector<std::string>
 Argument Arguments::option(const std::string& names, const std::string& usual,
                            std::function<Status(const std::string&)> take, const std::string& help)
 {
-    Argument::Option& option = added(names, help);
-    option.help.usual = usual;
-    option.take = [take = std::move(take)](const std::vector<std::string>& values) { return take(values.front()); };
-    return Argument(option);
+    Tool* const tool = tool_.get(); // which owns the option
+    const auto read = [tool, take = std::move(take)](const std::string& text) {
+        if (Status taken = take(text); !taken && tool->taken)
+            tool->taken = std::move(taken);
+    };
+    CLI::Option* option = app_->add_option_function<std::string>(names, read, help);
+    option->default_str(usual);
+    return added(*option);
 }
 
 Argument Arguments::flag(const std::string& name, bool& value, const std::string& help)
 {
-    Argument::Option& option = added(name, help);
-    option.take = [&value](const std::vector<std::string>&) {
-        value = true;
-        return Status(Done{});
-    };
-    return Argument(option).in("");
+    return added(*app_->add_flag(name, value, help));
 }
 
 void Arguments::answers(const std::string& name, const std::string& help, std::function<std::string()> text)
 {
-    Argument::Option& option = added(name, help);
-    option.answer = std::move(text);
-    Argument(option).in("");
+    // As --version does.
+    added(*app_->add_flag_callback(
+        name, [text = std::move(text)] { throw CLI::CallForVersion(text(), 0); }, help));
 }
 
-void Arguments::group(HelpGroup group) { command_->group = group; }
-void Arguments::heading(const std::string& heading) { command_->nextHeading = heading; }
-Argument Arguments::find(const std::string& name) { return Argument(*command_->option(name)); }
-void Arguments::takesAnything() { command_->takesAnything = true; }
+void Arguments::group(HelpGroup group) { tool_->words[app_].group = group; }
+
+void Arguments::heading(const std::string& heading) { tool_->words[app_].nextHeading = heading; }
+
+Argument Arguments::find(const std::string& name)
+{
+    CLI::Option* option = app_->get_option(name);
+    return Argument(*option, tool_->facts[option]);
+}
+
+void Arguments::takesAnything() { app_->allow_extras(); }
 
 void Arguments::examples(std::vector<std::string> lines, const std::string& closing)
 {
-    command_->help.examples = std::move(lines);
-    command_->help.closing = closing;
+    tool_->words[app_].examples = std::move(lines);
+    tool_->words[app_].closing = closing;
 }
 
-void Arguments::does(std::function<Status()> work) { command_->work = std::move(work); }
-std::string Arguments::name() const { return command_->help.name; }
-CommandHelp Arguments::describe() const { return command_->describe(); }
+void Arguments::does(std::function<Status()> work) { tool_->works.emplace_back(app_, std::move(work)); }
+
+std::string Arguments::name() const { return app_->get_name(); }
+
+CommandHelp Arguments::describe() const { return tool_->describe(*app_); }
+
+std::vector<const CLI::App*> Arguments::given() const
+{
+    std::vector<const CLI::App*> path{app_};
+    while (!path.back()->get_subcommands().empty()) // the parsed ones
+        path.push_back(path.back()->get_subcommands().front());
+    return path;
+}
+
+std::string Arguments::help(HelpLength length) const
+{
+    const CommandHelp tool = describe();
+    std::vector<const CommandHelp*> path{&tool};
+    for (const CLI::App* command : given())
+        if (command != app_)
+            path.push_back(&*std::ranges::find(path.back()->commands, command->get_name(), &CommandHelp::name));
+    return helpText(path, length, helpWidth());
+}
+
+// answer: receives the text of --help, --version and similar options, if given.
+Status Arguments::read(std::vector<std::string> words, std::string& answer) const
+{
+    words = withoutEquals(std::move(words));
+    const CommandNames known = namesOf(*app_);
+    if (asksForHelp(known, words)) {
+        words.erase(words.begin());
+        words.emplace_back("--help");
+    }
+    const bool brief = std::ranges::find(words, "--help") == words.end(); // -h instead
+    COTAN_CHECK(checkCommandWords(known, words));
+    tool_->taken = Done{};
+    std::ranges::reverse(words); // CLI11 takes them from the back
+    try {
+        app_->parse(std::move(words));
+    } catch (const CLI::CallForHelp&) {
+        answer = help(brief ? HelpLength::brief : HelpLength::full);
+    } catch (const CLI::CallForVersion& e) {
+        answer = e.what();
+        answer += answer.ends_with('\n') ? "" : "\n";
+    } catch (const CLI::ParseError& e) {
+        return usageError(messageOf(e, *given().back()));
+    }
+    return Done{};
+}
 
 Status Arguments::run(std::vector<std::string> words, const std::function<void(const std::string&)>& print)
 {
-    COTAN_TRY(parsed, parseWords(*command_, std::move(words)));
-    if (!parsed->answer.empty()) {
-        print(parsed->answer);
+    std::string answer;
+    COTAN_CHECK(read(std::move(words), answer));
+    if (!answer.empty()) {
+        print(answer);
         return Done{};
     }
-    for (const Command* command : parsed->path)
-        for (const Argument::Option& option : command->options)
-            if (option.take && !option.values.empty())
-                COTAN_CHECK(option.take(option.values));
-    return parsed->path.back()->work();
+    for (const auto& [app, work] : tool_->works)
+        if (app->parsed())
+            return tool_->taken ? work() : tool_->taken;
+    return usageError("expected a command; found none");
 }
 
 Result<GivenCommand> Arguments::parse(std::vector<std::string> words) const
 {
-    COTAN_TRY(parsed, parseWords(*command_, std::move(words)));
-    if (!parsed->answer.empty())
+    std::string answer;
+    COTAN_CHECK(read(std::move(words), answer));
+    if (!answer.empty())
         return usageError("expected a command that does something; found --help or --version");
     GivenCommand result;
-    const std::string path = parsed->path.back()->path();
-    result.name = path.substr(path.find(' ') + 1);
-    for (std::size_t i = 1; i < parsed->path.size(); ++i)
-        for (const Argument::Option& option : parsed->path[i]->options)
-            if (const std::string name = nameOf(option); !option.values.empty())
-                result.options.push_back(
-                    {name.substr(std::min(name.find_first_not_of('-'), name.size())), option.values, option.use});
+    for (const CLI::App* app : given()) {
+        if (app == app_)
+            continue;
+        result.name += (result.name.empty() ? "" : " ") + app->get_name();
+        for (const CLI::Option* option : app->get_options())
+            if (option->count() > 0)
+                result.options.push_back({option->get_single_name(), option->results(), tool_->facts[option].use});
+    }
     return result;
 }
 

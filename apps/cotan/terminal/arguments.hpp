@@ -1,24 +1,25 @@
-// Declares commands and their command line options, each with its name, help, unit, range and default, and parses the
-// command line.
+// Declares commands and their command line options, each with its name, help, unit, range and default. CLI11 parses
+// them; only arguments.cpp and parse_errors.cpp use it directly.
 #pragma once
 
 #include <functional>
-#include <list>
+#include <initializer_list>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/named_values.hpp"
-#include "core/real_number.hpp"
 #include "core/value_checks.hpp"
 #include "cotan/result.hpp"
 #include "terminal/command_help.hpp"
 #include "terminal/help_text.hpp"
 
-namespace cotan::app {
+namespace CLI {
+class App;
+class Option;
+} // namespace CLI
 
-struct Command; // a command and what is declared of it: terminal/command.hpp
+namespace cotan::app {
 
 // What a command does with the files named by an option.
 enum class FileUse { none, reads, writes };
@@ -39,79 +40,44 @@ struct GivenCommand {
 // it unless it is an empty text.
 class Argument {
 public:
-    // An option as it is declared, and what the last command line gives for it.
-    struct Option {
-        OptionHelp help;
-        std::string olderName;
+    // Facts about the option that CLI11 does not store.
+    struct Facts {
         FileUse use = FileUse::none;
-        bool listed = true;
-        bool checkedByCommand = false; // the parser accepts a command line without this required option
-        bool splitAtCommas = false;
-        ValueCheck check;
-        std::function<Status(const std::vector<std::string>& values)> take; // sets the variable
-        std::function<std::string()> refused;                               // why it is refused, if it is given
-        std::function<std::string()> answer; // the text that it prints instead of running the command
-        std::vector<std::string> values = {};
+        std::vector<std::string> words; // suggested or allowed values
+        bool closed = false;            // only `words` are allowed
+        std::string minimum, maximum;   // of a number, for the help; may be empty
+        HelpGroup group = HelpGroup::general;
+        bool needed = false;
     };
-    explicit Argument(Option& option) : option_(&option) {}
+    Argument(CLI::Option& option, Facts& facts) : option_(&option), facts_(&facts) {}
 
-    Argument& in(const std::string& unit) // names the value in the help: "FILE", "WxH"; see valueKind
-    {
-        option_->help.kind = valueKind(unit);
-        return with(option_->help.value, unit);
-    }
-    Argument& from(const std::vector<std::string>& words)
-    {
-        option_->help.closed = true;
-        return checked(wordOf(words)).offers(words);
-    }
+    Argument& in(const std::string& unit); // names the value in the help: "FILE", "WxH"; see valueKind
+    Argument& from(std::initializer_list<std::string> words);
+    Argument& from(const std::vector<std::string>& words);
+    Argument& from(std::initializer_list<int> numbers);
     // Words for shell completion. Other values are possible; the command checks them.
-    Argument& offers(std::vector<std::string> words) { return with(option_->help.words, std::move(words)); }
-    Argument& within(int least, int most)
-    {
-        return checked(wholeNumberWithin(least, most)).shows(std::to_string(least), std::to_string(most));
-    }
-    Argument& within(double least, double most)
-    {
-        return checked(numberWithin(least, most)).shows(textOfReal(least), textOfReal(most));
-    }
-    Argument& above0() { return checked(numberAbove0()); } // at most 1e6
-    Argument& checked(ValueCheck check)                    // replaces that of the variable's type
-    {
-        return with(option_->check, std::move(check));
-    }
-    Argument& shows(std::string minimum, std::string maximum) // in the help
-    {
-        option_->help.minimum = std::move(minimum);
-        return with(option_->help.maximum, std::move(maximum));
-    }
-    // Names files that are read, or words that stand for a file; files or folders that are written.
-    Argument& reads() { return with(option_->use, FileUse::reads); }
-    Argument& writes() { return with(option_->use, FileUse::writes); }
-    // In this group of the help, instead of the current one; in the first one.
-    Argument& under(HelpGroup group) { return with(option_->help.group, group); }
-    Argument& main() { return under(HelpGroup::main); }
-    Argument& required() { return with(option_->help.required, true); }
-    Argument& needed() // required, but checked by the command itself
-    {
-        option_->checkedByCommand = true;
-        return required();
-    }
-    Argument& separatedByCommas() { return with(option_->splitAtCommas, true); }
-    Argument& withoutDefault() { return with(option_->help.usual, ""); } // the variable's value means "not given"
-    Argument& unlisted() { return with(option_->listed, false); }        // works, but is not in the help
-    // Another name that still works, but is not in the help.
-    Argument& olderName(std::string name) { return with(option_->olderName, std::move(name)); }
+    Argument& offers(std::vector<std::string> words);
+    Argument& within(int least, int most);
+    Argument& within(double least, double most);
+    Argument& above0(); // at most 1e6
+    Argument& checked(ValueCheck check);
+    Argument& shows(std::string minimum, std::string maximum); // in the help
+    Argument& reads();                // names files that are read, or words that stand for a file
+    Argument& writes();               // names files or folders that are written
+    Argument& under(HelpGroup group); // for this option only, instead of the current group
+    Argument& main();                 // in the first group of the help
+    Argument& required();
+    Argument& needed(); // required, but checked by the command itself
+    Argument& separatedByCommas();
+    Argument& withoutDefault(); // the variable's value means "not given"
+    Argument& unlisted();       // works, but is not in the help
     // If the option is given and `why` returns a message, the command line is refused with this message.
-    Argument& refused(std::function<std::string()> why) { return with(option_->refused, std::move(why)); }
+    Argument& refused(std::function<std::string()> why);
+    int count() const; // number of times the option was given
 
 private:
-    template<class Value> Argument& with(Value& member, auto value)
-    {
-        member = std::move(value);
-        return *this;
-    }
-    Option* option_;
+    CLI::Option* option_;
+    Facts* facts_;
 };
 
 // A command, or the whole tool.
@@ -166,15 +132,19 @@ public:
     // Errors: ErrorKind::usage, those of the command.
     Status run(std::vector<std::string> words, const std::function<void(const std::string&)>& print);
 
-    // Parses the words, runs nothing and sets no variable. Errors: ErrorKind::usage, also for --help and --version.
+    // Parses the words and runs nothing. Errors: ErrorKind::usage, also for --help and --version.
     Result<GivenCommand> parse(std::vector<std::string> words) const;
 
 private:
-    Arguments(std::shared_ptr<Command> tool, Command& command) : tool_(std::move(tool)), command_(&command) {}
-    Argument::Option& added(const std::string& names, const std::string& help);
+    struct Tool;
+    Argument added(CLI::Option& option);
+    Status read(std::vector<std::string> words, std::string& answer) const;
+    std::vector<const CLI::App*> given() const; // the tool and the parsed commands
+    std::string help(HelpLength length) const;  // of the last parsed command
+    Arguments(std::shared_ptr<Tool> tool, CLI::App& app) : tool_(std::move(tool)), app_(&app) {}
 
-    std::shared_ptr<Command> tool_;
-    Command* command_;
+    std::shared_ptr<Tool> tool_;
+    CLI::App* app_;
 };
 
 } // namespace cotan::app

@@ -3,7 +3,30 @@
 #include <algorithm>
 #include <vector>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 namespace cotan::app {
+
+namespace {
+
+Error unknown(const std::string& before, const std::string& word, const std::vector<CommandNames>& commands)
+{
+    // A prefix of a name counts as distance 1.
+    const auto distance = [&](const CommandNames& command) {
+        return word.size() > 1 && command.name.starts_with(word) ? 1 : editDistance(word, command.name);
+    };
+    const auto nearest = std::ranges::min_element(commands, {}, distance);
+    const bool near = distance(*nearest) <= std::max<std::size_t>(1, nearest->name.size() / 3);
+    std::vector<std::string_view> names;
+    for (const CommandNames& command : commands)
+        names.push_back(command.name);
+    return usageError(fmt::format("unknown {}command '{}'; {}", before, word,
+                                  near ? fmt::format("did you mean {}?", nearest->name)
+                                       : fmt::format("expected one of {}", fmt::join(names, ", "))));
+}
+
+} // namespace
 
 std::size_t editDistance(std::string_view a, std::string_view b)
 {
@@ -22,11 +45,39 @@ std::size_t editDistance(std::string_view a, std::string_view b)
     return d[a.size()][b.size()];
 }
 
-std::vector<std::string> splitAtCommas(const std::string& text)
+Status checkCommandWords(const CommandNames& tool, std::span<const std::string> words)
 {
-    std::vector<std::string> words;
-    for (std::size_t at = 0; !text.empty() && at <= text.size(); at += words.back().size() + 1)
-        words.push_back(text.substr(at, text.find(',', at) - at));
+    const CommandNames* at = &tool;
+    std::string before;
+    for (const std::string& word : words) {
+        if (at->commands.empty() || word.starts_with('-'))
+            break;
+        const auto found = std::ranges::find(at->commands, word, &CommandNames::name);
+        if (found == at->commands.end()) {
+            if (word.size() > 100)
+                return usageError(fmt::format("unknown {}command of {} letters", before, word.size()));
+            return unknown(before, word, at->commands);
+        }
+        before = word + " ";
+        at = &*found;
+    }
+    return Done{};
+}
+
+bool asksForHelp(const CommandNames& tool, std::span<const std::string> words)
+{
+    return !words.empty() && words[0] == "help" && (words.size() == 1 || !words[1].starts_with('-'))
+        && std::ranges::find(tool.commands, "help", &CommandNames::name) != tool.commands.end();
+}
+
+std::vector<std::string> withoutEquals(std::vector<std::string> words)
+{
+    for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i)
+        if (const std::string word = words[i]; word.size() > 2 && word[0] == '-' && word[1] != '-' && word[2] == '=') {
+            words[i] = word.substr(0, 2);
+            words.insert(words.begin() + std::ptrdiff_t(i) + 1, word.substr(3));
+            ++i;
+        }
     return words;
 }
 
