@@ -232,10 +232,19 @@ TEST(MapFaults, brokenConventionsAreRefusedAsTarget)
 {
     TemporaryFolder folder;
     ASSERT_TRUE(writeImage(folder / "map.png", randomRelief(1)));
-    const ToolRun run =
-        runTool({"map", "convert", "map.png", "--from", "gltf", "--to", "gltf,srgb", "-o", "out.png"}, folder.path());
-    EXPECT_EQ(run.code, 1);
-    EXPECT_NE(run.err.find("--to: srgb, linearised, bgr and grb describe broken maps"), std::string::npos) << run.err;
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"convert", "map.png", "--from", "gltf"},
+                                                  {"blend", "map.png", "map.png"},
+                                                  {"mips", "map.png"},
+                                                  {"from-height", "map.png"}}) {
+        std::vector<std::string> all{"map"};
+        all.insert(all.end(), words.begin(), words.end());
+        for (const char* word : {"--to", "gltf,srgb", "-o", "out.png"})
+            all.push_back(word);
+        const ToolRun run = runTool(all, folder.path());
+        EXPECT_EQ(run.code, 1) << words.front();
+        EXPECT_NE(run.err.find("--to: srgb, linearised, bgr and grb describe broken maps"), std::string::npos)
+            << run.err;
+    }
     EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
 }
 

@@ -189,7 +189,7 @@ TEST(ProgressLine, cutsLongNamesByWholeLettersAndKeepsThePercentage)
         umlauts += "\xc3\xa4";
     EXPECT_EQ(first(20, umlauts.substr(0, 28)), umlauts.substr(0, 28) + ": 0 %");
     EXPECT_EQ(first(20, umlauts), umlauts.substr(0, 22) + "...: 0 %");
-    EXPECT_EQ(first(20, "a\nb\x7f~"), "a?b?~: 0 %");
+    EXPECT_EQ(first(20, "a\nb\x7f~"), "a\\nb\\x7f~: 0 %");
     EXPECT_EQ(first(6, "work"), "wo..."); // no space for a percentage
 }
 

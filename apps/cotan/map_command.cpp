@@ -41,6 +41,16 @@ Result<StatedConvention> parseConvention(const std::string& text, const std::str
     return convention ? convention : usageError(option + ": " + convention.error().message);
 }
 
+Result<Convention> parseWrittenConvention(const std::string& text, const std::string& option)
+{
+    COTAN_TRY(stated, parseConvention(text, option));
+    if (stated->damage.any())
+        return usageError(fmt::format("{}: srgb, linearised, bgr and grb describe broken maps; expected a convention "
+                                      "without them, found '{}'",
+                                      option, text));
+    return stated->convention;
+}
+
 Result<std::pair<StatedConvention, StatedConvention>> parseFromTo(const std::string& from, const std::string& to)
 {
     const auto first = parseConvention(from, "--from");

@@ -23,13 +23,10 @@ struct MapConvertCommandOptions : MapOptions {
 
 Status run(const MapConvertCommandOptions& o)
 {
-    COTAN_TRY(conventions, parseFromTo(o.from, o.to));
-    const StatedConvention& from = conventions->first;
-    const Convention& to = conventions->second.convention;
-    if (conventions->second.damage.any())
-        return usageError(fmt::format("--to: srgb, linearised, bgr and grb describe broken maps; expected a convention "
-                                      "without them, found '{}'",
-                                      o.to));
+    COTAN_TRY(stated, parseConvention(o.from, "--from"));
+    const StatedConvention& from = *stated;
+    COTAN_TRY(written, parseWrittenConvention(o.to, "--to"));
+    const Convention& to = *written;
     COTAN_CHECK(needOutput(o, "convert"));
     const bool blocks = o.compress != "none";
     ConvertFileOptions options{.from = from,

@@ -57,7 +57,7 @@ const Words<maps::Kernel> kDifferences = {{"forward", maps::Kernel::forward},
 Status runFrom(const MapFromHeightCommandOptions& o)
 {
     COTAN_CHECK(needOutput(o, "from-height"));
-    COTAN_TRY(to, parseConvention(o.convention, "--to"));
+    COTAN_TRY(to, parseWrittenConvention(o.convention, "--to"));
     COTAN_TRY(kernel, valueOf("--kernel", o.kernel, kDifferences));
     using enum maps::Wrap;
     COTAN_TRY(wrap, valueOf<maps::Wrap>("--wrap", o.wrap, {{"repeat", repeat}, {"clamp", clamp}, {"mirror", mirror}}));
@@ -66,7 +66,7 @@ Status runFrom(const MapFromHeightCommandOptions& o)
     COTAN_TRY(metres, parseMetres(o.metres));
     const auto done = onFilesToMap(o, o.file, [&](const FileOptions& files) {
         return normalsFromHeightFile(o.file, o.output,
-                                     {.to = to->convention,
+                                     {.to = *to,
                                       .kernel = *kernel,
                                       .wrap = *wrap,
                                       .metres = *metres,

@@ -21,15 +21,19 @@ Status run(const MapMipsCommandOptions& o)
 {
     const std::filesystem::path first = firstMipFile(o.output);
     COTAN_CHECK(needOutput(o, "mips", first));
-    COTAN_TRY(conventions, parseFromTo(o.from, o.to.empty() ? o.from : o.to));
-    const std::optional<Convention> to = o.to.empty() ? std::nullopt : std::optional(conventions->second.convention);
+    COTAN_TRY(from, parseConvention(o.from, "--from"));
+    std::optional<Convention> to;
+    if (!o.to.empty()) {
+        COTAN_TRY(written, parseWrittenConvention(o.to, "--to"));
+        to = *written;
+    }
     using enum maps::VarianceModel;
     COTAN_TRY(model,
               valueOf<maps::VarianceModel>("--model", o.model, {{"toksvig", toksvig}, {"vmf", vmf}, {"lean", lean}}));
     const auto plan = [&](const std::filesystem::path& file) {
         return file == first ? Status(Done{}) : planOutput("-o", file);
     };
-    const MipFileOptions options{conventions->first, to, *model, o.roughness, o.keepLengths, o.bits, o.compress, plan};
+    const MipFileOptions options{*from, to, *model, o.roughness, o.keepLengths, o.bits, o.compress, plan};
     const auto done = onFiles(o, "filtering levels",
                               [&](const FileOptions& files) { return writeMips(o.file, o.output, options, files); });
     if (!done)

@@ -25,6 +25,9 @@ void addDither(Arguments& command, bool& dither);
 // parseStatedConvention with the option's name in its error.
 Result<StatedConvention> parseConvention(const std::string& text, const std::string& option);
 
+// The same for a map that is written: its words must not describe a broken map.
+Result<Convention> parseWrittenConvention(const std::string& text, const std::string& option);
+
 // Parses --from and --to.
 Result<std::pair<StatedConvention, StatedConvention>> parseFromTo(const std::string& from, const std::string& to);
 

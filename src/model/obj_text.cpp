@@ -30,10 +30,10 @@ std::size_t lineEndAt(const std::string& text, std::size_t i)
 // Quotes text from a file for a message: at most 40 characters, without control characters.
 std::string quotedWord(std::string_view word)
 {
-    std::string printable(word.substr(0, 40));
+    std::string shown(word.substr(0, 40));
     std::ranges::replace_if(
-        printable, [](unsigned char c) { return c < 32 || c > 126; }, '?');
-    return fmt::format("\"{}\"", printable);
+        shown, [](unsigned char c) { return c < 32 || c > 126; }, '?');
+    return fmt::format("\"{}\"", shown);
 }
 
 constexpr std::array<std::string_view, 3> kAttributeName = {"position", "texture coordinate", "normal"};

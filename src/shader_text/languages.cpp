@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/named_values.hpp"
+#include "cpp_prelude.hpp" // prelude/*.txt
 
 namespace cotan::shader_text {
 
@@ -10,64 +11,6 @@ namespace {
 
 constexpr std::string_view kMslPrelude = R"(#include <metal_stdlib>
 using namespace metal;
-
-)";
-
-constexpr std::string_view kCppPrelude = R"(#include <cmath>
-#include <cstdint>
-#include <cstring>
-
-namespace cotan_shader {
-
-using cotan_real = float; // or double
-using cotan_uint = std::uint32_t;
-
-struct cotan_vec2 { cotan_real x, y; };
-struct cotan_vec3 { cotan_real x, y, z; };
-struct cotan_vec4 { cotan_real x, y, z, w; };
-
-inline cotan_vec3 operator+(cotan_vec3 a, cotan_vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline cotan_vec3 operator-(cotan_vec3 a, cotan_vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline cotan_vec3 operator*(cotan_vec3 a, cotan_vec3 b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-inline cotan_vec3 operator*(cotan_vec3 a, cotan_real k) { return {a.x * k, a.y * k, a.z * k}; }
-inline cotan_vec3 operator/(cotan_vec3 a, cotan_vec3 b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
-inline cotan_vec3 operator/(cotan_vec3 a, cotan_real k) { return {a.x / k, a.y / k, a.z / k}; }
-inline cotan_vec2 operator+(cotan_vec2 a, cotan_vec2 b) { return {a.x + b.x, a.y + b.y}; }
-inline cotan_vec2 operator*(cotan_vec2 a, cotan_real k) { return {a.x * k, a.y * k}; }
-inline cotan_vec2 operator-(cotan_vec2 a, cotan_vec2 b) { return {a.x - b.x, a.y - b.y}; }
-inline cotan_vec4 operator*(cotan_vec4 a, cotan_real k) { return {a.x * k, a.y * k, a.z * k, a.w * k}; }
-inline cotan_real dot(cotan_vec2 a, cotan_vec2 b) { return a.x * b.x + a.y * b.y; }
-inline cotan_real dot(cotan_vec3 a, cotan_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline cotan_vec3 cross(cotan_vec3 a, cotan_vec3 b)
-{
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline cotan_real max(cotan_real a, cotan_real b) { return a < b ? b : a; }
-inline cotan_real min(cotan_real a, cotan_real b) { return b < a ? b : a; }
-using std::abs;
-using std::copysign;
-using std::exp2;
-using std::log2;
-using std::pow;
-using std::sqrt;
-
-// 1 / 2^e for 2^e <= m < 2^(e+1), from the bits of m's exponent. m: in [1e-37, 1e37].
-inline float cotan_inverse_power_of_two(float m)
-{
-    std::uint32_t bits;
-    std::memcpy(&bits, &m, sizeof m);
-    bits = 0x7f000000u - (bits & 0x7f800000u);
-    std::memcpy(&m, &bits, sizeof m);
-    return m;
-}
-inline double cotan_inverse_power_of_two(double m)
-{
-    std::uint64_t bits;
-    std::memcpy(&bits, &m, sizeof m);
-    bits = 0x7fe0000000000000u - (bits & 0x7ff0000000000000u);
-    std::memcpy(&m, &bits, sizeof m);
-    return m;
-}
 
 )";
 
@@ -85,49 +28,6 @@ float2 cotan_unpack_half(uint word)
 
 constexpr std::string_view kMslHalfs = R"(inline uint cotan_pack_half(float2 v) { return as_type<uint>(half2(v)); }
 inline float2 cotan_unpack_half(uint word) { return float2(as_type<half2>(word)); }
-
-)";
-
-constexpr std::string_view kCppHalfs = R"(// Rounded to the nearest, ties to even.
-inline std::uint32_t cotan_half_bits(float x)
-{
-    std::uint32_t bits;
-    std::memcpy(&bits, &x, sizeof bits);
-    const std::uint32_t sign = bits >> 16 & 0x8000u;
-    std::uint32_t magnitude = bits & 0x7fffffffu;
-    if (magnitude > 0x7f800000u)
-        return sign | 0x7e00u; // NaN
-    if (magnitude >= 0x47800000u)
-        return sign | 0x7c00u; // too large: infinity
-    if (magnitude < 0x38800000u) { // subnormal: the addition rounds
-        float shifted;
-        std::memcpy(&shifted, &magnitude, sizeof shifted);
-        shifted += 0.5f;
-        std::memcpy(&magnitude, &shifted, sizeof magnitude);
-        return sign | (magnitude - 0x3f000000u);
-    }
-    return sign | (magnitude + 0xfffu + (magnitude >> 13 & 1u) - 0x38000000u) >> 13;
-}
-inline float cotan_float_of_half(std::uint32_t half)
-{
-    std::uint32_t bits = (half & 0x7fffu) << 13;
-    float x;
-    std::memcpy(&x, &bits, sizeof x);
-    x *= 5192296858534827628530496329220096.0f; // 2^112
-    std::memcpy(&bits, &x, sizeof bits);
-    bits |= (half & 0x7c00u) == 0x7c00u ? 0x7f800000u : 0u;
-    bits |= (half & 0x8000u) << 16;
-    std::memcpy(&x, &bits, sizeof x);
-    return x;
-}
-inline cotan_uint cotan_pack_half(cotan_vec2 v)
-{
-    return cotan_half_bits(float(v.x)) | cotan_half_bits(float(v.y)) << 16;
-}
-inline cotan_vec2 cotan_unpack_half(cotan_uint word)
-{
-    return {cotan_float_of_half(word & 0xffffu), cotan_float_of_half(word >> 16)};
-}
 
 )";
 

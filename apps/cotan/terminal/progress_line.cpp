@@ -10,6 +10,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "terminal/printable.hpp"
+
 namespace cotan::app {
 
 namespace {
@@ -33,16 +35,16 @@ std::size_t columns()
     return known ? std::min<std::size_t>(size.ws_col - 1u, kMaxColumns) : kMaxColumns;
 }
 
-// Replaces control characters and cuts the text to `width` UTF-8 characters, ending with "..." if it was cut.
+// Escapes control characters and cuts the text to `width` UTF-8 characters, ending with "..." if it was cut.
 std::string fitted(const std::string& text, std::size_t width)
 {
     std::string clean;
     std::size_t count = 0;
-    for (const char c : text) {
+    for (const char c : printable(text)) {
         const bool starts = (static_cast<unsigned char>(c) & 0xc0) != 0x80;
         if (starts && ++count > width)
             break;
-        clean += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
+        clean += c;
     }
     if (count > width && width >= 3) {
         for (int dropped = 0; dropped < 3; ++dropped) {
