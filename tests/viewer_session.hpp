@@ -63,7 +63,6 @@ public:
     void loseSurface() override { ++calls_.lost; }
     std::shared_ptr<Device> device() const override { return {}; }
     std::uint64_t imagesRead() const override { return 0; }
-    const std::vector<std::string>& messages() const override { return messages_; }
     void wake() override {}
 
     std::string pasted;
@@ -71,7 +70,6 @@ public:
 
 private:
     WindowCalls& calls_;
-    std::vector<std::string> messages_;
 };
 
 // A session that draws small images on the reference renderer, without a display.
