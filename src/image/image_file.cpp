@@ -27,8 +27,6 @@ std::string imageFormatName(std::span<const std::byte> bytes)
 
 bool isPng(std::span<const std::byte> bytes) { return imageFormatName(bytes) == "PNG"; }
 
-bool isJpeg(std::span<const std::byte> bytes) { return imageFormatName(bytes) == "JPEG"; }
-
 std::string unreadableFormat(std::span<const std::byte> bytes, const LoadLimits& limits)
 {
     const std::string format = imageFormatName(bytes);

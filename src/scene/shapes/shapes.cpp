@@ -99,51 +99,6 @@ Surface flatSurface(glm::dvec3 corner, glm::dvec3 right, glm::dvec3 down)
     return [=](double u, double v) { return ShapePoint{corner + right * u + down * v, normal}; };
 }
 
-// A point of a planar curve with a radius, and their derivatives.
-struct TubePoint {
-    glm::dvec2 centre, centre1, centre2; // derivatives by v
-    double radius, radius1;
-};
-
-// The tube's centre line is a cubic Bezier curve from the open tip (v = 0) down to the base.
-TubePoint spoutCurve(double v)
-{
-    const glm::dvec2 p[4] = {{0.50, 0.95}, {0.22, 0.72}, {0.42, 0.22}, {-0.10, 0.12}};
-    const double r[4] = {0.045, 0.06, 0.12, 0.24};
-    const double w = 1 - v;
-    const double b[4] = {w * w * w, 3 * w * w * v, 3 * w * v * v, v * v * v};
-    const double b1[3] = {3 * w * w, 6 * w * v, 3 * v * v};
-    TubePoint t{{0, 0}, {0, 0}, {0, 0}, 0, 0};
-    for (int i = 0; i < 4; ++i) {
-        t.centre += p[i] * b[i];
-        t.radius += r[i] * b[i];
-    }
-    for (int i = 0; i < 3; ++i) {
-        t.centre1 += (p[i + 1] - p[i]) * b1[i];
-        t.radius1 += (r[i + 1] - r[i]) * b1[i];
-    }
-    for (int i = 0; i < 2; ++i)
-        t.centre2 += (p[i + 2] - 2.0 * p[i + 1] + p[i]) * (6 * (i == 0 ? w : v));
-    return t;
-}
-
-ShapePoint spoutPoint(double u, double v)
-{
-    const TubePoint c = spoutCurve(v);
-    // The frame of the cross section: `side` in the plane of the curve, z across it.
-    const double speed = glm::length(c.centre1);
-    const glm::dvec2 along = c.centre1 / speed;
-    const glm::dvec3 side{-along.y, along.x, 0};
-    const glm::dvec2 along1 = (c.centre2 - along * glm::dot(along, c.centre2)) / speed;
-    const glm::dvec3 side1{-along1.y, along1.x, 0};
-
-    const double angle = turnsToRadians(u);
-    const glm::dvec3 radial = side * std::cos(angle) + glm::dvec3(0, 0, std::sin(angle));
-    const glm::dvec3 around = side * -std::sin(angle) + glm::dvec3(0, 0, std::cos(angle));
-    const glm::dvec3 down = glm::dvec3(c.centre1, 0) + radial * c.radius1 + side1 * (c.radius * std::cos(angle));
-    return {glm::dvec3(c.centre, 0) + radial * c.radius, glm::normalize(glm::cross(down, around))};
-}
-
 } // namespace
 
 Mesh makePlane(float side, int segments, float uvRepeat)
@@ -199,12 +154,6 @@ Mesh makeTorus(float majorRadius, float minorRadius, int segments, float repeatU
     });
     scaleTexcoords(mesh, repeatU, repeatV);
     return mesh;
-}
-
-Mesh makeSpout(int segments)
-{
-    segments = std::max(segments, 3);
-    return gridMesh("spout", {segments, segments}, spoutPoint);
 }
 
 Mesh makePatch(float stretch, float shear, bool mirrored, int segments)

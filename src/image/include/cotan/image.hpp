@@ -25,9 +25,8 @@ namespace cotan {
 
 // ---- whole images --------------------------------------------------------------------------
 
-// Whether these first bytes of a file are those of a PNG or a JPEG, the formats that every glTF reader supports.
+// Whether these first bytes of a file are those of a PNG.
 bool isPng(std::span<const std::byte> bytes);
-bool isJpeg(std::span<const std::byte> bytes);
 
 // Format of an image by its first bytes: "PNG" or "JPEG", or "WebP", "KTX2", "DDS" or "AVIF", which extensions of glTF
 // add. Empty for other data.

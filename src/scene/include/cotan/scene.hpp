@@ -308,7 +308,6 @@ Mesh makeTorus(float majorRadius, float minorRadius, int segments, float repeatU
 // The 32 patches of M. Newell's teapot, one unit high, resting on y = 0, with the spout along +x. Every patch covers
 // the unit square of uv: u runs around, v runs down the pot and along handle and spout.
 Mesh makeTeapot(int segmentsPerPatch);
-Mesh makeSpout(int segments); // bent, tapering, open tube; its uv are squeezed at the tip
 // A centred unit square in the xy plane facing +z. Its uv are L^-1 p with L = [stretch, shear; 0, 1], where p is
 // measured right and down from the top left corner; `mirrored` negates u. (Figure 2.6.4 of the 2006 chapter.)
 Mesh makePatch(float stretch, float shear, bool mirrored, int segments);
