@@ -1,6 +1,7 @@
 // Frames of projectors, coordinates that jump, and rotated tiles, compared with analytic maps.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
