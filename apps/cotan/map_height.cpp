@@ -83,12 +83,12 @@ Status runFrom(const MapFromHeightCommandOptions& o)
     if (done->heights == PixelType::unorm8)
         warn(o, "{}: 8-bit heights make steps; one step is a slope of {:.3g} here", o.file, done->slopeX / 255 / 2);
     say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bitsName(done->bits),
-        describe(to->convention));
+        describe(*to));
     return writeReport(o,
                        {{"command", "map from-height"},
                         {"file", o.file},
                         {"output", o.output.string()},
-                        {"to", describe(to->convention)},
+                        {"to", describe(*to)},
                         {"slope_per_unit_and_texel", {done->slopeX, done->slopeY}},
                         {"bits", bitsName(done->bits)},
                         {"invalid", done->invalid}});
