@@ -137,6 +137,6 @@ int main(int count, char** words)
     try {
         return cotan::bench::measure(options);
     } catch (const std::exception& e) {
-        return cotan::bench::failed(3, cotan::cost::reason(e));
+        return cotan::bench::failed(3, cotan::reason(e));
     }
 }
