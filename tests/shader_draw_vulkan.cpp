@@ -1,7 +1,9 @@
 // Runs fragment shaders that take screen-space derivatives, in GLSL and HLSL, with the viewport's y down and flipped.
+#include <cstring>
+
+#include "render/vulkan/memory.hpp"
 #include "shader_run.hpp"
 #include "shader_vulkan.hpp"
-#include "timing_scene.hpp"
 
 namespace cotan::test {
 
@@ -46,18 +48,20 @@ std::string fragmentOf(const Case& c, Language language)
 
 class ShaderRenderer {
 public:
-    ShaderRenderer(cost::Device& device, const std::vector<Corner>& corners)
-        : device_(device), count_(static_cast<std::uint32_t>(corners.size()))
+    ShaderRenderer(const Device& device, const std::vector<Corner>& corners)
+        : device_(device), count_(static_cast<std::uint32_t>(corners.size())), memory_(device), commands_(device)
     {
         using U = vk::BufferUsageFlagBits;
         using I = vk::ImageUsageFlagBits;
-        corners_ = cost::makeBuffer(device, U::eVertexBuffer, corners.data(), corners.size() * sizeof(Corner));
+        corners_ = makeHostBuffer(memory_, corners.size() * sizeof(Corner), U::eVertexBuffer);
+        std::memcpy(corners_.mapped, corners.data(), corners.size() * sizeof(Corner));
         const std::vector<float> none(kTarget * kTarget * 4, 9.0f);
-        out_ = cost::makeBuffer(device, U::eTransferDst, none.data(), none.size() * sizeof(float));
-        target_ = cost::makeGpuImage(device, kFormat, kTarget, I::eColorAttachment | I::eTransferSrc);
+        out_ = makeHostBuffer(memory_, none.size() * sizeof(float), U::eTransferDst, true);
+        std::memcpy(out_.mapped, none.data(), none.size() * sizeof(float));
+        target_ = makeTexture(
+            memory_, {.format = kFormat, .extent = {kTarget, kTarget}, .usage = I::eColorAttachment | I::eTransferSrc});
         layout_ = vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo());
         vertex_ = module(toSpirv(kVertex, "vert", false, "vertex shader"));
-        commandPool_ = vk::raii::CommandPool(device.device, {{}, device.queueFamily});
     }
 
     std::vector<glm::dvec3> draw(const std::string& spirv)
@@ -69,10 +73,9 @@ public:
              {vk::Viewport(0, 0, size, size, 0, 1), vk::Viewport(0, size, size, -size, 0, 1)}) {
             submit(pipeline, viewport);
             const std::size_t floats = kTarget * kTarget * 4;
-            const auto* at = static_cast<const float*>(out_.memory.mapMemory(0, floats * sizeof(float)));
+            const auto* at = reinterpret_cast<const float*>(out_.mapped);
             for (std::size_t k = 0; k < floats; k += 4)
                 pixels.push_back({at[k], at[k + 1], at[k + 2]});
-            out_.memory.unmapMemory();
         }
         return pixels;
     }
@@ -119,10 +122,11 @@ private:
     void submit(const vk::raii::Pipeline& pipeline, const vk::Viewport& viewport)
     {
         using L = vk::ImageLayout;
-        const vk::raii::CommandBuffer commands = std::move(
-            vk::raii::CommandBuffers(device_.device, {*commandPool_, vk::CommandBufferLevel::ePrimary, 1})[0]);
-        commands.begin(vk::CommandBufferBeginInfo());
-        cost::transition(commands, *target_.image, L::eUndefined, L::eColorAttachmentOptimal);
+        const vk::raii::CommandBuffer& commands = commands_.begin();
+        constexpr ImageUse drawn{L::eColorAttachmentOptimal, Stage::eColorAttachmentOutput,
+                                 Access::eColorAttachmentWrite};
+        constexpr auto colors = vk::ImageAspectFlagBits::eColor;
+        transition(commands, *target_.image, colors, {L::eUndefined, Stage::eTransfer, {}}, drawn);
         const vk::RenderingAttachmentInfo color(*target_.view, L::eColorAttachmentOptimal, {}, {}, {},
                                                 vk::AttachmentLoadOp::eClear);
         commands.beginRendering(vk::RenderingInfo({}, {{0, 0}, {kTarget, kTarget}}, 1, 0, color));
@@ -131,32 +135,26 @@ private:
         commands.bindVertexBuffers(0, *corners_.buffer, vk::DeviceSize(0));
         commands.draw(count_, 1, 0, 0);
         commands.endRendering();
-        cost::transition(commands, *target_.image, L::eColorAttachmentOptimal, L::eTransferSrcOptimal);
-        const vk::BufferImageCopy whole(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {kTarget, kTarget, 1});
-        commands.copyImageToBuffer(*target_.image, L::eTransferSrcOptimal, *out_.buffer, whole);
-        const vk::MemoryBarrier seen(vk::AccessFlagBits::eTransferWrite, vk::AccessFlagBits::eHostRead);
-        commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eHost, {}, seen, {},
-                                 {});
-        commands.end();
-        const vk::raii::Queue queue = device_.device.getQueue(device_.queueFamily, 0);
-        queue.submit(vk::SubmitInfo({}, {}, *commands));
-        queue.waitIdle();
+        transition(commands, *target_.image, colors, drawn, kCopied);
+        copyToHost(commands, device_, *target_.image, target_.extent, out_);
+        commands_.submitAndWait();
     }
 
-    cost::Device& device_;
+    const Device& device_;
     std::uint32_t count_;
-    cost::Buffer corners_, out_;
-    cost::GpuImage target_;
+    Memory memory_;
+    Commands commands_;
+    Buffer corners_, out_;
+    Texture2D target_;
     vk::raii::PipelineLayout layout_{nullptr};
     vk::raii::ShaderModule vertex_{nullptr};
-    vk::raii::CommandPool commandPool_{nullptr};
 };
 
 } // namespace
 
 Results drawVulkan(const std::vector<Case>& drawn, const std::vector<Corner>& corners, Language language)
 {
-    return onFirstDevice(language, [&](cost::Device& device, Results& results) {
+    return onFirstDevice(language, [&](const Device& device, Results& results) {
         ShaderRenderer painter(device, corners);
         for (const Case& c : drawn)
             results.values.push_back(

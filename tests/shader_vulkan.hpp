@@ -20,11 +20,11 @@ template<class Work> Results onFirstDevice(shader_text::Language language, const
                 continue;
             cost::open(device);
             results.skipped.clear();
-            work(device, results);
+            work(*device.opened, results);
             return results;
         }
     } catch (const vk::SystemError& e) {
-        results.skipped = cost::reason(e);
+        results.skipped = reason(e);
     }
     return results;
 }

@@ -52,8 +52,10 @@ COTAN_FUNCTION cotan_vec2 cotan_slope_of_rotated(cotan_vec2 slope, cotan_real co
 
 // The three hexagons that meet at a point, with their weights.
 struct cotan_hex_tiles {
-    cotan_vec2 a, b, c;  // whole numbers that identify each hexagon: the seed of its random rotation and offset
-    cotan_vec3 weights;  // of a, b, c; their sum is 1
+    cotan_vec2 a; // whole numbers that identify the hexagon: the seed of its random rotation and offset
+    cotan_vec2 b;
+    cotan_vec2 c;
+    cotan_vec3 weights; // of a, b and c; their sum is 1
 };
 
 // Returns the hexagons for hex tiling and texture bombing: look the map up once per hexagon, with a rotation and offset
