@@ -98,6 +98,7 @@ struct CountedReal {
         return counted(&Operations::bits, std::ldexp(1.0, -std::ilogb(a.value)));
     }
     friend CountedReal exp2(CountedReal a) { return CountedReal(std::exp2(a.value)); }
+    friend CountedReal floor(CountedReal a) { return CountedReal(std::floor(a.value)); }
     friend CountedReal pow(CountedReal a, CountedReal b) { return CountedReal(std::pow(a.value, b.value)); }
 
 private:
