@@ -246,8 +246,10 @@ TEST(Figures, beyondTheMapCotanFollowsTheTruthAndTheUsualFormsDoNot)
     EXPECT_GT(number(0, "plane, usual, texels"), 26);
     EXPECT_LT(number(0, "plane, usual, texels"), 53.3);
     EXPECT_GT(number(0, "cylinder, usual, texels"), 15);
-    // The truth has the curvature of the cylinder, which steepens slopes by the height: at most 0.078 of the radius.
-    EXPECT_LT(angle(r, 1, "cotan"), 0.078 * 45);
+    // The truth has the curvature of the cylinder. A height of 0.8 * 0.06 * 1.3 of the radius flattens slopes around it
+    // by as much, 6.2 %, and the steepest is 0.8 * 0.92: 0.062 * 0.74 / (1 + 0.74^2) = 1.7 degrees. The ribs below add
+    // some.
+    EXPECT_LT(angle(r, 1, "cotan", "max_degrees"), 1.9);
     EXPECT_GT(angle(r, 1, "usual"), 5);
     EXPECT_LT(angle(r, 2, "cotan"), 1); // differences over a pixel of a curved surface
     // At the equator atan(sin 30 / (sin 30 + cos 30)) + atan((cos 30 - sin 30) / cos 30) = 43.0 degrees.
