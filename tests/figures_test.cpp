@@ -22,8 +22,8 @@ using namespace app;
 using namespace test;
 using Words = std::vector<std::string>;
 
-const char* const kNames[] = {"2.6.3",    "2.6.4",   "2.6.5",  "tutorial", "normal-matrices",
-                              "mirrored", "targets", "decode", "faceting", "sparkle"};
+const char* const kNames[] = {"2.6.3",  "2.6.4",    "2.6.5",   "tutorial", "normal-matrices", "mirrored", "targets",
+                              "decode", "faceting", "sparkle", "parallax", "decal",           "grooves",  "isolines"};
 
 Words command(const std::string& folder, const Words& more)
 {
@@ -229,6 +229,34 @@ TEST(Figures, antialiasingHalvesTheErrorOfHighlights)
         EXPECT_LT(numbers[map + ", error with"].get<double>(), 0.5 * numbers[map + ", error without"].get<double>());
         EXPECT_GT(numbers[map + ", error without"].get<double>(), 0.03) << "there is nothing to see";
     }
+}
+
+TEST(Figures, beyondTheMapCotanFollowsTheTruthAndTheUsualFormsDoNot)
+{
+    const auto r = report("parallax,decal,grooves,isolines", "64x48");
+    const auto number = [&](std::size_t figure, const char* name) {
+        return r["figures"][figure]["numbers"][name].get<double>();
+    };
+    // The last step of the search is 0.06 * tan 60 / 64 / 64 * 512 texels = 0.013 along each of u and v. A few lines of
+    // sight graze a dome between two readings. Around the cylinder the ray is straight in space and not in uv.
+    EXPECT_LT(number(0, "plane, cotan, texels"), 0.3);
+    EXPECT_LT(number(0, "cylinder, cotan, texels"), 3);
+    // The view has no part along dP/du, so the usual form leaves u as it is. Right is 0.06 tan 60 * 512 = 53.2 texels
+    // at the ground and less on the domes, which cover half of it.
+    EXPECT_GT(number(0, "plane, usual, texels"), 26);
+    EXPECT_LT(number(0, "plane, usual, texels"), 53.3);
+    EXPECT_GT(number(0, "cylinder, usual, texels"), 15);
+    // The truth has the curvature of the cylinder. A height of 0.8 * 0.06 * 1.3 of the radius flattens slopes around it
+    // by as much, 6.2 %, and the steepest is 0.8 * 0.92: 0.062 * 0.74 / (1 + 0.74^2) = 1.7 degrees. The ribs below add
+    // some.
+    EXPECT_LT(angle(r, 1, "cotan", "max_degrees"), 1.9);
+    EXPECT_GT(angle(r, 1, "usual"), 5);
+    EXPECT_LT(angle(r, 2, "cotan"), 1); // differences over a pixel of a curved surface
+    // At the equator atan(sin 30 / (sin 30 + cos 30)) + atan((cos 30 - sin 30) / cos 30) = 43.0 degrees.
+    EXPECT_NEAR(angle(r, 2, "usual"), 43, 12);
+    EXPECT_NEAR(number(3, "grad u, degrees from the normal of the lines of u"), 0, 1e-9);
+    EXPECT_NEAR(number(3, "dP/du, degrees from the normal of the lines of u"), 45, 1e-9);
+    EXPECT_NEAR(number(3, "dP/du, degrees from the lines of v"), 0, 1e-9);
 }
 
 TEST(Page, escapesTextAndEncodesBytes)

@@ -52,5 +52,9 @@ Figure makeTargetsFigure(FigureRenderer& studio);
 Figure makeDecodeFigure(FigureRenderer& studio);
 Figure makeFacetingFigure(FigureRenderer& studio);
 Figure makeSparkleFigure(FigureRenderer& studio);
+Figure makeParallaxFigure(FigureRenderer& studio);
+Figure makeDecalFigure(FigureRenderer& studio);
+Figure makeGroovesFigure(FigureRenderer& studio);
+Figure makeIsolinesFigure(FigureRenderer& studio);
 
 } // namespace cotan::figures

@@ -34,6 +34,10 @@ constexpr FigureInfo kFigures[] = {
     {"decode", makeDecodeFigure},
     {"faceting", makeFacetingFigure},
     {"sparkle", makeSparkleFigure},
+    {"parallax", makeParallaxFigure},
+    {"decal", makeDecalFigure},
+    {"grooves", makeGroovesFigure},
+    {"isolines", makeIsolinesFigure},
 };
 
 // Returns the figures with these names in the order of the table; all of them if `only` is empty.
