@@ -289,30 +289,39 @@ void addLines(std::vector<Case>& all)
     all.push_back(COTAN_LINE_CASE("blend slopes", cotan_blend_slopes(m, m2, cotan_real(0.7), cotan_real(0.4))));
     all.push_back(COTAN_LINE_CASE("blend linear", cotan_blend_linear(m, m2)));
     // A frame whose vectors are neither orthogonal nor unit, and a vector into it.
-    all.push_back(COTAN_LINE_CASE("into texture space", cotan_to_texture_space(COTAN_PROJECTED, m)));
-    all.push_back(COTAN_LINE_CASE("texture travel", cotan_texture_travel(COTAN_PROJECTED, m)));
+    all.push_back(
+        COTAN_LINE_CASE("into texture space", cotan_normalize_or(cotan_to_texture_space(COTAN_PROJECTED, m), n)));
+    all.push_back(COTAN_LINE_CASE("texture travel", cotan_normalize_or(cotan_texture_travel(COTAN_PROJECTED, m), n)));
     all.push_back(COTAN_LINE_CASE("tangent direction",
                                   cotan_tangent_direction(COTAN_PROJECTED, n, cotan_vec2(m.x, cotan_real(0.7)))));
     all.push_back(COTAN_LINE_CASE("projected", cotan_apply(COTAN_PROJECTED, m)));
-    all.push_back(COTAN_LINE_CASE("wrapped differences",
-                                  cotan_vec3(cotan_wrapped_difference(m.x * cotan_real(3.0), cotan_real(1.0)),
-                                             cotan_wrapped_difference(m.y, cotan_real(0.0)), cotan_real(0.25))));
+    all.push_back(
+        COTAN_LINE_CASE("wrapped differences",
+                        cotan_normalize_or(cotan_vec3(cotan_wrapped_difference(m.x * cotan_real(3.0), cotan_real(1.0)),
+                                                      cotan_wrapped_difference(m.y, cotan_real(0.0)), cotan_real(0.25)),
+                                           n)));
     all.push_back(COTAN_LINE_CASE(
         "rotated slope",
-        cotan_vec3(cotan_slope_of_rotated(cotan_vec2(m.x, m.y), cotan_real(0.6), cotan_real(0.8)).x,
-                   cotan_slope_of_rotated(cotan_vec2(m.x, m.y), cotan_real(0.6), cotan_real(0.8)).y, m.z)));
-    all.push_back(COTAN_LINE_CASE("hex tiles", cotan_hex_tiles_at(cotan_vec2(m.x, m.y), cotan_real(7.0)).weights));
-    all.push_back(
-        COTAN_LINE_CASE("parallax",
-                        cotan_vec3(cotan_parallax_offset(COTAN_PROJECTED, m, cotan_real(0.5)).x,
-                                   cotan_parallax_offset(COTAN_PROJECTED, m, cotan_real(0.5)).y, cotan_real(1.0))));
-    // Two readings, the second inside the relief, then one of its shadow. All compared values are exact in float.
-    all.push_back(COTAN_LINE_CASE("relief", cotan_vec3(COTAN_RELIEF.uv.x, COTAN_RELIEF.uv.y, COTAN_RELIEF.at)));
-    all.push_back(
-        COTAN_LINE_CASE("relief, its shadow",
-                        cotan_vec3(COTAN_RELIEF_SHADOW.uv.x, COTAN_RELIEF_SHADOW.uv.y,
-                                   COTAN_RELIEF_SHADOW.at
-                                       + cotan_relief_distance(COTAN_RELIEF, COTAN_PROJECTED, n, cotan_real(0.25)))));
+        cotan_normalize_or(cotan_vec3(cotan_slope_of_rotated(cotan_vec2(m.x, m.y), cotan_real(0.6), cotan_real(0.8)).x,
+                                      cotan_slope_of_rotated(cotan_vec2(m.x, m.y), cotan_real(0.6), cotan_real(0.8)).y,
+                                      m.z),
+                           n)));
+    all.push_back(COTAN_LINE_CASE(
+        "hex tiles", cotan_normalize_or(cotan_hex_tiles_at(cotan_vec2(m.x, m.y), cotan_real(7.0)).weights, n)));
+    all.push_back(COTAN_LINE_CASE(
+        "parallax",
+        cotan_normalize_or(cotan_vec3(cotan_parallax_offset(COTAN_PROJECTED, m, cotan_real(0.5)).x,
+                                      cotan_parallax_offset(COTAN_PROJECTED, m, cotan_real(0.5)).y, cotan_real(1.0)),
+                           n)));
+    // Two readings, the second inside the relief, then one of its shadow. What is compared to decide is exact in float.
+    all.push_back(COTAN_LINE_CASE(
+        "relief", cotan_normalize_or(cotan_vec3(COTAN_RELIEF.uv.x, COTAN_RELIEF.uv.y, COTAN_RELIEF.at), n)));
+    all.push_back(COTAN_LINE_CASE(
+        "relief, its shadow",
+        cotan_normalize_or(cotan_vec3(COTAN_RELIEF_SHADOW.uv.x, COTAN_RELIEF_SHADOW.uv.y,
+                                      COTAN_RELIEF_SHADOW.at
+                                          + cotan_relief_distance(COTAN_RELIEF, COTAN_PROJECTED, n, cotan_real(0.25))),
+                           n)));
 }
 
 // `triangle` in two stages, as it is used: the first makes U and V in half floats.

@@ -56,7 +56,7 @@ struct cotan_relief {
     cotan_vec2 travel; // change of uv over the whole ray
     cotan_real at;     // of the next reading: 0 where the ray enters, 1 at its end
     cotan_real step;   // to the next reading
-    cotan_real from;   // stored height of the ray where it enters
+    cotan_real begin;  // stored height of the ray where it enters
     cotan_real climb;  // change of its stored height over the whole ray
     cotan_real found;  // 1 once a reading was inside the relief, otherwise 0
 };
@@ -76,7 +76,7 @@ COTAN_FUNCTION cotan_relief cotan_relief_start(
     r.travel = finite ? travel : cotan_vec2(cotan_real(0.0), cotan_real(0.0));
     r.step = cotan_real(1.0) / (steps >= cotan_real(1.0) ? steps : cotan_real(1.0));
     r.at = r.step;
-    r.from = cotan_real(1.0);
+    r.begin = cotan_real(1.0);
     r.climb = cotan_real(-1.0);
     r.found = cotan_real(0.0);
     r.uv = r.origin + r.travel * r.at;
@@ -86,7 +86,7 @@ COTAN_FUNCTION cotan_relief cotan_relief_start(
 // Returns the search after a reading at r.uv. height: stored, 0 to 1; a NaN counts as outside the relief.
 COTAN_FUNCTION cotan_relief cotan_relief_next(cotan_relief r, cotan_real height)
 {
-    bool inside = height >= r.from + r.climb * r.at;
+    bool inside = height >= r.begin + r.climb * r.at;
     r.found = inside ? cotan_real(1.0) : r.found;
     r.step = r.found > cotan_real(0.5) ? r.step * cotan_real(0.5) : r.step;
     r.at = min(max(r.at + (inside ? -r.step : r.step), cotan_real(0.0)), cotan_real(1.0));
@@ -115,7 +115,7 @@ COTAN_FUNCTION cotan_relief cotan_relief_shadow(
     cotan_relief r = cotan_relief_start(f, to_light, uv, depth * (cotan_real(1.0) - h), steps);
     r.travel = r.travel * cotan_real(-1.0);
     // Starts half an 8-bit step above the point, which otherwise shadows itself.
-    r.from = h + cotan_real(0.5 / 255.0);
+    r.begin = h + cotan_real(0.5 / 255.0);
     r.climb = cotan_real(1.0) - h;
     r.uv = r.origin + r.travel * r.at;
     return r;
