@@ -54,6 +54,7 @@ inline cotan_real min(cotan_real a, cotan_real b) { return b < a ? b : a; }
 using std::abs;
 using std::copysign;
 using std::exp2;
+using std::floor;
 using std::log2;
 using std::pow;
 using std::sqrt;

@@ -9,11 +9,11 @@
 #ifndef COTAN_MAPPING_H
 #define COTAN_MAPPING_H
 
-// Returns the frame of a projector (a decal, a slide, a planar or cylindrical mapping) on a surface: the parts of grad u
+// Returns the frame of a projector (a decal, a slide, a planar or cylindrical map) on a surface: the parts of grad u
 // and grad v in the tangent plane. It is metric, like `gradient`: multiply t and b by the length over which the map was
 // made (the width of the decal, for a map with square texels) for bumps of the map's own steepness.
-// n: the surface normal, any length. grad_u, grad_v: changes of u and v per unit of length, in the space of n. For a box
-// with the unit axes x, y and the sizes w, h they are x / w and y / h; with v downwards -y / h. Mirrored and turned
+// n: the surface normal, any length. grad_u, grad_v: changes of u and v per unit of length, in the space of n. A box
+// with the unit axes x, y and the sizes w, h has x / w and y / h; with v downwards -y / h. Mirrored and turned
 // boxes need nothing else.
 // Degenerate input: gradients that are not finite give t = b = 0; a surface edge-on to the projector gives t or b = 0.
 // Source: [2020] section 3.
@@ -28,8 +28,8 @@ COTAN_FUNCTION cotan_frame cotan_frame_projected(cotan_vec3 n, cotan_vec3 grad_u
     return f;
 }
 
-// Returns a difference of a coordinate that jumps by `period`, such as an angle of atan2 or the result of fract, without
-// the jump: the nearest value of d + k * period. Apply it to each screen derivative, and pass the results to a frame and
+// Returns a difference of a coordinate that jumps by `period`, such as an angle of atan2 or a result of fract, without
+// the jump: the nearest value of d + k * period. Apply it to each screen derivative, and pass the result to a frame and
 // to the texture lookup with gradients.
 // d: finite, less than half a period without the jump: true where the pattern spans more than two pixels. period:
 // positive; zero or less returns d.
@@ -40,7 +40,7 @@ COTAN_FUNCTION cotan_real cotan_wrapped_difference(cotan_real d, cotan_real peri
     return usable ? d - p * floor(d / p + cotan_real(0.5)) : d;
 }
 
-// Returns the slope of a map that is looked up at rotated (and scaled) coordinates uv' = s * R(angle) * uv, in the slopes
+// Returns the slope of a map that is looked up at rotated (and scaled) coordinates uv' = s * R(angle) * uv, in slopes
 // of uv: R is a counter-clockwise rotation from u to v. Rotated tiles keep their bumps lit from the same side.
 // slope: of the texel, by cotan_slope_of_texel. cosine, sine: of the angle. With a scale of s the bumps are s times as
 // dense; multiply the result by s for a fixed height, or not, for a fixed steepness.
@@ -59,7 +59,7 @@ struct cotan_hex_tiles {
 };
 
 // Returns the hexagons for hex tiling and texture bombing: look the map up once per hexagon, with a rotation and offset
-// of its own, rotate the slopes back (cotan_slope_of_rotated), and add them by weight. Slopes add up to the slope of the
+// of its own, rotate the slopes back (cotan_slope_of_rotated), and add them by weight. Slopes add up to that of the
 // weighted heights, so the result is a normal of a surface; mixed normals are not.
 // uv: finite, up to 1e5. sharpness: exponent of the weights, 1 to 16; 7 is usual.
 // Source: [2022] section 3: a skewed grid of triangles of side 1 / (2 sqrt 3).

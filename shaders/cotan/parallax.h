@@ -3,11 +3,11 @@
 //
 // With the frame `gradient` (or another whose t and b are grad u and grad v per unit of length) a point at height h
 // above the surface, on the line of sight, has the texture coordinates uv + h * (t . v, b . v) / (n . v). That is exact
-// on a plane, for stretched, sheared and mirrored uv alike, with heights in the unit of the positions; on curved surfaces
+// on a plane, for stretched, sheared and mirrored uv alike, with heights in the unit of positions; on curved surfaces
 // the error grows with h over the radius. The usual form with a tangent matrix needs square, unsheared texels.
 //
 // Heights are stored as 0 to 1. 1 is the surface itself, and 0 lies `depth` below it.
-// Take all differences of uv before the offset, and sample maps at the new coordinates with these gradients (textureGrad,
+// Take all differences of uv before the offset, and sample maps at the new coordinates with these (textureGrad,
 // SampleGrad): the derivatives of moved coordinates jump where the ray passes an edge, and choose wrong mips there.
 //
 //   cotan_relief r = cotan_relief_start(frame, to_eye, uv, depth, 16.0);
@@ -62,7 +62,7 @@ struct cotan_relief {
 };
 
 // Returns the search along the line of sight, from the surface down to `depth` below it.
-// f: `gradient`. to_eye: to the eye, any length. uv: interpolated. depth: in the unit of the positions; zero, negative or
+// f: `gradient`. to_eye: to the eye, any length. uv: interpolated. depth: in the unit of positions; zero, negative or
 // not finite leaves uv as they are. steps: readings before the search halves its step; less than 1 counts as 1.
 // Source: [2005] section 4.
 COTAN_FUNCTION cotan_relief cotan_relief_start(
@@ -94,7 +94,7 @@ COTAN_FUNCTION cotan_relief cotan_relief_next(cotan_relief r, cotan_real height)
     return r;
 }
 
-// Returns the distance along the line of sight from the surface to the point that was found, in the unit of `depth`: add
+// Returns the distance along the line of sight from the surface to the point that was found, in units of `depth`: add
 // it to the distance of the pixel for a depth that meets other objects where the relief does (gl_FragDepth).
 // r: after the last reading. depth, to_eye: as for cotan_relief_start.
 COTAN_FUNCTION cotan_real cotan_relief_distance(cotan_relief r, cotan_frame f, cotan_vec3 to_eye, cotan_real depth)
