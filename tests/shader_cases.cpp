@@ -307,7 +307,7 @@ void addLines(std::vector<Case>& all)
                                       m.z),
                            n)));
     all.push_back(COTAN_LINE_CASE(
-        "hex tiles", cotan_normalize_or(cotan_hex_tiles_at(cotan_vec2(m.x, m.y), cotan_real(7.0)).weights, n)));
+        "hex tiles", cotan_normalize_or(cotan_hex_tiles_at(cotan_vec2(m.x, m.y), cotan_real(2.0)).weights, n)));
     all.push_back(COTAN_LINE_CASE(
         "parallax",
         cotan_normalize_or(cotan_vec3(cotan_parallax_offset(COTAN_PROJECTED, m, cotan_real(0.5)).x,

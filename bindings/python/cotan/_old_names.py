@@ -12,6 +12,7 @@ NAMES = {
     "read_picture": "read_image",
     "write_picture": "write_image",
 }
+_PACKAGE = __name__.rpartition(".")[0]  # also where it lies inside another package, as in the Blender add-on
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
@@ -24,14 +25,14 @@ def of_package(name: str) -> Any:
     if name not in NAMES:
         raise AttributeError(f"module 'cotan' has no attribute '{name}'")
     _warn(f"cotan.{name}", f"cotan.{NAMES[name]}")
-    return getattr(sys.modules["cotan"], NAMES[name])
+    return getattr(sys.modules[_PACKAGE], NAMES[name])
 
 
 def of_module(old: str, new: str) -> None:
     """Lets `import cotan.OLD` find the module cotan.NEW, whose functions have old names, too."""
-    module = importlib.import_module(f"cotan.{new}")
+    module = importlib.import_module(f"{_PACKAGE}.{new}")
     setattr(module, "__getattr__", of_package)
-    sys.modules[f"cotan.{old}"] = module
+    sys.modules[f"{_PACKAGE}.{old}"] = module
 
 
 def attribute(old: str, new: str) -> Any:
