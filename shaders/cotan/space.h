@@ -16,27 +16,18 @@
 
 // Returns m with t*m.x + b*m.y + n*m.z = v: v in texture space, along (+u, +v, outwards). Its length is not kept.
 // f: any frame; its vectors need not be orthogonal or unit. v: any length, in the space of f.
-// Degenerate input: dependent or zero covectors (a frame without a map), v that is not finite: (0, 0, n . v), or
-// (0, 0, 0) where that is not finite either.
-// Source: [2006], by the adjugate of [t b n].
+// Degenerate input: dependent or zero covectors (a frame without a map) give (0, 0, n . v); v that is not finite: zero.
+// Source: [2006]. The direction is that of cotan_encode.
 COTAN_FUNCTION cotan_vec3 cotan_to_texture_space(cotan_frame f, cotan_vec3 v)
 {
-    bool finite = cotan_sum_abs(v) <= COTAN_HUGE;
-    v = finite ? v : cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
-    // Both covectors of uv are scaled by one power of two, so that their products stay in range.
-    cotan_real scale = cotan_power_of_two_scale(max(cotan_max_abs(f.t), cotan_max_abs(f.b)));
-    cotan_vec3 t = f.t * scale;
-    cotan_vec3 b = f.b * scale;
-    cotan_vec3 bn = cross(b, f.n);
-    cotan_vec3 nt = cross(f.n, t);
-    cotan_real determinant = dot(t, bn);
-    cotan_real along_n = dot(v, f.n);
-    bool usable = abs(determinant) > cotan_real(1e-12) && abs(determinant) <= COTAN_HUGE;
-    cotan_real inverse = cotan_real(1.0) / (usable ? determinant : cotan_real(1.0));
-    cotan_vec3 m = cotan_vec3(dot(v, bn) * scale, dot(v, nt) * scale, dot(v, cross(t, b))) * inverse;
-    usable = usable && cotan_sum_abs(m) <= COTAN_HUGE;
-    along_n = abs(along_n) <= COTAN_HUGE ? along_n : cotan_real(0.0);
-    return usable ? m : cotan_vec3(cotan_real(0.0), cotan_real(0.0), along_n);
+    cotan_vec3 zero = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
+    v = cotan_sum_abs(v) <= COTAN_HUGE ? v : zero;
+    cotan_vec3 m = cotan_encode(f, v);
+    cotan_vec3 back = f.t * m.x + f.b * m.y + f.n * m.z; // along v
+    cotan_vec3 along = m * (dot(v, back) / dot(back, back));
+    cotan_real height = dot(f.n, v);
+    cotan_vec3 flat_v = cotan_vec3(zero.x, zero.y, abs(height) <= COTAN_HUGE ? height : zero.z);
+    return cotan_sum_abs(along) <= COTAN_HUGE ? along : flat_v;
 }
 
 // Returns the changes of u, v and height of a point that moves by v: (t . v, b . v, n . v).
