@@ -193,6 +193,33 @@ TEST(ReliefShadow, isFoundWhereTheRayToTheLightMeetsTheReliefAndNowhereElse)
     EXPECT_GT(bright, 30);
 }
 
+// A search ends a little inside the relief. Its point must not shadow itself, even near the surface: steps are small
+// there.
+TEST(ReliefShadow, aPointJustInsideAFlatReliefIsLit)
+{
+    const cotan_frame f{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (const double height : {0.3, 0.97, 1.0}) {
+        cotan_relief r = cotan_relief_shadow(f, {1, 0, 1}, {0.5, 0.5}, height - 0.001, 0.1, 48);
+        for (int k = 0; k < 48; ++k)
+            r = cotan_relief_next(r, height);
+        EXPECT_EQ(r.found, 0) << height;
+    }
+}
+
+TEST(Relief, itsDistanceLeadsAlongTheLineOfSightToItsDepth)
+{
+    const cotan_frame f{{2, 0, 0}, {1, 1, 0}, {0, 0, 1}};
+    for (const double degrees : {0.0, 50.0, 80.0, 86.0}) {
+        const glm::dvec3 v(std::sin(degrees * kDegree), 0, std::cos(degrees * kDegree));
+        cotan_relief r = cotan_relief_start(f, v * 3.0, {0, 0}, 0.2, 4);
+        for (int k = 0; k < 4 + 20; ++k)
+            r = cotan_relief_next(r, 0.375);
+        const glm::dvec3 found = -v * cotan_relief_distance(r, f, v * 3.0, 0.2);
+        EXPECT_NEAR(found.z, (0.375 - 1) * 0.2, 1e-6) << degrees;
+        EXPECT_LT(glm::length(r.uv - glm::dvec2(glm::dot(f.t, found), glm::dot(f.b, found))), 1e-6) << degrees;
+    }
+}
+
 TEST(Parallax, brokenAndExtremeInputLeavesTheCoordinates)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
