@@ -51,15 +51,6 @@ Result<Convention> parseWrittenConvention(const std::string& text, const std::st
     return stated->convention;
 }
 
-Result<std::pair<StatedConvention, StatedConvention>> parseFromTo(const std::string& from, const std::string& to)
-{
-    const auto first = parseConvention(from, "--from");
-    const auto second = parseConvention(to, "--to");
-    if (!first || !second)
-        return first ? second.error() : first.error();
-    return std::pair(*first, *second);
-}
-
 std::vector<std::string> warned(const MapOptions& options, std::vector<std::string> notes)
 {
     for (std::string& note : notes) {

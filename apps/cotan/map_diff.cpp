@@ -16,10 +16,10 @@ struct MapDiffCommandOptions : MapOptions {
 Status run(const MapDiffCommandOptions& o)
 {
     COTAN_CHECK(beginOutputs(o, {{"-o", o.output}}));
-    COTAN_TRY(conventions, parseFromTo(o.from, o.to.empty() ? o.from : o.to));
-    const auto compared = onFiles(o, o.a, [&](const FileOptions& files) {
-        return compareFiles(o.a, conventions->first, o.b, conventions->second, o.output, files);
-    });
+    COTAN_TRY(from, parseConvention(o.from, "--from"));
+    COTAN_TRY(to, o.to.empty() ? from : parseConvention(o.to, "--to"));
+    const auto compared =
+        onFiles(o, o.a, [&](const FileOptions& files) { return compareFiles(o.a, *from, o.b, *to, o.output, files); });
     if (!compared)
         return compared.error();
     const std::vector<std::string> warnings = warned(o, compared->notes);

@@ -28,9 +28,6 @@ Result<StatedConvention> parseConvention(const std::string& text, const std::str
 // The same for a map that is written: its words must not describe a broken map.
 Result<Convention> parseWrittenConvention(const std::string& text, const std::string& option);
 
-// Parses --from and --to.
-Result<std::pair<StatedConvention, StatedConvention>> parseFromTo(const std::string& from, const std::string& to);
-
 // For commands that write a map: requires -o, and plans the output `file`, or that of -o if `file` is empty.
 Status needOutput(const MapOptions& options, const std::string& command, const std::filesystem::path& file = {});
 

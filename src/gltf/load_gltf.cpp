@@ -15,10 +15,10 @@ namespace cotan {
 
 namespace {
 
-// Meshes that show the materials of variants: triangles in all, but at least so many each; the number of those that
-// differ from another one only by skin or morph weights; and their instances, which differ in stretch.
+// Meshes that show the materials of variants: triangles in all, but at least so many each; and the number of those that
+// differ from another one only by skin or morph weights.
 constexpr std::size_t kMaxVariantTriangles = 1'000'000, kMinVariantTriangles = 64;
-constexpr std::size_t kMaxVariantsAgain = 4096, kMaxStretches = 8;
+constexpr std::size_t kMaxVariantsAgain = 4096;
 
 // A mesh of the file as used by a node: morph weights and skin make its primitives depend on the node.
 struct MeshUse {

@@ -202,6 +202,9 @@ inline const std::string& objectName(const Scene& scene, const Instance& instanc
 // mirroring and uniform scale, under which all frames are equivariant.
 void addDistinctLinearMap(std::vector<glm::dmat3>& known, const glm::dmat3& linear);
 
+// The number of such maps of one mesh for which its normal maps are judged, where frames are chosen.
+inline constexpr std::size_t kMaxStretches = 8;
+
 // Adds the identity for meshes without instances, which are examined in object space.
 void addIdentityWhereEmpty(std::vector<std::vector<glm::dmat3>>& placings);
 

@@ -10,6 +10,7 @@
 #include "figure.hpp"
 #include "figure_renderer.hpp"
 #include "plot.hpp"
+#include "truth/quad.hpp"
 
 namespace cotan::figures {
 
@@ -80,11 +81,11 @@ Figure makeIsolinesFigure(FigureRenderer& studio)
     // Gradients have the unit 1/length; one line spacing makes them as long as the tangents of square texels.
     const double unit = kLineSpacing * kLineSpacing;
     const Arrow gradients[] = {{glm::dvec2(f.t) * unit, kOfU}, {glm::dvec2(f.b) * unit, kOfV}};
-    const double tangentOff = std::abs(90 - plotDegrees(alongU, linesOfU)),
-                 gradientOff = std::abs(90 - plotDegrees(f.t, linesOfU));
+    const double tangentOff = std::abs(90 - degreesBetween(alongU, linesOfU)),
+                 gradientOff = std::abs(90 - degreesBetween(f.t, linesOfU));
     figure.numbers = {{"grad u, degrees from the normal of the lines of u", gradientOff},
                       {"dP/du, degrees from the normal of the lines of u", tangentOff},
-                      {"dP/du, degrees from the lines of v", plotDegrees(alongU, linesOfV)}};
+                      {"dP/du, degrees from the lines of v", degreesBetween(alongU, linesOfV)}};
     const auto caption = [](double off) { return fmt::format("{:.0f} degrees off the normal of the red lines.", off); };
     figure.panels = {
         {"a-tangents", "tangents dP/du, dP/dv", caption(tangentOff), linesAndArrows(studio.height(), tangents, f)},

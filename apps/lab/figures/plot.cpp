@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <glm/geometric.hpp>
 
 #include "core/loops.hpp"
 #include "cotan/portable.hpp"
 #include "truth.hpp"
+#include "truth/quad.hpp"
 
 namespace cotan::figures {
 
@@ -50,11 +50,6 @@ std::vector<float> plotValues(const std::function<std::optional<double>(glm::dve
     return values;
 }
 
-double plotDegrees(glm::dvec3 a, glm::dvec3 b)
-{
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 180 / std::numbers::pi;
-}
-
 void plotDirections(Figure& figure, int side, const PlottedDirection& plotted)
 {
     const auto draw = [&](By by) { return plot(side, [&](glm::dvec2 at) { return plotted.color(by, at); }); };
@@ -64,7 +59,8 @@ void plotDirections(Figure& figure, int side, const PlottedDirection& plotted)
     for (const By by : {By::cotan, By::usual}) {
         const auto degrees = plotValues([&](glm::dvec2 at) -> std::optional<double> {
             const auto direction = plotted.direction(by, at);
-            return direction ? std::optional(plotDegrees(*direction, *plotted.direction(By::truth, at))) : std::nullopt;
+            return direction ? std::optional(degreesBetween(*direction, *plotted.direction(By::truth, at)))
+                             : std::nullopt;
         });
         figure.measures.push_back({by == By::cotan ? "cotan" : "usual", angleStatistics(degrees)});
         addError(figure, figure.measures.size() - 1, figure.measures.back().name);

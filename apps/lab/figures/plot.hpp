@@ -27,9 +27,6 @@ Image plot(int side, const std::function<glm::dvec3(glm::dvec2 at)>& color);
 // Returns the values, without those that are missing, at a grid of points that does not depend on the size of an image.
 std::vector<float> plotValues(const std::function<std::optional<double>(glm::dvec2 at)>& value);
 
-// Angle in degrees between vectors that are not zero.
-double plotDegrees(glm::dvec3 a, glm::dvec3 b);
-
 // A direction at points of an image, by each method.
 struct PlottedDirection {
     std::string cotan, usual; // labels

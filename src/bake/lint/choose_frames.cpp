@@ -22,7 +22,6 @@ namespace cotan {
 namespace {
 
 constexpr std::size_t kMaxJudged = 200'000; // triangles of a primitive
-constexpr std::size_t kMaxStretches = 8;    // of instances
 
 // In the order of cost.
 constexpr Frame kCandidates[] = {Frame::orthonormal, Frame::triangle, Frame::smooth, Frame::mikktspace};
