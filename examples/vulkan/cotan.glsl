@@ -8,7 +8,8 @@
 //   position   camera-relative (world axes, origin at the eye), interpolated, NOT normalised;
 //              normalising it first gives an error of 11 degrees at a grazing angle of 45 degrees
 //   uv         those of the normal map
-//   derivatives of position and uv: taken here by dFdx and dFdy
+//   derivatives of position and uv: taken here by dFdx and dFdy. Interpolate both alike, not
+//              at centroids; call it before any discard, if or loop that differs between pixels
 //
 // Call:
 //   vec3 n = cotan_perturb_normal(normal, position, uv, texture(normal_map, uv).xyz);

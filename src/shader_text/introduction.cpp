@@ -101,7 +101,8 @@ std::string needs(const Choice& choice, Form form)
             "//   uv         those of the normal map\n";
     if (hasScreenEntry(choice))
         return text
-            + fill("//   derivatives of position and uv: taken here by {} and {}\n",
+            + fill("//   derivatives of position and uv: taken here by {} and {}. Interpolate both alike, not\n"
+                   "//              at centroids; call it before any discard, if or loop that differs between pixels\n",
                    wordOf(choice.language, "cotan_ddx"), wordOf(choice.language, "cotan_ddy"));
     return text
         + "//   derivatives of position and uv: passed in, along any two directions, the same for both\n"

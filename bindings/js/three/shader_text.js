@@ -10,7 +10,8 @@ cotangent: `// Normal mapping, frame \`cotangent\` (total form), for GLSL ES 3.0
 //   position   camera-relative (world axes, origin at the eye), interpolated, NOT normalised;
 //              normalising it first gives an error of 11 degrees at a grazing angle of 45 degrees
 //   uv         those of the normal map
-//   derivatives of position and uv: taken here by dFdx and dFdy
+//   derivatives of position and uv: taken here by dFdx and dFdy. Interpolate both alike, not
+//              at centroids; call it before any discard, if or loop that differs between pixels
 //
 // Call:
 //   vec3 n = cotan_perturb_normal(normal, position, uv, texture(normal_map, uv).xyz);
@@ -212,7 +213,8 @@ orthonormal: `// Normal mapping, frame \`orthonormal\` (total form), for GLSL ES
 //   position   camera-relative (world axes, origin at the eye), interpolated, NOT normalised;
 //              normalising it first gives an error of 11 degrees at a grazing angle of 45 degrees
 //   uv         those of the normal map
-//   derivatives of position and uv: taken here by dFdx and dFdy
+//   derivatives of position and uv: taken here by dFdx and dFdy. Interpolate both alike, not
+//              at centroids; call it before any discard, if or loop that differs between pixels
 //
 // Call:
 //   vec3 n = cotan_perturb_normal(normal, position, uv, texture(normal_map, uv).xyz);
@@ -786,7 +788,8 @@ cotangent: `// Normal mapping, frame \`cotangent\` (total form), for WGSL.
 //   position   camera-relative (world axes, origin at the eye), interpolated, NOT normalised;
 //              normalising it first gives an error of 11 degrees at a grazing angle of 45 degrees
 //   uv         those of the normal map
-//   derivatives of position and uv: taken here by dpdxFine and dpdyFine
+//   derivatives of position and uv: taken here by dpdxFine and dpdyFine. Interpolate both alike, not
+//              at centroids; call it before any discard, if or loop that differs between pixels
 //
 // Call:
 //   let n = cotan_perturb_normal(normal, position, uv, textureSample(normal_map, map_sampler, uv).xyz);
@@ -978,7 +981,8 @@ orthonormal: `// Normal mapping, frame \`orthonormal\` (total form), for WGSL.
 //   position   camera-relative (world axes, origin at the eye), interpolated, NOT normalised;
 //              normalising it first gives an error of 11 degrees at a grazing angle of 45 degrees
 //   uv         those of the normal map
-//   derivatives of position and uv: taken here by dpdxFine and dpdyFine
+//   derivatives of position and uv: taken here by dpdxFine and dpdyFine. Interpolate both alike, not
+//              at centroids; call it before any discard, if or loop that differs between pixels
 //
 // Call:
 //   let n = cotan_perturb_normal(normal, position, uv, textureSample(normal_map, map_sampler, uv).xyz);
