@@ -287,7 +287,7 @@ TEST(MikktspaceNonManifoldEdge, pairsManyTrianglesInTheSameOrder)
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
     for (std::size_t k = 0; k < 10; ++k)
         pairs.emplace_back(k, 10 + k);
-    expectPairs("rrrrrrrrrrlllllllllll", pairs);
+    expectPairs(std::string(10, 'r') + std::string(11, 'l'), pairs);
     pairs.clear();
     for (std::size_t k = 0; k < 20; k += 2)
         pairs.emplace_back(k, k + 1);
