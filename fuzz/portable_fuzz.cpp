@@ -23,6 +23,8 @@ template<class V> bool ordinary(const V& v) { return glm::length(v) > 1e-18f && 
 glm::vec3 anyVector(Values& values) { return {values.next<float>(), values.next<float>(), values.next<float>()}; }
 glm::vec2 anyPair(Values& values) { return {values.next<float>(), values.next<float>()}; }
 
+glm::dvec2 polar(double radians, double length) { return glm::dvec2(std::cos(radians), std::sin(radians)) * length; }
+
 template<class F> void checkFrame(const F& f, std::string_view name, bool metric)
 {
     COTAN_HOLDS(isUnit(f.n), "{}", name);
@@ -97,14 +99,63 @@ void checkGradientsAndBlends(Values values)
         COTAN_HOLDS(isUnit(blended));
 }
 
+void checkMappings(Values values)
+{
+    const glm::vec3 n = anyVector(values), u = anyVector(values), v = anyVector(values), d = anyVector(values);
+    const glm::vec2 uv = anyPair(values), turned(polar(values.between(0, 2 * std::numbers::pi), 1));
+    const auto f = f32::cotan_frame_projected(n, u, v);
+    checkFrame(f, "projected", true);
+    COTAN_HOLDS(finite(f32::cotan_to_texture_space(f, d)), "{} {} {}", d.x, d.y, d.z);
+    if (glm::length(d) < 1e15f && glm::length(u) + glm::length(v) < 1e15f) // a sum of products
+        COTAN_HOLDS(finite(f32::cotan_texture_travel(f, d)), "{} {} {}", d.x, d.y, d.z);
+    const glm::vec3 along = f32::cotan_tangent_direction(f, f.n, turned);
+    COTAN_HOLDS(along == glm::vec3(0) || isUnit(along), "{} {} {}", along.x, along.y, along.z);
+    COTAN_HOLDS(std::abs(glm::dot(along, f.n)) < 1e-3f, "{} {} {}", along.x, along.y, along.z);
+    if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
+        return;
+    if (std::abs(uv.x) < 1e5f && std::abs(uv.y) < 1e5f) {
+        COTAN_HOLDS(std::abs(f32::cotan_wrapped_difference(uv.x, 1)) <= 0.51f, "{}", uv.x);
+        const auto h = f32::cotan_hex_tiles_at(uv, float(values.between(1, 16)));
+        COTAN_HOLDS(std::abs(h.weights.x + h.weights.y + h.weights.z - 1) < 1e-4f, "{} {}", uv.x, uv.y);
+    }
+}
+
+// A relief is read at finite coordinates on its ray, whatever the heights, and ends between its surface and its depth.
+void checkRelief(Values values)
+{
+    const auto f = f32::cotan_frame_projected(anyVector(values), anyVector(values), anyVector(values));
+    const glm::vec3 toEye = anyVector(values);
+    const glm::vec2 uv(float(values.between(-4, 4)), float(values.between(-4, 4)));
+    const float depth = values.next<float>(), steps = values.next<float>(), height = values.next<float>();
+    for (auto r : {f32::cotan_relief_start(f, toEye, uv, depth, steps),
+                   f32::cotan_relief_shadow(f, toEye, uv, height, depth, steps)}) {
+        for (int i = 0; i < 24; ++i) {
+            COTAN_HOLDS(finite(r.uv) && r.at >= 0 && r.at <= 1, "reading {}: {} {} at {}", i, r.uv.x, r.uv.y, r.at);
+            r = f32::cotan_relief_next(r, values.flip() ? values.next<float>() : float(values.between(0, 1)));
+        }
+        COTAN_HOLDS(r.found == 0 || r.found == 1, "{}", r.found);
+        COTAN_HOLDS(f32::cotan_relief_distance(r, f, toEye, depth) >= 0);
+    }
+}
+
+void checkSparkle(Values values)
+{
+    const glm::vec3 dndx = anyVector(values), dndy = anyVector(values);
+    if (!(glm::dot(dndx, dndx) + glm::dot(dndy, dndy) >= 0)) // light.h wants numbers
+        return;
+    const float curved = f32::cotan_variance_of_curvature(dndx, dndy);
+    const float filtered = f32::cotan_variance_of_length(float(values.between(0, 1.2)));
+    COTAN_HOLDS(curved >= 0 && filtered >= 0, "{} {}", curved, filtered);
+    const float roughness = f32::cotan_roughness_of_variance(float(values.between(0, 1)), curved + filtered);
+    COTAN_HOLDS(roughness >= 0 && roughness <= 1, "{}", roughness);
+}
+
 // ---- fused forms ----------------------------------------------------------------------------
 
 struct Input {
     glm::vec3 n, dpdx, dpdy, m;
     glm::vec2 duvdx, duvdy;
 };
-
-glm::dvec2 polar(double radians, double length) { return glm::dvec2(std::cos(radians), std::sin(radians)) * length; }
 
 glm::dvec3 direction(Values& values)
 {
@@ -181,11 +232,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (size == 0)
         return 0;
     const Values values({data + 1, size - 1});
-    switch (data[0] % 4) {
+    switch (data[0] % 7) {
     case 0: checkTotalFrames(values); break;
     case 1: checkTexels(values); break;
     case 2: checkGradientsAndBlends(values); break;
-    default: checkFused(values); break;
+    case 3: checkFused(values); break;
+    case 4: checkMappings(values); break;
+    case 5: checkRelief(values); break;
+    default: checkSparkle(values); break;
     }
     return 0;
 }
