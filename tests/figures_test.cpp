@@ -22,8 +22,9 @@ using namespace app;
 using namespace test;
 using Words = std::vector<std::string>;
 
-const char* const kNames[] = {"2.6.3",  "2.6.4",    "2.6.5",   "tutorial", "normal-matrices", "mirrored", "targets",
-                              "decode", "faceting", "sparkle", "parallax", "decal",           "grooves",  "isolines"};
+const char* const kNames[] = {"2.6.3",    "2.6.4",   "2.6.5",     "tutorial", "normal-matrices",
+                              "mirrored", "targets", "decode",    "faceting", "sparkle",
+                              "parallax", "decal",   "triplanar", "grooves",  "isolines"};
 
 Words command(const std::string& folder, const Words& more)
 {
@@ -257,6 +258,24 @@ TEST(Figures, beyondTheMapCotanFollowsTheTruthAndTheUsualFormsDoNot)
     EXPECT_NEAR(number(3, "grad u, degrees from the normal of the lines of u"), 0, 1e-9);
     EXPECT_NEAR(number(3, "dP/du, degrees from the normal of the lines of u"), 45, 1e-9);
     EXPECT_NEAR(number(3, "dP/du, degrees from the lines of v"), 0, 1e-9);
+}
+
+TEST(Figures, triplanarGradientsFollowTheDisplacedSphereOnAllSidesAndWithoutASeam)
+{
+    const nlohmann::json numbers = report("triplanar", "64x48")["figures"][0]["numbers"];
+    const auto number = [&](const char* name) { return numbers[name].get<double>(); };
+    // Sharp: the truth has the sphere's curvature, which flattens slopes by the height over the radius, 0.03 at most.
+    // Smooth: the gradients of the weights are left out, which count at the seams, about a third of the sphere.
+    EXPECT_LT(number("cotan, sharp, mean degrees"), 0.4);
+    EXPECT_LT(number("cotan, smooth, mean degrees"), 1);
+    for (const std::string weights : {"smooth", "sharp"}) {
+        const double mine = number(("cotan, " + weights + ", mean degrees").c_str());
+        EXPECT_GT(number(("whiteout, " + weights + ", mean degrees").c_str()), 2 * mine);
+        EXPECT_GT(number(("tangents, " + weights + ", mean degrees").c_str()), 5 * mine);
+    }
+    // Points that are 1e-5 apart: normals of the steepest dome turn by 1000 degrees per unit of length.
+    EXPECT_LT(number("cotan, smooth, worst degrees at a seam"), 0.02);
+    EXPECT_GT(number("cotan, sharp, worst degrees at a seam"), 30); // one dome ends at another
 }
 
 TEST(Page, escapesTextAndEncodesBytes)

@@ -54,6 +54,7 @@ Figure makeFacetingFigure(FigureRenderer& studio);
 Figure makeSparkleFigure(FigureRenderer& studio);
 Figure makeParallaxFigure(FigureRenderer& studio);
 Figure makeDecalFigure(FigureRenderer& studio);
+Figure makeTriplanarFigure(FigureRenderer& studio);
 Figure makeGroovesFigure(FigureRenderer& studio);
 Figure makeIsolinesFigure(FigureRenderer& studio);
 

@@ -36,6 +36,7 @@ constexpr FigureInfo kFigures[] = {
     {"sparkle", makeSparkleFigure},
     {"parallax", makeParallaxFigure},
     {"decal", makeDecalFigure},
+    {"triplanar", makeTriplanarFigure},
     {"grooves", makeGroovesFigure},
     {"isolines", makeIsolinesFigure},
 };

@@ -31,8 +31,6 @@ glm::dmat2 uvOfAngles()
     return glm::dmat2({c, s}, {-s, c}) * glm::dmat2({1, 0}, {1, 1});
 }
 
-glm::dvec3 onSphere(glm::dvec2 at) { return {at, std::sqrt(std::max(1 - glm::dot(at, at), 0.0))}; }
-
 // The frame of two neighbours, those nearer to the middle, as a pixel sees it.
 f64::cotan_frame pixelFrame(glm::dvec2 at)
 {

@@ -14,6 +14,8 @@ namespace cotan::figures {
 
 glm::dvec3 plotLight() { return glm::normalize(glm::dvec3(-0.6, 0.55, 0.58)); }
 
+glm::dvec3 onSphere(glm::dvec2 at) { return {at, std::sqrt(std::max(1 - glm::dot(at, at), 0.0))}; }
+
 glm::dvec3 plotShade(glm::dvec3 n, glm::dvec3 v, glm::dvec3 color)
 {
     const double lit = std::max(glm::dot(n, plotLight()), 0.0);

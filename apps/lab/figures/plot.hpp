@@ -21,6 +21,9 @@ glm::dvec3 plotLight();
 // A diffuse surface with a highlight. n, v: unit, v to the eye. Returns linear colour.
 glm::dvec3 plotShade(glm::dvec3 n, glm::dvec3 v, glm::dvec3 color);
 
+// The point of the unit sphere around the middle that the eye sees at a point of the image; beside the sphere, its rim.
+glm::dvec3 onSphere(glm::dvec2 at);
+
 // Draws a square image, four samples a pixel. color: linear, at a point from -1 to 1 with y up.
 Image plot(int side, const std::function<glm::dvec3(glm::dvec2 at)>& color);
 
