@@ -55,6 +55,56 @@ protected:
     }
 };
 
+TEST_F(BakeFeatures, severalMapsAreWrittenAsTheOutputNamesThemAndEachAsAlone)
+{
+    write("low.obj", square(0, 0, 0, 1) + kFaces);
+    write("high.obj", square(-1, -1, 0.25, 3) + kFaces);
+    const auto words = [&](std::vector<std::string> more) {
+        std::vector<std::string> all = {"--high",         "high.obj", "--low",  "low.obj",
+                                        "--max-distance", "1",        "--size", "8x8"};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    };
+    for (const auto& [output, height, position] : {std::tuple("out.png", "out-height.png", "out-position.png"),
+                                                   {"new/maps/", "new/maps/height.png", "new/maps/position.png"},
+                                                   {"flat", "flat/height.png", "flat/position.png"},
+                                                   {"a_<MAP>_8.png", "a_height_8.png", "a_position_8.png"}}) {
+        const ToolRun r = bake(words({"--maps", "height,position", "-o", output, "--bits", "16"}));
+        ASSERT_EQ(r.code, 0) << r.err;
+        const auto maps = nlohmann::json::parse(readWhole(folder / "r.json"))["maps"];
+        ASSERT_EQ(maps.size(), 2u);
+        EXPECT_EQ(maps[0]["output"], height);
+        EXPECT_EQ(maps[1]["output"], position);
+        EXPECT_EQ(maps[1]["box"], nlohmann::json::parse("[[-1, -1, 0.25], [2, 2, 0.25]]"));
+        for (const auto& [kind, file] : {std::pair("height", height), {"position", position}}) {
+            ASSERT_EQ(bake(words({"--kind", kind, "-o", "alone.png", "--bits", "16"})).code, 0);
+            EXPECT_EQ(readWhole(folder / file), readWhole(folder / "alone.png")) << file;
+        }
+    }
+}
+
+TEST_F(BakeFeatures, mapsThatContradictOtherOptionsAreRefusedBeforeAnythingIsRead)
+{
+    for (const auto& [words, message] : {
+             std::pair<std::vector<std::string>, const char*>({"--maps", "normal,ao,normal"},
+                                                              "--maps: expected each map once; found normal twice"),
+             {{"--maps", "normal,gloss"}, "found 'gloss'"},
+             {{"--maps", "normal,"}, "--maps: expected one of normal, object-normal, height, ao, bent-normal, "},
+             {{"--maps", "ao", "--kind", "height"}, "--kind height: makes one map; expected no --maps with it"},
+             {{"--maps", "height,ao", "--verify", "checked"}, "--verify: only maps of the kind normal can be drawn"},
+             {{"--maps", "normal,ao", "-o", "x.glb"}, "expected --kind normal for a map in a model; found normal, ao"},
+             {{"--kind", "thickness", "--thickness-distance", "-1"}, "--thickness-distance"},
+         }) {
+        std::vector<std::string> all = {"--high", "none.obj", "--low", "none.obj"};
+        if (std::ranges::find(words, "-o") == words.end())
+            all.insert(all.end(), {"-o", "x.png"});
+        all.insert(all.end(), words.begin(), words.end());
+        const ToolRun r = bake(all);
+        EXPECT_EQ(r.code, 1) << message;
+        EXPECT_NE(r.err.find(message), std::string::npos) << r.err;
+    }
+}
+
 TEST_F(BakeFeatures, heightIsTheDisplacementInModelUnits)
 {
     write("low.obj", square(0, 0, 0, 1) + kFaces);

@@ -360,8 +360,8 @@ TEST(OpenDetailed, preparedBakesDoNotShareTheirMatches)
     const auto a = prepareBake(lowNamed("a_low"), *open, options), b = prepareBake(lowNamed("b_low"), *open, options);
     ASSERT_TRUE(a && b);
     const int red = code(0.2 / std::sqrt(1.04)); // of the normal of a slope of 0.2
-    EXPECT_EQ(codes(bakeTile(*a, 1001)->image, 6, 4).x, 256 - red);
-    EXPECT_EQ(codes(bakeTile(*b, 1001)->image, 6, 4).x, red);
+    EXPECT_EQ(codes(bakeTile(*a, 1001)->front().image, 6, 4).x, 256 - red);
+    EXPECT_EQ(codes(bakeTile(*b, 1001)->front().image, 6, 4).x, red);
 }
 
 } // namespace

@@ -124,6 +124,9 @@ CASES = [
     ("bake --high panel.gltf --low low.obj --high-normals map --size 24x24 -o out.png", {"--high-map": "grain.png | ~rocks.png", "--high-frame": "~mikktspace | &paper-nodet,paper-transpose | !cotangent-2013 | !nonperspective | !paper-orthogonal | *"}),
     ("bake --high panel.gltf --low low.obj --high-normals map --high-map rocks.png --size 24x24 -o out.png", {"--high-convention": "~gltf | directx | slope"}),
     ("bake --high high.obj --low low.obj --size 16x16 --kind ao -o out.png", {"--ao-rays": "~64 | 9 | 250"}),
+    ("bake --high high.obj --low low.obj --size 16x16 --kind thickness --ao-rays 9 -o out.png", {"--thickness-distance": "0.01 | 0.1"}),
+    ("bake --high high.obj --low low.obj --size 16x16 --kind curvature -o out.png", {"--curvature-radius": "0.001 | 0.1"}),
+    ("bake --high high.obj --low low.obj --size 16x16 -o out.png", {"--maps": "height | normal,ao | position,curvature,thickness"}),
     ("convert panel.gltf --from-frame mikktspace --to-frame smooth -o out.glb", {
         "--from-frame": "~mikktspace | &paper-nodet,paper-transpose | &cotangent,paper-full,exact,smooth,triangle | !cotangent-2013 | !nonperspective | !paper-orthogonal | *", "--to-frame": "~smooth | !cotangent-2013 | !nonperspective | !paper-orthogonal | *", "--bits": "~8 | *", "--unsigned": "~biased | *", "--keep-maps": "", "--keep-tangents": "",
         "--tangents": "~stored | *", "--verify": "checked", "--threads": "=1 | =3", "--memory": "=800", "--list-frames": ""}),

@@ -65,7 +65,7 @@ Status writeBakedModel(const BakeJob& job, GltfDocument& document, const Scene& 
                       .keepTangents = hasStoredTangents(low, options)};
     if (options.material >= 0) // by name, since a scene numbers its materials in the order in which meshes use them
         put.material = low.materials[std::size_t(options.material)].name;
-    const auto written = writeModelWithMap(document, map, put, job.files.map);
+    const auto written = writeModelWithMap(document, map, put, job.files.maps.front());
     if (!written)
         return withBakeOptionNames(job, written.error());
     for (const std::string& note : written->notes)
@@ -76,7 +76,10 @@ Status writeBakedModel(const BakeJob& job, GltfDocument& document, const Scene& 
 // The output files of one map.
 std::vector<PlannedOutput> plannedFor(const BakeFiles& files)
 {
-    std::vector<PlannedOutput> planned = {{"-o", files.map}, {"--mask", files.mask}};
+    std::vector<PlannedOutput> planned;
+    for (const std::filesystem::path& map : files.maps)
+        planned.push_back({"-o", map, /*makesFolder*/ !files.folder.empty()});
+    planned.push_back({"--mask", files.mask});
     if (!files.verify.empty())
         for (const PlannedOutput& picture : plannedIn("--verify", files.verify, imageNames(kBakeNames, kBakeViews)))
             planned.push_back(picture);
@@ -85,29 +88,23 @@ std::vector<PlannedOutput> plannedFor(const BakeFiles& files)
 
 // ---- from the job to the report --------------------------------------------------------------
 
-// What is baked for one map, and where it goes.
+// What is baked at once, and where it goes.
 struct MapJob {
     std::string object; // empty: all
     BakeFiles files;
 };
 
-// A map that was written.
+// Maps that were written.
 struct MapReport {
     MapJob job;
     std::vector<std::string> warnings; // of reading and preparing
     BakeStatistics statistics;
+    std::vector<double> units; // of each map, BakedMap::unit
+    Bounds box;                // of the high surface
     std::size_t highTriangles = 0, lowTriangles = 0, objects = 0;
     double prepareSeconds = 0, writeSeconds = 0;
     std::optional<Json> verified;
 };
-
-// map.png for the object lid: map-lid.png. An empty file stays empty.
-std::filesystem::path fileOf(const std::filesystem::path& file, const std::string& part)
-{
-    return file.empty()
-        ? file
-        : std::filesystem::path(file).replace_filename(file.stem().string() + "-" + part + file.extension().string());
-}
 
 // The maps of the job: one, or with --per-object one for each object, whose files are planned here.
 Result<std::vector<MapJob>> mapsOf(const BakeJob& job, const Scene& low)
@@ -119,9 +116,14 @@ Result<std::vector<MapJob>> mapsOf(const BakeJob& job, const Scene& low)
     const std::vector<std::string> names = objectNames(low), parts = fileNameParts(names);
     for (std::size_t i = 0; i < names.size(); ++i) {
         const BakeFiles& files = job.files;
-        maps.push_back({names[i],
-                        {fileOf(files.map, parts[i]), fileOf(files.mask, parts[i]),
-                         files.verify.empty() ? files.verify : files.verify / parts[i]}});
+        MapJob one{names[i],
+                   {{},
+                    files.folder,
+                    withPart(files.mask, parts[i]),
+                    files.verify.empty() ? files.verify : files.verify / parts[i]}};
+        for (const std::filesystem::path& map : files.maps)
+            one.files.maps.push_back(withPart(map, parts[i]));
+        maps.push_back(std::move(one));
         if (fileNamePart(names[i]) != parts[i])
             warn(job.common, "the name of the object '{}' is that of another one in file names: its files are named {}",
                  names[i], parts[i]);
@@ -133,16 +135,19 @@ Result<std::vector<MapJob>> mapsOf(const BakeJob& job, const Scene& low)
     return maps;
 }
 
-Status writeMap(const BakeJob& job, const BakeFiles& files, OpenBake& open, const Scene& low, const BakedMap& baked)
+Status writeMaps(const BakeJob& job, const BakeFiles& files, OpenBake& open, const Scene& low,
+                 const std::vector<BakedMap>& baked)
 {
     std::vector<PlacedImage> images;
     if (!files.mask.empty())
-        images.push_back({files.mask, &baked.mask});
-    if (!open.document)
-        images.push_back({files.map, &baked.image});
+        images.push_back({files.mask, &baked.front().mask});
+    for (std::size_t i = 0; i < baked.size() && !open.document; ++i)
+        images.push_back({files.maps[i], &baked[i].image});
+    if (!files.folder.empty())
+        COTAN_CHECK(makeFolder(files.folder));
     COTAN_TRY(pending, writePending(images));
     if (open.document)
-        COTAN_CHECK(writeBakedModel(job, *open.document, low, baked.image));
+        COTAN_CHECK(writeBakedModel(job, *open.document, low, baked.front().image));
     return commitTogether(*pending);
 }
 
@@ -211,25 +216,56 @@ void explain(const BakeJob& job, std::size_t objects, const BakeStatistics& s)
                          : "");
     const Frame frame = job.options.bake.frame;
     const bool perTriangle = !readsVertices(frame) && frame != Frame::orthonormal;
-    if (job.options.bake.kind == BakeKind::normal && perTriangle)
+    if ((job.makes(BakeKind::normal) || job.makes(BakeKind::bentNormal)) && perTriangle)
         warn(job.common,
              "the frame {} changes from triangle to triangle: filtering shows a crease one texel wide at "
              "edges of curved meshes; bake and draw with smooth to avoid it",
              name(frame));
 }
 
-// Tells what one map became.
+// What the numbers of a map mean.
+std::string meaningOf(const BakeJob& job, const MapReport& done, std::size_t map)
+{
+    const BakeModelOptions& options = job.options;
+    const bool isFloat = options.stored.type == PixelType::float32;
+    switch (options.kinds[map]) {
+    case BakeKind::normal:
+    case BakeKind::bentNormal: return fmt::format("{}, {}", name(options.bake.frame), job.convention);
+    case BakeKind::thickness: return isFloat ? "in units" : fmt::format("1 is {:.3g} units", done.units[map]);
+    case BakeKind::curvature:
+        return isFloat ? "1 over units" : fmt::format("0.5 is flat, 1 a ball of {:.3g} units", done.units[map]);
+    default: return "world axes";
+    }
+}
+
+// Tells what the maps became.
 void tell(const BakeJob& job, const MapReport& done)
 {
     const BakeModelOptions& options = job.options;
-    const bool normal = options.bake.kind == BakeKind::normal;
     explain(job, done.objects, done.statistics);
-    say(job.common, "map in {} ({}, {}, {} bit); peak memory {:.0f} MiB", done.job.files.map.string(),
-        wordOf(kBakeKinds, options.bake.kind),
-        normal ? fmt::format("{}, {}", name(options.bake.frame), job.convention) : "world axes",
-        wordOf(kBitCounts, options.stored.type), peakMegabytes());
-    if (normal)
+    for (std::size_t i = 0; i < options.kinds.size(); ++i)
+        say(job.common, "map in {} ({}, {}, {} bit){}", done.job.files.maps[i].string(),
+            wordOf(kBakeKinds, options.kinds[i]), meaningOf(job, done, i), wordOf(kBitCounts, options.stored.type),
+            i + 1 == options.kinds.size() ? fmt::format("; peak memory {:.0f} MiB", peakMegabytes()) : "");
+    if (job.makes(BakeKind::normal))
         say(job.common, readersOf(options.bake.frame));
+}
+
+// Of each map: its kind and file, and what its numbers mean where they are scaled.
+Json mapsToJson(const BakeJob& job, const MapReport& done)
+{
+    Json maps = Json::array();
+    for (std::size_t i = 0; i < job.options.kinds.size(); ++i) {
+        const BakeKind kind = job.options.kinds[i];
+        Json map{{"kind", wordOf(kBakeKinds, kind)}, {"output", done.job.files.maps[i].string()}};
+        if (done.units[i] > 0 && job.options.stored.type != PixelType::float32)
+            map["unit"] = done.units[i];
+        if (kind == BakeKind::position && job.options.stored.type != PixelType::float32)
+            map["box"] = {{done.box.low.x, done.box.low.y, done.box.low.z},
+                          {done.box.high.x, done.box.high.y, done.box.high.z}};
+        maps.push_back(std::move(map));
+    }
+    return maps;
 }
 
 Json toJson(const BakeJob& job, const MapReport& done)
@@ -239,9 +275,10 @@ Json toJson(const BakeJob& job, const MapReport& done)
         {"low", job.low},
         {"high", job.high},
         {"object", done.job.object.empty() ? Json(nullptr) : Json(done.job.object)},
-        {"output", done.job.files.map.string()},
+        {"output", done.job.files.maps.front().string()},
         {"frame", name(bake.frame)},
-        {"kind", wordOf(kBakeKinds, bake.kind)},
+        {"kind", wordOf(kBakeKinds, job.options.kinds.front())},
+        {"maps", mapsToJson(job, done)},
         {"size", {bake.width, bake.height}},
         {"high_normals", wordOf(kHighSources, job.highNormals)},
         {"warnings", done.warnings},
@@ -255,8 +292,8 @@ Json toJson(const BakeJob& job, const MapReport& done)
     return report;
 }
 
-// Bakes, writes and tells of one map.
-Result<MapReport> bakeMap(const BakeJob& job, const MapJob& one, OpenBake& open, bool isFirst)
+// Bakes, writes and tells of the maps of one bake.
+Result<MapReport> bakeMaps(const BakeJob& job, const MapJob& one, OpenBake& open, bool isFirst)
 {
     MapReport done;
     done.job = one;
@@ -277,17 +314,21 @@ Result<MapReport> bakeMap(const BakeJob& job, const MapJob& one, OpenBake& open,
     if (!baked)
         return withBakeOptionNames(job, baked.error());
     watch.lap();
-    COTAN_CHECK(writeMap(job, one.files, open, map->low, *baked));
+    COTAN_CHECK(writeMaps(job, one.files, open, map->low, *baked));
     done.writeSeconds = watch.lap();
-    done.statistics = baked->statistics;
+    done.statistics = baked->front().statistics;
+    done.box = baked->front().box;
+    for (const BakedMap& written : *baked)
+        done.units.push_back(written.unit);
     done.highTriangles = setup.high.triangleCount();
     done.lowTriangles = setup.low.triangleCount();
     done.objects = objectNames(map->low).size();
     tell(job, done);
     if (one.files.verify.empty())
         return done;
+    const BakedMap& normals = *std::ranges::find(*baked, BakeKind::normal, &BakedMap::kind);
     COTAN_TRY(verified,
-              verifyBake({map->low, setup.low, setup.high, setup.options.bake, baked->image,
+              verifyBake({map->low, setup.low, setup.high, setup.options.bake, normals.image,
                           setup.options.stored.format, setup.options.material, setup.options.tangents},
                          job.device, one.files.verify, job.common));
     done.verified = std::move(*verified);
@@ -297,7 +338,7 @@ Result<MapReport> bakeMap(const BakeJob& job, const MapJob& one, OpenBake& open,
 // Reads each model once, for all maps.
 Result<std::vector<MapReport>> bakeAll(const BakeJob& job)
 {
-    warnIfLossy(job.common, job.files.map);
+    warnIfLossy(job.common, job.files.maps.front());
     Stopwatch watch;
     auto open = withProgress(job.common, 0, "loading the meshes", [&](const Progress&) { return openBake(job); });
     if (!open)
@@ -308,7 +349,7 @@ Result<std::vector<MapReport>> bakeAll(const BakeJob& job)
     for (const MapJob& one : *maps) {
         if (job.perObject)
             say(job.common, "{}:", one.object);
-        COTAN_TRY(done, bakeMap(job, one, *open, reports.empty()));
+        COTAN_TRY(done, bakeMaps(job, one, *open, reports.empty()));
         reports.push_back(std::move(*done));
     }
     reports.front().prepareSeconds += openSeconds;
@@ -342,6 +383,7 @@ void addBakeCommand(Arguments& tool)
          "Bake a normal map from a high-poly mesh onto a low-poly mesh.",
          "the map: " + imageEndings(&ImageFormat::writes, ", ") + "; or the low model with the map in it: .glb, .gltf",
          {"cotan bake --high statue.obj --low statue_low.obj --frame smooth -o normal.png",
+          "cotan bake --high statue.obj --low statue_low.obj --maps normal,ao,curvature,thickness -o maps/",
           "cotan bake --high statue.obj --low statue_low.obj --kind ao --size 256x256 --ao-rays 16 -o ao.png"},
          /*needsOutput=*/true},
         declareBakeOptions, run);

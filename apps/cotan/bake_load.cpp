@@ -106,8 +106,7 @@ std::vector<std::string> warningsOf(const BakeJob& job, const Scene& low, const 
 {
     std::vector<std::string> warnings = low.warnings;
     if (job.options.ownMaps && !job.readsHighMaps())
-        warnings.push_back(fmt::format("--high-normals map has no effect on a map of kind {}",
-                                       wordOf(kBakeKinds, job.options.bake.kind)));
+        warnings.push_back(fmt::format("--high-normals map has no effect on a map of kind {}", namesOf(job.options)));
     for (const Scene& scene : high.scenes)
         for (const std::string& line : scene.warnings)
             if (std::find(low.warnings.begin(), low.warnings.end(), line) == low.warnings.end())
@@ -132,7 +131,7 @@ Status checkObjects(const BakeJob& job, const Scene& low)
 // Reads the low mesh; and its file to edit, for a map that is put into it, by the same reading if it is a glTF file.
 Status readLow(const BakeJob& job, OpenBake& open)
 {
-    const bool writesModel = namedAsGltf(job.files.map);
+    const bool writesModel = namedAsGltf(job.files.maps.front());
     if (!writesModel || !namedAsGltf(job.low)) {
         COTAN_TRY(low, loadUp(job.memory, job.low, job.up, Pixels::all));
         open.low = std::move(*low);
@@ -156,7 +155,7 @@ Status openLow(const BakeJob& job, OpenBake& open)
     COTAN_CHECK(readLow(job, open));
     restoreDeclaredGreen(open.low); // the new map replaces the old one, next to the stored tangents
     COTAN_CHECK(checkObjects(job, open.low));
-    if (namedAsGltf(job.files.map) && !open.document) {
+    if (namedAsGltf(job.files.maps.front()) && !open.document) {
         COTAN_TRY(document, gltfDocumentOf(open.low));
         open.document = std::move(*document);
     }

@@ -1,6 +1,7 @@
 #include "bake_options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/try.hpp"
 #include "cotan/convention.hpp"
@@ -42,20 +43,59 @@ Result<Convention> formatOfMap(const std::string& convention, std::optional<Expa
     return format;
 }
 
+// The kinds of --maps, or that of --kind.
+Result<std::vector<BakeKind>> kindsOf(const BakeCommandOptions& o)
+{
+    const BakeKind one = o.job.options.bake.kind;
+    if (o.maps.empty())
+        return std::vector{one};
+    if (one != BakeKind::normal)
+        return usageError(fmt::format("--kind {}: makes one map; expected no --maps with it", wordOf(kBakeKinds, one)));
+    Words<BakeKind> known;
+    for (const auto& [word, kind] : kBakeKinds)
+        known.push_back({word, kind});
+    std::vector<BakeKind> kinds;
+    for (const std::string& word : splitAtCommas(o.maps)) {
+        COTAN_TRY(kind, oneOf("--maps", word, known));
+        if (std::ranges::find(kinds, *kind) != kinds.end())
+            return usageError(fmt::format("--maps: expected each map once; found {} twice", word));
+        kinds.push_back(*kind);
+    }
+    return kinds;
+}
+
+// The files of several maps. With <MAP> in the output, the name of each is in its place; without an ending it is a
+// folder, which gets NAME.png; else map.png becomes map-NAME.png.
+void setFiles(const std::filesystem::path& output, const std::vector<BakeKind>& kinds, BakeFiles& files)
+{
+    constexpr std::string_view kPlace = "<MAP>";
+    const std::string text = output.string();
+    const std::size_t at = text.find(kPlace);
+    files.maps.clear();
+    if (at == std::string::npos && !output.empty() && !output.has_extension())
+        files.folder = output;
+    for (const BakeKind kind : kinds) {
+        const std::string name = wordOf(kBakeKinds, kind);
+        if (at != std::string::npos)
+            files.maps.emplace_back(std::string(text).replace(at, kPlace.size(), name));
+        else
+            files.maps.push_back(files.folder.empty() ? withPart(output, name) : output / (name + ".png"));
+    }
+}
+
 // Checks the files and the objects of a job. Baking may take hours, so that errors of the outputs must be found before.
 Status checkOutputs(const BakeJob& job)
 {
     const BakeModelOptions& options = job.options;
-    const std::filesystem::path& map = job.files.map;
-    const std::string kind = wordOf(kBakeKinds, options.bake.kind);
-    const bool model = namedAsGltf(map), normal = options.bake.kind == BakeKind::normal;
+    const std::filesystem::path& map = job.files.maps.front();
+    const bool model = namedAsGltf(map);
     if (map.empty())
         return usageError("bake needs -o FILE for the map");
-    if (!job.files.verify.empty() && !normal)
+    if (!job.files.verify.empty() && !job.makes(BakeKind::normal))
         return usageError("--verify: only maps of the kind normal can be drawn and compared");
-    if (model && !normal)
-        return usageError(
-            fmt::format("-o {}: expected --kind normal for a map in a model; found {}", map.string(), kind));
+    if (model && options.kinds != std::vector{BakeKind::normal})
+        return usageError(fmt::format("-o {}: expected --kind normal for a map in a model; found {}", map.string(),
+                                      namesOf(options)));
     if (model && options.stored.type == PixelType::float32)
         return usageError(
             fmt::format("-o {}: expected --bits 8 or 16 for an image in a model; found 32", map.string()));
@@ -122,11 +162,30 @@ Status checkRays(const BakeJob& job)
 
 } // namespace
 
+std::string namesOf(const BakeModelOptions& options)
+{
+    std::vector<std::string> names;
+    for (const BakeKind kind : options.kinds)
+        names.push_back(wordOf(kBakeKinds, kind));
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::filesystem::path withPart(const std::filesystem::path& file, const std::string& part)
+{
+    return file.empty()
+        ? file
+        : std::filesystem::path(file).replace_filename(file.stem().string() + "-" + part + file.extension().string());
+}
+
 Result<BakeJob> bakeJobOf(const BakeCommandOptions& o)
 {
     BakeJob job = o.job;
     job.common = o;
-    job.files.map = o.output;
+    COTAN_TRY(kinds, kindsOf(o));
+    job.options.kinds = *kinds;
+    job.files.maps = {o.output};
+    if (!o.maps.empty())
+        setFiles(o.output, *kinds, job.files);
     job.highUp = o.highUp.value_or(job.up);
     job.convention = o.convention;
     BakeModelOptions& options = job.options;
@@ -160,7 +219,17 @@ void declareBakeOptions(Arguments& a, BakeCommandOptions& o)
     addListOfFrames(a);
     a.group(HelpGroup::output);
     BakeModelOptions& model = o.job.options;
-    a.choice("--kind", model.bake.kind, kBakeKinds, "what to bake: normal, object-normal, height (model units) or ao");
+    const std::vector<std::string> kinds = wordsOf(kBakeKinds);
+    a.option(
+         "--maps", o.maps,
+         fmt::format("several maps from the same rays, separated by commas, each its own file: {}; -o map.png writes "
+                     "map-ao.png, -o FOLDER/ ao.png, -o x_<MAP>.png x_ao.png",
+                     fmt::join(kinds, ", ")))
+        .in("NAMES")
+        .offers(kinds)
+        .main();
+    a.choice("--kind", model.bake.kind, kBakeKinds,
+             "what to bake, if it is one map: " + fmt::format("{}", fmt::join(kinds, ", ")));
     a.option("--size", o.size, "width and height in texels; 512 is 512x512").in("WxH").main();
     a.group(HelpGroup::rays);
     a.choice("--samples", model.bake.samples, kSamples, "samples per texel: 1, 4 or 16").in("N");
@@ -179,7 +248,17 @@ void declareBakeOptions(Arguments& a, BakeCommandOptions& o)
              "mesh with the triangles of the low one that encloses both; rays start on it and run inwards")
         .in("FILE")
         .reads();
-    a.option("--ao-rays", model.bake.occlusionRays, "rays per sample for ao").within(1, 65536).in("N");
+    a.option("--ao-rays", model.bake.occlusionRays, "rays per sample for ao, bent normals and thickness")
+        .within(1, 65536)
+        .in("N");
+    a.option("--thickness-distance", model.bake.thicknessDistance,
+             "thickness that is stored as 1, in model units; 0: 50 % of the high mesh's diagonal")
+        .within(0.0, 1e9)
+        .in("D");
+    a.option("--curvature-radius", model.bake.curvatureRadius,
+             "radius of a ball whose curvature is stored as 1, in model units; 0: 1 % of the high mesh's diagonal")
+        .within(0.0, 1e9)
+        .in("D");
     a.choice("--ao-occluders", model.bake.occluders, kOccluders,
              "with --match-by-name, what casts occlusion: matched (the high meshes of the same name) or all");
     a.group(HelpGroup::input);

@@ -1,6 +1,8 @@
 // The options of `cotan bake`, and the job that they describe.
 #pragma once
 
+#include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,10 +14,12 @@
 
 namespace cotan::app {
 
-inline constexpr Named<BakeKind> kBakeKinds[] = {{"normal", BakeKind::normal},
-                                                 {"object-normal", BakeKind::objectNormal},
-                                                 {"height", BakeKind::height},
-                                                 {"ao", BakeKind::occlusion}};
+inline constexpr Named<BakeKind> kBakeKinds[] = {
+    {"normal", BakeKind::normal},          {"object-normal", BakeKind::objectNormal},
+    {"height", BakeKind::height},          {"ao", BakeKind::occlusion},
+    {"bent-normal", BakeKind::bentNormal}, {"object-bent-normal", BakeKind::objectBentNormal},
+    {"thickness", BakeKind::thickness},    {"curvature", BakeKind::curvature},
+    {"position", BakeKind::position}};
 inline constexpr Named<PixelType> kBitCounts[] = {
     {"8", PixelType::unorm8}, {"16", PixelType::unorm16}, {"32", PixelType::float32}};
 
@@ -26,9 +30,11 @@ inline constexpr Named<HighSource> kHighSources[] = {{"smooth", HighSource::smoo
                                                      {"face", HighSource::face},
                                                      {"map", HighSource::map}};
 
-// The output of one map; empty: not wanted.
+// The outputs of one bake; empty: not wanted.
 struct BakeFiles {
-    std::filesystem::path map, mask;
+    std::vector<std::filesystem::path> maps; // of each kind
+    std::filesystem::path folder;            // that is made for them
+    std::filesystem::path mask;
     std::filesystem::path verify; // a folder
 };
 
@@ -42,13 +48,14 @@ struct BakeJob {
     HighSource highNormals = HighSource::smooth;
     bool namesHighFrame = false; // options.highFrame was given
     std::string convention;      // as it was given
-    BakeModelOptions options;    // one tile; without cage and others
+    BakeModelOptions options;    // one tile, and its kinds; without cage and others
     std::string object;          // of the low mesh; empty: all
     bool perObject = false;      // a map for each object, with its name in all of `files`
     BakeFiles files;
     std::string device = "auto";
 
-    bool readsHighMaps() const { return options.ownMaps && showsNormals(options.bake.kind); }
+    bool makes(BakeKind kind) const { return std::ranges::count(options.kinds, kind) > 0; }
+    bool readsHighMaps() const { return options.ownMaps && std::ranges::any_of(options.kinds, showsNormals); }
 };
 
 // The options, as the command line sets them: most members of the job, and words that are yet to be parsed.
@@ -58,7 +65,14 @@ struct BakeCommandOptions : CommonOptions {
     std::optional<Expansion> expansion; // none: depends on -o
     std::optional<Up> highUp;           // none: as of the low mesh
     int udim = 1001;
+    std::string maps; // names of kinds
 };
+
+// The names of the kinds, for messages.
+std::string namesOf(const BakeModelOptions& options);
+
+// map.png with the part lid: map-lid.png. An empty file stays empty.
+std::filesystem::path withPart(const std::filesystem::path& file, const std::string& part);
 
 void declareBakeOptions(Arguments& a, BakeCommandOptions& o);
 

@@ -52,7 +52,7 @@ public:
     glm::vec3 normalOf(const Hit& hit, glm::vec3 direction) const
     {
         const glm::vec3 n = high_.normalOf(hit, options_.highNormals, direction);
-        return options_.highMaps && showsNormals(options_.kind)
+        return options_.highMaps
             ? options_.highMaps->normalAt(hit.instance, hit.triangle, double(hit.b1), double(hit.b2), n)
             : n;
     }

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -32,6 +33,12 @@ template<class... Found> Error wrong(const char* option, fmt::format_string<Foun
     return about(option, usageError(fmt::format(text, std::forward<Found>(found)...)));
 }
 
+// The maps of a bake.
+std::vector<BakeKind> kindsOf(const BakeModelOptions& options)
+{
+    return options.kinds.empty() ? std::vector{options.bake.kind} : options.kinds;
+}
+
 Status checkRanges(const Scene& low, const BakeModelOptions& options)
 {
     const BakeOptions& b = options.bake;
@@ -51,6 +58,8 @@ Status checkRanges(const Scene& low, const BakeModelOptions& options)
                      b.occlusionRays);
     for (const auto& [distance, what] : {std::pair(b.maxDistance, "options.maxDistance"),
                                          {b.cageReach, "options.cageReach"},
+                                         {b.thicknessDistance, "options.thicknessDistance"},
+                                         {b.curvatureRadius, "options.curvatureRadius"},
                                          {b.extrusion, "options.extrusion"}})
         if (!(distance >= 0 && distance <= kFarthest))
             return wrong(what, "expected 0 to {:g}; found {:g}", kFarthest, distance);
@@ -303,11 +312,12 @@ Result<std::shared_ptr<const DetailedSurface>> openDetailed(HighModel high, cons
     }
     COTAN_TRY(surface, HighSurface::make(high.scenes, options.bake.threads, options.matchByName));
     COTAN_CHECK(checkPositions({surface->box().low, surface->box().high}, "high"));
-    if (options.bake.highNormals == HighNormals::curved)
+    const std::vector<BakeKind> kinds = kindsOf(options);
+    if (options.bake.highNormals == HighNormals::curved || std::ranges::count(kinds, BakeKind::curvature) > 0)
         surface->curve(options.bake.threads);
     DetailedSurface open{std::move(*surface), nullptr, std::move(names), options, {}};
     open.options.cage = open.options.others = nullptr;
-    if (options.ownMaps && showsNormals(options.bake.kind))
+    if (options.ownMaps && std::ranges::any_of(kinds, showsNormals))
         COTAN_CHECK(readOwnMaps(high, open));
     return std::make_shared<const DetailedSurface>(std::move(open));
 }
@@ -323,29 +333,39 @@ Result<BakeSetup> prepareBake(const Scene& low, std::shared_ptr<const DetailedSu
     return prepared(low, options, [&] { return Result(std::move(high)); });
 }
 
-Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& progress)
+Result<std::vector<BakedMap>> bakeTile(const BakeSetup& setup, int tile, const Progress& progress)
 {
     if (tile < kFirstUdim)
         return wrong("options.tiles", "expected numbers of at least {}; found {}", kFirstUdim, tile);
     BakeOptions options = setup.options.bake;
+    const std::vector<BakeKind> kinds = kindsOf(setup.options);
     const int n = tile - kFirstUdim;
     options.tile = {n % kUdimColumns, -(n / kUdimColumns)}; // here v runs down from the top of the first tile
-    COTAN_TRY(baked, bake(setup.low, setup.high, options, progress));
-    if (baked->statistics.covered + baked->statistics.touched == 0)
+    COTAN_TRY(baked, bakeMaps(setup.low, setup.high, options, kinds, progress));
+    BakeStatistics statistics = baked->front().statistics;
+    if (statistics.covered + statistics.touched == 0)
         return about("options.tiles",
                      inputError(fmt::format("no triangle lies on tile {} of the texture coordinates", tile)));
     const auto start = std::chrono::steady_clock::now();
     if (setup.options.padding >= 0)
         padCharts(*baked, setup.options.padding);
-    baked->statistics.padSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    BakedMap map{.tile = tile,
-                 .image = storeBaked(*baked, options.kind, setup.options.stored),
-                 .format = storedFormat(options.kind, setup.options.stored.format),
-                 .mask = setup.options.mask ? maskOf(*baked) : Image(),
-                 .statistics = baked->statistics};
-    if (options.kind == BakeKind::normal)
-        map.image.frame = name(options.frame);
-    return map;
+    statistics.padSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    std::vector<BakedMap> maps;
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+        Baked& one = (*baked)[i];
+        maps.push_back({.tile = tile,
+                        .kind = kinds[i],
+                        .image = storeBaked(one, kinds[i], setup.options.stored),
+                        .box = one.box,
+                        .unit = one.unit,
+                        .format = storedFormat(kinds[i], setup.options.stored.format),
+                        .mask = setup.options.mask && i == 0 ? maskOf(one) : Image(),
+                        .statistics = statistics});
+        if (kinds[i] == BakeKind::normal || kinds[i] == BakeKind::bentNormal)
+            maps.back().image.frame = name(options.frame);
+        one.values = {};
+    }
+    return maps;
 }
 
 namespace {
@@ -358,8 +378,9 @@ Result<BakedModel> bakeTiles(Result<BakeSetup> setup, const Progress& progress)
     model.warnings = std::move(setup->warnings);
     const std::vector<int>& tiles = setup->options.tiles;
     for (const int tile : tiles) {
-        COTAN_TRY(map, bakeTile(*setup, tile, partOf(progress, model.maps.size(), tiles.size())));
-        model.maps.push_back(std::move(*map));
+        const std::size_t done = model.maps.size() / kindsOf(setup->options).size();
+        COTAN_TRY(maps, bakeTile(*setup, tile, partOf(progress, done, tiles.size())));
+        std::ranges::move(*maps, std::back_inserter(model.maps));
     }
     return model;
 }

@@ -29,10 +29,17 @@ constexpr double kMaxRows = 4e7; // of texels under all triangles, besides two p
 // Bakes the texels of blocks of rows. Use one per thread; it reuses its memory.
 class BlockBaker {
 public:
+    // out: a map of each kind; the states are those of the first.
     BlockBaker(const LowSurface& low, const Baker& baker, const UvRaster& raster, const BakeOptions& options,
-               Baked& out)
-        : low_(low), baker_(baker), raster_(raster), options_(options), out_(out)
+               const std::vector<BakeKind>& kinds, std::vector<Baked>& out)
+        : low_(low), baker_(baker), raster_(raster), options_(options), kinds_(kinds), maps_(out), out_(out.front()),
+          sums_(kinds.size()), values_(kinds.size())
     {
+        for (const BakeKind kind : kinds) {
+            looksOut_ = looksOut_ || kind == BakeKind::occlusion || kind == BakeKind::bentNormal
+                || kind == BakeKind::objectBentNormal;
+            looksIn_ = looksIn_ || kind == BakeKind::thickness;
+        }
     }
 
     // Bakes the rows [first, last), whose samples are one block of the raster, and counts their texels and rays.
@@ -41,7 +48,8 @@ public:
         raster_.firsts(block, samples_);
         base_ = std::size_t(first) * std::size_t(out_.width);
         const std::size_t texels = std::size_t(last - first) * std::size_t(out_.width);
-        sums_.assign(texels, glm::vec3(0));
+        for (std::vector<glm::vec3>& sums : sums_)
+            sums.assign(texels, glm::vec3(0));
         found_.assign(texels, 0);
         packet_ = 0;
         suspicious_ = false;
@@ -52,8 +60,8 @@ public:
         for (const glm::ivec2& rasterTexel : samples_.coveredTwice)
             mark(texelOf(rasterTexel), texelOverlapped);
         for (std::size_t i = 0; i < texels; ++i) {
-            if (found_[i] > 0)
-                out_.values[base_ + i] = texelValue(sums_[i], found_[i]);
+            for (std::size_t m = 0; m < kinds_.size() && found_[i] > 0; ++m)
+                maps_[m].values[base_ + i] = texelValue(kinds_[m], sums_[m][i], found_[i]);
             ++states_[out_.states[base_ + i]];
         }
     }
@@ -99,7 +107,12 @@ private:
         pointsOf(low_, samples, points_);
         baker_.aim(points_, samples, probes);
         rays_ += baker_.find(samples, probes, hits);
-        rays_ += baker_.valuesOf(points_, probes, hits, rasterTexels, values_);
+        if (looksOut_)
+            rays_ += baker_.lookOut(probes, hits, rasterTexels, around_);
+        if (looksIn_)
+            rays_ += baker_.lookIn(probes, hits, rasterTexels, around_);
+        for (std::size_t m = 0; m < kinds_.size(); ++m)
+            baker_.valuesOf(kinds_[m], points_, probes, hits, around_, values_[m]);
         Lanes<int> further{};
         rays_ += baker_.findFurther(probes, hits, further);
         checkForNearer();
@@ -107,11 +120,13 @@ private:
             const std::size_t texel = texelOf(rasterTexels[i]);
             int flags = samples[i].covers ? texelCovered : texelTouched;
             if (hits.found(i)) {
-                const glm::vec3 value = values_.at(i);
-                sums_[texel - base_] += value;
                 ++found_[texel - base_];
-                if (options_.kind == BakeKind::normal && value.z < 0)
-                    flags |= texelNegative;
+                for (std::size_t m = 0; m < kinds_.size(); ++m) {
+                    const glm::vec3 value = values_[m].at(i);
+                    sums_[m][texel - base_] += value;
+                    if (kinds_[m] == BakeKind::normal && value.z < 0)
+                        flags |= texelNegative;
+                }
             } else {
                 flags |= further[i] ? texelMissed | texelFurther : texelMissed;
             }
@@ -146,12 +161,12 @@ private:
     }
 
     // The texel's value from the sum over its samples that hit something.
-    glm::vec3 texelValue(glm::vec3 sum, int count) const
+    static glm::vec3 texelValue(BakeKind kind, glm::vec3 sum, int count)
     {
-        if (count == 1 && options_.kind != BakeKind::objectNormal)
+        if (count == 1 && kind != BakeKind::objectNormal)
             return sum;
         const glm::vec3 mean = sum / float(count);
-        if (!showsNormals(options_.kind))
+        if (!holdsDirections(kind))
             return mean;
         const float length = glm::length(mean);
         return length > 1e-6f ? mean / length : glm::vec3(0);
@@ -161,16 +176,20 @@ private:
     const Baker& baker_;
     const UvRaster& raster_;
     const BakeOptions& options_;
-    Baked& out_;
+    const std::vector<BakeKind>& kinds_;
+    std::vector<Baked>& maps_;
+    Baked& out_; // the first
     UvFirsts samples_;
-    std::size_t base_ = 0;            // the block's first texel
-    std::vector<glm::vec3> sums_;     // per texel: sum over its samples
-    std::vector<std::uint8_t> found_; // per texel: number of samples that hit something
+    std::size_t base_ = 0;                     // the block's first texel
+    std::vector<std::vector<glm::vec3>> sums_; // of each map per texel: sum over its samples
+    std::vector<std::uint8_t> found_;          // per texel: number of samples that hit something
     LowPoints points_;
     std::array<Traced, 4> traced_; // the most recent packets
     std::size_t packet_ = 0;       // number of packets of the block so far
     bool suspicious_ = false;      // the last check was positive
-    Lanes3 values_;
+    bool looksOut_ = false, looksIn_ = false;
+    Around around_;
+    std::vector<Lanes3> values_; // of each map
     std::size_t rays_ = 0;
     std::array<std::size_t, 256> states_{}; // number of texels for each combination of TexelState
 };
@@ -227,9 +246,20 @@ Result<std::vector<std::uint32_t>> indicesToDraw(const LowSurface& low, glm::ive
     return indices;
 }
 
-Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& given, const Progress& progress)
+Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& options, const Progress& progress)
+{
+    COTAN_TRY(maps, bakeMaps(low, high, options, {options.kind}, progress));
+    return std::move(maps->front());
+}
+
+Result<std::vector<Baked>> bakeMaps(const LowSurface& low, const HighSurface& high, const BakeOptions& given,
+                                    const std::vector<BakeKind>& kinds, const Progress& progress)
 {
     BakeOptions options = given;
+    if (std::ranges::find(kinds, BakeKind::curvature) != kinds.end() && !high.isCurved())
+        return about("options.kinds", usageError("the high surface was opened without curvature among the kinds"));
+    if (options.highMaps && std::ranges::none_of(kinds, showsNormals))
+        options.highMaps = nullptr;
     if (!options.cage.empty() && options.cage.size() != low.positions.size())
         return inputError(fmt::format("cage: expected {} vertices, as many as the low mesh has; found {}",
                                       low.positions.size(), options.cage.size()));
@@ -242,7 +272,16 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
     COTAN_CHECK(measureRayStarts(low, high, options));
     const auto start = std::chrono::steady_clock::now();
     const std::size_t texels = std::size_t(options.width) * std::size_t(options.height);
-    Baked out{options.width, options.height, std::vector(texels, glm::vec3(0)), std::vector<std::uint8_t>(texels), {}};
+    std::vector<Baked> maps;
+    for (std::size_t m = 0; m < kinds.size(); ++m)
+        maps.push_back({options.width,
+                        options.height,
+                        std::vector(texels, glm::vec3(0)),
+                        std::vector<std::uint8_t>(m == 0 ? texels : 0),
+                        {},
+                        high.box(),
+                        0});
+    Baked& out = maps.front();
     const glm::ivec2 size(options.width * options.samples, options.height * options.samples);
     const Result<std::vector<std::uint32_t>> indices = indicesToDraw(low, size);
     if (!indices)
@@ -254,7 +293,7 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
     withThreads(options.threads, [&] {
         const int rows = UvRaster::kBlockRows / options.samples; // rows of texels per block of samples
         parallelRanges(0, raster.blocks(), 1, [&](int begin, int end) {
-            BlockBaker baking(low, baker, raster, options, out);
+            BlockBaker baking(low, baker, raster, options, kinds, maps);
             for (int block = begin; block != end && !done.stopped(); ++block) {
                 const int first = block * rows, last = std::min(first + rows, options.height);
                 baking.bake(block, first, last);
@@ -272,7 +311,14 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
     s.rayDistance = baker.distance();
     s.rayStart = options.starts ? options.starts->farthest : 0;
     s.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return out;
+    for (std::size_t m = 0; m < kinds.size(); ++m) {
+        maps[m].unit = baker.unitOf(kinds[m]);
+        if (m == 0)
+            continue;
+        maps[m].states = out.states;
+        maps[m].statistics = s;
+    }
+    return maps;
 }
 
 // ---- storing a map ----------------------------------------------------------------------------
@@ -314,7 +360,10 @@ struct Writer {
 
 } // namespace
 
-void padCharts(Baked& baked, int radius)
+namespace {
+
+// The texel from which each texel is filled: itself if it has a value, kNoTexel if there is none near enough.
+std::vector<std::uint32_t> nearestFilled(const Baked& baked, int radius)
 {
     std::vector<std::uint32_t> owner(baked.values.size(), kNoTexel);
     for (std::size_t i = 0; i < owner.size(); ++i)
@@ -322,46 +371,110 @@ void padCharts(Baked& baked, int radius)
             owner[i] = std::uint32_t(i);
     propagateNearest(owner, baked.width, baked.height, TieBreak::above);
     const std::int64_t limit = radius > 0 ? std::int64_t(radius) * radius : std::numeric_limits<std::int64_t>::max();
-    for (std::size_t i = 0; i < owner.size(); ++i) {
-        if (owner[i] == kNoTexel || owner[i] == i || distance2(owner[i], std::uint32_t(i), baked.width) > limit)
-            continue;
-        baked.values[i] = baked.values[owner[i]];
-        baked.states[i] = std::uint8_t(baked.states[i] | texelPadded);
-    }
+    for (std::size_t i = 0; i < owner.size(); ++i)
+        if (owner[i] != kNoTexel && distance2(owner[i], std::uint32_t(i), baked.width) > limit)
+            owner[i] = kNoTexel;
+    return owner;
 }
+
+void fillFrom(const std::vector<std::uint32_t>& owner, Baked& baked)
+{
+    for (std::size_t i = 0; i < owner.size(); ++i)
+        if (owner[i] != kNoTexel && owner[i] != i) {
+            baked.values[i] = baked.values[owner[i]];
+            baked.states[i] = std::uint8_t(baked.states[i] | texelPadded);
+        }
+}
+
+bool haveValuesInTheSameTexels(const Baked& a, const Baked& b)
+{
+    return std::ranges::equal(a.values, b.values,
+                              [](glm::vec3 x, glm::vec3 y) { return (x == glm::vec3(0)) == (y == glm::vec3(0)); });
+}
+
+} // namespace
+
+void padCharts(Baked& baked, int radius) { fillFrom(nearestFilled(baked, radius), baked); }
+
+void padCharts(std::vector<Baked>& maps, int radius)
+{
+    const std::vector<std::uint32_t> owner = nearestFilled(maps.front(), radius);
+    for (std::size_t m = maps.size(); m-- > 0;) // the first one last, since the others are compared with it
+        if (haveValuesInTheSameTexels(maps[m], maps.front()))
+            fillFrom(owner, maps[m]);
+        else
+            padCharts(maps[m], radius);
+}
+
+namespace {
+bool isInWorld(BakeKind kind) { return kind == BakeKind::objectNormal || kind == BakeKind::objectBentNormal; }
+} // namespace
 
 Convention storedFormat(BakeKind kind, Convention format)
 {
-    if (kind == BakeKind::objectNormal) // the mesh's three axes, unchanged
+    if (isInWorld(kind)) // the mesh's three axes, unchanged
         format = {MapKind::objectSpace, format.expansion, Channels::xyz, true, VDirection::up};
     return format;
 }
 
+namespace {
+
+// What an image stores for the value of a texel that has one.
+class StoredValue {
+public:
+    StoredValue(const Baked& baked, BakeKind kind, const StoredAs& as)
+        : kind_(kind), isFloat_(as.type == PixelType::float32), unit_(baked.unit), box_(baked.box),
+          format_(toFormat<f32::cotan_normal_format>(storedFormat(kind, as.format), as.type))
+    {
+        if (kind != BakeKind::height || isFloat_)
+            return;
+        float lowest = 1e30f, highest = -1e30f;
+        for (const glm::vec3 v : baked.values)
+            if (v.z != 0) {
+                lowest = std::min(lowest, v.x);
+                highest = std::max(highest, v.x);
+            }
+        low_ = lowest;
+        scale_ = highest > lowest ? 1 / (highest - lowest) : 0;
+    }
+
+    glm::vec3 operator()(glm::vec3 v) const
+    {
+        if (v == glm::vec3(0))
+            return empty();
+        if (holdsDirections(kind_))
+            return f32::cotan_encode_texel(v, format_);
+        if (kind_ == BakeKind::position)
+            return isFloat_ ? box_.low + (v - 1.0f) * (box_.high - box_.low) : v - 1.0f;
+        if (kind_ == BakeKind::curvature && !isFloat_)
+            return glm::vec3(0.5f + 0.5f * v.x * unit_); // clamped as all integers
+        if (kind_ == BakeKind::thickness && !isFloat_)
+            return glm::vec3(v.x / unit_);
+        return glm::vec3((v.x - low_) * scale_);
+    }
+
+private:
+    glm::vec3 empty() const
+    {
+        if (!holdsDirections(kind_))
+            return glm::vec3(kind_ == BakeKind::curvature && !isFloat_ ? 0.5f : 0);
+        return isInWorld(kind_) ? glm::vec3(f32::cotan_compress(0, format_.expansion))
+                                : f32::cotan_encode_texel(glm::vec3(0, 0, 1), format_);
+    }
+
+    BakeKind kind_;
+    bool isFloat_;
+    float unit_, low_ = 0, scale_ = 1;
+    Bounds box_;
+    f32::cotan_normal_format format_;
+};
+
+} // namespace
+
 Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as)
 {
     Writer writer{makeImage(baked.width, baked.height, as.type), as.dither};
-    const bool direction = showsNormals(kind);
-    float low = 0, scale = 1;
-    if (kind == BakeKind::height && as.type != PixelType::float32) {
-        float lowest = 1e30f, highest = -1e30f;
-        for (std::size_t i = 0; i < baked.values.size(); ++i)
-            if (baked.values[i].z != 0) {
-                lowest = std::min(lowest, baked.values[i].x);
-                highest = std::max(highest, baked.values[i].x);
-            }
-        low = lowest;
-        scale = highest > lowest ? 1 / (highest - lowest) : 0;
-    }
-    const f32::cotan_normal_format portableFormat =
-        toFormat<f32::cotan_normal_format>(storedFormat(kind, as.format), as.type);
-    const glm::vec3 empty = !direction   ? glm::vec3(0)
-        : kind == BakeKind::objectNormal ? glm::vec3(f32::cotan_compress(0, portableFormat.expansion))
-                                         : f32::cotan_encode_texel(glm::vec3(0, 0, 1), portableFormat);
-    const auto stored = [&](glm::vec3 v) {
-        if (direction)
-            return v == glm::vec3(0) ? empty : f32::cotan_encode_texel(v, portableFormat);
-        return v.z != 0 ? glm::vec3((v.x - low) * scale) : empty;
-    };
+    const StoredValue stored(baked, kind, as);
     parallelRanges<std::size_t>(0, baked.values.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i != end; ++i)
             writer.put(i, stored(baked.values[i]));

@@ -13,13 +13,15 @@
 
 namespace cotan {
 
-// A baked map before it is stored: for each texel a unit texel m, a world normal, or a scalar in x; zero if none was
-// found.
+// A baked map before it is stored: for each texel a unit texel m, a world direction, a scalar in x with 1 in z, or 1
+// plus the fraction of the high surface's box at which a position lies; zero if none was found.
 struct Baked {
     int width = 0, height = 0;
     std::vector<glm::vec3> values;
     std::vector<std::uint8_t> states;
     BakeStatistics statistics;
+    Bounds box = {}; // of the high surface
+    float unit = 0;  // curvature: radius, thickness: length, which is stored as 1
 };
 
 // Bakes a map. Calls `progress` from several threads after each row. The result does not depend on the number of
@@ -27,6 +29,11 @@ struct Baked {
 // ErrorKind::input if triangles overlap in too many rows of texels; ErrorKind::stopped.
 Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
                    const Progress& progress = {});
+
+// The same for several kinds, of which options.kind need not be one: rays that find the high surface are traced once.
+// Each map is what bake() gives for its kind, to the byte; but texelNegative is set in all of them.
+Result<std::vector<Baked>> bakeMaps(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
+                                    const std::vector<BakeKind>& kinds, const Progress& progress = {});
 
 // Vertex indices of the triangles to rasterise with UvRaster::firsts for an image of that size. Errors:
 // ErrorKind::input if triangles overlap in too many rows of texels.
@@ -36,14 +43,16 @@ Result<std::vector<std::uint32_t>> indicesToDraw(const LowSurface& low, glm::ive
 Status measureRayStarts(const LowSurface& low, const HighSurface& high, BakeOptions& options, const LowRest& rest = {});
 
 // Fills texels without a value from the nearest texel with one, at most `radius` texels away (0: no limit). Of equally
-// near texels the upper one wins, then the left one. Every texel then belongs to its nearest chart.
+// near texels the upper one wins, then the left one. Every texel then belongs to its nearest chart. Several maps: of
+// one bake; those that have values in the same texels, as nearly all have, are filled from the same ones.
 void padCharts(Baked& baked, int radius);
+void padCharts(std::vector<Baked>& maps, int radius);
 
 // The format that storeBaked writes for `format`: object-space normals need three channels and have no green to flip.
 Convention storedFormat(BakeKind kind, Convention format);
 
-// The image of a baked map. Normals are stored by the format; heights and occlusion as grey, with heights scaled to
-// [0,1] except in float. Texels without a value become flat normals or zero.
+// The image of a baked map. Directions are stored by the format; others, except in float, as BakedMap::image says,
+// scalars as grey. Texels without a value become flat normals or zero.
 Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as);
 
 // Texel states as colours: covered green, touched dark green, missed red, negative blue, twice yellow.
@@ -80,9 +89,9 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
 Result<BakeSetup> prepareBake(const Scene& low, std::shared_ptr<const DetailedSurface> high,
                               const BakeModelOptions& options);
 
-// Bakes one tile, fills around its charts and stores it. Calls `progress` from several threads, not always in order.
-// Errors: ErrorKind::input if no triangle lies on the tile, ErrorKind::usage for a number below 1001, both beginning
-// with "options.tiles: "; ErrorKind::stopped.
-Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& progress = {});
+// Bakes the kinds of one tile, fills around its charts and stores them; of the masks the first map has one. Calls
+// `progress` from several threads, not always in order. Errors: ErrorKind::input if no triangle lies on the tile,
+// ErrorKind::usage for a number below 1001, both beginning with "options.tiles: "; ErrorKind::stopped.
+Result<std::vector<BakedMap>> bakeTile(const BakeSetup& setup, int tile, const Progress& progress = {});
 
 } // namespace cotan

@@ -13,8 +13,10 @@ namespace cotan {
 
 namespace {
 
-constexpr float kNearestDistance = 0.05f; // of the diagonal of the high surface
-constexpr float kLift = 1e-5f;            // of the same diagonal
+constexpr float kNearestDistance = 0.05f;               // of the diagonal of the high surface
+constexpr float kLift = 1e-5f;                          // of the same diagonal
+constexpr float kThickness = 0.5f, kCurvature = 0.01f; // of the same diagonal
+constexpr float kEndless = 1e30f;                       // of rays
 
 float diagonalOf(const HighSurface& high) { return glm::length(high.box().high - high.box().low); }
 
@@ -64,11 +66,11 @@ Status measureRayStarts(const LowSurface& low, const HighSurface& high, BakeOpti
 Baker::Baker(const LowSurface& low, const HighSurface& high, const BakeOptions& options)
     : low_(low), high_(high), options_(options)
 {
-    const float diagonal = diagonalOf(high);
+    diagonal_ = diagonalOf(high);
     distance_ = options.maxDistance > 0 ? options.maxDistance
         : measured()                    ? options.starts->limit
-                                        : kNearestDistance * diagonal;
-    lift_ = kLift * diagonal;
+                                        : kNearestDistance * diagonal_;
+    lift_ = kLift * diagonal_;
 }
 
 void Baker::aim(const LowPoints& points, std::span<const UvSample> samples, Probes& probes) const
@@ -126,12 +128,13 @@ std::size_t Baker::find(std::span<const UvSample> samples, const Probes& probes,
         if (measured())
             rays += findFromFurtherOut(samples, probes, hits);
     }
-    if (options_.highMaps && showsNormals(options_.kind))
+    hits.shown = hits.normal;
+    if (options_.highMaps)
         for (std::size_t i = 0; i < probes.count; ++i)
             if (hits.found(i))
-                hits.normal.set(i,
-                                options_.highMaps->normalAt(hits.instance[i], hits.triangle[i], double(hits.b1[i]),
-                                                            double(hits.b2[i]), hits.normal.at(i)));
+                hits.shown.set(i,
+                               options_.highMaps->normalAt(hits.instance[i], hits.triangle[i], double(hits.b1[i]),
+                                                           double(hits.b2[i]), hits.normal.at(i)));
     return rays;
 }
 
@@ -192,53 +195,116 @@ std::size_t Baker::findFurther(const Probes& probes, const Hits& hits, Lanes<int
     });
 }
 
-std::size_t Baker::valuesOf(const LowPoints& points, const Probes& probes, const Hits& hits,
-                            std::span<const glm::ivec2> rasterTexels, Lanes3& values) const
+float Baker::unitOf(BakeKind kind) const
 {
-    switch (options_.kind) {
-    case BakeKind::normal: encode(points, hits.normal, values); return 0;
-    case BakeKind::objectNormal: values = hits.normal; return 0;
+    if (kind == BakeKind::thickness)
+        return options_.thicknessDistance > 0 ? options_.thicknessDistance : kThickness * diagonal_;
+    if (kind == BakeKind::curvature)
+        return options_.curvatureRadius > 0 ? options_.curvatureRadius : kCurvature * diagonal_;
+    return 0;
+}
+
+void Baker::valuesOf(BakeKind kind, const LowPoints& points, const Probes& probes, const Hits& hits,
+                     const Around& around, Lanes3& values) const
+{
+    const auto setAll = [&](const auto& valueOf) {
+        for (std::size_t i = 0; i < kLanes; ++i)
+            values.set(i, valueOf(i));
+    };
+    switch (kind) {
+    case BakeKind::normal: encode(points, hits.shown, values); break;
+    case BakeKind::objectNormal: values = hits.shown; break;
+    case BakeKind::bentNormal: encode(points, around.open, values); break;
+    case BakeKind::objectBentNormal: values = around.open; break;
+    case BakeKind::occlusion: setAll([&](std::size_t i) { return glm::vec3(around.openness[i], 0, 1); }); break;
+    case BakeKind::thickness: setAll([&](std::size_t i) { return glm::vec3(around.thickness[i], 0, 1); }); break;
     case BakeKind::height:
-        for (std::size_t i = 0; i < kLanes; ++i) {
+        setAll([&](std::size_t i) {
             const bool leans = measured() && options_.starts->directionsDiffer;
             const float slope = leans ? glm::dot(probes.direction.at(i), points.normal.at(i)) : 1;
-            values.set(i, {hits.distance[i] * slope, 0, 1});
-        }
-        return 0;
-    case BakeKind::occlusion: break;
-    }
-    std::size_t rays = 0;
-    for (std::size_t i = 0; i < rasterTexels.size(); ++i)
-        if (hits.found(i)) {
+            return glm::vec3(hits.distance[i] * slope, 0, 1);
+        });
+        break;
+    case BakeKind::curvature:
+        setAll([&](std::size_t i) { return glm::vec3(hits.found(i) ? high_.curvatureAt(hits, i) : 0, 0, 1); });
+        break;
+    case BakeKind::position: {
+        const Bounds box = high_.box();
+        const glm::vec3 size = glm::max(box.high - box.low, glm::vec3(1e-30f));
+        setAll([&](std::size_t i) {
             const glm::vec3 where = probes.point.at(i) + probes.direction.at(i) * hits.distance[i];
-            const std::uint32_t pattern =
-                std::uint32_t(rasterTexels[i].x) * 7919u + std::uint32_t(rasterTexels[i].y) * 104729u;
-            // Occlusion is measured on the side that the ray came from.
-            const glm::vec3 out = probes.direction.at(i), face = hits.face.at(i), n = hits.normal.at(i);
-            values.set(i,
-                       {openness(where, glm::dot(face, out) < 0 ? -face : face, glm::dot(n, out) < 0 ? -n : n, pattern,
-                                 options_.occluders == Occluders::matched ? probes.only[i] : Probes::kAny),
-                        0, 1});
-            rays += std::size_t(options_.occlusionRays);
+            return 1.0f + glm::clamp((where - box.low) / size, 0.0f, 1.0f);
+        });
+        break;
+    }
+    }
+}
+
+// For each hit: cosine-weighted directions on a golden-ratio spiral around the normal, times `side`, rotated by an
+// angle that depends on the texel. Calls see(lane, number of the ray, ray, group that it may hit).
+template<class See>
+std::size_t Baker::look(const Probes& probes, const Hits& hits, std::span<const glm::ivec2> rasterTexels, float side,
+                        const See& see) const
+{
+    std::size_t rays = 0;
+    for (std::size_t lane = 0; lane < rasterTexels.size(); ++lane) {
+        if (!hits.found(lane))
+            continue;
+        const glm::vec3 where = probes.point.at(lane) + probes.direction.at(lane) * hits.distance[lane];
+        const std::uint32_t pattern =
+            std::uint32_t(rasterTexels[lane].x) * 7919u + std::uint32_t(rasterTexels[lane].y) * 104729u;
+        // Outwards is the side that the ray came from.
+        const glm::vec3 out = probes.direction.at(lane);
+        const auto towards = [&](glm::vec3 v) { return (glm::dot(v, out) < 0 ? -v : v) * side; };
+        const glm::vec3 face = towards(hits.face.at(lane)), n = towards(hits.normal.at(lane));
+        const glm::vec3 t = glm::normalize(glm::cross(otherAxis(n), n)), b = glm::cross(n, t);
+        const float length = glm::length(face);
+        const glm::vec3 origin = where + (length > 0 ? face / length : n) * lift_;
+        const std::uint32_t only = options_.occluders == Occluders::matched ? probes.only[lane] : Probes::kAny;
+        const double rotation = double(pattern * 2654435769u) / 4294967296.0 * 2 * std::numbers::pi;
+        for (int i = 0; i < options_.occlusionRays; ++i) {
+            const double r2 = (i + 0.5) / options_.occlusionRays, a = rotation + i * 2.399963229728653;
+            const float x = float(std::sqrt(r2) * std::cos(a)), y = float(std::sqrt(r2) * std::sin(a));
+            see(lane, {origin, t * x + b * y + n * float(std::sqrt(1 - r2)), 0, kEndless}, only);
         }
+        rays += std::size_t(options_.occlusionRays);
+    }
     return rays;
 }
 
-// Cosine-weighted directions on a golden-ratio spiral around n, rotated by an angle that depends on the texel.
-float Baker::openness(glm::vec3 where, glm::vec3 face, glm::vec3 n, std::uint32_t pattern, std::uint32_t only) const
+std::size_t Baker::lookOut(const Probes& probes, const Hits& hits, std::span<const glm::ivec2> rasterTexels,
+                           Around& around) const
 {
-    const glm::vec3 t = glm::normalize(glm::cross(otherAxis(n), n)), b = glm::cross(n, t);
-    const float length = glm::length(face);
-    const glm::vec3 origin = where + (length > 0 ? face / length : n) * lift_;
-    const double rotation = double(pattern * 2654435769u) / 4294967296.0 * 2 * std::numbers::pi;
-    int open = 0;
-    for (int i = 0; i < options_.occlusionRays; ++i) {
-        const double r2 = (i + 0.5) / options_.occlusionRays, a = rotation + i * 2.399963229728653;
-        const float x = float(std::sqrt(r2) * std::cos(a)), y = float(std::sqrt(r2) * std::sin(a));
-        const glm::vec3 d = t * x + b * y + n * float(std::sqrt(1 - r2));
-        open += !high_.blocked({origin, d, 0, 1e30f}, only);
+    Lanes<int> open{};
+    Lanes3 sums;
+    const std::size_t rays =
+        look(probes, hits, rasterTexels, 1, [&](std::size_t lane, const Ray& ray, std::uint32_t only) {
+            if (high_.blocked(ray, only))
+                return;
+            ++open[lane];
+            sums.set(lane, sums.at(lane) + ray.direction);
+        });
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        around.openness[i] = float(open[i]) / float(options_.occlusionRays);
+        const float length = glm::length(sums.at(i));
+        const glm::vec3 n = hits.normal.at(i);
+        around.open.set(i, length > 1e-3f ? sums.at(i) / length : glm::dot(n, probes.direction.at(i)) < 0 ? -n : n);
     }
-    return float(open) / float(options_.occlusionRays);
+    return rays;
+}
+
+std::size_t Baker::lookIn(const Probes& probes, const Hits& hits, std::span<const glm::ivec2> rasterTexels,
+                          Around& around) const
+{
+    Lanes<double> lengths{};
+    const double longest = unitOf(BakeKind::thickness);
+    const std::size_t rays =
+        look(probes, hits, rasterTexels, -1, [&](std::size_t lane, const Ray& ray, std::uint32_t only) {
+            lengths[lane] += std::min(high_.distanceTo(ray, only) + double(lift_), longest);
+        });
+    for (std::size_t i = 0; i < kLanes; ++i)
+        around.thickness[i] = float(lengths[i] / options_.occlusionRays);
+    return rays;
 }
 
 } // namespace cotan

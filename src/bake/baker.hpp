@@ -8,6 +8,12 @@
 
 namespace cotan {
 
+// What rays from a hit find around it.
+struct Around {
+    Lanes<float> openness{}, thickness{};
+    Lanes3 open; // unit, the mean open direction; the normal if none is open
+};
+
 class Baker {
 public:
     // options.starts must have been measured if it is used (measureRayStarts). All arguments must outlive the Baker.
@@ -26,22 +32,32 @@ public:
     bool anyFarInFront(const Hits& hits) const;
     // Marks probes that hit nothing, while a surface lies somewhere on the line.
     std::size_t findFurther(const Probes& probes, const Hits& hits, Lanes<int>& further) const;
-    // Computes the value that the map stores for each hit.
-    std::size_t valuesOf(const LowPoints& points, const Probes& probes, const Hits& hits,
-                         std::span<const glm::ivec2> rasterTexels, Lanes3& values) const;
+    // Shoots the rays from each hit into the hemisphere above the surface, for occlusion and bent normals.
+    std::size_t lookOut(const Probes& probes, const Hits& hits, std::span<const glm::ivec2> rasterTexels,
+                        Around& around) const;
+    // And those into the surface, for thickness.
+    std::size_t lookIn(const Probes& probes, const Hits& hits, std::span<const glm::ivec2> rasterTexels,
+                       Around& around) const;
+    // Computes the value that a map of a kind stores for each hit. around: set by the functions above, if it is read.
+    void valuesOf(BakeKind kind, const LowPoints& points, const Probes& probes, const Hits& hits, const Around& around,
+                  Lanes3& values) const;
+    float unitOf(BakeKind kind) const; // Baked::unit
 
 private:
     bool measured() const { return options_.cage.empty() && options_.search == BakeSearch::first; }
     void aimFromCage(const UvSample& sample, std::size_t i, Probes& probes) const;
     void aimFromStart(const LowPoints& points, const UvSample& sample, std::size_t i, Probes& probes) const;
     std::size_t findFromFurtherOut(std::span<const UvSample> samples, const Probes& probes, Hits& hits) const;
-    float openness(glm::vec3 where, glm::vec3 face, glm::vec3 n, std::uint32_t pattern, std::uint32_t only) const;
+    template<class See>
+    std::size_t look(const Probes& probes, const Hits& hits, std::span<const glm::ivec2> rasterTexels, float side,
+                     const See& see) const;
 
     const LowSurface& low_;
     const HighSurface& high_;
     const BakeOptions& options_;
     float distance_ = 0;
     float lift_ = 0;
+    float diagonal_ = 0; // of the high surface
 };
 
 } // namespace cotan

@@ -188,6 +188,20 @@ void HighSurface::curve(int threads)
         part.shapes = shapeOperators({part.positions.data(), part.normals.size()}, part.normals, part.indices, threads);
 }
 
+bool HighSurface::isCurved() const { return !state_->parts.front().shapes.empty(); }
+
+float HighSurface::curvatureAt(const Hits& hits, std::size_t lane) const
+{
+    const Part& part = state_->parts[hits.instance[lane]];
+    const std::uint32_t* const v = &part.indices[3 * std::size_t(hits.triangle[lane])];
+    const auto mean = [&](std::uint32_t vertex) {
+        const ShapeOperator& w = part.shapes[vertex];
+        return (w[0] + w[3] + w[5]) / 2;
+    };
+    const float b1 = hits.b1[lane], b2 = hits.b2[lane];
+    return (1 - b1 - b2) * mean(v[0]) + b1 * mean(v[1]) + b2 * mean(v[2]);
+}
+
 HighSurface::Triangles HighSurface::triangles(std::size_t instance) const
 {
     const Part& part = state_->parts[instance];
@@ -320,6 +334,16 @@ std::size_t HighSurface::countHits(const Ray& ray) const
     RTCRay r = toEmbree(ray).ray;
     occluded(state_->embree.scene, counting.query, r);
     return counting.count;
+}
+
+float HighSurface::distanceTo(const Ray& ray, std::uint32_t only) const
+{
+    FilterContext context{RayQuery(Coherence::incoherent, only == Probes::kAny ? nullptr : keepOnly), nullptr,
+                          groups_.data()};
+    RTCRayHit r = toEmbree(ray);
+    r.ray.id = only;
+    intersect(state_->embree.scene, context.query, r);
+    return r.hit.geomID == RTC_INVALID_GEOMETRY_ID ? std::numeric_limits<float>::infinity() : r.ray.tfar;
 }
 
 bool HighSurface::blocked(const Ray& ray, std::uint32_t only) const

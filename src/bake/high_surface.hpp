@@ -49,6 +49,7 @@ struct Hits {
 
     Lanes<float> distance{};         // along the direction; negative behind the point
     Lanes3 normal;                   // unit, not flipped towards the ray
+    Lanes3 shown;                    // the same, or that of the high surface's normal map; set by Baker::find
     Lanes3 face;                     // normal of the triangle hit, any length
     Lanes<std::uint32_t> instance{}; // counted over all scenes, without empty ones; kNothing: no hit
     Lanes<std::uint32_t> triangle{}; // of that instance
@@ -76,6 +77,10 @@ public:
 
     // Prepares curved normals: fits the shape operator of each vertex. Takes 24 bytes per vertex. `threads`: 0 for all.
     void curve(int threads);
+    bool isCurved() const;
+    // The mean curvature at a hit, 1 / length, positive where the surface is convex as seen from its normals: half the
+    // trace of the shape operator, interpolated between vertices. Needs curve().
+    float curvatureAt(const Hits& hits, std::size_t lane) const;
     // The unit normal at a hit, not flipped towards the ray. `direction`: of the ray, with either sign.
     glm::vec3 normalOf(const Hit& hit, HighNormals normals, glm::vec3 direction) const;
 
@@ -91,6 +96,8 @@ public:
     void anyBetween(const Probes& probes, Lanes<int>& any) const;
     // Whether the ray hits anything. only: as in Probes.
     bool blocked(const Ray& ray, std::uint32_t only = Probes::kAny) const;
+    // How far the ray runs until it hits anything; infinity if it does not.
+    float distanceTo(const Ray& ray, std::uint32_t only = Probes::kAny) const;
     // The number of triangles that the ray crosses.
     std::size_t countHits(const Ray& ray) const;
 

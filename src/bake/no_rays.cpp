@@ -15,6 +15,9 @@ Result<HighSurface> HighSurface::make(const std::vector<Scene>&, int, bool) { re
 void HighSurface::setGroups(std::vector<std::uint32_t>) {}
 std::uint32_t HighSurface::groupOf(std::size_t) const { return 0; }
 void HighSurface::curve(int) {}
+bool HighSurface::isCurved() const { return false; }
+float HighSurface::curvatureAt(const Hits&, std::size_t) const { return 0; }
+float HighSurface::distanceTo(const Ray&, std::uint32_t) const { return 0; }
 glm::vec3 HighSurface::normalOf(const Hit&, HighNormals, glm::vec3) const { return glm::vec3(0); }
 Hit HighSurface::trace(const Ray&) const { return {}; }
 void HighSurface::nearest(const Probes&, float, HighNormals, Hits&) const {}

@@ -16,10 +16,12 @@ using namespace cotan::c;
 
 namespace {
 
-constexpr Named<BakeKind> kKinds[] = {{"normal", BakeKind::normal},
-                                      {"object-normal", BakeKind::objectNormal},
-                                      {"height", BakeKind::height},
-                                      {"occlusion", BakeKind::occlusion}};
+constexpr Named<BakeKind> kKinds[] = {
+    {"normal", BakeKind::normal},          {"object-normal", BakeKind::objectNormal},
+    {"height", BakeKind::height},          {"occlusion", BakeKind::occlusion},
+    {"bent-normal", BakeKind::bentNormal}, {"object-bent-normal", BakeKind::objectBentNormal},
+    {"thickness", BakeKind::thickness},    {"curvature", BakeKind::curvature},
+    {"position", BakeKind::position}};
 
 constexpr Named<HighNormals> kHighNormals[] = {{"smooth", HighNormals::smooth},
                                                {"curved", HighNormals::curved},
@@ -68,6 +70,8 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_image_vi
     b.cageReach = o.cage_reach;
     b.occlusionRays = o.occlusion_rays != 0 ? o.occlusion_rays : 64;
     b.occluders = valueOf(kOccluders, o.occluders ? o.occluders : "matched", "options.occluders");
+    b.thicknessDistance = o.thickness_distance;
+    b.curvatureRadius = o.curvature_radius;
     b.threads = o.threads;
     options.tiles = {o.tile != 0 ? o.tile : 1001};
     options.material = o.material - 1;
@@ -94,6 +98,8 @@ Error aboutFieldOfC(Error error)
         {"options.highFrame", "options.high_frame"},
         {"options.maxDistance", "options.max_distance"},
         {"options.cageReach", "options.cage_reach"},
+        {"options.thicknessDistance", "options.thickness_distance"},
+        {"options.curvatureRadius", "options.curvature_radius"},
         {"options.matchByName", "options.match_by_name"},
         {"options.tiles", "options.tile"},
         {"high.maps", "options.high_maps"},

@@ -70,6 +70,7 @@ class BakeOptions(Struct):
         (text, "search"),
         (c.c_float, "extrusion"),
         (text, "occluders"),
+        (c.c_float, "thickness_distance curvature_radius"),
     )
 
 

@@ -124,6 +124,8 @@ def bake(
     max_distance: float = 0.0,
     cage: Union[Geometry, Sequence[Mesh], None] = None,
     cage_reach: float = 0.0,
+    thickness_distance: float = 0.0,
+    curvature_radius: float = 0.0,
     match_by_name: bool = False,
     material: int = -1,
     udim: int = 1001,
@@ -147,13 +149,14 @@ def bake(
         high: the same, or a list of such items, which are all used.
         size: (width, height) in texels, one number for both, or "WxH".
         frame: the frame that the shader will use: "smooth", "cotangent", "mikktspace", ...: see `frames`.
-        kind: "normal", "object-normal", "height" (units of the positions) or "ao".
+        kind: "normal", "object-normal", "height" (units of the positions), "ao", "bent-normal", "object-bent-normal",
+            "thickness", "curvature" or "position".
         convention: how the map is stored: "opengl" (green up), "directx", "opengl,biased", ...
         bits: bit depth of the map: 8, 16 or 32 (float).
         samples: samples per texel: 1, 4 or 16.
         padding: texels around charts that are filled from the nearest chart; 0: all, -1: none.
         dither: with 8 bits: dithers with a fixed pattern, so that slopes show no steps.
-        ao_rays: rays per sample for "ao", 1 to 65536.
+        ao_rays: rays per sample for "ao", bent normals and thickness, 1 to 65536.
         ao_occluders: with match_by_name, what casts occlusion: "matched" (the high meshes of the same name) or "all".
         search: "first": the first surface that a ray from outside inwards hits; "nearest": the surface nearest to the
             low mesh along its normal in either direction, which misses parts that float above another surface.
@@ -163,6 +166,10 @@ def bake(
             diagonal of the low mesh, for the search "nearest" 5 % of that of the high mesh.
         cage: a mesh with the triangles of the low mesh in their order, which encloses both meshes. Rays start there.
         cage_reach: length of rays from the cage; 0: as far behind the low mesh as the cage is in front of it.
+        thickness_distance: thickness that is stored as 1, in units of the positions; 0: 50 % of the diagonal of the
+            high mesh. With 32 bits thickness is in these units.
+        curvature_radius: radius of a ball whose curvature is stored as 1, flat is 0.5; 0: 1 % of that diagonal. With 32
+            bits curvature is in 1 / unit.
         match_by_name: a low mesh named NAME_low sees only its high meshes NAME_high: see `pair_names`.
         material: index of the low model's material to bake; -1: all.
         udim: tile of the texture coordinates to bake, 1001 to 1999.
@@ -190,6 +197,8 @@ def bake(
     padding, ao_rays = arrays.integer(padding, "padding", -1, 65536), arrays.integer(ao_rays, "ao_rays", 1, 65536)
     max_distance, threads = arrays.number(max_distance, "max_distance"), arrays.threads_of(threads)
     cage_reach, extrusion = arrays.number(cage_reach, "cage_reach"), arrays.number(extrusion, "extrusion")
+    thickness_distance = arrays.number(thickness_distance, "thickness_distance")
+    curvature_radius = arrays.number(curvature_radius, "curvature_radius")
     for mesh in _several(low):
         if isinstance(mesh, Mesh) and mesh.texcoords is None:
             raise arrays.wrong("low", "meshes with texcoords", f"one without: {mesh}", InputError)
@@ -236,6 +245,8 @@ def bake(
             high_maps=ctypes.addressof(high_maps) if images else None,
             cage_reach=cage_reach,
             extrusion=extrusion,
+            thickness_distance=thickness_distance,
+            curvature_radius=curvature_radius,
             mask=None if mask_view is None else ctypes.addressof(mask_view),
             **words,
         )

@@ -35,7 +35,9 @@ Reading = Literal["cotangent", "orthonormal", "smooth", "exact", "triangle", "st
 Preset = Literal["gltf", "opengl", "directx", "unity", "unreal", "blender", "godot", "maya", "3dsmax", "source"]
 Convention = Union[Preset, str]
 
-BakeKind = Literal["normal", "object-normal", "height", "ao"]
+BakeKind = Literal[
+    "normal", "object-normal", "height", "ao", "bent-normal", "object-bent-normal", "thickness", "curvature", "position"
+]  # fmt: skip
 HighNormals = Literal["smooth", "curved", "face", "map"]
 Search = Literal["first", "nearest"]
 Occluders = Literal["matched", "all"]

@@ -309,12 +309,13 @@ const char* cotan_model_warnings(const cotan_model* model);
 typedef struct cotan_bake_options {
     size_t size;
     const char* frame;       /* frame that will read the map; null: "mikktspace", which every engine reads */
-    const char* kind;        /* "normal", "object-normal", "height" or "occlusion"; null: "normal" */
+    const char* kind;        /* "normal", "object-normal", "height", "occlusion"; since version 9 "bent-normal",
+                                "object-bent-normal", "thickness", "curvature", "position"; null: "normal" */
     const char* convention;  /* of the map; null: "gltf" */
     int samples;             /* per texel and axis: 1, 2 or 4; 0: 1 */
     int padding;             /* width of the filled border around charts, in texels; 0: fill everything, -1: none */
     int dither;              /* not 0: prevents banding in maps of 8 bits */
-    int occlusion_rays;      /* rays per sample; 0: 64 */
+    int occlusion_rays;      /* rays per sample, also for bent normals and thickness; 0: 64 */
     float max_distance;      /* detail further than this from the simple surface is ignored, in units of the positions;
                                 0: 10 % of the diagonal of the simple surface's bounding box; for the search "nearest"
                                 5 % of that of the detailed one */
@@ -344,6 +345,9 @@ typedef struct cotan_bake_options {
     /* Since version 7. */
     const char* occluders; /* with match_by_name, what casts occlusion: "matched", the detailed meshes of the same name,
                               or "all"; null: "matched" */
+    /* Since version 9. */
+    float thickness_distance; /* thickness that integers store as 1; 0: 50 % of the detailed models' diagonal */
+    float curvature_radius;   /* radius of a ball that integers store as 1, flat is 0.5; 0: 1 % of that diagonal */
 } cotan_bake_options;
 
 typedef struct cotan_bake_result {

@@ -34,14 +34,25 @@ namespace cotan {
 // ---- what to bake ---------------------------------------------------------------------------
 
 enum class BakeKind {
-    normal,       // normals in BakeOptions::frame
-    objectNormal, // world-space normals
-    height,       // distance from the low to the high surface along the low normal, model units
-    occlusion,    // fraction of the hemisphere above the high surface that is open, cosine weighted
+    normal,           // normals in BakeOptions::frame
+    objectNormal,     // world-space normals
+    height,           // distance from the low to the high surface along the low normal, model units
+    occlusion,        // fraction of the hemisphere above the high surface that is open, cosine weighted
+    bentNormal,       // mean direction in which that hemisphere is open, in BakeOptions::frame
+    objectBentNormal, // the same in world space
+    thickness,        // mean length of rays from the high surface inwards, cosine weighted, model units
+    curvature,        // mean curvature of the high surface, 1 / model unit; positive where it is convex
+    position,         // world position of the high surface
 };
 
-// Whether a map of this kind holds directions.
+// Whether a map of this kind shows the normals of the high surface, or those of its normal maps.
 inline bool showsNormals(BakeKind kind) { return kind == BakeKind::normal || kind == BakeKind::objectNormal; }
+
+// Whether a map of this kind holds directions.
+inline bool holdsDirections(BakeKind kind)
+{
+    return showsNormals(kind) || kind == BakeKind::bentNormal || kind == BakeKind::objectBentNormal;
+}
 
 // Which of the surfaces on a line counts.
 enum class BakeSearch {
@@ -84,7 +95,11 @@ struct BakeOptions {
     HighNormals highNormals = HighNormals::smooth;
     std::shared_ptr<const HighNormalMaps> highMaps; // normal maps of the high surface, which replace its normals; not
                                                     // read for heights and occlusion. Null: none
-    int occlusionRays = 64;
+    int occlusionRays = 64;                         // per sample, also for bent normals and thickness
+    float thicknessDistance = 0; // model units: the length of longer rays, stored as 1 in integers; 0: 50 % of the
+                                 // diagonal of the high surface's bounding box
+    float curvatureRadius = 0; // model units: the radius of a ball that is stored as 1 in integers, 0.5 is flat; 0: 1 %
+                               // of that diagonal
     Occluders occluders = Occluders::matched;
     std::vector<std::int64_t> matched; // per instance of the low scene: the group of high instances that rays can hit,
                                        // -1: all; empty: all
@@ -109,6 +124,7 @@ struct HighModel {
 
 struct BakeModelOptions {
     BakeOptions bake;             // tile, cage, starts, highMaps and matched are derived from the options below
+    std::vector<BakeKind> kinds;  // maps that are made from the same rays, each as it would be alone; empty: bake.kind
     std::vector<int> tiles{1001}; // UDIM numbers, one map each: 1001 + u + 10 v, u below 10, v upwards
     int material = -1;            // of the simple scene; -1: all
     TangentOrigin tangents = TangentOrigin::stored; // for the frames `vertex` and `mikktspace`
@@ -158,14 +174,17 @@ struct BakeStatistics {
 
 struct BakedMap {
     int tile = 1001; // UDIM number
-    Image image;
-    Convention format; // how `image` is stored, if it holds normals
+    BakeKind kind = BakeKind::normal;
+    Image image; // in integers a position is a fraction of `box`, and a height one between the lowest and the highest
+    Bounds box;  // of the high surface
+    double unit = 0;   // curvature and thickness: the radius or the length that is stored as 1 in integers
+    Convention format; // how `image` is stored, if it holds directions
     Image mask;        // states of the texels as colours, see maskOf; empty unless requested
     BakeStatistics statistics;
 };
 
 struct BakedModel {
-    std::vector<BakedMap> maps;        // one for each of options.tiles
+    std::vector<BakedMap> maps;        // for each of options.tiles one of each kind
     std::vector<std::string> warnings; // one line each; those about an option begin with "options.NAME: "
 };
 
@@ -177,8 +196,8 @@ Result<BakedModel> bakeModel(const Scene& low, HighModel high, const BakeModelOp
 
 // Opens the detailed side once: its acceleration structure and normal maps then serve any number of bakes, of other
 // simple scenes, frames, kinds and sizes. options: bake.threads, and bake.highNormals, matchByName, ownMaps, highFrame
-// and highFormat, which hold for every bake from it. Maps are read if bake.kind holds directions.
-// Errors: those of prepareBake that concern the detailed scenes.
+// and highFormat, which hold for every bake from it. Maps are read if a kind shows normals; curvature is prepared if it
+// is among the kinds. Errors: those of prepareBake that concern the detailed scenes.
 Result<std::shared_ptr<const DetailedSurface>> openDetailed(HighModel high, const BakeModelOptions& options);
 
 // Bakes as with the HighModel that `high` was opened from; gives the same bytes.

@@ -1,0 +1,269 @@
+// Several maps of one trace: each equals the map alone, and each kind is compared with surfaces that are known.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "bake/bake_surfaces.hpp"
+#include "bake_scene.hpp"
+#include "cotan/bake.hpp"
+
+namespace cotan {
+namespace {
+
+constexpr BakeKind kAll[] = {BakeKind::normal,    BakeKind::objectNormal, BakeKind::height,
+                             BakeKind::occlusion, BakeKind::bentNormal,   BakeKind::objectBentNormal,
+                             BakeKind::thickness, BakeKind::curvature,    BakeKind::position};
+
+BakeModelOptions optionsFor(std::vector<BakeKind> kinds, PixelType type = PixelType::float32)
+{
+    BakeModelOptions options;
+    options.kinds = std::move(kinds);
+    options.bake.frame = Frame::smooth;
+    options.bake.width = options.bake.height = 16;
+    options.bake.threads = 2;
+    options.stored.type = type;
+    return options;
+}
+
+Result<BakedModel> bakeScene(const Scene& low, const Scene& high, const BakeModelOptions& options)
+{
+    HighModel model;
+    model.scenes.push_back(high);
+    return bakeModel(low, std::move(model), options);
+}
+
+// The values of a map of floats in a scalar kind, of texels that are covered in the middle of the map.
+std::vector<float> scalars(const BakedMap& map, int border = 2)
+{
+    std::vector<float> values;
+    for (int y = border; y < map.image.height - border; ++y)
+        for (int x = border; x < map.image.width - border; ++x)
+            values.push_back(map.image.floats()[4 * (y * map.image.width + x)]);
+    return values;
+}
+
+BakedMap oneMap(const Scene& low, const Scene& high, BakeKind kind, BakeModelOptions options)
+{
+    options.kinds = {kind};
+    auto baked = bakeScene(low, high, options);
+    EXPECT_TRUE(baked) << (baked ? "" : baked.error().message);
+    return std::move(baked->maps.front());
+}
+
+bool isEqual(const Image& a, const Image& b) { return a.type == b.type && a.data == b.data && a.frame == b.frame; }
+
+TEST(BakeMaps, everyMapOfOneTraceIsTheMapAlone)
+{
+    // Two objects that share a map: a torus over the left half, a ball over the right one.
+    Mesh torus = makeTorus(1, 0.4f, 48, 1, 1), ball = makeSphere(0.7f, 32);
+    for (glm::vec2& uv : torus.texcoords[0])
+        uv.x *= 0.5f;
+    for (glm::vec2& uv : ball.texcoords[0])
+        uv.x = 0.5f + 0.5f * uv.x;
+    const Scene high = sceneOfMeshes({torus, ball});
+    for (const PixelType type : {PixelType::unorm8, PixelType::float32})
+        for (const int samples : {1, 2}) {
+            BakeModelOptions options = optionsFor({std::begin(kAll), std::end(kAll)}, type);
+            options.bake.samples = samples;
+            options.bake.occlusionRays = 9;
+            options.tiles = {1001};
+            const auto together = bakeScene(high, high, options);
+            ASSERT_TRUE(together) << together.error().message;
+            ASSERT_EQ(together->maps.size(), std::size(kAll));
+            for (std::size_t i = 0; i < std::size(kAll); ++i) {
+                EXPECT_EQ(together->maps[i].kind, kAll[i]);
+                EXPECT_TRUE(isEqual(together->maps[i].image, oneMap(high, high, kAll[i], options).image))
+                    << "map " << i << ", " << samples << " samples";
+            }
+        }
+}
+
+TEST(BakeMaps, raysThatFindTheSurfaceAreTracedOnceForAllMaps)
+{
+    const Scene scene = sceneOfMeshes({makeTorus(1, 0.4f, 32, 1, 1)});
+    const BakeModelOptions options = optionsFor({});
+    const std::size_t alone = oneMap(scene, scene, BakeKind::normal, options).statistics.rays;
+    const auto several = bakeScene(scene, scene,
+                                   optionsFor({BakeKind::normal, BakeKind::height, BakeKind::curvature,
+                                               BakeKind::position, BakeKind::objectNormal}));
+    ASSERT_TRUE(several);
+    EXPECT_EQ(several->maps.back().statistics.rays, alone);
+    // Occlusion and both bent normals share theirs: 64 a sample, as occlusion alone.
+    const std::size_t occlusion = oneMap(scene, scene, BakeKind::occlusion, options).statistics.rays;
+    const auto around =
+        bakeScene(scene, scene, optionsFor({BakeKind::occlusion, BakeKind::bentNormal, BakeKind::objectBentNormal}));
+    ASSERT_TRUE(around);
+    EXPECT_EQ(around->maps.front().statistics.rays, occlusion);
+    EXPECT_GT(occlusion, alone + 16 * 16 * 64 - 1);
+}
+
+TEST(BakeMaps, curvatureOfABallIsOneOverItsRadiusAndThatOfAHollowIsNegative)
+{
+    for (const float radius : {0.5f, 3.0f}) {
+        const Scene ball = sceneOfMeshes({makeSphere(radius, 64)});
+        // The fit of 64 segments is within their angle squared over 4, 0.0024; poles are left out.
+        for (const float k : scalars(oneMap(ball, ball, BakeKind::curvature, optionsFor({}))))
+            EXPECT_NEAR(k * radius, 1, 3e-3);
+        Mesh inside = makeSphere(radius, 64);
+        for (glm::vec3& n : inside.normals)
+            n = -n;
+        for (std::size_t i = 0; i < inside.indices.size(); i += 3)
+            std::swap(inside.indices[i], inside.indices[i + 1]);
+        const Scene hollow = sceneOfMeshes({inside});
+        for (const float k : scalars(oneMap(hollow, hollow, BakeKind::curvature, optionsFor({}))))
+            EXPECT_NEAR(k * radius, -1, 3e-3);
+    }
+}
+
+TEST(BakeMaps, curvatureOfATorusHasBothItsRadii)
+{
+    // H = (1 / r + cos a / (R + r cos a)) / 2 at the angle a around the tube.
+    const double major = 1, minor = 0.4;
+    const Scene torus = sceneOfMeshes({makeTorus(float(major), float(minor), 96, 1, 1)});
+    BakeModelOptions options = optionsFor({BakeKind::curvature, BakeKind::position});
+    options.bake.width = options.bake.height = 32;
+    const auto baked = bakeScene(torus, torus, options);
+    ASSERT_TRUE(baked);
+    double lowest = 1e9, highest = -1e9;
+    for (int i = 0; i < 32 * 32; ++i) {
+        const float* p = baked->maps[1].image.floats() + 4 * i;
+        const double fromAxis = std::hypot(p[0], p[2]), cosine = std::clamp((fromAxis - major) / minor, -1.0, 1.0);
+        const double truth = (1 / minor + cosine / (major + minor * cosine)) / 2;
+        EXPECT_NEAR(double(baked->maps[0].image.floats()[4 * i]), truth, 0.01 * truth) << i;
+        lowest = std::min(lowest, truth);
+        highest = std::max(highest, truth);
+    }
+    EXPECT_GT(highest, 1.7 * lowest); // both sides of the tube were seen
+}
+
+TEST(BakeMaps, integersStoreFlatAsAHalfAndABallOfTheRadiusAsOne)
+{
+    const Scene ball = sceneOfMeshes({makeSphere(2, 64)}),
+                flat = sceneOfMeshes({rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})});
+    BakeModelOptions options = optionsFor({}, PixelType::unorm16);
+    for (const auto& [radius, stored] : {std::pair(2.0f, 1.0), {1.0f, 0.75}, {8.0f, 1.0}}) {
+        options.bake.curvatureRadius = radius;
+        const BakedMap map = oneMap(ball, ball, BakeKind::curvature, options);
+        EXPECT_EQ(map.unit, radius);
+        EXPECT_NEAR(map.image.words()[4 * (8 * 16 + 8)] / 65535.0, stored, 1e-3);
+        EXPECT_NEAR(oneMap(flat, flat, BakeKind::curvature, options).image.words()[4 * (8 * 16 + 8)] / 65535.0, 0.5,
+                    1e-4);
+    }
+    options.bake.curvatureRadius = 0;
+    EXPECT_NEAR(oneMap(ball, ball, BakeKind::curvature, options).unit, 0.01 * std::sqrt(3.0) * 4,
+                1e-3); // 1 % of the diagonal
+}
+
+TEST(BakeMaps, thicknessOfABallAndOfASlabIsTheMeanLengthOfTheirChords)
+{
+    BakeModelOptions options = optionsFor({});
+    options.bake.occlusionRays = 256;
+    options.bake.thicknessDistance = 100;
+    // Cosine-weighted chords 2 r c of a ball: 2 r * integral of 2 c^2 = 4 r / 3. 256 rays are within 0.3 % of it.
+    const float radius = 1.5f;
+    const Scene ball = sceneOfMeshes({makeSphere(radius, 96)});
+    for (const float t : scalars(oneMap(ball, ball, BakeKind::thickness, options)))
+        EXPECT_NEAR(t, 4 * radius / 3, 0.01 * radius);
+    // Chords d / c of a slab, no longer than L: integral of min(d / c, L) 2 c = 2 d - d^2 / L.
+    const double thick = 0.2, longest = 1;
+    options.bake.thicknessDistance = float(longest);
+    const Mesh front = rectangle({-50, -50, 0}, {100, 0, 0}, {0, 100, 0});
+    const Mesh back = rectangle({-50, -50, float(-thick)}, {0, 100, 0}, {100, 0, 0});
+    const Scene slab = sceneOfMeshes({front, back}),
+                low = sceneOfMeshes({rectangle({-1, -1, 0}, {2, 0, 0}, {0, 2, 0})});
+    for (const float t : scalars(oneMap(low, slab, BakeKind::thickness, options), 0))
+        EXPECT_NEAR(t, 2 * thick - thick * thick / longest, 0.01);
+}
+
+TEST(BakeMaps, bentNormalsAtTheFootOfAWallLeanAwayFromIt)
+{
+    // An endless wall at x = 0 hides half of the floor's hemisphere. The mean of the open half, cosine weighted, is
+    // proportional to (2/3, pi/3): 32.48 degrees from the floor's normal; half is open.
+    const Mesh floor = rectangle({-900, -900, 0}, {1800, 0, 0}, {0, 1800, 0});
+    const Mesh wall = rectangle({0, -900, 0}, {0, 1800, 0}, {0, 0, 900});
+    const Scene high = sceneOfMeshes({floor, wall});
+    const Scene low = sceneOfMeshes({rectangle({0.01f, -0.01f, 0}, {0.01f, 0, 0}, {0, 0.01f, 0})});
+    BakeModelOptions options = optionsFor({BakeKind::objectBentNormal, BakeKind::bentNormal, BakeKind::occlusion});
+    options.bake.occlusionRays = 1024;
+    options.bake.maxDistance = 0.001f;
+    options.stored.format.expansion = Expansion::signedValues;
+    const auto baked = bakeScene(low, high, options);
+    ASSERT_TRUE(baked) << baked.error().message;
+    const double angle = std::atan2(2.0 / 3, std::numbers::pi / 3);
+    for (int i = 0; i < 16 * 16; ++i) {
+        const float *world = baked->maps[0].image.floats() + 4 * i, *inFrame = baked->maps[1].image.floats() + 4 * i;
+        // Rays of a spiral: the mean of 1024 is within 0.02.
+        EXPECT_NEAR(world[0], std::sin(angle), 0.02);
+        EXPECT_NEAR(world[1], 0, 0.02);
+        EXPECT_NEAR(world[2], std::cos(angle), 0.02);
+        for (int c = 0; c < 3; ++c) // the frame of the low square is that of the world
+            EXPECT_NEAR(inFrame[c], world[c], 1e-4) << c;
+        EXPECT_NEAR(baked->maps[2].image.floats()[4 * i], 0.5, 0.02);
+    }
+    EXPECT_EQ(baked->maps[1].image.frame, "smooth");
+    EXPECT_EQ(baked->maps[0].format.kind, MapKind::objectSpace);
+}
+
+TEST(BakeMaps, positionsAreThoseOfTheHighSurfaceAndInIntegersFractionsOfItsBox)
+{
+    // The high square is tilted: z = 1 + x / 4 above the low one at z = 1, which lies within it.
+    const Scene high = sceneOfMeshes({rectangle({-1, -2, 0.75f}, {4, 0, 1}, {0, 4, 0})});
+    const Scene low = sceneOfMeshes({rectangle({0, 0, 1}, {1, 0, 0}, {0, 1, 0})});
+    BakeModelOptions options = optionsFor({});
+    options.bake.maxDistance = 2;
+    const BakedMap floats = oneMap(low, high, BakeKind::position, options);
+    options.stored.type = PixelType::unorm16;
+    const BakedMap words = oneMap(low, high, BakeKind::position, options);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x) {
+            const glm::vec3 at((float(x) + 0.5f) / 16, 1 - (float(y) + 0.5f) / 16, 0);
+            const glm::vec3 truth(at.x, at.y, 1 + at.x / 4);
+            const int i = 4 * (16 * y + x);
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR(floats.image.floats()[i + c], truth[c], 1e-5) << x << " " << y << " " << c;
+                const float fraction = (truth[c] - words.box.low[c]) / (words.box.high[c] - words.box.low[c]);
+                EXPECT_NEAR(words.image.words()[i + c] / 65535.0f, fraction, 2e-5);
+            }
+        }
+    EXPECT_EQ(words.box.low, glm::vec3(-1, -2, 0.75f));
+    EXPECT_EQ(words.box.high, glm::vec3(3, 2, 1.75f));
+}
+
+TEST(BakeMaps, anOpenHighSurfaceServesCurvatureOnlyIfItWasOpenedForIt)
+{
+    const Scene ball = sceneOfMeshes({makeSphere(1, 16)});
+    const auto open = [&](std::vector<BakeKind> kinds) {
+        HighModel model;
+        model.scenes.push_back(ball);
+        return openDetailed(std::move(model), optionsFor(std::move(kinds)));
+    };
+    const auto without = open({BakeKind::normal}), with = open({BakeKind::normal, BakeKind::curvature});
+    ASSERT_TRUE(without && with);
+    EXPECT_TRUE(bakeModel(ball, *with, optionsFor({BakeKind::curvature})));
+    const auto refused = bakeModel(ball, *without, optionsFor({BakeKind::curvature}));
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message, "options.kinds: the high surface was opened without curvature among the kinds");
+    EXPECT_EQ(refused.error().kind, ErrorKind::usage);
+}
+
+TEST(BakeMaps, distancesOutOfRangeAreRefused)
+{
+    const Scene ball = sceneOfMeshes({makeSphere(1, 16)});
+    for (const float bad : {-1.0f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+        BakeModelOptions options = optionsFor({BakeKind::thickness});
+        options.bake.thicknessDistance = bad;
+        EXPECT_FALSE(bakeScene(ball, ball, options)) << bad;
+        options = optionsFor({BakeKind::curvature});
+        options.bake.curvatureRadius = bad;
+        EXPECT_FALSE(bakeScene(ball, ball, options)) << bad;
+    }
+}
+
+} // namespace
+} // namespace cotan
