@@ -83,6 +83,48 @@ TEST_F(BakeFeatures, severalMapsAreWrittenAsTheOutputNamesThemAndEachAsAlone)
     }
 }
 
+TEST_F(BakeFeatures, allTilesAreBakedAsEachAlone)
+{
+    // Two squares, on the tiles 1001 and 1012, below high squares at other heights.
+    const auto unitSquare = [](double x, double z, double u, double v, int first) {
+        std::string text;
+        for (const auto& [dx, dy] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+            text += fmt::format("v {} {} {}\nvt {} {}\nvn 0 0 1\n", x + dx, dy, z, u + dx, v + dy);
+        const auto face = [&](int a, int b, int c) {
+            return fmt::format("f {0}/{0}/{0} {1}/{1}/{1} {2}/{2}/{2}\n", first + a, first + b, first + c);
+        };
+        return text + face(0, 1, 2) + face(0, 2, 3);
+    };
+    write("low.obj", unitSquare(0, 0, 0, 0, 1) + unitSquare(5, 0, 1, 1, 5));
+    write("high.obj", unitSquare(0, 0.1, 0, 0, 1) + unitSquare(5, -0.2, 0, 0, 5));
+    const auto reportOf = [&](std::vector<std::string> more) {
+        std::vector<std::string> words = {"--high", "high.obj", "--low",  "low.obj", "--kind",         "height",
+                                          "--bits", "32",       "--size", "4x4",     "--max-distance", "1"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ToolRun r = bake(words);
+        EXPECT_EQ(r.code, 0) << r.err;
+        return nlohmann::json::parse(readWhole(folder / "r.json"));
+    };
+    const auto all = reportOf({"--udim", "all", "-o", "t.exr", "--mask", "m_<UDIM>.png"});
+    ASSERT_EQ(all["tiles"].size(), 2u);
+    for (const auto& [i, tile, height] : {std::tuple(0, "1001", 0.1), {1, "1012", -0.2}}) {
+        const std::string file = std::string("t.") + tile + ".exr", alone = std::string("alone_") + tile + ".exr";
+        EXPECT_EQ(all["tiles"][std::size_t(i)]["tile"], std::stoi(tile));
+        EXPECT_EQ(all["tiles"][std::size_t(i)]["output"], file);
+        EXPECT_TRUE(std::filesystem::exists(folder / (std::string("m_") + tile + ".png")));
+        EXPECT_NEAR(double(loadImage(file).floats()[0]), height, 1e-5);
+        EXPECT_EQ(reportOf({"--udim", tile, "-o", "alone_%(UDIM)d.exr"})["output"], alone);
+        EXPECT_EQ(readWhole(folder / file), readWhole(folder / alone));
+    }
+    EXPECT_EQ(reportOf({"-o", "one.exr"})["warnings"][0],
+              "the low mesh also has triangles on tiles 1012: they are not baked (--udim all bakes them)");
+    EXPECT_EQ(reportOf({"-o", "one.exr", "--udim", "1001"})["warnings"].size(), 0u); // it was chosen
+    const ToolRun same = bake({"--high", "high.obj", "--low", "low.obj", "--size", "4x4", "--udim", "1001,1012", "-o",
+                               "t_<UDIM>.png", "--mask", "t_<UDIM>.png"});
+    EXPECT_EQ(same.code, 1);
+    EXPECT_NE(same.err.find("the same file"), std::string::npos) << same.err;
+}
+
 TEST_F(BakeFeatures, mapsThatContradictOtherOptionsAreRefusedBeforeAnythingIsRead)
 {
     for (const auto& [words, message] : {
@@ -91,6 +133,11 @@ TEST_F(BakeFeatures, mapsThatContradictOtherOptionsAreRefusedBeforeAnythingIsRea
              {{"--maps", "normal,gloss"}, "found 'gloss'"},
              {{"--maps", "normal,"}, "--maps: expected one of normal, object-normal, height, ao, bent-normal, "},
              {{"--maps", "ao", "--kind", "height"}, "--kind height: makes one map; expected no --maps with it"},
+             {{"--udim", "1001,2000"},
+              "--udim: expected numbers from 1001 to 1999, separated by commas, or all; found '2000'"},
+             {{"--udim", "1002,1002"}, "--udim: expected each tile once; found 1002 twice"},
+             {{"--udim", "1002", "--verify", "checked"},
+              "--verify: draws the map of tile 1001 only; found --udim 1002"},
              {{"--maps", "height,ao", "--verify", "checked"}, "--verify: only maps of the kind normal can be drawn"},
              {{"--maps", "normal,ao", "-o", "x.glb"}, "expected --kind normal for a map in a model; found normal, ao"},
              {{"--kind", "thickness", "--thickness-distance", "-1"}, "--thickness-distance"},
@@ -353,8 +400,8 @@ TEST_F(BakeFeatures, namesThatPairSuggestMatching)
 {
     write("low.obj", "o a_low\n" + square(0, 0, 0, 1) + faces(1) + "o b_low\n" + square(2, 0, 0, 1, 0, 1) + faces(5));
     write("high.obj", "o a_high\n" + square(0, 0, 0, 1) + faces(1) + "o b_high\n" + square(2, 0, 0, 1) + faces(5));
-    std::vector<std::string> words{"bake",   "--high", "high.obj", "--low", "low.obj",
-                                   "--size", "4x4",    "-o",       "m.png", "--overwrite"};
+    std::vector<std::string> words{"bake", "--high", "high.obj", "--low",       "low.obj", "--size",
+                                   "4x4",  "-o",     "m.png",    "--overwrite", "--udim",  "1001"};
     const std::string hint = "--match-by-name: the names of the meshes pair, such as 'a_low' with 'a_high'";
     EXPECT_NE(runTool(words, folder.path()).err.find(hint), std::string::npos);
     words.push_back("--match-by-name");

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -263,6 +263,45 @@ TEST(BakeMaps, distancesOutOfRangeAreRefused)
         options.bake.curvatureRadius = bad;
         EXPECT_FALSE(bakeScene(ball, ball, options)) << bad;
     }
+}
+
+// The tiles of a triangle with these corners, v upwards.
+std::vector<int> tilesOfTriangle(const std::vector<glm::vec2>& corners, std::size_t* outside = nullptr)
+{
+    LowSurface low;
+    for (const glm::vec2 c : corners)
+        low.texcoords.emplace_back(c.x, 1 - c.y);
+    low.indices = {0, 1, 2};
+    return tilesOf(low, outside);
+}
+
+TEST(UdimTiles, areThoseThatATriangleOverlaps)
+{
+    using Tiles = std::vector<int>;
+    EXPECT_EQ(tilesOfTriangle({{0, 0}, {1, 0}, {0, 1}}), Tiles({1001})); // touches 1002 and 1011 at corners
+    EXPECT_EQ(tilesOfTriangle({{1, 1}, {2, 1}, {1, 2}}), Tiles({1012}));
+    EXPECT_EQ(tilesOfTriangle({{9.2f, 0.1f}, {9.8f, 0.1f}, {9.2f, 0.8f}}), Tiles({1010}));
+    EXPECT_EQ(tilesOfTriangle({{0.5f, 0.5f}, {1.5f, 0.5f}, {0.5f, 0.9f}}), Tiles({1001, 1002}));
+    // A sliver along the diagonal is nearer than a ten-thousandth to the tiles beside it.
+    EXPECT_EQ(tilesOfTriangle({{0.1f, 0.1f}, {2.9f, 2.9001f}, {2.9001f, 2.9f}}), Tiles({1001, 1012, 1023}));
+    EXPECT_EQ(tilesOfTriangle({{0.2f, 0.2f}, {0.2f, 0.2f}, {0.2f, 0.2f}}), Tiles()); // no area
+}
+
+TEST(UdimTiles, countTrianglesOutsideAndSurviveAnyCoordinates)
+{
+    using Corners = std::vector<glm::vec2>;
+    for (const auto& [corners, away] : {std::pair<Corners, std::size_t>({{-1, 0}, {-0.5f, 0}, {-1, 1}}, 1),
+                                        {{{10.1f, 0}, {10.5f, 0}, {10.1f, 1}}, 1},
+                                        {{{0.1f, -3}, {0.2f, -3}, {0.1f, -2}}, 1},
+                                        {{{0, 0}, {1, 0}, {0, 1}}, 0}}) {
+        std::size_t outside = 7;
+        tilesOfTriangle(corners, &outside);
+        EXPECT_EQ(outside, away);
+    }
+    constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+    for (const float bad : {nan, 3e38f, -3e38f, inf, -inf})
+        for (const int tile : tilesOfTriangle({{0, 0}, {bad, 0}, {0, bad}}))
+            EXPECT_TRUE(tile >= 1001 && tile <= 1999) << bad;
 }
 
 } // namespace

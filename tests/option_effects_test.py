@@ -113,7 +113,7 @@ CASES = [
         "--max-distance": "0.001 | 0.02", "--high-normals": "~smooth | curved | face",
         "--samples": "~1 | 4 | 16", "--convention": "~gltf | directx | xy", "--unsigned": "~exact | *", "--dither": "", "--bits": "~8 | 16",
         "--padding": "~0 | 1 | -1", "--mask": "seen.png", "--per-object": "", "--verify": "checked", "--threads": "=1 | =3", "--memory": "=800",
-        "--udim": "~1001 | !1002", "--list-frames": ""}),
+        "--udim": "~1001 | !1002 | ~all", "--list-frames": ""}),
     (BAKE + " --kind object-normal", {"--up": "~y | *", "--high-up": "~y | *"}),
     ("bake --high layers.obj --low low.obj --size 24x24 -o out.png", {"--search": "~first | *", "--extrusion": "0.001 | 0.02", "--cage": "cage.obj"}),
     ("bake --high low.stl --high high.obj --low low.obj --size 24x24 -o out.png", {"--match-by-name": ""}),

@@ -1,8 +1,11 @@
 #include "commands.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <span>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/resource.h>
 
 #include "bake_objects.hpp"
@@ -73,15 +76,18 @@ Status writeBakedModel(const BakeJob& job, GltfDocument& document, const Scene& 
     return Done{};
 }
 
-// The output files of one map.
-std::vector<PlannedOutput> plannedFor(const BakeFiles& files)
+// The output files of one bake of these tiles.
+std::vector<PlannedOutput> plannedFor(const BakeJob& job, const BakeFiles& given, const std::vector<int>& tiles)
 {
     std::vector<PlannedOutput> planned;
-    for (const std::filesystem::path& map : files.maps)
-        planned.push_back({"-o", map, /*makesFolder*/ !files.folder.empty()});
-    planned.push_back({"--mask", files.mask});
-    if (!files.verify.empty())
-        for (const PlannedOutput& picture : plannedIn("--verify", files.verify, imageNames(kBakeNames, kBakeViews)))
+    for (const int tile : tiles) {
+        const BakeFiles files = filesOfTile(job, given, tile);
+        for (const std::filesystem::path& map : files.maps)
+            planned.push_back({"-o", map, /*makesFolder*/ !files.folder.empty()});
+        planned.push_back({"--mask", files.mask});
+    }
+    if (!given.verify.empty())
+        for (const PlannedOutput& picture : plannedIn("--verify", given.verify, imageNames(kBakeNames, kBakeViews)))
             planned.push_back(picture);
     return planned;
 }
@@ -96,7 +102,8 @@ struct MapJob {
 
 // Maps that were written.
 struct MapReport {
-    MapJob job;
+    MapJob job; // with the files of the tile
+    int tile = 1001;
     std::vector<std::string> warnings; // of reading and preparing
     BakeStatistics statistics;
     std::vector<double> units; // of each map, BakedMap::unit
@@ -127,8 +134,9 @@ Result<std::vector<MapJob>> mapsOf(const BakeJob& job, const Scene& low)
         if (fileNamePart(names[i]) != parts[i])
             warn(job.common, "the name of the object '{}' is that of another one in file names: its files are named {}",
                  names[i], parts[i]);
-        for (PlannedOutput& file : plannedFor(maps.back().files))
-            planned.push_back(std::move(file));
+        if (!job.allTiles)
+            for (PlannedOutput& file : plannedFor(job, maps.back().files, job.options.tiles))
+                planned.push_back(std::move(file));
     }
     if (const auto free = planOutputs(std::move(planned)); !free)
         return free.error();
@@ -193,14 +201,14 @@ void explainRays(const BakeJob& job, const BakeStatistics& s)
 }
 
 // Prints the statistics, and warns of what they reveal. objects: that share the map.
-void explain(const BakeJob& job, std::size_t objects, const BakeStatistics& s)
+void explain(const BakeJob& job, std::size_t objects, int tile, const BakeStatistics& s)
 {
     say(job.common,
         "{} of {} texels covered, {} more filled at the edges of charts; {:.1f} s, {:.1f} million rays per second",
         s.covered, s.texels, s.touched, s.seconds, double(s.rays) / s.seconds / 1e6);
     if (s.covered == 0)
         warn(job.common, "no triangle covers the centre of a texel on tile {}; only edges touch it (--udim, --size)",
-             job.options.tiles.front());
+             tile);
     explainRays(job, s);
     if (s.negative > 0)
         warn(job.common,
@@ -242,13 +250,11 @@ std::string meaningOf(const BakeJob& job, const MapReport& done, std::size_t map
 void tell(const BakeJob& job, const MapReport& done)
 {
     const BakeModelOptions& options = job.options;
-    explain(job, done.objects, done.statistics);
+    explain(job, done.objects, done.tile, done.statistics);
     for (std::size_t i = 0; i < options.kinds.size(); ++i)
         say(job.common, "map in {} ({}, {}, {} bit){}", done.job.files.maps[i].string(),
             wordOf(kBakeKinds, options.kinds[i]), meaningOf(job, done, i), wordOf(kBitCounts, options.stored.type),
             i + 1 == options.kinds.size() ? fmt::format("; peak memory {:.0f} MiB", peakMegabytes()) : "");
-    if (job.makes(BakeKind::normal))
-        say(job.common, readersOf(options.bake.frame));
 }
 
 // Of each map: its kind and file, and what its numbers mean where they are scaled.
@@ -275,6 +281,7 @@ Json toJson(const BakeJob& job, const MapReport& done)
         {"low", job.low},
         {"high", job.high},
         {"object", done.job.object.empty() ? Json(nullptr) : Json(done.job.object)},
+        {"tile", done.tile},
         {"output", done.job.files.maps.front().string()},
         {"frame", name(bake.frame)},
         {"kind", wordOf(kBakeKinds, job.options.kinds.front())},
@@ -292,29 +299,54 @@ Json toJson(const BakeJob& job, const MapReport& done)
     return report;
 }
 
-// Bakes, writes and tells of the maps of one bake.
-Result<MapReport> bakeMaps(const BakeJob& job, const MapJob& one, OpenBake& open, bool isFirst)
+// Lists tiles, the first ones if there are many.
+std::string listOf(const std::vector<int>& tiles)
+{
+    constexpr std::size_t kShown = 8;
+    const auto shown = std::span(tiles).first(std::min(tiles.size(), kShown));
+    return fmt::format("{}{}", fmt::join(shown, ", "), tiles.size() > kShown ? ", ..." : "");
+}
+
+// The tiles to bake, of those that the low mesh covers. Appends warnings of triangles that are on none of them, and
+// plans the files if they were not known before. Errors: those of planOutputs; ErrorKind::input if there is no tile.
+Result<std::vector<int>> chooseTiles(const BakeJob& job, const MapJob& one, const LowSurface& low,
+                                     std::vector<std::string>& warnings)
+{
+    std::size_t outside = 0;
+    const std::vector<int> there = tilesOf(low, &outside);
+    const std::vector<int>& wanted = job.allTiles ? there : job.options.tiles;
+    std::vector<int> left;
+    std::ranges::copy_if(there, std::back_inserter(left),
+                         [&](int tile) { return std::ranges::find(wanted, tile) == wanted.end(); });
+    if (!job.choosesTiles && !left.empty() && left.size() < there.size()) // else baking finds nothing
+        warnings.push_back(fmt::format(
+            "the low mesh also has triangles on tiles {}: they are not baked (--udim all bakes them)", listOf(left)));
+    if (outside > 0)
+        warnings.push_back(fmt::format("{} of {} triangles of the low mesh lie at least in part outside of the tiles "
+                                       "1001 to 1999: nothing is baked for them there",
+                                       outside, low.triangleCount()));
+    if (wanted.empty())
+        return inputError(
+            fmt::format("{}: expected triangles on the tiles 1001 to 1999 (--udim all); found none", job.low));
+    if (job.allTiles)
+        if (const auto free = planOutputs(plannedFor(job, one.files, wanted)); !free)
+            return free.error();
+    return wanted;
+}
+
+// Bakes, writes and tells of the maps of one tile.
+Result<MapReport> bakeTileMaps(const BakeJob& job, const MapJob& one, int tile, OpenBake& open, const PreparedMap& map)
 {
     MapReport done;
-    done.job = one;
-    done.warnings = open.warnings;
-    Stopwatch watch;
-    auto map = withProgress(job.common, 0, "preparing the meshes",
-                            [&](const Progress&) { return prepareMap(job, open, one.object); });
-    if (!map)
-        return map.error();
-    done.warnings.insert(done.warnings.end(), map->warnings.begin(), map->warnings.end());
-    for (const std::string& line : isFirst ? done.warnings : map->warnings) // an error so far is the only line
-        warn(job.common, line);
-    done.prepareSeconds = watch.lap();
-    const BakeSetup& setup = map->setup;
-    const auto baked = withProgress(job.common, 1, "baking", [&](const Progress& progress) {
-        return bakeTile(setup, setup.options.tiles.front(), progress);
-    });
+    done.job = {one.object, filesOfTile(job, one.files, tile)};
+    done.tile = tile;
+    const BakeSetup& setup = map.setup;
+    const auto baked = withProgress(job.common, 1, "baking",
+                                    [&](const Progress& progress) { return bakeTile(setup, tile, progress); });
     if (!baked)
         return withBakeOptionNames(job, baked.error());
-    watch.lap();
-    COTAN_CHECK(writeMaps(job, one.files, open, map->low, *baked));
+    Stopwatch watch;
+    COTAN_CHECK(writeMaps(job, done.job.files, open, map.low, *baked));
     done.writeSeconds = watch.lap();
     done.statistics = baked->front().statistics;
     done.box = baked->front().box;
@@ -322,17 +354,44 @@ Result<MapReport> bakeMaps(const BakeJob& job, const MapJob& one, OpenBake& open
         done.units.push_back(written.unit);
     done.highTriangles = setup.high.triangleCount();
     done.lowTriangles = setup.low.triangleCount();
-    done.objects = objectNames(map->low).size();
+    done.objects = objectNames(map.low).size();
     tell(job, done);
     if (one.files.verify.empty())
         return done;
     const BakedMap& normals = *std::ranges::find(*baked, BakeKind::normal, &BakedMap::kind);
     COTAN_TRY(verified,
-              verifyBake({map->low, setup.low, setup.high, setup.options.bake, normals.image,
+              verifyBake({map.low, setup.low, setup.high, setup.options.bake, normals.image,
                           setup.options.stored.format, setup.options.material, setup.options.tangents},
                          job.device, one.files.verify, job.common));
     done.verified = std::move(*verified);
     return done;
+}
+
+// Prepares the meshes of one bake, then bakes each tile; appends the reports.
+Status bakeMaps(const BakeJob& job, const MapJob& one, OpenBake& open, std::vector<MapReport>& reports)
+{
+    std::vector<std::string> warnings = open.warnings;
+    Stopwatch watch;
+    auto map = withProgress(job.common, 0, "preparing the meshes",
+                            [&](const Progress&) { return prepareMap(job, open, one.object); });
+    if (!map)
+        return map.error();
+    COTAN_TRY(tiles, chooseTiles(job, one, map->setup.low, map->warnings));
+    warnings.insert(warnings.end(), map->warnings.begin(), map->warnings.end());
+    for (const std::string& line : reports.empty() ? warnings : map->warnings) // an error so far is the only line
+        warn(job.common, line);
+    const double prepareSeconds = watch.lap();
+    for (const int tile : *tiles) {
+        if (job.makesSeveralTiles())
+            say(job.common, "tile {}:", tile);
+        COTAN_TRY(done, bakeTileMaps(job, one, tile, open, *map));
+        done->warnings = warnings;
+        done->prepareSeconds = tile == tiles->front() ? prepareSeconds : 0;
+        reports.push_back(std::move(*done));
+    }
+    if (job.makes(BakeKind::normal))
+        say(job.common, readersOf(job.options.bake.frame));
+    return Done{};
 }
 
 // Reads each model once, for all maps.
@@ -349,8 +408,7 @@ Result<std::vector<MapReport>> bakeAll(const BakeJob& job)
     for (const MapJob& one : *maps) {
         if (job.perObject)
             say(job.common, "{}:", one.object);
-        COTAN_TRY(done, bakeMaps(job, one, *open, reports.empty()));
-        reports.push_back(std::move(*done));
+        COTAN_CHECK(bakeMaps(job, one, *open, reports));
     }
     reports.front().prepareSeconds += openSeconds;
     return reports;
@@ -359,17 +417,19 @@ Result<std::vector<MapReport>> bakeAll(const BakeJob& job)
 Status run(const BakeCommandOptions& o)
 {
     COTAN_TRY(job, bakeJobOf(o));
-    COTAN_CHECK(beginOutputs(o, job->perObject ? std::vector<PlannedOutput>() : plannedFor(job->files)));
+    const bool known = !job->perObject && !job->allTiles;
+    COTAN_CHECK(
+        beginOutputs(o, known ? plannedFor(*job, job->files, job->options.tiles) : std::vector<PlannedOutput>()));
     COTAN_TRY(baked, bakeAll(*job));
     Json report = {{"command", "bake"}};
-    if (!job->perObject) {
+    if (!job->perObject && !job->makesSeveralTiles()) {
         report.update(toJson(*job, baked->front()));
         return writeReport(job->common, report);
     }
-    Json objects = Json::array();
+    Json bakes = Json::array();
     for (const MapReport& one : *baked)
-        objects.push_back(toJson(*job, one));
-    report["objects"] = objects;
+        bakes.push_back(toJson(*job, one));
+    report[job->perObject ? "objects" : "tiles"] = bakes;
     return writeReport(job->common, report);
 }
 

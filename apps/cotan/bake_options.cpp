@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/parse_number.hpp"
 #include "core/try.hpp"
 #include "cotan/convention.hpp"
 #include "gltf_open.hpp"
@@ -83,6 +84,30 @@ void setFiles(const std::filesystem::path& output, const std::vector<BakeKind>& 
     }
 }
 
+constexpr std::string_view kAllTiles = "all";
+
+Status parseTiles(const std::string& words, BakeJob& job)
+{
+    constexpr int kFirst = 1001, kLast = 1999;
+    job.choosesTiles = !words.empty();
+    job.allTiles = words == kAllTiles;
+    if (job.allTiles || !job.choosesTiles)
+        return Done{};
+    std::vector<int>& tiles = job.options.tiles;
+    tiles.clear();
+    for (const std::string& word : splitAtCommas(words)) {
+        int tile = 0;
+        if (!parseNumber(word, tile) || tile < kFirst || tile > kLast)
+            return usageError(
+                fmt::format("--udim: expected numbers from {} to {}, separated by commas, or {}; found '{}'", kFirst,
+                            kLast, kAllTiles, word));
+        if (std::ranges::count(tiles, tile) > 0)
+            return usageError(fmt::format("--udim: expected each tile once; found {} twice", tile));
+        tiles.push_back(tile);
+    }
+    return Done{};
+}
+
 // Checks the files and the objects of a job. Baking may take hours, so that errors of the outputs must be found before.
 Status checkOutputs(const BakeJob& job)
 {
@@ -99,10 +124,12 @@ Status checkOutputs(const BakeJob& job)
     if (model && options.stored.type == PixelType::float32)
         return usageError(
             fmt::format("-o {}: expected --bits 8 or 16 for an image in a model; found 32", map.string()));
-    if (model && options.tiles != std::vector{1001})
-        return usageError(
-            fmt::format("-o {}: one map covers tile 1001 of the texture coordinates only; found --udim {}",
-                        map.string(), options.tiles.front()));
+    const std::string udim = job.allTiles ? "all" : fmt::format("{}", fmt::join(options.tiles, ","));
+    if (model && udim != "1001")
+        return usageError(fmt::format(
+            "-o {}: one map covers tile 1001 of the texture coordinates only; found --udim {}", map.string(), udim));
+    if (!job.files.verify.empty() && udim != "1001")
+        return usageError(fmt::format("--verify: draws the map of tile 1001 only; found --udim {}", udim));
     if (job.perObject && !job.object.empty())
         return usageError("--per-object: makes a map for each object; expected no --object with it");
     if (model && (job.perObject || !job.object.empty()))
@@ -177,6 +204,26 @@ std::filesystem::path withPart(const std::filesystem::path& file, const std::str
         : std::filesystem::path(file).replace_filename(file.stem().string() + "-" + part + file.extension().string());
 }
 
+BakeFiles filesOfTile(const BakeJob& job, const BakeFiles& files, int tile)
+{
+    const std::string number = std::to_string(tile);
+    const auto numbered = [&](const std::filesystem::path& file) {
+        std::string text = file.string();
+        for (const std::string_view place : {"<UDIM>", "%(UDIM)d"})
+            if (const std::size_t at = text.find(place); at != std::string::npos)
+                return std::filesystem::path(text.replace(at, place.size(), number));
+        return !job.makesSeveralTiles() || file.empty()
+            ? file
+            : std::filesystem::path(file).replace_filename(file.stem().string() + "." + number
+                                                           + file.extension().string());
+    };
+    BakeFiles of = files;
+    for (std::filesystem::path& map : of.maps)
+        map = numbered(map);
+    of.mask = numbered(files.mask);
+    return of;
+}
+
 Result<BakeJob> bakeJobOf(const BakeCommandOptions& o)
 {
     BakeJob job = o.job;
@@ -189,7 +236,7 @@ Result<BakeJob> bakeJobOf(const BakeCommandOptions& o)
     job.highUp = o.highUp.value_or(job.up);
     job.convention = o.convention;
     BakeModelOptions& options = job.options;
-    options.tiles = {o.udim};
+    COTAN_CHECK(parseTiles(o.udim, job));
     options.mask = !job.files.mask.empty();
     options.bake.threads = o.threads;
     COTAN_CHECK(checkOutputs(job));
@@ -275,7 +322,11 @@ void declareBakeOptions(Arguments& a, BakeCommandOptions& o)
     a.option("--material", model.material, "number of the low mesh's material to bake; -1: all")
         .within(-1, 100000)
         .in("N");
-    a.option("--udim", o.udim, "tile of the texture coordinates to bake").within(1001, 1999).in("N");
+    a.option(
+         "--udim", o.udim,
+         "tiles of the texture coordinates to bake: 1001 to 1999, separated by commas, or all that triangles cover; "
+         "<UDIM> in -o and --mask is the number, else map.png of several becomes map.1002.png (default: 1001)")
+        .in("N");
     addTangentsOption(a, model.tangents,
                       "for the frames vertex and mikktspace: stored (generated where missing) or generated");
     a.choice("--high-normals", o.job.highNormals, kHighSources,

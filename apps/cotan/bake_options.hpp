@@ -48,12 +48,15 @@ struct BakeJob {
     HighSource highNormals = HighSource::smooth;
     bool namesHighFrame = false; // options.highFrame was given
     std::string convention;      // as it was given
-    BakeModelOptions options;    // one tile, and its kinds; without cage and others
+    BakeModelOptions options;    // without cage and others
+    bool choosesTiles = false;   // options.tiles were given
+    bool allTiles = false;       // those on which the low mesh has triangles, instead of options.tiles
     std::string object;          // of the low mesh; empty: all
     bool perObject = false;      // a map for each object, with its name in all of `files`
     BakeFiles files;
     std::string device = "auto";
 
+    bool makesSeveralTiles() const { return allTiles || options.tiles.size() > 1; }
     bool makes(BakeKind kind) const { return std::ranges::count(options.kinds, kind) > 0; }
     bool readsHighMaps() const { return options.ownMaps && std::ranges::any_of(options.kinds, showsNormals); }
 };
@@ -64,8 +67,8 @@ struct BakeCommandOptions : CommonOptions {
     std::string frame = "mikktspace", size = "1024x1024", convention = "opengl", highFrame, highConvention;
     std::optional<Expansion> expansion; // none: depends on -o
     std::optional<Up> highUp;           // none: as of the low mesh
-    int udim = 1001;
-    std::string maps; // names of kinds
+    std::string udim;                   // empty: 1001
+    std::string maps;                   // names of kinds
 };
 
 // The names of the kinds, for messages.
@@ -73,6 +76,10 @@ std::string namesOf(const BakeModelOptions& options);
 
 // map.png with the part lid: map-lid.png. An empty file stays empty.
 std::filesystem::path withPart(const std::filesystem::path& file, const std::string& part);
+
+// The outputs for one tile: with its number in the place of <UDIM> or %(UDIM)d in their names; if there are several
+// tiles, map.png without such a place becomes map.1002.png.
+BakeFiles filesOfTile(const BakeJob& job, const BakeFiles& files, int tile);
 
 void declareBakeOptions(Arguments& a, BakeCommandOptions& o);
 

@@ -39,6 +39,10 @@ Result<std::vector<Baked>> bakeMaps(const LowSurface& low, const HighSurface& hi
 // ErrorKind::input if triangles overlap in too many rows of texels.
 Result<std::vector<std::uint32_t>> indicesToDraw(const LowSurface& low, glm::ivec2 size);
 
+// The UDIM numbers from 1001 to 1999 of the tiles on which triangles with an area in uv lie, in increasing order.
+// outside: receives the number of triangles of which a part lies on none of these tiles, if not null.
+std::vector<int> tilesOf(const LowSurface& low, std::size_t* outside = nullptr);
+
 // Measures options.starts if it is null and bake() needs it. Errors: those of makeRayStarts.
 Status measureRayStarts(const LowSurface& low, const HighSurface& high, BakeOptions& options, const LowRest& rest = {});
 
