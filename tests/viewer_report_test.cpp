@@ -137,6 +137,8 @@ TEST(ViewerCommandLine, writesEachFieldAsItsOption)
         {[](State& s) { s.picture.maps.baseColor = "c.png"; }, "--base-color c.png"},
         {[](State& s) { s.picture.maps.metallicRoughness = "r.png"; }, "--metallic-roughness r.png"},
         {[](State& s) { s.picture.maps.occlusion = "o.png"; }, "--occlusion o.png"},
+        {[](State& s) { s.picture.maps.height = "h.png"; }, "--height-map h.png"},
+        {[](State& s) { s.picture.maps.heightDepth = 0.25f; }, "--height-depth 0.25"},
         {[](State& s) { s.picture.maps.material = 2; }, "--material 2"},
         {[](State& s) { s.picture.exposure = 2.0f; }, "--exposure 2"},
         {[](State& s) { s.metered = 0.5f; }, "--exposure 0.5"},
