@@ -40,12 +40,14 @@ void findRelief(vec3 n, vec3 dpdx, vec3 dpdy)
     relief.dx = finiteUv(dFdxFine(differenceOfUv) * APART);
     relief.dy = finiteUv(dFdyFine(differenceOfUv) * APART);
     vec4 dx = dFdxFine(inTexcoords), dy = dFdyFine(inTexcoords);
-    cotan_frame frames[2] = cotan_frame[2](cotan_frame_gradient(n, dpdx, dpdy, dx.xy, dy.xy),
-        cotan_frame_gradient(n, dpdx, dpdy, dx.zw, dy.zw));
-    int set = use.uRow.w > 0.5 ? 1 : 0;
-    relief.frame = frames[set];
+    cotan_frame first = cotan_frame_gradient(n, dpdx, dpdy, dx.xy, dy.xy);
+    cotan_frame second = cotan_frame_gradient(n, dpdx, dpdy, dx.zw, dy.zw);
     vec4 texcoords = inTexcoords + inTexcoordOrigin;
-    vec2 uv = set == 1 ? texcoords.zw : texcoords.xy;
+    bool ofSecond = use.uRow.w > 0.5;
+    vec2 uv = ofSecond ? texcoords.zw : texcoords.xy;
+    relief.frame = first;
+    if (ofSecond)
+        relief.frame = second;
     vec3 v = toEye(n);
     float depth = material.heights.x;
     cotan_relief r = cotan_relief_start(relief.frame, v, uv, depth, material.heights.y);
@@ -56,8 +58,8 @@ void findRelief(vec3 n, vec3 dpdx, vec3 dpdy)
     relief.uv = r.uv;
     relief.height = 1.0 - r.at;
     // Both sets move by the same way through space.
-    relief.moved = vec4(cotan_relief_start(frames[0], v, vec2(0.0), depth, 1.0).travel,
-        cotan_relief_start(frames[1], v, vec2(0.0), depth, 1.0).travel) * r.at;
+    relief.moved = vec4(cotan_relief_start(first, v, vec2(0.0), depth, 1.0).travel,
+        cotan_relief_start(second, v, vec2(0.0), depth, 1.0).travel) * r.at;
 }
 
 // The fraction of light from the unit direction l that the relief does not keep from the point that is seen: 0 or 1.

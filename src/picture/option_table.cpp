@@ -205,8 +205,9 @@ std::vector<PictureOption> makeTable()
              "the "
              "line of sight meets the heights, which shadow each other"),
         number("height-depth", input, "D", map(&OwnMaps::heightDepth), kHeightDepths,
-               "depth from the highest to the lowest height, in the model's units (default: for a file of floats, such "
-               "as bake --kind height writes, their range; else 2 % of the model's diagonal)"),
+               "how far black lies below white, or the lowest of a file of floats below its highest, in the model's "
+               "units (default: floats, as bake --kind height writes them, have this unit; else 2 % of the model's "
+               "diagonal)"),
         text("variant", input, "NAME|N", &Options::variant,
              "variant of a glTF model's materials, by name or number; those of the file if left out"),
         text("animation", input, "NAME|N", &Options::animation,

@@ -51,8 +51,8 @@ LoadLimits limitsFor(int memory, Pixels pixels = Pixels::all);
 // The user's own maps for a model: --normal-map, --base-color, --metallic-roughness, --occlusion and --height-map.
 struct OwnMaps { // file names; empty: the model's map, for heights none
     std::string normal, baseColor, metallicRoughness, occlusion, height;
-    // World units from the highest to the lowest height; 0: none. Not set: the range of a file of floats, which are
-    // taken as world units; for integers 2 % of the diagonal of the scene's box.
+    // World units from white down to black, or from the highest to the lowest of a file of floats; 0: no relief. Not
+    // set: floats are in world units; for integers 2 % of the diagonal of the scene's box.
     std::optional<float> heightDepth;
     std::string convention; // of the normal map, empty: gltf; without a normal map: how to read the model's own, empty:
                             // as the model declares
