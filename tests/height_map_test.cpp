@@ -2,6 +2,8 @@
 // rasteriser alone, on both renderers.
 #include "reference_scene.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <memory>
