@@ -24,6 +24,7 @@ layout(set = 1, binding = 11) uniform sampler2D specularColorMap;
 layout(set = 1, binding = 12) uniform sampler2D sheenColorMap;
 layout(set = 1, binding = 13) uniform sampler2D sheenRoughnessMap;
 layout(set = 1, binding = 14) uniform sampler2D transmissionMap;
+layout(set = 1, binding = 15) uniform sampler2D heightMap;
 #endif
 
 layout(push_constant, std430) uniform DrawBlock { CotanDraw draw; };

@@ -20,6 +20,9 @@
 #include "cotan/environment.h"
 #include "cotan/quantise.h"
 #include "cotan/shadow.h"
+#ifdef COTAN_EXTENDED
+#include "cotan/parallax.h"
+#endif
 #include "bindings.glsl"
 #include "constants.glsl"
 #include "sample_positions.glsl"
@@ -55,15 +58,27 @@ NormalDifferences normalDifferencesOf(vec3 smoothNormal)
     return NormalDifferences(dFdxFine(smoothNormal), dFdyFine(smoothNormal));
 }
 
+// The unit direction to the eye; n if the surface is there.
+vec3 toEye(vec3 n) { return view.forward.w > 0.5 ? cotan_normalize_or(-inPosition, n) : -view.forward.xyz; }
+
 bool present(uint map, CotanTextureUse use) { return (MAPS & map) != 0u && use.vRow.w > 0.5; }
+
+#ifdef COTAN_EXTENDED
+#include "relief.glsl"
+#else
+const bool RELIEF = false;
+vec4 seenTexcoords() { return inTexcoords + inTexcoordOrigin; }
+#endif
 
 vec4 sampled(sampler2D map, CotanTextureUse use)
 {
     vec2 uv = finiteUv(transformed(use, inTexcoords + inTexcoordOrigin));
-    if (APART == 1.0)
+    if (APART == 1.0 && !RELIEF)
         return texture(map, uv);
-    // A level bias would not shrink the footprint of anisotropic filters.
-    return textureGrad(map, uv, finiteUv(dFdxFine(uv) * APART), finiteUv(dFdyFine(uv) * APART));
+    // A level bias would not shrink the footprint of anisotropic filters. Relief jumps at its edges, the footprint does
+    // not: it is that of the surface.
+    vec2 dx = finiteUv(dFdxFine(uv) * APART), dy = finiteUv(dFdyFine(uv) * APART);
+    return textureGrad(map, RELIEF ? finiteUv(transformed(use, seenTexcoords())) : uv, dx, dy);
 }
 
 vec4 baseColor()
@@ -161,7 +176,7 @@ cotan_surface surfaceOf(vec3 base, vec3 n)
     if (present(COTAN_MAP_EMISSIVE, material.emissiveMap))
         s.emissive *= sampled(emissiveMap, material.emissiveMap).rgb;
     s.n = n;
-    s.v = view.forward.w > 0.5 ? cotan_normalize_or(-inPosition, n) : -view.forward.xyz;
+    s.v = toEye(n);
     return s;
 }
 
@@ -224,11 +239,14 @@ void storeLayer(vec3 light, vec3 transmittance, uint samples, float depthX, floa
 void main()
 {
     // Differences of uv are taken relative to the mesh's origin, near zero, where floats are dense, as for positions.
-    vec2 uv = transformed(material.normalMapUse, inTexcoords + inTexcoordOrigin);
     Differences d =
         screenDifferences(inPosition, transformedDifference(material.normalMapUse, inTexcoords));
     cotan_differences safe = cotan_scale_differences(d.dpdx, d.dpdy, d.duvdx, d.duvdy);
     vec3 smoothNormal = cotan_safe_normal(inNormal, safe.dpdx, safe.dpdy);
+#ifdef COTAN_EXTENDED
+    findRelief(smoothNormal, d.dpdx, d.dpdy);
+#endif
+    vec2 uv = transformed(material.normalMapUse, seenTexcoords());
     cotan_frame frame = frameOf(smoothNormal, d, material.normalMapUse, true);
     NormalDifferences dn = NormalDifferences(vec3(0.0), vec3(0.0));
     if (SPECULAR_ANTIALIASING)

@@ -20,6 +20,7 @@ struct CotanMaterial {
     vec4 anisotropy;   // strength, direction along +u and +v; w: index of refraction
     vec4 specular;     // linear colour of a dielectric's reflection; w: strength
     vec4 sheen;        // linear; w: roughness
+    vec4 heights;      // depth, steps, halvings, steps towards the light
     CotanTextureUse baseColorMap;
     CotanTextureUse metallicRoughnessMap;
     CotanTextureUse normalMapUse;
@@ -34,11 +35,12 @@ struct CotanMaterial {
     CotanTextureUse sheenColorMap;
     CotanTextureUse sheenRoughnessMap;
     CotanTextureUse transmissionMap;
+    CotanTextureUse heightMapUse;
 };
 
 // A bit for each map, in the order above, which is also that of the bindings from 1. Materials without extensions have
 // only the first five, because CPU drivers spend time on every descriptor, used or not.
-#define COTAN_MAP_COUNT 14
+#define COTAN_MAP_COUNT 15
 #define COTAN_MAP_COUNT_PLAIN 5
 #define COTAN_MAP_BASE_COLOR 1u
 #define COTAN_MAP_METALLIC_ROUGHNESS 2u
@@ -54,6 +56,7 @@ struct CotanMaterial {
 #define COTAN_MAP_SHEEN_COLOR 2048u
 #define COTAN_MAP_SHEEN_ROUGHNESS 4096u
 #define COTAN_MAP_TRANSMISSION 8192u
+#define COTAN_MAP_HEIGHT 16384u
 #define COTAN_MAP_OCCLUSION_SHARED 65536u // occlusion is in r of the metallic-roughness texel
 // Layers of the material besides metallic-roughness.
 #define COTAN_LAYER_COAT 131072u

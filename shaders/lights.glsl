@@ -85,6 +85,10 @@ int tapCount = 1;
 // The surface at one of these points. Recomputed for each light, because 256 normals are too many to store.
 cotan_surface tapSurface(cotan_surface s, int tap);
 
+#ifdef COTAN_EXTENDED
+float reliefLight(vec3 l); // relief.glsl
+#endif
+
 vec3 reflectedOf(cotan_surface s, Layers over, vec3 l)
 {
     if (SHADING == SHADING_BLINN_PHONG)
@@ -115,8 +119,12 @@ void addLight(inout Reflected sum, CotanLight light, cotan_surface s, Layers ove
         if (light.position.w > 1.5)
             attenuation *= cotan_smooth(light.cone.x, light.cone.y, -dot(l, light.direction.xyz));
     }
-    if (SHADOWS && light.color.w > 0.5)
+    if (SHADOWS && light.color.w > 0.5) {
         attenuation *= SOFT_SHADOWS ? softShadowAt(p, n, dot(n, l), dot(s.n, l) > 0.0) : shadowAt(p, n, dot(n, l));
+#ifdef COTAN_EXTENDED
+        attenuation *= reliefLight(l);
+#endif
+    }
     sum.base += light.color.rgb * (attenuation * reflected(s, over, l));
     if (over.coated)
         sum.coat += light.color.rgb * (attenuation * cotan_reflect_coat(over.coat, s.v, l));

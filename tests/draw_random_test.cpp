@@ -99,6 +99,10 @@ Material randomMaterial(Dice& dice, Scene& scene)
         m.sheen.colorMap = randomTexture(dice, scene);
         m.sheen.roughnessMap = randomTexture(dice, scene);
     }
+    if (dice.below(2) == 0) {
+        m.heightMap.map = randomTexture(dice, scene);
+        m.heightMap.depth = dice.from(0.02f, 0.1f);
+    }
     return m;
 }
 

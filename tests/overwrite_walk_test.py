@@ -20,16 +20,16 @@ SKIPPED = 77
 # name themselves. All options of --help that name files are here: those not in READS name outputs.
 CASES = [
     "view panel.gltf --normal-map grain.png --base-color colors.png --metallic-roughness rough.png --occlusion mask.png "
-    "--environment studio --size 64x48 --samples 1 --device reference --play session.txt --record out.txt --json out.json",
+    "--height-map height.png --environment studio --size 64x48 --samples 1 --device reference --play session.txt --record out.txt --json out.json",
     "render panel.gltf --normal-map grain.png --base-color colors.png --metallic-roughness rough.png --occlusion mask.png "
-    "--size 16x12 --samples 1 --device reference -o out.png --json out.json",
+    "--height-map height.png --size 16x12 --samples 1 --device reference -o out.png --json out.json",
     "render --shape plane --environment sky.hdr --size 16x12 --samples 1 --device reference -o out.png --json out.json",
     "render painted.obj --size 16x12 --samples 1 --device reference -o out.exr --json out.json",
     "render panel.gltf --size 16x12 --samples 1 --device reference --turntable 3 -o out.gif",
     "render panel.gltf --size 16x12 --samples 1 --device reference --turntable 3 -o out.webp",
     "render low.stl --size 16x12 --samples 1 --device reference -o out.tif --json out.json",
     "compare panel.gltf --normal-map grain.png --base-color colors.png --metallic-roughness rough.png --occlusion mask.png "
-    "--frames smooth,exact --size 16x12 --samples 1 --device reference -o out --json out.json",
+    "--height-map height.png --frames smooth,exact --size 16x12 --samples 1 --device reference -o out --json out.json",
     "lint panel.gltf --normal-map grain.png --json out.json",
     "map info rocks.png grain.png --json out.json",
     "map detect rocks.png grain.png --json out.json",
@@ -54,7 +54,7 @@ CASES = [
     "cost --cards cards.csv --no-timing -o out.md --csv out.csv --write-cards made.csv --json out.json",
     "batch jobs.jsonl --jobs 1 --store kept -o out.html --json out.json",
 ]
-READS = {"--normal-map", "--base-color", "--metallic-roughness", "--occlusion", "--environment", "--play", "--mesh", "--high", "--low",
+READS = {"--normal-map", "--base-color", "--metallic-roughness", "--occlusion", "--height-map", "--environment", "--play", "--mesh", "--high", "--low",
          "--high-map", "--cage", "--cards", "--against"}
 MASK_OF_BLEND = ("map blend", "--mask")  # the only option that is read in one command and written in another
 GROUPS = {"look": ["view", "render", "compare", "lint"], "map": ["map"], "make": ["bake", "convert", "tangents", "shader"],

@@ -131,13 +131,83 @@ TEST(OwnMaps, errorsAreOneLine)
         {{"render", "square.obj", "--metallic-roughness", "none.png"}, 2, "none.png"},
         {{"render", "bare.obj", "--normal-map", "map.png"}, 2, "expected a mesh with texture coordinates"},
         {{"render", "square.obj", "--normal-map", "none.png"}, 2, "none.png"},
-        {{"render", "square.obj", "--normal-map", "text.png"}, 2, "text.png"}};
+        {{"render", "square.obj", "--normal-map", "text.png"}, 2, "text.png"},
+        {{"render", "square.obj", "--height-map", "text.png"}, 2, "text.png"},
+        {{"render", "square.obj", "--height-map", "none.png"}, 2, "none.png"},
+        {{"render", "bare.obj", "--height-map", "map.png"}, 2, "expected a mesh with texture coordinates"},
+        {{"render", "square.obj", "--height-map", "map.png", "--material", "7"}, 1, "found 7"},
+        {{"render", "square.obj", "--height-map", "map.png", "--height-depth", "-1"}, 1, "found '-1'"},
+        {{"render", "square.obj", "--height-map", "map.png", "--height-depth", "nan"}, 1, "found 'nan'"},
+        {{"render", "square.obj", "--height-map", "map.png", "--height-depth", "deep"}, 1, "found 'deep'"},
+        {{"render", "square.obj", "--height-depth", "0.1"}, 1, "--height-depth: expected --height-map"}};
     for (const auto& c : cases) {
         const ToolRun r = runTool(drawn(c.words), folder.path());
         EXPECT_EQ(r.code, c.code) << c.says;
         EXPECT_NE(r.err.find(c.says), std::string::npos) << r.err;
         EXPECT_EQ(lines(r.err), 1) << r.err;
         EXPECT_FALSE(std::filesystem::exists(folder / "n.png"));
+    }
+}
+
+// Heights of a step: `left` where u < 1/2, else `right`.
+void writeStep(const std::filesystem::path& file, PixelType type, double left, double right)
+{
+    Image image = makeImage(64, 64, type);
+    for (std::size_t i = 0; i < image.pixelCount() * 4; ++i) {
+        const double h = i / 4 % 64 < 32 ? left : right;
+        if (type == PixelType::float32)
+            image.floats()[i] = float(h);
+        else if (type == PixelType::unorm16)
+            image.words()[i] = std::uint16_t(std::lround(h * 65535));
+        else
+            image.bytes8()[i] = std::uint8_t(std::lround(h * 255));
+    }
+    ASSERT_TRUE(writeImage(file, image));
+}
+
+// The u that the middle of an image of uv shows: 0.75 without heights. Seen from 45 degrees at the left, a right half
+// that lies d lower moves it by d.
+double seenU(const std::filesystem::path& folder, std::vector<std::string> words)
+{
+    words.insert(words.begin(), {"render", "square.obj"});
+    words.insert(words.end(),
+                 {"--size", "64x64", "--view", "uv", "--camera", "0.25,0.5,0.5,0.75,0.5,0,h0.3", "--device",
+                  "reference", "--quiet", "-o", "n.png", "--overwrite"});
+    const ToolRun r = runTool(words, folder);
+    EXPECT_EQ(r.code, 0) << r.err;
+    const auto image = readImage(folder / "n.png");
+    EXPECT_TRUE(image);
+    return image ? image->bytes8()[4 * (32 * 64 + 32)] / 255.0 : 0;
+}
+
+// A pixel is 0.007 of u wide, and 0.75 is half a pixel off the middle. A code of the image is 0.004.
+TEST(OwnMaps, heightsLieBelowTheSurfaceByTheDepthOrByTheRangeOfFloats)
+{
+    TemporaryFolder folder;
+    writeSquare(folder / "square.obj");
+    writeStep(folder / "8.png", PixelType::unorm8, 1, 0);
+    writeStep(folder / "16.png", PixelType::unorm16, 1, 0);
+    writeStep(folder / "grey.png", PixelType::unorm16, 1, 0.5);
+    writeStep(folder / "metres.exr", PixelType::float32, 3, 2.9);
+    writeStep(folder / "flat.png", PixelType::unorm16, 0.5, 0.5);
+    writeStep(folder / "flat.exr", PixelType::float32, 7, 7);
+    writeStep(folder / "broken.exr", PixelType::float32, 7, std::nan(""));
+    const double plain = seenU(folder.path(), {});
+    EXPECT_NEAR(plain, 0.75, 0.008);
+    const struct {
+        const char *file, *depth;
+        double moved;
+    } cases[] = {{"8.png", "0.1", 0.1},     {"16.png", "0.1", 0.1},
+                 {"grey.png", "0.1", 0.05}, {"8.png", "", 0.02 * std::sqrt(2.0)}, // 2 % of the square's diagonal
+                 {"metres.exr", "", 0.1},   {"metres.exr", "0.2", 0.2},
+                 {"8.png", "0", 0},         {"metres.exr", "0", 0},
+                 {"flat.png", "0.1", 0},    {"flat.exr", "0.1", 0},
+                 {"flat.exr", "", 0},       {"broken.exr", "0.1", 0}};
+    for (const auto& c : cases) {
+        std::vector<std::string> words = {"--height-map", c.file};
+        if (*c.depth)
+            words.insert(words.end(), {"--height-depth", c.depth});
+        EXPECT_NEAR(seenU(folder.path(), words) - plain, c.moved, 0.005) << c.file << ' ' << c.depth;
     }
 }
 

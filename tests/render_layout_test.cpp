@@ -89,6 +89,8 @@ TEST(RenderLayout, extendedFragmentStageHasTheOffsetsOfTheExtensions)
         EXPECT_OFFSET(CotanMaterial, sheen);
         EXPECT_OFFSET(CotanMaterial, coatMap);
         EXPECT_OFFSET(CotanMaterial, transmissionMap);
+        EXPECT_OFFSET(CotanMaterial, heights);
+        EXPECT_OFFSET(CotanMaterial, heightMapUse);
     }
 }
 

@@ -48,10 +48,12 @@ Scene everything()
     layered.coat.strength = layered.anisotropy.strength = layered.transmission.strength = 0.5f;
     layered.specular.ior = 1.3f;
     layered.sheen.color = {0.5f, 0.5f, 0.5f};
-    for (Texture* const map : {&layered.coat.map, &layered.coat.roughnessMap, &layered.coat.normalMap,
-                               &layered.anisotropy.map, &layered.specular.map, &layered.specular.colorMap,
-                               &layered.sheen.colorMap, &layered.sheen.roughnessMap, &layered.transmission.map})
+    for (Texture* const map :
+         {&layered.coat.map, &layered.coat.roughnessMap, &layered.coat.normalMap, &layered.anisotropy.map,
+          &layered.specular.map, &layered.specular.colorMap, &layered.sheen.colorMap, &layered.sheen.roughnessMap,
+          &layered.transmission.map, &layered.heightMap.map})
         map->image = 0;
+    layered.heightMap.depth = 0.1f;
     for (int i = 1; i < 5; ++i) {
         scene.meshes.push_back(scene.meshes[0]);
         scene.meshes.back().material = i;

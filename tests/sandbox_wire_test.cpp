@@ -74,6 +74,7 @@ Scene everything()
     m.sheen.color = {0.3f, 0.2f, 0.1f}, m.sheen.roughness = 0.9f, m.sheen.colorMap.texcoord = 1;
     m.sheen.roughnessMap = m.normalMap;
     m.transmission.strength = 0.35f, m.transmission.map.uRow = {3, 1, 4};
+    m.heightMap = {m.normalMap, 0.06f};
     Mesh mesh = makePlane(2, 2, 3);
     mesh.name = "mesh";
     mesh.tangents.assign(mesh.vertexCount(), glm::vec4(1, 0, 0, -1));
@@ -141,10 +142,11 @@ TEST(Wire, everyTextureAndNumberOfAMaterialArrives)
 {
     Scene scene = everything();
     const auto texturesOf = [](Material& m) {
-        return std::array{
-            &m.baseColorMap,      &m.metallicRoughnessMap, &m.normalMap,          &m.occlusionMap,    &m.emissiveMap,
-            &m.coat.map,          &m.coat.roughnessMap,    &m.coat.normalMap,     &m.anisotropy.map,  &m.specular.map,
-            &m.specular.colorMap, &m.sheen.colorMap,       &m.sheen.roughnessMap, &m.transmission.map};
+        return std::array{&m.baseColorMap,       &m.metallicRoughnessMap, &m.normalMap,
+                          &m.occlusionMap,       &m.emissiveMap,          &m.coat.map,
+                          &m.coat.roughnessMap,  &m.coat.normalMap,       &m.anisotropy.map,
+                          &m.specular.map,       &m.specular.colorMap,    &m.sheen.colorMap,
+                          &m.sheen.roughnessMap, &m.transmission.map,     &m.heightMap.map};
     };
     const auto numbersOf = [](Material& m) {
         return std::array{&m.baseColor.x,
@@ -173,7 +175,8 @@ TEST(Wire, everyTextureAndNumberOfAMaterialArrives)
                           &m.sheen.color.y,
                           &m.sheen.color.z,
                           &m.sheen.roughness,
-                          &m.transmission.strength};
+                          &m.transmission.strength,
+                          &m.heightMap.depth};
     };
     Material& m = scene.materials[0];
     int number = 1;

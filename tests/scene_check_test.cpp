@@ -66,6 +66,7 @@ const Fault kBroken[] = {
     {[](Scene& s) { s.materials[0].sheen.colorMap.image = -2; }, "material 0: sheen colour: expected an image"},
     {[](Scene& s) { s.materials[0].sheen.roughnessMap.texcoord = -1; }, "material 0: sheen roughness: expected uv set"},
     {[](Scene& s) { s.materials[0].transmission.map.image = 1; }, "material 0: transmission: expected an image"},
+    {[](Scene& s) { s.materials[0].heightMap.map.image = 1; }, "material 0: height map: expected an image"},
     {[](Scene& s) { s.materials[0].normalMap.texcoord = 2; },
      "material 0: normal map: expected uv set 0 or 1, found 2"},
     {[](Scene& s) { s.materials[0].normalFormat.channels = Channels(77); }, "material 0: expected a normal encoding"},

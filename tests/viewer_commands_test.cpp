@@ -108,6 +108,8 @@ TEST(ViewerCommands, eachSettingRequestsItsLoadPoseOrMetering)
                                                        {"variant", "red"},
                                                        {"animation", "turn"},
                                                        {"time", "1"},
+                                                       {"height-map", "h m.png"},
+                                                       {"height-depth", "0.1"},
                                                        {"environment-rotation", "20"},
                                                        {"environment-intensity", "2"},
                                                        {"shadow-softness", "5"}};

@@ -137,6 +137,12 @@ TEST(ViewerCommandLine, writesEachFieldAsItsOption)
         {[](State& s) { s.picture.maps.baseColor = "c.png"; }, "--base-color c.png"},
         {[](State& s) { s.picture.maps.metallicRoughness = "r.png"; }, "--metallic-roughness r.png"},
         {[](State& s) { s.picture.maps.occlusion = "o.png"; }, "--occlusion o.png"},
+        {[](State& s) { s.picture.maps.height = "h.png"; }, "--height-map h.png"},
+        {[](State& s) {
+             s.picture.maps.height = "h.png";
+             s.picture.maps.heightDepth = 0.25f;
+         },
+         "--height-map h.png --height-depth 0.25"},
         {[](State& s) { s.picture.maps.material = 2; }, "--material 2"},
         {[](State& s) { s.picture.exposure = 2.0f; }, "--exposure 2"},
         {[](State& s) { s.metered = 0.5f; }, "--exposure 0.5"},
@@ -153,6 +159,9 @@ TEST(ViewerCommandLine, writesEachFieldAsItsOption)
         EXPECT_EQ(commandLine(s, "a.png", {7, 5}), std::string("cotan render -o a.png --size 7x5 ") + row.words);
     }
     State s;
+    s.picture.maps.heightDepth = 0.25f; // refused without a height map, which may come later
+    EXPECT_EQ(commandLine(s, "a.png", {7, 5}), "cotan render -o a.png --size 7x5");
+    s = {};
     s.metered = 0.5f; // files of floats and views without light do not depend on the metered exposure
     EXPECT_EQ(commandLine(s, "a.exr", {7, 5}), "cotan render -o a.exr --size 7x5");
     s.show = "normal";

@@ -186,6 +186,8 @@ void addShowEntries(Entries& e, const State& s)
     e.add("Next view", "v", "show " + names[std::size_t(here + 1) % names.size()]);
     e.line();
     e.flag("Normal maps", "n", "no-normal-maps", true);
+    if (const std::string& heights = s.picture.maps.height; !heights.empty())
+        e.add("Heights: " + fileName(heights), "", "set height-map ", true);
     e.flag("Nearest texels", "", "point-sampled");
     e.line();
     const bool all = s.picture.edges == Edges::all;

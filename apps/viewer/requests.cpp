@@ -1,5 +1,8 @@
 #include "requests.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include <fmt/format.h>
 
 #include "commands.hpp"
@@ -147,11 +150,9 @@ void beginLoads(Parts& parts)
 void watchShown(Parts& parts)
 {
     const State& s = parts.state;
-    const OwnMaps& maps = s.picture.maps;
-    std::vector<std::string> named{fmt::format("{}", s.loads), s.picture.model};
-    for (const std::string* file : {&maps.normal, &maps.baseColor, &maps.metallicRoughness, &maps.occlusion,
-                                    &s.a.normalMap, &s.b.normalMap, &s.picture.environment})
-        named.push_back(*file);
+    std::vector<std::string> named{fmt::format("{}", s.loads), s.picture.model, s.a.normalMap, s.b.normalMap,
+                                   s.picture.environment};
+    std::ranges::copy(s.picture.maps.files(), std::back_inserter(named));
     if (named == parts.watched)
         return;
     parts.watched = named;

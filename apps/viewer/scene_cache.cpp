@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/try.hpp"
 #include "cotan/inspect.hpp"
@@ -29,15 +30,14 @@ std::string sceneKey(const Model& model, const PictureOptions& o, std::optional<
         ? std::string(frame ? name(*frame) : kAutoFrame) + "/" + wordOf(kTangentOrigins, o.tangents)
         : "";
     const OwnMaps& m = o.maps;
-    return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}", model.number, vertices, inspection, m.normal, m.baseColor,
-                       m.metallicRoughness, m.occlusion, m.convention, m.material);
+    return fmt::format("{}|{}|{}|{}|{}|{}|{}", model.number, vertices, inspection, fmt::join(m.files(), "|"),
+                       m.heightDepth.value_or(-1), m.convention, m.material);
 }
 
 bool plain(const PictureOptions& o, std::optional<Frame> frame)
 {
-    const OwnMaps none, &m = o.maps;
-    return frame && !readsVertices(*frame) && m.normal.empty() && m.baseColor.empty() && m.metallicRoughness.empty()
-        && m.occlusion.empty() && m.convention == none.convention;
+    const OwnMaps none;
+    return frame && !readsVertices(*frame) && o.maps.files() == none.files() && o.maps.convention == none.convention;
 }
 
 // The frame of a side; none: each mesh's own. The frame's name must be valid.

@@ -21,6 +21,8 @@ std::span<const Setting> settings()
                                           {"shadow-softness", nothing},
                                           {"no-shadows", nothing},
                                           {"no-normal-maps", nothing},
+                                          {"height-map", nothing},
+                                          {"height-depth", nothing},
                                           {"point-sampled", nothing},
                                           {"specular-antialiasing", nothing},
                                           {"samples", nothing},

@@ -74,6 +74,8 @@ PictureOptions optionsOf(const State& state, bool second)
     o.tangents = side.tangents;
     o.maps.normal = side.normalMap;
     o.maps.convention = side.convention;
+    if (o.maps.height.empty()) // the depth is kept for the next height map
+        o.maps.heightDepth.reset();
     return o;
 }
 

@@ -1,5 +1,8 @@
 #include "view_command.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include <fmt/format.h>
 
 #include "commands.hpp"
@@ -27,10 +30,11 @@ struct ViewCommandOptions : CommonOptions {
 // Files that the options name are noted before a window opens; those that a model names are when it is loaded.
 Status noteInputs(const PictureOptions& o)
 {
-    for (const std::string* file :
-         {&o.model, &o.maps.normal, &o.maps.baseColor, &o.maps.metallicRoughness, &o.maps.occlusion, &o.environment})
-        if (std::filesystem::path(*file).has_extension()) // others are built-in environments or empty
-            COTAN_CHECK(noteInput(*file));
+    std::vector<std::string> files{o.model, o.environment};
+    std::ranges::copy(o.maps.files(), std::back_inserter(files));
+    for (const std::string& file : files)
+        if (std::filesystem::path(file).has_extension()) // others are built-in environments or empty
+            COTAN_CHECK(noteInput(file));
     return Done{};
 }
 

@@ -200,6 +200,14 @@ std::vector<PictureOption> makeTable()
         file("metallic-roughness", map(&OwnMaps::metallicRoughness),
              "image that replaces the model's roughness (green) and metallic (blue), as glTF has them"),
         file("occlusion", map(&OwnMaps::occlusion), "image that replaces the model's ambient occlusion (red)"),
+        file("height-map", map(&OwnMaps::height),
+             "image of heights (red): white is the surface, black lies --height-depth below it. Maps are drawn where "
+             "the "
+             "line of sight meets the heights, which shadow each other"),
+        number("height-depth", input, "D", map(&OwnMaps::heightDepth), kHeightDepths,
+               "how far black lies below white, or the lowest of a file of floats below its highest, in the model's "
+               "units (default: floats, as bake --kind height writes them, have this unit; else 2 % of the model's "
+               "diagonal)"),
         text("variant", input, "NAME|N", &Options::variant,
              "variant of a glTF model's materials, by name or number; those of the file if left out"),
         text("animation", input, "NAME|N", &Options::animation,

@@ -42,6 +42,7 @@ struct Bounded {
 inline constexpr Bounded kRotations = {-360, 360}; // degrees
 inline constexpr Bounded kSoftnesses = {0, 60};    // degrees
 inline constexpr Bounded kChoiceDegrees = {0, 180};
+inline constexpr Bounded kHeightDepths = {0, 1e9};
 inline constexpr Bounded kMoments = {0, 1e6}; // seconds
 inline constexpr int kMaxMemory = 1 << 16;    // MiB; the minimum is 1
 inline constexpr int kMaxMaterial = 100000;   // the minimum is -1: all

@@ -1,8 +1,10 @@
 #include "cotan/picture.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "core/try.hpp"
 #include "cotan/convention.hpp"
@@ -10,6 +12,7 @@
 #include "cotan/maps.hpp"
 #include "image/component_types.hpp"
 #include "maps/texels.hpp"
+#include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
 #include "scene/texture_sample.hpp"
 
@@ -76,15 +79,88 @@ Status applyNormalMap(const OwnMaps& maps, int memory, Scene& scene)
     return Done{};
 }
 
+// ---- heights ---------------------------------------------------------------------------------
+
+constexpr double kDepthOfDiagonal = 0.02;
+
+// The red of a texel; NaN if it is no height. Integers are fractions of 1.
+double heightOf(const Image& image, std::size_t texel)
+{
+    if (image.type == PixelType::unorm8)
+        return image.bytes8()[4 * texel] / 255.0;
+    if (image.type == PixelType::unorm16)
+        return image.words()[4 * texel] / 65535.0;
+    const double h = double(image.floats()[4 * texel]);
+    return std::abs(h) <= 1e30 ? h : std::nan("");
+}
+
+struct HeightRange {
+    double low = 1e30, high = -1e30; // low > high: no height
+};
+
+HeightRange heightRange(const Image& image)
+{
+    HeightRange range;
+    for (std::size_t i = 0; i < image.pixelCount(); ++i)
+        if (const double h = heightOf(image, i); std::isfinite(h)) {
+            range.low = std::min(range.low, h);
+            range.high = std::max(range.high, h);
+        }
+    return range;
+}
+
+// Heights as 16-bit numbers: filters of 8-bit textures may round to 8 bits, which draws terraces. Texels that are no
+// heights are the surface.
+Image storedHeights(const Image& image, const HeightRange& range)
+{
+    Image stored = makeImage(image.width, image.height, PixelType::unorm16, image.name);
+    const bool floats = image.type == PixelType::float32;
+    for (std::size_t i = 0; i < image.pixelCount(); ++i) {
+        const double h = heightOf(image, i), part = floats ? (h - range.low) / (range.high - range.low) : h;
+        std::fill_n(stored.words() + 4 * i, 4, std::uint16_t(std::isfinite(part) ? std::lround(part * 65535) : 65535));
+    }
+    return stored;
+}
+
+Status applyHeightMap(const OwnMaps& maps, int memory, Scene& scene)
+{
+    COTAN_TRY(image, readFor(maps, maps.height, &Material::normalMap, memory, scene));
+    const HeightRange range = heightRange(*image);
+    const Bounds box = bounds(scene);
+    const double depth = maps.heightDepth   ? double(*maps.heightDepth)
+        : image->type == PixelType::float32 ? range.high - range.low
+        : box.empty()                       ? 0.0
+                      : kDepthOfDiagonal * glm::distance(glm::dvec3(box.low), glm::dvec3(box.high));
+    if (!(range.high > range.low) || !(depth > 0) || !std::isfinite(float(depth)))
+        return Done{};
+    const int number = int(scene.images.size());
+    scene.images.push_back(storedHeights(*image, range));
+    bool shaded = false;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        Material& m = scene.materials[i];
+        if (!isMaterial(scene, i, maps.material))
+            continue;
+        m.heightMap = {m.normalMap, float(depth)};
+        m.heightMap.map.image = number;
+        m.heightMap.map.sampler = {};
+        shaded = shaded || m.normalMap.present();
+    }
+    if (!shaded)
+        scene.warnings.push_back(
+            maps.height + ": its slopes are drawn flat, without a normal map; cotan map from-height makes one");
+    return Done{};
+}
+
 } // namespace
 
 Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene)
 {
-    const bool any =
-        !(maps.normal.empty() && maps.baseColor.empty() && maps.metallicRoughness.empty() && maps.occlusion.empty());
+    const bool any = std::ranges::any_of(maps.files(), [](const std::string& file) { return !file.empty(); });
     const bool reinterprets = maps.normal.empty() && !maps.convention.empty();
     if (!any && !reinterprets && maps.material != -1)
         return usageError("--material: expected --normal-map FILE or another map with it; found none");
+    if (maps.heightDepth && maps.height.empty())
+        return usageError("--height-depth: expected --height-map FILE with it; found none");
     if ((any || reinterprets) && maps.material >= int(scene.materials.size()))
         return usageError(
             fmt::format("--material: expected 0 to {}; found {}", scene.materials.size() - 1, maps.material));
@@ -107,7 +183,7 @@ Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene)
         COTAN_TRY(image, readFor(maps, file, slot, memory, scene));
         assignImage(scene, std::move(*image), slot, maps.material, change);
     }
-    return Done{};
+    return maps.height.empty() ? Status(Done{}) : applyHeightMap(maps, memory, scene);
 }
 
 } // namespace cotan

@@ -115,7 +115,8 @@ private:
             {&m.specular.colorMap, "specular colour"},
             {&m.sheen.colorMap, "sheen colour"},
             {&m.sheen.roughnessMap, "sheen roughness"},
-            {&m.transmission.map, "transmission"}};
+            {&m.transmission.map, "transmission"},
+            {&m.heightMap.map, "height map"}};
         for (const auto& [texture, name] : textures)
             if (Problem problem = checkTexture(*texture, name))
                 return problem;
@@ -125,7 +126,7 @@ private:
         const glm::vec4 coat(m.coat.strength, m.coat.roughness, m.coat.normalScale, m.anisotropy.strength);
         const glm::vec4 layers(m.anisotropy.rotation, m.specular.ior, m.specular.strength, m.sheen.roughness);
         if (Problem problem = checkNumbers("expected finite factors of extensions", coat, layers, m.specular.color,
-                                           m.sheen.color, m.transmission.strength))
+                                           m.sheen.color, m.transmission.strength, m.heightMap.depth))
             return problem;
         const int expansion = int(m.normalFormat.expansion), channels = int(m.normalFormat.channels);
         if (!below(expansion, COTAN_EXPAND_EXACT16 + 1) || !below(channels, COTAN_CHANNELS_SLOPE + 1))

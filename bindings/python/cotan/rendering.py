@@ -48,6 +48,8 @@ def render(
     base_color: Optional[Path] = None,
     metallic_roughness: Optional[Path] = None,
     occlusion: Optional[Path] = None,
+    height_map: Optional[Path] = None,
+    height_depth: Optional[float] = None,
     variant: Union[str, int, None] = None,
     animation: Union[str, int, None] = None,
     time: Optional[float] = None,

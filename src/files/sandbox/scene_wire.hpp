@@ -60,6 +60,8 @@ template<class W, class T> void exchangeLayers(W& w, T& m)
     exchangeTextures(w, m.sheen.colorMap, m.sheen.roughnessMap);
     w.number(m.transmission.strength);
     exchangeTexture(w, m.transmission.map);
+    w.number(m.heightMap.depth);
+    exchangeTexture(w, m.heightMap.map);
 }
 
 template<class W, class T> void exchangeMaterial(W& w, T& m)

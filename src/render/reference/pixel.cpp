@@ -38,7 +38,6 @@ f32::cotan_surface surfaceOf(const PixelInputs& all, const SurfaceInputs& in, gl
     glm::vec4 mr = mapTexel(in, in.draw->maps->metallicRoughness, m.metallicRoughnessMap, lane);
     glm::vec4 occlusion = mapTexel(in, in.draw->maps->occlusion, m.occlusionMap, lane);
     glm::vec4 emissive = mapTexel(in, in.draw->maps->emissive, m.emissiveMap, lane);
-    glm::vec3 backwards = -glm::vec3(all.projection.forward);
     f32::cotan_surface s;
     s.base_color = baseColor;
     s.metallic = f32::cotan_saturate(m.metallic * mr.z);
@@ -46,8 +45,7 @@ f32::cotan_surface surfaceOf(const PixelInputs& all, const SurfaceInputs& in, gl
     s.occlusion = 1 + m.occlusionStrength * (occlusion.x - 1);
     s.emissive = m.emissive * glm::vec3(emissive);
     s.n = n;
-    s.v = all.projection.orthographic ? backwards
-                                      : f32::cotan_normalize_or(-in.points->position[std::size_t(lane)], backwards);
+    s.v = toEye(all.projection, in.points->position[std::size_t(lane)]);
     return s;
 }
 

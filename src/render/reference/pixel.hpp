@@ -22,13 +22,20 @@ namespace cotan::reference {
 // `src/bake/surface` computes the same for bakers and checkers. This is a separate implementation on purpose: their
 // results are judged by images drawn here, so only Scene and the portable text are shared.
 
+// The point of a height map's relief that is seen.
+struct ReliefPoint {
+    f32::cotan_frame frame{}; // gradients of the height map's uv set
+    float height = 1;         // as stored
+};
+
 // Interpolated values in the four pixels of a quad, covered or not: helper lanes extrapolate the triangle's plane.
 // Lanes are ordered as in Quad.
 struct QuadPoints {
     std::array<std::array<double, 3>, 4> weights{};     // of the three vertices, perspective-correct
     std::array<glm::vec3, 4> position{};                // relative to the eye
-    std::array<std::array<glm::vec2, 4>, 2> uv{};       // both sets; 0 if the mesh has none
-    std::array<std::array<glm::vec2, 4>, 2> cornerUv{}; // minus the uv of the triangle's first corner
+    std::array<std::array<glm::vec2, 4>, 2> uv{};       // both sets; 0 if the mesh has none. Moved by moveToRelief
+    std::array<std::array<glm::vec2, 4>, 2> cornerUv{}; // minus the uv of the triangle's first corner; never moved
+    std::array<ReliefPoint, 4> relief{};                // set by moveToRelief
 };
 
 QuadPoints interpolate(const Draw& draw, const RasterTriangle& triangle, int x, int y);
@@ -40,6 +47,16 @@ struct SurfaceInputs {
     const RasterTriangle* triangle = nullptr;
     const QuadPoints* points = nullptr;
 };
+
+// Moves the texture coordinates of all lanes to where the lines of sight meet the material's height map, if it has one.
+// in: refers to `points`.
+void moveToRelief(const Projection& projection, const SurfaceInputs& in, QuadPoints& points);
+
+// The fraction of light from a unit direction that the relief does not keep from the point that is seen: 0 or 1.
+float reliefLight(const SurfaceInputs& in, int lane, glm::vec3 toLight);
+
+// The unit direction from a position relative to the eye to the eye.
+glm::vec3 toEye(const Projection& projection, glm::vec3 position);
 
 // Samples a map of the material in one lane; returns 1 if `chain` is null.
 glm::vec4 mapTexel(const SurfaceInputs& in, const MipChain* chain, const Texture& texture, int lane);

@@ -103,7 +103,7 @@ glm::vec3 radianceOf(const PixelInputs& all, const SurfaceInputs& in, int lane, 
     glm::vec3 radiance = surface.emissive, fromCoat(0);
     for (const PreparedLight& light : all.lights) {
         const std::optional<ArrivingLight> arrival = arrivalOf(light, point, all);
-        if (!arrival)
+        if (!arrival || (light.castsShadow && reliefLight(in, lane, arrival->toLight) == 0))
             continue;
         f32::cotan_surface lit = surface;
         glm::vec3 toLight = arrival->toLight;

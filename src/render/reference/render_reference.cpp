@@ -64,6 +64,7 @@ void drawQuad(const Prepared& f, const RasterTriangle& triangle, const Quad& qua
         const bool masked = material.alphaMode == AlphaMode::mask;
         if (!points) {
             in.points = &points.emplace(interpolate(draw, triangle, quad.x, quad.y));
+            moveToRelief(f.projection, in, *points);
             for (int k = 0; masked && k < 4; ++k)
                 alphas[std::size_t(k)] = baseColorOf(in, k).w;
         }

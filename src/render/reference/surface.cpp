@@ -143,6 +143,14 @@ f32::cotan_frame frameOver(const SurfaceInputs& in, const Texture& map, const Sm
 
 bool sameUv(const Texture& a, const Texture& b) { return setOf(a) == setOf(b) && a.uRow == b.uRow && a.vRow == b.vRow; }
 
+// The stored height at uv of the height map's set. footprint: of the height map.
+float heightAt(const SurfaceInputs& in, glm::vec2 uv, const UvDifferences& footprint)
+{
+    const Texture& map = in.draw->material->heightMap.map;
+    const UvDifferences at{textureUv(map, uv), footprint.dx, footprint.dy};
+    return sample(*in.draw->maps->height, map.sampler, at, in.view->pointSampled).x;
+}
+
 // How the material's normal map is decoded.
 f32::cotan_normal_format formatOf(const SurfaceInputs& in)
 {
@@ -168,6 +176,58 @@ QuadPoints interpolate(const Draw& draw, const RasterTriangle& triangle, int x, 
             for (std::size_t lane = 0; lane < 4; ++lane)
                 interpolateUv(quad, set, lane, draw, triangle);
     return quad;
+}
+
+glm::vec3 toEye(const Projection& projection, glm::vec3 position)
+{
+    const glm::vec3 backwards = -glm::vec3(projection.forward);
+    return projection.orthographic ? backwards : f32::cotan_normalize_or(-position, backwards);
+}
+
+void moveToRelief(const Projection& projection, const SurfaceInputs& in, QuadPoints& points)
+{
+    const HeightMap& heights = in.draw->material->heightMap;
+    const std::size_t set = setOf(heights.map);
+    if (!in.draw->maps->height || !hasUv(*in.draw, set))
+        return;
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+        const UvDifferences footprint = uvOf(in, heights.map, int(lane));
+        const Smooth smooth = smoothOf(in, int(lane), footprint);
+        const glm::vec3 v = toEye(projection, points.position[lane]);
+        std::array<glm::vec2, 2> travel;
+        for (std::size_t s = 0; s < 2; ++s) {
+            const auto uv = [&](int at) { return points.cornerUv[s][std::size_t(at)]; };
+            const f32::cotan_frame frame = f32::cotan_frame_gradient(smooth.n, smooth.dpdx, smooth.dpdy,
+                                                                     alongX(uv, int(lane)), alongY(uv, int(lane)));
+            travel[s] = f32::cotan_relief_start(frame, v, glm::vec2(0), heights.depth, 1).travel;
+            if (s == set)
+                points.relief[lane].frame = frame;
+        }
+        f32::cotan_relief r = f32::cotan_relief_start(points.relief[lane].frame, v, points.uv[set][lane], heights.depth,
+                                                      float(kHeightSteps));
+        for (int i = 0; i < kHeightSteps && r.found < 0.5f; ++i)
+            r = f32::cotan_relief_next(r, heightAt(in, r.uv, footprint));
+        for (int i = 0; i < kHeightHalvings; ++i)
+            r = f32::cotan_relief_next(r, heightAt(in, r.uv, footprint));
+        points.relief[lane].height = 1 - r.at;
+        for (std::size_t s = 0; s < 2; ++s) // both sets move by the same way through space
+            points.uv[s][lane] += travel[s] * r.at;
+    }
+}
+
+float reliefLight(const SurfaceInputs& in, int lane, glm::vec3 toLight)
+{
+    const HeightMap& heights = in.draw->material->heightMap;
+    const std::size_t set = setOf(heights.map);
+    if (!in.draw->maps->height || !hasUv(*in.draw, set))
+        return 1;
+    const ReliefPoint& point = in.points->relief[std::size_t(lane)];
+    const UvDifferences footprint = uvOf(in, heights.map, lane);
+    f32::cotan_relief r = f32::cotan_relief_shadow(point.frame, toLight, in.points->uv[set][std::size_t(lane)],
+                                                   point.height, heights.depth, float(kHeightShadowSteps));
+    for (int i = 0; i < kHeightShadowSteps && r.found < 0.5f; ++i)
+        r = f32::cotan_relief_next(r, heightAt(in, r.uv, footprint));
+    return 1 - r.found;
 }
 
 glm::vec4 mapTexel(const SurfaceInputs& in, const MipChain* chain, const Texture& texture, int lane)

@@ -258,6 +258,7 @@ TextureLibrary makeTextures(const Scene& scene, const View& view)
         MaterialMaps maps;
         if (view.normalMaps)
             maps.normal = get(m.normalMap, Content::normal, m.normalFormat);
+        maps.height = get(m.heightMap.map, Content::linear);
         if (shaded || m.alphaMode != AlphaMode::opaque)
             maps.baseColor = get(m.baseColorMap, Content::color);
         if (shaded && !m.unlit) {

@@ -57,6 +57,7 @@ struct MaterialMaps {
     const MipChain* sheenColor = nullptr;
     const MipChain* sheenRoughness = nullptr;
     const MipChain* transmission = nullptr;
+    const MipChain* height = nullptr;
 };
 
 // The maps of all materials. An image with two kinds of use has two chains.

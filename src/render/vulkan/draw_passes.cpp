@@ -48,7 +48,7 @@ std::uint32_t mapsNeeded(const PipelineKey& key)
     if (key.output == Output::shaded)
         return ~0u;
     const std::uint32_t alpha = key.alphaMode == AlphaMode::opaque ? 0u : COTAN_MAP_BASE_COLOR;
-    return alpha | (key.output == Output::normal ? COTAN_MAP_NORMAL : 0u);
+    return alpha | COTAN_MAP_HEIGHT | (key.output == Output::normal ? COTAN_MAP_NORMAL : 0u);
 }
 
 // BACKDROP_... of background.frag.

@@ -17,7 +17,7 @@ using uint = glm::uint;
 #include "gpu_structs.glsl"
 
 static_assert(sizeof(CotanTextureUse) == 32);
-static_assert(sizeof(CotanMaterial) == 144 + COTAN_MAP_COUNT * sizeof(CotanTextureUse));
+static_assert(sizeof(CotanMaterial) == 160 + COTAN_MAP_COUNT * sizeof(CotanTextureUse));
 static_assert(sizeof(CotanLight) == 64);
 static_assert(sizeof(CotanView) == 15 * 16);
 static_assert(sizeof(CotanDraw) == 128);

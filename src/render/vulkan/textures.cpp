@@ -92,7 +92,8 @@ std::array<MapUse, COTAN_MAP_COUNT> mapUses(const Material& m)
              {&m.specular.colorMap, K::color, {}, &G::specularColorMap},
              {&m.sheen.colorMap, K::color, {}, &G::sheenColorMap},
              {&m.sheen.roughnessMap, K::data, {}, &G::sheenRoughnessMap},
-             {&m.transmission.map, K::data, {}, &G::transmissionMap}}};
+             {&m.transmission.map, K::data, {}, &G::transmissionMap},
+             {&m.heightMap.map, K::data, {}, &G::heightMapUse}}};
 }
 
 Textures::Key Textures::keyOf(const MapUse& use)
@@ -145,7 +146,8 @@ void Textures::load(const Scene& scene, Uploader& uploader)
     index_.clear();
     for (const Material& m : scene.materials)
         for (const MapUse& use : mapUses(m))
-            if (!m.unlit || use.texture == &m.baseColorMap || use.texture == &m.normalMap)
+            if (!m.unlit || use.texture == &m.baseColorMap || use.texture == &m.normalMap
+                || use.texture == &m.heightMap.map)
                 request(scene, use, missing);
     for (std::size_t first = 0; first < missing.size();) {
         std::size_t end = first;

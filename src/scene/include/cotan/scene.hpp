@@ -171,6 +171,20 @@ struct Transmission {
     Texture map;        // linear: r, times strength
 };
 
+// Heights below the surface. Renderers look up all maps of the material where the line of sight meets the heights, and
+// let them shadow each other (shaders/cotan/parallax.h). Seen from the front only; depth and outline stay the
+// surface's.
+struct HeightMap {
+    Texture map;     // linear: r, 1 is the surface and 0 lies `depth` below it
+    float depth = 0; // world units, at least 0; 0: the surface as it is
+
+    bool present() const { return map.present() && depth > 0; }
+};
+
+// Readings of a height map along a ray, and halvings of the step after the first one below the heights. Details thinner
+// than a step along the ray can be missed.
+inline constexpr int kHeightSteps = 64, kHeightHalvings = 6, kHeightShadowSteps = 48;
+
 struct Material {
     std::string name;
     glm::vec4 baseColor{1, 1, 1, 1}; // linear, alpha
@@ -199,6 +213,7 @@ struct Material {
     Specular specular;
     Sheen sheen;
     Transmission transmission;
+    HeightMap heightMap;
     std::string tangentsFor; // an extension that reads tangents and whose maps are not converted; or empty
 
     // Whether surfaces behind this one are visible through it.
