@@ -181,7 +181,7 @@ std::string stagesBesides(const CostReport& report)
         + otherStagesOf(StageKind::pass, report)
         + "### What a frame adds where a visibility buffer is resolved, in instructions\n\n"
         + otherStagesOf(StageKind::resolve, report)
-        + "### What is beyond the normal map adds to the frame `gradient`, in instructions; loops counted once\n\n"
+        + "### What antialiasing and parallax add to the frame `gradient`, in instructions; loops counted once\n\n"
         + otherStagesOf(StageKind::beyond, report);
 }
 
