@@ -3,7 +3,7 @@ cotan_test(core_test
           convention_test.cpp random_test.cpp fused_test.cpp gradient_test.cpp
           frame_range_test.cpp light_test.cpp light_layers_test.cpp frame_guards_test.cpp normal_codec_test.cpp result_test.cpp
           value_statistics_test.cpp file_names_test.cpp
-          space_test.cpp mapping_test.cpp parallax_test.cpp
+          space_test.cpp mapping_test.cpp parallax_test.cpp several_maps_test.cpp grooves_test.cpp
   LIBRARIES cotan_truth cotan_core)
 
 # The variant that needs only a compiler and GLM: builds it as shared libraries, installs it and uses it from outside.

@@ -144,6 +144,31 @@ TEST(CostDocument, statementsAboutAllGpusHold)
          + " more");
 }
 
+// The page beyond the normal map gives these ranges over all cards that compile the shader and count its instructions.
+TEST(CostDocument, beyondTheMapEachCostsWhatItsPageSays)
+{
+    const std::string page = prose("docs/how-to/beyond.md");
+    const auto stageOf = [](std::string_view name) -> const Stage& {
+        return *std::ranges::find_if(otherStages(),
+                                     [&](const Stage& s) { return s.kind == StageKind::beyond && s.name == name; });
+    };
+    const auto range = [&](std::string_view name) {
+        std::vector<int> more;
+        for (const DeviceCode& d : gpus())
+            if (const Count mine = otherCode(d, stageOf(name)).instructions)
+                more.push_back(int(*mine - otherCode(d, stageOf("floor")).instructions.value()));
+        EXPECT_GE(more.size(), 20u) << name;
+        const auto [least, most] = std::ranges::minmax(more);
+        return std::to_string(least) + " to " + std::to_string(most);
+    };
+    for (const std::string& sentence :
+         {"Curvature costs " + range("curvature") + " instructions a pixel, the length " + range("stored length")
+              + ", both " + range("curvature and stored length") + " ",
+          "The offset costs " + range("parallax offset") + " instructions a pixel and one reading, the relief "
+              + range("relief") + " with one turn of its loop "})
+        EXPECT_NE(page.find(sentence), std::string::npos) << sentence;
+}
+
 TEST(CostDocument, theChoiceForEachVendorCostsNoMoreThanStoredTangents)
 {
     // The table under "How to choose": maker, then a form for each renderer, or "-".

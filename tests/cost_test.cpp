@@ -1,6 +1,7 @@
 // Counts of scalar operations and SPIR-V instructions, and break-even points.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -231,6 +232,22 @@ TEST(CostStages, everyOtherStageHasInstructionsAndTheFrameAddsSome)
     EXPECT_EQ(sound.maximum, 2);
     EXPECT_EQ(sound.total(), 33 + 15 + 1 + 2 + 1);
     EXPECT_GT(operationsOfTriangleVectors(true).total(), sound.total());
+}
+
+// Each term of the roughness costs something, and both together less than the sum: they share the last root.
+TEST(CostStages, beyondTheMapCurvatureAndLengthAddUp)
+{
+    const auto instructions = [](std::string_view name) {
+        const auto is = [&](const Stage& s) { return s.kind == StageKind::beyond && s.name == name; };
+        return spirvInstructions(std::ranges::find_if(otherStages(), is)->words);
+    };
+    const int floor = instructions("floor"), curvature = instructions("curvature") - floor,
+              length = instructions("stored length") - floor;
+    EXPECT_GE(curvature, 10); // two differences, two squared lengths and their sum, a product, a minimum, the rest
+    EXPECT_GE(length, 10);
+    const int both = instructions("curvature and stored length") - floor;
+    EXPECT_GT(both, std::max(curvature, length));
+    EXPECT_LT(both, curvature + length);
 }
 
 } // namespace

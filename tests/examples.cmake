@@ -26,6 +26,13 @@ cotan_test(three_judge_test FIXTURE npm SLOW "*"
   LIBRARIES cotan_model cotan_render cotan_bake cotan_inspect nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(three_judge_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
 
+# The recipes of docs/how-to/sparkle.md.
+cotan_test(recipes_test FIXTURE npm SLOW "*"
+  SOURCES recipes_test.cpp browser_pages.cpp godot_draw.cpp
+  LIBRARIES cotan_scene cotan_core nlohmann_json::nlohmann_json)
+target_compile_definitions(recipes_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
+add_dependencies(recipes_test cotan)
+
 # The examples, built as by their own CMakeLists.txt but within this build.
 target_sources(examples_test PRIVATE examples_sheets_test.cpp examples_triangle_test.cpp examples_deforming_test.cpp)
 add_executable(example_raytracing ${PROJECT_SOURCE_DIR}/examples/raytracing/main.cpp)

@@ -22,9 +22,9 @@ using namespace app;
 using namespace test;
 using Words = std::vector<std::string>;
 
-const char* const kNames[] = {"2.6.3",    "2.6.4",   "2.6.5",     "tutorial", "normal-matrices",
-                              "mirrored", "targets", "decode",    "faceting", "sparkle",
-                              "parallax", "decal",   "triplanar", "grooves",  "isolines"};
+const char* const kNames[] = {"2.6.3",   "2.6.4",     "2.6.5",    "tutorial", "normal-matrices", "mirrored",
+                              "targets", "decode",    "faceting", "sparkle",  "flicker",         "parallax",
+                              "decal",   "triplanar", "grooves",  "isolines"};
 
 Words command(const std::string& folder, const Words& more)
 {
@@ -230,6 +230,35 @@ TEST(Figures, antialiasingHalvesTheErrorOfHighlights)
         EXPECT_LT(numbers[map + ", error with"].get<double>(), 0.5 * numbers[map + ", error without"].get<double>());
         EXPECT_GT(numbers[map + ", error without"].get<double>(), 0.03) << "there is nothing to see";
     }
+}
+
+// One sample a pixel against 256. The limits are about halfway between what is measured and no effect.
+TEST(Figures, curvatureAndStoredLengthAddUpAndEdgesOfTrianglesAreNoRoughness)
+{
+    const nlohmann::json numbers = report("flicker", "64x48")["figures"][0]["numbers"];
+    const auto error = [&](const std::string& ball, const std::string& form, const char* what = "error") {
+        const auto name = ball + ", " + form + ", " + what;
+        EXPECT_TRUE(numbers.contains(name)) << name;
+        return numbers.value(name, -1.0);
+    };
+    const std::string nothing = "nothing", curvature = "curvature", stored = "stored length",
+                      both = "curvature and stored length", shaded = "shaded normals";
+    // Bumps of the surface and grain of the map: each term removes its part.
+    EXPECT_LT(error("bumpy", curvature), 0.9 * error("bumpy", nothing));
+    EXPECT_LT(error("bumpy", stored), 0.95 * error("bumpy", nothing));
+    EXPECT_LT(error("bumpy", both), 0.97 * std::min(error("bumpy", curvature), error("bumpy", stored)));
+    EXPECT_LT(error("bumpy", both), 0.85 * error("bumpy", nothing));
+    EXPECT_LT(error("bumpy", both, "flicker"), 0.95 * error("bumpy", nothing, "flicker"));
+    // Where the map matters most, differences of normals are not enough, with the map or without it.
+    for (const std::string& model : {stored, std::string("Toksvig"), std::string("LEAN")})
+        EXPECT_LT(error("grainy", model), 0.95 * std::min(error("grainy", curvature), error("grainy", shaded)))
+            << model;
+    // Near the map a filtered texel is shorter, because texels are mixed; a stored length of 1 stays 1.
+    EXPECT_LT(error("close", stored), 0.95 * error("close", "length of the filtered texel"));
+    // The frame of a mesh jumps at edges. Shaded normals take it for roughness; interpolated normals do not jump.
+    EXPECT_LE(error("faceted", curvature), error("faceted", nothing));
+    EXPECT_GT(error("faceted", shaded), 1.06 * error("faceted", nothing));
+    EXPECT_GT(error("faceted", shaded, "flicker"), 1.06 * error("faceted", nothing, "flicker"));
 }
 
 TEST(Figures, beyondTheMapCotanFollowsTheTruthAndTheUsualFormsDoNot)

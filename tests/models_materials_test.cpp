@@ -148,6 +148,98 @@ TEST(Anisotropy, highlightFollowsTheDirectionOnBothRenderers)
     }
 }
 
+// Two uv sets: the second is turned by 90 degrees against the first, and mirrored. What a map on the second set draws
+// must equal what a map on the first draws on a quad that has the second's uv there.
+glm::vec2 otherUv(glm::vec2 uv) { return {uv.y * 1.5f, uv.x}; }
+
+Texture onSet(int set)
+{
+    Texture map;
+    map.image = 0;
+    map.texcoord = set;
+    return map;
+}
+
+// The quad with both sets, or with the second one as its first; its map has direction +u and full strength.
+Scene twoSets(bool swapped)
+{
+    Scene scene = tiltedQuad();
+    Mesh& mesh = scene.meshes[0];
+    for (const glm::vec2 uv : mesh.texcoords[0])
+        mesh.texcoords[1].push_back(otherUv(uv));
+    if (swapped)
+        std::swap(mesh.texcoords[0], mesh.texcoords[1]);
+    scene.images.push_back(scene.images[0]);
+    const int texel[] = {255, 128, 255, 255};
+    for (int c = 0; c < 4; ++c)
+        scene.images[1].bytes8()[c] = std::uint8_t(texel[c]);
+    scene.materials[0].roughness = 0.3f;
+    return scene;
+}
+
+TEST(TwoUvSets, groovesFollowTheNormalMapsUvAndTheirOwnWithoutOne)
+{
+    for (const char* device : {"reference", "auto"}) {
+        auto renderer = rendererFor(device);
+        if (!renderer)
+            continue;
+        for (const FrameInfo& frame : frames()) {
+            // grooves, normal: uv set of each map, or none
+            const auto drawn = [&](bool swapped, int grooves, int normal, bool transformed) {
+                Scene scene = twoSets(swapped);
+                Material& m = scene.materials[0];
+                m.anisotropy.strength = 0.9f;
+                m.anisotropy.map = onSet(grooves);
+                m.anisotropy.map.image = 1;
+                if (transformed) { // as otherUv
+                    m.anisotropy.map.uRow = {0, 1.5f, 0};
+                    m.anisotropy.map.vRow = {1, 0, 0};
+                }
+                if (normal >= 0)
+                    m.normalMap = onSet(normal);
+                deriveVertexFrames(scene, frame.frame, TangentOrigin::stored);
+                EXPECT_TRUE(renderer->load(scene));
+                return redAt(drawWith(*renderer, quadView(frame.frame)), 12, 17);
+            };
+            const double first = drawn(false, 0, -1, false), second = drawn(true, 0, -1, false);
+            EXPECT_GT(std::abs(first / second - 1), 0.05) << "the sets differ, " << frame.name;
+            EXPECT_NEAR(drawn(false, 1, -1, false) / second, 1, 2e-3) << device << ", " << frame.name;
+            EXPECT_NEAR(drawn(false, 0, -1, true) / second, 1, 2e-3) << device << ", " << frame.name;
+            // glTF: without TANGENT the normal map's uv define the only tangent space.
+            EXPECT_NEAR(drawn(false, 1, 0, false) / drawn(false, 0, 0, false), 1, 1e-6) << device << ", " << frame.name;
+        }
+    }
+}
+
+TEST(TwoUvSets, theCoatsNormalMapFollowsItsOwn)
+{
+    for (const char* device : {"reference", "auto"}) {
+        auto renderer = rendererFor(device);
+        if (!renderer)
+            continue;
+        for (const FrameInfo& frame : frames()) {
+            if (readsTangents(frame.frame))
+                continue; // generated for the surface's own map
+            const auto drawn = [&](bool swapped, int coat) {
+                Scene scene = twoSets(swapped);
+                Material& m = scene.materials[0];
+                m.baseColor = {0, 0, 0, 1};
+                m.coat.strength = 1;
+                m.coat.roughness = 0.5f;
+                m.coat.normalMap = onSet(coat);
+                if (!swapped)
+                    m.normalMap = onSet(0); // another frame below the coat
+                deriveVertexFrames(scene, frame.frame, TangentOrigin::stored);
+                EXPECT_TRUE(renderer->load(scene));
+                return redAt(drawWith(*renderer, quadView(frame.frame)), 12, 17);
+            };
+            const double second = drawn(true, 0);
+            EXPECT_GT(std::abs(drawn(false, 0) / second - 1), 0.02) << frame.name;
+            EXPECT_NEAR(drawn(false, 1) / second, 1, 5e-3) << device << ", " << frame.name;
+        }
+    }
+}
+
 // The base colour is almost black; the visible colour is the sheen.
 TEST(MaterialModels, theVelvetSofaIsBlue)
 {

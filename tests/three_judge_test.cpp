@@ -162,5 +162,43 @@ TEST(ThreeJudgeOfMirroredNodes, isWrongOnlyWithTangents)
         }
 }
 
+// The directions of anisotropic highlights, stock three.js with the model's tangents being the judge. The discs are
+// flat. On the spheres of 24 segments a direction that is constant on a triangle is wrong by degrees
+// (grooves_test.cpp). Without tangents stock three.js takes v for upwards, which mirrors the directions of the discs'
+// map: up to 90 degrees.
+TEST(ThreeGrooves, areThoseOfStoredTangentsWithoutAny)
+{
+    const char* const files[] = {"materials/AnisotropyDiscTest.glb",
+                                 "models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb"};
+    json cases = json::array();
+    for (const char* file : files) {
+        COTAN_NEEDS_DATA(file);
+        cases.push_back({{"name", file}, {"url", urlOf(file)}});
+    }
+    if (!std::filesystem::exists(COTAN_NPM "/node_modules/three"))
+        GTEST_SKIP() << "three is not installed (see the test npm_packages)";
+    TemporaryFolder folder;
+    std::string page = readWhole(COTAN_SOURCE_DIR "/tests/three_grooves.html.in");
+    put(page, "MODULES_URL", "file://" COTAN_NPM "/node_modules");
+    put(page, "SOURCES_URL", "file://" COTAN_SOURCE_DIR);
+    put(page, "TESTS_URL", "file://" COTAN_SOURCE_DIR "/tests");
+    put(page, "CASES", cases.dump());
+    write(folder / "grooves.html", page);
+    const json all = showPages(folder, {"grooves.html"}, 280);
+    if (all.is_string())
+        GTEST_SKIP() << all.get<std::string>();
+    const json found = all.value("grooves", all);
+    for (const char* file : files) {
+        ASSERT_TRUE(found.contains(file)) << found.dump();
+        std::printf("%s: %s\n", file, found[file].dump().c_str());
+        for (const char* way : {"dropped", "cotan", "smooth"})
+            ASSERT_GT(found[file][way]["count"].get<int>(), 1000) << file << ", " << way;
+        EXPECT_LT(found[file]["smooth"]["mean"].get<double>(), 0.1) << file;
+        EXPECT_LT(found[file]["cotan"]["mean"].get<double>(), 2.5) << file;
+    }
+    EXPECT_LT(found[files[0]]["cotan"]["maximum"].get<double>(), 0.1);
+    EXPECT_GT(found[files[0]]["dropped"]["maximum"].get<double>(), 45);
+}
+
 } // namespace
 } // namespace cotan::test

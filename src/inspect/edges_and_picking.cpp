@@ -163,7 +163,7 @@ std::vector<SurfaceEdge> surfaceEdges(const Scene& scene)
     std::vector<SurfaceEdge> edges;
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
-        addEdgesOf(mesh, scene.materials[std::size_t(mesh.material)].normalMap, instance.toWorld, edges);
+        addEdgesOf(mesh, frameTexture(scene.materials[std::size_t(mesh.material)]), instance.toWorld, edges);
     }
     return edges;
 }

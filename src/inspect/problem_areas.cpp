@@ -12,6 +12,7 @@
 #include "bake/lint/lint_parts.hpp"
 #include "cotan/lint.hpp"
 #include "scene/geometry.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 
@@ -169,7 +170,7 @@ std::vector<ProblemArea> problemAreas(const Scene& scene, std::size_t maxCount)
         const Material& material = scene.materials[std::size_t(mesh.material)];
         const std::shared_ptr<const Mesh> held(std::shared_ptr<void>(), &mesh); // the scene outlives the surface
         const MappedSurface surface =
-            makeSurface(held, material.normalMap, glm::dmat3(glm::mat3(instance->toWorld)), {});
+            makeSurface(held, frameTexture(material), glm::dmat3(glm::mat3(instance->toWorld)), {});
         if (!surface.hasUv())
             continue;
         const Found found = findOn(surface);

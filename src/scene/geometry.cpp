@@ -254,7 +254,7 @@ Status checkVertexAttributes(const Scene& scene, Frame ofView, bool framesOfMesh
             continue;
         const std::size_t vertices = mesh->vertexCount();
         const bool hasUv =
-            mesh->texcoords[uvSetOf(scene.materials[std::size_t(mesh->material)].normalMap)].size() >= vertices;
+            mesh->texcoords[uvSetOf(frameTexture(scene.materials[std::size_t(mesh->material)]))].size() >= vertices;
         const bool has = readsTangents(frame)
             ? mesh->tangents.size() >= vertices
             : mesh->cotangentsU.size() >= vertices && mesh->cotangentsV.size() >= vertices;

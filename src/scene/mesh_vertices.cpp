@@ -348,7 +348,7 @@ void deriveVertexFrames(const Scene& scene, Mesh& mesh, Frame frame, TangentOrig
 {
     if (!readsVertices(frame))
         return;
-    const std::vector<glm::vec2> uv = textureUv(scene.materials[std::size_t(mesh.material)].normalMap, mesh);
+    const std::vector<glm::vec2> uv = textureUv(frameTexture(scene.materials[std::size_t(mesh.material)]), mesh);
     if (uv.empty() || mesh.indices.empty())
         return;
     if (readsCotangents(frame))

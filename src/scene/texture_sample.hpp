@@ -42,6 +42,15 @@ inline std::vector<glm::vec2> textureUv(const Texture& texture, const Mesh& mesh
     return uv;
 }
 
+// The texture whose uv the material's frame follows: its normal map; without one, the map of its anisotropy, whose
+// directions are along these uv. Without both the frame follows uv set 0 untransformed. glTF gives a material one tangent
+// space and, for files without TANGENT, defines it by the normal map (KHR_materials_anisotropy).
+inline const Texture& frameTexture(const Material& material)
+{
+    return material.normalMap.present() || !material.anisotropy.map.present() ? material.normalMap
+                                                                              : material.anisotropy.map;
+}
+
 // ---- texels ----------------------------------------------------------------------------------
 
 // Maximum magnitude of uv. Larger values have no fraction in float, and would overflow as texel numbers.

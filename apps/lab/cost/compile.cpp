@@ -71,6 +71,10 @@ StageCode compileStage(const Device& device, const Layout& layout, const std::ve
         return readStage(device, makePipeline(device, layout, v.stored, v.vertex, v.consumer, true), Flags::eVertex);
     }
     const Stage& s = otherStages()[k - vertexStages().size()];
+    if (s.kind == StageKind::beyond)
+        return readStage(
+            device, makePipeline(device, layout, Stored::nothing, vertexStage(Stored::nothing).vertex, s.words, true),
+            Flags::eFragment);
     if (s.kind != StageKind::mesh)
         return readStage(device, makePassPipeline(device, layout, s.words), Flags::eCompute);
     return device.meshShaders

@@ -1,5 +1,11 @@
 #include "cost/stages.hpp"
 
+#include "beyond_both.h"
+#include "beyond_curvature.h"
+#include "beyond_floor.h"
+#include "beyond_length.h"
+#include "beyond_offset.h"
+#include "beyond_relief.h"
 #include "mesh_plain.h"
 #include "mesh_tangent.h"
 #include "mesh_triangle.h"
@@ -50,6 +56,12 @@ const std::vector<Stage>& otherStages()
         {K::resolve, "triangle-fused", 0, 0, kPixel, resolve_triangle_fused, {}},
         {K::resolve, "cotangent-fused", 0, 0, kPixel, resolve_cotangent_fused, {}},
         {K::resolve, "orthonormal-edges", 0, 0, kPixel, resolve_orthonormal_edges, {}},
+        {K::beyond, "floor", 0, 0, 1, beyond_floor, {}},
+        {K::beyond, "curvature", 0, 0, 1, beyond_curvature, {}},
+        {K::beyond, "stored length", 0, 0, 1, beyond_length, {}},
+        {K::beyond, "curvature and stored length", 0, 0, 1, beyond_both, {}},
+        {K::beyond, "parallax offset", 0, 0, 2, beyond_offset, {}},
+        {K::beyond, "relief", 0, 0, 16 + 6 + 1, beyond_relief, {}},
     };
     return list;
 }

@@ -52,6 +52,7 @@ Figure makeTargetsFigure(FigureRenderer& studio);
 Figure makeDecodeFigure(FigureRenderer& studio);
 Figure makeFacetingFigure(FigureRenderer& studio);
 Figure makeSparkleFigure(FigureRenderer& studio);
+Figure makeFlickerFigure(FigureRenderer& studio);
 Figure makeParallaxFigure(FigureRenderer& studio);
 Figure makeDecalFigure(FigureRenderer& studio);
 Figure makeTriplanarFigure(FigureRenderer& studio);

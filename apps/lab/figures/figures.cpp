@@ -34,6 +34,7 @@ constexpr FigureInfo kFigures[] = {
     {"decode", makeDecodeFigure},
     {"faceting", makeFacetingFigure},
     {"sparkle", makeSparkleFigure},
+    {"flicker", makeFlickerFigure},
     {"parallax", makeParallaxFigure},
     {"decal", makeDecalFigure},
     {"triplanar", makeTriplanarFigure},

@@ -145,7 +145,7 @@ std::string vertexStages(const CostReport& report)
     return "### What stored tangents add at every vertex, in instructions\n\n" + aligned(table);
 }
 
-// Mesh and resolve stages are shown relative to the first of their kind, passes as a whole.
+// Stages are shown relative to the first of their kind, passes as a whole.
 std::string otherStagesOf(StageKind kind, const CostReport& report)
 {
     auto devices = devicesWith(report, &StageCode::instructions);
@@ -153,11 +153,12 @@ std::string otherStagesOf(StageKind kind, const CostReport& report)
     const Stage& first = *std::ranges::find(otherStages(), kind, &Stage::kind);
     if (mesh) // few devices have this stage
         std::erase_if(devices, [&](const DeviceCode* d) { return !otherCode(*d, first).instructions; });
-    Table table =
-        tableOf(mesh || pass ? std::vector<std::string>{std::string(kindName(kind)), "bytes per vertex", "per triangle",
-                                                        "SPIR-V"}
-                             : std::vector<std::string>{std::string(kindName(kind)), "bytes read per pixel", "SPIR-V"},
-                devices);
+    Table table = tableOf(
+        mesh || pass
+            ? std::vector<std::string>{std::string(kindName(kind)), "bytes per vertex", "per triangle", "SPIR-V"}
+            : std::vector<std::string>{std::string(kindName(kind)),
+                                       kind == StageKind::beyond ? "texels" : "bytes read per pixel", "SPIR-V"},
+        devices);
     for (const Stage& s : otherStages()) {
         if (s.kind != kind)
             continue;
@@ -179,7 +180,9 @@ std::string stagesBesides(const CostReport& report)
         + "### Passes that derive frames from positions, in instructions; loops counted once\n\n"
         + otherStagesOf(StageKind::pass, report)
         + "### What a frame adds where a visibility buffer is resolved, in instructions\n\n"
-        + otherStagesOf(StageKind::resolve, report);
+        + otherStagesOf(StageKind::resolve, report)
+        + "### What antialiasing and parallax add to the frame `gradient`, in instructions; loops counted once\n\n"
+        + otherStagesOf(StageKind::beyond, report);
 }
 
 std::string frameOperations()

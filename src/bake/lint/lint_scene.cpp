@@ -17,6 +17,7 @@
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
 #include "scene/scene_check.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 
@@ -278,10 +279,10 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
         const Material& material = scene.materials[std::size_t(mesh.material)];
         const std::shared_ptr<const Mesh> held(std::shared_ptr<void>(), &mesh); // the scene outlives the surfaces
         const FrameSet frames = framesOfLint(material);
-        const MappedSurface own = makeSurface(held, material.normalMap, glm::dmat3(1), frames);
+        const MappedSurface own = makeSurface(held, frameTexture(material), glm::dmat3(1), frames);
         MappedSurface ofCoat;
         if (material.coat.normalMap.present())
-            ofCoat = makeCoatSurface(held, material.normalMap, material.coat.normalMap, frames);
+            ofCoat = makeCoatSurface(held, frameTexture(material), material.coat.normalMap, frames);
         const std::size_t count = std::min(placed[i].size(), kMaxPlacings);
         const double perPlacing = double(mesh.triangleCount()) / double(count);
         if (!counted.add(kOfSurface * double(mesh.triangleCount())))

@@ -263,10 +263,11 @@ SurfaceNormal normalOf(const SurfaceInputs& in, int lane)
 {
     const View& view = *in.view;
     const Material& material = *in.draw->material;
-    UvDifferences uv = uvOf(in, material.normalMap, lane);
+    const Texture& map = frameTexture(material);
+    UvDifferences uv = uvOf(in, map, lane);
     const Smooth smooth = smoothOf(in, lane, uv);
     const glm::vec3 n = smooth.n;
-    const f32::cotan_frame frame = frameOver(in, material.normalMap, smooth, uv, lane);
+    const f32::cotan_frame frame = frameOver(in, map, smooth, uv, lane);
 
     SurfaceNormal result;
     result.interpolated = result.perturbed = n;
@@ -323,7 +324,7 @@ CoatNormal coatNormalOf(const SurfaceInputs& in, int lane, const SurfaceNormal& 
     if (chain && hasUv(*in.draw, setOf(map))) {
         const UvDifferences uv = uvOf(in, map, lane);
         f32::cotan_frame frame = base.frame;
-        if (!sameUv(map, in.draw->material->normalMap)) {
+        if (!sameUv(map, frameTexture(*in.draw->material))) {
             const Smooth smooth = smoothOf(in, lane, uv);
             // Vertex attributes are made for the uv of the surface below. Without them, these frames come nearest.
             const Frame own = readsCotangents(in.draw->frame) ? Frame::cotangent : Frame::orthonormal;

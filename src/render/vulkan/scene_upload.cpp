@@ -6,6 +6,7 @@
 
 #include "cotan/convention.hpp"
 #include "scene/geometry.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 
@@ -167,9 +168,10 @@ gpu::CotanMaterial materialConstants(const Scene& scene, const Material& m, cons
     g.factors = gpu::vec4(m.metallic, m.roughness, m.occlusionStrength, m.normalScale);
     g.normalMap = normalConstants(scene, m.normalMap, m.normalFormat);
     g.normalMap.w = m.unlit ? 1 : 0;
+    const Texture frameMap = frameTexture(m).present() ? frameTexture(m) : Texture{};
     g.coat = gpu::vec4(m.coat.strength, m.coat.roughness, m.coat.normalScale, m.transmission.strength);
     g.coatNormalMap = normalConstants(scene, m.coat.normalMap, m.coat.normalFormat);
-    g.coatNormalMap.w = sameUv(m.coat.normalMap, m.normalMap.present() ? m.normalMap : Texture{}) ? 1 : 0;
+    g.coatNormalMap.w = sameUv(m.coat.normalMap, frameMap) ? 1 : 0;
     const Anisotropy& a = m.anisotropy;
     g.anisotropy = gpu::vec4(a.strength, std::cos(a.rotation), -std::sin(a.rotation), m.specular.ior);
     g.specular = gpu::vec4(m.specular.color, m.specular.strength);
@@ -177,9 +179,8 @@ gpu::CotanMaterial materialConstants(const Scene& scene, const Material& m, cons
     g.heights = gpu::vec4(m.heightMap.depth, kHeightSteps, kHeightHalvings, kHeightShadowSteps);
     for (const MapUse& use : mapUses(m))
         g.*use.constants = useConstants(*use.texture, textures.present(use));
-    // Without a normal map the frame uses uv set 0 untransformed.
     if (!m.normalMap.present())
-        g.normalMapUse = useConstants(Texture{}, /*present*/ false);
+        g.normalMapUse = useConstants(frameMap, /*present*/ false);
     return g;
 }
 
