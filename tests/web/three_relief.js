@@ -16,7 +16,8 @@ export const kRelief = (() => {
   return { side, data };
 })();
 
-export function heightAt({ side, data }, u, v) {
+export function heightAt({ side, data, matrix: m }, u, v) {
+  if (m) [u, v] = [m[0] * u + m[3] * v + m[6], m[1] * u + m[4] * v + m[7]];
   const x = u * side - 0.5, y = v * side - 0.5, i = Math.floor(x), j = Math.floor(y), a = x - i, b = y - j;
   const at = (i, j) => data[((j % side) + side) % side * side + ((i % side) + side) % side] / 255;
   return (at(i, j) * (1 - a) + at(i + 1, j) * a) * (1 - b) + (at(i, j + 1) * (1 - a) + at(i + 1, j + 1) * a) * b;
@@ -42,7 +43,8 @@ function uvTexture(THREE) {
   return map;
 }
 
-// Surfaces on which u = |x| + y and v = -y: sheared by 45 degrees and mirrored at x = 0. The cylinder has the radius 1.
+// Surfaces on which u = |x| + y and v = -y, unless they have a function `uv`: sheared by 45 degrees and mirrored at x = 0. The
+// cylinder has the radius 1.
 export const kGrounds = {
   plane: { along: p => p.x, above: p => p.z, point: (s, t) => [s, t, 0], normal: () => [0, 0, 1], columns: 2 },
   cylinder: {
@@ -50,16 +52,17 @@ export const kGrounds = {
     point: (s, t) => [Math.sin(s), t, Math.cos(s)], normal: s => [Math.sin(s), 0, Math.cos(s)], columns: 256,
   },
 };
-const uvOf = (ground, p) => [Math.abs(ground.along(p)) + p.y, -p.y];
+const sheared = (s, t) => [Math.abs(s) + t, -t];
+const uvOf = (ground, p) => (ground.uv ?? sheared)(ground.along(p), p.y);
 
 export function groundMesh(THREE, ground, material, uvShift = [0, 0]) {
-  const { point, normal, columns } = ground, geometry = new THREE.BufferGeometry(), position = [], normals = [], uv = [], index = [];
+  const { point, normal, columns, uv: uvAt = sheared } = ground, geometry = new THREE.BufferGeometry(), position = [], normals = [], uv = [], index = [];
   for (let i = 0; i <= columns; ++i)
     for (const t of [-1, 1]) {
       const s = 2 * i / columns - 1;
       position.push(...point(s, t));
       normals.push(...normal(s));
-      uv.push(Math.abs(s) + t + uvShift[0], -t + uvShift[1]);
+      uv.push(...uvAt(s, t).map((x, k) => x + uvShift[k]));
     }
   for (let i = 0; i < 2 * columns; i += 2) index.push(i, i + 2, i + 1, i + 1, i + 2, i + 3);
   for (const [name, values, width] of [['position', position, 3], ['normal', normals, 3], ['uv', uv, 2]])
@@ -73,28 +76,28 @@ export const showingUv = THREE => new THREE.MeshStandardMaterial({ color: 0, rou
 
 // Renders into floats: rows from the bottom.
 export class Drawing {
-  constructor(THREE, renderer) {
+  constructor(THREE, renderer, size = kSize) {
     const Target = THREE.WebGLRenderTarget ?? THREE.RenderTarget;
-    Object.assign(this, { THREE, renderer, target: new Target(kSize, kSize, { type: THREE.FloatType }) });
+    Object.assign(this, { THREE, renderer, target: new Target(size, size, { type: THREE.FloatType }), size });
     renderer.setClearColor(0, 0);
   }
 
   async draw(camera, ...objects) {
-    const { renderer, target, THREE } = this, isNode = !THREE.WebGLRenderTarget || renderer.isWebGPURenderer;
+    const { renderer, target, THREE, size } = this, isNode = !THREE.WebGLRenderTarget || renderer.isWebGPURenderer;
     const scene = new THREE.Scene();
     scene.add(...objects);
     renderer.setRenderTarget(target);
     if (!isNode) renderer.clear();
     renderer.render(scene, camera);
     if (!isNode) {
-      const pixels = new Float32Array(kSize * kSize * 4);
-      renderer.readRenderTargetPixels(target, 0, 0, kSize, kSize, pixels);
+      const pixels = new Float32Array(size * size * 4);
+      renderer.readRenderTargetPixels(target, 0, 0, size, size, pixels);
       return pixels;
     }
-    const read = await renderer.readRenderTargetPixelsAsync(target, 0, 0, kSize, kSize);
+    const read = await renderer.readRenderTargetPixelsAsync(target, 0, 0, size, size);
     if (!renderer.backend.isWebGPUBackend) return read;
-    const row = 4 * kSize, step = read.length / kSize >= row ? Math.floor(read.length / kSize) : row, pixels = new Float32Array(kSize * row);
-    for (let y = 0; y < kSize; ++y) pixels.set(read.subarray(y * step, y * step + row), (kSize - 1 - y) * row);
+    const row = 4 * size, pixels = new Float32Array(size * row); // WebGPU gives the top row first, and rows of 256 bytes
+    for (let y = 0; y < size; ++y) pixels.set(read.subarray(y * read.length / size, y * read.length / size + row), (size - 1 - y) * row);
     return pixels;
   }
 }
@@ -107,19 +110,20 @@ export function cameraAt(THREE, degrees, distance = 3) {
   return camera;
 }
 
-// Calls use(pixel, origin, direction) for every pixel's ray.
-function eachRay(THREE, camera, use) {
-  const to = new THREE.Vector3();
-  for (let y = 0; y < kSize; ++y)
-    for (let x = 0; x < kSize; ++x) {
-      to.set((x + 0.5) / kSize * 2 - 1, (y + 0.5) / kSize * 2 - 1, 0.5).unproject(camera).sub(camera.position).normalize();
-      use(y * kSize + x, camera.position, to);
+// Calls use(pixel, origin, direction) for the ray of every pixel of a drawing with this many rows.
+export function eachRay(THREE, camera, use, size = kSize) {
+  const from = new THREE.Vector3(), to = new THREE.Vector3();
+  for (let y = 0; y < size; ++y)
+    for (let x = 0; x < size; ++x) {
+      from.set((x + 0.5) / size * 2 - 1, (y + 0.5) / size * 2 - 1, -1).unproject(camera);
+      to.set((x + 0.5) / size * 2 - 1, (y + 0.5) / size * 2 - 1, 1).unproject(camera).sub(from).normalize();
+      use(y * size + x, from, to);
     }
 }
 
 // Where a ray meets the height field: small steps in space, then bisection. Undefined where it misses the ground or leaves it.
 export function meets(THREE, ground, origin, direction, depth, relief) {
-  const start = ground === kGrounds.plane ? -origin.z / direction.z : hitCylinder(origin, direction);
+  const start = ground.columns === kGrounds.plane.columns ? -origin.z / direction.z : hitCylinder(origin, direction);
   if (!(start > 0)) return undefined;
   const p = new THREE.Vector3(), at = distance => p.copy(direction).multiplyScalar(start + distance).add(origin);
   const surface = at(0).clone();
@@ -148,17 +152,18 @@ function hitCylinder({ x, z }, d) {
   return root > 0 ? (-b - Math.sqrt(root)) / a : NaN;
 }
 
-// Distances in texels between what a drawing of showingUv() looks up and where the rays meet. isMeasured: of a point.
-export function texelsOff(THREE, ground, camera, depth, pixels, { relief = kRelief, isMeasured = () => true } = {}) {
+// Distances in texels between what a drawing of showingUv() looks up and where the rays meet. isMeasured: of a point. every: how
+// many pixels to a measured one.
+export function texelsOff(THREE, ground, camera, depth, pixels, { relief = kRelief, isMeasured = () => true, size = kSize, every = 1 } = {}) {
   const errors = [];
   eachRay(THREE, camera, (pixel, origin, direction) => {
-    const found = meets(THREE, ground, origin, direction, depth, relief);
+    const found = pixel % every === 0 && meets(THREE, ground, origin, direction, depth, relief);
     if (!found || !isMeasured(found.surface)) return;
     const [nx, , nz] = ground.normal(ground.along(found.surface));
     if (-(direction.x * nx + direction.z * nz) < 0.3) return;
     const [u, v] = [0, 1].map(i => (pixels[4 * pixel + i] - kOffset) / kScale);
     errors.push(Math.hypot(u - found.uv[0], v - found.uv[1]) * kTexels);
-  });
+  }, size);
   errors.sort((a, b) => a - b);
   return { count: errors.length, mean: errors.reduce((sum, x) => sum + x, 0) / errors.length, most95: errors[Math.floor(0.95 * errors.length)] };
 }

@@ -38,14 +38,21 @@ export async function kinds({ THREE, drawing, addRelief }) {
     ['flat', ({ material }) => { material.flatShading = true; }], ['flat, double', ({ material }) => { Object.assign(material, { flatShading: true, side: THREE.DoubleSide }); }],
     ['double', ({ material }) => { material.side = THREE.DoubleSide; }], ['back', mesh => { inside(mesh); mesh.material.side = THREE.BackSide; }],
     ['mirrored', mesh => { mesh.scale.x = -1; }], ['scaled', mesh => { mesh.scale.setScalar(2); mesh.geometry.attributes.position.array.forEach((x, k, all) => { all[k] = x / 2; }); }],
-    ['set 1', onSet1, 1], ['other set', mesh => { onSet1(mesh); mesh.material.emissiveMap.channel = 0; }, 1]]) {
+    ['matrix', () => {}], ['set 1', onSet1, 1], ['other set', mesh => { onSet1(mesh); mesh.material.emissiveMap.channel = 0; }, 1]]) {
     const material = showingUv(THREE), mesh = groundMesh(THREE, kGrounds.plane, material), options = relief(THREE);
     change(mesh);
     options.heightMap.channel = channel;
+    const { heightMap } = options, field = { ...kRelief };
+    if (name === 'matrix') {
+      Object.assign(heightMap, { rotation: 0.5 }).repeat.set(1.3, 0.8);
+      heightMap.offset.set(0.2, 0.1);
+      heightMap.updateMatrix();
+      field.matrix = heightMap.matrix.elements;
+    }
     const before = name === 'other set' && await drawing.draw(camera, mesh);
     addRelief(material, options);
     const after = await drawing.draw(camera, mesh);
-    found[name] = before ? Math.max(...before.map((x, k) => Math.abs(x - after[k]))) : texelsOff(THREE, kGrounds.plane, camera, kDepth, after).mean;
+    found[name] = before ? Math.max(...before.map((x, k) => Math.abs(x - after[k]))) : texelsOff(THREE, kGrounds.plane, camera, kDepth, after, { relief: field }).mean;
   }
   return found;
 }

@@ -52,7 +52,7 @@ const cases = {
   reliefIsWhereTheLineOfSightMeetsIt: () => each('truth', expectTruth),
 
   sidesShadingAndUvSetsDoNotMatter: () => each('kinds', (found, way) => {
-    assert.equal(Object.keys(found).length, 8);
+    assert.equal(Object.keys(found).length, 9);
     for (const [name, off] of Object.entries(found)) assert.ok(off < 0.5, `${way}, ${name}: ${off}`);
   }),
 

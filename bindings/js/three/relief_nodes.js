@@ -47,9 +47,9 @@ const depth = uniform(0).onObjectUpdate(({ material }) => (material.heightMap ? 
 
 function heightAt(builder, uvNode) {
   const map = texture(builder.material.heightMap).onObjectUpdate(({ material }) => material.heightMap ?? undefined);
-  const read = map.getTransformedUV(uvNode), origin = map.getTransformedUV(vec2(0));
-  const differences = [dx, dy].map(d => map.getTransformedUV(d).sub(origin));
-  return map.sample(read).grad(...differences).x;
+  // A node with a gradient of its own does not apply the matrix of the texture.
+  const origin = map.getTransformedUV(vec2(0)), differences = [dx, dy].map(d => map.getTransformedUV(d).sub(origin));
+  return map.sample(map.getTransformedUV(uvNode)).grad(...differences).x;
 }
 
 // Runs before anything reads a map.
