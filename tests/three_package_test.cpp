@@ -154,11 +154,13 @@ void expectOurs(const std::string& label, const json& scenes, std::size_t count)
 TEST(ThreePackage, shaderTextEqualsTheToolsOutput)
 {
     TemporaryFolder folder;
-    const std::string line =
-        "'" + kSourceFolder + "/scripts/three-shader-text' '" COTAN_TOOL "' > '" + (folder / "text").string() + "'";
-    ASSERT_EQ(std::system(line.c_str()), 0);
-    EXPECT_EQ(readWhole(kSourceFolder + "/bindings/js/three/shader_text.js"), readWhole(folder / "text"))
-        << "scripts/three-shader-text TOOL > bindings/js/three/shader_text.js";
+    for (const auto& [what, file] : {std::pair{"frames", "shader_text.js"}, std::pair{"relief", "relief_text.js"}}) {
+        const std::string line = "'" + kSourceFolder + "/scripts/three-shader-text' '" COTAN_TOOL "' " + what + " > '"
+            + (folder / "text").string() + "'";
+        ASSERT_EQ(std::system(line.c_str()), 0);
+        EXPECT_EQ(readWhole(kSourceFolder + "/bindings/js/three/" + file), readWhole(folder / "text"))
+            << "scripts/three-shader-text TOOL " << what << " > bindings/js/three/" << file;
+    }
 }
 
 TEST(ThreePackage, drawsEverySceneRightWithWebGLRenderer)

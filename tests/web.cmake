@@ -34,6 +34,13 @@ cotan_web_test(three_defaults ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${modu
 # The edges of triangles and of control flow, by the printed text alone.
 cotan_web_test(edges ARGUMENTS ${modules} $<TARGET_FILE:cotan> FIXTURES npm)
 
+# Height maps in three.js, compared with rays against the displaced surface; and what stock three.js draws instead.
+cotan_web_test(three_beyond ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${modules} $<TARGET_FILE:cotan> FIXTURES npm)
+cotan_web_test(three_relief ARGUMENTS ${PROJECT_SOURCE_DIR}/bindings/js ${modules} FIXTURES npm)
+
+# The pages of examples/ as they are shipped.
+cotan_web_test(examples ARGUMENTS ${PROJECT_SOURCE_DIR} ${modules} FIXTURES npm)
+
 # The table of bench/models-in-three, which draws for half an hour: its rules and its page.
 add_test(NAME ModelsTable.isCheckedAndShown COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/models_table_test.mjs)
 

@@ -111,7 +111,12 @@ const cases = {
       const count = await walkBadValues(calls(classic), classic.CotanError, { seed });
       const more = await walkBadValues({ ...calls(nodes), perturbedNormal: call(nodes.perturbedNormal, ['map', 'scale', 'frame'], () => new THREE.Texture(), () => undefined, 'cotangent') },
         nodes.CotanError, { seed });
-      console.log(`${count + more} calls`);
+      let relief = 0;
+      for (const name of ['cotan/three/relief', 'cotan/three/tsl/relief']) {
+        const { addRelief, CotanError } = await from(name), options = () => ({ heightMap: new THREE.Texture(), heightDepth: 1, heightSteps: 8, selfShadow: false });
+        relief += await walkBadValues({ addRelief: call(addRelief, ['material', 'options'], material, options) }, CotanError, { seed });
+      }
+      console.log(`${count + more + relief} calls`);
     } finally {
       console.warn = warn;
     }

@@ -35,9 +35,9 @@ const cases = {
     fs.writeFileSync(path.join(folder, 'from.js'), 'export const from = (name) => import(name);\n');
     const { from } = await import(pathToFileURL(path.join(folder, 'from.js')));
     let text = '';
-    for (const [k, entry] of ['cotan', 'cotan/beside', 'cotan/tangents', 'cotan/tangents/beside', 'cotan/gltf-transform', 'cotan/three', 'cotan/three/tsl'].entries()) {
+    for (const [k, entry] of ['cotan', 'cotan/beside', 'cotan/tangents', 'cotan/tangents/beside', 'cotan/gltf-transform', 'cotan/three', 'cotan/three/tsl', 'cotan/three/relief', 'cotan/three/tsl/relief'].entries()) {
       const names = Object.keys(await from(entry));
-      assert.ok(names.length > 2, entry);
+      assert.ok(names.length > 1, entry);
       for (const name of names) assert.match(program('right.ts'), new RegExp(`\\b${name}\\b`), `right.ts does not use ${name} of ${entry}`);
       text += `import * as entry${k} from '${entry}';\nexport const names${k}: Record<keyof typeof entry${k}, true> = { ${names.map((name) => `${name}: true`).join(', ')} };\n`;
     }

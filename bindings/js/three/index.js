@@ -1,7 +1,8 @@
 // Cotan for three.js and its WebGLRenderer: normal mapping without tangents. For WebGPURenderer: tsl.js.
-import { Material, REVISION, ShaderChunk } from 'three';
+import { REVISION, ShaderChunk } from 'three';
 import { CotanError } from '../src/errors.js';
 import { frameFor } from './frames.js';
+import { put, writeWith } from './hooks.js';
 import { keepInClones, replaceOptions, untangleMeshes, untangleOptions } from './meshes.js';
 import { essl } from './shader_text.js';
 import { kTriangleAttribute } from './triangles.js';
@@ -19,9 +20,7 @@ export const untangled = options => {
   return () => ({ name: 'COTAN_untangled', async afterRoot(gltf) { (gltf.userData ??= {}).cotan = untangle(gltf, options); } });
 };
 
-// By material: { frame, against, hook, key }. frame: `mikktspace` where three's own is drawn again. hook, key: the user's onBeforeCompile and customProgramCacheKey of the
-// material, set before or after our own; undefined if the user has set none.
-const patched = new WeakMap();
+const frames = new WeakMap(); // by material: { frame, against }. frame: `mikktspace` where three's own is drawn again
 
 // Replaces the frame of one material and nothing else: removes no tangents and flips no scale. The user's hooks stay,
 // even if set later, and clone() keeps the frame.
@@ -29,54 +28,24 @@ const patched = new WeakMap();
 export function replaceFrame(material, options) {
   checkThree();
   const { frame: requested, against, from } = replaceOptions(material, options, { from: material });
-  const source = patched.get(from) ?? hooksOf(from);
-  const frame = requested === undefined && from !== material && source.frame ? source.frame : frameFor(material, requested);
-  const { hook, key } = source;
-  const hooked = patched.has(material);
-  patched.set(material, { frame, against, hook, key });
-  material.needsUpdate = true;
-  if (!hooked) installHooks(material);
-  return keepInClones(material, (clone, source) => replaceFrame(clone, { frame: patched.get(source).frame, against: patched.get(source).against }));
+  const taken = requested === undefined && from !== material && frames.get(from)?.frame;
+  frames.set(material, { frame: taken || frameFor(material, requested), against });
+  writeWith(material, 'frame', keyOf, writeFrame, from);
+  return keepInClones(material, (clone, source) => replaceFrame(clone, frames.get(source)));
 }
 
 // Makes a material with a replaced frame draw three's own again.
 function restoreFrame(material) {
-  if (!patched.has(material)) return;
-  patched.get(material).frame = 'mikktspace';
+  if (!frames.has(material)) return;
+  frames.get(material).frame = 'mikktspace';
   material.needsUpdate = true;
   keepInClones(material, () => {});
 }
 
-const hooksOf = material => ({
-  hook: material.onBeforeCompile === Material.prototype.onBeforeCompile ? undefined : material.onBeforeCompile,
-  key: Object.hasOwn(material, 'customProgramCacheKey') ? material.customProgramCacheKey : undefined,
-});
+const keyOf = material => Object.values(frames.get(material)).join();
 
-const written = new WeakSet(); // shaders that already have the frame
-
-// Makes our hooks of the material call those that the user sets later, which also become part of the cache key.
-function installHooks(material) {
-  const proto = Object.getPrototypeOf(material);
-  const wrapHook = (name, member, ours) => Object.defineProperty(material, name, {
-    configurable: true, enumerable: true,
-    get: () => ours(patched.get(material)[member]),
-    set: value => { patched.get(material)[member] = value; },
-  });
-  // A new function for each hook. If the user's hook calls our earlier one, the frame is still written only once.
-  wrapHook('onBeforeCompile', 'hook', hook => Object.assign(function onBeforeCompile(shader, renderer) {
-    hook?.call(material, shader, renderer);
-    if (written.has(shader)) return;
-    written.add(shader);
-    writeFrame(shader, material, patched.get(material));
-  }, { toString: () => keyOf(material, hook) }));
-  wrapHook('customProgramCacheKey', 'key', key => () =>
-    [keyOf(material, patched.get(material).hook), key ? key.call(material) : proto.customProgramCacheKey === kKeyOfThree ? '' : proto.customProgramCacheKey.call(material)].join());
-}
-
-const kKeyOfThree = Material.prototype.customProgramCacheKey; // returns the source text of onBeforeCompile
-const keyOf = (material, hook) => ['cotan', patched.get(material).frame, patched.get(material).against, hook ?? ''].join();
-
-function writeFrame(shader, material, { frame, against }) {
+function writeFrame(shader, material) {
+  const { frame, against } = frames.get(material);
   if (frame === 'mikktspace') return;
   if (shader.vertexTangents)
     console.warn(`Cotan: a mesh with the material "${material.name || material.type}" has tangents, so three does not use Cotan's `
@@ -89,13 +58,6 @@ function writeFrame(shader, material, { frame, against }) {
 function checkThree() {
   if (!kFunction.test(ShaderChunk.normalmap_pars_fragment ?? ''))
     throw new CotanError('unavailable', `three: expected version 0.160 or later with getTangentFrame in its shaders, found ${REVISION}`);
-}
-
-// Replaces the match of `pattern` by `text`; throws if there is none.
-function put(shader, stage, pattern, text, material) {
-  if (!shader[stage].match(pattern))
-    throw new CotanError('unavailable', `the shader of ${material.type}: expected ${pattern}, as three 0.160 to 0.187 have it; found none in ${REVISION}`);
-  shader[stage] = shader[stage].replace(pattern, () => text);
 }
 
 const kInclude = '#include <normalmap_pars_fragment>', kFunction = /mat3 getTangentFrame\([^{]*\{[^}]*\}/;

@@ -4,6 +4,7 @@
 import { checkTypes, choice, options as checked } from '../src/arrays.js';
 import { usage, wordsFor } from '../src/errors.js';
 import { Chooser, greenAlongV, markGenerated, scalesOf, storedIn } from './choose.js';
+import { keepInClones as keep } from './clones.js';
 import { kFrames, kKey, mapOf, meansTangents, namedFrame } from './frames.js';
 import { withVertices } from './gathered.js';
 import { GreenNotes, ofGltf } from './greens.js';
@@ -44,21 +45,11 @@ export function replaceOptions(material, given, more) {
   return o;
 }
 
-const keeping = new WeakMap(); // by material whose clone() was replaced: what its clones get
-
-// Makes material.clone() call replace(clone, material), which applies the frame to the clone. Does not affect copy().
-export function keepInClones(material, replace) {
-  const isNew = !keeping.has(material);
-  keeping.set(material, replace);
-  if (!isNew) return material;
-  const { clone } = material;
-  return Object.defineProperty(material, 'clone', { configurable: true, writable: true, value() {
-    const made = clone.call(material);
-    keeping.get(material)(made, material);
-    if (known.has(material)) known.set(made, known.get(material));
-    return made;
-  } });
-}
+// Makes material.clone() call replace(clone, material), which applies the frame to the clone.
+export const keepInClones = (material, replace) => keep(material, 'frame', (made, source) => {
+  replace(made, source);
+  if (known.has(source)) known.set(made, known.get(source));
+});
 
 // Decides about all meshes of `target`, an Object3D or GLTFLoader's result, removes tangents that are not needed, and calls
 // replace(material, { frame, against, from }) for every material with a normalScale that is drawn without tangents, and

@@ -5,6 +5,7 @@ import { choice } from '../src/arrays.js';
 import { CotanError, usage, wordsFor } from '../src/errors.js';
 import { frameFor, kSupported } from './frames.js';
 import { keepInClones, replaceOptions, untangleMeshes, untangleOptions } from './meshes.js';
+import { addToKey } from './node_keys.js';
 import { essl, wgsl } from './shader_text.js';
 import { kTriangleAttribute } from './triangles.js';
 
@@ -35,7 +36,7 @@ export const untangled = options => {
 };
 
 const ours = new WeakSet();  // nodes that replaceFrame() made
-const chosen = new WeakMap();  // by material: { frame, against, key }, key: the user's customProgramCacheKey, if any
+const chosen = new WeakMap();  // by material: { frame, against }
 
 // Replaces the frame of one material and nothing else: removes no tangents, flips no scale, keeps nodes of the user.
 export function replaceFrame(material, options) {
@@ -50,10 +51,9 @@ export function replaceFrame(material, options) {
   if (clearcoatNormalMap) put('clearcoatNormalNode', 'clearcoatNormalMap', 'clearcoatNormalScale');
   if (material.anisotropy !== undefined) material.setupVariants = variantsWith(frame, against);
   material.needsUpdate = true;
-  const isNew = !chosen.has(material), key = isNew ? ownKeyOf(material) : chosen.get(material).key;
-  chosen.set(material, { frame, against, key });
-  if (isNew) installKey(material);
-  return keepInClones(material, (clone, source) => replaceFrame(clone, { frame: chosen.get(source).frame, against: chosen.get(source).against }));
+  chosen.set(material, { frame, against });
+  addToKey(material, 'frame', keyOf);
+  return keepInClones(material, (clone, source) => replaceFrame(clone, chosen.get(source)));
 }
 
 // Makes a material with a replaced frame draw three's own again.
@@ -66,22 +66,14 @@ function restoreFrame(material) {
   keepInClones(material, () => {});
 }
 
-const ownKeyOf = material => Object.hasOwn(material, 'customProgramCacheKey') ? material.customProgramCacheKey : undefined;
-
-// Adds to the key by which three shares programs what three leaves out: the nodes of a material that is no node material,
-// and what they and setupVariants depend on. Our nodes are equal for all maps of one kind.
-function installKey(material) {
-  const nodesOf = () => material.isNodeMaterial ? [] : Object.entries(material).filter(([, value]) => value?.isNode)
+// What three leaves out of the key: the nodes of a material that is no node material, and what ours and setupVariants
+// depend on. Our nodes are equal for all maps of one kind.
+function keyOf(material) {
+  const { frame, against } = chosen.get(material);
+  const nodes = material.isNodeMaterial ? [] : Object.entries(material).filter(([, value]) => value?.isNode)
     .flatMap(([name, node]) => [name, ours.has(node) ? '' : node.getCacheKey(true)]);
-  Object.defineProperty(material, 'customProgramCacheKey', {
-    configurable: true,
-    get: () => () => {
-      const { frame, against, key } = chosen.get(material), proto = Object.getPrototypeOf(material).customProgramCacheKey;
-      const kinds = [material.normalMap, material.clearcoatNormalMap].map(map => map && hasTwoChannels(map));
-      return ['cotan', frame, against, ...kinds, ...nodesOf(), (key ?? proto).call(material)].join();
-    },
-    set: key => { chosen.get(material).key = key; },
-  });
+  const kinds = [material.normalMap, material.clearcoatNormalMap].map(map => map && hasTwoChannels(map));
+  return [frame, against, ...kinds, ...nodes].join();
 }
 
 // The perturbed unit normal in view space. The tangent-space map is sampled with its own uv set and matrix.

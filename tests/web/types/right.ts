@@ -5,7 +5,9 @@ import * as small from 'cotan/tangents';
 import * as smallBeside from 'cotan/tangents/beside';
 import { frames, lintNormals, provoking, tangents, untangent } from 'cotan/gltf-transform';
 import { CotanError as ThreeError, replaceFrame, untangle, untangled, type Candidate, type Decision, type Frame, type LoadedModel, type UntangleOptions } from 'cotan/three';
+import { addRelief, type ReliefOptions, type WithRelief } from 'cotan/three/relief';
 import * as tsl from 'cotan/three/tsl';
+import { addRelief as addReliefToNodes } from 'cotan/three/tsl/relief';
 import { Document, type Transform } from '@gltf-transform/core';
 import { Material, MeshStandardMaterial, Object3D, Texture } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
@@ -79,5 +81,7 @@ tsl.untangle(object, { frame: 'cotangent', maxDegrees: 1 } satisfies tsl.Untangl
 tsl.replaceFrame(material, { against: false });
 new GLTFLoader().register(tsl.untangled());
 const node = tsl.perturbedNormal(new Texture());
+const deep: ReliefOptions = { heightMap: new Texture(), heightDepth: 0.05, heightSteps: 32, selfShadow: false }, raised: WithRelief<MeshStandardMaterial> = addRelief(material, deep);
+addReliefToNodes(raised, { heightMap: new Texture(), heightDepth: 1 }).heightMap = null;
 
 export { version, sources, mirrored, words, eight, four, two, provoked, green, zero, heights, roughness, texels, names, text, judged, over, glb, advice, notes, known, stay, measured, kept, node };

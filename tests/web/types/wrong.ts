@@ -4,6 +4,8 @@ import { tangents } from 'cotan/tangents';
 import { untangent } from 'cotan/gltf-transform';
 import { untangle } from 'cotan/three';
 import { perturbedNormal } from 'cotan/three/tsl';
+import { addRelief } from 'cotan/three/relief';
+import { MeshStandardMaterial, Texture } from 'three';
 
 tangents({ positions: [0, 0, 0], normals: [0, 0, 1] });
 tangents({ positions: [0, 0, 0], normals: [0, 0, 1], uvs: [0, 0] }, { kind: 'smooth' });
@@ -25,3 +27,6 @@ untangle({ scenes: [] })[0]!.reason === 'fit';
 cotan.lint(new Uint8Array(), { limit: '2' });
 perturbedNormal('map.png');
 perturbedNormal(undefined!, undefined, 'auto');
+addRelief(new MeshStandardMaterial(), { heightMap: new Texture() });
+addRelief(new MeshStandardMaterial(), { heightMap: 'height.png', heightDepth: 1 });
+addRelief(new Texture(), { heightMap: new Texture(), heightDepth: 1 });
