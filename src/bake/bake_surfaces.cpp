@@ -372,7 +372,7 @@ std::vector<std::uint32_t> nearestFilled(const Baked& baked, int radius)
     propagateNearest(owner, baked.width, baked.height, TieBreak::above);
     const std::int64_t limit = radius > 0 ? std::int64_t(radius) * radius : std::numeric_limits<std::int64_t>::max();
     for (std::size_t i = 0; i < owner.size(); ++i)
-        if (owner[i] != kNoTexel && distance2(owner[i], std::uint32_t(i), baked.width) > limit)
+        if (owner[i] != kNoTexel && owner[i] != i && distance2(owner[i], std::uint32_t(i), baked.width) > limit)
             owner[i] = kNoTexel;
     return owner;
 }
