@@ -1,5 +1,7 @@
 #include "bake_options.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

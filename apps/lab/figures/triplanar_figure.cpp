@@ -17,7 +17,7 @@ namespace cotan::figures {
 namespace {
 
 constexpr double kTile = 1.1; // width of a tile of the map; the sphere's radius is 1
-constexpr double kStep = 1e-5;
+constexpr double kNudge = 1e-5;
 
 enum class Weights { smooth, sharp };
 
@@ -75,7 +75,7 @@ glm::dvec3 displacedSphereNormal(Weights weights, glm::dvec3 n)
 {
     const glm::dvec3 x = glm::normalize(glm::cross(n, glm::dvec3(0.3, 0.5, 0.81))), y = glm::cross(n, x);
     const auto moved = [&](glm::dvec3 by) {
-        const glm::dvec3 p = glm::normalize(n + by * kStep);
+        const glm::dvec3 p = glm::normalize(n + by * kNudge);
         const glm::dvec3 w = weightsAt(weights, weights == Weights::sharp ? n : p);
         return p * (1 + w.x * mapAcross(0, p).h + w.y * mapAcross(1, p).h + w.z * mapAcross(2, p).h);
     };
@@ -97,8 +97,8 @@ double jumpAtSeams(Method method, Weights weights)
             p[(axis + 1) % 3] = i % 2 ? -1 : 1;
             p[(axis + 2) % 3] = i % 4 < 2 ? -1 : 1;
             glm::dvec3 q = p;
-            p[(axis + 1) % 3] *= 1 + kStep;
-            q[(axis + 2) % 3] *= 1 + kStep;
+            p[(axis + 1) % 3] *= 1 + kNudge;
+            q[(axis + 2) % 3] *= 1 + kNudge;
             worst =
                 std::max(worst, degreesBetween(method(weights, glm::normalize(p)), method(weights, glm::normalize(q))));
         }

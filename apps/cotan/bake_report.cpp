@@ -1,0 +1,176 @@
+#include "bake_report.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+namespace cotan::app {
+
+namespace {
+
+double peakMegabytes()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return double(usage.ru_maxrss) / 1024;
+}
+
+Json describe(const BakeStatistics& s)
+{
+    return {{"texels", s.texels},
+            {"covered", s.covered},
+            {"touched", s.touched},
+            {"missed", s.missed},
+            {"further_away", s.further},
+            {"not_the_nearest", s.nearer},
+            {"negative_z", s.negative},
+            {"claimed_twice", s.twice},
+            {"rays", s.rays},
+            {"ray_distance", s.rayDistance},
+            {"ray_start", s.rayStart},
+            {"triangles_mirrored", s.mirroredTriangles},
+            {"triangles_without_uv_area", s.degenerateTriangles},
+            {"seconds", s.seconds},
+            {"rays_per_second", s.seconds > 0 ? double(s.rays) / s.seconds : 0}};
+}
+
+// Warns of covered texels where rays found nothing, or another surface than the nearest one.
+void explainRays(const BakeJob& job, const BakeStatistics& s)
+{
+    if (s.further > 0 && job.cage.empty())
+        warn(job.common,
+             "{} of {} covered texels found no high surface within {:g} units; there is one further away "
+             "(--max-distance, --cage; --mask shows where)",
+             s.further, s.covered, s.rayDistance);
+    else if (s.further > 0)
+        warn(job.common,
+             "{} of {} covered texels found no high surface within the reach of the cage; there is one further away "
+             "(--mask shows where)",
+             s.further, s.covered);
+    if (s.missed > s.further)
+        warn(job.common,
+             "{} of {} covered texels have no high surface in front or behind at any distance: it has holes, or "
+             "ends before the low mesh does (--mask shows where)",
+             s.missed - s.further, s.covered);
+    if (s.nearer > 0)
+        warn(job.common,
+             "{} of {} covered texels show the first surface from outside, not the nearest one: parts are detached "
+             "there "
+             "({})",
+             s.nearer, s.covered,
+             s.rayStart > 0 && job.options.bake.extrusion == 0
+                 ? fmt::format("measured, up to {:.3g} units; --extrusion sets how far; --search nearest", s.rayStart)
+                 : "--search nearest");
+}
+
+// Prints the statistics, and warns of what they reveal. objects: that share the map.
+void explain(const BakeJob& job, std::size_t objects, int tile, const BakeStatistics& s)
+{
+    say(job.common,
+        "{} of {} texels covered, {} more filled at the edges of charts; {:.1f} s, {:.1f} million rays per second",
+        s.covered, s.texels, s.touched, s.seconds, double(s.rays) / s.seconds / 1e6);
+    if (s.covered == 0)
+        warn(job.common, "no triangle covers the centre of a texel on tile {}; only edges touch it (--udim, --size)",
+             tile);
+    explainRays(job, s);
+    if (s.negative > 0)
+        warn(job.common,
+             "{} of {} covered texels point below the frame's horizon (negative z): the low mesh is too coarse there, "
+             "or rays hit another part",
+             s.negative, s.covered);
+    if (s.twice > 0)
+        warn(job.common, "{} of {} covered texels are claimed by several triangles; the first in the file won{}",
+             s.twice, s.covered,
+             objects > 1 ? fmt::format("; the low mesh has {} objects: --per-object makes a map for each, --object "
+                                       "NAME one",
+                                       objects)
+                         : "");
+    const Frame frame = job.options.bake.frame;
+    const bool perTriangle = !readsVertices(frame) && frame != Frame::orthonormal;
+    if ((job.makes(BakeKind::normal) || job.makes(BakeKind::bentNormal)) && perTriangle)
+        warn(job.common,
+             "the frame {} changes from triangle to triangle: filtering shows a crease one texel wide at "
+             "edges of curved meshes; bake and draw with smooth to avoid it",
+             name(frame));
+}
+
+// What the numbers of a map mean.
+std::string meaningOf(const BakeJob& job, const MapReport& done, std::size_t map)
+{
+    const BakeModelOptions& options = job.options;
+    const bool isFloat = options.stored.type == PixelType::float32;
+    switch (options.kinds[map]) {
+    case BakeKind::normal:
+    case BakeKind::bentNormal: return fmt::format("{}, {}", name(options.bake.frame), job.convention);
+    case BakeKind::thickness: return isFloat ? "in units" : fmt::format("1 is {:.3g} units", done.units[map]);
+    case BakeKind::curvature:
+        return isFloat ? "1 over units" : fmt::format("0.5 is flat, 1 a ball of {:.3g} units", done.units[map]);
+    default: return "world axes";
+    }
+}
+
+// Of each map: its kind and file, and what its numbers mean where they are scaled.
+Json mapsToJson(const BakeJob& job, const MapReport& done)
+{
+    Json maps = Json::array();
+    for (std::size_t i = 0; i < job.options.kinds.size(); ++i) {
+        const BakeKind kind = job.options.kinds[i];
+        Json map{{"kind", wordOf(kBakeKinds, kind)}, {"output", done.job.files.maps[i].string()}};
+        if (done.units[i] > 0 && job.options.stored.type != PixelType::float32)
+            map["unit"] = done.units[i];
+        if (kind == BakeKind::position && job.options.stored.type != PixelType::float32)
+            map["box"] = {{done.box.low.x, done.box.low.y, done.box.low.z},
+                          {done.box.high.x, done.box.high.y, done.box.high.z}};
+        maps.push_back(std::move(map));
+    }
+    return maps;
+}
+
+} // namespace
+
+std::string readersOf(Frame frame)
+{
+    if (frame == Frame::mikktspace)
+        return "the map is for the frame mikktspace: Unity, Unreal, Godot, Blender and glTF viewers read it with "
+               "tangents "
+               "that they generate or import, Cotan's shaders without tangents with the frame orthonormal";
+    return fmt::format("the map is for the frame {0}: read it with that; engines use MikkTSpace tangents and show it "
+                       "wrongly (--frame mikktspace is for them)",
+                       name(frame));
+}
+
+void tell(const BakeJob& job, const MapReport& done)
+{
+    const BakeModelOptions& options = job.options;
+    explain(job, done.objects, done.tile, done.statistics);
+    for (std::size_t i = 0; i < options.kinds.size(); ++i)
+        say(job.common, "map in {} ({}, {}, {} bit){}", done.job.files.maps[i].string(),
+            wordOf(kBakeKinds, options.kinds[i]), meaningOf(job, done, i), wordOf(kBitCounts, options.stored.type),
+            i + 1 == options.kinds.size() ? fmt::format("; peak memory {:.0f} MiB", peakMegabytes()) : "");
+}
+
+Json toJson(const BakeJob& job, const MapReport& done)
+{
+    const BakeOptions& bake = job.options.bake;
+    Json report{
+        {"low", job.low},
+        {"high", job.high},
+        {"object", done.job.object.empty() ? Json(nullptr) : Json(done.job.object)},
+        {"tile", done.tile},
+        {"output", done.job.files.maps.front().string()},
+        {"frame", name(bake.frame)},
+        {"kind", wordOf(kBakeKinds, job.options.kinds.front())},
+        {"maps", mapsToJson(job, done)},
+        {"size", {bake.width, bake.height}},
+        {"high_normals", wordOf(kHighSources, job.highNormals)},
+        {"warnings", done.warnings},
+        {"triangles_high", done.highTriangles},
+        {"triangles_low", done.lowTriangles},
+        {"bake", describe(done.statistics)},
+        {"seconds", {{"load", done.prepareSeconds}, {"pad", done.statistics.padSeconds}, {"write", done.writeSeconds}}},
+        {"peak_megabytes", peakMegabytes()}};
+    if (done.verified)
+        report["verify"] = *done.verified;
+    return report;
+}
+
+} // namespace cotan::app
