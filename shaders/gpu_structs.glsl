@@ -20,7 +20,7 @@ struct CotanMaterial {
     vec4 anisotropy;   // strength, direction along +u and +v; w: index of refraction
     vec4 specular;     // linear colour of a dielectric's reflection; w: strength
     vec4 sheen;        // linear; w: roughness
-    vec4 heights;      // depth, steps, halvings, steps towards the light
+    vec4 heights;      // depth, fewest and most steps of a ray, halvings of the last
     CotanTextureUse baseColorMap;
     CotanTextureUse metallicRoughnessMap;
     CotanTextureUse normalMapUse;

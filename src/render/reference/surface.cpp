@@ -1,5 +1,7 @@
 #include "pixel.hpp"
 
+#include <algorithm>
+
 #include <glm/geometric.hpp>
 
 #include "cotan/frame.hpp"
@@ -143,12 +145,42 @@ f32::cotan_frame frameOver(const SurfaceInputs& in, const Texture& map, const Sm
 
 bool sameUv(const Texture& a, const Texture& b) { return setOf(a) == setOf(b) && a.uRow == b.uRow && a.vRow == b.vRow; }
 
-// The stored height at uv of the height map's set. footprint: of the height map.
-float heightAt(const SurfaceInputs& in, glm::vec2 uv, const UvDifferences& footprint)
+glm::vec2 heightMapSize(const SurfaceInputs& in)
 {
-    const Texture& map = in.draw->material->heightMap.map;
-    const UvDifferences at{textureUv(map, uv), footprint.dx, footprint.dy};
-    return sample(*in.draw->maps->height, map.sampler, at, in.view->pointSampled).x;
+    const Image& image = *in.draw->maps->height->image;
+    return {image.width, image.height};
+}
+
+// Reads heights in one lane.
+struct HeightReader {
+    const SurfaceInputs& in;
+    UvDifferences footprint; // a square with the shorter side of the pixel's: longer ones would level walls
+
+    HeightReader(const SurfaceInputs& inputs, int lane) : in(inputs)
+    {
+        footprint = uvOf(in, in.draw->material->heightMap.map, lane);
+        const glm::vec2 size = heightMapSize(in);
+        const float x = glm::length(footprint.dx * size), y = glm::length(footprint.dy * size), side = std::min(x, y);
+        footprint.dx *= x > side ? side / x : 1;
+        footprint.dy *= y > side ? side / y : 1;
+    }
+    // The stored height at uv of the height map's set.
+    float at(glm::vec2 uv) const
+    {
+        const Texture& map = in.draw->material->heightMap.map;
+        const UvDifferences here{textureUv(map, uv), footprint.dx, footprint.dy};
+        return sample(*in.draw->maps->height, map.sampler, here, in.view->pointSampled).x;
+    }
+};
+
+// The steps of a ray that changes uv of the height map's set by `travel`.
+float heightSteps(const SurfaceInputs& in, glm::vec2 travel)
+{
+    const glm::vec2 texels = transformedEdge(in.draw->material->heightMap.map, travel) * heightMapSize(in);
+    int steps = kFewestHeightSteps;
+    while (steps < kMostHeightSteps && float(steps) < glm::length(texels))
+        steps *= 2;
+    return float(steps);
 }
 
 // How the material's normal map is decoded.
@@ -191,8 +223,8 @@ void moveToRelief(const Projection& projection, const SurfaceInputs& in, QuadPoi
     if (!in.draw->maps->height || !hasUv(*in.draw, set))
         return;
     for (std::size_t lane = 0; lane < 4; ++lane) {
-        const UvDifferences footprint = uvOf(in, heights.map, int(lane));
-        const Smooth smooth = smoothOf(in, int(lane), footprint);
+        const HeightReader height(in, int(lane));
+        const Smooth smooth = smoothOf(in, int(lane), height.footprint);
         const glm::vec3 v = toEye(projection, points.position[lane]);
         std::array<glm::vec2, 2> travel;
         for (std::size_t s = 0; s < 2; ++s) {
@@ -203,12 +235,13 @@ void moveToRelief(const Projection& projection, const SurfaceInputs& in, QuadPoi
             if (s == set)
                 points.relief[lane].frame = frame;
         }
-        f32::cotan_relief r = f32::cotan_relief_start(points.relief[lane].frame, v, points.uv[set][lane], heights.depth,
-                                                      float(kHeightSteps));
-        for (int i = 0; i < kHeightSteps && r.found < 0.5f; ++i)
-            r = f32::cotan_relief_next(r, heightAt(in, r.uv, footprint));
+        const float steps = heightSteps(in, travel[set]);
+        f32::cotan_relief r =
+            f32::cotan_relief_start(points.relief[lane].frame, v, points.uv[set][lane], heights.depth, steps);
+        for (int i = 0; i < int(steps) && r.found < 0.5f; ++i)
+            r = f32::cotan_relief_next(r, height.at(r.uv));
         for (int i = 0; i < kHeightHalvings; ++i)
-            r = f32::cotan_relief_next(r, heightAt(in, r.uv, footprint));
+            r = f32::cotan_relief_next(r, height.at(r.uv));
         points.relief[lane].height = 1 - r.at;
         for (std::size_t s = 0; s < 2; ++s) // both sets move by the same way through space
             points.uv[s][lane] += travel[s] * r.at;
@@ -222,11 +255,15 @@ float reliefLight(const SurfaceInputs& in, int lane, glm::vec3 toLight)
     if (!in.draw->maps->height || !hasUv(*in.draw, set))
         return 1;
     const ReliefPoint& point = in.points->relief[std::size_t(lane)];
-    const UvDifferences footprint = uvOf(in, heights.map, lane);
-    f32::cotan_relief r = f32::cotan_relief_shadow(point.frame, toLight, in.points->uv[set][std::size_t(lane)],
-                                                   point.height, heights.depth, float(kHeightShadowSteps));
-    for (int i = 0; i < kHeightShadowSteps && r.found < 0.5f; ++i)
-        r = f32::cotan_relief_next(r, heightAt(in, r.uv, footprint));
+    const HeightReader height(in, lane);
+    const auto search = [&](float steps) {
+        return f32::cotan_relief_shadow(point.frame, toLight, in.points->uv[set][std::size_t(lane)], point.height,
+                                        heights.depth, steps);
+    };
+    const float steps = heightSteps(in, search(1).travel);
+    f32::cotan_relief r = search(steps);
+    for (int i = 0; i < int(steps) && r.found < 0.5f; ++i)
+        r = f32::cotan_relief_next(r, height.at(r.uv));
     return 1 - r.found;
 }
 

@@ -181,9 +181,9 @@ struct HeightMap {
     bool present() const { return map.present() && depth > 0; }
 };
 
-// Readings of a height map along a ray, and halvings of the step after the first one below the heights. Details thinner
-// than a step along the ray can be missed.
-inline constexpr int kHeightSteps = 64, kHeightHalvings = 6, kHeightShadowSteps = 48;
+// Steps of a ray through heights: the power of two, within these limits, at which a step is at most a texel. The first
+// reading below the heights ends them, and the last step is halved. Details thinner than a step can be missed.
+inline constexpr int kFewestHeightSteps = 16, kMostHeightSteps = 256, kHeightHalvings = 8;
 
 struct Material {
     std::string name;
