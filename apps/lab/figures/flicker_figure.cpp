@@ -44,6 +44,7 @@ constexpr std::array kBalls = {
     Ball{"grainy", "coarse grain, 4 texels a pixel", 0.1, 0.1, 4, 0, false},
     Ball{"close", "coarse grain, 1 texel a pixel", 0.1, 0.1, 1, 0, false},
     Ball{"faceted", "a mesh of 24 by 12 segments, all texels tilted", 0, 0, 1, 0.5, true},
+    Ball{"smooth", "a smooth ball", 0, 0, 1, 0, false},
 };
 constexpr double kRoughness = 0.15;
 
