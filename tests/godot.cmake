@@ -1,6 +1,6 @@
 # Runs the output of `cotan shader --lang godot`, and examples/godot, in Godot 3 and 4 on a display, with all drivers.
 if(TARGET shader_test)
-  add_executable(godot_test godot_test.cpp godot_draw.cpp godot_parity.cpp shader_cases.cpp shader_light.cpp)
+  add_executable(godot_test godot_test.cpp godot_relief_test.cpp godot_draw.cpp godot_parity.cpp shader_cases.cpp shader_light.cpp)
   target_link_libraries(godot_test PRIVATE cotan_shader_text cotan_scene cotan_truth cotan_image
     nlohmann_json::nlohmann_json fmt::fmt GTest::gtest cotan_warnings)
   cotan_unity(godot_test 4)

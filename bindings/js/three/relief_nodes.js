@@ -34,7 +34,7 @@ function add(material) {
 
 // What a pixel finds: texture coordinates, their differences from before the offset, the stored height there, the frame.
 const at = property('vec2', 'cotanReliefUv'), dx = property('vec2', 'cotanReliefDx'), dy = property('vec2', 'cotanReliefDy');
-const height = property('float', 'cotanReliefHeight'), frame = property('mat3', 'cotanReliefFrame');
+const height = property('float', 'cotanReliefHeight'), frame = property('mat3', 'cotanReliefVectors');
 
 // Whether a texture node reads a map of the material on the uv set of the height map, in its fragment shader.
 function isMoved(node, { material, shaderStage }) {
