@@ -262,6 +262,7 @@ TEST(Figures, curvatureAndStoredLengthAddUpAndEdgesOfTrianglesAreNoRoughness)
     // What the page admits: on a smooth ball the wider lobe is wrong, though by less than a level of 8 bits times two.
     EXPECT_GT(error("smooth", curvature), error("smooth", nothing));
     EXPECT_LT(error("smooth", curvature), 2.0 / 255);
+    EXPECT_LT(error("smooth", curvature), 0.5 * error("smooth", "three.js"));
 }
 
 TEST(Figures, beyondTheMapCotanFollowsTheTruthAndTheUsualFormsDoNot)

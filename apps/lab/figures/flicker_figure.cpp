@@ -48,16 +48,17 @@ constexpr std::array kBalls = {
 };
 constexpr double kRoughness = 0.15;
 
-enum class Form { nothing, curvature, filtered, length, toksvig, lean, both, shaded, twice };
-constexpr std::array<const char*, 9> kForms = {"nothing",
-                                               "curvature",
-                                               "length of the filtered texel",
-                                               "stored length",
-                                               "Toksvig",
-                                               "LEAN",
-                                               "curvature and stored length",
-                                               "shaded normals",
-                                               "shaded normals and stored length"};
+enum class Form { nothing, curvature, filtered, length, toksvig, lean, both, shaded, twice, three };
+constexpr std::array<const char*, 10> kForms = {"nothing",
+                                                "curvature",
+                                                "length of the filtered texel",
+                                                "stored length",
+                                                "Toksvig",
+                                                "LEAN",
+                                                "curvature and stored length",
+                                                "shaded normals",
+                                                "shaded normals and stored length",
+                                                "three.js"};
 
 // ---- the map and its mips ---------------------------------------------------------------------
 
@@ -274,6 +275,10 @@ double roughnessOf(Form form, const Pixel& at, const Pixel& right, const Pixel& 
     case Form::both: return with(curvature + stored);
     case Form::shaded: return with(shaded);
     case Form::twice: return with(shaded + stored);
+    case Form::three: { // lights_physical_fragment of r187: the largest difference is added to the roughness
+        const glm::dvec3 d = glm::max(glm::abs(right.smooth - at.smooth), glm::abs(below.smooth - at.smooth));
+        return std::min(std::max(kRoughness, 0.0525) + std::max({d.x, d.y, d.z}), 1.0);
+    }
     }
     return kRoughness;
 }
