@@ -30,7 +30,7 @@ bool hasRelief()
     return RELIEF && present(COTAN_MAP_HEIGHT, use) && hasTexcoords(use);
 }
 
-// The steps of a ray that changes uv of the height map's set by `travel`: a power of two, which rounding rarely changes.
+// The steps of a ray that changes uv of the height map's set by `travel`: powers of two, which rounding rarely changes.
 float stepsOf(vec2 travel)
 {
     vec2 texels = transformedDifference(material.heightMapUse, vec4(travel, travel)) * vec2(textureSize(heightMap, 0));

@@ -177,8 +177,8 @@ struct HeightReader {
 float heightSteps(const SurfaceInputs& in, glm::vec2 travel)
 {
     const glm::vec2 texels = transformedEdge(in.draw->material->heightMap.map, travel) * heightMapSize(in);
-    int steps = kFewestHeightSteps;
-    while (steps < kMostHeightSteps && float(steps) < glm::length(texels))
+    int steps = kMinHeightSteps;
+    while (steps < kMaxHeightSteps && float(steps) < glm::length(texels))
         steps *= 2;
     return float(steps);
 }

@@ -176,7 +176,7 @@ gpu::CotanMaterial materialConstants(const Scene& scene, const Material& m, cons
     g.anisotropy = gpu::vec4(a.strength, std::cos(a.rotation), -std::sin(a.rotation), m.specular.ior);
     g.specular = gpu::vec4(m.specular.color, m.specular.strength);
     g.sheen = gpu::vec4(m.sheen.color, m.sheen.roughness);
-    g.heights = gpu::vec4(m.heightMap.depth, kFewestHeightSteps, kMostHeightSteps, kHeightHalvings);
+    g.heights = gpu::vec4(m.heightMap.depth, kMinHeightSteps, kMaxHeightSteps, kHeightHalvings);
     for (const MapUse& use : mapUses(m))
         g.*use.constants = useConstants(*use.texture, textures.present(use));
     if (!m.normalMap.present())

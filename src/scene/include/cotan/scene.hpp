@@ -183,7 +183,7 @@ struct HeightMap {
 
 // Steps of a ray through heights: the power of two, within these limits, at which a step is at most a texel. The first
 // reading below the heights ends them, and the last step is halved. Details thinner than a step can be missed.
-inline constexpr int kFewestHeightSteps = 16, kMostHeightSteps = 256, kHeightHalvings = 8;
+inline constexpr int kMinHeightSteps = 16, kMaxHeightSteps = 256, kHeightHalvings = 8;
 
 struct Material {
     std::string name;
