@@ -9,7 +9,8 @@ export const essl = `// Normal mapping, frame \`gradient\` (total form), for GLS
 //   position   camera-relative (world axes, origin at the eye), interpolated, NOT normalised;
 //              normalising it first gives an error of 11 degrees at a grazing angle of 45 degrees
 //   uv         those of the normal map
-//   derivatives of position and uv: taken here by dFdx and dFdy
+//   derivatives of position and uv: taken here by dFdx and dFdy. Interpolate both alike, not
+//              at centroids; call it before any discard, if or loop that differs between pixels
 //
 // Call:
 //   vec3 n = cotan_perturb_normal(normal, position, uv, texture(normal_map, uv).xyz);
@@ -298,7 +299,8 @@ export const wgsl = `// Normal mapping, frame \`gradient\` (total form), for WGS
 //   position   camera-relative (world axes, origin at the eye), interpolated, NOT normalised;
 //              normalising it first gives an error of 11 degrees at a grazing angle of 45 degrees
 //   uv         those of the normal map
-//   derivatives of position and uv: taken here by dpdxFine and dpdyFine
+//   derivatives of position and uv: taken here by dpdxFine and dpdyFine. Interpolate both alike, not
+//              at centroids; call it before any discard, if or loop that differs between pixels
 //
 // Call:
 //   let n = cotan_perturb_normal(normal, position, uv, textureSample(normal_map, map_sampler, uv).xyz);
