@@ -105,6 +105,21 @@ double jumpAtSeams(Method method, Weights weights)
     return worst;
 }
 
+void addNumbers(Figure& figure, const std::string& name, Method method)
+{
+    for (const Weights weights : {Weights::smooth, Weights::sharp}) {
+        const std::string kind = name + (weights == Weights::smooth ? ", smooth" : ", sharp");
+        const auto errors = plotValues([&](glm::dvec2 at) -> std::optional<double> {
+            const glm::dvec3 n = onSphere(at);
+            if (glm::length(at) >= 0.95)
+                return std::nullopt;
+            return degreesBetween(method(weights, n), displacedSphereNormal(weights, n));
+        });
+        figure.numbers.push_back({kind + ", mean degrees", angleStatistics(errors).mean});
+        figure.numbers.push_back({kind + ", worst degrees at a seam", jumpAtSeams(method, weights)});
+    }
+}
+
 glm::dvec3 triplanarNormal(By by, glm::dvec2 at)
 {
     const Method method = by == By::cotan ? addedNormal : by == By::usual ? meshTangentNormal : displacedSphereNormal;
@@ -134,20 +149,9 @@ Figure makeTriplanarFigure(FigureRenderer& studio)
                    {"cotan_gradient_triplanar", "lit by the mesh's tangents", stoneColor, [](By by, glm::dvec2 at) {
                         return glm::length(at) < 0.95 ? std::optional(triplanarNormal(by, at)) : std::nullopt;
                     }});
-    for (const auto& [name, method] : {std::pair<const char*, Method>("cotan", addedNormal),
-                                       {"whiteout", whiteoutNormal},
-                                       {"tangents", meshTangentNormal}})
-        for (const Weights weights : {Weights::smooth, Weights::sharp}) {
-            const std::string kind = std::string(name) + (weights == Weights::smooth ? ", smooth" : ", sharp");
-            const auto errors = plotValues([&](glm::dvec2 at) -> std::optional<double> {
-                const glm::dvec3 n = onSphere(at);
-                return glm::length(at) < 0.95
-                    ? std::optional(degreesBetween(method(weights, n), displacedSphereNormal(weights, n)))
-                    : std::nullopt;
-            });
-            figure.numbers.push_back({kind + ", mean degrees", angleStatistics(errors).mean});
-            figure.numbers.push_back({kind + ", worst degrees at a seam", jumpAtSeams(method, weights)});
-        }
+    addNumbers(figure, "cotan", addedNormal);
+    addNumbers(figure, "whiteout", whiteoutNormal);
+    addNumbers(figure, "tangents", meshTangentNormal);
     return figure;
 }
 
