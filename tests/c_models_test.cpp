@@ -127,7 +127,9 @@ TEST(CModels, bakeOptionsAreCheckedAgainstTheirBounds)
     constexpr float kInf = std::numeric_limits<float>::infinity();
     for (const auto& [field, name] : {std::pair(&Options::max_distance, "max_distance"),
                                       {&Options::extrusion, "extrusion"},
-                                      {&Options::cage_reach, "cage_reach"}})
+                                      {&Options::cage_reach, "cage_reach"},
+                                      {&Options::thickness_distance, "thickness_distance"},
+                                      {&Options::curvature_radius, "curvature_radius"}})
         for (const float bad : {-0.001f, kInf, NAN})
             expectError(bake([&](Options& o) { o.*field = bad; }),
                         "options." + std::string(name) + ": expected 0 to 1e+17; found ");
@@ -140,7 +142,9 @@ TEST(CModels, bakeOptionsAreCheckedAgainstTheirBounds)
                                             {&Options::samples, 3, "samples: expected 1, 2 or 4"}})
         expectError(bake([&](Options& o) { o.*field = bad; }), "options." + std::string(error));
     for (const auto& [field, error] :
-         {std::pair(&Options::kind, "kind: expected normal, object-normal, height or occlusion, found 'x'"),
+         {std::pair(&Options::kind,
+                    "kind: expected normal, object-normal, height, occlusion, bent-normal, object-bent-normal, "
+                    "thickness, curvature or position, found 'x'"),
           {&Options::search, "search: expected first or nearest"},
           {&Options::tangents, "tangents: expected stored or generated"},
           {&Options::high_normals, "high_normals: expected smooth, curved, face or map, found 'x'"},
