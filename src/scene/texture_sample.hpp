@@ -43,8 +43,8 @@ inline std::vector<glm::vec2> textureUv(const Texture& texture, const Mesh& mesh
 }
 
 // The texture whose uv the material's frame follows: its normal map; without one, the map of its anisotropy, whose
-// directions are along these uv. Without both the frame follows uv set 0 untransformed. glTF gives a material one tangent
-// space and, for files without TANGENT, defines it by the normal map (KHR_materials_anisotropy).
+// directions are along these uv. Without both the frame follows uv set 0 untransformed. glTF gives a material one
+// tangent space and, for files without TANGENT, defines it by the normal map (KHR_materials_anisotropy).
 inline const Texture& frameTexture(const Material& material)
 {
     return material.normalMap.present() || !material.anisotropy.map.present() ? material.normalMap
