@@ -22,5 +22,8 @@ if(Python3_FOUND)
   add_test(NAME Format.constantNamesAreUniqueInEachPart COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/constants.py ${PROJECT_SOURCE_DIR})
   add_test(NAME Mutants.linesFollowMovedCode COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/mutation/repair_test.py)
   add_test(NAME Changelog.collectsUnreleasedChanges COMMAND ${PROJECT_SOURCE_DIR}/scripts/changelog)
+  add_test(NAME PageSnippets.compileWithThePrintedText COMMAND ${Python3_EXECUTABLE}
+    ${CMAKE_CURRENT_SOURCE_DIR}/page_snippets_test.py $<TARGET_FILE:cotan> ${PROJECT_SOURCE_DIR}/docs/how-to/beyond.md)
+  set_tests_properties(PageSnippets.compileWithThePrintedText PROPERTIES SKIP_RETURN_CODE 77)
   add_test(NAME Mutants.everyMistakeMatchesTheSource COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/mutants --check)
 endif()

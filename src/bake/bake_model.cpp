@@ -313,7 +313,7 @@ Result<std::shared_ptr<const DetailedSurface>> openDetailed(HighModel high, cons
     COTAN_TRY(surface, HighSurface::make(high.scenes, options.bake.threads, options.matchByName));
     COTAN_CHECK(checkPositions({surface->box().low, surface->box().high}, "high"));
     const std::vector<BakeKind> kinds = kindsOf(options);
-    if (options.bake.highNormals == HighNormals::curved || std::ranges::count(kinds, BakeKind::curvature) > 0)
+    if (options.bake.highNormals == HighNormals::curved || std::ranges::find(kinds, BakeKind::curvature) != kinds.end())
         surface->curve(options.bake.threads);
     DetailedSurface open{std::move(*surface), nullptr, std::move(names), options, {}};
     open.options.cage = open.options.others = nullptr;
@@ -380,7 +380,7 @@ Result<BakedModel> bakeTiles(Result<BakeSetup> setup, const Progress& progress)
     for (const int tile : tiles) {
         const std::size_t done = model.maps.size() / kindsOf(setup->options).size();
         COTAN_TRY(maps, bakeTile(*setup, tile, partOf(progress, done, tiles.size())));
-        std::ranges::move(*maps, std::back_inserter(model.maps));
+        std::move(maps->begin(), maps->end(), std::back_inserter(model.maps));
     }
     return model;
 }

@@ -76,8 +76,8 @@ void fillFrom(const std::vector<std::uint32_t>& owner, Baked& baked)
 
 bool haveValuesInTheSameTexels(const Baked& a, const Baked& b)
 {
-    return std::ranges::equal(a.values, b.values,
-                              [](glm::vec3 x, glm::vec3 y) { return (x == glm::vec3(0)) == (y == glm::vec3(0)); });
+    return std::equal(a.values.begin(), a.values.end(), b.values.begin(),
+                      [](glm::vec3 x, glm::vec3 y) { return (x == glm::vec3(0)) == (y == glm::vec3(0)); }); });
 }
 
 } // namespace
