@@ -34,7 +34,7 @@ bool hasRelief()
 float stepsOf(vec2 travel)
 {
     vec2 texels = transformedDifference(material.heightMapUse, vec4(travel, travel)) * vec2(textureSize(heightMap, 0));
-    return clamp(exp2(ceil(log2(max(length(texels), 1.0)))), material.heights.y, material.heights.z);
+    return clamp(exp2(ceil(log2(max(length(finiteUv(texels)), 1.0)))), material.heights.y, material.heights.z);
 }
 
 // n: safe unit normal, outwards on the front side. dpdx, dpdy: screen-space differences of the position.

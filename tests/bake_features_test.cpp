@@ -65,10 +65,13 @@ TEST_F(BakeFeatures, severalMapsAreWrittenAsTheOutputNamesThemAndEachAsAlone)
         all.insert(all.end(), more.begin(), more.end());
         return all;
     };
-    for (const auto& [output, height, position] : {std::tuple("out.png", "out-height.png", "out-position.png"),
-                                                   {"new/maps/", "new/maps/height.png", "new/maps/position.png"},
-                                                   {"flat", "flat/height.png", "flat/position.png"},
-                                                   {"a_<MAP>_8.png", "a_height_8.png", "a_position_8.png"}}) {
+    for (const auto& [output, height, position] :
+         {std::tuple("out.png", "out-height.png", "out-position.png"),
+          {"new/maps/", "new/maps/height.png", "new/maps/position.png"},
+          {"flat", "flat/height.png", "flat/position.png"},
+          {"new/maps", "new/maps/height.png", "new/maps/position.png"}, // the folder of before
+          {"tile_<UDIM>/", "tile_1001/height.png", "tile_1001/position.png"},
+          {"a_<MAP>_8.png", "a_height_8.png", "a_position_8.png"}}) {
         const ToolRun r = bake(words({"--maps", "height,position", "-o", output, "--bits", "16"}));
         ASSERT_EQ(r.code, 0) << r.err;
         const auto maps = nlohmann::json::parse(readWhole(folder / "r.json"))["maps"];
@@ -116,6 +119,11 @@ TEST_F(BakeFeatures, allTilesAreBakedAsEachAlone)
         EXPECT_EQ(reportOf({"--udim", tile, "-o", "alone_%(UDIM)d.exr"})["output"], alone);
         EXPECT_EQ(readWhole(folder / file), readWhole(folder / alone));
     }
+    const ToolRun none =
+        bake({"--high", "high.obj", "--low", "low.obj", "--size", "4x4", "--udim", "1001,1002", "-o", "n.png"});
+    EXPECT_EQ(none.code, 2);
+    EXPECT_NE(none.err.find("no triangle lies on tile 1002"), std::string::npos) << none.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "n.1001.png")) << "it is known before the first bake";
     EXPECT_EQ(reportOf({"-o", "one.exr"})["warnings"][0],
               "the low mesh also has triangles on tiles 1012: they are not baked (--udim all bakes them)");
     EXPECT_EQ(reportOf({"-o", "one.exr", "--udim", "1001"})["warnings"].size(), 0u); // it was chosen
@@ -133,6 +141,8 @@ TEST_F(BakeFeatures, mapsThatContradictOtherOptionsAreRefusedBeforeAnythingIsRea
              {{"--maps", "normal,gloss"}, "found 'gloss'"},
              {{"--maps", "normal,"}, "--maps: expected one of normal, object-normal, height, ao, bent-normal, "},
              {{"--maps", "ao", "--kind", "height"}, "--kind height: makes one map; expected no --maps with it"},
+             {{"--maps", "normal,ao", "-o", "x_<MAP>"}, "x_normal"},
+             {{"--mask", "states"}, "states"},
              {{"--udim", "1001,2000"},
               "--udim: expected numbers from 1001 to 1999, separated by commas, or all; found '2000'"},
              {{"--udim", "1002,1002"}, "--udim: expected each tile once; found 1002 twice"},

@@ -284,7 +284,12 @@ TEST(UdimTiles, areThoseThatATriangleOverlaps)
     EXPECT_EQ(tilesOfTriangle({{0.5f, 0.5f}, {1.5f, 0.5f}, {0.5f, 0.9f}}), Tiles({1001, 1002}));
     // A sliver along the diagonal is nearer than a ten-thousandth to the tiles beside it.
     EXPECT_EQ(tilesOfTriangle({{0.1f, 0.1f}, {2.9f, 2.9001f}, {2.9001f, 2.9f}}), Tiles({1001, 1012, 1023}));
-    EXPECT_EQ(tilesOfTriangle({{0.2f, 0.2f}, {0.2f, 0.2f}, {0.2f, 0.2f}}), Tiles()); // no area
+    // Thinner than that: the tile of its middle.
+    EXPECT_EQ(tilesOfTriangle({{3.5f, 0.1f}, {3.50001f, 0.1f}, {3.5f, 0.9f}}), Tiles({1004}));
+    // No area, so that nothing is drawn.
+    EXPECT_EQ(tilesOfTriangle({{0.2f, 0.2f}, {0.2f, 0.2f}, {0.2f, 0.2f}}), Tiles());
+    EXPECT_EQ(tilesOfTriangle({{0.25f, 1.25f}, {0.5f, 1.5f}, {0.75f, 1.75f}}), Tiles());
+    EXPECT_EQ(tilesOfTriangle({{0.25f, 0.25f}, {1e7f, 0.5f}, {0.75f, 1e7f}}), Tiles()); // too far to be drawn
 }
 
 TEST(UdimTiles, countTrianglesOutsideAndSurviveAnyCoordinates)

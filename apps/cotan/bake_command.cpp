@@ -140,6 +140,10 @@ Result<std::vector<int>> chooseTiles(const BakeJob& job, const MapJob& one, cons
         warnings.push_back(fmt::format("{} of {} triangles of the low mesh lie at least in part outside of the tiles "
                                        "1001 to 1999: nothing is baked for them there",
                                        outside, low.triangleCount()));
+    for (const int tile : wanted)
+        if (wanted.size() > 1 && std::ranges::find(there, tile) == there.end())
+            return inputError(
+                fmt::format("{}: no triangle lies on tile {} of the texture coordinates (--udim)", job.low, tile));
     if (wanted.empty())
         return inputError(
             fmt::format("{}: expected triangles on the tiles 1001 to 1999 (--udim all); found none", job.low));

@@ -67,22 +67,32 @@ Result<std::vector<BakeKind>> kindsOf(const BakeCommandOptions& o)
     return kinds;
 }
 
-// The files of several maps. With <MAP> in the output, the name of each is in its place; without an ending it is a
-// folder, which gets NAME.png; else map.png becomes map-NAME.png.
-void setFiles(const std::filesystem::path& output, const std::vector<BakeKind>& kinds, BakeFiles& files)
+// The name with a word in all places that are marked.
+std::filesystem::path withWord(const std::filesystem::path& file, std::string_view mark, const std::string& word)
+{
+    std::string text = file.string();
+    for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + word.size()))
+        text.replace(at, mark.size(), word);
+    return text;
+}
+
+// The files of the maps. With <MAP> in the output, the name of each is in its place. Else several maps are NAME.png in
+// a folder, which is an output that exists as one or has no ending, or map.png becomes map-NAME.png.
+void setFiles(const std::filesystem::path& output, const std::vector<BakeKind>& kinds, bool severalMaps,
+              BakeFiles& files)
 {
     constexpr std::string_view kPlace = "<MAP>";
-    const std::string text = output.string();
-    const std::size_t at = text.find(kPlace);
-    files.maps.clear();
-    if (at == std::string::npos && !output.empty() && !output.has_extension())
+    const bool isMarked = output.string().find(kPlace) != std::string::npos;
+    std::error_code unknown;
+    if (severalMaps && !isMarked && !output.empty()
+        && (!output.has_extension() || std::filesystem::is_directory(output, unknown)))
         files.folder = output;
     for (const BakeKind kind : kinds) {
         const std::string name = wordOf(kBakeKinds, kind);
-        if (at != std::string::npos)
-            files.maps.emplace_back(std::string(text).replace(at, kPlace.size(), name));
-        else
-            files.maps.push_back(files.folder.empty() ? withPart(output, name) : output / (name + ".png"));
+        files.maps.push_back(isMarked                   ? withWord(output, kPlace, name)
+                                 : !severalMaps         ? output
+                                 : files.folder.empty() ? withPart(output, name)
+                                                        : output / (name + ".png"));
     }
 }
 
@@ -142,6 +152,12 @@ Status checkOutputs(const BakeJob& job)
     if (options.stored.type == PixelType::float32 && !imageFormatHas(map, &ImageFormat::negative))
         return usageError(fmt::format("--bits 32: expected a file that ends in {}; found '{}'",
                                       imageEndings(&ImageFormat::negative, ", ", " or "), map.string()));
+    // Baking may take hours, and only writing asks for these endings.
+    for (const std::filesystem::path& file : job.files.maps)
+        if (!model)
+            COTAN_CHECK(checkImageName(file));
+    if (!job.files.mask.empty())
+        COTAN_CHECK(checkImageName(job.files.mask));
     return Done{};
 }
 
@@ -209,19 +225,20 @@ std::filesystem::path withPart(const std::filesystem::path& file, const std::str
 BakeFiles filesOfTile(const BakeJob& job, const BakeFiles& files, int tile)
 {
     const std::string number = std::to_string(tile);
+    const auto placed = [&](const std::filesystem::path& file) {
+        return withWord(withWord(file, "<UDIM>", number), "%(UDIM)d", number);
+    };
     const auto numbered = [&](const std::filesystem::path& file) {
-        std::string text = file.string();
-        for (const std::string_view place : {"<UDIM>", "%(UDIM)d"})
-            if (const std::size_t at = text.find(place); at != std::string::npos)
-                return std::filesystem::path(text.replace(at, place.size(), number));
-        return !job.makesSeveralTiles() || file.empty()
-            ? file
+        const std::filesystem::path of = placed(file);
+        return of != file || !job.makesSeveralTiles() || file.empty()
+            ? of
             : std::filesystem::path(file).replace_filename(file.stem().string() + "." + number
                                                            + file.extension().string());
     };
     BakeFiles of = files;
     for (std::filesystem::path& map : of.maps)
         map = numbered(map);
+    of.folder = placed(files.folder);
     of.mask = numbered(files.mask);
     return of;
 }
@@ -232,9 +249,7 @@ Result<BakeJob> bakeJobOf(const BakeCommandOptions& o)
     job.common = o;
     COTAN_TRY(kinds, kindsOf(o));
     job.options.kinds = *kinds;
-    job.files.maps = {o.output};
-    if (!o.maps.empty())
-        setFiles(o.output, *kinds, job.files);
+    setFiles(o.output, *kinds, !o.maps.empty(), job.files);
     job.highUp = o.highUp.value_or(job.up);
     job.convention = o.convention;
     BakeModelOptions& options = job.options;

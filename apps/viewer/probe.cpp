@@ -6,6 +6,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "cotan/vector.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan::viewer {
 
@@ -13,9 +14,10 @@ Probed Prober::at(const Scene& scene, std::uint64_t number, const PickedPoint& h
 {
     const Instance& instance = scene.instances[std::size_t(hit.instance)];
     const Mesh& mesh = scene.meshes[std::size_t(hit.mesh)];
-    const Texture& map = scene.materials[std::size_t(mesh.material)].normalMap;
+    const Material& material = scene.materials[std::size_t(mesh.material)];
+    const Texture& map = material.normalMap;
     if (number != number_ || hit.instance != instance_) {
-        surface_ = makeSurface(mesh, map, glm::dmat3(glm::mat3(instance.toWorld)));
+        surface_ = makeSurface(mesh, frameTexture(material), glm::dmat3(glm::mat3(instance.toWorld)));
         number_ = number;
         instance_ = hit.instance;
     }

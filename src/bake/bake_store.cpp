@@ -77,7 +77,7 @@ void fillFrom(const std::vector<std::uint32_t>& owner, Baked& baked)
 bool haveValuesInTheSameTexels(const Baked& a, const Baked& b)
 {
     return std::equal(a.values.begin(), a.values.end(), b.values.begin(),
-                      [](glm::vec3 x, glm::vec3 y) { return (x == glm::vec3(0)) == (y == glm::vec3(0)); }); });
+                      [](glm::vec3 x, glm::vec3 y) { return (x == glm::vec3(0)) == (y == glm::vec3(0)); });
 }
 
 } // namespace

@@ -39,7 +39,7 @@ Result<std::vector<Baked>> bakeMaps(const LowSurface& low, const HighSurface& hi
 // ErrorKind::input if triangles overlap in too many rows of texels.
 Result<std::vector<std::uint32_t>> indicesToDraw(const LowSurface& low, glm::ivec2 size);
 
-// The UDIM numbers from 1001 to 1999 of the tiles on which triangles with an area in uv lie, in increasing order.
+// The UDIM numbers from 1001 to 1999 of the tiles on which triangles lie that a bake draws, in increasing order.
 // outside: receives the number of triangles of which a part lies on none of these tiles, if not null.
 std::vector<int> tilesOf(const LowSurface& low, std::size_t* outside = nullptr);
 
