@@ -115,7 +115,7 @@ CASES = [
         "--max-distance": "0.001 | 0.02", "--high-normals": "~smooth | curved | face",
         "--samples": "~1 | 4 | 16", "--convention": "~gltf | directx | xy", "--unsigned": "~exact | *", "--dither": "", "--bits": "~8 | 16",
         "--padding": "~0 | 1 | -1", "--mask": "seen.png", "--per-object": "", "--verify": "checked", "--threads": "=1 | =3", "--memory": "=800",
-        "--udim": "~1001 | !1002 | ~all", "--list-frames": ""}),
+        "--udim": "~1001 | !1002 | all", "--list-frames": ""}),
     (BAKE + " --kind object-normal", {"--up": "~y | *", "--high-up": "~y | *"}),
     ("bake --high layers.obj --low low.obj --size 24x24 -o out.png", {"--search": "~first | *", "--extrusion": "0.001 | 0.02", "--cage": "cage.obj"}),
     ("bake --high low.stl --high high.obj --low low.obj --size 24x24 -o out.png", {"--match-by-name": ""}),
@@ -126,7 +126,7 @@ CASES = [
     ("bake --high panel.gltf --low low.obj --high-normals map --size 24x24 -o out.png", {"--high-map": "grain.png | ~rocks.png", "--high-frame": "~mikktspace | &paper-nodet,paper-transpose | !cotangent-2013 | !nonperspective | !paper-orthogonal | *"}),
     ("bake --high panel.gltf --low low.obj --high-normals map --high-map rocks.png --size 24x24 -o out.png", {"--high-convention": "~gltf | directx | slope"}),
     ("bake --high high.obj --low low.obj --size 16x16 --kind ao -o out.png", {"--ao-rays": "~64 | 9 | 250"}),
-    ("bake --high high.obj --low low.obj --size 16x16 --kind thickness --ao-rays 9 -o out.png", {"--thickness-distance": "0.01 | 0.1"}),
+    ("bake --high high.obj --low low.obj --size 16x16 --kind thickness --ao-rays 9 --bits 32 -o out.exr", {"--thickness-distance": "0.01 | 0.1"}),
     ("bake --high high.obj --low low.obj --size 16x16 --kind curvature -o out.png", {"--curvature-radius": "0.001 | 0.1"}),
     ("bake --high high.obj --low low.obj --size 16x16 -o out.png", {"--maps": "height | normal,ao | position,curvature,thickness"}),
     ("convert panel.gltf --from-frame mikktspace --to-frame smooth -o out.glb", {
