@@ -44,7 +44,9 @@ DEPENDS_ON_VIEW = {"cotangent-2013", "nonperspective", "paper-orthogonal"}
 FRAMES = [f for f in cotan.frames() if f not in DEPENDS_ON_VIEW]
 MAPPED = {"high": "panel.gltf", "high_normals": "map"}
 BAKE = [
-    *({"size": s} for s in ((30, 20), 18)), *({"frame": f} for f in FRAMES), *({"kind": k} for k in ("object-normal", "height", "ao")),
+    *({"size": s} for s in ((30, 20), 18)), *({"frame": f} for f in FRAMES), *({"kind": k} for k in ("object-normal", "height", "ao", "curvature", "position")),
+    *({"kind": k, "ao_rays": 9, "size": 8} for k in ("bent-normal", "object-bent-normal", "thickness")),
+    {"kind": "thickness", "thickness_distance": 0.05, "ao_rays": 9, "size": 8}, {"kind": "curvature", "curvature_radius": 0.05},
     *({"convention": c} for c in ("directx", "unreal", "gltf,xy")), {"bits": 16}, {"samples": 4}, {"samples": 16}, {"padding": 2}, {"padding": -1},
     {"dither": True}, {"ao_rays": 9, "kind": "ao", "size": 8}, {"ao_occluders": "all", "kind": "ao", "size": 8, "match_by_name": True, "low": "room.gltf", "high": "room.gltf"}, {"search": "nearest", "high": "layers.obj"}, {"extrusion": 0.02, "high": "layers.obj"},
     {"max_distance": 0.001}, {"cage": "cage.obj", "high": "layers.obj"}, {"match_by_name": True, "low": "room.gltf", "high": "room.gltf"},
