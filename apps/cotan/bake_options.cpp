@@ -100,7 +100,6 @@ constexpr std::string_view kAllTiles = "all";
 
 Status parseTiles(const std::string& words, BakeJob& job)
 {
-    constexpr int kFirst = 1001, kLast = 1999;
     job.choosesTiles = !words.empty();
     job.allTiles = words == kAllTiles;
     if (job.allTiles || !job.choosesTiles)
@@ -109,10 +108,10 @@ Status parseTiles(const std::string& words, BakeJob& job)
     tiles.clear();
     for (const std::string& word : splitAtCommas(words)) {
         int tile = 0;
-        if (!parseNumber(word, tile) || tile < kFirst || tile > kLast)
+        if (!parseNumber(word, tile) || tile < kFirstUdim || tile > kLastUdim)
             return usageError(
-                fmt::format("--udim: expected numbers from {} to {}, separated by commas, or {}; found '{}'", kFirst,
-                            kLast, kAllTiles, word));
+                fmt::format("--udim: expected numbers from {} to {}, separated by commas, or {}; found '{}'",
+                            kFirstUdim, kLastUdim, kAllTiles, word));
         if (std::ranges::count(tiles, tile) > 0)
             return usageError(fmt::format("--udim: expected each tile once; found {} twice", tile));
         tiles.push_back(tile);

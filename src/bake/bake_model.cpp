@@ -259,9 +259,6 @@ Status match(const Scene& low, const NamePairs& pairs, BakeSetup& setup)
     return Done{};
 }
 
-constexpr int kFirstUdim = 1001; // 1001 + u + 10 v, v upwards from the bottom of the first tile
-constexpr int kUdimColumns = 10;
-
 // open: called after the simple side was found to be sound, since it is slower.
 Result<BakeSetup> prepared(const Scene& low, const BakeModelOptions& options,
                            const std::function<Result<std::shared_ptr<const DetailedSurface>>()>& open)

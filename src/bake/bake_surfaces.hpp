@@ -39,7 +39,10 @@ Result<std::vector<Baked>> bakeMaps(const LowSurface& low, const HighSurface& hi
 // ErrorKind::input if triangles overlap in too many rows of texels.
 Result<std::vector<std::uint32_t>> indicesToDraw(const LowSurface& low, glm::ivec2 size);
 
-// The UDIM numbers from 1001 to 1999 of the tiles on which triangles lie that a bake draws, in increasing order.
+// Tiles of texture coordinates have the UDIM numbers 1001 + u + 10 v, v upwards from the bottom of the first tile.
+inline constexpr int kFirstUdim = 1001, kLastUdim = 1999, kUdimColumns = 10;
+
+// The numbers up to kLastUdim of the tiles on which triangles lie that a bake draws, in increasing order.
 // outside: receives the number of triangles of which a part lies on none of these tiles, if not null.
 std::vector<int> tilesOf(const LowSurface& low, std::size_t* outside = nullptr);
 
@@ -95,7 +98,7 @@ Result<BakeSetup> prepareBake(const Scene& low, std::shared_ptr<const DetailedSu
 
 // Bakes the kinds of one tile, fills around its charts and stores them; of the masks the first map has one. Calls
 // `progress` from several threads, not always in order. Errors: ErrorKind::input if no triangle lies on the tile,
-// ErrorKind::usage for a number below 1001, both beginning with "options.tiles: "; ErrorKind::stopped.
+// ErrorKind::usage for a number below kFirstUdim, both beginning with "options.tiles: "; ErrorKind::stopped.
 Result<std::vector<BakedMap>> bakeTile(const BakeSetup& setup, int tile, const Progress& progress = {});
 
 } // namespace cotan

@@ -4,22 +4,21 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
-import { createRequire } from 'node:module';
 import path from 'node:path';
 
+import { launch } from './chromium.mjs';
 import { here, runCases, skip } from './shared.mjs';
 
 const [modules, tool, only] = process.argv.slice(2);
 if (!fs.existsSync(path.join(modules, 'playwright-core'))) skip('playwright-core is not installed');
-const { chromium } = createRequire(path.join(modules, 'x.js'))('playwright-core');
-const kDrivers = {
-  swiftshader: ['--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader'],
+const kDrivers = { // options that follow those of launch()
+  swiftshader: ['--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader'],
   mesa: ['--use-angle=gl-egl', '--ignore-gpu-blocklist'], // WebGL 2 only
 };
 
 async function measured(driver, form, frame, names) {
   const print = (lang) => execFileSync(tool, ['shader', '--lang', lang, '--frame', frame, '--form', form], { encoding: 'utf8' });
-  const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox', ...kDrivers[driver]] });
+  const browser = await launch(modules, kDrivers[driver]);
   try {
     const page = await browser.newPage();
     await page.route('http://localhost/', (route) => route.fulfill({ contentType: 'text/html', body: '<!doctype html>' })); // WebGPU wants a safe origin

@@ -44,18 +44,6 @@ glm::dvec2 nearestOn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p)
     return a + d * std::clamp(d2 > 0 ? glm::dot(p - a, d) / d2 : 0, 0.0, 1.0);
 }
 
-// Gets a triangle's scaled uv and twice its area. Returns false if it is not drawn.
-bool cornersOf(const UvTriangles& triangles, std::uint32_t triangle, glm::dvec2 (&uv)[3], double& area)
-{
-    bool usable = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-        uv[k] = glm::dvec2(triangles.texcoords[triangles.indices[3 * std::size_t(triangle) + k]] * triangles.scale);
-        usable = usable && std::abs(uv[k].x) <= kFarthest && std::abs(uv[k].y) <= kFarthest;
-    }
-    area = cross(uv[1] - uv[0], uv[2] - uv[0]);
-    return usable && area != 0;
-}
-
 // The copies of the image that show a triangle: `count` per axis, `step` apart from `from` on.
 struct Copies {
     glm::ivec2 from{0, 0}, count{1, 1};
@@ -96,6 +84,17 @@ std::size_t spreadingStep(std::size_t n)
 }
 
 } // namespace
+
+bool cornersOf(const UvTriangles& triangles, std::uint32_t triangle, glm::dvec2 (&uv)[3], double& area)
+{
+    bool usable = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+        uv[k] = glm::dvec2(triangles.texcoords[triangles.indices[3 * std::size_t(triangle) + k]] * triangles.scale);
+        usable = usable && std::abs(uv[k].x) <= kFarthest && std::abs(uv[k].y) <= kFarthest;
+    }
+    area = cross(uv[1] - uv[0], uv[2] - uv[0]);
+    return usable && area != 0;
+}
 
 // Fraction of the way to the middle of the triangle by which samples on its edges are moved inwards.
 constexpr double kInwards = 1e-4;

@@ -20,6 +20,10 @@ struct UvTriangles {
     glm::vec2 scale{1, 1};                  // factor on the texcoords
 };
 
+// Gets the scaled uv of a triangle and twice its area. Returns false if it is not drawn: without an area, or with uv
+// beyond a million.
+bool cornersOf(const UvTriangles& triangles, std::uint32_t triangle, glm::dvec2 (&uv)[3], double& area);
+
 // A point of a triangle: corner 0 + (corner 1 - corner 0) * b1 + (corner 2 - corner 0) * b2.
 struct UvSample {
     std::uint32_t triangle = 0;
