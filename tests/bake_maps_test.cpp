@@ -210,6 +210,41 @@ TEST(BakeMaps, bentNormalsAtTheFootOfAWallLeanAwayFromIt)
     EXPECT_EQ(baked->maps[0].format.kind, MapKind::objectSpace);
 }
 
+TEST(BakeMaps, directionsAreUnitHoweverManySamplesATexelHas)
+{
+    const Scene ball = sceneOfMeshes({makeSphere(1, 8)}); // its bent normals differ within a texel
+    const auto low = makeLowSurface(ball, -1, Frame::smooth, TangentOrigin::stored);
+    const auto high = HighSurface::make({ball}, 1);
+    ASSERT_TRUE(low && high);
+    BakeOptions options = optionsFor({}).bake;
+    options.width = options.height = 4;
+    options.samples = 4;
+    options.occlusionRays = 4;
+    const auto maps =
+        bakeMaps(*low, *high, options, {BakeKind::objectBentNormal, BakeKind::bentNormal, BakeKind::objectNormal});
+    ASSERT_TRUE(maps) << maps.error().message;
+    for (const Baked& map : *maps)
+        for (const glm::vec3& v : map.values)
+            EXPECT_NEAR(glm::length(v), 1, 1e-5);
+}
+
+TEST(BakeMaps, eachMapIsPaddedFromTexelsThatHaveAValueInIt)
+{
+    // Three texels in a row are covered. The second map has no value in the middle one, as where directions cancel out.
+    Baked first{3, 1, std::vector(3, glm::vec3(1, 0, 1)), std::vector<std::uint8_t>(3, texelCovered), {}};
+    Baked second = first;
+    second.values = {glm::vec3(0, 0, 1), glm::vec3(0), glm::vec3(1, 0, 0)};
+    std::vector<Baked> maps{first, second, first};
+    padCharts(maps, 0);
+    EXPECT_EQ(maps[0].values, first.values);
+    EXPECT_EQ(maps[1].values[1], glm::vec3(0, 0, 1)); // of equally near ones the left
+    EXPECT_EQ(maps[2].values, first.values);
+    maps = {second, first}; // also if it is the first
+    padCharts(maps, 0);
+    EXPECT_EQ(maps[0].values[1], glm::vec3(0, 0, 1));
+    EXPECT_EQ(maps[1].values, first.values);
+}
+
 TEST(BakeMaps, positionsAreThoseOfTheHighSurfaceAndInIntegersFractionsOfItsBox)
 {
     // The high square is tilted: z = 1 + x / 4 above the low one at z = 1, which lies within it.
