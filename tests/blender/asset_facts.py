@@ -45,6 +45,59 @@ def pairsAreFoundByName():
     assert found.startswith("There is no visible object named like 'alone_low'"), found
 
 
+def chosenMapsAreBakedAndOnlyNormalsAreAssigned():
+    x, y = texel_centres()
+    low, high = square(z=-0.5), ball()
+    low.data.materials.append(material_with_nodes("worn"))
+    for _ in range(2):  # a second bake replaces the images
+        baked(low, high, distance=4, extrusion=2, maps={"normal", "position", "height", "bent-normal"})
+    names = [f"low_{word}" for word in ("bent_normal", "height", "normal", "position")]
+    assert sorted(i.name for i in bpy.data.images) == names, [i.name for i in bpy.data.images]
+    reader = low.data.materials[0].node_tree.nodes["Principled BSDF"].inputs["Normal"].links[0].from_node
+    assert reader.inputs["Color"].links[0].from_node.image.name == "low_normal"
+    frames = {i.name: i.get("cotan_frame") for i in bpy.data.images}
+    assert frames == dict(zip(names, ("mikktspace", None, "mikktspace", None))), frames
+
+    def values(name):
+        image = bpy.data.images[name]
+        found = np.empty(64 * 64 * 4, np.float32)
+        image.pixels.foreach_get(found)
+        return found.reshape(64, 64, 4)[::-1, :, :3]
+
+    inside = x * x + y * y < 0.9 * np.sin(np.radians(71)) ** 2
+    z = np.sqrt(np.maximum(1 - x * x - y * y, 0))
+    # The axes are Blender's, and the box is that of the ball.
+    vertices = np.array([v.co for v in high.data.vertices])
+    lowest, size = vertices.min(axis=0), np.ptp(vertices, axis=0)
+    position = values("low_position")
+    for component, truth in enumerate((x, y, z)):
+        off = np.abs(position[..., component] - (truth - lowest[component]) / size[component])
+        assert off[inside].max() < 0.002, component  # facets, and rounding
+    height = values("low_height")[..., 0][inside]
+    assert np.corrcoef(height, z[inside])[0, 1] > 0.9999
+    settings(maps=set())
+    assert facts.error_of(bpy.ops.object.cotan_bake, which="ACTIVE").startswith("No map is chosen")
+
+
+def aCageIsMadeWhereRaysStartAndIsUsed():
+    x, y = texel_centres()
+    low, high = square("door_low.001", half=2, matrix=moved(1, 2, 3)), ball(matrix=moved(1, 2, 3))
+    select(low)
+    settings(extrusion=1.5)
+    for _ in range(2):  # the second replaces the first
+        assert bpy.ops.object.cotan_cage() == {"FINISHED"}
+    cages = [o for o in bpy.data.objects if "cage" in o.name]
+    assert [o.name for o in cages] == ["door_cage.001"], cages
+    assert cages[0].matrix_world == low.matrix_world
+    assert all(abs(v.co.z - 1.5) < 1e-6 for v in cages[0].data.vertices)
+    found = baked(low, high)
+    assert bpy.context.scene.cotan.cage == "MESH" and bpy.context.scene.cotan.cage_object == cages[0]
+    expect_sphere(found, 2 * x, 2 * y, least=300)
+    select()
+    bpy.context.view_layer.objects.active = None
+    assert facts.error_of(bpy.ops.object.cotan_cage).startswith("No mesh is active")
+
+
 def theNormalNodeReadsTheMap():
     low, high = square(), ball()
     material = material_with_nodes("worn")

@@ -15,7 +15,7 @@ bl_info = {
     "category": "Render",
 }
 
-CLASSES = [operators.CotanBake, operators.CotanCheck, operators.CotanExport, *panel.CLASSES]
+CLASSES = [operators.CotanBake, operators.CotanCage, operators.CotanCheck, operators.CotanExport, *panel.CLASSES]
 
 
 def register():

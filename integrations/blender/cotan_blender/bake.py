@@ -10,6 +10,7 @@ import numpy as np
 
 from . import cages, images, meshes, nodes
 from .refused import Refused, packages
+from .settings import MAPS
 
 
 @dataclasses.dataclass
@@ -19,6 +20,7 @@ class Map:
     name: str
     owner: str  # the object and material that the map is for
     part: str  # the name of its file, without folder and ending
+    kind: str  # a word of cotan.bake
     slots: list  # material slots of the simple object that will use the map; empty: the object has none yet
     arguments: dict  # for cotan.bake, without the progress function
     path: str = ""  # file to write; "": packed into the .blend
@@ -69,6 +71,8 @@ def prepare(context, settings, pair):
     """The maps of a pair, the name of their uv map, and notes in sentences. Raises Refused."""
     low = pair.low
     check_low(low, settings)
+    if not settings.maps:
+        raise Refused("No map is chosen: choose some under Maps")
     if not pair.highs:
         raise Refused(f"There is no visible object named like '{low.name}' with 'high' or 'hi' instead of 'low'")
     others = [o for o in (pair.cage, settings.cage_object, context.scene.render.bake.cage_object) if o is not None]
@@ -93,15 +97,18 @@ def prepare(context, settings, pair):
     for slots, shown in parts:
         material = low.material_slots[slots[0]].material if slots else None
         part = "" if len(parts) == 1 else f"_{material.name if material else slots[0]}"
-        name, owner = f"{low.name}{part}_normal", "\n".join([low.name, part])
-        file = images.part_for(owner, name, [made.part for made in maps])
         chosen = surface.triangles[shown]
         _check_uv(low, surface.texcoords, chosen, surface.uv_map)
         mesh = cotan.Mesh(surface.positions, chosen, surface.normals, surface.texcoords)
         arguments = {"low": mesh, "high": high, **common, **rays}
         if "cage" in rays:
             arguments["cage"] = cotan.Mesh(rays["cage"], chosen, surface.normals)
-        maps.append(Map(name, owner, file, slots, arguments, images.file_for(settings, owner, name, file)))
+        for kind in [word for word, *_ in MAPS if word in settings.maps]:
+            name = f"{low.name}{part}_{kind.replace('-', '_')}"
+            owner = "\n".join([low.name, part] + [kind] * (kind != "normal"))
+            file = images.part_for(owner, name, [made.part for made in maps])
+            path = images.file_for(settings, owner, name, file)
+            maps.append(Map(name, owner, file, kind, slots, {**arguments, "kind": kind}, path))
     return maps, surface.uv_map, _notes_on(low, matrix)
 
 
@@ -134,7 +141,7 @@ class Work(threading.Thread):
 
 
 def _put(low, made, image, uv_map, outcome):
-    """Assigns the image to the materials of the slots."""
+    """Assigns the normal map to the materials of the slots."""
     if not made.slots:
         low.data.materials.append(None)
         made.slots = [0]
@@ -176,14 +183,16 @@ def run(context, settings, pairs, outcome):
                         work.join()
                     if work.error is not None:
                         raise work.error
-                    image, named_otherwise = images.stored(made, work.file, settings.frame)
+                    frame = settings.frame if made.kind in ("normal", "bent-normal") else ""
+                    image, named_otherwise = images.stored(made, work.file, frame)
                 if named_otherwise:
                     outcome.notes.append(
                         f"The map '{made.name}' of '{pair.low.name}' is named '{image.name}', and its file {made.part}.png"
                     )
                 outcome.made.append(image)
-                outcome.notes += _notes_of(work.baked, image.name)
-                if settings.assign:
+                if index == 0 or made.slots != maps[index - 1].slots:  # once for all maps of the same texels
+                    outcome.notes += _notes_of(work.baked, image.name)
+                if settings.assign and made.kind == "normal":
                     _put(pair.low, made, image, uv_map, outcome)
                 outcome.notes += nodes.all_read_green_up(image)
         except Refused as error:

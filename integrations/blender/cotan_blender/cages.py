@@ -1,11 +1,13 @@
 """The start of rays for a bake: by Blender's own bake settings or by a cage mesh."""
 
 import dataclasses
+import re
 
+import bpy
 import numpy as np
 
-from .meshes import mesh_of, got, placed
-from .refused import Refused
+from .meshes import as_rendered, got, mesh_of, placed
+from .refused import Refused, packages
 
 
 FOREVER = 1e17  # the largest reach that the library accepts, more than any mesh needs
@@ -22,6 +24,42 @@ def _around(surface, cage, depsgraph, low):
         )
     moved = dataclasses.replace(surface, positions=positions[surface.vertices])
     return placed(moved, cage.matrix_world, cage.name).positions
+
+
+def made_for(context, low, settings):
+    """A new object, drawn as wires: the simple mesh as it is baked, moved outwards by the extrusion of the settings, or by
+    2 % of its diagonal if that is 0. It replaces the cage made before. Raises Refused for a mesh without faces."""
+    with as_rendered(context, [low], settings.as_rendered) as depsgraph:
+        mesh = bpy.data.meshes.new_from_object(low.evaluated_get(depsgraph), depsgraph=depsgraph)
+    positions, outwards = got(mesh.vertices, "co", 3), got(mesh.vertices, "normal", 3)
+    if not mesh.polygons:
+        bpy.data.meshes.remove(mesh)
+        raise Refused(f"'{low.name}' has no faces")
+    # The extrusion is a distance in the world, as for the rays that it shows.
+    scale = abs(low.matrix_world.determinant()) ** (1 / 3)
+    distance = settings.extrusion / max(scale, 1e-9) or 0.02 * float(np.linalg.norm(np.ptp(positions, axis=0)))
+    mesh.vertices.foreach_set("co", (positions + np.float32(distance) * outwards).ravel())
+    mesh.materials.clear()
+    mesh.update()
+    cage = next((o for o in context.scene.objects if o.get("cotan_cage_of") == low.name), None)
+    if cage is None:
+        words = packages().name_role(low.name) == "low"
+        cage = bpy.data.objects.new(_cage_name(low.name) if words else f"{low.name}_cage", mesh)
+        cage["cotan_cage_of"] = low.name
+        for collection in low.users_collection:
+            collection.objects.link(cage)
+    else:
+        old, cage.data = cage.data, mesh
+        if old.users == 0:
+            bpy.data.meshes.remove(old)
+    mesh.name = cage.name
+    cage.matrix_world, cage.display_type, cage.hide_render = low.matrix_world, "WIRE", True
+    return cage
+
+
+def _cage_name(name):
+    """The name of a simple mesh with `cage` instead of its word for simple: door_low.001 -> door_cage.001."""
+    return re.sub(r"(?i)(?<![a-z0-9])(low|lo|lp|lowpoly)(?![a-z0-9])", "cage", name)
 
 
 def cage_for(settings, bake, surface, low, named, depsgraph):

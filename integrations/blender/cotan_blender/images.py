@@ -66,7 +66,8 @@ def file_for(settings, owner, name, part):
 def stored(made, file, frame):
     """Loads a map as an image and replaces all uses of the image of an earlier bake. A map without a path is packed into
     the .blend, so that the file may be deleted. Returns the image, and whether it or its file has another name than the
-    map, because another map has it or it is too long. Raises Refused if Blender cannot read the file."""
+    map, because another map has it or it is too long. frame: that the map is for; "": none. Raises Refused if Blender
+    cannot read the file."""
     old, name = _before(made.owner, made.name), made.name
     try:
         image = bpy.data.images.load(file)
@@ -83,7 +84,9 @@ def stored(made, file, frame):
         old.user_remap(image)
         bpy.data.images.remove(old)
     image.name = name if old is not None else _free(name)
-    image["cotan_frame"], image["cotan_of"], image["cotan_part"] = frame, made.owner, made.part
+    image["cotan_of"], image["cotan_part"] = made.owner, made.part
+    if frame:
+        image["cotan_frame"] = frame
     numbered = image.name != made.name or made.part != packages().file_names([made.name])[0]
     return image, old is None and numbered
 

@@ -5,7 +5,7 @@ import numpy as np
 from bpy.props import BoolProperty, EnumProperty
 from bpy_extras.io_utils import ExportHelper
 
-from . import bake, check, gltf, pairs
+from . import bake, cages, check, gltf, pairs
 from .refused import Refused, packages
 
 
@@ -16,17 +16,17 @@ def say(operator, outcome):
     for failure in outcome.failures:
         operator.report({"WARNING"} if outcome.made else {"ERROR"}, failure)
     if outcome.made:
-        first = outcome.made[0]
-        what = f"'{first.name}'" if len(outcome.made) == 1 else f"{len(outcome.made)} maps"
-        operator.report({"INFO"}, f"Baked {what} for the frame {first['cotan_frame']}")
+        frames = dict.fromkeys(image["cotan_frame"] for image in outcome.made if "cotan_frame" in image)
+        what = f"'{outcome.made[0].name}'" if len(outcome.made) == 1 else f"{len(outcome.made)} maps"
+        operator.report({"INFO"}, f"Baked {what}" + "".join(f" for the frame {frame}" for frame in frames))
     return {"FINISHED"} if outcome.made else {"CANCELLED"}
 
 
 class CotanBake(bpy.types.Operator):
-    """Bake the normals of detailed meshes into a map for a simple one"""
+    """Bake the chosen maps of detailed meshes for a simple one"""
 
     bl_idname = "object.cotan_bake"
-    bl_label = "Bake Normal Map"
+    bl_label = "Bake Maps"
     bl_options = {"UNDO"}
 
     which: EnumProperty(
@@ -99,6 +99,29 @@ class CotanBake(bpy.types.Operator):
         context.window_manager.cotan_running = False
         context.workspace.status_text_set(None)
         _redraw(context)
+
+
+class CotanCage(bpy.types.Operator):
+    """Show where rays start: make a cage from the active mesh, moved outwards by Extrusion, which can be edited"""
+
+    bl_idname = "object.cotan_cage"
+    bl_label = "Make Cage"
+    bl_options = {"UNDO"}
+
+    def execute(self, context):
+        low, settings = context.view_layer.objects.active, context.scene.cotan
+        try:
+            if context.mode != "OBJECT":
+                raise Refused("Go back to Object Mode first")
+            if low is None or low.type != "MESH":
+                raise Refused("No mesh is active: select the simple mesh")
+            cage = cages.made_for(context, low, settings)
+        except Refused as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        settings.cage, settings.cage_object = "MESH", cage
+        self.report({"INFO"}, f"'{cage.name}' is the cage: edit it where it cuts the detail")
+        return {"FINISHED"}
 
 
 def _redraw(context):

@@ -38,6 +38,7 @@ class CotanBakePanel(_Part, bpy.types.Panel):
         layout.prop(s, "frame")
         if s.frame != "mikktspace":
             layout.label(text="Blender's own Normal Map node reads MikkTSpace", icon="INFO")
+        layout.column(align=True).prop(s, "maps")
         column = layout.column(align=True)
         column.prop(s, "width")
         column.prop(s, "height")
@@ -52,6 +53,7 @@ class CotanBakePanel(_Part, bpy.types.Panel):
         layout.prop(s, "cage")
         if s.cage == "FIRST":
             layout.prop(s, "extrusion")
+            layout.operator("object.cotan_cage", icon="MESH_ICOSPHERE")
         if s.cage in ("FIRST", "NEAREST"):
             layout.prop(s, "distance")
         elif s.cage == "MESH":

@@ -19,6 +19,16 @@ FRAMES = [
     ("orthonormal", "orthonormal", "The tangent-free frame nearest to MikkTSpace"),
     ("vertex", "vertex", "Tangents per vertex, not orthogonalised"),
 ]
+MAPS = [
+    ("normal", "Normal", "Normals of the detail, in the frame; the only map that is put into materials", 1),
+    ("object-normal", "Object Normal", "Normals of the detail in Blender's world, z up", 2),
+    ("ao", "Occlusion", "Open part of the hemisphere", 4),
+    ("height", "Height", "Distance along the normal, from the lowest to the highest", 8),
+    ("curvature", "Curvature", "Mean curvature: 0.5 is flat, brighter is convex", 16),
+    ("thickness", "Thickness", "Mean length of rays inwards", 32),
+    ("bent-normal", "Bent Normal", "Mean open direction, in the frame", 64),
+    ("position", "Position", "Position in Blender's world, from 0 to 1 over the box of the detail", 128),
+]
 MEASURED = [
     ("MEASURED", "Measured", "Keeps the maps; each part gets the cheapest frame that looks the same, which the file names"),
 ]
@@ -28,6 +38,10 @@ class CotanSettings(bpy.types.PropertyGroup):
     frame: EnumProperty(
         name="Frame", items=FRAMES, default="mikktspace",
         description="Frame of the shader that will read the map",
+    )
+    maps: EnumProperty(
+        name="Maps", items=MAPS, default={"normal"}, options={"ENUM_FLAG"},
+        description="Maps to bake. Shift-click chooses several",
     )
     width: IntProperty(
         name="Width", default=2048, min=1, max=16384, subtype="PIXEL",
