@@ -10,8 +10,8 @@
 #define COTAN_MAPPING_H
 
 // Returns the frame of a projector (a decal, a slide, a planar or cylindrical map) on a surface: the parts of grad u
-// and grad v in the tangent plane. It is metric, like `gradient`: multiply t and b by the length over which the map was
-// made (the width of the decal, for a map with square texels) for bumps of the map's own steepness.
+// and grad v in the tangent plane. It is metric, like `gradient`: multiply t by the width of the decal and b by its
+// height for bumps of the map's own steepness.
 // n: the surface normal, any length. grad_u, grad_v: changes of u and v per unit of length, in the space of n. A box
 // with the unit axes x, y and the sizes w, h has x / w and y / h; with v downwards -y / h. Mirrored and turned
 // boxes need nothing else.

@@ -25,6 +25,15 @@
 #ifndef COTAN_PARALLAX_H
 #define COTAN_PARALLAX_H
 
+// Returns the length of a ray per unit of height, 1 / up, where up = n . d of unit vectors. It falls from 20 at
+// up = 0.05 to zero at the horizon and below, and is zero for a NaN.
+COTAN_FUNCTION cotan_real cotan_length_per_height(cotan_real up)
+{
+    cotan_real lowest = cotan_real(0.05);
+    cotan_real fading = up > cotan_real(0.0) ? up / (lowest * lowest) : cotan_real(0.0);
+    return up >= lowest ? cotan_real(1.0) / up : fading;
+}
+
 // Returns the change of (u, v) per unit of height along a ray. Total.
 // f: `gradient`. direction: away from the surface, to the eye or to a light; any length.
 // Degenerate input: rays within 2.9 degrees of the surface (n . direction < 0.05) are taken as at 2.9 degrees, with a
@@ -33,9 +42,7 @@ COTAN_FUNCTION cotan_vec2 cotan_uv_per_height(cotan_frame f, cotan_vec3 directio
 {
     cotan_vec3 zero = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
     cotan_vec3 d = cotan_normalize_or(direction, zero);
-    cotan_real lowest = cotan_real(0.05);
-    cotan_real up = dot(f.n, d);
-    cotan_real k = up >= lowest ? cotan_real(1.0) / up : max(up, cotan_real(0.0)) / (lowest * lowest);
+    cotan_real k = cotan_length_per_height(dot(f.n, d));
     cotan_vec2 travel = cotan_vec2(dot(f.t, d) * k, dot(f.b, d) * k);
     bool usable = abs(travel.x) + abs(travel.y) <= COTAN_HUGE;
     return usable ? travel : cotan_vec2(cotan_real(0.0), cotan_real(0.0));
@@ -96,12 +103,14 @@ COTAN_FUNCTION cotan_relief cotan_relief_next(cotan_relief r, cotan_real height)
 
 // Returns the distance along the line of sight from the surface to the point that was found, in units of `depth`: add
 // it to the distance of the pixel for a depth that meets other objects where the relief does (gl_FragDepth).
-// r: after the last reading. depth, to_eye: as for cotan_relief_start.
+// r: after the last reading. depth, to_eye: as for cotan_relief_start. It fades at grazing views as the relief does;
+// views from below give zero.
 COTAN_FUNCTION cotan_real cotan_relief_distance(cotan_relief r, cotan_frame f, cotan_vec3 to_eye, cotan_real depth)
 {
-    cotan_vec3 d = cotan_normalize_or(to_eye, f.n);
+    cotan_vec3 zero = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
     bool usable = depth > cotan_real(0.0) && depth <= COTAN_HUGE;
-    return usable ? r.at * depth / max(dot(f.n, d), cotan_real(0.05)) : cotan_real(0.0);
+    cotan_real length_per_height = cotan_length_per_height(dot(f.n, cotan_normalize_or(to_eye, zero)));
+    return usable ? r.at * depth * length_per_height : cotan_real(0.0);
 }
 
 // Returns the search for the relief's own shadow: from a point of the relief up to the surface, towards a light. Run it

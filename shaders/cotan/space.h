@@ -38,9 +38,11 @@ COTAN_FUNCTION cotan_vec3 cotan_texture_travel(cotan_frame f, cotan_vec3 v)
     return cotan_vec3(dot(f.t, v), dot(f.b, v), dot(f.n, v));
 }
 
-// Returns the unit direction on the surface in which the grooves of an anisotropic surface run, perpendicular to the
-// perturbed normal n. (1, 0) gives dP/du, along increasing u at constant v, whether t and b are tangents or gradients,
-// since grad v is perpendicular to dP/du. (0, 1) gives the direction perpendicular to it, on the side of increasing v.
+// Returns a unit direction of the texture on the surface, perpendicular to the perturbed normal n, for anisotropic
+// highlights. (1, 0) gives dP/du, along increasing u at constant v, whether t and b are tangents or gradients, since
+// grad v is perpendicular to dP/du. (0, 1) gives the direction perpendicular to it, on the side of increasing v.
+// glTF stretches the highlight along this direction (KHR_materials_anisotropy); where it is the direction of grooves,
+// as of brushed metal or hair, the highlight is stretched across it.
 // t itself is along dP/du only where it is perpendicular to b.
 // f: the frame of the uv set that the direction belongs to. n: unit. along: for glTF's anisotropyRotation r in radians
 // (cos(r), -sin(r)), since v runs down there; where the texture has a transform, in the transformed coordinates.

@@ -1,6 +1,7 @@
 #include "cotan/shader_text.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "entry.hpp"
@@ -50,12 +51,14 @@ std::vector<std::string> rootsOf(const Module& module, const Choice& choice)
     std::vector<std::string> roots;
     for (const Set set : choice.sets) {
         if (set == Set::light && isGodotShader(choice)) {
-            roots = functionsOfLight();
+            std::ranges::copy(functionsOfLight(), std::back_inserter(roots));
             continue;
         }
         parts.insert(name(set));
         if (set == Set::light)
             parts.insert("sheen");
+        if (set == Set::parallax)
+            roots.push_back("cotan_frame_gradient"); // which it needs, whatever frame lights the map
     }
     for (const Function& f : module.functions)
         if (parts.contains(f.part))
