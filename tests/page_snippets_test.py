@@ -25,14 +25,25 @@ layout(binding = 1) uniform sampler2D normal_map;
 layout(binding = 2) uniform sampler2D decal_map;
 layout(binding = 3) uniform sampler2D detail_map;
 layout(binding = 4) uniform sampler2D map;
-layout(binding = 5) uniform Inputs { vec3 x, y, box_centre, ray, l, v; float w, h, depth, opacity, strength, r; };
+layout(binding = 5) uniform sampler2D decal_colour_map;
+layout(binding = 6) uniform Inputs {
+    mat4 clip_from_position;
+    vec3 x, y, z, box_centre, ray, l, v;
+    vec2 wind;
+    float w, h, deep, depth, opacity, strength, r, time;
+};
 layout(location = 0) out vec4 color;
 """
 # What the page declares before, or the reader has.
 EARLIER = {
     "f": "cotan_frame f = cotan_frame_gradient(n, dFdx(position), dFdy(position), dFdx(uv), dFdy(uv));",
     "texel": "vec3 texel = texture(normal_map, uv).xyz;",
+    "f2": "cotan_frame f2 = cotan_frame_gradient(n, dFdx(position), dFdy(position), dFdx(uv2), dFdy(uv2));",
+    "unit": "float unit = 2.0;",
+    "unit2": "float unit2 = 2.0;",
     "slope": "vec2 slope = vec2(0.1);",
+    "below": "vec3 below = cotan_gradient_of_slope(f, vec2(0.1));",
+    "cotan_relief_distance": "cotan_relief r = cotan_relief_start(f, to_eye, uv, depth, 16.0);",
     "dx": "vec2 dx = dFdx(uv);",
     "dy": "vec2 dy = dFdy(uv);",
     "normal": "vec3 normal = n;",
@@ -66,8 +77,11 @@ def main():
             functions += block
             why = compiled(INPUTS + text + functions + "void main() { color = vec4(1.0); }\n")
         else:
-            missing = [line for name, line in EARLIER.items() if re.search(rf"\b{name}\b", block)
-                       and not re.search(rf"(\w+ |, ){name} =", block)]
+            missing = []
+            for name, line in EARLIER.items():  # `below` needs f
+                used = block + "".join(line for other, line in EARLIER.items() if re.search(rf"\b{other}\b", block))
+                if re.search(rf"\b{name}\b", used) and not re.search(rf"(\w+ |, ){name} =", block):
+                    missing.append(line)
             body = "\n".join(missing) + "\n{\n" + block + "}\ncolor = vec4(1.0);"
             why = compiled(INPUTS + text + functions + "void main()\n{\n" + body + "\n}\n")
         if why:
