@@ -23,6 +23,7 @@ void main()
     sum += cotan_apply(cotan_frame_smooth(n, p, m), m);
     sum += cotan_apply(cotan_frame_vertex(n, p, 1.0), m);
     sum += cotan_apply(cotan_frame_mikktspace(n, p, 1.0), m);
+    sum += cotan_apply(cotan_frame_area_weighted(n, p, 1.0), m);
     sum += cotan_perturb_cotangent(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv), m);
     sum += cotan_perturb_cotangent_area(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv), m);
     sum += cotan_perturb_cotangent_seen(n, dFdx(p), dFdy(p), dFdx(uv), dFdy(uv), m, -1.0);

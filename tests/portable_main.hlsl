@@ -22,6 +22,7 @@ float4 main(float3 n : TEXCOORD0, float3 p : TEXCOORD1, float2 uv : TEXCOORD2) :
     sum += cotan_apply(cotan_frame_smooth(n, p, m), m);
     sum += cotan_apply(cotan_frame_vertex(n, p, 1.0), m);
     sum += cotan_apply(cotan_frame_mikktspace(n, p, 1.0), m);
+    sum += cotan_apply(cotan_frame_area_weighted(n, p, 1.0), m);
     sum += cotan_perturb_cotangent(n, ddx(p), ddy(p), ddx(uv), ddy(uv), m);
     sum += cotan_perturb_cotangent_area(n, ddx(p), ddy(p), ddx(uv), ddy(uv), m);
     sum += cotan_perturb_cotangent_seen(n, ddx(p), ddy(p), ddx(uv), ddy(uv), m, -1.0);

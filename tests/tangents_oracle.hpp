@@ -34,12 +34,12 @@ inline std::vector<glm::vec4> readOracle(const std::filesystem::path& file)
     return tangents;
 }
 
-// Whether two tangents have different w, or differ by more than 0.05 degrees. Sums of floats in another order differ by
-// less, even near cancellation. Where directions cancel out, both tangents are zero.
-inline bool differ(glm::vec4 a, glm::vec4 b)
+// Whether two tangents have different w, or differ by more degrees. Sums of floats in another order differ by less than
+// 0.05, even near cancellation. Where directions cancel out, both tangents are zero.
+inline bool differ(glm::vec4 a, glm::vec4 b, float degrees = 0.05f)
 {
-    constexpr float kTolerance = 0.05f * std::numbers::pi_v<float> / 180;
-    return !(glm::length(glm::vec3(a) - glm::vec3(b)) <= kTolerance) || a.w != b.w;
+    const float tolerance = degrees * std::numbers::pi_v<float> / 180;
+    return !(glm::length(glm::vec3(a) - glm::vec3(b)) <= tolerance) || a.w != b.w;
 }
 
 // Whether both tangents are (1,0,0), which means no direction. mikktspace.c then has w = -1 for either direction of v,

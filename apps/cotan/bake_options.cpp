@@ -343,8 +343,9 @@ void declareBakeOptions(Arguments& a, BakeCommandOptions& o)
          "tiles of the texture coordinates to bake: 1001 to 1999, separated by commas, or all that triangles cover; "
          "<UDIM> in -o and --mask is the number, else map.png of several becomes map.1002.png (default: 1001)")
         .in("N");
-    addTangentsOption(a, model.tangents,
-                      "for the frames vertex and mikktspace: stored (generated where missing) or generated");
+    addTangentsOption(
+        a, model.tangents,
+        "for frames of tangents (mikktspace, area-weighted, vertex): stored (generated where missing) or generated");
     a.choice("--high-normals", o.job.highNormals, kHighSources,
              "normals of the high mesh: smooth, curved (where its triangles are larger than texels), face (flat "
              "triangles) or map (its own normal map)");

@@ -133,6 +133,10 @@ std::string readersOf(Frame frame)
         return "the map is for the frame mikktspace: Unity, Unreal, Godot, Blender and glTF viewers read it with "
                "tangents "
                "that they generate or import, Cotan's shaders without tangents with the frame orthonormal";
+    if (frame == Frame::areaWeighted)
+        return "the map is for the frame area-weighted: engines that make tangents by meshoptimizer's defaults read "
+               "it, "
+               "and glTF viewers with the tangents of this frame in the file (cotan tangents --frame area-weighted)";
     return fmt::format("the map is for the frame {0}: read it with that; engines use MikkTSpace tangents and show it "
                        "wrongly (--frame mikktspace is for them)",
                        name(frame));

@@ -257,19 +257,17 @@ void declare(Arguments& a, ConvertCommandOptions& o)
         .in("FRAME")
         .offers(frameWords())
         .main();
-    a.option(
-         "--to-frame", o.to,
-         "frame to make the maps for; mikktspace and vertex write TANGENT, all others drop it (default: the maps stay, "
-         "each primitive is read with the frame that is near enough, and tangents stay where none is)")
+    a.option("--to-frame", o.to,
+             "frame to make the maps for; those of tangents write TANGENT, all others drop it (default: the maps stay, "
+             "each primitive is read with the frame that is near enough, and tangents stay where none is)")
         .in("FRAME")
         .offers(frameWords())
         .main();
     addListOfFrames(a);
     addOlderName(a, "--from", "--from-frame", o.from);
     addOlderName(a, "--to", "--to-frame", o.to);
-    addTangentsOption(
-        a, o.maps.frames.fromTangents,
-        "for --from-frame mikktspace or vertex: stored (as in the file, generated where missing) or generated");
+    addTangentsOption(a, o.maps.frames.fromTangents,
+                      "for a --from-frame of tangents: stored (as in the file, generated where missing) or generated");
     a.flag("--keep-maps", o.maps.keepMaps,
            "keep the maps byte for byte, to be read with --to-frame, and drop only the tangents; where these reverse "
            "green of a map, its green is reversed, or they stay. Without --to-frame this is the default")

@@ -113,7 +113,8 @@ void declare(Arguments& a, MapConvertCommandOptions& o)
     a.option("--material", o.material, "with --mesh: only triangles of this material; -1: all")
         .within(-1, 1 << 20)
         .in("N");
-    addTangentsOption(a, o.tangents, "with --mesh, for the frames vertex and mikktspace: stored or generated");
+    addTangentsOption(a, o.tangents,
+                      "with --mesh, for frames of tangents (mikktspace, area-weighted, vertex): stored or generated");
 }
 
 } // namespace

@@ -33,7 +33,8 @@ Result<TangentsJob> jobOf(const TangentsCommandOptions& o)
 {
     const auto frame = frameFromName(o.frame);
     if (!frame || !readsVertices(*frame))
-        return usageError(fmt::format("--frame: expected mikktspace, vertex or smooth; found '{}'", o.frame));
+        return usageError(
+            fmt::format("--frame: expected mikktspace, area-weighted, vertex or smooth; found '{}'", o.frame));
     if (frame == Frame::smooth && !o.output.empty())
         return usageError("--frame smooth is derived when a model is loaded and never stored; leave "
                           "out -o for its statistics");
@@ -70,7 +71,9 @@ std::string chosenFor(const PrimitiveTangents& p, const std::vector<PrimitiveDec
 // Compares stored tangents with generated ones.
 Result<TangentsReport> compare(OpenGltf& model, const TangentsOptions& options)
 {
-    const std::string reference = options.frame == Frame::vertex ? "the classic tangents" : "MikkTSpace";
+    const std::string reference = options.frame == Frame::vertex ? "the classic tangents"
+        : options.frame == Frame::areaWeighted                   ? "meshoptimizer's"
+                                                                 : "MikkTSpace";
     COTAN_TRY(compared, compareTangents(model.document, options));
     COTAN_TRY(
         decisions,
@@ -85,6 +88,9 @@ Result<TangentsReport> compare(OpenGltf& model, const TangentsOptions& options)
         } else if (p.difference) {
             row.update(toJson(*p.difference));
             text = toText(*p.difference, reference);
+            row["area_weighted"] = p.areaWeighted;
+            if (p.areaWeighted)
+                text += "; equal to area-weighted, meshoptimizer's tangents";
         }
         report.lines.push_back(
             fmt::format("{} ({} triangles): {}{}", p.name, p.triangles, text, chosenFor(p, *decisions)));
@@ -193,10 +199,10 @@ void declare(Arguments& a, TangentsCommandOptions& o)
 {
     a.option("MODEL", o.model, "glTF or GLB file").required().reads();
     a.option("--frame", o.frame,
-             "mikktspace (every shared edge joined, as in three.js 0.187), vertex (classic averages), or smooth "
-             "(statistics only)")
+             "mikktspace (every shared edge joined, as in three.js 0.187), area-weighted (meshoptimizer's default), "
+             "vertex (classic averages), or smooth (statistics only)")
         .in("NAME")
-        .offers({"mikktspace", "vertex", "smooth"})
+        .offers({"mikktspace", "area-weighted", "vertex", "smooth"})
         .main();
     a.flag("--replace", o.replace,
            "generate tangents also where the file has them; without this only where they are missing")

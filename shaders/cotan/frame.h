@@ -308,4 +308,10 @@ COTAN_FUNCTION cotan_frame cotan_frame_mikktspace(cotan_vec3 n, cotan_vec3 t, co
     return f;
 }
 
+// `area_weighted`: the same with the tangents of meshoptimizer, which weight triangles by their area too.
+COTAN_FUNCTION cotan_frame cotan_frame_area_weighted(cotan_vec3 n, cotan_vec3 t, cotan_real alongV)
+{
+    return cotan_frame_mikktspace(n, t, alongV);
+}
+
 #endif

@@ -65,11 +65,12 @@ void mapByFrames(const char* frame, const auto* points, const float* from, float
 Frame checkedTangents(const char* kind, int threads, const float* tangents)
 {
     const std::string_view which = word(kind, "kind");
-    if (which != "vertex" && which != "mikktspace")
-        fail(ErrorKind::usage, "kind: expected mikktspace or vertex, found '", which, "'");
+    const bool byArea = which == "area-weighted";
+    if (which != "vertex" && which != "mikktspace" && !byArea)
+        fail(ErrorKind::usage, "kind: expected mikktspace, area-weighted or vertex, found '", which, "'");
     require(threads >= 0, "threads: expected 0 or more");
     require(tangents, "tangents: expected an array, found null");
-    return which == "vertex" ? Frame::vertex : Frame::mikktspace;
+    return byArea ? Frame::areaWeighted : which == "vertex" ? Frame::vertex : Frame::mikktspace;
 }
 
 void storeCotangents(const Cotangents& made, float* u, float* v)
@@ -139,8 +140,9 @@ cotan_status cotan_tangents_with_progress(const char* kind, const cotan_mesh* me
         const Frame frame = checkedTangents(kind, threads, tangents);
         const MeshView view = viewOf(mesh);
         const Progress reported = progressOf(progress, user);
-        put(valueOf(frame == Frame::vertex ? vertexTangentsWithProgress(view, reported)
-                                           : mikktspaceTangents(view, threads, reported)),
+        put(valueOf(frame == Frame::vertex             ? vertexTangentsWithProgress(view, reported)
+                        : frame == Frame::areaWeighted ? areaWeightedTangents(view, threads, reported)
+                                                       : mikktspaceTangents(view, threads, reported)),
             tangents, "tangents");
     });
 }

@@ -1,6 +1,6 @@
 // MikkTSpace, implemented from its description. The steps: weld equal vertices; derive a tangent direction and an
 // orientation for every triangle; find neighbours across shared edges; form groups of triangles of one orientation that
-// are connected around a vertex; average each group, weighted by angle.
+// are connected around a vertex; average each group, weighted by angle, or for areaWeightedTangents by angle and sides.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -200,7 +200,8 @@ void averageGroup(const Triangles& t, std::span<const std::uint32_t> group, Memb
     const glm::vec3 n = t.normal(group[0]);
     const bool preserving = t.has(group[0] / 3, kPreserving);
     glm::vec3 sum;
-    if (sumInOneHalf(t, group, out, n, sum) || group.size() > kLargeGroup) {
+    // meshoptimizer averages opposite directions, too.
+    if (sumInOneHalf(t, group, out, n, sum) || t.weight == Weight::area || group.size() > kLargeGroup) {
         const glm::vec4 tangent = storedTangent(sum, preserving);
         for (const std::uint32_t c : group)
             out[c] = tangent;
@@ -403,9 +404,8 @@ void inheritAtDegenerate(const Triangles& t, const CornersAt& at, std::span<glm:
 // Starting a thread takes as long as several thousand triangles.
 constexpr std::size_t kTrianglesPerThread = 8192;
 
-} // namespace
-
-bool mikktspace::makeTangents(const MeshView& mesh, int threads, const Listener& listener, std::vector<glm::vec4>& out)
+bool makeWeighted(const MeshView& mesh, Weight weight, int threads, const Listener& listener,
+                  std::vector<glm::vec4>& out)
 {
     const std::size_t used = threadsFor(mesh.indices.size() / 3, kTrianglesPerThread, threads);
     CornersAt at;
@@ -418,7 +418,7 @@ bool mikktspace::makeTangents(const MeshView& mesh, int threads, const Listener&
     LargeArray<std::uint32_t> firstVertex = tangents::weld(mesh, used, sideTask);
     if (!listener(kWelded))
         return false;
-    Triangles t = makeTriangles(mesh, std::move(firstVertex), used, out);
+    Triangles t = makeTriangles(mesh, weight, std::move(firstVertex), used, out);
     if (!listener(kDerived))
         return false;
     addCorners(t, used, at);
@@ -433,12 +433,35 @@ bool mikktspace::makeTangents(const MeshView& mesh, int threads, const Listener&
     return listener(1);
 }
 
-std::vector<glm::vec4> mikktspaceTangents(const MeshView& mesh, int threads)
+std::vector<glm::vec4> weightedTangents(const MeshView& mesh, Weight weight, int threads)
 {
     std::vector<glm::vec4> out;
     if (tangents::usable(mesh, threadsFor(mesh.indices.size() / 3, kTrianglesPerThread, threads)))
-        mikktspace::makeTangents(mesh, threads, {}, out);
+        makeWeighted(mesh, weight, threads, {}, out);
     return out;
+}
+
+} // namespace
+
+bool mikktspace::makeTangents(const MeshView& mesh, int threads, const Listener& listener, std::vector<glm::vec4>& out)
+{
+    return makeWeighted(mesh, Weight::angle, threads, listener, out);
+}
+
+bool mikktspace::makeAreaWeighted(const MeshView& mesh, int threads, const Listener& listener,
+                                  std::vector<glm::vec4>& out)
+{
+    return makeWeighted(mesh, Weight::area, threads, listener, out);
+}
+
+std::vector<glm::vec4> mikktspaceTangents(const MeshView& mesh, int threads)
+{
+    return weightedTangents(mesh, Weight::angle, threads);
+}
+
+std::vector<glm::vec4> areaWeightedTangents(const MeshView& mesh, int threads)
+{
+    return weightedTangents(mesh, Weight::area, threads);
 }
 
 } // namespace cotan

@@ -12,8 +12,10 @@ namespace cotan::mikktspace {
 
 using tangents::kNone;
 
-// Computes the mikktspaceTangents of a usable mesh in `out`. Returns false if the listener stops it.
+// Compute the mikktspaceTangents and areaWeightedTangents of a usable mesh in `out`. Return false if the listener stops
+// them.
 bool makeTangents(const MeshView& mesh, int threads, const Listener& listener, std::vector<glm::vec4>& out);
+bool makeAreaWeighted(const MeshView& mesh, int threads, const Listener& listener, std::vector<glm::vec4>& out);
 
 // ---- first step: the contribution of every triangle to the tangents at its corners -----------
 
@@ -31,8 +33,13 @@ struct VertexRange {
 };
 constexpr std::size_t kBlock = 1024; // triangles: their corners fit into the L1 cache
 
+// What a triangle weighs at a corner: its angle there, or this times the lengths of both sides, projected along the
+// normal.
+enum class Weight { angle, area };
+
 struct Triangles {
     const MeshView& mesh;
+    Weight weight = Weight::angle;
     std::size_t count = 0;
     const std::uint32_t* vertices = nullptr; // three per triangle, welded; the mesh's own if no vertices are equal
     LargeArray<std::uint32_t> welded;
@@ -51,8 +58,8 @@ constexpr std::size_t nextCorner(std::size_t corner) { return corner % 3 == 2 ? 
 constexpr std::size_t previousCorner(std::size_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
 // Derives all triangles. firstVertex: per vertex the first vertex that equals it. contributions: set for every corner
-// to the unit dP/du in the plane of its normal, times the angle that weights the triangle there.
-Triangles makeTriangles(const MeshView& mesh, LargeArray<std::uint32_t> firstVertex, std::size_t threads,
+// to the unit dP/du in the plane of its normal, times the weight of the triangle there.
+Triangles makeTriangles(const MeshView& mesh, Weight weight, LargeArray<std::uint32_t> firstVertex, std::size_t threads,
                         std::span<glm::vec4> contributions);
 
 // Returns the unit dP/du of a triangle, or zero.

@@ -8,6 +8,7 @@ namespace {
 
 using tangents::fastArcCosine;
 using tangents::projectedAngle;
+using tangents::projectedSides;
 using tangents::projectedUnit;
 using tangents::put;
 using tangents::vectorAt;
@@ -43,12 +44,13 @@ inline Directions directionsOf(glm::vec3 p0, glm::vec3 p1, glm::vec3 p2, glm::ve
             select(usable & (lengthV > FLT_MIN), v * (sign / lengthV)), area > 0 && !degenerate, !directed, degenerate};
 }
 
-// tangents::projectedUnit(u, n) * tangents::projectedAngle(p, previous, next, n), valid if `sound`.
+// tangents::projectedUnit(u, n) times the weight of the corner, valid if `sound`.
 struct Contribution {
     glm::vec3 value;
     bool sound; // no length needs double precision
 };
 
+template<Weight kWeight>
 inline Contribution contributionOf(glm::vec3 u, glm::vec3 n, glm::vec3 p, glm::vec3 previous, glm::vec3 next)
 {
     const glm::vec3 t = u - n * glm::dot(n, u);
@@ -57,7 +59,9 @@ inline Contribution contributionOf(glm::vec3 u, glm::vec3 n, glm::vec3 p, glm::v
     const glm::vec3 b = toNext - n * glm::dot(n, toNext);
     const float tt = glm::dot(t, t), aa = glm::dot(a, a), bb = glm::dot(b, b);
     const bool sound = (tt > 1e-15f) & (tt < 1e15f) & (aa > 1e-15f) & (aa < 1e15f) & (bb > 1e-15f) & (bb < 1e15f);
-    return {t * (1 / std::sqrt(tt)) * fastArcCosine(glm::dot(a, b) / std::sqrt(aa * bb)), sound};
+    const float sides = std::sqrt(aa * bb);
+    const glm::vec3 value = t * (1 / std::sqrt(tt)) * fastArcCosine(glm::dot(a, b) / sides);
+    return {kWeight == Weight::area ? value * sides : value, sound};
 }
 
 // Triangles side by side, one per lane.
@@ -70,12 +74,12 @@ struct Batch {
     Lane contribution[3][3];
     std::int32_t flags[kLanes], sound[kLanes];
 
-    [[gnu::always_inline]] inline void derive()
+    template<Weight kWeight> [[gnu::always_inline]] inline void derive()
     {
         std::fill_n(sound, kLanes, 1);
         deriveDirections();
         for (std::size_t k = 0; k < 3; ++k)
-            deriveContributions(k);
+            deriveContributions<kWeight>(k);
     }
 
 private:
@@ -93,12 +97,12 @@ private:
         }
     }
 
-    [[gnu::always_inline]] inline void deriveContributions(std::size_t k)
+    template<Weight kWeight> [[gnu::always_inline]] inline void deriveContributions(std::size_t k)
     {
         const auto &p = position[k], &next = position[(k + 1) % 3], &previous = position[(k + 2) % 3], &n = normal[k];
         for (std::size_t l = 0; l < kLanes; ++l) {
-            const Contribution c = contributionOf(vectorAt(u, l), vectorAt(n, l), vectorAt(p, l), vectorAt(previous, l),
-                                                  vectorAt(next, l));
+            const Contribution c = contributionOf<kWeight>(vectorAt(u, l), vectorAt(n, l), vectorAt(p, l),
+                                                           vectorAt(previous, l), vectorAt(next, l));
             put(contribution[k], l, select((flags[l] & kJoinsAny) == 0, c.value));
             sound[l] &= c.sound ? 1 : 0;
         }
@@ -107,15 +111,15 @@ private:
 
 #if defined(__x86_64__) && defined(__GNUC__)
 // Eight lanes at a time if the CPU supports it. Without fused multiply-add, so that the values are the same.
-[[gnu::target("avx2")]] void deriveEight(Batch& batch) { batch.derive(); }
+template<Weight kWeight> [[gnu::target("avx2")]] void deriveEight(Batch& batch) { batch.derive<kWeight>(); }
 
-void derive(Batch& batch)
+template<Weight kWeight> void derive(Batch& batch)
 {
     static const bool eight = __builtin_cpu_supports("avx2") != 0;
-    eight ? deriveEight(batch) : batch.derive();
+    eight ? deriveEight<kWeight>(batch) : batch.derive<kWeight>();
 }
 #else
-void derive(Batch& batch) { batch.derive(); }
+template<Weight kWeight> void derive(Batch& batch) { batch.derive<kWeight>(); }
 #endif
 
 void gather(const Triangles& t, std::size_t first, std::size_t lanes, Batch& batch)
@@ -131,12 +135,14 @@ void gather(const Triangles& t, std::size_t first, std::size_t lanes, Batch& bat
         }
 }
 
-// Returns the angle that weights a corner's triangle; 0 for a triangle without a direction.
+// Returns the weight of a corner's triangle; 0 for a triangle without a direction.
 float weightOf(const Triangles& t, std::size_t c)
 {
     if (t.has(c / 3, kJoinsAny))
         return 0;
-    return projectedAngle(t.position(c), t.position(previousCorner(c)), t.position(nextCorner(c)), t.normal(c));
+    const glm::vec3 p = t.position(c), previous = t.position(previousCorner(c)), next = t.position(nextCorner(c));
+    const float angle = projectedAngle(p, previous, next, t.normal(c));
+    return t.weight == Weight::angle ? angle : angle * projectedSides(p, previous, next, t.normal(c));
 }
 
 void scatter(const Batch& batch, std::size_t first, std::size_t lanes, Triangles& t, std::span<glm::vec4> contributions)
@@ -166,7 +172,7 @@ VertexRange rangeOf(std::span<const std::uint32_t> vertices)
 
 } // namespace
 
-Triangles makeTriangles(const MeshView& mesh, LargeArray<std::uint32_t> firstVertex, std::size_t threads,
+Triangles makeTriangles(const MeshView& mesh, Weight weight, LargeArray<std::uint32_t> firstVertex, std::size_t threads,
                         std::span<glm::vec4> contributions)
 {
     const std::size_t count = mesh.indices.size() / 3;
@@ -174,7 +180,7 @@ Triangles makeTriangles(const MeshView& mesh, LargeArray<std::uint32_t> firstVer
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
         moved |= firstVertex[v] ^ v;
     const std::size_t blocks = (count + kBlock - 1) / kBlock;
-    Triangles t{mesh, count, mesh.indices.data(), {}, makeLargeArray<std::uint8_t>(count), {}, {}};
+    Triangles t{mesh, weight, count, mesh.indices.data(), {}, makeLargeArray<std::uint8_t>(count), {}, {}};
     t.alongV = makeLargeArray<glm::vec3>(count);
     t.ranges.assign(blocks, {0, kNone});
     if (moved != 0)
@@ -191,7 +197,7 @@ Triangles makeTriangles(const MeshView& mesh, LargeArray<std::uint32_t> firstVer
             for (std::size_t first = begin; first < end; first += kLanes) {
                 const std::size_t lanes = std::min(kLanes, end - first);
                 gather(t, first, lanes, *batch);
-                derive(*batch);
+                weight == Weight::area ? derive<Weight::area>(*batch) : derive<Weight::angle>(*batch);
                 scatter(*batch, first, lanes, t, contributions);
             }
         }

@@ -181,6 +181,8 @@ std::vector<glm::vec4> generateTangents(Frame frame, const MeshView& mesh, int t
 {
     if (frame == Frame::mikktspace)
         return mikktspaceTangents(mesh, threads);
+    if (frame == Frame::areaWeighted)
+        return areaWeightedTangents(mesh, threads);
     return frame == Frame::vertex ? vertexTangents(mesh) : std::vector<glm::vec4>{};
 }
 
@@ -246,6 +248,11 @@ Result<Made> made(bool (*make)(const MeshView&, int, const Listener&, Made&), co
 Result<std::vector<glm::vec4>> mikktspaceTangents(const MeshView& mesh, int threads, const Progress& progress)
 {
     return made(mikktspace::makeTangents, mesh, threads, progress);
+}
+
+Result<std::vector<glm::vec4>> areaWeightedTangents(const MeshView& mesh, int threads, const Progress& progress)
+{
+    return made(mikktspace::makeAreaWeighted, mesh, threads, progress);
 }
 
 Result<Cotangents> smoothCotangents(const MeshView& mesh, int threads, const Progress& progress)

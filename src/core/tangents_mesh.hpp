@@ -175,4 +175,12 @@ inline float projectedAngle(glm::vec3 corner, glm::vec3 previous, glm::vec3 next
     return fastArcCosine(cosine);
 }
 
+// Returns the product of the lengths of these two sides.
+inline float projectedSides(glm::vec3 corner, glm::vec3 previous, glm::vec3 next, glm::vec3 n)
+{
+    const glm::dvec3 toPrevious = previous - corner, toNext = next - corner, along(n);
+    return static_cast<float>(glm::length(toPrevious - along * glm::dot(along, toPrevious))
+                              * glm::length(toNext - along * glm::dot(along, toNext)));
+}
+
 } // namespace cotan::tangents

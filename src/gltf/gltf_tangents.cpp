@@ -52,8 +52,8 @@ Result<std::vector<PrimitiveTangents>> rowsOf(const GltfDocument& document, cons
                                               const Visit& visit)
 {
     if (!readsTangents(options.frame))
-        return usageError(
-            fmt::format("tangents: expected the frame mikktspace or vertex; found {}", name(options.frame)));
+        return usageError(fmt::format("tangents: expected the frame mikktspace, area-weighted or vertex; found {}",
+                                      name(options.frame)));
     std::vector<PrimitiveTangents> rows;
     std::size_t all = 0, done = 0;
     for (std::size_t m = 0; m < countOf(rootOf(document), "meshes"); ++m)
@@ -127,6 +127,12 @@ Result<CompareTangentsResult> compareTangents(const GltfDocument& document, cons
         row.difference = tangentDifference(read.view(), read.geometry.tangents,
                                            generateTangents(options.frame, read.view(), options.threads));
         append(compared.whole, *row.difference);
+        // Not for nearly equal ones: flat and evenly tessellated meshes have both.
+        if (options.frame == Frame::mikktspace && verdictOf(*row.difference) == TangentVerdict::off)
+            row.areaWeighted =
+                verdictOf(tangentDifference(read.view(), read.geometry.tangents,
+                                            generateTangents(Frame::areaWeighted, read.view(), options.threads)))
+                == TangentVerdict::equal;
     });
     if (!rows)
         return rows.error();

@@ -228,7 +228,8 @@ std::vector<PictureOption> makeTable()
                "lines over the image: none, triangles, seams (of uv: yellow; mirrored: magenta; borders: cyan) or all"),
         choice("shading", look, &Options::shading, kShadings, "shading model: pbr or blinn-phong"),
         choice("tangents", frame, &Options::tangents, kTangentOrigins,
-               "for the frames vertex and mikktspace: stored (as in the file, generated where missing) or generated"),
+               "for frames of tangents (mikktspace, area-weighted, vertex): stored (as in the file, generated where "
+               "missing) or generated"),
         number("max-degrees", frame, "D", &Options::maxDegrees, kChoiceDegrees,
                "error of normals, on average over a part of a model, that its frame may cause; ten times as much on "
                "1 % of its area"),

@@ -1,7 +1,8 @@
-// MikkTSpace by three.js and by npm's mikktspace: node mikktspace.mjs NODE_MODULES MESHES OUT
+// Tangents by three.js, by npm's mikktspace, and by meshoptimizer with its own weights: node mikktspace.mjs NODE_MODULES MESHES OUT
 // MESHES: for each mesh the number of corners as uint32, then positions, normals and texcoords of all corners as
 // float32.
-// OUT: for each mesh the tangents of three.js, then those of mikktspace, four float32 per corner; zeros if it throws.
+// OUT: for each mesh the tangents of three.js, then those of mikktspace (zeros if it throws), then those of meshoptimizer,
+// four float32 per corner.
 import fs from 'node:fs';
 import path from 'node:path';
 import { createRequire } from 'node:module';
@@ -11,6 +12,9 @@ const [modules, file, out] = process.argv.slice(2);
 const base = path.resolve(modules);
 const mikktspace = createRequire(path.join(base, 'x.js'))(path.join(base, 'mikktspace'));
 const three = await import(pathToFileURL(path.join(base, 'three/examples/jsm/libs/mikktspace.module.js')));
+
+const { MeshoptTangents } = await import(pathToFileURL(path.join(base, 'meshoptimizer/meshopt_tangents.js')));
+await MeshoptTangents.ready;
 
 const bytes = fs.readFileSync(file);
 const buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length);
@@ -24,5 +28,7 @@ for (let at = 0; at < buffer.byteLength;) {
   let reference = new Float32Array(4 * corners);
   try { reference = mikktspace.generateTangents(...mesh); } catch { /* zeros */ }
   written.push(Buffer.from(reference.slice().buffer));
+  const [positions, normals, texcoords] = mesh;
+  written.push(Buffer.from(MeshoptTangents.generateTangents(null, positions, 3, normals, 3, texcoords, 2, []).slice().buffer));
 }
 fs.writeFileSync(out, Buffer.concat(written));

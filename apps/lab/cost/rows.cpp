@@ -89,6 +89,7 @@ std::vector<Row> makeRows()
     };
 #undef COTAN_FUSED_false
 #undef COTAN_FUSED_true
+    std::erase_if(list, [](const Row& row) { return row.frame == Frame::areaWeighted; }); // the code of mikktspace
     std::ranges::stable_sort(list, {}, [](const Row& row) {
         return row.name == "floor"           ? 0
             : row.frame == Frame::mikktspace ? 1

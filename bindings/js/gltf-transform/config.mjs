@@ -38,7 +38,7 @@ const check = (io) => async ({ args, options: { json, distance, limit, limitArea
 export default {
   onProgramReady: ({ program, io }) => {
     addCommand(program, 'cotan-tangents', 'Add tangents to primitives, also to indexed ones')
-      .option('--kind <kind>', 'mikktspace or vertex', { default: 'mikktspace' })
+      .option('--kind <kind>', 'mikktspace, area-weighted or vertex', { default: 'mikktspace' })
       .option('--overwrite <overwrite>', 'Replace existing tangents', { validator: program.BOOLEAN, default: false })
       .action(run(io, ({ kind, overwrite }) => tangents({ kind, overwrite })));
     addCommand(program, 'untangent', 'Drop tangents where nobody can see it, or remake normal maps for another frame')

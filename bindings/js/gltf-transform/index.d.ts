@@ -4,7 +4,7 @@ import type { ConvertReport, Limits, LintReport, Image } from '../cotan.js';
 /** Generates tangents for every primitive, indexed or not. A vertex is duplicated where the tangents of its corners
  * differ. Existing tangents are kept unless `overwrite` is true. Primitives without triangles, normals or uv get a
  * warning instead. */
-export function tangents(options?: { kind?: 'mikktspace' | 'vertex'; overwrite?: boolean }): Transform;
+export function tangents(options?: { kind?: 'mikktspace' | 'area-weighted' | 'vertex'; overwrite?: boolean }): Transform;
 
 /** Drops TANGENT where nobody can see it. `mode` is as in `convert` of the package cotan. By default each primitive gets
  * the frame that is near enough to its tangents, which its extras name (`cotanFrame`), and maps stay byte for byte, but

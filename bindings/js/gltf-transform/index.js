@@ -6,7 +6,7 @@ import { imageIn, imageOfTexture, parsedModel } from '../src/glb.js';
 import { grownBy, kGrowth, modeOf, tooLarge } from '../src/modes.js';
 
 const named = (name, transform) => Object.defineProperty(transform, 'name', { value: name });
-const kTangentFrames = ['mikktspace', 'vertex'];
+const kTangentFrames = ['mikktspace', 'area-weighted', 'vertex'];
 
 function* primitivesOf(document) {
   for (const mesh of document.getRoot().listMeshes())
@@ -106,7 +106,7 @@ function giveTangents(document, primitive, uvs, kind) {
 export function tangents(given) {
   const o = checked(given, { kind: 'mikktspace', overwrite: false }), { kind, overwrite } = o;
   checkTypes(o, 'boolean', 'overwrite');
-  choice(kind, 'options.kind', ['mikktspace', 'vertex']);
+  choice(kind, 'options.kind', kTangentFrames);
   return named('tangents', async (document) => {
     await ready;
     const logger = document.getLogger();

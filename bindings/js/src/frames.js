@@ -3,7 +3,7 @@ import { choice, floats, options } from './arrays.js';
 import { usage, wordsFor } from './instance.js';
 
 export function frameFunctions(library) {
-  const kAtVertices = { mikktspace: ['tangents'], vertex: ['tangents'], smooth: ['u', 'v'] }; // attributes, by frame
+  const kAtVertices = { mikktspace: ['tangents'], 'area-weighted': ['tangents'], vertex: ['tangents'], smooth: ['u', 'v'] }; // attributes, by frame
   const namesOf = (s) => Array.from({ length: s.wasm.cotan_frame_count() }, (_, i) => s.textAt(s.wasm.cotan_frame_name(i)));
   const atPoints = (functions, what) => (frame, points, values) => library.run((s) => {
     choice(frame, 'frame', namesOf(s));

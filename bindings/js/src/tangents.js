@@ -56,7 +56,7 @@ export function tangentFunctions(library) {
   return {
     tangents(mesh, given) {
       const { kind } = options(given, { kind: 'mikktspace' });
-      choice(kind, 'options.kind', ['mikktspace', 'vertex']);
+      choice(kind, 'options.kind', ['mikktspace', 'area-weighted', 'vertex']);
       return withMesh(mesh, (s, m, at) => {
         const out = s.allocate(16 * m.corners);
         s.call('cotan_tangents', s.text(kind), at, 1, out);

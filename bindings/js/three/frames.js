@@ -18,7 +18,7 @@ export function namedFrame(material, warn = () => {}, geometry = undefined) {
   const found = nameIn(material, geometry);
   if (found === undefined) return undefined;
   if (kSupported.includes(found)) return found;
-  if (found === 'mikktspace' || found === 'vertex') return 'orthonormal';
+  if (/^(mikktspace|vertex|area-weighted)$/.test(found)) return 'orthonormal';
   if (found === 'exact') return 'cotangent'; // has the same directions
   warn(`material "${material.name}": ${kKey}: expected ${kSupported.join(', ')}, found ${JSON.stringify(found)}: it is ignored`);
   return undefined;

@@ -72,7 +72,7 @@ export interface SurfacePoints {
   duvdx: ArrayLike<number>;
   duvdy: ArrayLike<number>;
 }
-/** Interpolated attributes: tangents (4 numbers each) for "mikktspace" and "vertex", u and v (3 each) for "smooth". */
+/** Interpolated attributes: tangents (4 numbers each) for "mikktspace", "area-weighted" and "vertex", u and v (3 each) for "smooth". */
 export interface InterpolatedPoints {
   normals: ArrayLike<number>;
   tangents?: ArrayLike<number>;

@@ -29,10 +29,10 @@ export interface Mesh {
 }
 
 /** Tangents, 4 floats per corner in the order of the indices: x, y, z along increasing u, w as in glTF's TANGENT. The
- * default kind is "mikktspace". Corners that share a vertex may have different tangents: see `split`. x, y, z are unit,
- * but zero where "mikktspace" finds directions that cancel at a vertex. glTF requires unit length: replace such a
+ * default kind is "mikktspace"; "area-weighted" is that of meshoptimizer. Corners that share a vertex may have different tangents: see `split`. x, y, z are unit,
+ * but zero where "mikktspace" and "area-weighted" find directions that cancel at a vertex. glTF requires unit length: replace such a
  * tangent by (1, 0, 0) before you write a file, as the transforms for glTF-Transform do. */
-export function tangents(mesh: Mesh, options?: { kind?: 'mikktspace' | 'vertex' }): Float32Array;
+export function tangents(mesh: Mesh, options?: { kind?: 'mikktspace' | 'area-weighted' | 'vertex' }): Float32Array;
 
 /** Cotangents of the frame "smooth", 3 floats per vertex each. Split vertices with `splitMirrored` first. */
 export function smooth(mesh: Mesh): { u: Float32Array; v: Float32Array };

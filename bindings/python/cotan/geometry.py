@@ -155,7 +155,7 @@ def vertex_frame_apply(
     """Like `frame_apply`, for frames that are stored at the vertices and interpolated.
 
     Args:
-        frame: "mikktspace" or "vertex", which read tangents; "smooth", which reads cotangents.
+        frame: "mikktspace", "area-weighted" or "vertex", which read tangents; "smooth", which reads cotangents.
         texels: (n, 3) decoded texels.
         normals: (n, 3) interpolated normals of any length.
         tangents: (n, 4), w as in glTF's TANGENT, from `tangents`.
@@ -190,12 +190,12 @@ def tangents(
 ) -> Floats:
     """One tangent for each index: (3 t, 4) float32; x, y, z along increasing u, w as in glTF's TANGENT.
 
-    x, y, z are unit. Only "mikktspace" gives (0, 0, 0, 1) or (0, 0, 0, -1) where directions cancel at a vertex, as
+    x, y, z are unit. Only "vertex" never gives (0, 0, 0, 1) or (0, 0, 0, -1) where directions cancel at a vertex, as
     MikkTSpace does. glTF requires unit length: replace such a tangent by (1, 0, 0) before you write a file. `convert`,
     `bake` and the tool do so.
 
-    kind: "mikktspace" or "vertex". threads: 0 for all cores; the result does not depend on it. The mesh needs
-    texcoords. progress: as in `bake`; for "vertex" it is only called at the start and at the end. Raises UsageError,
+    kind: "mikktspace", "area-weighted" (meshoptimizer's default) or "vertex". threads: 0 for all cores; the result does
+    not depend on it. The mesh needs texcoords. progress: as in `bake`; for "vertex" it is only called at the start and at the end. Raises UsageError,
     InputError for an index that is out of range, and StoppedError, which leaves `out` unchanged.
     """
     out = arrays.made(out, "out", (len(mesh.indices), 4), np.float32)

@@ -23,13 +23,14 @@ Frame = Literal[
     "vertex",
     "mikktspace",
     "triangle",
+    "area-weighted",
 ]
 # "auto": the frame that the maps were made for.
 DrawnFrame = Union[Frame, Literal["auto"]]
 # Frames that are stored at the vertices.
-VertexFrame = Literal["smooth", "vertex", "mikktspace"]
+VertexFrame = Literal["smooth", "vertex", "mikktspace", "area-weighted"]
 # Frames that `lint` judges.
-Reading = Literal["cotangent", "orthonormal", "smooth", "exact", "triangle", "stored"]
+Reading = Literal["cotangent", "orthonormal", "smooth", "exact", "triangle", "area-weighted", "stored"]
 
 # How a map is stored, by the program that reads it. Words after a comma name differences: "unity,xy".
 Preset = Literal["gltf", "opengl", "directx", "unity", "unreal", "blender", "godot", "maya", "3dsmax", "source"]
@@ -42,7 +43,7 @@ HighNormals = Literal["smooth", "curved", "face", "map"]
 Search = Literal["first", "nearest"]
 Occluders = Literal["matched", "all"]
 BlendMode = Literal["reoriented", "whiteout", "udn", "slopes", "linear"]
-TangentKind = Literal["mikktspace", "vertex"]
+TangentKind = Literal["mikktspace", "area-weighted", "vertex"]
 TangentOrigin = Literal["stored", "generated"]
 Expansion = Literal["biased", "exact"]
 Up = Literal["y", "z"]

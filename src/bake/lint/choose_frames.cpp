@@ -39,7 +39,7 @@ std::shared_ptr<const Mesh> judgedPart(const Mesh& mesh)
 f64::cotan_frame frameInEngines(const MappedSurface& s, Frame frame, TangentOrigin tangents, const MeshPoint& p)
 {
     const f64::cotan_frame f = frameAt(s, frame, tangents, p.triangle, p.barycentric);
-    if (frame != Frame::mikktspace)
+    if (info(frame).normal != FrameNormal::nobody)
         return f;
     const glm::dvec4 t = tangentAt(s, frame, tangents, p.triangle, p.barycentric);
     return f64::cotan_frame_mikktspace(f64::cotan_normalize_or(f.n, f.n),

@@ -71,12 +71,14 @@ std::string whyNotJudged(const PrimitiveLint& p, const Image& map)
 // The frame of a material's maps: the one that the file names, otherwise glTF's.
 Frame madeFor(const Material& material) { return material.normalFrame.value_or(Frame::mikktspace); }
 
-// The frames that lint reads at vertices: MikkTSpace, the maps' own, and `smooth`, which may be advised.
+// The frames that lint reads at vertices: MikkTSpace, meshoptimizer's that engines may have instead, the maps' own, and
+// `smooth`, which may be advised.
 FrameSet framesOfLint(const Material& material)
 {
     FrameSet frames;
     for (const Frame frame : {Frame::mikktspace, Frame::smooth, madeFor(material)})
         frames.set(std::size_t(frame));
+    frames.set(std::size_t(Frame::areaWeighted), madeFor(material) == Frame::mikktspace);
     return frames;
 }
 

@@ -162,6 +162,8 @@ std::vector<Reading> lint::readings(const MappedSurface& s, const std::vector<Me
     std::vector<Reader> readers;
     for (Frame f : {Frame::cotangent, Frame::orthonormal, Frame::smooth, Frame::exact, Frame::triangle})
         readers.push_back({std::string(name(f)), f, TangentOrigin::generated, {}});
+    if (s.hasGenerated(Frame::areaWeighted))
+        readers.push_back({"area-weighted", Frame::areaWeighted, TangentOrigin::generated, {}});
     if (s.hasStored() && madeFor == Frame::mikktspace)
         readers.push_back({"stored", Frame::mikktspace, TangentOrigin::stored, {}});
 

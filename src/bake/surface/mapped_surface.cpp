@@ -241,12 +241,11 @@ f64::cotan_frame frameAt(const MappedSurface& s, Frame frame, TangentOrigin tang
     const SurfaceSpot spot = spotAt(s, triangle, barycentric);
     if (!s.hasUv())
         return {glm::dvec3(0), glm::dvec3(0), spot.normal};
-    // `mikktspace` takes the normal as interpolated, not unit.
     if (readsVertices(frame) && s.shared->ofCoat)
         return frameOf(spot, readsCotangents(frame) ? Frame::cotangent : Frame::orthonormal);
     if (readsVertices(frame))
         return frameOfVertices(s, frame, tangents, triangle, barycentric,
-                               frame == Frame::mikktspace ? spot.interpolated : spot.normal);
+                               info(frame).normal == FrameNormal::nobody ? spot.interpolated : spot.normal);
     return frameOf(spot, frame);
 }
 

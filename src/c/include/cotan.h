@@ -105,8 +105,8 @@ cotan_status cotan_frame_apply(const char* frame, const cotan_surface_points* po
 cotan_status cotan_frame_encode(const char* frame, const cotan_surface_points* points, const float* normals,
                                 float* texels, char* message, size_t message_size);
 
-/* The same for frames made at the vertices and interpolated: "mikktspace" and "vertex" from tangents of cotan_tangents,
- * "smooth" from cotangents of cotan_smooth_cotangents. Normals are interpolated, of any length. */
+/* The same for frames made at the vertices and interpolated: "mikktspace", "area-weighted" and "vertex" from tangents
+ * of cotan_tangents, "smooth" from cotangents of cotan_smooth_cotangents. Normals are interpolated, of any length. */
 typedef struct cotan_interpolated_points {
     size_t size;
     size_t count;
@@ -136,11 +136,11 @@ typedef struct cotan_mesh {
 /* All functions that take a mesh refuse non-finite numbers (COTAN_INPUT), and name the first: "mesh.positions[7]:
  * ...". */
 
-/* Returns one tangent per index: x, y, z along increasing u, w as in glTF's TANGENT. `kind`: "mikktspace" or "vertex".
- * threads: 0 for all cores; the result does not depend on it. tangents: 4 * index_count floats. x, y, z are unit. Only
- * "mikktspace" gives (0, 0, 0, 1) or (0, 0, 0, -1) where directions cancel at a vertex, as MikkTSpace does. glTF
- * requires unit length: replace such a tangent by (1, 0, 0) before you write a file. All functions of Cotan that write
- * glTF do so. */
+/* Returns one tangent per index: x, y, z along increasing u, w as in glTF's TANGENT. `kind`: "mikktspace",
+ * "area-weighted" (meshoptimizer's default) or "vertex". threads: 0 for all cores; the result does not depend on it.
+ * tangents: 4 * index_count floats. x, y, z are unit. Only "vertex" never gives (0, 0, 0, 1) or (0, 0, 0, -1) where
+ * directions cancel at a vertex, as MikkTSpace does. glTF requires unit length: replace such a tangent by (1, 0, 0)
+ * before you write a file. All functions of Cotan that write glTF do so. */
 cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int threads, float* tangents, char* message,
                             size_t message_size);
 

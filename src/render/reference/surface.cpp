@@ -72,8 +72,8 @@ f32::cotan_frame frameOfVertices(const SurfaceInputs& in, const Smooth& smooth, 
     if (readsCotangents(frame) || draw.tangents.empty())
         return {glm::vec3(0), glm::vec3(0), smooth.n};
     glm::vec4 tangent = interpolated(draw.tangents, triangle, weights);
-    // `mikktspace` requires the unnormalised interpolated normal.
-    return evaluateTangents(frame, frame == Frame::mikktspace ? smooth.raw : smooth.n, glm::vec3(tangent), tangent.w);
+    const glm::vec3 n = info(frame).normal == FrameNormal::nobody ? smooth.raw : smooth.n;
+    return evaluateTangents(frame, n, glm::vec3(tangent), tangent.w);
 }
 
 glm::vec3 finiteOrZero(glm::vec3 v) { return f32::cotan_sum_abs(v) <= 1e37f ? v : glm::vec3(0); }

@@ -173,7 +173,7 @@ struct PutMapOptions {
     Frame frame = Frame::mikktspace;        // that the map was made for
     std::optional<std::string> material;    // name of the material; none: all, and primitives without one get one
     Expansion expansion = Expansion::exact; // how the map stores signed numbers; the materials record it
-    bool keepTangents = false; // for mikktspace and vertex: the map was made with the file's TANGENT, which stays.
+    bool keepTangents = false; // for frames of tangents: the map was made with the file's TANGENT, which stays.
                                // Otherwise it is generated. For other frames it is dropped as by dropTangents
 };
 

@@ -108,8 +108,8 @@ struct PrimitiveLint {
     EdgeSteps steps;
     StoredTangents stored;
     Frame madeFor = Frame::mikktspace; // frame of the map: the one that the file names, otherwise glTF's
-    // cotangent, orthonormal, smooth, exact, triangle and, with tangents in the file and a map for mikktspace, stored;
-    // empty without a map
+    // cotangent, orthonormal, smooth, exact, triangle; of a map for mikktspace also area-weighted and, with tangents in
+    // the file, stored. Empty without a map
     std::vector<Reading> readings;
     double precision = 0; // degrees of error by rounding of float derivatives at LintOptions::distance
     double closest = 0;   // distance at which that is half a degree; both are 0 if uv have no gradient

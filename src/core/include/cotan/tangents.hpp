@@ -1,4 +1,4 @@
-// Tangents and cotangents from a mesh: the frames `mikktspace`, `vertex` and `smooth`.
+// Tangents and cotangents from a mesh: the frames `mikktspace`, `area-weighted`, `vertex` and `smooth`.
 //
 //     const cotan::MeshView mesh = {positions, normals, texcoords, indices};
 //     const std::vector<cotan::packed::vec4> tangents = cotan::mikktspaceTangents(mesh); // one per corner
@@ -49,6 +49,15 @@ struct MeshView {
 // does not depend on it.
 std::vector<packed::vec4> mikktspaceTangents(const MeshView& mesh, int threads = 0);
 
+// The same with other weights, as meshoptimizer makes them by default, and engines that took it over: a triangle counts
+// by its angle times the lengths of both sides at the corner. Slivers then hardly turn the tangents of their
+// neighbours. Maps that were baked for MikkTSpace are read wrongly with them, most beside long thin triangles, such as
+// bevels. Differences to the source, whose degenerate triangles join groups of neighbours: corners of triangles without
+// area, or connected through them only, may differ. Where tangents cancel out, xyz is zero; the source has (1,0,0).
+// Source: meshoptimizer 1.3, meshopt_generateTangents without meshopt_TangentCompatible; its arc cosine is an
+// approximation, so tangents differ by up to 0.03 degrees.
+std::vector<packed::vec4> areaWeightedTangents(const MeshView& mesh, int threads = 0);
+
 // The classic method: dP/du of every triangle, from its edges, is normalised, summed per vertex without weights, and
 // made perpendicular to the normal. Mirrored and unmirrored charts are kept apart. The result is laid out as for
 // mikktspaceTangents.
@@ -56,7 +65,7 @@ std::vector<packed::vec4> mikktspaceTangents(const MeshView& mesh, int threads =
 // there is none: some unit vector perpendicular to the normal, w = +1.
 std::vector<packed::vec4> vertexTangents(const MeshView& mesh);
 
-// Returns the tangents for a frame with readsTangents(frame): one of the two above. Empty for other frames.
+// Returns the tangents for a frame with readsTangents(frame): those above. Empty for other frames.
 std::vector<packed::vec4> generateTangents(Frame frame, const MeshView& mesh, int threads = 0);
 
 // Converts a tangent of glTF, or of the functions above, to the form that frames take: w * cross(n, xyz) along
@@ -123,12 +132,13 @@ SplitCotangents splitSmoothCotangents(const MeshView& mesh, int threads = 0);
 
 // Tangents and cotangents of large meshes, with progress, cancellation and error messages.
 
-// Return the results of mikktspaceTangents(mesh, threads) and smoothCotangents(mesh, threads), to the bit. `progress`
+// Return the results of the functions above with the same name, to the bit. `progress`
 // is called from any of the threads, at least after each step (100 ms for a million triangles) and, in the last step,
 // after each 65536 vertices.
 // Errors: ErrorKind::usage with the array of MeshView, what was expected and what was found; ErrorKind::stopped if
 // `progress` stops the work.
 Result<std::vector<packed::vec4>> mikktspaceTangents(const MeshView& mesh, int threads, const Progress& progress);
+Result<std::vector<packed::vec4>> areaWeightedTangents(const MeshView& mesh, int threads, const Progress& progress);
 Result<Cotangents> smoothCotangents(const MeshView& mesh, int threads, const Progress& progress);
 
 // ---- compared ------------------------------------------------------------------------------

@@ -227,7 +227,7 @@ struct GltfPrimitiveGeometry {
 Result<std::vector<GltfPrimitiveGeometry>> gltfPrimitives(const GltfDocument& document);
 
 struct TangentsOptions {
-    Frame frame = Frame::mikktspace; // or vertex
+    Frame frame = Frame::mikktspace; // or areaWeighted, vertex
     bool replace = false;            // giveTangents: also replace existing TANGENT
     bool mappedOnly = false;         // only primitives with a normal map in some material
     int threads = 0;                 // 0: all cores; the result does not depend on it
@@ -243,6 +243,7 @@ struct PrimitiveTangents {
     bool generated = false;                        // giveTangents: the primitive has new tangents
     std::string reason{};                          // why tangents cannot be generated; empty if they can
     std::optional<TangentDifference> difference{}; // compareTangents: of the stored tangents, if any
+    bool areaWeighted = false; // compareTangents with mikktspace: they are those of areaWeighted instead
 };
 
 struct GiveTangentsResult {
@@ -253,8 +254,8 @@ struct GiveTangentsResult {
 };
 
 // Generates tangents and stores them in the document as TANGENT (see setGltfTangents).
-// Errors: ErrorKind::usage for a frame other than mikktspace and vertex; ErrorKind::stopped; those of gltfGeometry. On
-// error the document is unchanged.
+// Errors: ErrorKind::usage for a frame other than mikktspace, areaWeighted and vertex; ErrorKind::stopped; those of
+// gltfGeometry. On error the document is unchanged.
 Result<GiveTangentsResult> giveTangents(GltfDocument& document, const TangentsOptions& options);
 
 struct CompareTangentsResult {
