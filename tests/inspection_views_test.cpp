@@ -169,6 +169,40 @@ TEST(InspectionViews, trianglesKeepTheirOrderAndShareNoVertices)
     EXPECT_EQ(view.toneMapping, ToneMapping::none);
 }
 
+TEST(StudyViews, showTheReliefOfEachMapWhateverTheColours)
+{
+    // Two panels of one relief with different looks, and one of another relief.
+    const auto drawn = [](glm::vec4 color, float metallic, std::array<int, 4> texel, const char* study) {
+        Scene scene = panel();
+        scene.images = {oneColor(texel), oneColor({20, 200, 90, 255})};
+        Material& m = scene.materials[0];
+        m.baseColor = color;
+        m.metallic = metallic;
+        m.emissive = glm::vec3(metallic);
+        m.coat.strength = metallic;
+        m.normalMap.image = 0;
+        m.baseColorMap.image = metallic > 0.5f ? 1 : -1;
+        applyStudy(scene, study);
+        View view;
+        view.width = view.height = 8;
+        view.camera.eye = {0, 0, 5};
+        view.lights = {Light{}};
+        const auto image = drawView(scene, view, "reference");
+        EXPECT_TRUE(image);
+        return image ? image->data : std::vector<std::byte>();
+    };
+    const std::array<int, 4> flat = {128, 128, 255, 255}, tilted = {200, 128, 230, 255};
+    for (const char* study : {"clay", "gloss"}) {
+        EXPECT_TRUE(replacesMaterials(study));
+        const auto red = drawn({1, 0, 0, 1}, 0, tilted, study);
+        EXPECT_EQ(red, drawn({0, 0, 1, 1}, 1, tilted, study)) << study;
+        EXPECT_NE(red, drawn({1, 0, 0, 1}, 0, flat, study)) << study;
+        EXPECT_NE(red, drawn({1, 0, 0, 1}, 0, tilted, "shaded")) << study;
+    }
+    EXPECT_NE(drawn({1, 0, 0, 1}, 0, tilted, "clay"), drawn({1, 0, 0, 1}, 0, tilted, "gloss"));
+    EXPECT_FALSE(replacesMaterials("shaded"));
+}
+
 // ---- problem areas -------------------------------------------------------------------------------------
 
 // Patches side by side: stretched by 4, sheared by 45 degrees, and without area in uv.

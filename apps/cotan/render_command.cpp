@@ -48,7 +48,7 @@ struct RenderJob {
 struct Rendered {
     Json scene;
     std::size_t triangles = 0;
-    std::string frame, frames, device;
+    std::string frame, frames, meant, device;
     std::optional<AngleStatistics> error;
     double loadSeconds = 0, openSeconds = 0, uploadSeconds = 0, drawSeconds = 0, writeSeconds = 0, totalSeconds = 0;
 };
@@ -124,9 +124,9 @@ Result<RenderJob> jobOf(const RenderCommandOptions& o)
     const double rate = rateOf(o);
     RenderJob job{o, o.picture, *frame, {}, animated ? rate : 0};
     job.picture.turntable = turns;
-    job.picture.use = o.picture.show != "shaded" ? PictureUse::data
-        : keepsFloats(o.output)                  ? PictureUse::radiance
-                                                 : PictureUse::shown;
+    job.picture.use = !showsLight(o.picture.show) ? PictureUse::data
+        : keepsFloats(o.output)                   ? PictureUse::radiance
+                                                  : PictureUse::shown;
     for (const int number : *numbers)
         job.shots.push_back({animated ? o.output : numbered(o.output, number),
                              turns ? 360.0 * number / double(numbers->size()) : number / rate});
@@ -164,8 +164,9 @@ Result<std::unique_ptr<AnimationWriter>> beginAnimation(const RenderJob& job)
 
 Result<Image> drawShot(const RenderJob& job, const Picture& picture, Renderer& renderer, Rendered& done)
 {
-    auto image = drawShow(renderer, picture.scene, picture.view, job.picture.show, keepsFloats(job.shots.front().file),
-                          [&](const AngleStatistics& degrees) { done.error = done.error.value_or(degrees); });
+    auto image =
+        drawShow(renderer, picture.scene, picture.view, job.picture.show, keepsFloats(job.shots.front().file),
+                 picture.meant, [&](const AngleStatistics& degrees) { done.error = done.error.value_or(degrees); });
     if (image)
         COTAN_CHECK(layEdges(renderer, picture.view, job.picture, picture.edges, *image));
     return image;
@@ -176,7 +177,7 @@ Result<Rendered> render(const RenderJob& job)
 {
     Stopwatch total, watch;
     COTAN_TRY(animation, beginAnimation(job));
-    COTAN_TRY(picture, loadPicture(job.picture, job.common, {job.frame, Frame::exact}));
+    COTAN_TRY(picture, loadPicture(job.picture, job.common, {job.frame}));
     const std::optional<Frame> frame = picture->frames.front();
     picture->view.setFrame(frame);
     picture->view.output = outputOf(job.picture.show);
@@ -187,6 +188,7 @@ Result<Rendered> render(const RenderJob& job)
     done.triangles = trianglesDrawn(picture->scene);
     done.frame = nameOf(frame);
     done.frames = nameOfFrames(frame, picture->scene);
+    done.meant = name(picture->meant);
     done.loadSeconds = picture->loadSeconds;
     watch.lap();
     COTAN_TRY(renderer, makePictureRenderer(job.picture, job.common, *picture));
@@ -218,13 +220,13 @@ Status tell(const RenderJob& job, const Rendered& done)
 {
     const std::string first = job.shots.front().file.string(), last = job.shots.back().file.string();
     if (done.error)
-        say(job.common, "{} against exact: {}", done.frames, toText(*done.error));
+        say(job.common, "{} against {}: {}", done.frames, done.meant, toText(*done.error));
     say(job.common, "{}: {}{}x{}, {} triangles, frame {}, on {}", first == last ? first : first + " to " + last,
         job.shots.size() > 1 ? fmt::format("{} images of ", job.shots.size()) : "", job.picture.size.width,
         job.picture.size.height, done.triangles, done.frames, done.device);
     Json report = {{"command", "render"}};
     if (done.error)
-        report["error_against_exact"] = toJson(*done.error);
+        report.update({{"frame_error", toJson(*done.error)}, {"frame_error_against", done.meant}});
     report.update(done.scene);
     report["frame"] = done.frame;
     report["view"] = job.picture.show;

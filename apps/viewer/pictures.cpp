@@ -41,7 +41,7 @@ void Pictures::ask(const State& state)
     if (!state.model || state.size.x < 1 || state.size.y < 1)
         return;
     const std::string key = keyOf(state);
-    const bool meter = state.metered == 0 && state.show == "shaded" && meters(optionsOf(state, false))
+    const bool meter = state.metered == 0 && showsLight(state.show) && meters(optionsOf(state, false))
         && !renderThread_.busy() && !failed_; // a failed order would fail again
     if (key == key_ && !meter)
         return;
@@ -75,7 +75,7 @@ void Pictures::receive(State& state, bool timed)
         state.metered = drawn->exposure > 0 ? drawn->exposure : state.metered;
     }
     if (!drawn->hasFigures && !drawn->draft && !state.statisticsOf.empty() && drawn->degrees.empty()
-        && inspectionFromName(state.show))
+        && replacesMaterials(state.show))
         state.statisticsOf.clear();
     if (drawn->hasFigures) {
         state.statistics = drawn->statistics;

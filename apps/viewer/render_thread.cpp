@@ -179,7 +179,7 @@ Order orderOf(const State& state)
     order.exposure = state.metered;
     order.meteredFrom = state.meteredFrom.empty() ? state.picture.camera : state.meteredFrom;
     order.draft = state.moving || state.playing;
-    order.figures = state.statisticsShown && !order.draft && !inspectionFromName(state.show);
+    order.figures = state.statisticsShown && !order.draft && !replacesMaterials(state.show);
     return order;
 }
 

@@ -43,7 +43,7 @@ Status carryOut(Parts& parts, const request::WriteImage& r)
         wanted.compare = Compare::off;
     const bool floats = keepsFloats(file);
     Order order = orderOf(wanted);
-    if (floats && wanted.show == "shaded")
+    if (floats && showsLight(wanted.show))
         order.first.use = order.second.use = PictureUse::radiance;
     const auto image = parts.pictures.drawNow(order, floats);
     if (!image)

@@ -34,10 +34,12 @@ std::string sceneKey(const Model& model, const PictureOptions& o, std::optional<
                        m.heightDepth.value_or(-1), m.convention, m.material);
 }
 
-bool plain(const PictureOptions& o, std::optional<Frame> frame)
+// Whether the scene is drawn as it is loaded, also with the frame that its maps are for.
+bool plain(const PictureOptions& o, std::optional<Frame> frame, const Scene& scene)
 {
     const OwnMaps none;
-    return frame && !readsVertices(*frame) && o.maps.files() == none.files() && o.maps.convention == none.convention;
+    return frame && !readsVertices(*frame) && o.maps.files() == none.files() && o.maps.convention == none.convention
+        && !lacksMeantFrame(o, scene);
 }
 
 // The frame of a side; none: each mesh's own. The frame's name must be valid.
@@ -102,9 +104,11 @@ Status SceneCache::drawFigures(const Order& order, Drawn& drawn)
     COTAN_TRY(degrees, degreesOf(order, **first, *view, two ? order.second : order.first, two));
     drawn.degrees = *degrees;
     drawn.statistics = angleStatistics(drawn.degrees);
+    const Scene& scene = *(*first)->scene;
+    const std::optional<Frame> frame = frameOf(order, false, scene);
     drawn.statisticsOf = two
         ? "first against second"
-        : nameOfFrames(frameOf(order, false, *(*first)->scene), *(*first)->scene) + " against exact";
+        : fmt::format("{} against {}", nameOfFrames(frame, scene), name(meantFrame(order.first, scene, frame)));
     drawn.hasFigures = true;
     return Done{};
 }
@@ -151,12 +155,13 @@ Result<Drawing> SceneCache::drawSide(const Order& order, CachedScene& s, const V
                                      Aim aim)
 {
     const bool inspects = inspectionFromName(order.show).has_value();
-    if (aim == Aim::window && (order.show == "shaded" || inspects) && o.edges == Edges::none) {
+    if (aim == Aim::window && outputOf(order.show) == Output::shaded && o.edges == Edges::none) {
         auto drawn = drawOnDevice(*s.renderer, inspects ? inspectionView(view) : view);
         if (!drawn || *drawn)
             return drawn ? Result<Drawing>({std::move(*drawn), nullptr}) : drawn.error();
     }
-    COTAN_TRY(image, drawShow(*s.renderer, *s.scene, view, order.show, aim == Aim::floatFile));
+    const Frame meant = meantFrame(o, *s.scene, view.framesOfMeshes ? std::nullopt : std::optional(view.frame));
+    COTAN_TRY(image, drawShow(*s.renderer, *s.scene, view, order.show, aim == Aim::floatFile, meant));
     COTAN_CHECK(layEdgesOn(order, s, view, o, *image));
     return Drawing{nullptr, std::make_shared<Image>(std::move(*image))};
 }
@@ -193,7 +198,7 @@ Result<std::vector<float>> SceneCache::degreesOf(const Order& order, CachedScene
         normals.setFrame(frameOf(order, true, *other->scene));
         normals.normalMaps = !second.noNormalMaps;
     } else {
-        normals.frame = Frame::exact;
+        normals.setFrame(meantFrame(order.first, *first.scene, frameOf(order, false, *first.scene)));
     }
     COTAN_TRY(b, other->renderer->draw(normals));
     if (!two && !showsNormalMaps(*first.scene, view))
@@ -206,7 +211,7 @@ Result<CachedScene*> SceneCache::cachedScene(std::size_t index, const Order& ord
     const PictureOptions& o = second ? order.second : order.first;
     const Side& side = second ? order.b : order.a;
     COTAN_TRY(choice, parseFrameChoice(side.frame));
-    const std::string inspection = !normals && inspectionFromName(order.show) ? order.show : "";
+    const std::string inspection = !normals && replacesMaterials(order.show) ? order.show : "";
     const std::optional<Frame> frame =
         chosenFrame(*choice, o, order.model->scene); // of the model's own maps; others are not applied yet
     const std::string key = sceneKey(*order.model, o, frame, inspection);
@@ -224,9 +229,10 @@ Result<CachedScene*> SceneCache::cachedScene(std::size_t index, const Order& ord
     const Scene ownBefore = std::exchange(s.own, {});
     const Scene* before = !loaded ? nullptr : s.scene == &s.own ? &ownBefore : s.scene;
     s.scene = &s.model->scene;
-    if (!plain(o, frame) || !inspection.empty()) {
+    if (!plain(o, frame, s.model->scene) || !inspection.empty()) {
         s.own = s.model->scene;
-        if (const auto prepared = prepareScene(o, inspection, {*choice}, s.own); !prepared)
+        if (const auto prepared = prepareScene(o, inspection.empty() ? "error" : inspection, {*choice}, s.own);
+            !prepared)
             return prepared.error();
         s.scene = &s.own;
     }

@@ -67,7 +67,7 @@ PictureOptions optionsOf(const State& state, bool second)
     o.size = {std::max(1, state.size.x), std::max(1, state.size.y)};
     if (state.cameraMoved)
         o.camera = formatCamera(state.camera);
-    o.use = state.show == "shaded" ? PictureUse::shown : PictureUse::data;
+    o.use = showsLight(state.show) ? PictureUse::shown : PictureUse::data;
     if (state.compare == Compare::angle)
         o.use = PictureUse::data;
     const Side& side = sideOf(state, second);

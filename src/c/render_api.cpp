@@ -26,9 +26,9 @@ Wanted readWords(const cotan_render_options& o)
     for (std::size_t i = 0; i < o.word_count; ++i)
         words.emplace_back(word(o.words[i], "options.words"));
     valueOf(readPictureWords(words, wanted.picture, wanted.frame));
-    wanted.picture.use = wanted.picture.show != "shaded" ? PictureUse::data
-        : o.floats != 0                                  ? PictureUse::radiance
-                                                         : PictureUse::shown;
+    wanted.picture.use = !showsLight(wanted.picture.show) ? PictureUse::data
+        : o.floats != 0                                   ? PictureUse::radiance
+                                                          : PictureUse::shown;
     return wanted;
 }
 
@@ -47,7 +47,7 @@ void readFrom(const ModelFiles& source, PictureOptions& options)
 Image draw(const Wanted& wanted, const cotan_render_options& o, Json& report)
 {
     const FrameChoice frame = valueOf(parseFrameChoice(wanted.frame));
-    Picture picture = valueOf(openPicture(wanted.picture, o.threads, {frame, Frame::exact}));
+    Picture picture = valueOf(openPicture(wanted.picture, o.threads, {frame}));
     picture.view.setFrame(picture.frames.front());
     picture.view.output = outputOf(wanted.picture.show);
     const auto renderer = valueOf(openPictureRenderer(wanted.picture, picture));
@@ -58,9 +58,11 @@ Image draw(const Wanted& wanted, const cotan_render_options& o, Json& report)
         report["note"] = renderer->note;
     if (const std::string note = frameNote(picture.scene, picture.frames.front()); !note.empty())
         report["frame_note"] = note;
-    Image image =
-        valueOf(drawShow(*renderer, picture.scene, picture.view, wanted.picture.show, o.floats != 0,
-                         [&](const AngleStatistics& degrees) { report["error_against_exact"] = toJson(degrees); }));
+    Image image = valueOf(drawShow(*renderer, picture.scene, picture.view, wanted.picture.show, o.floats != 0,
+                                   picture.meant, [&](const AngleStatistics& degrees) {
+                                       report["frame_error"] = toJson(degrees);
+                                       report["frame_error_against"] = name(picture.meant);
+                                   }));
     valueOf(layEdges(*renderer, picture.view, wanted.picture, picture.edges, image));
     return image;
 }

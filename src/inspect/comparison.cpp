@@ -152,12 +152,12 @@ std::string toText(const ComparedFrames& c)
     return c.mapped ? toText(c.normals) : fmt::format("nothing was compared: {}", kNoNormalMap);
 }
 
-Result<FrameError> errorAgainstExact(Renderer& renderer, const Scene& scene, View view)
+Result<FrameError> errorAgainst(Frame meant, Renderer& renderer, const Scene& scene, View view)
 {
     view.output = Output::normal;
     COTAN_TRY(normals, renderer.draw(view));
-    COTAN_TRY(exact, drawn(renderer, view, Frame::exact, Output::normal));
-    const auto degrees = mappedAngles(anglesBetween(*normals, *exact), showsNormalMaps(scene, view));
+    COTAN_TRY(truth, drawn(renderer, view, meant, Output::normal));
+    const auto degrees = mappedAngles(anglesBetween(*normals, *truth), showsNormalMaps(scene, view));
     return FrameError{angleStatistics(degrees), heatMap(degrees, view.width, view.height)};
 }
 

@@ -327,6 +327,48 @@ Scene inspected(Scene scene, Inspection inspection)
     return scene;
 }
 
+namespace {
+
+constexpr std::string_view kStudies[] = {"clay", "gloss"};
+
+} // namespace
+
+std::span<const std::string_view> studyNames() { return kStudies; }
+
+void applyStudy(Scene& scene, std::string_view name)
+{
+    if (std::ranges::find(kStudies, name) == std::end(kStudies))
+        return;
+    const bool clay = name == "clay";
+    for (Material& m : scene.materials) {
+        Material study; // of the default look
+        study.name = m.name;
+        study.baseColor = glm::vec4(glm::vec3(clay ? 0.5f : 0.03f), m.baseColor.w);
+        if (m.alphaMode != AlphaMode::opaque)
+            study.baseColorMap = m.baseColorMap;
+        study.metallic = 0;
+        study.roughness = clay ? 0.8f : 0.15f;
+        study.normalScale = m.normalScale;
+        study.normalFormat = m.normalFormat;
+        study.normalFrame = m.normalFrame;
+        study.greenReversed = m.greenReversed;
+        study.copyOf = m.copyOf;
+        study.normalMap = m.normalMap;
+        study.alphaMode = m.alphaMode;
+        study.alphaCutoff = m.alphaCutoff;
+        study.doubleSided = m.doubleSided;
+        study.heightMap = m.heightMap;
+        m = std::move(study);
+    }
+    for (Mesh& mesh : scene.meshes)
+        mesh.colors.clear();
+}
+
+bool replacesMaterials(std::string_view view)
+{
+    return inspectionFromName(view) || std::ranges::find(kStudies, view) != std::end(kStudies);
+}
+
 View inspectionView(View view)
 {
     view.output = Output::shaded;

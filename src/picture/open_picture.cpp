@@ -201,6 +201,18 @@ std::optional<Frame> chosenFrame(const FrameChoice& choice, const PictureOptions
     return own.size() == 1 ? std::optional(own.front()) : std::nullopt;
 }
 
+Frame meantFrame(const PictureOptions& options, const Scene& scene, const std::optional<Frame>& drawn)
+{
+    const Frame meant = meantFrame(scene, sourceOf(options));
+    const bool otherTangents = drawn && readsTangents(*drawn) && readsTangents(meant) && *drawn != meant;
+    return otherTangents || !checkVertexAttributes(scene, meant, false) ? Frame::exact : meant;
+}
+
+bool lacksMeantFrame(const PictureOptions& options, const Scene& scene)
+{
+    return drawsNormalMaps(scene) && !checkVertexAttributes(scene, meantFrame(scene, sourceOf(options)), false);
+}
+
 std::string nameOfFrames(const std::optional<Frame>& frame, const Scene& scene)
 {
     if (frame)
@@ -236,6 +248,9 @@ void derive(const PictureOptions& options, const std::string& show, const std::v
     }
     for (const std::optional<Frame>& frame : frames)
         deriveVertexFrames(scene, frame, options.tangents);
+    applyStudy(scene, show);
+    if (show == "error") // tangents that a frame has made stay
+        deriveVertexFrames(scene, meantFrame(scene, sourceOf(options)), TangentOrigin::stored);
 }
 
 } // namespace
@@ -272,6 +287,8 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
     if (picture.animated && inspectionFromName(options.show))
         picture.inspected = {picture.scene.materials, picture.scene.images};
     derive(options, options.show, picture.frames, picture.scene);
+    if (options.show == "error" && !picture.frames.empty())
+        picture.meant = meantFrame(options, picture.scene, picture.frames.front());
     COTAN_TRY(view, viewOf(options, picture.scene));
     picture.view = std::move(*view);
     COTAN_TRY(opened, environment.get());
@@ -357,28 +374,32 @@ const std::vector<std::string>& showNames()
     static const std::vector<std::string> names = [] {
         std::vector<std::string> all = wordsOf(kShows);
         all.insert(all.end(), inspectionNames().begin(), inspectionNames().end());
+        all.insert(all.end(), studyNames().begin(), studyNames().end());
         return all;
     }();
     return names;
 }
 
+bool showsLight(const std::string& show) { return outputOf(show) == Output::shaded && !inspectionFromName(show); }
+
 Output outputOf(const std::string& show) { return valueOf(kShows, show).value_or(Output::shaded); }
 
 Result<Image> drawShow(Renderer& renderer, const Scene& scene, View view, const std::string& show, bool floats,
-                       const std::function<void(const AngleStatistics&)>& error)
+                       Frame meant, const std::function<void(const AngleStatistics&)>& error)
 {
     view.output = outputOf(show);
     if (inspectionFromName(show))
         return renderer.draw(inspectionView(view));
     if (show == "error") {
-        COTAN_TRY(found, errorAgainstExact(renderer, scene, view));
+        COTAN_TRY(found, errorAgainst(meant, renderer, scene, view));
         if (error)
             error(found->degrees);
         return std::move(found->difference);
     }
-    view.linearOutput = show == "shaded" && floats;
+    const bool shaded = view.output == Output::shaded;
+    view.linearOutput = shaded && floats;
     auto image = renderer.draw(view);
-    if (image && show != "shaded" && !floats)
+    if (image && !shaded && !floats)
         return asColor(view.output, *image);
     return image;
 }

@@ -165,8 +165,9 @@ PictureOption view()
 {
     PictureOption option =
         text("view", HelpGroup::main, "NAME", &Options::show,
-             "what to draw: shaded; normal, tangent, bitangent, uv, depth; error (degrees from the frame exact); "
-             "checker, density, stretch, shear, mirrored (uv and texels), w (of stored tangents), facing; or one map "
+             "what to draw: shaded; normal, tangent, bitangent, uv, depth; error (degrees from the frame that the maps "
+             "are for); clay, gloss (the relief alone); checker, density, stretch, shear, mirrored (uv and texels), w "
+             "(of stored tangents), facing; or one map "
              "by itself: base-color, alpha, normal-map, normal-map-red, normal-map-green, normal-map-blue, roughness, "
              "metallic, occlusion, emissive");
     option.check = wordOf(showNames());

@@ -253,6 +253,14 @@ Frame autoFrame(const Scene& scene, MapSource source)
     return shaped || (source == MapSource::own && repeatsNormalMaps(scene)) ? Frame::cotangent : Frame::orthonormal;
 }
 
+Frame meantFrame(const Scene& scene, MapSource source)
+{
+    const Frame frame = autoFrame(scene, source);
+    if (frame == Frame::orthonormal && !namedFrame(scene))
+        return Frame::mikktspace;
+    return frame == Frame::cotangent || frame == Frame::triangle ? Frame::exact : frame;
+}
+
 std::string frameNote(const Scene& scene, std::optional<Frame> frame)
 {
     const auto named = namedFrame(scene);

@@ -81,6 +81,10 @@ enum class MapSource {
 // without tangents) in all other cases.
 Frame autoFrame(const Scene& scene, MapSource source);
 
+// The frame that the maps are for, against which errors are measured: the one that the file names, `mikktspace` for
+// other maps of models. `exact` for maps in `cotangent` or `triangle`, whose directions it has for a whole triangle.
+Frame meantFrame(const Scene& scene, MapSource source);
+
 // Returns a one-line warning if the maps are named for a frame other than `frame` or for several; otherwise, and for
 // frames of meshes (none), empty.
 std::string frameNote(const Scene& scene, std::optional<Frame> frame);

@@ -132,6 +132,19 @@ Scene inspected(Scene scene, Inspection inspection);
 // Returns a view that draws an inspected scene with exact colours: no lights, tone curve, dither or background.
 View inspectionView(View view);
 
+// ---- one material for all -------------------------------------------------------------------
+
+// Materials that show the relief alone, by name: "clay" is matt and light, "gloss" smooth and dark, so that highlights
+// show what a diffuse surface hides.
+std::span<const std::string_view> studyNames();
+
+// Gives all materials of the scene this look; nothing for another name. Normal and height maps stay, and what makes a
+// surface invisible: the alpha of masked and blended ones, with their colour map.
+void applyStudy(Scene& scene, std::string_view name);
+
+// Whether this name of a view (--view) replaces the materials of the scene: an inspection or a study.
+bool replacesMaterials(std::string_view view);
+
 // ---- problem areas -------------------------------------------------------------------------
 
 // The worst places on a model of the kinds that lint measures by area.
@@ -242,7 +255,7 @@ struct FrameError {
     Image difference;        // a heat map
 };
 
-// The error of the view's frame relative to Frame::exact. Draws two images. Errors: those of Renderer::draw.
-Result<FrameError> errorAgainstExact(Renderer& renderer, const Scene& scene, View view);
+// The error of the view's frame relative to another. Draws two images. Errors: those of Renderer::draw.
+Result<FrameError> errorAgainst(Frame meant, Renderer& renderer, const Scene& scene, View view);
 
 } // namespace cotan

@@ -160,6 +160,14 @@ std::optional<Frame> chosenFrame(const FrameChoice& choice, const PictureOptions
 // The name of a resolved choice; if the meshes' frames differ, all of them: "auto (orthonormal, mikktspace)".
 std::string nameOfFrames(const std::optional<Frame>& frame, const Scene& scene);
 
+// The frame that errors of images drawn with `drawn` are measured against: the one that the scene's maps are for, the
+// options' own maps applied. `exact` if the scene lacks the attributes of that frame, or has those of another.
+Frame meantFrame(const PictureOptions& options, const Scene& scene, const std::optional<Frame>& drawn);
+
+// Whether normal maps are drawn and the attributes of the frame that they are for are missing: prepareScene derives
+// them for the view "error".
+bool lacksMeantFrame(const PictureOptions& options, const Scene& scene);
+
 // Applies the options' own maps to the scene and derives the attributes that the frames need; for inspections (`show`),
 // replaces the scene by one in false colours instead. Resolves `auto` in the returned frames, for which it calls
 // chooseFramesOfMeshes if no mesh has a frame yet. Errors: as applyOwnMaps.
@@ -203,6 +211,7 @@ struct Picture {
     View view;
     bool meter = false;                                    // whether to meter the exposure
     std::vector<std::optional<Frame>> frames;              // the requested ones, with `auto` resolved
+    Frame meant = Frame::exact;                            // that the view "error" measures against
     std::vector<SurfaceEdge> edges;                        // to draw over the image
     double loadSeconds = 0;                                // set by the caller
     std::future<Result<std::unique_ptr<Renderer>>> device; // being opened; used by openPictureRenderer
@@ -230,13 +239,16 @@ Status movePicture(const PictureOptions& options, double to, Picture& picture, R
 // The values of --view.
 const std::vector<std::string>& showNames();
 
+// Whether a value of --view draws light: the model, or its relief on another material; not data or false colours.
+bool showsLight(const std::string& show);
+
 // The renderer's output for a value of --view.
 Output outputOf(const std::string& show);
 
-// Draws the image for a value of --view. floats: for a file that stores floats. `error` is called with the statistics
-// of the view "error", in degrees. Errors: those of Renderer::draw.
+// Draws the image for a value of --view. floats: for a file that stores floats. meant: the frame that the view "error"
+// measures against; `error` is called with its statistics, in degrees. Errors: those of Renderer::draw.
 Result<Image> drawShow(Renderer& renderer, const Scene& scene, View view, const std::string& show, bool floats,
-                       const std::function<void(const AngleStatistics&)>& error = {});
+                       Frame meant, const std::function<void(const AngleStatistics&)>& error = {});
 
 // Draws the requested edges over an 8-bit image that the renderer has drawn of the view. Does nothing for float images.
 // Errors: those of Renderer::draw.
