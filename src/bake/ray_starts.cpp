@@ -320,23 +320,29 @@ private:
                 raiseTo(std::sqrt(height * height + across * across), needs_[edges_.of[i]]);
         }
     }
-    void addRaysFromEdge(std::size_t side, const std::vector<float>& distances)
+    // Raises the need of an edge to what rays from there hit; at concave edges to where they start, because straight rays
+    // beside the edge would meet what stands on its other side.
+    void addRaysFromEdge(std::size_t edge, const std::vector<float>& distances)
     {
-        const std::uint32_t a = low_.indices[side], b = low_.indices[side % 3 == 2 ? side - 2 : side + 1];
-        const glm::vec3 from = low_.positions[a], edge = low_.positions[b] - from;
-        const float length = glm::length(edge);
-        const int steps = int(glm::clamp(length / (4 * kSpacing * body_.diagonal), 1.0f, float(kMaxEdgeRays)));
-        for (int i = 0; i < steps && length > 0; ++i) {
-            const float t = (float(i) + 0.5f) / float(steps);
-            const glm::vec3 sum = glm::mix(starts_.directions[a], starts_.directions[b], t);
-            const float norm = glm::length(sum), before = norm * glm::mix(distances[a], distances[b], t);
-            if (!(norm > 0))
+        const std::uint32_t a = low_.indices[edge], b = low_.indices[edge % 3 == 2 ? edge - 2 : edge + 1],
+                            triangle = std::uint32_t(edge / 3);
+        const glm::vec3 from = low_.positions[a], along = low_.positions[b] - from;
+        const bool concave = sideOf(low_, starts_.directions, edge).sine < 0;
+        const float length = glm::length(along);
+        const int rays = int(glm::clamp(length / (4 * kSpacing * body_.diagonal), 1.0f, float(kMaxEdgeRays)));
+        for (int i = 0; i < rays; ++i) {
+            const float t = (float(i) + 0.5f) / float(rays);
+            const glm::vec3 sum = glm::mix(starts_.directions[a], starts_.directions[b], t), point = from + along * t;
+            const float norm = glm::length(sum);
+            if (!(norm > 0) || !(length > 0))
                 continue;
             const glm::vec3 direction = sum / norm;
-            const auto off =
-                outermost(std::uint32_t(side / 3), from + edge * t, direction, before, starts_.limit);
-            if (off)
-                raiseTo(std::abs(*off) * glm::length(glm::cross(direction, edge / length)), needs_[edges_.of[side]]);
+            float before = norm * glm::mix(distances[a], distances[b], t);
+            if (starts_.tree)
+                before = openDistance(*starts_.tree, triangle, point, direction, starts_.skip, before);
+            const std::optional<float> off = outermost(triangle, point, direction, before, starts_.limit);
+            const float need = std::max(std::abs(off.value_or(0)), concave ? before : 0);
+            raiseTo(need * glm::length(glm::cross(direction, along / length)), needs_[edges_.of[edge]]);
         }
     }
     // How far in front of a point of a triangle, along a direction, the outermost front lies.
