@@ -51,6 +51,7 @@ class CotanBakePanel(_Part, bpy.types.Panel):
             layout.prop_search(s, "uv_map", thing.data, "uv_layers", icon="GROUP_UVS")
         layout.prop(s, "cage")
         if s.cage == "FIRST":
+            layout.prop(s, "directions")
             layout.prop(s, "extrusion")
         if s.cage in ("FIRST", "NEAREST"):
             layout.prop(s, "distance")
