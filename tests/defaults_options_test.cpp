@@ -127,6 +127,7 @@ TEST(Defaults, ofBakingAreOneTileOfAMap)
     EXPECT_EQ(b.samples, 1);
     EXPECT_EQ(b.tile, glm::ivec2(0));
     EXPECT_TRUE(b.search == BakeSearch::first);
+    EXPECT_TRUE(b.rays == BakeRays::automatic);
     EXPECT_EQ(b.extrusion, 0);
     EXPECT_EQ(b.maxDistance, 0);
     EXPECT_EQ(b.cageReach, 0);

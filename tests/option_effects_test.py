@@ -117,7 +117,7 @@ CASES = [
         "--padding": "~0 | 1 | -1", "--mask": "seen.png", "--per-object": "", "--verify": "checked", "--threads": "=1 | =3", "--memory": "=800",
         "--udim": "~1001 | !1002 | all", "--list-frames": ""}),
     (BAKE + " --kind object-normal", {"--up": "~y | *", "--high-up": "~y | *"}),
-    ("bake --high layers.obj --low low.obj --size 24x24 -o out.png", {"--search": "~first | *", "--extrusion": "0.001 | 0.02", "--cage": "cage.obj"}),
+    ("bake --high layers.obj --low low.obj --size 24x24 -o out.png", {"--search": "~first | *", "--rays": "~auto | *", "--extrusion": "0.001 | 0.02", "--cage": "cage.obj"}),
     ("bake --high low.stl --high high.obj --low low.obj --size 24x24 -o out.png", {"--match-by-name": ""}),
     ("bake --high low.stl --high high.obj --low low.obj --size 24x24 --kind ao --match-by-name -o out.png", {"--ao-occluders": "all"}),
     (BAKE + " --verify checked", {"--device": "reference"}),

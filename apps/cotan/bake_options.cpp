@@ -20,6 +20,8 @@ namespace {
 
 constexpr Named<int> kSamples[] = {{"1", 1}, {"4", 2}, {"16", 4}}; // per texel, and per axis
 constexpr Named<BakeSearch> kSearches[] = {{"first", BakeSearch::first}, {"nearest", BakeSearch::nearest}};
+constexpr Named<BakeRays> kRays[] = {
+    {"auto", BakeRays::automatic}, {"averaged", BakeRays::averaged}, {"straight", BakeRays::straight}};
 constexpr Named<Occluders> kOccluders[] = {{"matched", Occluders::matched}, {"all", Occluders::all}};
 
 Result<Convention> formatFromName(const std::string& option, const std::string& name)
@@ -298,6 +300,10 @@ void declareBakeOptions(Arguments& a, BakeCommandOptions& o)
     a.choice("--samples", model.bake.samples, kSamples, "samples per texel: 1, 4 or 16").in("N");
     a.choice("--search", model.bake.search, kSearches,
              "surface to bake: first (that a ray from outside meets), or nearest (to the low mesh, on either side)");
+    a.choice("--rays", model.bake.rays, kRays,
+             "which way rays run: auto (straight, but averaged near hard edges), averaged (along normals averaged over "
+             "hard edges: no gaps, but details lean) or straight (along the low mesh's normals: gaps at hard edges); no "
+             "effect with --cage and --search nearest");
     a.option("--extrusion", model.bake.extrusion,
              "how far in front of the low mesh rays start, in model units; 0: measured from the high mesh")
         .within(0.0, 1e9)

@@ -105,13 +105,17 @@ void Baker::aimFromCage(const UvSample& sample, std::size_t i, Probes& probes) c
 void Baker::aimFromStart(const LowPoints& points, const UvSample& sample, std::size_t i, Probes& probes) const
 {
     const RayStarts& starts = *options_.starts;
-    const std::uint32_t* v = &low_.indices[3 * std::size_t(sample.triangle)];
-    const glm::vec3 sum = starts.directionsDiffer ? atVertices(starts.directions, v, sample.b1, sample.b2)
-                                                  : points.from.raw.at(i); // of normals
-    const float length = std::sqrt(glm::dot(sum, sum));
-    if (starts.directionsDiffer && length > 0)
-        probes.direction.set(i, sum / length);
-    probes.before[i] = length * atVertices(starts.distances, v, sample.b1, sample.b2);
+    if (starts.directionsDiffer) {
+        const RayStart ray =
+            rayStartAt(low_, starts, sample.triangle, sample.b1, sample.b2, probes.point.at(i));
+        if (ray.direction != glm::vec3(0))
+            probes.direction.set(i, ray.direction);
+        probes.before[i] = ray.before;
+    } else {
+        const glm::vec3 sum = points.from.raw.at(i); // of normals
+        const std::uint32_t* v = &low_.indices[3 * std::size_t(sample.triangle)];
+        probes.before[i] = std::sqrt(glm::dot(sum, sum)) * atVertices(starts.distances, v, sample.b1, sample.b2);
+    }
     if (starts.obstructed[sample.triangle])
         probes.before[i] = openDistance(*starts.tree, sample.triangle, probes.point.at(i), probes.direction.at(i),
                                         starts.skip, probes.before[i]);

@@ -36,6 +36,7 @@ constexpr std::size_t kCrowded = 2000;       // maximum number of visits by the 
 constexpr float kSpacing = 1.0f / 256;       // of the diagonal: distance between points of large triangles
 constexpr int kMaxCuts = 64;                 // of an edge of a large triangle
 constexpr float kSkip = 1e-4f;               // of the diagonal
+constexpr int kMaxEdgeRays = 64;             // from a hard edge
 
 // Group numbers of vertices, equal for vertices of one instance at one position.
 struct Groups {
@@ -149,9 +150,10 @@ struct LastNearest {
 class Measuring {
 public:
     Measuring(const LowSurface& low, const HighSurface& high, const BakeOptions& options, const Body& body,
-              const Groups& groups, const RayStarts& starts)
-        : low_(low), high_(high), options_(options), body_(body), groups_(groups), starts_(starts),
-          distances_(groups.count, 0), reached_(groups.count, 0)
+              const Groups& groups, const RayStarts& starts, const HardEdges& edges)
+        : low_(low), high_(high), options_(options), body_(body), groups_(groups), starts_(starts), edges_(edges),
+          distances_(groups.count, 0), reached_(groups.count, 0),
+          needs_(edges.count, std::bit_cast<std::uint32_t>(kMargin * body.diagonal))
     {
         for (const std::uint32_t i : low.indices)
             near_ = {glm::min(near_.low, low.positions[i]), glm::max(near_.high, low.positions[i])};
@@ -195,6 +197,8 @@ public:
         if (nearest.triangle >= low_.triangleCount())
             return;
         const glm::vec3 off = point - nearest.point;
+        if (edges_.count > 0)
+            addBeyondEdges(nearest, off);
         const std::uint32_t* const v = &low_.indices[3 * std::size_t(nearest.triangle)];
         const glm::vec3 sum = atVertices(starts_.directions, v, nearest.b1, nearest.b2), direction = unitOr(sum, sum);
         const float along = glm::dot(off, direction);
@@ -233,6 +237,29 @@ public:
         });
     }
 
+    // Shoots rays from hard edges. distances: of the vertices.
+    void addRaysFromEdges(const std::vector<float>& distances)
+    {
+        std::vector<std::uint32_t> sides; // one of each edge
+        std::vector<std::uint8_t> seen(edges_.count, 0);
+        for (std::size_t i = 0; i < edges_.of.size(); ++i)
+            if (const std::uint32_t edge = edges_.of[i]; edge != HardEdges::kNone && !std::exchange(seen[edge], 1))
+                sides.push_back(std::uint32_t(i));
+        parallelRanges<std::size_t>(0, sides.size(), 16, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i != end; ++i)
+                addRaysFromEdge(sides[i], distances);
+        });
+    }
+
+    // The distance from each hard edge to what its rays must show.
+    std::vector<float> needs() const
+    {
+        std::vector<float> all;
+        for (const std::uint32_t bits : needs_)
+            all.push_back(std::bit_cast<float>(bits));
+        return all;
+    }
+
     // The distance of each vertex of the low surface.
     std::vector<float> distances() const
     {
@@ -265,31 +292,85 @@ private:
     {
         const std::uint32_t group = groups_.of[v];
         std::atomic_ref<std::uint8_t>(reached_[group]).store(1, std::memory_order_relaxed);
+        raiseTo(distance, distances_[group]);
+    }
+    // bits: of a float.
+    static void raiseTo(float distance, std::uint32_t& bits)
+    {
         // Non-negative floats are ordered like their bits.
-        std::atomic_ref<std::uint32_t> kept(distances_[group]);
+        std::atomic_ref<std::uint32_t> kept(bits);
         const auto wanted = std::bit_cast<std::uint32_t>(distance);
         std::uint32_t now = kept.load(std::memory_order_relaxed);
         while (now < wanted && !kept.compare_exchange_weak(now, wanted, std::memory_order_relaxed))
             ;
     }
-    void addRay(std::uint32_t index)
+    // Raises the needs of hard edges that a point lies beyond: between the normal at the edge and the rays from there.
+    void addBeyondEdges(const LowTree::Nearest& nearest, glm::vec3 off)
+    {
+        const float weights[3] = {1 - nearest.b1 - nearest.b2, nearest.b1, nearest.b2};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t i = 3 * std::size_t(nearest.triangle) + k;
+            if (edges_.of[i] == HardEdges::kNone || weights[(k + 2) % 3] > 1e-3f)
+                continue;
+            const EdgeSide side = sideOf(low_, starts_.directions, i);
+            const float height = glm::dot(off, side.up), across = glm::dot(off, side.out);
+            const bool beyond = height * side.sine > 0 && across > 0
+                && across * side.cosine <= 1.05f * std::abs(side.sine * height);
+            if (beyond)
+                raiseTo(std::sqrt(height * height + across * across), needs_[edges_.of[i]]);
+        }
+    }
+    // Raises the need of an edge to what rays from there hit; at concave edges to where they start, because straight rays
+    // beside the edge would meet what stands on its other side.
+    void addRaysFromEdge(std::size_t edge, const std::vector<float>& distances)
+    {
+        const std::uint32_t a = low_.indices[edge], b = low_.indices[edge % 3 == 2 ? edge - 2 : edge + 1],
+                            triangle = std::uint32_t(edge / 3);
+        const glm::vec3 from = low_.positions[a], along = low_.positions[b] - from;
+        const bool concave = sideOf(low_, starts_.directions, edge).sine < 0;
+        const float length = glm::length(along);
+        const int rays = int(glm::clamp(length / (4 * kSpacing * body_.diagonal), 1.0f, float(kMaxEdgeRays)));
+        for (int i = 0; i < rays; ++i) {
+            const float t = (float(i) + 0.5f) / float(rays);
+            const glm::vec3 sum = glm::mix(starts_.directions[a], starts_.directions[b], t), point = from + along * t;
+            const float norm = glm::length(sum);
+            if (!(norm > 0) || !(length > 0))
+                continue;
+            const glm::vec3 direction = sum / norm;
+            float before = norm * glm::mix(distances[a], distances[b], t);
+            if (starts_.tree)
+                before = openDistance(*starts_.tree, triangle, point, direction, starts_.skip, before);
+            const std::optional<float> off = outermost(triangle, point, direction, before, starts_.limit);
+            const float need = std::max(std::abs(off.value_or(0)), concave ? before : 0);
+            raiseTo(need * glm::length(glm::cross(direction, along / length)), needs_[edges_.of[edge]]);
+        }
+    }
+    // How far in front of a point of a triangle, along a direction, the outermost front lies.
+    std::optional<float> outermost(std::uint32_t triangle, glm::vec3 point, glm::vec3 direction, float before,
+                                   float behind) const
     {
         constexpr int kMaxLayers = 16;
+        const float lift = 1e-5f * body_.diagonal, whole = before + behind;
+        float passed = 0;
+        for (int layer = 0; layer < kMaxLayers && passed < whole; ++layer) {
+            const Hit hit = high_.trace({point + direction * (before - passed), -direction, 0, whole - passed});
+            if (!hit.found)
+                return std::nullopt;
+            passed += hit.distance + lift;
+            if (shows(triangle, hit.instance) && glm::dot(hit.front, direction) > kMinFacing)
+                return before - passed;
+        }
+        return std::nullopt;
+    }
+    void addRay(std::uint32_t index)
+    {
         const std::uint32_t v = low_.indices[index], triangle = index / 3;
         const glm::vec3 direction = starts_.directions[v], point = low_.positions[v];
-        const float lift = 1e-5f * body_.diagonal;
         if (!(glm::dot(direction, direction) > 0))
             return;
         const float from = openDistance(*body_.tree, triangle, point, direction, starts_.skip, starts_.limit);
-        float passed = 0;
-        for (int layer = 0; layer < kMaxLayers && passed < from; ++layer) {
-            const Hit hit = high_.trace({point + direction * (from - passed), -direction, 0, from - passed});
-            if (!hit.found)
-                return;
-            passed += hit.distance + lift;
-            if (shows(triangle, hit.instance) && glm::dot(hit.front, direction) > kMinFacing)
-                return raiseVertex(v, std::max(0.0f, from - passed));
-        }
+        if (const auto off = outermost(triangle, point, direction, from, 0))
+            raiseVertex(v, std::max(0.0f, *off));
     }
 
     const LowSurface& low_;
@@ -298,9 +379,11 @@ private:
     const Body& body_;
     const Groups& groups_;
     const RayStarts& starts_;
+    const HardEdges& edges_;
     Bounds near_;                          // of the low surface and all within the limit
     std::vector<std::uint32_t> distances_; // bits of floats, per group
     std::vector<std::uint8_t> reached_;    // something belongs to the group
+    std::vector<std::uint32_t> needs_;     // bits of floats, per hard edge
 };
 
 // The number of pieces of a triangle's edges for points about `spacing` apart; 0 if it is small, or rays skip it.
@@ -411,12 +494,11 @@ bool isObstructed(const LowSurface& low, const RayStarts& starts, std::size_t tr
         for (int j = 0; j <= steps - i; ++j) {
             // Slightly inside the edges.
             const float b1 = (float(i) + 0.1f) / (float(steps) + 0.3f), b2 = (float(j) + 0.1f) / (float(steps) + 0.3f);
-            const glm::vec3 sum = atVertices(starts.directions, v, b1, b2);
-            const float length = glm::length(sum), wanted = length * atVertices(starts.distances, v, b1, b2);
-            if (length > 0
-                && openDistance(*starts.tree, std::uint32_t(triangle), atVertices(low.positions, v, b1, b2),
-                                sum / length, starts.skip, wanted)
-                    < wanted)
+            const glm::vec3 point = atVertices(low.positions, v, b1, b2);
+            const RayStart ray = rayStartAt(low, starts, std::uint32_t(triangle), b1, b2, point);
+            if (glm::dot(ray.direction, ray.direction) > 0
+                && openDistance(*starts.tree, std::uint32_t(triangle), point, ray.direction, starts.skip, ray.before)
+                    < ray.before)
                 return true;
         }
     return false;
@@ -445,26 +527,63 @@ float openDistance(const LowTree& tree, std::uint32_t triangle, glm::vec3 point,
     return glm::dot(tree.face(hit.triangle), direction) > 0 ? hit.distance / 2 : hit.distance;
 }
 
+RayStart rayStartAt(const LowSurface& low, const RayStarts& starts, std::uint32_t triangle, float b1, float b2,
+                    glm::vec3 point)
+{
+    const std::uint32_t* const v = &low.indices[3 * std::size_t(triangle)];
+    const glm::vec3 sum = atVertices(starts.directions, v, b1, b2);
+    const float length = std::sqrt(glm::dot(sum, sum)), distance = atVertices(starts.distances, v, b1, b2);
+    if (!(length > 0))
+        return {};
+    const RayStart averaged{sum / length, length * distance};
+    if (starts.bands.bands.empty())
+        return averaged;
+    const glm::vec3 normal = unitOr(atVertices(low.normals, v, b1, b2), averaged.direction);
+    const float slope = glm::dot(averaged.direction, normal);
+    if (slope < kMinDirectionCosine)
+        return averaged;
+    const float bend = starts.bands.bendAt(triangle, point);
+    const glm::vec3 direction = glm::normalize(glm::mix(normal, averaged.direction, bend));
+    if (!starts.tree) // a given distance
+        return {direction, distance * glm::mix(1.0f, length, bend)};
+    return {direction, averaged.before * slope / glm::dot(direction, normal)};
+}
+
 Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
                                 const LowRest& rest)
 {
     RayStarts starts;
     const Groups groups = groupsOf(low);
-    findDirections(low, groups, starts);
+    if (options.rays == BakeRays::straight)
+        starts.directions = low.normals;
+    else
+        findDirections(low, groups, starts);
+    HardEdges edges;
+    if (options.rays == BakeRays::automatic && starts.directionsDiffer)
+        edges = hardEdgesOf(low, groups.of);
     COTAN_TRY(body, bodyOf(low, rest, options));
     starts.skip = kSkip * body->diagonal;
     starts.limit = options.maxDistance > 0 ? options.maxDistance : kLimit * body->diagonal;
+    const auto addBands = [&](Measuring& measuring) {
+        if (edges.count == 0)
+            return;
+        measuring.addRaysFromEdges(starts.distances);
+        starts.bands = makeBands(low, edges, starts.directions, measuring.needs());
+    };
     if (options.extrusion > 0) {
         starts.distances.assign(low.positions.size(), options.extrusion);
         starts.obstructed.assign(low.triangleCount(), 0);
         starts.farthest = options.extrusion;
+        Measuring measuring(low, high, options, *body, groups, starts, edges);
+        withThreads(options.threads, [&] { addBands(measuring); });
         return starts;
     }
     starts.tree = body->tree;
     const Status measured = withThreads(options.threads, [&]() -> Status {
-        Measuring measuring(low, high, options, *body, groups, starts);
+        Measuring measuring(low, high, options, *body, groups, starts, edges);
         COTAN_TRY(every, measure(high, std::max(body->edge, kSpacing * body->diagonal), measuring));
         starts.distances = measuring.distances();
+        addBands(measuring);
         starts.obstructed.assign(low.triangleCount(), 1);
         if (*every == 1) // otherwise so crowded that the bake tests the rays of all triangles
             parallelFor(std::size_t(0), low.triangleCount(), [&](std::size_t f) {

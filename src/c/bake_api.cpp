@@ -28,6 +28,8 @@ constexpr Named<HighNormals> kHighNormals[] = {{"smooth", HighNormals::smooth},
                                                {"face", HighNormals::face},
                                                {"map", HighNormals::smooth}};
 
+constexpr Named<BakeRays> kRays[] = {
+    {"auto", BakeRays::automatic}, {"averaged", BakeRays::averaged}, {"straight", BakeRays::straight}};
 constexpr Named<Occluders> kOccluders[] = {{"matched", Occluders::matched}, {"all", Occluders::all}};
 
 // Sets how the normals of the detailed models are found.
@@ -65,6 +67,7 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_image_vi
     b.height = map.height;
     b.samples = o.samples != 0 ? o.samples : 1;
     b.search = search == "nearest" ? BakeSearch::nearest : BakeSearch::first;
+    b.rays = valueOf(kRays, o.rays ? o.rays : "auto", "options.rays");
     b.extrusion = o.extrusion;
     b.maxDistance = o.max_distance;
     b.cageReach = o.cage_reach;

@@ -21,8 +21,8 @@ def _cube(name, half):
     return make_mesh(name, corners, faces, smooth=False)
 
 
-def _by_cycles(low, high, extrusion):
-    """Blender's own map of the same pair, from a cage with smooth directions."""
+def _by_cycles(low, high, extrusion, use_cage):
+    """Blender's own map of the same pair, with smooth directions if it uses a cage, else straight."""
     scene = bpy.context.scene
     scene.render.engine, scene.cycles.device, scene.cycles.samples = "CYCLES", "CPU", 1
     scene.cycles.use_denoising = False
@@ -36,7 +36,7 @@ def _by_cycles(low, high, extrusion):
     low.data.materials.append(material)
     select(high, low)
     bpy.ops.object.bake(
-        type="NORMAL", use_selected_to_active=True, use_cage=True, cage_extrusion=extrusion, max_ray_distance=0,
+        type="NORMAL", use_selected_to_active=True, use_cage=use_cage, cage_extrusion=extrusion, max_ray_distance=0,
         margin=0, use_clear=True,
     )  # fmt: skip
     return directions(image)
@@ -44,8 +44,13 @@ def _by_cycles(low, high, extrusion):
 
 def _expect_the_same(low, high, extrusion, least):
     low.modifiers.new("three corners", "TRIANGULATE")
-    found = baked(low, high, width=SIZE, height=SIZE, bits="8", assign=False)
-    theirs = _by_cycles(low, high, extrusion)
+    for rays, use_cage in (("AVERAGED", True), ("AUTO", False)):
+        _expect_the_same_with(low, high, extrusion, least, rays, use_cage)
+
+
+def _expect_the_same_with(low, high, extrusion, least, rays, use_cage):
+    found = baked(low, high, directions=rays, width=SIZE, height=SIZE, bits="8", assign=False)
+    theirs = _by_cycles(low, high, extrusion, use_cage)
     known = np.linalg.norm(theirs, axis=-1) > 0.5
     known &= np.abs(theirs + 1).max(axis=-1) > 0.05  # black: no surface
     apart = degrees(found[known], theirs[known])

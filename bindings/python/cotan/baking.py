@@ -17,7 +17,7 @@ from .geometry import Mesh
 from .maps import Map
 from .models import Model, load
 from .images import Path, pixels_of
-from .words import BakeKind, Convention, Frame, HighNormals, Occluders, Search, TangentOrigin, Up
+from .words import BakeKind, Convention, Frame, HighNormals, Occluders, Rays, Search, TangentOrigin, Up
 
 Geometry = Union[Mesh, Path, Model]
 
@@ -120,6 +120,7 @@ def bake(
     ao_rays: int = 64,
     ao_occluders: Occluders = "matched",
     search: Search = "first",
+    rays: Rays = "auto",
     extrusion: float = 0.0,
     max_distance: float = 0.0,
     cage: Union[Geometry, Sequence[Mesh], None] = None,
@@ -160,6 +161,9 @@ def bake(
         ao_occluders: with match_by_name, what casts occlusion: "matched" (the high meshes of the same name) or "all".
         search: "first": the first surface that a ray from outside inwards hits; "nearest": the surface nearest to the
             low mesh along its normal in either direction, which misses parts that float above another surface.
+        rays: which way rays run: "auto": straight, but averaged near hard edges; "averaged": along normals averaged
+            over hard edges, without gaps, but details lean; "straight": along the low mesh's normals, with gaps at hard
+            edges. No effect with a cage and for the search "nearest".
         extrusion: distance in front of the low mesh at which rays start, in units of the positions; 0: measured from
             the distance between the meshes.
         max_distance: maximum distance of high surfaces from the low mesh, in units of the positions; 0: 10 % of the
@@ -211,6 +215,7 @@ def bake(
             ("frame", frame), ("kind", "occlusion" if kind == "ao" else kind), ("convention", convention),
             ("tangents", tangents), ("high_normals", high_normals), ("high_frame", high_frame),
             ("high_convention", high_convention), ("search", search), ("occluders", ao_occluders),
+            ("rays", rays),
         )
     }  # fmt: skip
     maps = [] if high_map is None else [pixels_of(m, "high_map") for m in _several(high_map)]

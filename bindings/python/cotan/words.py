@@ -41,6 +41,7 @@ BakeKind = Literal[
 ]  # fmt: skip
 HighNormals = Literal["smooth", "curved", "face", "map"]
 Search = Literal["first", "nearest"]
+Rays = Literal["auto", "averaged", "straight"]
 Occluders = Literal["matched", "all"]
 BlendMode = Literal["reoriented", "whiteout", "udn", "slopes", "linear"]
 TangentKind = Literal["mikktspace", "area-weighted", "vertex"]

@@ -68,7 +68,8 @@ def cage_for(settings, bake, surface, low, named, depsgraph):
     surface: the object `low` in its own space. bake: Blender's own settings. named: a cage found by name, or None.
     """
     if settings.cage == "FIRST":
-        return {"extrusion": settings.extrusion, "max_distance": settings.distance}
+        rays = settings.directions.lower()
+        return {"rays": rays, "extrusion": settings.extrusion, "max_distance": settings.distance}
     if settings.cage == "NEAREST":
         return {"search": "nearest", "max_distance": settings.distance}
     if settings.cage == "MESH":

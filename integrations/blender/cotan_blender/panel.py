@@ -52,6 +52,7 @@ class CotanBakePanel(_Part, bpy.types.Panel):
             layout.prop_search(s, "uv_map", thing.data, "uv_layers", icon="GROUP_UVS")
         layout.prop(s, "cage")
         if s.cage == "FIRST":
+            layout.prop(s, "directions")
             layout.prop(s, "extrusion")
             layout.operator("object.cotan_cage", icon="MESH_ICOSPHERE")
         if s.cage in ("FIRST", "NEAREST"):

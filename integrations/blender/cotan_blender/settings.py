@@ -74,6 +74,16 @@ class CotanSettings(bpy.types.PropertyGroup):
         default="FIRST",
         description="How rays search for the detailed surface",
     )
+    directions: EnumProperty(
+        name="Directions",
+        items=[
+            ("AUTO", "Straight, but at Edges", "Along the normals of the simple mesh, and averaged near hard edges"),
+            ("AVERAGED", "Averaged", "Along normals averaged over hard edges: no gaps, but details lean"),
+            ("STRAIGHT", "Straight", "Along the normals of the simple mesh: with gaps at hard edges"),
+        ],
+        default="AUTO",
+        description="Which way measured rays run",
+    )
     distance: FloatProperty(
         name="Distance", default=0, min=0, subtype="DISTANCE",
         description="Maximum distance of detail from the simple mesh. 0: 10 % of the diagonal of the simple mesh, for "

@@ -348,6 +348,9 @@ typedef struct cotan_bake_options {
     /* Since version 9. */
     float thickness_distance; /* thickness that integers store as 1; 0: 50 % of the detailed models' diagonal */
     float curvature_radius;   /* radius of a ball that integers store as 1, flat is 0.5; 0: 1 % of that diagonal */
+    const char* rays;         /* which way they run: "auto", straight but averaged near hard edges, "averaged", along
+                                 normals averaged over hard edges, or "straight", along the normals of the simple model;
+                                 no effect with a cage and for the search "nearest"; null: "auto" */
 } cotan_bake_options;
 
 typedef struct cotan_bake_result {

@@ -60,6 +60,13 @@ enum class BakeSearch {
     nearest, // the one nearest to the low surface along its normal, on either side; misses detail that floats above it
 };
 
+// Which way rays run. No effect with a cage and for BakeSearch::nearest.
+enum class BakeRays {
+    automatic, // straight, and averaged in bands along hard edges, as wide as what the rays must show there needs
+    averaged,  // along normals averaged over hard edges: without gaps, but detail that stands off leans
+    straight,  // along the low surface's own normals: with gaps at hard edges that are convex
+};
+
 // Which normals of the high surface count.
 enum class HighNormals {
     smooth, // interpolated between vertices; the face's where they cancel out
@@ -85,6 +92,7 @@ struct BakeOptions {
     int samples = 1;       // per texel and axis: 1, 2 or 4
     glm::ivec2 tile{0, 0}; // unit square of uv that the map covers
     BakeSearch search = BakeSearch::first;
+    BakeRays rays = BakeRays::automatic;
     float extrusion = 0;         // model units: how far in front of the low surface rays start; 0: measured
     float maxDistance = 0;       // model units, in front of and behind the low surface; 0: 10 % of the diagonal of its
                                  // bounding box, for BakeSearch::nearest 5 % of the high surface's
