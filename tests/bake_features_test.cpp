@@ -8,6 +8,7 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <glm/ext/vector_int3.hpp>
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
@@ -84,6 +85,49 @@ TEST_F(BakeFeatures, severalMapsAreWrittenAsTheOutputNamesThemAndEachAsAlone)
             EXPECT_EQ(readWhole(folder / file), readWhole(folder / "alone.png")) << file;
         }
     }
+}
+
+TEST_F(BakeFeatures, mapsOfMaterialsComeFromTheHighMeshAndOnesThatItLacksAreNamed)
+{
+    // Two squares side by side, a red rough one and a blue smooth one.
+    write("paint.mtl", "newmtl red\nKd 1 0 0\nPr 0.8\nPm 0\nnewmtl blue\nKd 0 0 0.5\nPr 0.2\nPm 1\n");
+    write("high.obj",
+          "mtllib paint.mtl\nusemtl red\n" + square(-0.5, 0, 0, 1) + faces(1) + "usemtl blue\n" + square(0.5, 0, 0, 1)
+              + faces(5));
+    write("plain.obj", square(-0.5, 0, 0, 2) + kFaces);
+    write("low.obj", square(0, 0, 0, 1) + kFaces);
+    const std::vector<std::string> words = {"--low", "low.obj", "--size", "4x4", "-o", "m.png", "--high"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), words.begin(), words.end());
+        return bake(more);
+    };
+    const ToolRun r = with({"high.obj", "--maps", "base-color,roughness-metallic,id"});
+    ASSERT_EQ(r.code, 0) << r.err;
+    const Image color = loadImage("m-base-color.png"), surface = loadImage("m-roughness-metallic.png"),
+                id = loadImage("m-id.png");
+    for (int i = 0; i < 16; ++i) {
+        const std::size_t red = i % 4 < 2 ? 4 * i : 4 * (i - 2), blue = i % 4 < 2 ? 4 * (i + 2) : 4 * i;
+        const auto at = [](const Image& image, std::size_t first) {
+            return glm::ivec3(image.bytes8()[first], image.bytes8()[first + 1], image.bytes8()[first + 2]);
+        };
+        EXPECT_EQ(at(color, red), glm::ivec3(255, 0, 0));
+        EXPECT_EQ(at(color, blue), glm::ivec3(0, 0, 188)); // 255 srgb(0.5) = 187.5
+        EXPECT_EQ(at(surface, red), glm::ivec3(255, 204, 0));
+        EXPECT_EQ(at(surface, blue), glm::ivec3(255, 51, 255));
+        EXPECT_EQ(at(id, red), glm::ivec3(128, 0, 0));
+        EXPECT_EQ(at(id, blue), glm::ivec3(0, 128, 0));
+    }
+    EXPECT_EQ(nlohmann::json::parse(readWhole(folder / "r.json"))["maps"][2]["ids"],
+              nlohmann::json::parse(R"([{"name": "red", "color": "#800000"}, {"name": "blue", "color": "#008000"}])"));
+    std::filesystem::remove(folder / "m.png");
+    for (const char* kind : {"base-color", "roughness", "metallic", "roughness-metallic", "emissive"}) {
+        const ToolRun lacks = with({"plain.obj", "--kind", kind});
+        EXPECT_EQ(lacks.code, 2);
+        EXPECT_NE(lacks.err.find(std::string("for a map of kind ") + kind + "; found none"), std::string::npos)
+            << lacks.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "m.png"));
+    }
+    EXPECT_EQ(with({"plain.obj", "--kind", "id", "--id-by", "vertex-color"}).code, 2);
 }
 
 TEST_F(BakeFeatures, allTilesAreBakedAsEachAlone)

@@ -169,8 +169,10 @@ Result<MapReport> bakeTileMaps(const BakeJob& job, const MapJob& one, int tile, 
     done.writeSeconds = watch.lap();
     done.statistics = baked->front().statistics;
     done.box = baked->front().box;
-    for (const BakedMap& written : *baked)
+    for (const BakedMap& written : *baked) {
         done.units.push_back(written.unit);
+        done.ids.insert(done.ids.end(), written.ids.begin(), written.ids.end());
+    }
     done.highTriangles = setup.high.triangleCount();
     done.lowTriangles = setup.low.triangleCount();
     done.objects = objectNames(map.low).size();

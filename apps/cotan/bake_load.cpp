@@ -35,7 +35,8 @@ Result<HighModel> loadHigh(const BakeJob& job)
 {
     HighModel high;
     for (const std::string& file : job.high) {
-        COTAN_TRY(scene, loadUp(job.memory, file, job.highUp, job.options.ownMaps ? Pixels::all : Pixels::none));
+        const bool readsImages = job.options.ownMaps || job.readsMaterials();
+        COTAN_TRY(scene, loadUp(job.memory, file, job.highUp, readsImages ? Pixels::all : Pixels::none));
         high.scenes.push_back(std::move(*scene));
     }
     for (std::size_t i = 0; job.readsHighMaps() && i < job.highMaps.size(); ++i) {

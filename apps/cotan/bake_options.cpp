@@ -322,6 +322,8 @@ void declareBakeOptions(Arguments& a, BakeCommandOptions& o)
              "radius of a ball whose curvature is stored as 1, in model units; 0: 1 % of the high mesh's diagonal")
         .within(0.0, 1e9)
         .in("D");
+    a.choice("--id-by", model.bake.idBy, kIdBy,
+             "what has a colour of its own in a map of ids: material, object or vertex-color of the high mesh");
     a.choice("--ao-occluders", model.bake.occluders, kOccluders,
              "with --match-by-name, what casts occlusion: matched (the high meshes of the same name) or all");
     a.group(HelpGroup::input);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bake/bake_kinds.hpp"
 #include "bake/bake_surfaces.hpp"
 #include "common.hpp"
 #include "core/named_values.hpp"
@@ -14,12 +15,6 @@
 
 namespace cotan::app {
 
-inline constexpr Named<BakeKind> kBakeKinds[] = {
-    {"normal", BakeKind::normal},          {"object-normal", BakeKind::objectNormal},
-    {"height", BakeKind::height},          {"ao", BakeKind::occlusion},
-    {"bent-normal", BakeKind::bentNormal}, {"object-bent-normal", BakeKind::objectBentNormal},
-    {"thickness", BakeKind::thickness},    {"curvature", BakeKind::curvature},
-    {"position", BakeKind::position}};
 inline constexpr Named<PixelType> kBitCounts[] = {
     {"8", PixelType::unorm8}, {"16", PixelType::unorm16}, {"32", PixelType::float32}};
 
@@ -58,6 +53,7 @@ struct BakeJob {
 
     bool makesSeveralTiles() const { return allTiles || options.tiles.size() > 1; }
     bool makes(BakeKind kind) const { return std::ranges::count(options.kinds, kind) > 0; }
+    bool readsMaterials() const { return std::ranges::any_of(options.kinds, cotan::readsMaterials); }
     bool readsHighMaps() const { return options.ownMaps && std::ranges::any_of(options.kinds, showsNormals); }
 };
 

@@ -104,6 +104,14 @@ std::string meaningOf(const BakeJob& job, const MapReport& done, std::size_t map
     case BakeKind::thickness: return isFloat ? "in units" : fmt::format("1 is {:.3g} units", done.units[map]);
     case BakeKind::curvature:
         return isFloat ? "1 over units" : fmt::format("0.5 is flat, 1 a ball of {:.3g} units", done.units[map]);
+    case BakeKind::baseColor:
+    case BakeKind::emissive:
+    case BakeKind::id: return isFloat ? "linear" : "sRGB";
+    case BakeKind::roughnessMetallic: return "green, blue";
+    case BakeKind::occlusion:
+    case BakeKind::roughness:
+    case BakeKind::metallic: return "0 to 1";
+    case BakeKind::height: return isFloat ? "in units" : "from the lowest to the highest";
     default: return "world axes";
     }
 }
@@ -120,6 +128,9 @@ Json mapsToJson(const BakeJob& job, const MapReport& done)
         if (kind == BakeKind::position && job.options.stored.type != PixelType::float32)
             map["box"] = {{done.box.low.x, done.box.low.y, done.box.low.z},
                           {done.box.high.x, done.box.high.y, done.box.high.z}};
+        for (const IdColor& id : done.ids)
+            if (kind == BakeKind::id)
+                map["ids"].push_back({{"name", id.name}, {"color", fmt::format("#{:06x}", id.color)}});
         maps.push_back(std::move(map));
     }
     return maps;

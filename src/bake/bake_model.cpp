@@ -280,6 +280,7 @@ Result<BakeSetup> prepared(const Scene& low, const BakeModelOptions& options,
     setup.options.matchByName = high.options.matchByName;
     bake.highNormals = high.options.bake.highNormals;
     bake.highMaps = high.maps;
+    bake.highMaterials = high.materials;
     bake.cage = std::move(*cage);
     bake.matched.clear();
     bake.starts = nullptr;
@@ -302,18 +303,24 @@ Result<std::shared_ptr<const DetailedSurface>> openDetailed(HighModel high, cons
 {
     COTAN_CHECK(checkHigh(high));
     std::vector<std::string> names;
+    const std::vector<BakeKind> kinds = kindsOf(options);
+    const bool namesObjects =
+        options.bake.idBy == IdBy::object && std::ranges::find(kinds, BakeKind::id) != kinds.end();
     for (Scene& scene : high.scenes) {
         addNames(scene, false, names);
-        if (!options.matchByName) // with matching, rays need single instances
+        if (!options.matchByName && !namesObjects) // these need single instances
             joinParts(scene);
     }
     COTAN_TRY(surface, HighSurface::make(high.scenes, options.bake.threads, options.matchByName));
     COTAN_CHECK(checkPositions({surface->box().low, surface->box().high}, "high"));
-    const std::vector<BakeKind> kinds = kindsOf(options);
     if (options.bake.highNormals == HighNormals::curved || std::ranges::find(kinds, BakeKind::curvature) != kinds.end())
         surface->curve(options.bake.threads);
-    DetailedSurface open{std::move(*surface), nullptr, std::move(names), options, {}};
+    DetailedSurface open{std::move(*surface), nullptr, nullptr, std::move(names), options, {}};
     open.options.cage = open.options.others = nullptr;
+    if (std::ranges::any_of(kinds, readsMaterials)) { // before the normal maps, which are moved out of the scenes
+        COTAN_TRY(materials, HighMaterials::make(high.scenes, open.surface, kinds, options.bake.idBy));
+        open.materials = std::make_shared<const HighMaterials>(std::move(*materials));
+    }
     if (options.ownMaps && std::ranges::any_of(kinds, showsNormals))
         COTAN_CHECK(readOwnMaps(high, open));
     return std::make_shared<const DetailedSurface>(std::move(open));
@@ -355,6 +362,7 @@ Result<std::vector<BakedMap>> bakeTile(const BakeSetup& setup, int tile, const P
                         .image = storeBaked(one, kinds[i], setup.options.stored),
                         .box = one.box,
                         .unit = one.unit,
+                        .ids = kinds[i] == BakeKind::id ? options.highMaterials->ids() : std::vector<IdColor>(),
                         .format = storedFormat(kinds[i], setup.options.stored.format),
                         .mask = setup.options.mask && i == 0 ? maskOf(one) : Image(),
                         .statistics = statistics});

@@ -71,6 +71,7 @@ class BakeOptions(Struct):
         (c.c_float, "extrusion"),
         (text, "occluders"),
         (c.c_float, "thickness_distance curvature_radius"),
+        (text, "id_by"),
     )
 
 
@@ -79,7 +80,8 @@ class BakeResult(Struct):
         (size_t, "texels covered missed negative twice rays"),
         (double, "ray_distance"),
         (size_t, "further nearer"),
-        (double, "ray_start"),
+        (double, "ray_start unit"),
+        (double * 6, "box"),
     )
 
 
