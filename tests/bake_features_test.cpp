@@ -119,6 +119,32 @@ TEST_F(BakeFeatures, mapsOfMaterialsComeFromTheHighMeshAndOnesThatItLacksAreName
     }
     EXPECT_EQ(nlohmann::json::parse(readWhole(folder / "r.json"))["maps"][2]["ids"],
               nlohmann::json::parse(R"([{"name": "red", "color": "#800000"}, {"name": "blue", "color": "#008000"}])"));
+    // Packed: beside other maps by its name, alone as the output itself.
+    for (const auto& [more, file, name] :
+         {std::tuple(std::vector<std::string>{"--maps", "normal,orm"}, "m-orm.png", "orm"),
+          {{"--pack", "orm"}, "m.png", "orm"},
+          {{"--pack", "R=ao,G=roughness,B=metallic"}, "m.png", "packed"},
+          {{"--maps", "id", "--pack", "R=ao,G=roughness,B=metallic"}, "m-packed.png", "packed"},
+          {{"--pack", "both:R=ao,G=roughness,B=metallic", "--pack", "R=metallic"}, "m-both.png", "both"},
+          {{"--pack", "x:R=ao,G=roughness,B=metallic", "-o", "<MAP>_1.png"}, "x_1.png", "x"}}) {
+        std::vector<std::string> all = {"--high", "high.obj", "--low", "low.obj", "--size", "4x4", "--ao-rays", "9"};
+        all.insert(all.end(), more.begin(), more.end());
+        if (std::ranges::find(more, "-o") == more.end())
+            all.insert(all.end(), {"-o", "m.png"});
+        const ToolRun packed = bake(all);
+        ASSERT_EQ(packed.code, 0) << packed.err;
+        const Image image = loadImage(file);
+        for (int i = 0; i < 16; ++i) // nothing occludes the plane
+            EXPECT_EQ(glm::ivec3(image.bytes8()[4 * i], image.bytes8()[4 * i + 1], image.bytes8()[4 * i + 2]),
+                      i % 4 < 2 ? glm::ivec3(255, 204, 0) : glm::ivec3(255, 51, 255));
+        bool isReported = false;
+        const auto report = nlohmann::json::parse(readWhole(folder / "r.json"));
+        for (const auto& map : report["maps"])
+            isReported = isReported
+                || (map["kind"] == name && map["output"] == file
+                    && map["channels"] == nlohmann::json::parse(R"(["ao", "roughness", "metallic", "1"])"));
+        EXPECT_TRUE(isReported) << file;
+    }
     std::filesystem::remove(folder / "m.png");
     for (const char* kind : {"base-color", "roughness", "metallic", "roughness-metallic", "emissive"}) {
         const ToolRun lacks = with({"plain.obj", "--kind", kind});
@@ -184,6 +210,11 @@ TEST_F(BakeFeatures, mapsThatContradictOtherOptionsAreRefusedBeforeAnythingIsRea
                                                               "--maps: expected each map once; found normal twice"),
              {{"--maps", "normal,gloss"}, "found 'gloss'"},
              {{"--maps", "normal,"}, "--maps: expected one of normal, object-normal, height, ao, bent-normal, "},
+             {{"--pack", "R=normal"}, "--pack: R: expected a map of one value per texel (height, ao, "},
+             {{"--pack", "R=ao", "--pack", "G=ao"}, "--pack: expected each map once; found packed twice"},
+             {{"--maps", "orm", "--pack", "orm"}, "--pack: expected each map once; found orm twice"},
+             {{"--pack", "orm", "--kind", "ao"}, "--kind ao: makes one map; expected no --pack with it"},
+             {{"--pack", "orm", "--verify", "checked"}, "--verify: only maps of the kind normal can be drawn"},
              {{"--maps", "ao", "--kind", "height"}, "--kind height: makes one map; expected no --maps with it"},
              {{"--maps", "normal,ao", "-o", "x_<MAP>"}, "x_normal"},
              {{"--mask", "states"}, "states"},

@@ -10,8 +10,10 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "bake/bake_kinds.hpp"
 #include "bake_scene.hpp"
 #include "cotan/bake.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 namespace {
@@ -350,6 +352,82 @@ TEST(BakeMaterials, aKindThatTheHighModelLacksIsNamed)
         ASSERT_FALSE(baked);
         EXPECT_EQ(baked.error().kind, ErrorKind::input);
         EXPECT_EQ(baked.error().message, message);
+    }
+}
+
+TEST(BakeMaterials, packedMapsHaveTheChannelsOfTheMapsAloneAndOnlyAskedMapsAreReturned)
+{
+    Sheared high;
+    high.scene.materials[0].metallicRoughnessMap = high.texture;
+    high.scene.meshes.push_back(rectangle({0.5f, 0, 0}, {0, 1, 0}, {0, 0, 1})); // a wall, so that occlusion differs
+    high.scene.instances.push_back({"", 1, glm::mat4(1)});
+    for (const PixelType type : {PixelType::unorm8, PixelType::unorm16, PixelType::float32}) {
+        BakeModelOptions options;
+        options.kinds = {BakeKind::normal, BakeKind::metallic};
+        options.packed = {*parsePackedMap("orm"), *parsePackedMap("mask:b=metallic,A=0.5,G=1")};
+        options.bake.width = options.bake.height = kSide;
+        options.stored.type = type;
+        options.mask = true;
+        const auto bake = [&] {
+            HighModel model;
+            model.scenes.push_back(high.scene);
+            return bakeModel(sceneOfMeshes({rectangle({0, 0, 0.01f}, {1, 0, 0}, {0, 1, 0})}), std::move(model),
+                             options);
+        };
+        const auto baked = bake();
+        ASSERT_TRUE(baked) << baked.error().message;
+        ASSERT_EQ(baked->maps.size(), 4u);
+        EXPECT_EQ(baked->maps[3].packed->name, "mask");
+        options.kinds = {BakeKind::occlusion, BakeKind::roughness, BakeKind::metallic};
+        options.packed = {};
+        const auto alone = bake();
+        const std::size_t size = bytesPerComponent(type);
+        const auto component = [&](const BakedMap& map, std::size_t i) {
+            return std::vector(map.image.data.begin() + std::ptrdiff_t(i * size),
+                               map.image.data.begin() + std::ptrdiff_t((i + 1) * size));
+        };
+        for (std::size_t i = 0; i < kSide * kSide; ++i) {
+            for (std::size_t c = 0; c < 3; ++c)
+                ASSERT_EQ(component(baked->maps[2], 4 * i + c), component(alone->maps[c], 4 * i)) << i << " " << c;
+            ASSERT_EQ(component(baked->maps[3], 4 * i + 2), component(alone->maps[2], 4 * i));
+        }
+        const glm::vec4 mask = storedComponents(baked->maps[3].image, 3, 3);
+        EXPECT_EQ(glm::vec2(mask.x, mask.y), glm::vec2(0, 1));
+        EXPECT_NEAR(mask.w, 0.5, 0.5 / 255 + 1e-6);
+        EXPECT_EQ(storedComponents(baked->maps[2].image, 3, 3).w, 1);
+        options.kinds = {};
+        options.packed = {*parsePackedMap("R=ao")};
+        const auto only = bake();
+        ASSERT_EQ(only->maps.size(), 1u);
+        EXPECT_FALSE(only->maps[0].mask.data.empty());
+    }
+}
+
+TEST(BakeMaterials, wordsOfPackedMapsAreCheckedOneByOne)
+{
+    for (const auto& [text, message] : {
+             std::pair("", "expected orm, or channels such as R=ao,G=roughness,B=metallic,A=1; found ''"),
+             {"R", "expected orm, or channels"},
+             {"R=", "expected orm, or channels"},
+             {"R=ao,", "expected orm, or channels"},
+             {"X=ao", "expected orm, or channels"},
+             {"RG=ao", "expected orm, or channels"},
+             {"R=ao,r=metallic", "expected each channel once; found r twice"},
+             {"R=normal",
+              "R: expected a map of one value per texel (height, ao, thickness, curvature, roughness, "
+              "metallic) or a number from 0 to 1; found 'normal'"},
+             {"R=gloss", "found 'gloss'"},
+             {"R=1.5", "found '1.5'"},
+             {"R=nan", "found 'nan'"},
+             {"R=-1", "found '-1'"},
+             {"a/b:R=ao", "expected a name of letters, digits, - and _; found 'a/b'"},
+             {":R=ao", "expected a name before ':'"},
+             {"R=1,A=0", "expected a map in one of the channels; found constants only"},
+         }) {
+        const auto map = parsePackedMap(text);
+        ASSERT_FALSE(map) << text;
+        EXPECT_EQ(map.error().kind, ErrorKind::usage);
+        EXPECT_NE(map.error().message.find(message), std::string::npos) << map.error().message;
     }
 }
 

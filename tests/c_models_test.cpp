@@ -181,9 +181,12 @@ TEST(CModels, bakeOptionsAreCheckedAgainstTheirBounds)
               COTAN_OK)
         << why;
     EXPECT_EQ(bake([](Options& o) { o.kind = "occlusion"; }), COTAN_OK) << why; // the name before version 9
-    expectError(
-        bake([](Options& o) { o.kind = "base-color"; }),
-        "high: expected a base colour map, a colour or vertex colours for a map of kind base-color; found none",
+    EXPECT_EQ(bake([](Options& o) { o.kind = "R=ao,G=height,A=0.2"; }), COTAN_OK) << why;
+    EXPECT_EQ(pixels[3], 51); // 0.2
+    expectError(bake([](Options& o) { o.kind = "R=normal"; }),
+                "options.kind: R: expected a map of one value per texel (height, ao, ");
+    expectError(bake([](Options& o) { o.kind = "base-color"; }),
+                "high: expected a base colour map, a colour or vertex colours for a map of kind base-color; found none",
                 COTAN_INPUT);
     cotan_bake_result result = COTAN_INIT(cotan_bake_result);
     Options curvature = COTAN_INIT(cotan_bake_options);

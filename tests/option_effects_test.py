@@ -129,6 +129,7 @@ CASES = [
     ("bake --high high.obj --low low.obj --size 16x16 --kind thickness --ao-rays 9 --bits 32 -o out.exr", {"--thickness-distance": "0.01 | 0.1"}),
     ("bake --high high.obj --low low.obj --size 16x16 --kind curvature -o out.png", {"--curvature-radius": "0.001 | 0.1"}),
     ("bake --high high.obj --high layers.obj --low low.obj --size 16x16 --kind id -o out.png", {"--id-by": "~material | object | !vertex-color"}),
+    ("bake --high high.obj --low low.obj --size 16x16 --ao-rays 9 -o out.png", {"--pack": "R=ao,G=height | R=height,A=0.5 | R=height,A=0.25 | !R=normal | !orm"}),
     ("bake --high room.gltf --low room.gltf --size 16x16 -o out.png", {"--kind": "base-color | roughness | metallic | roughness-metallic | emissive"}),
     ("bake --high high.obj --low low.obj --size 16x16 -o out.png", {"--maps": "height | normal,ao | position,curvature,thickness"}),
     ("convert panel.gltf --from-frame mikktspace --to-frame smooth -o out.glb", {

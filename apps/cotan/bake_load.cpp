@@ -107,7 +107,8 @@ std::vector<std::string> warningsOf(const BakeJob& job, const Scene& low, const 
 {
     std::vector<std::string> warnings = low.warnings;
     if (job.options.ownMaps && !job.readsHighMaps())
-        warnings.push_back(fmt::format("--high-normals map has no effect on a map of kind {}", namesOf(job.options)));
+        warnings.push_back(
+            fmt::format("--high-normals map has no effect on a map of kind {}", fmt::join(namesOf(job.options), ", ")));
     for (const Scene& scene : high.scenes)
         for (const std::string& line : scene.warnings)
             if (std::find(low.warnings.begin(), low.warnings.end(), line) == low.warnings.end())

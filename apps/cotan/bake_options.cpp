@@ -46,25 +46,40 @@ Result<Convention> formatOfMap(const std::string& convention, std::optional<Expa
     return format;
 }
 
-// The kinds of --maps, or that of --kind.
-Result<std::vector<BakeKind>> kindsOf(const BakeCommandOptions& o)
+// The maps of --maps and --pack, or that of --kind.
+Status parseMaps(const BakeCommandOptions& o, BakeModelOptions& options)
 {
     const BakeKind one = o.job.options.bake.kind;
-    if (o.maps.empty())
-        return std::vector{one};
+    if (o.maps.empty() && o.packed.empty()) {
+        options.kinds = {one};
+        return Done{};
+    }
     if (one != BakeKind::normal)
-        return usageError(fmt::format("--kind {}: makes one map; expected no --maps with it", wordOf(kBakeKinds, one)));
+        return usageError(fmt::format("--kind {}: makes one map; expected no {} with it", wordOf(kBakeKinds, one),
+                                      o.maps.empty() ? "--pack" : "--maps"));
     Words<BakeKind> known;
     for (const auto& [word, kind] : kBakeKinds)
         known.push_back({word, kind});
-    std::vector<BakeKind> kinds;
-    for (const std::string& word : splitAtCommas(o.maps)) {
+    known.push_back({kPackedOrm, {}});
+    for (const std::string& word : o.maps.empty() ? std::vector<std::string>() : splitAtCommas(o.maps)) {
         COTAN_TRY(kind, oneOf("--maps", word, known));
-        if (std::ranges::find(kinds, *kind) != kinds.end())
-            return usageError(fmt::format("--maps: expected each map once; found {} twice", word));
-        kinds.push_back(*kind);
+        if (word == kPackedOrm)
+            options.packed.push_back(*parsePackedMap(word));
+        else
+            options.kinds.push_back(*kind);
     }
-    return kinds;
+    for (const std::string& text : o.packed) {
+        auto map = parsePackedMap(text);
+        if (!map)
+            return usageError("--pack: " + map.error().message);
+        options.packed.push_back(std::move(*map));
+    }
+    const std::vector<std::string> names = namesOf(options);
+    for (const std::string& name : names)
+        if (std::ranges::count(names, name) > 1)
+            return usageError(fmt::format("{}: expected each map once; found {} twice",
+                                          o.packed.empty() ? "--maps" : "--pack", name));
+    return Done{};
 }
 
 // The name with a word in all places that are marked.
@@ -78,7 +93,7 @@ std::filesystem::path withWord(const std::filesystem::path& file, std::string_vi
 
 // The files of the maps. With <MAP> in the output, the name of each is in its place. Else several maps are NAME.png in
 // a folder, which is an output that exists as one or has no ending, or map.png becomes map-NAME.png.
-void setFiles(const std::filesystem::path& output, const std::vector<BakeKind>& kinds, bool severalMaps,
+void setFiles(const std::filesystem::path& output, const std::vector<std::string>& names, bool severalMaps,
               BakeFiles& files)
 {
     constexpr std::string_view kPlace = "<MAP>";
@@ -87,13 +102,11 @@ void setFiles(const std::filesystem::path& output, const std::vector<BakeKind>& 
     if (severalMaps && !isMarked && !output.empty()
         && (!output.has_extension() || std::filesystem::is_directory(output, unknown)))
         files.folder = output;
-    for (const BakeKind kind : kinds) {
-        const std::string name = wordOf(kBakeKinds, kind);
+    for (const std::string& name : names)
         files.maps.push_back(isMarked                   ? withWord(output, kPlace, name)
                                  : !severalMaps         ? output
                                  : files.folder.empty() ? withPart(output, name)
                                                         : output / (name + ".png"));
-    }
 }
 
 constexpr std::string_view kAllTiles = "all";
@@ -129,9 +142,9 @@ Status checkOutputs(const BakeJob& job)
         return usageError("bake needs -o FILE for the map");
     if (!job.files.verify.empty() && !job.makes(BakeKind::normal))
         return usageError("--verify: only maps of the kind normal can be drawn and compared");
-    if (model && options.kinds != std::vector{BakeKind::normal})
+    if (model && (options.kinds != std::vector{BakeKind::normal} || !options.packed.empty()))
         return usageError(fmt::format("-o {}: expected --kind normal for a map in a model; found {}", map.string(),
-                                      namesOf(options)));
+                                      fmt::join(namesOf(options), ", ")));
     if (model && options.stored.type == PixelType::float32)
         return usageError(
             fmt::format("-o {}: expected --bits 8 or 16 for an image in a model; found 32", map.string()));
@@ -206,12 +219,14 @@ Status checkRays(const BakeJob& job)
 
 } // namespace
 
-std::string namesOf(const BakeModelOptions& options)
+std::vector<std::string> namesOf(const BakeModelOptions& options)
 {
     std::vector<std::string> names;
     for (const BakeKind kind : options.kinds)
         names.push_back(wordOf(kBakeKinds, kind));
-    return fmt::format("{}", fmt::join(names, ", "));
+    for (const PackedMap& map : options.packed)
+        names.push_back(map.name);
+    return names;
 }
 
 std::filesystem::path withPart(const std::filesystem::path& file, const std::string& part)
@@ -246,9 +261,8 @@ Result<BakeJob> bakeJobOf(const BakeCommandOptions& o)
 {
     BakeJob job = o.job;
     job.common = o;
-    COTAN_TRY(kinds, kindsOf(o));
-    job.options.kinds = *kinds;
-    setFiles(o.output, *kinds, !o.maps.empty(), job.files);
+    COTAN_CHECK(parseMaps(o, job.options));
+    setFiles(o.output, namesOf(job.options), !o.maps.empty() || o.packed.size() > 1, job.files);
     job.highUp = o.highUp.value_or(job.up);
     job.convention = o.convention;
     BakeModelOptions& options = job.options;
@@ -283,14 +297,20 @@ void declareBakeOptions(Arguments& a, BakeCommandOptions& o)
     a.group(HelpGroup::output);
     BakeModelOptions& model = o.job.options;
     const std::vector<std::string> kinds = wordsOf(kBakeKinds);
+    std::vector<std::string> names = kinds;
+    names.emplace_back(kPackedOrm);
     a.option(
          "--maps", o.maps,
          fmt::format("several maps from the same rays, separated by commas, each its own file: {}; -o map.png writes "
                      "map-ao.png, -o FOLDER/ ao.png, -o x_<MAP>.png x_ao.png",
-                     fmt::join(kinds, ", ")))
+                     fmt::join(names, ", ")))
         .in("NAMES")
-        .offers(kinds)
+        .offers(names)
         .main();
+    a.option("--pack", o.packed,
+             "a map from channels of others, which need not be written: R=ao,G=roughness,B=metallic,A=1, or orm for "
+             "these; its name is packed, or MASK with MASK: before it; may be given several times")
+        .in("CHANNELS");
     a.choice("--kind", model.bake.kind, kBakeKinds,
              "what to bake, if it is one map: " + fmt::format("{}", fmt::join(kinds, ", ")));
     a.option("--size", o.size, "width and height in texels; 512 is 512x512").in("WxH").main();

@@ -53,7 +53,7 @@ struct BakeJob {
 
     bool makesSeveralTiles() const { return allTiles || options.tiles.size() > 1; }
     bool makes(BakeKind kind) const { return std::ranges::count(options.kinds, kind) > 0; }
-    bool readsMaterials() const { return std::ranges::any_of(options.kinds, cotan::readsMaterials); }
+    bool readsMaterials() const { return std::ranges::any_of(kindsOf(options), cotan::readsMaterials); }
     bool readsHighMaps() const { return options.ownMaps && std::ranges::any_of(options.kinds, showsNormals); }
 };
 
@@ -65,10 +65,11 @@ struct BakeCommandOptions : CommonOptions {
     std::optional<Up> highUp;           // none: as of the low mesh
     std::string udim;                   // empty: 1001
     std::string maps;                   // names of kinds
+    std::vector<std::string> packed;    // channels of maps
 };
 
-// The names of the kinds, for messages.
-std::string namesOf(const BakeModelOptions& options);
+// The names of the maps: of their kinds, then of the packed ones.
+std::vector<std::string> namesOf(const BakeModelOptions& options);
 
 // map.png with the part lid: map-lid.png. An empty file stays empty.
 std::filesystem::path withPart(const std::filesystem::path& file, const std::string& part);

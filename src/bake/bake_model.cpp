@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "bake/bake_kinds.hpp"
 #include "bake/bake_surfaces.hpp"
 #include "bake/name_pairs.hpp"
 #include "core/named_values.hpp"
@@ -31,12 +32,6 @@ constexpr float kFarthest = 1e17f; // model units: Embree terminates the program
 template<class... Found> Error wrong(const char* option, fmt::format_string<Found...> text, Found&&... found)
 {
     return about(option, usageError(fmt::format(text, std::forward<Found>(found)...)));
-}
-
-// The maps of a bake.
-std::vector<BakeKind> kindsOf(const BakeModelOptions& options)
-{
-    return options.kinds.empty() ? std::vector{options.bake.kind} : options.kinds;
 }
 
 Status checkRanges(const Scene& low, const BakeModelOptions& options)
@@ -68,6 +63,14 @@ Status checkRanges(const Scene& low, const BakeModelOptions& options)
                      "a cage already defines where rays start, and the first surface that they hit counts");
     if (b.search == BakeSearch::nearest && b.extrusion > 0)
         return wrong("options.extrusion", "the search nearest already looks to both sides of the low surface");
+    for (const PackedMap& map : options.packed) {
+        if (std::ranges::none_of(map.kinds, [](const auto& kind) { return kind.has_value(); }))
+            return wrong("options.packed", "expected a map in one of the channels; found constants only");
+        for (const std::optional<BakeKind>& kind : map.kinds)
+            if (kind && !holdsScalars(*kind))
+                return wrong("options.packed", "expected maps of one value per texel; found {}",
+                             wordOf(kBakeKinds, *kind));
+    }
     if (options.material >= int(low.materials.size()))
         return wrong("options.material", "expected 0 to {}; found {}", int(low.materials.size()) - 1, options.material);
     return Done{};
@@ -364,12 +367,25 @@ Result<std::vector<BakedMap>> bakeTile(const BakeSetup& setup, int tile, const P
                         .unit = one.unit,
                         .ids = kinds[i] == BakeKind::id ? options.highMaterials->ids() : std::vector<IdColor>(),
                         .format = storedFormat(kinds[i], setup.options.stored.format),
-                        .mask = setup.options.mask && i == 0 ? maskOf(one) : Image(),
                         .statistics = statistics});
         if (kinds[i] == BakeKind::normal || kinds[i] == BakeKind::bentNormal)
             maps.back().image.frame = name(options.frame);
         one.values = {};
     }
+    std::vector<BakedMap> packed;
+    for (const PackedMap& map : setup.options.packed) {
+        const auto first = std::ranges::find_if(map.kinds, [](const auto& kind) { return kind.has_value(); });
+        packed.push_back({.tile = tile,
+                          .kind = **first,
+                          .packed = map,
+                          .image = packMaps(maps, map),
+                          .box = maps.front().box,
+                          .statistics = statistics});
+    }
+    maps.resize(packed.empty() ? maps.size() : setup.options.kinds.size()); // drops those that only packed maps need
+    std::move(packed.begin(), packed.end(), std::back_inserter(maps));
+    if (setup.options.mask)
+        maps.front().mask = maskOf(baked->front());
     return maps;
 }
 
@@ -382,9 +398,8 @@ Result<BakedModel> bakeTiles(Result<BakeSetup> setup, const Progress& progress)
     BakedModel model;
     model.warnings = std::move(setup->warnings);
     const std::vector<int>& tiles = setup->options.tiles;
-    for (const int tile : tiles) {
-        const std::size_t done = model.maps.size() / kindsOf(setup->options).size();
-        COTAN_TRY(maps, bakeTile(*setup, tile, partOf(progress, done, tiles.size())));
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        COTAN_TRY(maps, bakeTile(*setup, tiles[i], partOf(progress, i, tiles.size())));
         std::move(maps->begin(), maps->end(), std::back_inserter(model.maps));
     }
     return model;

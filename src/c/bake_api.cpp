@@ -54,7 +54,10 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_image_vi
     require(tangents == "stored" || tangents == "generated", "options.tangents: expected stored or generated");
     BakeOptions& b = options.bake;
     const std::string_view kind = o.kind ? o.kind : "normal";
-    b.kind = valueOf(kBakeKinds, kind == "occlusion" ? "ao" : kind, "options.kind"); // its name before version 9
+    if (kind == kPackedOrm || kind.find('=') != std::string_view::npos)
+        options.packed = {valueOf(parsePackedMap(kind), "options.kind")};
+    else
+        b.kind = valueOf(kBakeKinds, kind == "occlusion" ? "ao" : kind, "options.kind"); // its name before version 9
     b.frame = frameOr(o.frame, Frame::mikktspace, "options.frame");
     b.width = map.width;
     b.height = map.height;

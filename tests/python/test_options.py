@@ -48,6 +48,7 @@ BAKE = [
     *({"kind": k, "ao_rays": 9, "size": 8} for k in ("bent-normal", "object-bent-normal", "thickness")),
     {"kind": "thickness", "thickness_distance": 0.05, "ao_rays": 9, "size": 8}, {"kind": "curvature", "curvature_radius": 0.05},
     *({"kind": k, "low": "room.gltf", "high": "room.gltf", "samples": 4} for k in ("base-color", "roughness", "metallic", "roughness-metallic", "emissive", "id")),
+    {"pack": "orm", "low": "room.gltf", "high": "room.gltf", "size": 8, "ao_rays": 9}, {"pack": "R=height,G=curvature,A=0.5"},
     {"kind": "id", "id_by": "object", "low": "room.gltf", "high": "room.gltf"}, {"kind": "base-color", "bits": 16, "low": "room.gltf", "high": ["panel.gltf", "room.gltf"]},
     *({"convention": c} for c in ("directx", "unreal", "gltf,xy")), {"bits": 16}, {"samples": 4}, {"samples": 16}, {"padding": 2}, {"padding": -1},
     {"dither": True}, {"ao_rays": 9, "kind": "ao", "size": 8}, {"ao_occluders": "all", "kind": "ao", "size": 8, "match_by_name": True, "low": "room.gltf", "high": "room.gltf"}, {"search": "nearest", "high": "layers.obj"}, {"extrusion": 0.02, "high": "layers.obj"},

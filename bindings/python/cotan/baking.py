@@ -22,7 +22,7 @@ from .words import BakeKind, Convention, Frame, HighNormals, IdBy, Occluders, Se
 Geometry = Union[Mesh, Path, Model]
 
 
-_OF_MATERIALS = ("base-color", "roughness", "metallic", "roughness-metallic", "emissive")
+_OF_MATERIALS = ("base-color", "roughness", "metallic", "orm", "emissive")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -119,6 +119,7 @@ def bake(
     size: Any = 1024,
     frame: Frame = "mikktspace",
     kind: BakeKind = "normal",
+    pack: Optional[str] = None,
     convention: Convention = "opengl",
     bits: int = 8,
     samples: int = 1,
@@ -161,6 +162,7 @@ def bake(
             "thickness", "curvature", "position", or of the high meshes' materials "base-color", "roughness",
             "metallic", "roughness-metallic" (green and blue), "emissive" or "id". Colours are sRGB with 8 and 16 bits,
             linear with 32; integers clamp them to 1.
+        pack: instead of `kind`, channels of maps of one value: "R=ao,G=roughness,B=metallic,A=1", or "orm" for these.
         convention: how the map is stored: "opengl" (green up), "directx", "opengl,biased", ...
         bits: bit depth of the map: 8, 16 or 32 (float).
         samples: samples per texel: 1, 4 or 16.
@@ -219,7 +221,7 @@ def bake(
     words = {
         name: None if word is None else arrays.encoded(word, name)
         for name, word in (
-            ("frame", frame), ("kind", kind), ("id_by", id_by), ("convention", convention),
+            ("frame", frame), ("kind", kind if pack is None else pack), ("id_by", id_by), ("convention", convention),
             ("tangents", tangents), ("high_normals", high_normals), ("high_frame", high_frame),
             ("high_convention", high_convention), ("search", search), ("occluders", ao_occluders),
         )
@@ -235,7 +237,7 @@ def bake(
     def work(told):
         simple = _model(low, "low", up, memory=memory)
         enclosing = None if cage is None else _model(cage, "cage", up)
-        images_used = high_normals == "map" or kind in _OF_MATERIALS
+        images_used = high_normals == "map" or any(word in (pack or kind) for word in _OF_MATERIALS)
         detailed = [_model(h, "high", high_up or up, images_used, memory) for h in _several(high)]
         for model in (simple, *detailed):
             warnings.extend(w for w in model.warnings if w not in warnings)

@@ -313,7 +313,8 @@ typedef struct cotan_bake_options {
                           version 9 "bent-normal", "object-bent-normal", "thickness", "curvature", "position", and
                           of the detailed models' materials, which must have been opened with images:
                           "base-color", "roughness", "metallic", "roughness-metallic" (green, blue), "emissive",
-                          "id"; colours are sRGB with 8 and 16 bits, else linear; null: "normal" */
+                          "id"; colours are sRGB with 8 and 16 bits, else linear; and channels of maps of one value,
+                          such as "R=ao,G=roughness,B=metallic,A=1", which is "orm"; null: "normal" */
     const char* convention;  /* of the map; null: "gltf" */
     int samples;             /* per texel and axis: 1, 2 or 4; 0: 1 */
     int padding;             /* width of the filled border around charts, in texels; 0: fill everything, -1: none */

@@ -14,6 +14,7 @@
 // The other two headers of this part are cotan/lint.hpp and cotan/convert.hpp.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -135,6 +136,13 @@ struct BakeOptions {
     int threads = 0;
 };
 
+// A map whose channels are red, green, blue and alpha of maps of one value per texel, or constants.
+struct PackedMap {
+    std::string name = "packed";
+    std::array<std::optional<BakeKind>, 4> kinds; // of holdsScalars; none: the constant
+    std::array<float, 4> constants{0, 0, 0, 1};
+};
+
 // How a map is stored.
 struct StoredAs {
     Convention format;
@@ -153,9 +161,10 @@ struct HighModel {
 
 struct BakeModelOptions {
     BakeOptions bake; // tile, cage, starts, highMaps, highMaterials and matched are derived from the options below
-    std::vector<BakeKind> kinds;  // maps that are made from the same rays, each as it would be alone; empty: bake.kind
-    std::vector<int> tiles{1001}; // UDIM numbers, one map each: 1001 + u + 10 v, u below 10, v upwards
-    int material = -1;            // of the simple scene; -1: all
+    std::vector<BakeKind> kinds;   // maps that are made from the same rays, each as it would be alone; empty: bake.kind
+    std::vector<PackedMap> packed; // further maps from the same rays; only these if kinds is empty
+    std::vector<int> tiles{1001};  // UDIM numbers, one map each: 1001 + u + 10 v, u below 10, v upwards
+    int material = -1;             // of the simple scene; -1: all
     TangentOrigin tangents = TangentOrigin::stored; // for the frames `vertex` and `mikktspace`
     const Scene* cage = nullptr;   // the triangles of the simple scene in the same order, moved out to enclose both
                                    // models; rays run from it inwards. Null: none. Read by prepareBake only
@@ -208,19 +217,20 @@ struct IdColor {
 };
 
 struct BakedMap {
-    int tile = 1001; // UDIM number
-    BakeKind kind = BakeKind::normal;
+    int tile = 1001;                  // UDIM number
+    BakeKind kind = BakeKind::normal; // of a packed map that of its first channel with one
+    std::optional<PackedMap> packed = {};
     Image image; // in integers a position is a fraction of `box`, and a height one between the lowest and the highest
     Bounds box;  // of the high surface
-    double unit = 0;          // curvature and thickness: the radius or the length that is stored as 1 in integers
-    std::vector<IdColor> ids; // of all materials or objects of the high surface, for a map of ids
-    Convention format;        // how `image` is stored, if it holds directions
-    Image mask;               // states of the texels as colours, see maskOf; empty unless requested
+    double unit = 0;               // curvature and thickness: the radius or the length that is stored as 1 in integers
+    std::vector<IdColor> ids = {}; // of all materials or objects of the high surface, for a map of ids
+    Convention format = {};        // how `image` is stored, if it holds directions
+    Image mask = {};               // states of the texels as colours, see maskOf; empty unless requested
     BakeStatistics statistics;
 };
 
 struct BakedModel {
-    std::vector<BakedMap> maps;        // for each of options.tiles one of each kind
+    std::vector<BakedMap> maps;        // for each of options.tiles those of the kinds, then the packed ones
     std::vector<std::string> warnings; // one line each; those about an option begin with "options.NAME: "
 };
 
