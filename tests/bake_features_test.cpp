@@ -156,6 +156,36 @@ TEST_F(BakeFeatures, mapsOfMaterialsComeFromTheHighMeshAndOnesThatItLacksAreName
     EXPECT_EQ(with({"plain.obj", "--kind", "id", "--id-by", "vertex-color"}).code, 2);
 }
 
+TEST_F(BakeFeatures, aModelGetsAllMapsOfItsMaterials)
+{
+    write("paint.mtl", "newmtl red\nKd 1 0 0\nPr 0.8\nPm 0\nKe 0 0.5 0\n");
+    write("high.obj", "mtllib paint.mtl\nusemtl red\n" + square(-1, -1, 0.01, 3) + kFaces);
+    write("low.obj", square(0, 0, 0, 1) + kFaces);
+    for (const char* maps : {"ao,emissive,normal,roughness-metallic,base-color", "normal,emissive,base-color,orm"}) {
+        const ToolRun r = bake({"--high", "high.obj", "--low", "low.obj", "--size", "4x4", "--ao-rays", "9", "--maps",
+                                maps, "-o", "out.glb", "--overwrite", "--mask", "mask.png"});
+        ASSERT_EQ(r.code, 0) << r.err;
+        EXPECT_TRUE(std::filesystem::exists(folder / "mask.png"));
+        const auto report = nlohmann::json::parse(readWhole(folder / "r.json"));
+        ASSERT_GE(report["maps"].size(), 4u);
+        for (const auto& map : report["maps"])
+            EXPECT_EQ(map["output"], "out.glb");
+        for (const auto& [view, expected] : {std::pair("base-color", glm::ivec3(255, 0, 0)),
+                                             {"roughness", glm::ivec3(204, 204, 204)},
+                                             {"metallic", glm::ivec3(0, 0, 0)},
+                                             {"occlusion", glm::ivec3(255, 255, 255)}}) {
+            const ToolRun drawn = runTool({"render", "out.glb", "--view", view, "--size", "8x8", "--device",
+                                           "reference", "-o", "view.png", "--ground", "off", "--quiet"},
+                                          folder.path());
+            ASSERT_EQ(drawn.code, 0) << drawn.err;
+            const Image image = loadImage("view.png");
+            const std::uint8_t* centre = image.bytes8() + 4 * (4 * 8 + 4);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(centre[c], expected[c], 1) << view;
+        }
+    }
+}
+
 TEST_F(BakeFeatures, allTilesAreBakedAsEachAlone)
 {
     // Two squares, on the tiles 1001 and 1012, below high squares at other heights.
@@ -224,7 +254,15 @@ TEST_F(BakeFeatures, mapsThatContradictOtherOptionsAreRefusedBeforeAnythingIsRea
              {{"--udim", "1002", "--verify", "checked"},
               "--verify: draws the map of tile 1001 only; found --udim 1002"},
              {{"--maps", "height,ao", "--verify", "checked"}, "--verify: only maps of the kind normal can be drawn"},
-             {{"--maps", "normal,ao", "-o", "x.glb"}, "expected --kind normal for a map in a model; found normal, ao"},
+             {{"--maps", "normal,curvature", "-o", "x.glb"},
+              "-o x.glb: a glTF material has no texture for curvature; expected normal, ao, base-color, "
+              "roughness-metallic, emissive or orm"},
+             {{"--kind", "id", "-o", "x.glb"}, "has no texture for id"},
+             {{"--pack", "R=ao", "-o", "x.glb"}, "has no texture for packed"},
+             {{"--maps", "orm,ao", "-o", "x.glb"}, "expected one map for each texture of a material; found ao, orm"},
+             {{"--maps", "normal,ao", "-o", "<MAP>.glb"}, "a model holds all maps; expected no <MAP> in its name"},
+             {{"--maps", "base-color", "-o", "x.glb", "--bits", "32"},
+              "expected --bits 8 or 16 for an image in a model"},
              {{"--kind", "thickness", "--thickness-distance", "-1"}, "--thickness-distance"},
          }) {
         std::vector<std::string> all = {"--high", "none.obj", "--low", "none.obj"};

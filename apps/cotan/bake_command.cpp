@@ -32,8 +32,24 @@ bool hasStoredTangents(const Scene& low, const BakeModelOptions& options)
            });
 }
 
-// Puts the map into the low model. Warns if readers that generate MikkTSpace tangents would show the map wrongly.
-Status writeBakedModel(const BakeJob& job, GltfDocument& document, const Scene& low, const Image& map)
+// The maps of a model's materials.
+MaterialImages imagesOf(const std::vector<BakedMap>& baked)
+{
+    MaterialImages images;
+    for (const BakedMap& map : baked)
+        if (map.packed) // orm
+            images.occlusion = images.roughnessMetallic = &map.image;
+        else
+            (map.kind == BakeKind::normal                  ? images.normal
+                 : map.kind == BakeKind::occlusion         ? images.occlusion
+                 : map.kind == BakeKind::roughnessMetallic ? images.roughnessMetallic
+                 : map.kind == BakeKind::baseColor         ? images.baseColor
+                                                           : images.emissive) = &map.image;
+    return images;
+}
+
+// Puts the maps into the low model. Warns if readers that generate MikkTSpace tangents would show them wrongly.
+Status writeBakedModel(const BakeJob& job, GltfDocument& document, const Scene& low, const std::vector<BakedMap>& baked)
 {
     const BakeModelOptions& options = job.options;
     PutMapOptions put{.frame = options.bake.frame,
@@ -42,7 +58,7 @@ Status writeBakedModel(const BakeJob& job, GltfDocument& document, const Scene& 
                       .keepTangents = hasStoredTangents(low, options)};
     if (options.material >= 0) // by name, since a scene numbers its materials in the order in which meshes use them
         put.material = low.materials[std::size_t(options.material)].name;
-    const auto written = writeModelWithMap(document, map, put, job.files.maps.front());
+    const auto written = writeModelWithMaps(document, imagesOf(baked), put, job.files.maps.front());
     if (!written)
         return withBakeOptionNames(job, written.error());
     for (const std::string& note : written->notes)
@@ -56,8 +72,9 @@ std::vector<PlannedOutput> plannedFor(const BakeJob& job, const BakeFiles& given
     std::vector<PlannedOutput> planned;
     for (const int tile : tiles) {
         const BakeFiles files = filesOfTile(job, given, tile);
-        for (const std::filesystem::path& map : files.maps)
-            planned.push_back({"-o", map, /*makesFolder*/ !files.folder.empty()});
+        const bool isModel = namedAsGltf(files.maps.front()); // of all maps
+        for (std::size_t i = 0; i < (isModel ? 1 : files.maps.size()); ++i)
+            planned.push_back({"-o", files.maps[i], /*makesFolder*/ !files.folder.empty()});
         planned.push_back({"--mask", files.mask});
     }
     if (!given.verify.empty())
@@ -110,7 +127,7 @@ Status writeMaps(const BakeJob& job, const BakeFiles& files, OpenBake& open, con
         COTAN_CHECK(makeFolder(files.folder));
     COTAN_TRY(pending, writePending(images));
     if (open.document)
-        COTAN_CHECK(writeBakedModel(job, *open.document, low, baked.front().image));
+        COTAN_CHECK(writeBakedModel(job, *open.document, low, baked));
     return commitTogether(*pending);
 }
 
@@ -262,9 +279,10 @@ void addBakeCommand(Arguments& tool)
         tool,
         {"bake",
          "Bake a normal map from a high-poly mesh onto a low-poly mesh.",
-         "the map: " + imageEndings(&ImageFormat::writes, ", ") + "; or the low model with the map in it: .glb, .gltf",
+         "the map: " + imageEndings(&ImageFormat::writes, ", ") + "; or the low model with the maps in it: .glb, .gltf",
          {"cotan bake --high statue.obj --low statue_low.obj --frame smooth -o normal.png",
           "cotan bake --high statue.obj --low statue_low.obj --maps normal,ao,curvature,thickness -o maps/",
+          "cotan bake --high statue.glb --low statue_low.obj --maps normal,base-color,orm -o statue_low.glb",
           "cotan bake --high statue.obj --low statue_low.obj --kind ao --size 256x256 --ao-rays 16 -o ao.png"},
          /*needsOutput=*/true},
         declareBakeOptions, run);

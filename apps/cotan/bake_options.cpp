@@ -103,10 +103,10 @@ void setFiles(const std::filesystem::path& output, const std::vector<std::string
         && (!output.has_extension() || std::filesystem::is_directory(output, unknown)))
         files.folder = output;
     for (const std::string& name : names)
-        files.maps.push_back(isMarked                   ? withWord(output, kPlace, name)
-                                 : !severalMaps         ? output
-                                 : files.folder.empty() ? withPart(output, name)
-                                                        : output / (name + ".png"));
+        files.maps.push_back(isMarked                                  ? withWord(output, kPlace, name)
+                                 : !severalMaps || namedAsGltf(output) ? output
+                                 : files.folder.empty()                ? withPart(output, name)
+                                                                       : output / (name + ".png"));
 }
 
 constexpr std::string_view kAllTiles = "all";
@@ -132,6 +132,31 @@ Status parseTiles(const std::string& words, BakeJob& job)
     return Done{};
 }
 
+// Refuses maps that a glTF material has no texture for.
+Status checkModelMaps(const BakeJob& job)
+{
+    constexpr BakeKind kOfMaterials[] = {BakeKind::normal, BakeKind::occlusion, BakeKind::baseColor,
+                                         BakeKind::roughnessMetallic, BakeKind::emissive};
+    const std::string output = job.files.maps.front().string();
+    const std::vector<std::string> names = namesOf(job.options);
+    const bool packs = !job.options.packed.empty();
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (i < job.options.kinds.size()
+                ? std::ranges::count(kOfMaterials, job.options.kinds[i]) == 0
+                : job.options.packed[i - job.options.kinds.size()].kinds != parsePackedMap(kPackedOrm)->kinds)
+            return usageError(
+                fmt::format("-o {}: a glTF material has no texture for {}; expected normal, ao, base-color, "
+                            "roughness-metallic, emissive or orm",
+                            output, names[i]));
+    if (packs
+        && (job.options.packed.size() > 1 || job.makes(BakeKind::occlusion) || job.makes(BakeKind::roughnessMetallic)))
+        return usageError(fmt::format("-o {}: expected one map for each texture of a material; found {}", output,
+                                      fmt::join(names, ", ")));
+    if (std::ranges::any_of(job.files.maps, [&](const auto& file) { return file != job.files.maps.front(); }))
+        return usageError(fmt::format("-o: a model holds all maps; expected no <MAP> in its name, found {}", output));
+    return Done{};
+}
+
 // Checks the files and the objects of a job. Baking may take hours, so that errors of the outputs must be found before.
 Status checkOutputs(const BakeJob& job)
 {
@@ -142,9 +167,8 @@ Status checkOutputs(const BakeJob& job)
         return usageError("bake needs -o FILE for the map");
     if (!job.files.verify.empty() && !job.makes(BakeKind::normal))
         return usageError("--verify: only maps of the kind normal can be drawn and compared");
-    if (model && (options.kinds != std::vector{BakeKind::normal} || !options.packed.empty()))
-        return usageError(fmt::format("-o {}: expected --kind normal for a map in a model; found {}", map.string(),
-                                      fmt::join(namesOf(options), ", ")));
+    if (model)
+        COTAN_CHECK(checkModelMaps(job));
     if (model && options.stored.type == PixelType::float32)
         return usageError(
             fmt::format("-o {}: expected --bits 8 or 16 for an image in a model; found 32", map.string()));
