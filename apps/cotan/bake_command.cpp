@@ -94,15 +94,7 @@ Result<std::vector<MapJob>> mapsOf(const BakeJob& job, const Scene& low)
     std::vector<PlannedOutput> planned;
     const std::vector<std::string> names = objectNames(low), parts = fileNameParts(names);
     for (std::size_t i = 0; i < names.size(); ++i) {
-        const BakeFiles& files = job.files;
-        MapJob one{names[i],
-                   {{},
-                    files.folder,
-                    withPart(files.mask, parts[i]),
-                    files.verify.empty() ? files.verify : files.verify / parts[i]}};
-        for (const std::filesystem::path& map : files.maps)
-            one.files.maps.push_back(withPart(map, parts[i]));
-        maps.push_back(std::move(one));
+        maps.push_back({names[i], filesOfObject(job.files, parts[i])});
         if (fileNamePart(names[i]) != parts[i])
             warn(job.common, "the name of the object '{}' is that of another one in file names: its files are named {}",
                  names[i], parts[i]);

@@ -92,15 +92,16 @@ std::filesystem::path withWord(const std::filesystem::path& file, std::string_vi
 }
 
 // The files of the maps. With <MAP> in the output, the name of each is in its place. Else several maps are NAME.png in
-// a folder, which is an output that exists as one or has no ending, or map.png becomes map-NAME.png.
-void setFiles(const std::filesystem::path& output, const std::vector<std::string>& names, bool severalMaps,
-              BakeFiles& files)
+// a folder, which is an output that exists as one or has no ending, or map.png becomes map-NAME.png. base: folder in
+// which the command runs.
+void setFiles(const std::filesystem::path& base, const std::filesystem::path& output,
+              const std::vector<std::string>& names, bool severalMaps, BakeFiles& files)
 {
     constexpr std::string_view kPlace = "<MAP>";
     const bool isMarked = output.string().find(kPlace) != std::string::npos;
     std::error_code unknown;
     if (severalMaps && !isMarked && !output.empty()
-        && (!output.has_extension() || std::filesystem::is_directory(output, unknown)))
+        && (!output.has_extension() || std::filesystem::is_directory(base / output, unknown)))
         files.folder = output;
     for (const std::string& name : names)
         files.maps.push_back(isMarked                                  ? withWord(output, kPlace, name)
@@ -260,9 +261,10 @@ std::filesystem::path withPart(const std::filesystem::path& file, const std::str
         : std::filesystem::path(file).replace_filename(file.stem().string() + "-" + part + file.extension().string());
 }
 
-BakeFiles filesOfTile(const BakeJob& job, const BakeFiles& files, int tile)
+namespace {
+
+BakeFiles filesOfTile(const BakeJob& job, const BakeFiles& files, const std::string& number)
 {
-    const std::string number = std::to_string(tile);
     const auto placed = [&](const std::filesystem::path& file) {
         return withWord(withWord(file, "<UDIM>", number), "%(UDIM)d", number);
     };
@@ -281,12 +283,64 @@ BakeFiles filesOfTile(const BakeJob& job, const BakeFiles& files, int tile)
     return of;
 }
 
+} // namespace
+
+BakeFiles filesOfTile(const BakeJob& job, const BakeFiles& files, int tile)
+{
+    return filesOfTile(job, files, std::to_string(tile));
+}
+
+BakeFiles filesOfObject(const BakeFiles& files, const std::string& part)
+{
+    BakeFiles of{
+        {}, files.folder, withPart(files.mask, part), files.verify.empty() ? files.verify : files.verify / part};
+    for (const std::filesystem::path& map : files.maps)
+        of.maps.push_back(withPart(map, part));
+    return of;
+}
+
+Result<std::vector<std::string>> bakeOutputsOf(const GivenCommand& given, const std::filesystem::path& base)
+{
+    BakeCommandOptions o;
+    BakeJob& job = o.job;
+    for (const GivenOption& option : given.options) {
+        const std::string& last = option.values.back();
+        if (option.name == "output")
+            o.output = last;
+        else if (option.name == "maps")
+            o.maps = last;
+        else if (option.name == "kind")
+            job.options.bake.kind = valueOf(kBakeKinds, last).value_or(BakeKind::normal);
+        else if (option.name == "pack")
+            o.packed = option.values;
+        else if (option.name == "udim")
+            o.udim = last;
+        else if (option.name == "mask")
+            job.files.mask = last;
+        else if (option.name == "per-object")
+            job.perObject = true;
+    }
+    COTAN_CHECK(parseMaps(o, job.options));
+    COTAN_CHECK(parseTiles(o.udim, job));
+    setFiles(base, o.output, namesOf(job.options), !o.maps.empty() || o.packed.size() > 1, job.files);
+    const BakeFiles files = job.perObject ? filesOfObject(job.files, "*") : job.files;
+    std::vector<std::string> outputs;
+    for (const int tile : job.options.tiles) {
+        const BakeFiles of = filesOfTile(job, files, job.allTiles ? "*" : std::to_string(tile));
+        for (const std::filesystem::path& map : of.maps)
+            outputs.push_back(map.string());
+        outputs.push_back(of.mask.string());
+    }
+    std::erase(outputs, "");
+    return outputs;
+}
+
 Result<BakeJob> bakeJobOf(const BakeCommandOptions& o)
 {
     BakeJob job = o.job;
     job.common = o;
     COTAN_CHECK(parseMaps(o, job.options));
-    setFiles(o.output, namesOf(job.options), !o.maps.empty() || o.packed.size() > 1, job.files);
+    setFiles({}, o.output, namesOf(job.options), !o.maps.empty() || o.packed.size() > 1, job.files);
     job.highUp = o.highUp.value_or(job.up);
     job.convention = o.convention;
     BakeModelOptions& options = job.options;

@@ -12,6 +12,7 @@
 #include "common.hpp"
 #include "core/named_values.hpp"
 #include "loading.hpp"
+#include "terminal/arguments.hpp"
 
 namespace cotan::app {
 
@@ -77,6 +78,13 @@ std::filesystem::path withPart(const std::filesystem::path& file, const std::str
 // The outputs for one tile: with its number in the place of <UDIM> or %(UDIM)d in their names; if there are several
 // tiles, map.png without such a place becomes map.1002.png.
 BakeFiles filesOfTile(const BakeJob& job, const BakeFiles& files, int tile);
+
+// The same for one object: map.png with the part lid is map-lid.png.
+BakeFiles filesOfObject(const BakeFiles& files, const std::string& part);
+
+// The maps and masks that a command line writes, with * for what only the low mesh says: tiles and objects. base: the
+// folder in which it runs. Errors: ErrorKind::usage.
+Result<std::vector<std::string>> bakeOutputsOf(const GivenCommand& given, const std::filesystem::path& base);
 
 void declareBakeOptions(Arguments& a, BakeCommandOptions& o);
 
