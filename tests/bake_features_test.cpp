@@ -8,6 +8,7 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <glm/ext/vector_int3.hpp>
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
@@ -86,6 +87,105 @@ TEST_F(BakeFeatures, severalMapsAreWrittenAsTheOutputNamesThemAndEachAsAlone)
     }
 }
 
+TEST_F(BakeFeatures, mapsOfMaterialsComeFromTheHighMeshAndOnesThatItLacksAreNamed)
+{
+    // Two squares side by side, a red rough one and a blue smooth one.
+    write("paint.mtl", "newmtl red\nKd 1 0 0\nPr 0.8\nPm 0\nnewmtl blue\nKd 0 0 0.5\nPr 0.2\nPm 1\n");
+    write("high.obj",
+          "mtllib paint.mtl\nusemtl red\n" + square(-0.5, 0, 0, 1) + faces(1) + "usemtl blue\n" + square(0.5, 0, 0, 1)
+              + faces(5));
+    write("plain.obj", square(-0.5, 0, 0, 2) + kFaces);
+    write("low.obj", square(0, 0, 0, 1) + kFaces);
+    const std::vector<std::string> words = {"--low", "low.obj", "--size", "4x4", "-o", "m.png", "--high"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), words.begin(), words.end());
+        return bake(more);
+    };
+    const ToolRun r = with({"high.obj", "--maps", "base-color,roughness-metallic,id"});
+    ASSERT_EQ(r.code, 0) << r.err;
+    const Image color = loadImage("m-base-color.png"), surface = loadImage("m-roughness-metallic.png"),
+                id = loadImage("m-id.png");
+    for (int i = 0; i < 16; ++i) {
+        const std::size_t red = i % 4 < 2 ? 4 * i : 4 * (i - 2), blue = i % 4 < 2 ? 4 * (i + 2) : 4 * i;
+        const auto at = [](const Image& image, std::size_t first) {
+            return glm::ivec3(image.bytes8()[first], image.bytes8()[first + 1], image.bytes8()[first + 2]);
+        };
+        EXPECT_EQ(at(color, red), glm::ivec3(255, 0, 0));
+        EXPECT_EQ(at(color, blue), glm::ivec3(0, 0, 188)); // 255 srgb(0.5) = 187.5
+        EXPECT_EQ(at(surface, red), glm::ivec3(255, 204, 0));
+        EXPECT_EQ(at(surface, blue), glm::ivec3(255, 51, 255));
+        EXPECT_EQ(at(id, red), glm::ivec3(128, 0, 0));
+        EXPECT_EQ(at(id, blue), glm::ivec3(0, 128, 0));
+    }
+    EXPECT_EQ(nlohmann::json::parse(readWhole(folder / "r.json"))["maps"][2]["ids"],
+              nlohmann::json::parse(R"([{"name": "red", "color": "#800000"}, {"name": "blue", "color": "#008000"}])"));
+    // Packed: beside other maps by its name, alone as the output itself.
+    for (const auto& [more, file, name] :
+         {std::tuple(std::vector<std::string>{"--maps", "normal,orm"}, "m-orm.png", "orm"),
+          {{"--pack", "orm"}, "m.png", "orm"},
+          {{"--pack", "R=ao,G=roughness,B=metallic"}, "m.png", "packed"},
+          {{"--maps", "id", "--pack", "R=ao,G=roughness,B=metallic"}, "m-packed.png", "packed"},
+          {{"--pack", "both:R=ao,G=roughness,B=metallic", "--pack", "R=metallic"}, "m-both.png", "both"},
+          {{"--pack", "x:R=ao,G=roughness,B=metallic", "-o", "<MAP>_1.png"}, "x_1.png", "x"}}) {
+        std::vector<std::string> all = {"--high", "high.obj", "--low", "low.obj", "--size", "4x4", "--ao-rays", "9"};
+        all.insert(all.end(), more.begin(), more.end());
+        if (std::ranges::find(more, "-o") == more.end())
+            all.insert(all.end(), {"-o", "m.png"});
+        const ToolRun packed = bake(all);
+        ASSERT_EQ(packed.code, 0) << packed.err;
+        const Image image = loadImage(file);
+        for (int i = 0; i < 16; ++i) // nothing occludes the plane
+            EXPECT_EQ(glm::ivec3(image.bytes8()[4 * i], image.bytes8()[4 * i + 1], image.bytes8()[4 * i + 2]),
+                      i % 4 < 2 ? glm::ivec3(255, 204, 0) : glm::ivec3(255, 51, 255));
+        bool isReported = false;
+        const auto report = nlohmann::json::parse(readWhole(folder / "r.json"));
+        for (const auto& map : report["maps"])
+            isReported = isReported
+                || (map["kind"] == name && map["output"] == file
+                    && map["channels"] == nlohmann::json::parse(R"(["ao", "roughness", "metallic", "1"])"));
+        EXPECT_TRUE(isReported) << file;
+    }
+    std::filesystem::remove(folder / "m.png");
+    for (const char* kind : {"base-color", "roughness", "metallic", "roughness-metallic", "emissive"}) {
+        const ToolRun lacks = with({"plain.obj", "--kind", kind});
+        EXPECT_EQ(lacks.code, 2);
+        EXPECT_NE(lacks.err.find(std::string("for a map of kind ") + kind + "; found none"), std::string::npos)
+            << lacks.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "m.png"));
+    }
+    EXPECT_EQ(with({"plain.obj", "--kind", "id", "--id-by", "vertex-color"}).code, 2);
+}
+
+TEST_F(BakeFeatures, aModelGetsAllMapsOfItsMaterials)
+{
+    write("paint.mtl", "newmtl red\nKd 1 0 0\nPr 0.8\nPm 0\nKe 0 0.5 0\n");
+    write("high.obj", "mtllib paint.mtl\nusemtl red\n" + square(-1, -1, 0.01, 3) + kFaces);
+    write("low.obj", square(0, 0, 0, 1) + kFaces);
+    for (const char* maps : {"ao,emissive,normal,roughness-metallic,base-color", "normal,emissive,base-color,orm"}) {
+        const ToolRun r = bake({"--high", "high.obj", "--low", "low.obj", "--size", "4x4", "--ao-rays", "9", "--maps",
+                                maps, "-o", "out.glb", "--overwrite", "--mask", "mask.png"});
+        ASSERT_EQ(r.code, 0) << r.err;
+        EXPECT_TRUE(std::filesystem::exists(folder / "mask.png"));
+        const auto report = nlohmann::json::parse(readWhole(folder / "r.json"));
+        ASSERT_GE(report["maps"].size(), 4u);
+        for (const auto& map : report["maps"])
+            EXPECT_EQ(map["output"], "out.glb");
+        for (const auto& [view, expected] : {std::pair("base-color", glm::ivec3(255, 0, 0)),
+                                             {"roughness", glm::ivec3(204, 204, 204)},
+                                             {"metallic", glm::ivec3(0, 0, 0)},
+                                             {"occlusion", glm::ivec3(255, 255, 255)}}) {
+            const ToolRun drawn = runTool({"render", "out.glb", "--view", view, "--size", "8x8", "--device",
+                                           "reference", "-o", "view.png", "--ground", "off", "--quiet"},
+                                          folder.path());
+            ASSERT_EQ(drawn.code, 0) << drawn.err;
+            const Image image = loadImage("view.png");
+            const std::uint8_t* centre = image.bytes8() + 4 * (4 * 8 + 4);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(centre[c], expected[c], 1) << view;
+        }
+    }
+}
+
 TEST_F(BakeFeatures, allTilesAreBakedAsEachAlone)
 {
     // Two squares, on the tiles 1001 and 1012, below high squares at other heights.
@@ -140,6 +240,11 @@ TEST_F(BakeFeatures, mapsThatContradictOtherOptionsAreRefusedBeforeAnythingIsRea
                                                               "--maps: expected each map once; found normal twice"),
              {{"--maps", "normal,gloss"}, "found 'gloss'"},
              {{"--maps", "normal,"}, "--maps: expected one of normal, object-normal, height, ao, bent-normal, "},
+             {{"--pack", "R=normal"}, "--pack: R: expected a map of one value per texel (height, ao, "},
+             {{"--pack", "R=ao", "--pack", "G=ao"}, "--pack: expected each map once; found packed twice"},
+             {{"--maps", "orm", "--pack", "orm"}, "--pack: expected each map once; found orm twice"},
+             {{"--pack", "orm", "--kind", "ao"}, "--kind ao: makes one map; expected no --pack with it"},
+             {{"--pack", "orm", "--verify", "checked"}, "--verify: only maps of the kind normal can be drawn"},
              {{"--maps", "ao", "--kind", "height"}, "--kind height: makes one map; expected no --maps with it"},
              {{"--maps", "normal,ao", "-o", "x_<MAP>"}, "x_normal"},
              {{"--mask", "states"}, "states"},
@@ -149,7 +254,15 @@ TEST_F(BakeFeatures, mapsThatContradictOtherOptionsAreRefusedBeforeAnythingIsRea
              {{"--udim", "1002", "--verify", "checked"},
               "--verify: draws the map of tile 1001 only; found --udim 1002"},
              {{"--maps", "height,ao", "--verify", "checked"}, "--verify: only maps of the kind normal can be drawn"},
-             {{"--maps", "normal,ao", "-o", "x.glb"}, "expected --kind normal for a map in a model; found normal, ao"},
+             {{"--maps", "normal,curvature", "-o", "x.glb"},
+              "-o x.glb: a glTF material has no texture for curvature; expected normal, ao, base-color, "
+              "roughness-metallic, emissive or orm"},
+             {{"--kind", "id", "-o", "x.glb"}, "has no texture for id"},
+             {{"--pack", "R=ao", "-o", "x.glb"}, "has no texture for packed"},
+             {{"--maps", "orm,ao", "-o", "x.glb"}, "expected one map for each texture of a material; found ao, orm"},
+             {{"--maps", "normal,ao", "-o", "<MAP>.glb"}, "a model holds all maps; expected no <MAP> in its name"},
+             {{"--maps", "base-color", "-o", "x.glb", "--bits", "32"},
+              "expected --bits 8 or 16 for an image in a model"},
              {{"--kind", "thickness", "--thickness-distance", "-1"}, "--thickness-distance"},
          }) {
         std::vector<std::string> all = {"--high", "none.obj", "--low", "none.obj"};

@@ -18,7 +18,9 @@ namespace {
 
 constexpr BakeKind kAll[] = {BakeKind::normal,    BakeKind::objectNormal, BakeKind::height,
                              BakeKind::occlusion, BakeKind::bentNormal,   BakeKind::objectBentNormal,
-                             BakeKind::thickness, BakeKind::curvature,    BakeKind::position};
+                             BakeKind::thickness, BakeKind::curvature,    BakeKind::position,
+                             BakeKind::baseColor, BakeKind::roughness,    BakeKind::metallic,
+                             BakeKind::id,        BakeKind::emissive,     BakeKind::roughnessMetallic};
 
 BakeModelOptions optionsFor(std::vector<BakeKind> kinds, PixelType type = PixelType::float32)
 {
@@ -66,7 +68,13 @@ TEST(BakeMaps, everyMapOfOneTraceIsTheMapAlone)
         uv.x *= 0.5f;
     for (glm::vec2& uv : ball.texcoords[0])
         uv.x = 0.5f + 0.5f * uv.x;
-    const Scene high = sceneOfMeshes({torus, ball});
+    Scene high = sceneOfMeshes({torus, ball});
+    Material& gold = high.materials.emplace_back();
+    gold.name = "gold";
+    gold.baseColor = {0.9f, 0.6f, 0, 1};
+    gold.roughness = 0.3f;
+    gold.emissive = {0, 0.1f, 2};
+    high.meshes[1].material = 1;
     for (const PixelType type : {PixelType::unorm8, PixelType::float32})
         for (const int samples : {1, 2}) {
             BakeModelOptions options = optionsFor({std::begin(kAll), std::end(kAll)}, type);

@@ -74,7 +74,7 @@ TEST_F(BakeMessages, aSoundBakeIsDescribedWithoutWarnings)
                               "and show it wrongly (--frame mikktspace is for them)"),
               std::string::npos);
     const ToolRun occlusion = bake("--high high.obj --low low.obj --kind ao --ao-rays 4");
-    EXPECT_NE(occlusion.out.find("map in m.png (ao, world axes, 8 bit)"), std::string::npos) << occlusion.out;
+    EXPECT_NE(occlusion.out.find("map in m.png (ao, 0 to 1, 8 bit)"), std::string::npos) << occlusion.out;
     EXPECT_EQ(occlusion.out.find("the map is for"), std::string::npos);
 }
 

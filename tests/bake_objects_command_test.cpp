@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include <fmt/format.h>
+#include <glm/ext/vector_int3.hpp>
 #include <nlohmann/json.hpp>
 
 #include "cotan/image.hpp"
@@ -45,6 +46,36 @@ int middleRed(const TemporaryFolder& folder, const std::string& file)
     if (!map || map->width != 16 || map->height != 16)
         return -1;
     return map->bytes8()[4 * (8 * 16 + 8)];
+}
+
+TEST(BakeObjects, pairsTilesAndMapsCombine)
+{
+    // Two pairs in one place, the second one on tile 1002; each high mesh has its colour.
+    TemporaryFolder folder;
+    std::string low = square("a_low", 0, 0, 1), other = square("b_low", 0, 0, 5);
+    for (std::size_t at = 0; (at = other.find("vt ", at)) != std::string::npos; at += 3)
+        other[at + 3] = char(other[at + 3] + 1); // u from 1 to 2
+    std::ofstream(folder / "low.obj") << low << other;
+    std::ofstream(folder / "high.mtl") << "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n";
+    std::ofstream(folder / "high.obj") << "mtllib high.mtl\nusemtl red\n"
+                                       << square("a_high", 0, 0, 1) << "usemtl blue\n"
+                                       << square("b_high", 0, 0, 5);
+    const ToolRun run = bake(folder,
+                             {"--match-by-name", "--per-object", "--udim", "all", "--maps", "base-color,id", "-o",
+                              "m_<MAP>_<UDIM>.png", "--json", "r.json"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    for (const auto& [object, tile, color, id] :
+         {std::tuple("a_low", "1001", 0, glm::ivec3(128, 0, 0)), {"b_low", "1002", 2, glm::ivec3(0, 128, 0)}}) {
+        const auto map = readImage(folder / fmt::format("m_base-color_{}-{}.png", tile, object)),
+                   ids = readImage(folder / fmt::format("m_id_{}-{}.png", tile, object));
+        ASSERT_TRUE(map && ids) << object;
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_EQ(map->bytes8()[4 * (8 * 16 + 8) + c], c == color ? 255 : 0);
+            EXPECT_EQ(ids->bytes8()[4 * (8 * 16 + 8) + c], id[c]);
+        }
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "m_id_1002-a_low.png")); // a_low has no triangles there
+    EXPECT_EQ(nlohmann::json::parse(readWhole(folder / "r.json"))["objects"].size(), 2u);
 }
 
 TEST(BakeObjects, anObjectsMapIsThatOfTheObjectAlone)

@@ -126,6 +126,44 @@ TEST_F(BatchCommand, runsInFileOrderAndRepeatsOnlyWhatChanged)
     EXPECT_EQ(states().size(), 4u);
 }
 
+// The names that bake derives for several maps, tiles and objects are known before it runs, and checked after it.
+TEST_F(BatchCommand, filesOfSeveralMapsTilesAndObjectsAreWaitedForAndChecked)
+{
+    const std::string square = "o lid\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                               "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+    std::ofstream(folder / "m.obj") << square;
+    fs::create_directory(folder / "there");
+    const auto bake = [](const std::string& name, const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"bake", "--high", "m.obj", "--low", "m.obj", "--size", "4"};
+        words.insert(words.end(), more.begin(), more.end());
+        return json{{"name", name}, {"command", words}};
+    };
+    jobs({flip("m-normal.png", "1.png"), flip("there/object-normal.png", "2.png"), flip("t.1001.png", "3.png"),
+          flip("p_normal-lid.png", "4.png"), flip("a_object-normal_1001.png", "5.png"),
+          bake("maps", {"--maps", "normal,height", "-o", "m.png"}),
+          bake("folder", {"--maps", "object-normal,curvature", "-o", "there"}),
+          bake("same folder", {"--maps", "position,normal", "-o", "there/"}),
+          bake("tiles", {"--udim", "all", "-o", "t.png", "--mask", "t_<UDIM>.mask.png"}),
+          bake("objects", {"--per-object", "--maps", "normal", "-o", "p_<MAP>.png"}),
+          bake("places", {"--kind", "object-normal", "--udim", "1001", "-o", "a_<MAP>_<UDIM>.png"})});
+    const ToolRun first = batchReport();
+    EXPECT_EQ(first.code, 0) << first.err << first.out;
+    for (const auto& [name, state] : states())
+        EXPECT_EQ(state, "done") << name;
+    EXPECT_TRUE(fs::exists(folder / "there" / "curvature.png"));
+    fs::remove(folder / "m-height.png");
+    fs::remove(folder / "t_1001.mask.png");
+    batchReport();
+    for (const auto& [name, state] : states())
+        EXPECT_EQ(state, name == "maps" || name == "tiles" ? "done" : "done kept") << name;
+    EXPECT_TRUE(fs::exists(folder / "m-height.png"));
+    jobs({bake("all", {"--udim", "all", "-o", "t.png"}), bake("one", {"--udim", "1001", "-o", "t.1001.png"}),
+          bake("wrong", {"--maps", "normal,gloss", "-o", "x.png"})});
+    EXPECT_NE(batchReport().err.find("found 'gloss'"), std::string::npos);
+    jobs({bake("all", {"--udim", "all", "-o", "t.png"}), bake("one", {"--udim", "1001", "-o", "t.1001.png"})});
+    EXPECT_NE(batchReport().err.find("line 2: writes t.1001.png, which line 1 also writes"), std::string::npos);
+}
+
 // Daemons and some CI runners ignore SIGCHLD, and the programs that they start inherit it.
 TEST_F(BatchCommand, failuresAreKeptAsFailuresUnderAParentThatIgnoresItsChildren)
 {

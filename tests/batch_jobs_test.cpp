@@ -203,6 +203,14 @@ TEST(BatchPlan, aJobRunsAfterThoseWhoseFilesItReads)
         {{{"c", ">", "a"}, {"c", ">", "b"}, {"c", ">", "c"}, {"c", "c", "a", ">", "d"}, {"c", ">", "e"}},
          {{}, {}, {}, {2, 0}, {}},
          {0, 1, 0, 0, 2}},
+        // * stands for what only the job finds out
+        {{{"c", "t.1002.png", "o/x-lid-1.exr", "t.a/b.png", ">", "a"},
+          {"c", ">", "t.*.png", "t.exr"},
+          {"c", ">", "o/x-*-*.exr"},
+          {"c", "t.png", "o/x-lid.exr", "o/x", ">", "b"},
+          {"c", ">", "t.a/b.png"}},
+         {{1, 2, 4}, {}, {}, {}, {}},
+         {0, 0, 0, 1, 0}},
     };
     for (const Row& row : rows) {
         const auto plan = planJobs(listOf(row.jobs));
@@ -222,6 +230,9 @@ TEST(BatchPlan, cyclesAndDuplicateOutputsAreRefusedWithTheirLines)
 {
     const std::pair<std::vector<Words>, std::string> cases[] = {
         {{{"c", "z", ">", "a"}, {"c", "z", ">", "./a"}}, "line 2: writes ./a, which line 1 also writes"},
+        {{{"c", ">", "t.*.png"}, {"c", ">", "x"}, {"c", ">", "t.1002.png"}},
+         "line 3: writes t.1002.png, which line 1 also writes"},
+        {{{"c", ">", "t.1002.png"}, {"c", ">", "t.*.png"}}, "line 2: writes t.1002.png, which line 1 also writes"},
         {{{"c", "a", ">", "a"}},
          "line 1: writes a, which it also reads: a second run would start from the first one's result; expected "
          "another "

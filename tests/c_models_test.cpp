@@ -143,8 +143,10 @@ TEST(CModels, bakeOptionsAreCheckedAgainstTheirBounds)
         expectError(bake([&](Options& o) { o.*field = bad; }), "options." + std::string(error));
     for (const auto& [field, error] :
          {std::pair(&Options::kind,
-                    "kind: expected normal, object-normal, height, occlusion, bent-normal, object-bent-normal, "
-                    "thickness, curvature or position, found 'x'"),
+                    "kind: expected normal, object-normal, height, ao, bent-normal, object-bent-normal, thickness, "
+                    "curvature, position, base-color, roughness, metallic, roughness-metallic, emissive or id, found "
+                    "'x'"),
+          {&Options::id_by, "id_by: expected material, object or vertex-color, found 'x'"},
           {&Options::search, "search: expected first or nearest"},
           {&Options::tangents, "tangents: expected stored or generated"},
           {&Options::high_normals, "high_normals: expected smooth, curved, face or map, found 'x'"},
@@ -178,7 +180,29 @@ TEST(CModels, bakeOptionsAreCheckedAgainstTheirBounds)
     EXPECT_EQ(bake([](Options& o) { o.search = "nearest", o.tangents = "generated", o.high_normals = "face"; }),
               COTAN_OK)
         << why;
+    EXPECT_EQ(bake([](Options& o) { o.kind = "occlusion"; }), COTAN_OK) << why; // the name before version 9
+    EXPECT_EQ(bake([](Options& o) { o.kind = "R=ao,G=height,A=0.2"; }), COTAN_OK) << why;
+    EXPECT_EQ(pixels[3], 51); // 0.2
+    expectError(bake([](Options& o) { o.kind = "R=normal"; }),
+                "options.kind: R: expected a map of one value per texel (height, ao, ");
+    expectError(bake([](Options& o) { o.kind = "base-color"; }),
+                "high: expected a base colour map, a colour or vertex colours for a map of kind base-color; found none",
+                COTAN_INPUT);
     cotan_bake_result result = COTAN_INIT(cotan_bake_result);
+    Options curvature = COTAN_INIT(cotan_bake_options);
+    curvature.kind = "curvature";
+    curvature.curvature_radius = 3;
+    EXPECT_EQ(cotan_bake(&mesh, &mesh, &curvature, &map, &result, why, sizeof why), COTAN_OK) << why;
+    EXPECT_EQ(result.unit, 3);
+    for (int axis = 0; axis < 3; ++axis) {
+        float lowest = mesh.positions[axis], highest = lowest;
+        for (std::size_t v = 1; v < mesh.vertex_count; ++v) {
+            lowest = std::min(lowest, mesh.positions[3 * v + axis]);
+            highest = std::max(highest, mesh.positions[3 * v + axis]);
+        }
+        EXPECT_EQ(result.box[axis], lowest);
+        EXPECT_EQ(result.box[axis + 3], highest);
+    }
     result.size = offsetof(cotan_bake_result, further) - 1;
     expectError(cotan_bake(&mesh, &mesh, nullptr, &map, &result, why, sizeof why), "result.size: expected ");
 }

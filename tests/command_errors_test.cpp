@@ -171,7 +171,7 @@ TEST(CommandErrors, bakeErrorsStateTheRule)
         {bake + "-o b.png --object lid", 2, "--object: m.obj has no object 'lid'; expected 'part'"},
         {bake + "-o b.png", 0, "map in b.png (normal, mikktspace, opengl, 8 bit)"},
         {bake + "-o o.png --object part --frame smooth", 0, "the map is for the frame smooth: read it with that"},
-        {bake + "-o h.exr --kind height --bits 32", 0, "map in h.exr (height, world axes, 32 bit)"},
+        {bake + "-o h.exr --kind height --bits 32", 0, "map in h.exr (height, in units, 32 bit)"},
         {bake + "-o b.glb --unsigned exact", 0, "map in b.glb (normal, mikktspace, opengl, 8 bit)"},
     });
 }

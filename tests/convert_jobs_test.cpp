@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -11,6 +12,7 @@
 #include "cotan/image.hpp"
 #include "cotan/scene.hpp"
 #include "gltf/json/lookup.hpp"
+#include "test_data.hpp"
 
 namespace cotan {
 namespace {
@@ -227,6 +229,63 @@ TEST(PutMap, withoutANameAllPrimitivesGetIt)
     for (const std::size_t m : {0u, 1u})
         EXPECT_TRUE(rootOf(d)["meshes"][m]["primitives"][0]["attributes"].contains("TANGENT")) << m;
     EXPECT_TRUE(notes.empty()); // all readers know MikkTSpace
+}
+
+TEST(PutMap, mapsOfSurfacesGoToTheirTexturesThroughTheUvOfTheNormalMapAndAtFullStrength)
+{
+    TemporaryFolder folder;
+    GltfDocument d = document();
+    auto& materials = rootOf(d)["materials"];
+    const gltf::Json transform = {{"KHR_texture_transform", {{"offset", {0.5, 0}}}}};
+    materials[0]["normalTexture"]["texCoord"] = 1;
+    materials[0]["normalTexture"]["extensions"] = transform;
+    materials[0]["pbrMetallicRoughness"] = {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}},
+                                            {"metallicFactor", 0},
+                                            {"roughnessFactor", 0.5},
+                                            {"baseColorTexture", {{"index", 0}, {"texCoord", 0}}}};
+    materials[0]["occlusionTexture"] = {{"index", 0}, {"strength", 0.25}};
+    materials[0]["emissiveFactor"] = {0, 0, 0};
+    materials[0]["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", 9}};
+    const gltf::Json other = materials[1], normal = materials[0]["normalTexture"];
+    rootOf(d)["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] =
+        rootOf(d)["meshes"][0]["primitives"][0]["attributes"]["POSITION"];
+    const auto filled = [](std::array<std::uint8_t, 4> texel) {
+        Image image = makeImage(4, 4, PixelType::unorm8);
+        for (std::size_t i = 0; i < image.data.size(); ++i)
+            image.data[i] = std::byte(texel[i % 4]);
+        return image;
+    };
+    const Image color = filled({1, 2, 3, 255}), light = filled({4, 5, 6, 255}), open = filled({7, 7, 7, 255}),
+                surface = filled({255, 8, 9, 255});
+    PutMapOptions options;
+    options.material = "first";
+    const auto written = writeModelWithMaps(
+        d, {.occlusion = &open, .roughnessMetallic = &surface, .baseColor = &color, .emissive = &light}, options,
+        folder / "out.glb");
+    ASSERT_TRUE(written) << written.error().message;
+    EXPECT_EQ(written->notes,
+              std::vector<std::string>{"the low mesh has vertex colours, which multiply the baked base colour"});
+    const auto& first = rootOf(d)["materials"][0];
+    const auto& pbr = first["pbrMetallicRoughness"];
+    const auto texelOf = [&](const gltf::Json& slot) {
+        EXPECT_EQ(slot["texCoord"], 1);
+        EXPECT_EQ(slot["extensions"], transform);
+        const auto source = rootOf(d)["textures"][slot["index"].get<std::size_t>()]["source"].get<std::size_t>();
+        const auto image = decodeImage(*gltfImageBytes(d, source), "x");
+        EXPECT_TRUE(image);
+        const std::uint8_t* c = image->bytes8();
+        return std::array<int, 3>{c[0], c[1], c[2]};
+    };
+    EXPECT_EQ(texelOf(pbr["baseColorTexture"]), (std::array{1, 2, 3}));
+    EXPECT_EQ(texelOf(first["emissiveTexture"]), (std::array{4, 5, 6}));
+    EXPECT_EQ(texelOf(first["occlusionTexture"]), (std::array{7, 8, 9}));
+    EXPECT_EQ(first["occlusionTexture"], pbr["metallicRoughnessTexture"]); // one image, strength 1
+    EXPECT_EQ(pbr["baseColorFactor"], gltf::Json({1, 1, 1, 0.4}));
+    EXPECT_FALSE(pbr.contains("metallicFactor") || pbr.contains("roughnessFactor"));
+    EXPECT_EQ(first["emissiveFactor"], gltf::Json({1, 1, 1}));
+    EXPECT_FALSE(first["extensions"].contains("KHR_materials_emissive_strength"));
+    EXPECT_EQ(first["normalTexture"], normal);
+    EXPECT_EQ(rootOf(d)["materials"][1], other);
 }
 
 } // namespace

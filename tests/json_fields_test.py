@@ -28,6 +28,7 @@ compare low.obj --size 32x32 -o compared --device reference
 bake --high high.obj --low low.obj --size 32x32 -o b.png --verify baked --device reference
 bake --high high.obj --low low.obj --size 32x32 -o b.png --maps normal,curvature,position
 bake --high high.obj --low low.obj --size 16 -o tile.png --maps curvature,position --udim 1001
+bake --high room.gltf --low low.obj --size 16 -o ids.png --maps id,curvature,orm --ao-rays 4
 bake --high high.obj --low low.obj --size 16 -o tiles.png --maps normal,curvature,position --udim all
 bake --high high.obj --low low.obj --size 16 -o each.png --per-object --maps normal,curvature,position --verify each --device reference
 tangents panel.gltf -o t.glb

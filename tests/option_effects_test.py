@@ -111,7 +111,7 @@ CASES = [
         "--threads": "=1 | =3", "--memory": "=800"}),
     ("map mips rocks.png --from gltf -o out.exr", {"--keep-lengths": "", "--bits": "~auto | ~float | !8 | !16 | *"}),
     (BAKE, {
-        "--high": "low.obj | low.stl", "--low": "room.gltf", "--size": "16 | 24x20", "--kind": "~normal | *", "--frame": "~mikktspace | !cotangent-2013 | !nonperspective | !paper-orthogonal | *",
+        "--high": "low.obj | low.stl", "--low": "room.gltf", "--size": "16 | 24x20", "--kind": "~normal | !base-color | !roughness | !metallic | !roughness-metallic | !emissive | *", "--frame": "~mikktspace | !cotangent-2013 | !nonperspective | !paper-orthogonal | *",
         "--max-distance": "0.001 | 0.02", "--high-normals": "~smooth | curved | face",
         "--samples": "~1 | 4 | 16", "--convention": "~gltf | directx | xy", "--unsigned": "~exact | *", "--dither": "", "--bits": "~8 | 16",
         "--padding": "~0 | 1 | -1", "--mask": "seen.png", "--per-object": "", "--verify": "checked", "--threads": "=1 | =3", "--memory": "=800",
@@ -128,6 +128,9 @@ CASES = [
     ("bake --high high.obj --low low.obj --size 16x16 --kind ao -o out.png", {"--ao-rays": "~64 | 9 | 250"}),
     ("bake --high high.obj --low low.obj --size 16x16 --kind thickness --ao-rays 9 --bits 32 -o out.exr", {"--thickness-distance": "0.01 | 0.1"}),
     ("bake --high high.obj --low low.obj --size 16x16 --kind curvature -o out.png", {"--curvature-radius": "0.001 | 0.1"}),
+    ("bake --high high.obj --high layers.obj --low low.obj --size 16x16 --kind id -o out.png", {"--id-by": "~material | object | !vertex-color"}),
+    ("bake --high high.obj --low low.obj --size 16x16 --ao-rays 9 -o out.png", {"--pack": "R=ao,G=height | R=height,A=0.5 | R=height,A=0.25 | !R=normal | !orm"}),
+    ("bake --high room.gltf --low room.gltf --size 16x16 -o out.png", {"--kind": "base-color | roughness | metallic | roughness-metallic | emissive"}),
     ("bake --high high.obj --low low.obj --size 16x16 -o out.png", {"--maps": "height | normal,ao | position,curvature,thickness"}),
     ("convert panel.gltf --from-frame mikktspace --to-frame smooth -o out.glb", {
         "--from-frame": "~mikktspace | &paper-nodet,paper-transpose | &cotangent,paper-full,exact,smooth,triangle | !cotangent-2013 | !nonperspective | !paper-orthogonal | *", "--to-frame": "~smooth | !cotangent-2013 | !nonperspective | !paper-orthogonal | *", "--bits": "~8 | *", "--unsigned": "~biased | *", "--keep-maps": "", "--keep-tangents": "",

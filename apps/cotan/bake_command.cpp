@@ -32,8 +32,24 @@ bool hasStoredTangents(const Scene& low, const BakeModelOptions& options)
            });
 }
 
-// Puts the map into the low model. Warns if readers that generate MikkTSpace tangents would show the map wrongly.
-Status writeBakedModel(const BakeJob& job, GltfDocument& document, const Scene& low, const Image& map)
+// The maps of a model's materials.
+MaterialImages imagesOf(const std::vector<BakedMap>& baked)
+{
+    MaterialImages images;
+    for (const BakedMap& map : baked)
+        if (map.packed) // orm
+            images.occlusion = images.roughnessMetallic = &map.image;
+        else
+            (map.kind == BakeKind::normal                  ? images.normal
+                 : map.kind == BakeKind::occlusion         ? images.occlusion
+                 : map.kind == BakeKind::roughnessMetallic ? images.roughnessMetallic
+                 : map.kind == BakeKind::baseColor         ? images.baseColor
+                                                           : images.emissive) = &map.image;
+    return images;
+}
+
+// Puts the maps into the low model. Warns if readers that generate MikkTSpace tangents would show them wrongly.
+Status writeBakedModel(const BakeJob& job, GltfDocument& document, const Scene& low, const std::vector<BakedMap>& baked)
 {
     const BakeModelOptions& options = job.options;
     PutMapOptions put{.frame = options.bake.frame,
@@ -42,7 +58,7 @@ Status writeBakedModel(const BakeJob& job, GltfDocument& document, const Scene& 
                       .keepTangents = hasStoredTangents(low, options)};
     if (options.material >= 0) // by name, since a scene numbers its materials in the order in which meshes use them
         put.material = low.materials[std::size_t(options.material)].name;
-    const auto written = writeModelWithMap(document, map, put, job.files.maps.front());
+    const auto written = writeModelWithMaps(document, imagesOf(baked), put, job.files.maps.front());
     if (!written)
         return withBakeOptionNames(job, written.error());
     for (const std::string& note : written->notes)
@@ -56,8 +72,9 @@ std::vector<PlannedOutput> plannedFor(const BakeJob& job, const BakeFiles& given
     std::vector<PlannedOutput> planned;
     for (const int tile : tiles) {
         const BakeFiles files = filesOfTile(job, given, tile);
-        for (const std::filesystem::path& map : files.maps)
-            planned.push_back({"-o", map, /*makesFolder*/ !files.folder.empty()});
+        const bool isModel = namedAsGltf(files.maps.front()); // of all maps
+        for (std::size_t i = 0; i < (isModel ? 1 : files.maps.size()); ++i)
+            planned.push_back({"-o", files.maps[i], /*makesFolder*/ !files.folder.empty()});
         planned.push_back({"--mask", files.mask});
     }
     if (!given.verify.empty())
@@ -77,15 +94,7 @@ Result<std::vector<MapJob>> mapsOf(const BakeJob& job, const Scene& low)
     std::vector<PlannedOutput> planned;
     const std::vector<std::string> names = objectNames(low), parts = fileNameParts(names);
     for (std::size_t i = 0; i < names.size(); ++i) {
-        const BakeFiles& files = job.files;
-        MapJob one{names[i],
-                   {{},
-                    files.folder,
-                    withPart(files.mask, parts[i]),
-                    files.verify.empty() ? files.verify : files.verify / parts[i]}};
-        for (const std::filesystem::path& map : files.maps)
-            one.files.maps.push_back(withPart(map, parts[i]));
-        maps.push_back(std::move(one));
+        maps.push_back({names[i], filesOfObject(job.files, parts[i])});
         if (fileNamePart(names[i]) != parts[i])
             warn(job.common, "the name of the object '{}' is that of another one in file names: its files are named {}",
                  names[i], parts[i]);
@@ -110,7 +119,7 @@ Status writeMaps(const BakeJob& job, const BakeFiles& files, OpenBake& open, con
         COTAN_CHECK(makeFolder(files.folder));
     COTAN_TRY(pending, writePending(images));
     if (open.document)
-        COTAN_CHECK(writeBakedModel(job, *open.document, low, baked.front().image));
+        COTAN_CHECK(writeBakedModel(job, *open.document, low, baked));
     return commitTogether(*pending);
 }
 
@@ -169,8 +178,10 @@ Result<MapReport> bakeTileMaps(const BakeJob& job, const MapJob& one, int tile, 
     done.writeSeconds = watch.lap();
     done.statistics = baked->front().statistics;
     done.box = baked->front().box;
-    for (const BakedMap& written : *baked)
+    for (const BakedMap& written : *baked) {
         done.units.push_back(written.unit);
+        done.ids.insert(done.ids.end(), written.ids.begin(), written.ids.end());
+    }
     done.highTriangles = setup.high.triangleCount();
     done.lowTriangles = setup.low.triangleCount();
     done.objects = objectNames(map.low).size();
@@ -260,9 +271,10 @@ void addBakeCommand(Arguments& tool)
         tool,
         {"bake",
          "Bake a normal map from a high-poly mesh onto a low-poly mesh.",
-         "the map: " + imageEndings(&ImageFormat::writes, ", ") + "; or the low model with the map in it: .glb, .gltf",
+         "the map: " + imageEndings(&ImageFormat::writes, ", ") + "; or the low model with the maps in it: .glb, .gltf",
          {"cotan bake --high statue.obj --low statue_low.obj --frame smooth -o normal.png",
           "cotan bake --high statue.obj --low statue_low.obj --maps normal,ao,curvature,thickness -o maps/",
+          "cotan bake --high statue.glb --low statue_low.obj --maps normal,base-color,orm -o statue_low.glb",
           "cotan bake --high statue.obj --low statue_low.obj --kind ao --size 256x256 --ao-rays 16 -o ao.png"},
          /*needsOutput=*/true},
         declareBakeOptions, run);

@@ -35,7 +35,8 @@ Result<HighModel> loadHigh(const BakeJob& job)
 {
     HighModel high;
     for (const std::string& file : job.high) {
-        COTAN_TRY(scene, loadUp(job.memory, file, job.highUp, job.options.ownMaps ? Pixels::all : Pixels::none));
+        const bool readsImages = job.options.ownMaps || job.readsMaterials();
+        COTAN_TRY(scene, loadUp(job.memory, file, job.highUp, readsImages ? Pixels::all : Pixels::none));
         high.scenes.push_back(std::move(*scene));
     }
     for (std::size_t i = 0; job.readsHighMaps() && i < job.highMaps.size(); ++i) {
@@ -106,7 +107,8 @@ std::vector<std::string> warningsOf(const BakeJob& job, const Scene& low, const 
 {
     std::vector<std::string> warnings = low.warnings;
     if (job.options.ownMaps && !job.readsHighMaps())
-        warnings.push_back(fmt::format("--high-normals map has no effect on a map of kind {}", namesOf(job.options)));
+        warnings.push_back(
+            fmt::format("--high-normals map has no effect on a map of kind {}", fmt::join(namesOf(job.options), ", ")));
     for (const Scene& scene : high.scenes)
         for (const std::string& line : scene.warnings)
             if (std::find(low.warnings.begin(), low.warnings.end(), line) == low.warnings.end())

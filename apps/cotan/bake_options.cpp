@@ -48,25 +48,40 @@ Result<Convention> formatOfMap(const std::string& convention, std::optional<Expa
     return format;
 }
 
-// The kinds of --maps, or that of --kind.
-Result<std::vector<BakeKind>> kindsOf(const BakeCommandOptions& o)
+// The maps of --maps and --pack, or that of --kind.
+Status parseMaps(const BakeCommandOptions& o, BakeModelOptions& options)
 {
     const BakeKind one = o.job.options.bake.kind;
-    if (o.maps.empty())
-        return std::vector{one};
+    if (o.maps.empty() && o.packed.empty()) {
+        options.kinds = {one};
+        return Done{};
+    }
     if (one != BakeKind::normal)
-        return usageError(fmt::format("--kind {}: makes one map; expected no --maps with it", wordOf(kBakeKinds, one)));
+        return usageError(fmt::format("--kind {}: makes one map; expected no {} with it", wordOf(kBakeKinds, one),
+                                      o.maps.empty() ? "--pack" : "--maps"));
     Words<BakeKind> known;
     for (const auto& [word, kind] : kBakeKinds)
         known.push_back({word, kind});
-    std::vector<BakeKind> kinds;
-    for (const std::string& word : splitAtCommas(o.maps)) {
+    known.push_back({kPackedOrm, {}});
+    for (const std::string& word : o.maps.empty() ? std::vector<std::string>() : splitAtCommas(o.maps)) {
         COTAN_TRY(kind, oneOf("--maps", word, known));
-        if (std::ranges::find(kinds, *kind) != kinds.end())
-            return usageError(fmt::format("--maps: expected each map once; found {} twice", word));
-        kinds.push_back(*kind);
+        if (word == kPackedOrm)
+            options.packed.push_back(*parsePackedMap(word));
+        else
+            options.kinds.push_back(*kind);
     }
-    return kinds;
+    for (const std::string& text : o.packed) {
+        auto map = parsePackedMap(text);
+        if (!map)
+            return usageError("--pack: " + map.error().message);
+        options.packed.push_back(std::move(*map));
+    }
+    const std::vector<std::string> names = namesOf(options);
+    for (const std::string& name : names)
+        if (std::ranges::count(names, name) > 1)
+            return usageError(fmt::format("{}: expected each map once; found {} twice",
+                                          o.packed.empty() ? "--maps" : "--pack", name));
+    return Done{};
 }
 
 // The name with a word in all places that are marked.
@@ -79,23 +94,22 @@ std::filesystem::path withWord(const std::filesystem::path& file, std::string_vi
 }
 
 // The files of the maps. With <MAP> in the output, the name of each is in its place. Else several maps are NAME.png in
-// a folder, which is an output that exists as one or has no ending, or map.png becomes map-NAME.png.
-void setFiles(const std::filesystem::path& output, const std::vector<BakeKind>& kinds, bool severalMaps,
-              BakeFiles& files)
+// a folder, which is an output that exists as one or has no ending, or map.png becomes map-NAME.png. base: folder in
+// which the command runs.
+void setFiles(const std::filesystem::path& base, const std::filesystem::path& output,
+              const std::vector<std::string>& names, bool severalMaps, BakeFiles& files)
 {
     constexpr std::string_view kPlace = "<MAP>";
     const bool isMarked = output.string().find(kPlace) != std::string::npos;
     std::error_code unknown;
     if (severalMaps && !isMarked && !output.empty()
-        && (!output.has_extension() || std::filesystem::is_directory(output, unknown)))
+        && (!output.has_extension() || std::filesystem::is_directory(base / output, unknown)))
         files.folder = output;
-    for (const BakeKind kind : kinds) {
-        const std::string name = wordOf(kBakeKinds, kind);
-        files.maps.push_back(isMarked                   ? withWord(output, kPlace, name)
-                                 : !severalMaps         ? output
-                                 : files.folder.empty() ? withPart(output, name)
-                                                        : output / (name + ".png"));
-    }
+    for (const std::string& name : names)
+        files.maps.push_back(isMarked                                  ? withWord(output, kPlace, name)
+                                 : !severalMaps || namedAsGltf(output) ? output
+                                 : files.folder.empty()                ? withPart(output, name)
+                                                                       : output / (name + ".png"));
 }
 
 constexpr std::string_view kAllTiles = "all";
@@ -121,6 +135,31 @@ Status parseTiles(const std::string& words, BakeJob& job)
     return Done{};
 }
 
+// Refuses maps that a glTF material has no texture for.
+Status checkModelMaps(const BakeJob& job)
+{
+    constexpr BakeKind kOfMaterials[] = {BakeKind::normal, BakeKind::occlusion, BakeKind::baseColor,
+                                         BakeKind::roughnessMetallic, BakeKind::emissive};
+    const std::string output = job.files.maps.front().string();
+    const std::vector<std::string> names = namesOf(job.options);
+    const bool packs = !job.options.packed.empty();
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (i < job.options.kinds.size()
+                ? std::ranges::count(kOfMaterials, job.options.kinds[i]) == 0
+                : job.options.packed[i - job.options.kinds.size()].kinds != parsePackedMap(kPackedOrm)->kinds)
+            return usageError(
+                fmt::format("-o {}: a glTF material has no texture for {}; expected normal, ao, base-color, "
+                            "roughness-metallic, emissive or orm",
+                            output, names[i]));
+    if (packs
+        && (job.options.packed.size() > 1 || job.makes(BakeKind::occlusion) || job.makes(BakeKind::roughnessMetallic)))
+        return usageError(fmt::format("-o {}: expected one map for each texture of a material; found {}", output,
+                                      fmt::join(names, ", ")));
+    if (std::ranges::any_of(job.files.maps, [&](const auto& file) { return file != job.files.maps.front(); }))
+        return usageError(fmt::format("-o: a model holds all maps; expected no <MAP> in its name, found {}", output));
+    return Done{};
+}
+
 // Checks the files and the objects of a job. Baking may take hours, so that errors of the outputs must be found before.
 Status checkOutputs(const BakeJob& job)
 {
@@ -131,9 +170,8 @@ Status checkOutputs(const BakeJob& job)
         return usageError("bake needs -o FILE for the map");
     if (!job.files.verify.empty() && !job.makes(BakeKind::normal))
         return usageError("--verify: only maps of the kind normal can be drawn and compared");
-    if (model && options.kinds != std::vector{BakeKind::normal})
-        return usageError(fmt::format("-o {}: expected --kind normal for a map in a model; found {}", map.string(),
-                                      namesOf(options)));
+    if (model)
+        COTAN_CHECK(checkModelMaps(job));
     if (model && options.stored.type == PixelType::float32)
         return usageError(
             fmt::format("-o {}: expected --bits 8 or 16 for an image in a model; found 32", map.string()));
@@ -208,12 +246,14 @@ Status checkRays(const BakeJob& job)
 
 } // namespace
 
-std::string namesOf(const BakeModelOptions& options)
+std::vector<std::string> namesOf(const BakeModelOptions& options)
 {
     std::vector<std::string> names;
     for (const BakeKind kind : options.kinds)
         names.push_back(wordOf(kBakeKinds, kind));
-    return fmt::format("{}", fmt::join(names, ", "));
+    for (const PackedMap& map : options.packed)
+        names.push_back(map.name);
+    return names;
 }
 
 std::filesystem::path withPart(const std::filesystem::path& file, const std::string& part)
@@ -223,9 +263,10 @@ std::filesystem::path withPart(const std::filesystem::path& file, const std::str
         : std::filesystem::path(file).replace_filename(file.stem().string() + "-" + part + file.extension().string());
 }
 
-BakeFiles filesOfTile(const BakeJob& job, const BakeFiles& files, int tile)
+namespace {
+
+BakeFiles filesOfTile(const BakeJob& job, const BakeFiles& files, const std::string& number)
 {
-    const std::string number = std::to_string(tile);
     const auto placed = [&](const std::filesystem::path& file) {
         return withWord(withWord(file, "<UDIM>", number), "%(UDIM)d", number);
     };
@@ -244,13 +285,64 @@ BakeFiles filesOfTile(const BakeJob& job, const BakeFiles& files, int tile)
     return of;
 }
 
+} // namespace
+
+BakeFiles filesOfTile(const BakeJob& job, const BakeFiles& files, int tile)
+{
+    return filesOfTile(job, files, std::to_string(tile));
+}
+
+BakeFiles filesOfObject(const BakeFiles& files, const std::string& part)
+{
+    BakeFiles of{
+        {}, files.folder, withPart(files.mask, part), files.verify.empty() ? files.verify : files.verify / part};
+    for (const std::filesystem::path& map : files.maps)
+        of.maps.push_back(withPart(map, part));
+    return of;
+}
+
+Result<std::vector<std::string>> bakeOutputsOf(const GivenCommand& given, const std::filesystem::path& base)
+{
+    BakeCommandOptions o;
+    BakeJob& job = o.job;
+    for (const GivenOption& option : given.options) {
+        const std::string& last = option.values.back();
+        if (option.name == "output")
+            o.output = last;
+        else if (option.name == "maps")
+            o.maps = last;
+        else if (option.name == "kind")
+            job.options.bake.kind = valueOf(kBakeKinds, last).value_or(BakeKind::normal);
+        else if (option.name == "pack")
+            o.packed = option.values;
+        else if (option.name == "udim")
+            o.udim = last;
+        else if (option.name == "mask")
+            job.files.mask = last;
+        else if (option.name == "per-object")
+            job.perObject = true;
+    }
+    COTAN_CHECK(parseMaps(o, job.options));
+    COTAN_CHECK(parseTiles(o.udim, job));
+    setFiles(base, o.output, namesOf(job.options), !o.maps.empty() || o.packed.size() > 1, job.files);
+    const BakeFiles files = job.perObject ? filesOfObject(job.files, "*") : job.files;
+    std::vector<std::string> outputs;
+    for (const int tile : job.options.tiles) {
+        const BakeFiles of = filesOfTile(job, files, job.allTiles ? "*" : std::to_string(tile));
+        for (const std::filesystem::path& map : of.maps)
+            outputs.push_back(map.string());
+        outputs.push_back(of.mask.string());
+    }
+    std::erase(outputs, "");
+    return outputs;
+}
+
 Result<BakeJob> bakeJobOf(const BakeCommandOptions& o)
 {
     BakeJob job = o.job;
     job.common = o;
-    COTAN_TRY(kinds, kindsOf(o));
-    job.options.kinds = *kinds;
-    setFiles(o.output, *kinds, !o.maps.empty(), job.files);
+    COTAN_CHECK(parseMaps(o, job.options));
+    setFiles({}, o.output, namesOf(job.options), !o.maps.empty() || o.packed.size() > 1, job.files);
     job.highUp = o.highUp.value_or(job.up);
     job.convention = o.convention;
     BakeModelOptions& options = job.options;
@@ -285,14 +377,20 @@ void declareBakeOptions(Arguments& a, BakeCommandOptions& o)
     a.group(HelpGroup::output);
     BakeModelOptions& model = o.job.options;
     const std::vector<std::string> kinds = wordsOf(kBakeKinds);
+    std::vector<std::string> names = kinds;
+    names.emplace_back(kPackedOrm);
     a.option(
          "--maps", o.maps,
          fmt::format("several maps from the same rays, separated by commas, each its own file: {}; -o map.png writes "
                      "map-ao.png, -o FOLDER/ ao.png, -o x_<MAP>.png x_ao.png",
-                     fmt::join(kinds, ", ")))
+                     fmt::join(names, ", ")))
         .in("NAMES")
-        .offers(kinds)
+        .offers(names)
         .main();
+    a.option("--pack", o.packed,
+             "a map from channels of others, which need not be written: R=ao,G=roughness,B=metallic,A=1, or orm for "
+             "these; its name is packed, or MASK with MASK: before it; may be given several times")
+        .in("CHANNELS");
     a.choice("--kind", model.bake.kind, kBakeKinds,
              "what to bake, if it is one map: " + fmt::format("{}", fmt::join(kinds, ", ")));
     a.option("--size", o.size, "width and height in texels; 512 is 512x512").in("WxH").main();
@@ -328,6 +426,8 @@ void declareBakeOptions(Arguments& a, BakeCommandOptions& o)
              "radius of a ball whose curvature is stored as 1, in model units; 0: 1 % of the high mesh's diagonal")
         .within(0.0, 1e9)
         .in("D");
+    a.choice("--id-by", model.bake.idBy, kIdBy,
+             "what has a colour of its own in a map of ids: material, object or vertex-color of the high mesh");
     a.choice("--ao-occluders", model.bake.occluders, kOccluders,
              "with --match-by-name, what casts occlusion: matched (the high meshes of the same name) or all");
     a.group(HelpGroup::input);

@@ -7,19 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "bake/bake_kinds.hpp"
 #include "bake/bake_surfaces.hpp"
 #include "common.hpp"
 #include "core/named_values.hpp"
 #include "loading.hpp"
+#include "terminal/arguments.hpp"
 
 namespace cotan::app {
 
-inline constexpr Named<BakeKind> kBakeKinds[] = {
-    {"normal", BakeKind::normal},          {"object-normal", BakeKind::objectNormal},
-    {"height", BakeKind::height},          {"ao", BakeKind::occlusion},
-    {"bent-normal", BakeKind::bentNormal}, {"object-bent-normal", BakeKind::objectBentNormal},
-    {"thickness", BakeKind::thickness},    {"curvature", BakeKind::curvature},
-    {"position", BakeKind::position}};
 inline constexpr Named<PixelType> kBitCounts[] = {
     {"8", PixelType::unorm8}, {"16", PixelType::unorm16}, {"32", PixelType::float32}};
 
@@ -58,6 +54,7 @@ struct BakeJob {
 
     bool makesSeveralTiles() const { return allTiles || options.tiles.size() > 1; }
     bool makes(BakeKind kind) const { return std::ranges::count(options.kinds, kind) > 0; }
+    bool readsMaterials() const { return std::ranges::any_of(kindsOf(options), cotan::readsMaterials); }
     bool readsHighMaps() const { return options.ownMaps && std::ranges::any_of(options.kinds, showsNormals); }
 };
 
@@ -69,10 +66,11 @@ struct BakeCommandOptions : CommonOptions {
     std::optional<Up> highUp;           // none: as of the low mesh
     std::string udim;                   // empty: 1001
     std::string maps;                   // names of kinds
+    std::vector<std::string> packed;    // channels of maps
 };
 
-// The names of the kinds, for messages.
-std::string namesOf(const BakeModelOptions& options);
+// The names of the maps: of their kinds, then of the packed ones.
+std::vector<std::string> namesOf(const BakeModelOptions& options);
 
 // map.png with the part lid: map-lid.png. An empty file stays empty.
 std::filesystem::path withPart(const std::filesystem::path& file, const std::string& part);
@@ -80,6 +78,13 @@ std::filesystem::path withPart(const std::filesystem::path& file, const std::str
 // The outputs for one tile: with its number in the place of <UDIM> or %(UDIM)d in their names; if there are several
 // tiles, map.png without such a place becomes map.1002.png.
 BakeFiles filesOfTile(const BakeJob& job, const BakeFiles& files, int tile);
+
+// The same for one object: map.png with the part lid is map-lid.png.
+BakeFiles filesOfObject(const BakeFiles& files, const std::string& part);
+
+// The maps and masks that a command line writes, with * for what only the low mesh says: tiles and objects. base: the
+// folder in which it runs. Errors: ErrorKind::usage.
+Result<std::vector<std::string>> bakeOutputsOf(const GivenCommand& given, const std::filesystem::path& base);
 
 void declareBakeOptions(Arguments& a, BakeCommandOptions& o);
 

@@ -1,6 +1,7 @@
 #include "bake_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/resource.h>
 
 namespace cotan::app {
@@ -93,17 +94,36 @@ void explain(const BakeJob& job, std::size_t objects, int tile, const BakeStatis
              name(frame));
 }
 
+// The kind or the constant of each channel.
+std::vector<std::string> channelsOf(const PackedMap& map)
+{
+    std::vector<std::string> words;
+    for (std::size_t i = 0; i < map.kinds.size(); ++i)
+        words.push_back(map.kinds[i] ? wordOf(kBakeKinds, *map.kinds[i]) : fmt::format("{:g}", map.constants[i]));
+    return words;
+}
+
 // What the numbers of a map mean.
 std::string meaningOf(const BakeJob& job, const MapReport& done, std::size_t map)
 {
     const BakeModelOptions& options = job.options;
     const bool isFloat = options.stored.type == PixelType::float32;
+    if (map >= options.kinds.size())
+        return fmt::format("{}", fmt::join(channelsOf(options.packed[map - options.kinds.size()]), ", "));
     switch (options.kinds[map]) {
     case BakeKind::normal:
     case BakeKind::bentNormal: return fmt::format("{}, {}", name(options.bake.frame), job.convention);
     case BakeKind::thickness: return isFloat ? "in units" : fmt::format("1 is {:.3g} units", done.units[map]);
     case BakeKind::curvature:
         return isFloat ? "1 over units" : fmt::format("0.5 is flat, 1 a ball of {:.3g} units", done.units[map]);
+    case BakeKind::baseColor:
+    case BakeKind::emissive:
+    case BakeKind::id: return isFloat ? "linear" : "sRGB";
+    case BakeKind::roughnessMetallic: return "green, blue";
+    case BakeKind::occlusion:
+    case BakeKind::roughness:
+    case BakeKind::metallic: return "0 to 1";
+    case BakeKind::height: return isFloat ? "in units" : "from the lowest to the highest";
     default: return "world axes";
     }
 }
@@ -112,14 +132,23 @@ std::string meaningOf(const BakeJob& job, const MapReport& done, std::size_t map
 Json mapsToJson(const BakeJob& job, const MapReport& done)
 {
     Json maps = Json::array();
-    for (std::size_t i = 0; i < job.options.kinds.size(); ++i) {
+    const std::vector<std::string> names = namesOf(job.options);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        Json map{{"kind", names[i]}, {"output", done.job.files.maps[i].string()}};
+        if (i >= job.options.kinds.size()) {
+            map["channels"] = channelsOf(job.options.packed[i - job.options.kinds.size()]);
+            maps.push_back(std::move(map));
+            continue;
+        }
         const BakeKind kind = job.options.kinds[i];
-        Json map{{"kind", wordOf(kBakeKinds, kind)}, {"output", done.job.files.maps[i].string()}};
         if (done.units[i] > 0 && job.options.stored.type != PixelType::float32)
             map["unit"] = done.units[i];
         if (kind == BakeKind::position && job.options.stored.type != PixelType::float32)
             map["box"] = {{done.box.low.x, done.box.low.y, done.box.low.z},
                           {done.box.high.x, done.box.high.y, done.box.high.z}};
+        for (const IdColor& id : done.ids)
+            if (kind == BakeKind::id)
+                map["ids"].push_back({{"name", id.name}, {"color", fmt::format("#{:06x}", id.color)}});
         maps.push_back(std::move(map));
     }
     return maps;
@@ -146,10 +175,11 @@ void tell(const BakeJob& job, const MapReport& done)
 {
     const BakeModelOptions& options = job.options;
     explain(job, done.objects, done.tile, done.statistics);
-    for (std::size_t i = 0; i < options.kinds.size(); ++i)
-        say(job.common, "map in {} ({}, {}, {} bit){}", done.job.files.maps[i].string(),
-            wordOf(kBakeKinds, options.kinds[i]), meaningOf(job, done, i), wordOf(kBitCounts, options.stored.type),
-            i + 1 == options.kinds.size() ? fmt::format("; peak memory {:.0f} MiB", peakMegabytes()) : "");
+    const std::vector<std::string> names = namesOf(options);
+    for (std::size_t i = 0; i < names.size(); ++i)
+        say(job.common, "map in {} ({}, {}, {} bit){}", done.job.files.maps[i].string(), names[i],
+            meaningOf(job, done, i), wordOf(kBitCounts, options.stored.type),
+            i + 1 == names.size() ? fmt::format("; peak memory {:.0f} MiB", peakMegabytes()) : "");
 }
 
 Json toJson(const BakeJob& job, const MapReport& done)
@@ -162,7 +192,7 @@ Json toJson(const BakeJob& job, const MapReport& done)
         {"tile", done.tile},
         {"output", done.job.files.maps.front().string()},
         {"frame", name(bake.frame)},
-        {"kind", wordOf(kBakeKinds, job.options.kinds.front())},
+        {"kind", namesOf(job.options).front()},
         {"maps", mapsToJson(job, done)},
         {"size", {bake.width, bake.height}},
         {"high_normals", wordOf(kHighSources, job.highNormals)},

@@ -25,6 +25,7 @@ struct MapReport {
     BakeStatistics statistics;
     std::vector<double> units; // of each map, BakedMap::unit
     Bounds box;                // of the high surface
+    std::vector<IdColor> ids;  // of a map of ids
     std::size_t highTriangles = 0, lowTriangles = 0, objects = 0;
     double prepareSeconds = 0, writeSeconds = 0;
     std::optional<Json> verified;

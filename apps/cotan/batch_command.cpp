@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "bake_options.hpp"
 #include "batch/report.hpp"
 #include "batch/run.hpp"
 #include "commands.hpp"
@@ -27,8 +28,8 @@ struct BatchOptions : CommonOptions {
     RunOptions run; // but for what follows from the machine: runOptions
 };
 
-// Sets a job's files and flags from its words, by the declarations of all commands.
-Status setFiles(const Arguments& tool, Job& job)
+// Sets a job's files and flags from its words, by the declarations of all commands. folder: in which jobs run.
+Status setFiles(const Arguments& tool, const std::filesystem::path& folder, Job& job)
 {
     COTAN_TRY(given, tool.parse(job.words));
     for (const char* name : {"batch", "view"})
@@ -41,8 +42,13 @@ Status setFiles(const Arguments& tool, Job& job)
             job.json = option.values.back();
         if (option.use == FileUse::reads)
             job.inputs.insert(job.inputs.end(), option.values.begin(), option.values.end());
-        if (option.use == FileUse::writes)
+        const bool isDerived = given->name == "bake" && (option.name == "output" || option.name == "mask");
+        if (option.use == FileUse::writes && !isDerived)
             job.outputs.insert(job.outputs.end(), option.values.begin(), option.values.end());
+    }
+    if (given->name == "bake") {
+        COTAN_TRY(outputs, bakeOutputsOf(*given, folder));
+        job.outputs.insert(job.outputs.end(), outputs->begin(), outputs->end());
     }
     if (job.json == "-")
         return usageError("--json -: expected a file or no --json, as batch reads the report; found standard output");
@@ -150,7 +156,8 @@ Status run(const Arguments& tool, const BatchOptions& o)
     COTAN_TRY(shard, parseShard(o.shard.empty() ? "1/1" : o.shard));
     COTAN_CHECK(beginOutputs(o, {{"-o", o.output}}, /*again*/ true));
     Stopwatch watch;
-    const auto list = readJobs(o.jobs, [&](Job& job) { return setFiles(tool, job); });
+    const std::filesystem::path base = std::filesystem::absolute(o.jobs).parent_path();
+    const auto list = readJobs(o.jobs, [&](Job& job) { return setFiles(tool, base, job); });
     if (!list)
         return list.error();
     const auto plan = planJobs(*list);

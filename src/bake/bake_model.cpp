@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "bake/bake_kinds.hpp"
 #include "bake/bake_surfaces.hpp"
 #include "bake/name_pairs.hpp"
 #include "core/named_values.hpp"
@@ -31,12 +32,6 @@ constexpr float kFarthest = 1e17f; // model units: Embree terminates the program
 template<class... Found> Error wrong(const char* option, fmt::format_string<Found...> text, Found&&... found)
 {
     return about(option, usageError(fmt::format(text, std::forward<Found>(found)...)));
-}
-
-// The maps of a bake.
-std::vector<BakeKind> kindsOf(const BakeModelOptions& options)
-{
-    return options.kinds.empty() ? std::vector{options.bake.kind} : options.kinds;
 }
 
 Status checkRanges(const Scene& low, const BakeModelOptions& options)
@@ -68,6 +63,14 @@ Status checkRanges(const Scene& low, const BakeModelOptions& options)
                      "a cage already defines where rays start, and the first surface that they hit counts");
     if (b.search == BakeSearch::nearest && b.extrusion > 0)
         return wrong("options.extrusion", "the search nearest already looks to both sides of the low surface");
+    for (const PackedMap& map : options.packed) {
+        if (std::ranges::none_of(map.kinds, [](const auto& kind) { return kind.has_value(); }))
+            return wrong("options.packed", "expected a map in one of the channels; found constants only");
+        for (const std::optional<BakeKind>& kind : map.kinds)
+            if (kind && !holdsScalars(*kind))
+                return wrong("options.packed", "expected maps of one value per texel; found {}",
+                             wordOf(kBakeKinds, *kind));
+    }
     if (options.material >= int(low.materials.size()))
         return wrong("options.material", "expected 0 to {}; found {}", int(low.materials.size()) - 1, options.material);
     return Done{};
@@ -280,6 +283,7 @@ Result<BakeSetup> prepared(const Scene& low, const BakeModelOptions& options,
     setup.options.matchByName = high.options.matchByName;
     bake.highNormals = high.options.bake.highNormals;
     bake.highMaps = high.maps;
+    bake.highMaterials = high.materials;
     bake.cage = std::move(*cage);
     bake.matched.clear();
     bake.starts = nullptr;
@@ -302,18 +306,24 @@ Result<std::shared_ptr<const DetailedSurface>> openDetailed(HighModel high, cons
 {
     COTAN_CHECK(checkHigh(high));
     std::vector<std::string> names;
+    const std::vector<BakeKind> kinds = kindsOf(options);
+    const bool namesObjects =
+        options.bake.idBy == IdBy::object && std::ranges::find(kinds, BakeKind::id) != kinds.end();
     for (Scene& scene : high.scenes) {
         addNames(scene, false, names);
-        if (!options.matchByName) // with matching, rays need single instances
+        if (!options.matchByName && !namesObjects) // these need single instances
             joinParts(scene);
     }
     COTAN_TRY(surface, HighSurface::make(high.scenes, options.bake.threads, options.matchByName));
     COTAN_CHECK(checkPositions({surface->box().low, surface->box().high}, "high"));
-    const std::vector<BakeKind> kinds = kindsOf(options);
     if (options.bake.highNormals == HighNormals::curved || std::ranges::find(kinds, BakeKind::curvature) != kinds.end())
         surface->curve(options.bake.threads);
-    DetailedSurface open{std::move(*surface), nullptr, std::move(names), options, {}};
+    DetailedSurface open{std::move(*surface), nullptr, nullptr, std::move(names), options, {}};
     open.options.cage = open.options.others = nullptr;
+    if (std::ranges::any_of(kinds, readsMaterials)) { // before the normal maps, which are moved out of the scenes
+        COTAN_TRY(materials, HighMaterials::make(high.scenes, open.surface, kinds, options.bake.idBy));
+        open.materials = std::make_shared<const HighMaterials>(std::move(*materials));
+    }
     if (options.ownMaps && std::ranges::any_of(kinds, showsNormals))
         COTAN_CHECK(readOwnMaps(high, open));
     return std::make_shared<const DetailedSurface>(std::move(open));
@@ -355,13 +365,27 @@ Result<std::vector<BakedMap>> bakeTile(const BakeSetup& setup, int tile, const P
                         .image = storeBaked(one, kinds[i], setup.options.stored),
                         .box = one.box,
                         .unit = one.unit,
+                        .ids = kinds[i] == BakeKind::id ? options.highMaterials->ids() : std::vector<IdColor>(),
                         .format = storedFormat(kinds[i], setup.options.stored.format),
-                        .mask = setup.options.mask && i == 0 ? maskOf(one) : Image(),
                         .statistics = statistics});
         if (kinds[i] == BakeKind::normal || kinds[i] == BakeKind::bentNormal)
             maps.back().image.frame = name(options.frame);
         one.values = {};
     }
+    std::vector<BakedMap> packed;
+    for (const PackedMap& map : setup.options.packed) {
+        const auto first = std::ranges::find_if(map.kinds, [](const auto& kind) { return kind.has_value(); });
+        packed.push_back({.tile = tile,
+                          .kind = **first,
+                          .packed = map,
+                          .image = packMaps(maps, map),
+                          .box = maps.front().box,
+                          .statistics = statistics});
+    }
+    maps.resize(packed.empty() ? maps.size() : setup.options.kinds.size()); // drops those that only packed maps need
+    std::move(packed.begin(), packed.end(), std::back_inserter(maps));
+    if (setup.options.mask)
+        maps.front().mask = maskOf(baked->front());
     return maps;
 }
 
@@ -374,9 +398,8 @@ Result<BakedModel> bakeTiles(Result<BakeSetup> setup, const Progress& progress)
     BakedModel model;
     model.warnings = std::move(setup->warnings);
     const std::vector<int>& tiles = setup->options.tiles;
-    for (const int tile : tiles) {
-        const std::size_t done = model.maps.size() / kindsOf(setup->options).size();
-        COTAN_TRY(maps, bakeTile(*setup, tile, partOf(progress, done, tiles.size())));
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        COTAN_TRY(maps, bakeTile(*setup, tiles[i], partOf(progress, i, tiles.size())));
         std::move(maps->begin(), maps->end(), std::back_inserter(model.maps));
     }
     return model;

@@ -134,6 +134,12 @@ public:
             return f32::cotan_encode_texel(v, format_);
         if (kind_ == BakeKind::position)
             return isFloat_ ? box_.low + (v - 1.0f) * (box_.high - box_.low) : v - 1.0f;
+        if (holdsColors(kind_))
+            return stored(v - 1.0f);
+        if (kind_ == BakeKind::id)
+            return stored(linearColor(std::uint32_t(v.x)));
+        if (kind_ == BakeKind::roughnessMetallic)
+            return v;
         if (kind_ == BakeKind::curvature && !isFloat_)
             return glm::vec3(0.5f + 0.5f * v.x * unit_); // clamped as all integers
         if (kind_ == BakeKind::thickness && !isFloat_)
@@ -142,6 +148,11 @@ public:
     }
 
 private:
+    glm::vec3 stored(glm::vec3 linear) const
+    {
+        const auto of = [](float x) { return f32::cotan_linear_to_srgb(std::clamp(x, 0.0f, 1.0f)); };
+        return isFloat_ ? linear : glm::vec3(of(linear.x), of(linear.y), of(linear.z));
+    }
     glm::vec3 empty() const
     {
         if (!holdsDirections(kind_))

@@ -38,6 +38,7 @@ public:
             looksOut_ = looksOut_ || kind == BakeKind::occlusion || kind == BakeKind::bentNormal
                 || kind == BakeKind::objectBentNormal;
             looksIn_ = looksIn_ || kind == BakeKind::thickness;
+            hasIds_ = hasIds_ || kind == BakeKind::id;
         }
     }
 
@@ -49,6 +50,8 @@ public:
         const std::size_t texels = std::size_t(last - first) * std::size_t(out_.width);
         for (std::vector<glm::vec3>& sums : sums_)
             sums.assign(texels, glm::vec3(0));
+        if (hasIds_)
+            ids_.resize(texels * samplesPerTexel());
         found_.assign(texels, 0);
         packet_ = 0;
         suspicious_ = false;
@@ -60,7 +63,9 @@ public:
             mark(texelOf(rasterTexel), texelOverlapped);
         for (std::size_t i = 0; i < texels; ++i) {
             for (std::size_t m = 0; m < kinds_.size() && found_[i] > 0; ++m)
-                maps_[m].values[base_ + i] = texelValue(kinds_[m], sums_[m][i], found_[i]);
+                maps_[m].values[base_ + i] = kinds_[m] == BakeKind::id
+                    ? glm::vec3(mostFrequent({&ids_[i * samplesPerTexel()], found_[i]}), 0, 1)
+                    : texelValue(kinds_[m], sums_[m][i], found_[i]);
             ++states_[out_.states[base_ + i]];
         }
     }
@@ -119,10 +124,12 @@ private:
             const std::size_t texel = texelOf(rasterTexels[i]);
             int flags = samples[i].covers ? texelCovered : texelTouched;
             if (hits.found(i)) {
-                ++found_[texel - base_];
+                const std::size_t before = found_[texel - base_]++;
                 for (std::size_t m = 0; m < kinds_.size(); ++m) {
                     const glm::vec3 value = values_[m].at(i);
                     sums_[m][texel - base_] += value;
+                    if (kinds_[m] == BakeKind::id)
+                        ids_[(texel - base_) * samplesPerTexel() + before] = value.x;
                     if (kinds_[m] == BakeKind::normal && value.z < 0)
                         flags |= texelNegative;
                 }
@@ -159,6 +166,16 @@ private:
         return any;
     }
 
+    std::size_t samplesPerTexel() const { return std::size_t(options_.samples) * std::size_t(options_.samples); }
+
+    // Of equally frequent ones the first.
+    static float mostFrequent(std::span<const float> ids)
+    {
+        return *std::max_element(ids.begin(), ids.end(), [&](float a, float b) {
+            return std::count(ids.begin(), ids.end(), a) < std::count(ids.begin(), ids.end(), b);
+        });
+    }
+
     // The texel's value from the sum over its samples that hit something.
     static glm::vec3 texelValue(BakeKind kind, glm::vec3 sum, int count)
     {
@@ -182,11 +199,12 @@ private:
     std::size_t base_ = 0;                     // the block's first texel
     std::vector<std::vector<glm::vec3>> sums_; // of each map per texel: sum over its samples
     std::vector<std::uint8_t> found_;          // per texel: number of samples that hit something
+    std::vector<float> ids_;                   // per texel: those of these samples
     LowPoints points_;
     std::array<Traced, 4> traced_; // the most recent packets
     std::size_t packet_ = 0;       // number of packets of the block so far
     bool suspicious_ = false;      // the last check was positive
-    bool looksOut_ = false, looksIn_ = false;
+    bool looksOut_ = false, looksIn_ = false, hasIds_ = false;
     Around around_;
     std::vector<Lanes3> values_; // of each map
     std::size_t rays_ = 0;
@@ -257,6 +275,10 @@ Result<std::vector<Baked>> bakeMaps(const LowSurface& low, const HighSurface& hi
     BakeOptions options = given;
     if (std::ranges::find(kinds, BakeKind::curvature) != kinds.end() && !high.isCurved())
         return about("options.kinds", usageError("the high surface was opened without curvature among the kinds"));
+    for (const BakeKind kind : kinds)
+        if (readsMaterials(kind) && !options.highMaterials)
+            return about("options.kinds",
+                         usageError("the high surface was opened without a kind that reads materials"));
     if (options.highMaps && std::ranges::none_of(kinds, showsNormals))
         options.highMaps = nullptr;
     if (!options.cage.empty() && options.cage.size() != low.positions.size())

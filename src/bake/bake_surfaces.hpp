@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bake/high_materials.hpp"
 #include "bake/high_normal_maps.hpp"
 #include "bake/high_surface.hpp"
 #include "bake/ray_starts.hpp"
@@ -13,8 +14,9 @@
 
 namespace cotan {
 
-// A baked map before it is stored: for each texel a unit texel m, a world direction, a scalar in x with 1 in z, or 1
-// plus the fraction of the high surface's box at which a position lies; zero if none was found.
+// A baked map before it is stored: for each texel a unit texel m, a world direction, a scalar or the 0xrrggbb of an id
+// in x with 1 in z, 1 plus the fraction of the high surface's box at which a position lies, 1 plus a linear colour, or
+// (1, roughness, metallic); zero if none was found.
 struct Baked {
     int width = 0, height = 0;
     std::vector<glm::vec3> values;
@@ -23,6 +25,9 @@ struct Baked {
     Bounds box = {}; // of the high surface
     float unit = 0;  // curvature: radius, thickness: length, which is stored as 1
 };
+
+// Whether the values of a kind are 1 plus a linear colour.
+inline bool holdsColors(BakeKind kind) { return kind == BakeKind::baseColor || kind == BakeKind::emissive; }
 
 // Bakes a map. Calls `progress` from several threads after each row. The result does not depend on the number of
 // threads. options: frame, cage and starts must belong to the low surface. Errors: those of makeRayStarts;
@@ -80,18 +85,19 @@ struct BakeSetup {
 // The detailed side of bakes.
 struct DetailedSurface {
     HighSurface surface;
-    std::shared_ptr<const HighNormalMaps> maps; // null: none are read
-    std::vector<std::string> names;             // of the instances with triangles
-    BakeModelOptions options;                   // that it was opened with
+    std::shared_ptr<const HighNormalMaps> maps;     // null: none are read
+    std::shared_ptr<const HighMaterials> materials; // null: no kind reads them
+    std::vector<std::string> names;                 // of the instances with triangles
+    BakeModelOptions options;                       // that it was opened with
     std::vector<std::string> warnings;
 };
 
 // Derives what the frame needs on the simple scene, and builds the acceleration structure of the detailed scenes, the
-// cage's vertices and the matches. Errors: those of checkScene, makeLowSurface, HighSurface::make and
-// HighNormalMaps::make. An error about an option begins with its name, "options.material: ". ErrorKind::usage: a size,
-// number of samples, frame, distance, number of rays, material or number of maps out of range, no tile, and an
-// extrusion or the search `nearest` together with a cage. ErrorKind::input: a cage with another number of triangles, a
-// mesh without its match.
+// cage's vertices and the matches. Errors: those of checkScene, makeLowSurface, HighSurface::make,
+// HighNormalMaps::make and HighMaterials::make. An error about an option begins with its name, "options.material: ".
+// ErrorKind::usage: a size, number of samples, frame, distance, number of rays, material or number of maps out of
+// range, no tile, and an extrusion or the search `nearest` together with a cage. ErrorKind::input: a cage with another
+// number of triangles, a mesh without its match.
 Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options);
 Result<BakeSetup> prepareBake(const Scene& low, std::shared_ptr<const DetailedSurface> high,
                               const BakeModelOptions& options);

@@ -13,10 +13,10 @@ namespace cotan {
 
 namespace {
 
-constexpr float kNearestDistance = 0.05f;               // of the diagonal of the high surface
-constexpr float kLift = 1e-5f;                          // of the same diagonal
+constexpr float kNearestDistance = 0.05f;              // of the diagonal of the high surface
+constexpr float kLift = 1e-5f;                         // of the same diagonal
 constexpr float kThickness = 0.5f, kCurvature = 0.01f; // of the same diagonal
-constexpr float kEndless = 1e30f;                       // of rays
+constexpr float kEndless = 1e30f;                      // of rays
 
 float diagonalOf(const HighSurface& high) { return glm::length(high.box().high - high.box().low); }
 
@@ -238,6 +238,19 @@ void Baker::valuesOf(BakeKind kind, const LowPoints& points, const Probes& probe
         setAll([&](std::size_t i) {
             const glm::vec3 where = probes.point.at(i) + probes.direction.at(i) * hits.distance[i];
             return 1.0f + glm::clamp((where - box.low) / size, 0.0f, 1.0f);
+        });
+        break;
+    }
+    case BakeKind::baseColor:
+    case BakeKind::emissive:
+    case BakeKind::roughness:
+    case BakeKind::metallic:
+    case BakeKind::roughnessMetallic:
+    case BakeKind::id: {
+        const float offset = holdsColors(kind) ? 1 : 0;
+        setAll([&](std::size_t i) {
+            return options_.highMaterials && hits.found(i) ? offset + options_.highMaterials->valueAt(kind, hits, i)
+                                                           : glm::vec3(0);
         });
         break;
     }

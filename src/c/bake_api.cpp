@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "bake/bake_kinds.hpp"
 #include "bake/name_pairs.hpp"
 #include "call.hpp"
 #include "cotan/bake.hpp"
@@ -15,13 +16,6 @@ using namespace cotan;
 using namespace cotan::c;
 
 namespace {
-
-constexpr Named<BakeKind> kKinds[] = {
-    {"normal", BakeKind::normal},          {"object-normal", BakeKind::objectNormal},
-    {"height", BakeKind::height},          {"occlusion", BakeKind::occlusion},
-    {"bent-normal", BakeKind::bentNormal}, {"object-bent-normal", BakeKind::objectBentNormal},
-    {"thickness", BakeKind::thickness},    {"curvature", BakeKind::curvature},
-    {"position", BakeKind::position}};
 
 constexpr Named<HighNormals> kHighNormals[] = {{"smooth", HighNormals::smooth},
                                                {"curved", HighNormals::curved},
@@ -61,7 +55,11 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_image_vi
     const std::string_view tangents = o.tangents ? o.tangents : "generated";
     require(tangents == "stored" || tangents == "generated", "options.tangents: expected stored or generated");
     BakeOptions& b = options.bake;
-    b.kind = valueOf(kKinds, o.kind ? o.kind : "normal", "options.kind");
+    const std::string_view kind = o.kind ? o.kind : "normal";
+    if (kind == kPackedOrm || kind.find('=') != std::string_view::npos)
+        options.packed = {valueOf(parsePackedMap(kind), "options.kind")};
+    else
+        b.kind = valueOf(kBakeKinds, kind == "occlusion" ? "ao" : kind, "options.kind"); // its name before version 9
     b.frame = frameOr(o.frame, Frame::mikktspace, "options.frame");
     b.width = map.width;
     b.height = map.height;
@@ -75,6 +73,7 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_image_vi
     b.occluders = valueOf(kOccluders, o.occluders ? o.occluders : "matched", "options.occluders");
     b.thicknessDistance = o.thickness_distance;
     b.curvatureRadius = o.curvature_radius;
+    b.idBy = valueOf(kIdBy, o.id_by ? o.id_by : "material", "options.id_by");
     b.threads = o.threads;
     options.tiles = {o.tile != 0 ? o.tile : 1001};
     options.material = o.material - 1;
@@ -144,8 +143,20 @@ void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given,
     if (result) {
         const BakeStatistics& s = baked.maps[0].statistics;
         const std::size_t size = result->size;
-        const cotan_bake_result all{size,   s.texels,      s.covered, s.missed, s.negative, s.twice,
-                                    s.rays, s.rayDistance, s.further, s.nearer, s.rayStart};
+        const auto& [from, to] = baked.maps[0].box;
+        const cotan_bake_result all{size,
+                                    s.texels,
+                                    s.covered,
+                                    s.missed,
+                                    s.negative,
+                                    s.twice,
+                                    s.rays,
+                                    s.rayDistance,
+                                    s.further,
+                                    s.nearer,
+                                    s.rayStart,
+                                    baked.maps[0].unit,
+                                    {from.x, from.y, from.z, to.x, to.y, to.z}};
         std::memcpy(result, &all, std::min(size, sizeof all)); // older callers have a shorter struct
     }
 }

@@ -47,6 +47,9 @@ BAKE = [
     *({"size": s} for s in ((30, 20), 18)), *({"frame": f} for f in FRAMES), *({"kind": k} for k in ("object-normal", "height", "ao", "curvature", "position")),
     *({"kind": k, "ao_rays": 9, "size": 8} for k in ("bent-normal", "object-bent-normal", "thickness")),
     {"kind": "thickness", "thickness_distance": 0.05, "ao_rays": 9, "size": 8}, {"kind": "curvature", "curvature_radius": 0.05},
+    *({"kind": k, "low": "room.gltf", "high": "room.gltf", "samples": 4} for k in ("base-color", "roughness", "metallic", "roughness-metallic", "emissive", "id")),
+    {"pack": "orm", "low": "room.gltf", "high": "room.gltf", "size": 8, "ao_rays": 9}, {"pack": "R=height,G=curvature,A=0.5"},
+    {"kind": "id", "id_by": "object", "low": "room.gltf", "high": "room.gltf"}, {"kind": "base-color", "bits": 16, "low": "room.gltf", "high": ["panel.gltf", "room.gltf"]},
     *({"convention": c} for c in ("directx", "unreal", "gltf,xy")), {"bits": 16}, {"samples": 4}, {"samples": 16}, {"padding": 2}, {"padding": -1},
     {"dither": True}, {"ao_rays": 9, "kind": "ao", "size": 8}, {"ao_occluders": "all", "kind": "ao", "size": 8, "match_by_name": True, "low": "room.gltf", "high": "room.gltf"}, {"search": "nearest", "high": "layers.obj"},
     *({"rays": r, "high": "layers.obj"} for r in ("auto", "averaged", "straight")), {"extrusion": 0.02, "high": "layers.obj"},
@@ -78,6 +81,9 @@ def inside(folder, monkeypatch):
 def words_of(options):
     words = []
     for name, value in options.items():
+        if isinstance(value, list):  # the option is given several times
+            words += words_of({name: value[0]}) + words_of({name: value[1]})
+            continue
         words.append("--" + name.replace("_", "-"))
         if name == "size" and isinstance(value, tuple):
             words.append("x".join(map(str, value)))
@@ -106,7 +112,11 @@ def test_bake_equals_the_command_line(options, command, tmp_path):
     for own, file in ((baked.map, "out.png"), (baked.mask, "mask.png")):
         written = cotan.read_image(tmp_path / file)
         np.testing.assert_array_equal(own[..., : written.shape[2]], written)
-    report = json.loads((tmp_path / "report.json").read_text())["bake"]
+    report = json.loads((tmp_path / "report.json").read_text())
+    map = report["maps"][0]
+    assert baked.unit == map.get("unit", 0)
+    assert "box" not in map or [*baked.box] == pytest.approx(sum(map["box"], []))
+    report = report["bake"]
     assert (baked.texels, baked.covered, baked.missed, baked.further, baked.nearer, baked.negative, baked.twice, baked.rays) == tuple(
         report[n] for n in ("texels", "covered", "missed", "further_away", "not_the_nearest", "negative_z", "claimed_twice", "rays"))  # fmt: skip
     assert (baked.ray_distance, baked.ray_start) == (report["ray_distance"], report["ray_start"])

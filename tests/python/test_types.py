@@ -101,7 +101,7 @@ def test_typed_values_equal_those_of_the_program(command):
     bake, convert = command("bake", "--help"), command("map", "convert", "--help")
     for kind in typing.get_args(words.BakeKind):
         assert kind in bake
-    bake_options = {"Search": "--search", "HighNormals": "--high-normals", "TangentOrigin": "--tangents", "Up": "--up"}
+    bake_options = {"Search": "--search", "IdBy": "--id-by", "HighNormals": "--high-normals", "TangentOrigin": "--tangents", "Up": "--up"}
     for name, option in bake_options.items():
         assert taken("bake", option) == list(typing.get_args(getattr(words, name))), name
     presets = re.search(r"gltf[a-z0-9, ]*source", re.sub(r"\s+", " ", convert))

@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cotan/result.hpp"
@@ -30,7 +31,7 @@ struct Job {
     std::string name;               // unique; defaults to the command line
     std::vector<std::string> words; // of the command line, without the program
     // Files known before the job runs, from its words and from the job file, as written there: relative to the folder
-    // of the jobs. Outputs may be folders.
+    // of the jobs. Outputs may be folders; * in their names stands for what only the job finds out.
     std::vector<std::string> inputs, outputs;
     std::string json;     // where its words send the JSON report; empty: nowhere
     bool threads = false; // its words set the number of threads
@@ -66,6 +67,10 @@ struct Plan {
 // Plans by the files that are known before jobs run. Errors (ErrorKind::input): two jobs that write the same file, jobs
 // that wait for each other, a job that writes a file it reads.
 Result<Plan> planJobs(const JobList& list);
+
+// Whether a path has a *, which stands for any text without a slash.
+inline bool isPattern(std::string_view path) { return path.find('*') != std::string_view::npos; }
+bool matches(std::string_view pattern, std::string_view path);
 
 // Part `number` of `of` parts of a batch.
 struct Shard {

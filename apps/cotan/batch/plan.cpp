@@ -20,9 +20,20 @@ std::string pathOf(const JobList& list, const std::string& file)
     return path.has_filename() ? path.string() : path.parent_path().string(); // strips a slash at the end
 }
 
-// The job that writes a file or a folder that contains it; null: none.
-const std::size_t* writerOf(const std::unordered_map<std::string, std::size_t>& writers, fs::path path)
+using Writers = std::unordered_map<std::string, std::size_t>;
+using Patterns = std::vector<std::pair<std::string, std::size_t>>; // outputs with *, and the job that writes them
+
+const std::size_t* writerOf(const Patterns& patterns, const std::string& file)
 {
+    const auto found = std::ranges::find_if(patterns, [&](const auto& one) { return matches(one.first, file); });
+    return found != patterns.end() ? &found->second : nullptr;
+}
+
+// The job that writes a file or a folder that contains it; null: none.
+const std::size_t* writerOf(const Writers& writers, const Patterns& patterns, fs::path path)
+{
+    if (const std::size_t* writer = writers.contains(path.string()) ? nullptr : writerOf(patterns, path.string()))
+        return writer;
     for (;; path = path.parent_path()) {
         if (const auto found = writers.find(path.string()); found != writers.end())
             return &found->second;
@@ -62,22 +73,55 @@ std::vector<std::size_t> orderJobs(Plan& plan)
 
 } // namespace
 
+bool matches(std::string_view pattern, std::string_view path)
+{
+    const std::size_t first = pattern.find('*'), last = pattern.rfind('*');
+    if (first == std::string_view::npos)
+        return pattern == path;
+    if (std::ranges::count(pattern, '/') != std::ranges::count(path, '/'))
+        return false;
+    const std::string_view tail = pattern.substr(last + 1);
+    if (path.size() < first + tail.size() || !path.starts_with(pattern.substr(0, first)) || !path.ends_with(tail))
+        return false;
+    path = path.substr(first, path.size() - first - tail.size());
+    for (std::size_t at = first; at != last;) { // the texts between two * in order, each where it first occurs
+        const std::size_t next = pattern.find('*', at + 1);
+        const std::string_view part = pattern.substr(at + 1, next - at - 1);
+        const std::size_t found = path.find(part);
+        if (found == std::string_view::npos)
+            return false;
+        path.remove_prefix(found + part.size());
+        at = next;
+    }
+    return true;
+}
+
 Result<Plan> planJobs(const JobList& list)
 {
-    std::unordered_map<std::string, std::size_t> writers;
+    Writers writers;
+    Patterns patterns;
+    const auto collision = [&](std::size_t job, const std::string& output, std::size_t other) {
+        return inputError(fmt::format("line {}: writes {}, which line {} also writes", list.jobs[job].line, output,
+                                      list.jobs[other].line));
+    };
     for (std::size_t i = 0; i < list.jobs.size(); ++i)
         for (const std::string& output : list.jobs[i].outputs) {
             const auto [known, isNew] = writers.emplace(pathOf(list, output), i);
             if (!isNew && known->second != i)
-                return inputError(fmt::format("line {}: writes {}, which line {} also writes", list.jobs[i].line,
-                                              output, list.jobs[known->second].line));
+                return collision(i, output, known->second);
+            if (isNew && isPattern(output))
+                patterns.emplace_back(known->first, i);
         }
+    for (std::size_t i = 0; i < list.jobs.size() && !patterns.empty(); ++i)
+        for (const std::string& output : list.jobs[i].outputs)
+            if (const std::size_t* other = writerOf(patterns, pathOf(list, output)); other && *other != i)
+                return collision(std::max(i, *other), output, std::min(i, *other));
     Plan plan;
     plan.needs.resize(list.jobs.size());
     for (std::size_t i = 0; i < list.jobs.size(); ++i)
         for (const std::string& input : list.jobs[i].inputs) {
             const fs::path path = pathOf(list, input);
-            const std::size_t* writer = writerOf(writers, path);
+            const std::size_t* writer = writerOf(writers, patterns, path);
             if (!writer)
                 continue;
             if (*writer == i && writers.contains(path.string()))

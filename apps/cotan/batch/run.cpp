@@ -227,7 +227,8 @@ private:
         std::error_code ignored;
         COTAN_CHECK(makeFolder(request.work));
         for (const std::string& output : requested.outputs)
-            fs::create_directories((list_.folder / output).parent_path(), ignored); // else the command reports it
+            if (const fs::path within = (list_.folder / output).parent_path(); !isPattern(within.string()))
+                fs::create_directories(within, ignored); // else the command reports it
         request.parent = ::getpid();
         const RunOptions limits = optionsOf(options_, requested.options);
         request.megabytes = limits.megabytes;

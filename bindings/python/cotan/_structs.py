@@ -72,6 +72,7 @@ class BakeOptions(Struct):
         (text, "occluders"),
         (c.c_float, "thickness_distance curvature_radius"),
         (text, "rays"),
+        (text, "id_by"),
     )
 
 
@@ -80,7 +81,8 @@ class BakeResult(Struct):
         (size_t, "texels covered missed negative twice rays"),
         (double, "ray_distance"),
         (size_t, "further nearer"),
-        (double, "ray_start"),
+        (double, "ray_start unit"),
+        (double * 6, "box"),
     )
 
 

@@ -17,9 +17,12 @@ from .geometry import Mesh
 from .maps import Map
 from .models import Model, load
 from .images import Path, pixels_of
-from .words import BakeKind, Convention, Frame, HighNormals, Occluders, Rays, Search, TangentOrigin, Up
+from .words import BakeKind, Convention, Frame, HighNormals, IdBy, Occluders, Rays, Search, TangentOrigin, Up
 
 Geometry = Union[Mesh, Path, Model]
+
+
+_OF_MATERIALS = ("base-color", "roughness", "metallic", "orm", "emissive")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -38,6 +41,8 @@ class Baked:
         rays: number of rays traced.
         ray_distance: the search distance used, in units of the positions.
         ray_start: the largest distance in front of the simple mesh at which rays start.
+        unit: of "thickness" and "curvature" the thickness or radius that integers store as 1; else 0.
+        box: of the detailed meshes: the lowest x, y, z, then the highest; 0 and 1 of "position" in integers.
         warnings: one line each.
     """
 
@@ -53,6 +58,8 @@ class Baked:
     further: int
     nearer: int
     ray_start: float
+    unit: float
+    box: tuple[float, ...]
     warnings: list[str]
 
 
@@ -112,6 +119,7 @@ def bake(
     size: Any = 1024,
     frame: Frame = "mikktspace",
     kind: BakeKind = "normal",
+    pack: Optional[str] = None,
     convention: Convention = "opengl",
     bits: int = 8,
     samples: int = 1,
@@ -127,6 +135,7 @@ def bake(
     cage_reach: float = 0.0,
     thickness_distance: float = 0.0,
     curvature_radius: float = 0.0,
+    id_by: IdBy = "material",
     match_by_name: bool = False,
     material: int = -1,
     udim: int = 1001,
@@ -151,7 +160,10 @@ def bake(
         size: (width, height) in texels, one number for both, or "WxH".
         frame: the frame that the shader will use: "smooth", "cotangent", "mikktspace", ...: see `frames`.
         kind: "normal", "object-normal", "height" (units of the positions), "ao", "bent-normal", "object-bent-normal",
-            "thickness", "curvature" or "position".
+            "thickness", "curvature", "position", or of the high meshes' materials "base-color", "roughness",
+            "metallic", "roughness-metallic" (green and blue), "emissive" or "id". Colours are sRGB with 8 and 16 bits,
+            linear with 32; integers clamp them to 1.
+        pack: instead of `kind`, channels of maps of one value: "R=ao,G=roughness,B=metallic,A=1", or "orm" for these.
         convention: how the map is stored: "opengl" (green up), "directx", "opengl,biased", ...
         bits: bit depth of the map: 8, 16 or 32 (float).
         samples: samples per texel: 1, 4 or 16.
@@ -174,6 +186,7 @@ def bake(
             high mesh. With 32 bits thickness is in these units.
         curvature_radius: radius of a ball whose curvature is stored as 1, flat is 0.5; 0: 1 % of that diagonal. With 32
             bits curvature is in 1 / unit.
+        id_by: what has a colour of its own in "id": "material", "object" or "vertex-color".
         match_by_name: a low mesh named NAME_low sees only its high meshes NAME_high: see `pair_names`.
         material: index of the low model's material to bake; -1: all.
         udim: tile of the texture coordinates to bake, 1001 to 1999.
@@ -212,7 +225,7 @@ def bake(
     words = {
         name: None if word is None else arrays.encoded(word, name)
         for name, word in (
-            ("frame", frame), ("kind", "occlusion" if kind == "ao" else kind), ("convention", convention),
+            ("frame", frame), ("kind", kind if pack is None else pack), ("id_by", id_by), ("convention", convention),
             ("tangents", tangents), ("high_normals", high_normals), ("high_frame", high_frame),
             ("high_convention", high_convention), ("search", search), ("occluders", ao_occluders),
             ("rays", rays),
@@ -229,7 +242,8 @@ def bake(
     def work(told):
         simple = _model(low, "low", up, memory=memory)
         enclosing = None if cage is None else _model(cage, "cage", up)
-        detailed = [_model(h, "high", high_up or up, high_normals == "map", memory) for h in _several(high)]
+        images_used = high_normals == "map" or any(word in (pack or kind) for word in _OF_MATERIALS)
+        detailed = [_model(h, "high", high_up or up, images_used, memory) for h in _several(high)]
         for model in (simple, *detailed):
             warnings.extend(w for w in model.warnings if w not in warnings)
         handles = (structs.handle * len(detailed))(*(model._handle for model in detailed))
@@ -265,5 +279,6 @@ def bake(
         map=made,
         mask=mask_made,
         warnings=warnings,
-        **{name: getattr(result, name) for name, _ in structs.BakeResult._fields_ if name != "size"},
+        box=tuple(result.box),
+        **{name: getattr(result, name) for name, _ in structs.BakeResult._fields_ if name not in ("size", "box")},
     )

@@ -37,8 +37,10 @@ Preset = Literal["gltf", "opengl", "directx", "unity", "unreal", "blender", "god
 Convention = Union[Preset, str]
 
 BakeKind = Literal[
-    "normal", "object-normal", "height", "ao", "bent-normal", "object-bent-normal", "thickness", "curvature", "position"
+    "normal", "object-normal", "height", "ao", "bent-normal", "object-bent-normal", "thickness", "curvature", "position",
+    "base-color", "roughness", "metallic", "roughness-metallic", "emissive", "id",
 ]  # fmt: skip
+IdBy = Literal["material", "object", "vertex-color"]
 HighNormals = Literal["smooth", "curved", "face", "map"]
 Search = Literal["first", "nearest"]
 Rays = Literal["auto", "averaged", "straight"]

@@ -51,24 +51,80 @@ std::set<std::size_t> allMaterials(GltfDocument& document)
     return materials;
 }
 
-// Makes the materials read the image; the uv set and transform of a previous map stay, since the bake read them.
-void putMap(GltfDocument& document, const std::set<std::size_t>& materials, std::vector<std::byte> png)
+// The texture of a material that a map is put into.
+struct Slot {
+    const char* parent; // object of the material; null: itself
+    const char* name;
+    const char* what; // for the name of the image
+};
+constexpr Slot kNormalSlot{nullptr, "normalTexture", "normals"},
+    kOcclusionSlot{nullptr, "occlusionTexture", "occlusion"},
+    kBaseColorSlot{"pbrMetallicRoughness", "baseColorTexture", "base colour"},
+    kRoughnessSlot{"pbrMetallicRoughness", "metallicRoughnessTexture", "roughness and metallic"},
+    kEmissiveSlot{nullptr, "emissiveTexture", "light"};
+
+// Makes the slots of the materials read the image at full strength, with the uv set and transform of their normal maps,
+// which the bake read.
+void putMap(GltfDocument& document, const std::set<std::size_t>& materials, const std::vector<Slot>& slots,
+            std::vector<std::byte> png)
 {
     Json& root = rootOf(document);
-    const std::size_t image = addGltfImage(document, std::move(png), "image/png", "baked normals");
+    const std::size_t image =
+        addGltfImage(document, std::move(png), "image/png", fmt::format("baked {}", slots.front().what));
     const std::size_t texture = addItem(document, "textures", Json{{"source", image}});
     std::set<std::size_t> old;
     for (const std::size_t m : materials) {
-        Json& slot = root["materials"][m]["normalTexture"];
-        if (slot.contains("index"))
-            old.insert(slot["index"].get<std::size_t>());
-        slot["index"] = texture;
-        slot.erase("scale");
+        Json& material = root["materials"][m];
+        Json use = material.contains(kNormalSlot.name) ? material[kNormalSlot.name] : Json::object();
+        use["index"] = texture;
+        use.erase("scale");
+        for (const Slot& to : slots) {
+            Json& slot = (to.parent ? material[to.parent] : material)[to.name];
+            if (slot.contains("index"))
+                old.insert(slot["index"].get<std::size_t>());
+            slot = use;
+        }
     }
     const std::set<std::size_t> used = texturesReadBy(root["materials"]);
     for (const std::size_t t : old) // textures stay, but unused ones need not keep their images
         if (!used.contains(t))
             root["textures"][t] = Json{{"source", image}};
+}
+
+// Sets the factors of maps to 1.
+void resetFactors(Json& material, const MaterialImages& maps)
+{
+    if (maps.roughnessMetallic)
+        for (const char* factor : {"roughnessFactor", "metallicFactor"})
+            material["pbrMetallicRoughness"].erase(factor);
+    if (maps.baseColor)
+        if (Json& pbr = material["pbrMetallicRoughness"]; pbr.contains("baseColorFactor"))
+            for (const std::size_t i : {0u, 1u, 2u}) // alpha stays
+                pbr["baseColorFactor"][i] = 1;
+    if (maps.emissive) {
+        material["emissiveFactor"] = {1, 1, 1};
+        takeOut(material, "extensions", "KHR_materials_emissive_strength");
+    }
+}
+
+// The map of roughness and metallic with the occlusion in red.
+Image withOcclusion(const Image& roughnessMetallic, const Image& occlusion)
+{
+    Image both = roughnessMetallic;
+    const std::size_t size = bytesPerComponent(both.type);
+    for (std::size_t i = 0; i < both.pixelCount(); ++i)
+        std::copy_n(&occlusion.data[4 * i * size], size, &both.data[4 * i * size]);
+    return both;
+}
+
+bool multipliesColors(const Json& root, const std::set<std::size_t>& materials)
+{
+    for (const Json& mesh : root["meshes"])
+        for (const Json& primitive : mesh["primitives"])
+            if (primitive.contains("material") && materials.contains(primitive["material"].get<std::size_t>())
+                && primitive["attributes"].contains("COLOR_0"))
+                return true;
+    return false;
 }
 
 // Gives, keeps or drops TANGENT, as readers of the frame need it.
@@ -112,18 +168,24 @@ void nameFrame(GltfDocument& document, std::size_t material, Frame frame)
              frame != Frame::mikktspace ? name(frame) : std::string_view());
 }
 
+namespace {
+
+Result<std::set<std::size_t>> chosenMaterials(GltfDocument& document, const PutMapOptions& options)
+{
+    if (!options.material)
+        return allMaterials(document);
+    COTAN_TRY(chosen, materialNamed(rootOf(document), *options.material));
+    return std::set{*chosen};
+}
+
+} // namespace
+
 Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const PutMapOptions& options,
                     std::vector<std::string>& notes)
 {
-    std::set<std::size_t> materials;
-    if (options.material) {
-        COTAN_TRY(chosen, materialNamed(rootOf(document), *options.material));
-        materials = {*chosen};
-    } else {
-        materials = allMaterials(document);
-    }
-    putMap(document, materials, std::move(png));
-    for (const std::size_t material : materials) {
+    COTAN_TRY(materials, chosenMaterials(document, options));
+    putMap(document, *materials, {kNormalSlot}, std::move(png));
+    for (const std::size_t material : *materials) {
         nameFrame(document, material, options.frame);
         setExpansion(rootOf(document)["materials"][material], options.expansion);
     }
@@ -136,12 +198,39 @@ Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const Pu
     return Done{};
 }
 
-Result<GltfWritten> writeModelWithMap(GltfDocument& document, const Image& map, const PutMapOptions& options,
-                                      const std::filesystem::path& output)
+Result<GltfWritten> writeModelWithMaps(GltfDocument& document, const MaterialImages& given,
+                                       const PutMapOptions& options, const std::filesystem::path& output)
 {
-    COTAN_TRY(png, encodePng(map));
     std::vector<std::string> notes;
-    COTAN_CHECK(putNormalMap(document, std::move(*png), options, notes));
+    if (given.normal) {
+        COTAN_TRY(png, encodePng(*given.normal));
+        COTAN_CHECK(putNormalMap(document, std::move(*png), options, notes));
+    }
+    MaterialImages maps = given;
+    Image both;
+    if (maps.occlusion && maps.roughnessMetallic && maps.occlusion != maps.roughnessMetallic) {
+        both = withOcclusion(*maps.roughnessMetallic, *maps.occlusion);
+        maps.occlusion = maps.roughnessMetallic = &both;
+    }
+    COTAN_TRY(materials, chosenMaterials(document, options));
+    const auto put = [&](const Image* image, const std::vector<Slot>& slots) -> Status {
+        if (!image)
+            return Done{};
+        COTAN_TRY(png, encodePng(*image));
+        putMap(document, *materials, slots, std::move(*png));
+        return Done{};
+    };
+    COTAN_CHECK(put(maps.baseColor, {kBaseColorSlot}));
+    COTAN_CHECK(put(maps.emissive, {kEmissiveSlot}));
+    if (maps.roughnessMetallic)
+        COTAN_CHECK(put(maps.roughnessMetallic,
+                        maps.occlusion ? std::vector{kRoughnessSlot, kOcclusionSlot} : std::vector{kRoughnessSlot}));
+    else
+        COTAN_CHECK(put(maps.occlusion, {kOcclusionSlot}));
+    for (const std::size_t material : *materials)
+        resetFactors(rootOf(document)["materials"][material], maps);
+    if (maps.baseColor && multipliesColors(rootOf(document), *materials))
+        notes.push_back("the low mesh has vertex colours, which multiply the baked base colour");
     auto written = writeGltf(document, output);
     if (written)
         written->notes.insert(written->notes.begin(), notes.begin(), notes.end());

@@ -308,9 +308,13 @@ const char* cotan_model_warnings(const cotan_model* model);
 
 typedef struct cotan_bake_options {
     size_t size;
-    const char* frame;       /* frame that will read the map; null: "mikktspace", which every engine reads */
-    const char* kind;        /* "normal", "object-normal", "height", "occlusion"; since version 9 "bent-normal",
-                                "object-bent-normal", "thickness", "curvature", "position"; null: "normal" */
+    const char* frame; /* frame that will read the map; null: "mikktspace", which every engine reads */
+    const char* kind;  /* "normal", "object-normal", "height", "ao" (before version 9 "occlusion", which stays); since
+                          version 9 "bent-normal", "object-bent-normal", "thickness", "curvature", "position", and
+                          of the detailed models' materials, which must have been opened with images:
+                          "base-color", "roughness", "metallic", "roughness-metallic" (green, blue), "emissive",
+                          "id"; colours are sRGB with 8 and 16 bits, else linear; and channels of maps of one value,
+                          such as "R=ao,G=roughness,B=metallic,A=1", which is "orm"; null: "normal" */
     const char* convention;  /* of the map; null: "gltf" */
     int samples;             /* per texel and axis: 1, 2 or 4; 0: 1 */
     int padding;             /* width of the filled border around charts, in texels; 0: fill everything, -1: none */
@@ -351,6 +355,8 @@ typedef struct cotan_bake_options {
     const char* rays;         /* which way they run: "auto", straight but averaged near hard edges, "averaged", along
                                  normals averaged over hard edges, or "straight", along the normals of the simple model;
                                  no effect with a cage and for the search "nearest"; null: "auto" */
+    const char* id_by;        /* what has a colour of its own in "id": "material", "object" or "vertex-color"; null:
+                                 "material" */
 } cotan_bake_options;
 
 typedef struct cotan_bake_result {
@@ -365,6 +371,9 @@ typedef struct cotan_bake_result {
     size_t further;   /* missed texels with a surface beyond the search distance */
     size_t nearer;    /* texels of the first surface from outside although another one is nearer */
     double ray_start; /* the largest distance before the simple surface at which a ray starts */
+    /* Since version 9. */
+    double unit;   /* of "thickness" and "curvature": the thickness or radius that integers store as 1; else 0 */
+    double box[6]; /* of the detailed models: the lowest x, y, z, then the highest; 0 and 1 of "position" in integers */
 } cotan_bake_result;
 
 /* Bakes a map for the simple mesh `low` from the detailed mesh `high`, whose texcoords may be null. `map` has the

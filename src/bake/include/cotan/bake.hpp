@@ -14,6 +14,7 @@
 // The other two headers of this part are cotan/lint.hpp and cotan/convert.hpp.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -43,6 +44,13 @@ enum class BakeKind {
     thickness,        // mean length of rays from the high surface inwards, cosine weighted, model units
     curvature,        // mean curvature of the high surface, 1 / model unit; positive where it is convex
     position,         // world position of the high surface
+    // What the materials of the high surface say, at their finest level; of the maps that can be read:
+    baseColor,         // linear colour, times vertex colours; sRGB in integers
+    roughness,         // 0 to 1
+    metallic,          // 0 to 1
+    roughnessMetallic, // roughness in green and metallic in blue, as glTF reads them; red is 1
+    emissive,          // linear colour, times its strength; sRGB in integers, clamped to 1
+    id,                // a colour for each of BakeOptions::idBy, sRGB in integers; samples are not mixed
 };
 
 // Whether a map of this kind shows the normals of the high surface, or those of its normal maps.
@@ -53,6 +61,25 @@ inline bool holdsDirections(BakeKind kind)
 {
     return showsNormals(kind) || kind == BakeKind::bentNormal || kind == BakeKind::objectBentNormal;
 }
+
+// Whether a map of this kind reads the materials, names or vertex colours of the high surface.
+inline bool readsMaterials(BakeKind kind) { return kind >= BakeKind::baseColor; }
+
+// Whether a map of this kind holds one value per texel.
+inline bool holdsScalars(BakeKind kind)
+{
+    return kind == BakeKind::height || kind == BakeKind::occlusion || kind == BakeKind::thickness
+        || kind == BakeKind::curvature || kind == BakeKind::roughness || kind == BakeKind::metallic;
+}
+
+// What has a colour of its own in a map of ids. Materials and objects of the same name have the same; the nth, counted
+// from 1 in the order of the high scenes, has the colour of the label n of PASCAL VOC: the bits of n, from the lowest,
+// are the highest bits of red, green, blue, the next bits of red, green, blue, and so on. Black is none.
+enum class IdBy {
+    material,
+    object,      // the instance's name, or its mesh's
+    vertexColor, // that of the nearest corner of the triangle, with 8 bits; white without
+};
 
 // Which of the surfaces on a line counts.
 enum class BakeSearch {
@@ -81,6 +108,7 @@ enum class Occluders {
     all,
 };
 
+class HighMaterials;    // internal
 class HighNormalMaps;   // internal
 struct RayStarts;       // internal
 struct DetailedSurface; // internal
@@ -103,7 +131,9 @@ struct BakeOptions {
     HighNormals highNormals = HighNormals::smooth;
     std::shared_ptr<const HighNormalMaps> highMaps; // normal maps of the high surface, which replace its normals; not
                                                     // read for heights and occlusion. Null: none
-    int occlusionRays = 64;                         // per sample, also for bent normals and thickness
+    std::shared_ptr<const HighMaterials> highMaterials; // read by kinds of readsMaterials. Null: their values are zero
+    IdBy idBy = IdBy::material;
+    int occlusionRays = 64;      // per sample, also for bent normals and thickness
     float thicknessDistance = 0; // model units: the length of longer rays, stored as 1 in integers; 0: 50 % of the
                                  // diagonal of the high surface's bounding box
     float curvatureRadius = 0; // model units: the radius of a ball that is stored as 1 in integers, 0.5 is flat; 0: 1 %
@@ -112,6 +142,13 @@ struct BakeOptions {
     std::vector<std::int64_t> matched; // per instance of the low scene: the group of high instances that rays can hit,
                                        // -1: all; empty: all
     int threads = 0;
+};
+
+// A map whose channels are red, green, blue and alpha of maps of one value per texel, or constants.
+struct PackedMap {
+    std::string name = "packed";
+    std::array<std::optional<BakeKind>, 4> kinds; // of holdsScalars; none: the constant
+    std::array<float, 4> constants{0, 0, 0, 1};
 };
 
 // How a map is stored.
@@ -131,10 +168,11 @@ struct HighModel {
 };
 
 struct BakeModelOptions {
-    BakeOptions bake;             // tile, cage, starts, highMaps and matched are derived from the options below
-    std::vector<BakeKind> kinds;  // maps that are made from the same rays, each as it would be alone; empty: bake.kind
-    std::vector<int> tiles{1001}; // UDIM numbers, one map each: 1001 + u + 10 v, u below 10, v upwards
-    int material = -1;            // of the simple scene; -1: all
+    BakeOptions bake; // tile, cage, starts, highMaps, highMaterials and matched are derived from the options below
+    std::vector<BakeKind> kinds;   // maps that are made from the same rays, each as it would be alone; empty: bake.kind
+    std::vector<PackedMap> packed; // further maps from the same rays; only these if kinds is empty
+    std::vector<int> tiles{1001};  // UDIM numbers, one map each: 1001 + u + 10 v, u below 10, v upwards
+    int material = -1;             // of the simple scene; -1: all
     TangentOrigin tangents = TangentOrigin::stored; // for the frames `vertex` and `mikktspace`
     const Scene* cage = nullptr;   // the triangles of the simple scene in the same order, moved out to enclose both
                                    // models; rays run from it inwards. Null: none. Read by prepareBake only
@@ -180,19 +218,27 @@ struct BakeStatistics {
     double padSeconds = 0; // for filling around charts, if bakeTile did so
 };
 
+// A colour of a map of ids.
+struct IdColor {
+    std::string name;        // of the material or object
+    std::uint32_t color = 0; // 0xrrggbb
+};
+
 struct BakedMap {
-    int tile = 1001; // UDIM number
-    BakeKind kind = BakeKind::normal;
+    int tile = 1001;                  // UDIM number
+    BakeKind kind = BakeKind::normal; // of a packed map that of its first channel with one
+    std::optional<PackedMap> packed = {};
     Image image; // in integers a position is a fraction of `box`, and a height one between the lowest and the highest
     Bounds box;  // of the high surface
-    double unit = 0;   // curvature and thickness: the radius or the length that is stored as 1 in integers
-    Convention format; // how `image` is stored, if it holds directions
-    Image mask;        // states of the texels as colours, see maskOf; empty unless requested
+    double unit = 0;               // curvature and thickness: the radius or the length that is stored as 1 in integers
+    std::vector<IdColor> ids = {}; // of all materials or objects of the high surface, for a map of ids
+    Convention format = {};        // how `image` is stored, if it holds directions
+    Image mask = {};               // states of the texels as colours, see maskOf; empty unless requested
     BakeStatistics statistics;
 };
 
 struct BakedModel {
-    std::vector<BakedMap> maps;        // for each of options.tiles one of each kind
+    std::vector<BakedMap> maps;        // for each of options.tiles those of the kinds, then the packed ones
     std::vector<std::string> warnings; // one line each; those about an option begin with "options.NAME: "
 };
 
@@ -204,8 +250,9 @@ Result<BakedModel> bakeModel(const Scene& low, HighModel high, const BakeModelOp
 
 // Opens the detailed side once: its acceleration structure and normal maps then serve any number of bakes, of other
 // simple scenes, frames, kinds and sizes. options: bake.threads, and bake.highNormals, matchByName, ownMaps, highFrame
-// and highFormat, which hold for every bake from it. Maps are read if a kind shows normals; curvature is prepared if it
-// is among the kinds. Errors: those of prepareBake that concern the detailed scenes.
+// and highFormat, which hold for every bake from it. Maps are read if a kind shows normals; curvature and materials are
+// prepared for the kinds that are given here, ids for bake.idBy. Errors: those of prepareBake that concern the detailed
+// scenes.
 Result<std::shared_ptr<const DetailedSurface>> openDetailed(HighModel high, const BakeModelOptions& options);
 
 // Bakes as with the HighModel that `high` was opened from; gives the same bytes.

@@ -183,9 +183,19 @@ struct PutMapOptions {
 Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const PutMapOptions& options,
                     std::vector<std::string>& notes);
 
-// Puts the map into the document, which the call changes, and writes it. GltfWritten::notes begin with those of
-// putNormalMap. Errors: those of putNormalMap, encodePng and writeGltf.
-Result<GltfWritten> writeModelWithMap(GltfDocument& document, const Image& map, const PutMapOptions& options,
-                                      const std::filesystem::path& output);
+// Maps for materials; null: none. All have one size and type.
+struct MaterialImages {
+    const Image* normal = nullptr;
+    const Image* occlusion = nullptr;         // red
+    const Image* roughnessMetallic = nullptr; // green and blue; may be the same image as the occlusion
+    const Image* baseColor = nullptr;         // sRGB
+    const Image* emissive = nullptr;          // sRGB
+};
+
+// Puts maps into the document, which the call changes, and writes it. Materials read them at full strength, with the uv
+// set and transform of their normal maps; alpha of their base colour stays. Occlusion and roughness become one image.
+// GltfWritten::notes begin with those of putNormalMap. Errors: those of putNormalMap, encodePng and writeGltf.
+Result<GltfWritten> writeModelWithMaps(GltfDocument& document, const MaterialImages& maps, const PutMapOptions& options,
+                                       const std::filesystem::path& output);
 
 } // namespace cotan
