@@ -27,6 +27,49 @@ glm::dvec3 decoded(const Image& image, std::size_t i, bool green)
     return {component(0), component(1) * (green ? 1 : -1), component(2)};
 }
 
+// A plane that leans by 0.6 along x and 0.64 along y, over a square: every texel has one direction, whose codes are
+// arithmetic. Engines decode them with 2c - 1; the neutral words mean 128 + 127 x.
+TEST(BakeCommand, presetsOfEnginesWriteWhatTheirShadersExpand)
+{
+    TemporaryFolder folder;
+    const char* const triangles = "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+    std::ofstream low(folder / "low.obj"), high(folder / "high.obj");
+    for (std::ofstream* file : {&low, &high}) {
+        const bool leans = file == &high;
+        for (const auto& [x, y] : {std::pair(0.0, 0.0), {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}})
+            *file << "v " << x << " " << y << " " << (leans ? -(0.6 * x + 0.64 * y) / 0.48 : 0.0) << "\nvt " << x << " "
+                  << y << "\n";
+        *file << triangles;
+        file->close();
+    }
+    const auto bytes = [&](const std::vector<std::string>& words) {
+        EXPECT_EQ(runTool(words, folder.path()).code, 0);
+        const auto map = readImage(folder / "map.png");
+        return std::vector<int>{map->bytes8()[0], map->bytes8()[1]};
+    };
+    const auto baked = [&](const std::string& convention) {
+        return bytes({"bake", "--high", "high.obj", "--low", "low.obj", "--size", "4", "--max-distance", "9",
+                      "--convention", convention, "--overwrite", "-o", "map.png"});
+    };
+    const auto engine = [](double x) { return int(std::lround(255 * (0.5 + 0.5 * x))); };
+    const auto neutral = [](double x) { return int(std::lround(128 + 127 * x)); };
+    const std::vector<int> up{engine(0.6), engine(0.64)}, down{up[0], engine(-0.64)};
+    for (const char* preset : {"gltf", "unity", "blender", "godot", "opengl,biased"})
+        EXPECT_EQ(baked(preset), up) << preset;
+    EXPECT_EQ(baked("unreal"), down);
+    const std::vector<int> exact{neutral(0.6), neutral(0.64)};
+    for (const char* preset : {"opengl", "maya", "unity,exact"})
+        EXPECT_EQ(baked(preset), exact) << preset;
+    ASSERT_NE(down[1], neutral(-0.64));
+    baked("opengl");
+    std::filesystem::rename(folder / "map.png", folder / "neutral.png");
+    for (const auto& [to, codes] : {std::pair("unreal", down), {"blender", up}, {"opengl", exact}})
+        EXPECT_EQ(
+            bytes({"map", "convert", "neutral.png", "--from", "opengl", "--to", to, "--overwrite", "-o", "map.png"}),
+            codes)
+            << to;
+}
+
 // The high mesh is a grid of 128 cells with analytic normals at its vertices. Texel centres of a 64 x 64 map coincide
 // with vertices, so the answer is exact there.
 TEST(BakeCommand, syntheticWavesComeOutExactInBothGreenConventions)

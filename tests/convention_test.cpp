@@ -53,13 +53,12 @@ TEST(Convention, knownEnginesPointGreenTheirWay)
 // What a flat texel decodes from: 128 of 8 bits, 32768 of 16, 0.5 of floats.
 TEST(Convention, flatDecodesFromTheMiddleCodeAtEveryDepth)
 {
-    for (const ConventionPreset& p : conventionPresets())
-        for (auto [bits, middle] : {std::pair(8, 128.0 / 255), {16, 32768.0 / 65535}, {32, 0.5}}) {
-            const auto format = toFormat<f64::cotan_normal_format>(p.convention, 1, bits);
-            EXPECT_NEAR(f64::cotan_expand(middle, format.expansion), 0, 1e-15) << p.name << " " << bits;
-            EXPECT_NEAR(f64::cotan_compress(0, format.expansion), middle, 1e-15) << p.name << " " << bits;
-            EXPECT_NEAR(f64::cotan_expand(1, format.expansion), 1, 1e-15);
-        }
+    for (auto [bits, middle] : {std::pair(8, 128.0 / 255), {16, 32768.0 / 65535}, {32, 0.5}}) {
+        const auto format = toFormat<f64::cotan_normal_format>(*parseConvention("exact"), 1, bits);
+        EXPECT_NEAR(f64::cotan_expand(middle, format.expansion), 0, 1e-15) << bits;
+        EXPECT_NEAR(f64::cotan_compress(0, format.expansion), middle, 1e-15) << bits;
+        EXPECT_NEAR(f64::cotan_expand(1, format.expansion), 1, 1e-15);
+    }
     EXPECT_EQ(expansionFor(Expansion::biased, 16), COTAN_EXPAND_BIASED);
     EXPECT_EQ(expansionFor(Expansion::signedValues, 32), COTAN_EXPAND_SIGNED);
 }
@@ -67,7 +66,7 @@ TEST(Convention, flatDecodesFromTheMiddleCodeAtEveryDepth)
 TEST(Convention, descriptionNamesEveryChoice)
 {
     const std::string s = describe(*parseConvention("unreal,xy"));
-    for (const char* part : {"tangent space", "two channels", "green down", "v down", "exact"})
+    for (const char* part : {"tangent space", "two channels", "green down", "v down", "biased"})
         EXPECT_NE(s.find(part), std::string::npos) << part;
 }
 
@@ -90,15 +89,18 @@ TEST(Convention, presetsMatchTheEnginesImporters)
         bool greenUp;
         VDirection v;
         bool twoOnGpu;
+        Expansion expansion;
     };
     using enum VDirection;
+    using enum Expansion;
     // From each program's own documentation, which src/core/convention.cpp cites: the direction of green, where v = 0
-    // is, and whether the import drops blue. All importers are given three channels.
+    // is, whether the import drops blue, and how its shader expands bytes. All importers are given three channels.
     const Expected table[] = {
-        {"gltf", true, down, false},    {"opengl", true, up, false},   {"directx", false, down, false},
-        {"unity", true, up, true},      {"unreal", false, down, true}, {"blender", true, up, false},
-        {"godot", true, down, true},    {"maya", true, up, false},     {"3dsmax", false, up, false},
-        {"source", false, down, false},
+        {"gltf", true, down, false, biased},    {"opengl", true, up, false, exact},
+        {"directx", false, down, false, exact}, {"unity", true, up, true, biased},
+        {"unreal", false, down, true, biased},  {"blender", true, up, false, biased},
+        {"godot", true, down, true, biased},    {"maya", true, up, false, exact},
+        {"3dsmax", false, up, false, exact},    {"source", false, down, false, exact},
     };
     EXPECT_EQ(conventionPresets().size(), std::size(table));
     for (const Expected& e : table) {
@@ -108,6 +110,8 @@ TEST(Convention, presetsMatchTheEnginesImporters)
         EXPECT_EQ(c->greenUp, e.greenUp) << e.name;
         EXPECT_EQ(c->v, e.v) << e.name;
         EXPECT_EQ(c->channels, Channels::xyz) << e.name;
+        EXPECT_EQ(c->expansion, e.expansion) << e.name;
+        EXPECT_EQ(parseConvention(std::string(e.name) + ",exact")->expansion, exact) << e.name;
         Convention onGpu = *c;
         onGpu.channels = e.twoOnGpu ? Channels::orthographic : Channels::xyz;
         EXPECT_EQ(*parseSampledConvention(e.name), onGpu) << e.name;

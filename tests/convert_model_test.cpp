@@ -22,7 +22,7 @@
 namespace cotan {
 namespace {
 
-const auto kStored = toFormat<f64::cotan_normal_format>(*conventionFromName("gltf"));
+const auto kStored = toFormat<f64::cotan_normal_format>(Convention());
 
 Image mapOf(glm::dvec3 m)
 {
@@ -68,7 +68,7 @@ Image normalMapIn(const GltfDocument& document, std::size_t image = 0)
 
 glm::dvec3 directionAt(const Image& image, int x, int y)
 {
-    const auto format = toFormat<f64::cotan_normal_format>(*conventionFromName("gltf"), image.type);
+    const auto format = toFormat<f64::cotan_normal_format>(Convention(), image.type);
     return glm::normalize(f64::cotan_decode(storedTexel(image, x, y), format));
 }
 

@@ -278,7 +278,7 @@ TEST(Recommend, tangentAndGreenDefectsAreSentences)
         "out, each alone is wrong.");
     EXPECT_EQ(defects(storedAs(0.2, 0.3), {down}),
               contradict
-                  + " Green seems to be flipped in image 4 (cotan map convert --from directx --to gltf flips it "
+                  + " Green seems to be flipped in image 4 (cotan map convert --from directx --to opengl flips it "
                     "back).");
 }
 

@@ -250,11 +250,11 @@ TEST(Recommend, greenIsReversedAboutTheZeroCodeOfTheMap)
     std::vector<GreenEvidence> given = {greenAs(true, false, "a"), greenAs(true, false, "b"),
                                         greenAs(true, true, "sound")};
     given[0].verdict.statistics.centre = maps::Centre::biased;
-    const char* const about128 = "(cotan map convert --from directx --to gltf flips it back)";
+    const char* const about128 = "(cotan map convert --from directx --to opengl flips it back)";
     EXPECT_TRUE(says(advisedOn({judgedAs(0.1, 0.2)}, {}, given).defects, about128));
     given[1].verdict.statistics.centre = maps::Centre::biased;
     EXPECT_TRUE(says(advisedOn({judgedAs(0.1, 0.2)}, {}, given).defects,
-                     "(cotan map convert --from directx,biased --to gltf,biased flips it back)"));
+                     "(cotan map convert --from directx,biased --to opengl,biased flips it back)"));
 }
 
 TEST(Recommend, atMostThreeNamesAreListed)

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::TemporaryFolder;
 
-Convention asGltf() { return *parseConvention("gltf"); }
+Convention asGltf() { return *parseConvention("gltf,exact"); }
 Convention asDirectx() { return *parseConvention("directx"); }
 
 std::vector<fs::path> filesIn(const fs::path& folder)

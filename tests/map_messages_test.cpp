@@ -121,12 +121,12 @@ TEST(FaultRules, areFixedByOneCommand)
     EXPECT_EQ(options({Kind::tooLong}), "--from gltf --to gltf --normalise");
     EXPECT_EQ(options({Kind::eightBitsIn16}), "--from gltf --to gltf --bits 8");
     for (const Centre centre : {Centre::exact, Centre::unknown})
-        EXPECT_EQ(options({Kind::greenDown}, centre), "--from directx --to gltf");
-    EXPECT_EQ(options({Kind::greenDown}, Centre::biased), "--from directx,biased --to gltf,biased");
+        EXPECT_EQ(options({Kind::greenDown}, centre), "--from directx --to opengl");
+    EXPECT_EQ(options({Kind::greenDown}, Centre::biased), "--from directx,biased --to opengl,biased");
     EXPECT_EQ(
         options({Kind::greenDown, Kind::redAndGreen, Kind::redAndBlue, Kind::srgb, Kind::tooLong, Kind::eightBitsIn16},
                 Centre::biased),
-        "--from directx,biased,srgb,bgr,grb --to gltf,biased --normalise --bits 8");
+        "--from directx,biased,srgb,bgr,grb --to opengl,biased --normalise --bits 8");
 }
 
 TEST(MapContents, areDescribed)

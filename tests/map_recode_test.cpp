@@ -59,16 +59,18 @@ TEST(Recode, every_convention_round_trips_within_its_rounding)
                 }
 }
 
-TEST(Recode, presets_differ_in_green_only)
+TEST(Recode, presets_of_one_zero_differ_in_green_only)
 {
     const Image map = makeReliefMap(Relief::domes, 32);
     for (const ConventionPreset& p : conventionPresets()) {
-        const Image there = recoded(map, kGltf, p.convention, PixelType::unorm8);
+        const bool exact = p.convention.expansion == Expansion::exact;
+        const Convention from{.expansion = p.convention.expansion};
+        const Image there = recoded(map, from, p.convention, PixelType::unorm8);
         for (std::size_t i = 0; i < map.pixelCount(); ++i) {
             const std::uint8_t *a = map.bytes8() + 4 * i, *b = there.bytes8() + 4 * i;
             EXPECT_EQ(a[0], b[0]);
             EXPECT_EQ(a[2], b[2]);
-            EXPECT_EQ(int(b[1]), p.convention.greenUp ? int(a[1]) : 256 - a[1]) << p.name;
+            EXPECT_EQ(int(b[1]), p.convention.greenUp ? int(a[1]) : (exact ? 256 : 255) - a[1]) << p.name;
         }
     }
 }
@@ -105,7 +107,8 @@ TEST(Recode, component_tables_of_8_bits_equal_whole_texels)
                     continue;
                 const float value = std::clamp(b.floats()[i], 0.0f, 1.0f) * 2 - 1; // zero of floats is 0.5
                 const float code = expansion == Expansion::exact ? 128 + 127 * value : 127.5f + 127.5f * value;
-                EXPECT_EQ(int(a.bytes8()[i]), int(code + 0.5f)) << i;
+                EXPECT_EQ(int(a.bytes8()[i]), int(code + 0.5f + (expansion == Expansion::exact ? 0 : 1e-4f)))
+                    << i; // floats miss 127.5, the zero of 2c - 1, by 1e-5: it is rounded up
             }
         }
 }

@@ -197,11 +197,15 @@ Image recoded(const Image& map, RecodeSettings s)
     return recode(map, s, counts);
 }
 
-TEST(SmallConversions, flat_stays_flat_between_all_conventions_and_depths)
+// 128 is no zero of 2c - 1, which keeps the 0.0039 that it means.
+TEST(SmallConversions, flat_stays_flat_between_all_exact_conventions_and_depths)
 {
+    const auto exact = [](const ConventionPreset& p) { return p.convention.expansion == Expansion::exact; };
     for (const ConventionPreset& from : conventionPresets())
         for (const ConventionPreset& to : conventionPresets())
             for (PixelType type : {PixelType::unorm8, PixelType::unorm16}) {
+                if (!exact(from) || !exact(to))
+                    continue;
                 Image flat = makeImage(1, 1, PixelType::unorm8);
                 const std::uint8_t texel[4] = {128, 128, 255, 255};
                 std::copy_n(texel, 4, flat.bytes8());

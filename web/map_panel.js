@@ -12,7 +12,7 @@ const kEngines = {
 const kGreenDown = new Set(['directx', 'unreal', '3dsmax', 'source']);
 
 export async function showMap(result, name, image) {
-  const text = language => library.shader({ language, frame: 'cotangent', convention: 'gltf' });
+  const text = language => library.shader({ language, frame: 'cotangent', convention: 'gltf,exact' });
   const [green, info, essl, wgsl] = await Promise.all([library.detect(image), library.info(image), text('essl'), text('wgsl')]);
   const preview = mapView({ essl, wgsl }, { 'aria-label': 'The map as a relief, lit from the position of the pointer' });
   preview.put('before', image);

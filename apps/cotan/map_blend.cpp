@@ -14,7 +14,7 @@ namespace cotan::app {
 namespace {
 
 struct MapBlendCommandOptions : MapOptions {
-    std::string base, detail, from = "gltf", detailFrom, to, mode = "reoriented", mask, tiles = "1";
+    std::string base, detail, from = "gltf,exact", detailFrom, to, mode = "reoriented", mask, tiles = "1";
     double strength = 1;
     bool dither = false;
 };

@@ -126,7 +126,7 @@ void addMapConvert(Arguments& map)
         {"convert",
          "Convert a normal map between conventions, or repair it: green, channels, sRGB, space, bits.",
          "the new map: " + imageEndings([](const ImageFormat& f) { return f.writes || f.texture; }),
-         {"cotan map convert rocks.png --from directx --to gltf -o out.png",
+         {"cotan map convert rocks.png --from directx --to opengl -o out.png",
           "cotan map convert rocks.png --from gltf --to unity,orthographic --bits 16 -o out.tif"},
          /*needsOutput=*/true},
         declare, run);

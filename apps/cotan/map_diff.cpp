@@ -10,7 +10,7 @@ namespace cotan::app {
 namespace {
 
 struct MapDiffCommandOptions : MapOptions {
-    std::string a, b, from = "gltf", to;
+    std::string a, b, from = "gltf,exact", to;
 };
 
 Status run(const MapDiffCommandOptions& o)

@@ -16,7 +16,7 @@ namespace {
 
 // Options of both commands.
 struct HeightOptions : MapOptions {
-    std::string file, convention = "gltf", metres, kernel;
+    std::string file, convention = "gltf,exact", metres, kernel;
 };
 
 struct MapFromHeightCommandOptions : HeightOptions {

@@ -12,7 +12,7 @@ namespace cotan::app {
 namespace {
 
 struct MapMipsCommandOptions : MapOptions {
-    std::string file, from = "gltf", to, model = "lean", compress = "none";
+    std::string file, from = "gltf,exact", to, model = "lean", compress = "none";
     double roughness = 0.3;
     bool keepLengths = false;
 };

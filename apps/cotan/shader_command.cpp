@@ -31,9 +31,9 @@ Result<Convention> conventionOf(const ShaderCommandOptions& o)
     Words<Convention> presets;
     for (const ConventionPreset& p : conventionPresets())
         presets.push_back({p.name, onGpu(p)});
-    // Godot's importer may drop blue; code that reads it would fail silently.
-    const std::string preset = o.preset.empty() && o.language == "godot" ? o.language : o.preset;
-    COTAN_CHECK(choose(c, "--preset", preset, presets));
+    if (o.language == "godot") // its importer may drop blue; code that reads it would fail silently
+        c.channels = Channels::orthographic;
+    COTAN_CHECK(choose(c, "--preset", o.preset, presets));
     if (Status ok = choose(c.channels, "--channels", o.channels,
                            {{"3", Channels::xyz},
                             {"2", Channels::orthographic},
@@ -188,8 +188,9 @@ void declare(Arguments& a, ShaderCommandOptions& o)
     a.group(HelpGroup::input);
     a.option("--preset", o.preset,
              "how the normal map is sampled: gltf, opengl, directx, unity, unreal, blender, godot, maya, "
-             "3dsmax, source; unity, unreal and godot keep two channels of the imported file. The next three options "
-             "replace parts of it. Default: 3 channels, green against v, exact; for Godot: godot")
+             "3dsmax, source; unity, unreal and godot keep two channels of the imported file; "
+             "these, gltf and blender are biased. The next three options replace parts of it. Default: 3 channels, "
+             "for --lang godot 2; green against v, exact")
         .in("NAME")
         .offers(presetWords())
         .main();

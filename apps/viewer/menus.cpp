@@ -152,10 +152,10 @@ void addFrameEntries(Entries& e, const State& s)
         e.add("Generated tangents", "", before + "tangents generated", side.tangents == TangentOrigin::generated);
         e.submenu("Normal maps");
         e.add("Convention from file", "", before + "convention ", side.convention.empty());
-        for (const auto& [label, words] : {std::pair("Green up (glTF, OpenGL)", "gltf"),
+        for (const auto& [label, words] : {std::pair("Green up (glTF, OpenGL)", "opengl"),
                                            {"Green down (DirectX)", "directx"},
-                                           {"Decoded as 2c - 1", "gltf,biased"},
-                                           {"Two channels, orthographic", "gltf,orthographic"}})
+                                           {"Decoded as 2c - 1", "opengl,biased"},
+                                           {"Two channels, orthographic", "opengl,orthographic"}})
             e.add(label, "", before + "convention " + words, side.convention == words);
         e.add("Normal map from file", "", before + "normal-map ", side.normalMap.empty());
         if (!side.normalMap.empty())

@@ -66,7 +66,7 @@ export const { tangents, smooth, triangles, split, splitMirrored, packTriangles,
 export const provoking = provokingFunction(library);
 export const { detect, info, convertMap, blend, fromHeight, toHeight, mips } = mapFunctions(library, host);
 export const { apply, encode, frames, shader } = frameFunctions(library);
-export const { lint, convert } = modelFunctions(library, host, (map) => convertMap(map, { from: 'directx', to: 'gltf' }));
+export const { lint, convert } = modelFunctions(library, host, (map) => convertMap(map, { from: 'directx', to: 'opengl' }));
 export const version = () => library.version;
 export { overLimits } from './src/verdict.js';
 export { decodePng, encodePng } from './src/png.js';

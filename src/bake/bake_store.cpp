@@ -7,6 +7,7 @@
 #include "bake/bake_surfaces.hpp"
 #include "bake/surface/nearest_texels.hpp"
 #include "core/loops.hpp"
+#include "maps/texels.hpp"
 #include "scene/texture_sample.hpp"
 
 namespace cotan {
@@ -34,7 +35,7 @@ struct Writer {
         const int x = int(i % std::size_t(image.width)), y = int(i / std::size_t(image.width));
         const float offset = dither && image.type == PixelType::unorm8 ? bayer(x, y) : 0.5f;
         for (std::size_t k = 0; k < 4; ++k) {
-            const float v = std::clamp(channels[k], 0.0f, 1.0f);
+            const float v = maps::settled(std::clamp(channels[k], 0.0f, 1.0f));
             if (image.type == PixelType::float32)
                 image.floats()[4 * i + k] = channels[k];
             else if (image.type == PixelType::unorm16)

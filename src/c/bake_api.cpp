@@ -84,7 +84,7 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_image_vi
     options.stored.type = typeOf(map, "map");
     options.stored.dither = o.dither != 0;
     options.stored.format =
-        inScene(storableAs(o.convention ? o.convention : "gltf", "options.convention", options.stored.type));
+        inScene(storableAs(o.convention ? o.convention : "opengl", "options.convention", options.stored.type));
     options.mask = o.mask;
     return options;
 }

@@ -12,11 +12,10 @@ namespace {
 
 using enum MapKind;
 
-// Zero is the middle code in all presets: every baker stores a flat texel there, however engines expand it. All presets
-// have three channels: every importer accepts blue, even if it drops it.
-constexpr Convention tangent(bool greenUp, VDirection v)
+// All presets have three channels: every importer accepts blue, even if it drops it.
+constexpr Convention tangent(bool greenUp, VDirection v, Expansion expansion = Expansion::exact)
 {
-    return {tangentSpace, Expansion::exact, Channels::xyz, greenUp, v};
+    return {tangentSpace, expansion, Channels::xyz, greenUp, v};
 }
 
 // The files that each importer expects, according to documentation and source of the engines:
@@ -34,14 +33,25 @@ constexpr Convention tangent(bool greenUp, VDirection v)
 // Maya: green up, according to the table of conventions of Verge3D, an exporter for it; Autodesk's pages do not say.
 // 3ds Max: help, Normal Bump Map: "green indicates down (larger values) versus up".
 // Source: Valve Developer Community, Bump map: "vector directions X+ Y- Z+".
+//
+// Zero is where the reader has it. These expand with 2c - 1:
+// glTF: specification 2.0, material.normalTextureInfo.scale: "<sampled normal texture value> * 2.0 - 1.0".
+// Unity: UnpackNormalAG and UnpackNormalRGB, Packing.hlsl of com.unity.render-pipelines.core: "* 2.0 - 1.0".
+// Unreal: UnpackNormalMap, Engine/Shaders/Private/Common.ush: "NormalXY * 2 - 1".
+// Godot: scene_forward_clustered.glsl: "normal_map.xy * 2.0 - 1.0"; scene.glsl of Godot 3 does the same.
+// Blender: svm_node_normal_map, intern/cycles/kernel/svm/tex_coord.h: "2.0f * (color.x - 0.5f)"; bakes are the inverse.
+// Of the others no such source is known, so their zero is the middle code, where bakers and painters store flat.
 constexpr std::array kPresets = {
-    ConventionPreset{"gltf", tangent(true, VDirection::down), false, "glTF 2.0: green up, v down"},
+    ConventionPreset{"gltf", tangent(true, VDirection::down, Expansion::biased), false, "glTF 2.0: green up, v down"},
     ConventionPreset{"opengl", tangent(true, VDirection::up), false, "green up, v up"},
     ConventionPreset{"directx", tangent(false, VDirection::down), false, "green down, v down"},
-    ConventionPreset{"unity", tangent(true, VDirection::up), true, "green up, v up; two channels on the GPU"},
-    ConventionPreset{"unreal", tangent(false, VDirection::down), true, "green down, v down; two channels on the GPU"},
-    ConventionPreset{"blender", tangent(true, VDirection::up), false, "green up, v up"},
-    ConventionPreset{"godot", tangent(true, VDirection::down), true, "green up, v down; two channels on the GPU"},
+    ConventionPreset{"unity", tangent(true, VDirection::up, Expansion::biased), true,
+                     "green up, v up; two channels on the GPU"},
+    ConventionPreset{"unreal", tangent(false, VDirection::down, Expansion::biased), true,
+                     "green down, v down; two channels on the GPU"},
+    ConventionPreset{"blender", tangent(true, VDirection::up, Expansion::biased), false, "green up, v up"},
+    ConventionPreset{"godot", tangent(true, VDirection::down, Expansion::biased), true,
+                     "green up, v down; two channels on the GPU"},
     ConventionPreset{"maya", tangent(true, VDirection::up), false, "green up, v up"},
     ConventionPreset{"3dsmax", tangent(false, VDirection::up), false, "green down, v up"},
     ConventionPreset{"source", tangent(false, VDirection::down), false, "green down, v down"},

@@ -182,7 +182,7 @@ std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics&
     for (const Kind kind : {Kind::srgb, Kind::linearised, Kind::redAndBlue, Kind::redAndGreen})
         if (has(faults, kind))
             options += std::string(",") + name(kind);
-    options += std::string(" --to gltf") + expansion;
+    options += std::string(down ? " --to opengl" : " --to gltf") + expansion; // with `directx` all codes of red stay
     if (has(faults, Kind::tooShort) || has(faults, Kind::tooLong))
         options += " --normalise";
     if (has(faults, Kind::eightBitsIn16))

@@ -116,8 +116,8 @@ void storeRow(Image& image, int row, std::span<const glm::vec4> texels)
     const std::size_t start = std::size_t(row) * std::size_t(image.width) * 4;
     const std::span<const float> in(&texels[0].x, texels.size() * 4);
     const auto store = [&]<class T>(T* to, float maximum) {
-        std::ranges::transform(in, to,
-                               [maximum](float x) { return x > 0 ? T(std::min(x, 1.0f) * maximum + 0.5f) : T(0); });
+        std::ranges::transform(
+            in, to, [maximum](float x) { return x > 0 ? T(std::min(settled(x), 1.0f) * maximum + 0.5f) : T(0); });
     };
     if (image.type == PixelType::unorm8)
         store(image.bytes8() + start, 255);

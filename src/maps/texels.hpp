@@ -4,6 +4,7 @@
 // into it; the direction of v does not matter here.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <span>
 #include <vector>
@@ -51,6 +52,10 @@ glm::vec3 decodeTexel(const glm::vec4& texel, const Convention& convention, Pixe
 
 // Decodes a row. normals: image.width entries.
 void decodeRow(const Image& image, int row, const Convention& convention, std::span<glm::vec3> normals);
+
+// Returns a component that is stored as an integer. One that rounding of floats moved off 0.5, the zero of 2c - 1, is
+// put back: flat texels would flicker between the two codes beside it.
+inline float settled(float c) { return std::abs(c - 0.5f) < 1e-6f ? 0.5f : c; }
 
 // Encodes a vector of image space as stored components, with alpha 1. Normalises first unless the convention has three
 // channels and keepLength is set. (0,0,0) is stored as flat. type: as for decodeTexel.

@@ -191,7 +191,7 @@ std::vector<PictureOption> makeTable()
         number("memory", general, "MIB", &Options::memory, Bounded{1, kMaxMemory}, memoryHelp("")),
         file("normal-map", map(&OwnMaps::normal), "image that replaces the model's normal maps, such as a new bake"),
         offering(text("convention", input, "WORDS", map(&OwnMaps::convention),
-                      "how that image is stored (default: gltf) or, without one, how to decode the model's own normal "
+                      "how that image is stored (default: gltf,exact) or, without one, how to decode the model's own normal "
                       "maps (default: as the model says): "
                           + conventionWords()),
                  conventionWordList()),

@@ -36,7 +36,7 @@ Result<Image> readFor(const OwnMaps& maps, const std::string& file, Texture Mate
 
 Result<StatedConvention> conventionOf(const OwnMaps& maps)
 {
-    auto convention = parseStatedConvention(maps.convention.empty() ? "gltf" : maps.convention);
+    auto convention = parseStatedConvention(maps.convention.empty() ? "gltf,exact" : maps.convention);
     if (!convention)
         return usageError("--convention: " + convention.error().message);
     if (convention->convention.kind != MapKind::tangentSpace)

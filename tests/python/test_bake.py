@@ -22,9 +22,9 @@ def test_green_direction_follows_the_convention():
     tilted.positions = tilted.positions[:, [1, 0, 2]] * np.float32([1, 1, 1])
     tilted.normals = np.ascontiguousarray(tilted.normals[:, [1, 0, 2]])  # rises towards +y, up in the image
     tilted.indices = tilted.indices.reshape(-1, 3)[:, ::-1].ravel()
-    leaning = 127 * 0.2 / np.hypot(0.2, 1)
-    for convention, code in (("gltf", 128 - leaning), ("opengl", 128 - leaning), ("directx", 128 + leaning),
-                             ("blender", 128 - leaning), ("unreal", 128 + leaning)):  # fmt: skip
+    leaning = 0.2 / np.hypot(0.2, 1)
+    for convention, code in (("gltf", 127.5 - 127.5 * leaning), ("opengl", 128 - 127 * leaning), ("directx", 128 + 127 * leaning),
+                             ("blender", 127.5 - 127.5 * leaning), ("unreal", 127.5 + 127.5 * leaning)):  # fmt: skip
         baked = cotan.bake(square(), tilted, size=8, convention=convention, max_distance=1)
         assert np.abs(baked.map[..., 1].astype(float) - code).max() <= 0.5, convention
 

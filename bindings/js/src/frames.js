@@ -24,7 +24,7 @@ export function frameFunctions(library) {
     encode: atPoints(['cotan_frame_encode', 'cotan_vertex_frame_encode'], 'normals'),
     frames: () => library.run(namesOf),
     shader: (given) => library.run((s) => {
-      const o = options(given, { language: 'glsl', frame: '', convention: 'gltf', stage: undefined });
+      const o = options(given, { language: 'glsl', frame: '', convention: 'gltf,exact', stage: undefined });
       if (o.stage !== undefined) choice(o.stage, 'options.stage', ['fragment', 'vertex', 'mesh', 'compute']);
       s.text(o.frame, 'options.frame');
       const frame = s.text(o.stage ? `${o.frame},${o.stage}` : o.frame, 'options.frame');

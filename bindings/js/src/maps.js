@@ -62,14 +62,14 @@ export function mapFunctions(library, host) {
     }),
 
     convertMap: (map, given) => library.run((s) => {
-      const o = options(given, { from: 'gltf', to: 'gltf', bits: undefined });
+      const o = options(given, { from: 'gltf,exact', to: 'gltf,exact', bits: undefined });
       const from = input(s, map, 'map'), to = output(s, from, o.bits ?? from.bits);
       s.call('cotan_map_convert', from.at, s.text(o.from, 'options.from'), s.text(o.to, 'options.to'), to.at);
       return to.take();
     }),
 
     blend: (base, detail, given) => library.run((s) => {
-      const o = options(given, { convention: 'gltf', mode: 'reoriented', strength: 1, bits: undefined });
+      const o = options(given, { convention: 'gltf,exact', mode: 'reoriented', strength: 1, bits: undefined });
       const under = input(s, base, 'base'), over = input(s, detail, 'detail'), to = output(s, under, o.bits ?? under.bits);
       s.call('cotan_map_blend', under.at, over.at, s.text(o.convention, 'options.convention'), s.text(o.mode, 'options.mode'),
         number(o.strength, 'options.strength'), to.at);
@@ -77,7 +77,7 @@ export function mapFunctions(library, host) {
     }),
 
     fromHeight: (height, given) => library.run((s) => {
-      const o = options(given, { scale: 1, to: 'gltf', bits: 8 });
+      const o = options(given, { scale: 1, to: 'gltf,exact', bits: 8 });
       const from = input(s, height, 'height'), to = output(s, from, o.bits);
       if (Array.isArray(o.scale) && o.scale.length !== 2) throw usage(`options.scale: expected a number or two, found ${o.scale.length}`);
       const [x, y] = Array.isArray(o.scale) ? o.scale : [o.scale, o.scale];
@@ -86,14 +86,14 @@ export function mapFunctions(library, host) {
     }),
 
     toHeight: (map, given) => library.run((s) => {
-      const o = options(given, { from: 'gltf' });
+      const o = options(given, { from: 'gltf,exact' });
       const from = input(s, map, 'map'), count = from.width * from.height, heights = s.allocate(4 * count);
       s.call('cotan_map_to_height', from.at, s.text(o.from, 'options.from'), heights);
       return { width: from.width, height: from.height, data: s.take(Float32Array, heights, count) };
     }),
 
     mips: (map, given) => library.run((s) => {
-      const o = options(given, { convention: 'gltf', roughness: 0 });
+      const o = options(given, { convention: 'gltf,exact', roughness: 0 });
       const levels = [], takeLevel = (level, normals, roughness) => {
         levels.push({ normals: imageAt(s, normals), roughness: imageAt(s, roughness) });
       };

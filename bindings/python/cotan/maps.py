@@ -145,7 +145,7 @@ def map_from_height(
     height: Map,
     scale_x: float,
     scale_y: Optional[float] = None,
-    to: Convention = "gltf",
+    to: Convention = "gltf,exact",
     bits: int = 8,
     out: Optional[Pixels] = None,
 ) -> Pixels:
@@ -167,7 +167,7 @@ def map_from_height(
     return out
 
 
-def map_to_height(map: Map, source: Convention = "gltf") -> NDArray[np.float32]:
+def map_to_height(map: Map, source: Convention = "gltf,exact") -> NDArray[np.float32]:
     """Heights (height, width) float32, in texel widths, mean 0, whose slopes are nearest to those of the map."""
     pixels = pixels_of(map)
     arrays.stored(pixels, source, "map")
@@ -179,7 +179,7 @@ def map_to_height(map: Map, source: Convention = "gltf") -> NDArray[np.float32]:
 def map_blend(
     base: Map,
     detail: Map,
-    convention: Convention = "gltf",
+    convention: Convention = "gltf,exact",
     mode: BlendMode = "reoriented",
     strength: float = 1.0,
     bits: Optional[int] = None,
@@ -200,7 +200,7 @@ def map_blend(
     return out
 
 
-def map_mips(map: Map, convention: Convention = "gltf", roughness: float = 0.5) -> list[Level]:
+def map_mips(map: Map, convention: Convention = "gltf,exact", roughness: float = 0.5) -> list[Level]:
     """Mip levels, filtered as vectors: the map's own size first, 1 x 1 last.
 
     roughness: roughness of the material, 0 to 1.

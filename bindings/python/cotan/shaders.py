@@ -8,7 +8,7 @@ from ._library import call
 from .words import Convention, Frame, ShaderLanguage
 
 
-def shader(lang: ShaderLanguage, frame: Union[Frame, str, None] = None, convention: Convention = "gltf") -> str:
+def shader(lang: ShaderLanguage, frame: Union[Frame, str, None] = None, convention: Convention = "gltf,exact") -> str:
     """Self-contained source, to paste into a shader, of the function that perturbs the normal with the given frame.
 
     Args:

@@ -96,7 +96,7 @@ def with_green_reversed(image, path):
     pixels = pixels_of(image)
     if image.is_float:
         pixels = np.rint(np.clip(pixels, 0, 1) * 65535).astype(np.uint16)
-    packages().write_image(path, packages().map_convert(pixels, "directx", "gltf"))
+    packages().write_image(path, packages().map_convert(pixels, "directx,biased", "gltf"))
     copy = bpy.data.images.load(path)
     copy.colorspace_settings.name = "Non-Color"
     copy.name = image.name  # Blender adds a number

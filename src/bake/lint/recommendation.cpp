@@ -136,7 +136,7 @@ std::string flipOptions(const LintReport& report)
     bool biased = true;
     for (const GreenEvidence& g : report.maps)
         biased = biased && (g.asDeclared() || g.verdict.statistics.centre == maps::Centre::biased);
-    return biased ? "--from directx,biased --to gltf,biased" : "--from directx --to gltf";
+    return biased ? "--from directx,biased --to opengl,biased" : "--from directx --to opengl";
 }
 
 // The defects of the maps as files, and how each is fixed; empty if there are none.

@@ -315,7 +315,7 @@ typedef struct cotan_bake_options {
                           "base-color", "roughness", "metallic", "roughness-metallic" (green, blue), "emissive",
                           "id"; colours are sRGB with 8 and 16 bits, else linear; and channels of maps of one value,
                           such as "R=ao,G=roughness,B=metallic,A=1", which is "orm"; null: "normal" */
-    const char* convention;  /* of the map; null: "gltf" */
+    const char* convention;  /* of the map; null: "opengl" */
     int samples;             /* per texel and axis: 1, 2 or 4; 0: 1 */
     int padding;             /* width of the filled border around charts, in texels; 0: fill everything, -1: none */
     int dither;              /* not 0: prevents banding in maps of 8 bits */
@@ -336,7 +336,7 @@ typedef struct cotan_bake_options {
     const char* tangents;        /* for "mikktspace" and "vertex": "stored" or "generated"; null: "generated" */
     const char* high_normals;    /* "smooth", "curved", "face" or "map" (from normal maps); null: "smooth" */
     const char* high_frame;      /* frame that the detailed models' maps were made for; null: "mikktspace" */
-    const char* high_convention; /* of these maps; null: as the materials say, "gltf" for high_maps */
+    const char* high_convention; /* of these maps; null: as the materials say, "opengl" for high_maps */
     size_t high_map_count;       /* 0, 1, or one per detailed model */
     const cotan_image_view* const* high_maps; /* used instead of the detailed models' own maps */
     cotan_image_view* mask; /* 8 bits, the size of the map: receives the state of each texel; null: not requested */

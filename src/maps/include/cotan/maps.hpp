@@ -200,7 +200,7 @@ std::string noteOf(const NormalStatistics& statistics);
 // without it a map takes milliseconds. Maps that are not read as three channels, and images without pixels, have none.
 std::vector<std::string> mapFaults(const Scene& scene, bool judgeGreen = false);
 
-// The options of `cotan map convert` that fix all faults, such as "--from directx,srgb --to gltf"; empty without
+// The options of `cotan map convert` that fix all faults, such as "--from directx,srgb --to opengl"; empty without
 // faults. A map whose zero is 127.5 keeps it: negating green about 128 would tilt it by 0.45 degrees.
 std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics& statistics);
 
