@@ -343,7 +343,7 @@ void applyStudy(Scene& scene, std::string_view name)
     for (Material& m : scene.materials) {
         Material study; // of the default look
         study.name = m.name;
-        study.baseColor = glm::vec4(glm::vec3(clay ? 0.5f : 0.03f), m.baseColor.w);
+        study.baseColor = glm::vec4(glm::vec3(clay ? 0.3f : 0.03f), m.baseColor.w);
         if (m.alphaMode != AlphaMode::opaque)
             study.baseColorMap = m.baseColorMap;
         study.metallic = 0;
