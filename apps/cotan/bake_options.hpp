@@ -72,8 +72,9 @@ struct BakeCommandOptions : CommonOptions {
 // The names of the maps: of their kinds, then of the packed ones.
 std::vector<std::string> namesOf(const BakeModelOptions& options);
 
-// map.png with the part lid: map-lid.png. An empty file stays empty.
-std::filesystem::path withPart(const std::filesystem::path& file, const std::string& part);
+// Parses which maps and tiles are made, and names the files of the maps. base: the folder in which the command runs.
+// Errors: ErrorKind::usage.
+Status nameMaps(const BakeCommandOptions& o, const std::filesystem::path& base, BakeJob& job);
 
 // The outputs for one tile: with its number in the place of <UDIM> or %(UDIM)d in their names; if there are several
 // tiles, map.png without such a place becomes map.1002.png.
@@ -82,8 +83,8 @@ BakeFiles filesOfTile(const BakeJob& job, const BakeFiles& files, int tile);
 // The same for one object: map.png with the part lid is map-lid.png.
 BakeFiles filesOfObject(const BakeFiles& files, const std::string& part);
 
-// The maps and masks that a command line writes, with * for what only the low mesh says: tiles and objects. base: the
-// folder in which it runs. Errors: ErrorKind::usage.
+// The maps and masks that a command line writes, with * for what only the low mesh says: tiles and objects. base: as
+// above. Errors: ErrorKind::usage.
 Result<std::vector<std::string>> bakeOutputsOf(const GivenCommand& given, const std::filesystem::path& base);
 
 void declareBakeOptions(Arguments& a, BakeCommandOptions& o);
