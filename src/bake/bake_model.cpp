@@ -9,6 +9,7 @@
 
 #include "bake/bake_surfaces.hpp"
 #include "bake/name_pairs.hpp"
+#include "bake/verdict.hpp"
 #include "core/named_values.hpp"
 #include "core/try.hpp"
 #include "cotan/covector.hpp"
@@ -339,6 +340,7 @@ Result<std::vector<BakedMap>> bakeTile(const BakeSetup& setup, int tile, const P
     const int n = tile - kFirstUdim;
     options.tile = {n % kUdimColumns, -(n / kUdimColumns)}; // here v runs down from the top of the first tile
     COTAN_TRY(baked, bakeMaps(setup.low, setup.high, options, kinds, progress));
+    const std::vector<BakeProblem> problems = problemsOf(setup.low, setup.high, options, kinds, *baked);
     BakeStatistics statistics = baked->front().statistics;
     if (statistics.covered + statistics.touched == 0)
         return about("options.tiles",
@@ -357,7 +359,9 @@ Result<std::vector<BakedMap>> bakeTile(const BakeSetup& setup, int tile, const P
                         .unit = one.unit,
                         .format = storedFormat(kinds[i], setup.options.stored.format),
                         .mask = setup.options.mask && i == 0 ? maskOf(one) : Image(),
-                        .statistics = statistics});
+                        .statistics = statistics,
+                        .problems = problems,
+                        .verdict = verdictOf(problems, statistics)});
         if (kinds[i] == BakeKind::normal || kinds[i] == BakeKind::bentNormal)
             maps.back().image.frame = name(options.frame);
         one.values = {};
@@ -377,6 +381,8 @@ Result<BakedModel> bakeTiles(Result<BakeSetup> setup, const Progress& progress)
     for (const int tile : tiles) {
         const std::size_t done = model.maps.size() / kindsOf(setup->options).size();
         COTAN_TRY(maps, bakeTile(*setup, tile, partOf(progress, done, tiles.size())));
+        for (const BakeProblem& problem : maps->front().problems)
+            model.warnings.push_back(problem.text);
         std::move(maps->begin(), maps->end(), std::back_inserter(model.maps));
     }
     return model;

@@ -141,8 +141,19 @@ void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given,
     if (result) {
         const BakeStatistics& s = baked.maps[0].statistics;
         const std::size_t size = result->size;
-        const cotan_bake_result all{size,   s.texels,      s.covered, s.missed, s.negative, s.twice,
-                                    s.rays, s.rayDistance, s.further, s.nearer, s.rayStart};
+        const cotan_bake_result all{size,
+                                    s.texels,
+                                    s.covered,
+                                    s.missed,
+                                    s.negative,
+                                    s.twice,
+                                    s.rays,
+                                    s.rayDistance,
+                                    s.further,
+                                    s.nearer,
+                                    s.rayStart,
+                                    s.disputed,
+                                    baked.maps[0].problems.size()};
         std::memcpy(result, &all, std::min(size, sizeof all)); // older callers have a shorter struct
     }
 }

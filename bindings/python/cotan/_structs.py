@@ -80,6 +80,7 @@ class BakeResult(Struct):
         (double, "ray_distance"),
         (size_t, "further nearer"),
         (double, "ray_start"),
+        (size_t, "disputed problems"),
     )
 
 

@@ -362,6 +362,9 @@ typedef struct cotan_bake_result {
     size_t further;   /* missed texels with a surface beyond the search distance */
     size_t nearer;    /* texels of the first surface from outside although another one is nearer */
     double ray_start; /* the largest distance before the simple surface at which a ray starts */
+    /* Since version 9. */
+    size_t disputed; /* texels of `twice` where the normals of these triangles differ by over 5 degrees */
+    size_t problems; /* number of problem areas, 0 to 3, which the warnings describe; 0: the map can be used */
 } cotan_bake_result;
 
 /* Bakes a map for the simple mesh `low` from the detailed mesh `high`, whose texcoords may be null. `map` has the
