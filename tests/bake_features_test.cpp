@@ -560,6 +560,14 @@ TEST_F(BakeFeatures, theMaskShowsMissedAndOverlappedTexels)
                   .code,
               0);
     EXPECT_EQ(statistics()["claimed_twice"], 64);
+    EXPECT_EQ(statistics()["disputed"], 0);
+    EXPECT_EQ(int(loadImage("mask.png").bytes8()[0]), 0); // green: both are flat
+    write("apart.obj", square(-1, -1, 0.1, 3) + square(4.5, -1, 0, 3, 1) + faces(1) + faces(5));
+    ASSERT_EQ(bake({"--high", "apart.obj", "--low", "twice.obj", "--size", "8x8", "--max-distance", "2", "--mask",
+                    "mask.png", "-o", "m.png"})
+                  .code,
+              0);
+    EXPECT_EQ(statistics()["disputed"], 64);
     const Image yellow = loadImage("mask.png");
     for (std::size_t i = 0; i < 64; ++i) {
         EXPECT_EQ(int(yellow.bytes8()[4 * i]), 255);

@@ -177,6 +177,8 @@ Result<MapReport> bakeTileMaps(const BakeJob& job, const MapJob& one, int tile, 
     COTAN_CHECK(writeMaps(job, done.job.files, open, map.low, *baked));
     done.writeSeconds = watch.lap();
     done.statistics = baked->front().statistics;
+    done.problems = baked->front().problems;
+    done.verdict = baked->front().verdict;
     done.box = baked->front().box;
     for (const BakedMap& written : *baked) {
         done.units.push_back(written.unit);
@@ -221,6 +223,8 @@ Status bakeMaps(const BakeJob& job, const MapJob& one, OpenBake& open, std::vect
     }
     if (job.makes(BakeKind::normal))
         say(job.common, readersOf(job.options.bake.frame));
+    for (const MapReport& done : std::span(reports).last(tiles->size()))
+        say(job.common, "{}{}", job.makesSeveralTiles() ? fmt::format("tile {}: ", done.tile) : "", done.verdict);
     return Done{};
 }
 

@@ -25,6 +25,7 @@ Json describe(const BakeStatistics& s)
             {"not_the_nearest", s.nearer},
             {"negative_z", s.negative},
             {"claimed_twice", s.twice},
+            {"disputed", s.disputed},
             {"rays", s.rays},
             {"ray_distance", s.rayDistance},
             {"ray_start", s.rayStart},
@@ -34,57 +35,52 @@ Json describe(const BakeStatistics& s)
             {"rays_per_second", s.seconds > 0 ? double(s.rays) / s.seconds : 0}};
 }
 
-// Warns of covered texels where rays found nothing, or another surface than the nearest one.
-void explainRays(const BakeJob& job, const BakeStatistics& s)
+constexpr Named<BakeProblem::Kind> kProblems[] = {{"no_surface", BakeProblem::Kind::noSurface},
+                                                  {"too_far", BakeProblem::Kind::tooFar},
+                                                  {"below_horizon", BakeProblem::Kind::belowHorizon},
+                                                  {"disputed", BakeProblem::Kind::disputed}};
+
+// The options that help against a problem. objects: that share the map.
+std::string optionsAgainst(const BakeJob& job, std::size_t objects, const BakeProblem& problem)
 {
-    if (s.further > 0 && job.cage.empty())
-        warn(job.common,
-             "{} of {} covered texels found no high surface within {:g} units; there is one further away "
-             "(--max-distance, --cage; --mask shows where)",
-             s.further, s.covered, s.rayDistance);
-    else if (s.further > 0)
-        warn(job.common,
-             "{} of {} covered texels found no high surface within the reach of the cage; there is one further away "
-             "(--mask shows where)",
-             s.further, s.covered);
-    if (s.missed > s.further)
-        warn(job.common,
-             "{} of {} covered texels have no high surface in front or behind at any distance: it has holes, or "
-             "ends before the low mesh does (--mask shows where)",
-             s.missed - s.further, s.covered);
-    if (s.nearer > 0)
-        warn(job.common,
-             "{} of {} covered texels show the first surface from outside, not the nearest one: parts are detached "
-             "there "
-             "({})",
-             s.nearer, s.covered,
-             s.rayStart > 0 && job.options.bake.extrusion == 0
-                 ? fmt::format("measured, up to {:.3g} units; --extrusion sets how far; --search nearest", s.rayStart)
-                 : "--search nearest");
+    const std::string mask = job.files.mask.empty() ? "--mask shows where" : job.files.mask.string() + " shows where";
+    switch (problem.kind) {
+    case BakeProblem::Kind::tooFar: return job.cage.empty() ? "--max-distance, --cage; " + mask : mask;
+    case BakeProblem::Kind::belowHorizon:
+        return (job.cage.empty() ? "--cage" : "the cage")
+            + std::string(job.options.matchByName ? "" : ", --match-by-name") + "; " + mask;
+    case BakeProblem::Kind::disputed:
+        return objects > 1
+            ? fmt::format("--per-object makes a map for each of the {} objects, --object NAME one; {}", objects, mask)
+            : mask;
+    default: return mask;
+    }
 }
 
-// Prints the statistics, and warns of what they reveal. objects: that share the map.
-void explain(const BakeJob& job, std::size_t objects, int tile, const BakeStatistics& s)
+Json problemsToJson(const std::vector<BakeProblem>& problems)
 {
+    Json list = Json::array();
+    for (const BakeProblem& p : problems)
+        list.push_back({{"kind", wordOf(kProblems, p.kind)},
+                        {"texels", p.texels},
+                        {"degrees", p.degrees > 0 ? Json(p.degrees) : Json(nullptr)},
+                        {"at", {p.at.x, p.at.y}},
+                        {"text", p.text}});
+    return list;
+}
+
+// Prints the statistics, and warns of problems.
+void explain(const BakeJob& job, const MapReport& done)
+{
+    const BakeStatistics& s = done.statistics;
     say(job.common,
         "{} of {} texels covered, {} more filled at the edges of charts; {:.1f} s, {:.1f} million rays per second",
         s.covered, s.texels, s.touched, s.seconds, double(s.rays) / s.seconds / 1e6);
     if (s.covered == 0)
         warn(job.common, "no triangle covers the centre of a texel on tile {}; only edges touch it (--udim, --size)",
-             tile);
-    explainRays(job, s);
-    if (s.negative > 0)
-        warn(job.common,
-             "{} of {} covered texels point below the frame's horizon (negative z): the low mesh is too coarse there, "
-             "or rays hit another part",
-             s.negative, s.covered);
-    if (s.twice > 0)
-        warn(job.common, "{} of {} covered texels are claimed by several triangles; the first in the file won{}",
-             s.twice, s.covered,
-             objects > 1 ? fmt::format("; the low mesh has {} objects: --per-object makes a map for each, --object "
-                                       "NAME one",
-                                       objects)
-                         : "");
+             done.tile);
+    for (const BakeProblem& problem : done.problems)
+        warn(job.common, "{} ({})", problem.text, optionsAgainst(job, done.objects, problem));
     const Frame frame = job.options.bake.frame;
     const bool perTriangle = !readsVertices(frame) && frame != Frame::orthonormal;
     if ((job.makes(BakeKind::normal) || job.makes(BakeKind::bentNormal)) && perTriangle)
@@ -174,7 +170,7 @@ std::string readersOf(Frame frame)
 void tell(const BakeJob& job, const MapReport& done)
 {
     const BakeModelOptions& options = job.options;
-    explain(job, done.objects, done.tile, done.statistics);
+    explain(job, done);
     const std::vector<std::string> names = namesOf(options);
     for (std::size_t i = 0; i < names.size(); ++i)
         say(job.common, "map in {} ({}, {}, {} bit){}", done.job.files.maps[i].string(), names[i],
@@ -199,6 +195,8 @@ Json toJson(const BakeJob& job, const MapReport& done)
         {"warnings", done.warnings},
         {"triangles_high", done.highTriangles},
         {"triangles_low", done.lowTriangles},
+        {"usable", done.problems.empty()},
+        {"problems", problemsToJson(done.problems)},
         {"bake", describe(done.statistics)},
         {"seconds", {{"load", done.prepareSeconds}, {"pad", done.statistics.padSeconds}, {"write", done.writeSeconds}}},
         {"peak_megabytes", peakMegabytes()}};

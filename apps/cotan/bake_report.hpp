@@ -23,6 +23,8 @@ struct MapReport {
     int tile = 1001;
     std::vector<std::string> warnings; // of reading and preparing
     BakeStatistics statistics;
+    std::vector<BakeProblem> problems;
+    std::string verdict;
     std::vector<double> units; // of each map, BakedMap::unit
     Bounds box;                // of the high surface
     std::vector<IdColor> ids;  // of a map of ids

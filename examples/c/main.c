@@ -42,11 +42,11 @@ int main(void)
     check(cotan_frame_encode("cotangent", &point, normal, back, message, sizeof message), message);
     printf("normal %g %g %g\n", normal[0], normal[1], normal[2]);
 
-    /* Converts one texel from Direct3D's convention to glTF's: green is reversed about 128, which stands for zero. */
+    /* Converts one texel from Direct3D's convention to OpenGL's: green is reversed about 128, which stands for zero. */
     uint8_t pixels[] = {128, 200, 230, 255}, converted[4];
     const cotan_image_view map = {sizeof map, 1, 1, 8, pixels};
     cotan_image_view out = {sizeof out, 1, 1, 8, converted};
-    check(cotan_map_convert(&map, "directx", "gltf", &out, message, sizeof message), message);
+    check(cotan_map_convert(&map, "directx", "opengl", &out, message, sizeof message), message);
     printf("texel %d %d %d\n", converted[0], converted[1], converted[2]);
 
     size_t size = 0;

@@ -10,6 +10,7 @@
 #include "bake/bake_kinds.hpp"
 #include "bake/bake_surfaces.hpp"
 #include "bake/name_pairs.hpp"
+#include "bake/verdict.hpp"
 #include "core/named_values.hpp"
 #include "core/try.hpp"
 #include "cotan/covector.hpp"
@@ -349,6 +350,7 @@ Result<std::vector<BakedMap>> bakeTile(const BakeSetup& setup, int tile, const P
     const int n = tile - kFirstUdim;
     options.tile = {n % kUdimColumns, -(n / kUdimColumns)}; // here v runs down from the top of the first tile
     COTAN_TRY(baked, bakeMaps(setup.low, setup.high, options, kinds, progress));
+    const std::vector<BakeProblem> problems = problemsOf(setup.low, setup.high, options, kinds, *baked);
     BakeStatistics statistics = baked->front().statistics;
     if (statistics.covered + statistics.touched == 0)
         return about("options.tiles",
@@ -367,7 +369,9 @@ Result<std::vector<BakedMap>> bakeTile(const BakeSetup& setup, int tile, const P
                         .unit = one.unit,
                         .ids = kinds[i] == BakeKind::id ? options.highMaterials->ids() : std::vector<IdColor>(),
                         .format = storedFormat(kinds[i], setup.options.stored.format),
-                        .statistics = statistics});
+                        .statistics = statistics,
+                        .problems = problems,
+                        .verdict = verdictOf(problems, statistics)});
         if (kinds[i] == BakeKind::normal || kinds[i] == BakeKind::bentNormal)
             maps.back().image.frame = name(options.frame);
         one.values = {};
@@ -380,7 +384,9 @@ Result<std::vector<BakedMap>> bakeTile(const BakeSetup& setup, int tile, const P
                           .packed = map,
                           .image = packMaps(maps, map),
                           .box = maps.front().box,
-                          .statistics = statistics});
+                          .statistics = statistics,
+                          .problems = problems,
+                          .verdict = maps.front().verdict});
     }
     maps.resize(packed.empty() ? maps.size() : setup.options.kinds.size()); // drops those that only packed maps need
     std::move(packed.begin(), packed.end(), std::back_inserter(maps));
@@ -400,6 +406,8 @@ Result<BakedModel> bakeTiles(Result<BakeSetup> setup, const Progress& progress)
     const std::vector<int>& tiles = setup->options.tiles;
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         COTAN_TRY(maps, bakeTile(*setup, tiles[i], partOf(progress, i, tiles.size())));
+        for (const BakeProblem& problem : maps->front().problems)
+            model.warnings.push_back(problem.text);
         std::move(maps->begin(), maps->end(), std::back_inserter(model.maps));
     }
     return model;

@@ -67,7 +67,7 @@ Convention storedFormat(BakeKind kind, Convention format);
 // scalars as grey. Texels without a value become flat normals or zero.
 Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as);
 
-// Texel states as colours: covered green, touched dark green, missed red, negative blue, twice yellow.
+// Texel states as colours: covered green, touched dark green, missed red, negative blue, in dispute yellow.
 Image maskOf(const Baked& baked);
 
 // ---- the steps of bakeModel -------------------------------------------------------------------

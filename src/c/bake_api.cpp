@@ -156,7 +156,9 @@ void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given,
                                     s.nearer,
                                     s.rayStart,
                                     baked.maps[0].unit,
-                                    {from.x, from.y, from.z, to.x, to.y, to.z}};
+                                    {from.x, from.y, from.z, to.x, to.y, to.z},
+                                    s.disputed,
+                                    baked.maps[0].problems.size()};
         std::memcpy(result, &all, std::min(size, sizeof all)); // older callers have a shorter struct
     }
 }

@@ -112,13 +112,14 @@ def test_bake_equals_the_command_line(options, command, tmp_path):
     for own, file in ((baked.map, "out.png"), (baked.mask, "mask.png")):
         written = cotan.read_image(tmp_path / file)
         np.testing.assert_array_equal(own[..., : written.shape[2]], written)
-    report = json.loads((tmp_path / "report.json").read_text())
-    map = report["maps"][0]
+    whole = json.loads((tmp_path / "report.json").read_text())
+    map = whole["maps"][0]
     assert baked.unit == map.get("unit", 0)
     assert "box" not in map or [*baked.box] == pytest.approx(sum(map["box"], []))
-    report = report["bake"]
+    report = whole["bake"]
     assert (baked.texels, baked.covered, baked.missed, baked.further, baked.nearer, baked.negative, baked.twice, baked.rays) == tuple(
         report[n] for n in ("texels", "covered", "missed", "further_away", "not_the_nearest", "negative_z", "claimed_twice", "rays"))  # fmt: skip
+    assert (baked.disputed, baked.problems) == (report["disputed"], len(whole["problems"]))
     assert (baked.ray_distance, baked.ray_start) == (report["ray_distance"], report["ray_start"])
 
 

@@ -83,6 +83,7 @@ class BakeResult(Struct):
         (size_t, "further nearer"),
         (double, "ray_start unit"),
         (double * 6, "box"),
+        (size_t, "disputed problems"),
     )
 
 

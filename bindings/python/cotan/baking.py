@@ -38,6 +38,8 @@ class Baked:
         nearer: covered texels that show the first surface from outside although another is nearer.
         negative: covered texels whose normal lies below the frame's horizon.
         twice: texels covered by several triangles.
+        disputed: of these, the texels where the triangles need normals that differ by over 5 degrees.
+        problems: the number of problem areas, 0 to 3, which the last warnings describe; 0: the map can be used.
         rays: number of rays traced.
         ray_distance: the search distance used, in units of the positions.
         ray_start: the largest distance in front of the simple mesh at which rays start.
@@ -60,6 +62,8 @@ class Baked:
     ray_start: float
     unit: float
     box: tuple[float, ...]
+    disputed: int
+    problems: int
     warnings: list[str]
 
 

@@ -154,14 +154,8 @@ def _put(low, made, image, uv_map, outcome):
 
 
 def _notes_of(baked, name):
-    notes = []
-    if baked.covered and baked.missed > 0.001 * baked.covered:
-        share = f"{100 * baked.missed / baked.covered:.1f} %"
-        notes.append(f"{name}: {share} of the texels found no detailed surface: raise the distance, or use a cage")
-    if baked.covered and baked.twice > 0.01 * baked.covered:
-        share = f"{100 * baked.twice / baked.covered:.1f} %"
-        notes.append(f"{name}: {share} of the texels belong to several faces: the uv map overlaps itself")
-    return notes
+    """What the bake says of problem areas, its last warnings."""
+    return [f"{name}: {line}" for line in baked.warnings[len(baked.warnings) - baked.problems :]]
 
 
 def run(context, settings, pairs, outcome):

@@ -374,6 +374,8 @@ typedef struct cotan_bake_result {
     /* Since version 9. */
     double unit;   /* of "thickness" and "curvature": the thickness or radius that integers store as 1; else 0 */
     double box[6]; /* of the detailed models: the lowest x, y, z, then the highest; 0 and 1 of "position" in integers */
+    size_t disputed; /* texels of `twice` where the normals of these triangles differ by over 5 degrees */
+    size_t problems; /* number of problem areas, 0 to 3, which the warnings describe; 0: the map can be used */
 } cotan_bake_result;
 
 /* Bakes a map for the simple mesh `low` from the detailed mesh `high`, whose texcoords may be null. `map` has the

@@ -198,7 +198,7 @@ enum TexelState : std::uint8_t {
     texelTouched = 2,     // a triangle only comes near; filled for filtering
     texelMissed = 4,      // a ray hit nothing
     texelNegative = 8,    // the normal lies below the frame's horizon
-    texelOverlapped = 16, // several triangles cover it
+    texelOverlapped = 16, // several triangles cover it that want different normals there
     texelPadded = 32,     // filled from the nearest chart
     texelNearer = 64,     // another surface is nearer to the low one than the first hit: BakeSearch::nearest differs
     texelFurther = 128,   // missed, but a surface lies on the line beyond the search distance
@@ -210,6 +210,7 @@ struct BakeStatistics {
     // Covered texels with texelNearer. Parts smaller than 16 samples across that stand off by less than 15 % of the
     // search distance (by default 1.5 % of the low surface's diagonal) are counted in part only.
     std::size_t nearer = 0;
+    std::size_t disputed = 0; // of the texels covered twice, those where normals differ by over 5 degrees (estimated)
     std::size_t rays = 0;
     std::size_t mirroredTriangles = 0, degenerateTriangles = 0; // in uv
     double rayDistance = 0;                                     // search distance used; meaningless with a cage
@@ -224,6 +225,21 @@ struct IdColor {
     std::uint32_t color = 0; // 0xrrggbb
 };
 
+// An area of a map that should not be used as it is.
+struct BakeProblem {
+    enum class Kind {
+        noSurface,    // no high surface lies in front or behind
+        tooFar,       // one lies beyond the search distance or the cage's reach
+        belowHorizon, // normals point below the frame's horizon
+        disputed,     // triangles share texels, but want different normals
+    };
+    Kind kind = Kind::noSurface;
+    std::size_t texels = 0;
+    double degrees = 0;  // mean: below the horizon, or between the normals; 0: unknown
+    glm::ivec2 at{0, 0}; // a texel in the largest such area
+    std::string text;    // one line: how much, where, why, and what helps
+};
+
 struct BakedMap {
     int tile = 1001;                  // UDIM number
     BakeKind kind = BakeKind::normal; // of a packed map that of its first channel with one
@@ -235,11 +251,13 @@ struct BakedMap {
     Convention format = {};        // how `image` is stored, if it holds directions
     Image mask = {};               // states of the texels as colours, see maskOf; empty unless requested
     BakeStatistics statistics;
+    std::vector<BakeProblem> problems = {}; // at most three, the largest first; none: the map can be used
+    std::string verdict = {};               // one line that says so
 };
 
 struct BakedModel {
     std::vector<BakedMap> maps;        // for each of options.tiles those of the kinds, then the packed ones
-    std::vector<std::string> warnings; // one line each; those about an option begin with "options.NAME: "
+    std::vector<std::string> warnings; // one line each, also of problems; about an option: "options.NAME: ..."
 };
 
 // Prepares, then bakes every tile. Errors: those of prepareBake and bakeTile.
