@@ -13,10 +13,10 @@ namespace cotan {
 
 namespace {
 
-constexpr float kNearestDistance = 0.05f;               // of the diagonal of the high surface
-constexpr float kLift = 1e-5f;                          // of the same diagonal
+constexpr float kNearestDistance = 0.05f;              // of the diagonal of the high surface
+constexpr float kLift = 1e-5f;                         // of the same diagonal
 constexpr float kThickness = 0.5f, kCurvature = 0.01f; // of the same diagonal
-constexpr float kEndless = 1e30f;                       // of rays
+constexpr float kEndless = 1e30f;                      // of rays
 
 float diagonalOf(const HighSurface& high) { return glm::length(high.box().high - high.box().low); }
 
@@ -106,8 +106,7 @@ void Baker::aimFromStart(const LowPoints& points, const UvSample& sample, std::s
 {
     const RayStarts& starts = *options_.starts;
     if (starts.directionsDiffer) {
-        const RayStart ray =
-            rayStartAt(low_, starts, sample.triangle, sample.b1, sample.b2, probes.point.at(i));
+        const RayStart ray = rayStartAt(low_, starts, sample.triangle, sample.b1, sample.b2, probes.point.at(i));
         if (ray.direction != glm::vec3(0))
             probes.direction.set(i, ray.direction);
         probes.before[i] = ray.before;
