@@ -87,8 +87,8 @@ TEST(BakeFirst, detachedBoltsAreInTheMapWhereTheGeometryHasThem)
             EXPECT_LE(value.x, 1e-5f);
             return;
         }
-        // Averaged normals at the corners of a cube are diagonal: rays converge on its centre and meet the plane of the tops
-        // 1.14 times as far out.
+        // Averaged normals at the corners of a cube are diagonal: rays converge on its centre and meet the plane of the
+        // tops 1.14 times as far out.
         const auto apart = [&](float standoff) {
             const glm::vec3 q = p * ((0.5f + standoff) / 0.5f);
             return glm::length(glm::vec2(std::abs(q.y) - kBoltOffset, std::abs(q.z) - kBoltOffset));

@@ -36,7 +36,8 @@ EdgeBake bakeAtEdges(const std::vector<Mesh>& low, const Mesh& high, BakeKind ki
     options.width = options.height = size;
     auto baked = bake(*surface, *detailed, options);
     EXPECT_TRUE(baked);
-    EdgeBake result{std::move(*surface), std::move(*baked), std::vector<UvSample>(std::size_t(size) * std::size_t(size))};
+    EdgeBake result{std::move(*surface), std::move(*baked),
+                    std::vector<UvSample>(std::size_t(size) * std::size_t(size))};
     const UvRaster raster({result.low.texcoords, result.low.indices}, size, size);
     UvRow row;
     for (int y = 0; y < size; ++y) {
@@ -104,8 +105,8 @@ TEST(HardEdges, boltsOnTwoBoxesAreWhereTheyStand)
         std::array<int, 2> tops{}, wrong{}; // of each box
         eachTexel(bake, [&](std::size_t, glm::vec3 p, glm::vec3 n, glm::vec3 value) {
             const std::size_t box = p.y > side / 2 ? 1 : 0;
-            const float r = glm::length(glm::vec2(std::abs(p.y - side * float(box)) - kBoltOffset,
-                                                  std::abs(p.z) - kBoltOffset));
+            const float r =
+                glm::length(glm::vec2(std::abs(p.y - side * float(box)) - kBoltOffset, std::abs(p.z) - kBoltOffset));
             if (n.x < 0.5f || std::abs(r - kBolt) < 0.01f * texel)
                 return;
             const bool shown = std::abs(value.x - kBoltTop) < 1e-4f;
@@ -341,7 +342,7 @@ TEST(HardEdges, bandsAreTwiceAsWideAsTheirRaysMoveSidewaysAndEndAtTheEdge)
         EXPECT_EQ(side.out, glm::vec3(1, 0, 0));
         const float need = 0.4f, width = 2 * need * sine;
         const RayBands bands = makeBands(low, hardEdgesOf(low, kFoldGroups), directions, std::vector{need});
-        ASSERT_EQ(bands.bands.size(), 2u); // one on each side
+        ASSERT_EQ(bands.bands.size(), 2u);    // one on each side
         for (std::uint32_t f = 0; f < 4; ++f) // over the diagonals to the edge's far triangles, but not over the edge
             EXPECT_EQ(bands.first[f + 1] - bands.first[f], 1u);
         EXPECT_NEAR(bands.bendAt(0, {1, 0.5f, 0}), 1, 1e-6);

@@ -378,14 +378,18 @@ TEST(HighViewByHand, everyPixelShowsTheNormalOfItsSurfacePoint)
     const Image& image = rendered->expected;
     ASSERT_EQ(image.data.size(), image.pixelCount() * image.bytesPerPixel());
     for (std::size_t i = 0; i < 4 * image.pixelCount(); ++i) // the high surface equals the low one
-        EXPECT_NEAR(rendered->normals.floats()[i], image.floats()[i], 1e-5f);
+        if (image.floats()[i / 4 * 4 + 3] > 0) {
+            // The mean over nine points with a variance of w w 2 / 27, w = 0.026; second derivatives are at most 4.
+            EXPECT_NEAR(rendered->normals.floats()[i], image.floats()[i], 1e-4f);
+        }
     EXPECT_EQ(rendered->others, 0u);
     const double halfHeight = std::tan(0.25); // of the image, in the plane one unit away
     for (int y = 0; y < 20; ++y)
         for (int x = 0; x < 40; ++x) {
             const double px = 0.5 + ((x + 0.5) / 20 - 1) * 2 * halfHeight, py = 0.5 + (1 - (y + 0.5) / 10) * halfHeight;
             const float* pixel = image.floats() + 4 * std::size_t(y * 40 + x);
-            const bool inside = px > 0 && px < 1;
+            const double third = 2 * halfHeight / 20 / 3; // of a pixel: the nine points reach that far
+            const bool inside = px > third && px < 1 - third;
             ASSERT_EQ(pixel[3], inside ? 1 : 0) << x << " " << y;
             if (inside) { // chord error of 64 cells: (2/64)^2 / 8
                 EXPECT_NEAR(pixel[0] / pixel[2], px, 2e-4) << x << " " << y;

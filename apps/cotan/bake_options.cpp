@@ -217,10 +217,11 @@ void declareBakeOptions(Arguments& a, BakeCommandOptions& o)
     a.choice("--samples", model.bake.samples, kSamples, "samples per texel: 1, 4 or 16").in("N");
     a.choice("--search", model.bake.search, kSearches,
              "surface to bake: first (that a ray from outside meets), or nearest (to the low mesh, on either side)");
-    a.choice("--rays", model.bake.rays, kRays,
-             "which way rays run: auto (straight, but averaged near hard edges), averaged (along normals averaged over "
-             "hard edges: no gaps, but details lean) or straight (along the low mesh's normals: gaps at hard edges); no "
-             "effect with --cage and --search nearest");
+    a.choice(
+        "--rays", model.bake.rays, kRays,
+        "which way rays run: auto (straight, but averaged near hard edges), averaged (along normals averaged over "
+        "hard edges: no gaps, but details lean) or straight (along the low mesh's normals: gaps at hard edges); no "
+        "effect with --cage and --search nearest");
     a.option("--extrusion", model.bake.extrusion,
              "how far in front of the low mesh rays start, in model units; 0: measured from the high mesh")
         .within(0.0, 1e9)

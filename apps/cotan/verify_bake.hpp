@@ -31,8 +31,9 @@ bool showsHighSurface(const ComparedViews& compared);
 
 // Draws kBakeViews views of the scene with the map and compares them. In the result `drawn` is the scene with the map,
 // and `expected` the high surface where rays from the eye hit it; the degrees compare the pixels of the low surface
-// with the normals that renderHighView expects there. side: image size in pixels. Afterwards the renderer has no scene.
-// Errors: those of Renderer::load, Renderer::draw and renderHighView; ErrorKind::usage if the scene lacks the material.
+// with the filtered normals that renderHighView expects there. side: image size in pixels. Afterwards the renderer has
+// no scene. Errors: those of Renderer::load, Renderer::draw and renderHighView; ErrorKind::usage if the scene lacks the
+// material.
 Result<ComparedViews> verifyBake(Renderer& renderer, const BakeToVerify& bake, int side = kBakeSide);
 
 } // namespace cotan::app

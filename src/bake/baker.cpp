@@ -106,8 +106,7 @@ void Baker::aimFromStart(const LowPoints& points, const UvSample& sample, std::s
 {
     const RayStarts& starts = *options_.starts;
     if (starts.directionsDiffer) {
-        const RayStart ray =
-            rayStartAt(low_, starts, sample.triangle, sample.b1, sample.b2, probes.point.at(i));
+        const RayStart ray = rayStartAt(low_, starts, sample.triangle, sample.b1, sample.b2, probes.point.at(i));
         if (ray.direction != glm::vec3(0))
             probes.direction.set(i, ray.direction);
         probes.before[i] = ray.before;

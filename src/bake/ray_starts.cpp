@@ -314,14 +314,14 @@ private:
                 continue;
             const EdgeSide side = sideOf(low_, starts_.directions, i);
             const float height = glm::dot(off, side.up), across = glm::dot(off, side.out);
-            const bool beyond = height * side.sine > 0 && across > 0
-                && across * side.cosine <= 1.05f * std::abs(side.sine * height);
+            const bool beyond =
+                height * side.sine > 0 && across > 0 && across * side.cosine <= 1.05f * std::abs(side.sine * height);
             if (beyond)
                 raiseTo(std::sqrt(height * height + across * across), needs_[edges_.of[i]]);
         }
     }
-    // Raises the need of an edge to what rays from there hit; at concave edges to where they start, because straight rays
-    // beside the edge would meet what stands on its other side.
+    // Raises the need of an edge to what rays from there hit; at concave edges to where they start, because straight
+    // rays beside the edge would meet what stands on its other side.
     void addRaysFromEdge(std::size_t edge, const std::vector<float>& distances)
     {
         const std::uint32_t a = low_.indices[edge], b = low_.indices[edge % 3 == 2 ? edge - 2 : edge + 1],

@@ -17,8 +17,8 @@ namespace cotan {
 
 // Rays start in front of the low surface and run inwards along `directions`, interpolated over the triangle; outside
 // `bands`, if there are any, along the interpolated normal. At a point with the weighted sum S of directions and D of
-// `distances`, a ray along S starts D |S| in front of the surface, so that the vertices moved by their distances enclose
-// the points that they were measured from; a ray in another direction starts at the same height.
+// `distances`, a ray along S starts D |S| in front of the surface, so that the vertices moved by their distances
+// enclose the points that they were measured from; a ray in another direction starts at the same height.
 struct RayStarts {
     std::vector<glm::vec3> directions;    // per vertex: mean of the normals at its position, weighted by the corners'
                                           // angles. So rays turn continuously around hard edges, without gaps. The
