@@ -12,6 +12,7 @@
 #include "parse.hpp"
 #include "picture_options.hpp"
 #include "scene/normal_maps.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan::app {
 
