@@ -156,6 +156,32 @@ TEST_F(BakeFeatures, mapsOfMaterialsComeFromTheHighMeshAndOnesThatItLacksAreName
     EXPECT_EQ(with({"plain.obj", "--kind", "id", "--id-by", "vertex-color"}).code, 2);
 }
 
+TEST_F(BakeFeatures, mapsThatDoNotFitTogetherAreRefusedBeforeAnythingIsTraced)
+{
+    write("low.obj", square(0, 0, 0, 1) + kFaces);
+    write("high.obj", square(-1, -1, 0.25, 3) + kFaces);
+    const auto with = [&](std::vector<std::string> more) {
+        std::vector<std::string> words = {"--high", "high.obj", "--low", "low.obj",  "--size",
+                                          "256",    "-o",       "m.png", "--memory", "4"};
+        words.insert(words.end(), more.begin(), more.end());
+        return bake(words);
+    };
+    // A texel takes 12 bytes of values, 1 of states and 4 of the image for each map, and 4 for padding: 3.4 MiB for three
+    // maps, 4.5 for four.
+    EXPECT_EQ(with({"--maps", "position,height,normal"}).code, 0);
+    std::filesystem::remove(folder / "m-height.png");
+    for (const auto& [words, message] :
+         {std::pair(std::vector<std::string>{"--maps", "position,height,normal,object-normal"},
+                    "4 maps of 256x256 take 5 MiB together; the limit is 4 MiB (--memory raises it)"),
+          {{"--maps", "position,height,normal", "--bits", "16"}, "3 maps of 256x256 take 5 MiB"},
+          {{"--maps", "normal", "--pack", "R=ao,G=height,B=curvature"}, "4 maps of 256x256 take 5 MiB"}}) {
+        const ToolRun r = with(words);
+        EXPECT_EQ(r.code, 2) << r.err;
+        EXPECT_NE(r.err.find(message), std::string::npos) << r.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "m-height.png"));
+    }
+}
+
 TEST_F(BakeFeatures, aModelGetsAllMapsOfItsMaterials)
 {
     write("paint.mtl", "newmtl red\nKd 1 0 0\nPr 0.8\nPm 0\nKe 0 0.5 0\n");

@@ -12,7 +12,7 @@
 #include "cotan/image.hpp"
 #include "cotan/scene.hpp"
 #include "gltf/json/lookup.hpp"
-#include "test_data.hpp"
+#include "run_tool.hpp"
 
 namespace cotan {
 namespace {
@@ -233,7 +233,7 @@ TEST(PutMap, withoutANameAllPrimitivesGetIt)
 
 TEST(PutMap, mapsOfSurfacesGoToTheirTexturesThroughTheUvOfTheNormalMapAndAtFullStrength)
 {
-    TemporaryFolder folder;
+    test::TemporaryFolder folder;
     GltfDocument d = document();
     auto& materials = rootOf(d)["materials"];
     const gltf::Json transform = {{"KHR_texture_transform", {{"offset", {0.5, 0}}}}};

@@ -254,6 +254,8 @@ Status run(const BakeCommandOptions& o)
     const bool known = !job->perObject && !job->allTiles;
     COTAN_CHECK(
         beginOutputs(o, known ? plannedFor(*job, job->files, job->options.tiles) : std::vector<PlannedOutput>()));
+    if (const Status fits = checkMapMemory(job->options); !fits) // known before the models are read
+        return withBakeOptionNames(*job, fits.error());
     COTAN_TRY(baked, bakeAll(*job));
     Json report = {{"command", "bake"}};
     if (!job->perObject && !job->makesSeveralTiles()) {

@@ -12,6 +12,7 @@
 #include "parse.hpp"
 #include "picture_options.hpp"
 #include "scene/normal_maps.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan::app {
 
@@ -168,6 +169,7 @@ Result<BakeJob> bakeJobOf(const BakeCommandOptions& o)
     BakeModelOptions& options = job.options;
     options.mask = !job.files.mask.empty();
     options.bake.threads = o.threads;
+    options.memory = (job.memory != kDefaultMemory ? std::size_t(job.memory) : megabytesHere()) << 20;
     COTAN_CHECK(checkOutputs(job));
     COTAN_TRY(size, parseSize(o.size));
     options.bake.width = size->width;
@@ -309,7 +311,8 @@ void declareBakeOptions(Arguments& a, BakeCommandOptions& o)
         .in("FILE")
         .writes()
         .under(HelpGroup::diagnostics);
-    addMemoryOption(a, o.job.memory);
+    addMemoryOption(a, o.job.memory,
+                    ", and (if it is not 640; else the machine's memory) the maximum for all maps of a tile together");
     a.option("--verify", o.job.files.verify,
              "draw the low mesh with the map, compare it with the high one, and write the images into this folder")
         .in("DIR")

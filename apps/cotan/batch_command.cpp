@@ -3,7 +3,6 @@
 #include <thread>
 
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "bake_options.hpp"
 #include "batch/report.hpp"
@@ -12,6 +11,7 @@
 #include "core/try.hpp"
 #include "files/file_registry.hpp"
 #include "files/output.hpp"
+#include "loading.hpp"
 
 namespace cotan::app {
 
@@ -53,12 +53,6 @@ Status setFiles(const Arguments& tool, const std::filesystem::path& folder, Job&
     if (job.json == "-")
         return usageError("--json -: expected a file or no --json, as batch reads the report; found standard output");
     return Done{};
-}
-
-std::size_t megabytesHere()
-{
-    const double pages = double(::sysconf(_SC_PHYS_PAGES)), bytes = double(::sysconf(_SC_PAGESIZE));
-    return std::size_t(std::max(0.0, pages * bytes / (1 << 20)));
 }
 
 RunOptions runOptions(const BatchOptions& o)

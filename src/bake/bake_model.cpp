@@ -268,6 +268,7 @@ Result<BakeSetup> prepared(const Scene& low, const BakeModelOptions& options,
                            const std::function<Result<std::shared_ptr<const DetailedSurface>>()>& open)
 {
     COTAN_CHECK(checkRanges(low, options));
+    COTAN_CHECK(checkMapMemory(options));
     COTAN_CHECK(checkLow(low, options));
     COTAN_TRY(surface, makeLowSurface(low, options.material, options.bake.frame, options.tangents));
     COTAN_TRY(cage, cagePositions(options.cage, *surface));
@@ -302,6 +303,20 @@ Result<BakeSetup> prepared(const Scene& low, const BakeModelOptions& options,
 }
 
 } // namespace
+
+Status checkMapMemory(const BakeModelOptions& options)
+{
+    const std::size_t kinds = kindsOf(options).size(), image = 4 * bytesPerComponent(options.stored.type);
+    const std::size_t perTexel = kinds * (sizeof(glm::vec3) + sizeof(std::uint8_t) + image) // values, states, images
+        + options.packed.size() * image + (options.mask ? 4 : 0) + sizeof(std::uint32_t);   // nearest, for padding
+    const double bytes = double(options.bake.width) * options.bake.height * double(perTexel);
+    constexpr double kMiB = 1 << 20;
+    if (options.memory == 0 || bytes <= double(options.memory))
+        return Done{};
+    return memoryError(fmt::format("{} maps of {}x{} take {:.0f} MiB together; the limit is {:.0f} MiB", kinds,
+                                   options.bake.width, options.bake.height, std::ceil(bytes / kMiB),
+                                   double(options.memory) / kMiB));
+}
 
 Result<std::shared_ptr<const DetailedSurface>> openDetailed(HighModel high, const BakeModelOptions& options)
 {

@@ -92,6 +92,9 @@ struct DetailedSurface {
     std::vector<std::string> warnings;
 };
 
+// Whether the maps of a tile fit into options.memory; called by prepareBake. Errors: ErrorKind::input.
+Status checkMapMemory(const BakeModelOptions& options);
+
 // Derives what the frame needs on the simple scene, and builds the acceleration structure of the detailed scenes, the
 // cage's vertices and the matches. Errors: those of checkScene, makeLowSurface, HighSurface::make,
 // HighNormalMaps::make and HighMaterials::make. An error about an option begins with its name, "options.material: ".

@@ -187,7 +187,8 @@ struct BakeModelOptions {
     std::optional<Convention> highFormat; // how they are stored; none: as the materials say, HighModel::maps by default
     int padding = 0; // texels around charts that are filled from the nearest chart; 0: no limit, -1: none
     StoredAs stored;
-    bool mask = false; // also makes BakedMap::mask
+    bool mask = false;      // also makes BakedMap::mask
+    std::size_t memory = 0; // bytes that all maps of a tile may take together while they are made; 0: no limit
 };
 
 // ---- results --------------------------------------------------------------------------------
