@@ -143,8 +143,9 @@ Result<std::vector<int>> chooseTiles(const BakeJob& job, const MapJob& one, cons
     std::ranges::copy_if(there, std::back_inserter(left),
                          [&](int tile) { return std::ranges::find(wanted, tile) == wanted.end(); });
     if (!job.choosesTiles && !left.empty() && left.size() < there.size()) // else baking finds nothing
-        warnings.push_back(fmt::format(
-            "the low mesh also has triangles on tiles {}: they are not baked (--udim all bakes them)", listOf(left)));
+        warnings.push_back(
+            fmt::format("the low mesh also has triangles on tiles {}: they are not baked (--udim all bakes them){}",
+                        listOf(left), one.files.verify.empty() ? "" : "; --verify shows them with this map, repeated"));
     if (outside > 0)
         warnings.push_back(fmt::format("{} of {} triangles of the low mesh lie at least in part outside of the tiles "
                                        "1001 to 1999: nothing is baked for them there",
