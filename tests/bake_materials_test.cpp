@@ -126,6 +126,27 @@ TEST(BakeMaterials, baseColourIsTheTextureThroughItsOwnCoordinatesTimesTheFactor
     }
 }
 
+TEST(BakeMaterials, texturesOf16BitsAreSrgbAndThoseOfFloatsLinear)
+{
+    for (const PixelType type : {PixelType::unorm16, PixelType::float32}) {
+        Sheared high;
+        Image& image = high.scene.images[0];
+        image = makeImage(high.image.width, high.image.height, type);
+        for (std::size_t i = 0; i < 4 * image.pixelCount(); ++i)
+            if (type == PixelType::unorm16)
+                image.words()[i] = std::uint16_t(257 * high.image.bytes8()[i]);
+            else
+                image.floats()[i] = float(linear(high.image.bytes8()[i] / 255.0));
+        high.scene.materials[0].baseColorMap = high.texture;
+        const BakedMap map = bakeOne(high.scene, BakeKind::baseColor);
+        for (int i = 0; i < kSide * kSide; ++i)
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(double(map.image.floats()[4 * i + c]), high.at(pointOf(i % kSide, i / kSide), true)[c],
+                            5e-5)
+                    << i << " " << c;
+    }
+}
+
 TEST(BakeMaterials, aMirroredInstanceKeepsItsCoordinates)
 {
     Sheared high;
