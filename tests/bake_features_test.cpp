@@ -149,11 +149,14 @@ TEST_F(BakeFeatures, mapsOfMaterialsComeFromTheHighMeshAndOnesThatItLacksAreName
     for (const char* kind : {"base-color", "roughness", "metallic", "roughness-metallic", "emissive"}) {
         const ToolRun lacks = with({"plain.obj", "--kind", kind});
         EXPECT_EQ(lacks.code, 2);
-        EXPECT_NE(lacks.err.find(std::string("for a map of kind ") + kind + "; found none"), std::string::npos)
+        EXPECT_EQ(lacks.err.find("cotan: error: plain.obj: expected "), 0u) << lacks.err;
+        EXPECT_NE(lacks.err.find(std::string("for a map of kind ") + kind + "; found none\n"), std::string::npos)
             << lacks.err;
         EXPECT_FALSE(std::filesystem::exists(folder / "m.png"));
     }
-    EXPECT_EQ(with({"plain.obj", "--kind", "id", "--id-by", "vertex-color"}).code, 2);
+    const ToolRun unpainted = with({"high.obj", "--kind", "id", "--id-by", "vertex-color"});
+    EXPECT_EQ(unpainted.code, 2);
+    EXPECT_EQ(unpainted.err, "cotan: error: high.obj: expected vertex colours for a map of kind id; found none\n");
 }
 
 TEST_F(BakeFeatures, mapsThatDoNotFitTogetherAreRefusedBeforeAnythingIsTraced)
@@ -166,8 +169,8 @@ TEST_F(BakeFeatures, mapsThatDoNotFitTogetherAreRefusedBeforeAnythingIsTraced)
         words.insert(words.end(), more.begin(), more.end());
         return bake(words);
     };
-    // A texel takes 12 bytes of values, 1 of states and 4 of the image for each map, and 4 for padding: 3.4 MiB for three
-    // maps, 4.5 for four.
+    // A texel takes 12 bytes of values, 1 of states and 4 of the image for each map, and 4 for padding: 3.4 MiB for
+    // three maps, 4.5 for four.
     EXPECT_EQ(with({"--maps", "position,height,normal"}).code, 0);
     std::filesystem::remove(folder / "m-height.png");
     for (const auto& [words, message] :

@@ -62,6 +62,12 @@ BakedMap bakeOne(const Scene& high, BakeKind kind, PixelType type = PixelType::f
     return baked ? baked->maps.front() : BakedMap();
 }
 
+std::array<int, 3> colourOf(const BakedMap& map, int x, int y)
+{
+    const std::uint8_t* c = map.image.bytes8() + 4 * (y * kSide + x);
+    return {c[0], c[1], c[2]};
+}
+
 // Where the centre of a texel of the low square lies.
 glm::dvec2 pointOf(int x, int y) { return {(x + 0.5) / kSide, 1 - (y + 0.5) / kSide}; }
 
@@ -123,6 +129,40 @@ TEST(BakeMaterials, baseColourIsTheTextureThroughItsOwnCoordinatesTimesTheFactor
             ASSERT_NEAR(bytes.image.bytes8()[4 * i + c], 255 * srgb(truth[c]), 0.52) << i << " " << c;
             ASSERT_NEAR(words.image.words()[4 * i + c] / 65535.0, srgb(truth[c]), 3e-4) << i << " " << c; // steep at 0
         }
+    }
+}
+
+TEST(BakeMaterials, texturesOf16BitsAreSrgbAndThoseOfFloatsLinear)
+{
+    for (const PixelType type : {PixelType::unorm16, PixelType::float32}) {
+        Sheared high;
+        Image& image = high.scene.images[0];
+        image = makeImage(high.image.width, high.image.height, type);
+        for (std::size_t i = 0; i < 4 * image.pixelCount(); ++i)
+            if (type == PixelType::unorm16)
+                image.words()[i] = std::uint16_t(257 * high.image.bytes8()[i]);
+            else
+                image.floats()[i] = float(linear(high.image.bytes8()[i] / 255.0));
+        high.scene.materials[0].baseColorMap = high.texture;
+        const BakedMap map = bakeOne(high.scene, BakeKind::baseColor);
+        for (int i = 0; i < kSide * kSide; ++i)
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(double(map.image.floats()[4 * i + c]), high.at(pointOf(i % kSide, i / kSide), true)[c],
+                            5e-5)
+                    << i << " " << c;
+    }
+}
+
+TEST(BakeMaterials, texelsOfFloatsThatAreNoColoursBecomeBlackOrTheBrightest)
+{
+    for (const auto& [texel, stored] : {std::pair(NAN, 0), {-3.0f, 0}, {-1.0f, 0}, {INFINITY, 255}}) {
+        Scene high = sceneOfMeshes({rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})});
+        high.images = {makeImage(2, 2, PixelType::float32)};
+        std::fill_n(high.images[0].floats(), 16, texel);
+        high.materials[0].baseColorMap.image = high.materials[0].metallicRoughnessMap.image = 0;
+        for (const BakeKind kind : {BakeKind::baseColor, BakeKind::roughness})
+            EXPECT_EQ(colourOf(bakeOne(high, kind, PixelType::unorm8), 5, 5), (std::array{stored, stored, stored}))
+                << texel;
     }
 }
 
@@ -218,12 +258,6 @@ Scene halves(float share)
     return scene;
 }
 
-std::array<int, 3> colourOf(const BakedMap& map, int x, int y)
-{
-    const std::uint8_t* c = map.image.bytes8() + 4 * (y * kSide + x);
-    return {c[0], c[1], c[2]};
-}
-
 TEST(BakeMaterials, idsAreThoseOfMostSamplesAndNeverMixed)
 {
     using Colour = std::array<int, 3>;
@@ -285,20 +319,25 @@ TEST(BakeMaterials, idsOfVertexColoursAreThoseOfTheNearestCorner)
 
 TEST(BakeMaterials, theFirstIdsAreFarApartAndAllDiffer)
 {
-    // 600 squares, one material each, in a row.
+    // 1100 squares, one material each, in a row. As many small ones are joined for rays, but not their objects.
+    constexpr int kCount = 1100;
     std::vector<Mesh> meshes;
-    for (int i = 0; i < 600; ++i)
-        meshes.push_back(rectangle({float(i) / 600, 0, 0}, {1.0f / 600, 0, 0}, {0, 1, 0}));
+    for (int i = 0; i < kCount; ++i)
+        meshes.push_back(rectangle({float(i) / kCount, 0, 0}, {1.0f / kCount, 0, 0}, {0, 1, 0}));
     Scene high = sceneOfMeshes(std::move(meshes));
-    high.materials.resize(600);
-    for (int i = 0; i < 600; ++i)
+    high.materials.resize(kCount);
+    for (int i = 0; i < kCount; ++i)
         high.meshes[std::size_t(i)].material = i;
-    const std::vector<IdColor> ids = bakeOne(high, BakeKind::id).ids;
-    ASSERT_EQ(ids.size(), 600u);
+    const std::vector<IdColor> ids = bakeOne(high, BakeKind::id).ids,
+                               objects = bakeOne(high, BakeKind::id, PixelType::unorm8, [](BakeModelOptions&options) {
+                                             options.bake.idBy = IdBy::object;
+                                         }).ids;
+    ASSERT_EQ(ids.size(), std::size_t(kCount));
+    EXPECT_EQ(objects.size(), std::size_t(kCount));
     std::set<std::uint32_t> all;
     for (const IdColor& id : ids)
         all.insert(id.color);
-    EXPECT_EQ(all.size(), 600u);
+    EXPECT_EQ(all.size(), std::size_t(kCount));
     EXPECT_EQ(all.count(0), 0u); // black is none
     const auto part = [&](std::size_t i, int shift) { return int(ids[i].color >> shift & 255u); };
     for (std::size_t i = 0; i < 63; ++i) // labels below 64 have two bits a channel

@@ -138,7 +138,7 @@ TEST(CommandErrors, bakeErrorsStateTheRule)
     expectMessage({
         {bake, 1, "bake needs -o FILE"},
         {bake + "-o b.png --kind ao --verify v", 1, "--verify: only maps of the kind normal can be drawn"},
-        {bake + "-o b.glb --kind ao", 1, "-o b.glb: expected --kind normal for a map in a model; found ao"},
+        {bake + "-o b.glb --kind height", 1, "-o b.glb: a glTF material has no texture for height"},
         {bake + "-o b.glb --bits 32", 1, "-o b.glb: expected --bits 8 or 16 for an image in a model; found 32"},
         {bake + "-o b.glb --udim 1002", 1,
          "-o b.glb: one map covers tile 1001 of the texture coordinates only; found --udim 1002"},

@@ -38,6 +38,7 @@ Result<HighModel> loadHigh(const BakeJob& job)
         const bool readsImages = job.options.ownMaps || job.readsMaterials();
         COTAN_TRY(scene, loadUp(job.memory, file, job.highUp, readsImages ? Pixels::all : Pixels::none));
         high.scenes.push_back(std::move(*scene));
+        high.scenes.back().name = file; // for messages
     }
     for (std::size_t i = 0; job.readsHighMaps() && i < job.highMaps.size(); ++i) {
         COTAN_TRY(image, readImageWithin(job.memory, job.highMaps[i]));

@@ -171,6 +171,8 @@ private:
     // Of equally frequent ones the first.
     static float mostFrequent(std::span<const float> ids)
     {
+        if (std::all_of(ids.begin(), ids.end(), [&](float id) { return id == ids.front(); })) // nearly everywhere
+            return ids.front();
         return *std::max_element(ids.begin(), ids.end(), [&](float a, float b) {
             return std::count(ids.begin(), ids.end(), a) < std::count(ids.begin(), ids.end(), b);
         });

@@ -36,11 +36,19 @@ const std::array<float, 256>& linearBytes()
     return all;
 }
 
+// Numbers of floats: negative ones and those that are none become 0.
+glm::vec4 finite(glm::vec4 c)
+{
+    for (int k = 0; k < 4; ++k)
+        c[k] = c[k] > 0 ? std::min(c[k], 1e30f) : 0.0f;
+    return c;
+}
+
 glm::vec4 linearComponents(const Image& image, int x, int y)
 {
     const glm::vec4 c = storedComponents(image, x, y);
     if (image.type == PixelType::float32) // is linear
-        return c;
+        return finite(c);
     if (image.type == PixelType::unorm16)
         return {linearOf(c.x), linearOf(c.y), linearOf(c.z), c.w};
     return atTexel(image, x, y, [&](const auto* level, int) {
@@ -212,7 +220,7 @@ glm::vec4 HighMaterials::texelAt(const Map& map, const Part& part, const Corners
     const glm::dvec2 uv(row(map.texture.uRow), row(map.texture.vRow));
     const Image& image = *map.image;
     const auto texel = [&](int x, int y) {
-        return map.isColor ? linearComponents(image, x, y) : storedComponents(image, x, y);
+        return map.isColor ? linearComponents(image, x, y) : finite(storedComponents(image, x, y));
     };
     const Sampler& sampler = map.texture.sampler;
     return sampler.magnify == Filter::linear ? bilinearTexel(image.width, image.height, sampler, uv, texel)
