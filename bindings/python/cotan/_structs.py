@@ -71,6 +71,7 @@ class BakeOptions(Struct):
         (c.c_float, "extrusion"),
         (text, "occluders"),
         (c.c_float, "thickness_distance curvature_radius"),
+        (integer, "wrap"),
     )
 
 

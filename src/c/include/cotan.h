@@ -348,6 +348,8 @@ typedef struct cotan_bake_options {
     /* Since version 9. */
     float thickness_distance; /* thickness that integers store as 1; 0: 50 % of the detailed models' diagonal */
     float curvature_radius;   /* radius of a ball that integers store as 1, flat is 0.5; 0: 1 % of that diagonal */
+    int wrap; /* 1: the simple model is one flat tile that fills the square of its uv once; what leaves it at a border
+                 comes in at the opposite one */
 } cotan_bake_options;
 
 typedef struct cotan_bake_result {
