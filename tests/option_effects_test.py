@@ -92,7 +92,7 @@ CASES = [
     ("map convert rocks.png --from gltf --to object --mesh room.gltf -o out.png", {"--material": "~-1 | 0 | 1"}),
     ("map convert rocks.png --from gltf --to object --mesh panel.gltf --frame vertex -o out.png", {"--tangents": "~stored | *"}),
     ("map convert rocks.png --from gltf --to object --mesh low.ply -o out.png", {"--up": "~y | *"}),
-    ("map diff rocks.png as-directx.png --from gltf --to gltf -o out.png", {"--from": "directx | slope", "--to": "directx | slope", "--threads": "=1 | =3",
+    ("map diff rocks.png as-directx.png --from gltf --to gltf -o out.png", {"--from": "directx | slope", "--to": "directx | slope", "--mask": "mask.png", "--threads": "=1 | =3",
                                                     "--memory": "=800"}),
     ("map from-height height.png -o out.png", {
         "--kernel": "*", "--wrap": "~repeat | &clamp,mirror | *", "--strength": "~1 | 2 | -1", "--to": "~gltf,exact | gltf | directx | slope | xy",
