@@ -4,7 +4,7 @@ cotan_test(bake_test BATCH 4 # the four files of a row are compiled at once; row
     bake_bilinear_test.cpp bake_high_map_test.cpp bake_test.cpp bake_first_test.cpp
     bake_rays_test.cpp bake_crowded_test.cpp low_tree_test.cpp bake_starts_test.cpp
     bake_bounds_test.cpp name_pairs_test.cpp bake_maps_test.cpp bake_hard_edges_test.cpp bake_materials_test.cpp
-    bake_verdict_test.cpp
+    bake_verdict_test.cpp bake_hints_test.cpp
   LIBRARIES cotan_app cotan_bake cotan_model cotan_scene cotan_truth cotan_core)
 cotan_test(bake_command_test BATCH 1
   SOURCES bake_command_test.cpp bake_features_test.cpp bake_high_map_command_test.cpp bake_objects_command_test.cpp bake_messages_test.cpp

@@ -336,6 +336,38 @@ TEST(MapCommand, blending_a_flat_map_keeps_the_base_within_rounding)
     }
 }
 
+// Left half covered: there the maps are equal. Right of it one is flat and the other leans by 45 degrees.
+TEST(MapCommand, diff_leaves_out_what_the_mask_has_in_black)
+{
+    TemporaryFolder folder;
+    Image a = makeImage(8, 4, PixelType::unorm8), b = a, mask = a;
+    for (std::size_t i = 0; i < a.pixelCount(); ++i) {
+        const bool covered = i % 8 < 4;
+        const std::uint8_t flat[] = {128, 128, 255, 255}, leaning[] = {218, 128, 218, 255};
+        const std::uint8_t green[] = {0, 179, 0, 255}, black[] = {0, 0, 0, 255};
+        std::copy_n(flat, 4, a.bytes8() + 4 * i);
+        std::copy_n(covered ? flat : leaning, 4, b.bytes8() + 4 * i);
+        std::copy_n(covered ? green : black, 4, mask.bytes8() + 4 * i);
+    }
+    for (const auto& [image, file] : {std::pair(&a, "a.png"), {&b, "b.png"}, {&mask, "mask.png"}})
+        ASSERT_TRUE(writeImage(folder / file, *image));
+    const auto all = reportOf(runTool({"map", "diff", "a.png", "b.png", "--json", "-"}, folder.path()));
+    EXPECT_NEAR(all["angles"]["max_degrees"].get<double>(), 45, 0.1);
+    const ToolRun run = runTool(
+        {"map", "diff", "a.png", "b.png", "--mask", "mask.png", "--json", "-", "-o", "heat.png"}, folder.path());
+    const auto covered = reportOf(run);
+    EXPECT_EQ(covered["angles"]["max_degrees"], 0);
+    EXPECT_EQ(covered["angles"]["pixels"], 16);
+    EXPECT_EQ(covered["masked"], 16);
+    EXPECT_EQ(covered["skipped"], 0);
+    ASSERT_TRUE(writeImage(folder / "small.png", makeImage(4, 4, PixelType::unorm8)));
+    const ToolRun refused = runTool({"map", "diff", "a.png", "b.png", "--mask", "small.png"}, folder.path());
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find("small.png: expected 8 x 4 as a.png has, found 4 x 4"), std::string::npos)
+        << refused.err;
+    EXPECT_EQ(runTool({"map", "diff", "a.png", "b.png", "--mask", "none.png"}, folder.path()).code, 2);
+}
+
 // Decoded by other code: OpenImageIO reads DDS and the blocks of KTX2, rounding to 8 bits.
 TEST(MapCommand, textures_hold_the_same_normals_with_and_without_compression)
 {

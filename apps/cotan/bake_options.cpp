@@ -99,6 +99,8 @@ Status checkOutputs(const BakeJob& job)
     if (model && (job.perObject || !job.object.empty()))
         return usageError(fmt::format("-o {}: expected an image with {}; found a model", map.string(),
                                       job.perObject ? "--per-object" : "--object"));
+    if (job.perObject && options.wrap)
+        return usageError("--wrap: the low mesh is one tile; expected no --per-object with it");
     if (job.perObject && !job.cage.empty())
         return usageError("--per-object: expected no --cage, which belongs to one object; --object NAME accepts one");
     if (options.stored.type == PixelType::float32 && !imageFormatHas(map, &ImageFormat::negative))
@@ -263,6 +265,8 @@ void declareBakeOptions(Arguments& a, BakeCommandOptions& o)
     a.flag("--per-object", o.job.perObject,
            "make a map for each object of the low mesh: -o map.png writes map-NAME.png")
         .under(HelpGroup::output);
+    a.flag("--wrap", model.wrap,
+           "the low mesh is one flat tile: what crosses a border of it comes in at the opposite one");
     a.option("--material", model.material, "number of the low mesh's material to bake; -1: all")
         .within(-1, 100000)
         .in("N");

@@ -10,7 +10,7 @@ namespace cotan::app {
 namespace {
 
 struct MapDiffCommandOptions : MapOptions {
-    std::string a, b, from = "gltf,exact", to;
+    std::string a, b, mask, from = "gltf,exact", to;
 };
 
 Status run(const MapDiffCommandOptions& o)
@@ -18,14 +18,16 @@ Status run(const MapDiffCommandOptions& o)
     COTAN_CHECK(beginOutputs(o, {{"-o", o.output}}));
     COTAN_TRY(from, parseConvention(o.from, "--from"));
     COTAN_TRY(to, o.to.empty() ? from : parseConvention(o.to, "--to"));
-    const auto compared =
-        onFiles(o, o.a, [&](const FileOptions& files) { return compareFiles(o.a, *from, o.b, *to, o.output, files); });
+    const auto compared = onFiles(
+        o, o.a, [&](const FileOptions& files) { return compareFiles(o.a, *from, o.b, *to, o.output, files, o.mask); });
     if (!compared)
         return compared.error();
     const std::vector<std::string> warnings = warned(o, compared->notes);
     say(o, "{} texels: {}", compared->angles.count, toText(compared->angles));
     if (compared->skipped > 0)
         say(o, "{} texels have no direction in one of the maps and were left out", compared->skipped);
+    if (compared->masked > 0)
+        say(o, "{} texels are black in {} and were left out", compared->masked, o.mask);
     if (!o.output.empty())
         say(o, "{}: black 0, blue 0.5, green 2, yellow 5, red 15, white 45 degrees and more", o.output.string());
     return writeReport(o,
@@ -35,6 +37,7 @@ Status run(const MapDiffCommandOptions& o)
                         {"convention_a", describe(compared->a)},
                         {"convention_b", describe(compared->b)},
                         {"skipped", compared->skipped},
+                        {"masked", compared->masked},
                         {"angles", toJson(compared->angles)},
                         {"warnings", warnings}});
 }
@@ -47,6 +50,9 @@ void declare(Arguments& a, MapDiffCommandOptions& o)
     a.option("B", o.b, "the second, of the same size").required().reads();
     a.option("--from", o.from, "how A is stored: " + conventionWords()).in("WORDS").offers(conventionWordList());
     a.option("--to", o.to, "how B is stored; as A if not given").in("WORDS").offers(conventionWordList());
+    a.option("--mask", o.mask, "image of the same size, whose black texels are left out, such as that of bake --mask")
+        .in("FILE")
+        .reads();
 }
 
 } // namespace

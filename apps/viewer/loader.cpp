@@ -10,6 +10,7 @@
 #include "cotan/inspect.hpp"
 #include "cotan/maps.hpp"
 #include "scene/geometry.hpp"
+#include "scene/hard_edges.hpp"
 
 namespace cotan::viewer {
 
@@ -196,6 +197,8 @@ struct Loader::Work {
     {
         Loaded loaded;
         loaded.faults = maps::mapFaults(model.scene, /*judgeGreen*/ true);
+        for (std::string& hint : hardEdgeHints(model.scene))
+            loaded.faults.push_back(std::move(hint));
         return loaded;
     }
 

@@ -14,7 +14,7 @@ struct Loaded {
     PictureOptions options;             // options that the model was read with
     std::shared_ptr<const Model> model; // null if there is an error or another kind of result
     std::optional<std::vector<ProblemArea>> problemAreas;
-    std::vector<std::string> faults; // of the maps; delivered after the model, because checking is slower than drawing
+    std::vector<std::string> faults; // of maps and edges; after the model, because checking is slower than drawing
     std::optional<Error> error;
     double seconds = 0;
 };

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "bake/bake_hints.hpp"
 #include "bake/bake_kinds.hpp"
 #include "bake/bake_surfaces.hpp"
 #include "bake/name_pairs.hpp"
@@ -265,7 +266,7 @@ Status match(const Scene& low, const NamePairs& pairs, BakeSetup& setup)
 
 // open: called after the simple side was found to be sound, since it is slower.
 Result<BakeSetup> prepared(const Scene& low, const BakeModelOptions& options,
-                           const std::function<Result<std::shared_ptr<const DetailedSurface>>()>& open)
+                           const std::function<Result<std::shared_ptr<const DetailedSurface>>(const LowSurface&)>& open)
 {
     COTAN_CHECK(checkRanges(low, options));
     COTAN_CHECK(checkMapMemory(options));
@@ -276,7 +277,7 @@ Result<BakeSetup> prepared(const Scene& low, const BakeModelOptions& options,
          {checkPositions(surface->positions, "low"), checkArea(*surface), checkPositions(*cage, "options.cage")})
         if (!placed)
             return placed.error();
-    COTAN_TRY(opened, open());
+    COTAN_TRY(opened, open(*surface));
     const DetailedSurface& high = **opened;
     COTAN_CHECK(checkCrowded(*surface, high.surface));
     BakeSetup setup{std::move(*surface), high.surface, options, high.warnings};
@@ -297,6 +298,8 @@ Result<BakeSetup> prepared(const Scene& low, const BakeModelOptions& options,
             "options.matchByName: the names of the meshes pair, such as {}; with it each is baked from its own only",
             pairs.example));
     }
+    for (std::string& hint : bakeHints(setup.low, setup.high, options, kindsOf(options)))
+        setup.warnings.push_back(std::move(hint));
     const LowRest rest = restOf(low, options, setup.options.matchByName);
     COTAN_CHECK(measureRayStarts(setup.low, setup.high, bake, rest));
     return setup;
@@ -347,13 +350,37 @@ Result<std::shared_ptr<const DetailedSurface>> openDetailed(HighModel high, cons
 
 Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options)
 {
-    return prepared(low, options, [&] { return openDetailed(std::move(high), options); });
+    const auto hasUv = [](const Scene& scene) {
+        return std::ranges::all_of(scene.meshes, [](const Mesh& mesh) { return !mesh.texcoords[0].empty(); });
+    };
+    const bool highHasUv = std::ranges::all_of(high.scenes, hasUv);
+    auto setup =
+        prepared(low, options, [&](const LowSurface& surface) -> Result<std::shared_ptr<const DetailedSurface>> {
+            if (options.wrap) {
+                const auto tile = flatTileOf(surface);
+                if (!tile)
+                    return about("options.wrap",
+                                 inputError("expected a flat low mesh that fills the square of its texture coordinates "
+                                            "once; found another"));
+                COTAN_CHECK(checkHigh(high));
+                repeatAround(*tile, high);
+            }
+            return openDetailed(std::move(high), options);
+        });
+    if (!setup && highHasUv && !hasUv(low) && setup.error().message.find("texture coordinates") != std::string::npos) {
+        Error error = setup.error();
+        error.message += "; the high model has them: exchange the two if they are mixed up";
+        return error;
+    }
+    return setup;
 }
 
 Result<BakeSetup> prepareBake(const Scene& low, std::shared_ptr<const DetailedSurface> high,
                               const BakeModelOptions& options)
 {
-    return prepared(low, options, [&] { return Result(std::move(high)); });
+    if (options.wrap)
+        return wrong("options.wrap", "expected detailed models that were not opened before; found opened ones");
+    return prepared(low, options, [&](const LowSurface&) { return Result(std::move(high)); });
 }
 
 Result<std::vector<BakedMap>> bakeTile(const BakeSetup& setup, int tile, const Progress& progress)

@@ -22,7 +22,7 @@ constexpr double kSmallest = 2e-4; // of the covered texels: smaller problems do
 constexpr float kHorizon = -0.1f;  // z of a normal 6 degrees below the horizon; less is interpolation at its rim
 constexpr double kSameDegrees = 5; // normals that differ less share a texel without being seen
 constexpr int kGrid = 256;         // cells along a map's side at which shared texels are compared
-constexpr std::size_t kMostProblems = 3;
+constexpr std::size_t kMaxProblems = 3;
 
 // The texels of a map, or cells of several texels, that a problem is about; the degrees are 0 where unknown.
 struct Marks {
@@ -243,8 +243,8 @@ std::vector<BakeProblem> problemsOf(const LowSurface& low, const HighSurface& hi
     std::erase_if(problems, [&](const BakeProblem& p) { return double(p.texels) <= kSmallest * double(s.covered); });
     std::stable_sort(problems.begin(), problems.end(),
                      [](const BakeProblem& a, const BakeProblem& b) { return a.texels > b.texels; });
-    if (problems.size() > kMostProblems)
-        problems.resize(kMostProblems);
+    if (problems.size() > kMaxProblems)
+        problems.resize(kMaxProblems);
     for (BakeProblem& p : problems)
         p.text = textOf(p, options, s);
     return problems;

@@ -80,6 +80,7 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_image_vi
     options.tangents = tangents == "stored" ? TangentOrigin::stored : TangentOrigin::generated;
     options.cage = o.cage ? &o.cage->scene : nullptr;
     options.matchByName = o.match_by_name != 0;
+    options.wrap = o.wrap != 0;
     options.padding = o.padding;
     options.stored.type = typeOf(map, "map");
     options.stored.dither = o.dither != 0;

@@ -205,17 +205,12 @@ std::vector<std::uint8_t> repeatedTriangles(std::size_t count, const TriangleCor
     return earlierEqual(count, triangle);
 }
 
-Mesh partOfMesh(const Mesh& mesh, std::size_t triangles)
+Mesh trianglesOfMesh(const Mesh& mesh, std::span<const std::uint32_t> triangles)
 {
-    if (mesh.triangleCount() <= triangles)
-        return mesh;
-    constexpr std::size_t kMaxRuns = 64;
-    const std::size_t runs = std::min(kMaxRuns, triangles);
-    const std::size_t run = triangles / runs, step = mesh.triangleCount() / runs;
     VertexSplit taken;
     std::map<std::uint32_t, std::uint32_t> numbers; // old to new
-    for (std::size_t r = 0; r < runs; ++r)
-        for (std::size_t i = 3 * r * step; i < 3 * (r * step + run); ++i) {
+    for (const std::uint32_t f : triangles)
+        for (std::size_t i = 3 * std::size_t(f); i < 3 * std::size_t(f) + 3; ++i) {
             const auto [number, isNew] = numbers.emplace(mesh.indices[i], std::uint32_t(taken.sources.size()));
             taken.indices.push_back(number->second);
             if (isNew)
@@ -236,6 +231,20 @@ Mesh partOfMesh(const Mesh& mesh, std::size_t triangles)
     (std::make_index_sequence<std::tuple_size_v<decltype(from)>>());
     part.indices = std::move(taken.indices);
     return part;
+}
+
+Mesh partOfMesh(const Mesh& mesh, std::size_t triangles)
+{
+    if (mesh.triangleCount() <= triangles)
+        return mesh;
+    constexpr std::size_t kMaxRuns = 64;
+    const std::size_t runs = std::min(kMaxRuns, triangles);
+    const std::size_t run = triangles / runs, step = mesh.triangleCount() / runs;
+    std::vector<std::uint32_t> taken;
+    for (std::size_t r = 0; r < runs; ++r)
+        for (std::size_t f = r * step; f < r * step + run; ++f)
+            taken.push_back(std::uint32_t(f));
+    return trianglesOfMesh(mesh, taken);
 }
 
 // ---- cost of the pixels of an image ----------------------------------------------------------

@@ -26,6 +26,9 @@ void joinParts(Scene& scene, std::size_t maxParts = 1000);
 // their mesh; only the first is visible.
 void dropRepeated(Scene& scene);
 
+// The triangles with these numbers, with their vertices.
+Mesh trianglesOfMesh(const Mesh& mesh, std::span<const std::uint32_t> triangles);
+
 // About `triangles` triangles of the mesh, in evenly chosen runs of neighbours; all if it has no more.
 Mesh partOfMesh(const Mesh& mesh, std::size_t triangles);
 

@@ -210,7 +210,7 @@ def nGonsAreTriangulatedLikeInBlender():
     corners = surface.positions[surface.triangles]
     area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2] / 2
     assert len(area) == 3 and (area > 0).all() and abs(area.sum() - 2.5) < 1e-6, area
-    assert tuple(image.size) == (128, 128) and degrees(found, (0, 0, 1)).max() < 0.01
+    assert tuple(image.size) == (128, 128) and degrees(found, (0, 0, 1)).max() < 0.33  # 128 is 0.5 / 127.5
 
 
 def eachMaterialCanHaveItsOwnMap():

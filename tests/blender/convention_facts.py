@@ -43,7 +43,7 @@ def hill(name, up):
     normal[..., 2] = 1
     normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
     codes = np.ones((64, 64, 4))
-    codes[..., :3] = np.rint(normal * (1, 1 if up else -1, 1) * 127 + 128) / 255
+    codes[..., :3] = np.rint((normal * (1, 1 if up else -1, 1) + 1) * 127.5) / 255  # as Blender reads them
     image = bpy.data.images.new(name, 64, 64)
     image.colorspace_settings.name = "Non-Color"
     image.pixels.foreach_set(codes.ravel().astype(np.float32))

@@ -145,12 +145,12 @@ def baked(low, *highs, **wanted):
 
 
 def directions(image):
-    """Decodes texels, x to the right, y up the image."""
+    """Decodes texels as Blender does, x to the right, y up the image."""
     width, height = image.size
     values = np.empty(width * height * 4, np.float32)
     image.pixels.foreach_get(values)
     codes = values.reshape(height, width, 4)[::-1, :, :3].astype(np.float64)
-    return (codes * 65535 - 32768) / 32767 if image.is_float else (np.rint(codes * 255) - 128) / 127
+    return 2 * codes - 1
 
 
 def degrees(one, other):

@@ -29,6 +29,16 @@ def test_green_direction_follows_the_convention():
         assert np.abs(baked.map[..., 1].astype(float) - code).max() <= 0.5, convention
 
 
+def test_what_crosses_the_border_of_a_tile_comes_in_with_wrap():
+    step = slope(0.1)
+    step.positions = step.positions * np.float32([0.13, 0.07, 0.2]) + np.float32([0.95, 0.5, 0.05])  # over the right border
+    without = cotan.bake(square(), [square(), step], size=16)
+    wrapped = cotan.bake(square(), [square(), step], size=16, wrap=True)
+    assert [line[:5] for line in without.warnings] == ["wrap:"] and wrapped.warnings == []
+    assert (without.map[:, :2, 0] == 128).all() and (wrapped.map[7, :2, 0] < 128).all()
+    assert (wrapped.map[:, 4:13] == without.map[:, 4:13]).all()
+
+
 def test_heights_are_in_units_of_the_positions():
     baked = cotan.bake(square(), slope(0.1), size=8, kind="height", bits=32, max_distance=0.5)
     x = (np.arange(8) + 0.5) / 8

@@ -17,7 +17,7 @@ from output_inputs import make_inputs, png  # noqa: E402
 
 # Values tried for each parameter, alone or with others that it needs. Parameters that only affect how the work is done,
 # or that pass data in memory, are tested in other files of this folder.
-ELSEWHERE = {"threads", "memory", "progress", "report", "beside", "out", "decode", "encode", "overwrite", "device", "floats", "mask", "cage_reach"}
+ELSEWHERE = {"threads", "memory", "progress", "report", "beside", "out", "decode", "encode", "overwrite", "device", "floats", "mask", "cage_reach", "wrap"}
 
 RENDER = [
     {"max_degrees": 1e-6, "view": "normal"},

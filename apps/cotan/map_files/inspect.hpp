@@ -40,16 +40,19 @@ Json toJson(const GreenOfFile& found);
 
 struct ComparedFiles {
     AngleStatistics angles;              // degrees between the two, over the texels with a direction in both
-    std::size_t skipped = 0;             // other texels
+    std::size_t skipped = 0;             // other texels that the mask does not leave out
+    std::size_t masked = 0;              // texels that it leaves out
     Convention a{}, b{};                 // how the maps were read
     std::vector<std::string> notes = {}; // what contradicts a stated convention, one line each
 };
 
 // Compares two maps of the same size, each with its own convention. heat: an image of the angles in the colours of
-// heatMap; empty: none. Errors: as openRows and createRows; ErrorKind::usage: "options.from: " (of a), "options.to: "
-// (of b); ErrorKind::input: different sizes; ErrorKind::stopped.
+// heatMap; empty: none. mask: an image of the same size, whose black texels are left out; empty: none. Errors: as
+// openRows and createRows; ErrorKind::usage: "options.from: " (of a), "options.to: " (of b); ErrorKind::input:
+// different sizes; ErrorKind::stopped.
 Result<ComparedFiles> compareFiles(const std::filesystem::path& a, const StatedConvention& statedA,
                                    const std::filesystem::path& b, const StatedConvention& statedB,
-                                   const std::filesystem::path& heat = {}, const FileOptions& files = {});
+                                   const std::filesystem::path& heat = {}, const FileOptions& files = {},
+                                   const std::filesystem::path& mask = {});
 
 } // namespace cotan::app

@@ -73,6 +73,7 @@ class BakeOptions(Struct):
         (c.c_float, "thickness_distance curvature_radius"),
         (text, "rays"),
         (text, "id_by"),
+        (integer, "wrap"),
     )
 
 

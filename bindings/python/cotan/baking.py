@@ -141,6 +141,7 @@ def bake(
     curvature_radius: float = 0.0,
     id_by: IdBy = "material",
     match_by_name: bool = False,
+    wrap: bool = False,
     material: int = -1,
     udim: int = 1001,
     tangents: TangentOrigin = "stored",
@@ -192,6 +193,8 @@ def bake(
             bits curvature is in 1 / unit.
         id_by: what has a colour of its own in "id": "material", "object" or "vertex-color".
         match_by_name: a low mesh named NAME_low sees only its high meshes NAME_high: see `pair_names`.
+        wrap: the low mesh is one flat tile that fills the square of its uv once, and what leaves it at a border comes
+            in at the opposite one.
         material: index of the low model's material to bake; -1: all.
         udim: tile of the texture coordinates to bake, 1001 to 1999.
         tangents: for the frames "vertex" and "mikktspace": "stored" (generated where missing) or "generated".
@@ -262,6 +265,7 @@ def bake(
             progress=told,
             cage=None if enclosing is None else enclosing._handle,
             match_by_name=int(match_by_name),
+            wrap=int(wrap),
             material=material + 1,
             tile=udim,
             high_map_count=len(images),

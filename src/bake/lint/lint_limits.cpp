@@ -109,6 +109,7 @@ std::vector<std::string> lintWarnings(const LintReport& report)
         if (!map.note.empty())
             lines.push_back(fmt::format("normal map {}: {}", mapName(map), map.note));
     }
+    lines.insert(lines.end(), report.hints.begin(), report.hints.end());
     return lines;
 }
 

@@ -15,6 +15,7 @@
 #include "bake/lint/map_fit.hpp"
 #include "lint_parts.hpp"
 #include "scene/geometry.hpp"
+#include "scene/hard_edges.hpp"
 #include "scene/normal_maps.hpp"
 #include "scene/scene_check.hpp"
 #include "scene/texture_sample.hpp"
@@ -266,6 +267,7 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
         return memoryError(fmt::format("{}: its triangles take {} MiB to judge, the limit is {} MiB", scene.name,
                                        bytes >> 20, options.memory >> 20));
     report.distance = options.distance > 0 ? options.distance : fittingDistance(scene);
+    report.hints = hardEdgeHints(scene, /*beforeBaking*/ true);
     std::vector<MapUse> uses;
     std::vector<CoatUse> coats;
     const auto placed = placings(scene);

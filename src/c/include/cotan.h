@@ -357,6 +357,8 @@ typedef struct cotan_bake_options {
                                  no effect with a cage and for the search "nearest"; null: "auto" */
     const char* id_by;        /* what has a colour of its own in "id": "material", "object" or "vertex-color"; null:
                                  "material" */
+    int wrap; /* 1: the simple model is one flat tile that fills the square of its uv once; what leaves it at a border
+                 comes in at the opposite one */
 } cotan_bake_options;
 
 typedef struct cotan_bake_result {

@@ -181,6 +181,8 @@ struct BakeModelOptions {
     bool matchByName = false;      // a simple mesh NAME_low sees only the detailed meshes NAME_high, NAME_high_a, ...,
                                    // and NAME_low.001 only NAME_high.001 (src/bake/name_pairs.hpp has the rule). Names
                                    // are those of instances, or of their meshes if only these have such a word
+    bool wrap = false;    // the simple scene is one tile, flat and filling the square of uv once, and what leaves it at
+                          // a border comes in at the opposite one. Not with a detailed side that was opened before
     bool ownMaps = false; // bakes the detailed scenes' own normal maps, or HighModel::maps, instead of their normals.
                           // No effect on heights and occlusion
     Frame highFrame = Frame::mikktspace;  // frame that those maps were made for

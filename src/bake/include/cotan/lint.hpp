@@ -159,7 +159,8 @@ struct LintReport {
     // Sentences, empty if there is nothing to say: defects of the model as it is, the visible error without tangents,
     // the worst primitive, the advice, maps that were not judged, other readers of tangents.
     std::string defects, seen, worst, advised, notJudged, otherReaders;
-    std::string recommendation; // all of these, joined
+    std::string recommendation;     // all of these, joined
+    std::vector<std::string> hints; // one line each: hard edges that uv do not split
 };
 
 // The frame that the report advises: of chosen ones, that of most meshes. orthonormal if it advises nothing.
@@ -227,7 +228,8 @@ LintCheck checkLimits(const LintReport& report, const LintLimits& limits);
 // The names that LintLimits::frame may have: those of all readings.
 const std::vector<std::string>& readingNames();
 
-// Defects of the file, one line each: maps whose green points the other way than declared, and odd maps (noteOf).
+// Defects of the file, one line each: maps whose green points the other way than declared, odd maps (noteOf), and
+// hard edges that uv do not split.
 std::vector<std::string> lintWarnings(const LintReport& report);
 
 // "mesh, material NAME", with the placing if there are several.
