@@ -304,7 +304,7 @@ TEST(HardEdges, straightRaysStartAtTheGivenDistance)
     }
 }
 
-// A hidden cage rules alone.
+// Both have rays of their own.
 TEST(HardEdges, cagesAndTheNearestSearchAreTheSameEachWay)
 {
     const BakeCase pair = bolts();
