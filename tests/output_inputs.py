@@ -61,6 +61,19 @@ def layers(mesh, apart):
     return positions + over, normals * 2, coordinates * 2, triangles + above
 
 
+def flat(mesh):
+    """The mesh with hard edges everywhere: each triangle has its own vertices and normal."""
+    positions, _, coordinates, triangles = mesh
+    corners = [[positions[i] for i in t] for t in triangles]
+    normals = []
+    for a, b, c in corners:
+        u, v = ([q - p for p, q in zip(a, other)] for other in (b, c))
+        n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+        normals += [[x / math.sqrt(sum(y * y for y in n)) for x in n]] * 3
+    return ([p for t in corners for p in t], normals, [coordinates[i] for t in triangles for i in t],
+            [[3 * k, 3 * k + 1, 3 * k + 2] for k in range(len(triangles))])
+
+
 def around(normals):
     """Unit tangents around the barrel, which are not along u: the coordinates are sheared."""
     flat = [[round(n[2], 6), 0.0, round(-n[0], 6)] for n in normals]
@@ -240,6 +253,7 @@ def make_inputs(folder):
     obj(folder / "low.obj", "part_low", low)
     obj(folder / "cage.obj", "cage", low, outwards=0.08)
     obj(folder / "high.obj", "part_high", high, with_normals=False)
+    obj(folder / "flat.obj", "flat", flat(low))
     obj(folder / "mirrored.obj", "mirrored", (low[0], low[1], [[abs(u - 0.4), v] for u, v in low[2]], low[3]))
     obj(folder / "layers.obj", "layers", layers(high, 0.05), with_normals=False)
     obj(folder / "painted.obj", "painted", low, material="Kd 0.8 0.6 0.4\nNs 60\nKs 0.5 0.5 0.5\nmap_Kd colors.png\nnorm rocks.png")

@@ -1,8 +1,8 @@
 // Draws maps and compares them through the C++ interface; the expected degrees follow from geometry.
 #include "reference_scene.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "bake_cases.hpp"
 #include "cotan/inspect.hpp"

@@ -17,19 +17,16 @@ namespace {
 constexpr float kSameCosine = 1 - 1e-6f; // between normals that count as equal: 0.08 degrees
 constexpr float kWidth = 2;              // of a band, by how far its rays move sideways
 constexpr std::size_t kMaxBands = 64;    // that reach a triangle; the nearest
+constexpr float kLittle = 0.5f;          // a band this much less deep than another hardly changes its rays
 
-float distanceToSegment(glm::vec3 p, glm::vec3 from, glm::vec3 to)
+// The depth of a point: 1 on the edge, 0 at the band's border, negative beyond. t: where on the edge the nearest point
+// is.
+float depthIn(const RayBands::Band& band, glm::vec3 p, float& t)
 {
-    const glm::vec3 along = to - from, off = p - from;
+    const glm::vec3 along = band.to - band.from, off = p - band.from;
     const float length2 = glm::dot(along, along);
-    const float t = length2 > 0 ? glm::clamp(glm::dot(off, along) / length2, 0.0f, 1.0f) : 0;
-    return glm::length(off - along * t);
-}
-
-// 1 on the edge, 0 at the band's border, negative beyond.
-float depthIn(const RayBands::Band& band, glm::vec3 p)
-{
-    return 1 - distanceToSegment(p, band.from, band.to) / band.width;
+    t = length2 > 0 ? glm::clamp(glm::dot(off, along) / length2, 0.0f, 1.0f) : 0;
+    return 1 - glm::length(off - along * t) / band.width;
 }
 
 // Bounds of depthIn over a triangle: the distance from a segment is largest at a corner; it is at least the distance
@@ -44,7 +41,8 @@ Depths depthsIn(const RayBands::Band& band, const glm::vec3 (&corners)[3], glm::
     float before = 1e30f, after = 1e30f, left = 1e30f, right = 1e30f;
     Depths depths;
     for (const glm::vec3 p : corners) {
-        depths.least = std::min(depths.least, depthIn(band, p));
+        float t = 0;
+        depths.least = std::min(depths.least, depthIn(band, p, t));
         before = std::min(before, glm::dot(band.from - p, edge));
         after = std::min(after, glm::dot(p - band.to, edge));
         left = std::min(left, glm::dot(p - band.from, out));
@@ -131,12 +129,22 @@ EdgeSide sideOf(const LowSurface& low, std::span<const glm::vec3> directions, st
     return side;
 }
 
-float RayBands::bendAt(std::uint32_t triangle, glm::vec3 point) const
+RayBands::Bend RayBands::bendAt(std::uint32_t triangle, glm::vec3 point) const
 {
-    float depth = 0;
-    for (std::uint32_t i = first[triangle]; i < first[triangle + 1]; ++i)
-        depth = std::max(depth, depthIn(bands[lists[i]], point));
-    return depth * depth * (3 - 2 * depth); // even at both ends: details do not break at the band's border
+    Bend bend;
+    for (std::uint32_t i = first[triangle]; i < first[triangle + 1]; ++i) {
+        const Band& band = bands[lists[i]];
+        float t = 0;
+        const float depth = depthIn(band, point, t);
+        if (!(depth > 0))
+            continue;
+        const float amount = depth * depth * (3 - 2 * depth); // even at both ends: details do not break at the border
+        bend.amount = std::max(bend.amount, amount);
+        // On an edge its direction alone counts, as on the other side.
+        bend.direction += glm::mix(band.directions[0], band.directions[1], t) * (amount / (1 - amount + 1e-6f));
+    }
+    bend.direction = unitOr(bend.direction, glm::vec3(0));
+    return bend;
 }
 
 RayBands makeBands(const LowSurface& low, const HardEdges& edges, std::span<const glm::vec3> directions,
@@ -153,10 +161,11 @@ RayBands makeBands(const LowSurface& low, const HardEdges& edges, std::span<cons
         if (!(width > 0))
             continue;
         queue.push({1, std::uint32_t(i / 3), std::uint32_t(made.bands.size())});
-        made.bands.push_back({side.from, side.to, width});
+        const std::uint32_t a = low.indices[i], b = low.indices[i % 3 == 2 ? i - 2 : i + 1];
+        made.bands.push_back({side.from, side.to, {directions[a], directions[b]}, width});
         outs.push_back(side.out);
     }
-    // Bands grow over the triangles, the deepest first. One that is nowhere in a triangle deeper than another ends.
+    // Bands grow over the triangles, the deepest first, and end where another is much deeper.
     std::vector<std::vector<std::uint32_t>> reaching(low.triangleCount());
     std::vector<float> least(low.triangleCount(), 0);
     while (!queue.empty()) {
@@ -164,7 +173,7 @@ RayBands makeBands(const LowSurface& low, const HardEdges& edges, std::span<cons
         queue.pop();
         const std::size_t f = reach.triangle;
         std::vector<std::uint32_t>& list = reaching[f];
-        if (!(reach.depth > least[f]) || list.size() == kMaxBands
+        if (!(reach.depth > std::max(0.0f, least[f] - kLittle)) || list.size() == kMaxBands
             || std::find(list.begin(), list.end(), reach.band) != list.end())
             continue;
         list.push_back(reach.band);
@@ -179,7 +188,7 @@ RayBands makeBands(const LowSurface& low, const HardEdges& edges, std::span<cons
             if (const std::uint32_t beyond = edges.beyond[3 * f + k]; beyond != HardEdges::kNone) {
                 cornersOf(beyond, corners);
                 const float most = depthsIn(made.bands[reach.band], corners, outs[reach.band]).most;
-                if (most > least[beyond])
+                if (most > std::max(0.0f, least[beyond] - kLittle))
                     queue.push({std::min(most, reach.depth), beyond, reach.band});
             }
     }

@@ -37,15 +37,21 @@ EdgeSide sideOf(const LowSurface& low, std::span<const glm::vec3> directions, st
 // The bands of a surface. A band reaches over smooth edges, but not over hard ones.
 struct RayBands {
     struct Band {
-        glm::vec3 from{0}, to{0}; // the edge
+        glm::vec3 from{0}, to{0};           // the edge
+        glm::vec3 directions[2] = {{}, {}}; // of the rays at its ends
         float width = 0;
     };
     std::vector<Band> bands;
     std::vector<std::uint32_t> first; // per triangle, and one more: its first element of `lists`
     std::vector<std::uint32_t> lists; // numbers of the bands that reach a triangle
 
-    // How far rays turn towards the edge's direction at a point of a triangle: 1 on a hard edge, 0 outside all bands.
-    float bendAt(std::uint32_t triangle, glm::vec3 point) const;
+    // How far rays at a point of a triangle turn towards a direction: 1 on a hard edge, 0 outside all bands. Between
+    // edges the direction is a mean of theirs in which the nearer one counts more.
+    struct Bend {
+        float amount = 0;
+        glm::vec3 direction{0}; // unit unless the amount is 0 or the edges' cancel out
+    };
+    Bend bendAt(std::uint32_t triangle, glm::vec3 point) const;
 };
 
 // needs: for each hard edge the distance from it to the surface that its rays must show. A band is twice as wide as its

@@ -542,11 +542,12 @@ RayStart rayStartAt(const LowSurface& low, const RayStarts& starts, std::uint32_
     const float slope = glm::dot(averaged.direction, normal);
     if (slope < kMinDirectionCosine)
         return averaged;
-    const float bend = starts.bands.bendAt(triangle, point);
-    const glm::vec3 direction = glm::normalize(glm::mix(normal, averaged.direction, bend));
+    const RayBands::Bend bend = starts.bands.bendAt(triangle, point);
+    const glm::vec3 direction = unitOr(glm::mix(normal, bend.direction, bend.amount), normal);
+    const float cosine = glm::dot(direction, normal);
     if (!starts.tree) // a given distance
-        return {direction, distance * glm::mix(1.0f, length, bend)};
-    return {direction, averaged.before * slope / glm::dot(direction, normal)};
+        return {direction, distance * glm::mix(1.0f, length, bend.amount)};
+    return {direction, averaged.before * slope / std::max(cosine, kMinDirectionCosine)};
 }
 
 Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, const BakeOptions& options,

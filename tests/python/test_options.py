@@ -52,7 +52,7 @@ BAKE = [
     {"kind": "id", "id_by": "object", "low": "room.gltf", "high": "room.gltf"}, {"kind": "base-color", "bits": 16, "low": "room.gltf", "high": ["panel.gltf", "room.gltf"]},
     *({"convention": c} for c in ("directx", "unreal", "gltf,xy")), {"bits": 16}, {"samples": 4}, {"samples": 16}, {"padding": 2}, {"padding": -1},
     {"dither": True}, {"ao_rays": 9, "kind": "ao", "size": 8}, {"ao_occluders": "all", "kind": "ao", "size": 8, "match_by_name": True, "low": "room.gltf", "high": "room.gltf"}, {"search": "nearest", "high": "layers.obj"},
-    *({"rays": r, "high": "layers.obj"} for r in ("auto", "averaged", "straight")), {"extrusion": 0.02, "high": "layers.obj"},
+    *({"rays": r, "high": "layers.obj", "low": "flat.obj"} for r in ("auto", "averaged", "straight")), {"extrusion": 0.02, "high": "layers.obj"},
     {"max_distance": 0.001}, {"cage": "cage.obj", "high": "layers.obj"}, {"match_by_name": True, "low": "room.gltf", "high": "room.gltf"},
     {"material": 5, "low": "room.gltf"}, {"udim": 1001}, {"tangents": "generated", "low": "panel.gltf"}, {"high_normals": "curved"},
     {"high_normals": "face"}, MAPPED, *({**MAPPED, "high_frame": f} for f in FRAMES), {**MAPPED, "high_map": "grain.png"},
