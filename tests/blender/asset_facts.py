@@ -142,7 +142,7 @@ def mapsAreSavedAsFiles():
         assert os.path.isfile(path) and image.packed_file is None and bpy.path.abspath(image.filepath) == path
         again = cotan.read_image(path)
         assert again.dtype == (np.uint8 if bits == "8" else np.uint16) and image.depth == depth, image.depth
-        stored = (again[..., :3].astype(float) - 2 ** (int(bits) - 1)) / (2 ** (int(bits) - 1) - 1)
+        stored = 2 * again[..., :3].astype(float) / (2 ** int(bits) - 1) - 1
         assert np.abs(stored - found).max() < 1e-4
     # A file that belongs to no image is not replaced without permission.
     bpy.data.images.remove(bpy.data.images["low_normal"])
