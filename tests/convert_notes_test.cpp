@@ -24,8 +24,8 @@ using Lines = std::vector<std::string>;
 Image slopeMap(glm::dvec3 m, int width = 8, int height = 8)
 {
     Image image = makeImage(width, height, PixelType::unorm16, "slope");
-    const glm::dvec3 stored = f64::cotan_encode_texel(
-        glm::normalize(m), toFormat<f64::cotan_normal_format>(Convention(), 1, 16));
+    const glm::dvec3 stored =
+        f64::cotan_encode_texel(glm::normalize(m), toFormat<f64::cotan_normal_format>(Convention(), 1, 16));
     for (std::size_t i = 0; i < 4 * image.pixelCount(); ++i)
         image.words()[i] = i % 4 == 3 ? std::uint16_t(65535) : std::uint16_t(std::lround(65535 * stored[int(i % 4)]));
     return image;

@@ -100,7 +100,8 @@ TEST_P(Tangents, uniformScaleChangesNothing)
         if (std::string_view(GetParam().name) != "areaWeighted") {
             EXPECT_EQ(found, expected) << scale;
         }
-        for (std::size_t c = 0; c < found.size(); ++c) // its sums are normalised in double precision where they are large
+        for (std::size_t c = 0; c < found.size();
+             ++c) // its sums are normalised in double precision where they are large
             EXPECT_LT(glm::length(found[c] - expected[c]), 3e-7f) << scale;
     }
 }

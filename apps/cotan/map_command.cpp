@@ -70,7 +70,8 @@ Status needOutput(const MapOptions& options, const std::string& command, const s
 void addMapCommand(Arguments& tool)
 {
     Arguments map = tool.command("map", "Inspect, repair and convert normal-map files.");
-    addExamples(map, {"cotan map detect rocks.png", "cotan map convert rocks.png --from directx --to opengl -o out.png"});
+    addExamples(map,
+                {"cotan map detect rocks.png", "cotan map convert rocks.png --from directx --to opengl -o out.png"});
     for (const auto add : {addMapInfo, addMapDetect, addMapConvert, addMapDiff, addMapFromHeight, addMapToHeight,
                            addMapBlend, addMapMips})
         add(map);

@@ -82,8 +82,7 @@ Status runFrom(const MapFromHeightCommandOptions& o)
         warn(o, "{}: {} texels have no finite height next to them; written as flat", o.file, done->invalid);
     if (done->heights == PixelType::unorm8)
         warn(o, "{}: 8-bit heights make steps; one step is a slope of {:.3g} here", o.file, done->slopeX / 255 / 2);
-    say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bitsName(done->bits),
-        describe(*to));
+    say(o, "{}: {} x {}, {}: {}", o.output.string(), done->width, done->height, bitsName(done->bits), describe(*to));
     return writeReport(o,
                        {{"command", "map from-height"},
                         {"file", o.file},

@@ -190,11 +190,12 @@ std::vector<PictureOption> makeTable()
         choice("up", input, &Options::up, kUps, upHelp("the model's file")),
         number("memory", general, "MIB", &Options::memory, Bounded{1, kMaxMemory}, memoryHelp("")),
         file("normal-map", map(&OwnMaps::normal), "image that replaces the model's normal maps, such as a new bake"),
-        offering(text("convention", input, "WORDS", map(&OwnMaps::convention),
-                      "how that image is stored (default: gltf,exact) or, without one, how to decode the model's own normal "
-                      "maps (default: as the model says): "
-                          + conventionWords()),
-                 conventionWordList()),
+        offering(
+            text("convention", input, "WORDS", map(&OwnMaps::convention),
+                 "how that image is stored (default: gltf,exact) or, without one, how to decode the model's own normal "
+                 "maps (default: as the model says): "
+                     + conventionWords()),
+            conventionWordList()),
         number("material", input, "N", map(&OwnMaps::material), Bounded{-1, kMaxMaterial},
                "number of the material that gets this image; -1: all"),
         file("base-color", map(&OwnMaps::baseColor), "image that replaces the model's colours, sRGB"),
