@@ -66,6 +66,10 @@ TEST(CostRows, everyFrameAndItsFusedFormHaveOne)
 {
     for (const FrameInfo& f : frames()) {
         const Row* row = rowFromName(f.name);
+        if (f.frame == Frame::areaWeighted) { // the code of mikktspace
+            EXPECT_FALSE(row);
+            continue;
+        }
         ASSERT_TRUE(row) << f.name;
         EXPECT_EQ(row->frame, f.frame);
         EXPECT_EQ(rowFromName(std::string(f.name) + "-fused") != nullptr, f.fused) << f.name;

@@ -262,7 +262,8 @@ TEST(GltfTangentsOfFiles, mayBeLimitedToMappedPrimitives)
     EXPECT_EQ(names, (std::vector<std::string>{"square", "mesh 1/0", "mesh 1/3"}));
     const auto refused = giveTangents(*document, {.frame = Frame::smooth});
     ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().message, "tangents: expected the frame mikktspace or vertex; found smooth");
+    EXPECT_EQ(refused.error().message,
+              "tangents: expected the frame mikktspace, area-weighted or vertex; found smooth");
 }
 
 // Where uv have no area MikkTSpace has no direction. glTF requires a unit vector, so any will do.

@@ -257,7 +257,9 @@ TEST(Readings, tallPatchHalvesTheSlopeAlongVOnly)
         return lint::readings(tall(2), pointsOver(tall(2), kPointsOfSurface), Frame::mikktspace, material, map);
     };
     const auto read = readBy();
-    ASSERT_EQ(read.size(), 5u);
+    ASSERT_EQ(read.size(), 6u);
+    EXPECT_EQ(read[5].name, "area-weighted"); // equal to mikktspace on one rectangle
+    EXPECT_NEAR(read[5].error.maximum, 0, 1e-4);
     EXPECT_EQ(read[0].name, "cotangent");
     EXPECT_NEAR(read[0].error.mean, angleBetween(m, {0.4, 0.15, 1}), 1e-4);
     EXPECT_EQ(read[4].name, "triangle");
@@ -278,9 +280,9 @@ TEST(Readings, storedTangentsAreComparedWithGeneratedOnes)
     const MappedSurface surface = makeSurface(mesh, Texture{});
     const auto read = lint::readings(surface, pointsOver(surface, kPointsOfSurface), Frame::mikktspace, material,
                                      floatMap(2, 2, [](int, int) { return glm::dvec3(0.4, 0.3, 1); }));
-    ASSERT_EQ(read.size(), 6u);
-    EXPECT_EQ(read[5].name, "stored");
-    EXPECT_NEAR(read[5].error.mean, angleBetween({0.4, 0.3, 1}, {0.4, -0.3, 1}), 1e-4);
+    ASSERT_EQ(read.size(), 7u);
+    EXPECT_EQ(read[6].name, "stored");
+    EXPECT_NEAR(read[6].error.mean, angleBetween({0.4, 0.3, 1}, {0.4, -0.3, 1}), 1e-4);
 }
 
 // ---- overlap --------------------------------------------------------------------------------

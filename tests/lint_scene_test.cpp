@@ -117,7 +117,7 @@ TEST(Lint, primitivesStateWhyTheirMapWasNotJudged)
     EXPECT_EQ(p.image, 0);
     EXPECT_TRUE(p.hasUv);
     EXPECT_FALSE(p.unread);
-    EXPECT_EQ(p.readings.size(), 5u);
+    EXPECT_EQ(p.readings.size(), 6u);
     Scene other = scene;
     other.meshes[0].texcoords[0].clear();
     EXPECT_EQ(lintOf(other).notJudged, "no uv");
@@ -352,6 +352,7 @@ TEST(Lint, memoryIsAllSurfacesAndTheLargestConstruction)
     FrameSet frames;
     frames.set(std::size_t(Frame::mikktspace));
     frames.set(std::size_t(Frame::smooth));
+    frames.set(std::size_t(Frame::areaWeighted));
     const SurfaceBytes small = surfaceBytes(6, 2, frames), large = surfaceBytes(18, 6, frames);
     EXPECT_LT(small.making, large.making);
     EXPECT_EQ(bytesOf(one), small.kept + small.making + 2 * kRasterBytes);

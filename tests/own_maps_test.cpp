@@ -349,7 +349,7 @@ TEST(OwnMaps, conventionAloneAppliesToTheMapsOfTheModel)
     write(quad(1), folder.path());
     writeSquare(folder / "plain.obj");
     std::vector<Image> renders;
-    for (const char* words : {"gltf", "directx", "opengl"}) {
+    for (const char* words : {"gltf,exact", "directx", "opengl"}) {
         const ToolRun r = runTool(drawn({"render", "quad.gltf", "--convention", words}), folder.path());
         ASSERT_EQ(r.code, 0) << r.err;
         renders.push_back(*readImage(folder / "n.png"));

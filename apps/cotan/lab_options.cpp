@@ -32,6 +32,8 @@ std::vector<std::string> costRowNames()
 {
     std::vector<std::string> names = {"floor"};
     for (const FrameInfo& f : frames()) {
+        if (f.frame == Frame::areaWeighted) // the code of mikktspace
+            continue;
         names.emplace_back(f.name);
         if (f.fused)
             names.push_back(std::string(f.name) + "-fused");

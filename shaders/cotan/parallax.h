@@ -25,15 +25,6 @@
 #ifndef COTAN_PARALLAX_H
 #define COTAN_PARALLAX_H
 
-// Returns the length of a ray per unit of height, 1 / up, where up = n . d of unit vectors. It falls from 20 at
-// up = 0.05 to zero at the horizon and below, and is zero for a NaN.
-COTAN_FUNCTION cotan_real cotan_length_per_height(cotan_real up)
-{
-    cotan_real lowest = cotan_real(0.05);
-    cotan_real fading = up > cotan_real(0.0) ? up / (lowest * lowest) : cotan_real(0.0);
-    return up >= lowest ? cotan_real(1.0) / up : fading;
-}
-
 // Returns the change of (u, v) per unit of height along a ray. Total.
 // f: `gradient`. direction: away from the surface, to the eye or to a light; any length.
 // Degenerate input: rays within 2.9 degrees of the surface (n . direction < 0.05) are taken as at 2.9 degrees, with a
@@ -42,7 +33,9 @@ COTAN_FUNCTION cotan_vec2 cotan_uv_per_height(cotan_frame f, cotan_vec3 directio
 {
     cotan_vec3 zero = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
     cotan_vec3 d = cotan_normalize_or(direction, zero);
-    cotan_real k = cotan_length_per_height(dot(f.n, d));
+    cotan_real lowest = cotan_real(0.05);
+    cotan_real up = dot(f.n, d);
+    cotan_real k = up >= lowest ? cotan_real(1.0) / up : max(up, cotan_real(0.0)) / (lowest * lowest);
     cotan_vec2 travel = cotan_vec2(dot(f.t, d) * k, dot(f.b, d) * k);
     bool usable = abs(travel.x) + abs(travel.y) <= COTAN_HUGE;
     return usable ? travel : cotan_vec2(cotan_real(0.0), cotan_real(0.0));
@@ -109,8 +102,11 @@ COTAN_FUNCTION cotan_real cotan_relief_distance(cotan_relief r, cotan_frame f, c
 {
     cotan_vec3 zero = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
     bool usable = depth > cotan_real(0.0) && depth <= COTAN_HUGE;
-    cotan_real length_per_height = cotan_length_per_height(dot(f.n, cotan_normalize_or(to_eye, zero)));
-    return usable ? r.at * depth * length_per_height : cotan_real(0.0);
+    cotan_real lowest = cotan_real(0.05);
+    cotan_real up = dot(f.n, cotan_normalize_or(to_eye, zero));
+    cotan_real k = up >= lowest ? cotan_real(1.0) / up : max(up, cotan_real(0.0)) / (lowest * lowest);
+    cotan_real distance = r.at * depth * k;
+    return usable && distance <= COTAN_HUGE ? distance : cotan_real(0.0);
 }
 
 // Returns the search for the relief's own shadow: from a point of the relief up to the surface, towards a light. Run it

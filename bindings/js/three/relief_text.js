@@ -184,15 +184,6 @@ cotan_frame cotan_frame_gradient(vec3 n, vec3 dpdx, vec3 dpdy, vec2 duvdx, vec2 
     return f;
 }
 
-// Returns the length of a ray per unit of height, 1 / up, where up = n . d of unit vectors. It falls from 20 at
-// up = 0.05 to zero at the horizon and below, and is zero for a NaN.
-float cotan_length_per_height(float up)
-{
-    float lowest = 0.05;
-    float fading = up > 0.0 ? up / (lowest * lowest) : 0.0;
-    return up >= lowest ? 1.0 / up : fading;
-}
-
 // Returns the change of (u, v) per unit of height along a ray. Total.
 // f: \`gradient\`. direction: away from the surface, to the eye or to a light; any length.
 // Degenerate input: rays within 2.9 degrees of the surface (n . direction < 0.05) are taken as at 2.9 degrees, with a
@@ -201,7 +192,9 @@ vec2 cotan_uv_per_height(cotan_frame f, vec3 direction)
 {
     vec3 zero = vec3(0.0, 0.0, 0.0);
     vec3 d = cotan_normalize_or(direction, zero);
-    float k = cotan_length_per_height(dot(f.n, d));
+    float lowest = 0.05;
+    float up = dot(f.n, d);
+    float k = up >= lowest ? 1.0 / up : max(up, 0.0) / (lowest * lowest);
     vec2 travel = vec2(dot(f.t, d) * k, dot(f.b, d) * k);
     bool usable = abs(travel.x) + abs(travel.y) <= 1e37;
     return usable ? travel : vec2(0.0, 0.0);
@@ -255,8 +248,11 @@ float cotan_relief_distance(cotan_relief r, cotan_frame f, vec3 to_eye, float de
 {
     vec3 zero = vec3(0.0, 0.0, 0.0);
     bool usable = depth > 0.0 && depth <= 1e37;
-    float length_per_height = cotan_length_per_height(dot(f.n, cotan_normalize_or(to_eye, zero)));
-    return usable ? r.at * depth * length_per_height : 0.0;
+    float lowest = 0.05;
+    float up = dot(f.n, cotan_normalize_or(to_eye, zero));
+    float k = up >= lowest ? 1.0 / up : max(up, 0.0) / (lowest * lowest);
+    float distance = r.at * depth * k;
+    return usable && distance <= 1e37 ? distance : 0.0;
 }
 
 // Returns the search for the relief's own shadow: from a point of the relief up to the surface, towards a light. Run it
@@ -475,14 +471,6 @@ fn cotan_frame_gradient(n: vec3f, dpdx: vec3f, dpdy: vec3f, duvdx: vec2f, duvdy:
     return f;
 }
 
-// Returns the length of a ray per unit of height, 1 / up, where up = n . d of unit vectors. It falls from 20 at
-// up = 0.05 to zero at the horizon and below, and is zero for a NaN.
-fn cotan_length_per_height(up: f32) -> f32 {
-    let lowest = 0.05;
-    let fading = select(0.0, up / (lowest * lowest), up > 0.0);
-    return select(fading, 1.0 / up, up >= lowest);
-}
-
 // Returns the change of (u, v) per unit of height along a ray. Total.
 // f: \`gradient\`. direction: away from the surface, to the eye or to a light; any length.
 // Degenerate input: rays within 2.9 degrees of the surface (n . direction < 0.05) are taken as at 2.9 degrees, with a
@@ -490,7 +478,9 @@ fn cotan_length_per_height(up: f32) -> f32 {
 fn cotan_uv_per_height(f: cotan_frame, direction: vec3f) -> vec2f {
     let zero = vec3f(0.0, 0.0, 0.0);
     let d = cotan_normalize_or(direction, zero);
-    let k = cotan_length_per_height(dot(f.n, d));
+    let lowest = 0.05;
+    let up = dot(f.n, d);
+    let k = select(max(up, 0.0) / (lowest * lowest), 1.0 / up, up >= lowest);
     let travel = vec2f(dot(f.t, d) * k, dot(f.b, d) * k);
     let usable = abs(travel.x) + abs(travel.y) <= 1e37;
     return select(vec2f(0.0, 0.0), travel, usable);
@@ -542,8 +532,11 @@ fn cotan_relief_next(r_in: cotan_relief, height: f32) -> cotan_relief {
 fn cotan_relief_distance(r: cotan_relief, f: cotan_frame, to_eye: vec3f, depth: f32) -> f32 {
     let zero = vec3f(0.0, 0.0, 0.0);
     let usable = depth > 0.0 && depth <= 1e37;
-    let length_per_height = cotan_length_per_height(dot(f.n, cotan_normalize_or(to_eye, zero)));
-    return select(0.0, r.at * depth * length_per_height, usable);
+    let lowest = 0.05;
+    let up = dot(f.n, cotan_normalize_or(to_eye, zero));
+    let k = select(max(up, 0.0) / (lowest * lowest), 1.0 / up, up >= lowest);
+    let distance = r.at * depth * k;
+    return select(0.0, distance, usable && distance <= 1e37);
 }
 
 // Returns the search for the relief's own shadow: from a point of the relief up to the surface, towards a light. Run it

@@ -8,7 +8,8 @@
 //         return fail(picture.error().message);
 //     picture->view.setFrame(picture->frames.front());
 //     auto renderer = cotan::openPictureRenderer(options, *picture);
-//     auto image = cotan::drawShow(**renderer, picture->scene, picture->view, options.show, /*floats=*/false);
+//     auto image = cotan::drawShow(**renderer, picture->scene, picture->view, options.show, /*floats=*/false,
+//                                  picture->meant);
 //
 // Error messages name options as on the command line.
 #pragma once
