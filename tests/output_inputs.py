@@ -263,8 +263,8 @@ def make_inputs(folder):
     panel(folder / "plain.gltf", low, "rocks.png", with_tangents=False)
     room(folder / "room.gltf", low)
     square = [[0, 0], [1, 0], [1, 1], [0, 1]]
-    def flat(x, y, z, width, height, rise):
+    def rectangle(x, y, z, width, height, rise):
         return [[x + u * width, y + v * height, z + u * rise] for u, v in square]
-    tile = (flat(0, 0, 0, 1, 1, 0), [[0, 0, 1]] * 4, [[u, 1 - v] for u, v in square], [[0, 1, 2], [0, 2, 3]])
+    tile = (rectangle(0, 0, 0, 1, 1, 0), [[0, 0, 1]] * 4, [[u, 1 - v] for u, v in square], [[0, 1, 2], [0, 2, 3]])
     obj(folder / "tile.obj", "tile", tile)
-    obj(folder / "tile_high.obj", "tile_high", (tile[0] + flat(0.8, 0.4, 0.03, 0.4, 0.2, 0.05), tile[1] * 2, tile[2] * 2, tile[3] + [[4, 5, 6], [4, 6, 7]]), with_normals=False)
+    obj(folder / "tile_high.obj", "tile_high", (tile[0] + rectangle(0.8, 0.4, 0.03, 0.4, 0.2, 0.05), tile[1] * 2, tile[2] * 2, tile[3] + [[4, 5, 6], [4, 6, 7]]), with_normals=False)

@@ -281,7 +281,7 @@ void addBakeCommand(Arguments& tool)
          "the map: " + imageEndings(&ImageFormat::writes, ", ") + "; or the low model with the maps in it: .glb, .gltf",
          {"cotan bake --high statue.obj --low statue_low.obj --frame smooth -o normal.png",
           "cotan bake --high statue.obj --low statue_low.obj --maps normal,ao,curvature,thickness -o maps/",
-          "cotan bake --high statue.glb --low statue_low.obj --maps normal,base-color,orm -o statue_low.glb",
+          "cotan bake --high statue.obj --low statue_low.obj --maps normal,ao -o statue_low.glb",
           "cotan bake --high statue.obj --low statue_low.obj --kind ao --size 256x256 --ao-rays 16 -o ao.png"},
          /*needsOutput=*/true},
         declareBakeOptions, run);

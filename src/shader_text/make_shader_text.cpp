@@ -1,7 +1,6 @@
 #include "cotan/shader_text.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <set>
 
 #include "entry.hpp"
@@ -51,7 +50,8 @@ std::vector<std::string> rootsOf(const Module& module, const Choice& choice)
     std::vector<std::string> roots;
     for (const Set set : choice.sets) {
         if (set == Set::light && isGodotShader(choice)) {
-            std::ranges::copy(functionsOfLight(), std::back_inserter(roots));
+            for (std::string& function : functionsOfLight())
+                roots.push_back(std::move(function));
             continue;
         }
         parts.insert(name(set));
