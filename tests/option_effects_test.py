@@ -125,7 +125,7 @@ CASES = [
     ("bake --high tile_high.obj --low tile.obj --size 24x24 -o out.png", {"--wrap": ""}),
     ("bake --high high.obj --low room.gltf --size 24x24 -o out.png", {"--object": "part-0 | part-5", "--material": "~-1 | 0 | 5"}),
     ("bake --high high.obj --low panel.gltf --frame vertex --size 24x24 -o out.png", {"--tangents": "~stored | *"}),
-    ("bake --high panel.gltf --low low.obj --high-normals map --size 24x24 -o out.png", {"--high-map": "grain.png | ~rocks.png", "--high-frame": "~mikktspace | &paper-nodet,paper-transpose | &mikktspace,area-weighted | !cotangent-2013 | !nonperspective | !paper-orthogonal | *"}),
+    ("bake --high panel.gltf --low low.obj --high-normals map --size 24x24 -o out.png", {"--high-map": "grain.png | ~rocks.png", "--high-frame": "~mikktspace | &paper-nodet,paper-transpose | =area-weighted | !cotangent-2013 | !nonperspective | !paper-orthogonal | *"}),
     ("bake --high panel.gltf --low low.obj --high-normals map --high-map rocks.png --size 24x24 -o out.png", {"--high-convention": "~gltf,exact | gltf | directx | slope"}),
     ("bake --high high.obj --low low.obj --size 16x16 --kind ao -o out.png", {"--ao-rays": "~64 | 9 | 250"}),
     ("bake --high high.obj --low low.obj --size 16x16 --kind thickness --ao-rays 9 --bits 32 -o out.exr", {"--thickness-distance": "0.01 | 0.1"}),
@@ -135,7 +135,7 @@ CASES = [
     ("bake --high room.gltf --low room.gltf --size 16x16 -o out.png", {"--kind": "base-color | roughness | metallic | roughness-metallic | emissive"}),
     ("bake --high high.obj --low low.obj --size 16x16 -o out.png", {"--maps": "height | normal,ao | position,curvature,thickness"}),
     ("convert panel.gltf --from-frame mikktspace --to-frame smooth -o out.glb", {
-        "--from-frame": "~mikktspace | &paper-nodet,paper-transpose | &mikktspace,area-weighted | &cotangent,paper-full,exact,smooth,triangle | !cotangent-2013 | !nonperspective | !paper-orthogonal | *", "--to-frame": "~smooth | !cotangent-2013 | !nonperspective | !paper-orthogonal | *", "--bits": "~8 | *", "--unsigned": "~biased | *", "--keep-maps": "", "--keep-tangents": "",
+        "--from-frame": "~mikktspace | &paper-nodet,paper-transpose | =area-weighted | &cotangent,paper-full,exact,smooth,triangle | !cotangent-2013 | !nonperspective | !paper-orthogonal | *", "--to-frame": "~smooth | !cotangent-2013 | !nonperspective | !paper-orthogonal | *", "--bits": "~8 | *", "--unsigned": "~biased | *", "--keep-maps": "", "--keep-tangents": "",
         "--tangents": "~stored | *", "--verify": "checked", "--threads": "=1 | =3", "--memory": "=800", "--list-frames": ""}),
     ("convert panel.gltf -o out.glb", {"--max-degrees": "~0.3 | 0.000001"}),
     ("convert panel.gltf --from-frame mikktspace --to-frame triangle -o out.glb", {"--provoking": "*"}),
