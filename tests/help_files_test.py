@@ -19,7 +19,7 @@ share = pathlib.Path(written.name if sys.argv[2] == "-" else sys.argv[2]).resolv
 if sys.argv[2] == "-":
     subprocess.run([tool, "--help-files", share], check=True)
 FRAMES = "cotangent cotangent-2013 nonperspective paper-full paper-nodet paper-transpose paper-orthogonal unit orthonormal " \
-    "gradient exact smooth vertex mikktspace triangle".split()
+    "gradient exact smooth vertex mikktspace triangle area-weighted".split()
 # Valid words that need not be offered, because they are implied.
 UNTOLD = {("shader", "--set"): {"frame"}}
 # Options with names that cannot be listed.

@@ -35,7 +35,7 @@ CASES = [
     "map detect rocks.png grain.png --json out.json",
     "map convert rocks.png --from gltf --to object --mesh low.ply -o out.png --json out.json",
     "map convert rocks.png --from gltf --to directx --compress bc5 -o out.ktx2 --json out.json",
-    "map diff rocks.png stones.png --from gltf --to gltf -o out.png --json out.json",
+    "map diff rocks.png stones.png --from gltf --to gltf --mask rocks.png -o out.png --json out.json",
     "map from-height height.png -o out.tga --json out.json",
     "map to-height rocks.png --from gltf -o out.exr --json out.json",
     "map blend rocks.png grain.png --mask mask.png --from gltf --to gltf -o out.png --json out.json",
@@ -56,7 +56,7 @@ CASES = [
 ]
 READS = {"--normal-map", "--base-color", "--metallic-roughness", "--occlusion", "--height-map", "--environment", "--play", "--mesh", "--high", "--low",
          "--high-map", "--cage", "--cards", "--against"}
-MASK_OF_BLEND = ("map blend", "--mask")  # the only option that is read in one command and written in another
+MASKS_READ = {("map blend", "--mask"), ("map diff", "--mask")}  # the option is written by `bake`
 GROUPS = {"look": ["view", "render", "compare", "lint"], "map": ["map"], "make": ["bake", "convert", "tangents", "shader"],
           "others": ["accuracy", "figures", "cost", "batch", "help"]}
 NO_FILES = {"help"}
@@ -117,7 +117,7 @@ def outputs_named_in(tool, command):
     """The options that name outputs, as words of a command line."""
     text = help_of(tool, command)
     files = re.findall(r"^  (?:(-\w), )?(--[a-z0-9-]+) \S*(?:FILE|PATH|FOLDER|DIR)", text, re.M)
-    return {short or long for short, long in files if long not in READS and (command, long) != MASK_OF_BLEND}
+    return {short or long for short, long in files if long not in READS and (command, long) not in MASKS_READ}
 
 
 class Folder:

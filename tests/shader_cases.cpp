@@ -74,8 +74,10 @@ Case frameCase(const std::string& label, Choice choice, bool drawn = false)
     };
     const auto made = makeShaderText(choice);
     const bool fused = made && made->form == Form::fused;
-    // `mikktspace` returns a normal that is not finite unchanged.
-    c.last = fused || choice.frame == Frame::mikktspace ? Kind::degenerate : total ? Kind::nonFinite : Kind::sound;
+    // Frames that take the normal as it is return one that is not finite.
+    c.last = fused || info(choice.frame).normal == FrameNormal::nobody ? Kind::degenerate
+        : total                                                        ? Kind::nonFinite
+                                                                       : Kind::sound;
     const Frame frame = choice.frame;
     const Convention convention = choice.convention;
     if (total && frame != Frame::gradient) { // `gradient` is metric

@@ -82,9 +82,9 @@ def test_normal_view_encodes_the_normal():
 
 def test_report_describes_the_render(model):
     report = {}
-    cotan.render(model, size=(16, 16), device="reference", view="error", frame="orthonormal", report=report)
+    cotan.render(model, size=(16, 16), device="reference", view="error", frame="cotangent", report=report)
     assert report["device"] == "reference" and report["triangles"] == 2 and report["warnings"] == []
-    # One of the frames that read the map halves slopes along u.
+    # The map is for MikkTSpace; cotangent halves slopes along u.
     assert report["frame_error"]["mean_degrees"] > 5, report["frame_error_against"]
 
 

@@ -30,7 +30,7 @@ DrawnFrame = Union[Frame, Literal["auto"]]
 # Frames that are stored at the vertices.
 VertexFrame = Literal["smooth", "vertex", "mikktspace", "area-weighted"]
 # Frames that `lint` judges.
-Reading = Literal["cotangent", "orthonormal", "smooth", "exact", "triangle", "area-weighted", "stored"]
+Reading = Literal["cotangent", "orthonormal", "smooth", "exact", "triangle", "stored"]
 
 # How a map is stored, by the program that reads it. Words after a comma name differences: "unity,xy".
 Preset = Literal["gltf", "opengl", "directx", "unity", "unreal", "blender", "godot", "maya", "3dsmax", "source"]
