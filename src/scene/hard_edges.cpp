@@ -1,13 +1,13 @@
 #include "scene/hard_edges.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 #include <glm/geometric.hpp>
 
+#include "core/tangents_mesh.hpp"
 #include "scene/texture_sample.hpp"
 
 namespace cotan {
@@ -16,20 +16,13 @@ namespace {
 
 constexpr float kHardCosine = 0.94f; // of 20 degrees
 
-// The number of each vertex's point: vertices at one position share it.
-std::vector<std::uint32_t> pointsOf(std::span<const glm::vec3> positions)
+// The first vertex at each vertex's position.
+LargeArray<std::uint32_t> pointsOf(std::span<const glm::vec3> positions)
 {
-    std::vector<std::uint32_t> order(positions.size()), points(positions.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto key = [&](std::uint32_t v) { // bits, which NaN can be sorted by; + 0 makes one zero of both
-        const glm::vec3 p = positions[v] + 0.0f;
-        return std::tuple(std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y),
-                          std::bit_cast<std::uint32_t>(p.z));
-    };
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-    for (std::size_t i = 0; i < order.size(); ++i)
-        points[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? points[order[i - 1]] : order[i];
-    return points;
+    using tangents::bitsOf;
+    return tangents::firstEqual(std::uint32_t(positions.size()), [&](std::uint32_t v) {
+        return std::array{bitsOf(positions[v].x), bitsOf(positions[v].y), bitsOf(positions[v].z), 0u};
+    });
 }
 
 } // namespace
@@ -40,7 +33,7 @@ std::size_t unsplitHardEdges(std::span<const glm::vec3> positions, std::span<con
     struct Edge { // from the smaller point to the larger, and the vertices there
         std::uint32_t from, to, vertexFrom, vertexTo;
     };
-    const std::vector<std::uint32_t> points = pointsOf(positions);
+    const LargeArray<std::uint32_t> points = pointsOf(positions);
     std::vector<Edge> edges;
     edges.reserve(indices.size());
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
