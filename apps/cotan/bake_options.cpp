@@ -20,9 +20,6 @@ namespace {
 
 constexpr Named<int> kSamples[] = {{"1", 1}, {"4", 2}, {"16", 4}}; // per texel, and per axis
 constexpr Named<BakeSearch> kSearches[] = {{"first", BakeSearch::first}, {"nearest", BakeSearch::nearest}};
-constexpr Named<BakeRays> kRays[] = {
-    {"auto", BakeRays::automatic}, {"averaged", BakeRays::averaged}, {"straight", BakeRays::straight}};
-constexpr Named<Occluders> kOccluders[] = {{"matched", Occluders::matched}, {"all", Occluders::all}};
 
 Result<Convention> formatFromName(const std::string& option, const std::string& name)
 {

@@ -22,10 +22,6 @@ constexpr Named<HighNormals> kHighNormals[] = {{"smooth", HighNormals::smooth},
                                                {"face", HighNormals::face},
                                                {"map", HighNormals::smooth}};
 
-constexpr Named<BakeRays> kRays[] = {
-    {"auto", BakeRays::automatic}, {"averaged", BakeRays::averaged}, {"straight", BakeRays::straight}};
-constexpr Named<Occluders> kOccluders[] = {{"matched", Occluders::matched}, {"all", Occluders::all}};
-
 // Sets how the normals of the detailed models are found.
 void readHigh(const cotan_bake_options& o, BakeModelOptions& options, HighModel& high)
 {
