@@ -264,14 +264,28 @@ Status match(const Scene& low, const NamePairs& pairs, BakeSetup& setup)
     return Done{};
 }
 
-// open: called after the simple side was found to be sound, since it is slower.
-Result<BakeSetup> prepared(const Scene& low, const BakeModelOptions& options,
+bool hasUv(const Scene& scene)
+{
+    return std::ranges::all_of(scene.meshes,
+                               [](const Mesh& mesh) { return mesh.indices.empty() || !mesh.texcoords[0].empty(); });
+}
+
+// highHasUv: the detailed meshes have texture coordinates. open: called after the simple side was found to be sound,
+// since it is slower.
+Result<BakeSetup> prepared(const Scene& low, const BakeModelOptions& options, bool highHasUv,
                            const std::function<Result<std::shared_ptr<const DetailedSurface>>(const LowSurface&)>& open)
 {
     COTAN_CHECK(checkRanges(low, options));
     COTAN_CHECK(checkMapMemory(options));
     COTAN_CHECK(checkLow(low, options));
-    COTAN_TRY(surface, makeLowSurface(low, options.material, options.bake.frame, options.tangents));
+    auto surface = makeLowSurface(low, options.material, options.bake.frame, options.tangents);
+    if (!surface && surface.error().kind == ErrorKind::input && highHasUv && !hasUv(low)) {
+        Error error = surface.error();
+        error.message += "; the high model has them: exchange the two if they are mixed up";
+        return error;
+    }
+    if (!surface)
+        return surface.error();
     COTAN_TRY(cage, cagePositions(options.cage, *surface));
     for (const Status& placed :
          {checkPositions(surface->positions, "low"), checkArea(*surface), checkPositions(*cage, "options.cage")})
@@ -350,12 +364,9 @@ Result<std::shared_ptr<const DetailedSurface>> openDetailed(HighModel high, cons
 
 Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options)
 {
-    const auto hasUv = [](const Scene& scene) {
-        return std::ranges::all_of(scene.meshes, [](const Mesh& mesh) { return !mesh.texcoords[0].empty(); });
-    };
-    const bool highHasUv = std::ranges::all_of(high.scenes, hasUv);
-    auto setup =
-        prepared(low, options, [&](const LowSurface& surface) -> Result<std::shared_ptr<const DetailedSurface>> {
+    return prepared(
+        low, options, std::ranges::all_of(high.scenes, hasUv),
+        [&](const LowSurface& surface) -> Result<std::shared_ptr<const DetailedSurface>> {
             if (options.wrap) {
                 const auto tile = flatTileOf(surface);
                 if (!tile)
@@ -367,12 +378,6 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
             }
             return openDetailed(std::move(high), options);
         });
-    if (!setup && highHasUv && !hasUv(low) && setup.error().message.find("texture coordinates") != std::string::npos) {
-        Error error = setup.error();
-        error.message += "; the high model has them: exchange the two if they are mixed up";
-        return error;
-    }
-    return setup;
 }
 
 Result<BakeSetup> prepareBake(const Scene& low, std::shared_ptr<const DetailedSurface> high,
@@ -380,7 +385,7 @@ Result<BakeSetup> prepareBake(const Scene& low, std::shared_ptr<const DetailedSu
 {
     if (options.wrap)
         return wrong("options.wrap", "expected detailed models that were not opened before; found opened ones");
-    return prepared(low, options, [&](const LowSurface&) { return Result(std::move(high)); });
+    return prepared(low, options, false, [&](const LowSurface&) { return Result(std::move(high)); });
 }
 
 Result<std::vector<BakedMap>> bakeTile(const BakeSetup& setup, int tile, const Progress& progress)
