@@ -96,33 +96,34 @@ void repeatAround(const FlatTile& tile, HighModel& high)
 {
     for (Scene& scene : high.scenes) {
         const std::vector<Instance> given = scene.instances;
-        for (const Instance& instance : given)
+        for (const Instance& instance : given) {
+            std::vector<glm::vec2> at;
+            for (const glm::vec3& p : scene.meshes[std::size_t(instance.mesh)].positions)
+                at.push_back(inTile(tile, glm::vec3(instance.toWorld * glm::vec4(p, 1))));
             for (int x = -1; x <= 1; ++x)
                 for (int y = -1; y <= 1; ++y) {
                     if (x == 0 && y == 0)
                         continue;
                     const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
-                    const glm::vec3 step = tile.along * float(x) + tile.across * float(y);
-                    const glm::mat4 toWorld = glm::translate(glm::mat4(1), step) * instance.toWorld;
-                    std::vector<glm::vec2> at;
-                    for (const glm::vec3& p : mesh.positions)
-                        at.push_back(inTile(tile, glm::vec3(toWorld * glm::vec4(p, 1))));
+                    const glm::vec2 begin = -kReach - glm::vec2(x, y), end = 1 + kReach - glm::vec2(x, y); // unmoved
                     std::vector<std::uint32_t> near;
                     for (std::size_t f = 0; f < mesh.triangleCount(); ++f) {
                         const std::uint32_t* const c = &mesh.indices[3 * f];
                         const glm::vec2 from = glm::min(at[c[0]], glm::min(at[c[1]], at[c[2]])),
                                         to = glm::max(at[c[0]], glm::max(at[c[1]], at[c[2]]));
-                        if (from.x <= 1 + kReach && from.y <= 1 + kReach && to.x >= -kReach && to.y >= -kReach)
+                        if (from.x <= end.x && from.y <= end.y && to.x >= begin.x && to.y >= begin.y)
                             near.push_back(std::uint32_t(f));
                     }
                     if (near.empty())
                         continue;
                     Instance copy = instance;
-                    copy.toWorld = toWorld;
+                    const glm::vec3 step = tile.along * float(x) + tile.across * float(y);
+                    copy.toWorld = glm::translate(glm::mat4(1), step) * instance.toWorld;
                     copy.mesh = int(scene.meshes.size());
                     scene.meshes.push_back(trianglesOfMesh(mesh, near));
                     scene.instances.push_back(std::move(copy));
                 }
+        }
     }
 }
 
