@@ -10,6 +10,41 @@
 namespace cotan::viewer {
 namespace {
 
+// A right map was yellow once, compared with the frame exact. Without TANGENT the tangents are made.
+TEST(ViewerPictures, degreesAreThoseFromTheFrameThatTheMapsAreFor)
+{
+    for (const bool stored : {true, false}) {
+        HeadlessSession at;
+        test::Made m = test::quad(2); // cotangent halves slopes along u
+        if (!stored)
+            m.root["meshes"][0]["primitives"][0]["attributes"].erase("TANGENT");
+        test::write(m, at.folder.path());
+        at.load(at.in("quad.gltf"));
+        State& s = at.state();
+        std::vector<Image> errors;
+        for (const char* frame : {"mikktspace", "cotangent"}) {
+            s.a.frame = frame;
+            s.show = "shaded";
+            at.draw();
+            EXPECT_EQ(s.statisticsOf, std::string(frame) + " against mikktspace") << stored;
+            EXPECT_GT(s.statistics.count, 100u);
+            EXPECT_EQ(s.statistics.maximum < 1e-3, frame == std::string("mikktspace")) << stored;
+            s.show = "error";
+            at.draw();
+            ASSERT_TRUE(at.parts.pictures.shown(s).picture.onHost);
+            errors.push_back(*at.parts.pictures.shown(s).picture.onHost);
+        }
+        const auto colored = [](const Image& image) { // heat maps are black at 0 and grey where nothing is drawn
+            std::size_t count = 0;
+            for (std::size_t i = 0; i < image.data.size(); i += 4)
+                count += image.bytes8()[i] != image.bytes8()[i + 2];
+            return count;
+        };
+        EXPECT_EQ(colored(errors[0]), 0u) << stored;
+        EXPECT_GT(colored(errors[1]), 100u) << stored;
+    }
+}
+
 TEST(ViewerPictures, eachSideIsDrawnOnceUntilItsOptionsChange)
 {
     HeadlessSession at;

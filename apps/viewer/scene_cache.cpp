@@ -101,14 +101,14 @@ Status SceneCache::drawFigures(const Order& order, Drawn& drawn)
     const bool two = order.compare != Compare::off;
     COTAN_TRY(first, cachedScene(0, order, false, true));
     COTAN_TRY(view, viewFor(order, **first, false, drawn.exposure));
-    COTAN_TRY(degrees, degreesOf(order, **first, *view, two ? order.second : order.first, two));
-    drawn.degrees = *degrees;
-    drawn.statistics = angleStatistics(drawn.degrees);
     const Scene& scene = *(*first)->scene;
     const std::optional<Frame> frame = frameOf(order, false, scene);
-    drawn.statisticsOf = two
-        ? "first against second"
-        : fmt::format("{} against {}", nameOfFrames(frame, scene), name(meantFrame(order.first, scene, frame)));
+    const std::optional<Frame> meant = two ? std::nullopt : std::optional(meantFrame(order.first, scene, frame));
+    COTAN_TRY(degrees, degreesOf(order, **first, *view, meant));
+    drawn.degrees = *degrees;
+    drawn.statistics = angleStatistics(drawn.degrees);
+    drawn.statisticsOf =
+        meant ? fmt::format("{} against {}", nameOfFrames(frame, scene), name(*meant)) : "first against second";
     drawn.hasFigures = true;
     return Done{};
 }
@@ -132,7 +132,7 @@ Status SceneCache::drawInto(const Order& order, Drawn& drawn, Aim aim)
     drawn.view = *view;
     drawn.exposure = meters(second ? order.second : order.first) ? view->exposure : 0;
     if (order.compare == Compare::angle) {
-        COTAN_TRY(degrees, degreesOf(order, **first, *view, order.second, true));
+        COTAN_TRY(degrees, degreesOf(order, **first, *view, std::nullopt));
         drawn.picture.onHost = std::make_shared<Image>(heatMap(*degrees, view->width, view->height));
         return Done{};
     }
@@ -160,7 +160,8 @@ Result<Drawing> SceneCache::drawSide(const Order& order, CachedScene& s, const V
         if (!drawn || *drawn)
             return drawn ? Result<Drawing>({std::move(*drawn), nullptr}) : drawn.error();
     }
-    const Frame meant = meantFrame(o, *s.scene, view.framesOfMeshes ? std::nullopt : std::optional(view.frame));
+    const auto frame = view.framesOfMeshes ? std::nullopt : std::optional(view.frame);
+    const Frame meant = order.show == "error" ? meantFrame(o, *s.scene, frame) : Frame::exact; // else not read
     COTAN_TRY(image, drawShow(*s.renderer, *s.scene, view, order.show, aim == Aim::floatFile, meant));
     COTAN_CHECK(layEdgesOn(order, s, view, o, *image));
     return Drawing{nullptr, std::make_shared<Image>(std::move(*image))};
@@ -186,22 +187,22 @@ Status SceneCache::layEdgesOn(const Order& order, CachedScene& s, const View& vi
 }
 
 Result<std::vector<float>> SceneCache::degreesOf(const Order& order, CachedScene& first, const View& view,
-                                                 const PictureOptions& second, bool two)
+                                                 const std::optional<Frame>& meant)
 {
     View normals = view;
     normals.output = Output::normal;
     COTAN_TRY(a, first.renderer->draw(normals));
     CachedScene* other = &first;
-    if (two) {
+    if (meant) {
+        normals.setFrame(meant);
+    } else {
         COTAN_TRY(secondScene, cachedScene(1, order, true, true));
         other = *secondScene;
         normals.setFrame(frameOf(order, true, *other->scene));
-        normals.normalMaps = !second.noNormalMaps;
-    } else {
-        normals.setFrame(meantFrame(order.first, *first.scene, frameOf(order, false, *first.scene)));
+        normals.normalMaps = !order.second.noNormalMaps;
     }
     COTAN_TRY(b, other->renderer->draw(normals));
-    if (!two && !showsNormalMaps(*first.scene, view))
+    if (meant && !showsNormalMaps(*first.scene, view))
         return std::vector<float>(a->pixelCount(), -1.0f);
     return anglesBetween(*a, *b);
 }

@@ -48,9 +48,10 @@ private:
     Result<Drawing> drawSide(const Order& order, CachedScene& s, const View& view, const PictureOptions& o, Aim aim);
     Result<std::unique_ptr<Renderer>> openRenderer(const PictureOptions& o) const;
     Status layEdgesOn(const Order& order, CachedScene& s, const View& view, const PictureOptions& o, Image& image);
-    // Angles between the normals of the first image and those of the second, or those of the frame `exact`.
+    // Angles between the normals of the first image and those of the same scene with the frame `meant`, or of the
+    // second image.
     Result<std::vector<float>> degreesOf(const Order& order, CachedScene& first, const View& view,
-                                         const PictureOptions& second, bool two);
+                                         const std::optional<Frame>& meant);
     // The scene of a side on a renderer. The second side has its own renderer only if its scene differs. normals: for
     // drawing normals, so without inspection colours.
     Result<CachedScene*> cachedScene(std::size_t index, const Order& order, bool second, bool normals = false);
