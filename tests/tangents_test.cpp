@@ -218,17 +218,18 @@ TEST_P(Tangents, constantTexcoordsGiveSomeUnitTangentInThePlane)
 TEST_P(Tangents, oppositeDirectionsAreNotAveragedToNothing)
 {
     // Two triangles are folded onto each other at the edge x = 0. Their dP/du, seen along the shared normal, are
-    // opposite, and each keeps its own; meshoptimizer does not distinguish them.
-    if (std::string_view(GetParam().name) == "areaWeighted")
-        return;
+    // opposite, and each keeps its own. meshoptimizer averages them to nothing where they meet.
+    const bool cancel = std::string_view(GetParam().name) == "areaWeighted";
     Arrays a;
     const glm::vec3 n(0, 0, 1);
     const std::uint32_t p = a.add({0, 0, 0}, n, {0, 0}), q = a.add({0, -1, 0}, n, {0, 1});
     const std::uint32_t r = a.add({1, 0, 0.5f}, n, {1, 0}), s = a.add({1, 0, -0.5f}, n, {-1, 0});
     a.indices = {p, q, r, q, p, s};
     const std::vector<glm::vec4> found = tangents(a);
-    for (std::size_t c = 0; c < 6; ++c)
-        EXPECT_LT(glm::length(glm::vec3(found[c]) - glm::vec3(c < 3 ? 1 : -1, 0, 0)), 1e-6f) << c;
+    for (std::size_t c = 0; c < 6; ++c) {
+        const glm::vec3 own(c < 3 ? 1 : -1, 0, 0), expected = cancel && c % 3 != 2 ? glm::vec3(0) : own;
+        EXPECT_LT(glm::length(glm::vec3(found[c]) - expected), 1e-6f) << c;
+    }
 }
 
 TEST_P(Tangents, areSoundForBrokenInput)
