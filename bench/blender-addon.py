@@ -63,10 +63,10 @@ with tempfile.TemporaryDirectory() as folder:
     tool = os.environ.get("COTAN", str(root / "build/release/bin/cotan"))
     subprocess.run([tool, "bake", "--low", files["low"], "--high", files["high"], "--frame", settings.frame,
                     "--size", f"{size}x{size}", "--padding", "-1", "--max-distance", str(settings.distance), "--quiet",
-                    "-o", map_file], check=True)
+                    "--convention", "blender", "-o", map_file], check=True)
     wanted = cotan.read_image(map_file)
 inside = ((found != (128, 128, 255, 255)) | (wanted != (128, 128, 255, 255))).any(axis=2)
-a, b = ((p[inside][:, :3].astype(np.float32) - 128) / 127 for p in (found, wanted))
+a, b = ((p[inside][:, :3].astype(np.float32) - 127.5) / 127.5 for p in (found, wanted))
 cosine = (a * b).sum(axis=1) / np.sqrt((a * a).sum(axis=1) * (b * b).sum(axis=1))
 errors = np.degrees(np.arccos(np.clip(cosine.astype(np.float64), -1, 1)))
 errors[(a == b).all(axis=1)] = 0

@@ -33,8 +33,8 @@ def tutorialStoneBakesLikeTheCommandLineAndIsExportedWithoutTangents():
     found = directions(image)
     png = os.path.join(FOLDER, "stone_normal.png")
     command("bake", "--high", FILES / "stone_high.obj", "--low", FILES / "stone_low.obj", "--frame", "orthonormal",
-            "--size", 512, "-o", png)  # fmt: skip
-    theirs = (cotan.read_image(png)[..., :3].astype(float) - 128) / 127
+            "--size", 512, "--convention", "blender", "-o", png)  # fmt: skip
+    theirs = 2 * cotan.read_image(png)[..., :3].astype(float) / 255 - 1
     apart = degrees(found, theirs)
     assert np.median(apart) < 0.01 and np.percentile(apart, 99) < 1, (np.median(apart), np.percentile(apart, 99))
 

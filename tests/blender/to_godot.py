@@ -69,7 +69,7 @@ with tempfile.TemporaryDirectory() as name:
     subprocess.run([sys.executable, HERE / "run.py", library, tool, "lesson_facts.py", name], check=True)
     for file in (ROOT / "tests/godot_stone").iterdir():
         shutil.copy(file, folder)
-    subprocess.run([tool, "shader", "--lang", "godot", "-o", folder / "cotan.shader", "--quiet"], check=True)
+    subprocess.run([tool, "shader", "--lang", "godot", "--preset", "godot", "-o", folder / "cotan.shader", "--quiet"], check=True)
     imported(folder)
     carved = drawn(folder)
     if image:
