@@ -241,6 +241,7 @@ TEST(BakeBounds, rowsUnderAllTrianglesAreLimited)
         for (std::size_t k = 4; k < 7; ++k)
             low.texcoords[low.texcoords.size() - k] = glm::vec2(std::numeric_limits<float>::quiet_NaN());
         BakeOptions options;
+        options.samples = 1;
         options.width = 1;
         options.height = 65535;
         options.threads = 1;

@@ -26,6 +26,7 @@ Pair setupOf(const BakeCase& pair, BakeKind kind, int size = 128)
     EXPECT_TRUE(low && high);
     Pair setup{std::move(*low), std::move(*high), {}};
     setup.options.kind = kind;
+    setup.options.samples = 1; // a texel has the value at its centre
     setup.options.width = setup.options.height = size;
     setup.options.highNormals = HighNormals::face;
     return setup;

@@ -99,6 +99,7 @@ Baked bakeWithMap(const Scene& low, Scene high, BakeOptions options, Frame highF
 BakeOptions square(BakeKind kind, Frame frame = Frame::cotangent)
 {
     BakeOptions options;
+    options.samples = 1; // a texel has the value at its centre
     options.kind = kind;
     options.frame = frame;
     options.width = options.height = kSide;

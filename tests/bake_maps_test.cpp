@@ -25,6 +25,7 @@ constexpr BakeKind kAll[] = {BakeKind::normal,    BakeKind::objectNormal, BakeKi
 BakeModelOptions optionsFor(std::vector<BakeKind> kinds, PixelType type = PixelType::float32)
 {
     BakeModelOptions options;
+    options.bake.samples = 1; // a texel has the value at its centre
     options.kinds = std::move(kinds);
     options.bake.frame = Frame::smooth;
     options.bake.width = options.bake.height = 16;

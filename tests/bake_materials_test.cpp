@@ -48,6 +48,7 @@ BakedMap bakeOne(const Scene& high, BakeKind kind, PixelType type = PixelType::f
     if (low.meshes.empty())
         low = sceneOfMeshes({rectangle({0, 0, 0.01f}, {1, 0, 0}, {0, 1, 0})});
     BakeModelOptions options;
+    options.bake.samples = 1; // a texel has the value at its centre
     options.kinds = {kind};
     options.bake.frame = Frame::smooth;
     options.bake.width = options.bake.height = kSide;

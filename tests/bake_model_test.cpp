@@ -271,6 +271,15 @@ TEST(BakeModel, errorsOfOptionsBeginWithTheirNames)
               "options.search: a cage already defines where rays start, and the first surface that they hit counts");
     EXPECT_EQ(errorWith([&](O& o, H&) { o.cage = &flat, o.bake.extrusion = 1; }),
               "options.extrusion: a cage already defines where rays start, and the first surface that they hit counts");
+    const auto mask = std::make_shared<const Image>(makeImage(2, 2, PixelType::unorm8));
+    const char* const alone = "options.raysMask: expected neither a cage nor the search nearest nor options.rays with it";
+    EXPECT_EQ(errorWith([&](O& o, H&) { o.bake.raysMask = mask, o.cage = &flat; }), alone);
+    EXPECT_EQ(errorWith([&](O& o, H&) { o.bake.raysMask = mask, o.bake.search = BakeSearch::nearest; }), alone);
+    EXPECT_EQ(errorWith([&](O& o, H&) { o.bake.raysMask = mask, o.bake.rays = BakeRays::straight; }), alone);
+    EXPECT_EQ(errorWith([](O& o, H&) { o.bake.raysMask = std::make_shared<const Image>(); }),
+              "options.raysMask: expected an image; found 0x0 texels in 0 bytes");
+    EXPECT_EQ(errorWith([](O& o, H&) { o.bake.rays = BakeRays::vertexColor; }),
+              "options.rays: expected vertex colours in the low mesh; found none");
     EXPECT_EQ(errorWith([&](O& o, H&) { o.cage = &two; }),
               "options.cage: expected a cage of 2 triangles, as the low mesh has; found 4");
 }

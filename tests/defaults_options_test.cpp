@@ -124,7 +124,7 @@ TEST(Defaults, ofBakingAreOneTileOfAMap)
     EXPECT_TRUE(b.kind == BakeKind::normal);
     EXPECT_EQ(b.width, 1024);
     EXPECT_EQ(b.height, 1024);
-    EXPECT_EQ(b.samples, 1);
+    EXPECT_EQ(b.samples, 2);
     EXPECT_EQ(b.tile, glm::ivec2(0));
     EXPECT_TRUE(b.search == BakeSearch::first);
     EXPECT_TRUE(b.rays == BakeRays::automatic);

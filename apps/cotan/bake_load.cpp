@@ -167,6 +167,10 @@ Status openLow(const BakeJob& job, OpenBake& open)
             image.width = image.height = 0;
             image.data = {};
         }
+    if (!job.raysMask.empty()) {
+        COTAN_TRY(mask, readImageWithin(job.memory, job.raysMask));
+        open.options.bake.raysMask = std::make_shared<const Image>(std::move(*mask));
+    }
     if (job.cage.empty())
         return Done{};
     COTAN_TRY(cage, loadUp(job.memory, job.cage, job.up, Pixels::none));

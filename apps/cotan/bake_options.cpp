@@ -153,6 +153,11 @@ Status checkRays(const BakeJob& job)
     if (!job.cage.empty() && (nearest || extruded))
         return usageError(fmt::format("--cage: rays start on it and stop at the first surface; expected no {} with it",
                                       nearest ? "--search nearest" : "--extrusion"));
+    if (!job.raysMask.empty() && (nearest || !job.cage.empty() || job.options.bake.rays != BakeRays::automatic))
+        return usageError(fmt::format("--rays-mask: expected no {} with it, which already says which way rays run",
+                                      nearest                 ? "--search nearest"
+                                          : !job.cage.empty() ? "--cage"
+                                                              : "--rays"));
     return Done{};
 }
 
@@ -221,8 +226,13 @@ void declareBakeOptions(Arguments& a, BakeCommandOptions& o)
     a.choice(
         "--rays", model.bake.rays, kRays,
         "which way rays run: auto (straight, but averaged near hard edges), averaged (along normals averaged over "
-        "hard edges: no gaps, but details lean) or straight (along the low mesh's normals: gaps at hard edges); no "
-        "effect with --cage and --search nearest");
+        "hard edges: no gaps, but details lean), straight (along the low mesh's normals: gaps at hard edges) or "
+        "vertex-color (straight where the red of the low mesh's vertex colours is 1, averaged where it is 0); no effect "
+        "with --cage and --search nearest");
+    a.option("--rays-mask", o.job.raysMask,
+             "image in the low mesh's uv instead: rays are straight where its red is white, averaged where it is black")
+        .in("FILE")
+        .reads();
     a.option("--extrusion", model.bake.extrusion,
              "how far in front of the low mesh rays start, in model units; 0: measured from the high mesh")
         .within(0.0, 1e9)
@@ -236,7 +246,7 @@ void declareBakeOptions(Arguments& a, BakeCommandOptions& o)
              "mesh with the triangles of the low one that encloses both; rays start on it and run inwards")
         .in("FILE")
         .reads();
-    a.option("--ao-rays", model.bake.occlusionRays, "rays per sample for ao, bent normals and thickness")
+    a.option("--ao-rays", model.bake.occlusionRays, "rays per texel for ao, bent normals and thickness")
         .within(1, 65536)
         .in("N");
     a.option("--thickness-distance", model.bake.thicknessDistance,

@@ -38,7 +38,7 @@ struct BakeFiles {
 struct BakeJob {
     CommonOptions common;
     std::vector<std::string> high, highMaps;
-    std::string low, cage;
+    std::string low, cage, raysMask;
     Up up = Up::y, highUp = Up::y;
     int memory = kDefaultMemory;
     HighSource highNormals = HighSource::smooth;

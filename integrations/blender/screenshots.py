@@ -107,7 +107,7 @@ def steps():
     while manager.cotan_running:
         yield 0.2
     settings.width = settings.height = 1024
-    settings.samples = "1"
+    settings.samples = "4"
     with within("PROPERTIES"):
         bpy.ops.object.cotan_bake("INVOKE_DEFAULT")
     while manager.cotan_running:

@@ -65,6 +65,11 @@ Status checkRanges(const Scene& low, const BakeModelOptions& options)
                      "a cage already defines where rays start, and the first surface that they hit counts");
     if (b.search == BakeSearch::nearest && b.extrusion > 0)
         return wrong("options.extrusion", "the search nearest already looks to both sides of the low surface");
+    if (b.raysMask && (options.cage || b.search == BakeSearch::nearest || b.rays != BakeRays::automatic))
+        return wrong("options.raysMask", "expected neither a cage nor the search nearest nor options.rays with it");
+    if (const Image* m = b.raysMask.get(); m && (m->width < 1 || m->height < 1 || m->data.size() != m->bytesPerPixel() * std::size_t(m->width) * std::size_t(m->height)))
+        return wrong("options.raysMask", "expected an image; found {}x{} texels in {} bytes", m->width, m->height,
+                     m->data.size());
     for (const PackedMap& map : options.packed) {
         if (std::ranges::none_of(map.kinds, [](const auto& kind) { return kind.has_value(); }))
             return wrong("options.packed", "expected a map in one of the channels; found constants only");
@@ -286,6 +291,8 @@ Result<BakeSetup> prepared(const Scene& low, const BakeModelOptions& options, bo
     }
     if (!surface)
         return surface.error();
+    if (options.bake.rays == BakeRays::vertexColor && surface->reds.empty())
+        return about("options.rays", inputError("expected vertex colours in the low mesh; found none"));
     COTAN_TRY(cage, cagePositions(options.cage, *surface));
     for (const Status& placed :
          {checkPositions(surface->positions, "low"), checkArea(*surface), checkPositions(*cage, "options.cage")})

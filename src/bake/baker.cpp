@@ -257,18 +257,20 @@ void Baker::valuesOf(BakeKind kind, const LowPoints& points, const Probes& probe
 }
 
 // For each hit: cosine-weighted directions on a golden-ratio spiral around the normal, times `side`, rotated by an
-// angle that depends on the texel. Calls see(lane, number of the ray, ray, group that it may hit).
+// angle that depends on the texel. The nth of a texel's samples has every such direction whose number is n modulo their
+// number. Calls see(lane, ray, group that it may hit).
 template<class See>
 std::size_t Baker::look(const Probes& probes, const Hits& hits, std::span<const glm::ivec2> rasterTexels, float side,
                         const See& see) const
 {
+    const int axis = options_.samples, samples = axis * axis, all = std::max(options_.occlusionRays, samples);
     std::size_t rays = 0;
     for (std::size_t lane = 0; lane < rasterTexels.size(); ++lane) {
         if (!hits.found(lane))
             continue;
         const glm::vec3 where = probes.point.at(lane) + probes.direction.at(lane) * hits.distance[lane];
-        const std::uint32_t pattern =
-            std::uint32_t(rasterTexels[lane].x) * 7919u + std::uint32_t(rasterTexels[lane].y) * 104729u;
+        const glm::ivec2 texel = rasterTexels[lane] / axis, within = rasterTexels[lane] - texel * axis;
+        const std::uint32_t pattern = std::uint32_t(texel.x) * 7919u + std::uint32_t(texel.y) * 104729u;
         // Outwards is the side that the ray came from.
         const glm::vec3 out = probes.direction.at(lane);
         const auto towards = [&](glm::vec3 v) { return (glm::dot(v, out) < 0 ? -v : v) * side; };
@@ -278,12 +280,12 @@ std::size_t Baker::look(const Probes& probes, const Hits& hits, std::span<const 
         const glm::vec3 origin = where + (length > 0 ? face / length : n) * lift_;
         const std::uint32_t only = options_.occluders == Occluders::matched ? probes.only[lane] : Probes::kAny;
         const double rotation = double(pattern * 2654435769u) / 4294967296.0 * 2 * std::numbers::pi;
-        for (int i = 0; i < options_.occlusionRays; ++i) {
-            const double r2 = (i + 0.5) / options_.occlusionRays, a = rotation + i * 2.399963229728653;
+        for (int i = within.y * axis + within.x; i < all; i += samples) {
+            const double r2 = (i + 0.5) / all, a = rotation + i * 2.399963229728653;
             const float x = float(std::sqrt(r2) * std::cos(a)), y = float(std::sqrt(r2) * std::sin(a));
             see(lane, {origin, t * x + b * y + n * float(std::sqrt(1 - r2)), 0, kEndless}, only);
+            ++rays;
         }
-        rays += std::size_t(options_.occlusionRays);
     }
     return rays;
 }
@@ -291,17 +293,18 @@ std::size_t Baker::look(const Probes& probes, const Hits& hits, std::span<const 
 std::size_t Baker::lookOut(const Probes& probes, const Hits& hits, std::span<const glm::ivec2> rasterTexels,
                            Around& around) const
 {
-    Lanes<int> open{};
+    Lanes<int> looks{}, open{};
     Lanes3 sums;
     const std::size_t rays =
         look(probes, hits, rasterTexels, 1, [&](std::size_t lane, const Ray& ray, std::uint32_t only) {
+            ++looks[lane];
             if (high_.blocked(ray, only))
                 return;
             ++open[lane];
             sums.set(lane, sums.at(lane) + ray.direction);
         });
     for (std::size_t i = 0; i < kLanes; ++i) {
-        around.openness[i] = float(open[i]) / float(options_.occlusionRays);
+        around.openness[i] = float(open[i]) / float(std::max(looks[i], 1));
         const float length = glm::length(sums.at(i));
         const glm::vec3 n = hits.normal.at(i);
         around.open.set(i, length > 1e-3f ? sums.at(i) / length : glm::dot(n, probes.direction.at(i)) < 0 ? -n : n);
@@ -312,14 +315,16 @@ std::size_t Baker::lookOut(const Probes& probes, const Hits& hits, std::span<con
 std::size_t Baker::lookIn(const Probes& probes, const Hits& hits, std::span<const glm::ivec2> rasterTexels,
                           Around& around) const
 {
+    Lanes<int> looks{};
     Lanes<double> lengths{};
     const double longest = unitOf(BakeKind::thickness);
     const std::size_t rays =
         look(probes, hits, rasterTexels, -1, [&](std::size_t lane, const Ray& ray, std::uint32_t only) {
+            ++looks[lane];
             lengths[lane] += std::min(high_.distanceTo(ray, only) + double(lift_), longest);
         });
     for (std::size_t i = 0; i < kLanes; ++i)
-        around.thickness[i] = float(lengths[i] / options_.occlusionRays);
+        around.thickness[i] = float(lengths[i] / std::max(looks[i], 1));
     return rays;
 }
 

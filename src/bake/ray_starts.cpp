@@ -17,6 +17,7 @@
 #include "core/loops.hpp"
 #include "core/try.hpp"
 #include "cotan/vector.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 
@@ -504,6 +505,17 @@ bool isObstructed(const LowSurface& low, const RayStarts& starts, std::size_t tr
     return false;
 }
 
+// How straight rays at a point are, 0 to 1, as the mask says.
+float straightnessAt(const LowSurface& low, const RayStarts& starts, const std::uint32_t* v, float b1, float b2)
+{
+    if (!starts.mask)
+        return low.reds.empty() ? 1 : glm::clamp(atVertices(low.reds, v, b1, b2), 0.0f, 1.0f);
+    const Image& mask = *starts.mask;
+    const glm::vec2 uv = glm::clamp(atVertices(low.texcoords, v, b1, b2), -kFarthestUv, kFarthestUv);
+    const auto texel = [&](int x, int y) { return storedComponents(mask, x, y); };
+    return glm::clamp(bilinearTexel(mask.width, mask.height, {}, uv, texel).x, 0.0f, 1.0f);
+}
+
 } // namespace
 
 std::vector<std::int64_t> highGroups(std::span<const std::uint32_t> triangleInstance,
@@ -536,13 +548,15 @@ RayStart rayStartAt(const LowSurface& low, const RayStarts& starts, std::uint32_
     if (!(length > 0))
         return {};
     const RayStart averaged{sum / length, length * distance};
-    if (starts.bands.bands.empty())
+    if (starts.bands.bands.empty() && !starts.masked)
         return averaged;
     const glm::vec3 normal = unitOr(atVertices(low.normals, v, b1, b2), averaged.direction);
     const float slope = glm::dot(averaged.direction, normal);
     if (slope < kMinDirectionCosine)
         return averaged;
-    const RayBands::Bend bend = starts.bands.bendAt(triangle, point);
+    const RayBands::Bend bend = starts.masked
+        ? RayBands::Bend{1 - straightnessAt(low, starts, v, b1, b2), averaged.direction}
+        : starts.bands.bendAt(triangle, point);
     const glm::vec3 direction = unitOr(glm::mix(normal, bend.direction, bend.amount), normal);
     const float cosine = glm::dot(direction, normal);
     if (!starts.tree) // a given distance
@@ -559,8 +573,10 @@ Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, 
         starts.directions = low.normals;
     else
         findDirections(low, groups, starts);
+    starts.mask = options.raysMask;
+    starts.masked = starts.mask || options.rays == BakeRays::vertexColor;
     HardEdges edges;
-    if (options.rays == BakeRays::automatic && starts.directionsDiffer)
+    if (options.rays == BakeRays::automatic && !starts.masked && starts.directionsDiffer)
         edges = hardEdgesOf(low, groups.of);
     COTAN_TRY(body, bodyOf(low, rest, options));
     starts.skip = kSkip * body->diagonal;

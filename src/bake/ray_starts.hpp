@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,6 +26,9 @@ struct RayStarts {
                                           // vertex's own normal if it differs from the mean by more than 78 degrees,
                                           // and for BakeRays::straight
     bool directionsDiffer = false;        // some directions differ from the normals
+    bool masked = false;                  // rays turn between normals and directions by `mask`, else by the low
+                                          // surface's `reds`; there are no bands then
+    std::shared_ptr<const Image> mask;    // as BakeOptions::raysMask
     RayBands bands;                       // along hard edges; none: rays follow the directions everywhere
     std::vector<float> distances;         // per vertex, model units; equal at equal positions of an instance
     std::vector<std::uint8_t> obstructed; // per triangle: other triangles may lie between it and where its rays start

@@ -59,13 +59,13 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_image_vi
     b.frame = frameOr(o.frame, Frame::mikktspace, "options.frame");
     b.width = map.width;
     b.height = map.height;
-    b.samples = o.samples != 0 ? o.samples : 1;
+    b.samples = o.samples != 0 ? o.samples : b.samples;
     b.search = search == "nearest" ? BakeSearch::nearest : BakeSearch::first;
     b.rays = valueOf(kRays, o.rays ? o.rays : "auto", "options.rays");
     b.extrusion = o.extrusion;
     b.maxDistance = o.max_distance;
     b.cageReach = o.cage_reach;
-    b.occlusionRays = o.occlusion_rays != 0 ? o.occlusion_rays : 64;
+    b.occlusionRays = o.occlusion_rays != 0 ? o.occlusion_rays : b.occlusionRays;
     b.occluders = valueOf(kOccluders, o.occluders ? o.occluders : "matched", "options.occluders");
     b.thicknessDistance = o.thickness_distance;
     b.curvatureRadius = o.curvature_radius;
@@ -100,6 +100,7 @@ Error aboutFieldOfC(Error error)
         {"options.thicknessDistance", "options.thickness_distance"},
         {"options.curvatureRadius", "options.curvature_radius"},
         {"options.matchByName", "options.match_by_name"},
+        {"options.raysMask", "options.rays_mask"},
         {"options.tiles", "options.tile"},
         {"high.maps", "options.high_maps"},
     };
@@ -125,6 +126,8 @@ void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given,
     }
     BakeModelOptions options = bakeOptionsOf(o, out);
     readHigh(o, options, high);
+    if (o.rays_mask)
+        options.bake.raysMask = std::make_shared<const Image>(imageOf(o.rays_mask, "options.rays_mask"));
     if (options.material >= int(low.materials.size()))
         fail(ErrorKind::usage, "options.material: expected 0 to ", low.materials.size(), ", found ", o.material);
     auto done = bakeModel(low, std::move(high), options, progressOf(o.progress, o.user));

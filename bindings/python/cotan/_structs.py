@@ -74,6 +74,7 @@ class BakeOptions(Struct):
         (text, "rays"),
         (text, "id_by"),
         (integer, "wrap"),
+        (pointer, "rays_mask"),
     )
 
 

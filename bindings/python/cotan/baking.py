@@ -126,13 +126,14 @@ def bake(
     pack: Optional[str] = None,
     convention: Convention = "opengl",
     bits: int = 8,
-    samples: int = 1,
+    samples: int = 4,
     padding: int = 0,
     dither: bool = False,
     ao_rays: int = 64,
     ao_occluders: Occluders = "matched",
     search: Search = "first",
     rays: Rays = "auto",
+    rays_mask: Optional[Map] = None,
     extrusion: float = 0.0,
     max_distance: float = 0.0,
     cage: Union[Geometry, Sequence[Mesh], None] = None,
@@ -174,13 +175,16 @@ def bake(
         samples: samples per texel: 1, 4 or 16.
         padding: texels around charts that are filled from the nearest chart; 0: all, -1: none.
         dither: with 8 bits: dithers with a fixed pattern, so that slopes show no steps.
-        ao_rays: rays per sample for "ao", bent normals and thickness, 1 to 65536.
+        ao_rays: rays per texel for "ao", bent normals and thickness, 1 to 65536.
         ao_occluders: with match_by_name, what casts occlusion: "matched" (the high meshes of the same name) or "all".
         search: "first": the first surface that a ray from outside inwards hits; "nearest": the surface nearest to the
             low mesh along its normal in either direction, which misses parts that float above another surface.
         rays: which way rays run: "auto": straight, but averaged near hard edges; "averaged": along normals averaged
             over hard edges, without gaps, but details lean; "straight": along the low mesh's normals, with gaps at hard
-            edges. No effect with a cage and for the search "nearest".
+            edges; "vertex-color": straight where the red of the low mesh's vertex colours is 1, averaged where it is 0.
+            No effect with a cage and for the search "nearest".
+        rays_mask: an image in the low mesh's uv that replaces `rays`: rays are straight where its red is 1 and averaged
+            where it is 0.
         extrusion: distance in front of the low mesh at which rays start, in units of the positions; 0: measured from
             the distance between the meshes.
         max_distance: maximum distance of high surfaces from the low mesh, in units of the positions; 0: 10 % of the
@@ -242,6 +246,8 @@ def bake(
     for given in maps:
         arrays.stored(given, "opengl" if high_convention is None else high_convention, "high_map")
     images = [arrays.image_view(m) for m in maps]
+    rays_given = None if rays_mask is None else pixels_of(rays_mask, "rays_mask")
+    rays_view = None if rays_given is None else arrays.image_view(rays_given)
     mask_view = None if mask_made is None else arrays.image_view(mask_made)
     result, lines = structs.BakeResult(), structs.handle()
     warnings: list[str] = []
@@ -266,6 +272,7 @@ def bake(
             cage=None if enclosing is None else enclosing._handle,
             match_by_name=int(match_by_name),
             wrap=int(wrap),
+            rays_mask=None if rays_view is None else ctypes.addressof(rays_view),
             material=material + 1,
             tile=udim,
             high_map_count=len(images),

@@ -55,7 +55,7 @@ class CotanSettings(bpy.types.PropertyGroup):
         name="Bits", items=[("8", "8", ""), ("16", "16", "")], default="8", description="Bits per component"
     )
     samples: EnumProperty(
-        name="Samples", items=[("1", "1", ""), ("4", "4", ""), ("16", "16", "")], default="1",
+        name="Samples", items=[("1", "1", ""), ("4", "4", ""), ("16", "16", "")], default="4",
         description="Samples per texel",
     )
     padding: IntProperty(

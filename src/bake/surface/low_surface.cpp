@@ -36,6 +36,11 @@ void append(LowSurface& surface, const Mesh& mesh, const Texture& map, const glm
         surface.positions.push_back(glm::vec3(toWorld * glm::vec4(mesh.positions[v], 1)));
         surface.normals.push_back(rigid ? linear * mesh.normals[v] : normalizedOrZero(covectors * mesh.normals[v]));
     }
+    if (!mesh.colors.empty()) {
+        surface.reds.resize(base, 1);
+        for (const glm::vec4& color : mesh.colors)
+            surface.reds.push_back(color.x);
+    }
     const std::vector<glm::vec2> uv = textureUv(map, mesh);
     surface.texcoords.insert(surface.texcoords.end(), uv.begin(), uv.end());
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -61,6 +66,8 @@ void deriveCotangents(LowSurface& s)
     gather(s.positions);
     gather(s.normals);
     gather(s.texcoords);
+    if (!s.reds.empty())
+        gather(s.reds);
     s.indices = std::move(made.split.indices);
     s.cotangentsU = std::move(made.cotangents.u);
     s.cotangentsV = std::move(made.cotangents.v);
@@ -99,6 +106,8 @@ Result<LowSurface> makeLowSurface(const Scene& scene, int material, Frame frame,
     }
     if (surface.indices.empty())
         return inputError(scene.name + ": expected triangles; found none");
+    if (!surface.reds.empty())
+        surface.reds.resize(surface.positions.size(), 1);
     if (readsCotangents(frame)) {
         deriveCotangents(surface);
     } else if (readsTangents(frame) && !allStored) {

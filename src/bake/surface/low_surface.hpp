@@ -25,6 +25,7 @@ struct LowSurface {
     std::vector<glm::vec3> positions, normals;
     std::vector<glm::vec2> texcoords;
     std::vector<std::uint32_t> indices;
+    std::vector<float> reds;                         // per vertex, of the vertex colours: 1 without; empty: all are 1
     std::vector<glm::vec4> tangents;                 // per corner, as tangentAlongV; empty if the frame reads none
     std::vector<glm::vec3> cotangentsU, cotangentsV; // per vertex; empty if the frame reads none
     std::vector<std::uint32_t> triangleInstance;     // instance that each triangle is of

@@ -316,10 +316,11 @@ typedef struct cotan_bake_options {
                           "id"; colours are sRGB with 8 and 16 bits, else linear; and channels of maps of one value,
                           such as "R=ao,G=roughness,B=metallic,A=1", which is "orm"; null: "normal" */
     const char* convention;  /* of the map; null: "opengl" */
-    int samples;             /* per texel and axis: 1, 2 or 4; 0: 1 */
+    int samples;             /* per texel and axis: 1, 2 or 4; 0: 2 (before version 9: 1) */
     int padding;             /* width of the filled border around charts, in texels; 0: fill everything, -1: none */
     int dither;              /* not 0: prevents banding in maps of 8 bits */
-    int occlusion_rays;      /* rays per sample, also for bent normals and thickness; 0: 64 */
+    int occlusion_rays;      /* rays per texel (before version 9 per sample), at least one per sample, also for bent
+                                normals and thickness; 0: 64 */
     float max_distance;      /* detail further than this from the simple surface is ignored, in units of the positions;
                                 0: 10 % of the diagonal of the simple surface's bounding box; for the search "nearest"
                                 5 % of that of the detailed one */
@@ -353,12 +354,16 @@ typedef struct cotan_bake_options {
     float thickness_distance; /* thickness that integers store as 1; 0: 50 % of the detailed models' diagonal */
     float curvature_radius;   /* radius of a ball that integers store as 1, flat is 0.5; 0: 1 % of that diagonal */
     const char* rays;         /* which way they run: "auto", straight but averaged near hard edges, "averaged", along
-                                 normals averaged over hard edges, or "straight", along the normals of the simple model;
-                                 no effect with a cage and for the search "nearest"; null: "auto" */
+                                 normals averaged over hard edges, "straight", along the normals of the simple model, or
+                                 "vertex-color", straight where the red of the simple model's vertex colours is 1 and
+                                 averaged where it is 0; no effect with a cage and for the search "nearest"; null:
+                                 "auto" */
     const char* id_by;        /* what has a colour of its own in "id": "material", "object" or "vertex-color"; null:
                                  "material" */
     int wrap; /* 1: the simple model is one flat tile that fills the square of its uv once; what leaves it at a border
                  comes in at the opposite one */
+    const cotan_image_view* rays_mask; /* replaces `rays`: an image in the uv of the simple model; rays are straight
+                                          where its red is 1 and averaged where it is 0; null: none */
 } cotan_bake_options;
 
 typedef struct cotan_bake_result {

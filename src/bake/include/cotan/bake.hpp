@@ -92,6 +92,7 @@ enum class BakeRays {
     automatic, // straight, and averaged in bands along hard edges, as wide as what the rays must show there needs
     averaged,  // along normals averaged over hard edges: without gaps, but detail that stands off leans
     straight,  // along the low surface's own normals: with gaps at hard edges that are convex
+    vertexColor, // between averaged, where the red of the low meshes' vertex colours is 0, and straight, where it is 1
 };
 
 // Which normals of the high surface count.
@@ -117,10 +118,12 @@ struct BakeOptions {
     BakeKind kind = BakeKind::normal;
     Frame frame = Frame::cotangent;
     int width = 1024, height = 1024;
-    int samples = 1;       // per texel and axis: 1, 2 or 4
+    int samples = 2;       // per texel and axis: 1, 2 or 4
     glm::ivec2 tile{0, 0}; // unit square of uv that the map covers
     BakeSearch search = BakeSearch::first;
     BakeRays rays = BakeRays::automatic;
+    std::shared_ptr<const Image> raysMask; // replaces `rays`: between averaged, where its red is 0, and straight, where
+                                          // it is 1. Read with the uv of the low surface, repeated. Null: none
     float extrusion = 0;         // model units: how far in front of the low surface rays start; 0: measured
     float maxDistance = 0;       // model units, in front of and behind the low surface; 0: 10 % of the diagonal of its
                                  // bounding box, for BakeSearch::nearest 5 % of the high surface's
@@ -133,7 +136,7 @@ struct BakeOptions {
                                                     // read for heights and occlusion. Null: none
     std::shared_ptr<const HighMaterials> highMaterials; // read by kinds of readsMaterials. Null: their values are zero
     IdBy idBy = IdBy::material;
-    int occlusionRays = 64;      // per sample, also for bent normals and thickness
+    int occlusionRays = 64;      // per texel, at least one per sample; also for bent normals and thickness
     float thicknessDistance = 0; // model units: the length of longer rays, stored as 1 in integers; 0: 50 % of the
                                  // diagonal of the high surface's bounding box
     float curvatureRadius = 0; // model units: the radius of a ball that is stored as 1 in integers, 0.5 is flat; 0: 1 %
