@@ -70,6 +70,7 @@ int main(int argc, char** argv)
     }
     BakeOptions options;
     options.frame = Frame::cotangent;
+    options.samples = 1; // as Cycles
     options.width = options.height = std::atoi(argv[3]);
     options.threads = argc > 4 ? std::atoi(argv[4]) : 0;
     const std::string highName = argv[2];

@@ -151,6 +151,7 @@ int main(int argc, char** argv)
     }
     BakeOptions options;
     options.frame = Frame::smooth;
+    options.samples = 1;
     options.width = options.height = size;
     options.threads = 1;
     const auto low = makeLowSurface(*lowScene, -1, options.frame, TangentOrigin::generated);

@@ -28,6 +28,7 @@ cotan_blender.register()
 low, high, image = blender_bake.prepare(low_file, high_file, size, 0)
 settings = bpy.context.scene.cotan
 settings.width = settings.height = size
+settings.samples = "1"  # as Cycles
 settings.padding = -1  # Cycles' margin is 0 too
 settings.distance = blender_bake.reach_of(high)
 
@@ -62,7 +63,7 @@ with tempfile.TemporaryDirectory() as folder:
     map_file = os.path.join(folder, "map.png")
     tool = os.environ.get("COTAN", str(root / "build/release/bin/cotan"))
     subprocess.run([tool, "bake", "--low", files["low"], "--high", files["high"], "--frame", settings.frame,
-                    "--size", f"{size}x{size}", "--padding", "-1", "--max-distance", str(settings.distance), "--quiet",
+                    "--size", f"{size}x{size}", "--samples", "1", "--padding", "-1", "--max-distance", str(settings.distance), "--quiet",
                     "--convention", "blender", "-o", map_file], check=True)
     wanted = cotan.read_image(map_file)
 inside = ((found != (128, 128, 255, 255)) | (wanted != (128, 128, 255, 255))).any(axis=2)

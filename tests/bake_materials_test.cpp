@@ -494,6 +494,7 @@ TEST(BakeMaterials, aTextureThatIsAlsoANormalMapServesBoth)
     BakeModelOptions options;
     options.kinds = {BakeKind::normal, BakeKind::baseColor};
     options.ownMaps = true;
+    options.bake.samples = 1; // a texel has the value at its centre
     options.bake.width = options.bake.height = kSide;
     options.stored.type = PixelType::float32;
     HighModel model;

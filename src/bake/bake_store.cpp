@@ -1,10 +1,13 @@
 // Fills around the charts of a baked map, and stores it as an image.
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstdint>
-#include <limits>
+#include <span>
+#include <type_traits>
+#include <vector>
 
 #include "bake/bake_surfaces.hpp"
+#include "bake/lanes.hpp"
 #include "bake/surface/nearest_texels.hpp"
 #include "core/loops.hpp"
 #include "maps/texels.hpp"
@@ -25,27 +28,46 @@ float bayer(int x, int y)
     return (float(v) + 0.5f) / 64;
 }
 
-struct Writer {
-    Image image;
-    bool dither;
-
-    void put(std::size_t i, glm::vec3 c)
-    {
-        const float channels[4] = {c.x, c.y, c.z, 1};
-        const int x = int(i % std::size_t(image.width)), y = int(i / std::size_t(image.width));
-        const float offset = dither && image.type == PixelType::unorm8 ? bayer(x, y) : 0.5f;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const float v = maps::settled(std::clamp(channels[k], 0.0f, 1.0f));
-            if (image.type == PixelType::float32)
-                image.floats()[4 * i + k] = channels[k];
-            else if (image.type == PixelType::unorm16)
-                image.words()[4 * i + k] = std::uint16_t(v * 65535 + 0.5f);
-            else
-                image.bytes8()[4 * i + k] =
-                    std::uint8_t(std::min(std::floor(v * 255 + (k < 3 ? offset : 0.5f)), 255.0f));
+// Writes a row of texels.
+void putRow(Image& image, int y, std::span<const glm::vec3> texels, bool dither)
+{
+    const std::size_t first = 4 * std::size_t(y) * std::size_t(image.width);
+    const auto put = [&](auto* to, auto convert) {
+        for (std::size_t x = 0; x < texels.size(); ++x, to += 4) {
+            const glm::vec3 c = texels[x];
+            to[0] = convert(c.x, x);
+            to[1] = convert(c.y, x);
+            to[2] = convert(c.z, x);
+            to[3] = std::remove_pointer_t<decltype(to)>(image.type == PixelType::float32 ? 1 : -1);
         }
-    }
-};
+    };
+    const auto unorm = [](float c) { return maps::settled(std::clamp(c, 0.0f, 1.0f)); };
+    std::array<float, 8> offsets;
+    for (int x = 0; x < 8; ++x)
+        offsets[std::size_t(x)] = dither ? bayer(x, y) : 0.5f;
+    if (image.type == PixelType::float32)
+        put(image.floats() + first, [](float c, std::size_t) { return c; });
+    else if (image.type == PixelType::unorm16)
+        put(image.words() + first, [&](float c, std::size_t) { return std::uint16_t(unorm(c) * 65535 + 0.5f); });
+    else
+        put(image.bytes8() + first, [&](float c, std::size_t x) {
+            return std::uint8_t(std::min(int(unorm(c) * 255 + offsets[x % 8]), 255));
+        });
+}
+
+// Calls fill(y, row) for each row of an image, and stores what it fills in.
+template<class Fill> Image imageOfRows(int width, int height, PixelType type, bool dither, const Fill& fill)
+{
+    Image image = makeImage(width, height, type);
+    parallelRanges<int>(0, height, 1 + (1 << 14) / width, [&](int begin, int end) {
+        std::vector<glm::vec3> row(static_cast<std::size_t>(width));
+        for (int y = begin; y != end; ++y) {
+            fill(y, std::span(row));
+            putRow(image, y, row, dither);
+        }
+    });
+    return image;
+}
 
 } // namespace
 
@@ -59,8 +81,8 @@ std::vector<std::uint32_t> nearestFilled(const Baked& baked, int radius)
         if ((baked.states[i] & (texelCovered | texelTouched)) != 0 && baked.values[i] != glm::vec3(0))
             owner[i] = std::uint32_t(i);
     propagateNearest(owner, baked.width, baked.height, TieBreak::above);
-    const std::int64_t limit = radius > 0 ? std::int64_t(radius) * radius : std::numeric_limits<std::int64_t>::max();
-    for (std::size_t i = 0; i < owner.size(); ++i)
+    const std::int64_t limit = std::int64_t(radius) * radius;
+    for (std::size_t i = 0; i < owner.size() && radius > 0; ++i)
         if (owner[i] != kNoTexel && owner[i] != i && distance2(owner[i], std::uint32_t(i), baked.width) > limit)
             owner[i] = kNoTexel;
     return owner;
@@ -127,12 +149,38 @@ public:
         scale_ = highest > lowest ? 1 / (highest - lowest) : 0;
     }
 
-    glm::vec3 operator()(glm::vec3 v) const
+    void row(std::span<const glm::vec3> values, std::span<glm::vec3> texels) const
     {
-        if (v == glm::vec3(0))
-            return empty();
         if (holdsDirections(kind_))
-            return f32::cotan_encode_texel(v, format_);
+            encode(values, texels, format_);
+        const glm::vec3 none = empty();
+        for (std::size_t i = 0; i < values.size(); ++i)
+            if (values[i] == glm::vec3(0))
+                texels[i] = none;
+            else if (!holdsDirections(kind_))
+                texels[i] = of(values[i]);
+    }
+
+private:
+    // Inlines the portable text into the loop, which the compiler otherwise does not vectorise.
+    [[gnu::flatten]] static void encode(std::span<const glm::vec3> directions, std::span<glm::vec3> texels,
+                                        f32::cotan_normal_format format)
+    {
+        Lanes3 in, out;
+        for (std::size_t first = 0; first < directions.size(); first += kLanes) {
+            const std::size_t count = std::min(kLanes, directions.size() - first);
+            for (std::size_t i = 0; i < count; ++i)
+                in.set(i, directions[first + i]);
+            for (std::size_t i = 0; i < kLanes; ++i)
+                out.set(i, f32::cotan_encode_texel(in.at(i), format));
+            for (std::size_t i = 0; i < count; ++i)
+                texels[first + i] = out.at(i);
+        }
+    }
+
+    // Of a map that holds no directions.
+    glm::vec3 of(glm::vec3 v) const
+    {
         if (kind_ == BakeKind::position)
             return isFloat_ ? box_.low + (v - 1.0f) * (box_.high - box_.low) : v - 1.0f;
         if (holdsColors(kind_))
@@ -147,8 +195,6 @@ public:
             return glm::vec3(v.x / unit_);
         return glm::vec3((v.x - low_) * scale_);
     }
-
-private:
     glm::vec3 stored(glm::vec3 linear) const
     {
         const auto of = [](float x) { return f32::cotan_linear_to_srgb(std::clamp(x, 0.0f, 1.0f)); };
@@ -173,29 +219,27 @@ private:
 
 Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as)
 {
-    Writer writer{makeImage(baked.width, baked.height, as.type), as.dither};
     const StoredValue stored(baked, kind, as);
-    parallelRanges<std::size_t>(0, baked.values.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i != end; ++i)
-            writer.put(i, stored(baked.values[i]));
+    const auto width = static_cast<std::size_t>(baked.width);
+    return imageOfRows(baked.width, baked.height, as.type, as.dither, [&](int y, std::span<glm::vec3> row) {
+        stored.row({&baked.values[std::size_t(y) * width], width}, row);
     });
-    return std::move(writer.image);
 }
 
 Image maskOf(const Baked& baked)
 {
-    Writer writer{makeImage(baked.width, baked.height, PixelType::unorm8), false};
-    for (std::size_t i = 0; i < baked.states.size(); ++i) {
-        const std::uint8_t s = baked.states[i];
-        writer.put(i,
-                   s & texelMissed           ? glm::vec3(1, 0, 0)
-                       : s & texelNegative   ? glm::vec3(0, 0.3f, 1)
-                       : s & texelOverlapped ? glm::vec3(1, 1, 0)
-                       : s & texelCovered    ? glm::vec3(0, 0.7f, 0)
-                       : s & texelTouched    ? glm::vec3(0, 0.35f, 0)
-                                             : glm::vec3(0));
-    }
-    return std::move(writer.image);
+    const auto color = [](std::uint8_t s) {
+        return s & texelMissed    ? glm::vec3(1, 0, 0)
+            : s & texelNegative   ? glm::vec3(0, 0.3f, 1)
+            : s & texelOverlapped ? glm::vec3(1, 1, 0)
+            : s & texelCovered    ? glm::vec3(0, 0.7f, 0)
+            : s & texelTouched    ? glm::vec3(0, 0.35f, 0)
+                                  : glm::vec3(0);
+    };
+    return imageOfRows(baked.width, baked.height, PixelType::unorm8, false, [&](int y, std::span<glm::vec3> row) {
+        for (std::size_t x = 0; x < row.size(); ++x)
+            row[x] = color(baked.states[std::size_t(y) * row.size() + x]);
+    });
 }
 
 } // namespace cotan

@@ -17,6 +17,7 @@ constexpr float kNearestDistance = 0.05f;              // of the diagonal of the
 constexpr float kLift = 1e-5f;                         // of the same diagonal
 constexpr float kThickness = 0.5f, kCurvature = 0.01f; // of the same diagonal
 constexpr float kEndless = 1e30f;                      // of rays
+constexpr double kGoldenAngle = 2.399963229728653;     // radians
 
 float diagonalOf(const HighSurface& high) { return glm::length(high.box().high - high.box().low); }
 
@@ -71,6 +72,11 @@ Baker::Baker(const LowSurface& low, const HighSurface& high, const BakeOptions& 
         : measured()                    ? options.starts->limit
                                         : kNearestDistance * diagonal_;
     lift_ = kLift * diagonal_;
+    const int rays = std::max(options.occlusionRays, options.samples * options.samples);
+    for (int i = 0; i < rays; ++i) {
+        const double r2 = (i + 0.5) / rays, a = i * kGoldenAngle;
+        around_.emplace_back(std::sqrt(r2) * std::cos(a), std::sqrt(r2) * std::sin(a), std::sqrt(1 - r2));
+    }
 }
 
 void Baker::aim(const LowPoints& points, std::span<const UvSample> samples, Probes& probes) const
@@ -258,13 +264,15 @@ void Baker::valuesOf(BakeKind kind, const LowPoints& points, const Probes& probe
 
 // For each hit: cosine-weighted directions on a golden-ratio spiral around the normal, times `side`, rotated by an
 // angle that depends on the texel. The nth of a texel's samples has every such direction whose number is n modulo their
-// number. Calls see(lane, ray, group that it may hit).
+// number. Calls see(lane, rays from the hit), which run against Probes::direction, and returns the number of rays.
 template<class See>
 std::size_t Baker::look(const Probes& probes, const Hits& hits, std::span<const glm::ivec2> rasterTexels, float side,
                         const See& see) const
 {
-    const int axis = options_.samples, samples = axis * axis, all = std::max(options_.occlusionRays, samples);
-    std::size_t rays = 0;
+    const int axis = options_.samples, samples = axis * axis, all = int(around_.size());
+    std::size_t count = 0;
+    Probes rays;
+    rays.reach.fill(kEndless);
     for (std::size_t lane = 0; lane < rasterTexels.size(); ++lane) {
         if (!hits.found(lane))
             continue;
@@ -276,40 +284,49 @@ std::size_t Baker::look(const Probes& probes, const Hits& hits, std::span<const 
         const auto towards = [&](glm::vec3 v) { return (glm::dot(v, out) < 0 ? -v : v) * side; };
         const glm::vec3 face = towards(hits.face.at(lane)), n = towards(hits.normal.at(lane));
         const glm::vec3 t = glm::normalize(glm::cross(otherAxis(n), n)), b = glm::cross(n, t);
+        const double rotation = double(pattern * 2654435769u) / 4294967296.0 * 2 * std::numbers::pi;
+        const float cosine = float(std::cos(rotation)), sine = float(std::sin(rotation));
+        const glm::vec3 u = t * cosine + b * sine, v = b * cosine - t * sine;
         const float length = glm::length(face);
         const glm::vec3 origin = where + (length > 0 ? face / length : n) * lift_;
-        const std::uint32_t only = options_.occluders == Occluders::matched ? probes.only[lane] : Probes::kAny;
-        const double rotation = double(pattern * 2654435769u) / 4294967296.0 * 2 * std::numbers::pi;
-        for (int i = within.y * axis + within.x; i < all; i += samples) {
-            const double r2 = (i + 0.5) / all, a = rotation + i * 2.399963229728653;
-            const float x = float(std::sqrt(r2) * std::cos(a)), y = float(std::sqrt(r2) * std::sin(a));
-            see(lane, {origin, t * x + b * y + n * float(std::sqrt(1 - r2)), 0, kEndless}, only);
-            ++rays;
+        rays.only.fill(options_.occluders == Occluders::matched ? probes.only[lane] : Probes::kAny);
+        for (std::size_t i = 0; i < kLanes; ++i)
+            rays.point.set(i, origin);
+        const int first = within.y * axis + within.x;
+        for (int i = first; i < all; i += samples) {
+            const glm::vec3& d = around_[std::size_t(i)];
+            rays.direction.set(rays.count++, -(u * d.x + v * d.y + n * d.z));
+            if (rays.count < kLanes && i + samples < all)
+                continue;
+            see(lane, rays);
+            count += rays.count;
+            rays.count = 0;
         }
     }
-    return rays;
+    return count;
 }
 
 std::size_t Baker::lookOut(const Probes& probes, const Hits& hits, std::span<const glm::ivec2> rasterTexels,
                            Around& around) const
 {
-    Lanes<int> looks{}, open{};
+    Lanes<int> looks{}, open{}, any;
     Lanes3 sums;
-    const std::size_t rays =
-        look(probes, hits, rasterTexels, 1, [&](std::size_t lane, const Ray& ray, std::uint32_t only) {
-            ++looks[lane];
-            if (high_.blocked(ray, only))
-                return;
-            ++open[lane];
-            sums.set(lane, sums.at(lane) + ray.direction);
-        });
+    const std::size_t count = look(probes, hits, rasterTexels, 1, [&](std::size_t lane, const Probes& rays) {
+        high_.anyBetween(rays, any, true);
+        looks[lane] += int(rays.count);
+        for (std::size_t i = 0; i < rays.count; ++i)
+            if (any[i] == 0) {
+                ++open[lane];
+                sums.set(lane, sums.at(lane) - rays.direction.at(i));
+            }
+    });
     for (std::size_t i = 0; i < kLanes; ++i) {
         around.openness[i] = float(open[i]) / float(std::max(looks[i], 1));
         const float length = glm::length(sums.at(i));
         const glm::vec3 n = hits.normal.at(i);
         around.open.set(i, length > 1e-3f ? sums.at(i) / length : glm::dot(n, probes.direction.at(i)) < 0 ? -n : n);
     }
-    return rays;
+    return count;
 }
 
 std::size_t Baker::lookIn(const Probes& probes, const Hits& hits, std::span<const glm::ivec2> rasterTexels,
@@ -317,15 +334,17 @@ std::size_t Baker::lookIn(const Probes& probes, const Hits& hits, std::span<cons
 {
     Lanes<int> looks{};
     Lanes<double> lengths{};
+    Lanes<float> found;
     const double longest = unitOf(BakeKind::thickness);
-    const std::size_t rays =
-        look(probes, hits, rasterTexels, -1, [&](std::size_t lane, const Ray& ray, std::uint32_t only) {
-            ++looks[lane];
-            lengths[lane] += std::min(high_.distanceTo(ray, only) + double(lift_), longest);
-        });
+    const std::size_t count = look(probes, hits, rasterTexels, -1, [&](std::size_t lane, const Probes& rays) {
+        high_.distances(rays, found);
+        looks[lane] += int(rays.count);
+        for (std::size_t i = 0; i < rays.count; ++i)
+            lengths[lane] += std::min(found[i] + double(lift_), longest);
+    });
     for (std::size_t i = 0; i < kLanes; ++i)
         around.thickness[i] = float(lengths[i] / std::max(looks[i], 1));
-    return rays;
+    return count;
 }
 
 } // namespace cotan

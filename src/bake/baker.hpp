@@ -57,7 +57,8 @@ private:
     const BakeOptions& options_;
     float distance_ = 0;
     float lift_ = 0;
-    float diagonal_ = 0; // of the high surface
+    float diagonal_ = 0;            // of the high surface
+    std::vector<glm::vec3> around_; // directions of look() around the z axis
 };
 
 } // namespace cotan

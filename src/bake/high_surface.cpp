@@ -277,13 +277,18 @@ void HighSurface::nearest(const Probes& probes, float lift, HighNormals normals,
     state_->findNormals(probes, normals, hits);
 }
 
+static Lanes<float> lengthsOf(const Probes& probes)
+{
+    Lanes<float> lengths;
+    for (std::size_t i = 0; i < kLanes; ++i)
+        lengths[i] = probes.before[i] + probes.reach[i];
+    return lengths;
+}
+
 void HighSurface::outermost(const Probes& probes, HighNormals normals, Hits& hits) const
 {
     const FilterContext context = filterContextFor(probes, state_->fronts, groups_);
-    Lanes<float> farthest;
-    for (std::size_t i = 0; i < kLanes; ++i)
-        farthest[i] = probes.before[i] + probes.reach[i];
-    Packet packet(probes, probes.before, -1, farthest);
+    Packet packet(probes, probes.before, -1, lengthsOf(probes));
     packet.trace(state_->embree.scene, context);
     for (std::size_t i = 0; i < probes.count; ++i) // a packet may lose a hit because of its other rays
         if (packet.valid[i] && !packet.found(i))
@@ -305,16 +310,22 @@ void HighSurface::outermost(const Probes& probes, HighNormals normals, Hits& hit
     state_->findNormals(probes, normals, hits);
 }
 
-void HighSurface::anyBetween(const Probes& probes, Lanes<int>& any) const
+void HighSurface::anyBetween(const Probes& probes, Lanes<int>& any, bool spread) const
 {
-    Lanes<float> farthest;
-    for (std::size_t i = 0; i < kLanes; ++i)
-        farthest[i] = probes.before[i] + probes.reach[i];
-    Packet packet(probes, probes.before, -1, farthest);
-    FilterContext context = filterContextFor(probes, state_->fronts, groups_);
+    Packet packet(probes, probes.before, -1, lengthsOf(probes));
+    FilterContext context = filterContextFor(probes, state_->fronts, groups_,
+                                             spread ? Coherence::incoherent : Coherence::coherent);
     occluded(packet.valid.data(), state_->embree.scene, context.query, packet.rays.ray);
     for (std::size_t i = 0; i < kLanes; ++i)
         any[i] = packet.valid[i] != 0 && packet.rays.ray.tfar[i] < 0; // Embree's mark for an occluded ray
+}
+
+void HighSurface::distances(const Probes& probes, Lanes<float>& found) const
+{
+    Packet packet(probes, probes.before, -1, lengthsOf(probes));
+    packet.trace(state_->embree.scene, filterContextFor(probes, state_->fronts, groups_, Coherence::incoherent));
+    for (std::size_t i = 0; i < kLanes; ++i)
+        found[i] = packet.found(i) ? packet.rays.ray.tfar[i] : std::numeric_limits<float>::infinity();
 }
 
 std::size_t HighSurface::countHits(const Ray& ray) const
@@ -334,16 +345,6 @@ std::size_t HighSurface::countHits(const Ray& ray) const
     RTCRay r = toEmbree(ray).ray;
     occluded(state_->embree.scene, counting.query, r);
     return counting.count;
-}
-
-float HighSurface::distanceTo(const Ray& ray, std::uint32_t only) const
-{
-    FilterContext context{RayQuery(Coherence::incoherent, only == Probes::kAny ? nullptr : keepOnly), nullptr,
-                          groups_.data()};
-    RTCRayHit r = toEmbree(ray);
-    r.ray.id = only;
-    intersect(state_->embree.scene, context.query, r);
-    return r.hit.geomID == RTC_INVALID_GEOMETRY_ID ? std::numeric_limits<float>::infinity() : r.ray.tfar;
 }
 
 bool HighSurface::blocked(const Ray& ray, std::uint32_t only) const

@@ -92,12 +92,12 @@ public:
     // For each probe, the first hit of one ray, which starts `before` in front of the point and ends `reach` behind it.
     // Triangles that face away from the start or from the low surface's normal count only if there is no other.
     void outermost(const Probes& probes, HighNormals normals, Hits& hits) const;
-    // Whether these rays hit anything, 1 or 0.
-    void anyBetween(const Probes& probes, Lanes<int>& any) const;
+    // Whether these rays hit anything, 1 or 0. spread: they run in all directions, as from one point.
+    void anyBetween(const Probes& probes, Lanes<int>& any, bool spread = false) const;
     // Whether the ray hits anything. only: as in Probes.
     bool blocked(const Ray& ray, std::uint32_t only = Probes::kAny) const;
-    // How far the ray runs until it hits anything; infinity if it does not.
-    float distanceTo(const Ray& ray, std::uint32_t only = Probes::kAny) const;
+    // How far these rays run until they hit anything; infinity if they do not. They may run in all directions.
+    void distances(const Probes& probes, Lanes<float>& found) const;
     // The number of triangles that the ray crosses.
     std::size_t countHits(const Ray& ray) const;
 

@@ -17,12 +17,12 @@ std::uint32_t HighSurface::groupOf(std::size_t) const { return 0; }
 void HighSurface::curve(int) {}
 bool HighSurface::isCurved() const { return false; }
 float HighSurface::curvatureAt(const Hits&, std::size_t) const { return 0; }
-float HighSurface::distanceTo(const Ray&, std::uint32_t) const { return 0; }
 glm::vec3 HighSurface::normalOf(const Hit&, HighNormals, glm::vec3) const { return glm::vec3(0); }
 Hit HighSurface::trace(const Ray&) const { return {}; }
 void HighSurface::nearest(const Probes&, float, HighNormals, Hits&) const {}
 void HighSurface::outermost(const Probes&, HighNormals, Hits&) const {}
-void HighSurface::anyBetween(const Probes&, Lanes<int>&) const {}
+void HighSurface::anyBetween(const Probes&, Lanes<int>&, bool) const {}
+void HighSurface::distances(const Probes&, Lanes<float>&) const {}
 bool HighSurface::blocked(const Ray&, std::uint32_t) const { return false; }
 std::size_t HighSurface::countHits(const Ray&) const { return 0; }
 HighSurface::Triangles HighSurface::triangles(std::size_t) const { return {}; }

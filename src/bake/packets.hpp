@@ -238,11 +238,12 @@ inline void keepFacing(const RTCFilterFunctionNArguments* a)
 
 // Sets a filter only if a probe is limited to a group: a filter costs a call for each candidate.
 inline FilterContext filterContextFor(const Probes& probes, const std::vector<float>& fronts,
-                                      const std::vector<std::uint32_t>& groups)
+                                      const std::vector<std::uint32_t>& groups,
+                                      Coherence coherence = Coherence::coherent)
 {
     const bool filtered = std::any_of(probes.only.begin(), probes.only.begin() + std::ptrdiff_t(probes.count),
                                       [](std::uint32_t only) { return only != Probes::kAny; });
-    return {RayQuery(Coherence::coherent, filtered ? keepOnly : nullptr), fronts.data(), groups.data()};
+    return {RayQuery(coherence, filtered ? keepOnly : nullptr), fronts.data(), groups.data()};
 }
 
 static_assert(Hits::kNothing == RTC_INVALID_GEOMETRY_ID && kLanes == 16);

@@ -129,9 +129,9 @@ def select(*things):
 
 
 def settings(**wanted):
-    """Sets the panel's settings; by default small 16-bit maps without padding."""
+    """Sets the panel's settings; by default small 16-bit maps of the texels' centres, without padding."""
     s = bpy.context.scene.cotan
-    for name, value in {"width": 64, "height": 64, "bits": "16", "padding": -1, **wanted}.items():
+    for name, value in {"width": 64, "height": 64, "bits": "16", "samples": "1", "padding": -1, **wanted}.items():
         setattr(s, name, value)
     return s
 

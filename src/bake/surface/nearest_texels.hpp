@@ -26,7 +26,7 @@ inline std::int64_t distance2(std::uint32_t a, std::uint32_t b, int width)
     return dx * dx + dy * dy;
 }
 
-// owner: width * height entries, row by row, fewer than kNoTexel: the texel's own index if it has a value, otherwise
+// owner: width * height entries, row by row, at most 65536 a side and fewer than kNoTexel: the texel's own index if it has a value, otherwise
 // kNoTexel. Afterwards every entry is the index of a nearby texel with a value. Two sweeps, down and up, propagate the
 // nearest texel to the eight neighbours (P.-E. Danielsson, Euclidean distance mapping, 1980); `first` applies to the
 // sweep down, the other asks the opposite neighbours in that order. Sometimes errs by a fraction of a texel. The image
@@ -36,30 +36,45 @@ inline void propagateNearest(std::span<std::uint32_t> owner, int width, int heig
     using Neighbours = std::array<glm::ivec2, 4>; // that the sweep down has visited
     const Neighbours neighbours = first == TieBreak::above ? Neighbours{{{0, -1}, {-1, -1}, {1, -1}, {-1, 0}}}
                                                            : Neighbours{{{-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
-    const auto index = [&](int x, int y) { return std::size_t(y) * std::size_t(width) + std::size_t(x); };
-    const auto ask = [&](int x, int y, int fromX, int fromY) {
+    // While they are compared, entries hold row and column in 16 bits each, which needs no division.
+    const auto eachOwner = [&](const auto& change) {
+        for (std::uint32_t& texel : owner)
+            texel = texel == kNoTexel ? texel : change(texel);
+    };
+    const auto w = std::uint32_t(width);
+    eachOwner([w](std::uint32_t texel) { return texel / w << 16 | texel % w; });
+    const auto ask = [&](int x, int y, std::uint32_t& mine, int fromX, int fromY) {
         if (fromX < 0 || fromX >= width || fromY < 0 || fromY >= height)
             return;
-        const std::uint32_t offered = owner[index(fromX, fromY)], self = std::uint32_t(index(x, y));
-        std::uint32_t& mine = owner[self];
-        if (offered == kNoTexel || offered == mine || mine == self)
-            return;
-        if (mine == kNoTexel || distance2(offered, self, width) < distance2(mine, self, width))
+        const std::uint32_t offered = owner[std::size_t(fromY) * w + std::size_t(fromX)];
+        const auto distance = [x, y](std::uint32_t to) {
+            const std::int64_t dx = std::int64_t(to & 0xffff) - x, dy = std::int64_t(to >> 16) - y;
+            return dx * dx + dy * dy;
+        };
+        if (offered != kNoTexel && offered != mine && (mine == kNoTexel || distance(offered) < distance(mine)))
             mine = offered;
     };
     // Updates row y from its neighbours, then in the opposite direction. step: 1 down and right, -1 up and left.
     const auto row = [&](int y, int step) {
+        std::uint32_t* const own = &owner[std::size_t(y) * w];
+        const auto update = [&](int x, std::span<const glm::ivec2> from) {
+            if (own[x] == (std::uint32_t(y) << 16 | std::uint32_t(x))) // has a value
+                return;
+            for (const glm::ivec2 d : from)
+                ask(x, y, own[x], x + step * d.x, y + step * d.y);
+        };
+        const glm::ivec2 ahead[] = {{1, 0}};
         const int from = step > 0 ? 0 : width - 1, to = step > 0 ? width : -1;
         for (int x = from; x != to; x += step)
-            for (const glm::ivec2 d : neighbours)
-                ask(x, y, x + step * d.x, y + step * d.y);
+            update(x, neighbours);
         for (int x = to - step; x != from - step; x -= step)
-            ask(x, y, x + step, y);
+            update(x, ahead);
     };
     for (int y = 0; y < height; ++y)
         row(y, 1);
     for (int y = height - 1; y >= 0; --y)
         row(y, -1);
+    eachOwner([w](std::uint32_t place) { return (place >> 16) * w + (place & 0xffff); });
 }
 
 } // namespace cotan
