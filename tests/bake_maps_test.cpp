@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -102,13 +103,28 @@ TEST(BakeMaps, raysThatFindTheSurfaceAreTracedOnceForAllMaps)
                                                BakeKind::position, BakeKind::objectNormal}));
     ASSERT_TRUE(several);
     EXPECT_EQ(several->maps.back().statistics.rays, alone);
-    // Occlusion and both bent normals share theirs: 64 a sample, as occlusion alone.
+    // Occlusion and both bent normals share theirs: 64 a texel, as occlusion alone.
     const std::size_t occlusion = oneMap(scene, scene, BakeKind::occlusion, options).statistics.rays;
     const auto around =
         bakeScene(scene, scene, optionsFor({BakeKind::occlusion, BakeKind::bentNormal, BakeKind::objectBentNormal}));
     ASSERT_TRUE(around);
     EXPECT_EQ(around->maps.front().statistics.rays, occlusion);
     EXPECT_GT(occlusion, alone + 16 * 16 * 64 - 1);
+}
+
+TEST(BakeMaps, theSamplesOfATexelShareItsRaysForOcclusion)
+{
+    // The torus covers all 16 x 16 texels, and each sample hits it.
+    const Scene scene = sceneOfMeshes({makeTorus(1, 0.4f, 32, 1, 1)});
+    for (const auto& [rays, samples, each] : {std::tuple(64, 1, 64), {64, 2, 64}, {65, 2, 65}, {64, 4, 64}, {9, 4, 16}})
+        for (const BakeKind kind : {BakeKind::occlusion, BakeKind::thickness}) {
+            BakeModelOptions options = optionsFor({});
+            options.bake.samples = samples;
+            options.bake.occlusionRays = rays;
+            const std::size_t alone = oneMap(scene, scene, BakeKind::normal, options).statistics.rays;
+            EXPECT_EQ(oneMap(scene, scene, kind, options).statistics.rays - alone, std::size_t(16 * 16 * each))
+                << rays << " rays, " << samples << " samples per axis";
+        }
 }
 
 TEST(BakeMaps, curvatureOfABallIsOneOverItsRadiusAndThatOfAHollowIsNegative)
