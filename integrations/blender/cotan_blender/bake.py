@@ -8,7 +8,7 @@ import threading
 import bpy
 import numpy as np
 
-from . import cages, images, meshes, nodes
+from . import cages, images, materials, meshes, nodes
 from .refused import Refused, packages
 from .settings import MAPS
 
@@ -88,9 +88,14 @@ def prepare(context, settings, pair):
         rays = cages.cage_for(settings, context.scene.render.bake, surface, low, pair.cage, depsgraph)
         matrix = low.evaluated_get(depsgraph).matrix_world.copy()
         positions, normals, triangles = meshes.joined(meshes.high_surfaces(pair.highs, depsgraph))
+        shown, notes = [word for word in materials.SHOWN if word in settings.maps], _notes_on(low, matrix)
+        if shown:
+            high, lacks = materials.model_of(context, pair.highs, depsgraph, shown)
+            notes += lacks
+        else:
+            high = packages().Mesh(positions, triangles, normals)
     surface = meshes.placed(surface, matrix, low.name)
     cotan = packages()
-    high = cotan.Mesh(positions, triangles, normals)
     common = {
         "size": (settings.width, settings.height),
         "frame": settings.frame,
@@ -98,13 +103,14 @@ def prepare(context, settings, pair):
         "bits": int(settings.bits),
         "samples": int(settings.samples),
         "padding": settings.padding,
+        "id_by": settings.id_by.lower(),
     }
     bakes, names = [], []
     parts = _slots_of(low, surface, settings.each_material)
-    for slots, shown in parts:
+    for slots, own in parts:
         material = low.material_slots[slots[0]].material if slots else None
         part = "" if len(parts) == 1 else f"_{material.name if material else slots[0]}"
-        chosen = surface.triangles[shown]
+        chosen = surface.triangles[own]
         _check_uv(low, surface.texcoords, chosen, surface.uv_map)
         mesh = cotan.Mesh(surface.positions, chosen, surface.normals, surface.texcoords)
         arguments = {"low": mesh, "high": high, **common, **rays}
@@ -117,7 +123,7 @@ def prepare(context, settings, pair):
             names.append(images.part_for(owner, name, names))
             path = images.file_for(settings, owner, name, names[-1])
             bakes[-1].maps.append(Map(name, owner, names[-1], kind, path))
-    return bakes, surface.uv_map, _notes_on(low, matrix)
+    return bakes, surface.uv_map, notes
 
 
 def _notes_on(low, matrix):
@@ -174,11 +180,14 @@ def _store(settings, low, bake, work, uv_map, outcome):
         if made.kind not in work.written:
             continue
         frame = settings.frame if made.kind in ("normal", "bent-normal") else ""
-        image, named_otherwise = images.stored(made, work.files[made.kind], frame)
+        space = "sRGB" if made.kind in materials.COLORS else "Non-Color"
+        image, named_otherwise = images.stored(made, work.files[made.kind], frame, space)
         if named_otherwise:
             outcome.notes.append(
                 f"The map '{made.name}' of '{low.name}' is named '{image.name}', and its file {made.part}.png"
             )
+        if work.baked[made.kind].ids:
+            image["cotan_ids"] = {name: "#%02x%02x%02x" % color for name, color in work.baked[made.kind].ids.items()}
         outcome.made.append(image)
         if made is bake.maps[0]:  # the same for all
             outcome.notes += _notes_of(work.baked[made.kind], image.name)
