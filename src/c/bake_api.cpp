@@ -1,7 +1,6 @@
 // cotan.h: baking, from arrays and from models.
 #include <algorithm>
 #include <cstddef>
-#include <cstdio>
 #include <cstring>
 
 #include "bake/bake_kinds.hpp"
@@ -203,9 +202,10 @@ void bakeInto(const Scene& low, HighModel high, const cotan_bake_options& o, std
     std::vector<std::string> colors;
     for (const BakedMap& map : baked.maps)
         for (const IdColor& id : map.ids) {
-            char color[16];
-            std::snprintf(color, sizeof color, "#%06x ", unsigned(id.color));
-            colors.push_back(color + oneLine(id.name));
+            std::string& line = colors.emplace_back("#");
+            for (int bit = 20; bit >= 0; bit -= 4)
+                line += "0123456789abcdef"[id.color >> bit & 15];
+            line += ' ' + oneLine(id.name);
         }
     giveText(joined(colors), ids);
     giveText(joined(baked.warnings), warnings);
