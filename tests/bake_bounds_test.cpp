@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 
@@ -50,7 +51,7 @@ TEST(BakeBounds, optionsAreAcceptedUpToTheirLimits)
         std::function<void(O&)> change;
         const char* message; // empty: accepted
     } cases[] = {
-        {[](O& o) { o.bake.width = o.bake.height = 65535; }, ""},
+        {[](O& o) { o.bake.width = o.bake.height = 65535, o.memory = SIZE_MAX; }, ""},
         {[](O& o) { o.bake.width = o.bake.height = 1; }, ""},
         {[](O& o) { o.bake.width = 65536; },
          "options.bake.width: expected a width and a height from 1 to 65535; found 65536x3"},

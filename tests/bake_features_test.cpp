@@ -254,7 +254,7 @@ TEST_F(BakeFeatures, allTilesAreBakedAsEachAlone)
     EXPECT_NE(none.err.find("no triangle lies on tile 1002"), std::string::npos) << none.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "n.1001.png")) << "it is known before the first bake";
     EXPECT_EQ(reportOf({"-o", "one.exr"})["warnings"][0],
-              "the low mesh also has triangles on tiles 1012: they are not baked (--udim all bakes them)");
+              "low.obj: the low mesh also has triangles on tiles 1012: they are not baked (--udim)");
     EXPECT_EQ(reportOf({"-o", "one.exr", "--udim", "1001"})["warnings"].size(), 0u); // it was chosen
     const ToolRun same = bake({"--high", "high.obj", "--low", "low.obj", "--size", "4x4", "--udim", "1001,1012", "-o",
                                "t_<UDIM>.png", "--mask", "t_<UDIM>.png"});

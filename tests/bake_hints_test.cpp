@@ -139,6 +139,47 @@ TEST(BakeHints, whatCrossesTheBorderOfATileIsNamedAndComesInWithWrap)
               "another");
 }
 
+TEST(BakeHints, trianglesThatNoMapShowsAreNamedUnlessTheTileWasChosen)
+{
+    const auto onTiles = [](const std::vector<glm::vec2>& moved) {
+        std::vector<Mesh> meshes;
+        for (std::size_t i = 0; i < moved.size(); ++i) {
+            meshes.push_back(rectangle({2 * float(i), 0, 0}, {1, 0, 0}, {0, 1, 0}));
+            for (glm::vec2& uv : meshes.back().texcoords[0])
+                uv += moved[i];
+        }
+        return sceneOfMeshes(std::move(meshes));
+    };
+    const auto warningsOf = [](const Scene& low, const std::vector<int>& tiles) {
+        BakeModelOptions options;
+        options.bake.frame = Frame::mikktspace;
+        options.bake.width = options.bake.height = 8;
+        options.tiles = tiles;
+        HighModel high;
+        high.scenes.push_back(low);
+        const auto baked = bakeModel(low, std::move(high), options);
+        EXPECT_TRUE(baked) << baked.error().message;
+        return baked ? baked->warnings : std::vector<std::string>{"none"};
+    };
+    using Lines = std::vector<std::string>;
+    const Scene two = onTiles({{0, 0}, {1, 0}, {0, -1}}); // here v runs down
+    EXPECT_EQ(warningsOf(two, {}),
+              Lines{"options.tiles: the low mesh also has triangles on tiles 1002, 1011: they are not baked"});
+    for (const std::vector<int>& chosen : {std::vector{1001}, {1002}, {1001, 1002, 1011}})
+        EXPECT_EQ(warningsOf(two, chosen), Lines()) << chosen.front();
+    EXPECT_EQ(warningsOf(onTiles({{0, 0}, {0, 0}}), {}), Lines());
+    EXPECT_EQ(
+        warningsOf(onTiles({{0, 0}, {-1, 0}}), {}),
+        Lines{"2 of 4 triangles of the low mesh lie at least in part outside of the tiles 1001 to 1999: nothing is "
+              "baked for them there"});
+    std::vector<glm::vec2> ten;
+    for (int i = 0; i < 10; ++i)
+        ten.emplace_back(i, 0);
+    EXPECT_EQ(warningsOf(onTiles(ten), {})[0],
+              "options.tiles: the low mesh also has triangles on tiles 1002, 1003, 1004, 1005, 1006, 1007, 1008, 1009, "
+              "...: they are not baked");
+}
+
 // The two words of each pair; one pair needs no matching.
 TEST(BakeHints, namesThatPairAreNamedWithoutMatching)
 {

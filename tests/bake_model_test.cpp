@@ -259,7 +259,8 @@ TEST(BakeModel, errorsOfOptionsBeginWithTheirNames)
     EXPECT_EQ(errorWith([](O& o, H&) { o.bake.occlusionRays = 0; }),
               "options.bake.occlusionRays: expected 1 to 65536 rays for occlusion; found 0");
     EXPECT_EQ(errorWith([](O& o, H&) { o.bake.cageReach = NAN; }), "options.cageReach: expected 0 to 1e+17; found nan");
-    EXPECT_EQ(errorWith([](O& o, H&) { o.tiles = {}; }), "options.tiles: expected one tile or more; found none");
+    EXPECT_EQ(errorWith([](O& o, H&) { o.types.resize(2); }),
+              "options.types: expected none, or one for each of the maps; found 2");
     EXPECT_EQ(errorWith([](O& o, H&) { o.tiles = {1000}; }),
               "options.tiles: expected numbers of at least 1001; found 1000");
     EXPECT_EQ(errorWith([](O&, H& h) { h.maps.resize(2); }),

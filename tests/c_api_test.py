@@ -295,6 +295,16 @@ if call("cotan_bake", c.byref(low), c.byref(high), c.byref(options), c.byref(bak
     call("cotan_bake_models", models[0], c.c_size_t(1), c.byref(models[1]), c.byref(options), c.byref(baked_map), None, c.byref(lines))
     assert bytes(pixels8) == pixels
     cotan.cotan_bytes_free(lines)
+    # Two maps of one trace, of 8 and 16 bits.
+    pixels16, results = (c.c_uint16 * (16 * 16 * 4))(), (BakeResult(), BakeResult())
+    maps = (c.POINTER(ImageView) * 2)(c.pointer(ImageView(16, 16, 16, c.cast(pixels16, c.c_void_p))), c.pointer(baked_map))
+    filled = (c.POINTER(BakeResult) * 2)(*map(c.pointer, results))
+    kinds, ids = (text * 2)(b"ao", b"normal"), c.c_void_p()
+    call("cotan_bake_maps", models[0], c.c_size_t(1), c.byref(models[1]), c.byref(options), c.c_size_t(2), kinds, maps, filled, c.byref(ids), None)
+    assert bytes(pixels8) == pixels and set(pixels16) == {65535}, "the plane is open to the sky"
+    assert filled[0][0].covered == filled[1][0].covered == 256 and filled[0][0].rays == filled[1][0].rays
+    assert cotan.cotan_bytes_size(ids) == 0
+    cotan.cotan_bytes_free(ids)
     for model in models:
         cotan.cotan_model_free(model)
     # Meshes whose names pair, and the options that follow the names.

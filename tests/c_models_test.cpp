@@ -11,6 +11,7 @@
 #include <numbers>
 #include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cotan.h"
@@ -205,6 +206,169 @@ TEST(CModels, bakeOptionsAreCheckedAgainstTheirBounds)
     }
     result.size = offsetof(cotan_bake_result, further) - 1;
     expectError(cotan_bake(&mesh, &mesh, nullptr, &map, &result, why, sizeof why), "result.size: expected ");
+}
+
+// A model of the rectangle's left and right half, which lean by 0.1 and 0.2 towards +x, and rise with x.
+struct Halves {
+    cotan_model* model = nullptr;
+    Halves()
+    {
+        float positions[2][12], normals[2][12];
+        cotan_mesh meshes[2];
+        for (int half = 0; half < 2; ++half) {
+            const float rise = half == 0 ? 0.1f : 0.2f, length = std::sqrt(1 + rise * rise);
+            for (int v = 0; v < 4; ++v) {
+                const float x = kPositions[3 * v] / 2 + float(half);
+                const float position[] = {x, kPositions[3 * v + 1], 0.02f + rise * (x - float(half)) / 2};
+                const float normal[] = {-rise / 2 / length, 0, 1 / length};
+                std::copy(position, position + 3, &positions[half][3 * v]);
+                std::copy(normal, normal + 3, &normals[half][3 * v]);
+            }
+            meshes[half] = {sizeof(cotan_mesh), 4, positions[half], normals[half], nullptr, 6, kIndices};
+        }
+        const cotan_mesh* const both[] = {&meshes[0], &meshes[1]};
+        const char* const names[] = {"left", "right"};
+        EXPECT_EQ(cotan_model_of_meshes(2, both, names, &model, why, sizeof why), COTAN_OK) << why;
+    }
+    ~Halves() { cotan_model_free(model); }
+};
+
+cotan_model* modelOf(const cotan_mesh& mesh)
+{
+    const cotan_mesh* const meshes[] = {&mesh};
+    cotan_model* model = nullptr;
+    EXPECT_EQ(cotan_model_of_meshes(1, meshes, nullptr, &model, why, sizeof why), COTAN_OK) << why;
+    return model;
+}
+
+// An image of 6 x 4 whose bytes are all 77.
+struct Canvas {
+    std::vector<unsigned char> bytes = std::vector<unsigned char>(6 * 4 * 16, 77);
+    cotan_image_view view;
+    explicit Canvas(int bits) : view{sizeof view, 6, 4, bits, bytes.data()} {}
+};
+
+TEST(CModels, severalMapsOfOneTraceAreAsEachAlone)
+{
+    const Halves high;
+    cotan_model* const low = modelOf(rectangle());
+    const cotan_model* const highs[] = {high.model, high.model}; // the second covers the first
+    const char* const kinds[] = {"normal", "ao", "B=height,G=ao,A=0.5", "id", "curvature", "orm"};
+    const std::size_t count = 5; // orm needs materials
+    cotan_bake_options options = COTAN_INIT(cotan_bake_options);
+    std::vector<double> shares;
+    options.id_by = "object", options.samples = 1, options.curvature_radius = 3, options.threads = 1;
+    options.user = &shares;
+    options.progress = [](void* user, double done) {
+        static_cast<std::vector<double>*>(user)->push_back(done);
+        return 0;
+    };
+    Canvas canvases[] = {Canvas(8), Canvas(16), Canvas(8), Canvas(8), Canvas(32)};
+    cotan_image_view* views[count];
+    cotan_bake_result results[count];
+    cotan_bake_result* wanted[count];
+    for (std::size_t i = 0; i < count; ++i) {
+        results[i] = COTAN_INIT(cotan_bake_result);
+        views[i] = &canvases[i].view;
+        wanted[i] = i == 2 ? nullptr : &results[i];
+    }
+    cotan_bytes *ids = nullptr, *warnings = nullptr;
+    const cotan_status baked =
+        cotan_bake_maps(low, 2, highs, &options, count, kinds, views, wanted, &ids, &warnings, why, sizeof why);
+    if (baked == COTAN_UNAVAILABLE) {
+        cotan_model_free(low);
+        GTEST_SKIP() << why;
+    }
+    ASSERT_EQ(baked, COTAN_OK) << why;
+    EXPECT_EQ(takeText(ids), "#800000 left\n#008000 right"); // labels 1 and 2 of PASCAL VOC
+    EXPECT_EQ(takeText(warnings), "");
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()) && !shares.empty() && shares.back() == 1) << "once";
+    EXPECT_EQ(results[0].unit, 0);
+    EXPECT_EQ(results[4].unit, 3);
+    std::size_t raysAlone[count] = {};
+    for (std::size_t i = 0; i < count; ++i) {
+        Canvas alone(canvases[i].view.bits);
+        cotan_bake_result result = COTAN_INIT(cotan_bake_result);
+        options.kind = kinds[i];
+        ASSERT_EQ(cotan_bake_models(low, 2, highs, &options, &alone.view, &result, nullptr, why, sizeof why), COTAN_OK)
+            << why;
+        EXPECT_EQ(alone.bytes, canvases[i].bytes) << kinds[i];
+        EXPECT_NE(alone.bytes, Canvas(8).bytes) << kinds[i];
+        raysAlone[i] = result.rays;
+    }
+    EXPECT_EQ(results[0].rays, results[1].rays);
+    EXPECT_EQ(results[0].rays, raysAlone[1]) << "as many as for occlusion alone";
+    EXPECT_GT(raysAlone[0], 0u);
+
+    // A null stands for options.kind; another size of the struct is that of an older caller.
+    Canvas first(8), second(8);
+    cotan_image_view* both[] = {&first.view, &second.view};
+    const char* words[] = {"ao", nullptr};
+    options.kind = "normal", options.progress = nullptr;
+    const auto bake = [&](std::size_t maps) {
+        return cotan_bake_maps(low, 2, highs, &options, maps, words, both, nullptr, nullptr, nullptr, why, sizeof why);
+    };
+    EXPECT_EQ(bake(2), COTAN_OK) << why;
+    EXPECT_EQ(second.bytes, canvases[0].bytes);
+    first = Canvas(8), second = Canvas(8);
+    first.view.pixels = first.bytes.data(), second.view.pixels = second.bytes.data();
+    options.progress = [](void*, double) { return 1; };
+    EXPECT_EQ(bake(2), COTAN_STOPPED);
+    options.progress = nullptr;
+    expectError(bake(0), "map_count: expected 1 or more");
+    options.kind = "x";
+    expectError(bake(2), "options.kind: expected normal, ");
+    words[1] = "x";
+    expectError(bake(2), "kinds[1]: expected normal, object-normal, ");
+    words[1] = "R=normal";
+    expectError(bake(2), "kinds[1]: R: expected a map of one value per texel (");
+    words[1] = "occlusion";
+    expectError(bake(2), "kinds[1]: expected each map once, found 'ao' twice");
+    words[1] = "orm";
+    expectError(bake(2), "left: expected a map or numbers of roughness and metallic", COTAN_INPUT);
+    words[1] = "normal";
+    std::swap(second.view.width, second.view.height);
+    expectError(bake(2), "maps[1]: expected 6 x 4 pixels as maps[0], found 4 x 6");
+    second.view.bits = 7;
+    expectError(bake(2), "maps[1].bits: expected 8, 16 or 32, found 7");
+    both[1] = nullptr;
+    expectError(bake(2), "maps[1]: expected a struct, found null");
+    results[1].size = 8;
+    expectError(cotan_bake_maps(low, 2, highs, nullptr, 2, words, views, wanted, nullptr, nullptr, why, sizeof why),
+                "results[1].size: expected ");
+    expectError(cotan_bake_maps(low, 2, highs, nullptr, 1, nullptr, both, nullptr, nullptr, nullptr, why, sizeof why),
+                "kinds: expected an array, found null");
+    expectError(cotan_bake_maps(low, 2, highs, nullptr, 1, words, nullptr, nullptr, nullptr, nullptr, why, sizeof why),
+                "maps: expected an array, found null");
+    EXPECT_EQ(first.bytes, Canvas(8).bytes) << "unwritten after errors";
+    EXPECT_EQ(second.bytes, Canvas(8).bytes) << "unwritten after errors";
+    cotan_model_free(low);
+}
+
+TEST(CModels, trianglesOnOtherTilesThanTheBakedOneAreNamed)
+{
+    const Halves high;
+    const float uvs[] = {0, 1, 2, 1, 2, 0, 0, 0}; // of the rectangle, on two tiles
+    cotan_mesh mesh = rectangle();
+    mesh.texcoords = uvs;
+    cotan_model* const low = modelOf(mesh);
+    Canvas canvas(8);
+    const cotan_model* const highs[] = {high.model};
+    for (const auto& [tile, said] :
+         {std::pair(0, "options.tile: the low mesh also has triangles on tiles 1002: they are not baked"),
+          {1001, ""},
+          {1002, ""}}) {
+        cotan_bake_options options = COTAN_INIT(cotan_bake_options);
+        options.tile = tile, options.samples = 1;
+        cotan_bytes* warnings = nullptr;
+        const cotan_status baked =
+            cotan_bake_models(low, 1, highs, &options, &canvas.view, nullptr, &warnings, why, sizeof why);
+        if (baked == COTAN_UNAVAILABLE)
+            break;
+        ASSERT_EQ(baked, COTAN_OK) << why;
+        EXPECT_EQ(takeText(warnings), said) << tile;
+    }
+    cotan_model_free(low);
 }
 
 TEST(CModels, lintAndConvertOptionsAreCheckedAgainstTheirBounds)

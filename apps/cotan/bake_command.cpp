@@ -123,33 +123,15 @@ Status writeMaps(const BakeJob& job, const BakeFiles& files, OpenBake& open, con
     return commitTogether(*pending);
 }
 
-// Lists tiles, the first ones if there are many.
-std::string listOf(const std::vector<int>& tiles)
-{
-    constexpr std::size_t kShown = 8;
-    const auto shown = std::span(tiles).first(std::min(tiles.size(), kShown));
-    return fmt::format("{}{}", fmt::join(shown, ", "), tiles.size() > kShown ? ", ..." : "");
-}
-
-// The tiles to bake, of those that the low mesh covers. Appends warnings of triangles that are on none of them, and
-// plans the files if they were not known before. Errors: those of planOutputs; ErrorKind::input if there is no tile.
+// The tiles to bake, of those that the low mesh covers. Plans the files if they were not known before. Errors: those of
+// planOutputs; ErrorKind::input if there is no tile.
 Result<std::vector<int>> chooseTiles(const BakeJob& job, const MapJob& one, const LowSurface& low,
                                      std::vector<std::string>& warnings)
 {
-    std::size_t outside = 0;
-    const std::vector<int> there = tilesOf(low, &outside);
+    const std::vector<int> there = tilesOf(low);
     const std::vector<int>& wanted = job.allTiles ? there : job.options.tiles;
-    std::vector<int> left;
-    std::ranges::copy_if(there, std::back_inserter(left),
-                         [&](int tile) { return std::ranges::find(wanted, tile) == wanted.end(); });
-    if (!job.choosesTiles && !left.empty() && left.size() < there.size()) // else baking finds nothing
-        warnings.push_back(
-            fmt::format("the low mesh also has triangles on tiles {}: they are not baked (--udim all bakes them){}",
-                        listOf(left), one.files.verify.empty() ? "" : "; --verify shows them with this map, repeated"));
-    if (outside > 0)
-        warnings.push_back(fmt::format("{} of {} triangles of the low mesh lie at least in part outside of the tiles "
-                                       "1001 to 1999: nothing is baked for them there",
-                                       outside, low.triangleCount()));
+    if (!job.choosesTiles && there.size() > 1 && !one.files.verify.empty())
+        warnings.push_back("--verify: what lies on other tiles shows the map of tile 1001, repeated");
     for (const int tile : wanted)
         if (wanted.size() > 1 && std::ranges::find(there, tile) == there.end())
             return inputError(

@@ -106,10 +106,11 @@ Status parseTiles(const std::string& words, BakeJob& job)
 {
     job.choosesTiles = !words.empty();
     job.allTiles = words == kAllTiles;
-    if (job.allTiles || !job.choosesTiles)
-        return Done{};
     std::vector<int>& tiles = job.options.tiles;
-    tiles.clear();
+    if (job.allTiles || !job.choosesTiles) {
+        tiles = {kFirstUdim};
+        return Done{};
+    }
     for (const std::string& word : splitAtCommas(words)) {
         int tile = 0;
         if (!parseNumber(word, tile) || tile < kFirstUdim || tile > kLastUdim)

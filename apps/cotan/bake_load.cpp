@@ -221,6 +221,8 @@ Result<PreparedMap> prepareMap(const BakeJob& job, OpenBake& open, const std::st
 {
     SplitScene split = object.empty() ? SplitScene{std::move(open.low), {}} : splitObject(open.low, object);
     BakeModelOptions options = open.options;
+    if (!job.choosesTiles)
+        options.tiles = {};
     options.others = object.empty() ? nullptr : &split.others;
     options.cage = open.cage ? &*open.cage : nullptr;
     auto setup = open.detailed ? prepareBake(split.object, open.detailed, options)
@@ -229,7 +231,8 @@ Result<PreparedMap> prepareMap(const BakeJob& job, OpenBake& open, const std::st
         return withBakeOptionNames(job, setup.error());
     std::vector<std::string> warnings;
     for (const std::string& line : setup->warnings)
-        warnings.push_back(withOptionNames({.message = line, .field = line.substr(0, line.find(':'))}).message);
+        warnings.push_back(
+            withBakeOptionNames(job, {.message = line, .field = line.substr(0, line.find(':'))}).message);
     return PreparedMap{std::move(split.object), std::move(*setup), std::move(warnings)};
 }
 

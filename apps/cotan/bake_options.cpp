@@ -173,7 +173,7 @@ Result<BakeJob> bakeJobOf(const BakeCommandOptions& o)
     BakeModelOptions& options = job.options;
     options.mask = !job.files.mask.empty();
     options.bake.threads = o.threads;
-    options.memory = (job.memory != kDefaultMemory ? std::size_t(job.memory) : megabytesHere()) << 20;
+    options.memory = job.memory != kDefaultMemory ? std::size_t(job.memory) << 20 : 0;
     COTAN_CHECK(checkOutputs(job));
     COTAN_TRY(size, parseSize(o.size));
     options.bake.width = size->width;

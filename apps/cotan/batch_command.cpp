@@ -10,6 +10,7 @@
 #include "commands.hpp"
 #include "core/try.hpp"
 #include "files/file_registry.hpp"
+#include "files/machine_memory.hpp"
 #include "files/output.hpp"
 #include "loading.hpp"
 
@@ -61,7 +62,7 @@ RunOptions runOptions(const BatchOptions& o)
     RunOptions run = o.run;
     run.processes = o.processes > 0 ? std::size_t(o.processes) : cores;
     run.threads = int(std::max<std::size_t>(1, (o.threads > 0 ? std::size_t(o.threads) : cores) / run.processes));
-    run.megabytes = o.memory >= 0 ? std::size_t(o.memory) : megabytesHere() / run.processes;
+    run.megabytes = o.memory >= 0 ? std::size_t(o.memory) : std::size_t(machineMemory() / (1 << 20)) / run.processes;
     return run;
 }
 

@@ -1,9 +1,6 @@
 #include "loading.hpp"
 
-#include <algorithm>
 #include <string_view>
-
-#include <unistd.h>
 
 #include "core/named_values.hpp"
 #include "cotan/image.hpp"
@@ -40,12 +37,6 @@ Result<Image> readImageWithin(int memory, const std::filesystem::path& file)
 {
     auto image = readImage(file, limitsFor(memory));
     return image ? std::move(image) : Result<Image>(withOptionNames(image.error()));
-}
-
-std::size_t megabytesHere()
-{
-    const double pages = double(::sysconf(_SC_PHYS_PAGES)), bytes = double(::sysconf(_SC_PAGESIZE));
-    return std::size_t(std::max(0.0, pages * bytes / (1 << 20)));
 }
 
 Result<Scene> loadWithProgress(const CommonOptions& common, const LoadLimits& limits, const std::string& file)

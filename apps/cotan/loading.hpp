@@ -21,9 +21,6 @@ Result<Scene> loadSceneWithin(const LoadLimits& limits, const std::filesystem::p
 Result<Scene> loadSceneWithin(int memory, const std::filesystem::path& file, Pixels pixels = Pixels::all);
 Result<Image> readImageWithin(int memory, const std::filesystem::path& file);
 
-// The memory of this machine, in MiB.
-std::size_t megabytesHere();
-
 // loadSceneWithin with a progress line.
 Result<Scene> loadWithProgress(const CommonOptions& common, const LoadLimits& limits, const std::string& file);
 

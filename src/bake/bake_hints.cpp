@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -152,6 +154,19 @@ std::vector<std::string> bakeHints(const LowSurface& low, const HighSurface& hig
     if (std::ranges::any_of(kinds, [](BakeKind kind) { return kind == BakeKind::normal; }))
         if (const std::size_t hard = unsplitHardEdges(low.positions, low.normals, low.texcoords, low.indices); hard > 0)
             lines.push_back(fmt::format("{} {}", hard, kHardEdgeAdvice));
+    std::size_t outside = 0;
+    std::vector<int> others = tilesOf(low, &outside);
+    const bool bakesOne = options.tiles.empty() && std::erase(others, kFirstUdim) > 0; // else nothing is found
+    constexpr std::size_t kShown = 8;
+    if (bakesOne && !others.empty())
+        lines.push_back(fmt::format("options.tiles: the low mesh also has triangles on tiles {}{}: they are not baked",
+                                    fmt::join(std::span(others).first(std::min(others.size(), kShown)), ", "),
+                                    others.size() > kShown ? ", ..." : ""));
+    if (outside > 0)
+        lines.push_back(
+            fmt::format("{} of {} triangles of the low mesh lie at least in part outside of the tiles {} to "
+                        "{}: nothing is baked for them there",
+                        outside, low.triangleCount(), kFirstUdim, kLastUdim));
     if (const auto tile = options.wrap ? std::nullopt : flatTileOf(low))
         if (std::string line = crossing(*tile, high.box()); !line.empty())
             lines.push_back(std::move(line));

@@ -20,7 +20,7 @@ std::optional<FlatTile> flatTileOf(const LowSurface& low);
 void repeatAround(const FlatTile& tile, HighModel& high);
 
 // One line for each thing that looks wrong: models that are exchanged, or of different units; hard edges that uv do not
-// split; a tile that needs options.wrap. bake: the options as derived. Lines about an option begin with its name.
+// split; triangles that no map shows; a tile that needs options.wrap. Lines about an option begin with its name.
 std::vector<std::string> bakeHints(const LowSurface& low, const HighSurface& high, const BakeModelOptions& options,
                                    const std::vector<BakeKind>& kinds);
 

@@ -1,7 +1,6 @@
 #include "bake/bake_kinds.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 #include <fmt/format.h>
 
@@ -82,29 +81,6 @@ Result<PackedMap> parsePackedMap(std::string_view text)
     if (std::none_of(map.kinds.begin(), map.kinds.end(), [](const auto& kind) { return kind.has_value(); }))
         return usageError(fmt::format("expected a map in one of the channels; found constants only: '{}'", text));
     return map;
-}
-
-Image packMaps(std::span<const BakedMap> maps, const PackedMap& packed)
-{
-    const Image& like = maps.front().image;
-    Image image = makeImage(like.width, like.height, like.type);
-    const std::size_t size = bytesPerComponent(like.type);
-    for (std::size_t channel = 0; channel < 4; ++channel) {
-        const BakedMap* source = nullptr;
-        for (const BakedMap& map : maps)
-            if (packed.kinds[channel] == map.kind)
-                source = &map;
-        const float constant = packed.constants[channel];
-        const auto eight = std::uint8_t(constant * 255 + 0.5f);
-        const auto sixteen = std::uint16_t(constant * 65535 + 0.5f);
-        const void* const stored = like.type == PixelType::unorm8 ? static_cast<const void*>(&eight)
-            : like.type == PixelType::unorm16                     ? static_cast<const void*>(&sixteen)
-                                                                  : &constant;
-        const auto* from = source ? source->image.data.data() : static_cast<const std::byte*>(stored);
-        for (std::size_t i = 0; i < image.pixelCount(); ++i)
-            std::memcpy(&image.data[(4 * i + channel) * size], from + (source ? 4 * i * size : 0), size);
-    }
-    return image;
 }
 
 } // namespace cotan

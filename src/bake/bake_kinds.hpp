@@ -1,7 +1,6 @@
 // The names of the kinds of maps, for all who offer them.
 #pragma once
 
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -45,8 +44,5 @@ std::vector<BakeKind> kindsOf(const BakeModelOptions& options);
 // Parses "R=ao,G=roughness,B=metallic,A=1", with "NAME:" before it for another name than "packed", or "orm", which is
 // "orm:R=ao,G=roughness,B=metallic". Channels that are not given are 0, alpha 1. Errors: ErrorKind::usage.
 Result<PackedMap> parsePackedMap(std::string_view text);
-
-// The channels of maps of one value per texel as one image. maps: of one tile, with each kind that is packed.
-Image packMaps(std::span<const BakedMap> maps, const PackedMap& packed);
 
 } // namespace cotan

@@ -2,7 +2,6 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <iterator>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -16,6 +15,7 @@
 #include "core/try.hpp"
 #include "cotan/covector.hpp"
 #include "cotan/maps.hpp"
+#include "files/machine_memory.hpp"
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
 #include "scene/parts.hpp"
@@ -36,6 +36,16 @@ template<class... Found> Error wrong(const char* option, fmt::format_string<Foun
     return about(option, usageError(fmt::format(text, std::forward<Found>(found)...)));
 }
 
+// How each map is stored: those of the kinds, then the packed ones.
+std::vector<StoredAs> storedOf(const BakeModelOptions& options)
+{
+    const bool onlyOne = options.kinds.empty() && options.packed.empty();
+    std::vector<StoredAs> stored(options.kinds.size() + options.packed.size() + onlyOne, options.stored);
+    for (std::size_t i = 0; i < std::min(stored.size(), options.types.size()); ++i)
+        stored[i].type = options.types[i];
+    return stored;
+}
+
 Status checkRanges(const Scene& low, const BakeModelOptions& options)
 {
     const BakeOptions& b = options.bake;
@@ -48,8 +58,6 @@ Status checkRanges(const Scene& low, const BakeModelOptions& options)
          {std::pair(b.frame, "options.bake.frame"), {options.highFrame, "options.highFrame"}})
         if (!isFrame(int(frame)))
             return wrong(what, "expected 0 to {}; found {}", kFrameCount - 1, int(frame));
-    if (options.tiles.empty())
-        return wrong("options.tiles", "expected one tile or more; found none");
     if (b.occlusionRays < 1 || b.occlusionRays > kMaxOcclusionRays)
         return wrong("options.bake.occlusionRays", "expected 1 to {} rays for occlusion; found {}", kMaxOcclusionRays,
                      b.occlusionRays);
@@ -78,6 +86,8 @@ Status checkRanges(const Scene& low, const BakeModelOptions& options)
                 return wrong("options.packed", "expected maps of one value per texel; found {}",
                              wordOf(kBakeKinds, *kind));
     }
+    if (!options.types.empty() && options.types.size() != storedOf(options).size())
+        return wrong("options.types", "expected none, or one for each of the maps; found {}", options.types.size());
     if (options.material >= int(low.materials.size()))
         return wrong("options.material", "expected 0 to {}; found {}", int(low.materials.size()) - 1, options.material);
     return Done{};
@@ -321,6 +331,8 @@ Result<BakeSetup> prepared(const Scene& low, const BakeModelOptions& options, bo
     }
     for (std::string& hint : bakeHints(setup.low, setup.high, options, kindsOf(options)))
         setup.warnings.push_back(std::move(hint));
+    if (setup.options.tiles.empty())
+        setup.options.tiles = {kFirstUdim};
     const LowRest rest = restOf(low, options, setup.options.matchByName);
     COTAN_CHECK(measureRayStarts(setup.low, setup.high, bake, rest));
     return setup;
@@ -330,16 +342,19 @@ Result<BakeSetup> prepared(const Scene& low, const BakeModelOptions& options, bo
 
 Status checkMapMemory(const BakeModelOptions& options)
 {
-    const std::size_t kinds = kindsOf(options).size(), image = 4 * bytesPerComponent(options.stored.type);
-    const std::size_t perTexel = kinds * (sizeof(glm::vec3) + sizeof(std::uint8_t) + image) // values, states, images
-        + options.packed.size() * image + (options.mask ? 4 : 0) + sizeof(std::uint32_t);   // nearest, for padding
+    const std::size_t kinds = kindsOf(options).size();
+    std::size_t perTexel = kinds * (sizeof(glm::vec3) + sizeof(std::uint8_t)) // values and states
+        + (options.packed.empty() ? 0 : 4 * sizeof(float))                    // the image of a channel
+        + (options.mask ? 4 : 0) + sizeof(std::uint32_t);                     // nearest, for padding
+    for (const StoredAs& stored : storedOf(options))
+        perTexel += 4 * bytesPerComponent(stored.type);
     const double bytes = double(options.bake.width) * options.bake.height * double(perTexel);
+    const double limit = options.memory != 0 ? double(options.memory) : machineMemory();
     constexpr double kMiB = 1 << 20;
-    if (options.memory == 0 || bytes <= double(options.memory))
+    if (limit == 0 || bytes <= limit)
         return Done{};
     return memoryError(fmt::format("{} maps of {}x{} take {:.0f} MiB together; the limit is {:.0f} MiB", kinds,
-                                   options.bake.width, options.bake.height, std::ceil(bytes / kMiB),
-                                   double(options.memory) / kMiB));
+                                   options.bake.width, options.bake.height, std::ceil(bytes / kMiB), limit / kMiB));
 }
 
 Result<std::shared_ptr<const DetailedSurface>> openDetailed(HighModel high, const BakeModelOptions& options)
@@ -413,37 +428,35 @@ Result<std::vector<BakedMap>> bakeTile(const BakeSetup& setup, int tile, const P
     if (setup.options.padding >= 0)
         padCharts(*baked, setup.options.padding);
     statistics.padSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    std::vector<BakedMap> maps;
-    for (std::size_t i = 0; i < kinds.size(); ++i) {
-        Baked& one = (*baked)[i];
-        maps.push_back({.tile = tile,
-                        .kind = kinds[i],
-                        .image = storeBaked(one, kinds[i], setup.options.stored),
-                        .box = one.box,
-                        .unit = one.unit,
-                        .ids = kinds[i] == BakeKind::id ? options.highMaterials->ids() : std::vector<IdColor>(),
-                        .format = storedFormat(kinds[i], setup.options.stored.format),
+    const BakedMap each{.tile = tile,
+                        .image = {},
+                        .box = baked->front().box,
                         .statistics = statistics,
                         .problems = problems,
-                        .verdict = verdictOf(problems, statistics)});
+                        .verdict = verdictOf(problems, statistics)};
+    const std::vector<StoredAs> stored = storedOf(setup.options);
+    const std::size_t packedCount = setup.options.packed.size(), unpacked = stored.size() - packedCount;
+    std::vector<BakedMap> maps(stored.size(), each);
+    for (std::size_t i = 0; i < packedCount; ++i) { // first, while all values are there
+        const PackedMap& packed = setup.options.packed[i];
+        BakedMap& map = maps[unpacked + i];
+        map.kind = **std::ranges::find_if(packed.kinds, [](const auto& kind) { return kind.has_value(); });
+        map.packed = packed;
+        map.image = packMaps(*baked, kinds, packed, stored[unpacked + i]);
+    }
+    for (std::size_t i = 0; i < unpacked; ++i) {
+        Baked& one = (*baked)[i];
+        BakedMap& map = maps[i];
+        map.kind = kinds[i];
+        map.image = storeBaked(one, kinds[i], stored[i]);
+        map.unit = one.unit;
+        map.format = storedFormat(kinds[i], setup.options.stored.format);
+        if (kinds[i] == BakeKind::id)
+            map.ids = options.highMaterials->ids();
         if (kinds[i] == BakeKind::normal || kinds[i] == BakeKind::bentNormal)
-            maps.back().image.frame = name(options.frame);
+            map.image.frame = name(options.frame);
         one.values = {};
     }
-    std::vector<BakedMap> packed;
-    for (const PackedMap& map : setup.options.packed) {
-        const auto first = std::ranges::find_if(map.kinds, [](const auto& kind) { return kind.has_value(); });
-        packed.push_back({.tile = tile,
-                          .kind = **first,
-                          .packed = map,
-                          .image = packMaps(maps, map),
-                          .box = maps.front().box,
-                          .statistics = statistics,
-                          .problems = problems,
-                          .verdict = maps.front().verdict});
-    }
-    maps.resize(packed.empty() ? maps.size() : setup.options.kinds.size()); // drops those that only packed maps need
-    std::move(packed.begin(), packed.end(), std::back_inserter(maps));
     if (setup.options.mask)
         maps.front().mask = maskOf(baked->front());
     return maps;

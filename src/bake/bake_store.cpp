@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -224,6 +226,29 @@ Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as)
     return imageOfRows(baked.width, baked.height, as.type, as.dither, [&](int y, std::span<glm::vec3> row) {
         stored.row({&baked.values[std::size_t(y) * width], width}, row);
     });
+}
+
+Image packMaps(const std::vector<Baked>& maps, const std::vector<BakeKind>& kinds, const PackedMap& packed,
+               const StoredAs& as)
+{
+    Image image = makeImage(maps.front().width, maps.front().height, as.type);
+    const std::size_t size = bytesPerComponent(as.type);
+    for (std::size_t channel = 0; channel < 4; ++channel) {
+        Image source;
+        if (const std::optional<BakeKind> kind = packed.kinds[channel])
+            source = storeBaked(maps[std::size_t(std::ranges::find(kinds, *kind) - kinds.begin())], *kind, as);
+        const float constant = packed.constants[channel];
+        const auto eight = std::uint8_t(constant * 255 + 0.5f);
+        const auto sixteen = std::uint16_t(constant * 65535 + 0.5f);
+        const void* const stored = as.type == PixelType::unorm8 ? static_cast<const void*>(&eight)
+            : as.type == PixelType::unorm16                     ? static_cast<const void*>(&sixteen)
+                                                                : &constant;
+        const bool isConstant = source.data.empty();
+        const auto* from = isConstant ? static_cast<const std::byte*>(stored) : source.data.data();
+        for (std::size_t i = 0; i < image.pixelCount(); ++i)
+            std::memcpy(&image.data[(4 * i + channel) * size], from + (isConstant ? 0 : 4 * i * size), size);
+    }
+    return image;
 }
 
 Image maskOf(const Baked& baked)

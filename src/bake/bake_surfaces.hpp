@@ -67,6 +67,10 @@ Convention storedFormat(BakeKind kind, Convention format);
 // scalars as grey. Texels without a value become flat normals or zero.
 Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as);
 
+// The channels of a packed map as one image, each as storeBaked stores its kind. maps: of these kinds.
+Image packMaps(const std::vector<Baked>& maps, const std::vector<BakeKind>& kinds, const PackedMap& packed,
+               const StoredAs& as);
+
 // Texel states as colours: covered green, touched dark green, missed red, negative blue, in dispute yellow.
 Image maskOf(const Baked& baked);
 

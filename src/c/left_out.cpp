@@ -18,6 +18,9 @@ COTAN_REFUSES(embree, cotan_bake, const cotan_mesh*, const cotan_mesh*, const co
               cotan_bake_result*)
 COTAN_REFUSES(embree, cotan_bake_models, const cotan_model*, size_t, const cotan_model* const*,
               const cotan_bake_options*, cotan_image_view*, cotan_bake_result*, cotan_bytes**)
+COTAN_REFUSES(embree, cotan_bake_maps, const cotan_model*, size_t, const cotan_model* const*, const cotan_bake_options*,
+              size_t, const char* const*, cotan_image_view* const*, cotan_bake_result* const*, cotan_bytes**,
+              cotan_bytes**)
 COTAN_REFUSES(embree, cotan_pair_names, size_t, const char* const*, size_t, const char* const*, int64_t*, int64_t*,
               cotan_bytes**)
 

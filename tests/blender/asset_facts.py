@@ -6,6 +6,7 @@ import bpy
 import cotan
 import facts
 import numpy as np
+from cotan_blender import bake, images, pairs
 from facts import baked, ball, directions, expect_sphere, material_with_nodes, moved, select, settings, square
 from facts import texel_centres, torus
 
@@ -77,6 +78,64 @@ def chosenMapsAreBakedAndOnlyNormalsAreAssigned():
     assert np.corrcoef(height, z[inside])[0, 1] > 0.9999
     settings(maps=set())
     assert facts.error_of(bpy.ops.object.cotan_bake, which="ACTIVE").startswith("No map is chosen")
+
+
+def mapsOfTheSameTexelsAreBakedInOneCallAsEachAlone():
+    # Two faces with materials of their own, both over the whole uv square: two bakes of three maps.
+    outline = [(-2, -1), (0, -1), (0, 1), (-2, 1), (2, -1), (2, 1)]
+    low = facts.make_mesh("low", [(x, y, 0) for x, y in outline], [(0, 1, 2, 3), (1, 4, 5, 2)], [(0, 0)] * 6)
+    for polygon, name in zip(low.data.polygons, ("left", "right")):
+        for loop, uv in zip(polygon.loop_indices, [(0, 0), (1, 0), (1, 1), (0, 1)]):
+            low.data.uv_layers[0].data[loop].uv = uv
+        low.data.materials.append(material_with_nodes(name))
+        polygon.material_index = len(low.data.materials) - 1
+    highs = ball("a", (-1.2, 0, -0.5), cells=32), ball("b", (1.3, 0.2, -0.5), cells=32)
+    kinds, calls, own = {"normal", "ao", "position"}, [], cotan.bake_maps
+
+    def counted(*arguments, **keywords):
+        calls.append(keywords["maps"])
+        return own(*arguments, **keywords)
+
+    def images_of(*words):
+        s = settings(each_material=True, distance=2, samples="1", maps=set(words))
+        select(*highs, low)
+        outcome = bake.Outcome()
+        shares = list(bake.run(bpy.context, s, pairs.by_selection(bpy.context)[0], outcome))
+        assert not outcome.failures and shares == sorted(shares) and 0 <= shares[0] and shares[-1] <= 1, shares
+        assert max(shares) > 0.5, "the second bake goes on where the first one ended"
+        return {image.name: images.pixels_of(image) for image in outcome.made}
+
+    cotan.bake_maps = counted
+    try:
+        together = images_of(*kinds)
+        assert [sorted(call) for call in calls] == [sorted(kinds)] * 2, calls
+        assert sorted(together) == [f"low_{m}_{k}" for m in ("left", "right") for k in sorted(kinds)], together.keys()
+        for kind in kinds:
+            for name, pixels in images_of(kind).items():
+                assert np.array_equal(pixels, together[name]) and np.ptp(pixels[..., :3]) > 0.1, name
+    finally:
+        cotan.bake_maps = own
+    for name in ("left", "right"):
+        used = [n.image.name for n in bpy.data.materials[name].node_tree.nodes if n.type == "TEX_IMAGE"]
+        assert used == [f"low_{name}_normal"], used
+
+
+def whatWasWrittenBeforeAMapFailedIsKept():
+    low, high, own = square(), ball(), cotan.write_image
+
+    def failing(file, pixels):
+        if "ao" in os.path.basename(file):
+            raise cotan.OutputError(f"{file}: the disk is full")
+        own(file, pixels)
+
+    settings(distance=2, maps={"normal", "ao"})
+    select(high, low)
+    cotan.write_image = failing
+    try:
+        assert bpy.ops.object.cotan_bake(which="ACTIVE") == {"FINISHED"}
+    finally:
+        cotan.write_image = own
+    assert [image.name for image in bpy.data.images] == ["low_normal"]
 
 
 def aCageIsMadeWhereRaysStartAndIsUsed():

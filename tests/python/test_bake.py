@@ -77,6 +77,73 @@ def test_arrays_and_files_bake_the_bytes_of_the_command_line(options, command, t
         assert (baked.map == expected).all() and (baked.mask == became).all()
 
 
+SEVERAL = ["normal", "ao", "curvature", "R=height,G=ao,A=0.5"]
+
+
+def test_maps_of_one_call_are_those_of_the_command_and_each_alone(command, tmp_path):
+    low, high = bumps(4), [bumps(40), slope(0.1, "plate")]
+    files = [write_obj(tmp_path / f"{n}.obj", m) for n, m in (("low", low), ("high", high[0]), ("plate", high[1]))]
+    command("bake", "--low", files[0], "--high", files[1], "--high", files[2], "--size", 48, "--samples", 4, "--ao-rays", 9,
+            "--maps", ",".join(SEVERAL[:3]), "--pack", SEVERAL[3], "-o", f"{tmp_path}/maps/")  # fmt: skip
+    options = {"size": 48, "samples": 4, "ao_rays": 9, "mask": True}
+    shares = []
+    maps = cotan.bake_maps(low, high, SEVERAL, progress=shares.append, **options)
+    assert list(maps) == SEVERAL and shares == sorted(shares) and shares[-1] == 1
+    rays = 0
+    for word, name in zip(SEVERAL, ("normal", "ao", "curvature", "packed")):
+        alone = cotan.bake(low, high, **{"pack" if "=" in word else "kind": word}, **options)
+        for expected in (cotan.read_image(tmp_path / "maps" / f"{name}.png"), alone.map):
+            np.testing.assert_array_equal(maps[word].map, expected)
+        assert (maps[word].mask == alone.mask).all() and np.ptp(maps[word].map[..., :2]) > 0, word
+        assert (maps[word].unit, maps[word].covered) == (alone.unit, alone.covered)
+        rays = max(rays, alone.rays)
+    # One trace: as many rays as the map alone that needs most.
+    assert {baked.rays for baked in maps.values()} == {rays}
+
+
+def test_maps_of_one_call_have_bits_and_arrays_of_their_own():
+    low, high = square(), slope(0.1)
+    into = [np.zeros((8, 8, 4), np.float32), np.zeros((8, 8, 4), np.uint8)]
+    maps = cotan.bake_maps(low, high, ["height", "normal"], size=8, samples=1, bits=(32, 8), out=into)
+    assert [baked.map is array for baked, array in zip(maps.values(), into)] == [True, True]
+    for word, bits in (("height", 32), ("normal", 8)):
+        np.testing.assert_array_equal(maps[word].map, cotan.bake(low, high, size=8, samples=1, kind=word, bits=bits).map)
+    for words, options, field in (
+        (["normal", "glossy"], {}, "maps[1]"),
+        (["ao", "normal", "ao"], {}, "maps[2]"),
+        (["normal", 5], {}, "maps[1]"),
+        ("normal", {}, "maps"),
+        ([], {}, "maps"),
+        (["normal", "ao"], {"bits": [8]}, "bits"),
+        (["normal", "ao"], {"bits": [8, 9]}, "bits"),
+        (["normal", "ao"], {"out": into[1:]}, "out"),
+        (["normal", "ao"], {"out": into}, "out[0]"),
+        (["normal", "ao"], {"samples": 3}, "samples"),
+    ):
+        with pytest.raises(cotan.UsageError) as caught:
+            cotan.bake_maps(low, high, words, size=8, **options)
+        assert caught.value.field == field, str(caught.value)
+    with pytest.raises(cotan.StoppedError):
+        cotan.bake_maps(bumps(4), bumps(40), ["ao", "normal"], size=512, progress=lambda done: False)
+
+
+def test_several_maps_take_the_keywords_of_one():
+    import inspect
+
+    one, several = (inspect.signature(function).parameters for function in (cotan.bake, cotan.bake_maps))
+    own = {"maps", "kind", "pack", "bits", "out"}
+    assert [p for name, p in several.items() if name not in own] == [p for name, p in one.items() if name not in own]
+
+
+def test_triangles_on_other_tiles_are_named_unless_the_tile_was_chosen():
+    other = square()
+    other.texcoords = other.texcoords + np.float32([1, 0])
+    said = cotan.bake([square(), other], slope(0.1), size=8, samples=1, max_distance=1).warnings
+    assert said == ["udim: the low mesh also has triangles on tiles 1002: they are not baked"]
+    for udim in (1001, 1002):
+        assert cotan.bake([square(), other], slope(0.1), size=8, samples=1, max_distance=1, udim=udim).warnings == []
+
+
 def test_names_pair_as_in_a_bake():
     low, high = ["wall_low", "wall_low.001", "door.lo", "alone_low"], ["wall_high.001", "Wall_HIGH", "door_hi_a", "door_hi_b"]
     pairs, notes = cotan.pair_names(low, high)

@@ -116,6 +116,8 @@ def test_bake_equals_the_command_line(options, command, tmp_path):
     map = whole["maps"][0]
     assert baked.unit == map.get("unit", 0)
     assert "box" not in map or [*baked.box] == pytest.approx(sum(map["box"], []))
+    assert {name: "#%02x%02x%02x" % color for name, color in baked.ids.items()} == {i["name"]: i["color"] for i in map.get("ids", [])}
+    assert (len(baked.ids) > 1) == (options.get("kind") == "id")
     report = whole["bake"]
     assert (baked.texels, baked.covered, baked.missed, baked.further, baked.nearer, baked.negative, baked.twice, baked.rays) == tuple(
         report[n] for n in ("texels", "covered", "missed", "further_away", "not_the_nearest", "negative_z", "claimed_twice", "rays"))  # fmt: skip

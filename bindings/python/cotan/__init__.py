@@ -14,7 +14,7 @@ Arrays are passed without copies if dtype and layout fit (float32, uint32, C ord
 from . import _old_names
 from ._library import library_path, library_version
 from ._version import __version__
-from .baking import Baked, bake, name_role, pair_names
+from .baking import Baked, bake, bake_maps, name_role, pair_names
 from .conversion import Conversion, model_images
 from .errors import (
     Error,
@@ -83,6 +83,7 @@ __all__ = [
     "UnavailableError",
     "UsageError",
     "bake",
+    "bake_maps",
     "convert",
     "describe",
     "detect",

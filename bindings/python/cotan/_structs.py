@@ -205,6 +205,10 @@ _STATUS = {
     "cotan_bake_models": (
         handle, size_t, c.POINTER(handle), BakeOptions, ImageView, BakeResult, c.POINTER(handle),
     ),
+    "cotan_bake_maps": (
+        handle, size_t, c.POINTER(handle), BakeOptions, size_t, c.POINTER(text), c.POINTER(c.POINTER(ImageView)),
+        c.POINTER(c.POINTER(BakeResult)), c.POINTER(handle), c.POINTER(handle),
+    ),
     "cotan_file_names": (size_t, c.POINTER(text), size_t, c.POINTER(text), c.POINTER(handle)),
     "cotan_pair_names": (
         size_t, c.POINTER(text), size_t, c.POINTER(text), pointer, pointer, c.POINTER(handle),

@@ -46,6 +46,7 @@ class Baked:
         unit: of "thickness" and "curvature" the thickness or radius that integers store as 1; else 0.
         box: of the detailed meshes: the lowest x, y, z, then the highest; 0 and 1 of "position" in integers.
         warnings: one line each.
+        ids: of "id" by materials or objects the colour of each, (red, green, blue) of 8 bits; else empty.
     """
 
     map: NDArray[np.generic] = dataclasses.field(repr=False)
@@ -65,6 +66,7 @@ class Baked:
     disputed: int
     problems: int
     warnings: list[str]
+    ids: dict[str, tuple[int, int, int]]
 
 
 def _model(given, field, up, images=False, memory=640):
@@ -88,6 +90,11 @@ def _several(given):
 def _lines(data):
     """The lines of a cotan_bytes handle, which it frees."""
     return [line for line in taken(data).decode("utf-8", "replace").split("\n") if line]
+
+
+def _pointers(items):
+    """An array of pointers to structs of one type; None without any."""
+    return (ctypes.POINTER(type(items[0])) * len(items))(*map(ctypes.pointer, items)) if items else None
 
 
 def name_role(name: str) -> str:
@@ -144,7 +151,7 @@ def bake(
     match_by_name: bool = False,
     wrap: bool = False,
     material: int = -1,
-    udim: int = 1001,
+    udim: Optional[int] = None,
     tangents: TangentOrigin = "stored",
     high_normals: HighNormals = "smooth",
     high_frame: Optional[Frame] = None,
@@ -168,7 +175,7 @@ def bake(
         kind: "normal", "object-normal", "height" (units of the positions), "ao", "bent-normal", "object-bent-normal",
             "thickness", "curvature", "position", or of the high meshes' materials "base-color", "roughness",
             "metallic", "roughness-metallic" (green and blue), "emissive" or "id". Colours are sRGB with 8 and 16 bits,
-            linear with 32; integers clamp them to 1.
+            linear with 32; integers clamp them to 1. Several: `bake_maps`.
         pack: instead of `kind`, channels of maps of one value: "R=ao,G=roughness,B=metallic,A=1", or "orm" for these.
         convention: how the map is stored: "opengl" (green up), "directx", "opengl,biased", ...
         bits: bit depth of the map: 8, 16 or 32 (float).
@@ -200,7 +207,7 @@ def bake(
         wrap: the low mesh is one flat tile that fills the square of its uv once, and what leaves it at a border comes
             in at the opposite one.
         material: index of the low model's material to bake; -1: all.
-        udim: tile of the texture coordinates to bake, 1001 to 1999.
+        udim: tile of the texture coordinates to bake, 1001 to 1999; None: 1001, with a warning of triangles on others.
         tangents: for the frames "vertex" and "mikktspace": "stored" (generated where missing) or "generated".
         high_normals: "smooth", "curved", "face" or "map": the high meshes' own normal maps.
         high_frame: the frame that those maps were made for; None: "mikktspace".
@@ -218,10 +225,86 @@ def bake(
     Raises UsageError for bad words, numbers and shapes; InputError for bad meshes and files; UnavailableError if the
     library was built without Embree; StoppedError if `progress` stopped the bake, which leaves `out` unchanged.
     """
-    for field, value, known in (("samples", samples, (1, 4, 16)), ("bits", bits, (8, 16, 32))):
-        if value not in known:
-            raise arrays.wrong(field, ", ".join(map(str, known[:-1])) + f" or {known[-1]}", value)
-    material, udim = arrays.integer(material, "material", -1, 100000), arrays.integer(udim, "udim", 1001, 1999)
+    given = {name: value for name, value in locals().items() if name not in ("bits", "out")}
+    return _baked([None], [bits], [out], **given)[0]
+
+
+def bake_maps(
+    low: Union[Geometry, Sequence[Mesh]],
+    high: Union[Geometry, Sequence[Geometry]],
+    maps: Sequence[str],
+    *,
+    size: Any = 1024,
+    frame: Frame = "mikktspace",
+    convention: Convention = "opengl",
+    bits: Union[int, Sequence[int]] = 8,
+    samples: int = 1,
+    padding: int = 0,
+    dither: bool = False,
+    ao_rays: int = 64,
+    ao_occluders: Occluders = "matched",
+    search: Search = "first",
+    rays: Rays = "auto",
+    extrusion: float = 0.0,
+    max_distance: float = 0.0,
+    cage: Union[Geometry, Sequence[Mesh], None] = None,
+    cage_reach: float = 0.0,
+    thickness_distance: float = 0.0,
+    curvature_radius: float = 0.0,
+    id_by: IdBy = "material",
+    match_by_name: bool = False,
+    wrap: bool = False,
+    material: int = -1,
+    udim: Optional[int] = None,
+    tangents: TangentOrigin = "stored",
+    high_normals: HighNormals = "smooth",
+    high_frame: Optional[Frame] = None,
+    high_map: Union[Map, Sequence[Map], None] = None,
+    high_convention: Optional[Convention] = None,
+    mask: bool = False,
+    memory: int = 640,
+    threads: int = 0,
+    out: Optional[Sequence[NDArray[np.generic]]] = None,
+    progress: Optional[Progress] = None,
+    up: Up = "y",
+    high_up: Optional[Up] = None,
+) -> dict[str, Baked]:
+    """Bakes several maps, whose rays are traced once. Each is as `bake` makes it alone, to the bit.
+
+        maps = cotan.bake_maps(low, high, ["normal", "ao", "R=roughness,G=metallic"], size=2048)
+        cotan.write_image("ao.png", maps["ao"].map)
+
+    Args:
+        maps: words of `kind` and `pack` of `bake`, all different.
+        bits: bit depth of all maps, or one for each of `maps`.
+        out: an array to write into for each of `maps`.
+
+    The other arguments and the errors are those of `bake`.
+
+    Returns the maps by their words. Those of one call share the counts of texels and rays, warnings and the mask.
+    """
+    given = {name: value for name, value in locals().items() if name not in ("maps", "bits", "out")}
+    if isinstance(maps, str) or not isinstance(maps, Sequence) or not maps:
+        raise arrays.wrong("maps", "a list of words, such as normal and ao", repr(maps))
+    each = bits if isinstance(bits, Sequence) else [bits] * len(maps)
+    into = [None] * len(maps) if out is None else out
+    for name, items in (("bits", each), ("out", into)):
+        if len(items) != len(maps):
+            raise arrays.wrong(name, f"{len(maps)}, one for each map", len(items))
+    return dict(zip(maps, _baked(maps, each, into, kind="normal", pack=None, **given)))
+
+
+def _baked(
+    kinds, bits, out, *, low, high, size, frame, kind, pack, convention, samples, padding, dither, ao_rays, ao_occluders,
+    search, rays, extrusion, max_distance, cage, cage_reach, thickness_distance, curvature_radius, id_by, match_by_name,
+    wrap, material, udim, tangents, high_normals, high_frame, high_map, high_convention, mask, memory, threads, progress,
+    up, high_up,
+):  # fmt: skip
+    """A list of Baked for `kinds`, of which None is that of `kind` or `pack`. bits, out: one for each."""
+    if samples not in (1, 4, 16):
+        raise arrays.wrong("samples", "1, 4 or 16", samples)
+    material = arrays.integer(material, "material", -1, 100000)
+    tile = 0 if udim is None else arrays.integer(udim, "udim", 1001, 1999)
     padding, ao_rays = arrays.integer(padding, "padding", -1, 65536), arrays.integer(ao_rays, "ao_rays", 1, 65536)
     max_distance, threads = arrays.number(max_distance, "max_distance"), arrays.threads_of(threads)
     cage_reach, extrusion = arrays.number(cage_reach, "cage_reach"), arrays.number(extrusion, "extrusion")
@@ -231,12 +314,18 @@ def bake(
         if isinstance(mesh, Mesh) and mesh.texcoords is None:
             raise arrays.wrong("low", "meshes with texcoords", f"one without: {mesh}", InputError)
     width, height = arrays.size_of(size)
-    made = arrays.made(out, "out", (height, width, 4), arrays.dtype_of(bits))
+    places = [""] if kinds[0] is None else [f"[{number}]" for number in range(len(kinds))]
+    made = [
+        arrays.made(into, f"out{place}", (height, width, 4), arrays.dtype_of(b)) for b, into, place in zip(bits, out, places)
+    ]
+    one = kind if pack is None else pack
+    shown = [one if k is None else k for k in kinds]
+    kind_words = [None if k is None else arrays.encoded(k, f"maps{place}") for k, place in zip(kinds, places)]
     mask_made = np.empty((height, width, 4), np.uint8) if mask else None
     words = {
         name: None if word is None else arrays.encoded(word, name)
         for name, word in (
-            ("frame", frame), ("kind", kind if pack is None else pack), ("id_by", id_by), ("convention", convention),
+            ("frame", frame), ("kind", one), ("id_by", id_by), ("convention", convention),
             ("tangents", tangents), ("high_normals", high_normals), ("high_frame", high_frame),
             ("high_convention", high_convention), ("search", search), ("occluders", ao_occluders),
             ("rays", rays),
@@ -249,18 +338,20 @@ def bake(
     rays_given = None if rays_mask is None else pixels_of(rays_mask, "rays_mask")
     rays_view = None if rays_given is None else arrays.image_view(rays_given)
     mask_view = None if mask_made is None else arrays.image_view(mask_made)
-    result, lines = structs.BakeResult(), structs.handle()
+    views = [arrays.image_view(pixels) for pixels in made]
+    results = [structs.BakeResult() for _ in made]
+    colors, lines = structs.handle(), structs.handle()
     warnings: list[str] = []
 
     def work(told):
         simple = _model(low, "low", up, memory=memory)
         enclosing = None if cage is None else _model(cage, "cage", up)
-        images_used = high_normals == "map" or any(word in (pack or kind) for word in _OF_MATERIALS)
+        images_used = high_normals == "map" or any(word in k for word in _OF_MATERIALS for k in shown)
         detailed = [_model(h, "high", high_up or up, images_used, memory) for h in _several(high)]
         for model in (simple, *detailed):
             warnings.extend(w for w in model.warnings if w not in warnings)
         handles = (structs.handle * len(detailed))(*(model._handle for model in detailed))
-        high_maps = (ctypes.POINTER(structs.ImageView) * len(images))(*map(ctypes.pointer, images))
+        high_maps = _pointers(images)
         options = structs.BakeOptions(
             samples={1: 1, 4: 2, 16: 4}[samples],
             padding=padding,
@@ -274,9 +365,9 @@ def bake(
             wrap=int(wrap),
             rays_mask=None if rays_view is None else ctypes.addressof(rays_view),
             material=material + 1,
-            tile=udim,
+            tile=tile,
             high_map_count=len(images),
-            high_maps=ctypes.addressof(high_maps) if images else None,
+            high_maps=ctypes.addressof(high_maps) if high_maps else None,
             cage_reach=cage_reach,
             extrusion=extrusion,
             thickness_distance=thickness_distance,
@@ -285,15 +376,21 @@ def bake(
             **words,
         )
         call(
-            "cotan_bake_models", simple._handle, len(detailed), handles, options, arrays.image_view(made), result, lines,
+            "cotan_bake_maps", simple._handle, len(detailed), handles, options, len(made),
+            (ctypes.c_char_p * len(made))(*kind_words), _pointers(views), _pointers(results), colors, lines,
         )  # fmt: skip
 
     long_call(work, progress)
     warnings += [in_keywords(0, line) for line in _lines(lines)]
-    return Baked(
-        map=made,
-        mask=mask_made,
-        warnings=warnings,
-        box=tuple(result.box),
-        **{name: getattr(result, name) for name, _ in structs.BakeResult._fields_ if name not in ("size", "box")},
-    )
+    ids = {line[8:]: (int(line[1:3], 16), int(line[3:5], 16), int(line[5:7], 16)) for line in _lines(colors)}
+    return [
+        Baked(
+            map=pixels,
+            mask=mask_made,
+            warnings=warnings,
+            box=tuple(result.box),
+            ids=ids if word == "id" else {},
+            **{name: getattr(result, name) for name, _ in structs.BakeResult._fields_ if name not in ("size", "box")},
+        )
+        for word, pixels, result in zip(shown, made, results)
+    ]

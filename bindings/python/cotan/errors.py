@@ -106,7 +106,7 @@ def _keyword(match):
 
 def in_keywords(status, message):
     """Replaces names of options by keywords: --max-distance and options.max_distance become max_distance."""
-    message = re.sub(r"^options\.(\w+)", _keyword, message)
+    message = re.sub(r"^options\.(\w+)", _keyword, re.sub(r"^kinds\[", "maps[", message))
     if status != UsageError.status:
         return message
     return re.sub(r"(?<![\w/.-])--([a-z]+(?:-[a-z]+)*)", lambda m: m[1].replace("-", "_"), message)

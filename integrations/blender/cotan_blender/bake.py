@@ -8,7 +8,7 @@ import threading
 import bpy
 import numpy as np
 
-from . import cages, images, meshes, nodes
+from . import cages, images, materials, meshes, nodes
 from .refused import Refused, packages
 from .settings import MAPS
 
@@ -21,9 +21,16 @@ class Map:
     owner: str  # the object and material that the map is for
     part: str  # the name of its file, without folder and ending
     kind: str  # a word of cotan.bake
-    slots: list  # material slots of the simple object that will use the map; empty: the object has none yet
-    arguments: dict  # for cotan.bake, without the progress function
     path: str = ""  # file to write; "": packed into the .blend
+
+
+@dataclasses.dataclass
+class Bake:
+    """The maps of the same texels, whose rays are traced once."""
+
+    slots: list  # material slots of the simple object that will use the maps; empty: the object has none yet
+    arguments: dict  # for cotan.bake_maps, without the maps and the progress function
+    maps: list = dataclasses.field(default_factory=list)
 
 
 @dataclasses.dataclass
@@ -68,7 +75,7 @@ def check_low(low, settings):
 
 
 def prepare(context, settings, pair):
-    """The maps of a pair, the name of their uv map, and notes in sentences. Raises Refused."""
+    """The bakes of a pair, the name of their uv map, and notes in sentences. Raises Refused."""
     low = pair.low
     check_low(low, settings)
     if not settings.maps:
@@ -81,9 +88,14 @@ def prepare(context, settings, pair):
         rays = cages.cage_for(settings, context.scene.render.bake, surface, low, pair.cage, depsgraph)
         matrix = low.evaluated_get(depsgraph).matrix_world.copy()
         positions, normals, triangles = meshes.joined(meshes.high_surfaces(pair.highs, depsgraph))
+        shown, notes = [word for word in materials.SHOWN if word in settings.maps], _notes_on(low, matrix)
+        if shown:
+            high, lacks = materials.model_of(context, pair.highs, depsgraph, shown)
+            notes += lacks
+        else:
+            high = packages().Mesh(positions, triangles, normals)
     surface = meshes.placed(surface, matrix, low.name)
     cotan = packages()
-    high = cotan.Mesh(positions, triangles, normals)
     common = {
         "size": (settings.width, settings.height),
         "frame": settings.frame,
@@ -91,25 +103,27 @@ def prepare(context, settings, pair):
         "bits": int(settings.bits),
         "samples": int(settings.samples),
         "padding": settings.padding,
+        "id_by": settings.id_by.lower(),
     }
-    maps = []
+    bakes, names = [], []
     parts = _slots_of(low, surface, settings.each_material)
-    for slots, shown in parts:
+    for slots, own in parts:
         material = low.material_slots[slots[0]].material if slots else None
         part = "" if len(parts) == 1 else f"_{material.name if material else slots[0]}"
-        chosen = surface.triangles[shown]
+        chosen = surface.triangles[own]
         _check_uv(low, surface.texcoords, chosen, surface.uv_map)
         mesh = cotan.Mesh(surface.positions, chosen, surface.normals, surface.texcoords)
         arguments = {"low": mesh, "high": high, **common, **rays}
         if "cage" in rays:
             arguments["cage"] = cotan.Mesh(rays["cage"], chosen, surface.normals)
+        bakes.append(Bake(slots, arguments))
         for kind in [word for word, *_ in MAPS if word in settings.maps]:
             name = f"{low.name}{part}_{kind.replace('-', '_')}"
             owner = "\n".join([low.name, part] + [kind] * (kind != "normal"))
-            file = images.part_for(owner, name, [made.part for made in maps])
-            path = images.file_for(settings, owner, name, file)
-            maps.append(Map(name, owner, file, kind, slots, {**arguments, "kind": kind}, path))
-    return maps, surface.uv_map, _notes_on(low, matrix)
+            names.append(images.part_for(owner, name, names))
+            path = images.file_for(settings, owner, name, names[-1])
+            bakes[-1].maps.append(Map(name, owner, names[-1], kind, path))
+    return bakes, surface.uv_map, notes
 
 
 def _notes_on(low, matrix):
@@ -120,12 +134,12 @@ def _notes_on(low, matrix):
 
 
 class Work(threading.Thread):
-    """A bake into a PNG file on its own thread."""
+    """A bake into PNG files on its own thread. files: of the maps, by their kinds."""
 
-    def __init__(self, arguments, file):
+    def __init__(self, arguments, files):
         super().__init__(name="cotan bake")
-        self.arguments, self.file, self.share, self.stop = arguments, file, 0.0, False
-        self.baked = self.error = None
+        self.arguments, self.files, self.share, self.stop = arguments, files, 0.0, False
+        self.baked, self.written, self.error = {}, [], None  # written: kinds
         self.start()
 
     def _told(self, share):
@@ -134,19 +148,21 @@ class Work(threading.Thread):
 
     def run(self):
         try:
-            self.baked = packages().bake(progress=self._told, **self.arguments)
-            packages().write_image(self.file, self.baked.map)
+            self.baked = packages().bake_maps(maps=list(self.files), progress=self._told, **self.arguments)
+            for kind, file in self.files.items():
+                packages().write_image(file, self.baked[kind].map)
+                self.written.append(kind)
         except BaseException as error:  # raised by the waiting thread
             self.error = error
 
 
-def _put(low, made, image, uv_map, outcome):
+def _put(low, slots, image, uv_map, outcome):
     """Assigns the normal map to the materials of the slots."""
-    if not made.slots:
+    if not slots:
         low.data.materials.append(None)
-        made.slots = [0]
+        slots = [0]
     shown_anyway = next((layer.name for layer in low.data.uv_layers if layer.active_render), uv_map) == uv_map
-    for material_slot in [low.material_slots[s] for s in made.slots]:
+    for material_slot in [low.material_slots[s] for s in slots]:
         if material_slot.material is None:
             material_slot.material = bpy.data.materials.new(low.name)
             outcome.notes.append(f"'{low.name}' had no material: '{material_slot.material.name}' was created")
@@ -158,37 +174,49 @@ def _notes_of(baked, name):
     return [f"{name}: {line}" for line in baked.warnings[len(baked.warnings) - baked.problems :]]
 
 
+def _store(settings, low, bake, work, uv_map, outcome):
+    """Makes images of the maps that were written. Raises Refused."""
+    for made in bake.maps:
+        if made.kind not in work.written:
+            continue
+        frame = settings.frame if made.kind in ("normal", "bent-normal") else ""
+        space = "sRGB" if made.kind in materials.COLORS else "Non-Color"
+        image, named_otherwise = images.stored(made, work.files[made.kind], frame, space)
+        if named_otherwise:
+            outcome.notes.append(
+                f"The map '{made.name}' of '{low.name}' is named '{image.name}', and its file {made.part}.png"
+            )
+        if work.baked[made.kind].ids:
+            image["cotan_ids"] = {name: "#%02x%02x%02x" % color for name, color in work.baked[made.kind].ids.items()}
+        outcome.made.append(image)
+        if made is bake.maps[0]:  # the same for all
+            outcome.notes += _notes_of(work.baked[made.kind], image.name)
+        if settings.assign and made.kind == "normal":
+            _put(low, bake.slots, image, uv_map, outcome)
+        outcome.notes += nodes.all_read_green_up(image)
+
+
 def run(context, settings, pairs, outcome):
     """A generator that bakes all pairs and yields the fraction done, 0 to 1. Closing it stops; finished maps stay."""
     for number, pair in enumerate(pairs):
         yield number / len(pairs)
         try:
-            maps, uv_map, notes = prepare(context, settings, pair)
+            bakes, uv_map, notes = prepare(context, settings, pair)
             outcome.notes += notes
-            for index, made in enumerate(maps):
+            for index, bake in enumerate(bakes):
                 with tempfile.TemporaryDirectory() as folder:
-                    work = Work(made.arguments, made.path or os.path.join(folder, "map.png"))
+                    files = {made.kind: made.path or os.path.join(folder, f"{made.part}.png") for made in bake.maps}
+                    work = Work(bake.arguments, files)
                     try:
                         while work.is_alive():
                             work.join(0.02)
-                            yield (number + (index + work.share) / len(maps)) / len(pairs)
+                            yield (number + (index + work.share) / len(bakes)) / len(pairs)
                     finally:
                         work.stop = True
                         work.join()
+                    _store(settings, pair.low, bake, work, uv_map, outcome)
                     if work.error is not None:
                         raise work.error
-                    frame = settings.frame if made.kind in ("normal", "bent-normal") else ""
-                    image, named_otherwise = images.stored(made, work.file, frame)
-                if named_otherwise:
-                    outcome.notes.append(
-                        f"The map '{made.name}' of '{pair.low.name}' is named '{image.name}', and its file {made.part}.png"
-                    )
-                outcome.made.append(image)
-                if index == 0 or made.slots != maps[index - 1].slots:  # once for all maps of the same texels
-                    outcome.notes += _notes_of(work.baked, image.name)
-                if settings.assign and made.kind == "normal":
-                    _put(pair.low, made, image, uv_map, outcome)
-                outcome.notes += nodes.all_read_green_up(image)
         except Refused as error:
             outcome.failures.append(str(error))
         except packages().Error as error:

@@ -11,10 +11,15 @@ from . import images, meshes, nodes
 from .refused import Refused, packages
 
 
-def exported(context, things, apply_modifiers=True):
-    """The bytes of a .glb of these objects, without tangents, as Blender's exporter writes it. Raises Refused."""
+def exported(context, things, apply_modifiers=True, y_up=True, colors=True):
+    """The bytes of a .glb of these objects, without tangents, as Blender's exporter writes it. y_up: as glTF needs it, else
+    with Blender's axes. colors: with those of vertices. Raises Refused."""
     if "gltf" not in dir(bpy.ops.export_scene):
         raise Refused("Blender's glTF exporter is disabled: enable 'glTF 2.0 format' in Preferences > Add-ons")
+    more = {}
+    if not colors:  # the second since Blender 4.2
+        known = bpy.ops.export_scene.gltf.get_rna_type().properties
+        more = {"export_colors": False} if "export_colors" in known else {"export_vertex_color": "NONE"}
     active, selected = context.view_layer.objects.active, context.selected_objects
     try:
         for thing in selected:
@@ -29,6 +34,8 @@ def exported(context, things, apply_modifiers=True):
                 use_selection=True,
                 export_tangents=False,
                 export_apply=apply_modifiers,
+                export_yup=y_up,
+                **more,
             )
             with open(path, "rb") as file:
                 return file.read()

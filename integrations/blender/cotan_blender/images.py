@@ -63,15 +63,15 @@ def file_for(settings, owner, name, part):
     return path
 
 
-def stored(made, file, frame):
+def stored(made, file, frame, space="Non-Color"):
     """Loads a map as an image and replaces all uses of the image of an earlier bake. A map without a path is packed into
     the .blend, so that the file may be deleted. Returns the image, and whether it or its file has another name than the
-    map, because another map has it or it is too long. frame: that the map is for; "": none. Raises Refused if Blender
-    cannot read the file."""
+    map, because another map has it or it is too long. frame: that the map is for; "": none. space: of its colours. Raises
+    Refused if Blender cannot read the file."""
     old, name = _before(made.owner, made.name), made.name
     try:
         image = bpy.data.images.load(file)
-        image.colorspace_settings.name = "Non-Color"
+        image.colorspace_settings.name = space
         if not made.path:
             image.pack()
             image.filepath_raw = f"//{made.part}.png"

@@ -137,15 +137,24 @@ def low_surface(thing, depsgraph, uv_map=""):
         return surface_of(mesh, thing.name, with_uv=True, uv_map=uv_map)
 
 
-def high_surfaces(things, depsgraph):
-    """The detailed objects and their instances in world space. Raises Refused if there are no faces."""
-    wanted, local, found = set(things), {}, []
+def solids_of(things, depsgraph):
+    """Yields the evaluated objects that have faces, of these objects and their instances: (object, world matrix, key, own).
+    Those with the same key have the same mesh. own: it is a mesh object, not geometry that was made of another kind."""
+    wanted = set(things)
     for instance in depsgraph.object_instances:
         owner = instance.parent if instance.is_instance else instance.object
         evaluated = instance.object
         if owner is None or owner.original not in wanted or evaluated.type not in SOLID:
             continue
         key = (evaluated.as_pointer(), evaluated.data.as_pointer() if evaluated.data else 0)
+        made = instance.is_instance and owner.original == evaluated.original
+        yield evaluated, instance.matrix_world, key, evaluated.type == "MESH" and not made
+
+
+def high_surfaces(things, depsgraph):
+    """The detailed objects and their instances in world space. Raises Refused if there are no faces."""
+    local, found = {}, []
+    for evaluated, matrix, key, _ in solids_of(things, depsgraph):
         if key not in local:
             try:
                 with mesh_of(evaluated, depsgraph) as mesh:
@@ -153,7 +162,7 @@ def high_surfaces(things, depsgraph):
             except Refused:
                 local[key] = None  # other objects may have faces
         if local[key] is not None:
-            found.append(placed(local[key], instance.matrix_world, evaluated.name))
+            found.append(placed(local[key], matrix, evaluated.name))
     if not found:
         names = ", ".join(f"'{thing.name}'" for thing in things)
         raise Refused(f"No faces remain of {names} after modifiers, or it is hidden")

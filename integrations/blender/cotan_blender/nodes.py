@@ -10,10 +10,13 @@ HAS_CONVENTION = "convention" in bpy.types.ShaderNodeNormalMap.bl_rna.properties
 _OPTIONAL = bpy.app.version < (5, 0, 0)  # later materials always use nodes, and use_nodes is deprecated
 
 
-def _principled(material):
+def uses_nodes(material):
+    return material.node_tree is not None and (not _OPTIONAL or material.use_nodes)
+
+
+def principled(material):
     """The material's Principled BSDF, preferably the one that is displayed; None if there is none."""
-    without = material.node_tree is None or (_OPTIONAL and not material.use_nodes)
-    shaders = [] if without else [n for n in material.node_tree.nodes if n.type == "BSDF_PRINCIPLED"]
+    shaders = [] if not uses_nodes(material) else [n for n in material.node_tree.nodes if n.type == "BSDF_PRINCIPLED"]
     shown = [n for n in shaders if n.outputs[0].is_linked]
     return (shown or shaders or [None])[0]
 
@@ -33,7 +36,7 @@ def _normal_socket(shader):
 
 def map_of(material):
     """The Normal Map node and the Image Texture node of the material's normal; None for each that is missing."""
-    shader = _principled(material) if material is not None else None
+    shader = principled(material) if material is not None else None
     reader = _source(_normal_socket(shader), "NORMAL_MAP") if shader else None
     return reader, _source(reader.inputs["Color"], "TEX_IMAGE") if reader else None
 
@@ -75,7 +78,7 @@ def assign(material, image, uv_map):
     if _OPTIONAL:
         material.use_nodes = True
     tree = material.node_tree
-    shader = _principled(material)
+    shader = principled(material)
     reader, texture = map_of(material)
     x, y = shader.location if shader else (0, 0)
     if texture is None:

@@ -39,6 +39,8 @@ class CotanBakePanel(_Part, bpy.types.Panel):
         if s.frame != "mikktspace":
             layout.label(text="Blender's own Normal Map node reads MikkTSpace", icon="INFO")
         layout.column(align=True).prop(s, "maps")
+        if "id" in s.maps:
+            layout.prop(s, "id_by")
         column = layout.column(align=True)
         column.prop(s, "width")
         column.prop(s, "height")

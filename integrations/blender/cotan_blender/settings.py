@@ -28,6 +28,11 @@ MAPS = [
     ("thickness", "Thickness", "Mean length of rays inwards", 32),
     ("bent-normal", "Bent Normal", "Mean open direction, in the frame", 64),
     ("position", "Position", "Position in Blender's world, from 0 to 1 over the box of the detail", 128),
+    ("base-color", "Base Color", "Base colour of the detail's materials: numbers and images", 256),
+    ("roughness", "Roughness", "That of the detail's materials", 512),
+    ("metallic", "Metallic", "That of the detail's materials", 1024),
+    ("emissive", "Emission", "Light of the detail's materials, at most 1", 2048),
+    ("id", "Ids", "A colour for each material or object of the detail", 4096),
 ]
 MEASURED = [
     ("MEASURED", "Measured", "Keeps the maps; each part gets the cheapest frame that looks the same, which the file names"),
@@ -42,6 +47,15 @@ class CotanSettings(bpy.types.PropertyGroup):
     maps: EnumProperty(
         name="Maps", items=MAPS, default={"normal"}, options={"ENUM_FLAG"},
         description="Maps to bake. Shift-click chooses several",
+    )
+    id_by: EnumProperty(
+        name="Ids of",
+        items=[
+            ("MATERIAL", "Materials", "Each material of the detail has a colour of its own"),
+            ("OBJECT", "Objects", "Each object of the detail has a colour of its own"),
+        ],
+        default="MATERIAL",
+        description="What has a colour of its own in the map of ids",
     )
     width: IntProperty(
         name="Width", default=2048, min=1, max=16384, subtype="PIXEL",

@@ -333,7 +333,7 @@ typedef struct cotan_bake_options {
     int match_by_name;           /* not 0: a simple mesh NAME_low is baked only from its detailed meshes NAME_high; the
                                     pairs are those of cotan_pair_names */
     int material;                /* of the simple model, from 1; 0: all */
-    int tile;                    /* UDIM number; 0: 1001 */
+    int tile;                    /* UDIM number; 0: 1001, with a warning of triangles on others */
     const char* tangents;        /* for "mikktspace" and "vertex": "stored" or "generated"; null: "generated" */
     const char* high_normals;    /* "smooth", "curved", "face" or "map" (from normal maps); null: "smooth" */
     const char* high_frame;      /* frame that the detailed models' maps were made for; null: "mikktspace" */
@@ -395,6 +395,16 @@ cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cot
 cotan_status cotan_bake_models(const cotan_model* low, size_t high_count, const cotan_model* const* high,
                                const cotan_bake_options* options, cotan_image_view* map, cotan_bake_result* result,
                                cotan_bytes** warnings, char* message, size_t message_size);
+
+/* The same for several maps, whose rays are traced once; each is as it would be alone. kinds: for each map a word of
+ * options.kind, which a null stands for, all different. maps: of the same size, each with its own bits. results: null,
+ * or for each map its result or null; what they count of texels and rays is the same for all. ids: may be null;
+ * receives text, for a map of the kind "id" a line "#rrggbb NAME" for each material or object, with its colour there,
+ * none by vertex colours. Since version 9. */
+cotan_status cotan_bake_maps(const cotan_model* low, size_t high_count, const cotan_model* const* high,
+                             const cotan_bake_options* options, size_t map_count, const char* const* kinds,
+                             cotan_image_view* const* maps, cotan_bake_result* const* results, cotan_bytes** ids,
+                             cotan_bytes** warnings, char* message, size_t message_size);
 
 /* What the name of a mesh says that it is: "low" (NAME_low, NAME.lo.001, lp_NAME, ...), "high", "cage", or "". Since
  * version 7. */

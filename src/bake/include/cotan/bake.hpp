@@ -174,7 +174,9 @@ struct BakeModelOptions {
     BakeOptions bake; // tile, cage, starts, highMaps, highMaterials and matched are derived from the options below
     std::vector<BakeKind> kinds;   // maps that are made from the same rays, each as it would be alone; empty: bake.kind
     std::vector<PackedMap> packed; // further maps from the same rays; only these if kinds is empty
-    std::vector<int> tiles{1001};  // UDIM numbers, one map each: 1001 + u + 10 v, u below 10, v upwards
+    std::vector<PixelType> types;  // of the maps of the kinds, then of the packed ones; empty: stored.type
+    std::vector<int> tiles;        // UDIM numbers, one map each: 1001 + u + 10 v, u below 10, v upwards; empty: 1001,
+                                   // with a warning of triangles on others
     int material = -1;             // of the simple scene; -1: all
     TangentOrigin tangents = TangentOrigin::stored; // for the frames `vertex` and `mikktspace`
     const Scene* cage = nullptr;   // the triangles of the simple scene in the same order, moved out to enclose both
@@ -193,7 +195,7 @@ struct BakeModelOptions {
     int padding = 0; // texels around charts that are filled from the nearest chart; 0: no limit, -1: none
     StoredAs stored;
     bool mask = false;      // also makes BakedMap::mask
-    std::size_t memory = 0; // bytes that all maps of a tile may take together while they are made; 0: no limit
+    std::size_t memory = 0; // bytes that all maps of a tile may take together while they are made; 0: the machine's
 };
 
 // ---- results --------------------------------------------------------------------------------
