@@ -182,18 +182,23 @@ Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as)
     return std::move(writer.image);
 }
 
+std::span<const MaskColor> maskColors()
+{
+    static constexpr MaskColor kColors[] = {{texelMissed, {1, 0, 0}, "no detail found"},
+                                            {texelNegative, {0, 0.3f, 1}, "points into the surface"},
+                                            {texelOverlapped, {1, 1, 0}, "shared by triangles that differ"},
+                                            {texelCovered, {0, 0.7f, 0}, "baked"},
+                                            {texelTouched, {0, 0.35f, 0}, "baked, beside a chart"}};
+    return kColors;
+}
+
 Image maskOf(const Baked& baked)
 {
     Writer writer{makeImage(baked.width, baked.height, PixelType::unorm8), false};
     for (std::size_t i = 0; i < baked.states.size(); ++i) {
-        const std::uint8_t s = baked.states[i];
-        writer.put(i,
-                   s & texelMissed           ? glm::vec3(1, 0, 0)
-                       : s & texelNegative   ? glm::vec3(0, 0.3f, 1)
-                       : s & texelOverlapped ? glm::vec3(1, 1, 0)
-                       : s & texelCovered    ? glm::vec3(0, 0.7f, 0)
-                       : s & texelTouched    ? glm::vec3(0, 0.35f, 0)
-                                             : glm::vec3(0));
+        const auto first =
+            std::ranges::find_if(maskColors(), [&](const MaskColor& c) { return (baked.states[i] & c.state) != 0; });
+        writer.put(i, first == maskColors().end() ? glm::vec3(0) : first->color);
     }
     return std::move(writer.image);
 }
